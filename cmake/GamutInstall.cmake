@@ -1,0 +1,23 @@
+# cmake --install: the program, the rooms as libraries with their headers under include/gamut, and the package Gamut.
+include(CMakePackageConfigHelpers)
+set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/Gamut)
+
+# Gamut::gamut is what a program outside links to: the flow and all that is left of it; <gamut/flow.hpp> is its header.
+add_library(gamut_library INTERFACE)
+add_library(Gamut::gamut ALIAS gamut_library)
+set_target_properties(gamut_library PROPERTIES EXPORT_NAME gamut)
+target_link_libraries(gamut_library INTERFACE gamut_analyses)
+target_sources(gamut_library PUBLIC
+  FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR}/include FILES ${PROJECT_SOURCE_DIR}/include/gamut/flow.hpp)
+install(TARGETS gamut_library EXPORT Gamut-analyses FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+
+install(TARGETS gamut RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+foreach(room scalars mechanics analyses studies reports)
+  install(EXPORT Gamut-${room} NAMESPACE Gamut:: DESTINATION ${package_dir})
+endforeach()
+configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/GamutConfig.cmake.in ${PROJECT_BINARY_DIR}/GamutConfig.cmake
+  INSTALL_DESTINATION ${package_dir} NO_SET_AND_CHECK_MACRO)
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/GamutConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/GamutConfig.cmake ${PROJECT_BINARY_DIR}/GamutConfigVersion.cmake
+  ${CMAKE_CURRENT_LIST_DIR}/FindMPFR.cmake DESTINATION ${package_dir})
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})

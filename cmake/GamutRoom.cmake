@@ -1,0 +1,35 @@
+# How every room is built: one static library a room, the same warnings, no arithmetic that the proofs do not allow.
+# Each room is installed as an export set of its own, so that a program that needs the flow need not find HDF5.
+
+# Rigour needs round-to-nearest and no re-association: error-free transformations live in headers, so contraction is off
+# everywhere except where a file asks for it (the flow's kernels, whose certificate covers it).
+function(gamut_compile_options target)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -ffp-contract=off
+    $<$<BOOL:${GAMUT_WERROR}>:-Werror>)
+  # g++ 12 at -O3 warns wrongly inside its own library: "text" + std::string (GCC bug 105651), < of vectors of bytes.
+  if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+    target_compile_options(${target} PRIVATE -Wno-restrict -Wno-stringop-overread)
+  endif()
+endfunction()
+
+# gamut_room(NAME ROOM_TO_THE_LEFT... ) builds libgamut_NAME from every *.cpp in the room's folder.
+function(gamut_room name)
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  file(GLOB headers CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.hpp)
+  add_library(gamut_${name} STATIC ${sources})
+  add_library(Gamut::${name} ALIAS gamut_${name})
+  set_target_properties(gamut_${name} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
+  # Sources say "scalars/interval.hpp", programs outside <gamut/scalars/interval.hpp>: both work when installed.
+  target_sources(gamut_${name} PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${headers})
+  target_include_directories(gamut_${name} INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  target_compile_features(gamut_${name} PUBLIC cxx_std_20)
+  # Error-free transformations in the public headers: whoever compiles them must not contract.
+  target_compile_options(gamut_${name} PUBLIC -ffp-contract=off)
+  gamut_compile_options(gamut_${name})
+  foreach(left ${ARGN})
+    target_link_libraries(gamut_${name} PUBLIC gamut_${left})
+  endforeach()
+  install(TARGETS gamut_${name} EXPORT Gamut-${name}
+    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+    FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/gamut)
+endfunction()
