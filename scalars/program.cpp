@@ -57,11 +57,11 @@ std::ostream& operator<<(std::ostream& out, const Program& program) {
     out << "  %" << i << (program.invariant_[i] != 0 ? "* = " : " = ") << nameOf(node.op);
     if (node.op == Op::constant)
       out << ' ' << program.constants_[at(node.a)];
-    else if (!hasOperands(node.op))
-      out << (node.op == Op::time ? "" : " " + std::to_string(node.a));
+    else if (node.op == Op::state || node.op == Op::parameter)
+      out << ' ' << node.a;
     else
       for (int operand : {node.a, node.b})
-        if (operand >= 0) out << " %" << operand;
+        if (hasOperands(node.op) && operand >= 0) out << " %" << operand;
     out << '\n';
   }
   out << "  outputs:";
@@ -179,6 +179,13 @@ int Recorder::mul(int a, int b) {
     return push(Op::mul, a, b);
   }
   if (a == b) return sqr(a);
+  // x·(1/x) and x·((1/x)·y), on their domain: what a quotient divided before is taken back.
+  for (auto [x, y] : {std::pair(a, b), std::pair(b, a)}) {
+    const auto isInverse = [&, x = x](int i) { return node(i).op == Op::recip && node(i).a == x; };
+    if (isInverse(y)) return constant(Interval(1.0));
+    if (node(y).op == Op::mul && isInverse(node(y).a)) return node(y).b;
+    if (node(y).op == Op::mul && isInverse(node(y).b)) return node(y).a;
+  }
   if (node(a).op == Op::neg) return neg(mul(node(a).a, b));
   if (node(b).op == Op::neg) return neg(mul(a, node(b).a));
   // Powers of two move outwards, where they meet and cancel.

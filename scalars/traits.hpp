@@ -1,0 +1,66 @@
+// The one place that says what a scalar must be able to do, and how a constant known only by an enclosure (pi, a
+// decimal) becomes one. Specialise ScalarTraits<S> beside each scalar type; generic code asks for the concept Scalar.
+#pragma once
+
+#include <cmath>
+#include <concepts>
+
+#include "scalars/interval.hpp"
+
+namespace gamut {
+
+/// For each scalar S:
+///   static S constant(const Interval& enclosure);   the constant as an S: an enclosure stays one, a number is midpoint
+///   static constexpr const char* name;              for messages, e.g. "Interval"
+template <class S>
+struct ScalarTraits;
+
+template <>
+struct ScalarTraits<double> {
+  static double constant(const Interval& enclosure) { return midpoint(enclosure); }
+  static constexpr const char* name = "double";
+};
+
+template <>
+struct ScalarTraits<Interval> {
+  static Interval constant(const Interval& enclosure) { return enclosure; }
+  static constexpr const char* name = "Interval";
+};
+
+namespace detail {
+
+using std::cos, std::exp, std::log, std::sin, std::sqrt;
+
+template <class S>
+concept HasFunctions = requires(const S& x) {
+  { sin(x) } -> std::convertible_to<S>;
+  { cos(x) } -> std::convertible_to<S>;
+  { sqrt(x) } -> std::convertible_to<S>;
+  { exp(x) } -> std::convertible_to<S>;
+  { log(x) } -> std::convertible_to<S>;
+};
+
+}  // namespace detail
+
+/// A number that mechanics can move: no comparison is asked for, so that no path depends on a value.
+template <class S>
+concept Scalar = std::copyable<S> && std::convertible_to<double, S> && detail::HasFunctions<S> &&
+    requires(const S& x, const S& y, const Interval& enclosure) {
+  { x + y } -> std::convertible_to<S>;
+  { x - y } -> std::convertible_to<S>;
+  { x* y } -> std::convertible_to<S>;
+  { x / y } -> std::convertible_to<S>;
+  { -x } -> std::convertible_to<S>;
+  { ScalarTraits<S>::constant(enclosure) } -> std::same_as<S>;
+  { ScalarTraits<S>::name } -> std::convertible_to<const char*>;
+};
+
+/// The constant enclosed by `enclosure` as an S, e.g. constant<S>(pi()).
+template <class S>
+S constant(const Interval& enclosure) {
+  return ScalarTraits<S>::constant(enclosure);
+}
+
+static_assert(Scalar<double> && Scalar<Interval>);
+
+}  // namespace gamut
