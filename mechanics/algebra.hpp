@@ -1,0 +1,61 @@
+// Small vectors and matrices over any scalar, and the two helpers that keep generic code exact: `square`, which knows
+// that x*x is never negative, and `isKnownZero`, which knows the zeros that structure (not a value) puts into a
+// program.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <concepts>
+
+#include "scalars/eigen.hpp"
+#include "scalars/recorded.hpp"
+
+namespace gamut {
+
+template <class S>
+using Vector3 = Eigen::Matrix<S, 3, 1>;
+template <class S>
+using Matrix3 = Eigen::Matrix<S, 3, 3>;
+
+template <class S>
+Vector3<S> zeroVector() {
+  return Vector3<S>(S(0.0), S(0.0), S(0.0));
+}
+
+/// x * x, by the scalar's own `sqr` where it has one (an interval's square is never negative).
+template <class S>
+S square(const S& x) {
+  if constexpr (requires {
+                  { sqr(x) } -> std::same_as<S>;
+                })
+    return sqr(x);
+  else
+    return x * x;
+}
+
+/// True only if x is the number 0 whatever the inputs are: known while recording, never asked of a value. Terms that
+/// are known zeros may be left out; the result is the same number with or without them.
+template <class S>
+bool isKnownZero(const S&) {
+  return false;
+}
+inline bool isKnownZero(const Recorded& x) {
+  const Recorder* recorder = Recorder::current();
+  const int node = x.node();
+  return recorder->isConstant(node) && recorder->value(node).lower() == 0 && recorder->value(node).upper() == 0;
+}
+
+/// W with  ω̇ × d + ω × (ω × d) = W d  for every offset d that is fixed in the moving frame. Written as
+/// [ω̇]× + ω ωᵀ − |ω|² I, whose squares are shared by all offsets of one body.
+template <class S>
+Matrix3<S> offsetAcceleration(const Vector3<S>& omega, const Vector3<S>& omegaDot) {
+  const S xx = square(omega[0]), yy = square(omega[1]), zz = square(omega[2]);
+  const S xy = omega[0] * omega[1], yz = omega[1] * omega[2], zx = omega[2] * omega[0];
+  Matrix3<S> w;
+  w << -(yy + zz), xy - omegaDot[2], zx + omegaDot[1],  //
+      xy + omegaDot[2], -(xx + zz), yz - omegaDot[0],   //
+      zx - omegaDot[1], yz + omegaDot[0], -(xx + yy);
+  return w;
+}
+
+}  // namespace gamut

@@ -1,0 +1,262 @@
+#include "mechanics/mechanism.hpp"
+
+#include <algorithm>
+#include <map>
+#include <stdexcept>
+#include <type_traits>
+
+#include "mechanics/names.hpp"
+
+namespace gamut {
+namespace {
+
+constexpr std::array<const char*, 3> components = {".x", ".y", ".z"};
+
+std::string quoted(const std::string& name) { return "'" + name + "'"; }
+
+[[noreturn]] void refuse(const std::string& sentence) { throw std::invalid_argument(sentence); }
+
+bool has(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+std::vector<std::string> namesOf(const std::vector<Mechanism::NamedValue>& values) {
+  std::vector<std::string> names;
+  for (const auto& value : values) names.push_back(value.name);
+  return names;
+}
+
+}  // namespace
+
+Mechanism::Mechanism() : frames_{inertialFrame} {}
+
+const Mechanism::NamedValue* Mechanism::find(const std::vector<NamedValue>& values, const std::string& name) {
+  const auto found = std::find_if(values.begin(), values.end(), [&](const auto& value) { return value.name == name; });
+  return found == values.end() ? nullptr : &*found;
+}
+
+void Mechanism::addParameter(const std::string& name, const Interval& nominal, const std::string& unit) {
+  if (name.empty()) refuse("a parameter needs a name");
+  if (isParameter(name) || find(initials_, name)) refuse("the quantity " + quoted(name) + " is defined twice");
+  if (isEmpty(nominal) || !isBounded(nominal))
+    refuse("the quantity " + quoted(name) + " needs a finite value, not " + toString(nominal));
+  parameters_.push_back({name, unit, nominal});
+}
+
+void Mechanism::checkNewName(const std::string& kind, const std::string& name) const {
+  if (name.empty()) refuse("a " + kind + " needs a name");
+  if (has(names_, name)) refuse("two elements are named " + quoted(name) + "; every element needs a name of its own");
+  if (name == "energy" || name == "gravity")
+    refuse("an element cannot be named " + quoted(name) + ": that is a quantity");
+}
+
+void Mechanism::checkFrame(const std::string& frame, const std::string& of) const {
+  if (!has(frames_, frame))
+    refuse(unknownName("frame", frame, frames_) + " (" + quoted(of) +
+           " must come after the element that defines its frame)");
+}
+
+void Mechanism::addFrame(const std::string& from, const std::string& to, const std::string& of) {
+  checkFrame(from, of);
+  if (to.empty()) refuse("the element " + quoted(of) + " needs the name of the frame that it moves");
+  if (has(frames_, to)) refuse("the frame " + quoted(to) + " is defined twice; " + quoted(of) + " needs a new frame");
+  if (to == "energy" || to == "gravity") refuse("a frame cannot be named " + quoted(to) + ": that is a quantity");
+  frames_.push_back(to);
+}
+
+void Mechanism::use(Quantity& quantity, const std::string& name, const std::string& unit) {
+  if (quantity.isConstant()) {
+    addParameter(name, quantity.factor(), unit);
+    quantity = Quantity::named(name);
+    return;
+  }
+  const auto parameter = std::find_if(parameters_.begin(), parameters_.end(),
+                                      [&](const auto& value) { return value.name == quantity.parameter(); });
+  if (parameter == parameters_.end())
+    refuse(unknownName("parameter", quantity.parameter(), namesOf(parameters_)) + " (for " + quoted(name) + ")");
+  if (parameter->unit.empty()) parameter->unit = unit;
+  if (parameter->unit != unit)
+    refuse("the parameter " + quoted(parameter->name) + " is in " + parameter->unit + ", but " + quoted(name) +
+           " is in " + unit);
+}
+
+void Mechanism::use(QuantityVector& vector, const std::string& name, const std::string& unit) {
+  for (std::size_t i = 0; i < 3; ++i) use(vector[i], name + components[i], unit);
+}
+
+void Mechanism::addState(std::vector<State>& states, const std::string& name, const std::string& unit,
+                         const Quantity& initial) {
+  State state{name, unit, initial};
+  if (initial.isConstant()) {
+    if (isParameter(name)) refuse("the quantity " + quoted(name) + " is defined twice");
+    if (isEmpty(initial.factor()) || !isBounded(initial.factor()))
+      refuse("the initial value " + quoted(name) + " needs a finite value, not " + toString(initial.factor()));
+    initials_.push_back({name, unit, initial.factor()});
+    state.initial = Quantity::named(name);
+  } else {
+    use(state.initial, name, unit);
+  }
+  states.push_back(state);
+}
+
+void Mechanism::add(Revolute joint) {
+  checkNewName("revolute joint", joint.name);
+  addFrame(joint.from, joint.to, joint.name);
+  addState(positions_, joint.name + ".angle", "rad", joint.angle);
+  addState(rates_, joint.name + ".rate", "rad/s", joint.rate);
+  names_.push_back(joint.name);
+  elements_.emplace_back(std::move(joint));
+}
+
+void Mechanism::add(Prismatic joint) {
+  checkNewName("prismatic joint", joint.name);
+  addFrame(joint.from, joint.to, joint.name);
+  addState(positions_, joint.name + ".displacement", "m", joint.displacement);
+  addState(rates_, joint.name + ".rate", "m/s", joint.rate);
+  names_.push_back(joint.name);
+  elements_.emplace_back(std::move(joint));
+}
+
+void Mechanism::add(Link link) {
+  checkNewName("link", link.name);
+  addFrame(link.from, link.to, link.name);
+  use(link.vector, link.name + ".vector", "m");
+  for (std::size_t i = 0; i < link.rotation.size(); ++i)
+    use(link.rotation[i].angle, link.name + ".rotation." + std::to_string(i + 1), "rad");
+  names_.push_back(link.name);
+  elements_.emplace_back(std::move(link));
+}
+
+void Mechanism::add(Mass mass) {
+  checkNewName("mass", mass.name);
+  checkFrame(mass.at, mass.name);
+  if (has(frames_, mass.name)) refuse("the mass " + quoted(mass.name) + " is named like a frame");
+  use(mass.mass, mass.name + ".mass", "kg");
+  use(mass.centre, mass.name + ".centre", "m");
+  constexpr std::array<const char*, 6> entries = {"xx", "yy", "zz", "xy", "yz", "zx"};
+  for (std::size_t i = 0; i < 6; ++i) use(mass.inertia[i], mass.name + ".inertia." + entries[i], "kg m^2");
+  names_.push_back(mass.name);
+  elements_.emplace_back(std::move(mass));
+}
+
+void Mechanism::add(Spring spring) {
+  checkNewName("spring", spring.name);
+  checkFrame(spring.from, spring.name);
+  checkFrame(spring.to, spring.name);
+  if (spring.from == spring.to) refuse("the spring " + quoted(spring.name) + " needs two different frames");
+  use(spring.stiffness, spring.name + ".stiffness", "N/m");
+  use(spring.restLength, spring.name + ".restLength", "m");
+  use(spring.damping, spring.name + ".damping", "N s/m");
+  use(spring.fromPoint, spring.name + ".fromPoint", "m");
+  use(spring.toPoint, spring.name + ".toPoint", "m");
+  names_.push_back(spring.name);
+  elements_.emplace_back(std::move(spring));
+}
+
+void Mechanism::add(JointSpring spring) {
+  checkNewName("joint spring", spring.name);
+  const auto joint = std::find_if(positions_.begin(), positions_.end(), [&](const State& state) {
+    return state.name == spring.joint + ".angle" || state.name == spring.joint + ".displacement";
+  });
+  if (joint == positions_.end())
+    refuse(unknownName("joint", spring.joint, joints()) + " (for " + quoted(spring.name) + ")");
+  const bool angular = joint->unit == "rad";
+  use(spring.stiffness, spring.name + ".stiffness", angular ? "N m/rad" : "N/m");
+  use(spring.rest, spring.name + ".rest", joint->unit);
+  use(spring.damping, spring.name + ".damping", angular ? "N m s/rad" : "N s/m");
+  names_.push_back(spring.name);
+  elements_.emplace_back(std::move(spring));
+}
+
+void Mechanism::setGravity(QuantityVector gravity) {
+  if (gravity_) refuse("gravity is set twice");
+  use(gravity, "gravity", "m/s^2");
+  gravity_ = std::move(gravity);
+}
+
+void Mechanism::check() const {
+  if (positions_.empty()) refuse("the mechanism has no joint: nothing can move");
+  std::map<std::string, std::string> before;  // frame -> the frame that moves it
+  std::map<std::string, std::string> joint;   // frame -> the joint that moves it
+  std::map<std::string, bool> carries;        // frame -> whether a mass hangs on it
+  for (const ElementDescription& element : elements_) {
+    std::visit(
+        [&]<class Description>(const Description& e) {
+          if constexpr (requires { e.from, e.to, e.axis; } || std::is_same_v<Description, Link>) before[e.to] = e.from;
+          if constexpr (requires { e.axis; }) joint[e.to] = e.name;
+          if constexpr (std::is_same_v<Description, Mass>)
+            for (std::string at = e.at; !carries[at] && !at.empty(); at = before[at]) carries[at] = true;
+        },
+        element);
+  }
+  for (const auto& [frame, name] : joint)
+    if (!carries[frame])
+      refuse("the joint " + quoted(name) + " moves no mass; add a mass at the frame " + quoted(frame) +
+             " or at one that it carries");
+}
+
+std::vector<std::string> Mechanism::joints() const {
+  std::vector<std::string> names;
+  for (const ElementDescription& element : elements_)
+    std::visit(
+        [&](const auto& e) {
+          if constexpr (requires { e.axis; }) names.push_back(e.name);
+        },
+        element);
+  return names;
+}
+
+std::vector<std::string> Mechanism::quantities() const {
+  std::vector<std::string> names = namesOf(initials_);
+  for (const NamedValue& parameter : parameters_) names.push_back(parameter.name);
+  return names;
+}
+
+Interval Mechanism::nominal(const std::string& quantity) const {
+  for (const auto* values : {&initials_, &parameters_})
+    if (const NamedValue* value = find(*values, quantity)) return value->nominal;
+  refuse(unknownName("quantity", quantity, quantities()));
+}
+
+std::vector<std::string> Mechanism::stateNames() const {
+  std::vector<std::string> names;
+  for (const auto* states : {&positions_, &rates_})
+    for (const State& state : *states) names.push_back(state.name);
+  return names;
+}
+
+std::vector<Quantity> Mechanism::initialState() const {
+  std::vector<Quantity> initial;
+  for (const auto* states : {&positions_, &rates_})
+    for (const State& state : *states) initial.push_back(state.initial);
+  return initial;
+}
+
+std::vector<std::string> Mechanism::outputQuantities() const {
+  std::vector<std::string> names = stateNames(), places(frames_.begin() + 1, frames_.end());
+  for (const ElementDescription& element : elements_)
+    if (const Mass* mass = std::get_if<Mass>(&element)) places.push_back(mass->name);
+  for (const std::string& place : places)
+    for (const char* what : {".position", ".velocity"})
+      for (const char* component : components) names.push_back(place + what + component);
+  for (const char* energy : {"energy", "energy.kinetic", "energy.potential"}) names.emplace_back(energy);
+  return names;
+}
+
+std::string Mechanism::unitOf(const std::string& quantity) const {
+  for (const auto* states : {&positions_, &rates_})
+    for (const State& state : *states)
+      if (state.name == quantity) return state.unit;
+  if (const NamedValue* parameter = find(parameters_, quantity)) return parameter->unit;
+  const std::vector<std::string> outputs = outputQuantities();
+  if (has(outputs, quantity)) {
+    if (quantity.starts_with("energy")) return "J";
+    // The last two parts say what it is; a frame's own name may hold dots.
+    return quantity.substr(0, quantity.size() - 2).ends_with(".velocity") ? "m/s" : "m";
+  }
+  std::vector<std::string> known = quantities();
+  known.insert(known.end(), outputs.begin(), outputs.end());
+  refuse(unknownName("quantity", quantity, known));
+}
+
+}  // namespace gamut

@@ -1,0 +1,181 @@
+// A Mechanism is the description of a machine: elements in the order of assembly, from the inertial frame outwards, and
+// the numbers in them by name. It computes no motion; an Assembly<S> is made from it for a scalar, a Program by
+// recordMotion.
+//
+//   Mechanism pendulum;
+//   pendulum.addParameter("rod.length", Interval(1.0));
+//   pendulum.add(Revolute{"hinge", "inertial", "K1", axisX, 0.5, 0.0});
+//   pendulum.add(Link{"rod", "K1", "K2", {0.0, 0.0, Quantity::named("rod.length", -1.0)}});
+//   pendulum.add(Mass{"bob", "K2", Interval("0.1")});
+//   pendulum.setGravity({0.0, 0.0, Interval("-9.81")});
+//
+// Every number has a name under which it may be made uncertain: that of the parameter it refers to, or ELEMENT.NUMBER.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "mechanics/rotation.hpp"
+#include "scalars/interval.hpp"
+
+namespace gamut {
+
+/// A number of a description: an enclosed constant, or `factor` times a named parameter of the mechanism.
+class Quantity {
+ public:
+  Quantity(double value) : factor_(value) {}           // NOLINT: implicit, as numbers are
+  Quantity(const Interval& value) : factor_(value) {}  // NOLINT: implicit, as numbers are
+  static Quantity named(std::string parameter, const Interval& factor = 1.0) {
+    Quantity quantity(factor);
+    quantity.parameter_ = std::move(parameter);
+    return quantity;
+  }
+
+  bool isConstant() const { return parameter_.empty(); }
+  /// The constant, or the factor of the parameter.
+  const Interval& factor() const { return factor_; }
+  /// Empty for a constant.
+  const std::string& parameter() const { return parameter_; }
+
+ private:
+  Interval factor_;
+  std::string parameter_;
+};
+
+using QuantityVector = std::array<Quantity, 3>;
+
+/// Revolute joint, hinge or pin; names NAME.angle [rad] and NAME.rate [rad/s] (initial values and states).
+struct Revolute {
+  std::string name, from, to;
+  Axis axis;
+  Quantity angle = 0.0, rate = 0.0;
+};
+
+/// Prismatic joint or slider; names NAME.displacement [m] and NAME.rate [m/s] (initial values and states).
+struct Prismatic {
+  std::string name, from, to;
+  Axis axis;
+  Quantity displacement = 0.0, rate = 0.0;
+};
+
+/// A fixed rotation: exact right angles plus an angle [rad] about an axis.
+struct FixedRotation {
+  Axis axis;
+  int quarterTurns = 0;
+  Quantity angle = 0.0;
+};
+
+/// Rigid link from `from` to `to`; names NAME.vector.x … z [m], NAME.rotation.1 … [rad]. Rotations follow the offset,
+/// each about an axis of the frame that the one before has reached.
+struct Link {
+  std::string name, from, to;
+  QuantityVector vector;
+  std::vector<FixedRotation> rotation = {};
+};
+
+/// A body at frame `at`; names NAME.mass [kg], NAME.centre.x … z [m], NAME.inertia.xx … zx [kg m²] (about the centre).
+struct Mass {
+  std::string name, at;
+  Quantity mass;
+  QuantityVector centre = {0.0, 0.0, 0.0};
+  /// xx, yy, zz, xy, yz, zx
+  std::array<Quantity, 6> inertia = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+};
+
+/// Spring and damper between points of two frames; names NAME.stiffness [N/m], NAME.restLength [m], NAME.damping
+/// [N s/m], NAME.fromPoint.x … and NAME.toPoint.x … [m].
+struct Spring {
+  std::string name, from, to;
+  Quantity stiffness, restLength, damping = 0.0;
+  QuantityVector fromPoint = {0.0, 0.0, 0.0}, toPoint = {0.0, 0.0, 0.0};
+};
+
+/// Spring and viscous friction on a joint's own variable; names NAME.stiffness [N m/rad or N/m], NAME.rest [rad or m],
+/// NAME.damping [N m s/rad or N s/m].
+struct JointSpring {
+  std::string name, joint;
+  Quantity stiffness, rest = 0.0, damping = 0.0;
+};
+
+using ElementDescription = std::variant<Revolute, Prismatic, Link, Mass, Spring, JointSpring>;
+
+class Mechanism {
+ public:
+  /// The frame in which everything stands.
+  static constexpr const char* inertialFrame = "inertial";
+
+  struct NamedValue {
+    std::string name, unit;
+    Interval nominal;
+  };
+
+  Mechanism();
+
+  // All of these throw std::invalid_argument with a sentence that says what is wrong and what was expected.
+
+  /// Declares a parameter before its first use. Without a unit it takes that of its first use.
+  void addParameter(const std::string& name, const Interval& nominal, const std::string& unit = "");
+  void add(Revolute joint);
+  void add(Prismatic joint);
+  void add(Link link);
+  void add(Mass mass);
+  void add(Spring spring);
+  void add(JointSpring spring);
+  /// Acceleration of free fall in the inertial frame [m/s²]; names gravity.x … z. Zero unless set; set at most once.
+  void setGravity(QuantityVector gravity);
+  /// Throws if there is no joint, or a joint that no mass hangs on.
+  void check() const;
+
+  /// Elements as added, every constant replaced by a reference to the parameter or initial value named after it.
+  const std::vector<ElementDescription>& elements() const { return elements_; }
+  /// Empty where none was set.
+  const std::optional<QuantityVector>& gravity() const { return gravity_; }
+  const std::vector<std::string>& frames() const { return frames_; }
+
+  /// Numbers on which motion depends, in the order of their declaration.
+  const std::vector<NamedValue>& parameters() const { return parameters_; }
+  bool isParameter(const std::string& name) const { return find(parameters_, name) != nullptr; }
+  /// Initial values given as numbers (not by a parameter).
+  const std::vector<NamedValue>& initialValues() const { return initials_; }
+  /// Names of all numbers that may be uncertain: initial values, then parameters.
+  std::vector<std::string> quantities() const;
+  /// The value of such a number.
+  Interval nominal(const std::string& quantity) const;
+
+  int degreesOfFreedom() const { return static_cast<int>(positions_.size()); }
+  /// Joint positions, then joint rates, in the order of the joints: x = [q; q̇].
+  std::vector<std::string> stateNames() const;
+  /// The initial values of the states, in that order.
+  std::vector<Quantity> initialState() const;
+
+  /// Everything that can be looked at: states; FRAME.position.x … z and FRAME.velocity.x … z, in the inertial frame;
+  /// the same for a mass, at its centre; energy, energy.kinetic, energy.potential.
+  std::vector<std::string> outputQuantities() const;
+  /// The unit of any quantity, number or output.
+  std::string unitOf(const std::string& quantity) const;
+
+ private:
+  struct State {
+    std::string name, unit;
+    Quantity initial;
+  };
+  static const NamedValue* find(const std::vector<NamedValue>& values, const std::string& name);
+  void checkNewName(const std::string& kind, const std::string& name) const;
+  void checkFrame(const std::string& frame, const std::string& of) const;
+  void addFrame(const std::string& from, const std::string& to, const std::string& of);
+  void addState(std::vector<State>& states, const std::string& name, const std::string& unit, const Quantity& initial);
+  void use(Quantity& quantity, const std::string& name, const std::string& unit);
+  void use(QuantityVector& vector, const std::string& name, const std::string& unit);
+  std::vector<std::string> joints() const;
+
+  std::vector<ElementDescription> elements_;
+  std::optional<QuantityVector> gravity_;
+  std::vector<std::string> names_, frames_;
+  std::vector<NamedValue> parameters_, initials_;
+  std::vector<State> positions_, rates_;
+};
+
+}  // namespace gamut

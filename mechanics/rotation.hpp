@@ -1,0 +1,154 @@
+// Axes and rotations. A rotation about a coordinate axis mixes two components only and is applied that way: exact zeros
+// and ones never meet a multiplication, which is what keeps recorded programs small.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+
+#include "mechanics/algebra.hpp"
+#include "scalars/traits.hpp"
+
+namespace gamut {
+
+/// A direction fixed in a frame: a coordinate axis with a sign, or any other direction, normalised when it is used.
+class Axis {
+ public:
+  /// The direction of (x, y, z), of any length. Throws std::invalid_argument for the zero vector.
+  Axis(double x, double y, double z) : direction_{x, y, z} {
+    int zeros = 0;
+    for (int i = 0; i < 3; ++i) {
+      const double component = direction_[static_cast<std::size_t>(i)];
+      if (!std::isfinite(component)) throw std::invalid_argument("an axis needs three finite components");
+      if (component == 0)
+        ++zeros;
+      else
+        index_ = i;
+    }
+    if (zeros == 3) throw std::invalid_argument("an axis needs a direction, but all three components are zero");
+    sign_ = direction_[static_cast<std::size_t>(index_)] < 0 ? -1 : 1;
+    if (zeros < 2) index_ = -1;
+  }
+
+  /// True for ±x, ±y, ±z.
+  bool isAligned() const { return index_ >= 0; }
+  /// 0, 1, 2 for an aligned axis.
+  int index() const { return index_; }
+  /// 1 or -1: the side of the coordinate axis to which an aligned axis points.
+  double sign() const { return sign_; }
+
+  /// The unit vector: exact zeros and ones if aligned, enclosed by S otherwise.
+  template <class S>
+  Vector3<S> unit() const {
+    Vector3<S> u = zeroVector<S>();
+    if (isAligned()) {
+      u[index_] = S(sign_);
+      return u;
+    }
+    Interval squares(0.0);
+    for (double component : direction_) squares += sqr(Interval(component));
+    for (int i = 0; i < 3; ++i) u[i] = constant<S>(direction_[static_cast<std::size_t>(i)] / sqrt(squares));
+    return u;
+  }
+
+ private:
+  std::array<double, 3> direction_;
+  int index_ = -1;
+  double sign_ = 1;
+};
+
+inline const Axis axisX(1, 0, 0);
+inline const Axis axisY(0, 1, 0);
+inline const Axis axisZ(0, 0, 1);
+
+/// A rotation A from frame K to frame K': a vector with components x' in K' has components A x' in K.
+template <class S>
+class Rotation {
+ public:
+  /// No rotation.
+  Rotation() = default;
+
+  /// By `angle` [rad] about `axis`, plus `quarterTurns` exact right angles (so that 90° has exact zeros and ones).
+  Rotation(const Axis& axis, const S& angle, int quarterTurns = 0) {
+    using std::cos, std::sin;
+    const S beta = axis.isAligned() && axis.sign() < 0 ? S(-angle) : angle;
+    const int turns = (((axis.sign() < 0 && axis.isAligned() ? -quarterTurns : quarterTurns) % 4) + 4) % 4;
+    S c = cos(beta), s = sin(beta);
+    for (int i = 0; i < turns; ++i) {  // cos(β + π/2) = −sin β, sin(β + π/2) = cos β
+      const S turned = -s;
+      s = c;
+      c = turned;
+    }
+    if (axis.isAligned()) {
+      plane_ = Plane{(axis.index() + 1) % 3, (axis.index() + 2) % 3, c, s};
+      return;
+    }
+    // Rodrigues: A = c I + s [u]× + (1 − c) u uᵀ
+    const Vector3<S> u = axis.unit<S>();
+    const S rest = S(1.0) - c;
+    dense_.emplace();
+    for (int i = 0; i < 3; ++i) {
+      const int j = (i + 1) % 3, k = (i + 2) % 3;
+      (*dense_)(i, i) = c + rest * square(u[i]);
+      (*dense_)(i, j) = rest * (u[i] * u[j]) - s * u[k];
+      (*dense_)(j, i) = rest * (u[i] * u[j]) + s * u[k];
+    }
+  }
+
+  /// A x'.
+  Vector3<S> toParent(const Vector3<S>& x) const {
+    if (dense_) return *dense_ * x;
+    Vector3<S> y = x;
+    if (plane_) {
+      y[plane_->i] = plane_->c * x[plane_->i] - plane_->s * x[plane_->j];
+      y[plane_->j] = plane_->s * x[plane_->i] + plane_->c * x[plane_->j];
+    }
+    return y;
+  }
+
+  /// Aᵀ x.
+  Vector3<S> toChild(const Vector3<S>& x) const {
+    if (dense_) return dense_->transpose() * x;
+    Vector3<S> y = x;
+    if (plane_) {
+      y[plane_->i] = plane_->c * x[plane_->i] + plane_->s * x[plane_->j];
+      y[plane_->j] = plane_->c * x[plane_->j] - plane_->s * x[plane_->i];
+    }
+    return y;
+  }
+
+  /// R A, the orientation behind a frame of orientation R: rows of R are vectors of K.
+  Matrix3<S> after(const Matrix3<S>& r) const {
+    Matrix3<S> product;
+    for (int row = 0; row < 3; ++row) product.row(row) = toChild(r.row(row).transpose()).transpose();
+    return product;
+  }
+
+  /// This rotation followed by `next`, which is given in the rotated frame.
+  Rotation then(const Rotation& next) const {
+    if (!plane_ && !dense_) return next;
+    if (!next.plane_ && !next.dense_) return *this;
+    Rotation both;
+    both.dense_ = next.after(matrix());
+    return both;
+  }
+
+  Matrix3<S> matrix() const {
+    Matrix3<S> identity;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) identity(i, j) = S(i == j ? 1.0 : 0.0);
+    return dense_ ? *dense_ : after(identity);
+  }
+
+ private:
+  /// Rotation of the components i and j, which follow the axis cyclically.
+  struct Plane {
+    int i, j;
+    S c, s;
+  };
+  std::optional<Plane> plane_;
+  std::optional<Matrix3<S>> dense_;
+};
+
+}  // namespace gamut

@@ -1,0 +1,177 @@
+// The description of a mechanism: its names, units and complaints; and the helpers for names and rotations.
+#include "mechanics/mechanism.hpp"
+
+#include <gmock/gmock.h>
+
+#include "machines.hpp"
+#include "mechanics/assembly.hpp"
+#include "mechanics/model.hpp"
+#include "mechanics/names.hpp"
+#include "scalars/evaluator.hpp"
+
+namespace gamut {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::Contains;
+using testing::doublePendulum;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+/// The sentence with which `action` is refused.
+template <class Action>
+std::string complaint(Action action) {
+  try {
+    action();
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "no complaint";
+}
+
+TEST(Names, TheNearestIsFewestTyposAway) {
+  const std::vector<std::string> known = {"shoulder.angle", "elbow.angle", "upper.length"};
+  EXPECT_EQ(nearestName("uper.length", known), "upper.length");
+  EXPECT_EQ(nearestName("ELBOW.angel", known), "elbow.angle");
+  EXPECT_EQ(nearestName("anything", {}), "");
+  EXPECT_EQ(unknownName("quantity", "elbow.angel", known),
+            "unknown quantity 'elbow.angel'; did you mean 'elbow.angle'?");
+}
+
+TEST(Mechanism, NamesItsStatesPositionsFirst) {
+  EXPECT_THAT(doublePendulum().stateNames(),
+              ElementsAre("shoulder.angle", "elbow.angle", "shoulder.rate", "elbow.rate"));
+  EXPECT_THAT(testing::spatialArm().stateNames(), Contains("slide.displacement"));
+}
+
+TEST(Mechanism, NamesEveryNumberThatMayBeUncertain) {
+  const Mechanism m = doublePendulum();
+  EXPECT_THAT(m.quantities(), AllOf(Contains("shoulder.angle"), Contains("elbow.rate"), Contains("upper.length"),
+                                    Contains("tip.mass"), Contains("tip.inertia.xx"), Contains("gravity.z")));
+  EXPECT_TRUE(isEqual(m.nominal("upper.length"), 1.0));
+  EXPECT_TRUE(isEqual(m.nominal("gravity.z"), Interval("-9.81")));
+  EXPECT_TRUE(isEqual(m.nominal("shoulder.rate"), Interval("0.43")));
+  EXPECT_EQ(complaint([&] { m.nominal("uper.length"); }),
+            "unknown quantity 'uper.length'; did you mean 'upper.length'?");
+}
+
+TEST(Mechanism, KnowsTheUnitOfEveryQuantity) {
+  const Mechanism m = doublePendulum(), arm = testing::spatialArm();
+  const std::pair<const char*, const char*> expected[] = {
+      {"shoulder.angle", "rad"},    {"elbow.rate", "rad/s"},  {"upper.length", "m"}, {"tip.mass", "kg"},
+      {"tip.inertia.xx", "kg m^2"}, {"gravity.z", "m/s^2"},   {"energy", "J"},       {"energy.kinetic", "J"},
+      {"tip.position.z", "m"},      {"K2.velocity.y", "m/s"},
+  };
+  for (const auto& [quantity, unit] : expected) EXPECT_EQ(m.unitOf(quantity), unit) << quantity;
+  EXPECT_EQ(arm.unitOf("slide.displacement"), "m");
+  EXPECT_EQ(arm.unitOf("slide.rate"), "m/s");
+  EXPECT_EQ(arm.unitOf("tether.damping"), "N s/m");
+  EXPECT_EQ(arm.unitOf("hipSpring.stiffness"), "N m/rad");
+  for (const std::string& quantity : arm.quantities()) EXPECT_NE(arm.unitOf(quantity), "") << quantity;
+  for (const std::string& quantity : arm.outputQuantities()) EXPECT_NE(arm.unitOf(quantity), "") << quantity;
+}
+
+TEST(Mechanism, SaysWhatIsWrongWithAnElement) {
+  Mechanism m = doublePendulum();
+  EXPECT_THAT(complaint([&] {
+                m.add(Link{"extra", "K7", "K8", {0.0, 0.0, 1.0}});
+              }),
+              HasSubstr("unknown frame 'K7'; did you mean 'K1'?"));
+  EXPECT_THAT(complaint([&] {
+                m.add(Link{"extra", "K4", "K2", {0.0, 0.0, 1.0}});
+              }),
+              HasSubstr("the frame 'K2' is defined twice"));
+  EXPECT_THAT(complaint([&] { m.add(Mass{"tip", "K4", 1.0}); }), HasSubstr("two elements are named 'tip'"));
+  EXPECT_THAT(complaint([&] { m.add(Mass{"", "K4", 1.0}); }), HasSubstr("a mass needs a name"));
+  EXPECT_THAT(complaint([&] { m.add(Mass{"K3", "K4", 1.0}); }), HasSubstr("named like a frame"));
+  EXPECT_THAT(complaint([&] {
+                m.add(Mass{"extra", "K4", Quantity::named("mas")});
+              }),
+              HasSubstr("unknown parameter 'mas'"));
+  EXPECT_THAT(complaint([&] {
+                m.add(Mass{"extra", "K4", Quantity::named("upper.length")});
+              }),
+              HasSubstr("'upper.length' is in m, but 'extra.mass' is in kg"));
+  EXPECT_THAT(complaint([&] {
+                m.add(JointSpring{"spring", "sholder", 1.0});
+              }),
+              HasSubstr("unknown joint 'sholder'; did you mean 'shoulder'?"));
+  EXPECT_THAT(complaint([&] { m.add(Spring{"spring", "K1", "K1", 1.0, 1.0}); }), HasSubstr("two different frames"));
+  EXPECT_THAT(complaint([&] { m.setGravity({0.0, 0.0, 0.0}); }), HasSubstr("gravity is set twice"));
+  EXPECT_THAT(complaint([&] { m.addParameter("tip.mass", 1.0); }), HasSubstr("'tip.mass' is defined twice"));
+  EXPECT_THAT(complaint([&] { m.addParameter("big", Interval::entire()); }), HasSubstr("finite"));
+  EXPECT_THAT(complaint([&] { Axis(0, 0, 0); }), HasSubstr("all three components are zero"));
+}
+
+TEST(Mechanism, SaysWhichJointMovesNoMass) {
+  Mechanism m = doublePendulum();
+  m.add(Revolute{"wrist", "K4", "K5", axisX});
+  EXPECT_THAT(complaint([&] { recordMotion(m); }), HasSubstr("the joint 'wrist' moves no mass"));
+  EXPECT_THAT(complaint([] { Mechanism().check(); }), HasSubstr("no joint"));
+}
+
+TEST(Mechanism, SaysWhichNameIsNoParameterOrOutput) {
+  const Mechanism m = doublePendulum();
+  EXPECT_EQ(complaint([&] { recordMotion(m, {"uper.length"}); }),
+            "unknown parameter 'uper.length'; did you mean 'upper.length'?");
+  EXPECT_THAT(complaint([&] { recordMotion(m, {"tip.mass", "tip.mass"}); }), HasSubstr("named twice"));
+  EXPECT_THAT(complaint([&] { recordOutputs(m, {}, {"tip.positon.z"}); }),
+              HasSubstr("unknown output quantity 'tip.positon.z'; did you mean 'tip.position.z'?"));
+  EXPECT_THAT(complaint([&] { Assembly<double>(m).setState(std::vector<double>{1.0}); }), HasSubstr("4 states, not 1"));
+}
+
+TEST(Mechanism, StartsAtItsInitialState) {
+  const Assembly<Interval> arm(doublePendulum());
+  EXPECT_TRUE(isEqual(arm.initialState()[0], 0.75 * pi()));
+  EXPECT_TRUE(isEqual(arm.initialState()[3], Interval("0.67")));
+  EXPECT_TRUE(isEqual(arm.output("shoulder.angle"), 0.75 * pi()));
+}
+
+TEST(Mechanism, MayGiveAnInitialValueByAParameter) {
+  Mechanism m;
+  m.addParameter("tilt", 0.5);
+  m.add(Revolute{"hinge", "inertial", "K1", axisX, Quantity::named("tilt", -2.0)});
+  m.add(Mass{"bob", "K1", 1.0, {0.0, 0.0, -1.0}});
+  EXPECT_EQ(m.unitOf("tilt"), "rad");
+  EXPECT_EQ(Assembly<double>(m).initialState()[0], -1.0);
+  EXPECT_EQ(Assembly<double>(m, {"tilt"}, std::vector<double>{0.25}).initialState()[0], -0.5);
+}
+
+TEST(Outputs, OfTheRecordedProgramAreThoseOfTheAssembly) {
+  const Mechanism m = testing::spatialArm();
+  const std::vector<std::string> names = m.outputQuantities();
+  const Program program = recordOutputs(m, {}, names);
+  Assembly<double> arm(m);
+  const std::vector<double> y = Evaluator<double>(program)(0.0, arm.initialState());
+  for (std::size_t i = 0; i < names.size(); ++i)
+    EXPECT_NEAR(y[i], arm.output(names[i]), 1e-12 * (1 + std::abs(y[i]))) << names[i];
+}
+
+TEST(Rotation, ByQuarterTurnsHasExactZeros) {
+  for (const Axis& axis : {axisX, Axis(0, -1, 0), axisZ}) {
+    const Matrix3<double> a = Rotation<double>(axis, 0.0, 1).matrix(), b = Rotation<double>(axis, 0.0, -3).matrix();
+    EXPECT_EQ(a, b);
+    EXPECT_EQ(a.cwiseAbs().sum(), 3) << a;
+    const Matrix3<double> half = Rotation<double>(axis, 0.5 * 3.14159265358979323846).matrix();
+    EXPECT_LT((a - half).norm(), 1e-15);
+  }
+}
+
+TEST(Rotation, AboutAnObliqueAxisEnclosesTheTurnThatKeepsTheAxis) {
+  const Axis axis(1, -2, 2);
+  const Matrix3<Interval> a = Rotation<Interval>(axis, 0.7).matrix();
+  const Vector3<double> u(1 / 3.0, -2 / 3.0, 2 / 3.0);
+  const Matrix3<double> expected = Eigen::AngleAxisd(0.7, u).toRotationMatrix();
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) EXPECT_NEAR(midpoint(a(i, j)), expected(i, j), 1e-15);
+  const Vector3<Interval> kept = a * axis.unit<Interval>();
+  for (int i = 0; i < 3; ++i) EXPECT_FALSE(isDisjoint(kept[i], axis.unit<Interval>()[i]));
+}
+
+TEST(Rotation, AfterAnotherIsTheProductOfTheMatrices) {
+  const Rotation<double> a(axisX, 0.3), b(Axis(1, 2, 3), -0.8);
+  EXPECT_LT((a.then(b).matrix() - a.matrix() * b.matrix()).norm(), 1e-15);
+}
+
+}  // namespace
+}  // namespace gamut
