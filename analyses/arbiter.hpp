@@ -1,0 +1,52 @@
+// The arbiter decides where a sample lies when CVODE's doubles cannot: it integrates the recorded Program by Taylor
+// series in 128-bit arithmetic (MPFR), twice, and says how far the two results differ. Starting values and constants
+// are the very doubles that the sample's CVODE run used.
+// Step size from the last coefficients: À. Jorba & M. Zou, Experimental Mathematics 14 (2005), section 3.2.
+#pragma once
+
+#include <atomic>
+#include <boost/multiprecision/mpfr.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "analyses/witness.hpp"
+#include "scalars/traits.hpp"
+
+namespace gamut {
+
+/// A floating-point number of 128 bits.
+using Precise =
+    boost::multiprecision::number<boost::multiprecision::mpfr_float_backend<38, boost::multiprecision::allocate_stack>,
+                                  boost::multiprecision::et_off>;
+
+template <>
+struct ScalarTraits<Precise> {
+  static Precise constant(const Interval& enclosure) { return Precise(midpoint(enclosure)); }
+  static constexpr const char* name = "Precise";
+};
+
+struct ArbiterOptions {
+  int order = 30;            ///< of the Taylor series (at least 8)
+  double tolerance = 1e-34;  ///< of a step's truncation, relative to the greatest state met so far
+};
+
+/// What the arbiter found: row by row one output time, one column an output.
+struct PreciseTrajectory {
+  std::size_t times = 0;        ///< number of output times reached
+  double reached = 0;           ///< s
+  std::string why;              ///< why it ended early; empty if it did not
+  std::vector<Precise> values;  ///< of the reached times
+  std::vector<double> error;    ///< difference from a second integration with another order and a looser tolerance,
+                                ///< and an allowance for rounding
+};
+
+/// The values as the nearest doubles, filled up with NaN to `count`.
+std::vector<double> roundedToDoubles(const PreciseTrajectory& trajectory, std::size_t count);
+
+/// Integrates `motion` from `start` (the initial values, then the parameters).
+/// Throws std::invalid_argument if sizes or options make no sense.
+PreciseTrajectory arbitrate(const Motion& motion, std::span<const double> start, const ArbiterOptions& options = {},
+                            const std::atomic<bool>* cancelled = nullptr);
+
+}  // namespace gamut

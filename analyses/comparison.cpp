@@ -1,0 +1,245 @@
+#include "analyses/comparison.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <sstream>
+#include <stdexcept>
+
+#include "analyses/arbiter.hpp"
+#include "analyses/workers.hpp"
+
+namespace gamut {
+namespace {
+
+constexpr double leastUlps = 4;        // of an output's magnitude: a trajectory of doubles is no more certain
+constexpr double hopeless = 1000;      // measured errors outside: no tighter tolerance brings such a sample inside
+constexpr std::size_t batchSize = 16;  // samples that go to the arbiter before it is asked whether that is enough
+
+/// A dispute and what its last two integrations gave.
+struct Case {
+  Dispute dispute;
+  std::vector<double> error;  // [time][output]: the greatest change until then, which crossing trajectories do not hide
+  bool settled = false;       // found inside
+};
+
+std::string toleranceText(double relative) {
+  std::ostringstream text;
+  text << "tolerance " << relative;
+  return text.str();
+}
+
+class Comparer {
+ public:
+  Comparer(const EnclosureBounds& enclosure, Ensemble& ensemble, const UncertainMotion& system,
+           const ComparisonOptions& options)
+      : enclosure_(enclosure), ensemble_(ensemble), system_(system), options_(options) {
+    const Table& lower = enclosure.bounds.lower;
+    const Table& upper = enclosure.bounds.upper;
+    const std::size_t size = enclosure.reachedTimes * ensemble.outputs;
+    if (enclosure.reachedTimes > ensemble.times.size() || lower.outputs != ensemble.outputs ||
+        upper.outputs != ensemble.outputs || lower.data.size() < size || upper.data.size() < size)
+      throw std::invalid_argument("the enclosure's bounds do not have the ensemble's times and outputs");
+    for (std::size_t i = 0; i < size; ++i)
+      if (!(lower.data[i] <= upper.data[i]))
+        throw std::invalid_argument("an enclosure's bounds must be numbers in order");
+  }
+
+  Comparison run() {
+    findDisputes();
+    Comparison result;
+    result.cpu = refine() + arbitrateWorst();
+    judge(result);
+    measureOverestimation(result);
+    return result;
+  }
+
+ private:
+  /// How far a value lies outside; 0 inside, and where a failed sample has none.
+  double distanceOutside(std::size_t i, double value) const {
+    const double lower = enclosure_.bounds.lower.data[i], upper = enclosure_.bounds.upper.data[i];
+    return value < lower ? lower - value : value > upper ? value - upper : 0;
+  }
+
+  bool isInside(std::span<const double> trajectory) const {
+    for (std::size_t i = 0; i < enclosure_.reachedTimes * ensemble_.outputs; ++i)
+      if (distanceOutside(i, trajectory[i]) > 0) return false;
+    return true;
+  }
+
+  /// Greatest magnitude of each output along the sample.
+  std::vector<double> magnitudes(std::span<const double> trajectory) const {
+    std::vector<double> result(ensemble_.outputs, 0);
+    for (std::size_t i = 0; i < enclosure_.reachedTimes * ensemble_.outputs; ++i)
+      if (std::isfinite(trajectory[i]))
+        result[i % ensemble_.outputs] = std::max(result[i % ensemble_.outputs], std::abs(trajectory[i]));
+    return result;
+  }
+
+  /// Fills in where the sample lies outside by most of its errors; an inside sample keeps the place it was disputed at.
+  void locate(Case& c) const {
+    const std::span<const double> trajectory = std::as_const(ensemble_).trajectory(c.dispute.number);
+    const std::vector<double> magnitude = magnitudes(trajectory);
+    const auto errorAt = [&](std::size_t i) {
+      const double size = magnitude[i % ensemble_.outputs];
+      const double floor = leastUlps * (std::nextafter(size, std::numeric_limits<double>::infinity()) - size);
+      return c.error.empty() || !(c.error[i] > floor) ? floor : c.error[i];
+    };
+    std::size_t place = c.dispute.time * ensemble_.outputs + c.dispute.output;
+    double greatest = 0;
+    for (std::size_t i = 0; i < enclosure_.reachedTimes * ensemble_.outputs; ++i) {
+      const double excursion = distanceOutside(i, trajectory[i]) / errorAt(i);
+      if (excursion > greatest) {
+        greatest = excursion;
+        place = i;
+      }
+    }
+    Dispute& d = c.dispute;
+    d.time = place / ensemble_.outputs;
+    d.output = place % ensemble_.outputs;
+    d.value = trajectory[place];
+    d.lower = enclosure_.bounds.lower.data[place];
+    d.upper = enclosure_.bounds.upper.data[place];
+    d.distance = distanceOutside(place, d.value);
+    d.error = errorAt(place);
+    d.excursion = greatest;
+  }
+
+  void findDisputes() {
+    for (std::size_t number = 0; number < ensemble_.size(); ++number) {
+      if (isInside(std::as_const(ensemble_).trajectory(number))) continue;
+      Case& c = cases_.emplace_back();
+      c.dispute.number = number;
+      c.dispute.decided = "unresolved";
+      locate(c);
+    }
+  }
+
+  /// Takes over a better trajectory, unless it ends before the enclosure does where the old one did not.
+  bool replace(Case& c, std::span<const double> better) {
+    const std::span<double> trajectory = ensemble_.trajectory(c.dispute.number);
+    for (std::size_t i = 0; i < enclosure_.reachedTimes * ensemble_.outputs; ++i)
+      if (std::isnan(better[i]) && !std::isnan(trajectory[i])) return false;
+    c.error.resize(trajectory.size());
+    for (std::size_t i = 0; i < trajectory.size(); ++i) c.error[i] = std::abs(better[i] - trajectory[i]);
+    accumulate(c.error);
+    std::ranges::copy(better, trajectory.begin());
+    return true;
+  }
+
+  /// Each output's greatest value until then.
+  void accumulate(std::vector<double>& rows) const {
+    for (std::size_t i = ensemble_.outputs; i < rows.size(); ++i)
+      if (!(rows[i] >= rows[i - ensemble_.outputs])) rows[i] = rows[i - ensemble_.outputs];
+  }
+
+  double refine() {
+    if (system_.motion.f.states() == 0) return 0;  // nothing is integrated: the arbiter looks at the outputs directly
+    return forEachIndex(options_.jobs, cases_.size(), options_.cancelled, [&] {
+      return [&, witness = Witness(system_.motion, ensemble_.method, options_.cancelled),
+              better = std::vector<double>(ensemble_.times.size() * ensemble_.outputs)](std::size_t i) mutable {
+        Case& c = cases_[i];
+        const std::vector<double> start = system_.start(ensemble_.valuesOf(c.dispute.number));
+        for (double relative : options_.relativeTolerances) {
+          if (relative >= ensemble_.tolerance.relative) continue;
+          const double factor = ensemble_.tolerance.relative / relative;
+          witness.integrate(start, {relative, ensemble_.tolerance.absolute / factor}, better);
+          if (!replace(c, better)) return;
+          locate(c);
+          c.settled = c.dispute.distance == 0;
+          c.dispute.decided = toleranceText(relative);
+          if (c.settled || c.dispute.excursion > hopeless) return;
+        }
+      };
+    });
+  }
+
+  /// The worst first, in batches, until one of a batch refutes the enclosure.
+  double arbitrateWorst() {
+    std::vector<Case*> open;
+    for (Case& c : cases_)
+      if (!c.settled) open.push_back(&c);
+    std::ranges::stable_sort(open, std::ranges::greater{}, [](const Case* c) { return c->dispute.excursion; });
+    open.resize(std::min(open.size(), options_.arbitrated));
+    double cpu = 0;
+    for (std::size_t first = 0; first < open.size(); first += batchSize) {
+      const std::span<Case*> batch = std::span(open).subspan(first, std::min(batchSize, open.size() - first));
+      cpu += forEachIndex(options_.jobs, batch.size(), options_.cancelled,
+                          [&] { return [&](std::size_t i) { arbitrateOne(*batch[i]); }; });
+      if (std::ranges::any_of(batch, [&](const Case* c) { return refutes(*c); })) break;
+    }
+    return cpu;
+  }
+
+  void arbitrateOne(Case& c) {
+    const PreciseTrajectory precise =
+        arbitrate(system_.motion, system_.start(ensemble_.valuesOf(c.dispute.number)), {}, options_.cancelled);
+    if (!replace(c, roundedToDoubles(precise, ensemble_.times.size() * ensemble_.outputs))) return;
+    std::ranges::copy(precise.error, c.error.begin());  // the arbiter's last two integrations are both its own
+    accumulate(c.error);
+    locate(c);
+    c.settled = c.dispute.distance == 0;
+    c.dispute.decided = "Taylor 128 bits";
+  }
+
+  /// Before any second integration the error is unknown, and nothing can be decided.
+  bool refutes(const Case& c) const {
+    return !c.settled && !c.error.empty() && c.dispute.excursion > options_.decisive;
+  }
+
+  void judge(Comparison& result) {
+    bool outside = false, unresolved = false;
+    for (Case& c : cases_) {
+      Dispute& d = c.dispute;
+      d.outside = refutes(c);
+      if (!c.settled && !d.outside) d.decided = "unresolved";
+      outside = outside || d.outside;
+      unresolved = unresolved || (!c.settled && !d.outside);
+      result.excursion = std::max(result.excursion, d.excursion);
+      result.disputes.push_back(d);
+    }
+    const bool incomplete =
+        enclosure_.reachedTimes < ensemble_.times.size() || !ensemble_.complete || !ensemble_.failed.empty();
+    result.verdict = outside ? "outside" : unresolved ? "unresolved" : incomplete ? "incomplete" : "inside";
+  }
+
+  void measureOverestimation(Comparison& result) const {
+    const std::size_t outputs = ensemble_.outputs;
+    result.envelope = ensemble_.envelope();
+    result.overestimation = Table(ensemble_.times.size(), outputs);
+    result.excess = result.overestimation;
+    result.maximumOf.assign(outputs, std::numeric_limits<double>::quiet_NaN());
+    std::vector<double> ratios;
+    for (std::size_t i = 0; i < enclosure_.reachedTimes * outputs; ++i) {
+      const double enclosed = enclosure_.bounds.upper.data[i] - enclosure_.bounds.lower.data[i];
+      const double sampled = result.envelope.upper.data[i] - result.envelope.lower.data[i];
+      result.excess.data[i] = enclosed - sampled;
+      if (!(sampled > options_.resolution * ensemble_.error.data[i])) continue;
+      const double ratio = enclosed / sampled;
+      result.overestimation.data[i] = ratio;
+      double& greatest = result.maximumOf[i % outputs];
+      if (!(greatest >= ratio)) greatest = ratio;
+      ratios.push_back(ratio);
+    }
+    if (ratios.empty()) return;
+    std::ranges::sort(ratios);
+    const std::size_t middle = ratios.size() / 2;
+    result.maximum = ratios.back();
+    result.median = ratios.size() % 2 == 1 ? ratios[middle] : 0.5 * (ratios[middle - 1] + ratios[middle]);
+  }
+
+  const EnclosureBounds& enclosure_;
+  Ensemble& ensemble_;
+  const UncertainMotion& system_;
+  const ComparisonOptions& options_;
+  std::vector<Case> cases_;
+};
+
+}  // namespace
+
+Comparison compare(const EnclosureBounds& enclosure, Ensemble& ensemble, const UncertainMotion& system,
+                   const ComparisonOptions& options) {
+  return Comparer(enclosure, ensemble, system, options).run();
+}
+
+}  // namespace gamut

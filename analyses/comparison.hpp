@@ -1,0 +1,66 @@
+// How the guaranteed and the probable agree: every sample must lie inside the enclosure at every output time. A sample
+// found outside is integrated again, tighter and tighter, and at last by the arbiter; what then still lies outside by
+// more than its own measured error refutes the enclosure. How wide the enclosure is against the envelope of the
+// samples, its overestimation, is measured only where the envelope stands clear of the witness's error.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "analyses/ensemble.hpp"
+
+namespace gamut {
+
+/// What an enclosure claims at the ensemble's output times.
+struct EnclosureBounds {
+  Envelope bounds;               ///< lower and upper bounds; the rows of the reached times count
+  std::size_t reachedTimes = 0;  ///< number of output times up to which it is proved
+};
+
+struct ComparisonOptions {
+  std::vector<double> relativeTolerances = {1e-12, 1e-13, 1e-14};  ///< of the re-integrations, tighter and tighter
+  double decisive = 10;     ///< a sample further outside than so many times its measured error refutes the enclosure
+  double resolution = 100;  ///< an envelope narrower than so many witness errors says nothing on overestimation
+  std::size_t arbitrated = 256;  ///< at most so many samples, the worst first, go to the arbiter; it stops asking after
+                                 ///< sixteen of which one refutes the enclosure
+  int jobs = 1;                  ///< threads
+  const std::atomic<bool>* cancelled = nullptr;  ///< set from outside to end early; disputes left are unresolved
+};
+
+/// A sample that was found outside and looked at again.
+struct Dispute {
+  std::size_t number = 0;  ///< of the sample; corners and centre follow the samples
+  std::size_t time = 0;    ///< index of the output time of its greatest excursion (at first, if none remained)
+  std::size_t output = 0;  ///< index of the output
+  double value = 0, lower = 0, upper = 0;
+  double distance = 0;   ///< outside, after the last integration
+  double error = 0;      ///< this sample's measured error there: the greatest change so far by the last
+                         ///< integration, at least 4 ulp of the output's magnitude
+  double excursion = 0;  ///< distance / error
+  std::string decided;   ///< by what: "tolerance 1e-12", "Taylor 128 bits", or "unresolved"
+  bool outside = false;  ///< it refutes the enclosure
+};
+
+struct Comparison {
+  std::string verdict;   ///< the first that holds of "outside", "unresolved", "incomplete", "inside"
+  double excursion = 0;  ///< the greatest of all disputes
+  Envelope envelope;     ///< of the ensemble after refinement
+  Table overestimation;  ///< enclosure width over envelope width; NaN where the envelope is too narrow to tell
+  Table excess;          ///< enclosure width minus envelope width
+  double maximum = std::numeric_limits<double>::quiet_NaN();  ///< of the overestimation
+  double median = std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> maximumOf;  ///< one an output
+  std::vector<Dispute> disputes;  ///< by rising number
+  double cpu = 0;                 ///< s, of the re-integrations
+};
+
+/// Compares at all output times that the enclosure reached. Samples found outside get their refined trajectories in
+/// `ensemble`. "incomplete": nothing is outside, but the enclosure or a sample ended before the horizon.
+/// Throws std::invalid_argument where the shapes do not fit or a bound is NaN.
+Comparison compare(const EnclosureBounds& enclosure, Ensemble& ensemble, const UncertainMotion& system,
+                   const ComparisonOptions& options = {});
+
+}  // namespace gamut

@@ -1,0 +1,736 @@
+// Follows the pieces of a box through time, earliest first, so that at any moment the earliest piece says how far the
+// whole box is proved. Threads share the queue; every thread collects hulls of its own, joined at the end.
+#include "analyses/flow.hpp"
+
+#include <time.h>
+
+#include <algorithm>
+#include <cmath>
+#include <condition_variable>
+#include <exception>
+#include <limits>
+#include <mutex>
+#include <queue>
+#include <stdexcept>
+#include <thread>
+
+#include "analyses/flow_outputs.hpp"
+#include "analyses/flow_step.hpp"
+#include "analyses/polynomial_range.hpp"
+#include "scalars/rounding.hpp"
+
+namespace gamut {
+namespace {
+
+constexpr const char* kInterrupted = "interrupted";
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+double threadSeconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+/// Which box components get a symbol, and how a component is written in it.
+struct Embedding {
+  std::vector<Embedded> components;  // one a box component
+  int symbols = 0;
+  double widest = 0;  // greatest half-width relative to its centre, at most 1
+
+  explicit Embedding(const Box& box) {
+    for (const Interval& value : box) {
+      Embedded e;
+      e.centre = midpoint(value);
+      e.radius = isThin(value) ? 0.0 : radius(value);
+      // Widths of the order of rounding are carried by the remainder; wider ones get a symbol.
+      if (e.radius > 1e-13 * std::fabs(e.centre)) {
+        e.half = e.radius;
+        e.radius = 0;
+        e.symbol = symbols++;
+        widest = std::max(widest, e.half < std::fabs(e.centre) ? e.half / std::fabs(e.centre) : 1.0);
+      }
+      components.push_back(e);
+    }
+  }
+};
+
+/// The degrees that a flow may use: higher ones only as needed, and no more monomials than pay.
+std::vector<int> degreeLadder(int symbols) {
+  if (symbols == 0) return {0};
+  static constexpr int highest[] = {0, 16, 10, 8, 6, 5, 4, 3, 3};
+  const int last = symbols < 9 ? highest[symbols] : 2;
+  std::vector<int> ladder;
+  for (int degree : {2, 4, 6, 8, 12, 16})
+    if (degree < last) ladder.push_back(degree);
+  ladder.push_back(last);
+  return ladder;
+}
+
+int automaticFrameDegree(int symbols, int degree) { return std::min(degree, symbols == 1 ? 4 : symbols <= 3 ? 2 : 1); }
+
+void check(bool condition, const std::string& what) {
+  if (!condition) throw std::invalid_argument(what);
+}
+
+void checkLevels(const Box& box, const std::vector<Box>& levels) {
+  const Box* outer = &box;
+  for (const Box& level : levels) {
+    check(level.size() == box.size(), "a sub-box needs as many components as the box");
+    for (std::size_t i = 0; i < level.size(); ++i)
+      check(!isEmpty(level[i]) && isSubset(level[i], (*outer)[i]),
+            "sub-boxes must lie inside the box, each inside the one before");
+    outer = &level;
+  }
+}
+
+/// The part of [-1,1] of each symbol that a sub-box covers on a piece ξ_study = centre + half·ξ; false if none.
+bool restrictTo(const Box& level, const Embedding& embedding, const std::vector<double>& centre,
+                const std::vector<double>& half, Box& xi) {
+  for (std::size_t i = 0; i < level.size(); ++i) {
+    const Embedded& e = embedding.components[i];
+    if (e.symbol < 0) continue;
+    const Interval study = (level[i] - Interval(e.centre)) / Interval(e.half);
+    const Interval own = (study - Interval(centre[at(e.symbol)])) / Interval(half[at(e.symbol)]);
+    const Interval part = intersection(own, Interval(-1.0, 1.0));
+    if (isEmpty(part)) return false;
+    xi[at(e.symbol)] = part;
+  }
+  return true;
+}
+
+Interval inflated(const Interval& range, double radius) {
+  return range + Interval(-radius, radius);  // an infinite radius gives the whole line
+}
+
+void join(std::vector<Interval>& into, const std::vector<Interval>& from) {
+  if (into.empty()) {
+    into = from;
+    return;
+  }
+  for (std::size_t i = 0; i < into.size(); ++i) into[i] = hull(into[i], from[i]);
+}
+
+/// A set of monomials and the degree of the frame over it.
+struct Layout {
+  std::shared_ptr<const Monomials> monomials;
+  int frameDegree;
+};
+
+/// One sub-box on its way, with what is known at its last boundary.
+struct Piece {
+  FlowSet set;
+  std::size_t layout = 0;                          // which monomials it uses
+  std::size_t next = 0;                            // index of its next output time
+  std::vector<Interval> last, over;                // states at set.t; states since the last output time
+  std::vector<Interval> lastOutputs, overOutputs;  // likewise for the outputs
+};
+
+struct Later {
+  bool operator()(const Piece& a, const Piece& b) const { return a.set.t > b.set.t; }
+};
+
+enum class Journey { goesOn, ended, cancelled };
+
+/// Everything that pieces contributed at the output times.
+struct Collected {
+  std::vector<std::vector<Interval>> states, statesOver, outputs, outputsOver;
+  std::vector<std::vector<std::vector<Interval>>> cuts;
+  std::vector<std::vector<double>> radii;  // greatest remainder of a piece, [time][state]
+  long steps = 0;
+  double cpu = 0, cutCpu = 0;
+  Collected(std::size_t times, std::size_t levels)
+      : states(times),
+        statesOver(times),
+        outputs(times),
+        outputsOver(times),
+        cuts(levels, std::vector<std::vector<Interval>>(times)),
+        radii(times) {}
+};
+
+}  // namespace
+
+struct Flow::Parts {
+  Program motion;          // f
+  Program differentiated;  // f and ∂f/∂x
+  Program outputs;         // g
+  FlowOptions options;
+};
+
+/// One call of Flow::enclose.
+class FlowRun {
+ public:
+  FlowRun(const Program& f, const Program& differentiated, const Program& g, const FlowOptions& options, const Box& box,
+          double horizon, const std::vector<double>& outputTimes, const std::vector<Box>& levels, double tighter)
+      : motion_(f),
+        differentiated_(differentiated),
+        outputProgram_(g),
+        options_(options),
+        box_(box),
+        levels_(levels),
+        embedding_(box),
+        horizon_(horizon) {
+    times_.push_back(0.0);
+    for (double time : outputTimes)
+      if (time > times_.back()) times_.push_back(time);
+    if (horizon > times_.back()) times_.push_back(horizon);
+    int exponent = 0;
+    std::frexp(horizon, &exponent);
+    quantum_ = std::ldexp(1.0, exponent - 53);  // one unit in the last place of the horizon: sums of steps are exact
+    std::vector<int> degrees = degreeLadder(embedding_.symbols);
+    if (options.degree >= 0 && embedding_.symbols > 0) degrees = {options.degree};
+    for (int degree : degrees) {
+      check(embedding_.symbols == 0 || degree >= 1, "uncertain quantities need polynomials of degree one at least");
+      layouts_.push_back({std::make_shared<const Monomials>(std::vector<int>(at(embedding_.symbols), 1), degree),
+                          options.frameDegree >= 0 ? std::min(options.frameDegree, degree)
+                                                   : automaticFrameDegree(embedding_.symbols, degree)});
+    }
+    splitDefect_ = options.splitDefect * embedding_.widest / tighter;
+    tolerance_ = options.tolerance > 0 ? options.tolerance : embedding_.symbols == 0 ? 1e-15 : 1e-14;
+  }
+
+  /// The greatest share of the remainder in a width, and whether all was proved: is it worth trying a tighter
+  /// threshold?
+  bool isLoose(const Tube& tube) const {
+    if (embedding_.symbols == 0 || !options_.split || tube.why() == kInterrupted || pieces_ >= options_.maxPieces)
+      return false;
+    return tube.reached() < horizon_ || looseness_ > 0.005;
+  }
+
+  /// Both are proved, so their intersection is; the one that reaches further goes on alone. Costs add up.
+  static Tube meet(Tube a, Tube b) {
+    if (b.reached_ < a.reached_ || (b.reached_ == a.reached_ && b.reachedTimes() < a.reachedTimes())) std::swap(a, b);
+    const auto cross = [](std::vector<std::vector<Interval>>& into, const std::vector<std::vector<Interval>>& other) {
+      for (std::size_t row = 0; row < std::min(into.size(), other.size()); ++row)
+        for (std::size_t i = 0; i < into[row].size(); ++i) into[row][i] = intersection(into[row][i], other[row][i]);
+    };
+    cross(b.states_, a.states_);
+    cross(b.statesOver_, a.statesOver_);
+    cross(b.outputs_, a.outputs_);
+    cross(b.outputsOver_, a.outputsOver_);
+    for (std::size_t level = 0; level < b.cuts_.size(); ++level) cross(b.cuts_[level], a.cuts_[level]);
+    b.steps_ += a.steps_;
+    b.cpu_ += a.cpu_;
+    b.cutCpu_ += a.cutCpu_;
+    return b;
+  }
+
+  Tube run() {
+    queue_.push(start());
+    failedAt_ = std::numeric_limits<double>::infinity();
+    const int jobs = std::max(1, options_.jobs);
+    std::vector<Collected> collected(at(jobs), Collected(times_.size(), levels_.size()));
+    std::vector<std::thread> threads;
+    for (int i = 1; i < jobs; ++i) threads.emplace_back([this, &collected, i] { work(collected[at(i)]); });
+    work(collected[0]);
+    for (std::thread& thread : threads) thread.join();
+    if (error_) std::rethrow_exception(error_);
+    return gather(collected);
+  }
+
+ private:
+  Piece start() const {
+    Piece piece;
+    FlowSet& s = piece.set;
+    const Monomials& monomials = *layouts_[0].monomials;
+    const int n = motion_.states(), N = monomials.count(), NJ = monomials.countUpTo(layouts_[0].frameDegree);
+    s.p.assign(at(n * N), 0.0);
+    s.C.assign(at(NJ * n * n), 0.0);
+    s.R.assign(at(n), 0.0);
+    s.W.assign(at(n), 0.0);
+    for (int i = 0; i < n; ++i) {
+      const Embedded& e = embedding_.components[at(i)];
+      s.p[at(i * N)] = e.centre;
+      if (e.symbol >= 0) s.p[at(i * N + monomials.linear(e.symbol))] = e.half;
+      s.R[at(i)] = e.radius;
+      s.C[at(i * n + i)] = 1.0;
+    }
+    s.parameters.assign(embedding_.components.begin() + n, embedding_.components.end());
+    s.centre.assign(at(embedding_.symbols), 0.0);
+    s.half.assign(at(embedding_.symbols), 1.0);
+    return piece;
+  }
+
+  /// A thread: takes the earliest piece, follows it for a slice of time, puts it back.
+  void work(Collected& collected) {
+    const double began = threadSeconds();
+    try {
+      Worker worker(*this, collected);
+      for (;;) {
+        Piece piece;
+        double sliceEnd = 0;
+        {
+          std::unique_lock lock(mutex_);
+          wake_.wait(lock, [&] { return stop_ || !queue_.empty() || busy_ == 0; });
+          if (stop_ || queue_.empty()) break;
+          piece = queue_.top();
+          queue_.pop();
+          if (piece.set.t >= failedAt_) continue;  // beyond what can be proved for the whole box
+          ++busy_;
+          sliceEnd = std::min(horizon_, piece.set.t + horizon_ / 64);
+          report(piece.set.t);
+        }
+        const Journey journey = worker.follow(piece, sliceEnd);
+        {
+          const std::lock_guard lock(mutex_);
+          --busy_;
+          if (journey == Journey::cancelled) {
+            unfinished_ = std::min(unfinished_, piece.set.t);
+            stop_ = true;
+          } else if (journey == Journey::goesOn && piece.set.t < horizon_) {
+            queue_.push(std::move(piece));
+          }
+        }
+        wake_.notify_all();
+      }
+    } catch (...) {
+      const std::lock_guard lock(mutex_);
+      error_ = std::current_exception();
+      stop_ = true;
+    }
+    wake_.notify_all();
+    collected.cpu += threadSeconds() - began - collected.cutCpu;
+  }
+
+  void report(double earliest) {  // the queue's order makes `earliest` the earliest of all waiting pieces
+    if (options_.progress) options_.progress(earliest / horizon_);
+  }
+
+  void fail(double t, const std::string& why) {
+    const std::lock_guard lock(mutex_);
+    if (t < failedAt_) {
+      failedAt_ = t;
+      why_ = why;
+    }
+  }
+
+  bool mayBisect() {
+    const std::lock_guard lock(mutex_);
+    if (!options_.split || pieces_ >= options_.maxPieces) return false;
+    ++pieces_;
+    return true;
+  }
+
+  void add(Piece piece) {
+    {
+      const std::lock_guard lock(mutex_);
+      queue_.push(std::move(piece));
+    }
+    wake_.notify_one();
+  }
+
+  Tube gather(std::vector<Collected>& collected);
+
+  /// A thread's workspace, and the journey of one piece.
+  class Worker {
+   public:
+    Worker(FlowRun& run, Collected& collected)
+        : run_(run),
+          collected_(collected),
+          tools_(run.layouts_.size()),
+          series_(run.motion_, 2),
+          outputSeries_(run.outputProgram_, 2) {
+      whole_.assign(at(run.embedding_.symbols), Interval(-1.0, 1.0));
+    }
+
+    /// Advances `piece` to `end` or to its failure.
+    Journey follow(Piece& piece, double end) {
+      const bool uncertain = run_.embedding_.symbols > 0;
+      while (piece.set.t < end) {
+        if (run_.options_.cancelled != nullptr && run_.options_.cancelled->load(std::memory_order_relaxed))
+          return Journey::cancelled;
+        use(piece);
+        StepOutcome outcome =
+            tool_->stepper.certify(piece.set, run_.horizon_, run_.quantum_, uncertain ? run_.splitDefect_ : 0.0);
+        if (outcome != StepOutcome::stepped && uncertain) {
+          if (piece.layout + 1 < run_.layouts_.size()) {
+            changeLayout(piece, piece.layout + 1);
+            continue;
+          }
+          const bool futile = outcome == StepOutcome::failed && tool_->stepper.isRemainderDominant(piece.set);
+          if (!futile && run_.mayBisect()) {
+            Piece other = piece;
+            other.set = tool_->stepper.bisect(piece.set, tool_->stepper.worstSymbol(), tool_->range);
+            run_.add(std::move(other));
+            continue;
+          }
+          if (outcome == StepOutcome::splitWanted) outcome = StepOutcome::stepped;  // certified all the same
+        }
+        if (outcome == StepOutcome::failed) {
+          run_.fail(piece.set.t, tool_->stepper.why());
+          return Journey::ended;
+        }
+        if (!record(piece)) return Journey::ended;
+        tool_->stepper.advance(piece.set);
+        ++collected_.steps;
+        lowerDegree(piece);
+      }
+      return Journey::goesOn;
+    }
+
+   private:
+    /// The workspace of one layout.
+    struct Tools {
+      FlowStepper stepper;
+      PolynomialRange range;
+      std::unique_ptr<FlowOutputs> outputs;
+    };
+
+    void use(const Piece& piece) {
+      std::unique_ptr<Tools>& tools = tools_[piece.layout];
+      if (!tools) {
+        const Layout& layout = run_.layouts_[piece.layout];
+        tools = std::make_unique<Tools>(Tools{FlowStepper(run_.differentiated_, layout.monomials, layout.frameDegree,
+                                                          run_.options_.order, run_.tolerance_),
+                                              PolynomialRange(layout.monomials), nullptr});
+        if (run_.outputProgram_.outputs() > 0)
+          tools->outputs = std::make_unique<FlowOutputs>(run_.outputProgram_, layout.monomials);
+      }
+      tool_ = tools.get();
+      outputs_ = tool_->outputs.get();
+      monomialCount_ = run_.layouts_[piece.layout].monomials->count();
+    }
+
+    void changeLayout(Piece& piece, std::size_t to) {
+      const Layout& from = run_.layouts_[piece.layout];
+      changeDegree(piece.set, *from.monomials, from.frameDegree, *run_.layouts_[to].monomials,
+                   run_.layouts_[to].frameDegree);
+      piece.layout = to;
+    }
+
+    /// Back to a lower degree where the highest grades have become too small to matter.
+    void lowerDegree(Piece& piece) {
+      if (piece.layout == 0) return;
+      const Monomials& now = *run_.layouts_[piece.layout].monomials;
+      const double dropped =
+          relativeMass(piece.set, now, run_.layouts_[piece.layout - 1].monomials->degree(), now.degree());
+      if (dropped < 1e-4 * run_.splitDefect_) changeLayout(piece, piece.layout - 1);
+    }
+
+    /// Enclosures of states and outputs at one time of the step.
+    void enclose(const Piece& piece, double tau, std::vector<Interval>& states, std::vector<Interval>& outputs) {
+      tool_->stepper.evaluate(piece.set, tau, point_);
+      const int N = monomialCount_;
+      states.resize(at(run_.motion_.states()));
+      for (int i = 0; i < run_.motion_.states(); ++i)
+        states[at(i)] = inflated(tool_->range(&point_.p[at(i * N)], whole_), point_.radius[at(i)]);
+      outputs.clear();
+      if (!outputs_) return;
+      outputs_->evaluate(piece.set.t + tau, point_, piece.set.R, piece.set.parameters);
+      for (int o = 0; o < outputs_->count(); ++o)
+        outputs.push_back(std::isfinite(outputs_->radius(o))
+                              ? inflated(tool_->range(outputs_->polynomial(o), whole_), outputs_->radius(o))
+                              : Interval::entire());
+    }
+
+    void encloseLevels(const Piece& piece, std::size_t row) {
+      if (run_.levels_.empty()) return;
+      const double began = threadSeconds();
+      const int N = monomialCount_;
+      for (std::size_t level = 0; level < run_.levels_.size(); ++level) {
+        Box xi = whole_;
+        if (!restrictTo(run_.levels_[level], run_.embedding_, piece.set.centre, piece.set.half, xi)) break;
+        std::vector<Interval> cut;
+        if (outputs_) {
+          for (int o = 0; o < outputs_->count(); ++o)
+            cut.push_back(std::isfinite(outputs_->radius(o))
+                              ? inflated(tool_->range(outputs_->polynomial(o), xi), outputs_->radius(o))
+                              : Interval::entire());
+        } else {
+          for (int i = 0; i < run_.motion_.states(); ++i)
+            cut.push_back(inflated(tool_->range(&point_.p[at(i * N)], xi), point_.radius[at(i)]));
+        }
+        join(collected_.cuts[level][row], cut);
+      }
+      collected_.cutCpu += threadSeconds() - began;
+    }
+
+    /// Adds what the step that was just certified contributes to the tube; false if the piece has grown too wide.
+    bool record(Piece& piece) {
+      const std::vector<double>& times = run_.times_;
+      const double t0 = piece.set.t, t1 = t0 + tool_->stepper.h();
+      if (piece.last.empty()) {  // the start
+        enclose(piece, 0.0, piece.last, piece.lastOutputs);
+        for (std::size_t i = 0; i < piece.last.size(); ++i) piece.last[i] = intersection(piece.last[i], run_.box_[i]);
+        join(collected_.states[0], piece.last);
+        join(collected_.statesOver[0], piece.last);
+        join(collected_.outputs[0], piece.lastOutputs);
+        join(collected_.outputsOver[0], piece.lastOutputs);
+        encloseLevels(piece, 0);
+        piece.over = piece.last;
+        piece.overOutputs = piece.lastOutputs;
+        piece.next = 1;
+      }
+      tool_->stepper.curvature(curvature_);
+      std::vector<Interval> end, endOutputs;
+      double from = t0;
+      bool outputCurvatureKnown = false;
+      const auto segment =
+          [&](double to) {  // from `from` to `to`: the chord's hull and how far a motion leaves a chord
+            const double length = subUp(to, from), bulge = length * length / 8 * (1 + 0x1p-50);
+            for (std::size_t i = 0; i < end.size(); ++i)
+              piece.over[i] = hull(piece.over[i], inflated(hull(piece.last[i], end[i]), bulge * curvature_[i]));
+            if (outputs_) {
+              if (!outputCurvatureKnown) boundOutputCurvature(piece, t0, t1);
+              outputCurvatureKnown = true;
+              for (std::size_t i = 0; i < endOutputs.size(); ++i)
+                piece.overOutputs[i] = hull(piece.overOutputs[i], inflated(hull(piece.lastOutputs[i], endOutputs[i]),
+                                                                           bulge * outputCurvature_[i]));
+            }
+            piece.last = end;
+            piece.lastOutputs = endOutputs;
+            from = to;
+          };
+      for (; piece.next < times.size() && times[piece.next] <= t1; ++piece.next) {
+        enclose(piece, times[piece.next] - t0, end, endOutputs);  // an exact difference: docs/flow.md, "Time"
+        encloseLevels(piece, piece.next);
+        segment(times[piece.next]);
+        join(collected_.states[piece.next], end);
+        std::vector<double>& radii = collected_.radii[piece.next];
+        radii.resize(end.size(), 0.0);
+        for (std::size_t i = 0; i < end.size(); ++i) radii[i] = std::max(radii[i], point_.radius[i]);
+        join(collected_.outputs[piece.next], endOutputs);
+        join(collected_.statesOver[piece.next], piece.over);
+        join(collected_.outputsOver[piece.next], piece.overOutputs);
+        piece.over = end;
+        piece.overOutputs = endOutputs;
+      }
+      if (from < t1) {
+        enclose(piece, t1 - t0, end, endOutputs);
+        segment(t1);
+      }
+      for (const Interval& state : piece.last)
+        if (!(width(state) <= run_.options_.maxWidth)) {
+          run_.fail(t1, "an enclosure became wider than the limit");
+          return false;
+        }
+      return true;
+    }
+
+    /// |ÿ| over the step, from interval Taylor coefficients over a box that contains the step's motions.
+    void boundOutputCurvature(const Piece& piece, double t0, double t1) {
+      tool_->stepper.evaluate(piece.set, 0.0, point_);
+      std::vector<Interval> first, last;
+      const int n = run_.motion_.states(), N = monomialCount_;
+      for (int i = 0; i < n; ++i)
+        first.push_back(inflated(tool_->range(&point_.p[at(i * N)], whole_), point_.radius[at(i)]));
+      tool_->stepper.evaluate(piece.set, t1 - t0, point_);
+      for (int i = 0; i < n; ++i)
+        last.push_back(inflated(tool_->range(&point_.p[at(i * N)], whole_), point_.radius[at(i)]));
+      const double length = subUp(t1, t0), bulge = length * length / 8 * (1 + 0x1p-50);
+      std::vector<Interval> x;
+      for (int i = 0; i < n; ++i) x.push_back(inflated(hull(first[at(i)], last[at(i)]), bulge * curvature_[at(i)]));
+      const std::vector<Interval> p(run_.box_.begin() + n, run_.box_.end());
+      series_.setParameters(p);
+      outputSeries_.setParameters(p);
+      const Interval time(t0, t1);
+      series_.solve(time, x);
+      for (int i = 0; i < n; ++i)
+        for (int order = 0; order <= 2; ++order) outputSeries_.at(i, order) = series_.at(i, order);
+      outputSeries_.evaluate(time);
+      outputCurvature_.clear();
+      for (int node : run_.outputProgram_.outputNodes()) {
+        const Interval& second = outputSeries_.at(node, 2);
+        outputCurvature_.push_back(isEmpty(second) ? std::numeric_limits<double>::infinity()
+                                                   : mulUp(2.0, magnitude(second)));
+      }
+    }
+
+    FlowRun& run_;
+    Collected& collected_;
+    std::vector<std::unique_ptr<Tools>> tools_;  // one a layout, made when first needed
+    Tools* tool_ = nullptr;                      // of the piece at hand, as are the next two
+    FlowOutputs* outputs_ = nullptr;
+    int monomialCount_ = 0;
+    Series<Interval> series_, outputSeries_;
+    FlowPoint point_;
+    Box whole_;
+    std::vector<double> curvature_, outputCurvature_;
+  };
+
+  const Program& motion_;
+  const Program& differentiated_;
+  const Program& outputProgram_;
+  const FlowOptions& options_;
+  const Box& box_;
+  const std::vector<Box>& levels_;
+  Embedding embedding_;
+  double horizon_, quantum_ = 0, tolerance_ = 0, splitDefect_ = 0;
+  std::vector<Layout> layouts_;  // degrees rising
+  std::vector<double> times_;
+
+  std::mutex mutex_;
+  std::condition_variable wake_;
+  std::priority_queue<Piece, std::vector<Piece>, Later> queue_;
+  int busy_ = 0, pieces_ = 1;
+  double looseness_ = 0;
+  bool stop_ = false;
+  double failedAt_ = 0, unfinished_ = std::numeric_limits<double>::infinity();
+  std::string why_;
+  std::exception_ptr error_;
+};
+
+Tube FlowRun::gather(std::vector<Collected>& collected) {
+  Tube tube;
+  tube.times_ = times_;
+  tube.reached_ = std::min(horizon_, failedAt_);
+  tube.why_ = why_;
+  double earliest = unfinished_;
+  if (!queue_.empty()) earliest = std::min(earliest, queue_.top().set.t);
+  if (stop_ && earliest < tube.reached_) {
+    tube.reached_ = earliest;
+    tube.why_ = kInterrupted;
+  }
+  std::size_t rows = 0;
+  while (rows < times_.size() && times_[rows] <= tube.reached_ && (rows > 0 || tube.reached_ > 0)) ++rows;
+  const auto merge = [&](auto member, std::vector<std::vector<Interval>>& into) {
+    into.resize(rows);
+    for (std::size_t row = 0; row < rows; ++row)
+      for (Collected& part : collected)
+        if (!(part.*member)[row].empty()) join(into[row], (part.*member)[row]);
+  };
+  merge(&Collected::states, tube.states_);
+  merge(&Collected::statesOver, tube.statesOver_);
+  merge(&Collected::outputs, tube.outputs_);
+  merge(&Collected::outputsOver, tube.outputsOver_);
+  if (rows == 0) {  // not even one step: the start itself is known
+    tube.states_ = tube.statesOver_ = {std::vector<Interval>(box_.begin(), box_.begin() + motion_.states())};
+    tube.outputs_ = tube.outputsOver_ = {std::vector<Interval>(at(outputProgram_.outputs()), Interval::entire())};
+    rows = 1;
+    for (auto& part : collected)
+      for (auto& level : part.cuts) level[0] = tube.outputs_[0].empty() ? tube.states_[0] : tube.outputs_[0];
+  }
+  tube.cuts_.assign(levels_.size(), std::vector<std::vector<Interval>>(rows));
+  for (std::size_t level = 0; level < levels_.size(); ++level)
+    for (std::size_t row = 0; row < rows; ++row) {
+      std::vector<Interval>& cut = tube.cuts_[level][row];
+      for (Collected& part : collected)
+        if (!part.cuts[level][row].empty()) join(cut, part.cuts[level][row]);
+      // Nested boxes have nested ranges, so the bound of the level outside holds here too.
+      const std::vector<Interval>& outside = level > 0                      ? tube.cuts_[level - 1][row]
+                                             : outputProgram_.outputs() > 0 ? tube.outputs_[row]
+                                                                            : tube.states_[row];
+      for (std::size_t i = 0; i < cut.size(); ++i) cut[i] = intersection(cut[i], outside[i]);
+    }
+  for (std::size_t row = 1; row < rows; ++row)
+    for (std::size_t i = 0; i < tube.states_[row].size(); ++i)
+      for (const Collected& part : collected) {
+        if (part.radii[row].empty()) continue;
+        const double remainder = 2 * part.radii[row][i], rest = width(tube.states_[row][i]) - remainder;
+        if (remainder > 1e-12 * magnitude(tube.states_[row][i])) looseness_ = std::max(looseness_, remainder / rest);
+      }
+  tube.pieces_ = pieces_;
+  for (const Collected& part : collected) {
+    tube.steps_ += part.steps;
+    tube.cpu_ += part.cpu;
+    tube.cutCpu_ += part.cutCpu;
+  }
+  return tube;
+}
+
+const std::vector<Interval>& Tube::at(double time) const {
+  if (!(time >= 0 && time <= reached_) || states_.empty())
+    throw std::out_of_range("the tube is proved for times from 0 s to " + std::to_string(reached_) + " s only");
+  const auto found = std::lower_bound(times_.begin(), times_.end(), time);
+  const auto row = static_cast<std::size_t>(found - times_.begin());
+  if (row >= states_.size())
+    throw std::out_of_range("the tube ended at " + std::to_string(reached_) + " s, inside an output interval");
+  return times_[row] == time ? states_[row] : statesOver_[row];
+}
+
+Flow::Flow(Program f, FlowOptions options) {
+  Program none = record(f.states(), f.parameters(), 0, [](const auto&, const auto&, const auto&, auto&) {});
+  *this = Flow(std::move(f), std::move(none), std::move(options));
+}
+
+Flow::Flow(Program f, Program g, FlowOptions options) {
+  check(f.states() > 0 && f.outputs() == f.states(),
+        "a flow needs one derivative for each of its states (and at least one state)");
+  check(g.states() == f.states() && g.parameters() == f.parameters(),
+        "the outputs of a flow need its states and its parameters");
+  check(options.order >= 4 && options.order <= 30, "the order of a flow must be 4 to 30");
+  check(options.degree >= -1 && options.degree <= 40,
+        "the degree of a flow's polynomials must be 0 to 40 (-1: automatic)");
+  check(options.maxPieces >= 1, "a flow needs at least one piece");
+  check(options.tolerance >= 0 && options.splitDefect >= 0, "tolerances must not be negative");
+  Program differentiated = f.differentiated();
+  parts_ =
+      std::make_unique<const Parts>(Parts{std::move(f), std::move(differentiated), std::move(g), std::move(options)});
+}
+
+Flow::~Flow() = default;
+Flow::Flow(Flow&&) noexcept = default;
+Flow& Flow::operator=(Flow&&) noexcept = default;
+
+Tube Flow::enclose(const Box& box, double horizon, const std::vector<double>& outputTimes,
+                   const std::vector<Box>& levels) const {
+  const Parts& parts = *parts_;
+  check(box.size() == at(parts.motion.states() + parts.motion.parameters()),
+        "the box needs " + std::to_string(parts.motion.states()) + " initial values and " +
+            std::to_string(parts.motion.parameters()) + " parameters, not " + std::to_string(box.size()) + " numbers");
+  for (const Interval& value : box)
+    check(!isEmpty(value) && isBounded(value), "every interval of the box must be bounded");
+  check(horizon > 0 && std::isfinite(horizon), "the horizon must be a positive number of seconds");
+  for (std::size_t i = 0; i < outputTimes.size(); ++i)
+    check(outputTimes[i] >= 0 && outputTimes[i] <= horizon && (i == 0 || outputTimes[i] >= outputTimes[i - 1]),
+          "output times must rise from 0 to the horizon");
+  checkLevels(box, levels);
+  // Splitting acts too late where the remainder has grown already: where it shows in the result, once more and earlier.
+  Tube best;
+  for (double tighter : {1.0, 30.0, 1000.0, 30000.0}) {
+    FlowRun run(parts.motion, parts.differentiated, parts.outputs, parts.options, box, horizon, outputTimes, levels,
+                tighter);
+    Tube tube = run.run();
+    const bool again = run.isLoose(tube);
+    best = tighter == 1.0 ? std::move(tube) : FlowRun::meet(std::move(best), std::move(tube));
+    if (!again) break;
+  }
+  return best;
+}
+
+std::vector<std::vector<Interval>> encloseImage(const Program& g, double t, const Box& box,
+                                                const std::vector<Box>& levels, int degree) {
+  check(box.size() == at(g.states() + g.parameters()), "the box needs one interval a state and a parameter");
+  for (const Interval& value : box)
+    check(!isEmpty(value) && isBounded(value), "every interval of the box must be bounded");
+  checkLevels(box, levels);
+  const Embedding embedding(box);
+  const int d = degree >= 1 && embedding.symbols > 0 ? degree : degreeLadder(embedding.symbols).back();
+  const auto monomials = std::make_shared<const Monomials>(std::vector<int>(at(embedding.symbols), 1), d);
+  FlowOutputs outputs(g, monomials);
+  PolynomialRange range(monomials);
+  const int n = g.states(), N = monomials->count();
+  FlowPoint point;
+  point.p.assign(at(n * N), 0.0);
+  point.psi.assign(at(n * n), 0.0);
+  point.psiSum = point.psi;
+  point.total.assign(at(n), 0.0);
+  for (int i = 0; i < n; ++i) {
+    const Embedded& e = embedding.components[at(i)];
+    point.p[at(i * N)] = e.centre;
+    if (e.symbol >= 0) point.p[at(i * N + monomials->linear(e.symbol))] = e.half;
+    point.loose.push_back(e.radius);
+  }
+  point.radius = point.loose;
+  outputs.evaluate(t, point, std::vector<double>(at(n), 0.0),
+                   {embedding.components.begin() + n, embedding.components.end()});
+  std::vector<std::vector<Interval>> result;
+  std::vector<Box> boxes = levels;
+  boxes.insert(boxes.begin(), box);
+  for (const Box& level : boxes) {
+    Box xi(at(embedding.symbols), Interval(-1.0, 1.0));
+    restrictTo(level, embedding, std::vector<double>(at(embedding.symbols), 0.0),
+               std::vector<double>(at(embedding.symbols), 1.0), xi);
+    std::vector<Interval> row;
+    for (int o = 0; o < outputs.count(); ++o) {
+      Interval value = std::isfinite(outputs.radius(o)) ? inflated(range(outputs.polynomial(o), xi), outputs.radius(o))
+                                                        : Interval::entire();
+      if (!result.empty()) value = intersection(value, result.back()[at(o)]);
+      row.push_back(value);
+    }
+    result.push_back(std::move(row));
+  }
+  return result;
+}
+
+}  // namespace gamut

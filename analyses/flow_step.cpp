@@ -1,0 +1,610 @@
+#include "analyses/flow_step.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace gamut {
+namespace {
+
+constexpr double kUnit = 0x1p-53;
+constexpr double kUp = 1 + 0x1p-30;  // covers fewer than 2^22 roundings of a nonnegative formula
+constexpr double kTiny = 0x1p-600;   // covers underflow, as in polynomial_series_bounds.cpp
+constexpr double kDump = 0.2;        // a frame column with more ξ-dependence than this goes back to a constant one
+constexpr int kGenerators = 60;      // steps whose errors are kept apart; older ones merge into the box R
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// R + Σ_j |Γ_j|, rounded up.
+void totalRadius(const FlowSet& set, std::vector<double>& total) {
+  total = set.R;
+  const std::size_t n = set.R.size();
+  for (std::size_t j = 0; j < set.generators.size(); j += n)
+    for (std::size_t i = 0; i < n; ++i) total[i] += std::fabs(set.generators[j + i]);
+  for (double& value : total) value *= kUp;
+}
+
+}  // namespace
+
+double relativeMass(const FlowSet& set, const Monomials& monomials, int above, int below) {
+  const std::size_t N = at(monomials.count()), n = set.p.size() / N;
+  double largest = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    double mass = 0, all = 0;
+    for (std::size_t g = 0; g < N; ++g) {
+      const double size = std::fabs(set.p[i * N + g]);
+      const int grade = monomials.grade(static_cast<int>(g));
+      all += size;
+      if (grade > above && grade <= below) mass += size;
+    }
+    if (all > 0) largest = std::max(largest, mass / all);
+  }
+  return largest;
+}
+
+void changeDegree(FlowSet& set, const Monomials& from, int fromFrameDegree, const Monomials& to, int toFrameDegree) {
+  const std::size_t n = set.R.size(), N = at(from.count()), newN = at(to.count());
+  const std::size_t NJ = at(from.countUpTo(fromFrameDegree)), newNJ = at(to.countUpTo(toFrameDegree));
+  std::vector<double> p(n * newN, 0.0), total;
+  totalRadius(set, total);
+  for (std::size_t i = 0; i < n; ++i) {
+    double dropped = 0;
+    for (std::size_t g = 0; g < N; ++g)
+      if (g < newN)
+        p[i * newN + g] = set.p[i * N + g];
+      else
+        dropped += std::fabs(set.p[i * N + g]);
+    for (std::size_t g = newNJ; g < NJ; ++g)
+      for (std::size_t j = 0; j < n; ++j) dropped += std::fabs(set.C[(g * n + i) * n + j]) * total[j];
+    if (dropped > 0) set.W[i] = (set.W[i] + dropped) * kUp + kTiny;
+  }
+  set.p = std::move(p);
+  set.C.resize(newNJ * n * n, 0.0);
+}
+
+FlowStepper::FlowStepper(const Program& motion, std::shared_ptr<const Monomials> monomials, int frameDegree, int order,
+                         double tolerance)
+    : n_(motion.states()),
+      m_(order),
+      tolerance_(tolerance),
+      series_(motion, motion.states(), std::move(monomials), frameDegree, order, true) {
+  for (auto* v : {&A_, &M0_, &M1_, &M2_, &term_, &next_, &epsilon_}) v->assign(at(n_ * n_), 0.0);
+  for (auto* v : {&delta0_, &delta1_, &start_, &E_, &y_, &e1_, &nu0_, &nu1_, &scale_}) v->assign(at(n_), 0.0);
+}
+
+void FlowStepper::load(const FlowSet& set) {
+  totalRadius(set, total_);
+  const int N = series_.count();
+  for (int i = 0; i < n_; ++i) series_.setState(i, &set.p[at(i * N)]);
+  std::vector<double> coefficients(at(N));
+  for (std::size_t i = 0; i < set.parameters.size(); ++i) {
+    const Embedded& p = set.parameters[i];
+    std::fill(coefficients.begin(), coefficients.end(), 0.0);
+    coefficients[0] = p.centre;
+    if (p.symbol >= 0) coefficients[at(monomials().linear(p.symbol))] = p.half;
+    series_.setParameter(static_cast<int>(i), coefficients.data(), p.radius);
+  }
+  for (int i = 0; i < n_; ++i)
+    for (int j = 0; j < n_; ++j) series_.setFrame(i, j, &set.C[at(i * n_ + j)], n_ * n_);
+}
+
+/// The step, in units of h0, at which the last two orders reach the tolerance.
+double FlowStepper::suggestion(double theta) const {
+  double best = 1e9;
+  for (int i = 0; i < n_; ++i) {
+    const double* x = series_.series(i);
+    const auto norm = [&](int order) {
+      double sum = 0;
+      for (int g = 0; g < series_.count(); ++g) sum += std::fabs(x[g * series_.stride() + order]);
+      return sum;
+    };
+    const double size = norm(0) + norm(1) * std::min(theta, 1.0);
+    for (int order : {m_ - 1, m_}) {
+      const double last = norm(order);
+      if (!std::isfinite(last)) return std::nan("");
+      if (last > 0 && size > 0) best = std::min(best, std::pow(tolerance_ * size / last, 1.0 / order));
+    }
+  }
+  return best;
+}
+
+/// With Ah nonnegative: M1 = h Σ (Ah)^k/(k+1)!, M2 = h Σ (Ah)^k m!/(m+k+1)!, M0 = I + A M1 = e^{Ah}. The remaining
+/// terms of a series are below twice the next one once their ratio is below one half.
+bool FlowStepper::matrices(double h) {
+  double nu = 0;
+  for (int i = 0; i < n_; ++i) {
+    double row = 0;
+    for (int j = 0; j < n_; ++j) {
+      A_[at(i * n_ + j)] = series_.jacobianBound(i, j);
+      row += A_[at(i * n_ + j)];
+    }
+    nu = std::max(nu, row * h * kUp);
+  }
+  if (!(nu < 60)) return false;
+  // A few power iterations: how fast the comparison system grows, whatever the units of the states.
+  std::vector<double>& v = nu0_;
+  std::fill(v.begin(), v.end(), 1.0);
+  growth_ = 0;
+  for (int iteration = 0; iteration < 6; ++iteration) {
+    double largest = 0;
+    for (int i = 0; i < n_; ++i) {
+      double row = 0;
+      for (int j = 0; j < n_; ++j) row += A_[at(i * n_ + j)] * v[at(j)];
+      nu1_[at(i)] = row;
+      largest = std::max(largest, row);
+    }
+    growth_ = largest * h;
+    if (!(largest > 0)) break;
+    for (int i = 0; i < n_; ++i) v[at(i)] = nu1_[at(i)] / largest;
+  }
+  const auto sum = [&](std::vector<double>& M, int offset) {
+    std::fill(term_.begin(), term_.end(), 0.0);
+    for (int i = 0; i < n_; ++i) term_[at(i * n_ + i)] = h / offset;
+    M = term_;
+    for (int k = 1;; ++k) {
+      const double factor = h / (k + offset);
+      double largest = 0;
+      for (int i = 0; i < n_; ++i) {
+        double row = 0;
+        for (int j = 0; j < n_; ++j) {
+          double s = 0;
+          for (int l = 0; l < n_; ++l) s += A_[at(i * n_ + l)] * term_[at(l * n_ + j)];
+          next_[at(i * n_ + j)] = s * factor;
+          row += s * factor;
+        }
+        largest = std::max(largest, row);
+      }
+      term_.swap(next_);
+      for (std::size_t i = 0; i < M.size(); ++i) M[i] += term_[i];
+      const double ratio = nu / (k + 1 + offset);
+      if (ratio < 0.5 && largest <= 0x1p-70 * h) {
+        for (double& entry : M) entry = (entry + 2 * ratio * largest) * kUp;
+        return;
+      }
+    }
+  };
+  sum(M1_, 1);
+  sum(M2_, m_ + 1);
+  for (int i = 0; i < n_; ++i)
+    for (int j = 0; j < n_; ++j) {
+      double s = i == j ? 1.0 : 0.0;
+      for (int l = 0; l < n_; ++l) s += A_[at(i * n_ + l)] * M1_[at(l * n_ + j)];
+      M0_[at(i * n_ + j)] = s * kUp;
+    }
+  return true;
+}
+
+bool FlowStepper::tryStep(const FlowSet& set, double theta) {
+  const double h = theta * h0_;  // exact: h0 is a power of two
+  if (!series_.tabulate(theta) || !series_.bound(nullptr, false)) return false;
+  for (int i = 0; i < n_; ++i) {
+    const int f = series_.outputNode(i);
+    // δ = x̃' - f(x̃): the bound of f's node, and one rounding in the division by i+1.
+    delta0_[at(i)] = (series_.rho0(f) + kUnit * series_.norm(f)) * kUp + kTiny;
+    delta1_[at(i)] = series_.rho1(f);
+    scale_[at(i)] = series_.norm(i);
+    double start = set.W[at(i)];
+    for (int g = 0; g < series_.frameCount(); ++g)
+      for (int j = 0; j < n_; ++j) start += std::fabs(set.C[at((g * n_ + i) * n_ + j)]) * total_[at(j)];
+    start_[at(i)] = start * kUp;
+  }
+  const auto tube = [&] {  // prop(δ) + e^{Ah} (|C|R + W)
+    for (int i = 0; i < n_; ++i) {
+      double y = 0;
+      for (int j = 0; j < n_; ++j)
+        y += M1_[at(i * n_ + j)] * delta0_[at(j)] + M2_[at(i * n_ + j)] * delta1_[at(j)] +
+             M0_[at(i * n_ + j)] * start_[at(j)];
+      y_[at(i)] = y * kUp + kTiny;
+    }
+  };
+  if (!matrices(h)) return false;
+  tube();
+  bool proved = false;
+  for (int attempt = 0; attempt < 4 && !proved; ++attempt) {
+    for (int i = 0; i < n_; ++i) {
+      E_[at(i)] = y_[at(i)] * (attempt == 0 ? 1.05 : 1.3);
+      if (!(E_[at(i)] < 0x1p400)) return false;
+    }
+    if (!series_.bound(E_.data(), false) || !matrices(h)) return false;
+    tube();
+    proved = true;
+    for (int i = 0; i < n_; ++i) proved = proved && y_[at(i)] <= E_[at(i)];
+  }
+  if (!proved) return false;
+  timeError_ = truncation_ = 0;
+  for (int i = 0; i < n_; ++i) {
+    double time = 0, truncation = 0, kept = 0;
+    for (int j = 0; j < n_; ++j) {
+      truncation += M1_[at(i * n_ + j)] * delta0_[at(j)];
+      time += M2_[at(i * n_ + j)] * delta1_[at(j)];
+      kept += M0_[at(i * n_ + j)] * set.W[at(j)];
+    }
+    e1_[at(i)] = (time + truncation + kept) * kUp + kTiny;
+    if (scale_[at(i)] > 0) {
+      timeError_ = std::max(timeError_, time / scale_[at(i)]);
+      truncation_ = std::max(truncation_, truncation / scale_[at(i)]);
+    }
+  }
+  for (int j = 0; j < n_; ++j) {
+    for (int i = 0; i < n_; ++i) series_.frameDefect(i, j, nu0_[at(i)], nu1_[at(i)]);
+    for (int i = 0; i < n_; ++i) {
+      double s = 0;
+      for (int l = 0; l < n_; ++l) s += M1_[at(i * n_ + l)] * nu0_[at(l)] + M2_[at(i * n_ + l)] * nu1_[at(l)];
+      epsilon_[at(i * n_ + j)] = s * kUp;
+    }
+  }
+  return true;
+}
+
+/// The defect bound holds rounding too, which splitting does not cure: what counts is mass in the highest grades.
+bool FlowStepper::isTruncationTooLarge(double splitDefect) const {
+  const Monomials& m = monomials();
+  const double allowed = splitDefect * h_;
+  if (!(splitDefect > 0 && truncation_ > allowed)) return false;
+  for (int i = 0; i < n_; ++i)
+    for (int g = m.countUpTo(std::max(m.degree() - 2, 0)); g < m.count(); ++g) {
+      double size = 0, power = 1;
+      for (int order = 0; order <= m_; ++order, power *= theta_)
+        size += std::fabs(series_.series(i)[g * series_.stride() + order]) * power;
+      if (size > 1e-3 * allowed * scale_[at(i)]) return true;
+    }
+  return false;
+}
+
+bool FlowStepper::isRemainderDominant(const FlowSet& set) const {
+  const int N = series_.count();
+  for (int i = 0; i < n_; ++i) {
+    double width = 0, remainder = set.W[at(i)];
+    for (int g = 1; g < N; ++g) width += std::fabs(set.p[at(i * N + g)]);
+    for (int j = 0; j < n_; ++j) remainder += std::fabs(set.C[at(i * n_ + j)]) * total_[at(j)];
+    if (remainder > 0.02 * width) return true;
+  }
+  return false;
+}
+
+StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum, double splitDefect) {
+  const double left = end - set.t;
+  const auto powerOfTwoAbove = [](double x) {
+    int exponent = 0;
+    std::frexp(x, &exponent);
+    return std::ldexp(1.0, exponent);
+  };
+  const auto onGrid = [&](double h) { return std::floor(h / quantum) * quantum; };
+  double guess = set.nextStep > 0 ? set.nextStep : left / 16;
+  const double smallest = 1024 * quantum;  // below this, time itself is too coarse
+  double h = 0;
+  for (int attempt = 0;; ++attempt) {
+    h0_ = powerOfTwoAbove(std::min(guess, left));
+    load(set);
+    series_.compute(set.t, h0_);
+    const double theta = suggestion(guess / h0_) * kick_;
+    if (std::isfinite(theta)) {
+      h = theta * h0_;
+      // A scale far from the step loses digits to overflow and underflow: once more with a better one.
+      const bool tooLarge = theta<0x1p-4, tooSmall = theta> 16 && h0_ < left && set.nextStep == 0;
+      if (!(tooLarge || tooSmall) || attempt >= 8) break;
+      guess = h;
+    } else {
+      series_.clear();
+      guess /= 1024;
+    }
+    if (!(guess > smallest) || attempt > 40) {
+      why_ = "no step is small enough: the solution leaves the domain of its equations or grows without bound";
+      return StepOutcome::failed;
+    }
+  }
+  h = std::min({h, h0_, left});
+  for (int attempt = 0; attempt < 24; ++attempt) {
+    if (h < left) h = onGrid(h);
+    if (!(h >= smallest || h == left) || h <= 0) break;
+    if (tryStep(set, h / h0_)) {
+      if (timeError_ > 5 * tolerance_ && attempt < 3) {
+        const double factor = std::pow(tolerance_ / timeError_, 1.0 / (m_ + 1));
+        kick_ *= factor;
+        h *= factor;
+        continue;
+      }
+      if (growth_ > 4 && attempt < 3) {  // stiff: the comparison with |Df| would lose a factor e^{growth} a step
+        h *= 3 / growth_;
+        continue;
+      }
+      h_ = h;
+      theta_ = h / h0_;
+      if (h < left) kick_ *= std::clamp(std::pow(tolerance_ / std::max(timeError_, 1e-40), 1.0 / (m_ + 1)), 0.7, 1.15);
+      kick_ = std::clamp(kick_, 0x1p-6, 2.0);
+      return isTruncationTooLarge(splitDefect) ? StepOutcome::splitWanted : StepOutcome::stepped;
+    }
+    h *= 0.6;
+    kick_ = std::max(kick_ * 0.8, 0x1p-6);
+  }
+  why_ = "no step could be certified: the set has grown too wide for its equations";
+  return StepOutcome::failed;
+}
+
+void FlowStepper::evaluate(const FlowSet& set, double tau, FlowPoint& point) {
+  const int N = series_.count(), NJ = series_.frameCount(), stride = series_.stride();
+  const double sigma = tau / h0_;
+  point.p.assign(at(n_ * N), 0.0);
+  point.psi.assign(at(NJ * n_ * n_), 0.0);
+  point.psiSum.assign(at(n_ * n_), 0.0);
+  point.loose.assign(at(n_), 0.0);
+  point.radius.assign(at(n_), 0.0);
+  // Horner's scheme with its running error: fl(fl(sσ) + c) is off by u|fl(sσ)| + u|result|, times the σ's that follow.
+  const auto horner = [&](const double* c, double& error) {
+    double s = c[m_], e = 0;
+    for (int i = m_ - 1; i >= 0; --i) {
+      const double product = s * sigma;
+      s = product + c[i];
+      e = e * sigma + kUnit * (std::fabs(product) + std::fabs(s));
+    }
+    error += sigma == 0 ? 0.0 : e * kUp + kTiny;
+    return s;
+  };
+  for (int i = 0; i < n_; ++i) {
+    double error = 0;
+    for (int g = 0; g < N; ++g) point.p[at(i * N + g)] = horner(series_.series(i) + g * stride, error);
+    point.loose[at(i)] = error + e1_[at(i)];
+  }
+  point.total = total_;
+  for (int i = 0; i < n_; ++i) {
+    double radius = 0, loose = point.loose[at(i)];
+    for (int j = 0; j < n_; ++j) {
+      double error = 0, sum = 0;
+      const double* psi = series_.frame(i, j);
+      for (int g = 0; g < NJ; ++g) {
+        const double value = horner(psi + g * stride, error);
+        point.psi[at((g * n_ + i) * n_ + j)] = value;
+        sum += std::fabs(value);
+      }
+      point.psiSum[at(i * n_ + j)] = sum * kUp;
+      // Ψ_0 r by the box R; Ψ_0 Γ s below; the higher Ψ_α by the whole radius.
+      const double leading = std::fabs(point.psi[at(i * n_ + j)]);
+      radius += leading * set.R[at(j)] + (sum * kUp - leading * (1 - 0x1p-50)) * (NJ > 1 ? total_[at(j)] : 0.0);
+      loose += (error + epsilon_[at(i * n_ + j)]) * total_[at(j)];
+    }
+    point.loose[at(i)] = loose;
+    point.radius[at(i)] = radius;
+  }
+  // Ψ_0 Γ: n roundings an entry, together at most n u |Ψ_0| Σ|Γ_j|.
+  const std::size_t n = set.R.size();
+  point.zonotope.resize(set.generators.size());
+  for (std::size_t column = 0; column < set.generators.size(); column += n)
+    for (std::size_t i = 0; i < n; ++i) {
+      double sum = 0;
+      for (std::size_t k = 0; k < n; ++k) sum += point.psi[i * n + k] * set.generators[column + k];
+      point.zonotope[column + i] = sum;
+      point.radius[i] += std::fabs(sum);
+    }
+  for (std::size_t i = 0; i < n; ++i) {
+    double size = 0;
+    for (std::size_t k = 0; k < n; ++k) size += std::fabs(point.psi[i * n + k]) * total_[k];
+    point.loose[i] = (point.loose[i] + (n_ + 1) * kUnit * size) * kUp;
+    point.radius[i] = (point.radius[i] + point.loose[i]) * kUp + kTiny;
+  }
+}
+
+void FlowStepper::curvature(std::vector<double>& bound) const {
+  // |Σ i(i-1) c_i σ^{i-2}| ≤ Σ i(i-1)|c_i|θ^{i-2}, in units of h0².
+  const auto second = [&](const double* c, int count) {
+    double sum = 0, power = 1;
+    for (int i = 2; i <= m_; ++i, power *= theta_) {
+      double order = 0;
+      for (int g = 0; g < count; ++g) order += std::fabs(c[g * series_.stride() + i]);
+      sum += i * (i - 1) * order * power;
+    }
+    return sum;
+  };
+  bound.assign(at(n_), 0.0);
+  for (int i = 0; i < n_; ++i) {
+    double sum = second(series_.series(i), series_.count());
+    for (int j = 0; j < n_; ++j)
+      if (total_[at(j)] > 0) sum += second(series_.frame(i, j), series_.frameCount()) * total_[at(j)];
+    bound[at(i)] = sum / (h0_ * h0_) * kUp + kTiny;
+  }
+}
+
+void FlowStepper::advance(FlowSet& set) {
+  using Matrix = Eigen::MatrixXd;
+  evaluate(set, h_, end_);
+  const int NJ = series_.frameCount();
+  const auto psi = [&](int g, int i, int j) { return end_.psi[at((g * n_ + i) * n_ + j)]; };
+
+  // Q, T: QR of the constant part, columns sorted by length × R, so that the longest keeps its direction.
+  std::vector<int> order(at(n_));
+  std::iota(order.begin(), order.end(), 0);
+  const double largestR = *std::max_element(total_.begin(), total_.end());
+  std::vector<double> length(at(n_));
+  for (int j = 0; j < n_; ++j) {
+    double sum = 0;
+    for (int i = 0; i < n_; ++i) sum += psi(0, i, j) * psi(0, i, j);
+    length[at(j)] = std::sqrt(sum) * (largestR > 0 ? std::max(total_[at(j)], 1e-20 * largestR) : 1.0);
+  }
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return length[at(a)] > length[at(b)]; });
+  Matrix psi0(n_, n_);
+  for (int j = 0; j < n_; ++j)
+    for (int i = 0; i < n_; ++i) psi0(i, j) = psi(0, i, order[at(j)]);
+  const Matrix Q = Eigen::HouseholderQR<Matrix>(psi0).householderQ();
+  Matrix T = Q.transpose() * psi0;
+  for (int i = 0; i < n_; ++i)
+    for (int j = 0; j < i; ++j) T(i, j) = 0;
+  // φ ≥ ‖QᵀQ - I‖∞: n roundings in each entry of the computed product, Σ|q||q| ≤ 1 + φ < 2.
+  double phi = 0;
+  const Matrix gram = Q.transpose() * Q;
+  for (int i = 0; i < n_; ++i) {
+    double row = 0;
+    for (int j = 0; j < n_; ++j) row += std::fabs(gram(i, j) - (i == j)) + 2 * (n_ + 2) * kUnit;
+    phi = std::max(phi, row * kUp);
+  }
+  // |Q⁻¹w| ≤ |Qᵀw| + φ/(1-φ)‖Qᵀw‖∞ for every w, because Q⁻¹ = Σ (I - QᵀQ)^k Qᵀ.
+  const double slack = phi / (1 - phi) * kUp;
+
+  // C'_α = Ψ_α T⁻¹ for α ≠ 0, in floating point; what it misses is measured below.
+  std::vector<Matrix> C(at(NJ), Matrix::Zero(n_, n_));
+  C[0] = Q;
+  bool invertible = true;
+  for (int i = 0; i < n_; ++i) invertible = invertible && std::fabs(T(i, i)) > 1e-14 * std::fabs(T(0, 0));
+  std::vector<char> constant(at(n_), static_cast<char>(!invertible));
+  std::vector<Matrix> sorted(at(NJ), Matrix(n_, n_));
+  for (int g = 0; g < NJ; ++g)
+    for (int j = 0; j < n_; ++j)
+      for (int i = 0; i < n_; ++i) sorted[at(g)](i, j) = psi(g, i, order[at(j)]);
+  Matrix N = Matrix::Zero(n_, n_);
+  if (invertible && NJ > 1) {
+    Matrix inverse = Matrix::Identity(n_, n_);
+    T.triangularView<Eigen::Upper>().solveInPlace(inverse);
+    for (int g = 1; g < NJ; ++g) {
+      C[at(g)] = sorted[at(g)] * inverse;
+      // N = Σ_{α≠0} |Q⁻¹C'_α|; each product has n roundings.
+      N += (Q.transpose() * C[at(g)]).cwiseAbs() + (n_ + 1) * kUnit * Q.cwiseAbs().transpose() * C[at(g)].cwiseAbs();
+    }
+    for (int j = 0; j < n_; ++j) {
+      const double largest = N.col(j).maxCoeff();
+      N.col(j).array() += slack * largest;
+      if (!(largest < kDump)) constant[at(j)] = 1;
+    }
+    N *= kUp;
+  }
+  const auto makeConstant = [&](int j) {
+    for (int g = 1; g < NJ; ++g) C[at(g)].col(j).setZero();
+    N.col(j).setZero();
+  };
+  for (int j = 0; j < n_; ++j)
+    if (constant[at(j)]) makeConstant(j);
+  // (I - N)⁻¹ exists and is nonnegative when every row sum of N is below one.
+  while (!(N.rowwise().sum().maxCoeff() < 0.9)) {
+    int worst = 0;
+    N.colwise().sum().maxCoeff(&worst);
+    if (N.col(worst).maxCoeff() == 0) break;
+    makeConstant(worst);
+  }
+
+  // C'⁻¹v with v = D(ξ)(r + Γs) + w, D = Σ_α ξ^α (Ψ_α - C'_α T). The part of D goes into the box, with |QᵀD| as the
+  // absolute value of the product; w becomes generators Qᵀ diag(|w|), and what ξ adds to them goes into the box.
+  Eigen::VectorXd w(n_), box = Eigen::VectorXd::Zero(n_), R(n_), total(n_);
+  for (int i = 0; i < n_; ++i) w(i) = end_.loose[at(i)];
+  for (int j = 0; j < n_; ++j) {
+    R(j) = set.R[at(order[at(j)])];
+    total(j) = total_[at(order[at(j)])];
+  }
+  for (int g = 0; g < NJ; ++g) {
+    const Matrix D = sorted[at(g)] - C[at(g)] * T;
+    // n products, n sums and the difference: n + 2 roundings at most.
+    const Matrix size = sorted[at(g)].cwiseAbs() + C[at(g)].cwiseAbs() * T.cwiseAbs();
+    w += (n_ + 2) * kUnit * (size * total);
+    box +=
+        (Q.transpose() * D).cwiseAbs() * total + (n_ + 1) * kUnit * (Q.cwiseAbs().transpose() * (D.cwiseAbs() * total));
+  }
+  w *= kUp;
+  const Eigen::VectorXd turned = Q.cwiseAbs().transpose() * w;
+  box.array() += slack * (box.maxCoeff() + turned.maxCoeff()) + kTiny;
+  if (N.maxCoeff() > 0) {
+    // y ≥ b + N y, checked, gives y ≥ (I - N)⁻¹ b: once for the box, once for N (I - N)⁻¹ |Qᵀ| w.
+    const auto solve = [&](const Eigen::VectorXd& b) {
+      Eigen::VectorXd y = b;
+      for (int i = 0; i < 12; ++i) y = b + N * y;
+      // Row sums of N are below 0.9, so adding c·1 with c large enough passes; what is not finite fails in the next
+      // step.
+      for (double c = 1e-8 * y.maxCoeff(); std::isfinite(c); c *= 8) {
+        const Eigen::VectorXd z = y.array() + c;
+        if ((((b + N * z) * kUp).array() <= z.array()).all()) return z;
+      }
+      return Eigen::VectorXd(Eigen::VectorXd::Constant(n_, std::numeric_limits<double>::infinity()));
+    };
+    box = solve(box) + N * solve(turned);
+  }
+  // Γ' = fl(T Γ), n roundings an entry, and fl(Qᵀ diag w), one: together (n+1) u (|T| Σ|Γ| + |Qᵀ| w) into the box.
+  box += (n_ + 1) * kUnit * (T.cwiseAbs() * total + turned);
+  std::vector<double> generators;
+  generators.reserve(set.generators.size() + at(n_ * n_));
+  std::size_t oldest = 0;
+  Eigen::VectorXd merged = Eigen::VectorXd::Zero(n_);
+  if (set.generators.size() >= at(kGenerators * n_ * n_)) oldest = at(n_ * n_);
+  for (std::size_t column = 0; column < set.generators.size(); column += at(n_))
+    for (int i = 0; i < n_; ++i) {
+      double sum = 0;
+      for (int k = i; k < n_; ++k) sum += T(i, k) * set.generators[column + at(order[at(k)])];
+      if (column < oldest)
+        merged(i) += std::fabs(sum);
+      else
+        generators.push_back(sum);
+    }
+  for (int j = 0; j < n_; ++j)
+    for (int i = 0; i < n_; ++i) generators.push_back(Q(j, i) * w(j));
+  const Eigen::VectorXd newR = (T.cwiseAbs() * R + merged + box) * kUp;
+  set.generators = std::move(generators);
+
+  set.t += h_;  // exact: both are multiples of the quantum
+  set.p = end_.p;
+  set.nextStep = h_ * 1.1;
+  for (int g = 0; g < NJ; ++g)
+    for (int i = 0; i < n_; ++i)
+      for (int j = 0; j < n_; ++j) set.C[at((g * n_ + i) * n_ + j)] = C[at(g)](i, j);
+  for (int i = 0; i < n_; ++i) {
+    set.R[at(i)] = newR(i);
+    set.W[at(i)] = 0;
+  }
+}
+
+int FlowStepper::worstSymbol() const {
+  const Monomials& m = monomials();
+  std::vector<double> weight(at(m.symbols()), 0.0);
+  for (int from : {m.degree() - 1, 1}) {  // the highest powers; at a fresh start, the linear terms
+    for (int i = 0; i < n_; ++i)
+      for (int g = 1; g < m.count(); ++g) {
+        if (m.grade(g) < from || scale_[at(i)] <= 0) continue;
+        double size = 0, power = 1;
+        for (int order = 0; order <= m_; ++order, power *= theta_)
+          size += std::fabs(series_.series(i)[g * series_.stride() + order]) * power;
+        for (int l = 0; l < m.symbols(); ++l) weight[at(l)] += m.exponent(g, l) * size / scale_[at(i)];
+      }
+    if (*std::max_element(weight.begin(), weight.end()) > 0) break;
+  }
+  return static_cast<int>(std::max_element(weight.begin(), weight.end()) - weight.begin());
+}
+
+FlowSet FlowStepper::bisect(FlowSet& set, int symbol, const PolynomialRange& shift) const {
+  const int N = series_.count(), NJ = series_.frameCount();
+  FlowSet halves[2] = {set, set};
+  std::vector<double> total;
+  totalRadius(set, total);
+  std::vector<double> from(at(N)), to(at(N));
+  for (int side : {0, 1}) {
+    FlowSet& s = halves[side];
+    const double middle = side == 0 ? -0.5 : 0.5;
+    for (int i = 0; i < n_; ++i) {
+      double norm = 0;
+      for (int g = 0; g < N; ++g) norm += std::fabs(set.p[at(i * N + g)]);
+      shift.substitute(symbol, middle, 0.5, &set.p[at(i * N)], &s.p[at(i * N)]);
+      double rounding = shift.shiftError() * norm;
+      for (int j = 0; j < n_; ++j) {
+        std::fill(from.begin(), from.end(), 0.0);
+        norm = 0;
+        for (int g = 0; g < NJ; ++g) {
+          from[at(g)] = set.C[at((g * n_ + i) * n_ + j)];
+          norm += std::fabs(from[at(g)]);
+        }
+        shift.substitute(symbol, middle, 0.5, from.data(), to.data());
+        for (int g = 0; g < NJ; ++g) s.C[at((g * n_ + i) * n_ + j)] = to[at(g)];
+        if (NJ > 1) rounding += shift.shiftError() * norm * total[at(j)];
+      }
+      s.W[at(i)] = (set.W[at(i)] + rounding) * kUp + kTiny;
+    }
+    for (Embedded& p : s.parameters)
+      if (p.symbol == symbol) {
+        const double moved = p.half * middle;  // exact: a power of two
+        const double centre = p.centre + moved;
+        p.radius = (p.radius + kUnit * std::fabs(centre)) * kUp + kTiny;
+        p.centre = centre;
+        p.half *= 0.5;
+      }
+    if (symbol < static_cast<int>(s.centre.size())) {
+      s.centre[at(symbol)] += s.half[at(symbol)] * middle;
+      s.half[at(symbol)] *= 0.5;
+    }
+  }
+  set = std::move(halves[0]);
+  return std::move(halves[1]);
+}
+
+}  // namespace gamut

@@ -1,0 +1,30 @@
+// The flow's inner loops: products of polynomial series, one order in time at a time. They run in the widest vector
+// unit that the machine has. Sums may be reassociated and fused: the certificate counts terms, not their order.
+#pragma once
+
+#include "analyses/monomials.hpp"
+
+namespace gamut::kernels {
+
+/// Layout of a series: `stride` doubles a monomial, order i at [i]; reversed copies have `reversedStride(stride)`
+/// doubles a monomial, order i at [stride - 1 - i], zeros behind.
+constexpr int reversedStride(int stride) { return stride + 8; }
+
+/// out[g] += Σ_{(α,β) of g} Σ_{j≤i} a[α][j] b[β][i-j] for g < count. a forward, b reversed.
+void convolve(const Monomials::Pair* pairs, const std::int32_t* first, int count, const double* a,
+              const double* bReversed, int stride, int i, double* out);
+
+/// out[g] += Σ_{(α,β) of g} c[α·stride] x[β·stride] for g < count: a product of polynomials at one order each.
+void multiply(const Monomials::Pair* pairs, const std::int32_t* first, int count, const double* c, const double* x,
+              int stride, double* out);
+
+/// table[q·stride + i] = Σ_{grade g = q} |f[g][i]| power[i]; returns the sum of all entries in `norm` and
+/// Σ (i+1) multiplicity(g) |f[g][i]| power[i] in `weighted`. `weights[i] = (i+1) power[i]`. Orders beyond the last have
+/// power 0.
+void tabulate(const Monomials& monomials, int count, const double* f, const double* power, const double* weights,
+              int stride, double* table, double& norm, double& weighted);
+
+/// Σ_i a[i] b[i] over `stride` entries.
+double dot(const double* a, const double* b, int stride);
+
+}  // namespace gamut::kernels

@@ -1,0 +1,54 @@
+// The monomials ξ^α of the polynomials that a flow keeps: all with weighted degree (grade) Σ w_l α_l ≤ d. A weight
+// above one keeps a symbol to low powers. The set is closed under division, so truncated products are sums over pairs.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <vector>
+
+namespace gamut {
+
+/// Monomials in `symbols` symbols, grades rising; number 0 is the constant 1.
+class Monomials {
+ public:
+  struct Pair {
+    std::int32_t a, b;
+  };
+
+  /// One positive weight a symbol; degree ≥ 0. Throws std::length_error beyond 20000 monomials.
+  Monomials(std::vector<int> weights, int degree);
+
+  int symbols() const { return static_cast<int>(weight_.size()); }
+  int degree() const { return degree_; }
+  int count() const { return static_cast<int>(grade_.size()); }
+  /// Number of monomials of grade ≤ q.
+  int countUpTo(int q) const { return countUpTo_[static_cast<std::size_t>(q < degree_ ? q : degree_)]; }
+  int weight(int symbol) const { return weight_[static_cast<std::size_t>(symbol)]; }
+  int grade(int g) const { return grade_[static_cast<std::size_t>(g)]; }
+  int exponent(int g, int symbol) const {
+    return exponent_[static_cast<std::size_t>(g) * weight_.size() + static_cast<std::size_t>(symbol)];
+  }
+  /// ∏(α_l + 1): how many pairs of monomials have product g.
+  double multiplicity(int g) const {
+    return static_cast<double>(first_[static_cast<std::size_t>(g) + 1] - first_[static_cast<std::size_t>(g)]);
+  }
+  /// The number of the monomial g·ξ_symbol^by, or -1 if it is not kept.
+  int shifted(int g, int symbol, int by) const;
+  /// The number of ξ_symbol itself, or -1 if it is not kept.
+  int linear(int symbol) const { return shifted(0, symbol, 1); }
+
+  /// pairs()[first()[g]] … pairs()[first()[g+1]-1]: every (a, b) with a·b = g.
+  const std::vector<Pair>& pairs() const { return pairs_; }
+  const std::vector<std::int32_t>& first() const { return first_; }
+
+ private:
+  std::vector<int> weight_;
+  int degree_;
+  std::vector<int> grade_, countUpTo_;
+  std::vector<std::uint8_t> exponent_;
+  std::vector<Pair> pairs_;
+  std::vector<std::int32_t> first_;
+  std::map<std::vector<std::uint8_t>, int> number_;
+};
+
+}  // namespace gamut

@@ -1,0 +1,102 @@
+// A recorded program evaluated on polynomial series Σ c_{iα} σ^i ξ^α (time σ in units of h0, uncertain quantities ξ in
+// [-1,1]^k): first in plain floating point, then bounded. For every node v, along the polynomial x̃ of the states,
+//     |v(σ, ξ) - ṽ(σ, ξ)| ≤ ρ0 + ρ1 (σ/θ)^m    for σ in [0, θ], ξ in [-1,1]^k,
+// where ṽ are the orders below m that were computed. docs/flow.md derives every term.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "analyses/monomials.hpp"
+#include "scalars/program.hpp"
+
+namespace gamut {
+
+class PolynomialSeries {
+ public:
+  /// Nodes that the first `primaryOutputs` outputs need keep the monomials' full degree, all others `frameDegree`.
+  /// With a frame, outputs n … n+n²-1 are the Jacobian of the first n and Ψ' = (∂f/∂x) Ψ is solved alongside.
+  PolynomialSeries(const Program& program, int primaryOutputs, std::shared_ptr<const Monomials> monomials,
+                   int frameDegree, int order, bool withFrame);
+
+  int states() const { return n_; }
+  int order() const { return m_; }
+  int stride() const { return stride_; }
+  const Monomials& monomials() const { return *monomials_; }
+  int count() const { return monomials_->count(); }
+  int frameCount() const { return frameCount_; }
+
+  // Inputs: coefficients of order 0 in σ.
+  void setState(int i, const double* coefficients);                      // count() numbers
+  void setParameter(int i, const double* coefficients, double radius);   // count() numbers, |p - p̃| ≤ radius
+  void setFrame(int i, int j, const double* coefficients, int spacing);  // frameCount() numbers, `spacing` apart
+
+  /// The recursion from time t0; h0 a power of two. With order 1 it is an evaluation at t0.
+  void compute(double t0, double h0);
+
+  /// Norms and the errors that nodes make themselves, for σ in [0, θ], 0 < θ ≤ 1. False: not finite, or too large.
+  bool tabulate(double theta);
+  /// ρ0, ρ1 of all nodes when |x - x̃| ≤ E (null: along the polynomial). False: not proved (a division by zero, say).
+  bool bound(const double* E, bool primaryOnly);
+
+  // Results. Node numbers are those of the program; frame entries are separate.
+  const double* series(int node) const { return &f_[plan_[at(node)].f]; }
+  const double* frame(int i, int j) const { return &f_[plan_[at(frameNode(i, j))].f]; }
+  int outputNode(int output) const { return outputs_[at(output)]; }
+  double norm(int node) const { return norm_[at(node)]; }
+  double rho0(int node) const { return rho0_[at(node)]; }
+  double rho1(int node) const { return rho1_[at(node)]; }
+  /// Σ_α |c_{mα}| θ^m of state i: its last order.
+  double top(int state) const { return top_[at(state)]; }
+  /// |∂f_i/∂x_j| on the set that was bounded last.
+  double jacobianBound(int i, int j) const;
+  /// |Ψ̃' - (∂f/∂x)Ψ̃|_{ij} ≤ ν0 + ν1 (σ/θ)^m on the set that was bounded last.
+  void frameDefect(int i, int j, double& nu0, double& nu1) const;
+  /// Forgets all coefficients; needed after they became infinite.
+  void clear();
+
+ private:
+  static std::size_t at(int i) { return static_cast<std::size_t>(i); }
+  int frameNode(int i, int j) const { return nodes_ + i * n_ + j; }
+
+  struct Plan {
+    Op op;
+    int a, b;
+    int degree, count;
+    bool primary, invariant, constant;
+    std::size_t f = 0, r = none, d = none, t = 0, s2 = none;
+    bool needsTails = false;
+  };
+  static constexpr std::size_t none = static_cast<std::size_t>(-1);
+
+  void put(const Plan& v, int g, int i, double value);
+  void computeOrder(int node, int i);
+  void product(const Plan& a, const Plan& b, int count, int i, double* out);
+  void computeFrameOrder(int i, double h0);
+  void pointFunctions(int node);
+  void initialRow(int node);
+  double tailTime(int a, int b) const;
+  double tailDegree(int a, int b, int degree, int fromOrder) const;
+  double tailRow(int a, int b, int degree) const;
+  void ownErrors(int node);
+  void differentialErrors(int u, int of, int degree, double& e0, double& e1) const;
+  double productResidual(int left, int right, int target);
+  double quotientResidual(int node);
+  double dropped(int a, int degree) const;
+  double minimum(int node) const;
+  bool boundNode(int node);
+
+  int n_, time_, m_, stride_, nodes_, frameCount_, frameDegree_;
+  bool withFrame_;
+  std::shared_ptr<const Monomials> monomials_;
+  std::vector<Plan> plan_;
+  std::vector<int> outputs_;
+  std::vector<double> constant_, radius_, pointError_;
+  std::vector<double> f_, r_, d_, t_, total_, s1_, s2_, scratch_, scratch2_;
+  std::vector<double> inverse_;  // per recip/sqrt/log/atan node: 1/leading polynomial
+  std::vector<std::size_t> inverseAt_;
+  std::vector<double> norm_, weighted_, own0_, own1_, rho0_, rho1_, top_;
+  std::vector<double> power_, weights_;
+};
+
+}  // namespace gamut

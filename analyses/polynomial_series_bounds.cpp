@@ -1,0 +1,355 @@
+// The certificate: bounds for what the recursion left out and rounded, node by node. Notation as in docs/flow.md:
+// ‖a‖ = Σ|c_{iα}|θ^i, ‖a‖_w = Σ (i+1)∏(α_l+1)|c_{iα}|θ^i, T_a[q][i] = Σ_{grade α = q} |c_{iα}|θ^i, u = 2^-53.
+// All quantities are nonnegative and computed in round-to-nearest; `kUp` then covers the roundings of the bound itself.
+#include <algorithm>
+#include <cmath>
+
+#include "analyses/kernels.hpp"
+#include "analyses/polynomial_series.hpp"
+
+namespace gamut {
+namespace {
+
+constexpr double kUnit = 0x1p-53;
+// (1 + 2^-53)^(2^22) ≤ 1 + 2^-30: covers sums and products of nonnegative numbers with fewer than four million
+// roundings.
+constexpr double kUp = 1 + 0x1p-30;
+// Underflow: fewer than 2^30 operations a node, each off by at most 2^-1074, times factors below 2^400 (see kLargest).
+constexpr double kTiny = 0x1p-600;
+constexpr double kLargest = 0x1p400;
+
+}  // namespace
+
+bool PolynomialSeries::tabulate(double theta) {
+  power_[0] = 1;
+  for (int i = 1; i < stride_; ++i) power_[at(i)] = i < m_ ? power_[at(i - 1)] * theta : 0.0;
+  for (int i = 0; i < stride_; ++i) weights_[at(i)] = (i + 1) * power_[at(i)];
+  const double last = power_[at(m_ - 1)] * theta;  // θ^m
+  for (std::size_t x = 0; x < plan_.size(); ++x) {
+    const Plan& v = plan_[x];
+    double* table = &t_[v.t];
+    kernels::tabulate(*monomials_, v.count, &f_[v.f], power_.data(), weights_.data(), stride_, table, norm_[x],
+                      weighted_[x]);
+    norm_[x] *= kUp;
+    weighted_[x] *= kUp;
+    if (!(norm_[x] < kLargest)) return false;  // false for NaN too
+    double* total = &total_[x * at(stride_)];
+    std::fill(total, total + stride_, 0.0);
+    for (int q = 0; q <= v.degree; ++q)
+      for (int i = 0; i < stride_; ++i) total[i] += table[q * stride_ + i];
+    if (v.op == Op::state) {
+      double sum = 0;
+      for (int g = 0; g < v.count; ++g) sum += std::fabs(f_[v.f + at(g * stride_ + m_)]);
+      top_[x] = withFrame_ ? sum * last * kUp : 0.0;
+      if (!(top_[x] < kLargest)) return false;
+    }
+    if (!v.needsTails) continue;
+    // s1[i] = Σ_{j ≥ m-i} total[j];  s2[q][i] = Σ_{p ≥ q} Σ_{j ≤ m-1-i} T[p][j].
+    double* s1 = &s1_[x * at(stride_)];
+    std::fill(s1, s1 + stride_, 0.0);
+    for (int i = 1; i < m_; ++i) s1[i] = s1[i - 1] + total[m_ - i];
+    if (monomials_->degree() == 0) continue;
+    double* s2 = &s2_[v.s2];
+    std::fill(s2 + (v.degree + 1) * stride_, s2 + (v.degree + 2) * stride_, 0.0);
+    for (int q = v.degree; q >= 0; --q) {
+      double* row = s2 + q * stride_;
+      std::fill(row, row + stride_, 0.0);
+      double sum = 0;
+      for (int i = m_ - 1; i >= 0; --i) row[i] = (sum += table[q * stride_ + m_ - 1 - i]);
+      for (int i = 0; i < m_; ++i) row[i] += row[stride_ + i];
+    }
+  }
+  for (int x = 0; x < nodes_; ++x) ownErrors(x);
+  return true;
+}
+
+/// Σ_{i+j ≥ m} T_a[i] T_b[j]: orders of a product that are not kept.
+double PolynomialSeries::tailTime(int a, int b) const {
+  return kernels::dot(&total_[at(a) * at(stride_)], &s1_[at(b) * at(stride_)], stride_);
+}
+
+/// Σ_{i ≥ fromOrder, i+j < m, p+q > degree} T_a[p][i] T_b[q][j]: grades of a product that are not kept.
+double PolynomialSeries::tailDegree(int a, int b, int degree, int fromOrder) const {
+  const Plan& pa = plan_[at(a)];
+  const Plan& pb = plan_[at(b)];
+  double sum = 0;
+  for (int p = 0; p <= pa.degree; ++p) {
+    const int q = std::max(0, degree + 1 - p);
+    if (q > pb.degree) continue;
+    const double* row = &t_[pa.t + at(p * stride_)];
+    const double* tail = &s2_[pb.s2 + at(q * stride_)];
+    if (fromOrder == 0)
+      sum += kernels::dot(row, tail, stride_);
+    else
+      for (int i = fromOrder; i < m_; ++i) sum += row[i] * tail[i];
+  }
+  return sum;
+}
+
+/// Σ_{p ≥ 1, p+q > degree} T_a[p][0] T_b[q][0]: the same along ξ at σ = 0.
+double PolynomialSeries::tailRow(int a, int b, int degree) const {
+  const Plan& pa = plan_[at(a)];
+  const Plan& pb = plan_[at(b)];
+  double sum = 0, tail = 0;
+  int q = pb.degree + 1;
+  for (int p = 1; p <= pa.degree; ++p) {
+    for (; q > std::max(0, degree + 1 - p); --q) tail += t_[pb.t + at((q - 1) * stride_)];
+    sum += t_[pa.t + at(p * stride_)] * tail;
+  }
+  return sum;
+}
+
+/// Σ_{grade > degree} of a: what a node of lower degree drops.
+double PolynomialSeries::dropped(int a, int degree) const {
+  double sum = 0;
+  for (int q = degree + 1; q <= plan_[at(a)].degree; ++q)
+    for (int i = 0; i < m_; ++i) sum += t_[plan_[at(a)].t + at(q * stride_ + i)];
+  return sum;
+}
+
+/// A proved lower bound of |ṽ| when its constant coefficient is positive: |c_00| minus everything else.
+double PolynomialSeries::minimum(int node) const {
+  const double lead = f_[plan_[at(node)].f];
+  return (2 * lead - norm_[at(node)]) * (1 - 0x1p-50) - kTiny;
+}
+
+/// Bounds of the defect of v' = u'·of (for sine, cosine, exponential), integrated over [0, θ], and of the row σ = 0.
+/// Rounding: a coefficient has N terms, one rounding in j·u_j and one in the division: γ_{N+2}, N ≤ weights.
+void PolynomialSeries::differentialErrors(int u, int of, int degree, double& e0, double& e1) const {
+  const Plan& pu = plan_[at(u)];
+  const double lead = std::fabs(f_[pu.f]);
+  const double norm = norm_[at(u)] - lead * (1 - 0x1p-50), weighted = weighted_[at(u)] - lead * (1 - 0x1p-50);
+  e1 = tailTime(u, of);  // the row i = 0 of u meets s1[0] = 0
+  e0 = kUnit * (weighted * weighted_[at(of)] + 2 * norm * norm_[at(of)]);
+  if (monomials_->degree() > 0)
+    // The row σ = 0 rounds likewise, with the weights of its own (smaller) terms.
+    e0 += tailDegree(u, of, degree, 1) + tailRow(u, of, degree) +
+          kUnit * (weighted * weighted_[at(of)] + 2 * norm * norm_[at(of)]);
+}
+
+/// Σ |target - left·right| over the kept coefficients, with the rounding of this evaluation: γ_{N+1}(|target|+Σ|..|),
+/// N + 1 ≤ 2N ≤ 2 weights. target -1 is the constant 1.
+double PolynomialSeries::productResidual(int left, int right, int target) {
+  const Plan& l = plan_[at(left)];
+  const int N = l.count;
+  double* out = scratch_.data();
+  double sum = 0;
+  const int orders = l.invariant ? 1 : m_;
+  for (int i = 0; i < orders; ++i) {
+    std::fill(out, out + N, 0.0);
+    kernels::convolve(monomials_->pairs().data(), monomials_->first().data(), N, &f_[l.f], &r_[plan_[at(right)].r],
+                      stride_, i, out);
+    for (int g = 0; g < N; ++g) {
+      const double wanted =
+          target >= 0 ? f_[plan_[at(target)].f + at(g * stride_ + i)] : (g == 0 && i == 0 ? 1.0 : 0.0);
+      sum += std::fabs(wanted - out[g]) * power_[at(i)];
+    }
+  }
+  return sum + 2 * kUnit * (weighted_[at(left)] * weighted_[at(right)] + (target >= 0 ? weighted_[at(target)] : 1.0));
+}
+
+/// Σ |i u_i - Σ_j j l_j w_{i-j}| / i over the kept coefficients of l' w = u', and the row σ = 0 likewise in the grades;
+/// rounding γ_{N+2} of (|u| + Σ|l||w|) for each of the two, N + 2 ≤ 3 weights.
+double PolynomialSeries::quotientResidual(int node) {
+  const Plan& l = plan_[at(node)];
+  const Plan& u = plan_[at(l.a)];
+  const Plan& w = plan_[at(l.b)];
+  const int N = l.count;
+  double* out = scratch_.data();
+  double sum = 0;
+  for (int i = 1; i < (l.invariant ? 1 : m_); ++i) {
+    std::fill(out, out + N, 0.0);
+    kernels::convolve(monomials_->pairs().data(), monomials_->first().data(), N, &d_[l.d], &r_[w.r], stride_, i, out);
+    for (int g = 0; g < N; ++g) sum += std::fabs(i * f_[u.f + at(g * stride_ + i)] - out[g]) / i * power_[at(i)];
+  }
+  for (int g = 1; g < N; ++g) {
+    double s = 0;
+    for (auto q = monomials_->first()[at(g)]; q < monomials_->first()[at(g) + 1]; ++q)
+      if (const auto [p, r] = monomials_->pairs()[at(q)]; p != 0)
+        s += monomials_->grade(p) * f_[l.f + at(p * stride_)] * f_[w.f + at(r * stride_)];
+    const int grade = monomials_->grade(g);
+    sum += std::fabs(grade * f_[u.f + at(g * stride_)] - s) / grade;
+  }
+  return sum + 6 * kUnit * (weighted_[at(l.a)] + weighted_[at(node)] * weighted_[at(l.b)]);
+}
+
+/// What a node adds to the errors of its operands.
+void PolynomialSeries::ownErrors(int node) {
+  const Plan& v = plan_[at(node)];
+  double e0 = 0, e1 = 0;
+  const bool graded = monomials_->degree() > 0;
+  switch (v.op) {
+    case Op::state:
+    case Op::parameter:
+    case Op::time:
+    case Op::constant:
+    case Op::cos:
+      return;
+    case Op::add:
+    case Op::sub:  // one rounding a coefficient; lower degree: what is dropped
+      e0 = kUnit * norm_[at(node)] + (graded ? dropped(v.a, v.degree) + dropped(v.b, v.degree) : 0.0);
+      break;
+    case Op::neg:
+      e0 = graded ? dropped(v.a, v.degree) : 0.0;
+      break;
+    case Op::mul:
+    case Op::sqr: {
+      const int b = v.op == Op::sqr ? v.a : v.b;
+      // A coefficient is a sum of N ≤ (i+1)∏(α_l+1) products in any order, fused or not: γ_N. A constant factor: one.
+      e0 = plan_[at(v.a)].constant ? kUnit * norm_[at(node)] : kUnit * weighted_[at(v.a)] * weighted_[at(b)];
+      if (graded) e0 += tailDegree(v.a, b, v.degree, 0);
+      e1 = tailTime(v.a, b);
+      break;
+    }
+    case Op::recip:
+      e0 = productResidual(node, v.a, -1) + (graded ? tailDegree(node, v.a, v.degree, 0) : 0.0);
+      e1 = tailTime(node, v.a);
+      break;
+    case Op::sqrt:
+      e0 = productResidual(node, node, v.a) +
+           (graded ? tailDegree(node, node, v.degree, 0) + dropped(v.a, v.degree) : 0.0);
+      e1 = tailTime(node, node);
+      break;
+    case Op::exp:
+      differentialErrors(v.a, node, v.degree, e0, e1);
+      e0 += pointError_[at(node)];
+      break;
+    case Op::log:
+    case Op::atan:
+      e0 = quotientResidual(node);
+      if (graded) e0 += tailDegree(node, v.b, v.degree, 1) + tailRow(node, v.b, v.degree) + dropped(v.a, v.degree);
+      e1 = tailTime(node, v.b);
+      break;
+    case Op::sin: {  // both from one skew system: the error's Euclidean norm grows by no more than both defects
+      double c0 = 0, c1 = 0;
+      differentialErrors(v.a, node + 1, v.degree, e0, e1);
+      differentialErrors(v.a, node, v.degree, c0, c1);
+      e0 += c0 + pointError_[at(node)] + pointError_[at(node + 1)];
+      e1 += c1;
+      own0_[at(node + 1)] = e0 * kUp + kTiny;
+      own1_[at(node + 1)] = e1 * kUp;
+      break;
+    }
+  }
+  own0_[at(node)] = e0 * kUp + kTiny;
+  own1_[at(node)] = e1 * kUp;
+}
+
+bool PolynomialSeries::boundNode(int node) {
+  const Plan& v = plan_[at(node)];
+  const auto r0 = [&](int i) { return rho0_[at(i)]; };
+  const auto r1 = [&](int i) { return rho1_[at(i)]; };
+  const auto r = [&](int i) { return rho0_[at(i)] + rho1_[at(i)]; };
+  const double own0 = own0_[at(node)], own1 = own1_[at(node)];
+  double z0 = 0, z1 = 0;
+  switch (v.op) {
+    case Op::state:
+    case Op::parameter:
+    case Op::time:
+    case Op::constant:
+      return true;
+    case Op::add:
+    case Op::sub:
+      z0 = r0(v.a) + r0(v.b) + own0;
+      z1 = r1(v.a) + r1(v.b);
+      break;
+    case Op::neg:
+      z0 = r0(v.a) + own0;
+      z1 = r1(v.a);
+      break;
+    case Op::mul:
+    case Op::sqr: {  // ab - ãb̃ = ã δb + b̃ δa + δa δb
+      const int b = v.op == Op::sqr ? v.a : v.b;
+      z0 = norm_[at(v.a)] * r0(b) + norm_[at(b)] * r0(v.a) + r(v.a) * r(b) + own0;
+      z1 = norm_[at(v.a)] * r1(b) + norm_[at(b)] * r1(v.a) + own1;
+      break;
+    }
+    case Op::recip: {  // |1 - c̃b| ≤ η < 1 proves b ≠ 0, and |1/b - c̃| = |1 - c̃b|/|b| ≤ η‖c̃‖/(1-η)
+      const double eta0 = own0 + norm_[at(node)] * r0(v.a), eta1 = own1 + norm_[at(node)] * r1(v.a);
+      const double eta = (eta0 + eta1) * kUp;
+      if (!(eta < 0.99)) return false;
+      const double factor = norm_[at(node)] / (1 - eta);
+      z0 = eta0 * factor;
+      z1 = eta1 * factor;
+      break;
+    }
+    case Op::sqrt: {  // |√b - s̃| = |b - s̃²|/(√b + s̃)
+      const double bMin = minimum(v.a) - r(v.a) * kUp, sMin = minimum(node);
+      if (!(bMin > 0 && sMin > 0)) return false;
+      const double below = (sMin + std::sqrt(bMin)) * (1 - 0x1p-50);
+      z0 = (own0 + r0(v.a)) / below;
+      z1 = (own1 + r1(v.a)) / below;
+      break;
+    }
+    case Op::exp: {
+      // ẽ' = ũ'ẽ + defect grows by at most e^{osc}, osc ≤ 2 Σ_{(i,α)≠0}|u_{iα}|θ^i; e^{u} - e^{ũ}: (e^ρ-1) ≤ e^ρ ρ.
+      const double rest = norm_[at(v.a)] - std::fabs(f_[plan_[at(v.a)].f]) * (1 - 0x1p-50);
+      if (!(rest < 300 && r(v.a) < 300)) return false;
+      const double growth = exp(Interval(2 * rest * kUp)).upper();
+      const double tilt = (norm_[at(node)] + (own0 + own1) * growth) * exp(Interval(r(v.a) * kUp)).upper();
+      z0 = own0 * growth + tilt * r0(v.a);
+      z1 = own1 * growth + tilt * r1(v.a);
+      break;
+    }
+    case Op::log: {  // defect over min|ũ|, and |log u - log ũ| ≤ ρ_u / min|u|
+      const double below = (minimum(v.a) - r(v.a) * kUp) * (1 - 0x1p-50);
+      if (!(below > 0)) return false;
+      z0 = pointError_[at(node)] + (own0 + r0(v.a)) / below;
+      z1 = (own1 + r1(v.a)) / below;
+      break;
+    }
+    case Op::atan: {  // 1 + ũ² ≥ 1; w̃ is off 1 + ũ² by its own bound and by u² - ũ²; |atan u - atan ũ| ≤ ρ_u
+      const double offW = r(v.b) + (2 * norm_[at(v.a)] + r(v.a)) * r(v.a);
+      z0 = pointError_[at(node)] + own0 + norm_[at(node)] * offW + r0(v.a);
+      z1 = own1 + r1(v.a);
+      break;
+    }
+    case Op::sin:
+    case Op::cos:
+      z0 = own0 + r0(v.a);
+      z1 = own1 + r1(v.a);
+      break;
+  }
+  rho0_[at(node)] = z0 * kUp + kTiny;
+  rho1_[at(node)] = z1 * kUp;
+  return rho0_[at(node)] + rho1_[at(node)] < kLargest;
+}
+
+bool PolynomialSeries::bound(const double* E, bool primaryOnly) {
+  for (int i = 0; i < time_; ++i) {
+    const bool state = i < n_;
+    rho0_[at(i)] = !state ? radius_[at(i)] : E != nullptr ? E[i] : 0.0;
+    rho1_[at(i)] = state ? top_[at(i)] : 0.0;  // the order that x keeps and nodes do not
+  }
+  for (int node = time_ + 1; node < nodes_; ++node) {
+    if (plan_[at(node)].constant) rho0_[at(node)] = radius_[at(node)];
+    if (primaryOnly && !plan_[at(node)].primary) continue;
+    if (!boundNode(node)) return false;
+  }
+  return true;
+}
+
+double PolynomialSeries::jacobianBound(int i, int j) const {
+  const int node = outputs_[at(n_ + i * n_ + j)];
+  return (norm_[at(node)] + rho0_[at(node)] + rho1_[at(node)]) * kUp;
+}
+
+void PolynomialSeries::frameDefect(int i, int j, double& nu0, double& nu1) const {
+  double z0 = 0, z1 = 0, rounding = 0;
+  int terms = 0;
+  for (int k = 0; k < n_; ++k) {
+    const int a = outputs_[at(n_ + i * n_ + k)], b = frameNode(k, j);
+    if (plan_[at(a)].constant && norm_[at(a)] == 0 && radius_[at(a)] == 0) continue;
+    ++terms;
+    const double ra0 = rho0_[at(a)], ra1 = rho1_[at(a)], top = top_[at(b)];
+    z0 += norm_[at(b)] * ra0 + (ra0 + ra1) * top;
+    z1 += norm_[at(b)] * ra1 + norm_[at(a)] * top + tailTime(a, b);
+    if (monomials_->degree() > 0) z0 += tailDegree(a, b, frameDegree_, 0);
+    rounding += plan_[at(a)].constant ? norm_[at(a)] * norm_[at(b)] : weighted_[at(a)] * weighted_[at(b)];
+  }
+  // A sum of `terms` products has at most terms·N roundings a term, and one more in the division by i+1.
+  nu0 = (z0 + (terms + 1) * kUnit * rounding) * kUp + kTiny;
+  nu1 = z1 * kUp;
+}
+
+}  // namespace gamut

@@ -1,0 +1,229 @@
+#include "analyses/uncertainty.hpp"
+
+#include <gsl/gsl_cdf.h>
+
+#include <algorithm>
+#include <boost/math/special_functions/beta.hpp>
+#include <cmath>
+#include <stdexcept>
+
+namespace gamut {
+namespace {
+
+void require(bool good, const std::string& what) {
+  if (!good) throw std::invalid_argument(what);
+}
+
+void requireBounded(const Interval& support, const char* of) {
+  require(!isEmpty(support) && isBounded(support),
+          std::string(of) + " needs a bounded support, not " + toString(support));
+}
+
+void requirePositive(double value, const char* what) {
+  require(value > 0 && std::isfinite(value), std::string(what) + " must be positive, not " + std::to_string(value));
+}
+
+double clamp(double value, const Interval& range) { return std::clamp(value, range.lower(), range.upper()); }
+
+}  // namespace
+
+// ---- Distribution
+// -----------------------------------------------------------------------------------------------------
+
+Distribution::Distribution(Shape shape, const Interval& support, double first, double second)
+    : shape_(shape), support_(support), first_(first), second_(second) {
+  requireBounded(support, "a distribution");
+  if ((shape == Shape::normal || shape == Shape::lognormal) && !isThin(support)) {
+    const bool logarithmic = shape == Shape::lognormal;
+    const double lower = logarithmic ? std::log(support.lower()) : support.lower();
+    const double upper = logarithmic ? std::log(support.upper()) : support.upper();
+    require(truncatedNormalCumulative(upper, lower, upper) == 1,  // 0/0 without mass
+            "the " + std::string(name()) + " distribution has no mass on its support " + toString(support));
+  }
+}
+
+Distribution Distribution::uniform(const Interval& support) { return {Shape::uniform, support, 0, 0}; }
+
+Distribution Distribution::triangular(const Interval& support, double mode) {
+  require(contains(support, mode), "the mode " + std::to_string(mode) +
+                                       " of a triangular distribution lies outside its support " + toString(support));
+  return {Shape::triangular, support, mode, 0};
+}
+
+Distribution Distribution::normal(const Interval& support, double mean, double deviation) {
+  require(std::isfinite(mean), "the mean of a normal distribution must be finite");
+  requirePositive(deviation, "the deviation of a normal distribution");
+  return {Shape::normal, support, mean, deviation};
+}
+
+Distribution Distribution::beta(const Interval& support, double a, double b) {
+  requirePositive(a, "the first parameter of a beta distribution");
+  requirePositive(b, "the second parameter of a beta distribution");
+  return {Shape::beta, support, a, b};
+}
+
+Distribution Distribution::lognormal(const Interval& support, double logMean, double logDeviation) {
+  require(std::isfinite(logMean), "the logarithmic mean of a lognormal distribution must be finite");
+  requirePositive(logDeviation, "the logarithmic deviation of a lognormal distribution");
+  require(support.lower() >= 0,
+          "a lognormal distribution needs a support that is not negative, not " + toString(support));
+  return {Shape::lognormal, support, logMean, logDeviation};
+}
+
+std::string_view Distribution::name() const {
+  switch (shape_) {
+    case Shape::uniform:
+      return "uniform";
+    case Shape::triangular:
+      return "triangular";
+    case Shape::normal:
+      return "normal";
+    case Shape::beta:
+      return "beta";
+    case Shape::lognormal:
+      return "lognormal";
+  }
+  return {};
+}
+
+double Distribution::truncatedNormal(double u, double lower, double upper) const {
+  const double a = (lower - first_) / second_, b = (upper - first_) / second_;
+  // Where the support lies right of the mean, upper tails keep the digits that probabilities near 1 have lost; the
+  // inverse is taken on the side on which the result lies.
+  if (a + b > 0) {
+    const double tail = gsl_cdf_ugaussian_Q(b) + (1 - u) * (gsl_cdf_ugaussian_Q(a) - gsl_cdf_ugaussian_Q(b));
+    return first_ + second_ * gsl_cdf_ugaussian_Qinv(tail);
+  }
+  const double tail = gsl_cdf_ugaussian_P(a) + u * (gsl_cdf_ugaussian_P(b) - gsl_cdf_ugaussian_P(a));
+  return first_ + second_ * gsl_cdf_ugaussian_Pinv(tail);
+}
+
+double Distribution::truncatedNormalCumulative(double value, double lower, double upper) const {
+  const double a = (lower - first_) / second_, b = (upper - first_) / second_, v = (value - first_) / second_;
+  if (a + b > 0)
+    return (gsl_cdf_ugaussian_Q(a) - gsl_cdf_ugaussian_Q(v)) / (gsl_cdf_ugaussian_Q(a) - gsl_cdf_ugaussian_Q(b));
+  return (gsl_cdf_ugaussian_P(v) - gsl_cdf_ugaussian_P(a)) / (gsl_cdf_ugaussian_P(b) - gsl_cdf_ugaussian_P(a));
+}
+
+double Distribution::quantile(double u) const {
+  require(u >= 0 && u <= 1, "a probability lies between 0 and 1, not at " + std::to_string(u));
+  const double lower = support_.lower(), upper = support_.upper(), span = upper - lower;
+  if (u == 0 || lower == upper) return lower;
+  if (u == 1) return upper;
+  switch (shape_) {
+    case Shape::uniform:
+      return clamp(lower + u * span, support_);
+    case Shape::triangular:
+      // u = (v-lower)² / (span (mode-lower)) up to the mode, 1-u = (upper-v)² / (span (upper-mode)) beyond
+      if (u * span < first_ - lower) return clamp(lower + std::sqrt(u * span * (first_ - lower)), support_);
+      return clamp(upper - std::sqrt((1 - u) * span * (upper - first_)), support_);
+    case Shape::normal:
+      return clamp(truncatedNormal(u, lower, upper), support_);
+    // GSL's inverse ends the process when its iteration does not converge; Boost.Math's holds for all parameters.
+    case Shape::beta:
+      return clamp(lower + boost::math::ibeta_inv(first_, second_, u) * span, support_);
+    case Shape::lognormal:
+      return clamp(std::exp(truncatedNormal(u, std::log(lower), std::log(upper))), support_);
+  }
+  return lower;
+}
+
+double Distribution::cumulative(double value) const {
+  const double lower = support_.lower(), upper = support_.upper(), span = upper - lower;
+  if (value >= upper) return 1;
+  if (value <= lower) return 0;
+  switch (shape_) {
+    case Shape::uniform:
+      return (value - lower) / span;
+    case Shape::triangular:
+      if (value < first_) return (value - lower) / span * ((value - lower) / (first_ - lower));
+      return 1 - (upper - value) / span * ((upper - value) / (upper - first_));
+    case Shape::normal:
+      return truncatedNormalCumulative(value, lower, upper);
+    case Shape::beta:
+      return boost::math::ibeta(first_, second_, (value - lower) / span);
+    case Shape::lognormal:
+      return truncatedNormalCumulative(std::log(value), std::log(lower), std::log(upper));
+  }
+  return 0;
+}
+
+// ---- Membership
+// -------------------------------------------------------------------------------------------------------
+
+Membership::Membership(Shape shape, const Interval& support, const Interval& core, double deviation)
+    : shape_(shape), support_(support), core_(core), deviation_(deviation) {
+  requireBounded(support, "a membership function");
+  require(isSubset(core, support),
+          "the core " + toString(core) + " of a membership function lies outside its support " + toString(support));
+}
+
+Membership Membership::triangular(double lower, double apex, double upper) {
+  return {Shape::triangular, Interval(lower, upper), Interval(apex), 0};
+}
+
+Membership Membership::trapezoidal(double lower, double left, double right, double upper) {
+  return {Shape::trapezoidal, Interval(lower, upper), Interval(left, right), 0};
+}
+
+Membership Membership::gaussian(const Interval& support, double centre, double deviation) {
+  requirePositive(deviation, "the deviation of a membership function");
+  return {Shape::gaussian, support, Interval(centre), deviation};
+}
+
+std::string_view Membership::name() const {
+  switch (shape_) {
+    case Shape::triangular:
+      return "triangular";
+    case Shape::trapezoidal:
+      return "trapezoidal";
+    case Shape::gaussian:
+      return "gaussian";
+  }
+  return {};
+}
+
+Interval Membership::cut(double alpha) const {
+  require(alpha >= 0 && alpha <= 1, "an alpha level lies between 0 and 1, not at " + std::to_string(alpha));
+  if (alpha == 0) return support_;
+  if (alpha == 1) return core_;
+  Interval left, right;
+  if (shape_ == Shape::gaussian) {
+    const Interval reach = deviation_ * sqrt(-2.0 * log(Interval(alpha)));
+    left = core_ - reach;
+    right = core_ + reach;
+  } else {  // the flanks are straight; directed rounding is monotone in alpha, so that cuts stay nested
+    left = support_.lower() + alpha * (Interval(core_.lower()) - support_.lower());
+    right = support_.upper() - alpha * (Interval(support_.upper()) - core_.upper());
+  }
+  return intersection(hull(core_, Interval(left.lower(), right.upper())), support_);
+}
+
+double Membership::operator()(double value) const {
+  if (!contains(support_, value)) return 0;
+  if (contains(core_, value)) return 1;
+  Interval degree;
+  if (shape_ == Shape::gaussian)
+    degree = exp(-0.5 * sqr((Interval(value) - core_) / deviation_));
+  else if (value < core_.lower())
+    degree = (Interval(value) - support_.lower()) / (Interval(core_.lower()) - support_.lower());
+  else
+    degree = (Interval(support_.upper()) - value) / (Interval(support_.upper()) - core_.upper());
+  return std::clamp(degree.lower(), 0.0, 1.0);
+}
+
+// ---- Uncertain
+// --------------------------------------------------------------------------------------------------------
+
+void Uncertain::check() const {
+  const std::string of = "uncertain quantity '" + name + "': ";
+  require(!isEmpty(range) && isBounded(range), of + "its interval must be bounded, not " + toString(range));
+  require(contains(range, nominal),
+          of + "the nominal value " + toString(Interval(nominal)) + " lies outside its interval " + toString(range));
+  require(isSubset(distribution.support(), range),
+          of + "the distribution reaches beyond its interval " + toString(range));
+  require(isSubset(membership.support(), range),
+          of + "the membership function reaches beyond its interval " + toString(range));
+}
+
+}  // namespace gamut

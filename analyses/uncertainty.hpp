@@ -1,0 +1,96 @@
+// One uncertain quantity, three views: an interval (what is guaranteed), a distribution (what is probable) and a
+// membership function (what is possible). Both supports lie inside the interval, so a sample or an alpha-cut that
+// leaves an enclosure of the interval is an error of the program, never bad luck.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "scalars/interval.hpp"
+
+namespace gamut {
+
+/// How probable the values of a quantity are: a continuous distribution on a bounded support.
+class Distribution {
+ public:
+  /// Uniform on [0, 0].
+  Distribution() = default;
+
+  // Each throws std::invalid_argument, naming the number, for an unbounded support or impossible parameters.
+  static Distribution uniform(const Interval& support);
+  /// Density rising from the support's lower end to `mode` and falling to its upper end.
+  static Distribution triangular(const Interval& support, double mode);
+  /// Normal, truncated to the support.
+  static Distribution normal(const Interval& support, double mean, double deviation);
+  /// Density proportional to v^(a-1) (1-v)^(b-1), v running from 0 to 1 over the support.
+  static Distribution beta(const Interval& support, double a, double b);
+  /// The logarithm is normal with `logMean` and `logDeviation`; truncated to the support, which is not negative.
+  static Distribution lognormal(const Interval& support, double logMean, double logDeviation);
+
+  /// The value below which the quantity lies with probability u (0 … 1): 0 and 1 give the support's ends exactly, and
+  /// every result lies in the support. Throws std::invalid_argument for another u.
+  double quantile(double u) const;
+  /// The probability that the quantity is at most `value`.
+  double cumulative(double value) const;
+
+  const Interval& support() const { return support_; }
+  /// "uniform", "triangular", "normal", "beta" or "lognormal".
+  std::string_view name() const;
+
+ private:
+  enum class Shape { uniform, triangular, normal, beta, lognormal };
+  Distribution(Shape shape, const Interval& support, double first, double second);
+  double truncatedNormal(double u, double lower, double upper) const;
+  double truncatedNormalCumulative(double value, double lower, double upper) const;
+
+  Shape shape_ = Shape::uniform;
+  Interval support_;
+  double first_ = 0;   // mode, mean or a
+  double second_ = 0;  // deviation or b
+};
+
+/// How possible the values of a quantity are: 0 outside the support, 1 on the core.
+class Membership {
+ public:
+  /// 1 at 0 only.
+  Membership() = default;
+
+  // Each throws std::invalid_argument for values out of order or not finite.
+  static Membership triangular(double lower, double apex, double upper);
+  /// 1 from `left` to `right`.
+  static Membership trapezoidal(double lower, double left, double right, double upper);
+  /// exp(-((v - centre) / deviation)² / 2) on the support, which contains the centre; 0 outside.
+  static Membership gaussian(const Interval& support, double centre, double deviation);
+
+  /// Contains every value with membership at least `alpha` (0 … 1), for alpha = 0 the support. Rounded outward but
+  /// never beyond the support; nested: a greater alpha gives a subset.
+  Interval cut(double alpha) const;
+  /// Rounded downward, so that a value with (*this)(value) >= alpha lies in cut(alpha).
+  double operator()(double value) const;
+
+  const Interval& support() const { return support_; }
+  /// "triangular", "trapezoidal" or "gaussian".
+  std::string_view name() const;
+
+ private:
+  enum class Shape { triangular, trapezoidal, gaussian };
+  Membership(Shape shape, const Interval& support, const Interval& core, double deviation);
+
+  Shape shape_ = Shape::triangular;
+  Interval support_, core_;
+  double deviation_ = 0;
+};
+
+/// An uncertain quantity.
+struct Uncertain {
+  std::string name;
+  Interval range;
+  double nominal = 0;
+  Distribution distribution;
+  Membership membership;
+
+  /// Throws std::invalid_argument, naming the quantity, unless the nominal value and both supports lie in the range.
+  void check() const;
+};
+
+}  // namespace gamut

@@ -1,0 +1,65 @@
+// The independent witness: one motion at a time, integrated by SUNDIALS CVODE (Hindmarsh et al., ACM TOMS 31, 2005) in
+// ordinary double arithmetic. It shares the recorded Program with the validated flow, and nothing else.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "scalars/program.hpp"
+
+namespace gamut {
+
+/// ẋ = f(t, x, p), y = g(t, x, p), watched at `times`.
+struct Motion {
+  Program f;                  ///< one output a state; no states at all: y is a function of time and parameters
+  Program g;                  ///< the states and parameters of f; one output a watched quantity
+  std::vector<double> times;  ///< output times, rising, s; the motion starts at 0
+
+  /// Number of start values: the states, then the parameters.
+  std::size_t startValues() const { return static_cast<std::size_t>(f.states() + f.parameters()); }
+  std::size_t outputs() const { return static_cast<std::size_t>(g.outputs()); }
+  /// Throws std::invalid_argument, saying what does not fit together.
+  void check() const;
+};
+
+/// Tolerances of CVODE's local error test: relative * |x| + absolute, for every state.
+struct Tolerance {
+  double relative = 1e-10;
+  double absolute = 1e-12;
+
+  /// So many times tighter, but relative no tighter than 1e-14: beyond that doubles end what a solver can do.
+  Tolerance tightened(double factor) const;
+};
+
+/// CVODE's method family: Adams with functional iteration is the fastest for mechanisms without stiff springs; the
+/// backward differentiation formulas with Newton iteration are for those with them.
+enum class Method { adams, bdf };
+
+/// How far an integration got.
+struct Integration {
+  std::size_t times = 0;  ///< number of output times reached
+  double reached = 0;     ///< s
+  std::string why;        ///< CVODE's words if it ended early, otherwise empty
+};
+
+/// Integrates one motion after another. One a thread; it must not outlive the motion's programs.
+class Witness {
+ public:
+  explicit Witness(const Motion& motion, Method method = Method::adams, const std::atomic<bool>* cancelled = nullptr);
+  ~Witness();
+  Witness(Witness&&) noexcept;
+  Witness& operator=(Witness&&) noexcept;
+
+  /// start: the initial values, then the parameters. trajectory: row by row one output time, one column an output;
+  /// NaN beyond what was reached. The result depends on the arguments alone, not on what was integrated before.
+  Integration integrate(std::span<const double> start, const Tolerance& tolerance, std::span<double> trajectory);
+
+ private:
+  struct Solver;
+  std::unique_ptr<Solver> solver_;
+};
+
+}  // namespace gamut

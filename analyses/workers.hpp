@@ -1,0 +1,55 @@
+// Runs independent pieces of work on a few threads: each thread makes its own worker (buffers, solver memory), and the
+// workers take the next number until none is left. What comes out must depend on the number alone, not on the thread.
+#pragma once
+
+#include <ctime>
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace gamut {
+
+/// CPU time of the calling thread, s.
+inline double threadCpuSeconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+/// Calls worker(i) for i = 0 … count-1, where `worker = makeWorker()` is made once on each of at most `jobs` threads.
+/// Ends early when `cancelled` is set. The first exception ends all and is thrown again here.
+/// Returns the CPU time of all threads, s.
+template <class MakeWorker>
+double forEachIndex(int jobs, std::size_t count, const std::atomic<bool>* cancelled, const MakeWorker& makeWorker) {
+  std::atomic<std::size_t> next{0};
+  std::exception_ptr failure;
+  double cpu = 0;
+  std::mutex mutex;
+  const auto run = [&] {
+    const double start = threadCpuSeconds();
+    try {
+      auto worker = makeWorker();
+      for (std::size_t i = next++; i < count && !(cancelled != nullptr && *cancelled); i = next++) worker(i);
+    } catch (...) {
+      next = count;
+      const std::lock_guard lock(mutex);
+      if (!failure) failure = std::current_exception();
+    }
+    const std::lock_guard lock(mutex);
+    cpu += threadCpuSeconds() - start;
+  };
+  std::vector<std::jthread> threads;
+  const std::size_t wanted = std::min(count, static_cast<std::size_t>(std::max(jobs, 1)));
+  for (std::size_t i = 1; i < wanted; ++i) threads.emplace_back(run);
+  if (count > 0) run();
+  threads.clear();  // joins
+  if (failure) std::rethrow_exception(failure);
+  return cpu;
+}
+
+}  // namespace gamut

@@ -1,0 +1,249 @@
+// The sampled ensemble against known solutions; the same numbers whatever the number of jobs.
+#include "analyses/ensemble.hpp"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <mutex>
+#include <stdexcept>
+
+#include "tests/analyses/motions.hpp"
+
+namespace gamut {
+namespace {
+
+using namespace testing_motions;
+using testing::DoubleNear;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+EnsembleOptions samples(std::size_t count, int jobs = 1) {
+  EnsembleOptions options;
+  options.samples = count;
+  options.jobs = jobs;
+  return options;
+}
+
+/// Greatest distance of the oscillator's samples from the known solution.
+double oscillatorError(const Ensemble& e) {
+  double error = 0;
+  for (std::size_t i = 0; i < e.size(); ++i)
+    for (std::size_t t = 0; t < e.times.size(); ++t) {
+      const double w = e.valuesOf(i)[0], a = e.valuesOf(i)[1];
+      error = std::max(error, std::abs(e(i, t, 0) - a * std::cos(w * e.times[t])));
+      error = std::max(error, std::abs(e(i, t, 1) + a * w * std::sin(w * e.times[t])));
+    }
+  return error;
+}
+
+bool sameBits(const std::vector<double>& a, const std::vector<double>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
+}
+
+TEST(Ensemble, FollowsTheHarmonicOscillatorInEverySampleCornerAndTheCentre) {
+  for (Method method : {Method::adams, Method::bdf}) {
+    EnsembleOptions options = samples(40);
+    options.method = method;
+    const Ensemble e = sampleEnsemble(oscillator(), options);
+    EXPECT_EQ(e.size(), 40u + 4u + 1u);
+    EXPECT_LT(oscillatorError(e), method == Method::adams ? 3e-8 : 3e-7);
+    EXPECT_TRUE(e.complete);
+    EXPECT_EQ(e.reached, 3);
+    EXPECT_EQ(e.why, "");
+    EXPECT_EQ(e(e.centre(), 0, 0), 1);
+  }
+}
+
+TEST(Ensemble, IsTheSameBitByBitWhateverTheNumberOfJobs) {
+  const Ensemble one = sampleEnsemble(oscillator(), samples(100, 1));
+  const Ensemble three = sampleEnsemble(oscillator(), samples(100, 3));
+  EXPECT_TRUE(sameBits(one.data, three.data));
+  EXPECT_TRUE(sameBits(one.values, three.values));
+  EXPECT_TRUE(sameBits(one.error.data, three.error.data));
+}
+
+TEST(Witness, ForgetsWhatItIntegratedBefore) {
+  const UncertainMotion system = oscillator();
+  std::vector<double> fresh(31 * 2), used(31 * 2), other(31 * 2);
+  Witness(system.motion).integrate(std::vector{1.0, 0.0, 2.0}, {}, fresh);
+  Witness witness(system.motion);
+  witness.integrate(std::vector{0.3, 5.0, 9.0}, {1e-6, 1e-8}, other);
+  witness.integrate(std::vector{1.0, 0.0, 2.0}, {}, used);
+  EXPECT_TRUE(sameBits(fresh, used));
+}
+
+TEST(Tolerance, IsTightenedInBothPartsButNotBeyondWhatDoublesCanDo) {
+  const Tolerance usual = Tolerance{1e-10, 1e-12}.tightened(100);
+  EXPECT_DOUBLE_EQ(usual.relative, 1e-12);
+  EXPECT_DOUBLE_EQ(usual.absolute, 1e-14);
+  EXPECT_EQ((Tolerance{1e-13, 1e-15}.tightened(100).relative), 1e-14);
+  EXPECT_EQ((Tolerance{5e-15, 1e-15}.tightened(100).relative), 5e-15);
+}
+
+TEST(Witness, TighterTolerancesComeCloserToTheSolution) {
+  const UncertainMotion system = oscillator();
+  std::vector<double> y(31 * 2);
+  double before = 1;
+  for (double relative : {1e-6, 1e-8, 1e-10, 1e-12}) {
+    Witness(system.motion).integrate(std::vector{1.0, 0.0, 2.0}, {relative, relative * 1e-2}, y);
+    double error = 0;
+    for (std::size_t t = 0; t < 31; ++t)
+      error = std::max(error, std::abs(y[2 * t] - std::cos(0.2 * static_cast<double>(t))));
+    EXPECT_LT(error, 0.2 * before);
+    EXPECT_LT(error, 300 * relative);  // between the solver's own steps too
+    before = error;
+  }
+}
+
+TEST(Ensemble, TheMeasuredWitnessErrorIsTheActualOne) {
+  const Ensemble e = sampleEnsemble(oscillator(), samples(400));
+  double measured = 0;
+  for (double error : e.error.data) measured = std::max(measured, error);
+  const double actual = oscillatorError(e);
+  EXPECT_GT(measured, 0.1 * actual);
+  EXPECT_LT(measured, 1.5 * actual);
+}
+
+TEST(Ensemble, TheEnvelopeOfAMonotoneMotionHasItsEndsAtTheCorners) {
+  const Ensemble e = sampleEnsemble(decay(), samples(20));
+  const Envelope envelope = e.envelope();
+  for (std::size_t t = 0; t < e.times.size(); ++t) {
+    EXPECT_THAT(envelope.lower(t, 0), DoubleNear(std::exp(-1.5 * e.times[t]), 1e-8));
+    EXPECT_THAT(envelope.upper(t, 0), DoubleNear(std::exp(-0.5 * e.times[t]), 1e-8));
+  }
+}
+
+TEST(Statistics, OfALinearMapAreTheMapOfTheDistributions) {
+  EnsembleOptions options = samples(101);
+  options.plan = Plan::grid;  // p = 0, 0.01 … 1
+  const Ensemble e = sampleEnsemble(line(), options);
+  const Statistics s = statistics(e);
+  ASSERT_EQ(s.quantiles.size(), 5u);
+  const double expected[] = {0.01, 0.05, 0.5, 0.95, 0.99};
+  for (std::size_t q = 0; q < 5; ++q) {
+    EXPECT_THAT(s.quantiles[q](0, 0), DoubleNear(1 + 2 * expected[q], 1e-14));
+    EXPECT_THAT(s.quantiles[q](1, 0), DoubleNear(2 + 2 * expected[q], 1e-14));
+  }
+  EXPECT_THAT(s.mean(0, 0), DoubleNear(2, 1e-14));
+  // Σ (i-50)² 1e-4 · 4 / 100 over i = 0 … 100, Σ (i-50)² = 85850
+  EXPECT_THAT(s.deviation(0, 0), DoubleNear(std::sqrt(85850 * 1e-4 * 4 / 100), 1e-14));
+}
+
+TEST(Statistics, QuantilesBetweenSamplesAreInterpolated) {
+  EnsembleOptions options = samples(3);
+  options.plan = Plan::grid;  // y = 1, 2, 3
+  const Statistics s = statistics(sampleEnsemble(line(), options), {0, 0.125, 0.25, 0.9, 1});
+  const double expected[] = {1, 1.25, 1.5, 2.8, 3};
+  for (std::size_t q = 0; q < 5; ++q) EXPECT_THAT(s.quantiles[q](0, 0), DoubleNear(expected[q], 1e-14));
+}
+
+TEST(Statistics, CornersAndCentreHaveNoWeight) {
+  const Ensemble e = sampleEnsemble(decay(), samples(16));
+  double sum = 0;
+  for (std::size_t i = 0; i < 16; ++i) sum += e(i, 40, 0);
+  EXPECT_THAT(statistics(e).mean(40, 0), DoubleNear(sum / 16, 1e-15));
+}
+
+TEST(Ensemble, NamesTheSamplesThatFailAndKeepsTheOthers) {
+  UncertainMotion system = decay(1.0, 10);
+  system.motion.f = record(1, 1, [](auto, const auto& x, const auto& p, auto& dx) { dx[0] = p[0] * sqr(x[0]); });
+  const Ensemble e = sampleEnsemble(system, samples(32, 2));  // x = 1 / (1 - p t) ends at 1/p
+  ASSERT_FALSE(e.failed.empty());
+  EXPECT_TRUE(std::ranges::is_sorted(e.failed, {}, &FailedSample::number));
+  for (const FailedSample& failure : e.failed) {
+    const double p = e.valuesOf(failure.number)[0];
+    EXPECT_GE(p, 1 - 1e-6);
+    EXPECT_THAT(failure.reached, DoubleNear(1 / p, 1e-3));
+    EXPECT_NE(failure.why, "");
+  }
+  std::size_t arrived = 0;
+  for (std::size_t i = 0; i < e.size(); ++i) {
+    const double p = e.valuesOf(i)[0];
+    if (p > 0.99) continue;
+    ++arrived;
+    EXPECT_THAT(e(i, 10, 0) * (1 - p), DoubleNear(1, 1e-6));
+  }
+  EXPECT_GT(arrived, 10u);
+  EXPECT_THAT(e.reached, DoubleNear(0.6, 1e-15));  // the corner p = 1.5 ends at 2/3
+  EXPECT_THAT(e.why, HasSubstr("sample " + std::to_string(e.failed.front().number) + " failed"));
+  EXPECT_TRUE(e.complete);
+}
+
+TEST(Ensemble, AMotionWithoutStatesIsEvaluatedDirectly) {
+  const Ensemble e = sampleEnsemble(line(), samples(10));
+  for (std::size_t i = 0; i < e.size(); ++i) EXPECT_EQ(e(i, 1, 0), 2.0 * e.valuesOf(i)[0] + 1.0 + 1.0);
+  EXPECT_LE(e.error(1, 0), 2e-15);
+}
+
+TEST(Ensemble, EndsEarlyWhenCancelledAndSaysSo) {
+  std::atomic<bool> cancelled = false;
+  EnsembleOptions options = samples(200);
+  options.cancelled = &cancelled;
+  options.progress = [&](double done) { cancelled = done > 0.3; };
+  const Ensemble e = sampleEnsemble(oscillator(), options);
+  EXPECT_FALSE(e.complete);
+  EXPECT_EQ(e.why, "cancelled");
+  EXPECT_FALSE(std::isnan(e(0, 30, 0)));
+  EXPECT_TRUE(std::isnan(e(199, 30, 0)));
+}
+
+TEST(Ensemble, ReportsProgressUpToOne) {
+  std::mutex mutex;
+  std::vector<double> reports;
+  EnsembleOptions options = samples(50, 2);
+  options.progress = [&](double done) {
+    const std::lock_guard lock(mutex);
+    reports.push_back(done);
+  };
+  sampleEnsemble(decay(), options);
+  EXPECT_THAT(reports, testing::Contains(1.0));
+  EXPECT_GT(reports.size(), 20u);
+}
+
+TEST(Ensemble, RefusesASystemThatDoesNotFitTogether) {
+  UncertainMotion system = decay();
+  system.slot = {2};
+  EXPECT_THAT([&] { sampleEnsemble(system); }, ThrowsMessage<std::invalid_argument>(HasSubstr("'rate' has no place")));
+  system.slot = {1, 1};
+  system.uncertain.push_back(system.uncertain[0]);
+  EXPECT_THAT([&] { sampleEnsemble(system); }, ThrowsMessage<std::invalid_argument>(HasSubstr("stated twice")));
+  system = decay();
+  system.nominal.pop_back();
+  EXPECT_THROW(sampleEnsemble(system), std::invalid_argument);
+  system = decay();
+  system.motion.times = {0, 1, 1};
+  EXPECT_THROW(sampleEnsemble(system), std::invalid_argument);
+}
+
+TEST(InnerCuts, AreNestedAndHoldTheSamplesOfTheirLevel) {
+  const UncertainMotion system = oscillator();
+  const Ensemble e = sampleEnsemble(system, samples(300));
+  const std::vector<double> alpha = {0, 0.25, 0.5, 0.75, 1};
+  const std::vector<Envelope> cuts = innerCuts(e, system.uncertain, alpha);
+  const Envelope all = e.envelope();
+  for (std::size_t i = 0; i < all.lower.data.size(); ++i) {
+    EXPECT_EQ(cuts[0].lower.data[i], all.lower.data[i]);
+    EXPECT_EQ(cuts[0].upper.data[i], all.upper.data[i]);
+    for (std::size_t level = 1; level < alpha.size(); ++level) {
+      EXPECT_GE(cuts[level].lower.data[i], cuts[level - 1].lower.data[i]);
+      EXPECT_LE(cuts[level].upper.data[i], cuts[level - 1].upper.data[i]);
+    }
+  }
+  for (std::size_t t = 0; t < e.times.size(); ++t) {  // only the centre has membership 1 in everything
+    EXPECT_EQ(cuts[4].lower(t, 0), e(e.centre(), t, 0));
+    EXPECT_EQ(cuts[4].upper(t, 0), e(e.centre(), t, 0));
+  }
+}
+
+TEST(InnerCuts, LeaveOutWhatLiesOutsideTheMembershipsSupport) {
+  UncertainMotion system = line();
+  system.uncertain[0].membership = Membership::triangular(0.25, 0.5, 0.75);
+  const std::vector<Envelope> cuts = innerCuts(sampleEnsemble(system, samples(64)), system.uncertain, {0});
+  EXPECT_GE(cuts[0].lower(0, 0), 1.5);
+  EXPECT_LE(cuts[0].upper(0, 0), 2.5);
+}
+
+}  // namespace
+}  // namespace gamut

@@ -1,0 +1,181 @@
+// The truth that enclosures are judged by: solutions of a recorded program in 128-bit arithmetic, by Taylor series of order
+// 30 whose truncation error in a step is below 1e-33 of the state. Comparisons are exact: a double is exact as a Precise.
+#pragma once
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <random>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "analyses/arbiter.hpp"
+#include "scalars/evaluator.hpp"
+#include "scalars/interval.hpp"
+#include "scalars/program.hpp"
+#include "scalars/recorded.hpp"
+#include "scalars/series.hpp"
+
+namespace gamut::testing {
+
+using Vector = std::vector<Precise>;
+
+/// 128-bit value in interval, without any tolerance.
+inline bool encloses(const Interval& interval, const Precise& value) {
+  return !isEmpty(interval) && Precise(interval.lower()) <= value && value <= Precise(interval.upper());
+}
+
+MATCHER_P(Encloses, value, "encloses " + value.str(40)) { return encloses(arg, value); }
+
+/// Integrates ẋ = f(t, x, p).
+class Reference {
+ public:
+  explicit Reference(const Program& f, int order = 30) : f_(f), order_(order), series_(f_, order) {}
+
+  /// States at `times` (rising, from 0 on). `start`: initial values, then parameters.
+  std::vector<Vector> operator()(const Vector& start, const std::vector<double>& times) {
+    const auto n = static_cast<std::size_t>(f_.states());
+    Vector x(start.begin(), start.begin() + static_cast<std::ptrdiff_t>(n));
+    const Vector p(start.begin() + static_cast<std::ptrdiff_t>(n), start.end());
+    series_.setParameters(p);
+    std::vector<Vector> result;
+    Precise t(0.0);
+    for (;;) {
+      series_.solve(t, x);
+      const Precise h = reach();
+      while (result.size() < times.size() && Precise(times[result.size()]) <= t + h)
+        result.push_back(after(Precise(times[result.size()]) - t));
+      if (result.size() == times.size()) return result;
+      x = after(h);
+      t += h;
+    }
+  }
+
+ private:
+  Precise reach() {
+    Precise size(0.0), h(1e6);
+    for (int order = 0; order < 2 && size == 0; ++order)  // relative to the state, or to its rate where it is zero
+      for (int s = 0; s < f_.states(); ++s) size = std::max(size, Precise(abs(series_.at(s, order))));
+    for (int s = 0; s < f_.states(); ++s)
+      for (int i : {order_ - 1, order_}) {
+        const Precise last = abs(series_.at(s, i));
+        if (last > 0 && size > 0) h = std::min(h, Precise(exp(log(Precise(1e-34) * size / last) / i)));
+      }
+    return h;
+  }
+  Vector after(const Precise& tau) {
+    Vector x(static_cast<std::size_t>(f_.states()));
+    for (std::size_t s = 0; s < x.size(); ++s)
+      for (int i = order_; i >= 0; --i) x[s] = x[s] * tau + series_.at(static_cast<int>(s), i);
+    return x;
+  }
+
+  const Program f_;
+  int order_;
+  Series<Precise> series_;
+};
+
+/// Corners and random points of a box.
+class Points {
+ public:
+  explicit Points(unsigned seed = 1) : engine_(seed) {}
+  double uniform(double lower, double upper) { return std::uniform_real_distribution<>(lower, upper)(engine_); }
+  int integer(int lower, int upper) { return std::uniform_int_distribution<>(lower, upper)(engine_); }
+
+  Vector corner(const Box& box) {
+    Vector x;
+    for (const Interval& side : box) x.push_back(integer(0, 1) == 0 ? side.lower() : side.upper());
+    return x;
+  }
+  Vector inside(const Box& box) {
+    Vector x;
+    for (const Interval& side : box) {
+      const double part = uniform(0, 1);
+      x.push_back(std::clamp(side.lower() * (1 - part) + side.upper() * part, side.lower(), side.upper()));
+    }
+    return x;
+  }
+  /// A double between -1 and 1, one in three of them an end.
+  double signedUnit() {
+    const int choice = integer(0, 5);
+    return choice == 0 ? -1.0 : choice == 1 ? 1.0 : uniform(-1, 1);
+  }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+/// A recorded value and roughly what it is, so that random programs stay inside the domains of their functions.
+struct Guarded {
+  Recorded value;
+  double nominal = 0;
+};
+
+/// The functions that random expressions are made of; each is tested on its own as well.
+inline const std::vector<std::string>& elementaryNames() {
+  static const std::vector<std::string> names = {"add",  "sub",  "neg",  "mul",  "div",  "sqr", "sqrt", "exp",  "log",
+                                                 "sin",  "cos",  "tan",  "atan", "asin", "acos", "tanh", "sinh", "pow"};
+  return names;
+}
+
+/// One function applied to a (and b), with a shifted or scaled into its domain where need be.
+inline Guarded apply(const std::string& name, Guarded a, Guarded b) {
+  const auto positive = [](const Guarded& x) {
+    const double shift = 2.0 - std::min(x.nominal, 0.0);
+    return Guarded{x.value + shift, x.nominal + shift};
+  };
+  const auto small = [](const Guarded& x) {  // below one half
+    const double scale = 0.4 / std::max(1.0, std::fabs(x.nominal));
+    return Guarded{scale * x.value, scale * x.nominal};
+  };
+  if (name == "add") return {a.value + b.value, a.nominal + b.nominal};
+  if (name == "sub") return {a.value - b.value, a.nominal - b.nominal};
+  if (name == "neg") return {-a.value, -a.nominal};
+  if (name == "mul") return {a.value * b.value, a.nominal * b.nominal};
+  if (name == "div") return b = positive(b), Guarded{a.value / b.value, a.nominal / b.nominal};
+  if (name == "sqr") return {sqr(a.value), a.nominal * a.nominal};
+  if (name == "sqrt") return a = positive(a), Guarded{sqrt(a.value), std::sqrt(a.nominal)};
+  if (name == "exp") return a = small(a), Guarded{exp(a.value), std::exp(a.nominal)};
+  if (name == "log") return a = positive(a), Guarded{log(a.value), std::log(a.nominal)};
+  if (name == "sin") return {sin(a.value), std::sin(a.nominal)};
+  if (name == "cos") return {cos(a.value), std::cos(a.nominal)};
+  if (name == "tan") return a = small(a), Guarded{tan(a.value), std::tan(a.nominal)};
+  if (name == "atan") return {atan(a.value), std::atan(a.nominal)};
+  if (name == "asin") return a = small(a), Guarded{asin(a.value), std::asin(a.nominal)};
+  if (name == "acos") return a = small(a), Guarded{acos(a.value), std::acos(a.nominal)};
+  if (name == "tanh") return a = small(a), Guarded{tanh(a.value), std::tanh(a.nominal)};
+  if (name == "sinh") return a = small(a), Guarded{sinh(a.value), std::sinh(a.nominal)};
+  return a = positive(a), Guarded{pow(a.value, -1.5), std::pow(a.nominal, -1.5)};
+}
+
+/// A random expression of `length` functions in time (near 0), states and parameters (near their nominal values).
+class RandomExpressions {
+ public:
+  RandomExpressions(Points& points, std::vector<double> nominal) : points_(points), nominal_(std::move(nominal)) {}
+
+  template <class States>
+  void operator()(const Recorded& t, const States& x, const States& p, std::vector<Recorded>& y, int length) {
+    std::vector<Guarded> pool{{t, 0.0}, {Recorded(points_.uniform(-2, 2)), 1.0}};
+    for (std::size_t i = 0; i < x.size(); ++i) pool.push_back({x[i], nominal_[i]});
+    for (std::size_t i = 0; i < p.size(); ++i) pool.push_back({p[i], nominal_[x.size() + i]});
+    const auto& names = elementaryNames();
+    for (int i = 0; i < length; ++i) {
+      const std::string& name = names[static_cast<std::size_t>(points_.integer(0, static_cast<int>(names.size()) - 1))];
+      Guarded next = apply(name, pick(pool), pick(pool));
+      if (std::fabs(next.nominal) > 4) next = {next.value * 0.125, next.nominal * 0.125};
+      pool.push_back(next);
+    }
+    for (Recorded& value : y) value = 0.5 * pick(pool, 3).value - 0.25 * pick(pool, 3).value;
+  }
+
+ private:
+  Guarded pick(const std::vector<Guarded>& pool, int last = 0) {
+    const int from = last > 0 ? std::max(0, static_cast<int>(pool.size()) - last) : 0;
+    return pool[static_cast<std::size_t>(points_.integer(from, static_cast<int>(pool.size()) - 1))];
+  }
+  Points& points_;
+  std::vector<double> nominal_;
+};
+
+}  // namespace gamut::testing
