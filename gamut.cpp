@@ -1,0 +1,266 @@
+// The program: parses the command line, calls studies and reports, and says in its exit code how it went.
+#include <fmt/format.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <atomic>
+#include <cstdio>
+#include <ctime>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "reports/report.hpp"
+#include "reports/verdict.hpp"
+#include "studies/atomic_file.hpp"
+#include "studies/driver.hpp"
+#include "studies/progress.hpp"
+#include "studies/results_file.hpp"
+#include "studies/study.hpp"
+#include "studies/summary.hpp"
+#include "studies/version.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace gamut;
+
+enum ExitCode { done = 0, refuted = 1, badInput = 2, endedEarly = 3, failed = 4 };
+
+constexpr const char* exitCodes =
+    "Exit codes:\n"
+    "  0  done, and every sample lies inside its enclosure\n"
+    "  1  a sample left its enclosure, or stayed unresolved\n"
+    "  2  bad input or usage\n"
+    "  3  an analysis ended before its horizon, or nothing could be compared; what was proved is kept and reported\n"
+    "  4  an internal failure";
+
+/// Something the user asked for cannot be done; what() is one line.
+class UsageError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+struct Arguments {
+  std::string input, results, report;
+  int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  std::optional<std::uint64_t> seed;
+  std::optional<std::size_t> samples;
+  bool json = false, quiet = false, force = false;
+};
+
+std::atomic<bool> interrupted{false};
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+/// The first interrupt ends the analyses and keeps what they found; a second one ends the program.
+void endOnInterrupt() {
+  struct sigaction action {};
+  action.sa_handler = [](int) { interrupted = true; };
+  action.sa_flags = SA_RESETHAND;
+  ::sigaction(SIGINT, &action, nullptr);
+  ::sigaction(SIGTERM, &action, nullptr);
+}
+
+/// "double_pendulum" for double_pendulum/study.toml, "arm" for arm.toml.
+std::string nameOfStudy(const std::string& path) {
+  const fs::path file = fs::absolute(path);
+  return file.stem() == "study" && file.has_parent_path() && file.parent_path().has_filename()
+             ? file.parent_path().filename().string()
+             : file.stem().string();
+}
+
+/// Before any work is done: the file may be written, and overwrites nothing that it must not.
+void checkOutput(const std::string& path, const std::string& input, bool force) {
+  std::error_code error;
+  const fs::path folder = fs::path(path).has_parent_path() ? fs::path(path).parent_path() : fs::path(".");
+  if (!fs::is_directory(folder, error)) throw UsageError(path + ": cannot be written; the folder does not exist");
+  if (::access(folder.c_str(), W_OK) != 0) throw UsageError(path + ": cannot be written; the folder is read-only");
+  if (fs::is_directory(path, error)) throw UsageError(path + ": cannot be written; it is a folder");
+  if (fs::equivalent(path, input, error)) throw UsageError(path + ": cannot be written; it is the input");
+  if (fs::exists(path, error) && !force) throw UsageError(path + ": exists already; expected another name, or --force");
+}
+
+double cpuSeconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+void printVerdict(std::FILE* stream, const Verdict& verdict) {
+  fmt::print(stream, "{}\n", verdict.sentence);
+  for (const std::string& note : verdict.notes) fmt::print(stream, "  {}\n", note);
+}
+
+/// Without a comparison there is no verdict: what counts is that the horizon was reached.
+int exitCodeOf(const Results& results, const Verdict& verdict) {
+  if (results.comparison.present) return exitCode(verdict);
+  return reachedTime(results) >= results.horizon ? done : endedEarly;
+}
+
+void say(const Arguments& arguments, const Results& results, const Verdict& verdict) {
+  std::FILE* stream = arguments.json ? stderr : stdout;
+  if (!arguments.quiet) {
+    if (results.comparison.present) printVerdict(stream, verdict);
+    fmt::print(stream, "{}", textSummary(results));
+    fmt::print(stream, "  results: {}\n  report:  {}\n", arguments.results, arguments.report);
+  }
+  if (arguments.json)
+    fmt::print("{}\n", jsonSummary(results, results.comparison.present ? verdict.word : "",
+                                   {arguments.results, arguments.report}));
+}
+
+int runStudy(Arguments arguments) {
+  if (arguments.results.empty()) arguments.results = nameOfStudy(arguments.input) + ".h5";
+  if (arguments.report.empty()) arguments.report = fs::path(arguments.results).replace_extension(".html").string();
+  const Study study = readStudy(arguments.input);
+  if (fs::absolute(arguments.results).lexically_normal() == fs::absolute(arguments.report).lexically_normal())
+    throw UsageError(arguments.report + ": is both results and report; expected two names");
+  checkOutput(arguments.results, arguments.input, arguments.force);
+  checkOutput(arguments.report, arguments.input, arguments.force);
+
+  endOnInterrupt();
+  RunOptions options;
+  options.jobs = arguments.jobs;
+  options.seed = arguments.seed;
+  options.samples = arguments.samples;
+  options.cancelled = &interrupted;
+  ProgressBar bar(!arguments.quiet);
+  options.progress = [&](const std::string& task, double fraction) { bar.update(task, fraction); };
+  Results results;
+  try {
+    results = run(study, options);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(arguments.input + ": " + error.what());
+  }
+  bar.wipe();
+
+  const double start = cpuSeconds();
+  const std::string page = renderReport(results);
+  results.reportCpu = cpuSeconds() - start;
+  writeResults(results, arguments.results);
+  replaceFileText(arguments.report, page);
+  const Verdict verdict = judge(results);
+  say(arguments, results, verdict);
+  return exitCodeOf(results, verdict);
+}
+
+int validateStudy(const Arguments& arguments) {
+  const Study study = readStudy(arguments.input);
+  if (!arguments.quiet)
+    fmt::print("{}: valid; {} with {} elements, {} uncertain quantities, {} outputs at {} times\n", arguments.input,
+               study.analysisName(), study.mechanism.elements().size(), study.uncertain.size(), study.outputs.size(),
+               study.time.size());
+  return done;
+}
+
+int checkResults(const Arguments& arguments) {
+  const Verdict verdict = judge(readResults(arguments.input));
+  printVerdict(stdout, verdict);
+  return exitCode(verdict);
+}
+
+int reportResults(const Arguments& arguments) {
+  const std::string path = arguments.report.empty()
+                               ? fs::path(arguments.input).filename().replace_extension(".html").string()
+                               : arguments.report;
+  const Results results = readResults(arguments.input);
+  checkOutput(path, arguments.input, arguments.force);
+  writeReport(results, path);
+  fmt::print("{}\n", path);
+  return done;
+}
+
+int showInfo(const Arguments& arguments) {
+  const Results results = readResults(arguments.input);
+  fmt::print("{}", infoText(results));
+  if (results.comparison.present) fmt::print("  {}\n", judge(results).sentence);
+  return done;
+}
+
+void describeRun(CLI::App& command, Arguments& arguments) {
+  command.add_option("study", arguments.input, "Study file (TOML)")->required()->type_name("STUDY.toml");
+  command
+      .add_option(
+          "-o,--output", arguments.results,
+          "Results file; otherwise, in the current folder, named after the study (after its folder if it is called "
+          "study.toml)")
+      ->type_name("RESULTS.h5");
+  command.add_option("--report", arguments.report, "Report page; otherwise named like the results")
+      ->type_name("REPORT.html");
+  command.add_option("--jobs", arguments.jobs, "Threads; otherwise as many as the machine has")
+      ->check(CLI::Range(1, 1024))
+      ->type_name("N");
+  command.add_option("--seed", arguments.seed, "Seed of the sampling plan, instead of the study's")->type_name("S");
+  command.add_option("--samples", arguments.samples, "Number of samples, instead of the study's")
+      ->check(CLI::Range(1, 10000000))
+      ->type_name("N");
+  command.add_flag("--json", arguments.json, "One JSON object on standard output, all else on standard error");
+  command.add_flag("--quiet", arguments.quiet, "Neither progress nor summary");
+  command.add_flag("--force", arguments.force, "Overwrite existing files");
+}
+
+int parseAndRun(int argc, char** argv) {
+  CLI::App app("Gamut: guaranteed, probable and possible motion of uncertain mechanisms.");
+  app.set_version_flag("--version", "gamut " + version());
+  app.require_subcommand(1);
+  app.footer(exitCodes);
+  Arguments arguments;
+  int (*action)(const Arguments&) = nullptr;
+
+  CLI::App* runCommand = app.add_subcommand("run", "Run a study; write results and a report");
+  describeRun(*runCommand, arguments);
+  runCommand->footer(exitCodes);
+  runCommand->callback([&] { action = [](const Arguments& a) { return runStudy(a); }; });
+
+  CLI::App* validate = app.add_subcommand("validate", "Read and check a study file, no more");
+  validate->add_option("study", arguments.input, "Study file (TOML)")->required()->type_name("STUDY.toml");
+  validate->add_flag("--quiet", arguments.quiet, "Say nothing if it is valid");
+  validate->callback([&] { action = validateStudy; });
+
+  const auto addResults = [&](CLI::App* command) {
+    command->add_option("results", arguments.input, "Results file")->required()->type_name("RESULTS.h5");
+  };
+  CLI::App* check = app.add_subcommand("check", "The verdict, from the stored numbers: do all samples stay inside?");
+  addResults(check);
+  check->footer(exitCodes);
+  check->callback([&] { action = checkResults; });
+
+  CLI::App* report = app.add_subcommand("report", "Write the report page of a results file");
+  addResults(report);
+  report
+      ->add_option("-o,--output", arguments.report,
+                   "Report page; otherwise, in the current folder, named like the results")
+      ->type_name("REPORT.html");
+  report->add_flag("--force", arguments.force, "Overwrite an existing file");
+  report->callback([&] { action = reportResults; });
+
+  CLI::App* info = app.add_subcommand("info", "What a results file holds and where it comes from");
+  addResults(info);
+  info->callback([&] { action = showInfo; });
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);
+    throw UsageError(fmt::format("{}; see gamut --help", error.what()));
+  }
+  return action(arguments);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return parseAndRun(argc, argv);
+  } catch (const UsageError& error) {
+    fmt::print(stderr, "gamut: {}\n", error.what());
+    return badInput;
+  } catch (const StudyError& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return badInput;
+  } catch (const ResultsFileError& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return badInput;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "gamut: internal failure: {}\n", error.what());
+    return failed;
+  }
+}

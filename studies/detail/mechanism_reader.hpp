@@ -1,0 +1,12 @@
+// The [mechanism] part of a study file.
+#pragma once
+
+#include "mechanics/mechanism.hpp"
+#include "studies/detail/toml_source.hpp"
+
+namespace gamut {
+
+/// Reads gravity, parameters and elements, in the order of the file. Throws StudyError.
+Mechanism readMechanism(const TomlSource& source, const toml::table& table);
+
+}  // namespace gamut

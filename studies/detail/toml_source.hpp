@@ -1,0 +1,89 @@
+// A TOML file with positions: every complaint says file:line:column, and a number is read from the characters that the
+// user wrote, so that 9.81 is the decimal and not the double nearest to it.
+#pragma once
+
+#include <toml++/toml.h>
+
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "studies/study.hpp"
+#include "studies/units.hpp"
+
+namespace gamut {
+
+/// The text of one TOML file and its parsed tree.
+class TomlSource {
+ public:
+  /// `name` is what messages call the file. Throws StudyError for text that is not TOML.
+  TomlSource(std::string text, std::string name);
+
+  const toml::table& root() const { return root_; }
+  const std::string& text() const { return text_; }
+
+  /// Throws StudyError "file:line:column: what; expected …".
+  [[noreturn]] void fail(const toml::source_position& at, const std::string& what, const std::string& expected) const;
+  [[noreturn]] void fail(const toml::node& at, const std::string& what, const std::string& expected) const {
+    fail(at.source().begin, what, expected);
+  }
+
+  /// As fail, for a sentence with which another room refused what stands at `at`: "wrong; did you mean 'x'?" names what
+  /// was expected itself, any other is followed by `expected`.
+  [[noreturn]] void failWith(const toml::node& at, const std::string& sentence, const std::string& expected) const;
+
+  // What a node holds; `what` names it in messages, e.g. "horizon" or "mechanism.element.name".
+  std::string asText(const toml::node& node, const std::string& what) const;
+  bool asBool(const toml::node& node, const std::string& what) const;
+  std::int64_t asInteger(const toml::node& node, const std::string& what, std::int64_t least, std::int64_t most) const;
+  const toml::table& asTable(const toml::node& node, const std::string& what) const;
+  const toml::array& asArray(const toml::node& node, const std::string& what) const;
+  /// A number in SI units or a string with a unit of the dimension.
+  Amount asAmount(const toml::node& node, const std::string& what, const Dimension& dimension) const;
+  /// A number or string whose dimension is not checked.
+  Amount asAnyAmount(const toml::node& node, const std::string& what) const;
+  /// As asAmount and asAnyAmount, for `text` that was found at `node`.
+  Amount readAmount(const toml::node& node, const std::string& what, const std::string& text,
+                    const Dimension& dimension) const;
+  Amount readAnyAmount(const toml::node& node, const std::string& what, const std::string& text) const;
+  /// One of the words; a near miss is named.
+  std::string asChoice(const toml::node& node, const std::string& what, const std::vector<std::string>& choices) const;
+
+ private:
+  std::string tokenAt(const toml::source_position& at) const;
+  Amount checked(const toml::node& node, const std::string& what, Amount amount, const Dimension& dimension) const;
+
+  std::string text_, name_;
+  std::vector<std::size_t> lineStarts_;
+  toml::table root_;
+};
+
+/// A table whose keys are known: others are refused, with the nearest known one.
+class TomlSection {
+ public:
+  /// `name` as in messages, e.g. "study" or "mechanism.element"; empty for the file itself.
+  TomlSection(const TomlSource& source, const toml::table& table, std::string name, std::vector<std::string> known);
+
+  const TomlSource& source() const { return *source_; }
+  const toml::table& table() const { return *table_; }
+  const toml::node* find(std::string_view key) const { return table_->get(key); }
+  /// Throws StudyError at the table's head if the key is missing.
+  const toml::node& require(std::string_view key, const std::string& expected) const;
+  /// "study.title" for the key "title".
+  std::string nameOf(std::string_view key) const;
+
+  std::string text(std::string_view key) const;
+  std::string text(std::string_view key, const std::string& otherwise) const;
+  bool flag(std::string_view key, bool otherwise) const;
+  std::int64_t integer(std::string_view key, std::int64_t otherwise, std::int64_t least, std::int64_t most) const;
+  /// A dimensionless positive number, nearest double.
+  double positive(std::string_view key, double otherwise) const;
+
+ private:
+  const TomlSource* source_;
+  const toml::table* table_;
+  std::string name_;
+};
+
+}  // namespace gamut

@@ -1,0 +1,364 @@
+// The analyses one after the other: enclosure with its alpha-cuts, samples with theirs, comparison.
+#include "studies/driver.hpp"
+
+#include <ctime>
+
+#include <algorithm>
+#include <span>
+#include <stdexcept>
+#include <utility>
+
+#include "analyses/comparison.hpp"
+#include "mechanics/assembly.hpp"
+#include "scalars/fuzzy.hpp"
+#include "scalars/samples.hpp"
+#include "studies/problem.hpp"
+#include "studies/version.hpp"
+
+namespace gamut {
+namespace {
+
+/// CPU time of the whole process, all threads, s.
+double processCpuSeconds() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+Grid toGrid(const Table& table) {
+  Grid grid(table.times, table.outputs);
+  grid.data = table.data;
+  return grid;
+}
+
+Bounds toBounds(const Envelope& envelope) {
+  Bounds bounds;
+  bounds.lower = toGrid(envelope.lower);
+  bounds.upper = toGrid(envelope.upper);
+  return bounds;
+}
+
+Envelope toEnvelope(const Bounds& bounds) {
+  Envelope envelope(bounds.lower.times, bounds.lower.outputs);
+  envelope.lower.data = bounds.lower.data;
+  envelope.upper.data = bounds.upper.data;
+  return envelope;
+}
+
+void setRow(Bounds& bounds, std::size_t row, const std::vector<Interval>& values) {
+  for (std::size_t j = 0; j < values.size(); ++j) {
+    bounds.lower(row, j) = values[j].lower();
+    bounds.upper(row, j) = values[j].upper();
+  }
+}
+
+class Driver {
+ public:
+  Driver(const Study& study, const RunOptions& options) : study_(study), options_(options) {
+    describe();
+    const double start = processCpuSeconds();
+    problem_ = makeProblem(study_);
+    recordingCpu_ = processCpuSeconds() - start;
+  }
+
+  Results run() {
+    if (study_.interval || study_.fuzzy) {
+      if (study_.analysis == Study::Analysis::dynamics) {
+        encloseMotion();
+      } else {
+        encloseConfiguration();
+      }
+    }
+    if (study_.stochastic) sample();
+    if (study_.stochastic && (study_.interval || study_.fuzzy)) compareAnswers();
+    if (study_.stochastic) describeSamples();
+    results_.interval.present = study_.interval;
+    if (!study_.interval) results_.interval = {};
+    return std::move(results_);
+  }
+
+ private:
+  void describe() {
+    results_.studyText = study_.text;
+    results_.studyFile = study_.file;
+    results_.title = study_.title;
+    results_.analysis = study_.analysisName();
+    results_.seed = options_.seed.value_or(study_.ensemble.seed);
+    results_.version = version();
+    results_.host = hostName();
+    results_.date = dateTime();
+    results_.libraries = libraryVersions();
+    results_.outputs = study_.outputs;
+    results_.horizon = study_.horizon;
+    results_.time = study_.time;
+    for (const UncertainQuantity& q : study_.uncertain) {
+      const Uncertain& u = q.uncertain;
+      results_.uncertain.push_back({u.name, q.quantity, q.unit, u.range.lower(), u.nominal, u.range.upper(),
+                                    std::string(u.distribution.name()), std::string(u.membership.name())});
+    }
+  }
+
+  Bounds emptyBounds() const { return {study_.time.size(), study_.outputs.size()}; }
+
+  std::function<void(double)> progressOf(const std::string& task) const {
+    if (!options_.progress) return {};
+    return [this, task](double fraction) { options_.progress(task, fraction); };
+  }
+
+  // ---- Guaranteed and possible --------------------------------------------------------------------------------------
+
+  void encloseMotion() {
+    const double start = processCpuSeconds();
+    FlowOptions flow = study_.flow;
+    flow.jobs = options_.jobs;
+    flow.progress = progressOf("enclosure");
+    flow.cancelled = options_.cancelled;
+    const Motion& motion = problem_.motion.motion;
+    const Tube tube =
+        Flow(motion.f, motion.g, flow).enclose(problem_.box, study_.horizon, study_.time, problem_.levels);
+    if (tube.times() != study_.time) throw std::logic_error("the flow's output times are not the study's");
+    reachedTimes_ = tube.reachedTimes();
+
+    IntervalResult& interval = results_.interval;
+    interval.at = emptyBounds();
+    interval.over = emptyBounds();
+    for (std::size_t i = 0; i < reachedTimes_; ++i) {
+      setRow(interval.at, i, tube.outputs(i));
+      setRow(interval.over, i, tube.outputsOver(i));
+    }
+    interval.reached = tube.reached();
+    interval.why = tube.why();
+    interval.pieces = tube.pieces();
+    interval.steps = tube.steps();
+    const double cpu = recordingCpu_ + processCpuSeconds() - start;
+    interval.cpu = study_.interval ? cpu - tube.cutCpuSeconds() : 0;
+
+    if (!study_.fuzzy) return;
+    FuzzyResult& fuzzy = startFuzzy();
+    for (std::size_t level = 0; level < problem_.levels.size(); ++level)
+      for (std::size_t i = 0; i < reachedTimes_; ++i) setRow(fuzzy.outer[level], i, tube.cut(level, i));
+    fuzzy.reached = tube.reached();
+    fuzzy.why = tube.why();
+    fuzzy.cpu = cpu - interval.cpu;
+  }
+
+  FuzzyResult& startFuzzy() {
+    FuzzyResult& fuzzy = results_.fuzzy;
+    fuzzy.present = true;
+    fuzzy.alpha = problem_.alpha;
+    fuzzy.outer.assign(problem_.levels.size(), emptyBounds());
+    return fuzzy;
+  }
+
+  /// The assembly itself moved by the scalar, as a vector of the outputs.
+  template <class S>
+  std::vector<S> move(const std::vector<S>& numbers) const {
+    const std::span<const S> values(numbers);
+    Assembly<S> assembly(study_.mechanism, problem_.freeParameters, values.subspan(problem_.states));
+    assembly.setState(values.first(problem_.states));
+    std::vector<S> outputs;
+    for (const std::string& output : problem_.outputs) outputs.push_back(assembly.output(output));
+    return outputs;
+  }
+
+  /// Plain intervals and polynomials both enclose, so their intersection does.
+  void encloseConfiguration() {
+    double start = processCpuSeconds();
+    const std::vector<Interval> direct = move<Interval>(problem_.box);
+    const auto images = encloseImage(problem_.motion.motion.g, 0.0, problem_.box, problem_.levels, study_.flow.degree);
+    std::vector<Interval> enclosure;
+    for (std::size_t j = 0; j < direct.size(); ++j) enclosure.push_back(intersection(direct[j], images[0][j]));
+    IntervalResult& interval = results_.interval;
+    interval.at = emptyBounds();
+    interval.direct = emptyBounds();
+    setRow(interval.at, 0, enclosure);
+    setRow(interval.direct, 0, direct);
+    interval.pieces = 1;
+    reachedTimes_ = 1;
+    interval.cpu = recordingCpu_ + processCpuSeconds() - start;
+    if (!study_.fuzzy) return;
+
+    start = processCpuSeconds();
+    FuzzyResult& fuzzy = startFuzzy();
+    const std::vector<Fuzzy> moved = move<Fuzzy>(fuzzyNumbers());
+    for (std::size_t level = 0; level < problem_.levels.size(); ++level) {
+      for (std::size_t j = 0; j < enclosure.size(); ++j)
+        enclosure[j] = intersection(enclosure[j], intersection(images[level + 1][j], moved[j].cut(level)));
+      setRow(fuzzy.outer[level], 0, enclosure);
+    }
+    fuzzy.cpu = processCpuSeconds() - start;
+  }
+
+  std::vector<Fuzzy> fuzzyNumbers() const {
+    std::vector<Fuzzy> numbers(problem_.box.begin(), problem_.box.end());
+    for (const int slot : problem_.motion.slot) {
+      std::vector<Interval> cuts;
+      for (const Box& level : problem_.levels) cuts.push_back(level[static_cast<std::size_t>(slot)]);
+      numbers[static_cast<std::size_t>(slot)] = Fuzzy(std::move(cuts));
+    }
+    return numbers;
+  }
+
+  // ---- Probable -----------------------------------------------------------------------------------------------------
+
+  void sample() {
+    EnsembleOptions ensemble = study_.ensemble;
+    ensemble.seed = options_.seed.value_or(ensemble.seed);
+    ensemble.samples = options_.samples.value_or(ensemble.samples);
+    ensemble.jobs = options_.jobs;
+    ensemble.progress = progressOf("samples");
+    ensemble.cancelled = options_.cancelled;
+    const double start = processCpuSeconds();
+    ensemble_ = sampleEnsemble(problem_.motion, ensemble);
+    if (study_.analysis == Study::Analysis::kinematics && ensemble_.complete) moveSamples();
+    StochasticResult& stochastic = results_.stochastic;
+    stochastic.present = true;
+    stochastic.plan = std::string(nameOf(ensemble.plan));
+    stochastic.samples = static_cast<std::int64_t>(ensemble_.samples);
+    stochastic.corners = static_cast<std::int64_t>(ensemble_.corners);
+    stochastic.relativeTolerance = ensemble.tolerance.relative;
+    stochastic.absoluteTolerance = ensemble.tolerance.absolute;
+    stochastic.reached = ensemble_.reached;
+    stochastic.why = ensemble_.why;
+    stochastic.envelope = toBounds(ensemble_.envelope());
+    stochastic.cpu = processCpuSeconds() - start;
+  }
+
+  /// Kinematics: the same samples once more, all at once, by the assembly itself instead of its recording.
+  void moveSamples() {
+    std::vector<Samples> numbers;
+    const UncertainMotion& motion = problem_.motion;
+    for (const double value : motion.nominal) numbers.emplace_back(value);
+    for (std::size_t i = 0; i < motion.uncertain.size(); ++i) {
+      std::vector<double> values;
+      for (std::size_t number = 0; number < ensemble_.size(); ++number) values.push_back(ensemble_.valuesOf(number)[i]);
+      numbers[static_cast<std::size_t>(motion.slot[i])] = Samples(std::move(values));
+    }
+    const std::vector<Samples> moved = move<Samples>(numbers);
+    for (std::size_t number = 0; number < ensemble_.size(); ++number)
+      for (std::size_t j = 0; j < moved.size(); ++j)
+        ensemble_.trajectory(number)[j] = moved[j][moved[j].isConstant() ? 0 : number];
+  }
+
+  // ---- Together -----------------------------------------------------------------------------------------------------
+
+  /// Samples against the enclosure, then, from the narrowest to the widest, against the alpha-cuts they belong to.
+  void compareAnswers() {
+    const double start = processCpuSeconds();
+    ComparisonResult& comparison = results_.comparison;
+    comparison.present = true;
+    const bool complete = reachedTimes_ == study_.time.size() && ensemble_.complete && ensemble_.failed.empty();
+    comparison.verdict = complete ? "inside" : "incomplete";
+    if (study_.interval) {
+      const Comparison found =
+          compare({toEnvelope(results_.interval.at), reachedTimes_}, ensemble_, problem_.motion, comparisonOptions());
+      takeDisputes(found, [](std::size_t number) { return number; });
+      comparison.overestimation = toGrid(found.overestimation);
+      comparison.excess = toGrid(found.excess);
+      comparison.maximum = found.maximum;
+      comparison.median = found.median;
+      comparison.maximumOf = found.maximumOf;
+    }
+    for (std::size_t level = problem_.levels.size(); level-- > 0;) compareCut(level);
+    results_.stochastic.envelope = toBounds(ensemble_.envelope());
+    results_.stochastic.cpu += processCpuSeconds() - start;
+  }
+
+  ComparisonOptions comparisonOptions() const {
+    ComparisonOptions options;
+    options.jobs = options_.jobs;
+    options.cancelled = options_.cancelled;
+    return options;
+  }
+
+  /// The samples that lie in the level's box but outside its cut are looked at again, as a small ensemble of their own.
+  void compareCut(std::size_t level) {
+    const Envelope cut = toEnvelope(results_.fuzzy.outer[level]);
+    std::vector<std::size_t> numbers;
+    for (std::size_t number = 0; number < ensemble_.size(); ++number)
+      if (belongsTo(level, number) && leaves(cut, number)) numbers.push_back(number);
+    if (numbers.empty()) return;
+    Ensemble part = partOf(numbers);
+    takeDisputes(compare({cut, reachedTimes_}, part, problem_.motion, comparisonOptions()),
+                 [&](std::size_t number) { return numbers[number]; });
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+      std::ranges::copy(std::as_const(part).trajectory(i), ensemble_.trajectory(numbers[i]).begin());
+  }
+
+  bool belongsTo(std::size_t level, std::size_t number) const {
+    const UncertainMotion& motion = problem_.motion;
+    for (std::size_t i = 0; i < motion.uncertain.size(); ++i) {
+      const Interval& values = problem_.levels[level][static_cast<std::size_t>(motion.slot[i])];
+      if (!contains(values, ensemble_.valuesOf(number)[i])) return false;
+    }
+    return true;
+  }
+
+  bool leaves(const Envelope& cut, std::size_t number) const {
+    const std::span<const double> trajectory = std::as_const(ensemble_).trajectory(number);
+    for (std::size_t i = 0; i < reachedTimes_ * ensemble_.outputs; ++i)
+      if (trajectory[i] < cut.lower.data[i] || trajectory[i] > cut.upper.data[i]) return true;
+    return false;
+  }
+
+  /// An ensemble of these samples alone, the last one in the centre's place.
+  Ensemble partOf(const std::vector<std::size_t>& numbers) const {
+    Ensemble part;
+    part.times = ensemble_.times;
+    part.outputs = ensemble_.outputs;
+    part.quantities = ensemble_.quantities;
+    part.samples = numbers.size() - 1;
+    part.complete = ensemble_.complete;
+    part.tolerance = ensemble_.tolerance;
+    part.method = ensemble_.method;
+    part.error = ensemble_.error;
+    for (const std::size_t number : numbers) {
+      const auto values = ensemble_.valuesOf(number), trajectory = std::as_const(ensemble_).trajectory(number);
+      part.values.insert(part.values.end(), values.begin(), values.end());
+      part.data.insert(part.data.end(), trajectory.begin(), trajectory.end());
+    }
+    return part;
+  }
+
+  template <class NumberOf>
+  void takeDisputes(const Comparison& found, const NumberOf& numberOf) {
+    ComparisonResult& comparison = results_.comparison;
+    if (found.verdict == "outside") comparison.verdict = "outside";
+    if (found.verdict == "unresolved" && comparison.verdict != "outside") comparison.verdict = "unresolved";
+    comparison.excursion = std::max(comparison.excursion, found.excursion);
+    for (const Dispute& d : found.disputes)
+      comparison.disputed.push_back({static_cast<std::int64_t>(numberOf(d.number)), d.time, d.output, d.value, d.lower,
+                                     d.upper, d.distance, d.error, d.decided, d.outside});
+  }
+
+  void describeSamples() {
+    double start = processCpuSeconds();
+    StochasticResult& stochastic = results_.stochastic;
+    const Statistics numbers = statistics(ensemble_);
+    stochastic.mean = toGrid(numbers.mean);
+    stochastic.deviation = toGrid(numbers.deviation);
+    stochastic.error = toGrid(ensemble_.error);
+    stochastic.probabilities = numbers.probabilities;
+    for (const Table& quantile : numbers.quantiles) stochastic.quantiles.push_back(toGrid(quantile));
+    stochastic.cpu += processCpuSeconds() - start;
+    if (!study_.fuzzy) return;
+    start = processCpuSeconds();
+    for (const Envelope& cut : innerCuts(ensemble_, problem_.motion.uncertain, problem_.alpha))
+      results_.fuzzy.inner.push_back(toBounds(cut));
+    results_.fuzzy.cpu += processCpuSeconds() - start;
+  }
+
+  const Study& study_;
+  const RunOptions& options_;
+  Problem problem_;
+  Results results_;
+  Ensemble ensemble_;
+  std::size_t reachedTimes_ = 0;
+  double recordingCpu_ = 0;
+};
+
+}  // namespace
+
+Results run(const Study& study, const RunOptions& options) { return Driver(study, options).run(); }
+
+}  // namespace gamut

@@ -1,0 +1,277 @@
+// Elements by their type; numbers that may be parameters; what the Mechanism itself refuses is said at the element.
+#include "studies/detail/mechanism_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "mechanics/names.hpp"
+
+namespace gamut {
+namespace {
+
+constexpr Dimension plain{}, length{0, 1, 0, 0}, angle{0, 0, 0, 1}, mass{1, 0, 0, 0}, inertia{1, 2, 0, 0},
+    speed{0, 1, -1, 0}, rate{0, 0, -1, 1}, acceleration{0, 1, -2, 0}, stiffness{1, 0, -2, 0}, damping{1, 0, -1, 0},
+    turningStiffness{1, 2, -2, -1}, turningDamping{1, 2, -1, -1};
+
+bool isWordCharacter(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '.'; }
+
+class MechanismReader {
+ public:
+  MechanismReader(const TomlSource& source, const toml::table& table)
+      : source_(source), section_(source, table, "mechanism", {"gravity", "parameters", "element"}) {}
+
+  Mechanism read() {
+    readParameters(section_, "");
+    if (const toml::node* gravity = section_.find("gravity"))
+      guarded(*gravity, [&] { mechanism_.setGravity(vector(*gravity, "mechanism.gravity", acceleration)); });
+    const toml::node& list = section_.require("element", "a table [[mechanism.element]] for each element");
+    const toml::array& elements = source_.asArray(list, "mechanism.element");
+    for (const toml::node& node : elements) readElement(source_.asTable(node, "mechanism.element"));
+    guarded(elements, [&] { mechanism_.check(); });
+    return std::move(mechanism_);
+  }
+
+ private:
+  /// What the mechanism refuses is an error of the file at this place.
+  template <class Action>
+  void guarded(const toml::node& at, const Action& action) const {
+    try {
+      action();
+    } catch (const std::invalid_argument& error) {
+      source_.failWith(at, error.what(), "a mechanism that can be assembled");
+    }
+  }
+
+  /// The table `parameters` of the mechanism ("name") or of an element ("element.name").
+  void readParameters(const TomlSection& section, const std::string& prefix) {
+    const toml::node* node = section.find("parameters");
+    if (node == nullptr) return;
+    const toml::table& table = source_.asTable(*node, section.nameOf("parameters"));
+    std::vector<std::pair<toml::source_position, std::string>> keys;  // in the order of the file
+    for (const auto& [key, value] : table) keys.emplace_back(key.source().begin, std::string(key.str()));
+    std::sort(keys.begin(), keys.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    for (const auto& [position, key] : keys) {
+      const toml::node& value = *table.get(key);
+      const Amount amount = source_.asAnyAmount(value, section.nameOf("parameters." + key));
+      const std::string unit = amount.hasUnit ? unitOf(amount.dimension) : "";
+      guarded(value, [&, &name = key] { mechanism_.addParameter(prefix + name, enclose(amount), unit); });
+    }
+  }
+
+  void readElement(const toml::table& table) {
+    const toml::node* type = table.get("type");
+    const std::string expected = "type = \"revolute\", \"prismatic\", \"link\", \"mass\" or \"spring-damper\"";
+    if (type == nullptr) source_.fail(table, "'mechanism.element.type' is missing", expected);
+    const std::string kind =
+        source_.asChoice(*type, "mechanism.element.type", {"revolute", "prismatic", "link", "mass", "spring-damper"});
+    if (kind == "revolute") {
+      readRevolute(table);
+    } else if (kind == "prismatic") {
+      readPrismatic(table);
+    } else if (kind == "link") {
+      readLink(table);
+    } else if (kind == "mass") {
+      readMass(table);
+    } else if (table.contains("joint")) {
+      readJointSpring(table);
+    } else {
+      readSpring(table);
+    }
+  }
+
+  TomlSection element(const toml::table& table, std::vector<std::string> keys) {
+    keys.insert(keys.begin(), {"type", "name", "parameters"});
+    TomlSection section(source_, table, "mechanism.element", std::move(keys));
+    readParameters(section, section.text("name") + ".");
+    return section;
+  }
+
+  TomlSection initial(const TomlSection& joint, const std::string& position) {
+    static const toml::table none;
+    const toml::node* node = joint.find("initial");
+    const toml::table& table = node == nullptr ? none : source_.asTable(*node, joint.nameOf("initial"));
+    return {source_, table, "mechanism.element.initial", {position, "rate"}};
+  }
+
+  void readRevolute(const toml::table& table) {
+    const TomlSection section = element(table, {"from", "to", "axis", "initial"});
+    const TomlSection start = initial(section, "angle");
+    Revolute joint{section.text("name"), section.text("from"),          section.text("to"),
+                   axis(section),        number(start, "angle", angle), number(start, "rate", rate)};
+    guarded(table, [&] { mechanism_.add(std::move(joint)); });
+  }
+
+  void readPrismatic(const toml::table& table) {
+    const TomlSection section = element(table, {"from", "to", "axis", "initial"});
+    const TomlSection start = initial(section, "displacement");
+    Prismatic joint{section.text("name"),
+                    section.text("from"),
+                    section.text("to"),
+                    axis(section),
+                    number(start, "displacement", length),
+                    number(start, "rate", speed)};
+    guarded(table, [&] { mechanism_.add(std::move(joint)); });
+  }
+
+  void readLink(const toml::table& table) {
+    const TomlSection section = element(table, {"from", "to", "vector", "rotation"});
+    const toml::node& offset = section.require("vector", "the place of frame 'to' in frame 'from', [x, y, z] in m");
+    Link link{section.text("name"), section.text("from"), section.text("to"),
+              vector(offset, section.nameOf("vector"), length), rotations(section)};
+    guarded(table, [&] { mechanism_.add(std::move(link)); });
+  }
+
+  void readMass(const toml::table& table) {
+    const TomlSection section = element(table, {"at", "mass", "centre", "inertia"});
+    section.require("mass", "the mass in kg, or with a unit such as \"250 g\"");
+    Mass body{section.text("name"), section.text("at"), number(section, "mass", mass)};
+    if (const toml::node* centre = section.find("centre"))
+      body.centre = vector(*centre, section.nameOf("centre"), length);
+    if (const toml::node* node = section.find("inertia")) {
+      const toml::array& list = source_.asArray(*node, section.nameOf("inertia"));
+      if (list.size() != 3 && list.size() != 6)
+        source_.fail(*node, fmt::format("{} has {} numbers", section.nameOf("inertia"), list.size()),
+                     "[xx, yy, zz] or [xx, yy, zz, xy, yz, zx] in kg m^2");
+      for (std::size_t i = 0; i < list.size(); ++i)
+        body.inertia[i] = number(list[i], section.nameOf("inertia"), inertia);
+    }
+    guarded(table, [&] { mechanism_.add(std::move(body)); });
+  }
+
+  void readSpring(const toml::table& table) {
+    const TomlSection section =
+        element(table, {"from", "to", "joint", "stiffness", "rest_length", "damping", "from_point", "to_point"});
+    Spring spring{section.text("name"),
+                  section.text("from"),
+                  section.text("to"),
+                  number(section, "stiffness", stiffness),
+                  number(section, "rest_length", length),
+                  number(section, "damping", damping)};
+    if (const toml::node* p = section.find("from_point"))
+      spring.fromPoint = vector(*p, section.nameOf("from_point"), length);
+    if (const toml::node* p = section.find("to_point")) spring.toPoint = vector(*p, section.nameOf("to_point"), length);
+    guarded(table, [&] { mechanism_.add(std::move(spring)); });
+  }
+
+  void readJointSpring(const toml::table& table) {
+    const TomlSection section = element(table, {"joint", "stiffness", "rest", "damping"});
+    const std::string joint = section.text("joint");
+    const std::vector<std::string> states = mechanism_.stateNames();
+    const bool slides = std::find(states.begin(), states.end(), joint + ".displacement") != states.end();
+    JointSpring spring{section.text("name"), joint, number(section, "stiffness", slides ? stiffness : turningStiffness),
+                       number(section, "rest", slides ? length : angle),
+                       number(section, "damping", slides ? damping : turningDamping)};
+    guarded(table, [&] { mechanism_.add(std::move(spring)); });
+  }
+
+  /// "x", "-y", … or a direction [x, y, z].
+  Axis axis(const TomlSection& section) const {
+    const toml::node& node = section.require("axis", "\"x\", \"y\", \"z\", the same with a minus sign, or [x, y, z]");
+    return axis(node, section.nameOf("axis"));
+  }
+
+  Axis axis(const toml::node& node, const std::string& what) const {
+    if (!node.is_array()) {
+      const std::string word = source_.asChoice(node, what, {"x", "y", "z", "-x", "-y", "-z"});
+      const double sign = word.front() == '-' ? -1 : 1;
+      const char letter = word.back();
+      return {letter == 'x' ? sign : 0, letter == 'y' ? sign : 0, letter == 'z' ? sign : 0};
+    }
+    const toml::array& list = *node.as_array();
+    if (list.size() != 3)
+      source_.fail(node, fmt::format("{} has {} numbers", what, list.size()), "three numbers [x, y, z]");
+    double direction[3];
+    for (std::size_t i = 0; i < 3; ++i) direction[i] = nearest(source_.asAmount(list[i], what, plain));
+    if (direction[0] == 0 && direction[1] == 0 && direction[2] == 0)
+      source_.fail(node, what + " is the zero vector", "a direction");
+    return {direction[0], direction[1], direction[2]};
+  }
+
+  /// A list of { axis, angle }; whole quarter turns are exact.
+  std::vector<FixedRotation> rotations(const TomlSection& link) {
+    std::vector<FixedRotation> result;
+    const toml::node* node = link.find("rotation");
+    if (node == nullptr) return result;
+    const std::string name = link.nameOf("rotation");
+    for (const toml::node& entry : source_.asArray(*node, name)) {
+      const TomlSection section(source_, source_.asTable(entry, name), name, {"axis", "angle"});
+      FixedRotation rotation{axis(section)};
+      const toml::node& turn = section.require("angle", "an angle such as \"90 deg\"");
+      const Quantity value = number(turn, section.nameOf("angle"), angle);
+      rotation.angle = value;
+      if (value.isConstant()) setQuarterTurns(rotation, source_.asAmount(turn, section.nameOf("angle"), angle));
+      result.push_back(std::move(rotation));
+    }
+    return result;
+  }
+
+  static void setQuarterTurns(FixedRotation& rotation, const Amount& amount) {
+    const mpq_class quarters = amount.value * 2;  // of rational * pi: quarter turns are halves of pi
+    if (amount.piPower != 1 || quarters.get_den() != 1 || !quarters.get_num().fits_sint_p()) return;
+    rotation.quarterTurns = static_cast<int>(quarters.get_num().get_si());
+    rotation.angle = 0.0;
+  }
+
+  QuantityVector vector(const toml::node& node, const std::string& what, const Dimension& dimension) {
+    const toml::array& list = source_.asArray(node, what);
+    if (list.size() != 3)
+      source_.fail(node, fmt::format("{} has {} numbers", what, list.size()),
+                   fmt::format("three, [x, y, z] in {}", unitOf(dimension)));
+    return {number(list[0], what, dimension), number(list[1], what, dimension), number(list[2], what, dimension)};
+  }
+
+  /// 0 if the key is missing.
+  Quantity number(const TomlSection& section, std::string_view key, const Dimension& dimension) {
+    const toml::node* node = section.find(key);
+    return node == nullptr ? Quantity(0.0) : number(*node, section.nameOf(key), dimension);
+  }
+
+  /// A number, or a parameter's name with a factor in front: "upper.length", "-upper.length", "1/2 upper.length".
+  Quantity number(const toml::node& node, const std::string& what, const Dimension& dimension) {
+    if (node.is_string()) {
+      const std::string& text = node.as_string()->get();
+      const std::string name = parameterIn(text);
+      if (!name.empty()) return Quantity::named(name, factor(node, what, text.substr(0, text.size() - name.size())));
+    }
+    return enclose(source_.asAmount(node, what, dimension));
+  }
+
+  /// The parameter that the text ends with; empty if it does not. A word with a dot can only be a parameter.
+  std::string parameterIn(const std::string& text) const {
+    std::string found;
+    for (const Mechanism::NamedValue& parameter : mechanism_.parameters()) {
+      const std::string& name = parameter.name;
+      if (!text.ends_with(name) || name.size() <= found.size()) continue;
+      if (text.size() == name.size() || !isWordCharacter(text[text.size() - name.size() - 1])) found = name;
+    }
+    if (!found.empty()) return found;
+    std::size_t begin = text.size();
+    while (begin > 0 && isWordCharacter(text[begin - 1])) --begin;
+    const std::string word = text.substr(begin);
+    const auto dot = word.find('.');
+    const bool isName = dot != std::string::npos && dot > 0 && std::isalpha(static_cast<unsigned char>(word[0])) != 0;
+    return isName ? word : "";
+  }
+
+  Interval factor(const toml::node& node, const std::string& what, std::string prefix) const {
+    const auto end = prefix.find_last_not_of(" *");
+    prefix.resize(end == std::string::npos ? 0 : end + 1);
+    if (prefix.empty() || prefix == "+") return 1.0;
+    if (prefix == "-") return -1.0;
+    return enclose(source_.readAmount(node, what, prefix, plain));
+  }
+
+  const TomlSource& source_;
+  TomlSection section_;
+  Mechanism mechanism_;
+};
+
+}  // namespace
+
+Mechanism readMechanism(const TomlSource& source, const toml::table& table) {
+  return MechanismReader(source, table).read();
+}
+
+}  // namespace gamut

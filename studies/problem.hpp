@@ -1,0 +1,29 @@
+// The numbers of a study in the order in which the recorded programs take them: states, then free parameters.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "analyses/ensemble.hpp"
+#include "scalars/interval.hpp"
+#include "studies/study.hpp"
+
+namespace gamut {
+
+/// A study's initial values and free parameters as boxes and as start values. The free parameters are the uncertain
+/// ones; all others are constants of the programs.
+struct Problem {
+  std::size_t states = 0;
+  std::vector<std::string> freeParameters;
+  Box box;                    ///< initial values, then free parameters; uncertain ones have their ranges
+  std::vector<double> alpha;  ///< membership levels, 0 first; empty unless alpha-cuts are asked for
+  std::vector<Box> levels;    ///< the box with the alpha-cuts of the uncertain quantities, one a level
+  std::vector<std::string> outputs;
+  UncertainMotion motion;  ///< its programs: dynamics f, g of the states; kinematics g of parameters alone
+};
+
+/// Records the programs and collects the numbers. Throws std::invalid_argument for a mechanism whose motion is not
+/// determined.
+Problem makeProblem(const Study& study);
+
+}  // namespace gamut

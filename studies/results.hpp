@@ -1,0 +1,131 @@
+// Everything a study produced, as plain data: what the HDF5 file holds, what the JSON summary and the report show.
+// The report and the verdict are computed from this alone.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace gamut {
+
+/// One number for every output at every output time; NaN where there is none. Shape: times x outputs.
+struct Grid {
+  std::size_t times = 0;
+  std::size_t outputs = 0;
+  std::vector<double> data;
+
+  Grid() = default;
+  Grid(std::size_t timeCount, std::size_t outputCount)
+      : times(timeCount),
+        outputs(outputCount),
+        data(timeCount * outputCount, std::numeric_limits<double>::quiet_NaN()) {}
+  double& operator()(std::size_t time, std::size_t output) { return data[time * outputs + output]; }
+  double operator()(std::size_t time, std::size_t output) const { return data[time * outputs + output]; }
+  bool empty() const { return data.empty(); }
+};
+
+/// Lower and upper bounds of every output at every output time.
+struct Bounds {
+  Grid lower, upper;
+  Bounds() = default;
+  Bounds(std::size_t times, std::size_t outputs) : lower(times, outputs), upper(times, outputs) {}
+  bool empty() const { return lower.empty(); }
+};
+
+/// One uncertain quantity as the study states it.
+struct UncertainInfo {
+  std::string name, quantity, unit;
+  double lower = 0, nominal = 0, upper = 0;
+  std::string distribution, membership;  ///< in words: "uniform", "triangular", …
+};
+
+struct OutputInfo {
+  std::string name, quantity, unit;
+};
+
+/// What is guaranteed.
+struct IntervalResult {
+  bool present = false;
+  double reached = 0;  ///< s: proved up to here
+  std::string why;     ///< why it ended before the horizon; empty if it did not
+  Bounds at;           ///< at the output times
+  Bounds over;         ///< row i: over the whole output interval [time(i-1), time(i)] (row 0: at time 0)
+  Bounds direct;       ///< kinematics only: the assembly moved by plain intervals, without polynomials
+  int pieces = 0;      ///< sub-boxes at the end
+  std::int64_t steps = 0;
+  double cpu = 0;  ///< s
+};
+
+/// What is probable.
+struct StochasticResult {
+  bool present = false;
+  std::string plan;
+  std::int64_t samples = 0;  ///< that count in the statistics
+  std::int64_t corners = 0;  ///< integrated besides, without weight
+  double relativeTolerance = 0, absoluteTolerance = 0;
+  double reached = 0;  ///< s
+  std::string why;
+  Bounds envelope;  ///< of all samples, corners and centre
+  Grid mean, deviation;
+  std::vector<double> probabilities;  ///< of the quantiles
+  std::vector<Grid> quantiles;        ///< one grid a probability
+  Grid error;                         ///< the witness's own error, measured at tighter tolerance
+  double cpu = 0;
+};
+
+/// What is possible: alpha-cuts, level 0 the widest.
+struct FuzzyResult {
+  bool present = false;
+  double reached = 0;  ///< s
+  std::string why;
+  std::vector<double> alpha;
+  std::vector<Bounds> outer;  ///< proved, one a level
+  std::vector<Bounds> inner;  ///< of the samples with at least this membership, one a level (empty without samples)
+  double cpu = 0;
+};
+
+/// A sample that was found outside and looked at again.
+struct DisputedSample {
+  std::int64_t number = 0;  ///< of the sample; corners and centre follow the samples
+  std::size_t time = 0;     ///< index of the output time of its greatest excursion
+  std::size_t output = 0;   ///< index of the output
+  double value = 0, lower = 0, upper = 0;
+  double distance = 0;  ///< outside, after the last integration
+  double error = 0;     ///< this sample's measured error
+  std::string decided;  ///< by what: "tolerance 1e-12", "Taylor 128 bits", or "unresolved"
+  bool outside = false;
+};
+
+/// How the answers agree.
+struct ComparisonResult {
+  bool present = false;
+  std::string verdict;   ///< "inside" | "outside" | "incomplete" | "unresolved"
+  double excursion = 0;  ///< greatest distance outside, in multiples of that sample's measured error
+  Grid overestimation;   ///< enclosure width over envelope width; NaN where the envelope is too narrow to tell
+  Grid excess;           ///< enclosure width minus envelope width
+  double maximum = std::numeric_limits<double>::quiet_NaN();
+  double median = std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> maximumOf;  ///< one an output
+  std::vector<DisputedSample> disputed;
+};
+
+struct Results {
+  std::string studyText, studyFile, title, analysis;
+  std::uint64_t seed = 0;
+  std::string version, host, date;
+  std::map<std::string, std::string> libraries;  ///< name → version
+  std::vector<UncertainInfo> uncertain;
+  std::vector<OutputInfo> outputs;
+  double horizon = 0;        ///< s
+  std::vector<double> time;  ///< output times, s
+  IntervalResult interval;
+  StochasticResult stochastic;
+  FuzzyResult fuzzy;
+  ComparisonResult comparison;
+  double reportCpu = 0;  ///< s
+};
+
+}  // namespace gamut

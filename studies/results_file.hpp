@@ -1,0 +1,25 @@
+// Results in an HDF5 file that explains itself to h5dump and h5py: dimension scales, units, long names. Layout:
+// docs/results-file.md.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+#include "studies/results.hpp"
+
+namespace gamut {
+
+/// A file that is no Gamut results file, or a damaged one; what() is one line "path: …; expected …".
+class ResultsFileError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Writes all of `results`; an older file at `path` is replaced in one step, when the new one is whole.
+/// Throws std::runtime_error if it cannot be written.
+void writeResults(const Results& results, const std::string& path);
+
+/// Reads what writeResults wrote, every number and word alike. Throws ResultsFileError.
+Results readResults(const std::string& path);
+
+}  // namespace gamut

@@ -1,0 +1,59 @@
+// A Study is what a user asks: a mechanism, what of it is uncertain, which outputs are wanted when, by which analyses.
+// It is read from a TOML file (docs/study-file.md); whatever is wrong there is said with file, line and column.
+#pragma once
+
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "analyses/ensemble.hpp"
+#include "analyses/flow.hpp"
+#include "analyses/uncertainty.hpp"
+#include "mechanics/mechanism.hpp"
+#include "studies/results.hpp"
+
+namespace gamut {
+
+/// Something is wrong with a study file; what() is one line "file:line:column: what is wrong; what was expected".
+class StudyError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// An uncertain number of the mechanism: one of Mechanism::quantities().
+struct UncertainQuantity {
+  std::string quantity, unit;
+  Uncertain uncertain;
+};
+
+struct Study {
+  enum class Analysis { kinematics, dynamics };
+
+  std::string text;  ///< of the file, word for word
+  std::string file;  ///< as it was named
+  std::string title;
+  Analysis analysis = Analysis::dynamics;
+  double horizon = 0;        ///< s; 0 for kinematics
+  std::vector<double> time;  ///< output times, s: 0 first, rising, the horizon last
+  bool interval = true, stochastic = true, fuzzy = true;
+  Mechanism mechanism;
+  std::vector<UncertainQuantity> uncertain;
+  std::vector<OutputInfo> outputs;
+  FlowOptions flow;          ///< without jobs, progress and cancelled, which belong to a run
+  EnsembleOptions ensemble;  ///< likewise
+  int levels = 11;           ///< of alpha, from 0 to 1
+
+  std::string analysisName() const { return analysis == Analysis::kinematics ? "kinematics" : "dynamics"; }
+};
+
+/// The greatest number of output times of a study.
+inline constexpr std::size_t maxOutputTimes = 100000;
+
+/// Reads and checks a study file. Throws StudyError.
+Study readStudy(const std::string& path);
+
+/// The same for text at hand; `name` is what messages call the file.
+Study readStudyText(const std::string& text, const std::string& name);
+
+}  // namespace gamut

@@ -1,0 +1,168 @@
+// The JSON object and the table.
+#include "studies/summary.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace gamut {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+/// {output name → {time → [lower, upper]}}; times without bounds are left out.
+Json boundsObject(const Bounds& bounds, const Results& results) {
+  Json object = Json::object();
+  for (std::size_t j = 0; j < results.outputs.size(); ++j) {
+    Json& ofOutput = object[results.outputs[j].name] = Json::object();
+    if (bounds.empty()) continue;
+    for (std::size_t i = 0; i < results.time.size(); ++i) {
+      const double lower = bounds.lower(i, j), upper = bounds.upper(i, j);
+      if (!std::isnan(lower) && !std::isnan(upper))
+        ofOutput[fmt::format("{}", results.time[i])] = Json::array({number(lower), number(upper)});
+    }
+  }
+  return object;
+}
+
+Json overestimationObject(const Results& results) {
+  const ComparisonResult& comparison = results.comparison;
+  Json outputs = Json::object();
+  for (std::size_t j = 0; j < results.outputs.size(); ++j)
+    outputs[results.outputs[j].name] =
+        j < comparison.maximumOf.size() ? number(comparison.maximumOf[j]) : Json(nullptr);
+  return {{"max", number(comparison.maximum)}, {"median", number(comparison.median)}, {"outputs", outputs}};
+}
+
+Json textOrNull(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
+
+/// "[1.2345, 1.3456]", bounds rounded outward to five decimals more than their width needs.
+std::string shortBounds(const Bounds& bounds, std::size_t time, std::size_t output) {
+  if (bounds.empty()) return "-";
+  const double lower = bounds.lower(time, output), upper = bounds.upper(time, output);
+  if (std::isnan(lower) || std::isnan(upper)) return "-";
+  const double size = upper - lower;
+  const int decimals =
+      size > 0 && std::isfinite(size) ? std::clamp(3 - static_cast<int>(std::floor(std::log10(size))), 0, 15) : 15;
+  const double scale = std::pow(10.0, decimals);
+  double below = std::floor(lower * scale) / scale, above = std::ceil(upper * scale) / scale;
+  if (!(below <= lower)) below = lower;
+  if (!(above >= upper)) above = upper;
+  return fmt::format("[{:.{}f}, {:.{}f}]", below, decimals, above, decimals);
+}
+
+/// Three decimals, rounded up.
+std::string ratioText(double ratio) {
+  return ratio < 1e6 ? fmt::format("{:.3f}", std::ceil(ratio * 1000) / 1000) : fmt::format("{:.4g}", ratio);
+}
+
+/// The last row in which some output is enclosed or sampled.
+std::size_t lastRow(const Results& results) {
+  const Bounds& bounds = results.interval.at.empty() ? results.stochastic.envelope : results.interval.at;
+  for (std::size_t i = results.time.size(); i > 0 && !bounds.empty(); --i)
+    for (std::size_t j = 0; j < results.outputs.size(); ++j)
+      if (!std::isnan(bounds.lower(i - 1, j))) return i - 1;
+  return 0;
+}
+
+/// Columns as wide as their widest entry (in code points), the first one left-aligned.
+std::string table(const std::vector<std::vector<std::string>>& rows) {
+  const auto length = [](const std::string& text) {
+    return static_cast<std::size_t>(std::count_if(
+        text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
+  };
+  std::vector<std::size_t> widths(rows.front().size(), 0);
+  for (const auto& row : rows)
+    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], length(row[i]));
+  std::string result;
+  for (const auto& row : rows) {
+    std::string line;
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      const std::string padding(widths[i] - length(row[i]), ' ');
+      line += (i == 0 ? "" : "  ") + (i == 0 ? row[i] + padding : padding + row[i]);
+    }
+    result += "  " + line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
+  }
+  return result;
+}
+
+}  // namespace
+
+double reachedTime(const Results& results) {
+  double reached = results.horizon;
+  if (results.interval.present) reached = std::min(reached, results.interval.reached);
+  if (results.stochastic.present) reached = std::min(reached, results.stochastic.reached);
+  if (results.fuzzy.present) reached = std::min(reached, results.fuzzy.reached);
+  return reached;
+}
+
+std::string jsonSummary(const Results& results, const std::string& verdict, const ResultFiles& files) {
+  Json json;
+  json["verdict"] = textOrNull(verdict);
+  json["horizon"] = number(results.horizon);
+  json["reached"] = number(reachedTime(results));
+  json["samples"] = results.stochastic.samples;
+  json["excursion"] = number(results.comparison.excursion);
+  json["overestimation"] = overestimationObject(results);
+  json["enclosure"] = boundsObject(results.interval.at, results);
+  json["envelope"] = boundsObject(results.stochastic.envelope, results);
+  json["cost"] = {{"interval", number(results.interval.cpu)},
+                  {"stochastic", number(results.stochastic.cpu)},
+                  {"fuzzy", number(results.fuzzy.cpu)},
+                  {"report", number(results.reportCpu)}};
+  json["files"] = {{"results", textOrNull(files.results)}, {"report", textOrNull(files.report)}};
+  json["version"] = results.version;
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string textSummary(const Results& results) {
+  const std::size_t row = lastRow(results);
+  std::vector<std::vector<std::string>> rows{
+      {fmt::format("at {} s", results.time[row]), "enclosure", "envelope", "overestimation (max)"}};
+  for (std::size_t j = 0; j < results.outputs.size(); ++j) {
+    const std::string unit = results.outputs[j].unit == "1" ? "" : fmt::format(" ({})", results.outputs[j].unit);
+    const bool known = j < results.comparison.maximumOf.size() && std::isfinite(results.comparison.maximumOf[j]);
+    rows.push_back({results.outputs[j].name + unit, shortBounds(results.interval.at, row, j),
+                    shortBounds(results.stochastic.envelope, row, j),
+                    known ? ratioText(results.comparison.maximumOf[j]) : "-"});
+  }
+  std::string text = table(rows);
+  std::vector<std::string> costs;
+  if (results.interval.present) costs.push_back(fmt::format("enclosure {:.2f} s", results.interval.cpu));
+  if (results.stochastic.present)
+    costs.push_back(fmt::format("{} samples {:.2f} s", results.stochastic.samples, results.stochastic.cpu));
+  if (results.fuzzy.present) costs.push_back(fmt::format("alpha-cuts {:.2f} s", results.fuzzy.cpu));
+  std::string line;
+  for (const std::string& cost : costs) line += (line.empty() ? "" : ", ") + cost;
+  return text + (line.empty() ? "" : "  CPU: " + line + "\n");
+}
+
+std::string infoText(const Results& results) {
+  std::string text =
+      fmt::format("{}\n  {}, from {}\n  by Gamut {} on {}, {}, seed {}\n", results.title, results.analysis,
+                  results.studyFile, results.version, results.host, results.date, results.seed);
+  text += fmt::format("  {} output times from {} s to {} s\n", results.time.size(), results.time.front(),
+                      results.time.back());
+  for (const UncertainInfo& u : results.uncertain)
+    text += fmt::format("  uncertain: {} ({}) in [{}, {}] {}, nominal {}, {}, {}\n", u.name, u.quantity, u.lower,
+                        u.upper, u.unit, u.nominal, u.distribution, u.membership);
+  for (const OutputInfo& o : results.outputs)
+    text += fmt::format("  output: {} ({}), {}\n", o.name, o.quantity, o.unit);
+  const auto ended = [](const std::string& why) { return why.empty() ? "" : ": " + why; };
+  if (const IntervalResult& r = results.interval; r.present)
+    text += fmt::format("  enclosure: up to {} s{}; {} pieces, {} steps, {:.2f} s CPU\n", r.reached, ended(r.why),
+                        r.pieces, r.steps, r.cpu);
+  if (const StochasticResult& r = results.stochastic; r.present)
+    text += fmt::format("  samples: {} ({}) and {} corners, up to {} s{}; {:.2f} s CPU\n", r.samples, r.plan, r.corners,
+                        r.reached, ended(r.why), r.cpu);
+  if (const FuzzyResult& r = results.fuzzy; r.present)
+    text += fmt::format("  alpha-cuts: {} levels, up to {} s{}; {:.2f} s CPU\n", r.alpha.size(), r.reached,
+                        ended(r.why), r.cpu);
+  return text;
+}
+
+}  // namespace gamut

@@ -1,0 +1,28 @@
+// What `gamut run` says on standard output: one JSON object for programs, or a short table for people.
+#pragma once
+
+#include <string>
+
+#include "studies/results.hpp"
+
+namespace gamut {
+
+/// Where the run's files lie; empty if there is none.
+struct ResultFiles {
+  std::string results, report;
+};
+
+/// The time up to which every analysis that was asked for got (s).
+double reachedTime(const Results& results);
+
+/// One JSON object on one line; keys: docs/json.md. Numbers are the shortest decimals that give the same double back;
+/// what is not finite is null, and so is an empty verdict.
+std::string jsonSummary(const Results& results, const std::string& verdict, const ResultFiles& files = {});
+
+/// A table of the outputs at the last time reached, and what it cost; several lines, the last one ended.
+std::string textSummary(const Results& results);
+
+/// Where results come from and what they hold; several lines, the last one ended.
+std::string infoText(const Results& results);
+
+}  // namespace gamut

@@ -1,0 +1,213 @@
+// Positions, messages and numbers of a TOML file.
+#include "studies/detail/toml_source.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "mechanics/names.hpp"
+
+namespace gamut {
+namespace {
+
+/// In the user's words.
+std::string describe(const toml::node& node) {
+  switch (node.type()) {
+    case toml::node_type::table:
+      return "a table";
+    case toml::node_type::array:
+      return "a list";
+    case toml::node_type::string:
+      return fmt::format("\"{}\"", node.as_string()->get());
+    case toml::node_type::integer:
+      return fmt::format("the number {}", node.as_integer()->get());
+    case toml::node_type::floating_point:
+      return fmt::format("the number {}", node.as_floating_point()->get());
+    case toml::node_type::boolean:
+      return node.as_boolean()->get() ? "true" : "false";
+    default:
+      return "a date or time";
+  }
+}
+
+/// One line: what a parser says may hold line breaks.
+std::string oneLine(std::string_view text) {
+  std::string line(text);
+  std::replace_if(
+      line.begin(), line.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+  return line;
+}
+
+std::string suggestion(const std::string& word, const std::vector<std::string>& known) {
+  const std::string nearest = nearestName(word, known);
+  return nearest.empty() ? fmt::format("one of: {}", fmt::join(known, ", "))
+                         : fmt::format("'{}'? (one of: {})", nearest, fmt::join(known, ", "));
+}
+
+}  // namespace
+
+TomlSource::TomlSource(std::string text, std::string name)
+    : text_(std::move(text)), name_(std::move(name)), lineStarts_{0} {
+  for (std::size_t i = 0; i < text_.size(); ++i)
+    if (text_[i] == '\n') lineStarts_.push_back(i + 1);
+  try {
+    root_ = toml::parse(std::string_view(text_));
+  } catch (const toml::parse_error& error) {
+    fail(error.source().begin, "not valid TOML: " + oneLine(error.description()),
+         "a file that follows https://toml.io");
+  }
+}
+
+void TomlSource::fail(const toml::source_position& at, const std::string& what, const std::string& expected) const {
+  throw StudyError(fmt::format("{}:{}:{}: {}; expected {}", name_, std::max<unsigned>(at.line, 1),
+                               std::max<unsigned>(at.column, 1), what, expected));
+}
+
+void TomlSource::failWith(const toml::node& at, const std::string& sentence, const std::string& expected) const {
+  const std::string question = "; did you mean ";
+  if (const auto split = sentence.find(question); split != std::string::npos)
+    fail(at, sentence.substr(0, split), sentence.substr(split + question.size()));
+  std::string what = sentence;  // one line has one semicolon, in front of what was expected
+  std::replace(what.begin(), what.end(), ';', ',');
+  fail(at, what, expected);
+}
+
+std::string TomlSource::asText(const toml::node& node, const std::string& what) const {
+  if (!node.is_string()) fail(node, fmt::format("{} is {}", what, describe(node)), "text in quotes");
+  const std::string& text = node.as_string()->get();
+  if (text.find_first_not_of(" \t\r\n") == std::string::npos) fail(node, what + " is empty", "text");
+  return text;
+}
+
+bool TomlSource::asBool(const toml::node& node, const std::string& what) const {
+  if (!node.is_boolean()) fail(node, fmt::format("{} is {}", what, describe(node)), "true or false");
+  return node.as_boolean()->get();
+}
+
+std::int64_t TomlSource::asInteger(const toml::node& node, const std::string& what, std::int64_t least,
+                                   std::int64_t most) const {
+  const std::string expected = fmt::format("a whole number between {} and {}", least, most);
+  if (!node.is_integer()) fail(node, fmt::format("{} is {}", what, describe(node)), expected);
+  const std::int64_t value = node.as_integer()->get();
+  if (value < least || value > most) fail(node, fmt::format("{} is {}", what, value), expected);
+  return value;
+}
+
+const toml::table& TomlSource::asTable(const toml::node& node, const std::string& what) const {
+  if (!node.is_table()) fail(node, fmt::format("{} is {}", what, describe(node)), "a table");
+  return *node.as_table();
+}
+
+const toml::array& TomlSource::asArray(const toml::node& node, const std::string& what) const {
+  if (!node.is_array()) fail(node, fmt::format("{} is {}", what, describe(node)), "a list [ … ]");
+  return *node.as_array();
+}
+
+Amount TomlSource::asAnyAmount(const toml::node& node, const std::string& what) const {
+  if (node.is_floating_point() && !std::isfinite(node.as_floating_point()->get()))
+    fail(node, what + " is not finite", "a finite number");
+  if (node.is_string()) return readAnyAmount(node, what, node.as_string()->get());
+  if (node.is_integer()) return readAnyAmount(node, what, std::to_string(node.as_integer()->get()));
+  if (node.is_floating_point()) return readAnyAmount(node, what, tokenAt(node.source().begin));
+  fail(node, fmt::format("{} is {}", what, describe(node)), "a number, or text with a unit such as \"135 deg\"");
+}
+
+Amount TomlSource::readAnyAmount(const toml::node& node, const std::string& what, const std::string& text) const {
+  try {
+    return parseAmount(text);
+  } catch (const UnitError& error) {
+    throw StudyError(fmt::format("{}:{}:{}: {}: {}", name_, node.source().begin.line, node.source().begin.column, what,
+                                 error.what()));
+  }
+}
+
+Amount TomlSource::asAmount(const toml::node& node, const std::string& what, const Dimension& dimension) const {
+  return checked(node, what, asAnyAmount(node, what), dimension);
+}
+
+Amount TomlSource::readAmount(const toml::node& node, const std::string& what, const std::string& text,
+                              const Dimension& dimension) const {
+  return checked(node, what, readAnyAmount(node, what, text), dimension);
+}
+
+Amount TomlSource::checked(const toml::node& node, const std::string& what, Amount amount,
+                           const Dimension& dimension) const {
+  const std::string unit = unitOf(dimension);
+  const std::string expected =
+      unit == "1" ? "a number without unit" : fmt::format("a number in {}, or with a unit of that kind", unit);
+  if (amount.isRelative && !(dimension == Dimension{})) fail(node, what + " is written in percent", expected);
+  if (amount.hasUnit && !isCompatible(amount.dimension, dimension))
+    fail(node, fmt::format("{} is written in a unit of the kind {}", what, unitOf(amount.dimension)), expected);
+  amount.dimension = dimension;
+  return amount;
+}
+
+std::string TomlSource::asChoice(const toml::node& node, const std::string& what,
+                                 const std::vector<std::string>& choices) const {
+  const std::string word = asText(node, what);
+  if (std::find(choices.begin(), choices.end(), word) == choices.end())
+    fail(node, fmt::format("{} is \"{}\"", what, word), suggestion(word, choices));
+  return word;
+}
+
+/// The number's characters; columns count code points, so continuation bytes (10xxxxxx) are skipped.
+std::string TomlSource::tokenAt(const toml::source_position& at) const {
+  std::size_t i = lineStarts_.at(at.line - 1);
+  for (unsigned column = 1; i < text_.size(); ++i) {
+    if ((static_cast<unsigned char>(text_[i]) & 0xC0U) == 0x80U) continue;
+    if (column++ == at.column) break;
+  }
+  const std::size_t end = text_.find_first_not_of("0123456789+-._eE", i);
+  return text_.substr(i, end == std::string::npos ? end : end - i);
+}
+
+TomlSection::TomlSection(const TomlSource& source, const toml::table& table, std::string name,
+                         std::vector<std::string> known)
+    : source_(&source), table_(&table), name_(std::move(name)) {
+  for (const auto& [key, value] : table) {
+    const std::string word(key.str());
+    if (std::find(known.begin(), known.end(), word) != known.end()) continue;
+    const std::string place = name_.empty() ? "" : fmt::format(" in [{}]", name_);
+    source.fail(key.source().begin, fmt::format("unknown key '{}'{}", word, place), suggestion(word, known));
+  }
+}
+
+const toml::node& TomlSection::require(std::string_view key, const std::string& expected) const {
+  const toml::node* node = find(key);
+  if (node == nullptr) source_->fail(*table_, fmt::format("'{}' is missing", nameOf(key)), expected);
+  return *node;
+}
+
+std::string TomlSection::nameOf(std::string_view key) const {
+  return name_.empty() ? std::string(key) : fmt::format("{}.{}", name_, key);
+}
+
+std::string TomlSection::text(std::string_view key) const {
+  return source_->asText(require(key, "text in quotes"), nameOf(key));
+}
+
+std::string TomlSection::text(std::string_view key, const std::string& otherwise) const {
+  return find(key) != nullptr ? text(key) : otherwise;
+}
+
+bool TomlSection::flag(std::string_view key, bool otherwise) const {
+  const toml::node* node = find(key);
+  return node == nullptr ? otherwise : source_->asBool(*node, nameOf(key));
+}
+
+std::int64_t TomlSection::integer(std::string_view key, std::int64_t otherwise, std::int64_t least,
+                                  std::int64_t most) const {
+  const toml::node* node = find(key);
+  return node == nullptr ? otherwise : source_->asInteger(*node, nameOf(key), least, most);
+}
+
+double TomlSection::positive(std::string_view key, double otherwise) const {
+  const toml::node* node = find(key);
+  if (node == nullptr) return otherwise;
+  const double value = nearest(source_->asAmount(*node, nameOf(key), Dimension{}));
+  if (!(value > 0)) source_->fail(*node, fmt::format("{} is not positive", nameOf(key)), "a number above 0");
+  return value;
+}
+
+}  // namespace gamut

@@ -1,0 +1,86 @@
+// Results with something in every field, for tests of files and summaries.
+#pragma once
+
+#include <limits>
+
+#include "studies/results.hpp"
+
+namespace gamut {
+
+/// A grid of distinct numbers: base + 10 time + output.
+inline Grid sampleGrid(std::size_t times, std::size_t outputs, double base) {
+  Grid grid(times, outputs);
+  for (std::size_t i = 0; i < times; ++i)
+    for (std::size_t j = 0; j < outputs; ++j) grid(i, j) = base + 10 * static_cast<double>(i) + static_cast<double>(j);
+  return grid;
+}
+
+inline Bounds sampleBounds(std::size_t times, std::size_t outputs, double base, double width) {
+  Bounds bounds;
+  bounds.lower = sampleGrid(times, outputs, base);
+  bounds.upper = sampleGrid(times, outputs, base + width);
+  return bounds;
+}
+
+/// Three times, two outputs; the last enclosure is missing, one overestimation cannot be told.
+inline Results sampleResults() {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  Results r;
+  r.studyText = "[study]\ntitle = \"α\"\n";
+  r.studyFile = "sample.toml";
+  r.title = "A sample with an α";
+  r.analysis = "dynamics";
+  r.seed = 0xFFFFFFFFFFFFFFFFU;
+  r.version = "9.8.7";
+  r.host = "somewhere";
+  r.date = "2024-02-29T12:00:00Z";
+  r.libraries = {{"HDF5", "1.10"}, {"SUNDIALS", "6.4"}};
+  r.uncertain = {{"first angle", "shoulder.angle", "rad", 0.9, 1.0, 1.1, "uniform", "triangular"}};
+  r.outputs = {{"tip height", "tip.position.z", "m"}, {"energy", "energy", "J"}};
+  r.horizon = 0.02;
+  r.time = {0, 0.01, 0.02};
+  r.interval.present = true;
+  r.interval.reached = 0.01;
+  r.interval.why = "the enclosure became wider than 1e6";
+  r.interval.at = sampleBounds(3, 2, 0.1, 1);
+  r.interval.at.lower(2, 0) = r.interval.at.upper(2, 0) = nan;
+  r.interval.at.lower(2, 1) = r.interval.at.upper(2, 1) = nan;
+  r.interval.over = sampleBounds(3, 2, -19.95, 60);
+  r.interval.pieces = 4;
+  r.interval.steps = 123456789012;
+  r.interval.cpu = 0.25;
+  r.stochastic.present = true;
+  r.stochastic.plan = "sobol";
+  r.stochastic.samples = 4096;
+  r.stochastic.corners = 3;
+  r.stochastic.relativeTolerance = 1e-10;
+  r.stochastic.absoluteTolerance = 1e-12;
+  r.stochastic.reached = 0.02;
+  r.stochastic.envelope = sampleBounds(3, 2, 0.35, 0.5);
+  r.stochastic.mean = sampleGrid(3, 2, 0.6);
+  r.stochastic.deviation = sampleGrid(3, 2, 0.01);
+  r.stochastic.probabilities = {0.05, 0.95};
+  r.stochastic.quantiles = {sampleGrid(3, 2, 0.4), sampleGrid(3, 2, 0.8)};
+  r.stochastic.error = sampleGrid(3, 2, 1e-12);
+  r.stochastic.cpu = 1.5;
+  r.fuzzy.present = true;
+  r.fuzzy.reached = 0.01;
+  r.fuzzy.alpha = {0, 0.5, 1};
+  r.fuzzy.outer = {sampleBounds(3, 2, 0.1, 1), sampleBounds(3, 2, 0.3, 0.6), sampleBounds(3, 2, 0.6, 0)};
+  r.fuzzy.inner = {sampleBounds(3, 2, 0.2, 0.8), sampleBounds(3, 2, 0.4, 0.4), sampleBounds(3, 2, 0.6, 0)};
+  r.fuzzy.cpu = 0.125;
+  r.comparison.present = true;
+  r.comparison.verdict = "incomplete";
+  r.comparison.overestimation = sampleGrid(3, 2, 2);
+  r.comparison.overestimation(0, 1) = nan;
+  r.comparison.excess = sampleGrid(3, 2, 0.5);
+  r.comparison.maximum = 13;
+  r.comparison.median = 2.5;
+  r.comparison.maximumOf = {12, nan};
+  r.comparison.disputed = {{17, 1, 0, 0.09, 0.1, 1.1, 0.01, 1e-9, "tolerance 1e-12", true},
+                           {4098, 0, 1, 1.2, 1.1, 2.1, 0, 1e-9, "unresolved", false}};
+  r.reportCpu = 0.0625;
+  return r;
+}
+
+}  // namespace gamut

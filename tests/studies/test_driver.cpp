@@ -1,0 +1,132 @@
+// The driver puts every uncertain number where the programs expect it, and keeps what was found when it is stopped.
+#include "studies/driver.hpp"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <map>
+#include <mutex>
+
+#include "studies/problem.hpp"
+#include "tests/studies/sample_study.hpp"
+
+namespace gamut {
+namespace {
+
+constexpr const char* threeUncertain = R"([[uncertain]]
+quantity = "rod.length"
+interval = "± 1 %"
+[[uncertain]]
+quantity = "gravity.z"
+interval = [-9.83, -9.79]
+[[uncertain]])";
+
+Study sampleWith(const std::string& old, const std::string& replacement) {
+  return readStudyText(sampleStudyWith(old, replacement), "s.toml");
+}
+
+TEST(Problem, PutsStatesFirstAndFreeParametersBehindThem) {
+  const Problem problem = makeProblem(sampleWith("[[uncertain]]", threeUncertain));
+  EXPECT_EQ(problem.states, 2U);
+  EXPECT_THAT(problem.freeParameters, ::testing::ElementsAre("rod.length", "gravity.z"));
+  ASSERT_EQ(problem.box.size(), 4U);
+  EXPECT_THAT(problem.motion.slot, ::testing::ElementsAre(2, 3, 0));
+  EXPECT_TRUE(isSubset(Interval("[0.495, 0.505]"), problem.box[2]));
+  EXPECT_TRUE(isSubset(Interval("[-9.83, -9.79]"), problem.box[3]));
+  EXPECT_TRUE(isEqual(problem.box[1], Interval(0.5)));
+  EXPECT_EQ(problem.motion.motion.f.parameters(), 2);
+  EXPECT_EQ(problem.motion.nominal[2], 0.5);
+}
+
+TEST(Problem, NestsTheLevelsFromTheSupportsToTheCores) {
+  const Problem problem = makeProblem(sampleWith("[[uncertain]]", threeUncertain));
+  ASSERT_EQ(problem.levels.size(), 11U);
+  EXPECT_EQ(problem.alpha.front(), 0);
+  EXPECT_EQ(problem.alpha.back(), 1);
+  for (std::size_t j = 0; j < 11; ++j)
+    for (std::size_t i = 0; i < 4; ++i)
+      EXPECT_TRUE(isSubset(problem.levels[j][i], j == 0 ? problem.box[i] : problem.levels[j - 1][i]));
+  EXPECT_TRUE(isThin(problem.levels[10][2]));
+}
+
+TEST(Driver, KeepsSamplesInsideWithUncertainParametersAndInitialValues) {
+  const Results results = run(sampleWith("[[uncertain]]", threeUncertain));
+  EXPECT_EQ(results.comparison.verdict, "inside");
+  EXPECT_EQ(results.stochastic.corners, 8);
+  EXPECT_EQ(results.uncertain.size(), 3U);
+  EXPECT_GE(results.comparison.maximum, 1);
+  EXPECT_LT(results.comparison.maximum, 1.1);
+}
+
+TEST(Driver, MakesTheNumberUncertainThatTheStudyNames) {
+  // At the start the height is -length cos(30 deg), and the angle does not depend on the length.
+  const Results length = run(sampleWith("quantity = \"hinge.angle\"\ninterval", "quantity = \"rod.length\"\ninterval"));
+  EXPECT_EQ(length.comparison.verdict, "inside");
+  const double height = 0.5 * std::cos(std::acos(-1.0) / 6);
+  EXPECT_NEAR(length.interval.at.lower(0, 1), -1.01 * height, 1e-12);
+  EXPECT_NEAR(length.interval.at.upper(0, 1), -0.99 * height, 1e-12);
+  EXPECT_NEAR(length.interval.at.upper(0, 0) - length.interval.at.lower(0, 0), 0, 1e-12);
+}
+
+TEST(Driver, SeedAndNumberOfSamplesMayBeReplaced) {
+  RunOptions options;
+  options.seed = 99;
+  options.samples = 5;
+  const Results results = run(readStudyText(sampleStudy, "s.toml"), options);
+  EXPECT_EQ(results.seed, 99U);
+  EXPECT_EQ(results.stochastic.samples, 5);
+  EXPECT_NE(run(readStudyText(sampleStudy, "s.toml")).stochastic.mean.data, results.stochastic.mean.data);
+}
+
+TEST(Driver, ComparesAlphaCutsWithoutAnEnclosureOfTheWholeBox) {
+  const Results results = run(sampleWith("\"interval\", ", ""));
+  EXPECT_FALSE(results.interval.present);
+  EXPECT_TRUE(results.fuzzy.present);
+  EXPECT_EQ(results.fuzzy.inner.size(), 11U);
+  EXPECT_TRUE(results.comparison.present);
+  EXPECT_EQ(results.comparison.verdict, "inside");
+}
+
+TEST(Driver, StopsWhenToldAndSaysSo) {
+  const std::atomic<bool> cancelled{true};
+  RunOptions options;
+  options.cancelled = &cancelled;
+  const Results results = run(readStudyText(sampleStudy, "s.toml"), options);
+  EXPECT_EQ(results.comparison.verdict, "incomplete");
+  EXPECT_LT(results.interval.reached, 0.5);
+  EXPECT_NE(results.interval.why, "");
+  EXPECT_NE(results.stochastic.why, "");
+}
+
+TEST(Driver, ReportsTheProgressOfEveryAnalysis) {
+  std::mutex mutex;
+  std::map<std::string, double> greatest;
+  RunOptions options;
+  options.progress = [&](const std::string& task, double fraction) {
+    const std::lock_guard lock(mutex);
+    greatest[task] = std::max(greatest[task], fraction);
+  };
+  run(readStudyText(sampleStudy, "s.toml"), options);
+  EXPECT_GT(greatest["enclosure"], 0);
+  EXPECT_EQ(greatest["samples"], 1);
+}
+
+TEST(Driver, EnclosesKinematicsWithAnUncertainParameter) {
+  std::string text = sampleStudyWith("[[uncertain]]", threeUncertain);
+  text.replace(text.find("dynamics"), 8, "kinematics");
+  text.erase(text.find("horizon = 0.5\n"), 14);
+  text.erase(text.find("output_step = 0.1\n"), 18);
+  const Results results = run(readStudyText(text, "s.toml"));
+  EXPECT_EQ(results.comparison.verdict, "inside");
+  EXPECT_EQ(results.time, std::vector<double>{0.0});
+  for (std::size_t j = 0; j < 2; ++j) {
+    EXPECT_LE(results.interval.direct.lower(0, j), results.interval.at.lower(0, j));
+    EXPECT_GE(results.interval.direct.upper(0, j), results.interval.at.upper(0, j));
+    EXPECT_FALSE(std::isnan(results.stochastic.quantiles.front()(0, j)));
+  }
+}
+
+}  // namespace
+}  // namespace gamut

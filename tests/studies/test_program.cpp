@@ -1,0 +1,247 @@
+// The program from outside: exit codes, what is printed where, and which files are touched.
+#include <gmock/gmock.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "studies/results_file.hpp"
+#include "tests/studies/sample_results.hpp"
+#include "tests/studies/sample_study.hpp"
+#include "tests/studies/temporary_folder.hpp"
+
+namespace gamut {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+using Json = nlohmann::json;
+
+struct Outcome {
+  int exitCode = -1;
+  std::string out, error;
+};
+
+class Program : public ::testing::Test {
+ protected:
+  /// Runs the program in the temporary folder.
+  Outcome gamut(const std::string& arguments) const {
+    const std::string command =
+        "cd '" + folder_.path("") + "' && '" GAMUT_PROGRAM "' " + arguments + " > .out 2> .error";
+    const int status = std::system(command.c_str());
+    const Outcome run{WIFEXITED(status) ? WEXITSTATUS(status) : -1, folder_.read(".out"), folder_.read(".error")};
+    std::filesystem::remove(folder_.path(".out"));
+    std::filesystem::remove(folder_.path(".error"));
+    return run;
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(Program, TellsItsVersionAndItsExitCodes) {
+  const Outcome version = gamut("--version");
+  EXPECT_EQ(version.exitCode, 0);
+  EXPECT_THAT(version.out, StartsWith("gamut "));
+  const Outcome help = gamut("--help");
+  EXPECT_EQ(help.exitCode, 0);
+  EXPECT_THAT(help.out, HasSubstr("Exit codes:"));
+  for (const char* word : {"run", "validate", "check", "report", "info"}) EXPECT_THAT(help.out, HasSubstr(word));
+}
+
+TEST_F(Program, RefusesWrongUsageInOneLine) {
+  folder_.write("s.toml", sampleStudy);
+  for (const char* arguments :
+       {"", "walk", "run", "run s.toml --jobs 0", "run s.toml --samples -3", "run s.toml --seed x", "run s.toml --what",
+        "run s.toml -o none/x.h5", "run s.toml -o s.toml --force", "run s.toml -o x --report x", "run s.toml -o ."}) {
+    SCOPED_TRACE(arguments);
+    const Outcome run = gamut(arguments);
+    EXPECT_EQ(run.exitCode, 2);
+    EXPECT_EQ(run.out, "");
+    EXPECT_THAT(run.error, StartsWith("gamut: "));
+    EXPECT_EQ(run.error.find('\n'), run.error.size() - 1);
+  }
+  EXPECT_EQ(folder_.count(), 1U);
+  EXPECT_EQ(folder_.read("s.toml"), sampleStudy);
+}
+
+TEST_F(Program, RefusesABadStudyWithoutTouchingAnyFile) {
+  folder_.write("s.toml", sampleStudyWith("horizon = 0.5", "horizon = -1"));
+  for (const char* command : {"validate s.toml", "run s.toml --json"}) {
+    const Outcome run = gamut(command);
+    EXPECT_EQ(run.exitCode, 2);
+    EXPECT_EQ(run.out, "");
+    EXPECT_EQ(run.error, "s.toml:4:11: study.horizon is not positive; expected a time above 0 s\n");
+  }
+  EXPECT_EQ(gamut("validate none.toml").error, "none.toml: cannot be read; expected a study file (TOML)\n");
+  EXPECT_EQ(gamut("validate none.toml").exitCode, 2);
+  EXPECT_EQ(folder_.count(), 1U);
+}
+
+TEST_F(Program, ValidatesWithoutWriting) {
+  folder_.write("s.toml", sampleStudy);
+  const Outcome run = gamut("validate s.toml");
+  EXPECT_EQ(run.exitCode, 0);
+  EXPECT_EQ(run.out, "s.toml: valid; dynamics with 3 elements, 1 uncertain quantities, 2 outputs at 6 times\n");
+  EXPECT_EQ(folder_.count(), 1U);
+}
+
+TEST_F(Program, WritesResultsAndReportNamedAfterTheStudyAndPrintsJsonAlone) {
+  folder_.write("swing.toml", sampleStudy);
+  const Outcome run = gamut("run swing.toml --json --quiet --samples 20 --seed 5");
+  ASSERT_EQ(run.exitCode, 0) << run.error;
+  EXPECT_EQ(run.error, "");
+  const Json json = Json::parse(run.out);
+  EXPECT_EQ(json["verdict"], "inside");
+  EXPECT_EQ(json["samples"], 20);
+  EXPECT_EQ(json["reached"], 0.5);
+  EXPECT_EQ(json["enclosure"]["angle"].size(), 6U);
+  EXPECT_EQ(json["files"]["results"], "swing.h5");
+  EXPECT_EQ(json["files"]["report"], "swing.html");
+  EXPECT_THAT(folder_.read("swing.html"), HasSubstr("<html"));
+  const Results results = readResults(folder_.path("swing.h5"));
+  EXPECT_EQ(results.seed, 5U);
+  EXPECT_EQ(results.studyText, sampleStudy);
+
+  for (const auto& [name, times] : json["enclosure"].items())
+    for (const auto& [time, bounds] : times.items()) {
+      const Json sampled = json["envelope"][name][time];
+      EXPECT_LE(bounds[0].get<double>(), sampled[0].get<double>()) << name << " at " << time;
+      EXPECT_GE(bounds[1].get<double>(), sampled[1].get<double>()) << name << " at " << time;
+    }
+
+  const Outcome check = gamut("check swing.h5");
+  EXPECT_EQ(check.exitCode, 0) << check.out;
+  const Outcome info = gamut("info swing.h5");
+  EXPECT_EQ(info.exitCode, 0);
+  for (const char* word : {"Pendulum", "hinge.angle", "tip.position.z", "seed 5"})
+    EXPECT_THAT(info.out, HasSubstr(word));
+  EXPECT_EQ(gamut("report swing.h5 -o again.html").exitCode, 0);
+  EXPECT_TRUE(folder_.has("again.html"));
+}
+
+TEST_F(Program, NamesFilesAfterTheFolderOfAStudyToml) {
+  std::filesystem::create_directory(folder_.path("arm"));
+  folder_.write("arm/study.toml", sampleStudy);
+  EXPECT_EQ(gamut("run arm/study.toml --quiet").exitCode, 0);
+  EXPECT_TRUE(folder_.has("arm.h5"));
+  EXPECT_TRUE(folder_.has("arm.html"));
+}
+
+TEST_F(Program, OverwritesOnlyWhenForced) {
+  folder_.write("s.toml", sampleStudy);
+  folder_.write("s.html", "precious");
+  const Outcome refused = gamut("run s.toml");
+  EXPECT_EQ(refused.exitCode, 2);
+  EXPECT_EQ(refused.error, "gamut: s.html: exists already; expected another name, or --force\n");
+  EXPECT_EQ(folder_.read("s.html"), "precious");
+  EXPECT_FALSE(folder_.has("s.h5"));
+  EXPECT_EQ(gamut("run s.toml --force --quiet").exitCode, 0);
+  EXPECT_THAT(folder_.read("s.html"), HasSubstr("<html"));
+}
+
+TEST_F(Program, SaysWhatItFoundOnStandardOutput) {
+  folder_.write("s.toml", sampleStudy);
+  const Outcome run = gamut("run s.toml -o a.h5 --report b.html");
+  EXPECT_EQ(run.exitCode, 0);
+  EXPECT_EQ(run.error, "");  // no bar unless on a terminal
+  for (const char* word : {"enclosure", "overestimation", "angle (rad)", "tip.position.z (m)", "a.h5", "b.html"})
+    EXPECT_THAT(run.out, HasSubstr(word));
+}
+
+TEST_F(Program, GivesTheSameNumbersForTheSameSeedOnAnyNumberOfThreads) {
+  folder_.write("s.toml", sampleStudy);
+  const Json one = Json::parse(gamut("run s.toml --json --quiet --jobs 1").out);
+  const Json two = Json::parse(gamut("run s.toml --json --quiet --jobs 2 --force").out);
+  EXPECT_EQ(one["enclosure"], two["enclosure"]);
+  EXPECT_EQ(one["envelope"], two["envelope"]);
+}
+
+TEST_F(Program, RunsWithOneAnalysisAlone) {
+  for (const char* analysis : {"interval", "stochastic", "fuzzy"}) {
+    SCOPED_TRACE(analysis);
+    folder_.write("s.toml",
+                  sampleStudyWith("[\"interval\", \"stochastic\", \"fuzzy\"]", "[\"" + std::string(analysis) + "\"]"));
+    const Outcome run = gamut("run s.toml --json --quiet --force");
+    EXPECT_EQ(run.exitCode, 0) << run.error;
+    EXPECT_TRUE(Json::parse(run.out)["verdict"].is_null());
+  }
+}
+
+TEST_F(Program, CheckFindsASampleOutsideItsEnclosureInTheStoredNumbers) {
+  Results results = sampleResults();
+  results.interval.at.upper(0, 0) = 0.4;  // the envelope there reaches to 0.85
+  results.comparison.verdict = "inside";
+  results.comparison.disputed.clear();
+  writeResults(results, folder_.path("r.h5"));
+  const Outcome run = gamut("check r.h5");
+  EXPECT_EQ(run.exitCode, 1) << run.out;
+}
+
+TEST_F(Program, CheckTellsAnIncompleteRunApart) {
+  Results results = sampleResults();
+  results.comparison.disputed.clear();
+  writeResults(results, folder_.path("r.h5"));
+  EXPECT_EQ(gamut("check r.h5").exitCode, 3);
+}
+
+TEST_F(Program, KeepsWhatWasProvedWhenTheEnclosureEndsBeforeTheHorizon) {
+  std::string study = sampleStudyWith("angle = \"30 deg\"", "angle = \"170 deg\"");
+  study.replace(study.find("± 1 %"), std::string("± 1 %").size(), "± 9 deg");
+  study.replace(study.find("horizon = 0.5"), 13, "horizon = 90.0");
+  folder_.write("s.toml", study + "[interval]\nsplit = false\n");
+  const Outcome run = gamut("run s.toml --json --quiet");
+  ASSERT_EQ(run.exitCode, 3) << run.error;
+  const Json json = Json::parse(run.out);
+  EXPECT_EQ(json["verdict"], "incomplete");
+  EXPECT_EQ(json["horizon"], 90);
+  const double reached = json["reached"].get<double>();
+  EXPECT_GT(reached, 0.5);
+  EXPECT_LT(reached, 90);
+  for (const auto& [time, bounds] : json["enclosure"]["angle"].items()) EXPECT_LE(std::stod(time), reached);
+  EXPECT_FALSE(json["enclosure"]["angle"].empty());
+  EXPECT_TRUE(json["envelope"]["angle"].contains("90"));
+  const Outcome check = gamut("check s.h5");
+  EXPECT_EQ(check.exitCode, 3);
+  EXPECT_THAT(check.out, HasSubstr("90 s asked for"));
+  EXPECT_TRUE(folder_.has("s.html"));
+}
+
+TEST_F(Program, RefusesWhatIsNoResultsFile) {
+  folder_.write("s.toml", sampleStudy);
+  for (const char* command : {"check s.toml", "info s.toml", "report s.toml", "check none.h5"}) {
+    SCOPED_TRACE(command);
+    const Outcome run = gamut(command);
+    EXPECT_EQ(run.exitCode, 2);
+    EXPECT_THAT(run.error, HasSubstr("; expected a results file written by gamut run\n"));
+    EXPECT_EQ(run.error.find('\n'), run.error.size() - 1);
+  }
+}
+
+TEST_F(Program, KeepsWhatWasFoundWhenInterrupted) {
+  const std::string path = folder_.write("long.toml", sampleStudyWith("samples = 16", "samples = 10000000"));
+  const pid_t child = ::fork();
+  if (child == 0) {
+    if (::chdir(folder_.path("").c_str()) != 0) ::_exit(99);
+    ::execl(GAMUT_PROGRAM, GAMUT_PROGRAM, "run", "long.toml", "--quiet", static_cast<char*>(nullptr));
+    ::_exit(98);
+  }
+  std::this_thread::sleep_for(std::chrono::seconds(3));
+  ::kill(child, SIGINT);
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 3);
+  const Results results = readResults(folder_.path("long.h5"));
+  EXPECT_EQ(results.comparison.verdict, "incomplete");
+  EXPECT_EQ(results.interval.reached, 0.5);
+  EXPECT_NE(results.stochastic.why, "");
+  EXPECT_TRUE(folder_.has("long.html"));
+}
+
+}  // namespace
+}  // namespace gamut

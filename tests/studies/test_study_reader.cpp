@@ -1,0 +1,409 @@
+// What a study file says is what is read; whatever is wrong is said in one line with its place.
+#include <gmock/gmock.h>
+
+#include <string>
+
+#include "studies/study.hpp"
+#include "tests/studies/sample_study.hpp"
+#include "tests/studies/temporary_folder.hpp"
+
+namespace gamut {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+std::string messageOf(const std::string& text) {
+  try {
+    readStudyText(text, "s.toml");
+  } catch (const StudyError& error) {
+    return error.what();
+  }
+  return "it was read";
+}
+
+TEST(StudyReader, ReadsWhatTheFileSays) {
+  const Study study = readStudyText(sampleStudy, "s.toml");
+  EXPECT_EQ(study.text, sampleStudy);
+  EXPECT_EQ(study.title, "Pendulum");
+  EXPECT_EQ(study.analysis, Study::Analysis::dynamics);
+  EXPECT_EQ(study.horizon, 0.5);
+  EXPECT_THAT(study.time, ElementsAre(0, 0.1, 0.2, 0.3, 0.4, 0.5));
+  EXPECT_TRUE(study.interval && study.stochastic && study.fuzzy);
+  ASSERT_EQ(study.uncertain.size(), 1U);
+  EXPECT_EQ(study.uncertain[0].quantity, "hinge.angle");
+  EXPECT_EQ(study.uncertain[0].unit, "rad");
+  EXPECT_EQ(study.uncertain[0].uncertain.name, "start");
+  ASSERT_EQ(study.outputs.size(), 2U);
+  EXPECT_EQ(study.outputs[0].name, "angle");
+  EXPECT_EQ(study.outputs[1].name, "tip.position.z");
+  EXPECT_EQ(study.outputs[1].unit, "m");
+  EXPECT_EQ(study.ensemble.samples, 16U);
+  EXPECT_EQ(study.ensemble.seed, 7U);
+  EXPECT_EQ(study.levels, 11);
+}
+
+TEST(StudyReader, EnclosesDecimalsAsTheyAreWritten) {
+  const Study study = readStudyText(sampleStudyWith("length = 0.5", "length = 0.1"), "s.toml");
+  const auto expectEnclosed = [&](const std::string& quantity, const Interval& expected) {
+    const Interval found = study.mechanism.nominal(quantity);
+    EXPECT_TRUE(isEqual(found, expected)) << quantity << ": " << toString(found) << " is not " << toString(expected);
+  };
+  expectEnclosed("gravity.z", Interval("-9.81"));
+  expectEnclosed("rod.length", Interval("0.1"));
+  expectEnclosed("bob.mass", Interval(0.25));
+  expectEnclosed("hinge.rate", Interval(0.5));
+  EXPECT_FALSE(isThin(study.mechanism.nominal("gravity.z")));
+  EXPECT_FALSE(isThin(study.mechanism.nominal("hinge.angle")));
+}
+
+TEST(StudyReader, FindsADecimalBehindOtherLetters) {
+  const Study study = readStudyText(
+      sampleStudyWith("mass = \"250 g\"", "mass = 1\nparameters = { \"größe ±\" = 1e-1, other = +0.3 }"), "s.toml");
+  EXPECT_TRUE(isEqual(study.mechanism.nominal("bob.größe ±"), Interval("0.1")));
+  EXPECT_TRUE(isEqual(study.mechanism.nominal("bob.other"), Interval("0.3")));
+}
+
+TEST(StudyReader, TakesADeviationRelativeToTheNominalValueOrInItsUnit) {
+  const auto rangeOf = [](const std::string& interval) {
+    return readStudyText(sampleStudyWith("interval = \"± 1 %\"", "interval = " + interval), "s.toml")
+        .uncertain[0]
+        .uncertain.range;
+  };
+  const Interval nominal = pi() / 6.0;
+  const Interval onePercent = rangeOf("\"± 1 %\"");
+  EXPECT_TRUE(isSubset(nominal * Interval("[0.99, 1.01]"), onePercent));
+  EXPECT_LT(width(onePercent), 0.0200001 * nominal.upper());
+  const Interval twoDegrees = rangeOf("\"± 2 deg\"");
+  EXPECT_TRUE(isSubset(pi() * Interval(28.0, 32.0) / 180.0, twoDegrees));
+  EXPECT_LT(width(twoDegrees), 4.0001 / 180 * 3.1416);
+  EXPECT_TRUE(isEqual(rangeOf("[\"20 deg\", 0.6]"), Interval((pi() / 9.0).lower(), Interval("0.6").upper())));
+}
+
+TEST(StudyReader, TakesParametersByNameWithAFactor) {
+  const Study study = readStudyText(sampleStudyWith("vector = [0, 0, \"-rod.length\"]",
+                                                    "vector = [\"1/2 rod.length\", \"10 mm\", \"-2*rod.length\"]"),
+                                    "s.toml");
+  const Link& link = std::get<Link>(study.mechanism.elements()[1]);
+  EXPECT_EQ(link.vector[0].parameter(), "rod.length");
+  EXPECT_TRUE(isEqual(link.vector[0].factor(), Interval(0.5)));
+  EXPECT_TRUE(isEqual(link.vector[2].factor(), Interval(-2.0)));
+  EXPECT_TRUE(isEqual(study.mechanism.nominal("rod.vector.y"), Interval("0.01")));
+}
+
+TEST(StudyReader, KeepsQuarterTurnsExact) {
+  const Study study =
+      readStudyText(sampleStudyWith("parameters = { length = 0.5 }",
+                                    "parameters = { length = 0.5 }\nrotation = [{ axis = \"z\", angle = \"-90 deg\" }, "
+                                    "{ axis = \"y\", angle = \"10 deg\" }]"),
+                    "s.toml");
+  const Link& link = std::get<Link>(study.mechanism.elements()[1]);
+  EXPECT_EQ(link.rotation[0].quarterTurns, -1);
+  EXPECT_EQ(link.rotation[1].quarterTurns, 0);
+}
+
+TEST(StudyReader, TakesTheHorizonInWhereTheStepDoesNotMeetIt) {
+  EXPECT_THAT(readStudyText(sampleStudyWith("output_step = 0.1", "output_step = \"200 ms\""), "s.toml").time,
+              ElementsAre(0, 0.2, 0.4, 0.5));
+  EXPECT_THAT(readStudyText(sampleStudyWith("output_step = 0.1", "output_times = [0.25, \"300 ms\"]"), "s.toml").time,
+              ElementsAre(0, 0.25, 0.3, 0.5));
+  EXPECT_THAT(readStudyText(sampleStudyWith("output_step = 0.1", "output_times = [0, 0.5]"), "s.toml").time,
+              ElementsAre(0, 0.5));
+}
+
+TEST(StudyReader, ReadsEveryKindOfElementDistributionAndMembership) {
+  const std::string more = R"([[mechanism.element]]
+type = "prismatic"
+name = "slider"
+from = "tip"
+to = "K3"
+axis = [0, 1, 1]
+initial = { displacement = "5 cm", rate = "1 m/s" }
+[[mechanism.element]]
+type = "mass"
+name = "load"
+at = "K3"
+mass = 1
+centre = [0, 0, "1 cm"]
+inertia = [1, 2, 2]
+[[mechanism.element]]
+type = "spring-damper"
+name = "spring"
+from = "inertial"
+to = "K3"
+stiffness = "3 N/mm"
+rest_length = 1
+damping = 2
+from_point = [0, 3, 0]
+[[mechanism.element]]
+type = "spring-damper"
+name = "friction"
+joint = "hinge"
+damping = "0.1 N m s/rad"
+[[uncertain]]
+quantity = "load.mass"
+interval = [0.9, 1.1]
+distribution = { type = "normal", deviation = 0.05, support = [0.92, 1.08] }
+membership = { type = "gaussian", deviation = "50 g" }
+[[uncertain]]
+quantity = "spring.stiffness"
+interval = "± 10 %"
+distribution = { type = "beta", a = 2, b = 3 }
+membership = { type = "trapezoidal", core = [2900, "3.1 N/mm"] }
+[[uncertain]]
+quantity = "friction.damping"
+interval = [0.05, 0.2]
+distribution = { type = "lognormal", log_mean = -2.3, log_deviation = 0.2 }
+[[uncertain]]
+quantity = "gravity.z"
+interval = "+- 0.01"
+distribution = { type = "triangular", mode = -9.805 }
+[[uncertain]])";
+  const Study study = readStudyText(sampleStudyWith("[[uncertain]]", more), "s.toml");
+  ASSERT_EQ(study.uncertain.size(), 5U);
+  EXPECT_EQ(study.uncertain[0].uncertain.distribution.name(), "normal");
+  EXPECT_TRUE(isSubset(Interval("[0.92, 1.08]"), study.uncertain[0].uncertain.distribution.support()));
+  EXPECT_EQ(study.uncertain[0].uncertain.membership.name(), "gaussian");
+  EXPECT_EQ(study.uncertain[1].uncertain.membership.name(), "trapezoidal");
+  EXPECT_EQ(study.uncertain[2].uncertain.distribution.name(), "lognormal");
+  EXPECT_EQ(study.uncertain[3].unit, "m/s^2");
+  EXPECT_TRUE(isEqual(study.mechanism.nominal("spring.stiffness"), Interval(3000.0)));
+}
+
+TEST(StudyReader, ReadsTheAnalysesOptions) {
+  const std::string text =
+      sampleStudy +
+      "method = \"bdf\"\ntolerance = { relative = 1e-9, absolute = 1e-11 }\n[interval]\ntolerance = "
+      "1e-12\norder = 18\ndegree = \"auto\"\nsplit = false\nmax_pieces = 10\n[fuzzy]\nlevels = 5\n";
+  const Study study = readStudyText(text, "s.toml");
+  EXPECT_EQ(study.flow.tolerance, 1e-12);
+  EXPECT_EQ(study.flow.order, 18);
+  EXPECT_EQ(study.flow.degree, -1);
+  EXPECT_FALSE(study.flow.split);
+  EXPECT_EQ(study.flow.maxPieces, 10);
+  EXPECT_EQ(study.levels, 5);
+  EXPECT_EQ(study.ensemble.method, Method::bdf);
+  EXPECT_EQ(study.ensemble.tolerance.relative, 1e-9);
+  EXPECT_EQ(study.ensemble.tolerance.absolute, 1e-11);
+}
+
+TEST(StudyReader, NamesAFileThatCannotBeRead) {
+  const TemporaryFolder folder;
+  for (const std::string& path : {folder.path("none.toml"), folder.path("")}) {
+    try {
+      readStudy(path);
+      ADD_FAILURE() << "was read";
+    } catch (const StudyError& error) {
+      EXPECT_EQ(std::string(error.what()), path + ": cannot be read; expected a study file (TOML)");
+    }
+  }
+}
+
+struct BadStudy {
+  const char* old;
+  const char* replacement;
+  const char* message;
+};
+
+class BadStudyFile : public ::testing::TestWithParam<BadStudy> {};
+
+TEST_P(BadStudyFile, IsRefusedInOneLineWithItsPlace) {
+  const std::string message = messageOf(sampleStudyWith(GetParam().old, GetParam().replacement));
+  EXPECT_EQ(message, GetParam().message);
+  EXPECT_THAT(message, Not(HasSubstr("\n")));
+  EXPECT_THAT(message, HasSubstr("; expected "));
+}
+
+constexpr BadStudy badStudies[] = {
+    {"horizon = 0.5", "horizon = ",
+     "s.toml:4:11: not valid TOML: Error while parsing key-value pair: expected value, saw '\\n'; expected a file that "
+     "follows https://toml.io"},
+    {"horizon = 0.5", "horizon = 0.5\nhorizon = 1",
+     "s.toml:5:11: not valid TOML: Error while parsing key-value pair: cannot redefine existing floating-point "
+     "'horizon'; expected a file that follows https://toml.io"},
+    {"title = ", "titel = ",
+     "s.toml:2:1: unknown key 'titel' in [study]; expected 'title'? (one of: title, analysis, horizon, output_step, "
+     "output_times, compare)"},
+    {"[uncertain]]\nname", "[uncertan]]\nname",
+     "s.toml:28:3: unknown key 'uncertan'; expected 'uncertain'? (one of: study, mechanism, uncertain, output, "
+     "interval, stochastic, fuzzy)"},
+    {"title = \"Pendulum\"", "title = 3", "s.toml:2:9: study.title is the number 3; expected text in quotes"},
+    {"title = \"Pendulum\"", "title = \"  \"", "s.toml:2:9: study.title is empty; expected text"},
+    {"analysis = \"dynamics\"", "analysis = \"dynamic\"",
+     "s.toml:3:12: study.analysis is \"dynamic\"; expected 'dynamics'? (one of: dynamics, kinematics)"},
+    {"analysis = \"dynamics\"", "", "s.toml:1:1: 'study.analysis' is missing; expected \"dynamics\" or \"kinematics\""},
+    {"analysis = \"dynamics\"", "analysis = \"kinematics\"",
+     "s.toml:4:11: study.horizon has no meaning in kinematics; expected no such key"},
+    {"horizon = 0.5", "", "s.toml:1:1: 'study.horizon' is missing; expected the time to be reached, in s"},
+    {"horizon = 0.5", "horizon = -1", "s.toml:4:11: study.horizon is not positive; expected a time above 0 s"},
+    {"horizon = 0.5", "horizon = \"1 m\"",
+     "s.toml:4:11: study.horizon is written in a unit of the kind m; expected a number in s, or with a unit of that "
+     "kind"},
+    {"horizon = 0.5", "horizon = inf", "s.toml:4:11: study.horizon is not finite; expected a finite number"},
+    {"horizon = 0.5", "horizon = nan", "s.toml:4:11: study.horizon is not finite; expected a finite number"},
+    {"horizon = 0.5", "horizon = true",
+     "s.toml:4:11: study.horizon is true; expected a number, or text with a unit such as \"135 deg\""},
+    {"horizon = 0.5", "horizon = 1979-05-27",
+     "s.toml:4:11: study.horizon is a date or time; expected a number, or text with a unit such as \"135 deg\""},
+    {"output_step = 0.1", "output_step = 0",
+     "s.toml:5:15: study.output_step is not positive; expected a time above 0 s"},
+    {"output_step = 0.1", "output_step = -0.1",
+     "s.toml:5:15: study.output_step is not positive; expected a time above 0 s"},
+    {"output_step = 0.1", "output_step = 1e-9",
+     "s.toml:5:15: study.output_step gives more than 100000 output times; expected a longer step or a shorter horizon"},
+    {"output_step = 0.1", "",
+     "s.toml:1:1: 'study.output_step' is missing; expected output_step in s, or a list output_times"},
+    {"output_step = 0.1", "output_times = []", "s.toml:5:16: study.output_times is empty; expected at least one time"},
+    {"output_step = 0.1", "output_times = [0.2, 0.1]",
+     "s.toml:5:22: the output time 0.1 s does not follow 0.2 s; expected times that rise from 0 s"},
+    {"output_step = 0.1", "output_times = [0.2, 0.6]",
+     "s.toml:5:22: the output time 0.6 s is beyond the horizon; expected at most 0.5 s"},
+    {"output_step = 0.1", "output_times = [0.2]\noutput_step = 0.1",
+     "s.toml:6:15: study.output_step and study.output_times are both given; expected one of them"},
+    {"compare = [\"interval\", \"stochastic\", \"fuzzy\"]", "compare = []",
+     "s.toml:6:11: study.compare is empty; expected \"interval\", \"stochastic\", \"fuzzy\" or some of them"},
+    {"compare = [\"interval\", \"stochastic\", \"fuzzy\"]", "compare = [\"interval\", \"interval\"]",
+     "s.toml:6:24: study.compare names \"interval\" twice; expected every analysis once"},
+    {"compare = [\"interval\", \"stochastic\", \"fuzzy\"]", "compare = [\"intervall\"]",
+     "s.toml:6:12: study.compare is \"intervall\"; expected 'interval'? (one of: interval, stochastic, fuzzy)"},
+    {"compare = [\"interval\", \"stochastic\", \"fuzzy\"]", "compare = \"interval\"",
+     "s.toml:6:11: study.compare is \"interval\"; expected a list [ … ]"},
+    {"gravity = [0, 0, -9.81]", "gravity = [0, 0]",
+     "s.toml:8:11: mechanism.gravity has 2 numbers; expected three, [x, y, z] in m/s^2"},
+    {"gravity = [0, 0, -9.81]", "gravity = [0, 0, \"9.81 m\"]",
+     "s.toml:8:18: mechanism.gravity is written in a unit of the kind m; expected a number in m/s^2, or with a unit of "
+     "that kind"},
+    {"type = \"revolute\"", "type = \"revolut\"",
+     "s.toml:10:8: mechanism.element.type is \"revolut\"; expected 'revolute'? (one of: revolute, prismatic, link, "
+     "mass, spring-damper)"},
+    {"type = \"revolute\"", "",
+     "s.toml:9:1: 'mechanism.element.type' is missing; expected type = \"revolute\", \"prismatic\", \"link\", \"mass\" "
+     "or \"spring-damper\""},
+    {"axis = \"x\"", "axis = \"w\"",
+     "s.toml:14:8: mechanism.element.axis is \"w\"; expected 'x'? (one of: x, y, z, -x, -y, -z)"},
+    {"axis = \"x\"", "axis = [0, 0, 0]",
+     "s.toml:14:8: mechanism.element.axis is the zero vector; expected a direction"},
+    {"axis = \"x\"", "axis = [1, 0]",
+     "s.toml:14:8: mechanism.element.axis has 2 numbers; expected three numbers [x, y, z]"},
+    {"axis = \"x\"\n", "",
+     "s.toml:9:1: 'mechanism.element.axis' is missing; expected \"x\", \"y\", \"z\", the same with a minus sign, or "
+     "[x, y, z]"},
+    {"from = \"inertial\"", "from = \"inertal\"",
+     "s.toml:9:1: unknown frame 'inertal'; expected 'inertial'? ('hinge' must come after the element that defines its "
+     "frame)"},
+    {"to = \"tip\"", "to = \"K1\"",
+     "s.toml:16:1: the frame 'K1' is defined twice, 'rod' needs a new frame; expected a mechanism that can be "
+     "assembled"},
+    {"angle = \"30 deg\"", "angle = \"30 grad\"",
+     "s.toml:15:21: mechanism.element.initial.angle: unknown unit 'grad' in '30 grad'; expected one of rad, deg, °, "
+     "mrad, rpm, m, km, cm, mm, um, kg, g, t, s, ms, min, N, kN, J, kJ, W, %"},
+    {"angle = \"30 deg\"", "angle = \"30 mm\"",
+     "s.toml:15:21: mechanism.element.initial.angle is written in a unit of the kind m; expected a number in rad, or "
+     "with a unit of that kind"},
+    {"angle = \"30 deg\"", "angel = \"30 deg\"",
+     "s.toml:15:13: unknown key 'angel' in [mechanism.element.initial]; expected 'angle'? (one of: angle, rate)"},
+    {"angle = \"30 deg\"", "angle = \"10 %\"",
+     "s.toml:15:21: mechanism.element.initial.angle is written in percent; expected a number in rad, or with a unit of "
+     "that kind"},
+    {"\"-rod.length\"", "\"-rod.lenght\"",
+     "s.toml:16:1: unknown parameter 'rod.lenght'; expected 'rod.length'? (for 'rod.vector.z')"},
+    {"\"-rod.length\"", "\"-2 m rod.length\"",
+     "s.toml:21:17: mechanism.element.vector is written in a unit of the kind m; expected a number without unit"},
+    {"mass = \"250 g\"", "mass = \"250 x\"",
+     "s.toml:27:8: mechanism.element.mass: unknown unit 'x' in '250 x'; expected one of rad, deg, °, mrad, rpm, m, km, "
+     "cm, mm, um, kg, g, t, s, ms, min, N, kN, J, kJ, W, %"},
+    {"mass = \"250 g\"", "mass = [1]",
+     "s.toml:27:8: mechanism.element.mass is a list; expected a number, or text with a unit such as \"135 deg\""},
+    {"mass = \"250 g\"", "",
+     "s.toml:23:1: 'mechanism.element.mass' is missing; expected the mass in kg, or with a unit such as \"250 g\""},
+    {"mass = \"250 g\"", "mass = 1\ninertia = [1, 2]",
+     "s.toml:28:11: mechanism.element.inertia has 2 numbers; expected [xx, yy, zz] or [xx, yy, zz, xy, yz, zx] in kg "
+     "m^2"},
+    {"at = \"tip\"", "at = \"K2\"",
+     "s.toml:23:1: unknown frame 'K2'; expected 'K1'? ('bob' must come after the element that defines its frame)"},
+    {"at = \"tip\"", "at = \"inertial\"",
+     "s.toml:9:1: the joint 'hinge' moves no mass, add a mass at the frame 'K1' or at one that it carries; expected a "
+     "mechanism that can be assembled"},
+    {"name = \"bob\"", "name = \"rod\"",
+     "s.toml:23:1: two elements are named 'rod', every element needs a name of its own; expected a mechanism that can "
+     "be assembled"},
+    {"quantity = \"hinge.angle\"\ninterval", "quantity = \"hinge.angel\"\ninterval",
+     "s.toml:30:12: unknown quantity 'hinge.angel'; expected a quantity of the mechanism, such as 'hinge.angle'"},
+    {"quantity = \"hinge.angle\"\ninterval", "quantity = \"tip.position.z\"\ninterval",
+     "s.toml:30:12: unknown quantity 'tip.position.z'; expected a quantity of the mechanism, such as 'gravity.z'"},
+    {"interval = \"± 1 %\"", "interval = \"1 %\"",
+     "s.toml:31:12: uncertain.interval is \"1 %\"; expected \"± 1 %\", \"± 2 deg\" or [lower, upper]"},
+    {"interval = \"± 1 %\"", "interval = \"± 1 mm\"",
+     "s.toml:31:12: uncertain.interval is written in a unit of the kind m; expected a number in rad, or with a unit of "
+     "that kind"},
+    {"interval = \"± 1 %\"", "interval = \"± -1 %\"",
+     "s.toml:31:12: uncertain.interval has no positive deviation; expected a deviation above 0"},
+    {"interval = \"± 1 %\"", "interval = \"± 0 %\"",
+     "s.toml:31:12: uncertain.interval has no positive deviation; expected a deviation above 0"},
+    {"interval = \"± 1 %\"", "interval = [0.6, 0.4]",
+     "s.toml:31:12: uncertain.interval has its lower bound above its upper one; expected [lower, upper]"},
+    {"interval = \"± 1 %\"", "interval = [0.6, 0.7]",
+     "s.toml:31:12: uncertain.interval does not hold the nominal value 0.523599; expected an interval around the "
+     "nominal value"},
+    {"interval = \"± 1 %\"", "interval = [0.4, 0.6, 0.7]",
+     "s.toml:31:12: uncertain.interval has 3 numbers; expected two, [lower, upper]"},
+    {"interval = \"± 1 %\"", "",
+     "s.toml:28:1: 'uncertain.interval' is missing; expected \"± 1 %\", \"± 2 deg\" or [lower, upper]"},
+    {"distribution = { type = \"uniform\" }", "distribution = { type = \"unifrom\" }",
+     "s.toml:32:25: uncertain.distribution.type is \"unifrom\"; expected 'uniform'? (one of: uniform, triangular, "
+     "normal, beta, lognormal)"},
+    {"distribution = { type = \"uniform\" }", "distribution = { }",
+     "s.toml:32:16: 'uncertain.distribution.type' is missing; expected { type = \"uniform\" }"},
+    {"distribution = { type = \"uniform\" }", "distribution = \"uniform\"",
+     "s.toml:32:16: uncertain.distribution is \"uniform\"; expected a table"},
+    {"distribution = { type = \"uniform\" }", "distribution = { type = \"uniform\", support = [0, 1] }",
+     "s.toml:32:46: uncertain.distribution.support [0, 1] leaves the interval; expected a support inside [0.518362, "
+     "0.528835]"},
+    {"distribution = { type = \"uniform\" }", "distribution = { type = \"uniform\", mode = 1 }",
+     "s.toml:32:36: unknown key 'mode' in [uncertain.distribution]; expected 'type'? (one of: type, support)"},
+    {"distribution = { type = \"uniform\" }", "distribution = { type = \"normal\" }",
+     "s.toml:32:16: 'uncertain.distribution.deviation' is missing; expected a number in rad"},
+    {"distribution = { type = \"uniform\" }", "distribution = { type = \"normal\", deviation = -1 }",
+     "s.toml:32:16: the deviation of a normal distribution must be positive, not -1.000000; expected a distribution "
+     "inside the interval"},
+    {"membership = { type = \"triangular\" }", "membership = { type = \"triangular\", apex = 3 }",
+     "s.toml:33:14: the core [3, 3] of a membership function lies outside its support [0.51836278784231581, "
+     "0.52883476335428193]; expected a membership function inside the interval"},
+    {"membership = { type = \"triangular\" }", "membership = { type = \"trapezoidal\" }",
+     "s.toml:33:14: 'uncertain.membership.core' is missing; expected [left, right]"},
+    {"name = \"angle\"", "name = \"tip.position.z\"",
+     "s.toml:38:12: two outputs are named 'tip.position.z'; expected different names"},
+    {"quantity = \"tip.position.z\"", "quantity = \"tip.position.w\"",
+     "s.toml:38:12: unknown quantity 'tip.position.w'; expected a quantity of the mechanism, such as 'tip.position.x'"},
+    {"quantity = \"tip.position.z\"", "name = \"tip\"",
+     "s.toml:37:1: 'output.quantity' is missing; expected what is wanted, such as \"tip.position.z\" or \"energy\""},
+    {"samples = 16", "samples = 0",
+     "s.toml:40:11: stochastic.samples is 0; expected a whole number between 1 and 10000000"},
+    {"samples = 16", "samples = 1.5",
+     "s.toml:40:11: stochastic.samples is the number 1.5; expected a whole number between 1 and 10000000"},
+    {"plan = \"sobol\"", "plan = \"sobel\"",
+     "s.toml:41:8: stochastic.plan is \"sobel\"; expected 'sobol'? (one of: sobol, random, latin-hypercube, halton, "
+     "grid)"},
+    {"seed = 7", "seed = -1",
+     "s.toml:42:8: stochastic.seed is -1; expected a whole number between 0 and 9223372036854775807"},
+    {"seed = 7", "seed = 7\ntolerance = { relative = 0 }",
+     "s.toml:43:26: stochastic.tolerance.relative is not positive; expected a number above 0"},
+    {"seed = 7", "seed = 7\n[fuzzy]\nlevels = 1",
+     "s.toml:44:10: fuzzy.levels is 1; expected a whole number between 2 and 101"},
+    {"seed = 7", "seed = 7\n[interval]\norder = \"best\"",
+     "s.toml:44:9: interval.order is neither a whole number nor \"auto\"; expected \"auto\" or a whole number between "
+     "4 and 30"},
+    {"seed = 7", "seed = 7\n[interval]\norder = 99",
+     "s.toml:44:9: interval.order is 99; expected a whole number between 4 and 30"},
+    {"seed = 7", "seed = 7\n[interval]\nsplit = \"yes\"",
+     "s.toml:44:9: interval.split is \"yes\"; expected true or false"},
+    {"seed = 7", "seed = 7\n[interval]\ntolerance = \"1 s\"",
+     "s.toml:44:13: interval.tolerance is written in a unit of the kind s; expected a number without unit"},
+    {"[stochastic]", "[[stochastic]]", "s.toml:39:1: stochastic is a list; expected a table"},
+};
+
+INSTANTIATE_TEST_SUITE_P(StudyReader, BadStudyFile, ::testing::ValuesIn(badStudies));
+
+}  // namespace
+}  // namespace gamut

@@ -1,0 +1,82 @@
+// The JSON object holds what the results hold, and nothing that JSON cannot say.
+#include "studies/summary.hpp"
+
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "studies/progress.hpp"
+#include "tests/studies/sample_results.hpp"
+
+namespace gamut {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using Json = nlohmann::json;
+
+std::vector<std::string> keysOf(const Json& object) {
+  std::vector<std::string> keys;
+  for (const auto& item : object.items()) keys.push_back(item.key());
+  return keys;
+}
+
+TEST(JsonSummary, HasTheDocumentedKeys) {
+  const std::string text = jsonSummary(sampleResults(), "incomplete", {"run.h5", "run.html"});
+  EXPECT_EQ(text.find('\n'), std::string::npos);
+  const Json json = Json::parse(text);
+  EXPECT_THAT(keysOf(json), ElementsAre("cost", "enclosure", "envelope", "excursion", "files", "horizon",
+                                        "overestimation", "reached", "samples", "verdict", "version"));
+  EXPECT_THAT(keysOf(json["overestimation"]), ElementsAre("max", "median", "outputs"));
+  EXPECT_THAT(keysOf(json["cost"]), ElementsAre("fuzzy", "interval", "report", "stochastic"));
+  EXPECT_EQ(json["verdict"], "incomplete");
+  EXPECT_EQ(json["horizon"], 0.02);
+  EXPECT_EQ(json["reached"], 0.01);
+  EXPECT_EQ(json["samples"], 4096);
+  EXPECT_EQ(json["version"], "9.8.7");
+  EXPECT_EQ(json["files"]["results"], "run.h5");
+  EXPECT_EQ(json["files"]["report"], "run.html");
+  EXPECT_EQ(json["cost"]["interval"], 0.25);
+  EXPECT_EQ(json["cost"]["report"], 0.0625);
+}
+
+TEST(JsonSummary, KeysTimesByTheirShortestDecimalAndKeepsEveryBit) {
+  Results results = sampleResults();
+  results.interval.at.lower(1, 0) = 0.1 + 0.2;
+  const Json json = Json::parse(jsonSummary(results, ""));
+  EXPECT_THAT(keysOf(json["enclosure"]["tip height"]), ElementsAre("0", "0.01"));  // 0.02 was not reached
+  EXPECT_THAT(keysOf(json["envelope"]["energy"]), ElementsAre("0", "0.01", "0.02"));
+  EXPECT_EQ(json["enclosure"]["tip height"]["0.01"][0].get<double>(), 0.1 + 0.2);
+  EXPECT_EQ(json["enclosure"]["tip height"]["0.01"][1].get<double>(), results.interval.at.upper(1, 0));
+}
+
+TEST(JsonSummary, SaysNullWhereThereIsNoNumber) {
+  Results results = sampleResults();
+  results.comparison.maximum = std::numeric_limits<double>::infinity();
+  const Json json = Json::parse(jsonSummary(results, ""));
+  EXPECT_TRUE(json["overestimation"]["max"].is_null());
+  EXPECT_TRUE(json["overestimation"]["outputs"]["energy"].is_null());
+  EXPECT_EQ(json["overestimation"]["outputs"]["tip height"], 12);
+  EXPECT_TRUE(json["files"]["results"].is_null());
+  EXPECT_TRUE(json["verdict"].is_null());
+}
+
+TEST(TextSummary, ShowsTheLastRowReachedRoundedOutward) {
+  Results results = sampleResults();
+  results.interval.at.lower(1, 0) = 1.00006;
+  results.interval.at.upper(1, 0) = 2.99994;
+  const std::string text = textSummary(results);
+  EXPECT_THAT(text, HasSubstr("at 0.01 s"));
+  EXPECT_THAT(text, HasSubstr("tip height (m)"));
+  EXPECT_THAT(text, HasSubstr("[1.000, 3.000]"));
+  EXPECT_THAT(text, HasSubstr("4096 samples 1.50 s"));
+}
+
+TEST(ProgressLine, TellsTheTimeLeftOnceItCanBeKnown) {
+  EXPECT_EQ(progressLine("samples", 0, 5), "samples      [                              ]   0 %");
+  EXPECT_EQ(progressLine("samples", 0.5, 30), "samples      [###############               ]  50 %, 30 s left");
+  EXPECT_EQ(progressLine("enclosure", 0.25, 60), "enclosure    [#######                       ]  25 %, 3 min 0 s left");
+}
+
+}  // namespace
+}  // namespace gamut

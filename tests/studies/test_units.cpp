@@ -1,0 +1,122 @@
+// Quantities are read without rounding: what is enclosed is the number that was written.
+#include "studies/units.hpp"
+
+#include <gmock/gmock.h>
+
+#include <numbers>
+
+namespace gamut {
+namespace {
+
+using ::testing::HasSubstr;
+
+void expectEqual(const Interval& found, const Interval& expected) {
+  EXPECT_TRUE(isEqual(found, expected)) << toString(found) << " is not " << toString(expected);
+}
+
+TEST(Amount, ADecimalIsEnclosedAndNotRounded) {
+  expectEqual(enclose(parseAmount("9.81")), Interval("9.81"));
+  expectEqual(enclose(parseAmount("-0.1e-3")), Interval("-0.0001"));
+  expectEqual(enclose(parseAmount("1_000.5")), Interval(1000.5));
+  EXPECT_FALSE(isThin(enclose(parseAmount("9.81"))));
+  EXPECT_TRUE(isThin(enclose(parseAmount("0.75"))));
+}
+
+TEST(Amount, PiIsEnclosedByNeighbouringDoubles) {
+  const Interval found = enclose(parseAmount("pi"));
+  expectEqual(found, Interval(0x1.921fb54442d18p+1, 0x1.921fb54442d19p+1));
+  expectEqual(enclose(parseAmount("-π")), -found);
+  expectEqual(enclose(parseAmount("1/pi")), Interval(0x1.45f306dc9c882p-2, 0x1.45f306dc9c883p-2));
+}
+
+TEST(Amount, DegreesAndFractionsOfPiAreTheSameNumber) {
+  const Amount degrees = parseAmount("135 deg"), fraction = parseAmount("3/4 pi rad");
+  EXPECT_TRUE(degrees.value == fraction.value);
+  EXPECT_EQ(degrees.piPower, fraction.piPower);
+  for (const char* text : {"3/4 pi", "3*pi/4", "3 pi/4", "0.75pi", "135°", "3/4 * π rad"}) {
+    SCOPED_TRACE(text);
+    expectEqual(enclose(parseAmount(text)), enclose(degrees));
+  }
+  expectEqual(enclose(parseAmount("-11/20 pi")), -enclose(parseAmount("99 deg")));
+  EXPECT_DOUBLE_EQ(nearest(degrees), 3 * std::numbers::pi / 4);
+}
+
+TEST(Amount, UnitsAreConvertedExactly) {
+  const struct {
+    const char* text;
+    const char* value;
+    const char* unit;
+  } cases[] = {
+      {"10 mm", "0.01", "m"},        {"250 g", "0.25", "kg"},         {"2.5 t", "2500", "kg"},
+      {"3 km", "3000", "m"},         {"7 cm", "0.07", "m"},           {"20 ms", "0.02", "s"},
+      {"2 N s/m", "2", "N s/m"},     {"9.81 m/s^2", "9.81", "m/s^2"}, {"1/2 kg m^2", "0.5", "kg m^2"},
+      {"4 kg m²", "4", "kg m^2"},    {"3 N/mm", "3000", "N/m"},       {"5 kg·m/s^2", "5", "N"},
+      {"6 N m/rad", "6", "N m/rad"}, {"12 %", "0.12", "1"},
+  };
+  for (const auto& c : cases) {
+    SCOPED_TRACE(c.text);
+    const Amount amount = parseAmount(c.text);
+    expectEqual(enclose(amount), Interval(c.value));
+    EXPECT_EQ(unitOf(amount.dimension), c.unit);
+  }
+  const Amount speed = parseAmount("30 rpm");
+  EXPECT_EQ(unitOf(speed.dimension), "rad/s");
+  expectEqual(enclose(speed), enclose(parseAmount("pi")));
+}
+
+TEST(Amount, ADivisionIsByTheNextFactorAlone) {
+  EXPECT_TRUE(parseAmount("1/2 m").value == mpq_class(1, 2));
+  EXPECT_EQ(unitOf(parseAmount("1 m/s s").dimension), "m");
+  EXPECT_EQ(unitOf(parseAmount("1 N/kg m").dimension), "m^2/s^2");
+}
+
+TEST(Amount, OutputTimesAreTheDoublesNearestToTheirDecimals) {
+  const Amount step = parseAmount("0.01");
+  for (int i = 0; i <= 300; ++i) {
+    Amount time = step;
+    time.value *= i;
+    EXPECT_EQ(nearest(time), i / 100.0) << i;  // a correctly rounded quotient of integers is the nearest double
+  }
+}
+
+TEST(Amount, WhatCannotBeReadIsNamed) {
+  const struct {
+    const char* text;
+    const char* message;
+  } cases[] = {
+      {"", "holds no number; expected a number with an optional unit"},
+      {"deg", "'deg' holds a unit but no number"},
+      {"3 parsec", "unknown unit 'parsec' in '3 parsec'; expected one of rad, deg"},
+      {"1/0 m", "'1/0 m' divides by zero"},
+      {"3 *", "'3 *' ends after an operator"},
+      {"(3)", "unexpected '('"},
+      {"2 m^x", "has no readable power after '^'"},
+      {"1e999", "too large or too small"},
+      {"1e-301", "too large or too small"},
+      {"1e99999999999999999999", "too large or too small"},
+      {"1.5e", "unknown unit 'e'"},
+      {"nan", "unknown unit 'nan'"},
+      {".", "a point without digits"},
+      {"--1", "unexpected '-'"},
+  };
+  for (const auto& c : cases) {
+    SCOPED_TRACE(c.text);
+    try {
+      parseAmount(c.text);
+      ADD_FAILURE() << "was read";
+    } catch (const UnitError& error) {
+      EXPECT_THAT(error.what(), HasSubstr(c.message));
+      EXPECT_THAT(error.what(), HasSubstr("; expected "));
+    }
+  }
+}
+
+TEST(Dimension, AnAngleIsNoPlainNumberButMayBeLeftOutOfStiffness) {
+  EXPECT_FALSE(isCompatible(dimensionOf(""), dimensionOf("rad")));
+  EXPECT_FALSE(isCompatible(dimensionOf("rad"), dimensionOf("m")));
+  EXPECT_TRUE(isCompatible(dimensionOf("N m"), dimensionOf("N m/rad")));
+  EXPECT_FALSE(isCompatible(dimensionOf("N"), dimensionOf("N m/rad")));
+}
+
+}  // namespace
+}  // namespace gamut
