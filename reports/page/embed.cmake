@@ -1,0 +1,28 @@
+# Turns text files into a C++ source of string literals, so that the program carries its page with it.
+#   cmake -DOUTPUT=page_parts.cpp -DNAMES="a;b" -DFILES="a.css;b.js" -P embed.cmake
+# Each file becomes `const std::string_view NAME` in gamut::page, declared in reports/page_parts.hpp.
+set(delimiter "gamut_page")
+set(source "// Made from the files in reports/page/ when Gamut was built.\n#include \"reports/page_parts.hpp\"\n\n")
+string(APPEND source "namespace gamut::page {\n\n")
+foreach(name file IN ZIP_LISTS NAMES FILES)
+  file(READ "${file}" content)
+  string(FIND "${content}" ")${delimiter}\"" clash)
+  if(NOT clash EQUAL -1)
+    message(FATAL_ERROR "${file} holds the text that ends an embedded file: )${delimiter}\"")
+  endif()
+  # Pieces of 8000 characters: a string literal need not be longer than what every compiler takes.
+  string(APPEND source "const std::string_view ${name} =")
+  string(LENGTH "${content}" length)
+  set(from 0)
+  while(from LESS length)
+    string(SUBSTRING "${content}" ${from} 8000 piece)
+    string(APPEND source "\n    R\"${delimiter}(${piece})${delimiter}\"")
+    math(EXPR from "${from} + 8000")
+  endwhile()
+  if(length EQUAL 0)
+    string(APPEND source " \"\"")
+  endif()
+  string(APPEND source ";\n\n")
+endforeach()
+string(APPEND source "}  // namespace gamut::page\n")
+file(WRITE "${OUTPUT}" "${source}")

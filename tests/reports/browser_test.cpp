@@ -1,0 +1,107 @@
+// The page in a real browser: every plot is drawn, nothing goes wrong, and without a script the drawings are there.
+#include <gmock/gmock.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+#include "reports/report.hpp"
+#include "tests/reports/example_results.hpp"
+#include "tests/studies/temporary_folder.hpp"
+
+namespace gamut {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+std::string outputOf(const std::string& command) {
+  std::string output;
+  FILE* pipe = popen(command.c_str(), "r");
+  if (pipe == nullptr) return output;
+  std::array<char, 65536> part{};
+  for (std::size_t n; (n = std::fread(part.data(), 1, part.size(), pipe)) > 0;) output.append(part.data(), n);
+  pclose(pipe);
+  return output;
+}
+
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t found = 0;
+  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
+  return found;
+}
+
+class Browser : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (outputOf("command -v chromium").empty()) {
+      const char* ci = std::getenv("CI");
+      ASSERT_FALSE(ci != nullptr && std::string(ci) == "true") << "chromium is not installed";
+      GTEST_SKIP() << "chromium is not installed";
+    }
+  }
+
+  /// What becomes of the page of these results once its script has run.
+  std::string opened(const Results& results) {
+    const std::string page = folder_.path("report.html");
+    writeReport(results, page);
+    return outputOf(
+        "chromium --headless --no-sandbox --disable-gpu --disable-quic --no-first-run --disable-background-networking "
+        "--disable-component-update --disable-sync --virtual-time-budget=5000 --user-data-dir='" +
+        folder_.path("profile") + "' --dump-dom 'file://" + page + "' 2>'" + folder_.path("log") + "'");
+  }
+
+ private:
+  TemporaryFolder folder_;
+};
+
+/// The opening tag of the whole page, where the script says how it went.
+std::string rootOf(const std::string& page) {
+  const auto from = page.find("<html"), to = page.find('>', from);
+  return from == std::string::npos ? "" : page.substr(from, to - from);
+}
+
+TEST_F(Browser, DrawsTheMotionAndTheOverestimationOfEveryOutput) {
+  const std::string page = opened(example::pendulum(301, 3));
+  EXPECT_THAT(rootOf(page), AllOf(HasSubstr("data-page=\"ready\""), Not(HasSubstr("data-error"))));
+  EXPECT_EQ(count(page, "<canvas"), 6u);
+  EXPECT_EQ(count(page, "class=\"output plotted\""), 3u);
+}
+
+TEST_F(Browser, MakesASwitchOfEveryKeyAndView) {
+  const std::string page = opened(example::pendulum(61, 1));
+  EXPECT_EQ(count(page, "<button type=\"button\" aria-pressed="), 8u);  // six layers, two views
+  EXPECT_THAT(page, HasSubstr("Spread around the median"));
+}
+
+TEST_F(Browser, DrawsWhatThereIsWhereAnalysesAreMissing) {
+  Results results = example::pendulum(61, 1);
+  results.interval = {};
+  results.fuzzy = {};
+  results.comparison = {};
+  const std::string page = opened(results);
+  EXPECT_THAT(rootOf(page), AllOf(HasSubstr("data-page=\"ready\""), Not(HasSubstr("data-error"))));
+  EXPECT_EQ(count(page, "<canvas"), 1u);
+}
+
+TEST_F(Browser, ShowsTextFromAStudyAsText) {
+  Results results = example::pendulum(61, 1);
+  results.title = results.outputs[0].name = results.outputs[0].unit =
+      "</script><script>document.body.remove()</script>";
+  const std::string page = opened(results);
+  EXPECT_THAT(rootOf(page), AllOf(HasSubstr("data-page=\"ready\""), Not(HasSubstr("data-error"))));
+  EXPECT_THAT(page, HasSubstr("&lt;script&gt;document.body.remove()"));
+  EXPECT_EQ(count(page, "<canvas"), 2u);
+}
+
+TEST_F(Browser, OpensAPageOfKinematicsWithoutPlots) {
+  const std::string page = opened(example::kinematics());
+  EXPECT_THAT(rootOf(page), AllOf(HasSubstr("data-page=\"ready\""), Not(HasSubstr("data-error"))));
+  EXPECT_EQ(count(page, "<canvas"), 0u);
+}
+
+}  // namespace
+}  // namespace gamut

@@ -1,0 +1,130 @@
+// A damped swing with an uncertain amplitude: centre(t) +- width(t); each answer takes its share of the width.
+#include "tests/reports/example_results.hpp"
+
+#include <cmath>
+#include <string>
+
+namespace gamut::example {
+namespace {
+
+double centre(double t, std::size_t output) {
+  return 2.3 * std::cos((2.1 + 0.3 * static_cast<double>(output)) * t) * std::exp(-0.1 * t);
+}
+double width(double t) { return 0.023 * (1 + 1.7 * t + 0.4 * std::sin(5 * t)); }
+
+void setBand(Bounds& bounds, std::size_t i, std::size_t k, double middle, double half) {
+  bounds.lower(i, k) = middle - half;
+  bounds.upper(i, k) = middle + half;
+}
+
+void describe(Results& results, std::size_t outputs) {
+  results.title = "Pendulum whose first angle is known to one percent";
+  results.analysis = "dynamics";
+  results.studyFile = "pendulum.toml";
+  results.studyText = "[study]\ntitle = \"Pendulum\"\nhorizon = 3.0\n";
+  results.seed = 20041;
+  results.version = "0.1.0";
+  results.host = "workshop";
+  results.date = "2026-01-02T03:04:05Z";
+  results.libraries = {{"SUNDIALS", "6.4.1"}, {"HDF5", "1.10.8"}};
+  results.uncertain = {{"first angle", "shoulder.angle", "rad", 2.2777, 2.3, 2.3223, "uniform", "triangular"}};
+  const char* names[] = {"shoulder angle", "elbow angle", "tip height", "tip speed", "energy", "load", "shoulder rate"};
+  const char* units[] = {"rad", "rad", "m", "m/s", "J", "N", "rad/s"};
+  for (std::size_t k = 0; k < outputs; ++k) {
+    results.outputs.push_back({names[k % 7], "element." + std::to_string(k), units[k % 7]});
+  }
+}
+
+}  // namespace
+
+Results pendulum(std::size_t times, std::size_t outputs, std::size_t levels) {
+  Results results;
+  describe(results, outputs);
+  results.horizon = 3;
+  for (std::size_t i = 0; i < times; ++i) {
+    results.time.push_back(3.0 * static_cast<double>(i) / static_cast<double>(times - 1));
+  }
+  IntervalResult& interval = results.interval;
+  StochasticResult& stochastic = results.stochastic;
+  FuzzyResult& fuzzy = results.fuzzy;
+  interval.present = stochastic.present = fuzzy.present = results.comparison.present = true;
+  interval.reached = stochastic.reached = fuzzy.reached = 3;
+  interval.pieces = 1;
+  interval.steps = 412;
+  interval.cpu = 1.73;
+  stochastic.plan = "sobol";
+  stochastic.samples = 4096;
+  stochastic.corners = 2;
+  stochastic.relativeTolerance = 1e-10;
+  stochastic.absoluteTolerance = 1e-12;
+  stochastic.cpu = 8.21;
+  stochastic.probabilities = {0.05, 0.25, 0.5, 0.75, 0.95};
+  stochastic.quantiles.assign(5, Grid(times, outputs));
+  stochastic.mean = stochastic.deviation = stochastic.error = Grid(times, outputs);
+  fuzzy.cpu = 2.02;
+  interval.at = interval.over = stochastic.envelope = Bounds(times, outputs);
+  results.comparison.verdict = "inside";
+  results.comparison.overestimation = Grid(times, outputs);
+  for (std::size_t level = 0; level < levels; ++level) {
+    fuzzy.alpha.push_back(static_cast<double>(level) / static_cast<double>(levels - 1));
+    fuzzy.outer.emplace_back(times, outputs);
+    fuzzy.inner.emplace_back(times, outputs);
+  }
+  for (std::size_t i = 0; i < times; ++i) {
+    const double t = results.time[i], before = i > 0 ? results.time[i - 1] : t, w = width(t);
+    const double ratio = 1.001 + 0.001 * t;
+    for (std::size_t k = 0; k < outputs; ++k) {
+      const double c = centre(t, k), last = centre(before, k);
+      setBand(stochastic.envelope, i, k, c, w);
+      setBand(interval.at, i, k, c, ratio * w);
+      interval.over.lower(i, k) = std::fmin(c, last) - 1.05 * w;
+      interval.over.upper(i, k) = std::fmax(c, last) + 1.05 * w;
+      for (std::size_t q = 0; q < 5; ++q) {
+        stochastic.quantiles[q](i, k) = c + (2 * stochastic.probabilities[q] - 1) * w;
+      }
+      stochastic.mean(i, k) = c;
+      stochastic.deviation(i, k) = 0.58 * w;
+      stochastic.error(i, k) = 1e-11;
+      results.comparison.overestimation(i, k) = ratio;
+      for (std::size_t level = 0; level < levels; ++level) {
+        setBand(fuzzy.outer[level], i, k, c, ratio * (1 - fuzzy.alpha[level]) * w);
+        setBand(fuzzy.inner[level], i, k, c, (1 - fuzzy.alpha[level]) * w);
+      }
+    }
+  }
+  results.comparison.maximum = 1.004;
+  results.comparison.median = 1.0025;
+  results.comparison.maximumOf.assign(outputs, 1.004);
+  return results;
+}
+
+Results kinematics() {
+  Results results = pendulum(2, 2);
+  results.title = "Crank whose arms are known to a tenth of a millimetre";
+  results.analysis = "kinematics";
+  results.horizon = results.interval.reached = results.stochastic.reached = results.fuzzy.reached = 0;
+  results.time = {0};
+  const auto cut = [](Grid& grid) {
+    grid.times = 1;
+    grid.data.resize(grid.outputs);
+  };
+  const auto cutBand = [&](Bounds& bounds) {
+    cut(bounds.lower);
+    cut(bounds.upper);
+  };
+  cutBand(results.interval.at);
+  cutBand(results.stochastic.envelope);
+  results.interval.over = {};
+  for (Grid* grid : {&results.stochastic.mean, &results.stochastic.deviation, &results.stochastic.error,
+                     &results.comparison.overestimation}) {
+    cut(*grid);
+  }
+  for (Grid& grid : results.stochastic.quantiles) cut(grid);
+  for (Bounds& bounds : results.fuzzy.outer) cutBand(bounds);
+  for (Bounds& bounds : results.fuzzy.inner) cutBand(bounds);
+  results.interval.direct = Bounds(1, 2);
+  for (std::size_t k = 0; k < 2; ++k) setBand(results.interval.direct, 0, k, centre(0, k), 2.6 * width(0));
+  return results;
+}
+
+}  // namespace gamut::example

@@ -1,0 +1,15 @@
+// Results as a study of a swinging pendulum would give them, made from formulas: narrow bands around a large motion,
+// widening with time. The tests break them one by one.
+#pragma once
+
+#include "studies/results.hpp"
+
+namespace gamut::example {
+
+/// `times` output times over 3 s, `outputs` outputs, every analysis present and in agreement.
+Results pendulum(std::size_t times = 61, std::size_t outputs = 2, std::size_t levels = 11);
+
+/// One position of a mechanism: time {0}, horizon 0, plain intervals beside the polynomial enclosure.
+Results kinematics();
+
+}  // namespace gamut::example

@@ -1,0 +1,194 @@
+// The page as text: nothing from elsewhere, nothing unescaped, guaranteed numbers outward, whatever is missing.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <ostream>
+#include <stdexcept>
+#include <string>
+
+#include "reports/page_data.hpp"
+#include "reports/report.hpp"
+#include "tests/reports/example_results.hpp"
+#include "tests/studies/temporary_folder.hpp"
+
+namespace gamut {
+namespace {
+
+using nlohmann::json;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+/// The page without the library's banner, which names its home in a comment.
+std::string withoutBanner(std::string page) {
+  const auto from = page.find("/*! https://github.com/leeoniya/uPlot "), to = page.find("*/", from);
+  return from == std::string::npos ? page : page.erase(from, to - from);
+}
+
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t found = 0;
+  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
+  return found;
+}
+
+TEST(Report, RefersToNothingOutsideItself) {
+  const std::string page = withoutBanner(renderReport(example::pendulum()));
+  EXPECT_THAT(page, AllOf(Not(HasSubstr("http://")), Not(HasSubstr("https://")), Not(HasSubstr("@import")),
+                          Not(HasSubstr("<link")), Not(HasSubstr("url("))));
+  EXPECT_THAT(page, AllOf(Not(HasSubstr("<script src")), Not(HasSubstr(" href=")), Not(HasSubstr("<img"))));
+  EXPECT_THAT(page, HasSubstr("default-src 'none'"));
+}
+
+TEST(Report, CarriesThePlottingLibraryAndItsLicence) {
+  EXPECT_THAT(renderReport(example::pendulum()),
+              AllOf(HasSubstr("var uPlot="), HasSubstr("Permission is hereby granted, free of charge")));
+}
+
+TEST(Report, EscapesEverythingAPersonWrote) {
+  const std::string attack = "</script></pre><script>alert(1)</script>'\"&{{word}}";
+  Results results = example::pendulum();
+  const std::size_t scripts = count(renderReport(results), "<script");
+  results.title = results.studyText = results.studyFile = results.host = results.version = results.date = attack;
+  results.analysis = results.interval.why = results.stochastic.plan = attack;
+  results.interval.reached = 2;
+  results.libraries = {{attack, attack}};
+  results.uncertain[0] = {attack, attack, attack, 1, 2, 3, attack, attack};
+  for (OutputInfo& output : results.outputs) output = {attack, attack, attack};
+  results.comparison.verdict = attack;
+  results.comparison.disputed.push_back({});
+  results.comparison.disputed.back().decided = attack;
+  const std::string page = renderReport(results);
+  EXPECT_THAT(page, Not(HasSubstr("<script>alert")));
+  EXPECT_EQ(count(page, "<script"), scripts);
+  EXPECT_EQ(count(page, "</script"), scripts);
+  EXPECT_EQ(count(page, "</pre"), 1u);
+  EXPECT_THAT(page, HasSubstr("&lt;/script&gt;"));
+}
+
+TEST(Report, PrintsGuaranteedBoundsOutwardInItsTable) {
+  Results results = example::pendulum(2, 1);
+  results.interval.at.lower(1, 0) = -1.23412;
+  results.interval.at.upper(1, 0) = 7.65432;
+  results.stochastic.envelope.lower(1, 0) = results.stochastic.envelope.upper(1, 0) = 1;
+  EXPECT_THAT(renderReport(results), HasSubstr("<td>[-1.235, 7.655]</td>"));
+}
+
+TEST(PageData, HoldsEveryBoundItRounds) {
+  const Results results = example::pendulum(301, 1);
+  const json data = json::parse(pageData(results));
+  const json& output = data.at("outputs").at(0);
+  for (std::size_t i = 0; i < 301; ++i) {
+    EXPECT_EQ(data.at("time").at(i), results.time[i]);
+    EXPECT_LE(output.at("guaranteed").at(0).at(i), results.interval.at.lower(i, 0));
+    EXPECT_GE(output.at("guaranteed").at(1).at(i), results.interval.at.upper(i, 0));
+    for (std::size_t level = 0; level < 11; ++level) {
+      EXPECT_LE(output.at("possible").at(level).at(0).at(i), results.fuzzy.outer[level].lower(i, 0));
+      EXPECT_GE(output.at("possible").at(level).at(1).at(i), results.fuzzy.outer[level].upper(i, 0));
+    }
+  }
+}
+
+TEST(PageData, HasNullWhereThereIsNoFiniteNumber) {
+  Results results = example::pendulum(3, 1);
+  results.interval.at.lower(1, 0) = std::numeric_limits<double>::quiet_NaN();
+  results.interval.at.upper(2, 0) = std::numeric_limits<double>::infinity();
+  const json output = json::parse(pageData(results)).at("outputs").at(0);
+  EXPECT_TRUE(output.at("guaranteed").at(0).at(1).is_null());
+  EXPECT_TRUE(output.at("guaranteed").at(1).at(2).is_null());
+}
+
+TEST(PageData, IsThinnedWhereThereAreTooManyTimes) {
+  const json data = json::parse(pageData(example::pendulum(5001, 1, 2)));
+  EXPECT_LE(data.at("time").size(), plottedTimes);
+  EXPECT_EQ(data.at("time").size(), data.at("outputs").at(0).at("guaranteed").at(0).size());
+}
+
+TEST(Report, StaysUnderThreeMegabytesForSevenOutputs) {
+  EXPECT_LT(renderReport(example::pendulum(301, 7, 11)).size(), 3'000'000u);
+}
+
+struct Absence {
+  std::string name;
+  std::function<void(Results&)> change;
+  std::string missing;  ///< what the page then does not draw
+};
+
+void PrintTo(const Absence& absence, std::ostream* stream) { *stream << absence.name; }
+
+class ReportWithout : public testing::TestWithParam<Absence> {};
+
+TEST_P(ReportWithout, IsStillAPageThatDrawsTheRest) {
+  Results results = example::pendulum();
+  GetParam().change(results);
+  const std::string page = renderReport(results);
+  EXPECT_THAT(page, AllOf(HasSubstr("<svg"), HasSubstr("</html>")));
+  if (!GetParam().missing.empty()) {
+    EXPECT_THAT(page, Not(HasSubstr("class=\"" + GetParam().missing + "\"")));
+  }
+  for (const std::string number : {"nan", "inf"}) {
+    for (const std::string before : {"M", "L", " ", "\"", "-"}) {
+      for (const std::string after : {"L", "Z", " ", "\""}) EXPECT_THAT(page, Not(HasSubstr(before + number + after)));
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Report, ReportWithout,
+    testing::Values(Absence{"Interval", [](Results& r) { r.interval = {}, r.comparison = {}; }, "guaranteed"},
+                    Absence{"Stochastic", [](Results& r) { r.stochastic = {}, r.comparison = {}; }, "sampled"},
+                    Absence{"Fuzzy", [](Results& r) { r.fuzzy = {}; }, "possible"},
+                    Absence{"Median",
+                            [](Results& r) { r.stochastic.probabilities.clear(), r.stochastic.quantiles.clear(); },
+                            "median"},
+                    Absence{"TheLastHalfOfTheEnclosure",
+                            [](Results& r) {
+                              for (std::size_t i = 30; i < 61; ++i) {
+                                r.interval.at.lower(i, 0) = r.interval.at.upper(i, 0) = NAN;
+                              }
+                              r.interval.reached = 1.4;
+                            },
+                            ""}),
+    [](const auto& tested) { return tested.param.name; });
+
+TEST(Report, OfResultsWithoutAnythingIsStillAPage) {
+  EXPECT_THAT(renderReport(Results{}), AllOf(HasSubstr("incomplete"), HasSubstr("</html>")));
+}
+
+TEST(Report, OfKinematicsDrawsBarsAndNeedsNoPlottingLibrary) {
+  const std::string page = renderReport(example::kinematics());
+  EXPECT_THAT(page, AllOf(HasSubstr("<rect class=\"direct\""), HasSubstr("<rect class=\"guaranteed\""),
+                          HasSubstr("<rect class=\"sampled\""), HasSubstr("<rect class=\"probable\"")));
+  EXPECT_EQ(count(page, "<rect class=\"possible\""), 22u);
+  EXPECT_THAT(page, Not(HasSubstr("var uPlot=")));
+}
+
+TEST(Report, DescribesEveryDrawingInWords) {
+  const std::string page = renderReport(example::pendulum());
+  EXPECT_EQ(count(page, "<svg "), count(page, "role=\"img\" aria-label=\"Plot "));
+}
+
+TEST(WrittenReport, ReplacesTheOldPageAndLeavesNothingBeside) {
+  const TemporaryFolder folder;
+  const std::string path = folder.write("report.html", "old");
+  writeReport(example::pendulum(), path);
+  EXPECT_EQ(folder.read("report.html"), renderReport(example::pendulum()));
+  EXPECT_EQ(folder.count(), 1u);
+}
+
+TEST(WrittenReport, NamesThePathThatCannotBeWritten) {
+  const TemporaryFolder folder;
+  const std::string path = folder.path("nowhere/report.html");
+  try {
+    writeReport(example::pendulum(), path);
+    FAIL() << "nothing was thrown";
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), HasSubstr(path));
+  }
+}
+
+}  // namespace
+}  // namespace gamut

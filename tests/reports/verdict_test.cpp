@@ -1,0 +1,222 @@
+// The verdict from stored numbers: what counts as outside, what is excused, what is missing, and what people are told.
+#include <gmock/gmock.h>
+
+#include <functional>
+#include <limits>
+#include <ostream>
+#include <stdexcept>
+#include <string>
+
+#include "reports/verdict.hpp"
+#include "tests/reports/example_results.hpp"
+
+namespace gamut {
+namespace {
+
+using testing::AllOf;
+using testing::Contains;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+struct Case {
+  std::string name;
+  std::function<void(Results&)> change;
+  std::string word;
+  int exitCode;
+};
+
+void PrintTo(const Case& c, std::ostream* stream) { *stream << c.name; }
+
+class VerdictOf : public testing::TestWithParam<Case> {};
+
+TEST_P(VerdictOf, IsTheWordAndExitCodeExpected) {
+  Results results = example::pendulum();
+  GetParam().change(results);
+  const Verdict verdict = judge(results);
+  EXPECT_EQ(verdict.word, GetParam().word) << verdict.sentence;
+  EXPECT_EQ(exitCode(verdict), GetParam().exitCode);
+  EXPECT_THAT(verdict.sentence, Not(IsEmpty()));
+  EXPECT_EQ(verdict.excursion > 0, verdict.word == "outside" || verdict.word == "unresolved");
+}
+
+/// Raises the envelope at one point to lie this far above the enclosure.
+void leave(Results& results, double distance) {
+  results.stochastic.envelope.upper(40, 1) = results.interval.at.upper(40, 1) + distance;
+}
+
+DisputedSample disputed(const Results& results, double distance) {
+  DisputedSample sample;
+  sample.number = 17;
+  sample.time = 40;
+  sample.output = 1;
+  sample.lower = results.interval.at.lower(40, 1);
+  sample.upper = results.interval.at.upper(40, 1);
+  sample.value = sample.upper + distance;
+  sample.distance = distance;
+  sample.error = distance;
+  return sample;
+}
+
+const Case cases[] = {
+    {"AllInside", [](Results&) {}, "inside", 0},
+    {"TouchingTheBoundIsInside", [](Results& r) { leave(r, 0); }, "inside", 0},
+    {"ExcursionBeyondTheError", [](Results& r) { leave(r, 1e-6); }, "outside", 1},
+    {"ExcursionWithinTheError", [](Results& r) { leave(r, 0.5e-11); }, "inside", 0},
+    {"ExcursionWithoutMeasuredError",
+     [](Results& r) {
+       leave(r, 0.5e-11);
+       r.stochastic.error = {};
+     },
+     "outside", 1},
+    {"ExcursionAtTheFirstTime", [](Results& r) { r.stochastic.envelope.lower(0, 0) -= 1; }, "outside", 1},
+    {"ExcursionAtTheLastTime", [](Results& r) { r.stochastic.envelope.lower(60, 1) -= 1; }, "outside", 1},
+    {"InfiniteSample", [](Results& r) { r.stochastic.envelope.upper(3, 0) = std::numeric_limits<double>::infinity(); },
+     "outside", 1},
+    {"ExcursionFromTheTubeAlone", [](Results& r) { r.interval.over.upper(41, 1) = -10; }, "outside", 1},
+    {"ExcursionFromAnAlphaCutAlone", [](Results& r) { r.fuzzy.inner[5].upper(40, 1) += 0.1; }, "outside", 1},
+    {"ExcursionAfterTheEnclosureEnded",
+     [](Results& r) {
+       r.interval.reached = 1;
+       leave(r, 1);
+     },
+     "incomplete", 3},
+    {"DisputedAndOutside",
+     [](Results& r) {
+       r.comparison.disputed.push_back(disputed(r, 1e-6));
+       r.comparison.disputed.back().outside = true;
+       r.comparison.disputed.back().decided = "tolerance 1e-12";
+     },
+     "outside", 1},
+    {"DisputedAndUnresolved",
+     [](Results& r) {
+       leave(r, 1e-6);
+       r.comparison.disputed.push_back(disputed(r, 1e-6));
+       r.comparison.disputed.back().decided = "unresolved";
+     },
+     "unresolved", 1},
+    {"DisputedAndSettledInside",
+     [](Results& r) {
+       leave(r, 1e-6);
+       r.comparison.disputed.push_back(disputed(r, 1e-6));
+       r.comparison.disputed.back().decided = "tolerance 1e-12";
+     },
+     "inside", 0},
+    {"SettledInsideDoesNotExcuseAFartherExcursion",
+     [](Results& r) {
+       leave(r, 1e-3);
+       r.comparison.disputed.push_back(disputed(r, 1e-6));
+       r.comparison.disputed.back().decided = "tolerance 1e-12";
+     },
+     "outside", 1},
+    {"SettledInsideDoesNotExcuseAnotherOutput",
+     [](Results& r) {
+       r.stochastic.envelope.upper(40, 0) = r.interval.at.upper(40, 0) + 1e-6;
+       r.comparison.disputed.push_back(disputed(r, 1e-3));
+       r.comparison.disputed.back().decided = "tolerance 1e-12";
+     },
+     "outside", 1},
+    {"EnclosureEndsEarly", [](Results& r) { r.interval.reached = 2.3; }, "incomplete", 3},
+    {"SamplesEndEarly", [](Results& r) { r.stochastic.reached = 2.3; }, "incomplete", 3},
+    {"AlphaCutsEndEarly", [](Results& r) { r.fuzzy.reached = 2.3; }, "incomplete", 3},
+    {"NumberMissingBeforeTheEnd", [](Results& r) { r.interval.at.lower(7, 0) = none; }, "incomplete", 3},
+    {"NoInterval", [](Results& r) { r.interval = {}; }, "inside", 0},
+    {"NoFuzzy", [](Results& r) { r.fuzzy = {}; }, "inside", 0},
+    {"NoComparison", [](Results& r) { r.comparison = {}; }, "inside", 0},
+    {"NoStochastic",
+     [](Results& r) {
+       r.stochastic = {};
+       r.fuzzy.inner.clear();
+     },
+     "incomplete", 3},
+    {"OnlySamples", [](Results& r) { r.interval = {}, r.fuzzy = {}; }, "incomplete", 3},
+    {"NothingAtAll", [](Results& r) { r = {}; }, "incomplete", 3},
+    {"Kinematics", [](Results& r) { r = example::kinematics(); }, "inside", 0},
+    {"KinematicsOutsidePlainIntervals",
+     [](Results& r) {
+       r = example::kinematics();
+       r.interval.direct.lower(0, 1) = r.interval.direct.upper(0, 1);
+     },
+     "outside", 1},
+};
+
+INSTANTIATE_TEST_SUITE_P(Verdict, VerdictOf, testing::ValuesIn(cases),
+                         [](const auto& tested) { return tested.param.name; });
+
+TEST(Verdict, SaysHowManyMotionsStayedInsideHowLongAndHowTight) {
+  const Verdict verdict = judge(example::pendulum());
+  EXPECT_EQ(verdict.sentence,
+            "All 4099 sampled motions stay inside the guaranteed enclosure from 0 s to 3 s; the guarantee is at most "
+            "1.004 times as wide as what was sampled.");
+  EXPECT_THAT(verdict.notes, IsEmpty());
+  EXPECT_EQ(verdict.reached, 3);
+}
+
+TEST(Verdict, SpeaksOfPositionsWhereNothingMoves) {
+  EXPECT_THAT(
+      judge(example::kinematics()).sentence,
+      AllOf(HasSubstr("All 4099 sampled positions stay inside the guaranteed enclosure;"), Not(HasSubstr(" s to "))));
+}
+
+TEST(Verdict, NamesOutputTimeAndDistanceOfTheFarthestExcursion) {
+  Results results = example::pendulum();
+  leave(results, 0.25);
+  const Verdict verdict = judge(results);
+  EXPECT_GE(verdict.excursion, 0.25 - 1e-9);
+  EXPECT_LE(verdict.excursion, 0.25 + 1e-9);
+  EXPECT_THAT(verdict.sentence, AllOf(HasSubstr("outside the enclosure"), HasSubstr("elbow angle at 2 s")));
+}
+
+TEST(Verdict, SaysSoWhereTheStoredWordDisagreesAndTheFindingWins) {
+  Results results = example::pendulum();
+  leave(results, 1e-3);
+  const Verdict verdict = judge(results);
+  EXPECT_EQ(verdict.word, "outside");
+  EXPECT_THAT(verdict.sentence, HasSubstr("stored as \"inside\"; their own numbers say \"outside\""));
+
+  Results better = example::pendulum();
+  better.comparison.verdict = "outside";
+  EXPECT_EQ(judge(better).word, "inside");
+  EXPECT_THAT(judge(better).sentence, HasSubstr("stored as \"outside\"; their own numbers say \"inside\""));
+}
+
+TEST(Verdict, NamesEveryUnresolvedSample) {
+  Results results = example::pendulum();
+  results.comparison.disputed.push_back(disputed(results, 1e-6));
+  results.comparison.disputed.back().decided = "unresolved";
+  EXPECT_THAT(judge(results).notes,
+              Contains(AllOf(HasSubstr("Sample 17 (elbow angle at 2 s)"), HasSubstr("1e-06 rad"))));
+}
+
+TEST(Verdict, TellsWhyAnAnalysisEndedEarly) {
+  Results results = example::pendulum();
+  results.interval.reached = 2.3;
+  results.interval.why = "the step became too small";
+  const Verdict verdict = judge(results);
+  EXPECT_EQ(verdict.reached, 2.3);
+  EXPECT_THAT(verdict.sentence, AllOf(HasSubstr("from 0 s to 2.3 s"), HasSubstr("3 s asked for were not reached")));
+  EXPECT_THAT(verdict.notes, Contains("The guarantee ends at 2.3 s of the 3 s asked for: the step became too small."));
+}
+
+TEST(Verdict, CountsOverestimationOnlyAsFarAsWasCompared) {
+  Results results = example::pendulum();
+  results.interval.reached = 1.5;
+  EXPECT_LT(judge(results).overestimation, 1.0026);
+}
+
+TEST(Verdict, RefusesGridsWhoseShapeDoesNotFit) {
+  Results results = example::pendulum();
+  results.time.pop_back();
+  EXPECT_THROW(judge(results), std::invalid_argument);
+}
+
+TEST(Verdict, HasNoExitCodeForAnUnknownWord) {
+  Verdict verdict;
+  verdict.word = "fine";
+  EXPECT_THROW(exitCode(verdict), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace gamut
