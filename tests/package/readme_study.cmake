@@ -1,0 +1,10 @@
+# The study that the README shows runs, and no sample leaves its enclosure.
+file(READ ${README} readme)
+if(NOT readme MATCHES "```toml\n([^`]*)```")
+  message(FATAL_ERROR "${README} shows no study")
+endif()
+file(WRITE ${BINARY}/pendulum.toml "${CMAKE_MATCH_1}")
+execute_process(COMMAND ${GAMUT} run pendulum.toml --samples 256 --force WORKING_DIRECTORY ${BINARY} RESULT_VARIABLE status)
+if(NOT status EQUAL 0 OR NOT EXISTS ${BINARY}/pendulum.h5 OR NOT EXISTS ${BINARY}/pendulum.html)
+  message(FATAL_ERROR "the README's study ended with ${status}")
+endif()
