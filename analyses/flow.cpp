@@ -100,7 +100,8 @@ bool restrictTo(const Box& level, const Embedding& embedding, const std::vector<
 }
 
 Interval inflated(const Interval& range, double radius) {
-  return range + Interval(-radius, radius);  // an infinite radius gives the whole line
+  if (!(radius < std::numeric_limits<double>::infinity())) return Interval::entire();
+  return range + Interval(-radius, radius);
 }
 
 void join(std::vector<Interval>& into, const std::vector<Interval>& from) {
@@ -115,7 +116,29 @@ void join(std::vector<Interval>& into, const std::vector<Interval>& from) {
 struct Layout {
   std::shared_ptr<const Monomials> monomials;
   int frameDegree;
+  bool expanded = false;  // with one more symbol a state, for the remainder
 };
+
+/// Monomials for `symbols` uncertain quantities and the remainder of n states in symbols of its own, to second order at
+/// least; null where there would be too many.
+std::shared_ptr<const Monomials> expandedMonomials(int symbols, int n) {
+  static constexpr int degreeOfThin[] = {0, 8, 6, 5, 4, 3, 3};
+  int degree = 0, weight = 1;
+  if (symbols == 0) {
+    degree = n <= 6 ? degreeOfThin[n] : 2;
+  } else {
+    degree = symbols == 1 ? 12 : symbols == 2 ? 8 : 4;
+    weight = degree / 2;
+  }
+  // ξ alone, ξ·ζ up to grade `degree - weight`, ζ·ζ: an upper bound on the count before it is built.
+  if (symbols + n > 12) return nullptr;
+  std::vector<int> weights(at(symbols), 1);
+  weights.resize(at(symbols + n), weight);
+  auto monomials = std::make_shared<const Monomials>(weights, degree);
+  return monomials->count() <= 300 ? monomials : nullptr;
+}
+
+constexpr double kExpandAt = 1e-6;  // a remainder, relative to its state, that a linear term cannot carry much further
 
 /// One sub-box on its way, with what is known at its last boundary.
 struct Piece {
@@ -184,6 +207,12 @@ class FlowRun {
       layouts_.push_back({std::make_shared<const Monomials>(std::vector<int>(at(embedding_.symbols), 1), degree),
                           options.frameDegree >= 0 ? std::min(options.frameDegree, degree)
                                                    : automaticFrameDegree(embedding_.symbols, degree)});
+    }
+    degrees_ = layouts_.size();
+    if (auto expanded = options.degree < 0 ? expandedMonomials(embedding_.symbols, f.states()) : nullptr) {
+      const int frame =
+          std::min(expanded->degree(), embedding_.symbols == 0 ? 1 : expanded->weight(embedding_.symbols));
+      layouts_.push_back({std::move(expanded), frame, true});
     }
     splitDefect_ = options.splitDefect * embedding_.widest / tighter;
     tolerance_ = options.tolerance > 0 ? options.tolerance : embedding_.symbols == 0 ? 1e-15 : 1e-14;
@@ -329,21 +358,19 @@ class FlowRun {
           collected_(collected),
           tools_(run.layouts_.size()),
           series_(run.motion_, 2),
-          outputSeries_(run.outputProgram_, 2) {
-      whole_.assign(at(run.embedding_.symbols), Interval(-1.0, 1.0));
-    }
+          outputSeries_(run.outputProgram_, 2) {}
 
     /// Advances `piece` to `end` or to its failure.
     Journey follow(Piece& piece, double end) {
-      const bool uncertain = run_.embedding_.symbols > 0;
       while (piece.set.t < end) {
         if (run_.options_.cancelled != nullptr && run_.options_.cancelled->load(std::memory_order_relaxed))
           return Journey::cancelled;
         use(piece);
+        const bool uncertain = symbols_ > 0;
         StepOutcome outcome =
             tool_->stepper.certify(piece.set, run_.horizon_, run_.quantum_, uncertain ? run_.splitDefect_ : 0.0);
         if (outcome != StepOutcome::stepped && uncertain) {
-          if (piece.layout + 1 < run_.layouts_.size()) {
+          if (piece.layout + 1 < run_.degrees_) {
             changeLayout(piece, piece.layout + 1);
             continue;
           }
@@ -363,7 +390,7 @@ class FlowRun {
         if (!record(piece)) return Journey::ended;
         tool_->stepper.advance(piece.set);
         ++collected_.steps;
-        lowerDegree(piece);
+        if (!expand(piece)) lowerDegree(piece);
       }
       return Journey::goesOn;
     }
@@ -389,6 +416,8 @@ class FlowRun {
       tool_ = tools.get();
       outputs_ = tool_->outputs.get();
       monomialCount_ = run_.layouts_[piece.layout].monomials->count();
+      symbols_ = run_.layouts_[piece.layout].monomials->symbols();
+      whole_.assign(at(symbols_), Interval(-1.0, 1.0));
     }
 
     void changeLayout(Piece& piece, std::size_t to) {
@@ -398,9 +427,23 @@ class FlowRun {
       piece.layout = to;
     }
 
+    /// Gives the remainder symbols of its own once it has grown to what a linear term cannot carry.
+    bool expand(Piece& piece) {
+      const std::size_t expanded = run_.layouts_.size() - 1;
+      if (!run_.layouts_[expanded].expanded || piece.layout == expanded) return false;
+      // Where ξ can be bisected, doing so early keeps the remainder small; symbols for it would only be bisected too.
+      if (run_.embedding_.symbols > 0 && run_.options_.split) return false;
+      const Layout& from = run_.layouts_[piece.layout];
+      if (!(relativeRemainder(piece.set, *from.monomials) > kExpandAt)) return false;
+      expandRemainder(piece.set, *from.monomials, from.frameDegree, *run_.layouts_[expanded].monomials,
+                      run_.layouts_[expanded].frameDegree);
+      piece.layout = expanded;
+      return true;
+    }
+
     /// Back to a lower degree where the highest grades have become too small to matter.
     void lowerDegree(Piece& piece) {
-      if (piece.layout == 0) return;
+      if (piece.layout == 0 || piece.layout >= run_.degrees_) return;
       const Monomials& now = *run_.layouts_[piece.layout].monomials;
       const double dropped =
           relativeMass(piece.set, now, run_.layouts_[piece.layout - 1].monomials->degree(), now.degree());
@@ -461,21 +504,21 @@ class FlowRun {
         piece.overOutputs = piece.lastOutputs;
         piece.next = 1;
       }
-      tool_->stepper.curvature(curvature_);
       std::vector<Interval> end, endOutputs;
       double from = t0;
       bool outputCurvatureKnown = false;
       const auto segment =
           [&](double to) {  // from `from` to `to`: the chord's hull and how far a motion leaves a chord
-            const double length = subUp(to, from), bulge = length * length / 8 * (1 + 0x1p-50);
+            const double length = subUp(to, from), eighth = mulUp(mulUp(length, length), 0.125);
+            tool_->stepper.bulge(length, bulge_);
             for (std::size_t i = 0; i < end.size(); ++i)
-              piece.over[i] = hull(piece.over[i], inflated(hull(piece.last[i], end[i]), bulge * curvature_[i]));
+              piece.over[i] = hull(piece.over[i], inflated(hull(piece.last[i], end[i]), bulge_[i]));
             if (outputs_) {
               if (!outputCurvatureKnown) boundOutputCurvature(piece, t0, t1);
               outputCurvatureKnown = true;
               for (std::size_t i = 0; i < endOutputs.size(); ++i)
                 piece.overOutputs[i] = hull(piece.overOutputs[i], inflated(hull(piece.lastOutputs[i], endOutputs[i]),
-                                                                           bulge * outputCurvature_[i]));
+                                                                           mulUp(eighth, outputCurvature_[i])));
             }
             piece.last = end;
             piece.lastOutputs = endOutputs;
@@ -517,9 +560,10 @@ class FlowRun {
       tool_->stepper.evaluate(piece.set, t1 - t0, point_);
       for (int i = 0; i < n; ++i)
         last.push_back(inflated(tool_->range(&point_.p[at(i * N)], whole_), point_.radius[at(i)]));
-      const double length = subUp(t1, t0), bulge = length * length / 8 * (1 + 0x1p-50);
+      std::vector<double> bulge;
+      tool_->stepper.bulge(subUp(t1, t0), bulge);
       std::vector<Interval> x;
-      for (int i = 0; i < n; ++i) x.push_back(inflated(hull(first[at(i)], last[at(i)]), bulge * curvature_[at(i)]));
+      for (int i = 0; i < n; ++i) x.push_back(inflated(hull(first[at(i)], last[at(i)]), bulge[at(i)]));
       const std::vector<Interval> p(run_.box_.begin() + n, run_.box_.end());
       series_.setParameters(p);
       outputSeries_.setParameters(p);
@@ -541,11 +585,11 @@ class FlowRun {
     std::vector<std::unique_ptr<Tools>> tools_;  // one a layout, made when first needed
     Tools* tool_ = nullptr;                      // of the piece at hand, as are the next two
     FlowOutputs* outputs_ = nullptr;
-    int monomialCount_ = 0;
+    int monomialCount_ = 0, symbols_ = 0;
     Series<Interval> series_, outputSeries_;
     FlowPoint point_;
     Box whole_;
-    std::vector<double> curvature_, outputCurvature_;
+    std::vector<double> bulge_, outputCurvature_;
   };
 
   const Program& motion_;
@@ -556,7 +600,8 @@ class FlowRun {
   const std::vector<Box>& levels_;
   Embedding embedding_;
   double horizon_, quantum_ = 0, tolerance_ = 0, splitDefect_ = 0;
-  std::vector<Layout> layouts_;  // degrees rising
+  std::vector<Layout> layouts_;  // degrees rising, then the expanded one
+  std::size_t degrees_ = 0;      // how many are not expanded
   std::vector<double> times_;
 
   std::mutex mutex_;

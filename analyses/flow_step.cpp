@@ -63,6 +63,75 @@ void changeDegree(FlowSet& set, const Monomials& from, int fromFrameDegree, cons
   set.C.resize(newNJ * n * n, 0.0);
 }
 
+double relativeRemainder(const FlowSet& set, const Monomials& monomials) {
+  const std::size_t N = at(monomials.count()), n = set.R.size();
+  std::vector<double> total;
+  totalRadius(set, total);
+  double largest = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    double all = 0, remainder = set.W[i];
+    for (std::size_t g = 0; g < N; ++g) all += std::fabs(set.p[i * N + g]);
+    for (std::size_t j = 0; j < n; ++j) remainder += std::fabs(set.C[i * n + j]) * total[j];
+    if (all > 0) largest = std::max(largest, remainder / all);
+  }
+  return largest;
+}
+
+void expandRemainder(FlowSet& set, const Monomials& from, int fromFrameDegree, const Monomials& to, int toFrameDegree) {
+  using Matrix = Eigen::MatrixXd;
+  const int n = static_cast<int>(set.R.size()), N = from.count(), newN = to.count();
+  const int NJ = from.countUpTo(fromFrameDegree), newNJ = to.countUpTo(toFrameDegree);
+  std::vector<double> total, p(at(n * newN), 0.0);
+  totalRadius(set, total);
+  for (int i = 0; i < n; ++i) {
+    double dropped = 0;
+    for (int g = 0; g < N; ++g)
+      if (const int number = to.find(from, g); number >= 0)
+        p[at(i * newN + number)] = set.p[at(i * N + g)];
+      else
+        dropped += std::fabs(set.p[at(i * N + g)]);
+    for (int g = 1; g < NJ; ++g)  // the frame's own dependence on ξ
+      for (int j = 0; j < n; ++j) dropped += std::fabs(set.C[at((g * n + i) * n + j)]) * total[at(j)];
+    set.W[at(i)] += dropped;
+  }
+  // H: the directions of C_0 (r + Γs); its entries are off by n roundings, at most n u |C_0| Σ|Γ|.
+  const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> C(set.C.data(), n, n);
+  const Eigen::Map<const Eigen::VectorXd> R(set.R.data(), n), radius(total.data(), n);
+  const Eigen::Map<const Matrix> generators(set.generators.data(), n, static_cast<int>(set.generators.size()) / n);
+  Matrix H(n, n + generators.cols());
+  H << C * R.asDiagonal(), C * generators;
+  const Eigen::VectorXd rounding = (n + 1) * kUnit * (C.cwiseAbs() * radius);
+  const Matrix U = Eigen::SelfAdjointEigenSolver<Matrix>(H * H.transpose()).eigenvectors();
+  double phi = 0;  // ≥ ‖UᵀU - I‖∞, as in FlowStepper::advance
+  const Matrix gram = U.transpose() * U;
+  for (int i = 0; i < n; ++i) {
+    double row = 0;
+    for (int j = 0; j < n; ++j) row += std::fabs(gram(i, j) - (i == j)) + 2 * (n + 2) * kUnit;
+    phi = std::max(phi, row * kUp);
+  }
+  if (!(phi < 0.5)) return;  // no axes to be had: the set stays as it is
+  // |U⁻¹H_j s_j| summed: the half-widths along the axes; the product UᵀH has n roundings an entry.
+  Eigen::VectorXd half = (U.transpose() * H).cwiseAbs().rowwise().sum() +
+                         (n + 1) * kUnit * (U.cwiseAbs().transpose() * H.cwiseAbs().rowwise().sum()) +
+                         U.cwiseAbs().transpose() * rounding;
+  half.array() += phi / (1 - phi) * half.maxCoeff();
+  half *= kUp;
+  for (int i = 0; i < n; ++i) {
+    double rounded = 0;
+    for (int j = 0; j < n; ++j) {
+      const double coefficient = U(i, j) * half(j);  // one rounding
+      p[at(i * newN + to.linear(from.symbols() + j))] = coefficient;
+      rounded += kUnit * std::fabs(coefficient);
+    }
+    set.W[at(i)] = (set.W[at(i)] + rounded) * kUp + kTiny;
+  }
+  set.p = std::move(p);
+  set.C.assign(at(newNJ * n * n), 0.0);
+  for (int i = 0; i < n; ++i) set.C[at(i * n + i)] = 1;
+  set.R.assign(at(n), 0.0);
+  set.generators.clear();
+}
+
 FlowStepper::FlowStepper(const Program& motion, std::shared_ptr<const Monomials> monomials, int frameDegree, int order,
                          double tolerance)
     : n_(motion.states()),
@@ -265,6 +334,7 @@ bool FlowStepper::isRemainderDominant(const FlowSet& set) const {
 
 StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum, double splitDefect) {
   const double left = end - set.t;
+  caution_ = set.caution;
   const auto powerOfTwoAbove = [](double x) {
     int exponent = 0;
     std::frexp(x, &exponent);
@@ -278,7 +348,7 @@ StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum,
     h0_ = powerOfTwoAbove(std::min(guess, left));
     load(set);
     series_.compute(set.t, h0_);
-    const double theta = suggestion(guess / h0_) * kick_;
+    const double theta = suggestion(guess / h0_) * caution_;
     if (std::isfinite(theta)) {
       h = theta * h0_;
       // A scale far from the step loses digits to overflow and underflow: once more with a better one.
@@ -301,7 +371,7 @@ StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum,
     if (tryStep(set, h / h0_)) {
       if (timeError_ > 5 * tolerance_ && attempt < 3) {
         const double factor = std::pow(tolerance_ / timeError_, 1.0 / (m_ + 1));
-        kick_ *= factor;
+        caution_ *= factor;
         h *= factor;
         continue;
       }
@@ -311,12 +381,13 @@ StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum,
       }
       h_ = h;
       theta_ = h / h0_;
-      if (h < left) kick_ *= std::clamp(std::pow(tolerance_ / std::max(timeError_, 1e-40), 1.0 / (m_ + 1)), 0.7, 1.15);
-      kick_ = std::clamp(kick_, 0x1p-6, 2.0);
+      if (h < left)
+        caution_ *= std::clamp(std::pow(tolerance_ / std::max(timeError_, 1e-40), 1.0 / (m_ + 1)), 0.7, 1.15);
+      caution_ = std::clamp(caution_, 0x1p-6, 2.0);
       return isTruncationTooLarge(splitDefect) ? StepOutcome::splitWanted : StepOutcome::stepped;
     }
     h *= 0.6;
-    kick_ = std::max(kick_ * 0.8, 0x1p-6);
+    caution_ = std::max(caution_ * 0.8, 0x1p-6);
   }
   why_ = "no step could be certified: the set has grown too wide for its equations";
   return StepOutcome::failed;
@@ -384,8 +455,9 @@ void FlowStepper::evaluate(const FlowSet& set, double tau, FlowPoint& point) {
   }
 }
 
-void FlowStepper::curvature(std::vector<double>& bound) const {
-  // |Σ i(i-1) c_i σ^{i-2}| ≤ Σ i(i-1)|c_i|θ^{i-2}, in units of h0².
+void FlowStepper::bulge(double length, std::vector<double>& bound) const {
+  const double share = length / h0_;  // in σ, exactly
+  // |Σ i(i-1) c_i σ^{i-2}| ≤ Σ i(i-1)|c_i|θ^{i-2}.
   const auto second = [&](const double* c, int count) {
     double sum = 0, power = 1;
     for (int i = 2; i <= m_; ++i, power *= theta_) {
@@ -400,7 +472,7 @@ void FlowStepper::curvature(std::vector<double>& bound) const {
     double sum = second(series_.series(i), series_.count());
     for (int j = 0; j < n_; ++j)
       if (total_[at(j)] > 0) sum += second(series_.frame(i, j), series_.frameCount()) * total_[at(j)];
-    bound[at(i)] = sum / (h0_ * h0_) * kUp + kTiny;
+    bound[at(i)] = sum * (share * share / 8) * kUp + kTiny;
   }
 }
 
@@ -537,6 +609,7 @@ void FlowStepper::advance(FlowSet& set) {
   set.t += h_;  // exact: both are multiples of the quantum
   set.p = end_.p;
   set.nextStep = h_ * 1.1;
+  set.caution = caution_;
   for (int g = 0; g < NJ; ++g)
     for (int i = 0; i < n_; ++i)
       for (int j = 0; j < n_; ++j) set.C[at((g * n_ + i) * n_ + j)] = C[at(g)](i, j);

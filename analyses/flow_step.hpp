@@ -29,6 +29,7 @@ struct FlowSet {
   std::vector<Embedded> parameters;
   std::vector<double> centre, half;  // ξ of the study = centre + half·ξ of this piece (exact: dyadic)
   double nextStep = 0;               // s, a guess
+  double caution = 1;                // factor on the step that the last coefficients suggest
 };
 
 /// p(σ), Ψ(σ) and what bounds their distance from the truth at one time of the step.
@@ -50,6 +51,13 @@ double relativeMass(const FlowSet& set, const Monomials& monomials, int above, i
 /// Rewrites a set for monomials of another degree in the same symbols; what does not fit goes into W.
 void changeDegree(FlowSet& set, const Monomials& from, int fromFrameDegree, const Monomials& to, int toFrameDegree);
 
+/// The greatest remainder relative to Σ|p|, of all states.
+double relativeRemainder(const FlowSet& set, const Monomials& monomials);
+
+/// Turns the remainder into n fresh symbols, one a principal axis of the zonotope: `to` has the symbols of `from` and n
+/// more behind them. From then on it is kept to higher order than the first.
+void expandRemainder(FlowSet& set, const Monomials& from, int fromFrameDegree, const Monomials& to, int toFrameDegree);
+
 /// Steps sets of one layout (monomials, degrees, order). Holds the workspace: one a thread.
 class FlowStepper {
  public:
@@ -67,8 +75,9 @@ class FlowStepper {
 
   /// The set τ seconds into the step, 0 ≤ τ ≤ h.
   void evaluate(const FlowSet& set, double tau, FlowPoint& point);
-  /// A bound of |d²/dt² (p + Ψ r)| over the step, for each state.
-  void curvature(std::vector<double>& bound) const;
+  /// How far p + Ψ (r + Γs) leaves its chord over a part of the step that is `length` seconds long, for each state:
+  /// length²/8 times a bound of its second derivative.
+  void bulge(double length, std::vector<double>& bound) const;
   /// The set at the end of the step.
   void advance(FlowSet& set);
   /// The symbol whose high powers weigh most in the step.
@@ -91,7 +100,7 @@ class FlowStepper {
   PolynomialSeries series_;
   double h0_ = 0, h_ = 0, theta_ = 0;
   double timeError_ = 0, truncation_ = 0, growth_ = 0;
-  double kick_ = 1;
+  double caution_ = 1;
   std::string why_;
   std::vector<double> A_, M0_, M1_, M2_, term_, next_;
   std::vector<double> delta0_, delta1_, start_, E_, y_, e1_, epsilon_, nu0_, nu1_, scale_;

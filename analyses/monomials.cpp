@@ -59,4 +59,12 @@ int Monomials::shifted(int g, int symbol, int by) const {
   return found == number_.end() ? -1 : found->second;
 }
 
+int Monomials::find(const Monomials& other, int g) const {
+  std::vector<std::uint8_t> e(weight_.size(), 0);
+  for (int l = 0; l < other.symbols(); ++l)
+    e[static_cast<std::size_t>(l)] = static_cast<std::uint8_t>(other.exponent(g, l));
+  const auto found = number_.find(e);
+  return found == number_.end() ? -1 : found->second;
+}
+
 }  // namespace gamut

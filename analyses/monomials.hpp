@@ -34,6 +34,8 @@ class Monomials {
   }
   /// The number of the monomial g·ξ_symbol^by, or -1 if it is not kept.
   int shifted(int g, int symbol, int by) const;
+  /// The number of the monomial of `other` numbered g, whose symbols are the first ones here; -1 if it is not kept.
+  int find(const Monomials& other, int g) const;
   /// The number of ξ_symbol itself, or -1 if it is not kept.
   int linear(int symbol) const { return shifted(0, symbol, 1); }
 
