@@ -1,3 +1,4 @@
+// Taylor series in 128 bits with steps of their own; outputs within a step come from its series.
 #include "analyses/arbiter.hpp"
 
 #include <algorithm>

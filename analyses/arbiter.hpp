@@ -23,7 +23,6 @@ using Precise =
 template <>
 struct ScalarTraits<Precise> {
   static Precise constant(const Interval& enclosure) { return Precise(midpoint(enclosure)); }
-  static constexpr const char* name = "Precise";
 };
 
 struct ArbiterOptions {

@@ -1,9 +1,9 @@
+// Disputes one after the other: tighter tolerances first, since they are cheap, then the arbiter in batches.
 #include "analyses/comparison.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <sstream>
 #include <stdexcept>
 
 #include "analyses/arbiter.hpp"
@@ -22,12 +22,6 @@ struct Case {
   std::vector<double> error;  // [time][output]: the greatest change until then, which crossing trajectories do not hide
   bool settled = false;       // found inside
 };
-
-std::string toleranceText(double relative) {
-  std::ostringstream text;
-  text << "tolerance " << relative;
-  return text.str();
-}
 
 class Comparer {
  public:
@@ -147,7 +141,7 @@ class Comparer {
           if (!replace(c, better)) return;
           locate(c);
           c.settled = c.dispute.distance == 0;
-          c.dispute.decided = toleranceText(relative);
+          c.dispute.decided = "tolerance " + toString(relative);
           if (c.settled || c.dispute.excursion > hopeless) return;
         }
       };

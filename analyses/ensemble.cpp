@@ -1,7 +1,9 @@
+// The integrations, spread over threads: every sample once, some of them a second time for the witness's error.
 #include "analyses/ensemble.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <mutex>
 #include <stdexcept>
 
@@ -57,14 +59,6 @@ void summarizeReach(Ensemble& e) {
 }
 
 }  // namespace
-
-void Envelope::include(std::size_t time, std::size_t output, double value) {
-  if (!std::isfinite(value)) return;
-  double& low = lower(time, output);
-  double& high = upper(time, output);
-  if (!(low <= value)) low = value;  // also where there was none, NaN
-  if (!(high >= value)) high = value;
-}
 
 std::vector<double> UncertainMotion::start(std::span<const double> values) const {
   std::vector<double> result = nominal;

@@ -7,41 +7,16 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "analyses/sampling.hpp"
+#include "analyses/table.hpp"
 #include "analyses/uncertainty.hpp"
 #include "analyses/witness.hpp"
 
 namespace gamut {
-
-/// One number for every output at every output time; NaN where there is none. Row by row one time.
-struct Table {
-  std::size_t times = 0;
-  std::size_t outputs = 0;
-  std::vector<double> data;
-
-  Table() = default;
-  Table(std::size_t timeCount, std::size_t outputCount)
-      : times(timeCount),
-        outputs(outputCount),
-        data(timeCount * outputCount, std::numeric_limits<double>::quiet_NaN()) {}
-  double& operator()(std::size_t time, std::size_t output) { return data[time * outputs + output]; }
-  double operator()(std::size_t time, std::size_t output) const { return data[time * outputs + output]; }
-};
-
-/// Least and greatest values; NaN where there are none.
-struct Envelope {
-  Table lower, upper;
-
-  Envelope() = default;
-  Envelope(std::size_t times, std::size_t outputs) : lower(times, outputs), upper(times, outputs) {}
-  /// Widens the envelope by one value; ignores values that are not finite.
-  void include(std::size_t time, std::size_t output, double value);
-};
 
 /// A motion whose start values are partly uncertain.
 struct UncertainMotion {

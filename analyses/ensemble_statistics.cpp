@@ -45,6 +45,14 @@ void quantilesOf(std::vector<double>& column, const std::vector<double>& probabi
 
 }  // namespace
 
+void Envelope::include(std::size_t time, std::size_t output, double value) {
+  if (!std::isfinite(value)) return;
+  double& low = lower(time, output);
+  double& high = upper(time, output);
+  if (!(low <= value)) low = value;  // also where there was none, NaN
+  if (!(high >= value)) high = value;
+}
+
 Envelope Ensemble::envelope() const {
   Envelope result(times.size(), outputs);
   for (std::size_t i = 0; i < size(); ++i)

@@ -434,7 +434,7 @@ class FlowRun {
       // Where ξ can be bisected, doing so early keeps the remainder small; symbols for it would only be bisected too.
       if (run_.embedding_.symbols > 0 && run_.options_.split) return false;
       const Layout& from = run_.layouts_[piece.layout];
-      if (!(relativeRemainder(piece.set, *from.monomials) > kExpandAt)) return false;
+      if (!(tool_->stepper.relativeRemainder(piece.set) > kExpandAt)) return false;
       expandRemainder(piece.set, *from.monomials, from.frameDegree, *run_.layouts_[expanded].monomials,
                       run_.layouts_[expanded].frameDegree);
       piece.layout = expanded;

@@ -63,20 +63,6 @@ void changeDegree(FlowSet& set, const Monomials& from, int fromFrameDegree, cons
   set.C.resize(newNJ * n * n, 0.0);
 }
 
-double relativeRemainder(const FlowSet& set, const Monomials& monomials) {
-  const std::size_t N = at(monomials.count()), n = set.R.size();
-  std::vector<double> total;
-  totalRadius(set, total);
-  double largest = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    double all = 0, remainder = set.W[i];
-    for (std::size_t g = 0; g < N; ++g) all += std::fabs(set.p[i * N + g]);
-    for (std::size_t j = 0; j < n; ++j) remainder += std::fabs(set.C[i * n + j]) * total[j];
-    if (all > 0) largest = std::max(largest, remainder / all);
-  }
-  return largest;
-}
-
 void expandRemainder(FlowSet& set, const Monomials& from, int fromFrameDegree, const Monomials& to, int toFrameDegree) {
   using Matrix = Eigen::MatrixXd;
   const int n = static_cast<int>(set.R.size()), N = from.count(), newN = to.count();
@@ -617,6 +603,18 @@ void FlowStepper::advance(FlowSet& set) {
     set.R[at(i)] = newR(i);
     set.W[at(i)] = 0;
   }
+}
+
+double FlowStepper::relativeRemainder(const FlowSet& set) const {
+  std::vector<double> total;
+  totalRadius(set, total);
+  double largest = 0;
+  for (int i = 0; i < n_; ++i) {
+    double remainder = set.W[at(i)];
+    for (int j = 0; j < n_; ++j) remainder += std::fabs(set.C[at(i * n_ + j)]) * total[at(j)];
+    if (scale_[at(i)] > 0) largest = std::max(largest, remainder / scale_[at(i)]);
+  }
+  return largest;
 }
 
 int FlowStepper::worstSymbol() const {

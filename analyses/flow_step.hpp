@@ -51,9 +51,6 @@ double relativeMass(const FlowSet& set, const Monomials& monomials, int above, i
 /// Rewrites a set for monomials of another degree in the same symbols; what does not fit goes into W.
 void changeDegree(FlowSet& set, const Monomials& from, int fromFrameDegree, const Monomials& to, int toFrameDegree);
 
-/// The greatest remainder relative to Σ|p|, of all states.
-double relativeRemainder(const FlowSet& set, const Monomials& monomials);
-
 /// Turns the remainder into n fresh symbols, one a principal axis of the zonotope: `to` has the symbols of `from` and n
 /// more behind them. From then on it is kept to higher order than the first.
 void expandRemainder(FlowSet& set, const Monomials& from, int fromFrameDegree, const Monomials& to, int toFrameDegree);
@@ -80,6 +77,8 @@ class FlowStepper {
   void bulge(double length, std::vector<double>& bound) const;
   /// The set at the end of the step.
   void advance(FlowSet& set);
+  /// The greatest remainder of all states, relative to the state's size over the step.
+  double relativeRemainder(const FlowSet& set) const;
   /// The symbol whose high powers weigh most in the step.
   int worstSymbol() const;
   /// Bisects `set` in a symbol; `set` becomes one half, the other is returned.

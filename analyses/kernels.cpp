@@ -106,4 +106,102 @@ GAMUT_CLONES double dot(const double* a, const double* b, int stride) {
   return sum(s);
 }
 
+namespace {
+
+/// Σ_{j≤i} a_j b_{i-j} over stored orders; entries of the order being computed are still zero.
+GAMUT_INLINE double thinDot(const double* a, const double* bReversed, int i) {
+  const double* b = bReversed - i;
+  Vector s = load(a) * load(b);
+  for (int c = 8; c <= i; c += 8) s += load(a + c) * load(b + c);
+  return sum(s);
+}
+
+}  // namespace
+
+GAMUT_CLONES void thinRecursion(const std::vector<ThinNode>& nodes, const std::vector<std::pair<int, int>>& states,
+                                const std::vector<ThinSum>& frame, int time, int order, double h0,
+                                std::vector<double>& current) {
+  const int count = static_cast<int>(nodes.size());
+  const ThinNode* v = nodes.data();
+  double* cur = current.data();
+  for (int i = 0; i < order; ++i) {
+    if (i == 1)  // what does not change in time has order 0 only
+      for (int x = 0; x < count; ++x)
+        if (v[x].invariant) cur[x] = 0;
+    if (i > 0) {
+      cur[time] = i == 1 ? h0 : 0.0;
+      for (int x = time + 1; x < count; ++x) {
+        const ThinNode& n = v[x];
+        if (n.invariant || n.op == Op::state || n.op == Op::cos) continue;
+        const ThinNode& a = v[n.a];
+        switch (n.op) {
+          case Op::add:
+            cur[x] = cur[n.a] + cur[n.b];
+            break;
+          case Op::sub:
+            cur[x] = cur[n.a] - cur[n.b];
+            break;
+          case Op::neg:
+            cur[x] = -cur[n.a];
+            break;
+          case Op::mul:
+            cur[x] = n.scaled ? a.forward[0] * cur[n.b]
+                              : thinDot(a.forward, v[n.b].reversed, i) + a.forward[0] * cur[n.b] +
+                                    cur[n.a] * v[n.b].forward[0];
+            break;
+          case Op::sqr:
+            cur[x] = thinDot(a.forward, a.reversed, i) + 2 * (a.forward[0] * cur[n.a]);
+            break;
+          case Op::recip:
+            cur[x] = -(thinDot(n.forward, a.reversed, i) + n.forward[0] * cur[n.a]) * n.forward[0];
+            break;
+          case Op::sqrt:
+            cur[x] = 0.5 * (cur[n.a] - thinDot(n.forward, n.reversed, i)) / n.forward[0];
+            break;
+          case Op::exp:
+            cur[x] = (thinDot(a.derivative, n.reversed, i) + i * cur[n.a] * n.forward[0]) / i;
+            break;
+          case Op::log:
+          case Op::atan:
+            cur[x] = (cur[n.a] - thinDot(n.derivative, v[n.b].reversed, i) / i) / v[n.b].forward[0];
+            break;
+          case Op::sin: {
+            const double slope = i * cur[n.a];
+            cur[x] = (thinDot(a.derivative, v[x + 1].reversed, i) + slope * v[x + 1].forward[0]) / i;
+            cur[x + 1] = -(thinDot(a.derivative, n.reversed, i) + slope * n.forward[0]) / i;
+            break;
+          }
+          default:
+            break;
+        }
+      }
+    }
+    for (int x = 0; x < count; ++x) {
+      const ThinNode& n = v[x];
+      if (n.invariant) continue;
+      n.forward[i] = cur[x];
+      n.forward[i + 1] = 0;
+      if (n.reversed != nullptr) {
+        n.reversed[-i] = cur[x];
+        n.reversed[-i - 1] = 0;
+      }
+      if (n.derivative != nullptr) {
+        n.derivative[i] = i * cur[x];
+        n.derivative[i + 1] = 0;
+      }
+    }
+    // The next order of the frame first: it reads this order's values of the states' derivatives' nodes only.
+    for (const ThinSum& row : frame) {
+      double s = 0;
+      for (const auto& [left, right] : row.terms)
+        s += v[left].invariant ? v[left].forward[0] * v[right].forward[i]
+                               : thinDot(v[left].forward, v[right].reversed, i);
+      cur[row.target] = s * h0 / (i + 1);
+    }
+    for (const auto& [state, slope] : states) cur[state] = v[slope].forward[i] * h0 / (i + 1);
+  }
+  for (const auto& [state, slope] : states) v[state].forward[order] = cur[state];
+  for (const ThinSum& row : frame) v[row.target].forward[order] = cur[row.target];
+}
+
 }  // namespace gamut::kernels

@@ -2,7 +2,11 @@
 // unit that the machine has. Sums may be reassociated and fused: the certificate counts terms, not their order.
 #pragma once
 
+#include <utility>
+#include <vector>
+
 #include "analyses/monomials.hpp"
+#include "scalars/program.hpp"
 
 namespace gamut::kernels {
 
@@ -26,5 +30,28 @@ void tabulate(const Monomials& monomials, int count, const double* f, const doub
 
 /// Σ_i a[i] b[i] over `stride` entries.
 double dot(const double* a, const double* b, int stride);
+
+/// A node of a recursion without symbols: its series is one row. Operands are node numbers, `value` pairs as above.
+struct ThinNode {
+  Op op;
+  bool invariant;
+  bool scaled;  // a product whose factor a is invariant
+  int a, b;
+  double* forward;
+  double* reversed;    // at order 0, orders to the left; null if nobody convolves with it
+  double* derivative;  // i times order i; null if not needed
+};
+
+/// ẋ_s = Σ_k left_k · right_k: one row of the variational equation.
+struct ThinSum {
+  int target;
+  std::vector<std::pair<int, int>> terms;
+};
+
+/// Orders 1 … m-1 of all nodes and m of the states when order 0 is known: the recursion without symbols. `states` pairs
+/// a state with the node of its derivative; `current` has one number a node. Newest coefficients are kept aside and
+/// stored together behind an order: a vector load right behind a scalar store would stall.
+void thinRecursion(const std::vector<ThinNode>& nodes, const std::vector<std::pair<int, int>>& states,
+                   const std::vector<ThinSum>& frame, int time, int order, double h0, std::vector<double>& current);
 
 }  // namespace gamut::kernels

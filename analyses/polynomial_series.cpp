@@ -147,6 +147,24 @@ PolynomialSeries::PolynomialSeries(const Program& program, int primaryOutputs,
   power_.assign(at(stride_), 0.0);
   weights_.assign(at(stride_), 0.0);
   clear();
+  if (count() == 1 && withFrame_) prepareThin();
+}
+
+void PolynomialSeries::prepareThin() {
+  for (const Plan& v : plan_)
+    thin_.push_back({v.op, v.invariant, v.op == Op::mul && plan_[at(v.a)].invariant, v.a, v.b, &f_[v.f],
+                     v.r == none ? nullptr : &r_[v.r + at(stride_ - 1)], v.d == none ? nullptr : &d_[v.d]});
+  for (int s = 0; s < n_; ++s) thinStates_.emplace_back(s, outputs_[at(s)]);
+  for (int i = 0; i < n_; ++i)
+    for (int j = 0; j < n_; ++j) {
+      kernels::ThinSum row{frameNode(i, j), {}};
+      for (int k = 0; k < n_; ++k)
+        if (const int a = outputs_[at(n_ + i * n_ + k)];
+            !(plan_[at(a)].constant && constant_[at(a)] == 0 && radius_[at(a)] == 0))
+          row.terms.emplace_back(a, frameNode(k, j));
+      thinFrame_.push_back(std::move(row));
+    }
+  current_.assign(plan_.size(), 0.0);
 }
 
 void PolynomialSeries::clear() {
@@ -178,6 +196,12 @@ void PolynomialSeries::setFrame(int i, int j, const double* coefficients, int sp
 void PolynomialSeries::compute(double t0, double h0) {
   put(plan_[at(time_)], 0, 0, t0);
   if (m_ > 1) put(plan_[at(time_)], 0, 1, h0);
+  if (!thin_.empty()) {
+    for (int node = time_ + 1; node < nodes_; ++node) computeOrder(node, 0);
+    for (std::size_t x = 0; x < plan_.size(); ++x) current_[x] = f_[plan_[x].f];
+    kernels::thinRecursion(thin_, thinStates_, thinFrame_, time_, m_, h0, current_);
+    return;
+  }
   for (int i = 0; i < m_; ++i) {
     for (int node = time_ + 1; node < nodes_; ++node) computeOrder(node, i);
     if (!withFrame_) continue;

@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "analyses/kernels.hpp"
 #include "analyses/monomials.hpp"
 #include "scalars/program.hpp"
 
@@ -73,6 +74,7 @@ class PolynomialSeries {
   void computeOrder(int node, int i);
   void product(const Plan& a, const Plan& b, int count, int i, double* out);
   void computeFrameOrder(int i, double h0);
+  void prepareThin();
   void pointFunctions(int node);
   void initialRow(int node);
   double tailTime(int a, int b) const;
@@ -97,6 +99,10 @@ class PolynomialSeries {
   std::vector<std::size_t> inverseAt_;
   std::vector<double> norm_, weighted_, own0_, own1_, rho0_, rho1_, top_;
   std::vector<double> power_, weights_;
+  std::vector<kernels::ThinNode> thin_;  // without symbols: the recursion's own view of the plan
+  std::vector<std::pair<int, int>> thinStates_;
+  std::vector<kernels::ThinSum> thinFrame_;
+  std::vector<double> current_;
 };
 
 }  // namespace gamut

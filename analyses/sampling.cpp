@@ -1,3 +1,4 @@
+// Plans by GSL's generators, and the corners' orthogonal array. A plan is made at once; its points are kept.
 #include "analyses/sampling.hpp"
 
 #include <gsl/gsl_qrng.h>

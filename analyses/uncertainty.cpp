@@ -1,3 +1,5 @@
+// Distributions in doubles, by GSL and Boost.Math: what is probable proves nothing. Memberships in intervals: cuts must
+// hold what they claim.
 #include "analyses/uncertainty.hpp"
 
 #include <gsl/gsl_cdf.h>
@@ -20,15 +22,14 @@ void requireBounded(const Interval& support, const char* of) {
 }
 
 void requirePositive(double value, const char* what) {
-  require(value > 0 && std::isfinite(value), std::string(what) + " must be positive, not " + std::to_string(value));
+  require(value > 0 && std::isfinite(value), std::string(what) + " must be positive, not " + toString(value));
 }
 
 double clamp(double value, const Interval& range) { return std::clamp(value, range.lower(), range.upper()); }
 
 }  // namespace
 
-// ---- Distribution
-// -----------------------------------------------------------------------------------------------------
+// ---- Distribution ---------------------------------------------------------------------------------------------------
 
 Distribution::Distribution(Shape shape, const Interval& support, double first, double second)
     : shape_(shape), support_(support), first_(first), second_(second) {
@@ -45,8 +46,8 @@ Distribution::Distribution(Shape shape, const Interval& support, double first, d
 Distribution Distribution::uniform(const Interval& support) { return {Shape::uniform, support, 0, 0}; }
 
 Distribution Distribution::triangular(const Interval& support, double mode) {
-  require(contains(support, mode), "the mode " + std::to_string(mode) +
-                                       " of a triangular distribution lies outside its support " + toString(support));
+  require(contains(support, mode),
+          "the mode " + toString(mode) + " of a triangular distribution lies outside its support " + toString(support));
   return {Shape::triangular, support, mode, 0};
 }
 
@@ -106,7 +107,7 @@ double Distribution::truncatedNormalCumulative(double value, double lower, doubl
 }
 
 double Distribution::quantile(double u) const {
-  require(u >= 0 && u <= 1, "a probability lies between 0 and 1, not at " + std::to_string(u));
+  require(u >= 0 && u <= 1, "a probability lies between 0 and 1, not at " + toString(u));
   const double lower = support_.lower(), upper = support_.upper(), span = upper - lower;
   if (u == 0 || lower == upper) return lower;
   if (u == 1) return upper;
@@ -148,8 +149,7 @@ double Distribution::cumulative(double value) const {
   return 0;
 }
 
-// ---- Membership
-// -------------------------------------------------------------------------------------------------------
+// ---- Membership -----------------------------------------------------------------------------------------------------
 
 Membership::Membership(Shape shape, const Interval& support, const Interval& core, double deviation)
     : shape_(shape), support_(support), core_(core), deviation_(deviation) {
@@ -184,7 +184,7 @@ std::string_view Membership::name() const {
 }
 
 Interval Membership::cut(double alpha) const {
-  require(alpha >= 0 && alpha <= 1, "an alpha level lies between 0 and 1, not at " + std::to_string(alpha));
+  require(alpha >= 0 && alpha <= 1, "an alpha level lies between 0 and 1, not at " + toString(alpha));
   if (alpha == 0) return support_;
   if (alpha == 1) return core_;
   Interval left, right;
@@ -212,14 +212,13 @@ double Membership::operator()(double value) const {
   return std::clamp(degree.lower(), 0.0, 1.0);
 }
 
-// ---- Uncertain
-// --------------------------------------------------------------------------------------------------------
+// ---- Uncertain ------------------------------------------------------------------------------------------------------
 
 void Uncertain::check() const {
   const std::string of = "uncertain quantity '" + name + "': ";
   require(!isEmpty(range) && isBounded(range), of + "its interval must be bounded, not " + toString(range));
   require(contains(range, nominal),
-          of + "the nominal value " + toString(Interval(nominal)) + " lies outside its interval " + toString(range));
+          of + "the nominal value " + toString(nominal) + " lies outside its interval " + toString(range));
   require(isSubset(distribution.support(), range),
           of + "the distribution reaches beyond its interval " + toString(range));
   require(isSubset(membership.support(), range),

@@ -1,3 +1,4 @@
+// CVODE behind a pointer, so that nobody else includes SUNDIALS.
 #include "analyses/witness.hpp"
 
 #include <cvode/cvode.h>
