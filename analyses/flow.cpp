@@ -244,6 +244,19 @@ class FlowRun {
     return b;
   }
 
+  double looseness() const { return looseness_; }
+
+  /// Intersects the cuts of this level, and of all inside it, with a flow over the level's own box.
+  static void tighten(Tube& tube, std::size_t level, const Tube& own) {
+    const auto& better = own.outputs_.empty() || own.outputs_[0].empty() ? own.states_ : own.outputs_;
+    for (std::size_t inner = level; inner < tube.cuts_.size(); ++inner)
+      for (std::size_t row = 0; row < std::min(tube.cuts_[inner].size(), better.size()); ++row)
+        for (std::size_t i = 0; i < better[row].size(); ++i)
+          tube.cuts_[inner][row][i] = intersection(tube.cuts_[inner][row][i], better[row][i]);
+    tube.cutCpu_ += own.cpu_;
+    tube.steps_ += own.steps_;
+  }
+
   Tube run() {
     queue_.push(start());
     failedAt_ = std::numeric_limits<double>::infinity();
@@ -721,16 +734,30 @@ Tube Flow::enclose(const Box& box, double horizon, const std::vector<double>& ou
           "output times must rise from 0 to the horizon");
   checkLevels(box, levels);
   // Splitting acts too late where the remainder has grown already: where it shows in the result, once more and earlier.
-  Tube best;
-  for (double tighter : {1.0, 30.0, 1000.0, 30000.0}) {
-    FlowRun run(parts.motion, parts.differentiated, parts.outputs, parts.options, box, horizon, outputTimes, levels,
-                tighter);
-    Tube tube = run.run();
-    const bool again = run.isLoose(tube);
-    best = tighter == 1.0 ? std::move(tube) : FlowRun::meet(std::move(best), std::move(tube));
-    if (!again) break;
+  const auto repeat = [&](const Box& whole, const std::vector<Box>& inside, double& looseness) {
+    Tube best;
+    for (double tighter : {1.0, 30.0, 1000.0, 30000.0}) {
+      FlowRun run(parts.motion, parts.differentiated, parts.outputs, parts.options, whole, horizon, outputTimes, inside,
+                  tighter);
+      Tube tube = run.run();
+      const bool again = run.isLoose(tube);
+      looseness = run.looseness();
+      best = tighter == 1.0 ? std::move(tube) : FlowRun::meet(std::move(best), std::move(tube));
+      if (!again) break;
+    }
+    return best;
+  };
+  const Embedding uncertain(box);
+  double looseness = 0, unused = 0;
+  Tube tube = repeat(box, levels, looseness);
+  // A remainder that is small for the whole box is not for a much smaller level: that one gets a flow of its own.
+  for (std::size_t level = 0; level < levels.size() && tube.why() != kInterrupted; ++level) {
+    double share = 0;
+    for (std::size_t i = 0; i < box.size(); ++i)
+      if (uncertain.components[i].symbol >= 0) share = std::max(share, width(levels[level][i]) / width(box[i]));
+    if (looseness > 0.01 * share) FlowRun::tighten(tube, level, repeat(levels[level], {}, unused));
   }
-  return best;
+  return tube;
 }
 
 std::vector<std::vector<Interval>> encloseImage(const Program& g, double t, const Box& box,
