@@ -1,14 +1,13 @@
-// Small vectors and matrices over any scalar, and the two helpers that keep generic code exact: `square`, which knows
-// that x*x is never negative, and `isKnownZero`, which knows the zeros that structure (not a value) puts into a
-// program.
+// Small vectors and matrices over any scalar, and `isKnownZero`, which knows the zeros that structure (not a value)
+// puts into a program.
 #pragma once
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-#include <concepts>
 
 #include "scalars/eigen.hpp"
 #include "scalars/recorded.hpp"
+#include "scalars/traits.hpp"
 
 namespace gamut {
 
@@ -20,17 +19,6 @@ using Matrix3 = Eigen::Matrix<S, 3, 3>;
 template <class S>
 Vector3<S> zeroVector() {
   return Vector3<S>(S(0.0), S(0.0), S(0.0));
-}
-
-/// x * x, by the scalar's own `sqr` where it has one (an interval's square is never negative).
-template <class S>
-S square(const S& x) {
-  if constexpr (requires {
-                  { sqr(x) } -> std::same_as<S>;
-                })
-    return sqr(x);
-  else
-    return x * x;
 }
 
 /// True only if x is the number 0 whatever the inputs are: known while recording, never asked of a value. Terms that

@@ -1,3 +1,4 @@
+// From the description to frames and elements, once for each scalar.
 #include "mechanics/assembly.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// The description of a mechanism: every name is checked when it is added, so that an assembly can rely on it.
 #include "mechanics/mechanism.hpp"
 
 #include <algorithm>
@@ -60,6 +61,7 @@ void Mechanism::addFrame(const std::string& from, const std::string& to, const s
   checkFrame(from, of);
   if (to.empty()) refuse("the element " + quoted(of) + " needs the name of the frame that it moves");
   if (has(frames_, to)) refuse("the frame " + quoted(to) + " is defined twice; " + quoted(of) + " needs a new frame");
+  if (has(masses(), to)) refuse("the frame " + quoted(to) + " is named like a mass");
   if (to == "energy" || to == "gravity") refuse("a frame cannot be named " + quoted(to) + ": that is a quantity");
   frames_.push_back(to);
 }
@@ -99,13 +101,18 @@ void Mechanism::addState(std::vector<State>& states, const std::string& name, co
   states.push_back(state);
 }
 
+template <class Description>
+void Mechanism::keep(Description element) {
+  names_.push_back(element.name);
+  elements_.emplace_back(std::move(element));
+}
+
 void Mechanism::add(Revolute joint) {
   checkNewName("revolute joint", joint.name);
   addFrame(joint.from, joint.to, joint.name);
   addState(positions_, joint.name + ".angle", "rad", joint.angle);
   addState(rates_, joint.name + ".rate", "rad/s", joint.rate);
-  names_.push_back(joint.name);
-  elements_.emplace_back(std::move(joint));
+  keep(std::move(joint));
 }
 
 void Mechanism::add(Prismatic joint) {
@@ -113,8 +120,7 @@ void Mechanism::add(Prismatic joint) {
   addFrame(joint.from, joint.to, joint.name);
   addState(positions_, joint.name + ".displacement", "m", joint.displacement);
   addState(rates_, joint.name + ".rate", "m/s", joint.rate);
-  names_.push_back(joint.name);
-  elements_.emplace_back(std::move(joint));
+  keep(std::move(joint));
 }
 
 void Mechanism::add(Link link) {
@@ -123,8 +129,7 @@ void Mechanism::add(Link link) {
   use(link.vector, link.name + ".vector", "m");
   for (std::size_t i = 0; i < link.rotation.size(); ++i)
     use(link.rotation[i].angle, link.name + ".rotation." + std::to_string(i + 1), "rad");
-  names_.push_back(link.name);
-  elements_.emplace_back(std::move(link));
+  keep(std::move(link));
 }
 
 void Mechanism::add(Mass mass) {
@@ -135,8 +140,7 @@ void Mechanism::add(Mass mass) {
   use(mass.centre, mass.name + ".centre", "m");
   constexpr std::array<const char*, 6> entries = {"xx", "yy", "zz", "xy", "yz", "zx"};
   for (std::size_t i = 0; i < 6; ++i) use(mass.inertia[i], mass.name + ".inertia." + entries[i], "kg m^2");
-  names_.push_back(mass.name);
-  elements_.emplace_back(std::move(mass));
+  keep(std::move(mass));
 }
 
 void Mechanism::add(Spring spring) {
@@ -149,8 +153,7 @@ void Mechanism::add(Spring spring) {
   use(spring.damping, spring.name + ".damping", "N s/m");
   use(spring.fromPoint, spring.name + ".fromPoint", "m");
   use(spring.toPoint, spring.name + ".toPoint", "m");
-  names_.push_back(spring.name);
-  elements_.emplace_back(std::move(spring));
+  keep(std::move(spring));
 }
 
 void Mechanism::add(JointSpring spring) {
@@ -164,8 +167,7 @@ void Mechanism::add(JointSpring spring) {
   use(spring.stiffness, spring.name + ".stiffness", angular ? "N m/rad" : "N/m");
   use(spring.rest, spring.name + ".rest", joint->unit);
   use(spring.damping, spring.name + ".damping", angular ? "N m s/rad" : "N s/m");
-  names_.push_back(spring.name);
-  elements_.emplace_back(std::move(spring));
+  keep(std::move(spring));
 }
 
 void Mechanism::setGravity(QuantityVector gravity) {
@@ -193,6 +195,13 @@ void Mechanism::check() const {
     if (!carries[frame])
       refuse("the joint " + quoted(name) + " moves no mass; add a mass at the frame " + quoted(frame) +
              " or at one that it carries");
+}
+
+std::vector<std::string> Mechanism::masses() const {
+  std::vector<std::string> names;
+  for (const ElementDescription& element : elements_)
+    if (const Mass* mass = std::get_if<Mass>(&element)) names.push_back(mass->name);
+  return names;
 }
 
 std::vector<std::string> Mechanism::joints() const {
@@ -234,8 +243,7 @@ std::vector<Quantity> Mechanism::initialState() const {
 
 std::vector<std::string> Mechanism::outputQuantities() const {
   std::vector<std::string> names = stateNames(), places(frames_.begin() + 1, frames_.end());
-  for (const ElementDescription& element : elements_)
-    if (const Mass* mass = std::get_if<Mass>(&element)) places.push_back(mass->name);
+  for (const std::string& mass : masses()) places.push_back(mass);
   for (const std::string& place : places)
     for (const char* what : {".position", ".velocity"})
       for (const char* component : components) names.push_back(place + what + component);

@@ -18,7 +18,7 @@
 #include <variant>
 #include <vector>
 
-#include "mechanics/rotation.hpp"
+#include "mechanics/axis.hpp"
 #include "scalars/interval.hpp"
 
 namespace gamut {
@@ -162,6 +162,7 @@ class Mechanism {
     std::string name, unit;
     Quantity initial;
   };
+
   static const NamedValue* find(const std::vector<NamedValue>& values, const std::string& name);
   void checkNewName(const std::string& kind, const std::string& name) const;
   void checkFrame(const std::string& frame, const std::string& of) const;
@@ -169,6 +170,9 @@ class Mechanism {
   void addState(std::vector<State>& states, const std::string& name, const std::string& unit, const Quantity& initial);
   void use(Quantity& quantity, const std::string& name, const std::string& unit);
   void use(QuantityVector& vector, const std::string& name, const std::string& unit);
+  template <class Description>
+  void keep(Description element);
+  std::vector<std::string> masses() const;
   std::vector<std::string> joints() const;
 
   std::vector<ElementDescription> elements_;

@@ -1,3 +1,4 @@
+// Programs of a mechanism: its assembly is moved once by Recorded.
 #include "mechanics/model.hpp"
 
 #include <stdexcept>

@@ -1,3 +1,4 @@
+// The nearest name by the distance of Damerau and Levenshtein, restricted to swaps of neighbours.
 #include "mechanics/names.hpp"
 
 #include <algorithm>

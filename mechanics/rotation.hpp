@@ -1,66 +1,28 @@
-// Axes and rotations. A rotation about a coordinate axis mixes two components only and is applied that way: exact zeros
-// and ones never meet a multiplication, which is what keeps recorded programs small.
+// Rotations. One about a coordinate axis mixes two components only and is applied that way: exact zeros and ones never
+// meet a multiplication, which is what keeps recorded programs small.
 #pragma once
 
-#include <array>
 #include <cmath>
 #include <optional>
-#include <stdexcept>
 
 #include "mechanics/algebra.hpp"
+#include "mechanics/axis.hpp"
 #include "scalars/traits.hpp"
 
 namespace gamut {
 
-/// A direction fixed in a frame: a coordinate axis with a sign, or any other direction, normalised when it is used.
-class Axis {
- public:
-  /// The direction of (x, y, z), of any length. Throws std::invalid_argument for the zero vector.
-  Axis(double x, double y, double z) : direction_{x, y, z} {
-    int zeros = 0;
-    for (int i = 0; i < 3; ++i) {
-      const double component = direction_[static_cast<std::size_t>(i)];
-      if (!std::isfinite(component)) throw std::invalid_argument("an axis needs three finite components");
-      if (component == 0)
-        ++zeros;
-      else
-        index_ = i;
-    }
-    if (zeros == 3) throw std::invalid_argument("an axis needs a direction, but all three components are zero");
-    sign_ = direction_[static_cast<std::size_t>(index_)] < 0 ? -1 : 1;
-    if (zeros < 2) index_ = -1;
-  }
-
-  /// True for ±x, ±y, ±z.
-  bool isAligned() const { return index_ >= 0; }
-  /// 0, 1, 2 for an aligned axis.
-  int index() const { return index_; }
-  /// 1 or -1: the side of the coordinate axis to which an aligned axis points.
-  double sign() const { return sign_; }
-
-  /// The unit vector: exact zeros and ones if aligned, enclosed by S otherwise.
-  template <class S>
-  Vector3<S> unit() const {
-    Vector3<S> u = zeroVector<S>();
-    if (isAligned()) {
-      u[index_] = S(sign_);
-      return u;
-    }
-    Interval squares(0.0);
-    for (double component : direction_) squares += sqr(Interval(component));
-    for (int i = 0; i < 3; ++i) u[i] = constant<S>(direction_[static_cast<std::size_t>(i)] / sqrt(squares));
+template <class S>
+auto Axis::unit() const {
+  Vector3<S> u = zeroVector<S>();
+  if (isAligned()) {
+    u[index_] = S(sign_);
     return u;
   }
-
- private:
-  std::array<double, 3> direction_;
-  int index_ = -1;
-  double sign_ = 1;
-};
-
-inline const Axis axisX(1, 0, 0);
-inline const Axis axisY(0, 1, 0);
-inline const Axis axisZ(0, 0, 1);
+  Interval squares(0.0);
+  for (double component : direction_) squares += sqr(Interval(component));
+  for (int i = 0; i < 3; ++i) u[i] = constant<S>(direction_[static_cast<std::size_t>(i)] / sqrt(squares));
+  return u;
+}
 
 /// A rotation A from frame K to frame K': a vector with components x' in K' has components A x' in K.
 template <class S>
@@ -72,8 +34,8 @@ class Rotation {
   /// By `angle` [rad] about `axis`, plus `quarterTurns` exact right angles (so that 90° has exact zeros and ones).
   Rotation(const Axis& axis, const S& angle, int quarterTurns = 0) {
     using std::cos, std::sin;
-    const S beta = axis.isAligned() && axis.sign() < 0 ? S(-angle) : angle;
-    const int turns = (((axis.sign() < 0 && axis.isAligned() ? -quarterTurns : quarterTurns) % 4) + 4) % 4;
+    const S beta = axis.sign() < 0 ? S(-angle) : angle;
+    const int turns = ((axis.sign() < 0 ? -(quarterTurns % 4) : quarterTurns % 4) + 4) % 4;
     S c = cos(beta), s = sin(beta);
     for (int i = 0; i < turns; ++i) {  // cos(β + π/2) = −sin β, sin(β + π/2) = cos β
       const S turned = -s;

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "scalars/index.hpp"
 #include "scalars/program.hpp"
 #include "scalars/traits.hpp"
 
@@ -27,9 +28,9 @@ class Evaluator {
       if (!program_->isInvariant(static_cast<int>(i))) continue;
       const Node& n = nodes[i];
       if (n.op == Op::parameter)
-        value_[i] = p[static_cast<std::size_t>(n.a)];
+        value_[i] = p[detail::at(n.a)];
       else if (n.op == Op::constant)
-        value_[i] = constant<S>(program_->constants()[static_cast<std::size_t>(n.a)]);
+        value_[i] = constant<S>(program_->constants()[detail::at(n.a)]);
       else
         compute(static_cast<int>(i));
     }
@@ -39,21 +40,21 @@ class Evaluator {
   void operator()(const S& t, std::span<const S> x, std::span<S> y) {
     const auto& nodes = program_->nodes();
     for (int i : varying_) {
-      const Node& n = nodes[static_cast<std::size_t>(i)];
+      const Node& n = nodes[detail::at(i)];
       if (n.op == Op::state)
-        value_[static_cast<std::size_t>(i)] = x[static_cast<std::size_t>(n.a)];
+        value_[detail::at(i)] = x[detail::at(n.a)];
       else if (n.op == Op::time)
-        value_[static_cast<std::size_t>(i)] = t;
+        value_[detail::at(i)] = t;
       else
         compute(i);
     }
     const auto& outputs = program_->outputNodes();
-    for (std::size_t i = 0; i < outputs.size(); ++i) y[i] = value_[static_cast<std::size_t>(outputs[i])];
+    for (std::size_t i = 0; i < outputs.size(); ++i) y[i] = value_[detail::at(outputs[i])];
   }
 
   /// The outputs as a vector.
   std::vector<S> operator()(const S& t, const std::vector<S>& x) {
-    std::vector<S> y(static_cast<std::size_t>(program_->outputs()), S(0.0));
+    std::vector<S> y(detail::at(program_->outputs()), S(0.0));
     (*this)(t, std::span<const S>(x), std::span<S>(y));
     return y;
   }
@@ -61,29 +62,24 @@ class Evaluator {
  private:
   void compute(int i) {
     using std::atan, std::cos, std::exp, std::log, std::sin, std::sqrt;
-    const Node& n = program_->nodes()[static_cast<std::size_t>(i)];
-    const S& a = value_[static_cast<std::size_t>(n.a)];
-    S& r = value_[static_cast<std::size_t>(i)];
+    const Node& n = program_->nodes()[detail::at(i)];
+    const S& a = value_[detail::at(n.a)];
+    S& r = value_[detail::at(i)];
     switch (n.op) {
       case Op::add:
-        r = a + value_[static_cast<std::size_t>(n.b)];
+        r = a + value_[detail::at(n.b)];
         break;
       case Op::sub:
-        r = a - value_[static_cast<std::size_t>(n.b)];
+        r = a - value_[detail::at(n.b)];
         break;
       case Op::neg:
         r = -a;
         break;
       case Op::mul:
-        r = a * value_[static_cast<std::size_t>(n.b)];
+        r = a * value_[detail::at(n.b)];
         break;
       case Op::sqr:
-        if constexpr (requires {
-                        { sqr(a) } -> std::convertible_to<S>;
-                      })
-          r = sqr(a);
-        else
-          r = a * a;
+        r = square(a);
         break;
       case Op::recip:
         r = S(1.0) / a;

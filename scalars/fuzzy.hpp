@@ -84,7 +84,6 @@ std::ostream& operator<<(std::ostream& stream, const Fuzzy& x);
 template <>
 struct ScalarTraits<Fuzzy> {
   static Fuzzy constant(const Interval& enclosure) { return enclosure; }
-  static constexpr const char* name = "Fuzzy";
 };
 
 static_assert(Scalar<Fuzzy>);

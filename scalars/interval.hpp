@@ -129,8 +129,9 @@ class Interval {
 /// A product of intervals, one a coordinate.
 using Box = std::vector<Interval>;
 
-// ---- Predicates (an empty interval is a subset of every set and disjoint from every set)
-// -----------------------------
+// ---- Predicates -----------------------------------------------------------------------------------------------------
+
+// An empty interval is a subset of every set and disjoint from every set.
 
 inline bool isEmpty(const Interval& x) { return !(x.lower() <= x.upper()); }
 inline bool isThin(const Interval& x) { return x.lower() == x.upper(); }
@@ -193,8 +194,10 @@ inline double mignitude(const Interval& x) {
 Interval hull(const Interval& x, const Interval& y);
 Interval intersection(const Interval& x, const Interval& y);
 
-// ---- Functions: the exact range over the part of x in the domain; empty when x misses the domain
-// --------------------- All are the tightest enclosures: endpoints are exact values rounded outward.
+// ---- Functions ------------------------------------------------------------------------------------------------------
+
+// The range over the part of x in the domain; empty when x misses the domain. All are the tightest enclosures:
+// endpoints are exact values rounded outward.
 
 /// x^2: non-negative, unlike x * x for an interval around zero.
 Interval sqr(const Interval& x);
@@ -240,5 +243,8 @@ inline Interval twoPi() { return {0x1.921fb54442d18p+2, 0x1.921fb54442d19p+2}; }
 /// interval holds x; "[empty]" and "[entire]" for those two.
 std::string toString(const Interval& x, int digits = 17);
 std::ostream& operator<<(std::ostream& stream, const Interval& x);
+
+/// The shortest decimal that is read back as this double: "0.1", "1e-09", "inf".
+std::string toString(double x);
 
 }  // namespace gamut

@@ -2,6 +2,8 @@
 // written holds the interval. MPFR converts, since strtod and printf round to nearest.
 #include <mpfr.h>
 
+#include <array>
+#include <charconv>
 #include <ostream>
 #include <stdexcept>
 
@@ -110,5 +112,10 @@ std::string toString(const Interval& x, int digits) {
 }
 
 std::ostream& operator<<(std::ostream& stream, const Interval& x) { return stream << toString(x); }
+
+std::string toString(double x) {
+  std::array<char, 32> text{};  // a sign, 17 digits, a point and an exponent of five
+  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), x).ptr};
+}
 
 }  // namespace gamut

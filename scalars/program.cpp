@@ -1,5 +1,8 @@
+// Program and the Recorder's rewrites. Each is exact on real numbers (on the domain of what was recorded), so that a
+// rewritten program has the values of the code it was recorded from.
 #include "scalars/program.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <ostream>
 #include <stdexcept>
@@ -7,7 +10,7 @@
 namespace gamut {
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
+using detail::at;
 
 bool hasOperands(Op op) { return op != Op::state && op != Op::parameter && op != Op::time && op != Op::constant; }
 
@@ -15,6 +18,14 @@ const char* nameOf(Op op) {
   static const char* const names[] = {"state", "parameter", "time", "constant", "add", "sub",  "neg", "mul",
                                       "sqr",   "recip",     "sqrt", "exp",      "log", "atan", "sin", "cos"};
   return names[static_cast<int>(op)];
+}
+
+/// Folding is allowed where the operands are doubles and the result is one: then nothing is lost.
+bool isExactFold(const Interval& result) { return !isEmpty(result) && isThin(result) && isBounded(result); }
+
+bool isPowerOfTwo(const Interval& c) {
+  int exponent = 0;
+  return isThin(c) && std::fabs(std::frexp(c.lower(), &exponent)) == 0.5;
 }
 
 }  // namespace
@@ -117,15 +128,6 @@ int Recorder::constant(const Interval& number) {
   }
   return entry->second;
 }
-
-namespace {
-/// Folding is allowed where the operands are doubles and the result is one: then nothing is lost.
-bool isExactFold(const Interval& result) { return !isEmpty(result) && isThin(result) && isBounded(result); }
-bool isPowerOfTwo(const Interval& c) {
-  int exponent = 0;
-  return isThin(c) && std::fabs(std::frexp(c.lower(), &exponent)) == 0.5;
-}
-}  // namespace
 
 int Recorder::add(int a, int b) {
   if (isExactly(a, 0)) return b;

@@ -7,11 +7,11 @@
 #include <cstdint>
 #include <iosfwd>
 #include <map>
-#include <string>
 #include <tuple>
 #include <utility>
 #include <vector>
 
+#include "scalars/index.hpp"
 #include "scalars/interval.hpp"
 
 namespace gamut {
@@ -57,7 +57,7 @@ class Program {
   /// The enclosures of the constants that nodes refer to.
   const std::vector<Interval>& constants() const { return constants_; }
   /// True if the node's value depends neither on time nor on a state: it is evaluated once for given parameters.
-  bool isInvariant(int node) const { return invariant_[static_cast<std::size_t>(node)] != 0; }
+  bool isInvariant(int node) const { return invariant_[detail::at(node)] != 0; }
   /// True if some output depends on time explicitly.
   bool dependsOnTime() const;
   /// Number of nodes that are neither inputs nor constants nor invariant: the cost of one evaluation.
@@ -111,10 +111,10 @@ class Recorder {
   /// `seeds[s].second` (a node) and every other input has derivative 0.
   std::vector<int> derivatives(const std::vector<int>& of, const std::vector<std::pair<int, int>>& seeds);
 
-  const Node& node(int i) const { return nodes_[static_cast<std::size_t>(i)]; }
+  const Node& node(int i) const { return nodes_[detail::at(i)]; }
   int size() const { return static_cast<int>(nodes_.size()); }
   /// The value of a constant node.
-  const Interval& value(int node) const { return constants_[static_cast<std::size_t>(this->node(node).a)]; }
+  const Interval& value(int node) const { return constants_[detail::at(this->node(node).a)]; }
   bool isConstant(int node) const { return this->node(node).op == Op::constant; }
 
   /// The program with these output nodes; what they do not need is dropped.

@@ -1,3 +1,4 @@
+// The functions of Recorded that need more than one line.
 #include "scalars/recorded.hpp"
 
 #include <cmath>

@@ -11,8 +11,10 @@
 #pragma once
 
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
+#include "scalars/index.hpp"
 #include "scalars/interval.hpp"
 #include "scalars/program.hpp"
 #include "scalars/traits.hpp"
@@ -84,7 +86,6 @@ Recorded pow(const Recorded& a, double exponent);
 template <>
 struct ScalarTraits<Recorded> {
   static Recorded constant(const Interval& value) { return Recorded(value); }
-  static constexpr const char* name = "Recorded";
 };
 
 /// Makes `recorder` the one that this thread's Recorded numbers write to, for the life of the guard.
@@ -104,7 +105,7 @@ template <class Function>
 Program record(int n, int k, int m, Function&& function) {
   Recorder recorder(n, k);
   const RecordingGuard guard(recorder);
-  std::vector<Recorded> x, p, y(static_cast<std::size_t>(m));
+  std::vector<Recorded> x, p, y(detail::at(m));
   for (int i = 0; i < n; ++i) x.push_back(Recorded::node(recorder.state(i)));
   for (int i = 0; i < k; ++i) p.push_back(Recorded::node(recorder.parameter(i)));
   const std::vector<Recorded>& constX = x;

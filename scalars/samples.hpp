@@ -110,7 +110,6 @@ std::ostream& operator<<(std::ostream& stream, const Samples& x);
 template <>
 struct ScalarTraits<Samples> {
   static Samples constant(const Interval& enclosure) { return midpoint(enclosure); }
-  static constexpr const char* name = "Samples";
 };
 
 static_assert(Scalar<Samples>);

@@ -2,10 +2,10 @@
 // of derivatives), high precision (references and arbitration). The flow has its own, faster kernels for polynomials.
 #pragma once
 
-#include <concepts>
 #include <span>
 #include <vector>
 
+#include "scalars/index.hpp"
 #include "scalars/program.hpp"
 #include "scalars/traits.hpp"
 
@@ -17,30 +17,28 @@ class Series {
  public:
   /// Orders 0 … `order` are kept for the nodes.
   Series(const Program& program, int order)
-      : program_(&program), size_(order + 1), c_(program.nodes().size() * static_cast<std::size_t>(size_), S(0.0)) {}
+      : program_(&program), size_(order + 1), c_(program.nodes().size() * detail::at(size_), S(0.0)) {}
 
   /// The constants and parameters; one value a parameter.
   void setParameters(std::span<const S> p) {
     for (std::size_t i = 0; i < program_->nodes().size(); ++i) {
       const Node& n = program_->nodes()[i];
-      if (n.op == Op::parameter) at(static_cast<int>(i), 0) = p[static_cast<std::size_t>(n.a)];
-      if (n.op == Op::constant)
-        at(static_cast<int>(i), 0) = constant<S>(program_->constants()[static_cast<std::size_t>(n.a)]);
+      if (n.op == Op::parameter) at(static_cast<int>(i), 0) = p[detail::at(n.a)];
+      if (n.op == Op::constant) at(static_cast<int>(i), 0) = constant<S>(program_->constants()[detail::at(n.a)]);
     }
   }
 
-  S& at(int node, int i) {
-    return c_[static_cast<std::size_t>(node) * static_cast<std::size_t>(size_) + static_cast<std::size_t>(i)];
-  }
+  /// Coefficient i of a node, 0 ≤ i ≤ order.
+  S& at(int node, int i) { return c_[detail::at(node) * detail::at(size_) + detail::at(i)]; }
 
   /// The solution's coefficients from x(t0): the program is ẋ = f(t, x, p). Afterwards at(state, i), i ≤ order.
   void solve(const S& t0, std::span<const S> x) {
     setTime(t0);
-    for (int s = 0; s < program_->states(); ++s) at(s, 0) = x[static_cast<std::size_t>(s)];
+    for (int s = 0; s < program_->states(); ++s) at(s, 0) = x[detail::at(s)];
     for (int i = 0; i + 1 < size_; ++i) {
       for (int node = 0; node < nodeCount(); ++node) compute(node, i);
       for (int s = 0; s < program_->states(); ++s)
-        at(s, i + 1) = at(program_->outputNodes()[static_cast<std::size_t>(s)], i) / S(static_cast<double>(i + 1));
+        at(s, i + 1) = at(program_->outputNodes()[detail::at(s)], i) / S(static_cast<double>(i + 1));
     }
   }
 
@@ -73,7 +71,7 @@ class Series {
 
   void compute(int node, int i) {
     using std::atan, std::cos, std::exp, std::log, std::sin, std::sqrt;
-    const Node& n = program_->nodes()[static_cast<std::size_t>(node)];
+    const Node& n = program_->nodes()[detail::at(node)];
     const S k(static_cast<double>(i));
     switch (n.op) {
       case Op::state:
@@ -97,14 +95,7 @@ class Series {
         S sum(0.0);
         for (int j = 0; 2 * j < i; ++j) sum = sum + at(n.a, j) * at(n.a, i - j);
         sum = sum + sum;
-        if (i % 2 == 0) {
-          if constexpr (requires {
-                          { sqr(sum) } -> std::convertible_to<S>;
-                        })
-            sum = sum + sqr(at(n.a, i / 2));
-          else
-            sum = sum + at(n.a, i / 2) * at(n.a, i / 2);
-        }
+        if (i % 2 == 0) sum = sum + square(at(n.a, i / 2));
         at(node, i) = sum;
         break;
       }

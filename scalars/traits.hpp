@@ -11,20 +11,17 @@ namespace gamut {
 
 /// For each scalar S:
 ///   static S constant(const Interval& enclosure);   the constant as an S: an enclosure stays one, a number is midpoint
-///   static constexpr const char* name;              for messages, e.g. "Interval"
 template <class S>
 struct ScalarTraits;
 
 template <>
 struct ScalarTraits<double> {
   static double constant(const Interval& enclosure) { return midpoint(enclosure); }
-  static constexpr const char* name = "double";
 };
 
 template <>
 struct ScalarTraits<Interval> {
   static Interval constant(const Interval& enclosure) { return enclosure; }
-  static constexpr const char* name = "Interval";
 };
 
 namespace detail {
@@ -52,13 +49,23 @@ concept Scalar = std::copyable<S> && std::convertible_to<double, S> && detail::H
   { x / y } -> std::convertible_to<S>;
   { -x } -> std::convertible_to<S>;
   { ScalarTraits<S>::constant(enclosure) } -> std::same_as<S>;
-  { ScalarTraits<S>::name } -> std::convertible_to<const char*>;
 };
 
 /// The constant enclosed by `enclosure` as an S, e.g. constant<S>(pi()).
 template <class S>
 S constant(const Interval& enclosure) {
   return ScalarTraits<S>::constant(enclosure);
+}
+
+/// x * x, by the scalar's own `sqr` where it has one (an interval's square is never negative).
+template <class S>
+S square(const S& x) {
+  if constexpr (requires {
+                  { sqr(x) } -> std::same_as<S>;
+                })
+    return sqr(x);
+  else
+    return x * x;
 }
 
 static_assert(Scalar<double> && Scalar<Interval>);

@@ -7,6 +7,7 @@
 #include "mechanics/assembly.hpp"
 #include "mechanics/model.hpp"
 #include "mechanics/names.hpp"
+#include "mechanics/rotation.hpp"
 #include "scalars/evaluator.hpp"
 
 namespace gamut {
@@ -84,6 +85,10 @@ TEST(Mechanism, SaysWhatIsWrongWithAnElement) {
   EXPECT_THAT(complaint([&] { m.add(Mass{"tip", "K4", 1.0}); }), HasSubstr("two elements are named 'tip'"));
   EXPECT_THAT(complaint([&] { m.add(Mass{"", "K4", 1.0}); }), HasSubstr("a mass needs a name"));
   EXPECT_THAT(complaint([&] { m.add(Mass{"K3", "K4", 1.0}); }), HasSubstr("named like a frame"));
+  EXPECT_THAT(complaint([&] {
+                m.add(Link{"extra", "K4", "tip", {0.0, 0.0, 1.0}});
+              }),
+              HasSubstr("the frame 'tip' is named like a mass"));
   EXPECT_THAT(complaint([&] {
                 m.add(Mass{"extra", "K4", Quantity::named("mas")});
               }),

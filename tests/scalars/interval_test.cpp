@@ -4,6 +4,7 @@
 #include <cfenv>
 
 #include <algorithm>
+#include <cstdlib>
 #include <sstream>
 #include <stdexcept>
 #include <thread>
@@ -442,6 +443,16 @@ TEST(Interval, RefusesMalformedTextAndNamesIt) {
   } catch (const std::invalid_argument& error) {
     EXPECT_THAT(error.what(), ::testing::HasSubstr("twelve"));
   }
+}
+
+TEST(Interval, ADoubleIsPrintedAsTheShortestDecimalThatIsReadBackAsIt) {
+  RandomDoubles random;
+  for (int i = 0; i < cases; ++i) {
+    const double x = random.any();
+    ASSERT_EQ(std::strtod(toString(x).c_str(), nullptr), x) << toString(x);
+  }
+  EXPECT_EQ(toString(0.1), "0.1");
+  EXPECT_EQ(toString(1e-9), "1e-09");
 }
 
 TEST(Interval, PrintedTextHoldsTheIntervalAtEveryLength) {

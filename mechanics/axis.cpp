@@ -1,0 +1,25 @@
+// What a direction is: aligned with a coordinate axis just when two of its components are zero.
+#include "mechanics/axis.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+namespace gamut {
+
+Axis::Axis(double x, double y, double z) : direction_{x, y, z} {
+  int zeros = 0, last = -1;
+  for (int i = 0; i < 3; ++i) {
+    const double component = direction_[static_cast<std::size_t>(i)];
+    if (!std::isfinite(component)) throw std::invalid_argument("an axis needs three finite components");
+    if (component == 0)
+      ++zeros;
+    else
+      last = i;
+  }
+  if (zeros == 3) throw std::invalid_argument("an axis needs a direction, but all three components are zero");
+  if (zeros < 2) return;
+  index_ = last;
+  sign_ = direction_[static_cast<std::size_t>(last)] < 0 ? -1 : 1;
+}
+
+}  // namespace gamut

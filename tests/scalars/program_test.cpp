@@ -1,0 +1,243 @@
+// Programs and their recorder: rewrites change no value, equal work is done once, unneeded work not at all, derivatives
+// are derivatives.
+#include "scalars/program.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "scalars/evaluator.hpp"
+#include "tests/scalars/high_precision.hpp"
+
+namespace gamut::testing {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr double t0 = 0.3;
+const std::vector<double> start{0.7, -0.4}, parameters{1.3, 0.2};
+
+template <class S>
+std::vector<S> evaluate(const Program& program, const S& t, const std::vector<S>& x, const std::vector<S>& p) {
+  Evaluator<S> evaluator(program);
+  evaluator.setParameters(p);
+  return evaluator(t, x);
+}
+
+int count(const Program& program, Op op) {
+  return static_cast<int>(
+      std::count_if(program.nodes().begin(), program.nodes().end(), [&](const Node& n) { return n.op == op; }));
+}
+
+TEST(Program, HasTheValuesOfTheCodeItWasRecordedFrom) {
+  for (unsigned seed = 1; seed <= 400; ++seed) {
+    const RandomExpression expression(seed);
+    const auto x = highPrecision(start), p = highPrecision(parameters);
+    const auto truth = expression(HighPrecision(t0), x, p, 5);
+    const auto values = evaluate(expression.recorded(2, 2, 5), HighPrecision(t0), x, p);
+    for (std::size_t i = 0; i < truth.size(); ++i)
+      ASSERT_LE(HighPrecision(abs(values[i] - truth[i])), (1 + abs(truth[i])) * HighPrecision(1e-35))
+          << "seed " << seed;
+  }
+}
+
+TEST(Program, KeepsItsValueThroughAnotherRecording) {
+  for (unsigned seed = 1; seed <= 50; ++seed) {
+    const Program program = RandomExpression(seed).recorded(2, 2, 5);
+    const Program again = Recorder(program).finish(program.outputNodes());
+    std::ostringstream before, after;
+    before << program;
+    after << again;
+    EXPECT_EQ(before.str(), after.str());
+  }
+}
+
+TEST(Program, OverIntervalsHoldsTheValueAndTheDecimalsInIt) {
+  for (unsigned seed = 1; seed <= 200; ++seed) {
+    const RandomExpression expression(seed);
+    const Program program = expression.recorded(2, 2, 5);
+    // 0.1 and pi are enclosed by the program and taken as midpoints by the code: inside both.
+    const auto truth = expression(HighPrecision(t0), highPrecision(start), highPrecision(parameters), 5);
+    const auto ranges = evaluate(program, Interval(t0), std::vector<Interval>(start.begin(), start.end()),
+                                 std::vector<Interval>(parameters.begin(), parameters.end()));
+    for (std::size_t i = 0; i < truth.size(); ++i)
+      ASSERT_THAT(ranges[i], EnclosesToItsDigits(truth[i])) << "seed " << seed;
+  }
+}
+
+TEST(Program, DifferentiatedHoldsThePartialDerivatives) {
+  const HighPrecision h(1e-12);
+  for (unsigned seed = 1; seed <= 150; ++seed) {
+    const Program program = RandomExpression(seed).recorded(2, 2, 3);
+    const Program differentiated = program.differentiated(true);
+    ASSERT_EQ(differentiated.outputs(), 3 + 3 * 2 + 3 * 2);
+    const auto x = highPrecision(start), p = highPrecision(parameters);
+    const auto values = evaluate(differentiated, HighPrecision(t0), x, p);
+    const auto y = evaluate(program, HighPrecision(t0), x, p);
+    for (std::size_t column = 0; column < 4; ++column) {
+      auto xUp = x, xDown = x, pUp = p, pDown = p;
+      (column < 2 ? xUp[column] : pUp[column - 2]) += h;
+      (column < 2 ? xDown[column] : pDown[column - 2]) -= h;
+      const auto up = evaluate(program, HighPrecision(t0), xUp, pUp),
+                 down = evaluate(program, HighPrecision(t0), xDown, pDown);
+      for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_EQ(values[i], y[i]);
+        const HighPrecision slope = (up[i] - down[i]) / (2 * h);
+        const HighPrecision derivative = values[column < 2 ? 3 + i * 2 + column : 9 + i * 2 + column - 2];
+        ASSERT_LE(HighPrecision(abs(slope - derivative)), (1 + abs(slope)) * HighPrecision(1e-15))
+            << "seed " << seed << ", output " << i << ", column " << column;
+      }
+    }
+  }
+}
+
+TEST(Program, DoesEqualWorkOnce) {
+  const Program program = record(2, 0, 2, [](auto, const auto& x, const auto&, auto& y) {
+    y[0] = sin(x[0] * x[1]) + exp(x[1] * x[0]);
+    y[1] = cos(x[0] * x[1]) * sqr(x[0]) + x[0] * x[0];
+  });
+  EXPECT_EQ(count(program, Op::mul), 2);  // x0 x1 once, and one for y[1]
+  EXPECT_EQ(count(program, Op::sqr), 1);
+  EXPECT_EQ(count(program, Op::sin), 1);
+  EXPECT_EQ(count(program, Op::cos), 1);
+}
+
+TEST(Program, DropsWhatNoOutputNeeds) {
+  const Program program = record(1, 1, 1, [](auto t, const auto& x, const auto& p, auto& y) {
+    const Recorded unused = exp(x[0] * p[0]) / (t + 17.0);
+    (void)unused;
+    y[0] = 2.0 * x[0];
+  });
+  EXPECT_EQ(program.operations(), 1);
+  EXPECT_EQ(program.nodes().size(), 5u);  // x, p, t, 2, 2x: inputs are always there
+  EXPECT_FALSE(program.dependsOnTime());
+}
+
+TEST(Program, RewritesOnlyWhatIsExactOnRealNumbers) {
+  const Program program = record(2, 0, 8, [](auto, const auto& x, const auto&, auto& y) {
+    y[0] = x[0] + 0.0;
+    y[1] = 1.0 * x[0];
+    y[2] = -(-x[0]);
+    y[3] = x[0] - x[0];
+    y[4] = 4.0 * (0.25 * x[0]);
+    y[5] = 1.0 / (1.0 / x[0]);
+    y[6] = Recorded(0.0) * x[1];
+    y[7] = pow(x[0], 1);
+  });
+  EXPECT_EQ(program.operations(), 0);
+  const std::vector<double> y = evaluate(program, 0.0, {3.0, 5.0}, {});
+  EXPECT_THAT(y, ::testing::ElementsAre(3, 3, 3, 0, 3, 3, 0, 3));
+  // Sums of doubles that are no double stay operations; so do decimals.
+  const Program kept = record(1, 0, 2, [](auto, const auto& x, const auto&, auto& z) {
+    z[0] = x[0] * (Recorded(1.0) + Recorded(0x1p-60));
+    z[1] = x[0] + (constant<Recorded>(Interval("0.1")) + constant<Recorded>(Interval("0.2")));
+  });
+  const auto ranges = evaluate(kept, Interval(0.0), std::vector<Interval>{1.0}, {});
+  EXPECT_THAT(ranges[0], EnclosesExactly(HighPrecision(1) + HighPrecision(0x1p-60)));
+  EXPECT_THAT(ranges[1], EnclosesExactly(HighPrecision("1.3")));
+}
+
+TEST(Program, KeepsDecimalConstantsAsEnclosures) {
+  const Program program = record(
+      0, 0, 1, [](auto, const auto&, const auto&, auto& y) { y[0] = 4.0 * -constant<Recorded>(Interval("9.81")); });
+  ASSERT_EQ(program.constants().size(), 1u);
+  EXPECT_THAT(program.constants()[0], EnclosesExactly(HighPrecision("-39.24")));
+  EXPECT_LT(width(program.constants()[0]), 1e-14);
+}
+
+TEST(Program, LaysNodesOutAsEvaluatorsExpect) {
+  for (unsigned seed = 1; seed <= 100; ++seed) {
+    const Program program = RandomExpression(seed, 30).recorded(2, 1, 6).differentiated();
+    const auto& nodes = program.nodes();
+    for (int i = 0; i < static_cast<int>(nodes.size()); ++i) {
+      const Node& n = nodes[static_cast<std::size_t>(i)];
+      if (n.op == Op::sin || n.op == Op::cos) {
+        const Node& partner = nodes[static_cast<std::size_t>(n.op == Op::sin ? i + 1 : i - 1)];
+        EXPECT_EQ(partner.op, n.op == Op::sin ? Op::cos : Op::sin);
+        EXPECT_EQ(partner.a, n.a);
+      }
+      if (n.op == Op::log) {
+        EXPECT_EQ(n.b, n.a);
+      }
+      if (n.op > Op::constant) {
+        EXPECT_LT(n.a, i);
+        EXPECT_LT(n.b, i);
+        const bool invariant = program.isInvariant(n.a) && (n.b < 0 || program.isInvariant(n.b));
+        EXPECT_EQ(program.isInvariant(i), invariant);
+      }
+    }
+  }
+}
+
+TEST(Program, KnowsWhetherItDependsOnTime) {
+  const auto withTime = record(1, 0, [](auto t, const auto& x, const auto&, auto& dx) { dx[0] = x[0] * t; });
+  const auto timeItself = record(1, 0, [](auto t, const auto&, const auto&, auto& dx) { dx[0] = t; });
+  const auto autonomous = record(1, 0, [](auto t, const auto& x, const auto&, auto& dx) { dx[0] = x[0] + (t - t); });
+  EXPECT_TRUE(withTime.dependsOnTime());
+  EXPECT_TRUE(timeItself.dependsOnTime());
+  EXPECT_FALSE(autonomous.dependsOnTime());
+}
+
+TEST(Program, PrintsOneNodeALine) {
+  const Program program =
+      record(1, 1, [](auto t, const auto& x, const auto& p, auto& dx) { dx[0] = sin(x[0]) * p[0] + t; });
+  std::ostringstream text;
+  text << program;
+  EXPECT_THAT(text.str(), HasSubstr("program: 1 states, 1 parameters, 1 outputs"));
+  EXPECT_THAT(text.str(), HasSubstr("%0 = state 0\n"));
+  EXPECT_THAT(text.str(), HasSubstr("%1* = parameter 0\n"));
+  EXPECT_THAT(text.str(), HasSubstr("%2 = time\n"));
+  EXPECT_THAT(text.str(), HasSubstr("%3 = sin %0\n"));
+  EXPECT_THAT(text.str(), HasSubstr("outputs: %"));
+}
+
+TEST(Recording, RefusesConstantsOutsideADomain) {
+  const auto recordOne = [](auto&& function) {
+    record(0, 0, 1, [&](auto, const auto&, const auto&, auto& value) { value[0] = function(); });
+  };
+  EXPECT_THROW(recordOne([] { return 1.0 / constant<Recorded>(Interval(-1, 1)); }), std::domain_error);
+  EXPECT_THROW(recordOne([] { return sqrt(Recorded(-1.0)); }), std::domain_error);
+  EXPECT_THROW(recordOne([] { return log(Recorded(0.0)); }), std::domain_error);
+  EXPECT_THROW(recordOne([] { return Recorded(Interval::entire()) + 1.0; }), std::domain_error);
+  EXPECT_THROW(recordOne([] { return Recorded(Interval::empty()) + 1.0; }), std::domain_error);
+}
+
+TEST(Recording, IsNeededForArithmeticAndEndsWithItsGuard) {
+  EXPECT_THROW(Recorded(1.0) + Recorded(2.0), std::logic_error);
+  record(1, 0, [](auto, const auto& x, const auto&, auto& dx) {
+    const Program inner = record(1, 0, [](auto, const auto& z, const auto&, auto& dz) { dz[0] = exp(z[0]); });
+    EXPECT_EQ(inner.operations(), 1);
+    dx[0] = sqr(x[0]);
+  });
+  EXPECT_THROW(sin(Recorded(1.0)), std::logic_error);
+  EXPECT_THROW(Recorder(-1, 0), std::invalid_argument);
+}
+
+TEST(Recording, DerivedFunctionsHaveTheirValues) {
+  const Program program = record(1, 0, 8, [](auto, const auto& x, const auto&, auto& y) {
+    y[0] = tan(x[0]);
+    y[1] = asin(x[0]);
+    y[2] = acos(x[0]);
+    y[3] = sinh(x[0]);
+    y[4] = cosh(x[0]);
+    y[5] = tanh(x[0]);
+    y[6] = pow(x[0], -3);
+    y[7] = pow(x[0], 0.7);
+  });
+  for (double at : {0.1, 0.5, 0.9}) {
+    const HighPrecision x(at);
+    const std::vector<HighPrecision> truth{tan(x),  asin(x), acos(x),         sinh(x),
+                                           cosh(x), tanh(x), 1 / (x * x * x), pow(x, HighPrecision(0.7))};
+    const auto values = evaluate(program, HighPrecision(0), {x}, {});
+    const auto ranges = evaluate(program, Interval(0.0), std::vector<Interval>{at}, {});
+    for (std::size_t i = 0; i < truth.size(); ++i) {
+      // acos has pi / 2 as a constant, of which HighPrecision takes the midpoint of its enclosure.
+      EXPECT_LE(HighPrecision(abs(values[i] - truth[i])), HighPrecision(i == 2 ? 1e-15 : 1e-45)) << "function " << i;
+      EXPECT_THAT(ranges[i], EnclosesExactly(truth[i])) << "function " << i;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace gamut::testing
