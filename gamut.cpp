@@ -1,19 +1,29 @@
 // The program: parses the command line, calls studies and reports, and says in its exit code how it went.
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <signal.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <atomic>
+#include <cerrno>
+#include <charconv>
+#include <cstdint>
 #include <cstdio>
+#include <cstring>
 #include <ctime>
 #include <filesystem>
+#include <limits>
+#include <new>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <thread>
 
 #include "reports/report.hpp"
 #include "reports/verdict.hpp"
+#include "reports/words.hpp"
 #include "studies/atomic_file.hpp"
 #include "studies/driver.hpp"
 #include "studies/progress.hpp"
@@ -35,7 +45,7 @@ constexpr const char* exitCodes =
     "  1  a sample left its enclosure, or stayed unresolved\n"
     "  2  bad input or usage\n"
     "  3  an analysis ended before its horizon, or nothing could be compared; what was proved is kept and reported\n"
-    "  4  an internal failure";
+    "  4  an internal failure, or something could not be written";
 
 /// Something the user asked for cannot be done; what() is one line.
 class UsageError : public std::runtime_error {
@@ -74,10 +84,11 @@ std::string nameOfStudy(const std::string& path) {
 /// Before any work is done: the file may be written, and overwrites nothing that it must not.
 void checkOutput(const std::string& path, const std::string& input, bool force) {
   std::error_code error;
-  const fs::path folder = fs::path(path).has_parent_path() ? fs::path(path).parent_path() : fs::path(".");
-  if (!fs::is_directory(folder, error)) throw UsageError(path + ": cannot be written; the folder does not exist");
-  if (::access(folder.c_str(), W_OK) != 0) throw UsageError(path + ": cannot be written; the folder is read-only");
-  if (fs::is_directory(path, error)) throw UsageError(path + ": cannot be written; it is a folder");
+  try {
+    checkWritable(path);
+  } catch (const WriteError& refused) {
+    throw UsageError(refused.what());
+  }
   if (fs::equivalent(path, input, error)) throw UsageError(path + ": cannot be written; it is the input");
   if (fs::exists(path, error) && !force) throw UsageError(path + ": exists already; expected another name, or --force");
 }
@@ -98,7 +109,7 @@ int exitCodeOf(const Results& results, const Verdict& verdict) {
 void say(const Arguments& arguments, const Results& results, const Verdict& verdict) {
   std::FILE* stream = arguments.json ? stderr : stdout;
   if (!arguments.quiet) {
-    if (results.comparison.present) printVerdict(stream, verdict);
+    printVerdict(stream, verdict);
     fmt::print(stream, "{}", textSummary(results));
     fmt::print(stream, "  results: {}\n  report:  {}\n", arguments.results, arguments.report);
   }
@@ -107,14 +118,28 @@ void say(const Arguments& arguments, const Results& results, const Verdict& verd
                                    {arguments.results, arguments.report}));
 }
 
+/// Every sample's motion is kept until it has been compared.
+void checkMemory(const Study& study, const Arguments& arguments) {
+  const std::size_t samples = arguments.samples.value_or(study.ensemble.samples);
+  const double needed = 8.0 * static_cast<double>(samples) * static_cast<double>(study.time.size()) *
+                        static_cast<double>(study.outputs.size());
+  const double present = static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGE_SIZE));
+  if (study.stochastic && needed > present)
+    throw UsageError(
+        fmt::format("{}: {} samples of {} outputs at {} times need {:.0f} GB, this machine has {:.0f} GB; "
+                    "expected fewer samples or output times",
+                    arguments.input, samples, study.outputs.size(), study.time.size(), needed / 1e9, present / 1e9));
+}
+
 int runStudy(Arguments arguments) {
+  const Study study = readStudy(arguments.input);
   if (arguments.results.empty()) arguments.results = nameOfStudy(arguments.input) + ".h5";
   if (arguments.report.empty()) arguments.report = fs::path(arguments.results).replace_extension(".html").string();
-  const Study study = readStudy(arguments.input);
   if (fs::absolute(arguments.results).lexically_normal() == fs::absolute(arguments.report).lexically_normal())
     throw UsageError(arguments.report + ": is both results and report; expected two names");
   checkOutput(arguments.results, arguments.input, arguments.force);
   checkOutput(arguments.report, arguments.input, arguments.force);
+  checkMemory(study, arguments);
 
   endOnInterrupt();
   RunOptions options;
@@ -145,9 +170,11 @@ int runStudy(Arguments arguments) {
 int validateStudy(const Arguments& arguments) {
   const Study study = readStudy(arguments.input);
   if (!arguments.quiet)
-    fmt::print("{}: valid; {} with {} elements, {} uncertain quantities, {} outputs at {} times\n", arguments.input,
-               study.analysisName(), study.mechanism.elements().size(), study.uncertain.size(), study.outputs.size(),
-               study.time.size());
+    fmt::print("{}: valid; {} with {}, {} uncertain {}, {}{}\n", arguments.input, study.analysisName(),
+               countText(static_cast<long long>(study.mechanism.elements().size()), "element"), study.uncertain.size(),
+               study.uncertain.size() == 1 ? "quantity" : "quantities",
+               countText(static_cast<long long>(study.outputs.size()), "output"),
+               study.horizon > 0 ? fmt::format(" at {} times", study.time.size()) : "");
   return done;
 }
 
@@ -175,6 +202,18 @@ int showInfo(const Arguments& arguments) {
   return done;
 }
 
+/// Decimal digits alone, within bounds: no sign that wraps around, no number that is cut off.
+CLI::Validator wholeNumber(std::uint64_t least, std::uint64_t most) {
+  const auto problem = [=](const std::string& text) {
+    std::uint64_t value = 0;
+    const char* end = text.data() + text.size();
+    const auto [last, error] = std::from_chars(text.data(), end, value);
+    const bool isFine = error == std::errc() && last == end && value >= least && value <= most;
+    return isFine ? std::string() : fmt::format("'{}' is no whole number from {} to {}", text, least, most);
+  };
+  return {problem, "", "whole number"};
+}
+
 void describeRun(CLI::App& command, Arguments& arguments) {
   command.add_option("study", arguments.input, "Study file (TOML)")->required()->type_name("STUDY.toml");
   command
@@ -185,12 +224,14 @@ void describeRun(CLI::App& command, Arguments& arguments) {
       ->type_name("RESULTS.h5");
   command.add_option("--report", arguments.report, "Report page; otherwise named like the results")
       ->type_name("REPORT.html");
-  command.add_option("--jobs", arguments.jobs, "Threads; otherwise as many as the machine has")
-      ->check(CLI::Range(1, 1024))
+  command.add_option("--jobs", arguments.jobs, "Threads, 1 to 1024; otherwise as many as the machine has")
+      ->check(wholeNumber(1, 1024))
       ->type_name("N");
-  command.add_option("--seed", arguments.seed, "Seed of the sampling plan, instead of the study's")->type_name("S");
-  command.add_option("--samples", arguments.samples, "Number of samples, instead of the study's")
-      ->check(CLI::Range(1, 10000000))
+  command.add_option("--seed", arguments.seed, "Seed of the sampling plan, a whole number, instead of the study's")
+      ->check(wholeNumber(0, std::numeric_limits<std::int64_t>::max()))
+      ->type_name("N");
+  command.add_option("--samples", arguments.samples, "Number of samples, 1 to 10000000, instead of the study's")
+      ->check(wholeNumber(1, 10000000))
       ->type_name("N");
   command.add_flag("--json", arguments.json, "One JSON object on standard output, all else on standard error");
   command.add_flag("--quiet", arguments.quiet, "Neither progress nor summary");
@@ -240,16 +281,35 @@ int parseAndRun(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);
-    throw UsageError(fmt::format("{}; see gamut --help", error.what()));
+    const auto commands = app.get_subcommands();
+    throw UsageError(fmt::format("{}; see gamut {}--help", error.what(),
+                                 commands.empty() ? "" : commands.front()->get_name() + " "));
   }
+  if (arguments.input.empty()) throw UsageError("the name of the input is empty; expected a file");
   return action(arguments);
+}
+
+/// A file that is opened must not take the place of a standard stream that was closed.
+void occupyStandardStreams() {
+  int file = 0;
+  do file = ::open("/dev/null", O_RDWR);
+  while (file >= 0 && file <= STDERR_FILENO);
+  if (file >= 0) ::close(file);
+}
+
+/// What was said must have arrived, or the run is no success.
+int afterFlushing(int code) {
+  if (std::fflush(stdout) == 0) return code;
+  fmt::print(stderr, "gamut: standard output: cannot be written; {}\n", std::strerror(errno));
+  return failed;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+  occupyStandardStreams();
   try {
-    return parseAndRun(argc, argv);
+    return afterFlushing(parseAndRun(argc, argv));
   } catch (const UsageError& error) {
     fmt::print(stderr, "gamut: {}\n", error.what());
     return badInput;
@@ -259,6 +319,15 @@ int main(int argc, char** argv) {
   } catch (const ResultsFileError& error) {
     fmt::print(stderr, "{}\n", error.what());
     return badInput;
+  } catch (const WriteError& error) {
+    fmt::print(stderr, "gamut: {}\n", error.what());
+    return failed;
+  } catch (const std::system_error& error) {
+    fmt::print(stderr, "gamut: {}\n", error.what());
+    return failed;
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "gamut: out of memory; fewer samples, output times or pieces need less\n");
+    return failed;
   } catch (const std::exception& error) {
     fmt::print(stderr, "gamut: internal failure: {}\n", error.what());
     return failed;

@@ -6,10 +6,7 @@
 
 #include <cmath>
 #include <cstddef>
-#include <filesystem>
-#include <fstream>
 #include <map>
-#include <random>
 #include <stdexcept>
 #include <string_view>
 
@@ -20,6 +17,7 @@
 #include "reports/tables.hpp"
 #include "reports/verdict.hpp"
 #include "reports/words.hpp"
+#include "studies/atomic_file.hpp"
 
 namespace gamut {
 namespace {
@@ -166,28 +164,6 @@ std::string renderReport(const Results& results) {
                                  {"script", std::string(page::script)}});
 }
 
-void writeReport(const Results& results, const std::string& path) {
-  namespace fs = std::filesystem;
-  const std::string html = renderReport(results);
-  const fs::path place(path);
-  fs::path draft = place;
-  draft += fmt::format(".{:08x}", std::random_device{}());
-  std::error_code failure;
-  {
-    std::ofstream file(draft, std::ios::binary);
-    file << html;
-    file.close();
-    if (!file) {
-      fs::remove(draft, failure);
-      throw std::runtime_error("cannot write the report '" + path + "'");
-    }
-  }
-  fs::rename(draft, place, failure);
-  if (failure) {
-    std::error_code ignored;
-    fs::remove(draft, ignored);
-    throw std::runtime_error("cannot write the report '" + path + "': " + failure.message());
-  }
-}
+void writeReport(const Results& results, const std::string& path) { replaceFileText(path, renderReport(results)); }
 
 }  // namespace gamut

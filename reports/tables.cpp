@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "reports/words.hpp"
+#include "studies/summary.hpp"
 
 namespace gamut {
 namespace {
@@ -68,11 +69,7 @@ double greatestOverestimation(const ComparisonResult& comparison, std::size_t ou
 
 /// The last output time that every present analysis reached.
 std::size_t lastCommonTime(const Results& results) {
-  double reached = results.horizon;
-  if (results.interval.present) reached = std::min(reached, results.interval.reached);
-  if (results.stochastic.present) reached = std::min(reached, results.stochastic.reached);
-  if (results.fuzzy.present) reached = std::min(reached, results.fuzzy.reached);
-  const auto end = std::upper_bound(results.time.begin(), results.time.end(), reached);
+  const auto end = std::upper_bound(results.time.begin(), results.time.end(), reachedTime(results));
   return end == results.time.begin() ? 0 : static_cast<std::size_t>(end - results.time.begin()) - 1;
 }
 

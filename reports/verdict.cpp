@@ -6,9 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "reports/words.hpp"
+#include "studies/summary.hpp"
 
 namespace gamut {
 namespace {
@@ -21,6 +26,7 @@ struct Excursion {
 };
 
 bool isUnresolved(const DisputedSample& sample) { return !sample.outside && sample.decided == "unresolved"; }
+bool isInterrupted(const DisputedSample& sample) { return !sample.outside && sample.decided == "interrupted"; }
 
 double distanceOutside(double value, double lower, double upper) {
   return std::max({lower - value, value - upper, 0.0});
@@ -158,10 +164,19 @@ class Judge {
     return fmt::format(" at {} s", numberText(results_.time[time], 6));
   }
 
+  /// The plan's samples come first, then the corners of the box, its centre is last.
+  std::string sampleName(std::int64_t number) const {
+    const std::int64_t corner = number - results_.stochastic.samples, corners = results_.stochastic.corners;
+    if (!results_.stochastic.present || corner < 0 || corner > corners) return fmt::format("Sample {}", number);
+    return corner == corners ? "The centre" : fmt::format("Corner {} of {}", corner + 1, corners);
+  }
+
+  /// Grave findings first, every one of them; of the settled ones a few by name and the number of the others.
   void readDisputes() {
+    std::vector<std::string> doubtful, undecided, settled;
     for (const DisputedSample& sample : results_.comparison.disputed) {
       const std::string who =
-          fmt::format("Sample {} ({}{})", sample.number, outputName(sample.output), when(sample.time));
+          fmt::format("{} ({}{})", sampleName(sample.number), outputName(sample.output), when(sample.time));
       if (sample.outside) {
         verdict_.notes.push_back(fmt::format("{} lies outside by {}, decided by {}.", who,
                                              withUnit(sample.distance, sample.output), sample.decided));
@@ -170,17 +185,32 @@ class Judge {
         }
         refuted_ = true;
       } else if (isUnresolved(sample)) {
-        verdict_.notes.push_back(fmt::format("{} could not be decided: it lies outside by {}, its own error is {}.",
-                                             who, withUnit(sample.distance, sample.output),
-                                             withUnit(sample.error, sample.output)));
+        doubtful.push_back(fmt::format("{} could not be decided: it lies outside by {}, its own error is {}.", who,
+                                       withUnit(sample.distance, sample.output),
+                                       withUnit(sample.error, sample.output)));
         if (sample.distance > doubtful_.distance) {
           doubtful_ = {sample.distance, sample.time, sample.output, "the enclosure"};
         }
         doubted_ = true;
+      } else if (isInterrupted(sample)) {
+        undecided.push_back(who + " seemed outside and was not decided: the run was interrupted.");
+        interrupted_ = true;
       } else {
-        verdict_.notes.push_back(
-            fmt::format("{} seemed outside and was found inside, decided by {}.", who, sample.decided));
+        settled.push_back(fmt::format("{} seemed outside and was found inside, decided by {}.", who, sample.decided));
       }
+    }
+    verdict_.notes.insert(verdict_.notes.end(), doubtful.begin(), doubtful.end());
+    noteSome(undecided, "seemed outside and were not decided");
+    noteSome(settled, "seemed outside and were found inside");
+  }
+
+  void noteSome(const std::vector<std::string>& notes, std::string_view what) {
+    constexpr std::size_t named = 5;
+    const std::size_t others = notes.size() > named + 1 ? notes.size() - named : 0;
+    verdict_.notes.insert(verdict_.notes.end(), notes.begin(), notes.end() - static_cast<std::ptrdiff_t>(others));
+    if (others > 0) {
+      verdict_.notes.push_back(
+          fmt::format("{} more {}; the results name them all, in /comparison/disputed.", others, what));
     }
   }
 
@@ -220,7 +250,7 @@ class Judge {
     noteEnd(results_.interval.present, "The guarantee ends at", results_.interval.reached, results_.interval.why);
     noteEnd(results_.stochastic.present, "The samples end at", results_.stochastic.reached, results_.stochastic.why);
     noteEnd(results_.fuzzy.present, "The alpha-cuts end at", results_.fuzzy.reached, results_.fuzzy.why);
-    if (missing_ > 0) {
+    if (missing_ > 0 && !endedAtOnce()) {
       verdict_.notes.push_back(fmt::format("{} of the numbers to compare {} missing before the end was reached.",
                                            missing_, missing_ == 1 ? "is" : "are"));
     }
@@ -242,13 +272,11 @@ class Judge {
 
   double reached() const {
     if (comparedEnvelope_) return reachedEnvelope_;
-    if (comparedCuts_) return reachedCuts_;
-    double least = results_.horizon;
-    if (results_.interval.present) least = std::min(least, results_.interval.reached);
-    if (results_.stochastic.present) least = std::min(least, results_.stochastic.reached);
-    if (results_.fuzzy.present) least = std::min(least, results_.fuzzy.reached);
-    return least;
+    return comparedCuts_ ? reachedCuts_ : reachedTime(results_);
   }
+
+  /// Something was to be compared, but over no span of time.
+  bool endedAtOnce() const { return (comparedEnvelope_ || comparedCuts_) && moves() && reached() <= 0; }
 
   std::string excursionText(const Excursion& excursion) const {
     return fmt::format("up to {} outside {} in {}{}", withUnit(excursion.distance, excursion.output),
@@ -260,6 +288,18 @@ class Judge {
     if (!comparedEnvelope_ && !comparedCuts_) {
       verdict_.word = "incomplete";
       verdict_.sentence = "Nothing could be compared: " + missingText() + ".";
+      return;
+    }
+    if (interrupted_) {
+      verdict_.word = "incomplete";
+      verdict_.sentence = "It was not decided whether every sample stays inside: the run was interrupted.";
+      return;
+    }
+    if (endedAtOnce()) {
+      verdict_.word = "incomplete";
+      verdict_.sentence =
+          fmt::format("Nothing could be compared: an analysis ended at its start. The {} s asked for were not reached.",
+                      numberText(results_.horizon, 6));
       return;
     }
     const bool complete = !short_ && missing_ == 0;
@@ -300,7 +340,8 @@ class Judge {
   const Results& results_;
   Verdict verdict_;
   Excursion outside_, doubtful_;
-  bool comparedEnvelope_ = false, comparedCuts_ = false, short_ = false, refuted_ = false, doubted_ = false;
+  bool comparedEnvelope_ = false, comparedCuts_ = false, short_ = false, refuted_ = false, doubted_ = false,
+       interrupted_ = false;
   double reachedEnvelope_ = 0, reachedCuts_ = 0;
   std::size_t missing_ = 0;
 };

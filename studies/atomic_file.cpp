@@ -2,20 +2,24 @@
 #include "studies/atomic_file.hpp"
 
 #include <fcntl.h>
+#include <stdlib.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <stdexcept>
 #include <system_error>
 
 namespace gamut {
 namespace {
 
+namespace fs = std::filesystem;
+
+fs::path folderOf(const fs::path& file) { return file.has_parent_path() ? file.parent_path() : fs::path("."); }
+
 [[noreturn]] void fail(const std::string& path, const std::string& why) {
-  throw std::runtime_error(path + ": cannot be written; " + why);
+  throw WriteError(path + ": cannot be written; " + why);
 }
 
 void flushToDisk(const std::string& written, const std::string& path) {
@@ -30,10 +34,22 @@ void flushToDisk(const std::string& written, const std::string& path) {
 
 }  // namespace
 
+void checkWritable(const std::string& path) {
+  std::error_code error;
+  const fs::path folder = folderOf(path);
+  if (!fs::is_directory(folder, error)) fail(path, "the folder " + folder.string() + " does not exist");
+  if (fs::is_directory(path, error)) fail(path, "it is a folder");
+  // Permissions do not tell all (a read-only or virtual file system, a superuser): only trying does.
+  std::string trial = (folder / ".gamut-XXXXXX").string();
+  const int file = ::mkstemp(trial.data());
+  if (file < 0) fail(path, "the folder " + folder.string() + " takes no files: " + std::strerror(errno));
+  ::close(file);
+  ::unlink(trial.c_str());
+}
+
 void replaceFile(const std::string& path, const std::function<void(const std::string&)>& write) {
-  namespace fs = std::filesystem;
   const fs::path target(path);
-  const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
+  const fs::path folder = folderOf(path);
   if (!fs::is_directory(folder)) fail(path, "the folder " + folder.string() + " does not exist");
   if (fs::is_directory(target)) fail(path, "it is a folder");
   const std::string temporary =

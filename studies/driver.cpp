@@ -219,7 +219,7 @@ class Driver {
     stochastic.relativeTolerance = ensemble.tolerance.relative;
     stochastic.absoluteTolerance = ensemble.tolerance.absolute;
     stochastic.reached = ensemble_.reached;
-    stochastic.why = ensemble_.why;
+    stochastic.why = ensemble_.complete ? ensemble_.why : "interrupted";
     stochastic.envelope = toBounds(ensemble_.envelope());
     stochastic.cpu = processCpuSeconds() - start;
   }
@@ -323,12 +323,22 @@ class Driver {
   template <class NumberOf>
   void takeDisputes(const Comparison& found, const NumberOf& numberOf) {
     ComparisonResult& comparison = results_.comparison;
-    if (found.verdict == "outside") comparison.verdict = "outside";
-    if (found.verdict == "unresolved" && comparison.verdict != "outside") comparison.verdict = "unresolved";
-    comparison.excursion = std::max(comparison.excursion, found.excursion);
-    for (const Dispute& d : found.disputes)
-      comparison.disputed.push_back({static_cast<std::int64_t>(numberOf(d.number)), d.time, d.output, d.value, d.lower,
-                                     d.upper, d.distance, d.error, d.decided, d.outside});
+    const bool interrupted = options_.cancelled != nullptr && *options_.cancelled;
+    for (const Dispute& d : found.disputes) {
+      DisputedSample& sample = comparison.disputed.emplace_back(
+          DisputedSample{static_cast<std::int64_t>(numberOf(d.number)), d.time, d.output, d.value, d.lower, d.upper,
+                         d.distance, d.error, d.decided, d.outside});
+      // What an interrupt kept from the last instance is neither found outside nor past deciding.
+      if (interrupted && d.distance > 0 && d.decided != "Taylor 128 bits") {
+        sample.decided = "interrupted";
+        sample.outside = false;
+        if (comparison.verdict == "inside") comparison.verdict = "incomplete";
+        continue;
+      }
+      comparison.excursion = std::max(comparison.excursion, d.excursion);
+      if (sample.outside) comparison.verdict = "outside";
+      if (sample.decided == "unresolved" && comparison.verdict != "outside") comparison.verdict = "unresolved";
+    }
   }
 
   void describeSamples() {

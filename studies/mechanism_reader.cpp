@@ -125,8 +125,9 @@ class MechanismReader {
 
   void readMass(const toml::table& table) {
     const TomlSection section = element(table, {"at", "mass", "centre", "inertia"});
-    section.require("mass", "the mass in kg, or with a unit such as \"250 g\"");
+    const toml::node& weight = section.require("mass", "the mass in kg, or with a unit such as \"250 g\"");
     Mass body{section.text("name"), section.text("at"), number(section, "mass", mass)};
+    const Quantity given = body.mass;
     if (const toml::node* centre = section.find("centre"))
       body.centre = vector(*centre, section.nameOf("centre"), length);
     if (const toml::node* node = section.find("inertia")) {
@@ -138,6 +139,8 @@ class MechanismReader {
         body.inertia[i] = number(list[i], section.nameOf("inertia"), inertia);
     }
     guarded(table, [&] { mechanism_.add(std::move(body)); });
+    const Interval value = given.isConstant() ? given.factor() : given.factor() * mechanism_.nominal(given.parameter());
+    if (value.lower() < 0) source_.fail(weight, section.nameOf("mass") + " is negative", "a mass of at least 0 kg");
   }
 
   void readSpring(const toml::table& table) {

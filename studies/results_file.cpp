@@ -536,7 +536,7 @@ void writeResults(const Results& results, const std::string& path) {
     try {
       writeAll(results, temporary);
     } catch (const Hdf5Error& error) {
-      throw std::runtime_error(fmt::format("{}: cannot be written; HDF5 failed at {}", path, error.what()));
+      throw WriteError(fmt::format("{}: cannot be written; HDF5 failed at {}", path, error.what()));
     }
   });
 }

@@ -5,8 +5,8 @@
 #include <array>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <set>
-#include <sstream>
 
 #include "mechanics/model.hpp"
 #include "mechanics/names.hpp"
@@ -212,6 +212,8 @@ class StudyReader {
     const Interval& range = result.uncertain.range;
     if (!(range.lower() < range.upper()))
       source_.fail(node, what + " holds one value only", "a lower bound below the upper one");
+    if (dimension == Dimension{1, 0, 0, 0} && range.lower() < 0)
+      source_.fail(node, fmt::format("{} reaches down to a negative mass", what), "a lower bound of at least 0 kg");
     if (!contains(range, result.uncertain.nominal))
       source_.fail(node, fmt::format("{} does not hold the nominal value {:.6g}", what, result.uncertain.nominal),
                    "an interval around the nominal value");
@@ -445,10 +447,10 @@ Study readStudyText(const std::string& text, const std::string& name) { return S
 Study readStudy(const std::string& path) {
   std::error_code error;
   std::ifstream file(path, std::ios::binary);
-  std::ostringstream content;
-  if (!std::filesystem::is_regular_file(path, error) || !(content << file.rdbuf()))
+  if (!std::filesystem::is_regular_file(path, error) || !file)
     throw StudyError(path + ": cannot be read; expected a study file (TOML)");
-  return readStudyText(content.str(), path);
+  const std::string content{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  return readStudyText(content, path);
 }
 
 }  // namespace gamut

@@ -60,9 +60,21 @@ std::string ratioText(double ratio) {
   return ratio < 1e6 ? fmt::format("{:.3f}", std::ceil(ratio * 1000) / 1000) : fmt::format("{:.4g}", ratio);
 }
 
+/// "1 piece", "16 pieces".
+std::string counted(std::int64_t count, std::string_view singular) {
+  return fmt::format("{} {}{}", count, singular, count == 1 ? "" : "s");
+}
+
+/// What is proved: the enclosure, or, in a study without, the alpha-cut that holds all others.
+const Bounds& provedBounds(const Results& results) {
+  return results.interval.at.empty() && !results.fuzzy.outer.empty() ? results.fuzzy.outer.front()
+                                                                     : results.interval.at;
+}
+
 /// The last row in which some output is enclosed or sampled.
 std::size_t lastRow(const Results& results) {
-  const Bounds& bounds = results.interval.at.empty() ? results.stochastic.envelope : results.interval.at;
+  const Bounds& proved = provedBounds(results);
+  const Bounds& bounds = proved.empty() ? results.stochastic.envelope : proved;
   for (std::size_t i = results.time.size(); i > 0 && !bounds.empty(); --i)
     for (std::size_t j = 0; j < results.outputs.size(); ++j)
       if (!std::isnan(bounds.lower(i - 1, j))) return i - 1;
@@ -122,11 +134,13 @@ std::string jsonSummary(const Results& results, const std::string& verdict, cons
 std::string textSummary(const Results& results) {
   const std::size_t row = lastRow(results);
   std::vector<std::vector<std::string>> rows{
-      {fmt::format("at {} s", results.time[row]), "enclosure", "envelope", "overestimation (max)"}};
+      {results.horizon > 0 ? fmt::format("at {} s", results.time[row]) : "output",
+       results.interval.at.empty() && !results.fuzzy.outer.empty() ? "widest alpha-cut" : "enclosure", "envelope",
+       "overestimation (max)"}};
   for (std::size_t j = 0; j < results.outputs.size(); ++j) {
     const std::string unit = results.outputs[j].unit == "1" ? "" : fmt::format(" ({})", results.outputs[j].unit);
     const bool known = j < results.comparison.maximumOf.size() && std::isfinite(results.comparison.maximumOf[j]);
-    rows.push_back({results.outputs[j].name + unit, shortBounds(results.interval.at, row, j),
+    rows.push_back({results.outputs[j].name + unit, shortBounds(provedBounds(results), row, j),
                     shortBounds(results.stochastic.envelope, row, j),
                     known ? ratioText(results.comparison.maximumOf[j]) : "-"});
   }
@@ -134,7 +148,7 @@ std::string textSummary(const Results& results) {
   std::vector<std::string> costs;
   if (results.interval.present) costs.push_back(fmt::format("enclosure {:.2f} s", results.interval.cpu));
   if (results.stochastic.present)
-    costs.push_back(fmt::format("{} samples {:.2f} s", results.stochastic.samples, results.stochastic.cpu));
+    costs.push_back(fmt::format("{} {:.2f} s", counted(results.stochastic.samples, "sample"), results.stochastic.cpu));
   if (results.fuzzy.present) costs.push_back(fmt::format("alpha-cuts {:.2f} s", results.fuzzy.cpu));
   std::string line;
   for (const std::string& cost : costs) line += (line.empty() ? "" : ", ") + cost;
@@ -145,23 +159,27 @@ std::string infoText(const Results& results) {
   std::string text =
       fmt::format("{}\n  {}, from {}\n  by Gamut {} on {}, {}, seed {}\n", results.title, results.analysis,
                   results.studyFile, results.version, results.host, results.date, results.seed);
-  text += fmt::format("  {} output times from {} s to {} s\n", results.time.size(), results.time.front(),
-                      results.time.back());
+  if (results.horizon > 0)
+    text += fmt::format("  {} output times from {} s to {} s\n", results.time.size(), results.time.front(),
+                        results.time.back());
   for (const UncertainInfo& u : results.uncertain)
-    text += fmt::format("  uncertain: {} ({}) in [{}, {}] {}, nominal {}, {}, {}\n", u.name, u.quantity, u.lower,
-                        u.upper, u.unit, u.nominal, u.distribution, u.membership);
+    text += fmt::format("  uncertain: {} ({}) in [{:.12g}, {:.12g}] {}, nominal {:.12g}, {}, {}\n", u.name, u.quantity,
+                        u.lower, u.upper, u.unit, u.nominal, u.distribution, u.membership);
   for (const OutputInfo& o : results.outputs)
     text += fmt::format("  output: {} ({}), {}\n", o.name, o.quantity, o.unit);
-  const auto ended = [](const std::string& why) { return why.empty() ? "" : ": " + why; };
+  const auto until = [&](double reached, const std::string& why) {
+    if (!(results.horizon > 0)) return std::string();
+    return fmt::format("up to {} s{}; ", reached, why.empty() ? "" : ": " + why);
+  };
   if (const IntervalResult& r = results.interval; r.present)
-    text += fmt::format("  enclosure: up to {} s{}; {} pieces, {} steps, {:.2f} s CPU\n", r.reached, ended(r.why),
-                        r.pieces, r.steps, r.cpu);
+    text += fmt::format("  enclosure: {}{}, {}, {:.2f} s CPU\n", until(r.reached, r.why), counted(r.pieces, "piece"),
+                        counted(r.steps, "step"), r.cpu);
   if (const StochasticResult& r = results.stochastic; r.present)
-    text += fmt::format("  samples: {} ({}) and {} corners, up to {} s{}; {:.2f} s CPU\n", r.samples, r.plan, r.corners,
-                        r.reached, ended(r.why), r.cpu);
+    text += fmt::format("  samples: {}{} ({}) and {}, {:.2f} s CPU\n", until(r.reached, r.why), r.samples, r.plan,
+                        counted(r.corners, "corner"), r.cpu);
   if (const FuzzyResult& r = results.fuzzy; r.present)
-    text += fmt::format("  alpha-cuts: {} levels, up to {} s{}; {:.2f} s CPU\n", r.alpha.size(), r.reached,
-                        ended(r.why), r.cpu);
+    text += fmt::format("  alpha-cuts: {}{}, {:.2f} s CPU\n", until(r.reached, r.why),
+                        counted(static_cast<std::int64_t>(r.alpha.size()), "level"), r.cpu);
   return text;
 }
 

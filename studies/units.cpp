@@ -186,6 +186,7 @@ class Reader {
     result.piPower += power * unit.piPower;
     add(result.dimension, unit.dimension, power);
     if (unit.symbol == "%") {
+      if (result.isRelative) fail(fmt::format("'{}' has more than one '%'", text_), "one '%'");
       result.isRelative = true;
     } else {
       result.hasUnit = true;

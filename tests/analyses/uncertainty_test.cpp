@@ -108,6 +108,11 @@ TEST(Distribution, RefusesWhatIsNoDistribution) {
   EXPECT_THROW(Distribution::uniform({0.0, 1.0}).quantile(1.5), std::invalid_argument);
   EXPECT_THAT(
       [] {
+        Distribution::triangular({0.0, 1e-9}, 2e-9);
+      },
+      ThrowsMessage<std::invalid_argument>(HasSubstr("the mode 2e-09 of")));
+  EXPECT_THAT(
+      [] {
         Distribution::normal({100.0, 101.0}, 0, 1);
       },
       ThrowsMessage<std::invalid_argument>(HasSubstr("no mass on its support [100")));

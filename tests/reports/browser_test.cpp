@@ -9,6 +9,7 @@
 
 #include "reports/report.hpp"
 #include "tests/reports/example_results.hpp"
+#include "tests/reports/page_text.hpp"
 #include "tests/studies/temporary_folder.hpp"
 
 namespace gamut {
@@ -26,12 +27,6 @@ std::string outputOf(const std::string& command) {
   for (std::size_t n; (n = std::fread(part.data(), 1, part.size(), pipe)) > 0;) output.append(part.data(), n);
   pclose(pipe);
   return output;
-}
-
-std::size_t count(const std::string& text, const std::string& part) {
-  std::size_t found = 0;
-  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
-  return found;
 }
 
 class Browser : public testing::Test {

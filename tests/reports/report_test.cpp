@@ -13,6 +13,7 @@
 #include "reports/page_data.hpp"
 #include "reports/report.hpp"
 #include "tests/reports/example_results.hpp"
+#include "tests/reports/page_text.hpp"
 #include "tests/studies/temporary_folder.hpp"
 
 namespace gamut {
@@ -27,12 +28,6 @@ using testing::Not;
 std::string withoutBanner(std::string page) {
   const auto from = page.find("/*! https://github.com/leeoniya/uPlot "), to = page.find("*/", from);
   return from == std::string::npos ? page : page.erase(from, to - from);
-}
-
-std::size_t count(const std::string& text, const std::string& part) {
-  std::size_t found = 0;
-  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
-  return found;
 }
 
 TEST(Report, RefersToNothingOutsideItself) {

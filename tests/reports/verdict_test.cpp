@@ -1,11 +1,13 @@
 // The verdict from stored numbers: what counts as outside, what is excused, what is missing, and what people are told.
 #include <gmock/gmock.h>
 
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <ostream>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "reports/verdict.hpp"
 #include "tests/reports/example_results.hpp"
@@ -15,9 +17,11 @@ namespace {
 
 using testing::AllOf;
 using testing::Contains;
+using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
+using testing::StartsWith;
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
@@ -47,8 +51,9 @@ void leave(Results& results, double distance) {
   results.stochastic.envelope.upper(40, 1) = results.interval.at.upper(40, 1) + distance;
 }
 
-DisputedSample disputed(const Results& results, double distance) {
-  DisputedSample sample;
+/// Adds a sample that was disputed at that point.
+DisputedSample& dispute(Results& results, double distance, const std::string& decided) {
+  DisputedSample& sample = results.comparison.disputed.emplace_back();
   sample.number = 17;
   sample.time = 40;
   sample.output = 1;
@@ -57,6 +62,7 @@ DisputedSample disputed(const Results& results, double distance) {
   sample.value = sample.upper + distance;
   sample.distance = distance;
   sample.error = distance;
+  sample.decided = decided;
   return sample;
 }
 
@@ -83,39 +89,35 @@ const Case cases[] = {
        leave(r, 1);
      },
      "incomplete", 3},
-    {"DisputedAndOutside",
-     [](Results& r) {
-       r.comparison.disputed.push_back(disputed(r, 1e-6));
-       r.comparison.disputed.back().outside = true;
-       r.comparison.disputed.back().decided = "tolerance 1e-12";
-     },
-     "outside", 1},
+    {"DisputedAndOutside", [](Results& r) { dispute(r, 1e-6, "tolerance 1e-12").outside = true; }, "outside", 1},
     {"DisputedAndUnresolved",
      [](Results& r) {
        leave(r, 1e-6);
-       r.comparison.disputed.push_back(disputed(r, 1e-6));
-       r.comparison.disputed.back().decided = "unresolved";
+       dispute(r, 1e-6, "unresolved");
      },
      "unresolved", 1},
     {"DisputedAndSettledInside",
      [](Results& r) {
        leave(r, 1e-6);
-       r.comparison.disputed.push_back(disputed(r, 1e-6));
-       r.comparison.disputed.back().decided = "tolerance 1e-12";
+       dispute(r, 1e-6, "tolerance 1e-12");
      },
      "inside", 0},
+    {"DisputedAndInterrupted",
+     [](Results& r) {
+       leave(r, 1e-6);
+       dispute(r, 1e-6, "interrupted");
+     },
+     "incomplete", 3},
     {"SettledInsideDoesNotExcuseAFartherExcursion",
      [](Results& r) {
        leave(r, 1e-3);
-       r.comparison.disputed.push_back(disputed(r, 1e-6));
-       r.comparison.disputed.back().decided = "tolerance 1e-12";
+       dispute(r, 1e-6, "tolerance 1e-12");
      },
      "outside", 1},
     {"SettledInsideDoesNotExcuseAnotherOutput",
      [](Results& r) {
        r.stochastic.envelope.upper(40, 0) = r.interval.at.upper(40, 0) + 1e-6;
-       r.comparison.disputed.push_back(disputed(r, 1e-3));
-       r.comparison.disputed.back().decided = "tolerance 1e-12";
+       dispute(r, 1e-3, "tolerance 1e-12");
      },
      "outside", 1},
     {"EnclosureEndsEarly", [](Results& r) { r.interval.reached = 2.3; }, "incomplete", 3},
@@ -184,10 +186,41 @@ TEST(Verdict, SaysSoWhereTheStoredWordDisagreesAndTheFindingWins) {
 
 TEST(Verdict, NamesEveryUnresolvedSample) {
   Results results = example::pendulum();
-  results.comparison.disputed.push_back(disputed(results, 1e-6));
-  results.comparison.disputed.back().decided = "unresolved";
+  dispute(results, 1e-6, "unresolved");
   EXPECT_THAT(judge(results).notes,
               Contains(AllOf(HasSubstr("Sample 17 (elbow angle at 2 s)"), HasSubstr("1e-06 rad"))));
+}
+
+TEST(Verdict, NamesCornersAndTheCentreAsSuch) {
+  Results results = example::pendulum();
+  const std::int64_t first = results.stochastic.samples, corners = results.stochastic.corners;
+  for (const std::int64_t number : {first - 1, first, first + corners})
+    dispute(results, 1e-6, "tolerance 1e-12").number = number;
+  EXPECT_THAT(judge(results).notes,
+              ElementsAre(StartsWith("Sample 4095 ("), StartsWith("Corner 1 of 2 ("), StartsWith("The centre (")));
+}
+
+TEST(Verdict, CountsTheSettledSamplesThatItDoesNotName) {
+  Results results = example::pendulum();
+  for (int i = 0; i < 100; ++i) dispute(results, 1e-6, "tolerance 1e-12");
+  dispute(results, 1e-6, "unresolved");
+  const std::vector<std::string> notes = judge(results).notes;
+  ASSERT_EQ(notes.size(), 7U);
+  EXPECT_THAT(notes.front(), HasSubstr("could not be decided"));
+  EXPECT_THAT(notes.back(), StartsWith("95 more seemed outside and were found inside;"));
+}
+
+TEST(Verdict, ClaimsNothingOfMotionsThatEndedAtTheStart) {
+  Results results = example::pendulum();
+  results.stochastic.reached = 0;
+  results.stochastic.why = "interrupted";
+  for (double& number : results.stochastic.envelope.lower.data) number = none;
+  for (double& number : results.stochastic.envelope.upper.data) number = none;
+  const Verdict verdict = judge(results);
+  EXPECT_EQ(verdict.word, "incomplete");
+  EXPECT_THAT(verdict.sentence,
+              StartsWith("Nothing could be compared: an analysis ended at its start. The 3 s asked for were not"));
+  EXPECT_THAT(verdict.notes, ElementsAre("The samples end at 0 s of the 3 s asked for: interrupted."));
 }
 
 TEST(Verdict, TellsWhyAnAnalysisEndedEarly) {

@@ -15,6 +15,11 @@
 namespace gamut {
 namespace {
 
+using ::testing::Each;
+using ::testing::Field;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
 constexpr const char* threeUncertain = R"([[uncertain]]
 quantity = "rod.length"
 interval = "± 1 %"
@@ -49,6 +54,20 @@ TEST(Problem, NestsTheLevelsFromTheSupportsToTheCores) {
     for (std::size_t i = 0; i < 4; ++i)
       EXPECT_TRUE(isSubset(problem.levels[j][i], j == 0 ? problem.box[i] : problem.levels[j - 1][i]));
   EXPECT_TRUE(isThin(problem.levels[10][2]));
+}
+
+TEST(Driver, LeavesOpenWhatAnInterruptKeepsFromBeingDecided) {
+  std::atomic<bool> cancelled{false};
+  RunOptions options;
+  options.cancelled = &cancelled;
+  options.progress = [&](const std::string& task, double fraction) {
+    if (task == "samples" && fraction >= 1) cancelled = true;
+  };
+  const ComparisonResult comparison = run(readStudyText(sampleStudy, "s.toml"), options).comparison;
+  EXPECT_EQ(comparison.verdict, "incomplete");
+  EXPECT_EQ(comparison.excursion, 0);
+  EXPECT_THAT(comparison.disputed, Not(IsEmpty()));
+  EXPECT_THAT(comparison.disputed, Each(Field(&DisputedSample::decided, "interrupted")));
 }
 
 TEST(Driver, KeepsSamplesInsideWithUncertainParametersAndInitialValues) {

@@ -56,7 +56,9 @@ TEST_F(Program, TellsItsVersionAndItsExitCodes) {
 TEST_F(Program, RefusesWrongUsageInOneLine) {
   folder_.write("s.toml", sampleStudy);
   for (const char* arguments :
-       {"", "walk", "run", "run s.toml --jobs 0", "run s.toml --samples -3", "run s.toml --seed x", "run s.toml --what",
+       {"", "walk", "run", "run s.toml --jobs 0", "run s.toml --samples -3", "run s.toml --seed x",
+        "run s.toml --seed -1", "run s.toml --seed 18446744073709551616", "run s.toml --samples",
+        "run s.toml --samples 1e3", "run s.toml --what", "run ''", "check ''", "run s.toml -o /proc/x.h5",
         "run s.toml -o none/x.h5", "run s.toml -o s.toml --force", "run s.toml -o x --report x", "run s.toml -o ."}) {
     SCOPED_TRACE(arguments);
     const Outcome run = gamut(arguments);
@@ -67,6 +69,33 @@ TEST_F(Program, RefusesWrongUsageInOneLine) {
   }
   EXPECT_EQ(folder_.count(), 1U);
   EXPECT_EQ(folder_.read("s.toml"), sampleStudy);
+  EXPECT_EQ(gamut("run s.toml --seed -1").error,
+            "gamut: --seed: '-1' is no whole number from 0 to 9223372036854775807; see gamut run --help\n");
+}
+
+TEST_F(Program, FailsIfWhatItSaysDoesNotArrive) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+  writeResults(sampleResults(), folder_.path("r.h5"));
+  for (const char* command : {"info r.h5", "check r.h5"}) {
+    const Outcome run = gamut(std::string(command) + " > /dev/full 2> .error; exit $?; true");
+    EXPECT_EQ(run.exitCode, 4);
+    EXPECT_THAT(run.error, StartsWith("gamut: standard output: cannot be written; "));
+  }
+}
+
+TEST_F(Program, WritesWholeFilesWhereStandardStreamsAreClosed) {
+  folder_.write("s.toml", sampleStudy);
+  EXPECT_EQ(gamut("run s.toml <&- >&- 2>&-; exit $?; true").exitCode, 0);
+  EXPECT_EQ(readResults(folder_.path("s.h5")).studyText, sampleStudy);
+  EXPECT_THAT(folder_.read("s.html"), StartsWith("<!"));
+}
+
+TEST_F(Program, RefusesMoreSamplesThanTheMemoryHolds) {
+  folder_.write("s.toml", sampleStudyWith("output_step = 0.1", "output_step = 1e-5"));
+  const Outcome run = gamut("run s.toml --samples 10000000");
+  EXPECT_EQ(run.exitCode, 2);
+  EXPECT_THAT(run.error, HasSubstr("10000000 samples of 2 outputs at 50001 times need 8000 GB, this machine has "));
+  EXPECT_EQ(folder_.count(), 1U);
 }
 
 TEST_F(Program, RefusesABadStudyWithoutTouchingAnyFile) {
@@ -86,7 +115,7 @@ TEST_F(Program, ValidatesWithoutWriting) {
   folder_.write("s.toml", sampleStudy);
   const Outcome run = gamut("validate s.toml");
   EXPECT_EQ(run.exitCode, 0);
-  EXPECT_EQ(run.out, "s.toml: valid; dynamics with 3 elements, 1 uncertain quantities, 2 outputs at 6 times\n");
+  EXPECT_EQ(run.out, "s.toml: valid; dynamics with 3 elements, 1 uncertain quantity, 2 outputs at 6 times\n");
   EXPECT_EQ(folder_.count(), 1U);
 }
 
@@ -169,6 +198,7 @@ TEST_F(Program, RunsWithOneAnalysisAlone) {
     const Outcome run = gamut("run s.toml --json --quiet --force");
     EXPECT_EQ(run.exitCode, 0) << run.error;
     EXPECT_TRUE(Json::parse(run.out)["verdict"].is_null());
+    EXPECT_THAT(gamut("run s.toml --force").out, StartsWith("Nothing could be compared: "));
   }
 }
 
@@ -239,7 +269,7 @@ TEST_F(Program, KeepsWhatWasFoundWhenInterrupted) {
   const Results results = readResults(folder_.path("long.h5"));
   EXPECT_EQ(results.comparison.verdict, "incomplete");
   EXPECT_EQ(results.interval.reached, 0.5);
-  EXPECT_NE(results.stochastic.why, "");
+  EXPECT_EQ(results.stochastic.why, "interrupted");
   EXPECT_TRUE(folder_.has("long.html"));
 }
 

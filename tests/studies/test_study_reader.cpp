@@ -200,6 +200,17 @@ TEST(StudyReader, NamesAFileThatCannotBeRead) {
   }
 }
 
+TEST(StudyReader, MissesTheStudyInAnEmptyFile) {
+  const TemporaryFolder folder;
+  const std::string path = folder.write("empty.toml", "");
+  try {
+    readStudy(path);
+    ADD_FAILURE() << "was read";
+  } catch (const StudyError& error) {
+    EXPECT_EQ(std::string(error.what()), path + ":1:1: 'study' is missing; expected a table [study]");
+  }
+}
+
 struct BadStudy {
   const char* old;
   const char* replacement;
@@ -216,6 +227,16 @@ TEST_P(BadStudyFile, IsRefusedInOneLineWithItsPlace) {
 }
 
 constexpr BadStudy badStudies[] = {
+    {"mass = \"250 g\"", "mass = -1",
+     "s.toml:27:8: mechanism.element.mass is negative; expected a mass of at least 0 kg"},
+    {"parameters = { length = 0.5 }\n[[mechanism.element]]\ntype = \"mass\"\nname = \"bob\"\nat = \"tip\"\nmass = "
+     "\"250 g\"",
+     "parameters = { length = 0.5, weight = \"250 g\" }\n[[mechanism.element]]\ntype = \"mass\"\nname = \"bob\"\n"
+     "at = \"tip\"\nmass = \"-rod.weight\"",
+     "s.toml:27:8: mechanism.element.mass is negative; expected a mass of at least 0 kg"},
+    {"quantity = \"hinge.angle\"\ninterval = \"± 1 %\"", "quantity = \"bob.mass\"\ninterval = \"± 101 %\"",
+     "s.toml:31:12: uncertain.interval reaches down to a negative mass; expected a lower bound of at least 0 kg"},
+    {"± 1 %", "± 1 %%", "s.toml:31:12: uncertain.interval: ' 1 %%' has more than one '%'; expected one '%'"},
     {"horizon = 0.5", "horizon = ",
      "s.toml:4:11: not valid TOML: Error while parsing key-value pair: expected value, saw '\\n'; expected a file that "
      "follows https://toml.io"},
@@ -365,7 +386,7 @@ constexpr BadStudy badStudies[] = {
     {"distribution = { type = \"uniform\" }", "distribution = { type = \"normal\" }",
      "s.toml:32:16: 'uncertain.distribution.deviation' is missing; expected a number in rad"},
     {"distribution = { type = \"uniform\" }", "distribution = { type = \"normal\", deviation = -1 }",
-     "s.toml:32:16: the deviation of a normal distribution must be positive, not -1.000000; expected a distribution "
+     "s.toml:32:16: the deviation of a normal distribution must be positive, not -1; expected a distribution "
      "inside the interval"},
     {"membership = { type = \"triangular\" }", "membership = { type = \"triangular\", apex = 3 }",
      "s.toml:33:14: the core [3, 3] of a membership function lies outside its support [0.51836278784231581, "

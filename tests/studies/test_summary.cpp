@@ -13,6 +13,7 @@ namespace {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using Json = nlohmann::json;
 
 std::vector<std::string> keysOf(const Json& object) {
@@ -70,6 +71,28 @@ TEST(TextSummary, ShowsTheLastRowReachedRoundedOutward) {
   EXPECT_THAT(text, HasSubstr("tip height (m)"));
   EXPECT_THAT(text, HasSubstr("[1.000, 3.000]"));
   EXPECT_THAT(text, HasSubstr("4096 samples 1.50 s"));
+}
+
+TEST(TextSummary, ShowsTheWidestAlphaCutOfAStudyWithoutEnclosure) {
+  Results results = sampleResults();
+  results.interval = {};
+  results.fuzzy.outer.front().lower(2, 0) = 1.25;
+  results.fuzzy.outer.front().upper(2, 0) = 1.75;
+  const std::string text = textSummary(results);
+  EXPECT_THAT(text, HasSubstr("widest alpha-cut"));
+  EXPECT_THAT(text, HasSubstr("[1.2500, 1.7500]"));
+}
+
+TEST(InfoText, SpeaksOfNoTimeInKinematicsAndOfOneAsOne) {
+  Results results = sampleResults();
+  results.horizon = 0;
+  results.interval.pieces = 1;
+  results.uncertain.front().nominal = 0.1 + 0.2;
+  const std::string text = infoText(results);
+  EXPECT_THAT(text, Not(HasSubstr("up to")));
+  EXPECT_THAT(text, Not(HasSubstr("output times")));
+  EXPECT_THAT(text, HasSubstr(" 1 piece,"));
+  EXPECT_THAT(text, HasSubstr("nominal 0.3,"));
 }
 
 TEST(ProgressLine, TellsTheTimeLeftOnceItCanBeKnown) {
