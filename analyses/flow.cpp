@@ -2,8 +2,6 @@
 // whole box is proved. Threads share the queue; every thread collects hulls of its own, joined at the end.
 #include "analyses/flow.hpp"
 
-#include <time.h>
-
 #include <algorithm>
 #include <cmath>
 #include <condition_variable>
@@ -14,95 +12,21 @@
 #include <stdexcept>
 #include <thread>
 
+#include "analyses/flow_embedding.hpp"
 #include "analyses/flow_outputs.hpp"
 #include "analyses/flow_step.hpp"
 #include "analyses/polynomial_range.hpp"
+#include "analyses/workers.hpp"
+#include "scalars/index.hpp"
 #include "scalars/rounding.hpp"
 
 namespace gamut {
+
+using detail::at;
+
 namespace {
 
-constexpr const char* kInterrupted = "interrupted";
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-double threadSeconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
-/// Which box components get a symbol, and how a component is written in it.
-struct Embedding {
-  std::vector<Embedded> components;  // one a box component
-  int symbols = 0;
-  double widest = 0;  // greatest half-width relative to its centre, at most 1
-
-  explicit Embedding(const Box& box) {
-    for (const Interval& value : box) {
-      Embedded e;
-      e.centre = midpoint(value);
-      e.radius = isThin(value) ? 0.0 : radius(value);
-      // Widths of the order of rounding are carried by the remainder; wider ones get a symbol.
-      if (e.radius > 1e-13 * std::fabs(e.centre)) {
-        e.half = e.radius;
-        e.radius = 0;
-        e.symbol = symbols++;
-        widest = std::max(widest, e.half < std::fabs(e.centre) ? e.half / std::fabs(e.centre) : 1.0);
-      }
-      components.push_back(e);
-    }
-  }
-};
-
-/// The degrees that a flow may use: higher ones only as needed, and no more monomials than pay.
-std::vector<int> degreeLadder(int symbols) {
-  if (symbols == 0) return {0};
-  static constexpr int highest[] = {0, 16, 10, 8, 6, 5, 4, 3, 3};
-  const int last = symbols < 9 ? highest[symbols] : 2;
-  std::vector<int> ladder;
-  for (int degree : {2, 4, 6, 8, 12, 16})
-    if (degree < last) ladder.push_back(degree);
-  ladder.push_back(last);
-  return ladder;
-}
-
-int automaticFrameDegree(int symbols, int degree) { return std::min(degree, symbols == 1 ? 4 : symbols <= 3 ? 2 : 1); }
-
-void check(bool condition, const std::string& what) {
-  if (!condition) throw std::invalid_argument(what);
-}
-
-void checkLevels(const Box& box, const std::vector<Box>& levels) {
-  const Box* outer = &box;
-  for (const Box& level : levels) {
-    check(level.size() == box.size(), "a sub-box needs as many components as the box");
-    for (std::size_t i = 0; i < level.size(); ++i)
-      check(!isEmpty(level[i]) && isSubset(level[i], (*outer)[i]),
-            "sub-boxes must lie inside the box, each inside the one before");
-    outer = &level;
-  }
-}
-
-/// The part of [-1,1] of each symbol that a sub-box covers on a piece ξ_study = centre + half·ξ; false if none.
-bool restrictTo(const Box& level, const Embedding& embedding, const std::vector<double>& centre,
-                const std::vector<double>& half, Box& xi) {
-  for (std::size_t i = 0; i < level.size(); ++i) {
-    const Embedded& e = embedding.components[i];
-    if (e.symbol < 0) continue;
-    const Interval study = (level[i] - Interval(e.centre)) / Interval(e.half);
-    const Interval own = (study - Interval(centre[at(e.symbol)])) / Interval(half[at(e.symbol)]);
-    const Interval part = intersection(own, Interval(-1.0, 1.0));
-    if (isEmpty(part)) return false;
-    xi[at(e.symbol)] = part;
-  }
-  return true;
-}
-
-Interval inflated(const Interval& range, double radius) {
-  if (!(radius < std::numeric_limits<double>::infinity())) return Interval::entire();
-  return range + Interval(-radius, radius);
-}
+constexpr const char* interruptedText = "interrupted";
 
 void join(std::vector<Interval>& into, const std::vector<Interval>& from) {
   if (into.empty()) {
@@ -138,7 +62,7 @@ std::shared_ptr<const Monomials> expandedMonomials(int symbols, int n) {
   return monomials->count() <= 300 ? monomials : nullptr;
 }
 
-constexpr double kExpandAt = 1e-6;  // a remainder, relative to its state, that a linear term cannot carry much further
+constexpr double expandedAt = 1e-6;  // a remainder, relative to its state, that a linear term cannot carry much further
 
 /// One sub-box on its way, with what is known at its last boundary.
 struct Piece {
@@ -203,7 +127,8 @@ class FlowRun {
     std::vector<int> degrees = degreeLadder(embedding_.symbols);
     if (options.degree >= 0 && embedding_.symbols > 0) degrees = {options.degree};
     for (int degree : degrees) {
-      check(embedding_.symbols == 0 || degree >= 1, "uncertain quantities need polynomials of degree one at least");
+      requireThat(embedding_.symbols == 0 || degree >= 1,
+                  "uncertain quantities need polynomials of degree one at least");
       layouts_.push_back({std::make_shared<const Monomials>(std::vector<int>(at(embedding_.symbols), 1), degree),
                           options.frameDegree >= 0 ? std::min(options.frameDegree, degree)
                                                    : automaticFrameDegree(embedding_.symbols, degree)});
@@ -214,14 +139,16 @@ class FlowRun {
           std::min(expanded->degree(), embedding_.symbols == 0 ? 1 : expanded->weight(embedding_.symbols));
       layouts_.push_back({std::move(expanded), frame, true});
     }
-    splitDefect_ = options.splitDefect * embedding_.widest / tighter;
+    // Bisection is cheap for one symbol and dear for several: with these, begin loosely.
+    const double patience = std::pow(20.0, std::clamp(embedding_.symbols - 1, 0, 3));
+    splitDefect_ = options.splitDefect * patience * embedding_.widest / tighter;
     tolerance_ = options.tolerance > 0 ? options.tolerance : embedding_.symbols == 0 ? 1e-15 : 1e-14;
   }
 
   /// The greatest share of the remainder in a width, and whether all was proved: is it worth trying a tighter
   /// threshold?
   bool isLoose(const Tube& tube) const {
-    if (embedding_.symbols == 0 || !options_.split || tube.why() == kInterrupted || pieces_ >= options_.maxPieces)
+    if (embedding_.symbols == 0 || !options_.split || tube.why() == interruptedText || pieces_ >= options_.maxPieces)
       return false;
     return tube.reached() < horizon_ || looseness_ > 0.005;
   }
@@ -238,6 +165,7 @@ class FlowRun {
     cross(b.outputs_, a.outputs_);
     cross(b.outputsOver_, a.outputsOver_);
     for (std::size_t level = 0; level < b.cuts_.size(); ++level) cross(b.cuts_[level], a.cuts_[level]);
+    if (a.why_ == interruptedText && !b.why_.empty()) b.why_ = a.why_;
     b.steps_ += a.steps_;
     b.cpu_ += a.cpu_;
     b.cutCpu_ += a.cutCpu_;
@@ -262,10 +190,10 @@ class FlowRun {
     failedAt_ = std::numeric_limits<double>::infinity();
     const int jobs = std::max(1, options_.jobs);
     std::vector<Collected> collected(at(jobs), Collected(times_.size(), levels_.size()));
-    std::vector<std::thread> threads;
+    std::vector<std::jthread> threads;
     for (int i = 1; i < jobs; ++i) threads.emplace_back([this, &collected, i] { work(collected[at(i)]); });
     work(collected[0]);
-    for (std::thread& thread : threads) thread.join();
+    threads.clear();  // joins
     if (error_) std::rethrow_exception(error_);
     return gather(collected);
   }
@@ -295,7 +223,7 @@ class FlowRun {
 
   /// A thread: takes the earliest piece, follows it for a slice of time, puts it back.
   void work(Collected& collected) {
-    const double began = threadSeconds();
+    const double began = threadCpuSeconds();
     try {
       Worker worker(*this, collected);
       for (;;) {
@@ -331,7 +259,7 @@ class FlowRun {
       stop_ = true;
     }
     wake_.notify_all();
-    collected.cpu += threadSeconds() - began - collected.cutCpu;
+    collected.cpu += threadCpuSeconds() - began - collected.cutCpu;
   }
 
   void report(double earliest) {  // the queue's order makes `earliest` the earliest of all waiting pieces
@@ -447,9 +375,10 @@ class FlowRun {
       // Where ξ can be bisected, doing so early keeps the remainder small; symbols for it would only be bisected too.
       if (run_.embedding_.symbols > 0 && run_.options_.split) return false;
       const Layout& from = run_.layouts_[piece.layout];
-      if (!(tool_->stepper.relativeRemainder(piece.set) > kExpandAt)) return false;
-      expandRemainder(piece.set, *from.monomials, from.frameDegree, *run_.layouts_[expanded].monomials,
-                      run_.layouts_[expanded].frameDegree);
+      if (!(tool_->stepper.relativeRemainder(piece.set) > expandedAt)) return false;
+      if (!expandRemainder(piece.set, *from.monomials, from.frameDegree, *run_.layouts_[expanded].monomials,
+                           run_.layouts_[expanded].frameDegree))
+        return false;
       piece.layout = expanded;
       return true;
     }
@@ -481,7 +410,7 @@ class FlowRun {
 
     void encloseLevels(const Piece& piece, std::size_t row) {
       if (run_.levels_.empty()) return;
-      const double began = threadSeconds();
+      const double began = threadCpuSeconds();
       const int N = monomialCount_;
       for (std::size_t level = 0; level < run_.levels_.size(); ++level) {
         Box xi = whole_;
@@ -498,7 +427,7 @@ class FlowRun {
         }
         join(collected_.cuts[level][row], cut);
       }
-      collected_.cutCpu += threadSeconds() - began;
+      collected_.cutCpu += threadCpuSeconds() - began;
     }
 
     /// Adds what the step that was just certified contributes to the tube; false if the piece has grown too wide.
@@ -637,7 +566,7 @@ Tube FlowRun::gather(std::vector<Collected>& collected) {
   if (!queue_.empty()) earliest = std::min(earliest, queue_.top().set.t);
   if (stop_ && earliest < tube.reached_) {
     tube.reached_ = earliest;
-    tube.why_ = kInterrupted;
+    tube.why_ = interruptedText;
   }
   std::size_t rows = 0;
   while (rows < times_.size() && times_[rows] <= tube.reached_ && (rows > 0 || tube.reached_ > 0)) ++rows;
@@ -688,11 +617,11 @@ Tube FlowRun::gather(std::vector<Collected>& collected) {
 
 const std::vector<Interval>& Tube::at(double time) const {
   if (!(time >= 0 && time <= reached_) || states_.empty())
-    throw std::out_of_range("the tube is proved for times from 0 s to " + std::to_string(reached_) + " s only");
+    throw std::out_of_range("the tube is proved for times from 0 s to " + toString(reached_) + " s only");
   const auto found = std::lower_bound(times_.begin(), times_.end(), time);
   const auto row = static_cast<std::size_t>(found - times_.begin());
   if (row >= states_.size())
-    throw std::out_of_range("the tube ended at " + std::to_string(reached_) + " s, inside an output interval");
+    throw std::out_of_range("the tube ended at " + toString(reached_) + " s, inside an output interval");
   return times_[row] == time ? states_[row] : statesOver_[row];
 }
 
@@ -702,15 +631,15 @@ Flow::Flow(Program f, FlowOptions options) {
 }
 
 Flow::Flow(Program f, Program g, FlowOptions options) {
-  check(f.states() > 0 && f.outputs() == f.states(),
-        "a flow needs one derivative for each of its states (and at least one state)");
-  check(g.states() == f.states() && g.parameters() == f.parameters(),
-        "the outputs of a flow need its states and its parameters");
-  check(options.order >= 4 && options.order <= 30, "the order of a flow must be 4 to 30");
-  check(options.degree >= -1 && options.degree <= 40,
-        "the degree of a flow's polynomials must be 0 to 40 (-1: automatic)");
-  check(options.maxPieces >= 1, "a flow needs at least one piece");
-  check(options.tolerance >= 0 && options.splitDefect >= 0, "tolerances must not be negative");
+  requireThat(f.states() > 0 && f.outputs() == f.states(),
+              "a flow needs one derivative for each of its states (and at least one state)");
+  requireThat(g.states() == f.states() && g.parameters() == f.parameters(),
+              "the outputs of a flow need its states and its parameters");
+  requireThat(options.order >= 4 && options.order <= 30, "the order of a flow must be 4 to 30");
+  requireThat(options.degree >= -1 && options.degree <= 40,
+              "the degree of a flow's polynomials must be 0 to 40 (-1: automatic)");
+  requireThat(options.maxPieces >= 1, "a flow needs at least one piece");
+  requireThat(options.tolerance >= 0 && options.splitDefect >= 0, "tolerances must not be negative");
   Program differentiated = f.differentiated();
   parts_ =
       std::make_unique<const Parts>(Parts{std::move(f), std::move(differentiated), std::move(g), std::move(options)});
@@ -723,21 +652,24 @@ Flow& Flow::operator=(Flow&&) noexcept = default;
 Tube Flow::enclose(const Box& box, double horizon, const std::vector<double>& outputTimes,
                    const std::vector<Box>& levels) const {
   const Parts& parts = *parts_;
-  check(box.size() == at(parts.motion.states() + parts.motion.parameters()),
-        "the box needs " + std::to_string(parts.motion.states()) + " initial values and " +
-            std::to_string(parts.motion.parameters()) + " parameters, not " + std::to_string(box.size()) + " numbers");
-  for (const Interval& value : box)
-    check(!isEmpty(value) && isBounded(value), "every interval of the box must be bounded");
-  check(horizon > 0 && std::isfinite(horizon), "the horizon must be a positive number of seconds");
+  requireThat(box.size() == at(parts.motion.states() + parts.motion.parameters()),
+              "the box needs " + std::to_string(parts.motion.states()) + " initial values and " +
+                  std::to_string(parts.motion.parameters()) + " parameters, not " + std::to_string(box.size()) +
+                  " numbers");
+  requireThat(horizon > 0 && std::isfinite(horizon), "the horizon must be a positive number of seconds");
   for (std::size_t i = 0; i < outputTimes.size(); ++i)
-    check(outputTimes[i] >= 0 && outputTimes[i] <= horizon && (i == 0 || outputTimes[i] >= outputTimes[i - 1]),
-          "output times must rise from 0 to the horizon");
-  checkLevels(box, levels);
+    requireThat(outputTimes[i] >= 0 && outputTimes[i] <= horizon && (i == 0 || outputTimes[i] >= outputTimes[i - 1]),
+                "output times must rise from 0 to the horizon");
+  requireNested(box, levels);
+  FlowOptions options = parts.options;
+  double furthest = 0;  // runs and threads report one at a time; what they report must not go back
+  if (parts.options.progress)
+    options.progress = [&](double fraction) { parts.options.progress(furthest = std::max(furthest, fraction)); };
   // Splitting acts too late where the remainder has grown already: where it shows in the result, once more and earlier.
   const auto repeat = [&](const Box& whole, const std::vector<Box>& inside, double& looseness) {
     Tube best;
     for (double tighter : {1.0, 30.0, 1000.0, 30000.0}) {
-      FlowRun run(parts.motion, parts.differentiated, parts.outputs, parts.options, whole, horizon, outputTimes, inside,
+      FlowRun run(parts.motion, parts.differentiated, parts.outputs, options, whole, horizon, outputTimes, inside,
                   tighter);
       Tube tube = run.run();
       const bool again = run.isLoose(tube);
@@ -751,58 +683,13 @@ Tube Flow::enclose(const Box& box, double horizon, const std::vector<double>& ou
   double looseness = 0, unused = 0;
   Tube tube = repeat(box, levels, looseness);
   // A remainder that is small for the whole box is not for a much smaller level: that one gets a flow of its own.
-  for (std::size_t level = 0; level < levels.size() && tube.why() != kInterrupted; ++level) {
+  for (std::size_t level = 0; level < levels.size() && tube.why() != interruptedText; ++level) {
     double share = 0;
     for (std::size_t i = 0; i < box.size(); ++i)
       if (uncertain.components[i].symbol >= 0) share = std::max(share, width(levels[level][i]) / width(box[i]));
     if (looseness > 0.01 * share) FlowRun::tighten(tube, level, repeat(levels[level], {}, unused));
   }
   return tube;
-}
-
-std::vector<std::vector<Interval>> encloseImage(const Program& g, double t, const Box& box,
-                                                const std::vector<Box>& levels, int degree) {
-  check(box.size() == at(g.states() + g.parameters()), "the box needs one interval a state and a parameter");
-  for (const Interval& value : box)
-    check(!isEmpty(value) && isBounded(value), "every interval of the box must be bounded");
-  checkLevels(box, levels);
-  const Embedding embedding(box);
-  const int d = degree >= 1 && embedding.symbols > 0 ? degree : degreeLadder(embedding.symbols).back();
-  const auto monomials = std::make_shared<const Monomials>(std::vector<int>(at(embedding.symbols), 1), d);
-  FlowOutputs outputs(g, monomials);
-  PolynomialRange range(monomials);
-  const int n = g.states(), N = monomials->count();
-  FlowPoint point;
-  point.p.assign(at(n * N), 0.0);
-  point.psi.assign(at(n * n), 0.0);
-  point.psiSum = point.psi;
-  point.total.assign(at(n), 0.0);
-  for (int i = 0; i < n; ++i) {
-    const Embedded& e = embedding.components[at(i)];
-    point.p[at(i * N)] = e.centre;
-    if (e.symbol >= 0) point.p[at(i * N + monomials->linear(e.symbol))] = e.half;
-    point.loose.push_back(e.radius);
-  }
-  point.radius = point.loose;
-  outputs.evaluate(t, point, std::vector<double>(at(n), 0.0),
-                   {embedding.components.begin() + n, embedding.components.end()});
-  std::vector<std::vector<Interval>> result;
-  std::vector<Box> boxes = levels;
-  boxes.insert(boxes.begin(), box);
-  for (const Box& level : boxes) {
-    Box xi(at(embedding.symbols), Interval(-1.0, 1.0));
-    restrictTo(level, embedding, std::vector<double>(at(embedding.symbols), 0.0),
-               std::vector<double>(at(embedding.symbols), 1.0), xi);
-    std::vector<Interval> row;
-    for (int o = 0; o < outputs.count(); ++o) {
-      Interval value = std::isfinite(outputs.radius(o)) ? inflated(range(outputs.polynomial(o), xi), outputs.radius(o))
-                                                        : Interval::entire();
-      if (!result.empty()) value = intersection(value, result.back()[at(o)]);
-      row.push_back(value);
-    }
-    result.push_back(std::move(row));
-  }
-  return result;
 }
 
 }  // namespace gamut

@@ -29,7 +29,7 @@ struct FlowOptions {
   double tolerance =
       0;              ///< truncation error in time aimed at in a step, relative to the state; 0: 1e-15 thin, 1e-14 else
   bool split = true;  ///< bisect the box where one piece cannot be followed tightly
-  double splitDefect = 1e-7;  ///< raise the degree, then bisect, when the truncation defect per second exceeds this
+  double splitDefect = 1e-8;  ///< raise the degree, then bisect, when the truncation defect per second exceeds this
                               ///< fraction of the box's relative width; tightened where the remainder shows
   int maxPieces = 2000;       ///< give up beyond this many pieces
   double maxWidth = std::numeric_limits<double>::infinity();  ///< end when an enclosure of a state becomes wider

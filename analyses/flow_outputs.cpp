@@ -1,14 +1,15 @@
+// Taylor models of the outputs at one time, from those of the states.
 #include "analyses/flow_outputs.hpp"
 
 #include <cmath>
 #include <limits>
 
+#include "analyses/error_bounds.hpp"
+#include "scalars/index.hpp"
+
 namespace gamut {
-namespace {
-constexpr double kUnit = 0x1p-53;
-constexpr double kUp = 1 + 0x1p-30;  // covers fewer than 2^22 roundings of a nonnegative formula
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-}  // namespace
+
+using detail::at;
 
 FlowOutputs::FlowOutputs(const Program& g, std::shared_ptr<const Monomials> monomials)
     : differentiated_(g.differentiated()),
@@ -23,14 +24,7 @@ FlowOutputs::FlowOutputs(const Program& g, std::shared_ptr<const Monomials> mono
 void FlowOutputs::evaluate(double t, const FlowPoint& point, const std::vector<double>& R,
                            const std::vector<Embedded>& parameters) {
   for (int i = 0; i < n_; ++i) series_.setState(i, &point.p[at(i * monomials_)]);
-  std::vector<double> coefficients(at(monomials_));
-  for (std::size_t i = 0; i < parameters.size(); ++i) {
-    std::fill(coefficients.begin(), coefficients.end(), 0.0);
-    coefficients[0] = parameters[i].centre;
-    if (parameters[i].symbol >= 0)
-      coefficients[at(series_.monomials().linear(parameters[i].symbol))] = parameters[i].half;
-    series_.setParameter(static_cast<int>(i), coefficients.data(), parameters[i].radius);
-  }
+  for (std::size_t i = 0; i < parameters.size(); ++i) series_.setParameter(static_cast<int>(i), parameters[i]);
   series_.compute(t, 1.0);
   const double infinite = std::numeric_limits<double>::infinity();
   std::fill(radius_.begin(), radius_.end(), infinite);
@@ -54,8 +48,8 @@ void FlowOutputs::evaluate(double t, const FlowPoint& point, const std::vector<d
       const int node = series_.outputNode(outputs_ + o * n_ + k);
       centre[at(k)] = series_.series(node)[0];
       spread[at(k)] =
-          (series_.norm(node) - std::fabs(centre[at(k)]) * (1 - 0x1p-50) + series_.rho0(node) + series_.rho1(node)) *
-          kUp;
+          (series_.norm(node) - std::fabs(centre[at(k)]) * bounds::down + series_.rho0(node) + series_.rho1(node)) *
+          bounds::up;
       sum += (std::fabs(centre[at(k)]) + spread[at(k)]) * point.loose[at(k)];
     }
     for (int j = 0; j < n_; ++j) {
@@ -65,9 +59,9 @@ void FlowOutputs::evaluate(double t, const FlowPoint& point, const std::vector<d
         along0 += centre[at(k)] * psi0;
         size += std::fabs(centre[at(k)] * psi0);
         rest += spread[at(k)] * point.psiSum[at(k * n_ + j)] +
-                std::fabs(centre[at(k)]) * (point.psiSum[at(k * n_ + j)] - std::fabs(psi0) * (1 - 0x1p-50));
+                std::fabs(centre[at(k)]) * (point.psiSum[at(k * n_ + j)] - std::fabs(psi0) * bounds::down);
       }
-      sum += std::fabs(along0) * R[at(j)] + ((n_ + 1) * kUnit * size + rest) * point.total[at(j)];
+      sum += std::fabs(along0) * R[at(j)] + ((n_ + 1) * bounds::unit * size + rest) * point.total[at(j)];
     }
     // Σ over generators |G₀ (Ψ₀Γ)_j|; its rounding is (n+1) u |G₀||Ψ₀||Γ|, counted with `size` above.
     for (std::size_t column = 0; column < point.zonotope.size(); column += at(n_)) {
@@ -75,7 +69,7 @@ void FlowOutputs::evaluate(double t, const FlowPoint& point, const std::vector<d
       for (int k = 0; k < n_; ++k) along0 += centre[at(k)] * point.zonotope[column + at(k)];
       sum += std::fabs(along0);
     }
-    radius_[at(o)] = sum * kUp;
+    radius_[at(o)] = sum * bounds::up;
   }
 }
 

@@ -1,3 +1,4 @@
+// The certified step: recursion, comparison, linear part, update. Derivations: docs/flow.md, sections 2 and 3.
 #include "analyses/flow_step.hpp"
 
 #include <Eigen/Dense>
@@ -6,117 +7,19 @@
 #include <limits>
 #include <numeric>
 
+#include "analyses/error_bounds.hpp"
+#include "scalars/index.hpp"
+
 namespace gamut {
+
+using detail::at;
+
 namespace {
 
-constexpr double kUnit = 0x1p-53;
-constexpr double kUp = 1 + 0x1p-30;  // covers fewer than 2^22 roundings of a nonnegative formula
-constexpr double kTiny = 0x1p-600;   // covers underflow, as in polynomial_series_bounds.cpp
-constexpr double kDump = 0.2;        // a frame column with more ξ-dependence than this goes back to a constant one
-constexpr int kGenerators = 60;      // steps whose errors are kept apart; older ones merge into the box R
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-/// R + Σ_j |Γ_j|, rounded up.
-void totalRadius(const FlowSet& set, std::vector<double>& total) {
-  total = set.R;
-  const std::size_t n = set.R.size();
-  for (std::size_t j = 0; j < set.generators.size(); j += n)
-    for (std::size_t i = 0; i < n; ++i) total[i] += std::fabs(set.generators[j + i]);
-  for (double& value : total) value *= kUp;
-}
+constexpr double dumpedAt = 0.2;    // a frame column with more ξ-dependence than this goes back to a constant one
+constexpr int generatorsKept = 60;  // steps whose errors are kept apart; older ones merge into the box R
 
 }  // namespace
-
-double relativeMass(const FlowSet& set, const Monomials& monomials, int above, int below) {
-  const std::size_t N = at(monomials.count()), n = set.p.size() / N;
-  double largest = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    double mass = 0, all = 0;
-    for (std::size_t g = 0; g < N; ++g) {
-      const double size = std::fabs(set.p[i * N + g]);
-      const int grade = monomials.grade(static_cast<int>(g));
-      all += size;
-      if (grade > above && grade <= below) mass += size;
-    }
-    if (all > 0) largest = std::max(largest, mass / all);
-  }
-  return largest;
-}
-
-void changeDegree(FlowSet& set, const Monomials& from, int fromFrameDegree, const Monomials& to, int toFrameDegree) {
-  const std::size_t n = set.R.size(), N = at(from.count()), newN = at(to.count());
-  const std::size_t NJ = at(from.countUpTo(fromFrameDegree)), newNJ = at(to.countUpTo(toFrameDegree));
-  std::vector<double> p(n * newN, 0.0), total;
-  totalRadius(set, total);
-  for (std::size_t i = 0; i < n; ++i) {
-    double dropped = 0;
-    for (std::size_t g = 0; g < N; ++g)
-      if (g < newN)
-        p[i * newN + g] = set.p[i * N + g];
-      else
-        dropped += std::fabs(set.p[i * N + g]);
-    for (std::size_t g = newNJ; g < NJ; ++g)
-      for (std::size_t j = 0; j < n; ++j) dropped += std::fabs(set.C[(g * n + i) * n + j]) * total[j];
-    if (dropped > 0) set.W[i] = (set.W[i] + dropped) * kUp + kTiny;
-  }
-  set.p = std::move(p);
-  set.C.resize(newNJ * n * n, 0.0);
-}
-
-void expandRemainder(FlowSet& set, const Monomials& from, int fromFrameDegree, const Monomials& to, int toFrameDegree) {
-  using Matrix = Eigen::MatrixXd;
-  const int n = static_cast<int>(set.R.size()), N = from.count(), newN = to.count();
-  const int NJ = from.countUpTo(fromFrameDegree), newNJ = to.countUpTo(toFrameDegree);
-  std::vector<double> total, p(at(n * newN), 0.0);
-  totalRadius(set, total);
-  for (int i = 0; i < n; ++i) {
-    double dropped = 0;
-    for (int g = 0; g < N; ++g)
-      if (const int number = to.find(from, g); number >= 0)
-        p[at(i * newN + number)] = set.p[at(i * N + g)];
-      else
-        dropped += std::fabs(set.p[at(i * N + g)]);
-    for (int g = 1; g < NJ; ++g)  // the frame's own dependence on ξ
-      for (int j = 0; j < n; ++j) dropped += std::fabs(set.C[at((g * n + i) * n + j)]) * total[at(j)];
-    set.W[at(i)] += dropped;
-  }
-  // H: the directions of C_0 (r + Γs); its entries are off by n roundings, at most n u |C_0| Σ|Γ|.
-  const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> C(set.C.data(), n, n);
-  const Eigen::Map<const Eigen::VectorXd> R(set.R.data(), n), radius(total.data(), n);
-  const Eigen::Map<const Matrix> generators(set.generators.data(), n, static_cast<int>(set.generators.size()) / n);
-  Matrix H(n, n + generators.cols());
-  H << C * R.asDiagonal(), C * generators;
-  const Eigen::VectorXd rounding = (n + 1) * kUnit * (C.cwiseAbs() * radius);
-  const Matrix U = Eigen::SelfAdjointEigenSolver<Matrix>(H * H.transpose()).eigenvectors();
-  double phi = 0;  // ≥ ‖UᵀU - I‖∞, as in FlowStepper::advance
-  const Matrix gram = U.transpose() * U;
-  for (int i = 0; i < n; ++i) {
-    double row = 0;
-    for (int j = 0; j < n; ++j) row += std::fabs(gram(i, j) - (i == j)) + 2 * (n + 2) * kUnit;
-    phi = std::max(phi, row * kUp);
-  }
-  if (!(phi < 0.5)) return;  // no axes to be had: the set stays as it is
-  // |U⁻¹H_j s_j| summed: the half-widths along the axes; the product UᵀH has n roundings an entry.
-  Eigen::VectorXd half = (U.transpose() * H).cwiseAbs().rowwise().sum() +
-                         (n + 1) * kUnit * (U.cwiseAbs().transpose() * H.cwiseAbs().rowwise().sum()) +
-                         U.cwiseAbs().transpose() * rounding;
-  half.array() += phi / (1 - phi) * half.maxCoeff();
-  half *= kUp;
-  for (int i = 0; i < n; ++i) {
-    double rounded = 0;
-    for (int j = 0; j < n; ++j) {
-      const double coefficient = U(i, j) * half(j);  // one rounding
-      p[at(i * newN + to.linear(from.symbols() + j))] = coefficient;
-      rounded += kUnit * std::fabs(coefficient);
-    }
-    set.W[at(i)] = (set.W[at(i)] + rounded) * kUp + kTiny;
-  }
-  set.p = std::move(p);
-  set.C.assign(at(newNJ * n * n), 0.0);
-  for (int i = 0; i < n; ++i) set.C[at(i * n + i)] = 1;
-  set.R.assign(at(n), 0.0);
-  set.generators.clear();
-}
 
 FlowStepper::FlowStepper(const Program& motion, std::shared_ptr<const Monomials> monomials, int frameDegree, int order,
                          double tolerance)
@@ -132,14 +35,7 @@ void FlowStepper::load(const FlowSet& set) {
   totalRadius(set, total_);
   const int N = series_.count();
   for (int i = 0; i < n_; ++i) series_.setState(i, &set.p[at(i * N)]);
-  std::vector<double> coefficients(at(N));
-  for (std::size_t i = 0; i < set.parameters.size(); ++i) {
-    const Embedded& p = set.parameters[i];
-    std::fill(coefficients.begin(), coefficients.end(), 0.0);
-    coefficients[0] = p.centre;
-    if (p.symbol >= 0) coefficients[at(monomials().linear(p.symbol))] = p.half;
-    series_.setParameter(static_cast<int>(i), coefficients.data(), p.radius);
-  }
+  for (std::size_t i = 0; i < set.parameters.size(); ++i) series_.setParameter(static_cast<int>(i), set.parameters[i]);
   for (int i = 0; i < n_; ++i)
     for (int j = 0; j < n_; ++j) series_.setFrame(i, j, &set.C[at(i * n_ + j)], n_ * n_);
 }
@@ -174,7 +70,7 @@ bool FlowStepper::matrices(double h) {
       A_[at(i * n_ + j)] = series_.jacobianBound(i, j);
       row += A_[at(i * n_ + j)];
     }
-    nu = std::max(nu, row * h * kUp);
+    nu = std::max(nu, row * h * bounds::up);
   }
   if (!(nu < 60)) return false;
   // A few power iterations: how fast the comparison system grows, whatever the units of the states.
@@ -214,7 +110,7 @@ bool FlowStepper::matrices(double h) {
       for (std::size_t i = 0; i < M.size(); ++i) M[i] += term_[i];
       const double ratio = nu / (k + 1 + offset);
       if (ratio < 0.5 && largest <= 0x1p-70 * h) {
-        for (double& entry : M) entry = (entry + 2 * ratio * largest) * kUp;
+        for (double& entry : M) entry = (entry + 2 * ratio * largest) * bounds::up;
         return;
       }
     }
@@ -225,7 +121,7 @@ bool FlowStepper::matrices(double h) {
     for (int j = 0; j < n_; ++j) {
       double s = i == j ? 1.0 : 0.0;
       for (int l = 0; l < n_; ++l) s += A_[at(i * n_ + l)] * M1_[at(l * n_ + j)];
-      M0_[at(i * n_ + j)] = s * kUp;
+      M0_[at(i * n_ + j)] = s * bounds::up;
     }
   return true;
 }
@@ -236,13 +132,13 @@ bool FlowStepper::tryStep(const FlowSet& set, double theta) {
   for (int i = 0; i < n_; ++i) {
     const int f = series_.outputNode(i);
     // δ = x̃' - f(x̃): the bound of f's node, and one rounding in the division by i+1.
-    delta0_[at(i)] = (series_.rho0(f) + kUnit * series_.norm(f)) * kUp + kTiny;
+    delta0_[at(i)] = (series_.rho0(f) + bounds::unit * series_.norm(f)) * bounds::up + bounds::tiny;
     delta1_[at(i)] = series_.rho1(f);
     scale_[at(i)] = series_.norm(i);
     double start = set.W[at(i)];
     for (int g = 0; g < series_.frameCount(); ++g)
       for (int j = 0; j < n_; ++j) start += std::fabs(set.C[at((g * n_ + i) * n_ + j)]) * total_[at(j)];
-    start_[at(i)] = start * kUp;
+    start_[at(i)] = start * bounds::up;
   }
   const auto tube = [&] {  // prop(δ) + e^{Ah} (|C|R + W)
     for (int i = 0; i < n_; ++i) {
@@ -250,7 +146,7 @@ bool FlowStepper::tryStep(const FlowSet& set, double theta) {
       for (int j = 0; j < n_; ++j)
         y += M1_[at(i * n_ + j)] * delta0_[at(j)] + M2_[at(i * n_ + j)] * delta1_[at(j)] +
              M0_[at(i * n_ + j)] * start_[at(j)];
-      y_[at(i)] = y * kUp + kTiny;
+      y_[at(i)] = y * bounds::up + bounds::tiny;
     }
   };
   if (!matrices(h)) return false;
@@ -259,7 +155,7 @@ bool FlowStepper::tryStep(const FlowSet& set, double theta) {
   for (int attempt = 0; attempt < 4 && !proved; ++attempt) {
     for (int i = 0; i < n_; ++i) {
       E_[at(i)] = y_[at(i)] * (attempt == 0 ? 1.05 : 1.3);
-      if (!(E_[at(i)] < 0x1p400)) return false;
+      if (!(E_[at(i)] < bounds::largest)) return false;
     }
     if (!series_.bound(E_.data(), false) || !matrices(h)) return false;
     tube();
@@ -275,7 +171,7 @@ bool FlowStepper::tryStep(const FlowSet& set, double theta) {
       time += M2_[at(i * n_ + j)] * delta1_[at(j)];
       kept += M0_[at(i * n_ + j)] * set.W[at(j)];
     }
-    e1_[at(i)] = (time + truncation + kept) * kUp + kTiny;
+    e1_[at(i)] = (time + truncation + kept) * bounds::up + bounds::tiny;
     if (scale_[at(i)] > 0) {
       timeError_ = std::max(timeError_, time / scale_[at(i)]);
       truncation_ = std::max(truncation_, truncation / scale_[at(i)]);
@@ -286,7 +182,7 @@ bool FlowStepper::tryStep(const FlowSet& set, double theta) {
     for (int i = 0; i < n_; ++i) {
       double s = 0;
       for (int l = 0; l < n_; ++l) s += M1_[at(i * n_ + l)] * nu0_[at(l)] + M2_[at(i * n_ + l)] * nu1_[at(l)];
-      epsilon_[at(i * n_ + j)] = s * kUp;
+      epsilon_[at(i * n_ + j)] = s * bounds::up;
     }
   }
   return true;
@@ -393,9 +289,9 @@ void FlowStepper::evaluate(const FlowSet& set, double tau, FlowPoint& point) {
     for (int i = m_ - 1; i >= 0; --i) {
       const double product = s * sigma;
       s = product + c[i];
-      e = e * sigma + kUnit * (std::fabs(product) + std::fabs(s));
+      e = e * sigma + bounds::unit * (std::fabs(product) + std::fabs(s));
     }
-    error += sigma == 0 ? 0.0 : e * kUp + kTiny;
+    error += sigma == 0 ? 0.0 : e * bounds::up + bounds::tiny;
     return s;
   };
   for (int i = 0; i < n_; ++i) {
@@ -414,10 +310,10 @@ void FlowStepper::evaluate(const FlowSet& set, double tau, FlowPoint& point) {
         point.psi[at((g * n_ + i) * n_ + j)] = value;
         sum += std::fabs(value);
       }
-      point.psiSum[at(i * n_ + j)] = sum * kUp;
+      point.psiSum[at(i * n_ + j)] = sum * bounds::up;
       // Ψ_0 r by the box R; Ψ_0 Γ s below; the higher Ψ_α by the whole radius.
       const double leading = std::fabs(point.psi[at(i * n_ + j)]);
-      radius += leading * set.R[at(j)] + (sum * kUp - leading * (1 - 0x1p-50)) * (NJ > 1 ? total_[at(j)] : 0.0);
+      radius += leading * set.R[at(j)] + (sum * bounds::up - leading * bounds::down) * (NJ > 1 ? total_[at(j)] : 0.0);
       loose += (error + epsilon_[at(i * n_ + j)]) * total_[at(j)];
     }
     point.loose[at(i)] = loose;
@@ -436,8 +332,8 @@ void FlowStepper::evaluate(const FlowSet& set, double tau, FlowPoint& point) {
   for (std::size_t i = 0; i < n; ++i) {
     double size = 0;
     for (std::size_t k = 0; k < n; ++k) size += std::fabs(point.psi[i * n + k]) * total_[k];
-    point.loose[i] = (point.loose[i] + (n_ + 1) * kUnit * size) * kUp;
-    point.radius[i] = (point.radius[i] + point.loose[i]) * kUp + kTiny;
+    point.loose[i] = (point.loose[i] + (n_ + 1) * bounds::unit * size) * bounds::up;
+    point.radius[i] = (point.radius[i] + point.loose[i]) * bounds::up + bounds::tiny;
   }
 }
 
@@ -458,7 +354,7 @@ void FlowStepper::bulge(double length, std::vector<double>& bound) const {
     double sum = second(series_.series(i), series_.count());
     for (int j = 0; j < n_; ++j)
       if (total_[at(j)] > 0) sum += second(series_.frame(i, j), series_.frameCount()) * total_[at(j)];
-    bound[at(i)] = sum * (share * share / 8) * kUp + kTiny;
+    bound[at(i)] = sum * (share * share / 8) * bounds::up + bounds::tiny;
   }
 }
 
@@ -486,16 +382,9 @@ void FlowStepper::advance(FlowSet& set) {
   Matrix T = Q.transpose() * psi0;
   for (int i = 0; i < n_; ++i)
     for (int j = 0; j < i; ++j) T(i, j) = 0;
-  // φ ≥ ‖QᵀQ - I‖∞: n roundings in each entry of the computed product, Σ|q||q| ≤ 1 + φ < 2.
-  double phi = 0;
-  const Matrix gram = Q.transpose() * Q;
-  for (int i = 0; i < n_; ++i) {
-    double row = 0;
-    for (int j = 0; j < n_; ++j) row += std::fabs(gram(i, j) - (i == j)) + 2 * (n_ + 2) * kUnit;
-    phi = std::max(phi, row * kUp);
-  }
-  // |Q⁻¹w| ≤ |Qᵀw| + φ/(1-φ)‖Qᵀw‖∞ for every w, because Q⁻¹ = Σ (I - QᵀQ)^k Qᵀ.
-  const double slack = phi / (1 - phi) * kUp;
+  const double phi = orthogonalityDefect(Q);
+  const double slack =
+      phi < 0.5 ? phi / (1 - phi) * bounds::up : std::numeric_limits<double>::infinity();  // then the next step fails
 
   // C'_α = Ψ_α T⁻¹ for α ≠ 0, in floating point; what it misses is measured below.
   std::vector<Matrix> C(at(NJ), Matrix::Zero(n_, n_));
@@ -514,14 +403,15 @@ void FlowStepper::advance(FlowSet& set) {
     for (int g = 1; g < NJ; ++g) {
       C[at(g)] = sorted[at(g)] * inverse;
       // N = Σ_{α≠0} |Q⁻¹C'_α|; each product has n roundings.
-      N += (Q.transpose() * C[at(g)]).cwiseAbs() + (n_ + 1) * kUnit * Q.cwiseAbs().transpose() * C[at(g)].cwiseAbs();
+      N += (Q.transpose() * C[at(g)]).cwiseAbs() +
+           (n_ + 1) * bounds::unit * Q.cwiseAbs().transpose() * C[at(g)].cwiseAbs();
     }
     for (int j = 0; j < n_; ++j) {
       const double largest = N.col(j).maxCoeff();
       N.col(j).array() += slack * largest;
-      if (!(largest < kDump)) constant[at(j)] = 1;
+      if (!(largest < dumpedAt)) constant[at(j)] = 1;
     }
-    N *= kUp;
+    N *= bounds::up;
   }
   const auto makeConstant = [&](int j) {
     for (int g = 1; g < NJ; ++g) C[at(g)].col(j).setZero();
@@ -549,13 +439,13 @@ void FlowStepper::advance(FlowSet& set) {
     const Matrix D = sorted[at(g)] - C[at(g)] * T;
     // n products, n sums and the difference: n + 2 roundings at most.
     const Matrix size = sorted[at(g)].cwiseAbs() + C[at(g)].cwiseAbs() * T.cwiseAbs();
-    w += (n_ + 2) * kUnit * (size * total);
-    box +=
-        (Q.transpose() * D).cwiseAbs() * total + (n_ + 1) * kUnit * (Q.cwiseAbs().transpose() * (D.cwiseAbs() * total));
+    w += (n_ + 2) * bounds::unit * (size * total);
+    box += (Q.transpose() * D).cwiseAbs() * total +
+           (n_ + 1) * bounds::unit * (Q.cwiseAbs().transpose() * (D.cwiseAbs() * total));
   }
-  w *= kUp;
+  w *= bounds::up;
   const Eigen::VectorXd turned = Q.cwiseAbs().transpose() * w;
-  box.array() += slack * (box.maxCoeff() + turned.maxCoeff()) + kTiny;
+  box.array() += slack * (box.maxCoeff() + turned.maxCoeff()) + bounds::tiny;
   if (N.maxCoeff() > 0) {
     // y ≥ b + N y, checked, gives y ≥ (I - N)⁻¹ b: once for the box, once for N (I - N)⁻¹ |Qᵀ| w.
     const auto solve = [&](const Eigen::VectorXd& b) {
@@ -565,19 +455,19 @@ void FlowStepper::advance(FlowSet& set) {
       // step.
       for (double c = 1e-8 * y.maxCoeff(); std::isfinite(c); c *= 8) {
         const Eigen::VectorXd z = y.array() + c;
-        if ((((b + N * z) * kUp).array() <= z.array()).all()) return z;
+        if ((((b + N * z) * bounds::up).array() <= z.array()).all()) return z;
       }
       return Eigen::VectorXd(Eigen::VectorXd::Constant(n_, std::numeric_limits<double>::infinity()));
     };
     box = solve(box) + N * solve(turned);
   }
   // Γ' = fl(T Γ), n roundings an entry, and fl(Qᵀ diag w), one: together (n+1) u (|T| Σ|Γ| + |Qᵀ| w) into the box.
-  box += (n_ + 1) * kUnit * (T.cwiseAbs() * total + turned);
+  box += (n_ + 1) * bounds::unit * (T.cwiseAbs() * total + turned);
   std::vector<double> generators;
   generators.reserve(set.generators.size() + at(n_ * n_));
   std::size_t oldest = 0;
   Eigen::VectorXd merged = Eigen::VectorXd::Zero(n_);
-  if (set.generators.size() >= at(kGenerators * n_ * n_)) oldest = at(n_ * n_);
+  if (set.generators.size() >= at(generatorsKept * n_ * n_)) oldest = at(n_ * n_);
   for (std::size_t column = 0; column < set.generators.size(); column += at(n_))
     for (int i = 0; i < n_; ++i) {
       double sum = 0;
@@ -589,7 +479,7 @@ void FlowStepper::advance(FlowSet& set) {
     }
   for (int j = 0; j < n_; ++j)
     for (int i = 0; i < n_; ++i) generators.push_back(Q(j, i) * w(j));
-  const Eigen::VectorXd newR = (T.cwiseAbs() * R + merged + box) * kUp;
+  const Eigen::VectorXd newR = (T.cwiseAbs() * R + merged + box) * bounds::up;
   set.generators = std::move(generators);
 
   set.t += h_;  // exact: both are multiples of the quantum
@@ -659,13 +549,13 @@ FlowSet FlowStepper::bisect(FlowSet& set, int symbol, const PolynomialRange& shi
         for (int g = 0; g < NJ; ++g) s.C[at((g * n_ + i) * n_ + j)] = to[at(g)];
         if (NJ > 1) rounding += shift.shiftError() * norm * total[at(j)];
       }
-      s.W[at(i)] = (set.W[at(i)] + rounding) * kUp + kTiny;
+      s.W[at(i)] = (set.W[at(i)] + rounding) * bounds::up + bounds::tiny;
     }
     for (Embedded& p : s.parameters)
       if (p.symbol == symbol) {
         const double moved = p.half * middle;  // exact: a power of two
         const double centre = p.centre + moved;
-        p.radius = (p.radius + kUnit * std::fabs(centre)) * kUp + kTiny;
+        p.radius = (p.radius + bounds::unit * std::fabs(centre)) * bounds::up + bounds::tiny;
         p.centre = centre;
         p.half *= 0.5;
       }

@@ -6,31 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "analyses/flow_set.hpp"
 #include "analyses/polynomial_range.hpp"
 #include "analyses/polynomial_series.hpp"
 #include "scalars/interval.hpp"
 
 namespace gamut {
-
-/// One uncertain number: value = centre + half·ξ_symbol ± radius (symbol -1: no dependence).
-struct Embedded {
-  double centre = 0, half = 0, radius = 0;
-  int symbol = -1;
-};
-
-/// For every ξ in [-1,1]^k there are |r| ≤ R, |s_j| ≤ 1, |w| ≤ W with x(t; ξ) = p(ξ) + C(ξ) (r + Σ_j Γ_j s_j) + w.
-/// Every step's local error becomes generators Γ_j of its own: boxes would wrap, zonotopes do not.
-struct FlowSet {
-  double t = 0;
-  std::vector<double> p;  // [state][monomial]
-  std::vector<double> C;  // [monomial ≤ frameDegree][row][column]
-  std::vector<double> R, W;
-  std::vector<double> generators;  // [generator][row], oldest first
-  std::vector<Embedded> parameters;
-  std::vector<double> centre, half;  // ξ of the study = centre + half·ξ of this piece (exact: dyadic)
-  double nextStep = 0;               // s, a guess
-  double caution = 1;                // factor on the step that the last coefficients suggest
-};
 
 /// p(σ), Ψ(σ) and what bounds their distance from the truth at one time of the step.
 struct FlowPoint {
@@ -44,16 +25,6 @@ struct FlowPoint {
 };
 
 enum class StepOutcome { stepped, splitWanted, failed };
-
-/// Σ over grades in (above, below] of |p|, for each state, relative to Σ|p|; the largest of the states.
-double relativeMass(const FlowSet& set, const Monomials& monomials, int above, int below);
-
-/// Rewrites a set for monomials of another degree in the same symbols; what does not fit goes into W.
-void changeDegree(FlowSet& set, const Monomials& from, int fromFrameDegree, const Monomials& to, int toFrameDegree);
-
-/// Turns the remainder into n fresh symbols, one a principal axis of the zonotope: `to` has the symbols of `from` and n
-/// more behind them. From then on it is kept to higher order than the first.
-void expandRemainder(FlowSet& set, const Monomials& from, int fromFrameDegree, const Monomials& to, int toFrameDegree);
 
 /// Steps sets of one layout (monomials, degrees, order). Holds the workspace: one a thread.
 class FlowStepper {

@@ -1,3 +1,4 @@
+// Vectorised sums over orders and monomials, one clone a vector unit.
 #include "analyses/kernels.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Enumerates the monomials by grade and lists, for each, the pairs that multiply to it.
 #include "analyses/monomials.hpp"
 
 #include <functional>

@@ -1,16 +1,16 @@
+// Monotone symbols go to their ends; what is left is bisected, the more promising half first.
 #include "analyses/polynomial_range.hpp"
 
 #include <algorithm>
 #include <cmath>
 
+#include "analyses/error_bounds.hpp"
+#include "scalars/index.hpp"
 #include "scalars/rounding.hpp"
 
 namespace gamut {
-namespace {
-constexpr double kUnit = 0x1p-53;
-constexpr double kUp = 1 + 0x1p-30;  // covers fewer than 2^22 roundings of nonnegative sums
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-}  // namespace
+
+using detail::at;
 
 PolynomialRange::PolynomialRange(std::shared_ptr<const Monomials> monomials) : monomials_(std::move(monomials)) {
   const Monomials& m = *monomials_;
@@ -28,23 +28,22 @@ PolynomialRange::PolynomialRange(std::shared_ptr<const Monomials> monomials) : m
     for (int k = 1; k < n; ++k) binomial_[at(n)][at(k)] = binomial_[at(n - 1)][at(k - 1)] + binomial_[at(n - 1)][at(k)];
   }
   // A term c·binomial·middle^a·half^b takes at most d + 3 roundings and at most d more in the sum; 4d + 8 covers them.
-  shiftError_ = (4 * m.degree() + 8) * kUnit * kUp;
+  shiftError_ = (4 * m.degree() + 8) * bounds::unit * bounds::up;
 }
 
 void PolynomialRange::substitute(int symbol, double middle, double half, const double* c, double* out) const {
   const Monomials& m = *monomials_;
   std::fill(out, out + m.count(), 0.0);
-  double middlePower[64], halfPower[64];
-  middlePower[0] = halfPower[0] = 1;
+  std::vector<double> middlePower(at(m.degree() + 1), 1.0), halfPower = middlePower;
   for (int i = 1; i <= m.degree(); ++i) {
-    middlePower[i] = middlePower[i - 1] * middle;
-    halfPower[i] = halfPower[i - 1] * half;
+    middlePower[at(i)] = middlePower[at(i - 1)] * middle;
+    halfPower[at(i)] = halfPower[at(i - 1)] * half;
   }
   for (int g = 0; g < m.count(); ++g) {
     const int power = m.exponent(g, symbol);
     int target = g;
     for (int b = power; b >= 0; --b) {
-      out[target] += c[g] * (binomial_[at(power)][at(b)] * (middlePower[power - b] * halfPower[b]));
+      out[target] += c[g] * (binomial_[at(power)][at(b)] * (middlePower[at(power - b)] * halfPower[at(b)]));
       target = down_[at(symbol)][at(target)];
     }
   }
@@ -66,10 +65,10 @@ Interval PolynomialRange::operator()(const double* c, const Box& box, double tol
     const double half = std::max(subUp(upper, middle), subUp(middle, lower));
     substitute(l, middle, half, q.data(), moved.data());
     q.swap(moved);
-    rounding += shiftError_ * norm * kUp;
+    rounding += shiftError_ * norm * bounds::up;
   }
   // Sums of up to N coefficients below are off by at most N u Σ|c|.
-  rounding = (rounding + (m.count() + 2) * kUnit * norm) * kUp + 0x1p-1000;
+  rounding = (rounding + (m.count() + 2) * bounds::unit * norm) * bounds::up + 0x1p-1000;
   if (!std::isfinite(norm)) return Interval::entire();
   std::vector<double> minus(q.size());
   for (std::size_t g = 0; g < q.size(); ++g) minus[g] = -q[g];
@@ -89,7 +88,8 @@ double PolynomialRange::maximum(std::vector<double> c, double rounding, double t
   search(c, 0, state);
   // Every bisection above a part adds its rounding, shiftError·Σ|c| and N u Σ|c| for monotone symbols; Σ|c| never
   // grows.
-  const double shifts = state.deepest * (shiftError_ + monomials_->count() * kUnit) * (norm + std::fabs(c[0])) * kUp;
+  const double shifts =
+      state.deepest * (shiftError_ + monomials_->count() * bounds::unit) * (norm + std::fabs(c[0])) * bounds::up;
   return addUp(state.proved, addUp(rounding, shifts));
 }
 
@@ -102,7 +102,7 @@ void PolynomialRange::reduceMonotone(std::vector<double>& c) const {
     double others = 0;
     for (int g = 0; g < m.count(); ++g)
       if (g != linear && m.exponent(g, l) > 0) others += m.exponent(g, l) * std::fabs(c[at(g)]);
-    if (!(others * kUp < std::fabs(c[at(linear)]))) continue;
+    if (!(others * bounds::up < std::fabs(c[at(linear)]))) continue;
     const double end = c[at(linear)] > 0 ? 1 : -1;
     for (int g = m.count() - 1; g > 0; --g)
       if (const int power = m.exponent(g, l); power > 0) {
@@ -123,7 +123,7 @@ void PolynomialRange::search(const std::vector<double>& c, int depth, Search& st
     size += std::fabs(c[g]);
     bound += even_[g] ? std::max(0.0, c[g]) : std::fabs(c[g]);
   }
-  bound = addUp(c[0], bound * kUp);
+  bound = addUp(c[0], bound * bounds::up);
   // Values at the middle and, per symbol, at both ends of its axis.
   state.best = std::max(state.best, c[0]);
   for (int l = 0; l < m.symbols(); ++l)

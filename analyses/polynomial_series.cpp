@@ -183,9 +183,16 @@ void PolynomialSeries::setState(int i, const double* coefficients) {
 }
 
 void PolynomialSeries::setParameter(int i, const double* coefficients, double radius) {
-  const int node = n_ + i;
-  for (int g = 0; g < count(); ++g) put(plan_[at(node)], g, 0, coefficients[g]);
-  radius_[at(node)] = radius;
+  for (int g = 0; g < count(); ++g) put(plan_[at(n_ + i)], g, 0, coefficients[g]);
+  radius_[at(n_ + i)] = radius;
+}
+
+void PolynomialSeries::setParameter(int i, const Embedded& value) {
+  std::vector<double>& coefficients = scratch_;
+  std::fill(coefficients.begin(), coefficients.end(), 0.0);
+  coefficients[0] = value.centre;
+  if (value.symbol >= 0) coefficients[at(monomials_->linear(value.symbol))] = value.half;
+  setParameter(i, coefficients.data(), value.radius);
 }
 
 void PolynomialSeries::setFrame(int i, int j, const double* coefficients, int spacing) {

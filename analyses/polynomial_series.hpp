@@ -9,9 +9,16 @@
 
 #include "analyses/kernels.hpp"
 #include "analyses/monomials.hpp"
+#include "scalars/index.hpp"
 #include "scalars/program.hpp"
 
 namespace gamut {
+
+/// One uncertain number: value = centre + half·ξ_symbol ± radius (symbol -1: no dependence).
+struct Embedded {
+  double centre = 0, half = 0, radius = 0;
+  int symbol = -1;
+};
 
 class PolynomialSeries {
  public:
@@ -19,17 +26,19 @@ class PolynomialSeries {
   /// With a frame, outputs n … n+n²-1 are the Jacobian of the first n and Ψ' = (∂f/∂x) Ψ is solved alongside.
   PolynomialSeries(const Program& program, int primaryOutputs, std::shared_ptr<const Monomials> monomials,
                    int frameDegree, int order, bool withFrame);
+  PolynomialSeries(const PolynomialSeries&) = delete;  // it points into itself
+  PolynomialSeries(PolynomialSeries&&) = default;
 
   int states() const { return n_; }
-  int order() const { return m_; }
   int stride() const { return stride_; }
   const Monomials& monomials() const { return *monomials_; }
   int count() const { return monomials_->count(); }
   int frameCount() const { return frameCount_; }
 
   // Inputs: coefficients of order 0 in σ.
-  void setState(int i, const double* coefficients);                      // count() numbers
-  void setParameter(int i, const double* coefficients, double radius);   // count() numbers, |p - p̃| ≤ radius
+  void setState(int i, const double* coefficients);                     // count() numbers
+  void setParameter(int i, const double* coefficients, double radius);  // count() numbers, |p - p̃| ≤ radius
+  void setParameter(int i, const Embedded& value);
   void setFrame(int i, int j, const double* coefficients, int spacing);  // frameCount() numbers, `spacing` apart
 
   /// The recursion from time t0; h0 a power of two. With order 1 it is an evaluation at t0.
@@ -57,7 +66,7 @@ class PolynomialSeries {
   void clear();
 
  private:
-  static std::size_t at(int i) { return static_cast<std::size_t>(i); }
+  static constexpr std::size_t at(int i) { return detail::at(i); }
   int frameNode(int i, int j) const { return nodes_ + i * n_ + j; }
 
   struct Plan {

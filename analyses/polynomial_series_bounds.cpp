@@ -1,24 +1,15 @@
 // The certificate: bounds for what the recursion left out and rounded, node by node. Notation as in docs/flow.md:
 // ‖a‖ = Σ|c_{iα}|θ^i, ‖a‖_w = Σ (i+1)∏(α_l+1)|c_{iα}|θ^i, T_a[q][i] = Σ_{grade α = q} |c_{iα}|θ^i, u = 2^-53.
-// All quantities are nonnegative and computed in round-to-nearest; `kUp` then covers the roundings of the bound itself.
+// All quantities are nonnegative and computed in round-to-nearest; `bounds::up` then covers the
+// roundings of the bound itself.
 #include <algorithm>
 #include <cmath>
 
+#include "analyses/error_bounds.hpp"
 #include "analyses/kernels.hpp"
 #include "analyses/polynomial_series.hpp"
 
 namespace gamut {
-namespace {
-
-constexpr double kUnit = 0x1p-53;
-// (1 + 2^-53)^(2^22) ≤ 1 + 2^-30: covers sums and products of nonnegative numbers with fewer than four million
-// roundings.
-constexpr double kUp = 1 + 0x1p-30;
-// Underflow: fewer than 2^30 operations a node, each off by at most 2^-1074, times factors below 2^400 (see kLargest).
-constexpr double kTiny = 0x1p-600;
-constexpr double kLargest = 0x1p400;
-
-}  // namespace
 
 bool PolynomialSeries::tabulate(double theta) {
   power_[0] = 1;
@@ -30,9 +21,9 @@ bool PolynomialSeries::tabulate(double theta) {
     double* table = &t_[v.t];
     kernels::tabulate(*monomials_, v.count, &f_[v.f], power_.data(), weights_.data(), stride_, table, norm_[x],
                       weighted_[x]);
-    norm_[x] *= kUp;
-    weighted_[x] *= kUp;
-    if (!(norm_[x] < kLargest)) return false;  // false for NaN too
+    norm_[x] *= bounds::up;
+    weighted_[x] *= bounds::up;
+    if (!(norm_[x] < bounds::largest)) return false;  // false for NaN too
     double* total = &total_[x * at(stride_)];
     std::fill(total, total + stride_, 0.0);
     for (int q = 0; q <= v.degree; ++q)
@@ -40,8 +31,8 @@ bool PolynomialSeries::tabulate(double theta) {
     if (v.op == Op::state) {
       double sum = 0;
       for (int g = 0; g < v.count; ++g) sum += std::fabs(f_[v.f + at(g * stride_ + m_)]);
-      top_[x] = withFrame_ ? sum * last * kUp : 0.0;
-      if (!(top_[x] < kLargest)) return false;
+      top_[x] = withFrame_ ? sum * last * bounds::up : 0.0;
+      if (!(top_[x] < bounds::largest)) return false;
     }
     if (!v.needsTails) continue;
     // s1[i] = Σ_{j ≥ m-i} total[j];  s2[q][i] = Σ_{p ≥ q} Σ_{j ≤ m-1-i} T[p][j].
@@ -110,7 +101,7 @@ double PolynomialSeries::dropped(int a, int degree) const {
 /// A proved lower bound of |ṽ| when its constant coefficient is positive: |c_00| minus everything else.
 double PolynomialSeries::minimum(int node) const {
   const double lead = f_[plan_[at(node)].f];
-  return (2 * lead - norm_[at(node)]) * (1 - 0x1p-50) - kTiny;
+  return (2 * lead - norm_[at(node)]) * bounds::down - bounds::tiny;
 }
 
 /// Bounds of the defect of v' = u'·of (for sine, cosine, exponential), integrated over [0, θ], and of the row σ = 0.
@@ -118,13 +109,13 @@ double PolynomialSeries::minimum(int node) const {
 void PolynomialSeries::differentialErrors(int u, int of, int degree, double& e0, double& e1) const {
   const Plan& pu = plan_[at(u)];
   const double lead = std::fabs(f_[pu.f]);
-  const double norm = norm_[at(u)] - lead * (1 - 0x1p-50), weighted = weighted_[at(u)] - lead * (1 - 0x1p-50);
+  const double norm = norm_[at(u)] - lead * bounds::down, weighted = weighted_[at(u)] - lead * bounds::down;
   e1 = tailTime(u, of);  // the row i = 0 of u meets s1[0] = 0
-  e0 = kUnit * (weighted * weighted_[at(of)] + 2 * norm * norm_[at(of)]);
+  e0 = bounds::unit * (weighted * weighted_[at(of)] + 2 * norm * norm_[at(of)]);
   if (monomials_->degree() > 0)
     // The row σ = 0 rounds likewise, with the weights of its own (smaller) terms.
     e0 += tailDegree(u, of, degree, 1) + tailRow(u, of, degree) +
-          kUnit * (weighted * weighted_[at(of)] + 2 * norm * norm_[at(of)]);
+          bounds::unit * (weighted * weighted_[at(of)] + 2 * norm * norm_[at(of)]);
 }
 
 /// Σ |target - left·right| over the kept coefficients, with the rounding of this evaluation: γ_{N+1}(|target|+Σ|..|),
@@ -145,7 +136,8 @@ double PolynomialSeries::productResidual(int left, int right, int target) {
       sum += std::fabs(wanted - out[g]) * power_[at(i)];
     }
   }
-  return sum + 2 * kUnit * (weighted_[at(left)] * weighted_[at(right)] + (target >= 0 ? weighted_[at(target)] : 1.0));
+  return sum +
+         2 * bounds::unit * (weighted_[at(left)] * weighted_[at(right)] + (target >= 0 ? weighted_[at(target)] : 1.0));
 }
 
 /// Σ |i u_i - Σ_j j l_j w_{i-j}| / i over the kept coefficients of l' w = u', and the row σ = 0 likewise in the grades;
@@ -170,7 +162,7 @@ double PolynomialSeries::quotientResidual(int node) {
     const int grade = monomials_->grade(g);
     sum += std::fabs(grade * f_[u.f + at(g * stride_)] - s) / grade;
   }
-  return sum + 6 * kUnit * (weighted_[at(l.a)] + weighted_[at(node)] * weighted_[at(l.b)]);
+  return sum + 6 * bounds::unit * (weighted_[at(l.a)] + weighted_[at(node)] * weighted_[at(l.b)]);
 }
 
 /// What a node adds to the errors of its operands.
@@ -187,7 +179,7 @@ void PolynomialSeries::ownErrors(int node) {
       return;
     case Op::add:
     case Op::sub:  // one rounding a coefficient; lower degree: what is dropped
-      e0 = kUnit * norm_[at(node)] + (graded ? dropped(v.a, v.degree) + dropped(v.b, v.degree) : 0.0);
+      e0 = bounds::unit * norm_[at(node)] + (graded ? dropped(v.a, v.degree) + dropped(v.b, v.degree) : 0.0);
       break;
     case Op::neg:
       e0 = graded ? dropped(v.a, v.degree) : 0.0;
@@ -196,7 +188,8 @@ void PolynomialSeries::ownErrors(int node) {
     case Op::sqr: {
       const int b = v.op == Op::sqr ? v.a : v.b;
       // A coefficient is a sum of N ≤ (i+1)∏(α_l+1) products in any order, fused or not: γ_N. A constant factor: one.
-      e0 = plan_[at(v.a)].constant ? kUnit * norm_[at(node)] : kUnit * weighted_[at(v.a)] * weighted_[at(b)];
+      e0 = plan_[at(v.a)].constant ? bounds::unit * norm_[at(node)]
+                                   : bounds::unit * weighted_[at(v.a)] * weighted_[at(b)];
       if (graded) e0 += tailDegree(v.a, b, v.degree, 0);
       e1 = tailTime(v.a, b);
       break;
@@ -226,13 +219,13 @@ void PolynomialSeries::ownErrors(int node) {
       differentialErrors(v.a, node, v.degree, c0, c1);
       e0 += c0 + pointError_[at(node)] + pointError_[at(node + 1)];
       e1 += c1;
-      own0_[at(node + 1)] = e0 * kUp + kTiny;
-      own1_[at(node + 1)] = e1 * kUp;
+      own0_[at(node + 1)] = e0 * bounds::up + bounds::tiny;
+      own1_[at(node + 1)] = e1 * bounds::up;
       break;
     }
   }
-  own0_[at(node)] = e0 * kUp + kTiny;
-  own1_[at(node)] = e1 * kUp;
+  own0_[at(node)] = e0 * bounds::up + bounds::tiny;
+  own1_[at(node)] = e1 * bounds::up;
 }
 
 bool PolynomialSeries::boundNode(int node) {
@@ -266,7 +259,7 @@ bool PolynomialSeries::boundNode(int node) {
     }
     case Op::recip: {  // |1 - c̃b| ≤ η < 1 proves b ≠ 0, and |1/b - c̃| = |1 - c̃b|/|b| ≤ η‖c̃‖/(1-η)
       const double eta0 = own0 + norm_[at(node)] * r0(v.a), eta1 = own1 + norm_[at(node)] * r1(v.a);
-      const double eta = (eta0 + eta1) * kUp;
+      const double eta = (eta0 + eta1) * bounds::up;
       if (!(eta < 0.99)) return false;
       const double factor = norm_[at(node)] / (1 - eta);
       z0 = eta0 * factor;
@@ -274,25 +267,25 @@ bool PolynomialSeries::boundNode(int node) {
       break;
     }
     case Op::sqrt: {  // |√b - s̃| = |b - s̃²|/(√b + s̃)
-      const double bMin = minimum(v.a) - r(v.a) * kUp, sMin = minimum(node);
+      const double bMin = minimum(v.a) - r(v.a) * bounds::up, sMin = minimum(node);
       if (!(bMin > 0 && sMin > 0)) return false;
-      const double below = (sMin + std::sqrt(bMin)) * (1 - 0x1p-50);
+      const double below = (sMin + std::sqrt(bMin)) * bounds::down;
       z0 = (own0 + r0(v.a)) / below;
       z1 = (own1 + r1(v.a)) / below;
       break;
     }
     case Op::exp: {
       // ẽ' = ũ'ẽ + defect grows by at most e^{osc}, osc ≤ 2 Σ_{(i,α)≠0}|u_{iα}|θ^i; e^{u} - e^{ũ}: (e^ρ-1) ≤ e^ρ ρ.
-      const double rest = norm_[at(v.a)] - std::fabs(f_[plan_[at(v.a)].f]) * (1 - 0x1p-50);
+      const double rest = norm_[at(v.a)] - std::fabs(f_[plan_[at(v.a)].f]) * bounds::down;
       if (!(rest < 300 && r(v.a) < 300)) return false;
-      const double growth = exp(Interval(2 * rest * kUp)).upper();
-      const double tilt = (norm_[at(node)] + (own0 + own1) * growth) * exp(Interval(r(v.a) * kUp)).upper();
+      const double growth = exp(Interval(2 * rest * bounds::up)).upper();
+      const double tilt = (norm_[at(node)] + (own0 + own1) * growth) * exp(Interval(r(v.a) * bounds::up)).upper();
       z0 = own0 * growth + tilt * r0(v.a);
       z1 = own1 * growth + tilt * r1(v.a);
       break;
     }
     case Op::log: {  // defect over min|ũ|, and |log u - log ũ| ≤ ρ_u / min|u|
-      const double below = (minimum(v.a) - r(v.a) * kUp) * (1 - 0x1p-50);
+      const double below = (minimum(v.a) - r(v.a) * bounds::up) * bounds::down;
       if (!(below > 0)) return false;
       z0 = pointError_[at(node)] + (own0 + r0(v.a)) / below;
       z1 = (own1 + r1(v.a)) / below;
@@ -310,9 +303,9 @@ bool PolynomialSeries::boundNode(int node) {
       z1 = own1 + r1(v.a);
       break;
   }
-  rho0_[at(node)] = z0 * kUp + kTiny;
-  rho1_[at(node)] = z1 * kUp;
-  return rho0_[at(node)] + rho1_[at(node)] < kLargest;
+  rho0_[at(node)] = z0 * bounds::up + bounds::tiny;
+  rho1_[at(node)] = z1 * bounds::up;
+  return rho0_[at(node)] + rho1_[at(node)] < bounds::largest;
 }
 
 bool PolynomialSeries::bound(const double* E, bool primaryOnly) {
@@ -331,7 +324,7 @@ bool PolynomialSeries::bound(const double* E, bool primaryOnly) {
 
 double PolynomialSeries::jacobianBound(int i, int j) const {
   const int node = outputs_[at(n_ + i * n_ + j)];
-  return (norm_[at(node)] + rho0_[at(node)] + rho1_[at(node)]) * kUp;
+  return (norm_[at(node)] + rho0_[at(node)] + rho1_[at(node)]) * bounds::up;
 }
 
 void PolynomialSeries::frameDefect(int i, int j, double& nu0, double& nu1) const {
@@ -348,8 +341,8 @@ void PolynomialSeries::frameDefect(int i, int j, double& nu0, double& nu1) const
     rounding += plan_[at(a)].constant ? norm_[at(a)] * norm_[at(b)] : weighted_[at(a)] * weighted_[at(b)];
   }
   // A sum of `terms` products has at most terms·N roundings a term, and one more in the division by i+1.
-  nu0 = (z0 + (terms + 1) * kUnit * rounding) * kUp + kTiny;
-  nu1 = z1 * kUp;
+  nu0 = (z0 + (terms + 1) * bounds::unit * rounding) * bounds::up + bounds::tiny;
+  nu1 = z1 * bounds::up;
 }
 
 }  // namespace gamut

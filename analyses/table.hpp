@@ -20,6 +20,7 @@ struct Table {
         data(timeCount * outputCount, std::numeric_limits<double>::quiet_NaN()) {}
   double& operator()(std::size_t time, std::size_t output) { return data[time * outputs + output]; }
   double operator()(std::size_t time, std::size_t output) const { return data[time * outputs + output]; }
+  bool empty() const { return data.empty(); }
 };
 
 /// Least and greatest values; NaN where there are none.
@@ -28,6 +29,7 @@ struct Envelope {
 
   Envelope() = default;
   Envelope(std::size_t times, std::size_t outputs) : lower(times, outputs), upper(times, outputs) {}
+  bool empty() const { return lower.empty(); }
   /// Widens the envelope by one value; ignores values that are not finite.
   void include(std::size_t time, std::size_t output, double value);
 };

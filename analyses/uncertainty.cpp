@@ -129,26 +129,6 @@ double Distribution::quantile(double u) const {
   return lower;
 }
 
-double Distribution::cumulative(double value) const {
-  const double lower = support_.lower(), upper = support_.upper(), span = upper - lower;
-  if (value >= upper) return 1;
-  if (value <= lower) return 0;
-  switch (shape_) {
-    case Shape::uniform:
-      return (value - lower) / span;
-    case Shape::triangular:
-      if (value < first_) return (value - lower) / span * ((value - lower) / (first_ - lower));
-      return 1 - (upper - value) / span * ((upper - value) / (upper - first_));
-    case Shape::normal:
-      return truncatedNormalCumulative(value, lower, upper);
-    case Shape::beta:
-      return boost::math::ibeta(first_, second_, (value - lower) / span);
-    case Shape::lognormal:
-      return truncatedNormalCumulative(std::log(value), std::log(lower), std::log(upper));
-  }
-  return 0;
-}
-
 // ---- Membership -----------------------------------------------------------------------------------------------------
 
 Membership::Membership(Shape shape, const Interval& support, const Interval& core, double deviation)

@@ -30,8 +30,6 @@ class Distribution {
   /// The value below which the quantity lies with probability u (0 … 1): 0 and 1 give the support's ends exactly, and
   /// every result lies in the support. Throws std::invalid_argument for another u.
   double quantile(double u) const;
-  /// The probability that the quantity is at most `value`.
-  double cumulative(double value) const;
 
   const Interval& support() const { return support_; }
   /// "uniform", "triangular", "normal", "beta" or "lognormal".

@@ -1,5 +1,5 @@
-// The judgement of a tube: trajectories of the reference, from corners and from random points of the box, must lie in every
-// enclosure the tube gives, at output times, between them and in every sub-box. No tolerance anywhere.
+// The judgement of a tube: trajectories of the reference, from corners and from random points of the box, must lie in
+// every enclosure the tube gives, at output times, between them and in every sub-box. No tolerance anywhere.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -24,9 +24,7 @@ struct Containment {
   std::optional<Program> truth = {};
   Vector decimals = {};
 
-  Tube tube() const {
-    return (g ? Flow(f, *g, options) : Flow(f, options)).enclose(box, horizon, times, levels);
-  }
+  Tube tube() const { return (g ? Flow(f, *g, options) : Flow(f, options)).enclose(box, horizon, times, levels); }
 };
 
 /// Random programs for outputs: x itself, a quotient, and a distance-like quantity.
@@ -61,7 +59,8 @@ class Judge {
   /// Trajectories from corners and from inside, of the box and of every sub-box.
   void judge(int trajectories) {
     for (int i = 0; i < trajectories && !::testing::Test::HasFatalFailure(); ++i) {
-      const std::size_t level = c_.levels.empty() ? 0 : static_cast<std::size_t>(points_.integer(0, static_cast<int>(c_.levels.size())));
+      const std::size_t level =
+          c_.levels.empty() ? 0 : static_cast<std::size_t>(points_.integer(0, static_cast<int>(c_.levels.size())));
       const Box& box = level == 0 ? c_.box : c_.levels[level - 1];
       follow(i % 2 == 0 ? points_.corner(box) : points_.inside(box), level);
     }

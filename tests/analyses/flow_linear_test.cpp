@@ -1,5 +1,5 @@
-// The flow on equations whose solutions are known in closed form: wherever a term is missing in a bound, the true error of a
-// linear system shows it, because nothing else hides it.
+// The flow on equations whose solutions are known in closed form: wherever a term is missing in a bound, the true error
+// of a linear system shows it, because nothing else hides it.
 #include "tests/analyses/containment.hpp"
 
 namespace gamut::testing {
@@ -18,50 +18,79 @@ void PrintTo(const Linear& system, std::ostream* out) { *out << system.name; }
 
 std::vector<Linear> linearSystems() {
   std::vector<Linear> systems;
-  systems.push_back({"growth", 1, 0, record(1, 0, [](auto, const auto& x, const auto&, auto& dx) { dx[0] = x[0]; }), {1.0},
+  systems.push_back({"growth",
+                     1,
+                     0,
+                     record(1, 0, [](auto, const auto& x, const auto&, auto& dx) { dx[0] = x[0]; }),
+                     {1.0},
                      [](const Precise& t, const Vector& x) { return Vector{x[0] * exp(t)}; }});
-  systems.push_back({"decay", 1, 0, record(1, 0, [](auto, const auto& x, const auto&, auto& dx) { dx[0] = -x[0]; }), {0.7},
+  systems.push_back({"decay",
+                     1,
+                     0,
+                     record(1, 0, [](auto, const auto& x, const auto&, auto& dx) { dx[0] = -x[0]; }),
+                     {0.7},
                      [](const Precise& t, const Vector& x) { return Vector{x[0] * exp(-t)}; }});
-  systems.push_back({"rotation", 2, 0, record(2, 0,
-                                              [](auto, const auto& x, const auto&, auto& dx) {
-                                                dx[0] = x[1];
-                                                dx[1] = -x[0];
-                                              }),
-                     {0.6, -0.3}, [](const Precise& t, const Vector& x) {
+  systems.push_back({"rotation",
+                     2,
+                     0,
+                     record(2, 0,
+                            [](auto, const auto& x, const auto&, auto& dx) {
+                              dx[0] = x[1];
+                              dx[1] = -x[0];
+                            }),
+                     {0.6, -0.3},
+                     [](const Precise& t, const Vector& x) {
                        const Precise c = cos(t), s = sin(t);
                        return Vector{c * x[0] + s * x[1], c * x[1] - s * x[0]};
                      }});
-  systems.push_back({"rate", 1, 1, record(1, 1, [](auto, const auto& x, const auto& p, auto& dx) { dx[0] = p[0] * x[0]; }),
-                     {1.3, -0.8}, [](const Precise& t, const Vector& x) { return Vector{x[0] * exp(x[1] * t)}; }});
+  systems.push_back({"rate",
+                     1,
+                     1,
+                     record(1, 1, [](auto, const auto& x, const auto& p, auto& dx) { dx[0] = p[0] * x[0]; }),
+                     {1.3, -0.8},
+                     [](const Precise& t, const Vector& x) { return Vector{x[0] * exp(x[1] * t)}; }});
   // Eigenvectors (1,1,1), (1,0,-1), (1,-2,1) with eigenvalues 1, -1, -4: a full matrix, 0.5 and multiples of it exact.
-  systems.push_back({"coupled", 3, 0, record(3, 0,
-                                             [](auto, const auto& x, const auto&, auto& dx) {
-                                               const auto mean = (x[0] + x[1] + x[2]) / 3.0;
-                                               const auto slope = (x[0] - x[2]) / 2.0;
-                                               const auto bend = (x[0] - 2.0 * x[1] + x[2]) / 6.0;
-                                               dx[0] = mean - slope - 4.0 * bend;
-                                               dx[1] = mean + 8.0 * bend;
-                                               dx[2] = mean + slope - 4.0 * bend;
-                                             }),
-                     {1.0, -0.5, 0.25}, [](const Precise& t, const Vector& x) {
+  systems.push_back({"coupled",
+                     3,
+                     0,
+                     record(3, 0,
+                            [](auto, const auto& x, const auto&, auto& dx) {
+                              const auto mean = (x[0] + x[1] + x[2]) / 3.0;
+                              const auto slope = (x[0] - x[2]) / 2.0;
+                              const auto bend = (x[0] - 2.0 * x[1] + x[2]) / 6.0;
+                              dx[0] = mean - slope - 4.0 * bend;
+                              dx[1] = mean + 8.0 * bend;
+                              dx[2] = mean + slope - 4.0 * bend;
+                            }),
+                     {1.0, -0.5, 0.25},
+                     [](const Precise& t, const Vector& x) {
                        const Precise mean = (x[0] + x[1] + x[2]) / 3 * exp(t);
                        const Precise slope = (x[0] - x[2]) / 2 * exp(-t);
                        const Precise bend = (x[0] - 2 * x[1] + x[2]) / 6 * exp(-4 * t);
                        return Vector{mean + slope + bend, mean - 2 * bend, mean - slope + bend};
                      }});
   // x' = c: nothing but the addition of steps can go wrong.
-  systems.push_back({"drift", 1, 1, record(1, 1, [](auto, const auto&, const auto& p, auto& dx) { dx[0] = p[0]; }), {1.0, 1e-3},
+  systems.push_back({"drift",
+                     1,
+                     1,
+                     record(1, 1, [](auto, const auto&, const auto& p, auto& dx) { dx[0] = p[0]; }),
+                     {1.0, 1e-3},
                      [](const Precise& t, const Vector& x) { return Vector{x[0] + x[1] * t}; }});
   // x' = t³ p: polynomials in time, kept exactly by every order above 4.
-  systems.push_back({"ramp", 1, 1, record(1, 1, [](auto t, const auto&, const auto& p, auto& dx) { dx[0] = t * t * t * p[0]; }),
-                     {0.3, 0.9}, [](const Precise& t, const Vector& x) { return Vector{x[0] + x[1] * t * t * t * t / 4}; }});
+  systems.push_back({"ramp",
+                     1,
+                     1,
+                     record(1, 1, [](auto t, const auto&, const auto& p, auto& dx) { dx[0] = t * t * t * p[0]; }),
+                     {0.3, 0.9},
+                     [](const Precise& t, const Vector& x) { return Vector{x[0] + x[1] * t * t * t * t / 4}; }});
   return systems;
 }
 
 class LinearFlow : public ::testing::TestWithParam<Linear> {};
 
 /// The solution of every start tried lies inside at every output time; returns the greatest width met.
-double expectSolutionInside(const Linear& system, const Box& box, const FlowOptions& options, double horizon, Points& points) {
+double expectSolutionInside(const Linear& system, const Box& box, const FlowOptions& options, double horizon,
+                            Points& points) {
   std::vector<double> times;
   for (int i = 1; i <= 4; ++i) times.push_back(horizon * i / 4.3);
   const Tube tube = Flow(system.f, options).enclose(box, horizon, times);
@@ -71,7 +100,8 @@ double expectSolutionInside(const Linear& system, const Box& box, const FlowOpti
     const Vector start = sample < 3 ? points.corner(box) : points.inside(box);
     for (std::size_t i = 0; i < tube.reachedTimes(); ++i) {
       const Vector truth =  // at the start exactly itself, else rounded to 128 bits
-          i == 0 ? Vector(start.begin(), start.begin() + system.states) : system.solution(Precise(tube.times()[i]), start);
+          i == 0 ? Vector(start.begin(), start.begin() + system.states)
+                 : system.solution(Precise(tube.times()[i]), start);
       for (std::size_t s = 0; s < truth.size(); ++s) {
         EXPECT_THAT(tube.states(i)[s], Encloses(truth[s])) << "at " << tube.times()[i] << ", state " << s;
         widest = std::max(widest, width(tube.states(i)[s]));

@@ -1,5 +1,5 @@
-// The flow on every elementary function and on random right-hand sides, from thin and wide boxes of one to three uncertain
-// quantities, with outputs, against trajectories of the reference.
+// The flow on every elementary function and on random right-hand sides, from thin and wide boxes of one to three
+// uncertain quantities, with outputs, against trajectories of the reference.
 #include "tests/analyses/containment.hpp"
 
 namespace gamut::testing {
@@ -69,7 +69,8 @@ TEST(EncloseImage, HoldsOutputsOfRandomExpressionsAndIsNestedInSubBoxes) {
   for (int round = 0; round < 60; ++round) {
     const std::vector<double> nominal{points.uniform(-1, 1), points.uniform(-1, 1), points.uniform(-1, 1)};
     RandomExpressions expression(points, nominal);
-    const Program g = record(2, 1, 2, [&](auto t, const auto& x, const auto& p, auto& y) { expression(t, x, p, y, 6); });
+    const Program g =
+        record(2, 1, 2, [&](auto t, const auto& x, const auto& p, auto& y) { expression(t, x, p, y, 6); });
     Box box, inner;
     for (double value : nominal) {
       const double half = points.integer(0, 2) * 0.1;

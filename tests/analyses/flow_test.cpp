@@ -1,5 +1,5 @@
-// What a tube promises beside its enclosures: sub-boxes, pieces, threads, cancellation, the ways to end early, arguments
-// that make no sense, and boxes and scales at the edge of what doubles can say.
+// What a tube promises beside its enclosures: sub-boxes, pieces, threads, cancellation, the ways to end early,
+// arguments that make no sense, and boxes and scales at the edge of what doubles can say.
 #include <atomic>
 #include <cmath>
 #include <limits>
@@ -39,7 +39,8 @@ void expectEqual(const Tube& a, const Tube& b) {
   EXPECT_EQ(a.steps(), b.steps());
   for (std::size_t i = 0; i < a.reachedTimes(); ++i)
     for (std::size_t s = 0; s < a.states(i).size(); ++s) {
-      EXPECT_TRUE(isEqual(a.states(i)[s], b.states(i)[s])) << "row " << i << ": " << a.states(i)[s] << ' ' << b.states(i)[s];
+      EXPECT_TRUE(isEqual(a.states(i)[s], b.states(i)[s]))
+          << "row " << i << ": " << a.states(i)[s] << ' ' << b.states(i)[s];
       EXPECT_TRUE(isEqual(a.statesOver(i)[s], b.statesOver(i)[s])) << "over row " << i;
     }
 }
@@ -62,7 +63,9 @@ void expectNested(const Tube& tube, std::size_t levels, bool outputs) {
   for (std::size_t row = 0; row < tube.reachedTimes(); ++row)
     for (std::size_t level = 0; level < levels; ++level)
       for (std::size_t i = 0; i < tube.cut(level, row).size(); ++i) {
-        const Interval& outside = level > 0 ? tube.cut(level - 1, row)[i] : outputs ? tube.outputs(row)[i] : tube.states(row)[i];
+        const Interval& outside = level > 0 ? tube.cut(level - 1, row)[i]
+                                  : outputs ? tube.outputs(row)[i]
+                                            : tube.states(row)[i];
         EXPECT_TRUE(isSubset(tube.cut(level, row)[i], outside));
       }
 }
@@ -186,9 +189,9 @@ TEST(Flow, EndsBeforeASolutionThatEscapesInFiniteTime) {
 
 TEST(Flow, EndsWhereTheEquationsLoseTheirMeaning) {
   // x = 1 - t, so each of these leaves its domain at t = 1: 1/x, √x, log x.
-  for (auto* function : {+[](const Recorded& t, const Recorded& x) { return -1.0 - 1e-9 * t / x; },
-                         +[](const Recorded&, const Recorded& x) { return -1.0 + 1e-9 * sqrt(x); },
-                         +[](const Recorded&, const Recorded& x) { return -1.0 + 1e-9 * log(x); }}) {
+  for (auto* function : {+[](const Recorded&t, const Recorded&x) { return -1.0 - 1e-9 * t / x; },
+                         +[](const Recorded&, const Recorded&x) { return -1.0 + 1e-9 * sqrt(x); },
+                         +[](const Recorded&, const Recorded&x) { return -1.0 + 1e-9 * log(x); }}) {
     const Tube tube = Flow(oneState(function)).enclose({1.0}, 3, {0.5, 2});
     EXPECT_LT(tube.reached(), 1.001);
     EXPECT_GT(tube.reached(), 0.9);
@@ -201,7 +204,8 @@ TEST(Flow, ProvesNothingButTheStartWhereTheEquationsHaveNoMeaningAtAll) {
   for (const Interval& start : {Interval(0.0), Interval(-1.0), Interval(-0.5, 0.5)}) {
     FlowOptions options;
     options.maxPieces = 8;
-    const Tube tube = Flow(oneState(+[](const Recorded&, const Recorded& x) { return log(x); }), options).enclose({start}, 1, {0.5});
+    const Tube tube =
+        Flow(oneState(+[](const Recorded&, const Recorded& x) { return log(x); }), options).enclose({start}, 1, {0.5});
     EXPECT_EQ(tube.reached(), 0);
     EXPECT_EQ(tube.reachedTimes(), 1u);
     EXPECT_TRUE(isSubset(start, tube.states(0)[0]));
@@ -288,7 +292,8 @@ TEST(Flow, HoldsTrajectoriesOverTinyAndHugeHorizons) {
       dx[0] = rate * x[1];
       dx[1] = -rate * x[0];
     });
-    if (horizon < 1e-100) c.f = record(2, 0, [](auto, const auto& x, const auto&, auto& dx) { dx[0] = x[1], dx[1] = -x[0]; });
+    if (horizon < 1e-100)
+      c.f = record(2, 0, [](auto, const auto& x, const auto&, auto& dx) { dx[0] = x[1], dx[1] = -x[0]; });
     c.box = {Interval(0.9, 1.1), 0.3};
     c.horizon = horizon;
     c.times = {0.1 * horizon, 0.7 * horizon};
@@ -332,8 +337,10 @@ TEST(Flow, HoldsSolutionsThatGrowAndVanishOverManyOrdersOfMagnitude) {
 
 TEST(Flow, TakesBoxesThatAreThinInSomeComponentsOrNearlySo) {
   const double next = std::nextafter(1.0, 2.0);
-  for (const Box& box : {Box{Interval(1.0, next), 0.25, Interval(2.0)}, Box{Interval(1.0, 1.0 + 1e-12), Interval(-1e-320, 1e-320), Interval(2.0, 2.5)},
-                         Box{1.0, Interval(-1e-17, 1e-17), Interval(1.9, 2.1)}, Box{1.0, 0.0, Interval(2.0, std::nextafter(2.0, 3.0))}}) {
+  for (const Box& box : {Box{Interval(1.0, next), 0.25, Interval(2.0)},
+                         Box{Interval(1.0, 1.0 + 1e-12), Interval(-1e-320, 1e-320), Interval(2.0, 2.5)},
+                         Box{1.0, Interval(-1e-17, 1e-17), Interval(1.9, 2.1)},
+                         Box{1.0, 0.0, Interval(2.0, std::nextafter(2.0, 3.0))}}) {
     Containment c;
     c.f = record(2, 1, [](auto, const auto& x, const auto& p, auto& dx) {
       dx[0] = x[1];
@@ -348,7 +355,8 @@ TEST(Flow, TakesBoxesThatAreThinInSomeComponentsOrNearlySo) {
 }
 
 TEST(Flow, EnclosesDecimalsNotTheDoublesNearThem) {
-  // x' = 0.1 from 0: the double nearest to 0.1 would be off by 5.6e-17 after ten steps of one second, and must not count.
+  // x' = 0.1 from 0: the double nearest to 0.1 would be off by 5.6e-17 after ten steps of one second, and must not
+  // count.
   Containment c;
   c.f = record(1, 0, [](auto, const auto&, const auto&, auto& dx) { dx[0] = constant<Recorded>(Interval("0.1")); });
   c.truth = record(1, 1, [](auto, const auto&, const auto& p, auto& dx) { dx[0] = p[0]; });
@@ -357,11 +365,27 @@ TEST(Flow, EnclosesDecimalsNotTheDoublesNearThem) {
   c.horizon = 1;
   c.times = {0.25, 0.5};
   expectContainment(c, 1);
-  c.f = record(1, 0, [](auto, const auto& x, const auto&, auto& dx) { dx[0] = -constant<Recorded>(Interval("9.81")) * x[0]; });
+  c.f = record(
+      1, 0, [](auto, const auto& x, const auto&, auto& dx) { dx[0] = -constant<Recorded>(Interval("9.81")) * x[0]; });
   c.truth = record(1, 1, [](auto, const auto& x, const auto& p, auto& dx) { dx[0] = -p[0] * x[0]; });
   c.decimals = {Precise("9.81")};
   c.box = {Interval(1, 1.25)};
   expectContainment(c, 3);
+}
+
+TEST(Flow, HoldsTheTrajectoriesOfEveryValueAnEnclosedConstantMayHave) {
+  Containment c;
+  c.f = record(1, 0, [](auto, const auto& x, const auto&, auto& dx) {
+    dx[0] = sin(constant<Recorded>(Interval(0.5, 0.5625)) * x[0]);
+  });
+  c.truth = record(1, 1, [](auto, const auto& x, const auto& p, auto& dx) { dx[0] = sin(p[0] * x[0]); });
+  c.box = {Interval(1, 1.25)};
+  c.horizon = 1;
+  c.times = {0.25, 0.5};
+  for (double value : {0.5, 0.53125, 0.5625}) {
+    c.decimals = {Precise(value)};
+    expectContainment(c, 3);
+  }
 }
 
 TEST(Flow, PutsAnOutputTimeOnAStepsEndIntoBothIntervals) {

@@ -1,5 +1,6 @@
-// The truth that enclosures are judged by: solutions of a recorded program in 128-bit arithmetic, by Taylor series of order
-// 30 whose truncation error in a step is below 1e-33 of the state. Comparisons are exact: a double is exact as a Precise.
+// The truth that enclosures are judged by: solutions of a recorded program in 128-bit arithmetic, by Taylor series of
+// order 30 whose truncation error in a step is below 1e-33 of the state. Comparisons are exact: a double is exact as a
+// Precise.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -54,7 +55,7 @@ class Reference {
 
  private:
   Precise reach() {
-    Precise size(0.0), h(1e6);
+    Precise size(0.0), h(1e300);
     for (int order = 0; order < 2 && size == 0; ++order)  // relative to the state, or to its rate where it is zero
       for (int s = 0; s < f_.states(); ++s) size = std::max(size, Precise(abs(series_.at(s, order))));
     for (int s = 0; s < f_.states(); ++s)
@@ -114,8 +115,8 @@ struct Guarded {
 
 /// The functions that random expressions are made of; each is tested on its own as well.
 inline const std::vector<std::string>& elementaryNames() {
-  static const std::vector<std::string> names = {"add",  "sub",  "neg",  "mul",  "div",  "sqr", "sqrt", "exp",  "log",
-                                                 "sin",  "cos",  "tan",  "atan", "asin", "acos", "tanh", "sinh", "pow"};
+  static const std::vector<std::string> names = {"add", "sub", "neg", "mul",  "div",  "sqr",  "sqrt", "exp",  "log",
+                                                 "sin", "cos", "tan", "atan", "asin", "acos", "tanh", "sinh", "pow"};
   return names;
 }
 
