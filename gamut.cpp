@@ -44,7 +44,8 @@ constexpr const char* exitCodes =
     "  0  done, and every sample lies inside its enclosure\n"
     "  1  a sample left its enclosure, or stayed unresolved\n"
     "  2  bad input or usage\n"
-    "  3  an analysis ended before its horizon, or nothing could be compared; what was proved is kept and reported\n"
+    "  3  an analysis ended before its horizon or was interrupted, or `gamut check` found nothing to compare;\n"
+    "     what was proved is kept and reported\n"
     "  4  an internal failure, or something could not be written";
 
 /// Something the user asked for cannot be done; what() is one line.

@@ -59,21 +59,23 @@ class PreciseRun {
   /// orders.
   Precise nextStep(const Precise& t, const Precise& rest, double horizon) {
     series_.solve(t, x_);
-    Precise last(0.0), secondLast(0.0), rate(0.0);
+    Precise rate(0.0);
     bool finite = true;
     for (int s = 0; s < motion_.f.states(); ++s) {
       size_ = std::max(size_, Precise(abs(series_.at(s, 0))));
       rate = std::max(rate, Precise(abs(series_.at(s, 1))));
-      last = std::max(last, Precise(abs(series_.at(s, options_.order))));
-      secondLast = std::max(secondLast, Precise(abs(series_.at(s, options_.order - 1))));
       finite = finite && isFinite(series_.at(s, options_.order)) && isFinite(series_.at(s, options_.order - 1));
     }
     if (cancelled_ != nullptr && *cancelled_) return stop(t, "cancelled");
     if (!finite) return stop(t, "the derivatives are not finite");
-    const Precise allowed = options_.tolerance * (size_ > 0 ? size_ : rate * horizon);
+    // Single orders may vanish (a series in t², say): the step heeds the whole upper half.
+    const Precise size = size_ > 0 ? size_ : Precise(rate * horizon);
+    const Precise share = pow(Precise(options_.tolerance), Precise(1.0) / options_.order);
     Precise h = rest;
-    if (last > 0) h = std::min(h, Precise(pow(allowed / last, Precise(1.0) / options_.order)));
-    if (secondLast > 0) h = std::min(h, Precise(pow(allowed / secondLast, Precise(1.0) / (options_.order - 1))));
+    for (int i = options_.order / 2; i <= options_.order; ++i)
+      for (int s = 0; s < motion_.f.states(); ++s)
+        if (const Precise c = abs(series_.at(s, i)); c > 0 && size > 0)
+          h = std::min(h, Precise(share * pow(size / c, Precise(1.0) / i)));
     if (h < rest && h < shortestStep * horizon) return stop(t, "steps became too short: the motion is singular here");
     return h;
   }

@@ -316,9 +316,12 @@ class FlowRun {
             continue;
           }
           const bool futile = outcome == StepOutcome::failed && tool_->stepper.isRemainderDominant(piece.set);
-          if (!futile && run_.mayBisect()) {
+          const int symbol = tool_->stepper.worstSymbol();
+          // Centres of pieces are exact: fifty bisections of one symbol is as far as that goes.
+          const bool tooFine = symbol < run_.embedding_.symbols && piece.set.half[at(symbol)] < 0x1p-50;
+          if (!futile && !tooFine && run_.mayBisect()) {
             Piece other = piece;
-            other.set = tool_->stepper.bisect(piece.set, tool_->stepper.worstSymbol(), tool_->range);
+            other.set = tool_->stepper.bisect(piece.set, symbol, tool_->range);
             run_.add(std::move(other));
             continue;
           }

@@ -26,7 +26,8 @@ double orthogonalityDefect(const Eigen::MatrixXd& Q) {
   const Eigen::MatrixXd defect = Q.transpose() * Q - Eigen::MatrixXd::Identity(Q.cols(), Q.cols());
   // A row of defects, and n + 2 roundings in each of its n entries, where Σ|q||q| < 2.
   const auto n = static_cast<double>(Q.cols());
-  return ((defect.cwiseAbs() * Eigen::VectorXd::Ones(Q.cols())).maxCoeff() + n * 2 * (n + 2) * bounds::unit) * bounds::up;
+  return ((defect.cwiseAbs() * Eigen::VectorXd::Ones(Q.cols())).maxCoeff() + n * 2 * (n + 2) * bounds::unit) *
+         bounds::up;
 }
 
 double relativeMass(const FlowSet& set, const Monomials& monomials, int above, int below) {
@@ -59,7 +60,7 @@ void changeDegree(FlowSet& set, const Monomials& from, int fromFrameDegree, cons
         dropped += std::fabs(set.p[i * N + g]);
     for (std::size_t g = newNJ; g < NJ; ++g)
       for (std::size_t j = 0; j < n; ++j) dropped += std::fabs(set.C[(g * n + i) * n + j]) * total[j];
-    if (dropped > 0) set.W[i] = (set.W[i] + dropped) * bounds::up + bounds::tiny;
+    if (!(dropped == 0)) set.W[i] = (set.W[i] + dropped) * bounds::up + bounds::tiny;
   }
   set.p = std::move(p);
   set.C.resize(newNJ * n * n, 0.0);

@@ -207,9 +207,10 @@ bool FlowStepper::isRemainderDominant(const FlowSet& set) const {
   const int N = series_.count();
   for (int i = 0; i < n_; ++i) {
     double width = 0, remainder = set.W[at(i)];
+    const double centre = std::fabs(set.p[at(i * N)]);
     for (int g = 1; g < N; ++g) width += std::fabs(set.p[at(i * N + g)]);
     for (int j = 0; j < n_; ++j) remainder += std::fabs(set.C[at(i * n_ + j)]) * total_[at(j)];
-    if (remainder > 0.02 * width) return true;
+    if (remainder > 0.02 * width && remainder > 1e-12 * (centre + width)) return true;
   }
   return false;
 }

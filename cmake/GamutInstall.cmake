@@ -20,4 +20,11 @@ configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/GamutConfig.cmake.in ${P
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/GamutConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/GamutConfig.cmake ${PROJECT_BINARY_DIR}/GamutConfigVersion.cmake
   ${CMAKE_CURRENT_LIST_DIR}/FindMPFR.cmake DESTINATION ${package_dir})
+# The README's links lead to the same places there as in the sources.
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs DESTINATION ${CMAKE_INSTALL_DOCDIR} FILES_MATCHING PATTERN *.md PATTERN *.png)
+file(GLOB studies RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/studies/*/study.toml)
+foreach(study ${studies})
+  cmake_path(GET study PARENT_PATH folder)
+  install(FILES ${PROJECT_SOURCE_DIR}/${study} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder})
+endforeach()

@@ -149,10 +149,10 @@ void Mechanism::add(Spring spring) {
   checkFrame(spring.to, spring.name);
   if (spring.from == spring.to) refuse("the spring " + quoted(spring.name) + " needs two different frames");
   use(spring.stiffness, spring.name + ".stiffness", "N/m");
-  use(spring.restLength, spring.name + ".restLength", "m");
+  use(spring.restLength, spring.name + ".rest_length", "m");
   use(spring.damping, spring.name + ".damping", "N s/m");
-  use(spring.fromPoint, spring.name + ".fromPoint", "m");
-  use(spring.toPoint, spring.name + ".toPoint", "m");
+  use(spring.fromPoint, spring.name + ".from_point", "m");
+  use(spring.toPoint, spring.name + ".to_point", "m");
   keep(std::move(spring));
 }
 
@@ -178,6 +178,9 @@ void Mechanism::setGravity(QuantityVector gravity) {
 
 void Mechanism::check() const {
   if (positions_.empty()) refuse("the mechanism has no joint: nothing can move");
+}
+
+void Mechanism::checkMasses() const {
   std::map<std::string, std::string> before;  // frame -> the frame that moves it
   std::map<std::string, std::string> joint;   // frame -> the joint that moves it
   std::map<std::string, bool> carries;        // frame -> whether a mass hangs on it

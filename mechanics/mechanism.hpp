@@ -85,8 +85,8 @@ struct Mass {
   std::array<Quantity, 6> inertia = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
 };
 
-/// Spring and damper between points of two frames; names NAME.stiffness [N/m], NAME.restLength [m], NAME.damping
-/// [N s/m], NAME.fromPoint.x … and NAME.toPoint.x … [m].
+/// Spring and damper between points of two frames; names NAME.stiffness [N/m], NAME.rest_length [m], NAME.damping
+/// [N s/m], NAME.from_point.x … and NAME.to_point.x … [m].
 struct Spring {
   std::string name, from, to;
   Quantity stiffness, restLength, damping = 0.0;
@@ -126,8 +126,10 @@ class Mechanism {
   void add(JointSpring spring);
   /// Acceleration of free fall in the inertial frame [m/s²]; names gravity.x … z. Zero unless set; set at most once.
   void setGravity(QuantityVector gravity);
-  /// Throws if there is no joint, or a joint that no mass hangs on.
+  /// Throws if there is no joint.
   void check() const;
+  /// Throws if there is a joint that no mass hangs on: its motion would not be determined.
+  void checkMasses() const;
 
   /// Elements as added, every constant replaced by a reference to the parameter or initial value named after it.
   const std::vector<ElementDescription>& elements() const { return elements_; }

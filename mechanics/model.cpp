@@ -10,6 +10,7 @@ namespace gamut {
 
 Program recordMotion(const Mechanism& mechanism, const std::vector<std::string>& freeParameters) {
   const int f = mechanism.degreesOfFreedom();
+  mechanism.checkMasses();
   try {
     return record(2 * f, static_cast<int>(freeParameters.size()), [&](auto, const auto& x, const auto& p, auto& dx) {
       Assembly<Recorded> assembly(mechanism, freeParameters, p);

@@ -36,7 +36,7 @@ std::string nearestName(std::string_view word, const std::vector<std::string>& c
   std::size_t least = std::numeric_limits<std::size_t>::max();
   for (const std::string& candidate : candidates) {
     const std::size_t d = distance(word, candidate);
-    if (d < least) {
+    if (d < least && d <= std::max<std::size_t>(2, word.size() / 3)) {
       least = d;
       nearest = candidate;
     }
@@ -47,7 +47,8 @@ std::string nearestName(std::string_view word, const std::vector<std::string>& c
 std::string unknownName(std::string_view kind, std::string_view word, const std::vector<std::string>& candidates) {
   const std::string start = "unknown " + std::string(kind) + " '" + std::string(word) + "'";
   if (candidates.empty()) return start + ": there is none yet";
-  return start + "; did you mean '" + nearestName(word, candidates) + "'?";
+  const std::string nearest = nearestName(word, candidates);
+  return nearest.empty() ? start : start + "; did you mean '" + nearest + "'?";
 }
 
 }  // namespace gamut

@@ -8,10 +8,11 @@
 namespace gamut {
 
 /// The candidate with the fewest insertions, deletions, replacements and swaps of neighbours away from `word`, capitals
-/// ignored; the first of equals; empty if there are no candidates.
+/// ignored; the first of equals. Empty if none is within two of them or, for a long word, a third of its length.
 std::string nearestName(std::string_view word, const std::vector<std::string>& candidates);
 
-/// "unknown KIND 'WORD'; did you mean 'NEAREST'?", or, without candidates, "unknown KIND 'WORD': there is none yet".
+/// "unknown KIND 'WORD'; did you mean 'NEAREST'?", without the question where no candidate is near, or, without
+/// candidates, "unknown KIND 'WORD': there is none yet".
 std::string unknownName(std::string_view kind, std::string_view word, const std::vector<std::string>& candidates);
 
 }  // namespace gamut

@@ -16,9 +16,9 @@ namespace gamut {
 namespace {
 
 /// A table that is built row by row; on narrow screens it scrolls by itself.
-class Table {
+class TableText {
  public:
-  Table(std::string_view caption, const std::vector<std::string>& heads) : html_("<div class=\"table\"><table>\n") {
+  TableText(std::string_view caption, const std::vector<std::string>& heads) : html_("<div class=\"table\"><table>\n") {
     html_ += fmt::format("<caption>{}</caption>\n<thead><tr>", escapeHtml(caption));
     for (const std::string& head : heads) html_ += fmt::format("<th scope=\"col\">{}</th>", escapeHtml(head));
     html_ += "</tr></thead>\n<tbody>\n";
@@ -78,7 +78,7 @@ std::string secondsText(double seconds) { return numberText(seconds, 3) + " s"; 
 }  // namespace
 
 std::string uncertainTable(const Results& results) {
-  Table table("Uncertain quantities", {"name", "quantity", "interval", "nominal", "probable", "possible"});
+  TableText table("Uncertain quantities", {"name", "quantity", "interval", "nominal", "probable", "possible"});
   for (const UncertainInfo& info : results.uncertain) {
     const int digits =
         std::max(6, digitsFor(std::max(std::abs(info.lower), std::abs(info.upper)), info.upper - info.lower, 4));
@@ -101,8 +101,8 @@ std::string figuresTable(const Results& results, const Verdict& verdict) {
   if (sampled) heads.push_back("sampled");
   if (core != nullptr) heads.push_back("most possible");
   if (compared) heads.push_back("overestimation, at most");
-  Table table(results.horizon > 0 ? fmt::format("Outputs at {} s", numberText(results.time[time], 6)) : "Outputs",
-              heads);
+  TableText table(results.horizon > 0 ? fmt::format("Outputs at {} s", numberText(results.time[time], 6)) : "Outputs",
+                  heads);
   for (std::size_t k = 0; k < results.outputs.size(); ++k) {
     const Bounds& widest = guaranteed        ? results.interval.at
                            : sampled         ? results.stochastic.envelope
@@ -120,7 +120,7 @@ std::string figuresTable(const Results& results, const Verdict& verdict) {
 }
 
 std::string costTable(const Results& results) {
-  Table table("Cost", {"analysis", "CPU time", "amount"});
+  TableText table("Cost", {"analysis", "CPU time", "amount"});
   const IntervalResult& interval = results.interval;
   const StochasticResult& stochastic = results.stochastic;
   if (interval.present) {
@@ -143,7 +143,7 @@ std::string costTable(const Results& results) {
 }
 
 std::string provenanceTable(const Results& results) {
-  Table table("Origin of the numbers", {"what", "value"});
+  TableText table("Origin of the numbers", {"what", "value"});
   table.row("Gamut", {results.version});
   table.row("study file", {results.studyFile});
   table.row("computed", {results.date});

@@ -78,22 +78,25 @@ class Judge {
     return std::max<std::size_t>(static_cast<std::size_t>(end - time.begin()), time.empty() ? 0 : 1);
   }
 
-  /// How far samples of this output may lie outside at this time without refuting anything: the witness's measured
-  /// error there, or as far as a sample did that was looked at again and settled inside.
-  double excuse(std::size_t time, std::size_t output) const {
-    double excused = 0;
-    const Grid& error = results_.stochastic.error;
-    if (!error.empty() && error(time, output) > excused) excused = error(time, output);
-    for (const DisputedSample& sample : results_.comparison.disputed) {
-      if (sample.output != output || sample.outside || isUnresolved(sample)) continue;
-      excused = std::max({excused, sample.error, distanceOutside(sample.value, sample.lower, sample.upper)});
-    }
-    return excused;
+  /// Whether some disputed sample of this output was left so: what lies outside may be that one.
+  bool hasDispute(std::size_t output, bool (*isLeft)(const DisputedSample&)) const {
+    return std::any_of(results_.comparison.disputed.begin(), results_.comparison.disputed.end(),
+                       [&](const DisputedSample& sample) { return sample.output == output && isLeft(sample); });
   }
 
-  bool isInDoubt(std::size_t output) const {
-    return std::any_of(results_.comparison.disputed.begin(), results_.comparison.disputed.end(),
-                       [&](const DisputedSample& s) { return s.output == output && isUnresolved(s); });
+  /// Refined motions are stored in place of the disputed ones, so that nothing outside is left but what was not
+  /// decided.
+  void noteExcursion(const Excursion& found) {
+    if (hasDispute(found.output, isUnresolved)) {
+      if (found.distance > doubtful_.distance) doubtful_ = found;
+      return;
+    }
+    // What was not looked at to the end explains no more than its own distance.
+    const auto& disputed = results_.comparison.disputed;
+    const bool explained = std::any_of(disputed.begin(), disputed.end(), [&](const DisputedSample& sample) {
+      return sample.output == found.output && isInterrupted(sample) && found.distance <= sample.distance;
+    });
+    if (!explained && found.distance > outside_.distance) outside_ = found;
   }
 
   /// Samples at `time` against the bounds' row `row`. A bound that is missing is no bound: false.
@@ -103,10 +106,7 @@ class Judge {
     const double lower = proved.lower(row, output), upper = proved.upper(row, output);
     if (std::isnan(low) || std::isnan(high) || std::isnan(lower) || std::isnan(upper)) return false;
     const double distance = std::max(distanceOutside(low, lower, upper), distanceOutside(high, lower, upper));
-    if (distance > 0 && distance > excuse(time, output)) {
-      Excursion& worst = isInDoubt(output) ? doubtful_ : outside_;
-      if (distance > worst.distance) worst = {distance, time, output, name};
-    }
+    if (distance > 0) noteExcursion({distance, time, output, name});
     return true;
   }
 

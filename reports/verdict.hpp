@@ -1,8 +1,8 @@
 // Do the answers agree? The verdict is found again from the stored numbers alone, so that it can be checked long after
 // the study ran: every sampled motion must lie inside what is guaranteed, at every output time, for every output.
 //
-// A sample that leaves the enclosure by no more than the witness's own integration error refutes nothing; neither does
-// one that was looked at again and settled inside. Everything else outside is a finding.
+// There is no tolerance: a sample that seemed outside and was settled inside is stored with its refined motion, which
+// lies inside exactly. Only a sample that could not be decided, or was not because of an interrupt, refutes nothing.
 #pragma once
 
 #include <limits>
@@ -16,12 +16,12 @@ namespace gamut {
 /// What a study's answers say about each other.
 struct Verdict {
   /// "inside"      every sample lies in the enclosure, over the whole horizon;
-  /// "outside"     at least one does not, by more than the witness can err;
+  /// "outside"     at least one does not;
   /// "unresolved"  at least one may or may not;
   /// "incomplete"  inside as far as was computed, but the horizon was not reached or nothing could be compared.
   std::string word;
   double reached = 0;    ///< s: compared up to here
-  double excursion = 0;  ///< the farthest any sample lies outside beyond excuse, in its output's unit; 0 inside
+  double excursion = 0;  ///< the farthest any sample lies outside, in its output's unit; 0 inside
   double overestimation = std::numeric_limits<double>::quiet_NaN();  ///< the greatest found; NaN where none was
   std::string sentence;                                              ///< for people, without markup
   std::vector<std::string> notes;  ///< one sentence each: disputed samples, why an analysis ended, what was missing

@@ -242,6 +242,8 @@ inline Interval twoPi() { return {0x1.921fb54442d18p+2, 0x1.921fb54442d19p+2}; }
 /// "[lower, upper]" in decimals rounded outward to so many significant digits (at least 1), so that the printed
 /// interval holds x; "[empty]" and "[entire]" for those two.
 std::string toString(const Interval& x, int digits = 17);
+/// The same with so many digits after the point (at least 0): "[0.25, 0.34]".
+std::string toFixedString(const Interval& x, int decimals);
 std::ostream& operator<<(std::ostream& stream, const Interval& x);
 
 /// The shortest decimal that is read back as this double: "0.1", "1e-09", "inf".

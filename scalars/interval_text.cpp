@@ -66,16 +66,24 @@ double readEndpoint(std::string_view text, mpfr_rnd_t direction, std::string_vie
   return readDirected(text, direction);
 }
 
-std::string writeDirected(double value, int digits, mpfr_rnd_t direction) {
+/// `format` takes a number of digits, a direction and a number.
+std::string writeDirected(const char* format, double value, int digits, mpfr_rnd_t direction) {
   mpfr_t number;
   mpfr_init2(number, 53);
   mpfr_set_d(number, value, MPFR_RNDN);  // exact
   char* text = nullptr;
-  mpfr_asprintf(&text, "%.*R*g", digits, direction, number);
+  mpfr_asprintf(&text, format, digits, direction, number);
   std::string result(text);
   mpfr_free_str(text);
   mpfr_clear(number);
   return result;
+}
+
+std::string writeOutward(const char* format, const Interval& x, int digits) {
+  if (isEmpty(x)) return "[empty]";
+  if (isEntire(x)) return "[entire]";
+  return "[" + writeDirected(format, x.lower(), digits, MPFR_RNDD) + ", " +
+         writeDirected(format, x.upper(), digits, MPFR_RNDU) + "]";
 }
 
 }  // namespace
@@ -102,13 +110,12 @@ Interval Interval::parse(std::string_view whole) {
 
 std::string toString(const Interval& x, int digits) {
   if (digits < 1) throw std::invalid_argument("an interval is printed with at least one digit");
-  if (isEmpty(x)) return "[empty]";
-  if (isEntire(x)) return "[entire]";
-  std::string text = "[";
-  text += writeDirected(x.lower(), digits, MPFR_RNDD);
-  text += ", ";
-  text += writeDirected(x.upper(), digits, MPFR_RNDU);
-  return text += "]";
+  return writeOutward("%.*R*g", x, digits);
+}
+
+std::string toFixedString(const Interval& x, int decimals) {
+  if (decimals < 0) throw std::invalid_argument("an interval is printed with at least no decimals");
+  return writeOutward("%.*R*f", x, decimals);
 }
 
 std::ostream& operator<<(std::ostream& stream, const Interval& x) { return stream << toString(x); }

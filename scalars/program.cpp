@@ -30,16 +30,6 @@ bool isPowerOfTwo(const Interval& c) {
 
 }  // namespace
 
-bool Program::dependsOnTime() const {
-  for (const Node& node : nodes_)
-    if (hasOperands(node.op))
-      for (int operand : {node.a, node.b})
-        if (operand >= 0 && nodes_[at(operand)].op == Op::time) return true;
-  for (int output : outputs_)
-    if (nodes_[at(output)].op == Op::time) return true;
-  return false;
-}
-
 int Program::operations() const {
   int count = 0;
   for (std::size_t i = 0; i < nodes_.size(); ++i) count += hasOperands(nodes_[i].op) && invariant_[i] == 0;
@@ -99,10 +89,8 @@ Recorder::Recorder(const Program& program)
       constants_(program.constants()) {
   for (int i = 0; i < size(); ++i) {
     const Node& n = node(i);
-    if (n.op == Op::constant)
-      knownConstants_.emplace(std::pair(value(i).lower(), value(i).upper()), i);
-    else if (hasOperands(n.op))
-      known_.emplace(std::tuple(n.op, n.a, n.b), i);
+    if (n.op == Op::constant && isThin(value(i))) knownConstants_.emplace(value(i).lower(), i);
+    if (hasOperands(n.op)) known_.emplace(std::tuple(n.op, n.a, n.b), i);
   }
 }
 
@@ -120,13 +108,21 @@ int Recorder::constant(const Interval& number) {
   if (isEmpty(number) || !isBounded(number))
     throw std::domain_error("a recorded constant must be a bounded number, not " + toString(number));
   // -0.0 and 0.0 are one number: adding 0.0 maps both to 0.0.
-  const std::pair key(number.lower() + 0.0, number.upper() + 0.0);
-  const auto [entry, isNew] = knownConstants_.try_emplace(key, size());
-  if (isNew) {
-    nodes_.push_back({Op::constant, static_cast<int>(constants_.size())});
-    constants_.push_back(Interval(key.first, key.second));
-  }
-  return entry->second;
+  const double lower = number.lower() + 0.0, upper = number.upper() + 0.0;
+  // Two real numbers may have the same enclosure: only a double is known by its value.
+  if (lower == upper)
+    if (const auto [known, isNew] = knownConstants_.try_emplace(lower, size()); !isNew) return known->second;
+  nodes_.push_back({Op::constant, static_cast<int>(constants_.size())});
+  constants_.emplace_back(lower, upper);
+  return size() - 1;
+}
+
+int Recorder::derived(Op op, int a, int b, const Interval& number) {
+  if (const auto known = known_.find(std::tuple(op, a, b)); known != known_.end()) return known->second;
+  const int node = constant(number);
+  known_.emplace(std::tuple(op, a, b), node);
+  if (op == Op::neg) known_.emplace(std::tuple(op, node, -1), a);
+  return node;
 }
 
 int Recorder::add(int a, int b) {
@@ -152,7 +148,7 @@ int Recorder::sub(int a, int b) {
 }
 
 int Recorder::neg(int a) {
-  if (isConstant(a)) return constant(-value(a));
+  if (isConstant(a)) return derived(Op::neg, a, -1, -value(a));
   if (node(a).op == Op::neg) return node(a).a;
   if (node(a).op == Op::sub) return push(Op::sub, node(a).b, node(a).a);
   return push(Op::neg, a);
@@ -173,11 +169,11 @@ int Recorder::mul(int a, int b) {
       // Scaling an enclosed constant by a power of two is exact as well.
       if ((isThin(factor) && isThin(value(b)) && isExactFold(product)) || isPowerOfTwo(factor) ||
           isPowerOfTwo(value(b)))
-        return constant(product);
+        return derived(Op::mul, a, b, product);
     }
-    if (node(b).op == Op::neg) return mul(constant(-factor), node(b).a);
+    if (node(b).op == Op::neg) return mul(neg(a), node(b).a);
     if (node(b).op == Op::mul && isConstant(node(b).a) && (isPowerOfTwo(factor) || isPowerOfTwo(value(node(b).a))))
-      return mul(constant(factor * value(node(b).a)), node(b).b);
+      return mul(mul(a, node(b).a), node(b).b);
     return push(Op::mul, a, b);
   }
   if (a == b) return sqr(a);

@@ -58,8 +58,6 @@ class Program {
   const std::vector<Interval>& constants() const { return constants_; }
   /// True if the node's value depends neither on time nor on a state: it is evaluated once for given parameters.
   bool isInvariant(int node) const { return invariant_[detail::at(node)] != 0; }
-  /// True if some output depends on time explicitly.
-  bool dependsOnTime() const;
   /// Number of nodes that are neither inputs nor constants nor invariant: the cost of one evaluation.
   int operations() const;
 
@@ -92,6 +90,7 @@ class Recorder {
   int state(int i) const { return i; }
   int parameter(int i) const { return states_ + i; }
   int time() const { return states_ + parameters_; }
+  /// A double has one node; of any other enclosure every call makes a new one, since it may be another number.
   int constant(const Interval& value);
 
   int add(int a, int b);
@@ -125,6 +124,8 @@ class Recorder {
 
  private:
   int push(Op op, int a = -1, int b = -1);
+  /// The constant `number` that is `op` of a and b: the same request gives the same node.
+  int derived(Op op, int a, int b, const Interval& number);
   bool isExactly(int node, double value) const;
 
   int states_;
@@ -132,7 +133,7 @@ class Recorder {
   std::vector<Node> nodes_;
   std::vector<Interval> constants_;
   std::map<std::tuple<Op, int, int>, int> known_;
-  std::map<std::pair<double, double>, int> knownConstants_;
+  std::map<double, int> knownConstants_;  // doubles
 };
 
 }  // namespace gamut

@@ -26,7 +26,10 @@ class Recorded {
  public:
   Recorded() : Recorded(0.0) {}
   Recorded(double value) : constant_(value) {}  // NOLINT: implicit, as numbers are
-  explicit Recorded(const Interval& value) : constant_(value) {}
+  /// A number that is not a double gets its node at once, so that copies of it stay one number.
+  explicit Recorded(const Interval& value) : constant_(value) {
+    if (Recorder* current = Recorder::current(); current != nullptr && !isThin(value)) node_ = current->constant(value);
+  }
   static Recorded node(int number) {
     Recorded r;
     r.node_ = number;

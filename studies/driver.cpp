@@ -25,26 +25,6 @@ double processCpuSeconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-Grid toGrid(const Table& table) {
-  Grid grid(table.times, table.outputs);
-  grid.data = table.data;
-  return grid;
-}
-
-Bounds toBounds(const Envelope& envelope) {
-  Bounds bounds;
-  bounds.lower = toGrid(envelope.lower);
-  bounds.upper = toGrid(envelope.upper);
-  return bounds;
-}
-
-Envelope toEnvelope(const Bounds& bounds) {
-  Envelope envelope(bounds.lower.times, bounds.lower.outputs);
-  envelope.lower.data = bounds.lower.data;
-  envelope.upper.data = bounds.upper.data;
-  return envelope;
-}
-
 void setRow(Bounds& bounds, std::size_t row, const std::vector<Interval>& values) {
   for (std::size_t j = 0; j < values.size(); ++j) {
     bounds.lower(row, j) = values[j].lower();
@@ -220,7 +200,7 @@ class Driver {
     stochastic.absoluteTolerance = ensemble.tolerance.absolute;
     stochastic.reached = ensemble_.reached;
     stochastic.why = ensemble_.complete ? ensemble_.why : "interrupted";
-    stochastic.envelope = toBounds(ensemble_.envelope());
+    stochastic.envelope = ensemble_.envelope();
     stochastic.cpu = processCpuSeconds() - start;
   }
 
@@ -251,16 +231,16 @@ class Driver {
     comparison.verdict = complete ? "inside" : "incomplete";
     if (study_.interval) {
       const Comparison found =
-          compare({toEnvelope(results_.interval.at), reachedTimes_}, ensemble_, problem_.motion, comparisonOptions());
+          compare({results_.interval.at, reachedTimes_}, ensemble_, problem_.motion, comparisonOptions());
       takeDisputes(found, [](std::size_t number) { return number; });
-      comparison.overestimation = toGrid(found.overestimation);
-      comparison.excess = toGrid(found.excess);
+      comparison.overestimation = found.overestimation;
+      comparison.excess = found.excess;
       comparison.maximum = found.maximum;
       comparison.median = found.median;
       comparison.maximumOf = found.maximumOf;
     }
     for (std::size_t level = problem_.levels.size(); level-- > 0;) compareCut(level);
-    results_.stochastic.envelope = toBounds(ensemble_.envelope());
+    results_.stochastic.envelope = ensemble_.envelope();
     results_.stochastic.cpu += processCpuSeconds() - start;
   }
 
@@ -273,7 +253,7 @@ class Driver {
 
   /// The samples that lie in the level's box but outside its cut are looked at again, as a small ensemble of their own.
   void compareCut(std::size_t level) {
-    const Envelope cut = toEnvelope(results_.fuzzy.outer[level]);
+    const Bounds& cut = results_.fuzzy.outer[level];
     std::vector<std::size_t> numbers;
     for (std::size_t number = 0; number < ensemble_.size(); ++number)
       if (belongsTo(level, number) && leaves(cut, number)) numbers.push_back(number);
@@ -294,7 +274,7 @@ class Driver {
     return true;
   }
 
-  bool leaves(const Envelope& cut, std::size_t number) const {
+  bool leaves(const Bounds& cut, std::size_t number) const {
     const std::span<const double> trajectory = std::as_const(ensemble_).trajectory(number);
     for (std::size_t i = 0; i < reachedTimes_ * ensemble_.outputs; ++i)
       if (trajectory[i] < cut.lower.data[i] || trajectory[i] > cut.upper.data[i]) return true;
@@ -345,16 +325,15 @@ class Driver {
     double start = processCpuSeconds();
     StochasticResult& stochastic = results_.stochastic;
     const Statistics numbers = statistics(ensemble_);
-    stochastic.mean = toGrid(numbers.mean);
-    stochastic.deviation = toGrid(numbers.deviation);
-    stochastic.error = toGrid(ensemble_.error);
+    stochastic.mean = numbers.mean;
+    stochastic.deviation = numbers.deviation;
+    stochastic.error = ensemble_.error;
     stochastic.probabilities = numbers.probabilities;
-    for (const Table& quantile : numbers.quantiles) stochastic.quantiles.push_back(toGrid(quantile));
+    stochastic.quantiles = numbers.quantiles;
     stochastic.cpu += processCpuSeconds() - start;
     if (!study_.fuzzy) return;
     start = processCpuSeconds();
-    for (const Envelope& cut : innerCuts(ensemble_, problem_.motion.uncertain, problem_.alpha))
-      results_.fuzzy.inner.push_back(toBounds(cut));
+    results_.fuzzy.inner = innerCuts(ensemble_, problem_.motion.uncertain, problem_.alpha);
     results_.fuzzy.cpu += processCpuSeconds() - start;
   }
 

@@ -9,31 +9,15 @@
 #include <string>
 #include <vector>
 
+#include "analyses/table.hpp"
+
 namespace gamut {
 
 /// One number for every output at every output time; NaN where there is none. Shape: times x outputs.
-struct Grid {
-  std::size_t times = 0;
-  std::size_t outputs = 0;
-  std::vector<double> data;
-
-  Grid() = default;
-  Grid(std::size_t timeCount, std::size_t outputCount)
-      : times(timeCount),
-        outputs(outputCount),
-        data(timeCount * outputCount, std::numeric_limits<double>::quiet_NaN()) {}
-  double& operator()(std::size_t time, std::size_t output) { return data[time * outputs + output]; }
-  double operator()(std::size_t time, std::size_t output) const { return data[time * outputs + output]; }
-  bool empty() const { return data.empty(); }
-};
+using Grid = Table;
 
 /// Lower and upper bounds of every output at every output time.
-struct Bounds {
-  Grid lower, upper;
-  Bounds() = default;
-  Bounds(std::size_t times, std::size_t outputs) : lower(times, outputs), upper(times, outputs) {}
-  bool empty() const { return lower.empty(); }
-};
+using Bounds = Envelope;
 
 /// One uncertain quantity as the study states it.
 struct UncertainInfo {

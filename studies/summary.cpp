@@ -7,6 +7,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "scalars/interval.hpp"
+
 namespace gamut {
 namespace {
 
@@ -40,7 +42,7 @@ Json overestimationObject(const Results& results) {
 
 Json textOrNull(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
 
-/// "[1.2345, 1.3456]", bounds rounded outward to five decimals more than their width needs.
+/// "[1.2345, 1.3456]", bounds rounded outward, with three decimals more than their width needs, 15 at most.
 std::string shortBounds(const Bounds& bounds, std::size_t time, std::size_t output) {
   if (bounds.empty()) return "-";
   const double lower = bounds.lower(time, output), upper = bounds.upper(time, output);
@@ -48,11 +50,7 @@ std::string shortBounds(const Bounds& bounds, std::size_t time, std::size_t outp
   const double size = upper - lower;
   const int decimals =
       size > 0 && std::isfinite(size) ? std::clamp(3 - static_cast<int>(std::floor(std::log10(size))), 0, 15) : 15;
-  const double scale = std::pow(10.0, decimals);
-  double below = std::floor(lower * scale) / scale, above = std::ceil(upper * scale) / scale;
-  if (!(below <= lower)) below = lower;
-  if (!(above >= upper)) above = upper;
-  return fmt::format("[{:.{}f}, {:.{}f}]", below, decimals, above, decimals);
+  return toFixedString(Interval(lower, upper), decimals);
 }
 
 /// Three decimals, rounded up.

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "analyses/flow_outputs.hpp"
 #include "tests/analyses/reference.hpp"
 
 namespace gamut::testing {
@@ -160,6 +161,39 @@ struct Scene {
       is += reach(along, set.generators);
       ASSERT_LE(was, is);
       ASSERT_LE(is, was * 100);
+    }
+  }
+
+  /// Outputs g of random members p + Ψ (r + Γs) + w of the set at a step's end lie within the radii of their
+  /// polynomials.
+  void expectOutputsInside(const Program& g, int members) {
+    FlowPoint point;
+    stepper.evaluate(set, stepper.h(), point);
+    FlowOutputs outputs(g, monomials);
+    const double t = set.t + stepper.h();
+    outputs.evaluate(t, point, set.R, set.parameters);
+    Evaluator<Precise> truth(g);
+    for (int member = 0; member < members; ++member) {
+      const Vector xi = randomSymbols();
+      const std::vector<Precise> values = monomialsAt(xi);
+      Vector r(at(n)), p;
+      for (int i = 0; i < n; ++i) r[at(i)] = Precise(set.R[at(i)]) * points.signedUnit();
+      for (std::size_t j = 0; j < set.generators.size(); j += at(n)) {
+        const double s = points.signedUnit();
+        for (int i = 0; i < n; ++i) r[at(i)] += Precise(set.generators[j + at(i)]) * s;
+      }
+      Vector x = times(matrix(point.psi, values), r);
+      for (int i = 0; i < n; ++i)
+        x[at(i)] += polynomial(&point.p[at(i * monomials->count())], monomials->count(), values) +
+                    Precise(point.loose[at(i)]) * points.signedUnit() * 0.99;
+      for (const Embedded& q : set.parameters)
+        p.push_back(Precise(q.centre) + (q.symbol >= 0 ? Precise(q.half) * xi[at(q.symbol)] : Precise(0.0)));
+      truth.setParameters(p);
+      const Vector y = truth(Precise(t), x);
+      for (int o = 0; o < outputs.count(); ++o) {
+        const Precise computed = polynomial(outputs.polynomial(o), monomials->count(), values);
+        ASSERT_LE(Precise(abs(y[at(o)] - computed)), Precise(outputs.radius(o))) << "output " << o;
+      }
     }
   }
 
@@ -458,7 +492,36 @@ TEST(FlowStep, HalvesOfABisectedSetHoldIt) {
       scene.fill(nominal, 0.3, 1e-3, points.integer(0, 3), round % 2 * 1e-16, round % 3 * 1e-15);
       scene.expectHalvesInside(points.integer(0, symbols - 1), 4);
       if (HasFatalFailure()) return;
+      // A remainder far greater than the polynomials: it is the frame's rounding that counts.
+      Scene loose(f, symbols, points.integer(2, 4), 2, 8, 1e-12, points);
+      loose.fill(std::vector<double>(nominal.size(), 0.0), 1e-20, 1e3, 1, 0, 0);
+      loose.expectHalvesInside(points.integer(0, symbols - 1), 4);
+      if (HasFatalFailure()) return;
     }
+}
+
+TEST(FlowStep, OutputsHoldThoseOfEveryMemberOfTheSet) {
+  Points points(15);
+  int steps = 0;
+  for (int round = 0; round < 60; ++round)
+    for (const auto& [f, nominal] : systems()) {
+      const int symbols = points.integer(0, 2), degree = symbols == 0 ? 0 : points.integer(1, 4);
+      Scene scene(f, symbols, degree, points.integer(0, 2), 12, 1e-12, points);
+      // From remainders so wide that g bends over them to such that only rounding is left; box, generators or both.
+      const double size = std::pow(10.0, -points.integer(1, 13));
+      const int kind = round % 3;
+      scene.fill(nominal, std::pow(10.0, -points.integer(2, 8)), kind == 0 ? 0 : size, kind == 1 ? 0 : 2, 0, 0, size);
+      if (scene.stepper.certify(scene.set, horizon, quantum, 0) != StepOutcome::stepped) continue;
+      ++steps;
+      const Program g = record(f.states(), 1, 3, [](auto t, const auto& x, const auto& p, auto& y) {
+        y[0] = 2.0 * x[0];
+        y[1] = sqr(x[0]) * x.back();
+        y[2] = sin(3.0 * x[0]) / (4.0 + sqr(x.back())) + t * p[0];
+      });
+      scene.expectOutputsInside(g, 6);
+      if (HasFatalFailure()) return;
+    }
+  EXPECT_GT(steps, 150);
 }
 
 TEST(FlowStep, SetsOfAnotherDegreeHoldWhatTheyWere) {

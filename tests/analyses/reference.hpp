@@ -58,10 +58,11 @@ class Reference {
     Precise size(0.0), h(1e300);
     for (int order = 0; order < 2 && size == 0; ++order)  // relative to the state, or to its rate where it is zero
       for (int s = 0; s < f_.states(); ++s) size = std::max(size, Precise(abs(series_.at(s, order))));
+    const Precise share = exp(log(Precise(1e-34)) / order_);
     for (int s = 0; s < f_.states(); ++s)
-      for (int i : {order_ - 1, order_}) {
-        const Precise last = abs(series_.at(s, i));
-        if (last > 0 && size > 0) h = std::min(h, Precise(exp(log(Precise(1e-34) * size / last) / i)));
+      for (int i = order_ / 2; i <= order_; ++i) {  // single orders may vanish
+        const Precise c = abs(series_.at(s, i));
+        if (c > 0 && size > 0) h = std::min(h, Precise(share * exp(log(size / c) / i)));
       }
     return h;
   }

@@ -39,6 +39,15 @@ TEST(Names, TheNearestIsFewestTyposAway) {
             "unknown quantity 'elbow.angel'; did you mean 'elbow.angle'?");
 }
 
+TEST(Names, TheNearestIsNoneThatIsFarAway) {
+  const std::vector<std::string> known = {"shoulder.angle", "tip"};
+  EXPECT_EQ(nearestName("top", known), "tip");
+  EXPECT_EQ(nearestName("mass", known), "");
+  EXPECT_EQ(nearestName("shuoldr.angel", known), "shoulder.angle");
+  EXPECT_EQ(nearestName("shlangle", known), "");
+  EXPECT_EQ(unknownName("quantity", "mass", known), "unknown quantity 'mass'");
+}
+
 TEST(Mechanism, NamesItsStatesPositionsFirst) {
   EXPECT_THAT(doublePendulum().stateNames(),
               ElementsAre("shoulder.angle", "elbow.angle", "shoulder.rate", "elbow.rate"));
@@ -67,6 +76,8 @@ TEST(Mechanism, KnowsTheUnitOfEveryQuantity) {
   EXPECT_EQ(arm.unitOf("slide.displacement"), "m");
   EXPECT_EQ(arm.unitOf("slide.rate"), "m/s");
   EXPECT_EQ(arm.unitOf("tether.damping"), "N s/m");
+  for (const char* quantity : {"tether.rest_length", "tether.from_point.x", "tether.to_point.z"})
+    EXPECT_EQ(arm.unitOf(quantity), "m") << quantity;
   EXPECT_EQ(arm.unitOf("hipSpring.stiffness"), "N m/rad");
   for (const std::string& quantity : arm.quantities()) EXPECT_NE(arm.unitOf(quantity), "") << quantity;
   for (const std::string& quantity : arm.outputQuantities()) EXPECT_NE(arm.unitOf(quantity), "") << quantity;

@@ -1,6 +1,7 @@
-// The verdict from stored numbers: what counts as outside, what is excused, what is missing, and what people are told.
+// The verdict from stored numbers: what counts as outside, what is in doubt, what is missing, and what people are told.
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -70,11 +71,23 @@ const Case cases[] = {
     {"AllInside", [](Results&) {}, "inside", 0},
     {"TouchingTheBoundIsInside", [](Results& r) { leave(r, 0); }, "inside", 0},
     {"ExcursionBeyondTheError", [](Results& r) { leave(r, 1e-6); }, "outside", 1},
-    {"ExcursionWithinTheError", [](Results& r) { leave(r, 0.5e-11); }, "inside", 0},
-    {"ExcursionWithoutMeasuredError",
+    {"ExcursionWithinTheError", [](Results& r) { leave(r, 0.5e-11); }, "outside", 1},
+    {"ExcursionByOneUlpAbove",
      [](Results& r) {
-       leave(r, 0.5e-11);
-       r.stochastic.error = {};
+       r.stochastic.envelope.upper(40, 1) =
+           std::nextafter(r.interval.at.upper(40, 1), std::numeric_limits<double>::infinity());
+     },
+     "outside", 1},
+    {"ExcursionByOneUlpBelow",
+     [](Results& r) {
+       r.stochastic.envelope.lower(40, 1) =
+           std::nextafter(r.interval.at.lower(40, 1), -std::numeric_limits<double>::infinity());
+     },
+     "outside", 1},
+    {"ExcursionFromAnAlphaCutByOneUlp",
+     [](Results& r) {
+       r.fuzzy.inner[2].upper(40, 1) =
+           std::nextafter(r.fuzzy.outer[2].upper(40, 1), std::numeric_limits<double>::infinity());
      },
      "outside", 1},
     {"ExcursionAtTheFirstTime", [](Results& r) { r.stochastic.envelope.lower(0, 0) -= 1; }, "outside", 1},
@@ -96,28 +109,29 @@ const Case cases[] = {
        dispute(r, 1e-6, "unresolved");
      },
      "unresolved", 1},
-    {"DisputedAndSettledInside",
+    {"DisputedAndSettledInside", [](Results& r) { dispute(r, 0, "tolerance 1e-12"); }, "inside", 0},
+    {"DisputedAndSettledInsideButStoredOutside",
      [](Results& r) {
        leave(r, 1e-6);
        dispute(r, 1e-6, "tolerance 1e-12");
      },
-     "inside", 0},
+     "outside", 1},
     {"DisputedAndInterrupted",
      [](Results& r) {
        leave(r, 1e-6);
        dispute(r, 1e-6, "interrupted");
      },
      "incomplete", 3},
-    {"SettledInsideDoesNotExcuseAFartherExcursion",
-     [](Results& r) {
-       leave(r, 1e-3);
-       dispute(r, 1e-6, "tolerance 1e-12");
-     },
-     "outside", 1},
-    {"SettledInsideDoesNotExcuseAnotherOutput",
+    {"AnUnresolvedSampleExcusesNoOtherOutput",
      [](Results& r) {
        r.stochastic.envelope.upper(40, 0) = r.interval.at.upper(40, 0) + 1e-6;
-       dispute(r, 1e-3, "tolerance 1e-12");
+       dispute(r, 1e-3, "unresolved");
+     },
+     "outside", 1},
+    {"AnInterruptedSampleExcusesNoOtherOutput",
+     [](Results& r) {
+       r.stochastic.envelope.upper(40, 0) = r.interval.at.upper(40, 0) + 1e-6;
+       dispute(r, 1e-3, "interrupted");
      },
      "outside", 1},
     {"EnclosureEndsEarly", [](Results& r) { r.interval.reached = 2.3; }, "incomplete", 3},

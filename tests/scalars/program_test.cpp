@@ -111,7 +111,6 @@ TEST(Program, DropsWhatNoOutputNeeds) {
   });
   EXPECT_EQ(program.operations(), 1);
   EXPECT_EQ(program.nodes().size(), 5u);  // x, p, t, 2, 2x: inputs are always there
-  EXPECT_FALSE(program.dependsOnTime());
 }
 
 TEST(Program, RewritesOnlyWhatIsExactOnRealNumbers) {
@@ -168,15 +167,6 @@ TEST(Program, LaysNodesOutAsEvaluatorsExpect) {
       }
     }
   }
-}
-
-TEST(Program, KnowsWhetherItDependsOnTime) {
-  const auto withTime = record(1, 0, [](auto t, const auto& x, const auto&, auto& dx) { dx[0] = x[0] * t; });
-  const auto timeItself = record(1, 0, [](auto t, const auto&, const auto&, auto& dx) { dx[0] = t; });
-  const auto autonomous = record(1, 0, [](auto t, const auto& x, const auto&, auto& dx) { dx[0] = x[0] + (t - t); });
-  EXPECT_TRUE(withTime.dependsOnTime());
-  EXPECT_TRUE(timeItself.dependsOnTime());
-  EXPECT_FALSE(autonomous.dependsOnTime());
 }
 
 TEST(Program, PrintsOneNodeALine) {

@@ -147,5 +147,24 @@ TEST(Driver, EnclosesKinematicsWithAnUncertainParameter) {
   }
 }
 
+TEST(Driver, MovesAnArmWithoutMassesInKinematics) {
+  std::string text = "[study]\ntitle = \"Arm\"\nanalysis = \"kinematics\"\ncompare = [\"interval\", \"stochastic\"]\n";
+  for (const char number : {'1', '2', '3'}) {
+    const std::string n(1, number),
+        base = number == '1' ? "inertial" : "K" + std::string(1, static_cast<char>(number - 1));
+    text += "[[mechanism.element]]\ntype = \"revolute\"\nname = \"joint" + n + "\"\nfrom = \"" + base + "\"\nto = \"J" +
+            n + "\"\naxis = \"x\"\ninitial = { angle = \"30 deg\" }\n" +
+            "[[mechanism.element]]\ntype = \"link\"\nname = \"arm" + n + "\"\nfrom = \"J" + n + "\"\nto = \"K" + n +
+            "\"\nvector = [0, 0, -1]\n";
+  }
+  text +=
+      "[[uncertain]]\nquantity = \"joint2.angle\"\ninterval = \"± 1 %\"\n[[output]]\nquantity = \"K3.position.z\"\n"
+      "[stochastic]\nsamples = 16\n";
+  const Results results = run(readStudyText(text, "s.toml"));
+  EXPECT_EQ(results.comparison.verdict, "inside");
+  EXPECT_LE(results.interval.at.lower(0, 0), -1.3660254);  // -(cos 30° + cos 60° + cos 90°)
+  EXPECT_GE(results.interval.at.upper(0, 0), -1.3660254);
+}
+
 }  // namespace
 }  // namespace gamut

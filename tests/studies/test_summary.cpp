@@ -3,8 +3,11 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <string>
 
+#include "scalars/interval.hpp"
 #include "studies/progress.hpp"
 #include "tests/studies/sample_results.hpp"
 
@@ -71,6 +74,28 @@ TEST(TextSummary, ShowsTheLastRowReachedRoundedOutward) {
   EXPECT_THAT(text, HasSubstr("tip height (m)"));
   EXPECT_THAT(text, HasSubstr("[1.000, 3.000]"));
   EXPECT_THAT(text, HasSubstr("4096 samples 1.50 s"));
+}
+
+/// Whether the decimals that the table shows for the first output lie outside these bounds, or on them, exactly.
+bool showsOutward(double lower, double upper) {
+  Results results = sampleResults();
+  results.interval.at.lower(1, 0) = lower;
+  results.interval.at.upper(1, 0) = upper;
+  const std::string text = textSummary(results);
+  const auto start = text.find('[', text.find("tip height")) + 1, comma = text.find(',', start);
+  const Interval below(text.substr(start, comma - start));  // between the doubles next to the decimal
+  const Interval above(text.substr(comma + 1, text.find(']', comma) - comma - 1));
+  return below.upper() <= lower && above.lower() >= upper;
+}
+
+TEST(TextSummary, RoundsEveryBoundOutward) {
+  EXPECT_TRUE(showsOutward(1.00006, 2.99994));
+  EXPECT_TRUE(showsOutward(1.0 / 3, 1.0 / 3));                         // more digits than the decimals shown
+  EXPECT_TRUE(showsOutward(2.0 / 3, std::nextafter(2.0 / 3, 1)));      // as wide as an ulp
+  EXPECT_TRUE(showsOutward(-2.0 / 3, -1.0 / 3 * (1 - 1e-14)));         // both below 0
+  EXPECT_TRUE(showsOutward(1e-20, 3e-20));                             // far below the last decimal
+  EXPECT_TRUE(showsOutward(123456789.0 / 7, 123456789.0 / 7 + 1e-7));  // scaled, no longer exact in doubles
+  EXPECT_TRUE(showsOutward(-1e300 / 3, 1e300 / 7));                    // beyond any scale
 }
 
 TEST(TextSummary, ShowsTheWidestAlphaCutOfAStudyWithoutEnclosure) {
