@@ -270,7 +270,7 @@ TEST_P(OfBareFunction, EveryNodeLiesWithinItsBounds) {
         y[0] = function(x[0]);
         y[1] = x[0] * function(p[0]) + function(t);
         y[2] = function(x[1]);
-        y[3] = x[0] + x[1];
+        y[3] = -function(x[0]);
         y[4] = -x[1] * p[0];
         y[5] = x[0] - p[0] * function(x[1]);
       });
