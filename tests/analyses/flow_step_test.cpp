@@ -385,26 +385,25 @@ TEST(FlowStep, HoldsEveryTrajectoryThatStartsInTheSet) {
   EXPECT_GT(steps, 80);
 }
 
-// Sets so wide, and equations so steep, that a bound of the derivatives along the polynomials alone would be far too
-// small.
+// Sets so wide, and equations so steep, that derivatives along the polynomials alone, which rest, say far too little.
 TEST(FlowStep, HoldsEveryTrajectoryOfWideRemaindersUnderSteepEquations) {
   const Program f = record(2, 0, [](auto, const auto& x, const auto&, auto& dx) {
-    dx[0] = sqr(sqr(x[0])) - x[1];
-    dx[1] = exp(2.0 * x[0]);
+    dx[0] = exp(6.0 * x[0]) - 1.0 + x[1];
+    dx[1] = -x[1] * cos(3.0 * x[0]);
   });
   Points points(12);
   int steps = 0;
-  for (int round = 0; round < 120; ++round) {
+  for (int round = 0; round < 60; ++round) {
     Scene scene(f, 0, 0, 0, points.integer(4, 10), std::pow(10.0, -points.integer(1, 5)), points);
     const double size = points.uniform(0.05, 0.4);
     const int kind = round % 3;  // all in W, all in R, in both
-    scene.fill({points.uniform(0.2, 0.9), 0.5}, 0, kind == 0 ? 0 : size, 0, kind == 1 ? 0 : size, 0);
+    scene.fill({0, 0}, 0, kind == 0 ? 0 : size, 0, kind == 1 ? 0 : size, 0);
     if (scene.stepper.certify(scene.set, horizon, quantum, 0) != StepOutcome::stepped) continue;
     ++steps;
     scene.expectTrajectoriesInside(5);
     if (HasFatalFailure()) return;
   }
-  EXPECT_GT(steps, 60);
+  EXPECT_GT(steps, 30);
 }
 
 TEST(FlowStep, UpdateHoldsTheSetAtItsEnd) {
