@@ -1,83 +1,15 @@
-// Elementary functions of intervals by MPFR, whose rounding mode is an argument and whose results are correctly
-// rounded: one evaluation rounded down, with its ternary value, gives both bounds of f at a point. Monotone functions
-// are taken at the endpoints; sin, cos and tan count the multiples of pi / 2 between the endpoints rigorously.
-#include <mpfr.h>
-
+// sin, cos, tan, exp, log and the inverse functions of intervals. Monotone functions are taken at the endpoints; sin,
+// cos and tan count the multiples of pi / 2 between the endpoints rigorously.
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "scalars/interval.hpp"
+#include "scalars/mpfr_bounds.hpp"
 
 namespace gamut {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-/// A thread's own MPFR number of fixed precision.
-class Number {
- public:
-  explicit Number(mpfr_prec_t precision) { mpfr_init2(value_, precision); }
-  ~Number() { mpfr_clear(value_); }
-  Number(const Number&) = delete;
-  Number& operator=(const Number&) = delete;
-  operator mpfr_ptr() { return value_; }
-
- private:
-  mpfr_t value_;
-};
-
-/// Frees MPFR's per-thread caches (of pi, log 2) when the thread ends; constructed before, so destroyed after Numbers.
-struct CacheOwner {
-  ~CacheOwner() { mpfr_free_cache(); }
-};
-
-struct Scratch {
-  CacheOwner caches;
-  Number argument{53}, exponent{53}, result{53}, second{53};
-};
-
-Scratch& scratch() {
-  thread_local Scratch numbers;
-  return numbers;
-}
-
-/// Bounds of one real value.
-struct Bounds {
-  double down, up;
-};
-
-/// From a 53-bit result rounded down and its ternary value: zero says exact, else the next number is an upper bound.
-/// The conversions round once more, in the same direction, only where doubles are subnormal or overflow.
-Bounds boundsOf(mpfr_ptr result, int ternary) {
-  Bounds bounds;
-  bounds.down = mpfr_get_d(result, MPFR_RNDD);
-  if (ternary != 0) mpfr_nextabove(result);
-  bounds.up = mpfr_get_d(result, MPFR_RNDU);
-  return bounds;
-}
-
-using Function = int (*)(mpfr_ptr, mpfr_srcptr, mpfr_rnd_t);
-
-Bounds evaluate(Function function, double x) {
-  Scratch& s = scratch();
-  mpfr_set_d(s.argument, x, MPFR_RNDN);  // exact
-  return boundsOf(s.result, function(s.result, s.argument, MPFR_RNDD));
-}
-
-Interval increasing(Function function, const Interval& x) {
-  if (isEmpty(x)) return x;
-  const Bounds low = evaluate(function, x.lower());
-  const Bounds high = isThin(x) ? low : evaluate(function, x.upper());
-  return {low.down, high.up};
-}
-
-Interval decreasing(Function function, const Interval& x) {
-  if (isEmpty(x)) return x;
-  const Bounds high = evaluate(function, x.lower());
-  const Bounds low = isThin(x) ? high : evaluate(function, x.upper());
-  return {low.down, high.up};
-}
+using detail::Bounds, detail::decreasing, detail::evaluate, detail::increasing, detail::Number;
 
 // ---- Where the extrema are ------------------------------------------------------------------------------------------
 
@@ -145,8 +77,6 @@ Interval range(const Bounds& a, const Bounds& b, bool maximum, bool minimum) {
 
 Interval exp(const Interval& x) { return increasing(mpfr_exp, x); }
 Interval atan(const Interval& x) { return increasing(mpfr_atan, x); }
-Interval sinh(const Interval& x) { return increasing(mpfr_sinh, x); }
-Interval tanh(const Interval& x) { return increasing(mpfr_tanh, x); }
 
 Interval log(const Interval& x) {
   if (!(x.upper() > 0)) return Interval::empty();
@@ -155,8 +85,6 @@ Interval log(const Interval& x) {
 
 Interval asin(const Interval& x) { return increasing(mpfr_asin, intersection(x, {-1, 1})); }
 Interval acos(const Interval& x) { return decreasing(mpfr_acos, intersection(x, {-1, 1})); }
-
-Interval cosh(const Interval& x) { return increasing(mpfr_cosh, abs(x)); }
 
 Interval sin(const Interval& x) {
   if (isEmpty(x)) return x;
@@ -178,10 +106,7 @@ Interval cos(const Interval& x) {
 
 SinCos sinCos(const Interval& x) {
   if (!isThin(x)) return {sin(x), cos(x)};
-  Scratch& s = scratch();
-  mpfr_set_d(s.argument, x.lower(), MPFR_RNDN);
-  const int ternary = mpfr_sin_cos(s.result, s.second, s.argument, MPFR_RNDD);
-  const Bounds sine = boundsOf(s.result, ternary & 3), cosine = boundsOf(s.second, ternary >> 2);
+  const auto [sine, cosine] = detail::evaluateSinCos(x.lower());
   return {{sine.down, sine.up}, {cosine.down, cosine.up}};
 }
 
@@ -190,60 +115,6 @@ Interval tan(const Interval& x) {
   const Multiples found = multiplesOfHalfPi(x);
   if (found.any[1] || found.any[3]) return Interval::entire();
   return increasing(mpfr_tan, x);
-}
-
-namespace {
-
-Bounds power(double x, int n) {
-  Scratch& s = scratch();
-  mpfr_set_d(s.argument, x, MPFR_RNDN);
-  return boundsOf(s.result, mpfr_pow_si(s.result, s.argument, n, MPFR_RNDD));
-}
-
-Bounds power(double x, double y) {
-  Scratch& s = scratch();
-  mpfr_set_d(s.argument, x, MPFR_RNDN);
-  mpfr_set_d(s.exponent, y, MPFR_RNDN);
-  return boundsOf(s.result, mpfr_pow(s.result, s.argument, s.exponent, MPFR_RNDD));
-}
-
-/// x^n for n < 0: 1 / x^|n|, undefined at zero.
-Interval negativePower(const Interval& x, int n) {
-  if (x.lower() == 0 && x.upper() == 0) return Interval::empty();
-  if (n % 2 == 0) {
-    const Interval size = abs(x);
-    return {power(size.upper(), n).down, size.lower() == 0 ? infinity : power(size.lower(), n).up};
-  }
-  if (x.lower() < 0 && x.upper() > 0) return Interval::entire();
-  return {x.upper() == 0 ? -infinity : power(x.upper(), n).down, x.lower() == 0 ? infinity : power(x.lower(), n).up};
-}
-
-}  // namespace
-
-Interval pow(const Interval& x, int n) {
-  if (isEmpty(x)) return x;
-  if (n == 0) return 1;
-  if (n == 1) return x;
-  if (n == 2) return sqr(x);
-  if (n < 0) return negativePower(x, n);
-  const Interval base = n % 2 == 0 ? abs(x) : x;
-  return {power(base.lower(), n).down, power(base.upper(), n).up};
-}
-
-/// Monotone in x for fixed y and in y for fixed x, so the extremes over a rectangle are at its corners.
-Interval pow(const Interval& x, const Interval& y) {
-  if (isEmpty(x) || isEmpty(y) || !(x.upper() >= 0)) return Interval::empty();
-  if (x.upper() == 0) return y.upper() > 0 ? Interval(0) : Interval::empty();
-  const double base[] = {std::max(x.lower(), 0.0) + 0.0, x.upper()};  // + 0.0: (-0)^y must not be negative
-  double lower = infinity, upper = 0;
-  for (const double b : base) {
-    for (const double exponent : {y.lower(), y.upper()}) {
-      const Bounds corner = power(b, exponent);
-      lower = std::min(lower, corner.down);
-      upper = std::max(upper, corner.up);
-    }
-  }
-  return {lower, upper};
 }
 
 }  // namespace gamut
