@@ -469,6 +469,54 @@ TEST(FlowStep, TheRemainderLeavesItsChordByNoMoreThanTheBulge) {
   }
 }
 
+// A chain at rest in which each state feels the next one only once that has moved: every attempt at a tube reaches one
+// link further, so that a step must be refused although the tubes of the links before it hold.
+TEST(FlowStep, RefusesAStepWhoseTubeIsNotProved) {
+  constexpr int links = 6;
+  const Program f = record(links, 0, [](auto, const auto& x, const auto&, auto& dx) {
+    for (std::size_t i = 0; i + 1 < links; ++i) dx[i] = 0.5 * sqr(x[i + 1]);
+    dx[links - 1] = 0.0;
+  });
+  Points points(16);
+  for (int round = 0; round < 4; ++round) {
+    Scene scene(f, 0, 0, 0, 8, 1e-6, points);
+    scene.fill(std::vector<double>(links, 0.0), 0, 1e-30, 0, 0, 0);
+    for (int i = 0; i < links; ++i)
+      for (int j = 0; j < links; ++j) scene.set.C[at(i * links + j)] = i == j ? 1.0 : 0.0;
+    scene.set.R.back() = 1.5;
+    ASSERT_EQ(scene.stepper.certify(scene.set, 1, quantum, 0), StepOutcome::stepped);
+    scene.expectTrajectoriesInside(8);
+    if (HasFatalFailure()) return;
+  }
+}
+
+// One column of the frame turns with ξ so much that it is made constant, the other keeps its ξ-dependence: the first
+// column's loss, in the box, is then turned by the second.
+TEST(FlowStep, UpdateTurnsWhatAConstantColumnLoses) {
+  const Program f = record(2, 0, [](auto, const auto& x, const auto&, auto& dx) {
+    dx[0] = 0.1 * x[1];
+    dx[1] = -0.1 * sin(x[0]);
+  });
+  Points points(17);
+  for (int round = 0; round < 20; ++round) {
+    Scene scene(f, 1, 2, 1, 10, 1e-12, points);
+    scene.fill({0.5, 0.5}, 1e-3, 1e-4, 0, 0, 0);
+    // C = I + ξ C_1: [row][column], the first column above the limit of 0.2, the second below.
+    scene.set.C = {1,
+                   0,
+                   0,
+                   1,
+                   points.uniform(0.3, 0.6),
+                   points.uniform(-0.1, 0.1),
+                   points.uniform(0.3, 0.6),
+                   points.uniform(0.1, 0.15) * (round % 2 == 0 ? 1 : -1)};
+    scene.set.R = {1e-4, 1e-5};
+    ASSERT_EQ(scene.stepper.certify(scene.set, 0x1p-6, quantum, 0), StepOutcome::stepped);
+    scene.expectUpdateInside(30);
+    if (HasFatalFailure()) return;
+  }
+}
+
 TEST(FlowStep, UpdateHoldsTheSetWhenOldGeneratorsMerge) {
   Points points(7);
   const auto [f, nominal] = systems()[0];
