@@ -89,6 +89,24 @@ TEST(Rounding, SquareRootIsTheNeighbourOfTheExactRoot) {
   }
 }
 
+TEST(Rounding, NearestSumIsTheNearestDoubleAndEvenWhereTwoAreAsNear) {
+  RandomDoubles random;
+  for (int i = 0; i < cases; ++i) {
+    const double a = random.any(), b = random.any(), tie = std::ldexp(a, -random.integer(52, 54));
+    const double c = std::ldexp(random.uniform(-1, 1), random.integer(-60, 60));
+    for (const auto& [x, y] : {std::pair(a, b), {a, tie}, {a, -tie}, {1, c}, {c, -nextUp(c)}, {a, std::abs(tie)}}) {
+      ASSERT_EQ(addNearest(x, y), x + y) << x << " and " << y;
+      ASSERT_EQ(addNearest(y, x), x + y) << x << " and " << y;
+    }
+  }
+  const double halfOfLastBit = 0x1p970;
+  EXPECT_EQ(addNearest(largest, halfOfLastBit), infinity);
+  EXPECT_EQ(addNearest(largest, nextDown(halfOfLastBit)), largest);
+  EXPECT_EQ(addNearest(-largest, -largest), -infinity);
+  EXPECT_EQ(addNearest(infinity, -largest), infinity);
+  EXPECT_TRUE(std::isnan(addNearest(infinity, -infinity)));
+}
+
 TEST(Rounding, NeighboursAreThoseOfTheStandardLibrary) {
   RandomDoubles random;
   for (int i = 0; i < cases; ++i) {
