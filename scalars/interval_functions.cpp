@@ -1,120 +1,103 @@
-// sin, cos, tan, exp, log and the inverse functions of intervals. Monotone functions are taken at the endpoints; sin,
-// cos and tan count the multiples of pi / 2 between the endpoints rigorously.
+// sin, cos, tan, exp, log and the inverse functions of intervals, from their bounds at doubles (elementary.hpp).
+// Monotone functions are taken at the endpoints; sin, cos and tan count the multiples of pi / 2 between them
+// rigorously. No rounding of the processor's enters but one subtraction, whose direction does not matter.
 #include <algorithm>
-#include <cmath>
 
+#include "scalars/elementary.hpp"
 #include "scalars/interval.hpp"
-#include "scalars/mpfr_bounds.hpp"
 
 namespace gamut {
 namespace {
 
-using detail::Bounds, detail::decreasing, detail::evaluate, detail::increasing, detail::Number;
+using detail::Bounds, detail::SinCosTurn, detail::TanTurn;
 
-// ---- Where the extrema are ------------------------------------------------------------------------------------------
-
-/// floor(2 x / pi) modulo 8 in 1280 bits: the integer part has at most 1024, and since no double but 0 comes closer to
-/// a multiple of pi / 2 than 2^-62 relative to it, the rest decides the floor. -1 where it did not (it never does not).
-int quadrantByMpfr(double x) {
-  constexpr mpfr_prec_t precision = 1280;
-  thread_local Number pi(precision + 64), low(precision), high(precision);
-  thread_local bool piKnown = false;
-  if (!piKnown) {
-    mpfr_const_pi(pi, MPFR_RNDN);  // error below 2^-1340, less than a last bit of the quotient
-    piKnown = true;
-  }
-  mpfr_set_d(low, x, MPFR_RNDN);
-  mpfr_mul_2ui(low, low, 1, MPFR_RNDN);
-  mpfr_div(low, low, pi, MPFR_RNDD);
-  mpfr_nextbelow(low);  // covers pi's error
-  mpfr_set(high, low, MPFR_RNDN);
-  for (int step = 0; step < 3; ++step) mpfr_nextabove(high);
-  mpfr_floor(low, low);
-  mpfr_floor(high, high);
-  if (!mpfr_equal_p(low, high)) return -1;
-  thread_local Number eight(8);
-  mpfr_set_ui(eight, 8, MPFR_RNDN);
-  mpfr_fmod(low, low, eight, MPFR_RNDN);  // exact; carries the sign of x
-  return static_cast<int>(mpfr_get_si(low, MPFR_RNDN)) & 7;
+template <Bounds bounds(double)>
+Interval increasing(const Interval& x) {
+  const Bounds low = bounds(x.lower()), high = isThin(x) ? low : bounds(x.upper());
+  return {low.down, high.up};
 }
 
-/// floor(2 x / pi) modulo 8, or -1 if undecided. x * fl(2 / pi) in doubles has a relative error below 2^-51
-/// (two roundings of 2^-53 each), so its floor is right unless an integer lies so close.
-int quadrant(double x) {
-  const double quotient = x * 0x1.45f306dc9c883p-1;
-  const double error = std::abs(quotient) * 0x1p-51;
-  if (std::abs(x) < 0x1p40 && std::abs(x) > 0x1p-900) {
-    const double floor = std::floor(quotient);
-    if (quotient - floor > error && (floor + 1) - quotient > error)
-      return static_cast<int>(static_cast<long long>(floor) & 7);
-  }
-  if (x == 0) return 0;
-  return quadrantByMpfr(x);
+template <Bounds bounds(double)>
+Interval decreasing(const Interval& x) {
+  const Bounds high = bounds(x.lower()), low = isThin(x) ? high : bounds(x.upper());
+  return {low.down, high.up};
 }
 
-/// Which residues m modulo 4 occur among the multiples m pi / 2 in (lower, upper].
-struct Multiples {
-  bool any[4] = {false, false, false, false};
+/// The multiples m pi / 2 in (lower, upper], from floor(2 x / pi) modulo 8 of the endpoints: they are the m from the
+/// first floor plus one to the last, and their number is known modulo 8.
+class Multiples {
+ public:
+  /// For endpoints less than 10.9 < 7 pi / 2 apart, so at most 7 multiples; -1 stands for unknown, then none is ruled
+  /// out.
+  Multiples(int first, int last) : first_(first), number_(first < 0 || last < 0 ? 8 : (last - first) & 7) {}
+  /// Whether some m with m modulo 4 = residue is among them.
+  bool have(int residue) const { return ((residue - first_ - 1) & 3) < number_; }
+
+ private:
+  int first_, number_;
 };
 
-Multiples multiplesOfHalfPi(const Interval& x) {
-  constexpr Multiples all{{true, true, true, true}};
-  if (!isBounded(x) || !(width(x) < 6.28)) return all;  // 6.28 < 2 pi: below it the floors differ by at most 4
-  if (isThin(x)) return {};                             // no double but 0 is a multiple, and 0's value is exact anyway
-  const int first = quadrant(x.lower()), last = quadrant(x.upper());
-  if (first < 0 || last < 0) return all;
-  Multiples found;
-  for (int m = first; m != last; m = (m + 1) & 7) found.any[(m + 1) & 3] = true;
-  return found;
-}
+/// Whether x is too wide to miss any value of sin, cos and tan (2 pi < 10), or unbounded. In any rounding mode the
+/// difference errs by less than 2^-50 of it, so what passes is less than 10.9 wide.
+bool isWholeTurn(const Interval& x) { return !(x.upper() - x.lower() < 10); }
 
 /// The range of sin or cos, from its values at the endpoints and whether a maximum or minimum lies between.
 Interval range(const Bounds& a, const Bounds& b, bool maximum, bool minimum) {
   return {minimum ? -1.0 : std::min(a.down, b.down), maximum ? 1.0 : std::max(a.up, b.up)};
 }
 
+/// sin and cos of an x that is not thin: sin has maxima at m = 1 and minima at m = 3 modulo 4, cos at 0 and 2. They do
+/// not coincide with a double, but for cos 0 = 1: its value at the endpoint says so.
+SinCos sinCosBetween(const Interval& x) {
+  if (isWholeTurn(x)) return {{-1, 1}, {-1, 1}};
+  const SinCosTurn a = detail::sinCosTurn(x.lower()), b = detail::sinCosTurn(x.upper());
+  const Multiples multiples(a.quadrant, b.quadrant);
+  return {range(a.value.sin, b.value.sin, multiples.have(1), multiples.have(3)),
+          range(a.value.cos, b.value.cos, multiples.have(0), multiples.have(2))};
+}
+
 }  // namespace
 
-Interval exp(const Interval& x) { return increasing(mpfr_exp, x); }
-Interval atan(const Interval& x) { return increasing(mpfr_atan, x); }
+Interval exp(const Interval& x) { return isEmpty(x) ? x : increasing<detail::expBounds>(x); }
+Interval atan(const Interval& x) { return isEmpty(x) ? x : increasing<detail::atanBounds>(x); }
 
 Interval log(const Interval& x) {
   if (!(x.upper() > 0)) return Interval::empty();
-  return increasing(mpfr_log, {std::max(x.lower(), 0.0), x.upper()});
+  return increasing<detail::logBounds>({std::max(x.lower(), 0.0), x.upper()});
 }
 
-Interval asin(const Interval& x) { return increasing(mpfr_asin, intersection(x, {-1, 1})); }
-Interval acos(const Interval& x) { return decreasing(mpfr_acos, intersection(x, {-1, 1})); }
-
-Interval sin(const Interval& x) {
-  if (isEmpty(x)) return x;
-  const Multiples found = multiplesOfHalfPi(x);
-  const bool maximum = found.any[1], minimum = found.any[3];
-  if (maximum && minimum) return {-1, 1};
-  const Bounds a = evaluate(mpfr_sin, x.lower()), b = isThin(x) ? a : evaluate(mpfr_sin, x.upper());
-  return range(a, b, maximum, minimum);
+Interval asin(const Interval& x) {
+  const Interval domain = intersection(x, {-1, 1});
+  return isEmpty(domain) ? domain : increasing<detail::asinBounds>(domain);
 }
 
-Interval cos(const Interval& x) {
-  if (isEmpty(x)) return x;
-  const Multiples found = multiplesOfHalfPi(x);
-  const bool maximum = found.any[0], minimum = found.any[2];
-  if (maximum && minimum) return {-1, 1};
-  const Bounds a = evaluate(mpfr_cos, x.lower()), b = isThin(x) ? a : evaluate(mpfr_cos, x.upper());
-  return range(a, b, maximum, minimum);
+Interval acos(const Interval& x) {
+  const Interval domain = intersection(x, {-1, 1});
+  return isEmpty(domain) ? domain : decreasing<detail::acosBounds>(domain);
 }
 
 SinCos sinCos(const Interval& x) {
-  if (!isThin(x)) return {sin(x), cos(x)};
-  const auto [sine, cosine] = detail::evaluateSinCos(x.lower());
+  if (isEmpty(x)) return {x, x};
+  if (!isThin(x)) return sinCosBetween(x);
+  const auto [sine, cosine] = detail::sinCosBounds(x.lower());
   return {{sine.down, sine.up}, {cosine.down, cosine.up}};
 }
 
+Interval sin(const Interval& x) { return sinCos(x).sin; }
+Interval cos(const Interval& x) { return sinCos(x).cos; }
+
+/// Increasing between its poles, the odd multiples of pi / 2, which are no doubles.
 Interval tan(const Interval& x) {
   if (isEmpty(x)) return x;
-  const Multiples found = multiplesOfHalfPi(x);
-  if (found.any[1] || found.any[3]) return Interval::entire();
-  return increasing(mpfr_tan, x);
+  if (isThin(x)) {
+    const Bounds value = detail::tanBounds(x.lower());
+    return {value.down, value.up};
+  }
+  if (isWholeTurn(x)) return Interval::entire();
+  const TanTurn a = detail::tanTurn(x.lower()), b = detail::tanTurn(x.upper());
+  const Multiples multiples(a.quadrant, b.quadrant);
+  if (multiples.have(1) || multiples.have(3)) return Interval::entire();
+  return {a.value.down, b.value.up};
 }
 
 }  // namespace gamut
