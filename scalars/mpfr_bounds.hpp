@@ -22,7 +22,21 @@ class Number {
   mpfr_t value_;
 };
 
-/// The greatest double below and the least above one real value.
+/// MPFR's exponent range belongs to the thread, and a caller may have narrowed it below what doubles need. While an
+/// object of this kind lives it is wide; afterwards it is the caller's again.
+class WideExponents {
+ public:
+  WideExponents();
+  ~WideExponents();
+  WideExponents(const WideExponents&) = delete;
+  WideExponents& operator=(const WideExponents&) = delete;
+
+ private:
+  bool isNarrow() const { return least_ > -2000 || greatest_ < 2000; }
+  const mpfr_exp_t least_, greatest_;
+};
+
+/// The greatest double that is not above one real value and the least that is not below it.
 struct Bounds {
   double down, up;
 };
@@ -30,10 +44,11 @@ struct Bounds {
 using MpfrFunction = int (*)(mpfr_ptr, mpfr_srcptr, mpfr_rnd_t);
 using MpfrFunction2 = int (*)(mpfr_ptr, mpfr_srcptr, mpfr_srcptr, mpfr_rnd_t);
 
-/// Bounds of f(x), f(x, y) and x^n.
+/// Bounds of f(x), f(x, y), x^n and the n-th root of x. Infinite arguments are limits; an undefined value gives NaN.
 Bounds evaluate(MpfrFunction f, double x);
 Bounds evaluate(MpfrFunction2 f, double x, double y);
 Bounds evaluatePower(double x, long n);
+Bounds evaluateRoot(double x, unsigned long n);
 
 struct SinCosBounds {
   Bounds sin, cos;

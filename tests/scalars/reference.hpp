@@ -52,6 +52,8 @@ inline double rounded(OfTwo f, double x, double y, mpfr_rnd_t direction) {
 
 class RandomDoubles {
  public:
+  explicit RandomDoubles(std::uint64_t seed = 20240607) : engine_(seed) {}
+
   double uniform(double lower, double upper) { return std::uniform_real_distribution<>(lower, upper)(engine_); }
   int integer(int lower, int upper) { return std::uniform_int_distribution<>(lower, upper)(engine_); }
 
@@ -100,7 +102,7 @@ class RandomDoubles {
   }
 
  private:
-  std::mt19937_64 engine_{20240607};
+  std::mt19937_64 engine_;
 };
 
 /// Exact: the interval equals [lower, upper].
