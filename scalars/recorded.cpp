@@ -1,23 +1,61 @@
-// The functions of Recorded that need more than one line.
+// The functions of Recorded that are composed of operations. Each formula is an identity of real numbers on the domain
+// that the header names; variables occur as seldom as possible, so that ranges stay tight.
 #include "scalars/recorded.hpp"
 
 #include <cmath>
 
 namespace gamut {
 
-Recorded acos(const Recorded& a) { return Recorded(0.5 * pi()) - asin(a); }
+Recorded tan(const Recorded& x) { return sin(x) / cos(x); }
 
-Recorded pow(const Recorded& a, int exponent) {
-  if (exponent < 0) return 1.0 / pow(a, -exponent);
+// With x = sin φ, |φ| <= π/2: sin φ/(1 + cos φ) = tan(φ/2).
+Recorded asin(const Recorded& x) { return 2.0 * atan(x / (1.0 + sqrt(1.0 - sqr(x)))); }
+
+// π/2 - asin x, with π/4 = atan 1.
+Recorded acos(const Recorded& x) { return 2.0 * (atan(Recorded(1.0)) - atan(x / (1.0 + sqrt(1.0 - sqr(x))))); }
+
+// With x = r cos φ, y = r sin φ: sin φ/(1 + cos φ) = tan(φ/2).
+Recorded atan2(const Recorded& y, const Recorded& x) { return 2.0 * atan(y / (x + hypot(x, y))); }
+
+Recorded sinh(const Recorded& x) { return 0.5 * (exp(x) - exp(-x)); }
+Recorded cosh(const Recorded& x) { return 0.5 * (exp(x) + exp(-x)); }
+Recorded tanh(const Recorded& x) { return 1.0 - 2.0 / (exp(2.0 * x) + 1.0); }
+
+Recorded asinh(const Recorded& x) { return log(x + sqrt(sqr(x) + 1.0)); }
+Recorded acosh(const Recorded& x) { return log(x + sqrt(sqr(x) - 1.0)); }
+Recorded atanh(const Recorded& x) { return 0.5 * log((1.0 + x) / (1.0 - x)); }
+
+Recorded exp2(const Recorded& x) { return exp(x * log(Recorded(2.0))); }
+Recorded exp10(const Recorded& x) { return exp(x * log(Recorded(10.0))); }
+Recorded expm1(const Recorded& x) { return exp(x) - 1.0; }
+Recorded log2(const Recorded& x) { return log(x) / log(Recorded(2.0)); }
+Recorded log10(const Recorded& x) { return log(x) / log(Recorded(10.0)); }
+Recorded log1p(const Recorded& x) { return log(1.0 + x); }
+Recorded cbrt(const Recorded& x) { return rootn(x, 3); }
+
+Recorded rootn(const Recorded& x, int n) {
+  if (n == 0) throw std::domain_error("there is no zeroth root");
+  return exp(log(x) / Recorded(static_cast<double>(n)));
+}
+
+Recorded abs(const Recorded& x) { return sqrt(sqr(x)); }
+Recorded min(const Recorded& x, const Recorded& y) { return 0.5 * (x + y - abs(x - y)); }
+Recorded max(const Recorded& x, const Recorded& y) { return 0.5 * (x + y + abs(x - y)); }
+Recorded hypot(const Recorded& x, const Recorded& y) { return sqrt(sqr(x) + sqr(y)); }
+
+Recorded pow(const Recorded& x, int exponent) {
+  if (exponent < 0) return 1.0 / pow(x, -exponent);
   if (exponent == 0) return 1.0;
-  if (exponent == 1) return a;
-  const Recorded half = pow(a, exponent / 2);
-  return exponent % 2 == 0 ? sqr(half) : sqr(half) * a;
+  if (exponent == 1) return x;
+  const Recorded half = pow(x, exponent / 2);
+  return exponent % 2 == 0 ? sqr(half) : sqr(half) * x;
 }
 
-Recorded pow(const Recorded& a, double exponent) {
-  if (exponent == std::trunc(exponent) && std::fabs(exponent) < 1024) return pow(a, static_cast<int>(exponent));
-  return pow(a, Recorded(exponent));
+Recorded pow(const Recorded& x, double exponent) {
+  if (exponent == std::trunc(exponent) && std::fabs(exponent) < 1024) return pow(x, static_cast<int>(exponent));
+  return pow(x, Recorded(exponent));
 }
+
+Recorded pow(const Recorded& x, const Recorded& y) { return exp(y * log(x)); }
 
 }  // namespace gamut

@@ -1,22 +1,28 @@
 // Recorded is a scalar that writes down what is done with it: code that is generic over its scalar, run once with
-// Recorded, becomes a Program. Example (a pendulum, one state pair, length as parameter):
+// Recorded, becomes a Program. A function of two variables, and the right-hand side of a pendulum (one state pair,
+// length as parameter):
 //
-//     Program f = record(2, 1, [](auto, const auto& x, const auto& p, auto& dx) {
+//     Program f = record<2>([](const auto& x) { return x[0] * sin(x[1]); });
+//     Program g = record(2, 1, [](auto, const auto& x, const auto& p, auto& dx) {
 //       dx[0] = x[1];
 //       dx[1] = -9.81 / p[0] * sin(x[0]);
 //     });
 //
 // A plain number such as 9.81 is the double nearest to it; write `constant<Recorded>(Interval("9.81"))` for the
-// decimal.
+// decimal. docs/recording.md is the user's guide.
 #pragma once
 
+#include <array>
 #include <stdexcept>
+#include <tuple>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "scalars/index.hpp"
 #include "scalars/interval.hpp"
 #include "scalars/program.hpp"
+#include "scalars/recorder.hpp"
 #include "scalars/traits.hpp"
 
 namespace gamut {
@@ -39,11 +45,12 @@ class Recorded {
   /// The number of this value's node in the current recorder; a constant gets one.
   int node() const { return node_ >= 0 ? node_ : recorder().constant(constant_); }
 
-  friend Recorded operator+(const Recorded& a, const Recorded& b) { return node(recorder().add(a.node(), b.node())); }
-  friend Recorded operator-(const Recorded& a, const Recorded& b) { return node(recorder().sub(a.node(), b.node())); }
-  friend Recorded operator*(const Recorded& a, const Recorded& b) { return node(recorder().mul(a.node(), b.node())); }
+  friend Recorded operator+(const Recorded& a, const Recorded& b) { return of<&Recorder::add>(a, b); }
+  friend Recorded operator-(const Recorded& a, const Recorded& b) { return of<&Recorder::sub>(a, b); }
+  friend Recorded operator*(const Recorded& a, const Recorded& b) { return of<&Recorder::mul>(a, b); }
   friend Recorded operator/(const Recorded& a, const Recorded& b) {
-    return node(recorder().mul(a.node(), recorder().recip(b.node())));
+    const int inverse = recorder().recip(b.node());
+    return node(recorder().mul(a.node(), inverse));
   }
   friend Recorded operator-(const Recorded& a) { return node(recorder().neg(a.node())); }
   friend Recorded operator+(const Recorded& a) { return a; }
@@ -52,6 +59,7 @@ class Recorded {
   Recorded& operator*=(const Recorded& b) { return *this = *this * b; }
   Recorded& operator/=(const Recorded& b) { return *this = *this / b; }
 
+  // What a Program has an operation for.
   friend Recorded sqr(const Recorded& a) { return node(recorder().sqr(a.node())); }
   friend Recorded sqrt(const Recorded& a) { return node(recorder().sqrt(a.node())); }
   friend Recorded exp(const Recorded& a) { return node(recorder().exp(a.node())); }
@@ -59,32 +67,81 @@ class Recorded {
   friend Recorded sin(const Recorded& a) { return node(recorder().sin(a.node())); }
   friend Recorded cos(const Recorded& a) { return node(recorder().cos(a.node())); }
   friend Recorded atan(const Recorded& a) { return node(recorder().atan(a.node())); }
-  friend Recorded tan(const Recorded& a) { return sin(a) / cos(a); }
-  /// asin x = atan(x / √(1-x²)), for |x| < 1.
-  friend Recorded asin(const Recorded& a) { return atan(a / sqrt(Recorded(1.0) - sqr(a))); }
-  friend Recorded acos(const Recorded& a);
-  friend Recorded sinh(const Recorded& a) { return 0.5 * (exp(a) - exp(-a)); }
-  friend Recorded cosh(const Recorded& a) { return 0.5 * (exp(a) + exp(-a)); }
-  /// tanh x = 1 - 2/(e^{2x}+1).
-  friend Recorded tanh(const Recorded& a) { return 1.0 - 2.0 / (exp(2.0 * a) + 1.0); }
-  friend Recorded pow(const Recorded& a, int exponent);
-  /// A whole exponent as repeated multiplication; any other as e^{b log a}, for positive a.
-  friend Recorded pow(const Recorded& a, double exponent);
-  friend Recorded pow(const Recorded& a, const Recorded& b) { return exp(b * log(a)); }
+
+  // What is composed of these, by formulas that hold exactly on the domains given: at the boundary of a domain that is
+  // written open, and at a pole, evaluation divides by zero. log 2, log 10 and atan 1 are recorded as such, not as
+  // doubles.
+
+  /// sin x / cos x, for cos x ≠ 0.
+  friend Recorded tan(const Recorded& x);
+  /// 2·atan(x / (1 + √(1-x²))), for |x| <= 1 (differentiable for |x| < 1).
+  friend Recorded asin(const Recorded& x);
+  /// 2·(atan 1 - atan(x / (1 + √(1-x²)))), for |x| <= 1 (differentiable for |x| < 1).
+  friend Recorded acos(const Recorded& x);
+  /// 2·atan(y / (x + √(x²+y²))), everywhere but for y = 0 with x <= 0: the angle in (-π, π).
+  friend Recorded atan2(const Recorded& y, const Recorded& x);
+  /// ½(eˣ - e⁻ˣ).
+  friend Recorded sinh(const Recorded& x);
+  /// ½(eˣ + e⁻ˣ).
+  friend Recorded cosh(const Recorded& x);
+  /// 1 - 2/(e²ˣ + 1).
+  friend Recorded tanh(const Recorded& x);
+  /// log(x + √(x²+1)), for all x; in doubles digits are lost where x is large and negative.
+  friend Recorded asinh(const Recorded& x);
+  /// log(x + √(x²-1)), for x >= 1 (differentiable for x > 1).
+  friend Recorded acosh(const Recorded& x);
+  /// ½ log((1+x)/(1-x)), for |x| < 1.
+  friend Recorded atanh(const Recorded& x);
+  /// e^{x log 2}.
+  friend Recorded exp2(const Recorded& x);
+  /// e^{x log 10}.
+  friend Recorded exp10(const Recorded& x);
+  /// eˣ - 1; in doubles digits are lost near x = 0.
+  friend Recorded expm1(const Recorded& x);
+  /// log x / log 2, for x > 0.
+  friend Recorded log2(const Recorded& x);
+  /// log x / log 10, for x > 0.
+  friend Recorded log10(const Recorded& x);
+  /// log(1+x), for x > -1; in doubles digits are lost near x = 0.
+  friend Recorded log1p(const Recorded& x);
+  /// e^{⅓ log x}, for x > 0.
+  friend Recorded cbrt(const Recorded& x);
+  /// e^{(log x)/n}, for x > 0 and n ≠ 0.
+  friend Recorded rootn(const Recorded& x, int n);
+  /// √(x²), for all x (differentiable for x ≠ 0).
+  friend Recorded abs(const Recorded& x);
+  /// ½(x + y - |x - y|) and ½(x + y + |x - y|) (differentiable for x ≠ y).
+  friend Recorded min(const Recorded& x, const Recorded& y);
+  friend Recorded max(const Recorded& x, const Recorded& y);
+  /// √(x²+y²) (differentiable except where both are 0).
+  friend Recorded hypot(const Recorded& x, const Recorded& y);
+  /// Repeated multiplication; for a negative exponent its reciprocal, for x ≠ 0.
+  friend Recorded pow(const Recorded& x, int exponent);
+  /// A whole exponent below 1024 as repeated multiplication; any other as e^{exponent·log x}, for x > 0.
+  friend Recorded pow(const Recorded& x, double exponent);
+  /// e^{y log x}, for x > 0.
+  friend Recorded pow(const Recorded& x, const Recorded& y);
 
  private:
   static Recorder& recorder() {
     if (Recorder* current = Recorder::current()) return *current;
     throw std::logic_error("arithmetic on Recorded outside of record(): no program is being recorded");
   }
+  /// The right operand gets its node first, whatever the compiler: programs are the same everywhere.
+  template <int (Recorder::*operation)(int, int)>
+  static Recorded of(const Recorded& a, const Recorded& b) {
+    const int right = b.node();
+    return node((recorder().*operation)(a.node(), right));
+  }
+
   int node_ = -1;
   Interval constant_;
 };
 
 // Friends are found by argument-dependent lookup; these declarations make them visible to qualified calls too.
-Recorded acos(const Recorded& a);
-Recorded pow(const Recorded& a, int exponent);
-Recorded pow(const Recorded& a, double exponent);
+Recorded acos(const Recorded& x);
+Recorded pow(const Recorded& x, int exponent);
+Recorded pow(const Recorded& x, double exponent);
 
 template <>
 struct ScalarTraits<Recorded> {
@@ -103,10 +160,11 @@ class RecordingGuard {
   Recorder* before_;
 };
 
-/// Records y = f(t, x, p): `function(t, x, p, y)` with n states, k parameters and m outputs.
+/// Records y = f(t, x, p): `function(t, x, p, y)` with n states, k parameters and m outputs. The rules are applied
+/// while recording; RuleSet::none() keeps every operation as it was written.
 template <class Function>
-Program record(int n, int k, int m, Function&& function) {
-  Recorder recorder(n, k);
+Program record(int n, int k, int m, Function&& function, RuleSet rules = RuleSet::all()) {
+  Recorder recorder(n, k, rules);
   const RecordingGuard guard(recorder);
   std::vector<Recorded> x, p, y(detail::at(m));
   for (int i = 0; i < n; ++i) x.push_back(Recorded::node(recorder.state(i)));
@@ -123,6 +181,87 @@ Program record(int n, int k, int m, Function&& function) {
 template <class Function>
 Program record(int n, int k, Function&& function) {
   return record(n, k, n, std::forward<Function>(function));
+}
+
+namespace detail {
+
+/// Stands for the N variables where a function asks for a vector type of its own, such as an Eigen vector: becomes any
+/// type whose elements can be assigned one by one.
+template <std::size_t N>
+struct Variables {
+  const std::array<Recorded, N>& values;
+  template <class Vector>
+  requires(!std::is_arithmetic_v<Vector>) && std::is_default_constructible_v<Vector>&& requires(Vector v,
+                                                                                                const Recorded& r) {
+    v[0] = r;
+  }
+  operator Vector() const {  // NOLINT: implicit, so that it can be an argument
+    Vector result;
+    if constexpr (requires { result.resize(N); }) result.resize(N);
+    for (std::size_t i = 0; i < N; ++i) result[static_cast<decltype(result.size())>(i)] = values[i];
+    return result;
+  }
+};
+
+/// True for a function of as many scalars, two or more. (Of one argument a generic function could be either; it is a
+/// vector then.)
+template <class Function, std::size_t... I>
+constexpr bool takesScalars(std::index_sequence<I...>) {
+  if constexpr (sizeof...(I) > 1)
+    return std::is_invocable_v<Function&, const std::tuple_element_t<I, std::array<Recorded, sizeof...(I)>>&...>;
+  else
+    return false;
+}
+
+/// function(x), whatever form of N variables it takes.
+template <std::size_t N, class Function>
+decltype(auto) applied(Function& function, const std::array<Recorded, N>& x) {
+  if constexpr (takesScalars<Function>(std::make_index_sequence<N>()))
+    return std::apply(function, x);
+  else if constexpr (std::is_invocable_v<Function&, const std::array<Recorded, N>&>)
+    return function(x);
+  else
+    return function(Variables<N>{x});
+}
+
+/// Whatever a function returned, as nodes: one scalar, or the elements of an array, vector, span or Eigen vector.
+template <class Result>
+std::vector<int> outputNodes(const Result& result) {
+  std::vector<int> nodes;
+  if constexpr (std::is_convertible_v<const Result&, Recorded>) {
+    nodes.push_back(static_cast<Recorded>(result).node());
+  } else {
+    static_assert(
+        requires { result[0], result.size(); },
+        "a recorded function returns a scalar, or an array or vector of scalars");
+    const auto size = result.size();
+    for (auto i = size - size; i < size; ++i) nodes.push_back(static_cast<Recorded>(result[i]).node());
+  }
+  return nodes;
+}
+
+}  // namespace detail
+
+/// Records a function of N variables, which become the states of the program. `function` takes them as N scalars, or as
+/// one array, span or vector of scalars (std::array<Recorded, N> for `const auto&`, or what it asks for: an Eigen
+/// vector), and returns one scalar or an array or vector of them: as many outputs. One variable is x[0].
+template <int N, class Function>
+requires(N >= 0) Program record(Function&& function, RuleSet rules = RuleSet::all()) {
+  Recorder recorder(N, 0, rules);
+  const RecordingGuard guard(recorder);
+  std::array<Recorded, static_cast<std::size_t>(N)> x;
+  for (int i = 0; i < N; ++i) x[detail::at(i)] = Recorded::node(recorder.state(i));
+  return recorder.finish(detail::outputNodes(detail::applied(function, x)));
+}
+
+/// The same where the number of variables is known at run time only; `function` takes a vector of scalars.
+template <class Function>
+Program record(int n, Function&& function, RuleSet rules = RuleSet::all()) {
+  Recorder recorder(n, 0, rules);
+  const RecordingGuard guard(recorder);
+  std::vector<Recorded> x;
+  for (int i = 0; i < n; ++i) x.push_back(Recorded::node(recorder.state(i)));
+  return recorder.finish(detail::outputNodes(function(std::as_const(x))));
 }
 
 }  // namespace gamut

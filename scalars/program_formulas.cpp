@@ -1,0 +1,177 @@
+// The readable form: what is used once is written where it is used, unless the line grows too long.
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <ostream>
+
+#include "scalars/passes.hpp"
+#include "scalars/program_text.hpp"
+
+namespace gamut {
+namespace {
+
+using detail::at;
+
+/// How tightly a formula's outermost operation binds: what binds less than its place asks for gets parentheses.
+enum Binding { sum, product, power, atom };
+
+struct Formula {
+  std::string text;
+  Binding binding = atom;
+};
+
+constexpr std::size_t longestInside = 48;
+
+/// A double in full; of the enclosure of a number the shortest decimal that cannot be told from it, in braces; of a
+/// wide interval both ends.
+std::string textOf(const Interval& c) {
+  if (isThin(c)) return toString(c.lower());
+  for (int digits = 1; digits <= 17 && radius(c) <= 1e-15 * magnitude(c); ++digits) {
+    std::array<char, 40> text{};
+    std::snprintf(text.data(), text.size(), "%.*g", digits, midpoint(c));
+    if (!isDisjoint(Interval(text.data()), c)) return '{' + std::string(text.data()) + '}';
+  }
+  return toString(c);
+}
+
+std::string nameIn(const std::vector<std::string>& names, int i, char letter) {
+  return at(i) < names.size() ? names[at(i)] : letter + std::to_string(i);
+}
+
+class Printer {
+ public:
+  Printer(const Program& program, const ProgramNames& names)
+      : program_(program), names_(names), formulas_(program.nodes().size()), uses_(countedUses(program)) {}
+
+  void print(std::ostream& out) {
+    std::array<std::string, 2> lines;  // what depends on parameters alone, and the rest
+    for (int i = 0; i < static_cast<int>(formulas_.size()); ++i) {
+      if (uses_[at(i)].count == 0) continue;
+      Formula formula = formulaOf(i);
+      if (isOperation(program_.nodes()[at(i)].op) && !isWrittenInside(i, formula)) {
+        const std::string name = 'v' + std::to_string(i);
+        lines[program_.isInvariant(i) ? 0 : 1] += "  " + name + " = " + formula.text + '\n';
+        formula = {name, atom};
+      }
+      formulas_[at(i)] = std::move(formula);
+    }
+    if (!lines[0].empty()) out << "for given parameters:\n" << lines[0] << "for every state:\n";
+    out << lines[1];
+    for (int i = 0; i < program_.outputs(); ++i)
+      out << "  " << nameIn(names_.outputs, i, 'y') << " = " << formulas_[at(program_.outputNodes()[at(i)])].text
+          << '\n';
+  }
+
+ private:
+  struct Uses {
+    int count = 0;
+    bool byOutput = false;
+    bool byVarying = false;
+  };
+
+  /// Uses in formulas that some output needs.
+  static std::vector<Uses> countedUses(const Program& program) {
+    std::vector<Uses> uses(program.nodes().size());
+    for (int output : program.outputNodes()) {
+      ++uses[at(output)].count;
+      uses[at(output)].byOutput = true;
+    }
+    for (int i = static_cast<int>(uses.size()) - 1; i >= 0; --i) {
+      const Node& n = program.nodes()[at(i)];
+      if (uses[at(i)].count == 0) continue;
+      for (int k = 0; k < operandsOf(n.op); ++k) {
+        Uses& operand = uses[at(k == 0 ? n.a : n.b)];
+        ++operand.count;
+        operand.byVarying = operand.byVarying || !program.isInvariant(i);
+      }
+    }
+    return uses;
+  }
+
+  bool isWrittenInside(int i, const Formula& formula) const {
+    const Uses& uses = uses_[at(i)];
+    if (uses.count != 1) return false;
+    if (program_.isInvariant(i) && program_.parameters() > 0) return !uses.byVarying && !uses.byOutput;
+    return uses.byOutput || formula.text.size() <= longestInside;
+  }
+
+  /// The formula of an operand, in parentheses where it binds less than asked for.
+  std::string operand(int i, Binding least) const {
+    const Formula& f = formulas_[at(i)];
+    return f.binding >= least ? f.text : '(' + f.text + ')';
+  }
+
+  Formula formulaOf(int i) const {
+    const Node& n = program_.nodes()[at(i)];
+    switch (n.op) {
+      case Op::state:
+        return {nameIn(names_.states, n.a, 'x')};
+      case Op::parameter:
+        return {nameIn(names_.parameters, n.a, 'p')};
+      case Op::time:
+        return {"t"};
+      case Op::constant: {
+        const std::string text = textOf(program_.constants()[at(n.a)]);
+        return {text, text.front() == '-' ? product : atom};
+      }
+      case Op::add:
+        return {operand(n.a, sum) + " + " + operand(n.b, product), sum};
+      case Op::sub:
+        return {operand(n.a, sum) + " - " + operand(n.b, product), sum};
+      case Op::neg:
+        return {'-' + operand(n.a, power), sum};
+      case Op::mul:
+        // A reciprocal that is written here is a division.
+        if (isQuotient(n.b)) return {operand(n.a, product) + formulas_[at(n.b)].text.substr(1), product};
+        if (isQuotient(n.a)) return {operand(n.b, product) + formulas_[at(n.a)].text.substr(1), product};
+        return {operand(n.a, product) + " * " + operand(n.b, power), product};
+      case Op::sqr:
+        return {operand(n.a, atom) + "^2", power};
+      case Op::recip:
+        return {"1 / " + operand(n.a, power), product};
+      default:
+        return {std::string(nameOf(n.op)) + '(' + formulas_[at(n.a)].text + ')'};
+    }
+  }
+
+  /// True for a reciprocal that has no name: its formula begins with "1 / ".
+  bool isQuotient(int i) const {
+    return program_.nodes()[at(i)].op == Op::recip && formulas_[at(i)].binding == product;
+  }
+
+  const Program& program_;
+  const ProgramNames& names_;
+  std::vector<Formula> formulas_;
+  std::vector<Uses> uses_;
+};
+
+/// "3 states", "1 state".
+std::string counted(int count, const std::string& what) {
+  return std::to_string(count) + ' ' + what + (count == 1 ? "" : "s");
+}
+
+}  // namespace
+
+void print(std::ostream& out, const Program& program, const ProgramNames& names) {
+  const ProgramCounts counts = countsOf(program);
+  out << counted(program.states(), "state") << ", " << counted(program.parameters(), "parameter") << ", "
+      << counted(program.outputs(), "output") << "; " << counted(counts.operations, "operation");
+  const char* before = ": ";
+  for (int i = 0; i < opCount; ++i) {
+    if (counts.of[at(i)] == 0) continue;
+    out << before << counts.of[at(i)] << ' ' << nameOf(static_cast<Op>(i));
+    before = ", ";
+  }
+  if (counts.invariant > 0) out << "; " << counts.invariant << " once for given parameters";
+  if (counts.fusedProducts > 0)
+    out << "; " << counted(counts.fusedProducts, "product") << " inside " << counted(counts.sums, "sum");
+  out << '\n';
+  Printer(program, names).print(out);
+}
+
+std::ostream& operator<<(std::ostream& out, const Program& program) {
+  print(out, program);
+  return out;
+}
+
+}  // namespace gamut

@@ -1,0 +1,146 @@
+// A Recorder writes a Program down, one operation a call, and applies the rewriting rules that it was given
+// (rules.hpp): none, and the program is what was recorded, operation by operation; all, and equal work is merged, exact
+// constants are folded and the like while the code runs, so that what generic code does in vain (times zero, plus zero)
+// costs nothing. The same rules, one group at a time, are the passes of passes.hpp.
+#pragma once
+
+#include <cstdint>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "scalars/index.hpp"
+#include "scalars/interval.hpp"
+#include "scalars/program.hpp"
+
+namespace gamut {
+
+/// Groups of rewriting rules; what each does is said where it is a pass, in passes.hpp.
+enum class RuleGroup : std::uint8_t {
+  foldConstants = 1,
+  simplify = 2,
+  moveSigns = 4,
+  movePowersOfTwo = 8,
+  recogniseSquares = 16,
+  pairSinCos = 32,
+  mergeEqual = 64,
+};
+
+/// A set of rule groups: RuleGroup::simplify | RuleGroup::mergeEqual.
+class RuleSet {
+ public:
+  constexpr RuleSet(RuleGroup group) : groups_(static_cast<unsigned>(group)) {}  // NOLINT: a set of one
+  static constexpr RuleSet none() { return RuleSet(0u); }
+  static constexpr RuleSet all() { return RuleSet(127u); }
+  constexpr bool has(RuleGroup group) const { return (groups_ & static_cast<unsigned>(group)) != 0; }
+  friend constexpr RuleSet operator|(RuleSet a, RuleSet b) { return RuleSet(a.groups_ | b.groups_); }
+
+ private:
+  explicit constexpr RuleSet(unsigned groups) : groups_(groups) {}
+  unsigned groups_;
+};
+
+constexpr RuleSet operator|(RuleGroup a, RuleGroup b) { return RuleSet(a) | RuleSet(b); }
+
+namespace detail {
+
+/// True if node b is certainly 1 + a², as the second operand of an arc tangent has to be: the sum of 1 and a square of
+/// a or -a, written as such or folded.
+bool isOnePlusSquare(const std::vector<Node>& nodes, const std::vector<Interval>& constants, int b, int a);
+
+}  // namespace detail
+
+/// Builds a Program. Every function returns the number of a node that has the value asked for.
+class Recorder {
+ public:
+  /// Nodes 0 … n-1 are the states, the next k the parameters, the next one is time.
+  Recorder(int states, int parameters, RuleSet rules = RuleSet::all());
+  /// Starts with the nodes of `program`, numbered as there.
+  explicit Recorder(const Program& program, RuleSet rules = RuleSet::all());
+
+  int state(int i) const { return i; }
+  int parameter(int i) const { return states_ + i; }
+  int time() const { return states_ + parameters_; }
+  /// A double has one node if equal work is merged; of any other enclosure every call makes a new one, since it may be
+  /// another number. Throws std::domain_error unless the value is bounded and not empty.
+  int constant(const Interval& value);
+
+  int add(int a, int b) { return emit(Op::add, a, b); }
+  int sub(int a, int b) { return emit(Op::sub, a, b); }
+  int neg(int a) { return emit(Op::neg, a); }
+  int mul(int a, int b) { return emit(Op::mul, a, b); }
+  int sqr(int a) { return emit(Op::sqr, a); }
+  int exp(int a) { return emit(Op::exp, a); }
+  /// These three throw std::domain_error for a constant that may lie outside the domain.
+  int recip(int a);
+  int sqrt(int a);
+  int log(int a);
+  int atan(int a);
+  int sin(int a) { return sinCos(a).first; }
+  int cos(int a) { return sinCos(a).second; }
+  std::pair<int, int> sinCos(int a);
+
+  /// Any operation on operands as in Node. (Rules may have moved a sign out of one operand of atan only: then its
+  /// denominator 1 + a² is written anew.)
+  int emit(Op op, int a, int b = -1);
+
+  /// Writes the program's operations down once more, by this recorder's rules: for each of its nodes the node here that
+  /// has the value. It may have fewer states and parameters than this recorder.
+  std::vector<int> append(const Program& program);
+
+  const Node& node(int i) const { return nodes_[detail::at(i)]; }
+  int size() const { return static_cast<int>(nodes_.size()); }
+  /// The value of a constant node.
+  const Interval& value(int node) const { return constants_[detail::at(this->node(node).a)]; }
+  bool isConstant(int node) const { return this->node(node).op == Op::constant; }
+  /// True if the node is the constant `number` and nothing else.
+  bool isExactly(int node, double number) const;
+
+  /// The constant -c of a constant c: asked twice it is one number, and its own negative is c.
+  int negated(int c);
+  /// The constant c * d of constants of which one is a power of two, one number if asked twice; -1 if the product of
+  /// the enclosures is not exact (beyond the range of doubles).
+  int scaled(int c, int d);
+
+  /// The program with these output nodes: all that was written, in that order.
+  Program program(const std::vector<int>& outputs) const;
+  /// The same without what the outputs do not need.
+  Program finish(const std::vector<int>& outputs) const;
+
+  /// The recorder that `Recorded` numbers of this thread write to; null outside `record`.
+  static Recorder*& current();
+
+ private:
+  struct Key {
+    Op op;
+    int a, b;
+    bool operator==(const Key&) const = default;
+  };
+  struct KeyHash {
+    std::size_t operator()(const Key& key) const {  // multiplicative hashing, by odd constants (Knuth, vol. 3, 6.4)
+      const auto word = [](int i) { return static_cast<std::uint64_t>(static_cast<std::uint32_t>(i)); };
+      const std::uint64_t mixed =
+          (word(key.a) << 32 | word(key.b)) * 0x9e3779b97f4a7c15u + static_cast<unsigned>(key.op);
+      return static_cast<std::size_t>((mixed ^ mixed >> 29) * 0xbf58476d1ce4e5b9u >> 16);
+    }
+  };
+  using Known = std::unordered_map<Key, int, KeyHash>;
+
+  /// The node that a rule gives for op(a, b); -1 if none applies.
+  int rewritten(Op op, int a, int b);
+  /// The node op(a, b), a new one unless equal work is merged.
+  int push(Op op, int a, int b);
+  int constantFrom(Op op, int a, int b, const Interval& number);
+  Program selected(const std::vector<char>& wanted, const std::vector<int>& outputs) const;
+
+  int states_;
+  int parameters_;
+  RuleSet rules_;
+  std::vector<Node> nodes_;
+  std::vector<Interval> constants_;
+  Known known_;    // operations
+  Known derived_;  // constants, by the operation on constants that gave them
+  std::unordered_map<double, int> knownDoubles_;
+};
+
+}  // namespace gamut

@@ -1,0 +1,246 @@
+// Programs as text: what is printed reads like formulas, what is saved is loaded node by node, and no text, however
+// broken, does more than fail with a line that says where and why.
+#include "scalars/program_text.hpp"
+
+#include <gtest/gtest.h>
+
+#include <regex>
+#include <sstream>
+
+#include "scalars/passes.hpp"
+#include "scalars/recorded.hpp"
+#include "tests/scalars/random_program.hpp"
+
+namespace gamut::testing {
+namespace {
+
+using ::testing::HasSubstr;
+
+std::string saved(const Program& program) {
+  std::ostringstream out;
+  saveProgram(out, program);
+  return out.str();
+}
+
+Program loaded(const std::string& text) {
+  std::istringstream in(text);
+  return loadProgram(in);
+}
+
+std::string printed(const Program& program, const ProgramNames& names = {}) {
+  std::ostringstream out;
+  print(out, program, names);
+  return out.str();
+}
+
+Program pendulum() {
+  return record(2, 1, [](auto, const auto& x, const auto& p, auto& dx) {
+    // One operation a line: the order of operands in an expression is the compiler's.
+    const Recorded gravity = -constant<Recorded>(Interval("9.81"));
+    const Recorded stiffness = gravity / p[0];
+    dx[0] = x[1];
+    dx[1] = stiffness * sin(x[0]);
+  });
+}
+
+TEST(PrintedProgram, ReadsLikeFormulas) {
+  EXPECT_EQ(printed(pendulum()),
+            "2 states, 1 parameter, 2 outputs; 3 operations: 1 mul, 1 sin, 1 cos; 2 once for given parameters\n"
+            "for given parameters:\n"
+            "  v6 = {-9.81} / p0\n"
+            "for every state:\n"
+            "  y0 = x1\n"
+            "  y1 = v6 * sin(x0)\n");
+}
+
+TEST(PrintedProgram, UsesTheNamesItIsGiven) {
+  const std::string text = printed(pendulum(), {{"angle", "rate"}, {"length"}, {"angle'"}});
+  EXPECT_THAT(text, HasSubstr("{-9.81} / length\n"));
+  EXPECT_THAT(text, HasSubstr("angle' = rate\n"));
+  EXPECT_THAT(text, HasSubstr("y1 = v6 * sin(angle)\n"));
+}
+
+TEST(PrintedProgram, GroupsAsItComputes) {
+  const auto formula = [](auto&& function) {
+    const std::string text = printed(record<3>(function, RuleSet::none()));
+    return text.substr(text.find('\n') + 1);
+  };
+  EXPECT_EQ(formula([](auto x, auto y, auto z) { return x - (y - z); }), "  y0 = x0 - (x1 - x2)\n");
+  EXPECT_EQ(formula([](auto x, auto y, auto z) { return (x - y) - z; }), "  y0 = x0 - x1 - x2\n");
+  EXPECT_EQ(formula([](auto x, auto y, auto z) { return x * (y + z); }), "  y0 = x0 * (x1 + x2)\n");
+  EXPECT_EQ(formula([](auto x, auto y, auto z) { return x * (y * z); }), "  y0 = x0 * (x1 * x2)\n");
+  EXPECT_EQ(formula([](auto x, auto y, auto z) { return x / (y * z); }), "  y0 = x0 / (x1 * x2)\n");
+  EXPECT_EQ(formula([](auto x, auto y, auto z) { return x / (y / z); }), "  y0 = x0 / (x1 / x2)\n");
+  EXPECT_EQ(formula([](auto x, auto y, auto z) { return -(x * y) + -z; }), "  y0 = -(x0 * x1) + (-x2)\n");
+  EXPECT_EQ(formula([](auto x, auto y, auto z) { return sqr(x + y) * sqr(-z); }), "  y0 = (x0 + x1)^2 * (-x2)^2\n");
+  EXPECT_EQ(formula([](auto x, auto y, auto z) { return sqr(sqr(x)) - 2.5 * y + z * -2.0; }),
+            "  y0 = (x0^2)^2 - 2.5 * x1 + x2 * (-2)\n");
+  EXPECT_EQ(formula([](auto x, auto y, auto z) { return sqrt(exp(atan(log(x)))) * (1.0 / y) * z; }),
+            "  y0 = sqrt(exp(atan(log(x0)))) * (1 / x1) * x2\n");
+}
+
+TEST(PrintedProgram, NamesWhatIsUsedTwiceOnce) {
+  const Program program = record(1, 0, 2, [](auto t, const auto& x, const auto&, auto& y) {
+    const Recorded s = sin(x[0] + t);
+    y[0] = s * exp(s);
+    y[1] = s;
+  });
+  EXPECT_EQ(printed(program),
+            "1 state, 0 parameters, 2 outputs; 5 operations: 1 add, 1 mul, 1 exp, 1 sin, 1 cos\n"
+            "  v3 = sin(x0 + t)\n"
+            "  y0 = v3 * exp(v3)\n"
+            "  y1 = v3\n");
+}
+
+TEST(PrintedProgram, ShowsEnclosedConstantsAsWhatTheyAre) {
+  const Program program = record<1>([](const auto& x) {
+    return std::array{x[0] + Recorded(pi()), x[0] + Recorded(Interval(1, 2)), x[0] + 0.1};
+  });
+  const std::string text = printed(program);
+  EXPECT_THAT(text, HasSubstr("{3.141592653589793}"));
+  EXPECT_THAT(text, HasSubstr("[1, 2]"));
+  EXPECT_THAT(text, HasSubstr(" 0.1"));
+}
+
+TEST(SavedProgram, IsLoadedNodeByNode) {
+  for (unsigned seed = 1; seed <= 150; ++seed) {
+    const Program program = RandomProgram(seed)(60, 8);
+    std::vector<Program> all{program, program.differentiated(true), optimised(program)};
+    for (const Pass& pass : passes()) all.push_back(pass.apply(program));
+    for (const Program& p : all) {
+      const Program again = loaded(saved(p));
+      ASSERT_TRUE(isIdentical(again, p)) << "seed " << seed << '\n' << saved(p);
+      ASSERT_EQ(again.operations(), p.operations());
+    }
+  }
+}
+
+TEST(SavedProgram, KeepsEveryBitOfItsConstants) {
+  std::mt19937_64 engine(3);
+  for (int i = 0; i < 1000; ++i) {
+    const double c = std::ldexp(static_cast<double>(engine()) - 0x1p63, static_cast<int>(engine() % 2097) - 1136);
+    const Program program = record<1>([&](const auto& x) { return x[0] + c * sin(x[0]); });
+    ASSERT_TRUE(isIdentical(loaded(saved(program)), program)) << saved(program);
+  }
+}
+
+TEST(SavedProgram, LooksAsDocumented) {
+  EXPECT_EQ(saved(pendulum()),
+            "gamut-program 1\n"
+            "states 2\n"
+            "parameters 1\n"
+            "nodes 10\n"
+            "0 state 0\n"
+            "1 state 1\n"
+            "2 parameter 0\n"
+            "3 time\n"
+            "4 constant -0x1.39eb851eb851fp+3 -0x1.39eb851eb851ep+3\n"
+            "5 recip 2\n"
+            "6 mul 4 5\n"
+            "7 sin 0\n"
+            "8 cos 0\n"
+            "9 mul 6 7\n"
+            "outputs 2\n"
+            "1\n"
+            "9\n"
+            "end\n");
+}
+
+/// The message with which a text is refused, in which `from` is replaced by `to`.
+std::string refusal(const std::string& text, const std::string& from, const std::string& to) {
+  std::string broken = text;
+  const auto begin = broken.find(from);
+  if (begin == std::string::npos) return "the text has no " + from;
+  try {
+    loaded(broken.replace(begin, from.size(), to));
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "loaded";
+}
+
+TEST(SavedProgram, IsRefusedWithOneLineThatSaysWhere) {
+  const Program program = record(1, 0, 1, [](auto, const auto& x, const auto&, auto& y) {
+    const Recorded offset = constant<Recorded>(1.5);
+    const Recorded square = sqr(x[0] + 0.0 * offset);
+    const Recorded sum = square + offset;
+    const Recorded left = log(sum);
+    const Recorded right = left * atan(x[0]);
+    y[0] = right + sin(x[0]);
+  });
+  const std::string text = saved(program);
+  const std::vector<std::array<std::string, 3>> cases{
+      {"gamut-program 1", "gamut-program 2", "program, line 1: 'gamut-program 1' is expected, not 'gamut-program 2'"},
+      {"states 1", "states one", "program, line 2: 'states' and a number is expected, not 'states one'"},
+      {"states 1", "states -1", "program, line 2: 'states' and a number is expected, not 'states -1'"},
+      {"states 1", "states 2000000000", "program, line 4: at least 2000000001 nodes are expected"},
+      {"0 state 0", "0 state 1", "program, line 5: '0 state 0' is expected, not '0 state 1'"},
+      {"1 time", "1 state 1", "program, line 6: '1 time' is expected, not '1 state 1'"},
+      {"2 constant", "3 constant", "program, line 7: node 2 is expected, not '3 constant"},
+      {"2 constant", "2 konstant", "program, line 7: an operation is expected behind the number, not '2 konstant"},
+      {"0x1.8p+0 0x1.8p+0", "0x1.8p+0", "program, line 7: a constant has two finite ends such as -0x1.8p+3, not"},
+      {"0x1.8p+0 0x1.8p+0", "1.5 1.5", "program, line 7: a constant has two finite ends such as -0x1.8p+3, not"},
+      {"0x1.8p+0 0x1.8p+0", "0x1.8p+0 0xinf", "program, line 7: a constant has two finite ends such as -0x1.8p+3, not"},
+      {"0x1.8p+0 0x1.8p+0", "0x1.8p+0 0x1p+0", "program, line 7: the ends of a constant are in order, not"},
+      {"3 sqr 0", "3 sqr 3", "program, line 8: an operand is a node before this one, 0 to 2, not '3'"},
+      {"3 sqr 0", "3 sqr -1", "program, line 8: an operand is a node before this one, 0 to 2, not '-1'"},
+      {"3 sqr 0", "3 sqr 99999999999", "program, line 8: an operand is a node before this one, 0 to 2, not"},
+      {"3 sqr 0", "3 sqr 0 0", "program, line 8: sqr has 1 operand, not 2: '3 sqr 0 0'"},
+      {"3 sqr 0", "3 state 0", "program, line 8: inputs come before all other nodes, not '3 state 0'"},
+      {"5 log 4 4", "5 log 4 3", "program, line 10: both operands of log are the same node, not '5 log 4 3'"},
+      {"8 atan 0 7", "8 atan 0 4", "program, line 13: the second operand of atan is 1 plus the square of the first"},
+      {"11 cos 0", "11 exp 0", "program, line 16: a sine is followed by its cosine, not by 'exp'"},
+      {"11 cos 0", "11 cos 1", "program, line 16: a cosine follows the sine of the same node, not '11 cos 1'"},
+      {"10 sin 0", "10 cos 0", "program, line 15: a cosine follows the sine of the same node, not '10 cos 0'"},
+      {"outputs 1\n12", "outputs 1\n13", "program, line 19: an output is a node, 0 to 12, not '13'"},
+      {"outputs 1", "outputs 2", "program, line 20: an output is a node, 0 to 12, not 'end'"},
+      {"end\n", "", "program, line 20: the text ends where 'end' is expected"},
+      {"end\n", "end\nmore\n", "program, line 21: nothing is expected behind 'end', not 'more'"},
+  };
+  for (const auto& [from, to, message] : cases) EXPECT_THAT(refusal(text, from, to), HasSubstr(message)) << text;
+}
+
+TEST(SavedProgram, TruncatedAnywhereIsRefused) {
+  const std::string text = saved(pendulum());
+  for (std::size_t length = 0; length + 1 < text.size(); ++length)
+    EXPECT_THROW(loaded(text.substr(0, length)), std::invalid_argument) << length;
+}
+
+TEST(SavedProgram, BrokenAtRandomIsRefusedOrIsAnotherProgramButNeverMore) {
+  std::mt19937_64 engine(11);
+  int refused = 0, other = 0;
+  for (unsigned seed = 1; seed <= 3000; ++seed) {
+    static const std::string some = "0123456789 -.xpabcdefghilmnoqrstu\n\r\t\"\\\0\xff";
+    std::string text = saved(RandomProgram(seed % 50 + 1)(20, 3));
+    for (int edits = 1 + static_cast<int>(engine() % 3); edits > 0; --edits) {
+      const std::size_t at = engine() % text.size();
+      switch (engine() % 4) {
+        case 0:
+          text[at] = some[engine() % some.size()];
+          break;
+        case 1:
+          text.insert(at, 1, some[engine() % some.size()]);
+          break;
+        case 2:
+          text.erase(at, 1 + engine() % 5);
+          break;
+        default:
+          text.insert(at, text.substr(engine() % text.size(), engine() % 30));
+      }
+    }
+    try {
+      const Program program = loaded(text);
+      Point().values<Interval>(program.states() == 3 && program.parameters() == 2 ? program : RandomProgram(1)(1, 1));
+      EXPECT_TRUE(isIdentical(loaded(saved(program)), program));
+      ++other;
+    } catch (const std::invalid_argument& error) {
+      EXPECT_TRUE(std::regex_match(error.what(), std::regex("program, line [0-9]+: [^\n\r]+"))) << error.what();
+      ++refused;
+    }
+  }
+  EXPECT_GT(refused, 1000);
+  EXPECT_GT(other, 50);
+}
+
+}  // namespace
+}  // namespace gamut::testing

@@ -1,0 +1,181 @@
+// Recording: every function has its values wherever its header says so, and functions of any form can be recorded.
+#include "scalars/recorded.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Core>
+#include <span>
+
+#include "scalars/differentiation.hpp"
+#include "scalars/eigen.hpp"
+#include "tests/scalars/random_program.hpp"
+
+namespace gamut::testing {
+namespace {
+
+using ::testing::ElementsAre;
+
+/// A function as it is recorded, the truth, and where it is judged.
+struct Function {
+  const char* name;
+  Recorded (*recorded)(const Recorded&);
+  Precise (*truth)(const Precise&);
+  std::vector<double> points;
+};
+
+const std::vector<double> everywhere{-30, -2.5, -0.75, -1e-3, 0, 1e-3, 0.5, 1, 3, 30},
+    positive{1e-9, 0.1, 0.5, 1, 2, 1e9}, unit{-0.999, -0.5, -1e-6, 0, 1e-6, 0.25, 0.999};
+
+Precise log2Of(const Precise& x) { return log(x) / log(Precise(2)); }
+
+const std::vector<Function> functions{
+    {"sqr", [](const Recorded& x) { return sqr(x); }, [](const Precise& x) { return Precise(x * x); }, everywhere},
+    {"sqrt", [](const Recorded& x) { return sqrt(x); }, [](const Precise& x) { return Precise(sqrt(x)); }, positive},
+    {"exp", [](const Recorded& x) { return exp(x); }, [](const Precise& x) { return Precise(exp(x)); }, everywhere},
+    {"log", [](const Recorded& x) { return log(x); }, [](const Precise& x) { return Precise(log(x)); }, positive},
+    {"sin", [](const Recorded& x) { return sin(x); }, [](const Precise& x) { return Precise(sin(x)); }, everywhere},
+    {"cos", [](const Recorded& x) { return cos(x); }, [](const Precise& x) { return Precise(cos(x)); }, everywhere},
+    {"atan", [](const Recorded& x) { return atan(x); }, [](const Precise& x) { return Precise(atan(x)); }, everywhere},
+    {"tan", [](const Recorded& x) { return tan(x); }, [](const Precise& x) { return Precise(tan(x)); }, everywhere},
+    {"asin", [](const Recorded& x) { return asin(x); }, [](const Precise& x) { return Precise(asin(x)); }, unit},
+    {"acos", [](const Recorded& x) { return acos(x); }, [](const Precise& x) { return Precise(acos(x)); }, unit},
+    {"sinh", [](const Recorded& x) { return sinh(x); }, [](const Precise& x) { return Precise(sinh(x)); }, everywhere},
+    {"cosh", [](const Recorded& x) { return cosh(x); }, [](const Precise& x) { return Precise(cosh(x)); }, everywhere},
+    {"tanh", [](const Recorded& x) { return tanh(x); }, [](const Precise& x) { return Precise(tanh(x)); }, everywhere},
+    {"asinh", [](const Recorded& x) { return asinh(x); }, [](const Precise& x) { return Precise(asinh(x)); },
+     everywhere},
+    {"acosh",
+     [](const Recorded& x) { return acosh(x); },
+     [](const Precise& x) { return Precise(acosh(x)); },
+     {1.001, 1.5, 3, 1e6}},
+    {"atanh", [](const Recorded& x) { return atanh(x); }, [](const Precise& x) { return Precise(atanh(x)); }, unit},
+    {"exp2", [](const Recorded& x) { return exp2(x); }, [](const Precise& x) { return Precise(pow(Precise(2), x)); },
+     everywhere},
+    {"exp10", [](const Recorded& x) { return exp10(x); }, [](const Precise& x) { return Precise(pow(Precise(10), x)); },
+     everywhere},
+    {"expm1", [](const Recorded& x) { return expm1(x); }, [](const Precise& x) { return Precise(exp(x) - 1); },
+     everywhere},
+    {"log2", [](const Recorded& x) { return log2(x); }, log2Of, positive},
+    {"log10", [](const Recorded& x) { return log10(x); }, [](const Precise& x) { return Precise(log10(x)); }, positive},
+    {"log1p",
+     [](const Recorded& x) { return log1p(x); },
+     [](const Precise& x) { return Precise(log(1 + x)); },
+     {-0.9, -0.1, 0, 0.5, 7}},
+    {"cbrt", [](const Recorded& x) { return cbrt(x); },
+     [](const Precise& x) { return Precise(pow(x, Precise(1) / 3)); }, positive},
+    {"rootn", [](const Recorded& x) { return rootn(x, -5); },
+     [](const Precise& x) { return Precise(pow(x, Precise(-1) / 5)); }, positive},
+    {"abs", [](const Recorded& x) { return abs(x); }, [](const Precise& x) { return Precise(abs(x)); }, everywhere},
+    {"pow -3",
+     [](const Recorded& x) { return pow(x, -3); },
+     [](const Precise& x) { return Precise(1 / (x * x * x)); },
+     {-2, -0.1, 0.3, 5}},
+    {"pow 7", [](const Recorded& x) { return pow(x, 7); }, [](const Precise& x) { return Precise(pow(x, 7)); },
+     everywhere},
+    {"pow 0", [](const Recorded& x) { return pow(x, 0); }, [](const Precise&) { return Precise(1); }, everywhere},
+    {"pow 0.7", [](const Recorded& x) { return pow(x, 0.7); },
+     [](const Precise& x) { return Precise(pow(x, Precise(0.7))); }, positive},
+    {"pow 2.0", [](const Recorded& x) { return pow(x, 2.0); }, [](const Precise& x) { return Precise(x * x); },
+     everywhere},
+    {"pow x",
+     [](const Recorded& x) { return pow(x, x); },
+     [](const Precise& x) { return Precise(pow(x, x)); },
+     {0.1, 0.5, 1, 3}},
+};
+
+TEST(Recorded, FunctionsHaveTheirValuesInEveryArithmetic) {
+  for (const Function& f : functions) {
+    const Program program = record<1>([&](const auto& x) { return f.recorded(x[0]); });
+    for (double at : f.points) {
+      const Precise truth = f.truth(at), value = evaluate<Precise>(program, {Precise(at)})[0];
+      EXPECT_LE(Precise(abs(value - truth)), (1 + abs(truth)) * Precise("1e-70")) << f.name << " at " << at;
+      EXPECT_THAT(evaluate<Interval>(program, {Interval(at)})[0], Holds(truth)) << f.name << " at " << at;
+    }
+  }
+}
+
+TEST(Recorded, FunctionsHaveTheirDerivatives) {
+  const Precise h("1e-40");
+  for (const Function& f : functions) {
+    const Program slope = record<1>([&](const auto& x) { return f.recorded(x[0]); }).differentiated();
+    for (double at : f.points) {
+      if (at == 0 && std::string(f.name) == "abs") continue;  // has none
+      const Precise expected = (f.truth(at + h) - f.truth(at - h)) / (2 * h);
+      const Precise value = evaluate<Precise>(slope, {Precise(at)})[1];
+      EXPECT_LE(Precise(abs(value - expected)), (1 + abs(expected)) * Precise("1e-25")) << f.name << " at " << at;
+    }
+  }
+}
+
+TEST(Recorded, FunctionsOfTwoVariablesHaveTheirValues) {
+  const Program program = record<2>([](auto x, auto y) {
+    return std::array{atan2(x, y), hypot(x, y), min(x, y), max(x, y)};
+  });
+  for (double x : {-3.0, -0.5, 0.25, 4.0})
+    for (double y : {-2.0, 0.125, 0.5, 7.0}) {
+      const Precise px(x), py(y);
+      const std::vector<Precise> truth{atan2(px, py), sqrt(px * px + py * py), x < y ? px : py, x < y ? py : px};
+      const auto values = evaluate<Precise>(program, {px, py});
+      const auto ranges = evaluate<Interval>(program, {Interval(x), Interval(y)});
+      for (std::size_t i = 0; i < truth.size(); ++i) {
+        EXPECT_THAT(values[i], AgreesTo45Digits(truth[i])) << i << " at " << x << ", " << y;
+        EXPECT_THAT(ranges[i], Holds(truth[i])) << i << " at " << x << ", " << y;
+      }
+    }
+}
+
+TEST(Recorded, FunctionsKeepRangesTightWhereTheyAreMonotone) {
+  const Program program = record<1>([](const auto& x) {
+    return std::array{asin(x[0]), acos(x[0]), atanh(x[0]), acosh(x[0] + 1.0), abs(-x[0])};
+  });
+  const Interval x(0.25, 0.5);
+  const auto ranges = evaluate<Interval>(program, {x});
+  const std::vector<Interval> tight{asin(x), acos(x), Interval("[0.2554128118829953, 0.5493061443340549]"),
+                                    Interval("[0.6931471805599453, 0.9624236501192069]"), x};
+  for (std::size_t i = 0; i < tight.size(); ++i) EXPECT_LE(width(ranges[i]), width(tight[i]) + 1e-14) << i;
+}
+
+TEST(Recorded, RefusesAZerothRoot) {
+  EXPECT_THROW(record<1>([](const auto& x) { return rootn(x[0], 0); }), std::domain_error);
+}
+
+TEST(Record, TakesFunctionsOfScalarsArraysSpansAndVectors) {
+  const std::vector<Program> same{
+      record<2>([](const auto& x) { return x[0] * sin(x[1]); }),
+      record<2>([](auto x, auto y) { return x * sin(y); }),
+      record<2>([](const std::array<Recorded, 2>& x) { return x[0] * sin(x[1]); }),
+      record<2>([](std::span<const Recorded> x) { return x[0] * sin(x[1]); }),
+      record<2>([](std::span<const Recorded, 2> x) { return x[0] * sin(x[1]); }),
+      record<2>([](const std::vector<Recorded>& x) { return x[0] * sin(x[1]); }),
+      record<2>([](const Eigen::Matrix<Recorded, 2, 1>& x) { return x[0] * sin(x[1]); }),
+      record<2>([](const Eigen::Matrix<Recorded, Eigen::Dynamic, 1>& x) { return x[0] * sin(x[1]); }),
+      record(2, [](const auto& x) { return x[0] * sin(x[1]); }),
+      record(2, 0, 1, [](auto, const auto& x, const auto&, auto& y) { y[0] = x[0] * sin(x[1]); }),
+  };
+  for (std::size_t i = 0; i < same.size(); ++i) EXPECT_TRUE(isIdentical(same[i], same[0])) << i << '\n' << same[i];
+}
+
+TEST(Record, TakesWhatAFunctionReturns) {
+  EXPECT_EQ(record<1>([](const auto& x) { return x[0]; }).outputs(), 1);
+  EXPECT_EQ(record<1>([](const auto&) { return 3.0; }).outputs(), 1);
+  EXPECT_EQ(record<1>([](const auto& x) { return std::array{x[0], 2.0 * x[0]}; }).outputs(), 2);
+  EXPECT_EQ(record<1>([](const auto& x) { return std::vector<Recorded>(5, x[0]); }).outputs(), 5);
+  EXPECT_EQ(record<1>([](const auto&) { return std::vector<double>{1, 2, 3}; }).outputs(), 3);
+  EXPECT_EQ(record<1>([](const auto&) { return std::vector<Recorded>(); }).outputs(), 0);
+  EXPECT_EQ(record<0>([](const auto&) { return Recorded(pi()); }).outputs(), 1);
+  const Program rotated = record<3>([](const Eigen::Matrix<Recorded, 3, 1>& x) {
+    return Eigen::Matrix<Recorded, 2, 1>(x[0] * cos(x[2]) - x[1] * sin(x[2]), x[0] * sin(x[2]) + x[1] * cos(x[2]));
+  });
+  EXPECT_THAT(evaluate<double>(rotated, {3, 4, 0}), ElementsAre(3, 4));
+}
+
+TEST(Record, WithoutRulesKeepsEveryOperation) {
+  const auto function = [](auto x, auto y) { return 1.0 * x + 0.0 - (-y) + sin(x) * cos(x) + x * x; };
+  EXPECT_EQ(record<2>(function, RuleSet::none()).operations(), 12);
+  EXPECT_EQ(record<2>(function).operations(), 7);
+  EXPECT_THAT(evaluate<double>(record<2>(function, RuleSet::none()), {2, 3}),
+              ElementsAre(evaluate<double>(record<2>(function), {2, 3})[0]));
+}
+
+}  // namespace
+}  // namespace gamut::testing
