@@ -1,118 +1,135 @@
 // Evaluates a Program with any scalar: doubles for samples, intervals for ranges, high precision for references.
-// What depends on parameters alone is computed once, by setParameters.
+// What depends on parameters alone is computed once, by setParameters. Packs of samples: sample_pack.hpp.
 #pragma once
 
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "scalars/index.hpp"
 #include "scalars/program.hpp"
+#include "scalars/tape.hpp"
 #include "scalars/traits.hpp"
+#include "scalars/vector_functions.hpp"
 
 namespace gamut {
 
-/// Values of a Program's nodes for scalar S. One evaluator a thread; it must not outlive the program.
+/// Values of a Program for scalar S, by its Tape. One evaluator a thread. Doubles have the sine and cosine of
+/// vector_functions.hpp and the other functions of <cmath>: a sample's value is the same here and in a pack.
 template <class S>
 class Evaluator {
  public:
-  explicit Evaluator(const Program& program) : program_(&program), value_(program.nodes().size(), S(0.0)) {
-    for (std::size_t i = 0; i < value_.size(); ++i)
-      if (!program.isInvariant(static_cast<int>(i))) varying_.push_back(static_cast<int>(i));
+  explicit Evaluator(const Program& program) : tape_(program), slot_(detail::at(tape_.slots()), S(0.0)) {
     if (program.parameters() == 0) setParameters({});
   }
 
   /// p: one value a parameter. Needed once before the first call if there are parameters.
   void setParameters(std::span<const S> p) {
-    const auto& nodes = program_->nodes();
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-      if (!program_->isInvariant(static_cast<int>(i))) continue;
-      const Node& n = nodes[i];
-      if (n.op == Op::parameter)
-        value_[i] = p[detail::at(n.a)];
-      else if (n.op == Op::constant)
-        value_[i] = constant<S>(program_->constants()[detail::at(n.a)]);
-      else
-        compute(static_cast<int>(i));
-    }
+    for (const auto& [input, slot] : tape_.constantInputs())
+      slot_[detail::at(slot)] = constant<S>(tape_.constants()[detail::at(input)]);
+    for (const auto& [input, slot] : tape_.parameterInputs()) slot_[detail::at(slot)] = p[detail::at(input)];
+    run(tape_.invariants());
   }
 
-  /// y = f(t, x): x has one value a state, y one an output.
+  /// y = f(t, x): x has one value a state, y one an output; y may be x.
   void operator()(const S& t, std::span<const S> x, std::span<S> y) {
-    const auto& nodes = program_->nodes();
-    for (int i : varying_) {
-      const Node& n = nodes[detail::at(i)];
-      if (n.op == Op::state)
-        value_[detail::at(i)] = x[detail::at(n.a)];
-      else if (n.op == Op::time)
-        value_[detail::at(i)] = t;
-      else
-        compute(i);
-    }
-    const auto& outputs = program_->outputNodes();
-    for (std::size_t i = 0; i < outputs.size(); ++i) y[i] = value_[detail::at(outputs[i])];
+    for (const auto& [input, slot] : tape_.stateInputs()) slot_[detail::at(slot)] = x[detail::at(input)];
+    if (tape_.timeSlot() >= 0) slot_[detail::at(tape_.timeSlot())] = t;
+    run(tape_.instructions());
+    const auto& outputs = tape_.outputSlots();
+    for (std::size_t i = 0; i < outputs.size(); ++i) y[i] = slot_[detail::at(outputs[i])];
   }
 
   /// The outputs as a vector.
   std::vector<S> operator()(const S& t, const std::vector<S>& x) {
-    std::vector<S> y(detail::at(program_->outputs()), S(0.0));
+    std::vector<S> y(detail::at(tape_.outputs()), S(0.0));
     (*this)(t, std::span<const S>(x), std::span<S>(y));
     return y;
   }
 
+  const Tape& tape() const { return tape_; }
+
  private:
-  void compute(int i) {
-    using std::atan, std::cos, std::exp, std::log, std::sin, std::sqrt;
-    const Node& n = program_->nodes()[detail::at(i)];
-    const S& a = value_[detail::at(n.a)];
-    S& r = value_[detail::at(i)];
-    switch (n.op) {
-      case Op::add:
-        r = a + value_[detail::at(n.b)];
-        break;
-      case Op::sub:
-        r = a - value_[detail::at(n.b)];
-        break;
-      case Op::neg:
-        r = -a;
-        break;
-      case Op::mul:
-        r = a * value_[detail::at(n.b)];
-        break;
-      case Op::sqr:
-        r = square(a);
-        break;
-      case Op::recip:
-        r = S(1.0) / a;
-        break;
-      case Op::sqrt:
-        r = sqrt(a);
-        break;
-      case Op::exp:
-        r = exp(a);
-        break;
-      case Op::log:
-        r = log(a);
-        break;
-      case Op::atan:
-        r = atan(a);
-        break;
-      case Op::sin:
-        r = sin(a);
-        break;
-      case Op::cos:
-        r = cos(a);
-        break;
-      case Op::state:
-      case Op::parameter:
-      case Op::time:
-      case Op::constant:
-        break;
+  void run(const std::vector<Instruction>& instructions) {
+    using std::atan, std::exp, std::log, std::sqrt;
+    S* const slots = slot_.data();
+    S acc(0.0);
+    for (const Instruction& i : instructions) {
+      const S& a = slots[i.a];
+      const S& b = slots[i.b];
+      switch (i.op) {
+        case TapeOp::value:
+          acc = a;
+          break;
+        case TapeOp::sum:
+          acc = a + b;
+          break;
+        case TapeOp::difference:
+          acc = a - b;
+          break;
+        case TapeOp::product:
+          acc = a * b;
+          break;
+        case TapeOp::plus:
+          acc = acc + a;
+          break;
+        case TapeOp::minus:
+          acc = acc - a;
+          break;
+        case TapeOp::plusProduct:
+          acc = acc + a * b;
+          break;
+        case TapeOp::minusProduct:
+          acc = acc - a * b;
+          break;
+        case TapeOp::negative:
+          acc = -a;
+          break;
+        case TapeOp::square:
+          acc = square(a);
+          break;
+        case TapeOp::reciprocal:
+          acc = S(1.0) / a;
+          break;
+        case TapeOp::squareRoot:
+          acc = sqrt(a);
+          break;
+        case TapeOp::exponential:
+          acc = exp(a);
+          break;
+        case TapeOp::logarithm:
+          acc = log(a);
+          break;
+        case TapeOp::arcTangent:
+          acc = atan(a);
+          break;
+        case TapeOp::sineCosine:
+          sineAndCosine(a, acc, slots[i.b]);
+          break;
+      }
+      if (i.stores) slots[i.result] = acc;
     }
   }
 
-  const Program* program_;
-  std::vector<S> value_;
-  std::vector<int> varying_;
+  /// Both functions of a, which may lie where the cosine goes.
+  static void sineAndCosine(const S& a, S& s, S& c) {
+    using std::cos, std::sin;
+    if constexpr (std::is_same_v<S, double>) {
+      const SineCosine both = sineCosine(a);
+      s = both.sine;
+      c = both.cosine;
+    } else if constexpr (requires { sinCos(a).sin; }) {
+      const auto both = sinCos(a);
+      s = both.sin;
+      c = both.cos;
+    } else {
+      s = sin(a);
+      c = cos(a);
+    }
+  }
+
+  Tape tape_;
+  std::vector<S> slot_;
 };
 
 }  // namespace gamut

@@ -9,6 +9,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "scalars/vector_functions.hpp"
+
 namespace gamut {
 
 Samples::Samples(std::vector<double> values) {
@@ -46,20 +48,41 @@ Samples sqr(Samples x) {
 Samples sqrt(Samples x) {
   return std::move(x.transform([](double v) { return std::sqrt(v); }));
 }
+Samples cbrt(Samples x) {
+  return std::move(x.transform([](double v) { return std::cbrt(v); }));
+}
 Samples abs(Samples x) {
   return std::move(x.transform([](double v) { return std::abs(v); }));
 }
 Samples exp(Samples x) {
   return std::move(x.transform([](double v) { return std::exp(v); }));
 }
+Samples exp2(Samples x) {
+  return std::move(x.transform([](double v) { return std::exp2(v); }));
+}
+Samples exp10(Samples x) {
+  return std::move(x.transform([](double v) { return std::pow(10.0, v); }));
+}
+Samples expm1(Samples x) {
+  return std::move(x.transform([](double v) { return std::expm1(v); }));
+}
 Samples log(Samples x) {
   return std::move(x.transform([](double v) { return std::log(v); }));
 }
+Samples log2(Samples x) {
+  return std::move(x.transform([](double v) { return std::log2(v); }));
+}
+Samples log10(Samples x) {
+  return std::move(x.transform([](double v) { return std::log10(v); }));
+}
+Samples log1p(Samples x) {
+  return std::move(x.transform([](double v) { return std::log1p(v); }));
+}
 Samples sin(Samples x) {
-  return std::move(x.transform([](double v) { return std::sin(v); }));
+  return std::move(x.transformAll([](auto angles, auto results) { sine(angles, results); }));
 }
 Samples cos(Samples x) {
-  return std::move(x.transform([](double v) { return std::cos(v); }));
+  return std::move(x.transformAll([](auto angles, auto results) { cosine(angles, results); }));
 }
 Samples tan(Samples x) {
   return std::move(x.transform([](double v) { return std::tan(v); }));
@@ -81,6 +104,30 @@ Samples cosh(Samples x) {
 }
 Samples tanh(Samples x) {
   return std::move(x.transform([](double v) { return std::tanh(v); }));
+}
+Samples asinh(Samples x) {
+  return std::move(x.transform([](double v) { return std::asinh(v); }));
+}
+Samples acosh(Samples x) {
+  return std::move(x.transform([](double v) { return std::acosh(v); }));
+}
+Samples atanh(Samples x) {
+  return std::move(x.transform([](double v) { return std::atanh(v); }));
+}
+Samples floor(Samples x) {
+  return std::move(x.transform([](double v) { return std::floor(v); }));
+}
+Samples ceil(Samples x) {
+  return std::move(x.transform([](double v) { return std::ceil(v); }));
+}
+Samples sign(Samples x) {
+  return std::move(x.transform([](double v) { return v > 0 ? 1.0 : v < 0 ? -1.0 : v; }));
+}
+Samples atan2(Samples y, const Samples& x) {
+  return std::move(y.combine(x, [](double a, double b) { return std::atan2(a, b); }));
+}
+Samples hypot(Samples x, const Samples& y) {
+  return std::move(x.combine(y, [](double a, double b) { return std::hypot(a, b); }));
 }
 Samples min(Samples x, const Samples& y) {
   return std::move(x.combine(y, [](double a, double b) { return std::min(a, b); }));

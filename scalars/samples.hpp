@@ -58,6 +58,14 @@ class Samples {
     return *this;
   }
 
+  /// Replaces all values at once by function(values, results), two spans of one length.
+  template <class Function>
+  Samples& transformAll(Function function) {
+    const std::span<double> all = values_.empty() ? std::span<double>(&constant_, 1) : std::span<double>(values_);
+    function(std::span<const double>(all), all);
+    return *this;
+  }
+
   /// Replaces each value by function(value, the other's value of the same sample).
   template <class Function>
   Samples& combine(const Samples& other, Function function) {
@@ -83,21 +91,38 @@ class Samples {
   std::vector<double> values_;  // empty, or at least two values
 };
 
-// Sample by sample, as <cmath> does (NaN outside the domain).
+// Sample by sample, as <cmath> does (NaN outside the domain); sin and cos as vector_functions.hpp does, <= 2 ulp.
 Samples sqr(Samples x);
 Samples sqrt(Samples x);
+Samples cbrt(Samples x);
 Samples abs(Samples x);
 Samples exp(Samples x);
+Samples exp2(Samples x);
+Samples exp10(Samples x);
+Samples expm1(Samples x);
 Samples log(Samples x);
+Samples log2(Samples x);
+Samples log10(Samples x);
+Samples log1p(Samples x);
 Samples sin(Samples x);
 Samples cos(Samples x);
 Samples tan(Samples x);
 Samples asin(Samples x);
 Samples acos(Samples x);
 Samples atan(Samples x);
+/// The angle of (x, y): y comes first, as in <cmath>.
+Samples atan2(Samples y, const Samples& x);
 Samples sinh(Samples x);
 Samples cosh(Samples x);
 Samples tanh(Samples x);
+Samples asinh(Samples x);
+Samples acosh(Samples x);
+Samples atanh(Samples x);
+Samples floor(Samples x);
+Samples ceil(Samples x);
+/// -1, 0 or 1.
+Samples sign(Samples x);
+Samples hypot(Samples x, const Samples& y);
 Samples min(Samples x, const Samples& y);
 Samples max(Samples x, const Samples& y);
 Samples pow(Samples x, int n);

@@ -5,6 +5,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "scalars/vector_functions.hpp"
 #include "tests/scalars/reference.hpp"
 
 namespace gamut {
@@ -40,8 +41,8 @@ TEST(Samples, FunctionsAreSampleBySample) {
       {[](Samples x) { return abs(x); }, [](double v) { return std::abs(v); }},
       {[](Samples x) { return exp(x); }, [](double v) { return std::exp(v); }},
       {[](Samples x) { return log(x); }, [](double v) { return std::log(v); }},
-      {[](Samples x) { return sin(x); }, [](double v) { return std::sin(v); }},
-      {[](Samples x) { return cos(x); }, [](double v) { return std::cos(v); }},
+      {[](Samples x) { return sin(x); }, [](double v) { return sineCosine(v).sine; }},
+      {[](Samples x) { return cos(x); }, [](double v) { return sineCosine(v).cosine; }},
       {[](Samples x) { return tan(x); }, [](double v) { return std::tan(v); }},
       {[](Samples x) { return asin(x); }, [](double v) { return std::asin(v); }},
       {[](Samples x) { return acos(x); }, [](double v) { return std::acos(v); }},
@@ -49,6 +50,23 @@ TEST(Samples, FunctionsAreSampleBySample) {
       {[](Samples x) { return sinh(x); }, [](double v) { return std::sinh(v); }},
       {[](Samples x) { return cosh(x); }, [](double v) { return std::cosh(v); }},
       {[](Samples x) { return tanh(x); }, [](double v) { return std::tanh(v); }},
+      {[](Samples x) { return cbrt(x); }, [](double v) { return std::cbrt(v); }},
+      {[](Samples x) { return exp2(x); }, [](double v) { return std::exp2(v); }},
+      {[](Samples x) { return expm1(x); }, [](double v) { return std::expm1(v); }},
+      {[](Samples x) { return log2(x); }, [](double v) { return std::log2(v); }},
+      {[](Samples x) { return log10(x); }, [](double v) { return std::log10(v); }},
+      {[](Samples x) { return log1p(x); }, [](double v) { return std::log1p(v); }},
+      {[](Samples x) { return asinh(x); }, [](double v) { return std::asinh(v); }},
+      {[](Samples x) { return atanh(x); }, [](double v) { return std::atanh(v); }},
+      {[](Samples x) { return floor(x); }, [](double v) { return std::floor(v); }},
+      {[](Samples x) { return ceil(x); }, [](double v) { return std::ceil(v); }},
+      {[](Samples x) { return exp10(x); }, [](double v) { return std::pow(10.0, v); }},
+      {[](Samples x) { return acosh(1 + x); }, [](double v) { return std::acosh(1 + v); }},
+      {[](Samples x) { return atan2(x, 2 - x); }, [](double v) { return std::atan2(v, 2 - v); }},
+      {[](Samples x) { return hypot(x, 3 * x); }, [](double v) { return std::hypot(v, 3 * v); }},
+      {[](Samples x) { return sign(x - 0.25); }, [](double v) { return v > 0.25   ? 1.0
+                                                                       : v < 0.25 ? -1.0
+                                                                                  : 0.0; }},
       {[](Samples x) { return pow(x, 3); }, [](double v) { return std::pow(v, 3); }},
       {[](Samples x) { return pow(x, 0.7); }, [](double v) { return std::pow(v, 0.7); }},
       {[](Samples x) { return pow(x, x); }, [](double v) { return std::pow(v, v); }},
@@ -60,6 +78,18 @@ TEST(Samples, FunctionsAreSampleBySample) {
     const Samples result = ofSamples(x);
     for (std::size_t i = 0; i < x.size(); ++i) ASSERT_EQ(result[i], ofDouble(x[i])) << x[i];
     ASSERT_EQ(ofSamples(0.25)[0], ofDouble(0.25));
+  }
+}
+
+TEST(Samples, HaveTheSinesAndCosinesThatDoublesHaveWhateverTheirNumber) {
+  RandomDoubles random;
+  for (std::size_t size : {1u, 2u, 31u, 33u, 1000u}) {
+    const Samples x = randomPack(random, size, -100, 100), s = sin(x), c = cos(x);
+    for (std::size_t i = 0; i < size; ++i) {
+      ASSERT_EQ(s[i], sineCosine(x[i]).sine);
+      ASSERT_EQ(c[i], sineCosine(x[i]).cosine);
+      ASSERT_NEAR(s[i], std::sin(x[i]), 3e-16);
+    }
   }
 }
 
