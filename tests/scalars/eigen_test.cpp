@@ -1,6 +1,8 @@
 // Eigen with every scalar: the same law-based tests for Interval, Samples and Fuzzy, judged by the plain double result.
 #include "scalars/eigen.hpp"
 
+#include <Eigen/LU>
+
 #include "scalars/fuzzy.hpp"
 #include "scalars/samples.hpp"
 #include "tests/scalars/reference.hpp"
@@ -101,27 +103,6 @@ TYPED_TEST(EigenWith, DeterminantAndInverseOfThreeByThreeNeedNoComparison) {
   const Eigen::Matrix3d triangular{{2, 4, 8}, {0, 4, 16}, {0, 0, 8}};
   const typename TestFixture::Matrix inverse = triangular.cast<TypeParam>().inverse();
   this->expectAll(inverse * triangular.cast<TypeParam>(), Eigen::Matrix3d::Identity());
-}
-
-TEST(EigenWithInterval, ProductsHoldEveryProductOfElements) {
-  RandomDoubles random;
-  for (int i = 0; i < cases / 10; ++i) {
-    Eigen::Matrix<Interval, 3, 3> m;
-    Eigen::Matrix<Interval, 3, 1> x;
-    for (int k = 0; k < 9; ++k) m(k / 3, k % 3) = random.intervalIn(-2, 2);
-    for (int k = 0; k < 3; ++k) x(k) = random.intervalIn(-2, 2);
-    const Eigen::Matrix<Interval, 3, 1> y = m * x;
-    for (int row = 0; row < 3; ++row) {
-      Mpfr sum(0, 400), product(0, 400);
-      for (int k = 0; k < 3; ++k) {
-        Mpfr element(random.elementOf(m(row, k))), factor(random.elementOf(x(k)));
-        mpfr_mul(product, element, factor, MPFR_RNDN);  // exact in 400 bits, and so is the sum
-        mpfr_add(sum, sum, product, MPFR_RNDN);
-      }
-      ASSERT_LE(mpfr_cmp_d(sum, y(row).upper()), 0);
-      ASSERT_GE(mpfr_cmp_d(sum, y(row).lower()), 0);
-    }
-  }
 }
 
 }  // namespace
