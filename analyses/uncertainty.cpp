@@ -1,5 +1,4 @@
-// Distributions in doubles, by GSL and Boost.Math: what is probable proves nothing. Memberships in intervals: cuts must
-// hold what they claim.
+// Distributions in doubles, by GSL and Boost.Math: what is probable proves nothing.
 #include "analyses/uncertainty.hpp"
 
 #include <gsl/gsl_cdf.h>
@@ -16,11 +15,6 @@ void require(bool good, const std::string& what) {
   if (!good) throw std::invalid_argument(what);
 }
 
-void requireBounded(const Interval& support, const char* of) {
-  require(!isEmpty(support) && isBounded(support),
-          std::string(of) + " needs a bounded support, not " + toString(support));
-}
-
 void requirePositive(double value, const char* what) {
   require(value > 0 && std::isfinite(value), std::string(what) + " must be positive, not " + toString(value));
 }
@@ -33,7 +27,7 @@ double clamp(double value, const Interval& range) { return std::clamp(value, ran
 
 Distribution::Distribution(Shape shape, const Interval& support, double first, double second)
     : shape_(shape), support_(support), first_(first), second_(second) {
-  requireBounded(support, "a distribution");
+  require(!isEmpty(support) && isBounded(support), "a distribution needs a bounded support, not " + toString(support));
   if ((shape == Shape::normal || shape == Shape::lognormal) && !isThin(support)) {
     const bool logarithmic = shape == Shape::lognormal;
     const double lower = logarithmic ? std::log(support.lower()) : support.lower();
@@ -127,69 +121,6 @@ double Distribution::quantile(double u) const {
       return clamp(std::exp(truncatedNormal(u, std::log(lower), std::log(upper))), support_);
   }
   return lower;
-}
-
-// ---- Membership -----------------------------------------------------------------------------------------------------
-
-Membership::Membership(Shape shape, const Interval& support, const Interval& core, double deviation)
-    : shape_(shape), support_(support), core_(core), deviation_(deviation) {
-  requireBounded(support, "a membership function");
-  require(isSubset(core, support),
-          "the core " + toString(core) + " of a membership function lies outside its support " + toString(support));
-}
-
-Membership Membership::triangular(double lower, double apex, double upper) {
-  return {Shape::triangular, Interval(lower, upper), Interval(apex), 0};
-}
-
-Membership Membership::trapezoidal(double lower, double left, double right, double upper) {
-  return {Shape::trapezoidal, Interval(lower, upper), Interval(left, right), 0};
-}
-
-Membership Membership::gaussian(const Interval& support, double centre, double deviation) {
-  requirePositive(deviation, "the deviation of a membership function");
-  return {Shape::gaussian, support, Interval(centre), deviation};
-}
-
-std::string_view Membership::name() const {
-  switch (shape_) {
-    case Shape::triangular:
-      return "triangular";
-    case Shape::trapezoidal:
-      return "trapezoidal";
-    case Shape::gaussian:
-      return "gaussian";
-  }
-  return {};
-}
-
-Interval Membership::cut(double alpha) const {
-  require(alpha >= 0 && alpha <= 1, "an alpha level lies between 0 and 1, not at " + toString(alpha));
-  if (alpha == 0) return support_;
-  if (alpha == 1) return core_;
-  Interval left, right;
-  if (shape_ == Shape::gaussian) {
-    const Interval reach = deviation_ * sqrt(-2.0 * log(Interval(alpha)));
-    left = core_ - reach;
-    right = core_ + reach;
-  } else {  // the flanks are straight; directed rounding is monotone in alpha, so that cuts stay nested
-    left = support_.lower() + alpha * (Interval(core_.lower()) - support_.lower());
-    right = support_.upper() - alpha * (Interval(support_.upper()) - core_.upper());
-  }
-  return intersection(hull(core_, Interval(left.lower(), right.upper())), support_);
-}
-
-double Membership::operator()(double value) const {
-  if (!contains(support_, value)) return 0;
-  if (contains(core_, value)) return 1;
-  Interval degree;
-  if (shape_ == Shape::gaussian)
-    degree = exp(-0.5 * sqr((Interval(value) - core_) / deviation_));
-  else if (value < core_.lower())
-    degree = (Interval(value) - support_.lower()) / (Interval(core_.lower()) - support_.lower());
-  else
-    degree = (Interval(support_.upper()) - value) / (Interval(support_.upper()) - core_.upper());
-  return std::clamp(degree.lower(), 0.0, 1.0);
 }
 
 // ---- Uncertain ------------------------------------------------------------------------------------------------------

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "scalars/interval.hpp"
+#include "scalars/membership.hpp"
 
 namespace gamut {
 
@@ -45,38 +46,6 @@ class Distribution {
   Interval support_;
   double first_ = 0;   // mode, mean or a
   double second_ = 0;  // deviation or b
-};
-
-/// How possible the values of a quantity are: 0 outside the support, 1 on the core.
-class Membership {
- public:
-  /// 1 at 0 only.
-  Membership() = default;
-
-  // Each throws std::invalid_argument for values out of order or not finite.
-  static Membership triangular(double lower, double apex, double upper);
-  /// 1 from `left` to `right`.
-  static Membership trapezoidal(double lower, double left, double right, double upper);
-  /// exp(-((v - centre) / deviation)² / 2) on the support, which contains the centre; 0 outside.
-  static Membership gaussian(const Interval& support, double centre, double deviation);
-
-  /// Contains every value with membership at least `alpha` (0 … 1), for alpha = 0 the support. Rounded outward but
-  /// never beyond the support; nested: a greater alpha gives a subset.
-  Interval cut(double alpha) const;
-  /// Rounded downward, so that a value with (*this)(value) >= alpha lies in cut(alpha).
-  double operator()(double value) const;
-
-  const Interval& support() const { return support_; }
-  /// "triangular", "trapezoidal" or "gaussian".
-  std::string_view name() const;
-
- private:
-  enum class Shape { triangular, trapezoidal, gaussian };
-  Membership(Shape shape, const Interval& support, const Interval& core, double deviation);
-
-  Shape shape_ = Shape::triangular;
-  Interval support_, core_;
-  double deviation_ = 0;
 };
 
 /// An uncertain quantity.

@@ -1,5 +1,5 @@
-// Fuzzy: makers and levelwise arithmetic. A cut is intersected with the cut before it: the exact result of a level lies
-// in both, since it is a subset of the exact result one level down.
+// Fuzzy: makers, levelwise arithmetic, possibility and centroid. A cut is intersected with the cut before it: the exact
+// result of a level lies in both, since it is a subset of the exact result one level down.
 #include "scalars/fuzzy.hpp"
 
 #include <algorithm>
@@ -48,25 +48,10 @@ Fuzzy::Fuzzy(std::vector<Interval> cuts) : cuts_(std::move(cuts)) {
   }
 }
 
-Fuzzy Fuzzy::triangular(double lower, double apex, double upper, std::size_t levels) {
-  return trapezoidal(lower, apex, apex, upper, levels);
-}
-
-Fuzzy Fuzzy::trapezoidal(double lower, double coreLower, double coreUpper, double upper, std::size_t levels) {
+Fuzzy::Fuzzy(const Membership& membership, std::size_t levels) {
   if (levels < 2) throw std::invalid_argument("a fuzzy number has at least two levels, its support and its core");
-  const Interval support(lower, upper), core(coreLower, coreUpper);
-  if (!isSubset(core, support) || !isBounded(support)) {
-    throw std::invalid_argument("the core " + toString(core) + " of a fuzzy number must lie in its support " +
-                                toString(support) + ", and that be bounded");
-  }
-  return nested(levels, [&](std::size_t level) {
-    if (level == 0) return support;
-    if (level + 1 == levels) return core;
-    const Interval alpha = Interval(static_cast<double>(level)) / static_cast<double>(levels - 1);
-    const Interval left = lower + (Interval(coreLower) - lower) * alpha;
-    const Interval right = upper + (Interval(coreUpper) - upper) * alpha;
-    return hull(core, {std::min(left.lower(), coreLower), std::max(right.upper(), coreUpper)});
-  });
+  cuts_.resize(levels);
+  for (std::size_t level = 0; level < levels; ++level) cuts_[level] = membership.cut(alpha(level));
 }
 
 double Fuzzy::alpha(std::size_t level) const {
@@ -95,9 +80,22 @@ using OfTwo = Interval (*)(const Interval&, const Interval&);
 
 Fuzzy sqr(const Fuzzy& x) { return mapped(x, static_cast<OfOne>(sqr)); }
 Fuzzy sqrt(const Fuzzy& x) { return mapped(x, static_cast<OfOne>(sqrt)); }
+Fuzzy cbrt(const Fuzzy& x) { return mapped(x, static_cast<OfOne>(cbrt)); }
 Fuzzy abs(const Fuzzy& x) { return mapped(x, static_cast<OfOne>(abs)); }
+Fuzzy sign(const Fuzzy& x) { return mapped(x, static_cast<OfOne>(sign)); }
+Fuzzy floor(const Fuzzy& x) { return mapped(x, static_cast<OfOne>(floor)); }
+Fuzzy ceil(const Fuzzy& x) { return mapped(x, static_cast<OfOne>(ceil)); }
+Fuzzy trunc(const Fuzzy& x) { return mapped(x, static_cast<OfOne>(trunc)); }
+Fuzzy round(const Fuzzy& x) { return mapped(x, static_cast<OfOne>(round)); }
+Fuzzy roundEven(const Fuzzy& x) { return mapped(x, static_cast<OfOne>(roundEven)); }
 Fuzzy exp(const Fuzzy& x) { return mapped(x, static_cast<OfOne>(exp)); }
+Fuzzy exp2(const Fuzzy& x) { return mapped(x, static_cast<OfOne>(exp2)); }
+Fuzzy exp10(const Fuzzy& x) { return mapped(x, static_cast<OfOne>(exp10)); }
+Fuzzy expm1(const Fuzzy& x) { return mapped(x, static_cast<OfOne>(expm1)); }
 Fuzzy log(const Fuzzy& x) { return mapped(x, static_cast<OfOne>(log)); }
+Fuzzy log2(const Fuzzy& x) { return mapped(x, static_cast<OfOne>(log2)); }
+Fuzzy log10(const Fuzzy& x) { return mapped(x, static_cast<OfOne>(log10)); }
+Fuzzy log1p(const Fuzzy& x) { return mapped(x, static_cast<OfOne>(log1p)); }
 Fuzzy sin(const Fuzzy& x) { return mapped(x, static_cast<OfOne>(sin)); }
 Fuzzy cos(const Fuzzy& x) { return mapped(x, static_cast<OfOne>(cos)); }
 Fuzzy tan(const Fuzzy& x) { return mapped(x, static_cast<OfOne>(tan)); }
@@ -107,6 +105,14 @@ Fuzzy atan(const Fuzzy& x) { return mapped(x, static_cast<OfOne>(atan)); }
 Fuzzy sinh(const Fuzzy& x) { return mapped(x, static_cast<OfOne>(sinh)); }
 Fuzzy cosh(const Fuzzy& x) { return mapped(x, static_cast<OfOne>(cosh)); }
 Fuzzy tanh(const Fuzzy& x) { return mapped(x, static_cast<OfOne>(tanh)); }
+Fuzzy asinh(const Fuzzy& x) { return mapped(x, static_cast<OfOne>(asinh)); }
+Fuzzy acosh(const Fuzzy& x) { return mapped(x, static_cast<OfOne>(acosh)); }
+Fuzzy atanh(const Fuzzy& x) { return mapped(x, static_cast<OfOne>(atanh)); }
+Fuzzy rootn(const Fuzzy& x, int n) {
+  return mapped(x, [n](const Interval& a) { return rootn(a, n); });
+}
+Fuzzy atan2(const Fuzzy& y, const Fuzzy& x) { return combined(y, x, static_cast<OfTwo>(atan2)); }
+Fuzzy hypot(const Fuzzy& x, const Fuzzy& y) { return combined(x, y, static_cast<OfTwo>(hypot)); }
 Fuzzy min(const Fuzzy& x, const Fuzzy& y) { return combined(x, y, static_cast<OfTwo>(min)); }
 Fuzzy max(const Fuzzy& x, const Fuzzy& y) { return combined(x, y, static_cast<OfTwo>(max)); }
 Fuzzy pow(const Fuzzy& x, int n) {
@@ -116,6 +122,56 @@ Fuzzy pow(const Fuzzy& x, double y) {
   return mapped(x, [y](const Interval& a) { return pow(a, y); });
 }
 Fuzzy pow(const Fuzzy& x, const Fuzzy& y) { return combined(x, y, static_cast<OfTwo>(pow)); }
+
+namespace {
+
+/// The least alpha of a cut that `isOut`, 0 if the support is; 1 if none is.
+template <class IsOut>
+double leastAlpha(const Fuzzy& x, IsOut isOut) {
+  if (isOut(x.support())) return 0;
+  for (std::size_t level = 1; level < x.levels(); ++level)
+    if (isOut(x.cut(level))) return x.alpha(level);
+  return 1;
+}
+
+}  // namespace
+
+Interval possibility(const Fuzzy& x, const Interval& event) {
+  // A value outside the cut of alpha has a membership below alpha.
+  const double most = leastAlpha(x, [&](const Interval& cut) { return isDisjoint(cut, event); });
+  return {!isEmpty(x.core()) && isSubset(x.core(), event) ? 1.0 : 0.0, most};
+}
+
+Interval necessity(const Fuzzy& x, const Interval& event) {
+  // 1 - possibility of the complement, which misses a cut where the event holds it, and holds one that the event
+  // misses.
+  const double most = leastAlpha(x, [&](const Interval& cut) { return isSubset(cut, event); });
+  return 1 - Interval(!isEmpty(x.core()) && isDisjoint(x.core(), event) ? 1.0 : 0.0, most);
+}
+
+Interval centroid(const Fuzzy& x) {
+  if (isEmpty(x.support()) || !isBounded(x.support())) return Interval::empty();
+  if (isThin(x.support())) return x.support();
+  std::size_t top = x.levels() - 1;
+  while (isEmpty(x.cut(top))) --top;
+  // With ends l(a), u(a) at membership a, ∫ m dv = ∫ (u - l) da and ∫ v m dv = ∫ (u² - l²) / 2 da. Between two levels
+  // both ends are straight: the mean of u is (u0 + u1) / 2, that of u² is (u0² + u0 u1 + u1²) / 3. Distances from a
+  // place in the core instead of values keep the digits of a narrow number. The area is positive: the support's width
+  // is.
+  const double origin = midpoint(x.cut(top));
+  const auto squares = [&](double end0, double end1) {
+    const Interval a = Interval(end0) - origin, b = Interval(end1) - origin;
+    return sqr(a) + a * b + sqr(b);
+  };
+  Interval widths, moments;  // twice the area and six times the moment, each divided by the distance of two levels
+  for (std::size_t level = 0; level == 0 || level < top; ++level) {
+    const Interval& outer = x.cut(level);
+    const Interval& inner = x.cut(std::min(level + 1, top));
+    widths += (Interval(outer.upper()) - outer.lower()) + (Interval(inner.upper()) - inner.lower());
+    moments += squares(outer.upper(), inner.upper()) - squares(outer.lower(), inner.lower());
+  }
+  return intersection(origin + moments / (3 * widths), x.support());
+}
 
 std::ostream& operator<<(std::ostream& stream, const Fuzzy& x) {
   const char* separator = "{";

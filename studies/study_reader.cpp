@@ -267,7 +267,7 @@ class StudyReader {
     if (found == nullptr)
       source_.fail(node, fmt::format("'{}.type' is missing", name), fmt::format("{{ type = \"{}\" }}", types.front()));
     type = source_.asChoice(*found, name + ".type", types);
-    std::vector<std::string> keys{"type", "support"};
+    std::vector<std::string> keys{"type"};
     for (const auto& entry : kinds)
       if (entry.first == type) keys.insert(keys.end(), entry.second.begin(), entry.second.end());
     return {source_, table, name, keys};
@@ -280,11 +280,11 @@ class StudyReader {
     if (node == nullptr) return;
     std::string type;
     const TomlSection table = kind(section, *node, "distribution",
-                                   {{"uniform", {}},
-                                    {"triangular", {"mode"}},
-                                    {"normal", {"mean", "deviation"}},
-                                    {"beta", {"a", "b"}},
-                                    {"lognormal", {"log_mean", "log_deviation"}}},
+                                   {{"uniform", {"support"}},
+                                    {"triangular", {"support", "mode"}},
+                                    {"normal", {"support", "mean", "deviation"}},
+                                    {"beta", {"support", "a", "b"}},
+                                    {"lognormal", {"support", "log_mean", "log_deviation"}}},
                                    type);
     const Dimension dimension = dimensionOf(result.unit);
     const Interval on = support(table, result);
@@ -312,9 +312,12 @@ class StudyReader {
     const toml::node* node = section.find("membership");
     if (node == nullptr) return;
     std::string type;
-    const TomlSection table =
-        kind(section, *node, "membership",
-             {{"triangular", {"apex"}}, {"trapezoidal", {"core"}}, {"gaussian", {"centre", "deviation"}}}, type);
+    const TomlSection table = kind(section, *node, "membership",
+                                   {{"triangular", {"support", "apex"}},
+                                    {"trapezoidal", {"support", "core"}},
+                                    {"gaussian", {"support", "centre", "deviation"}},
+                                    {"table", {"points"}}},
+                                   type);
     const Dimension dimension = dimensionOf(result.unit);
     const Interval on = support(table, result);
     try {
@@ -328,9 +331,31 @@ class StudyReader {
       if (type == "gaussian")
         uncertain.membership = Membership::gaussian(on, number(table, "centre", result, uncertain.nominal),
                                                     requiredNumber(table, "deviation", dimension));
+      if (type == "table") uncertain.membership = Membership::table(points(table, result));
     } catch (const std::invalid_argument& error) {
       source_.failWith(*node, error.what(), "a membership function inside the interval");
     }
+  }
+
+  /// points = [[value, membership], ...]: nearest doubles, but the ends, which are the support, rounded outward.
+  std::vector<Membership::Point> points(const TomlSection& section, const UncertainQuantity& quantity) const {
+    const std::string what = section.nameOf("points");
+    const Interval range = quantity.uncertain.range;
+    const toml::array& list =
+        source_.asArray(section.require("points", "[[value, membership], ...] with memberships from 0 to 1"), what);
+    std::vector<Membership::Point> result;
+    for (const toml::node& entry : list) {
+      const toml::array& point = source_.asArray(entry, what);
+      if (point.size() != 2) source_.fail(entry, what + " has a point that is no pair", "[value, membership]");
+      const Amount amount = source_.asAmount(point[0], what, dimensionOf(quantity.unit));
+      const bool isFirst = &entry == list.get(0), isLast = &entry == list.get(list.size() - 1);
+      const double value = isFirst ? enclose(amount).lower() : isLast ? enclose(amount).upper() : nearest(amount);
+      if (!contains(range, value))
+        source_.fail(point[0], fmt::format("{} has the value {:.6g} outside the interval", what, value),
+                     fmt::format("values inside {}", toString(range, 6)));
+      result.push_back({value, nearest(source_.asAmount(point[1], what, plain))});
+    }
+    return result;
   }
 
   /// An initial value that follows an uncertain parameter would be a second copy of it, which no analysis could tell.

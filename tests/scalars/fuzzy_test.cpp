@@ -1,7 +1,9 @@
-// Laws of Fuzzy: cuts are nested, each is the interval operation on the operands' cuts, and each holds the exact cut.
+// Laws of Fuzzy: cuts are nested, each is the interval operation on the operands' cuts, and each holds the exact cut;
+// what is said of possibility, necessity and centroid holds for the number enclosed.
 #include "scalars/fuzzy.hpp"
 
 #include <algorithm>
+#include <boost/multiprecision/cpp_int.hpp>
 #include <sstream>
 #include <stdexcept>
 
@@ -11,6 +13,7 @@ namespace gamut {
 namespace {
 
 using namespace gamut::testing;
+using Rational = boost::multiprecision::cpp_rational;
 
 Fuzzy randomTriangle(RandomDoubles& random, double lower, double upper, std::size_t levels) {
   double corners[] = {random.uniform(lower, upper), random.uniform(lower, upper), random.uniform(lower, upper)};
@@ -43,28 +46,18 @@ TEST(Fuzzy, ATrapezoidHasItsPlateauOnTop) {
   EXPECT_THAT(x.core(), IsInterval(1, 3));
 }
 
-TEST(Fuzzy, EveryCutOfATriangleHoldsTheExactCut) {
-  RandomDoubles random;
-  for (int i = 0; i < cases; ++i) {
-    const std::size_t levels = random.integer(2, 12);
-    double corners[] = {random.uniform(-3, 3), random.uniform(-3, 3), random.uniform(-3, 3)};
-    std::ranges::sort(corners);
-    const auto [lower, apex, upper] = corners;
-    const Fuzzy x = Fuzzy::triangular(lower, apex, upper, levels);
-    ASSERT_THAT(x, IsNested());
-    for (std::size_t level = 0; level < levels; ++level) {
-      // (levels - 1) * exact end = outer * (levels - 1 - level) + apex * level, exact in 300 bits
-      const unsigned long top = levels - 1;
-      for (const double outer : {lower, upper}) {
-        Mpfr exact(outer, 300), part(apex, 300),
-            scaled(outer == lower ? x.cut(level).lower() : x.cut(level).upper(), 300);
-        mpfr_mul_ui(exact, exact, top - level, MPFR_RNDN);
-        mpfr_mul_ui(part, part, level, MPFR_RNDN);
-        mpfr_add(exact, exact, part, MPFR_RNDN);
-        mpfr_mul_ui(scaled, scaled, top, MPFR_RNDN);
-        const int order = mpfr_cmp(scaled, exact);
-        ASSERT_TRUE(outer == lower ? order <= 0 : order >= 0) << x << " level " << level;
-      }
+TEST(Fuzzy, EveryMakerCutsItsMembershipAtTheAlphaOfEachLevel) {
+  const std::vector<Membership::Point> points = {{-1, 0}, {0.1, 0.3}, {0.2, 1}, {0.9, 0}};
+  const std::pair<Fuzzy, Membership> made[] = {
+      {Fuzzy::triangular(0.1, 0.3, 0.7, 11), Membership::triangular(0.1, 0.3, 0.7)},
+      {Fuzzy::trapezoidal(0.1, 0.3, 0.4, 0.7, 8), Membership::trapezoidal(0.1, 0.3, 0.4, 0.7)},
+      {Fuzzy::gaussian({-1.0, 0.9}, 0.1, 0.3, 31), Membership::gaussian({-1.0, 0.9}, 0.1, 0.3)},
+      {Fuzzy::table(points, 7), Membership::table(points)}};
+  for (const auto& [x, membership] : made) {
+    EXPECT_THAT(x, IsNested());
+    for (std::size_t level = 0; level < x.levels(); ++level) {
+      EXPECT_EQ(x.alpha(level), static_cast<double>(level) / static_cast<double>(x.levels() - 1));
+      EXPECT_TRUE(isEqual(x.cut(level), membership.cut(x.alpha(level)))) << membership.name() << ' ' << level;
     }
   }
 }
@@ -73,6 +66,7 @@ TEST(Fuzzy, MakersRefuseCornersOutOfOrderAndTooFewLevels) {
   EXPECT_THROW(Fuzzy::triangular(0, 3, 2, 4), std::invalid_argument);
   EXPECT_THROW(Fuzzy::triangular(2, 1, 0, 4), std::invalid_argument);
   EXPECT_THROW(Fuzzy::triangular(0, 1, 2, 1), std::invalid_argument);
+  EXPECT_THROW(Fuzzy(Membership(), 0), std::invalid_argument);
   EXPECT_THROW(Fuzzy::trapezoidal(0, 1, 3, 2, 4), std::invalid_argument);
   EXPECT_THROW(Fuzzy::trapezoidal(0, 1, 2, infinity, 4), std::invalid_argument);
   EXPECT_THROW(Fuzzy(std::vector<Interval>{}), std::invalid_argument);
@@ -100,9 +94,22 @@ TEST(Fuzzy, FunctionsAreThoseOfIntervalCutByCutAndStayNested) {
   const std::pair<OfFuzzy, OfInterval> functions[] = {
       {sqr, sqr},
       {sqrt, sqrt},
+      {cbrt, cbrt},
       {abs, abs},
+      {sign, sign},
+      {floor, floor},
+      {ceil, ceil},
+      {trunc, trunc},
+      {round, round},
+      {roundEven, roundEven},
       {exp, exp},
+      {exp2, exp2},
+      {exp10, exp10},
+      {expm1, expm1},
       {log, log},
+      {log2, log2},
+      {log10, log10},
+      {log1p, log1p},
       {sin, sin},
       {cos, cos},
       {tan, tan},
@@ -112,9 +119,16 @@ TEST(Fuzzy, FunctionsAreThoseOfIntervalCutByCutAndStayNested) {
       {sinh, sinh},
       {cosh, cosh},
       {tanh, tanh},
+      {asinh, asinh},
+      {acosh, acosh},
+      {atanh, atanh},
+      {[](const Fuzzy& x) { return rootn(x, 3); }, [](const Interval& x) { return rootn(x, 3); }},
       {[](const Fuzzy& x) { return pow(x, 3); }, [](const Interval& x) { return pow(x, 3); }},
       {[](const Fuzzy& x) { return pow(x, 0.5); }, [](const Interval& x) { return pow(x, 0.5); }},
       {[](const Fuzzy& x) { return pow(x, x); }, [](const Interval& x) { return pow(x, x); }},
+      {[](const Fuzzy& x) { return atan2(x, 0.5); }, [](const Interval& x) { return atan2(x, 0.5); }},
+      {[](const Fuzzy& x) { return atan2(0.5, x); }, [](const Interval& x) { return atan2(0.5, x); }},
+      {[](const Fuzzy& x) { return hypot(x, 0.5); }, [](const Interval& x) { return hypot(x, 0.5); }},
       {[](const Fuzzy& x) { return min(x, 0.5); }, [](const Interval& x) { return min(x, 0.5); }},
       {[](const Fuzzy& x) { return max(x, 0.5); }, [](const Interval& x) { return max(x, 0.5); }}};
   RandomDoubles random;
@@ -125,6 +139,28 @@ TEST(Fuzzy, FunctionsAreThoseOfIntervalCutByCutAndStayNested) {
       ASSERT_THAT(result, IsNested());
       for (std::size_t level = 0; level < 5; ++level) {
         ASSERT_TRUE(isEqual(result.cut(level), ofInterval(x.cut(level)))) << x;
+      }
+    }
+  }
+}
+
+TEST(Fuzzy, EachCutOfAFunctionHoldsTheFunctionOfEachElementOfTheOperandsCut) {
+  const std::pair<Fuzzy (*)(const Fuzzy&), OfOne> functions[] = {
+      {sqr, mpfr_sqr},     {sqrt, mpfr_sqrt},   {cbrt, mpfr_cbrt},  {exp, mpfr_exp},   {exp2, mpfr_exp2},
+      {exp10, mpfr_exp10}, {expm1, mpfr_expm1}, {log, mpfr_log},    {log2, mpfr_log2}, {log10, mpfr_log10},
+      {log1p, mpfr_log1p}, {sin, mpfr_sin},     {cos, mpfr_cos},    {tan, mpfr_tan},   {asin, mpfr_asin},
+      {acos, mpfr_acos},   {atan, mpfr_atan},   {sinh, mpfr_sinh},  {cosh, mpfr_cosh}, {tanh, mpfr_tanh},
+      {asinh, mpfr_asinh}, {acosh, mpfr_acosh}, {atanh, mpfr_atanh}};
+  RandomDoubles random;
+  for (int i = 0; i < cases / 50; ++i) {
+    const Fuzzy x = Fuzzy::gaussian({-2.0, 3.0}, random.uniform(-2, 3), random.uniform(0.01, 1), 4);
+    for (const auto& [function, exact] : functions) {
+      const Fuzzy result = function(x);
+      for (std::size_t level = 0; level < x.levels(); ++level) {
+        const double value = random.elementOf(x.cut(level));
+        const double down = rounded(exact, value, MPFR_RNDD), up = rounded(exact, value, MPFR_RNDU);
+        if (std::isnan(down) || std::isinf(down) || std::isinf(up)) continue;  // outside of the domain, or at its end
+        ASSERT_TRUE(result.cut(level).lower() <= down && up <= result.cut(level).upper()) << value << ' ' << result;
       }
     }
   }
@@ -150,6 +186,112 @@ TEST(Fuzzy, CutsOutsideAFunctionsDomainAreEmptyAndStayNested) {
   EXPECT_THAT(root, IsNested());
   EXPECT_EQ(root.support().lower(), 0);
   EXPECT_THAT(root.core(), IsEmptyInterval());
+}
+
+TEST(Fuzzy, PossibilityIsTheLeastAlphaWhoseCutMissesTheEvent) {
+  const Fuzzy x = Fuzzy::triangular(0, 1, 2, 5);
+  EXPECT_THAT(possibility(x, {2.5, infinity}), IsInterval(0, 0));
+  EXPECT_THAT(possibility(x, {2, infinity}), IsInterval(0, 0.25));
+  EXPECT_THAT(possibility(x, {1.6, infinity}), IsInterval(0, 0.5));  // exactly 0.4
+  EXPECT_THAT(possibility(x, {-infinity, 0.5}), IsInterval(0, 0.75));
+  EXPECT_THAT(possibility(x, {1.5, 1.7}), IsInterval(0, 0.75));
+  EXPECT_THAT(possibility(x, {1, infinity}), IsInterval(1, 1));
+  EXPECT_THAT(possibility(x, Interval::entire()), IsInterval(1, 1));
+  EXPECT_THAT(possibility(x, Interval::empty()), IsInterval(0, 0));
+}
+
+TEST(Fuzzy, NecessityIsWhatThePossibilityOfTheComplementLeaves) {
+  const Fuzzy x = Fuzzy::trapezoidal(0, 1, 2, 3, 5);
+  EXPECT_THAT(necessity(x, {0, infinity}), IsInterval(1, 1));
+  EXPECT_THAT(necessity(x, {0.3, infinity}), IsInterval(0.5, 1));  // exactly 0.7
+  EXPECT_THAT(necessity(x, {1, 2}), IsInterval(0, 1));             // exactly 0
+  EXPECT_THAT(necessity(x, {0.75, 2.75}), IsInterval(0.25, 1));
+  EXPECT_THAT(necessity(x, {1.5, infinity}), IsInterval(0, 1));
+  EXPECT_THAT(necessity(x, {2.5, infinity}), IsInterval(0, 0));
+  EXPECT_THAT(necessity(x, Interval::empty()), IsInterval(0, 0));
+}
+
+TEST(Fuzzy, ACrispQuantityIsPossibleAndNecessaryOrNotUnlessItsIntervalCannotTell) {
+  const Fuzzy x = Interval(1, 2);
+  EXPECT_THAT(possibility(x, {0, 3}), IsInterval(1, 1));
+  EXPECT_THAT(necessity(x, {0, 3}), IsInterval(1, 1));
+  EXPECT_THAT(possibility(x, {3, 4}), IsInterval(0, 0));
+  EXPECT_THAT(necessity(x, {3, 4}), IsInterval(0, 0));
+  EXPECT_THAT(possibility(x, {1.5, 4}), IsInterval(0, 1));
+  EXPECT_THAT(necessity(x, {1.5, 4}), IsInterval(0, 1));
+}
+
+TEST(Fuzzy, PossibilityAndNecessityAreDualAndWhatIsNecessaryAtAllIsWhollyPossible) {
+  RandomDoubles random;
+  for (int i = 0; i < cases; ++i) {
+    const Fuzzy x = randomTriangle(random, -3, 3, 7);
+    const double threshold = random.integer(0, 1) == 0 ? random.uniform(-3, 3) : x.cut(3).lower();
+    const Interval above(threshold, infinity), below(-infinity, std::nextafter(threshold, -infinity));
+    ASSERT_TRUE(isEqual(necessity(x, above), 1 - possibility(x, below))) << x << ' ' << threshold;
+    ASSERT_TRUE(isEqual(necessity(x, below), 1 - possibility(x, above))) << x << ' ' << threshold;
+    for (const Interval& event : {above, below, random.intervalIn(-3, 3)}) {
+      const Interval certain = necessity(x, event), possible = possibility(x, event);
+      ASSERT_TRUE(isSubset(certain, {0, 1}) && isSubset(possible, {0, 1}));
+      ASSERT_TRUE(certain.lower() == 0 || possible.lower() == 1) << x << ' ' << event;
+      ASSERT_TRUE(possible.upper() == 1 || certain.upper() == 0) << x << ' ' << event;
+    }
+  }
+}
+
+TEST(Fuzzy, NoValueIsMorePossibleThanItsEventAndNoneOutsideOfItMoreThanItsNecessityLeaves) {
+  RandomDoubles random;
+  for (int i = 0; i < cases; ++i) {
+    const double apex = random.uniform(-1, 1);
+    const Membership membership = Membership::triangular(apex - random.uniform(0, 2), apex, apex + 1);
+    const Fuzzy square = sqr(Fuzzy(membership, 6)) + 1;
+    const double value = random.elementOf(membership.support()), degree = membership(value);
+    const Interval image = sqr(Interval(value)) + 1, event = random.intervalIn(0.5, 6);
+    if (isSubset(image, event)) {
+      ASSERT_LE(degree, possibility(square, event).upper()) << value << ' ' << event;
+    }
+    if (isDisjoint(image, event)) {
+      ASSERT_LE(necessity(square, event).lower(), 1 - degree) << value << ' ' << event;
+    }
+  }
+}
+
+TEST(Fuzzy, TheCentroidOfKnownShapesIsEnclosedTightly) {
+  EXPECT_THAT(centroid(Fuzzy::triangular(0, 3, 6, 5)), IsInterval(3, 3));
+  EXPECT_TRUE(contains(centroid(Fuzzy::triangular(0, 1, 5, 5)), 2));            // the mean of the corners
+  EXPECT_TRUE(contains(centroid(Fuzzy::trapezoidal(0, 2, 2, 4, 2)), 2));        // two levels tell all of it
+  EXPECT_TRUE(contains(centroid(Fuzzy::trapezoidal(-1, 0, 4, 11, 17)), 3.75));  // areas 1/2, 4, 7/2 at -1/3, 2, 19/3
+  EXPECT_TRUE(contains(centroid(Fuzzy::gaussian({-2.0, 2.0}, 0, 0.5, 11)), 0));
+  EXPECT_THAT(centroid(Fuzzy(Interval(1, 4))), IsInterval(2.5, 2.5));
+  EXPECT_THAT(centroid(Fuzzy(0.1)), IsInterval(0.1, 0.1));
+  EXPECT_THAT(centroid(Fuzzy({Interval(1, 2), Interval::empty()})), IsInterval(1.5, 1.5));
+  EXPECT_THAT(centroid(Fuzzy(Interval(0, infinity))), IsEmptyInterval());
+  EXPECT_THAT(centroid(Fuzzy(Interval::empty())), IsEmptyInterval());
+}
+
+TEST(Fuzzy, TheCentroidIsThatOfTheStackExactlyAndTight) {
+  RandomDoubles random;
+  for (int i = 0; i < cases / 10; ++i) {
+    const std::size_t levels = random.integer(2, 9);
+    const Fuzzy x = sqr(randomTriangle(random, -3, 3, levels)) + random.uniform(-1e3, 1e3);
+    Rational area = 0, moment = 0;  // of the trapezoids between neighbouring levels, times 2 and 6
+    for (std::size_t level = 1; level < levels; ++level) {
+      const Rational l0 = x.cut(level - 1).lower(), u0 = x.cut(level - 1).upper();
+      const Rational l1 = x.cut(level).lower(), u1 = x.cut(level).upper();
+      area += u0 - l0 + u1 - l1;
+      moment += u0 * u0 + u0 * u1 + u1 * u1 - l0 * l0 - l0 * l1 - l1 * l1;
+    }
+    const Rational exact = moment / area / 3;
+    const Interval result = centroid(x);
+    ASSERT_TRUE(Rational(result.lower()) <= exact && exact <= Rational(result.upper())) << x;
+    ASSERT_LE(width(result), 0x1p-50 * magnitude(x.support()) + 0x1p-46 * width(x.support())) << x;
+  }
+}
+
+TEST(Fuzzy, TheCentroidOfANarrowNumberFarFromZeroKeepsItsDigits) {
+  const double unit = 0x1p-20;
+  const Interval result = centroid(Fuzzy::triangular(1e6, 1e6 + unit, 1e6 + 5 * unit, 9));
+  EXPECT_TRUE(contains(result, 1e6 + 2 * unit));
+  EXPECT_LE(width(result), 1e-9);
 }
 
 TEST(Fuzzy, PrintsFromSupportToCore) {

@@ -171,6 +171,20 @@ distribution = { type = "triangular", mode = -9.805 }
   EXPECT_TRUE(isEqual(study.mechanism.nominal("spring.stiffness"), Interval(3000.0)));
 }
 
+TEST(StudyReader, ReadsAMembershipTableAsItsPointsWithTheSupportRoundedOutward) {
+  const std::string table =
+      R"(membership = { type = "table", points = [[0.52, 0], ["29.9 deg", 0.5], [0.5236, 1], ["30.1 deg", 1.0], [0.527, 0.25]] })";
+  const Study study = readStudyText(sampleStudyWith("membership = { type = \"triangular\" }", table), "s.toml");
+  const Membership& membership = study.uncertain[0].uncertain.membership;
+  const auto degrees = [](const char* number) { return Interval(number) * pi() / 180; };
+  EXPECT_EQ(membership.name(), "table");
+  EXPECT_TRUE(isEqual(membership.support(), hull(Interval("0.52"), Interval("0.527"))));
+  EXPECT_EQ(membership.core().lower(), 0.5236);
+  EXPECT_TRUE(contains(degrees("30.1"), membership.core().upper()));
+  EXPECT_TRUE(contains(degrees("29.9"), membership.cut(0.5).lower()));
+  EXPECT_EQ(membership.cut(0.25).upper(), membership.support().upper());
+}
+
 TEST(StudyReader, ReadsTheAnalysesOptions) {
   const std::string text =
       sampleStudy +
@@ -393,6 +407,22 @@ constexpr BadStudy badStudies[] = {
      "0.52883476335428193]; expected a membership function inside the interval"},
     {"membership = { type = \"triangular\" }", "membership = { type = \"trapezoidal\" }",
      "s.toml:33:14: 'uncertain.membership.core' is missing; expected [left, right]"},
+    {"membership = { type = \"triangular\" }",
+     "membership = { type = \"table\", points = [[0.52, 0], [0.521, 0.5], [0.522, 0.25], [0.523, 1]] }",
+     "s.toml:33:14: point 3, (0.522, 0.25), of a membership table falls although the table has not reached 1; expected "
+     "a membership function inside the interval"},
+    {"membership = { type = \"triangular\" }", "membership = { type = \"table\", points = [[0.52, 0], [0.521]] }",
+     "s.toml:33:53: uncertain.membership.points has a point that is no pair; expected [value, membership]"},
+    {"membership = { type = \"triangular\" }", "membership = { type = \"table\" }",
+     "s.toml:33:14: 'uncertain.membership.points' is missing; expected [[value, membership], ...] with memberships "
+     "from 0 "
+     "to 1"},
+    {"membership = { type = \"triangular\" }",
+     "membership = { type = \"table\", support = [0.52, 0.525], points = [[0.523, 1]] }",
+     "s.toml:33:32: unknown key 'support' in [uncertain.membership]; expected one of: type, points"},
+    {"membership = { type = \"triangular\" }", "membership = { type = \"table\", points = [[0.523, 1], [0.6, 0]] }",
+     "s.toml:33:55: uncertain.membership.points has the value 0.6 outside the interval; expected values inside "
+     "[0.518362, 0.528835]"},
     {"name = \"angle\"", "name = \"tip.position.z\"",
      "s.toml:38:12: two outputs are named 'tip.position.z'; expected different names"},
     {"quantity = \"tip.position.z\"", "quantity = \"tip.position.w\"",
