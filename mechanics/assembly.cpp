@@ -47,7 +47,7 @@ Assembly<S>::Assembly(const Mechanism& mechanism, const std::vector<std::string>
 
   for (const std::string& name : mechanism.frames()) frames_.emplace(name, std::make_unique<Frame<S>>(name));
   for (const ElementDescription& element : mechanism.elements())
-    std::visit([this](const auto& description) { add(description); }, element);
+    std::visit([this](const auto& description) { this->add(description); }, element);
   system_ = std::make_unique<System<S>>(variables_, chain_, *frames_.at(Mechanism::inertialFrame),
                                         mechanism.gravity() ? vector(*mechanism.gravity()) : zeroVector<S>());
   for (const Quantity& initial : mechanism.initialState()) initialState_.push_back(value(initial));
