@@ -664,6 +664,7 @@ Tube Flow::enclose(const Box& box, double horizon, const std::vector<double>& ou
     requireThat(outputTimes[i] >= 0 && outputTimes[i] <= horizon && (i == 0 || outputTimes[i] >= outputTimes[i - 1]),
                 "output times must rise from 0 to the horizon");
   requireNested(box, levels);
+  requireNearest();
   FlowOptions options = parts.options;
   double furthest = 0;  // runs and threads report one at a time; what they report must not go back
   if (parts.options.progress)

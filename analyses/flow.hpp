@@ -94,6 +94,8 @@ class Flow {
 
   /// box: the n initial values, then the k parameters; thin ones included. horizon > 0 and output times in [0,
   /// horizon], rising, in s. levels: boxes inside `box`, each inside the one before, for Tube::cut.
+  /// Throws std::invalid_argument, saying which argument makes no sense, and std::runtime_error if this thread does not
+  /// round to nearest.
   Tube enclose(const Box& box, double horizon, const std::vector<double>& outputTimes = {},
                const std::vector<Box>& levels = {}) const;
 

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "scalars/index.hpp"
+#include "scalars/rounding.hpp"
 
 namespace gamut {
 
@@ -75,6 +76,12 @@ void requireNested(const Box& box, const std::vector<Box>& levels) {
                   "sub-boxes must lie inside the box, each inside the one before");
     outer = &level;
   }
+}
+
+void requireNearest() {
+  if (!detail::isArithmeticNearest())
+    throw std::runtime_error(
+        "the flow's bounds need rounding to nearest and subnormal numbers: restore the floating-point environment");
 }
 
 }  // namespace gamut

@@ -33,5 +33,8 @@ Interval inflated(const Interval& range, double radius);
 void requireThat(bool condition, const std::string& what);
 /// Throws std::invalid_argument unless the box is bounded and every level lies in the one before, the first in the box.
 void requireNested(const Box& box, const std::vector<Box>& levels);
+/// Throws std::runtime_error unless this thread rounds to nearest and keeps subnormal numbers, as the flow's bounds
+/// ask.
+void requireNearest();
 
 }  // namespace gamut

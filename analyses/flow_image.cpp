@@ -16,6 +16,7 @@ std::vector<std::vector<Interval>> encloseImage(const Program& g, double t, cons
   requireThat(box.size() == at(g.states() + g.parameters()), "the box needs one interval a state and a parameter");
   requireThat(degree >= -1 && degree <= 40, "the degree of the polynomials must be 0 to 40 (-1: automatic)");
   requireNested(box, levels);
+  requireNearest();
   const Embedding embedding(box);
   const int d = degree >= 1 && embedding.symbols > 0 ? degree : degreeLadder(embedding.symbols).back();
   const auto monomials = std::make_shared<const Monomials>(std::vector<int>(at(embedding.symbols), 1), d);

@@ -2,13 +2,9 @@
 #include "scalars/elementary.hpp"
 
 #include <bit>
-#include <cfenv>
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#if defined(__SSE2__)
-#include <immintrin.h>
-#endif
 
 #include "scalars/elementary_kernels.hpp"
 #include "scalars/rounding.hpp"
@@ -17,16 +13,6 @@ namespace gamut::detail {
 namespace {
 
 // ---- The processor --------------------------------------------------------------------------------------------------
-
-/// Whether the kernels' proofs hold: round-to-nearest, and subnormal numbers neither flushed (FTZ) nor ignored (DAZ).
-bool isArithmeticNearest() {
-#if defined(__SSE2__)
-  constexpr unsigned roundingControl = 0x6000, flushToZero = 0x8000, denormalsAreZero = 0x0040;
-  return (_mm_getcsr() & (roundingControl | flushToZero | denormalsAreZero)) == 0;
-#else
-  return std::fegetround() == FE_TONEAREST;
-#endif
-}
 
 // A kernel is compiled in both forms, the fused one for processors that have the instruction even where the build does
 // not rely on it.

@@ -16,6 +16,7 @@
 #pragma once
 
 #include <bit>
+#include <cfenv>
 #include <cfloat>
 #include <cmath>
 #include <cstdint>
@@ -37,6 +38,17 @@ static_assert(FLT_EVAL_METHOD == 0, "Gamut's bounds need doubles that are evalua
 static_assert(std::numeric_limits<double>::is_iec559);
 
 namespace detail {
+
+/// Whether the processor rounds to nearest and keeps subnormal numbers (neither FTZ nor DAZ), which bounds that are
+/// known beforehand ask for. Reads the mode of this thread, and never writes it.
+inline bool isArithmeticNearest() noexcept {
+#ifdef __SSE2__
+  constexpr unsigned roundingControl = 0x6000, flushToZero = 0x8000, denormalsAreZero = 0x0040;
+  return (__builtin_ia32_stmxcsr() & (roundingControl | flushToZero | denormalsAreZero)) == 0;
+#else
+  return std::fegetround() == FE_TONEAREST;
+#endif
+}
 
 /// The neighbour above / below of x != 0: doubles are ordered as their magnitudes' bit patterns are. (The step from an
 /// infinity towards zero is the largest double.)

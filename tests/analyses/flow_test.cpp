@@ -1,6 +1,7 @@
 // What a tube promises beside its enclosures: sub-boxes, pieces, threads, cancellation, the ways to end early,
 // arguments that make no sense, and boxes and scales at the edge of what doubles can say.
 #include <atomic>
+#include <cfenv>
 #include <cmath>
 #include <limits>
 
@@ -271,6 +272,21 @@ TEST(Flow, RefusesArgumentsThatMakeNoSenseAndSaysWhy) {
 }
 
 // ---- The edge of what doubles can say -------------------------------------------------------------------------------
+
+TEST(Flow, RefusesToProveAnythingInAnotherRoundingMode) {
+  const Flow flow(pendulum());
+  for (const int mode : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
+    std::fesetround(mode);
+    std::string said;
+    try {
+      flow.enclose({Interval(1), Interval(0)}, 1.0);
+    } catch (const std::runtime_error& error) {
+      said = error.what();
+    }
+    std::fesetround(FE_TONEAREST);
+    EXPECT_THAT(said, HasSubstr("rounding to nearest"));
+  }
+}
 
 TEST(Flow, HoldsConstantSolutionsExactly) {
   Containment c;
