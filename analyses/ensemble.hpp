@@ -1,5 +1,5 @@
-// What is probable: many samples of the uncertain quantities, each integrated on its own by the witness (CVODE), and
-// what they say together: envelope, moments, quantiles, inner alpha-cuts, and the witness's own error.
+// What is probable: many samples of the uncertain quantities, integrated by the witness (CVODE), by Adams's method in
+// packs, and what they say together: envelope, moments, quantiles, inner alpha-cuts, and the witness's own error.
 // Trajectories are kept, so that the comparison can name the sample that leaves an enclosure.
 #pragma once
 
@@ -65,6 +65,7 @@ struct Ensemble {
   std::string why;                   ///< why that is before the horizon, naming the first sample that failed; or empty
   Tolerance tolerance;
   Method method = Method::adams;
+  std::size_t packWidth = 1;  ///< samples of one number / packWidth were integrated together, see sampleEnsemble
   Table error;     ///< witness error: greatest change of a re-integrated sample at a hundred times tighter tolerance
   double cpu = 0;  ///< s, all threads
 
@@ -89,10 +90,18 @@ struct Ensemble {
 };
 
 /// Integrates all samples, corners and the centre of `system`, and measures the witness's error on every fiftieth
-/// sample (on at least eight, or all if there are fewer; without states, where nothing is integrated, against 128-bit
-/// arithmetic). Samples that fail are named and left out. Every number depends on the options' plan, samples, seed,
-/// tolerance and method alone. Throws std::invalid_argument for options or a system that make no sense.
+/// sample, integrated once more alone (on at least eight, or all if there are fewer; without states, where nothing is
+/// integrated, against 128-bit arithmetic). By Adams's method the samples of one number / packWidth are integrated
+/// together, in the steps of the one that needs the shortest: a sample's trajectory is what its pack gave. Packs of so
+/// few samples that they would cost more than the samples alone, packs of which a sample fails, and all samples by
+/// Method::bdf are integrated one by one. Samples that fail are named and left out. Every number depends on the
+/// options' plan, samples, seed, tolerance and method alone. Throws std::invalid_argument for options or a system that
+/// make no sense.
 Ensemble sampleEnsemble(const UncertainMotion& system, const EnsembleOptions& options = {});
+
+/// The trajectory of sample `number`, [time][output], bit for bit as in sampleEnsemble(system, options), by integrating
+/// its pack alone. Throws as sampleEnsemble does, and std::invalid_argument for a number that no sample has.
+std::vector<double> replaySample(const UncertainMotion& system, const EnsembleOptions& options, std::size_t number);
 
 /// What the samples (without corners and centre) say; a failed sample counts as long as it lasted.
 struct Statistics {

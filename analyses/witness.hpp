@@ -5,9 +5,9 @@
 #include <atomic>
 #include <memory>
 #include <span>
-#include <string>
 #include <vector>
 
+#include "analyses/cvode.hpp"
 #include "scalars/program.hpp"
 
 namespace gamut {
@@ -23,26 +23,6 @@ struct Motion {
   std::size_t outputs() const { return static_cast<std::size_t>(g.outputs()); }
   /// Throws std::invalid_argument, saying what does not fit together.
   void check() const;
-};
-
-/// Tolerances of CVODE's local error test: relative * |x| + absolute, for every state.
-struct Tolerance {
-  double relative = 1e-10;
-  double absolute = 1e-12;
-
-  /// So many times tighter, but relative no tighter than 1e-14: beyond that doubles end what a solver can do.
-  Tolerance tightened(double factor) const;
-};
-
-/// CVODE's method family: Adams with functional iteration is the fastest for mechanisms without stiff springs; the
-/// backward differentiation formulas with Newton iteration are for those with them.
-enum class Method { adams, bdf };
-
-/// How far an integration got.
-struct Integration {
-  std::size_t times = 0;  ///< number of output times reached
-  double reached = 0;     ///< s
-  std::string why;        ///< CVODE's words if it ended early, otherwise empty
 };
 
 /// Integrates one motion after another. One a thread; it must not outlive the motion's programs.

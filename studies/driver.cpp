@@ -198,6 +198,7 @@ class Driver {
     stochastic.corners = static_cast<std::int64_t>(ensemble_.corners);
     stochastic.relativeTolerance = ensemble.tolerance.relative;
     stochastic.absoluteTolerance = ensemble.tolerance.absolute;
+    stochastic.packWidth = static_cast<std::int64_t>(ensemble_.packWidth);
     stochastic.reached = ensemble_.reached;
     stochastic.why = ensemble_.complete ? ensemble_.why : "interrupted";
     stochastic.envelope = ensemble_.envelope();
@@ -291,6 +292,7 @@ class Driver {
     part.complete = ensemble_.complete;
     part.tolerance = ensemble_.tolerance;
     part.method = ensemble_.method;
+    part.packWidth = ensemble_.packWidth;
     part.error = ensemble_.error;
     for (const std::size_t number : numbers) {
       const auto values = ensemble_.valuesOf(number), trajectory = std::as_const(ensemble_).trajectory(number);

@@ -212,6 +212,8 @@ Hdf5Reader::Hdf5Reader(hid_t parent, const std::string& name)
 
 bool Hdf5Reader::has(const std::string& name) const { return H5Lexists(group_, name.c_str(), H5P_DEFAULT) > 0; }
 
+bool Hdf5Reader::hasAttribute(const std::string& name) const { return H5Aexists(group_, name.c_str()) > 0; }
+
 double Hdf5Reader::number(const std::string& attribute) const {
   return readAttribute<double>(group_, attribute, H5T_NATIVE_DOUBLE, H5T_FLOAT);
 }

@@ -50,7 +50,8 @@ struct StochasticResult {
   std::int64_t samples = 0;  ///< that count in the statistics
   std::int64_t corners = 0;  ///< integrated besides, without weight
   double relativeTolerance = 0, absoluteTolerance = 0;
-  double reached = 0;  ///< s
+  std::int64_t packWidth = 1;  ///< samples of one number / packWidth were integrated together
+  double reached = 0;          ///< s
   std::string why;
   Bounds envelope;  ///< of all samples, corners and centre
   Grid mean, deviation;

@@ -191,6 +191,7 @@ void writeStochastic(Hdf5Writer& root, const Results& results) {
   group.attribute("corners", stochastic.corners);
   group.attribute("relative_tolerance", stochastic.relativeTolerance);
   group.attribute("absolute_tolerance", stochastic.absoluteTolerance);
+  group.attribute("pack_width", stochastic.packWidth);
   group.attribute("reached", stochastic.reached);
   group.attribute("why", stochastic.why);
   group.attribute("cpu", stochastic.cpu);
@@ -430,6 +431,8 @@ void readStochastic(const Hdf5Reader& root, Results& results) {
   stochastic.corners = group.integer("corners");
   stochastic.relativeTolerance = group.number("relative_tolerance");
   stochastic.absoluteTolerance = group.number("absolute_tolerance");
+  // Older files have none: their samples were integrated one by one.
+  if (group.hasAttribute("pack_width")) stochastic.packWidth = group.integer("pack_width");
   stochastic.reached = group.number("reached");
   stochastic.why = group.text("why");
   stochastic.cpu = group.number("cpu");

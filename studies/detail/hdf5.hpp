@@ -84,6 +84,7 @@ class Hdf5Reader {
 
   hid_t id() const { return group_; }
   bool has(const std::string& name) const;
+  bool hasAttribute(const std::string& name) const;
   double number(const std::string& attribute) const;
   std::int64_t integer(const std::string& attribute) const;
   std::uint64_t natural(const std::string& attribute) const;

@@ -1,4 +1,5 @@
-// The sampled ensemble against known solutions; the same numbers whatever the number of jobs.
+// The sampled ensemble against known solutions; the same numbers whatever the number of jobs, the vector unit, and
+// whether a sample's pack is integrated with the others or alone.
 #include "analyses/ensemble.hpp"
 
 #include <gmock/gmock.h>
@@ -7,8 +8,10 @@
 #include <cmath>
 #include <cstring>
 #include <mutex>
+#include <span>
 #include <stdexcept>
 
+#include "analyses/pack_witness.hpp"
 #include "tests/analyses/motions.hpp"
 
 namespace gamut {
@@ -38,7 +41,7 @@ double oscillatorError(const Ensemble& e) {
   return error;
 }
 
-bool sameBits(const std::vector<double>& a, const std::vector<double>& b) {
+bool sameBits(std::span<const double> a, std::span<const double> b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
 }
 
@@ -62,6 +65,153 @@ TEST(Ensemble, IsTheSameBitByBitWhateverTheNumberOfJobs) {
   EXPECT_TRUE(sameBits(one.data, three.data));
   EXPECT_TRUE(sameBits(one.values, three.values));
   EXPECT_TRUE(sameBits(one.error.data, three.error.data));
+}
+
+/// The samples number 0 … packWidth-1 of an ensemble as a pack.
+std::vector<double> packOf(const UncertainMotion& system, const Ensemble& e) {
+  std::vector<double> starts(system.nominal.size() * packWidth);
+  for (std::size_t lane = 0; lane < packWidth; ++lane) {
+    const std::vector<double> start = system.start(e.valuesOf(lane));
+    for (std::size_t row = 0; row < start.size(); ++row) starts[row * packWidth + lane] = start[row];
+  }
+  return starts;
+}
+
+TEST(ReplaySample, GivesEverySampleOfFullAndPartPacksAgainBitByBit) {
+  // 100 samples, 4 corners, the centre: a full pack and one of 41. 68 and 5: a full pack and 9 alone.
+  for (std::size_t count : {100u, 68u}) {
+    const Ensemble e = sampleEnsemble(oscillator(), samples(count));
+    for (std::size_t i = 0; i < e.size(); ++i)
+      ASSERT_TRUE(sameBits(replaySample(oscillator(), samples(count), i), e.trajectory(i))) << i;
+  }
+}
+
+TEST(ReplaySample, HoldsForBdfForFailedSamplesAndForMotionsWithoutStates) {
+  EnsembleOptions bdf = samples(20);
+  bdf.method = Method::bdf;
+  const Ensemble stiff = sampleEnsemble(oscillator(), bdf);
+  EXPECT_TRUE(sameBits(replaySample(oscillator(), bdf, 17), stiff.trajectory(17)));
+  UncertainMotion singular = decay(1.0, 10);
+  singular.motion.f = record(1, 1, [](auto, const auto& x, const auto& p, auto& dx) { dx[0] = p[0] * sqr(x[0]); });
+  const Ensemble failed = sampleEnsemble(singular, samples(64));
+  ASSERT_FALSE(failed.failed.empty());
+  for (std::size_t i : {failed.failed.front().number, std::size_t{0}, failed.centre()})
+    EXPECT_TRUE(sameBits(replaySample(singular, samples(64), i), failed.trajectory(i))) << i;
+  const Ensemble still = sampleEnsemble(line(), samples(100));
+  EXPECT_TRUE(sameBits(replaySample(line(), samples(100), 99), still.trajectory(99)));
+}
+
+TEST(ReplaySample, RefusesANumberThatNoSampleHas) {
+  EXPECT_NO_THROW(replaySample(decay(), samples(16), 18));
+  EXPECT_THAT([] { replaySample(decay(), samples(16), 19); },
+              ThrowsMessage<std::invalid_argument>(HasSubstr("no sample has the number 19")));
+}
+
+TEST(Ensemble, SaysHowManySamplesAreIntegratedTogether) {
+  EnsembleOptions options = samples(20);
+  EXPECT_EQ(sampleEnsemble(decay(), options).packWidth, 64u);
+  options.method = Method::bdf;
+  EXPECT_EQ(sampleEnsemble(decay(), options).packWidth, 1u);
+}
+
+TEST(Ensemble, APackHoldsThePlansSamplesOfItsNumbersWhateverFollows) {
+  const Ensemble shorter = sampleEnsemble(oscillator(), samples(128)),
+                 longer = sampleEnsemble(oscillator(), samples(256));
+  for (std::size_t i = 0; i < 128; ++i) ASSERT_TRUE(sameBits(shorter.trajectory(i), longer.trajectory(i))) << i;
+}
+
+TEST(Ensemble, FewSamplesAreIntegratedOneByOne) {
+  const UncertainMotion system = oscillator();
+  const Ensemble e = sampleEnsemble(system, samples(5));
+  std::vector<double> alone(31 * 2);
+  for (std::size_t i = 0; i < e.size(); ++i) {
+    Witness(system.motion).integrate(system.start(e.valuesOf(i)), {}, alone);
+    EXPECT_TRUE(sameBits(alone, e.trajectory(i))) << i;
+  }
+}
+
+TEST(Ensemble, APackWithASampleThatFailsIsIntegratedOneByOne) {
+  UncertainMotion system = decay(1.0, 10);
+  system.motion.f = record(1, 1, [](auto, const auto& x, const auto& p, auto& dx) { dx[0] = p[0] * sqr(x[0]); });
+  const Ensemble e = sampleEnsemble(system, samples(64));
+  std::vector<double> alone(11);
+  auto failure = e.failed.begin();
+  for (std::size_t i = 0; i < e.size(); ++i) {
+    const Integration run = Witness(system.motion).integrate(system.start(e.valuesOf(i)), {}, alone);
+    EXPECT_TRUE(sameBits(alone, e.trajectory(i))) << i;
+    if (run.times == 11) continue;
+    ASSERT_NE(failure, e.failed.end());
+    EXPECT_EQ(failure->number, i);
+    EXPECT_EQ(failure->times, run.times);
+    EXPECT_EQ(failure->reached, run.reached);
+    EXPECT_EQ(failure->why, run.why);
+    ++failure;
+  }
+  EXPECT_EQ(failure, e.failed.end());
+  EXPECT_GT(e.failed.size(), 20u);
+}
+
+TEST(PackWitness, GivesTheSameBitsOnEveryVectorUnit) {
+  const UncertainMotion system = oscillator();
+  const std::vector<double> starts = packOf(system, sampleEnsemble(system, samples(64)));
+  std::vector<double> baseline(31 * 2 * packWidth), other(baseline.size());
+  PackWitness(system.motion, nullptr, VectorUnit::baseline).integrate(starts, {}, baseline);
+  for (VectorUnit unit : usableUnits()) {
+    EXPECT_EQ(PackWitness(system.motion, nullptr, unit).integrate(starts, {}, other).times, 31u);
+    EXPECT_TRUE(sameBits(baseline, other)) << nameOf(unit);
+  }
+}
+
+TEST(PackWitness, ForgetsWhatItIntegratedBefore) {
+  const UncertainMotion system = oscillator();
+  const std::vector<double> starts = packOf(system, sampleEnsemble(system, samples(64)));
+  std::vector<double> fresh(31 * 2 * packWidth), used(fresh.size()), twice = starts;
+  for (double& value : twice) value *= 2;
+  PackWitness(system.motion).integrate(starts, {}, fresh);
+  PackWitness witness(system.motion);
+  witness.integrate(twice, {1e-6, 1e-8}, used);
+  witness.integrate(starts, {}, used);
+  EXPECT_TRUE(sameBits(fresh, used));
+}
+
+/// The one sample that moves fast decides on the steps: as accurate as alone, though 63 others hardly move.
+TEST(PackWitness, EverySampleIsAsAccurateAsAloneWhereverItIsInThePack) {
+  const UncertainMotion system = oscillator();
+  std::vector<double> starts(3 * packWidth), trajectories(31 * 2 * packWidth), alone(31 * 2);
+  Witness(system.motion).integrate(std::vector{1.0, 0.0, 20.0}, {}, alone);
+  const auto errorOf = [](std::size_t t, double value) {
+    return std::abs(value - std::cos(20.0 * 3.0 * static_cast<double>(t) / 30.0));
+  };
+  double aloneError = 0;
+  for (std::size_t t = 0; t < 31; ++t) aloneError = std::max(aloneError, errorOf(t, alone[2 * t]));
+  for (std::size_t fast = 0; fast < packWidth; fast += 9) {
+    for (std::size_t lane = 0; lane < packWidth; ++lane) {
+      starts[lane] = 1;
+      starts[2 * packWidth + lane] = lane == fast ? 20 : 0.01;
+    }
+    ASSERT_EQ(PackWitness(system.motion).integrate(starts, {}, trajectories).times, 31u);
+    for (std::size_t t = 0; t < 31; ++t)
+      ASSERT_LE(errorOf(t, trajectories[2 * t * packWidth + fast]), 2 * aloneError) << fast << ' ' << t;
+  }
+}
+
+TEST(PackWitness, EndsWithTheFirstSampleThatCannotGoOn) {
+  UncertainMotion system = decay(1.0, 10);
+  system.motion.f = record(1, 1, [](auto, const auto& x, const auto& p, auto& dx) { dx[0] = p[0] * sqr(x[0]); });
+  std::vector<double> starts(2 * packWidth, 1.0), trajectories(11 * packWidth);
+  std::fill_n(starts.begin() + packWidth, packWidth, 0.5);  // x = 1 / (1 - p t)
+  EXPECT_EQ(PackWitness(system.motion).integrate(starts, {}, trajectories).times, 11u);
+  starts[packWidth + 37] = 2;
+  const Integration run = PackWitness(system.motion).integrate(starts, {}, trajectories);
+  EXPECT_EQ(run.times, 5u);  // 0 … 0.4
+  EXPECT_THAT(run.reached, DoubleNear(0.5, 1e-3));
+  EXPECT_NE(run.why, "");
+}
+
+TEST(PackWitness, RefusesAPackOfAnotherSize) {
+  const UncertainMotion system = decay();
+  std::vector<double> starts(2 * packWidth, 1.0), trajectories(41 * packWidth - 1);
+  EXPECT_THROW(PackWitness(system.motion).integrate(starts, {}, trajectories), std::invalid_argument);
 }
 
 TEST(Witness, ForgetsWhatItIntegratedBefore) {
@@ -187,6 +337,25 @@ TEST(Ensemble, EndsEarlyWhenCancelledAndSaysSo) {
   EXPECT_EQ(e.why, "cancelled");
   EXPECT_FALSE(std::isnan(e(0, 30, 0)));
   EXPECT_TRUE(std::isnan(e(199, 30, 0)));
+}
+
+TEST(Ensemble, APackThatIsNotFinishedWhenCancelledCountsAsNotIntegrated) {
+  std::atomic<bool> cancelled = true;
+  const UncertainMotion system = oscillator();
+  const std::vector<double> starts = packOf(system, sampleEnsemble(system, samples(64)));
+  std::vector<double> trajectories(31 * 2 * packWidth);
+  const Integration run = PackWitness(system.motion, &cancelled).integrate(starts, {}, trajectories);
+  EXPECT_EQ(run.why, "cancelled");
+  EXPECT_EQ(run.times, 1u);
+  EnsembleOptions options = samples(640);
+  options.cancelled = &cancelled;
+  cancelled = false;
+  options.progress = [&](double) { cancelled = true; };  // at a hundredth: within the first pack's count
+  const Ensemble e = sampleEnsemble(system, options);
+  EXPECT_EQ(e.why, "cancelled");
+  EXPECT_TRUE(e.failed.empty());
+  for (std::size_t i = 64; i < e.size(); ++i)
+    for (const double value : e.trajectory(i)) ASSERT_TRUE(std::isnan(value)) << i;
 }
 
 TEST(Ensemble, ReportsProgressUpToOne) {

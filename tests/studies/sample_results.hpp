@@ -55,6 +55,7 @@ inline Results sampleResults() {
   r.stochastic.corners = 3;
   r.stochastic.relativeTolerance = 1e-10;
   r.stochastic.absoluteTolerance = 1e-12;
+  r.stochastic.packWidth = 64;
   r.stochastic.reached = 0.02;
   r.stochastic.envelope = sampleBounds(3, 2, 0.35, 0.5);
   r.stochastic.mean = sampleGrid(3, 2, 0.6);

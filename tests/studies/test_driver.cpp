@@ -74,6 +74,7 @@ TEST(Driver, KeepsSamplesInsideWithUncertainParametersAndInitialValues) {
   const Results results = run(sampleWith("[[uncertain]]", threeUncertain));
   EXPECT_EQ(results.comparison.verdict, "inside");
   EXPECT_EQ(results.stochastic.corners, 8);
+  EXPECT_EQ(results.stochastic.packWidth, 64);
   EXPECT_EQ(results.uncertain.size(), 3U);
   EXPECT_GE(results.comparison.maximum, 1);
   EXPECT_LT(results.comparison.maximum, 1.1);

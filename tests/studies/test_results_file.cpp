@@ -88,6 +88,7 @@ TEST_F(ResultsFile, GivesBackEveryAnswer) {
   EXPECT_EQ(found.stochastic.corners, expected.stochastic.corners);
   EXPECT_EQ(found.stochastic.relativeTolerance, expected.stochastic.relativeTolerance);
   EXPECT_EQ(found.stochastic.absoluteTolerance, expected.stochastic.absoluteTolerance);
+  EXPECT_EQ(found.stochastic.packWidth, 64);
   EXPECT_EQ(found.stochastic.reached, expected.stochastic.reached);
   EXPECT_EQ(found.stochastic.cpu, expected.stochastic.cpu);
   EXPECT_EQ(found.stochastic.why, "");
@@ -108,6 +109,17 @@ TEST_F(ResultsFile, GivesBackEveryAnswer) {
     expectSame(found.fuzzy.outer[i], expected.fuzzy.outer[i], "outer");
     expectSame(found.fuzzy.inner[i], expected.fuzzy.inner[i], "inner");
   }
+}
+
+TEST_F(ResultsFile, WithoutAPackWidthIsOfSamplesIntegratedOneByOne) {
+  writeResults(sampleResults(), path_);
+  {
+    const Hdf5Handle file(H5Fopen(path_.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose, path_);
+    ASSERT_GE(H5Adelete_by_name(file, "stochastic", "pack_width", H5P_DEFAULT), 0);
+  }
+  const Results found = readResults(path_);
+  EXPECT_EQ(found.stochastic.packWidth, 1);
+  EXPECT_EQ(found.stochastic.samples, 4096);
 }
 
 TEST_F(ResultsFile, GivesBackTheComparisonAndDisputedSamples) {
