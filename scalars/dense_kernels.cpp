@@ -3,28 +3,33 @@
 
 #include <cmath>
 
+#include "scalars/vector_unit.hpp"
+
 namespace gamut::detail {
 namespace {
 
+/// Rows of a column.
 #ifdef __AVX__
-constexpr Count lanes = 4;
+using Rows = Vector4;
 #else
-constexpr Count lanes = 2;
+using Rows = Vector2;
 #endif
-/// Rows of a column. They may alias doubles and need not be aligned.
-typedef double Lanes __attribute__((vector_size(lanes * sizeof(double)), aligned(sizeof(double)), may_alias));
+constexpr Count width = lanes<Rows>;
 
-Lanes& at(double* x) { return *reinterpret_cast<Lanes*>(x); }
-const Lanes& at(const double* x) { return *reinterpret_cast<const Lanes*>(x); }
+Rows loaded(const double* x) {
+  Rows rows;
+  load(rows, x);
+  return rows;
+}
 
 /// 4 rows of so many columns of a b, where b is given by the first of those columns. The sums stay in registers.
 template <int Columns>
 void multiplyBlock(const double* a, Count aStride, Count depth, const double* b, Count bStride, double* product,
                    Count productStride) {
-  constexpr int parts = 4 / lanes;
-  Lanes sums[Columns][parts] = {};
+  constexpr int parts = 4 / width;
+  Rows sums[Columns][parts] = {};
   for (Count k = 0; k < depth; ++k, a += aStride) {
-    const Lanes top = at(a), bottom = at(a + 4 - lanes);
+    const Rows top = loaded(a), bottom = loaded(a + 4 - width);
     for (int j = 0; j < Columns; ++j) {
       const double factor = b[k + j * bStride];
       sums[j][0] += top * factor;
@@ -32,7 +37,7 @@ void multiplyBlock(const double* a, Count aStride, Count depth, const double* b,
     }
   }
   for (int j = 0; j < Columns; ++j) {
-    for (int part = 0; part < parts; ++part) at(product + j * productStride + part * lanes) = sums[j][part];
+    for (int part = 0; part < parts; ++part) store(product + j * productStride + part * width, sums[j][part]);
   }
 }
 
@@ -54,18 +59,13 @@ Count pivotRow(const Dense& a, Count k) {
 
 void swapRows(const Dense& a, Count one, Count other) {
   if (one == other) return;
-  for (Count j = 0; j < a.columns; ++j) {
-    const double element = a(one, j);
-    a(one, j) = a(other, j);
-    a(other, j) = element;
-  }
+  for (Count j = 0; j < a.columns; ++j) std::swap(a(one, j), a(other, j));
 }
 
 /// column -= multipliers * factor, four rows at a time.
 void eliminate(double* column, const double* multipliers, double factor, Count stride) {
   for (Count i = 0; i < stride; i += 4) {
-    at(column + i) -= at(multipliers + i) * factor;
-    if constexpr (lanes < 4) at(column + i + 2) -= at(multipliers + i + 2) * factor;
+    for (Count k = i; k < i + 4; k += width) store(column + k, loaded(column + k) - loaded(multipliers + k) * factor);
   }
 }
 

@@ -9,6 +9,12 @@
 //   |fl(x.y) - x.y| <= ((1 + u)^n - 1) |x|.|y| + 2n 2^-1074 <= (n + 1)u |x|.|y| + omega / 4,     omega = 2^-1020.   (1)
 //
 // (Jeannerod and Rump 2013 have nu in place of (n + 1)u for rounding to nearest; this one holds in every mode.)
+//
+// All this unless something overflows, and becomes infinite or, in some modes, the largest double, which is no bound.
+// But rounding is monotone: a sum of terms that are not negative is computed as less than the largest double only if no
+// term or partial sum overflowed. So a bound that is not less counts as infinite, and proves nothing. Terms of fl(x.y)
+// may overflow and then cancel; but |x|.|y| is at least half the largest double then, and (n + 1)u |x|.|y| at least u
+// times the largest: (1) holds if a bound of which the latter is a part stays below that.
 #include "scalars/verified_algebra.hpp"
 
 #include <array>
@@ -50,6 +56,9 @@ struct Roundoff {
 /// all underflows together below omega / 4; factor = factor(k). With c = (1 - u)^-k <= 1 + (k + 1)u <= 2 the exact
 /// value is at most c x + omega / 2, and fl(fl(x factor) + omega) >= x (1 + 2(k + 2)u)(1 - u)^2 + omega / 2 is no less.
 double raise(double x, double factor) { return x * factor + omega; }
+
+/// A bound that is not negative, or infinity where it may have overflowed.
+double unlessOverflown(double x) { return x < largest ? x : infinity; }
 
 /// A bound that was got as y by an exact scaling, except that y may have underflowed or overflowed (to infinity or to
 /// the largest double, as the rounding mode wants).
@@ -103,10 +112,11 @@ void requireSquare(const DenseView<S>& a) {
 double centreOf(double x) { return x; }
 double centreOf(const Interval& x) { return 0.5 * x.lower() + 0.5 * x.upper(); }
 /// x lies within this of its centre: each difference meets one rounding (none that underflows), and a factor of
-/// 1 + 8 2^-53 covers that and its own.
+/// 1 + 8 2^-53 covers that and its own. The exact distance is no more than the largest double, as the exact centre's
+/// magnitude and half the width add up to that of an end.
 double deviationOf(const Interval& x) {
   const double centre = centreOf(x);
-  return std::max(x.upper() - centre, centre - x.lower()) * (1 + 0x1p-50);
+  return std::min(std::max(x.upper() - centre, centre - x.lower()) * (1 + 0x1p-50), largest);
 }
 
 /// One square matrix A, scaled, with a guess R of its inverse and the proof that the guess is good.
@@ -174,7 +184,7 @@ class Proof {
     }
   }
 
-  /// T >= (n + 1)u |B| + |B' - B|: what (1) and the intervals cost a product with B.
+  /// T >= (n + 1)u |B| + |B' - B|: what (1) and the intervals cost a product with B. Only the latter may overflow.
   void tolerate() {
     const double unit = roundoff.ofDotProduct(n), factor = roundoff.factor(3);
     for (Count k = 0; k < b.size(); ++k) {
@@ -182,7 +192,7 @@ class Proof {
       if constexpr (thin) {
         tolerance.data[k] = raise(rounding, factor);
       } else {
-        tolerance.data[k] = raise(rounding + deviation.data[k], factor);
+        tolerance.data[k] = unlessOverflown(raise(rounding + deviation.data[k], factor));
       }
     }
   }
@@ -200,7 +210,8 @@ class Proof {
     }
   }
 
-  /// G >= |I - R B'|, which is |I - fl(RB)| + |R| T by (1), and its row sums: B' is regular when all are below 1.
+  /// G >= |I - R B'|, which is |I - fl(RB)| + |R| T by (1), and its row sums: B' is regular when all are below 1. Then
+  /// nothing has overflowed, as (n + 1)u |R||B| is a part of |R| T, and infinities make row sums infinite or NaN.
   std::string contract() {
     for (Count k = 0; k < r.size(); ++k) absR.data[k] = std::abs(r.data[k]);
     multiply(r, b, g);
@@ -238,12 +249,14 @@ class Proof {
   /// |B'^-1 - R| <= G|R| + delta/(1 - delta) e colmax(G|R|), e = (1, ..., 1)^T: with E = I - R B' the difference is
   /// the sum of E^k R over k > 0, |E R| <= G|R|, and the powers of |E| <= G shrink columns' maxima by delta each.
   /// Written as A'^-1 = E B'^-1 D, each bound by its own rounding wider: |fl(R -+ rho) - (R -+ rho)| <= u(|R| + rho).
+  /// As T >= omega and |R| T < 1, |R| < 2^1020 and so is G|R|: unless the last term reaches 2^1022 nothing overflows.
   void writeInverse(Interval* inverse) {
     multiply(g, absR, product);
     const double factor = roundoff.factor(n + 4), u = roundoff.u;
     for (Count j = 0; j < n; ++j) {
       const double* const h = product.column(j);
-      const double rest = tail * raise(greatest(h, n), roundoff.factor(n));
+      double rest = tail * raise(greatest(h, n), roundoff.factor(n));
+      if (!(rest < 0x1p1022)) rest = infinity;
       const double *const centre = r.column(j), *const magnitude = absR.column(j);
       for (Count i = 0; i < b.stride; ++i) scratch[i] = raise(h[i] + rest + u * magnitude[i], factor);
       for (Count i = 0; i < n; ++i) {
@@ -292,7 +305,9 @@ class Solver {
     enclose();
     for (Count i = 0; i < n; ++i) {
       const double below = addDown(x[i], subDown(step[i], bound[i])), above = addUp(x[i], addUp(step[i], bound[i]));
-      if (!(above - below < infinity)) return "column " + std::to_string(j) + " of the solution overflows";
+      if (!(bound[i] < p.roundoff.u * largest && above - below < infinity)) {
+        return "column " + std::to_string(j) + " of the solution overflows";
+      }
       const double scale = p.columnScale[i] * power;
       solution[i] = {downFrom(below * scale), upFrom(above * scale)};
     }
@@ -301,11 +316,14 @@ class Solver {
 
  private:
   /// rhs := D b scaled by a power of two, slack := how far b' may lie from it; returns the power that undoes the scale.
+  /// The power brings both near 1, or is 2^-480 at the least: neither D b, below 2^1504, nor the deviations overflow.
   double load(const DenseView<B>& b, Count j) {
     double size = 0;
     for (Count i = 0; i < n; ++i) {
       rhs[i] = centreOf(b(i, j));
-      size = std::max(size, std::abs(rhs[i]) * p.rowScale[i]);
+      double greater = std::abs(rhs[i]);
+      if constexpr (!std::is_same_v<B, double>) greater = std::max(greater, deviationOf(b(i, j)));
+      size = std::max(size, greater * p.rowScale[i]);
     }
     const double power = equaliser(size);
     for (Count i = 0; i < n; ++i) {
@@ -335,7 +353,9 @@ class Solver {
   /// residual and residualError: |rhs - B x - residual| <= residualError. In nearest rounding by Ogita, Rump and
   /// Oishi's Dot2 (2005): rhs - B x = s + sum (f_j - e_j) exactly, with the errors e_j of products and f_j of sums, sum
   /// |e_j| + |f_j| <= (n + 2)u S for S = |rhs| + |B||x|, and summing those costs at most (n + 2)u times as much. In
-  /// other modes the errors are not exact, so the plain sum is taken: n + 1 roundings, (n + 2)u S.
+  /// other modes the errors are not exact, so the plain sum is taken: n + 1 roundings, (n + 2)u S. Partial sums do not
+  /// overflow where S is computed as less than half the largest double: they are at most (1 + 2nu + ...) <= 2 times
+  /// that.
   void findResidual() {
     for (Count i = 0; i < p.b.stride; ++i) {
       sum[i] = rhs[i];
@@ -348,7 +368,7 @@ class Solver {
     for (Count i = 0; i < p.b.stride; ++i) {
       residual[i] = p.roundoff.nearest ? sum[i] + carry[i] : sum[i];
       const double rounding = p.roundoff.nearest ? u * std::abs(residual[i]) : 0;
-      residualError[i] = raise(rounding + unit * magnitude[i], factor);
+      residualError[i] = magnitude[i] < 0.5 * largest ? raise(rounding + unit * magnitude[i], factor) : infinity;
     }
   }
 
@@ -375,20 +395,22 @@ class Solver {
 
   /// bound >= |y - x - step|. With E = I - R B' and the residual rho' = b' - B' x: y - x = (I - E)^-1 R rho'. Here
   /// w >= |rho' - residual|, so |R rho' - step| <= e := |R|((n + 1)u |residual| + w) by (1), |R rho'| <= v := |step| +
-  /// e, and |y - x - step| <= e + sum of G^k v over k > 0 <= e + Gv + delta/(1 - delta) max(Gv).
+  /// e, and |y - x - step| <= e + sum of G^k v over k > 0 <= e + Gv + delta/(1 - delta) max(Gv). All if w did not
+  /// overflow, and no bound reaches u times the largest double (so that neither R residual nor v overflowed).
   void enclose() {
     double* const w = sum;
     if constexpr (Proof<S>::thin) {
       double total = 0;
       for (Count i = 0; i < n; ++i) total += std::abs(x[i]);
-      std::fill_n(w, p.b.stride, total * omega);  // B' - B is what underflow took: at most 2^-1074 an element
+      // B' - B is what underflow took: at most 2^-1074 an element. (2^50 times that makes up for an overflow, too.)
+      std::fill_n(w, p.b.stride, total * omega);
     } else {
       for (Count i = 0; i < p.b.stride; ++i) magnitude[i] = std::abs(x[i]);
       multiply(p.deviation, magnitude, w);
     }
     const double unit = p.roundoff.ofDotProduct(n), factor = p.roundoff.factor(2 * n + 8);
     for (Count i = 0; i < p.b.stride; ++i) {
-      w[i] = raise(w[i] + slack[i] + residualError[i] + unit * std::abs(residual[i]), factor);
+      w[i] = unlessOverflown(raise(w[i] + slack[i] + residualError[i] + unit * std::abs(residual[i]), factor));
     }
     multiply(p.absR, w, bound);
     for (Count i = 0; i < p.b.stride; ++i) {
@@ -467,6 +489,8 @@ std::string enclosedSolution(const DenseView<S>& a, const DenseView<B>& b, Inter
 /// and det B' = sign(P) det W / det Y, where det Y is the product of its diagonal. By (1) |fl(PB Y) - P B' Y| <= P T
 /// |Y| and |fl(X Z) - X P B' Y| <= |X|((n + 1)u |Z| + P T |Y|) for Z = fl(PB Y). With row sums g_i < 1 of |I - W|
 /// Ostrowski's bound for dominant diagonals (1937) and Hadamard's give prod (1 - g_i) <= det W <= prod (1 + g_i).
+/// Then nothing has overflowed: (n + 1)u |X||Z| is a part of that error, and so is (n + 1)u |PB||Y| <= P T |Y|, as X
+/// has ones on its diagonal.
 template <class S>
 std::string enclosedDeterminant(const DenseView<S>& a, Determinant& determinant) {
   requireSquare(a);

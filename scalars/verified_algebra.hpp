@@ -4,8 +4,7 @@
 //   Eigen::MatrixXd a = ...;                                  // Eigen::Matrix3d, Eigen::Matrix<Interval, 6, 6>, ...
 //   const auto inverse = verifiedInverse(a);
 //   if (!inverse) std::cerr << inverse.reason();              // "the matrix may be singular: ..."
-//   else std::cout << (*inverse)(0, 0);                       // an Interval that holds the element of the exact
-//   inverse
+//   else std::cout << (*inverse)(0, 0);                       // an Interval: it holds the exact inverse's element
 //
 // For a matrix of intervals every result holds for every real matrix inside. A matrix that is singular, or intervals
 // that hold a singular one, can never be verified; regular ones are, as a rule, up to condition numbers of about

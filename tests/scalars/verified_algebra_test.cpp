@@ -3,11 +3,11 @@
 #include "scalars/verified_algebra.hpp"
 
 #include <algorithm>
-#include <boost/multiprecision/mpfr.hpp>
 #include <cfenv>
 #include <optional>
 #include <vector>
 
+#include "tests/scalars/high_precision.hpp"
 #include "tests/scalars/reference.hpp"
 
 namespace gamut {
@@ -18,9 +18,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using IntervalMatrix = Eigen::Matrix<Interval, Eigen::Dynamic, Eigen::Dynamic>;
-using Digits100 =
-    boost::multiprecision::number<boost::multiprecision::mpfr_float_backend<100, boost::multiprecision::allocate_stack>,
-                                  boost::multiprecision::et_off>;
+using Digits100 = Digits<100>;
 
 constexpr double unit = 0x1p-53;
 
@@ -539,6 +537,19 @@ TEST(VerifiedDeterminant, OfIntervalsHoldsThatOfEveryMatrixInside) {
 
 // ---- Rounding modes -------------------------------------------------------------------------------------------------
 
+constexpr int modes[] = {FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO};
+
+/// f(), computed in a rounding mode that ends with it.
+template <class Function>
+auto rounded(int mode, const Function& f) {
+  struct Mode {
+    explicit Mode(int mode) : before(std::fegetround()) { std::fesetround(mode); }
+    ~Mode() { std::fesetround(before); }
+    int before;
+  } const scope(mode);
+  return f();
+}
+
 TEST(VerifiedAlgebra, HoldsInWhicheverRoundingModeTheCallerLeft) {
   RandomMatrices random;
   for (const int mode : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
@@ -563,6 +574,79 @@ TEST(VerifiedAlgebra, HoldsInWhicheverRoundingModeTheCallerLeft) {
       }
     }
   }
+}
+
+TEST(VerifiedSolve, HoldsTheEndsOfRightHandSidesAsWideAsCanBeInEveryRoundingMode) {
+  const Eigen::Matrix2d a{{2, 0}, {0, 1}};
+  for (const int mode : modes) {
+    for (const double end : {1e160, 1e170, 1e300, largest}) {
+      const Eigen::Matrix<Interval, 2, 1> b(Interval(-end, end), Interval(-1, 1));
+      const auto x = rounded(mode, [&] { return verifiedSolve(a, b); });
+      ASSERT_TRUE(x) << mode << ", " << end << ": " << x.reason();
+      EXPECT_TRUE(isSubset(Interval(-end / 2, end / 2), (*x)(0))) << mode << ": " << (*x)(0);
+      EXPECT_TRUE(isSubset(Interval(-1, 1), (*x)(1))) << mode << ": " << (*x)(1);
+      EXPECT_LE((*x)(0).upper(), end / 2 * (1 + 1e-13)) << mode;
+    }
+  }
+}
+
+TEST(VerifiedSolve, IsNotDeceivedByOverflowsThatEndAtTheLargestDouble) {
+  RandomMatrices random;
+  int verified = 0;
+  const auto judge = [&](const MatrixXd& a, const MatrixXd& b) {
+    for (const int mode : modes) {
+      const auto x = rounded(mode, [&] { return verifiedSolve(a, b); });
+      if (!x) continue;
+      ++verified;
+      EXPECT_EQ(escapes(*x, *Judge::solve(a, b)), 0) << mode << "\n" << a << "\n" << b << "\n" << *x;
+    }
+  };
+  judge(MatrixXd{{3 * 0x1p997, 0x1p998, -0x1p999}, {3 * 0x1p997, 0x1p999, 0x1p999}, {0, 0x1p-1000, -0x1p-999}},
+        VectorXd{{0, 0, 4}});
+  for (int time = 0; time < 2000; ++time) {  // great rows times great solutions, which cancel
+    const Index n = random.integer(2, 4);
+    const int exponent = random.integer(994, 1020), last = random.integer(-1001, -900);
+    const MatrixXd integers = MatrixXd::NullaryExpr(n, n, [&] { return random.integer(-4, 4); });
+    MatrixXd a = std::ldexp(1.0, exponent) * integers, b = MatrixXd::Zero(n, 1);
+    a.row(n - 1) = std::ldexp(1.0, last) * integers.row(n - 1);
+    b(n - 1) = random.integer(1, 4);
+    judge(a, b);
+  }
+  EXPECT_GT(verified, 400);
+}
+
+TEST(VerifiedAlgebra, HoldsForElementsOfAllMagnitudesInEveryRoundingMode) {
+  RandomMatrices random;
+  int verified = 0;
+  for (int time = 0; time < 2000; ++time) {
+    const Index n = random.integer(1, 4);
+    const auto power = [&](int most) { return std::ldexp(1.0, random.integer(-most, most)); };
+    IntervalMatrix a = random.around(random.matrix(n, n), power(40) * 0x1p-50), b(n, 1);
+    for (Index k = 0; k < n; ++k) {
+      a.row(k) *= Interval(power(450));
+      a.col(k) *= Interval(power(450));
+      const double end = power(1000);
+      b(k) = Interval(-end, random.integer(0, 1) ? end : power(1000));
+    }
+    const MatrixXd insideA = random.inside(a), insideB = random.inside(b);
+    const auto exact = Judge::solve(insideA, insideB);
+    for (const int mode : modes) {
+      const auto inverse = rounded(mode, [&] { return verifiedInverse(a); });
+      const auto determinant = rounded(mode, [&] { return verifiedDeterminant(a); });
+      const auto solution = rounded(mode, [&] { return verifiedSolve(a, b); });
+      verified += bool(inverse) + bool(determinant) + bool(solution);
+      if (inverse) {
+        ASSERT_EQ(escapes(*inverse, Judge::invert(insideA)), 0) << mode << "\n" << a;
+      }
+      if (determinant) {
+        ASSERT_TRUE(holds(determinant->value, exact->determinant)) << mode << "\n" << a;
+      }
+      if (solution) {
+        ASSERT_EQ(escapes(*solution, *exact), 0) << mode << "\n" << a << "\n" << b;
+      }
+    }
+  }
+  EXPECT_GT(verified, 6000);
 }
 
 }  // namespace

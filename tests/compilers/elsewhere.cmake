@@ -1,7 +1,6 @@
-# Builds the neighbour test in FOLDER by COMPILER with FLAGS (of the interval SOURCES and of neighbours.cpp), runs it in
-# two threads, and compares its digest with that of the program REFERENCE, the project's own build. If CALLER names a
-# flag, once more with neighbours.cpp compiled with that flag too; if RUNNER names a program, once more by that program.
-# Says "skipped" where the compiler, the runner or the machine's instructions are missing.
+# Builds the program TEST (a .cpp beside this file) with its SOURCES in FOLDER by COMPILER with FLAGS, runs it in two
+# threads, and compares the digest that it prints with that of the program REFERENCE, the project's own build. If CALLER
+# names a flag, once more with TEST compiled with that flag too; if RUNNER names a program, once more by that program. Says "skipped" where the compiler, the runner or the machine's instructions are missing.
 separate_arguments(FLAGS)
 separate_arguments(RUNNER)
 if(RUNNER)
@@ -34,14 +33,14 @@ execute_process(COMMAND ${REFERENCE} OUTPUT_VARIABLE expected)  # whether it fai
 
 # build(FLAG...): the test, compiled with these flags besides FLAGS.
 function(build)
-  compile(${CMAKE_CURRENT_LIST_DIR}/neighbours.cpp neighbours.o ${FLAGS} ${ARGN})
-  execute_process(COMMAND ${COMPILER} ${FLAGS} ${FOLDER}/neighbours.o ${objects} ${LINK} -pthread -o ${FOLDER}/neighbours
+  compile(${CMAKE_CURRENT_LIST_DIR}/${TEST}.cpp test.o ${FLAGS} ${ARGN})
+  execute_process(COMMAND ${COMPILER} ${FLAGS} ${FOLDER}/test.o ${objects} ${LINK} -pthread -o ${FOLDER}/test
     COMMAND_ERROR_IS_FATAL ANY)
 endfunction()
 
 # run(THREADS [WORD...]): the test built last, started by these words, prints the digest expected.
 function(run threads)
-  execute_process(COMMAND ${ARGN} ${FOLDER}/neighbours ${threads} RESULT_VARIABLE status OUTPUT_VARIABLE output
+  execute_process(COMMAND ${ARGN} ${FOLDER}/test ${threads} RESULT_VARIABLE status OUTPUT_VARIABLE output
     ERROR_VARIABLE errors ECHO_ERROR_VARIABLE)
   if(status MATCHES "[Ii]llegal")
     message("skipped: this machine lacks the instructions of ${FLAGS}")
