@@ -18,14 +18,14 @@ Program rewritten(const Program& program, RuleSet rules) {
 }
 
 constexpr Pass table[] = {
-    {"foldConstants", "operations on constants, where exact, become constants", foldConstants, true},
-    {"simplify", "x + 0, 1·x, x - x, -(-x), x·(1/x) and the like vanish", simplify, true},
-    {"moveSigns", "signs move outwards and into sums", moveSigns, false},
-    {"movePowersOfTwo", "factors 2^k move outwards and into constants", movePowersOfTwo, false},
-    {"recogniseSquares", "x·x becomes x²", recogniseSquares, true},
-    {"pairSinCos", "sine and cosine of one argument become one pair", pairSinCos, true},
-    {"mergeEqual", "equal operations on equal nodes become one", mergeEqual, true},
-    {"dropUnused", "what no output needs goes", dropUnused, true},
+    {"foldConstants", foldConstants, true},
+    {"simplify", simplify, true},
+    {"moveSigns", moveSigns, false},
+    {"movePowersOfTwo", movePowersOfTwo, false},
+    {"recogniseSquares", recogniseSquares, true},
+    {"pairSinCos", pairSinCos, true},
+    {"mergeEqual", mergeEqual, true},
+    {"dropUnused", dropUnused, true},
 };
 
 /// How many times each node is used, as an output included.

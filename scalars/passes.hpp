@@ -1,7 +1,8 @@
 // Passes: Program to Program, each for one purpose, each by the rules of one group (rules.hpp), which are exact on real
-// numbers: wherever the program was defined, the result has the same value. What a pass makes superfluous stays where
-// it is until dropUnused. Recording applies the same rules at once, so that a recorded program seldom gains by them;
-// programs that were recorded without rules, loaded or put together do.
+// numbers: wherever the program was defined, the result has the same value. (Doubles differ by their rounding; and by
+// overflow or underflow near the ends of their range, where movePowersOfTwo reorders a product.) What a pass makes
+// superfluous stays where it is until dropUnused. Recording applies the same rules at once, so that a recorded program
+// seldom gains by them; programs that were recorded without rules, loaded or put together do.
 //
 //   Program f = record<2>(...);
 //   Program g = optimised(loadProgram(file));
@@ -20,7 +21,6 @@ namespace gamut {
 
 struct Pass {
   std::string_view name;
-  std::string_view what;
   Program (*apply)(const Program&);
   /// True if it never adds an operation that an output needs. (Moving a sign or a factor outwards may: what stood
   /// inside may be needed elsewhere.)
@@ -36,7 +36,8 @@ Program foldConstants(const Program& program);
 Program simplify(const Program& program);
 /// Signs move outwards and into sums and constants, where they meet: (-x)·y = -(x·y), x + (-y) = x - y.
 Program moveSigns(const Program& program);
-/// Powers of two move outwards, where they meet: (2·x)·y = 2·(x·y), 2·(c·x) = (2c)·x.
+/// Powers of two move outwards, where they meet: (2·x)·y = 2·(x·y), 2·(c·x) = (2c)·x. The first is for 2^-64 to 2^64
+/// only: the further a factor is from 1, the more products overflow or underflow without it.
 Program movePowersOfTwo(const Program& program);
 /// x·x becomes the square of x, whose range is tighter and whose derivative is shorter.
 Program recogniseSquares(const Program& program);

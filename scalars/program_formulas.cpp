@@ -1,7 +1,7 @@
 // The readable form: what is used once is written where it is used, unless the line grows too long.
 #include <algorithm>
 #include <array>
-#include <cstdio>
+#include <charconv>
 #include <ostream>
 
 #include "scalars/passes.hpp"
@@ -27,9 +27,11 @@ constexpr std::size_t longestInside = 48;
 std::string textOf(const Interval& c) {
   if (isThin(c)) return toString(c.lower());
   for (int digits = 1; digits <= 17 && radius(c) <= 1e-15 * magnitude(c); ++digits) {
-    std::array<char, 40> text{};
-    std::snprintf(text.data(), text.size(), "%.*g", digits, midpoint(c));
-    if (!isDisjoint(Interval(text.data()), c)) return '{' + std::string(text.data()) + '}';
+    std::array<char, 40> places{};
+    const auto result =
+        std::to_chars(places.data(), places.data() + places.size(), midpoint(c), std::chars_format::general, digits);
+    const std::string text(places.data(), result.ptr);
+    if (!isDisjoint(Interval(text), c)) return '{' + text + '}';
   }
   return toString(c);
 }
@@ -43,7 +45,7 @@ class Printer {
   Printer(const Program& program, const ProgramNames& names)
       : program_(program), names_(names), formulas_(program.nodes().size()), uses_(countedUses(program)) {}
 
-  void print(std::ostream& out) {
+  std::string text() {
     std::array<std::string, 2> lines;  // what depends on parameters alone, and the rest
     for (int i = 0; i < static_cast<int>(formulas_.size()); ++i) {
       if (uses_[at(i)].count == 0) continue;
@@ -55,11 +57,11 @@ class Printer {
       }
       formulas_[at(i)] = std::move(formula);
     }
-    if (!lines[0].empty()) out << "for given parameters:\n" << lines[0] << "for every state:\n";
-    out << lines[1];
+    std::string all = lines[0].empty() ? "" : "for given parameters:\n" + lines[0] + "for every state:\n";
+    all += lines[1];
     for (int i = 0; i < program_.outputs(); ++i)
-      out << "  " << nameIn(names_.outputs, i, 'y') << " = " << formulas_[at(program_.outputNodes()[at(i)])].text
-          << '\n';
+      all += "  " + nameIn(names_.outputs, i, 'y') + " = " + formulas_[at(program_.outputNodes()[at(i)])].text + '\n';
+    return all;
   }
 
  private:
@@ -154,19 +156,19 @@ std::string counted(int count, const std::string& what) {
 
 void print(std::ostream& out, const Program& program, const ProgramNames& names) {
   const ProgramCounts counts = countsOf(program);
-  out << counted(program.states(), "state") << ", " << counted(program.parameters(), "parameter") << ", "
-      << counted(program.outputs(), "output") << "; " << counted(counts.operations, "operation");
+  std::string text = counted(program.states(), "state") + ", " + counted(program.parameters(), "parameter") + ", " +
+                     counted(program.outputs(), "output") + "; " + counted(counts.operations, "operation");
   const char* before = ": ";
   for (int i = 0; i < opCount; ++i) {
     if (counts.of[at(i)] == 0) continue;
-    out << before << counts.of[at(i)] << ' ' << nameOf(static_cast<Op>(i));
+    text += before + std::to_string(counts.of[at(i)]) + ' ' + std::string(nameOf(static_cast<Op>(i)));
     before = ", ";
   }
-  if (counts.invariant > 0) out << "; " << counts.invariant << " once for given parameters";
+  if (counts.invariant > 0) text += "; " + std::to_string(counts.invariant) + " once for given parameters";
   if (counts.fusedProducts > 0)
-    out << "; " << counted(counts.fusedProducts, "product") << " inside " << counted(counts.sums, "sum");
-  out << '\n';
-  Printer(program, names).print(out);
+    text += "; " + counted(counts.fusedProducts, "product") + " inside " + counted(counts.sums, "sum");
+  text += '\n' + Printer(program, names).text();
+  out.write(text.data(), static_cast<std::streamsize>(text.size()));  // whatever the stream's locale, flags and width
 }
 
 std::ostream& operator<<(std::ostream& out, const Program& program) {

@@ -2,15 +2,14 @@
 #include "scalars/program_text.hpp"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
-#include <cmath>
 #include <istream>
 #include <optional>
 #include <ostream>
 #include <stdexcept>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "scalars/recorder.hpp"
 
@@ -19,30 +18,23 @@ namespace {
 
 constexpr std::string_view header = "gamut-program 1";
 
-/// C's hexadecimal form, -0x1.8p+3: exact.
-std::string hexadecimal(double x) {
-  std::array<char, 40> text{};
-  const std::to_chars_result result =
-      std::to_chars(text.data(), text.data() + text.size(), std::fabs(x), std::chars_format::hex);
-  return (std::signbit(x) ? "-0x" : "0x") + std::string(text.data(), result.ptr);
-}
+// Numbers are read only in the form in which they are written: then no digit is overlooked or rounded away.
 
+/// What toExactString writes, of a finite number.
 std::optional<double> readHexadecimal(std::string_view text) {
-  const bool negative = text.starts_with('-');
-  if (negative) text.remove_prefix(1);
-  if (!text.starts_with("0x") || text.size() < 3 || text[2] == '-') return {};
-  text.remove_prefix(2);
+  const bool isNegative = text.starts_with('-');
+  const std::string_view digits = text.substr(std::min(text.size(), std::size_t{isNegative ? 3u : 2u}));  // behind 0x
   double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value, std::chars_format::hex);
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return {};
-  return negative ? -value : value;
+  const auto result = std::from_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::hex);
+  if (result.ec != std::errc()) return {};
+  if (isNegative) value = -value;
+  return toExactString(value) == text ? std::optional(value) : std::nullopt;
 }
 
 std::optional<int> readNumber(std::string_view text) {
   int value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || value < 0) return {};
-  return value;
+  const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
+  return result.ec == std::errc() && value >= 0 && std::to_string(value) == text ? std::optional(value) : std::nullopt;
 }
 
 std::optional<Op> readOp(std::string_view text) {
@@ -57,6 +49,9 @@ std::string quoted(std::string_view text) {
   for (char c : text.substr(0, 60)) result += c >= ' ' && c <= '~' ? c : '?';
   return result + (text.size() > 60 ? "...'" : "'");
 }
+
+/// More words than any line of a program has.
+constexpr std::size_t tooMany = 5;
 
 /// One line at a time, split at single blanks.
 class Lines {
@@ -74,10 +69,11 @@ class Lines {
     return line_;
   }
 
+  /// The words of the next line; no more than tooMany of them.
   std::vector<std::string_view> words(std::string_view expected) {
     const std::string_view all = line(expected);
     std::vector<std::string_view> result;
-    for (std::size_t begin = 0; begin <= all.size();) {
+    for (std::size_t begin = 0; begin <= all.size() && result.size() < tooMany;) {
       const std::size_t end = std::min(all.find(' ', begin), all.size());
       result.push_back(all.substr(begin, end - begin));
       begin = end + 1;
@@ -109,10 +105,8 @@ class Lines {
 };
 
 /// What has been read so far; every node in it may be relied on.
-struct Parts {
-  int states, parameters;
-  std::vector<Node> nodes;
-  std::vector<Interval> constants;
+struct Parts : detail::NodeList {
+  int states = 0, parameters = 0;
 };
 
 /// The one input that node i must be; nothing behind the inputs.
@@ -136,7 +130,8 @@ Node readOperation(const Lines& lines, const std::vector<std::string_view>& word
   const std::size_t expected = hasSecond ? 4 : 3;
   if (words.size() != expected)
     lines.fail(std::string(nameOf(op)) + " has " + (hasSecond ? "2 operands" : "1 operand") + ", not " +
-               std::to_string(words.size() - 2) + ": " + quoted(lines.text()));
+               std::to_string(std::count(lines.text().begin(), lines.text().end(), ' ') - 1) + ": " +
+               quoted(lines.text()));
   Node node{op};
   for (std::size_t i = 2; i < expected; ++i) {
     const auto operand = readNumber(words[i]);
@@ -147,7 +142,7 @@ Node readOperation(const Lines& lines, const std::vector<std::string_view>& word
   }
   if (op == Op::log && node.b != node.a)
     lines.fail("both operands of log are the same node, not " + quoted(lines.text()));
-  if (op == Op::atan && !detail::isOnePlusSquare(parts.nodes, parts.constants, node.b, node.a))
+  if (op == Op::atan && !parts.isOnePlusSquare(node.b, node.a))
     lines.fail("the second operand of atan is 1 plus the square of the first, which node " + std::to_string(node.b) +
                " is not");
   return node;
@@ -163,7 +158,7 @@ void readNode(Lines& lines, Parts& parts) {
   if (const std::string input = inputAt(parts, number); !input.empty()) {
     if (lines.text() != std::to_string(number) + " " + input)
       lines.fail(quoted(std::to_string(number) + " " + input) + " is expected, not " + quoted(lines.text()));
-    parts.nodes.push_back({*op, *op == Op::time ? -1 : *op == Op::state ? number : number - parts.states});
+    parts.push({*op, *op == Op::time ? -1 : *op == Op::state ? number : number - parts.states});
     return;
   }
   const Node before = parts.nodes.back();
@@ -171,14 +166,14 @@ void readNode(Lines& lines, Parts& parts) {
     lines.fail("a sine is followed by its cosine, not by " + quoted(words[1]));
   if (*op == Op::constant) {
     parts.constants.push_back(readConstant(lines, words));
-    parts.nodes.push_back({Op::constant, static_cast<int>(parts.constants.size()) - 1});
+    parts.push({Op::constant, static_cast<int>(parts.constants.size()) - 1});
     return;
   }
   if (!isOperation(*op)) lines.fail("inputs come before all other nodes, not " + quoted(lines.text()));
   const Node node = readOperation(lines, words, *op, parts);
   if (*op == Op::cos && (before.op != Op::sin || before.a != node.a))
     lines.fail("a cosine follows the sine of the same node, not " + quoted(lines.text()));
-  parts.nodes.push_back(node);
+  parts.push(node);
 }
 
 /// Writes the nodes down without rules: each gets its own number again.
@@ -197,29 +192,36 @@ Program assembled(const Parts& parts, const std::vector<int>& outputs) {
 }  // namespace
 
 void saveProgram(std::ostream& out, const Program& program) {
-  out << header << "\nstates " << program.states() << "\nparameters " << program.parameters() << "\nnodes "
-      << program.nodes().size() << '\n';
+  // Whatever the stream's locale, flags and width: unformatted output, a line at a time.
+  const auto line = [&out](std::string text) {
+    text += '\n';
+    out.write(text.data(), static_cast<std::streamsize>(text.size()));
+  };
+  line(std::string(header));
+  line("states " + std::to_string(program.states()));
+  line("parameters " + std::to_string(program.parameters()));
+  line("nodes " + std::to_string(program.nodes().size()));
   for (std::size_t i = 0; i < program.nodes().size(); ++i) {
     const Node& n = program.nodes()[i];
-    out << i << ' ' << nameOf(n.op);
+    std::string text = std::to_string(i) + ' ' + std::string(nameOf(n.op));
     if (n.op == Op::constant) {
       const Interval& value = program.constants()[detail::at(n.a)];
-      out << ' ' << hexadecimal(value.lower()) << ' ' << hexadecimal(value.upper());
+      text += ' ' + toExactString(value.lower()) + ' ' + toExactString(value.upper());
     } else {
-      if (n.a >= 0) out << ' ' << n.a;
-      if (n.b >= 0) out << ' ' << n.b;
+      if (n.a >= 0) text += ' ' + std::to_string(n.a);
+      if (n.b >= 0) text += ' ' + std::to_string(n.b);
     }
-    out << '\n';
+    line(std::move(text));
   }
-  out << "outputs " << program.outputs() << '\n';
-  for (int output : program.outputNodes()) out << output << '\n';
-  out << "end\n";
+  line("outputs " + std::to_string(program.outputs()));
+  for (int output : program.outputNodes()) line(std::to_string(output));
+  line("end");
 }
 
 Program loadProgram(std::istream& in) {
   Lines lines(in);
   if (lines.line(quoted(header)) != header) lines.fail(quoted(header) + " is expected, not " + quoted(lines.text()));
-  Parts parts{};
+  Parts parts;
   parts.states = lines.count("states");
   parts.parameters = lines.count("parameters");
   const int nodes = lines.count("nodes");

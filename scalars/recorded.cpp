@@ -5,6 +5,16 @@
 #include <cmath>
 
 namespace gamut {
+namespace {
+
+Recorded power(const Recorded& x, unsigned exponent) {
+  if (exponent == 0) return 1.0;
+  if (exponent == 1) return x;
+  const Recorded half = power(x, exponent / 2);
+  return exponent % 2 == 0 ? sqr(half) : sqr(half) * x;
+}
+
+}  // namespace
 
 Recorded tan(const Recorded& x) { return sin(x) / cos(x); }
 
@@ -44,11 +54,8 @@ Recorded max(const Recorded& x, const Recorded& y) { return 0.5 * (x + y + abs(x
 Recorded hypot(const Recorded& x, const Recorded& y) { return sqrt(sqr(x) + sqr(y)); }
 
 Recorded pow(const Recorded& x, int exponent) {
-  if (exponent < 0) return 1.0 / pow(x, -exponent);
-  if (exponent == 0) return 1.0;
-  if (exponent == 1) return x;
-  const Recorded half = pow(x, exponent / 2);
-  return exponent % 2 == 0 ? sqr(half) : sqr(half) * x;
+  const unsigned size = static_cast<unsigned>(exponent);  // modulo 2^32: 0u - size is |exponent| even of the least int
+  return exponent < 0 ? 1.0 / power(x, 0u - size) : power(x, size);
 }
 
 Recorded pow(const Recorded& x, double exponent) {

@@ -13,7 +13,10 @@
 #pragma once
 
 #include <array>
+#include <compare>
+#include <cstdint>
 #include <stdexcept>
+#include <string>
 #include <tuple>
 #include <type_traits>
 #include <utility>
@@ -27,23 +30,37 @@
 
 namespace gamut {
 
-/// A node of the program being recorded on this thread, or a constant that needs no node yet.
+/// The type of comparisons of Recorded, which do not compile; its name stands in the compiler's message.
+struct NoComparison_a_recorded_function_cannot_branch_on_values;
+
+/// A node of the program being recorded on this thread, or a constant that needs no node yet. Throws std::logic_error
+/// where it is computed with outside of record(), or in another record() than its own.
 class Recorded {
  public:
   Recorded() : Recorded(0.0) {}
   Recorded(double value) : constant_(value) {}  // NOLINT: implicit, as numbers are
   /// A number that is not a double gets its node at once, so that copies of it stay one number.
   explicit Recorded(const Interval& value) : constant_(value) {
-    if (Recorder* current = Recorder::current(); current != nullptr && !isThin(value)) node_ = current->constant(value);
+    if (Recorder* current = Recorder::current(); current != nullptr && !isThin(value))
+      *this = node(current->constant(value));
   }
+  /// Node `number` of the current recorder.
   static Recorded node(int number) {
     Recorded r;
     r.node_ = number;
+    r.recorder_ = recorder().identity();
     return r;
   }
 
   /// The number of this value's node in the current recorder; a constant gets one.
-  int node() const { return node_ >= 0 ? node_ : recorder().constant(constant_); }
+  int node() const {
+    Recorder& current = recorder();
+    if (node_ < 0) return current.constant(constant_);
+    if (recorder_ != current.identity())
+      throw std::logic_error(
+          "a Recorded of one record() is used in another: record both in one, or pass it a variable");
+    return node_;
+  }
 
   friend Recorded operator+(const Recorded& a, const Recorded& b) { return of<&Recorder::add>(a, b); }
   friend Recorded operator-(const Recorded& a, const Recorded& b) { return of<&Recorder::sub>(a, b); }
@@ -54,6 +71,10 @@ class Recorded {
   }
   friend Recorded operator-(const Recorded& a) { return node(recorder().neg(a.node())); }
   friend Recorded operator+(const Recorded& a) { return a; }
+
+  friend NoComparison_a_recorded_function_cannot_branch_on_values operator==(const Recorded&, const Recorded&) = delete;
+  friend NoComparison_a_recorded_function_cannot_branch_on_values operator<=>(const Recorded&,
+                                                                              const Recorded&) = delete;
   Recorded& operator+=(const Recorded& b) { return *this = *this + b; }
   Recorded& operator-=(const Recorded& b) { return *this = *this - b; }
   Recorded& operator*=(const Recorded& b) { return *this = *this * b; }
@@ -76,21 +97,23 @@ class Recorded {
   friend Recorded tan(const Recorded& x);
   /// 2·atan(x / (1 + √(1-x²))), for |x| <= 1 (differentiable for |x| < 1).
   friend Recorded asin(const Recorded& x);
-  /// 2·(atan 1 - atan(x / (1 + √(1-x²)))), for |x| <= 1 (differentiable for |x| < 1).
+  /// 2·(atan 1 - atan(x / (1 + √(1-x²)))), for |x| <= 1 (differentiable for |x| < 1); in doubles digits are lost near x
+  /// = 1.
   friend Recorded acos(const Recorded& x);
-  /// 2·atan(y / (x + √(x²+y²))), everywhere but for y = 0 with x <= 0: the angle in (-π, π).
+  /// 2·atan(y / (x + √(x²+y²))), everywhere but for y = 0 with x <= 0: the angle in (-π, π). In doubles digits are lost
+  /// where x < 0 and |y| << |x|: x + √ cancels there. (No one formula is free of it for all angles.)
   friend Recorded atan2(const Recorded& y, const Recorded& x);
-  /// ½(eˣ - e⁻ˣ).
+  /// ½(eˣ - e⁻ˣ); in doubles digits are lost near x = 0.
   friend Recorded sinh(const Recorded& x);
   /// ½(eˣ + e⁻ˣ).
   friend Recorded cosh(const Recorded& x);
-  /// 1 - 2/(e²ˣ + 1).
+  /// 1 - 2/(e²ˣ + 1); in doubles digits are lost near x = 0.
   friend Recorded tanh(const Recorded& x);
-  /// log(x + √(x²+1)), for all x; in doubles digits are lost where x is large and negative.
+  /// log(x + √(x²+1)), for all x; in doubles digits are lost near x = 0 and where x is large and negative.
   friend Recorded asinh(const Recorded& x);
-  /// log(x + √(x²-1)), for x >= 1 (differentiable for x > 1).
+  /// log(x + √(x²-1)), for x >= 1 (differentiable for x > 1); in doubles digits are lost near x = 1.
   friend Recorded acosh(const Recorded& x);
-  /// ½ log((1+x)/(1-x)), for |x| < 1.
+  /// ½ log((1+x)/(1-x)), for |x| < 1; in doubles digits are lost near x = 0.
   friend Recorded atanh(const Recorded& x);
   /// e^{x log 2}.
   friend Recorded exp2(const Recorded& x);
@@ -110,7 +133,8 @@ class Recorded {
   friend Recorded rootn(const Recorded& x, int n);
   /// √(x²), for all x (differentiable for x ≠ 0).
   friend Recorded abs(const Recorded& x);
-  /// ½(x + y - |x - y|) and ½(x + y + |x - y|) (differentiable for x ≠ y).
+  /// ½(x + y - |x - y|) and ½(x + y + |x - y|) (differentiable for x ≠ y); in doubles digits are lost where the result
+  /// is much smaller than the other number.
   friend Recorded min(const Recorded& x, const Recorded& y);
   friend Recorded max(const Recorded& x, const Recorded& y);
   /// √(x²+y²) (differentiable except where both are 0).
@@ -135,13 +159,9 @@ class Recorded {
   }
 
   int node_ = -1;
+  std::uint64_t recorder_ = 0;  // the identity of the one that node_ belongs to
   Interval constant_;
 };
-
-// Friends are found by argument-dependent lookup; these declarations make them visible to qualified calls too.
-Recorded acos(const Recorded& x);
-Recorded pow(const Recorded& x, int exponent);
-Recorded pow(const Recorded& x, double exponent);
 
 template <>
 struct ScalarTraits<Recorded> {
@@ -160,18 +180,40 @@ class RecordingGuard {
   Recorder* before_;
 };
 
+namespace detail {
+
+/// A vector or array of Recorded that refuses an index beyond its end.
+template <class Container>
+class Checked : public Container {
+ public:
+  using Container::Container;
+  using Container::operator=;
+  Recorded& operator[](std::size_t i) { return Container::operator[](checked(i)); }
+  const Recorded& operator[](std::size_t i) const { return Container::operator[](checked(i)); }
+
+ private:
+  std::size_t checked(std::size_t i) const {
+    if (i < this->size()) return i;
+    throw std::out_of_range("number " + std::to_string(i) + " is used in a recorded function, which has " +
+                            std::to_string(this->size()) + ", counted from 0");
+  }
+};
+
+}  // namespace detail
+
 /// Records y = f(t, x, p): `function(t, x, p, y)` with n states, k parameters and m outputs. The rules are applied
 /// while recording; RuleSet::none() keeps every operation as it was written.
 template <class Function>
 Program record(int n, int k, int m, Function&& function, RuleSet rules = RuleSet::all()) {
   Recorder recorder(n, k, rules);
   const RecordingGuard guard(recorder);
-  std::vector<Recorded> x, p, y(detail::at(m));
+  detail::Checked<std::vector<Recorded>> x, p, y(detail::at(m));
   for (int i = 0; i < n; ++i) x.push_back(Recorded::node(recorder.state(i)));
   for (int i = 0; i < k; ++i) p.push_back(Recorded::node(recorder.parameter(i)));
-  const std::vector<Recorded>& constX = x;
-  const std::vector<Recorded>& constP = p;
-  function(Recorded::node(recorder.time()), constX, constP, y);
+  function(Recorded::node(recorder.time()), std::as_const(x), std::as_const(p), y);
+  if (y.size() != detail::at(m))
+    throw std::invalid_argument("a recorded function gave " + std::to_string(y.size()) + " outputs, not " +
+                                std::to_string(m));
   std::vector<int> outputs;
   for (const Recorded& value : y) outputs.push_back(value.node());
   return recorder.finish(outputs);
@@ -189,7 +231,7 @@ namespace detail {
 /// type whose elements can be assigned one by one.
 template <std::size_t N>
 struct Variables {
-  const std::array<Recorded, N>& values;
+  const Checked<std::array<Recorded, N>>& values;
   template <class Vector>
   requires(!std::is_arithmetic_v<Vector>) && std::is_default_constructible_v<Vector>&& requires(Vector v,
                                                                                                 const Recorded& r) {
@@ -215,10 +257,10 @@ constexpr bool takesScalars(std::index_sequence<I...>) {
 
 /// function(x), whatever form of N variables it takes.
 template <std::size_t N, class Function>
-decltype(auto) applied(Function& function, const std::array<Recorded, N>& x) {
+decltype(auto) applied(Function& function, const Checked<std::array<Recorded, N>>& x) {
   if constexpr (takesScalars<Function>(std::make_index_sequence<N>()))
-    return std::apply(function, x);
-  else if constexpr (std::is_invocable_v<Function&, const std::array<Recorded, N>&>)
+    return std::apply(function, static_cast<const std::array<Recorded, N>&>(x));
+  else if constexpr (std::is_invocable_v<Function&, decltype(x)>)
     return function(x);
   else
     return function(Variables<N>{x});
@@ -228,14 +270,17 @@ decltype(auto) applied(Function& function, const std::array<Recorded, N>& x) {
 template <class Result>
 std::vector<int> outputNodes(const Result& result) {
   std::vector<int> nodes;
+  if constexpr (requires { typename Result::PlainObject; })
+    static_assert(std::is_same_v<Result, typename Result::PlainObject>,
+                  "return the .eval() of an Eigen expression: it refers to variables that end with the function");
   if constexpr (std::is_convertible_v<const Result&, Recorded>) {
     nodes.push_back(static_cast<Recorded>(result).node());
   } else {
     static_assert(
         requires { result[0], result.size(); },
         "a recorded function returns a scalar, or an array or vector of scalars");
-    const auto size = result.size();
-    for (auto i = size - size; i < size; ++i) nodes.push_back(static_cast<Recorded>(result[i]).node());
+    for (decltype(result.size()) i = 0; i < result.size(); ++i)
+      nodes.push_back(static_cast<Recorded>(result[i]).node());
   }
   return nodes;
 }
@@ -249,7 +294,7 @@ template <int N, class Function>
 requires(N >= 0) Program record(Function&& function, RuleSet rules = RuleSet::all()) {
   Recorder recorder(N, 0, rules);
   const RecordingGuard guard(recorder);
-  std::array<Recorded, static_cast<std::size_t>(N)> x;
+  detail::Checked<std::array<Recorded, static_cast<std::size_t>(N)>> x;
   for (int i = 0; i < N; ++i) x[detail::at(i)] = Recorded::node(recorder.state(i));
   return recorder.finish(detail::outputNodes(detail::applied(function, x)));
 }
@@ -259,7 +304,7 @@ template <class Function>
 Program record(int n, Function&& function, RuleSet rules = RuleSet::all()) {
   Recorder recorder(n, 0, rules);
   const RecordingGuard guard(recorder);
-  std::vector<Recorded> x;
+  detail::Checked<std::vector<Recorded>> x;
   for (int i = 0; i < n; ++i) x.push_back(Recorded::node(recorder.state(i)));
   return recorder.finish(detail::outputNodes(function(std::as_const(x))));
 }

@@ -2,6 +2,8 @@
 #include "scalars/recorder.hpp"
 
 #include <algorithm>
+#include <atomic>
+#include <cmath>
 #include <stdexcept>
 #include <tuple>
 
@@ -11,24 +13,38 @@ namespace gamut {
 
 using detail::at;
 
-bool detail::isOnePlusSquare(const std::vector<Node>& nodes, const std::vector<Interval>& constants, int b, int a) {
+namespace {
+
+constexpr int deepest = 16;  // rules inside one another; what is written by people and mechanisms needs a handful
+
+}  // namespace
+
+void detail::NodeList::push(const Node& node) {
+  const int number = static_cast<int>(nodes.size());
+  nodes.push_back(node);
+  const Signless inside = node.op == Op::neg ? signless[at(node.a)] : Signless{number, true};
+  signless.push_back({inside.node, !inside.isNegative});
+}
+
+bool detail::NodeList::isOnePlusSquare(int b, int a) const {
   const auto node = [&](int i) -> const Node& { return nodes[at(i)]; };
   const auto value = [&](int i) { return node(i).op == Op::constant ? constants[at(node(i).a)] : Interval::empty(); };
-  const auto withoutSigns = [&](int i) {
-    while (node(i).op == Op::neg) i = node(i).a;
-    return i;
-  };
   const auto isSquare = [&](int q) {
     const bool isWritten = node(q).op == Op::sqr || (node(q).op == Op::mul && node(q).a == node(q).b);
     // Folded only where it is a double: then the number is known.
     const bool isFolded = isThin(value(a)) && isThin(value(q)) && isEqual(sqr(value(a)), value(q));
-    return isFolded || (isWritten && withoutSigns(node(q).a) == withoutSigns(a));
+    return isFolded || (isWritten && signless[at(node(q).a)].node == signless[at(a)].node);
   };
   const auto isOne = [&](int i) { return isEqual(value(i), 1.0); };
   const Interval whole = 1.0 + sqr(value(a));
   if (isThin(whole) && isEqual(value(b), whole)) return true;
   const Node& sum = node(b);
   return sum.op == Op::add && ((isOne(sum.a) && isSquare(sum.b)) || (isOne(sum.b) && isSquare(sum.a)));
+}
+
+std::uint64_t Recorder::nextIdentity() {
+  static std::atomic<std::uint64_t> last{0};
+  return ++last;
 }
 
 Recorder*& Recorder::current() {
@@ -39,17 +55,15 @@ Recorder*& Recorder::current() {
 Recorder::Recorder(int states, int parameters, RuleSet rules)
     : states_(states), parameters_(parameters), rules_(rules) {
   if (states < 0 || parameters < 0) throw std::invalid_argument("a program needs zero or more states and parameters");
-  for (int i = 0; i < states; ++i) nodes_.push_back({Op::state, i});
-  for (int i = 0; i < parameters; ++i) nodes_.push_back({Op::parameter, i});
-  nodes_.push_back({Op::time});
+  for (int i = 0; i < states; ++i) list_.push({Op::state, i});
+  for (int i = 0; i < parameters; ++i) list_.push({Op::parameter, i});
+  list_.push({Op::time});
 }
 
 Recorder::Recorder(const Program& program, RuleSet rules)
-    : states_(program.states()),
-      parameters_(program.parameters()),
-      rules_(rules),
-      nodes_(program.nodes()),
-      constants_(program.constants()) {
+    : states_(program.states()), parameters_(program.parameters()), rules_(rules) {
+  list_.constants = program.constants();
+  for (const Node& n : program.nodes()) list_.push(n);
   for (int i = 0; i < size(); ++i) {
     const Node& n = node(i);
     if (n.op == Op::constant && isThin(value(i))) knownDoubles_.emplace(value(i).lower(), i);
@@ -69,8 +83,8 @@ int Recorder::constant(const Interval& number) {
   // Two real numbers may have the same enclosure: only a double is known by its value.
   if (lower == upper && rules_.has(RuleGroup::mergeEqual))
     if (const auto [known, isNew] = knownDoubles_.try_emplace(lower, size()); !isNew) return known->second;
-  nodes_.push_back({Op::constant, static_cast<int>(constants_.size())});
-  constants_.emplace_back(lower, upper);
+  list_.push({Op::constant, static_cast<int>(list_.constants.size())});
+  list_.constants.emplace_back(lower, upper);
   return size() - 1;
 }
 
@@ -93,10 +107,17 @@ int Recorder::scaled(int c, int d) {
   // Exact if both endpoints come back: divided by the power of two they are what they were.
   const auto [power, other] = isPowerOfTwo(value(c)) ? std::pair(c, d) : std::pair(d, c);
   if (!isEqual(product / value(power), value(other))) return -1;
-  return constantFrom(Op::mul, c, d, product);
+  // Known by the value of the power, of which there may be several nodes: ±2^k is 2k, or 2k + 1 if negative.
+  const double factor = value(power).lower();
+  return constantFrom(Op::mul, other, 2 * std::ilogb(factor) + std::signbit(factor), product);
 }
 
 int Recorder::rewritten(Op op, int a, int b) {
+  if (depth_ == deepest) return -1;
+  struct Inside {
+    int& depth;
+    ~Inside() { --depth; }
+  } const inside{++depth_};
   for (const Rule& rule : rulesOf(op)) {
     if (!rules_.has(rule.group)) continue;
     if (const int node = rule.apply(*this, a, b); node >= 0) return node;
@@ -107,8 +128,8 @@ int Recorder::rewritten(Op op, int a, int b) {
 int Recorder::push(Op op, int a, int b) {
   const bool isPair = op == Op::sin;
   const auto append = [&] {
-    nodes_.push_back({op, a, b});
-    if (isPair) nodes_.push_back({Op::cos, a, b});  // right behind its sine: both are new or both are known
+    list_.push({op, a, b});
+    if (isPair) list_.push({Op::cos, a, b});  // right behind its sine: both are new or both are known
     return size() - (isPair ? 2 : 1);
   };
   if (!rules_.has(isPair ? RuleGroup::pairSinCos : RuleGroup::mergeEqual)) return append();
@@ -122,7 +143,7 @@ int Recorder::push(Op op, int a, int b) {
 int Recorder::emit(Op op, int a, int b) {
   if (op == Op::sin) return sinCos(a).first;
   if (op == Op::cos) return sinCos(a).second;
-  if (op == Op::atan && !detail::isOnePlusSquare(nodes_, constants_, b, a)) return atan(a);
+  if (op == Op::atan && !list_.isOnePlusSquare(b, a)) return atan(a);
   const int node = rewritten(op, a, b);
   return node >= 0 ? node : push(op, a, b);
 }
@@ -194,11 +215,11 @@ std::vector<int> Recorder::append(const Program& program) {
 }
 
 Program Recorder::program(const std::vector<int>& outputs) const {
-  return selected(std::vector<char>(nodes_.size(), 1), outputs);
+  return selected(std::vector<char>(list_.nodes.size(), 1), outputs);
 }
 
 Program Recorder::finish(const std::vector<int>& outputs) const {
-  std::vector<char> used(nodes_.size(), 0);
+  std::vector<char> used(list_.nodes.size(), 0);
   for (int i = 0; i <= states_ + parameters_; ++i) used[at(i)] = 1;
   for (int output : outputs) used[at(output)] = 1;
   for (int i = size() - 1; i >= 0; --i) {
@@ -217,13 +238,13 @@ Program Recorder::selected(const std::vector<char>& wanted, const std::vector<in
   Program program;
   program.states_ = states_;
   program.parameters_ = parameters_;
-  std::vector<int> renumbered(nodes_.size(), -1);
+  std::vector<int> renumbered(list_.nodes.size(), -1);
   for (int i = 0; i < size(); ++i) {
     if (!wanted[at(i)]) continue;
     Node n = node(i);
     bool invariant = n.op == Op::parameter || n.op == Op::constant;
     if (n.op == Op::constant) {
-      program.constants_.push_back(constants_[at(n.a)]);
+      program.constants_.push_back(list_.constants[at(n.a)]);
       n.a = static_cast<int>(program.constants_.size()) - 1;
     } else if (isOperation(n.op)) {
       n.a = renumbered[at(n.a)];

@@ -44,9 +44,23 @@ constexpr RuleSet operator|(RuleGroup a, RuleGroup b) { return RuleSet(a) | Rule
 
 namespace detail {
 
-/// True if node b is certainly 1 + a², as the second operand of an arc tangent has to be: the sum of 1 and a square of
-/// a or -a, written as such or folded.
-bool isOnePlusSquare(const std::vector<Node>& nodes, const std::vector<Interval>& constants, int b, int a);
+/// What is left of a node when all signs are taken off: its value is that of `node`, or the negative of it.
+struct Signless {
+  int node;
+  bool isNegative;
+};
+
+/// Nodes and the numbers that they refer to, one after another as they are written.
+struct NodeList {
+  std::vector<Node> nodes;
+  std::vector<Interval> constants;
+  std::vector<Signless> signless;  // of each node: looked up, since a chain of signs may be as long as the program
+
+  void push(const Node& node);
+  /// True if node b is certainly 1 + a², as the second operand of an arc tangent has to be: the sum of 1 and a square
+  /// of a or -a, written as such or folded.
+  bool isOnePlusSquare(int b, int a) const;
+};
 
 }  // namespace detail
 
@@ -88,18 +102,19 @@ class Recorder {
   /// has the value. It may have fewer states and parameters than this recorder.
   std::vector<int> append(const Program& program);
 
-  const Node& node(int i) const { return nodes_[detail::at(i)]; }
-  int size() const { return static_cast<int>(nodes_.size()); }
+  const Node& node(int i) const { return list_.nodes[detail::at(i)]; }
+  int size() const { return static_cast<int>(list_.nodes.size()); }
   /// The value of a constant node.
-  const Interval& value(int node) const { return constants_[detail::at(this->node(node).a)]; }
+  const Interval& value(int node) const { return list_.constants[detail::at(this->node(node).a)]; }
+  detail::Signless signless(int node) const { return list_.signless[detail::at(node)]; }
   bool isConstant(int node) const { return this->node(node).op == Op::constant; }
   /// True if the node is the constant `number` and nothing else.
   bool isExactly(int node, double number) const;
 
   /// The constant -c of a constant c: asked twice it is one number, and its own negative is c.
   int negated(int c);
-  /// The constant c * d of constants of which one is a power of two, one number if asked twice; -1 if the product of
-  /// the enclosures is not exact (beyond the range of doubles).
+  /// The constant c * d of constants of which one is a power of two, one number if asked twice, in either order; -1 if
+  /// the product of the enclosures is not exact (beyond the range of doubles).
   int scaled(int c, int d);
 
   /// The program with these output nodes: all that was written, in that order.
@@ -109,8 +124,11 @@ class Recorder {
 
   /// The recorder that `Recorded` numbers of this thread write to; null outside `record`.
   static Recorder*& current();
+  /// Differs from that of every other recorder of the program.
+  std::uint64_t identity() const { return identity_; }
 
  private:
+  static std::uint64_t nextIdentity();
   struct Key {
     Op op;
     int a, b;
@@ -126,18 +144,20 @@ class Recorder {
   };
   using Known = std::unordered_map<Key, int, KeyHash>;
 
-  /// The node that a rule gives for op(a, b); -1 if none applies.
+  /// The node that a rule gives for op(a, b); -1 if none applies, or if so many rules are being applied one inside
+  /// another that this one is better left out: no program makes the stack grow without bound.
   int rewritten(Op op, int a, int b);
   /// The node op(a, b), a new one unless equal work is merged.
   int push(Op op, int a, int b);
   int constantFrom(Op op, int a, int b, const Interval& number);
   Program selected(const std::vector<char>& wanted, const std::vector<int>& outputs) const;
 
+  std::uint64_t identity_ = nextIdentity();
   int states_;
   int parameters_;
   RuleSet rules_;
-  std::vector<Node> nodes_;
-  std::vector<Interval> constants_;
+  int depth_ = 0;  // of rules being applied
+  detail::NodeList list_;
   Known known_;    // operations
   Known derived_;  // constants, by the operation on constants that gave them
   std::unordered_map<double, int> knownDoubles_;

@@ -1,6 +1,7 @@
 // The table of rules. Why rewriting ends, whatever groups are enabled: a rule gives a node that is there already, or a
 // constant, or moves a sign or a power of two outwards (into a constant where there is one), or turns an operation into
-// one that no rule turns back (x + x into 2x, x·x into a square, a + (-b) into a - b).
+// one that no rule turns back (x + x into 2x, x·x into a square, a + (-b) into a - b). Signs are taken off all at once,
+// so that rules seldom nest deeply; the Recorder sees to it that they never do.
 #include "scalars/rules.hpp"
 
 #include <array>
@@ -35,6 +36,15 @@ template <class Function>
 int foldedOf(Recorder& r, int a, int b, Function function) {
   return isThinConstant(r, a) && isThinConstant(r, b) ? folded(r, function(r.value(a), r.value(b))) : none;
 }
+
+/// True for a factor ±2^k that may move outwards: so near to 1 that products overflow or underflow for it only at the
+/// ends of the range of doubles.
+bool isMovable(const Recorder& r, int node) {
+  return isPower(r, node) && std::fabs(std::log2(magnitude(r.value(node)))) <= 64;
+}
+
+/// -x or x.
+int withSign(Recorder& r, bool isNegative, int x) { return isNegative ? r.neg(x) : x; }
 
 /// The operands of a product with a constant one first.
 std::pair<int, int> constantFirst(const Recorder& r, int a, int b) {
@@ -75,8 +85,11 @@ constexpr Rule table[] = {
      }},
     {Op::add, moveSigns, "x + (-y) = x - y", everywhere,
      [](Recorder& r, int a, int b) {
-       if (isOf(r, b, Op::neg)) return r.sub(a, r.node(b).a);
-       return isOf(r, a, Op::neg) ? r.sub(b, r.node(a).a) : none;
+       return eitherWay(a, b, [&](int x, int minus) {
+         if (!isOf(r, minus, Op::neg)) return none;
+         const auto [y, isNegative] = r.signless(minus);
+         return isNegative ? r.sub(x, y) : r.add(x, y);
+       });
      }},
     {Op::add, simplify, "x + x = 2·x", everywhere,
      [](Recorder& r, int a, int b) { return a == b ? r.mul(r.constant(2.0), a) : none; }},
@@ -92,9 +105,17 @@ constexpr Rule table[] = {
        return foldedOf(r, a, b, [](const Interval& x, const Interval& y) { return x - y; });
      }},
     {Op::sub, moveSigns, "x - (-y) = x + y", everywhere,
-     [](Recorder& r, int a, int b) { return isOf(r, b, Op::neg) ? r.add(a, r.node(b).a) : none; }},
+     [](Recorder& r, int a, int b) {
+       if (!isOf(r, b, Op::neg)) return none;
+       const auto [y, isNegative] = r.signless(b);
+       return isNegative ? r.add(a, y) : r.sub(a, y);
+     }},
     {Op::sub, moveSigns, "(-x) - y = -(x + y)", everywhere,
-     [](Recorder& r, int a, int b) { return isOf(r, a, Op::neg) ? r.neg(r.add(r.node(a).a, b)) : none; }},
+     [](Recorder& r, int a, int b) {
+       if (!isOf(r, a, Op::neg)) return none;
+       const auto [x, isNegative] = r.signless(a);
+       return isNegative ? r.neg(r.add(x, b)) : r.sub(x, b);
+     }},
 
     {Op::neg, foldConstants, "-c", everywhere,
      [](Recorder& r, int a, int) { return r.isConstant(a) ? r.negated(a) : none; }},
@@ -119,7 +140,9 @@ constexpr Rule table[] = {
     {Op::mul, moveSigns, "c·(-x) = (-c)·x", everywhere,
      [](Recorder& r, int a, int b) {
        const auto [c, x] = constantFirst(r, a, b);
-       return r.isConstant(c) && isOf(r, x, Op::neg) ? r.mul(r.negated(c), r.node(x).a) : none;
+       if (!r.isConstant(c) || !isOf(r, x, Op::neg)) return none;
+       const auto [y, isNegative] = r.signless(x);
+       return r.mul(isNegative ? r.negated(c) : c, y);
      }},
     {Op::mul, movePowersOfTwo, "c·(d·x) = (c·d)·x, where c or d is a power of two", everywhere,
      [](Recorder& r, int a, int b) {
@@ -142,27 +165,40 @@ constexpr Rule table[] = {
      }},
     {Op::mul, moveSigns, "(-x)·y = -(x·y)", everywhere,
      [](Recorder& r, int a, int b) {
-       return eitherWay(a, b, [&](int x, int y) { return isOf(r, x, Op::neg) ? r.neg(r.mul(r.node(x).a, y)) : none; });
+       return eitherWay(a, b, [&](int minus, int y) {
+         if (!isOf(r, minus, Op::neg)) return none;
+         const auto [x, isNegative] = r.signless(minus);
+         return withSign(r, isNegative, r.mul(x, y));
+       });
      }},
-    {Op::mul, movePowersOfTwo, "(c·x)·y = c·(x·y), where c is a power of two and y no constant", everywhere,
+    {Op::mul, movePowersOfTwo,
+     "(c·x)·y = c·(x·y), where c = ±2^k, |k| ≤ 64, y is no constant and x no multiple of a power of two",
+     "all reals; doubles where x·y neither overflows nor underflows",
      [](Recorder& r, int a, int b) {
        return eitherWay(a, b, [&](int x, int y) {
          const auto [c, factor] = scaledNode(r, x);
-         return c >= 0 && isPower(r, c) && !r.isConstant(y) ? r.mul(c, r.mul(factor, y)) : none;
+         if (c < 0 || !isMovable(r, c) || r.isConstant(y)) return none;
+         // Two powers in a row have no product that is a double: they stay, or one would be left behind for each use.
+         if (const int inner = scaledNode(r, factor).first; inner >= 0 && isPower(r, inner)) return none;
+         return r.mul(c, r.mul(factor, y));
        });
      }},
 
     {Op::sqr, foldConstants, "c², where it is a double", everywhere,
      [](Recorder& r, int a, int) { return foldedOf(r, a, [](const Interval& x) { return sqr(x); }); }},
     {Op::sqr, moveSigns, "(-x)² = x²", everywhere,
-     [](Recorder& r, int a, int) { return isOf(r, a, Op::neg) ? r.sqr(r.node(a).a) : none; }},
+     [](Recorder& r, int a, int) { return isOf(r, a, Op::neg) ? r.sqr(r.signless(a).node) : none; }},
 
     {Op::recip, foldConstants, "1/c, where it is a double", "c ≠ 0",
      [](Recorder& r, int a, int) { return foldedOf(r, a, [](const Interval& x) { return 1.0 / x; }); }},
     {Op::recip, simplify, "1/(1/x) = x", "x ≠ 0",
      [](Recorder& r, int a, int) { return isOf(r, a, Op::recip) ? r.node(a).a : none; }},
     {Op::recip, moveSigns, "1/(-x) = -(1/x)", "x ≠ 0",
-     [](Recorder& r, int a, int) { return isOf(r, a, Op::neg) ? r.neg(r.emit(Op::recip, r.node(a).a)) : none; }},
+     [](Recorder& r, int a, int) {
+       if (!isOf(r, a, Op::neg)) return none;
+       const auto [x, isNegative] = r.signless(a);
+       return withSign(r, isNegative, r.emit(Op::recip, x));
+     }},
 
     {Op::sqrt, foldConstants, "√c, where it is a double", "c ≥ 0",
      [](Recorder& r, int a, int) {
@@ -178,11 +214,15 @@ constexpr Rule table[] = {
     {Op::sin, foldConstants, "sin 0 = 0", everywhere,
      [](Recorder& r, int a, int) { return r.isExactly(a, 0) ? a : none; }},
     {Op::sin, moveSigns, "sin(-x) = -sin x", everywhere,
-     [](Recorder& r, int a, int) { return isOf(r, a, Op::neg) ? r.neg(r.sin(r.node(a).a)) : none; }},
+     [](Recorder& r, int a, int) {
+       if (!isOf(r, a, Op::neg)) return none;
+       const auto [x, isNegative] = r.signless(a);
+       return withSign(r, isNegative, r.sin(x));
+     }},
     {Op::cos, foldConstants, "cos 0 = 1", everywhere,
      [](Recorder& r, int a, int) { return r.isExactly(a, 0) ? r.constant(1.0) : none; }},
     {Op::cos, moveSigns, "cos(-x) = cos x", everywhere,
-     [](Recorder& r, int a, int) { return isOf(r, a, Op::neg) ? r.cos(r.node(a).a) : none; }},
+     [](Recorder& r, int a, int) { return isOf(r, a, Op::neg) ? r.cos(r.signless(a).node) : none; }},
 };
 
 /// Where the rules of an operation begin and end in the table.

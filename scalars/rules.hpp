@@ -1,5 +1,7 @@
 // The rewriting rules, one entry each: what a Recorder may write instead of an operation. Every law is one of real
 // numbers, true wherever the left side is defined; no rule rounds. The order of the table is the order of trial.
+// Doubles that overflow or underflow on the way may do so on one side only; where a rule can bring that about, its
+// domain says so.
 #pragma once
 
 #include <span>

@@ -15,7 +15,7 @@ namespace gamut {
 template <class S>
 class Series {
  public:
-  /// Orders 0 … `order` are kept for the nodes.
+  /// Orders 0 … `order` are kept for the nodes. The program has to outlive the series.
   Series(const Program& program, int order)
       : program_(&program), size_(order + 1), c_(program.nodes().size() * detail::at(size_), S(0.0)) {}
 

@@ -14,9 +14,7 @@ using detail::at;
 
 constexpr int longestChain = 8;  // instructions between two stores: the operands of all are alive at once
 
-bool isInput(Op op) { return op == Op::state || op == Op::parameter || op == Op::time || op == Op::constant; }
 bool isSum(Op op) { return op == Op::add || op == Op::sub; }
-bool hasTwoOperands(Op op) { return isSum(op) || op == Op::mul; }  // the b of log and atan serves their derivatives
 
 TapeOp unary(Op op) {
   switch (op) {
@@ -79,10 +77,10 @@ class TapeWriter {
     isOutput_.assign(nodes_.size(), false);
     for (int output : program_.outputNodes()) ++uses_[at(output)], isOutput_[at(output)] = true;
     for (int i = count() - 1; i >= 0; --i) {
-      if (!isNeeded(i) || isInput(node(i).op)) continue;
+      if (!isNeeded(i) || !isOperation(node(i).op)) continue;
       // A cosine comes from its sine's step: the sine is needed, the angle is used by the sine alone.
       ++uses_[at(node(i).op == Op::cos ? i - 1 : node(i).a)];
-      if (hasTwoOperands(node(i).op)) ++uses_[at(node(i).b)];
+      if (operandsOf(node(i).op) == 2) ++uses_[at(node(i).b)];
     }
   }
 
@@ -158,7 +156,7 @@ class TapeWriter {
   }
 
   bool hasStep(int i, bool invariant) const {
-    return isNeeded(i) && !absorbed_[at(i)] && !isInput(node(i).op) && node(i).op != Op::cos &&
+    return isNeeded(i) && !absorbed_[at(i)] && isOperation(node(i).op) && node(i).op != Op::cos &&
            program_.isInvariant(i) == invariant;
   }
 
@@ -237,13 +235,13 @@ class TapeWriter {
     std::vector<char> isKept(nodes_.size(), 0);
     const auto mark = [&](int i) { isKept[at(i)] |= program_.isInvariant(i) ? 1 : 0; };
     for (int i = 0; i < count(); ++i) {
-      if (!isNeeded(i) || isInput(node(i).op) || program_.isInvariant(i)) continue;
+      if (!isNeeded(i) || !isOperation(node(i).op) || program_.isInvariant(i)) continue;
       mark(node(i).a);
-      if (hasTwoOperands(node(i).op)) mark(node(i).b);
+      if (operandsOf(node(i).op) == 2) mark(node(i).b);
     }
     for (int output : program_.outputNodes()) mark(output);
     for (int i = 0; i < count(); ++i)
-      if (isKept[at(i)] != 0 && isInput(node(i).op)) slot_[at(i)] = tape_.keptSlots_++;
+      if (isKept[at(i)] != 0 && !isOperation(node(i).op)) slot_[at(i)] = tape_.keptSlots_++;
     for (const Step& s : invariants)
       for (int i : {s.node, s.node + 1})
         if ((i == s.node || node(s.node).op == Op::sin) && isKept[at(i)] != 0) slot_[at(i)] = tape_.keptSlots_++;
@@ -267,7 +265,7 @@ class TapeWriter {
     };
     for (int i = 0; i < count(); ++i) {
       const Node& n = node(i);
-      if (!isNeeded(i) || !isInput(n.op) || program_.isInvariant(i) != invariant) continue;
+      if (!isNeeded(i) || isOperation(n.op) || program_.isInvariant(i) != invariant) continue;
       take(i);
       lives(i);
       const int slot = slot_[at(i)];

@@ -28,21 +28,6 @@ TEST(Evaluator, GivesTheSameDoublesAsTheCode) {
   }
 }
 
-TEST(Evaluator, OfIntervalsHoldsTheValuesOfEveryPoint) {
-  for (unsigned seed = 1; seed <= 100; ++seed) {
-    const RandomExpression expression(seed, 10);
-    const Program program = expression.recorded(2, 1, 4);
-    Evaluator<Interval> ranges(program);
-    ranges.setParameters(std::vector<Interval>{Interval(0.9, 1.1)});
-    const auto box = ranges(Interval(0, 0.5), std::vector<Interval>{Interval(-0.3, 0.3), Interval(1, 2)});
-    for (double part : {0.0, 0.3, 1.0}) {
-      const auto y = expression(HighPrecision(0.5 * part), highPrecision({-0.3 + 0.5625 * part, 1 + part}),
-                                highPrecision({0.90625 + 0.1875 * part}), 4);
-      for (std::size_t i = 0; i < y.size(); ++i) ASSERT_THAT(box[i], EnclosesToItsDigits(y[i])) << "seed " << seed;
-    }
-  }
-}
-
 /// A double that counts how often it is operated on.
 struct Counted {
   double value;

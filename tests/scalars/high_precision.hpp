@@ -1,4 +1,4 @@
-// A scalar of 50 decimal digits, in which programs are judged, and random expressions over any scalar.
+// Scalars of so many decimal digits, in which programs are judged, and random expressions over any scalar.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -14,13 +14,22 @@
 
 namespace gamut {
 
-using HighPrecision =
-    boost::multiprecision::number<boost::multiprecision::mpfr_float_backend<50, boost::multiprecision::allocate_stack>,
-                                  boost::multiprecision::et_off>;
+namespace testing {
 
-template <>
-struct ScalarTraits<HighPrecision> {
-  static HighPrecision constant(const Interval& enclosure) { return HighPrecision(midpoint(enclosure)); }
+template <unsigned digits>
+using Digits = boost::multiprecision::number<
+    boost::multiprecision::mpfr_float_backend<digits, boost::multiprecision::allocate_stack>,
+    boost::multiprecision::et_off>;
+using HighPrecision = Digits<50>;
+
+}  // namespace testing
+
+/// An enclosed constant is taken to be the midpoint: ±2^k of it is then ±2^k of the number too.
+template <unsigned digits>
+struct ScalarTraits<testing::Digits<digits>> {
+  static testing::Digits<digits> constant(const Interval& enclosure) {
+    return testing::Digits<digits>(midpoint(enclosure));
+  }
 };
 
 namespace testing {

@@ -137,12 +137,71 @@ TEST(Passes, MakeAProgramRecordedWithoutRulesAsShortAsOneRecordedWithThem) {
   EXPECT_LE(longer, total / 50) << "of " << total;
 }
 
-TEST(Passes, AreNamedOnceAndSayWhatTheyDo) {
+TEST(Passes, AreNamedOnce) {
   std::set<std::string_view> names;
-  for (const Pass& pass : passes()) {
-    EXPECT_TRUE(names.insert(pass.name).second) << pass.name;
-    EXPECT_FALSE(pass.what.empty()) << pass.name;
+  for (const Pass& pass : passes()) EXPECT_TRUE(names.insert(pass.name).second) << pass.name;
+}
+
+/// op(prev, …) as often, on state 0, without rules.
+template <class Operation>
+Program chain(int length, Operation operation) {
+  Recorder r(2, 0, RuleSet::none());
+  int last = 0;
+  for (int i = 0; i < length; ++i) last = operation(r, i, last);
+  return r.program({r.mul(last, 1), r.add(last, 1), r.sub(1, last), r.sqr(last), r.sin(last)});
+}
+
+TEST(Passes, NestNoDeeperForAProgramThatDoes) {
+  constexpr int length = 40000;
+  const std::vector<Program> deep{
+      chain(length, [](Recorder& r, int, int last) { return r.mul(r.constant(0x1p1000), last); }),
+      chain(length, [](Recorder& r, int, int last) { return r.mul(r.constant(0x1p60), last); }),
+      chain(length, [](Recorder& r, int i, int last) { return r.mul(r.constant(i % 2 == 0 ? 0.5 : 2.0), last); }),
+      chain(length, [](Recorder& r, int, int last) { return r.neg(last); }),
+      chain(length, [](Recorder& r, int, int last) { return r.sub(r.neg(last), r.neg(r.constant(0.0))); }),
+      chain(length, [](Recorder& r, int, int last) { return r.neg(r.mul(r.constant(-0x1p1000), last)); }),
+  };
+  for (const Program& program : deep) {
+    for (const Pass& pass : passes()) EXPECT_EQ(pass.apply(program).outputs(), 5) << pass.name;
+    EXPECT_LE(optimised(program).operations(), program.operations());
   }
+}
+
+TEST(Rules, NestNoDeeperForAProgramThatTheyMeetAsItIs) {
+  constexpr int length = 400000;
+  const std::vector<Program> deep{
+      chain(length, [](Recorder& r, int i, int last) { return r.mul(r.constant(i % 2 == 0 ? 0.5 : 2.0), last); }),
+      chain(length, [](Recorder& r, int, int last) { return r.neg(last); }),
+  };
+  for (const Program& program : deep) {
+    Recorder behind(program);  // as derivatives do
+    const int last = program.outputNodes()[0] - 1;
+    for (int node : {behind.mul(behind.constant(4.0), last), behind.mul(last, 1), behind.neg(last), behind.sqr(last)})
+      behind.mul(behind.constant(2.0), behind.neg(node));
+    EXPECT_LT(behind.size(), static_cast<int>(program.nodes().size()) + 100);
+  }
+}
+
+TEST(MovePowersOfTwo, AddsNoMoreThanAFewNodesForEachOperation) {
+  Recorder r(2, 0, RuleSet::none());
+  const int links = 300;
+  int last = 0, angle = 1;
+  for (int i = 0; i < links; ++i) last = r.mul(r.constant(0x1p60), last);
+  std::vector<int> outputs;
+  for (int i = 0; i < links; ++i) outputs.push_back(r.mul(last, angle = r.sin(angle)));
+  const Program program = r.program(outputs);
+  EXPECT_LT(movePowersOfTwo(program).nodes().size(), 2 * program.nodes().size());
+}
+
+TEST(MovePowersOfTwo, LeavesTheLargeOnesWhereTheyKeepAProductInRange) {
+  const auto product = [](double c, double x, double y) {
+    const Program program = record<2>([c](const auto& z) { return (c * z[0]) * z[1]; });
+    EXPECT_TRUE(isIdentical(optimised(program), program));
+    return evaluate<double>(program, {x, y})[0];
+  };
+  EXPECT_EQ(product(0x1p1000, 0x1p-700, 0x1p-700), 0x1p-400);
+  EXPECT_EQ(product(0x1p-1000, 0x1p700, 0x1p700), 0x1p400);
+  EXPECT_EQ(product(-0x1p65, 0x1p-550, 0x1p-550), -0x1p-1035);
 }
 
 TEST(FoldConstants, FoldsOnlyWhatIsExact) {
@@ -190,6 +249,21 @@ TEST(MergeEqual, KeepsNumbersApartThatOnlyHaveTheSameEnclosure) {
   EXPECT_TRUE(isEqual(y[2], 0.0)) << y[2];
   EXPECT_TRUE(isEqual(y[3], {-2, 2})) << y[3];
   EXPECT_TRUE(isEqual(y[4], 0.0)) << y[4];
+}
+
+TEST(MergeEqual, KnowsAnEnclosedConstantTimesAPowerOfTwoAgain) {
+  const Program program = record<1>([](const auto&) {
+    const Recorded c(Interval(1, 2));
+    return std::array{(c + c) - c * 2.0, 2.0 * c - c * 2.0, c * -0.5 - -0.5 * c, 2.0 * c - 4.0 * c};
+  });
+  const auto y = evaluate<Interval>(program, {Interval(1.0)});
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_TRUE(isEqual(y[i], 0.0)) << i << ": " << y[i];
+  EXPECT_TRUE(isSubset(Interval(-4, -2), y[3])) << y[3];
+  // Two nodes of one double are one factor.
+  Recorder r(1, 0, RuleSet::none());
+  const int c = r.constant(Interval(1, 2));
+  const Program twice = r.program({r.sub(r.mul(r.constant(2.0), c), r.mul(r.constant(2.0), c))});
+  EXPECT_TRUE(isEqual(evaluate<Interval>(optimised(twice), {Interval(1.0)})[0], 0.0));
 }
 
 TEST(MergeEqual, MergesEqualWorkWhateverItsOrder) {

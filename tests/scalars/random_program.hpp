@@ -4,7 +4,6 @@
 
 #include <gmock/gmock.h>
 
-#include <boost/multiprecision/mpfr.hpp>
 #include <cmath>
 #include <random>
 #include <vector>
@@ -12,21 +11,11 @@
 #include "scalars/evaluate.hpp"
 #include "scalars/program.hpp"
 #include "scalars/recorder.hpp"
-#include "scalars/traits.hpp"
+#include "tests/scalars/high_precision.hpp"
 
-namespace gamut {
+namespace gamut::testing {
 
-using Precise =
-    boost::multiprecision::number<boost::multiprecision::mpfr_float_backend<110, boost::multiprecision::allocate_stack>,
-                                  boost::multiprecision::et_off>;
-
-/// An enclosed constant is taken to be the midpoint: ±2^k of it is then ±2^k of the number too.
-template <>
-struct ScalarTraits<Precise> {
-  static Precise constant(const Interval& enclosure) { return Precise(midpoint(enclosure)); }
-};
-
-namespace testing {
+using Precise = Digits<110>;
 
 /// Where random programs are defined, and their sizes.
 struct Point {
@@ -159,5 +148,4 @@ inline void expectSameMeaning(const Program& before, const Program& after, const
   }
 }
 
-}  // namespace testing
-}  // namespace gamut
+}  // namespace gamut::testing

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
+#include <limits>
 #include <span>
 
 #include "scalars/differentiation.hpp"
@@ -70,6 +71,10 @@ const std::vector<Function> functions{
      [](const Recorded& x) { return pow(x, -3); },
      [](const Precise& x) { return Precise(1 / (x * x * x)); },
      {-2, -0.1, 0.3, 5}},
+    {"pow least",
+     [](const Recorded& x) { return pow(x, std::numeric_limits<int>::min()); },
+     [](const Precise& x) { return Precise(pow(x, Precise(std::numeric_limits<int>::min()))); },
+     {-1, 1}},
     {"pow 7", [](const Recorded& x) { return pow(x, 7); }, [](const Precise& x) { return Precise(pow(x, 7)); },
      everywhere},
     {"pow 0", [](const Recorded& x) { return pow(x, 0); }, [](const Precise&) { return Precise(1); }, everywhere},
@@ -168,6 +173,41 @@ TEST(Record, TakesWhatAFunctionReturns) {
   });
   EXPECT_THAT(evaluate<double>(rotated, {3, 4, 0}), ElementsAre(3, 4));
 }
+
+TEST(Record, RefusesANumberOfAnotherRecording) {
+  Recorded kept;
+  record<2>([&](const auto& x) {
+    kept = x[0] * x[1];
+    return x[0];
+  });
+  EXPECT_THROW(record<1>([&](const auto& x) { return x[0] + kept; }), std::logic_error);
+  EXPECT_THROW(record<1>([&](const auto& x) {
+                 record<1>([&](const auto& inner) { return inner[0] * x[0]; });
+                 return x[0];
+               }),
+               std::logic_error);
+  EXPECT_THROW(kept + 1.0, std::logic_error);
+  kept = 2.0;  // a double belongs to all
+  EXPECT_EQ(record<1>([&](const auto& x) { return x[0] * kept; }).operations(), 1);
+}
+
+TEST(Record, RefusesVariablesAndOutputsBeyondTheLast) {
+  EXPECT_THROW(record<2>([](const auto& x) { return x[2]; }), std::out_of_range);
+  EXPECT_THROW(record(2, [](const auto& x) { return x[2]; }), std::out_of_range);
+  EXPECT_THROW(record(1, 1, [](auto, const auto& x, const auto& p, auto& dx) { dx[1] = x[0] * p[0]; }),
+               std::out_of_range);
+  EXPECT_THROW(record(1, 1, [](auto, const auto& x, const auto& p, auto& dx) { dx[0] = x[0] * p[1]; }),
+               std::out_of_range);
+  EXPECT_THROW(record(2, 0, [](auto, const auto& x, const auto&, auto& dx) { dx = {x[0]}; }), std::invalid_argument);
+}
+
+template <class S>
+concept Comparable = requires(const S& x) {
+  x < 1.0;
+}
+|| requires(const S& x) { x == x; };
+
+TEST(Record, HasNoComparisons) { static_assert(Comparable<double> && !Comparable<Recorded>); }
 
 TEST(Record, WithoutRulesKeepsEveryOperation) {
   const auto function = [](auto x, auto y) { return 1.0 * x + 0.0 - (-y) + sin(x) * cos(x) + x * x; };

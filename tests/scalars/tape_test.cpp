@@ -19,8 +19,8 @@ std::vector<double> nodeByNode(const Program& program, double t, const std::vect
                                const std::vector<double>& p) {
   std::vector<double> v;
   for (const Node& n : program.nodes()) {
-    const bool isInput = n.op == Op::state || n.op == Op::parameter || n.op == Op::time || n.op == Op::constant;
-    const double a = isInput ? 0 : v[detail::at(n.a)], b = isInput || n.b < 0 ? 0 : v[detail::at(n.b)];
+    const double a = isOperation(n.op) ? v[detail::at(n.a)] : 0,
+                 b = isOperation(n.op) && n.b >= 0 ? v[detail::at(n.b)] : 0;
     switch (n.op) {
       case Op::state:
         v.push_back(x[detail::at(n.a)]);
