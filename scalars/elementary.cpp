@@ -157,12 +157,15 @@ constexpr Bounds quarterTurn{0x1.921fb54442d18p+0, 0x1.921fb54442d19p+0};
 
 // ---- Quadrants ------------------------------------------------------------------------------------------------------
 
-/// floor(2 x / pi) modulo 8 in 1280 bits: the integer part has at most 1024, and since no double but 0 comes closer to
-/// a multiple of pi / 2 than 2^-62 relative to it, the rest decides the floor. -1 where it did not (it never does not).
+/// floor(2 x / pi) modulo 8 in 1280 bits: the integer part has at most 1024. No double comes closer to a multiple of
+/// pi / 2 than 2^-62, except to the multiple 0, beside which its sign decides; so the other bits decide the floor. -1
+/// where they did not (they always do).
 int quadrantByMpfr(double x) {
-  constexpr mpfr_prec_t precision = 1280;
+  constexpr int precision = 1280;
   const WideExponents wide;
-  thread_local Number pi(precision + 64), low(precision), high(precision), eight(8);
+  thread_local Number<precision + 64> pi;
+  thread_local Number<precision> low, high;
+  thread_local Number<8> eight;
   thread_local bool known = false;
   if (!known) {
     mpfr_const_pi(pi, MPFR_RNDN);  // error below 2^-1340, less than a last bit of the quotient
@@ -191,7 +194,7 @@ SinCosAt::Result fastSinCos(double x) {
   const double size = std::abs(x);
   if (!(size < 0x1p20) || !isArithmeticNearest()) return {{}, false};
   if (size >= tiny) return run<SinCosAt>(x);
-  if (x == 0) return {{{{x, x}, {1, 1}}, 0}, true};
+  if (x == 0) return {{{{0, 0}, {1, 1}}, 0}, true};
   return {{{shrunk(x), {nextDown(1), 1}}, x > 0 ? 0 : 7}, true};
 }
 
@@ -199,7 +202,7 @@ TanAt::Result fastTan(double x) {
   const double size = std::abs(x);
   if (!(size < 0x1p20) || !isArithmeticNearest()) return {{}, false};
   if (size >= tiny) return run<TanAt>(x);
-  if (x == 0) return {{{x, x}, 0}, true};
+  if (x == 0) return {{{0, 0}, 0}, true};
   return {{grown(x), x > 0 ? 0 : 7}, true};
 }
 
@@ -220,7 +223,7 @@ Decided fastLog(double x) {
 Decided fastAtan(double x) {
   if (!isArithmeticNearest()) return {{}, false};
   const double size = std::abs(x);
-  if (size < tiny) return {x == 0 ? Bounds{x, x} : shrunk(x), true};
+  if (size < tiny) return {x == 0 ? Bounds{0, 0} : shrunk(x), true};
   // From 2^60 on, atan |x| is within 2^-60 of pi / 2, and quarterTurn's.
   const Decided decided = size < 0x1p60 ? run<AtanAt>(size) : Decided{quarterTurn, true};
   return {x < 0 ? negated(decided.bounds) : decided.bounds, decided.known};
@@ -229,7 +232,7 @@ Decided fastAtan(double x) {
 Decided fastAsin(double x) {
   const double size = std::abs(x);
   if (!isArithmeticNearest()) return {{}, false};
-  if (size < tiny) return {x == 0 ? Bounds{x, x} : grown(x), true};
+  if (size < tiny) return {x == 0 ? Bounds{0, 0} : grown(x), true};
   const Decided decided = size < 1 ? run<AsinAt>(size) : Decided{quarterTurn, true};
   return {x < 0 ? negated(decided.bounds) : decided.bounds, decided.known};
 }

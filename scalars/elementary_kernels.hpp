@@ -6,7 +6,7 @@
 // whose values are so small beside the result that plain doubles do. Products of two errors (2^-100) are left out of
 // the lists; each claim leaves more than 3 % for them and for the roundings of the caller's test.
 // Proved below, claimed, and the worst seen over 10^7 arguments each against 200 bits, most of them adversarial (table
-// boundaries, neighbours of multiples of pi / 256 and log 2 / 128, arguments near 1):
+// boundaries, neighbours of multiples of pi / 512 and log 2 / 256, arguments near 1):
 //
 //                      proved      claimed     worst seen: plain    fused
 //   sin, cos           2^-66.68    2^-65.54    2^-67.71             2^-67.83
@@ -162,10 +162,9 @@ template <bool fused>
 ///   series after r^6 / 6!         1.003 r^7 / 7!                                              2^-71.9
 ///   T, T r.hi                     exact sum and product
 ///   their low parts, T r.lo       plain operations on what is 2^-53                           2^-103
-///   T (exp(r) - 1 - r)            z = r.hi^2: 3 u (rounded; r.lo left out), 1/2 + r/6: 1.01 u, sum with z/24...: 1.01
-///   u,
-///                                 product 1 u, T for its high part 1 u, product with it 1 u, added to the low parts
-///                                 1 u: 9.1 u of 1.003 r^2 / 2 = 2^-18.05                       2^-67.86
+///   T (exp(r) - 1 - r)            z = r.hi^2: 3 u (rounded; r.lo left out), 1/2 + r/6: 1.01 u, sum with z/24...:
+///                                 1.01 u, product 1 u, T for its high part 1 u, product with it 1 u, added to the
+///                                 low parts 1 u: 9.1 u of 1.003 r^2 / 2 = 2^-18.05             2^-67.86
 ///   together                                                                                  2^-67.77
 template <bool fused>
 [[gnu::always_inline]] inline DoubleDouble expKernel(double x, std::int64_t& exponent) {

@@ -53,6 +53,12 @@ void detail::throwInvalidInterval(double lower, double upper) {
   throw std::invalid_argument(text);
 }
 
+void detail::throwExponentOutOfRange() {
+  throw std::out_of_range("the exponent of an integer power has more than 63 bits");
+}
+
+void detail::throwNoText() { throw std::invalid_argument("not an interval: a null pointer to text"); }
+
 bool isInterior(const Interval& x, const Interval& y) {
   if (isEmpty(x)) return true;
   return (y.lower() < x.lower() || y.lower() == -infinity) && (x.upper() < y.upper() || y.upper() == infinity);

@@ -19,10 +19,12 @@
 #include <cmath>
 #include <compare>
 #include <concepts>
+#include <cstddef>
 #include <iosfwd>
 #include <limits>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "scalars/interval_arithmetic.hpp"
@@ -31,24 +33,14 @@ namespace gamut {
 
 namespace detail {
 
-/// Boost.Interval's rounding concept without a rounding mode: there is no state to save, hence nothing to unprotect.
+/// What Boost.Interval's products and quotients need of its rounding concept, without a rounding mode: there is no
+/// state to save, hence nothing to unprotect.
 struct ErrorFreeRounding {
   using unprotected_rounding = ErrorFreeRounding;
-  static double conv_down(double x) { return x; }
-  static double conv_up(double x) { return x; }
-  static double add_down(double x, double y) { return addDown(x, y); }
-  static double add_up(double x, double y) { return addUp(x, y); }
-  static double sub_down(double x, double y) { return subDown(x, y); }
-  static double sub_up(double x, double y) { return subUp(x, y); }
   static double mul_down(double x, double y) { return mulDown(x, y); }
   static double mul_up(double x, double y) { return mulUp(x, y); }
   static double div_down(double x, double y) { return divDown(x, y); }
   static double div_up(double x, double y) { return divUp(x, y); }
-  static double sqrt_down(double x) { return sqrtDown(x); }
-  static double sqrt_up(double x) { return sqrtUp(x); }
-  static double int_down(double x) { return std::floor(x); }
-  static double int_up(double x) { return std::ceil(x); }
-  static double median(double x, double y) { return 0.5 * x + 0.5 * y; }
 };
 
 /// checking_base allows the empty interval and marks it by NaN endpoints.
@@ -56,6 +48,14 @@ using IntervalPolicies =
     boost::numeric::interval_lib::policies<ErrorFreeRounding, boost::numeric::interval_lib::checking_base<double>>;
 
 [[noreturn]] void throwInvalidInterval(double lower, double upper);
+[[noreturn]] void throwExponentOutOfRange();
+[[noreturn]] void throwNoText();
+
+inline std::string_view textOf(std::string_view text) { return text; }
+inline std::string_view textOf(const char* text) {
+  if (text == nullptr) throwNoText();
+  return text;
+}
 
 }  // namespace detail
 
@@ -73,6 +73,11 @@ class Interval {
   /// The thin interval [value, value]. Throws std::invalid_argument unless value is finite.
   Interval(double value) : Interval(value, value) {}  // NOLINT: implicit on purpose, so that 2 * x is an interval
 
+  /// A whole number of 64 bits, enclosed where it lies between two doubles.
+  template <std::integral N>
+  requires(std::numeric_limits<N>::digits > 53) Interval(N n)  // NOLINT: implicit, as other numbers are
+      : Interval(Interval(static_cast<double>(n >> 32) * 0x1p32) + Interval(static_cast<double>(n & 0xffffffff))) {}
+
   /// [lower, upper]; lower may be -inf and upper +inf.
   /// Throws std::invalid_argument, naming both, for NaN, lower > upper, lower = +inf or upper = -inf.
   Interval(double lower, double upper) : storage_(lower, upper, true) {
@@ -83,7 +88,9 @@ class Interval {
   /// Text read outward, see parse(): Interval("0.1"), Interval("[0.1, 0.2]"), Interval("0.1 +- 0.02").
   /// (A constrained template, so that Interval(0) is no null pointer to text.)
   template <std::convertible_to<std::string_view> Text>
-  explicit Interval(const Text& text) : Interval(parse(text)) {}
+  explicit Interval(const Text& text) : Interval(parse(detail::textOf(text))) {}
+  template <std::same_as<std::nullptr_t> Null>
+  Interval(Null) = delete;
 
   /// The tightest interval around what the text says; the forms are listed under "Text" below. A number that is a
   /// double gives a thin interval. Throws std::invalid_argument, naming malformed text and what is accepted.
@@ -223,6 +230,7 @@ Halves bisect(const Interval& x);
 
 /// x^2: non-negative, unlike x * x for an interval around zero.
 Interval sqr(const Interval& x);
+inline double sqr(double x) { return x * x; }
 /// Domain x >= 0.
 Interval sqrt(const Interval& x);
 /// The cube root, of negative numbers too: cbrt(-8) = -2.
@@ -284,10 +292,16 @@ Interval acosh(const Interval& x);
 Interval atanh(const Interval& x);
 
 /// x^n for every x, with x^0 = 1 (0^0 too); for n < 0 zero is outside of the domain, as for division.
-Interval pow(const Interval& x, int n);
+Interval pow(const Interval& x, long n);
+template <std::integral N>
+Interval pow(const Interval& x, N n) {
+  if (!std::in_range<long>(n)) detail::throwExponentOutOfRange();
+  return pow(x, static_cast<long>(n));
+}
 /// x^y on the domain x > 0, or x = 0 with y > 0: negative bases have no real powers, even where y is an integer.
 Interval pow(const Interval& x, const Interval& y);
-inline Interval pow(const Interval& x, double y) { return pow(x, Interval(y)); }
+/// x^n where y is a whole number n, for negative bases too; elsewhere x^[y, y].
+Interval pow(const Interval& x, double y);
 
 /// Both at once, for little more than the price of one.
 struct SinCos {
@@ -304,7 +318,7 @@ inline Interval twoPi() { return {0x1.921fb54442d18p+2, 0x1.921fb54442d19p+2}; }
 
 // ---- Text -----------------------------------------------------------------------------------------------------------
 
-// Interval::parse reads, blanks around every part allowed, words in either case:
+// Interval::parse reads, blanks around it, the comma, the sign ± and inside brackets allowed, words in either case:
 //
 //   0.1  -1.5e3  1/3  0x1.8p3     the tightest interval around that number; hexadecimal needs its exponent p
 //   [0.1, 0.2]  [0.1]             between two numbers, around one
@@ -324,6 +338,8 @@ std::string toString(const Interval& x, int digits = 17);
 std::string toFixedString(const Interval& x, int decimals);
 /// Hexadecimal, "[0x1.8p+0, 0x1p+1]": exact, so Interval::parse gives x again.
 std::string toExactString(const Interval& x);
+/// One double, "-0x1.8p+0" or "inf": exact, but for the sign of zero.
+std::string toExactString(double x);
 std::ostream& operator<<(std::ostream& stream, const Interval& x);
 
 /// The shortest decimal that is read back as this double: "0.1", "1e-09", "inf".

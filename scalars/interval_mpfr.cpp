@@ -9,13 +9,19 @@
 namespace gamut {
 namespace {
 
-using detail::Bounds, detail::evaluate, detail::evaluatePower, detail::evaluateRoot, detail::increasing,
-    detail::MpfrFunction;
+using detail::Bounds, detail::evaluate, detail::evaluatePower, detail::evaluateRoot, detail::MpfrFunction;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// MPFR tells the zeros apart, (-0)^-1 = -inf and atan2(-0, -1) = -pi; an endpoint 0 of an interval has no sign.
 double withoutSignedZero(double x) { return x == 0 ? 0.0 : x; }
+
+/// A function that increases on all of x, which may be empty.
+Interval increasing(MpfrFunction f, const Interval& x) {
+  if (isEmpty(x)) return x;
+  const Bounds low = evaluate(f, x.lower()), high = isThin(x) ? low : evaluate(f, x.upper());
+  return {low.down, high.up};
+}
 
 /// An increasing f with the open domain (infimum, supremum): f at a domain's end is an infinity that MPFR returns.
 Interval increasingInside(MpfrFunction f, const Interval& x, double infimum, double supremum) {
@@ -24,7 +30,7 @@ Interval increasingInside(MpfrFunction f, const Interval& x, double infimum, dou
 }
 
 /// x^n for n < 0: 1 / x^|n|, undefined at zero.
-Interval negativePower(const Interval& x, int n) {
+Interval negativePower(const Interval& x, long n) {
   if (x.lower() == 0 && x.upper() == 0) return Interval::empty();
   if (n % 2 == 0) {
     const Interval size = abs(x);
@@ -86,7 +92,7 @@ Interval atan2(const Interval& y, const Interval& x) {
   return {evaluate(mpfr_atan2, y.lower(), left).down, evaluate(mpfr_atan2, y.upper(), left).up};
 }
 
-Interval pow(const Interval& x, int n) {
+Interval pow(const Interval& x, long n) {
   if (isEmpty(x)) return x;
   if (n == 0) return 1;
   if (n == 1) return x;
@@ -94,6 +100,12 @@ Interval pow(const Interval& x, int n) {
   if (n < 0) return negativePower(x, n);
   const Interval base = n % 2 == 0 ? abs(x) : x;
   return {evaluatePower(base.lower(), n).down, evaluatePower(base.upper(), n).up};
+}
+
+Interval pow(const Interval& x, double y) {
+  if (std::trunc(y) != y) return pow(x, Interval(y));
+  if (std::abs(y) < 0x1p63) return pow(x, static_cast<long>(y));
+  return pow(abs(x), Interval(y));  // an even number, as every double of that size
 }
 
 /// Monotone in x for fixed y and in y for fixed x, so the extremes over a rectangle are at its corners.

@@ -70,9 +70,10 @@ class Rational {
   /// once more where doubles are subnormal or overflow.
   double rounded(mpfr_rnd_t direction) const {
     const detail::WideExponents wide;
-    detail::Number number(53);
+    detail::Number<53> number;
     mpfr_set_q(number, value_, direction);
-    return mpfr_get_d(number, direction);
+    const double rounded = mpfr_get_d(number, direction);
+    return rounded == 0 ? 0.0 : rounded;  // +0
   }
 
  private:
@@ -242,13 +243,13 @@ std::optional<Interval> readMidpointAndRadius(const std::string& text, std::stri
 }
 
 /// An endpoint of [lower, upper]; nothing if it is the infinity that `sign` says: left out, inf or infinity.
-std::optional<Rational> readEndpoint(const std::string& text, char sign, std::string_view whole) {
+std::optional<Number> readEndpoint(const std::string& text, char sign, std::string_view whole) {
   std::string_view word = text;
   if (word.starts_with(sign)) word.remove_prefix(1);
   if (text.empty() || ((sign == '+' || text.starts_with('-')) && (word == "inf" || word == "infinity"))) return {};
   const auto number = readNumber(text);
   if (!number) throwMalformed(whole);
-  return number->value();
+  return number;
 }
 
 /// What stands between brackets.
@@ -263,8 +264,12 @@ Interval readBrackets(const std::string& inside, std::string_view whole) {
   }
   const auto lower = readEndpoint(std::string(trimmed(std::string_view(inside).substr(0, comma))), '-', whole);
   const auto upper = readEndpoint(std::string(trimmed(std::string_view(inside).substr(comma + 1))), '+', whole);
-  if (lower && upper && *upper < *lower) throwMalformed(whole, ": the lower endpoint is above the upper one");
-  return {lower ? lower->rounded(MPFR_RNDD) : -infinity, upper ? upper->rounded(MPFR_RNDU) : infinity};
+  if (lower && upper) {
+    if (lower->isCutOff() && upper->isCutOff())  // then they cannot be compared
+      throwMalformed(whole, ": both exponents are beyond 100000");
+    if (upper->value() < lower->value()) throwMalformed(whole, ": the lower endpoint is above the upper one");
+  }
+  return {lower ? lower->value().rounded(MPFR_RNDD) : -infinity, upper ? upper->value().rounded(MPFR_RNDU) : infinity};
 }
 
 // ---- Writing --------------------------------------------------------------------------------------------------------
@@ -272,8 +277,8 @@ Interval readBrackets(const std::string& inside, std::string_view whole) {
 /// `format` takes a number of digits, a direction and a number. The decimal point is a point in every locale.
 std::string writeDirected(const char* format, double value, int digits, mpfr_rnd_t direction) {
   const detail::WideExponents wide;
-  detail::Number number(53);
-  mpfr_set_d(number, value, MPFR_RNDN);  // exact
+  detail::Number<53> number;
+  mpfr_set_d(number, value == 0 ? 0.0 : value, MPFR_RNDN);  // exact; 0, not -0
   char* text = nullptr;
   mpfr_asprintf(&text, format, digits, direction, static_cast<mpfr_ptr>(number));
   std::string result(text);
@@ -282,13 +287,6 @@ std::string writeDirected(const char* format, double value, int digits, mpfr_rnd
   if (const auto at = result.find(point); point != "." && at != std::string::npos)
     result.replace(at, point.size(), ".");
   return result;
-}
-
-std::string writeExact(double value) {
-  if (std::isinf(value)) return value < 0 ? "-inf" : "inf";
-  std::array<char, 32> text{};  // 14 digits, a point, p and an exponent of five
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), std::abs(value), std::chars_format::hex).ptr;
-  return (value < 0 ? "-0x" : "0x") + std::string(text.data(), end);
 }
 
 template <class Lower, class Upper>
@@ -326,7 +324,17 @@ std::string toFixedString(const Interval& x, int decimals) {
   return writeOutward("%.*R*f", x, decimals);
 }
 
-std::string toExactString(const Interval& x) { return writeBrackets(x, writeExact, writeExact); }
+std::string toExactString(const Interval& x) {
+  const auto exact = [](double value) { return toExactString(value); };
+  return writeBrackets(x, exact, exact);
+}
+
+std::string toExactString(double x) {
+  if (!std::isfinite(x)) return toString(x);
+  std::array<char, 32> text{};  // 14 digits, a point, p and an exponent of five
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), std::abs(x), std::chars_format::hex).ptr;
+  return (x < 0 ? "-0x" : "0x") + std::string(text.data(), end);
+}
 
 std::ostream& operator<<(std::ostream& stream, const Interval& x) { return stream << toString(x); }
 

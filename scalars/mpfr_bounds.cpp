@@ -4,20 +4,23 @@
 namespace gamut::detail {
 namespace {
 
-/// Frees MPFR's per-thread caches (of pi, log 2) when the thread ends; constructed before, so destroyed after Numbers.
+/// Frees MPFR's per-thread caches (of pi, log 2) when the thread ends. Whoever comes later makes new ones.
 struct CacheOwner {
   ~CacheOwner() { mpfr_free_cache(); }
 };
 
 struct Scratch {
-  CacheOwner caches;
-  Number argument{53}, second{53}, result{53}, secondResult{53};
+  Number<53> argument, second, result, secondResult;
 };
 
 Scratch& scratch() {
+  thread_local const CacheOwner caches;
   thread_local Scratch numbers;
   return numbers;
 }
+
+/// x, but +0 for -0.
+double withoutSign(double x) { return x == 0 ? 0.0 : x; }
 
 /// Both bounds of y from r, y rounded down to 53 bits, and its ternary value (zero: r = y).
 /// Every double is a 53-bit number, so the doubles that are <= y are those that are <= r, and, if r < y, the doubles
@@ -27,9 +30,9 @@ Scratch& scratch() {
 /// largest number or -inf, each with a ternary value.
 Bounds boundsOf(mpfr_ptr result, int ternary) {
   Bounds bounds;
-  bounds.down = mpfr_get_d(result, MPFR_RNDD);
+  bounds.down = withoutSign(mpfr_get_d(result, MPFR_RNDD));
   if (ternary != 0) mpfr_nextabove(result);
-  bounds.up = mpfr_get_d(result, MPFR_RNDU);
+  bounds.up = withoutSign(mpfr_get_d(result, MPFR_RNDU));
   return bounds;
 }
 
@@ -83,20 +86,6 @@ SinCosBounds evaluateSinCos(double x) {
   // MPFR's manual: s + 4 c, where each of the two is 0 if exact, 1 if rounded up, 2 if rounded down.
   const int ternary = mpfr_sin_cos(s.result, s.secondResult, s.argument, MPFR_RNDD);
   return {boundsOf(s.result, ternary & 3), boundsOf(s.secondResult, ternary >> 2)};
-}
-
-Interval increasing(MpfrFunction f, const Interval& x) {
-  if (isEmpty(x)) return x;
-  const Bounds low = evaluate(f, x.lower());
-  const Bounds high = isThin(x) ? low : evaluate(f, x.upper());
-  return {low.down, high.up};
-}
-
-Interval decreasing(MpfrFunction f, const Interval& x) {
-  if (isEmpty(x)) return x;
-  const Bounds high = evaluate(f, x.lower());
-  const Bounds low = isThin(x) ? high : evaluate(f, x.upper());
-  return {low.down, high.up};
 }
 
 }  // namespace gamut::detail

@@ -5,22 +5,28 @@
 
 #include <mpfr.h>
 
-#include "scalars/interval.hpp"
+#include <type_traits>
 
 namespace gamut::detail {
 
-/// An MPFR number of fixed precision (bits).
+/// An MPFR number of fixed precision. Its digits lie inside it, so it needs no destructor: what a thread keeps of this
+/// kind can still be used while the thread's or the program's other objects are destroyed.
+template <int bits>
 class Number {
  public:
-  explicit Number(mpfr_prec_t precision) { mpfr_init2(value_, precision); }
-  ~Number() { mpfr_clear(value_); }
+  Number() {
+    mpfr_custom_init(limbs_, bits);
+    mpfr_custom_init_set(value_, MPFR_ZERO_KIND, 0, bits, limbs_);
+  }
   Number(const Number&) = delete;
   Number& operator=(const Number&) = delete;
   operator mpfr_ptr() { return value_; }
 
  private:
+  mp_limb_t limbs_[(bits + GMP_NUMB_BITS - 1) / GMP_NUMB_BITS];
   mpfr_t value_;
 };
+static_assert(std::is_trivially_destructible_v<Number<53>>);
 
 /// MPFR's exponent range belongs to the thread, and a caller may have narrowed it below what doubles need. While an
 /// object of this kind lives it is wide; afterwards it is the caller's again.
@@ -54,9 +60,5 @@ struct SinCosBounds {
   Bounds sin, cos;
 };
 SinCosBounds evaluateSinCos(double x);
-
-/// The range over x of a function that increases or decreases on all of x; x may be empty.
-Interval increasing(MpfrFunction f, const Interval& x);
-Interval decreasing(MpfrFunction f, const Interval& x);
 
 }  // namespace gamut::detail

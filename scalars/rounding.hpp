@@ -100,8 +100,10 @@ struct Fused {
 /// By halves: a = a1 + a0 with 26 bits in a1 and |a0| at most half of a1's last bit, cut by integer arithmetic (so in
 /// every mode alike; Veltkamp's splitting is right to nearest only). In units of the product of the operands' last bits
 /// (|a|, |b| <= 2^53): all four products of halves have at most 52 bits, so they are exact;
-/// c - a1 b1 is a multiple of 2^52 below 2^81; minus a1 b0 it is a multiple of 2^27 below 2^80, minus a0 b1 below 2^55:
+/// c - a1 b1 is a multiple of 2^51 below 2^81; minus a1 b0 it is a multiple of 2^27 below 2^80, minus a0 b1 below 2^55:
 /// all exact while |c - a b| <= 2^54, and the last subtraction rounds the exact value once, which keeps its sign.
+/// With a subnormal operand |a| c's last bit can be smaller: for |a| < 2^26 a1 = 0 and nothing is lost, beyond it is
+/// 2^26 at least, and |c - a1 b1| < 2^79. With a zero operand the result is -c.
 /// For c farther away, D = |c - a b| > 2^54: while D < 2^78 the same multiples still fit in 53 bits; beyond, the three
 /// roundings lose at most 2^-52 of magnitudes below D + 2^81 each, far less than D.
 struct Split {
@@ -132,7 +134,8 @@ double sqrtSlow(double x, bool up) noexcept;
 inline double nextUp(double x) noexcept {
   if (x == 0) return std::numeric_limits<double>::denorm_min();
   if (!(x < std::numeric_limits<double>::infinity())) return x;
-  return detail::stepUp(x);
+  const double next = detail::stepUp(x);
+  return next == 0 ? 0.0 : next;  // +0 above the greatest negative double
 }
 
 /// The greatest double below x; -inf for the lowest double and for -inf. NaN stays NaN.

@@ -1,3 +1,4 @@
+// The table of functions and ranges, what each enclosure must be, and the drawing of intervals and points.
 #include "tests/scalars/containment.hpp"
 
 #include <algorithm>
@@ -295,7 +296,11 @@ std::vector<OfOneArgument> functionsOfOneArgument() {
   const std::vector<Range> growing{uniformly(-20, 20), everywhere, subnormal, uniformly(700, 720),
                                    near({-745.2, -708.4, -37.5, 0, 709.8, 710.5})};
   return {
-      {"sqr", sqr, mpfr_sqr, even, {uniformly(-5, 5), everywhere, subnormal, halfWay, near({0, 1})}},
+      {"sqr",
+       static_cast<Interval (*)(const Interval&)>(sqr),
+       mpfr_sqr,
+       even,
+       {uniformly(-5, 5), everywhere, subnormal, halfWay, near({0, 1})}},
       {"sqrt", sqrt, mpfr_sqrt, rising, {uniformly(-1, 9), everywhere, subnormal, huge, near({0, 1, 4})}},
       {"cbrt", cbrt, mpfr_cbrt, rising, {uniformly(-9, 9), everywhere, subnormal, huge, near({0, 1, -8})}},
       {"abs", abs, absExact, even, {uniformly(-3, 3), everywhere, subnormal, huge}},

@@ -282,6 +282,46 @@ TEST(Interval, RealPowersTakeNonnegativeBases) {
   EXPECT_THAT(pow(Interval(0), Interval(-1, 0)), IsEmptyInterval());
 }
 
+TEST(Interval, AWholeExponentIsWholeWhateverItsType) {
+  const Interval x(-2, 1);
+  for (const Interval& square : {pow(x, 2), pow(x, 2u), pow(x, 2L), pow(x, std::size_t{2}), pow(x, 2.0)})
+    EXPECT_THAT(square, IsInterval(0, 4));
+  EXPECT_THAT(pow(x, 3.0), IsInterval(-8, 1));
+  EXPECT_THAT(pow(Interval(-2), -1.0), IsInterval(-0.5, -0.5));
+  EXPECT_THAT(pow(x, 0.5), IsInterval(0, 1));
+  EXPECT_THAT(pow(Interval(-1, 0.5), 0x1p70), IsInterval(0, 1));
+  EXPECT_THROW(pow(x, std::numeric_limits<std::uint64_t>::max()), std::out_of_range);
+}
+
+TEST(Interval, HoldsWholeNumbersThatAreNoDoubles) {
+  const Interval x(9007199254740993L), y(-9007199254740993L), z(std::numeric_limits<std::uint64_t>::max());
+  EXPECT_THAT(x, IsInterval(9007199254740992.0, 9007199254740994.0));
+  EXPECT_THAT(y, IsInterval(-9007199254740994.0, -9007199254740992.0));
+  EXPECT_THAT(z, IsInterval(0x1.fffffffffffffp63, 0x1p64));
+  EXPECT_THAT(Interval(std::int64_t{-4}), IsInterval(-4, -4));
+  static_assert(!std::is_constructible_v<Interval, std::nullptr_t>);
+  const char* none = nullptr;
+  EXPECT_THROW(Interval{none}, std::invalid_argument);
+}
+
+/// Computes while the thread's other objects are being destroyed.
+struct Late {
+  explicit Late(Interval& result) : result_(result) {}
+  ~Late() { result_ = sinh(Interval(1)) + sin(Interval(1e300)); }
+  Interval& result_;
+};
+
+TEST(Interval, WorksWhileAThreadsObjectsAreDestroyed) {
+  const Interval expected = sinh(Interval(1)) + sin(Interval(1e300));
+  Interval result, before;
+  std::thread([&] {
+    thread_local const Late late(result);
+    before = late.result_ + sinh(Interval(1)) + sin(Interval(1e300));
+  }).join();
+  EXPECT_TRUE(isEqual(before, expected));
+  EXPECT_TRUE(isEqual(result, expected));
+}
+
 TEST(Interval, AnAngleIsUndefinedAtTheOriginAloneAndJumpsAtTheNegativeAxis) {
   const double up = pi().upper(), down = pi().lower();
   EXPECT_THAT(atan2(Interval(0), Interval(0)), IsEmptyInterval());
@@ -406,7 +446,8 @@ TEST(Interval, WhatIsCertainHoldsForEveryElementAndNeverForNone) {
   EXPECT_TRUE(certainlyLess(Interval(0, 1), Interval(2, 3)));
   EXPECT_FALSE(certainlyLess(Interval(0, 1), Interval(1, 3)));
   EXPECT_TRUE(certainlyLessOrEqual(Interval(0, 1), Interval(1, 3)));
-  EXPECT_TRUE(certainlyGreater(Interval(2, 3), Interval(0, 1)));
+  EXPECT_TRUE(certainlyGreater(Interval(2, 3), Interval(0, 1)) && !certainlyGreater(Interval(1, 3), Interval(0, 1)));
+  EXPECT_TRUE(certainlyGreaterOrEqual(Interval(1, 3), Interval(0, 1)));
   EXPECT_TRUE(certainlyPositive(Interval(1, 2)) && !certainlyPositive(Interval(0, 2)));
   EXPECT_TRUE(certainlyNegative(Interval(-2, -1)) && certainlyNonzero(Interval(-2, -1)));
   EXPECT_TRUE(certainlyNonnegative(Interval(0, 2)) && certainlyNonpositive(Interval(-1, 0)));

@@ -221,6 +221,19 @@ TEST(IntervalText, EndpointsInTheWrongOrderAreFoundHoweverCloseTheyAre) {
   EXPECT_THAT(Interval("[1/3, 1/3]"), IsTightestFrom(Rational(1, 3), Rational(1, 3)));
 }
 
+TEST(IntervalText, EndpointsThatAreBothBeyondTheGreatestExponentAreRefused) {
+  EXPECT_THROW(Interval("[1e200001, 1e200000]"), std::invalid_argument);
+  EXPECT_THROW(Interval("[2e-200000, 3e-200001]"), std::invalid_argument);
+  EXPECT_THAT(Interval("[-1e200000, 1]"), IsInterval(-infinity, 1));
+}
+
+TEST(IntervalText, ZeroHasNoSign) {
+  EXPECT_EQ(toString(Interval(-0.0)), "[0, 0]");
+  EXPECT_FALSE(std::signbit(Interval("-1e-400").upper()));
+  EXPECT_FALSE(std::signbit(sin(Interval(-smallest)).upper()));
+  EXPECT_FALSE(std::signbit(nextUp(-smallest)));
+}
+
 TEST(IntervalText, HugeExponentsOfMidpointAndRadiusAreRefused) {
   EXPECT_THROW(Interval("1e100001 ± 1"), std::invalid_argument);
   EXPECT_THROW(Interval("1 ± 1e-999999999"), std::invalid_argument);
@@ -277,6 +290,7 @@ TEST(IntervalText, ExactTextReadBackIsTheInterval) {
   }
   EXPECT_EQ(toExactString(Interval(-1.5, 0.1)), "[-0x1.8p+0, 0x1.999999999999ap-4]");
   EXPECT_EQ(toExactString(Interval(1, infinity)), "[0x1p+0, inf]");
+  EXPECT_EQ(toExactString(Interval(-0.0, smallest)), "[0x0p+0, 0x0.0000000000001p-1022]");
   EXPECT_EQ(toExactString(Interval::empty()), "[empty]");
   EXPECT_EQ(toExactString(Interval::entire()), "[entire]");
 }

@@ -1,3 +1,4 @@
+// Tokens, then a parser by recursive descent; decorations are read and dropped.
 #include "tests/scalars/itf1788.hpp"
 
 #include <algorithm>
