@@ -54,6 +54,11 @@ Fuzzy::Fuzzy(const Membership& membership, std::size_t levels) {
   for (std::size_t level = 0; level < levels; ++level) cuts_[level] = membership.cut(alpha(level));
 }
 
+void Fuzzy::throwNoSuchLevel(std::size_t level) const {
+  throw std::out_of_range("level " + std::to_string(level) + " of a fuzzy number of " + std::to_string(levels()) +
+                          " levels, counted from 0");
+}
+
 double Fuzzy::alpha(std::size_t level) const {
   if (levels() == 1) return 1;
   return static_cast<double>(level) / static_cast<double>(levels() - 1);
@@ -115,7 +120,7 @@ Fuzzy atan2(const Fuzzy& y, const Fuzzy& x) { return combined(y, x, static_cast<
 Fuzzy hypot(const Fuzzy& x, const Fuzzy& y) { return combined(x, y, static_cast<OfTwo>(hypot)); }
 Fuzzy min(const Fuzzy& x, const Fuzzy& y) { return combined(x, y, static_cast<OfTwo>(min)); }
 Fuzzy max(const Fuzzy& x, const Fuzzy& y) { return combined(x, y, static_cast<OfTwo>(max)); }
-Fuzzy pow(const Fuzzy& x, int n) {
+Fuzzy pow(const Fuzzy& x, long n) {
   return mapped(x, [n](const Interval& a) { return pow(a, n); });
 }
 Fuzzy pow(const Fuzzy& x, double y) {

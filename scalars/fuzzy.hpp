@@ -8,6 +8,7 @@
 //   Interval trust = necessity(height, Interval("[0.2, 0.4]"));    // at least trust.lower()
 #pragma once
 
+#include <concepts>
 #include <iosfwd>
 #include <span>
 #include <utility>
@@ -49,8 +50,11 @@ class Fuzzy {
 
   /// The number of alpha-cuts; 1 for a crisp quantity.
   std::size_t levels() const { return cuts_.size(); }
-  /// The alpha-cut at a level below levels(); a crisp quantity has the same at every level.
-  const Interval& cut(std::size_t level) const { return cuts_.size() == 1 ? cuts_.front() : cuts_[level]; }
+  /// The alpha-cut at a level, std::out_of_range from levels() on; a crisp quantity has the same at every level.
+  const Interval& cut(std::size_t level) const {
+    if (level >= cuts_.size() && cuts_.size() > 1) throwNoSuchLevel(level);
+    return cuts_.size() == 1 ? cuts_.front() : cuts_[level];
+  }
   /// The membership of a level: the double nearest to level / (levels() - 1); 1 for a crisp quantity.
   double alpha(std::size_t level) const;
   const Interval& support() const { return cuts_.front(); }
@@ -71,6 +75,8 @@ class Fuzzy {
   friend Fuzzy operator-(const Fuzzy& x);
 
  private:
+  [[noreturn]] void throwNoSuchLevel(std::size_t level) const;
+
   std::vector<Interval> cuts_;  // nested, from support to core; one for a crisp quantity
 };
 
@@ -112,7 +118,12 @@ Fuzzy atan2(const Fuzzy& y, const Fuzzy& x);
 Fuzzy hypot(const Fuzzy& x, const Fuzzy& y);
 Fuzzy min(const Fuzzy& x, const Fuzzy& y);
 Fuzzy max(const Fuzzy& x, const Fuzzy& y);
-Fuzzy pow(const Fuzzy& x, int n);
+Fuzzy pow(const Fuzzy& x, long n);
+template <std::integral N>
+Fuzzy pow(const Fuzzy& x, N n) {
+  if (!std::in_range<long>(n)) detail::throwExponentOutOfRange();
+  return pow(x, static_cast<long>(n));
+}
 Fuzzy pow(const Fuzzy& x, double y);
 Fuzzy pow(const Fuzzy& x, const Fuzzy& y);
 

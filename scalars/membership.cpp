@@ -32,33 +32,51 @@ double degreeBetween(const Point& a, const Point& b, double value) {
   return std::clamp(degree.lower(), std::min(a.degree, b.degree), std::max(a.degree, b.degree));
 }
 
-std::string nameOf(const std::vector<Point>& points, std::size_t i) {
-  return "point " + std::to_string(i + 1) + ", (" + toString(points[i].value) + ", " + toString(points[i].degree) +
-         "), of a membership table ";
+/// "2", or "[1, 3]" with bounds that are read back as these doubles.
+std::string written(const Interval& x) {
+  return isThin(x) ? toString(x.lower()) : "[" + toString(x.lower()) + ", " + toString(x.upper()) + "]";
+}
+
+/// The interval from one end to the other of what `name` is called.
+Interval betweenEnds(const std::string& name, double lower, double upper) {
+  require(std::isfinite(lower) && std::isfinite(upper) && lower <= upper,
+          "a membership function's " + name + " must be a bounded interval, not from " + toString(lower) + " to " +
+              toString(upper));
+  return {lower, upper};
 }
 
 /// Throws std::invalid_argument, naming the first wrong point, unless the degrees rise to 1 and fall.
 void requireOnePeak(const std::vector<Point>& points) {
   require(!points.empty(), "a membership table needs at least one point");
+  std::size_t i = 0;
+  const auto requireHere = [&](bool good, const char* problem) {
+    if (!good) throw Membership::BadPoint(points, i, problem);
+  };
   bool falls = false;
-  for (std::size_t i = 0; i < points.size(); ++i) {
+  for (; i < points.size(); ++i) {
     const auto [value, degree] = points[i];
-    require(std::isfinite(value), nameOf(points, i) + "is not finite");
-    require(degree >= 0 && degree <= 1, nameOf(points, i) + "has a degree outside [0, 1]");
+    requireHere(std::isfinite(value), "is not finite");
+    requireHere(degree >= 0 && degree <= 1, "has a degree outside [0, 1]");
     if (i == 0) continue;
     const Point& before = points[i - 1];
-    require(value >= before.value, nameOf(points, i) + "lies left of the point before it");
-    if (degree > before.degree) require(!falls, nameOf(points, i) + "rises again after the table has fallen");
+    requireHere(value >= before.value, "lies left of the point before it");
+    if (degree > before.degree) requireHere(!falls, "rises again after the table has fallen");
     if (degree < before.degree) {
-      require(falls || before.degree == 1, nameOf(points, i) + "falls although the table has not reached 1");
+      requireHere(falls || before.degree == 1, "falls although the table has not reached 1");
       falls = true;
     }
   }
-  require(falls || points.back().degree == 1,
-          nameOf(points, points.size() - 1) + "ends it although the table has not reached 1");
+  i = points.size() - 1;
+  requireHere(falls || points.back().degree == 1, "ends it although the table has not reached 1");
 }
 
 }  // namespace
+
+Membership::BadPoint::BadPoint(const std::vector<Point>& points, std::size_t at, std::string wrong)
+    : std::invalid_argument("point " + std::to_string(at + 1) + ", (" + toString(points[at].value) + ", " +
+                            toString(points[at].degree) + "), of a membership table " + wrong),
+      index(at),
+      problem(std::move(wrong)) {}
 
 Membership::Membership(Shape shape, std::vector<Point> points) : shape_(shape), points_(std::move(points)) {
   support_ = {points_.front().value, points_.back().value};
@@ -77,10 +95,9 @@ Membership Membership::triangular(double lower, double apex, double upper) {
 }
 
 Membership Membership::trapezoidal(double lower, double left, double right, double upper) {
-  const Interval support(lower, upper), core(left, right);
-  require(isBounded(support), "a membership function needs a bounded support, not " + toString(support));
+  const Interval support = betweenEnds("support", lower, upper), core = betweenEnds("core", left, right);
   require(isSubset(core, support),
-          "the core " + toString(core) + " of a membership function lies outside its support " + toString(support));
+          "the core " + written(core) + " of a membership function lies outside its support " + written(support));
   return {Shape::trapezoidal, {{lower, 0}, {left, 1}, {right, 1}, {upper, 0}}};
 }
 
@@ -90,7 +107,7 @@ Membership Membership::gaussian(const Interval& support, double centre, double d
   require(deviation > 0 && std::isfinite(deviation),
           "the deviation of a membership function must be positive, not " + toString(deviation));
   require(contains(support, centre),
-          "the centre " + toString(centre) + " of a membership function lies outside its support " + toString(support));
+          "the centre " + toString(centre) + " of a membership function lies outside its support " + written(support));
   return {support, centre, deviation};
 }
 

@@ -3,6 +3,8 @@
 // enclosures, and nested; Fuzzy is a stack of them.
 #pragma once
 
+#include <stdexcept>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -15,6 +17,13 @@ class Membership {
   /// One corner of a table: `degree` (0 … 1) at `value`.
   struct Point {
     double value, degree;
+  };
+
+  /// Refuses a table: what() names its first wrong point, counted from 1, and its problem.
+  struct BadPoint : std::invalid_argument {
+    BadPoint(const std::vector<Point>& points, std::size_t index, std::string wrong);
+    std::size_t index;    // of that point, from 0
+    std::string problem;  // as a sentence on it goes on: "falls although the table has not reached 1"
   };
 
   /// 1 at 0 only.
@@ -30,15 +39,15 @@ class Membership {
   /// end of the support the degree is still that of the Gaussian, and drops to 0 beyond.
   static Membership gaussian(const Interval& support, double centre, double deviation);
   /// Straight lines between the points, whose values must not fall and whose degrees rise to 1, stay there for one
-  /// point or more, and then fall: a fuzzy number has one peak or plateau. Outside the points the degree is 0; where
-  /// several have the same value, the greatest degree of them. The support begins where the degree first rises from 0
-  /// and ends where it has fallen to it. A refusal names the first point, counted from 1, that is wrong.
+  /// point or more, and then fall: a fuzzy number has one peak or plateau; BadPoint otherwise. Outside the points the
+  /// degree is 0; where several have the same value, the greatest degree of them. The support begins where the degree
+  /// first rises from 0 and ends where it has fallen to it.
   static Membership table(std::vector<Point> points);
 
   /// Contains every value with membership at least `alpha` (0 … 1); for alpha = 0 the support, for alpha = 1 the core,
   /// both exact. Rounded outward but never beyond the support; nested: a greater alpha gives a subset.
   Interval cut(double alpha) const;
-  /// Rounded downward, so that a value with (*this)(value) >= alpha lies in cut(alpha).
+  /// Rounded downward, so that a value with (*this)(value) >= alpha > 0 lies in cut(alpha).
   double operator()(double value) const;
 
   /// The values that are possible at all; outside it the degree is 0.

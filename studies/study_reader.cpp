@@ -236,10 +236,45 @@ class StudyReader {
     const Interval range = quantity.uncertain.range;
     if (node == nullptr) return range;
     const Interval found = pair(*node, section.nameOf("support"), dimensionOf(quantity.unit));
-    if (!isSubset(found, range))
-      source_.fail(*node, fmt::format("{} {} leaves the interval", section.nameOf("support"), toString(found, 6)),
-                   fmt::format("a support inside {}", toString(range, 6)));
+    if (!isSubset(found, range)) {
+      const auto [inner, outer] = writtenApart(found, range);
+      source_.fail(*node, fmt::format("{} {} leaves the interval", section.nameOf("support"), inner),
+                   fmt::format("a support inside {}", outer));
+    }
     return found;
+  }
+
+  /// Throws StudyError at the key's place unless `found` lies inside the support.
+  void requireInside(const TomlSection& section, std::string_view key, const Interval& found,
+                     const Interval& support) const {
+    if (isSubset(found, support)) return;
+    const auto [inner, outer] = writtenApart(found, support);
+    const toml::node* node = section.find(key);  // missing where the nominal value stands in
+    source_.fail(node == nullptr ? section.table() : *node,
+                 fmt::format("{}{} {} leaves the support", section.nameOf(key),
+                             node == nullptr ? ", the nominal value" : "", inner),
+                 "values inside " + outer);
+  }
+
+  static double nearTo(double x, int digits) { return std::stod(fmt::format("{:.{}g}", x, digits)); }
+  static Interval nearTo(const Interval& x, int digits) {
+    return {nearTo(x.lower(), digits), nearTo(x.upper(), digits)};
+  }
+
+  /// To the nearest. 15 digits give a number of the file back that was rounded to either side; one number if both ends
+  /// do.
+  static std::string written(const Interval& x, int digits = 15) {
+    const std::string lower = fmt::format("{:.{}g}", x.lower(), digits);
+    const std::string upper = fmt::format("{:.{}g}", x.upper(), digits);
+    return lower == upper ? lower : fmt::format("[{}, {}]", lower, upper);
+  }
+
+  /// What leaves an interval and that interval, each with digits enough, and no more, to see it.
+  static std::pair<std::string, std::string> writtenApart(const Interval& found, const Interval& around) {
+    const int own = isSubset(nearTo(found, 15), around) ? 17 : 15;
+    int digits = 6;
+    while (digits < 17 && isSubset(nearTo(found, own), nearTo(around, digits))) ++digits;
+    return {written(found, own), written(around, digits)};
   }
 
   /// The nearest double; `otherwise` without the key.
@@ -321,28 +356,50 @@ class StudyReader {
     const Dimension dimension = dimensionOf(result.unit);
     const Interval on = support(table, result);
     try {
-      if (type == "triangular")
-        uncertain.membership =
-            Membership::triangular(on.lower(), number(table, "apex", result, uncertain.nominal), on.upper());
+      if (type == "triangular") {
+        const double apex = number(table, "apex", result, uncertain.nominal);
+        requireInside(table, "apex", apex, on);
+        uncertain.membership = Membership::triangular(on.lower(), apex, on.upper());
+      }
       if (type == "trapezoidal") {
         const Interval core = pair(table.require("core", "[left, right]"), table.nameOf("core"), dimension);
+        requireInside(table, "core", core, on);
         uncertain.membership = Membership::trapezoidal(on.lower(), core.lower(), core.upper(), on.upper());
       }
-      if (type == "gaussian")
-        uncertain.membership = Membership::gaussian(on, number(table, "centre", result, uncertain.nominal),
-                                                    requiredNumber(table, "deviation", dimension));
-      if (type == "table") uncertain.membership = Membership::table(points(table, result));
+      if (type == "gaussian") {
+        const double centre = number(table, "centre", result, uncertain.nominal);
+        requireInside(table, "centre", centre, on);
+        const double deviation = requiredNumber(table, "deviation", dimension);
+        if (!(deviation > 0))
+          source_.fail(*table.find("deviation"), table.nameOf("deviation") + " is not positive", "a deviation above 0");
+        uncertain.membership = Membership::gaussian(on, centre, deviation);
+      }
+      if (type == "table") uncertain.membership = tableOf(table, result);
     } catch (const std::invalid_argument& error) {
       source_.failWith(*node, error.what(), "a membership function inside the interval");
     }
   }
 
+  Membership tableOf(const TomlSection& section, const UncertainQuantity& quantity) const {
+    const toml::array& list = source_.asArray(
+        section.require("points", "[[value, membership], ...] with memberships from 0 to 1"), section.nameOf("points"));
+    try {
+      return Membership::table(points(list, section.nameOf("points"), quantity));
+    } catch (const Membership::BadPoint& error) {
+      const toml::array& point = *list[error.index].as_array();
+      const auto number = [&](std::size_t i) { return toString(nearest(source_.asAnyAmount(point[i], ""))); };
+      source_.fail(point,
+                   fmt::format("point {}, ({}, {}), of {} {}", error.index + 1, number(0), number(1),
+                               section.nameOf("points"), error.problem),
+                   "memberships from 0 to 1 that rise to 1, stay, and fall");
+    }
+  }
+
   /// points = [[value, membership], ...]: nearest doubles, but the ends, which are the support, rounded outward.
-  std::vector<Membership::Point> points(const TomlSection& section, const UncertainQuantity& quantity) const {
-    const std::string what = section.nameOf("points");
+  std::vector<Membership::Point> points(const toml::array& list, const std::string& what,
+                                        const UncertainQuantity& quantity) const {
     const Interval range = quantity.uncertain.range;
-    const toml::array& list =
-        source_.asArray(section.require("points", "[[value, membership], ...] with memberships from 0 to 1"), what);
+    if (list.empty()) source_.fail(list, what + " is empty", "at least one point [value, membership]");
     std::vector<Membership::Point> result;
     for (const toml::node& entry : list) {
       const toml::array& point = source_.asArray(entry, what);
@@ -350,10 +407,20 @@ class StudyReader {
       const Amount amount = source_.asAmount(point[0], what, dimensionOf(quantity.unit));
       const bool isFirst = &entry == list.get(0), isLast = &entry == list.get(list.size() - 1);
       const double value = isFirst ? enclose(amount).lower() : isLast ? enclose(amount).upper() : nearest(amount);
-      if (!contains(range, value))
-        source_.fail(point[0], fmt::format("{} has the value {:.6g} outside the interval", what, value),
-                     fmt::format("values inside {}", toString(range, 6)));
-      result.push_back({value, nearest(source_.asAmount(point[1], what, plain))});
+      if (!contains(range, value)) {
+        const auto [inner, outer] = writtenApart(value, range);
+        source_.fail(point[0], fmt::format("{} has the value {} outside the interval", what, inner),
+                     fmt::format("values inside {}", outer));
+      }
+      if (!result.empty() && value < result.back().value)
+        source_.fail(point[0],
+                     fmt::format("{} has the value {} after {}", what, written(value), written(result.back().value)),
+                     "values that do not fall");
+      const double degree = nearest(source_.asAmount(point[1], what, plain));
+      if (!(degree >= 0 && degree <= 1))
+        source_.fail(point[1], fmt::format("{} has the membership {}", what, toString(degree)),
+                     "a membership from 0 to 1");
+      result.push_back({value, degree});
     }
     return result;
   }

@@ -1,5 +1,5 @@
 # Installs Gamut below BINARY, builds the programs in SOURCE and the README's against it and runs them: outside returns 0
-# only if its enclosure is right.
+# only if its enclosure is right. Then the scalars alone, and what the package refuses, in ROOMS.
 function(run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
   if(NOT status EQUAL 0)
@@ -7,6 +7,24 @@ function(run)
     message(FATAL_ERROR "${command}\nended with ${status}:\n${output}")
   endif()
   set(output "${output}" PARENT_SCOPE)
+endfunction()
+
+# Configures ROOMS for a component with such compiler flags; with a further argument it must fail, saying that.
+function(configure_rooms component flags)
+  set(command ${CMAKE_COMMAND} -S ${ROOMS} -B ${BINARY}/rooms -G ${GENERATOR} -D CMAKE_CXX_COMPILER=${COMPILER}
+    -D CMAKE_PREFIX_PATH=${BINARY}/prefix -D CMAKE_BUILD_TYPE=${CONFIG} "-D CMAKE_CXX_FLAGS=${flags}"
+    -D COMPONENT=${component})
+  file(REMOVE_RECURSE ${BINARY}/rooms)
+  if(NOT ARGN)
+    run(${command})
+    return()
+  endif()
+  execute_process(COMMAND ${command} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  string(REGEX REPLACE "[ \n]+" " " output "${output}")
+  string(FIND "${output}" "${ARGN}" place)
+  if(status EQUAL 0 OR place EQUAL -1)
+    message(FATAL_ERROR "the component ${component} with ${flags} was not refused with '${ARGN}':\n${output}")
+  endif()
 endfunction()
 
 file(REMOVE_RECURSE ${BINARY}/prefix ${BINARY}/build)
@@ -39,3 +57,10 @@ if(NOT output MATCHES "^angle after 5 s: .*, proved up to 10 s\n$")
   message(FATAL_ERROR "the README's program did not enclose the motion")
 endif()
 run(${BINARY}/prefix/bin/gamut --version)
+
+configure_rooms(scalars "${FLAGS}")
+run(${CMAKE_COMMAND} --build ${BINARY}/rooms --config ${CONFIG})
+run(${BINARY}/rooms/rooms)
+configure_rooms(intervals "${FLAGS}"
+  "Gamut has no component 'intervals', its components are scalars, mechanics, analyses, studies, reports")
+configure_rooms(scalars "${FLAGS} -ffast-math" "-ffast-math is refused")

@@ -6,6 +6,7 @@
 #include <boost/multiprecision/cpp_int.hpp>
 #include <sstream>
 #include <stdexcept>
+#include <string>
 
 #include "tests/scalars/reference.hpp"
 
@@ -13,6 +14,8 @@ namespace gamut {
 namespace {
 
 using namespace gamut::testing;
+using ::testing::StrEq;
+using ::testing::ThrowsMessage;
 using Rational = boost::multiprecision::cpp_rational;
 
 Fuzzy randomTriangle(RandomDoubles& random, double lower, double upper, std::size_t levels) {
@@ -71,6 +74,22 @@ TEST(Fuzzy, MakersRefuseCornersOutOfOrderAndTooFewLevels) {
   EXPECT_THROW(Fuzzy::trapezoidal(0, 1, 2, infinity, 4), std::invalid_argument);
   EXPECT_THROW(Fuzzy(std::vector<Interval>{}), std::invalid_argument);
   EXPECT_THROW(Fuzzy({Interval(0, 1), Interval(0, 2)}), std::invalid_argument);
+}
+
+TEST(Fuzzy, MakersSayWhichPartOfTheMembershipFunctionIsWrong) {
+  EXPECT_THAT([] { Fuzzy::triangular(3, 2, 1, 11); },
+              ThrowsMessage<std::invalid_argument>(
+                  StrEq("a membership function's support must be a bounded interval, not from 3 to 1")));
+}
+
+TEST(Fuzzy, ALevelThatThereIsNotIsRefusedByItsNumber) {
+  const Fuzzy x = Fuzzy::triangular(1, 2, 4, 11);
+  EXPECT_THAT(x.cut(10), IsInterval(2, 2));
+  for (const std::size_t level : {11u, 12u, 1000u}) {
+    EXPECT_THAT([&] { x.cut(level); },
+                ThrowsMessage<std::out_of_range>(
+                    StrEq("level " + std::to_string(level) + " of a fuzzy number of 11 levels, counted from 0")));
+  }
 }
 
 TEST(Fuzzy, ArithmeticIsIntervalArithmeticCutByCutAndStaysNested) {
@@ -142,6 +161,20 @@ TEST(Fuzzy, FunctionsAreThoseOfIntervalCutByCutAndStayNested) {
       }
     }
   }
+}
+
+TEST(Fuzzy, AWholeExponentInADoubleTakesNegativeBases) {
+  const Fuzzy x = Fuzzy::triangular(-2, -0.5, 1, 4);
+  EXPECT_THAT(pow(x, 2.0).support(), IsInterval(0, 4));
+  EXPECT_THAT(pow(x, 3.0).support(), IsInterval(-8, 1));
+  EXPECT_THAT(pow(x, -1.0).core(), IsInterval(-2, -2));
+  for (std::size_t level = 0; level < 4; ++level) {
+    EXPECT_TRUE(isEqual(pow(x, 2.0).cut(level), sqr(x).cut(level)));
+    EXPECT_TRUE(isEqual(pow(x, 3.0).cut(level), pow(x, 3).cut(level)));
+    EXPECT_TRUE(isEqual(pow(x, 3u).cut(level), pow(x, 3L).cut(level)));
+  }
+  EXPECT_THAT(pow(x, 2.5).support(), IsInterval(0, 1));
+  EXPECT_THROW(pow(x, ~0UL), std::out_of_range);
 }
 
 TEST(Fuzzy, EachCutOfAFunctionHoldsTheFunctionOfEachElementOfTheOperandsCut) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <boost/multiprecision/cpp_int.hpp>
+#include <functional>
 #include <stdexcept>
 
 #include "tests/scalars/high_precision.hpp"
@@ -14,6 +15,7 @@ namespace {
 
 using namespace gamut::testing;
 using ::testing::HasSubstr;
+using ::testing::StrEq;
 using ::testing::ThrowsMessage;
 using Points = std::vector<Membership::Point>;
 using Rational = boost::multiprecision::cpp_rational;
@@ -199,6 +201,35 @@ TEST(Membership, RefusesValuesOutOfOrder) {
   EXPECT_THROW(Membership::gaussian({0.0, 1.0}, 0.5, 0), std::invalid_argument);
   EXPECT_THROW(Membership::gaussian(Interval::entire(), 0.5, 1), std::invalid_argument);
   EXPECT_THROW(Membership::triangular(0, 1, 2).cut(1.1), std::invalid_argument);
+}
+
+TEST(Membership, RefusesCornersInWordsOfTheFunctionAndInTheNumbersGiven) {
+  const std::pair<std::function<void()>, const char*> wrong[] = {
+      {[] { Membership::triangular(3, 2, 1); },
+       "a membership function's support must be a bounded interval, not from 3 to 1"},
+      {[] { Membership::trapezoidal(0, 1, 2, infinity); },
+       "a membership function's support must be a bounded interval, not from 0 to inf"},
+      {[] { Membership::trapezoidal(0, 2, 1.1, 3); },
+       "a membership function's core must be a bounded interval, not from 2 to 1.1"},
+      {[] { Membership::triangular(0.1, 0.8050005, 0.805); },
+       "the core 0.8050005 of a membership function lies outside its support [0.1, 0.805]"},
+      {[] { Membership::trapezoidal(0.1, 0.2, 0.9, 0.805); },
+       "the core [0.2, 0.9] of a membership function lies outside its support [0.1, 0.805]"},
+      {[] {
+         Membership::gaussian({0.1, 0.3}, 0.7, 1);
+       },
+       "the centre 0.7 of a membership function lies outside its support [0.1, 0.3]"}};
+  for (const auto& [make, message] : wrong) EXPECT_THAT(make, ThrowsMessage<std::invalid_argument>(StrEq(message)));
+}
+
+TEST(Membership, ATablesRefusalKnowsThePointAndWhatIsWrongWithIt) {
+  try {
+    Membership::table({{0, 0}, {1, 0.5}, {2, 0.25}, {3, 1}});
+    ADD_FAILURE() << "was made";
+  } catch (const Membership::BadPoint& error) {
+    EXPECT_EQ(error.index, 2u);
+    EXPECT_EQ(error.problem, "falls although the table has not reached 1");
+  }
 }
 
 TEST(Membership, ATableNamesTheFirstPointThatIsWrong) {

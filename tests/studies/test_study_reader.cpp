@@ -225,6 +225,42 @@ TEST(StudyReader, MissesTheStudyInAnEmptyFile) {
   }
 }
 
+TEST(StudyReader, RefusesAValueBesideTheIntervalInNumbersThatShowIt) {
+  const auto refusal = [](const std::string& interval, const std::string& membership) {
+    std::string text = sampleStudyWith("quantity = \"hinge.angle\"\ninterval = \"± 1 %\"",
+                                       "quantity = \"hinge.rate\"\ninterval = " + interval);
+    text.replace(text.find("rate = 0.5"), 10, "rate = 0.8");
+    const std::string old = "membership = { type = \"triangular\" }";
+    return messageOf(text.replace(text.find(old), old.size(), "membership = { type = " + membership + " }"));
+  };
+  for (const std::string interval : {"[0.795, 0.805]", "\"± 0.005\""}) {
+    EXPECT_EQ(refusal(interval, "\"table\", points = [[0.795, 0], [0.8, 1], [0.8050005, 0]]"),
+              "s.toml:33:65: uncertain.membership.points has the value 0.8050005 outside the interval; expected values "
+              "inside [0.795, 0.805]");
+    EXPECT_EQ(
+        refusal(interval, "\"triangular\", apex = 0.8050005"),
+        "s.toml:33:44: uncertain.membership.apex 0.8050005 leaves the support; expected values inside [0.795, 0.805]");
+    EXPECT_EQ(
+        refusal(interval, "\"trapezoidal\", core = [0.8050005, 0.8050005]"),
+        "s.toml:33:45: uncertain.membership.core 0.8050005 leaves the support; expected values inside [0.795, 0.805]");
+    EXPECT_EQ(refusal(interval, "\"triangular\", support = [0.795, 0.8050005]"),
+              "s.toml:33:47: uncertain.membership.support [0.795, 0.8050005] leaves the interval; expected a support "
+              "inside [0.795, 0.805]");
+    EXPECT_EQ(refusal(interval, "\"table\", points = [[0.795, 0.6], [0.8, 0.5], [0.805, 0]]"),
+              "s.toml:33:56: point 2, (0.8, 0.5), of uncertain.membership.points falls although the table has not "
+              "reached 1; expected memberships from 0 to 1 that rise to 1, stay, and fall");
+    EXPECT_EQ(refusal(interval, "\"table\", points = [[0.795, 0], [0.795, 0.3], [0.805, 0.8]]"),
+              "s.toml:33:68: point 3, (0.805, 0.8), of uncertain.membership.points ends it although the table has not "
+              "reached 1; expected memberships from 0 to 1 that rise to 1, stay, and fall");
+  }
+  EXPECT_EQ(refusal("[0.795, 0.8049999]", "\"triangular\", apex = 0.80499995"),
+            "s.toml:33:44: uncertain.membership.apex 0.80499995 leaves the support; expected values inside "
+            "[0.795, 0.8049999]");
+  EXPECT_EQ(refusal("[0.795, 0.805]", "\"triangular\", apex = 0.80500000000000016"),
+            "s.toml:33:44: uncertain.membership.apex 0.80500000000000016 leaves the support; expected values inside "
+            "[0.795, 0.805]");
+}
+
 struct BadStudy {
   const char* old;
   const char* replacement;
@@ -393,7 +429,7 @@ constexpr BadStudy badStudies[] = {
     {"distribution = { type = \"uniform\" }", "distribution = \"uniform\"",
      "s.toml:32:16: uncertain.distribution is \"uniform\"; expected a table"},
     {"distribution = { type = \"uniform\" }", "distribution = { type = \"uniform\", support = [0, 1] }",
-     "s.toml:32:46: uncertain.distribution.support [0, 1] leaves the interval; expected a support inside [0.518362, "
+     "s.toml:32:46: uncertain.distribution.support [0, 1] leaves the interval; expected a support inside [0.518363, "
      "0.528835]"},
     {"distribution = { type = \"uniform\" }", "distribution = { type = \"uniform\", mode = 1 }",
      "s.toml:32:36: unknown key 'mode' in [uncertain.distribution]; expected one of: type, support"},
@@ -403,14 +439,37 @@ constexpr BadStudy badStudies[] = {
      "s.toml:32:16: the deviation of a normal distribution must be positive, not -1; expected a distribution "
      "inside the interval"},
     {"membership = { type = \"triangular\" }", "membership = { type = \"triangular\", apex = 3 }",
-     "s.toml:33:14: the core [3, 3] of a membership function lies outside its support [0.51836278784231581, "
-     "0.52883476335428193]; expected a membership function inside the interval"},
+     "s.toml:33:44: uncertain.membership.apex 3 leaves the support; expected values inside [0.518363, 0.528835]"},
+    {"membership = { type = \"triangular\" }", "membership = { type = \"triangular\", support = [0.524, 0.525] }",
+     "s.toml:33:14: uncertain.membership.apex, the nominal value 0.523598775598299 leaves the support; expected values "
+     "inside [0.524, 0.525]"},
+    {"membership = { type = \"triangular\" }", "membership = { type = \"gaussian\", centre = 1, deviation = 1 }",
+     "s.toml:33:44: uncertain.membership.centre 1 leaves the support; expected values inside [0.518363, 0.528835]"},
+    {"membership = { type = \"triangular\" }", "membership = { type = \"gaussian\", deviation = 0 }",
+     "s.toml:33:47: uncertain.membership.deviation is not positive; expected a deviation above 0"},
+    {"membership = { type = \"triangular\" }", "membership = { type = \"trapezoidal\", core = [0.52, 0.6] }",
+     "s.toml:33:45: uncertain.membership.core [0.52, 0.6] leaves the support; expected values inside [0.518363, "
+     "0.528835]"},
     {"membership = { type = \"triangular\" }", "membership = { type = \"trapezoidal\" }",
      "s.toml:33:14: 'uncertain.membership.core' is missing; expected [left, right]"},
     {"membership = { type = \"triangular\" }",
      "membership = { type = \"table\", points = [[0.52, 0], [0.521, 0.5], [0.522, 0.25], [0.523, 1]] }",
-     "s.toml:33:14: point 3, (0.522, 0.25), of a membership table falls although the table has not reached 1; expected "
-     "a membership function inside the interval"},
+     "s.toml:33:67: point 3, (0.522, 0.25), of uncertain.membership.points falls although the table has not reached 1; "
+     "expected "
+     "memberships from 0 to 1 that rise to 1, stay, and fall"},
+    {"membership = { type = \"triangular\" }",
+     "membership = { type = \"table\", points = [\n  [0.52, 1],\n  [0.521, 0.5],\n  [0.523, 0.75]] }",
+     "s.toml:36:3: point 3, (0.523, 0.75), of uncertain.membership.points rises again after the table has fallen; "
+     "expected memberships from 0 to 1 that rise to 1, stay, and fall"},
+    {"membership = { type = \"triangular\" }", "membership = { type = \"table\", points = [[0.52, 0], [0.523, 0.9]] }",
+     "s.toml:33:53: point 2, (0.523, 0.9), of uncertain.membership.points ends it although the table has not reached "
+     "1; expected memberships from 0 to 1 that rise to 1, stay, and fall"},
+    {"membership = { type = \"triangular\" }", "membership = { type = \"table\", points = [[0.523, 0], [0.521, 1]] }",
+     "s.toml:33:55: uncertain.membership.points has the value 0.521 after 0.523; expected values that do not fall"},
+    {"membership = { type = \"triangular\" }", "membership = { type = \"table\", points = [[0.523, 0], [0.524, 1.5]] }",
+     "s.toml:33:62: uncertain.membership.points has the membership 1.5; expected a membership from 0 to 1"},
+    {"membership = { type = \"triangular\" }", "membership = { type = \"table\", points = [] }",
+     "s.toml:33:41: uncertain.membership.points is empty; expected at least one point [value, membership]"},
     {"membership = { type = \"triangular\" }", "membership = { type = \"table\", points = [[0.52, 0], [0.521]] }",
      "s.toml:33:53: uncertain.membership.points has a point that is no pair; expected [value, membership]"},
     {"membership = { type = \"triangular\" }", "membership = { type = \"table\" }",
@@ -422,7 +481,7 @@ constexpr BadStudy badStudies[] = {
      "s.toml:33:32: unknown key 'support' in [uncertain.membership]; expected one of: type, points"},
     {"membership = { type = \"triangular\" }", "membership = { type = \"table\", points = [[0.523, 1], [0.6, 0]] }",
      "s.toml:33:55: uncertain.membership.points has the value 0.6 outside the interval; expected values inside "
-     "[0.518362, 0.528835]"},
+     "[0.518363, 0.528835]"},
     {"name = \"angle\"", "name = \"tip.position.z\"",
      "s.toml:38:12: two outputs are named 'tip.position.z'; expected different names"},
     {"quantity = \"tip.position.z\"", "quantity = \"tip.position.w\"",
