@@ -1,6 +1,7 @@
 // Evaluates a Program on many samples at once: packs of a fixed width, one vector instruction for several samples.
 // The value of a sample is the same bits as Evaluator<double>'s, whatever the machine, the unit and the place in a
-// pack, so that a sample can be replayed alone. (exp, log and atan are those of <cmath> for both.)
+// pack, so that a sample can be replayed alone. (exp, log and atan are those of <cmath> for both; a NaN is one for
+// both, but its sign and payload may differ.)
 //
 //     evaluateSamples(program, n, t, x, p, y);  // rows of n samples: state s of sample i is x[s * n + i]
 #pragma once

@@ -12,6 +12,19 @@
 #include "scalars/vector_functions.hpp"
 
 namespace gamut {
+namespace {
+
+template <double function(double)>
+Samples mapped(Samples x) {
+  return std::move(x.transform([](double v) { return function(v); }));
+}
+
+template <double function(double, double)>
+Samples combined(Samples x, const Samples& y) {
+  return std::move(x.combine(y, [](double a, double b) { return function(a, b); }));
+}
+
+}  // namespace
 
 Samples::Samples(std::vector<double> values) {
   if (values.empty()) throw std::invalid_argument("a pack of samples needs at least one value");
@@ -45,90 +58,44 @@ Samples& Samples::operator/=(const Samples& other) { return combine(other, std::
 Samples sqr(Samples x) {
   return std::move(x.transform([](double v) { return v * v; }));
 }
-Samples sqrt(Samples x) {
-  return std::move(x.transform([](double v) { return std::sqrt(v); }));
-}
-Samples cbrt(Samples x) {
-  return std::move(x.transform([](double v) { return std::cbrt(v); }));
-}
-Samples abs(Samples x) {
-  return std::move(x.transform([](double v) { return std::abs(v); }));
-}
-Samples exp(Samples x) {
-  return std::move(x.transform([](double v) { return std::exp(v); }));
-}
-Samples exp2(Samples x) {
-  return std::move(x.transform([](double v) { return std::exp2(v); }));
-}
+Samples sqrt(Samples x) { return mapped<std::sqrt>(std::move(x)); }
+Samples cbrt(Samples x) { return mapped<std::cbrt>(std::move(x)); }
+Samples abs(Samples x) { return mapped<std::abs>(std::move(x)); }
+Samples exp(Samples x) { return mapped<std::exp>(std::move(x)); }
+Samples exp2(Samples x) { return mapped<std::exp2>(std::move(x)); }
 Samples exp10(Samples x) {
   return std::move(x.transform([](double v) { return std::pow(10.0, v); }));
 }
-Samples expm1(Samples x) {
-  return std::move(x.transform([](double v) { return std::expm1(v); }));
-}
-Samples log(Samples x) {
-  return std::move(x.transform([](double v) { return std::log(v); }));
-}
-Samples log2(Samples x) {
-  return std::move(x.transform([](double v) { return std::log2(v); }));
-}
-Samples log10(Samples x) {
-  return std::move(x.transform([](double v) { return std::log10(v); }));
-}
-Samples log1p(Samples x) {
-  return std::move(x.transform([](double v) { return std::log1p(v); }));
-}
+Samples expm1(Samples x) { return mapped<std::expm1>(std::move(x)); }
+Samples log(Samples x) { return mapped<std::log>(std::move(x)); }
+Samples log2(Samples x) { return mapped<std::log2>(std::move(x)); }
+Samples log10(Samples x) { return mapped<std::log10>(std::move(x)); }
+Samples log1p(Samples x) { return mapped<std::log1p>(std::move(x)); }
 Samples sin(Samples x) {
   return std::move(x.transformAll([](auto angles, auto results) { sine(angles, results); }));
 }
 Samples cos(Samples x) {
   return std::move(x.transformAll([](auto angles, auto results) { cosine(angles, results); }));
 }
-Samples tan(Samples x) {
-  return std::move(x.transform([](double v) { return std::tan(v); }));
-}
-Samples asin(Samples x) {
-  return std::move(x.transform([](double v) { return std::asin(v); }));
-}
-Samples acos(Samples x) {
-  return std::move(x.transform([](double v) { return std::acos(v); }));
-}
-Samples atan(Samples x) {
-  return std::move(x.transform([](double v) { return std::atan(v); }));
-}
-Samples sinh(Samples x) {
-  return std::move(x.transform([](double v) { return std::sinh(v); }));
-}
-Samples cosh(Samples x) {
-  return std::move(x.transform([](double v) { return std::cosh(v); }));
-}
-Samples tanh(Samples x) {
-  return std::move(x.transform([](double v) { return std::tanh(v); }));
-}
-Samples asinh(Samples x) {
-  return std::move(x.transform([](double v) { return std::asinh(v); }));
-}
-Samples acosh(Samples x) {
-  return std::move(x.transform([](double v) { return std::acosh(v); }));
-}
-Samples atanh(Samples x) {
-  return std::move(x.transform([](double v) { return std::atanh(v); }));
-}
-Samples floor(Samples x) {
-  return std::move(x.transform([](double v) { return std::floor(v); }));
-}
-Samples ceil(Samples x) {
-  return std::move(x.transform([](double v) { return std::ceil(v); }));
-}
+Samples tan(Samples x) { return mapped<std::tan>(std::move(x)); }
+Samples asin(Samples x) { return mapped<std::asin>(std::move(x)); }
+Samples acos(Samples x) { return mapped<std::acos>(std::move(x)); }
+Samples atan(Samples x) { return mapped<std::atan>(std::move(x)); }
+Samples sinh(Samples x) { return mapped<std::sinh>(std::move(x)); }
+Samples cosh(Samples x) { return mapped<std::cosh>(std::move(x)); }
+Samples tanh(Samples x) { return mapped<std::tanh>(std::move(x)); }
+Samples asinh(Samples x) { return mapped<std::asinh>(std::move(x)); }
+Samples acosh(Samples x) { return mapped<std::acosh>(std::move(x)); }
+Samples atanh(Samples x) { return mapped<std::atanh>(std::move(x)); }
+Samples floor(Samples x) { return mapped<std::floor>(std::move(x)); }
+Samples ceil(Samples x) { return mapped<std::ceil>(std::move(x)); }
+Samples trunc(Samples x) { return mapped<std::trunc>(std::move(x)); }
+Samples round(Samples x) { return mapped<std::round>(std::move(x)); }
 Samples sign(Samples x) {
   return std::move(x.transform([](double v) { return v > 0 ? 1.0 : v < 0 ? -1.0 : v; }));
 }
-Samples atan2(Samples y, const Samples& x) {
-  return std::move(y.combine(x, [](double a, double b) { return std::atan2(a, b); }));
-}
-Samples hypot(Samples x, const Samples& y) {
-  return std::move(x.combine(y, [](double a, double b) { return std::hypot(a, b); }));
-}
+Samples atan2(Samples y, const Samples& x) { return combined<std::atan2>(std::move(y), x); }
+Samples hypot(Samples x, const Samples& y) { return combined<std::hypot>(std::move(x), y); }
 Samples min(Samples x, const Samples& y) {
   return std::move(x.combine(y, [](double a, double b) { return std::min(a, b); }));
 }
@@ -141,9 +108,7 @@ Samples pow(Samples x, int n) {
 Samples pow(Samples x, double y) {
   return std::move(x.transform([y](double v) { return std::pow(v, y); }));
 }
-Samples pow(Samples x, const Samples& y) {
-  return std::move(x.combine(y, [](double a, double b) { return std::pow(a, b); }));
-}
+Samples pow(Samples x, const Samples& y) { return combined<std::pow>(std::move(x), y); }
 
 std::ostream& operator<<(std::ostream& stream, const Samples& x) {
   if (x.isConstant()) return stream << x[0];

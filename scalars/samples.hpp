@@ -91,7 +91,8 @@ class Samples {
   std::vector<double> values_;  // empty, or at least two values
 };
 
-// Sample by sample, as <cmath> does (NaN outside the domain); sin and cos as vector_functions.hpp does, <= 2 ulp.
+// Sample by sample, as <cmath> does (NaN outside the domain); sin and cos as vector_functions.hpp does,
+// with errors < 1.25 ulp while doubles are rounded to nearest.
 Samples sqr(Samples x);
 Samples sqrt(Samples x);
 Samples cbrt(Samples x);
@@ -120,6 +121,9 @@ Samples acosh(Samples x);
 Samples atanh(Samples x);
 Samples floor(Samples x);
 Samples ceil(Samples x);
+Samples trunc(Samples x);
+/// The nearest integer; half-way cases away from zero.
+Samples round(Samples x);
 /// -1, 0 or 1.
 Samples sign(Samples x);
 Samples hypot(Samples x, const Samples& y);

@@ -1,5 +1,6 @@
 // Sine and cosine of doubles in additions, multiplications and bit operations only, so that one double and vectors of
-// any length give the same bits on every machine. For 0 <= |x| <= 2^20, with u = 2^-53:
+// any length give the same bits on every machine. For 0 <= |x| <= 2^20, with u = 2^-53, all rounded to nearest (in
+// another rounding mode k can be one off and the errors are not bounded):
 //
 // Reduction (Cody and Waite 1980): a = |x|, k = round(a 2/pi) <= 2^20 and r = a - k pi/2, |r| <= pi/4 + 2^-31. pi/2 is
 // P1 + P2 + P3 + delta with P1, P2 of 33 bits, P3 < 2^-68.7 of 53 and |delta| < 2^-122.8. So k P1 and k P2 are exact,
@@ -10,22 +11,21 @@
 //
 // Sine: r + (r z S + tail (1 - z/2)), z = r², S the Taylor polynomial up to r^17/17!. Its remainder is <= r^19/19! <=
 // 2^-63 r (the series alternates). The bracket is <= 0.104 |r|; z and S carry relative errors <= u and 2u (the first
-// term of S rules: the others are < 4 % of it), the two products and the sum one each: <= 6u 0.104 |r| = 0.63 u |r|.
-// With r <= 1.111 sin r that is 0.70 u, with the reduction (0.04 u) 0.74 u of the sine, <= 0.74 ulp, and half an ulp
-// for the last addition: < 1.25 ulp.
+// term of S rules: the others are < 4 % of it), the two products and the sum one each: <= 6u 0.104 |r| = 0.625 u |r|.
+// With r <= 1.111 sin r that is 0.695 u; the reduction adds 0.034 u (r cos r <= sin r), 1 - z/2 for cos r behind tail
+// <= u r adds 1.111 u r^4/24 <= 0.018 u, the remainder 0.001 u: 0.748 u of the sine, <= 0.748 ulp, and half an ulp for
+// the last addition: < 1.25 ulp.
 //
 // Cosine: w + ((1 - w - z/2) + (z² C - r tail)), w = 1 - z/2 rounded, whose rounding the bracket returns exactly
-// (Fast2Sum); C the Taylor polynomial up to r^16/16!, remainder <= r^18/18! < 2^-58.7. z/2 <= 0.309 has the error 0.309
-// u of z's rounding; z² C <= 0.0159 has <= 6u of its own; the cosine is in [0.707, 1], where an ulp is u: < 0.309 + 0.1
-// + 0.03 ulp, and half an ulp for the last addition: < 1 ulp.
+// (Fast2Sum); C the Taylor polynomial up to r^16/16!. z/2 <= 0.309 has the error 0.309 u of z's rounding; z² C <=
+// 0.0159 has <= 6u of its own, 0.096 u. Of the rest, the reduction is r sin r 2^-57.9 <= 0.019 u, r for sin r behind
+// |tail| <= u/2 is <= 0.040 u and the remainder r^18/18! <= 0.019 u: 0.078 u. The cosine is in [0.707, 1], where an ulp
+// is u: < 0.309 + 0.096 + 0.078 ulp, and half an ulp for the last addition: < 1 ulp.
 #pragma once
 
 #include "scalars/vector_unit.hpp"
 
 namespace gamut::detail {
-
-/// The largest |x| of the fast reduction.
-inline constexpr double largestFastAngle = 0x1p20;
 
 /// s = sin x, c = cos x where `hard` comes out zero; elsewhere (|x| > 2^20, x a NaN, or x so close to a multiple of
 /// pi/2 that the reduction has lost too much) s and c mean nothing. V: double or a vector of doubles.

@@ -1,7 +1,7 @@
 // Sine and cosine of one double or of a whole array, with the same bits for both on every machine: the values do not
-// depend on the C library, on the vector unit or on a value's place in the array. Both have errors < 1.25 ulp for every
-// finite argument, proved in sine_cosine_kernel.hpp up to |x| = 2^20; beyond, and for the few arguments too close to a
-// multiple of pi/2, MPFR gives the nearest double.
+// depend on the C library, on the vector unit or on a value's place in the array. While doubles are rounded to nearest,
+// both have errors < 1.25 ulp for every finite argument, proved in sine_cosine_kernel.hpp up to |x| = 2^20; beyond, and
+// for the few arguments too close to a multiple of pi/2, MPFR gives the nearest double.
 #pragma once
 
 #include <span>
