@@ -15,7 +15,8 @@
 // (Rump, Verification methods, Acta Numerica 2010, section 10.8; each step is proved in verified_algebra.cpp).
 // Interval elimination would be wider by orders of magnitude, and needs comparisons that intervals do not have.
 //
-// No rounding mode is touched, and the enclosures hold in whichever the caller left (widest when it is not to nearest).
+// No rounding mode is touched, and the enclosures hold in whichever the caller left (widest when it is not to nearest);
+// modes that flush subnormal numbers to zero are beyond them, as in rounding.hpp.
 #pragma once
 
 #include <Eigen/Core>
