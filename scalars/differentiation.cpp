@@ -48,6 +48,7 @@ int chained(Recorder& r, int i, bool second, int d) {
     case Op::parameter:
     case Op::time:
     case Op::constant:
+    case Op::solution:  // as a whole, below
       break;
   }
   return zero;
@@ -59,7 +60,67 @@ int sum(Recorder& r, int a, int b) { return a < 0 ? b : b < 0 ? a : r.add(a, b);
 int orZero(const Recorder& r, int node) { return node >= 0 && r.isExactly(node, 0) ? zero : node; }
 int asNode(Recorder& r, int node) { return node < 0 ? r.constant(0.0) : node; }
 
-int lastOf(const std::vector<int>& nodes) { return nodes.empty() ? -1 : *std::max_element(nodes.begin(), nodes.end()); }
+/// The last node of these, of its twins rather.
+int lastOf(const Recorder& r, const std::vector<int>& nodes) {
+  int last = nodes.empty() ? -1 : *std::max_element(nodes.begin(), nodes.end());
+  if (last >= 0) detail::forEachTwin(r.table(), last, [&](int twin) { last = std::max(last, twin); });
+  return last;
+}
+
+/// The matrix of a solution as it is solved: (k, j) is (j, k) of a transposed one.
+struct SolvedSystem {
+  LinearSolution solution;
+  LinearMatrix matrix;  // copies: recording moves the originals
+
+  SolvedSystem(const Recorder& r, int node)
+      : solution(r.table().solutions[at(r.node(node).a)]), matrix(r.table().matrices[at(solution.matrix)]) {}
+  int size() const { return matrix.size; }
+  int entry(int k, int j) const { return solution.transposed ? matrix.entry(j, k) : matrix.entry(k, j); }
+};
+
+/// The derivatives of the components first, first + 1, …: M x' = r' - M' x, the same matrix.
+void solutionTangents(Recorder& r, int first, std::vector<int>& d) {
+  const SolvedSystem system(r, first);
+  std::vector<int> rightSide;
+  bool isZero = true;
+  for (int k = 0; k < system.size(); ++k) {
+    int sum = d[at(system.solution.rightSide[at(k)])];
+    for (int j = 0; j < system.size(); ++j) {
+      const int entry = d[at(system.entry(k, j))];
+      if (entry < 0) continue;
+      const int product = r.mul(entry, first + j);
+      sum = sum < 0 ? r.neg(product) : r.sub(sum, product);
+    }
+    sum = orZero(r, sum);
+    isZero = isZero && sum < 0;
+    rightSide.push_back(asNode(r, sum));
+  }
+  if (isZero) return;
+  const std::vector<int> components = r.solve(system.solution.matrix, system.solution.transposed, rightSide);
+  for (int k = 0; k < system.size(); ++k) d[at(first + k)] = components[at(k)];
+}
+
+/// contribute(operand, adjoint) for a solution whose components have the adjoints x̄: with Mᵀ w = x̄ it is w for the
+/// right-hand side and -w xᵀ for M.
+template <class Contribute>
+void solutionAdjoints(Recorder& r, int first, const std::vector<int>& adjoint, const std::vector<char>& active,
+                      Contribute contribute) {
+  const SolvedSystem system(r, first);
+  std::vector<int> rightSide;
+  bool isZero = true;
+  for (int k = 0; k < system.size(); ++k) {
+    const int d = adjoint[at(first + k)];
+    isZero = isZero && d < 0;
+    rightSide.push_back(asNode(r, d));
+  }
+  if (isZero) return;
+  const std::vector<int> w = r.solve(system.solution.matrix, !system.solution.transposed, rightSide);
+  for (int k = 0; k < system.size(); ++k) {
+    if (active[at(system.solution.rightSide[at(k)])]) contribute(system.solution.rightSide[at(k)], w[at(k)]);
+    for (int j = 0; j < system.size(); ++j)
+      if (active[at(system.entry(k, j))]) contribute(system.entry(k, j), r.neg(r.mul(w[at(k)], first + j)));
+  }
+}
 
 /// The numbers first, first + 1, …: inputs of a program.
 std::vector<int> inputsFrom(int first, int count) {
@@ -88,12 +149,13 @@ std::vector<int> outputsOf(const Program& program, const std::vector<int>& here)
 }  // namespace
 
 std::vector<int> tangents(Recorder& r, const std::vector<int>& of, const std::vector<std::pair<int, int>>& seeds) {
-  const int last = lastOf(of);
+  const int last = lastOf(r, of);
   std::vector<int> d(at(last + 1), zero);
   for (const auto& [input, value] : seeds)
     if (input <= last) d[at(input)] = orZero(r, value);
   for (int i = 0; i <= last; ++i) {
     const Node n = r.node(i);
+    if (n.op == Op::solution && n.b == 0) solutionTangents(r, i, d);
     if (operandsOf(n.op) == 0) continue;
     const int da = d[at(n.a)], db = operandsOf(n.op) == 2 ? d[at(n.b)] : zero;
     if (da < 0 && db < 0) continue;
@@ -110,7 +172,7 @@ std::vector<int> tangents(Recorder& r, const std::vector<int>& of, const std::ve
 
 std::vector<int> adjoints(Recorder& r, const std::vector<int>& of, const std::vector<int>& weights,
                           const std::vector<int>& inputs) {
-  const int last = std::max(lastOf(of), lastOf(inputs));
+  const int last = std::max(lastOf(r, of), lastOf(r, inputs));
   // Only what depends on one of the inputs is worth an adjoint.
   std::vector<char> active(at(last + 1), 0);
   for (int input : inputs) active[at(input)] = 1;
@@ -118,12 +180,18 @@ std::vector<int> adjoints(Recorder& r, const std::vector<int>& of, const std::ve
     const Node& n = r.node(i);
     if (operandsOf(n.op) > 0 && active[at(n.a)]) active[at(i)] = 1;
     if (operandsOf(n.op) > 1 && active[at(n.b)]) active[at(i)] = 1;
+    if (n.op == Op::solution)
+      detail::forEachOperand(r.table(), i, [&](int operand) {
+        if (active[at(operand)]) active[at(i)] = 1;
+      });
   }
   std::vector<int> adjoint(at(last + 1), zero);
   const auto contribute = [&](int node, int d) { adjoint[at(node)] = orZero(r, sum(r, adjoint[at(node)], d)); };
   for (std::size_t i = 0; i < of.size(); ++i)
     if (active[at(of[i])]) contribute(of[i], orZero(r, weights[i]));
   for (int i = last; i >= 0; --i) {
+    if (r.node(i).op == Op::solution && r.node(i).b == 0 && active[at(i)])
+      solutionAdjoints(r, i, adjoint, active, contribute);
     const int operands = operandsOf(r.node(i).op), d = adjoint[at(i)];
     if (operands == 0 || d < 0) continue;
     const Node n = r.node(i);

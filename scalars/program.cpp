@@ -9,15 +9,39 @@
 namespace gamut {
 
 std::string_view nameOf(Op op) {
-  static constexpr std::array<std::string_view, opCount> names{"state", "parameter", "time", "constant", "add",  "sub",
-                                                               "neg",   "mul",       "sqr",  "recip",    "sqrt", "exp",
-                                                               "log",   "atan",      "sin",  "cos"};
+  static constexpr std::array<std::string_view, opCount> names{
+      "state", "parameter", "time", "constant", "add",  "sub", "neg", "mul",     "sqr",
+      "recip", "sqrt",      "exp",  "log",      "atan", "sin", "cos", "solution"};
   return names[static_cast<std::size_t>(op)];
 }
 
+int factorisationOperations(const LinearMatrix& matrix) {
+  int count = 0;
+  for (int k = 0, rest = matrix.size - 1; k < matrix.size; ++k, --rest)  // a column divided, then the rest updated
+    count += rest + (matrix.kind == MatrixKind::positiveDefinite ? rest + rest * (rest + 1) : 2 * rest * rest);
+  return count;
+}
+
+// Two triangles with a unit diagonal, a multiplication and an addition an entry, and the diagonal.
+int solutionOperations(const LinearMatrix& matrix) { return matrix.size * (2 * matrix.size - 1); }
+
 int Program::operations() const {
   int count = 0;
-  for (std::size_t i = 0; i < nodes_.size(); ++i) count += isOperation(nodes_[i].op) && invariant_[i] == 0;
+  std::vector<char> isFactorised(matrices().size(), 0);
+  for (std::size_t i = 0; i < nodes().size(); ++i) {
+    const Node& n = nodes()[i];
+    if (n.op != Op::solution) {
+      count += isOperation(n.op) && invariant_[i] == 0;
+    } else if (n.b == 0 && invariant_[i] == 0) {
+      const auto m = detail::at(solutions()[detail::at(n.a)].matrix);
+      const LinearMatrix& matrix = matrices()[m];
+      const bool varies =
+          std::any_of(matrix.entries.begin(), matrix.entries.end(), [&](int entry) { return !isInvariant(entry); });
+      if (varies && isFactorised[m] == 0) count += factorisationOperations(matrix);
+      isFactorised[m] = 1;
+      count += solutionOperations(matrix);
+    }
+  }
   return count;
 }
 
@@ -25,7 +49,7 @@ Program Program::differentiated(bool withParameters) const { return forwardDiffe
 
 bool isIdentical(const Program& a, const Program& b) {
   return a.states() == b.states() && a.parameters() == b.parameters() && a.nodes() == b.nodes() &&
-         a.outputNodes() == b.outputNodes() &&
+         a.matrices() == b.matrices() && a.solutions() == b.solutions() && a.outputNodes() == b.outputNodes() &&
          std::equal(a.constants().begin(), a.constants().end(), b.constants().begin(), b.constants().end(), isEqual);
 }
 

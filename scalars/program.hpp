@@ -33,10 +33,11 @@ enum class Op : std::uint8_t {
   atan,       ///< arc tangent of a; b is the node 1 + a*a, the denominator of its derivative
   sin,        ///< sine of a; the next node is always the cosine of the same a
   cos,        ///< cosine of a; the node before is always the sine of the same a
+  solution,   ///< component b of solutions()[a]; the components are nodes in a row, component 0 first
 };
 
 /// How many operations Op has.
-constexpr int opCount = static_cast<int>(Op::cos) + 1;
+constexpr int opCount = static_cast<int>(Op::solution) + 1;
 
 /// "add", "sub", ...
 std::string_view nameOf(Op op);
@@ -44,9 +45,10 @@ std::string_view nameOf(Op op);
 constexpr bool isOperation(Op op) {
   return op != Op::state && op != Op::parameter && op != Op::time && op != Op::constant;
 }
-/// The number of nodes from which op's value is computed: 0, 1 or 2 (the denominators of log and atan do not count).
+/// The number of nodes a, b from which op's value is computed: 0, 1 or 2 (the denominators of log and atan do not
+/// count; a solution has its operands in a LinearSolution, forEachOperand knows them).
 constexpr int operandsOf(Op op) {
-  return !isOperation(op) ? 0 : op == Op::add || op == Op::sub || op == Op::mul ? 2 : 1;
+  return !isOperation(op) || op == Op::solution ? 0 : op == Op::add || op == Op::sub || op == Op::mul ? 2 : 1;
 }
 
 struct Node {
@@ -56,6 +58,78 @@ struct Node {
   bool operator==(const Node&) const = default;
 };
 
+/// What is known of a matrix whose systems are solved.
+enum class MatrixKind : std::uint8_t {
+  general,           ///< regular
+  positiveDefinite,  ///< symmetric and positive definite: entries (i, j) and (j, i) are one node
+};
+
+/// A square matrix of nodes, whose systems are solved as a whole: no operation of an elimination is a node, so that
+/// pivoting is the evaluator's own affair and errors are bounded by residuals, not carried forward.
+struct LinearMatrix {
+  MatrixKind kind = MatrixKind::general;
+  int size = 0;
+  std::vector<int> entries;  ///< row by row
+
+  int entry(int row, int column) const { return entries[detail::at(row * size + column)]; }
+  bool operator==(const LinearMatrix&) const = default;
+};
+
+/// x in M x = r or, transposed, Mᵀ x = r; a positive definite M is never transposed.
+struct LinearSolution {
+  int matrix = 0;
+  bool transposed = false;
+  std::vector<int> rightSide;
+
+  bool operator==(const LinearSolution&) const = default;
+};
+
+/// Multiplications, divisions, additions and subtractions of a factorisation (LDLᵀ or LU), and of a solution by it.
+int factorisationOperations(const LinearMatrix& matrix);
+int solutionOperations(const LinearMatrix& matrix);
+
+namespace detail {
+
+/// Nodes and what they refer to, one after another as they are written.
+struct NodeTable {
+  std::vector<Node> nodes;
+  std::vector<Interval> constants;
+  std::vector<LinearMatrix> matrices;
+  std::vector<LinearSolution> solutions;
+};
+
+/// visit(node) for every node from which node i's value is computed, log's and atan's denominators included. Component
+/// 0 of a solution has the operands of the whole, the others have component 0.
+template <class Visit>
+void forEachOperand(const NodeTable& table, int i, Visit visit) {
+  const Node& n = table.nodes[at(i)];
+  if (!isOperation(n.op)) return;
+  if (n.op != Op::solution) {
+    visit(n.a);
+    if (n.b >= 0) visit(n.b);
+  } else if (n.b > 0) {
+    visit(i - n.b);
+  } else {
+    const LinearSolution& solution = table.solutions[at(n.a)];
+    for (int entry : table.matrices[at(solution.matrix)].entries) visit(entry);
+    for (int r : solution.rightSide) visit(r);
+  }
+}
+
+/// visit(node) for every node that belongs together with node i, i itself included: a sine and its cosine, the
+/// components of a solution. One is never there without the others.
+template <class Visit>
+void forEachTwin(const NodeTable& table, int i, Visit visit) {
+  const Node& n = table.nodes[at(i)];
+  int first = i, count = 1;
+  if (n.op == Op::sin) count = 2;
+  if (n.op == Op::cos) first = i - 1, count = 2;
+  if (n.op == Op::solution) first = i - n.b, count = static_cast<int>(table.solutions[at(n.a)].rightSide.size());
+  for (int k = 0; k < count; ++k) visit(first + k);
+}
+
+}  // namespace detail
+
 /// A recorded function of time t, states x (n values) and parameters p (k values) with m outputs.
 class Program {
  public:
@@ -64,14 +138,20 @@ class Program {
   int outputs() const { return static_cast<int>(outputs_.size()); }
 
   /// Nodes in an order in which every operand comes before its use: the states, the parameters, time, then the rest.
-  const std::vector<Node>& nodes() const { return nodes_; }
+  const std::vector<Node>& nodes() const { return table_.nodes; }
   /// The node of each output.
   const std::vector<int>& outputNodes() const { return outputs_; }
   /// The enclosures of the constants that nodes refer to, in the order of these nodes, each of which has its own.
-  const std::vector<Interval>& constants() const { return constants_; }
+  const std::vector<Interval>& constants() const { return table_.constants; }
+  /// The matrices that solutions refer to, and the solutions that nodes refer to, in the order of these nodes.
+  const std::vector<LinearMatrix>& matrices() const { return table_.matrices; }
+  const std::vector<LinearSolution>& solutions() const { return table_.solutions; }
+  /// All of these together, for detail::forEachOperand and forEachTwin.
+  const detail::NodeTable& table() const { return table_; }
   /// True if the node's value depends neither on time nor on a state: it is evaluated once for given parameters.
   bool isInvariant(int node) const { return invariant_[detail::at(node)] != 0; }
-  /// Number of nodes that are neither inputs nor constants nor invariant: the cost of one evaluation.
+  /// Number of operations of one evaluation: nodes that are neither inputs nor constants nor invariant, and in place of
+  /// a solution's nodes the arithmetic of solving.
   int operations() const;
 
   /// forwardDifferentiated(*this, withParameters) of differentiation.hpp: the m outputs, then the Jacobian.
@@ -84,13 +164,12 @@ class Program {
   friend class Recorder;
   int states_ = 0;
   int parameters_ = 0;
-  std::vector<Node> nodes_;
-  std::vector<Interval> constants_;
+  detail::NodeTable table_;
   std::vector<int> outputs_;
   std::vector<char> invariant_;
 };
 
-/// The same nodes, constants and outputs, number by number.
+/// The same nodes, constants, systems and outputs, number by number.
 bool isIdentical(const Program& a, const Program& b);
 
 }  // namespace gamut

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
+#include <string>
 #include <tuple>
 
 #include "scalars/rules.hpp"
@@ -16,6 +18,18 @@ using detail::at;
 namespace {
 
 constexpr int deepest = 16;  // rules inside one another; what is written by people and mechanisms needs a handful
+
+std::vector<int> keyOf(const LinearMatrix& matrix) {
+  std::vector<int> key{static_cast<int>(matrix.kind)};
+  key.insert(key.end(), matrix.entries.begin(), matrix.entries.end());
+  return key;
+}
+
+std::vector<int> keyOf(const LinearSolution& solution) {
+  std::vector<int> key{solution.matrix, solution.transposed};
+  key.insert(key.end(), solution.rightSide.begin(), solution.rightSide.end());
+  return key;
+}
 
 }  // namespace
 
@@ -62,13 +76,18 @@ Recorder::Recorder(int states, int parameters, RuleSet rules)
 
 Recorder::Recorder(const Program& program, RuleSet rules)
     : states_(program.states()), parameters_(program.parameters()), rules_(rules) {
-  list_.constants = program.constants();
+  static_cast<detail::NodeTable&>(list_) = {{}, program.constants(), program.matrices(), program.solutions()};
   for (const Node& n : program.nodes()) list_.push(n);
   for (int i = 0; i < size(); ++i) {
     const Node& n = node(i);
     if (n.op == Op::constant && isThin(value(i))) knownDoubles_.emplace(value(i).lower(), i);
-    if (isOperation(n.op)) known_.emplace(Key{n.op, n.a, n.b}, i);
+    if (n.op == Op::solution && n.b == 0)
+      knownSolutions_.emplace(keyOf(list_.solutions[at(n.a)]), i);
+    else if (isOperation(n.op))
+      known_.emplace(Key{n.op, n.a, n.b}, i);
   }
+  for (std::size_t m = 0; m < list_.matrices.size(); ++m)
+    knownMatrices_.emplace(keyOf(list_.matrices[m]), static_cast<int>(m));
 }
 
 bool Recorder::isExactly(int i, double number) const {
@@ -141,6 +160,7 @@ int Recorder::push(Op op, int a, int b) {
 }
 
 int Recorder::emit(Op op, int a, int b) {
+  if (op == Op::solution) throw std::invalid_argument("a solution is recorded by solve(), not by emit()");
   if (op == Op::sin) return sinCos(a).first;
   if (op == Op::cos) return sinCos(a).second;
   if (op == Op::atan && !list_.isOnePlusSquare(b, a)) return atan(a);
@@ -179,11 +199,65 @@ std::pair<int, int> Recorder::sinCos(int a) {
   return {sine >= 0 ? sine : pair, cosine >= 0 ? cosine : pair + 1};
 }
 
+int Recorder::matrix(LinearMatrix matrix) {
+  if (matrix.size < 1 || matrix.entries.size() != at(matrix.size) * at(matrix.size))
+    throw std::invalid_argument("a recorded matrix of " + std::to_string(matrix.size) + " rows needs as many columns");
+  for (int i = 0; i < matrix.size; ++i)
+    for (int j = 0; j < i && matrix.kind == MatrixKind::positiveDefinite; ++j)
+      if (matrix.entry(i, j) != matrix.entry(j, i))
+        throw std::invalid_argument("a positive definite matrix is recorded with one node for entries (i, j), (j, i)");
+  const int next = static_cast<int>(list_.matrices.size());
+  if (rules_.has(RuleGroup::mergeEqual))
+    if (const auto [known, isNew] = knownMatrices_.try_emplace(keyOf(matrix), next); !isNew) return known->second;
+  list_.matrices.push_back(std::move(matrix));
+  return next;
+}
+
+std::vector<int> Recorder::solve(int matrix, bool transposed, const std::vector<int>& rightSide) {
+  const LinearMatrix& of = list_.matrices.at(at(matrix));
+  if (rightSide.size() != at(of.size))
+    throw std::invalid_argument("a system of " + std::to_string(of.size) + " equations has as many right-hand sides");
+  const auto isZero = [this](int r) { return isExactly(r, 0.0); };
+  if (rules_.has(RuleGroup::simplify) && std::all_of(rightSide.begin(), rightSide.end(), isZero)) return rightSide;
+  const LinearSolution solution{matrix, transposed && of.kind == MatrixKind::general, rightSide};
+  int first = size();
+  bool isNew = true;
+  if (rules_.has(RuleGroup::mergeEqual)) {
+    const auto [known, inserted] = knownSolutions_.try_emplace(keyOf(solution), first);
+    first = known->second;
+    isNew = inserted;
+  }
+  if (isNew) {
+    const int number = static_cast<int>(list_.solutions.size());
+    list_.solutions.push_back(solution);
+    for (int k = 0; k < of.size; ++k) list_.push({Op::solution, number, k});
+  }
+  std::vector<int> components(rightSide.size());
+  std::iota(components.begin(), components.end(), first);
+  return components;
+}
+
 std::vector<int> Recorder::append(const Program& program) {
-  std::vector<int> here;
+  std::vector<int> here, matrices, components;
   here.reserve(program.nodes().size());
+  const auto mapped = [&here](std::vector<int> nodes) {
+    for (int& node : nodes) node = here[at(node)];
+    return nodes;
+  };
   int cosine = -1;
+  matrices.assign(program.matrices().size(), -1);
   for (const Node& n : program.nodes()) {
+    if (n.op == Op::solution) {
+      if (n.b == 0) {
+        const LinearSolution& solution = program.solutions()[at(n.a)];
+        const LinearMatrix& of = program.matrices()[at(solution.matrix)];
+        int& number = matrices[at(solution.matrix)];
+        if (number < 0) number = matrix({of.kind, of.size, mapped(of.entries)});
+        components = solve(number, solution.transposed, mapped(solution.rightSide));
+      }
+      here.push_back(components[at(n.b)]);
+      continue;
+    }
     const int a = isOperation(n.op) ? here[at(n.a)] : -1, b = isOperation(n.op) && n.b >= 0 ? here[at(n.b)] : -1;
     switch (n.op) {
       case Op::state:
@@ -223,13 +297,10 @@ Program Recorder::finish(const std::vector<int>& outputs) const {
   for (int i = 0; i <= states_ + parameters_; ++i) used[at(i)] = 1;
   for (int output : outputs) used[at(output)] = 1;
   for (int i = size() - 1; i >= 0; --i) {
-    const Node& n = node(i);
-    // A sine and its cosine stay together (the cosine is met first on this way back).
-    if (n.op == Op::cos && used[at(i)]) used[at(i - 1)] = 1;
-    if (n.op == Op::sin && used[at(i)]) used[at(i + 1)] = 1;
-    if (!used[at(i)] || !isOperation(n.op)) continue;
-    used[at(n.a)] = 1;
-    if (n.b >= 0) used[at(n.b)] = 1;
+    if (!used[at(i)]) continue;
+    // Twins stay together; the last is met first on this way back, so the others are still to come.
+    detail::forEachTwin(list_, i, [&](int twin) { used[at(twin)] = 1; });
+    detail::forEachOperand(list_, i, [&](int operand) { used[at(operand)] = 1; });
   }
   return selected(used, outputs);
 }
@@ -238,24 +309,39 @@ Program Recorder::selected(const std::vector<char>& wanted, const std::vector<in
   Program program;
   program.states_ = states_;
   program.parameters_ = parameters_;
-  std::vector<int> renumbered(list_.nodes.size(), -1);
+  detail::NodeTable& table = program.table_;
+  std::vector<int> renumbered(list_.nodes.size(), -1), matrices(list_.matrices.size(), -1);
+  const auto moved = [&renumbered](std::vector<int> nodes) {
+    for (int& node : nodes) node = renumbered[at(node)];
+    return nodes;
+  };
   for (int i = 0; i < size(); ++i) {
     if (!wanted[at(i)]) continue;
     Node n = node(i);
-    bool invariant = n.op == Op::parameter || n.op == Op::constant;
+    bool invariant = n.op == Op::parameter || n.op == Op::constant || isOperation(n.op);
+    detail::forEachOperand(
+        list_, i, [&](int operand) { invariant = invariant && program.invariant_[at(renumbered[at(operand)])]; });
     if (n.op == Op::constant) {
-      program.constants_.push_back(list_.constants[at(n.a)]);
-      n.a = static_cast<int>(program.constants_.size()) - 1;
+      table.constants.push_back(list_.constants[at(n.a)]);
+      n.a = static_cast<int>(table.constants.size()) - 1;
+    } else if (n.op == Op::solution) {
+      if (n.b == 0) {
+        const LinearSolution& solution = list_.solutions[at(n.a)];
+        const LinearMatrix& matrix = list_.matrices[at(solution.matrix)];
+        int& number = matrices[at(solution.matrix)];
+        if (number < 0) {
+          number = static_cast<int>(table.matrices.size());
+          table.matrices.push_back({matrix.kind, matrix.size, moved(matrix.entries)});
+        }
+        table.solutions.push_back({number, solution.transposed, moved(solution.rightSide)});
+      }
+      n.a = static_cast<int>(table.solutions.size()) - 1;
     } else if (isOperation(n.op)) {
       n.a = renumbered[at(n.a)];
-      invariant = program.invariant_[at(n.a)];
-      if (n.b >= 0) {
-        n.b = renumbered[at(n.b)];
-        invariant = invariant && program.invariant_[at(n.b)];
-      }
+      if (n.b >= 0) n.b = renumbered[at(n.b)];
     }
-    renumbered[at(i)] = static_cast<int>(program.nodes_.size());
-    program.nodes_.push_back(n);
+    renumbered[at(i)] = static_cast<int>(table.nodes.size());
+    table.nodes.push_back(n);
     program.invariant_.push_back(invariant);
   }
   for (int output : outputs) program.outputs_.push_back(renumbered[at(output)]);

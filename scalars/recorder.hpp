@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -50,10 +51,8 @@ struct Signless {
   bool isNegative;
 };
 
-/// Nodes and the numbers that they refer to, one after another as they are written.
-struct NodeList {
-  std::vector<Node> nodes;
-  std::vector<Interval> constants;
+/// A NodeTable that grows node by node.
+struct NodeList : NodeTable {
   std::vector<Signless> signless;  // of each node: looked up, since a chain of signs may be as long as the program
 
   void push(const Node& node);
@@ -94,8 +93,13 @@ class Recorder {
   int cos(int a) { return sinCos(a).second; }
   std::pair<int, int> sinCos(int a);
 
-  /// Any operation on operands as in Node. (Rules may have moved a sign out of one operand of atan only: then its
-  /// denominator 1 + a² is written anew.)
+  /// The number of a matrix; equal ones are one if equal work is merged.
+  int matrix(LinearMatrix matrix);
+  /// The components' nodes: of a new solution, of a known one, or zeros for a right-hand side of known zeros.
+  std::vector<int> solve(int matrix, bool transposed, const std::vector<int>& rightSide);
+
+  /// Any operation but a solution on operands as in Node. (Rules may have moved a sign out of one operand of atan only:
+  /// then its denominator 1 + a² is written anew.)
   int emit(Op op, int a, int b = -1);
 
   /// Writes the program's operations down once more, by this recorder's rules: for each of its nodes the node here that
@@ -103,6 +107,8 @@ class Recorder {
   std::vector<int> append(const Program& program);
 
   const Node& node(int i) const { return list_.nodes[detail::at(i)]; }
+  /// The nodes and what they refer to.
+  const detail::NodeTable& table() const { return list_; }
   int size() const { return static_cast<int>(list_.nodes.size()); }
   /// The value of a constant node.
   const Interval& value(int node) const { return list_.constants[detail::at(this->node(node).a)]; }
@@ -161,6 +167,8 @@ class Recorder {
   Known known_;    // operations
   Known derived_;  // constants, by the operation on constants that gave them
   std::unordered_map<double, int> knownDoubles_;
+  std::map<std::vector<int>, int> knownMatrices_;   // by kind and entries
+  std::map<std::vector<int>, int> knownSolutions_;  // component 0, by matrix, transposition and right-hand side
 };
 
 }  // namespace gamut

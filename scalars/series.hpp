@@ -121,6 +121,7 @@ class Series {
         at(node + 1, i) = i == 0 ? S(cos(at(n.a, 0))) : S(-weighted(n.a, node, i, i) / k);
         break;
       case Op::cos:
+      case Op::solution:
         break;
     }
   }
