@@ -1,6 +1,5 @@
 // Systems of Recorded numbers: what is small or falls apart is written out, the rest is recorded as a whole.
 #include <algorithm>
-#include <stdexcept>
 #include <utility>
 
 #include "scalars/linear_system.hpp"
@@ -18,8 +17,7 @@ bool isZero(const Recorded& x) { return Recorder::current()->isExactly(x.node(),
 
 LinearSystem<Recorded>::LinearSystem(MatrixKind kind, int size, std::vector<Recorded> entries)
     : kind_(kind), size_(size), entries_(std::move(entries)) {
-  if (size < 1 || entries_.size() != at(size) * at(size))
-    throw std::invalid_argument("a linear system needs as many equations as unknowns, one at least");
+  detail::requireSquare(size, entries_.size());
   if (kind == MatrixKind::positiveDefinite)
     for (int i = 0; i < size; ++i)
       for (int j = 0; j < i; ++j) entries_[at(j * size + i)] = entry(i, j);
@@ -60,8 +58,7 @@ LinearSystem<Recorded>::Part LinearSystem<Recorded>::part(std::vector<int> rows)
 }
 
 void LinearSystem<Recorded>::solve(std::span<Recorded> x, bool transposed) const {
-  if (x.size() != at(size_))
-    throw std::invalid_argument("a right-hand side has as many numbers as there are equations");
+  detail::requireRightSide(size_, x.size());
   for (const Part& part : parts_) {
     const auto r = [&](std::size_t i) -> Recorded& { return x[at(part.rows[i])]; };
     if (part.matrix >= 0) {
