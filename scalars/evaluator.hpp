@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scalars/index.hpp"
+#include "scalars/linear_system.hpp"
 #include "scalars/program.hpp"
 #include "scalars/tape.hpp"
 #include "scalars/traits.hpp"
@@ -19,7 +20,8 @@ namespace gamut {
 template <class S>
 class Evaluator {
  public:
-  explicit Evaluator(const Program& program) : tape_(program), slot_(detail::at(tape_.slots()), S(0.0)) {
+  explicit Evaluator(const Program& program)
+      : tape_(program), slot_(detail::at(tape_.slots()), S(0.0)), systems_(tape_.systems().size()) {
     if (program.parameters() == 0) setParameters({});
   }
 
@@ -106,6 +108,12 @@ class Evaluator {
         case TapeOp::sineCosine:
           sineAndCosine(a, acc, slots[i.b]);
           break;
+        case TapeOp::factorise:
+          factorise(detail::at(i.result));
+          break;
+        case TapeOp::solution:
+          solve(tape_.solutions()[detail::at(i.result)]);
+          break;
       }
       if (i.stores) slots[i.result] = acc;
     }
@@ -128,8 +136,22 @@ class Evaluator {
     }
   }
 
+  void factorise(std::size_t number) {
+    const TapeSystem& system = tape_.systems()[number];
+    systems_[number].assign(system.kind, system.size,
+                            [&](int i, int j) -> const S& { return slot_[detail::at(system.entry(i, j))]; });
+  }
+
+  void solve(const TapeSolution& solution) {
+    x_.clear();
+    for (std::int32_t slot : solution.rightSide) x_.push_back(slot_[detail::at(slot)]);
+    systems_[detail::at(solution.system)].solve(x_, solution.transposed);
+    for (std::size_t k = 0; k < x_.size(); ++k) slot_[detail::at(solution.results[k])] = x_[k];
+  }
+
   Tape tape_;
-  std::vector<S> slot_;
+  std::vector<S> slot_, x_;
+  std::vector<LinearSystem<S>> systems_;
 };
 
 }  // namespace gamut

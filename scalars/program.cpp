@@ -15,15 +15,19 @@ std::string_view nameOf(Op op) {
   return names[static_cast<std::size_t>(op)];
 }
 
-int factorisationOperations(const LinearMatrix& matrix) {
+int factorisationOperations(MatrixKind kind, int size) {
   int count = 0;
-  for (int k = 0, rest = matrix.size - 1; k < matrix.size; ++k, --rest)  // a column divided, then the rest updated
-    count += rest + (matrix.kind == MatrixKind::positiveDefinite ? rest + rest * (rest + 1) : 2 * rest * rest);
+  // The inverse of a pivot, its column times that, then the rest updated: a triangle of it if it is symmetric.
+  for (int rest = size - 1; rest >= 0; --rest)
+    count += 1 + rest + (kind == MatrixKind::positiveDefinite ? rest * (rest + 1) : 2 * rest * rest);
   return count;
 }
 
-// Two triangles with a unit diagonal, a multiplication and an addition an entry, and the diagonal.
-int solutionOperations(const LinearMatrix& matrix) { return matrix.size * (2 * matrix.size - 1); }
+int solutionOperations(MatrixKind kind, int size) {
+  const int once =
+      size * (2 * size - 1);  // two triangles, a multiplication and a subtraction an entry, and the diagonal
+  return kind == MatrixKind::positiveDefinite ? once : 2 * once + 2 * size * size + size;  // residual and correction
+}
 
 int Program::operations() const {
   int count = 0;
@@ -37,9 +41,9 @@ int Program::operations() const {
       const LinearMatrix& matrix = matrices()[m];
       const bool varies =
           std::any_of(matrix.entries.begin(), matrix.entries.end(), [&](int entry) { return !isInvariant(entry); });
-      if (varies && isFactorised[m] == 0) count += factorisationOperations(matrix);
+      if (varies && isFactorised[m] == 0) count += factorisationOperations(matrix.kind, matrix.size);
       isFactorised[m] = 1;
-      count += solutionOperations(matrix);
+      count += solutionOperations(matrix.kind, matrix.size);
     }
   }
   return count;

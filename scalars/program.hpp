@@ -85,8 +85,8 @@ struct LinearSolution {
 };
 
 /// Multiplications, divisions, additions and subtractions of a factorisation (LDLᵀ or LU), and of a solution by it.
-int factorisationOperations(const LinearMatrix& matrix);
-int solutionOperations(const LinearMatrix& matrix);
+int factorisationOperations(MatrixKind kind, int size);
+int solutionOperations(MatrixKind kind, int size);
 
 namespace detail {
 

@@ -8,6 +8,19 @@
 #include "scalars/vector_functions.hpp"
 
 namespace gamut {
+
+/// What instructions on systems work on: a block of samples, from one sample on.
+struct PackRun {
+  const Tape& tape;
+  VectorUnit unit;
+  double* slots;  // of the pack's first sample
+  std::vector<PackEvaluator::Factors>& factors;
+
+  double* slot(std::int32_t number) const { return slots + static_cast<std::ptrdiff_t>(number) * packWidth; }
+  void factorise(std::int32_t number, int sample, int count) const;
+  void solve(std::int32_t number, int sample, int count) const;
+};
+
 namespace {
 
 using namespace detail;
@@ -34,6 +47,73 @@ void callFunction(TapeOp op, std::span<const double> a, std::span<double> result
   }
 }
 
+/// Rows of packs as vectors: row(i) is what lies in row i from one sample on.
+template <class V, class Start>
+struct VectorRows {
+  using InArray = typename Layout<V>::InArray;
+  Start start;
+  int sample;
+
+  template <class... I>
+  GAMUT_INLINE InArray& operator()(I... i) const {
+    return *reinterpret_cast<InArray*>(start(i...) + sample);
+  }
+};
+
+constexpr int triangular(int i, int j) { return i * (i + 1) / 2 + j; }
+
+template <class V>
+GAMUT_INLINE void factoriseBlock(const TapeSystem& system, double* slots, double* factors, int sample, int count) {
+  const std::int32_t* const entries = system.entries.data();
+  const int n = system.size;
+  const auto entry = [=](int i, int j) __attribute__((always_inline)) {
+    return slots + static_cast<std::ptrdiff_t>(entries[i * n + j]) * packWidth;
+  };
+  const auto factor = [=](int i, int j) __attribute__((always_inline)) {
+    return factors + triangular(i, j) * packWidth;
+  };
+  for (int end = sample + count; sample < end; sample += lanes<V>)
+    factoriseLDLt<V>(n, VectorRows<V, decltype(entry)>{entry, sample}, VectorRows<V, decltype(factor)>{factor, sample});
+}
+
+template <class V>
+GAMUT_INLINE void solveBlock(const TapeSolution& solution, double* slots, double* factors, int sample, int count) {
+  const std::int32_t *const r = solution.rightSide.data(), *const x = solution.results.data();
+  const int n = static_cast<int>(solution.results.size());
+  const auto factor = [=](int i, int j) __attribute__((always_inline)) {
+    return factors + triangular(i, j) * packWidth;
+  };
+  const auto right = [=](int i) __attribute__((always_inline)) {
+    return slots + static_cast<std::ptrdiff_t>(r[i]) * packWidth;
+  };
+  const auto result = [=](int i) __attribute__((always_inline)) {
+    return slots + static_cast<std::ptrdiff_t>(x[i]) * packWidth;
+  };
+  for (int end = sample + count; sample < end; sample += lanes<V>)
+    solveLDLt<V>(n, VectorRows<V, decltype(factor)>{factor, sample}, VectorRows<V, decltype(right)>{right, sample},
+                 VectorRows<V, decltype(result)>{result, sample});
+}
+
+void factoriseOnBaseline(const TapeSystem& system, double* slots, double* factors, int sample, int count) {
+  factoriseBlock<Vector2>(system, slots, factors, sample, count);
+}
+GAMUT_AVX2 void factoriseOnAvx2(const TapeSystem& system, double* slots, double* factors, int sample, int count) {
+  factoriseBlock<Vector4>(system, slots, factors, sample, count);
+}
+GAMUT_AVX512 void factoriseOnAvx512(const TapeSystem& system, double* slots, double* factors, int sample, int count) {
+  factoriseBlock<Vector8>(system, slots, factors, sample, count);
+}
+
+void solveOnBaseline(const TapeSolution& solution, double* slots, double* factors, int sample, int count) {
+  solveBlock<Vector2>(solution, slots, factors, sample, count);
+}
+GAMUT_AVX2 void solveOnAvx2(const TapeSolution& solution, double* slots, double* factors, int sample, int count) {
+  solveBlock<Vector4>(solution, slots, factors, sample, count);
+}
+GAMUT_AVX512 void solveOnAvx512(const TapeSolution& solution, double* slots, double* factors, int sample, int count) {
+  solveBlock<Vector8>(solution, slots, factors, sample, count);
+}
+
 // For each vector j of the block; unrolled, so that the accumulator stays in registers.
 #define GAMUT_FOR_BLOCK _Pragma("GCC unroll 8") for (int j = 0; j < block<V>; ++j)
 // acc = expression(left, right), the values of the operands.
@@ -46,10 +126,11 @@ void callFunction(TapeOp op, std::span<const double> a, std::span<double> result
   }                                  \
   break
 
-/// Runs the instructions on a block of samples; `slots` is the block's part of slot 0.
+/// Runs the instructions on the block of samples from `sample` on.
 template <class V>
-GAMUT_INLINE void runBlock(VectorUnit unit, const Instruction* i, const Instruction* end, double* slots) {
+GAMUT_INLINE void runBlock(const PackRun& pack, const Instruction* i, const Instruction* end, int sample) {
   constexpr std::size_t samples = block<V> * lanes<V>;
+  double* const slots = pack.slots + sample;
   const auto span = [](double* row) { return std::span<double>(row, samples); };
   V acc[block<V>];
   GAMUT_FOR_BLOCK acc[j] = V{};
@@ -89,7 +170,15 @@ GAMUT_INLINE void runBlock(VectorUnit unit, const Instruction* i, const Instruct
         GAMUT_FOR_BLOCK acc[j] = V{};
         continue;
       case TapeOp::sineCosine:
-        sineCosine(unit, span(a), span(result), span(b));
+        sineCosine(pack.unit, span(a), span(result), span(b));
+        GAMUT_FOR_BLOCK acc[j] = V{};
+        continue;
+      case TapeOp::factorise:
+        pack.factorise(i->result, sample, samples);
+        GAMUT_FOR_BLOCK acc[j] = V{};
+        continue;
+      case TapeOp::solution:
+        pack.solve(i->result, sample, samples);
         GAMUT_FOR_BLOCK acc[j] = V{};
         continue;
     }
@@ -98,27 +187,65 @@ GAMUT_INLINE void runBlock(VectorUnit unit, const Instruction* i, const Instruct
 }
 
 template <class V>
-GAMUT_INLINE void runPack(VectorUnit unit, const std::vector<Instruction>& instructions, double* slots) {
+GAMUT_INLINE void runPack(const PackRun& pack, const std::vector<Instruction>& instructions) {
   static_assert(packWidth % (block<V> * lanes<V>) == 0);
   const Instruction* const begin = instructions.data();
-  for (int lane = 0; lane < packWidth; lane += block<V> * lanes<V>)
-    runBlock<V>(unit, begin, begin + instructions.size(), slots + lane);
+  for (int sample = 0; sample < packWidth; sample += block<V> * lanes<V>)
+    runBlock<V>(pack, begin, begin + instructions.size(), sample);
 }
 
-void runOnBaseline(const std::vector<Instruction>& instructions, double* slots) {
-  runPack<Vector2>(VectorUnit::baseline, instructions, slots);
+void runOnBaseline(const PackRun& pack, const std::vector<Instruction>& instructions) {
+  runPack<Vector2>(pack, instructions);
 }
-GAMUT_AVX2 void runOnAvx2(const std::vector<Instruction>& instructions, double* slots) {
-  runPack<Vector4>(VectorUnit::avx2, instructions, slots);
+GAMUT_AVX2 void runOnAvx2(const PackRun& pack, const std::vector<Instruction>& instructions) {
+  runPack<Vector4>(pack, instructions);
 }
-GAMUT_AVX512 void runOnAvx512(const std::vector<Instruction>& instructions, double* slots) {
-  runPack<Vector8>(VectorUnit::avx512, instructions, slots);
+GAMUT_AVX512 void runOnAvx512(const PackRun& pack, const std::vector<Instruction>& instructions) {
+  runPack<Vector8>(pack, instructions);
 }
 
 }  // namespace
 
+void PackRun::factorise(std::int32_t number, int sample, int count) const {
+  const TapeSystem& system = tape.systems()[at(number)];
+  PackEvaluator::Factors& to = factors[at(number)];
+  if (system.kind == MatrixKind::positiveDefinite) {
+    const auto execute = unit == VectorUnit::avx512 ? factoriseOnAvx512
+                         : unit == VectorUnit::avx2 ? factoriseOnAvx2
+                                                    : factoriseOnBaseline;
+    return execute(system, slots, to.rows.front().values, sample, count);
+  }
+  for (int i = sample; i < sample + count; ++i)
+    to.samples[at(i)].assign(system.kind, system.size,
+                             [&](int row, int column) { return slot(system.entry(row, column))[i]; });
+}
+
+void PackRun::solve(std::int32_t number, int sample, int count) const {
+  const TapeSolution& solution = tape.solutions()[at(number)];
+  PackEvaluator::Factors& by = factors[at(solution.system)];
+  if (!by.rows.empty()) {
+    const auto execute = unit == VectorUnit::avx512 ? solveOnAvx512
+                         : unit == VectorUnit::avx2 ? solveOnAvx2
+                                                    : solveOnBaseline;
+    return execute(solution, slots, by.rows.front().values, sample, count);
+  }
+  std::vector<double> x(solution.results.size());
+  for (int i = sample; i < sample + count; ++i) {
+    for (std::size_t k = 0; k < x.size(); ++k) x[k] = slot(solution.rightSide[k])[i];
+    by.samples[at(i)].solve(x, solution.transposed);
+    for (std::size_t k = 0; k < x.size(); ++k) slot(solution.results[k])[i] = x[k];
+  }
+}
+
 PackEvaluator::PackEvaluator(const Program& program, VectorUnit unit)
-    : tape_(program), unit_(unit), slots_(at(std::max(1, tape_.slots()))) {
+    : tape_(program), unit_(unit), slots_(at(std::max(1, tape_.slots()))), factors_(tape_.systems().size()) {
+  for (std::size_t k = 0; k < factors_.size(); ++k) {
+    const TapeSystem& system = tape_.systems()[k];
+    if (system.kind == MatrixKind::positiveDefinite)
+      factors_[k].rows.resize(at(triangular(system.size, 0)));
+    else
+      factors_[k].samples.resize(packWidth);
+  }
   if (program.parameters() == 0) setParameters({});
 }
 
@@ -128,7 +255,7 @@ void PackEvaluator::run(const std::vector<Instruction>& instructions) {
   const auto execute = unit_ == VectorUnit::avx512 ? runOnAvx512
                        : unit_ == VectorUnit::avx2 ? runOnAvx2
                                                    : runOnBaseline;
-  execute(instructions, slots_.front().values);
+  execute({tape_, unit_, slots_.front().values, factors_}, instructions);
 }
 
 void PackEvaluator::setParameters(std::span<const double> p) {

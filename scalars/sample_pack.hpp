@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "scalars/linear_system.hpp"
 #include "scalars/program.hpp"
 #include "scalars/tape.hpp"
 #include "scalars/vector_unit.hpp"
@@ -36,8 +37,14 @@ class PackEvaluator {
   const Tape& tape() const { return tape_; }
 
  private:
+  friend struct PackRun;
   struct alignas(64) Row {
     double values[packWidth];
+  };
+  /// A matrix: the rows of L and D below and on the diagonal if it is positive definite, or systems sample by sample.
+  struct Factors {
+    std::vector<Row> rows;
+    std::vector<LinearSystem<double>> samples;
   };
   void fill(int slot, const double* row);
   void run(const std::vector<Instruction>& instructions);
@@ -45,6 +52,7 @@ class PackEvaluator {
   Tape tape_;
   VectorUnit unit_;
   std::vector<Row> slots_;
+  std::vector<Factors> factors_;  // of the tape's systems
 };
 
 /// y = f(t, x, p) for n samples in rows of n: x has one row a state, p one a parameter, y one an output. Throws

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "scalars/index.hpp"
+#include "scalars/linear_system.hpp"
 #include "scalars/program.hpp"
 #include "scalars/traits.hpp"
 
@@ -17,7 +18,10 @@ class Series {
  public:
   /// Orders 0 … `order` are kept for the nodes. The program has to outlive the series.
   Series(const Program& program, int order)
-      : program_(&program), size_(order + 1), c_(program.nodes().size() * detail::at(size_), S(0.0)) {}
+      : program_(&program),
+        size_(order + 1),
+        c_(program.nodes().size() * detail::at(size_), S(0.0)),
+        systems_(program.matrices().size()) {}
 
   /// The constants and parameters; one value a parameter.
   void setParameters(std::span<const S> p) {
@@ -56,6 +60,7 @@ class Series {
     const int time = program_->states() + program_->parameters();
     at(time, 0) = t0;
     if (size_ > 1) at(time, 1) = S(1.0);
+    isFactorised_.assign(systems_.size(), 0);
   }
 
   S convolution(int a, int b, int i, int from, int to) {  // Σ_{j=from}^{to} a_j b_{i-j}
@@ -120,15 +125,39 @@ class Series {
         at(node, i) = i == 0 ? S(sin(at(n.a, 0))) : S(weighted(n.a, node + 1, i, i) / k);
         at(node + 1, i) = i == 0 ? S(cos(at(n.a, 0))) : S(-weighted(n.a, node, i, i) / k);
         break;
-      case Op::cos:
       case Op::solution:
+        if (n.b == 0) computeSolution(node, i);
+        break;
+      case Op::cos:
         break;
     }
+  }
+
+  /// A_0 x_i = r_i - Σ_{j=1}^{i} A_j x_{i-j}: one factorisation for all orders.
+  void computeSolution(int first, int i) {
+    const LinearSolution& solution = program_->solutions()[detail::at(program_->nodes()[detail::at(first)].a)];
+    const LinearMatrix& matrix = program_->matrices()[detail::at(solution.matrix)];
+    LinearSystem<S>& system = systems_[detail::at(solution.matrix)];
+    if (isFactorised_[detail::at(solution.matrix)] == 0) {
+      system.assign(matrix.kind, matrix.size, [&](int k, int l) -> const S& { return at(matrix.entry(k, l), 0); });
+      isFactorised_[detail::at(solution.matrix)] = 1;
+    }
+    std::vector<S> x;
+    for (int k = 0; k < matrix.size; ++k) {
+      S sum = at(solution.rightSide[detail::at(k)], i);
+      for (int l = 0; l < matrix.size; ++l)
+        sum = sum - convolution(solution.transposed ? matrix.entry(l, k) : matrix.entry(k, l), first + l, i, 1, i);
+      x.push_back(sum);
+    }
+    system.solve(x, solution.transposed);
+    for (int k = 0; k < matrix.size; ++k) at(first + k, i) = x[detail::at(k)];
   }
 
   const Program* program_;
   int size_;
   std::vector<S> c_;
+  std::vector<LinearSystem<S>> systems_;  // of the program's matrices
+  std::vector<char> isFactorised_;
 };
 
 }  // namespace gamut

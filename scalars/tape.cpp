@@ -42,10 +42,13 @@ bool usesB(TapeOp op) {
          op == TapeOp::minusProduct;
 }
 
-/// Instructions whose a and b are nodes, from the first to the one that stores; `node` is what it stores.
+/// Instructions whose a and b are nodes, from the first to the one that stores. A step is known by the node that it
+/// stores, the first of its twins; the factorisation of matrix m by the number m behind all nodes.
 struct Step {
-  int node;
+  int id;
   std::vector<Instruction> chain;
+  std::vector<int> reads;    // nodes
+  std::vector<int> results;  // nodes that get slots
 };
 
 }  // namespace
@@ -57,6 +60,7 @@ class TapeWriter {
   void write() {
     countUses();
     fuse();
+    system_.assign(program_.matrices().size(), -1);
     slot_.assign(nodes_.size(), -1);
     tape_.constants_ = program_.constants();
     const std::vector<Step> invariants = stepsInOrder(true), steps = shortestLived();
@@ -70,17 +74,37 @@ class TapeWriter {
  private:
   const Node& node(int i) const { return nodes_[at(i)]; }
   int count() const { return static_cast<int>(nodes_.size()); }
+  int steps() const { return count() + static_cast<int>(program_.matrices().size()); }
   bool isNeeded(int i) const { return uses_[at(i)] > 0; }
+
+  const LinearSolution& solution(int i) const { return program_.solutions()[at(node(i).a)]; }
+  const LinearMatrix& matrix(int m) const { return program_.matrices()[at(m)]; }
+
+  /// The node whose step computes node i: a cosine comes from its sine's, a component with component 0.
+  int source(int i) const {
+    if (node(i).op == Op::cos) return i - 1;
+    return node(i).op == Op::solution ? i - node(i).b : i;
+  }
 
   void countUses() {
     uses_.assign(nodes_.size(), 0);
     isOutput_.assign(nodes_.size(), false);
+    isMatrixNeeded_.assign(program_.matrices().size(), false);
     for (int output : program_.outputNodes()) ++uses_[at(output)], isOutput_[at(output)] = true;
     for (int i = count() - 1; i >= 0; --i) {
       if (!isNeeded(i) || !isOperation(node(i).op)) continue;
-      // A cosine comes from its sine's step: the sine is needed, the angle is used by the sine alone.
-      ++uses_[at(node(i).op == Op::cos ? i - 1 : node(i).a)];
-      if (operandsOf(node(i).op) == 2) ++uses_[at(node(i).b)];
+      if (source(i) != i) {  // the operands are used by the source alone
+        ++uses_[at(source(i))];
+      } else if (node(i).op == Op::solution) {
+        for (int r : solution(i).rightSide) ++uses_[at(r)];
+        const int m = solution(i).matrix;
+        if (isMatrixNeeded_[at(m)]) continue;
+        isMatrixNeeded_[at(m)] = true;
+        for (int entry : matrix(m).entries) ++uses_[at(entry)];
+      } else {
+        ++uses_[at(node(i).a)];
+        if (operandsOf(node(i).op) == 2) ++uses_[at(node(i).b)];
+      }
     }
   }
 
@@ -142,9 +166,22 @@ class TapeWriter {
     }
   }
 
-  Step step(int i) const {
+  bool isInvariantMatrix(int m) const {
+    const std::vector<int>& entries = matrix(m).entries;
+    return std::all_of(entries.begin(), entries.end(), [this](int entry) { return program_.isInvariant(entry); });
+  }
+
+  Step step(int id) const {
+    if (id >= count()) return {id, {{TapeOp::factorise, false}}, matrix(id - count()).entries, {}};
+    const int i = id;
     const Node& n = node(i);
-    Step result{i, {}};
+    Step result{i, {}, {}, {}};
+    detail::forEachTwin(program_.table(), i, [&](int twin) { result.results.push_back(twin); });
+    if (n.op == Op::solution) {
+      result.chain.push_back({TapeOp::solution, false});
+      result.reads = solution(i).rightSide;
+      return result;
+    }
     if (isSum(n.op))
       appendSum(i, result.chain);
     else if (n.op == Op::mul)
@@ -152,49 +189,63 @@ class TapeWriter {
     else
       result.chain.push_back(instruction(unary(n.op), n.a, n.a));
     result.chain.back().stores = true;
+    for (const Instruction& part : result.chain) result.reads.insert(result.reads.end(), {part.a, part.b});
     return result;
   }
 
-  bool hasStep(int i, bool invariant) const {
-    return isNeeded(i) && !absorbed_[at(i)] && isOperation(node(i).op) && node(i).op != Op::cos &&
-           program_.isInvariant(i) == invariant;
+  bool hasStep(int id, bool invariant) const {
+    if (id >= count()) return isMatrixNeeded_[at(id - count())] && isInvariantMatrix(id - count()) == invariant;
+    return isNeeded(id) && !absorbed_[at(id)] && isOperation(node(id).op) && source(id) == id &&
+           program_.isInvariant(id) == invariant;
   }
 
-  /// The steps of a section as recorded.
+  /// visit(step) for the steps that a step waits for.
+  template <class Visit>
+  void forEachSource(const Step& step, Visit visit) const {
+    for (int operand : step.reads) visit(source(operand));
+    if (step.id < count() && node(step.id).op == Op::solution) visit(count() + solution(step.id).matrix);
+  }
+
+  /// The steps of a section as recorded, each matrix factorised before its first solution, in whichever section that
+  /// is.
   std::vector<Step> stepsInOrder(bool invariant) const {
-    std::vector<Step> steps;
-    for (int i = 0; i < count(); ++i)
-      if (hasStep(i, invariant)) steps.push_back(step(i));
-    return steps;
+    std::vector<Step> written;
+    std::vector<char> isFactorised(program_.matrices().size(), 0);
+    for (int i = 0; i < count(); ++i) {
+      if (node(i).op == Op::solution && isFactorised[at(solution(i).matrix)] == 0) {
+        isFactorised[at(solution(i).matrix)] = 1;
+        if (const int id = count() + solution(i).matrix; hasStep(id, invariant)) written.push_back(step(id));
+      }
+      if (hasStep(i, invariant)) written.push_back(step(i));
+    }
+    return written;
   }
 
   /// The varying steps, each just before its first use, seen from the outputs.
   std::vector<Step> stepsOnDemand() const {
-    std::vector<Step> steps;
-    std::vector<char> done(nodes_.size(), 0);
+    std::vector<Step> written;
+    std::vector<char> done(at(steps()), 0);
     std::vector<int> waiting;  // an explicit stack: programs are deep
     for (int output : program_.outputNodes()) {
-      waiting.push_back(output);
+      waiting.push_back(source(output));
       while (!waiting.empty()) {
-        const int i = node(waiting.back()).op == Op::cos ? waiting.back() - 1 : waiting.back();
-        if (done[at(i)] != 0 || !hasStep(i, false)) {
+        const int id = waiting.back();
+        if (done[at(id)] != 0 || !hasStep(id, false)) {
           waiting.pop_back();
           continue;
         }
-        Step next = step(i);
+        Step next = step(id);
         const std::size_t before = waiting.size();
-        for (const Instruction& part : next.chain)
-          for (int operand : {part.a, part.b}) {
-            const int source = node(operand).op == Op::cos ? operand - 1 : operand;
-            if (done[at(source)] == 0 && hasStep(source, false)) waiting.push_back(source);
-          }
+        forEachSource(next, [&](int other) {
+          if (done[at(other)] == 0 && hasStep(other, false)) waiting.push_back(other);
+        });
         if (waiting.size() > before) continue;
         waiting.pop_back();
-        done[at(i)] = 1;
-        steps.push_back(std::move(next));
+        done[at(id)] = 1;
+        written.push_back(std::move(next));
       }
     }
-    return steps;
+    return written;
   }
 
   /// The order that needs fewer slots.
@@ -209,7 +260,7 @@ class TapeWriter {
   std::vector<int> lastReads(const std::vector<Step>& steps) const {
     std::vector<int> last(nodes_.size(), -1);
     for (std::size_t s = 0; s < steps.size(); ++s)
-      for (const Instruction& part : steps[s].chain) last[at(part.a)] = last[at(part.b)] = static_cast<int>(s);
+      for (int operand : steps[s].reads) last[at(operand)] = static_cast<int>(s);
     for (int output : program_.outputNodes()) last[at(output)] = forever;
     return last;
   }
@@ -218,12 +269,10 @@ class TapeWriter {
     const std::vector<int> last = lastReads(steps);
     std::vector<int> change(steps.size() + 1, 0);
     for (std::size_t s = 0; s < steps.size(); ++s) {
-      const auto born = [&](int i) {
+      for (int i : steps[s].results) {
         ++change[s];
         if (last[at(i)] != forever) --change[std::max(s + 1, at(std::max(last[at(i)], 0)))];
-      };
-      born(steps[s].node);
-      if (node(steps[s].node).op == Op::sin) born(steps[s].node + 1);
+      }
     }
     int alive = 0, most = 0;
     for (int difference : change) most = std::max(most, alive += difference);
@@ -235,7 +284,13 @@ class TapeWriter {
     std::vector<char> isKept(nodes_.size(), 0);
     const auto mark = [&](int i) { isKept[at(i)] |= program_.isInvariant(i) ? 1 : 0; };
     for (int i = 0; i < count(); ++i) {
-      if (!isNeeded(i) || !isOperation(node(i).op) || program_.isInvariant(i)) continue;
+      if (!isNeeded(i) || !isOperation(node(i).op) || program_.isInvariant(i) || source(i) != i) continue;
+      if (node(i).op == Op::solution) {
+        for (int r : solution(i).rightSide) mark(r);
+        if (const int m = solution(i).matrix; !isInvariantMatrix(m))
+          for (int entry : matrix(m).entries) mark(entry);
+        continue;
+      }
       mark(node(i).a);
       if (operandsOf(node(i).op) == 2) mark(node(i).b);
     }
@@ -243,8 +298,8 @@ class TapeWriter {
     for (int i = 0; i < count(); ++i)
       if (isKept[at(i)] != 0 && !isOperation(node(i).op)) slot_[at(i)] = tape_.keptSlots_++;
     for (const Step& s : invariants)
-      for (int i : {s.node, s.node + 1})
-        if ((i == s.node || node(s.node).op == Op::sin) && isKept[at(i)] != 0) slot_[at(i)] = tape_.keptSlots_++;
+      for (int i : s.results)
+        if (isKept[at(i)] != 0) slot_[at(i)] = tape_.keptSlots_++;
   }
 
   /// Gives every value of a section a slot, reused after the value's last read, and writes the instructions.
@@ -276,32 +331,55 @@ class TapeWriter {
     }
     std::vector<Instruction> written;
     for (std::size_t s = 0; s < steps.size(); ++s) {
-      const int result = steps[s].node;
-      const bool isSine = node(result).op == Op::sin;
-      std::vector<Instruction> chain = steps[s].chain;
-      for (Instruction& part : chain) part.a = slot_[at(part.a)], part.b = slot_[at(part.b)];
-      // The result may take the slot of an operand that dies here: it is stored after all operands have been read.
+      const Step& step = steps[s];
+      const auto takeResults = [&] {
+        for (int i : step.results) {
+          take(i);
+          lives(i);
+        }
+      };
+      // The result may take the slot of an operand that dies here: it is stored after all operands have been read. Not
+      // so a solution's components, which are worked out in place.
+      std::vector<Instruction> chain = step.chain;
+      const bool isSolution = chain.back().op == TapeOp::solution;
+      if (isSolution) takeResults();
+      const std::vector<std::int32_t> reads = slotsOf(step.reads);
       for (int i : dying[s]) free.push_back(slot_[at(i)]);
-      for (int i : {result, result + 1}) {
-        if (i != result && !isSine) continue;
-        take(i);
-        lives(i);
+      if (!isSolution) takeResults();
+      if (isSolution) {
+        chain.back().result = static_cast<int>(tape_.solutions_.size());
+        const LinearSolution& of = solution(step.id);
+        tape_.solutions_.push_back({system_[at(of.matrix)], of.transposed, reads, slotsOf(step.results)});
+      } else if (chain.back().op == TapeOp::factorise) {
+        const LinearMatrix& of = matrix(step.id - count());
+        chain.back().result = system_[at(step.id - count())] = static_cast<int>(tape_.systems_.size());
+        tape_.systems_.push_back({of.kind, of.size, reads});
+      } else {
+        for (std::size_t part = 0; part < chain.size(); ++part)
+          chain[part].a = reads[2 * part], chain[part].b = reads[2 * part + 1];
+        chain.back().result = slot_[at(step.id)];
+        if (chain.back().op == TapeOp::sineCosine) chain.back().b = slot_[at(step.id + 1)];
       }
-      chain.back().result = slot_[at(result)];
-      if (isSine) chain.back().b = slot_[at(result + 1)];
-      for (int i : {result, result + 1})  // a sine without its cosine, or the reverse: the other is never read
-        if (isSine && last[at(i)] < 0 && slot_[at(i)] >= tape_.keptSlots_) free.push_back(slot_[at(i)]);
+      for (int i : step.results)  // a sine without its cosine, or the reverse: the other is never read
+        if (last[at(i)] < 0 && slot_[at(i)] >= tape_.keptSlots_) free.push_back(slot_[at(i)]);
       written.insert(written.end(), chain.begin(), chain.end());
     }
     tape_.slots_ = std::max(tape_.slots_, next);
     return written;
   }
 
+  std::vector<std::int32_t> slotsOf(const std::vector<int>& nodes) const {
+    std::vector<std::int32_t> slots;
+    for (int i : nodes) slots.push_back(slot_[at(i)]);
+    return slots;
+  }
+
   const Program& program_;
   const std::vector<Node>& nodes_;
   Tape& tape_;
   std::vector<int> uses_, accumulator_, slot_;
-  std::vector<bool> isOutput_, absorbed_;
+  std::vector<int> system_;  // of each matrix, -1 before its factorisation
+  std::vector<bool> isOutput_, isMatrixNeeded_, absorbed_;
 };
 
 Tape::Tape(const Program& program) : states_(program.states()), parameters_(program.parameters()) {
@@ -312,24 +390,53 @@ int Tape::operations() const {
   int operations = 0;
   for (const Instruction& i : instructions_) {
     const bool isTwo = i.op == TapeOp::plusProduct || i.op == TapeOp::minusProduct || i.op == TapeOp::sineCosine;
-    operations += i.op == TapeOp::value ? 0 : isTwo ? 2 : 1;
+    if (i.op == TapeOp::factorise) {
+      const TapeSystem& system = systems_[at(i.result)];
+      operations += factorisationOperations(system.kind, system.size);
+    } else if (i.op == TapeOp::solution) {
+      const TapeSystem& system = systems_[at(solutions_[at(i.result)].system)];
+      operations += solutionOperations(system.kind, system.size);
+    } else {
+      operations += i.op == TapeOp::value ? 0 : isTwo ? 2 : 1;
+    }
   }
   return operations;
 }
 
 std::ostream& operator<<(std::ostream& out, const Tape& tape) {
-  static const char* const names[] = {
-      "value",    "sum",    "difference", "product",    "plus",        "minus",     "plusProduct", "minusProduct",
-      "negative", "square", "reciprocal", "squareRoot", "exponential", "logarithm", "arcTangent",  "sineCosine"};
+  static const char* const names[] = {"value",      "sum",         "difference",   "product",   "plus",
+                                      "minus",      "plusProduct", "minusProduct", "negative",  "square",
+                                      "reciprocal", "squareRoot",  "exponential",  "logarithm", "arcTangent",
+                                      "sineCosine", "factorise",   "solution"};
   out << "tape: " << tape.states() << " states, " << tape.parameters() << " parameters, " << tape.outputs()
       << " outputs, " << tape.operations() << " operations, " << tape.slots() << " slots (" << tape.keptSlots()
       << " kept)\n";
   for (const TapeInput& i : tape.constantInputs())
     out << "  s" << i.slot << " = " << tape.constants()[at(i.input)] << '\n';
   for (const TapeInput& i : tape.parameterInputs()) out << "  s" << i.slot << " = p[" << i.input << "]\n";
+  const auto slots = [&out](const std::vector<std::int32_t>& list) {
+    for (std::int32_t slot : list) out << " s" << slot;
+  };
   const auto list = [&](const std::vector<Instruction>& section) {
     for (const Instruction& i : section) {
-      out << "  " << names[static_cast<int>(i.op)] << " s" << i.a;
+      out << "  " << names[static_cast<int>(i.op)];
+      if (i.op == TapeOp::factorise) {
+        const TapeSystem& system = tape.systems()[at(i.result)];
+        out << " m" << i.result << (system.kind == MatrixKind::positiveDefinite ? " positive definite" : "") << ':';
+        slots(system.entries);
+        out << '\n';
+        continue;
+      }
+      if (i.op == TapeOp::solution) {
+        const TapeSolution& solution = tape.solutions()[at(i.result)];
+        out << " m" << solution.system << (solution.transposed ? " transposed:" : ":");
+        slots(solution.rightSide);
+        out << " ->";
+        slots(solution.results);
+        out << '\n';
+        continue;
+      }
+      out << " s" << i.a;
       if (usesB(i.op)) out << " s" << i.b;
       if (i.stores) out << " -> s" << i.result;
       if (i.op == TapeOp::sineCosine) out << " s" << i.b;

@@ -11,6 +11,7 @@
 #include <iosfwd>
 #include <vector>
 
+#include "scalars/index.hpp"
 #include "scalars/interval.hpp"
 #include "scalars/program.hpp"
 
@@ -34,6 +35,8 @@ enum class TapeOp : std::uint8_t {
   logarithm,
   arcTangent,
   sineCosine,  ///< acc = sin a, and cos a goes to slot b
+  factorise,   ///< the matrix of system number `result`, for the solutions that follow
+  solution,    ///< solution number `result`; neither of the two reads or leaves an accumulator
 };
 
 struct Instruction {
@@ -42,6 +45,23 @@ struct Instruction {
   std::int32_t result = 0;
   std::int32_t a = 0;
   std::int32_t b = 0;  ///< a where the operation has one operand
+};
+
+/// A matrix, factorised once for all its solutions.
+struct TapeSystem {
+  MatrixKind kind;
+  int size;
+  std::vector<std::int32_t> entries;  ///< the slots at the factorisation, row by row
+
+  std::int32_t entry(int i, int j) const { return entries[detail::at(i * size + j)]; }
+};
+
+/// A solution of a system that has been factorised.
+struct TapeSolution {
+  int system;
+  bool transposed;
+  std::vector<std::int32_t> rightSide;  ///< slots, none of them one of the results'
+  std::vector<std::int32_t> results;    ///< slots of the components
 };
 
 /// Input number `input` goes to slot `slot` before a section runs.
@@ -76,6 +96,9 @@ class Tape {
   const std::vector<Instruction>& invariants() const { return invariants_; }
   const std::vector<Instruction>& instructions() const { return instructions_; }
   const std::vector<int>& outputSlots() const { return outputSlots_; }
+  /// What `factorise` and `solution` count, of both sections: what is factorised in the invariant one stays.
+  const std::vector<TapeSystem>& systems() const { return systems_; }
+  const std::vector<TapeSolution>& solutions() const { return solutions_; }
 
   /// A readable listing, one instruction a line.
   friend std::ostream& operator<<(std::ostream& out, const Tape& tape);
@@ -91,6 +114,8 @@ class Tape {
   std::vector<TapeInput> constantInputs_, parameterInputs_, stateInputs_;
   std::vector<Instruction> invariants_, instructions_;
   std::vector<int> outputSlots_;
+  std::vector<TapeSystem> systems_;
+  std::vector<TapeSolution> solutions_;
 };
 
 }  // namespace gamut

@@ -12,7 +12,7 @@ namespace {
 
 TEST(Differentiation, ForwardAndReverseGiveTheSameJacobian) {
   for (unsigned seed = 1; seed <= 200; ++seed) {
-    const Program program = RandomProgram(seed)(40, 5);
+    const Program program = RandomProgram(seed).withSolutions()(40, 5);
     for (bool withParameters : {false, true}) {
       const Program forward = forwardDifferentiated(program, withParameters);
       ASSERT_EQ(forward.outputs(), 5 + 5 * 3 + (withParameters ? 5 * 2 : 0));
@@ -26,7 +26,7 @@ TEST(Differentiation, ReverseHoldsThePartialDerivatives) {
   const Precise h("1e-30");
   const Point point;
   for (unsigned seed = 1; seed <= 100; ++seed) {
-    const Program program = RandomProgram(500 + seed)(40, 2);
+    const Program program = RandomProgram(500 + seed).withSolutions()(40, 2);
     const auto values = point.values<Precise>(reverseDifferentiated(program, true));
     for (std::size_t column = 0; column < 5; ++column) {
       std::vector<Precise> x(point.x.begin(), point.x.end()), p(point.p.begin(), point.p.end());
@@ -48,7 +48,7 @@ TEST(Differentiation, ReverseHoldsThePartialDerivatives) {
 TEST(Differentiation, ProductsWithVectorsAreThoseOfTheJacobian) {
   const Point point;
   for (unsigned seed = 1; seed <= 100; ++seed) {
-    const Program program = RandomProgram(900 + seed)(40, 4);
+    const Program program = RandomProgram(900 + seed).withSolutions()(40, 4);
     const auto full = point.values<Precise>(forwardDifferentiated(program));
     const std::vector<Precise> x(point.x.begin(), point.x.end()), v{2, -3, 5}, w{1, -2, 4, 3};
     std::vector<Precise> pv(point.p.begin(), point.p.end()), pw = pv;

@@ -41,6 +41,8 @@ struct Counted {
   friend Counted operator*(Counted a, Counted b) { return ++operations(), a.value * b.value; }
   friend Counted operator/(Counted a, Counted b) { return ++operations(), a.value / b.value; }
   friend Counted operator-(Counted a) { return ++operations(), -a.value; }
+  friend bool operator<(Counted a, Counted b) { return a.value < b.value; }
+  friend Counted abs(Counted a) { return std::abs(a.value); }
   friend Counted sin(Counted a) { return ++operations(), std::sin(a.value); }
   friend Counted cos(Counted a) { return ++operations(), std::cos(a.value); }
   friend Counted exp(Counted a) { return ++operations(), std::exp(a.value); }

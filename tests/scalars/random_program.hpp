@@ -4,11 +4,14 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "scalars/evaluate.hpp"
+#include "scalars/linear_system.hpp"
 #include "scalars/program.hpp"
 #include "scalars/recorder.hpp"
 #include "tests/scalars/high_precision.hpp"
@@ -34,6 +37,12 @@ class RandomProgram {
     value_ = point_.x;
     value_.insert(value_.end(), point_.p.begin(), point_.p.end());
     value_.push_back(point_.t);
+  }
+
+  /// Solutions of linear systems are among the operations too.
+  RandomProgram withSolutions() && {
+    withSolutions_ = true;
+    return std::move(*this);
   }
 
   /// The last nodes of so many operations as outputs, or all nodes.
@@ -63,6 +72,7 @@ class RandomProgram {
   void step() {
     const int a = pick(), b = engine_() % 4 == 0 ? a : pick();
     const double u = value_[static_cast<std::size_t>(a)], v = value_[static_cast<std::size_t>(b)];
+    if (withSolutions_ && engine_() % 8 == 0) return keepSolutions();
     switch (engine_() % 15) {
       case 0:
         return keepIfModerate(u + v, [&] { return recorder_.add(a, b); });
@@ -115,6 +125,58 @@ class RandomProgram {
     if (std::abs(value) <= 50) keep(operation(), value);
   }
 
+  /// One or two solutions of a matrix of either kind, one or two equations included, unless it is near a singular one.
+  void keepSolutions() {
+    const int n = 1 + static_cast<int>(engine_() % 4);
+    LinearMatrix matrix{engine_() % 2 == 0 ? MatrixKind::general : MatrixKind::positiveDefinite, n, {}};
+    matrix.entries.assign(static_cast<std::size_t>(n * n), -1);
+    const auto entry = [&](int i, int j) -> int& { return matrix.entries[static_cast<std::size_t>(i * n + j)]; };
+    std::vector<double> sums(static_cast<std::size_t>(n), 1.0);  // of magnitudes beside the diagonal
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j) {
+        entry(i, j) = matrix.kind == MatrixKind::positiveDefinite && j < i ? entry(j, i) : pick();
+        if (i != j) sums[static_cast<std::size_t>(i)] += std::abs(value_[static_cast<std::size_t>(entry(i, j))]);
+      }
+    for (int i = 0; i < n && matrix.kind == MatrixKind::positiveDefinite; ++i) {  // dominant: constant + square
+      const int root = pick();
+      const double u = value_[static_cast<std::size_t>(root)];
+      const int square = recorder_.sqr(root);
+      keep(square, u * u);
+      const int constant = recorder_.constant(sums[static_cast<std::size_t>(i)]);
+      keep(constant, sums[static_cast<std::size_t>(i)]);
+      entry(i, i) = recorder_.add(constant, square);
+      keep(entry(i, i), sums[static_cast<std::size_t>(i)] + u * u);
+    }
+    const LinearSystem<double> system(matrix.kind, n, valuesOf(matrix.entries));
+    double size = 0, inverse = 0;
+    for (double value : valuesOf(matrix.entries)) size = std::max(size, std::abs(value));
+    for (int i = 0; i < n; ++i) {
+      std::vector<double> column(static_cast<std::size_t>(n), 0.0);
+      column[static_cast<std::size_t>(i)] = 1;
+      system.solve(column);
+      for (double value : column) inverse = std::isnan(value) ? HUGE_VAL : std::max(inverse, std::abs(value));
+    }
+    if (!(size * inverse < 1e4)) return;
+    const int number = recorder_.matrix(matrix);
+    for (int solutions = 1 + static_cast<int>(engine_() % 2); solutions > 0; --solutions) {
+      std::vector<int> rightSide;
+      for (int i = 0; i < n; ++i) rightSide.push_back(pick());
+      const bool transposed = engine_() % 2 == 0;
+      std::vector<double> x = valuesOf(rightSide);
+      system.solve(x, transposed);
+      if (std::any_of(x.begin(), x.end(), [](double value) { return !(std::abs(value) <= 50); })) continue;
+      const std::vector<int> components = recorder_.solve(number, transposed, rightSide);
+      for (std::size_t i = 0; i < x.size(); ++i) keep(components[i], x[i]);
+    }
+  }
+
+  std::vector<double> valuesOf(const std::vector<int>& nodes) const {
+    std::vector<double> values;
+    for (int node : nodes) values.push_back(value_[static_cast<std::size_t>(node)]);
+    return values;
+  }
+
+  bool withSolutions_ = false;
   std::mt19937_64 engine_;
   Point point_;
   Recorder recorder_;

@@ -2,10 +2,13 @@
 #include "scalars/sample_pack.hpp"
 
 #include <bit>
+#include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "scalars/evaluator.hpp"
 #include "tests/scalars/high_precision.hpp"
+#include "tests/scalars/random_program.hpp"
 #include "tests/scalars/reference.hpp"
 
 namespace gamut::testing {
@@ -27,6 +30,27 @@ std::vector<double> column(const std::vector<double>& rows, std::size_t length, 
   return values;
 }
 
+/// On every unit the bits of Evaluator<double> for every sample; t, x and p are rows.
+void expectSameBits(const Program& program, const std::vector<double>& t, const std::vector<double>& x,
+                    const std::vector<double>& p, const std::string& what) {
+  const auto outputs = static_cast<std::size_t>(program.outputs());
+  Evaluator<double> alone(program);
+  for (VectorUnit unit : usableUnits()) {
+    PackEvaluator pack(program, unit);
+    std::vector<double> y(outputs * width);
+    pack.setParameters(p);
+    pack(t, x, y);
+    for (std::size_t i = 0; i < width; ++i) {
+      alone.setParameters(column(p, width, i));
+      const std::vector<double> truth = alone(t[i], column(x, width, i));
+      for (std::size_t k = 0; k < outputs; ++k)
+        ASSERT_TRUE(bits(y[k * width + i]) == bits(truth[k]) || (std::isnan(y[k * width + i]) && std::isnan(truth[k])))
+            << what << " on " << nameOf(unit) << ", sample " << i << '\n'
+            << pack.tape();
+    }
+  }
+}
+
 TEST(PackEvaluator, GivesEachSampleTheBitsItHasAloneOnEveryUnit) {
   RandomDoubles random;
   for (unsigned seed = 1; seed <= 300; ++seed) {
@@ -34,23 +58,55 @@ TEST(PackEvaluator, GivesEachSampleTheBitsItHasAloneOnEveryUnit) {
     const std::vector<double> t = randomRows(random, width), p = randomRows(random, 2 * width);
     std::vector<double> x = randomRows(random, 3 * width);
     x[5] = 3e7;  // too large for the fast reduction of angles: its neighbours must not notice
-    Evaluator<double> alone(program);
-    for (VectorUnit unit : usableUnits()) {
-      PackEvaluator pack(program, unit);
-      std::vector<double> y(4 * width);
-      pack.setParameters(p);
-      pack(t, x, y);
-      for (std::size_t i = 0; i < width; ++i) {
-        alone.setParameters(column(p, width, i));
-        const std::vector<double> truth = alone(t[i], column(x, width, i));
-        for (std::size_t k = 0; k < 4; ++k)
-          ASSERT_TRUE(bits(y[k * width + i]) == bits(truth[k]) ||
-                      (std::isnan(y[k * width + i]) && std::isnan(truth[k])))
-              << "seed " << seed << " on " << nameOf(unit) << ", sample " << i << '\n'
-              << pack.tape();
-      }
-    }
+    expectSameBits(program, t, x, p, "seed " + std::to_string(seed));
+    if (HasFatalFailure()) return;
   }
+}
+
+TEST(PackEvaluator, GivesEachSampleOfASolutionTheBitsItHasAloneOnEveryUnit) {
+  RandomDoubles random;
+  const Point point;
+  const auto near = [&](const std::vector<double>& values) {  // random programs are defined near their point alone
+    std::vector<double> rows;
+    for (double value : values)
+      for (std::size_t i = 0; i < width; ++i) rows.push_back(value + random.uniform(-1e-3, 1e-3));
+    return rows;
+  };
+  for (unsigned seed = 1; seed <= 300; ++seed) {
+    const Program program = RandomProgram(seed).withSolutions()(40, 6);
+    std::vector<double> x = near(point.x);
+    x[7] = std::numeric_limits<double>::quiet_NaN();
+    expectSameBits(program, near({point.t}), x, near(point.p), "seed " + std::to_string(seed));
+    if (HasFatalFailure()) return;
+  }
+}
+
+TEST(PackEvaluator, SolvesSystemsOfEverySizeAndEachSampleForItself) {
+  RandomDoubles random;
+  for (MatrixKind kind : {MatrixKind::general, MatrixKind::positiveDefinite})
+    for (int n : {3, 4, 7, 12}) {
+      const Program program = record(2 * n, 0, 2 * n, [&](auto, const auto& x, const auto&, auto& y) {
+        std::vector<Recorded> entries, plain, transposed;
+        for (int i = 0; i < n; ++i)
+          for (int j = 0; j < n; ++j)
+            entries.push_back(i == j ? sqr(x[detail::at(i)]) : x[detail::at(i)] * x[detail::at(j)] / (2.0 + i + j));
+        for (int i = 0; i < n; ++i) plain.push_back(x[detail::at(n + i)]), transposed.push_back(x[detail::at(n + i)]);
+        const LinearSystem<Recorded> system(kind, n, entries);
+        system.solve(plain);
+        system.solve(transposed, true);
+        for (int i = 0; i < n; ++i) {
+          y[detail::at(i)] = plain[detail::at(i)];
+          y[detail::at(n + i)] = transposed[detail::at(i)];
+        }
+      });
+      std::vector<double> x = randomRows(random, 2 * static_cast<std::size_t>(n) * width);
+      x[3] = 0;  // a row of zeros: this sample alone has no solution
+      expectSameBits(program, std::vector<double>(width), x, {}, std::to_string(n) + " equations");
+      std::vector<double> y(x.size());
+      PackEvaluator pack(program);
+      pack(std::vector<double>(width), x, y);
+      for (std::size_t i = 0; i < width; ++i) EXPECT_EQ(std::isnan(y[i]), i == 3) << i;
+    }
 }
 
 TEST(PackEvaluator, KeepsItsParametersFromCallToCall) {

@@ -5,6 +5,7 @@
 
 #include "scalars/evaluator.hpp"
 #include "tests/scalars/high_precision.hpp"
+#include "tests/scalars/random_program.hpp"
 
 namespace gamut::testing {
 namespace {
@@ -38,6 +39,34 @@ TEST(Series, OfRandomExpressionsSumToTheirValues) {
     for (std::size_t i = 0; i < truth.size(); ++i) {
       const HighPrecision value = sum(series, program.outputNodes()[i], order, tau);
       ASSERT_LE(HighPrecision(abs(value - truth[i])), (1 + abs(truth[i])) * HighPrecision(1e-36)) << "seed " << seed;
+    }
+  }
+}
+
+TEST(Series, OfProgramsWithSolutionsSumToTheirValues) {
+  constexpr int order = 12;
+  const Precise tau(1e-6);
+  const Point point;
+  const std::vector<Precise> x1{0.7, 1.1, -0.6}, p(point.p.begin(), point.p.end());
+  for (unsigned seed = 1; seed <= 200; ++seed) {
+    const Program program = RandomProgram(seed).withSolutions()(30, 6);
+    Series<Precise> series(program, order);
+    series.setParameters(p);
+    for (int repeated = 0; repeated < 2; ++repeated) {  // at another point first: factors are of this one
+      std::vector<Precise> moved;
+      for (int s = 0; s < 3; ++s) {
+        const auto i = static_cast<std::size_t>(s);
+        series.at(s, 0) = point.x[i] + (1 - repeated) * 1e-3, series.at(s, 1) = x1[i];
+        moved.push_back(point.x[i] + tau * x1[i]);
+      }
+      series.evaluate(Precise(point.t));
+      if (repeated == 0) continue;
+      const auto truth = gamut::evaluate<Precise>(program, moved, p, Precise(point.t + tau));
+      for (std::size_t i = 0; i < truth.size(); ++i) {
+        Precise value(0);
+        for (int k = order; k >= 0; --k) value = value * tau + series.at(program.outputNodes()[i], k);
+        ASSERT_LE(Precise(abs(value - truth[i])), (1 + abs(truth[i])) * Precise("1e-40")) << "seed " << seed;
+      }
     }
   }
 }

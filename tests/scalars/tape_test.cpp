@@ -6,6 +6,7 @@
 
 #include "scalars/evaluator.hpp"
 #include "tests/scalars/high_precision.hpp"
+#include "tests/scalars/random_program.hpp"
 #include "tests/scalars/reference.hpp"
 
 namespace gamut::testing {
@@ -19,8 +20,8 @@ std::vector<double> nodeByNode(const Program& program, double t, const std::vect
                                const std::vector<double>& p) {
   std::vector<double> v;
   for (const Node& n : program.nodes()) {
-    const double a = isOperation(n.op) ? v[detail::at(n.a)] : 0,
-                 b = isOperation(n.op) && n.b >= 0 ? v[detail::at(n.b)] : 0;
+    const bool hasOperands = isOperation(n.op) && n.op != Op::solution;
+    const double a = hasOperands ? v[detail::at(n.a)] : 0, b = hasOperands && n.b >= 0 ? v[detail::at(n.b)] : 0;
     switch (n.op) {
       case Op::state:
         v.push_back(x[detail::at(n.a)]);
@@ -70,6 +71,17 @@ std::vector<double> nodeByNode(const Program& program, double t, const std::vect
       case Op::cos:
         v.push_back(sineCosine(a).cosine);
         break;
+      case Op::solution: {
+        if (n.b > 0) break;  // with component 0
+        const LinearSolution& solution = program.solutions()[detail::at(n.a)];
+        const LinearMatrix& matrix = program.matrices()[detail::at(solution.matrix)];
+        std::vector<double> entries, solved;
+        for (int entry : matrix.entries) entries.push_back(v[detail::at(entry)]);
+        for (int r : solution.rightSide) solved.push_back(v[detail::at(r)]);
+        LinearSystem<double>(matrix.kind, matrix.size, entries).solve(solved, solution.transposed);
+        v.insert(v.end(), solved.begin(), solved.end());
+        break;
+      }
     }
   }
   std::vector<double> y;
@@ -96,6 +108,60 @@ TEST(Tape, OfAnyProgramHasItsValuesToTheBit) {
         ASSERT_TRUE(sameBits(evaluator(t, x), nodeByNode(program, t, x, p))) << "seed " << seed << '\n'
                                                                              << program << evaluator.tape();
     }
+  }
+}
+
+TEST(Tape, OfProgramsWithSolutionsHasTheirValuesToTheBit) {
+  const Point point;
+  int solutions = 0, varyingByInvariant = 0;
+  for (unsigned seed = 1; seed <= 1000; ++seed) {
+    const Program random = RandomProgram(seed).withSolutions()(40, 3);
+    for (const Program& program : {random, random.differentiated(true)}) {
+      for (const LinearSolution& solution : program.solutions()) {
+        const auto isInvariant = [&](int node) { return program.isInvariant(node); };
+        varyingByInvariant +=
+            std::ranges::all_of(program.matrices()[detail::at(solution.matrix)].entries, isInvariant) &&
+            !std::ranges::all_of(solution.rightSide, isInvariant);
+        ++solutions;
+      }
+      Evaluator<double> evaluator(program);
+      for (int pass = 0; pass < 2; ++pass) {
+        evaluator.setParameters(point.p);
+        for (double t : {point.t, point.t + 1e-6})
+          ASSERT_TRUE(sameBits(evaluator(t, point.x), nodeByNode(program, t, point.x, point.p)))
+              << "seed " << seed << '\n'
+              << program << evaluator.tape();
+      }
+    }
+  }
+  EXPECT_GT(solutions, 2000);
+  EXPECT_GT(varyingByInvariant, 20);
+}
+
+TEST(Tape, FactorisesAMatrixOnceAndAnInvariantOneWithTheInvariants) {
+  const auto dynamics = [](bool varies) {
+    return record(3, 3, 6, [varies](auto, const auto& x, const auto& p, auto& y) {
+      const Recorded coupling = varies ? p[2] * cos(x[2]) : p[2];
+      const LinearSystem<Recorded> system(MatrixKind::positiveDefinite, 3,
+                                          {p[0], coupling, 0.5, coupling, p[1], coupling, 0.5, coupling, p[2]});
+      std::vector<Recorded> first{x[0], x[1], x[2]}, second{x[1] * x[2], p[0], x[0]};
+      system.solve(first);
+      system.solve(second);
+      for (std::size_t i = 0; i < 3; ++i) y[i] = first[i], y[3 + i] = second[i];
+    });
+  };
+  for (bool varies : {false, true}) {
+    const Program program = dynamics(varies);
+    const Tape tape(program);
+    EXPECT_EQ(tape.systems().size(), 1u) << tape;
+    EXPECT_EQ(tape.solutions().size(), 2u) << tape;
+    EXPECT_EQ(std::ranges::count(tape.instructions(), TapeOp::factorise, &Instruction::op), varies ? 1 : 0) << tape;
+    EXPECT_EQ(std::ranges::count(tape.invariants(), TapeOp::factorise, &Instruction::op), varies ? 0 : 1) << tape;
+    EXPECT_EQ(tape.operations(), program.operations());
+    std::ostringstream text;
+    text << tape;
+    EXPECT_THAT(text.str(), HasSubstr("  factorise m0 positive definite: s"));
+    EXPECT_THAT(text.str(), HasSubstr("  solution m0: s"));
   }
 }
 
