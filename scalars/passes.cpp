@@ -31,11 +31,8 @@ constexpr Pass table[] = {
 /// How many times each node is used, as an output included.
 std::vector<int> usesOf(const Program& program) {
   std::vector<int> uses(program.nodes().size(), 0);
-  for (const Node& n : program.nodes()) {
-    if (!isOperation(n.op)) continue;
-    ++uses[at(n.a)];
-    if (n.b >= 0) ++uses[at(n.b)];  // the denominators of log and atan too: derivatives need them
-  }
+  for (int i = 0; i < static_cast<int>(uses.size()); ++i)  // denominators of log and atan too: derivatives need them
+    detail::forEachOperand(program.table(), i, [&](int operand) { ++uses[at(operand)]; });
   for (int output : program.outputNodes()) ++uses[at(output)];
   return uses;
 }
@@ -71,15 +68,14 @@ Program optimised(const Program& program) {
 
 ProgramCounts countsOf(const Program& program) {
   ProgramCounts counts;
+  counts.operations = program.operations();
   for (std::size_t i = 0; i < program.nodes().size(); ++i) {
-    const Op op = program.nodes()[i].op;
-    if (!isOperation(op)) continue;
-    if (program.isInvariant(static_cast<int>(i))) {
+    const Node& n = program.nodes()[i];
+    if (!isOperation(n.op) || (n.op == Op::solution && n.b > 0)) continue;
+    if (program.isInvariant(static_cast<int>(i)))
       ++counts.invariant;
-    } else {
-      ++counts.operations;
-      ++counts.of[static_cast<std::size_t>(op)];
-    }
+    else
+      ++counts.of[static_cast<std::size_t>(n.op)];
   }
   for (const ProductSum& sum : sumsOfProducts(program)) {
     ++counts.sums;

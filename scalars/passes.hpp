@@ -56,8 +56,8 @@ Program optimised(const Program& program);
 /// How often each operation occurs and what evaluators can make of it. Nodes that depend on parameters alone are not
 /// counted, since they are computed once.
 struct ProgramCounts {
-  std::array<int, opCount> of{};  ///< by Op
-  int operations = 0;             ///< all of them
+  std::array<int, opCount> of{};  ///< by Op; a solution of a linear system is one
+  int operations = 0;             ///< all of them, in place of solutions the arithmetic of solving
   int invariant = 0;              ///< operations that depend on parameters alone
   int sums = 0;                   ///< sums of products: an evaluator can compute each in one go
   int fusedProducts = 0;          ///< products that occur in them

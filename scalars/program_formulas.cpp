@@ -43,12 +43,20 @@ std::string nameIn(const std::vector<std::string>& names, int i, char letter) {
 class Printer {
  public:
   Printer(const Program& program, const ProgramNames& names)
-      : program_(program), names_(names), formulas_(program.nodes().size()), uses_(countedUses(program)) {}
+      : program_(program),
+        names_(names),
+        formulas_(program.nodes().size()),
+        uses_(countedUses(program)),
+        isWritten_(program.matrices().size()) {}
 
   std::string text() {
     std::array<std::string, 2> lines;  // what depends on parameters alone, and the rest
     for (int i = 0; i < static_cast<int>(formulas_.size()); ++i) {
       if (uses_[at(i)].count == 0) continue;
+      if (program_.nodes()[at(i)].op == Op::solution) {
+        if (program_.nodes()[at(i)].b == 0) writeSolution(i, lines);
+        continue;
+      }
       Formula formula = formulaOf(i);
       if (isOperation(program_.nodes()[at(i)].op) && !isWrittenInside(i, formula)) {
         const std::string name = 'v' + std::to_string(i);
@@ -78,16 +86,65 @@ class Printer {
       ++uses[at(output)].count;
       uses[at(output)].byOutput = true;
     }
+    const auto use = [&uses](int node, bool byVarying) {
+      ++uses[at(node)].count;
+      uses[at(node)].byVarying = uses[at(node)].byVarying || byVarying;
+    };
+    std::vector<char> isUsed(program.matrices().size());
     for (int i = static_cast<int>(uses.size()) - 1; i >= 0; --i) {
       const Node& n = program.nodes()[at(i)];
       if (uses[at(i)].count == 0) continue;
-      for (int k = 0; k < operandsOf(n.op); ++k) {
-        Uses& operand = uses[at(k == 0 ? n.a : n.b)];
-        ++operand.count;
-        operand.byVarying = operand.byVarying || !program.isInvariant(i);
+      const bool varies = !program.isInvariant(i);
+      for (int k = 0; k < operandsOf(n.op); ++k) use(k == 0 ? n.a : n.b, varies);
+      if (n.op != Op::solution) continue;
+      if (n.b > 0) {  // written with component 0
+        ++uses[at(i - n.b)].count;
+        continue;
       }
+      const LinearSolution& solution = program.solutions()[at(n.a)];
+      for (int r : solution.rightSide) use(r, varies);
+      if (isUsed[at(solution.matrix)] != 0) continue;
+      isUsed[at(solution.matrix)] = 1;
+      for (int entry : program.matrices()[at(solution.matrix)].entries)
+        use(entry, !isInvariantMatrix(program, solution.matrix));
     }
     return uses;
+  }
+
+  static bool isInvariantMatrix(const Program& program, int m) {
+    const std::vector<int>& entries = program.matrices()[at(m)].entries;
+    return std::all_of(entries.begin(), entries.end(), [&](int entry) { return program.isInvariant(entry); });
+  }
+
+  /// "[a, b, c]".
+  template <class Item>
+  static std::string list(int count, Item item) {
+    std::string text = "[";
+    for (int k = 0; k < count; ++k) text += (k == 0 ? "" : ", ") + item(k);
+    return text + ']';
+  }
+
+  /// "M0 = [[v7, 1], [1, v9]]" before its first solution, and "[v10, v11] = solve(M0, [x0, x1])".
+  void writeSolution(int first, std::array<std::string, 2>& lines) {
+    const LinearSolution& solution = program_.solutions()[at(program_.nodes()[at(first)].a)];
+    const LinearMatrix& matrix = program_.matrices()[at(solution.matrix)];
+    const std::string name = 'M' + std::to_string(solution.matrix);
+    if (isWritten_[at(solution.matrix)] == 0) {
+      isWritten_[at(solution.matrix)] = 1;
+      const auto row = [&](int i) {
+        return list(matrix.size, [&](int j) { return formulas_[at(matrix.entry(i, j))].text; });
+      };
+      lines[isInvariantMatrix(program_, solution.matrix) ? 0 : 1] +=
+          "  " + name + " = " + list(matrix.size, row) +
+          (matrix.kind == MatrixKind::positiveDefinite ? ", positive definite\n" : "\n");
+    }
+    const std::string components = list(matrix.size, [&](int k) {
+      formulas_[at(first + k)] = {'v' + std::to_string(first + k), atom};
+      return formulas_[at(first + k)].text;
+    });
+    lines[program_.isInvariant(first) ? 0 : 1] +=
+        "  " + components + " = solve(" + (solution.transposed ? "transpose(" + name + ')' : name) + ", " +
+        list(matrix.size, [&](int k) { return formulas_[at(solution.rightSide[at(k)])].text; }) + ")\n";
   }
 
   bool isWrittenInside(int i, const Formula& formula) const {
@@ -145,6 +202,7 @@ class Printer {
   const ProgramNames& names_;
   std::vector<Formula> formulas_;
   std::vector<Uses> uses_;
+  std::vector<char> isWritten_;  // of matrices
 };
 
 /// "3 states", "1 state".

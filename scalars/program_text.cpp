@@ -16,7 +16,8 @@
 namespace gamut {
 namespace {
 
-constexpr std::string_view header = "gamut-program 1";
+/// Of programs without linear systems, and with them.
+constexpr std::string_view header = "gamut-program 1", headerWithSystems = "gamut-program 2";
 
 // Numbers are read only in the form in which they are written: then no digit is overlooked or rounded away.
 
@@ -50,8 +51,21 @@ std::string quoted(std::string_view text) {
   return result + (text.size() > 60 ? "...'" : "'");
 }
 
-/// More words than any line of a program has.
+std::string_view nameOf(MatrixKind kind) { return kind == MatrixKind::general ? "general" : "positiveDefinite"; }
+
+/// More words than any line of a program has but those of linear systems.
 constexpr std::size_t tooMany = 5;
+
+/// What is between single blanks, the first words.
+std::vector<std::string_view> split(std::string_view all, std::size_t most) {
+  std::vector<std::string_view> result;
+  for (std::size_t begin = 0; begin <= all.size() && result.size() < most;) {
+    const std::size_t end = std::min(all.find(' ', begin), all.size());
+    result.push_back(all.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return result;
+}
 
 /// One line at a time, split at single blanks.
 class Lines {
@@ -70,16 +84,9 @@ class Lines {
   }
 
   /// The words of the next line; no more than tooMany of them.
-  std::vector<std::string_view> words(std::string_view expected) {
-    const std::string_view all = line(expected);
-    std::vector<std::string_view> result;
-    for (std::size_t begin = 0; begin <= all.size() && result.size() < tooMany;) {
-      const std::size_t end = std::min(all.find(' ', begin), all.size());
-      result.push_back(all.substr(begin, end - begin));
-      begin = end + 1;
-    }
-    return result;
-  }
+  std::vector<std::string_view> words(std::string_view expected) { return split(line(expected), tooMany); }
+  /// All words of the line that was read last.
+  std::vector<std::string_view> allWords() const { return split(line_, line_.size() + 1); }
 
   /// True if there is another line, which then is the current one.
   bool hasMore() {
@@ -107,6 +114,7 @@ class Lines {
 /// What has been read so far; every node in it may be relied on.
 struct Parts : detail::NodeList {
   int states = 0, parameters = 0;
+  bool hasSystems = false;  // by the header
 };
 
 /// The one input that node i must be; nothing behind the inputs.
@@ -122,6 +130,70 @@ Interval readConstant(const Lines& lines, const std::vector<std::string_view>& w
   if (!lower || !upper) lines.fail("a constant has two finite ends such as -0x1.8p+3, not " + quoted(lines.text()));
   if (!(*lower <= *upper)) lines.fail("the ends of a constant are in order, not " + quoted(lines.text()));
   return {*lower, *upper};
+}
+
+/// The nodes in words from `first` on, each before the node that comes next.
+std::vector<int> readOperands(const Lines& lines, const std::vector<std::string_view>& words, std::size_t first,
+                              const Parts& parts) {
+  std::vector<int> operands;
+  for (std::size_t i = first; i < words.size(); ++i) {
+    const auto operand = readNumber(words[i]);
+    if (!operand || detail::at(*operand) >= parts.nodes.size())
+      lines.fail("an operand is a node before this one, 0 to " + std::to_string(parts.nodes.size() - 1) + ", not " +
+                 quoted(words[i]));
+    operands.push_back(*operand);
+  }
+  return operands;
+}
+
+/// "matrix general 4 5 6 7"
+void readMatrix(const Lines& lines, Parts& parts) {
+  const auto words = lines.allWords();
+  const std::string_view kind = words.size() > 1 ? words[1] : "";
+  LinearMatrix matrix;
+  for (MatrixKind known : {MatrixKind::general, MatrixKind::positiveDefinite})
+    if (nameOf(known) == kind) matrix.kind = known;
+  if (nameOf(matrix.kind) != kind)
+    lines.fail("a matrix is 'general' or 'positiveDefinite', not " + quoted(lines.text()));
+  matrix.entries = readOperands(lines, words, 2, parts);
+  while (detail::at(matrix.size) * detail::at(matrix.size) < matrix.entries.size()) ++matrix.size;
+  if (matrix.size == 0 || detail::at(matrix.size) * detail::at(matrix.size) != matrix.entries.size())
+    lines.fail("a matrix has as many columns as rows, not " + std::to_string(matrix.entries.size()) + " entries");
+  for (int i = 0; i < matrix.size && matrix.kind == MatrixKind::positiveDefinite; ++i)
+    for (int j = 0; j < i; ++j)
+      if (matrix.entry(i, j) != matrix.entry(j, i))
+        lines.fail("the entries (i, j) and (j, i) of a positive definite matrix are the same node, not " +
+                   std::to_string(matrix.entry(i, j)) + " and " + std::to_string(matrix.entry(j, i)));
+  parts.matrices.push_back(std::move(matrix));
+}
+
+/// "14 solution 0 1 2" or "14 solution 0 transposed 1 2", behind the matrix if it is its first solution.
+void readSolution(const Lines& lines, bool isFirst, Parts& parts) {
+  const auto words = lines.allWords();
+  LinearSolution solution;
+  const auto number = words.size() > 2 ? readNumber(words[2]) : std::nullopt;
+  if (!number || detail::at(*number) >= parts.matrices.size())
+    lines.fail("a solution is one of a matrix before it, not " + quoted(lines.text()));
+  solution.matrix = *number;
+  if (isFirst && detail::at(*number) + 1 != parts.matrices.size())
+    lines.fail("a matrix is followed by its first solution, not by one of matrix " + std::to_string(*number));
+  const LinearMatrix& matrix = parts.matrices[detail::at(*number)];
+  solution.transposed = words.size() > 3 && words[3] == "transposed";
+  if (solution.transposed && matrix.kind == MatrixKind::positiveDefinite)
+    lines.fail("a positive definite matrix is not transposed: " + quoted(lines.text()));
+  solution.rightSide = readOperands(lines, words, solution.transposed ? 4 : 3, parts);
+  if (solution.rightSide.size() != detail::at(matrix.size))
+    lines.fail("a solution of " + std::to_string(matrix.size) + " equations has as many right-hand sides, not " +
+               std::to_string(solution.rightSide.size()));
+  parts.solutions.push_back(std::move(solution));
+  parts.push({Op::solution, static_cast<int>(parts.solutions.size()) - 1, 0});
+}
+
+/// How many components of the last solution are still to come.
+int missingComponents(const Parts& parts) {
+  const Node& last = parts.nodes.back();
+  if (last.op != Op::solution) return 0;
+  return static_cast<int>(parts.solutions[detail::at(last.a)].rightSide.size()) - 1 - last.b;
 }
 
 Node readOperation(const Lines& lines, const std::vector<std::string_view>& words, Op op, const Parts& parts) {
@@ -150,11 +222,28 @@ Node readOperation(const Lines& lines, const std::vector<std::string_view>& word
 
 void readNode(Lines& lines, Parts& parts) {
   const int number = static_cast<int>(parts.nodes.size());
-  const auto words = lines.words("node " + std::to_string(number));
+  auto words = lines.words("node " + std::to_string(number));
+  const bool isNext =
+      !inputAt(parts, number).empty() || parts.nodes.back().op == Op::sin || missingComponents(parts) > 0;
+  const bool hasMatrix = parts.hasSystems && words[0] == "matrix" && !isNext;
+  if (hasMatrix) {
+    readMatrix(lines, parts);
+    words = lines.words("the matrix's first solution");
+  }
   if (words[0] != std::to_string(number))
     lines.fail("node " + std::to_string(number) + " is expected, not " + quoted(lines.text()));
+  if (const int missing = inputAt(parts, number).empty() ? missingComponents(parts) : 0; missing > 0) {
+    const Node& last = parts.nodes.back();
+    const std::string expected = std::to_string(number) + " component " + std::to_string(last.b + 1);
+    if (lines.text() != expected) lines.fail(quoted(expected) + " is expected, not " + quoted(lines.text()));
+    parts.push({Op::solution, last.a, last.b + 1});
+    return;
+  }
   const auto op = words.size() > 1 ? readOp(words[1]) : std::nullopt;
-  if (!op) lines.fail("an operation is expected behind the number, not " + quoted(lines.text()));
+  if (hasMatrix && op != Op::solution)
+    lines.fail("a matrix is followed by its first solution, not by " + quoted(lines.text()));
+  if (!op || (op == Op::solution && !parts.hasSystems))
+    lines.fail("an operation is expected behind the number, not " + quoted(lines.text()));
   if (const std::string input = inputAt(parts, number); !input.empty()) {
     if (lines.text() != std::to_string(number) + " " + input)
       lines.fail(quoted(std::to_string(number) + " " + input) + " is expected, not " + quoted(lines.text()));
@@ -169,6 +258,7 @@ void readNode(Lines& lines, Parts& parts) {
     parts.push({Op::constant, static_cast<int>(parts.constants.size()) - 1});
     return;
   }
+  if (*op == Op::solution) return readSolution(lines, hasMatrix, parts);
   if (!isOperation(*op)) lines.fail("inputs come before all other nodes, not " + quoted(lines.text()));
   const Node node = readOperation(lines, words, *op, parts);
   if (*op == Op::cos && (before.op != Op::sin || before.a != node.a))
@@ -181,10 +271,16 @@ Program assembled(const Parts& parts, const std::vector<int>& outputs) {
   Recorder recorder(parts.states, parts.parameters, RuleSet::none());
   for (std::size_t i = detail::at(recorder.size()); i < parts.nodes.size(); ++i) {
     const Node& n = parts.nodes[i];
-    if (n.op == Op::constant)
+    if (n.op == Op::constant) {
       recorder.constant(parts.constants[detail::at(n.a)]);
-    else if (n.op != Op::cos)  // comes with its sine
+    } else if (n.op == Op::solution && n.b == 0) {
+      const LinearSolution& solution = parts.solutions[detail::at(n.a)];
+      if (detail::at(solution.matrix) == recorder.table().matrices.size())
+        recorder.matrix(parts.matrices[detail::at(solution.matrix)]);
+      recorder.solve(solution.matrix, solution.transposed, solution.rightSide);
+    } else if (n.op != Op::cos && n.op != Op::solution) {  // these come with their sines and first components
       recorder.emit(n.op, n.a, n.b);
+    }
   }
   return recorder.program(outputs);
 }
@@ -197,14 +293,30 @@ void saveProgram(std::ostream& out, const Program& program) {
     text += '\n';
     out.write(text.data(), static_cast<std::streamsize>(text.size()));
   };
-  line(std::string(header));
+  line(std::string(program.matrices().empty() ? header : headerWithSystems));
   line("states " + std::to_string(program.states()));
   line("parameters " + std::to_string(program.parameters()));
   line("nodes " + std::to_string(program.nodes().size()));
+  const auto add = [](std::string& text, const std::vector<int>& nodes) {
+    for (int node : nodes) text += ' ' + std::to_string(node);
+  };
+  std::size_t matrices = 0;  // that have been written
   for (std::size_t i = 0; i < program.nodes().size(); ++i) {
     const Node& n = program.nodes()[i];
     std::string text = std::to_string(i) + ' ' + std::string(nameOf(n.op));
-    if (n.op == Op::constant) {
+    if (n.op == Op::solution && n.b > 0) {
+      text = std::to_string(i) + " component " + std::to_string(n.b);
+    } else if (n.op == Op::solution) {
+      const LinearSolution& solution = program.solutions()[detail::at(n.a)];
+      if (detail::at(solution.matrix) == matrices) {
+        const LinearMatrix& matrix = program.matrices()[matrices++];
+        std::string entries = "matrix " + std::string(nameOf(matrix.kind));
+        add(entries, matrix.entries);
+        line(std::move(entries));
+      }
+      text += ' ' + std::to_string(solution.matrix) + (solution.transposed ? " transposed" : "");
+      add(text, solution.rightSide);
+    } else if (n.op == Op::constant) {
       const Interval& value = program.constants()[detail::at(n.a)];
       text += ' ' + toExactString(value.lower()) + ' ' + toExactString(value.upper());
     } else {
@@ -220,8 +332,10 @@ void saveProgram(std::ostream& out, const Program& program) {
 
 Program loadProgram(std::istream& in) {
   Lines lines(in);
-  if (lines.line(quoted(header)) != header) lines.fail(quoted(header) + " is expected, not " + quoted(lines.text()));
   Parts parts;
+  parts.hasSystems = lines.line(quoted(header)) == headerWithSystems;
+  if (!parts.hasSystems && lines.text() != header)
+    lines.fail(quoted(header) + " is expected, not " + quoted(lines.text()));
   parts.states = lines.count("states");
   parts.parameters = lines.count("parameters");
   const int nodes = lines.count("nodes");
@@ -231,6 +345,8 @@ Program loadProgram(std::istream& in) {
                std::to_string(nodes));
   for (int i = 0; i < nodes; ++i) readNode(lines, parts);
   if (parts.nodes.back().op == Op::sin) lines.fail("a sine is followed by its cosine, not by the end of the nodes");
+  if (missingComponents(parts) > 0)
+    lines.fail("component " + std::to_string(parts.nodes.back().b + 1) + " is expected, not the end of the nodes");
   const int outputCount = lines.count("outputs");
   std::vector<int> outputs;
   for (int i = 0; i < outputCount; ++i) {

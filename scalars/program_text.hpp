@@ -17,6 +17,15 @@
 //   1
 //   7
 //   end
+//
+// Linear systems begin with the version 2. A matrix has a line before its first solution, and a number, 0, 1, …, by its
+// place; the components of a solution are nodes in a row.
+//
+//   matrix positiveDefinite 4 5 6 5 7 8 6 8 9      or general; the entries' nodes row by row
+//   14 solution 0 1 2 3        of matrix 0; the right-hand side's nodes
+//   15 component 1
+//   16 component 2
+//   17 solution 0 transposed 1 2 3                 of a general matrix
 #pragma once
 
 #include <iosfwd>
@@ -34,7 +43,8 @@ struct ProgramNames {
 
 /// Formulas, one line for everything that is used more than once and one for each output, in the order of evaluation:
 /// `v7 = ...` is node 7. First what depends on parameters alone. A constant in braces, {9.81}, is not a double: it is
-/// enclosed by neighbouring doubles around the decimal shown. Time is t.
+/// enclosed by neighbouring doubles around the decimal shown. Time is t. A matrix has a line before its first solution,
+/// `M0 = [[...], ...]`; `[v7, v8, v9] = solve(M0, [...])` are its components.
 void print(std::ostream& out, const Program& program, const ProgramNames& names = {});
 
 /// Writes the kept form.

@@ -22,7 +22,7 @@ int count(const Program& program, Op op) {
 TEST(Rules, EachKeepsTheValueOfWhatItReplacesAndFindsWork) {
   std::map<std::string_view, int> applied;
   for (unsigned seed = 1; seed <= 400; ++seed) {
-    const Program program = RandomProgram(seed)(40, 1);
+    const Program program = RandomProgram(seed).withSolutions()(40, 1);
     Recorder recorder(program, RuleSet::none());
     std::vector<int> outputs;
     std::vector<std::string_view> laws;
@@ -60,7 +60,7 @@ TEST(Rules, AreEachNamedByTheirLawAndServeAPass) {
 TEST(Passes, EachAloneKeepsTheMeaningOfEveryProgram) {
   for (const Pass& pass : passes())
     for (unsigned seed = 1; seed <= 150; ++seed) {
-      const Program program = RandomProgram(seed)(60, 12);
+      const Program program = RandomProgram(seed).withSolutions()(60, 12);
       expectSameMeaning(program, pass.apply(program), std::string(pass.name) + ", seed " + std::to_string(seed));
       if (HasFatalFailure()) return;
     }
@@ -69,7 +69,7 @@ TEST(Passes, EachAloneKeepsTheMeaningOfEveryProgram) {
 TEST(Passes, InAnyOrderKeepTheMeaningOfEveryProgramAndOfItsDerivatives) {
   std::mt19937_64 engine(7);
   for (unsigned seed = 1; seed <= 150; ++seed) {
-    Program program = RandomProgram(1000 + seed)(40, 4);
+    Program program = RandomProgram(1000 + seed).withSolutions()(40, 4);
     if (seed % 3 == 0) program = program.differentiated(true);
     Program rewritten = program;
     std::string order = "seed " + std::to_string(seed) + ":";
@@ -89,7 +89,7 @@ TEST(Passes, NeverAddOperationsWhereTheySaySo) {
   for (const Pass& pass : passes()) {
     claims += pass.neverMoreOperations;
     for (unsigned seed = 1; seed <= 300 && pass.neverMoreOperations; ++seed) {
-      const Program program = dropUnused(RandomProgram(seed)(60, 8));
+      const Program program = dropUnused(RandomProgram(seed).withSolutions()(60, 8));
       EXPECT_LE(dropUnused(pass.apply(program)).operations(), program.operations()) << pass.name << ", seed " << seed;
     }
   }
@@ -98,7 +98,7 @@ TEST(Passes, NeverAddOperationsWhereTheySaySo) {
 
 TEST(Passes, TogetherReachAFixedPointThatIsNeverDearer) {
   for (unsigned seed = 1; seed <= 150; ++seed) {
-    const Program program = RandomProgram(seed)(80, 15), better = optimised(program);
+    const Program program = RandomProgram(seed).withSolutions()(80, 15), better = optimised(program);
     expectSameMeaning(program, better, "seed " + std::to_string(seed));
     if (HasFatalFailure()) return;
     EXPECT_LE(better.operations(), dropUnused(program).operations()) << "seed " << seed;
@@ -125,7 +125,7 @@ TEST(Passes, MakeAProgramRecordedWithoutRulesAsShortAsOneRecordedWithThem) {
   EXPECT_LE(optimised(plain).operations(), atOnce.operations());
   int longer = 0, total = 0;
   for (unsigned seed = 1; seed <= 300; ++seed) {
-    const Program program = RandomProgram(seed)(80, 15);
+    const Program program = RandomProgram(seed).withSolutions()(80, 15);
     Recorder recorder(3, 2);
     const std::vector<int> here = recorder.append(program);
     std::vector<int> outputs;
@@ -327,7 +327,7 @@ TEST(DropUnused, LeavesInputsAndWhatOutputsNeed) {
 TEST(SumsOfProducts, AddUpToTheNodeTheyStandFor) {
   int sums = 0;
   for (unsigned seed = 1; seed <= 300; ++seed) {
-    const Program program = dropUnused(RandomProgram(seed)(80, 20));
+    const Program program = dropUnused(RandomProgram(seed).withSolutions()(80, 20));
     std::vector<int> all;
     for (int i = 0; i < static_cast<int>(program.nodes().size()); ++i) all.push_back(i);
     const auto values = Point().values<Precise>(Recorder(program).program(all));

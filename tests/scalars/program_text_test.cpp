@@ -109,7 +109,7 @@ TEST(PrintedProgram, ShowsEnclosedConstantsAsWhatTheyAre) {
 
 TEST(SavedProgram, IsLoadedNodeByNode) {
   for (unsigned seed = 1; seed <= 150; ++seed) {
-    const Program program = RandomProgram(seed)(60, 8);
+    const Program program = RandomProgram(seed).withSolutions()(60, 8);
     std::vector<Program> all{program, program.differentiated(true), optimised(program)};
     for (const Pass& pass : passes()) all.push_back(pass.apply(program));
     for (const Program& p : all) {
@@ -158,7 +158,7 @@ struct GroupedDigits : std::numpunct<char> {
 };
 
 TEST(SavedProgram, IsTheSameTextOnEveryStream) {
-  const Program program = RandomProgram(5)(60, 8);
+  const Program program = RandomProgram(5).withSolutions()(60, 8);
   std::ostringstream kept, formulas;
   for (std::ostringstream* out : {&kept, &formulas}) {
     out->imbue(std::locale(out->getloc(), new GroupedDigits));
@@ -194,7 +194,7 @@ TEST(SavedProgram, IsRefusedWithOneLineThatSaysWhere) {
   });
   const std::string text = saved(program);
   const std::vector<std::array<std::string, 3>> cases{
-      {"gamut-program 1", "gamut-program 2", "program, line 1: 'gamut-program 1' is expected, not 'gamut-program 2'"},
+      {"gamut-program 1", "gamut-program 3", "program, line 1: 'gamut-program 1' is expected, not 'gamut-program 3'"},
       {"states 1", "states one", "program, line 2: 'states' and a number is expected, not 'states one'"},
       {"states 1", "states -1", "program, line 2: 'states' and a number is expected, not 'states -1'"},
       {"states 1", "states 2000000000", "program, line 4: at least 2000000001 nodes are expected"},
@@ -271,7 +271,7 @@ TEST(SavedProgram, BrokenAtRandomIsRefusedOrIsAnotherProgramButNeverMore) {
   int refused = 0, other = 0;
   for (unsigned seed = 1; seed <= 3000; ++seed) {
     static const std::string some = "0123456789 -.xpabcdefghilmnoqrstu\n\r\t\"\\\0\xff";
-    std::string text = saved(RandomProgram(seed % 50 + 1)(20, 3));
+    std::string text = saved(RandomProgram(seed % 50 + 1).withSolutions()(20, 3));
     for (int edits = 1 + static_cast<int>(engine() % 3); edits > 0; --edits) {
       const std::size_t at = engine() % text.size();
       switch (engine() % 4) {
