@@ -19,6 +19,7 @@ struct PackRun {
   double* slot(std::int32_t number) const { return slots + static_cast<std::ptrdiff_t>(number) * packWidth; }
   void factorise(std::int32_t number, int sample, int count) const;
   void solve(std::int32_t number, int sample, int count) const;
+  void runPositiveDefinite(int system, const TapeSolution* solution, int sample, int count) const;
 };
 
 namespace {
@@ -47,71 +48,80 @@ void callFunction(TapeOp op, std::span<const double> a, std::span<double> result
   }
 }
 
-/// Rows of packs as vectors: row(i) is what lies in row i from one sample on.
-template <class V, class Start>
-struct VectorRows {
-  using InArray = typename Layout<V>::InArray;
-  Start start;
-  int sample;
+constexpr int triangular(int i, int j) { return i * (i + 1) / 2 + j; }
 
-  template <class... I>
-  GAMUT_INLINE InArray& operator()(I... i) const {
-    return *reinterpret_cast<InArray*>(start(i...) + sample);
+#define GAMUT_FOR_GROUP _Pragma("GCC unroll 4") for (int j = 0; j < Group<V>::size; ++j)
+
+/// Vectors side by side, whose operations the processor overlaps: those of one wait for one another.
+template <class V>
+struct __attribute__((may_alias)) Group {
+  static constexpr int size = 4, samples = size * lanes<V>;
+  V part[size];
+
+  // As a whole it would be copied in pieces of 16 bytes: see load().
+  GAMUT_INLINE Group(const Group& other) { *this = other; }
+  GAMUT_INLINE Group& operator=(const Group& other) {
+    GAMUT_FOR_GROUP part[j] = other.part[j];
+    return *this;
   }
 };
 
-constexpr int triangular(int i, int j) { return i * (i + 1) / 2 + j; }
+template <class V>
+GAMUT_INLINE void subtractProduct(Group<V>& x, const Group<V>& a, const Group<V>& b) {
+  GAMUT_FOR_GROUP detail::subtractProduct(x.part[j], a.part[j], b.part[j]);
+}
+template <class V>
+GAMUT_INLINE void multiplyBy(Group<V>& x, const Group<V>& a) {
+  GAMUT_FOR_GROUP detail::multiplyBy(x.part[j], a.part[j]);
+}
+template <class V>
+GAMUT_INLINE void invertPivot(Group<V>& x) {
+  GAMUT_FOR_GROUP detail::invertPivot(x.part[j]);
+}
+
+/// A solution by the factors of L and D in rows, or their computation if there is no solution.
+struct PositiveDefiniteTask {
+  const TapeSystem& system;
+  const TapeSolution* solution;
+  double *slots, *factors;
+
+  template <class V>
+  GAMUT_INLINE void run(int sample) const {
+    // The factors of a group lie side by side: its samples' rows would be 512 bytes apart, which caches dislike.
+    double* const ofGroup = factors + static_cast<std::ptrdiff_t>(sample) * triangular(system.size, 0);
+    const auto factor = [=](int i, int j) __attribute__((always_inline))->Group<V>& {
+      return *reinterpret_cast<Group<V>*>(ofGroup + triangular(i, j) * Group<V>::samples);
+    };
+    const auto slot = [ this, sample ](std::int32_t number) __attribute__((always_inline))->Group<V>& {
+      return *reinterpret_cast<Group<V>*>(slots + static_cast<std::ptrdiff_t>(number) * packWidth + sample);
+    };
+    const int n = system.size;
+    if (solution == nullptr) {
+      const std::int32_t* const entries = system.entries.data();
+      factoriseLDLt<Group<V>>(
+          n, [=](int i, int j) __attribute__((always_inline))->Group<V> & { return slot(entries[i * n + j]); }, factor);
+    } else {
+      const std::int32_t *const r = solution->rightSide.data(), *const x = solution->results.data();
+      solveLDLt<Group<V>>(
+          n, factor, [=](int i) __attribute__((always_inline))->Group<V> & { return slot(r[i]); },
+          [=](int i) __attribute__((always_inline))->Group<V> & { return slot(x[i]); });
+    }
+  }
+};
 
 template <class V>
-GAMUT_INLINE void factoriseBlock(const TapeSystem& system, double* slots, double* factors, int sample, int count) {
-  const std::int32_t* const entries = system.entries.data();
-  const int n = system.size;
-  const auto entry = [=](int i, int j) __attribute__((always_inline)) {
-    return slots + static_cast<std::ptrdiff_t>(entries[i * n + j]) * packWidth;
-  };
-  const auto factor = [=](int i, int j) __attribute__((always_inline)) {
-    return factors + triangular(i, j) * packWidth;
-  };
-  for (int end = sample + count; sample < end; sample += lanes<V>)
-    factoriseLDLt<V>(n, VectorRows<V, decltype(entry)>{entry, sample}, VectorRows<V, decltype(factor)>{factor, sample});
+GAMUT_INLINE void runTask(const PositiveDefiniteTask& task, int sample, int count) {
+  for (int end = sample + count; sample < end; sample += Group<V>::samples) task.run<V>(sample);
 }
 
-template <class V>
-GAMUT_INLINE void solveBlock(const TapeSolution& solution, double* slots, double* factors, int sample, int count) {
-  const std::int32_t *const r = solution.rightSide.data(), *const x = solution.results.data();
-  const int n = static_cast<int>(solution.results.size());
-  const auto factor = [=](int i, int j) __attribute__((always_inline)) {
-    return factors + triangular(i, j) * packWidth;
-  };
-  const auto right = [=](int i) __attribute__((always_inline)) {
-    return slots + static_cast<std::ptrdiff_t>(r[i]) * packWidth;
-  };
-  const auto result = [=](int i) __attribute__((always_inline)) {
-    return slots + static_cast<std::ptrdiff_t>(x[i]) * packWidth;
-  };
-  for (int end = sample + count; sample < end; sample += lanes<V>)
-    solveLDLt<V>(n, VectorRows<V, decltype(factor)>{factor, sample}, VectorRows<V, decltype(right)>{right, sample},
-                 VectorRows<V, decltype(result)>{result, sample});
+void runTaskOnBaseline(const PositiveDefiniteTask& task, int sample, int count) {
+  runTask<Vector2>(task, sample, count);
 }
-
-void factoriseOnBaseline(const TapeSystem& system, double* slots, double* factors, int sample, int count) {
-  factoriseBlock<Vector2>(system, slots, factors, sample, count);
+GAMUT_AVX2 void runTaskOnAvx2(const PositiveDefiniteTask& task, int sample, int count) {
+  runTask<Vector4>(task, sample, count);
 }
-GAMUT_AVX2 void factoriseOnAvx2(const TapeSystem& system, double* slots, double* factors, int sample, int count) {
-  factoriseBlock<Vector4>(system, slots, factors, sample, count);
-}
-GAMUT_AVX512 void factoriseOnAvx512(const TapeSystem& system, double* slots, double* factors, int sample, int count) {
-  factoriseBlock<Vector8>(system, slots, factors, sample, count);
-}
-
-void solveOnBaseline(const TapeSolution& solution, double* slots, double* factors, int sample, int count) {
-  solveBlock<Vector2>(solution, slots, factors, sample, count);
-}
-GAMUT_AVX2 void solveOnAvx2(const TapeSolution& solution, double* slots, double* factors, int sample, int count) {
-  solveBlock<Vector4>(solution, slots, factors, sample, count);
-}
-GAMUT_AVX512 void solveOnAvx512(const TapeSolution& solution, double* slots, double* factors, int sample, int count) {
-  solveBlock<Vector8>(solution, slots, factors, sample, count);
+GAMUT_AVX512 void runTaskOnAvx512(const PositiveDefiniteTask& task, int sample, int count) {
+  runTask<Vector8>(task, sample, count);
 }
 
 // For each vector j of the block; unrolled, so that the accumulator stays in registers.
@@ -208,33 +218,29 @@ GAMUT_AVX512 void runOnAvx512(const PackRun& pack, const std::vector<Instruction
 
 void PackRun::factorise(std::int32_t number, int sample, int count) const {
   const TapeSystem& system = tape.systems()[at(number)];
-  PackEvaluator::Factors& to = factors[at(number)];
-  if (system.kind == MatrixKind::positiveDefinite) {
-    const auto execute = unit == VectorUnit::avx512 ? factoriseOnAvx512
-                         : unit == VectorUnit::avx2 ? factoriseOnAvx2
-                                                    : factoriseOnBaseline;
-    return execute(system, slots, to.rows.front().values, sample, count);
-  }
+  if (system.kind == MatrixKind::positiveDefinite) return runPositiveDefinite(number, nullptr, sample, count);
   for (int i = sample; i < sample + count; ++i)
-    to.samples[at(i)].assign(system.kind, system.size,
-                             [&](int row, int column) { return slot(system.entry(row, column))[i]; });
+    factors[at(number)].samples[at(i)].assign(system.kind, system.size,
+                                              [&](int row, int column) { return slot(system.entry(row, column))[i]; });
 }
 
 void PackRun::solve(std::int32_t number, int sample, int count) const {
   const TapeSolution& solution = tape.solutions()[at(number)];
-  PackEvaluator::Factors& by = factors[at(solution.system)];
-  if (!by.rows.empty()) {
-    const auto execute = unit == VectorUnit::avx512 ? solveOnAvx512
-                         : unit == VectorUnit::avx2 ? solveOnAvx2
-                                                    : solveOnBaseline;
-    return execute(solution, slots, by.rows.front().values, sample, count);
-  }
+  if (tape.systems()[at(solution.system)].kind == MatrixKind::positiveDefinite)
+    return runPositiveDefinite(solution.system, &solution, sample, count);
   std::vector<double> x(solution.results.size());
   for (int i = sample; i < sample + count; ++i) {
     for (std::size_t k = 0; k < x.size(); ++k) x[k] = slot(solution.rightSide[k])[i];
-    by.samples[at(i)].solve(x, solution.transposed);
+    factors[at(solution.system)].samples[at(i)].solve(x, solution.transposed);
     for (std::size_t k = 0; k < x.size(); ++k) slot(solution.results[k])[i] = x[k];
   }
+}
+
+void PackRun::runPositiveDefinite(int system, const TapeSolution* solution, int sample, int count) const {
+  const auto execute = unit == VectorUnit::avx512 ? runTaskOnAvx512
+                       : unit == VectorUnit::avx2 ? runTaskOnAvx2
+                                                  : runTaskOnBaseline;
+  execute({tape.systems()[at(system)], solution, slots, factors[at(system)].rows.front().values}, sample, count);
 }
 
 PackEvaluator::PackEvaluator(const Program& program, VectorUnit unit)
