@@ -97,6 +97,34 @@ TEST(PrintedProgram, NamesWhatIsUsedTwiceOnce) {
             "  y1 = v3\n");
 }
 
+/// Two solutions of a general matrix, one of them transposed, and one of a positive definite matrix of parameters.
+Program withSystems() {
+  Recorder recorder(3, 1, RuleSet::none());
+  const int one = recorder.constant(1.0), two = recorder.constant(2.0), product = recorder.mul(0, 1);
+  const int general = recorder.matrix({MatrixKind::general, 2, {product, one, 2, two}});
+  const std::vector<int> plain = recorder.solve(general, false, {1, one}),
+                         transposed = recorder.solve(general, true, {plain[1], 0});
+  const int definite = recorder.matrix({MatrixKind::positiveDefinite, 2, {two, 3, 3, two}});
+  const std::vector<int> fixed = recorder.solve(definite, false, {one, 3});
+  const int sum = recorder.add(transposed[0], fixed[0]);
+  return recorder.program({sum, fixed[1], plain[0]});
+}
+
+TEST(PrintedProgram, NamesEachMatrixOnce) {
+  EXPECT_EQ(printed(withSystems()),
+            "3 states, 1 parameter, 3 outputs; 51 operations: 1 add, 1 mul, 2 solution; 1 once for given parameters\n"
+            "for given parameters:\n"
+            "  M1 = [[2, p0], [p0, 2]], positive definite\n"
+            "  [v12, v13] = solve(M1, [1, p0])\n"
+            "for every state:\n"
+            "  M0 = [[x0 * x1, 1], [x2, 2]]\n"
+            "  [v8, v9] = solve(M0, [x1, 1])\n"
+            "  [v10, v11] = solve(transpose(M0), [v9, x0])\n"
+            "  y0 = v10 + v12\n"
+            "  y1 = v13\n"
+            "  y2 = v8\n");
+}
+
 TEST(PrintedProgram, ShowsEnclosedConstantsAsWhatTheyAre) {
   const Program program = record<1>([](const auto& x) {
     return std::array{x[0] + Recorded(pi()), x[0] + Recorded(Interval(1, 2)), x[0] + 0.1};
@@ -234,6 +262,70 @@ TEST(SavedProgram, IsRefusedWithOneLineThatSaysWhere) {
       {"end\n", "end\nmore\n", "program, line 21: nothing is expected behind 'end', not 'more'"},
   };
   for (const auto& [from, to, message] : cases) EXPECT_THAT(refusal(text, from, to), HasSubstr(message)) << text;
+}
+
+TEST(SavedProgram, WithSystemsLooksAsDocumentedAndIsRefusedWithOneLine) {
+  const std::string text = saved(withSystems());
+  EXPECT_EQ(text,
+            "gamut-program 2\n"
+            "states 3\n"
+            "parameters 1\n"
+            "nodes 15\n"
+            "0 state 0\n"
+            "1 state 1\n"
+            "2 state 2\n"
+            "3 parameter 0\n"
+            "4 time\n"
+            "5 constant 0x1p+0 0x1p+0\n"
+            "6 constant 0x1p+1 0x1p+1\n"
+            "7 mul 0 1\n"
+            "matrix general 7 5 2 6\n"
+            "8 solution 0 1 5\n"
+            "9 component 1\n"
+            "10 solution 0 transposed 9 0\n"
+            "11 component 1\n"
+            "matrix positiveDefinite 6 3 3 6\n"
+            "12 solution 1 5 3\n"
+            "13 component 1\n"
+            "14 add 10 12\n"
+            "outputs 3\n"
+            "14\n"
+            "13\n"
+            "8\n"
+            "end\n");
+  EXPECT_TRUE(isIdentical(loaded(text), withSystems()));
+  const std::vector<std::array<std::string, 3>> cases{
+      {"gamut-program 2", "gamut-program 1", "program, line 13: node 8 is expected, not 'matrix general 7 5 2 6'"},
+      {"matrix general", "matrix",
+       "program, line 13: a matrix is 'general' or 'positiveDefinite', not 'matrix 7 5 2 6'"},
+      {"matrix general 7", "matrix symmetric 7", "program, line 13: a matrix is 'general' or 'positiveDefinite', not"},
+      {"general 7 5 2 6", "general", "program, line 13: a matrix has as many columns as rows, not 0 entries"},
+      {"general 7 5 2 6", "general 7 5 2", "program, line 13: a matrix has as many columns as rows, not 3 entries"},
+      {"general 7 5 2 6", "general 7 5 2 8", "program, line 13: an operand is a node before this one, 0 to 7, not '8'"},
+      {"general 7 5 2 6", "general 7 5 2 6 ", "program, line 13: an operand is a node before this one, 0 to 7, not ''"},
+      {"general 7 5 2 6", "general 7 5 2 -1",
+       "program, line 13: an operand is a node before this one, 0 to 7, not '-1'"},
+      {"Definite 6 3 3 6", "Definite 6 3 2 6",
+       "program, line 18: the entries (i, j) and (j, i) of a positive definite "},
+      {"8 solution 0 1 5", "8 solution 1 1 5", "program, line 14: a solution is one of a matrix before it, not"},
+      {"8 solution 0 1 5", "8 solution", "program, line 14: a solution is one of a matrix before it, not '8 solution'"},
+      {"8 solution 0 1 5", "8 solution 0 1",
+       "program, line 14: a solution of 2 equations has as many right-hand sides"},
+      {"8 solution 0 1 5", "8 solution 0 1 5 5", "program, line 14: a solution of 2 equations has as many right-hand"},
+      {"8 solution 0 1 5", "8 solution 0 1 8",
+       "program, line 14: an operand is a node before this one, 0 to 7, not '8'"},
+      {"8 solution 0 1 5", "8 sqr 0", "program, line 14: a matrix is followed by its first solution, not by '8 sqr 0'"},
+      {"12 solution 1 5", "12 solution 0 5",
+       "program, line 19: a matrix is followed by its first solution, not by one"},
+      {"12 solution 1 5", "12 solution 1 transposed 5",
+       "program, line 19: a positive definite matrix is not transposed"},
+      {"9 component 1", "9 component 2", "program, line 15: '9 component 1' is expected, not '9 component 2'"},
+      {"9 component 1", "9 sqr 0", "program, line 15: '9 component 1' is expected, not '9 sqr 0'"},
+      {"9 component 1\n", "matrix general 1\n", "program, line 15: node 9 is expected, not 'matrix general 1'"},
+      {"14 add 10 12", "14 component 1", "program, line 21: an operation is expected behind the number, not"},
+      {"nodes 15", "nodes 13", "program, line 19: component 1 is expected, not the end of the nodes"},
+  };
+  for (const auto& [from, to, message] : cases) EXPECT_THAT(refusal(text, from, to), HasSubstr(message));
 }
 
 TEST(SavedProgram, TakesTheTimeOfItsLengthToLoad) {
