@@ -97,16 +97,8 @@ class LinearSystem {
     using std::abs;
     const auto m = factors();
     const int n = size_;
-    rowSizes_.assign(detail::at(n), S(0.0));
     pivots_.resize(detail::at(n));
-    for (int j = 0; j < n; ++j) {  // of what columns divided by their greatest entry have in each row, the greatest
-      S greatest(0.0);
-      for (int i = 0; i < n; ++i) greatest = std::max(greatest, S(abs(m(i, j))));
-      for (int i = 0; i < n; ++i) {
-        S& size = rowSizes_[detail::at(i)];
-        size = std::max(size, S(abs(m(i, j)) / greatest));
-      }
-    }
+    measureRows();
     for (int k = 0; k < n; ++k) {
       int pivot = k;
       S greatest(-1.0);
@@ -125,6 +117,23 @@ class LinearSystem {
         m(i, k) = factor;
         for (int j = k + 1; j < n; ++j) m(i, j) = m(i, j) - factor * m(k, j);
       }
+    }
+  }
+
+  /// The greatest entry of each row in units of the columns, which are the columns' greatest in units of the rows.
+  void measureRows() {
+    using std::abs;
+    const auto m = factors();
+    rowSizes_.assign(detail::at(size_), S(0.0));
+    columnSizes_.assign(detail::at(size_), S(0.0));
+    const auto enlarge = [](S& size, const S& candidate) { size = std::max(size, candidate); };  // not by a NaN
+    for (int i = 0; i < size_; ++i)
+      for (int j = 0; j < size_; ++j) enlarge(rowSizes_[detail::at(i)], S(abs(m(i, j))));
+    for (int i = 0; i < size_; ++i)
+      for (int j = 0; j < size_; ++j) enlarge(columnSizes_[detail::at(j)], S(abs(m(i, j)) / rowSizes_[detail::at(i)]));
+    for (int i = 0; i < size_; ++i) {
+      rowSizes_[detail::at(i)] = S(0.0);
+      for (int j = 0; j < size_; ++j) enlarge(rowSizes_[detail::at(i)], S(abs(m(i, j)) / columnSizes_[detail::at(j)]));
     }
   }
 
@@ -154,7 +163,7 @@ class LinearSystem {
 
   MatrixKind kind_ = MatrixKind::general;
   int size_ = 0;
-  std::vector<S> factors_, entries_, rowSizes_;  // entries of a general matrix only
+  std::vector<S> factors_, entries_, rowSizes_, columnSizes_;  // all but the first of a general matrix only
   std::vector<int> pivots_;
 };
 

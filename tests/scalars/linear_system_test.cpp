@@ -130,6 +130,15 @@ TEST(LinearSystem, SolvesEachRowInItsOwnUnits) {
   const std::vector<double> x = m.solve(r);
   EXPECT_NEAR(x[0], 1, 1e-9);
   EXPECT_NEAR(x[1], 1, 1e-9);
+  // Here, nothing would be left of the others to refine by.
+  for (const double unit : {1e30, 1e-30, 1.0}) {
+    Matrix<double> rows{MatrixKind::general, 3, {1e-20, 1, 1, 1, 1, 0.5, 1, 0.5, 2}};
+    for (int j = 0; j < 3; ++j) rows(0, j) *= unit;
+    for (bool transposed : {false, true}) {
+      const std::vector<double> right{transposed ? 1 : unit, 2, 3}, solved = rows.solve(right, transposed);
+      EXPECT_LE(relativeResidual(rows, solved, right, transposed), Precise(0x1p-50)) << unit;
+    }
+  }
 }
 
 TEST(LinearSystem, OfAPermutationExchangesOnly) {
