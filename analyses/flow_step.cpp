@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <type_traits>
+#include <vector>
 
 #include "analyses/error_bounds.hpp"
 #include "scalars/index.hpp"
@@ -16,8 +18,17 @@ using detail::at;
 
 namespace {
 
-constexpr double dumpedAt = 0.2;    // a frame column with more ξ-dependence than this goes back to a constant one
-constexpr int generatorsKept = 60;  // steps whose errors are kept apart; older ones merge into the box R
+constexpr double dumpedAt = 0.2;     // a frame column with more ξ-dependence than this goes back to a constant one
+/// Steps whose errors are kept apart; older ones merge into the box R. What it costs grows as the rest of a step does,
+/// so that long motions of many states, which lose most by merging, keep more.
+int stepsKept(int n) { return std::clamp(30 * n, 60, 300); }
+
+/// Generators, n numbers each, as the columns of a matrix.
+template <class Generators>
+auto columnsOf(Generators& generators, int n) {
+  using Matrix = std::conditional_t<std::is_const_v<Generators>, const Eigen::MatrixXd, Eigen::MatrixXd>;
+  return Eigen::Map<Matrix>(generators.data(), n, static_cast<Eigen::Index>(generators.size()) / n);
+}
 
 }  // namespace
 
@@ -265,13 +276,11 @@ void FlowStepper::evaluate(const FlowSet& set, double tau, FlowPoint& point) {
   // Ψ_0 Γ: n roundings an entry, together at most n u |Ψ_0| Σ|Γ_j|.
   const std::size_t n = set.R.size();
   point.zonotope.resize(set.generators.size());
-  for (std::size_t column = 0; column < set.generators.size(); column += n)
-    for (std::size_t i = 0; i < n; ++i) {
-      double sum = 0;
-      for (std::size_t k = 0; k < n; ++k) sum += point.psi[i * n + k] * set.generators[column + k];
-      point.zonotope[column + i] = sum;
-      point.radius[i] += std::fabs(sum);
-    }
+  const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> psi(point.psi.data(),
+                                                                                                     n_, n_);
+  Eigen::Map<Eigen::MatrixXd> zonotope = columnsOf(point.zonotope, n_);
+  zonotope.noalias() = psi * columnsOf(set.generators, n_);
+  Eigen::Map<Eigen::VectorXd>(point.radius.data(), n_) += zonotope.cwiseAbs().rowwise().sum();
   for (std::size_t i = 0; i < n; ++i) {
     double size = 0;
     for (std::size_t k = 0; k < n; ++k) size += std::fabs(point.psi[i * n + k]) * total_[k];
@@ -414,24 +423,15 @@ void FlowStepper::advance(FlowSet& set) {
   }
   // Γ' = fl(T Γ), n roundings an entry, and fl(Qᵀ diag w), one: together (n+1) u (|T| Σ|Γ| + |Qᵀ| w) into the box.
   box += (n_ + 1) * bounds::unit * (T.cwiseAbs() * total + turned);
-  std::vector<double> generators;
-  generators.reserve(set.generators.size() + at(n_ * n_));
-  std::size_t oldest = 0;
-  Eigen::VectorXd merged = Eigen::VectorXd::Zero(n_);
-  if (set.generators.size() >= at(generatorsKept * n_ * n_)) oldest = at(n_ * n_);
-  for (std::size_t column = 0; column < set.generators.size(); column += at(n_))
-    for (int i = 0; i < n_; ++i) {
-      double sum = 0;
-      for (int k = i; k < n_; ++k) sum += T(i, k) * set.generators[column + at(order[at(k)])];
-      if (column < oldest)
-        merged(i) += std::fabs(sum);
-      else
-        generators.push_back(sum);
-    }
-  for (int j = 0; j < n_; ++j)
-    for (int i = 0; i < n_; ++i) generators.push_back(Q(j, i) * w(j));
+  Matrix turn(n_, n_);  // T, its columns where the generators' components stand
+  for (int k = 0; k < n_; ++k) turn.col(order[at(k)]) = T.col(k);
+  Matrix moved(n_, columnsOf(set.generators, n_).cols() + n_);
+  moved.leftCols(moved.cols() - n_).noalias() = turn * columnsOf(set.generators, n_);
+  moved.rightCols(n_) = (w.asDiagonal() * Q).transpose();
+  const int oldest = moved.cols() > stepsKept(n_) * n_ ? n_ : 0;
+  const Eigen::VectorXd merged = moved.leftCols(oldest).cwiseAbs().rowwise().sum();
   const Eigen::VectorXd newR = (T.cwiseAbs() * R + merged + box) * bounds::up;
-  set.generators = std::move(generators);
+  set.generators.assign(moved.data() + oldest * n_, moved.data() + moved.size());
 
   set.t += h_;  // exact: both are multiples of the quantum
   set.p = end_.p;
