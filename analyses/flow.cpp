@@ -17,6 +17,7 @@
 #include "analyses/flow_step.hpp"
 #include "analyses/polynomial_range.hpp"
 #include "analyses/workers.hpp"
+#include "scalars/evaluator.hpp"
 #include "scalars/index.hpp"
 #include "scalars/rounding.hpp"
 
@@ -34,6 +35,12 @@ void join(std::vector<Interval>& into, const std::vector<Interval>& from) {
     return;
   }
   for (std::size_t i = 0; i < into.size(); ++i) into[i] = hull(into[i], from[i]);
+}
+
+/// Both hold; where nothing is left (no value is defined), `into` stays.
+void narrow(std::vector<Interval>& into, const std::vector<Interval>& other) {
+  for (std::size_t i = 0; i < into.size(); ++i)
+    if (const Interval both = intersection(into[i], other[i]); !isEmpty(both)) into[i] = both;
 }
 
 /// A set of monomials and the degree of the frame over it.
@@ -289,17 +296,20 @@ class FlowRun {
     wake_.notify_one();
   }
 
+  /// g over start values in plain intervals: exactly what is known exactly.
+  std::vector<Interval> outputsAtStart(const Box& box) const {
+    Evaluator<Interval> g(outputProgram_);
+    const auto states = box.begin() + motion_.states();
+    g.setParameters(std::vector<Interval>(states, box.end()));
+    return g(Interval(0.0), std::vector<Interval>(box.begin(), states));
+  }
+
   Tube gather(std::vector<Collected>& collected);
 
   /// A thread's workspace, and the journey of one piece.
   class Worker {
    public:
-    Worker(FlowRun& run, Collected& collected)
-        : run_(run),
-          collected_(collected),
-          tools_(run.layouts_.size()),
-          series_(run.motion_, 2),
-          outputSeries_(run.outputProgram_, 2) {}
+    Worker(FlowRun& run, Collected& collected) : run_(run), collected_(collected), tools_(run.layouts_.size()) {}
 
     /// Advances `piece` to `end` or to its failure.
     Journey follow(Piece& piece, double end) {
@@ -345,6 +355,7 @@ class FlowRun {
       FlowStepper stepper;
       PolynomialRange range;
       std::unique_ptr<FlowOutputs> outputs;
+      std::unique_ptr<FlowOutputChords> chords;
     };
 
     void use(const Piece& piece) {
@@ -353,9 +364,12 @@ class FlowRun {
         const Layout& layout = run_.layouts_[piece.layout];
         tools = std::make_unique<Tools>(Tools{FlowStepper(run_.differentiated_, layout.monomials, layout.frameDegree,
                                                           run_.options_.order, run_.tolerance_),
-                                              PolynomialRange(layout.monomials), nullptr});
-        if (run_.outputProgram_.outputs() > 0)
+                                              PolynomialRange(layout.monomials), nullptr, nullptr});
+        if (run_.outputProgram_.outputs() > 0) {
           tools->outputs = std::make_unique<FlowOutputs>(run_.outputProgram_, layout.monomials);
+          tools->chords =
+              std::make_unique<FlowOutputChords>(run_.outputProgram_, layout.monomials, run_.options_.order);
+        }
       }
       tool_ = tools.get();
       outputs_ = tool_->outputs.get();
@@ -451,19 +465,18 @@ class FlowRun {
       }
       std::vector<Interval> end, endOutputs;
       double from = t0;
-      bool outputCurvatureKnown = false;
+      bool chordsKnown = false;
       const auto segment =
           [&](double to) {  // from `from` to `to`: the chord's hull and how far a motion leaves a chord
-            const double length = subUp(to, from), eighth = mulUp(mulUp(length, length), 0.125);
-            tool_->stepper.bulge(length, bulge_);
+            tool_->stepper.sag(from - t0, to - t0, sag_);
             for (std::size_t i = 0; i < end.size(); ++i)
-              piece.over[i] = hull(piece.over[i], inflated(hull(piece.last[i], end[i]), bulge_[i]));
+              piece.over[i] = hull(piece.over[i], hull(piece.last[i], end[i]) + sag_[i]);
             if (outputs_) {
-              if (!outputCurvatureKnown) boundOutputCurvature(piece, t0, t1);
-              outputCurvatureKnown = true;
+              if (!chordsKnown) tool_->chords->load(tool_->stepper, piece.set);
+              chordsKnown = true;
+              tool_->chords->sag(from - t0, to - t0, sag_);
               for (std::size_t i = 0; i < endOutputs.size(); ++i)
-                piece.overOutputs[i] = hull(piece.overOutputs[i], inflated(hull(piece.lastOutputs[i], endOutputs[i]),
-                                                                           mulUp(eighth, outputCurvature_[i])));
+                piece.overOutputs[i] = hull(piece.overOutputs[i], hull(piece.lastOutputs[i], endOutputs[i]) + sag_[i]);
             }
             piece.last = end;
             piece.lastOutputs = endOutputs;
@@ -495,46 +508,15 @@ class FlowRun {
       return true;
     }
 
-    /// |ÿ| over the step, from interval Taylor coefficients over a box that contains the step's motions.
-    void boundOutputCurvature(const Piece& piece, double t0, double t1) {
-      tool_->stepper.evaluate(piece.set, 0.0, point_);
-      std::vector<Interval> first, last;
-      const int n = run_.motion_.states(), N = monomialCount_;
-      for (int i = 0; i < n; ++i)
-        first.push_back(inflated(tool_->range(&point_.p[at(i * N)], whole_), point_.radius[at(i)]));
-      tool_->stepper.evaluate(piece.set, t1 - t0, point_);
-      for (int i = 0; i < n; ++i)
-        last.push_back(inflated(tool_->range(&point_.p[at(i * N)], whole_), point_.radius[at(i)]));
-      std::vector<double> bulge;
-      tool_->stepper.bulge(subUp(t1, t0), bulge);
-      std::vector<Interval> x;
-      for (int i = 0; i < n; ++i) x.push_back(inflated(hull(first[at(i)], last[at(i)]), bulge[at(i)]));
-      const std::vector<Interval> p(run_.box_.begin() + n, run_.box_.end());
-      series_.setParameters(p);
-      outputSeries_.setParameters(p);
-      const Interval time(t0, t1);
-      series_.solve(time, x);
-      for (int i = 0; i < n; ++i)
-        for (int order = 0; order <= 2; ++order) outputSeries_.at(i, order) = series_.at(i, order);
-      outputSeries_.evaluate(time);
-      outputCurvature_.clear();
-      for (int node : run_.outputProgram_.outputNodes()) {
-        const Interval& second = outputSeries_.at(node, 2);
-        outputCurvature_.push_back(isEmpty(second) ? std::numeric_limits<double>::infinity()
-                                                   : mulUp(2.0, magnitude(second)));
-      }
-    }
-
     FlowRun& run_;
     Collected& collected_;
     std::vector<std::unique_ptr<Tools>> tools_;  // one a layout, made when first needed
     Tools* tool_ = nullptr;                      // of the piece at hand, as are the next two
     FlowOutputs* outputs_ = nullptr;
     int monomialCount_ = 0, symbols_ = 0;
-    Series<Interval> series_, outputSeries_;
     FlowPoint point_;
     Box whole_;
-    std::vector<double> bulge_, outputCurvature_;
+    std::vector<Interval> sag_;
   };
 
   const Program& motion_;
@@ -590,6 +572,8 @@ Tube FlowRun::gather(std::vector<Collected>& collected) {
     for (auto& part : collected)
       for (auto& level : part.cuts) level[0] = tube.outputs_[0].empty() ? tube.states_[0] : tube.outputs_[0];
   }
+  narrow(tube.outputs_[0], outputsAtStart(box_));
+  tube.outputsOver_[0] = tube.outputs_[0];
   tube.cuts_.assign(levels_.size(), std::vector<std::vector<Interval>>(rows));
   for (std::size_t level = 0; level < levels_.size(); ++level)
     for (std::size_t row = 0; row < rows; ++row) {
@@ -601,6 +585,7 @@ Tube FlowRun::gather(std::vector<Collected>& collected) {
                                              : outputProgram_.outputs() > 0 ? tube.outputs_[row]
                                                                             : tube.states_[row];
       for (std::size_t i = 0; i < cut.size(); ++i) cut[i] = intersection(cut[i], outside[i]);
+      if (row == 0) narrow(cut, outputProgram_.outputs() > 0 ? outputsAtStart(levels_[level]) : levels_[level]);
     }
   for (std::size_t row = 1; row < rows; ++row)
     for (std::size_t i = 0; i < tube.states_[row].size(); ++i)

@@ -21,6 +21,7 @@ struct FlowSet {
   std::vector<Embedded> parameters;
   std::vector<double> centre, half;  // ξ of the study = centre + half·ξ of this piece (exact: dyadic)
   std::vector<int> units;            // FlowGrowth's, of the last step
+  std::vector<double> largest;       // size of each state over the steps so far, at most
   double nextStep = 0;               // s, a guess
   double caution = 1;                // factor on the step that the last coefficients suggest
 };

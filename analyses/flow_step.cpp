@@ -30,6 +30,10 @@ auto columnsOf(Generators& generators, int n) {
   return Eigen::Map<Matrix>(generators.data(), n, static_cast<Eigen::Index>(generators.size()) / n);
 }
 
+// A state is followed relative to its size, but a body at rest need not be: to what it was, or its box; and never below
+// what bounds can tell from underflow, bounds::tiny over a tolerance.
+constexpr double vanished = 0x1p-120, leastSize = 0x1p-530;
+
 }  // namespace
 
 FlowStepper::FlowStepper(const Program& motion, std::shared_ptr<const Monomials> monomials, int frameDegree, int order,
@@ -40,11 +44,17 @@ FlowStepper::FlowStepper(const Program& motion, std::shared_ptr<const Monomials>
       series_(motion, motion.states(), std::move(monomials), frameDegree, order, true),
       growth_(motion.states(), order) {
   epsilon_.assign(at(n_ * n_), 0.0);
-  for (auto* v : {&delta0_, &delta1_, &start_, &E_, &y_, &e1_, &nu0_, &nu1_, &scale_}) v->assign(at(n_), 0.0);
+  for (auto* v :
+       {&delta0_, &delta1_, &start_, &E_, &y_, &e1_, &nu0_, &nu1_, &scale_, &floor_, &second_, &third_, &turn_})
+    v->assign(at(n_), 0.0);
 }
 
 void FlowStepper::load(const FlowSet& set) {
   totalRadius(set, total_);
+  for (int i = 0; i < n_; ++i) {
+    floor_[at(i)] = leastSize;
+    if (!set.largest.empty()) floor_[at(i)] = std::max(leastSize, vanished * set.largest[at(i)]);
+  }
   const int N = series_.count();
   for (int i = 0; i < n_; ++i) series_.setState(i, &set.p[at(i * N)]);
   for (std::size_t i = 0; i < set.parameters.size(); ++i) series_.setParameter(static_cast<int>(i), set.parameters[i]);
@@ -62,11 +72,11 @@ double FlowStepper::suggestion(double theta) const {
       for (int g = 0; g < series_.count(); ++g) sum += std::fabs(x[g * series_.stride() + order]);
       return sum;
     };
-    const double size = norm(0) + norm(1) * std::min(theta, 1.0);
+    const double size = std::max(norm(0) + norm(1) * std::min(theta, 1.0), floor_[at(i)]);
     for (int order : {m_ - 1, m_}) {
       const double last = norm(order);
       if (!std::isfinite(last)) return std::nan("");
-      if (last > 0 && size > 0) best = std::min(best, std::pow(tolerance_ * size / last, 1.0 / order));
+      if (last > 0) best = std::min(best, std::pow(tolerance_ * size / last, 1.0 / order));
     }
   }
   return best;
@@ -86,7 +96,7 @@ bool FlowStepper::tryStep(const FlowSet& set, double theta) {
     // δ = x̃' - f(x̃): the bound of f's node, and one rounding in the division by i+1.
     delta0_[at(i)] = (series_.rho0(f) + bounds::unit * series_.norm(f)) * bounds::up + bounds::tiny;
     delta1_[at(i)] = series_.rho1(f);
-    scale_[at(i)] = series_.norm(i);
+    scale_[at(i)] = std::max(series_.norm(i), floor_[at(i)]);
     double start = set.W[at(i)];
     for (int g = 0; g < series_.frameCount(); ++g)
       for (int j = 0; j < n_; ++j) start += std::fabs(set.C[at((g * n_ + i) * n_ + j)]) * total_[at(j)];
@@ -123,10 +133,8 @@ bool FlowStepper::tryStep(const FlowSet& set, double theta) {
       kept += growth_.M0(i, j) * set.W[at(j)];
     }
     e1_[at(i)] = (time + truncation + kept) * bounds::up + bounds::tiny;
-    if (scale_[at(i)] > 0) {
-      timeError_ = std::max(timeError_, time / scale_[at(i)]);
-      truncation_ = std::max(truncation_, truncation / scale_[at(i)]);
-    }
+    timeError_ = std::max(timeError_, time / scale_[at(i)]);
+    truncation_ = std::max(truncation_, truncation / scale_[at(i)]);
   }
   for (int j = 0; j < n_; ++j) {
     for (int i = 0; i < n_; ++i) series_.frameDefect(i, j, nu0_[at(i)], nu1_[at(i)]);
@@ -217,6 +225,7 @@ StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum,
       }
       h_ = h;
       theta_ = h / h0_;
+      boundDerivatives();
       if (h < left)
         caution_ *= std::clamp(std::pow(tolerance_ / std::max(timeError_, 1e-40), 1.0 / (m_ + 1)), 0.7, 1.15);
       caution_ = std::clamp(caution_, 0x1p-6, 2.0);
@@ -251,7 +260,7 @@ void FlowStepper::evaluate(const FlowSet& set, double tau, FlowPoint& point) {
   for (int i = 0; i < n_; ++i) {
     double error = 0;
     for (int g = 0; g < N; ++g) point.p[at(i * N + g)] = horner(series_.series(i) + g * stride, error);
-    point.loose[at(i)] = error + e1_[at(i)];
+    point.loose[at(i)] = tau == 0 ? set.W[at(i)] : error + e1_[at(i)];  // the start itself is known
   }
   point.total = total_;
   for (int i = 0; i < n_; ++i) {
@@ -268,7 +277,7 @@ void FlowStepper::evaluate(const FlowSet& set, double tau, FlowPoint& point) {
       // Ψ_0 r by the box R; Ψ_0 Γ s below; the higher Ψ_α by the whole radius.
       const double leading = std::fabs(point.psi[at(i * n_ + j)]);
       radius += leading * set.R[at(j)] + (sum * bounds::up - leading * bounds::down) * (NJ > 1 ? total_[at(j)] : 0.0);
-      loose += (error + epsilon_[at(i * n_ + j)]) * total_[at(j)];
+      if (tau != 0) loose += (error + epsilon_[at(i * n_ + j)]) * total_[at(j)];
     }
     point.loose[at(i)] = loose;
     point.radius[at(i)] = radius;
@@ -289,25 +298,26 @@ void FlowStepper::evaluate(const FlowSet& set, double tau, FlowPoint& point) {
   }
 }
 
-void FlowStepper::bulge(double length, std::vector<double>& bound) const {
-  const double share = length / h0_;  // in σ, exactly
-  // |Σ i(i-1) c_i σ^{i-2}| ≤ Σ i(i-1)|c_i|θ^{i-2}.
-  const auto second = [&](const double* c, int count) {
-    double sum = 0, power = 1;
-    for (int i = 2; i <= m_; ++i, power *= theta_) {
-      double order = 0;
-      for (int g = 0; g < count; ++g) order += std::fabs(c[g * series_.stride() + i]);
-      sum += i * (i - 1) * order * power;
-    }
-    return sum;
-  };
-  bound.assign(at(n_), 0.0);
+double FlowStepper::looseBound(int i) const {
+  double loose = e1_[at(i)];
+  for (int j = 0; j < n_; ++j) loose += epsilon_[at(i * n_ + j)] * total_[at(j)];
+  return loose * bounds::up;
+}
+
+void FlowStepper::boundDerivatives() {
   for (int i = 0; i < n_; ++i) {
-    double sum = second(series_.series(i), series_.count());
+    second_[at(i)] = series_.derivativeNorm(i, 2, theta_);
+    third_[at(i)] = series_.derivativeNorm(i, 3, theta_);
+    turn_[at(i)] = 0;
     for (int j = 0; j < n_; ++j)
-      if (total_[at(j)] > 0) sum += second(series_.frame(i, j), series_.frameCount()) * total_[at(j)];
-    bound[at(i)] = sum * (share * share / 8) * bounds::up + bounds::tiny;
+      if (total_[at(j)] > 0) turn_[at(i)] += series_.frameDerivativeNorm(i, j, 2, theta_) * total_[at(j)];
   }
+}
+
+void FlowStepper::sag(double from, double to, std::vector<Interval>& bound) const {
+  bound.clear();
+  for (int i = 0; i < n_; ++i)  // in σ, exactly
+    bound.push_back(series_.sag(i, from / h0_, to / h0_, second_[at(i)], third_[at(i)], turn_[at(i)]));
 }
 
 void FlowStepper::advance(FlowSet& set) {
@@ -438,6 +448,8 @@ void FlowStepper::advance(FlowSet& set) {
   set.nextStep = h_ * 1.1;
   set.caution = caution_;
   set.units = growth_.units();
+  set.largest.resize(at(n_), 0.0);
+  for (int i = 0; i < n_; ++i) set.largest[at(i)] = std::max(set.largest[at(i)], series_.norm(i));
   for (int i = 0; i < n_; ++i) {
     set.R[at(i)] = newR(i);
     set.W[at(i)] = 0;
@@ -458,7 +470,7 @@ double FlowStepper::relativeRemainder(const FlowSet& set) const {
   for (int i = 0; i < n_; ++i) {
     double remainder = set.W[at(i)];
     for (int j = 0; j < n_; ++j) remainder += std::fabs(set.C[at(i * n_ + j)]) * total[at(j)];
-    if (scale_[at(i)] > 0) largest = std::max(largest, remainder / scale_[at(i)]);
+    largest = std::max(largest, remainder / scale_[at(i)]);
   }
   return largest;
 }
@@ -469,7 +481,7 @@ int FlowStepper::worstSymbol() const {
   for (int from : {m.degree() - 1, 1}) {  // the highest powers; at a fresh start, the linear terms
     for (int i = 0; i < n_; ++i)
       for (int g = 1; g < m.count(); ++g) {
-        if (m.grade(g) < from || scale_[at(i)] <= 0) continue;
+        if (m.grade(g) < from) continue;
         double size = 0, power = 1;
         for (int order = 0; order <= m_; ++order, power *= theta_)
           size += std::fabs(series_.series(i)[g * series_.stride() + order]) * power;

@@ -329,6 +329,42 @@ bool PolynomialSeries::bound(const double* E, bool primaryOnly) {
   return true;
 }
 
+double PolynomialSeries::derivativeNorm(const Plan& v, int k, double theta) const {
+  double sum = 0, power = 1;
+  for (int i = k; i <= last(); ++i, power *= theta) {
+    double order = 0, factor = 1;
+    for (int g = 0; g < v.count; ++g) order += std::fabs(f_[v.f + at(g * stride_ + i)]);
+    for (int j = 0; j < k; ++j) factor *= i - j;
+    sum += factor * order * power;
+  }
+  return sum * bounds::up + bounds::tiny;
+}
+
+/// y = chord - ½ (σ - from)(to - σ) ÿ(somewhere), so y leaves it by -share²/8 times a value of ÿ or of zero. About the
+/// middle ÿ = Σ_α ÿ_α(middle) ξ^α + at most half times the third derivative; Horner's scheme for ÿ_α has 2m roundings,
+/// and one more in i(i-1)c.
+Interval PolynomialSeries::sag(int node, double from, double to, double second, double third, double more) const {
+  const Plan& v = plan_[at(node)];
+  const double middle = 0.5 * (from + to), half = std::max(to - middle, middle - from) * bounds::up;
+  double leading = 0, others = 0;
+  for (int g = 0; g < v.count; ++g) {
+    const double* c = &f_[v.f + at(g * stride_)];
+    double sum = 0;
+    for (int i = last(); i >= 2; --i) sum = sum * middle + i * (i - 1) * c[i];
+    if (g == 0)
+      leading = sum;
+    else
+      others += std::fabs(sum);
+  }
+  others = (others + half * third + (2 * m_ + 2) * bounds::unit * second + more) * bounds::up;
+  const double share = to - from, eighth = share * share / 8, most = (second + more) * bounds::up;
+  const auto bound = [&](double slope) {
+    const double curvature = std::min(most, slope + others + bounds::unit * std::fabs(slope));
+    return std::max(0.0, curvature) * eighth * bounds::up + bounds::tiny;
+  };
+  return Interval(-bound(leading), bound(-leading));
+}
+
 double PolynomialSeries::jacobianBound(int i, int j) const {
   const int node = outputs_[at(n_ + i * n_ + j)];
   return (norm_[at(node)] + rho0_[at(node)] + rho1_[at(node)]) * bounds::up;
