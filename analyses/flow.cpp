@@ -149,13 +149,15 @@ class FlowRun {
     // Bisection is cheap for one symbol and dear for several: with these, begin loosely.
     const double patience = std::pow(20.0, std::clamp(embedding_.symbols - 1, 0, 3));
     splitDefect_ = options.splitDefect * patience * embedding_.widest / tighter;
+    mostPieces_ = options.maxPieces;
     tolerance_ = options.tolerance > 0 ? options.tolerance : embedding_.symbols == 0 ? 1e-15 : 1e-14;
   }
 
   /// The greatest share of the remainder in a width, and whether all was proved: is it worth trying a tighter
   /// threshold?
   bool isLoose(const Tube& tube) const {
-    if (embedding_.symbols == 0 || !options_.split || tube.why() == interruptedText || pieces_ >= options_.maxPieces)
+    if (embedding_.symbols == 0 || !options_.split || tube.why() == interruptedText || pieces_ >= mostPieces_ ||
+        !ended_.empty())
       return false;
     return tube.reached() < horizon_ || looseness_ > 0.005;
   }
@@ -281,11 +283,38 @@ class FlowRun {
     }
   }
 
-  bool mayBisect() {
+  bool mayBisect(const Piece& piece) {
     const std::lock_guard lock(mutex_);
-    if (!options_.split || pieces_ >= options_.maxPieces) return false;
+    if (!options_.split || pieces_ >= mostPieces_) return false;
     ++pieces_;
+    if (embedding_.symbols > 0 && pieces_ >= nextProbe_ && ended_.empty()) {
+      nextProbe_ = 2 * pieces_;
+      probe(piece);
+    }
     return true;
+  }
+
+  /// Where bisection goes on and on: one start of the piece, followed alone. If not even that gets far beyond the
+  /// piece, no bisection of the box does, and only as many pieces again are worth their while.
+  void probe(const Piece& piece) {
+    Box start = box_;
+    for (std::size_t i = 0; i < start.size(); ++i)
+      if (const Embedded& e = embedding_.components[i]; e.symbol >= 0)
+        start[i] = std::clamp(e.centre + e.half * piece.set.centre[at(e.symbol)], box_[i].lower(), box_[i].upper());
+    FlowOptions options;
+    options.order = options_.order;
+    options.split = false;
+    options.maxWidth = options_.maxWidth;
+    options.cancelled = options_.cancelled;
+    options.stateNames = options_.stateNames;
+    const Program none =
+        record(motion_.states(), motion_.parameters(), 0, [](const auto&, const auto&, const auto&, auto&) {});
+    const double horizon = std::min(horizon_, 1.5 * piece.set.t);
+    if (!(horizon > 0)) return;
+    const Tube alone = FlowRun(motion_, differentiated_, none, options, start, horizon, {}, {}, 1.0).run();
+    if (alone.reached() >= horizon || alone.why() == interruptedText) return;
+    ended_ = "one start of the box by itself: " + alone.why();
+    mostPieces_ = std::min(mostPieces_, 2 * pieces_);
   }
 
   void add(Piece piece) {
@@ -329,7 +358,7 @@ class FlowRun {
           const int symbol = tool_->stepper.worstSymbol();
           // Centres of pieces are exact: fifty bisections of one symbol is as far as that goes.
           const bool tooFine = symbol < run_.embedding_.symbols && piece.set.half[at(symbol)] < 0x1p-50;
-          if (!futile && !tooFine && run_.mayBisect()) {
+          if (!futile && !tooFine && run_.mayBisect(piece)) {
             Piece other = piece;
             other.set = tool_->stepper.bisect(piece.set, symbol, tool_->range);
             run_.add(std::move(other));
@@ -365,6 +394,7 @@ class FlowRun {
         tools = std::make_unique<Tools>(Tools{FlowStepper(run_.differentiated_, layout.monomials, layout.frameDegree,
                                                           run_.options_.order, run_.tolerance_),
                                               PolynomialRange(layout.monomials), nullptr, nullptr});
+        tools->stepper.setStateNames(run_.options_.stateNames);
         if (run_.outputProgram_.outputs() > 0) {
           tools->outputs = std::make_unique<FlowOutputs>(run_.outputProgram_, layout.monomials);
           tools->chords =
@@ -500,9 +530,10 @@ class FlowRun {
         enclose(piece, t1 - t0, end, endOutputs);
         segment(t1);
       }
-      for (const Interval& state : piece.last)
-        if (!(width(state) <= run_.options_.maxWidth)) {
-          run_.fail(t1, "an enclosure became wider than the limit");
+      for (std::size_t i = 0; i < piece.last.size(); ++i)
+        if (!(width(piece.last[i]) <= run_.options_.maxWidth)) {
+          run_.fail(t1, tool_->stepper.nameOf(static_cast<int>(i)) + " has become wider than the limit of " +
+                            toString(run_.options_.maxWidth));
           return false;
         }
       return true;
@@ -534,7 +565,8 @@ class FlowRun {
   std::mutex mutex_;
   std::condition_variable wake_;
   std::priority_queue<Piece, std::vector<Piece>, Later> queue_;
-  int busy_ = 0, pieces_ = 1;
+  int busy_ = 0, pieces_ = 1, mostPieces_ = 1, nextProbe_ = 16;
+  std::string ended_;  // what a probe found
   double looseness_ = 0;
   bool stop_ = false;
   double failedAt_ = 0, unfinished_ = std::numeric_limits<double>::infinity();
@@ -546,7 +578,7 @@ Tube FlowRun::gather(std::vector<Collected>& collected) {
   Tube tube;
   tube.times_ = times_;
   tube.reached_ = std::min(horizon_, failedAt_);
-  tube.why_ = why_;
+  if (!why_.empty()) tube.why_ = "at " + toString(failedAt_) + " s " + why_ + (ended_.empty() ? "" : "; " + ended_);
   double earliest = unfinished_;
   if (!queue_.empty()) earliest = std::min(earliest, queue_.top().set.t);
   if (stop_ && earliest < tube.reached_) {

@@ -3,7 +3,9 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <numeric>
 #include <type_traits>
@@ -90,7 +92,12 @@ bool FlowStepper::boundGrowth(double h) {
 
 bool FlowStepper::tryStep(const FlowSet& set, double theta) {
   const double h = theta * h0_;  // exact: h0 is a power of two
-  if (!series_.tabulate(theta) || !series_.bound(nullptr, false)) return false;
+  obstacle_.clear();
+  const auto refuse = [&] {
+    obstacle_ = series_.obstacle();
+    return false;
+  };
+  if (!series_.tabulate(theta) || !series_.bound(nullptr, false)) return refuse();
   for (int i = 0; i < n_; ++i) {
     const int f = series_.outputNode(i);
     // δ = x̃' - f(x̃): the bound of f's node, and one rounding in the division by i+1.
@@ -118,7 +125,8 @@ bool FlowStepper::tryStep(const FlowSet& set, double theta) {
       E_[at(i)] = y_[at(i)] * (attempt == 0 ? 1.05 : 1.3);
       if (!(E_[at(i)] < bounds::largest)) return false;
     }
-    if (!series_.bound(E_.data(), false) || !boundGrowth(h)) return false;
+    if (!series_.bound(E_.data(), false)) return refuse();
+    if (!boundGrowth(h)) return false;
     tube();
     proved = true;
     for (int i = 0; i < n_; ++i) proved = proved && y_[at(i)] <= E_[at(i)];
@@ -174,6 +182,44 @@ bool FlowStepper::isRemainderDominant(const FlowSet& set) const {
   return false;
 }
 
+std::string FlowStepper::nameOf(int state) const {
+  return at(state) < names_.size() ? names_[at(state)] : "state " + std::to_string(state);
+}
+
+/// A state that has grown a thousandfold and would double long before the time it took is on its way to infinity. Else
+/// a state that is hardly known to one part in ten makes the set too wide. Else it is the step itself.
+std::string FlowStepper::reason(const FlowSet& set) const {
+  const int N = series_.count();
+  std::string wide;
+  double widest = 0.1;
+  const auto text = [](double value) {
+    std::array<char, 32> digits{};
+    std::snprintf(digits.data(), digits.size(), "%.3g", value);
+    return std::string(digits.data());
+  };
+  for (int i = 0; i < n_; ++i) {
+    const double* p = &set.p[at(i * N)];
+    const double centre = p[0], rate = series_.series(i)[1] / h0_;
+    double half = 0, remainder = set.W[at(i)];
+    for (int g = 1; g < N; ++g) half += std::fabs(p[g]);
+    for (int j = 0; j < n_; ++j) remainder += std::fabs(set.C[at(i * n_ + j)]) * total_[at(j)];
+    const double before = set.first.empty() ? std::fabs(centre) : set.first[at(i)], doubling = centre / rate;
+    if (before > 0 && std::fabs(centre) > 1000 * before && doubling > 0 && doubling < 0.01 * set.t)
+      return nameOf(i) + " grows without bound: it is about " + text(centre) + " and doubles within " + text(doubling) +
+             " s";
+    const double size = std::max(std::fabs(centre), floor_[at(i)] / vanished);
+    if (const double share = (half + remainder) / size; share > widest) {
+      widest = share;
+      wide = "the set has grown too wide: " + nameOf(i) + " is " + text(centre) + " ± " + text(half + remainder) +
+             (remainder > half ? ", most of it what steps have added" : "");
+    }
+  }
+  const std::string step = "no step could be certified";
+  const std::string edge = obstacle_.empty() ? series_.nearestEdge(1e-6 * set.t / h0_) : obstacle_;
+  if (!edge.empty()) return step + ": " + edge + (wide.empty() ? "" : "; " + wide);
+  return wide.empty() ? step + ": its errors would outgrow it" : wide;
+}
+
 StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum, double splitDefect) {
   const double left = end - set.t;
   caution_ = set.caution;
@@ -203,7 +249,8 @@ StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum,
       guess /= 1024;
     }
     if (!(guess > smallest) || attempt > 40) {
-      why_ = "no step is small enough: the solution leaves the domain of its equations or grows without bound";
+      obstacle_ = std::isfinite(theta) ? "" : "a number that is not defined or too large";
+      why_ = reason(set);
       return StepOutcome::failed;
     }
   }
@@ -234,7 +281,7 @@ StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum,
     h *= 0.6;
     caution_ = std::max(caution_ * 0.8, 0x1p-6);
   }
-  why_ = "no step could be certified: the set has grown too wide for its equations";
+  why_ = reason(set);
   return StepOutcome::failed;
 }
 
@@ -448,6 +495,8 @@ void FlowStepper::advance(FlowSet& set) {
   set.nextStep = h_ * 1.1;
   set.caution = caution_;
   set.units = growth_.units();
+  if (set.first.empty())
+    for (int i = 0; i < n_; ++i) set.first.push_back(series_.norm(i));
   set.largest.resize(at(n_), 0.0);
   for (int i = 0; i < n_; ++i) set.largest[at(i)] = std::max(set.largest[at(i)], series_.norm(i));
   for (int i = 0; i < n_; ++i) {

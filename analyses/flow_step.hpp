@@ -38,7 +38,10 @@ class FlowStepper {
   /// the next call.
   StepOutcome certify(const FlowSet& set, double end, double quantum, double splitDefect);
   double h() const { return h_; }
+  /// After a failure: what could not be proved, of which state, in one line.
   const std::string& why() const { return why_; }
+  void setStateNames(const std::vector<std::string>& names) { names_ = names; }
+  std::string nameOf(int state) const;
   /// After a failure: the remainder, not ξ, makes the set too wide; bisecting ξ cannot help.
   bool isRemainderDominant(const FlowSet& set) const;
 
@@ -72,6 +75,7 @@ class FlowStepper {
   void load(const FlowSet& set);
   void boundDerivatives();
   double suggestion(double theta) const;
+  std::string reason(const FlowSet& set) const;
   bool isTruncationTooLarge(double splitDefect) const;
 
   int n_, m_;
@@ -81,7 +85,8 @@ class FlowStepper {
   double h0_ = 0, h_ = 0, theta_ = 0;
   double timeError_ = 0, truncation_ = 0;
   double caution_ = 1;
-  std::string why_;
+  std::vector<std::string> names_;
+  std::string why_, obstacle_;  // obstacle_: of the last attempt
   std::vector<double> delta0_, delta1_, start_, E_, y_, e1_, epsilon_, nu0_, nu1_, scale_, floor_;
   std::vector<double> total_;                  // R + Σ_j |Γ_j| of the set being stepped
   std::vector<double> second_, third_, turn_;  // bounds of derivatives by σ: p'' and the next, Ψ''(r + Γs)

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "analyses/kernels.hpp"
@@ -53,6 +54,11 @@ class PolynomialSeries {
   bool tabulate(double theta);
   /// ρ0, ρ1 of all nodes when |x - x̃| ≤ E (null: along the polynomial). False: not proved (a division by zero, say).
   bool bound(const double* E, bool primaryOnly);
+
+  /// After tabulate or bound returned false: what could not be proved, in words.
+  std::string obstacle() const { return edgeOf(obstacle_); }
+  /// The operation that comes soonest to the edge of its domain, before σ = `within`, in words; empty if none does.
+  std::string nearestEdge(double within) const;
 
   // Results. Node numbers are those of the program; frame entries are separate.
   const double* series(int node) const { return &f_[plan_[at(node)].f]; }
@@ -148,8 +154,11 @@ class PolynomialSeries {
   void solutionOwnErrors(int first);
   bool boundSystem(System& system);
   bool boundSolution(int first);
+  bool refuse(int node);
+  std::string edgeOf(int node) const;
 
   int n_, time_, m_, stride_, nodes_, frameCount_, frameDegree_;
+  int obstacle_ = 0;  // the node that failed
   bool withFrame_;
   std::shared_ptr<const Monomials> monomials_;
   std::vector<Plan> plan_;

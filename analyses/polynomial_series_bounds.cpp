@@ -23,7 +23,7 @@ bool PolynomialSeries::tabulate(double theta) {
                       weighted_[x]);
     norm_[x] *= bounds::up;
     weighted_[x] *= bounds::up;
-    if (!(norm_[x] < bounds::largest)) return false;  // false for NaN too
+    if (!(norm_[x] < bounds::largest)) return refuse(static_cast<int>(x));  // for NaN too
     double* total = &total_[x * at(stride_)];
     std::fill(total, total + stride_, 0.0);
     for (int q = 0; q <= v.degree; ++q)
@@ -32,7 +32,7 @@ bool PolynomialSeries::tabulate(double theta) {
       double sum = 0;
       for (int g = 0; g < v.count; ++g) sum += std::fabs(f_[v.f + at(g * stride_ + m_)]);
       top_[x] = withFrame_ ? sum * last * bounds::up : 0.0;
-      if (!(top_[x] < bounds::largest)) return false;
+      if (!(top_[x] < bounds::largest)) return refuse(static_cast<int>(x));
     }
     if (!v.needsTails) continue;
     // s1[i] = Σ_{j ≥ m-i} total[j];  s2[q][i] = Σ_{p ≥ q} Σ_{j ≤ m-1-i} T[p][j].
@@ -324,9 +324,40 @@ bool PolynomialSeries::bound(const double* E, bool primaryOnly) {
   for (int node = time_ + 1; node < nodes_; ++node) {
     if (plan_[at(node)].constant) rho0_[at(node)] = radius_[at(node)];
     if (primaryOnly && !plan_[at(node)].primary) continue;
-    if (!boundNode(node)) return false;
+    if (!boundNode(node)) return refuse(node);
   }
   return true;
+}
+
+bool PolynomialSeries::refuse(int node) {
+  obstacle_ = node;
+  return false;
+}
+
+std::string PolynomialSeries::nearestEdge(double within) const {
+  int nearest = -1;
+  for (int i = 0; i < nodes_; ++i) {
+    const Plan& v = plan_[at(i)];
+    if (v.op != Op::recip && v.op != Op::sqrt && v.op != Op::log) continue;
+    const double* argument = series(v.a);
+    if (const double edge = -argument[0] / argument[1]; edge > 0 && edge < within) nearest = i, within = edge;
+  }
+  return nearest < 0 ? "" : edgeOf(nearest);
+}
+
+std::string PolynomialSeries::edgeOf(int node) const {
+  switch (plan_[at(node)].op) {
+    case Op::recip:
+      return "a division by what may be zero";
+    case Op::sqrt:
+      return "the square root of what may be zero or negative";
+    case Op::log:
+      return "the logarithm of what may be zero or negative";
+    case Op::exp:
+      return "an exponential that may become too large";
+    default:
+      return "a number that may become too large";
+  }
 }
 
 double PolynomialSeries::derivativeNorm(const Plan& v, int k, double theta) const {

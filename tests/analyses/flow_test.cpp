@@ -169,7 +169,7 @@ TEST(Flow, EndsWhenAnEnclosureBecomesWiderThanTheLimit) {
   const Tube tube = Flow(growth(), options).enclose({Interval(0.9, 1.1)}, 10, {1, 2, 3});
   EXPECT_GT(tube.reached(), 1.5);  // 0.2 e^t = 1 at t = 1.609
   EXPECT_LT(tube.reached(), 3);
-  EXPECT_THAT(tube.why(), HasSubstr("wide"));
+  EXPECT_THAT(tube.why(), HasSubstr("state 0 has become wider than the limit of 1"));
 }
 
 TEST(Flow, EndsBeforeASolutionThatEscapesInFiniteTime) {
@@ -188,15 +188,48 @@ TEST(Flow, EndsBeforeASolutionThatEscapesInFiniteTime) {
   }
 }
 
+TEST(Flow, SaysAtOnceThatAStartGrowsWithoutBound) {
+  const Program cubic = record(2, 1, [](auto, const auto& x, const auto& p, auto& dx) {
+    dx[0] = x[1];
+    dx[1] = p[0] * sqr(x[0]) * x[0];
+  });
+  for (const auto& [f, box, escape] :
+       {std::tuple{explosion(), Box{1.0}, 1.0}, std::tuple{explosion(), Box{Interval(0.9, 1.0)}, 1.0},
+        std::tuple{cubic, Box{Interval(0.99, 1.01), 1.0, Interval(1.98, 2.02)}, 0.99}}) {
+    FlowOptions options;
+    options.stateNames = {"the angle", "the rate"};
+    const Tube tube = Flow(f, options).enclose(box, 3, {0.5});
+    EXPECT_GT(tube.reached(), 0.999 * escape);
+    EXPECT_LE(tube.pieces(), 40);
+    EXPECT_LT(tube.steps(), 4000);
+    EXPECT_THAT(tube.why(), HasSubstr("grows without bound"));
+    EXPECT_THAT(tube.why(), HasSubstr("the "));
+  }
+}
+
+TEST(Flow, SaysWhichStateIsTooWide) {
+  FlowOptions options;
+  options.split = false;
+  options.stateNames = {"angle", "rate"};
+  const Tube tube = Flow(pendulum(), options).enclose({Interval(2.9, 3.2), Interval(-0.1, 0.1)}, 20);
+  EXPECT_LT(tube.reached(), 20);
+  EXPECT_THAT(tube.why(), HasSubstr("at " + toString(tube.reached()) + " s "));
+  EXPECT_THAT(tube.why(), HasSubstr("too wide"));
+  EXPECT_THAT(tube.why(), ::testing::AnyOf(HasSubstr("angle is "), HasSubstr("rate is ")));
+  EXPECT_THAT(tube.why(), Not(HasSubstr("without bound")));
+}
+
 TEST(Flow, EndsWhereTheEquationsLoseTheirMeaning) {
   // x = 1 - t, so each of these leaves its domain at t = 1: 1/x, √x, log x.
+  const char* said[] = {"a division by", "the square root of", "the logarithm of"};
+  int which = 0;
   for (auto* function : {+[](const Recorded&t, const Recorded&x) { return -1.0 - 1e-9 * t / x; },
                          +[](const Recorded&, const Recorded&x) { return -1.0 + 1e-9 * sqrt(x); },
                          +[](const Recorded&, const Recorded&x) { return -1.0 + 1e-9 * log(x); }}) {
     const Tube tube = Flow(oneState(function)).enclose({1.0}, 3, {0.5, 2});
     EXPECT_LT(tube.reached(), 1.001);
     EXPECT_GT(tube.reached(), 0.9);
-    EXPECT_THAT(tube.why(), Not(::testing::IsEmpty()));
+    EXPECT_THAT(tube.why(), HasSubstr(said[which++]));
     EXPECT_EQ(tube.reachedTimes(), 2u);
   }
 }
