@@ -94,7 +94,7 @@ int FlowOutputChords::orderFor(const FlowStepper& stepper, std::vector<double>& 
     for (int g = from; g < states.count(); ++g) sum += std::fabs(states.series(i)[g * stride + order]);
     return sum * std::pow(stepper.theta(), order);
   };
-  int order = std::min(4, order_);
+  int order = PolynomialSeries::leastOrder;
   for (int i = 0; i < n_; ++i) {
     const double allowed = 1e-4 * (norm(i, 0, 1) + stepper.tubeBound(i));
     double tail = 0;

@@ -38,7 +38,9 @@ class PolynomialSeries {
   int frameCount() const { return frameCount_; }
 
   /// Without a frame: how many orders the next computation keeps, at most as many as the constructor was told.
-  void setOrder(int order) { m_ = order; }
+  /// No fewer than leastOrder. Forgets all coefficients where that changes, so that none is left beyond the last.
+  void setOrder(int order);
+  static constexpr int leastOrder = 4;
 
   // Inputs: coefficients of order 0 in σ.
   void setState(int i, const double* coefficients);                     // count() numbers
@@ -176,7 +178,8 @@ class PolynomialSeries {
   std::vector<double> current_;
   std::vector<System> systems_;
   std::vector<Solution> solutions_;
-  static constexpr int inverseOrder = 3;           // of C in time; in ξ it is linear
+  static constexpr int inverseOrder = 3;  // of C in time; in ξ it is linear
+  static_assert(inverseOrder < leastOrder);
   std::vector<std::pair<int, int>> inverseTerms_;  // order and symbol (-1: none): σ^order or ξ_symbol
   std::vector<int> shift_;                         // number of ξ_symbol·(monomial g), [symbol][g]
   int largestSystem_ = 0;

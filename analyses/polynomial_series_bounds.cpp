@@ -355,6 +355,8 @@ std::string PolynomialSeries::edgeOf(int node) const {
       return "the logarithm of what may be zero or negative";
     case Op::exp:
       return "an exponential that may become too large";
+    case Op::solution:
+      return "a linear system that may be singular";
     default:
       return "a number that may become too large";
   }
