@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "scalars/linear_system.hpp"
 #include "tests/analyses/containment.hpp"
 
 namespace gamut::testing {
@@ -562,6 +563,25 @@ TEST(Flow, OutputsBetweenFarTimesHoldFastMotion) {
       expectContainment(c, 6);
       if (HasFatalFailure()) return;
     }
+}
+
+/// Steps of different lengths keep different orders of the outputs' series; the certificate of a system reads beyond.
+TEST(Flow, OutputsOfLinearSystemsBetweenTimesHoldTheirTrajectories) {
+  for (double radius : {1e-10, 1e-4, 0.05}) {
+    Containment c;
+    c.f = pendulum();
+    c.g = record(2, 0, 2, [](auto t, const auto& x, const auto&, auto& y) {
+      const LinearSystem<Recorded> system(MatrixKind::general, 2,
+                                          {3.0 + cos(x[0]), sin(x[1]), x[0] * 0.5, 2.0 + sqr(sin(t + x[1]))});
+      std::vector<Recorded> right{x[0], 1.0 + t};
+      system.solve(right);
+      y[0] = right[0], y[1] = right[1];
+    });
+    c.box = {Interval(1 - radius, 1 + radius), 0.25};
+    c.horizon = 2.5;
+    c.times = {0.01, 0.4, 0.41, 1.1, 2};
+    expectContainment(c, 8);
+  }
 }
 
 TEST(Flow, ShowsExactlyWhatIsExactlyKnownAtTheStart) {
