@@ -482,10 +482,17 @@ void FlowStepper::advance(FlowSet& set) {
   box += (n_ + 1) * bounds::unit * (T.cwiseAbs() * total + turned);
   Matrix turn(n_, n_);  // T, its columns where the generators' components stand
   for (int k = 0; k < n_; ++k) turn.col(order[at(k)]) = T.col(k);
-  Matrix moved(n_, columnsOf(set.generators, n_).cols() + n_);
-  moved.leftCols(moved.cols() - n_).noalias() = turn * columnsOf(set.generators, n_);
-  moved.rightCols(n_) = (w.asDiagonal() * Q).transpose();
-  const int oldest = moved.cols() > stepsKept(n_) * n_ ? n_ : 0;
+  // What ξ leaves in the box is kept apart as well, in n further columns: in the box it would wrap.
+  const auto before = columnsOf(set.generators, n_);
+  const int own = NJ > 1 ? 2 * n_ : n_;
+  Matrix moved(n_, before.cols() + own);
+  moved.leftCols(before.cols()).noalias() = turn * before;
+  moved.middleCols(before.cols(), n_) = (w.asDiagonal() * Q).transpose();
+  if (NJ > 1) {
+    moved.rightCols(n_) = box.asDiagonal();
+    box.setZero();
+  }
+  const Eigen::Index oldest = std::max<Eigen::Index>(0, moved.cols() - stepsKept(n_) * own);
   const Eigen::VectorXd merged = moved.leftCols(oldest).cwiseAbs().rowwise().sum();
   const Eigen::VectorXd newR = (T.cwiseAbs() * R + merged + box) * bounds::up;
   set.generators.assign(moved.data() + oldest * n_, moved.data() + moved.size());
