@@ -489,7 +489,7 @@ void FlowStepper::advance(FlowSet& set) {
   moved.leftCols(before.cols()).noalias() = turn * before;
   moved.middleCols(before.cols(), n_) = (w.asDiagonal() * Q).transpose();
   if (NJ > 1) {
-    moved.rightCols(n_) = box.asDiagonal();
+    moved.rightCols(n_) = (bounds::up * box).asDiagonal();
     box.setZero();
   }
   const Eigen::Index oldest = std::max<Eigen::Index>(0, moved.cols() - stepsKept(n_) * own);

@@ -161,7 +161,7 @@ void PolynomialSeries::tabulateSystem(System& system) {
         const Plan& a = plan_[at(entry)];
         if (isKnownZero(entry)) continue;
         size += system.norms[at(i * n + k)] * norm_[at(entry)];
-        const int orders = a.invariant ? 1 : stride_;
+        const int orders = a.invariant ? 1 : m_;  // a state's last order belongs to its error
         for (int t = 0; t < terms; ++t) {
           const double c = system.inverse[at(t)][at(i * n + k)];
           if (c == 0) continue;
@@ -213,17 +213,17 @@ bool PolynomialSeries::boundSystem(System& system) {
     v[at(i)] = w[at(i)];
   }
   double share = 1;  // H v ≤ share v
-  for (int iteration = 0; iteration < 40; ++iteration) {
+  for (int iteration = 0; iteration < 40 && share >= 0.9; ++iteration) {
+    if (iteration > 0)
+      for (int i = 0; i < n; ++i) v[at(i)] = w[at(i)] + Hv[at(i)];
     share = 0;
     for (int i = 0; i < n; ++i) {
       double s = 0;
       for (int j = 0; j < n; ++j) s += H[at(i * n + j)] * v[at(j)];
       Hv[at(i)] = s * bounds::up + bounds::tiny;
-      if (!(v[at(i)] > 0)) return false;
+      if (!(v[at(i)] > 0 && v[at(i)] < bounds::largest)) return false;
       share = std::max(share, Hv[at(i)] / v[at(i)] * bounds::up);
     }
-    if (share < 0.9) break;
-    for (int i = 0; i < n; ++i) v[at(i)] = w[at(i)] + Hv[at(i)];
   }
   if (!(share < 0.99)) return false;
   // Y about (I - H)⁻¹|C|, column by column; Z = Y + s v obeys Z ≥ |C| + H Z where s (1 - share) v ≥ |C| + H Y - Y.

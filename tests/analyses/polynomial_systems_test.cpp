@@ -17,8 +17,9 @@ enum class Kind { general, transposed, positiveDefinite };
 struct RandomSystem {
   RandomSystem(Points& points, Kind kindOf) : kind(kindOf), size(points.integer(3, 6)) {
     for (int i = 0; i < size; ++i) {
-      row.push_back(std::ldexp(1.0, points.integer(-6, 6)));
-      column.push_back(kind == Kind::positiveDefinite ? row.back() : std::ldexp(1.0, points.integer(-6, 6)));
+      row.push_back(i == 0 ? 1.0 : std::ldexp(1.0, points.integer(-6, 6)));
+      column.push_back(kind == Kind::positiveDefinite || i == 0 ? row.back()
+                                                                : std::ldexp(1.0, points.integer(-6, 6)));
       right.push_back(points.uniform(-1, 1));
     }
     for (int i = 0; i < size * size; ++i) {
@@ -44,6 +45,10 @@ struct RandomSystem {
       }
     std::vector<int> r;
     for (int i = 0; i < size; ++i) {
+      if (i == 0) {  // as it is: the right-hand side keeps more than the solution does
+        r.push_back(c.node());
+        continue;
+      }
       const double e = right[static_cast<std::size_t>(i)];
       r.push_back((left()[static_cast<std::size_t>(i)] * (i % 2 == 0 ? e * c : e + sqr(a))).node());
     }

@@ -1,0 +1,98 @@
+// Studies of machines that anyone may write, run to the end: the samples arrive and lie inside a tight guarantee.
+#include <gmock/gmock.h>
+
+#include "studies/driver.hpp"
+#include "studies/study.hpp"
+
+namespace gamut {
+namespace {
+
+struct Machine {
+  std::string name;
+  std::string text;
+  double overestimation;
+};
+
+std::string hinge(const std::string& name, const std::string& from, const std::string& to, const std::string& axis,
+                  const std::string& initial) {
+  return "[[mechanism.element]]\ntype = \"revolute\"\nname = \"" + name + "\"\nfrom = \"" + from + "\"\nto = \"" + to +
+         "\"\naxis = \"" + axis + "\"\ninitial = { " + initial + " }\n";
+}
+
+std::string link(const std::string& name, const std::string& from, const std::string& to, const std::string& vector) {
+  return "[[mechanism.element]]\ntype = \"link\"\nname = \"" + name + "\"\nfrom = \"" + from + "\"\nto = \"" + to +
+         "\"\nvector = " + vector + "\n";
+}
+
+std::string mass(const std::string& name, const std::string& at, const std::string& rest) {
+  return "[[mechanism.element]]\ntype = \"mass\"\nname = \"" + name + "\"\nat = \"" + at + "\"\n" + rest + "\n";
+}
+
+std::string head(double horizon) {
+  return "[study]\nanalysis = \"dynamics\"\nhorizon = " + std::to_string(horizon) +
+         "\noutput_step = " + std::to_string(horizon / 10) +
+         "\ncompare = [\"interval\", \"stochastic\"]\n[stochastic]\nplan = \"grid\"\nsamples = "
+         "65\n[mechanism]\ngravity "
+         "= [0, 0, -9.81]\n";
+}
+
+std::string uncertain(const std::string& quantity) {
+  return "[[uncertain]]\nquantity = \"" + quantity + "\"\ninterval = \"± 1 %\"\n";
+}
+
+std::string output(const std::string& quantity) {
+  return "[[output]]\nname = \"" + quantity + "\"\nquantity = \"" + quantity + "\"\n";
+}
+
+/// Links of 0.1 m and bodies of 1 kg, all angles 0.1 rad.
+std::string planarChain(int links, double horizon) {
+  std::string text = head(horizon), from = "inertial", outputs;
+  for (int i = 0; i < links; ++i) {
+    const std::string n = std::to_string(i);
+    text += hinge("joint" + n, from, "K" + n, "x", "angle = 0.1, rate = 0") +
+            link("link" + n, "K" + n, "E" + n, "[0, 0, -0.1]") + mass("body" + n, "E" + n, "mass = 1");
+    outputs += output("joint" + n + ".rate");
+    from = "E" + n;
+  }
+  return text + uncertain("joint0.angle") + outputs;
+}
+
+/// Hinge z, hinge y from -10° through 0, a body with inertia; and so on with x.
+std::string perpendicular(int axes) {
+  std::string text = head(2), from = "inertial";
+  for (int i = 0; i < axes; ++i) {
+    const std::string n = std::to_string(i);
+    text += hinge("joint" + n, from, "K" + n,
+                  i % 3 == 0   ? "z"
+                  : i % 3 == 1 ? "y"
+                               : "x",
+                  i == 0 ? "angle = 0, rate = 0.5" : "angle = \"-10 deg\", rate = 1") +
+            link("link" + n, "K" + n, "E" + n, "[0.3, 0, 0]");
+    if (i > 0) text += mass("body" + n, "E" + n, "mass = 1\ninertia = [0.1, 0.2, 0.3]");
+    from = "E" + n;
+  }
+  return text + uncertain("joint1.angle") + output("joint0.angle") + output("joint1.angle") + output("joint1.rate");
+}
+
+class Machines : public ::testing::TestWithParam<Machine> {};
+
+TEST_P(Machines, ArriveInsideATightGuarantee) {
+  const Results results = run(readStudyText(GetParam().text, "machine.toml"), {});
+  EXPECT_EQ(results.interval.reached, results.horizon) << results.interval.why;
+  EXPECT_EQ(results.stochastic.reached, results.horizon) << results.stochastic.why;
+  EXPECT_EQ(results.comparison.verdict, "inside");
+  EXPECT_LE(results.comparison.maximum, GetParam().overestimation);
+}
+
+INSTANTIATE_TEST_SUITE_P(Study, Machines,
+                         ::testing::Values(Machine{"perpendicularHinges", perpendicular(2), 1.01},
+                                           Machine{"threePerpendicularHinges", perpendicular(3), 1.01},
+                                           Machine{"sixPerpendicularHinges", perpendicular(6), 1.01},
+                                           Machine{"chainOfThree", planarChain(3, 2), 1.01},
+                                           Machine{"chainOfFive", planarChain(5, 2), 1.01},
+                                           Machine{"chainOfEight", planarChain(8, 2), 1.01},
+                                           Machine{"chainOfTen", planarChain(10, 0.5), 1.01}),
+                         [](const auto& machine) { return machine.param.name; });
+
+}  // namespace
+}  // namespace gamut
