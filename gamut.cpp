@@ -82,16 +82,11 @@ std::string nameOfStudy(const std::string& path) {
              : file.stem().string();
 }
 
-/// Before any work is done: the file may be written, and overwrites nothing that it must not.
-void checkOutput(const std::string& path, const std::string& input, bool force) {
+/// Before any work is done: the file may be written, overwrites nothing that it must not, and is ours from now on.
+OutputFile reserve(const std::string& path, const std::string& input, bool force) {
   std::error_code error;
-  try {
-    checkWritable(path);
-  } catch (const WriteError& refused) {
-    throw UsageError(refused.what());
-  }
   if (fs::equivalent(path, input, error)) throw UsageError(path + ": cannot be written; it is the input");
-  if (fs::exists(path, error) && !force) throw UsageError(path + ": exists already; expected another name, or --force");
+  return {path, force ? OutputFile::Existing::isReplaced : OutputFile::Existing::isKept};
 }
 
 double cpuSeconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
@@ -138,8 +133,8 @@ int runStudy(Arguments arguments) {
   if (arguments.report.empty()) arguments.report = fs::path(arguments.results).replace_extension(".html").string();
   if (fs::absolute(arguments.results).lexically_normal() == fs::absolute(arguments.report).lexically_normal())
     throw UsageError(arguments.report + ": is both results and report; expected two names");
-  checkOutput(arguments.results, arguments.input, arguments.force);
-  checkOutput(arguments.report, arguments.input, arguments.force);
+  OutputFile resultsFile = reserve(arguments.results, arguments.input, arguments.force);
+  OutputFile reportFile = reserve(arguments.report, arguments.input, arguments.force);
   checkMemory(study, arguments);
 
   endOnInterrupt();
@@ -161,8 +156,8 @@ int runStudy(Arguments arguments) {
   const double start = cpuSeconds();
   const std::string page = renderReport(results);
   results.reportCpu = cpuSeconds() - start;
-  writeResults(results, arguments.results);
-  replaceFileText(arguments.report, page);
+  writeResults(results, resultsFile);
+  reportFile.write(page);
   const Verdict verdict = judge(results);
   say(arguments, results, verdict);
   return exitCodeOf(results, verdict);
@@ -190,8 +185,7 @@ int reportResults(const Arguments& arguments) {
                                ? fs::path(arguments.input).filename().replace_extension(".html").string()
                                : arguments.report;
   const Results results = readResults(arguments.input);
-  checkOutput(path, arguments.input, arguments.force);
-  writeReport(results, path);
+  reserve(path, arguments.input, arguments.force).write(renderReport(results));
   fmt::print("{}\n", path);
   return done;
 }
@@ -309,6 +303,7 @@ int afterFlushing(int code) {
 
 int main(int argc, char** argv) {
   occupyStandardStreams();
+  ::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files is an error of writing, not the end
   try {
     return afterFlushing(parseAndRun(argc, argv));
   } catch (const UsageError& error) {
@@ -319,6 +314,9 @@ int main(int argc, char** argv) {
     return badInput;
   } catch (const ResultsFileError& error) {
     fmt::print(stderr, "{}\n", error.what());
+    return badInput;
+  } catch (const OutputRefused& error) {
+    fmt::print(stderr, "gamut: {}\n", error.what());
     return badInput;
   } catch (const WriteError& error) {
     fmt::print(stderr, "gamut: {}\n", error.what());

@@ -29,10 +29,10 @@ struct Outcome {
 
 class Program : public ::testing::Test {
  protected:
-  /// Runs the program in the temporary folder.
-  Outcome gamut(const std::string& arguments) const {
+  /// Runs the program in the temporary folder, after `before` in the same shell.
+  Outcome gamut(const std::string& arguments, const std::string& before = "") const {
     const std::string command =
-        "cd '" + folder_.path("") + "' && '" GAMUT_PROGRAM "' " + arguments + " > .out 2> .error";
+        "cd '" + folder_.path("") + "' && " + before + "'" GAMUT_PROGRAM "' " + arguments + " > .out 2> .error";
     const int status = std::system(command.c_str());
     const Outcome run{WIFEXITED(status) ? WEXITSTATUS(status) : -1, folder_.read(".out"), folder_.read(".error")};
     std::filesystem::remove(folder_.path(".out"));
@@ -171,6 +171,35 @@ TEST_F(Program, OverwritesOnlyWhenForced) {
   EXPECT_FALSE(folder_.has("s.h5"));
   EXPECT_EQ(gamut("run s.toml --force --quiet").exitCode, 0);
   EXPECT_THAT(folder_.read("s.html"), HasSubstr("<html"));
+}
+
+TEST_F(Program, LeavesTheSecondRunOnOneOutputOut) {
+  folder_.write("s.toml", sampleStudy);
+  OutputFile first(folder_.path("s.h5"), OutputFile::Existing::isKept);
+  const Outcome second = gamut("run s.toml");
+  EXPECT_EQ(second.exitCode, 2);
+  EXPECT_EQ(second.error, "gamut: s.h5: cannot be written; another run is about to write it\n");
+  EXPECT_FALSE(folder_.has("s.html"));
+}
+
+TEST_F(Program, ReplacesNoDeviceEvenIfForced) {
+  folder_.write("s.toml", sampleStudy);
+  for (const char* arguments : {"run s.toml --force -o /dev/null", "run s.toml --force --report /dev/full"}) {
+    const Outcome run = gamut(arguments);
+    EXPECT_EQ(run.exitCode, 2);
+    EXPECT_THAT(run.error, HasSubstr("it is a device, or another thing that is no regular file\n"));
+  }
+  EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
+  EXPECT_EQ(folder_.count(), 1U);
+}
+
+TEST_F(Program, SaysThatItsFilesDoNotFit) {
+  folder_.write("s.toml", sampleStudy);
+  const Outcome run = gamut("run s.toml --quiet", "ulimit -f 8 && ");
+  EXPECT_EQ(run.exitCode, 4);
+  EXPECT_EQ(run.error,
+            "gamut: s.h5: cannot be written; files may not grow so large here, see ulimit -f (File too large)\n");
+  EXPECT_EQ(folder_.count(), 1U);
 }
 
 TEST_F(Program, SaysWhatItFoundOnStandardOutput) {

@@ -34,6 +34,16 @@ void expectSame(const Bounds& found, const Bounds& expected, const char* what) {
   expectSame(found.upper, expected.upper, what);
 }
 
+/// Standard output of a command.
+std::string outputOf(const std::string& command) {
+  std::string output;
+  std::FILE* pipe = ::popen((command + " 2>&1").c_str(), "r");
+  char buffer[4096];
+  while (const std::size_t n = std::fread(buffer, 1, sizeof buffer, pipe)) output.append(buffer, n);
+  ::pclose(pipe);
+  return output;
+}
+
 class ResultsFile : public ::testing::Test {
  protected:
   TemporaryFolder folder_;
@@ -111,17 +121,6 @@ TEST_F(ResultsFile, GivesBackEveryAnswer) {
   }
 }
 
-TEST_F(ResultsFile, WithoutAPackWidthIsOfSamplesIntegratedOneByOne) {
-  writeResults(sampleResults(), path_);
-  {
-    const Hdf5Handle file(H5Fopen(path_.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose, path_);
-    ASSERT_GE(H5Adelete_by_name(file, "stochastic", "pack_width", H5P_DEFAULT), 0);
-  }
-  const Results found = readResults(path_);
-  EXPECT_EQ(found.stochastic.packWidth, 1);
-  EXPECT_EQ(found.stochastic.samples, 4096);
-}
-
 TEST_F(ResultsFile, GivesBackTheComparisonAndDisputedSamples) {
   const Results expected = sampleResults();
   writeResults(expected, path_);
@@ -164,21 +163,11 @@ TEST_F(ResultsFile, KeepsAbsentPartsAbsent) {
   EXPECT_TRUE(found.uncertain.empty());
 }
 
-/// Standard output of a command.
-std::string outputOf(const std::string& command) {
-  std::string output;
-  std::FILE* pipe = ::popen((command + " 2>&1").c_str(), "r");
-  char buffer[4096];
-  while (const std::size_t n = std::fread(buffer, 1, sizeof buffer, pipe)) output.append(buffer, n);
-  ::pclose(pipe);
-  return output;
-}
-
 TEST_F(ResultsFile, ExplainsItselfToH5dump) {
   if (std::system("command -v h5dump > /dev/null 2>&1") != 0) GTEST_SKIP() << "h5dump (hdf5-tools) is not installed";
   writeResults(sampleResults(), path_);
   const std::string at = outputOf("h5dump -d /interval/at_lower " + path_);
-  for (const char* word : {"\"units\"", "\"m\", \"J\"", "\"long_name\"", "enclosure at the output time, lower bound",
+  for (const char* word : {"\"units\"", "\"m, J\"", "\"long_name\"", "enclosure at the output time, lower bound",
                            "\"DIMENSION_LIST\"", "\"DIMENSION_LABELS\"", "\"time\", \"output\""})
     EXPECT_THAT(at, HasSubstr(word));
   const std::string time = outputOf("h5dump -d /time " + path_);
@@ -218,13 +207,69 @@ TEST_F(ResultsFile, IsRefusedInOneLineWhenItIsSomethingElse) {
             folder_.path("none.h5") + ": cannot be read; expected a results file written by gamut run");
   const std::string text = folder_.path("text.h5");
   std::ofstream(text) << "[study]\n";
-  EXPECT_EQ(message(text), text +
-                               ": not a Gamut results file, or damaged (the file cannot be read); expected a results "
-                               "file written by gamut run");
+  EXPECT_EQ(message(text), text + ": not a Gamut results file; expected a results file written by gamut run");
   const std::string foreign = folder_.path("foreign.h5");
   Hdf5Handle(H5Fcreate(foreign.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose, foreign);
   EXPECT_EQ(message(foreign),
             foreign + ": an HDF5 file, but not of Gamut results; expected a results file written by gamut run");
+}
+
+TEST_F(ResultsFile, OfAnOlderBuildIsRefusedWithItsFormat) {
+  {
+    const Hdf5Handle file(H5Fcreate(path_.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose, path_);
+    Hdf5Writer root(file);
+    root.attribute("format", std::string("Gamut results"));
+    root.attribute("format_version", std::int64_t{1});
+  }
+  try {
+    readResults(path_);
+    ADD_FAILURE() << "was read";
+  } catch (const ResultsFileError& error) {
+    EXPECT_EQ(error.what(), path_ +
+                                ": written in format 1 by an older build of gamut; expected format 2, so run the "
+                                "study again");
+  }
+}
+
+TEST_F(ResultsFile, TellsItsDigestToCommonTools) {
+  writeResults(sampleResults(), path_);
+  const std::string digest = outputOf("tail -c +513 '" + path_ + "' | sha256sum").substr(0, 64);
+  EXPECT_EQ(outputOf("sed -n 3p '" + path_ + "'"), "sha256 " + digest + "\n");
+}
+
+TEST_F(ResultsFile, KeepsLongTextsAndShowsControlCharactersInWords) {
+  Results results = sampleResults();
+  results.studyText = std::string(200000, 'x') + "\r\nß\t";
+  results.title = "";
+  results.studyFile = "a\x1b[31m\n.toml";
+  results.outputs[0].name = "";
+  writeResults(results, path_);
+  const Results found = readResults(path_);
+  EXPECT_EQ(found.studyText, results.studyText);
+  EXPECT_EQ(found.title, "");
+  EXPECT_EQ(found.studyFile, "a\\u001b[31m\\n.toml");
+  EXPECT_EQ(found.outputs[0].name, "");
+}
+
+/// xarray's own words for a file.
+TEST_F(ResultsFile, IsReadByXarrayWithUnitsAndNamedDimensions) {
+  const std::string python = "/usr/bin/python3 -c '";
+  if (std::system((python + "import xarray, h5netcdf' > /dev/null 2>&1").c_str()) != 0)
+    GTEST_SKIP() << "python3-xarray and python3-h5netcdf are not installed";
+  writeResults(sampleResults(), path_);
+  const auto show = [&](const std::string& group, const std::string& expression) {
+    return outputOf(python + "import xarray; f = xarray.open_dataset(\"" + path_ + "\", engine=\"h5netcdf\", group=\"" +
+                    group + "\"); print(" + expression + ")'");
+  };
+  EXPECT_EQ(show("/", "f.output.values, f.time.values, f.time.units"), "['tip height' 'energy'] [0.   0.01 0.02] s\n");
+  EXPECT_EQ(show("interval", "f.at_lower.dims, f.at_lower.units, f.why"),
+            "('time', 'output') m, J the enclosure became wider than 1e6\n");
+  EXPECT_EQ(show("fuzzy", "f.outer_upper.dims, f.alpha.values"), "('alpha', 'time', 'output') [0.  0.5 1. ]\n");
+  EXPECT_EQ(show("stochastic", "f.quantiles.sel(probability=0.95).shape, f.samples"), "(3, 2) 4096\n");
+  EXPECT_EQ(show("comparison", "f.maximum_of.values, f.overestimation.units"), "[12. nan] 1\n");
+  EXPECT_EQ(show("comparison/disputed", "f.decided.sel(number=17).item()"), "tolerance 1e-12\n");
+  EXPECT_EQ(show("study/uncertain", "f.sel(name=\"first angle\").upper.item(), f.upper.units"), "1.1 rad\n");
+  EXPECT_EQ(show("study", "f.text.item() == \"[study]\\ntitle = \\\"α\\\"\\n\""), "True\n");
 }
 
 TEST_F(ResultsFile, IsRefusedAtEveryTruncation) {
@@ -251,31 +296,6 @@ TEST_F(ResultsFile, OfAnEarlierRunSurvivesAWriteThatFails) {
   EXPECT_THROW(writeResults(bad, path_), std::logic_error);
   EXPECT_EQ(readResults(path_).title, sampleResults().title);
   EXPECT_EQ(folder_.count(), 1U) << "a temporary file was left behind";
-}
-
-TEST_F(ResultsFile, OfAnEarlierRunSurvivesAKilledWrite) {
-  writeResults(sampleResults(), path_);
-  const pid_t child = ::fork();
-  if (child == 0) {
-    replaceFile(path_, [](const std::string& temporary) {
-      std::ofstream(temporary) << "half a file";
-      ::kill(::getpid(), SIGKILL);
-    });
-    ::_exit(0);
-  }
-  int status = 0;
-  ASSERT_EQ(::waitpid(child, &status, 0), child);
-  ASSERT_TRUE(WIFSIGNALED(status));
-  EXPECT_EQ(readResults(path_).title, sampleResults().title);
-}
-
-TEST(ReplaceFile, NamesAFolderThatDoesNotExist) {
-  try {
-    replaceFileText("/nowhere/at/all/x.html", "x");
-    ADD_FAILURE() << "was written";
-  } catch (const std::runtime_error& error) {
-    EXPECT_STREQ(error.what(), "/nowhere/at/all/x.html: cannot be written; the folder /nowhere/at/all does not exist");
-  }
 }
 
 }  // namespace
