@@ -21,11 +21,13 @@
 #include <system_error>
 #include <thread>
 
+#include "mechanics/names.hpp"
 #include "reports/report.hpp"
 #include "reports/verdict.hpp"
 #include "reports/words.hpp"
 #include "studies/atomic_file.hpp"
 #include "studies/driver.hpp"
+#include "studies/printable.hpp"
 #include "studies/progress.hpp"
 #include "studies/results_file.hpp"
 #include "studies/study.hpp"
@@ -127,8 +129,15 @@ void checkMemory(const Study& study, const Arguments& arguments) {
                     arguments.input, samples, study.outputs.size(), study.time.size(), needed / 1e9, present / 1e9));
 }
 
+Study readNoting(const Arguments& arguments) {
+  Study study = readStudy(arguments.input);
+  if (!arguments.quiet)
+    for (const std::string& note : study.notes) fmt::print(stderr, "{}\n", note);
+  return study;
+}
+
 int runStudy(Arguments arguments) {
-  const Study study = readStudy(arguments.input);
+  const Study study = readNoting(arguments);
   if (arguments.results.empty()) arguments.results = nameOfStudy(arguments.input) + ".h5";
   if (arguments.report.empty()) arguments.report = fs::path(arguments.results).replace_extension(".html").string();
   if (fs::absolute(arguments.results).lexically_normal() == fs::absolute(arguments.report).lexically_normal())
@@ -164,7 +173,7 @@ int runStudy(Arguments arguments) {
 }
 
 int validateStudy(const Arguments& arguments) {
-  const Study study = readStudy(arguments.input);
+  const Study study = readNoting(arguments);
   if (!arguments.quiet)
     fmt::print("{}: valid; {} with {}, {} uncertain {}, {}{}\n", arguments.input, study.analysisName(),
                countText(static_cast<long long>(study.mechanism.elements().size()), "element"), study.uncertain.size(),
@@ -277,6 +286,12 @@ int parseAndRun(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);
     const auto commands = app.get_subcommands();
+    if (commands.empty() && argc > 1 && argv[1][0] != '-') {
+      std::vector<std::string> known;
+      for (const CLI::App* command : app.get_subcommands({})) known.push_back(command->get_name());
+      const UnknownName unknown("command", argv[1], known);
+      throw UsageError(fmt::format("{}; expected {}", unknown.problem(), unknown.expected()));
+    }
     throw UsageError(fmt::format("{}; see gamut {}--help", error.what(),
                                  commands.empty() ? "" : commands.front()->get_name() + " "));
   }
@@ -307,7 +322,7 @@ int main(int argc, char** argv) {
   try {
     return afterFlushing(parseAndRun(argc, argv));
   } catch (const UsageError& error) {
-    fmt::print(stderr, "gamut: {}\n", error.what());
+    fmt::print(stderr, "gamut: {}\n", printable(error.what()));
     return badInput;
   } catch (const StudyError& error) {
     fmt::print(stderr, "{}\n", error.what());

@@ -13,6 +13,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <optional>
 #include <string>
 #include <variant>
@@ -126,8 +127,13 @@ class Mechanism {
   void add(JointSpring spring);
   /// Acceleration of free fall in the inertial frame [m/s²]; names gravity.x … z. Zero unless set; set at most once.
   void setGravity(QuantityVector gravity);
-  /// Throws if there is no joint.
+  /// Throws if there is no joint, or as checkInertia.
   void check() const;
+  /// Throws if some mass has an inertia that no body has.
+  void checkInertia() const;
+  /// What is wrong with some mass's inertia for some values of these quantities, as a clause: "the inertia of 'arm' has
+  /// a negative principal moment"; empty if nothing certainly is.
+  std::string inertiaFault(const std::map<std::string, Interval>& ranges) const;
   /// Throws if there is a joint that no mass hangs on: its motion would not be determined.
   void checkMasses() const;
 

@@ -40,9 +40,10 @@ struct Study {
   Mechanism mechanism;
   std::vector<UncertainQuantity> uncertain;
   std::vector<OutputInfo> outputs;
-  FlowOptions flow;          ///< without jobs, progress and cancelled, which belong to a run
-  EnsembleOptions ensemble;  ///< likewise
-  int levels = 11;           ///< of alpha, from 0 to 1
+  FlowOptions flow;                ///< without jobs, progress and cancelled, which belong to a run
+  EnsembleOptions ensemble;        ///< likewise
+  int levels = 11;                 ///< of alpha, from 0 to 1
+  std::vector<std::string> notes;  ///< what may be a mistake: lines "file:line:column: note: what"
 
   std::string analysisName() const { return analysis == Analysis::kinematics ? "kinematics" : "dynamics"; }
 };

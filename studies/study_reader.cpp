@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <set>
 
 #include "mechanics/model.hpp"
@@ -176,12 +177,24 @@ class StudyReader {
       source_.failWith(interval, error.what(), "an interval that holds the nominal value and both supports");
     }
     study_.uncertain.push_back(std::move(result));
+    noteInertia(interval);
+  }
+
+  /// Says so, once, if within the intervals there are inertias that no body has. They may still make sense: of a body
+  /// that only turns about one axis, the others do not matter.
+  void noteInertia(const toml::node& interval) {
+    if (isInertiaNoted_) return;
+    std::map<std::string, Interval> ranges;
+    for (const UncertainQuantity& uncertain : study_.uncertain) ranges[uncertain.quantity] = uncertain.uncertain.range;
+    const std::string fault = study_.mechanism.inertiaFault(ranges);
+    if (fault.empty()) return;
+    study_.notes.push_back(source_.note(interval, "for some values in the intervals " + fault));
+    isInertiaNoted_ = true;
   }
 
   static std::string quantityExpected(const std::string& word, const std::vector<std::string>& known) {
-    const std::string nearest = nearestName(word, known);
-    return nearest.empty() ? "a number of the mechanism"
-                           : fmt::format("a quantity of the mechanism, such as '{}'", nearest);
+    const std::string names = expectedName(word, known);
+    return fmt::format("a quantity of the mechanism, {}{}", names.starts_with('\'') ? "such as " : "", names);
   }
 
   /// [lower, upper], or a deviation to both sides of the nominal value: relative to it in percent, or in its unit.
@@ -530,6 +543,7 @@ class StudyReader {
 
   TomlSource source_;
   Study study_;
+  bool isInertiaNoted_ = false;
 };
 
 }  // namespace

@@ -69,6 +69,9 @@ TEST_F(Program, RefusesWrongUsageInOneLine) {
   }
   EXPECT_EQ(folder_.count(), 1U);
   EXPECT_EQ(folder_.read("s.toml"), sampleStudy);
+  EXPECT_EQ(gamut("rum s.toml").error, "gamut: unknown command 'rum'; expected 'run'\n");
+  EXPECT_EQ(gamut("walk").error,
+            "gamut: unknown command 'walk'; expected one of: run, validate, check, report, info\n");
   EXPECT_EQ(gamut("run s.toml --seed -1").error,
             "gamut: --seed: '-1' is no whole number from 0 to 9223372036854775807; see gamut run --help\n");
 }
@@ -109,6 +112,17 @@ TEST_F(Program, RefusesABadStudyWithoutTouchingAnyFile) {
   EXPECT_EQ(gamut("validate none.toml").error, "none.toml: cannot be read; expected a study file (TOML)\n");
   EXPECT_EQ(gamut("validate none.toml").exitCode, 2);
   EXPECT_EQ(folder_.count(), 1U);
+}
+
+TEST_F(Program, SaysNotesUnlessItIsQuiet) {
+  folder_.write("s.toml", sampleStudyWith("mass = \"250 g\"", "mass = 1\ninertia = [1, 2, 3]") +
+                              "[[uncertain]]\nquantity = \"bob.inertia.zz\"\ninterval = \"± 1 %\"\n");
+  const Outcome run = gamut("validate s.toml");
+  EXPECT_EQ(run.exitCode, 0);
+  EXPECT_EQ(run.error,
+            "s.toml:46:12: note: for some values in the intervals the inertia of 'bob' has a principal moment "
+            "above the sum of the other two\n");
+  EXPECT_EQ(gamut("validate s.toml --quiet").error, "");
 }
 
 TEST_F(Program, ValidatesWithoutWriting) {
