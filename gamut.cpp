@@ -325,25 +325,25 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "gamut: {}\n", printable(error.what()));
     return badInput;
   } catch (const StudyError& error) {
-    fmt::print(stderr, "{}\n", error.what());
+    fmt::print(stderr, "{}\n", printable(error.what()));
     return badInput;
   } catch (const ResultsFileError& error) {
-    fmt::print(stderr, "{}\n", error.what());
+    fmt::print(stderr, "{}\n", printable(error.what()));
     return badInput;
   } catch (const OutputRefused& error) {
-    fmt::print(stderr, "gamut: {}\n", error.what());
+    fmt::print(stderr, "gamut: {}\n", printable(error.what()));
     return badInput;
   } catch (const WriteError& error) {
-    fmt::print(stderr, "gamut: {}\n", error.what());
+    fmt::print(stderr, "gamut: {}\n", printable(error.what()));
     return failed;
   } catch (const std::system_error& error) {
-    fmt::print(stderr, "gamut: {}\n", error.what());
+    fmt::print(stderr, "gamut: {}\n", printable(error.what()));
     return failed;
   } catch (const std::bad_alloc&) {
     fmt::print(stderr, "gamut: out of memory; fewer samples, output times or pieces need less\n");
     return failed;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "gamut: internal failure: {}\n", error.what());
+    fmt::print(stderr, "gamut: internal failure: {}\n", printable(error.what()));
     return failed;
   }
 }

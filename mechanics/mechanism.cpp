@@ -177,34 +177,28 @@ void Mechanism::setGravity(QuantityVector gravity) {
 
 void Mechanism::check() const {
   if (positions_.empty()) refuse("the mechanism has no joint: nothing can move");
-  checkInertia();
+  for (const ElementDescription& element : elements_)
+    if (const Mass* mass = std::get_if<Mass>(&element))
+      if (const std::string fault = inertiaFault(*mass, {}); !fault.empty()) refuse(fault);
 }
 
-void Mechanism::checkInertia() const {
-  if (const std::string fault = inertiaFault({}); !fault.empty()) refuse(fault);
-}
-
-std::string Mechanism::inertiaFault(const std::map<std::string, Interval>& ranges) const {
-  for (const ElementDescription& element : elements_) {
-    const Mass* mass = std::get_if<Mass>(&element);
-    if (mass == nullptr) continue;
-    std::vector<std::string> varied;  // of the entries' parameters, those that have a range
-    for (const Quantity& entry : mass->inertia)
-      if (ranges.contains(entry.parameter()) && !has(varied, entry.parameter())) varied.push_back(entry.parameter());
-    // The tensors that a body can have are a convex cone, and each entry is affine in its parameter: what holds at the
-    // corners of the box holds in all of it.
-    for (unsigned corner = 0; corner < (1U << varied.size()); ++corner) {
-      std::array<Interval, 6> tensor;
-      std::transform(mass->inertia.begin(), mass->inertia.end(), tensor.begin(), [&](const Quantity& entry) {
-        const auto place = std::find(varied.begin(), varied.end(), entry.parameter());
-        if (place == varied.end()) return entry.factor() * nominal(entry.parameter());
-        const Interval& range = ranges.at(entry.parameter());
-        const bool isUpper = ((corner >> (place - varied.begin())) & 1U) != 0;
-        return entry.factor() * Interval(isUpper ? range.upper() : range.lower());
-      });
-      const std::string fault = impossibilityOf(tensor);
-      if (!fault.empty()) return "the inertia of " + quoted(mass->name) + " " + fault;
-    }
+std::string Mechanism::inertiaFault(const Mass& mass, const std::map<std::string, Interval>& ranges) const {
+  std::vector<std::string> varied;  // of the entries' parameters, those that have a range
+  for (const Quantity& entry : mass.inertia)
+    if (ranges.contains(entry.parameter()) && !has(varied, entry.parameter())) varied.push_back(entry.parameter());
+  // The tensors that a body can have are a convex cone, and each entry is affine in its parameter: what holds at the
+  // corners of the box holds in all of it.
+  for (unsigned corner = 0; corner < (1U << varied.size()); ++corner) {
+    std::array<Interval, 6> tensor;
+    std::transform(mass.inertia.begin(), mass.inertia.end(), tensor.begin(), [&](const Quantity& entry) {
+      const auto place = std::find(varied.begin(), varied.end(), entry.parameter());
+      if (place == varied.end()) return entry.factor() * nominal(entry.parameter());
+      const Interval& range = ranges.at(entry.parameter());
+      const bool isUpper = ((corner >> (place - varied.begin())) & 1U) != 0;
+      return entry.factor() * Interval(isUpper ? range.upper() : range.lower());
+    });
+    const std::string fault = impossibilityOf(tensor);
+    if (!fault.empty()) return "the inertia of " + quoted(mass.name) + " " + fault;
   }
   return "";
 }

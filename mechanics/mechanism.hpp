@@ -127,13 +127,11 @@ class Mechanism {
   void add(JointSpring spring);
   /// Acceleration of free fall in the inertial frame [m/s²]; names gravity.x … z. Zero unless set; set at most once.
   void setGravity(QuantityVector gravity);
-  /// Throws if there is no joint, or as checkInertia.
+  /// Throws if there is no joint, or a mass with an inertia that no body has.
   void check() const;
-  /// Throws if some mass has an inertia that no body has.
-  void checkInertia() const;
-  /// What is wrong with some mass's inertia for some values of these quantities, as a clause: "the inertia of 'arm' has
-  /// a negative principal moment"; empty if nothing certainly is.
-  std::string inertiaFault(const std::map<std::string, Interval>& ranges) const;
+  /// What is wrong with the inertia of one of the elements for some values within the ranges, as a clause: "the inertia
+  /// of 'arm' has a negative principal moment"; empty if nothing certainly is. Numbers without a range are nominal.
+  std::string inertiaFault(const Mass& mass, const std::map<std::string, Interval>& ranges) const;
   /// Throws if there is a joint that no mass hangs on: its motion would not be determined.
   void checkMasses() const;
 

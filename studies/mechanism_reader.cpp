@@ -164,17 +164,10 @@ class MechanismReader {
         body.inertia[i] = number(list[i], section.nameOf("inertia"), inertia);
     }
     guarded(table, [&] { mechanism_.add(std::move(body)); });
-    if (const toml::node* node = section.find("inertia")) checkInertia(*node);
+    const std::string fault = mechanism_.inertiaFault(std::get<Mass>(mechanism_.elements().back()), {});
+    if (!fault.empty()) source_.fail(*section.find("inertia"), fault, "an inertia that a body can have");
     const Interval value = given.isConstant() ? given.factor() : given.factor() * mechanism_.nominal(given.parameter());
     if (value.lower() < 0) source_.fail(weight, section.nameOf("mass") + " is negative", "a mass of at least 0 kg");
-  }
-
-  void checkInertia(const toml::node& node) const {
-    try {
-      mechanism_.checkInertia();
-    } catch (const std::invalid_argument& error) {
-      source_.failWith(node, error.what(), "an inertia that a body can have");
-    }
   }
 
   void readSpring(const toml::table& table) {

@@ -13,6 +13,7 @@
 #include "mechanics/names.hpp"
 #include "studies/detail/mechanism_reader.hpp"
 #include "studies/detail/toml_source.hpp"
+#include "studies/printable.hpp"
 #include "studies/study.hpp"
 
 namespace gamut {
@@ -33,7 +34,9 @@ class StudyReader {
     readStudyTable(source_.asTable(file.require("study", "a table [study]"), "study"));
     study_.mechanism =
         readMechanism(source_, source_.asTable(file.require("mechanism", "a table [mechanism]"), "mechanism"));
-    for (const toml::table* table : tables(file, "uncertain")) readUncertain(*table);
+    const std::vector<const toml::table*> uncertain = tables(file, "uncertain");
+    for (const toml::table* table : uncertain) readUncertain(*table);
+    noteInertia(uncertain);
     file.require("output", "a table [[output]] for each output that is wanted");
     for (const toml::table* table : tables(file, "output")) readOutput(*table);
     checkInitialValues();
@@ -63,7 +66,7 @@ class StudyReader {
   void readStudyTable(const toml::table& table) {
     const TomlSection section(source_, table, "study",
                               {"title", "analysis", "horizon", "output_step", "output_times", "compare"});
-    study_.title = section.text("title", std::filesystem::path(study_.file).stem().string());
+    study_.title = section.text("title", printable(std::filesystem::path(study_.file).stem().string()));
     const toml::node& analysis = section.require("analysis", "\"dynamics\" or \"kinematics\"");
     const bool isMotion = source_.asChoice(analysis, "study.analysis", {"dynamics", "kinematics"}) == "dynamics";
     study_.analysis = isMotion ? Study::Analysis::dynamics : Study::Analysis::kinematics;
@@ -177,19 +180,25 @@ class StudyReader {
       source_.failWith(interval, error.what(), "an interval that holds the nominal value and both supports");
     }
     study_.uncertain.push_back(std::move(result));
-    noteInertia(interval);
   }
 
-  /// Says so, once, if within the intervals there are inertias that no body has. They may still make sense: of a body
-  /// that only turns about one axis, the others do not matter.
-  void noteInertia(const toml::node& interval) {
-    if (isInertiaNoted_) return;
+  /// Says so if within the intervals there are inertias that no body has. They may still make sense: of a body that
+  /// only turns about one axis, the other moments do not matter.
+  void noteInertia(const std::vector<const toml::table*>& tables) {
     std::map<std::string, Interval> ranges;
     for (const UncertainQuantity& uncertain : study_.uncertain) ranges[uncertain.quantity] = uncertain.uncertain.range;
-    const std::string fault = study_.mechanism.inertiaFault(ranges);
-    if (fault.empty()) return;
-    study_.notes.push_back(source_.note(interval, "for some values in the intervals " + fault));
-    isInertiaNoted_ = true;
+    for (const ElementDescription& element : study_.mechanism.elements()) {
+      const Mass* mass = std::get_if<Mass>(&element);
+      const std::string fault = mass == nullptr ? "" : study_.mechanism.inertiaFault(*mass, ranges);
+      if (fault.empty()) continue;
+      const auto isOfMass = [&](const UncertainQuantity& uncertain) {
+        return std::any_of(mass->inertia.begin(), mass->inertia.end(),
+                           [&](const Quantity& entry) { return entry.parameter() == uncertain.quantity; });
+      };
+      const auto first = std::find_if(study_.uncertain.begin(), study_.uncertain.end(), isOfMass);
+      const toml::table& table = *tables[static_cast<std::size_t>(first - study_.uncertain.begin())];
+      study_.notes.push_back(source_.note(*table.get("interval"), "for some values in the intervals " + fault));
+    }
   }
 
   static std::string quantityExpected(const std::string& word, const std::vector<std::string>& known) {
@@ -543,7 +552,6 @@ class StudyReader {
 
   TomlSource source_;
   Study study_;
-  bool isInertiaNoted_ = false;
 };
 
 }  // namespace

@@ -1,12 +1,15 @@
 // libFuzzer on the reader of results files and all that shows what was read. Mutations are carried behind the checks:
 // the digest, and sometimes HDF5's own checksums, are made right. Built by the preset "fuzz"; campaigns/fuzz.sh runs
 // it.
+#include <pthread.h>
+#include <sanitizer/common_interface_defs.h>
 #include <unistd.h>
 
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <random>
 #include <string>
@@ -17,8 +20,24 @@
 #include "studies/results_file.hpp"
 #include "studies/summary.hpp"
 #include "tests/studies/damage.hpp"
+#include "tests/studies/sample_results.hpp"
 
 extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t limit);
+
+/// The first of the corpus, in the folder that the last argument names.
+extern "C" int LLVMFuzzerInitialize(int* count, char*** arguments) {
+  // The end of a child is no finding: it is what children are for.
+  ::pthread_atfork(nullptr, nullptr, [] { __sanitizer_set_death_callback(nullptr); });
+  const std::filesystem::path folder = (*arguments)[*count - 1];
+  if (!std::filesystem::is_directory(folder)) return 0;
+  gamut::Results results = gamut::sampleResults();
+  gamut::writeResults(results, folder / "sample.h5");
+  results.interval = {};
+  results.fuzzy = {};
+  results.comparison = {};
+  gamut::writeResults(results, folder / "samples_alone.h5");
+  return 0;
+}
 
 extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t limit, unsigned seed) {
   std::mt19937_64 random(seed);
