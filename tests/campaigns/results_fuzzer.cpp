@@ -61,7 +61,8 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const std::string path = "/tmp/gamut-fuzz-" + std::to_string(::getpid()) + ".h5";
+  static const std::string path =
+      std::filesystem::temp_directory_path() / ("gamut-fuzz-" + std::to_string(::getpid()) + ".h5");
   std::ofstream(path, std::ios::binary).write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
   try {
     const gamut::Results results = gamut::readResults(path);
