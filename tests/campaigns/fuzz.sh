@@ -2,7 +2,8 @@
 # fuzz.sh study|results SECONDS: builds a fuzzer with clang and runs it on one core, from the shipped studies or from
 # results with something in every field. What crashes or hangs is kept in build/fuzz/found; the corpus grows in
 # build/fuzz/corpus and is taken up again. The kinds of complaints that the study reader came to are ordinary tests, in
-# tests/studies/corpus/fuzzed.txt.
+# tests/studies/corpus/fuzzed.txt. A found oom-… after which the fuzzer went on is the end of a child that read results:
+# gamut limits its memory, under the sanitizer libFuzzer does.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/../.."
 target=$1 seconds=$2
