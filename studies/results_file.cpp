@@ -354,7 +354,11 @@ void checkSense(const Results& results) {
   require(isCount(results.interval.steps), "steps");
   require(isCount(results.stochastic.samples), "samples");
   require(isCount(results.stochastic.corners), "corners");
-  for (const DisputedSample& sample : results.comparison.disputed) require(isCount(sample.number), "number");
+  for (const DisputedSample& sample : results.comparison.disputed) {
+    require(isCount(sample.number), "number");
+    requireBounds(sample.lower, sample.upper, "disputed");
+  }
+  for (const UncertainInfo& uncertain : results.uncertain) requireBounds(uncertain.lower, uncertain.upper, "uncertain");
   for (const double alpha : results.fuzzy.alpha) require(alpha >= 0 && alpha <= 1, "alpha");
   for (const double probability : results.stochastic.probabilities)
     require(probability >= 0 && probability <= 1, "probability");

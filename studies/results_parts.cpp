@@ -2,7 +2,9 @@
 #include "studies/detail/results_parts.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
+#include <utility>
 
 namespace gamut {
 
@@ -85,12 +87,27 @@ Grid GridReader::grid(const std::string& name) const {
   return grid;
 }
 
-Bounds GridReader::bounds(const std::string& name) const {
+void requireBounds(double lower, double upper, const std::string& name) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  if (lower > upper || lower == infinity || upper == -infinity) throw Hdf5Error(name);
+}
+
+namespace {
+
+Bounds boundsOf(Grid lower, Grid upper, const std::string& name) {
+  if (lower.empty() != upper.empty()) throw Hdf5Error(name);
+  for (std::size_t i = 0; i < lower.data.size(); ++i) requireBounds(lower.data[i], upper.data[i], name);
   Bounds bounds;
-  bounds.lower = grid(name + "_lower");
-  bounds.upper = grid(name + "_upper");
-  if (bounds.lower.empty() != bounds.upper.empty()) throw Hdf5Error(name);
+  bounds.lower = std::move(lower);
+  bounds.upper = std::move(upper);
   return bounds;
+}
+
+}  // namespace
+
+Bounds GridReader::bounds(const std::string& name) const {
+  Grid lower = grid(name + "_lower"), upper = grid(name + "_upper");
+  return boundsOf(std::move(lower), std::move(upper), name);
 }
 
 std::vector<Grid> GridReader::stack(const std::string& name, std::size_t levels) const {
@@ -110,11 +127,9 @@ std::vector<Grid> GridReader::stack(const std::string& name, std::size_t levels)
 std::vector<Bounds> GridReader::boundsStack(const std::string& name, std::size_t levels) const {
   std::vector<Grid> lower = stack(name + "_lower", levels), upper = stack(name + "_upper", levels);
   if (lower.size() != upper.size()) throw Hdf5Error(name);
-  std::vector<Bounds> result(lower.size());
-  for (std::size_t i = 0; i < lower.size(); ++i) {
-    result[i].lower = std::move(lower[i]);
-    result[i].upper = std::move(upper[i]);
-  }
+  std::vector<Bounds> result;
+  for (std::size_t i = 0; i < lower.size(); ++i)
+    result.push_back(boundsOf(std::move(lower[i]), std::move(upper[i]), name));
   return result;
 }
 

@@ -106,6 +106,9 @@ class GridReader {
   std::size_t times_, outputs_;
 };
 
+/// Throws Hdf5Error unless the bounds are those of an interval that is not empty, or one is NaN.
+void requireBounds(double lower, double upper, const std::string& name);
+
 /// A list of numbers; with `size` other than npos, of that length.
 std::vector<double> readList(const Hdf5Reader& group, const std::string& name, std::size_t size = std::string::npos);
 std::vector<std::string> readTexts(const Hdf5Reader& group, const std::string& name, std::size_t size);

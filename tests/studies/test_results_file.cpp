@@ -9,6 +9,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 
 #include "studies/atomic_file.hpp"
 #include "studies/detail/hdf5.hpp"
@@ -229,6 +230,34 @@ TEST_F(ResultsFile, OfAnOlderBuildIsRefusedWithItsFormat) {
                                 ": written in format 1 by an older build of gamut; expected format 2, so run the "
                                 "study again");
   }
+}
+
+TEST_F(ResultsFile, IsRefusedIfItsNumbersMakeNoSense) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const auto message = [&](const auto& change) -> std::string {
+    Results results = sampleResults();
+    change(results);
+    writeResults(results, path_);
+    try {
+      readResults(path_);
+    } catch (const ResultsFileError& error) {
+      return error.what();
+    }
+    return "it was read";
+  };
+  const auto refused = [&](const std::string& what) {
+    return path_ + ": damaged: " + what + " cannot be read; expected the file as gamut run wrote it";
+  };
+  EXPECT_EQ(message([](Results& r) { r.interval.at.upper(1, 1) = -1e9; }), refused("at"));
+  EXPECT_EQ(message([](Results& r) { r.interval.over.lower(1, 1) = infinity; }), refused("over"));
+  EXPECT_EQ(message([](Results& r) { r.fuzzy.outer[1].lower(0, 0) = 1e9; }), refused("outer"));
+  EXPECT_EQ(message([](Results& r) { r.interval.at.upper(1, 1) = infinity; }), "it was read");
+  EXPECT_EQ(message([](Results& r) { r.uncertain[0].upper = 0; }), refused("uncertain"));
+  EXPECT_EQ(message([](Results& r) { r.comparison.disputed[0].lower = 2; }), refused("disputed"));
+  EXPECT_EQ(message([](Results& r) { r.comparison.disputed[0].number = -1; }), refused("number"));
+  EXPECT_EQ(message([](Results& r) { r.stochastic.samples = -1; }), refused("samples"));
+  EXPECT_EQ(message([](Results& r) { r.time[1] = 0.03; }), refused("time"));
+  EXPECT_EQ(message([](Results& r) { r.fuzzy.alpha[1] = 1.5; }), refused("alpha"));
 }
 
 TEST_F(ResultsFile, TellsItsDigestToCommonTools) {
