@@ -28,7 +28,7 @@ class PreciseRun {
       : motion_(motion),
         options_(options),
         cancelled_(cancelled),
-        series_(motion.f, options.order),
+        series_(motion.forSamples(), options.order),
         g_(motion.g),
         n_(static_cast<std::size_t>(motion.f.states())),
         m_(motion.outputs()) {

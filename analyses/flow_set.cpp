@@ -76,10 +76,14 @@ bool expandRemainder(FlowSet& set, const Monomials& from, int fromFrameDegree, c
   const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> C(set.C.data(), n, n);
   const Eigen::Map<const Eigen::VectorXd> R(set.R.data(), n), radius(total.data(), n);
   const Eigen::Map<const Matrix> generators(set.generators.data(), n, static_cast<int>(set.generators.size()) / n);
+  // In the units of the last step, powers of two: principal axes mean something there.
+  Eigen::VectorXd unit = Eigen::VectorXd::Ones(n);
+  for (std::size_t i = 0; i < set.units.size(); ++i) unit(static_cast<int>(i)) = std::ldexp(1.0, set.units[i]);
+  const Eigen::VectorXd inverse = unit.cwiseInverse();
   Matrix H(n, n + generators.cols());
-  H.leftCols(n) = C * R.asDiagonal();
-  H.rightCols(generators.cols()) = C * generators;
-  const Eigen::VectorXd rounding = (n + 1) * bounds::unit * (C.cwiseAbs() * radius);
+  H.leftCols(n) = inverse.asDiagonal() * (C * R.asDiagonal());
+  H.rightCols(generators.cols()) = inverse.asDiagonal() * (C * generators);
+  const Eigen::VectorXd rounding = inverse.asDiagonal() * ((n + 1) * bounds::unit * (C.cwiseAbs() * radius));
   const Matrix U = Eigen::SelfAdjointEigenSolver<Matrix>(H * H.transpose()).eigenvectors();
   const double phi = orthogonalityDefect(U);
   if (!(phi < 0.5)) return false;
@@ -104,7 +108,7 @@ bool expandRemainder(FlowSet& set, const Monomials& from, int fromFrameDegree, c
   for (int i = 0; i < n; ++i) {
     double rounded = 0;
     for (int j = 0; j < n; ++j) {
-      const double coefficient = U(i, j) * half(j);  // one rounding
+      const double coefficient = U(i, j) * half(j) * unit(i);  // one rounding
       p[at(i * newN + to.linear(from.symbols() + j))] = coefficient;
       rounded += bounds::unit * std::fabs(coefficient);
     }

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <type_traits>
+#include <vector>
 
 #include "analyses/error_bounds.hpp"
 #include "scalars/index.hpp"
@@ -16,8 +18,17 @@ using detail::at;
 
 namespace {
 
-constexpr double dumpedAt = 0.2;    // a frame column with more ξ-dependence than this goes back to a constant one
-constexpr int generatorsKept = 60;  // steps whose errors are kept apart; older ones merge into the box R
+constexpr double dumpedAt = 0.2;     // a frame column with more ξ-dependence than this goes back to a constant one
+/// Steps whose errors are kept apart; older ones merge into the box R. What it costs grows as the rest of a step does,
+/// so that long motions of many states, which lose most by merging, keep more.
+int stepsKept(int n) { return std::clamp(30 * n, 60, 300); }
+
+/// Generators, n numbers each, as the columns of a matrix.
+template <class Generators>
+auto columnsOf(Generators& generators, int n) {
+  using Matrix = std::conditional_t<std::is_const_v<Generators>, const Eigen::MatrixXd, Eigen::MatrixXd>;
+  return Eigen::Map<Matrix>(generators.data(), n, static_cast<Eigen::Index>(generators.size()) / n);
+}
 
 }  // namespace
 
@@ -26,8 +37,9 @@ FlowStepper::FlowStepper(const Program& motion, std::shared_ptr<const Monomials>
     : n_(motion.states()),
       m_(order),
       tolerance_(tolerance),
-      series_(motion, motion.states(), std::move(monomials), frameDegree, order, true) {
-  for (auto* v : {&A_, &M0_, &M1_, &M2_, &term_, &next_, &epsilon_}) v->assign(at(n_ * n_), 0.0);
+      series_(motion, motion.states(), std::move(monomials), frameDegree, order, true),
+      growth_(motion.states(), order) {
+  epsilon_.assign(at(n_ * n_), 0.0);
   for (auto* v : {&delta0_, &delta1_, &start_, &E_, &y_, &e1_, &nu0_, &nu1_, &scale_}) v->assign(at(n_), 0.0);
 }
 
@@ -60,70 +72,10 @@ double FlowStepper::suggestion(double theta) const {
   return best;
 }
 
-/// With Ah nonnegative: M1 = h Σ (Ah)^k/(k+1)!, M2 = h Σ (Ah)^k m!/(m+k+1)!, M0 = I + A M1 = e^{Ah}. The remaining
-/// terms of a series are below twice the next one once their ratio is below one half.
-bool FlowStepper::matrices(double h) {
-  double nu = 0;
-  for (int i = 0; i < n_; ++i) {
-    double row = 0;
-    for (int j = 0; j < n_; ++j) {
-      A_[at(i * n_ + j)] = series_.jacobianBound(i, j);
-      row += A_[at(i * n_ + j)];
-    }
-    nu = std::max(nu, row * h * bounds::up);
-  }
-  if (!(nu < 60)) return false;
-  // A few power iterations: how fast the comparison system grows, whatever the units of the states.
-  std::vector<double>& v = nu0_;
-  std::fill(v.begin(), v.end(), 1.0);
-  growth_ = 0;
-  for (int iteration = 0; iteration < 6; ++iteration) {
-    double largest = 0;
-    for (int i = 0; i < n_; ++i) {
-      double row = 0;
-      for (int j = 0; j < n_; ++j) row += A_[at(i * n_ + j)] * v[at(j)];
-      nu1_[at(i)] = row;
-      largest = std::max(largest, row);
-    }
-    growth_ = largest * h;
-    if (!(largest > 0)) break;
-    for (int i = 0; i < n_; ++i) v[at(i)] = nu1_[at(i)] / largest;
-  }
-  const auto sum = [&](std::vector<double>& M, int offset) {
-    std::fill(term_.begin(), term_.end(), 0.0);
-    for (int i = 0; i < n_; ++i) term_[at(i * n_ + i)] = h / offset;
-    M = term_;
-    for (int k = 1;; ++k) {
-      const double factor = h / (k + offset);
-      double largest = 0;
-      for (int i = 0; i < n_; ++i) {
-        double row = 0;
-        for (int j = 0; j < n_; ++j) {
-          double s = 0;
-          for (int l = 0; l < n_; ++l) s += A_[at(i * n_ + l)] * term_[at(l * n_ + j)];
-          next_[at(i * n_ + j)] = s * factor;
-          row += s * factor;
-        }
-        largest = std::max(largest, row);
-      }
-      term_.swap(next_);
-      for (std::size_t i = 0; i < M.size(); ++i) M[i] += term_[i];
-      const double ratio = nu / (k + 1 + offset);
-      if (ratio < 0.5 && largest <= 0x1p-70 * h) {
-        for (double& entry : M) entry = (entry + 2 * ratio * largest) * bounds::up;
-        return;
-      }
-    }
-  };
-  sum(M1_, 1);
-  sum(M2_, m_ + 1);
+bool FlowStepper::boundGrowth(double h) {
   for (int i = 0; i < n_; ++i)
-    for (int j = 0; j < n_; ++j) {
-      double s = i == j ? 1.0 : 0.0;
-      for (int l = 0; l < n_; ++l) s += A_[at(i * n_ + l)] * M1_[at(l * n_ + j)];
-      M0_[at(i * n_ + j)] = s * bounds::up;
-    }
-  return true;
+    for (int j = 0; j < n_; ++j) growth_.A(i, j) = series_.jacobianBound(i, j);
+  return growth_.compute(h);
 }
 
 bool FlowStepper::tryStep(const FlowSet& set, double theta) {
@@ -144,12 +96,11 @@ bool FlowStepper::tryStep(const FlowSet& set, double theta) {
     for (int i = 0; i < n_; ++i) {
       double y = 0;
       for (int j = 0; j < n_; ++j)
-        y += M1_[at(i * n_ + j)] * delta0_[at(j)] + M2_[at(i * n_ + j)] * delta1_[at(j)] +
-             M0_[at(i * n_ + j)] * start_[at(j)];
+        y += growth_.M1(i, j) * delta0_[at(j)] + growth_.M2(i, j) * delta1_[at(j)] + growth_.M0(i, j) * start_[at(j)];
       y_[at(i)] = y * bounds::up + bounds::tiny;
     }
   };
-  if (!matrices(h)) return false;
+  if (!boundGrowth(h)) return false;
   tube();
   bool proved = false;
   for (int attempt = 0; attempt < 4 && !proved; ++attempt) {
@@ -157,7 +108,7 @@ bool FlowStepper::tryStep(const FlowSet& set, double theta) {
       E_[at(i)] = y_[at(i)] * (attempt == 0 ? 1.05 : 1.3);
       if (!(E_[at(i)] < bounds::largest)) return false;
     }
-    if (!series_.bound(E_.data(), false) || !matrices(h)) return false;
+    if (!series_.bound(E_.data(), false) || !boundGrowth(h)) return false;
     tube();
     proved = true;
     for (int i = 0; i < n_; ++i) proved = proved && y_[at(i)] <= E_[at(i)];
@@ -167,9 +118,9 @@ bool FlowStepper::tryStep(const FlowSet& set, double theta) {
   for (int i = 0; i < n_; ++i) {
     double time = 0, truncation = 0, kept = 0;
     for (int j = 0; j < n_; ++j) {
-      truncation += M1_[at(i * n_ + j)] * delta0_[at(j)];
-      time += M2_[at(i * n_ + j)] * delta1_[at(j)];
-      kept += M0_[at(i * n_ + j)] * set.W[at(j)];
+      truncation += growth_.M1(i, j) * delta0_[at(j)];
+      time += growth_.M2(i, j) * delta1_[at(j)];
+      kept += growth_.M0(i, j) * set.W[at(j)];
     }
     e1_[at(i)] = (time + truncation + kept) * bounds::up + bounds::tiny;
     if (scale_[at(i)] > 0) {
@@ -181,7 +132,7 @@ bool FlowStepper::tryStep(const FlowSet& set, double theta) {
     for (int i = 0; i < n_; ++i) series_.frameDefect(i, j, nu0_[at(i)], nu1_[at(i)]);
     for (int i = 0; i < n_; ++i) {
       double s = 0;
-      for (int l = 0; l < n_; ++l) s += M1_[at(i * n_ + l)] * nu0_[at(l)] + M2_[at(i * n_ + l)] * nu1_[at(l)];
+      for (int l = 0; l < n_; ++l) s += growth_.M1(i, l) * nu0_[at(l)] + growth_.M2(i, l) * nu1_[at(l)];
       epsilon_[at(i * n_ + j)] = s * bounds::up;
     }
   }
@@ -218,6 +169,7 @@ bool FlowStepper::isRemainderDominant(const FlowSet& set) const {
 StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum, double splitDefect) {
   const double left = end - set.t;
   caution_ = set.caution;
+  growth_.setUnits(set.units);
   const auto powerOfTwoAbove = [](double x) {
     int exponent = 0;
     std::frexp(x, &exponent);
@@ -258,8 +210,9 @@ StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum,
         h *= factor;
         continue;
       }
-      if (growth_ > 4 && attempt < 3) {  // stiff: the comparison with |Df| would lose a factor e^{growth} a step
-        h *= 3 / growth_;
+      if (growth_.growth() > 4 &&
+          attempt < 3) {  // stiff: the comparison with |Df| would lose a factor e^{growth} a step
+        h *= 3 / growth_.growth();
         continue;
       }
       h_ = h;
@@ -323,13 +276,11 @@ void FlowStepper::evaluate(const FlowSet& set, double tau, FlowPoint& point) {
   // Ψ_0 Γ: n roundings an entry, together at most n u |Ψ_0| Σ|Γ_j|.
   const std::size_t n = set.R.size();
   point.zonotope.resize(set.generators.size());
-  for (std::size_t column = 0; column < set.generators.size(); column += n)
-    for (std::size_t i = 0; i < n; ++i) {
-      double sum = 0;
-      for (std::size_t k = 0; k < n; ++k) sum += point.psi[i * n + k] * set.generators[column + k];
-      point.zonotope[column + i] = sum;
-      point.radius[i] += std::fabs(sum);
-    }
+  const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> psi(point.psi.data(),
+                                                                                                     n_, n_);
+  Eigen::Map<Eigen::MatrixXd> zonotope = columnsOf(point.zonotope, n_);
+  zonotope.noalias() = psi * columnsOf(set.generators, n_);
+  Eigen::Map<Eigen::VectorXd>(point.radius.data(), n_) += zonotope.cwiseAbs().rowwise().sum();
   for (std::size_t i = 0; i < n; ++i) {
     double size = 0;
     for (std::size_t k = 0; k < n; ++k) size += std::fabs(point.psi[i * n + k]) * total_[k];
@@ -363,6 +314,14 @@ void FlowStepper::advance(FlowSet& set) {
   using Matrix = Eigen::MatrixXd;
   evaluate(set, h_, end_);
   const int NJ = series_.frameCount();
+  // All of it in balanced units z = D⁻¹x, D a diagonal of powers of two: lengths and angles mean something there.
+  std::vector<double> unit(at(n_));
+  for (int i = 0; i < n_; ++i) {
+    unit[at(i)] = std::ldexp(1.0, growth_.units()[at(i)]);
+    end_.loose[at(i)] /= unit[at(i)];
+    for (int g = 0; g < NJ; ++g)
+      for (int j = 0; j < n_; ++j) end_.psi[at((g * n_ + i) * n_ + j)] /= unit[at(i)];
+  }
   const auto psi = [&](int g, int i, int j) { return end_.psi[at((g * n_ + i) * n_ + j)]; };
 
   // Q, T: QR of the constant part, columns sorted by length × R, so that the longest keeps its direction.
@@ -464,36 +423,32 @@ void FlowStepper::advance(FlowSet& set) {
   }
   // Γ' = fl(T Γ), n roundings an entry, and fl(Qᵀ diag w), one: together (n+1) u (|T| Σ|Γ| + |Qᵀ| w) into the box.
   box += (n_ + 1) * bounds::unit * (T.cwiseAbs() * total + turned);
-  std::vector<double> generators;
-  generators.reserve(set.generators.size() + at(n_ * n_));
-  std::size_t oldest = 0;
-  Eigen::VectorXd merged = Eigen::VectorXd::Zero(n_);
-  if (set.generators.size() >= at(generatorsKept * n_ * n_)) oldest = at(n_ * n_);
-  for (std::size_t column = 0; column < set.generators.size(); column += at(n_))
-    for (int i = 0; i < n_; ++i) {
-      double sum = 0;
-      for (int k = i; k < n_; ++k) sum += T(i, k) * set.generators[column + at(order[at(k)])];
-      if (column < oldest)
-        merged(i) += std::fabs(sum);
-      else
-        generators.push_back(sum);
-    }
-  for (int j = 0; j < n_; ++j)
-    for (int i = 0; i < n_; ++i) generators.push_back(Q(j, i) * w(j));
+  Matrix turn(n_, n_);  // T, its columns where the generators' components stand
+  for (int k = 0; k < n_; ++k) turn.col(order[at(k)]) = T.col(k);
+  Matrix moved(n_, columnsOf(set.generators, n_).cols() + n_);
+  moved.leftCols(moved.cols() - n_).noalias() = turn * columnsOf(set.generators, n_);
+  moved.rightCols(n_) = (w.asDiagonal() * Q).transpose();
+  const int oldest = moved.cols() > stepsKept(n_) * n_ ? n_ : 0;
+  const Eigen::VectorXd merged = moved.leftCols(oldest).cwiseAbs().rowwise().sum();
   const Eigen::VectorXd newR = (T.cwiseAbs() * R + merged + box) * bounds::up;
-  set.generators = std::move(generators);
+  set.generators.assign(moved.data() + oldest * n_, moved.data() + moved.size());
 
   set.t += h_;  // exact: both are multiples of the quantum
   set.p = end_.p;
   set.nextStep = h_ * 1.1;
   set.caution = caution_;
-  for (int g = 0; g < NJ; ++g)
-    for (int i = 0; i < n_; ++i)
-      for (int j = 0; j < n_; ++j) set.C[at((g * n_ + i) * n_ + j)] = C[at(g)](i, j);
+  set.units = growth_.units();
   for (int i = 0; i < n_; ++i) {
     set.R[at(i)] = newR(i);
     set.W[at(i)] = 0;
   }
+  for (int g = 0; g < NJ; ++g)
+    for (int i = 0; i < n_; ++i)
+      for (int j = 0; j < n_; ++j) {
+        double& entry = set.C[at((g * n_ + i) * n_ + j)];
+        entry = C[at(g)](i, j) * unit[at(i)];
+        if (entry / unit[at(i)] != C[at(g)](i, j)) set.W[at(i)] = bounds::tiny;  // underflow
+      }
 }
 
 double FlowStepper::relativeRemainder(const FlowSet& set) const {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "analyses/flow_growth.hpp"
 #include "analyses/flow_set.hpp"
 #include "analyses/polynomial_range.hpp"
 #include "analyses/polynomial_series.hpp"
@@ -59,7 +60,7 @@ class FlowStepper {
   int frameCount() const { return series_.frameCount(); }
 
  private:
-  bool matrices(double h);
+  bool boundGrowth(double h);
   bool tryStep(const FlowSet& set, double theta);
   void load(const FlowSet& set);
   double suggestion(double theta) const;
@@ -68,11 +69,11 @@ class FlowStepper {
   int n_, m_;
   double tolerance_;
   PolynomialSeries series_;
+  FlowGrowth growth_;
   double h0_ = 0, h_ = 0, theta_ = 0;
-  double timeError_ = 0, truncation_ = 0, growth_ = 0;
+  double timeError_ = 0, truncation_ = 0;
   double caution_ = 1;
   std::string why_;
-  std::vector<double> A_, M0_, M1_, M2_, term_, next_;
   std::vector<double> delta0_, delta1_, start_, E_, y_, e1_, epsilon_, nu0_, nu1_, scale_;
   std::vector<double> total_;  // R + Σ_j |Γ_j| of the set being stepped
   FlowPoint end_;

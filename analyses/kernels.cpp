@@ -119,9 +119,24 @@ GAMUT_INLINE double thinDot(const double* a, const double* bReversed, int i) {
 
 }  // namespace
 
-GAMUT_CLONES void thinRecursion(const std::vector<ThinNode>& nodes, const std::vector<std::pair<int, int>>& states,
-                                const std::vector<ThinSum>& frame, int time, int order, double h0,
-                                std::vector<double>& current) {
+/// Order i of the components from node x on: A₀ x_i = b_i - Σ_{j≥1} A_j x_{i-j}.
+GAMUT_INLINE void thinSolution(const ThinNode* v, int x, const ThinSolution& solution, int i, double* cur) {
+  const int n = static_cast<int>(solution.rightSide.size());
+  const int* entry = solution.matrix.data();
+  for (int k = 0; k < n; ++k) {
+    double s = cur[solution.rightSide[static_cast<std::size_t>(k)]];
+    for (int j = 0; j < n; ++j, ++entry)
+      if (*entry >= 0) s -= thinDot(v[*entry].forward, v[x + j].reversed, i) + cur[*entry] * v[x + j].forward[0];
+    cur[x + k] = s;
+  }
+  double* residual = solution.residual + i * n;
+  std::fill_n(residual, n, 0.0);
+  solution.factors->solve(cur + x, residual);
+}
+
+GAMUT_CLONES void thinRecursion(const std::vector<ThinNode>& nodes, const std::vector<const ThinSolution*>& solutions,
+                                const std::vector<std::pair<int, int>>& states, const std::vector<ThinSum>& frame,
+                                int time, int order, double h0, std::vector<double>& current) {
   const int count = static_cast<int>(nodes.size());
   const ThinNode* v = nodes.data();
   double* cur = current.data();
@@ -172,6 +187,9 @@ GAMUT_CLONES void thinRecursion(const std::vector<ThinNode>& nodes, const std::v
             cur[x + 1] = -(thinDot(a.derivative, n.reversed, i) + slope * n.forward[0]) / i;
             break;
           }
+          case Op::solution:
+            if (n.b == 0) thinSolution(v, x, *solutions[static_cast<std::size_t>(n.a)], i, cur);
+            break;
           default:
             break;
         }

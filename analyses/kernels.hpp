@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "analyses/linear_factors.hpp"
 #include "analyses/monomials.hpp"
 #include "scalars/program.hpp"
 
@@ -36,10 +37,18 @@ struct ThinNode {
   Op op;
   bool invariant;
   bool scaled;  // a product whose factor a is invariant
-  int a, b;
+  int a, b;     // of a solution, its number and the component
   double* forward;
   double* reversed;    // at order 0, orders to the left; null if nobody convolves with it
   double* derivative;  // i times order i; null if not needed
+};
+
+/// A solution's matrix (nodes, row by row; -1 where it does not change in time) and right-hand side; its components'
+/// nodes are numbered one after another.
+struct ThinSolution {
+  const LinearFactors* factors = nullptr;
+  double* residual = nullptr;  // see LinearFactors::solve, [order][component]
+  std::vector<int> matrix, rightSide;
 };
 
 /// ẋ_s = Σ_k left_k · right_k: one row of the variational equation.
@@ -51,7 +60,8 @@ struct ThinSum {
 /// Orders 1 … m-1 of all nodes and m of the states when order 0 is known: the recursion without symbols. `states` pairs
 /// a state with the node of its derivative; `current` has one number a node. Newest coefficients are kept aside and
 /// stored together behind an order: a vector load right behind a scalar store would stall.
-void thinRecursion(const std::vector<ThinNode>& nodes, const std::vector<std::pair<int, int>>& states,
-                   const std::vector<ThinSum>& frame, int time, int order, double h0, std::vector<double>& current);
+void thinRecursion(const std::vector<ThinNode>& nodes, const std::vector<const ThinSolution*>& solutions,
+                   const std::vector<std::pair<int, int>>& states, const std::vector<ThinSum>& frame, int time,
+                   int order, double h0, std::vector<double>& current);
 
 }  // namespace gamut::kernels

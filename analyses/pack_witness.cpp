@@ -14,7 +14,7 @@ namespace gamut {
 struct PackWitness::Solver : CvodeProblem {
   Solver(const Motion& m, VectorUnit unit, const std::atomic<bool>* cancelled)
       : motion(m),
-        f(m.f, unit),
+        f(m.forSamples(), unit),
         g(m.g, unit),
         time(packWidth),
         cvode(detail::at(m.f.states()), m.times, unit, cancelled) {}

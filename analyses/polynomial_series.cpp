@@ -27,19 +27,12 @@ PolynomialSeries::PolynomialSeries(const Program& program, int primaryOutputs,
   std::vector<char> primary(nodes.size(), 0);
   for (int i = 0; i < primaryOutputs; ++i) primary[at(outputs_[at(i)])] = 1;
   for (std::size_t i = nodes.size(); i-- > 0;) {
-    const Node& v = nodes[i];
-    if (v.op == Op::cos && primary[i]) primary[i - 1] = 1;
-    if (v.op == Op::sin && primary[i]) primary[i + 1] = 1;
-    if (v.op == Op::state || v.op == Op::parameter || v.op == Op::time || v.op == Op::constant) {
-      primary[i] = 1;
-      continue;
-    }
+    if (!isOperation(nodes[i].op)) primary[i] = 1;
     if (!primary[i]) continue;
-    primary[at(v.a)] = 1;
-    if (v.b >= 0) primary[at(v.b)] = 1;
+    const int node = static_cast<int>(i);
+    detail::forEachTwin(program.table(), node, [&](int twin) { primary[at(twin)] = 1; });
+    detail::forEachOperand(program.table(), node, [&](int operand) { primary[at(operand)] = 1; });
   }
-  for (std::size_t i = 1; i < nodes.size(); ++i)  // a cosine follows its sine
-    if (nodes[i].op == Op::cos) primary[i] = primary[i - 1] = static_cast<char>(primary[i] | primary[i - 1]);
 
   constant_.assign(nodes.size(), 0.0);
   radius_.assign(nodes.size(), 0.0);
@@ -71,6 +64,8 @@ PolynomialSeries::PolynomialSeries(const Program& program, int primaryOutputs,
       place(v);
       plan_.push_back(v);
     }
+
+  planSystems(program);
 
   // Which nodes are the right factor of a convolution, and need a reversed copy and tables of tails?
   const auto rightFactor = [&](int node) {
@@ -118,6 +113,9 @@ PolynomialSeries::PolynomialSeries(const Program& program, int primaryOutputs,
         rightFactor(i + 1);
         derivative(v.a);
         break;
+      case Op::solution:
+        rightFactor(i);
+        break;
       default:
         break;
     }
@@ -142,7 +140,11 @@ PolynomialSeries::PolynomialSeries(const Program& program, int primaryOutputs,
   total_.assign(plan_.size() * at(stride_), 0.0);
   s1_.assign(plan_.size() * at(stride_), 0.0);
   scratch_.assign(at(count()), 0.0);
-  scratch2_.assign(at(count()), 0.0);
+  scratch2_.assign(at(std::max(count(), largestSystem_)), 0.0);
+  rightSides_.assign(at(largestSystem_ * count()), 0.0);
+  combination_.assign(systems_.empty() ? 0 : at(count() * kernels::reversedStride(stride_)), 0.0);
+  for (auto* v : {&amplified_, &amplified2_}) v->assign(at(largestSystem_ * largestSystem_), 0.0);
+  for (auto* v : {&vector_, &vector2_, &vector3_}) v->assign(at(largestSystem_), 0.0);
   for (auto* v : {&norm_, &weighted_, &own0_, &own1_, &rho0_, &rho1_, &top_}) v->assign(plan_.size(), 0.0);
   power_.assign(at(stride_), 0.0);
   weights_.assign(at(stride_), 0.0);
@@ -159,11 +161,16 @@ void PolynomialSeries::prepareThin() {
     for (int j = 0; j < n_; ++j) {
       kernels::ThinSum row{frameNode(i, j), {}};
       for (int k = 0; k < n_; ++k)
-        if (const int a = outputs_[at(n_ + i * n_ + k)];
-            !(plan_[at(a)].constant && constant_[at(a)] == 0 && radius_[at(a)] == 0))
-          row.terms.emplace_back(a, frameNode(k, j));
+        if (const int a = outputs_[at(n_ + i * n_ + k)]; !isKnownZero(a)) row.terms.emplace_back(a, frameNode(k, j));
       thinFrame_.push_back(std::move(row));
     }
+  for (Solution& solution : solutions_) {
+    const System& system = systems_[at(solution.system)];
+    solution.thin = {&system.factors, solution.residual.data(), system.entries, solution.rightSide};
+    for (int& entry : solution.thin.matrix)
+      if (plan_[at(entry)].invariant) entry = -1;
+    thinSolutions_.push_back(&solution.thin);
+  }
   current_.assign(plan_.size(), 0.0);
 }
 
@@ -171,11 +178,6 @@ void PolynomialSeries::clear() {
   for (auto* v : {&f_, &r_, &d_}) std::fill(v->begin(), v->end(), 0.0);
   for (int i = 0; i < nodes_; ++i)
     if (plan_[at(i)].constant) put(plan_[at(i)], 0, 0, constant_[at(i)]);
-}
-
-inline void PolynomialSeries::put(const Plan& v, int g, int i, double value) {
-  f_[v.f + at(g * stride_ + i)] = value;
-  if (v.r != none) r_[v.r + at(g * kernels::reversedStride(stride_) + stride_ - 1 - i)] = value;
 }
 
 void PolynomialSeries::setState(int i, const double* coefficients) {
@@ -201,12 +203,13 @@ void PolynomialSeries::setFrame(int i, int j, const double* coefficients, int sp
 }
 
 void PolynomialSeries::compute(double t0, double h0) {
+  for (System& system : systems_) system.isFactorised = false;
   put(plan_[at(time_)], 0, 0, t0);
   if (m_ > 1) put(plan_[at(time_)], 0, 1, h0);
   if (!thin_.empty()) {
     for (int node = time_ + 1; node < nodes_; ++node) computeOrder(node, 0);
     for (std::size_t x = 0; x < plan_.size(); ++x) current_[x] = f_[plan_[x].f];
-    kernels::thinRecursion(thin_, thinStates_, thinFrame_, time_, m_, h0, current_);
+    kernels::thinRecursion(thin_, thinSolutions_, thinStates_, thinFrame_, time_, m_, h0, current_);
     return;
   }
   for (int i = 0; i < m_; ++i) {
@@ -238,6 +241,10 @@ void PolynomialSeries::product(const Plan& a, const Plan& b, int count, int i, d
 void PolynomialSeries::computeOrder(int node, int i) {
   const Plan& v = plan_[at(node)];
   if ((v.invariant && i > 0) || v.op == Op::constant || v.op == Op::cos) return;
+  if (v.op == Op::solution) {
+    if (v.b == 0) computeSolution(node, i);
+    return;
+  }
   const Plan& a = plan_[at(v.a)];
   const double* fa = &f_[a.f];
   const int N = v.count;
@@ -458,9 +465,9 @@ void PolynomialSeries::computeFrameOrder(int i, double h0) {
     for (int column = 0; column < n_; ++column) {
       std::fill(out, out + frameCount_, 0.0);
       for (int k = 0; k < n_; ++k) {
-        const Plan& a = plan_[at(outputs_[at(n_ + row * n_ + k)])];
-        if (a.constant && f_[a.f] == 0.0 && radius_[at(outputs_[at(n_ + row * n_ + k)])] == 0.0) continue;
-        product(a, plan_[at(frameNode(k, column))], frameCount_, i, out);
+        const int entry = outputs_[at(n_ + row * n_ + k)];
+        if (isKnownZero(entry)) continue;
+        product(plan_[at(entry)], plan_[at(frameNode(k, column))], frameCount_, i, out);
       }
       const Plan& psi = plan_[at(frameNode(row, column))];
       for (int g = 0; g < frameCount_; ++g) put(psi, g, i + 1, out[g] * h0 / (i + 1));

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "analyses/kernels.hpp"
+#include "analyses/linear_factors.hpp"
 #include "analyses/monomials.hpp"
 #include "scalars/index.hpp"
 #include "scalars/program.hpp"
@@ -79,7 +80,31 @@ class PolynomialSeries {
   };
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
 
-  void put(const Plan& v, int g, int i, double value);
+  /// The systems of one matrix A.
+  struct System {
+    int size;
+    std::vector<int> entries;                  // nodes, row by row
+    LinearFactors factors;                     // of A's leading coefficients
+    std::vector<std::vector<double>> inverse;  // C, a matrix for each of inverseTerms_
+    std::vector<double> norms;                 // ‖C‖
+    std::vector<double> own;                   // ‖I - C Ã‖
+    std::vector<double> amplifier;             // ≥ (I - H)⁻¹ |C| on the set that was bounded last
+    bool isFactorised, isBounded;
+
+    int entry(int i, int j) const { return entries[detail::at(i * size + j)]; }
+  };
+  struct Solution {
+    int system;
+    std::vector<int> rightSide;
+    kernels::ThinSolution thin;
+    std::vector<double> residual;  // Σ_α |s - A₀ x| of A₀ x = s, [order][component]
+  };
+
+  /// Order i of monomial g, in the reversed copy too.
+  void put(const Plan& v, int g, int i, double value) {
+    f_[v.f + at(g * stride_ + i)] = value;
+    if (v.r != none) r_[v.r + at(g * kernels::reversedStride(stride_) + stride_ - 1 - i)] = value;
+  }
   void computeOrder(int node, int i);
   void product(const Plan& a, const Plan& b, int count, int i, double* out);
   void computeFrameOrder(int i, double h0);
@@ -96,6 +121,18 @@ class PolynomialSeries {
   double dropped(int a, int degree) const;
   double minimum(int node) const;
   bool boundNode(int node);
+  bool isKnownZero(int node) const;
+
+  // polynomial_systems.cpp; `first` is component 0 of a solution.
+  void planSystems(const Program& program);
+  int known(const System& system, int row) const;
+  void factorise(System& system);
+  void computeSolution(int first, int i);
+  void invert(System& system);
+  void tabulateSystem(System& system);
+  void solutionOwnErrors(int first);
+  bool boundSystem(System& system);
+  bool boundSolution(int first);
 
   int n_, time_, m_, stride_, nodes_, frameCount_, frameDegree_;
   bool withFrame_;
@@ -111,7 +148,15 @@ class PolynomialSeries {
   std::vector<kernels::ThinNode> thin_;  // without symbols: the recursion's own view of the plan
   std::vector<std::pair<int, int>> thinStates_;
   std::vector<kernels::ThinSum> thinFrame_;
+  std::vector<const kernels::ThinSolution*> thinSolutions_;
   std::vector<double> current_;
+  std::vector<System> systems_;
+  std::vector<Solution> solutions_;
+  static constexpr int inverseOrder = 3;           // of C in time; in ξ it is linear
+  std::vector<std::pair<int, int>> inverseTerms_;  // order and symbol (-1: none): σ^order or ξ_symbol
+  std::vector<int> shift_;                         // number of ξ_symbol·(monomial g), [symbol][g]
+  int largestSystem_ = 0;
+  std::vector<double> rightSides_, combination_, amplified_, amplified2_, vector_, vector2_, vector3_;
 };
 
 }  // namespace gamut

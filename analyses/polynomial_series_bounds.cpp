@@ -50,6 +50,7 @@ bool PolynomialSeries::tabulate(double theta) {
       for (int i = 0; i < m_; ++i) row[i] += row[stride_ + i];
     }
   }
+  for (System& system : systems_) tabulateSystem(system);
   for (int x = 0; x < nodes_; ++x) ownErrors(x);
   return true;
 }
@@ -177,6 +178,9 @@ void PolynomialSeries::ownErrors(int node) {
     case Op::constant:
     case Op::cos:
       return;
+    case Op::solution:
+      if (v.b == 0) solutionOwnErrors(node);
+      return;
     case Op::add:
     case Op::sub:  // one rounding a coefficient; lower degree: what is dropped
       e0 = bounds::unit * norm_[at(node)] + (graded ? dropped(v.a, v.degree) + dropped(v.b, v.degree) : 0.0);
@@ -241,6 +245,8 @@ bool PolynomialSeries::boundNode(int node) {
     case Op::time:
     case Op::constant:
       return true;
+    case Op::solution:
+      return v.b > 0 || boundSolution(node);
     case Op::add:
     case Op::sub:
       z0 = r0(v.a) + r0(v.b) + own0;
@@ -309,6 +315,7 @@ bool PolynomialSeries::boundNode(int node) {
 }
 
 bool PolynomialSeries::bound(const double* E, bool primaryOnly) {
+  for (System& system : systems_) system.isBounded = false;
   for (int i = 0; i < time_; ++i) {
     const bool state = i < n_;
     rho0_[at(i)] = !state ? radius_[at(i)] : E != nullptr ? E[i] : 0.0;
@@ -332,7 +339,7 @@ void PolynomialSeries::frameDefect(int i, int j, double& nu0, double& nu1) const
   int terms = 0;
   for (int k = 0; k < n_; ++k) {
     const int a = outputs_[at(n_ + i * n_ + k)], b = frameNode(k, j);
-    if (plan_[at(a)].constant && norm_[at(a)] == 0 && radius_[at(a)] == 0) continue;
+    if (isKnownZero(a)) continue;
     ++terms;
     const double ra0 = rho0_[at(a)], ra1 = rho1_[at(a)], top = top_[at(b)];
     z0 += norm_[at(b)] * ra0 + (ra0 + ra1) * top;

@@ -14,6 +14,9 @@ void Motion::check() const {
   if (f.outputs() != f.states()) throw std::invalid_argument("a motion needs one derivative for each state");
   if (g.states() != f.states() || g.parameters() != f.parameters())
     throw std::invalid_argument("the outputs of a motion need the states and parameters of its derivatives");
+  if (sampled.outputs() > 0 &&
+      (sampled.outputs() != f.outputs() || sampled.states() != f.states() || sampled.parameters() != f.parameters()))
+    throw std::invalid_argument("a motion has the same states and parameters for samples as for enclosures");
   if (g.outputs() == 0) throw std::invalid_argument("a motion without outputs shows nothing");
   for (std::size_t i = 0; i < times.size(); ++i)
     if (!(times[i] >= 0) || !std::isfinite(times[i]) || (i > 0 && times[i] <= times[i - 1]))
@@ -22,7 +25,7 @@ void Motion::check() const {
 
 struct Witness::Solver : CvodeProblem {
   Solver(const Motion& m, Method method, const std::atomic<bool>* cancelled)
-      : motion(m), f(m.f), g(m.g), cvode(detail::at(m.f.states()), m.times, method, cancelled) {}
+      : motion(m), f(m.forSamples()), g(m.g), cvode(detail::at(m.f.states()), m.times, method, cancelled) {}
 
   void differentiate(double t, std::span<const double> x, std::span<double> rates) override { f(t, x, rates); }
 

@@ -16,8 +16,11 @@ namespace gamut {
 struct Motion {
   Program f;                  ///< one output a state; no states at all: y is a function of time and parameters
   Program g;                  ///< the states and parameters of f; one output a watched quantity
+  Program sampled;            ///< f once more, recorded as suits samples; without outputs: f itself
   std::vector<double> times;  ///< output times, rising, s; the motion starts at 0
 
+  /// What samples, and their arbiter, integrate.
+  const Program& forSamples() const { return sampled.outputs() > 0 ? sampled : f; }
   /// Number of start values: the states, then the parameters.
   std::size_t startValues() const { return static_cast<std::size_t>(f.states() + f.parameters()); }
   std::size_t outputs() const { return static_cast<std::size_t>(g.outputs()); }

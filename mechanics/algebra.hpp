@@ -33,6 +33,17 @@ inline bool isKnownZero(const Recorded& x) {
   return recorder->isConstant(node) && recorder->value(node).lower() == 0 && recorder->value(node).upper() == 0;
 }
 
+/// True only if x is a number other than 0 whatever the inputs are.
+template <class S>
+bool isKnownNonzero(const S&) {
+  return false;
+}
+inline bool isKnownNonzero(const Recorded& x) {
+  const Recorder* recorder = Recorder::current();
+  const int node = x.node();
+  return recorder->isConstant(node) && !contains(recorder->value(node), 0.0);
+}
+
 /// W with  ω̇ × d + ω × (ω × d) = W d  for every offset d that is fixed in the moving frame. Written as
 /// [ω̇]× + ω ωᵀ − |ω|² I, whose squares are shared by all offsets of one body.
 template <class S>

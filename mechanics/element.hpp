@@ -50,6 +50,9 @@ class Element {
   /// Forces and generalised forces of what this element moves become zero.
   virtual void clearForces() {}
 
+  /// The frame that this element moves by a variable of its own, if it has one: where equations of motion may be cut.
+  virtual Frame<S>* drivenFrame() { return nullptr; }
+
   /// ½ m v² + ½ ω·Θω of the bodies of this element [J].
   virtual S kineticEnergy() const { return S(0.0); }
   /// Energy in the field `gravity` [m/s², inertial frame] and in springs [J].
@@ -105,6 +108,7 @@ class Chain final : public Element<S> {
   void doForce(ForceKind kind = ForceKind::all) override {
     for (auto element = elements_.rbegin(); element != elements_.rend(); ++element) (*element)->doForce(kind);
   }
+  const std::vector<Element<S>*>& elements() const { return elements_; }
   void clearForces() override {
     for (Element<S>* element : elements_) element->clearForces();
   }

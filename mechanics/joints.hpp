@@ -52,6 +52,8 @@ class RevoluteJoint final : public Transmission<S> {
     angle_.force = S(0.0);
   }
 
+  Frame<S>* drivenFrame() override { return &this->to_; }
+
   MovingPoint<S> inFrom(const MovingPoint<S>& point) const override {
     const Vector3<S> turning = axis_.template unit<S>() * angle_.rate;
     return {rotation_.toParent(point.position), rotation_.toParent(point.velocity + turning.cross(point.position))};
@@ -101,6 +103,8 @@ class PrismaticJoint final : public Transmission<S> {
     Transmission<S>::clearForces();
     path_.force = S(0.0);
   }
+
+  Frame<S>* drivenFrame() override { return &this->to_; }
 
   MovingPoint<S> inFrom(const MovingPoint<S>& point) const override {
     const Vector3<S> u = axis_.template unit<S>();

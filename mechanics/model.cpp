@@ -8,14 +8,15 @@
 
 namespace gamut {
 
-Program recordMotion(const Mechanism& mechanism, const std::vector<std::string>& freeParameters) {
+Program recordMotion(const Mechanism& mechanism, const std::vector<std::string>& freeParameters,
+                     Formulation formulation) {
   const int f = mechanism.degreesOfFreedom();
   mechanism.checkMasses();
   try {
     return record(2 * f, static_cast<int>(freeParameters.size()), [&](auto, const auto& x, const auto& p, auto& dx) {
       Assembly<Recorded> assembly(mechanism, freeParameters, p);
       assembly.setState(x);
-      const std::vector<Recorded> acceleration = assembly.accelerations();
+      const std::vector<Recorded> acceleration = assembly.accelerations(formulation);
       const auto split = static_cast<std::size_t>(f);
       for (std::size_t i = 0; i < split; ++i) {
         dx[i] = x[split + i];

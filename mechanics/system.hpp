@@ -1,14 +1,10 @@
 // A mechanical system in minimal coordinates and its equations of motion, got from doMotion and doForce alone (the
 // kinetostatic method: one pass with q̈ = 0, one with each unit acceleration).
 //
-// The passes give every body's acceleration as a = γ + J q̈ (γ: velocities and gravity; J: unit accelerations), and Q,
-// the applied forces pulled back. Gauss's principle of least constraint then picks q̈:
-//
-//     minimise  ½ Σ w (γ + J q̈)² − Q·q̈      (normal equations: Jᵀ W J q̈ = Q − Jᵀ W γ, Jᵀ W J the inertia matrix)
-//
-// by eliminating one variable after the other, from the last to the first, on the rows of J and γ instead of on the
-// normal equations. Every pivot Σ w J² is a sum of squares: it cannot lose its sign to rounding or to wide intervals,
-// as a pivot of the inertia matrix can, and recorded programs are shorter. No path depends on a scalar's value.
+// M q̈ = Q: the inertia matrix M from the inertia forces at unit accelerations, Q the forces that remain at q̈ = 0. Up to
+// two variables are eliminated (least_constraint.hpp), the systems of more are solved as wholes: with M, which needs
+// the fewest operations, or, for enclosures, cut at the joints (sparse_equations.hpp). No path depends on a scalar's
+// value.
 #pragma once
 
 #include <algorithm>
@@ -18,6 +14,9 @@
 #include <vector>
 
 #include "mechanics/element.hpp"
+#include "mechanics/formulation.hpp"
+#include "mechanics/least_constraint.hpp"
+#include "scalars/linear_system.hpp"
 
 namespace gamut {
 
@@ -81,22 +80,36 @@ class System {
 
   /// q̈ at the present positions and rates; the variables keep it and all frames move with it.
   /// Throws std::domain_error, naming the variable, if a variable is known to move no inertia.
-  std::vector<S> accelerations() {
+  std::vector<S> accelerations(Formulation formulation = Formulation::compact) {
     setAccelerations(zeros());
     doMotion();
-    doForce(ForceKind::applied);
-    std::vector<S> loads = generalisedForces();
-    std::vector<std::vector<S>> columns;
-    for (std::size_t j = 0; j < variables_.size(); ++j) {
-      moveUnit(j);
-      columns.push_back(bodyAccelerations());
-    }
-    std::vector<S> result = prediction(columns);
-    const std::vector<S> correction = leastConstraint(std::move(columns), accelerationsAt(result), std::move(loads));
-    for (std::size_t j = 0; j < result.size(); ++j) result[j] = result[j] + correction[j];
+    const std::vector<std::vector<S>> columns = unitColumns();
+    const std::vector<S> result = degreesOfFreedom() <= 2 ? eliminated(columns) : solved(formulation);
     setAccelerations(result);
     doMotion();
     return result;
+  }
+
+  /// Motion and force once through the chain with these q̈. On the way `visit` sees, and may change, every component of
+  /// what passes each joint: ω̇ and a of the frame behind it, then, inwards again, f and τ that act on this frame.
+  template <class Visit>
+  void pass(const std::vector<S>& accelerations, Visit visit) {
+    const auto visitBoth = [&](Vector3<S>& first, Vector3<S>& second) {
+      for (Vector3<S>* vector : {&first, &second})
+        for (int i = 0; i < 3; ++i) visit((*vector)[i]);
+    };
+    setAccelerations(accelerations);
+    base_.a = -gravity_;
+    for (Element<S>* element : chain_.elements()) {
+      element->doMotion(MotionLevel::all);
+      if (Frame<S>* frame = element->drivenFrame()) visitBoth(frame->omegaDot, frame->a);
+    }
+    base_.clearForces();
+    chain_.clearForces();
+    for (auto element = chain_.elements().rbegin(); element != chain_.elements().rend(); ++element) {
+      if (Frame<S>* frame = (*element)->drivenFrame()) visitBoth(frame->f, frame->tau);
+      (*element)->doForce(ForceKind::all);
+    }
   }
 
   S kineticEnergy() const { return chain_.kineticEnergy(); }
@@ -121,7 +134,7 @@ class System {
     chain_.collectInertia(rows, weights);
     return rows;
   }
-  std::vector<S> accelerationsAt(const std::vector<S>& values) {
+  std::vector<S> bodyAccelerations(const std::vector<S>& values) {
     setAccelerations(values);
     doMotion();
     return bodyAccelerations();
@@ -135,27 +148,53 @@ class System {
     return weights;
   }
 
-  /// Any q̈ is as good a start as 0. Where a row moves with q̈_j but with no later variable, the q̈_j that holds it still
-  /// is taken, if the row is then known to be zero: that is one component less to be carried through the rest of the
-  /// recorded program. For scalars other than Recorded nothing is known, and the start is 0.
-  std::vector<S> prediction(const std::vector<std::vector<S>>& columns) {
+  /// The bodies' accelerations for each unit acceleration, none of which may be known to move no inertia.
+  std::vector<std::vector<S>> unitColumns() {
+    std::vector<std::vector<S>> columns;
+    const std::vector<InertiaWeight<S>> weights = inertiaWeights();
+    for (std::size_t j = 0; j < variables_.size(); ++j) {
+      moveUnit(j);
+      columns.push_back(bodyAccelerations());
+      const auto isMoved = [&](int row) { return !isKnownZero(columns[j][static_cast<std::size_t>(row)]); };
+      if (std::none_of(weights.begin(), weights.end(), [&](const auto& w) { return isMoved(w.k) || isMoved(w.l); }))
+        throw std::domain_error("the variable " + variables_[j].get().name + " moves no mass");
+    }
+    return columns;
+  }
+
+  std::vector<S> solved(Formulation formulation);
+
+  std::vector<S> eliminated(const std::vector<std::vector<S>>& columns) {
+    doForce(ForceKind::applied);
+    std::vector<S> loads = generalisedForces();
+    const std::vector<InertiaWeight<S>> weights = inertiaWeights();
+    std::vector<S> result = start(columns, weights);
+    const std::vector<S> rest = leastConstraint(columns, bodyAccelerations(result), std::move(loads), weights);
+    for (std::size_t j = 0; j < result.size(); ++j) result[j] = result[j] + rest[j];
+    return result;
+  }
+
+  /// Any q̈ is as good a start as 0. Where a row moves with q̈_j by a number that is not zero, and with no later
+  /// variable, the q̈_j that holds it still is taken, if the row is then known to be zero: that is one component less to
+  /// be carried through the rest of the recorded program. For scalars other than Recorded nothing is known, and the
+  /// start is 0.
+  std::vector<S> start(const std::vector<std::vector<S>>& columns, const std::vector<InertiaWeight<S>>& weights) {
     std::vector<S> start = zeros();
-    if (!isKnownZero(S(0.0))) return start;
     std::set<std::size_t> weighted;
-    for (const InertiaWeight<S>& weight : inertiaWeights())
+    for (const InertiaWeight<S>& weight : weights)
       weighted.insert({static_cast<std::size_t>(weight.k), static_cast<std::size_t>(weight.l)});
     for (std::size_t j = 0; j < columns.size(); ++j) {
       const auto movesLast = [&](std::size_t row) {
-        return !isKnownZero(columns[j][row]) &&
+        return isKnownNonzero(columns[j][row]) &&
                std::all_of(columns.begin() + static_cast<std::ptrdiff_t>(j) + 1, columns.end(),
                            [&](const auto& later) { return isKnownZero(later[row]); });
       };
-      const std::vector<S> gamma = accelerationsAt(start);
+      const std::vector<S> gamma = bodyAccelerations(start);
       for (std::size_t row : weighted) {
         if (!movesLast(row) || isKnownZero(gamma[row])) continue;
         std::vector<S> trial = start;
         trial[j] = -(gamma[row] / columns[j][row]);
-        if (!isKnownZero(accelerationsAt(trial)[row])) continue;
+        if (!isKnownZero(bodyAccelerations(trial)[row])) continue;
         start = std::move(trial);
         break;
       }
@@ -163,61 +202,25 @@ class System {
     return start;
   }
 
-  /// Minimises ½ Σ w (γ + J q̈)² − Q·q̈. Eliminating q̈_j (with D = Σ w J_j²) leaves
-  ///   q̈_j = (Q_j − Σ w J_j γ)/D − Σ_{i<j} L_i q̈_i,   L_i = Σ w J_j J_i / D,
-  /// and the same problem in the rest, with J_i − J_j L_i for J_i, γ − J_j Σ w J_j γ / D for γ, Q_i − L_i Q_j for Q_i.
-  std::vector<S> leastConstraint(std::vector<std::vector<S>> columns, std::vector<S> gamma,
-                                 std::vector<S> loads) const {
-    const std::vector<InertiaWeight<S>> weights = inertiaWeights();
-    const std::size_t f = columns.size(), rows = gamma.size();
-    std::vector<std::vector<S>> l(f);
-    std::vector<S> result(f, S(0.0));
-    for (std::size_t j = f; j-- > 0;) {
-      const std::vector<S>& pivot = columns[j];
-      std::vector<S> weighted(rows, S(0.0));
-      S d(0.0);
-      for (const InertiaWeight<S>& weight : weights) {
-        const auto row = static_cast<std::size_t>(weight.k), other = static_cast<std::size_t>(weight.l);
-        weighted[row] = weighted[row] + weight.w * pivot[other];
-        if (row != other) weighted[other] = weighted[other] + weight.w * pivot[row];
-        d = d + (row == other ? weight.w * square(pivot[row]) : S(2.0) * (weight.w * (pivot[row] * pivot[other])));
-      }
-      std::vector<std::size_t> involved;
-      for (std::size_t row = 0; row < rows; ++row)
-        if (!isKnownZero(weighted[row])) involved.push_back(row);
-      if (involved.empty()) throw std::domain_error("the variable " + variables_[j].get().name + " moves no mass");
-
-      // A single row is solved for q̈_j and is zero ever after: no weight is needed, and nothing is left to cancel.
-      const bool single = involved.size() == 1 && !isKnownZero(pivot[involved[0]]);
-      const S inverse = single ? S(1.0) / pivot[involved[0]] : S(1.0) / d;
-      const auto project = [&](const std::vector<S>& column) {
-        if (single) return S(column[involved[0]] * inverse);
-        S sum(0.0);
-        for (std::size_t row : involved) sum = sum + weighted[row] * column[row];
-        return S(sum * inverse);
-      };
-      const auto reduce = [&](std::vector<S>& column, const S& factor) {
-        for (std::size_t row = 0; row < rows; ++row) column[row] = column[row] - pivot[row] * factor;
-        if (single) column[involved[0]] = S(0.0);
-      };
-      const S free = project(gamma);
-      reduce(gamma, free);
-      result[j] = isKnownZero(loads[j]) ? S(-free) : S(loads[j] / d - free);
-      for (std::size_t i = 0; i < j; ++i) {
-        l[j].push_back(project(columns[i]));
-        reduce(columns[i], l[j][i]);
-        loads[i] = loads[i] - l[j][i] * loads[j];
-      }
-    }
-    for (std::size_t j = 0; j < f; ++j)
-      for (std::size_t i = 0; i < j; ++i) result[j] = result[j] - l[j][i] * result[i];
-    return result;
-  }
-
   Variables variables_;
   Chain<S>& chain_;
   Frame<S>& base_;
   Vector3<S> gravity_;
 };
+
+std::vector<Recorded> sparseAccelerations(System<Recorded>& system);  // sparse_equations.hpp
+
+template <class S>
+std::vector<S> System<S>::solved(Formulation formulation) {
+  if constexpr (std::is_same_v<S, Recorded>) {
+    if (formulation == Formulation::sparse) return sparseAccelerations(*this);
+  }
+  std::vector<S> result = residual(), entries;
+  const auto m = inertiaMatrix();
+  for (int i = 0; i < m.rows(); ++i)
+    for (int j = 0; j < m.cols(); ++j) entries.push_back(m(i, j));
+  LinearSystem<S>(MatrixKind::positiveDefinite, degreesOfFreedom(), std::move(entries)).solve(result);
+  return result;
+}
 
 }  // namespace gamut

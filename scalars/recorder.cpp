@@ -94,6 +94,11 @@ bool Recorder::isExactly(int i, double number) const {
   return isConstant(i) && value(i).lower() == number && value(i).upper() == number;
 }
 
+int Recorder::unknown() {
+  list_.push({Op::parameter, parameters_ + unknowns_++});
+  return size() - 1;
+}
+
 int Recorder::constant(const Interval& number) {
   if (isEmpty(number) || !isBounded(number))
     throw std::domain_error("a recorded constant must be a bounded number, not " + toString(number));
@@ -318,6 +323,8 @@ Program Recorder::selected(const std::vector<char>& wanted, const std::vector<in
   for (int i = 0; i < size(); ++i) {
     if (!wanted[at(i)]) continue;
     Node n = node(i);
+    if (n.op == Op::parameter && n.a >= parameters_)
+      throw std::logic_error("a recorded program depends on an unknown that was to be eliminated");
     bool invariant = n.op == Op::parameter || n.op == Op::constant || isOperation(n.op);
     detail::forEachOperand(
         list_, i, [&](int operand) { invariant = invariant && program.invariant_[at(renumbered[at(operand)])]; });

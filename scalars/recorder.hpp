@@ -74,6 +74,8 @@ class Recorder {
   int state(int i) const { return i; }
   int parameter(int i) const { return states_ + i; }
   int time() const { return states_ + parameters_; }
+  /// A variable to differentiate by, of which the program's outputs must be free in the end.
+  int unknown();
   /// A double has one node if equal work is merged; of any other enclosure every call makes a new one, since it may be
   /// another number. Throws std::domain_error unless the value is bounded and not empty.
   int constant(const Interval& value);
@@ -162,7 +164,8 @@ class Recorder {
   int states_;
   int parameters_;
   RuleSet rules_;
-  int depth_ = 0;  // of rules being applied
+  int depth_ = 0;     // of rules being applied
+  int unknowns_ = 0;  // numbered behind the parameters
   detail::NodeList list_;
   Known known_;    // operations
   Known derived_;  // constants, by the operation on constants that gave them

@@ -1,0 +1,92 @@
+#include "mechanics/sparse_equations.hpp"
+
+#include <cstddef>
+#include <span>
+#include <utility>
+
+#include "scalars/differentiation.hpp"
+#include "scalars/linear_reduction.hpp"
+#include "scalars/linear_system.hpp"
+
+namespace gamut {
+namespace {
+
+using detail::at;
+
+/// Unknowns and equations, in the order of the passes: q̈, then what is cut; equation q̈ count + i defines unknown i.
+struct Cuts {
+  std::vector<int> unknowns;  // nodes
+  std::vector<int> values;    // nodes: what the passes give for each cut, then the generalised forces
+  std::vector<char> isCut;    // of the components met on the way: known zeros need no cut
+};
+
+Cuts cutEverywhere(System<Recorded>& system) {
+  Recorder& recorder = *Recorder::current();
+  Cuts cuts;
+  const auto unknown = [&] {
+    cuts.unknowns.push_back(recorder.unknown());
+    return Recorded::node(cuts.unknowns.back());
+  };
+  std::vector<Recorded> accelerations;
+  for (int i = 0; i < system.degreesOfFreedom(); ++i) accelerations.push_back(unknown());
+  system.pass(accelerations, [&](Recorded& component) {
+    cuts.isCut.push_back(!isKnownZero(component));
+    if (cuts.isCut.back() == 0) return;
+    cuts.values.push_back(component.node());
+    component = unknown();
+  });
+  for (const Recorded& force : system.generalisedForces()) cuts.values.push_back(force.node());
+  return cuts;
+}
+
+/// The same values where all unknowns are zero.
+std::vector<Recorded> constantParts(System<Recorded>& system, const Cuts& cuts) {
+  std::vector<Recorded> constants;
+  std::size_t next = 0;
+  system.pass(std::vector<Recorded>(at(system.degreesOfFreedom())), [&](Recorded& component) {
+    if (cuts.isCut[next++] != 0) constants.push_back(component);
+    component = Recorded(0.0);
+  });
+  for (const Recorded& force : system.generalisedForces()) constants.push_back(force);
+  return constants;
+}
+
+/// Row by row: unknown − ∂value/∂unknowns for each cut, −∂Q/∂unknowns for each generalised force.
+std::vector<Recorded> matrixOf(const Cuts& cuts, std::size_t degrees) {
+  Recorder& recorder = *Recorder::current();
+  const std::size_t n = cuts.unknowns.size();
+  std::vector<Recorded> matrix(n * n);
+  for (std::size_t j = 0; j < n; ++j) {
+    const std::vector<int> derivatives = tangents(recorder, cuts.values, {{cuts.unknowns[j], recorder.constant(1.0)}});
+    for (std::size_t i = 0; i < n; ++i) {
+      const Recorded derivative = Recorded::node(derivatives[i]);
+      matrix[i * n + j] = i + degrees == j ? 1.0 - derivative : -derivative;
+    }
+  }
+  return matrix;
+}
+
+}  // namespace
+
+std::vector<Recorded> sparseAccelerations(System<Recorded>& system) {
+  const std::size_t degrees = at(system.degreesOfFreedom());
+  const Cuts cuts = cutEverywhere(system);
+  std::vector<Recorded> right = constantParts(system, cuts), matrix = matrixOf(cuts, degrees);
+  const std::size_t n = cuts.unknowns.size();
+
+  const LinearReduction reduction(static_cast<int>(n), matrix);
+  reduction.reduce(right);
+  std::vector<Recorded> rest, restRight, x(n);
+  for (int i : reduction.rows()) {
+    restRight.push_back(right[at(i)]);
+    for (int j : reduction.columns()) rest.push_back(matrix[at(i) * n + at(j)]);
+  }
+  if (!restRight.empty())
+    LinearSystem<Recorded>(MatrixKind::general, static_cast<int>(restRight.size()), std::move(rest)).solve(restRight);
+  for (std::size_t i = 0; i < restRight.size(); ++i) x[at(reduction.columns()[i])] = restRight[i];
+  reduction.complete(right, x);
+  x.resize(degrees);
+  return x;
+}
+
+}  // namespace gamut
