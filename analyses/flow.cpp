@@ -17,6 +17,7 @@
 #include "analyses/flow_step.hpp"
 #include "analyses/polynomial_range.hpp"
 #include "analyses/workers.hpp"
+#include "scalars/evaluator.hpp"
 #include "scalars/index.hpp"
 #include "scalars/rounding.hpp"
 
@@ -34,6 +35,12 @@ void join(std::vector<Interval>& into, const std::vector<Interval>& from) {
     return;
   }
   for (std::size_t i = 0; i < into.size(); ++i) into[i] = hull(into[i], from[i]);
+}
+
+/// Both hold; where nothing is left (no value is defined), `into` stays.
+void narrow(std::vector<Interval>& into, const std::vector<Interval>& other) {
+  for (std::size_t i = 0; i < into.size(); ++i)
+    if (const Interval both = intersection(into[i], other[i]); !isEmpty(both)) into[i] = both;
 }
 
 /// A set of monomials and the degree of the frame over it.
@@ -142,13 +149,15 @@ class FlowRun {
     // Bisection is cheap for one symbol and dear for several: with these, begin loosely.
     const double patience = std::pow(20.0, std::clamp(embedding_.symbols - 1, 0, 3));
     splitDefect_ = options.splitDefect * patience * embedding_.widest / tighter;
+    mostPieces_ = options.maxPieces;
     tolerance_ = options.tolerance > 0 ? options.tolerance : embedding_.symbols == 0 ? 1e-15 : 1e-14;
   }
 
   /// The greatest share of the remainder in a width, and whether all was proved: is it worth trying a tighter
   /// threshold?
   bool isLoose(const Tube& tube) const {
-    if (embedding_.symbols == 0 || !options_.split || tube.why() == interruptedText || pieces_ >= options_.maxPieces)
+    if (embedding_.symbols == 0 || !options_.split || tube.why() == interruptedText || pieces_ >= mostPieces_ ||
+        !ended_.empty())
       return false;
     return tube.reached() < horizon_ || looseness_ > 0.005;
   }
@@ -274,11 +283,38 @@ class FlowRun {
     }
   }
 
-  bool mayBisect() {
+  bool mayBisect(const Piece& piece) {
     const std::lock_guard lock(mutex_);
-    if (!options_.split || pieces_ >= options_.maxPieces) return false;
+    if (!options_.split || pieces_ >= mostPieces_) return false;
     ++pieces_;
+    if (embedding_.symbols > 0 && pieces_ >= nextProbe_ && ended_.empty()) {
+      nextProbe_ = 2 * pieces_;
+      probe(piece);
+    }
     return true;
+  }
+
+  /// Where bisection goes on and on: one start of the piece, followed alone. If not even that gets far beyond the
+  /// piece, no bisection of the box does, and only as many pieces again are worth their while.
+  void probe(const Piece& piece) {
+    Box start = box_;
+    for (std::size_t i = 0; i < start.size(); ++i)
+      if (const Embedded& e = embedding_.components[i]; e.symbol >= 0)
+        start[i] = std::clamp(e.centre + e.half * piece.set.centre[at(e.symbol)], box_[i].lower(), box_[i].upper());
+    FlowOptions options;
+    options.order = options_.order;
+    options.split = false;
+    options.maxWidth = options_.maxWidth;
+    options.cancelled = options_.cancelled;
+    options.stateNames = options_.stateNames;
+    const Program none =
+        record(motion_.states(), motion_.parameters(), 0, [](const auto&, const auto&, const auto&, auto&) {});
+    const double horizon = std::min(horizon_, 1.5 * piece.set.t);
+    if (!(horizon > 0)) return;
+    const Tube alone = FlowRun(motion_, differentiated_, none, options, start, horizon, {}, {}, 1.0).run();
+    if (alone.reached() >= horizon || alone.why() == interruptedText) return;
+    ended_ = "one start of the box by itself: " + alone.why();
+    mostPieces_ = std::min(mostPieces_, 2 * pieces_);
   }
 
   void add(Piece piece) {
@@ -289,17 +325,20 @@ class FlowRun {
     wake_.notify_one();
   }
 
+  /// g over start values in plain intervals: exactly what is known exactly.
+  std::vector<Interval> outputsAtStart(const Box& box) const {
+    Evaluator<Interval> g(outputProgram_);
+    const auto states = box.begin() + motion_.states();
+    g.setParameters(std::vector<Interval>(states, box.end()));
+    return g(Interval(0.0), std::vector<Interval>(box.begin(), states));
+  }
+
   Tube gather(std::vector<Collected>& collected);
 
   /// A thread's workspace, and the journey of one piece.
   class Worker {
    public:
-    Worker(FlowRun& run, Collected& collected)
-        : run_(run),
-          collected_(collected),
-          tools_(run.layouts_.size()),
-          series_(run.motion_, 2),
-          outputSeries_(run.outputProgram_, 2) {}
+    Worker(FlowRun& run, Collected& collected) : run_(run), collected_(collected), tools_(run.layouts_.size()) {}
 
     /// Advances `piece` to `end` or to its failure.
     Journey follow(Piece& piece, double end) {
@@ -319,7 +358,7 @@ class FlowRun {
           const int symbol = tool_->stepper.worstSymbol();
           // Centres of pieces are exact: fifty bisections of one symbol is as far as that goes.
           const bool tooFine = symbol < run_.embedding_.symbols && piece.set.half[at(symbol)] < 0x1p-50;
-          if (!futile && !tooFine && run_.mayBisect()) {
+          if (!futile && !tooFine && run_.mayBisect(piece)) {
             Piece other = piece;
             other.set = tool_->stepper.bisect(piece.set, symbol, tool_->range);
             run_.add(std::move(other));
@@ -345,6 +384,7 @@ class FlowRun {
       FlowStepper stepper;
       PolynomialRange range;
       std::unique_ptr<FlowOutputs> outputs;
+      std::unique_ptr<FlowOutputChords> chords;
     };
 
     void use(const Piece& piece) {
@@ -353,9 +393,13 @@ class FlowRun {
         const Layout& layout = run_.layouts_[piece.layout];
         tools = std::make_unique<Tools>(Tools{FlowStepper(run_.differentiated_, layout.monomials, layout.frameDegree,
                                                           run_.options_.order, run_.tolerance_),
-                                              PolynomialRange(layout.monomials), nullptr});
-        if (run_.outputProgram_.outputs() > 0)
+                                              PolynomialRange(layout.monomials), nullptr, nullptr});
+        tools->stepper.setStateNames(run_.options_.stateNames);
+        if (run_.outputProgram_.outputs() > 0) {
           tools->outputs = std::make_unique<FlowOutputs>(run_.outputProgram_, layout.monomials);
+          tools->chords =
+              std::make_unique<FlowOutputChords>(run_.outputProgram_, layout.monomials, run_.options_.order);
+        }
       }
       tool_ = tools.get();
       outputs_ = tool_->outputs.get();
@@ -451,19 +495,18 @@ class FlowRun {
       }
       std::vector<Interval> end, endOutputs;
       double from = t0;
-      bool outputCurvatureKnown = false;
+      bool chordsKnown = false;
       const auto segment =
           [&](double to) {  // from `from` to `to`: the chord's hull and how far a motion leaves a chord
-            const double length = subUp(to, from), eighth = mulUp(mulUp(length, length), 0.125);
-            tool_->stepper.bulge(length, bulge_);
+            tool_->stepper.sag(from - t0, to - t0, sag_);
             for (std::size_t i = 0; i < end.size(); ++i)
-              piece.over[i] = hull(piece.over[i], inflated(hull(piece.last[i], end[i]), bulge_[i]));
+              piece.over[i] = hull(piece.over[i], hull(piece.last[i], end[i]) + sag_[i]);
             if (outputs_) {
-              if (!outputCurvatureKnown) boundOutputCurvature(piece, t0, t1);
-              outputCurvatureKnown = true;
+              if (!chordsKnown) tool_->chords->load(tool_->stepper, piece.set);
+              chordsKnown = true;
+              tool_->chords->sag(from - t0, to - t0, sag_);
               for (std::size_t i = 0; i < endOutputs.size(); ++i)
-                piece.overOutputs[i] = hull(piece.overOutputs[i], inflated(hull(piece.lastOutputs[i], endOutputs[i]),
-                                                                           mulUp(eighth, outputCurvature_[i])));
+                piece.overOutputs[i] = hull(piece.overOutputs[i], hull(piece.lastOutputs[i], endOutputs[i]) + sag_[i]);
             }
             piece.last = end;
             piece.lastOutputs = endOutputs;
@@ -487,42 +530,13 @@ class FlowRun {
         enclose(piece, t1 - t0, end, endOutputs);
         segment(t1);
       }
-      for (const Interval& state : piece.last)
-        if (!(width(state) <= run_.options_.maxWidth)) {
-          run_.fail(t1, "an enclosure became wider than the limit");
+      for (std::size_t i = 0; i < piece.last.size(); ++i)
+        if (!(width(piece.last[i]) <= run_.options_.maxWidth)) {
+          run_.fail(t1, tool_->stepper.nameOf(static_cast<int>(i)) + " has become wider than the limit of " +
+                            toString(run_.options_.maxWidth));
           return false;
         }
       return true;
-    }
-
-    /// |ÿ| over the step, from interval Taylor coefficients over a box that contains the step's motions.
-    void boundOutputCurvature(const Piece& piece, double t0, double t1) {
-      tool_->stepper.evaluate(piece.set, 0.0, point_);
-      std::vector<Interval> first, last;
-      const int n = run_.motion_.states(), N = monomialCount_;
-      for (int i = 0; i < n; ++i)
-        first.push_back(inflated(tool_->range(&point_.p[at(i * N)], whole_), point_.radius[at(i)]));
-      tool_->stepper.evaluate(piece.set, t1 - t0, point_);
-      for (int i = 0; i < n; ++i)
-        last.push_back(inflated(tool_->range(&point_.p[at(i * N)], whole_), point_.radius[at(i)]));
-      std::vector<double> bulge;
-      tool_->stepper.bulge(subUp(t1, t0), bulge);
-      std::vector<Interval> x;
-      for (int i = 0; i < n; ++i) x.push_back(inflated(hull(first[at(i)], last[at(i)]), bulge[at(i)]));
-      const std::vector<Interval> p(run_.box_.begin() + n, run_.box_.end());
-      series_.setParameters(p);
-      outputSeries_.setParameters(p);
-      const Interval time(t0, t1);
-      series_.solve(time, x);
-      for (int i = 0; i < n; ++i)
-        for (int order = 0; order <= 2; ++order) outputSeries_.at(i, order) = series_.at(i, order);
-      outputSeries_.evaluate(time);
-      outputCurvature_.clear();
-      for (int node : run_.outputProgram_.outputNodes()) {
-        const Interval& second = outputSeries_.at(node, 2);
-        outputCurvature_.push_back(isEmpty(second) ? std::numeric_limits<double>::infinity()
-                                                   : mulUp(2.0, magnitude(second)));
-      }
     }
 
     FlowRun& run_;
@@ -531,10 +545,9 @@ class FlowRun {
     Tools* tool_ = nullptr;                      // of the piece at hand, as are the next two
     FlowOutputs* outputs_ = nullptr;
     int monomialCount_ = 0, symbols_ = 0;
-    Series<Interval> series_, outputSeries_;
     FlowPoint point_;
     Box whole_;
-    std::vector<double> bulge_, outputCurvature_;
+    std::vector<Interval> sag_;
   };
 
   const Program& motion_;
@@ -552,7 +565,8 @@ class FlowRun {
   std::mutex mutex_;
   std::condition_variable wake_;
   std::priority_queue<Piece, std::vector<Piece>, Later> queue_;
-  int busy_ = 0, pieces_ = 1;
+  int busy_ = 0, pieces_ = 1, mostPieces_ = 1, nextProbe_ = 16;
+  std::string ended_;  // what a probe found
   double looseness_ = 0;
   bool stop_ = false;
   double failedAt_ = 0, unfinished_ = std::numeric_limits<double>::infinity();
@@ -564,7 +578,7 @@ Tube FlowRun::gather(std::vector<Collected>& collected) {
   Tube tube;
   tube.times_ = times_;
   tube.reached_ = std::min(horizon_, failedAt_);
-  tube.why_ = why_;
+  if (!why_.empty()) tube.why_ = "at " + toString(failedAt_) + " s " + why_ + (ended_.empty() ? "" : "; " + ended_);
   double earliest = unfinished_;
   if (!queue_.empty()) earliest = std::min(earliest, queue_.top().set.t);
   if (stop_ && earliest < tube.reached_) {
@@ -590,6 +604,8 @@ Tube FlowRun::gather(std::vector<Collected>& collected) {
     for (auto& part : collected)
       for (auto& level : part.cuts) level[0] = tube.outputs_[0].empty() ? tube.states_[0] : tube.outputs_[0];
   }
+  narrow(tube.outputs_[0], outputsAtStart(box_));
+  tube.outputsOver_[0] = tube.outputs_[0];
   tube.cuts_.assign(levels_.size(), std::vector<std::vector<Interval>>(rows));
   for (std::size_t level = 0; level < levels_.size(); ++level)
     for (std::size_t row = 0; row < rows; ++row) {
@@ -601,6 +617,7 @@ Tube FlowRun::gather(std::vector<Collected>& collected) {
                                              : outputProgram_.outputs() > 0 ? tube.outputs_[row]
                                                                             : tube.states_[row];
       for (std::size_t i = 0; i < cut.size(); ++i) cut[i] = intersection(cut[i], outside[i]);
+      if (row == 0) narrow(cut, outputProgram_.outputs() > 0 ? outputsAtStart(levels_[level]) : levels_[level]);
     }
   for (std::size_t row = 1; row < rows; ++row)
     for (std::size_t i = 0; i < tube.states_[row].size(); ++i)

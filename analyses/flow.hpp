@@ -34,6 +34,7 @@ struct FlowOptions {
   int maxPieces = 2000;       ///< give up beyond this many pieces
   double maxWidth = std::numeric_limits<double>::infinity();  ///< end when an enclosure of a state becomes wider
   int jobs = 1;                                               ///< threads that follow pieces
+  std::vector<std::string> stateNames;           ///< for Tube::why(); without them "state 0", "state 1", ...
   std::function<void(double)> progress;          ///< called with the fraction done (0 … 1), from any thread
   const std::atomic<bool>* cancelled = nullptr;  ///< set from outside to end early; what was proved is kept
 };
@@ -46,7 +47,8 @@ class Tube {
   const std::vector<Interval>& at(double time) const;
   /// Proved up to here (s): the horizon, or the last time before the flow ended early.
   double reached() const { return reached_; }
-  /// Why it ended before the horizon; empty if it did not.
+  /// Why it ended before the horizon: at which time, which state, whether that grows without bound, is not known well
+  /// enough any more, or what else could not be proved. Empty if it did not end early.
   const std::string& why() const { return why_; }
 
   /// Output times, rising, the start 0 first.

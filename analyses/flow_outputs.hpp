@@ -1,12 +1,11 @@
 // Outputs y = g(t, x, p) of a set: the program on polynomials in ξ, with the mean-value form for what the polynomials
-// of the states leave over, so that outputs are as tight as states.
+// of the states leave over, so that outputs are as tight as states. Between two times: on polynomials in time and ξ.
 #pragma once
 
 #include <memory>
 #include <vector>
 
 #include "analyses/flow_step.hpp"
-#include "scalars/series.hpp"
 
 namespace gamut {
 
@@ -28,6 +27,28 @@ class FlowOutputs {
   int n_, outputs_, monomials_;
   PolynomialSeries series_;
   std::vector<double> polynomial_, radius_;
+};
+
+/// How far outputs leave the chord between two times of a step. Holds the workspace: one a thread.
+class FlowOutputChords {
+ public:
+  /// `g` and the monomials as above; `order` that of the steps.
+  FlowOutputChords(const Program& g, std::shared_ptr<const Monomials> monomials, int order);
+
+  /// Composes g with the step that `stepper` certified last from `set`.
+  void load(const FlowStepper& stepper, const FlowSet& set);
+  /// How far every output leaves the hull of its enclosures at two moments of the step, in seconds from its start,
+  /// between them; the whole line where nothing could be proved.
+  void sag(double from, double to, std::vector<Interval>& bound) const;
+
+ private:
+  int orderFor(const FlowStepper& stepper, std::vector<double>& dropped) const;
+
+  Program differentiated_;
+  int n_, outputs_, order_;
+  PolynomialSeries series_;
+  double scale_ = 1;
+  std::vector<double> second_, third_, turn_, rest_;  // of g̃: derivatives by σ; of what is not g̃: z'', 2 |ε|
 };
 
 }  // namespace gamut

@@ -19,10 +19,11 @@ struct FlowSet {
   std::vector<double> R, W;
   std::vector<double> generators;  // [generator][row], oldest first
   std::vector<Embedded> parameters;
-  std::vector<double> centre, half;  // ξ of the study = centre + half·ξ of this piece (exact: dyadic)
-  std::vector<int> units;            // FlowGrowth's, of the last step
-  double nextStep = 0;               // s, a guess
-  double caution = 1;                // factor on the step that the last coefficients suggest
+  std::vector<double> centre, half;    // ξ of the study = centre + half·ξ of this piece (exact: dyadic)
+  std::vector<int> units;              // FlowGrowth's, of the last step
+  std::vector<double> first, largest;  // size of each state over the first step, and the greatest so far
+  double nextStep = 0;                 // s, a guess
+  double caution = 1;                  // factor on the step that the last coefficients suggest
 };
 
 /// R + Σ_j |Γ_j|, rounded up.

@@ -3,7 +3,9 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <numeric>
 #include <type_traits>
@@ -18,7 +20,7 @@ using detail::at;
 
 namespace {
 
-constexpr double dumpedAt = 0.2;     // a frame column with more ξ-dependence than this goes back to a constant one
+constexpr double dumpedAt = 0.2;  // a frame column with more ξ-dependence than this goes back to a constant one
 /// Steps whose errors are kept apart; older ones merge into the box R. What it costs grows as the rest of a step does,
 /// so that long motions of many states, which lose most by merging, keep more.
 int stepsKept(int n) { return std::clamp(30 * n, 60, 300); }
@@ -30,6 +32,10 @@ auto columnsOf(Generators& generators, int n) {
   return Eigen::Map<Matrix>(generators.data(), n, static_cast<Eigen::Index>(generators.size()) / n);
 }
 
+// A state is followed relative to its size, but a body at rest need not be: to what it was, or its box; and never below
+// what bounds can tell from underflow, bounds::tiny over a tolerance.
+constexpr double vanished = 0x1p-120, leastSize = 0x1p-530;
+
 }  // namespace
 
 FlowStepper::FlowStepper(const Program& motion, std::shared_ptr<const Monomials> monomials, int frameDegree, int order,
@@ -40,11 +46,17 @@ FlowStepper::FlowStepper(const Program& motion, std::shared_ptr<const Monomials>
       series_(motion, motion.states(), std::move(monomials), frameDegree, order, true),
       growth_(motion.states(), order) {
   epsilon_.assign(at(n_ * n_), 0.0);
-  for (auto* v : {&delta0_, &delta1_, &start_, &E_, &y_, &e1_, &nu0_, &nu1_, &scale_}) v->assign(at(n_), 0.0);
+  for (auto* v :
+       {&delta0_, &delta1_, &start_, &E_, &y_, &e1_, &nu0_, &nu1_, &scale_, &floor_, &second_, &third_, &turn_})
+    v->assign(at(n_), 0.0);
 }
 
 void FlowStepper::load(const FlowSet& set) {
   totalRadius(set, total_);
+  for (int i = 0; i < n_; ++i) {
+    floor_[at(i)] = leastSize;
+    if (!set.largest.empty()) floor_[at(i)] = std::max(leastSize, vanished * set.largest[at(i)]);
+  }
   const int N = series_.count();
   for (int i = 0; i < n_; ++i) series_.setState(i, &set.p[at(i * N)]);
   for (std::size_t i = 0; i < set.parameters.size(); ++i) series_.setParameter(static_cast<int>(i), set.parameters[i]);
@@ -62,11 +74,11 @@ double FlowStepper::suggestion(double theta) const {
       for (int g = 0; g < series_.count(); ++g) sum += std::fabs(x[g * series_.stride() + order]);
       return sum;
     };
-    const double size = norm(0) + norm(1) * std::min(theta, 1.0);
+    const double size = std::max(norm(0) + norm(1) * std::min(theta, 1.0), floor_[at(i)]);
     for (int order : {m_ - 1, m_}) {
       const double last = norm(order);
       if (!std::isfinite(last)) return std::nan("");
-      if (last > 0 && size > 0) best = std::min(best, std::pow(tolerance_ * size / last, 1.0 / order));
+      if (last > 0) best = std::min(best, std::pow(tolerance_ * size / last, 1.0 / order));
     }
   }
   return best;
@@ -80,13 +92,18 @@ bool FlowStepper::boundGrowth(double h) {
 
 bool FlowStepper::tryStep(const FlowSet& set, double theta) {
   const double h = theta * h0_;  // exact: h0 is a power of two
-  if (!series_.tabulate(theta) || !series_.bound(nullptr, false)) return false;
+  obstacle_.clear();
+  const auto refuse = [&] {
+    obstacle_ = series_.obstacle();
+    return false;
+  };
+  if (!series_.tabulate(theta) || !series_.bound(nullptr, false)) return refuse();
   for (int i = 0; i < n_; ++i) {
     const int f = series_.outputNode(i);
     // δ = x̃' - f(x̃): the bound of f's node, and one rounding in the division by i+1.
     delta0_[at(i)] = (series_.rho0(f) + bounds::unit * series_.norm(f)) * bounds::up + bounds::tiny;
     delta1_[at(i)] = series_.rho1(f);
-    scale_[at(i)] = series_.norm(i);
+    scale_[at(i)] = std::max(series_.norm(i), floor_[at(i)]);
     double start = set.W[at(i)];
     for (int g = 0; g < series_.frameCount(); ++g)
       for (int j = 0; j < n_; ++j) start += std::fabs(set.C[at((g * n_ + i) * n_ + j)]) * total_[at(j)];
@@ -108,7 +125,8 @@ bool FlowStepper::tryStep(const FlowSet& set, double theta) {
       E_[at(i)] = y_[at(i)] * (attempt == 0 ? 1.05 : 1.3);
       if (!(E_[at(i)] < bounds::largest)) return false;
     }
-    if (!series_.bound(E_.data(), false) || !boundGrowth(h)) return false;
+    if (!series_.bound(E_.data(), false)) return refuse();
+    if (!boundGrowth(h)) return false;
     tube();
     proved = true;
     for (int i = 0; i < n_; ++i) proved = proved && y_[at(i)] <= E_[at(i)];
@@ -123,10 +141,8 @@ bool FlowStepper::tryStep(const FlowSet& set, double theta) {
       kept += growth_.M0(i, j) * set.W[at(j)];
     }
     e1_[at(i)] = (time + truncation + kept) * bounds::up + bounds::tiny;
-    if (scale_[at(i)] > 0) {
-      timeError_ = std::max(timeError_, time / scale_[at(i)]);
-      truncation_ = std::max(truncation_, truncation / scale_[at(i)]);
-    }
+    timeError_ = std::max(timeError_, time / scale_[at(i)]);
+    truncation_ = std::max(truncation_, truncation / scale_[at(i)]);
   }
   for (int j = 0; j < n_; ++j) {
     for (int i = 0; i < n_; ++i) series_.frameDefect(i, j, nu0_[at(i)], nu1_[at(i)]);
@@ -166,6 +182,44 @@ bool FlowStepper::isRemainderDominant(const FlowSet& set) const {
   return false;
 }
 
+std::string FlowStepper::nameOf(int state) const {
+  return at(state) < names_.size() ? names_[at(state)] : "state " + std::to_string(state);
+}
+
+/// A state that has grown a thousandfold and would double long before the time it took is on its way to infinity. Else
+/// a state that is hardly known to one part in ten makes the set too wide. Else it is the step itself.
+std::string FlowStepper::reason(const FlowSet& set) const {
+  const int N = series_.count();
+  std::string wide;
+  double widest = 0.1;
+  const auto text = [](double value) {
+    std::array<char, 32> digits{};
+    std::snprintf(digits.data(), digits.size(), "%.3g", value);
+    return std::string(digits.data());
+  };
+  for (int i = 0; i < n_; ++i) {
+    const double* p = &set.p[at(i * N)];
+    const double centre = p[0], rate = series_.series(i)[1] / h0_;
+    double half = 0, remainder = set.W[at(i)];
+    for (int g = 1; g < N; ++g) half += std::fabs(p[g]);
+    for (int j = 0; j < n_; ++j) remainder += std::fabs(set.C[at(i * n_ + j)]) * total_[at(j)];
+    const double before = set.first.empty() ? std::fabs(centre) : set.first[at(i)], doubling = centre / rate;
+    if (before > 0 && std::fabs(centre) > 1000 * before && doubling > 0 && doubling < 0.01 * set.t)
+      return nameOf(i) + " grows without bound: it is about " + text(centre) + " and doubles within " + text(doubling) +
+             " s";
+    const double size = std::max(std::fabs(centre), floor_[at(i)] / vanished);
+    if (const double share = (half + remainder) / size; share > widest) {
+      widest = share;
+      wide = "the set has grown too wide: " + nameOf(i) + " is " + text(centre) + " ± " + text(half + remainder) +
+             (remainder > half ? ", most of it what steps have added" : "");
+    }
+  }
+  const std::string step = "no step could be certified";
+  const std::string edge = obstacle_.empty() ? series_.nearestEdge(1e-6 * set.t / h0_) : obstacle_;
+  if (!edge.empty()) return step + ": " + edge + (wide.empty() ? "" : "; " + wide);
+  return wide.empty() ? step + ": its errors would outgrow it" : wide;
+}
+
 StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum, double splitDefect) {
   const double left = end - set.t;
   caution_ = set.caution;
@@ -195,7 +249,8 @@ StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum,
       guess /= 1024;
     }
     if (!(guess > smallest) || attempt > 40) {
-      why_ = "no step is small enough: the solution leaves the domain of its equations or grows without bound";
+      obstacle_ = std::isfinite(theta) ? "" : "a number that is not defined or too large";
+      why_ = reason(set);
       return StepOutcome::failed;
     }
   }
@@ -217,6 +272,7 @@ StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum,
       }
       h_ = h;
       theta_ = h / h0_;
+      boundDerivatives();
       if (h < left)
         caution_ *= std::clamp(std::pow(tolerance_ / std::max(timeError_, 1e-40), 1.0 / (m_ + 1)), 0.7, 1.15);
       caution_ = std::clamp(caution_, 0x1p-6, 2.0);
@@ -225,7 +281,7 @@ StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum,
     h *= 0.6;
     caution_ = std::max(caution_ * 0.8, 0x1p-6);
   }
-  why_ = "no step could be certified: the set has grown too wide for its equations";
+  why_ = reason(set);
   return StepOutcome::failed;
 }
 
@@ -251,7 +307,7 @@ void FlowStepper::evaluate(const FlowSet& set, double tau, FlowPoint& point) {
   for (int i = 0; i < n_; ++i) {
     double error = 0;
     for (int g = 0; g < N; ++g) point.p[at(i * N + g)] = horner(series_.series(i) + g * stride, error);
-    point.loose[at(i)] = error + e1_[at(i)];
+    point.loose[at(i)] = tau == 0 ? set.W[at(i)] : error + e1_[at(i)];  // the start itself is known
   }
   point.total = total_;
   for (int i = 0; i < n_; ++i) {
@@ -268,7 +324,7 @@ void FlowStepper::evaluate(const FlowSet& set, double tau, FlowPoint& point) {
       // Ψ_0 r by the box R; Ψ_0 Γ s below; the higher Ψ_α by the whole radius.
       const double leading = std::fabs(point.psi[at(i * n_ + j)]);
       radius += leading * set.R[at(j)] + (sum * bounds::up - leading * bounds::down) * (NJ > 1 ? total_[at(j)] : 0.0);
-      loose += (error + epsilon_[at(i * n_ + j)]) * total_[at(j)];
+      if (tau != 0) loose += (error + epsilon_[at(i * n_ + j)]) * total_[at(j)];
     }
     point.loose[at(i)] = loose;
     point.radius[at(i)] = radius;
@@ -289,25 +345,26 @@ void FlowStepper::evaluate(const FlowSet& set, double tau, FlowPoint& point) {
   }
 }
 
-void FlowStepper::bulge(double length, std::vector<double>& bound) const {
-  const double share = length / h0_;  // in σ, exactly
-  // |Σ i(i-1) c_i σ^{i-2}| ≤ Σ i(i-1)|c_i|θ^{i-2}.
-  const auto second = [&](const double* c, int count) {
-    double sum = 0, power = 1;
-    for (int i = 2; i <= m_; ++i, power *= theta_) {
-      double order = 0;
-      for (int g = 0; g < count; ++g) order += std::fabs(c[g * series_.stride() + i]);
-      sum += i * (i - 1) * order * power;
-    }
-    return sum;
-  };
-  bound.assign(at(n_), 0.0);
+double FlowStepper::looseBound(int i) const {
+  double loose = e1_[at(i)];
+  for (int j = 0; j < n_; ++j) loose += epsilon_[at(i * n_ + j)] * total_[at(j)];
+  return loose * bounds::up;
+}
+
+void FlowStepper::boundDerivatives() {
   for (int i = 0; i < n_; ++i) {
-    double sum = second(series_.series(i), series_.count());
+    second_[at(i)] = series_.derivativeNorm(i, 2, theta_);
+    third_[at(i)] = series_.derivativeNorm(i, 3, theta_);
+    turn_[at(i)] = 0;
     for (int j = 0; j < n_; ++j)
-      if (total_[at(j)] > 0) sum += second(series_.frame(i, j), series_.frameCount()) * total_[at(j)];
-    bound[at(i)] = sum * (share * share / 8) * bounds::up + bounds::tiny;
+      if (total_[at(j)] > 0) turn_[at(i)] += series_.frameDerivativeNorm(i, j, 2, theta_) * total_[at(j)];
   }
+}
+
+void FlowStepper::sag(double from, double to, std::vector<Interval>& bound) const {
+  bound.clear();
+  for (int i = 0; i < n_; ++i)  // in σ, exactly
+    bound.push_back(series_.sag(i, from / h0_, to / h0_, second_[at(i)], third_[at(i)], turn_[at(i)]));
 }
 
 void FlowStepper::advance(FlowSet& set) {
@@ -438,6 +495,10 @@ void FlowStepper::advance(FlowSet& set) {
   set.nextStep = h_ * 1.1;
   set.caution = caution_;
   set.units = growth_.units();
+  if (set.first.empty())
+    for (int i = 0; i < n_; ++i) set.first.push_back(series_.norm(i));
+  set.largest.resize(at(n_), 0.0);
+  for (int i = 0; i < n_; ++i) set.largest[at(i)] = std::max(set.largest[at(i)], series_.norm(i));
   for (int i = 0; i < n_; ++i) {
     set.R[at(i)] = newR(i);
     set.W[at(i)] = 0;
@@ -458,7 +519,7 @@ double FlowStepper::relativeRemainder(const FlowSet& set) const {
   for (int i = 0; i < n_; ++i) {
     double remainder = set.W[at(i)];
     for (int j = 0; j < n_; ++j) remainder += std::fabs(set.C[at(i * n_ + j)]) * total[at(j)];
-    if (scale_[at(i)] > 0) largest = std::max(largest, remainder / scale_[at(i)]);
+    largest = std::max(largest, remainder / scale_[at(i)]);
   }
   return largest;
 }
@@ -469,7 +530,7 @@ int FlowStepper::worstSymbol() const {
   for (int from : {m.degree() - 1, 1}) {  // the highest powers; at a fresh start, the linear terms
     for (int i = 0; i < n_; ++i)
       for (int g = 1; g < m.count(); ++g) {
-        if (m.grade(g) < from || scale_[at(i)] <= 0) continue;
+        if (m.grade(g) < from) continue;
         double size = 0, power = 1;
         for (int order = 0; order <= m_; ++order, power *= theta_)
           size += std::fabs(series_.series(i)[g * series_.stride() + order]) * power;

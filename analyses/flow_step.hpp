@@ -38,15 +38,25 @@ class FlowStepper {
   /// the next call.
   StepOutcome certify(const FlowSet& set, double end, double quantum, double splitDefect);
   double h() const { return h_; }
+  /// After a failure: what could not be proved, of which state, in one line.
   const std::string& why() const { return why_; }
+  void setStateNames(const std::vector<std::string>& names) { names_ = names; }
+  std::string nameOf(int state) const;
   /// After a failure: the remainder, not ξ, makes the set too wide; bisecting ξ cannot help.
   bool isRemainderDominant(const FlowSet& set) const;
 
   /// The set τ seconds into the step, 0 ≤ τ ≤ h.
   void evaluate(const FlowSet& set, double tau, FlowPoint& point);
-  /// How far p + Ψ (r + Γs) leaves its chord over a part of the step that is `length` seconds long, for each state:
-  /// length²/8 times a bound of its second derivative.
-  void bulge(double length, std::vector<double>& bound) const;
+  /// How far p + Ψ (r + Γs) leaves its chord between two moments of the step, in seconds from its start, for each
+  /// state.
+  void sag(double from, double to, std::vector<Interval>& bound) const;
+  /// The step for others: x = p + Ψ (r + Γs) + loose, p and Ψ polynomials in σ ∈ [0, θ], σ = (t - set.t) / scale.
+  const PolynomialSeries& series() const { return series_; }
+  double scale() const { return h0_; }
+  double theta() const { return theta_; }
+  double totalBound(int j) const { return total_[static_cast<std::size_t>(j)]; }  ///< R + Σ_j |Γ_j|
+  double tubeBound(int i) const { return E_[static_cast<std::size_t>(i)]; }       ///< |x - p| at every time
+  double looseBound(int i) const;                                                 ///< |loose| at every time
   /// The set at the end of the step.
   void advance(FlowSet& set);
   /// The greatest remainder of all states, relative to the state's size over the step.
@@ -63,7 +73,9 @@ class FlowStepper {
   bool boundGrowth(double h);
   bool tryStep(const FlowSet& set, double theta);
   void load(const FlowSet& set);
+  void boundDerivatives();
   double suggestion(double theta) const;
+  std::string reason(const FlowSet& set) const;
   bool isTruncationTooLarge(double splitDefect) const;
 
   int n_, m_;
@@ -73,9 +85,11 @@ class FlowStepper {
   double h0_ = 0, h_ = 0, theta_ = 0;
   double timeError_ = 0, truncation_ = 0;
   double caution_ = 1;
-  std::string why_;
-  std::vector<double> delta0_, delta1_, start_, E_, y_, e1_, epsilon_, nu0_, nu1_, scale_;
-  std::vector<double> total_;  // R + Σ_j |Γ_j| of the set being stepped
+  std::vector<std::string> names_;
+  std::string why_, obstacle_;  // obstacle_: of the last attempt
+  std::vector<double> delta0_, delta1_, start_, E_, y_, e1_, epsilon_, nu0_, nu1_, scale_, floor_;
+  std::vector<double> total_;                  // R + Σ_j |Γ_j| of the set being stepped
+  std::vector<double> second_, third_, turn_;  // bounds of derivatives by σ: p'' and the next, Ψ''(r + Γs)
   FlowPoint end_;
 };
 

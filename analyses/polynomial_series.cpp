@@ -184,6 +184,17 @@ void PolynomialSeries::setState(int i, const double* coefficients) {
   for (int g = 0; g < count(); ++g) put(plan_[at(i)], g, 0, coefficients[g]);
 }
 
+void PolynomialSeries::setOrder(int order) {
+  if (order == m_) return;
+  m_ = order;
+  clear();
+}
+
+void PolynomialSeries::setStateSeries(int i, const double* series, int spacing) {
+  for (int g = 0; g < count(); ++g)
+    for (int order = 0; order < m_; ++order) put(plan_[at(i)], g, order, series[g * spacing + order]);
+}
+
 void PolynomialSeries::setParameter(int i, const double* coefficients, double radius) {
   for (int g = 0; g < count(); ++g) put(plan_[at(n_ + i)], g, 0, coefficients[g]);
   radius_[at(n_ + i)] = radius;

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "analyses/kernels.hpp"
@@ -36,8 +37,14 @@ class PolynomialSeries {
   int count() const { return monomials_->count(); }
   int frameCount() const { return frameCount_; }
 
+  /// Without a frame: how many orders the next computation keeps, at most as many as the constructor was told.
+  /// No fewer than leastOrder. Forgets all coefficients where that changes, so that none is left beyond the last.
+  void setOrder(int order);
+  static constexpr int leastOrder = 4;
+
   // Inputs: coefficients of order 0 in σ.
   void setState(int i, const double* coefficients);                     // count() numbers
+  void setStateSeries(int i, const double* series, int spacing);        // orders below m too, a monomial each `spacing`
   void setParameter(int i, const double* coefficients, double radius);  // count() numbers, |p - p̃| ≤ radius
   void setParameter(int i, const Embedded& value);
   void setFrame(int i, int j, const double* coefficients, int spacing);  // frameCount() numbers, `spacing` apart
@@ -50,6 +57,11 @@ class PolynomialSeries {
   /// ρ0, ρ1 of all nodes when |x - x̃| ≤ E (null: along the polynomial). False: not proved (a division by zero, say).
   bool bound(const double* E, bool primaryOnly);
 
+  /// After tabulate or bound returned false: what could not be proved, in words.
+  std::string obstacle() const { return edgeOf(obstacle_); }
+  /// The operation that comes soonest to the edge of its domain, before σ = `within`, in words; empty if none does.
+  std::string nearestEdge(double within) const;
+
   // Results. Node numbers are those of the program; frame entries are separate.
   const double* series(int node) const { return &f_[plan_[at(node)].f]; }
   const double* frame(int i, int j) const { return &f_[plan_[at(frameNode(i, j))].f]; }
@@ -57,6 +69,15 @@ class PolynomialSeries {
   double norm(int node) const { return norm_[at(node)]; }
   double rho0(int node) const { return rho0_[at(node)]; }
   double rho1(int node) const { return rho1_[at(node)]; }
+  /// Σ i!/(i-k)! |c_{iα}| θ^{i-k}: a bound of the k-th derivative by σ over [0, θ], with the order that only states
+  /// keep.
+  double derivativeNorm(int node, int k, double theta) const { return derivativeNorm(plan_[at(node)], k, theta); }
+  double frameDerivativeNorm(int i, int j, int k, double theta) const {
+    return derivativeNorm(plan_[at(frameNode(i, j))], k, theta);
+  }
+  /// How far a node's polynomial leaves its chord between two times σ of [0, θ], for every ξ, downwards and upwards.
+  /// `second` and `third` are its derivativeNorms; `more` is added to the bound of its second derivative.
+  Interval sag(int node, double from, double to, double second, double third, double more) const;
   /// Σ_α |c_{mα}| θ^m of state i: its last order.
   double top(int state) const { return top_[at(state)]; }
   /// |∂f_i/∂x_j| on the set that was bounded last.
@@ -68,6 +89,7 @@ class PolynomialSeries {
 
  private:
   static constexpr std::size_t at(int i) { return detail::at(i); }
+  int last() const { return withFrame_ ? m_ : m_ - 1; }  // the highest order that any node keeps
   int frameNode(int i, int j) const { return nodes_ + i * n_ + j; }
 
   struct Plan {
@@ -105,6 +127,7 @@ class PolynomialSeries {
     f_[v.f + at(g * stride_ + i)] = value;
     if (v.r != none) r_[v.r + at(g * kernels::reversedStride(stride_) + stride_ - 1 - i)] = value;
   }
+  double derivativeNorm(const Plan& v, int k, double theta) const;
   void computeOrder(int node, int i);
   void product(const Plan& a, const Plan& b, int count, int i, double* out);
   void computeFrameOrder(int i, double h0);
@@ -133,8 +156,11 @@ class PolynomialSeries {
   void solutionOwnErrors(int first);
   bool boundSystem(System& system);
   bool boundSolution(int first);
+  bool refuse(int node);
+  std::string edgeOf(int node) const;
 
   int n_, time_, m_, stride_, nodes_, frameCount_, frameDegree_;
+  int obstacle_ = 0;  // the node that failed
   bool withFrame_;
   std::shared_ptr<const Monomials> monomials_;
   std::vector<Plan> plan_;
@@ -152,7 +178,8 @@ class PolynomialSeries {
   std::vector<double> current_;
   std::vector<System> systems_;
   std::vector<Solution> solutions_;
-  static constexpr int inverseOrder = 3;           // of C in time; in ξ it is linear
+  static constexpr int inverseOrder = 3;  // of C in time; in ξ it is linear
+  static_assert(inverseOrder < leastOrder);
   std::vector<std::pair<int, int>> inverseTerms_;  // order and symbol (-1: none): σ^order or ξ_symbol
   std::vector<int> shift_;                         // number of ξ_symbol·(monomial g), [symbol][g]
   int largestSystem_ = 0;

@@ -23,7 +23,7 @@ bool PolynomialSeries::tabulate(double theta) {
                       weighted_[x]);
     norm_[x] *= bounds::up;
     weighted_[x] *= bounds::up;
-    if (!(norm_[x] < bounds::largest)) return false;  // false for NaN too
+    if (!(norm_[x] < bounds::largest)) return refuse(static_cast<int>(x));  // for NaN too
     double* total = &total_[x * at(stride_)];
     std::fill(total, total + stride_, 0.0);
     for (int q = 0; q <= v.degree; ++q)
@@ -32,7 +32,7 @@ bool PolynomialSeries::tabulate(double theta) {
       double sum = 0;
       for (int g = 0; g < v.count; ++g) sum += std::fabs(f_[v.f + at(g * stride_ + m_)]);
       top_[x] = withFrame_ ? sum * last * bounds::up : 0.0;
-      if (!(top_[x] < bounds::largest)) return false;
+      if (!(top_[x] < bounds::largest)) return refuse(static_cast<int>(x));
     }
     if (!v.needsTails) continue;
     // s1[i] = Σ_{j ≥ m-i} total[j];  s2[q][i] = Σ_{p ≥ q} Σ_{j ≤ m-1-i} T[p][j].
@@ -324,9 +324,78 @@ bool PolynomialSeries::bound(const double* E, bool primaryOnly) {
   for (int node = time_ + 1; node < nodes_; ++node) {
     if (plan_[at(node)].constant) rho0_[at(node)] = radius_[at(node)];
     if (primaryOnly && !plan_[at(node)].primary) continue;
-    if (!boundNode(node)) return false;
+    if (!boundNode(node)) return refuse(node);
   }
   return true;
+}
+
+bool PolynomialSeries::refuse(int node) {
+  obstacle_ = node;
+  return false;
+}
+
+std::string PolynomialSeries::nearestEdge(double within) const {
+  int nearest = -1;
+  for (int i = 0; i < nodes_; ++i) {
+    const Plan& v = plan_[at(i)];
+    if (v.op != Op::recip && v.op != Op::sqrt && v.op != Op::log) continue;
+    const double* argument = series(v.a);
+    if (const double edge = -argument[0] / argument[1]; edge > 0 && edge < within) nearest = i, within = edge;
+  }
+  return nearest < 0 ? "" : edgeOf(nearest);
+}
+
+std::string PolynomialSeries::edgeOf(int node) const {
+  switch (plan_[at(node)].op) {
+    case Op::recip:
+      return "a division by what may be zero";
+    case Op::sqrt:
+      return "the square root of what may be zero or negative";
+    case Op::log:
+      return "the logarithm of what may be zero or negative";
+    case Op::exp:
+      return "an exponential that may become too large";
+    case Op::solution:
+      return "a linear system that may be singular";
+    default:
+      return "a number that may become too large";
+  }
+}
+
+double PolynomialSeries::derivativeNorm(const Plan& v, int k, double theta) const {
+  double sum = 0, power = 1;
+  for (int i = k; i <= last(); ++i, power *= theta) {
+    double order = 0, factor = 1;
+    for (int g = 0; g < v.count; ++g) order += std::fabs(f_[v.f + at(g * stride_ + i)]);
+    for (int j = 0; j < k; ++j) factor *= i - j;
+    sum += factor * order * power;
+  }
+  return sum * bounds::up + bounds::tiny;
+}
+
+/// y = chord - ½ (σ - from)(to - σ) ÿ(somewhere), so y leaves it by -share²/8 times a value of ÿ or of zero. About the
+/// middle ÿ = Σ_α ÿ_α(middle) ξ^α + at most half times the third derivative; Horner's scheme for ÿ_α has 2m roundings,
+/// and one more in i(i-1)c.
+Interval PolynomialSeries::sag(int node, double from, double to, double second, double third, double more) const {
+  const Plan& v = plan_[at(node)];
+  const double middle = 0.5 * (from + to), half = std::max(to - middle, middle - from) * bounds::up;
+  double leading = 0, others = 0;
+  for (int g = 0; g < v.count; ++g) {
+    const double* c = &f_[v.f + at(g * stride_)];
+    double sum = 0;
+    for (int i = last(); i >= 2; --i) sum = sum * middle + i * (i - 1) * c[i];
+    if (g == 0)
+      leading = sum;
+    else
+      others += std::fabs(sum);
+  }
+  others = (others + half * third + (2 * m_ + 2) * bounds::unit * second + more) * bounds::up;
+  const double share = to - from, eighth = share * share / 8, most = (second + more) * bounds::up;
+  const auto bound = [&](double slope) {
+    const double curvature = std::min(most, slope + others + bounds::unit * std::fabs(slope));
+    return std::max(0.0, curvature) * eighth * bounds::up + bounds::tiny;
+  };
+  return Interval(-bound(leading), bound(-leading));
 }
 
 double PolynomialSeries::jacobianBound(int i, int j) const {

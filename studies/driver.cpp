@@ -93,6 +93,7 @@ class Driver {
     flow.jobs = options_.jobs;
     flow.progress = progressOf("enclosure");
     flow.cancelled = options_.cancelled;
+    flow.stateNames = study_.mechanism.stateNames();
     const Motion& motion = problem_.motion.motion;
     const Tube tube =
         Flow(motion.f, motion.g, flow).enclose(problem_.box, study_.horizon, study_.time, problem_.levels);
