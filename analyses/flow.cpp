@@ -8,6 +8,7 @@
 #include <exception>
 #include <limits>
 #include <mutex>
+#include <new>
 #include <queue>
 #include <stdexcept>
 #include <thread>
@@ -25,8 +26,6 @@ namespace gamut {
 using detail::at;
 
 namespace {
-
-constexpr const char* interruptedText = "interrupted";
 
 void join(std::vector<Interval>& into, const std::vector<Interval>& from) {
   if (into.empty()) {
@@ -148,7 +147,8 @@ class FlowRun {
   /// The greatest share of the remainder in a width, and whether all was proved: is it worth trying a tighter
   /// threshold?
   bool isLoose(const Tube& tube) const {
-    if (embedding_.symbols == 0 || !options_.split || tube.why() == interruptedText || pieces_ >= options_.maxPieces)
+    if (embedding_.symbols == 0 || !options_.split || tube.wasStopped() ||
+        pieces_ >= options_.maxPieces)
       return false;
     return tube.reached() < horizon_ || looseness_ > 0.005;
   }
@@ -165,7 +165,7 @@ class FlowRun {
     cross(b.outputs_, a.outputs_);
     cross(b.outputsOver_, a.outputsOver_);
     for (std::size_t level = 0; level < b.cuts_.size(); ++level) cross(b.cuts_[level], a.cuts_[level]);
-    if (a.why_ == interruptedText && !b.why_.empty()) b.why_ = a.why_;
+    if (a.wasStopped() && !b.why_.empty()) b.why_ = a.why_;
     b.steps_ += a.steps_;
     b.cpu_ += a.cpu_;
     b.cutCpu_ += a.cutCpu_;
@@ -240,7 +240,7 @@ class FlowRun {
           sliceEnd = std::min(horizon_, piece.set.t + horizon_ / 64);
           report(piece.set.t);
         }
-        const Journey journey = worker.follow(piece, sliceEnd);
+        const Journey journey = worker.followWhilePossible(piece, sliceEnd);
         {
           const std::lock_guard lock(mutex_);
           --busy_;
@@ -301,6 +301,18 @@ class FlowRun {
           series_(run.motion_, 2),
           outputSeries_(run.outputProgram_, 2) {}
 
+    /// What ends within a step leaves the piece at the step's start; what the step had given already is proved.
+    Journey followWhilePossible(Piece& piece, double end) {
+      try {
+        return follow(piece, end);
+      } catch (const Cancelled&) {
+      } catch (const std::bad_alloc&) {
+        run_.outOfMemory_ = true;
+      }
+      return Journey::cancelled;
+    }
+
+   private:
     /// Advances `piece` to `end` or to its failure.
     Journey follow(Piece& piece, double end) {
       while (piece.set.t < end) {
@@ -339,7 +351,6 @@ class FlowRun {
       return Journey::goesOn;
     }
 
-   private:
     /// The workspace of one layout.
     struct Tools {
       FlowStepper stepper;
@@ -351,11 +362,13 @@ class FlowRun {
       std::unique_ptr<Tools>& tools = tools_[piece.layout];
       if (!tools) {
         const Layout& layout = run_.layouts_[piece.layout];
-        tools = std::make_unique<Tools>(Tools{FlowStepper(run_.differentiated_, layout.monomials, layout.frameDegree,
-                                                          run_.options_.order, run_.tolerance_),
-                                              PolynomialRange(layout.monomials), nullptr});
+        tools =
+            std::make_unique<Tools>(Tools{FlowStepper(run_.differentiated_, layout.monomials, layout.frameDegree,
+                                                      run_.options_.order, run_.tolerance_, run_.options_.cancelled),
+                                          PolynomialRange(layout.monomials), nullptr});
         if (run_.outputProgram_.outputs() > 0)
-          tools->outputs = std::make_unique<FlowOutputs>(run_.outputProgram_, layout.monomials);
+          tools->outputs =
+              std::make_unique<FlowOutputs>(run_.outputProgram_, layout.monomials, run_.options_.cancelled);
       }
       tool_ = tools.get();
       outputs_ = tool_->outputs.get();
@@ -555,6 +568,7 @@ class FlowRun {
   int busy_ = 0, pieces_ = 1;
   double looseness_ = 0;
   bool stop_ = false;
+  std::atomic<bool> outOfMemory_{false};
   double failedAt_ = 0, unfinished_ = std::numeric_limits<double>::infinity();
   std::string why_;
   std::exception_ptr error_;
@@ -569,7 +583,7 @@ Tube FlowRun::gather(std::vector<Collected>& collected) {
   if (!queue_.empty()) earliest = std::min(earliest, queue_.top().set.t);
   if (stop_ && earliest < tube.reached_) {
     tube.reached_ = earliest;
-    tube.why_ = interruptedText;
+    tube.why_ = outOfMemory_ ? Tube::outOfMemory : Tube::interrupted;
   }
   std::size_t rows = 0;
   while (rows < times_.size() && times_[rows] <= tube.reached_ && (rows > 0 || tube.reached_ > 0)) ++rows;
@@ -687,7 +701,7 @@ Tube Flow::enclose(const Box& box, double horizon, const std::vector<double>& ou
   double looseness = 0, unused = 0;
   Tube tube = repeat(box, levels, looseness);
   // A remainder that is small for the whole box is not for a much smaller level: that one gets a flow of its own.
-  for (std::size_t level = 0; level < levels.size() && tube.why() != interruptedText; ++level) {
+  for (std::size_t level = 0; level < levels.size() && !tube.wasStopped(); ++level) {
     double share = 0;
     for (std::size_t i = 0; i < box.size(); ++i)
       if (uncertain.components[i].symbol >= 0) share = std::max(share, width(levels[level][i]) / width(box[i]));

@@ -46,8 +46,13 @@ class Tube {
   const std::vector<Interval>& at(double time) const;
   /// Proved up to here (s): the horizon, or the last time before the flow ended early.
   double reached() const { return reached_; }
-  /// Why it ended before the horizon; empty if it did not.
+  /// Why it ended before the horizon; empty if it did not. `interrupted` if `cancelled` was set before, `outOfMemory`
+  /// if a request for memory failed.
   const std::string& why() const { return why_; }
+  static constexpr const char* interrupted = "interrupted";
+  static constexpr const char* outOfMemory = "out of memory";
+  /// Whether it ended early for one of these two, not for the motion's sake.
+  bool wasStopped() const { return why_ == interrupted || why_ == outOfMemory; }
 
   /// Output times, rising, the start 0 first.
   const std::vector<double>& times() const { return times_; }

@@ -11,12 +11,13 @@ namespace gamut {
 
 using detail::at;
 
-FlowOutputs::FlowOutputs(const Program& g, std::shared_ptr<const Monomials> monomials)
+FlowOutputs::FlowOutputs(const Program& g, std::shared_ptr<const Monomials> monomials,
+                         const std::atomic<bool>* cancelled)
     : differentiated_(g.differentiated()),
       n_(g.states()),
       outputs_(g.outputs()),
       monomials_(monomials->count()),
-      series_(differentiated_, outputs_, std::move(monomials), 0, 1, false) {
+      series_(differentiated_, outputs_, std::move(monomials), 0, 1, false, cancelled) {
   polynomial_.assign(at(outputs_ * monomials_), 0.0);
   radius_.assign(at(outputs_), 0.0);
 }

@@ -2,6 +2,7 @@
 // of the states leave over, so that outputs are as tight as states.
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <vector>
 
@@ -14,7 +15,8 @@ namespace gamut {
 class FlowOutputs {
  public:
   /// `g`: the outputs; its states and parameters are those of the flow.
-  FlowOutputs(const Program& g, std::shared_ptr<const Monomials> monomials);
+  FlowOutputs(const Program& g, std::shared_ptr<const Monomials> monomials,
+              const std::atomic<bool>* cancelled = nullptr);
 
   /// polynomial(o) ± radius(o) contains output o for every ξ. A radius is infinite where nothing could be proved.
   void evaluate(double t, const FlowPoint& point, const std::vector<double>& R,

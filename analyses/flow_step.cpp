@@ -33,11 +33,11 @@ auto columnsOf(Generators& generators, int n) {
 }  // namespace
 
 FlowStepper::FlowStepper(const Program& motion, std::shared_ptr<const Monomials> monomials, int frameDegree, int order,
-                         double tolerance)
+                         double tolerance, const std::atomic<bool>* cancelled)
     : n_(motion.states()),
       m_(order),
       tolerance_(tolerance),
-      series_(motion, motion.states(), std::move(monomials), frameDegree, order, true),
+      series_(motion, motion.states(), std::move(monomials), frameDegree, order, true, cancelled),
       growth_(motion.states(), order) {
   epsilon_.assign(at(n_ * n_), 0.0);
   for (auto* v : {&delta0_, &delta1_, &start_, &E_, &y_, &e1_, &nu0_, &nu1_, &scale_}) v->assign(at(n_), 0.0);
