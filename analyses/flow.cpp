@@ -140,14 +140,15 @@ class FlowRun {
     }
     // Bisection is cheap for one symbol and dear for several: with these, begin loosely.
     const double patience = std::pow(20.0, std::clamp(embedding_.symbols - 1, 0, 3));
-    splitDefect_ = options.splitDefect * patience * embedding_.widest / tighter;
+    splitDefect_ = bisectsForWidth() ? options.splitDefect * patience * embedding_.widest / tighter
+                                     : std::numeric_limits<double>::infinity();
     tolerance_ = options.tolerance > 0 ? options.tolerance : embedding_.symbols == 0 ? 1e-15 : 1e-14;
   }
 
   /// The greatest share of the remainder in a width, and whether all was proved: is it worth trying a tighter
   /// threshold?
   bool isLoose(const Tube& tube) const {
-    if (embedding_.symbols == 0 || !options_.split || tube.wasStopped() ||
+    if (embedding_.symbols == 0 || !options_.split || !bisectsForWidth() || tube.wasStopped() ||
         pieces_ >= options_.maxPieces)
       return false;
     return tube.reached() < horizon_ || looseness_ > 0.005;
@@ -173,6 +174,9 @@ class FlowRun {
   }
 
   double looseness() const { return looseness_; }
+
+  /// Halving one of many symbols narrows the box by little: those are bisected only where a step fails otherwise.
+  bool bisectsForWidth() const { return embedding_.symbols <= 8; }
 
   /// Intersects the cuts of this level, and of all inside it, with a flow over the level's own box.
   static void tighten(Tube& tube, std::size_t level, const Tube& own) {
