@@ -131,6 +131,13 @@ void writeStudy(Hdf5Writer& root, const Results& results) {
   study.attribute("host", results.host);
   study.attribute("date", results.date);
   study.attribute("report_cpu", results.reportCpu);
+  study.attribute("cpu", results.cpu);
+  study.attribute("memory", results.memory);
+  study.attribute("time_limit", results.limits.time);
+  study.attribute("memory_limit", results.limits.memory);
+  study.attribute("enclosure_time_limit", results.limits.enclosureTime);
+  study.attribute("enclosure_memory_limit", results.limits.enclosureMemory);
+  study.attribute("sample_time_limit", results.limits.sampleTime);
   Hdf5Writer libraries(study.id(), "libraries");
   for (const auto& [name, version] : results.libraries) libraries.attribute(name, version);
 
@@ -189,6 +196,8 @@ void writeStochastic(Hdf5Writer& root, const Results& results) {
   group.attribute("plan", stochastic.plan);
   group.attribute("samples", stochastic.samples);
   group.attribute("corners", stochastic.corners);
+  group.attribute("integrated", stochastic.integrated);
+  group.attribute("stopped", stochastic.stopped);
   group.attribute("relative_tolerance", stochastic.relativeTolerance);
   group.attribute("absolute_tolerance", stochastic.absoluteTolerance);
   group.attribute("pack_width", stochastic.packWidth);
@@ -222,7 +231,8 @@ void writeFuzzy(Hdf5Writer& root, const Results& results) {
   grids.stack("inner", fuzzy.inner, "/fuzzy/alpha", "range of the samples of at least this membership");
 }
 
-void writeDisputed(Hdf5Writer& comparison, const std::vector<DisputedSample>& disputed) {
+void writeDisputed(Hdf5Writer& comparison, const Results& results) {
+  const std::vector<DisputedSample>& disputed = results.comparison.disputed;
   if (disputed.empty()) return;
   Hdf5Writer group(comparison.id(), "disputed");
   ColumnWriter<DisputedSample> columns(group, disputed);
@@ -248,6 +258,14 @@ void writeDisputed(Hdf5Writer& comparison, const std::vector<DisputedSample>& di
       "error", [](const D& d) { return d.error; }, "measured error of the sample", "SI");
   columns.texts(
       "decided", [](const D& d) { return d.decided; }, "what decided");
+  columns.integers(
+      "level", [](const D& d) { return std::int64_t{d.level}; }, "index of the alpha-cut, -1 for the enclosure");
+  std::vector<double> farthest;
+  std::vector<std::string> units;
+  for (const D& d : disputed)
+    for (std::size_t k = 0; k < results.outputs.size(); ++k) farthest.push_back(d.farthestIn(k));
+  for (const OutputInfo& output : results.outputs) units.push_back(output.unit);
+  group.numbers("farthest", farthest.data(), {disputed.size(), units.size()}, "greatest distance outside", units);
 }
 
 void writeComparison(Hdf5Writer& root, const Results& results) {
@@ -256,6 +274,7 @@ void writeComparison(Hdf5Writer& root, const Results& results) {
   Hdf5Writer group(root.id(), "comparison");
   group.attribute("long_name", std::string("how the answers agree"));
   group.attribute("verdict", comparison.verdict);
+  group.attribute("why", comparison.why);
   group.attribute("excursion", comparison.excursion);
   group.attribute("maximum", comparison.maximum);
   group.attribute("median", comparison.median);
@@ -267,7 +286,7 @@ void writeComparison(Hdf5Writer& root, const Results& results) {
                   "greatest overestimation of each output", {"1"});
     group.attachScales("maximum_of", {"/output"});
   }
-  writeDisputed(group, comparison.disputed);
+  writeDisputed(group, results);
 }
 
 void writeAll(const Results& results, const std::string& path) {
@@ -399,6 +418,12 @@ void readStudyPart(const Hdf5Reader& root, Results& results) {
   results.host = study.text("host");
   results.date = study.text("date");
   results.reportCpu = study.number("report_cpu");
+  if (study.hasAttribute("cpu")) {  // older files tell no limits
+    results.cpu = study.number("cpu");
+    results.memory = study.number("memory");
+    results.limits = {study.number("time_limit"), study.number("memory_limit"), study.number("enclosure_time_limit"),
+                      study.number("enclosure_memory_limit"), study.number("sample_time_limit")};
+  }
   const Hdf5Reader libraries(study.id(), "libraries");
   for (const std::string& name : libraries.attributeNames()) results.libraries[name] = libraries.text(name);
   readOutputs(study, results);
@@ -429,6 +454,11 @@ void readStochastic(const Hdf5Reader& root, Results& results) {
   stochastic.plan = group.text("plan");
   stochastic.samples = group.integer("samples");
   stochastic.corners = group.integer("corners");
+  stochastic.integrated = stochastic.planned();
+  if (group.hasAttribute("integrated")) {  // older files do not tell
+    stochastic.integrated = group.integer("integrated");
+    stochastic.stopped = group.text("stopped");
+  }
   stochastic.relativeTolerance = group.number("relative_tolerance");
   stochastic.absoluteTolerance = group.number("absolute_tolerance");
   // Older files have none: their samples were integrated one by one.
@@ -472,6 +502,15 @@ void readDisputed(const Hdf5Reader& comparison, Results& results) {
              upper = readList(group, "upper", n);
   const auto distance = readList(group, "distance", n), error = readList(group, "error", n);
   const auto decided = readTexts(group, "decided", n);
+  const std::size_t outputCount = results.outputs.size();
+  std::vector<std::int64_t> level(n, -1);  // older files tell neither level nor farthest
+  std::vector<double> farthest;
+  if (group.has("level")) {
+    level = readIntegers(group, "level", n);
+    Hdf5Shape shape;
+    farthest = group.numbers("farthest", shape);
+    if (shape != Hdf5Shape{n, outputCount}) throw Hdf5Error("farthest");
+  }
   for (std::size_t i = 0; i < n; ++i) {
     DisputedSample sample{numbers[i],
                           static_cast<std::size_t>(times[i]),
@@ -482,7 +521,13 @@ void readDisputed(const Hdf5Reader& comparison, Results& results) {
                           distance[i],
                           error[i],
                           decided[i],
-                          outside[i] != 0};
+                          outside[i] != 0,
+                          static_cast<int>(level[i]),
+                          {}};
+    if (!farthest.empty()) {
+      const auto begin = farthest.begin() + static_cast<std::ptrdiff_t>(i * outputCount);
+      sample.farthest.assign(begin, begin + static_cast<std::ptrdiff_t>(outputCount));
+    }
     if (sample.time >= results.time.size() || sample.output >= results.outputs.size()) throw Hdf5Error("disputed");
     results.comparison.disputed.push_back(std::move(sample));
   }
@@ -494,6 +539,7 @@ void readComparison(const Hdf5Reader& root, Results& results) {
   ComparisonResult& comparison = results.comparison;
   comparison.present = true;
   comparison.verdict = group.text("verdict");
+  if (group.hasAttribute("why")) comparison.why = group.text("why");
   comparison.excursion = group.number("excursion");
   comparison.maximum = group.number("maximum");
   comparison.median = group.number("median");
