@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <ctime>
 #include <filesystem>
@@ -79,6 +80,13 @@ void endOnInterrupt() {
     if (::sigaction(signal, nullptr, &before) == 0 && before.sa_handler != SIG_IGN)
       ::sigaction(signal, &action, nullptr);
   }
+}
+
+/// The last resort against a run without end: no file is touched.
+[[noreturn]] void endAtOnce(const std::string& why) {
+  fmt::print(stderr, "gamut: {}, and the preparation of the enclosure could not be ended; nothing was written\n", why);
+  std::fflush(stderr);
+  std::_Exit(endedEarly);
 }
 
 /// "double_pendulum" for double_pendulum/study.toml, "arm" for arm.toml.
@@ -155,6 +163,7 @@ int runStudy(Arguments arguments) {
   options.timeLimit = arguments.timeLimit;
   if (arguments.memoryLimit) options.memoryLimit = 1e9 * *arguments.memoryLimit;
   checkMemory(study, options, arguments.input);
+  options.overdue = endAtOnce;
   options.cancelled = &interrupted;
   ProgressBar bar(!arguments.quiet);
   options.progress = [&](const std::string& task, double fraction) { bar.update(task, fraction); };

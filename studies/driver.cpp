@@ -28,7 +28,7 @@ void setRow(Bounds& bounds, std::size_t row, const std::vector<Interval>& values
 class Driver {
  public:
   Driver(const Study& study, const RunOptions& options)
-      : study_(study), options_(options), watch_(limitsOf(study, options), options.cancelled) {
+      : study_(study), options_(options), watch_(limitsOf(study, options), options.cancelled, {options.overdue}) {
     describe();
     const double start = processCpuSeconds();
     problem_ = makeProblem(study_);

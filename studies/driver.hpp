@@ -22,6 +22,8 @@ struct RunOptions {
   std::optional<double> memoryLimit;   ///< likewise, bytes
   /// Called with the name of what is being done and the fraction done of it, from any thread.
   std::function<void(const std::string& task, double fraction)> progress;
+  /// Called, from a thread of its own, if an enclosure that was told to end has not done so for a minute.
+  std::function<void(const std::string& why)> overdue;
   const std::atomic<bool>* cancelled = nullptr;  ///< set from outside to end early; what was computed is kept
 };
 

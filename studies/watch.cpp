@@ -91,8 +91,8 @@ double peakMemory() {
   return 1024 * static_cast<double>(usage.ru_maxrss);
 }
 
-Watch::Watch(const Limits& limits, const std::atomic<bool>* interrupted)
-    : limits_(limits), interrupted_(interrupted), began_(processCpuSeconds()) {
+Watch::Watch(const Limits& limits, const std::atomic<bool>* interrupted, Overdue overdue)
+    : limits_(limits), interrupted_(interrupted), began_(processCpuSeconds()), overdue_(std::move(overdue)) {
   rlimit data{};
   ::getrlimit(RLIMIT_DATA, &data);
   oldDataLimit_ = data.rlim_cur;
@@ -127,6 +127,7 @@ void Watch::begin(Stage stage) {
   ::getrlimit(RLIMIT_DATA, &data);
   data.rlim_cur = most < static_cast<double>(oldDataLimit_) ? static_cast<rlim_t>(most) : oldDataLimit_;
   ::setrlimit(RLIMIT_DATA, &data);
+  stopped_ = std::chrono::steady_clock::now();
   look();
 }
 
@@ -156,12 +157,15 @@ void Watch::run(const std::stop_token& token) {
     } catch (const std::bad_alloc&) {  // not even a sentence found room
       stop_ = true;
     }
+    const std::chrono::duration<double> since = std::chrono::steady_clock::now() - stopped_;
+    if (stop_ && stage_ == Stage::enclosure && overdue_.act && since.count() > overdue_.seconds) overdue_.act(why_);
     wake_.wait_for(lock, token, betweenLooks, [] { return false; });
   }
 }
 
 void Watch::end(const std::string& why, bool all) {
   forAll_ = all;
+  if (!stop_) stopped_ = std::chrono::steady_clock::now();
   stop_ = true;
   why_ = why;
 }

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -32,12 +34,18 @@ double processCpuSeconds();
 /// The most memory that the process has had at a time, bytes.
 double peakMemory();
 
+/// What to do, with what reason, when an enclosure has not ended `seconds` after it was told to.
+struct Overdue {
+  std::function<void(const std::string& why)> act;
+  double seconds = 60;
+};
+
 class Watch {
  public:
   enum class Stage { enclosure, rest };
 
   /// Watches from now on. `interrupted`, if not null, ends everything when it is set.
-  Watch(const Limits& limits, const std::atomic<bool>* interrupted);
+  Watch(const Limits& limits, const std::atomic<bool>* interrupted, Overdue overdue = {});
   ~Watch();
   Watch(const Watch&) = delete;
   Watch& operator=(const Watch&) = delete;
@@ -69,6 +77,8 @@ class Watch {
   std::atomic<bool> stop_{false};
   bool forAll_ = false;  // what stopped the stage stops all that follow
   std::string why_;
+  const Overdue overdue_;
+  std::chrono::steady_clock::time_point stopped_;
   unsigned long oldDataLimit_ = 0;
   mutable std::mutex mutex_;
   std::condition_variable_any wake_;

@@ -70,6 +70,23 @@ TEST(Watch, EndsAllStagesAtTheLimitOfTheRun) {
   EXPECT_EQ(watch.why(), "the time limit of 0.05 s CPU for the whole run was reached");
 }
 
+TEST(Watch, TellsWhenAnEnclosureDoesNotEnd) {
+  std::atomic<int> calls{0};
+  Watch watch(
+      {10, 1e12, 0.01, 1e12, 1}, nullptr,
+      {[&](const std::string& why) { calls += why == "the time limit of 0.01 s CPU for the enclosure was reached"; },
+       0.05});
+  watch.begin(Stage::enclosure);
+  spend(0.02);
+  ASSERT_TRUE(waitForStop(watch));
+  for (int i = 0; i < 500 && calls == 0; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  EXPECT_GT(calls, 0);
+  watch.begin(Stage::rest);
+  const int before = calls;
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  EXPECT_EQ(calls, before);
+}
+
 TEST(Watch, LooksAtTheMemoryOfTheProcess) {
   Watch watch({10, 1e12, 5, 1e6, 1}, nullptr);
   watch.begin(Stage::enclosure);
