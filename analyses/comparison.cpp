@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
+#include <map>
 #include <stdexcept>
 
 #include "analyses/arbiter.hpp"
@@ -21,6 +23,7 @@ struct Case {
   Dispute dispute;
   std::vector<double> error;  // [time][output]: the greatest change until then, which crossing trajectories do not hide
   bool settled = false;       // found inside
+  bool lookedAt = false;      // by every instance, to the end
 };
 
 class Comparer {
@@ -43,6 +46,7 @@ class Comparer {
     findDisputes();
     Comparison result;
     result.cpu = refine() + arbitrateWorst();
+    informTwins();
     judge(result);
     measureOverestimation(result);
     return result;
@@ -97,16 +101,43 @@ class Comparer {
     d.distance = distanceOutside(place, d.value);
     d.error = errorAt(place);
     d.excursion = greatest;
+    d.farthest.assign(ensemble_.outputs, 0.0);
+    for (std::size_t i = 0; i < enclosure_.reachedTimes * ensemble_.outputs; ++i) {
+      double& farthest = d.farthest[i % ensemble_.outputs];
+      farthest = std::max(farthest, distanceOutside(i, trajectory[i]));
+    }
   }
 
   void findDisputes() {
+    std::map<std::vector<double>, std::size_t> caseOf;  // by the values of the uncertain quantities
     for (std::size_t number = 0; number < ensemble_.size(); ++number) {
       if (isInside(std::as_const(ensemble_).trajectory(number))) continue;
-      Case& c = cases_.emplace_back();
+      const std::span<const double> values = ensemble_.valuesOf(number);
+      const auto [known, isNew] = caseOf.try_emplace({values.begin(), values.end()}, cases_.size());
+      Case& c = (isNew ? cases_ : twins_).emplace_back();
+      if (!isNew) originals_.push_back(known->second);
       c.dispute.number = number;
       c.dispute.decided = "unresolved";
       locate(c);
     }
+  }
+
+  /// What was found of a sample holds for all of the same values.
+  void informTwins() {
+    for (std::size_t i = 0; i < twins_.size(); ++i) {
+      const Case& original = cases_[originals_[i]];
+      Case& twin = twins_[i];
+      if (!original.error.empty()) {  // it has a better trajectory
+        const std::size_t number = twin.dispute.number;
+        std::ranges::copy(std::as_const(ensemble_).trajectory(original.dispute.number),
+                          ensemble_.trajectory(number).begin());
+        twin = original;
+        twin.dispute.number = number;
+      }
+      twin.lookedAt = original.lookedAt;
+    }
+    std::ranges::move(twins_, std::back_inserter(cases_));
+    std::ranges::sort(cases_, {}, [](const Case& c) { return c.dispute.number; });
   }
 
   /// Takes over a better trajectory, unless it ends before the enclosure does where the old one did not.
@@ -148,15 +179,17 @@ class Comparer {
     });
   }
 
+  bool isCancelled() const { return options_.cancelled != nullptr && *options_.cancelled; }
+
   /// The worst first, in batches, until one of a batch refutes the enclosure.
   double arbitrateWorst() {
     std::vector<Case*> open;
     for (Case& c : cases_)
       if (!c.settled) open.push_back(&c);
     std::ranges::stable_sort(open, std::ranges::greater{}, [](const Case* c) { return c->dispute.excursion; });
-    open.resize(std::min(open.size(), options_.arbitrated));
     double cpu = 0;
-    for (std::size_t first = 0; first < open.size(); first += batchSize) {
+    for (std::size_t first = 0; first < open.size() && !isCancelled(); first += batchSize) {
+      if (options_.progress) options_.progress(static_cast<double>(first) / static_cast<double>(open.size()));
       const std::span<Case*> batch = std::span(open).subspan(first, std::min(batchSize, open.size() - first));
       cpu += forEachIndex(options_.jobs, batch.size(), options_.cancelled,
                           [&] { return [&](std::size_t i) { arbitrateOne(*batch[i]); }; });
@@ -168,11 +201,13 @@ class Comparer {
   void arbitrateOne(Case& c) {
     const PreciseTrajectory precise =
         arbitrate(system_.motion, system_.start(ensemble_.valuesOf(c.dispute.number)), {}, options_.cancelled);
+    c.lookedAt = !isCancelled();
     if (!replace(c, roundedToDoubles(precise, ensemble_.times.size() * ensemble_.outputs))) return;
     std::ranges::copy(precise.error, c.error.begin());  // the arbiter's last two integrations are both its own
     accumulate(c.error);
     locate(c);
     c.settled = c.dispute.distance == 0;
+    c.lookedAt = true;
     c.dispute.decided = "Taylor 128 bits";
   }
 
@@ -181,19 +216,25 @@ class Comparer {
     return !c.settled && !c.error.empty() && c.dispute.excursion > options_.decisive;
   }
 
+  /// What an interrupt kept from the last instance is neither outside nor past deciding.
   void judge(Comparison& result) {
-    bool outside = false, unresolved = false;
+    bool outside = false, unresolved = false, interrupted = false;
     for (Case& c : cases_) {
       Dispute& d = c.dispute;
-      d.outside = refutes(c);
-      if (!c.settled && !d.outside) d.decided = "unresolved";
-      outside = outside || d.outside;
-      unresolved = unresolved || (!c.settled && !d.outside);
-      result.excursion = std::max(result.excursion, d.excursion);
+      if (!c.settled && !c.lookedAt && isCancelled()) {
+        d.decided = "interrupted";
+        interrupted = true;
+      } else {
+        d.outside = refutes(c);
+        if (!c.settled && !d.outside) d.decided = "unresolved";
+        outside = outside || d.outside;
+        unresolved = unresolved || (!c.settled && !d.outside);
+        result.excursion = std::max(result.excursion, d.excursion);
+      }
       result.disputes.push_back(d);
     }
-    const bool incomplete =
-        enclosure_.reachedTimes < ensemble_.times.size() || !ensemble_.complete || !ensemble_.failed.empty();
+    const bool incomplete = interrupted || enclosure_.reachedTimes < ensemble_.times.size() || !ensemble_.complete ||
+                            !ensemble_.failed.empty();
     result.verdict = outside ? "outside" : unresolved ? "unresolved" : incomplete ? "incomplete" : "inside";
   }
 
@@ -226,7 +267,8 @@ class Comparer {
   Ensemble& ensemble_;
   const UncertainMotion& system_;
   const ComparisonOptions& options_;
-  std::vector<Case> cases_;
+  std::vector<Case> cases_, twins_;     // twins: of the values of a case before them
+  std::vector<std::size_t> originals_;  // of the twins
 };
 
 }  // namespace

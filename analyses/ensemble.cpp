@@ -73,7 +73,8 @@ class PieceIntegrator {
     const auto start = [&](std::size_t i) { return system_.start(values.subspan(i * quantities, quantities)); };
     if (runs.size() > 1 && integrateTogether(start, trajectories, runs)) return;
     for (std::size_t i = 0; i < runs.size() && !isCancelled(); ++i)
-      runs[i] = alone_.integrate(start(i), options_.tolerance, trajectories.subspan(i * size, size));
+      runs[i] = alone_.integrate(start(i), options_.tolerance, trajectories.subspan(i * size, size),
+                                 options_.secondsPerSample);
   }
 
  private:
@@ -89,7 +90,7 @@ class PieceIntegrator {
       const std::vector<double> values = start(std::min(lane, count - 1));  // filled up with the last sample
       for (std::size_t row = 0; row < values.size(); ++row) starts_[row * packWidth + lane] = values[row];
     }
-    const Integration run = together_->integrate(starts_, options_.tolerance, rows_);
+    const Integration run = together_->integrate(starts_, options_.tolerance, rows_, options_.secondsPerSample);
     if (run.times < system_.motion.times.size()) return false;
     for (std::size_t lane = 0; lane < count; ++lane)
       for (std::size_t i = 0; i < size; ++i) trajectories[lane * size + i] = rows_[i * packWidth + lane];
@@ -216,18 +217,17 @@ Ensemble sampleEnsemble(const UncertainMotion& system, const EnsembleOptions& op
       if (motion.f.states() == 0)
         again = roundedToDoubles(arbitrate(motion, start), again.size());
       else
-        witness.integrate(start, tight, again);
+        witness.integrate(start, tight, again, options.secondsPerSample);
       progress.completeOne();
       const std::lock_guard lock(mutex);
       includeDifference(e.error, std::as_const(e).trajectory(twice[i]), again);
     };
   });
   summarizeReach(e);
-  e.complete = integrated == e.size() && !isCancelled();
-  if (!e.complete) {
-    e.reached = 0;
-    e.why = "cancelled";
-  }
+  e.integrated = integrated;
+  e.complete = e.integrated == e.size() && !isCancelled();
+  if (e.integrated == 0) e.reached = 0;
+  if (!e.complete && e.failed.empty()) e.why = "cancelled";
   return e;
 }
 

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -37,6 +38,8 @@ struct EnsembleOptions {
   std::uint64_t seed = 1;
   Tolerance tolerance;
   Method method = Method::adams;
+  /// CPU time after which a sample fails; a pack that takes longer is given up and its samples integrated one by one
+  double secondsPerSample = std::numeric_limits<double>::infinity();
   int jobs = 1;                                  ///< threads
   std::function<void(double)> progress;          ///< called with the fraction done (0 … 1), from any thread
   const std::atomic<bool>* cancelled = nullptr;  ///< set from outside to end early; what was integrated is kept
@@ -60,9 +63,10 @@ struct Ensemble {
   std::size_t quantities = 0;
   std::vector<double> data;          ///< [number][time][output]; NaN where a sample did not arrive
   std::vector<FailedSample> failed;  ///< by rising number
+  std::size_t integrated = 0;        ///< how many have arrived or failed; size() unless cancelled
   bool complete = false;             ///< false if cancelled
-  double reached = 0;                ///< s: the last output time at which all samples have arrived
-  std::string why;                   ///< why that is before the horizon, naming the first sample that failed; or empty
+  double reached = 0;                ///< s: the last output time at which all that were integrated have arrived
+  std::string why;  ///< why that is before the horizon, naming the first sample that failed; "cancelled"; or empty
   Tolerance tolerance;
   Method method = Method::adams;
   std::size_t packWidth = 1;  ///< samples of one number / packWidth were integrated together, see sampleEnsemble
@@ -95,8 +99,8 @@ struct Ensemble {
 /// together, in the steps of the one that needs the shortest: a sample's trajectory is what its pack gave. Packs of so
 /// few samples that they would cost more than the samples alone, packs of which a sample fails, and all samples by
 /// Method::bdf are integrated one by one. Samples that fail are named and left out. Every number depends on the
-/// options' plan, samples, seed, tolerance and method alone. Throws std::invalid_argument for options or a system that
-/// make no sense.
+/// options' plan, samples, seed, tolerance and method alone, but which samples took too long. Throws
+/// std::invalid_argument for options or a system that make no sense.
 Ensemble sampleEnsemble(const UncertainMotion& system, const EnsembleOptions& options = {});
 
 /// The trajectory of sample `number`, [time][output], bit for bit as in sampleEnsemble(system, options), by integrating

@@ -1,9 +1,8 @@
 // The analyses one after the other: enclosure with its alpha-cuts, samples with theirs, comparison.
 #include "studies/driver.hpp"
 
-#include <ctime>
-
 #include <algorithm>
+#include <new>
 #include <span>
 #include <stdexcept>
 #include <utility>
@@ -14,16 +13,10 @@
 #include "scalars/samples.hpp"
 #include "studies/problem.hpp"
 #include "studies/version.hpp"
+#include "studies/watch.hpp"
 
 namespace gamut {
 namespace {
-
-/// CPU time of the whole process, all threads, s.
-double processCpuSeconds() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 void setRow(Bounds& bounds, std::size_t row, const std::vector<Interval>& values) {
   for (std::size_t j = 0; j < values.size(); ++j) {
@@ -34,7 +27,8 @@ void setRow(Bounds& bounds, std::size_t row, const std::vector<Interval>& values
 
 class Driver {
  public:
-  Driver(const Study& study, const RunOptions& options) : study_(study), options_(options) {
+  Driver(const Study& study, const RunOptions& options)
+      : study_(study), options_(options), watch_(limitsOf(study, options), options.cancelled, {options.overdue}) {
     describe();
     const double start = processCpuSeconds();
     problem_ = makeProblem(study_);
@@ -42,18 +36,14 @@ class Driver {
   }
 
   Results run() {
-    if (study_.interval || study_.fuzzy) {
-      if (study_.analysis == Study::Analysis::dynamics) {
-        encloseMotion();
-      } else {
-        encloseConfiguration();
-      }
-    }
+    if (study_.interval || study_.fuzzy) enclose();
     if (study_.stochastic) sample();
     if (study_.stochastic && (study_.interval || study_.fuzzy)) compareAnswers();
-    if (study_.stochastic) describeSamples();
+    if (hasSamples()) describeSamples();
     results_.interval.present = study_.interval;
     if (!study_.interval) results_.interval = {};
+    results_.cpu = watch_.spent();
+    results_.memory = peakMemory();
     return std::move(results_);
   }
 
@@ -63,6 +53,7 @@ class Driver {
     results_.studyFile = study_.file;
     results_.title = study_.title;
     results_.analysis = study_.analysisName();
+    results_.limits = limitsOf(study_, options_);
     results_.seed = options_.seed.value_or(study_.ensemble.seed);
     results_.version = version();
     results_.host = hostName();
@@ -87,12 +78,35 @@ class Driver {
 
   // ---- Guaranteed and possible --------------------------------------------------------------------------------------
 
+  void enclose() {
+    watch_.begin(Watch::Stage::enclosure);
+    results_.interval.at = emptyBounds();
+    try {
+      if (study_.analysis == Study::Analysis::dynamics) {
+        encloseMotion();
+      } else {
+        encloseConfiguration();
+      }
+    } catch (const std::bad_alloc&) {
+      watch_.memoryFailed();
+      encloseNothing();
+    }
+  }
+
+  void encloseNothing() {
+    reachedTimes_ = 0;
+    results_.interval = {};
+    results_.interval.at = emptyBounds();
+    results_.interval.why = watch_.why();
+    if (study_.fuzzy) startFuzzy().why = watch_.why();
+  }
+
   void encloseMotion() {
     const double start = processCpuSeconds();
     FlowOptions flow = study_.flow;
     flow.jobs = options_.jobs;
     flow.progress = progressOf("enclosure");
-    flow.cancelled = options_.cancelled;
+    flow.cancelled = watch_.stop();
     flow.stateNames = study_.mechanism.stateNames();
     const Motion& motion = problem_.motion.motion;
     const Tube tube =
@@ -101,14 +115,14 @@ class Driver {
     reachedTimes_ = tube.reachedTimes();
 
     IntervalResult& interval = results_.interval;
-    interval.at = emptyBounds();
     interval.over = emptyBounds();
     for (std::size_t i = 0; i < reachedTimes_; ++i) {
       setRow(interval.at, i, tube.outputs(i));
       setRow(interval.over, i, tube.outputsOver(i));
     }
     interval.reached = tube.reached();
-    interval.why = tube.why();
+    if (tube.why() == Tube::outOfMemory) watch_.memoryFailed();
+    interval.why = tube.wasStopped() ? watch_.why() : tube.why();
     interval.pieces = tube.pieces();
     interval.steps = tube.steps();
     const double cpu = recordingCpu_ + processCpuSeconds() - start;
@@ -119,7 +133,7 @@ class Driver {
     for (std::size_t level = 0; level < problem_.levels.size(); ++level)
       for (std::size_t i = 0; i < reachedTimes_; ++i) setRow(fuzzy.outer[level], i, tube.cut(level, i));
     fuzzy.reached = tube.reached();
-    fuzzy.why = tube.why();
+    fuzzy.why = interval.why;
     fuzzy.cpu = cpu - interval.cpu;
   }
 
@@ -150,7 +164,6 @@ class Driver {
     std::vector<Interval> enclosure;
     for (std::size_t j = 0; j < direct.size(); ++j) enclosure.push_back(intersection(direct[j], images[0][j]));
     IntervalResult& interval = results_.interval;
-    interval.at = emptyBounds();
     interval.direct = emptyBounds();
     setRow(interval.at, 0, enclosure);
     setRow(interval.direct, 0, direct);
@@ -183,28 +196,47 @@ class Driver {
   // ---- Probable -----------------------------------------------------------------------------------------------------
 
   void sample() {
+    watch_.begin(Watch::Stage::rest);
     EnsembleOptions ensemble = study_.ensemble;
     ensemble.seed = options_.seed.value_or(ensemble.seed);
     ensemble.samples = options_.samples.value_or(ensemble.samples);
     ensemble.jobs = options_.jobs;
+    ensemble.secondsPerSample = results_.limits.sampleTime;
     ensemble.progress = progressOf("samples");
-    ensemble.cancelled = options_.cancelled;
+    ensemble.cancelled = watch_.stop();
     const double start = processCpuSeconds();
-    ensemble_ = sampleEnsemble(problem_.motion, ensemble);
-    if (study_.analysis == Study::Analysis::kinematics && ensemble_.complete) moveSamples();
     StochasticResult& stochastic = results_.stochastic;
     stochastic.present = true;
     stochastic.plan = std::string(nameOf(ensemble.plan));
-    stochastic.samples = static_cast<std::int64_t>(ensemble_.samples);
-    stochastic.corners = static_cast<std::int64_t>(ensemble_.corners);
+    stochastic.samples = static_cast<std::int64_t>(ensemble.samples);
     stochastic.relativeTolerance = ensemble.tolerance.relative;
     stochastic.absoluteTolerance = ensemble.tolerance.absolute;
-    stochastic.packWidth = static_cast<std::int64_t>(ensemble_.packWidth);
-    stochastic.reached = ensemble_.reached;
-    stochastic.why = ensemble_.complete ? ensemble_.why : "interrupted";
-    stochastic.envelope = ensemble_.envelope();
+    try {
+      ensemble_ = sampleEnsemble(problem_.motion, ensemble);
+      if (study_.analysis == Study::Analysis::kinematics && ensemble_.complete) moveSamples();
+      describeEnsemble();
+    } catch (const std::bad_alloc&) {
+      watch_.memoryFailed();
+      ensemble_ = {};
+      stochastic.stopped = watch_.why();
+    }
     stochastic.cpu = processCpuSeconds() - start;
   }
+
+  void describeEnsemble() {
+    StochasticResult& stochastic = results_.stochastic;
+    stochastic.samples = static_cast<std::int64_t>(ensemble_.samples);
+    stochastic.corners = static_cast<std::int64_t>(ensemble_.corners);
+    stochastic.integrated = static_cast<std::int64_t>(ensemble_.integrated);
+    stochastic.packWidth = static_cast<std::int64_t>(ensemble_.packWidth);
+    stochastic.reached = ensemble_.reached;
+    if (!ensemble_.failed.empty()) stochastic.why = ensemble_.why;
+    if (!ensemble_.complete) stochastic.stopped = watch_.why();
+    stochastic.envelope = ensemble_.envelope();
+  }
+
+  /// There are none if their motions found no room.
+  bool hasSamples() const { return !ensemble_.data.empty(); }
 
   /// Kinematics: the same samples once more, all at once, by the assembly itself instead of its recording.
   void moveSamples() {
@@ -226,15 +258,18 @@ class Driver {
 
   /// Samples against the enclosure, then, from the narrowest to the widest, against the alpha-cuts they belong to.
   void compareAnswers() {
+    watch_.begin(Watch::Stage::rest);
     const double start = processCpuSeconds();
     ComparisonResult& comparison = results_.comparison;
     comparison.present = true;
+    comparison.verdict = "incomplete";
+    if (!hasSamples()) return;
     const bool complete = reachedTimes_ == study_.time.size() && ensemble_.complete && ensemble_.failed.empty();
     comparison.verdict = complete ? "inside" : "incomplete";
     if (study_.interval) {
       const Comparison found =
           compare({results_.interval.at, reachedTimes_}, ensemble_, problem_.motion, comparisonOptions());
-      takeDisputes(found, [](std::size_t number) { return number; });
+      takeDisputes(found, -1, [](std::size_t number) { return number; });
       comparison.overestimation = found.overestimation;
       comparison.excess = found.excess;
       comparison.maximum = found.maximum;
@@ -249,7 +284,8 @@ class Driver {
   ComparisonOptions comparisonOptions() const {
     ComparisonOptions options;
     options.jobs = options_.jobs;
-    options.cancelled = options_.cancelled;
+    options.progress = progressOf("comparison");
+    options.cancelled = watch_.stop();
     return options;
   }
 
@@ -261,7 +297,7 @@ class Driver {
       if (belongsTo(level, number) && leaves(cut, number)) numbers.push_back(number);
     if (numbers.empty()) return;
     Ensemble part = partOf(numbers);
-    takeDisputes(compare({cut, reachedTimes_}, part, problem_.motion, comparisonOptions()),
+    takeDisputes(compare({cut, reachedTimes_}, part, problem_.motion, comparisonOptions()), static_cast<int>(level),
                  [&](std::size_t number) { return numbers[number]; });
     for (std::size_t i = 0; i < numbers.size(); ++i)
       std::ranges::copy(std::as_const(part).trajectory(i), ensemble_.trajectory(numbers[i]).begin());
@@ -290,6 +326,7 @@ class Driver {
     part.outputs = ensemble_.outputs;
     part.quantities = ensemble_.quantities;
     part.samples = numbers.size() - 1;
+    part.integrated = numbers.size();
     part.complete = ensemble_.complete;
     part.tolerance = ensemble_.tolerance;
     part.method = ensemble_.method;
@@ -303,25 +340,20 @@ class Driver {
     return part;
   }
 
+  /// The findings about an alpha-cut, or, level -1, about the enclosure.
   template <class NumberOf>
-  void takeDisputes(const Comparison& found, const NumberOf& numberOf) {
+  void takeDisputes(const Comparison& found, int level, const NumberOf& numberOf) {
     ComparisonResult& comparison = results_.comparison;
-    const bool interrupted = options_.cancelled != nullptr && *options_.cancelled;
     for (const Dispute& d : found.disputes) {
-      DisputedSample& sample = comparison.disputed.emplace_back(
-          DisputedSample{static_cast<std::int64_t>(numberOf(d.number)), d.time, d.output, d.value, d.lower, d.upper,
-                         d.distance, d.error, d.decided, d.outside});
-      // What an interrupt kept from the last instance is neither found outside nor past deciding.
-      if (interrupted && d.distance > 0 && d.decided != "Taylor 128 bits") {
-        sample.decided = "interrupted";
-        sample.outside = false;
-        if (comparison.verdict == "inside") comparison.verdict = "incomplete";
-        continue;
-      }
-      comparison.excursion = std::max(comparison.excursion, d.excursion);
-      if (sample.outside) comparison.verdict = "outside";
-      if (sample.decided == "unresolved" && comparison.verdict != "outside") comparison.verdict = "unresolved";
+      comparison.disputed.push_back({static_cast<std::int64_t>(numberOf(d.number)), d.time, d.output, d.value, d.lower,
+                                     d.upper, d.distance, d.error, d.decided, d.outside, level, d.farthest});
+      if (d.outside) comparison.verdict = "outside";
+      if (d.decided == "unresolved" && comparison.verdict != "outside") comparison.verdict = "unresolved";
+      if (d.decided != "interrupted") continue;
+      if (comparison.verdict == "inside") comparison.verdict = "incomplete";
+      comparison.why = watch_.why();
     }
+    comparison.excursion = std::max(comparison.excursion, found.excursion);
   }
 
   void describeSamples() {
@@ -342,6 +374,7 @@ class Driver {
 
   const Study& study_;
   const RunOptions& options_;
+  Watch watch_;
   Problem problem_;
   Results results_;
   Ensemble ensemble_;
@@ -350,6 +383,13 @@ class Driver {
 };
 
 }  // namespace
+
+Limits limitsOf(const Study& study, const RunOptions& options) {
+  StatedLimits limits = study.limits;
+  if (options.timeLimit) limits.time = options.timeLimit;
+  if (options.memoryLimit) limits.memory = options.memoryLimit;
+  return limits.resolved();
+}
 
 Results run(const Study& study, const RunOptions& options) { return Driver(study, options).run(); }
 

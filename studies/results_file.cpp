@@ -35,6 +35,13 @@ void writeStudy(Hdf5Writer& root, const Results& results) {
   study.attribute("host", results.host);
   study.attribute("date", results.date);
   study.attribute("report_cpu", results.reportCpu);
+  study.attribute("cpu", results.cpu);
+  study.attribute("memory", results.memory);
+  study.attribute("time_limit", results.limits.time);
+  study.attribute("memory_limit", results.limits.memory);
+  study.attribute("enclosure_time_limit", results.limits.enclosureTime);
+  study.attribute("enclosure_memory_limit", results.limits.enclosureMemory);
+  study.attribute("sample_time_limit", results.limits.sampleTime);
   Hdf5Writer libraries(study.id(), "libraries");
   for (const auto& [name, version] : results.libraries) libraries.attribute(name, version);
 
@@ -94,6 +101,8 @@ void writeStochastic(Hdf5Writer& root, const Results& results) {
   group.attribute("plan", stochastic.plan);
   group.attribute("samples", stochastic.samples);
   group.attribute("corners", stochastic.corners);
+  group.attribute("integrated", stochastic.integrated);
+  group.attribute("stopped", stochastic.stopped);
   group.attribute("relative_tolerance", stochastic.relativeTolerance);
   group.attribute("absolute_tolerance", stochastic.absoluteTolerance);
   group.attribute("pack_width", stochastic.packWidth);
@@ -127,7 +136,8 @@ void writeFuzzy(Hdf5Writer& root, const Results& results) {
   grids.stack("inner", fuzzy.inner, "/fuzzy/alpha", "range of the samples of at least this membership");
 }
 
-void writeDisputed(Hdf5Writer& comparison, const std::vector<DisputedSample>& disputed) {
+void writeDisputed(Hdf5Writer& comparison, const Results& results) {
+  const std::vector<DisputedSample>& disputed = results.comparison.disputed;
   if (disputed.empty()) return;
   Hdf5Writer group(comparison.id(), "disputed");
   ColumnWriter<DisputedSample> columns(group, disputed);
@@ -153,6 +163,16 @@ void writeDisputed(Hdf5Writer& comparison, const std::vector<DisputedSample>& di
       "error", [](const D& d) { return d.error; }, "measured error of the sample, in the unit of its output", "");
   columns.texts(
       "decided", [](const D& d) { return d.decided; }, "what decided");
+  columns.integers(
+      "level", [](const D& d) { return std::int64_t{d.level}; }, "index of the alpha-cut, -1 for the enclosure");
+  std::vector<double> farthest;
+  for (const D& d : disputed)
+    for (std::size_t k = 0; k < results.outputs.size(); ++k) farthest.push_back(d.farthestIn(k));
+  const std::string units =
+      jointUnit(column<std::string, OutputInfo>(results.outputs, [](const OutputInfo& o) { return o.unit; }));
+  group.numbers("farthest", farthest.data(), {disputed.size(), results.outputs.size()}, "greatest distance outside",
+                units);
+  group.attachScales("farthest", {"/comparison/disputed/number", "/output"});
 }
 
 void writeComparison(Hdf5Writer& root, const Results& results) {
@@ -161,6 +181,7 @@ void writeComparison(Hdf5Writer& root, const Results& results) {
   Hdf5Writer group(root.id(), "comparison");
   group.attribute("long_name", std::string("how the answers agree"));
   group.attribute("verdict", comparison.verdict);
+  group.attribute("why", comparison.why);
   group.attribute("excursion", comparison.excursion);
   group.attribute("maximum", comparison.maximum);
   group.attribute("median", comparison.median);
@@ -172,7 +193,7 @@ void writeComparison(Hdf5Writer& root, const Results& results) {
                   "greatest overestimation of each output", "1");
     group.attachScales("maximum_of", {"/output"});
   }
-  writeDisputed(group, comparison.disputed);
+  writeDisputed(group, results);
 }
 
 void writeAll(hid_t file, const Results& results) {
@@ -227,6 +248,10 @@ void readStudyPart(const Hdf5Reader& root, Results& results) {
   results.host = study.text("host");
   results.date = study.text("date");
   results.reportCpu = study.number("report_cpu");
+  results.cpu = study.number("cpu");
+  results.memory = study.number("memory");
+  results.limits = {study.number("time_limit"), study.number("memory_limit"), study.number("enclosure_time_limit"),
+                    study.number("enclosure_memory_limit"), study.number("sample_time_limit")};
   const Hdf5Reader libraries(study, "libraries");
   for (const std::string& name : libraries.attributeNames()) results.libraries[printable(name)] = libraries.text(name);
   readOutputs(study, results);
@@ -257,6 +282,8 @@ void readStochastic(const Hdf5Reader& root, Results& results) {
   stochastic.plan = group.text("plan");
   stochastic.samples = group.integer("samples");
   stochastic.corners = group.integer("corners");
+  stochastic.integrated = group.integer("integrated");
+  stochastic.stopped = group.text("stopped");
   stochastic.relativeTolerance = group.number("relative_tolerance");
   stochastic.absoluteTolerance = group.number("absolute_tolerance");
   stochastic.packWidth = group.integer("pack_width");
@@ -299,6 +326,11 @@ void readDisputed(const Hdf5Reader& comparison, Results& results) {
              upper = readList(group, "upper", n);
   const auto distance = readList(group, "distance", n), error = readList(group, "error", n);
   const auto decided = readTexts(group, "decided", n);
+  const std::size_t outputCount = results.outputs.size();
+  const auto level = readIntegers(group, "level", n);
+  Hdf5Shape shape;
+  const std::vector<double> farthest = group.numbers("farthest", shape);
+  if (shape != Hdf5Shape{n, outputCount}) throw Hdf5Error("farthest");
   for (std::size_t i = 0; i < n; ++i) {
     DisputedSample sample{numbers[i],
                           static_cast<std::size_t>(times[i]),
@@ -309,8 +341,13 @@ void readDisputed(const Hdf5Reader& comparison, Results& results) {
                           distance[i],
                           error[i],
                           decided[i],
-                          outside[i] != 0};
+                          outside[i] != 0,
+                          static_cast<int>(level[i]),
+                          {}};
+    const auto begin = farthest.begin() + static_cast<std::ptrdiff_t>(i * outputCount);
+    sample.farthest.assign(begin, begin + static_cast<std::ptrdiff_t>(outputCount));
     if (sample.time >= results.time.size() || sample.output >= results.outputs.size()) throw Hdf5Error("disputed");
+    if (level[i] < -1 || level[i] >= static_cast<std::int64_t>(results.fuzzy.alpha.size())) throw Hdf5Error("level");
     results.comparison.disputed.push_back(std::move(sample));
   }
 }
@@ -321,6 +358,7 @@ void readComparison(const Hdf5Reader& root, Results& results) {
   ComparisonResult& comparison = results.comparison;
   comparison.present = true;
   comparison.verdict = group.text("verdict");
+  comparison.why = group.text("why");
   comparison.excursion = group.number("excursion");
   comparison.maximum = group.number("maximum");
   comparison.median = group.number("median");
@@ -354,6 +392,7 @@ void checkSense(const Results& results) {
   require(isCount(results.interval.steps), "steps");
   require(isCount(results.stochastic.samples), "samples");
   require(isCount(results.stochastic.corners), "corners");
+  require(isCount(results.stochastic.integrated), "integrated");
   for (const DisputedSample& sample : results.comparison.disputed) {
     require(isCount(sample.number), "number");
     requireBounds(sample.lower, sample.upper, "disputed");

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <optional>
 #include <set>
 
 #include "mechanics/model.hpp"
@@ -17,7 +18,7 @@
 namespace gamut {
 namespace {
 
-constexpr Dimension seconds{0, 0, 1, 0};
+constexpr Dimension plain{}, seconds{0, 0, 1, 0};
 
 class StudyReader {
  public:
@@ -28,7 +29,7 @@ class StudyReader {
 
   Study read() {
     const TomlSection file(source_, source_.root(), "",
-                           {"study", "mechanism", "uncertain", "output", "interval", "stochastic", "fuzzy"});
+                           {"study", "mechanism", "uncertain", "output", "interval", "stochastic", "fuzzy", "limits"});
     readStudyTable(source_.asTable(file.require("study", "a table [study]"), "study"));
     study_.mechanism =
         readMechanism(source_, source_.asTable(file.require("mechanism", "a table [mechanism]"), "mechanism"));
@@ -41,6 +42,7 @@ class StudyReader {
     if (const toml::node* node = file.find("stochastic")) readStochastic(source_.asTable(*node, "stochastic"));
     checkPlan(file.find("stochastic"));
     if (const toml::node* node = file.find("fuzzy")) readFuzzy(source_.asTable(*node, "fuzzy"));
+    if (const toml::node* node = file.find("limits")) readLimits(source_.asTable(*node, "limits"));
     return std::move(study_);
   }
 
@@ -190,7 +192,8 @@ class StudyReader {
     study_.outputs.push_back({name, quantity, study_.mechanism.unitOf(quantity)});
   }
 
-  // ---- [interval], [stochastic], [fuzzy] ----------------------------------------------------------------------------
+  // ---- [interval], [stochastic], [fuzzy], [limits]
+  // ----------------------------------------------------------------------------
 
   /// A whole number, or "auto" for the default.
   int integerOrAuto(const TomlSection& section, std::string_view key, int otherwise, int least, int most) const {
@@ -249,6 +252,21 @@ class StudyReader {
   void readFuzzy(const toml::table& table) {
     const TomlSection section(source_, table, "fuzzy", {"levels"});
     study_.levels = static_cast<int>(section.integer("levels", study_.levels, 2, 101));
+  }
+
+  void readLimits(const toml::table& table) {
+    const TomlSection section(source_, table, "limits",
+                              {"time", "memory", "enclosure_time", "enclosure_memory", "sample_time"});
+    const auto limit = [&](std::string_view key, const Dimension& dimension, double scale) -> std::optional<double> {
+      const toml::node* node = section.find(key);
+      if (node == nullptr) return std::nullopt;
+      const double value = nearest(source_.asAmount(*node, section.nameOf(key), dimension));
+      if (!(value > 0)) source_.fail(*node, section.nameOf(key) + " is not positive", "a number above 0");
+      return scale * value;
+    };
+    constexpr double gigabyte = 1e9;
+    study_.limits = {limit("time", seconds, 1), limit("memory", plain, gigabyte), limit("enclosure_time", seconds, 1),
+                     limit("enclosure_memory", plain, gigabyte), limit("sample_time", seconds, 1)};
   }
 
   TomlSource source_;

@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -117,6 +118,39 @@ TEST_F(DecayCompared, AnEnclosureThatManySamplesLeaveIsOutsideThoughTheArbiterSe
   }
   EXPECT_GT(outside, 18);
   EXPECT_EQ(arbitrated, 16);
+}
+
+TEST_F(DecayCompared, WhatAnInterruptLeavesOpenIsNeitherOutsideNorUnresolved) {
+  for (std::size_t t = 20; t < 41; ++t) enclosure.bounds.upper(t, 0) -= 0.2;
+  const std::atomic<bool> cancelled{true};
+  ComparisonOptions options;
+  options.cancelled = &cancelled;
+  const Comparison c = compare(enclosure, ensemble, system, options);
+  EXPECT_EQ(c.verdict, "incomplete");
+  EXPECT_EQ(c.excursion, 0);
+  ASSERT_FALSE(c.disputes.empty());
+  for (const Dispute& d : c.disputes) {
+    EXPECT_EQ(d.decided, "interrupted");
+    EXPECT_FALSE(d.outside);
+    ASSERT_EQ(d.farthest.size(), 1u);
+    EXPECT_GE(d.farthest[0], d.distance);
+    EXPECT_GT(d.distance, 0);
+  }
+}
+
+TEST_F(DecayCompared, SamplesOfTheSameValuesAreDecidedTogetherHoweverMany) {
+  ensemble = {};
+  for (double& value : system.nominal) value = value == 1 ? value : 0.5;
+  system.uncertain[0].distribution = Distribution::uniform(Interval(0.5));
+  EnsembleOptions sampling;
+  sampling.samples = 400;
+  ensemble = sampleEnsemble(system, sampling);
+  const Comparison c = compare(enclosure, ensemble, system);
+  EXPECT_EQ(c.verdict, "inside");
+  EXPECT_GE(c.disputes.size(), 400u);
+  for (std::size_t i = 1; i < c.disputes.size(); ++i) EXPECT_LT(c.disputes[i - 1].number, c.disputes[i].number);
+  for (const Dispute& d : c.disputes) EXPECT_EQ(d.distance, 0);
+  expectEnvelopeInside(ensemble.envelope());
 }
 
 TEST_F(DecayCompared, ASampleOutsideByLessThanItsErrorIsUnresolved) {

@@ -122,6 +122,20 @@ TEST_F(ResultsFile, GivesBackEveryAnswer) {
   }
 }
 
+TEST_F(ResultsFile, GivesBackWhatWasSpentAndWhyItEnded) {
+  writeResults(sampleResults(), path_);
+  const Results found = readResults(path_);
+  EXPECT_EQ(found.stochastic.integrated, 4000);
+  EXPECT_EQ(found.stochastic.stopped, "the run was interrupted");
+  EXPECT_EQ(found.cpu, 2.25);
+  EXPECT_EQ(found.memory, 1.5e9);
+  EXPECT_EQ(found.limits.time, 1800);
+  EXPECT_EQ(found.limits.memory, 8e9);
+  EXPECT_EQ(found.limits.enclosureTime, 1200);
+  EXPECT_EQ(found.limits.enclosureMemory, 5e9);
+  EXPECT_EQ(found.limits.sampleTime, 18);
+}
+
 TEST_F(ResultsFile, GivesBackTheComparisonAndDisputedSamples) {
   const Results expected = sampleResults();
   writeResults(expected, path_);
@@ -145,6 +159,10 @@ TEST_F(ResultsFile, GivesBackTheComparisonAndDisputedSamples) {
   EXPECT_EQ(sample.error, 1e-9);
   EXPECT_EQ(sample.decided, "tolerance 1e-12");
   EXPECT_TRUE(sample.outside);
+  EXPECT_EQ(sample.level, 2);
+  EXPECT_EQ(sample.farthest, (std::vector<double>{0.01, 0.25}));
+  EXPECT_EQ(found.comparison.disputed[1].level, -1);
+  EXPECT_EQ(found.comparison.why, "the run was interrupted");
   EXPECT_FALSE(found.comparison.disputed[1].outside);
   EXPECT_EQ(found.comparison.disputed[1].decided, "unresolved");
 }

@@ -106,6 +106,25 @@ TEST(StudyReader, KeepsQuarterTurnsExact) {
   EXPECT_EQ(link.rotation[1].quarterTurns, 0);
 }
 
+TEST(StudyReader, TakesLimitsInSecondsAndGigabytes) {
+  const StatedLimits limits =
+      readStudyText(sampleStudyWith("[stochastic]",
+                                    "[limits]\ntime = \"2 min\"\nmemory = 0.5\nsample_time = 3\n"
+                                    "[stochastic]"),
+                    "s.toml")
+          .limits;
+  EXPECT_EQ(limits.time, 120);
+  EXPECT_EQ(limits.memory, 5e8);
+  EXPECT_EQ(limits.sampleTime, 3);
+  EXPECT_FALSE(limits.enclosureTime || limits.enclosureMemory);
+  EXPECT_EQ(limits.resolved().enclosureTime, 80);
+  EXPECT_EQ(limits.resolved().sampleTime, 3);
+  const Limits defaults = readStudyText(sampleStudy, "s.toml").limits.resolved();
+  EXPECT_EQ(defaults.time, 1800);
+  EXPECT_EQ(defaults.memory, 0.75 * memoryPresent());
+  EXPECT_EQ(defaults.sampleTime, 18);
+}
+
 TEST(StudyReader, TakesTheHorizonInWhereTheStepDoesNotMeetIt) {
   EXPECT_THAT(readStudyText(sampleStudyWith("output_step = 0.1", "output_step = \"200 ms\""), "s.toml").time,
               ElementsAre(0, 0.2, 0.4, 0.5));
@@ -351,6 +370,10 @@ TEST_P(BadStudyFile, IsRefusedInOneLineWithItsPlace) {
 }
 
 constexpr BadStudy badStudies[] = {
+    {"[stochastic]", "[limits]\ntime = 0\n[stochastic]",
+     "s.toml:40:8: limits.time is not positive; expected a number above 0"},
+    {"[stochastic]", "[limits]\nmemory = \"8 kg\"\n[stochastic]",
+     "s.toml:40:10: limits.memory is written in a unit of the kind kg; expected a number without unit"},
     {"mass = \"250 g\"", "mass = -1",
      "s.toml:27:8: mechanism.element.mass is negative; expected a mass of at least 0 kg"},
     {"parameters = { length = 0.5 }\n[[mechanism.element]]\ntype = \"mass\"\nname = \"bob\"\nat = \"tip\"\nmass = "
@@ -372,7 +395,7 @@ constexpr BadStudy badStudies[] = {
      "output_times, compare)"},
     {"[uncertain]]\nname", "[uncertan]]\nname",
      "s.toml:28:3: unknown key 'uncertan'; expected 'uncertain'? (one of: study, mechanism, uncertain, output, "
-     "interval, stochastic, fuzzy)"},
+     "interval, stochastic, fuzzy, limits)"},
     {"title = \"Pendulum\"", "title = 3", "s.toml:2:9: study.title is the number 3; expected text in quotes"},
     {"title = \"Pendulum\"", "title = \"  \"", "s.toml:2:9: study.title is empty; expected text"},
     {"analysis = \"dynamics\"", "analysis = \"dynamic\"",
