@@ -57,6 +57,11 @@ struct Comparison {
   double cpu = 0;                 ///< s, of the re-integrations
 };
 
+/// How wide the enclosure is against the envelope of samples whose integration has this error: overestimation, excess,
+/// maximum, median and maximumOf. An envelope narrower than `resolution` errors says nothing.
+void measureOverestimation(const EnclosureBounds& enclosure, const Envelope& envelope, const Table& error,
+                           double resolution, Comparison& result);
+
 /// Compares at all output times that the enclosure reached. Samples found outside get their refined trajectories in
 /// `ensemble`. "incomplete": nothing is outside, but the enclosure or a sample ended before the horizon.
 /// Throws std::invalid_argument where the shapes do not fit or a bound is NaN.
