@@ -164,11 +164,14 @@ class Judge {
     return fmt::format(" at {} s", numberText(results_.time[time], 6));
   }
 
-  /// The plan's samples come first, then the corners of the box, its centre is last.
+  /// The plan's samples come first, then the corners of the box, then those of the alpha-cuts, the centre is last.
   std::string sampleName(std::int64_t number) const {
-    const std::int64_t corner = number - results_.stochastic.samples, corners = results_.stochastic.corners;
-    if (!results_.stochastic.present || corner < 0 || corner > corners) return fmt::format("Sample {}", number);
-    return corner == corners ? "The centre" : fmt::format("Corner {} of {}", corner + 1, corners);
+    const std::int64_t corner = number - results_.stochastic.samples, corners = results_.stochastic.corners,
+                       inner = results_.stochastic.alphaCorners;
+    if (!results_.stochastic.present || corner < 0 || corner > corners + inner) return fmt::format("Sample {}", number);
+    if (corner == corners + inner) return "The centre";
+    return corner < corners ? fmt::format("Corner {} of {}", corner + 1, corners)
+                            : fmt::format("Corner {} of {} of the alpha-cuts", corner - corners + 1, inner);
   }
 
   /// Grave findings first, every one of them; of the settled ones a few by name and the number of the others.
@@ -219,8 +222,19 @@ class Judge {
   /// The samples in words: every one that the envelope covers.
   std::string samplesText() const {
     const StochasticResult& stochastic = results_.stochastic;
-    const auto count = stochastic.samples + stochastic.corners + 1;  // the centre
-    return fmt::format("{} sampled {}", count, moves() ? "motions" : "positions");
+    const std::string_view what = moves() ? "motions" : "positions";
+    return stochastic.integrated < stochastic.planned()
+               ? fmt::format("{} {} that were sampled", stochastic.integrated, what)
+               : fmt::format("{} sampled {}", stochastic.integrated, what);
+  }
+
+  /// Sampling that did not come to its end.
+  void noteSamples() {
+    const StochasticResult& stochastic = results_.stochastic;
+    if (!stochastic.present || stochastic.stopped.empty()) return;
+    unfinished_ = true;
+    verdict_.notes.push_back(fmt::format("{} of {} samples were taken: {}.", stochastic.integrated,
+                                         stochastic.planned(), stochastic.stopped));
   }
 
   std::string spanText(double reached) const {
@@ -248,7 +262,9 @@ class Judge {
     if (comparedEnvelope_) findOverestimation();
     verdict_.reached = reached();
     noteEnd(results_.interval.present, "The guarantee ends at", results_.interval.reached, results_.interval.why);
-    noteEnd(results_.stochastic.present, "The samples end at", results_.stochastic.reached, results_.stochastic.why);
+    noteSamples();
+    noteEnd(results_.stochastic.present && results_.stochastic.integrated > 0, "The samples end at",
+            results_.stochastic.reached, results_.stochastic.why);
     noteEnd(results_.fuzzy.present, "The alpha-cuts end at", results_.fuzzy.reached, results_.fuzzy.why);
     if (missing_ > 0 && !endedAtOnce()) {
       verdict_.notes.push_back(fmt::format("{} of the numbers to compare {} missing before the end was reached.",
@@ -302,7 +318,7 @@ class Judge {
                       numberText(results_.horizon, 6));
       return;
     }
-    const bool complete = !short_ && missing_ == 0;
+    const bool complete = !short_ && !unfinished_ && missing_ == 0;
     verdict_.word = complete ? "inside" : "incomplete";
     verdict_.sentence =
         comparedEnvelope_
@@ -316,7 +332,7 @@ class Judge {
     verdict_.sentence += ".";
     if (short_) {
       verdict_.sentence += fmt::format(" The {} s asked for were not reached.", numberText(results_.horizon, 6));
-    } else if (!complete) {
+    } else if (missing_ > 0) {
       verdict_.sentence += " Not every number was there to compare.";
     }
   }
@@ -340,8 +356,8 @@ class Judge {
   const Results& results_;
   Verdict verdict_;
   Excursion outside_, doubtful_;
-  bool comparedEnvelope_ = false, comparedCuts_ = false, short_ = false, refuted_ = false, doubted_ = false,
-       interrupted_ = false;
+  bool comparedEnvelope_ = false, comparedCuts_ = false, short_ = false, unfinished_ = false, refuted_ = false,
+       doubted_ = false, interrupted_ = false;
   double reachedEnvelope_ = 0, reachedCuts_ = 0;
   std::size_t missing_ = 0;
 };

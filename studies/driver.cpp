@@ -1,14 +1,17 @@
-// The analyses one after the other: enclosure with its alpha-cuts, samples with theirs, comparison.
+// The analyses one after the other: a first block of samples, the enclosure with its alpha-cuts, all other samples,
+// each compared as it arrives.
 #include "studies/driver.hpp"
 
 #include <ctime>
 
 #include <algorithm>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <utility>
 
 #include "analyses/comparison.hpp"
+#include "analyses/settlement.hpp"
 #include "mechanics/assembly.hpp"
 #include "scalars/fuzzy.hpp"
 #include "scalars/samples.hpp"
@@ -42,6 +45,7 @@ class Driver {
   }
 
   Results run() {
+    if (study_.stochastic) sampleFirst();
     if (study_.interval || study_.fuzzy) {
       if (study_.analysis == Study::Analysis::dynamics) {
         encloseMotion();
@@ -49,9 +53,8 @@ class Driver {
         encloseConfiguration();
       }
     }
-    if (study_.stochastic) sample();
+    if (study_.stochastic) sampleOthers();
     if (study_.stochastic && (study_.interval || study_.fuzzy)) compareAnswers();
-    if (study_.stochastic) describeSamples();
     results_.interval.present = study_.interval;
     if (!study_.interval) results_.interval = {};
     return std::move(results_);
@@ -181,68 +184,87 @@ class Driver {
 
   // ---- Probable -----------------------------------------------------------------------------------------------------
 
-  void sample() {
-    EnsembleOptions ensemble = study_.ensemble;
-    ensemble.seed = options_.seed.value_or(ensemble.seed);
-    ensemble.samples = options_.samples.value_or(ensemble.samples);
-    ensemble.jobs = options_.jobs;
-    ensemble.progress = progressOf("samples");
-    ensemble.cancelled = options_.cancelled;
+  /// Before the enclosure, so that one that ends early has something to be compared with.
+  void sampleFirst() {
     const double start = processCpuSeconds();
-    ensemble_ = sampleEnsemble(problem_.motion, ensemble);
-    if (study_.analysis == Study::Analysis::kinematics && ensemble_.complete) moveSamples();
+    EnsembleOptions options = study_.ensemble;
+    options.seed = options_.seed.value_or(options.seed);
+    options.samples = options_.samples.value_or(options.samples);
+    options.alpha = problem_.alpha;
+    options.jobs = options_.jobs;
+    options.progress = progressOf("samples");
+    options.cancelled = options_.cancelled;
+    ensemble_.emplace(problem_.motion, options);
+    ensemble_->integrateFirst();
     StochasticResult& stochastic = results_.stochastic;
     stochastic.present = true;
-    stochastic.plan = std::string(nameOf(ensemble.plan));
-    stochastic.samples = static_cast<std::int64_t>(ensemble_.samples);
-    stochastic.corners = static_cast<std::int64_t>(ensemble_.corners);
-    stochastic.relativeTolerance = ensemble.tolerance.relative;
-    stochastic.absoluteTolerance = ensemble.tolerance.absolute;
-    stochastic.packWidth = static_cast<std::int64_t>(ensemble_.packWidth);
-    stochastic.reached = ensemble_.reached;
-    stochastic.why = ensemble_.complete ? ensemble_.why : "interrupted";
-    stochastic.envelope = ensemble_.envelope();
+    stochastic.plan = std::string(nameOf(options.plan));
+    stochastic.samples = static_cast<std::int64_t>(ensemble_->sampling().samples());
+    stochastic.corners = static_cast<std::int64_t>(ensemble_->sampling().corners());
+    stochastic.alphaCorners = static_cast<std::int64_t>(ensemble_->sampling().boxCorners());
+    stochastic.relativeTolerance = options.tolerance.relative;
+    stochastic.absoluteTolerance = options.tolerance.absolute;
+    stochastic.packWidth = static_cast<std::int64_t>(ensemble_->packWidth());
     stochastic.cpu = processCpuSeconds() - start;
   }
 
+  void sampleOthers() {
+    const double start = processCpuSeconds();
+    const Proved proved{study_.interval ? results_.interval.at : Bounds(), results_.fuzzy.outer, reachedTimes_};
+    Settlement settlement(proved, problem_.motion, ensemble_->options(), comparisonOptions());
+    results_.comparison.verdict = "inside";
+    ensemble_->integrateOthers(settlement.boundsOf(0), [&](SampleBlock& block) {
+      if (study_.analysis == Study::Analysis::kinematics) moveSamples(block);
+      settlement.settle(block, ensemble_->error(), [this](const Comparison& found) { takeDisputes(found); });
+    });
+    StochasticResult& stochastic = results_.stochastic;
+    stochastic.integrated = static_cast<std::int64_t>(ensemble_->integrated());
+    stochastic.reached = ensemble_->reached();
+    stochastic.why = ensemble_->why();
+    if (!ensemble_->isComplete()) stochastic.stopped = "interrupted";
+    stochastic.envelope = ensemble_->envelope();
+    stochastic.error = ensemble_->error();
+    const Statistics numbers = ensemble_->statistics();
+    stochastic.mean = numbers.mean;
+    stochastic.deviation = numbers.deviation;
+    stochastic.probabilities = numbers.probabilities;
+    stochastic.quantiles = numbers.quantiles;
+    stochastic.resolution = numbers.resolution;
+    if (study_.fuzzy) results_.fuzzy.inner = ensemble_->innerCuts();
+    stochastic.cpu += processCpuSeconds() - start;
+  }
+
   /// Kinematics: the same samples once more, all at once, by the assembly itself instead of its recording.
-  void moveSamples() {
+  void moveSamples(SampleBlock& block) {
     std::vector<Samples> numbers;
     const UncertainMotion& motion = problem_.motion;
     for (const double value : motion.nominal) numbers.emplace_back(value);
-    for (std::size_t i = 0; i < motion.uncertain.size(); ++i) {
+    for (std::size_t j = 0; j < motion.uncertain.size(); ++j) {
       std::vector<double> values;
-      for (std::size_t number = 0; number < ensemble_.size(); ++number) values.push_back(ensemble_.valuesOf(number)[i]);
-      numbers[static_cast<std::size_t>(motion.slot[i])] = Samples(std::move(values));
+      for (std::size_t i = 0; i < block.size(); ++i) values.push_back(block.values(i)[j]);
+      numbers[static_cast<std::size_t>(motion.slot[j])] = Samples(std::move(values));
     }
     const std::vector<Samples> moved = move<Samples>(numbers);
-    for (std::size_t number = 0; number < ensemble_.size(); ++number)
-      for (std::size_t j = 0; j < moved.size(); ++j)
-        ensemble_.trajectory(number)[j] = moved[j][moved[j].isConstant() ? 0 : number];
+    for (std::size_t j = 0; j < moved.size(); ++j)
+      for (std::size_t i = 0; i < block.size(); ++i) block(i, 0, j) = moved[j][moved[j].isConstant() ? 0 : i];
   }
 
   // ---- Together -----------------------------------------------------------------------------------------------------
 
-  /// Samples against the enclosure, then, from the narrowest to the widest, against the alpha-cuts they belong to.
   void compareAnswers() {
-    const double start = processCpuSeconds();
     ComparisonResult& comparison = results_.comparison;
     comparison.present = true;
-    const bool complete = reachedTimes_ == study_.time.size() && ensemble_.complete && ensemble_.failed.empty();
-    comparison.verdict = complete ? "inside" : "incomplete";
-    if (study_.interval) {
-      const Comparison found =
-          compare({results_.interval.at, reachedTimes_}, ensemble_, problem_.motion, comparisonOptions());
-      takeDisputes(found, [](std::size_t number) { return number; });
-      comparison.overestimation = found.overestimation;
-      comparison.excess = found.excess;
-      comparison.maximum = found.maximum;
-      comparison.median = found.median;
-      comparison.maximumOf = found.maximumOf;
-    }
-    for (std::size_t level = problem_.levels.size(); level-- > 0;) compareCut(level);
-    results_.stochastic.envelope = ensemble_.envelope();
-    results_.stochastic.cpu += processCpuSeconds() - start;
+    const bool complete = reachedTimes_ == study_.time.size() && ensemble_->isComplete() && ensemble_->failures() == 0;
+    if (comparison.verdict == "inside" && !complete) comparison.verdict = "incomplete";
+    if (!study_.interval) return;
+    Comparison found;
+    measureOverestimation({results_.interval.at, reachedTimes_}, results_.stochastic.envelope,
+                          results_.stochastic.error, comparisonOptions().resolution, found);
+    comparison.overestimation = found.overestimation;
+    comparison.excess = found.excess;
+    comparison.maximum = found.maximum;
+    comparison.median = found.median;
+    comparison.maximumOf = found.maximumOf;
   }
 
   ComparisonOptions comparisonOptions() const {
@@ -252,64 +274,13 @@ class Driver {
     return options;
   }
 
-  /// The samples that lie in the level's box but outside its cut are looked at again, as a small ensemble of their own.
-  void compareCut(std::size_t level) {
-    const Bounds& cut = results_.fuzzy.outer[level];
-    std::vector<std::size_t> numbers;
-    for (std::size_t number = 0; number < ensemble_.size(); ++number)
-      if (belongsTo(level, number) && leaves(cut, number)) numbers.push_back(number);
-    if (numbers.empty()) return;
-    Ensemble part = partOf(numbers);
-    takeDisputes(compare({cut, reachedTimes_}, part, problem_.motion, comparisonOptions()),
-                 [&](std::size_t number) { return numbers[number]; });
-    for (std::size_t i = 0; i < numbers.size(); ++i)
-      std::ranges::copy(std::as_const(part).trajectory(i), ensemble_.trajectory(numbers[i]).begin());
-  }
-
-  bool belongsTo(std::size_t level, std::size_t number) const {
-    const UncertainMotion& motion = problem_.motion;
-    for (std::size_t i = 0; i < motion.uncertain.size(); ++i) {
-      const Interval& values = problem_.levels[level][static_cast<std::size_t>(motion.slot[i])];
-      if (!contains(values, ensemble_.valuesOf(number)[i])) return false;
-    }
-    return true;
-  }
-
-  bool leaves(const Bounds& cut, std::size_t number) const {
-    const std::span<const double> trajectory = std::as_const(ensemble_).trajectory(number);
-    for (std::size_t i = 0; i < reachedTimes_ * ensemble_.outputs; ++i)
-      if (trajectory[i] < cut.lower.data[i] || trajectory[i] > cut.upper.data[i]) return true;
-    return false;
-  }
-
-  /// An ensemble of these samples alone, the last one in the centre's place.
-  Ensemble partOf(const std::vector<std::size_t>& numbers) const {
-    Ensemble part;
-    part.times = ensemble_.times;
-    part.outputs = ensemble_.outputs;
-    part.quantities = ensemble_.quantities;
-    part.samples = numbers.size() - 1;
-    part.complete = ensemble_.complete;
-    part.tolerance = ensemble_.tolerance;
-    part.method = ensemble_.method;
-    part.packWidth = ensemble_.packWidth;
-    part.error = ensemble_.error;
-    for (const std::size_t number : numbers) {
-      const auto values = ensemble_.valuesOf(number), trajectory = std::as_const(ensemble_).trajectory(number);
-      part.values.insert(part.values.end(), values.begin(), values.end());
-      part.data.insert(part.data.end(), trajectory.begin(), trajectory.end());
-    }
-    return part;
-  }
-
-  template <class NumberOf>
-  void takeDisputes(const Comparison& found, const NumberOf& numberOf) {
+  void takeDisputes(const Comparison& found) {
     ComparisonResult& comparison = results_.comparison;
     const bool interrupted = options_.cancelled != nullptr && *options_.cancelled;
     for (const Dispute& d : found.disputes) {
       DisputedSample& sample = comparison.disputed.emplace_back(
-          DisputedSample{static_cast<std::int64_t>(numberOf(d.number)), d.time, d.output, d.value, d.lower, d.upper,
-                         d.distance, d.error, d.decided, d.outside});
+          DisputedSample{static_cast<std::int64_t>(d.number), d.time, d.output, d.value, d.lower, d.upper, d.distance,
+                         d.error, d.decided, d.outside});
       // What an interrupt kept from the last instance is neither found outside nor past deciding.
       if (interrupted && d.distance > 0 && d.decided != "Taylor 128 bits") {
         sample.decided = "interrupted";
@@ -323,27 +294,11 @@ class Driver {
     }
   }
 
-  void describeSamples() {
-    double start = processCpuSeconds();
-    StochasticResult& stochastic = results_.stochastic;
-    const Statistics numbers = statistics(ensemble_);
-    stochastic.mean = numbers.mean;
-    stochastic.deviation = numbers.deviation;
-    stochastic.error = ensemble_.error;
-    stochastic.probabilities = numbers.probabilities;
-    stochastic.quantiles = numbers.quantiles;
-    stochastic.cpu += processCpuSeconds() - start;
-    if (!study_.fuzzy) return;
-    start = processCpuSeconds();
-    results_.fuzzy.inner = innerCuts(ensemble_, problem_.motion.uncertain, problem_.alpha);
-    results_.fuzzy.cpu += processCpuSeconds() - start;
-  }
-
   const Study& study_;
   const RunOptions& options_;
   Problem problem_;
   Results results_;
-  Ensemble ensemble_;
+  std::optional<EnsembleRun> ensemble_;
   std::size_t reachedTimes_ = 0;
   double recordingCpu_ = 0;
 };

@@ -189,6 +189,9 @@ void writeStochastic(Hdf5Writer& root, const Results& results) {
   group.attribute("plan", stochastic.plan);
   group.attribute("samples", stochastic.samples);
   group.attribute("corners", stochastic.corners);
+  group.attribute("alpha_corners", stochastic.alphaCorners);
+  group.attribute("integrated", stochastic.integrated);
+  group.attribute("stopped", stochastic.stopped);
   group.attribute("relative_tolerance", stochastic.relativeTolerance);
   group.attribute("absolute_tolerance", stochastic.absoluteTolerance);
   group.attribute("pack_width", stochastic.packWidth);
@@ -200,6 +203,8 @@ void writeStochastic(Hdf5Writer& root, const Results& results) {
   grids.grid("mean", stochastic.mean, "mean of the samples");
   grids.grid("deviation", stochastic.deviation, "standard deviation of the samples");
   grids.grid("error", stochastic.error, "measured error of the integration of samples");
+  grids.grid("resolution", stochastic.resolution,
+             "greatest distance of a quantile from that of the samples themselves");
   if (stochastic.probabilities.empty()) return;
   writeScale(group, "probability", stochastic.probabilities, "probability of the quantile", "1");
   std::vector<const Grid*> quantiles;
@@ -429,6 +434,12 @@ void readStochastic(const Hdf5Reader& root, Results& results) {
   stochastic.plan = group.text("plan");
   stochastic.samples = group.integer("samples");
   stochastic.corners = group.integer("corners");
+  if (group.hasAttribute("alpha_corners")) stochastic.alphaCorners = group.integer("alpha_corners");
+  stochastic.integrated = stochastic.planned();
+  if (group.hasAttribute("integrated")) {  // older files do not tell
+    stochastic.integrated = group.integer("integrated");
+    stochastic.stopped = group.text("stopped");
+  }
   stochastic.relativeTolerance = group.number("relative_tolerance");
   stochastic.absoluteTolerance = group.number("absolute_tolerance");
   // Older files have none: their samples were integrated one by one.
@@ -441,6 +452,7 @@ void readStochastic(const Hdf5Reader& root, Results& results) {
   stochastic.mean = grids.grid("mean");
   stochastic.deviation = grids.grid("deviation");
   stochastic.error = grids.grid("error");
+  stochastic.resolution = grids.grid("resolution");
   if (!group.has("probability")) return;
   stochastic.probabilities = readList(group, "probability");
   stochastic.quantiles = grids.stack("quantiles", stochastic.probabilities.size());

@@ -86,6 +86,9 @@ TEST_F(ResultsFile, GivesBackEveryAnswer) {
   EXPECT_EQ(found.stochastic.plan, expected.stochastic.plan);
   EXPECT_EQ(found.stochastic.samples, expected.stochastic.samples);
   EXPECT_EQ(found.stochastic.corners, expected.stochastic.corners);
+  EXPECT_EQ(found.stochastic.alphaCorners, 18);
+  EXPECT_EQ(found.stochastic.integrated, 1000);
+  EXPECT_EQ(found.stochastic.stopped, "interrupted");
   EXPECT_EQ(found.stochastic.relativeTolerance, expected.stochastic.relativeTolerance);
   EXPECT_EQ(found.stochastic.absoluteTolerance, expected.stochastic.absoluteTolerance);
   EXPECT_EQ(found.stochastic.packWidth, 64);
@@ -96,6 +99,7 @@ TEST_F(ResultsFile, GivesBackEveryAnswer) {
   expectSame(found.stochastic.mean, expected.stochastic.mean, "mean");
   expectSame(found.stochastic.deviation, expected.stochastic.deviation, "deviation");
   expectSame(found.stochastic.error, expected.stochastic.error, "error");
+  expectSame(found.stochastic.resolution, expected.stochastic.resolution, "resolution");
   EXPECT_EQ(found.stochastic.probabilities, expected.stochastic.probabilities);
   ASSERT_EQ(found.stochastic.quantiles.size(), 2U);
   for (std::size_t i = 0; i < 2; ++i)
@@ -115,11 +119,14 @@ TEST_F(ResultsFile, WithoutAPackWidthIsOfSamplesIntegratedOneByOne) {
   writeResults(sampleResults(), path_);
   {
     const Hdf5Handle file(H5Fopen(path_.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose, path_);
-    ASSERT_GE(H5Adelete_by_name(file, "stochastic", "pack_width", H5P_DEFAULT), 0);
+    for (const char* attribute : {"pack_width", "alpha_corners", "integrated", "stopped"})
+      ASSERT_GE(H5Adelete_by_name(file, "stochastic", attribute, H5P_DEFAULT), 0);
   }
   const Results found = readResults(path_);
   EXPECT_EQ(found.stochastic.packWidth, 1);
   EXPECT_EQ(found.stochastic.samples, 4096);
+  EXPECT_EQ(found.stochastic.integrated, 4096 + 3 + 1);
+  EXPECT_EQ(found.stochastic.stopped, "");
 }
 
 TEST_F(ResultsFile, GivesBackTheComparisonAndDisputedSamples) {

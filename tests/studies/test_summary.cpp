@@ -29,7 +29,7 @@ TEST(JsonSummary, HasTheDocumentedKeys) {
   const std::string text = jsonSummary(sampleResults(), "incomplete", {"run.h5", "run.html"});
   EXPECT_EQ(text.find('\n'), std::string::npos);
   const Json json = Json::parse(text);
-  EXPECT_THAT(keysOf(json), ElementsAre("cost", "enclosure", "envelope", "excursion", "files", "horizon",
+  EXPECT_THAT(keysOf(json), ElementsAre("cost", "enclosure", "envelope", "excursion", "files", "horizon", "integrated",
                                         "overestimation", "reached", "samples", "verdict", "version"));
   EXPECT_THAT(keysOf(json["overestimation"]), ElementsAre("max", "median", "outputs"));
   EXPECT_THAT(keysOf(json["cost"]), ElementsAre("fuzzy", "interval", "report", "stochastic"));
@@ -37,6 +37,7 @@ TEST(JsonSummary, HasTheDocumentedKeys) {
   EXPECT_EQ(json["horizon"], 0.02);
   EXPECT_EQ(json["reached"], 0.01);
   EXPECT_EQ(json["samples"], 4096);
+  EXPECT_EQ(json["integrated"], 1000);
   EXPECT_EQ(json["version"], "9.8.7");
   EXPECT_EQ(json["files"]["results"], "run.h5");
   EXPECT_EQ(json["files"]["report"], "run.html");
