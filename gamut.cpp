@@ -131,17 +131,16 @@ void say(const Arguments& arguments, const Results& results, const Verdict& verd
                                    {arguments.results, arguments.report}));
 }
 
-/// Every sample's motion is kept until it has been compared.
+/// A block of samples' motions is kept until it has been compared.
 void checkMemory(const Study& study, const RunOptions& options, const std::string& input) {
-  const std::size_t samples = options.samples.value_or(study.ensemble.samples);
-  const double needed = 8.0 * static_cast<double>(samples) * static_cast<double>(study.time.size()) *
-                        static_cast<double>(study.outputs.size());
+  const std::size_t levels = study.fuzzy ? static_cast<std::size_t>(study.levels) : 0;
+  const double needed = ensembleBytes(study.time.size(), study.outputs.size(), study.uncertain.size(), levels);
   const double limit = limitsOf(study, options).memory;
   if (study.stochastic && needed > limit)
     throw UsageError(
-        fmt::format("{}: {} samples of {} outputs at {} times need {:.0f} GB, the memory limit is {:.3g} GB; "
-                    "expected fewer samples or output times",
-                    input, samples, study.outputs.size(), study.time.size(), needed / 1e9, limit / 1e9));
+        fmt::format("{}: samples of {} outputs at {} times need {:.3g} GB, the memory limit is {:.3g} GB; "
+                    "expected fewer outputs or output times",
+                    input, study.outputs.size(), study.time.size(), needed / 1e9, limit / 1e9));
 }
 
 Study readNoting(const Arguments& arguments) {
@@ -379,7 +378,7 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "gamut: {}\n", printable(error.what()));
     return failed;
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "gamut: out of memory; fewer samples, output times or pieces need less\n");
+    fmt::print(stderr, "gamut: out of memory; fewer outputs, output times or pieces need less\n");
     return failed;
   } catch (const std::exception& error) {
     fmt::print(stderr, "gamut: internal failure: {}\n", printable(error.what()));

@@ -24,6 +24,7 @@ struct Case {
   std::vector<double> error;  // [time][output]: the greatest change until then, which crossing trajectories do not hide
   bool settled = false;       // found inside
   bool lookedAt = false;      // by every instance, to the end
+  std::size_t times = 0;      // output times up to the last one at which it is outside: beyond, nothing is disputed
 };
 
 class Comparer {
@@ -48,7 +49,8 @@ class Comparer {
     result.cpu = refine() + arbitrateWorst();
     informTwins();
     judge(result);
-    measureOverestimation(result);
+    result.envelope = ensemble_.envelope();
+    measureOverestimation(enclosure_, result.envelope, ensemble_.error, options_.resolution, result);
     return result;
   }
 
@@ -118,6 +120,7 @@ class Comparer {
       if (!isNew) originals_.push_back(known->second);
       c.dispute.number = number;
       c.dispute.decided = "unresolved";
+      c.times = timesOutside(std::as_const(ensemble_).trajectory(number));
       locate(c);
     }
   }
@@ -140,15 +143,28 @@ class Comparer {
     std::ranges::sort(cases_, {}, [](const Case& c) { return c.dispute.number; });
   }
 
-  /// Takes over a better trajectory, unless it ends before the enclosure does where the old one did not.
+  std::size_t timesOutside(std::span<const double> trajectory) const {
+    std::size_t i = enclosure_.reachedTimes * ensemble_.outputs;
+    while (i > 0 && !(distanceOutside(i - 1, trajectory[i - 1]) > 0)) --i;
+    return (i + ensemble_.outputs - 1) / ensemble_.outputs;
+  }
+
+  Motion disputedPart(const Case& c) const {
+    Motion part = system_.motion;
+    part.times.resize(c.times);
+    return part;
+  }
+
+  /// Takes over a better trajectory of the disputed part, unless it ends before that does where the old one did not.
   bool replace(Case& c, std::span<const double> better) {
     const std::span<double> trajectory = ensemble_.trajectory(c.dispute.number);
-    for (std::size_t i = 0; i < enclosure_.reachedTimes * ensemble_.outputs; ++i)
+    for (std::size_t i = 0; i < better.size(); ++i)
       if (std::isnan(better[i]) && !std::isnan(trajectory[i])) return false;
-    c.error.resize(trajectory.size());
-    for (std::size_t i = 0; i < trajectory.size(); ++i) c.error[i] = std::abs(better[i] - trajectory[i]);
+    c.error.assign(trajectory.size(), 0);
+    for (std::size_t i = 0; i < better.size(); ++i) c.error[i] = std::abs(better[i] - trajectory[i]);
     accumulate(c.error);
     std::ranges::copy(better, trajectory.begin());
+    c.times = timesOutside(trajectory);
     return true;
   }
 
@@ -161,13 +177,15 @@ class Comparer {
   double refine() {
     if (system_.motion.f.states() == 0) return 0;  // nothing is integrated: the arbiter looks at the outputs directly
     return forEachIndex(options_.jobs, cases_.size(), options_.cancelled, [&] {
-      return [&, witness = Witness(system_.motion, ensemble_.method, options_.cancelled),
-              better = std::vector<double>(ensemble_.times.size() * ensemble_.outputs)](std::size_t i) mutable {
+      return [&](std::size_t i) {
         Case& c = cases_[i];
         const std::vector<double> start = system_.start(ensemble_.valuesOf(c.dispute.number));
         for (double relative : options_.relativeTolerances) {
           if (relative >= ensemble_.tolerance.relative) continue;
           const double factor = ensemble_.tolerance.relative / relative;
+          const Motion motion = disputedPart(c);
+          std::vector<double> better(c.times * ensemble_.outputs);
+          Witness witness(motion, ensemble_.method, options_.cancelled);
           witness.integrate(start, {relative, ensemble_.tolerance.absolute / factor}, better);
           if (!replace(c, better)) return;
           locate(c);
@@ -185,7 +203,7 @@ class Comparer {
   double arbitrateWorst() {
     std::vector<Case*> open;
     for (Case& c : cases_)
-      if (!c.settled) open.push_back(&c);
+      if (!c.settled && options_.asksArbiter) open.push_back(&c);
     std::ranges::stable_sort(open, std::ranges::greater{}, [](const Case* c) { return c->dispute.excursion; });
     double cpu = 0;
     for (std::size_t first = 0; first < open.size() && !isCancelled(); first += batchSize) {
@@ -200,9 +218,9 @@ class Comparer {
 
   void arbitrateOne(Case& c) {
     const PreciseTrajectory precise =
-        arbitrate(system_.motion, system_.start(ensemble_.valuesOf(c.dispute.number)), {}, options_.cancelled);
+        arbitrate(disputedPart(c), system_.start(ensemble_.valuesOf(c.dispute.number)), {}, options_.cancelled);
     c.lookedAt = !isCancelled();
-    if (!replace(c, roundedToDoubles(precise, ensemble_.times.size() * ensemble_.outputs))) return;
+    if (!replace(c, roundedToDoubles(precise, c.times * ensemble_.outputs))) return;
     std::ranges::copy(precise.error, c.error.begin());  // the arbiter's last two integrations are both its own
     accumulate(c.error);
     locate(c);
@@ -238,31 +256,6 @@ class Comparer {
     result.verdict = outside ? "outside" : unresolved ? "unresolved" : incomplete ? "incomplete" : "inside";
   }
 
-  void measureOverestimation(Comparison& result) const {
-    const std::size_t outputs = ensemble_.outputs;
-    result.envelope = ensemble_.envelope();
-    result.overestimation = Table(ensemble_.times.size(), outputs);
-    result.excess = result.overestimation;
-    result.maximumOf.assign(outputs, std::numeric_limits<double>::quiet_NaN());
-    std::vector<double> ratios;
-    for (std::size_t i = 0; i < enclosure_.reachedTimes * outputs; ++i) {
-      const double enclosed = enclosure_.bounds.upper.data[i] - enclosure_.bounds.lower.data[i];
-      const double sampled = result.envelope.upper.data[i] - result.envelope.lower.data[i];
-      result.excess.data[i] = enclosed - sampled;
-      if (!(sampled > options_.resolution * ensemble_.error.data[i])) continue;
-      const double ratio = enclosed / sampled;
-      result.overestimation.data[i] = ratio;
-      double& greatest = result.maximumOf[i % outputs];
-      if (!(greatest >= ratio)) greatest = ratio;
-      ratios.push_back(ratio);
-    }
-    if (ratios.empty()) return;
-    std::ranges::sort(ratios);
-    const std::size_t middle = ratios.size() / 2;
-    result.maximum = ratios.back();
-    result.median = ratios.size() % 2 == 1 ? ratios[middle] : 0.5 * (ratios[middle - 1] + ratios[middle]);
-  }
-
   const EnclosureBounds& enclosure_;
   Ensemble& ensemble_;
   const UncertainMotion& system_;
@@ -272,6 +265,31 @@ class Comparer {
 };
 
 }  // namespace
+
+void measureOverestimation(const EnclosureBounds& enclosure, const Envelope& envelope, const Table& error,
+                           double resolution, Comparison& result) {
+  const std::size_t outputs = error.outputs;
+  result.overestimation = Table(error.times, outputs);
+  result.excess = result.overestimation;
+  result.maximumOf.assign(outputs, std::numeric_limits<double>::quiet_NaN());
+  std::vector<double> ratios;
+  for (std::size_t i = 0; i < enclosure.reachedTimes * outputs; ++i) {
+    const double enclosed = enclosure.bounds.upper.data[i] - enclosure.bounds.lower.data[i];
+    const double sampled = envelope.upper.data[i] - envelope.lower.data[i];
+    result.excess.data[i] = enclosed - sampled;
+    if (!(sampled > resolution * error.data[i])) continue;
+    const double ratio = enclosed / sampled;
+    result.overestimation.data[i] = ratio;
+    double& greatest = result.maximumOf[i % outputs];
+    if (!(greatest >= ratio)) greatest = ratio;
+    ratios.push_back(ratio);
+  }
+  if (ratios.empty()) return;
+  std::ranges::sort(ratios);
+  const std::size_t middle = ratios.size() / 2;
+  result.maximum = ratios.back();
+  result.median = ratios.size() % 2 == 1 ? ratios[middle] : 0.5 * (ratios[middle - 1] + ratios[middle]);
+}
 
 Comparison compare(const EnclosureBounds& enclosure, Ensemble& ensemble, const UncertainMotion& system,
                    const ComparisonOptions& options) {

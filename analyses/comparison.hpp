@@ -26,6 +26,7 @@ struct ComparisonOptions {
   std::vector<double> relativeTolerances = {1e-12, 1e-13, 1e-14};  ///< of the re-integrations, tighter and tighter
   double decisive = 10;     ///< a sample further outside than so many times its measured error refutes the enclosure
   double resolution = 100;  ///< an envelope narrower than so many witness errors says nothing on overestimation
+  bool asksArbiter = true;  ///< where it is already known that the enclosure is refuted, that can be saved
   int jobs = 1;             ///< threads
   std::function<void(double)>
       progress;  ///< called with the fraction of the arbiter's work that is done, from any thread
@@ -60,6 +61,11 @@ struct Comparison {
   std::vector<Dispute> disputes;  ///< by rising number
   double cpu = 0;                 ///< s, of the re-integrations
 };
+
+/// How wide the enclosure is against the envelope of samples whose integration has this error: overestimation, excess,
+/// maximum, median and maximumOf. An envelope narrower than `resolution` errors says nothing.
+void measureOverestimation(const EnclosureBounds& enclosure, const Envelope& envelope, const Table& error,
+                           double resolution, Comparison& result);
 
 /// Compares at all output times that the enclosure reached. Samples found outside get their refined trajectories in
 /// `ensemble`. "incomplete": nothing is outside, but the enclosure or a sample ended before the horizon.

@@ -131,7 +131,7 @@ std::string costTable(const Results& results) {
     table.row("probable",
               {secondsText(stochastic.cpu),
                fmt::format("{} ({}), {}, tolerances {} relative, {} absolute", countText(stochastic.samples, "sample"),
-                           stochastic.plan, countText(stochastic.corners, "corner"),
+                           stochastic.plan, countText(stochastic.corners + stochastic.alphaCorners, "corner"),
                            numberText(stochastic.relativeTolerance), numberText(stochastic.absoluteTolerance))});
   }
   if (results.fuzzy.present) {

@@ -163,11 +163,14 @@ class Judge {
     return fmt::format(" at {} s", numberText(results_.time[time], 6));
   }
 
-  /// The plan's samples come first, then the corners of the box, its centre is last.
+  /// The plan's samples come first, then the corners of the box, then those of the alpha-cuts, the centre is last.
   std::string sampleName(std::int64_t number) const {
-    const std::int64_t corner = number - results_.stochastic.samples, corners = results_.stochastic.corners;
-    if (!results_.stochastic.present || corner < 0 || corner > corners) return fmt::format("Sample {}", number);
-    return corner == corners ? "The centre" : fmt::format("Corner {} of {}", corner + 1, corners);
+    const std::int64_t corner = number - results_.stochastic.samples, corners = results_.stochastic.corners,
+                       inner = results_.stochastic.alphaCorners;
+    if (!results_.stochastic.present || corner < 0 || corner > corners + inner) return fmt::format("Sample {}", number);
+    if (corner == corners + inner) return "The centre";
+    return corner < corners ? fmt::format("Corner {} of {}", corner + 1, corners)
+                            : fmt::format("Corner {} of {} of the alpha-cuts", corner - corners + 1, inner);
   }
 
   /// Grave findings first, every one of them; of the settled ones a few by name and the number of the others.

@@ -1,13 +1,16 @@
-// The analyses one after the other: enclosure with its alpha-cuts, samples with theirs, comparison.
+// The analyses one after the other: a first block of samples, the enclosure with its alpha-cuts, all other samples,
+// each compared as it arrives.
 #include "studies/driver.hpp"
 
 #include <algorithm>
 #include <new>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <utility>
 
 #include "analyses/comparison.hpp"
+#include "analyses/settlement.hpp"
 #include "mechanics/assembly.hpp"
 #include "scalars/fuzzy.hpp"
 #include "scalars/samples.hpp"
@@ -36,10 +39,10 @@ class Driver {
   }
 
   Results run() {
+    if (study_.stochastic) sampleFirst();
     if (study_.interval || study_.fuzzy) enclose();
-    if (study_.stochastic) sample();
+    if (study_.stochastic) sampleOthers();
     if (study_.stochastic && (study_.interval || study_.fuzzy)) compareAnswers();
-    if (hasSamples()) describeSamples();
     results_.interval.present = study_.interval;
     if (!study_.interval) results_.interval = {};
     results_.cpu = watch_.spent();
@@ -195,90 +198,119 @@ class Driver {
 
   // ---- Probable -----------------------------------------------------------------------------------------------------
 
-  void sample() {
-    watch_.begin(Watch::Stage::rest);
-    EnsembleOptions ensemble = study_.ensemble;
-    ensemble.seed = options_.seed.value_or(ensemble.seed);
-    ensemble.samples = options_.samples.value_or(ensemble.samples);
-    ensemble.jobs = options_.jobs;
-    ensemble.secondsPerSample = results_.limits.sampleTime;
-    ensemble.progress = progressOf("samples");
-    ensemble.cancelled = watch_.stop();
+  /// What finds no room is given up.
+  template <class Sample>
+  void sampleWhileThereIsRoom(const Sample& sample) {
     const double start = processCpuSeconds();
-    StochasticResult& stochastic = results_.stochastic;
-    stochastic.present = true;
-    stochastic.plan = std::string(nameOf(ensemble.plan));
-    stochastic.samples = static_cast<std::int64_t>(ensemble.samples);
-    stochastic.relativeTolerance = ensemble.tolerance.relative;
-    stochastic.absoluteTolerance = ensemble.tolerance.absolute;
+    watch_.begin(Watch::Stage::rest);
     try {
-      ensemble_ = sampleEnsemble(problem_.motion, ensemble);
-      if (study_.analysis == Study::Analysis::kinematics && ensemble_.complete) moveSamples();
-      describeEnsemble();
+      sample();
     } catch (const std::bad_alloc&) {
       watch_.memoryFailed();
-      ensemble_ = {};
+      ensemble_.reset();
+      results_.stochastic.stopped = watch_.why();
+    }
+    results_.stochastic.cpu += processCpuSeconds() - start;
+  }
+
+  /// Before the enclosure, so that one that ends early has something to be compared with.
+  void sampleFirst() {
+    EnsembleOptions options = study_.ensemble;
+    options.seed = options_.seed.value_or(options.seed);
+    options.samples = options_.samples.value_or(options.samples);
+    options.alpha = problem_.alpha;
+    options.jobs = options_.jobs;
+    options.secondsPerSample = results_.limits.sampleTime;
+    options.progress = progressOf("samples");
+    options.cancelled = watch_.stop();
+    StochasticResult& stochastic = results_.stochastic;
+    stochastic.present = true;
+    stochastic.plan = std::string(nameOf(options.plan));
+    stochastic.samples = static_cast<std::int64_t>(options.samples);
+    stochastic.relativeTolerance = options.tolerance.relative;
+    stochastic.absoluteTolerance = options.tolerance.absolute;
+    sampleWhileThereIsRoom([&] {
+      ensemble_.emplace(problem_.motion, options);
+      stochastic.samples = static_cast<std::int64_t>(ensemble_->sampling().samples());
+      stochastic.corners = static_cast<std::int64_t>(ensemble_->sampling().corners());
+      stochastic.alphaCorners = static_cast<std::int64_t>(ensemble_->sampling().boxCorners());
+      stochastic.packWidth = static_cast<std::int64_t>(ensemble_->packWidth());
+      ensemble_->integrateFirst();
+      if (*watch_.stop()) stochastic.stopped = watch_.why();
+    });
+  }
+
+  void sampleOthers() {
+    results_.comparison.verdict = "inside";
+    if (!ensemble_) return;
+    sampleWhileThereIsRoom([&] {
+      const Proved proved{study_.interval ? results_.interval.at : Bounds(), results_.fuzzy.outer, reachedTimes_};
+      Settlement settlement(proved, problem_.motion, ensemble_->options(), comparisonOptions());
+      ensemble_->integrateOthers(settlement.boundsOf(0), [&](SampleBlock& block) {
+        if (study_.analysis == Study::Analysis::kinematics) moveSamples(block);
+        settlement.settle(block, ensemble_->error(),
+                          [this](const Comparison& found, int level) { takeDisputes(found, level); });
+      });
+      describeSamples();
+    });
+  }
+
+  void describeSamples() {
+    StochasticResult& stochastic = results_.stochastic;
+    Statistics numbers = ensemble_->statistics();
+    stochastic.mean = std::move(numbers.mean);
+    stochastic.deviation = std::move(numbers.deviation);
+    stochastic.probabilities = std::move(numbers.probabilities);
+    stochastic.quantiles = std::move(numbers.quantiles);
+    stochastic.resolution = std::move(numbers.resolution);
+    stochastic.error = ensemble_->error();
+    if (study_.fuzzy) results_.fuzzy.inner = ensemble_->innerCuts();
+    stochastic.why = ensemble_->why();
+    stochastic.envelope = ensemble_->envelope();
+    stochastic.reached = ensemble_->reached();
+    stochastic.integrated = static_cast<std::int64_t>(ensemble_->integrated());
+    if (ensemble_->isComplete()) {
+      stochastic.stopped.clear();
+    } else if (*watch_.stop()) {
       stochastic.stopped = watch_.why();
     }
-    stochastic.cpu = processCpuSeconds() - start;
   }
 
-  void describeEnsemble() {
-    StochasticResult& stochastic = results_.stochastic;
-    stochastic.samples = static_cast<std::int64_t>(ensemble_.samples);
-    stochastic.corners = static_cast<std::int64_t>(ensemble_.corners);
-    stochastic.integrated = static_cast<std::int64_t>(ensemble_.integrated);
-    stochastic.packWidth = static_cast<std::int64_t>(ensemble_.packWidth);
-    stochastic.reached = ensemble_.reached;
-    if (!ensemble_.failed.empty()) stochastic.why = ensemble_.why;
-    if (!ensemble_.complete) stochastic.stopped = watch_.why();
-    stochastic.envelope = ensemble_.envelope();
-  }
-
-  /// There are none if their motions found no room.
-  bool hasSamples() const { return !ensemble_.data.empty(); }
+  /// There are none if the first of them were not all followed.
+  bool hasSamples() const { return ensemble_ && ensemble_->integrated() > 0; }
 
   /// Kinematics: the same samples once more, all at once, by the assembly itself instead of its recording.
-  void moveSamples() {
+  void moveSamples(SampleBlock& block) {
     std::vector<Samples> numbers;
     const UncertainMotion& motion = problem_.motion;
     for (const double value : motion.nominal) numbers.emplace_back(value);
-    for (std::size_t i = 0; i < motion.uncertain.size(); ++i) {
+    for (std::size_t j = 0; j < motion.uncertain.size(); ++j) {
       std::vector<double> values;
-      for (std::size_t number = 0; number < ensemble_.size(); ++number) values.push_back(ensemble_.valuesOf(number)[i]);
-      numbers[static_cast<std::size_t>(motion.slot[i])] = Samples(std::move(values));
+      for (std::size_t i = 0; i < block.size(); ++i) values.push_back(block.values(i)[j]);
+      numbers[static_cast<std::size_t>(motion.slot[j])] = Samples(std::move(values));
     }
     const std::vector<Samples> moved = move<Samples>(numbers);
-    for (std::size_t number = 0; number < ensemble_.size(); ++number)
-      for (std::size_t j = 0; j < moved.size(); ++j)
-        ensemble_.trajectory(number)[j] = moved[j][moved[j].isConstant() ? 0 : number];
+    for (std::size_t j = 0; j < moved.size(); ++j)
+      for (std::size_t i = 0; i < block.size(); ++i) block(i, 0, j) = moved[j][moved[j].isConstant() ? 0 : i];
   }
 
   // ---- Together -----------------------------------------------------------------------------------------------------
 
-  /// Samples against the enclosure, then, from the narrowest to the widest, against the alpha-cuts they belong to.
   void compareAnswers() {
-    watch_.begin(Watch::Stage::rest);
-    const double start = processCpuSeconds();
     ComparisonResult& comparison = results_.comparison;
     comparison.present = true;
-    comparison.verdict = "incomplete";
-    if (!hasSamples()) return;
-    const bool complete = reachedTimes_ == study_.time.size() && ensemble_.complete && ensemble_.failed.empty();
-    comparison.verdict = complete ? "inside" : "incomplete";
-    if (study_.interval) {
-      const Comparison found =
-          compare({results_.interval.at, reachedTimes_}, ensemble_, problem_.motion, comparisonOptions());
-      takeDisputes(found, -1, [](std::size_t number) { return number; });
-      comparison.overestimation = found.overestimation;
-      comparison.excess = found.excess;
-      comparison.maximum = found.maximum;
-      comparison.median = found.median;
-      comparison.maximumOf = found.maximumOf;
-    }
-    for (std::size_t level = problem_.levels.size(); level-- > 0;) compareCut(level);
-    results_.stochastic.envelope = ensemble_.envelope();
-    results_.stochastic.cpu += processCpuSeconds() - start;
+    const bool complete =
+        reachedTimes_ == study_.time.size() && hasSamples() && ensemble_->isComplete() && ensemble_->failures() == 0;
+    if (comparison.verdict == "inside" && !complete) comparison.verdict = "incomplete";
+    if (!study_.interval || !hasSamples()) return;
+    Comparison found;
+    measureOverestimation({results_.interval.at, reachedTimes_}, results_.stochastic.envelope,
+                          results_.stochastic.error, comparisonOptions().resolution, found);
+    comparison.overestimation = found.overestimation;
+    comparison.excess = found.excess;
+    comparison.maximum = found.maximum;
+    comparison.median = found.median;
+    comparison.maximumOf = found.maximumOf;
   }
 
   ComparisonOptions comparisonOptions() const {
@@ -289,64 +321,12 @@ class Driver {
     return options;
   }
 
-  /// The samples that lie in the level's box but outside its cut are looked at again, as a small ensemble of their own.
-  void compareCut(std::size_t level) {
-    const Bounds& cut = results_.fuzzy.outer[level];
-    std::vector<std::size_t> numbers;
-    for (std::size_t number = 0; number < ensemble_.size(); ++number)
-      if (belongsTo(level, number) && leaves(cut, number)) numbers.push_back(number);
-    if (numbers.empty()) return;
-    Ensemble part = partOf(numbers);
-    takeDisputes(compare({cut, reachedTimes_}, part, problem_.motion, comparisonOptions()), static_cast<int>(level),
-                 [&](std::size_t number) { return numbers[number]; });
-    for (std::size_t i = 0; i < numbers.size(); ++i)
-      std::ranges::copy(std::as_const(part).trajectory(i), ensemble_.trajectory(numbers[i]).begin());
-  }
-
-  bool belongsTo(std::size_t level, std::size_t number) const {
-    const UncertainMotion& motion = problem_.motion;
-    for (std::size_t i = 0; i < motion.uncertain.size(); ++i) {
-      const Interval& values = problem_.levels[level][static_cast<std::size_t>(motion.slot[i])];
-      if (!contains(values, ensemble_.valuesOf(number)[i])) return false;
-    }
-    return true;
-  }
-
-  bool leaves(const Bounds& cut, std::size_t number) const {
-    const std::span<const double> trajectory = std::as_const(ensemble_).trajectory(number);
-    for (std::size_t i = 0; i < reachedTimes_ * ensemble_.outputs; ++i)
-      if (trajectory[i] < cut.lower.data[i] || trajectory[i] > cut.upper.data[i]) return true;
-    return false;
-  }
-
-  /// An ensemble of these samples alone, the last one in the centre's place.
-  Ensemble partOf(const std::vector<std::size_t>& numbers) const {
-    Ensemble part;
-    part.times = ensemble_.times;
-    part.outputs = ensemble_.outputs;
-    part.quantities = ensemble_.quantities;
-    part.samples = numbers.size() - 1;
-    part.integrated = numbers.size();
-    part.complete = ensemble_.complete;
-    part.tolerance = ensemble_.tolerance;
-    part.method = ensemble_.method;
-    part.packWidth = ensemble_.packWidth;
-    part.error = ensemble_.error;
-    for (const std::size_t number : numbers) {
-      const auto values = ensemble_.valuesOf(number), trajectory = std::as_const(ensemble_).trajectory(number);
-      part.values.insert(part.values.end(), values.begin(), values.end());
-      part.data.insert(part.data.end(), trajectory.begin(), trajectory.end());
-    }
-    return part;
-  }
-
   /// The findings about an alpha-cut, or, level -1, about the enclosure.
-  template <class NumberOf>
-  void takeDisputes(const Comparison& found, int level, const NumberOf& numberOf) {
+  void takeDisputes(const Comparison& found, int level) {
     ComparisonResult& comparison = results_.comparison;
     for (const Dispute& d : found.disputes) {
-      comparison.disputed.push_back({static_cast<std::int64_t>(numberOf(d.number)), d.time, d.output, d.value, d.lower,
-                                     d.upper, d.distance, d.error, d.decided, d.outside, level, d.farthest});
+      comparison.disputed.push_back({static_cast<std::int64_t>(d.number), d.time, d.output, d.value, d.lower, d.upper,
+                                     d.distance, d.error, d.decided, d.outside, level, d.farthest});
       if (d.outside) comparison.verdict = "outside";
       if (d.decided == "unresolved" && comparison.verdict != "outside") comparison.verdict = "unresolved";
       if (d.decided != "interrupted") continue;
@@ -356,28 +336,12 @@ class Driver {
     comparison.excursion = std::max(comparison.excursion, found.excursion);
   }
 
-  void describeSamples() {
-    double start = processCpuSeconds();
-    StochasticResult& stochastic = results_.stochastic;
-    const Statistics numbers = statistics(ensemble_);
-    stochastic.mean = numbers.mean;
-    stochastic.deviation = numbers.deviation;
-    stochastic.error = ensemble_.error;
-    stochastic.probabilities = numbers.probabilities;
-    stochastic.quantiles = numbers.quantiles;
-    stochastic.cpu += processCpuSeconds() - start;
-    if (!study_.fuzzy) return;
-    start = processCpuSeconds();
-    results_.fuzzy.inner = innerCuts(ensemble_, problem_.motion.uncertain, problem_.alpha);
-    results_.fuzzy.cpu += processCpuSeconds() - start;
-  }
-
   const Study& study_;
   const RunOptions& options_;
   Watch watch_;
   Problem problem_;
   Results results_;
-  Ensemble ensemble_;
+  std::optional<EnsembleRun> ensemble_;
   std::size_t reachedTimes_ = 0;
   double recordingCpu_ = 0;
 };

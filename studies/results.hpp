@@ -46,22 +46,24 @@ struct IntervalResult {
 /// What is probable.
 struct StochasticResult {
   /// The plan's samples, the corners and the centre.
-  std::int64_t planned() const { return samples + corners + 1; }
+  std::int64_t planned() const { return samples + corners + alphaCorners + 1; }
 
   bool present = false;
   std::string plan;
-  std::int64_t samples = 0;     ///< that count in the statistics
-  std::int64_t corners = 0;     ///< integrated besides, without weight
-  std::int64_t integrated = 0;  ///< how many of samples, corners and centre were followed before the analysis ended
+  std::int64_t samples = 0;       ///< that count in the statistics
+  std::int64_t corners = 0;       ///< of the uncertain box, integrated besides, without weight
+  std::int64_t alphaCorners = 0;  ///< of the alpha-cuts' boxes, likewise
+  std::int64_t integrated = 0;    ///< how many of samples, corners and centre were followed before the analysis ended
   double relativeTolerance = 0, absoluteTolerance = 0;
   std::int64_t packWidth = 1;  ///< samples of one number / packWidth were integrated together
   std::string stopped;         ///< why not all were followed; empty if they were
-  double reached = 0;          ///< s: all that were followed arrived there
+  double reached = 0;          ///< s: all that were followed arrived there; envelope and statistics end there
   std::string why;             ///< why that is before the horizon; empty if it is not
   Bounds envelope;             ///< of all samples, corners and centre
   Grid mean, deviation;
   std::vector<double> probabilities;  ///< of the quantiles
   std::vector<Grid> quantiles;        ///< one grid a probability
+  Grid resolution;                    ///< no quantile is farther than this from that of the samples themselves
   Grid error;                         ///< the witness's own error, measured at tighter tolerance
   double cpu = 0;
 };

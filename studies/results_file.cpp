@@ -101,6 +101,7 @@ void writeStochastic(Hdf5Writer& root, const Results& results) {
   group.attribute("plan", stochastic.plan);
   group.attribute("samples", stochastic.samples);
   group.attribute("corners", stochastic.corners);
+  group.attribute("alpha_corners", stochastic.alphaCorners);
   group.attribute("integrated", stochastic.integrated);
   group.attribute("stopped", stochastic.stopped);
   group.attribute("relative_tolerance", stochastic.relativeTolerance);
@@ -114,6 +115,8 @@ void writeStochastic(Hdf5Writer& root, const Results& results) {
   grids.grid("mean", stochastic.mean, "mean of the samples");
   grids.grid("deviation", stochastic.deviation, "standard deviation of the samples");
   grids.grid("error", stochastic.error, "measured error of the integration of samples");
+  grids.grid("resolution", stochastic.resolution,
+             "greatest distance of a quantile from that of the samples themselves");
   if (stochastic.probabilities.empty()) return;
   writeScale(group, "probability", stochastic.probabilities, "probability of the quantile", "1");
   std::vector<const Grid*> quantiles;
@@ -282,6 +285,7 @@ void readStochastic(const Hdf5Reader& root, Results& results) {
   stochastic.plan = group.text("plan");
   stochastic.samples = group.integer("samples");
   stochastic.corners = group.integer("corners");
+  stochastic.alphaCorners = group.integer("alpha_corners");
   stochastic.integrated = group.integer("integrated");
   stochastic.stopped = group.text("stopped");
   stochastic.relativeTolerance = group.number("relative_tolerance");
@@ -295,6 +299,7 @@ void readStochastic(const Hdf5Reader& root, Results& results) {
   stochastic.mean = grids.grid("mean");
   stochastic.deviation = grids.grid("deviation");
   stochastic.error = grids.grid("error");
+  stochastic.resolution = grids.grid("resolution");
   if (!group.has("probability")) return;
   stochastic.probabilities = readList(group, "probability");
   stochastic.quantiles = grids.stack("quantiles", stochastic.probabilities.size());
@@ -392,6 +397,7 @@ void checkSense(const Results& results) {
   require(isCount(results.interval.steps), "steps");
   require(isCount(results.stochastic.samples), "samples");
   require(isCount(results.stochastic.corners), "corners");
+  require(isCount(results.stochastic.alphaCorners), "alpha_corners");
   require(isCount(results.stochastic.integrated), "integrated");
   for (const DisputedSample& sample : results.comparison.disputed) {
     require(isCount(sample.number), "number");

@@ -69,14 +69,26 @@ const Bounds& provedBounds(const Results& results) {
                                                                      : results.interval.at;
 }
 
-/// The last row in which some output is enclosed or sampled.
+/// The last row in which some output is enclosed and sampled, or, if there is none, one of the two.
 std::size_t lastRow(const Results& results) {
   const Bounds& proved = provedBounds(results);
-  const Bounds& bounds = proved.empty() ? results.stochastic.envelope : proved;
-  for (std::size_t i = results.time.size(); i > 0 && !bounds.empty(); --i)
+  const Bounds& sampled = results.stochastic.envelope;
+  const auto isThere = [&](const Bounds& bounds, std::size_t i) {
     for (std::size_t j = 0; j < results.outputs.size(); ++j)
-      if (!std::isnan(bounds.lower(i - 1, j))) return i - 1;
-  return 0;
+      if (!std::isnan(bounds.lower(i, j))) return true;
+    return false;
+  };
+  const auto lastOf = [&](const auto& holds) {
+    std::size_t i = results.time.size();
+    while (i > 0 && !holds(i - 1)) --i;
+    return i;
+  };
+  const std::size_t both = lastOf(
+      [&](std::size_t i) { return !proved.empty() && !sampled.empty() && isThere(proved, i) && isThere(sampled, i); });
+  const Bounds& either = proved.empty() ? sampled : proved;
+  const std::size_t row =
+      both > 0 ? both : lastOf([&](std::size_t i) { return !either.empty() && isThere(either, i); });
+  return row > 0 ? row - 1 : 0;
 }
 
 /// Columns as wide as their widest entry (in code points), the first one left-aligned.
@@ -205,7 +217,7 @@ std::string infoText(const Results& results) {
                         counted(r.steps, "step"), r.cpu);
   if (const StochasticResult& r = results.stochastic; r.present)
     text += fmt::format("  samples: {}{} ({}) and {}, {:.2f} s CPU{}\n", until(r.reached, r.why), r.samples, r.plan,
-                        counted(r.corners, "corner"), r.cpu,
+                        counted(r.corners + r.alphaCorners, "corner"), r.cpu,
                         r.stopped.empty() ? "" : fmt::format("; {} were taken: {}", samplesText(r), r.stopped));
   if (const FuzzyResult& r = results.fuzzy; r.present)
     text += fmt::format("  alpha-cuts: {}{}, {:.2f} s CPU\n", until(r.reached, r.why),

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "tests/analyses/motions.hpp"
+#include "tests/analyses/whole_ensemble.hpp"
 
 namespace gamut {
 namespace {
@@ -49,7 +50,7 @@ class DecayCompared : public testing::Test {
   }
 
   UncertainMotion system = decay();
-  Ensemble ensemble;
+  WholeEnsemble ensemble;
   EnclosureBounds enclosure;
   std::size_t firstCorner = sampleCount, secondCorner = sampleCount + 1;
 };
@@ -213,7 +214,7 @@ TEST(Comparison, ASampleOneUlpOutsideIsDisputed) {
   const UncertainMotion system = line();
   EnsembleOptions options;
   options.samples = 8;
-  Ensemble ensemble = sampleEnsemble(system, options);
+  WholeEnsemble ensemble = sampleEnsemble(system, options);
   EnclosureBounds enclosure{Envelope(2, 1), 2};
   for (std::size_t t = 0; t < 2; ++t) {  // y runs from 1 + t to 3 + t, and doubles reach both ends
     enclosure.bounds.lower(t, 0) = 1.0 + static_cast<double>(t);
@@ -238,7 +239,7 @@ TEST(Comparison, AFailedSampleLeavesTheComparisonIncomplete) {
   system.motion.f = record(1, 1, [](auto, const auto& x, const auto& p, auto& dx) { dx[0] = p[0] * sqr(x[0]); });
   EnsembleOptions options;
   options.samples = 16;
-  Ensemble ensemble = sampleEnsemble(system, options);
+  WholeEnsemble ensemble = sampleEnsemble(system, options);
   EnclosureBounds enclosure{Envelope(11, 1), 11};
   for (double& bound : enclosure.bounds.lower.data) bound = -std::numeric_limits<double>::infinity();
   for (double& bound : enclosure.bounds.upper.data) bound = std::numeric_limits<double>::infinity();
@@ -249,7 +250,7 @@ TEST(Comparison, AMotionWithoutStatesIsDisputedBeforeTheArbiterAtOnce) {
   const UncertainMotion system = line();
   EnsembleOptions options;
   options.samples = 8;
-  Ensemble ensemble = sampleEnsemble(system, options);
+  WholeEnsemble ensemble = sampleEnsemble(system, options);
   EnclosureBounds enclosure{Envelope(2, 1), 2};
   for (std::size_t t = 0; t < 2; ++t) {
     enclosure.bounds.lower(t, 0) = 1.0 + static_cast<double>(t);

@@ -251,11 +251,26 @@ TEST(Verdict, NamesEveryUnresolvedSample) {
 
 TEST(Verdict, NamesCornersAndTheCentreAsSuch) {
   Results results = example::pendulum();
-  const std::int64_t first = results.stochastic.samples, corners = results.stochastic.corners;
-  for (const std::int64_t number : {first - 1, first, first + corners})
+  results.stochastic.alphaCorners = 18;
+  results.stochastic.integrated = results.stochastic.planned();
+  for (const std::int64_t number : {4095, 4096, 4098, 4115, 4116})
     dispute(results, 1e-6, "tolerance 1e-12").number = number;
   EXPECT_THAT(judge(results).notes,
-              ElementsAre(StartsWith("Sample 4095 ("), StartsWith("Corner 1 of 2 ("), StartsWith("The centre (")));
+              ElementsAre(StartsWith("Sample 4095 ("), StartsWith("Corner 1 of 2 ("),
+                          StartsWith("Corner 1 of 18 of the alpha-cuts ("),
+                          StartsWith("Corner 18 of 18 of the alpha-cuts ("), StartsWith("The centre (")));
+  EXPECT_THAT(judge(results).sentence, StartsWith("All 4117 sampled motions stay inside"));
+}
+
+TEST(Verdict, OfAFirstBlockOfSamplesIsIncompleteThoughTheyAllReachTheHorizon) {
+  Results results = example::pendulum();
+  results.stochastic.integrated = 259;
+  results.stochastic.stopped = "interrupted";
+  results.comparison.verdict = "incomplete";
+  const Verdict verdict = judge(results);
+  EXPECT_EQ(verdict.word, "incomplete");
+  EXPECT_THAT(verdict.sentence, StartsWith("All 259 motions that were sampled stay inside the guaranteed enclosure"));
+  EXPECT_THAT(verdict.notes, ElementsAre("259 of 4099 samples were taken: interrupted."));
 }
 
 TEST(Verdict, CountsTheSettledSamplesThatItDoesNotName) {

@@ -53,7 +53,8 @@ inline Results sampleResults() {
   r.stochastic.plan = "sobol";
   r.stochastic.samples = 4096;
   r.stochastic.corners = 3;
-  r.stochastic.integrated = 4000;
+  r.stochastic.alphaCorners = 18;
+  r.stochastic.integrated = 1000;
   r.stochastic.stopped = "the run was interrupted";
   r.stochastic.relativeTolerance = 1e-10;
   r.stochastic.absoluteTolerance = 1e-12;
@@ -65,6 +66,7 @@ inline Results sampleResults() {
   r.stochastic.probabilities = {0.05, 0.95};
   r.stochastic.quantiles = {sampleGrid(3, 2, 0.4), sampleGrid(3, 2, 0.8)};
   r.stochastic.error = sampleGrid(3, 2, 1e-12);
+  r.stochastic.resolution = sampleGrid(3, 2, 1e-4);
   r.stochastic.cpu = 1.5;
   r.fuzzy.present = true;
   r.fuzzy.reached = 0.01;

@@ -62,13 +62,74 @@ TEST(Driver, LeavesOpenWhatAnInterruptKeepsFromBeingDecided) {
   RunOptions options;
   options.cancelled = &cancelled;
   options.progress = [&](const std::string& task, double fraction) {
-    if (task == "samples" && fraction >= 1) cancelled = true;
+    if (task == "enclosure" && fraction > 0.5) cancelled = true;
   };
-  const ComparisonResult comparison = run(readStudyText(sampleStudy, "s.toml"), options).comparison;
+  const Results results = run(readStudyText(sampleStudy, "s.toml"), options);
+  const ComparisonResult& comparison = results.comparison;
   EXPECT_EQ(comparison.verdict, "incomplete");
   EXPECT_EQ(comparison.excursion, 0);
   EXPECT_THAT(comparison.disputed, Not(IsEmpty()));
   EXPECT_THAT(comparison.disputed, Each(Field(&DisputedSample::decided, "interrupted")));
+}
+
+TEST(Driver, ComparesAFirstBlockOfSamplesWithAnEnclosureThatIsInterrupted) {
+  std::atomic<bool> cancelled{false};
+  RunOptions options;
+  options.samples = 5000;
+  options.cancelled = &cancelled;
+  options.progress = [&](const std::string& task, double) {
+    if (task == "enclosure") cancelled = true;
+  };
+  const Results results = run(readStudyText(sampleStudy, "s.toml"), options);
+  EXPECT_EQ(results.comparison.verdict, "incomplete");
+  EXPECT_EQ(results.stochastic.integrated, 256 + 2 + results.stochastic.alphaCorners + 1);
+  EXPECT_EQ(results.stochastic.stopped, "the run was interrupted");
+  EXPECT_EQ(results.stochastic.reached, 0.5);
+  EXPECT_FALSE(std::isnan(results.stochastic.quantiles[2](5, 0)));
+  EXPECT_FALSE(std::isnan(results.fuzzy.inner[5].lower(5, 0)));
+}
+
+TEST(Driver, QuantilesAreWithinTheirResolutionOfThoseOfTheSamplesThemselves) {
+  const Study study = readStudyText(sampleStudy, "s.toml");
+  RunOptions options;
+  options.samples = 700;
+  const StochasticResult found = run(study, options).stochastic;
+  const Problem problem = makeProblem(study);
+  EnsembleOptions ensemble = study.ensemble;
+  ensemble.samples = 700;
+  std::vector<std::vector<double>> trajectories;
+  for (std::size_t i = 0; i < 700; ++i) trajectories.push_back(replaySample(problem.motion, ensemble, i));
+  for (std::size_t cell = 0; cell < trajectories[0].size(); ++cell) {
+    std::vector<double> column;
+    for (const std::vector<double>& trajectory : trajectories) column.push_back(trajectory[cell]);
+    std::ranges::sort(column);
+    const double resolution = found.resolution.data[cell];
+    EXPECT_LE(resolution, 1.01 * (column.back() - column.front()) / 4096 + 1e-9);
+    for (std::size_t q = 0; q < found.probabilities.size(); ++q) {
+      const double position = found.probabilities[q] * 699, below = std::floor(position);
+      const auto k = static_cast<std::size_t>(below);
+      const double exact = column[k] + (position - below) * (column[k + 1] - column[k]);
+      EXPECT_LE(std::abs(found.quantiles[q].data[cell] - exact), resolution) << cell << ' ' << q;
+    }
+  }
+}
+
+TEST(Driver, AlphaCutsOfSeveralQuantitiesAreReachedByTheirCorners) {
+  std::string text = sampleStudyWith("[[uncertain]]", threeUncertain);
+  const std::string more = R"([[uncertain]]
+quantity = "hinge.rate"
+interval = "± 1 %"
+)";
+  text.insert(text.find("[[uncertain]]"), more);
+  const Results results = run(readStudyText(text, "s.toml"));
+  EXPECT_EQ(results.comparison.verdict, "inside");
+  EXPECT_EQ(results.stochastic.alphaCorners, 9 * 16);
+  const std::size_t last = results.time.size() - 1;
+  for (std::size_t level = 0; level < 10; ++level) {
+    const Bounds &inner = results.fuzzy.inner[level], &outer = results.fuzzy.outer[level];
+    const double sampled = inner.upper(last, 0) - inner.lower(last, 0);
+    EXPECT_GT(sampled, 0.95 * (outer.upper(last, 0) - outer.lower(last, 0))) << level;
+  }
 }
 
 TEST(Driver, KeepsSamplesInsideWithUncertainParametersAndInitialValues) {
@@ -119,6 +180,7 @@ TEST(Driver, StopsWhenToldAndSaysSo) {
   EXPECT_LT(results.interval.reached, 0.5);
   EXPECT_EQ(results.interval.why, "the run was interrupted");
   EXPECT_EQ(results.stochastic.stopped, "the run was interrupted");
+  EXPECT_EQ(results.stochastic.integrated, 0);
 }
 
 /// A pendulum near its upper rest, whose enclosure is bisected again and again.
@@ -139,7 +201,7 @@ TEST(Driver, EndsAnEnclosureThatTakesTooLongAndSamplesAllTheSame) {
   EXPECT_LT(results.interval.reached, 20);
   EXPECT_LT(results.interval.cpu + results.fuzzy.cpu, 1);
   EXPECT_EQ(results.stochastic.stopped, "");
-  EXPECT_EQ(results.stochastic.integrated, 19);
+  EXPECT_EQ(results.stochastic.integrated, 16 + 2 + 18 + 1);
   EXPECT_EQ(results.comparison.verdict, "incomplete");
 }
 

@@ -108,12 +108,28 @@ TEST_F(Program, WritesWholeFilesWhereStandardStreamsAreClosed) {
   EXPECT_THAT(folder_.read("s.html"), StartsWith("<!"));
 }
 
-TEST_F(Program, RefusesMoreSamplesThanTheMemoryHolds) {
-  folder_.write("s.toml", sampleStudyWith("output_step = 0.1", "output_step = 1e-5"));
-  const Outcome run = gamut("run s.toml --samples 10000000");
+TEST_F(Program, RefusesMoreOutputsThanTheMemoryHolds) {
+  std::string study = sampleStudyWith("output_step = 0.1", "output_step = 1e-5");
+  for (int i = 2; i < 2000; ++i)
+    study += "[[output]]\nquantity = \"hinge.angle\"\nname = \"angle " + std::to_string(i) + "\"\n";
+  folder_.write("s.toml", study);
+  const Outcome run = gamut("run s.toml");
   EXPECT_EQ(run.exitCode, 2);
-  EXPECT_THAT(run.error, HasSubstr("10000000 samples of 2 outputs at 50001 times need 8000 GB, the memory limit is "));
+  EXPECT_THAT(run.error, HasSubstr("samples of 2000 outputs at 50001 times need "));
+  EXPECT_THAT(run.error, HasSubstr(" GB, the memory limit is "));
   EXPECT_EQ(folder_.count(), 1U);
+}
+
+/// Three million motions kept would be 2.5 GB.
+TEST_F(Program, TakesNoMoreMemoryForMoreSamples) {
+  std::filesystem::copy(GAMUT_SOURCE_DIR "/studies/tip_position/study.toml", folder_.path("tip.toml"));
+  const std::string command = "cd '" + folder_.path("") +
+                              "' && ulimit -v 1000000 && '" GAMUT_PROGRAM
+                              "' run tip.toml --samples 3000000 --jobs 2 --quiet";
+  const int status = std::system(command.c_str());
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 0);
+  EXPECT_EQ(readResults(folder_.path("tip.h5")).stochastic.integrated, 3000000 + 2 + 18 + 1);
 }
 
 TEST_F(Program, RefusesABadStudyWithoutTouchingAnyFile) {

@@ -97,6 +97,9 @@ TEST_F(ResultsFile, GivesBackEveryAnswer) {
   EXPECT_EQ(found.stochastic.plan, expected.stochastic.plan);
   EXPECT_EQ(found.stochastic.samples, expected.stochastic.samples);
   EXPECT_EQ(found.stochastic.corners, expected.stochastic.corners);
+  EXPECT_EQ(found.stochastic.alphaCorners, 18);
+  EXPECT_EQ(found.stochastic.integrated, 1000);
+  EXPECT_EQ(found.stochastic.stopped, "the run was interrupted");
   EXPECT_EQ(found.stochastic.relativeTolerance, expected.stochastic.relativeTolerance);
   EXPECT_EQ(found.stochastic.absoluteTolerance, expected.stochastic.absoluteTolerance);
   EXPECT_EQ(found.stochastic.packWidth, 64);
@@ -107,6 +110,7 @@ TEST_F(ResultsFile, GivesBackEveryAnswer) {
   expectSame(found.stochastic.mean, expected.stochastic.mean, "mean");
   expectSame(found.stochastic.deviation, expected.stochastic.deviation, "deviation");
   expectSame(found.stochastic.error, expected.stochastic.error, "error");
+  expectSame(found.stochastic.resolution, expected.stochastic.resolution, "resolution");
   EXPECT_EQ(found.stochastic.probabilities, expected.stochastic.probabilities);
   ASSERT_EQ(found.stochastic.quantiles.size(), 2U);
   for (std::size_t i = 0; i < 2; ++i)
@@ -125,7 +129,7 @@ TEST_F(ResultsFile, GivesBackEveryAnswer) {
 TEST_F(ResultsFile, GivesBackWhatWasSpentAndWhyItEnded) {
   writeResults(sampleResults(), path_);
   const Results found = readResults(path_);
-  EXPECT_EQ(found.stochastic.integrated, 4000);
+  EXPECT_EQ(found.stochastic.integrated, 1000);
   EXPECT_EQ(found.stochastic.stopped, "the run was interrupted");
   EXPECT_EQ(found.cpu, 2.25);
   EXPECT_EQ(found.memory, 1.5e9);

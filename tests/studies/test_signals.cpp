@@ -44,6 +44,7 @@ class StartedRun {
     arguments.push_back(nullptr);
     process_ = ::fork();
     if (process_ == 0) {
+      for (const int signal : {SIGINT, SIGTERM, SIGHUP}) ::signal(signal, SIG_DFL);  // else ignored below nohup
       if (::chdir(folder.path("").c_str()) != 0 || ::freopen("/dev/null", "w", stdout) == nullptr) ::_exit(99);
       ::execv(GAMUT_PROGRAM, const_cast<char* const*>(arguments.data()));
       ::_exit(98);
@@ -155,6 +156,8 @@ TEST_F(Signals, ARunThatIsKilledLeavesTheOldFileOrAWholeOneOrNone) {
     }
   }
   EXPECT_GT(killed, moments / 4);
+  EXPECT_EQ(StartedRun(folder_, arguments_).wait(), 0);
+  EXPECT_EQ(folder_.count(), 3U);  // the study and what the last run wrote: what the killed ones left is gone
 }
 
 }  // namespace
