@@ -9,8 +9,10 @@
 #include <atomic>
 #include <cerrno>
 #include <charconv>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <ctime>
 #include <filesystem>
@@ -21,11 +23,13 @@
 #include <system_error>
 #include <thread>
 
+#include "mechanics/names.hpp"
 #include "reports/report.hpp"
 #include "reports/verdict.hpp"
 #include "reports/words.hpp"
 #include "studies/atomic_file.hpp"
 #include "studies/driver.hpp"
+#include "studies/printable.hpp"
 #include "studies/progress.hpp"
 #include "studies/results_file.hpp"
 #include "studies/study.hpp"
@@ -44,8 +48,9 @@ constexpr const char* exitCodes =
     "  0  done, and every sample lies inside its enclosure\n"
     "  1  a sample left its enclosure, or stayed unresolved\n"
     "  2  bad input or usage\n"
-    "  3  an analysis ended before its horizon or was interrupted, or `gamut check` found nothing to compare;\n"
-    "     what was proved is kept and reported\n"
+    "  3  an analysis ended before its horizon, was interrupted or reached a limit of time or memory, or `gamut "
+    "check`\n"
+    "     found nothing to compare; what was proved is kept and reported\n"
     "  4  an internal failure, or something could not be written";
 
 /// Something the user asked for cannot be done; what() is one line.
@@ -59,19 +64,31 @@ struct Arguments {
   int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   std::optional<std::uint64_t> seed;
   std::optional<std::size_t> samples;
+  std::optional<double> timeLimit, memoryLimit;  // s of CPU; GB
   bool json = false, quiet = false, force = false;
 };
 
 std::atomic<bool> interrupted{false};
 static_assert(std::atomic<bool>::is_always_lock_free);
 
-/// The first interrupt ends the analyses and keeps what they found; a second one ends the program.
+/// The first interrupt ends the analyses and keeps what they found; a second one of its kind ends the program. What was
+/// to be ignored, as by nohup, stays so.
 void endOnInterrupt() {
   struct sigaction action {};
   action.sa_handler = [](int) { interrupted = true; };
   action.sa_flags = SA_RESETHAND;
-  ::sigaction(SIGINT, &action, nullptr);
-  ::sigaction(SIGTERM, &action, nullptr);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction before {};
+    if (::sigaction(signal, nullptr, &before) == 0 && before.sa_handler != SIG_IGN)
+      ::sigaction(signal, &action, nullptr);
+  }
+}
+
+/// The last resort against a run without end: no file is touched.
+[[noreturn]] void endAtOnce(const std::string& why) {
+  fmt::print(stderr, "gamut: {}, and the preparation of the enclosure could not be ended; nothing was written\n", why);
+  std::fflush(stderr);
+  std::_Exit(endedEarly);
 }
 
 /// "double_pendulum" for double_pendulum/study.toml, "arm" for arm.toml.
@@ -82,16 +99,11 @@ std::string nameOfStudy(const std::string& path) {
              : file.stem().string();
 }
 
-/// Before any work is done: the file may be written, and overwrites nothing that it must not.
-void checkOutput(const std::string& path, const std::string& input, bool force) {
+/// Before any work is done: the file may be written, overwrites nothing that it must not, and is ours from now on.
+OutputFile reserve(const std::string& path, const std::string& input, bool force) {
   std::error_code error;
-  try {
-    checkWritable(path);
-  } catch (const WriteError& refused) {
-    throw UsageError(refused.what());
-  }
   if (fs::equivalent(path, input, error)) throw UsageError(path + ": cannot be written; it is the input");
-  if (fs::exists(path, error) && !force) throw UsageError(path + ": exists already; expected another name, or --force");
+  return {path, force ? OutputFile::Existing::isReplaced : OutputFile::Existing::isKept};
 }
 
 double cpuSeconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
@@ -101,10 +113,10 @@ void printVerdict(std::FILE* stream, const Verdict& verdict) {
   for (const std::string& note : verdict.notes) fmt::print(stream, "  {}\n", note);
 }
 
-/// Without a comparison there is no verdict: what counts is that the horizon was reached.
+/// Without a comparison there is no verdict: what counts is that every analysis came to its end.
 int exitCodeOf(const Results& results, const Verdict& verdict) {
   if (results.comparison.present) return exitCode(verdict);
-  return reachedTime(results) >= results.horizon ? done : endedEarly;
+  return whyEnded(results).empty() ? done : endedEarly;
 }
 
 void say(const Arguments& arguments, const Results& results, const Verdict& verdict) {
@@ -119,34 +131,42 @@ void say(const Arguments& arguments, const Results& results, const Verdict& verd
                                    {arguments.results, arguments.report}));
 }
 
-/// Every sample's motion is kept until it has been compared.
-void checkMemory(const Study& study, const Arguments& arguments) {
-  const std::size_t samples = arguments.samples.value_or(study.ensemble.samples);
-  const double needed = 8.0 * static_cast<double>(samples) * static_cast<double>(study.time.size()) *
-                        static_cast<double>(study.outputs.size());
-  const double present = static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGE_SIZE));
-  if (study.stochastic && needed > present)
+/// A block of samples' motions is kept until it has been compared.
+void checkMemory(const Study& study, const RunOptions& options, const std::string& input) {
+  const std::size_t levels = study.fuzzy ? static_cast<std::size_t>(study.levels) : 0;
+  const double needed = ensembleBytes(study.time.size(), study.outputs.size(), study.uncertain.size(), levels);
+  const double limit = limitsOf(study, options).memory;
+  if (study.stochastic && needed > limit)
     throw UsageError(
-        fmt::format("{}: {} samples of {} outputs at {} times need {:.0f} GB, this machine has {:.0f} GB; "
-                    "expected fewer samples or output times",
-                    arguments.input, samples, study.outputs.size(), study.time.size(), needed / 1e9, present / 1e9));
+        fmt::format("{}: samples of {} outputs at {} times need {:.3g} GB, the memory limit is {:.3g} GB; "
+                    "expected fewer outputs or output times",
+                    input, study.outputs.size(), study.time.size(), needed / 1e9, limit / 1e9));
+}
+
+Study readNoting(const Arguments& arguments) {
+  Study study = readStudy(arguments.input);
+  if (!arguments.quiet)
+    for (const std::string& note : study.notes) fmt::print(stderr, "{}\n", note);
+  return study;
 }
 
 int runStudy(Arguments arguments) {
-  const Study study = readStudy(arguments.input);
+  endOnInterrupt();
+  const Study study = readNoting(arguments);
   if (arguments.results.empty()) arguments.results = nameOfStudy(arguments.input) + ".h5";
   if (arguments.report.empty()) arguments.report = fs::path(arguments.results).replace_extension(".html").string();
   if (fs::absolute(arguments.results).lexically_normal() == fs::absolute(arguments.report).lexically_normal())
     throw UsageError(arguments.report + ": is both results and report; expected two names");
-  checkOutput(arguments.results, arguments.input, arguments.force);
-  checkOutput(arguments.report, arguments.input, arguments.force);
-  checkMemory(study, arguments);
-
-  endOnInterrupt();
   RunOptions options;
   options.jobs = arguments.jobs;
   options.seed = arguments.seed;
   options.samples = arguments.samples;
+  options.timeLimit = arguments.timeLimit;
+  if (arguments.memoryLimit) options.memoryLimit = 1e9 * *arguments.memoryLimit;
+  checkMemory(study, options, arguments.input);
+  OutputFile resultsFile = reserve(arguments.results, arguments.input, arguments.force);
+  OutputFile reportFile = reserve(arguments.report, arguments.input, arguments.force);
+  options.overdue = endAtOnce;
   options.cancelled = &interrupted;
   ProgressBar bar(!arguments.quiet);
   options.progress = [&](const std::string& task, double fraction) { bar.update(task, fraction); };
@@ -161,15 +181,15 @@ int runStudy(Arguments arguments) {
   const double start = cpuSeconds();
   const std::string page = renderReport(results);
   results.reportCpu = cpuSeconds() - start;
-  writeResults(results, arguments.results);
-  replaceFileText(arguments.report, page);
+  writeResults(results, resultsFile);
+  reportFile.write(page);
   const Verdict verdict = judge(results);
   say(arguments, results, verdict);
   return exitCodeOf(results, verdict);
 }
 
 int validateStudy(const Arguments& arguments) {
-  const Study study = readStudy(arguments.input);
+  const Study study = readNoting(arguments);
   if (!arguments.quiet)
     fmt::print("{}: valid; {} with {}, {} uncertain {}, {}{}\n", arguments.input, study.analysisName(),
                countText(static_cast<long long>(study.mechanism.elements().size()), "element"), study.uncertain.size(),
@@ -190,8 +210,7 @@ int reportResults(const Arguments& arguments) {
                                ? fs::path(arguments.input).filename().replace_extension(".html").string()
                                : arguments.report;
   const Results results = readResults(arguments.input);
-  checkOutput(path, arguments.input, arguments.force);
-  writeReport(results, path);
+  reserve(path, arguments.input, arguments.force).write(renderReport(results));
   fmt::print("{}\n", path);
   return done;
 }
@@ -215,6 +234,18 @@ CLI::Validator wholeNumber(std::uint64_t least, std::uint64_t most) {
   return {problem, "", "whole number"};
 }
 
+/// Decimals alone: no hexadecimal, no infinity.
+CLI::Validator positiveNumber() {
+  const auto problem = [](const std::string& text) {
+    double value = 0;
+    const char* end = text.data() + text.size();
+    const auto [last, error] = std::from_chars(text.data(), end, value);
+    const bool isFine = error == std::errc() && last == end && value > 0 && std::isfinite(value);
+    return isFine ? std::string() : fmt::format("'{}' is no number above 0", text);
+  };
+  return {problem, "", "number"};
+}
+
 void describeRun(CLI::App& command, Arguments& arguments) {
   command.add_option("study", arguments.input, "Study file (TOML)")->required()->type_name("STUDY.toml");
   command
@@ -234,6 +265,16 @@ void describeRun(CLI::App& command, Arguments& arguments) {
   command.add_option("--samples", arguments.samples, "Number of samples, 1 to 10000000, instead of the study's")
       ->check(wholeNumber(1, 10000000))
       ->type_name("N");
+  command
+      .add_option("--time-limit", arguments.timeLimit,
+                  "CPU time for the whole run, s, instead of the study's (otherwise 1800)")
+      ->check(positiveNumber())
+      ->type_name("SECONDS");
+  command
+      .add_option("--memory-limit", arguments.memoryLimit,
+                  "Memory for the whole run, GB, instead of the study's (otherwise three quarters of the machine's)")
+      ->check(positiveNumber())
+      ->type_name("GB");
   command.add_flag("--json", arguments.json, "One JSON object on standard output, all else on standard error");
   command.add_flag("--quiet", arguments.quiet, "Neither progress nor summary");
   command.add_flag("--force", arguments.force, "Overwrite existing files");
@@ -283,6 +324,12 @@ int parseAndRun(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);
     const auto commands = app.get_subcommands();
+    if (commands.empty() && argc > 1 && argv[1][0] != '-') {
+      std::vector<std::string> known;
+      for (const CLI::App* command : app.get_subcommands({})) known.push_back(command->get_name());
+      const UnknownName unknown("command", argv[1], known);
+      throw UsageError(fmt::format("{}; expected {}", unknown.problem(), unknown.expected()));
+    }
     throw UsageError(fmt::format("{}; see gamut {}--help", error.what(),
                                  commands.empty() ? "" : commands.front()->get_name() + " "));
   }
@@ -309,28 +356,32 @@ int afterFlushing(int code) {
 
 int main(int argc, char** argv) {
   occupyStandardStreams();
+  ::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files is an error of writing, not the end
   try {
     return afterFlushing(parseAndRun(argc, argv));
   } catch (const UsageError& error) {
-    fmt::print(stderr, "gamut: {}\n", error.what());
+    fmt::print(stderr, "gamut: {}\n", printable(error.what()));
     return badInput;
   } catch (const StudyError& error) {
-    fmt::print(stderr, "{}\n", error.what());
+    fmt::print(stderr, "{}\n", printable(error.what()));
     return badInput;
   } catch (const ResultsFileError& error) {
-    fmt::print(stderr, "{}\n", error.what());
+    fmt::print(stderr, "{}\n", printable(error.what()));
+    return badInput;
+  } catch (const OutputRefused& error) {
+    fmt::print(stderr, "gamut: {}\n", printable(error.what()));
     return badInput;
   } catch (const WriteError& error) {
-    fmt::print(stderr, "gamut: {}\n", error.what());
+    fmt::print(stderr, "gamut: {}\n", printable(error.what()));
     return failed;
   } catch (const std::system_error& error) {
-    fmt::print(stderr, "gamut: {}\n", error.what());
+    fmt::print(stderr, "gamut: {}\n", printable(error.what()));
     return failed;
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "gamut: out of memory; fewer samples, output times or pieces need less\n");
+    fmt::print(stderr, "gamut: out of memory; fewer outputs, output times or pieces need less\n");
     return failed;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "gamut: internal failure: {}\n", error.what());
+    fmt::print(stderr, "gamut: internal failure: {}\n", printable(error.what()));
     return failed;
   }
 }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
+#include <map>
 #include <stdexcept>
 
 #include "analyses/arbiter.hpp"
@@ -21,6 +23,8 @@ struct Case {
   Dispute dispute;
   std::vector<double> error;  // [time][output]: the greatest change until then, which crossing trajectories do not hide
   bool settled = false;       // found inside
+  bool lookedAt = false;      // by every instance, to the end
+  std::size_t times = 0;      // output times up to the last one at which it is outside: beyond, nothing is disputed
 };
 
 class Comparer {
@@ -43,8 +47,10 @@ class Comparer {
     findDisputes();
     Comparison result;
     result.cpu = refine() + arbitrateWorst();
+    informTwins();
     judge(result);
-    measureOverestimation(result);
+    result.envelope = ensemble_.envelope();
+    measureOverestimation(enclosure_, result.envelope, ensemble_.error, options_.resolution, result);
     return result;
   }
 
@@ -97,27 +103,68 @@ class Comparer {
     d.distance = distanceOutside(place, d.value);
     d.error = errorAt(place);
     d.excursion = greatest;
+    d.farthest.assign(ensemble_.outputs, 0.0);
+    for (std::size_t i = 0; i < enclosure_.reachedTimes * ensemble_.outputs; ++i) {
+      double& farthest = d.farthest[i % ensemble_.outputs];
+      farthest = std::max(farthest, distanceOutside(i, trajectory[i]));
+    }
   }
 
   void findDisputes() {
+    std::map<std::vector<double>, std::size_t> caseOf;  // by the values of the uncertain quantities
     for (std::size_t number = 0; number < ensemble_.size(); ++number) {
       if (isInside(std::as_const(ensemble_).trajectory(number))) continue;
-      Case& c = cases_.emplace_back();
+      const std::span<const double> values = ensemble_.valuesOf(number);
+      const auto [known, isNew] = caseOf.try_emplace({values.begin(), values.end()}, cases_.size());
+      Case& c = (isNew ? cases_ : twins_).emplace_back();
+      if (!isNew) originals_.push_back(known->second);
       c.dispute.number = number;
       c.dispute.decided = "unresolved";
+      c.times = timesOutside(std::as_const(ensemble_).trajectory(number));
       locate(c);
     }
   }
 
-  /// Takes over a better trajectory, unless it ends before the enclosure does where the old one did not.
+  /// What was found of a sample holds for all of the same values.
+  void informTwins() {
+    for (std::size_t i = 0; i < twins_.size(); ++i) {
+      const Case& original = cases_[originals_[i]];
+      Case& twin = twins_[i];
+      if (!original.error.empty()) {  // it has a better trajectory
+        const std::size_t number = twin.dispute.number;
+        std::ranges::copy(std::as_const(ensemble_).trajectory(original.dispute.number),
+                          ensemble_.trajectory(number).begin());
+        twin = original;
+        twin.dispute.number = number;
+      }
+      twin.lookedAt = original.lookedAt;
+    }
+    std::ranges::move(twins_, std::back_inserter(cases_));
+    std::ranges::sort(cases_, {}, [](const Case& c) { return c.dispute.number; });
+  }
+
+  std::size_t timesOutside(std::span<const double> trajectory) const {
+    std::size_t i = enclosure_.reachedTimes * ensemble_.outputs;
+    while (i > 0 && !(distanceOutside(i - 1, trajectory[i - 1]) > 0)) --i;
+    return (i + ensemble_.outputs - 1) / ensemble_.outputs;
+  }
+
+  Motion disputedPart(const Case& c) const {
+    Motion part = system_.motion;
+    part.times.resize(c.times);
+    return part;
+  }
+
+  /// Takes over a better trajectory of the disputed part, unless it ends before that does where the old one did not.
   bool replace(Case& c, std::span<const double> better) {
     const std::span<double> trajectory = ensemble_.trajectory(c.dispute.number);
-    for (std::size_t i = 0; i < enclosure_.reachedTimes * ensemble_.outputs; ++i)
+    for (std::size_t i = 0; i < better.size(); ++i)
       if (std::isnan(better[i]) && !std::isnan(trajectory[i])) return false;
-    c.error.resize(trajectory.size());
-    for (std::size_t i = 0; i < trajectory.size(); ++i) c.error[i] = std::abs(better[i] - trajectory[i]);
+    c.error.assign(trajectory.size(), 0);
+    for (std::size_t i = 0; i < better.size(); ++i) c.error[i] = std::abs(better[i] - trajectory[i]);
     accumulate(c.error);
     std::ranges::copy(better, trajectory.begin());
+    c.times = timesOutside(trajectory);
     return true;
   }
 
@@ -130,13 +177,15 @@ class Comparer {
   double refine() {
     if (system_.motion.f.states() == 0) return 0;  // nothing is integrated: the arbiter looks at the outputs directly
     return forEachIndex(options_.jobs, cases_.size(), options_.cancelled, [&] {
-      return [&, witness = Witness(system_.motion, ensemble_.method, options_.cancelled),
-              better = std::vector<double>(ensemble_.times.size() * ensemble_.outputs)](std::size_t i) mutable {
+      return [&](std::size_t i) {
         Case& c = cases_[i];
         const std::vector<double> start = system_.start(ensemble_.valuesOf(c.dispute.number));
         for (double relative : options_.relativeTolerances) {
           if (relative >= ensemble_.tolerance.relative) continue;
           const double factor = ensemble_.tolerance.relative / relative;
+          const Motion motion = disputedPart(c);
+          std::vector<double> better(c.times * ensemble_.outputs);
+          Witness witness(motion, ensemble_.method, options_.cancelled);
           witness.integrate(start, {relative, ensemble_.tolerance.absolute / factor}, better);
           if (!replace(c, better)) return;
           locate(c);
@@ -148,15 +197,17 @@ class Comparer {
     });
   }
 
+  bool isCancelled() const { return options_.cancelled != nullptr && *options_.cancelled; }
+
   /// The worst first, in batches, until one of a batch refutes the enclosure.
   double arbitrateWorst() {
     std::vector<Case*> open;
     for (Case& c : cases_)
-      if (!c.settled) open.push_back(&c);
+      if (!c.settled && options_.asksArbiter) open.push_back(&c);
     std::ranges::stable_sort(open, std::ranges::greater{}, [](const Case* c) { return c->dispute.excursion; });
-    open.resize(std::min(open.size(), options_.arbitrated));
     double cpu = 0;
-    for (std::size_t first = 0; first < open.size(); first += batchSize) {
+    for (std::size_t first = 0; first < open.size() && !isCancelled(); first += batchSize) {
+      if (options_.progress) options_.progress(static_cast<double>(first) / static_cast<double>(open.size()));
       const std::span<Case*> batch = std::span(open).subspan(first, std::min(batchSize, open.size() - first));
       cpu += forEachIndex(options_.jobs, batch.size(), options_.cancelled,
                           [&] { return [&](std::size_t i) { arbitrateOne(*batch[i]); }; });
@@ -167,12 +218,14 @@ class Comparer {
 
   void arbitrateOne(Case& c) {
     const PreciseTrajectory precise =
-        arbitrate(system_.motion, system_.start(ensemble_.valuesOf(c.dispute.number)), {}, options_.cancelled);
-    if (!replace(c, roundedToDoubles(precise, ensemble_.times.size() * ensemble_.outputs))) return;
+        arbitrate(disputedPart(c), system_.start(ensemble_.valuesOf(c.dispute.number)), {}, options_.cancelled);
+    c.lookedAt = !isCancelled();
+    if (!replace(c, roundedToDoubles(precise, c.times * ensemble_.outputs))) return;
     std::ranges::copy(precise.error, c.error.begin());  // the arbiter's last two integrations are both its own
     accumulate(c.error);
     locate(c);
     c.settled = c.dispute.distance == 0;
+    c.lookedAt = true;
     c.dispute.decided = "Taylor 128 bits";
   }
 
@@ -181,55 +234,62 @@ class Comparer {
     return !c.settled && !c.error.empty() && c.dispute.excursion > options_.decisive;
   }
 
+  /// What an interrupt kept from the last instance is neither outside nor past deciding.
   void judge(Comparison& result) {
-    bool outside = false, unresolved = false;
+    bool outside = false, unresolved = false, interrupted = false;
     for (Case& c : cases_) {
       Dispute& d = c.dispute;
-      d.outside = refutes(c);
-      if (!c.settled && !d.outside) d.decided = "unresolved";
-      outside = outside || d.outside;
-      unresolved = unresolved || (!c.settled && !d.outside);
-      result.excursion = std::max(result.excursion, d.excursion);
+      if (!c.settled && !c.lookedAt && isCancelled()) {
+        d.decided = "interrupted";
+        interrupted = true;
+      } else {
+        d.outside = refutes(c);
+        if (!c.settled && !d.outside) d.decided = "unresolved";
+        outside = outside || d.outside;
+        unresolved = unresolved || (!c.settled && !d.outside);
+        result.excursion = std::max(result.excursion, d.excursion);
+      }
       result.disputes.push_back(d);
     }
-    const bool incomplete =
-        enclosure_.reachedTimes < ensemble_.times.size() || !ensemble_.complete || !ensemble_.failed.empty();
+    const bool incomplete = interrupted || enclosure_.reachedTimes < ensemble_.times.size() || !ensemble_.complete ||
+                            !ensemble_.failed.empty();
     result.verdict = outside ? "outside" : unresolved ? "unresolved" : incomplete ? "incomplete" : "inside";
-  }
-
-  void measureOverestimation(Comparison& result) const {
-    const std::size_t outputs = ensemble_.outputs;
-    result.envelope = ensemble_.envelope();
-    result.overestimation = Table(ensemble_.times.size(), outputs);
-    result.excess = result.overestimation;
-    result.maximumOf.assign(outputs, std::numeric_limits<double>::quiet_NaN());
-    std::vector<double> ratios;
-    for (std::size_t i = 0; i < enclosure_.reachedTimes * outputs; ++i) {
-      const double enclosed = enclosure_.bounds.upper.data[i] - enclosure_.bounds.lower.data[i];
-      const double sampled = result.envelope.upper.data[i] - result.envelope.lower.data[i];
-      result.excess.data[i] = enclosed - sampled;
-      if (!(sampled > options_.resolution * ensemble_.error.data[i])) continue;
-      const double ratio = enclosed / sampled;
-      result.overestimation.data[i] = ratio;
-      double& greatest = result.maximumOf[i % outputs];
-      if (!(greatest >= ratio)) greatest = ratio;
-      ratios.push_back(ratio);
-    }
-    if (ratios.empty()) return;
-    std::ranges::sort(ratios);
-    const std::size_t middle = ratios.size() / 2;
-    result.maximum = ratios.back();
-    result.median = ratios.size() % 2 == 1 ? ratios[middle] : 0.5 * (ratios[middle - 1] + ratios[middle]);
   }
 
   const EnclosureBounds& enclosure_;
   Ensemble& ensemble_;
   const UncertainMotion& system_;
   const ComparisonOptions& options_;
-  std::vector<Case> cases_;
+  std::vector<Case> cases_, twins_;     // twins: of the values of a case before them
+  std::vector<std::size_t> originals_;  // of the twins
 };
 
 }  // namespace
+
+void measureOverestimation(const EnclosureBounds& enclosure, const Envelope& envelope, const Table& error,
+                           double resolution, Comparison& result) {
+  const std::size_t outputs = error.outputs;
+  result.overestimation = Table(error.times, outputs);
+  result.excess = result.overestimation;
+  result.maximumOf.assign(outputs, std::numeric_limits<double>::quiet_NaN());
+  std::vector<double> ratios;
+  for (std::size_t i = 0; i < enclosure.reachedTimes * outputs; ++i) {
+    const double enclosed = enclosure.bounds.upper.data[i] - enclosure.bounds.lower.data[i];
+    const double sampled = envelope.upper.data[i] - envelope.lower.data[i];
+    result.excess.data[i] = enclosed - sampled;
+    if (!(sampled > resolution * error.data[i])) continue;
+    const double ratio = enclosed / sampled;
+    result.overestimation.data[i] = ratio;
+    double& greatest = result.maximumOf[i % outputs];
+    if (!(greatest >= ratio)) greatest = ratio;
+    ratios.push_back(ratio);
+  }
+  if (ratios.empty()) return;
+  std::ranges::sort(ratios);
+  const std::size_t middle = ratios.size() / 2;
+  result.maximum = ratios.back();
+  result.median = ratios.size() % 2 == 1 ? ratios[middle] : 0.5 * (ratios[middle - 1] + ratios[middle]);
+}
 
 Comparison compare(const EnclosureBounds& enclosure, Ensemble& ensemble, const UncertainMotion& system,
                    const ComparisonOptions& options) {

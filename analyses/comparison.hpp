@@ -1,11 +1,13 @@
 // How the guaranteed and the probable agree: every sample must lie inside the enclosure at every output time. A sample
 // found outside is integrated again, tighter and tighter, and at last by the arbiter; what then still lies outside by
-// more than its own measured error refutes the enclosure. How wide the enclosure is against the envelope of the
-// samples, its overestimation, is measured only where the envelope stands clear of the witness's error.
+// more than its own measured error refutes the enclosure. Samples of the same values are looked at once. The arbiter
+// takes the worst first and stops after sixteen of which one refutes. How wide the enclosure is against the envelope of
+// the samples, its overestimation, is measured only where the envelope stands clear of the witness's error.
 #pragma once
 
 #include <atomic>
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <string>
 #include <vector>
@@ -24,10 +26,11 @@ struct ComparisonOptions {
   std::vector<double> relativeTolerances = {1e-12, 1e-13, 1e-14};  ///< of the re-integrations, tighter and tighter
   double decisive = 10;     ///< a sample further outside than so many times its measured error refutes the enclosure
   double resolution = 100;  ///< an envelope narrower than so many witness errors says nothing on overestimation
-  std::size_t arbitrated = 256;  ///< at most so many samples, the worst first, go to the arbiter; it stops asking after
-                                 ///< sixteen of which one refutes the enclosure
-  int jobs = 1;                  ///< threads
-  const std::atomic<bool>* cancelled = nullptr;  ///< set from outside to end early; disputes left are unresolved
+  bool asksArbiter = true;  ///< where it is already known that the enclosure is refuted, that can be saved
+  int jobs = 1;             ///< threads
+  std::function<void(double)>
+      progress;  ///< called with the fraction of the arbiter's work that is done, from any thread
+  const std::atomic<bool>* cancelled = nullptr;  ///< set from outside to end early; disputes left are "interrupted"
 };
 
 /// A sample that was found outside and looked at again.
@@ -40,12 +43,14 @@ struct Dispute {
   double error = 0;      ///< this sample's measured error there: the greatest change so far by the last
                          ///< integration, at least 4 ulp of the output's magnitude
   double excursion = 0;  ///< distance / error
-  std::string decided;   ///< by what: "tolerance 1e-12", "Taylor 128 bits", or "unresolved"
+  std::string decided;   ///< by what: "tolerance 1e-12", "Taylor 128 bits"; "unresolved", or "interrupted" before that
   bool outside = false;  ///< it refutes the enclosure
+  std::vector<double> farthest;  ///< one an output: how far it lies outside at most, after the last integration
 };
 
 struct Comparison {
-  std::string verdict;   ///< the first that holds of "outside", "unresolved", "incomplete", "inside"
+  std::string verdict;   ///< the first that holds of "outside", "unresolved", "incomplete", "inside"; what was
+                         ///< interrupted is incomplete
   double excursion = 0;  ///< the greatest of all disputes
   Envelope envelope;     ///< of the ensemble after refinement
   Table overestimation;  ///< enclosure width over envelope width; NaN where the envelope is too narrow to tell
@@ -56,6 +61,11 @@ struct Comparison {
   std::vector<Dispute> disputes;  ///< by rising number
   double cpu = 0;                 ///< s, of the re-integrations
 };
+
+/// How wide the enclosure is against the envelope of samples whose integration has this error: overestimation, excess,
+/// maximum, median and maximumOf. An envelope narrower than `resolution` errors says nothing.
+void measureOverestimation(const EnclosureBounds& enclosure, const Envelope& envelope, const Table& error,
+                           double resolution, Comparison& result);
 
 /// Compares at all output times that the enclosure reached. Samples found outside get their refined trajectories in
 /// `ensemble`. "incomplete": nothing is outside, but the enclosure or a sample ended before the horizon.

@@ -13,6 +13,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "analyses/workers.hpp"
 #include "scalars/sample_pack.hpp"
 
 namespace gamut {
@@ -20,9 +21,10 @@ namespace {
 
 using namespace detail;
 
-constexpr long maximumSteps = 2'000'000;  // between two output times: only a motion that goes nowhere needs more
-constexpr double shortestStep = 1e-13;    // of the horizon: below, the motion runs into a singularity
-constexpr double tightest = 1e-14;        // relative tolerance, some 50 roundings
+constexpr long maximumSteps = 2'000'000;      // between two output times: only a motion that goes nowhere needs more
+constexpr double shortestStep = 1e-13;        // of the horizon: below, the motion runs into a singularity
+constexpr long evaluationsBetweenLooks = 64;  // at the clock
+constexpr double tightest = 1e-14;            // relative tolerance, some 50 roundings
 
 template <class Handle>
 Handle required(Handle handle, const char* what) {
@@ -161,9 +163,14 @@ struct Cvode::Memory {
 
   bool isCancelled() const { return cancelled != nullptr && *cancelled; }
 
+  bool tookTooLong() {
+    if (++evaluations % evaluationsBetweenLooks == 0) isLate = threadCpuSeconds() - began >= allowed;
+    return isLate;
+  }
+
   static int derivative(realtype t, N_Vector x, N_Vector dx, void* self) {
     Memory& memory = *static_cast<Memory*>(self);
-    if (memory.isCancelled()) return -1;
+    if (memory.isCancelled() || memory.tookTooLong()) return -1;
     const std::size_t n = memory.state.size();
     const std::span<double> rates(NV_DATA_S(dx), n);
     memory.problem->differentiate(t, std::span<const double>(NV_DATA_S(x), n), rates);
@@ -179,6 +186,9 @@ struct Cvode::Memory {
   std::vector<double> state;
   CvodeProblem* problem = nullptr;  // while it is integrated
   std::string message;
+  double began = 0, allowed = 0;  // s of the thread's CPU time
+  long evaluations = 0;
+  bool isLate = false;
   SUNContext context = nullptr;
   N_Vector x = nullptr;
   void* cvode = nullptr;
@@ -211,13 +221,18 @@ Cvode::~Cvode() = default;
 Cvode::Cvode(Cvode&&) noexcept = default;
 Cvode& Cvode::operator=(Cvode&&) noexcept = default;
 
-Integration Cvode::integrate(CvodeProblem& problem, std::span<const double> x, const Tolerance& tolerance) {
+Integration Cvode::integrate(CvodeProblem& problem, std::span<const double> x, const Tolerance& tolerance,
+                             double seconds) {
   Memory& m = *memory_;
   const std::vector<double>& times = m.times;
   if (x.size() != m.state.size()) throw std::invalid_argument("the initial values do not have the problem's size");
   std::ranges::copy(x, m.state.begin());
   m.message.clear();
   m.problem = &problem;
+  m.began = threadCpuSeconds();
+  m.allowed = seconds;
+  m.evaluations = 0;
+  m.isLate = false;
   const bool moves = !x.empty();
   bool good = !moves || times.empty() || times.back() == 0 || m.restart(tolerance);
   Integration result;
@@ -234,7 +249,11 @@ Integration Cvode::integrate(CvodeProblem& problem, std::span<const double> x, c
     }
     result.times = i + 1;
   }
-  if (!good) result.why = m.isCancelled() ? "cancelled" : m.message.empty() ? "CVODE failed" : m.message;
+  if (!good)
+    result.why = m.isCancelled()     ? "cancelled"
+                 : m.isLate          ? "the time limit of " + toString(seconds) + " s CPU for a sample was reached"
+                 : m.message.empty() ? "CVODE failed"
+                                     : m.message;
   return result;
 }
 

@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -56,8 +57,10 @@ class Cvode {
   Cvode(Cvode&&) noexcept;
   Cvode& operator=(Cvode&&) noexcept;
 
-  /// From x at time 0 to each of the output times. The result depends on the arguments alone.
-  Integration integrate(CvodeProblem& problem, std::span<const double> x, const Tolerance& tolerance);
+  /// From x at time 0 to each of the output times; fails once it has taken `seconds` of CPU. The result depends on the
+  /// arguments alone.
+  Integration integrate(CvodeProblem& problem, std::span<const double> x, const Tolerance& tolerance,
+                        double seconds = std::numeric_limits<double>::infinity());
 
  private:
   struct Memory;

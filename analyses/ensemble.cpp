@@ -17,28 +17,15 @@
 namespace gamut {
 namespace {
 
-constexpr std::size_t errorStride = 50;
-constexpr std::size_t leastErrorSamples = 8;
+constexpr std::size_t usualErrorStride = 50, leastErrorSamples = 8, mostErrorSamples = 1024;
 constexpr double errorTightening = 100;
 // A pack costs what 4 to 16 samples cost alone, with vectors of two doubles up to twice as many (motions of the tests
 // and a double pendulum). The number must not depend on the machine: the samples' last bits depend on it.
 constexpr std::size_t leastTogether = packWidth / 4;
-
-/// Reports every hundredth of the work, from whatever thread completes it.
-class Progress {
- public:
-  Progress(const std::function<void(double)>& report, std::size_t total) : report_(report), total_(total) {}
-  void completeOne() {
-    const std::size_t done = ++done_;
-    if (report_ && (done * 100 / total_ != (done - 1) * 100 / total_ || done == total_))
-      report_(static_cast<double>(done) / static_cast<double>(total_));
-  }
-
- private:
-  const std::function<void(double)>& report_;
-  std::size_t total_;
-  std::atomic<std::size_t> done_{0};
-};
+constexpr std::size_t firstSamples = 256, namedFailures = 10;
+// A block's rows take so many bytes, or as many packs: work for many threads between two looks, and no more packs than
+// gain something (studies/tip_position).
+constexpr std::size_t blockBytes = std::size_t{1} << 26, leastPacks = 8, mostPacks = 128;
 
 /// Samples that are integrated at once.
 struct Piece {
@@ -46,12 +33,12 @@ struct Piece {
   std::size_t count = 0;
 };
 
-/// The pieces, in the order of their samples.
+/// The pieces of a block, in the order of their samples.
 std::vector<Piece> piecesOf(std::size_t samples, std::size_t width) {
   std::vector<Piece> pieces;
-  for (std::size_t first = 0; first < samples; first += width) {
-    const std::size_t count = std::min(width, samples - first);
-    if (count >= leastTogether)
+  for (std::size_t first = 0; first < samples; first += packWidth) {
+    const std::size_t count = std::min<std::size_t>(packWidth, samples - first);
+    if (width > 1 && count >= leastTogether)
       pieces.push_back({first, count});
     else
       for (std::size_t i = 0; i < count; ++i) pieces.push_back({first + i, 1});
@@ -59,41 +46,46 @@ std::vector<Piece> piecesOf(std::size_t samples, std::size_t width) {
   return pieces;
 }
 
-/// Integrates pieces. One a thread.
+/// Integrates pieces of blocks. One a thread.
 class PieceIntegrator {
  public:
   PieceIntegrator(const UncertainMotion& system, const EnsembleOptions& options, std::size_t width)
-      : system_(system), options_(options), alone_(system.motion, options.method, options.cancelled) {
+      : system_(system),
+        options_(options),
+        alone_(system.motion, options.method, options.cancelled),
+        trajectory_(system.motion.times.size() * system.motion.outputs()) {
     if (width > 1) together_.emplace(system.motion, options.cancelled);
   }
 
-  /// values: [sample][quantity], trajectories: [sample][time][output], as many samples as runs.
-  void integrate(std::span<const double> values, std::span<double> trajectories, std::span<Integration> runs) {
-    const std::size_t quantities = values.size() / runs.size(), size = trajectories.size() / runs.size();
-    const auto start = [&](std::size_t i) { return system_.start(values.subspan(i * quantities, quantities)); };
-    if (runs.size() > 1 && integrateTogether(start, trajectories, runs)) return;
-    for (std::size_t i = 0; i < runs.size() && !isCancelled(); ++i)
-      runs[i] = alone_.integrate(start(i), options_.tolerance, trajectories.subspan(i * size, size));
+  void integrate(SampleBlock& block, const Piece& piece) {
+    if (piece.count > 1 && integrateTogether(block, piece)) return;
+    for (std::size_t i = piece.first; i < piece.first + piece.count && !isCancelled(); ++i) {
+      block.runs[i] =
+          alone_.integrate(system_.start(block.values(i)), options_.tolerance, trajectory_, options_.secondsPerSample);
+      block.setTrajectory(i, trajectory_);
+    }
   }
 
  private:
   bool isCancelled() const { return options_.cancelled != nullptr && *options_.cancelled; }
 
-  /// False if not all samples arrive: nothing is written then.
-  template <class Start>
-  bool integrateTogether(const Start& start, std::span<double> trajectories, std::span<Integration> runs) {
-    const std::size_t count = runs.size(), size = trajectories.size() / count;
+  /// False if not all samples arrive: nothing is left written then.
+  bool integrateTogether(SampleBlock& block, const Piece& piece) {
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
     starts_.resize(system_.motion.startValues() * packWidth);
-    rows_.resize(size * packWidth);
-    for (std::size_t lane = 0; lane < packWidth; ++lane) {
-      const std::vector<double> values = start(std::min(lane, count - 1));  // filled up with the last sample
+    for (std::size_t lane = 0; lane < packWidth; ++lane) {  // filled up with the last sample
+      const std::vector<double> values = system_.start(block.values(piece.first + std::min(lane, piece.count - 1)));
       for (std::size_t row = 0; row < values.size(); ++row) starts_[row * packWidth + lane] = values[row];
     }
-    const Integration run = together_->integrate(starts_, options_.tolerance, rows_);
-    if (run.times < system_.motion.times.size()) return false;
-    for (std::size_t lane = 0; lane < count; ++lane)
-      for (std::size_t i = 0; i < size; ++i) trajectories[lane * size + i] = rows_[i * packWidth + lane];
-    std::ranges::fill(runs, run);
+    const std::span<double> rows = block.pack(piece.first / packWidth);
+    const Integration run = together_->integrate(starts_, options_.tolerance, rows, options_.secondsPerSample);
+    if (run.times < system_.motion.times.size()) {
+      std::ranges::fill(rows, none);
+      return false;
+    }
+    for (std::size_t row = 0; piece.count < packWidth && row < rows.size(); row += packWidth)
+      std::ranges::fill(rows.subspan(row + piece.count, packWidth - piece.count), none);
+    std::fill_n(block.runs.begin() + static_cast<std::ptrdiff_t>(piece.first), piece.count, run);
     return true;
   }
 
@@ -101,15 +93,13 @@ class PieceIntegrator {
   const EnsembleOptions& options_;
   Witness alone_;
   std::optional<PackWitness> together_;
-  std::vector<double> starts_, rows_;
+  std::vector<double> starts_, trajectory_;
 };
 
-/// The numbers of the samples that are integrated twice.
-std::vector<std::size_t> errorSamples(std::size_t samples) {
-  const std::size_t stride = std::clamp(samples / leastErrorSamples, std::size_t{1}, errorStride);
-  std::vector<std::size_t> numbers;
-  for (std::size_t i = 0; i < samples; i += stride) numbers.push_back(i);
-  return numbers;
+/// Every how manyth sample is integrated twice.
+std::size_t errorStrideFor(std::size_t samples) {
+  const std::size_t stride = std::clamp(samples / leastErrorSamples, std::size_t{1}, usualErrorStride);
+  return std::max(stride, (samples + mostErrorSamples - 1) / mostErrorSamples);
 }
 
 void includeDifference(Table& error, std::span<const double> one, std::span<const double> other) {
@@ -119,22 +109,43 @@ void includeDifference(Table& error, std::span<const double> one, std::span<cons
   }
 }
 
-void summarizeReach(Ensemble& e) {
-  e.reached = e.times.empty() ? 0 : e.times.back();
-  std::size_t all = e.times.size();
-  for (const FailedSample& failure : e.failed) all = std::min(all, failure.times);
-  if (all < e.times.size()) e.reached = all == 0 ? 0 : e.times[all - 1];
-  if (!e.failed.empty())
-    e.why = "sample " + std::to_string(e.failed.front().number) + " failed: " + e.failed.front().why +
-            (e.failed.size() > 1 ? " (and " + std::to_string(e.failed.size() - 1) + " more)" : "");
+/// The cuts of each level of alpha.
+std::vector<Box> cutsOf(const std::vector<Uncertain>& uncertain, const std::vector<double>& alpha) {
+  std::vector<Box> cuts;
+  for (const double level : alpha) {
+    Box& box = cuts.emplace_back();
+    for (const Uncertain& q : uncertain) box.push_back(q.membership.cut(level));
+  }
+  return cuts;
 }
 
-/// The sampling, after a look at what it shall be of.
+/// The sampling, after a look at what it shall be of. The cuts whose corners are corners of the ranges, or the centre,
+/// are left out.
 Sampling plannedSampling(const UncertainMotion& system, const EnsembleOptions& options) {
   system.check();
   if (!(options.tolerance.relative > 0) || !(options.tolerance.absolute > 0))
     throw std::invalid_argument("the tolerances of an ensemble must be positive");
-  return Sampling(options.plan, system.uncertain.size(), options.samples, options.seed);
+  std::vector<Box> boxes = cutsOf(system.uncertain, options.alpha);
+  std::erase_if(boxes, [&](const Box& box) {
+    bool isRange = true, isCentre = true;
+    for (std::size_t j = 0; j < box.size(); ++j) {
+      isRange = isRange && isEqual(box[j], system.uncertain[j].range);
+      isCentre = isCentre && isEqual(box[j], Interval(system.uncertain[j].nominal));
+    }
+    return isRange || isCentre;
+  });
+  return Sampling(options.plan, system.uncertain.size(), options.samples, options.seed, std::move(boxes));
+}
+
+/// Of how many levels the cuts hold these values: they are nested.
+std::size_t levelsHolding(const std::vector<Box>& cuts, std::span<const double> values) {
+  std::size_t levels = 0;
+  for (const Box& box : cuts) {
+    for (std::size_t j = 0; j < box.size(); ++j)
+      if (!contains(box[j], values[j])) return levels;
+    ++levels;
+  }
+  return levels;
 }
 
 std::size_t widthOf(Method method) { return method == Method::adams ? packWidth : 1; }
@@ -164,91 +175,194 @@ void UncertainMotion::check() const {
   }
 }
 
-Ensemble sampleEnsemble(const UncertainMotion& system, const EnsembleOptions& options) {
-  const Sampling sampling = plannedSampling(system, options);
-  const Motion& motion = system.motion;
-  Ensemble e;
-  e.times = motion.times;
-  e.outputs = motion.outputs();
-  e.samples = sampling.samples();
-  e.corners = sampling.corners();
-  e.quantities = sampling.quantities();
-  e.tolerance = options.tolerance;
-  e.method = options.method;
-  e.packWidth = widthOf(options.method);
-  e.error = Table(e.times.size(), e.outputs);
-  e.data.assign(e.size() * e.times.size() * e.outputs, std::numeric_limits<double>::quiet_NaN());
-  e.values.resize(e.size() * e.quantities);
-  for (std::size_t i = 0; i < e.size(); ++i)
-    std::ranges::copy(sampling.values(i, system.uncertain),
-                      e.values.begin() + static_cast<std::ptrdiff_t>(i * e.quantities));
+Envelope Ensemble::envelope() const {
+  Envelope result(times.size(), outputs);
+  for (std::size_t i = 0; i < size(); ++i)
+    for (std::size_t t = 0; t < times.size(); ++t)
+      for (std::size_t o = 0; o < outputs; ++o) result.include(t, o, (*this)(i, t, o));
+  return result;
+}
 
-  const std::vector<std::size_t> twice = errorSamples(e.samples);
-  Progress progress(options.progress, e.size() + twice.size());
-  std::mutex mutex;
+EnsembleRun::EnsembleRun(const UncertainMotion& system, EnsembleOptions options)
+    : system_(system),
+      options_(std::move(options)),
+      sampling_(plannedSampling(system, options_)),
+      cuts_(cutsOf(system.uncertain, options_.alpha)),
+      reachedTimes_(system.motion.times.size()),
+      error_(system.motion.times.size(), system.motion.outputs()),
+      errorStride_(errorStrideFor(sampling_.samples())),
+      total_(sampling_.size() + (sampling_.samples() + errorStride_ - 1) / errorStride_) {}
+
+std::size_t EnsembleRun::packWidth() const { return widthOf(options_.method); }
+
+bool EnsembleRun::isCancelled() const { return options_.cancelled != nullptr && *options_.cancelled; }
+
+/// Reports every hundredth of the work, from whatever thread completes it.
+void EnsembleRun::completeOne() {
+  const std::size_t done = ++done_;
+  if (options_.progress && (done * 100 / total_ != (done - 1) * 100 / total_ || done == total_))
+    options_.progress(static_cast<double>(done) / static_cast<double>(total_));
+}
+
+SampleBlock EnsembleRun::newBlock(std::size_t first, std::size_t count, bool hasWeight) const {
+  return {first, count, hasWeight, sampling_.quantities(), system_.motion.times.size(), system_.motion.outputs()};
+}
+
+/// False if cancelled before all of it was integrated.
+bool EnsembleRun::integrate(SampleBlock& block) {
+  for (std::size_t i = 0; i < block.size(); ++i)
+    if (block.first() + i < sampling_.centre()) sampling_.unitPoint(block.first() + i, block.values(i));
+  const std::vector<Piece> pieces = piecesOf(block.size(), packWidth());
   std::atomic<std::size_t> integrated{0};
-  const auto isCancelled = [&] { return options.cancelled != nullptr && *options.cancelled; };
-  const std::vector<Piece> pieces = piecesOf(e.size(), e.packWidth);
-  const std::size_t size = e.times.size() * e.outputs;
-  e.cpu = forEachIndex(options.jobs, pieces.size(), options.cancelled, [&] {
-    return [&, integrator = PieceIntegrator(system, options, e.packWidth)](std::size_t piece) mutable {
+  cpu_ += forEachIndex(options_.jobs, pieces.size(), options_.cancelled, [&] {
+    return [&, integrator = PieceIntegrator(system_, options_, packWidth())](std::size_t piece) mutable {
       const auto [first, count] = pieces[piece];
-      std::vector<Integration> runs(count);
-      integrator.integrate(std::span(e.values).subspan(first * e.quantities, count * e.quantities),
-                           std::span(e.data).subspan(first * size, count * size), runs);
-      if (isCancelled()) return;
-      for (std::size_t i = 0; i < count; ++i) {
-        if (runs[i].times < e.times.size()) {
-          const std::lock_guard lock(mutex);
-          e.failed.push_back({first + i, runs[i].times, runs[i].reached, runs[i].why});
-        }
-        ++integrated;
-        progress.completeOne();
+      for (std::size_t i = first; i < first + count; ++i) {
+        sampling_.toValues(block.first() + i, system_.uncertain, block.values(i));
+        block.levels[i] = levelsHolding(cuts_, block.values(i));
       }
+      integrator.integrate(block, pieces[piece]);
+      if (isCancelled()) return;
+      integrated += count;
+      for (std::size_t i = 0; i < count; ++i) completeOne();
     };
   });
-  std::ranges::sort(e.failed, {}, &FailedSample::number);
-  const Tolerance tight = options.tolerance.tightened(errorTightening);
-  e.cpu += forEachIndex(options.jobs, twice.size(), options.cancelled, [&] {
-    return [&, witness = Witness(motion, options.method, options.cancelled),
-            again = std::vector<double>(e.times.size() * e.outputs)](std::size_t i) mutable {
-      const std::vector<double> start = system.start(e.valuesOf(twice[i]));
+  if (block.hasWeight() && integrated == block.size()) measureError(block);
+  return integrated == block.size();
+}
+
+void EnsembleRun::measureError(const SampleBlock& block) {
+  std::vector<std::size_t> twice;
+  for (std::size_t i = 0; i < block.size(); ++i)
+    if ((block.first() + i) % errorStride_ == 0) twice.push_back(i);
+  const Motion& motion = system_.motion;
+  const Tolerance tight = options_.tolerance.tightened(errorTightening);
+  std::mutex mutex;
+  cpu_ += forEachIndex(options_.jobs, twice.size(), options_.cancelled, [&] {
+    return [&, witness = Witness(motion, options_.method, options_.cancelled),
+            again = std::vector<double>(error_.data.size())](std::size_t i) mutable {
+      const std::vector<double> start = system_.start(block.values(twice[i]));
       if (motion.f.states() == 0)
         again = roundedToDoubles(arbitrate(motion, start), again.size());
       else
-        witness.integrate(start, tight, again);
-      progress.completeOne();
+        witness.integrate(start, tight, again, options_.secondsPerSample);
+      completeOne();
+      const std::vector<double> once = block.trajectory(twice[i]);
       const std::lock_guard lock(mutex);
-      includeDifference(e.error, std::as_const(e).trajectory(twice[i]), again);
+      includeDifference(error_, once, again);
     };
   });
-  summarizeReach(e);
-  e.complete = integrated == e.size() && !isCancelled();
-  if (!e.complete) {
-    e.reached = 0;
-    e.why = "cancelled";
+  if (isCancelled()) errorIsMeasured_ = false;
+}
+
+void EnsembleRun::noteFailures(const SampleBlock& block) {
+  for (std::size_t i = 0; i < block.size(); ++i) {
+    const Integration& run = block.runs[i];
+    if (run.times == system_.motion.times.size()) continue;
+    reachedTimes_ = std::min(reachedTimes_, run.times);
+    ++failures_;
+    failed_.push_back({block.first() + i, run.times, run.reached, run.why});
   }
-  return e;
+  std::ranges::sort(failed_, {}, &FailedSample::number);
+  if (failed_.size() > namedFailures) failed_.resize(namedFailures);
+}
+
+void EnsembleRun::integrateFirst() {
+  std::vector<SampleBlock> blocks;
+  blocks.push_back(newBlock(0, std::min(sampling_.samples(), firstSamples), true));
+  blocks.push_back(newBlock(sampling_.samples(), sampling_.size() - sampling_.samples(), false));
+  for (SampleBlock& block : blocks)
+    if (!integrate(block)) return;
+  first_ = std::move(blocks);
+}
+
+/// Where the first samples lie and a quarter of that to both sides, cut off where nothing is expected.
+Envelope EnsembleRun::expectedRange(const Envelope& expected) const {
+  constexpr double margin = 0.25;
+  Envelope range(system_.motion.times.size(), system_.motion.outputs());
+  for (const SampleBlock& block : first_)
+    for (std::size_t i = 0; i < block.size(); ++i)
+      for (std::size_t t = 0; t < range.lower.times; ++t)
+        for (std::size_t o = 0; o < range.lower.outputs; ++o) range.include(t, o, block(i, t, o));
+  for (std::size_t i = 0; i < range.lower.data.size(); ++i) {
+    double& lower = range.lower.data[i];
+    double& upper = range.upper.data[i];
+    const double beside = margin * (upper - lower);
+    lower -= beside;
+    upper += beside;
+    if (expected.empty() || !(expected.lower.data[i] <= expected.upper.data[i])) continue;
+    const double least = std::max(lower, expected.lower.data[i]), greatest = std::min(upper, expected.upper.data[i]);
+    if (!(least <= greatest)) continue;
+    lower = least;
+    upper = greatest;
+  }
+  return range;
+}
+
+void EnsembleRun::take(SampleBlock& block, const Look& look) {
+  noteFailures(block);
+  if (look) look(block);
+  cpu_ += statistics_->include(block, options_.jobs);
+  if (block.hasWeight()) counted_ += block.size();
+}
+
+void EnsembleRun::integrateOthers(const Envelope& expected, const Look& look) {
+  statistics_.emplace(expectedRange(expected), cuts_.size());
+  if (first_.empty()) return;
+  for (SampleBlock& block : first_) take(block, look);
+  first_.clear();
+  const std::size_t packBytes = sizeof(double) * gamut::packWidth * error_.data.size();
+  const std::size_t size = gamut::packWidth * std::clamp(blockBytes / packBytes, leastPacks, mostPacks);
+  while (counted_ < sampling_.samples() && !isCancelled()) {
+    SampleBlock block = newBlock(counted_, std::min(size, sampling_.samples() - counted_), true);
+    if (!integrate(block)) return;
+    take(block, look);
+  }
+}
+
+double ensembleBytes(std::size_t times, std::size_t outputs, std::size_t quantities, std::size_t levels) {
+  const std::size_t cells = times * outputs, corners = std::size_t{1} << std::min<std::size_t>(quantities, 10);
+  const std::size_t first = firstSamples + corners + (levels > 0 ? 1024 : 0);
+  const std::size_t others =
+      std::max(blockBytes / sizeof(double) / std::max<std::size_t>(cells, 1), leastPacks * packWidth);
+  const double statistics = sizeof(std::uint32_t) * static_cast<double>(EnsembleStatistics::binsFor(cells)) +
+                            sizeof(double) * static_cast<double>(2 * levels + 16);
+  return static_cast<double>(cells) * (sizeof(double) * static_cast<double>(std::max(first, others)) + statistics);
+}
+
+double EnsembleRun::reached() const {
+  const std::vector<double>& times = system_.motion.times;
+  return counted_ == 0 || reachedTimes_ == 0 ? 0 : times[reachedTimes_ - 1];
+}
+
+std::string EnsembleRun::why() const {
+  if (failed_.empty()) return "";
+  return "sample " + std::to_string(failed_.front().number) + " failed: " + failed_.front().why +
+         (failures_ > 1 ? " (and " + std::to_string(failures_ - 1) + " more)" : "") +
+         "; beyond, nothing is shown of the samples, since it would not be of all";
+}
+
+Envelope EnsembleRun::envelope() const { return statistics_->envelope(reachedTimes_); }
+std::vector<Envelope> EnsembleRun::innerCuts() const { return statistics_->innerCuts(reachedTimes_); }
+Statistics EnsembleRun::statistics(const std::vector<double>& probabilities) const {
+  return statistics_->statistics(reachedTimes_, probabilities);
 }
 
 std::vector<double> replaySample(const UncertainMotion& system, const EnsembleOptions& options, std::size_t number) {
-  const Sampling sampling = plannedSampling(system, options);
+  Sampling sampling = plannedSampling(system, options);
   if (number >= sampling.size()) throw std::invalid_argument("no sample has the number " + std::to_string(number));
+  const bool hasWeight = number < sampling.samples();
+  const std::size_t zone = hasWeight ? 0 : sampling.samples(), end = hasWeight ? sampling.samples() : sampling.size();
+  const std::size_t first = zone + (number - zone) / packWidth * packWidth;
+  SampleBlock block(first, std::min<std::size_t>(packWidth, end - first), hasWeight, sampling.quantities(),
+                    system.motion.times.size(), system.motion.outputs());
+  for (std::size_t i = 0; i < block.size(); ++i)
+    std::ranges::copy(sampling.values(first + i, system.uncertain), block.values(i).begin());
   const std::size_t width = widthOf(options.method);
-  const std::vector<Piece> pieces = piecesOf(sampling.size(), width);
-  const auto after = std::ranges::upper_bound(pieces, number, {}, &Piece::first);
-  const auto [first, count] = *std::prev(after);
-  std::vector<double> values;
-  for (std::size_t i = first; i < first + count; ++i) {
-    const std::vector<double> sample = sampling.values(i, system.uncertain);
-    values.insert(values.end(), sample.begin(), sample.end());
-  }
-  const auto size = static_cast<std::ptrdiff_t>(system.motion.times.size() * system.motion.outputs());
-  std::vector<double> trajectories(count * static_cast<std::size_t>(size), std::numeric_limits<double>::quiet_NaN());
-  std::vector<Integration> runs(count);
-  PieceIntegrator(system, options, width).integrate(values, trajectories, runs);
-  const auto begin = trajectories.begin() + static_cast<std::ptrdiff_t>(number - first) * size;
-  return {begin, begin + size};
+  const std::vector<Piece> pieces = piecesOf(block.size(), width);
+  const auto after = std::ranges::upper_bound(pieces, number - first, {}, &Piece::first);
+  PieceIntegrator(system, options, width).integrate(block, *std::prev(after));
+  return block.trajectory(number - first);
 }
 
 }  // namespace gamut

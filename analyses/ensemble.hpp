@@ -1,16 +1,20 @@
 // What is probable: many samples of the uncertain quantities, integrated by the witness (CVODE), by Adams's method in
 // packs, and what they say together: envelope, moments, quantiles, inner alpha-cuts, and the witness's own error.
-// Trajectories are kept, so that the comparison can name the sample that leaves an enclosure.
+// Samples are looked at as they arrive, block by block, and not kept: memory does not grow with their number.
 #pragma once
 
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "analyses/ensemble_statistics.hpp"
+#include "analyses/sample_block.hpp"
 #include "analyses/sampling.hpp"
 #include "analyses/table.hpp"
 #include "analyses/uncertainty.hpp"
@@ -37,6 +41,9 @@ struct EnsembleOptions {
   std::uint64_t seed = 1;
   Tolerance tolerance;
   Method method = Method::adams;
+  /// CPU time after which a sample fails; a pack that takes longer is given up and its samples integrated one by one
+  double secondsPerSample = std::numeric_limits<double>::infinity();
+  std::vector<double> alpha;                     ///< rising membership levels, of which inner cuts are wanted
   int jobs = 1;                                  ///< threads
   std::function<void(double)> progress;          ///< called with the fraction done (0 … 1), from any thread
   const std::atomic<bool>* cancelled = nullptr;  ///< set from outside to end early; what was integrated is kept
@@ -50,72 +57,121 @@ struct FailedSample {
   std::string why;
 };
 
-/// The integrated samples: numbers 0 … samples-1 count in the statistics, then follow the corners, the centre is last.
+/// Some samples with their trajectories.
 struct Ensemble {
   std::vector<double> times;  ///< s
   std::size_t outputs = 0;
-  std::size_t samples = 0;
-  std::size_t corners = 0;
-  std::vector<double> values;  ///< of the uncertain quantities: [number][quantity]
+  std::vector<double> values;  ///< of the uncertain quantities: [sample][quantity]
   std::size_t quantities = 0;
-  std::vector<double> data;          ///< [number][time][output]; NaN where a sample did not arrive
+  std::vector<double> data;          ///< [sample][time][output]; NaN where a sample did not arrive
   std::vector<FailedSample> failed;  ///< by rising number
+  std::size_t integrated = 0;        ///< how many have arrived or failed; size() unless cancelled
   bool complete = false;             ///< false if cancelled
-  double reached = 0;                ///< s: the last output time at which all samples have arrived
-  std::string why;                   ///< why that is before the horizon, naming the first sample that failed; or empty
   Tolerance tolerance;
   Method method = Method::adams;
-  std::size_t packWidth = 1;  ///< samples of one number / packWidth were integrated together, see sampleEnsemble
-  Table error;     ///< witness error: greatest change of a re-integrated sample at a hundred times tighter tolerance
-  double cpu = 0;  ///< s, all threads
+  Table error;  ///< witness error
 
-  std::size_t size() const { return samples + corners + 1; }
-  std::size_t centre() const { return samples + corners; }
-  double operator()(std::size_t number, std::size_t time, std::size_t output) const {
-    return data[(number * times.size() + time) * outputs + output];
+  std::size_t size() const { return data.size() / (times.size() * outputs); }
+  double operator()(std::size_t sample, std::size_t time, std::size_t output) const {
+    return data[(sample * times.size() + time) * outputs + output];
   }
   /// One sample's trajectory: [time][output].
-  std::span<double> trajectory(std::size_t number) {
-    return std::span(data).subspan(number * times.size() * outputs, times.size() * outputs);
+  std::span<double> trajectory(std::size_t sample) {
+    return std::span(data).subspan(sample * times.size() * outputs, times.size() * outputs);
   }
-  std::span<const double> trajectory(std::size_t number) const {
-    return std::span(data).subspan(number * times.size() * outputs, times.size() * outputs);
+  std::span<const double> trajectory(std::size_t sample) const {
+    return std::span(data).subspan(sample * times.size() * outputs, times.size() * outputs);
   }
-  std::span<const double> valuesOf(std::size_t number) const {
-    return std::span(values).subspan(number * quantities, quantities);
+  std::span<const double> valuesOf(std::size_t sample) const {
+    return std::span(values).subspan(sample * quantities, quantities);
   }
 
-  /// Of samples, corners and centre.
   Envelope envelope() const;
 };
 
-/// Integrates all samples, corners and the centre of `system`, and measures the witness's error on every fiftieth
-/// sample, integrated once more alone (on at least eight, or all if there are fewer; without states, where nothing is
-/// integrated, against 128-bit arithmetic). By Adams's method the samples of one number / packWidth are integrated
-/// together, in the steps of the one that needs the shortest: a sample's trajectory is what its pack gave. Packs of so
-/// few samples that they would cost more than the samples alone, packs of which a sample fails, and all samples by
-/// Method::bdf are integrated one by one. Samples that fail are named and left out. Every number depends on the
-/// options' plan, samples, seed, tolerance and method alone. Throws std::invalid_argument for options or a system that
-/// make no sense.
-Ensemble sampleEnsemble(const UncertainMotion& system, const EnsembleOptions& options = {});
+/// The samples of `system` on their way into the statistics: all samples of the plan, the corners, the corners of the
+/// alpha-cuts and the centre. Every number depends on the options' plan, samples, seed, tolerance, method and alpha
+/// alone, but which samples took too long. By Adams's method the samples of one number / packWidth are integrated
+/// together (corners and centre, which follow the samples, counted from the first corner), in the steps of the one that
+/// needs the shortest: a sample's trajectory is what its pack gave. Packs of so few samples that they would cost more
+/// than the samples alone, packs of which a sample fails, and all samples by Method::bdf are integrated one by one.
+/// Samples that fail are named.
+class EnsembleRun {
+ public:
+  /// Looks at samples before they count, and may put better trajectories in their place. Called from one thread, block
+  /// by block in one order.
+  using Look = std::function<void(SampleBlock&)>;
 
-/// The trajectory of sample `number`, [time][output], bit for bit as in sampleEnsemble(system, options), by integrating
-/// its pack alone. Throws as sampleEnsemble does, and std::invalid_argument for a number that no sample has.
-std::vector<double> replaySample(const UncertainMotion& system, const EnsembleOptions& options, std::size_t number);
+  /// The system and what the options point to must outlive it. Throws std::invalid_argument for options or a system
+  /// that make no sense.
+  EnsembleRun(const UncertainMotion& system, EnsembleOptions options);
+  EnsembleRun(UncertainMotion&& system, EnsembleOptions options) = delete;
 
-/// What the samples (without corners and centre) say; a failed sample counts as long as it lasted.
-struct Statistics {
-  Table mean;
-  Table deviation;                    ///< with N-1; NaN for a single sample
-  std::vector<double> probabilities;  ///< of the quantiles
-  std::vector<Table> quantiles;       ///< one a probability; between samples by linear interpolation
+  /// Integrates the first samples, at most 256, the corners and the centre, and keeps them.
+  void integrateFirst();
+  /// Takes the first samples into the statistics, then integrates all others and takes them. `expected`: where outputs
+  /// are expected besides what the first samples say, such as an enclosure; NaN where nothing is known, or empty.
+  void integrateOthers(const Envelope& expected = {}, const Look& look = {});
+
+  const EnsembleOptions& options() const { return options_; }
+  const Sampling& sampling() const { return sampling_; }
+  /// 64, or 1 where samples are integrated one by one.
+  std::size_t packWidth() const;
+  /// Samples that count in the statistics: those of the plan, unless cancelled.
+  std::size_t counted() const { return counted_; }
+  /// The same and corners and centre.
+  std::size_t integrated() const { return counted_ == 0 ? 0 : counted_ + sampling_.size() - sampling_.samples(); }
+  /// All of them, and their error measured to the end.
+  bool isComplete() const { return counted_ == sampling_.samples() && errorIsMeasured_; }
+  /// Output times at which all that were integrated have arrived; envelopes and statistics end there, since beyond they
+  /// would be of the survivors alone.
+  std::size_t reachedTimes() const { return reachedTimes_; }
+  double reached() const;  ///< s
+  /// Why that is not all times, naming the first sample that failed; or empty.
+  std::string why() const;
+  /// The first ten of the samples that failed, by rising number, and how many did.
+  const std::vector<FailedSample>& failed() const { return failed_; }
+  std::size_t failures() const { return failures_; }
+  /// Witness error: greatest change of a re-integrated sample at a hundred times tighter tolerance. Measured on every
+  /// fiftieth sample, integrated once more alone (on at least eight, or all if there are fewer; of more than 51200
+  /// samples on 1024; without states, where nothing is integrated, against 128-bit arithmetic).
+  const Table& error() const { return error_; }
+  double cpu() const { return cpu_; }  ///< s, all threads
+
+  Envelope envelope() const;
+  std::vector<Envelope> innerCuts() const;
+  Statistics statistics(const std::vector<double>& probabilities = {0.01, 0.05, 0.5, 0.95, 0.99}) const;
+
+ private:
+  SampleBlock newBlock(std::size_t first, std::size_t count, bool hasWeight) const;
+  bool integrate(SampleBlock& block);
+  void measureError(const SampleBlock& block);
+  void noteFailures(const SampleBlock& block);
+  void take(SampleBlock& block, const Look& look);
+  Envelope expectedRange(const Envelope& expected) const;
+  bool isCancelled() const;
+  void completeOne();
+
+  const UncertainMotion& system_;
+  EnsembleOptions options_;
+  Sampling sampling_;
+  std::vector<Box> cuts_;  // of each level of alpha
+  std::vector<SampleBlock> first_;
+  std::optional<EnsembleStatistics> statistics_;
+  std::vector<FailedSample> failed_;
+  std::size_t failures_ = 0, counted_ = 0, reachedTimes_;
+  Table error_;
+  bool errorIsMeasured_ = true;  // of all that were integrated
+  std::size_t errorStride_, total_;
+  std::atomic<std::size_t> done_{0};
+  double cpu_ = 0;
 };
-Statistics statistics(const Ensemble& ensemble,
-                      const std::vector<double>& probabilities = {0.01, 0.05, 0.5, 0.95, 0.99});
 
-/// Inner alpha-cuts: one envelope a level of alpha, over the samples, corners and centre in which every quantity has at
-/// least that membership. `uncertain` as in the system sampled. NaN where no sample belongs.
-std::vector<Envelope> innerCuts(const Ensemble& ensemble, const std::vector<Uncertain>& uncertain,
-                                const std::vector<double>& alpha);
+/// About as many bytes as an EnsembleRun takes, whatever the number of its samples.
+double ensembleBytes(std::size_t times, std::size_t outputs, std::size_t quantities, std::size_t levels);
+
+/// The trajectory of sample `number`, [time][output], bit for bit as in an EnsembleRun, by integrating its pack alone.
+/// Throws as EnsembleRun does, and std::invalid_argument for a number that no sample has.
+std::vector<double> replaySample(const UncertainMotion& system, const EnsembleOptions& options, std::size_t number);
 
 }  // namespace gamut

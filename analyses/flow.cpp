@@ -8,6 +8,7 @@
 #include <exception>
 #include <limits>
 #include <mutex>
+#include <new>
 #include <queue>
 #include <stdexcept>
 #include <thread>
@@ -26,8 +27,6 @@ namespace gamut {
 using detail::at;
 
 namespace {
-
-constexpr const char* interruptedText = "interrupted";
 
 void join(std::vector<Interval>& into, const std::vector<Interval>& from) {
   if (into.empty()) {
@@ -148,7 +147,8 @@ class FlowRun {
     }
     // Bisection is cheap for one symbol and dear for several: with these, begin loosely.
     const double patience = std::pow(20.0, std::clamp(embedding_.symbols - 1, 0, 3));
-    splitDefect_ = options.splitDefect * patience * embedding_.widest / tighter;
+    splitDefect_ = bisectsForWidth() ? options.splitDefect * patience * embedding_.widest / tighter
+                                     : std::numeric_limits<double>::infinity();
     mostPieces_ = options.maxPieces;
     tolerance_ = options.tolerance > 0 ? options.tolerance : embedding_.symbols == 0 ? 1e-15 : 1e-14;
   }
@@ -156,8 +156,8 @@ class FlowRun {
   /// The greatest share of the remainder in a width, and whether all was proved: is it worth trying a tighter
   /// threshold?
   bool isLoose(const Tube& tube) const {
-    if (embedding_.symbols == 0 || !options_.split || tube.why() == interruptedText || pieces_ >= mostPieces_ ||
-        !ended_.empty())
+    if (embedding_.symbols == 0 || !options_.split || !bisectsForWidth() || tube.wasStopped() ||
+        pieces_ >= mostPieces_ || !ended_.empty())
       return false;
     return tube.reached() < horizon_ || looseness_ > 0.005;
   }
@@ -174,7 +174,7 @@ class FlowRun {
     cross(b.outputs_, a.outputs_);
     cross(b.outputsOver_, a.outputsOver_);
     for (std::size_t level = 0; level < b.cuts_.size(); ++level) cross(b.cuts_[level], a.cuts_[level]);
-    if (a.why_ == interruptedText && !b.why_.empty()) b.why_ = a.why_;
+    if (a.wasStopped() && !b.why_.empty()) b.why_ = a.why_;
     b.steps_ += a.steps_;
     b.cpu_ += a.cpu_;
     b.cutCpu_ += a.cutCpu_;
@@ -182,6 +182,9 @@ class FlowRun {
   }
 
   double looseness() const { return looseness_; }
+
+  /// Halving one of many symbols narrows the box by little: those are bisected only where a step fails otherwise.
+  bool bisectsForWidth() const { return embedding_.symbols <= 8; }
 
   /// Intersects the cuts of this level, and of all inside it, with a flow over the level's own box.
   static void tighten(Tube& tube, std::size_t level, const Tube& own) {
@@ -249,7 +252,7 @@ class FlowRun {
           sliceEnd = std::min(horizon_, piece.set.t + horizon_ / 64);
           report(piece.set.t);
         }
-        const Journey journey = worker.follow(piece, sliceEnd);
+        const Journey journey = worker.followWhilePossible(piece, sliceEnd);
         {
           const std::lock_guard lock(mutex_);
           --busy_;
@@ -312,7 +315,7 @@ class FlowRun {
     const double horizon = std::min(horizon_, 1.5 * piece.set.t);
     if (!(horizon > 0)) return;
     const Tube alone = FlowRun(motion_, differentiated_, none, options, start, horizon, {}, {}, 1.0).run();
-    if (alone.reached() >= horizon || alone.why() == interruptedText) return;
+    if (alone.reached() >= horizon || alone.wasStopped()) return;
     ended_ = "one start of the box by itself: " + alone.why();
     mostPieces_ = std::min(mostPieces_, 2 * pieces_);
   }
@@ -340,6 +343,18 @@ class FlowRun {
    public:
     Worker(FlowRun& run, Collected& collected) : run_(run), collected_(collected), tools_(run.layouts_.size()) {}
 
+    /// What ends within a step leaves the piece at the step's start; what the step had given already is proved.
+    Journey followWhilePossible(Piece& piece, double end) {
+      try {
+        return follow(piece, end);
+      } catch (const Cancelled&) {
+      } catch (const std::bad_alloc&) {
+        run_.outOfMemory_ = true;
+      }
+      return Journey::cancelled;
+    }
+
+   private:
     /// Advances `piece` to `end` or to its failure.
     Journey follow(Piece& piece, double end) {
       while (piece.set.t < end) {
@@ -378,7 +393,6 @@ class FlowRun {
       return Journey::goesOn;
     }
 
-   private:
     /// The workspace of one layout.
     struct Tools {
       FlowStepper stepper;
@@ -391,14 +405,15 @@ class FlowRun {
       std::unique_ptr<Tools>& tools = tools_[piece.layout];
       if (!tools) {
         const Layout& layout = run_.layouts_[piece.layout];
+        const FlowOptions& options = run_.options_;
         tools = std::make_unique<Tools>(Tools{FlowStepper(run_.differentiated_, layout.monomials, layout.frameDegree,
-                                                          run_.options_.order, run_.tolerance_),
+                                                          options.order, run_.tolerance_, options.cancelled),
                                               PolynomialRange(layout.monomials), nullptr, nullptr});
-        tools->stepper.setStateNames(run_.options_.stateNames);
+        tools->stepper.setStateNames(options.stateNames);
         if (run_.outputProgram_.outputs() > 0) {
-          tools->outputs = std::make_unique<FlowOutputs>(run_.outputProgram_, layout.monomials);
-          tools->chords =
-              std::make_unique<FlowOutputChords>(run_.outputProgram_, layout.monomials, run_.options_.order);
+          tools->outputs = std::make_unique<FlowOutputs>(run_.outputProgram_, layout.monomials, options.cancelled);
+          tools->chords = std::make_unique<FlowOutputChords>(run_.outputProgram_, layout.monomials, options.order,
+                                                             options.cancelled);
         }
       }
       tool_ = tools.get();
@@ -569,6 +584,7 @@ class FlowRun {
   std::string ended_;  // what a probe found
   double looseness_ = 0;
   bool stop_ = false;
+  std::atomic<bool> outOfMemory_{false};
   double failedAt_ = 0, unfinished_ = std::numeric_limits<double>::infinity();
   std::string why_;
   std::exception_ptr error_;
@@ -583,7 +599,7 @@ Tube FlowRun::gather(std::vector<Collected>& collected) {
   if (!queue_.empty()) earliest = std::min(earliest, queue_.top().set.t);
   if (stop_ && earliest < tube.reached_) {
     tube.reached_ = earliest;
-    tube.why_ = interruptedText;
+    tube.why_ = outOfMemory_ ? Tube::outOfMemory : Tube::interrupted;
   }
   std::size_t rows = 0;
   while (rows < times_.size() && times_[rows] <= tube.reached_ && (rows > 0 || tube.reached_ > 0)) ++rows;
@@ -704,7 +720,7 @@ Tube Flow::enclose(const Box& box, double horizon, const std::vector<double>& ou
   double looseness = 0, unused = 0;
   Tube tube = repeat(box, levels, looseness);
   // A remainder that is small for the whole box is not for a much smaller level: that one gets a flow of its own.
-  for (std::size_t level = 0; level < levels.size() && tube.why() != interruptedText; ++level) {
+  for (std::size_t level = 0; level < levels.size() && !tube.wasStopped(); ++level) {
     double share = 0;
     for (std::size_t i = 0; i < box.size(); ++i)
       if (uncertain.components[i].symbol >= 0) share = std::max(share, width(levels[level][i]) / width(box[i]));

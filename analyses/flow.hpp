@@ -48,8 +48,13 @@ class Tube {
   /// Proved up to here (s): the horizon, or the last time before the flow ended early.
   double reached() const { return reached_; }
   /// Why it ended before the horizon: at which time, which state, whether that grows without bound, is not known well
-  /// enough any more, or what else could not be proved. Empty if it did not end early.
+  /// enough any more, or what else could not be proved. `interrupted` if `cancelled` was set before, `outOfMemory` if a
+  /// request for memory failed. Empty if it did not end early.
   const std::string& why() const { return why_; }
+  static constexpr const char* interrupted = "interrupted";
+  static constexpr const char* outOfMemory = "out of memory";
+  /// Whether it ended early for one of these two, not for the motion's sake.
+  bool wasStopped() const { return why_ == interrupted || why_ == outOfMemory; }
 
   /// Output times, rising, the start 0 first.
   const std::vector<double>& times() const { return times_; }

@@ -46,7 +46,7 @@ bool restrictTo(const Box& level, const Embedding& embedding, const std::vector<
 std::vector<int> degreeLadder(int symbols) {
   if (symbols == 0) return {0};
   static constexpr int highest[] = {0, 16, 10, 8, 6, 5, 4, 3, 3};
-  const int last = symbols < 9 ? highest[symbols] : 2;
+  const int last = symbols < 9 ? highest[symbols] : symbols <= 60 ? 2 : 1;  // (k+1)(k+2)/2 monomials of degree 2
   std::vector<int> ladder;
   for (int degree : {2, 4, 6, 8, 12, 16})
     if (degree < last) ladder.push_back(degree);

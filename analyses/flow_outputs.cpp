@@ -12,12 +12,13 @@ namespace gamut {
 
 using detail::at;
 
-FlowOutputs::FlowOutputs(const Program& g, std::shared_ptr<const Monomials> monomials)
+FlowOutputs::FlowOutputs(const Program& g, std::shared_ptr<const Monomials> monomials,
+                         const std::atomic<bool>* cancelled)
     : differentiated_(g.differentiated()),
       n_(g.states()),
       outputs_(g.outputs()),
       monomials_(monomials->count()),
-      series_(differentiated_, outputs_, std::move(monomials), 0, 1, false) {
+      series_(differentiated_, outputs_, std::move(monomials), 0, 1, false, cancelled) {
   polynomial_.assign(at(outputs_ * monomials_), 0.0);
   radius_.assign(at(outputs_), 0.0);
 }
@@ -74,12 +75,13 @@ void FlowOutputs::evaluate(double t, const FlowPoint& point, const std::vector<d
   }
 }
 
-FlowOutputChords::FlowOutputChords(const Program& g, std::shared_ptr<const Monomials> monomials, int order)
+FlowOutputChords::FlowOutputChords(const Program& g, std::shared_ptr<const Monomials> monomials, int order,
+                                   const std::atomic<bool>* cancelled)
     : differentiated_(g.differentiated()),
       n_(g.states()),
       outputs_(g.outputs()),
       order_(order + 1),
-      series_(differentiated_, outputs_, std::move(monomials), 0, order_, false),
+      series_(differentiated_, outputs_, std::move(monomials), 0, order_, false, cancelled),
       second_(at(outputs_)),
       third_(at(outputs_)),
       turn_(at(outputs_)),

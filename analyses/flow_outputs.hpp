@@ -2,6 +2,7 @@
 // of the states leave over, so that outputs are as tight as states. Between two times: on polynomials in time and ξ.
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <vector>
 
@@ -13,7 +14,8 @@ namespace gamut {
 class FlowOutputs {
  public:
   /// `g`: the outputs; its states and parameters are those of the flow.
-  FlowOutputs(const Program& g, std::shared_ptr<const Monomials> monomials);
+  FlowOutputs(const Program& g, std::shared_ptr<const Monomials> monomials,
+              const std::atomic<bool>* cancelled = nullptr);
 
   /// polynomial(o) ± radius(o) contains output o for every ξ. A radius is infinite where nothing could be proved.
   void evaluate(double t, const FlowPoint& point, const std::vector<double>& R,
@@ -32,8 +34,9 @@ class FlowOutputs {
 /// How far outputs leave the chord between two times of a step. Holds the workspace: one a thread.
 class FlowOutputChords {
  public:
-  /// `g` and the monomials as above; `order` that of the steps.
-  FlowOutputChords(const Program& g, std::shared_ptr<const Monomials> monomials, int order);
+  /// `g`, the monomials and `cancelled` as above; `order` that of the steps.
+  FlowOutputChords(const Program& g, std::shared_ptr<const Monomials> monomials, int order,
+                   const std::atomic<bool>* cancelled = nullptr);
 
   /// Composes g with the step that `stepper` certified last from `set`.
   void load(const FlowStepper& stepper, const FlowSet& set);

@@ -39,11 +39,11 @@ constexpr double vanished = 0x1p-120, leastSize = 0x1p-530;
 }  // namespace
 
 FlowStepper::FlowStepper(const Program& motion, std::shared_ptr<const Monomials> monomials, int frameDegree, int order,
-                         double tolerance)
+                         double tolerance, const std::atomic<bool>* cancelled)
     : n_(motion.states()),
       m_(order),
       tolerance_(tolerance),
-      series_(motion, motion.states(), std::move(monomials), frameDegree, order, true),
+      series_(motion, motion.states(), std::move(monomials), frameDegree, order, true, cancelled),
       growth_(motion.states(), order) {
   epsilon_.assign(at(n_ * n_), 0.0);
   for (auto* v :

@@ -2,6 +2,7 @@
 // states the theorem behind every function.
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <string>
 #include <vector>
@@ -27,11 +28,12 @@ struct FlowPoint {
 
 enum class StepOutcome { stepped, splitWanted, failed };
 
-/// Steps sets of one layout (monomials, degrees, order). Holds the workspace: one a thread.
+/// Steps sets of one layout (monomials, degrees, order). Holds the workspace: one a thread. Once `cancelled`, if not
+/// null, is set, certify throws Cancelled.
 class FlowStepper {
  public:
   FlowStepper(const Program& motion, std::shared_ptr<const Monomials> monomials, int frameDegree, int order,
-              double tolerance);
+              double tolerance, const std::atomic<bool>* cancelled = nullptr);
 
   /// Certifies a step from `set` that ends no later than `end`. A truncation defect in ξ above `splitDefect` per second
   /// (relative to the state; 0: any) is answered by splitWanted. h(), evaluate() and advance() refer to the step until

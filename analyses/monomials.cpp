@@ -3,8 +3,13 @@
 
 #include <functional>
 #include <stdexcept>
+#include <string>
 
 namespace gamut {
+
+namespace {
+constexpr std::size_t most = 20000;
+}
 
 Monomials::Monomials(std::vector<int> weights, int degree) : weight_(std::move(weights)), degree_(degree) {
   const std::size_t k = weight_.size();
@@ -16,7 +21,10 @@ Monomials::Monomials(std::vector<int> weights, int degree) : weight_(std::move(w
         number_[e] = count();
         grade_.push_back(q);
         exponent_.insert(exponent_.end(), e.begin(), e.end());
-        if (grade_.size() > 20000) throw std::length_error("too many monomials: lower the degree of the polynomials");
+        if (grade_.size() > most)
+          throw std::invalid_argument("polynomials of degree " + std::to_string(degree) + " in " + std::to_string(k) +
+                                      " uncertain quantities have more than " + std::to_string(most) +
+                                      " terms; expected a lower degree");
         return;
       }
       for (int power = left / weight_[symbol]; power >= 0; --power) {

@@ -15,7 +15,7 @@ class Monomials {
     std::int32_t a, b;
   };
 
-  /// One positive weight a symbol; degree ≥ 0. Throws std::length_error beyond 20000 monomials.
+  /// One positive weight a symbol; degree ≥ 0. Throws std::invalid_argument beyond 20000 monomials.
   Monomials(std::vector<int> weights, int degree);
 
   int symbols() const { return static_cast<int>(weight_.size()); }

@@ -46,7 +46,7 @@ PackWitness::PackWitness(PackWitness&&) noexcept = default;
 PackWitness& PackWitness::operator=(PackWitness&&) noexcept = default;
 
 Integration PackWitness::integrate(std::span<const double> starts, const Tolerance& tolerance,
-                                   std::span<double> trajectories) {
+                                   std::span<double> trajectories, double seconds) {
   Solver& s = *solver_;
   const Motion& motion = s.motion;
   if (starts.size() != motion.startValues() * packWidth ||
@@ -56,7 +56,7 @@ Integration PackWitness::integrate(std::span<const double> starts, const Toleran
   s.f.setParameters(starts.subspan(states));
   s.g.setParameters(starts.subspan(states));
   s.trajectories = trajectories;
-  return s.cvode.integrate(s, starts.first(states), tolerance);
+  return s.cvode.integrate(s, starts.first(states), tolerance, seconds);
 }
 
 }  // namespace gamut

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <atomic>
+#include <limits>
 #include <memory>
 #include <span>
 
@@ -26,7 +27,8 @@ class PackWitness {
   /// fill the rest with copies of a sample. trajectories: packWidth values of the first output at the first output
   /// time, then of the next output, then the next time; to be used only if all times were reached, since it ends with
   /// the first sample that cannot go on. The result depends on the arguments alone.
-  Integration integrate(std::span<const double> starts, const Tolerance& tolerance, std::span<double> trajectories);
+  Integration integrate(std::span<const double> starts, const Tolerance& tolerance, std::span<double> trajectories,
+                        double seconds = std::numeric_limits<double>::infinity());
 
  private:
   struct Solver;

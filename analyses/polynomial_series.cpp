@@ -11,7 +11,7 @@ namespace gamut {
 
 PolynomialSeries::PolynomialSeries(const Program& program, int primaryOutputs,
                                    std::shared_ptr<const Monomials> monomials, int frameDegree, int order,
-                                   bool withFrame)
+                                   bool withFrame, const std::atomic<bool>* cancelled)
     : n_(program.states()),
       time_(program.states() + program.parameters()),
       m_(order),
@@ -19,6 +19,7 @@ PolynomialSeries::PolynomialSeries(const Program& program, int primaryOutputs,
       nodes_(static_cast<int>(program.nodes().size())),
       frameDegree_(std::min(frameDegree, monomials->degree())),
       withFrame_(withFrame),
+      cancelled_(cancelled),
       monomials_(std::move(monomials)),
       outputs_(program.outputNodes()) {
   if (order < 1 || order > 31) throw std::invalid_argument("the order of a polynomial series must be 1 to 31");
@@ -224,7 +225,10 @@ void PolynomialSeries::compute(double t0, double h0) {
     return;
   }
   for (int i = 0; i < m_; ++i) {
-    for (int node = time_ + 1; node < nodes_; ++node) computeOrder(node, i);
+    for (int node = time_ + 1; node < nodes_; ++node) {
+      goOnUnlessCancelled();
+      computeOrder(node, i);
+    }
     if (!withFrame_) continue;
     for (int s = 0; s < n_; ++s) {
       const Plan& from = plan_[at(outputs_[at(s)])];
@@ -474,6 +478,7 @@ void PolynomialSeries::computeFrameOrder(int i, double h0) {
   double* out = scratch_.data();
   for (int row = 0; row < n_; ++row)
     for (int column = 0; column < n_; ++column) {
+      goOnUnlessCancelled();
       std::fill(out, out + frameCount_, 0.0);
       for (int k = 0; k < n_; ++k) {
         const int entry = outputs_[at(n_ + row * n_ + k)];

@@ -4,6 +4,7 @@
 // where ṽ are the orders below m that were computed. docs/flow.md derives every term.
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <string>
 #include <vector>
@@ -22,12 +23,16 @@ struct Embedded {
   int symbol = -1;
 };
 
+/// Thrown where a computation was told to end in its midst.
+struct Cancelled {};
+
 class PolynomialSeries {
  public:
   /// Nodes that the first `primaryOutputs` outputs need keep the monomials' full degree, all others `frameDegree`.
   /// With a frame, outputs n … n+n²-1 are the Jacobian of the first n and Ψ' = (∂f/∂x) Ψ is solved alongside.
+  /// Once `cancelled`, if not null, is set, compute and tabulate throw Cancelled.
   PolynomialSeries(const Program& program, int primaryOutputs, std::shared_ptr<const Monomials> monomials,
-                   int frameDegree, int order, bool withFrame);
+                   int frameDegree, int order, bool withFrame, const std::atomic<bool>* cancelled = nullptr);
   PolynomialSeries(const PolynomialSeries&) = delete;  // it points into itself
   PolynomialSeries(PolynomialSeries&&) = default;
 
@@ -90,6 +95,9 @@ class PolynomialSeries {
  private:
   static constexpr std::size_t at(int i) { return detail::at(i); }
   int last() const { return withFrame_ ? m_ : m_ - 1; }  // the highest order that any node keeps
+  void goOnUnlessCancelled() const {
+    if (cancelled_ != nullptr && cancelled_->load(std::memory_order_relaxed)) throw Cancelled();
+  }
   int frameNode(int i, int j) const { return nodes_ + i * n_ + j; }
 
   struct Plan {
@@ -162,6 +170,7 @@ class PolynomialSeries {
   int n_, time_, m_, stride_, nodes_, frameCount_, frameDegree_;
   int obstacle_ = 0;  // the node that failed
   bool withFrame_;
+  const std::atomic<bool>* cancelled_;
   std::shared_ptr<const Monomials> monomials_;
   std::vector<Plan> plan_;
   std::vector<int> outputs_;

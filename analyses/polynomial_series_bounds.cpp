@@ -50,8 +50,14 @@ bool PolynomialSeries::tabulate(double theta) {
       for (int i = 0; i < m_; ++i) row[i] += row[stride_ + i];
     }
   }
-  for (System& system : systems_) tabulateSystem(system);
-  for (int x = 0; x < nodes_; ++x) ownErrors(x);
+  for (System& system : systems_) {
+    goOnUnlessCancelled();
+    tabulateSystem(system);
+  }
+  for (int x = 0; x < nodes_; ++x) {
+    goOnUnlessCancelled();
+    ownErrors(x);
+  }
   return true;
 }
 

@@ -1,10 +1,12 @@
 // Where samples are put: plans of points in the unit cube (one axis an uncertain quantity), which the distributions'
-// quantiles map to values. Beside the samples, which alone count in statistics, every plan has the corners of the box
-// and the nominal centre: there extremes are often found.
+// quantiles map to values. Beside the samples, which alone count in statistics, every plan has the corners of the box,
+// the corners of boxes inside it and the nominal centre: there extremes are often found.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -25,34 +27,65 @@ std::string_view nameOf(Plan plan);
 /// Throws std::invalid_argument, naming the choices, for another name.
 Plan planNamed(std::string_view name);
 
-/// The points of one plan. Numbers 0 … samples()-1 are the samples, then follow the corners, the centre is last.
-/// Which point a number has follows from the seed and the number (for a Latin hypercube and a grid also from the number
-/// of samples), never from the number of jobs.
+/// The points of a plan's samples, one after the other.
+class PointSequence {
+ public:
+  virtual ~PointSequence() = default;
+  /// Coordinates (0 … 1) of the next sample, one a quantity.
+  virtual void next(std::span<double> point) = 0;
+};
+
+/// The points of one plan; none is kept. Numbers 0 … samples()-1 are the samples, then follow the corners, then the
+/// corners of the inner boxes, the centre is last. Which point a number has follows from the seed and the number (for a
+/// Latin hypercube and a grid also from the number of samples), never from the number of jobs.
 class Sampling {
  public:
   /// At least `samples` points (> 0) for so many quantities: exactly so many, except that a grid has c^quantities
   /// points, c >= 2 the least count an axis that gives enough, and that without quantities there is one sample and no
-  /// corner. Throws std::invalid_argument where the plan cannot serve so many quantities.
-  Sampling(Plan plan, std::size_t quantities, std::size_t samples, std::uint64_t seed);
+  /// corner. `boxes`: one interval a quantity each. Throws std::invalid_argument where the plan cannot serve so many
+  /// quantities.
+  Sampling(Plan plan, std::size_t quantities, std::size_t samples, std::uint64_t seed, std::vector<Box> boxes = {});
 
   std::size_t quantities() const { return quantities_; }
   std::size_t samples() const { return samples_; }
   /// All 2^quantities for at most ten quantities, otherwise 1024: an orthogonal array, in which any two quantities
   /// meet in all four combinations of their ends equally often (up to 1023 quantities; up to 512 any three do).
-  std::size_t corners() const { return corners_; }
-  std::size_t centre() const { return samples_ + corners_; }
-  std::size_t size() const { return samples_ + corners_ + 1; }
+  std::size_t corners() const { return ends_.count(); }
+  /// Of all inner boxes together. Of each as many, 2^bits, as make no more than 1024 of all, but at least two: all of
+  /// them for six quantities and sixteen boxes; for more an orthogonal array as above (up to 2^bits - 1 quantities).
+  std::size_t boxCorners() const { return boxes_.size() * boxEnds_.count(); }
+  std::size_t centre() const { return samples_ + corners() + boxCorners(); }
+  std::size_t size() const { return centre() + 1; }
 
-  /// Coordinates (0 … 1) of a sample or corner, one a quantity.
-  std::vector<double> unitPoint(std::size_t number) const;
-  /// Values of the quantities: quantiles for samples, ends of the ranges for corners, nominal values for the centre.
-  std::vector<double> values(std::size_t number, const std::vector<Uncertain>& uncertain) const;
+  /// Coordinates (0 … 1) of a sample or corner (of its box), one a quantity. Quick where the numbers rise; to go back
+  /// takes as long as to come from 0.
+  void unitPoint(std::size_t number, std::span<double> point);
+  std::vector<double> unitPoint(std::size_t number);
+  /// Makes coordinates into values of the quantities: quantiles for samples, ends of the ranges or boxes for corners,
+  /// nominal values for the centre, whatever its coordinates.
+  void toValues(std::size_t number, const std::vector<Uncertain>& uncertain, std::span<double> point) const;
+  std::vector<double> values(std::size_t number, const std::vector<Uncertain>& uncertain);
 
  private:
-  bool isUpper(std::size_t corner, std::size_t quantity) const;
+  /// Which end each quantity has in so many corners.
+  class Ends {
+   public:
+    Ends() = default;
+    explicit Ends(std::size_t bits);
+    std::size_t count() const { return masks_.empty() ? 0 : masks_.size() + 1; }
+    bool isUpper(std::size_t corner, std::size_t quantity) const;
 
-  std::size_t quantities_, samples_, corners_;
-  std::vector<double> unit_;  // [sample][quantity]
+   private:
+    std::vector<std::size_t> masks_;
+  };
+
+  Plan plan_;
+  std::size_t quantities_, samples_;
+  std::uint64_t seed_;
+  std::vector<Box> boxes_;
+  Ends ends_, boxEnds_;
+  std::unique_ptr<PointSequence> sequence_;
+  std::size_t position_ = 0;  // number of the sequence's next point
 };
 
 }  // namespace gamut

@@ -49,8 +49,8 @@ Witness::~Witness() = default;
 Witness::Witness(Witness&&) noexcept = default;
 Witness& Witness::operator=(Witness&&) noexcept = default;
 
-Integration Witness::integrate(std::span<const double> start, const Tolerance& tolerance,
-                               std::span<double> trajectory) {
+Integration Witness::integrate(std::span<const double> start, const Tolerance& tolerance, std::span<double> trajectory,
+                               double seconds) {
   Solver& s = *solver_;
   const Motion& motion = s.motion;
   if (start.size() != motion.startValues() || trajectory.size() != motion.times.size() * motion.outputs())
@@ -60,7 +60,7 @@ Integration Witness::integrate(std::span<const double> start, const Tolerance& t
   s.f.setParameters(start.subspan(states));
   s.g.setParameters(start.subspan(states));
   s.trajectory = trajectory;
-  return s.cvode.integrate(s, start.first(states), tolerance);
+  return s.cvode.integrate(s, start.first(states), tolerance, seconds);
 }
 
 }  // namespace gamut

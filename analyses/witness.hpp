@@ -3,6 +3,7 @@
 #pragma once
 
 #include <atomic>
+#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
@@ -38,7 +39,8 @@ class Witness {
 
   /// start: the initial values, then the parameters. trajectory: row by row one output time, one column an output;
   /// NaN beyond what was reached. The result depends on the arguments alone, not on what was integrated before.
-  Integration integrate(std::span<const double> start, const Tolerance& tolerance, std::span<double> trajectory);
+  Integration integrate(std::span<const double> start, const Tolerance& tolerance, std::span<double> trajectory,
+                        double seconds = std::numeric_limits<double>::infinity());
 
  private:
   struct Solver;

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <type_traits>
 
+#include "mechanics/inertia.hpp"
 #include "mechanics/names.hpp"
 
 namespace gamut {
@@ -53,8 +54,7 @@ void Mechanism::checkNewName(const std::string& kind, const std::string& name) c
 
 void Mechanism::checkFrame(const std::string& frame, const std::string& of) const {
   if (!has(frames_, frame))
-    refuse(unknownName("frame", frame, frames_) + " (" + quoted(of) +
-           " must come after the element that defines its frame)");
+    throw UnknownName("frame", frame, frames_, quoted(of) + " must come after the element that defines its frame");
 }
 
 void Mechanism::addFrame(const std::string& from, const std::string& to, const std::string& of) {
@@ -75,7 +75,7 @@ void Mechanism::use(Quantity& quantity, const std::string& name, const std::stri
   const auto parameter = std::find_if(parameters_.begin(), parameters_.end(),
                                       [&](const auto& value) { return value.name == quantity.parameter(); });
   if (parameter == parameters_.end())
-    refuse(unknownName("parameter", quantity.parameter(), namesOf(parameters_)) + " (for " + quoted(name) + ")");
+    throw UnknownName("parameter", quantity.parameter(), namesOf(parameters_), "for " + quoted(name));
   if (parameter->unit.empty()) parameter->unit = unit;
   if (parameter->unit != unit)
     refuse("the parameter " + quoted(parameter->name) + " is in " + parameter->unit + ", but " + quoted(name) +
@@ -161,8 +161,7 @@ void Mechanism::add(JointSpring spring) {
   const auto joint = std::find_if(positions_.begin(), positions_.end(), [&](const State& state) {
     return state.name == spring.joint + ".angle" || state.name == spring.joint + ".displacement";
   });
-  if (joint == positions_.end())
-    refuse(unknownName("joint", spring.joint, joints()) + " (for " + quoted(spring.name) + ")");
+  if (joint == positions_.end()) throw UnknownName("joint", spring.joint, joints(), "for " + quoted(spring.name));
   const bool angular = joint->unit == "rad";
   use(spring.stiffness, spring.name + ".stiffness", angular ? "N m/rad" : "N/m");
   use(spring.rest, spring.name + ".rest", joint->unit);
@@ -178,6 +177,30 @@ void Mechanism::setGravity(QuantityVector gravity) {
 
 void Mechanism::check() const {
   if (positions_.empty()) refuse("the mechanism has no joint: nothing can move");
+  for (const ElementDescription& element : elements_)
+    if (const Mass* mass = std::get_if<Mass>(&element))
+      if (const std::string fault = inertiaFault(*mass, {}); !fault.empty()) refuse(fault);
+}
+
+std::string Mechanism::inertiaFault(const Mass& mass, const std::map<std::string, Interval>& ranges) const {
+  std::vector<std::string> varied;  // of the entries' parameters, those that have a range
+  for (const Quantity& entry : mass.inertia)
+    if (ranges.contains(entry.parameter()) && !has(varied, entry.parameter())) varied.push_back(entry.parameter());
+  // The tensors that a body can have are a convex cone, and each entry is affine in its parameter: what holds at the
+  // corners of the box holds in all of it.
+  for (unsigned corner = 0; corner < (1U << varied.size()); ++corner) {
+    std::array<Interval, 6> tensor;
+    std::transform(mass.inertia.begin(), mass.inertia.end(), tensor.begin(), [&](const Quantity& entry) {
+      const auto place = std::find(varied.begin(), varied.end(), entry.parameter());
+      if (place == varied.end()) return entry.factor() * nominal(entry.parameter());
+      const Interval& range = ranges.at(entry.parameter());
+      const bool isUpper = ((corner >> (place - varied.begin())) & 1U) != 0;
+      return entry.factor() * Interval(isUpper ? range.upper() : range.lower());
+    });
+    const std::string fault = impossibilityOf(tensor);
+    if (!fault.empty()) return "the inertia of " + quoted(mass.name) + " " + fault;
+  }
+  return "";
 }
 
 void Mechanism::checkMasses() const {

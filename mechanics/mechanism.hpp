@@ -13,6 +13,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <optional>
 #include <string>
 #include <variant>
@@ -126,8 +127,11 @@ class Mechanism {
   void add(JointSpring spring);
   /// Acceleration of free fall in the inertial frame [m/s²]; names gravity.x … z. Zero unless set; set at most once.
   void setGravity(QuantityVector gravity);
-  /// Throws if there is no joint.
+  /// Throws if there is no joint, or a mass with an inertia that no body has.
   void check() const;
+  /// What is wrong with the inertia of one of the elements for some values within the ranges, as a clause: "the inertia
+  /// of 'arm' has a negative principal moment"; empty if nothing certainly is. Numbers without a range are nominal.
+  std::string inertiaFault(const Mass& mass, const std::map<std::string, Interval>& ranges) const;
   /// Throws if there is a joint that no mass hangs on: its motion would not be determined.
   void checkMasses() const;
 

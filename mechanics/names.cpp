@@ -1,9 +1,10 @@
-// The nearest name by the distance of Damerau and Levenshtein, restricted to swaps of neighbours.
+// The nearest names by the distance of Damerau and Levenshtein, restricted to swaps of neighbours.
 #include "mechanics/names.hpp"
 
 #include <algorithm>
 #include <cctype>
-#include <limits>
+#include <iterator>
+#include <utility>
 
 namespace gamut {
 namespace {
@@ -29,19 +30,63 @@ std::size_t distance(std::string_view a, std::string_view b) {
   return last[b.size()];
 }
 
+/// Those that a few typos lead to, the nearest first, equals in their order. (A long word is no typo of a short one,
+/// nor worth the time to compare.)
+std::vector<std::string> nearNames(std::string_view word, const std::vector<std::string>& candidates) {
+  std::vector<std::pair<std::size_t, std::string>> near;
+  const std::size_t most = std::max<std::size_t>(2, word.size() / 3);
+  for (const std::string& candidate : candidates) {
+    if (word.size() > 2 * candidate.size() + 8) continue;
+    const std::size_t d = distance(word, candidate);
+    if (d <= most) near.emplace_back(d, candidate);
+  }
+  std::stable_sort(near.begin(), near.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<std::string> names;
+  for (auto& [d, name] : near) names.push_back(std::move(name));
+  return names;
+}
+
+/// "a.bc" holds the parts "a" and "bc"; those of one letter, as a component's, say little.
+bool shareAPart(std::string_view a, std::string_view b) {
+  const std::string other = "." + std::string(b) + ".";
+  for (std::size_t begin = 0; begin <= a.size();) {
+    const std::size_t end = std::min(a.find('.', begin), a.size());
+    const std::string part(a.substr(begin, end - begin));
+    if (part.size() > 1 && other.find("." + part + ".") != std::string::npos) return true;
+    begin = end + 1;
+  }
+  return false;
+}
+
+std::string quoted(const std::string& name) { return "'" + name + "'"; }
+
+/// "'a', 'b' or 'c'" of the first three.
+std::string alternatives(const std::vector<std::string>& names) {
+  const std::size_t n = std::min<std::size_t>(names.size(), 3);
+  std::string text = quoted(names[0]);
+  for (std::size_t i = 1; i < n; ++i) text += (i + 1 < n ? ", " : " or ") + quoted(names[i]);
+  return text;
+}
+
 }  // namespace
 
 std::string nearestName(std::string_view word, const std::vector<std::string>& candidates) {
-  std::string nearest;
-  std::size_t least = std::numeric_limits<std::size_t>::max();
-  for (const std::string& candidate : candidates) {
-    const std::size_t d = distance(word, candidate);
-    if (d < least && d <= std::max<std::size_t>(2, word.size() / 3)) {
-      least = d;
-      nearest = candidate;
-    }
-  }
-  return nearest;
+  const std::vector<std::string> near = nearNames(word, candidates);
+  return near.empty() ? "" : near.front();
+}
+
+std::string expectedName(std::string_view word, const std::vector<std::string>& candidates) {
+  if (candidates.empty()) return "no such name: there is none yet";
+  std::vector<std::string> names = nearNames(word, candidates);
+  if (names.empty())
+    std::copy_if(candidates.begin(), candidates.end(), std::back_inserter(names),
+                 [&](const std::string& candidate) { return shareAPart(word, candidate); });
+  if (!names.empty()) return alternatives(names);
+  constexpr std::size_t most = 12;
+  std::string text = "one of: " + candidates[0];
+  for (std::size_t i = 1; i < std::min(candidates.size(), most); ++i) text += ", " + candidates[i];
+  if (candidates.size() > most) text += " and " + std::to_string(candidates.size() - most) + " more";
+  return text;
 }
 
 std::string unknownName(std::string_view kind, std::string_view word, const std::vector<std::string>& candidates) {
@@ -50,5 +95,12 @@ std::string unknownName(std::string_view kind, std::string_view word, const std:
   const std::string nearest = nearestName(word, candidates);
   return nearest.empty() ? start : start + "; did you mean '" + nearest + "'?";
 }
+
+UnknownName::UnknownName(const std::string& kind, const std::string& word, const std::vector<std::string>& candidates,
+                         const std::string& remark)
+    : std::invalid_argument(unknownName(kind, word, candidates) + (remark.empty() ? "" : " (" + remark + ")")),
+      problem_("unknown " + kind + " " + quoted(word)),
+      word_(word),
+      expected_(expectedName(word, candidates) + (remark.empty() ? "" : " (" + remark + ")")) {}
 
 }  // namespace gamut

@@ -1,6 +1,7 @@
-// Helps with names that a user misspelt: the nearest known one, and the sentence to say.
+// Helps with names that a user misspelt: the nearest known ones, and the sentence to say.
 #pragma once
 
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,8 +12,29 @@ namespace gamut {
 /// ignored; the first of equals. Empty if none is within two of them or, for a long word, a third of its length.
 std::string nearestName(std::string_view word, const std::vector<std::string>& candidates);
 
+/// What would do instead of `word`: up to three nearest names, or up to three that share a part between dots with it,
+/// as
+/// "'a', 'b' or 'c'"; else "one of: a, b, …", of many the first twelve.
+std::string expectedName(std::string_view word, const std::vector<std::string>& candidates);
+
 /// "unknown KIND 'WORD'; did you mean 'NEAREST'?", without the question where no candidate is near, or, without
 /// candidates, "unknown KIND 'WORD': there is none yet".
 std::string unknownName(std::string_view kind, std::string_view word, const std::vector<std::string>& candidates);
+
+/// A name was used that nothing has; what() is unknownName's sentence, and a remark in parentheses.
+class UnknownName : public std::invalid_argument {
+ public:
+  UnknownName(const std::string& kind, const std::string& word, const std::vector<std::string>& candidates,
+              const std::string& remark = "");
+
+  /// "unknown KIND 'WORD'"
+  const std::string& problem() const { return problem_; }
+  const std::string& word() const { return word_; }
+  /// expectedName and the remark.
+  const std::string& expected() const { return expected_; }
+
+ private:
+  std::string problem_, word_, expected_;
+};
 
 }  // namespace gamut

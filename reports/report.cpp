@@ -164,6 +164,6 @@ std::string renderReport(const Results& results) {
                                  {"script", std::string(page::script)}});
 }
 
-void writeReport(const Results& results, const std::string& path) { replaceFileText(path, renderReport(results)); }
+void writeReport(const Results& results, const std::string& path) { replaceFile(path, renderReport(results)); }
 
 }  // namespace gamut

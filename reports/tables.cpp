@@ -73,7 +73,7 @@ std::size_t lastCommonTime(const Results& results) {
   return end == results.time.begin() ? 0 : static_cast<std::size_t>(end - results.time.begin()) - 1;
 }
 
-std::string secondsText(double seconds) { return numberText(seconds, 3) + " s"; }
+std::string secondsText(double seconds) { return numberText(seconds, seconds < 1000 ? 3 : 6) + " s"; }
 
 }  // namespace
 
@@ -131,7 +131,7 @@ std::string costTable(const Results& results) {
     table.row("probable",
               {secondsText(stochastic.cpu),
                fmt::format("{} ({}), {}, tolerances {} relative, {} absolute", countText(stochastic.samples, "sample"),
-                           stochastic.plan, countText(stochastic.corners, "corner"),
+                           stochastic.plan, countText(stochastic.corners + stochastic.alphaCorners, "corner"),
                            numberText(stochastic.relativeTolerance), numberText(stochastic.absoluteTolerance))});
   }
   if (results.fuzzy.present) {
@@ -139,6 +139,16 @@ std::string costTable(const Results& results) {
                            countText(static_cast<long long>(results.fuzzy.alpha.size()), "alpha-cut")});
   }
   if (results.reportCpu > 0) table.row("report", {secondsText(results.reportCpu), ""});
+  if (std::isfinite(results.limits.time)) {
+    const Limits& limits = results.limits;
+    const auto gigabytes = [](double bytes) { return numberText(bytes / 1e9, 3) + " GB"; };
+    table.row("all analyses", {secondsText(results.cpu),
+                               fmt::format("at most {} of memory; allowed: {} and {}, to the enclosure {} and "
+                                           "{}, to a sample {}",
+                                           gigabytes(results.memory), secondsText(limits.time),
+                                           gigabytes(limits.memory), secondsText(limits.enclosureTime),
+                                           gigabytes(limits.enclosureMemory), secondsText(limits.sampleTime))});
+  }
   return table.html();
 }
 

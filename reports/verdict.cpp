@@ -18,11 +18,14 @@
 namespace gamut {
 namespace {
 
+constexpr int enclosureLevel = -1;  // of the enclosure, where an alpha-cut has its index
+
 /// Samples outside a proved bound: how far, where, and which bound it was.
 struct Excursion {
   double distance = 0;
   std::size_t time = 0, output = 0;
   std::string_view bound;
+  int level = enclosureLevel;
 };
 
 bool isUnresolved(const DisputedSample& sample) { return !sample.outside && sample.decided == "unresolved"; }
@@ -78,35 +81,31 @@ class Judge {
     return std::max<std::size_t>(static_cast<std::size_t>(end - time.begin()), time.empty() ? 0 : 1);
   }
 
-  /// Whether some disputed sample of this output was left so: what lies outside may be that one.
-  bool hasDispute(std::size_t output, bool (*isLeft)(const DisputedSample&)) const {
-    return std::any_of(results_.comparison.disputed.begin(), results_.comparison.disputed.end(),
-                       [&](const DisputedSample& sample) { return sample.output == output && isLeft(sample); });
+  /// Whether a sample that was left so lies as far outside the same bound, in the same output.
+  bool isExplained(const Excursion& found, bool (*isLeft)(const DisputedSample&)) const {
+    return std::any_of(
+        results_.comparison.disputed.begin(), results_.comparison.disputed.end(), [&](const DisputedSample& sample) {
+          return sample.level == found.level && isLeft(sample) && found.distance <= sample.farthestIn(found.output);
+        });
   }
 
   /// Refined motions are stored in place of the disputed ones, so that nothing outside is left but what was not
   /// decided.
   void noteExcursion(const Excursion& found) {
-    if (hasDispute(found.output, isUnresolved)) {
-      if (found.distance > doubtful_.distance) doubtful_ = found;
-      return;
-    }
-    // What was not looked at to the end explains no more than its own distance.
-    const auto& disputed = results_.comparison.disputed;
-    const bool explained = std::any_of(disputed.begin(), disputed.end(), [&](const DisputedSample& sample) {
-      return sample.output == found.output && isInterrupted(sample) && found.distance <= sample.distance;
-    });
-    if (!explained && found.distance > outside_.distance) outside_ = found;
+    if (isExplained(found, isInterrupted)) return;
+    Excursion& of = isExplained(found, isUnresolved) ? doubtful_ : outside_;
+    if (found.distance > of.distance) of = found;
   }
 
   /// Samples at `time` against the bounds' row `row`. A bound that is missing is no bound: false.
   bool compare(const Bounds& samples, std::size_t time, const Bounds& proved, std::size_t row, std::size_t output,
-               std::string_view name) {
+               std::string_view name, int level = enclosureLevel) {
     const double low = samples.lower(time, output), high = samples.upper(time, output);
     const double lower = proved.lower(row, output), upper = proved.upper(row, output);
     if (std::isnan(low) || std::isnan(high) || std::isnan(lower) || std::isnan(upper)) return false;
+    ++compared_;
     const double distance = std::max(distanceOutside(low, lower, upper), distanceOutside(high, lower, upper));
-    if (distance > 0) noteExcursion({distance, time, output, name});
+    if (distance > 0) noteExcursion({distance, time, output, name, level});
     return true;
   }
 
@@ -144,7 +143,7 @@ class Judge {
       reachedCuts_ = reached;
       for (std::size_t i = 0; i < timesUntil(reached); ++i) {
         for (std::size_t k = 0; k < results_.outputs.size(); ++k) {
-          compare(fuzzy.inner[level], i, fuzzy.outer[level], i, k, "its alpha-cut");
+          compare(fuzzy.inner[level], i, fuzzy.outer[level], i, k, "its alpha-cut", static_cast<int>(level));
         }
       }
     }
@@ -164,11 +163,14 @@ class Judge {
     return fmt::format(" at {} s", numberText(results_.time[time], 6));
   }
 
-  /// The plan's samples come first, then the corners of the box, its centre is last.
+  /// The plan's samples come first, then the corners of the box, then those of the alpha-cuts, the centre is last.
   std::string sampleName(std::int64_t number) const {
-    const std::int64_t corner = number - results_.stochastic.samples, corners = results_.stochastic.corners;
-    if (!results_.stochastic.present || corner < 0 || corner > corners) return fmt::format("Sample {}", number);
-    return corner == corners ? "The centre" : fmt::format("Corner {} of {}", corner + 1, corners);
+    const std::int64_t corner = number - results_.stochastic.samples, corners = results_.stochastic.corners,
+                       inner = results_.stochastic.alphaCorners;
+    if (!results_.stochastic.present || corner < 0 || corner > corners + inner) return fmt::format("Sample {}", number);
+    if (corner == corners + inner) return "The centre";
+    return corner < corners ? fmt::format("Corner {} of {}", corner + 1, corners)
+                            : fmt::format("Corner {} of {} of the alpha-cuts", corner - corners + 1, inner);
   }
 
   /// Grave findings first, every one of them; of the settled ones a few by name and the number of the others.
@@ -193,7 +195,7 @@ class Judge {
         }
         doubted_ = true;
       } else if (isInterrupted(sample)) {
-        undecided.push_back(who + " seemed outside and was not decided: the run was interrupted.");
+        undecided.push_back(fmt::format("{} seemed outside and was not decided: {}.", who, whyUndecided()));
         interrupted_ = true;
       } else {
         settled.push_back(fmt::format("{} seemed outside and was found inside, decided by {}.", who, sample.decided));
@@ -216,11 +218,29 @@ class Judge {
 
   bool moves() const { return results_.horizon > 0; }
 
+  std::string whyUndecided() const {
+    return results_.comparison.why.empty() ? "the run was interrupted" : results_.comparison.why;
+  }
+
   /// The samples in words: every one that the envelope covers.
   std::string samplesText() const {
     const StochasticResult& stochastic = results_.stochastic;
-    const auto count = stochastic.samples + stochastic.corners + 1;  // the centre
-    return fmt::format("{} sampled {}", count, moves() ? "motions" : "positions");
+    const std::string_view what = moves() ? "motions" : "positions";
+    return stochastic.integrated < stochastic.planned()
+               ? fmt::format("{} {} that were sampled", stochastic.integrated, what)
+               : fmt::format("{} sampled {}", stochastic.integrated, what);
+  }
+
+  /// Sampling that did not come to its end.
+  void noteSamples() {
+    const StochasticResult& stochastic = results_.stochastic;
+    if (!stochastic.present || stochastic.stopped.empty()) return;
+    unfinished_ = true;
+    verdict_.notes.push_back(
+        stochastic.integrated < stochastic.planned()
+            ? fmt::format("{} of {} samples were taken: {}.", stochastic.integrated, stochastic.planned(),
+                          stochastic.stopped)
+            : fmt::format("The samples' error was not measured to the end: {}.", stochastic.stopped));
   }
 
   std::string spanText(double reached) const {
@@ -248,9 +268,11 @@ class Judge {
     if (comparedEnvelope_) findOverestimation();
     verdict_.reached = reached();
     noteEnd(results_.interval.present, "The guarantee ends at", results_.interval.reached, results_.interval.why);
-    noteEnd(results_.stochastic.present, "The samples end at", results_.stochastic.reached, results_.stochastic.why);
+    noteSamples();
+    noteEnd(results_.stochastic.present && results_.stochastic.integrated > 0, "The samples end at",
+            results_.stochastic.reached, results_.stochastic.why);
     noteEnd(results_.fuzzy.present, "The alpha-cuts end at", results_.fuzzy.reached, results_.fuzzy.why);
-    if (missing_ > 0 && !endedAtOnce()) {
+    if (missing_ > 0 && compared_ > 0 && !endedAtOnce()) {
       verdict_.notes.push_back(fmt::format("{} of the numbers to compare {} missing before the end was reached.",
                                            missing_, missing_ == 1 ? "is" : "are"));
     }
@@ -290,9 +312,19 @@ class Judge {
       verdict_.sentence = "Nothing could be compared: " + missingText() + ".";
       return;
     }
+    if (results_.stochastic.present && results_.stochastic.integrated == 0) {
+      verdict_.word = "incomplete";
+      verdict_.sentence = "Nothing could be compared: no sample was taken.";
+      return;
+    }
+    if (compared_ == 0 && !moves()) {
+      verdict_.word = "incomplete";
+      verdict_.sentence = fmt::format("Nothing could be compared: {}.", whyEnded(results_));
+      return;
+    }
     if (interrupted_) {
       verdict_.word = "incomplete";
-      verdict_.sentence = "It was not decided whether every sample stays inside: the run was interrupted.";
+      verdict_.sentence = fmt::format("It was not decided whether every sample stays inside: {}.", whyUndecided());
       return;
     }
     if (endedAtOnce()) {
@@ -302,7 +334,7 @@ class Judge {
                       numberText(results_.horizon, 6));
       return;
     }
-    const bool complete = !short_ && missing_ == 0;
+    const bool complete = !short_ && !unfinished_ && missing_ == 0;
     verdict_.word = complete ? "inside" : "incomplete";
     verdict_.sentence =
         comparedEnvelope_
@@ -316,7 +348,7 @@ class Judge {
     verdict_.sentence += ".";
     if (short_) {
       verdict_.sentence += fmt::format(" The {} s asked for were not reached.", numberText(results_.horizon, 6));
-    } else if (!complete) {
+    } else if (missing_ > 0) {
       verdict_.sentence += " Not every number was there to compare.";
     }
   }
@@ -340,10 +372,10 @@ class Judge {
   const Results& results_;
   Verdict verdict_;
   Excursion outside_, doubtful_;
-  bool comparedEnvelope_ = false, comparedCuts_ = false, short_ = false, refuted_ = false, doubted_ = false,
-       interrupted_ = false;
+  bool comparedEnvelope_ = false, comparedCuts_ = false, short_ = false, unfinished_ = false, refuted_ = false,
+       doubted_ = false, interrupted_ = false;
   double reachedEnvelope_ = 0, reachedCuts_ = 0;
-  std::size_t missing_ = 0;
+  std::size_t missing_ = 0, compared_ = 0;
 };
 
 }  // namespace

@@ -1,14 +1,16 @@
-// POSIX: rename() replaces in one step when both names lie in one folder; fsync() before it keeps the order on disk.
+// POSIX: rename() replaces in one step when both names lie in one folder; fsync() before it keeps the order on disk. A
+// lock by flock() ends with its process, however that ends.
 #include "studies/atomic_file.hpp"
 
 #include <fcntl.h>
-#include <stdlib.h>
+#include <stdio.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <system_error>
 
 namespace gamut {
@@ -16,64 +18,166 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// ".NAME.gamut-part" is what becomes NAME: no other program calls its files so.
+constexpr std::string_view suffix = ".gamut-part";
+
 fs::path folderOf(const fs::path& file) { return file.has_parent_path() ? file.parent_path() : fs::path("."); }
 
-[[noreturn]] void fail(const std::string& path, const std::string& why) {
-  throw WriteError(path + ": cannot be written; " + why);
+std::string sentence(const std::string& path, const std::string& why) { return path + ": cannot be written; " + why; }
+
+[[noreturn]] void refuse(const std::string& path, const std::string& why) { throw OutputRefused(sentence(path, why)); }
+
+bool isFull(int error) { return error == ENOSPC || error == EDQUOT; }
+
+std::string inWords(int error) {
+  const std::string system = std::strerror(error);
+  if (error == ENOSPC) return "the disk is full (" + system + ")";
+  if (error == EDQUOT) return "the user's share of the disk is used up (" + system + ")";
+  if (error == EFBIG) return "files may not grow so large here, see ulimit -f (" + system + ")";
+  if (error == ENAMETOOLONG) return "the name is too long";
+  if (error == ELOOP) return "symbolic links lead in a circle";
+  return system;
 }
 
-void flushToDisk(const std::string& written, const std::string& path) {
-  const int file = ::open(written.c_str(), O_RDONLY | O_CLOEXEC);
-  if (file < 0) fail(path, std::strerror(errno));
-  const int status = ::fsync(file);
-  const int error = errno;
+/// The end of the chain of symbolic links that starts at `path`; it need not exist.
+fs::path endOfLinks(const std::string& path) {
+  fs::path end(path);
+  std::error_code error;
+  for (int links = 0; fs::is_symlink(end, error); ++links) {
+    if (links == 40) refuse(path, inWords(ELOOP));
+    const fs::path next = fs::read_symlink(end, error);
+    if (error) refuse(path, inWords(error.value()));
+    end = folderOf(end) / next;
+  }
+  return end;
+}
+
+/// A file that can be replaced, or none, stands at `target`.
+void checkTarget(const std::string& path, const std::string& target, OutputFile::Existing existing) {
+  struct stat found {};
+  if (::stat(target.c_str(), &found) != 0) {
+    if (errno != ENOENT) refuse(path, inWords(errno));
+    return;
+  }
+  if (S_ISDIR(found.st_mode)) refuse(path, "it is a folder");
+  if (!S_ISREG(found.st_mode)) refuse(path, "it is a device, or another thing that is no regular file");
+  if (existing == OutputFile::Existing::isKept)
+    throw OutputRefused(path + ": exists already; expected another name, or --force");
+}
+
+/// Whether `file` is what `path` names: it may have been renamed or removed before it was locked.
+bool isStill(int file, const std::string& path) {
+  struct stat opened {
+  }, named{};
+  return ::fstat(file, &opened) == 0 && ::lstat(path.c_str(), &named) == 0 && opened.st_dev == named.st_dev &&
+         opened.st_ino == named.st_ino;
+}
+
+enum class Lock { taken, held, impossible };
+
+/// Tries `attempts` times, 10 ms apart.
+Lock lock(int file, int attempts) {
+  for (int attempt = 1; ::flock(file, LOCK_EX | LOCK_NB) != 0; ++attempt) {
+    if (errno != EWOULDBLOCK) return Lock::impossible;
+    if (attempt >= attempts) return Lock::held;
+    ::usleep(10000);
+  }
+  return Lock::taken;
+}
+
+/// A file that nobody holds a lock on has lost its writer. Where locks are impossible nothing is removed.
+void removeIfAbandoned(const std::string& part) {
+  const int file = ::open(part.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  if (file < 0) return;
+  struct stat found {};
+  const bool isRegular = ::fstat(file, &found) == 0 && S_ISREG(found.st_mode);
+  if (isRegular && lock(file, 1) == Lock::taken && isStill(file, part)) ::unlink(part.c_str());
   ::close(file);
-  // Some file systems cannot flush (EINVAL): the rename is still in order there.
-  if (status != 0 && error != EINVAL) fail(path, std::strerror(error));
+}
+
+void removeAbandoned(const fs::path& folder) {
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    if (name.starts_with('.') && name.ends_with(suffix)) removeIfAbandoned(entry->path().string());
+  }
 }
 
 }  // namespace
 
-void checkWritable(const std::string& path) {
+OutputFile::OutputFile(const std::string& path, Existing existing) : path_(path), existing_(existing) {
+  const fs::path end = endOfLinks(path), folder = folderOf(end);
+  target_ = end.string();
   std::error_code error;
-  const fs::path folder = folderOf(path);
-  if (!fs::is_directory(folder, error)) fail(path, "the folder " + folder.string() + " does not exist");
-  if (fs::is_directory(path, error)) fail(path, "it is a folder");
-  // Permissions do not tell all (a read-only or virtual file system, a superuser): only trying does.
-  std::string trial = (folder / ".gamut-XXXXXX").string();
-  const int file = ::mkstemp(trial.data());
-  if (file < 0) fail(path, "the folder " + folder.string() + " takes no files: " + std::strerror(errno));
-  ::close(file);
-  ::unlink(trial.c_str());
-}
-
-void replaceFile(const std::string& path, const std::function<void(const std::string&)>& write) {
-  const fs::path target(path);
-  const fs::path folder = folderOf(path);
-  if (!fs::is_directory(folder)) fail(path, "the folder " + folder.string() + " does not exist");
-  if (fs::is_directory(target)) fail(path, "it is a folder");
-  const std::string temporary =
-      (folder / ("." + target.filename().string() + "." + std::to_string(::getpid()) + ".part")).string();
+  if (!fs::is_directory(folder, error)) refuse(path, "the folder " + folder.string() + " does not exist");
+  checkTarget(path, target_, existing);
+  removeAbandoned(folder);
+  part_ = (folder / ("." + end.filename().string() + std::string(suffix))).string();
+  // Once more where the writer before ended between the two steps: its file is then no longer called so.
+  for (bool isMine = false; !isMine;) {
+    file_ = ::open(part_.c_str(), O_CREAT | O_RDWR | O_NOFOLLOW | O_CLOEXEC, 0666);
+    if (file_ < 0) {
+      if (isFull(errno)) throw WriteError(sentence(path, inWords(errno)));
+      const bool isName = errno == ENAMETOOLONG;
+      refuse(path, isName ? inWords(errno) : "the folder " + folder.string() + " takes no files: " + inWords(errno));
+    }
+    // One that clears up holds it for a moment, one that writes for as long as it runs.
+    if (lock(file_, 20) == Lock::held) {
+      ::close(file_);
+      refuse(path, "another run is about to write it");
+    }
+    isMine = isStill(file_, part_);
+    if (!isMine) ::close(file_);
+  }
+  // That writer may have put its file at the target since.
   try {
-    write(temporary);
-    flushToDisk(temporary, path);
-    std::error_code error;
-    fs::rename(temporary, target, error);
-    if (error) fail(path, error.message());
+    checkTarget(path, target_, existing);
   } catch (...) {
-    std::error_code ignored;
-    fs::remove(temporary, ignored);
+    ::unlink(part_.c_str());
+    ::close(file_);
     throw;
   }
 }
 
-void replaceFileText(const std::string& path, const std::string& content) {
-  replaceFile(path, [&](const std::string& temporary) {
-    std::ofstream file(temporary, std::ios::binary);
-    file << content;
-    file.close();
-    if (!file) fail(path, "writing failed (is the disk full, or the folder read-only?)");
-  });
+OutputFile::~OutputFile() {
+  if (file_ < 0) return;
+  if (isStill(file_, part_)) ::unlink(part_.c_str());
+  ::close(file_);
+}
+
+void OutputFile::fail(int error) const { throw WriteError(sentence(path_, inWords(error))); }
+
+void OutputFile::fill(std::string_view content) const {
+  if (::ftruncate(file_, 0) != 0 || ::lseek(file_, 0, SEEK_SET) != 0) fail(errno);
+  while (!content.empty()) {
+    const ssize_t written = ::write(file_, content.data(), content.size());
+    if (written < 0 && errno != EINTR) fail(errno);
+    if (written > 0) content.remove_prefix(static_cast<std::size_t>(written));
+  }
+  // Some file systems cannot flush (EINVAL): the rename is still in order there.
+  if (::fsync(file_) != 0 && errno != EINVAL) fail(errno);
+}
+
+void OutputFile::moveToTarget() const {
+  if (!isStill(file_, part_)) throw WriteError(sentence(path_, "another program removed what was written"));
+  if (existing_ == Existing::isKept) {
+    // A name that appeared meanwhile is not ours to replace. File systems without this way of renaming say EINVAL.
+    if (::renameat2(AT_FDCWD, part_.c_str(), AT_FDCWD, target_.c_str(), RENAME_NOREPLACE) == 0) return;
+    if (errno == EEXIST) throw WriteError(sentence(path_, "another program has written it meanwhile"));
+    if (errno != EINVAL && errno != ENOSYS) fail(errno);
+  }
+  if (::rename(part_.c_str(), target_.c_str()) != 0) fail(errno);
+}
+
+void OutputFile::write(std::string_view content) {
+  fill(content);
+  moveToTarget();
+  ::close(file_);
+  file_ = -1;
+}
+
+void replaceFile(const std::string& path, std::string_view content) {
+  OutputFile(path, OutputFile::Existing::isReplaced).write(content);
 }
 
 }  // namespace gamut

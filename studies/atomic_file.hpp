@@ -1,9 +1,11 @@
-// Files that are whole or not there: written beside the target under another name, flushed, then renamed over it.
+// Files that are whole or not there: written beside the target under another name, flushed, then renamed over it. The
+// other file is locked while its writer lives, so that two runs never write one output and what a dead run left behind
+// is told apart and removed.
 #pragma once
 
-#include <functional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 namespace gamut {
 
@@ -13,16 +15,45 @@ class WriteError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Writes nothing, but throws WriteError if a file could not be written at `path`, or not now: its folder is missing
-/// or takes no files, or `path` is a folder.
-void checkWritable(const std::string& path);
+/// As WriteError, before any work was done: another name, or patience, would do.
+class OutputRefused : public WriteError {
+ public:
+  using WriteError::WriteError;
+};
 
-/// Calls `write` with a path in the folder of `path`, then renames what it wrote to `path`. If `write` throws, nothing
-/// is left behind and an older file at `path` is untouched; so it is if the process is killed before the rename. Throws
-/// WriteError.
-void replaceFile(const std::string& path, const std::function<void(const std::string& temporary)>& write);
+/// The right to write one file, from construction on. A symbolic link stands for what it leads to.
+class OutputFile {
+ public:
+  enum class Existing { isKept, isReplaced };
 
-/// As replaceFile, with the content at hand.
-void replaceFileText(const std::string& path, const std::string& content);
+  /// Throws OutputRefused if no file can be written at `path` (its folder is missing or takes no files, a folder,
+  /// device or anything but a regular file is there, links lead in a circle, the name is too long), if one is there
+  /// that is to be kept, or if another process is about to write it; WriteError if the disk is full. Removes what
+  /// writers that are dead left in the folder.
+  OutputFile(const std::string& path, Existing existing);
+  /// Without write() nothing is left behind.
+  ~OutputFile();
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
+
+  /// As given.
+  const std::string& path() const { return path_; }
+
+  /// Writes all of `content` and puts it at `path`; once. If it throws WriteError, or the process is killed, an older
+  /// file there is untouched.
+  void write(std::string_view content);
+
+ private:
+  [[noreturn]] void fail(int error) const;
+  void fill(std::string_view content) const;
+  void moveToTarget() const;
+
+  std::string path_, target_, part_;
+  Existing existing_;
+  int file_ = -1;
+};
+
+/// An older file at `path` is replaced in one step. Throws WriteError.
+void replaceFile(const std::string& path, std::string_view content);
 
 }  // namespace gamut

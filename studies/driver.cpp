@@ -1,29 +1,25 @@
-// The analyses one after the other: enclosure with its alpha-cuts, samples with theirs, comparison.
+// The analyses one after the other: a first block of samples, the enclosure with its alpha-cuts, all other samples,
+// each compared as it arrives.
 #include "studies/driver.hpp"
 
-#include <ctime>
-
 #include <algorithm>
+#include <new>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <utility>
 
 #include "analyses/comparison.hpp"
+#include "analyses/settlement.hpp"
 #include "mechanics/assembly.hpp"
 #include "scalars/fuzzy.hpp"
 #include "scalars/samples.hpp"
 #include "studies/problem.hpp"
 #include "studies/version.hpp"
+#include "studies/watch.hpp"
 
 namespace gamut {
 namespace {
-
-/// CPU time of the whole process, all threads, s.
-double processCpuSeconds() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 void setRow(Bounds& bounds, std::size_t row, const std::vector<Interval>& values) {
   for (std::size_t j = 0; j < values.size(); ++j) {
@@ -34,7 +30,8 @@ void setRow(Bounds& bounds, std::size_t row, const std::vector<Interval>& values
 
 class Driver {
  public:
-  Driver(const Study& study, const RunOptions& options) : study_(study), options_(options) {
+  Driver(const Study& study, const RunOptions& options)
+      : study_(study), options_(options), watch_(limitsOf(study, options), options.cancelled, {options.overdue}) {
     describe();
     const double start = processCpuSeconds();
     problem_ = makeProblem(study_);
@@ -42,18 +39,14 @@ class Driver {
   }
 
   Results run() {
-    if (study_.interval || study_.fuzzy) {
-      if (study_.analysis == Study::Analysis::dynamics) {
-        encloseMotion();
-      } else {
-        encloseConfiguration();
-      }
-    }
-    if (study_.stochastic) sample();
+    if (study_.stochastic) sampleFirst();
+    if (study_.interval || study_.fuzzy) enclose();
+    if (study_.stochastic) sampleOthers();
     if (study_.stochastic && (study_.interval || study_.fuzzy)) compareAnswers();
-    if (study_.stochastic) describeSamples();
     results_.interval.present = study_.interval;
     if (!study_.interval) results_.interval = {};
+    results_.cpu = watch_.spent();
+    results_.memory = peakMemory();
     return std::move(results_);
   }
 
@@ -63,6 +56,7 @@ class Driver {
     results_.studyFile = study_.file;
     results_.title = study_.title;
     results_.analysis = study_.analysisName();
+    results_.limits = limitsOf(study_, options_);
     results_.seed = options_.seed.value_or(study_.ensemble.seed);
     results_.version = version();
     results_.host = hostName();
@@ -87,12 +81,35 @@ class Driver {
 
   // ---- Guaranteed and possible --------------------------------------------------------------------------------------
 
+  void enclose() {
+    watch_.begin(Watch::Stage::enclosure);
+    results_.interval.at = emptyBounds();
+    try {
+      if (study_.analysis == Study::Analysis::dynamics) {
+        encloseMotion();
+      } else {
+        encloseConfiguration();
+      }
+    } catch (const std::bad_alloc&) {
+      watch_.memoryFailed();
+      encloseNothing();
+    }
+  }
+
+  void encloseNothing() {
+    reachedTimes_ = 0;
+    results_.interval = {};
+    results_.interval.at = emptyBounds();
+    results_.interval.why = watch_.why();
+    if (study_.fuzzy) startFuzzy().why = watch_.why();
+  }
+
   void encloseMotion() {
     const double start = processCpuSeconds();
     FlowOptions flow = study_.flow;
     flow.jobs = options_.jobs;
     flow.progress = progressOf("enclosure");
-    flow.cancelled = options_.cancelled;
+    flow.cancelled = watch_.stop();
     flow.stateNames = study_.mechanism.stateNames();
     const Motion& motion = problem_.motion.motion;
     const Tube tube =
@@ -101,14 +118,14 @@ class Driver {
     reachedTimes_ = tube.reachedTimes();
 
     IntervalResult& interval = results_.interval;
-    interval.at = emptyBounds();
     interval.over = emptyBounds();
     for (std::size_t i = 0; i < reachedTimes_; ++i) {
       setRow(interval.at, i, tube.outputs(i));
       setRow(interval.over, i, tube.outputsOver(i));
     }
     interval.reached = tube.reached();
-    interval.why = tube.why();
+    if (tube.why() == Tube::outOfMemory) watch_.memoryFailed();
+    interval.why = tube.wasStopped() ? watch_.why() : tube.why();
     interval.pieces = tube.pieces();
     interval.steps = tube.steps();
     const double cpu = recordingCpu_ + processCpuSeconds() - start;
@@ -119,7 +136,7 @@ class Driver {
     for (std::size_t level = 0; level < problem_.levels.size(); ++level)
       for (std::size_t i = 0; i < reachedTimes_; ++i) setRow(fuzzy.outer[level], i, tube.cut(level, i));
     fuzzy.reached = tube.reached();
-    fuzzy.why = tube.why();
+    fuzzy.why = interval.why;
     fuzzy.cpu = cpu - interval.cpu;
   }
 
@@ -150,7 +167,6 @@ class Driver {
     std::vector<Interval> enclosure;
     for (std::size_t j = 0; j < direct.size(); ++j) enclosure.push_back(intersection(direct[j], images[0][j]));
     IntervalResult& interval = results_.interval;
-    interval.at = emptyBounds();
     interval.direct = emptyBounds();
     setRow(interval.at, 0, enclosure);
     setRow(interval.direct, 0, direct);
@@ -182,174 +198,162 @@ class Driver {
 
   // ---- Probable -----------------------------------------------------------------------------------------------------
 
-  void sample() {
-    EnsembleOptions ensemble = study_.ensemble;
-    ensemble.seed = options_.seed.value_or(ensemble.seed);
-    ensemble.samples = options_.samples.value_or(ensemble.samples);
-    ensemble.jobs = options_.jobs;
-    ensemble.progress = progressOf("samples");
-    ensemble.cancelled = options_.cancelled;
+  /// What finds no room is given up.
+  template <class Sample>
+  void sampleWhileThereIsRoom(const Sample& sample) {
     const double start = processCpuSeconds();
-    ensemble_ = sampleEnsemble(problem_.motion, ensemble);
-    if (study_.analysis == Study::Analysis::kinematics && ensemble_.complete) moveSamples();
-    StochasticResult& stochastic = results_.stochastic;
-    stochastic.present = true;
-    stochastic.plan = std::string(nameOf(ensemble.plan));
-    stochastic.samples = static_cast<std::int64_t>(ensemble_.samples);
-    stochastic.corners = static_cast<std::int64_t>(ensemble_.corners);
-    stochastic.relativeTolerance = ensemble.tolerance.relative;
-    stochastic.absoluteTolerance = ensemble.tolerance.absolute;
-    stochastic.packWidth = static_cast<std::int64_t>(ensemble_.packWidth);
-    stochastic.reached = ensemble_.reached;
-    stochastic.why = ensemble_.complete ? ensemble_.why : "interrupted";
-    stochastic.envelope = ensemble_.envelope();
-    stochastic.cpu = processCpuSeconds() - start;
+    watch_.begin(Watch::Stage::rest);
+    try {
+      sample();
+    } catch (const std::bad_alloc&) {
+      watch_.memoryFailed();
+      ensemble_.reset();
+      results_.stochastic.stopped = watch_.why();
+    }
+    results_.stochastic.cpu += processCpuSeconds() - start;
   }
 
+  /// Before the enclosure, so that one that ends early has something to be compared with.
+  void sampleFirst() {
+    EnsembleOptions options = study_.ensemble;
+    options.seed = options_.seed.value_or(options.seed);
+    options.samples = options_.samples.value_or(options.samples);
+    options.alpha = problem_.alpha;
+    options.jobs = options_.jobs;
+    options.secondsPerSample = results_.limits.sampleTime;
+    options.progress = progressOf("samples");
+    options.cancelled = watch_.stop();
+    StochasticResult& stochastic = results_.stochastic;
+    stochastic.present = true;
+    stochastic.plan = std::string(nameOf(options.plan));
+    stochastic.samples = static_cast<std::int64_t>(options.samples);
+    stochastic.relativeTolerance = options.tolerance.relative;
+    stochastic.absoluteTolerance = options.tolerance.absolute;
+    sampleWhileThereIsRoom([&] {
+      ensemble_.emplace(problem_.motion, options);
+      stochastic.samples = static_cast<std::int64_t>(ensemble_->sampling().samples());
+      stochastic.corners = static_cast<std::int64_t>(ensemble_->sampling().corners());
+      stochastic.alphaCorners = static_cast<std::int64_t>(ensemble_->sampling().boxCorners());
+      stochastic.packWidth = static_cast<std::int64_t>(ensemble_->packWidth());
+      ensemble_->integrateFirst();
+      if (*watch_.stop()) stochastic.stopped = watch_.why();
+    });
+  }
+
+  void sampleOthers() {
+    results_.comparison.verdict = "inside";
+    if (!ensemble_) return;
+    sampleWhileThereIsRoom([&] {
+      const Proved proved{study_.interval ? results_.interval.at : Bounds(), results_.fuzzy.outer, reachedTimes_};
+      Settlement settlement(proved, problem_.motion, ensemble_->options(), comparisonOptions());
+      ensemble_->integrateOthers(settlement.boundsOf(0), [&](SampleBlock& block) {
+        if (study_.analysis == Study::Analysis::kinematics) moveSamples(block);
+        settlement.settle(block, ensemble_->error(),
+                          [this](const Comparison& found, int level) { takeDisputes(found, level); });
+      });
+      describeSamples();
+    });
+  }
+
+  void describeSamples() {
+    StochasticResult& stochastic = results_.stochastic;
+    Statistics numbers = ensemble_->statistics();
+    stochastic.mean = std::move(numbers.mean);
+    stochastic.deviation = std::move(numbers.deviation);
+    stochastic.probabilities = std::move(numbers.probabilities);
+    stochastic.quantiles = std::move(numbers.quantiles);
+    stochastic.resolution = std::move(numbers.resolution);
+    stochastic.error = ensemble_->error();
+    if (study_.fuzzy) results_.fuzzy.inner = ensemble_->innerCuts();
+    stochastic.why = ensemble_->why();
+    stochastic.envelope = ensemble_->envelope();
+    stochastic.reached = ensemble_->reached();
+    stochastic.integrated = static_cast<std::int64_t>(ensemble_->integrated());
+    if (ensemble_->isComplete()) {
+      stochastic.stopped.clear();
+    } else if (*watch_.stop()) {
+      stochastic.stopped = watch_.why();
+    }
+  }
+
+  /// There are none if the first of them were not all followed.
+  bool hasSamples() const { return ensemble_ && ensemble_->integrated() > 0; }
+
   /// Kinematics: the same samples once more, all at once, by the assembly itself instead of its recording.
-  void moveSamples() {
+  void moveSamples(SampleBlock& block) {
     std::vector<Samples> numbers;
     const UncertainMotion& motion = problem_.motion;
     for (const double value : motion.nominal) numbers.emplace_back(value);
-    for (std::size_t i = 0; i < motion.uncertain.size(); ++i) {
+    for (std::size_t j = 0; j < motion.uncertain.size(); ++j) {
       std::vector<double> values;
-      for (std::size_t number = 0; number < ensemble_.size(); ++number) values.push_back(ensemble_.valuesOf(number)[i]);
-      numbers[static_cast<std::size_t>(motion.slot[i])] = Samples(std::move(values));
+      for (std::size_t i = 0; i < block.size(); ++i) values.push_back(block.values(i)[j]);
+      numbers[static_cast<std::size_t>(motion.slot[j])] = Samples(std::move(values));
     }
     const std::vector<Samples> moved = move<Samples>(numbers);
-    for (std::size_t number = 0; number < ensemble_.size(); ++number)
-      for (std::size_t j = 0; j < moved.size(); ++j)
-        ensemble_.trajectory(number)[j] = moved[j][moved[j].isConstant() ? 0 : number];
+    for (std::size_t j = 0; j < moved.size(); ++j)
+      for (std::size_t i = 0; i < block.size(); ++i) block(i, 0, j) = moved[j][moved[j].isConstant() ? 0 : i];
   }
 
   // ---- Together -----------------------------------------------------------------------------------------------------
 
-  /// Samples against the enclosure, then, from the narrowest to the widest, against the alpha-cuts they belong to.
   void compareAnswers() {
-    const double start = processCpuSeconds();
     ComparisonResult& comparison = results_.comparison;
     comparison.present = true;
-    const bool complete = reachedTimes_ == study_.time.size() && ensemble_.complete && ensemble_.failed.empty();
-    comparison.verdict = complete ? "inside" : "incomplete";
-    if (study_.interval) {
-      const Comparison found =
-          compare({results_.interval.at, reachedTimes_}, ensemble_, problem_.motion, comparisonOptions());
-      takeDisputes(found, [](std::size_t number) { return number; });
-      comparison.overestimation = found.overestimation;
-      comparison.excess = found.excess;
-      comparison.maximum = found.maximum;
-      comparison.median = found.median;
-      comparison.maximumOf = found.maximumOf;
-    }
-    for (std::size_t level = problem_.levels.size(); level-- > 0;) compareCut(level);
-    results_.stochastic.envelope = ensemble_.envelope();
-    results_.stochastic.cpu += processCpuSeconds() - start;
+    const bool complete =
+        reachedTimes_ == study_.time.size() && hasSamples() && ensemble_->isComplete() && ensemble_->failures() == 0;
+    if (comparison.verdict == "inside" && !complete) comparison.verdict = "incomplete";
+    if (!study_.interval || !hasSamples()) return;
+    Comparison found;
+    measureOverestimation({results_.interval.at, reachedTimes_}, results_.stochastic.envelope,
+                          results_.stochastic.error, comparisonOptions().resolution, found);
+    comparison.overestimation = found.overestimation;
+    comparison.excess = found.excess;
+    comparison.maximum = found.maximum;
+    comparison.median = found.median;
+    comparison.maximumOf = found.maximumOf;
   }
 
   ComparisonOptions comparisonOptions() const {
     ComparisonOptions options;
     options.jobs = options_.jobs;
-    options.cancelled = options_.cancelled;
+    options.progress = progressOf("comparison");
+    options.cancelled = watch_.stop();
     return options;
   }
 
-  /// The samples that lie in the level's box but outside its cut are looked at again, as a small ensemble of their own.
-  void compareCut(std::size_t level) {
-    const Bounds& cut = results_.fuzzy.outer[level];
-    std::vector<std::size_t> numbers;
-    for (std::size_t number = 0; number < ensemble_.size(); ++number)
-      if (belongsTo(level, number) && leaves(cut, number)) numbers.push_back(number);
-    if (numbers.empty()) return;
-    Ensemble part = partOf(numbers);
-    takeDisputes(compare({cut, reachedTimes_}, part, problem_.motion, comparisonOptions()),
-                 [&](std::size_t number) { return numbers[number]; });
-    for (std::size_t i = 0; i < numbers.size(); ++i)
-      std::ranges::copy(std::as_const(part).trajectory(i), ensemble_.trajectory(numbers[i]).begin());
-  }
-
-  bool belongsTo(std::size_t level, std::size_t number) const {
-    const UncertainMotion& motion = problem_.motion;
-    for (std::size_t i = 0; i < motion.uncertain.size(); ++i) {
-      const Interval& values = problem_.levels[level][static_cast<std::size_t>(motion.slot[i])];
-      if (!contains(values, ensemble_.valuesOf(number)[i])) return false;
-    }
-    return true;
-  }
-
-  bool leaves(const Bounds& cut, std::size_t number) const {
-    const std::span<const double> trajectory = std::as_const(ensemble_).trajectory(number);
-    for (std::size_t i = 0; i < reachedTimes_ * ensemble_.outputs; ++i)
-      if (trajectory[i] < cut.lower.data[i] || trajectory[i] > cut.upper.data[i]) return true;
-    return false;
-  }
-
-  /// An ensemble of these samples alone, the last one in the centre's place.
-  Ensemble partOf(const std::vector<std::size_t>& numbers) const {
-    Ensemble part;
-    part.times = ensemble_.times;
-    part.outputs = ensemble_.outputs;
-    part.quantities = ensemble_.quantities;
-    part.samples = numbers.size() - 1;
-    part.complete = ensemble_.complete;
-    part.tolerance = ensemble_.tolerance;
-    part.method = ensemble_.method;
-    part.packWidth = ensemble_.packWidth;
-    part.error = ensemble_.error;
-    for (const std::size_t number : numbers) {
-      const auto values = ensemble_.valuesOf(number), trajectory = std::as_const(ensemble_).trajectory(number);
-      part.values.insert(part.values.end(), values.begin(), values.end());
-      part.data.insert(part.data.end(), trajectory.begin(), trajectory.end());
-    }
-    return part;
-  }
-
-  template <class NumberOf>
-  void takeDisputes(const Comparison& found, const NumberOf& numberOf) {
+  /// The findings about an alpha-cut, or, level -1, about the enclosure.
+  void takeDisputes(const Comparison& found, int level) {
     ComparisonResult& comparison = results_.comparison;
-    const bool interrupted = options_.cancelled != nullptr && *options_.cancelled;
     for (const Dispute& d : found.disputes) {
-      DisputedSample& sample = comparison.disputed.emplace_back(
-          DisputedSample{static_cast<std::int64_t>(numberOf(d.number)), d.time, d.output, d.value, d.lower, d.upper,
-                         d.distance, d.error, d.decided, d.outside});
-      // What an interrupt kept from the last instance is neither found outside nor past deciding.
-      if (interrupted && d.distance > 0 && d.decided != "Taylor 128 bits") {
-        sample.decided = "interrupted";
-        sample.outside = false;
-        if (comparison.verdict == "inside") comparison.verdict = "incomplete";
-        continue;
-      }
-      comparison.excursion = std::max(comparison.excursion, d.excursion);
-      if (sample.outside) comparison.verdict = "outside";
-      if (sample.decided == "unresolved" && comparison.verdict != "outside") comparison.verdict = "unresolved";
+      comparison.disputed.push_back({static_cast<std::int64_t>(d.number), d.time, d.output, d.value, d.lower, d.upper,
+                                     d.distance, d.error, d.decided, d.outside, level, d.farthest});
+      if (d.outside) comparison.verdict = "outside";
+      if (d.decided == "unresolved" && comparison.verdict != "outside") comparison.verdict = "unresolved";
+      if (d.decided != "interrupted") continue;
+      if (comparison.verdict == "inside") comparison.verdict = "incomplete";
+      comparison.why = watch_.why();
     }
-  }
-
-  void describeSamples() {
-    double start = processCpuSeconds();
-    StochasticResult& stochastic = results_.stochastic;
-    const Statistics numbers = statistics(ensemble_);
-    stochastic.mean = numbers.mean;
-    stochastic.deviation = numbers.deviation;
-    stochastic.error = ensemble_.error;
-    stochastic.probabilities = numbers.probabilities;
-    stochastic.quantiles = numbers.quantiles;
-    stochastic.cpu += processCpuSeconds() - start;
-    if (!study_.fuzzy) return;
-    start = processCpuSeconds();
-    results_.fuzzy.inner = innerCuts(ensemble_, problem_.motion.uncertain, problem_.alpha);
-    results_.fuzzy.cpu += processCpuSeconds() - start;
+    comparison.excursion = std::max(comparison.excursion, found.excursion);
   }
 
   const Study& study_;
   const RunOptions& options_;
+  Watch watch_;
   Problem problem_;
   Results results_;
-  Ensemble ensemble_;
+  std::optional<EnsembleRun> ensemble_;
   std::size_t reachedTimes_ = 0;
   double recordingCpu_ = 0;
 };
 
 }  // namespace
+
+Limits limitsOf(const Study& study, const RunOptions& options) {
+  StatedLimits limits = study.limits;
+  if (options.timeLimit) limits.time = options.timeLimit;
+  if (options.memoryLimit) limits.memory = options.memoryLimit;
+  return limits.resolved();
+}
 
 Results run(const Study& study, const RunOptions& options) { return Driver(study, options).run(); }
 

@@ -39,9 +39,34 @@ class MechanismReader {
   void guarded(const toml::node& at, const Action& action) const {
     try {
       action();
+    } catch (const UnknownName& unknown) {
+      const toml::node* place = textEndingWith(at, unknown.word());
+      source_.fail(place == nullptr ? at : *place, unknown.problem(), unknown.expected());
     } catch (const std::invalid_argument& error) {
       source_.failWith(at, error.what(), "a mechanism that can be assembled");
     }
+  }
+
+  /// The first text within a node that is a name, or a parameter's with a factor in front; what names the element or
+  /// its kind is none that refers to another.
+  static const toml::node* textEndingWith(const toml::node& node, const std::string& name) {
+    if (const auto* text = node.as_string()) {
+      const std::string& word = text->get();
+      const bool isIt =
+          word.ends_with(name) && (word.size() == name.size() || !isWordCharacter(word[word.size() - name.size() - 1]));
+      return isIt ? &node : nullptr;
+    }
+    const toml::node* first = nullptr;
+    const auto look = [&](const toml::node& part) {
+      const toml::node* found = textEndingWith(part, name);
+      if (found != nullptr && (first == nullptr || found->source().begin < first->source().begin)) first = found;
+    };
+    if (const toml::array* list = node.as_array())
+      for (const toml::node& part : *list) look(part);
+    if (const toml::table* table = node.as_table())
+      for (const auto& [key, part] : *table)
+        if (key.str() != "type" && key.str() != "name") look(part);
+    return first;
   }
 
   /// The table `parameters` of the mechanism ("name") or of an element ("element.name").
@@ -139,6 +164,8 @@ class MechanismReader {
         body.inertia[i] = number(list[i], section.nameOf("inertia"), inertia);
     }
     guarded(table, [&] { mechanism_.add(std::move(body)); });
+    const std::string fault = mechanism_.inertiaFault(std::get<Mass>(mechanism_.elements().back()), {});
+    if (!fault.empty()) source_.fail(*section.find("inertia"), fault, "an inertia that a body can have");
     const Interval value = given.isConstant() ? given.factor() : given.factor() * mechanism_.nominal(given.parameter());
     if (value.lower() < 0) source_.fail(weight, section.nameOf("mass") + " is negative", "a mass of at least 0 kg");
   }

@@ -45,18 +45,25 @@ struct IntervalResult {
 
 /// What is probable.
 struct StochasticResult {
+  /// The plan's samples, the corners and the centre.
+  std::int64_t planned() const { return samples + corners + alphaCorners + 1; }
+
   bool present = false;
   std::string plan;
-  std::int64_t samples = 0;  ///< that count in the statistics
-  std::int64_t corners = 0;  ///< integrated besides, without weight
+  std::int64_t samples = 0;       ///< that count in the statistics
+  std::int64_t corners = 0;       ///< of the uncertain box, integrated besides, without weight
+  std::int64_t alphaCorners = 0;  ///< of the alpha-cuts' boxes, likewise
+  std::int64_t integrated = 0;    ///< how many of samples, corners and centre were followed before the analysis ended
   double relativeTolerance = 0, absoluteTolerance = 0;
   std::int64_t packWidth = 1;  ///< samples of one number / packWidth were integrated together
-  double reached = 0;          ///< s
-  std::string why;
-  Bounds envelope;  ///< of all samples, corners and centre
+  std::string stopped;         ///< why not all were followed; empty if they were
+  double reached = 0;          ///< s: all that were followed arrived there; envelope and statistics end there
+  std::string why;             ///< why that is before the horizon; empty if it is not
+  Bounds envelope;             ///< of all samples, corners and centre
   Grid mean, deviation;
   std::vector<double> probabilities;  ///< of the quantiles
   std::vector<Grid> quantiles;        ///< one grid a probability
+  Grid resolution;                    ///< no quantile is farther than this from that of the samples themselves
   Grid error;                         ///< the witness's own error, measured at tighter tolerance
   double cpu = 0;
 };
@@ -80,14 +87,20 @@ struct DisputedSample {
   double value = 0, lower = 0, upper = 0;
   double distance = 0;  ///< outside, after the last integration
   double error = 0;     ///< this sample's measured error
-  std::string decided;  ///< by what: "tolerance 1e-12", "Taylor 128 bits", or "unresolved"
+  std::string decided;  ///< by what: "tolerance 1e-12", "Taylor 128 bits"; "unresolved", or "interrupted" before that
   bool outside = false;
+  int level = -1;                ///< of the alpha-cut that it was compared with; -1: the enclosure
+  std::vector<double> farthest;  ///< one an output: how far it lies outside at most, after the last integration
+
+  /// Greatest distance outside in an output; what is known without `farthest`, if it is empty.
+  double farthestIn(std::size_t k) const { return k < farthest.size() ? farthest[k] : k == output ? distance : 0; }
 };
 
 /// How the answers agree.
 struct ComparisonResult {
   bool present = false;
   std::string verdict;   ///< "inside" | "outside" | "incomplete" | "unresolved"
+  std::string why;       ///< why it ended before all was decided; empty if it did not
   double excursion = 0;  ///< greatest distance outside, in multiples of that sample's measured error
   Grid overestimation;   ///< enclosure width over envelope width; NaN where the envelope is too narrow to tell
   Grid excess;           ///< enclosure width minus envelope width
@@ -95,6 +108,13 @@ struct ComparisonResult {
   double median = std::numeric_limits<double>::quiet_NaN();
   std::vector<double> maximumOf;  ///< one an output
   std::vector<DisputedSample> disputed;
+};
+
+/// What a run was allowed to spend: CPU time of all threads, s, and memory, bytes.
+struct Limits {
+  double time = std::numeric_limits<double>::infinity(), memory = time;                    ///< of the whole run
+  double enclosureTime = std::numeric_limits<double>::infinity(), enclosureMemory = time;  ///< of the guarantee
+  double sampleTime = std::numeric_limits<double>::infinity();                             ///< of each sample
 };
 
 struct Results {
@@ -111,6 +131,9 @@ struct Results {
   FuzzyResult fuzzy;
   ComparisonResult comparison;
   double reportCpu = 0;  ///< s
+  Limits limits;
+  double cpu = 0;     ///< s, of all analyses
+  double memory = 0;  ///< bytes: the most that the process had at a time
 };
 
 }  // namespace gamut

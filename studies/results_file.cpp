@@ -4,119 +4,23 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
-#include <functional>
+#include <fstream>
+#include <iterator>
+#include <optional>
 
 #include "studies/atomic_file.hpp"
+#include "studies/detail/apart.hpp"
 #include "studies/detail/hdf5.hpp"
+#include "studies/detail/results_parts.hpp"
+#include "studies/detail/seal.hpp"
+#include "studies/printable.hpp"
 
 namespace gamut {
 namespace {
 
-constexpr const char* formatName = "Gamut results";
-constexpr std::int64_t formatVersion = 1;
-
 // ---- Writing --------------------------------------------------------------------------------------------------------
-
-/// Grids with their scales and units.
-class GridWriter {
- public:
-  GridWriter(Hdf5Writer& group, const Results& results) : group_(&group), results_(&results) {
-    for (const OutputInfo& output : results.outputs) units_.push_back(output.unit);
-  }
-
-  void grid(const std::string& name, const Grid& grid, const std::string& longName) {
-    this->grid(name, grid, longName, units_);
-  }
-
-  void ratio(const std::string& name, const Grid& grid, const std::string& longName) {
-    this->grid(name, grid, longName, {"1"});
-  }
-
-  void bounds(const std::string& name, const Bounds& bounds, const std::string& longName) {
-    grid(name + "_lower", bounds.lower, longName + ", lower bound");
-    grid(name + "_upper", bounds.upper, longName + ", upper bound");
-  }
-
-  /// `scale`: absolute path of the first dimension's scale.
-  void stack(const std::string& name, const std::vector<const Grid*>& grids, const std::string& scale,
-             const std::string& longName) {
-    if (grids.empty()) return;
-    const Grid& first = *grids.front();
-    std::vector<double> values;
-    values.reserve(grids.size() * first.data.size());
-    for (const Grid* grid : grids) {
-      if (grid->times != first.times || grid->outputs != first.outputs)
-        throw std::logic_error(name + ": grids differ in shape");
-      values.insert(values.end(), grid->data.begin(), grid->data.end());
-    }
-    group_->numbers(name, values.data(), {grids.size(), first.times, first.outputs}, longName, units_);
-    group_->attachScales(name, {scale, "/time", "/output"});
-  }
-
-  void stack(const std::string& name, const std::vector<Bounds>& bounds, const std::string& scale,
-             const std::string& longName) {
-    std::vector<const Grid*> lower, upper;
-    for (const Bounds& b : bounds) {
-      lower.push_back(&b.lower);
-      upper.push_back(&b.upper);
-    }
-    stack(name + "_lower", lower, scale, longName + ", lower bound");
-    stack(name + "_upper", upper, scale, longName + ", upper bound");
-  }
-
- private:
-  void grid(const std::string& name, const Grid& grid, const std::string& longName,
-            const std::vector<std::string>& units) {
-    if (grid.empty()) return;
-    if (grid.times != results_->time.size() || grid.outputs != results_->outputs.size())
-      throw std::logic_error(name + ": the grid's shape is not times x outputs");
-    group_->numbers(name, grid.data.data(), {grid.times, grid.outputs}, longName, units);
-    group_->attachScales(name, {"/time", "/output"});
-  }
-
-  Hdf5Writer* group_;
-  const Results* results_;
-  std::vector<std::string> units_;
-};
-
-/// One column of a list of records.
-template <class T, class Record>
-std::vector<T> column(const std::vector<Record>& records, const std::function<T(const Record&)>& field) {
-  std::vector<T> values;
-  for (const Record& record : records) values.push_back(field(record));
-  return values;
-}
-
-/// Columns of a list of records, one data set each.
-template <class Record>
-class ColumnWriter {
- public:
-  ColumnWriter(Hdf5Writer& group, const std::vector<Record>& records) : group_(&group), records_(&records) {}
-  void texts(const std::string& name, const std::function<std::string(const Record&)>& field,
-             const std::string& longName) {
-    group_->texts(name, column<std::string>(*records_, field), longName);
-  }
-  void numbers(const std::string& name, const std::function<double(const Record&)>& field, const std::string& longName,
-               const std::string& unit) {
-    const std::vector<double> values = column<double>(*records_, field);
-    group_->numbers(name, values.data(), {values.size()}, longName, {unit});
-  }
-  void integers(const std::string& name, const std::function<std::int64_t(const Record&)>& field,
-                const std::string& longName) {
-    group_->integers(name, column<std::int64_t>(*records_, field), longName);
-  }
-
- private:
-  Hdf5Writer* group_;
-  const std::vector<Record>* records_;
-};
-
-void writeScale(Hdf5Writer& group, const std::string& name, const std::vector<double>& values,
-                const std::string& longName, const std::string& unit) {
-  group.numbers(name, values.data(), {values.size()}, longName, {unit});
-  group.makeScale(name, name);
-}
 
 void writeStudy(Hdf5Writer& root, const Results& results) {
   Hdf5Writer study(root.id(), "study");
@@ -131,11 +35,18 @@ void writeStudy(Hdf5Writer& root, const Results& results) {
   study.attribute("host", results.host);
   study.attribute("date", results.date);
   study.attribute("report_cpu", results.reportCpu);
+  study.attribute("cpu", results.cpu);
+  study.attribute("memory", results.memory);
+  study.attribute("time_limit", results.limits.time);
+  study.attribute("memory_limit", results.limits.memory);
+  study.attribute("enclosure_time_limit", results.limits.enclosureTime);
+  study.attribute("enclosure_memory_limit", results.limits.enclosureMemory);
+  study.attribute("sample_time_limit", results.limits.sampleTime);
   Hdf5Writer libraries(study.id(), "libraries");
   for (const auto& [name, version] : results.libraries) libraries.attribute(name, version);
 
   Hdf5Writer outputs(study.id(), "outputs");
-  ColumnWriter<OutputInfo> output(outputs, results.outputs);
+  ColumnWriter<OutputInfo> output(outputs, results.outputs, "/output");
   output.texts(
       "name", [](const OutputInfo& o) { return o.name; }, "name of the output");
   output.texts(
@@ -147,6 +58,7 @@ void writeStudy(Hdf5Writer& root, const Results& results) {
   Hdf5Writer uncertain(study.id(), "uncertain");
   ColumnWriter<UncertainInfo> quantity(uncertain, results.uncertain);
   using U = UncertainInfo;
+  const std::string units = jointUnit(column<std::string, U>(results.uncertain, [](const U& u) { return u.unit; }));
   quantity.texts(
       "name", [](const U& u) { return u.name; }, "name of the uncertain quantity");
   quantity.texts(
@@ -158,11 +70,11 @@ void writeStudy(Hdf5Writer& root, const Results& results) {
   quantity.texts(
       "membership", [](const U& u) { return u.membership; }, "membership function, in words");
   quantity.numbers(
-      "lower", [](const U& u) { return u.lower; }, "lower bound of the interval", "SI");
+      "lower", [](const U& u) { return u.lower; }, "lower bound of the interval", units);
   quantity.numbers(
-      "nominal", [](const U& u) { return u.nominal; }, "nominal value", "SI");
+      "nominal", [](const U& u) { return u.nominal; }, "nominal value", units);
   quantity.numbers(
-      "upper", [](const U& u) { return u.upper; }, "upper bound of the interval", "SI");
+      "upper", [](const U& u) { return u.upper; }, "upper bound of the interval", units);
 }
 
 void writeInterval(Hdf5Writer& root, const Results& results) {
@@ -189,6 +101,9 @@ void writeStochastic(Hdf5Writer& root, const Results& results) {
   group.attribute("plan", stochastic.plan);
   group.attribute("samples", stochastic.samples);
   group.attribute("corners", stochastic.corners);
+  group.attribute("alpha_corners", stochastic.alphaCorners);
+  group.attribute("integrated", stochastic.integrated);
+  group.attribute("stopped", stochastic.stopped);
   group.attribute("relative_tolerance", stochastic.relativeTolerance);
   group.attribute("absolute_tolerance", stochastic.absoluteTolerance);
   group.attribute("pack_width", stochastic.packWidth);
@@ -200,6 +115,8 @@ void writeStochastic(Hdf5Writer& root, const Results& results) {
   grids.grid("mean", stochastic.mean, "mean of the samples");
   grids.grid("deviation", stochastic.deviation, "standard deviation of the samples");
   grids.grid("error", stochastic.error, "measured error of the integration of samples");
+  grids.grid("resolution", stochastic.resolution,
+             "greatest distance of a quantile from that of the samples themselves");
   if (stochastic.probabilities.empty()) return;
   writeScale(group, "probability", stochastic.probabilities, "probability of the quantile", "1");
   std::vector<const Grid*> quantiles;
@@ -222,7 +139,8 @@ void writeFuzzy(Hdf5Writer& root, const Results& results) {
   grids.stack("inner", fuzzy.inner, "/fuzzy/alpha", "range of the samples of at least this membership");
 }
 
-void writeDisputed(Hdf5Writer& comparison, const std::vector<DisputedSample>& disputed) {
+void writeDisputed(Hdf5Writer& comparison, const Results& results) {
+  const std::vector<DisputedSample>& disputed = results.comparison.disputed;
   if (disputed.empty()) return;
   Hdf5Writer group(comparison.id(), "disputed");
   ColumnWriter<DisputedSample> columns(group, disputed);
@@ -237,17 +155,27 @@ void writeDisputed(Hdf5Writer& comparison, const std::vector<DisputedSample>& di
   columns.integers(
       "outside", [](const D& d) { return std::int64_t{d.outside}; }, "1 if it stayed outside");
   columns.numbers(
-      "value", [](const D& d) { return d.value; }, "value after the last integration", "SI");
+      "value", [](const D& d) { return d.value; }, "value after the last integration, in the unit of its output", "");
   columns.numbers(
-      "lower", [](const D& d) { return d.lower; }, "lower bound of the enclosure", "SI");
+      "lower", [](const D& d) { return d.lower; }, "lower bound of the enclosure, in the unit of its output", "");
   columns.numbers(
-      "upper", [](const D& d) { return d.upper; }, "upper bound of the enclosure", "SI");
+      "upper", [](const D& d) { return d.upper; }, "upper bound of the enclosure, in the unit of its output", "");
   columns.numbers(
-      "distance", [](const D& d) { return d.distance; }, "distance outside", "SI");
+      "distance", [](const D& d) { return d.distance; }, "distance outside, in the unit of its output", "");
   columns.numbers(
-      "error", [](const D& d) { return d.error; }, "measured error of the sample", "SI");
+      "error", [](const D& d) { return d.error; }, "measured error of the sample, in the unit of its output", "");
   columns.texts(
       "decided", [](const D& d) { return d.decided; }, "what decided");
+  columns.integers(
+      "level", [](const D& d) { return std::int64_t{d.level}; }, "index of the alpha-cut, -1 for the enclosure");
+  std::vector<double> farthest;
+  for (const D& d : disputed)
+    for (std::size_t k = 0; k < results.outputs.size(); ++k) farthest.push_back(d.farthestIn(k));
+  const std::string units =
+      jointUnit(column<std::string, OutputInfo>(results.outputs, [](const OutputInfo& o) { return o.unit; }));
+  group.numbers("farthest", farthest.data(), {disputed.size(), results.outputs.size()}, "greatest distance outside",
+                units);
+  group.attachScales("farthest", {"/comparison/disputed/number", "/output"});
 }
 
 void writeComparison(Hdf5Writer& root, const Results& results) {
@@ -256,6 +184,7 @@ void writeComparison(Hdf5Writer& root, const Results& results) {
   Hdf5Writer group(root.id(), "comparison");
   group.attribute("long_name", std::string("how the answers agree"));
   group.attribute("verdict", comparison.verdict);
+  group.attribute("why", comparison.why);
   group.attribute("excursion", comparison.excursion);
   group.attribute("maximum", comparison.maximum);
   group.attribute("median", comparison.median);
@@ -264,17 +193,14 @@ void writeComparison(Hdf5Writer& root, const Results& results) {
   grids.grid("excess", comparison.excess, "width of the enclosure minus width of the envelope");
   if (!comparison.maximumOf.empty()) {
     group.numbers("maximum_of", comparison.maximumOf.data(), {comparison.maximumOf.size()},
-                  "greatest overestimation of each output", {"1"});
+                  "greatest overestimation of each output", "1");
     group.attachScales("maximum_of", {"/output"});
   }
-  writeDisputed(group, comparison.disputed);
+  writeDisputed(group, results);
 }
 
-void writeAll(const Results& results, const std::string& path) {
-  const Hdf5Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose, "the file");
+void writeAll(hid_t file, const Results& results) {
   Hdf5Writer root(file);
-  root.attribute("format", std::string(formatName));
-  root.attribute("format_version", formatVersion);
   root.attribute("title", results.title);
   writeScale(root, "time", results.time, "output time", "s");
   std::vector<std::string> names;
@@ -286,86 +212,12 @@ void writeAll(const Results& results, const std::string& path) {
   writeStochastic(root, results);
   writeFuzzy(root, results);
   writeComparison(root, results);
-  if (H5Fflush(file, H5F_SCOPE_GLOBAL) < 0) throw Hdf5Error("the file");
 }
 
 // ---- Reading --------------------------------------------------------------------------------------------------------
 
-/// Grids of a group, checked against the file's times and outputs.
-class GridReader {
- public:
-  GridReader(const Hdf5Reader& group, const Results& results)
-      : group_(&group), times_(results.time.size()), outputs_(results.outputs.size()) {}
-
-  Grid grid(const std::string& name) const {
-    if (!group_->has(name)) return {};
-    Hdf5Shape shape;
-    Grid grid(times_, outputs_);
-    grid.data = group_->numbers(name, shape);
-    if (shape != Hdf5Shape{times_, outputs_}) throw Hdf5Error(name);
-    return grid;
-  }
-
-  Bounds bounds(const std::string& name) const {
-    Bounds bounds;
-    bounds.lower = grid(name + "_lower");
-    bounds.upper = grid(name + "_upper");
-    if (bounds.lower.empty() != bounds.upper.empty()) throw Hdf5Error(name);
-    return bounds;
-  }
-
-  std::vector<Grid> stack(const std::string& name, std::size_t levels) const {
-    if (!group_->has(name)) return {};
-    Hdf5Shape shape;
-    const std::vector<double> values = group_->numbers(name, shape);
-    if (shape != Hdf5Shape{levels, times_, outputs_}) throw Hdf5Error(name);
-    std::vector<Grid> grids(levels, Grid(times_, outputs_));
-    const auto size = static_cast<std::ptrdiff_t>(times_ * outputs_);
-    for (std::size_t i = 0; i < levels; ++i) {
-      const auto begin = values.begin() + static_cast<std::ptrdiff_t>(i) * size;
-      grids[i].data.assign(begin, begin + size);
-    }
-    return grids;
-  }
-
-  std::vector<Bounds> boundsStack(const std::string& name, std::size_t levels) const {
-    std::vector<Grid> lower = stack(name + "_lower", levels), upper = stack(name + "_upper", levels);
-    if (lower.size() != upper.size()) throw Hdf5Error(name);
-    std::vector<Bounds> result(lower.size());
-    for (std::size_t i = 0; i < lower.size(); ++i) {
-      result[i].lower = std::move(lower[i]);
-      result[i].upper = std::move(upper[i]);
-    }
-    return result;
-  }
-
- private:
-  const Hdf5Reader* group_;
-  std::size_t times_, outputs_;
-};
-
-/// A list of numbers; with `size` other than npos, of that length.
-std::vector<double> readList(const Hdf5Reader& group, const std::string& name, std::size_t size = std::string::npos) {
-  Hdf5Shape shape;
-  std::vector<double> values = group.numbers(name, shape);
-  if (shape.size() != 1 || (size != std::string::npos && shape[0] != size)) throw Hdf5Error(name);
-  return values;
-}
-
-std::vector<std::string> readTexts(const Hdf5Reader& group, const std::string& name, std::size_t size) {
-  std::vector<std::string> values = group.texts(name);
-  if (values.size() != size) throw Hdf5Error(name);
-  return values;
-}
-
-std::vector<std::int64_t> readIntegers(const Hdf5Reader& group, const std::string& name, std::size_t size) {
-  std::vector<std::int64_t> values = group.integers(name);
-  if (values.size() != size) throw Hdf5Error(name);
-  return values;
-}
-
 void readOutputs(const Hdf5Reader& study, Results& results) {
-  const Hdf5Reader group(study.id(), "outputs");
+  const Hdf5Reader group(study, "outputs");
   const std::vector<std::string> names = group.texts("name");
   const auto quantities = readTexts(group, "quantity", names.size()), units = readTexts(group, "unit", names.size());
   for (std::size_t i = 0; i < names.size(); ++i) results.outputs.push_back({names[i], quantities[i], units[i]});
@@ -374,7 +226,7 @@ void readOutputs(const Hdf5Reader& study, Results& results) {
 
 void readUncertain(const Hdf5Reader& study, Results& results) {
   if (!study.has("uncertain")) return;
-  const Hdf5Reader group(study.id(), "uncertain");
+  const Hdf5Reader group(study, "uncertain");
   const std::vector<std::string> names = group.texts("name");
   const std::size_t n = names.size();
   const auto quantities = readTexts(group, "quantity", n), units = readTexts(group, "unit", n);
@@ -388,8 +240,8 @@ void readUncertain(const Hdf5Reader& study, Results& results) {
 }
 
 void readStudyPart(const Hdf5Reader& root, Results& results) {
-  const Hdf5Reader study(root.id(), "study");
-  results.studyText = study.textData("text");
+  const Hdf5Reader study(root, "study");
+  results.studyText = study.wholeText("text");
   results.studyFile = study.text("file");
   results.title = study.text("title");
   results.analysis = study.text("analysis");
@@ -399,15 +251,19 @@ void readStudyPart(const Hdf5Reader& root, Results& results) {
   results.host = study.text("host");
   results.date = study.text("date");
   results.reportCpu = study.number("report_cpu");
-  const Hdf5Reader libraries(study.id(), "libraries");
-  for (const std::string& name : libraries.attributeNames()) results.libraries[name] = libraries.text(name);
+  results.cpu = study.number("cpu");
+  results.memory = study.number("memory");
+  results.limits = {study.number("time_limit"), study.number("memory_limit"), study.number("enclosure_time_limit"),
+                    study.number("enclosure_memory_limit"), study.number("sample_time_limit")};
+  const Hdf5Reader libraries(study, "libraries");
+  for (const std::string& name : libraries.attributeNames()) results.libraries[printable(name)] = libraries.text(name);
   readOutputs(study, results);
   readUncertain(study, results);
 }
 
 void readInterval(const Hdf5Reader& root, Results& results) {
   if (!root.has("interval")) return;
-  const Hdf5Reader group(root.id(), "interval");
+  const Hdf5Reader group(root, "interval");
   IntervalResult& interval = results.interval;
   interval.present = true;
   interval.reached = group.number("reached");
@@ -423,16 +279,18 @@ void readInterval(const Hdf5Reader& root, Results& results) {
 
 void readStochastic(const Hdf5Reader& root, Results& results) {
   if (!root.has("stochastic")) return;
-  const Hdf5Reader group(root.id(), "stochastic");
+  const Hdf5Reader group(root, "stochastic");
   StochasticResult& stochastic = results.stochastic;
   stochastic.present = true;
   stochastic.plan = group.text("plan");
   stochastic.samples = group.integer("samples");
   stochastic.corners = group.integer("corners");
+  stochastic.alphaCorners = group.integer("alpha_corners");
+  stochastic.integrated = group.integer("integrated");
+  stochastic.stopped = group.text("stopped");
   stochastic.relativeTolerance = group.number("relative_tolerance");
   stochastic.absoluteTolerance = group.number("absolute_tolerance");
-  // Older files have none: their samples were integrated one by one.
-  if (group.hasAttribute("pack_width")) stochastic.packWidth = group.integer("pack_width");
+  stochastic.packWidth = group.integer("pack_width");
   stochastic.reached = group.number("reached");
   stochastic.why = group.text("why");
   stochastic.cpu = group.number("cpu");
@@ -441,6 +299,7 @@ void readStochastic(const Hdf5Reader& root, Results& results) {
   stochastic.mean = grids.grid("mean");
   stochastic.deviation = grids.grid("deviation");
   stochastic.error = grids.grid("error");
+  stochastic.resolution = grids.grid("resolution");
   if (!group.has("probability")) return;
   stochastic.probabilities = readList(group, "probability");
   stochastic.quantiles = grids.stack("quantiles", stochastic.probabilities.size());
@@ -448,7 +307,7 @@ void readStochastic(const Hdf5Reader& root, Results& results) {
 
 void readFuzzy(const Hdf5Reader& root, Results& results) {
   if (!root.has("fuzzy")) return;
-  const Hdf5Reader group(root.id(), "fuzzy");
+  const Hdf5Reader group(root, "fuzzy");
   FuzzyResult& fuzzy = results.fuzzy;
   fuzzy.present = true;
   fuzzy.reached = group.number("reached");
@@ -463,7 +322,7 @@ void readFuzzy(const Hdf5Reader& root, Results& results) {
 
 void readDisputed(const Hdf5Reader& comparison, Results& results) {
   if (!comparison.has("disputed")) return;
-  const Hdf5Reader group(comparison.id(), "disputed");
+  const Hdf5Reader group(comparison, "disputed");
   const std::vector<std::int64_t> numbers = group.integers("number");
   const std::size_t n = numbers.size();
   const auto times = readIntegers(group, "time", n), outputs = readIntegers(group, "output", n);
@@ -472,6 +331,11 @@ void readDisputed(const Hdf5Reader& comparison, Results& results) {
              upper = readList(group, "upper", n);
   const auto distance = readList(group, "distance", n), error = readList(group, "error", n);
   const auto decided = readTexts(group, "decided", n);
+  const std::size_t outputCount = results.outputs.size();
+  const auto level = readIntegers(group, "level", n);
+  Hdf5Shape shape;
+  const std::vector<double> farthest = group.numbers("farthest", shape);
+  if (shape != Hdf5Shape{n, outputCount}) throw Hdf5Error("farthest");
   for (std::size_t i = 0; i < n; ++i) {
     DisputedSample sample{numbers[i],
                           static_cast<std::size_t>(times[i]),
@@ -482,18 +346,24 @@ void readDisputed(const Hdf5Reader& comparison, Results& results) {
                           distance[i],
                           error[i],
                           decided[i],
-                          outside[i] != 0};
+                          outside[i] != 0,
+                          static_cast<int>(level[i]),
+                          {}};
+    const auto begin = farthest.begin() + static_cast<std::ptrdiff_t>(i * outputCount);
+    sample.farthest.assign(begin, begin + static_cast<std::ptrdiff_t>(outputCount));
     if (sample.time >= results.time.size() || sample.output >= results.outputs.size()) throw Hdf5Error("disputed");
+    if (level[i] < -1 || level[i] >= static_cast<std::int64_t>(results.fuzzy.alpha.size())) throw Hdf5Error("level");
     results.comparison.disputed.push_back(std::move(sample));
   }
 }
 
 void readComparison(const Hdf5Reader& root, Results& results) {
   if (!root.has("comparison")) return;
-  const Hdf5Reader group(root.id(), "comparison");
+  const Hdf5Reader group(root, "comparison");
   ComparisonResult& comparison = results.comparison;
   comparison.present = true;
   comparison.verdict = group.text("verdict");
+  comparison.why = group.text("why");
   comparison.excursion = group.number("excursion");
   comparison.maximum = group.number("maximum");
   comparison.median = group.number("median");
@@ -504,8 +374,7 @@ void readComparison(const Hdf5Reader& root, Results& results) {
   readDisputed(group, results);
 }
 
-Results readAll(hid_t file) {
-  const Hdf5Reader root(file, "/");
+Results readAll(const Hdf5Reader& root) {
   Results results;
   results.time = readList(root, "time");
   readStudyPart(root, results);
@@ -516,48 +385,87 @@ Results readAll(hid_t file) {
   return results;
 }
 
-/// Throws unless the file says that it is ours, in a layout that we know.
-void checkFormat(hid_t file, const std::string& path) {
-  const std::string expected = "a results file written by gamut run";
-  std::int64_t version = 0;
-  try {
-    const Hdf5Reader root(file, "/");
-    if (root.text("format") != formatName) throw Hdf5Error("format");
-    version = root.integer("format_version");
-  } catch (const Hdf5Error&) {
-    throw ResultsFileError(fmt::format("{}: an HDF5 file, but not of Gamut results; expected {}", path, expected));
+/// Counts and times that no run gives would lead those astray who compute with them.
+void checkSense(const Results& results) {
+  const auto require = [](bool isSensible, const char* what) {
+    if (!isSensible) throw Hdf5Error(what);
+  };
+  const auto isCount = [](std::int64_t n) { return n >= 0 && n < (std::int64_t{1} << 53); };
+  for (std::size_t i = 0; i < results.time.size(); ++i)
+    require(std::isfinite(results.time[i]) && (i == 0 || results.time[i - 1] < results.time[i]), "time");
+  require(std::isfinite(results.horizon), "horizon");
+  require(isCount(results.interval.steps), "steps");
+  require(isCount(results.stochastic.samples), "samples");
+  require(isCount(results.stochastic.corners), "corners");
+  require(isCount(results.stochastic.alphaCorners), "alpha_corners");
+  require(isCount(results.stochastic.integrated), "integrated");
+  for (const DisputedSample& sample : results.comparison.disputed) {
+    require(isCount(sample.number), "number");
+    requireBounds(sample.lower, sample.upper, "disputed");
   }
-  if (version != formatVersion)
-    throw ResultsFileError(fmt::format("{}: written in layout {}; expected layout {}", path, version, formatVersion));
+  for (const UncertainInfo& uncertain : results.uncertain) requireBounds(uncertain.lower, uncertain.upper, "uncertain");
+  for (const double alpha : results.fuzzy.alpha) require(alpha >= 0 && alpha <= 1, "alpha");
+  for (const double probability : results.stochastic.probabilities)
+    require(probability >= 0 && probability <= 1, "probability");
+}
+
+/// Reads a file's content in a child process: a file with a right seal is what some program wrote, not what gamut run
+/// wrote, and HDF5 crashes or hangs at some. The child may need the content's size once more as it is and unpacked,
+/// 1100 times as large at most, and reads 5 MB/s at least. Throws Hdf5Error.
+Results readApart(const std::string& content) {
+  const auto read = [&] {
+    Hdf5Transcript transcript;
+    try {
+      readAll(Hdf5Reader(content, transcript));
+    } catch (const Hdf5Error&) {  // the transcript ends with it
+    }
+    return transcript.bytes();
+  };
+  std::optional<std::string> transcript = resultApart(read, (std::size_t{512} << 20) + 2200 * content.size(),
+                                                      static_cast<unsigned>(10 + content.size() / 5000000));
+  if (!transcript) throw Hdf5Error("the file");
+  Hdf5Transcript told(*std::move(transcript));
+  Results results = readAll(Hdf5Reader(told));
+  checkSense(results);
+  return results;
 }
 
 }  // namespace
 
-void writeResults(const Results& results, const std::string& path) {
+void writeResults(const Results& results, OutputFile& file) {
   const Hdf5Silence silence;
-  replaceFile(path, [&](const std::string& temporary) {
-    try {
-      writeAll(results, temporary);
-    } catch (const Hdf5Error& error) {
-      throw WriteError(fmt::format("{}: cannot be written; HDF5 failed at {}", path, error.what()));
-    }
-  });
+  std::string content;
+  try {
+    content = hdf5InMemory(sealSize, [&](hid_t whole) { writeAll(whole, results); });
+    seal(content);
+  } catch (const Hdf5Error& error) {
+    throw WriteError(fmt::format("{}: cannot be written; HDF5 failed at {}", file.path(), error.what()));
+  }
+  file.write(content);
+}
+
+void writeResults(const Results& results, const std::string& path) {
+  OutputFile file(path, OutputFile::Existing::isReplaced);
+  writeResults(results, file);
 }
 
 Results readResults(const std::string& path) {
-  const Hdf5Silence silence;
+  const Hdf5Silence silence;  // the child's too
   std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error))
+  std::ifstream file(path, std::ios::binary);
+  if (!std::filesystem::is_regular_file(path, error) || !file)
     throw ResultsFileError(path + ": cannot be read; expected a results file written by gamut run");
+  const std::string content{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   try {
-    const Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "the file");
-    checkFormat(file, path);
-    return readAll(file);
+    checkSeal(content);
+  } catch (const SealError& refused) {
+    throw ResultsFileError(fmt::format("{}: {}", path, refused.what()));
+  }
+  try {
+    return readApart(content);
   } catch (const Hdf5Error& damaged) {
     throw ResultsFileError(
-        fmt::format("{}: not a Gamut results file, or damaged ({} cannot be read); expected a results "
-                    "file written by gamut run",
-                    path, damaged.what()));
+        fmt::format("{}: damaged: {} cannot be read; expected the file as gamut run wrote it", path, damaged.what()));
   }
 }
 

@@ -12,6 +12,7 @@
 #include "analyses/uncertainty.hpp"
 #include "mechanics/mechanism.hpp"
 #include "studies/results.hpp"
+#include "studies/watch.hpp"
 
 namespace gamut {
 
@@ -43,6 +44,8 @@ struct Study {
   FlowOptions flow;          ///< without jobs, progress and cancelled, which belong to a run
   EnsembleOptions ensemble;  ///< likewise
   int levels = 11;           ///< of alpha, from 0 to 1
+  StatedLimits limits;
+  std::vector<std::string> notes;  ///< what may be a mistake: lines "file:line:column: note: what"
 
   std::string analysisName() const { return analysis == Analysis::kinematics ? "kinematics" : "dynamics"; }
 };

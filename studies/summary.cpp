@@ -69,14 +69,26 @@ const Bounds& provedBounds(const Results& results) {
                                                                      : results.interval.at;
 }
 
-/// The last row in which some output is enclosed or sampled.
+/// The last row in which some output is enclosed and sampled, or, if there is none, one of the two.
 std::size_t lastRow(const Results& results) {
   const Bounds& proved = provedBounds(results);
-  const Bounds& bounds = proved.empty() ? results.stochastic.envelope : proved;
-  for (std::size_t i = results.time.size(); i > 0 && !bounds.empty(); --i)
+  const Bounds& sampled = results.stochastic.envelope;
+  const auto isThere = [&](const Bounds& bounds, std::size_t i) {
     for (std::size_t j = 0; j < results.outputs.size(); ++j)
-      if (!std::isnan(bounds.lower(i - 1, j))) return i - 1;
-  return 0;
+      if (!std::isnan(bounds.lower(i, j))) return true;
+    return false;
+  };
+  const auto lastOf = [&](const auto& holds) {
+    std::size_t i = results.time.size();
+    while (i > 0 && !holds(i - 1)) --i;
+    return i;
+  };
+  const std::size_t both = lastOf(
+      [&](std::size_t i) { return !proved.empty() && !sampled.empty() && isThere(proved, i) && isThere(sampled, i); });
+  const Bounds& either = proved.empty() ? sampled : proved;
+  const std::size_t row =
+      both > 0 ? both : lastOf([&](std::size_t i) { return !either.empty() && isThere(either, i); });
+  return row > 0 ? row - 1 : 0;
 }
 
 /// Columns as wide as their widest entry (in code points), the first one left-aligned.
@@ -100,6 +112,20 @@ std::string table(const std::vector<std::vector<std::string>>& rows) {
   return result;
 }
 
+/// "4096 samples", those that count in the statistics; "100 of 4099 samples" where not all were followed.
+std::string samplesText(const StochasticResult& stochastic) {
+  return stochastic.integrated < stochastic.planned()
+             ? fmt::format("{} of {}", stochastic.integrated, counted(stochastic.planned(), "sample"))
+             : counted(stochastic.samples, "sample");
+}
+
+/// What was spent in all, and of how much.
+std::string spentText(const Results& results) {
+  if (!std::isfinite(results.limits.time)) return {};
+  return fmt::format("; in all {:.2f} of {:.6g} s, {:.2f} of {:.3g} GB", results.cpu, results.limits.time,
+                     results.memory / 1e9, results.limits.memory / 1e9);
+}
+
 }  // namespace
 
 double reachedTime(const Results& results) {
@@ -110,12 +136,21 @@ double reachedTime(const Results& results) {
   return reached;
 }
 
+std::string whyEnded(const Results& results) {
+  for (const std::string* why : {&results.interval.why, &results.stochastic.stopped, &results.stochastic.why,
+                                 &results.fuzzy.why, &results.comparison.why})
+    if (!why->empty()) return *why;
+  return {};
+}
+
 std::string jsonSummary(const Results& results, const std::string& verdict, const ResultFiles& files) {
   Json json;
   json["verdict"] = textOrNull(verdict);
   json["horizon"] = number(results.horizon);
   json["reached"] = number(reachedTime(results));
+  json["why"] = textOrNull(whyEnded(results));
   json["samples"] = results.stochastic.samples;
+  json["integrated"] = results.stochastic.integrated;
   json["excursion"] = number(results.comparison.excursion);
   json["overestimation"] = overestimationObject(results);
   json["enclosure"] = boundsObject(results.interval.at, results);
@@ -123,7 +158,15 @@ std::string jsonSummary(const Results& results, const std::string& verdict, cons
   json["cost"] = {{"interval", number(results.interval.cpu)},
                   {"stochastic", number(results.stochastic.cpu)},
                   {"fuzzy", number(results.fuzzy.cpu)},
-                  {"report", number(results.reportCpu)}};
+                  {"report", number(results.reportCpu)},
+                  {"total", number(results.cpu)},
+                  {"memory", number(results.memory)}};
+  const Limits& limits = results.limits;
+  json["limits"] = {{"time", number(limits.time)},
+                    {"memory", number(limits.memory)},
+                    {"enclosure_time", number(limits.enclosureTime)},
+                    {"enclosure_memory", number(limits.enclosureMemory)},
+                    {"sample_time", number(limits.sampleTime)}};
   json["files"] = {{"results", textOrNull(files.results)}, {"report", textOrNull(files.report)}};
   json["version"] = results.version;
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
@@ -146,11 +189,11 @@ std::string textSummary(const Results& results) {
   std::vector<std::string> costs;
   if (results.interval.present) costs.push_back(fmt::format("enclosure {:.2f} s", results.interval.cpu));
   if (results.stochastic.present)
-    costs.push_back(fmt::format("{} {:.2f} s", counted(results.stochastic.samples, "sample"), results.stochastic.cpu));
+    costs.push_back(fmt::format("{} {:.2f} s", samplesText(results.stochastic), results.stochastic.cpu));
   if (results.fuzzy.present) costs.push_back(fmt::format("alpha-cuts {:.2f} s", results.fuzzy.cpu));
   std::string line;
   for (const std::string& cost : costs) line += (line.empty() ? "" : ", ") + cost;
-  return text + (line.empty() ? "" : "  CPU: " + line + "\n");
+  return text + (line.empty() ? "" : "  CPU: " + line + spentText(results) + "\n");
 }
 
 std::string infoText(const Results& results) {
@@ -173,8 +216,9 @@ std::string infoText(const Results& results) {
     text += fmt::format("  enclosure: {}{}, {}, {:.2f} s CPU\n", until(r.reached, r.why), counted(r.pieces, "piece"),
                         counted(r.steps, "step"), r.cpu);
   if (const StochasticResult& r = results.stochastic; r.present)
-    text += fmt::format("  samples: {}{} ({}) and {}, {:.2f} s CPU\n", until(r.reached, r.why), r.samples, r.plan,
-                        counted(r.corners, "corner"), r.cpu);
+    text += fmt::format("  samples: {}{} ({}) and {}, {:.2f} s CPU{}\n", until(r.reached, r.why), r.samples, r.plan,
+                        counted(r.corners + r.alphaCorners, "corner"), r.cpu,
+                        r.stopped.empty() ? "" : fmt::format("; {} were taken: {}", samplesText(r), r.stopped));
   if (const FuzzyResult& r = results.fuzzy; r.present)
     text += fmt::format("  alpha-cuts: {}{}, {:.2f} s CPU\n", until(r.reached, r.why),
                         counted(static_cast<std::int64_t>(r.alpha.size()), "level"), r.cpu);

@@ -15,6 +15,9 @@ struct ResultFiles {
 /// The time up to which every analysis that was asked for got (s).
 double reachedTime(const Results& results);
 
+/// Why the run ended before all was done; empty if it did not.
+std::string whyEnded(const Results& results);
+
 /// One JSON object on one line; keys: docs/json.md. Numbers are the shortest decimals that give the same double back;
 /// what is not finite is null, and so is an empty verdict.
 std::string jsonSummary(const Results& results, const std::string& verdict, const ResultFiles& files = {});

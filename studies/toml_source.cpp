@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "mechanics/names.hpp"
+#include "studies/printable.hpp"
 
 namespace gamut {
 namespace {
@@ -51,6 +52,7 @@ TomlSource::TomlSource(std::string text, std::string name)
     : text_(std::move(text)), name_(std::move(name)), lineStarts_{0} {
   for (std::size_t i = 0; i < text_.size(); ++i)
     if (text_[i] == '\n') lineStarts_.push_back(i + 1);
+  checkKeys();
   try {
     root_ = toml::parse(std::string_view(text_));
   } catch (const toml::parse_error& error) {
@@ -59,9 +61,57 @@ TomlSource::TomlSource(std::string text, std::string name)
   }
 }
 
+void TomlSource::checkKeys() const {
+  constexpr int mostParts = 16;
+  int parts = 0;
+  for (std::size_t i = 0; i < text_.size(); ++i) {
+    const char c = text_[i];
+    if (c == '#') {
+      i = std::min(text_.find('\n', i), text_.size()) - 1;
+    } else if (c == '"' || c == '\'') {
+      i = endOfText(i);
+    } else if (c == '.') {
+      if (++parts < mostParts) continue;
+      const std::size_t line = lineOf(i);
+      fail({static_cast<toml::source_index>(line + 1), static_cast<toml::source_index>(i - lineStarts_[line] + 1)},
+           fmt::format("a key of more than {} parts", mostParts), "a key of the study file");
+    } else if (std::string_view("=,{}[]\n").find(c) != std::string_view::npos) {
+      parts = 0;
+    }
+  }
+}
+
+std::size_t TomlSource::endOfText(std::size_t begin) const {
+  const std::string mark(text_.compare(begin, 3, std::string(3, text_[begin])) == 0 ? 3 : 1, text_[begin]);
+  for (std::size_t i = begin + mark.size(); i < text_.size(); ++i) {
+    if (text_[i] == '\\' && mark[0] == '"') {
+      ++i;
+    } else if (text_.compare(i, mark.size(), mark) == 0) {
+      return i + mark.size() - 1;
+    } else if (text_[i] == '\n' && mark.size() == 1) {
+      return i - 1;  // unfinished: the parser will say so
+    }
+  }
+  return text_.size();
+}
+
+std::size_t TomlSource::lineOf(std::size_t place) const {
+  return static_cast<std::size_t>(std::upper_bound(lineStarts_.begin(), lineStarts_.end(), place) -
+                                  lineStarts_.begin()) -
+         1;
+}
+
+std::string TomlSource::placed(const toml::source_position& at, const std::string& text) const {
+  return printable(
+      fmt::format("{}:{}:{}: {}", name_, std::max<unsigned>(at.line, 1), std::max<unsigned>(at.column, 1), text));
+}
+
 void TomlSource::fail(const toml::source_position& at, const std::string& what, const std::string& expected) const {
-  throw StudyError(fmt::format("{}:{}:{}: {}; expected {}", name_, std::max<unsigned>(at.line, 1),
-                               std::max<unsigned>(at.column, 1), what, expected));
+  throw StudyError(placed(at, fmt::format("{}; expected {}", what, expected)));
+}
+
+std::string TomlSource::note(const toml::node& at, const std::string& text) const {
+  return placed(at.source().begin, "note: " + text);
 }
 
 void TomlSource::failWith(const toml::node& at, const std::string& sentence, const std::string& expected) const {
@@ -77,6 +127,8 @@ std::string TomlSource::asText(const toml::node& node, const std::string& what) 
   if (!node.is_string()) fail(node, fmt::format("{} is {}", what, describe(node)), "text in quotes");
   const std::string& text = node.as_string()->get();
   if (text.find_first_not_of(" \t\r\n") == std::string::npos) fail(node, what + " is empty", "text");
+  if (hasControlCharacters(text))
+    fail(node, fmt::format("{} is {}", what, describe(node)), "text without control characters");
   return text;
 }
 
@@ -117,8 +169,7 @@ Amount TomlSource::readAnyAmount(const toml::node& node, const std::string& what
   try {
     return parseAmount(text);
   } catch (const UnitError& error) {
-    throw StudyError(fmt::format("{}:{}:{}: {}: {}", name_, node.source().begin.line, node.source().begin.column, what,
-                                 error.what()));
+    throw StudyError(placed(node.source().begin, fmt::format("{}: {}", what, error.what())));
   }
 }
 

@@ -1,13 +1,19 @@
-// A few hands on HDF5's C interface: handles that close themselves, and reading and writing of the kinds of data that
-// results are made of. Failures throw Hdf5Error with the object's name.
+// A few hands on HDF5's C interface: handles that close themselves, files in memory, and reading and writing of the
+// kinds of data that results are made of. Failures throw Hdf5Error with the object's name.
+//
+// Everything is written so that damage shows: headers in the library's format 1.10, which have checksums; small data
+// inside their headers, larger ones in chunks with a checksum each; texts of fixed length, never by reference.
 #pragma once
 
 #include <hdf5.h>
 
 #include <array>
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -46,6 +52,10 @@ class Hdf5Silence {
   void* data_ = nullptr;
 };
 
+/// The bytes of a file that `fill` writes, with `userBlock` bytes (a power of two, at least 512) in front, all zero,
+/// that are not HDF5's. No disk is touched.
+std::string hdf5InMemory(hsize_t userBlock, const std::function<void(hid_t)>& fill);
+
 using Hdf5Shape = std::vector<hsize_t>;
 
 /// A group of an open file, for writing.
@@ -64,41 +74,78 @@ class Hdf5Writer {
   void text(const std::string& name, const std::string& value, const std::string& longName);
   void texts(const std::string& name, const std::vector<std::string>& values, const std::string& longName);
   void integers(const std::string& name, const std::vector<std::int64_t>& values, const std::string& longName);
-  /// Compressed if large. `units` is one word for all, or one an entry of the last dimension.
+  /// `units` may be empty: then there is no such attribute.
   void numbers(const std::string& name, const double* values, const Hdf5Shape& shape, const std::string& longName,
-               const std::vector<std::string>& units);
+               const std::string& units);
   /// Makes a data set of this group a dimension scale.
   void makeScale(const std::string& name, const std::string& label);
   /// Attaches scales (absolute paths in the file) to the dimensions of a data set.
   void attachScales(const std::string& name, const std::vector<std::string>& scales);
 
  private:
+  void data(const std::string& name, hid_t type, const Hdf5Shape& shape, const void* values,
+            const std::string& longName);
+
   Hdf5Handle group_;
   std::string name_;
 };
 
-/// A group of an open file, for reading.
+/// What an Hdf5Reader was told by the library, to be told again where the library must not run.
+class Hdf5Transcript {
+ public:
+  /// To be written.
+  Hdf5Transcript() = default;
+  /// To be told again.
+  explicit Hdf5Transcript(std::string bytes) : bytes_(std::move(bytes)), isTold_(true) {}
+
+  const std::string& bytes() const { return bytes_; }
+
+  /// The answer of `ask`, written down; or the next one that was. Throws Hdf5Error as `ask` does, and where nothing
+  /// that could be an answer is written.
+  template <class Answer>
+  Answer answer(const std::function<Answer()>& ask);
+
+ private:
+  void write(const void* data, std::size_t size) { bytes_.append(static_cast<const char*>(data), size); }
+  void read(void* data, std::size_t size);
+  template <class T>
+  void write(const T& value);
+  template <class T>
+  T read();
+
+  std::string bytes_;
+  std::size_t at_ = 0;
+  bool isTold_ = false;
+};
+
+/// A group of an open file, or of the transcript of one, for reading.
 class Hdf5Reader {
  public:
-  Hdf5Reader(hid_t parent, const std::string& name);
+  /// The root group of `image`, a file's bytes, which must outlive this.
+  Hdf5Reader(std::string_view image, Hdf5Transcript& transcript);
+  /// The root group as it was read.
+  explicit Hdf5Reader(Hdf5Transcript& transcript);
+  Hdf5Reader(const Hdf5Reader& parent, const std::string& name);
 
-  hid_t id() const { return group_; }
   bool has(const std::string& name) const;
-  bool hasAttribute(const std::string& name) const;
   double number(const std::string& attribute) const;
   std::int64_t integer(const std::string& attribute) const;
   std::uint64_t natural(const std::string& attribute) const;
+  // Words, with escapes for control characters.
   std::string text(const std::string& attribute) const;
-  std::vector<std::string> attributeNames() const;
-  std::string textData(const std::string& name) const;
   std::vector<std::string> texts(const std::string& name) const;
+  /// A text as it is.
+  std::string wholeText(const std::string& name) const;
+  std::vector<std::string> attributeNames() const;
   std::vector<std::int64_t> integers(const std::string& name) const;
   /// Values in row-major order; `shape` is set.
   std::vector<double> numbers(const std::string& name, Hdf5Shape& shape) const;
 
  private:
-  Hdf5Handle group_;
-  std::string name_;
+  void open(const std::function<Hdf5Handle()>& open);
+
+  std::optional<Hdf5Handle> file_, group_;  ///< none where a transcript is told again
+  Hdf5Transcript* transcript_;
 };
 
 }  // namespace gamut

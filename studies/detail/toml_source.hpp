@@ -29,6 +29,9 @@ class TomlSource {
     fail(at.source().begin, what, expected);
   }
 
+  /// "file:line:column: note: text", for what is no error.
+  std::string note(const toml::node& at, const std::string& text) const;
+
   /// As fail, for a sentence with which another room refused what stands at `at`: "wrong; did you mean 'x'?" names what
   /// was expected itself, any other is followed by `expected`.
   [[noreturn]] void failWith(const toml::node& at, const std::string& sentence, const std::string& expected) const;
@@ -51,6 +54,13 @@ class TomlSource {
   std::string asChoice(const toml::node& node, const std::string& what, const std::vector<std::string>& choices) const;
 
  private:
+  /// Throws StudyError for a key of so many parts that the tables within tables would exhaust the stack.
+  void checkKeys() const;
+  /// The last character of the text in quotes that begins there.
+  std::size_t endOfText(std::size_t begin) const;
+  /// From 0.
+  std::size_t lineOf(std::size_t place) const;
+  std::string placed(const toml::source_position& at, const std::string& text) const;
   std::string tokenAt(const toml::source_position& at) const;
   Amount checked(const toml::node& node, const std::string& what, Amount amount, const Dimension& dimension) const;
 

@@ -4,11 +4,13 @@
 
 #include <gmock/gmock.h>
 
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 
 #include "tests/analyses/motions.hpp"
+#include "tests/analyses/whole_ensemble.hpp"
 
 namespace gamut {
 namespace {
@@ -48,7 +50,7 @@ class DecayCompared : public testing::Test {
   }
 
   UncertainMotion system = decay();
-  Ensemble ensemble;
+  WholeEnsemble ensemble;
   EnclosureBounds enclosure;
   std::size_t firstCorner = sampleCount, secondCorner = sampleCount + 1;
 };
@@ -119,6 +121,39 @@ TEST_F(DecayCompared, AnEnclosureThatManySamplesLeaveIsOutsideThoughTheArbiterSe
   EXPECT_EQ(arbitrated, 16);
 }
 
+TEST_F(DecayCompared, WhatAnInterruptLeavesOpenIsNeitherOutsideNorUnresolved) {
+  for (std::size_t t = 20; t < 41; ++t) enclosure.bounds.upper(t, 0) -= 0.2;
+  const std::atomic<bool> cancelled{true};
+  ComparisonOptions options;
+  options.cancelled = &cancelled;
+  const Comparison c = compare(enclosure, ensemble, system, options);
+  EXPECT_EQ(c.verdict, "incomplete");
+  EXPECT_EQ(c.excursion, 0);
+  ASSERT_FALSE(c.disputes.empty());
+  for (const Dispute& d : c.disputes) {
+    EXPECT_EQ(d.decided, "interrupted");
+    EXPECT_FALSE(d.outside);
+    ASSERT_EQ(d.farthest.size(), 1u);
+    EXPECT_GE(d.farthest[0], d.distance);
+    EXPECT_GT(d.distance, 0);
+  }
+}
+
+TEST_F(DecayCompared, SamplesOfTheSameValuesAreDecidedTogetherHoweverMany) {
+  ensemble = {};
+  for (double& value : system.nominal) value = value == 1 ? value : 0.5;
+  system.uncertain[0].distribution = Distribution::uniform(Interval(0.5));
+  EnsembleOptions sampling;
+  sampling.samples = 400;
+  ensemble = sampleEnsemble(system, sampling);
+  const Comparison c = compare(enclosure, ensemble, system);
+  EXPECT_EQ(c.verdict, "inside");
+  EXPECT_GE(c.disputes.size(), 400u);
+  for (std::size_t i = 1; i < c.disputes.size(); ++i) EXPECT_LT(c.disputes[i - 1].number, c.disputes[i].number);
+  for (const Dispute& d : c.disputes) EXPECT_EQ(d.distance, 0);
+  expectEnvelopeInside(ensemble.envelope());
+}
+
 TEST_F(DecayCompared, ASampleOutsideByLessThanItsErrorIsUnresolved) {
   double& bound = enclosure.bounds.upper(25, 0);
   for (int i = 0; i < 3; ++i) bound = std::nextafter(bound, 0);
@@ -179,7 +214,7 @@ TEST(Comparison, ASampleOneUlpOutsideIsDisputed) {
   const UncertainMotion system = line();
   EnsembleOptions options;
   options.samples = 8;
-  Ensemble ensemble = sampleEnsemble(system, options);
+  WholeEnsemble ensemble = sampleEnsemble(system, options);
   EnclosureBounds enclosure{Envelope(2, 1), 2};
   for (std::size_t t = 0; t < 2; ++t) {  // y runs from 1 + t to 3 + t, and doubles reach both ends
     enclosure.bounds.lower(t, 0) = 1.0 + static_cast<double>(t);
@@ -204,7 +239,7 @@ TEST(Comparison, AFailedSampleLeavesTheComparisonIncomplete) {
   system.motion.f = record(1, 1, [](auto, const auto& x, const auto& p, auto& dx) { dx[0] = p[0] * sqr(x[0]); });
   EnsembleOptions options;
   options.samples = 16;
-  Ensemble ensemble = sampleEnsemble(system, options);
+  WholeEnsemble ensemble = sampleEnsemble(system, options);
   EnclosureBounds enclosure{Envelope(11, 1), 11};
   for (double& bound : enclosure.bounds.lower.data) bound = -std::numeric_limits<double>::infinity();
   for (double& bound : enclosure.bounds.upper.data) bound = std::numeric_limits<double>::infinity();
@@ -215,7 +250,7 @@ TEST(Comparison, AMotionWithoutStatesIsDisputedBeforeTheArbiterAtOnce) {
   const UncertainMotion system = line();
   EnsembleOptions options;
   options.samples = 8;
-  Ensemble ensemble = sampleEnsemble(system, options);
+  WholeEnsemble ensemble = sampleEnsemble(system, options);
   EnclosureBounds enclosure{Envelope(2, 1), 2};
   for (std::size_t t = 0; t < 2; ++t) {
     enclosure.bounds.lower(t, 0) = 1.0 + static_cast<double>(t);

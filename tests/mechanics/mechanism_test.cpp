@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 #include "machines.hpp"
 #include "mechanics/assembly.hpp"
 #include "mechanics/model.hpp"
@@ -46,6 +48,43 @@ TEST(Names, TheNearestIsNoneThatIsFarAway) {
   EXPECT_EQ(nearestName("shuoldr.angel", known), "shoulder.angle");
   EXPECT_EQ(nearestName("shlangle", known), "");
   EXPECT_EQ(unknownName("quantity", "mass", known), "unknown quantity 'mass'");
+}
+
+TEST(Names, WhatIsExpectedAreNearNamesOrSomeOfAll) {
+  const std::vector<std::string> known = {"tip.x", "tip.y", "tip.z", "rod.length", "base"};
+  EXPECT_EQ(expectedName("tip.w", known), "'tip.x', 'tip.y' or 'tip.z'");
+  EXPECT_EQ(expectedName("length", known), "'rod.length'");
+  EXPECT_EQ(expectedName("rod.mass", known), "'rod.length'");
+  EXPECT_EQ(expectedName("something", known), "one of: tip.x, tip.y, tip.z, rod.length, base");
+  EXPECT_EQ(expectedName("something", std::vector<std::string>(14, "k")),
+            "one of: k, k, k, k, k, k, k, k, k, k, k, k and 2 more");
+  EXPECT_EQ(expectedName("something", {}), "no such name: there is none yet");
+}
+
+TEST(Mechanism, RefusesInertiaThatNoBodyHas) {
+  const auto found = [](const std::vector<Quantity>& inertia) {
+    Mechanism m;
+    m.addParameter("J", 1.0);
+    m.add(Revolute{"hinge", "inertial", "K1", axisX, 0.0, 0.0});
+    Mass mass{"bob", "K1", 1.0};
+    std::copy(inertia.begin(), inertia.end(), mass.inertia.begin());
+    m.add(mass);
+    return complaint([&] { m.check(); });
+  };
+  const std::string negative = "the inertia of 'bob' has a negative principal moment";
+  const std::string triangle = "the inertia of 'bob' has a principal moment above the sum of the other two";
+  EXPECT_EQ(found({-1.0, 1.0, 1.0}), negative);
+  EXPECT_EQ(found({1.0, 1.0, 1.0, 0.0, 0.0, 1.5}), negative);
+  EXPECT_EQ(found({1.0, 1.0, 1.0, -0.9, -0.9, -0.9}), negative);  // only the determinant tells
+  EXPECT_EQ(found({1.0, 1.0, 2.001}), triangle);
+  EXPECT_EQ(found({1.0, 1.0, 1.0, 0.0, 0.6, 0.0}), triangle);  // principal moments 0.4, 1, 1.6
+  EXPECT_EQ(found({Quantity::named("J", -1.0), 1.0, 1.0}), negative);
+  // Bodies: a point, a rod, a plate whose decimals are no doubles, one askew, intervals that hold one.
+  EXPECT_EQ(found({0.0, 0.0, 0.0}), "no complaint");
+  EXPECT_EQ(found({0.0, 1.0, 1.0}), "no complaint");
+  EXPECT_EQ(found({Interval("0.1"), Interval("0.2"), Interval("0.3")}), "no complaint");
+  EXPECT_EQ(found({1.0, 1.0, 1.0, 0.0, 0.5, 0.0}), "no complaint");
+  EXPECT_EQ(found({Interval(-1.0, 1.0), 1.0, Interval(1.0, 3.0)}), "no complaint");
 }
 
 TEST(Mechanism, NamesItsStatesPositionsFirst) {

@@ -55,6 +55,7 @@ Results pendulum(std::size_t times, std::size_t outputs, std::size_t levels) {
   stochastic.plan = "sobol";
   stochastic.samples = 4096;
   stochastic.corners = 2;
+  stochastic.integrated = stochastic.planned();
   stochastic.relativeTolerance = 1e-10;
   stochastic.absoluteTolerance = 1e-12;
   stochastic.cpu = 8.21;

@@ -134,6 +134,50 @@ const Case cases[] = {
        dispute(r, 1e-3, "interrupted");
      },
      "outside", 1},
+    {"AnInterruptedSampleMayLieOutsideInEveryOutput",
+     [](Results& r) {
+       leave(r, 1e-6);
+       r.stochastic.envelope.upper(41, 0) = r.interval.at.upper(41, 0) + 2e-6;
+       dispute(r, 1e-6, "interrupted").farthest = {2e-6, 1e-6};
+     },
+     "incomplete", 3},
+    {"AnUnresolvedSampleMayLieOutsideInEveryOutput",
+     [](Results& r) {
+       leave(r, 1e-6);
+       r.stochastic.envelope.upper(41, 0) = r.interval.at.upper(41, 0) + 2e-6;
+       dispute(r, 1e-6, "unresolved").farthest = {2e-6, 1e-6};
+     },
+     "unresolved", 1},
+    {"AnInterruptedSampleExcusesNoMoreThanItsDistance",
+     [](Results& r) {
+       leave(r, 1e-6);
+       dispute(r, 0.9e-6, "interrupted");
+     },
+     "outside", 1},
+    {"AnUnresolvedSampleExcusesNoMoreThanItsDistance",
+     [](Results& r) {
+       leave(r, 1e-6);
+       dispute(r, 0.9e-6, "unresolved");
+     },
+     "outside", 1},
+    {"InterruptedBeforeAnAlphaCut",
+     [](Results& r) {
+       r.fuzzy.inner[2].upper(40, 1) = r.fuzzy.outer[2].upper(40, 1) + 1e-9;
+       dispute(r, 1.1e-9, "interrupted").level = 2;
+     },
+     "incomplete", 3},
+    {"InterruptedBeforeAnotherAlphaCut",
+     [](Results& r) {
+       r.fuzzy.inner[2].upper(40, 1) = r.fuzzy.outer[2].upper(40, 1) + 1e-9;
+       dispute(r, 1.1e-9, "interrupted").level = 3;
+     },
+     "outside", 1},
+    {"SamplingStopped",
+     [](Results& r) {
+       r.stochastic.integrated = 100;
+       r.stochastic.stopped = "the run was interrupted";
+     },
+     "incomplete", 3},
     {"EnclosureEndsEarly", [](Results& r) { r.interval.reached = 2.3; }, "incomplete", 3},
     {"SamplesEndEarly", [](Results& r) { r.stochastic.reached = 2.3; }, "incomplete", 3},
     {"AlphaCutsEndEarly", [](Results& r) { r.fuzzy.reached = 2.3; }, "incomplete", 3},
@@ -207,11 +251,26 @@ TEST(Verdict, NamesEveryUnresolvedSample) {
 
 TEST(Verdict, NamesCornersAndTheCentreAsSuch) {
   Results results = example::pendulum();
-  const std::int64_t first = results.stochastic.samples, corners = results.stochastic.corners;
-  for (const std::int64_t number : {first - 1, first, first + corners})
+  results.stochastic.alphaCorners = 18;
+  results.stochastic.integrated = results.stochastic.planned();
+  for (const std::int64_t number : {4095, 4096, 4098, 4115, 4116})
     dispute(results, 1e-6, "tolerance 1e-12").number = number;
   EXPECT_THAT(judge(results).notes,
-              ElementsAre(StartsWith("Sample 4095 ("), StartsWith("Corner 1 of 2 ("), StartsWith("The centre (")));
+              ElementsAre(StartsWith("Sample 4095 ("), StartsWith("Corner 1 of 2 ("),
+                          StartsWith("Corner 1 of 18 of the alpha-cuts ("),
+                          StartsWith("Corner 18 of 18 of the alpha-cuts ("), StartsWith("The centre (")));
+  EXPECT_THAT(judge(results).sentence, StartsWith("All 4117 sampled motions stay inside"));
+}
+
+TEST(Verdict, OfAFirstBlockOfSamplesIsIncompleteThoughTheyAllReachTheHorizon) {
+  Results results = example::pendulum();
+  results.stochastic.integrated = 259;
+  results.stochastic.stopped = "interrupted";
+  results.comparison.verdict = "incomplete";
+  const Verdict verdict = judge(results);
+  EXPECT_EQ(verdict.word, "incomplete");
+  EXPECT_THAT(verdict.sentence, StartsWith("All 259 motions that were sampled stay inside the guaranteed enclosure"));
+  EXPECT_THAT(verdict.notes, ElementsAre("259 of 4099 samples were taken: interrupted."));
 }
 
 TEST(Verdict, CountsTheSettledSamplesThatItDoesNotName) {
@@ -235,6 +294,30 @@ TEST(Verdict, ClaimsNothingOfMotionsThatEndedAtTheStart) {
   EXPECT_THAT(verdict.sentence,
               StartsWith("Nothing could be compared: an analysis ended at its start. The 3 s asked for were not"));
   EXPECT_THAT(verdict.notes, ElementsAre("The samples end at 0 s of the 3 s asked for: interrupted."));
+}
+
+TEST(Verdict, CountsOnlyTheSamplesThatWereTaken) {
+  Results results = example::pendulum();
+  results.stochastic.integrated = 100;
+  results.stochastic.stopped = "the time limit of 1800 s CPU for the whole run was reached";
+  Verdict verdict = judge(results);
+  EXPECT_THAT(verdict.sentence, StartsWith("All 100 motions that were sampled stay inside the guaranteed enclosure"));
+  EXPECT_THAT(
+      verdict.notes,
+      ElementsAre("100 of 4099 samples were taken: the time limit of 1800 s CPU for the whole run was reached."));
+  results.stochastic.integrated = 0;
+  verdict = judge(results);
+  EXPECT_EQ(verdict.sentence.find("Nothing could be compared: no sample was taken."), 0U);
+}
+
+TEST(Verdict, SaysWhyADisputeWasNotDecided) {
+  Results results = example::pendulum();
+  dispute(results, 1e-6, "interrupted");
+  results.comparison.why = "the time limit of 9 s CPU for the whole run was reached";
+  const Verdict verdict = judge(results);
+  EXPECT_THAT(verdict.sentence,
+              StartsWith("It was not decided whether every sample stays inside: the time limit of 9 s"));
+  EXPECT_THAT(verdict.notes, Contains(HasSubstr("was not decided: the time limit of 9 s CPU for the whole run")));
 }
 
 TEST(Verdict, TellsWhyAnAnalysisEndedEarly) {

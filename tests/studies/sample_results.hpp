@@ -53,6 +53,9 @@ inline Results sampleResults() {
   r.stochastic.plan = "sobol";
   r.stochastic.samples = 4096;
   r.stochastic.corners = 3;
+  r.stochastic.alphaCorners = 18;
+  r.stochastic.integrated = 1000;
+  r.stochastic.stopped = "the run was interrupted";
   r.stochastic.relativeTolerance = 1e-10;
   r.stochastic.absoluteTolerance = 1e-12;
   r.stochastic.packWidth = 64;
@@ -63,6 +66,7 @@ inline Results sampleResults() {
   r.stochastic.probabilities = {0.05, 0.95};
   r.stochastic.quantiles = {sampleGrid(3, 2, 0.4), sampleGrid(3, 2, 0.8)};
   r.stochastic.error = sampleGrid(3, 2, 1e-12);
+  r.stochastic.resolution = sampleGrid(3, 2, 1e-4);
   r.stochastic.cpu = 1.5;
   r.fuzzy.present = true;
   r.fuzzy.reached = 0.01;
@@ -72,15 +76,19 @@ inline Results sampleResults() {
   r.fuzzy.cpu = 0.125;
   r.comparison.present = true;
   r.comparison.verdict = "incomplete";
+  r.comparison.why = "the run was interrupted";
   r.comparison.overestimation = sampleGrid(3, 2, 2);
   r.comparison.overestimation(0, 1) = nan;
   r.comparison.excess = sampleGrid(3, 2, 0.5);
   r.comparison.maximum = 13;
   r.comparison.median = 2.5;
   r.comparison.maximumOf = {12, nan};
-  r.comparison.disputed = {{17, 1, 0, 0.09, 0.1, 1.1, 0.01, 1e-9, "tolerance 1e-12", true},
-                           {4098, 0, 1, 1.2, 1.1, 2.1, 0, 1e-9, "unresolved", false}};
+  r.comparison.disputed = {{17, 1, 0, 0.09, 0.1, 1.1, 0.01, 1e-9, "tolerance 1e-12", true, 2, {0.01, 0.25}},
+                           {4098, 0, 1, 1.2, 1.1, 2.1, 0, 1e-9, "unresolved", false, -1, {}}};
   r.reportCpu = 0.0625;
+  r.limits = {1800, 8e9, 1200, 5e9, 18};
+  r.cpu = 2.25;
+  r.memory = 1.5e9;
   return r;
 }
 

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 #include <mutex>
+#include <stdexcept>
 
 #include "studies/problem.hpp"
 #include "tests/studies/sample_study.hpp"
@@ -61,13 +62,74 @@ TEST(Driver, LeavesOpenWhatAnInterruptKeepsFromBeingDecided) {
   RunOptions options;
   options.cancelled = &cancelled;
   options.progress = [&](const std::string& task, double fraction) {
-    if (task == "samples" && fraction >= 1) cancelled = true;
+    if (task == "enclosure" && fraction > 0.5) cancelled = true;
   };
-  const ComparisonResult comparison = run(readStudyText(sampleStudy, "s.toml"), options).comparison;
+  const Results results = run(readStudyText(sampleStudy, "s.toml"), options);
+  const ComparisonResult& comparison = results.comparison;
   EXPECT_EQ(comparison.verdict, "incomplete");
   EXPECT_EQ(comparison.excursion, 0);
   EXPECT_THAT(comparison.disputed, Not(IsEmpty()));
   EXPECT_THAT(comparison.disputed, Each(Field(&DisputedSample::decided, "interrupted")));
+}
+
+TEST(Driver, ComparesAFirstBlockOfSamplesWithAnEnclosureThatIsInterrupted) {
+  std::atomic<bool> cancelled{false};
+  RunOptions options;
+  options.samples = 5000;
+  options.cancelled = &cancelled;
+  options.progress = [&](const std::string& task, double) {
+    if (task == "enclosure") cancelled = true;
+  };
+  const Results results = run(readStudyText(sampleStudy, "s.toml"), options);
+  EXPECT_EQ(results.comparison.verdict, "incomplete");
+  EXPECT_EQ(results.stochastic.integrated, 256 + 2 + results.stochastic.alphaCorners + 1);
+  EXPECT_EQ(results.stochastic.stopped, "the run was interrupted");
+  EXPECT_EQ(results.stochastic.reached, 0.5);
+  EXPECT_FALSE(std::isnan(results.stochastic.quantiles[2](5, 0)));
+  EXPECT_FALSE(std::isnan(results.fuzzy.inner[5].lower(5, 0)));
+}
+
+TEST(Driver, QuantilesAreWithinTheirResolutionOfThoseOfTheSamplesThemselves) {
+  const Study study = readStudyText(sampleStudy, "s.toml");
+  RunOptions options;
+  options.samples = 700;
+  const StochasticResult found = run(study, options).stochastic;
+  const Problem problem = makeProblem(study);
+  EnsembleOptions ensemble = study.ensemble;
+  ensemble.samples = 700;
+  std::vector<std::vector<double>> trajectories;
+  for (std::size_t i = 0; i < 700; ++i) trajectories.push_back(replaySample(problem.motion, ensemble, i));
+  for (std::size_t cell = 0; cell < trajectories[0].size(); ++cell) {
+    std::vector<double> column;
+    for (const std::vector<double>& trajectory : trajectories) column.push_back(trajectory[cell]);
+    std::ranges::sort(column);
+    const double resolution = found.resolution.data[cell];
+    EXPECT_LE(resolution, 1.01 * (column.back() - column.front()) / 4096 + 1e-9);
+    for (std::size_t q = 0; q < found.probabilities.size(); ++q) {
+      const double position = found.probabilities[q] * 699, below = std::floor(position);
+      const auto k = static_cast<std::size_t>(below);
+      const double exact = column[k] + (position - below) * (column[k + 1] - column[k]);
+      EXPECT_LE(std::abs(found.quantiles[q].data[cell] - exact), resolution) << cell << ' ' << q;
+    }
+  }
+}
+
+TEST(Driver, AlphaCutsOfSeveralQuantitiesAreReachedByTheirCorners) {
+  std::string text = sampleStudyWith("[[uncertain]]", threeUncertain);
+  const std::string more = R"([[uncertain]]
+quantity = "hinge.rate"
+interval = "± 1 %"
+)";
+  text.insert(text.find("[[uncertain]]"), more);
+  const Results results = run(readStudyText(text, "s.toml"));
+  EXPECT_EQ(results.comparison.verdict, "inside");
+  EXPECT_EQ(results.stochastic.alphaCorners, 9 * 16);
+  const std::size_t last = results.time.size() - 1;
+  for (std::size_t level = 0; level < 10; ++level) {
+    const Bounds &inner = results.fuzzy.inner[level], &outer = results.fuzzy.outer[level];
+    const double sampled = inner.upper(last, 0) - inner.lower(last, 0);
+    EXPECT_GT(sampled, 0.95 * (outer.upper(last, 0) - outer.lower(last, 0))) << level;
+  }
 }
 
 TEST(Driver, KeepsSamplesInsideWithUncertainParametersAndInitialValues) {
@@ -116,8 +178,98 @@ TEST(Driver, StopsWhenToldAndSaysSo) {
   const Results results = run(readStudyText(sampleStudy, "s.toml"), options);
   EXPECT_EQ(results.comparison.verdict, "incomplete");
   EXPECT_LT(results.interval.reached, 0.5);
-  EXPECT_NE(results.interval.why, "");
-  EXPECT_NE(results.stochastic.why, "");
+  EXPECT_EQ(results.interval.why, "the run was interrupted");
+  EXPECT_EQ(results.stochastic.stopped, "the run was interrupted");
+  EXPECT_EQ(results.stochastic.integrated, 0);
+}
+
+/// A pendulum near its upper rest, whose enclosure is bisected again and again.
+Study unstableStudy() {
+  std::string text = sampleStudyWith("angle = \"30 deg\"", "angle = \"170 deg\"");
+  text.replace(text.find("± 1 %"), std::string("± 1 %").size(), "± 9 deg");
+  text.replace(text.find("horizon = 0.5"), 13, "horizon = 20.0");
+  return readStudyText(text, "s.toml");
+}
+
+TEST(Driver, EndsAnEnclosureThatTakesTooLongAndSamplesAllTheSame) {
+  Study study = unstableStudy();
+  study.limits.enclosureTime = 0.25;
+  const Results results = run(study);
+  EXPECT_EQ(results.interval.why, "the time limit of 0.25 s CPU for the enclosure was reached");
+  EXPECT_EQ(results.fuzzy.why, results.interval.why);
+  EXPECT_GT(results.interval.reached, 0);
+  EXPECT_LT(results.interval.reached, 20);
+  EXPECT_LT(results.interval.cpu + results.fuzzy.cpu, 1);
+  EXPECT_EQ(results.stochastic.stopped, "");
+  EXPECT_EQ(results.stochastic.integrated, 16 + 2 + 18 + 1);
+  EXPECT_EQ(results.comparison.verdict, "incomplete");
+}
+
+TEST(Driver, EndsARunThatTakesTooLong) {
+  RunOptions options;
+  options.timeLimit = 0.5;
+  options.samples = 200000;
+  const Results results = run(readStudyText(sampleStudy, "s.toml"), options);
+  EXPECT_EQ(results.interval.reached, 0.5);
+  EXPECT_EQ(results.stochastic.stopped, "the time limit of 0.5 s CPU for the whole run was reached");
+  EXPECT_GT(results.stochastic.integrated, 0);
+  EXPECT_LT(results.stochastic.integrated, results.stochastic.planned());
+  EXPECT_EQ(results.stochastic.reached, 0.5);
+  EXPECT_EQ(results.comparison.verdict, "incomplete");
+  EXPECT_FALSE(std::isnan(results.stochastic.envelope.lower(5, 0)));
+  EXPECT_EQ(results.limits.time, 0.5);
+  EXPECT_GE(results.cpu, 0.5);
+}
+
+TEST(Driver, EndsSamplesThatTakeTooLongAndNamesThem) {
+  Study study = readStudyText(sampleStudy, "s.toml");
+  study.limits.sampleTime = 1e-9;
+  const Results results = run(study);
+  EXPECT_THAT(results.stochastic.why,
+              ::testing::StartsWith("sample 0 failed: the time limit of 1e-09 s CPU for a sample was reached"));
+  EXPECT_LT(results.stochastic.reached, 0.5);
+  EXPECT_EQ(results.comparison.verdict, "incomplete");
+}
+
+TEST(Driver, EndsWhereThereIsNoMoreMemory) {
+  RunOptions options;
+  options.memoryLimit = 1e6;  // less than any process has
+  const Results results = run(readStudyText(sampleStudy, "s.toml"), options);
+  EXPECT_EQ(results.interval.why, "the memory limit of 0.000667 GB for the enclosure was reached");
+  EXPECT_EQ(results.stochastic.stopped, "the memory limit of 0.001 GB for the whole run was reached");
+  EXPECT_EQ(results.comparison.verdict, "incomplete");
+  EXPECT_GT(results.memory, 1e6);
+}
+
+/// A pendulum whose rod consists of so many pieces of uncertain length.
+std::string piecesOfARod(int count, const std::string& interval) {
+  const std::string text = sampleStudyWith("seed = 7\n", interval);
+  const auto mass = text.find("[[mechanism.element]]\ntype = \"mass\""), tip = text.find("\"tip\"", mass),
+             output = text.find("[[output]]");
+  std::string pieces, uncertain, end = "tip";
+  for (int i = 0; i < count; ++i) {
+    const std::string name = "piece" + std::to_string(i), next = "end" + std::to_string(i);
+    pieces += "[[mechanism.element]]\ntype = \"link\"\nname = \"" + name + "\"\nfrom = \"" + end + "\"\nto = \"" +
+              next + "\"\nvector = [0, 0, \"-" + name + ".length\"]\nparameters = { length = 0.1 }\n";
+    uncertain += "[[uncertain]]\nquantity = \"" + name + ".length\"\ninterval = \"± 1 %\"\n";
+    end = next;
+  }
+  return text.substr(0, mass) + pieces + text.substr(mass, tip - mass) + "\"" + end + "\"" +
+         text.substr(tip + 5, output - tip - 5) + uncertain + text.substr(output);
+}
+
+TEST(Driver, EnclosesManyUncertainQuantitiesWithoutBisectingThem) {
+  std::string text = piecesOfARod(300, "");
+  text.replace(text.find("sobol"), 5, "random");
+  const Results results = run(readStudyText(text, "s.toml"));
+  EXPECT_EQ(results.comparison.verdict, "inside");
+  EXPECT_EQ(results.interval.pieces, 1);
+  EXPECT_LT(results.comparison.maximum, 1.5);
+  EXPECT_LT(results.cpu, 60);
+}
+
+TEST(Driver, RefusesPolynomialsOfTooManyTerms) {
+  EXPECT_THROW(run(readStudyText(piecesOfARod(39, "[interval]\ndegree = 4\n"), "s.toml")), std::invalid_argument);
 }
 
 TEST(Driver, ReportsTheProgressOfEveryAnalysis) {

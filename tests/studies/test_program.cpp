@@ -1,14 +1,12 @@
 // The program from outside: exit codes, what is printed where, and which files are touched.
 #include <gmock/gmock.h>
-#include <signal.h>
 #include <stdlib.h>
+#include <sys/stat.h>
+#include <sys/sysmacros.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
-#include <chrono>
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "studies/results_file.hpp"
 #include "tests/studies/sample_results.hpp"
@@ -29,10 +27,10 @@ struct Outcome {
 
 class Program : public ::testing::Test {
  protected:
-  /// Runs the program in the temporary folder.
-  Outcome gamut(const std::string& arguments) const {
+  /// Runs the program in the temporary folder, after `before` in the same shell.
+  Outcome gamut(const std::string& arguments, const std::string& before = "") const {
     const std::string command =
-        "cd '" + folder_.path("") + "' && '" GAMUT_PROGRAM "' " + arguments + " > .out 2> .error";
+        "cd '" + folder_.path("") + "' && " + before + "'" GAMUT_PROGRAM "' " + arguments + " > .out 2> .error";
     const int status = std::system(command.c_str());
     const Outcome run{WIFEXITED(status) ? WEXITSTATUS(status) : -1, folder_.read(".out"), folder_.read(".error")};
     std::filesystem::remove(folder_.path(".out"));
@@ -55,11 +53,28 @@ TEST_F(Program, TellsItsVersionAndItsExitCodes) {
 
 TEST_F(Program, RefusesWrongUsageInOneLine) {
   folder_.write("s.toml", sampleStudy);
-  for (const char* arguments :
-       {"", "walk", "run", "run s.toml --jobs 0", "run s.toml --samples -3", "run s.toml --seed x",
-        "run s.toml --seed -1", "run s.toml --seed 18446744073709551616", "run s.toml --samples",
-        "run s.toml --samples 1e3", "run s.toml --what", "run ''", "check ''", "run s.toml -o /proc/x.h5",
-        "run s.toml -o none/x.h5", "run s.toml -o s.toml --force", "run s.toml -o x --report x", "run s.toml -o ."}) {
+  for (const char* arguments : {"",
+                                "walk",
+                                "run",
+                                "run s.toml --jobs 0",
+                                "run s.toml --samples -3",
+                                "run s.toml --seed x",
+                                "run s.toml --seed -1",
+                                "run s.toml --seed 18446744073709551616",
+                                "run s.toml --samples",
+                                "run s.toml --samples 1e3",
+                                "run s.toml --time-limit 0",
+                                "run s.toml --time-limit -1",
+                                "run s.toml --memory-limit inf",
+                                "run s.toml --memory-limit x",
+                                "run s.toml --what",
+                                "run ''",
+                                "check ''",
+                                "run s.toml -o /proc/x.h5",
+                                "run s.toml -o none/x.h5",
+                                "run s.toml -o s.toml --force",
+                                "run s.toml -o x --report x",
+                                "run s.toml -o ."}) {
     SCOPED_TRACE(arguments);
     const Outcome run = gamut(arguments);
     EXPECT_EQ(run.exitCode, 2);
@@ -69,6 +84,9 @@ TEST_F(Program, RefusesWrongUsageInOneLine) {
   }
   EXPECT_EQ(folder_.count(), 1U);
   EXPECT_EQ(folder_.read("s.toml"), sampleStudy);
+  EXPECT_EQ(gamut("rum s.toml").error, "gamut: unknown command 'rum'; expected 'run'\n");
+  EXPECT_EQ(gamut("walk").error,
+            "gamut: unknown command 'walk'; expected one of: run, validate, check, report, info\n");
   EXPECT_EQ(gamut("run s.toml --seed -1").error,
             "gamut: --seed: '-1' is no whole number from 0 to 9223372036854775807; see gamut run --help\n");
 }
@@ -90,12 +108,28 @@ TEST_F(Program, WritesWholeFilesWhereStandardStreamsAreClosed) {
   EXPECT_THAT(folder_.read("s.html"), StartsWith("<!"));
 }
 
-TEST_F(Program, RefusesMoreSamplesThanTheMemoryHolds) {
-  folder_.write("s.toml", sampleStudyWith("output_step = 0.1", "output_step = 1e-5"));
-  const Outcome run = gamut("run s.toml --samples 10000000");
+TEST_F(Program, RefusesMoreOutputsThanTheMemoryHolds) {
+  std::string study = sampleStudyWith("output_step = 0.1", "output_step = 1e-5");
+  for (int i = 2; i < 2000; ++i)
+    study += "[[output]]\nquantity = \"hinge.angle\"\nname = \"angle " + std::to_string(i) + "\"\n";
+  folder_.write("s.toml", study);
+  const Outcome run = gamut("run s.toml");
   EXPECT_EQ(run.exitCode, 2);
-  EXPECT_THAT(run.error, HasSubstr("10000000 samples of 2 outputs at 50001 times need 8000 GB, this machine has "));
+  EXPECT_THAT(run.error, HasSubstr("samples of 2000 outputs at 50001 times need "));
+  EXPECT_THAT(run.error, HasSubstr(" GB, the memory limit is "));
   EXPECT_EQ(folder_.count(), 1U);
+}
+
+/// Three million motions kept would be 2.5 GB.
+TEST_F(Program, TakesNoMoreMemoryForMoreSamples) {
+  std::filesystem::copy(GAMUT_SOURCE_DIR "/studies/tip_position/study.toml", folder_.path("tip.toml"));
+  const std::string command = "cd '" + folder_.path("") +
+                              "' && ulimit -v 1000000 && '" GAMUT_PROGRAM
+                              "' run tip.toml --samples 3000000 --jobs 2 --quiet";
+  const int status = std::system(command.c_str());
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 0);
+  EXPECT_EQ(readResults(folder_.path("tip.h5")).stochastic.integrated, 3000000 + 2 + 18 + 1);
 }
 
 TEST_F(Program, RefusesABadStudyWithoutTouchingAnyFile) {
@@ -109,6 +143,17 @@ TEST_F(Program, RefusesABadStudyWithoutTouchingAnyFile) {
   EXPECT_EQ(gamut("validate none.toml").error, "none.toml: cannot be read; expected a study file (TOML)\n");
   EXPECT_EQ(gamut("validate none.toml").exitCode, 2);
   EXPECT_EQ(folder_.count(), 1U);
+}
+
+TEST_F(Program, SaysNotesUnlessItIsQuiet) {
+  folder_.write("s.toml", sampleStudyWith("mass = \"250 g\"", "mass = 1\ninertia = [1, 2, 3]") +
+                              "[[uncertain]]\nquantity = \"bob.inertia.zz\"\ninterval = \"± 1 %\"\n");
+  const Outcome run = gamut("validate s.toml");
+  EXPECT_EQ(run.exitCode, 0);
+  EXPECT_EQ(run.error,
+            "s.toml:46:12: note: for some values in the intervals the inertia of 'bob' has a principal moment "
+            "above the sum of the other two\n");
+  EXPECT_EQ(gamut("validate s.toml --quiet").error, "");
 }
 
 TEST_F(Program, ValidatesWithoutWriting) {
@@ -171,6 +216,40 @@ TEST_F(Program, OverwritesOnlyWhenForced) {
   EXPECT_FALSE(folder_.has("s.h5"));
   EXPECT_EQ(gamut("run s.toml --force --quiet").exitCode, 0);
   EXPECT_THAT(folder_.read("s.html"), HasSubstr("<html"));
+}
+
+TEST_F(Program, LeavesTheSecondRunOnOneOutputOut) {
+  folder_.write("s.toml", sampleStudy);
+  OutputFile first(folder_.path("s.h5"), OutputFile::Existing::isKept);
+  const Outcome second = gamut("run s.toml");
+  EXPECT_EQ(second.exitCode, 2);
+  EXPECT_EQ(second.error, "gamut: s.h5: cannot be written; another run is about to write it\n");
+  EXPECT_FALSE(folder_.has("s.html"));
+}
+
+TEST_F(Program, ReplacesNoDeviceEvenIfForced) {
+  folder_.write("s.toml", sampleStudy);
+  // Only root can make a device; what is no regular file otherwise is a pipe.
+  const std::string device = folder_.path("device");
+  const bool isMade =
+      ::mknod(device.c_str(), S_IFCHR | 0600, ::makedev(1, 3)) == 0 || ::mkfifo(device.c_str(), 0600) == 0;
+  ASSERT_TRUE(isMade);
+  for (const char* arguments : {"run s.toml --force -o device", "run s.toml --force --report device"}) {
+    const Outcome run = gamut(arguments);
+    EXPECT_EQ(run.exitCode, 2);
+    EXPECT_THAT(run.error, HasSubstr("it is a device, or another thing that is no regular file\n"));
+  }
+  EXPECT_FALSE(std::filesystem::is_regular_file(device));
+  EXPECT_EQ(folder_.count(), 2U);
+}
+
+TEST_F(Program, SaysThatItsFilesDoNotFit) {
+  folder_.write("s.toml", sampleStudy);
+  const Outcome run = gamut("run s.toml --quiet", "ulimit -f 8 && ");
+  EXPECT_EQ(run.exitCode, 4);
+  EXPECT_EQ(run.error,
+            "gamut: s.h5: cannot be written; files may not grow so large here, see ulimit -f (File too large)\n");
+  EXPECT_EQ(folder_.count(), 1U);
 }
 
 TEST_F(Program, SaysWhatItFoundOnStandardOutput) {
@@ -250,27 +329,6 @@ TEST_F(Program, RefusesWhatIsNoResultsFile) {
     EXPECT_THAT(run.error, HasSubstr("; expected a results file written by gamut run\n"));
     EXPECT_EQ(run.error.find('\n'), run.error.size() - 1);
   }
-}
-
-TEST_F(Program, KeepsWhatWasFoundWhenInterrupted) {
-  const std::string path = folder_.write("long.toml", sampleStudyWith("samples = 16", "samples = 10000000"));
-  const pid_t child = ::fork();
-  if (child == 0) {
-    if (::chdir(folder_.path("").c_str()) != 0) ::_exit(99);
-    ::execl(GAMUT_PROGRAM, GAMUT_PROGRAM, "run", "long.toml", "--quiet", static_cast<char*>(nullptr));
-    ::_exit(98);
-  }
-  std::this_thread::sleep_for(std::chrono::seconds(3));
-  ::kill(child, SIGINT);
-  int status = 0;
-  ASSERT_EQ(::waitpid(child, &status, 0), child);
-  ASSERT_TRUE(WIFEXITED(status));
-  EXPECT_EQ(WEXITSTATUS(status), 3);
-  const Results results = readResults(folder_.path("long.h5"));
-  EXPECT_EQ(results.comparison.verdict, "incomplete");
-  EXPECT_EQ(results.interval.reached, 0.5);
-  EXPECT_EQ(results.stochastic.why, "interrupted");
-  EXPECT_TRUE(folder_.has("long.html"));
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 
 #include "studies/atomic_file.hpp"
 #include "studies/detail/hdf5.hpp"
@@ -32,6 +33,16 @@ void expectSame(const Grid& found, const Grid& expected, const char* what) {
 void expectSame(const Bounds& found, const Bounds& expected, const char* what) {
   expectSame(found.lower, expected.lower, what);
   expectSame(found.upper, expected.upper, what);
+}
+
+/// Standard output of a command.
+std::string outputOf(const std::string& command) {
+  std::string output;
+  std::FILE* pipe = ::popen((command + " 2>&1").c_str(), "r");
+  char buffer[4096];
+  while (const std::size_t n = std::fread(buffer, 1, sizeof buffer, pipe)) output.append(buffer, n);
+  ::pclose(pipe);
+  return output;
 }
 
 class ResultsFile : public ::testing::Test {
@@ -86,6 +97,9 @@ TEST_F(ResultsFile, GivesBackEveryAnswer) {
   EXPECT_EQ(found.stochastic.plan, expected.stochastic.plan);
   EXPECT_EQ(found.stochastic.samples, expected.stochastic.samples);
   EXPECT_EQ(found.stochastic.corners, expected.stochastic.corners);
+  EXPECT_EQ(found.stochastic.alphaCorners, 18);
+  EXPECT_EQ(found.stochastic.integrated, 1000);
+  EXPECT_EQ(found.stochastic.stopped, "the run was interrupted");
   EXPECT_EQ(found.stochastic.relativeTolerance, expected.stochastic.relativeTolerance);
   EXPECT_EQ(found.stochastic.absoluteTolerance, expected.stochastic.absoluteTolerance);
   EXPECT_EQ(found.stochastic.packWidth, 64);
@@ -96,6 +110,7 @@ TEST_F(ResultsFile, GivesBackEveryAnswer) {
   expectSame(found.stochastic.mean, expected.stochastic.mean, "mean");
   expectSame(found.stochastic.deviation, expected.stochastic.deviation, "deviation");
   expectSame(found.stochastic.error, expected.stochastic.error, "error");
+  expectSame(found.stochastic.resolution, expected.stochastic.resolution, "resolution");
   EXPECT_EQ(found.stochastic.probabilities, expected.stochastic.probabilities);
   ASSERT_EQ(found.stochastic.quantiles.size(), 2U);
   for (std::size_t i = 0; i < 2; ++i)
@@ -111,15 +126,18 @@ TEST_F(ResultsFile, GivesBackEveryAnswer) {
   }
 }
 
-TEST_F(ResultsFile, WithoutAPackWidthIsOfSamplesIntegratedOneByOne) {
+TEST_F(ResultsFile, GivesBackWhatWasSpentAndWhyItEnded) {
   writeResults(sampleResults(), path_);
-  {
-    const Hdf5Handle file(H5Fopen(path_.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose, path_);
-    ASSERT_GE(H5Adelete_by_name(file, "stochastic", "pack_width", H5P_DEFAULT), 0);
-  }
   const Results found = readResults(path_);
-  EXPECT_EQ(found.stochastic.packWidth, 1);
-  EXPECT_EQ(found.stochastic.samples, 4096);
+  EXPECT_EQ(found.stochastic.integrated, 1000);
+  EXPECT_EQ(found.stochastic.stopped, "the run was interrupted");
+  EXPECT_EQ(found.cpu, 2.25);
+  EXPECT_EQ(found.memory, 1.5e9);
+  EXPECT_EQ(found.limits.time, 1800);
+  EXPECT_EQ(found.limits.memory, 8e9);
+  EXPECT_EQ(found.limits.enclosureTime, 1200);
+  EXPECT_EQ(found.limits.enclosureMemory, 5e9);
+  EXPECT_EQ(found.limits.sampleTime, 18);
 }
 
 TEST_F(ResultsFile, GivesBackTheComparisonAndDisputedSamples) {
@@ -145,6 +163,10 @@ TEST_F(ResultsFile, GivesBackTheComparisonAndDisputedSamples) {
   EXPECT_EQ(sample.error, 1e-9);
   EXPECT_EQ(sample.decided, "tolerance 1e-12");
   EXPECT_TRUE(sample.outside);
+  EXPECT_EQ(sample.level, 2);
+  EXPECT_EQ(sample.farthest, (std::vector<double>{0.01, 0.25}));
+  EXPECT_EQ(found.comparison.disputed[1].level, -1);
+  EXPECT_EQ(found.comparison.why, "the run was interrupted");
   EXPECT_FALSE(found.comparison.disputed[1].outside);
   EXPECT_EQ(found.comparison.disputed[1].decided, "unresolved");
 }
@@ -164,21 +186,11 @@ TEST_F(ResultsFile, KeepsAbsentPartsAbsent) {
   EXPECT_TRUE(found.uncertain.empty());
 }
 
-/// Standard output of a command.
-std::string outputOf(const std::string& command) {
-  std::string output;
-  std::FILE* pipe = ::popen((command + " 2>&1").c_str(), "r");
-  char buffer[4096];
-  while (const std::size_t n = std::fread(buffer, 1, sizeof buffer, pipe)) output.append(buffer, n);
-  ::pclose(pipe);
-  return output;
-}
-
 TEST_F(ResultsFile, ExplainsItselfToH5dump) {
   if (std::system("command -v h5dump > /dev/null 2>&1") != 0) GTEST_SKIP() << "h5dump (hdf5-tools) is not installed";
   writeResults(sampleResults(), path_);
   const std::string at = outputOf("h5dump -d /interval/at_lower " + path_);
-  for (const char* word : {"\"units\"", "\"m\", \"J\"", "\"long_name\"", "enclosure at the output time, lower bound",
+  for (const char* word : {"\"units\"", "\"m, J\"", "\"long_name\"", "enclosure at the output time, lower bound",
                            "\"DIMENSION_LIST\"", "\"DIMENSION_LABELS\"", "\"time\", \"output\""})
     EXPECT_THAT(at, HasSubstr(word));
   const std::string time = outputOf("h5dump -d /time " + path_);
@@ -218,13 +230,97 @@ TEST_F(ResultsFile, IsRefusedInOneLineWhenItIsSomethingElse) {
             folder_.path("none.h5") + ": cannot be read; expected a results file written by gamut run");
   const std::string text = folder_.path("text.h5");
   std::ofstream(text) << "[study]\n";
-  EXPECT_EQ(message(text), text +
-                               ": not a Gamut results file, or damaged (the file cannot be read); expected a results "
-                               "file written by gamut run");
+  EXPECT_EQ(message(text), text + ": not a Gamut results file; expected a results file written by gamut run");
   const std::string foreign = folder_.path("foreign.h5");
   Hdf5Handle(H5Fcreate(foreign.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose, foreign);
   EXPECT_EQ(message(foreign),
             foreign + ": an HDF5 file, but not of Gamut results; expected a results file written by gamut run");
+}
+
+TEST_F(ResultsFile, OfAnOlderBuildIsRefusedWithItsFormat) {
+  {
+    const Hdf5Handle file(H5Fcreate(path_.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose, path_);
+    Hdf5Writer root(file);
+    root.attribute("format", std::string("Gamut results"));
+    root.attribute("format_version", std::int64_t{1});
+  }
+  try {
+    readResults(path_);
+    ADD_FAILURE() << "was read";
+  } catch (const ResultsFileError& error) {
+    EXPECT_EQ(error.what(), path_ +
+                                ": written in format 1 by an older build of gamut; expected format 2, so run the "
+                                "study again");
+  }
+}
+
+TEST_F(ResultsFile, IsRefusedIfItsNumbersMakeNoSense) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const auto message = [&](const auto& change) -> std::string {
+    Results results = sampleResults();
+    change(results);
+    writeResults(results, path_);
+    try {
+      readResults(path_);
+    } catch (const ResultsFileError& error) {
+      return error.what();
+    }
+    return "it was read";
+  };
+  const auto refused = [&](const std::string& what) {
+    return path_ + ": damaged: " + what + " cannot be read; expected the file as gamut run wrote it";
+  };
+  EXPECT_EQ(message([](Results& r) { r.interval.at.upper(1, 1) = -1e9; }), refused("at"));
+  EXPECT_EQ(message([](Results& r) { r.interval.over.lower(1, 1) = infinity; }), refused("over"));
+  EXPECT_EQ(message([](Results& r) { r.fuzzy.outer[1].lower(0, 0) = 1e9; }), refused("outer"));
+  EXPECT_EQ(message([](Results& r) { r.interval.at.upper(1, 1) = infinity; }), "it was read");
+  EXPECT_EQ(message([](Results& r) { r.uncertain[0].upper = 0; }), refused("uncertain"));
+  EXPECT_EQ(message([](Results& r) { r.comparison.disputed[0].lower = 2; }), refused("disputed"));
+  EXPECT_EQ(message([](Results& r) { r.comparison.disputed[0].number = -1; }), refused("number"));
+  EXPECT_EQ(message([](Results& r) { r.stochastic.samples = -1; }), refused("samples"));
+  EXPECT_EQ(message([](Results& r) { r.time[1] = 0.03; }), refused("time"));
+  EXPECT_EQ(message([](Results& r) { r.fuzzy.alpha[1] = 1.5; }), refused("alpha"));
+}
+
+TEST_F(ResultsFile, TellsItsDigestToCommonTools) {
+  writeResults(sampleResults(), path_);
+  const std::string digest = outputOf("tail -c +513 '" + path_ + "' | sha256sum").substr(0, 64);
+  EXPECT_EQ(outputOf("sed -n 3p '" + path_ + "'"), "sha256 " + digest + "\n");
+}
+
+TEST_F(ResultsFile, KeepsLongTextsAndShowsControlCharactersInWords) {
+  Results results = sampleResults();
+  results.studyText = std::string(200000, 'x') + "\r\nß\t";
+  results.title = "";
+  results.studyFile = "a\x1b[31m\n.toml";
+  results.outputs[0].name = "";
+  writeResults(results, path_);
+  const Results found = readResults(path_);
+  EXPECT_EQ(found.studyText, results.studyText);
+  EXPECT_EQ(found.title, "");
+  EXPECT_EQ(found.studyFile, "a\\u001b[31m\\n.toml");
+  EXPECT_EQ(found.outputs[0].name, "");
+}
+
+/// xarray's own words for a file.
+TEST_F(ResultsFile, IsReadByXarrayWithUnitsAndNamedDimensions) {
+  const std::string python = "/usr/bin/python3 -c '";
+  if (std::system((python + "import xarray, h5netcdf' > /dev/null 2>&1").c_str()) != 0)
+    GTEST_SKIP() << "python3-xarray and python3-h5netcdf are not installed";
+  writeResults(sampleResults(), path_);
+  const auto show = [&](const std::string& group, const std::string& expression) {
+    return outputOf(python + "import xarray; f = xarray.open_dataset(\"" + path_ + "\", engine=\"h5netcdf\", group=\"" +
+                    group + "\"); print(" + expression + ")'");
+  };
+  EXPECT_EQ(show("/", "f.output.values, f.time.values, f.time.units"), "['tip height' 'energy'] [0.   0.01 0.02] s\n");
+  EXPECT_EQ(show("interval", "f.at_lower.dims, f.at_lower.units, f.why"),
+            "('time', 'output') m, J the enclosure became wider than 1e6\n");
+  EXPECT_EQ(show("fuzzy", "f.outer_upper.dims, f.alpha.values"), "('alpha', 'time', 'output') [0.  0.5 1. ]\n");
+  EXPECT_EQ(show("stochastic", "f.quantiles.sel(probability=0.95).shape, f.samples"), "(3, 2) 4096\n");
+  EXPECT_EQ(show("comparison", "f.maximum_of.values, f.overestimation.units"), "[12. nan] 1\n");
+  EXPECT_EQ(show("comparison/disputed", "f.decided.sel(number=17).item()"), "tolerance 1e-12\n");
+  EXPECT_EQ(show("study/uncertain", "f.sel(name=\"first angle\").upper.item(), f.upper.units"), "1.1 rad\n");
+  EXPECT_EQ(show("study", "f.text.item() == \"[study]\\ntitle = \\\"α\\\"\\n\""), "True\n");
 }
 
 TEST_F(ResultsFile, IsRefusedAtEveryTruncation) {
@@ -251,31 +347,6 @@ TEST_F(ResultsFile, OfAnEarlierRunSurvivesAWriteThatFails) {
   EXPECT_THROW(writeResults(bad, path_), std::logic_error);
   EXPECT_EQ(readResults(path_).title, sampleResults().title);
   EXPECT_EQ(folder_.count(), 1U) << "a temporary file was left behind";
-}
-
-TEST_F(ResultsFile, OfAnEarlierRunSurvivesAKilledWrite) {
-  writeResults(sampleResults(), path_);
-  const pid_t child = ::fork();
-  if (child == 0) {
-    replaceFile(path_, [](const std::string& temporary) {
-      std::ofstream(temporary) << "half a file";
-      ::kill(::getpid(), SIGKILL);
-    });
-    ::_exit(0);
-  }
-  int status = 0;
-  ASSERT_EQ(::waitpid(child, &status, 0), child);
-  ASSERT_TRUE(WIFSIGNALED(status));
-  EXPECT_EQ(readResults(path_).title, sampleResults().title);
-}
-
-TEST(ReplaceFile, NamesAFolderThatDoesNotExist) {
-  try {
-    replaceFileText("/nowhere/at/all/x.html", "x");
-    ADD_FAILURE() << "was written";
-  } catch (const std::runtime_error& error) {
-    EXPECT_STREQ(error.what(), "/nowhere/at/all/x.html: cannot be written; the folder /nowhere/at/all does not exist");
-  }
 }
 
 }  // namespace

@@ -1,8 +1,11 @@
 // What a study file says is what is read; whatever is wrong is said in one line with its place.
 #include <gmock/gmock.h>
 
+#include <fstream>
+#include <set>
 #include <string>
 
+#include "studies/printable.hpp"
 #include "studies/study.hpp"
 #include "tests/studies/sample_study.hpp"
 #include "tests/studies/temporary_folder.hpp"
@@ -101,6 +104,25 @@ TEST(StudyReader, KeepsQuarterTurnsExact) {
   const Link& link = std::get<Link>(study.mechanism.elements()[1]);
   EXPECT_EQ(link.rotation[0].quarterTurns, -1);
   EXPECT_EQ(link.rotation[1].quarterTurns, 0);
+}
+
+TEST(StudyReader, TakesLimitsInSecondsAndGigabytes) {
+  const StatedLimits limits =
+      readStudyText(sampleStudyWith("[stochastic]",
+                                    "[limits]\ntime = \"2 min\"\nmemory = 0.5\nsample_time = 3\n"
+                                    "[stochastic]"),
+                    "s.toml")
+          .limits;
+  EXPECT_EQ(limits.time, 120);
+  EXPECT_EQ(limits.memory, 5e8);
+  EXPECT_EQ(limits.sampleTime, 3);
+  EXPECT_FALSE(limits.enclosureTime || limits.enclosureMemory);
+  EXPECT_EQ(limits.resolved().enclosureTime, 80);
+  EXPECT_EQ(limits.resolved().sampleTime, 3);
+  const Limits defaults = readStudyText(sampleStudy, "s.toml").limits.resolved();
+  EXPECT_EQ(defaults.time, 1800);
+  EXPECT_EQ(defaults.memory, 0.75 * memoryPresent());
+  EXPECT_EQ(defaults.sampleTime, 18);
 }
 
 TEST(StudyReader, TakesTheHorizonInWhereTheStepDoesNotMeetIt) {
@@ -261,6 +283,77 @@ TEST(StudyReader, RefusesAValueBesideTheIntervalInNumbersThatShowIt) {
             "[0.795, 0.805]");
 }
 
+/// `count` times.
+std::string repeated(const std::string& text, int count) {
+  std::string result;
+  for (int i = 0; i < count; ++i) result += text;
+  return result;
+}
+
+TEST(StudyReader, RefusesKeysOfManyPartsBeforeTheyExhaustTheStack) {
+  const std::string expected = ": a key of more than 16 parts; expected a key of the study file";
+  EXPECT_EQ(messageOf("# a.b\n" + repeated("a.", 40000) + "a = 1\n"), "s.toml:2:32" + expected);
+  EXPECT_EQ(messageOf("[" + repeated("a . ", 40000) + "a]\n"), "s.toml:1:64" + expected);
+  EXPECT_EQ(messageOf(repeated("\"a\".", 40000) + "a = 1\n"), "s.toml:1:64" + expected);
+  EXPECT_EQ(messageOf("[study]\nx = { " + repeated("a.", 17) + "a = 1 }\n"), "s.toml:2:38" + expected);
+  EXPECT_THAT(messageOf(repeated("{ a.a.a.a.a.a.a.a = ", 40000)), HasSubstr("not valid TOML"));
+  EXPECT_THAT(messageOf("x = " + repeated("[", 100000)), HasSubstr("not valid TOML"));
+}
+
+TEST(StudyReader, TakesDotsThatAreNoKeys) {
+  const std::string dots = repeated(".", 100);
+  for (const std::string& title :
+       {"\"" + dots + "\"", "'" + dots + "'", "\"\\\"" + dots + "\"", "\"\"\"" + dots + "\"\"\"", "\"x\" # " + dots})
+    EXPECT_EQ(messageOf(sampleStudyWith("\"Pendulum\"", title)), "it was read") << title;
+}
+
+TEST(StudyReader, NotesAnInertiaThatIsImpossibleForSomeValuesOnly) {
+  const auto notes = [](const std::string& inertia, const std::string& quantity) {
+    const std::string uncertain = "\n[[uncertain]]\nquantity = \"" + quantity + "\"\ninterval = \"± 1 %\"\n";
+    return readStudyText(
+               sampleStudyWith("mass = \"250 g\"", "mass = 1\nparameters = { i = 0.1 }\ninertia = " + inertia) +
+                   uncertain,
+               "s.toml")
+        .notes;
+  };
+  EXPECT_THAT(notes("[0.1, 0.2, 0.3]", "bob.inertia.zz"),
+              ElementsAre("s.toml:48:12: note: for some values in the intervals the inertia of 'bob' has a principal "
+                          "moment above the sum of the other two"));
+  EXPECT_THAT(notes("[0.1, 0.2, 0.25]", "bob.inertia.zz"), ElementsAre());
+  // A thin rod's stays possible, although 0.1 ± 1 % - 0.1 ± 1 % as intervals would not tell.
+  EXPECT_THAT(notes("[\"bob.i\", \"bob.i\", 0]", "bob.i"), ElementsAre());
+  EXPECT_THAT(notes("[\"bob.i\", 0.1, 0]", "bob.i"), ::testing::SizeIs(1));
+}
+
+/// A text of one line with "\\n", "\\\\" and "\\x1b" for what a line cannot hold.
+std::string unescaped(const std::string& line) {
+  std::string text;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    if (line[i] != '\\') {
+      text += line[i];
+    } else if (line[++i] == 'x') {
+      text += static_cast<char>(std::stoi(line.substr(i + 1, 2), nullptr, 16));
+      i += 2;
+    } else {
+      text += line[i] == 'n' ? '\n' : '\\';
+    }
+  }
+  return text;
+}
+
+/// One study for every kind of complaint that the fuzzer came to, the shortest it found.
+TEST(StudyReader, RefusesInOneLineWhatFuzzingMade) {
+  std::ifstream file(GAMUT_SOURCE_DIR "/tests/studies/corpus/fuzzed.txt");
+  std::set<std::string> messages;
+  for (std::string line; std::getline(file, line);) {
+    const std::string message = messageOf(unescaped(line));
+    EXPECT_TRUE(message == "it was read" || message.find("; expected ") != message.npos) << line << '\n' << message;
+    EXPECT_FALSE(hasControlCharacters(message)) << line;
+    messages.insert(message);
+  }
+  EXPECT_GT(messages.size(), 70U);
+}
+
 struct BadStudy {
   const char* old;
   const char* replacement;
@@ -277,6 +370,10 @@ TEST_P(BadStudyFile, IsRefusedInOneLineWithItsPlace) {
 }
 
 constexpr BadStudy badStudies[] = {
+    {"[stochastic]", "[limits]\ntime = 0\n[stochastic]",
+     "s.toml:40:8: limits.time is not positive; expected a number above 0"},
+    {"[stochastic]", "[limits]\nmemory = \"8 kg\"\n[stochastic]",
+     "s.toml:40:10: limits.memory is written in a unit of the kind kg; expected a number without unit"},
     {"mass = \"250 g\"", "mass = -1",
      "s.toml:27:8: mechanism.element.mass is negative; expected a mass of at least 0 kg"},
     {"parameters = { length = 0.5 }\n[[mechanism.element]]\ntype = \"mass\"\nname = \"bob\"\nat = \"tip\"\nmass = "
@@ -298,7 +395,7 @@ constexpr BadStudy badStudies[] = {
      "output_times, compare)"},
     {"[uncertain]]\nname", "[uncertan]]\nname",
      "s.toml:28:3: unknown key 'uncertan'; expected 'uncertain'? (one of: study, mechanism, uncertain, output, "
-     "interval, stochastic, fuzzy)"},
+     "interval, stochastic, fuzzy, limits)"},
     {"title = \"Pendulum\"", "title = 3", "s.toml:2:9: study.title is the number 3; expected text in quotes"},
     {"title = \"Pendulum\"", "title = \"  \"", "s.toml:2:9: study.title is empty; expected text"},
     {"analysis = \"dynamics\"", "analysis = \"dynamic\"",
@@ -361,8 +458,11 @@ constexpr BadStudy badStudies[] = {
      "s.toml:9:1: 'mechanism.element.axis' is missing; expected \"x\", \"y\", \"z\", the same with a minus sign, or "
      "[x, y, z]"},
     {"from = \"inertial\"", "from = \"inertal\"",
-     "s.toml:9:1: unknown frame 'inertal'; expected 'inertial'? ('hinge' must come after the element that defines its "
+     "s.toml:12:8: unknown frame 'inertal'; expected 'inertial' ('hinge' must come after the element that defines its "
      "frame)"},
+    {"from = \"inertial\"", "from = \"elsewhere\"",
+     "s.toml:12:8: unknown frame 'elsewhere'; expected one of: inertial ('hinge' must come after the element that "
+     "defines its frame)"},
     {"to = \"tip\"", "to = \"K1\"",
      "s.toml:16:1: the frame 'K1' is defined twice, 'rod' needs a new frame; expected a mechanism that can be "
      "assembled"},
@@ -378,7 +478,9 @@ constexpr BadStudy badStudies[] = {
      "s.toml:15:21: mechanism.element.initial.angle is written in percent; expected a number in rad, or with a unit of "
      "that kind"},
     {"\"-rod.length\"", "\"-rod.lenght\"",
-     "s.toml:16:1: unknown parameter 'rod.lenght'; expected 'rod.length'? (for 'rod.vector.z')"},
+     "s.toml:21:17: unknown parameter 'rod.lenght'; expected 'rod.length' (for 'rod.vector.z')"},
+    {"\"-rod.length\"", "\"1/2 beam.length\"",
+     "s.toml:21:17: unknown parameter 'beam.length'; expected 'rod.length' (for 'rod.vector.z')"},
     {"\"-rod.length\"", "\"-2 m rod.length\"",
      "s.toml:21:17: mechanism.element.vector is written in a unit of the kind m; expected a number without unit"},
     {"mass = \"250 g\"", "mass = \"250 x\"",
@@ -391,8 +493,24 @@ constexpr BadStudy badStudies[] = {
     {"mass = \"250 g\"", "mass = 1\ninertia = [1, 2]",
      "s.toml:28:11: mechanism.element.inertia has 2 numbers; expected [xx, yy, zz] or [xx, yy, zz, xy, yz, zx] in kg "
      "m^2"},
+    {"mass = \"250 g\"", "mass = 1\ninertia = [-1, 1, 1]",
+     "s.toml:28:11: the inertia of 'bob' has a negative principal moment; expected an inertia that a body can have"},
+    {"mass = \"250 g\"", "mass = 1\ninertia = [1, 1, 1, 0, 2, 0]",
+     "s.toml:28:11: the inertia of 'bob' has a negative principal moment; expected an inertia that a body can have"},
+    {"mass = \"250 g\"", "mass = 1\ninertia = [1, 1, 2.1]",
+     "s.toml:28:11: the inertia of 'bob' has a principal moment above the sum of the other two; expected an inertia "
+     "that "
+     "a body can have"},
+    {"title = \"Pendulum\"", "title = \"a\\u001b[31mb\"",
+     "s.toml:2:9: study.title is \"a\\u001b[31mb\"; expected text without control characters"},
+    {"name = \"bob\"", "name = \"b\\u009bob\"",
+     "s.toml:25:8: mechanism.element.name is \"b\\u009bob\"; expected text without control characters"},
+    {"title = ", "\"\\u0007\" = ",
+     "s.toml:2:1: unknown key '\\u0007' in [study]; expected one of: title, analysis, horizon, output_step, "
+     "output_times, "
+     "compare"},
     {"at = \"tip\"", "at = \"K2\"",
-     "s.toml:23:1: unknown frame 'K2'; expected 'K1'? ('bob' must come after the element that defines its frame)"},
+     "s.toml:26:6: unknown frame 'K2'; expected 'K1' ('bob' must come after the element that defines its frame)"},
     {"at = \"tip\"", "at = \"inertial\"",
      "s.toml:7:1: the joint 'hinge' moves no mass, add a mass at the frame 'K1' or at one that it carries; expected a "
      "mass that every joint moves"},
@@ -402,7 +520,11 @@ constexpr BadStudy badStudies[] = {
     {"quantity = \"hinge.angle\"\ninterval", "quantity = \"hinge.angel\"\ninterval",
      "s.toml:30:12: unknown quantity 'hinge.angel'; expected a quantity of the mechanism, such as 'hinge.angle'"},
     {"quantity = \"hinge.angle\"\ninterval", "quantity = \"tip.position.z\"\ninterval",
-     "s.toml:30:12: unknown quantity 'tip.position.z'; expected a number of the mechanism"},
+     "s.toml:30:12: unknown quantity 'tip.position.z'; expected a quantity of the mechanism, one of: hinge.angle, "
+     "hinge.rate, gravity.x, gravity.y, gravity.z, rod.length, rod.vector.x, rod.vector.y, bob.mass, bob.centre.x, "
+     "bob.centre.y, bob.centre.z and 6 more"},
+    {"quantity = \"hinge.angle\"\ninterval", "quantity = \"length\"\ninterval",
+     "s.toml:30:12: unknown quantity 'length'; expected a quantity of the mechanism, such as 'rod.length'"},
     {"interval = \"± 1 %\"", "interval = \"1 %\"",
      "s.toml:31:12: uncertain.interval is \"1 %\"; expected \"± 1 %\", \"± 2 deg\" or [lower, upper]"},
     {"interval = \"± 1 %\"", "interval = \"± 1 mm\"",
@@ -485,7 +607,8 @@ constexpr BadStudy badStudies[] = {
     {"name = \"angle\"", "name = \"tip.position.z\"",
      "s.toml:38:12: two outputs are named 'tip.position.z'; expected different names"},
     {"quantity = \"tip.position.z\"", "quantity = \"tip.position.w\"",
-     "s.toml:38:12: unknown quantity 'tip.position.w'; expected a quantity of the mechanism, such as 'tip.position.x'"},
+     "s.toml:38:12: unknown quantity 'tip.position.w'; expected a quantity of the mechanism, such as 'tip.position.x', "
+     "'tip.position.y' or 'tip.position.z'"},
     {"quantity = \"tip.position.z\"", "name = \"tip\"",
      "s.toml:37:1: 'output.quantity' is missing; expected what is wanted, such as \"tip.position.z\" or \"energy\""},
     {"samples = 16", "samples = 0",

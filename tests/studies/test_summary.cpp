@@ -29,14 +29,21 @@ TEST(JsonSummary, HasTheDocumentedKeys) {
   const std::string text = jsonSummary(sampleResults(), "incomplete", {"run.h5", "run.html"});
   EXPECT_EQ(text.find('\n'), std::string::npos);
   const Json json = Json::parse(text);
-  EXPECT_THAT(keysOf(json), ElementsAre("cost", "enclosure", "envelope", "excursion", "files", "horizon",
-                                        "overestimation", "reached", "samples", "verdict", "version"));
+  EXPECT_THAT(keysOf(json), ElementsAre("cost", "enclosure", "envelope", "excursion", "files", "horizon", "integrated",
+                                        "limits", "overestimation", "reached", "samples", "verdict", "version", "why"));
   EXPECT_THAT(keysOf(json["overestimation"]), ElementsAre("max", "median", "outputs"));
-  EXPECT_THAT(keysOf(json["cost"]), ElementsAre("fuzzy", "interval", "report", "stochastic"));
+  EXPECT_THAT(keysOf(json["cost"]), ElementsAre("fuzzy", "interval", "memory", "report", "stochastic", "total"));
+  EXPECT_THAT(keysOf(json["limits"]),
+              ElementsAre("enclosure_memory", "enclosure_time", "memory", "sample_time", "time"));
   EXPECT_EQ(json["verdict"], "incomplete");
   EXPECT_EQ(json["horizon"], 0.02);
   EXPECT_EQ(json["reached"], 0.01);
   EXPECT_EQ(json["samples"], 4096);
+  EXPECT_EQ(json["integrated"], 1000);
+  EXPECT_EQ(json["why"], "the enclosure became wider than 1e6");
+  EXPECT_EQ(json["cost"]["total"], 2.25);
+  EXPECT_EQ(json["cost"]["memory"], 1.5e9);
+  EXPECT_EQ(json["limits"]["sample_time"], 18);
   EXPECT_EQ(json["version"], "9.8.7");
   EXPECT_EQ(json["files"]["results"], "run.h5");
   EXPECT_EQ(json["files"]["report"], "run.html");
@@ -73,7 +80,10 @@ TEST(TextSummary, ShowsTheLastRowReachedRoundedOutward) {
   EXPECT_THAT(text, HasSubstr("at 0.01 s"));
   EXPECT_THAT(text, HasSubstr("tip height (m)"));
   EXPECT_THAT(text, HasSubstr("[1.000, 3.000]"));
-  EXPECT_THAT(text, HasSubstr("4096 samples 1.50 s"));
+  EXPECT_THAT(text, HasSubstr("1000 of 4118 samples 1.50 s"));
+  EXPECT_THAT(text, HasSubstr("; in all 2.25 of 1800 s, 1.50 of 8 GB\n"));
+  results.stochastic.integrated = results.stochastic.planned();
+  EXPECT_THAT(textSummary(results), HasSubstr(" 4096 samples 1.50 s"));
 }
 
 /// Whether the decimals that the table shows for the first output lie outside these bounds, or on them, exactly.

@@ -1,0 +1,18 @@
+// The [[uncertain]] part of a study file.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "studies/detail/toml_source.hpp"
+
+namespace gamut {
+
+/// Reads uncertain quantities of the study's mechanism into the study, and notes what may be a mistake in them. Throws
+/// StudyError.
+void readUncertain(const TomlSource& source, const std::vector<const toml::table*>& tables, Study& study);
+
+/// What would do instead of a quantity that the mechanism does not have.
+std::string quantityExpected(const std::string& word, const std::vector<std::string>& known);
+
+}  // namespace gamut
