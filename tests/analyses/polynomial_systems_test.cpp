@@ -18,8 +18,7 @@ struct RandomSystem {
   RandomSystem(Points& points, Kind kindOf) : kind(kindOf), size(points.integer(3, 6)) {
     for (int i = 0; i < size; ++i) {
       row.push_back(i == 0 ? 1.0 : std::ldexp(1.0, points.integer(-6, 6)));
-      column.push_back(kind == Kind::positiveDefinite || i == 0 ? row.back()
-                                                                : std::ldexp(1.0, points.integer(-6, 6)));
+      column.push_back(kind == Kind::positiveDefinite || i == 0 ? row.back() : std::ldexp(1.0, points.integer(-6, 6)));
       right.push_back(points.uniform(-1, 1));
     }
     for (int i = 0; i < size * size; ++i) {
