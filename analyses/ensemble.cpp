@@ -268,6 +268,8 @@ void EnsembleRun::noteFailures(const SampleBlock& block) {
 }
 
 void EnsembleRun::integrateFirst() {
+  done_ = 0;
+  errorIsMeasured_ = true;
   std::vector<SampleBlock> blocks;
   blocks.push_back(newBlock(0, std::min(sampling_.samples(), firstSamples), true));
   blocks.push_back(newBlock(sampling_.samples(), sampling_.size() - sampling_.samples(), false));
@@ -307,6 +309,7 @@ void EnsembleRun::take(SampleBlock& block, const Look& look) {
 }
 
 void EnsembleRun::integrateOthers(const Envelope& expected, const Look& look) {
+  if (first_.empty()) integrateFirst();
   statistics_.emplace(expectedRange(expected), cuts_.size());
   if (first_.empty()) return;
   for (SampleBlock& block : first_) take(block, look);

@@ -109,7 +109,8 @@ class EnsembleRun {
 
   /// Integrates the first samples, at most 256, the corners and the centre, and keeps them.
   void integrateFirst();
-  /// Takes the first samples into the statistics, then integrates all others and takes them. `expected`: where outputs
+  /// Takes the first samples into the statistics, integrating them once more if that was cancelled, then integrates all
+  /// others and takes them. `expected`: where outputs
   /// are expected besides what the first samples say, such as an enclosure; NaN where nothing is known, or empty.
   void integrateOthers(const Envelope& expected = {}, const Look& look = {});
 

@@ -200,9 +200,9 @@ class Driver {
 
   /// What finds no room is given up.
   template <class Sample>
-  void sampleWhileThereIsRoom(const Sample& sample) {
+  void sampleWhileThereIsRoom(Watch::Stage stage, const Sample& sample) {
     const double start = processCpuSeconds();
-    watch_.begin(Watch::Stage::rest);
+    watch_.begin(stage);
     try {
       sample();
     } catch (const std::bad_alloc&) {
@@ -229,7 +229,8 @@ class Driver {
     stochastic.samples = static_cast<std::int64_t>(options.samples);
     stochastic.relativeTolerance = options.tolerance.relative;
     stochastic.absoluteTolerance = options.tolerance.absolute;
-    sampleWhileThereIsRoom([&] {
+    const bool isAllThereIs = !study_.interval && !study_.fuzzy;
+    sampleWhileThereIsRoom(isAllThereIs ? Watch::Stage::rest : Watch::Stage::firstSamples, [&] {
       ensemble_.emplace(problem_.motion, options);
       stochastic.samples = static_cast<std::int64_t>(ensemble_->sampling().samples());
       stochastic.corners = static_cast<std::int64_t>(ensemble_->sampling().corners());
@@ -243,7 +244,7 @@ class Driver {
   void sampleOthers() {
     results_.comparison.verdict = "inside";
     if (!ensemble_) return;
-    sampleWhileThereIsRoom([&] {
+    sampleWhileThereIsRoom(Watch::Stage::rest, [&] {
       const Proved proved{study_.interval ? results_.interval.at : Bounds(), results_.fuzzy.outer, reachedTimes_};
       Settlement settlement(proved, problem_.motion, ensemble_->options(), comparisonOptions());
       ensemble_->integrateOthers(settlement.boundsOf(0), [&](SampleBlock& block) {

@@ -111,6 +111,11 @@ Watch::~Watch() {
 
 double Watch::memoryLimit() const { return stage_ == Stage::enclosure ? limits_.enclosureMemory : limits_.memory; }
 
+double Watch::timeLimit() const {
+  if (stage_ == Stage::enclosure) return limits_.enclosureTime;
+  return stage_ == Stage::firstSamples ? (1 - enclosureShare) * limits_.time : limits_.time;
+}
+
 void Watch::begin(Stage stage) {
   const std::lock_guard lock(mutex_);
   stage_ = stage;
@@ -177,8 +182,9 @@ void Watch::look() {
   if (now - began_ >= limits_.time)
     return end(fmt::format("the time limit of {:.6g} s CPU for the whole run was reached", limits_.time), true);
   if (stop_) return;
-  if (stage_ == Stage::enclosure && now - stageBegan_ >= limits_.enclosureTime)
-    return end(fmt::format("the time limit of {:.6g} s CPU for the enclosure was reached", limits_.enclosureTime),
+  if (now - stageBegan_ >= timeLimit())
+    return end(fmt::format("the time limit of {:.6g} s CPU for {} was reached", timeLimit(),
+                           stage_ == Stage::enclosure ? "the enclosure" : "the first samples"),
                false);
   if (pagesInUse().resident >= memoryLimit()) endForMemory();
 }

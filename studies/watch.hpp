@@ -42,7 +42,8 @@ struct Overdue {
 
 class Watch {
  public:
-  enum class Stage { enclosure, rest };
+  /// The first samples come before the enclosure, and leave it the time that it has if nothing else is stated.
+  enum class Stage { firstSamples, enclosure, rest };
 
   /// Watches from now on. `interrupted`, if not null, ends everything when it is set.
   Watch(const Limits& limits, const std::atomic<bool>* interrupted, Overdue overdue = {});
@@ -68,6 +69,7 @@ class Watch {
   void end(const std::string& why, bool all);  // likewise
   void endForMemory();                         // likewise
   double memoryLimit() const;
+  double timeLimit() const;  // of the stage
 
   const Limits limits_;
   const std::atomic<bool>* interrupted_;

@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "studies/problem.hpp"
+#include "studies/watch.hpp"
 #include "tests/studies/sample_study.hpp"
 
 namespace gamut {
@@ -219,6 +220,37 @@ TEST(Driver, EndsARunThatTakesTooLong) {
   EXPECT_FALSE(std::isnan(results.stochastic.envelope.lower(5, 0)));
   EXPECT_EQ(results.limits.time, 0.5);
   EXPECT_GE(results.cpu, 0.5);
+}
+
+TEST(Driver, LeavesTimeToTheEnclosureWhereTheFirstSamplesTakeLong) {
+  std::string text = sampleStudyWith("samples = 16", "samples = 256");
+  text.replace(text.find("horizon = 0.5"), 13, "horizon = 3000");
+  text.replace(text.find("output_step = 0.1"), 17, "output_step = 10");
+  RunOptions options;
+  options.timeLimit = 0.6;
+  const Results results = run(readStudyText(text, "s.toml"), options);
+  EXPECT_GT(results.interval.reached, 0);
+  EXPECT_GT(results.interval.cpu + results.fuzzy.cpu, 0.1);
+  EXPECT_EQ(results.stochastic.integrated, 0);
+  EXPECT_THAT(results.stochastic.stopped, ::testing::StartsWith("the time limit of 0."));
+  EXPECT_EQ(results.comparison.verdict, "incomplete");
+}
+
+TEST(Driver, BeginsTheFirstSamplesAgainAfterAnEnclosureThatLeavesThemTime) {
+  RunOptions options;
+  options.samples = 256;
+  std::atomic<int> calls{0};
+  options.progress = [&](const std::string& task, double fraction) {  // one sample takes the stage's third at once
+    if (task != "samples" || fraction > 0.5 || calls++ != 3) return;
+    for (const double begin = processCpuSeconds(); processCpuSeconds() - begin < 2;) {
+    }
+  };
+  options.timeLimit = 5;
+  const Results results = run(readStudyText(sampleStudy, "s.toml"), options);
+  EXPECT_EQ(results.stochastic.stopped, "");
+  EXPECT_EQ(results.stochastic.integrated, results.stochastic.planned());
+  EXPECT_EQ(results.comparison.verdict, "inside");
+  EXPECT_GT(calls, 51);  // of fifty to the half in one go
 }
 
 TEST(Driver, EndsSamplesThatTakeTooLongAndNamesThem) {

@@ -171,6 +171,16 @@ TEST_F(ResultsFile, GivesBackTheComparisonAndDisputedSamples) {
   EXPECT_EQ(found.comparison.disputed[1].decided, "unresolved");
 }
 
+TEST_F(ResultsFile, WithADisputeOverACutThatIsNotThereIsRefused) {
+  for (const int level : {-2, 3}) {
+    Results results = sampleResults();
+    ASSERT_EQ(results.fuzzy.alpha.size(), 3U);
+    results.comparison.disputed[0].level = level;
+    writeResults(results, path_);
+    EXPECT_THROW(readResults(path_), ResultsFileError) << level;
+  }
+}
+
 TEST_F(ResultsFile, KeepsAbsentPartsAbsent) {
   Results results = sampleResults();
   results.stochastic = {};

@@ -156,8 +156,19 @@ TEST_F(Signals, ARunThatIsKilledLeavesTheOldFileOrAWholeOneOrNone) {
     }
   }
   EXPECT_GT(killed, moments / 4);
-  EXPECT_EQ(StartedRun(folder_, arguments_).wait(), 0);
-  EXPECT_EQ(folder_.count(), 3U);  // the study and what the last run wrote: what the killed ones left is gone
+}
+
+TEST_F(Signals, WhatAKilledRunLeavesIsGoneAfterTheNext) {
+  {
+    StartedRun run(folder_, arguments_);
+    for (int i = 0; i < 20000 && !folder_.has(".s.html.gamut-part"); ++i)
+      std::this_thread::sleep_for(Seconds(0.0005));  // before the analysis begins
+    run.signalAfter(0, SIGKILL);
+    EXPECT_EQ(run.wait(), -SIGKILL);
+  }
+  EXPECT_EQ(folder_.count(), 3U);  // the study and both parts
+  EXPECT_EQ(StartedRun(folder_, {"run", "s.toml", "--quiet", "-o", "other.h5"}).wait(), 0);
+  EXPECT_EQ(folder_.count(), 3U);  // the study and what the other run wrote
 }
 
 }  // namespace
