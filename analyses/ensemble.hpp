@@ -46,7 +46,7 @@ struct EnsembleOptions {
   std::vector<double> alpha;                     ///< rising membership levels, of which inner cuts are wanted
   int jobs = 1;                                  ///< threads
   std::function<void(double)> progress;          ///< called with the fraction done (0 … 1), from any thread
-  const std::atomic<bool>* cancelled = nullptr;  ///< set from outside to end early; what was integrated is kept
+  const std::atomic<bool>* cancelled = nullptr;  ///< set from outside to end early; whole blocks are kept
 };
 
 /// A sample that CVODE could not follow to the horizon.
@@ -65,7 +65,6 @@ struct Ensemble {
   std::size_t quantities = 0;
   std::vector<double> data;          ///< [sample][time][output]; NaN where a sample did not arrive
   std::vector<FailedSample> failed;  ///< by rising number
-  std::size_t integrated = 0;        ///< how many have arrived or failed; size() unless cancelled
   bool complete = false;             ///< false if cancelled
   Tolerance tolerance;
   Method method = Method::adams;
@@ -134,8 +133,8 @@ class EnsembleRun {
   const std::vector<FailedSample>& failed() const { return failed_; }
   std::size_t failures() const { return failures_; }
   /// Witness error: greatest change of a re-integrated sample at a hundred times tighter tolerance. Measured on every
-  /// fiftieth sample, integrated once more alone (on at least eight, or all if there are fewer; of more than 51200
-  /// samples on 1024; without states, where nothing is integrated, against 128-bit arithmetic).
+  /// fiftieth sample, integrated once more alone (on at least eight, or all if there are fewer; on 1024 at most;
+  /// without states, where nothing is integrated, against 128-bit arithmetic).
   const Table& error() const { return error_; }
   double cpu() const { return cpu_; }  ///< s, all threads
 

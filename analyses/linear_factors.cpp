@@ -1,3 +1,4 @@
+// Elimination and substitution; after it what a solution misses.
 #include "analyses/linear_factors.hpp"
 
 #include <algorithm>
@@ -128,7 +129,5 @@ double LinearFactors::size(int row, const double* norms) const {
     sum += std::fabs(term->value) * norms[term->index];
   return sum;
 }
-
-int LinearFactors::terms(int row) const { return static_cast<int>(a_.end(row) - a_.begin(row)); }
 
 }  // namespace gamut

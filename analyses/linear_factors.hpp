@@ -11,22 +11,19 @@ namespace gamut {
 
 class LinearFactors {
  public:
-  LinearFactors() = default;
   explicit LinearFactors(int size);
 
-  int size() const { return n_; }
   /// `a` row by row. A singular matrix, or one that is not finite, gives NaN in every solution.
   void factorise(const double* a);
 
   /// x becomes about A⁻¹ x; |x before - A x after| is added to `residual`, but for the rounding of this evaluation: at
-  /// most terms(row) + 1 roundings of Σ|A||x| and of |x before| in a row.
+  /// most T + 1 roundings of Σ|A||x| and of |x before| in a row of T entries.
   void solve(double* x, double* residual) const;
 
   /// C, about A⁻¹, row by row.
   const std::vector<double>& inverse() const { return inverse_; }
-  /// |A|‖x‖ in a row of A, and how many terms it has.
+  /// |A|‖x‖ in a row of A.
   double size(int row, const double* norms) const;
-  int terms(int row) const;
 
  private:
   struct Term {
@@ -47,7 +44,7 @@ class LinearFactors {
   void substitute(double* x) const;
   void subtract(const double* right, const double* x, double* missing) const;
 
-  int n_ = 0;
+  int n_;
   Rows a_, lower_, upper_;  // lower: what is taken from other rows in a step; upper: a pivot's row without the pivot
   std::vector<int> row_, column_;  // of the pivots
   std::vector<double> pivot_, inverse_;

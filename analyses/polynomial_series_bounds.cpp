@@ -406,7 +406,8 @@ Interval PolynomialSeries::sag(int node, double from, double to, double second, 
 
 double PolynomialSeries::jacobianBound(int i, int j) const {
   const int node = outputs_[at(n_ + i * n_ + j)];
-  return (norm_[at(node)] + rho0_[at(node)] + rho1_[at(node)]) * bounds::up;
+  const double bound = (norm_[at(node)] + rho0_[at(node)] + rho1_[at(node)]) * bounds::up;
+  return bound > 0 ? bound + bounds::tiny : 0.0;  // never so small that balancing it would underflow
 }
 
 void PolynomialSeries::frameDefect(int i, int j, double& nu0, double& nu1) const {

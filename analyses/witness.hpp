@@ -1,5 +1,6 @@
 // The independent witness: one motion at a time, integrated by SUNDIALS CVODE (Hindmarsh et al., ACM TOMS 31, 2005) in
-// ordinary double arithmetic. It shares the recorded Program with the validated flow, and nothing else.
+// ordinary double arithmetic. With the validated flow it shares the mechanism and the outputs' Program; its equations
+// are recorded apart (Motion::sampled), and are those of the flow only where that is one form.
 #pragma once
 
 #include <atomic>

@@ -1,3 +1,4 @@
+// The passes with unknowns at the cuts, their derivatives as entries, and the solution.
 #include "mechanics/sparse_equations.hpp"
 
 #include <cstddef>

@@ -1,5 +1,6 @@
 // Linear systems M x = r in every scalar: one interface for numbers, which are factorised once for all right-hand
-// sides, and for Recorded, which writes the systems down as wholes (Op::solution).
+// sides (intervals and fuzzy numbers are verified anew for each), and for Recorded, which writes the systems down as
+// wholes (Op::solution).
 //
 //     LinearSystem<S> system(MatrixKind::positiveDefinite, 2, {4.0, 1.0, 1.0, 3.0});  // row by row
 //     std::vector<S> x{1.0, 2.0};
@@ -214,7 +215,6 @@ class LinearSystem<Fuzzy> {
     std::size_t levels = 1;
     for (int i = 0; i < size; ++i)
       for (int j = 0; j < size; ++j) levels = commonLevels(levels, entry(i, j).levels());
-    size_ = size;
     cuts_.resize(levels);
     for (std::size_t level = 0; level < levels; ++level)
       cuts_[level].assign(kind, size, [&](int i, int j) { return entry(i, j).cut(level); });
@@ -226,7 +226,6 @@ class LinearSystem<Fuzzy> {
   /// Throws std::invalid_argument for two different numbers of levels, none of them 1.
   static std::size_t commonLevels(std::size_t a, std::size_t b);
 
-  int size_ = 0;
   std::vector<LinearSystem<Interval>> cuts_;  // one if all entries are crisp
 };
 
@@ -245,7 +244,6 @@ class LinearSystem<Samples> {
     std::size_t samples = 1;
     for (int i = 0; i < size; ++i)
       for (int j = 0; j < size; ++j) samples = commonSize(samples, entry(i, j).size());
-    size_ = size;
     samples_.resize(samples);
     for (std::size_t sample = 0; sample < samples; ++sample)
       samples_[sample].assign(kind, size, [&](int i, int j) { return entry(i, j)[sample]; });
@@ -257,7 +255,6 @@ class LinearSystem<Samples> {
   /// Throws std::invalid_argument for two different numbers of samples, none of them 1.
   static std::size_t commonSize(std::size_t a, std::size_t b);
 
-  int size_ = 0;
   std::vector<LinearSystem<double>> samples_;  // one if all entries are constants
 };
 

@@ -97,7 +97,8 @@ class Recorder {
 
   /// The number of a matrix; equal ones are one if equal work is merged.
   int matrix(LinearMatrix matrix);
-  /// The components' nodes: of a new solution, of a known one, or zeros for a right-hand side of known zeros.
+  /// The components' nodes: of a new solution, of a known one, or zeros for a right-hand side of known zeros (the
+  /// matrix being regular, as whoever records it promises: nothing then proves it).
   std::vector<int> solve(int matrix, bool transposed, const std::vector<int>& rightSide);
 
   /// Any operation but a solution on operands as in Node. (Rules may have moved a sign out of one operand of atan only:

@@ -48,7 +48,7 @@ void setLimits(std::size_t memory, unsigned seconds) {
 
 /// The parent's handlers are not the child's: it ends at once.
 void endOnSignals() {
-  for (const int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGXCPU, SIGINT, SIGTERM})
+  for (const int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGXCPU, SIGINT, SIGTERM, SIGHUP})
     ::signal(number, SIG_DFL);
   const int nowhere = ::open("/dev/null", O_WRONLY);
   if (nowhere >= 0) ::dup2(nowhere, STDERR_FILENO);

@@ -78,17 +78,36 @@ TEST(Velocity, IsTheRateOfPosition) {
   }
 }
 
-TEST(EquationsOfMotion, LeastConstraintSolvesTheKinetostaticEquations) {
+/// Two hinges in skew directions with bodies off their axes, springs on a joint and to the ground.
+Mechanism skewPair() {
+  Mechanism m;
+  m.add(Revolute{"first", "inertial", "A", Axis(1, 2, -1)});
+  m.add(Mass{"near", "A", 2.0, {0.1, -0.2, 0.3}, {0.4, 0.5, 0.3, 0.02, -0.03, 0.05}});
+  m.add(Link{"boom", "A", "B", {0.2, 0.3, -0.8}, {{axisX, 1, 0.3}}});
+  m.add(Revolute{"second", "B", "C", Axis(0, 1, 2)});
+  m.add(Mass{"far", "C", 1.5, {0.0, 0.05, 0.4}, {0.2, 0.25, 0.1, 0.0, 0.01, 0.0}});
+  m.add(Spring{"tether", "inertial", "C", 30.0, 0.6, 0.3, {1.0, 1.5, -0.5}, {0.1, 0.0, 0.2}});
+  m.add(JointSpring{"hipSpring", "second", 4.0, 0.2, 0.3});
+  m.setGravity({0.5, -1.0, -9.0});
+  return m;
+}
+
+/// Up to two variables are eliminated on rows, more are solved with the inertia matrix: both are M q̈ = Q.
+TEST(EquationsOfMotion, AreSolvedByTheKinetostaticInertiaMatrix) {
   RandomStates states;
-  Assembly<double> arm(testing::spatialArm(0.3));
-  for (int i = 0; i < 100; ++i) {
-    arm.setState(armState(states));
-    const Eigen::MatrixXd inertia = arm.system().inertiaMatrix();
-    const std::vector<double> forces = arm.system().residual();
-    const Eigen::VectorXd expected = inertia.llt().solve(Eigen::Map<const Eigen::VectorXd>(forces.data(), 4));
-    const std::vector<double> a = arm.accelerations();
-    for (int j = 0; j < 4; ++j) EXPECT_NEAR(a[static_cast<std::size_t>(j)], expected[j], 1e-10 * expected.norm());
-  }
+  Assembly<double> pair(skewPair()), arm(testing::spatialArm(0.3));
+  for (int i = 0; i < 100; ++i)
+    for (Assembly<double>* machine : {&pair, &arm}) {
+      const bool isArm = machine == &arm;
+      machine->setState(isArm ? armState(states) : states(4, 1.5));
+      const Eigen::MatrixXd inertia = machine->system().inertiaMatrix();
+      const std::vector<double> forces = machine->system().residual();
+      const Eigen::VectorXd expected =
+          inertia.llt().solve(Eigen::Map<const Eigen::VectorXd>(forces.data(), inertia.rows()));
+      const std::vector<double> a = machine->accelerations();
+      for (int j = 0; j < inertia.rows(); ++j)
+        EXPECT_NEAR(a[static_cast<std::size_t>(j)], expected[j], 1e-10 * expected.norm()) << isArm;
+    }
 }
 
 TEST(EquationsOfMotion, LeaveNoForceAtTheAccelerationsFound) {
