@@ -287,13 +287,15 @@ class FlowRun {
   }
 
   bool mayBisect(const Piece& piece) {
-    const std::lock_guard lock(mutex_);
-    if (!options_.split || pieces_ >= mostPieces_) return false;
-    ++pieces_;
-    if (embedding_.symbols > 0 && pieces_ >= nextProbe_ && ended_.empty()) {
-      nextProbe_ = 2 * pieces_;
-      probe(piece);
+    bool isTimeToProbe = false;
+    {
+      const std::lock_guard lock(mutex_);
+      if (!options_.split || pieces_ >= mostPieces_) return false;
+      ++pieces_;
+      isTimeToProbe = embedding_.symbols > 0 && pieces_ >= nextProbe_ && ended_.empty();
+      if (isTimeToProbe) nextProbe_ = 2 * pieces_;
     }
+    if (isTimeToProbe) probe(piece);
     return true;
   }
 
@@ -316,6 +318,7 @@ class FlowRun {
     if (!(horizon > 0)) return;
     const Tube alone = FlowRun(motion_, differentiated_, none, options, start, horizon, {}, {}, 1.0).run();
     if (alone.reached() >= horizon || alone.wasStopped()) return;
+    const std::lock_guard lock(mutex_);
     ended_ = "one start of the box by itself: " + alone.why();
     mostPieces_ = std::min(mostPieces_, 2 * pieces_);
   }

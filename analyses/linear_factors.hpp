@@ -13,7 +13,7 @@ class LinearFactors {
  public:
   explicit LinearFactors(int size);
 
-  /// `a` row by row. A singular matrix, or one that is not finite, gives NaN in every solution.
+  /// `a` row by row. After a singular matrix, or one that is not finite, every solution holds NaN.
   void factorise(const double* a);
 
   /// x becomes about A⁻¹ x; |x before - A x after| is added to `residual`, but for the rounding of this evaluation: at

@@ -41,7 +41,7 @@ class Assembly {
   /// Sets x and moves all frames. Throws std::invalid_argument for a wrong number of values.
   void setState(std::span<const S> x);
   /// q̈ for the present state.
-  std::vector<S> accelerations(Formulation formulation = Formulation::compact) {
+  std::vector<S> accelerations(Formulation formulation = Formulation::sparse) {
     return system_->accelerations(formulation);
   }
   /// The present value of one of Mechanism::outputQuantities(). Throws std::invalid_argument, naming the nearest, for

@@ -80,7 +80,7 @@ class System {
 
   /// q̈ at the present positions and rates; the variables keep it and all frames move with it.
   /// Throws std::domain_error, naming the variable, if a variable is known to move no inertia.
-  std::vector<S> accelerations(Formulation formulation = Formulation::compact) {
+  std::vector<S> accelerations(Formulation formulation = Formulation::sparse) {
     setAccelerations(zeros());
     doMotion();
     const std::vector<std::vector<S>> columns = unitColumns();
