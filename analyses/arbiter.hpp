@@ -27,7 +27,7 @@ struct ScalarTraits<Precise> {
 
 struct ArbiterOptions {
   int order = 30;            ///< of the Taylor series (at least 8)
-  double tolerance = 1e-34;  ///< of a step's truncation, relative to the greatest state met so far
+  double tolerance = 1e-34;  ///< of a step's truncation, relative to the greatest state
 };
 
 /// What the arbiter found: row by row one output time, one column an output.
@@ -39,6 +39,12 @@ struct PreciseTrajectory {
   std::vector<double> error;    ///< difference from a second integration with another order and a looser tolerance,
                                 ///< and an allowance for rounding
 };
+
+/// Before it is asked: the same series once, in doubles, of order 24. Row by row one output time, one column an output;
+/// NaN from where it ends early. Where a motion decays, its errors decay with it, unlike those of an absolute
+/// tolerance. Throws as `arbitrate`.
+std::vector<double> integrateByTaylor(const Motion& motion, std::span<const double> start,
+                                      const std::atomic<bool>* cancelled = nullptr);
 
 /// The values as the nearest doubles, filled up with NaN to `count`.
 std::vector<double> roundedToDoubles(const PreciseTrajectory& trajectory, std::size_t count);

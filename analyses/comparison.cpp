@@ -1,4 +1,4 @@
-// Disputes one after the other: tighter tolerances first, since they are cheap, then the arbiter in batches.
+// Disputes one after the other: Taylor series in doubles first, since they are cheap, then the arbiter in batches.
 #include "analyses/comparison.hpp"
 
 #include <algorithm>
@@ -15,7 +15,6 @@ namespace gamut {
 namespace {
 
 constexpr double leastUlps = 4;        // of an output's magnitude: a trajectory of doubles is no more certain
-constexpr double hopeless = 1000;      // measured errors outside: no tighter tolerance brings such a sample inside
 constexpr std::size_t batchSize = 16;  // samples that go to the arbiter before it is asked whether that is enough
 
 /// A dispute and what its last two integrations gave.
@@ -180,19 +179,10 @@ class Comparer {
       return [&](std::size_t i) {
         Case& c = cases_[i];
         const std::vector<double> start = system_.start(ensemble_.valuesOf(c.dispute.number));
-        for (double relative : options_.relativeTolerances) {
-          if (relative >= ensemble_.tolerance.relative) continue;
-          const double factor = ensemble_.tolerance.relative / relative;
-          const Motion motion = disputedPart(c);
-          std::vector<double> better(c.times * ensemble_.outputs);
-          Witness witness(motion, ensemble_.method, options_.cancelled);
-          witness.integrate(start, {relative, ensemble_.tolerance.absolute / factor}, better);
-          if (!replace(c, better)) return;
-          locate(c);
-          c.settled = c.dispute.distance == 0;
-          c.dispute.decided = "tolerance " + toString(relative);
-          if (c.settled || c.dispute.excursion > hopeless) return;
-        }
+        if (!replace(c, integrateByTaylor(disputedPart(c), start, options_.cancelled))) return;
+        locate(c);
+        c.settled = c.dispute.distance == 0;
+        c.dispute.decided = "Taylor 53 bits";
       };
     });
   }

@@ -1,8 +1,8 @@
 // How the guaranteed and the probable agree: every sample must lie inside the enclosure at every output time. A sample
-// found outside is integrated again, tighter and tighter, and at last by the arbiter; what then still lies outside by
-// more than its own measured error refutes the enclosure. Samples of the same values are looked at once. The arbiter
-// takes the worst first and stops after sixteen of which one refutes. How wide the enclosure is against the envelope of
-// the samples, its overestimation, is measured only where the envelope stands clear of the witness's error.
+// found outside is integrated again by Taylor series, in doubles and at last by the arbiter; what then still lies
+// outside by more than its own measured error refutes the enclosure. Samples of the same values are looked at once. The
+// arbiter takes the worst first and stops after sixteen of which one refutes. How wide the enclosure is against the
+// envelope of the samples, its overestimation, is measured only where the envelope stands clear of the witness's error.
 #pragma once
 
 #include <atomic>
@@ -23,7 +23,6 @@ struct EnclosureBounds {
 };
 
 struct ComparisonOptions {
-  std::vector<double> relativeTolerances = {1e-12, 1e-13, 1e-14};  ///< of the re-integrations, tighter and tighter
   double decisive = 10;     ///< a sample further outside than so many times its measured error refutes the enclosure
   double resolution = 100;  ///< an envelope narrower than so many witness errors says nothing on overestimation
   bool asksArbiter = true;  ///< where it is already known that the enclosure is refuted, that can be saved
@@ -43,7 +42,7 @@ struct Dispute {
   double error = 0;      ///< this sample's measured error there: the greatest change so far by the last
                          ///< integration, at least 4 ulp of the output's magnitude
   double excursion = 0;  ///< distance / error
-  std::string decided;   ///< by what: "tolerance 1e-12", "Taylor 128 bits"; "unresolved", or "interrupted" before that
+  std::string decided;   ///< by what: "Taylor 53 bits", "Taylor 128 bits"; "unresolved", or "interrupted" before that
   bool outside = false;  ///< it refutes the enclosure
   std::vector<double> farthest;  ///< one an output: how far it lies outside at most, after the last integration
 };

@@ -87,7 +87,7 @@ struct DisputedSample {
   double value = 0, lower = 0, upper = 0;
   double distance = 0;  ///< outside, after the last integration
   double error = 0;     ///< this sample's measured error
-  std::string decided;  ///< by what: "tolerance 1e-12", "Taylor 128 bits"; "unresolved", or "interrupted" before that
+  std::string decided;  ///< by what: "Taylor 53 bits", "Taylor 128 bits"; "unresolved", or "interrupted" before that
   bool outside = false;
   int level = -1;                ///< of the alpha-cut that it was compared with; -1: the enclosure
   std::vector<double> farthest;  ///< one an output: how far it lies outside at most, after the last integration

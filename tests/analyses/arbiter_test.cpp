@@ -133,6 +133,32 @@ TEST(Arbiter, EvaluatesAMotionWithoutStatesDirectly) {
   EXPECT_EQ(y.values[1], 2 * Precise(0.1) + 2);
 }
 
+TEST(SeriesInDoubles, KeepTheirRelativeErrorWhereAMotionDecays) {
+  const Motion motion = decay(100, 20).motion;
+  const std::vector<double> y = integrateByTaylor(motion, std::array{1.0, 1.3});
+  ASSERT_EQ(y.size(), 21u);
+  for (std::size_t t = 0; t <= 20; ++t)
+    EXPECT_LT(relativeError(Precise(y[t]), exp(-Wide(1.3) * Wide(motion.times[t]))), 1e-12) << motion.times[t];
+}
+
+TEST(SeriesInDoubles, AgreeWithTheArbiterToRounding) {
+  const Motion motion = oscillator(3, 30).motion;
+  const std::array start{1.1, 0.0, 2.3};
+  const std::vector<double> y = integrateByTaylor(motion, start);
+  const PreciseTrajectory exact = arbitrate(motion, start);
+  ASSERT_EQ(y.size(), exact.values.size());
+  for (std::size_t i = 0; i < y.size(); ++i) EXPECT_NEAR(y[i], exact.values[i].convert_to<double>(), 1e-14) << i;
+}
+
+TEST(SeriesInDoubles, HaveNoValuesBeyondASingularity) {
+  Motion motion = decay(2, 20).motion;
+  motion.f = record(1, 1, [](auto, const auto& x, const auto& p, auto& dx) { dx[0] = p[0] * sqr(x[0]); });
+  const std::vector<double> y = integrateByTaylor(motion, std::array{1.0, 1.0});  // 1 / (1 - t)
+  ASSERT_EQ(y.size(), 21u);
+  EXPECT_NEAR(y[9], 10, 1e-11);
+  EXPECT_TRUE(std::isnan(y[10]) && std::isnan(y[20]));
+}
+
 TEST(Arbiter, RefusesStartValuesOrOptionsThatMakeNoSense) {
   EXPECT_THROW(arbitrate(decay().motion, std::array{1.0}), std::invalid_argument);
   EXPECT_THROW(arbitrate(decay().motion, std::array{1.0, 1.0}, {4, 1e-30}), std::invalid_argument);

@@ -102,18 +102,18 @@ const Case cases[] = {
        leave(r, 1);
      },
      "incomplete", 3},
-    {"DisputedAndOutside", [](Results& r) { dispute(r, 1e-6, "tolerance 1e-12").outside = true; }, "outside", 1},
+    {"DisputedAndOutside", [](Results& r) { dispute(r, 1e-6, "Taylor 53 bits").outside = true; }, "outside", 1},
     {"DisputedAndUnresolved",
      [](Results& r) {
        leave(r, 1e-6);
        dispute(r, 1e-6, "unresolved");
      },
      "unresolved", 1},
-    {"DisputedAndSettledInside", [](Results& r) { dispute(r, 0, "tolerance 1e-12"); }, "inside", 0},
+    {"DisputedAndSettledInside", [](Results& r) { dispute(r, 0, "Taylor 53 bits"); }, "inside", 0},
     {"DisputedAndSettledInsideButStoredOutside",
      [](Results& r) {
        leave(r, 1e-6);
-       dispute(r, 1e-6, "tolerance 1e-12");
+       dispute(r, 1e-6, "Taylor 53 bits");
      },
      "outside", 1},
     {"DisputedAndInterrupted",
@@ -254,7 +254,7 @@ TEST(Verdict, NamesCornersAndTheCentreAsSuch) {
   results.stochastic.alphaCorners = 18;
   results.stochastic.integrated = results.stochastic.planned();
   for (const std::int64_t number : {4095, 4096, 4098, 4115, 4116})
-    dispute(results, 1e-6, "tolerance 1e-12").number = number;
+    dispute(results, 1e-6, "Taylor 53 bits").number = number;
   EXPECT_THAT(judge(results).notes,
               ElementsAre(StartsWith("Sample 4095 ("), StartsWith("Corner 1 of 2 ("),
                           StartsWith("Corner 1 of 18 of the alpha-cuts ("),
@@ -275,7 +275,7 @@ TEST(Verdict, OfAFirstBlockOfSamplesIsIncompleteThoughTheyAllReachTheHorizon) {
 
 TEST(Verdict, CountsTheSettledSamplesThatItDoesNotName) {
   Results results = example::pendulum();
-  for (int i = 0; i < 100; ++i) dispute(results, 1e-6, "tolerance 1e-12");
+  for (int i = 0; i < 100; ++i) dispute(results, 1e-6, "Taylor 53 bits");
   dispute(results, 1e-6, "unresolved");
   const std::vector<std::string> notes = judge(results).notes;
   ASSERT_EQ(notes.size(), 7U);

@@ -161,7 +161,7 @@ TEST_F(ResultsFile, GivesBackTheComparisonAndDisputedSamples) {
   EXPECT_EQ(sample.upper, 1.1);
   EXPECT_EQ(sample.distance, 0.01);
   EXPECT_EQ(sample.error, 1e-9);
-  EXPECT_EQ(sample.decided, "tolerance 1e-12");
+  EXPECT_EQ(sample.decided, "Taylor 53 bits");
   EXPECT_TRUE(sample.outside);
   EXPECT_EQ(sample.level, 2);
   EXPECT_EQ(sample.farthest, (std::vector<double>{0.01, 0.25}));
@@ -328,7 +328,7 @@ TEST_F(ResultsFile, IsReadByXarrayWithUnitsAndNamedDimensions) {
   EXPECT_EQ(show("fuzzy", "f.outer_upper.dims, f.alpha.values"), "('alpha', 'time', 'output') [0.  0.5 1. ]\n");
   EXPECT_EQ(show("stochastic", "f.quantiles.sel(probability=0.95).shape, f.samples"), "(3, 2) 4096\n");
   EXPECT_EQ(show("comparison", "f.maximum_of.values, f.overestimation.units"), "[12. nan] 1\n");
-  EXPECT_EQ(show("comparison/disputed", "f.decided.sel(number=17).item()"), "tolerance 1e-12\n");
+  EXPECT_EQ(show("comparison/disputed", "f.decided.sel(number=17).item()"), "Taylor 53 bits\n");
   EXPECT_EQ(show("study/uncertain", "f.sel(name=\"first angle\").upper.item(), f.upper.units"), "1.1 rad\n");
   EXPECT_EQ(show("study", "f.text.item() == \"[study]\\ntitle = \\\"α\\\"\\n\""), "True\n");
 }
