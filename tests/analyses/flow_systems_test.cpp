@@ -1,5 +1,6 @@
 // The flow on classical systems, from thin and wide boxes, judged by trajectories of the reference; and the published
 // double pendulum, whose enclosures must be as tight as the published and sampled figures say.
+#include "scalars/linear_system.hpp"
 #include "tests/analyses/containment.hpp"
 
 namespace gamut::testing {
@@ -14,6 +15,29 @@ struct System {
 };
 
 void PrintTo(const System& system, std::ostream* out) { *out << system.name; }
+
+/// Four-bar linkage in the angles q of its bars (crank 1, coupler 2, rocker 2 about (2.5, 0)), unit masses at both
+/// moving joints, a moment on the crank: [M Gᵀ; G 0] [q̈; λ] = [Q; −Ġ q̇], symmetric and indefinite.
+Program fourBar() {
+  return record(6, 1, [](auto, const auto& x, const auto& p, auto& dx) {
+    const Recorded s1 = sin(x[0]), c1 = cos(x[0]), s2 = sin(x[1]), c2 = cos(x[1]), s3 = sin(x[2]), c3 = cos(x[2]);
+    const Recorded zero(0.0), coupling = 2.0 * (c1 * c2 + s1 * s2), w1 = sqr(x[3]), w2 = sqr(x[4]), w3 = sqr(x[5]);
+    const Recorded turning = 2.0 * (c1 * s2 - s1 * c2);  // of both masses, from the velocities of the two bars
+    const LinearSystem<Recorded> system(MatrixKind::general, 5,
+                                        {2.0,      coupling,  zero,      -s1,       c1,         //
+                                         coupling, 4.0,       zero,      -2.0 * s2, 2.0 * c2,   //
+                                         zero,     zero,      0.5,       2.0 * s3,  -2.0 * c3,  //
+                                         -s1,      -2.0 * s2, 2.0 * s3,  zero,      zero,       //
+                                         c1,       2.0 * c2,  -2.0 * c3, zero,      zero});
+    std::vector<Recorded> y{turning * w2 - 2.0 * 9.81 * c1 + p[0], -turning * w1 - 2.0 * 9.81 * c2, zero,
+                            c1 * w1 + 2.0 * c2 * w2 - 2.0 * c3 * w3, s1 * w1 + 2.0 * s2 * w2 - 2.0 * s3 * w3};
+    system.solve(y);
+    for (std::size_t i = 0; i < 3; ++i) {
+      dx[i] = x[3 + i];
+      dx[3 + i] = y[i];
+    }
+  });
+}
 
 std::vector<System> systems() {
   return {
@@ -88,6 +112,11 @@ std::vector<System> systems() {
        {1.0, 0.0, 0.0},
        {0.01, 0.0, 0.01},
        10.0},
+      {"FourBarWithMultipliers",
+       fourBar(),
+       {0.9, 0.6419199037671257, 1.709487822156159, 0.0, 0.0, 0.0, 3.0},
+       {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.3},
+       2.0},
   };
 }
 
