@@ -160,9 +160,10 @@ TEST(Program, LaysNodesOutAsEvaluatorsExpect) {
     const auto& nodes = program.nodes();
     for (int i = 0; i < static_cast<int>(nodes.size()); ++i) {
       const Node& n = nodes[static_cast<std::size_t>(i)];
-      if (n.op == Op::sin || n.op == Op::cos) {
-        const Node& partner = nodes[static_cast<std::size_t>(n.op == Op::sin ? i + 1 : i - 1)];
-        EXPECT_EQ(partner.op, n.op == Op::sin ? Op::cos : Op::sin);
+      for (const Op first : {Op::sin, Op::tanh}) {
+        if (n.op != first && n.op != twinOf(first)) continue;
+        const Node& partner = nodes[static_cast<std::size_t>(n.op == first ? i + 1 : i - 1)];
+        EXPECT_EQ(partner.op, n.op == first ? twinOf(first) : first);
         EXPECT_EQ(partner.a, n.a);
       }
       if (n.op == Op::log) {
