@@ -167,6 +167,25 @@ struct ScalarTraits<Recorded> {
   static Recorded constant(const Interval& value) { return Recorded(value); }
 };
 
+/// True only if x is the number 0 whatever the inputs are: known while recording, never asked of a value. Terms that
+/// are known zeros may be left out; the result is the same number with or without them.
+template <class S>
+bool isKnownZero(const S&) {
+  return false;
+}
+inline bool isKnownZero(const Recorded& x) { return Recorder::current()->isExactly(x.node(), 0.0); }
+
+/// True only if x is a number other than 0 whatever the inputs are.
+template <class S>
+bool isKnownNonzero(const S&) {
+  return false;
+}
+inline bool isKnownNonzero(const Recorded& x) {
+  const Recorder* recorder = Recorder::current();
+  const int node = x.node();
+  return recorder->isConstant(node) && !contains(recorder->value(node), 0.0);
+}
+
 /// Makes `recorder` the one that this thread's Recorded numbers write to, for the life of the guard.
 class RecordingGuard {
  public:
