@@ -41,10 +41,14 @@ void LinearSystem<Interval>::solve(std::span<Interval> x, bool transposed) const
   using Vector = Eigen::Matrix<Interval, Eigen::Dynamic, 1>;
   const Eigen::Map<const Matrix> matrix(columns_.data(), size_, size_);
   const Eigen::Map<const Vector> rightSide(x.data(), size_);
-  const auto solution = transposed && kind_ == MatrixKind::general
-                            ? verifiedSolve(Matrix(matrix.transpose()), rightSide)
-                            : verifiedSolve(matrix, rightSide);
-  for (int i = 0; i < size_; ++i) x[at(i)] = solution ? (*solution)(i) : Interval::entire();
+  const bool mirrored = transposed && kind_ == MatrixKind::general;
+  auto& proof = proofs_[mirrored ? 1 : 0];
+  if (!proof)
+    proof = mirrored ? std::make_shared<const detail::RegularMatrix>(Matrix(matrix.transpose()))
+                     : std::make_shared<const detail::RegularMatrix>(matrix);
+  Vector solution(size_);
+  if (!proof->enclose(rightSide, solution.data())) solution.setConstant(Interval::entire());
+  std::copy_n(solution.data(), x.size(), x.begin());
 }
 
 std::size_t LinearSystem<Fuzzy>::commonLevels(std::size_t a, std::size_t b) { return common(a, b, "levels"); }

@@ -1,6 +1,5 @@
 // Linear systems M x = r in every scalar: one interface for numbers, which are factorised once for all right-hand
-// sides (intervals and fuzzy numbers are verified anew for each), and for Recorded, which writes the systems down as
-// wholes (Op::solution).
+// sides, and for Recorded, which writes the systems down as wholes (Op::solution).
 //
 //     LinearSystem<S> system(MatrixKind::positiveDefinite, 2, {4.0, 1.0, 1.0, 3.0});  // row by row
 //     std::vector<S> x{1.0, 2.0};
@@ -8,8 +7,10 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <span>
 #include <stdexcept>
 #include <utility>
@@ -24,6 +25,8 @@
 
 namespace gamut {
 namespace detail {
+
+class RegularMatrix;  // of verified_algebra.hpp
 
 /// Throws std::invalid_argument unless there is an equation at least and a number for each entry.
 void requireSquare(int size, std::size_t entries);
@@ -170,7 +173,8 @@ class LinearSystem {
 
 /// Verified (verified_algebra.hpp): a solution encloses those of all real matrices and right-hand sides inside. Where
 /// that cannot be proved, every component is the whole line, as a quotient is whose denominator holds zero inside; and
-/// where an entry or a right-hand side is empty, every component is empty.
+/// where an entry or a right-hand side is empty, every component is empty. The matrix is proved to be regular with its
+/// first right-hand side, and transposed with the first that asks for it (so one thread at a time may solve).
 template <>
 class LinearSystem<Interval> {
  public:
@@ -190,6 +194,7 @@ class LinearSystem<Interval> {
         const bool mirrored = kind == MatrixKind::positiveDefinite && i < j;
         columns_[detail::at(j * size + i)] = mirrored ? entry(j, i) : entry(i, j);
       }
+    for (auto& proof : proofs_) proof.reset();
   }
 
   void solve(std::span<Interval> x, bool transposed = false) const;
@@ -197,7 +202,8 @@ class LinearSystem<Interval> {
  private:
   MatrixKind kind_ = MatrixKind::general;
   int size_ = 0;
-  std::vector<Interval> columns_;  // one after another
+  std::vector<Interval> columns_;                                               // one after another
+  mutable std::array<std::shared_ptr<const detail::RegularMatrix>, 2> proofs_;  // of M, of Mᵀ
 };
 
 /// Cut by cut as intervals, each cut inside the one below it.
