@@ -206,62 +206,68 @@ class LinearSystem<Interval> {
   mutable std::array<std::shared_ptr<const detail::RegularMatrix>, 2> proofs_;  // of M, of Mᵀ
 };
 
-/// Cut by cut as intervals, each cut inside the one below it.
+namespace detail {
+
+/// What a fuzzy number or samples consist of: parts of which each system is one of its own, or one for all of them.
+template <class S>
+struct PartsOf;
 template <>
-class LinearSystem<Fuzzy> {
+struct PartsOf<Fuzzy> {
+  using Part = Interval;
+  static constexpr const char* name = "levels";
+  static std::size_t count(const Fuzzy& x) { return x.levels(); }
+  static Interval part(const Fuzzy& x, std::size_t level) { return x.cut(level); }
+};
+template <>
+struct PartsOf<Samples> {
+  using Part = double;
+  static constexpr const char* name = "samples";
+  static std::size_t count(const Samples& x) { return x.size(); }
+  static double part(const Samples& x, std::size_t sample) { return x[sample]; }
+};
+
+/// The larger of two counts of which one is 1, or which are equal; else throws std::invalid_argument.
+std::size_t commonCount(std::size_t a, std::size_t b, const char* of);
+
+template <class S>
+class SystemOfParts {
  public:
-  LinearSystem() = default;
-  LinearSystem(MatrixKind kind, int size, const std::vector<Fuzzy>& entries) {
-    detail::requireSquare(size, entries.size());
-    assign(kind, size, [&](int i, int j) -> const Fuzzy& { return entries[detail::at(i * size + j)]; });
+  SystemOfParts() = default;
+  SystemOfParts(MatrixKind kind, int size, const std::vector<S>& entries) {
+    requireSquare(size, entries.size());
+    assign(kind, size, [&](int i, int j) -> const S& { return entries[at(i * size + j)]; });
   }
 
   template <class Entry>
   void assign(MatrixKind kind, int size, Entry entry) {
-    std::size_t levels = 1;
+    std::size_t count = 1;
     for (int i = 0; i < size; ++i)
-      for (int j = 0; j < size; ++j) levels = commonLevels(levels, entry(i, j).levels());
-    cuts_.resize(levels);
-    for (std::size_t level = 0; level < levels; ++level)
-      cuts_[level].assign(kind, size, [&](int i, int j) { return entry(i, j).cut(level); });
+      for (int j = 0; j < size; ++j) count = commonCount(count, Parts::count(entry(i, j)), Parts::name);
+    systems_.resize(count);
+    for (std::size_t k = 0; k < count; ++k)
+      systems_[k].assign(kind, size, [&](int i, int j) { return Parts::part(entry(i, j), k); });
   }
 
-  void solve(std::span<Fuzzy> x, bool transposed = false) const;
+  void solve(std::span<S> x, bool transposed = false) const;
 
  private:
-  /// Throws std::invalid_argument for two different numbers of levels, none of them 1.
-  static std::size_t commonLevels(std::size_t a, std::size_t b);
+  using Parts = PartsOf<S>;
 
-  std::vector<LinearSystem<Interval>> cuts_;  // one if all entries are crisp
+  std::vector<LinearSystem<typename Parts::Part>> systems_;  // one if all entries are
+};
+
+}  // namespace detail
+
+/// Cut by cut as intervals, each cut inside the one below it.
+template <>
+class LinearSystem<Fuzzy> : public detail::SystemOfParts<Fuzzy> {
+  using SystemOfParts::SystemOfParts;
 };
 
 /// Sample by sample as doubles.
 template <>
-class LinearSystem<Samples> {
- public:
-  LinearSystem() = default;
-  LinearSystem(MatrixKind kind, int size, const std::vector<Samples>& entries) {
-    detail::requireSquare(size, entries.size());
-    assign(kind, size, [&](int i, int j) -> const Samples& { return entries[detail::at(i * size + j)]; });
-  }
-
-  template <class Entry>
-  void assign(MatrixKind kind, int size, Entry entry) {
-    std::size_t samples = 1;
-    for (int i = 0; i < size; ++i)
-      for (int j = 0; j < size; ++j) samples = commonSize(samples, entry(i, j).size());
-    samples_.resize(samples);
-    for (std::size_t sample = 0; sample < samples; ++sample)
-      samples_[sample].assign(kind, size, [&](int i, int j) { return entry(i, j)[sample]; });
-  }
-
-  void solve(std::span<Samples> x, bool transposed = false) const;
-
- private:
-  /// Throws std::invalid_argument for two different numbers of samples, none of them 1.
-  static std::size_t commonSize(std::size_t a, std::size_t b);
-
-  std::vector<LinearSystem<double>> samples_;  // one if all entries are constants
+class LinearSystem<Samples> : public detail::SystemOfParts<Samples> {
+  using SystemOfParts::SystemOfParts;
 };
 
 /// Parts that no known non-zero entry connects are systems of their own; one or two equations are written out by
