@@ -92,10 +92,6 @@ struct LinearSolution {
   bool operator==(const LinearSolution&) const = default;
 };
 
-/// Multiplications, divisions, additions and subtractions of a factorisation (LDLᵀ or LU), and of a solution by it.
-int factorisationOperations(MatrixKind kind, int size);
-int solutionOperations(MatrixKind kind, int size);
-
 namespace detail {
 
 /// Nodes and what they refer to, one after another as they are written.
@@ -105,6 +101,14 @@ struct NodeTable {
   std::vector<LinearMatrix> matrices;
   std::vector<LinearSolution> solutions;
 };
+
+/// Multiplications, divisions, additions and subtractions of a factorisation (LDLᵀ or LU), and of a solution by it,
+/// with numbers that are not known to be zero: exact for LDLᵀ, which has no choice of pivots; of LU no fewer than with
+/// any pivots. (Evaluators that solve densely compute with the zeros as well.)
+struct SolvingOperations {
+  int factorisation = 0, solution = 0;
+};
+SolvingOperations solvingOperations(const NodeTable& table, const LinearMatrix& matrix);
 
 /// visit(node) for every node from which node i's value is computed, log's and atan's denominators included. Component
 /// 0 of a solution has the operands of the whole, the others have component 0.
@@ -159,7 +163,7 @@ class Program {
   /// True if the node's value depends neither on time nor on a state: it is evaluated once for given parameters.
   bool isInvariant(int node) const { return invariant_[detail::at(node)] != 0; }
   /// Number of operations of one evaluation: nodes that are neither inputs nor constants nor invariant, and in place of
-  /// a solution's nodes the arithmetic of solving.
+  /// a solution's nodes the arithmetic of solving (detail::solvingOperations).
   int operations() const;
 
   /// forwardDifferentiated(*this, withParameters) of differentiation.hpp: the m outputs, then the Jacobian.

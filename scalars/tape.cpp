@@ -359,7 +359,7 @@ class TapeWriter {
       } else if (chain.back().op == TapeOp::factorise) {
         const LinearMatrix& of = matrix(step.id - count());
         chain.back().result = system_[at(step.id - count())] = static_cast<int>(tape_.systems_.size());
-        tape_.systems_.push_back({of.kind, of.size, reads});
+        tape_.systems_.push_back({of.kind, of.size, reads, detail::solvingOperations(program_.table(), of)});
       } else {
         for (std::size_t part = 0; part < chain.size(); ++part)
           chain[part].a = reads[2 * part], chain[part].b = reads[2 * part + 1];
@@ -397,11 +397,9 @@ int Tape::operations() const {
   for (const Instruction& i : instructions_) {
     const bool isTwo = i.op == TapeOp::plusProduct || i.op == TapeOp::minusProduct || hasTwin(i.op);
     if (i.op == TapeOp::factorise) {
-      const TapeSystem& system = systems_[at(i.result)];
-      operations += factorisationOperations(system.kind, system.size);
+      operations += systems_[at(i.result)].operations.factorisation;
     } else if (i.op == TapeOp::solution) {
-      const TapeSystem& system = systems_[at(solutions_[at(i.result)].system)];
-      operations += solutionOperations(system.kind, system.size);
+      operations += systems_[at(solutions_[at(i.result)].system)].operations.solution;
     } else {
       operations += i.op == TapeOp::value ? 0 : isTwo ? 2 : 1;
     }

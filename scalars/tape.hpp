@@ -53,6 +53,7 @@ struct TapeSystem {
   MatrixKind kind;
   int size;
   std::vector<std::int32_t> entries;  ///< the slots at the factorisation, row by row
+  detail::SolvingOperations operations;
 
   std::int32_t entry(int i, int j) const { return entries[detail::at(i * size + j)]; }
 };
