@@ -42,10 +42,12 @@ class TaylorRun {
         options_(options),
         cancelled_(cancelled),
         series_(motion.forSamples(), options.order),
+        f_(motion.forSamples()),
         g_(motion.g),
         n_(static_cast<std::size_t>(motion.f.states())) {
     for (std::size_t i = 0; i < start.size(); ++i) (i < n_ ? x_ : parameters_).push_back(Real(start[i]));
     series_.setParameters(parameters_);
+    f_.setParameters(parameters_);
     g_.setParameters(parameters_);
   }
 
@@ -88,7 +90,11 @@ class TaylorRun {
       for (int s = 0; s < motion_.f.states(); ++s)
         if (const Real c = abs(series_.at(s, i)); c > 0 && size > 0)
           reach = std::min(reach, std::pow(rounded(Real(size / c)), 1.0 / i));
-    const Real h = std::min(rest, Real(std::pow(options_.tolerance, 1.0 / options_.order) * reach));
+    Real h = std::min(rest, Real(std::pow(options_.tolerance, 1.0 / options_.order) * reach));
+    // A series may say nothing of what comes (tanh, far out): the equations have to hold at the step's end as well.
+    const double unit = std::max(options_.tolerance, rounded(std::numeric_limits<Real>::epsilon()));
+    const Real allowed = size * (1000.0 * options_.order * unit);
+    while (h >= shortestStep * horizon && !(defectAfter(t, h) <= allowed)) h = h / 2;
     if (h < rest && h < shortestStep * horizon) return stop(t, "steps became too short: the motion is singular here");
     return h;
   }
@@ -104,6 +110,20 @@ class TaylorRun {
     for (std::size_t s = 0; s < n_; ++s)
       for (int i = options_.order; i >= 0; --i) x[s] = x[s] * tau + series_.at(static_cast<int>(s), i);
     return x;
+  }
+
+  /// |ẋ - f| of the series at its step's end, in that time.
+  Real defectAfter(const Real& t, const Real& h) {
+    using std::abs;
+    std::vector<Real> rate = f_(Real(t + h), stateAfter(h));
+    Real greatest(0.0);
+    for (std::size_t s = 0; s < n_; ++s) {
+      Real slope(0.0);
+      for (int i = options_.order; i >= 1; --i) slope = slope * h + Real(i) * series_.at(static_cast<int>(s), i);
+      const Real defect = abs(Real(slope - rate[s])) * h;
+      if (!(defect <= greatest)) greatest = defect;  // a NaN stays
+    }
+    return greatest;
   }
 
   void watch(double time, const Real& tau) {
@@ -122,7 +142,7 @@ class TaylorRun {
   ArbiterOptions options_;
   const std::atomic<bool>* cancelled_;
   Series<Real> series_;
-  Evaluator<Real> g_;
+  Evaluator<Real> f_, g_;
   std::size_t n_;
   std::vector<Real> x_, parameters_;
   Trajectory<Real> result_;

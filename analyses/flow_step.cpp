@@ -270,6 +270,10 @@ StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum,
         h *= 3 / growth_.growth();
         continue;
       }
+      if (series_.haste() > 1 && attempt < 12) {
+        h /= series_.haste();
+        continue;
+      }
       h_ = h;
       theta_ = h / h0_;
       boundDerivatives();
@@ -278,7 +282,7 @@ StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum,
       caution_ = std::clamp(caution_, 0x1p-6, 2.0);
       return isTruncationTooLarge(splitDefect) ? StepOutcome::splitWanted : StepOutcome::stepped;
     }
-    h *= 0.6;
+    h *= std::min(0.6, 1 / series_.haste());
     caution_ = std::max(caution_ * 0.8, 0x1p-6);
   }
   why_ = reason(set);

@@ -148,7 +148,7 @@ GAMUT_CLONES void thinRecursion(const std::vector<ThinNode>& nodes, const std::v
       cur[time] = i == 1 ? h0 : 0.0;
       for (int x = time + 1; x < count; ++x) {
         const ThinNode& n = v[x];
-        if (n.invariant || n.op == Op::state || n.op == Op::cos) continue;
+        if (n.invariant || n.op == Op::state || isTwin(n.op)) continue;
         const ThinNode& a = v[n.a];
         switch (n.op) {
           case Op::add:
@@ -187,6 +187,10 @@ GAMUT_CLONES void thinRecursion(const std::vector<ThinNode>& nodes, const std::v
             cur[x + 1] = -(thinDot(a.derivative, n.reversed, i) + slope * n.forward[0]) / i;
             break;
           }
+          case Op::tanh:
+            cur[x] = (thinDot(a.derivative, v[x + 1].reversed, i) + i * cur[n.a] * v[x + 1].forward[0]) / i;
+            cur[x + 1] = -(thinDot(n.forward, n.reversed, i) + 2 * (n.forward[0] * cur[x]));
+            break;
           case Op::solution:
             if (n.b == 0) thinSolution(v, x, *solutions[static_cast<std::size_t>(n.a)], i, cur);
             break;

@@ -110,6 +110,7 @@ PolynomialSeries::PolynomialSeries(const Program& program, int primaryOutputs,
         derivative(i);
         break;
       case Op::sin:
+      case Op::tanh:
         rightFactor(i);
         rightFactor(i + 1);
         derivative(v.a);
@@ -255,7 +256,7 @@ void PolynomialSeries::product(const Plan& a, const Plan& b, int count, int i, d
 
 void PolynomialSeries::computeOrder(int node, int i) {
   const Plan& v = plan_[at(node)];
-  if ((v.invariant && i > 0) || v.op == Op::constant || v.op == Op::cos) return;
+  if ((v.invariant && i > 0) || v.op == Op::constant || isTwin(v.op)) return;
   if (v.op == Op::solution) {
     if (v.b == 0) computeSolution(node, i);
     return;
@@ -345,6 +346,17 @@ void PolynomialSeries::computeOrder(int node, int i) {
       }
       return;
     }
+    case Op::tanh: {  // t_i = Σ_{j≥1} j u_j s_{i-j} / i, s_i = -Σ t_j t_{i-j}
+      const Plan& s = plan_[at(node + 1)];
+      for (int g = 0; g < N; ++g) put(s, g, i, 0.0);
+      for (int g = 0; g < a.count; ++g) d_[a.d + at(g * stride_ + i)] = i * fa[g * stride_ + i];
+      kernels::convolve(pairs, first, N, &d_[a.d], &r_[s.r], stride_, i, out);
+      for (int g = 0; g < N; ++g) put(v, g, i, out[g] / i);
+      std::fill(out, out + N, 0.0);
+      kernels::convolve(pairs, first, N, &f_[v.f], &r_[v.r], stride_, i, out);
+      for (int g = 0; g < N; ++g) put(s, g, i, -out[g]);
+      return;
+    }
     default:
       return;
   }
@@ -362,7 +374,7 @@ void PolynomialSeries::pointFunctions(int node) {
   };
   if (!std::isfinite(u)) {
     put(v, 0, 0, std::nan(""));
-    if (v.op == Op::sin) put(plan_[at(node + 1)], 0, 0, std::nan(""));
+    if (twinOf(v.op) != v.op) put(plan_[at(node + 1)], 0, 0, std::nan(""));
     return;
   }
   switch (v.op) {
@@ -370,6 +382,12 @@ void PolynomialSeries::pointFunctions(int node) {
       const SinCos value = sinCos(Interval(u));
       set(node, value.sin);
       set(node + 1, value.cos);
+      return;
+    }
+    case Op::tanh: {
+      const Interval e = exp(Interval(-2 * std::fabs(u)));
+      set(node, tanh(Interval(u)));
+      set(node + 1, 4.0 * e / sqr(1.0 + e));  // not 1 - tanh²: to its own digits, however small
       return;
     }
     case Op::exp:
@@ -466,6 +484,21 @@ void PolynomialSeries::initialRow(int node) {
           }
         put(v, g, 0, s / grade(g));
         put(c, g, 0, -t / grade(g));
+      }
+      return;
+    }
+    case Op::tanh: {
+      const Plan& c = plan_[at(node + 1)];
+      pointFunctions(node);
+      for (int g = 0; g < a.count; ++g) d_[a.d + at(g * stride_)] = 0.0;
+      for (int g = 1; g < N; ++g) {
+        double s = 0, t = 0;
+        for (auto q = first[at(g)]; q < first[at(g) + 1]; ++q)
+          if (const auto [p, r] = pairs[at(q)]; p != 0) s += grade(p) * coefficient(a, p) * coefficient(c, r);
+        put(v, g, 0, s / grade(g));
+        for (auto q = first[at(g)]; q < first[at(g) + 1]; ++q)
+          t += coefficient(v, pairs[at(q)].a) * coefficient(v, pairs[at(q)].b);
+        put(c, g, 0, -t);
       }
       return;
     }

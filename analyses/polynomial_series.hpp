@@ -62,6 +62,10 @@ class PolynomialSeries {
   /// ρ0, ρ1 of all nodes when |x - x̃| ≤ E (null: along the polynomial). False: not proved (a division by zero, say).
   bool bound(const double* E, bool primaryOnly);
 
+  /// How many times too long [0, θ] is for what is left unsaid by ρ1: a tanh whose argument moves so far that rounding
+  /// grows, or that nothing but its range is known. Not above 1: time is not what moves it.
+  double haste() const { return haste_; }
+
   /// After tabulate or bound returned false: what could not be proved, in words.
   std::string obstacle() const { return edgeOf(obstacle_); }
   /// The operation that comes soonest to the edge of its domain, before σ = `within`, in words; empty if none does.
@@ -152,6 +156,11 @@ class PolynomialSeries {
   double dropped(int a, int degree) const;
   double minimum(int node) const;
   bool boundNode(int node);
+  void boundTanh(int node);
+  double leading(int node) const { return std::fabs(f_[plan_[at(node)].f]); }
+  double rest(int node) const;
+  double moved(int node) const;
+  double weightedRest(int node) const;
   bool isKnownZero(int node) const;
 
   // polynomial_systems.cpp; `first` is component 0 of a solution.
@@ -169,6 +178,7 @@ class PolynomialSeries {
 
   int n_, time_, m_, stride_, nodes_, frameCount_, frameDegree_;
   int obstacle_ = 0;  // the node that failed
+  double haste_ = 0;
   bool withFrame_;
   const std::atomic<bool>* cancelled_;
   std::shared_ptr<const Monomials> monomials_;

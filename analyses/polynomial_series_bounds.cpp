@@ -111,12 +111,37 @@ double PolynomialSeries::minimum(int node) const {
   return (2 * lead - norm_[at(node)]) * bounds::down - bounds::tiny;
 }
 
-/// Bounds of the defect of v' = u'·of (for sine, cosine, exponential), integrated over [0, θ], and of the row σ = 0.
-/// Rounding: a coefficient has N terms, one rounding in j·u_j and one in the division: γ_{N+2}, N ≤ weights.
+/// Σ_{(i,α)≠0} |c_{iα}| θ^i: how far ṽ goes from its constant coefficient, and along the way there: the integral of
+/// |ṽ'| from ξ = 0, σ = 0 over ξ at σ = 0 and then over σ.
+double PolynomialSeries::rest(int node) const {
+  const Plan& v = plan_[at(node)];
+  double sum = moved(node);
+  for (int q = 1; q <= v.degree; ++q) sum += t_[v.t + at(q * stride_)];
+  return sum * bounds::up;
+}
+
+/// The part of rest() that is over σ.
+double PolynomialSeries::moved(int node) const {
+  double sum = 0;
+  for (int i = 1; i < m_; ++i) sum += total_[at(node) * at(stride_) + at(i)];
+  return sum;
+}
+
+/// The same as rest() of ‖·‖_w. (A difference of ‖·‖_w and the constant coefficient would be off by what bounds::up
+/// adds.)
+double PolynomialSeries::weightedRest(int node) const {
+  const Plan& v = plan_[at(node)];
+  double sum = 0;
+  for (int g = 0; g < v.count; ++g)
+    for (int i = g == 0 ? 1 : 0; i < m_; ++i)
+      sum += weights_[at(i)] * monomials_->multiplicity(g) * std::fabs(f_[v.f + at(g * stride_ + i)]);
+  return sum * bounds::up;
+}
+
+/// Bounds of the defect of v' = u'·of (for sine, cosine, exponential, tanh), integrated over [0, θ], and of the row σ =
+/// 0. Rounding: a coefficient has N terms, one rounding in j·u_j and one in the division: γ_{N+2}, N ≤ weights.
 void PolynomialSeries::differentialErrors(int u, int of, int degree, double& e0, double& e1) const {
-  const Plan& pu = plan_[at(u)];
-  const double lead = std::fabs(f_[pu.f]);
-  const double norm = norm_[at(u)] - lead * bounds::down, weighted = weighted_[at(u)] - lead * bounds::down;
+  const double norm = rest(u), weighted = weighted_[at(u)] - leading(u) * bounds::down;
   e1 = tailTime(u, of);  // the row i = 0 of u meets s1[0] = 0
   e0 = bounds::unit * (weighted * weighted_[at(of)] + 2 * norm * norm_[at(of)]);
   if (monomials_->degree() > 0)
@@ -183,6 +208,7 @@ void PolynomialSeries::ownErrors(int node) {
     case Op::time:
     case Op::constant:
     case Op::cos:
+    case Op::sech2:
       return;
     case Op::solution:
       if (v.b == 0) solutionOwnErrors(node);
@@ -233,6 +259,21 @@ void PolynomialSeries::ownErrors(int node) {
       own1_[at(node + 1)] = e1 * bounds::up;
       break;
     }
+    case Op::tanh: {
+      // κ = |s̃ - (1 - t̂²)|, t̂ = t̃ + tanh u_00 - t_00: the constants of both cancel but for their own errors, and the
+      // others are sums of N ≤ weights products, in which t_00 meets only what is not constant.
+      const double weighted = weightedRest(node);
+      const double kappa0 = pointError_[at(node + 1)] + 2 * pointError_[at(node)] * rest(node) +
+                            bounds::unit * weighted * (2 * leading(node) + weighted) +
+                            (graded ? tailDegree(node, node, v.degree, 0) : 0.0);
+      const double kappa1 = tailTime(node, node);
+      own0_[at(node + 1)] = kappa0 * bounds::up + bounds::tiny;
+      own1_[at(node + 1)] = kappa1 * bounds::up;
+      differentialErrors(v.a, node + 1, v.degree, e0, e1);
+      e0 += rest(v.a) * own0_[at(node + 1)];
+      e1 += rest(v.a) * own1_[at(node + 1)];
+      break;
+    }
   }
   own0_[at(node)] = e0 * bounds::up + bounds::tiny;
   own1_[at(node)] = e1 * bounds::up;
@@ -251,6 +292,8 @@ bool PolynomialSeries::boundNode(int node) {
     case Op::time:
     case Op::constant:
       return true;
+    case Op::sech2:  // with its tanh
+      return rho0_[at(node)] + rho1_[at(node)] < bounds::largest;
     case Op::solution:
       return v.b > 0 || boundSolution(node);
     case Op::add:
@@ -288,9 +331,9 @@ bool PolynomialSeries::boundNode(int node) {
     }
     case Op::exp: {
       // ẽ' = ũ'ẽ + defect grows by at most e^{osc}, osc ≤ 2 Σ_{(i,α)≠0}|u_{iα}|θ^i; e^{u} - e^{ũ}: (e^ρ-1) ≤ e^ρ ρ.
-      const double rest = norm_[at(v.a)] - std::fabs(f_[plan_[at(v.a)].f]) * bounds::down;
-      if (!(rest < 300 && r(v.a) < 300)) return false;
-      const double growth = exp(Interval(2 * rest * bounds::up)).upper();
+      const double way = rest(v.a);
+      if (!(way < 300 && r(v.a) < 300)) return false;
+      const double growth = exp(Interval(2 * way * bounds::up)).upper();
       const double tilt = (norm_[at(node)] + (own0 + own1) * growth) * exp(Interval(r(v.a) * bounds::up)).upper();
       z0 = own0 * growth + tilt * r0(v.a);
       z1 = own1 * growth + tilt * r1(v.a);
@@ -314,14 +357,54 @@ bool PolynomialSeries::boundNode(int node) {
       z0 = own0 + r0(v.a);
       z1 = own1 + r1(v.a);
       break;
+    case Op::tanh:
+      boundTanh(node);
+      return rho0_[at(node)] + rho1_[at(node)] < bounds::largest;
   }
   rho0_[at(node)] = z0 * bounds::up + bounds::tiny;
   rho1_[at(node)] = z1 * bounds::up;
   return rho0_[at(node)] + rho1_[at(node)] < bounds::largest;
 }
 
+/// tanh and sech² of u. T = tanh ũ and t̂ = t̃ + tanh u_00 - t_00 are equal where the path of rest() begins; from there
+/// on e = t̂ - T obeys e' = defect + ũ'(s̃ - (1 - t̂²)) - ũ'(t̂ + T) e, the first two of which are own, and |t̂ + T| ≤ 2|T|
+/// + |e|. With V = rest(u), |T| ≤ |ũ| ≤ |u_00| + V and Δ = own·e^{2V|T|}: |e| ≤ Δ e^{2VΔ} as long as that is below 2Δ.
+/// Besides, tanh u and tanh u_00 are less than 2e^{-2a} apart, if |u| ≥ a for all u and they have one sign (a = 0: or
+/// not), and 0 < sech² u ≤ 4e^{-2a}: bounds that hold whatever the polynomials are.
+void PolynomialSeries::boundTanh(int node) {
+  const int u = plan_[at(node)].a, slope = node + 1;
+  const auto upperExp = [](double x) { return exp(Interval(x)).upper(); };
+  const double V = rest(u) * bounds::up, rho = (rho0_[at(u)] + rho1_[at(u)]) * bounds::up;
+  const double least = std::max(0.0, (leading(u) - V - rho) * bounds::down - bounds::unit * leading(u));
+  const double decay = upperExp(-2 * least), steepest = std::min(1.0, 4 * decay);
+  const auto set = [&](int which, double z0, double z1, double whatever) {
+    const bool isProved = z0 + z1 <= whatever;
+    rho0_[at(which)] = (isProved ? z0 : whatever) * bounds::up + bounds::tiny;
+    rho1_[at(which)] = isProved ? z1 * bounds::up : 0.0;
+    return isProved;
+  };
+  double growth = upperExp(2 * V * std::min(1.0, leading(u) + V) * bounds::up);
+  const double delta = (own0_[at(node)] + own1_[at(node)]) * growth * bounds::up;
+  growth *= 2 * V * delta <= 0.69 ? upperExp(2 * V * delta * bounds::up) : HUGE_VAL;
+  const double e0 = own0_[at(node)] * growth, e1 = own1_[at(node)] * growth;
+  const double range = rest(node) + 2 * decay;
+  const bool isFollowed = set(node, pointError_[at(node)] + e0 + steepest * rho0_[at(u)], e1 + steepest * rho1_[at(u)],
+                              pointError_[at(node)] + range);
+  if ((isFollowed ? e0 : range) > bounds::unit) {
+    // A shorter step helps: u may go where tanh is ±1 to the last digit, or about as far as the pole at ±iπ/2 lets it.
+    constexpr double saturated = 19;  // 2e^{-2·19} < 2^-53
+    const double most = std::max(isFollowed ? 2.0 : 0.5, leading(u) - (V - moved(u)) - rho - saturated);
+    haste_ = std::max(haste_, moved(u) / most);
+  }
+  // 1 - t̂² - (1 - T²) = -e(2T + e), |(sech²)'| = 2|tanh| sech² < 0.77; sech² u and sech² u_00 lie in [0, steepest].
+  const double twice = 2 + (e0 + e1), tilt = std::min(0.77, 2 * steepest);
+  set(slope, own0_[at(slope)] + twice * e0 + tilt * rho0_[at(u)], own1_[at(slope)] + twice * e1 + tilt * rho1_[at(u)],
+      pointError_[at(slope)] + rest(slope) + steepest);
+}
+
 bool PolynomialSeries::bound(const double* E, bool primaryOnly) {
   for (System& system : systems_) system.isBounded = false;
+  haste_ = 0;
   for (int i = 0; i < time_; ++i) {
     const bool state = i < n_;
     rho0_[at(i)] = !state ? radius_[at(i)] : E != nullptr ? E[i] : 0.0;

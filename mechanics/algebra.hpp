@@ -1,5 +1,4 @@
-// Small vectors and matrices over any scalar, and `isKnownZero`, which knows the zeros that structure (not a value)
-// puts into a program.
+// Small vectors and matrices over any scalar.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,29 +18,6 @@ using Matrix3 = Eigen::Matrix<S, 3, 3>;
 template <class S>
 Vector3<S> zeroVector() {
   return Vector3<S>(S(0.0), S(0.0), S(0.0));
-}
-
-/// True only if x is the number 0 whatever the inputs are: known while recording, never asked of a value. Terms that
-/// are known zeros may be left out; the result is the same number with or without them.
-template <class S>
-bool isKnownZero(const S&) {
-  return false;
-}
-inline bool isKnownZero(const Recorded& x) {
-  const Recorder* recorder = Recorder::current();
-  const int node = x.node();
-  return recorder->isConstant(node) && recorder->value(node).lower() == 0 && recorder->value(node).upper() == 0;
-}
-
-/// True only if x is a number other than 0 whatever the inputs are.
-template <class S>
-bool isKnownNonzero(const S&) {
-  return false;
-}
-inline bool isKnownNonzero(const Recorded& x) {
-  const Recorder* recorder = Recorder::current();
-  const int node = x.node();
-  return recorder->isConstant(node) && !contains(recorder->value(node), 0.0);
 }
 
 /// W with  ω̇ × d + ω × (ω × d) = W d  for every offset d that is fixed in the moving frame. Written as

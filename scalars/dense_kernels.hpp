@@ -27,11 +27,15 @@ struct Dense {
 };
 
 /// All memory of one call. Up to 1 MB is kept for the thread's next call, as fresh pages cost more than the algebra at
-/// some tens of rows; so only one Arena may be alive in a thread.
+/// some tens of rows; so only one Arena of calls may be alive in a thread. What outlives its call has memory of its
+/// own.
 class Arena {
  public:
-  explicit Arena(Count doubles) {
-    if (doubles > kept) large_ = std::make_unique_for_overwrite<double[]>(static_cast<std::size_t>(doubles));
+  enum class Life { call, longer };
+
+  explicit Arena(Count doubles, Life life = Life::call) {
+    if (doubles > kept || life == Life::longer)
+      large_ = std::make_unique_for_overwrite<double[]>(static_cast<std::size_t>(doubles));
     next_ = large_ ? large_.get() : keptMemory();
   }
 

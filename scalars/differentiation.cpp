@@ -44,6 +44,12 @@ int chained(Recorder& r, int i, bool second, int d) {
       return r.mul(i + 1, d);
     case Op::cos:
       return r.neg(r.mul(i - 1, d));
+    case Op::tanh:
+      return r.mul(i + 1, d);
+    case Op::sech2: {  // (1 - t²)' = -2 t t', t' = sech²
+      const int product = r.mul(i - 1, i);
+      return r.mul(r.constant(-2.0), r.mul(product, d));
+    }
     case Op::state:
     case Op::parameter:
     case Op::time:

@@ -53,7 +53,7 @@ class Evaluator {
 
  private:
   void run(const std::vector<Instruction>& instructions) {
-    using std::atan, std::exp, std::log, std::sqrt;
+    using std::atan, std::exp, std::log, std::sqrt, std::tanh;
     S* const slots = slot_.data();
     S acc(0.0);
     for (const Instruction& i : instructions) {
@@ -107,6 +107,10 @@ class Evaluator {
           break;
         case TapeOp::sineCosine:
           sineAndCosine(a, acc, slots[i.b]);
+          break;
+        case TapeOp::hyperbolicTangent:
+          acc = tanh(a);
+          slots[i.b] = S(1.0) - square(acc);
           break;
         case TapeOp::factorise:
           factorise(detail::at(i.result));

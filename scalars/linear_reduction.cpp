@@ -13,8 +13,6 @@ using detail::at;
 
 constexpr double smallest = 1e-3;  // of the greatest number in its row: a pivot
 
-bool isZero(const Recorded& x) { return Recorder::current()->isExactly(x.node(), 0.0); }
-
 /// How large a number certainly is; 0 for what is no number.
 double sizeOfNumber(const Recorded& x) {
   const Recorder& recorder = *Recorder::current();
@@ -30,7 +28,7 @@ LinearReduction::LinearReduction(int size, std::vector<Recorded>& entries) : row
   std::vector<char> isThere(entries.size());
   std::vector<double> number(entries.size());
   const auto look = [&](int i, int j) {
-    isThere[at(i * size + j)] = !isZero(entry(i, j));
+    isThere[at(i * size + j)] = !isKnownZero(entry(i, j));
     number[at(i * size + j)] = sizeOfNumber(entry(i, j));
   };
   for (int i = 0; i < size; ++i)

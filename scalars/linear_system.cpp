@@ -11,13 +11,11 @@ namespace {
 
 using detail::at;
 
-/// The larger of two counts of which one is 1, or which are equal.
-std::size_t common(std::size_t a, std::size_t b, const char* of) {
-  if (a != b && a != 1 && b != 1)
-    throw std::invalid_argument("a linear system does not combine " + std::to_string(a) + " and " + std::to_string(b) +
-                                ' ' + of);
-  return std::max(a, b);
+/// Each cut inside the one below it.
+void append(std::vector<Interval>& cuts, const Interval& cut) {
+  cuts.push_back(cuts.empty() ? cut : intersection(cut, cuts.back()));
 }
+void append(std::vector<double>& samples, double sample) { samples.push_back(sample); }
 
 }  // namespace
 
@@ -41,41 +39,38 @@ void LinearSystem<Interval>::solve(std::span<Interval> x, bool transposed) const
   using Vector = Eigen::Matrix<Interval, Eigen::Dynamic, 1>;
   const Eigen::Map<const Matrix> matrix(columns_.data(), size_, size_);
   const Eigen::Map<const Vector> rightSide(x.data(), size_);
-  const auto solution = transposed && kind_ == MatrixKind::general
-                            ? verifiedSolve(Matrix(matrix.transpose()), rightSide)
-                            : verifiedSolve(matrix, rightSide);
-  for (int i = 0; i < size_; ++i) x[at(i)] = solution ? (*solution)(i) : Interval::entire();
+  const bool mirrored = transposed && kind_ == MatrixKind::general;
+  auto& proof = proofs_[mirrored ? 1 : 0];
+  if (!proof)
+    proof = mirrored ? std::make_shared<const detail::RegularMatrix>(Matrix(matrix.transpose()))
+                     : std::make_shared<const detail::RegularMatrix>(matrix);
+  Vector solution(size_);
+  if (!proof->enclose(rightSide, solution.data())) solution.setConstant(Interval::entire());
+  std::copy_n(solution.data(), x.size(), x.begin());
 }
 
-std::size_t LinearSystem<Fuzzy>::commonLevels(std::size_t a, std::size_t b) { return common(a, b, "levels"); }
+std::size_t detail::commonCount(std::size_t a, std::size_t b, const char* of) {
+  if (a != b && a != 1 && b != 1)
+    throw std::invalid_argument("a linear system does not combine " + std::to_string(a) + " and " + std::to_string(b) +
+                                ' ' + of);
+  return std::max(a, b);
+}
 
-void LinearSystem<Fuzzy>::solve(std::span<Fuzzy> x, bool transposed) const {
-  std::size_t levels = cuts_.size();
-  for (const Fuzzy& r : x) levels = commonLevels(levels, r.levels());
-  std::vector<std::vector<Interval>> cuts(x.size());  // of each component
-  std::vector<Interval> cut(x.size());
-  for (std::size_t level = 0; level < levels; ++level) {
-    for (std::size_t i = 0; i < x.size(); ++i) cut[i] = x[i].cut(level);
-    cuts_[cuts_.size() == 1 ? 0 : level].solve(cut, transposed);
-    for (std::size_t i = 0; i < x.size(); ++i)
-      cuts[i].push_back(level == 0 ? cut[i] : intersection(cut[i], cuts[i].back()));
+template <class S>
+void detail::SystemOfParts<S>::solve(std::span<S> x, bool transposed) const {
+  std::size_t count = systems_.size();
+  for (const S& r : x) count = commonCount(count, Parts::count(r), Parts::name);
+  std::vector<std::vector<typename Parts::Part>> components(x.size());
+  std::vector<typename Parts::Part> one(x.size());
+  for (std::size_t k = 0; k < count; ++k) {
+    for (std::size_t i = 0; i < x.size(); ++i) one[i] = Parts::part(x[i], k);
+    systems_[systems_.size() == 1 ? 0 : k].solve(one, transposed);
+    for (std::size_t i = 0; i < x.size(); ++i) append(components[i], one[i]);
   }
-  for (std::size_t i = 0; i < x.size(); ++i) x[i] = Fuzzy(std::move(cuts[i]));
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] = S(std::move(components[i]));
 }
 
-std::size_t LinearSystem<Samples>::commonSize(std::size_t a, std::size_t b) { return common(a, b, "samples"); }
-
-void LinearSystem<Samples>::solve(std::span<Samples> x, bool transposed) const {
-  std::size_t samples = samples_.size();
-  for (const Samples& r : x) samples = commonSize(samples, r.size());
-  std::vector<std::vector<double>> values(x.size(), std::vector<double>(samples));  // of each component
-  std::vector<double> one(x.size());
-  for (std::size_t sample = 0; sample < samples; ++sample) {
-    for (std::size_t i = 0; i < x.size(); ++i) one[i] = x[i][sample];
-    samples_[samples_.size() == 1 ? 0 : sample].solve(one, transposed);
-    for (std::size_t i = 0; i < x.size(); ++i) values[i][sample] = one[i];
-  }
-  for (std::size_t i = 0; i < x.size(); ++i) x[i] = Samples(std::move(values[i]));
-}
+template class detail::SystemOfParts<Fuzzy>;
+template class detail::SystemOfParts<Samples>;
 
 }  // namespace gamut

@@ -1,6 +1,5 @@
 // Linear systems M x = r in every scalar: one interface for numbers, which are factorised once for all right-hand
-// sides (intervals and fuzzy numbers are verified anew for each), and for Recorded, which writes the systems down as
-// wholes (Op::solution).
+// sides, and for Recorded, which writes the systems down as wholes (Op::solution).
 //
 //     LinearSystem<S> system(MatrixKind::positiveDefinite, 2, {4.0, 1.0, 1.0, 3.0});  // row by row
 //     std::vector<S> x{1.0, 2.0};
@@ -8,8 +7,10 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <span>
 #include <stdexcept>
 #include <utility>
@@ -24,6 +25,8 @@
 
 namespace gamut {
 namespace detail {
+
+class RegularMatrix;  // of verified_algebra.hpp
 
 /// Throws std::invalid_argument unless there is an equation at least and a number for each entry.
 void requireSquare(int size, std::size_t entries);
@@ -170,7 +173,8 @@ class LinearSystem {
 
 /// Verified (verified_algebra.hpp): a solution encloses those of all real matrices and right-hand sides inside. Where
 /// that cannot be proved, every component is the whole line, as a quotient is whose denominator holds zero inside; and
-/// where an entry or a right-hand side is empty, every component is empty.
+/// where an entry or a right-hand side is empty, every component is empty. The matrix is proved to be regular with its
+/// first right-hand side, and transposed with the first that asks for it (so one thread at a time may solve).
 template <>
 class LinearSystem<Interval> {
  public:
@@ -190,6 +194,7 @@ class LinearSystem<Interval> {
         const bool mirrored = kind == MatrixKind::positiveDefinite && i < j;
         columns_[detail::at(j * size + i)] = mirrored ? entry(j, i) : entry(i, j);
       }
+    for (auto& proof : proofs_) proof.reset();
   }
 
   void solve(std::span<Interval> x, bool transposed = false) const;
@@ -197,65 +202,72 @@ class LinearSystem<Interval> {
  private:
   MatrixKind kind_ = MatrixKind::general;
   int size_ = 0;
-  std::vector<Interval> columns_;  // one after another
+  std::vector<Interval> columns_;                                               // one after another
+  mutable std::array<std::shared_ptr<const detail::RegularMatrix>, 2> proofs_;  // of M, of Mᵀ
 };
 
-/// Cut by cut as intervals, each cut inside the one below it.
+namespace detail {
+
+/// What a fuzzy number or samples consist of: parts of which each system is one of its own, or one for all of them.
+template <class S>
+struct PartsOf;
 template <>
-class LinearSystem<Fuzzy> {
+struct PartsOf<Fuzzy> {
+  using Part = Interval;
+  static constexpr const char* name = "levels";
+  static std::size_t count(const Fuzzy& x) { return x.levels(); }
+  static Interval part(const Fuzzy& x, std::size_t level) { return x.cut(level); }
+};
+template <>
+struct PartsOf<Samples> {
+  using Part = double;
+  static constexpr const char* name = "samples";
+  static std::size_t count(const Samples& x) { return x.size(); }
+  static double part(const Samples& x, std::size_t sample) { return x[sample]; }
+};
+
+/// The larger of two counts of which one is 1, or which are equal; else throws std::invalid_argument.
+std::size_t commonCount(std::size_t a, std::size_t b, const char* of);
+
+template <class S>
+class SystemOfParts {
  public:
-  LinearSystem() = default;
-  LinearSystem(MatrixKind kind, int size, const std::vector<Fuzzy>& entries) {
-    detail::requireSquare(size, entries.size());
-    assign(kind, size, [&](int i, int j) -> const Fuzzy& { return entries[detail::at(i * size + j)]; });
+  SystemOfParts() = default;
+  SystemOfParts(MatrixKind kind, int size, const std::vector<S>& entries) {
+    requireSquare(size, entries.size());
+    assign(kind, size, [&](int i, int j) -> const S& { return entries[at(i * size + j)]; });
   }
 
   template <class Entry>
   void assign(MatrixKind kind, int size, Entry entry) {
-    std::size_t levels = 1;
+    std::size_t count = 1;
     for (int i = 0; i < size; ++i)
-      for (int j = 0; j < size; ++j) levels = commonLevels(levels, entry(i, j).levels());
-    cuts_.resize(levels);
-    for (std::size_t level = 0; level < levels; ++level)
-      cuts_[level].assign(kind, size, [&](int i, int j) { return entry(i, j).cut(level); });
+      for (int j = 0; j < size; ++j) count = commonCount(count, Parts::count(entry(i, j)), Parts::name);
+    systems_.resize(count);
+    for (std::size_t k = 0; k < count; ++k)
+      systems_[k].assign(kind, size, [&](int i, int j) { return Parts::part(entry(i, j), k); });
   }
 
-  void solve(std::span<Fuzzy> x, bool transposed = false) const;
+  void solve(std::span<S> x, bool transposed = false) const;
 
  private:
-  /// Throws std::invalid_argument for two different numbers of levels, none of them 1.
-  static std::size_t commonLevels(std::size_t a, std::size_t b);
+  using Parts = PartsOf<S>;
 
-  std::vector<LinearSystem<Interval>> cuts_;  // one if all entries are crisp
+  std::vector<LinearSystem<typename Parts::Part>> systems_;  // one if all entries are
+};
+
+}  // namespace detail
+
+/// Cut by cut as intervals, each cut inside the one below it.
+template <>
+class LinearSystem<Fuzzy> : public detail::SystemOfParts<Fuzzy> {
+  using SystemOfParts::SystemOfParts;
 };
 
 /// Sample by sample as doubles.
 template <>
-class LinearSystem<Samples> {
- public:
-  LinearSystem() = default;
-  LinearSystem(MatrixKind kind, int size, const std::vector<Samples>& entries) {
-    detail::requireSquare(size, entries.size());
-    assign(kind, size, [&](int i, int j) -> const Samples& { return entries[detail::at(i * size + j)]; });
-  }
-
-  template <class Entry>
-  void assign(MatrixKind kind, int size, Entry entry) {
-    std::size_t samples = 1;
-    for (int i = 0; i < size; ++i)
-      for (int j = 0; j < size; ++j) samples = commonSize(samples, entry(i, j).size());
-    samples_.resize(samples);
-    for (std::size_t sample = 0; sample < samples; ++sample)
-      samples_[sample].assign(kind, size, [&](int i, int j) { return entry(i, j)[sample]; });
-  }
-
-  void solve(std::span<Samples> x, bool transposed = false) const;
-
- private:
-  /// Throws std::invalid_argument for two different numbers of samples, none of them 1.
-  static std::size_t commonSize(std::size_t a, std::size_t b);
-
-  std::vector<LinearSystem<double>> samples_;  // one if all entries are constants
+class LinearSystem<Samples> : public detail::SystemOfParts<Samples> {
+  using SystemOfParts::SystemOfParts;
 };
 
 /// Parts that no known non-zero entry connects are systems of their own; one or two equations are written out by

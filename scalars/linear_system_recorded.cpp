@@ -11,8 +11,6 @@ using detail::at;
 
 constexpr int writtenOut = 2;  // equations
 
-bool isZero(const Recorded& x) { return Recorder::current()->isExactly(x.node(), 0.0); }
-
 }  // namespace
 
 LinearSystem<Recorded>::LinearSystem(MatrixKind kind, int size, std::vector<Recorded> entries)
@@ -29,7 +27,7 @@ LinearSystem<Recorded>::LinearSystem(MatrixKind kind, int size, std::vector<Reco
     taken[at(first)] = 1;
     for (std::size_t next = 0; next < rows.size(); ++next)
       for (int j = 0; j < size; ++j)
-        if (taken[at(j)] == 0 && !(isZero(entry(rows[next], j)) && isZero(entry(j, rows[next])))) {
+        if (taken[at(j)] == 0 && !(isKnownZero(entry(rows[next], j)) && isKnownZero(entry(j, rows[next])))) {
           rows.push_back(j);
           taken[at(j)] = 1;
         }

@@ -10,24 +10,52 @@ namespace gamut {
 
 std::string_view nameOf(Op op) {
   static constexpr std::array<std::string_view, opCount> names{
-      "state", "parameter", "time", "constant", "add",  "sub", "neg", "mul",     "sqr",
-      "recip", "sqrt",      "exp",  "log",      "atan", "sin", "cos", "solution"};
+      "state", "parameter", "time", "constant", "add", "sub", "neg",  "mul",   "sqr",     "recip",
+      "sqrt",  "exp",       "log",  "atan",     "sin", "cos", "tanh", "sech2", "solution"};
   return names[static_cast<std::size_t>(op)];
 }
 
-int factorisationOperations(MatrixKind kind, int size) {
-  int count = 0;
-  // The inverse of a pivot, its column times that, then the rest updated: a triangle of it if it is symmetric.
-  for (int rest = size - 1; rest >= 0; --rest)
-    count += 1 + rest + (kind == MatrixKind::positiveDefinite ? rest * (rest + 1) : 2 * rest * rest);
+namespace detail {
+
+/// Elimination of what may be no zero. Of LDLᵀ: column k of L has the rows that are there below k, and fills in where
+/// two of them meet. Of LU any row that has an entry in column k may be the pivot: all of them become what they have
+/// together (the row merge of A. George and E. Ng, 1987), and one of them goes.
+SolvingOperations solvingOperations(const NodeTable& table, const LinearMatrix& matrix) {
+  const int n = matrix.size;
+  std::vector<char> isThere;
+  for (int entry : matrix.entries) {
+    const Node& node = table.nodes[at(entry)];
+    const bool isZero = node.op == Op::constant && isEqual(table.constants[at(node.a)], 0.0);
+    isThere.push_back(!isZero);
+  }
+  const auto there = [&](int i, int j) -> char& { return isThere[at(i * n + j)]; };
+  const bool isGeneral = matrix.kind == MatrixKind::general;
+  const int entries = static_cast<int>(std::count(isThere.begin(), isThere.end(), 1));
+  std::vector<char> isOpen(at(n), 1);  // rows that have not been pivots
+  SolvingOperations count;
+  for (int k = 0; k < n; ++k) {
+    std::vector<int> rows, columns;  // of the entries below the pivot, and right of it
+    for (int i = isGeneral ? 0 : k + 1; i < n; ++i)
+      if (isOpen[at(i)] != 0 && there(i, k) != 0) rows.push_back(i);
+    const auto isInRow = [&](int j) {
+      return std::any_of(rows.begin(), rows.end(), [&](int i) { return there(i, j) != 0; });
+    };
+    for (int j = k + 1; j < n && isGeneral; ++j)
+      if (isInRow(j)) columns.push_back(j);
+    if (!isGeneral) columns = rows;
+    for (int i : rows)
+      for (int j : columns) there(i, j) = 1;
+    if (isGeneral && !rows.empty()) isOpen[at(rows.back())] = 0, rows.pop_back();
+    const int below = static_cast<int>(rows.size()), right = static_cast<int>(columns.size());
+    // The inverse of the pivot, its column times that, then the rest updated: a triangle of it if it is symmetric.
+    count.factorisation += 1 + below + (isGeneral ? 2 * below * right : below * (below + 1));
+    count.solution += 2 * below + 2 * right + 1;  // a multiplication and a subtraction an entry, and the diagonal
+  }
+  if (isGeneral) count.solution = 2 * count.solution + 2 * entries + n;  // residual and correction
   return count;
 }
 
-int solutionOperations(MatrixKind kind, int size) {
-  const int once =
-      size * (2 * size - 1);  // two triangles, a multiplication and a subtraction an entry, and the diagonal
-  return kind == MatrixKind::positiveDefinite ? once : 2 * once + 2 * size * size + size;  // residual and correction
-}
+}  // namespace detail
 
 int Program::operations() const {
   int count = 0;
@@ -41,9 +69,10 @@ int Program::operations() const {
       const LinearMatrix& matrix = matrices()[m];
       const bool varies =
           std::any_of(matrix.entries.begin(), matrix.entries.end(), [&](int entry) { return !isInvariant(entry); });
-      if (varies && isFactorised[m] == 0) count += factorisationOperations(matrix.kind, matrix.size);
+      const detail::SolvingOperations solving = detail::solvingOperations(table(), matrix);
+      if (varies && isFactorised[m] == 0) count += solving.factorisation;
       isFactorised[m] = 1;
-      count += solutionOperations(matrix.kind, matrix.size);
+      count += solving.solution;
     }
   }
   return count;

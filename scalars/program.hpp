@@ -33,6 +33,8 @@ enum class Op : std::uint8_t {
   atan,       ///< arc tangent of a; b is the node 1 + a*a, the denominator of its derivative
   sin,        ///< sine of a; the next node is always the cosine of the same a
   cos,        ///< cosine of a; the node before is always the sine of the same a
+  tanh,       ///< hyperbolic tangent of a; the next node is always the sech2 of the same a
+  sech2,      ///< 1 - tanh² a, the derivative of tanh; the node before is always the tanh of the same a
   solution,   ///< component b of solutions()[a]; the components are nodes in a row, component 0 first
 };
 
@@ -50,6 +52,12 @@ constexpr bool isOperation(Op op) {
 constexpr int operandsOf(Op op) {
   return !isOperation(op) || op == Op::solution ? 0 : op == Op::add || op == Op::sub || op == Op::mul ? 2 : 1;
 }
+
+/// The operation of the node that always follows one of `op`, on the same operand, and is computed with it; `op` itself
+/// if there is none.
+constexpr Op twinOf(Op op) { return op == Op::sin ? Op::cos : op == Op::tanh ? Op::sech2 : op; }
+/// True for the second of such a pair.
+constexpr bool isTwin(Op op) { return op == Op::cos || op == Op::sech2; }
 
 struct Node {
   Op op;
@@ -84,10 +92,6 @@ struct LinearSolution {
   bool operator==(const LinearSolution&) const = default;
 };
 
-/// Multiplications, divisions, additions and subtractions of a factorisation (LDLᵀ or LU), and of a solution by it.
-int factorisationOperations(MatrixKind kind, int size);
-int solutionOperations(MatrixKind kind, int size);
-
 namespace detail {
 
 /// Nodes and what they refer to, one after another as they are written.
@@ -97,6 +101,14 @@ struct NodeTable {
   std::vector<LinearMatrix> matrices;
   std::vector<LinearSolution> solutions;
 };
+
+/// Multiplications, divisions, additions and subtractions of a factorisation (LDLᵀ or LU), and of a solution by it,
+/// with numbers that are not known to be zero: exact for LDLᵀ, which has no choice of pivots; of LU no fewer than with
+/// any pivots. (Evaluators that solve densely compute with the zeros as well.)
+struct SolvingOperations {
+  int factorisation = 0, solution = 0;
+};
+SolvingOperations solvingOperations(const NodeTable& table, const LinearMatrix& matrix);
 
 /// visit(node) for every node from which node i's value is computed, log's and atan's denominators included. Component
 /// 0 of a solution has the operands of the whole, the others have component 0.
@@ -116,14 +128,14 @@ void forEachOperand(const NodeTable& table, int i, Visit visit) {
   }
 }
 
-/// visit(node) for every node that belongs together with node i, i itself included: a sine and its cosine, the
-/// components of a solution. One is never there without the others.
+/// visit(node) for every node that belongs together with node i, i itself included: a sine and its cosine, a tanh and
+/// its sech2, the components of a solution. One is never there without the others.
 template <class Visit>
 void forEachTwin(const NodeTable& table, int i, Visit visit) {
   const Node& n = table.nodes[at(i)];
   int first = i, count = 1;
-  if (n.op == Op::sin) count = 2;
-  if (n.op == Op::cos) first = i - 1, count = 2;
+  if (twinOf(n.op) != n.op) count = 2;
+  if (isTwin(n.op)) first = i - 1, count = 2;
   if (n.op == Op::solution) first = i - n.b, count = static_cast<int>(table.solutions[at(n.a)].rightSide.size());
   for (int k = 0; k < count; ++k) visit(first + k);
 }
@@ -151,7 +163,7 @@ class Program {
   /// True if the node's value depends neither on time nor on a state: it is evaluated once for given parameters.
   bool isInvariant(int node) const { return invariant_[detail::at(node)] != 0; }
   /// Number of operations of one evaluation: nodes that are neither inputs nor constants nor invariant, and in place of
-  /// a solution's nodes the arithmetic of solving.
+  /// a solution's nodes the arithmetic of solving (detail::solvingOperations).
   int operations() const;
 
   /// forwardDifferentiated(*this, withParameters) of differentiation.hpp: the m outputs, then the Jacobian.

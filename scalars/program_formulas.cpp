@@ -188,6 +188,8 @@ class Printer {
         return {operand(n.a, atom) + "^2", power};
       case Op::recip:
         return {"1 / " + operand(n.a, power), product};
+      case Op::sech2:
+        return {"sech(" + formulas_[at(n.a)].text + ")^2", power};
       default:
         return {std::string(nameOf(n.op)) + '(' + formulas_[at(n.a)].text + ')'};
     }

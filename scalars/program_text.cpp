@@ -111,6 +111,12 @@ class Lines {
   int number_ = 0;
 };
 
+/// True for an operation that another always follows.
+bool awaitsTwin(Op op) { return twinOf(op) != op; }
+std::string pairText(Op op) {
+  return op == Op::sin ? "a sine is followed by its cosine" : "a tanh is followed by its sech2";
+}
+
 /// What has been read so far; every node in it may be relied on.
 struct Parts : detail::NodeList {
   int states = 0, parameters = 0;
@@ -224,7 +230,7 @@ void readNode(Lines& lines, Parts& parts) {
   const int number = static_cast<int>(parts.nodes.size());
   auto words = lines.words("node " + std::to_string(number));
   const bool isNext =
-      !inputAt(parts, number).empty() || parts.nodes.back().op == Op::sin || missingComponents(parts) > 0;
+      !inputAt(parts, number).empty() || awaitsTwin(parts.nodes.back().op) || missingComponents(parts) > 0;
   const bool hasMatrix = parts.hasSystems && words[0] == "matrix" && !isNext;
   if (hasMatrix) {
     readMatrix(lines, parts);
@@ -251,8 +257,8 @@ void readNode(Lines& lines, Parts& parts) {
     return;
   }
   const Node before = parts.nodes.back();
-  if (before.op == Op::sin && *op != Op::cos)
-    lines.fail("a sine is followed by its cosine, not by " + quoted(words[1]));
+  if (awaitsTwin(before.op) && *op != twinOf(before.op))
+    lines.fail(pairText(before.op) + ", not by " + quoted(words[1]));
   if (*op == Op::constant) {
     parts.constants.push_back(readConstant(lines, words));
     parts.push({Op::constant, static_cast<int>(parts.constants.size()) - 1});
@@ -261,8 +267,9 @@ void readNode(Lines& lines, Parts& parts) {
   if (*op == Op::solution) return readSolution(lines, hasMatrix, parts);
   if (!isOperation(*op)) lines.fail("inputs come before all other nodes, not " + quoted(lines.text()));
   const Node node = readOperation(lines, words, *op, parts);
-  if (*op == Op::cos && (before.op != Op::sin || before.a != node.a))
-    lines.fail("a cosine follows the sine of the same node, not " + quoted(lines.text()));
+  if (isTwin(*op) && (twinOf(before.op) != *op || isTwin(before.op) || before.a != node.a))
+    lines.fail((*op == Op::cos ? "a cosine follows the sine" : "a sech2 follows the tanh") +
+               std::string(" of the same node, not ") + quoted(lines.text()));
   parts.push(node);
 }
 
@@ -278,7 +285,7 @@ Program assembled(const Parts& parts, const std::vector<int>& outputs) {
       if (detail::at(solution.matrix) == recorder.table().matrices.size())
         recorder.matrix(parts.matrices[detail::at(solution.matrix)]);
       recorder.solve(solution.matrix, solution.transposed, solution.rightSide);
-    } else if (n.op != Op::cos && n.op != Op::solution) {  // these come with their sines and first components
+    } else if (!isTwin(n.op) && n.op != Op::solution) {  // these come with the first of their pairs and components
       recorder.emit(n.op, n.a, n.b);
     }
   }
@@ -344,7 +351,8 @@ Program loadProgram(std::istream& in) {
     lines.fail("at least " + std::to_string(inputs) + " nodes are expected, one for each input, not " +
                std::to_string(nodes));
   for (int i = 0; i < nodes; ++i) readNode(lines, parts);
-  if (parts.nodes.back().op == Op::sin) lines.fail("a sine is followed by its cosine, not by the end of the nodes");
+  if (const Op last = parts.nodes.back().op; awaitsTwin(last))
+    lines.fail(pairText(last) + ", not by the end of the nodes");
   if (missingComponents(parts) > 0)
     lines.fail("component " + std::to_string(parts.nodes.back().b + 1) + " is expected, not the end of the nodes");
   const int outputCount = lines.count("outputs");

@@ -11,7 +11,7 @@
 //   3 time
 //   4 constant -0x1.39eb851eb851fp+3 -0x1.39eb851eb851ep+3     both ends of the enclosure, in hexadecimal: exact
 //   5 sin 0
-//   6 cos 0                    every sine is followed by its cosine
+//   6 cos 0                    every sine is followed by its cosine, every tanh by its sech2
 //   7 mul 4 5
 //   outputs 2
 //   1

@@ -29,7 +29,6 @@ Recorded atan2(const Recorded& y, const Recorded& x) { return 2.0 * atan(y / (x 
 
 Recorded sinh(const Recorded& x) { return 0.5 * (exp(x) - exp(-x)); }
 Recorded cosh(const Recorded& x) { return 0.5 * (exp(x) + exp(-x)); }
-Recorded tanh(const Recorded& x) { return 1.0 - 2.0 / (exp(2.0 * x) + 1.0); }
 
 Recorded asinh(const Recorded& x) { return log(x + sqrt(sqr(x) + 1.0)); }
 Recorded acosh(const Recorded& x) { return log(x + sqrt(sqr(x) - 1.0)); }

@@ -88,6 +88,7 @@ class Recorded {
   friend Recorded sin(const Recorded& a) { return node(recorder().sin(a.node())); }
   friend Recorded cos(const Recorded& a) { return node(recorder().cos(a.node())); }
   friend Recorded atan(const Recorded& a) { return node(recorder().atan(a.node())); }
+  friend Recorded tanh(const Recorded& a) { return node(recorder().tanh(a.node())); }
 
   // What is composed of these, by formulas that hold exactly on the domains given: at the boundary of a domain that is
   // written open, and at a pole, evaluation divides by zero. log 2, log 10 and atan 1 are recorded as such, not as
@@ -107,8 +108,6 @@ class Recorded {
   friend Recorded sinh(const Recorded& x);
   /// ½(eˣ + e⁻ˣ).
   friend Recorded cosh(const Recorded& x);
-  /// 1 - 2/(e²ˣ + 1); in doubles digits are lost near x = 0.
-  friend Recorded tanh(const Recorded& x);
   /// log(x + √(x²+1)), for all x; in doubles digits are lost near x = 0 and where x is large and negative.
   friend Recorded asinh(const Recorded& x);
   /// log(x + √(x²-1)), for x >= 1 (differentiable for x > 1); in doubles digits are lost near x = 1.
@@ -167,6 +166,25 @@ template <>
 struct ScalarTraits<Recorded> {
   static Recorded constant(const Interval& value) { return Recorded(value); }
 };
+
+/// True only if x is the number 0 whatever the inputs are: known while recording, never asked of a value. Terms that
+/// are known zeros may be left out; the result is the same number with or without them.
+template <class S>
+bool isKnownZero(const S&) {
+  return false;
+}
+inline bool isKnownZero(const Recorded& x) { return Recorder::current()->isExactly(x.node(), 0.0); }
+
+/// True only if x is a number other than 0 whatever the inputs are.
+template <class S>
+bool isKnownNonzero(const S&) {
+  return false;
+}
+inline bool isKnownNonzero(const Recorded& x) {
+  const Recorder* recorder = Recorder::current();
+  const int node = x.node();
+  return recorder->isConstant(node) && !contains(recorder->value(node), 0.0);
+}
 
 /// Makes `recorder` the one that this thread's Recorded numbers write to, for the life of the guard.
 class RecordingGuard {

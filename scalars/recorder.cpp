@@ -150,13 +150,13 @@ int Recorder::rewritten(Op op, int a, int b) {
 }
 
 int Recorder::push(Op op, int a, int b) {
-  const bool isPair = op == Op::sin;
+  const bool isPair = twinOf(op) != op;
   const auto append = [&] {
     list_.push({op, a, b});
-    if (isPair) list_.push({Op::cos, a, b});  // right behind its sine: both are new or both are known
+    if (isPair) list_.push({twinOf(op), a, b});  // right behind: both are new or both are known
     return size() - (isPair ? 2 : 1);
   };
-  if (!rules_.has(isPair ? RuleGroup::pairSinCos : RuleGroup::mergeEqual)) return append();
+  if (!rules_.has(op == Op::sin ? RuleGroup::pairSinCos : RuleGroup::mergeEqual)) return append();
   // One order for a + b and b + a; a constant factor comes first.
   if (op == Op::add || (op == Op::mul && isConstant(a) == isConstant(b))) std::tie(a, b) = std::minmax({a, b});
   if (op == Op::mul && !isConstant(a) && isConstant(b)) std::swap(a, b);
@@ -166,8 +166,8 @@ int Recorder::push(Op op, int a, int b) {
 
 int Recorder::emit(Op op, int a, int b) {
   if (op == Op::solution) throw std::invalid_argument("a solution is recorded by solve(), not by emit()");
-  if (op == Op::sin) return sinCos(a).first;
-  if (op == Op::cos) return sinCos(a).second;
+  if (twinOf(op) != op) return pair(op, a).first;
+  if (isTwin(op)) return pair(op == Op::cos ? Op::sin : Op::tanh, a).second;
   if (op == Op::atan && !list_.isOnePlusSquare(b, a)) return atan(a);
   const int node = rewritten(op, a, b);
   return node >= 0 ? node : push(op, a, b);
@@ -197,11 +197,11 @@ int Recorder::atan(int a) {
   return push(Op::atan, a, add(constant(Interval(1.0)), square));
 }
 
-std::pair<int, int> Recorder::sinCos(int a) {
-  const int sine = rewritten(Op::sin, a, -1), cosine = rewritten(Op::cos, a, -1);
-  if (sine >= 0 && cosine >= 0) return {sine, cosine};
-  const int pair = push(Op::sin, a, -1);
-  return {sine >= 0 ? sine : pair, cosine >= 0 ? cosine : pair + 1};
+std::pair<int, int> Recorder::pair(Op op, int a) {
+  const int first = rewritten(op, a, -1), second = rewritten(twinOf(op), a, -1);
+  if (first >= 0 && second >= 0) return {first, second};
+  const int both = push(op, a, -1);
+  return {first >= 0 ? first : both, second >= 0 ? second : both + 1};
 }
 
 int Recorder::matrix(LinearMatrix matrix) {
@@ -249,7 +249,7 @@ std::vector<int> Recorder::append(const Program& program) {
     for (int& node : nodes) node = here[at(node)];
     return nodes;
   };
-  int cosine = -1;
+  int twin = -1;
   matrices.assign(program.matrices().size(), -1);
   for (const Node& n : program.nodes()) {
     if (n.op == Op::solution) {
@@ -277,14 +277,16 @@ std::vector<int> Recorder::append(const Program& program) {
       case Op::constant:
         here.push_back(constant(program.constants()[at(n.a)]));
         break;
-      case Op::sin: {
-        const auto [s, c] = sinCos(a);
-        here.push_back(s);
-        cosine = c;
+      case Op::sin:
+      case Op::tanh: {
+        const auto [first, second] = pair(n.op, a);
+        here.push_back(first);
+        twin = second;
         break;
       }
       case Op::cos:
-        here.push_back(cosine);
+      case Op::sech2:
+        here.push_back(twin);
         break;
       default:
         here.push_back(emit(n.op, a, b));

@@ -91,9 +91,11 @@ class Recorder {
   int sqrt(int a);
   int log(int a);
   int atan(int a);
-  int sin(int a) { return sinCos(a).first; }
-  int cos(int a) { return sinCos(a).second; }
-  std::pair<int, int> sinCos(int a);
+  int sin(int a) { return pair(Op::sin, a).first; }
+  int cos(int a) { return pair(Op::sin, a).second; }
+  int tanh(int a) { return pair(Op::tanh, a).first; }
+  /// Operation `op` on a, and its twin: sine and cosine, tanh and sech2.
+  std::pair<int, int> pair(Op op, int a);
 
   /// The number of a matrix; equal ones are one if equal work is merged.
   int matrix(LinearMatrix matrix);

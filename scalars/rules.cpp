@@ -223,6 +223,19 @@ constexpr Rule table[] = {
      [](Recorder& r, int a, int) { return r.isExactly(a, 0) ? r.constant(1.0) : none; }},
     {Op::cos, moveSigns, "cos(-x) = cos x", everywhere,
      [](Recorder& r, int a, int) { return isOf(r, a, Op::neg) ? r.cos(r.signless(a).node) : none; }},
+
+    {Op::tanh, foldConstants, "tanh 0 = 0", everywhere,
+     [](Recorder& r, int a, int) { return r.isExactly(a, 0) ? a : none; }},
+    {Op::tanh, moveSigns, "tanh(-x) = -tanh x", everywhere,
+     [](Recorder& r, int a, int) {
+       if (!isOf(r, a, Op::neg)) return none;
+       const auto [x, isNegative] = r.signless(a);
+       return withSign(r, isNegative, r.tanh(x));
+     }},
+    {Op::sech2, foldConstants, "sech² 0 = 1", everywhere,
+     [](Recorder& r, int a, int) { return r.isExactly(a, 0) ? r.constant(1.0) : none; }},
+    {Op::sech2, moveSigns, "sech²(-x) = sech² x", everywhere,
+     [](Recorder& r, int a, int) { return isOf(r, a, Op::neg) ? r.emit(Op::sech2, r.signless(a).node) : none; }},
 };
 
 /// Where the rules of an operation begin and end in the table.

@@ -50,6 +50,15 @@ void callFunction(TapeOp op, std::span<const double> a, std::span<double> result
 
 constexpr int triangular(int i, int j) { return i * (i + 1) / 2 + j; }
 
+/// Both results of the instruction; its operand may lie where either goes.
+void callTanh(std::span<const double> a, std::span<double> result, std::span<double> slope) {
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const double t = std::tanh(a[i]);
+    slope[i] = 1.0 - t * t;
+    result[i] = t;
+  }
+}
+
 #define GAMUT_FOR_GROUP _Pragma("GCC unroll 4") for (int j = 0; j < Group<V>::size; ++j)
 
 /// Vectors side by side, whose operations the processor overlaps: those of one wait for one another.
@@ -181,6 +190,10 @@ GAMUT_INLINE void runBlock(const PackRun& pack, const Instruction* i, const Inst
         continue;
       case TapeOp::sineCosine:
         sineCosine(pack.unit, span(a), span(result), span(b));
+        GAMUT_FOR_BLOCK acc[j] = V{};
+        continue;
+      case TapeOp::hyperbolicTangent:
+        callTanh(span(a), span(result), span(b));
         GAMUT_FOR_BLOCK acc[j] = V{};
         continue;
       case TapeOp::factorise:

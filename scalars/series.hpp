@@ -75,7 +75,7 @@ class Series {
   }
 
   void compute(int node, int i) {
-    using std::atan, std::cos, std::exp, std::log, std::sin, std::sqrt;
+    using std::atan, std::cos, std::exp, std::log, std::sin, std::sqrt, std::tanh;
     const Node& n = program_->nodes()[detail::at(node)];
     const S k(static_cast<double>(i));
     switch (n.op) {
@@ -125,10 +125,15 @@ class Series {
         at(node, i) = i == 0 ? S(sin(at(n.a, 0))) : S(weighted(n.a, node + 1, i, i) / k);
         at(node + 1, i) = i == 0 ? S(cos(at(n.a, 0))) : S(-weighted(n.a, node, i, i) / k);
         break;
+      case Op::tanh:  // t' = a' s; s = 1 - t² is computed with it
+        at(node, i) = i == 0 ? S(tanh(at(n.a, 0))) : S(weighted(n.a, node + 1, i, i) / k);
+        at(node + 1, i) = i == 0 ? S(S(1.0) - square(at(node, 0))) : S(-convolution(node, node, i, 0, i));
+        break;
       case Op::solution:
         if (n.b == 0) computeSolution(node, i);
         break;
       case Op::cos:
+      case Op::sech2:
         break;
     }
   }

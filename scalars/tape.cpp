@@ -32,10 +32,15 @@ TapeOp unary(Op op) {
       return TapeOp::logarithm;
     case Op::atan:
       return TapeOp::arcTangent;
+    case Op::tanh:
+      return TapeOp::hyperbolicTangent;
     default:
       return TapeOp::sineCosine;
   }
 }
+
+/// A second result goes to slot b.
+bool hasTwin(TapeOp op) { return op == TapeOp::sineCosine || op == TapeOp::hyperbolicTangent; }
 
 bool usesB(TapeOp op) {
   return op == TapeOp::sum || op == TapeOp::difference || op == TapeOp::product || op == TapeOp::plusProduct ||
@@ -80,9 +85,10 @@ class TapeWriter {
   const LinearSolution& solution(int i) const { return program_.solutions()[at(node(i).a)]; }
   const LinearMatrix& matrix(int m) const { return program_.matrices()[at(m)]; }
 
-  /// The node whose step computes node i: a cosine comes from its sine's, a component with component 0.
+  /// The node whose step computes node i: a cosine comes from its sine's, a sech2 from its tanh's, a component with
+  /// component 0.
   int source(int i) const {
-    if (node(i).op == Op::cos) return i - 1;
+    if (isTwin(node(i).op)) return i - 1;
     return node(i).op == Op::solution ? i - node(i).b : i;
   }
 
@@ -353,14 +359,14 @@ class TapeWriter {
       } else if (chain.back().op == TapeOp::factorise) {
         const LinearMatrix& of = matrix(step.id - count());
         chain.back().result = system_[at(step.id - count())] = static_cast<int>(tape_.systems_.size());
-        tape_.systems_.push_back({of.kind, of.size, reads});
+        tape_.systems_.push_back({of.kind, of.size, reads, detail::solvingOperations(program_.table(), of)});
       } else {
         for (std::size_t part = 0; part < chain.size(); ++part)
           chain[part].a = reads[2 * part], chain[part].b = reads[2 * part + 1];
         chain.back().result = slot_[at(step.id)];
-        if (chain.back().op == TapeOp::sineCosine) chain.back().b = slot_[at(step.id + 1)];
+        if (hasTwin(chain.back().op)) chain.back().b = slot_[at(step.id + 1)];
       }
-      for (int i : step.results)  // a sine without its cosine, or the reverse: the other is never read
+      for (int i : step.results)  // a sine without its cosine, say, or the reverse: the other is never read
         if (last[at(i)] < 0 && slot_[at(i)] >= tape_.keptSlots_) free.push_back(slot_[at(i)]);
       written.insert(written.end(), chain.begin(), chain.end());
     }
@@ -389,13 +395,11 @@ Tape::Tape(const Program& program) : states_(program.states()), parameters_(prog
 int Tape::operations() const {
   int operations = 0;
   for (const Instruction& i : instructions_) {
-    const bool isTwo = i.op == TapeOp::plusProduct || i.op == TapeOp::minusProduct || i.op == TapeOp::sineCosine;
+    const bool isTwo = i.op == TapeOp::plusProduct || i.op == TapeOp::minusProduct || hasTwin(i.op);
     if (i.op == TapeOp::factorise) {
-      const TapeSystem& system = systems_[at(i.result)];
-      operations += factorisationOperations(system.kind, system.size);
+      operations += systems_[at(i.result)].operations.factorisation;
     } else if (i.op == TapeOp::solution) {
-      const TapeSystem& system = systems_[at(solutions_[at(i.result)].system)];
-      operations += solutionOperations(system.kind, system.size);
+      operations += systems_[at(solutions_[at(i.result)].system)].operations.solution;
     } else {
       operations += i.op == TapeOp::value ? 0 : isTwo ? 2 : 1;
     }
@@ -404,10 +408,25 @@ int Tape::operations() const {
 }
 
 std::ostream& operator<<(std::ostream& out, const Tape& tape) {
-  static const char* const names[] = {"value",      "sum",         "difference",   "product",   "plus",
-                                      "minus",      "plusProduct", "minusProduct", "negative",  "square",
-                                      "reciprocal", "squareRoot",  "exponential",  "logarithm", "arcTangent",
-                                      "sineCosine", "factorise",   "solution"};
+  static const char* const names[] = {"value",
+                                      "sum",
+                                      "difference",
+                                      "product",
+                                      "plus",
+                                      "minus",
+                                      "plusProduct",
+                                      "minusProduct",
+                                      "negative",
+                                      "square",
+                                      "reciprocal",
+                                      "squareRoot",
+                                      "exponential",
+                                      "logarithm",
+                                      "arcTangent",
+                                      "sineCosine",
+                                      "hyperbolicTangent",
+                                      "factorise",
+                                      "solution"};
   out << "tape: " << tape.states() << " states, " << tape.parameters() << " parameters, " << tape.outputs()
       << " outputs, " << tape.operations() << " operations, " << tape.slots() << " slots (" << tape.keptSlots()
       << " kept)\n";
@@ -439,7 +458,7 @@ std::ostream& operator<<(std::ostream& out, const Tape& tape) {
       out << " s" << i.a;
       if (usesB(i.op)) out << " s" << i.b;
       if (i.stores) out << " -> s" << i.result;
-      if (i.op == TapeOp::sineCosine) out << " s" << i.b;
+      if (hasTwin(i.op)) out << " s" << i.b;
       out << '\n';
     }
   };

@@ -34,9 +34,10 @@ enum class TapeOp : std::uint8_t {
   exponential,
   logarithm,
   arcTangent,
-  sineCosine,  ///< acc = sin a, and cos a goes to slot b
-  factorise,   ///< the matrix of system number `result`, for the solutions that follow
-  solution,    ///< solution number `result`; neither of the two reads or leaves an accumulator
+  sineCosine,         ///< acc = sin a, and cos a goes to slot b
+  hyperbolicTangent,  ///< acc = tanh a, and 1 - acc² goes to slot b
+  factorise,          ///< the matrix of system number `result`, for the solutions that follow
+  solution,           ///< solution number `result`; neither of the two reads or leaves an accumulator
 };
 
 struct Instruction {
@@ -52,6 +53,7 @@ struct TapeSystem {
   MatrixKind kind;
   int size;
   std::vector<std::int32_t> entries;  ///< the slots at the factorisation, row by row
+  detail::SolvingOperations operations;
 
   std::int32_t entry(int i, int j) const { return entries[detail::at(i * size + j)]; }
 };

@@ -127,9 +127,9 @@ class Proof {
   static constexpr int matrices = 6 + !thin, vectors = 4;
 
   /// Room for so many more matrices and vectors of this size.
-  Proof(const DenseView<S>& a, int moreMatrices, int moreVectors)
+  Proof(const DenseView<S>& a, int moreMatrices, int moreVectors, Arena::Life life = Arena::Life::call)
       : n(a.rows()),
-        arena(Dense::padded(n) * ((matrices + moreMatrices) * n + vectors + moreVectors)),
+        arena(Dense::padded(n) * ((matrices + moreMatrices) * n + vectors + moreVectors), life),
         b(arena.dense(n, n)),
         tolerance(arena.dense(n, n)),
         r(arena.dense(n, n)),
@@ -208,6 +208,14 @@ class Proof {
       for (Count i = 0; i < n; ++i) r(i, j) = b(j, i);
       std::fill(r.column(j) + n, r.column(j) + r.stride, 0.0);
     }
+  }
+
+  std::string proveRegular(const DenseView<S>& a) {
+    load(a);
+    scale();
+    tolerate();
+    guess();
+    return contract();
   }
 
   /// G >= |I - R B'|, which is |I - fl(RB)| + |R| T by (1), and its row sums: B' is regular when all are below 1. Then
@@ -291,9 +299,9 @@ class Solver {
  public:
   static constexpr int vectors = 10;
 
-  explicit Solver(Proof<S>& proof) : p(proof), n(p.n) {
+  Solver(const Proof<S>& proof, Arena& arena) : p(proof), n(p.n) {
     for (double** vector : {&x, &step, &rhs, &slack, &residual, &residualError, &magnitude, &sum, &carry, &bound}) {
-      *vector = p.arena.vector(n);
+      *vector = arena.vector(n);
       std::fill_n(*vector, p.b.stride, 0.0);
     }
   }
@@ -305,7 +313,7 @@ class Solver {
     enclose();
     for (Count i = 0; i < n; ++i) {
       const double below = addDown(x[i], subDown(step[i], bound[i])), above = addUp(x[i], addUp(step[i], bound[i]));
-      if (!(bound[i] < p.roundoff.u * largest && above - below < infinity)) {
+      if (!(bound[i] < roundoff.u * largest && above - below < infinity)) {
         return "column " + std::to_string(j) + " of the solution overflows";
       }
       const double scale = p.columnScale[i] * power;
@@ -342,7 +350,7 @@ class Solver {
       findResidual();
       multiply(p.r, residual, step);
       const double moved = greatestMagnitude(step), size = greatestMagnitude(x);
-      if (!(moved > p.roundoff.u * size && moved < 0.5 * last)) return;
+      if (!(moved > roundoff.u * size && moved < 0.5 * last)) return;
       for (Count i = 0; i < n; ++i) x[i] += step[i];
       last = moved;
     }
@@ -363,11 +371,11 @@ class Solver {
       carry[i] = 0;
     }
     for (Count j = 0; j < n; ++j) accumulate(p.b.column(j), x[j], sum, carry, magnitude, p.b.stride);
-    const double u = p.roundoff.u, terms = static_cast<double>(n + 2);
-    const double unit = p.roundoff.nearest ? terms * u * terms * u : terms * u, factor = p.roundoff.factor(n + 6);
+    const double u = roundoff.u, terms = static_cast<double>(n + 2);
+    const double unit = roundoff.nearest ? terms * u * terms * u : terms * u, factor = roundoff.factor(n + 6);
     for (Count i = 0; i < p.b.stride; ++i) {
-      residual[i] = p.roundoff.nearest ? sum[i] + carry[i] : sum[i];
-      const double rounding = p.roundoff.nearest ? u * std::abs(residual[i]) : 0;
+      residual[i] = roundoff.nearest ? sum[i] + carry[i] : sum[i];
+      const double rounding = roundoff.nearest ? u * std::abs(residual[i]) : 0;
       residualError[i] = magnitude[i] < 0.5 * largest ? raise(rounding + unit * magnitude[i], factor) : infinity;
     }
   }
@@ -408,7 +416,7 @@ class Solver {
       for (Count i = 0; i < p.b.stride; ++i) magnitude[i] = std::abs(x[i]);
       multiply(p.deviation, magnitude, w);
     }
-    const double unit = p.roundoff.ofDotProduct(n), factor = p.roundoff.factor(2 * n + 8);
+    const double unit = roundoff.ofDotProduct(n), factor = roundoff.factor(2 * n + 8);
     for (Count i = 0; i < p.b.stride; ++i) {
       w[i] = unlessOverflown(raise(w[i] + slack[i] + residualError[i] + unit * std::abs(residual[i]), factor));
     }
@@ -428,7 +436,8 @@ class Solver {
     return result;
   }
 
-  Proof<S>& p;
+  const Proof<S>& p;
+  const Roundoff roundoff = Roundoff::current();  // the proof may have been made in another mode
   const Count n;
   double *x, *step, *rhs, *slack, *residual, *residualError, *magnitude, *sum, *carry, *bound;
 };
@@ -440,11 +449,7 @@ std::string enclosedInverse(const DenseView<S>& a, Interval* inverse) {
   requireSquare(a);
   if (std::string reason = unusable(a); !reason.empty()) return reason;
   Proof<S> proof(a, 0, 0);
-  proof.load(a);
-  proof.scale();
-  proof.tolerate();
-  proof.guess();
-  if (std::string reason = proof.contract(); !reason.empty()) return reason;
+  if (std::string reason = proof.proveRegular(a); !reason.empty()) return reason;
   proof.writeInverse(inverse);
   return {};
 }
@@ -473,16 +478,32 @@ std::string enclosedSolution(const DenseView<S>& a, const DenseView<B>& b, Inter
   if (std::string reason = unusable(a); !reason.empty()) return reason;
   if (std::string reason = unusable(b); !reason.empty()) return "of the right-hand side " + reason;
   Proof<S> proof(a, 0, Solver<S, B>::vectors);
-  proof.load(a);
-  proof.scale();
-  proof.tolerate();
-  proof.guess();
-  if (std::string reason = proof.contract(); !reason.empty()) return reason;
-  Solver<S, B> solver(proof);
+  if (std::string reason = proof.proveRegular(a); !reason.empty()) return reason;
+  Solver<S, B> solver(proof, proof.arena);
   for (Count j = 0; j < b.cols(); ++j) {
     if (std::string reason = solver.solve(b, j, solution + j * a.rows()); !reason.empty()) return reason;
   }
   return {};
+}
+
+struct RegularMatrix::Parts {
+  explicit Parts(const DenseView<Interval>& a)
+      : proof(a, 0, 0, Arena::Life::longer), isProved(proof.proveRegular(a).empty()) {}
+
+  Proof<Interval> proof;
+  bool isProved;
+};
+
+RegularMatrix::RegularMatrix(const DenseView<Interval>& a) {
+  requireSquare(a);
+  if (unusable(a).empty()) parts_ = std::make_unique<Parts>(a);
+}
+RegularMatrix::~RegularMatrix() = default;
+
+bool RegularMatrix::enclose(const DenseView<Interval>& b, Interval* solution) const {
+  if (!parts_ || !parts_->isProved || !unusable(b).empty()) return false;
+  Arena arena(Dense::padded(b.rows()) * Solver<Interval, Interval>::vectors);
+  return Solver<Interval, Interval>(parts_->proof, arena).solve(b, 0, solution).empty();
 }
 
 /// With P B = L U roughly, X about L^-1 (ones on the diagonal) and Y about U^-1, W = X P B' Y lies near the identity,

@@ -20,6 +20,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -86,6 +87,20 @@ template <class S, class B>
 std::string enclosedSolution(const DenseView<S>& a, const DenseView<B>& b, Interval* solution);
 template <class S>
 std::string enclosedDeterminant(const DenseView<S>& a, Determinant& determinant);
+
+/// A matrix of intervals, proved to be regular once for all its right-hand sides: each is enclosed as by verifiedSolve.
+class RegularMatrix {
+ public:
+  explicit RegularMatrix(const DenseView<Interval>& a);
+  ~RegularMatrix();
+
+  /// The solutions for b, which has one column; false where nothing was proved.
+  bool enclose(const DenseView<Interval>& b, Interval* solution) const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<const Parts> parts_;  // null: unbounded
+};
 
 template <class A>
 concept RealOrIntervalMatrix =

@@ -127,6 +127,25 @@ TEST(Arbiter, StopsBeforeASingularityAndSaysSo) {
   EXPECT_EQ(y.error.size(), 10u);
 }
 
+/// v' = -tanh(1000 v): sinh(1000 v) = sinh(1000 v_0) e^{-1000 t}. Far out all derivatives but the first vanish.
+TEST(Arbiter, AndSeriesInDoublesDoNotStepOverWhatTheirSeriesDoNotKnow) {
+  Motion motion;
+  motion.f = record(1, 0, [](auto, const auto& x, const auto&, auto& dx) { dx[0] = -tanh(1000.0 * x[0]); });
+  motion.g = record(1, 0, 1, [](auto, const auto& x, const auto&, auto& y) { y[0] = x[0]; });
+  motion.times = {0, 0.1, 0.35, 0.395, 0.4, 0.405, 0.41};
+  for (double start : {0.4, 0.05}) {
+    const PreciseTrajectory y = arbitrate(motion, std::array{start});
+    const std::vector<double> doubles = integrateByTaylor(motion, std::array{start});
+    ASSERT_EQ(y.times, motion.times.size()) << y.why;
+    for (std::size_t t = 1; t < motion.times.size(); ++t) {
+      const Wide grown = sinh(1000 * Wide(start)) * exp(-1000 * Wide(motion.times[t]));
+      const Wide exact = log(grown + sqrt(grown * grown + 1)) / 1000;
+      EXPECT_LT(abs(widened(y.values[t]) - exact), Wide(1e-28)) << start << " at " << motion.times[t];
+      EXPECT_LT(abs(Wide(doubles[t]) - exact), Wide(1e-11)) << start << " at " << motion.times[t];
+    }
+  }
+}
+
 TEST(Arbiter, EvaluatesAMotionWithoutStatesDirectly) {
   const PreciseTrajectory y = arbitrate(line().motion, std::array{0.1});
   ASSERT_EQ(y.times, 2u);

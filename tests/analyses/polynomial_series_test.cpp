@@ -38,7 +38,10 @@ const std::vector<std::pair<std::string, Recorded (*)(const Recorded&)>>& bareFu
       {"logarithm", [](const Recorded& x) { return log(x); }},
       {"sine", [](const Recorded& x) { return sin(x); }},
       {"cosine", [](const Recorded& x) { return cos(x); }},
-      {"arcTangent", [](const Recorded& x) { return atan(x); }}};
+      {"arcTangent", [](const Recorded& x) { return atan(x); }},
+      {"hyperbolicTangent", [](const Recorded& x) { return tanh(x); }},
+      {"steepHyperbolicTangent", [](const Recorded& x) { return tanh(7.0 * (x - 1.4)); }},
+      {"saturatedHyperbolicTangent", [](const Recorded& x) { return tanh(-9.0 * x); }}};
   return functions;
 }
 
@@ -200,6 +203,25 @@ TEST(PolynomialSeries, DroppedTermsOfPositiveProductsAreBoundedSharply) {
       const Precise error = x * x * x - kept, bound = Precise(series.rho0(node)) + series.rho1(node);
       EXPECT_LE(error, bound);
       EXPECT_LT(bound, error * (1 + 1e-6));
+    }
+}
+
+/// tanh and its derivative for arguments from -400 to 400, however far they move: there is always a bound, and it
+/// holds.
+TEST(PolynomialSeries, TanhIsBoundedForEveryArgument) {
+  Points points(29);
+  for (double scale : {1.0, 10.0, 100.0, 400.0})
+    for (int round = 0; round < 40; ++round) {
+      const Program f = record(1, 0, [&](auto t, const auto& x, const auto&, auto& dx) {
+        dx[0] = -tanh(scale * x[0]) + 0.5 * tanh(-scale * (x[0] + t));
+      });
+      Setting s = randomSetting(points);
+      s.states = 1;
+      s.parameters = 0;
+      s.size = std::ldexp(1.0, -points.integer(0, 30));
+      const double centre = points.integer(0, 2) == 0 ? points.uniform(-1, 1) / scale : points.uniform(-1, 1);
+      expectCertified(f.differentiated(), s, points, {centre}, 6);
+      if (HasFatalFailure()) return;
     }
 }
 

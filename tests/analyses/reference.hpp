@@ -146,7 +146,7 @@ inline Guarded apply(const std::string& name, Guarded a, Guarded b) {
   if (name == "atan") return {atan(a.value), std::atan(a.nominal)};
   if (name == "asin") return a = small(a), Guarded{asin(a.value), std::asin(a.nominal)};
   if (name == "acos") return a = small(a), Guarded{acos(a.value), std::acos(a.nominal)};
-  if (name == "tanh") return a = small(a), Guarded{tanh(a.value), std::tanh(a.nominal)};
+  if (name == "tanh") return {tanh(a.value), std::tanh(a.nominal)};
   if (name == "sinh") return a = small(a), Guarded{sinh(a.value), std::sinh(a.nominal)};
   return a = positive(a), Guarded{pow(a.value, -1.5), std::pow(a.nominal, -1.5)};
 }

@@ -49,6 +49,7 @@ struct Counted {
   friend Counted log(Counted a) { return ++operations(), std::log(a.value); }
   friend Counted sqrt(Counted a) { return ++operations(), std::sqrt(a.value); }
   friend Counted atan(Counted a) { return ++operations(), std::atan(a.value); }
+  friend Counted tanh(Counted a) { return ++operations(), std::tanh(a.value); }
 };
 
 }  // namespace

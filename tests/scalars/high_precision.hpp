@@ -52,7 +52,7 @@ class RandomExpression {
 
   template <class S>
   std::vector<S> operator()(const S& t, const std::vector<S>& x, const std::vector<S>& p, int outputs) const {
-    using std::atan, std::cos, std::exp, std::log, std::sin, std::sqrt;
+    using std::atan, std::cos, std::exp, std::log, std::sin, std::sqrt, std::tanh;
     std::mt19937_64 engine(seed_);
     const auto integer = [&](int upper) { return static_cast<int>(engine() % static_cast<unsigned>(upper)); };
     std::vector<S> pool{t, S(0.0), S(1.0), S(-1.0), S(2.0), S(0.25), constant<S>(Interval("0.1")), constant<S>(pi())};
@@ -100,7 +100,7 @@ class RandomExpression {
           pool.push_back(cos(-a));
           break;
         case 12:
-          pool.push_back(atan(a));
+          pool.push_back(i % 2 == 0 ? S(atan(a)) : S(tanh(a)));
           break;
         case 13:
           pool.push_back((-a) * (S(0.5) * b));

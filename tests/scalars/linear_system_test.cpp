@@ -233,6 +233,28 @@ TEST(LinearSystem, OfIntervalsHoldsTheSolutionsOfEverySystemInside) {
   EXPECT_GE(bounded, all * 9 / 10);
 }
 
+TEST(LinearSystem, OfIntervalsIsProvedOnceForAllRightHandSidesAndAnewForAnotherMatrix) {
+  RandomDoubles random;
+  LinearSystem<Interval> system;
+  for (int trial = 0; trial < 60; ++trial)
+    for (MatrixKind kind : kinds) {
+      const int n = random.integer(1, 9);
+      Matrix<Interval> m = randomMatrix(kind, n, random).as<Interval>();
+      if (kind == MatrixKind::general)
+        for (Interval& entry : m.entries) entry = entry + 0x1p-12 * Interval(-1, 1);
+      system.assign(kind, n, [&](int i, int j) { return m(i, j); });
+      for (int solve = 0; solve < 6; ++solve) {
+        const std::vector<double> numbers = randomVector(n, random);
+        std::vector<Interval> x(numbers.begin(), numbers.end());
+        const bool transposed = random.integer(0, 1) == 1;
+        const std::vector<Interval> alone = m.solve(x, transposed);
+        system.solve(x, transposed);
+        for (int i = 0; i < n; ++i)
+          ASSERT_TRUE(isEqual(x[detail::at(i)], alone[detail::at(i)])) << "trial " << trial << ", solution " << solve;
+      }
+    }
+}
+
 TEST(LinearSystem, OfThinIntervalsIsTightWhateverTheUnits) {
   RandomDoubles random;
   for (int trial = 0; trial < 50; ++trial)

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numeric>
+#include <random>
 
 #include "scalars/evaluate.hpp"
 #include "tests/scalars/high_precision.hpp"
@@ -160,9 +162,10 @@ TEST(Program, LaysNodesOutAsEvaluatorsExpect) {
     const auto& nodes = program.nodes();
     for (int i = 0; i < static_cast<int>(nodes.size()); ++i) {
       const Node& n = nodes[static_cast<std::size_t>(i)];
-      if (n.op == Op::sin || n.op == Op::cos) {
-        const Node& partner = nodes[static_cast<std::size_t>(n.op == Op::sin ? i + 1 : i - 1)];
-        EXPECT_EQ(partner.op, n.op == Op::sin ? Op::cos : Op::sin);
+      for (const Op first : {Op::sin, Op::tanh}) {
+        if (n.op != first && n.op != twinOf(first)) continue;
+        const Node& partner = nodes[static_cast<std::size_t>(n.op == first ? i + 1 : i - 1)];
+        EXPECT_EQ(partner.op, n.op == first ? twinOf(first) : first);
         EXPECT_EQ(partner.a, n.a);
       }
       if (n.op == Op::log) {
@@ -175,6 +178,86 @@ TEST(Program, LaysNodesOutAsEvaluatorsExpect) {
         EXPECT_EQ(program.isInvariant(i), invariant);
       }
     }
+  }
+}
+
+/// What an elimination with these entries takes; of LU with pivots taken at random.
+detail::SolvingOperations counted(const LinearMatrix& matrix, std::vector<char> isThere, std::mt19937_64& engine) {
+  const int n = matrix.size;
+  const auto there = [&](int i, int j) -> char& { return isThere[detail::at(i * n + j)]; };
+  const bool isGeneral = matrix.kind == MatrixKind::general;
+  detail::SolvingOperations count;
+  const int entries = static_cast<int>(std::count(isThere.begin(), isThere.end(), 1));
+  std::vector<int> open(detail::at(n));
+  std::iota(open.begin(), open.end(), 0);
+  for (int k = 0; k < n; ++k) {
+    if (isGeneral) std::shuffle(open.begin(), open.end(), engine);
+    const auto pivot = std::find_if(open.begin(), open.end(), [&](int i) { return there(i, k) != 0; });
+    if (pivot == open.end()) return {-1, -1};  // singular
+    const int p = *pivot;
+    open.erase(pivot);
+    ++count.factorisation, ++count.solution;
+    for (int j = k + 1; j < n; ++j) count.solution += 2 * there(p, j);
+    for (int i : open) {
+      if (there(i, k) == 0) continue;
+      ++count.factorisation, count.solution += 2;
+      for (int j = k + 1; j < n; ++j) {
+        if (there(p, j) == 0) continue;
+        if (isGeneral || j <= i) count.factorisation += 2;
+        there(i, j) = 1;
+      }
+    }
+  }
+  if (isGeneral) count.solution = 2 * count.solution + 2 * entries + n;
+  return count;
+}
+
+TEST(SolvingOperations, LeaveOutKnownZerosWhateverThePivots) {
+  std::mt19937_64 engine(5);
+  int exact = 0, regular = 0;
+  for (int trial = 0; trial < 400; ++trial) {
+    const int n = 1 + static_cast<int>(engine() % 12), filling = 1 + static_cast<int>(engine() % 4);
+    Recorder r(1, 0);
+    const int zero = r.constant(0.0);
+    LinearMatrix matrix{trial % 2 == 0 ? MatrixKind::general : MatrixKind::positiveDefinite, n, {}};
+    matrix.entries.assign(detail::at(n * n), zero);
+    std::vector<char> isThere(detail::at(n * n), 0);
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j <= i; ++j) {
+        const bool isGeneral = matrix.kind == MatrixKind::general;
+        for (const int k : {i * n + j, j * n + i})
+          if (i == j || (isGeneral || k == i * n + j ? engine() % 4 < static_cast<unsigned>(filling)
+                                                     : isThere[detail::at(i * n + j)] != 0))
+            matrix.entries[detail::at(k)] = 0, isThere[detail::at(k)] = 1;
+      }
+    const detail::SolvingOperations bound = detail::solvingOperations(r.table(), matrix);
+    for (int pivots = 0; pivots < 4; ++pivots) {
+      const detail::SolvingOperations found = counted(matrix, isThere, engine);
+      if (found.factorisation < 0) continue;
+      ++regular;
+      ASSERT_LE(found.factorisation, bound.factorisation) << "trial " << trial;
+      ASSERT_LE(found.solution, bound.solution) << "trial " << trial;
+      const bool isExact = found.factorisation == bound.factorisation && found.solution == bound.solution;
+      if (matrix.kind == MatrixKind::positiveDefinite) {
+        ASSERT_TRUE(isExact) << "trial " << trial;
+      }
+      exact += isExact;
+    }
+  }
+  EXPECT_GT(regular, 1000);
+  EXPECT_GT(exact, regular / 2);
+}
+
+TEST(SolvingOperations, OfABandGrowWithItsLength) {
+  Recorder r(1, 0);
+  const int zero = r.constant(0.0);
+  for (MatrixKind kind : {MatrixKind::general, MatrixKind::positiveDefinite}) {
+    LinearMatrix matrix{kind, 50, std::vector<int>(2500, zero)};
+    for (int i = 0; i < 50; ++i)
+      for (int j = std::max(0, i - 1); j <= std::min(49, i + 1); ++j) matrix.entries[detail::at(50 * i + j)] = 0;
+    const auto [factorisation, solution] = detail::solvingOperations(r.table(), matrix);
+    EXPECT_LT(factorisation, 50 * 10);
+    EXPECT_LT(solution, 50 * 25);
   }
 }
 

@@ -264,6 +264,25 @@ TEST(SavedProgram, IsRefusedWithOneLineThatSaysWhere) {
   for (const auto& [from, to, message] : cases) EXPECT_THAT(refusal(text, from, to), HasSubstr(message)) << text;
 }
 
+TEST(SavedProgram, KeepsTanhAndItsDerivativeTogether) {
+  const Program program = record<1>([](auto x) { return tanh(x[0]); }).differentiated();
+  EXPECT_EQ(printed(program),
+            "1 state, 0 parameters, 2 outputs; 2 operations: 1 tanh, 1 sech2\n"
+            "  y0 = tanh(x0)\n"
+            "  y1 = sech(x0)^2\n");
+  const std::string text = saved(program);
+  EXPECT_TRUE(isIdentical(loaded(text), program)) << text;
+  const std::vector<std::array<std::string, 3>> cases{
+      {"3 sech2 0", "3 cos 0", "program, line 8: a tanh is followed by its sech2, not by 'cos'"},
+      {"3 sech2 0", "3 sech2 1", "program, line 8: a sech2 follows the tanh of the same node, not '3 sech2 1'"},
+      {"2 tanh 0", "2 sin 0", "program, line 8: a sine is followed by its cosine, not by 'sech2'"},
+      {"2 tanh 0", "2 sqr 0", "program, line 8: a sech2 follows the tanh of the same node, not '3 sech2 0'"},
+      {"2 tanh 0", "2 sech2 0", "program, line 7: a sech2 follows the tanh of the same node, not '2 sech2 0'"},
+      {"nodes 4", "nodes 3", "program, line 7: a tanh is followed by its sech2, not by the end of the nodes"},
+  };
+  for (const auto& [from, to, message] : cases) EXPECT_THAT(refusal(text, from, to), HasSubstr(message)) << text;
+}
+
 TEST(SavedProgram, WithSystemsLooksAsDocumentedAndIsRefusedWithOneLine) {
   const std::string text = saved(withSystems());
   EXPECT_EQ(text,

@@ -96,6 +96,11 @@ class RandomProgram {
       case 11:
         return keepIfModerate(u > 0.05 ? std::log(u) : NAN, [&] { return recorder_.emit(Op::log, a, a); });
       case 12: {
+        if (b % 2 == 1) {
+          const auto [tangent, slope] = recorder_.pair(Op::tanh, a);
+          keep(tangent, std::tanh(u));
+          return keep(slope, 1 - std::tanh(u) * std::tanh(u));
+        }
         const int square = recorder_.sqr(a);
         keep(square, u * u);
         const int one = recorder_.constant(1.0);

@@ -112,6 +112,23 @@ TEST(Recorded, FunctionsHaveTheirDerivatives) {
   }
 }
 
+TEST(Recorded, TanhAndItsDerivativesAreBoundedAndKeepTheirDigitsNearZero) {
+  const Program f = record<1>([](auto x) { return tanh(x[0]); }).differentiated().differentiated();
+  for (double at : {-400.0, -20.0, -1e-9, 1e-300, 0.0, 3.0, 138.0, 400.0, 1e300}) {
+    const Precise t = tanh(Precise(at)), s = 1 - t * t;
+    const auto values = evaluate<double>(f, {at});
+    EXPECT_DOUBLE_EQ(values[0], t.convert_to<double>()) << at;
+    EXPECT_NEAR(values[1], s.convert_to<double>(), 0x1p-52) << at;
+    const auto ranges = evaluate<Interval>(f, {Interval(at)});
+    EXPECT_THAT(ranges[0], Holds(t)) << at;
+    EXPECT_THAT(ranges[1], Holds(s)) << at;
+    EXPECT_THAT(ranges[3], Holds(Precise(-2 * t * s))) << at;
+  }
+  const auto wide = evaluate<Interval>(f, {Interval(-1e9, 400)});
+  EXPECT_TRUE(isEqual(wide[0], {-1, 1})) << wide[0];
+  EXPECT_TRUE(isEqual(wide[1], {0, 1})) << wide[1];
+}
+
 TEST(Recorded, FunctionsOfTwoVariablesHaveTheirValues) {
   const Program program = record<2>([](auto x, auto y) {
     return std::array{atan2(x, y), hypot(x, y), min(x, y), max(x, y)};

@@ -71,6 +71,12 @@ std::vector<double> nodeByNode(const Program& program, double t, const std::vect
       case Op::cos:
         v.push_back(sineCosine(a).cosine);
         break;
+      case Op::tanh:
+        v.push_back(std::tanh(a));
+        break;
+      case Op::sech2:
+        v.push_back(1 - std::tanh(a) * std::tanh(a));
+        break;
       case Op::solution: {
         if (n.b > 0) break;  // with component 0
         const LinearSolution& solution = program.solutions()[detail::at(n.a)];
