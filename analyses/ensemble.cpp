@@ -270,7 +270,7 @@ void EnsembleRun::measureError(const SampleBlock& block) {
             again = std::vector<double>(error_.data.size())](std::size_t i) mutable {
       const std::vector<double> start = system_.start(block.values(twice[i]));
       if (motion.f.states() == 0)
-        again = roundedToDoubles(arbitrate(motion, start), again.size());
+        again = roundedToDoubles(arbitrate(motion, start, {}, options_.cancelled), again.size());
       else
         witness.integrate(start, tight, again, options_.secondsPerSample);
       completeOne();

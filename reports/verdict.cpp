@@ -247,12 +247,13 @@ class Judge {
     return moves() ? fmt::format(" from 0 s to {} s", numberText(reached, 6)) : "";
   }
 
-  /// One analysis that ended before the horizon, in words.
-  void noteEnd(bool present, std::string_view what, double reached, const std::string& why) {
-    if (!present || reached >= results_.horizon) return;
+  /// One analysis that ended before the horizon, or, where nothing moves, before it had all that it could have.
+  void noteEnd(bool present, std::string_view whatEnds, double reached, const std::string& why) {
+    if (!present || (moves() ? reached >= results_.horizon : why.empty())) return;
     const std::string reason = why.empty() ? "" : ": " + why;
-    verdict_.notes.push_back(fmt::format("{} {} s of the {} s asked for{}.", what, numberText(reached, 6),
-                                         numberText(results_.horizon, 6), reason));
+    verdict_.notes.push_back(moves() ? fmt::format("{} at {} s of the {} s asked for{}.", whatEnds,
+                                                   numberText(reached, 6), numberText(results_.horizon, 6), reason)
+                                     : fmt::format("{} early{}.", whatEnds, reason));
     short_ = true;
   }
 
@@ -267,11 +268,11 @@ class Judge {
   void decide() {
     if (comparedEnvelope_) findOverestimation();
     verdict_.reached = reached();
-    noteEnd(results_.interval.present, "The guarantee ends at", results_.interval.reached, results_.interval.why);
+    noteEnd(results_.interval.present, "The guarantee ends", results_.interval.reached, results_.interval.why);
     noteSamples();
-    noteEnd(results_.stochastic.present && results_.stochastic.integrated > 0, "The samples end at",
+    noteEnd(results_.stochastic.present && results_.stochastic.integrated > 0, "The samples end",
             results_.stochastic.reached, results_.stochastic.why);
-    noteEnd(results_.fuzzy.present, "The alpha-cuts end at", results_.fuzzy.reached, results_.fuzzy.why);
+    noteEnd(results_.fuzzy.present, "The alpha-cuts end", results_.fuzzy.reached, results_.fuzzy.why);
     if (missing_ > 0 && compared_ > 0 && !endedAtOnce()) {
       verdict_.notes.push_back(fmt::format("{} of the numbers to compare {} missing before the end was reached.",
                                            missing_, missing_ == 1 ? "is" : "are"));
@@ -347,7 +348,9 @@ class Judge {
     }
     verdict_.sentence += ".";
     if (short_) {
-      verdict_.sentence += fmt::format(" The {} s asked for were not reached.", numberText(results_.horizon, 6));
+      verdict_.sentence += moves()
+                               ? fmt::format(" The {} s asked for were not reached.", numberText(results_.horizon, 6))
+                               : " An analysis ended early.";
     } else if (missing_ > 0) {
       verdict_.sentence += " Not every number was there to compare.";
     }

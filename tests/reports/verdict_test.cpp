@@ -220,6 +220,15 @@ TEST(Verdict, SpeaksOfPositionsWhereNothingMoves) {
       AllOf(HasSubstr("All 4099 sampled positions stay inside the guaranteed enclosure;"), Not(HasSubstr(" s to "))));
 }
 
+TEST(Verdict, OfPositionsWhoseEnclosureWasEndedIsIncompleteAndSaysWhy) {
+  Results results = example::kinematics();
+  results.interval.why = "the run was interrupted";
+  const Verdict verdict = judge(results);
+  EXPECT_EQ(verdict.word, "incomplete");
+  EXPECT_THAT(verdict.sentence, HasSubstr("An analysis ended early."));
+  EXPECT_THAT(verdict.notes, Contains("The guarantee ends early: the run was interrupted."));
+}
+
 TEST(Verdict, NamesOutputTimeAndDistanceOfTheFarthestExcursion) {
   Results results = example::pendulum();
   leave(results, 0.25);

@@ -322,12 +322,43 @@ TEST(Driver, ReportsTheProgressOfEveryAnalysis) {
   EXPECT_EQ(greatest["samples"], 1);
 }
 
-TEST(Driver, EnclosesKinematicsWithAnUncertainParameter) {
+Study kinematicStudy() {
   std::string text = sampleStudyWith("[[uncertain]]", threeUncertain);
   text.replace(text.find("dynamics"), 8, "kinematics");
   text.erase(text.find("horizon = 0.5\n"), 14);
   text.erase(text.find("output_step = 0.1\n"), 18);
-  const Results results = run(readStudyText(text, "s.toml"));
+  return readStudyText(text, "s.toml");
+}
+
+TEST(Driver, KeepsPlainIntervalsOfKinematicsThatIsInterrupted) {
+  const std::atomic<bool> cancelled{true};
+  RunOptions options;
+  options.cancelled = &cancelled;
+  const Study study = kinematicStudy();
+  const Results results = run(study, options), whole = run(study);
+  EXPECT_EQ(results.comparison.verdict, "incomplete");
+  EXPECT_EQ(results.interval.why, "the run was interrupted");
+  EXPECT_EQ(results.fuzzy.why, "the run was interrupted");
+  for (std::size_t j = 0; j < 2; ++j) {
+    EXPECT_EQ(results.interval.at.lower(0, j), whole.interval.direct.lower(0, j));
+    EXPECT_EQ(results.interval.at.upper(0, j), whole.interval.direct.upper(0, j));
+    for (std::size_t level = 0; level < 11; ++level)
+      EXPECT_LE(results.fuzzy.outer[level].lower(0, j), whole.fuzzy.outer[level].lower(0, j));
+  }
+}
+
+TEST(Driver, EndsKinematicsAtTheLimitOfTheEnclosure) {
+  Study study = kinematicStudy();
+  study.limits.enclosureTime = 1e-9;
+  const Results results = run(study);
+  EXPECT_EQ(results.interval.why, "the time limit of 1e-09 s CPU for the enclosure was reached");
+  EXPECT_EQ(results.stochastic.stopped, "");
+  EXPECT_EQ(results.stochastic.integrated, results.stochastic.planned());
+  EXPECT_EQ(results.comparison.verdict, "incomplete");
+}
+
+TEST(Driver, EnclosesKinematicsWithAnUncertainParameter) {
+  const Results results = run(kinematicStudy());
   EXPECT_EQ(results.comparison.verdict, "inside");
   EXPECT_EQ(results.time, std::vector<double>{0.0});
   for (std::size_t j = 0; j < 2; ++j) {
