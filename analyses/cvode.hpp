@@ -31,7 +31,7 @@ enum class Method { adams, bdf };
 struct Integration {
   std::size_t times = 0;  ///< number of output times reached
   double reached = 0;     ///< s
-  std::string why;        ///< CVODE's words if it ended early, otherwise empty
+  std::string why;        ///< if it ended early, what that means; otherwise empty
 };
 
 /// What CVODE integrates: ẋ = f(t, x), whatever the states stand for.

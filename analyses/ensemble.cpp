@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <iterator>
 #include <limits>
 #include <mutex>
@@ -378,7 +379,9 @@ double EnsembleRun::reached() const {
 
 std::string EnsembleRun::why() const {
   if (failed_.empty()) return "";
-  return "sample " + std::to_string(failed_.front().number) + " failed: " + failed_.front().why +
+  char reached[32];
+  std::snprintf(reached, sizeof reached, "%.6g", failed_.front().reached);
+  return "sample " + std::to_string(failed_.front().number) + " failed at " + reached + " s: " + failed_.front().why +
          (failures_ > 1 ? " (and " + std::to_string(failures_ - 1) + " more)" : "") +
          "; beyond, nothing is shown of the samples, since it would not be of all";
 }

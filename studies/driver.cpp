@@ -309,7 +309,9 @@ class Driver {
     ComparisonResult& comparison = results_.comparison;
     comparison.present = true;
     if (comparison.verdict == "inside" && !whyEnded(results_).empty()) comparison.verdict = "incomplete";
-    if (!study_.interval || !hasSamples()) return;
+    const std::size_t compared = std::min(reachedTimes_, hasSamples() ? ensemble_->reachedTimes() : 0);
+    const bool isOfTheStartAlone = study_.time.size() > 1 && compared <= 1;
+    if (!study_.interval || !hasSamples() || isOfTheStartAlone) return;
     Comparison found;
     measureOverestimation({results_.interval.at, reachedTimes_}, results_.stochastic.envelope,
                           results_.stochastic.error, comparisonOptions().resolution, found);

@@ -336,6 +336,7 @@ TEST(Ensemble, NamesTheSamplesThatFailAndKeepsTheOthers) {
   EXPECT_GT(arrived, 10u);
   EXPECT_THAT(e.reached, DoubleNear(0.6, 1e-15));  // the corner p = 1.5 ends at 2/3
   EXPECT_THAT(e.why, HasSubstr("sample " + std::to_string(e.failed.front().number) + " failed"));
+  EXPECT_THAT(e.why, HasSubstr(" s: its steps became too short, as where the motion runs into a singularity"));
   EXPECT_THAT(e.why, HasSubstr("; beyond, nothing is shown of the samples"));
   EXPECT_EQ(e.reachedTimes, 7u);
   for (std::size_t t = 0; t < 11; ++t)  // no envelope and no statistics of the survivors
