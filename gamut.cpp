@@ -14,7 +14,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <ctime>
 #include <filesystem>
 #include <limits>
 #include <new>
@@ -38,6 +37,7 @@
 #include "studies/summary.hpp"
 #include "studies/units.hpp"
 #include "studies/version.hpp"
+#include "studies/watch.hpp"
 
 namespace {
 
@@ -108,8 +108,6 @@ OutputFile reserve(const std::string& path, const std::string& input, bool force
   if (fs::equivalent(path, input, error)) throw UsageError(path + ": cannot be written; it is the input");
   return {path, force ? OutputFile::Existing::isReplaced : OutputFile::Existing::isKept};
 }
-
-double cpuSeconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 void printVerdict(std::FILE* stream, const Verdict& verdict) {
   fmt::print(stream, "{}\n", verdict.sentence);
@@ -184,9 +182,9 @@ int runStudy(Arguments arguments) {
   }
   bar.wipe();
 
-  const double start = cpuSeconds();
+  const double start = processCpuSeconds();
   const std::string page = renderReport(results);
-  results.reportCpu = cpuSeconds() - start;
+  results.reportCpu = processCpuSeconds() - start;
   writeResults(results, resultsFile);
   reportFile.write(page);
   const Verdict verdict = judge(results);

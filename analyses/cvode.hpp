@@ -57,8 +57,8 @@ class Cvode {
   Cvode(Cvode&&) noexcept;
   Cvode& operator=(Cvode&&) noexcept;
 
-  /// From x at time 0 to each of the output times; fails once it has taken `seconds` of CPU. The result depends on the
-  /// arguments alone.
+  /// From x at time 0 to each of the output times; fails once it has taken `seconds` of CPU. The states depend on the
+  /// arguments alone; how far they come, on `seconds` and `cancelled` too, and so on the machine.
   Integration integrate(CvodeProblem& problem, std::span<const double> x, const Tolerance& tolerance,
                         double seconds = std::numeric_limits<double>::infinity());
 

@@ -312,14 +312,13 @@ class Driver {
     const std::size_t compared = std::min(reachedTimes_, hasSamples() ? ensemble_->reachedTimes() : 0);
     const bool isOfTheStartAlone = study_.time.size() > 1 && compared <= 1;
     if (!study_.interval || !hasSamples() || isOfTheStartAlone) return;
-    Comparison found;
-    measureOverestimation({results_.interval.at, reachedTimes_}, results_.stochastic.envelope,
-                          results_.stochastic.error, comparisonOptions().resolution, found);
-    comparison.overestimation = found.overestimation;
-    comparison.excess = found.excess;
+    Overestimation found = measureOverestimation({results_.interval.at, reachedTimes_}, results_.stochastic.envelope,
+                                                 results_.stochastic.error);
+    comparison.overestimation = std::move(found.ratio);
+    comparison.excess = std::move(found.excess);
     comparison.maximum = found.maximum;
     comparison.median = found.median;
-    comparison.maximumOf = found.maximumOf;
+    comparison.maximumOf = std::move(found.maximumOf);
   }
 
   ComparisonOptions comparisonOptions() const {
