@@ -14,14 +14,15 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <ctime>
 #include <filesystem>
 #include <limits>
 #include <new>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <thread>
+#include <vector>
 
 #include "mechanics/names.hpp"
 #include "reports/report.hpp"
@@ -34,7 +35,9 @@
 #include "studies/results_file.hpp"
 #include "studies/study.hpp"
 #include "studies/summary.hpp"
+#include "studies/units.hpp"
 #include "studies/version.hpp"
+#include "studies/watch.hpp"
 
 namespace {
 
@@ -106,8 +109,6 @@ OutputFile reserve(const std::string& path, const std::string& input, bool force
   return {path, force ? OutputFile::Existing::isReplaced : OutputFile::Existing::isKept};
 }
 
-double cpuSeconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
-
 void printVerdict(std::FILE* stream, const Verdict& verdict) {
   fmt::print(stream, "{}\n", verdict.sentence);
   for (const std::string& note : verdict.notes) fmt::print(stream, "  {}\n", note);
@@ -136,11 +137,14 @@ void checkMemory(const Study& study, const RunOptions& options, const std::strin
   const std::size_t levels = study.fuzzy ? static_cast<std::size_t>(study.levels) : 0;
   const double needed = ensembleBytes(study.time.size(), study.outputs.size(), study.uncertain.size(), levels);
   const double limit = limitsOf(study, options).memory;
+  const bool fewerDo = ensembleBytes(1, 1, study.uncertain.size(), levels) <= limit;
   if (study.stochastic && needed > limit)
     throw UsageError(
-        fmt::format("{}: samples of {} outputs at {} times need {:.3g} GB, the memory limit is {:.3g} GB; "
-                    "expected fewer outputs or output times",
-                    input, study.outputs.size(), study.time.size(), needed / 1e9, limit / 1e9));
+        fmt::format("{}: samples of {} at {} need {:.3g} GB, the memory limit is {:.3g} GB; expected a limit "
+                    "of at least {:.3g} GB{}",
+                    input, countText(static_cast<long long>(study.outputs.size()), "output"),
+                    countText(static_cast<long long>(study.time.size()), "time"), needed / 1e9, limit / 1e9,
+                    std::ceil(needed / 1e6) / 1e3, fewerDo ? ", or fewer outputs or output times" : ""));
 }
 
 Study readNoting(const Arguments& arguments) {
@@ -178,9 +182,9 @@ int runStudy(Arguments arguments) {
   }
   bar.wipe();
 
-  const double start = cpuSeconds();
+  const double start = processCpuSeconds();
   const std::string page = renderReport(results);
-  results.reportCpu = cpuSeconds() - start;
+  results.reportCpu = processCpuSeconds() - start;
   writeResults(results, resultsFile);
   reportFile.write(page);
   const Verdict verdict = judge(results);
@@ -234,16 +238,21 @@ CLI::Validator wholeNumber(std::uint64_t least, std::uint64_t most) {
   return {problem, "", "whole number"};
 }
 
-/// Decimals alone: no hexadecimal, no infinity.
-CLI::Validator positiveNumber() {
-  const auto problem = [](const std::string& text) {
-    double value = 0;
-    const char* end = text.data() + text.size();
-    const auto [last, error] = std::from_chars(text.data(), end, value);
-    const bool isFine = error == std::errc() && last == end && value > 0 && std::isfinite(value);
-    return isFine ? std::string() : fmt::format("'{}' is no number above 0", text);
+/// A number above 0, or text with a unit, as in a study; in its place the number of the dimension's own unit.
+CLI::Validator positiveAmount(const Dimension& dimension, const std::string& what, const std::string& examples) {
+  const auto replace = [=](std::string& text) {
+    const std::string problem = fmt::format("'{}' is no {} above 0, such as {}", text, what, examples);
+    try {
+      const Amount amount = parseAmount(text);
+      const bool fits = !amount.isRelative && (!amount.hasUnit || amount.dimension == dimension);
+      if (!fits || !(nearest(amount) > 0)) return problem;
+      text = fmt::format("{}", nearest(amount));
+      return std::string();
+    } catch (const UnitError&) {
+      return problem;
+    }
   };
-  return {problem, "", "number"};
+  return {replace, "", "amount"};
 }
 
 void describeRun(CLI::App& command, Arguments& arguments) {
@@ -267,17 +276,32 @@ void describeRun(CLI::App& command, Arguments& arguments) {
       ->type_name("N");
   command
       .add_option("--time-limit", arguments.timeLimit,
-                  "CPU time for the whole run, s, instead of the study's (otherwise 1800)")
-      ->check(positiveNumber())
+                  "CPU time for the whole run, s or \"2 h\", instead of the study's (otherwise 1800)")
+      ->transform(positiveAmount({0, 0, 1, 0, 0}, "time", "90, \"5 min\" or \"2 h\""))
       ->type_name("SECONDS");
   command
       .add_option("--memory-limit", arguments.memoryLimit,
-                  "Memory for the whole run, GB, instead of the study's (otherwise three quarters of the machine's)")
-      ->check(positiveNumber())
+                  "Memory for the whole run, GB or \"500 MB\", instead of the study's (otherwise three quarters of the "
+                  "machine's)")
+      ->transform(positiveAmount({0, 0, 0, 0, 1}, "memory", "2, \"2 GB\" or \"500 MiB\""))
       ->type_name("GB");
   command.add_flag("--json", arguments.json, "One JSON object on standard output, all else on standard error");
   command.add_flag("--quiet", arguments.quiet, "Neither progress nor summary");
   command.add_flag("--force", arguments.force, "Overwrite existing files");
+}
+
+/// Throws UsageError for a long option that the command does not have, with those that come near.
+void refuseUnknownOption(const CLI::App& command, int argc, char** argv) {
+  std::vector<std::string> known;
+  for (const CLI::Option* option : command.get_options())
+    for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+  for (int i = 1; i < argc; ++i) {
+    const std::string_view argument = argv[i], name = argument.substr(0, argument.find('='));
+    if (name == "--") return;
+    if (!name.starts_with("--") || std::ranges::find(known, name) != known.end()) continue;
+    const UnknownName unknown("option", std::string(name), known);
+    throw UsageError(fmt::format("{}; expected {}", unknown.problem(), unknown.expected()));
+  }
 }
 
 int parseAndRun(int argc, char** argv) {
@@ -330,6 +354,7 @@ int parseAndRun(int argc, char** argv) {
       const UnknownName unknown("command", argv[1], known);
       throw UsageError(fmt::format("{}; expected {}", unknown.problem(), unknown.expected()));
     }
+    if (!commands.empty()) refuseUnknownOption(*commands.front(), argc, argv);
     throw UsageError(fmt::format("{}; see gamut {}--help", error.what(),
                                  commands.empty() ? "" : commands.front()->get_name() + " "));
   }

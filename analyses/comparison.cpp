@@ -14,6 +14,7 @@
 namespace gamut {
 namespace {
 
+constexpr double tellingErrors = 100;  // an envelope narrower than so many of its errors tells no overestimation
 constexpr double leastUlps = 4;        // of an output's magnitude: a trajectory of doubles is no more certain
 constexpr std::size_t batchSize = 16;  // samples that go to the arbiter before it is asked whether that is enough
 
@@ -48,8 +49,6 @@ class Comparer {
     result.cpu = refine() + arbitrateWorst();
     informTwins();
     judge(result);
-    result.envelope = ensemble_.envelope();
-    measureOverestimation(enclosure_, result.envelope, ensemble_.error, options_.resolution, result);
     return result;
   }
 
@@ -256,29 +255,30 @@ class Comparer {
 
 }  // namespace
 
-void measureOverestimation(const EnclosureBounds& enclosure, const Envelope& envelope, const Table& error,
-                           double resolution, Comparison& result) {
+Overestimation measureOverestimation(const EnclosureBounds& enclosure, const Envelope& envelope, const Table& error) {
   const std::size_t outputs = error.outputs;
-  result.overestimation = Table(error.times, outputs);
-  result.excess = result.overestimation;
+  Overestimation result;
+  result.ratio = Table(error.times, outputs);
+  result.excess = result.ratio;
   result.maximumOf.assign(outputs, std::numeric_limits<double>::quiet_NaN());
   std::vector<double> ratios;
   for (std::size_t i = 0; i < enclosure.reachedTimes * outputs; ++i) {
     const double enclosed = enclosure.bounds.upper.data[i] - enclosure.bounds.lower.data[i];
     const double sampled = envelope.upper.data[i] - envelope.lower.data[i];
     result.excess.data[i] = enclosed - sampled;
-    if (!(sampled > resolution * error.data[i])) continue;
+    if (!(sampled > tellingErrors * error.data[i])) continue;
     const double ratio = enclosed / sampled;
-    result.overestimation.data[i] = ratio;
+    result.ratio.data[i] = ratio;
     double& greatest = result.maximumOf[i % outputs];
     if (!(greatest >= ratio)) greatest = ratio;
     ratios.push_back(ratio);
   }
-  if (ratios.empty()) return;
+  if (ratios.empty()) return result;
   std::ranges::sort(ratios);
   const std::size_t middle = ratios.size() / 2;
   result.maximum = ratios.back();
   result.median = ratios.size() % 2 == 1 ? ratios[middle] : 0.5 * (ratios[middle - 1] + ratios[middle]);
+  return result;
 }
 
 Comparison compare(const EnclosureBounds& enclosure, Ensemble& ensemble, const UncertainMotion& system,

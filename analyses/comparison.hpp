@@ -24,7 +24,6 @@ struct EnclosureBounds {
 
 struct ComparisonOptions {
   double decisive = 10;     ///< a sample further outside than so many times its measured error refutes the enclosure
-  double resolution = 100;  ///< an envelope narrower than so many witness errors says nothing on overestimation
   bool asksArbiter = true;  ///< where it is already known that the enclosure is refuted, that can be saved
   int jobs = 1;             ///< threads
   std::function<void(double)>
@@ -48,23 +47,24 @@ struct Dispute {
 };
 
 struct Comparison {
-  std::string verdict;   ///< the first that holds of "outside", "unresolved", "incomplete", "inside"; what was
-                         ///< interrupted is incomplete
-  double excursion = 0;  ///< the greatest of all disputes
-  Envelope envelope;     ///< of the ensemble after refinement
-  Table overestimation;  ///< enclosure width over envelope width; NaN where the envelope is too narrow to tell
-  Table excess;          ///< enclosure width minus envelope width
-  double maximum = std::numeric_limits<double>::quiet_NaN();  ///< of the overestimation
-  double median = std::numeric_limits<double>::quiet_NaN();
-  std::vector<double> maximumOf;  ///< one an output
+  std::string verdict;            ///< the first that holds of "outside", "unresolved", "incomplete", "inside"; what was
+                                  ///< interrupted is incomplete
+  double excursion = 0;           ///< the greatest of all disputes
   std::vector<Dispute> disputes;  ///< by rising number
   double cpu = 0;                 ///< s, of the re-integrations
 };
 
-/// How wide the enclosure is against the envelope of samples whose integration has this error: overestimation, excess,
-/// maximum, median and maximumOf. An envelope narrower than `resolution` errors says nothing.
-void measureOverestimation(const EnclosureBounds& enclosure, const Envelope& envelope, const Table& error,
-                           double resolution, Comparison& result);
+/// How wide an enclosure is against an envelope.
+struct Overestimation {
+  Table ratio;   ///< enclosure width over envelope width; NaN where the envelope is too narrow to tell
+  Table excess;  ///< enclosure width minus envelope width
+  double maximum = std::numeric_limits<double>::quiet_NaN();  ///< of the ratios
+  double median = std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> maximumOf;  ///< one an output
+};
+
+/// Against the envelope of samples whose integration has this error: one narrower than a hundred errors says nothing.
+Overestimation measureOverestimation(const EnclosureBounds& enclosure, const Envelope& envelope, const Table& error);
 
 /// Compares at all output times that the enclosure reached. Samples found outside get their refined trajectories in
 /// `ensemble`. "incomplete": nothing is outside, but the enclosure or a sample ended before the horizon.

@@ -110,6 +110,30 @@ GAMUT_AVX512 double normOnAvx512(N_Vector x, N_Vector weights) { return greatest
 
 }  // namespace
 
+namespace {
+
+/// What CVODE's return means for a motion.
+std::string meaningOf(int flag, const std::string& message) {
+  switch (flag) {
+    case CV_TOO_MUCH_WORK:
+      return "it takes more than " + std::to_string(maximumSteps) + " steps between two output times";
+    case CV_TOO_MUCH_ACC:
+      return "its tolerance is finer than doubles can be";
+    case CV_ERR_FAILURE:
+    case CV_CONV_FAILURE:
+      return "its steps became too short, as where the motion runs into a singularity or springs are too stiff";
+    case CV_RHSFUNC_FAIL:
+    case CV_FIRST_RHSFUNC_ERR:
+    case CV_REPTD_RHSFUNC_ERR:
+    case CV_UNREC_RHSFUNC_ERR:
+      return "its accelerations are no finite numbers there, as where the motion is not determined";
+    default:
+      return "the integrator gave up: " + message;
+  }
+}
+
+}  // namespace
+
 Tolerance Tolerance::tightened(double factor) const {
   return {std::max(relative / factor, std::min(relative, tightest)), absolute / factor};
 }
@@ -234,26 +258,23 @@ Integration Cvode::integrate(CvodeProblem& problem, std::span<const double> x, c
   m.evaluations = 0;
   m.isLate = false;
   const bool moves = !x.empty();
-  bool good = !moves || times.empty() || times.back() == 0 || m.restart(tolerance);
+  int flag = !moves || times.empty() || times.back() == 0 || m.restart(tolerance) ? CV_SUCCESS : CV_ILL_INPUT;
+  bool isFinite = true;
   Integration result;
-  for (std::size_t i = 0; i < times.size() && good; ++i) {
+  for (std::size_t i = 0; i < times.size() && flag >= 0 && isFinite; ++i) {
     realtype t = times[i];
     // Output between steps is CVODE's interpolant, of the order of the step itself.
-    if (moves && times[i] > 0) good = CVode(m.cvode, times[i], m.x, &t, CV_NORMAL) >= 0;
+    if (moves && times[i] > 0) flag = CVode(m.cvode, times[i], m.x, &t, CV_NORMAL);
     result.reached = t;
-    if (!good) break;
-    if (!problem.observe(i, t, m.state)) {
-      m.message = "an output is not finite";
-      good = false;
-      break;
-    }
-    result.times = i + 1;
+    if (flag < 0) break;
+    isFinite = problem.observe(i, t, m.state);
+    if (isFinite) result.times = i + 1;
   }
-  if (!good)
-    result.why = m.isCancelled()     ? "cancelled"
-                 : m.isLate          ? "the time limit of " + toString(seconds) + " s CPU for a sample was reached"
-                 : m.message.empty() ? "CVODE failed"
-                                     : m.message;
+  if (flag < 0 || !isFinite)
+    result.why = m.isCancelled() ? "cancelled"
+                 : m.isLate      ? "the time limit of " + toString(seconds) + " s CPU for a sample was reached"
+                 : flag < 0      ? meaningOf(flag, m.message)
+                                 : "an output is not finite";
   return result;
 }
 

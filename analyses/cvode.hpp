@@ -31,7 +31,7 @@ enum class Method { adams, bdf };
 struct Integration {
   std::size_t times = 0;  ///< number of output times reached
   double reached = 0;     ///< s
-  std::string why;        ///< CVODE's words if it ended early, otherwise empty
+  std::string why;        ///< if it ended early, what that means; otherwise empty
 };
 
 /// What CVODE integrates: ẋ = f(t, x), whatever the states stand for.
@@ -57,8 +57,8 @@ class Cvode {
   Cvode(Cvode&&) noexcept;
   Cvode& operator=(Cvode&&) noexcept;
 
-  /// From x at time 0 to each of the output times; fails once it has taken `seconds` of CPU. The result depends on the
-  /// arguments alone.
+  /// From x at time 0 to each of the output times; fails once it has taken `seconds` of CPU. The states depend on the
+  /// arguments alone; how far they come, on `seconds` and `cancelled` too, and so on the machine.
   Integration integrate(CvodeProblem& problem, std::span<const double> x, const Tolerance& tolerance,
                         double seconds = std::numeric_limits<double>::infinity());
 

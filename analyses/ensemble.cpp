@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <iterator>
 #include <limits>
 #include <mutex>
@@ -20,7 +21,8 @@ namespace {
 constexpr std::size_t usualErrorStride = 50, leastErrorSamples = 8, mostErrorSamples = 1024;
 constexpr double errorTightening = 100;
 // A pack costs what 4 to 16 samples cost alone, with vectors of two doubles up to twice as many (motions of the tests
-// and a double pendulum). The number must not depend on the machine: the samples' last bits depend on it.
+// and a double pendulum): with as many times a sample's time, no pack is given up whose samples all keep theirs. The
+// number must not depend on the machine: the samples' last bits depend on it.
 constexpr std::size_t leastTogether = packWidth / 4;
 constexpr std::size_t firstSamples = 256, namedFailures = 10;
 // A block's rows take so many bytes, or as many packs: work for many threads between two looks, and no more packs than
@@ -57,12 +59,16 @@ class PieceIntegrator {
     if (width > 1) together_.emplace(system.motion, options.cancelled);
   }
 
-  void integrate(SampleBlock& block, const Piece& piece) {
-    if (piece.count > 1 && integrateTogether(block, piece)) return;
+  /// Tells `take` how many samples, the next of the piece, have come to their ends; no more once it is cancelled.
+  template <class Take>
+  void integrate(SampleBlock& block, const Piece& piece, const Take& take) {
+    if (piece.count > 1 && integrateTogether(block, piece)) return take(piece.count);
     for (std::size_t i = piece.first; i < piece.first + piece.count && !isCancelled(); ++i) {
       block.runs[i] =
           alone_.integrate(system_.start(block.values(i)), options_.tolerance, trajectory_, options_.secondsPerSample);
       block.setTrajectory(i, trajectory_);
+      if (block.runs[i].times < system_.motion.times.size() && isCancelled()) return;
+      take(1);
     }
   }
 
@@ -78,7 +84,8 @@ class PieceIntegrator {
       for (std::size_t row = 0; row < values.size(); ++row) starts_[row * packWidth + lane] = values[row];
     }
     const std::span<double> rows = block.pack(piece.first / packWidth);
-    const Integration run = together_->integrate(starts_, options_.tolerance, rows, options_.secondsPerSample);
+    const Integration run =
+        together_->integrate(starts_, options_.tolerance, rows, leastTogether * options_.secondsPerSample);
     if (run.times < system_.motion.times.size()) {
       std::ranges::fill(rows, none);
       return false;
@@ -191,6 +198,7 @@ EnsembleRun::EnsembleRun(const UncertainMotion& system, EnsembleOptions options)
       reachedTimes_(system.motion.times.size()),
       error_(system.motion.times.size(), system.motion.outputs()),
       errorStride_(errorStrideFor(sampling_.samples())),
+      nextBeside_(sampling_.samples()),
       total_(sampling_.size() + (sampling_.samples() + errorStride_ - 1) / errorStride_) {}
 
 std::size_t EnsembleRun::packWidth() const { return widthOf(options_.method); }
@@ -204,16 +212,29 @@ void EnsembleRun::completeOne() {
     options_.progress(static_cast<double>(done) / static_cast<double>(total_));
 }
 
-SampleBlock EnsembleRun::newBlock(std::size_t first, std::size_t count, bool hasWeight) const {
-  return {first, count, hasWeight, sampling_.quantities(), system_.motion.times.size(), system_.motion.outputs()};
+std::size_t EnsembleRun::placeInPack(std::size_t number) const {
+  return (number < sampling_.samples() ? number : number - sampling_.samples()) % gamut::packWidth;
 }
 
-/// False if cancelled before all of it was integrated.
-bool EnsembleRun::integrate(SampleBlock& block) {
+/// The samples from `next` on, before `end`, that make a block. A pack that was cut off inside was being integrated one
+/// by one: the rest of it makes a block of its own, and goes on so.
+SampleBlock EnsembleRun::nextBlock(std::size_t next, std::size_t end) const {
+  const std::size_t place = placeInPack(next);
+  const std::size_t count = place == 0 ? end - next : std::min(end - next, gamut::packWidth - place);
+  return {next,
+          count,
+          next < sampling_.samples(),
+          sampling_.quantities(),
+          system_.motion.times.size(),
+          system_.motion.outputs()};
+}
+
+/// Cuts the block off before the first sample that was cancelled.
+void EnsembleRun::integrate(SampleBlock& block) {
   for (std::size_t i = 0; i < block.size(); ++i)
     if (block.first() + i < sampling_.centre()) sampling_.unitPoint(block.first() + i, block.values(i));
-  const std::vector<Piece> pieces = piecesOf(block.size(), packWidth());
-  std::atomic<std::size_t> integrated{0};
+  const std::vector<Piece> pieces = piecesOf(block.size(), placeInPack(block.first()) == 0 ? packWidth() : 1);
+  std::vector<std::size_t> ended(pieces.size(), 0);
   cpu_ += forEachIndex(options_.jobs, pieces.size(), options_.cancelled, [&] {
     return [&, integrator = PieceIntegrator(system_, options_, packWidth())](std::size_t piece) mutable {
       const auto [first, count] = pieces[piece];
@@ -221,38 +242,49 @@ bool EnsembleRun::integrate(SampleBlock& block) {
         sampling_.toValues(block.first() + i, system_.uncertain, block.values(i));
         block.levels[i] = levelsHolding(cuts_, block.values(i));
       }
-      integrator.integrate(block, pieces[piece]);
-      if (isCancelled()) return;
-      integrated += count;
-      for (std::size_t i = 0; i < count; ++i) completeOne();
+      integrator.integrate(block, pieces[piece], [&](std::size_t more) {
+        ended[piece] += more;
+        for (std::size_t i = 0; i < more; ++i) completeOne();
+      });
     };
   });
-  if (block.hasWeight() && integrated == block.size()) measureError(block);
-  return integrated == block.size();
+  std::size_t kept = 0, piece = 0;
+  while (piece < pieces.size() && ended[piece] == pieces[piece].count) kept += ended[piece++];
+  if (piece == pieces.size()) return;
+  kept += ended[piece++];
+  for (; piece < pieces.size(); ++piece) done_ -= ended[piece];
+  block.keepFirst(kept);
 }
 
+/// Unless that is known already.
 void EnsembleRun::measureError(const SampleBlock& block) {
+  if (!block.hasWeight() || block.first() < measured_) return;
   std::vector<std::size_t> twice;
   for (std::size_t i = 0; i < block.size(); ++i)
     if ((block.first() + i) % errorStride_ == 0) twice.push_back(i);
   const Motion& motion = system_.motion;
   const Tolerance tight = options_.tolerance.tightened(errorTightening);
   std::mutex mutex;
+  std::size_t compared = 0;
   cpu_ += forEachIndex(options_.jobs, twice.size(), options_.cancelled, [&] {
     return [&, witness = Witness(motion, options_.method, options_.cancelled),
             again = std::vector<double>(error_.data.size())](std::size_t i) mutable {
       const std::vector<double> start = system_.start(block.values(twice[i]));
       if (motion.f.states() == 0)
-        again = roundedToDoubles(arbitrate(motion, start), again.size());
+        again = roundedToDoubles(arbitrate(motion, start, {}, options_.cancelled), again.size());
       else
         witness.integrate(start, tight, again, options_.secondsPerSample);
       completeOne();
       const std::vector<double> once = block.trajectory(twice[i]);
       const std::lock_guard lock(mutex);
       includeDifference(error_, once, again);
+      ++compared;
     };
   });
-  if (isCancelled()) errorIsMeasured_ = false;
+  if (isCancelled())
+    done_ -= compared;
+  else
+    measured_ = block.first() + block.size();
 }
 
 void EnsembleRun::noteFailures(const SampleBlock& block) {
@@ -267,15 +299,20 @@ void EnsembleRun::noteFailures(const SampleBlock& block) {
   if (failed_.size() > namedFailures) failed_.resize(namedFailures);
 }
 
+/// Keeps the samples `next` … end - 1, as far as they come.
+void EnsembleRun::integrateFirst(std::size_t& next, std::size_t end) {
+  while (next < end && !isCancelled()) {
+    SampleBlock block = nextBlock(next, end);
+    integrate(block);
+    next += block.size();
+    if (block.size() > 0) first_.push_back(std::move(block));
+  }
+}
+
 void EnsembleRun::integrateFirst() {
-  done_ = 0;
-  errorIsMeasured_ = true;
-  std::vector<SampleBlock> blocks;
-  blocks.push_back(newBlock(0, std::min(sampling_.samples(), firstSamples), true));
-  blocks.push_back(newBlock(sampling_.samples(), sampling_.size() - sampling_.samples(), false));
-  for (SampleBlock& block : blocks)
-    if (!integrate(block)) return;
-  first_ = std::move(blocks);
+  integrateFirst(nextSample_, std::min(sampling_.samples(), firstSamples));
+  integrateFirst(nextBeside_, sampling_.size());
+  for (const SampleBlock& block : first_) measureError(block);
 }
 
 /// Where the first samples lie and a quarter of that to both sides, cut off where nothing is expected.
@@ -305,20 +342,22 @@ void EnsembleRun::take(SampleBlock& block, const Look& look) {
   noteFailures(block);
   if (look) look(block);
   cpu_ += statistics_->include(block, options_.jobs);
-  if (block.hasWeight()) counted_ += block.size();
+  (block.hasWeight() ? counted_ : beside_) += block.size();
 }
 
 void EnsembleRun::integrateOthers(const Envelope& expected, const Look& look) {
-  if (first_.empty()) integrateFirst();
+  integrateFirst();
   statistics_.emplace(expectedRange(expected), cuts_.size());
-  if (first_.empty()) return;
   for (SampleBlock& block : first_) take(block, look);
   first_.clear();
   const std::size_t packBytes = sizeof(double) * gamut::packWidth * error_.data.size();
   const std::size_t size = gamut::packWidth * std::clamp(blockBytes / packBytes, leastPacks, mostPacks);
-  while (counted_ < sampling_.samples() && !isCancelled()) {
-    SampleBlock block = newBlock(counted_, std::min(size, sampling_.samples() - counted_), true);
-    if (!integrate(block)) return;
+  while (nextSample_ < sampling_.samples() && !isCancelled()) {
+    SampleBlock block = nextBlock(nextSample_, std::min(sampling_.samples(), nextSample_ + size));
+    integrate(block);
+    if (block.size() == 0) return;
+    nextSample_ += block.size();
+    measureError(block);
     take(block, look);
   }
 }
@@ -335,12 +374,14 @@ double ensembleBytes(std::size_t times, std::size_t outputs, std::size_t quantit
 
 double EnsembleRun::reached() const {
   const std::vector<double>& times = system_.motion.times;
-  return counted_ == 0 || reachedTimes_ == 0 ? 0 : times[reachedTimes_ - 1];
+  return integrated() == 0 || reachedTimes_ == 0 ? 0 : times[reachedTimes_ - 1];
 }
 
 std::string EnsembleRun::why() const {
   if (failed_.empty()) return "";
-  return "sample " + std::to_string(failed_.front().number) + " failed: " + failed_.front().why +
+  char reached[32];
+  std::snprintf(reached, sizeof reached, "%.6g", failed_.front().reached);
+  return "sample " + std::to_string(failed_.front().number) + " failed at " + reached + " s: " + failed_.front().why +
          (failures_ > 1 ? " (and " + std::to_string(failures_ - 1) + " more)" : "") +
          "; beyond, nothing is shown of the samples, since it would not be of all";
 }
@@ -364,7 +405,7 @@ std::vector<double> replaySample(const UncertainMotion& system, const EnsembleOp
   const std::size_t width = widthOf(options.method);
   const std::vector<Piece> pieces = piecesOf(block.size(), width);
   const auto after = std::ranges::upper_bound(pieces, number - first, {}, &Piece::first);
-  PieceIntegrator(system, options, width).integrate(block, *std::prev(after));
+  PieceIntegrator(system, options, width).integrate(block, *std::prev(after), [](std::size_t) {});
   return block.trajectory(number - first);
 }
 

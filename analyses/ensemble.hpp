@@ -41,12 +41,13 @@ struct EnsembleOptions {
   std::uint64_t seed = 1;
   Tolerance tolerance;
   Method method = Method::adams;
-  /// CPU time after which a sample fails; a pack that takes longer is given up and its samples integrated one by one
+  /// CPU time after which a sample fails; a pack that takes longer than sixteen samples may is given up, and its
+  /// samples are integrated one by one
   double secondsPerSample = std::numeric_limits<double>::infinity();
   std::vector<double> alpha;                     ///< rising membership levels, of which inner cuts are wanted
   int jobs = 1;                                  ///< threads
   std::function<void(double)> progress;          ///< called with the fraction done (0 … 1), from any thread
-  const std::atomic<bool>* cancelled = nullptr;  ///< set from outside to end early; whole blocks are kept
+  const std::atomic<bool>* cancelled = nullptr;  ///< set from outside to end early; what has ended is kept
 };
 
 /// A sample that CVODE could not follow to the horizon.
@@ -106,11 +107,12 @@ class EnsembleRun {
   EnsembleRun(const UncertainMotion& system, EnsembleOptions options);
   EnsembleRun(UncertainMotion&& system, EnsembleOptions options) = delete;
 
-  /// Integrates the first samples, at most 256, the corners and the centre, and keeps them.
+  /// Integrates the first samples, at most 256, then the corners and the centre, and keeps them. If that is cancelled,
+  /// those before the first that has not come to its end are kept, and a second call goes on behind them.
   void integrateFirst();
-  /// Takes the first samples into the statistics, integrating them once more if that was cancelled, then integrates all
-  /// others and takes them. `expected`: where outputs
-  /// are expected besides what the first samples say, such as an enclosure; NaN where nothing is known, or empty.
+  /// Takes the first samples into the statistics, with what was still missing of them, then integrates all others and
+  /// takes them. `expected`: where outputs are expected besides what the first samples say, such as an enclosure; NaN
+  /// where nothing is known, or empty.
   void integrateOthers(const Envelope& expected = {}, const Look& look = {});
 
   const EnsembleOptions& options() const { return options_; }
@@ -120,9 +122,9 @@ class EnsembleRun {
   /// Samples that count in the statistics: those of the plan, unless cancelled.
   std::size_t counted() const { return counted_; }
   /// The same and corners and centre.
-  std::size_t integrated() const { return counted_ == 0 ? 0 : counted_ + sampling_.size() - sampling_.samples(); }
+  std::size_t integrated() const { return counted_ + beside_; }
   /// All of them, and their error measured to the end.
-  bool isComplete() const { return counted_ == sampling_.samples() && errorIsMeasured_; }
+  bool isComplete() const { return integrated() == sampling_.size() && measured_ == sampling_.samples(); }
   /// Output times at which all that were integrated have arrived; envelopes and statistics end there, since beyond they
   /// would be of the survivors alone.
   std::size_t reachedTimes() const { return reachedTimes_; }
@@ -143,8 +145,10 @@ class EnsembleRun {
   Statistics statistics(const std::vector<double>& probabilities = {0.01, 0.05, 0.5, 0.95, 0.99}) const;
 
  private:
-  SampleBlock newBlock(std::size_t first, std::size_t count, bool hasWeight) const;
-  bool integrate(SampleBlock& block);
+  std::size_t placeInPack(std::size_t number) const;
+  SampleBlock nextBlock(std::size_t next, std::size_t end) const;
+  void integrate(SampleBlock& block);
+  void integrateFirst(std::size_t& next, std::size_t end);
   void measureError(const SampleBlock& block);
   void noteFailures(const SampleBlock& block);
   void take(SampleBlock& block, const Look& look);
@@ -159,10 +163,12 @@ class EnsembleRun {
   std::vector<SampleBlock> first_;
   std::optional<EnsembleStatistics> statistics_;
   std::vector<FailedSample> failed_;
-  std::size_t failures_ = 0, counted_ = 0, reachedTimes_;
+  std::size_t failures_ = 0, counted_ = 0, beside_ = 0, reachedTimes_;
   Table error_;
-  bool errorIsMeasured_ = true;  // of all that were integrated
-  std::size_t errorStride_, total_;
+  std::size_t errorStride_;
+  std::size_t nextSample_ = 0, nextBeside_;  // to be integrated: of the plan, and of the corners with the centre
+  std::size_t measured_ = 0;                 // so many of the plan's samples have had their share in the error
+  std::size_t total_;
   std::atomic<std::size_t> done_{0};
   double cpu_ = 0;
 };

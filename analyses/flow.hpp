@@ -113,8 +113,9 @@ class Flow {
 
 /// Range of y = g(t, x, p) over a box (states, then parameters) by polynomials in the uncertain quantities; result[0]
 /// is over the box, result[i] over levels[i-1] (each inside the one before). degree -1: chosen by the number of
-/// quantities.
+/// quantities. Empty if `cancelled` was set before all was found.
 std::vector<std::vector<Interval>> encloseImage(const Program& g, double t, const Box& box,
-                                                const std::vector<Box>& levels = {}, int degree = -1);
+                                                const std::vector<Box>& levels = {}, int degree = -1,
+                                                const std::atomic<bool>* cancelled = nullptr);
 
 }  // namespace gamut

@@ -11,16 +11,15 @@ namespace gamut {
 
 using detail::at;
 
-std::vector<std::vector<Interval>> encloseImage(const Program& g, double t, const Box& box,
-                                                const std::vector<Box>& levels, int degree) {
-  requireThat(box.size() == at(g.states() + g.parameters()), "the box needs one interval a state and a parameter");
-  requireThat(degree >= -1 && degree <= 40, "the degree of the polynomials must be 0 to 40 (-1: automatic)");
-  requireNested(box, levels);
-  requireNearest();
+namespace {
+
+/// Throws Cancelled.
+std::vector<std::vector<Interval>> image(const Program& g, double t, const Box& box, const std::vector<Box>& levels,
+                                         int degree, const std::atomic<bool>* cancelled) {
   const Embedding embedding(box);
   const int d = degree >= 1 && embedding.symbols > 0 ? degree : degreeLadder(embedding.symbols).back();
   const auto monomials = std::make_shared<const Monomials>(std::vector<int>(at(embedding.symbols), 1), d);
-  FlowOutputs outputs(g, monomials);
+  FlowOutputs outputs(g, monomials, cancelled);
   PolynomialRange range(monomials);
   const int n = g.states(), N = monomials->count();
   FlowPoint point;
@@ -46,6 +45,7 @@ std::vector<std::vector<Interval>> encloseImage(const Program& g, double t, cons
                std::vector<double>(at(embedding.symbols), 1.0), xi);
     std::vector<Interval> row;
     for (int o = 0; o < outputs.count(); ++o) {
+      if (cancelled != nullptr && *cancelled) throw Cancelled();
       Interval value = std::isfinite(outputs.radius(o)) ? inflated(range(outputs.polynomial(o), xi), outputs.radius(o))
                                                         : Interval::entire();
       if (!result.empty()) value = intersection(value, result.back()[at(o)]);
@@ -54,6 +54,22 @@ std::vector<std::vector<Interval>> encloseImage(const Program& g, double t, cons
     result.push_back(std::move(row));
   }
   return result;
+}
+
+}  // namespace
+
+std::vector<std::vector<Interval>> encloseImage(const Program& g, double t, const Box& box,
+                                                const std::vector<Box>& levels, int degree,
+                                                const std::atomic<bool>* cancelled) {
+  requireThat(box.size() == at(g.states() + g.parameters()), "the box needs one interval a state and a parameter");
+  requireThat(degree >= -1 && degree <= 40, "the degree of the polynomials must be 0 to 40 (-1: automatic)");
+  requireNested(box, levels);
+  requireNearest();
+  try {
+    return image(g, t, box, levels, degree, cancelled);
+  } catch (const Cancelled&) {
+    return {};
+  }
 }
 
 }  // namespace gamut

@@ -26,7 +26,8 @@ class PackWitness {
   /// starts: one row of packWidth a start value, the initial values, then the parameters; of a pack that is not full,
   /// fill the rest with copies of a sample. trajectories: packWidth values of the first output at the first output
   /// time, then of the next output, then the next time; to be used only if all times were reached, since it ends with
-  /// the first sample that cannot go on. The result depends on the arguments alone.
+  /// the first sample that cannot go on. The values depend on starts and tolerance alone; how far they come, on
+  /// `seconds` and `cancelled` too.
   Integration integrate(std::span<const double> starts, const Tolerance& tolerance, std::span<double> trajectories,
                         double seconds = std::numeric_limits<double>::infinity());
 

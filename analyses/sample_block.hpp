@@ -52,6 +52,16 @@ class SampleBlock {
     for (std::size_t cell = 0; cell < cells_; ++cell) result[cell] = rows_[place(i, 0, cell)];
     return result;
   }
+  /// Leaves the others out.
+  void keepFirst(std::size_t count) {
+    runs.resize(count);
+    levels.resize(count);
+    values_.resize(count * quantities_);
+    rows_.resize(packs() * cells_ * packWidth);
+    for (std::size_t i = count; i < packs() * packWidth; ++i)
+      for (std::size_t cell = 0; cell < cells_; ++cell)
+        rows_[place(i, 0, cell)] = std::numeric_limits<double>::quiet_NaN();
+  }
   void setTrajectory(std::size_t i, std::span<const double> trajectory) {
     for (std::size_t cell = 0; cell < cells_; ++cell) rows_[place(i, 0, cell)] = trajectory[cell];
   }

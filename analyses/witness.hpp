@@ -39,7 +39,8 @@ class Witness {
   Witness& operator=(Witness&&) noexcept;
 
   /// start: the initial values, then the parameters. trajectory: row by row one output time, one column an output;
-  /// NaN beyond what was reached. The result depends on the arguments alone, not on what was integrated before.
+  /// NaN beyond what was reached. The values depend on start and tolerance alone, not on what was integrated before;
+  /// how far they come, on `seconds` and `cancelled` too.
   Integration integrate(std::span<const double> start, const Tolerance& tolerance, std::span<double> trajectory,
                         double seconds = std::numeric_limits<double>::infinity());
 

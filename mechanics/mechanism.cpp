@@ -77,9 +77,7 @@ void Mechanism::use(Quantity& quantity, const std::string& name, const std::stri
   if (parameter == parameters_.end())
     throw UnknownName("parameter", quantity.parameter(), namesOf(parameters_), "for " + quoted(name));
   if (parameter->unit.empty()) parameter->unit = unit;
-  if (parameter->unit != unit)
-    refuse("the parameter " + quoted(parameter->name) + " is in " + parameter->unit + ", but " + quoted(name) +
-           " is in " + unit);
+  if (parameter->unit != unit) throw WrongUnit(parameter->name, parameter->unit, name, unit);
 }
 
 void Mechanism::use(QuantityVector& vector, const std::string& name, const std::string& unit) {

@@ -103,4 +103,11 @@ UnknownName::UnknownName(const std::string& kind, const std::string& word, const
       word_(word),
       expected_(expectedName(word, candidates) + (remark.empty() ? "" : " (" + remark + ")")) {}
 
+WrongUnit::WrongUnit(const std::string& parameter, const std::string& unit, const std::string& use,
+                     const std::string& wanted)
+    : std::invalid_argument("the parameter " + quoted(parameter) + " is in " + unit + ", but " + quoted(use) +
+                            " is in " + wanted),
+      parameter_(parameter),
+      wanted_(wanted) {}
+
 }  // namespace gamut

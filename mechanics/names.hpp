@@ -37,4 +37,16 @@ class UnknownName : public std::invalid_argument {
   std::string problem_, word_, expected_;
 };
 
+/// A parameter is used for a number of another unit than its own; what() is one sentence.
+class WrongUnit : public std::invalid_argument {
+ public:
+  WrongUnit(const std::string& parameter, const std::string& unit, const std::string& use, const std::string& wanted);
+
+  const std::string& parameter() const { return parameter_; }
+  const std::string& wanted() const { return wanted_; }
+
+ private:
+  std::string parameter_, wanted_;
+};
+
 }  // namespace gamut

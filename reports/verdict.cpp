@@ -35,6 +35,14 @@ double distanceOutside(double value, double lower, double upper) {
   return std::max({lower - value, value - upper, 0.0});
 }
 
+/// "at 0.3 s the angle …" without the time in front.
+std::string_view withoutTime(std::string_view why) {
+  constexpr std::string_view at = "at ", unit = " s ";
+  const std::size_t end = why.find_first_not_of("0123456789.e+-", at.size());
+  return why.starts_with(at) && end != why.npos && why.substr(end).starts_with(unit) ? why.substr(end + unit.size())
+                                                                                     : why;
+}
+
 class Judge {
  public:
   explicit Judge(const Results& results) : results_(results) { checkShapes(); }
@@ -173,7 +181,7 @@ class Judge {
                             : fmt::format("Corner {} of {} of the alpha-cuts", corner - corners + 1, inner);
   }
 
-  /// Grave findings first, every one of them; of the settled ones a few by name and the number of the others.
+  /// Grave findings first, every one of them; of several settled ones their number.
   void readDisputes() {
     std::vector<std::string> doubtful, undecided, settled;
     for (const DisputedSample& sample : results_.comparison.disputed) {
@@ -203,7 +211,12 @@ class Judge {
     }
     verdict_.notes.insert(verdict_.notes.end(), doubtful.begin(), doubtful.end());
     noteSome(undecided, "seemed outside and were not decided");
-    noteSome(settled, "seemed outside and were found inside");
+    if (settled.size() == 1) verdict_.notes.push_back(settled.front());
+    if (settled.size() > 1)
+      verdict_.notes.push_back(fmt::format(
+          "{} samples seemed outside and were found inside when they were integrated more accurately; the results name "
+          "them all, in /comparison/disputed.",
+          settled.size()));
   }
 
   void noteSome(const std::vector<std::string>& notes, std::string_view what) {
@@ -247,12 +260,13 @@ class Judge {
     return moves() ? fmt::format(" from 0 s to {} s", numberText(reached, 6)) : "";
   }
 
-  /// One analysis that ended before the horizon, in words.
-  void noteEnd(bool present, std::string_view what, double reached, const std::string& why) {
-    if (!present || reached >= results_.horizon) return;
-    const std::string reason = why.empty() ? "" : ": " + why;
-    verdict_.notes.push_back(fmt::format("{} {} s of the {} s asked for{}.", what, numberText(reached, 6),
-                                         numberText(results_.horizon, 6), reason));
+  /// One analysis that ended before the horizon, or, where nothing moves, before it had all that it could have.
+  void noteEnd(bool present, std::string_view whatEnds, double reached, const std::string& why) {
+    if (!present || (moves() ? reached >= results_.horizon : why.empty())) return;
+    const std::string reason = why.empty() ? "" : ": " + std::string(withoutTime(why));
+    verdict_.notes.push_back(moves() ? fmt::format("{} at {} s of the {} s asked for{}.", whatEnds,
+                                                   numberText(reached, 6), numberText(results_.horizon, 6), reason)
+                                     : fmt::format("{} early{}.", whatEnds, reason));
     short_ = true;
   }
 
@@ -265,13 +279,13 @@ class Judge {
   }
 
   void decide() {
-    if (comparedEnvelope_) findOverestimation();
+    if (comparedEnvelope_ && !endedAtOnce()) findOverestimation();
     verdict_.reached = reached();
-    noteEnd(results_.interval.present, "The guarantee ends at", results_.interval.reached, results_.interval.why);
+    noteEnd(results_.interval.present, "The guarantee ends", results_.interval.reached, results_.interval.why);
     noteSamples();
-    noteEnd(results_.stochastic.present && results_.stochastic.integrated > 0, "The samples end at",
+    noteEnd(results_.stochastic.present && results_.stochastic.integrated > 0, "The samples end",
             results_.stochastic.reached, results_.stochastic.why);
-    noteEnd(results_.fuzzy.present, "The alpha-cuts end at", results_.fuzzy.reached, results_.fuzzy.why);
+    noteEnd(results_.fuzzy.present, "The alpha-cuts end", results_.fuzzy.reached, results_.fuzzy.why);
     if (missing_ > 0 && compared_ > 0 && !endedAtOnce()) {
       verdict_.notes.push_back(fmt::format("{} of the numbers to compare {} missing before the end was reached.",
                                            missing_, missing_ == 1 ? "is" : "are"));
@@ -297,8 +311,8 @@ class Judge {
     return comparedCuts_ ? reachedCuts_ : reachedTime(results_);
   }
 
-  /// Something was to be compared, but over no span of time.
-  bool endedAtOnce() const { return (comparedEnvelope_ || comparedCuts_) && moves() && reached() <= 0; }
+  /// Something was to be compared, but at the start alone.
+  bool endedAtOnce() const { return (comparedEnvelope_ || comparedCuts_) && moves() && timesUntil(reached()) <= 1; }
 
   std::string excursionText(const Excursion& excursion) const {
     return fmt::format("up to {} outside {} in {}{}", withUnit(excursion.distance, excursion.output),
@@ -329,9 +343,10 @@ class Judge {
     }
     if (endedAtOnce()) {
       verdict_.word = "incomplete";
-      verdict_.sentence =
-          fmt::format("Nothing could be compared: an analysis ended at its start. The {} s asked for were not reached.",
-                      numberText(results_.horizon, 6));
+      verdict_.sentence = fmt::format(
+          "Nothing could be compared: an analysis ended before the first output time. The {} s asked for "
+          "were not reached.",
+          numberText(results_.horizon, 6));
       return;
     }
     const bool complete = !short_ && !unfinished_ && missing_ == 0;
@@ -347,7 +362,9 @@ class Judge {
     }
     verdict_.sentence += ".";
     if (short_) {
-      verdict_.sentence += fmt::format(" The {} s asked for were not reached.", numberText(results_.horizon, 6));
+      verdict_.sentence += moves()
+                               ? fmt::format(" The {} s asked for were not reached.", numberText(results_.horizon, 6))
+                               : " An analysis ended early.";
     } else if (missing_ > 0) {
       verdict_.sentence += " Not every number was there to compare.";
     }

@@ -15,6 +15,7 @@
 #include "scalars/fuzzy.hpp"
 #include "scalars/samples.hpp"
 #include "studies/problem.hpp"
+#include "studies/summary.hpp"
 #include "studies/version.hpp"
 #include "studies/watch.hpp"
 
@@ -159,28 +160,35 @@ class Driver {
     return outputs;
   }
 
-  /// Plain intervals and polynomials both enclose, so their intersection does.
+  /// Plain intervals and polynomials both enclose, so their intersection does. What ends early leaves the former.
   void encloseConfiguration() {
     double start = processCpuSeconds();
     const std::vector<Interval> direct = move<Interval>(problem_.box);
-    const auto images = encloseImage(problem_.motion.motion.g, 0.0, problem_.box, problem_.levels, study_.flow.degree);
-    std::vector<Interval> enclosure;
-    for (std::size_t j = 0; j < direct.size(); ++j) enclosure.push_back(intersection(direct[j], images[0][j]));
+    const auto images =
+        encloseImage(problem_.motion.motion.g, 0.0, problem_.box, problem_.levels, study_.flow.degree, watch_.stop());
+    std::vector<Interval> enclosure = direct;
+    const auto narrow = [&](std::size_t image) {
+      for (std::size_t j = 0; j < enclosure.size() && !images.empty(); ++j)
+        enclosure[j] = intersection(enclosure[j], images[image][j]);
+    };
+    narrow(0);
     IntervalResult& interval = results_.interval;
     interval.direct = emptyBounds();
     setRow(interval.at, 0, enclosure);
     setRow(interval.direct, 0, direct);
     interval.pieces = 1;
+    if (images.empty()) interval.why = watch_.why();
     reachedTimes_ = 1;
     interval.cpu = recordingCpu_ + processCpuSeconds() - start;
     if (!study_.fuzzy) return;
 
     start = processCpuSeconds();
     FuzzyResult& fuzzy = startFuzzy();
+    fuzzy.why = interval.why;
     const std::vector<Fuzzy> moved = move<Fuzzy>(fuzzyNumbers());
     for (std::size_t level = 0; level < problem_.levels.size(); ++level) {
-      for (std::size_t j = 0; j < enclosure.size(); ++j)
-        enclosure[j] = intersection(enclosure[j], intersection(images[level + 1][j], moved[j].cut(level)));
+      narrow(level + 1);
+      for (std::size_t j = 0; j < enclosure.size(); ++j) enclosure[j] = intersection(enclosure[j], moved[j].cut(level));
       setRow(fuzzy.outer[level], 0, enclosure);
     }
     fuzzy.cpu = processCpuSeconds() - start;
@@ -300,18 +308,17 @@ class Driver {
   void compareAnswers() {
     ComparisonResult& comparison = results_.comparison;
     comparison.present = true;
-    const bool complete =
-        reachedTimes_ == study_.time.size() && hasSamples() && ensemble_->isComplete() && ensemble_->failures() == 0;
-    if (comparison.verdict == "inside" && !complete) comparison.verdict = "incomplete";
-    if (!study_.interval || !hasSamples()) return;
-    Comparison found;
-    measureOverestimation({results_.interval.at, reachedTimes_}, results_.stochastic.envelope,
-                          results_.stochastic.error, comparisonOptions().resolution, found);
-    comparison.overestimation = found.overestimation;
-    comparison.excess = found.excess;
+    if (comparison.verdict == "inside" && !whyEnded(results_).empty()) comparison.verdict = "incomplete";
+    const std::size_t compared = std::min(reachedTimes_, hasSamples() ? ensemble_->reachedTimes() : 0);
+    const bool isOfTheStartAlone = study_.time.size() > 1 && compared <= 1;
+    if (!study_.interval || !hasSamples() || isOfTheStartAlone) return;
+    Overestimation found = measureOverestimation({results_.interval.at, reachedTimes_}, results_.stochastic.envelope,
+                                                 results_.stochastic.error);
+    comparison.overestimation = std::move(found.ratio);
+    comparison.excess = std::move(found.excess);
     comparison.maximum = found.maximum;
     comparison.median = found.median;
-    comparison.maximumOf = found.maximumOf;
+    comparison.maximumOf = std::move(found.maximumOf);
   }
 
   ComparisonOptions comparisonOptions() const {

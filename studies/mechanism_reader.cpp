@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <map>
 
 #include "mechanics/names.hpp"
 
@@ -42,6 +43,11 @@ class MechanismReader {
     } catch (const UnknownName& unknown) {
       const toml::node* place = textEndingWith(at, unknown.word());
       source_.fail(place == nullptr ? at : *place, unknown.problem(), unknown.expected());
+    } catch (const WrongUnit& error) {
+      const auto stated = statedWithUnit_.find(error.parameter());
+      const toml::node* place =
+          stated == statedWithUnit_.end() ? textEndingWith(at, error.parameter()) : stated->second;
+      source_.fail(place == nullptr ? at : *place, error.what(), "a parameter in " + error.wanted());
     } catch (const std::invalid_argument& error) {
       source_.failWith(at, error.what(), "a mechanism that can be assembled");
     }
@@ -82,6 +88,7 @@ class MechanismReader {
       const Amount amount = source_.asAnyAmount(value, section.nameOf("parameters." + key));
       const std::string unit = amount.hasUnit ? unitOf(amount.dimension) : "";
       guarded(value, [&, &name = key] { mechanism_.addParameter(prefix + name, enclose(amount), unit); });
+      if (amount.hasUnit) statedWithUnit_[prefix + key] = &value;
     }
   }
 
@@ -189,7 +196,10 @@ class MechanismReader {
     const TomlSection section = element(table, {"joint", "stiffness", "rest", "damping"});
     const std::string joint = section.text("joint");
     const std::vector<std::string> states = mechanism_.stateNames();
-    const bool slides = std::find(states.begin(), states.end(), joint + ".displacement") != states.end();
+    const auto has = [&](const char* state) { return std::ranges::find(states, joint + state) != states.end(); };
+    const bool slides = has(".displacement");
+    if (!slides && !has(".angle"))  // refused before its numbers are, whose units depend on the joint
+      guarded(table, [&] { mechanism_.add(JointSpring{section.text("name"), joint, 0.0, 0.0, 0.0}); });
     JointSpring spring{section.text("name"), joint, number(section, "stiffness", slides ? stiffness : turningStiffness),
                        number(section, "rest", slides ? length : angle),
                        number(section, "damping", slides ? damping : turningDamping)};
@@ -296,6 +306,7 @@ class MechanismReader {
   const TomlSource& source_;
   TomlSection section_;
   Mechanism mechanism_;
+  std::map<std::string, const toml::node*> statedWithUnit_;  // parameters
 };
 
 }  // namespace

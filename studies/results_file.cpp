@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <optional>
@@ -16,6 +15,7 @@
 #include "studies/detail/results_parts.hpp"
 #include "studies/detail/seal.hpp"
 #include "studies/printable.hpp"
+#include "studies/readable.hpp"
 
 namespace gamut {
 namespace {
@@ -451,10 +451,9 @@ void writeResults(const Results& results, const std::string& path) {
 
 Results readResults(const std::string& path) {
   const Hdf5Silence silence;  // the child's too
-  std::error_code error;
+  if (const std::string fault = whyUnreadable(path); !fault.empty())
+    throw ResultsFileError(fmt::format("{}: {}; expected a results file written by gamut run", path, fault));
   std::ifstream file(path, std::ios::binary);
-  if (!std::filesystem::is_regular_file(path, error) || !file)
-    throw ResultsFileError(path + ": cannot be read; expected a results file written by gamut run");
   const std::string content{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   try {
     checkSeal(content);

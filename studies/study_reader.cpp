@@ -13,12 +13,13 @@
 #include "studies/detail/toml_source.hpp"
 #include "studies/detail/uncertain_reader.hpp"
 #include "studies/printable.hpp"
+#include "studies/readable.hpp"
 #include "studies/study.hpp"
 
 namespace gamut {
 namespace {
 
-constexpr Dimension plain{}, seconds{0, 0, 1, 0};
+constexpr Dimension seconds{0, 0, 1, 0}, gigabytes{0, 0, 0, 0, 1};
 
 class StudyReader {
  public:
@@ -265,8 +266,9 @@ class StudyReader {
       return scale * value;
     };
     constexpr double gigabyte = 1e9;
-    study_.limits = {limit("time", seconds, 1), limit("memory", plain, gigabyte), limit("enclosure_time", seconds, 1),
-                     limit("enclosure_memory", plain, gigabyte), limit("sample_time", seconds, 1)};
+    study_.limits = {limit("time", seconds, 1), limit("memory", gigabytes, gigabyte),
+                     limit("enclosure_time", seconds, 1), limit("enclosure_memory", gigabytes, gigabyte),
+                     limit("sample_time", seconds, 1)};
   }
 
   TomlSource source_;
@@ -278,11 +280,11 @@ class StudyReader {
 Study readStudyText(const std::string& text, const std::string& name) { return StudyReader(text, name).read(); }
 
 Study readStudy(const std::string& path) {
-  std::error_code error;
+  const std::string expected = "; expected a study file (TOML)";
+  if (const std::string fault = whyUnreadable(path); !fault.empty()) throw StudyError(path + ": " + fault + expected);
   std::ifstream file(path, std::ios::binary);
-  if (!std::filesystem::is_regular_file(path, error) || !file)
-    throw StudyError(path + ": cannot be read; expected a study file (TOML)");
   const std::string content{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  if (content.find('\0') != std::string::npos) throw StudyError(path + ": is no text" + expected);
   return readStudyText(content, path);
 }
 

@@ -2,6 +2,7 @@
 #include "studies/summary.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -137,10 +138,11 @@ double reachedTime(const Results& results) {
 }
 
 std::string whyEnded(const Results& results) {
+  std::vector<std::string> reasons;
   for (const std::string* why : {&results.interval.why, &results.stochastic.stopped, &results.stochastic.why,
                                  &results.fuzzy.why, &results.comparison.why})
-    if (!why->empty()) return *why;
-  return {};
+    if (!why->empty() && std::ranges::find(reasons, *why) == reasons.end()) reasons.push_back(*why);
+  return fmt::format("{}", fmt::join(reasons, "; "));
 }
 
 std::string jsonSummary(const Results& results, const std::string& verdict, const ResultFiles& files) {

@@ -15,7 +15,7 @@ struct ResultFiles {
 /// The time up to which every analysis that was asked for got (s).
 double reachedTime(const Results& results);
 
-/// Why the run ended before all was done; empty if it did not.
+/// Why the run ended before all was done, every reason once; empty if it did not.
 std::string whyEnded(const Results& results);
 
 /// One JSON object on one line; keys: docs/json.md. Numbers are the shortest decimals that give the same double back;

@@ -47,6 +47,31 @@ class UncertainReader {
     study_.uncertain.push_back(std::move(result));
   }
 
+  /// Says so if a link whose nominal length is some may have none: a mechanism may be singular there.
+  void noteLengths(const std::vector<const toml::table*>& tables) {
+    for (const ElementDescription& element : study_.mechanism.elements()) {
+      const Link* link = std::get_if<Link>(&element);
+      if (link == nullptr) continue;
+      bool isSomewhere = false, mayVanish = true;
+      std::size_t first = study_.uncertain.size();
+      for (const Quantity& component : link->vector) {
+        const auto isIt = [&](const UncertainQuantity& q) { return q.quantity == component.parameter(); };
+        const auto found = std::find_if(study_.uncertain.begin(), study_.uncertain.end(), isIt);
+        const Interval nominal = component.factor() * study_.mechanism.nominal(component.parameter());
+        const bool varies = found != study_.uncertain.end();
+        isSomewhere = isSomewhere || !contains(nominal, 0);
+        mayVanish = mayVanish && contains(varies ? component.factor() * found->uncertain.range : nominal, 0);
+        if (varies) first = std::min(first, static_cast<std::size_t>(found - study_.uncertain.begin()));
+      }
+      if (!isSomewhere || !mayVanish || first == study_.uncertain.size()) continue;
+      study_.notes.push_back(source_.note(
+          *tables[first]->get("interval"),
+          fmt::format("the interval holds a value with which the link '{}' has no length; where the motion is not "
+                      "determined there, nothing can be guaranteed",
+                      link->name)));
+    }
+  }
+
   /// Says so if within the intervals there are inertias that no body has. They may still make sense: of a body that
   /// only turns about one axis, the other moments do not matter.
   void noteInertia(const std::vector<const toml::table*>& tables) {
@@ -84,6 +109,9 @@ class UncertainReader {
       Amount deviation = source_.readAnyAmount(node, what, rest);
       if (deviation.value <= 0) source_.fail(node, what + " has no positive deviation", "a deviation above 0");
       if (deviation.isRelative && !deviation.hasUnit) {
+        if (isEqual(nominal, Interval(0.0)))
+          source_.fail(node, fmt::format("{} is a share of the nominal value, which is 0", what),
+                       fmt::format("an absolute deviation, such as \"± 0.01 {}\"", result.unit));
         const Interval share = enclose(deviation);
         result.uncertain.range = nominal * hull(1.0 - share, 1.0 + share);  // |v - nominal| <= share |nominal|
       } else {
@@ -320,6 +348,7 @@ void readUncertain(const TomlSource& source, const std::vector<const toml::table
   UncertainReader reader(source, study);
   for (const toml::table* table : tables) reader.read(*table);
   reader.noteInertia(tables);
+  reader.noteLengths(tables);
 }
 
 std::string quantityExpected(const std::string& word, const std::vector<std::string>& known) {

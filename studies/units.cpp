@@ -22,7 +22,8 @@ struct Unit {
 };
 
 constexpr Dimension none{};
-constexpr Dimension angle{0, 0, 0, 1}, perSecond{0, 0, -1, 1}, newton{1, 1, -2, 0}, joule{1, 2, -2, 0};
+constexpr Dimension angle{0, 0, 0, 1}, perSecond{0, 0, -1, 1}, newton{1, 1, -2, 0}, joule{1, 2, -2, 0},
+    memory{0, 0, 0, 0, 1};
 
 constexpr std::array units{
     Unit{"rad", "1", 0, angle},
@@ -41,11 +42,16 @@ constexpr std::array units{
     Unit{"s", "1", 0, {0, 0, 1, 0}},
     Unit{"ms", "1/1000", 0, {0, 0, 1, 0}},
     Unit{"min", "60", 0, {0, 0, 1, 0}},
+    Unit{"h", "3600", 0, {0, 0, 1, 0}},
     Unit{"N", "1", 0, newton},
     Unit{"kN", "1000", 0, newton},
     Unit{"J", "1", 0, joule},
     Unit{"kJ", "1000", 0, joule},
     Unit{"W", "1", 0, {1, 2, -3, 0}},
+    Unit{"GB", "1", 0, memory},
+    Unit{"MB", "1/1000", 0, memory},
+    Unit{"GiB", "2097152/1953125", 0, memory},  // 2^30 / 10^9
+    Unit{"MiB", "2048/1953125", 0, memory},     // 2^20 / 10^9
     Unit{"%", "1/100", 0, none},
 };
 
@@ -69,6 +75,7 @@ void add(Dimension& sum, const Dimension& term, int times) {
   sum.length += times * term.length;
   sum.time += times * term.time;
   sum.angle += times * term.angle;
+  sum.memory += times * term.memory;
 }
 
 [[noreturn]] void fail(const std::string& what, const std::string& expected) {
@@ -310,7 +317,11 @@ std::string productOf(const std::vector<std::pair<std::string, int>>& powers) {
 std::string unitOf(const Dimension& dimension) {
   for (const NamedUnit& named : namedUnits)
     if (named.dimension == dimension) return std::string(named.name);
-  return productOf({{"kg", dimension.mass}, {"m", dimension.length}, {"rad", dimension.angle}, {"s", dimension.time}});
+  return productOf({{"kg", dimension.mass},
+                    {"m", dimension.length},
+                    {"rad", dimension.angle},
+                    {"s", dimension.time},
+                    {"GB", dimension.memory}});
 }
 
 Dimension dimensionOf(std::string_view unit) { return Reader(unit).readUnit(); }

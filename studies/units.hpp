@@ -17,9 +17,9 @@
 
 namespace gamut {
 
-/// Powers of kilogram, metre, second and radian.
+/// Powers of kilogram, metre, second, radian and gigabyte.
 struct Dimension {
-  int mass = 0, length = 0, time = 0, angle = 0;
+  int mass = 0, length = 0, time = 0, angle = 0, memory = 0;
   friend bool operator==(const Dimension&, const Dimension&) = default;
 };
 

@@ -21,6 +21,7 @@ namespace {
 constexpr double defaultTime = 1800;           // s
 constexpr double defaultShareOfMemory = 0.75;  // of the machine's
 constexpr double enclosureShare = 2.0 / 3;     // of the whole run's time and memory
+constexpr double firstShare = 0.25;            // of its time; a twelfth is left for the comparison
 constexpr double sampleShare = 0.01;           // of its time
 constexpr std::chrono::milliseconds betweenLooks{10};
 constexpr double slack = 512e6;  // bytes: stacks of threads and what allocators hold in reserve
@@ -113,7 +114,7 @@ double Watch::memoryLimit() const { return stage_ == Stage::enclosure ? limits_.
 
 double Watch::timeLimit() const {
   if (stage_ == Stage::enclosure) return limits_.enclosureTime;
-  return stage_ == Stage::firstSamples ? (1 - enclosureShare) * limits_.time : limits_.time;
+  return stage_ == Stage::firstSamples ? firstShare * limits_.time : limits_.time;
 }
 
 void Watch::begin(Stage stage) {

@@ -42,7 +42,8 @@ struct Overdue {
 
 class Watch {
  public:
-  /// The first samples come before the enclosure, and leave it the time that it has if nothing else is stated.
+  /// The first samples come before the enclosure and have a quarter of the run's time: that leaves the enclosure the
+  /// time that it has if nothing else is stated, and a twelfth for the comparison.
   enum class Stage { firstSamples, enclosure, rest };
 
   /// Watches from now on. `interrupted`, if not null, ends everything when it is set.

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <map>
 #include <mutex>
 #include <span>
 #include <stdexcept>
@@ -40,6 +41,13 @@ double oscillatorError(const Ensemble& e) {
       error = std::max(error, std::abs(e(i, t, 1) + a * w * std::sin(w * e.times[t])));
     }
   return error;
+}
+
+/// x = 1 / (1 - p t) ends at 1/p.
+UncertainMotion singularMotion() {
+  UncertainMotion system = decay(1.0, 10);
+  system.motion.f = record(1, 1, [](auto, const auto& x, const auto& p, auto& dx) { dx[0] = p[0] * sqr(x[0]); });
+  return system;
 }
 
 bool sameBits(std::span<const double> a, std::span<const double> b) {
@@ -97,8 +105,7 @@ TEST(ReplaySample, HoldsForBdfForFailedSamplesAndForMotionsWithoutStates) {
   bdf.method = Method::bdf;
   const WholeEnsemble stiff = sampleEnsemble(oscillator(), bdf);
   EXPECT_TRUE(sameBits(replaySample(oscillator(), bdf, 17), stiff.trajectory(17)));
-  UncertainMotion singular = decay(1.0, 10);
-  singular.motion.f = record(1, 1, [](auto, const auto& x, const auto& p, auto& dx) { dx[0] = p[0] * sqr(x[0]); });
+  const UncertainMotion singular = singularMotion();
   const WholeEnsemble failed = sampleEnsemble(singular, samples(64));
   ASSERT_FALSE(failed.failed.empty());
   for (std::size_t i : {failed.failed.front().number, std::size_t{0}, failed.centre()})
@@ -307,12 +314,11 @@ TEST(Statistics, CornersAndCentreHaveNoWeight) {
 }
 
 TEST(Ensemble, NamesTheSamplesThatFailAndKeepsTheOthers) {
-  UncertainMotion system = decay(1.0, 10);
-  system.motion.f = record(1, 1, [](auto, const auto& x, const auto& p, auto& dx) { dx[0] = p[0] * sqr(x[0]); });
+  const UncertainMotion system = singularMotion();
   EnsembleOptions options = samples(32, 2);
   options.alpha = {0, 0.5};
-  const WholeEnsemble e = sampleEnsemble(system, options);  // x = 1 / (1 - p t) ends at 1/p
-  ASSERT_EQ(e.failed.size(), 10u);                          // of more
+  const WholeEnsemble e = sampleEnsemble(system, options);
+  ASSERT_EQ(e.failed.size(), 10u);  // of more
   EXPECT_TRUE(std::ranges::is_sorted(e.failed, {}, &FailedSample::number));
   for (const FailedSample& failure : e.failed) {
     const double p = e.valuesOf(failure.number)[0];
@@ -330,6 +336,7 @@ TEST(Ensemble, NamesTheSamplesThatFailAndKeepsTheOthers) {
   EXPECT_GT(arrived, 10u);
   EXPECT_THAT(e.reached, DoubleNear(0.6, 1e-15));  // the corner p = 1.5 ends at 2/3
   EXPECT_THAT(e.why, HasSubstr("sample " + std::to_string(e.failed.front().number) + " failed"));
+  EXPECT_THAT(e.why, HasSubstr(" s: its steps became too short, as where the motion runs into a singularity"));
   EXPECT_THAT(e.why, HasSubstr("; beyond, nothing is shown of the samples"));
   EXPECT_EQ(e.reachedTimes, 7u);
   for (std::size_t t = 0; t < 11; ++t)  // no envelope and no statistics of the survivors
@@ -346,7 +353,7 @@ TEST(Ensemble, AMotionWithoutStatesIsEvaluatedDirectly) {
   EXPECT_LE(e.error(1, 0), 2e-15);
 }
 
-TEST(Ensemble, KeepsTheBlocksThatAreWholeWhenCancelledAndSaysSo) {
+TEST(Ensemble, KeepsWhatHasEndedWhenCancelledAndSaysSo) {
   std::atomic<bool> cancelled = false;
   EnsembleOptions options = samples(500000);  // of one output at two times: 8192 a block
   options.cancelled = &cancelled;
@@ -359,7 +366,7 @@ TEST(Ensemble, KeepsTheBlocksThatAreWholeWhenCancelledAndSaysSo) {
   EXPECT_EQ(run.why(), "");
   EXPECT_GE(run.counted(), 256u + 8192u);
   EXPECT_LT(run.counted(), 100000u);
-  EXPECT_EQ((run.counted() - 256) % 8192, 0u);
+  EXPECT_EQ(run.counted() % 64, 0u);
   EXPECT_EQ(run.reached(), 1);
   EXPECT_THAT(run.statistics().mean(0, 0), DoubleNear(2, 1e-3));
 }
@@ -405,8 +412,6 @@ TEST(Ensemble, APackThatIsNotFinishedWhenCancelledCountsAsNotIntegrated) {
   EXPECT_EQ(run.times, 1u);
   EnsembleOptions options = samples(640);
   options.cancelled = &cancelled;
-  cancelled = false;
-  options.progress = [&](double) { cancelled = true; };  // at a hundredth: within the first pack's count
   const WholeEnsemble e = sampleEnsemble(system, options);
   EXPECT_FALSE(e.complete);
   EXPECT_EQ(e.counted, 0u);
@@ -414,6 +419,66 @@ TEST(Ensemble, APackThatIsNotFinishedWhenCancelledCountsAsNotIntegrated) {
   EXPECT_TRUE(e.failed.empty());
   for (const Table* table : {&e.summary.lower, &e.statistics.mean, &e.statistics.quantiles[2]})
     for (const double value : table->data) ASSERT_TRUE(std::isnan(value));
+}
+
+/// The trajectories by number when the first samples are cancelled as soon as `after` of all have ended, how many there
+/// are then, and the numbers of the whole run.
+struct Resumed {
+  std::map<std::size_t, std::vector<double>> trajectories;
+  std::size_t atFirst = 0;
+  bool isComplete = false;
+  Table mean, error;
+};
+
+Resumed sampleInTwoGoes(const UncertainMotion& system, EnsembleOptions options, double after) {
+  std::atomic<bool> cancelled = false;
+  options.cancelled = &cancelled;
+  options.progress = [&](double done) { cancelled = cancelled || (after > 0 && done >= after); };
+  EnsembleRun first(system, options);
+  first.integrateFirst();
+  first.integrateOthers();
+  Resumed result;
+  result.atFirst = first.integrated();
+  cancelled = false;
+  EnsembleRun run(system, options);
+  run.integrateFirst();
+  cancelled = false;
+  after = 0;
+  run.integrateOthers({}, [&](const SampleBlock& block) {
+    for (std::size_t i = 0; i < block.size(); ++i) result.trajectories[block.first() + i] = block.trajectory(i);
+  });
+  result.isComplete = run.isComplete();
+  result.mean = run.statistics().mean;
+  result.error = run.error();
+  return result;
+}
+
+TEST(Ensemble, KeepsTheFirstSamplesThatEndedBeforeAnInterruptAndGoesOnBehindThem) {
+  EnsembleOptions stiff = samples(100);
+  stiff.method = Method::bdf;
+  for (const EnsembleOptions& options : {samples(300), stiff}) {
+    const UncertainMotion system = oscillator();
+    const Resumed whole = sampleInTwoGoes(system, options, 0), cut = sampleInTwoGoes(system, options, 0.4);
+    EXPECT_GE(cut.atFirst, 40u);
+    EXPECT_LT(cut.atFirst, whole.trajectories.size());
+    EXPECT_TRUE(cut.isComplete);
+    ASSERT_EQ(cut.trajectories.size(), whole.trajectories.size());
+    for (const auto& [number, trajectory] : whole.trajectories)
+      ASSERT_TRUE(sameBits(cut.trajectories.at(number), trajectory)) << number;
+    EXPECT_TRUE(sameBits(cut.error.data, whole.error.data));
+    for (std::size_t i = 0; i < whole.mean.data.size(); ++i)
+      EXPECT_NEAR(cut.mean.data[i], whole.mean.data[i], 1e-12) << i;
+  }
+}
+
+TEST(Ensemble, GoesOnOneByOneInsideAPackThatWasGivenUp) {
+  const UncertainMotion system = singularMotion();
+  const Resumed whole = sampleInTwoGoes(system, samples(64), 0), cut = sampleInTwoGoes(system, samples(64), 0.3);
+  EXPECT_GT(cut.atFirst, 0u);
+  EXPECT_LT(cut.atFirst, 64u);
+  EXPECT_TRUE(cut.isComplete);
+  for (const auto& [number, trajectory] : whole.trajectories)
+    ASSERT_TRUE(sameBits(cut.trajectories.at(number), trajectory)) << number;
 }
 
 TEST(Ensemble, ReportsProgressUpToOne) {

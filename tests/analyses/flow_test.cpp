@@ -305,6 +305,13 @@ TEST(Flow, RefusesArgumentsThatMakeNoSenseAndSaysWhy) {
   EXPECT_THAT(complaint([&] { encloseImage(standardOutputs(2, 0), 0, {1.0}); }), HasSubstr("box"));
 }
 
+TEST(EncloseImage, GivesNothingOnceCancelled) {
+  const std::atomic<bool> cancelled{true};
+  const Program square = record(1, 0, 1, [](auto, const auto& x, const auto&, auto& y) { y[0] = sqr(x[0]); });
+  EXPECT_TRUE(encloseImage(square, 0, {Interval(1.0, 2.0)}, {}, -1, &cancelled).empty());
+  EXPECT_EQ(encloseImage(square, 0, {Interval(1.0, 2.0)}).size(), 1U);
+}
+
 // ---- The edge of what doubles can say -------------------------------------------------------------------------------
 
 TEST(Flow, RefusesToProveAnythingInAnotherRoundingMode) {

@@ -231,18 +231,22 @@ TEST(Driver, LeavesTimeToTheEnclosureWhereTheFirstSamplesTakeLong) {
   const Results results = run(readStudyText(text, "s.toml"), options);
   EXPECT_GT(results.interval.reached, 0);
   EXPECT_GT(results.interval.cpu + results.fuzzy.cpu, 0.1);
-  EXPECT_EQ(results.stochastic.integrated, 0);
+  EXPECT_LT(results.stochastic.integrated, 257);
   EXPECT_THAT(results.stochastic.stopped, ::testing::StartsWith("the time limit of 0."));
   EXPECT_EQ(results.comparison.verdict, "incomplete");
 }
 
-TEST(Driver, BeginsTheFirstSamplesAgainAfterAnEnclosureThatLeavesThemTime) {
+TEST(Driver, GoesOnWithTheFirstSamplesAfterAnEnclosureThatLeavesThemTime) {
   RunOptions options;
   options.samples = 256;
   std::atomic<int> calls{0};
-  options.progress = [&](const std::string& task, double fraction) {  // one sample takes the stage's third at once
-    if (task != "samples" || fraction > 0.5 || calls++ != 3) return;
-    for (const double begin = processCpuSeconds(); processCpuSeconds() - begin < 2;) {
+  std::atomic<double> sampled{0}, sampledBefore{1};
+  options.progress = [&](const std::string& task, double fraction) {
+    if (task == "enclosure") sampledBefore = sampled.load();
+    if (task != "samples") return;
+    sampled = fraction;
+    if (calls++ != 3) return;
+    for (const double begin = processCpuSeconds(); processCpuSeconds() - begin < 2;) {  // more than the stage has
     }
   };
   options.timeLimit = 5;
@@ -250,7 +254,8 @@ TEST(Driver, BeginsTheFirstSamplesAgainAfterAnEnclosureThatLeavesThemTime) {
   EXPECT_EQ(results.stochastic.stopped, "");
   EXPECT_EQ(results.stochastic.integrated, results.stochastic.planned());
   EXPECT_EQ(results.comparison.verdict, "inside");
-  EXPECT_GT(calls, 51);  // of fifty to the half in one go
+  EXPECT_GT(sampledBefore, 0);
+  EXPECT_LT(sampledBefore, 0.9);
 }
 
 TEST(Driver, EndsSamplesThatTakeTooLongAndNamesThem) {
@@ -258,7 +263,8 @@ TEST(Driver, EndsSamplesThatTakeTooLongAndNamesThem) {
   study.limits.sampleTime = 1e-9;
   const Results results = run(study);
   EXPECT_THAT(results.stochastic.why,
-              ::testing::StartsWith("sample 0 failed: the time limit of 1e-09 s CPU for a sample was reached"));
+              ::testing::MatchesRegex("sample 0 failed at 0[.0-9]* s: the time limit of 1e-09 s "
+                                      "CPU for a sample was reached.*"));
   EXPECT_LT(results.stochastic.reached, 0.5);
   EXPECT_EQ(results.comparison.verdict, "incomplete");
 }
@@ -317,12 +323,43 @@ TEST(Driver, ReportsTheProgressOfEveryAnalysis) {
   EXPECT_EQ(greatest["samples"], 1);
 }
 
-TEST(Driver, EnclosesKinematicsWithAnUncertainParameter) {
+Study kinematicStudy() {
   std::string text = sampleStudyWith("[[uncertain]]", threeUncertain);
   text.replace(text.find("dynamics"), 8, "kinematics");
   text.erase(text.find("horizon = 0.5\n"), 14);
   text.erase(text.find("output_step = 0.1\n"), 18);
-  const Results results = run(readStudyText(text, "s.toml"));
+  return readStudyText(text, "s.toml");
+}
+
+TEST(Driver, KeepsPlainIntervalsOfKinematicsThatIsInterrupted) {
+  const std::atomic<bool> cancelled{true};
+  RunOptions options;
+  options.cancelled = &cancelled;
+  const Study study = kinematicStudy();
+  const Results results = run(study, options), whole = run(study);
+  EXPECT_EQ(results.comparison.verdict, "incomplete");
+  EXPECT_EQ(results.interval.why, "the run was interrupted");
+  EXPECT_EQ(results.fuzzy.why, "the run was interrupted");
+  for (std::size_t j = 0; j < 2; ++j) {
+    EXPECT_EQ(results.interval.at.lower(0, j), whole.interval.direct.lower(0, j));
+    EXPECT_EQ(results.interval.at.upper(0, j), whole.interval.direct.upper(0, j));
+    for (std::size_t level = 0; level < 11; ++level)
+      EXPECT_LE(results.fuzzy.outer[level].lower(0, j), whole.fuzzy.outer[level].lower(0, j));
+  }
+}
+
+TEST(Driver, EndsKinematicsAtTheLimitOfTheEnclosure) {
+  Study study = kinematicStudy();
+  study.limits.enclosureTime = 1e-9;
+  const Results results = run(study);
+  EXPECT_EQ(results.interval.why, "the time limit of 1e-09 s CPU for the enclosure was reached");
+  EXPECT_EQ(results.stochastic.stopped, "");
+  EXPECT_EQ(results.stochastic.integrated, results.stochastic.planned());
+  EXPECT_EQ(results.comparison.verdict, "incomplete");
+}
+
+TEST(Driver, EnclosesKinematicsWithAnUncertainParameter) {
+  const Results results = run(kinematicStudy());
   EXPECT_EQ(results.comparison.verdict, "inside");
   EXPECT_EQ(results.time, std::vector<double>{0.0});
   for (std::size_t j = 0; j < 2; ++j) {

@@ -91,6 +91,18 @@ TEST_F(Program, RefusesWrongUsageInOneLine) {
             "gamut: --seed: '-1' is no whole number from 0 to 9223372036854775807; see gamut run --help\n");
 }
 
+TEST_F(Program, SuggestsTheOptionThatComesNear) {
+  EXPECT_EQ(gamut("run s.toml --smaples 5").error, "gamut: unknown option '--smaples'; expected '--samples'\n");
+}
+
+TEST_F(Program, TakesLimitsWithUnits) {
+  folder_.write("s.toml", sampleStudy);
+  EXPECT_THAT(gamut("run s.toml --json --quiet --time-limit '0.5 min' --memory-limit 1024MiB").out,
+              HasSubstr(R"("limits":{"time":30.0,"memory":1073741824.0,)"));
+  EXPECT_EQ(gamut("run s.toml --time-limit 5kg").error,
+            "gamut: --time-limit: '5kg' is no time above 0, such as 90, \"5 min\" or \"2 h\"; see gamut run --help\n");
+}
+
 TEST_F(Program, FailsIfWhatItSaysDoesNotArrive) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
   writeResults(sampleResults(), folder_.path("r.h5"));
@@ -117,6 +129,10 @@ TEST_F(Program, RefusesMoreOutputsThanTheMemoryHolds) {
   EXPECT_EQ(run.exitCode, 2);
   EXPECT_THAT(run.error, HasSubstr("samples of 2000 outputs at 50001 times need "));
   EXPECT_THAT(run.error, HasSubstr(" GB, the memory limit is "));
+  EXPECT_THAT(run.error, HasSubstr(" GB, or fewer outputs or output times"));
+  folder_.write("s.toml", sampleStudy);  // what any samples need
+  EXPECT_THAT(gamut("run s.toml --memory-limit 0.01").error,
+              testing::EndsWith("expected a limit of at least 0.068 GB\n"));
   EXPECT_EQ(folder_.count(), 1U);
 }
 
@@ -140,7 +156,7 @@ TEST_F(Program, RefusesABadStudyWithoutTouchingAnyFile) {
     EXPECT_EQ(run.out, "");
     EXPECT_EQ(run.error, "s.toml:4:11: study.horizon is not positive; expected a time above 0 s\n");
   }
-  EXPECT_EQ(gamut("validate none.toml").error, "none.toml: cannot be read; expected a study file (TOML)\n");
+  EXPECT_EQ(gamut("validate none.toml").error, "none.toml: does not exist; expected a study file (TOML)\n");
   EXPECT_EQ(gamut("validate none.toml").exitCode, 2);
   EXPECT_EQ(folder_.count(), 1U);
 }

@@ -237,7 +237,7 @@ TEST_F(ResultsFile, IsRefusedInOneLineWhenItIsSomethingElse) {
     return "it was read";
   };
   EXPECT_EQ(message(folder_.path("none.h5")),
-            folder_.path("none.h5") + ": cannot be read; expected a results file written by gamut run");
+            folder_.path("none.h5") + ": does not exist; expected a results file written by gamut run");
   const std::string text = folder_.path("text.h5");
   std::ofstream(text) << "[study]\n";
   EXPECT_EQ(message(text), text + ": not a Gamut results file; expected a results file written by gamut run");

@@ -224,18 +224,6 @@ TEST(StudyReader, ReadsTheAnalysesOptions) {
   EXPECT_EQ(study.ensemble.tolerance.absolute, 1e-11);
 }
 
-TEST(StudyReader, NamesAFileThatCannotBeRead) {
-  const TemporaryFolder folder;
-  for (const std::string& path : {folder.path("none.toml"), folder.path("")}) {
-    try {
-      readStudy(path);
-      ADD_FAILURE() << "was read";
-    } catch (const StudyError& error) {
-      EXPECT_EQ(std::string(error.what()), path + ": cannot be read; expected a study file (TOML)");
-    }
-  }
-}
-
 TEST(StudyReader, MissesTheStudyInAnEmptyFile) {
   const TemporaryFolder folder;
   const std::string path = folder.write("empty.toml", "");
@@ -307,6 +295,51 @@ TEST(StudyReader, TakesDotsThatAreNoKeys) {
     EXPECT_EQ(messageOf(sampleStudyWith("\"Pendulum\"", title)), "it was read") << title;
 }
 
+TEST(StudyReader, NotesALengthThatMayVanishUnlessItIsAnOffset) {
+  const auto notes = [](const std::string& vector, const std::string& component, const std::string& interval) {
+    std::string text = sampleStudyWith("[0, 0, \"-rod.length\"]", vector);
+    const std::string old = "quantity = \"hinge.angle\"\ninterval = \"± 1 %\"";
+    text.replace(text.find(old), old.size(), "quantity = \"rod.vector." + component + "\"\ninterval = " + interval);
+    text.replace(text.find("dynamics"), 8, "kinematics");
+    text.erase(text.find("horizon"), text.find("compare") - text.find("horizon"));
+    return readStudyText(text, "s.toml").notes;
+  };
+  EXPECT_THAT(notes("[0, 0, -0.5]", "z", "[-0.6, 0.1]"),
+              ElementsAre(::testing::HasSubstr("note: the interval holds a value with which the link 'rod' has no")));
+  EXPECT_THAT(notes("[0, 0, -0.5]", "z", "[-0.6, -0.1]"), ElementsAre());
+  EXPECT_THAT(notes("[0, 0, -0.5]", "y", "[-0.1, 0.1]"), ElementsAre());
+  EXPECT_THAT(notes("[0, 0, 0]", "z", "[-0.1, 0.1]"), ElementsAre());
+}
+
+TEST(StudyReader, ReadsLimitsWithUnits) {
+  const Study study = readStudyText(sampleStudyWith("[[uncertain]]",
+                                                    "[limits]\ntime = \"2 h\"\nmemory = \"500 MiB\"\n"
+                                                    "enclosure_memory = \"0.25 GB\"\nsample_time = 5\n[[uncertain]]"),
+                                    "s.toml");
+  EXPECT_EQ(study.limits.time, 7200);
+  EXPECT_EQ(study.limits.memory, 500.0 * 1024 * 1024);
+  EXPECT_EQ(study.limits.enclosureMemory, 0.25e9);
+  EXPECT_EQ(study.limits.sampleTime, 5);
+}
+
+TEST(StudyReader, SaysWhyAFileCannotBeRead) {
+  const TemporaryFolder folder;
+  const auto complaint = [](const std::string& path) -> std::string {
+    try {
+      readStudy(path);
+    } catch (const StudyError& error) {
+      return error.what();
+    }
+    return "none";
+  };
+  EXPECT_EQ(complaint(folder.path("")), folder.path("") + ": is a directory; expected a study file (TOML)");
+  EXPECT_EQ(complaint(folder.path("no.toml")),
+            folder.path("no.toml") + ": does not exist; expected a study file (TOML)");
+  EXPECT_EQ(complaint("/dev/null"), "/dev/null: is no regular file; expected a study file (TOML)");
+  folder.write("binary", std::string("\x7f\0ELF", 5));
+  EXPECT_EQ(complaint(folder.path("binary")), folder.path("binary") + ": is no text; expected a study file (TOML)");
+}
+
 TEST(StudyReader, NotesAnInertiaThatIsImpossibleForSomeValuesOnly) {
   const auto notes = [](const std::string& inertia, const std::string& quantity) {
     const std::string uncertain = "\n[[uncertain]]\nquantity = \"" + quantity + "\"\ninterval = \"± 1 %\"\n";
@@ -373,7 +406,8 @@ constexpr BadStudy badStudies[] = {
     {"[stochastic]", "[limits]\ntime = 0\n[stochastic]",
      "s.toml:40:8: limits.time is not positive; expected a number above 0"},
     {"[stochastic]", "[limits]\nmemory = \"8 kg\"\n[stochastic]",
-     "s.toml:40:10: limits.memory is written in a unit of the kind kg; expected a number without unit"},
+     "s.toml:40:10: limits.memory is written in a unit of the kind kg; expected a number in GB, or with a unit of that "
+     "kind"},
     {"mass = \"250 g\"", "mass = -1",
      "s.toml:27:8: mechanism.element.mass is negative; expected a mass of at least 0 kg"},
     {"parameters = { length = 0.5 }\n[[mechanism.element]]\ntype = \"mass\"\nname = \"bob\"\nat = \"tip\"\nmass = "
@@ -468,7 +502,7 @@ constexpr BadStudy badStudies[] = {
      "assembled"},
     {"angle = \"30 deg\"", "angle = \"30 grad\"",
      "s.toml:15:21: mechanism.element.initial.angle: unknown unit 'grad' in '30 grad'; expected one of rad, deg, °, "
-     "mrad, rpm, m, km, cm, mm, um, kg, g, t, s, ms, min, N, kN, J, kJ, W, %"},
+     "mrad, rpm, m, km, cm, mm, um, kg, g, t, s, ms, min, h, N, kN, J, kJ, W, GB, MB, GiB, MiB, %"},
     {"angle = \"30 deg\"", "angle = \"30 mm\"",
      "s.toml:15:21: mechanism.element.initial.angle is written in a unit of the kind m; expected a number in rad, or "
      "with a unit of that kind"},
@@ -477,6 +511,15 @@ constexpr BadStudy badStudies[] = {
     {"angle = \"30 deg\"", "angle = \"10 %\"",
      "s.toml:15:21: mechanism.element.initial.angle is written in percent; expected a number in rad, or with a unit of "
      "that kind"},
+    {"quantity = \"hinge.angle\"\ninterval", "quantity = \"bob.centre.x\"\ninterval",
+     "s.toml:31:12: uncertain.interval is a share of the nominal value, which is 0; expected an absolute deviation, "
+     "such as \"± 0.01 m\""},
+    {"length = 0.5", "length = \"0.5 kg\"",
+     "s.toml:22:25: the parameter 'rod.length' is in kg, but 'rod.vector.z' is in m; expected a parameter in m"},
+    {"[[uncertain]]",
+     "[[mechanism.element]]\ntype = \"spring-damper\"\nname = \"sp\"\njoint = \"hing\"\nstiffness = \"1 N "
+     "m/rad\"\nrest = \"1 mm\"\n[[uncertain]]",
+     "s.toml:31:9: unknown joint 'hing'; expected 'hinge' (for 'sp')"},
     {"\"-rod.length\"", "\"-rod.lenght\"",
      "s.toml:21:17: unknown parameter 'rod.lenght'; expected 'rod.length' (for 'rod.vector.z')"},
     {"\"-rod.length\"", "\"1/2 beam.length\"",
@@ -485,7 +528,7 @@ constexpr BadStudy badStudies[] = {
      "s.toml:21:17: mechanism.element.vector is written in a unit of the kind m; expected a number without unit"},
     {"mass = \"250 g\"", "mass = \"250 x\"",
      "s.toml:27:8: mechanism.element.mass: unknown unit 'x' in '250 x'; expected one of rad, deg, °, mrad, rpm, m, km, "
-     "cm, mm, um, kg, g, t, s, ms, min, N, kN, J, kJ, W, %"},
+     "cm, mm, um, kg, g, t, s, ms, min, h, N, kN, J, kJ, W, GB, MB, GiB, MiB, %"},
     {"mass = \"250 g\"", "mass = [1]",
      "s.toml:27:8: mechanism.element.mass is a list; expected a number, or text with a unit such as \"135 deg\""},
     {"mass = \"250 g\"", "",

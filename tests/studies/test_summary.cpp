@@ -40,7 +40,7 @@ TEST(JsonSummary, HasTheDocumentedKeys) {
   EXPECT_EQ(json["reached"], 0.01);
   EXPECT_EQ(json["samples"], 4096);
   EXPECT_EQ(json["integrated"], 1000);
-  EXPECT_EQ(json["why"], "the enclosure became wider than 1e6");
+  EXPECT_EQ(json["why"], "the enclosure became wider than 1e6; the run was interrupted");
   EXPECT_EQ(json["cost"]["total"], 2.25);
   EXPECT_EQ(json["cost"]["memory"], 1.5e9);
   EXPECT_EQ(json["limits"]["sample_time"], 18);
