@@ -33,7 +33,7 @@ std::string shortPendulum() {
   std::ifstream file(GAMUT_SOURCE_DIR "/studies/double_pendulum/study.toml");
   std::ostringstream text;
   text << file.rdbuf();
-  return replaced(replaced(text.str(), "horizon = 3.0", "horizon = 0.3"), "samples = 4096", "samples = 192");
+  return replaced(replaced(text.str(), "horizon = 3.0", "horizon = 1.0"), "samples = 4096", "samples = 1024");
 }
 
 /// A run of the program in a folder.
