@@ -182,14 +182,6 @@ void UncertainMotion::check() const {
   }
 }
 
-Envelope Ensemble::envelope() const {
-  Envelope result(times.size(), outputs);
-  for (std::size_t i = 0; i < size(); ++i)
-    for (std::size_t t = 0; t < times.size(); ++t)
-      for (std::size_t o = 0; o < outputs; ++o) result.include(t, o, (*this)(i, t, o));
-  return result;
-}
-
 EnsembleRun::EnsembleRun(const UncertainMotion& system, EnsembleOptions options)
     : system_(system),
       options_(std::move(options)),
@@ -235,7 +227,7 @@ void EnsembleRun::integrate(SampleBlock& block) {
     if (block.first() + i < sampling_.centre()) sampling_.unitPoint(block.first() + i, block.values(i));
   const std::vector<Piece> pieces = piecesOf(block.size(), placeInPack(block.first()) == 0 ? packWidth() : 1);
   std::vector<std::size_t> ended(pieces.size(), 0);
-  cpu_ += forEachIndex(options_.jobs, pieces.size(), options_.cancelled, [&] {
+  forEachIndex(options_.jobs, pieces.size(), options_.cancelled, [&] {
     return [&, integrator = PieceIntegrator(system_, options_, packWidth())](std::size_t piece) mutable {
       const auto [first, count] = pieces[piece];
       for (std::size_t i = first; i < first + count; ++i) {
@@ -266,7 +258,7 @@ void EnsembleRun::measureError(const SampleBlock& block) {
   const Tolerance tight = options_.tolerance.tightened(errorTightening);
   std::mutex mutex;
   std::size_t compared = 0;
-  cpu_ += forEachIndex(options_.jobs, twice.size(), options_.cancelled, [&] {
+  forEachIndex(options_.jobs, twice.size(), options_.cancelled, [&] {
     return [&, witness = Witness(motion, options_.method, options_.cancelled),
             again = std::vector<double>(error_.data.size())](std::size_t i) mutable {
       const std::vector<double> start = system_.start(block.values(twice[i]));
@@ -341,7 +333,7 @@ Envelope EnsembleRun::expectedRange(const Envelope& expected) const {
 void EnsembleRun::take(SampleBlock& block, const Look& look) {
   noteFailures(block);
   if (look) look(block);
-  cpu_ += statistics_->include(block, options_.jobs);
+  statistics_->include(block, options_.jobs);
   (block.hasWeight() ? counted_ : beside_) += block.size();
 }
 

@@ -27,9 +27,8 @@ class EnsembleStatistics {
   /// of alpha.
   EnsembleStatistics(const Envelope& expected, std::size_t levels);
 
-  /// Includes a block. What comes out depends on the blocks and their order alone, not on the number of jobs. Returns
-  /// the CPU time, s.
-  double include(const SampleBlock& block, int jobs);
+  /// Includes a block. What comes out depends on the blocks and their order alone, not on the number of jobs.
+  void include(const SampleBlock& block, int jobs);
 
   // Each of the first `times` output times, NaN for the others.
 

@@ -32,7 +32,7 @@ EnsembleOptions samples(std::size_t count, int jobs = 1) {
 }
 
 /// Greatest distance of the oscillator's samples from the known solution.
-double oscillatorError(const Ensemble& e) {
+double oscillatorError(const WholeEnsemble& e) {
   double error = 0;
   for (std::size_t i = 0; i < e.size(); ++i)
     for (std::size_t t = 0; t < e.times.size(); ++t) {
