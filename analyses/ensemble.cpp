@@ -29,6 +29,10 @@ constexpr std::size_t firstSamples = 256, namedFailures = 10;
 // gain something (studies/tip_position).
 constexpr std::size_t blockBytes = std::size_t{1} << 26, leastPacks = 8, mostPacks = 128;
 
+std::size_t packsOfBlock(std::size_t cells) {
+  return std::clamp(blockBytes / (sizeof(double) * packWidth * std::max<std::size_t>(cells, 1)), leastPacks, mostPacks);
+}
+
 /// Samples that are integrated at once.
 struct Piece {
   std::size_t first = 0;
@@ -342,8 +346,7 @@ void EnsembleRun::integrateOthers(const Envelope& expected, const Look& look) {
   statistics_.emplace(expectedRange(expected), cuts_.size());
   for (SampleBlock& block : first_) take(block, look);
   first_.clear();
-  const std::size_t packBytes = sizeof(double) * gamut::packWidth * error_.data.size();
-  const std::size_t size = gamut::packWidth * std::clamp(blockBytes / packBytes, leastPacks, mostPacks);
+  const std::size_t size = gamut::packWidth * packsOfBlock(error_.data.size());
   while (nextSample_ < sampling_.samples() && !isCancelled()) {
     SampleBlock block = nextBlock(nextSample_, std::min(sampling_.samples(), nextSample_ + size));
     integrate(block);
@@ -357,8 +360,7 @@ void EnsembleRun::integrateOthers(const Envelope& expected, const Look& look) {
 double ensembleBytes(std::size_t times, std::size_t outputs, std::size_t quantities, std::size_t levels) {
   const std::size_t cells = times * outputs, corners = std::size_t{1} << std::min<std::size_t>(quantities, 10);
   const std::size_t first = firstSamples + corners + (levels > 0 ? 1024 : 0);
-  const std::size_t others =
-      std::max(blockBytes / sizeof(double) / std::max<std::size_t>(cells, 1), leastPacks * packWidth);
+  const std::size_t others = packWidth * packsOfBlock(cells);
   const double statistics = sizeof(std::uint32_t) * static_cast<double>(EnsembleStatistics::binsFor(cells)) +
                             sizeof(double) * static_cast<double>(2 * levels + 16);
   return static_cast<double>(cells) * (sizeof(double) * static_cast<double>(std::max(first, others)) + statistics);

@@ -120,6 +120,13 @@ TEST(ReplaySample, RefusesANumberThatNoSampleHas) {
               ThrowsMessage<std::invalid_argument>(HasSubstr("no sample has the number 19")));
 }
 
+TEST(Ensemble, TakesAsManyBytesAsTheFirstSamplesOrABlockAndTheStatistics) {
+  EXPECT_LT(ensembleBytes(1, 2, 1, 0), 1e6);       // 8192 samples of two numbers
+  EXPECT_LT(ensembleBytes(301, 7, 1, 11), 1.2e8);  // 64 MiB of samples
+  EXPECT_GT(ensembleBytes(301, 7, 1, 11), 6.7e7);
+  EXPECT_GT(ensembleBytes(50001, 2000, 1, 0), 4e11);  // 512 samples
+}
+
 TEST(Ensemble, SaysHowManySamplesAreIntegratedTogether) {
   EnsembleOptions options = samples(20);
   EXPECT_EQ(sampleEnsemble(decay(), options).packWidth, 64u);
