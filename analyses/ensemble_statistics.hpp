@@ -42,8 +42,8 @@ class EnsembleStatistics {
 
   /// Bins of one histogram, without the open ends.
   std::size_t bins() const { return bins_; }
-  /// Bins of each histogram where there are so many: fewer the more histograms there are, so that all together have
-  /// some 2^25, but at least 64.
+  /// Bins of each histogram where there are so many: 4096, or fewer, so that all together have some 2^25, but at
+  /// least 64.
   static std::size_t binsFor(std::size_t histograms);
 
  private:
