@@ -137,14 +137,13 @@ void checkMemory(const Study& study, const RunOptions& options, const std::strin
   const std::size_t levels = study.fuzzy ? static_cast<std::size_t>(study.levels) : 0;
   const double needed = ensembleBytes(study.time.size(), study.outputs.size(), study.uncertain.size(), levels);
   const double limit = limitsOf(study, options).memory;
-  const bool fewerDo = ensembleBytes(1, 1, study.uncertain.size(), levels) <= limit;
   if (study.stochastic && needed > limit)
     throw UsageError(
         fmt::format("{}: samples of {} at {} need {:.3g} GB, the memory limit is {:.3g} GB; expected a limit "
-                    "of at least {:.3g} GB{}",
+                    "of at least {:.3g} GB, or fewer outputs or output times",
                     input, countText(static_cast<long long>(study.outputs.size()), "output"),
                     countText(static_cast<long long>(study.time.size()), "time"), needed / 1e9, limit / 1e9,
-                    std::ceil(needed / 1e6) / 1e3, fewerDo ? ", or fewer outputs or output times" : ""));
+                    std::ceil(needed / 1e6) / 1e3));
 }
 
 Study readNoting(const Arguments& arguments) {

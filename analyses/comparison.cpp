@@ -45,11 +45,10 @@ class Comparer {
 
   Comparison run() {
     findDisputes();
-    Comparison result;
-    result.cpu = refine() + arbitrateWorst();
+    refine();
+    arbitrateWorst();
     informTwins();
-    judge(result);
-    return result;
+    return findings();
   }
 
  private:
@@ -172,9 +171,9 @@ class Comparer {
       if (!(rows[i] >= rows[i - ensemble_.outputs])) rows[i] = rows[i - ensemble_.outputs];
   }
 
-  double refine() {
-    if (system_.motion.f.states() == 0) return 0;  // nothing is integrated: the arbiter looks at the outputs directly
-    return forEachIndex(options_.jobs, cases_.size(), options_.cancelled, [&] {
+  void refine() {
+    if (system_.motion.f.states() == 0) return;  // nothing is integrated: the arbiter looks at the outputs directly
+    forEachIndex(options_.jobs, cases_.size(), options_.cancelled, [&] {
       return [&](std::size_t i) {
         Case& c = cases_[i];
         const std::vector<double> start = system_.start(ensemble_.valuesOf(c.dispute.number));
@@ -189,20 +188,18 @@ class Comparer {
   bool isCancelled() const { return options_.cancelled != nullptr && *options_.cancelled; }
 
   /// The worst first, in batches, until one of a batch refutes the enclosure.
-  double arbitrateWorst() {
+  void arbitrateWorst() {
     std::vector<Case*> open;
     for (Case& c : cases_)
       if (!c.settled && options_.asksArbiter) open.push_back(&c);
     std::ranges::stable_sort(open, std::ranges::greater{}, [](const Case* c) { return c->dispute.excursion; });
-    double cpu = 0;
     for (std::size_t first = 0; first < open.size() && !isCancelled(); first += batchSize) {
       if (options_.progress) options_.progress(static_cast<double>(first) / static_cast<double>(open.size()));
       const std::span<Case*> batch = std::span(open).subspan(first, std::min(batchSize, open.size() - first));
-      cpu += forEachIndex(options_.jobs, batch.size(), options_.cancelled,
-                          [&] { return [&](std::size_t i) { arbitrateOne(*batch[i]); }; });
+      forEachIndex(options_.jobs, batch.size(), options_.cancelled,
+                   [&] { return [&](std::size_t i) { arbitrateOne(*batch[i]); }; });
       if (std::ranges::any_of(batch, [&](const Case* c) { return refutes(*c); })) break;
     }
-    return cpu;
   }
 
   void arbitrateOne(Case& c) {
@@ -224,25 +221,20 @@ class Comparer {
   }
 
   /// What an interrupt kept from the last instance is neither outside nor past deciding.
-  void judge(Comparison& result) {
-    bool outside = false, unresolved = false, interrupted = false;
+  Comparison findings() {
+    Comparison result;
     for (Case& c : cases_) {
       Dispute& d = c.dispute;
       if (!c.settled && !c.lookedAt && isCancelled()) {
         d.decided = "interrupted";
-        interrupted = true;
       } else {
         d.outside = refutes(c);
         if (!c.settled && !d.outside) d.decided = "unresolved";
-        outside = outside || d.outside;
-        unresolved = unresolved || (!c.settled && !d.outside);
         result.excursion = std::max(result.excursion, d.excursion);
       }
       result.disputes.push_back(d);
     }
-    const bool incomplete = interrupted || enclosure_.reachedTimes < ensemble_.times.size() || !ensemble_.complete ||
-                            !ensemble_.failed.empty();
-    result.verdict = outside ? "outside" : unresolved ? "unresolved" : incomplete ? "incomplete" : "inside";
+    return result;
   }
 
   const EnclosureBounds& enclosure_;

@@ -9,12 +9,33 @@
 #include <cstddef>
 #include <functional>
 #include <limits>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "analyses/ensemble.hpp"
 
 namespace gamut {
+
+/// Some samples with their trajectories.
+struct Ensemble {
+  std::vector<double> times;  ///< s
+  std::size_t outputs = 0, quantities = 0;
+  std::vector<double> values;  ///< of the uncertain quantities: [sample][quantity]
+  std::vector<double> data;    ///< [sample][time][output]; NaN where a sample did not arrive
+
+  std::size_t size() const { return data.size() / (times.size() * outputs); }
+  /// One sample's trajectory: [time][output].
+  std::span<double> trajectory(std::size_t sample) {
+    return std::span(data).subspan(sample * times.size() * outputs, times.size() * outputs);
+  }
+  std::span<const double> trajectory(std::size_t sample) const {
+    return std::span(data).subspan(sample * times.size() * outputs, times.size() * outputs);
+  }
+  std::span<const double> valuesOf(std::size_t sample) const {
+    return std::span(values).subspan(sample * quantities, quantities);
+  }
+};
 
 /// What an enclosure claims at the ensemble's output times.
 struct EnclosureBounds {
@@ -47,11 +68,8 @@ struct Dispute {
 };
 
 struct Comparison {
-  std::string verdict;            ///< the first that holds of "outside", "unresolved", "incomplete", "inside"; what was
-                                  ///< interrupted is incomplete
   double excursion = 0;           ///< the greatest of all disputes
   std::vector<Dispute> disputes;  ///< by rising number
-  double cpu = 0;                 ///< s, of the re-integrations
 };
 
 /// How wide an enclosure is against an envelope.
@@ -67,8 +85,7 @@ struct Overestimation {
 Overestimation measureOverestimation(const EnclosureBounds& enclosure, const Envelope& envelope, const Table& error);
 
 /// Compares at all output times that the enclosure reached. Samples found outside get their refined trajectories in
-/// `ensemble`. "incomplete": nothing is outside, but the enclosure or a sample ended before the horizon.
-/// Throws std::invalid_argument where the shapes do not fit or a bound is NaN.
+/// `ensemble`. Throws std::invalid_argument where the shapes do not fit or a bound is NaN.
 Comparison compare(const EnclosureBounds& enclosure, Ensemble& ensemble, const UncertainMotion& system,
                    const ComparisonOptions& options = {});
 

@@ -108,10 +108,6 @@ double normOnBaseline(N_Vector x, N_Vector weights) { return greatestNorm<Vector
 GAMUT_AVX2 double normOnAvx2(N_Vector x, N_Vector weights) { return greatestNorm<Vector4>(x, weights); }
 GAMUT_AVX512 double normOnAvx512(N_Vector x, N_Vector weights) { return greatestNorm<Vector8>(x, weights); }
 
-}  // namespace
-
-namespace {
-
 /// What CVODE's return means for a motion.
 std::string meaningOf(int flag, const std::string& message) {
   switch (flag) {

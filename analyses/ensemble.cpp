@@ -29,6 +29,10 @@ constexpr std::size_t firstSamples = 256, namedFailures = 10;
 // gain something (studies/tip_position).
 constexpr std::size_t blockBytes = std::size_t{1} << 26, leastPacks = 8, mostPacks = 128;
 
+std::size_t packsOfBlock(std::size_t cells) {
+  return std::clamp(blockBytes / (sizeof(double) * packWidth * std::max<std::size_t>(cells, 1)), leastPacks, mostPacks);
+}
+
 /// Samples that are integrated at once.
 struct Piece {
   std::size_t first = 0;
@@ -182,14 +186,6 @@ void UncertainMotion::check() const {
   }
 }
 
-Envelope Ensemble::envelope() const {
-  Envelope result(times.size(), outputs);
-  for (std::size_t i = 0; i < size(); ++i)
-    for (std::size_t t = 0; t < times.size(); ++t)
-      for (std::size_t o = 0; o < outputs; ++o) result.include(t, o, (*this)(i, t, o));
-  return result;
-}
-
 EnsembleRun::EnsembleRun(const UncertainMotion& system, EnsembleOptions options)
     : system_(system),
       options_(std::move(options)),
@@ -235,7 +231,7 @@ void EnsembleRun::integrate(SampleBlock& block) {
     if (block.first() + i < sampling_.centre()) sampling_.unitPoint(block.first() + i, block.values(i));
   const std::vector<Piece> pieces = piecesOf(block.size(), placeInPack(block.first()) == 0 ? packWidth() : 1);
   std::vector<std::size_t> ended(pieces.size(), 0);
-  cpu_ += forEachIndex(options_.jobs, pieces.size(), options_.cancelled, [&] {
+  forEachIndex(options_.jobs, pieces.size(), options_.cancelled, [&] {
     return [&, integrator = PieceIntegrator(system_, options_, packWidth())](std::size_t piece) mutable {
       const auto [first, count] = pieces[piece];
       for (std::size_t i = first; i < first + count; ++i) {
@@ -266,7 +262,7 @@ void EnsembleRun::measureError(const SampleBlock& block) {
   const Tolerance tight = options_.tolerance.tightened(errorTightening);
   std::mutex mutex;
   std::size_t compared = 0;
-  cpu_ += forEachIndex(options_.jobs, twice.size(), options_.cancelled, [&] {
+  forEachIndex(options_.jobs, twice.size(), options_.cancelled, [&] {
     return [&, witness = Witness(motion, options_.method, options_.cancelled),
             again = std::vector<double>(error_.data.size())](std::size_t i) mutable {
       const std::vector<double> start = system_.start(block.values(twice[i]));
@@ -341,7 +337,7 @@ Envelope EnsembleRun::expectedRange(const Envelope& expected) const {
 void EnsembleRun::take(SampleBlock& block, const Look& look) {
   noteFailures(block);
   if (look) look(block);
-  cpu_ += statistics_->include(block, options_.jobs);
+  statistics_->include(block, options_.jobs);
   (block.hasWeight() ? counted_ : beside_) += block.size();
 }
 
@@ -350,8 +346,7 @@ void EnsembleRun::integrateOthers(const Envelope& expected, const Look& look) {
   statistics_.emplace(expectedRange(expected), cuts_.size());
   for (SampleBlock& block : first_) take(block, look);
   first_.clear();
-  const std::size_t packBytes = sizeof(double) * gamut::packWidth * error_.data.size();
-  const std::size_t size = gamut::packWidth * std::clamp(blockBytes / packBytes, leastPacks, mostPacks);
+  const std::size_t size = gamut::packWidth * packsOfBlock(error_.data.size());
   while (nextSample_ < sampling_.samples() && !isCancelled()) {
     SampleBlock block = nextBlock(nextSample_, std::min(sampling_.samples(), nextSample_ + size));
     integrate(block);
@@ -365,8 +360,7 @@ void EnsembleRun::integrateOthers(const Envelope& expected, const Look& look) {
 double ensembleBytes(std::size_t times, std::size_t outputs, std::size_t quantities, std::size_t levels) {
   const std::size_t cells = times * outputs, corners = std::size_t{1} << std::min<std::size_t>(quantities, 10);
   const std::size_t first = firstSamples + corners + (levels > 0 ? 1024 : 0);
-  const std::size_t others =
-      std::max(blockBytes / sizeof(double) / std::max<std::size_t>(cells, 1), leastPacks * packWidth);
+  const std::size_t others = packWidth * packsOfBlock(cells);
   const double statistics = sizeof(std::uint32_t) * static_cast<double>(EnsembleStatistics::binsFor(cells)) +
                             sizeof(double) * static_cast<double>(2 * levels + 16);
   return static_cast<double>(cells) * (sizeof(double) * static_cast<double>(std::max(first, others)) + statistics);

@@ -58,37 +58,6 @@ struct FailedSample {
   std::string why;
 };
 
-/// Some samples with their trajectories.
-struct Ensemble {
-  std::vector<double> times;  ///< s
-  std::size_t outputs = 0;
-  std::vector<double> values;  ///< of the uncertain quantities: [sample][quantity]
-  std::size_t quantities = 0;
-  std::vector<double> data;          ///< [sample][time][output]; NaN where a sample did not arrive
-  std::vector<FailedSample> failed;  ///< by rising number
-  bool complete = false;             ///< false if cancelled
-  Tolerance tolerance;
-  Method method = Method::adams;
-  Table error;  ///< witness error
-
-  std::size_t size() const { return data.size() / (times.size() * outputs); }
-  double operator()(std::size_t sample, std::size_t time, std::size_t output) const {
-    return data[(sample * times.size() + time) * outputs + output];
-  }
-  /// One sample's trajectory: [time][output].
-  std::span<double> trajectory(std::size_t sample) {
-    return std::span(data).subspan(sample * times.size() * outputs, times.size() * outputs);
-  }
-  std::span<const double> trajectory(std::size_t sample) const {
-    return std::span(data).subspan(sample * times.size() * outputs, times.size() * outputs);
-  }
-  std::span<const double> valuesOf(std::size_t sample) const {
-    return std::span(values).subspan(sample * quantities, quantities);
-  }
-
-  Envelope envelope() const;
-};
-
 /// The samples of `system` on their way into the statistics: all samples of the plan, the corners, the corners of the
 /// alpha-cuts and the centre. Every number depends on the options' plan, samples, seed, tolerance, method and alpha
 /// alone, but which samples took too long. By Adams's method the samples of one number / packWidth are integrated
@@ -138,7 +107,6 @@ class EnsembleRun {
   /// fiftieth sample, integrated once more alone (on at least eight, or all if there are fewer; on 1024 at most;
   /// without states, where nothing is integrated, against 128-bit arithmetic).
   const Table& error() const { return error_; }
-  double cpu() const { return cpu_; }  ///< s, all threads
 
   Envelope envelope() const;
   std::vector<Envelope> innerCuts() const;
@@ -170,7 +138,6 @@ class EnsembleRun {
   std::size_t measured_ = 0;                 // so many of the plan's samples have had their share in the error
   std::size_t total_;
   std::atomic<std::size_t> done_{0};
-  double cpu_ = 0;
 };
 
 /// About as many bytes as an EnsembleRun takes, whatever the number of its samples.

@@ -70,8 +70,8 @@ EnsembleStatistics::EnsembleStatistics(const Envelope& expected, std::size_t lev
   }
 }
 
-double EnsembleStatistics::include(const SampleBlock& block, int jobs) {
-  return forEachIndex(jobs, times_, nullptr, [&] {
+void EnsembleStatistics::include(const SampleBlock& block, int jobs) {
+  forEachIndex(jobs, times_, nullptr, [&] {
     return [&](std::size_t time) {
       for (std::size_t index = time * outputs_; index < (time + 1) * outputs_; ++index)
         for (std::size_t p = 0; p < block.packs(); ++p) {

@@ -27,9 +27,8 @@ class EnsembleStatistics {
   /// of alpha.
   EnsembleStatistics(const Envelope& expected, std::size_t levels);
 
-  /// Includes a block. What comes out depends on the blocks and their order alone, not on the number of jobs. Returns
-  /// the CPU time, s.
-  double include(const SampleBlock& block, int jobs);
+  /// Includes a block. What comes out depends on the blocks and their order alone, not on the number of jobs.
+  void include(const SampleBlock& block, int jobs);
 
   // Each of the first `times` output times, NaN for the others.
 
@@ -43,8 +42,8 @@ class EnsembleStatistics {
 
   /// Bins of one histogram, without the open ends.
   std::size_t bins() const { return bins_; }
-  /// Bins of each histogram where there are so many: fewer the more histograms there are, so that all together have
-  /// some 2^25, but at least 64.
+  /// Bins of each histogram where there are so many: 4096, or fewer, so that all together have some 2^25, but at
+  /// least 64.
   static std::size_t binsFor(std::size_t histograms);
 
  private:

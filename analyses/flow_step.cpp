@@ -241,7 +241,8 @@ StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum,
     if (std::isfinite(theta)) {
       h = theta * h0_;
       // A scale far from the step loses digits to overflow and underflow: once more with a better one.
-      const bool tooLarge = theta<0x1p-4, tooSmall = theta> 16 && h0_ < left && set.nextStep == 0;
+      const bool tooLarge = theta < 0x1p-4;
+      const bool tooSmall = theta > 16 && h0_ < left && set.nextStep == 0;
       if (!(tooLarge || tooSmall) || attempt >= 8) break;
       guess = h;
     } else {

@@ -165,7 +165,7 @@ class PolynomialSeries {
 
   // polynomial_systems.cpp; `first` is component 0 of a solution.
   void planSystems(const Program& program);
-  int known(const System& system, int row) const;
+  int termsIn(const System& system, int row) const;
   void factorise(System& system);
   void computeSolution(int first, int i);
   void invert(System& system);

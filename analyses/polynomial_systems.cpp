@@ -47,7 +47,7 @@ bool PolynomialSeries::isKnownZero(int node) const {
 }
 
 /// How many entries of a row of A are not known zeros.
-int PolynomialSeries::known(const System& system, int row) const {
+int PolynomialSeries::termsIn(const System& system, int row) const {
   int count = 0;
   for (int j = 0; j < system.size; ++j) count += !isKnownZero(system.entry(row, j));
   return count;
@@ -266,7 +266,7 @@ void PolynomialSeries::solutionOwnErrors(int first) {
   const bool graded = monomials_->degree() > 0;
   for (int k = 0; k < n; ++k) {
     const int b = solution.rightSide[at(k)];
-    const int terms = known(system, k);
+    const int terms = termsIn(system, k);
     double residual = 0;
     for (int i = 0; i < (v.invariant ? 1 : m_); ++i) residual += solution.residual[at(i * n + k)] * power_[at(i)];
     double rounding = (2 * terms + 1) * norm_[at(b)] + 3 * (terms + 1) * system.factors.size(k, &norm_[at(first)]);

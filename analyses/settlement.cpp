@@ -10,9 +10,8 @@
 
 namespace gamut {
 
-Settlement::Settlement(const Proved& proved, const UncertainMotion& system, const EnsembleOptions& sampled,
-                       const ComparisonOptions& options)
-    : proved_(proved), system_(system), sampled_(sampled), options_(options), refuted_(1 + proved.cuts.size(), 0) {
+Settlement::Settlement(const Proved& proved, const UncertainMotion& system, const ComparisonOptions& options)
+    : proved_(proved), system_(system), options_(options), refuted_(1 + proved.cuts.size(), 0) {
   const std::size_t times = system.motion.times.size(), outputs = system.motion.outputs();
   const std::size_t size = proved.reachedTimes * outputs;
   Envelope bounds(times, outputs);
@@ -63,15 +62,11 @@ std::vector<std::size_t> Settlement::leavers(const SampleBlock& block) const {
 /// Of the disputed samples those that lie in the cut of this level, or, level -1, all, and leave the bounds, as a small
 /// ensemble.
 void Settlement::compareSome(const Envelope& bounds, int level, SampleBlock& block,
-                             const std::vector<std::size_t>& disputed, const Table& error, const Take& take) {
+                             const std::vector<std::size_t>& disputed, const Take& take) {
   Ensemble some;
   some.times = system_.motion.times;
   some.outputs = system_.motion.outputs();
   some.quantities = system_.uncertain.size();
-  some.complete = true;
-  some.tolerance = sampled_.tolerance;
-  some.method = sampled_.method;
-  some.error = error;
   std::vector<std::size_t> places;
   for (const std::size_t i : disputed) {
     if (static_cast<int>(block.levels[i]) <= level) continue;
@@ -98,12 +93,12 @@ void Settlement::compareSome(const Envelope& bounds, int level, SampleBlock& blo
   take(found, level);
 }
 
-void Settlement::settle(SampleBlock& block, const Table& error, const Take& take) {
+void Settlement::settle(SampleBlock& block, const Take& take) {
   const std::vector<std::size_t> disputed = leavers(block);
   if (disputed.empty()) return;
-  if (!proved_.enclosure.empty()) compareSome(proved_.enclosure, -1, block, disputed, error, take);
+  if (!proved_.enclosure.empty()) compareSome(proved_.enclosure, -1, block, disputed, take);
   for (std::size_t level = proved_.cuts.size(); level-- > 0;)
-    compareSome(proved_.cuts[level], static_cast<int>(level), block, disputed, error, take);
+    compareSome(proved_.cuts[level], static_cast<int>(level), block, disputed, take);
 }
 
 }  // namespace gamut

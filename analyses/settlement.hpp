@@ -20,15 +20,14 @@ struct Proved {
 class Settlement {
  public:
   /// All that is referred to must outlive it.
-  Settlement(const Proved& proved, const UncertainMotion& system, const EnsembleOptions& sampled,
-             const ComparisonOptions& options);
+  Settlement(const Proved& proved, const UncertainMotion& system, const ComparisonOptions& options);
 
   /// Gets what one comparison found, with the numbers of the samples, and the level of its cut; -1: the enclosure.
   using Take = std::function<void(const Comparison&, int level)>;
 
   /// Settles what is disputed of a block, against the enclosure, then from the narrowest cut to the widest. Once a
   /// block has refuted one of them, no more samples go to the arbiter for its sake.
-  void settle(SampleBlock& block, const Table& error, const Take& take);
+  void settle(SampleBlock& block, const Take& take);
 
   /// The tightest bounds of a sample that lies in so many cuts; NaN beyond what is reached.
   const Envelope& boundsOf(std::size_t levels) const { return tightest_[levels]; }
@@ -36,11 +35,10 @@ class Settlement {
  private:
   std::vector<std::size_t> leavers(const SampleBlock& block) const;
   void compareSome(const Envelope& bounds, int level, SampleBlock& block, const std::vector<std::size_t>& disputed,
-                   const Table& error, const Take& take);
+                   const Take& take);
 
   const Proved& proved_;
   const UncertainMotion& system_;
-  const EnsembleOptions& sampled_;
   ComparisonOptions options_;
   std::vector<Envelope> tightest_;  // of the samples in so many cuts
   std::vector<char> refuted_;       // the enclosure, then each cut

@@ -23,15 +23,12 @@ inline double threadCpuSeconds() {
 
 /// Calls worker(i) for i = 0 … count-1, where `worker = makeWorker()` is made once on each of at most `jobs` threads.
 /// Ends early when `cancelled` is set. The first exception ends all and is thrown again here.
-/// Returns the CPU time of all threads, s.
 template <class MakeWorker>
-double forEachIndex(int jobs, std::size_t count, const std::atomic<bool>* cancelled, const MakeWorker& makeWorker) {
+void forEachIndex(int jobs, std::size_t count, const std::atomic<bool>* cancelled, const MakeWorker& makeWorker) {
   std::atomic<std::size_t> next{0};
   std::exception_ptr failure;
-  double cpu = 0;
   std::mutex mutex;
   const auto run = [&] {
-    const double start = threadCpuSeconds();
     try {
       auto worker = makeWorker();
       for (std::size_t i = next++; i < count && !(cancelled != nullptr && *cancelled); i = next++) worker(i);
@@ -40,8 +37,6 @@ double forEachIndex(int jobs, std::size_t count, const std::atomic<bool>* cancel
       const std::lock_guard lock(mutex);
       if (!failure) failure = std::current_exception();
     }
-    const std::lock_guard lock(mutex);
-    cpu += threadCpuSeconds() - start;
   };
   std::vector<std::jthread> threads;
   const std::size_t wanted = std::min(count, static_cast<std::size_t>(std::max(jobs, 1)));
@@ -49,7 +44,6 @@ double forEachIndex(int jobs, std::size_t count, const std::atomic<bool>* cancel
   if (count > 0) run();
   threads.clear();  // joins
   if (failure) std::rethrow_exception(failure);
-  return cpu;
 }
 
 }  // namespace gamut

@@ -59,7 +59,6 @@ Assembly<S>::~Assembly() = default;
 
 template <class S>
 S Assembly<S>::value(const Quantity& quantity) const {
-  if (quantity.isConstant()) return constant<S>(quantity.factor());
   return constant<S>(quantity.factor()) * values_.at(quantity.parameter());
 }
 

@@ -13,8 +13,7 @@ namespace gamut {
 std::string nearestName(std::string_view word, const std::vector<std::string>& candidates);
 
 /// What would do instead of `word`: up to three nearest names, or up to three that share a part between dots with it,
-/// as
-/// "'a', 'b' or 'c'"; else "one of: a, b, …", of many the first twelve.
+/// as "'a', 'b' or 'c'"; else "one of: a, b, …", of many the first twelve.
 std::string expectedName(std::string_view word, const std::vector<std::string>& candidates);
 
 /// "unknown KIND 'WORD'; did you mean 'NEAREST'?", without the question where no candidate is near, or, without

@@ -31,6 +31,10 @@ struct Excursion {
 bool isUnresolved(const DisputedSample& sample) { return !sample.outside && sample.decided == "unresolved"; }
 bool isInterrupted(const DisputedSample& sample) { return !sample.outside && sample.decided == "interrupted"; }
 
+std::string_view boundOf(const DisputedSample& sample) {
+  return sample.level == enclosureLevel ? "the enclosure" : "its alpha-cut";
+}
+
 double distanceOutside(double value, double lower, double upper) {
   return std::max({lower - value, value - upper, 0.0});
 }
@@ -80,6 +84,9 @@ class Judge {
     checkShape(results_.comparison.overestimation, "the overestimation");
     for (const Bounds& cut : results_.fuzzy.outer) checkShape(cut, "an alpha-cut");
     for (const Bounds& cut : results_.fuzzy.inner) checkShape(cut, "a sampled alpha-cut");
+    for (const DisputedSample& sample : results_.comparison.disputed)
+      if (sample.farthest.size() != results_.outputs.size())
+        throw std::invalid_argument("a disputed sample does not have one distance an output");
   }
 
   /// Output times up to `reached`, the first always among them.
@@ -93,7 +100,7 @@ class Judge {
   bool isExplained(const Excursion& found, bool (*isLeft)(const DisputedSample&)) const {
     return std::any_of(
         results_.comparison.disputed.begin(), results_.comparison.disputed.end(), [&](const DisputedSample& sample) {
-          return sample.level == found.level && isLeft(sample) && found.distance <= sample.farthestIn(found.output);
+          return sample.level == found.level && isLeft(sample) && found.distance <= sample.farthest[found.output];
         });
   }
 
@@ -191,7 +198,7 @@ class Judge {
         verdict_.notes.push_back(fmt::format("{} lies outside by {}, decided by {}.", who,
                                              withUnit(sample.distance, sample.output), sample.decided));
         if (sample.distance > outside_.distance || outside_.distance == 0) {
-          outside_ = {sample.distance, sample.time, sample.output, "the enclosure"};
+          outside_ = {sample.distance, sample.time, sample.output, boundOf(sample)};
         }
         refuted_ = true;
       } else if (isUnresolved(sample)) {
@@ -199,7 +206,7 @@ class Judge {
                                        withUnit(sample.distance, sample.output),
                                        withUnit(sample.error, sample.output)));
         if (sample.distance > doubtful_.distance) {
-          doubtful_ = {sample.distance, sample.time, sample.output, "the enclosure"};
+          doubtful_ = {sample.distance, sample.time, sample.output, boundOf(sample)};
         }
         doubted_ = true;
       } else if (isInterrupted(sample)) {

@@ -28,8 +28,8 @@ struct Verdict {
 };
 
 /// Judges the results from their grids. Where the stored verdict disagrees, the finding here wins and the sentence says
-/// so. Never throws for missing analyses; throws std::invalid_argument if a grid's shape does not fit times and
-/// outputs.
+/// so. Never throws for missing analyses; throws std::invalid_argument if the shape of a grid, or of a disputed sample,
+/// does not fit times and outputs.
 Verdict judge(const Results& results);
 
 /// What a program that ran `judge` returns to its caller: inside 0, outside or unresolved 1, incomplete 3.

@@ -1,6 +1,5 @@
 // Unknowns of a recorded linear system that can be eliminated without harm: those with an entry that is a number, never
-// zero whatever the inputs are. Sparse
-// systems lose what merely copies or adds.
+// zero whatever the inputs are. Sparse systems lose what merely copies or adds.
 #pragma once
 
 #include <span>

@@ -254,11 +254,10 @@ class Driver {
     if (!ensemble_) return;
     sampleWhileThereIsRoom(Watch::Stage::rest, [&] {
       const Proved proved{study_.interval ? results_.interval.at : Bounds(), results_.fuzzy.outer, reachedTimes_};
-      Settlement settlement(proved, problem_.motion, ensemble_->options(), comparisonOptions());
+      Settlement settlement(proved, problem_.motion, comparisonOptions());
       ensemble_->integrateOthers(settlement.boundsOf(0), [&](SampleBlock& block) {
         if (study_.analysis == Study::Analysis::kinematics) moveSamples(block);
-        settlement.settle(block, ensemble_->error(),
-                          [this](const Comparison& found, int level) { takeDisputes(found, level); });
+        settlement.settle(block, [this](const Comparison& found, int level) { takeDisputes(found, level); });
       });
       describeSamples();
     });

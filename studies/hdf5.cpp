@@ -35,6 +35,16 @@ struct Taker {
 
 }  // namespace
 
+void checkHdf5(herr_t status, const std::string& what) {
+  if (status < 0) throw Hdf5Error(what);
+}
+
+hsize_t countOf(const Hdf5Shape& shape) {
+  hsize_t product = 1;
+  for (const hsize_t extent : shape) product *= extent;
+  return product;
+}
+
 Hdf5Handle::Hdf5Handle(hid_t id, herr_t (*close)(hid_t), const std::string& what) : id_(id), close_(close) {
   if (id < 0) throw Hdf5Error(what);
 }

@@ -11,10 +11,6 @@
 namespace gamut {
 namespace {
 
-void check(herr_t status, const std::string& what) {
-  if (status < 0) throw Hdf5Error(what);
-}
-
 Hdf5Handle openGroup(hid_t parent, const std::string& name) {
   return {H5Gopen2(parent, name.c_str(), H5P_DEFAULT), H5Gclose, name};
 }
@@ -39,7 +35,7 @@ void checkScalar(hid_t space, const std::string& name) {
 hsize_t largest(hid_t object, const std::string& name) {
   const Hdf5Handle file(H5Iget_file_id(object), H5Fclose, name);
   hsize_t size = 0;
-  check(H5Fget_filesize(file, &size), name);
+  checkHdf5(H5Fget_filesize(file, &size), name);
   return 1100 * size;
 }
 
@@ -48,19 +44,13 @@ Hdf5Shape shapeOf(hid_t data, std::size_t elementSize, const std::string& name) 
   const int rank = H5Sget_simple_extent_ndims(space);
   if (rank < 0 || rank > 8 || elementSize == 0) throw Hdf5Error(name);
   Hdf5Shape shape(static_cast<std::size_t>(rank));
-  check(H5Sget_simple_extent_dims(space, shape.data(), nullptr), name);
+  checkHdf5(H5Sget_simple_extent_dims(space, shape.data(), nullptr), name);
   hsize_t left = largest(data, name) / elementSize;
   for (const hsize_t extent : shape) {
     if (extent > left) throw Hdf5Error(name);
     if (extent > 0) left /= extent;
   }
   return shape;
-}
-
-hsize_t count(const Hdf5Shape& shape) {
-  hsize_t product = 1;
-  for (const hsize_t extent : shape) product *= extent;
-  return product;
 }
 
 /// The size of a text of fixed length.
@@ -85,7 +75,7 @@ T readAttribute(hid_t group, const std::string& name, hid_t type, H5T_class_t ex
   const Hdf5Handle space(H5Aget_space(attribute), H5Sclose, name);
   checkScalar(space, name);
   T value{};
-  check(H5Aread(attribute, type, &value), name);
+  checkHdf5(H5Aread(attribute, type, &value), name);
   return value;
 }
 
@@ -95,8 +85,8 @@ std::vector<T> readData(hid_t group, const std::string& name, hid_t type, H5T_cl
   const Hdf5Handle found(H5Dget_type(data), H5Tclose, name);
   checkClass(found, expected, name);
   shape = shapeOf(data, sizeof(T), name);
-  std::vector<T> values(count(shape));
-  check(H5Dread(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), name);
+  std::vector<T> values(countOf(shape));
+  checkHdf5(H5Dread(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), name);
   return values;
 }
 
@@ -106,7 +96,7 @@ std::string readTextAttribute(hid_t group, const std::string& name) {
   const Hdf5Handle space(H5Aget_space(attribute), H5Sclose, name);
   checkScalar(space, name);
   std::string value(textSize(found, attribute, name), '\0');
-  check(H5Aread(attribute, found, value.data()), name);
+  checkHdf5(H5Aread(attribute, found, value.data()), name);
   return trimmed(value.data(), value.size());
 }
 
@@ -114,9 +104,9 @@ std::vector<std::string> readTexts(hid_t group, const std::string& name) {
   const Hdf5Handle data = openData(group, name);
   const Hdf5Handle found(H5Dget_type(data), H5Tclose, name);
   const std::size_t length = textSize(found, data, name);
-  const hsize_t n = count(shapeOf(data, length, name));
+  const hsize_t n = countOf(shapeOf(data, length, name));
   std::string table(n * length, '\0');
-  check(H5Dread(data, found, H5S_ALL, H5S_ALL, H5P_DEFAULT, table.data()), name);
+  checkHdf5(H5Dread(data, found, H5S_ALL, H5S_ALL, H5P_DEFAULT, table.data()), name);
   std::vector<std::string> values;
   for (hsize_t i = 0; i < n; ++i) values.push_back(trimmed(table.data() + i * length, length));
   return values;
@@ -257,7 +247,7 @@ std::vector<std::string> Hdf5Reader::attributeNames() const {
       static_cast<Names*>(list)->emplace_back(name);
       return 0;
     };
-    check(H5Aiterate2(*group_, H5_INDEX_NAME, H5_ITER_INC, nullptr, visit, &names), "the attributes");
+    checkHdf5(H5Aiterate2(*group_, H5_INDEX_NAME, H5_ITER_INC, nullptr, visit, &names), "the attributes");
     return names;
   });
 }
@@ -273,7 +263,7 @@ std::vector<double> Hdf5Reader::numbers(const std::string& name, Hdf5Shape& shap
       [&] { return readData<double>(*group_, name, H5T_NATIVE_DOUBLE, H5T_FLOAT, shape); });
   shape = transcript_->answer<Hdf5Shape>([&] { return shape; });
   // A transcript may have come from a process that was out of its mind.
-  if (count(shape) != values.size()) throw Hdf5Error(name);
+  if (countOf(shape) != values.size()) throw Hdf5Error(name);
   return values;
 }
 

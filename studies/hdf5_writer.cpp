@@ -14,16 +14,12 @@ constexpr hsize_t compactSize = 4096;
 constexpr hsize_t compactTextSize = 60000;
 constexpr hsize_t chunkSize = hsize_t{1} << 19;
 
-void check(herr_t status, const std::string& what) {
-  if (status < 0) throw Hdf5Error(what);
-}
-
 /// UTF-8, filled up with zero bytes.
 Hdf5Handle textType(std::size_t size) {
   Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "text type");
-  check(H5Tset_size(type, std::max<std::size_t>(size, 1)), "text type");
-  check(H5Tset_cset(type, H5T_CSET_UTF8), "text type");
-  check(H5Tset_strpad(type, H5T_STR_NULLPAD), "text type");
+  checkHdf5(H5Tset_size(type, std::max<std::size_t>(size, 1)), "text type");
+  checkHdf5(H5Tset_cset(type, H5T_CSET_UTF8), "text type");
+  checkHdf5(H5Tset_strpad(type, H5T_STR_NULLPAD), "text type");
   return type;
 }
 
@@ -32,16 +28,10 @@ Hdf5Handle space(const Hdf5Shape& shape, const std::string& name) {
   return {H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), H5Sclose, name};
 }
 
-hsize_t count(const Hdf5Shape& shape) {
-  hsize_t product = 1;
-  for (const hsize_t extent : shape) product *= extent;
-  return product;
-}
-
 void writeAttribute(hid_t object, const std::string& name, hid_t type, const void* value) {
   const Hdf5Handle attribute(H5Acreate2(object, name.c_str(), type, space({}, name), H5P_DEFAULT, H5P_DEFAULT),
                              H5Aclose, name);
-  check(H5Awrite(attribute, type, value), name);
+  checkHdf5(H5Awrite(attribute, type, value), name);
 }
 
 void writeTextAttribute(hid_t object, const std::string& name, const std::string& value) {
@@ -51,19 +41,19 @@ void writeTextAttribute(hid_t object, const std::string& name, const std::string
 /// Small data sets lie in their header; larger ones in chunks, shuffled and compressed, with a checksum each.
 Hdf5Handle layout(const Hdf5Shape& shape, std::size_t elementSize) {
   Hdf5Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "properties");
-  const hsize_t size = count(shape) * elementSize;
+  const hsize_t size = countOf(shape) * elementSize;
   if (size <= (shape.empty() ? compactTextSize : compactSize)) {
-    check(H5Pset_layout(properties, H5D_COMPACT), "layout");
+    checkHdf5(H5Pset_layout(properties, H5D_COMPACT), "layout");
     return properties;
   }
   if (shape.empty()) return properties;
   Hdf5Shape chunk = shape;
   for (hsize_t& extent : chunk)
-    while (count(chunk) * elementSize > chunkSize && extent > 1) extent = (extent + 1) / 2;
-  check(H5Pset_chunk(properties, static_cast<int>(chunk.size()), chunk.data()), "chunks");
-  check(H5Pset_shuffle(properties), "shuffle");
-  check(H5Pset_deflate(properties, 6), "deflate");
-  check(H5Pset_fletcher32(properties), "checksum");
+    while (countOf(chunk) * elementSize > chunkSize && extent > 1) extent = (extent + 1) / 2;
+  checkHdf5(H5Pset_chunk(properties, static_cast<int>(chunk.size()), chunk.data()), "chunks");
+  checkHdf5(H5Pset_shuffle(properties), "shuffle");
+  checkHdf5(H5Pset_deflate(properties, 6), "deflate");
+  checkHdf5(H5Pset_fletcher32(properties), "checksum");
   return properties;
 }
 
@@ -95,7 +85,7 @@ void Hdf5Writer::data(const std::string& name, hid_t type, const Hdf5Shape& shap
   const Hdf5Handle data(H5Dcreate2(group_, name.c_str(), type, space(shape, name), H5P_DEFAULT,
                                    layout(shape, H5Tget_size(type)), H5P_DEFAULT),
                         H5Dclose, name);
-  check(H5Dwrite(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), name);
+  checkHdf5(H5Dwrite(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), name);
   writeTextAttribute(data, "long_name", longName);
   // netCDF's word for how texts are to be read.
   if (H5Tget_class(type) == H5T_STRING) writeTextAttribute(data, "_Encoding", "utf-8");
@@ -128,16 +118,16 @@ void Hdf5Writer::numbers(const std::string& name, const double* values, const Hd
 
 void Hdf5Writer::makeScale(const std::string& name, const std::string& label) {
   const Hdf5Handle data(H5Dopen2(group_, name.c_str(), H5P_DEFAULT), H5Dclose, name);
-  check(H5DSset_scale(data, label.c_str()), name);
+  checkHdf5(H5DSset_scale(data, label.c_str()), name);
 }
 
 void Hdf5Writer::attachScales(const std::string& name, const std::vector<std::string>& scales) {
   const Hdf5Handle data(H5Dopen2(group_, name.c_str(), H5P_DEFAULT), H5Dclose, name);
   for (unsigned dimension = 0; dimension < scales.size(); ++dimension) {
     const Hdf5Handle scale(H5Dopen2(group_, scales[dimension].c_str(), H5P_DEFAULT), H5Dclose, name);
-    check(H5DSattach_scale(data, scale, dimension), name);
+    checkHdf5(H5DSattach_scale(data, scale, dimension), name);
     const std::string label = scales[dimension].substr(scales[dimension].rfind('/') + 1);
-    check(H5DSset_label(data, dimension, label.c_str()), name);
+    checkHdf5(H5DSset_label(data, dimension, label.c_str()), name);
   }
 }
 

@@ -12,11 +12,6 @@
 namespace gamut {
 namespace {
 
-/// The value of an initial state or parameter that nothing makes uncertain.
-Interval valueOf(const Mechanism& mechanism, const Quantity& quantity) {
-  return quantity.isConstant() ? quantity.factor() : quantity.factor() * mechanism.nominal(quantity.parameter());
-}
-
 /// y = g(p): outputs of the assembly at the configuration p (states, then free parameters).
 Program recordConfiguration(const Study& study, const Problem& problem) {
   const int numbers = static_cast<int>(problem.box.size()), outputs = static_cast<int>(problem.outputs.size());
@@ -48,7 +43,8 @@ Problem makeProblem(const Study& study) {
   const Mechanism& mechanism = study.mechanism;
   const std::vector<std::string> names = mechanism.stateNames();
   problem.states = names.size();
-  for (const Quantity& initial : mechanism.initialState()) problem.box.push_back(valueOf(mechanism, initial));
+  for (const Quantity& initial : mechanism.initialState())  // every number of a mechanism has a name
+    problem.box.push_back(initial.factor() * mechanism.nominal(initial.parameter()));
   for (const UncertainQuantity& uncertain : study.uncertain) {
     const auto state = std::find(names.begin(), names.end(), uncertain.quantity);
     problem.motion.uncertain.push_back(uncertain.uncertain);

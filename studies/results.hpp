@@ -91,9 +91,6 @@ struct DisputedSample {
   bool outside = false;
   int level = -1;                ///< of the alpha-cut that it was compared with; -1: the enclosure
   std::vector<double> farthest;  ///< one an output: how far it lies outside at most, after the last integration
-
-  /// Greatest distance outside in an output; what is known without `farthest`, if it is empty.
-  double farthestIn(std::size_t k) const { return k < farthest.size() ? farthest[k] : k == output ? distance : 0; }
 };
 
 /// How the answers agree.

@@ -169,8 +169,10 @@ void writeDisputed(Hdf5Writer& comparison, const Results& results) {
   columns.integers(
       "level", [](const D& d) { return std::int64_t{d.level}; }, "index of the alpha-cut, -1 for the enclosure");
   std::vector<double> farthest;
-  for (const D& d : disputed)
-    for (std::size_t k = 0; k < results.outputs.size(); ++k) farthest.push_back(d.farthestIn(k));
+  for (const D& d : disputed) {
+    if (d.farthest.size() != results.outputs.size()) throw std::logic_error("farthest: not one distance an output");
+    farthest.insert(farthest.end(), d.farthest.begin(), d.farthest.end());
+  }
   const std::string units =
       jointUnit(column<std::string, OutputInfo>(results.outputs, [](const OutputInfo& o) { return o.unit; }));
   group.numbers("farthest", farthest.data(), {disputed.size(), results.outputs.size()}, "greatest distance outside",

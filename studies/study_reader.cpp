@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <optional>
 #include <set>
 
@@ -150,8 +151,7 @@ class StudyReader {
     if (study_.time.back() < study_.horizon) study_.time.push_back(study_.horizon);
   }
 
-  // ---- What the whole says
-  // ---------------------------------------------------------------------------------------------
+  // ---- What the whole says ------------------------------------------------------------------------------------------
 
   /// An initial value that follows an uncertain parameter would be a second copy of it, which no analysis could tell.
   void checkInitialValues() const {
@@ -193,8 +193,7 @@ class StudyReader {
     study_.outputs.push_back({name, quantity, study_.mechanism.unitOf(quantity)});
   }
 
-  // ---- [interval], [stochastic], [fuzzy], [limits]
-  // ----------------------------------------------------------------------------
+  // ---- [interval], [stochastic], [fuzzy], [limits] ------------------------------------------------------------------
 
   /// A whole number, or "auto" for the default.
   int integerOrAuto(const TomlSection& section, std::string_view key, int otherwise, int least, int most) const {

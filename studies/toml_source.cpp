@@ -115,9 +115,6 @@ std::string TomlSource::note(const toml::node& at, const std::string& text) cons
 }
 
 void TomlSource::failWith(const toml::node& at, const std::string& sentence, const std::string& expected) const {
-  const std::string question = "; did you mean ";
-  if (const auto split = sentence.find(question); split != std::string::npos)
-    fail(at, sentence.substr(0, split), sentence.substr(split + question.size()));
   std::string what = sentence;  // one line has one semicolon, in front of what was expected
   std::replace(what.begin(), what.end(), ';', ',');
   fail(at, what, expected);

@@ -7,7 +7,6 @@
 
 #include <hdf5.h>
 
-#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -23,6 +22,9 @@ class Hdf5Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
+
+/// Throws Hdf5Error naming `what` where a call of the library failed.
+void checkHdf5(herr_t status, const std::string& what);
 
 /// Owns an HDF5 identifier of any kind.
 class Hdf5Handle {
@@ -57,6 +59,9 @@ class Hdf5Silence {
 std::string hdf5InMemory(hsize_t userBlock, const std::function<void(hid_t)>& fill);
 
 using Hdf5Shape = std::vector<hsize_t>;
+
+/// How many elements data of this shape have.
+hsize_t countOf(const Hdf5Shape& shape);
 
 /// A group of an open file, for writing.
 class Hdf5Writer {

@@ -32,8 +32,7 @@ class TomlSource {
   /// "file:line:column: note: text", for what is no error.
   std::string note(const toml::node& at, const std::string& text) const;
 
-  /// As fail, for a sentence with which another room refused what stands at `at`: "wrong; did you mean 'x'?" names what
-  /// was expected itself, any other is followed by `expected`.
+  /// As fail, for a sentence with which another room refused what stands at `at`.
   [[noreturn]] void failWith(const toml::node& at, const std::string& sentence, const std::string& expected) const;
 
   // What a node holds; `what` names it in messages, e.g. "horizon" or "mechanism.element.name".

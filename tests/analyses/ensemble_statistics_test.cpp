@@ -128,7 +128,7 @@ TEST(EnsembleStatistics, ASingleSampleHasNoDeviation) {
   EXPECT_TRUE(std::isnan(found.deviation(0, 0)));
 }
 
-TEST(EnsembleStatistics, TakeNoMoreMemoryThanAFewHundredMegabytes) {
+TEST(EnsembleStatistics, HaveFewerBinsTheMoreHistogramsThereAre) {
   EXPECT_EQ(EnsembleStatistics::binsFor(2107), 4096u);
   EXPECT_EQ(EnsembleStatistics::binsFor(1u << 15), 1024u);
   EXPECT_EQ(EnsembleStatistics::binsFor(1u << 22), 64u);

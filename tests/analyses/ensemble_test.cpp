@@ -32,7 +32,7 @@ EnsembleOptions samples(std::size_t count, int jobs = 1) {
 }
 
 /// Greatest distance of the oscillator's samples from the known solution.
-double oscillatorError(const Ensemble& e) {
+double oscillatorError(const WholeEnsemble& e) {
   double error = 0;
   for (std::size_t i = 0; i < e.size(); ++i)
     for (std::size_t t = 0; t < e.times.size(); ++t) {
@@ -118,6 +118,13 @@ TEST(ReplaySample, RefusesANumberThatNoSampleHas) {
   EXPECT_NO_THROW(replaySample(decay(), samples(16), 18));
   EXPECT_THAT([] { replaySample(decay(), samples(16), 19); },
               ThrowsMessage<std::invalid_argument>(HasSubstr("no sample has the number 19")));
+}
+
+TEST(Ensemble, TakesAsManyBytesAsTheFirstSamplesOrABlockAndTheStatistics) {
+  EXPECT_LT(ensembleBytes(1, 2, 1, 0), 1e6);       // 8192 samples of two numbers
+  EXPECT_LT(ensembleBytes(301, 7, 1, 11), 1.2e8);  // 64 MiB of samples
+  EXPECT_GT(ensembleBytes(301, 7, 1, 11), 6.7e7);
+  EXPECT_GT(ensembleBytes(50001, 2000, 1, 0), 4e11);  // 512 samples
 }
 
 TEST(Ensemble, SaysHowManySamplesAreIntegratedTogether) {

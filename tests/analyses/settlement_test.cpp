@@ -42,13 +42,15 @@ class DecaySettled : public testing::Test {
 
   void run() {
     EnsembleRun ensemble(system, sampled);
-    Settlement settlement(proved, system, sampled, {});
+    Settlement settlement(proved, system, {});
     ensemble.integrateFirst();
     ensemble.integrateOthers(settlement.boundsOf(0), [&](SampleBlock& block) {
-      settlement.settle(block, ensemble.error(), [&](const Comparison& found, int level) {
+      settlement.settle(block, [&](const Comparison& found, int level) {
         disputes.insert(disputes.end(), found.disputes.begin(), found.disputes.end());
-        for (const Dispute& d : found.disputes) arbitrated[level] += d.decided == "Taylor 128 bits";
-        outside = outside || found.verdict == "outside";
+        for (const Dispute& d : found.disputes) {
+          arbitrated[level] += d.decided == "Taylor 128 bits";
+          outside = outside || d.outside;
+        }
       });
     });
     envelope = ensemble.envelope();
@@ -123,7 +125,7 @@ TEST_F(DecaySettled, NothingIsDisputedBeyondWhatIsReached) {
 
 TEST_F(DecaySettled, BoundsOfAnotherShapeAreRefused) {
   proved.enclosure = Envelope(3, 1);
-  EXPECT_THROW(Settlement(proved, system, sampled, {}), std::invalid_argument);
+  EXPECT_THROW(Settlement(proved, system, {}), std::invalid_argument);
 }
 
 }  // namespace

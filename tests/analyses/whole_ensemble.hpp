@@ -5,11 +5,15 @@
 #include <limits>
 #include <utility>
 
+#include "analyses/comparison.hpp"
 #include "analyses/ensemble.hpp"
 
 namespace gamut::testing_motions {
 
 struct WholeEnsemble : Ensemble {
+  std::vector<FailedSample> failed;
+  bool complete = false;
+  Table error;
   std::size_t samples = 0, corners = 0, boxCorners = 0, failures = 0, reachedTimes = 0, packWidth = 0, counted = 0;
   double reached = 0;
   std::string why;
@@ -18,6 +22,17 @@ struct WholeEnsemble : Ensemble {
   std::vector<Envelope> innerCuts;
 
   std::size_t centre() const { return samples + corners + boxCorners; }
+  double operator()(std::size_t sample, std::size_t time, std::size_t output) const {
+    return trajectory(sample)[time * outputs + output];
+  }
+  /// Of the trajectories as they are now.
+  Envelope envelope() const {
+    Envelope result(times.size(), outputs);
+    for (std::size_t i = 0; i < size(); ++i)
+      for (std::size_t t = 0; t < times.size(); ++t)
+        for (std::size_t o = 0; o < outputs; ++o) result.include(t, o, (*this)(i, t, o));
+    return result;
+  }
 };
 
 inline WholeEnsemble sampleEnsemble(const UncertainMotion& system, const EnsembleOptions& options = {},
@@ -48,8 +63,6 @@ inline WholeEnsemble sampleEnsemble(const UncertainMotion& system, const Ensembl
   e.reached = run.reached();
   e.reachedTimes = run.reachedTimes();
   e.why = run.why();
-  e.tolerance = options.tolerance;
-  e.method = options.method;
   e.packWidth = run.packWidth();
   e.error = run.error();
   e.summary = run.envelope();

@@ -1,11 +1,11 @@
 // Results files that are damaged: each is refused in one line, none crashes, hangs or is taken for a verdict.
 #include <gmock/gmock.h>
-#include <time.h>
 
 #include "reports/verdict.hpp"
 #include "studies/driver.hpp"
 #include "studies/results_file.hpp"
 #include "studies/study.hpp"
+#include "studies/watch.hpp"
 #include "tests/studies/damage.hpp"
 #include "tests/studies/sample_study.hpp"
 #include "tests/studies/temporary_folder.hpp"
@@ -41,12 +41,6 @@ class DamagedResults : public ::testing::Test {
     return "";
   }
 
-  static double cpuSeconds() {
-    struct timespec now {};
-    ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-  }
-
   TemporaryFolder folder_;
   std::string whole_;
 };
@@ -70,12 +64,12 @@ TEST_F(DamagedResults, AreNoVerdictEvenIfTheirDigestIsRight) {
   std::mt19937_64 random(2);
   int refused = 0;
   for (int i = 0; i < 250; ++i) {
-    const double start = cpuSeconds();
+    const double start = processCpuSeconds();
     std::string verdict = "inside";
     const std::string message = complaint(sealed(damaged(whole_, random)), verdict);
     EXPECT_EQ(verdict, "inside") << "damage number " << i;
     EXPECT_THAT(message, Not(HasSubstr("\n"))) << i;
-    EXPECT_LT(cpuSeconds() - start, 5) << i;
+    EXPECT_LT(processCpuSeconds() - start, 5) << i;
     refused += message.empty() ? 0 : 1;
   }
   EXPECT_GT(refused, 150);
@@ -84,7 +78,7 @@ TEST_F(DamagedResults, AreNoVerdictEvenIfTheirDigestIsRight) {
 TEST_F(DamagedResults, DoNotCrashEvenIfHdf5sChecksumsAreRight) {
   std::mt19937_64 random(3);
   for (int i = 0; i < 250; ++i) {
-    const double start = cpuSeconds();
+    const double start = processCpuSeconds();
     std::string bytes = whole_, verdict;
     // Headers are a small part of the file; damage meets them here.
     for (int flips = 0; flips < 3; ++flips) {
@@ -93,7 +87,7 @@ TEST_F(DamagedResults, DoNotCrashEvenIfHdf5sChecksumsAreRight) {
       bytes[header + 6 + random() % 250] = static_cast<char>(random());
     }
     EXPECT_THAT(complaint(sealed(withHdf5Checksums(bytes)), verdict), Not(HasSubstr("\n"))) << i;
-    EXPECT_LT(cpuSeconds() - start, 5) << i;
+    EXPECT_LT(processCpuSeconds() - start, 5) << i;
   }
 }
 

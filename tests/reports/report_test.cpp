@@ -56,6 +56,7 @@ TEST(Report, EscapesEverythingAPersonWrote) {
   results.comparison.verdict = attack;
   results.comparison.disputed.push_back({});
   results.comparison.disputed.back().decided = attack;
+  results.comparison.disputed.back().farthest.assign(results.outputs.size(), 0.0);
   const std::string page = renderReport(results);
   EXPECT_THAT(page, Not(HasSubstr("<script>alert")));
   EXPECT_EQ(count(page, "<script"), scripts);

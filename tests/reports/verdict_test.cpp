@@ -64,6 +64,8 @@ DisputedSample& dispute(Results& results, double distance, const std::string& de
   sample.distance = distance;
   sample.error = distance;
   sample.decided = decided;
+  sample.farthest.assign(results.outputs.size(), 0.0);
+  sample.farthest[1] = distance;
   return sample;
 }
 
@@ -238,6 +240,15 @@ TEST(Verdict, NamesOutputTimeAndDistanceOfTheFarthestExcursion) {
   EXPECT_THAT(verdict.sentence, AllOf(HasSubstr("outside the enclosure"), HasSubstr("elbow angle at 2 s")));
 }
 
+TEST(Verdict, NamesTheBoundThatADisputedSampleLeft) {
+  Results results = example::pendulum();
+  DisputedSample& sample = dispute(results, 1e-6, "Taylor 53 bits");
+  sample.outside = true;
+  EXPECT_THAT(judge(results).sentence, HasSubstr("outside the enclosure"));
+  sample.level = 2;
+  EXPECT_THAT(judge(results).sentence, HasSubstr("outside its alpha-cut"));
+}
+
 TEST(Verdict, SaysSoWhereTheStoredWordDisagreesAndTheFindingWins) {
   Results results = example::pendulum();
   leave(results, 1e-3);
@@ -366,6 +377,12 @@ TEST(Verdict, CountsOverestimationOnlyAsFarAsWasCompared) {
 TEST(Verdict, RefusesGridsWhoseShapeDoesNotFit) {
   Results results = example::pendulum();
   results.time.pop_back();
+  EXPECT_THROW(judge(results), std::invalid_argument);
+}
+
+TEST(Verdict, RefusesADisputedSampleWithoutADistanceForEachOutput) {
+  Results results = example::pendulum();
+  dispute(results, 0, "Taylor 53 bits").farthest.pop_back();
   EXPECT_THROW(judge(results), std::invalid_argument);
 }
 

@@ -84,7 +84,7 @@ inline Results sampleResults() {
   r.comparison.median = 2.5;
   r.comparison.maximumOf = {12, nan};
   r.comparison.disputed = {{17, 1, 0, 0.09, 0.1, 1.1, 0.01, 1e-9, "Taylor 53 bits", true, 2, {0.01, 0.25}},
-                           {4098, 0, 1, 1.2, 1.1, 2.1, 0, 1e-9, "unresolved", false, -1, {}}};
+                           {4098, 0, 1, 1.2, 1.1, 2.1, 0, 1e-9, "unresolved", false, -1, {0, 0}}};
   r.reportCpu = 0.0625;
   r.limits = {1800, 8e9, 1200, 5e9, 18};
   r.cpu = 2.25;
