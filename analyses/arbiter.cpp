@@ -15,8 +15,9 @@ namespace {
 /// The second integration: other steps, other series, so that what it gets wrong it gets wrong differently.
 constexpr double looser = 1e3;
 constexpr int lowerOrder = 4;
-constexpr double rounding = 0x1p-112;   // relative, of a value: some thousand roundings of 128 bits
-constexpr double shortestStep = 1e-12;  // of the horizon: below, the solution runs into a singularity
+constexpr double rounding = 0x1p-112;        // relative, of a value: some thousand roundings of 128 bits
+constexpr int leastSteps = 32, probes = 16;  // a pulse shorter than a five-hundredth of the horizon may be missed
+constexpr double shortestStep = 1e-12;       // of the horizon: below, the solution runs into a singularity
 
 bool isFinite(const Precise& value) { return boost::multiprecision::isfinite(value); }
 bool isFinite(double value) { return std::isfinite(value); }
@@ -91,10 +92,12 @@ class TaylorRun {
         if (const Real c = abs(series_.at(s, i)); c > 0 && size > 0)
           reach = std::min(reach, std::pow(rounded(Real(size / c)), 1.0 / i));
     Real h = std::min(rest, Real(std::pow(options_.tolerance, 1.0 / options_.order) * reach));
-    // A series may say nothing of what comes (tanh, far out): the equations have to hold at the step's end as well.
+    // A series may say nothing of what comes (tanh, far out; a pulse): the equations have to hold all along the step,
+    // which is kept short against the horizon.
+    h = std::min(h, Real(horizon / leastSteps));
     const double unit = std::max(options_.tolerance, rounded(std::numeric_limits<Real>::epsilon()));
     const Real allowed = size * (1000.0 * options_.order * unit);
-    while (h >= shortestStep * horizon && !(defectAfter(t, h) <= allowed)) h = h / 2;
+    while (h >= shortestStep * horizon && !(defectWithin(t, h) <= allowed)) h = h / 2;
     if (h < rest && h < shortestStep * horizon) return stop(t, "steps became too short: the motion is singular here");
     return h;
   }
@@ -112,16 +115,19 @@ class TaylorRun {
     return x;
   }
 
-  /// |ẋ - f| of the series at its step's end, in that time.
-  Real defectAfter(const Real& t, const Real& h) {
+  /// The greatest |ẋ - f| of the series met at points of its step, in that time.
+  Real defectWithin(const Real& t, const Real& h) {
     using std::abs;
-    std::vector<Real> rate = f_(Real(t + h), stateAfter(h));
     Real greatest(0.0);
-    for (std::size_t s = 0; s < n_; ++s) {
-      Real slope(0.0);
-      for (int i = options_.order; i >= 1; --i) slope = slope * h + Real(i) * series_.at(static_cast<int>(s), i);
-      const Real defect = abs(Real(slope - rate[s])) * h;
-      if (!(defect <= greatest)) greatest = defect;  // a NaN stays
+    for (int point = probes; point >= 1; --point) {
+      const Real tau = h * Real(static_cast<double>(point) / probes);
+      const std::vector<Real> rate = f_(Real(t + tau), stateAfter(tau));
+      for (std::size_t s = 0; s < n_; ++s) {
+        Real slope(0.0);
+        for (int i = options_.order; i >= 1; --i) slope = slope * tau + Real(i) * series_.at(static_cast<int>(s), i);
+        const Real defect = abs(Real(slope - rate[s])) * h;
+        if (!(defect <= greatest)) greatest = defect;  // a NaN stays
+      }
     }
     return greatest;
   }

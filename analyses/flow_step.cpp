@@ -32,9 +32,10 @@ auto columnsOf(Generators& generators, int n) {
   return Eigen::Map<Matrix>(generators.data(), n, static_cast<Eigen::Index>(generators.size()) / n);
 }
 
-// A state is followed relative to its size, but a body at rest need not be: to what it was, or its box; and never below
-// what bounds can tell from underflow, bounds::tiny over a tolerance.
-constexpr double vanished = 0x1p-120, leastSize = 0x1p-530;
+// A state is followed relative to its size, but a body at rest need not be: to what it was, or its box; nor one that
+// symmetry keeps at zero: to what the others are in balanced units; and never below what bounds can tell from
+// underflow, bounds::tiny over a tolerance.
+constexpr double vanished = 0x1p-120, unheard = 0x1p-80, leastSize = 0x1p-530;
 
 }  // namespace
 
@@ -53,9 +54,13 @@ FlowStepper::FlowStepper(const Program& motion, std::shared_ptr<const Monomials>
 
 void FlowStepper::load(const FlowSet& set) {
   totalRadius(set, total_);
-  for (int i = 0; i < n_; ++i) {
-    floor_[at(i)] = leastSize;
-    if (!set.largest.empty()) floor_[at(i)] = std::max(leastSize, vanished * set.largest[at(i)]);
+  const auto unit = [&](std::size_t i) { return set.units.empty() ? 0 : set.units[i]; };
+  double greatest = 0;  // of all states, in balanced units
+  for (std::size_t i = 0; i < set.largest.size(); ++i)
+    greatest = std::max(greatest, std::ldexp(set.largest[i], -unit(i)));
+  for (std::size_t i = 0; i < at(n_); ++i) {
+    floor_[i] = std::max(leastSize, std::ldexp(unheard * greatest, unit(i)));
+    if (!set.largest.empty()) floor_[i] = std::max(floor_[i], vanished * set.largest[i]);
   }
   const int N = series_.count();
   for (int i = 0; i < n_; ++i) series_.setState(i, &set.p[at(i * N)]);
@@ -74,7 +79,9 @@ double FlowStepper::suggestion(double theta) const {
       for (int g = 0; g < series_.count(); ++g) sum += std::fabs(x[g * series_.stride() + order]);
       return sum;
     };
-    const double size = std::max(norm(0) + norm(1) * std::min(theta, 1.0), floor_[at(i)]);
+    double size = 0;  // over the step; one that starts from rest moves by a later order
+    for (int order = 3; order >= 0; --order) size = size * std::min(theta, 1.0) + norm(order);
+    size = std::max(size, floor_[at(i)]);
     for (int order : {m_ - 1, m_}) {
       const double last = norm(order);
       if (!std::isfinite(last)) return std::nan("");

@@ -385,7 +385,8 @@ void PolynomialSeries::pointFunctions(int node) {
       return;
     }
     case Op::tanh: {
-      const Interval e = exp(Interval(-2 * std::fabs(u)));
+      const double far = std::min(std::fabs(u), 1e300);  // both are 0 there, but for rounding
+      const Interval e = exp(Interval(-2 * far));
       set(node, tanh(Interval(u)));
       set(node + 1, 4.0 * e / sqr(1.0 + e));  // not 1 - tanh²: to its own digits, however small
       return;

@@ -146,6 +146,21 @@ TEST(Arbiter, AndSeriesInDoublesDoNotStepOverWhatTheirSeriesDoNotKnow) {
   }
 }
 
+/// x' = 1 - tanh²(k (t - 1.03)), a pulse of which a series at its beginning says nothing: x(2) - x(0) = 2/k.
+TEST(Arbiter, AndSeriesInDoublesDoNotStepOverAPulse) {
+  for (double steepness : {40.0, 400.0}) {
+    Motion motion;
+    motion.f = record(
+        1, 0, [&](auto t, const auto&, const auto&, auto& dx) { dx[0] = 1.0 - sqr(tanh(steepness * (t - 1.03))); });
+    motion.g = record(1, 0, 1, [](auto, const auto& x, const auto&, auto& y) { y[0] = x[0]; });
+    motion.times = {0, 2};
+    const Wide k(steepness), centre(1.03), exact = 1 + (tanh(k * (2 - centre)) + tanh(k * centre)) / k;
+    const PreciseTrajectory y = arbitrate(motion, std::array{1.0});
+    EXPECT_LT(relativeError(y.values[1], exact), 1e-28) << steepness;
+    EXPECT_NEAR(integrateByTaylor(motion, std::array{1.0})[1], exact.convert_to<double>(), 1e-12) << steepness;
+  }
+}
+
 TEST(Arbiter, EvaluatesAMotionWithoutStatesDirectly) {
   const PreciseTrajectory y = arbitrate(line().motion, std::array{0.1});
   ASSERT_EQ(y.times, 2u);

@@ -70,5 +70,16 @@ TEST(FlowOfTanh, HoldsTrajectoriesThroughTheKnee) {
   }
 }
 
+TEST(FlowOfTanh, IsBoundedUpToTheLargestArguments) {
+  for (double factor : {1e150, 8e307}) {
+    const Program f = record(1, 0, [&](auto, const auto& x, const auto&, auto& dx) { dx[0] = tanh(factor * x[0]); });
+    EXPECT_NO_THROW({
+      const Tube tube = Flow(f).enclose({1.5}, 1);
+      EXPECT_EQ(tube.why().empty(), tube.reached() == 1);
+      EXPECT_TRUE(tube.reached() < 1 || contains(tube.at(1)[0], 2.5));
+    }) << factor;
+  }
+}
+
 }  // namespace
 }  // namespace gamut::testing

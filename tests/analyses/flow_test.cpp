@@ -392,6 +392,42 @@ TEST(Flow, HoldsSolutionsThatGrowAndVanishOverManyOrdersOfMagnitude) {
   }
 }
 
+/// A mass that hangs from a spring of uncertain stiffness, free to swing sideways too, where symmetry keeps it at 0.
+TEST(Flow, FollowsAStateThatSymmetryKeepsAtZero) {
+  Containment c;
+  c.f = record(4, 1, [](auto, const auto& x, const auto& p, auto& dx) {
+    const auto length = sqrt(sqr(x[0]) + sqr(x[1]));
+    const auto pull = p[0] * (length - 0.25) / (0.2 * length);
+    dx[0] = x[2];
+    dx[1] = x[3];
+    dx[2] = -pull * x[0];
+    dx[3] = -pull * x[1] - 9.81;
+  });
+  c.box = {0.0, -0.3, 0.0, 0.0, Interval(49, 51)};
+  c.horizon = 1;
+  c.times = {0.25};
+  const Tube tube = expectContainment(c, 3);
+  EXPECT_LT(tube.steps(), 200);
+  EXPECT_LT(width(tube.at(1)[0]), 1e-20);
+}
+
+/// From rest a stiff oscillator moves by the second order in time alone; the first step does not depend on the horizon.
+TEST(Flow, StartsFromRestWhateverTheHorizon) {
+  for (double horizon : {1e-3, 1.0, 1000.0}) {
+    FlowOptions options;
+    options.maxWidth = 1e-3;
+    const Program f = record(2, 1, [](auto, const auto& x, const auto& p, auto& dx) {
+      dx[0] = x[1];
+      dx[1] = -9.81 - p[0] * x[0] - 1000.0 * x[1];
+    });
+    std::atomic<bool> enough = false;
+    options.progress = [&](double fraction) { enough = fraction * horizon > 1e-3; };
+    options.cancelled = &enough;
+    const Tube tube = Flow(f, options).enclose({0.0, 0.0, Interval(0.99e9, 1.01e9)}, horizon);
+    EXPECT_GT(tube.reached(), 5e-4) << horizon << ": " << tube.why();
+  }
+}
+
 /// A body slides to rest; its rate falls far below what a double can say. Alone, and beside a motion that goes on.
 TEST(Flow, FollowsAStateThatVanishes) {
   for (double eps : {0.01, 0.001})
