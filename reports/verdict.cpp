@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -191,6 +192,7 @@ class Judge {
   /// Grave findings first, every one of them; of several settled ones their number.
   void readDisputes() {
     std::vector<std::string> doubtful, undecided, settled;
+    std::set<std::int64_t> open, inside;  // a sample is disputed once for each bound that it leaves
     for (const DisputedSample& sample : results_.comparison.disputed) {
       const std::string who =
           fmt::format("{} ({}{})", sampleName(sample.number), outputName(sample.output), when(sample.time));
@@ -210,9 +212,10 @@ class Judge {
         }
         doubted_ = true;
       } else if (isInterrupted(sample)) {
-        undecided.push_back(fmt::format("{} seemed outside and was not decided: {}.", who, whyUndecided()));
+        if (open.insert(sample.number).second)
+          undecided.push_back(fmt::format("{} seemed outside and was not decided: {}.", who, whyUndecided()));
         interrupted_ = true;
-      } else {
+      } else if (inside.insert(sample.number).second) {
         settled.push_back(fmt::format("{} seemed outside and was found inside, decided by {}.", who, sample.decided));
       }
     }
