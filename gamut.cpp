@@ -35,7 +35,7 @@
 #include "studies/results_file.hpp"
 #include "studies/study.hpp"
 #include "studies/summary.hpp"
-#include "studies/units.hpp"
+#include "mechanics/units.hpp"
 #include "studies/version.hpp"
 #include "studies/watch.hpp"
 

@@ -44,13 +44,14 @@ Assembly<S>::Assembly(const Mechanism& mechanism, const std::vector<std::string>
       throw std::invalid_argument("the free parameter '" + freeParameters[i] + "' is named twice");
     values_.at(freeParameters[i]) = values[i];
   }
+  for (const Mechanism::Derived& derived : mechanism.derived()) values_.emplace(derived.name, value(derived.formula));
 
   for (const std::string& name : mechanism.frames()) frames_.emplace(name, std::make_unique<Frame<S>>(name));
   for (const ElementDescription& element : mechanism.elements())
     std::visit([this](const auto& description) { this->add(description); }, element);
   system_ = std::make_unique<System<S>>(variables_, chain_, *frames_.at(Mechanism::inertialFrame),
                                         mechanism.gravity() ? vector(*mechanism.gravity()) : zeroVector<S>());
-  for (const Quantity& initial : mechanism.initialState()) initialState_.push_back(value(initial));
+  for (const Expression& initial : mechanism.initialState()) initialState_.push_back(value(initial));
   setState(initialState_);
 }
 
@@ -58,13 +59,13 @@ template <class S>
 Assembly<S>::~Assembly() = default;
 
 template <class S>
-S Assembly<S>::value(const Quantity& quantity) const {
-  return constant<S>(quantity.factor()) * values_.at(quantity.parameter());
+S Assembly<S>::value(const Expression& number) const {
+  return number.evaluate<S>([this](const std::string& name) { return values_.at(name); });
 }
 
 template <class S>
-Vector3<S> Assembly<S>::vector(const QuantityVector& quantities) const {
-  return Vector3<S>(value(quantities[0]), value(quantities[1]), value(quantities[2]));
+Vector3<S> Assembly<S>::vector(const ExpressionVector& numbers) const {
+  return Vector3<S>(value(numbers[0]), value(numbers[1]), value(numbers[2]));
 }
 
 template <class S>

@@ -53,8 +53,8 @@ class Assembly {
   const Frame<S>& frame(const std::string& name) const;
 
  private:
-  S value(const Quantity& quantity) const;
-  Vector3<S> vector(const QuantityVector& quantities) const;
+  S value(const Expression& number) const;
+  Vector3<S> vector(const ExpressionVector& numbers) const;
   template <class E, class... Arguments>
   E& make(Arguments&&... arguments);
   void add(const Revolute& joint);

@@ -38,11 +38,51 @@ const Mechanism::NamedValue* Mechanism::find(const std::vector<NamedValue>& valu
 }
 
 void Mechanism::addParameter(const std::string& name, const Interval& nominal, const std::string& unit) {
-  if (name.empty()) refuse("a parameter needs a name");
-  if (isParameter(name) || find(initials_, name)) refuse("the quantity " + quoted(name) + " is defined twice");
+  checkParameterName(name);
   if (isEmpty(nominal) || !isBounded(nominal))
     refuse("the quantity " + quoted(name) + " needs a finite value, not " + toString(nominal));
   parameters_.push_back({name, unit, nominal});
+}
+
+void Mechanism::addDerived(const std::string& name, const Expression& formula) {
+  checkParameterName(name);
+  checkNames(formula, name);
+  if (const std::vector<std::string> open = withoutUnit(formula); !open.empty())
+    refuse("the parameter " + quoted(open[0]) + " has no unit, which the formula of " + quoted(name) + " needs");
+  const Dimension dimension = formula.dimension([this](const std::string& used) { return dimensionOf(unitOf(used)); });
+  derived_.push_back({name, gamut::unitOf(dimension), formula});
+}
+
+void Mechanism::checkParameterName(const std::string& name) const {
+  if (name.empty()) refuse("a parameter needs a name");
+  if (knows(name) || find(initials_, name) != nullptr) refuse("the quantity " + quoted(name) + " is defined twice");
+  const bool isQuantity = name == "energy" || name == "gravity" || name == "t";
+  if (unitNamed(name) != nullptr || isQuantity || name == "pi")
+    refuse("a parameter cannot be named " + quoted(name) + ": that is a " +
+           (isQuantity     ? "quantity"
+            : name == "pi" ? "number"
+                           : "unit"));
+}
+
+const Mechanism::Derived* Mechanism::findDerived(const std::string& name) const {
+  const auto found = std::ranges::find(derived_, name, &Derived::name);
+  return found == derived_.end() ? nullptr : &*found;
+}
+
+std::vector<std::string> Mechanism::withoutUnit(const Expression& number) const {
+  std::vector<std::string> open = number.names();
+  std::erase_if(open, [&](const std::string& name) {
+    const NamedValue* parameter = find(parameters_, name);
+    return parameter == nullptr || !parameter->unit.empty();
+  });
+  return open;
+}
+
+bool Mechanism::dependsOn(const Expression& number, const std::string& parameter) const {
+  return std::ranges::any_of(number.names(), [&](const std::string& name) {
+    const Derived* derived = findDerived(name);
+    return name == parameter || (derived != nullptr && dependsOn(derived->formula, parameter));
+  });
 }
 
 void Mechanism::checkNewName(const std::string& kind, const std::string& name) const {
@@ -66,33 +106,74 @@ void Mechanism::addFrame(const std::string& from, const std::string& to, const s
   frames_.push_back(to);
 }
 
-void Mechanism::use(Quantity& quantity, const std::string& name, const std::string& unit) {
-  if (quantity.isConstant()) {
-    addParameter(name, quantity.factor(), unit);
-    quantity = Quantity::named(name);
+void Mechanism::use(Expression& number, const std::string& name, const std::string& unit) {
+  const Dimension expected = dimensionOf(unit);
+  if (number.isConstant()) {
+    check(number, name, expected);
+    addParameter(name, number.evaluate<Interval>([](const std::string&) { return Interval::entire(); }), unit);
+    number = Expression::named(name);
     return;
   }
-  const auto parameter = std::find_if(parameters_.begin(), parameters_.end(),
-                                      [&](const auto& value) { return value.name == quantity.parameter(); });
-  if (parameter == parameters_.end())
-    throw UnknownName("parameter", quantity.parameter(), namesOf(parameters_), "for " + quoted(name));
-  if (parameter->unit.empty()) parameter->unit = unit;
-  if (parameter->unit != unit) throw WrongUnit(parameter->name, parameter->unit, name, unit);
+  const Dimension assumed = check(number, name, expected);
+  if (const std::vector<std::string> open = withoutUnit(number); open.size() == 1)
+    std::ranges::find(parameters_, open[0], &NamedValue::name)->unit =
+        assumed == expected ? unit : gamut::unitOf(assumed);
 }
 
-void Mechanism::use(QuantityVector& vector, const std::string& name, const std::string& unit) {
+void Mechanism::checkNames(const Expression& number, const std::string& name) const {
+  for (const std::string& used : number.names()) {
+    if (knows(used)) continue;
+    std::vector<std::string> known = namesOf(parameters_);
+    for (const Derived& derived : derived_) known.push_back(derived.name);
+    throw UnknownName("parameter", used, known, "for " + quoted(name));
+  }
+}
+
+Dimension Mechanism::check(const Expression& number, const std::string& name, const Dimension& expected) const {
+  checkNames(number, name);
+  const std::vector<std::string> open = withoutUnit(number);
+  const auto dimensionOfNames = [&](const Dimension& assumed) {
+    return [&open, assumed, this](const std::string& used) {
+      return open.size() == 1 && open[0] == used ? assumed : dimensionOf(unitOf(used));
+    };
+  };
+  const auto fits = [&](const Dimension& assumed) {
+    try {
+      number.check(dimensionOfNames(assumed), expected);
+      return true;
+    } catch (const UnitError&) {
+      return false;
+    }
+  };
+  for (const Dimension& assumed : {expected, Dimension{}})
+    if (fits(assumed)) return assumed;
+  const Expression::DimensionOf dimensionOfName = dimensionOfNames(expected);
+  try {
+    if (number.names().size() == 1)
+      if (const Dimension own = dimensionOfName(number.names()[0]); number.dimension(dimensionOfName) == own)
+        throw WrongUnit(number.names()[0], gamut::unitOf(own), name, gamut::unitOf(expected));
+    number.check(dimensionOfName, expected);
+  } catch (const UnitError& error) {
+    throw UnitError(quoted(name) + ": " + error.what());
+  }
+  return {};
+}
+
+void Mechanism::use(ExpressionVector& vector, const std::string& name, const std::string& unit) {
   for (std::size_t i = 0; i < 3; ++i) use(vector[i], name + components[i], unit);
 }
 
 void Mechanism::addState(std::vector<State>& states, const std::string& name, const std::string& unit,
-                         const Quantity& initial) {
+                         const Expression& initial) {
   State state{name, unit, initial};
   if (initial.isConstant()) {
     if (isParameter(name)) refuse("the quantity " + quoted(name) + " is defined twice");
-    if (isEmpty(initial.factor()) || !isBounded(initial.factor()))
-      refuse("the initial value " + quoted(name) + " needs a finite value, not " + toString(initial.factor()));
-    initials_.push_back({name, unit, initial.factor()});
-    state.initial = Quantity::named(name);
+    check(initial, name, dimensionOf(unit));
+    const Interval value = initial.evaluate<Interval>([](const std::string&) { return Interval::entire(); });
+    if (isEmpty(value) || !isBounded(value))
+      refuse("the initial value " + quoted(name) + " needs a finite value, not " + toString(value));
+    initials_.push_back({name, unit, value});
+    state.initial = Expression::named(name);
   } else {
     use(state.initial, name, unit);
   }
@@ -167,7 +248,7 @@ void Mechanism::add(JointSpring spring) {
   keep(std::move(spring));
 }
 
-void Mechanism::setGravity(QuantityVector gravity) {
+void Mechanism::setGravity(ExpressionVector gravity) {
   if (gravity_) refuse("gravity is set twice");
   use(gravity, "gravity", "m/s^2");
   gravity_ = std::move(gravity);
@@ -181,20 +262,22 @@ void Mechanism::check() const {
 }
 
 std::string Mechanism::inertiaFault(const Mass& mass, const std::map<std::string, Interval>& ranges) const {
-  std::vector<std::string> varied;  // of the entries' parameters, those that have a range
-  for (const Quantity& entry : mass.inertia)
-    if (ranges.contains(entry.parameter()) && !has(varied, entry.parameter())) varied.push_back(entry.parameter());
-  // The tensors that a body can have are a convex cone, and each entry is affine in its parameter: what holds at the
+  std::vector<std::string> varied;  // of the parameters that have a range, those of the entries
+  for (const auto& [name, range] : ranges)
+    if (varied.size() < 12 &&
+        std::ranges::any_of(mass.inertia, [&](const auto& entry) { return dependsOn(entry, name); }))
+      varied.push_back(name);
+  // The tensors that a body can have are a convex cone: where each entry is affine in one parameter, what holds at the
   // corners of the box holds in all of it.
   for (unsigned corner = 0; corner < (1U << varied.size()); ++corner) {
+    std::map<std::string, Interval> point;
+    for (std::size_t i = 0; i < varied.size(); ++i) {
+      const Interval& range = ranges.at(varied[i]);
+      point[varied[i]] = ((corner >> i) & 1U) != 0 ? range.upper() : range.lower();
+    }
     std::array<Interval, 6> tensor;
-    std::transform(mass.inertia.begin(), mass.inertia.end(), tensor.begin(), [&](const Quantity& entry) {
-      const auto place = std::find(varied.begin(), varied.end(), entry.parameter());
-      if (place == varied.end()) return entry.factor() * nominal(entry.parameter());
-      const Interval& range = ranges.at(entry.parameter());
-      const bool isUpper = ((corner >> (place - varied.begin())) & 1U) != 0;
-      return entry.factor() * Interval(isUpper ? range.upper() : range.lower());
-    });
+    std::transform(mass.inertia.begin(), mass.inertia.end(), tensor.begin(),
+                   [&](const Expression& entry) { return rangeOf(entry, point); });
     const std::string fault = impossibilityOf(tensor);
     if (!fault.empty()) return "the inertia of " + quoted(mass.name) + " " + fault;
   }
@@ -248,7 +331,16 @@ std::vector<std::string> Mechanism::quantities() const {
 Interval Mechanism::nominal(const std::string& quantity) const {
   for (const auto* values : {&initials_, &parameters_})
     if (const NamedValue* value = find(*values, quantity)) return value->nominal;
+  if (const Derived* derived = findDerived(quantity)) return rangeOf(derived->formula);
   refuse(unknownName("quantity", quantity, quantities()));
+}
+
+Interval Mechanism::rangeOf(const Expression& number, const std::map<std::string, Interval>& ranges) const {
+  return number.evaluate<Interval>([&](const std::string& name) {
+    if (const auto range = ranges.find(name); range != ranges.end()) return range->second;
+    const Derived* derived = findDerived(name);
+    return derived == nullptr ? nominal(name) : rangeOf(derived->formula, ranges);
+  });
 }
 
 std::vector<std::string> Mechanism::stateNames() const {
@@ -258,8 +350,8 @@ std::vector<std::string> Mechanism::stateNames() const {
   return names;
 }
 
-std::vector<Quantity> Mechanism::initialState() const {
-  std::vector<Quantity> initial;
+std::vector<Expression> Mechanism::initialState() const {
+  std::vector<Expression> initial;
   for (const auto* states : {&positions_, &rates_})
     for (const State& state : *states) initial.push_back(state.initial);
   return initial;
@@ -280,6 +372,7 @@ std::string Mechanism::unitOf(const std::string& quantity) const {
     for (const State& state : *states)
       if (state.name == quantity) return state.unit;
   if (const NamedValue* parameter = find(parameters_, quantity)) return parameter->unit;
+  if (const Derived* derived = findDerived(quantity)) return derived->unit;
   const std::vector<std::string> outputs = outputQuantities();
   if (has(outputs, quantity)) {
     if (quantity.starts_with("energy")) return "J";

@@ -5,11 +5,12 @@
 //   Mechanism pendulum;
 //   pendulum.addParameter("rod.length", Interval(1.0));
 //   pendulum.add(Revolute{"hinge", "inertial", "K1", axisX, 0.5, 0.0});
-//   pendulum.add(Link{"rod", "K1", "K2", {0.0, 0.0, Quantity::named("rod.length", -1.0)}});
+//   pendulum.add(Link{"rod", "K1", "K2", {0.0, 0.0, Expression::named("rod.length", -1.0)}});
 //   pendulum.add(Mass{"bob", "K2", Interval("0.1")});
 //   pendulum.setGravity({0.0, 0.0, Interval("-9.81")});
 //
-// Every number has a name under which it may be made uncertain: that of the parameter it refers to, or ELEMENT.NUMBER.
+// Every number has a name under which it may be made uncertain: ELEMENT.NUMBER, or, where it is a formula, those of the
+// parameters in it.
 #pragma once
 
 #include <array>
@@ -20,85 +21,64 @@
 #include <vector>
 
 #include "mechanics/axis.hpp"
+#include "mechanics/expression.hpp"
 #include "scalars/interval.hpp"
 
 namespace gamut {
 
-/// A number of a description: an enclosed constant, or `factor` times a named parameter of the mechanism.
-class Quantity {
- public:
-  Quantity(double value) : factor_(value) {}           // NOLINT: implicit, as numbers are
-  Quantity(const Interval& value) : factor_(value) {}  // NOLINT: implicit, as numbers are
-  static Quantity named(std::string parameter, const Interval& factor = 1.0) {
-    Quantity quantity(factor);
-    quantity.parameter_ = std::move(parameter);
-    return quantity;
-  }
-
-  bool isConstant() const { return parameter_.empty(); }
-  /// The constant, or the factor of the parameter.
-  const Interval& factor() const { return factor_; }
-  /// Empty for a constant.
-  const std::string& parameter() const { return parameter_; }
-
- private:
-  Interval factor_;
-  std::string parameter_;
-};
-
-using QuantityVector = std::array<Quantity, 3>;
+using ExpressionVector = std::array<Expression, 3>;
 
 /// Revolute joint, hinge or pin; names NAME.angle [rad] and NAME.rate [rad/s] (initial values and states).
 struct Revolute {
   std::string name, from, to;
   Axis axis;
-  Quantity angle = 0.0, rate = 0.0;
+  Expression angle = 0.0, rate = 0.0;
 };
 
 /// Prismatic joint or slider; names NAME.displacement [m] and NAME.rate [m/s] (initial values and states).
 struct Prismatic {
   std::string name, from, to;
   Axis axis;
-  Quantity displacement = 0.0, rate = 0.0;
+  Expression displacement = 0.0, rate = 0.0;
 };
 
 /// A fixed rotation: exact right angles plus an angle [rad] about an axis.
 struct FixedRotation {
   Axis axis;
   int quarterTurns = 0;
-  Quantity angle = 0.0;
+  Expression angle = 0.0;
 };
 
 /// Rigid link from `from` to `to`; names NAME.vector.x … z [m], NAME.rotation.1 … [rad]. Rotations follow the offset,
 /// each about an axis of the frame that the one before has reached.
 struct Link {
   std::string name, from, to;
-  QuantityVector vector;
+  ExpressionVector vector;
   std::vector<FixedRotation> rotation = {};
 };
 
 /// A body at frame `at`; names NAME.mass [kg], NAME.centre.x … z [m], NAME.inertia.xx … zx [kg m²] (about the centre).
 struct Mass {
   std::string name, at;
-  Quantity mass;
-  QuantityVector centre = {0.0, 0.0, 0.0};
+  Expression mass;
+  ExpressionVector centre = {0.0, 0.0, 0.0};
   /// xx, yy, zz, xy, yz, zx
-  std::array<Quantity, 6> inertia = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
+  std::array<Expression, 6> inertia = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
 };
 
 /// Spring and damper between points of two frames; names NAME.stiffness [N/m], NAME.rest_length [m], NAME.damping
 /// [N s/m], NAME.from_point.x … and NAME.to_point.x … [m].
 struct Spring {
   std::string name, from, to;
-  Quantity stiffness, restLength, damping = 0.0;
-  QuantityVector fromPoint = {0.0, 0.0, 0.0}, toPoint = {0.0, 0.0, 0.0};
+  Expression stiffness, restLength, damping = 0.0;
+  ExpressionVector fromPoint = {0.0, 0.0, 0.0}, toPoint = {0.0, 0.0, 0.0};
 };
 
 /// Spring and viscous friction on a joint's own variable; names NAME.stiffness [N m/rad or N/m], NAME.rest [rad or m],
 /// NAME.damping [N m s/rad or N s/m].
 struct JointSpring {
   std::string name, joint;
-  Quantity stiffness, rest = 0.0, damping = 0.0;
+  Expression stiffness, rest = 0.0, damping = 0.0;
 };
 
 using ElementDescription = std::variant<Revolute, Prismatic, Link, Mass, Spring, JointSpring>;
@@ -112,6 +92,11 @@ class Mechanism {
     std::string name, unit;
     Interval nominal;
   };
+  /// A parameter that follows from others.
+  struct Derived {
+    std::string name, unit;
+    Expression formula;
+  };
 
   Mechanism();
 
@@ -119,6 +104,9 @@ class Mechanism {
 
   /// Declares a parameter before its first use. Without a unit it takes that of its first use.
   void addParameter(const std::string& name, const Interval& nominal, const std::string& unit = "");
+  /// Declares a parameter that follows from others, which have been declared with their units. Throws UnitError where
+  /// its terms do not fit together.
+  void addDerived(const std::string& name, const Expression& formula);
   void add(Revolute joint);
   void add(Prismatic joint);
   void add(Link link);
@@ -126,7 +114,11 @@ class Mechanism {
   void add(Spring spring);
   void add(JointSpring spring);
   /// Acceleration of free fall in the inertial frame [m/s²]; names gravity.x … z. Zero unless set; set at most once.
-  void setGravity(QuantityVector gravity);
+  void setGravity(ExpressionVector gravity);
+  /// Throws UnknownName, WrongUnit or UnitError if a number, called `name`, is not of this dimension. Parameters
+  /// without a unit count as plain numbers; a single one may also be what makes it so, and what it then is, is
+  /// returned.
+  Dimension check(const Expression& number, const std::string& name, const Dimension& expected) const;
   /// Throws if there is no joint, or a mass with an inertia that no body has.
   void check() const;
   /// What is wrong with the inertia of one of the elements for some values within the ranges, as a clause: "the inertia
@@ -138,24 +130,32 @@ class Mechanism {
   /// Elements as added, every constant replaced by a reference to the parameter or initial value named after it.
   const std::vector<ElementDescription>& elements() const { return elements_; }
   /// Empty where none was set.
-  const std::optional<QuantityVector>& gravity() const { return gravity_; }
+  const std::optional<ExpressionVector>& gravity() const { return gravity_; }
   const std::vector<std::string>& frames() const { return frames_; }
 
   /// Numbers on which motion depends, in the order of their declaration.
   const std::vector<NamedValue>& parameters() const { return parameters_; }
   bool isParameter(const std::string& name) const { return find(parameters_, name) != nullptr; }
+  /// Whether it is a parameter, derived or not.
+  bool knows(const std::string& name) const { return isParameter(name) || findDerived(name) != nullptr; }
+  /// Those that follow from others, in the order of their declaration.
+  const std::vector<Derived>& derived() const { return derived_; }
+  /// Whether a number depends on this parameter, directly or by derived ones.
+  bool dependsOn(const Expression& number, const std::string& parameter) const;
   /// Initial values given as numbers (not by a parameter).
   const std::vector<NamedValue>& initialValues() const { return initials_; }
   /// Names of all numbers that may be uncertain: initial values, then parameters.
   std::vector<std::string> quantities() const;
-  /// The value of such a number.
+  /// The value of such a number, or of a derived parameter.
   Interval nominal(const std::string& quantity) const;
+  /// A number where parameters have these ranges; those without a range are nominal.
+  Interval rangeOf(const Expression& number, const std::map<std::string, Interval>& ranges = {}) const;
 
   int degreesOfFreedom() const { return static_cast<int>(positions_.size()); }
   /// Joint positions, then joint rates, in the order of the joints: x = [q; q̇].
   std::vector<std::string> stateNames() const;
   /// The initial values of the states, in that order.
-  std::vector<Quantity> initialState() const;
+  std::vector<Expression> initialState() const;
 
   /// Everything that can be looked at: states; FRAME.position.x … z and FRAME.velocity.x … z, in the inertial frame;
   /// the same for a mass, at its centre; energy, energy.kinetic, energy.potential.
@@ -166,25 +166,33 @@ class Mechanism {
  private:
   struct State {
     std::string name, unit;
-    Quantity initial;
+    Expression initial;
   };
 
   static const NamedValue* find(const std::vector<NamedValue>& values, const std::string& name);
+  void checkParameterName(const std::string& name) const;
   void checkNewName(const std::string& kind, const std::string& name) const;
   void checkFrame(const std::string& frame, const std::string& of) const;
   void addFrame(const std::string& from, const std::string& to, const std::string& of);
-  void addState(std::vector<State>& states, const std::string& name, const std::string& unit, const Quantity& initial);
-  void use(Quantity& quantity, const std::string& name, const std::string& unit);
-  void use(QuantityVector& vector, const std::string& name, const std::string& unit);
+  void addState(std::vector<State>& states, const std::string& name, const std::string& unit,
+                const Expression& initial);
+  /// Throws if its names or units do not fit; a constant becomes the parameter `name`.
+  void use(Expression& number, const std::string& name, const std::string& unit);
+  /// Throws if one of its names is no parameter.
+  void checkNames(const Expression& number, const std::string& name) const;
+  std::vector<std::string> withoutUnit(const Expression& number) const;
+  const Derived* findDerived(const std::string& name) const;
+  void use(ExpressionVector& vector, const std::string& name, const std::string& unit);
   template <class Description>
   void keep(Description element);
   std::vector<std::string> masses() const;
   std::vector<std::string> joints() const;
 
   std::vector<ElementDescription> elements_;
-  std::optional<QuantityVector> gravity_;
+  std::optional<ExpressionVector> gravity_;
   std::vector<std::string> names_, frames_;
   std::vector<NamedValue> parameters_, initials_;
+  std::vector<Derived> derived_;
   std::vector<State> positions_, rates_;
 };
 

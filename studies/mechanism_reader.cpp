@@ -41,30 +41,34 @@ class MechanismReader {
     try {
       action();
     } catch (const UnknownName& unknown) {
-      const toml::node* place = textEndingWith(at, unknown.word());
+      const toml::node* place = textWith(at, unknown.word());
       source_.fail(place == nullptr ? at : *place, unknown.problem(), unknown.expected());
     } catch (const WrongUnit& error) {
       const auto stated = statedWithUnit_.find(error.parameter());
-      const toml::node* place =
-          stated == statedWithUnit_.end() ? textEndingWith(at, error.parameter()) : stated->second;
+      const toml::node* place = stated == statedWithUnit_.end() ? textWith(at, error.parameter()) : stated->second;
       source_.fail(place == nullptr ? at : *place, error.what(), "a parameter in " + error.wanted());
+    } catch (const UnitError& error) {
+      source_.fail(at, error);
     } catch (const std::invalid_argument& error) {
       source_.failWith(at, error.what(), "a mechanism that can be assembled");
     }
   }
 
-  /// The first text within a node that is a name, or a parameter's with a factor in front; what names the element or
-  /// its kind is none that refers to another.
-  static const toml::node* textEndingWith(const toml::node& node, const std::string& name) {
+  /// The first text within a node in which the name stands as a word; what names the element or its kind is none that
+  /// refers to another.
+  static const toml::node* textWith(const toml::node& node, const std::string& name) {
     if (const auto* text = node.as_string()) {
-      const std::string& word = text->get();
-      const bool isIt =
-          word.ends_with(name) && (word.size() == name.size() || !isWordCharacter(word[word.size() - name.size() - 1]));
-      return isIt ? &node : nullptr;
+      const std::string& words = text->get();
+      for (std::size_t at = words.find(name); at != std::string::npos; at = words.find(name, at + 1)) {
+        const std::size_t end = at + name.size();
+        if ((at == 0 || !isWordCharacter(words[at - 1])) && (end == words.size() || !isWordCharacter(words[end])))
+          return &node;
+      }
+      return nullptr;
     }
     const toml::node* first = nullptr;
     const auto look = [&](const toml::node& part) {
-      const toml::node* found = textEndingWith(part, name);
+      const toml::node* found = textWith(part, name);
       if (found != nullptr && (first == nullptr || found->source().begin < first->source().begin)) first = found;
     };
     if (const toml::array* list = node.as_array())
@@ -85,10 +89,20 @@ class MechanismReader {
     std::sort(keys.begin(), keys.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
     for (const auto& [position, key] : keys) {
       const toml::node& value = *table.get(key);
-      const Amount amount = source_.asAnyAmount(value, section.nameOf("parameters." + key));
+      const std::string what = section.nameOf("parameters." + key);
+      const std::string name = prefix + key;
+      if (value.is_string()) {
+        const Expression formula = source_.asExpression(value, what);
+        if (!formula.isConstant()) {
+          guarded(value, [&] { mechanism_.addDerived(name, formula); });
+          statedWithUnit_[name] = &value;
+          continue;
+        }
+      }
+      const Amount amount = source_.asAnyAmount(value, what);
       const std::string unit = amount.hasUnit ? unitOf(amount.dimension) : "";
-      guarded(value, [&, &name = key] { mechanism_.addParameter(prefix + name, enclose(amount), unit); });
-      if (amount.hasUnit) statedWithUnit_[prefix + key] = &value;
+      guarded(value, [&] { mechanism_.addParameter(name, enclose(amount), unit); });
+      if (amount.hasUnit) statedWithUnit_[name] = &value;
     }
   }
 
@@ -159,7 +173,7 @@ class MechanismReader {
     const TomlSection section = element(table, {"at", "mass", "centre", "inertia"});
     const toml::node& weight = section.require("mass", "the mass in kg, or with a unit such as \"250 g\"");
     Mass body{section.text("name"), section.text("at"), number(section, "mass", mass)};
-    const Quantity given = body.mass;
+    const Expression given = body.mass;
     if (const toml::node* centre = section.find("centre"))
       body.centre = vector(*centre, section.nameOf("centre"), length);
     if (const toml::node* node = section.find("inertia")) {
@@ -173,7 +187,7 @@ class MechanismReader {
     guarded(table, [&] { mechanism_.add(std::move(body)); });
     const std::string fault = mechanism_.inertiaFault(std::get<Mass>(mechanism_.elements().back()), {});
     if (!fault.empty()) source_.fail(*section.find("inertia"), fault, "an inertia that a body can have");
-    const Interval value = given.isConstant() ? given.factor() : given.factor() * mechanism_.nominal(given.parameter());
+    const Interval value = mechanism_.rangeOf(given);
     if (value.lower() < 0) source_.fail(weight, section.nameOf("mass") + " is negative", "a mass of at least 0 kg");
   }
 
@@ -239,22 +253,23 @@ class MechanismReader {
       const TomlSection section(source_, source_.asTable(entry, name), name, {"axis", "angle"});
       FixedRotation rotation{axis(section)};
       const toml::node& turn = section.require("angle", "an angle such as \"90 deg\"");
-      const Quantity value = number(turn, section.nameOf("angle"), angle);
-      rotation.angle = value;
-      if (value.isConstant()) setQuarterTurns(rotation, source_.asAmount(turn, section.nameOf("angle"), angle));
+      rotation.angle = number(turn, section.nameOf("angle"), angle);
+      setQuarterTurns(rotation);
       result.push_back(std::move(rotation));
     }
     return result;
   }
 
-  static void setQuarterTurns(FixedRotation& rotation, const Amount& amount) {
-    const mpq_class quarters = amount.value * 2;  // of rational * pi: quarter turns are halves of pi
-    if (amount.piPower != 1 || quarters.get_den() != 1 || !quarters.get_num().fits_sint_p()) return;
+  static void setQuarterTurns(FixedRotation& rotation) {
+    const std::optional<Amount> amount = rotation.angle.amount();
+    if (!amount || amount->piPower != 1) return;
+    const mpq_class quarters = amount->value * 2;  // of rational * pi: quarter turns are halves of pi
+    if (quarters.get_den() != 1 || !quarters.get_num().fits_sint_p()) return;
     rotation.quarterTurns = static_cast<int>(quarters.get_num().get_si());
     rotation.angle = 0.0;
   }
 
-  QuantityVector vector(const toml::node& node, const std::string& what, const Dimension& dimension) {
+  ExpressionVector vector(const toml::node& node, const std::string& what, const Dimension& dimension) {
     const toml::array& list = source_.asArray(node, what);
     if (list.size() != 3)
       source_.fail(node, fmt::format("{} has {} numbers", what, list.size()),
@@ -263,44 +278,26 @@ class MechanismReader {
   }
 
   /// 0 if the key is missing.
-  Quantity number(const TomlSection& section, std::string_view key, const Dimension& dimension) {
+  Expression number(const TomlSection& section, std::string_view key, const Dimension& dimension) {
     const toml::node* node = section.find(key);
-    return node == nullptr ? Quantity(0.0) : number(*node, section.nameOf(key), dimension);
+    return node == nullptr ? Expression(0.0) : number(*node, section.nameOf(key), dimension);
   }
 
-  /// A number, or a parameter's name with a factor in front: "upper.length", "-upper.length", "1/2 upper.length".
-  Quantity number(const toml::node& node, const std::string& what, const Dimension& dimension) {
-    if (node.is_string()) {
-      const std::string& text = node.as_string()->get();
-      const std::string name = parameterIn(text);
-      if (!name.empty()) return Quantity::named(name, factor(node, what, text.substr(0, text.size() - name.size())));
+  /// A number, or a formula; the names in it and their units are the mechanism's to check.
+  Expression number(const toml::node& node, const std::string& what, const Dimension& dimension) {
+    if (!node.is_string()) return enclose(source_.asAmount(node, what, dimension));
+    Expression formula = source_.asExpression(node, what);
+    const std::vector<std::string>& names = formula.names();
+    const bool isUnit = names.size() == 1 && !mechanism_.knows(names[0]) && names[0].find('.') == std::string::npos;
+    if (formula.amount() || isUnit) source_.asAmount(node, what, dimension);  // refuses a unit that there is not
+    try {
+      if (std::ranges::all_of(names, [&](const std::string& name) { return mechanism_.knows(name); }))
+        mechanism_.check(formula, what, dimension);
+    } catch (const UnitError& error) {
+      source_.fail(node, error);
+    } catch (const WrongUnit&) {  // whose place is where the parameter got its unit: the mechanism will say it
     }
-    return enclose(source_.asAmount(node, what, dimension));
-  }
-
-  /// The parameter that the text ends with; empty if it does not. A word with a dot can only be a parameter.
-  std::string parameterIn(const std::string& text) const {
-    std::string found;
-    for (const Mechanism::NamedValue& parameter : mechanism_.parameters()) {
-      const std::string& name = parameter.name;
-      if (!text.ends_with(name) || name.size() <= found.size()) continue;
-      if (text.size() == name.size() || !isWordCharacter(text[text.size() - name.size() - 1])) found = name;
-    }
-    if (!found.empty()) return found;
-    std::size_t begin = text.size();
-    while (begin > 0 && isWordCharacter(text[begin - 1])) --begin;
-    const std::string word = text.substr(begin);
-    const auto dot = word.find('.');
-    const bool isName = dot != std::string::npos && dot > 0 && std::isalpha(static_cast<unsigned char>(word[0])) != 0;
-    return isName ? word : "";
-  }
-
-  Interval factor(const toml::node& node, const std::string& what, std::string prefix) const {
-    const auto end = prefix.find_last_not_of(" *");
-    prefix.resize(end == std::string::npos ? 0 : end + 1);
-    if (prefix.empty() || prefix == "+") return 1.0;
-    if (prefix == "-") return -1.0;
-    return enclose(source_.readAmount(node, what, prefix, plain));
+    return formula;
   }
 
   const TomlSource& source_;

@@ -43,8 +43,7 @@ Problem makeProblem(const Study& study) {
   const Mechanism& mechanism = study.mechanism;
   const std::vector<std::string> names = mechanism.stateNames();
   problem.states = names.size();
-  for (const Quantity& initial : mechanism.initialState())  // every number of a mechanism has a name
-    problem.box.push_back(initial.factor() * mechanism.nominal(initial.parameter()));
+  for (const Expression& initial : mechanism.initialState()) problem.box.push_back(mechanism.rangeOf(initial));
   for (const UncertainQuantity& uncertain : study.uncertain) {
     const auto state = std::find(names.begin(), names.end(), uncertain.quantity);
     problem.motion.uncertain.push_back(uncertain.uncertain);

@@ -156,10 +156,10 @@ class StudyReader {
   /// An initial value that follows an uncertain parameter would be a second copy of it, which no analysis could tell.
   void checkInitialValues() const {
     const std::vector<std::string> names = study_.mechanism.stateNames();
-    const std::vector<Quantity> initial = study_.mechanism.initialState();
+    const std::vector<Expression> initial = study_.mechanism.initialState();
     for (std::size_t i = 0; i < names.size(); ++i)
       for (const UncertainQuantity& uncertain : study_.uncertain)
-        if (initial[i].parameter() == uncertain.quantity && initial[i].parameter() != names[i])
+        if (uncertain.quantity != names[i] && study_.mechanism.dependsOn(initial[i], uncertain.quantity))
           source_.fail(
               source_.root(),
               fmt::format("the uncertain parameter '{}' sets the initial value '{}'", uncertain.quantity, names[i]),

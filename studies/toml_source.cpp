@@ -166,7 +166,19 @@ Amount TomlSource::readAnyAmount(const toml::node& node, const std::string& what
   try {
     return parseAmount(text);
   } catch (const UnitError& error) {
-    throw StudyError(placed(node.source().begin, fmt::format("{}: {}", what, error.what())));
+    fail(node, UnitError(fmt::format("{}: {}", what, error.what())));
+  }
+}
+
+void TomlSource::fail(const toml::node& at, const UnitError& error) const {
+  throw StudyError(placed(at.source().begin, error.what()));
+}
+
+Expression TomlSource::asExpression(const toml::node& node, const std::string& what) const {
+  try {
+    return Expression::parse(asText(node, what));
+  } catch (const UnitError& error) {
+    fail(node, UnitError(fmt::format("{}: {}", what, error.what())));
   }
 }
 

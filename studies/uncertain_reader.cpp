@@ -24,6 +24,10 @@ class UncertainReader {
     const toml::node& node = section.require("quantity", "the number that is uncertain, such as \"shoulder.angle\"");
     const std::string quantity = source_.asText(node, "uncertain.quantity");
     const std::vector<std::string> known = study_.mechanism.quantities();
+    for (const Mechanism::Derived& derived : study_.mechanism.derived())
+      if (derived.name == quantity)
+        source_.fail(node, fmt::format("'{}' follows from a formula", quantity),
+                     fmt::format("one of the quantities in it: {}", fmt::join(derived.formula.names(), ", ")));
     if (std::find(known.begin(), known.end(), quantity) == known.end())
       source_.fail(node, fmt::format("unknown quantity '{}'", quantity), quantityExpected(quantity, known));
     UncertainQuantity result{quantity, study_.mechanism.unitOf(quantity), {}};
@@ -54,14 +58,14 @@ class UncertainReader {
       if (link == nullptr) continue;
       bool isSomewhere = false, mayVanish = true;
       std::size_t first = study_.uncertain.size();
-      for (const Quantity& component : link->vector) {
-        const auto isIt = [&](const UncertainQuantity& q) { return q.quantity == component.parameter(); };
-        const auto found = std::find_if(study_.uncertain.begin(), study_.uncertain.end(), isIt);
-        const Interval nominal = component.factor() * study_.mechanism.nominal(component.parameter());
-        const bool varies = found != study_.uncertain.end();
-        isSomewhere = isSomewhere || !contains(nominal, 0);
-        mayVanish = mayVanish && contains(varies ? component.factor() * found->uncertain.range : nominal, 0);
-        if (varies) first = std::min(first, static_cast<std::size_t>(found - study_.uncertain.begin()));
+      for (const Expression& component : link->vector) {
+        isSomewhere = isSomewhere || !contains(study_.mechanism.rangeOf(component), 0);
+        mayVanish = mayVanish && contains(study_.mechanism.rangeOf(component, ranges()), 0);
+        const auto varies = [&](const UncertainQuantity& q) {
+          return study_.mechanism.dependsOn(component, q.quantity);
+        };
+        const auto found = std::ranges::find_if(study_.uncertain, varies);
+        first = std::min(first, static_cast<std::size_t>(found - study_.uncertain.begin()));
       }
       if (!isSomewhere || !mayVanish || first == study_.uncertain.size()) continue;
       study_.notes.push_back(source_.note(
@@ -75,15 +79,14 @@ class UncertainReader {
   /// Says so if within the intervals there are inertias that no body has. They may still make sense: of a body that
   /// only turns about one axis, the other moments do not matter.
   void noteInertia(const std::vector<const toml::table*>& tables) {
-    std::map<std::string, Interval> ranges;
-    for (const UncertainQuantity& uncertain : study_.uncertain) ranges[uncertain.quantity] = uncertain.uncertain.range;
     for (const ElementDescription& element : study_.mechanism.elements()) {
       const Mass* mass = std::get_if<Mass>(&element);
-      const std::string fault = mass == nullptr ? "" : study_.mechanism.inertiaFault(*mass, ranges);
+      const std::string fault = mass == nullptr ? "" : study_.mechanism.inertiaFault(*mass, ranges());
       if (fault.empty()) continue;
       const auto isOfMass = [&](const UncertainQuantity& uncertain) {
-        return std::any_of(mass->inertia.begin(), mass->inertia.end(),
-                           [&](const Quantity& entry) { return entry.parameter() == uncertain.quantity; });
+        return std::any_of(mass->inertia.begin(), mass->inertia.end(), [&](const Expression& entry) {
+          return study_.mechanism.dependsOn(entry, uncertain.quantity);
+        });
       };
       const auto first = std::find_if(study_.uncertain.begin(), study_.uncertain.end(), isOfMass);
       const toml::table& table = *tables[static_cast<std::size_t>(first - study_.uncertain.begin())];
@@ -92,6 +95,12 @@ class UncertainReader {
   }
 
  private:
+  std::map<std::string, Interval> ranges() const {
+    std::map<std::string, Interval> result;
+    for (const UncertainQuantity& q : study_.uncertain) result[q.quantity] = q.uncertain.range;
+    return result;
+  }
+
   /// [lower, upper], or a deviation to both sides of the nominal value: relative to it in percent, or in its unit.
   void readRange(const toml::node& node, UncertainQuantity& result) {
     const std::string what = "uncertain.interval";

@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "mechanics/expression.hpp"
 #include "studies/study.hpp"
-#include "studies/units.hpp"
 
 namespace gamut {
 
@@ -28,6 +28,9 @@ class TomlSource {
   [[noreturn]] void fail(const toml::node& at, const std::string& what, const std::string& expected) const {
     fail(at.source().begin, what, expected);
   }
+
+  /// What is wrong with a formula, which says itself what was expected.
+  [[noreturn]] void fail(const toml::node& at, const UnitError& error) const;
 
   /// "file:line:column: note: text", for what is no error.
   std::string note(const toml::node& at, const std::string& text) const;
@@ -48,6 +51,7 @@ class TomlSource {
   /// As asAmount and asAnyAmount, for `text` that was found at `node`.
   Amount readAmount(const toml::node& node, const std::string& what, const std::string& text,
                     const Dimension& dimension) const;
+  Expression asExpression(const toml::node& node, const std::string& what) const;
   Amount readAnyAmount(const toml::node& node, const std::string& what, const std::string& text) const;
   /// One of the words; a near miss is named.
   std::string asChoice(const toml::node& node, const std::string& what, const std::vector<std::string>& choices) const;

@@ -23,7 +23,7 @@ namespace {
 
 /// The nine numbers of a double pendulum, and which of them are uncertain.
 enum Quantity : std::size_t { psi1, psi2, rate1, rate2, length1, length2, mass1, mass2, gravity };
-constexpr const char* parameterNames[] = {"upper.length", "lower.length", "elbow.mass", "tip.mass", "g"};
+constexpr const char* parameterNames[] = {"upper.length", "lower.length", "elbow.mass", "tip.mass", "fall"};
 constexpr const char* shortNames[] = {"psi1", "psi2", "rate1", "rate2", "l1", "l2", "m1", "m2", "g"};
 
 struct Uncertain {
@@ -62,12 +62,12 @@ Mechanism mechanismOf(const std::array<double, 9>& nominal) {
   Mechanism m;
   for (std::size_t i = 0; i < 5; ++i) m.addParameter(parameterNames[i], nominal[length1 + i]);
   m.add(Revolute{"shoulder", "inertial", "K1", axisX, nominal[psi1], nominal[rate1]});
-  m.add(Link{"upper", "K1", "K2", {0.0, 0.0, gamut::Quantity::named("upper.length", -1.0)}});
-  m.add(Mass{"elbowBody", "K2", gamut::Quantity::named("elbow.mass")});
+  m.add(Link{"upper", "K1", "K2", {0.0, 0.0, gamut::Expression::named("upper.length", -1.0)}});
+  m.add(Mass{"elbowBody", "K2", gamut::Expression::named("elbow.mass")});
   m.add(Revolute{"elbow", "K2", "K3", axisX, nominal[psi2], nominal[rate2]});
-  m.add(Link{"lower", "K3", "K4", {0.0, 0.0, gamut::Quantity::named("lower.length", -1.0)}});
-  m.add(Mass{"tipBody", "K4", gamut::Quantity::named("tip.mass")});
-  m.setGravity({0.0, 0.0, gamut::Quantity::named("g", -1.0)});
+  m.add(Link{"lower", "K3", "K4", {0.0, 0.0, gamut::Expression::named("lower.length", -1.0)}});
+  m.add(Mass{"tipBody", "K4", gamut::Expression::named("tip.mass")});
+  m.setGravity({0.0, 0.0, gamut::Expression::named("fall", -1.0)});
   return m;
 }
 

@@ -216,7 +216,7 @@ TEST(Oscillator, OfMassAndSpringFollowsItsEquation) {
   m.addParameter("stiffness", 40.0);
   m.add(Prismatic{"slide", "inertial", "K1", axisX, 0.3, 0.2});
   m.add(Mass{"block", "K1", 2.5});
-  m.add(Spring{"spring", "inertial", "K1", Quantity::named("stiffness"), 0.5, 1.5, {-1.0, 0.0, 0.0}});
+  m.add(Spring{"spring", "inertial", "K1", Expression::named("stiffness"), 0.5, 1.5, {-1.0, 0.0, 0.0}});
   const Program f = recordMotion(m, {"stiffness"});
   Evaluator<double> evaluate(f);
   evaluate.setParameters(std::vector<double>{30.0});

@@ -16,7 +16,8 @@ namespace {
 using testing::HighPrecision;
 using testing::RandomStates;
 
-const std::array<Quantity, 6> fullInertia{0.1, 0.2, 0.25, 0.01, -0.02, 0.03};
+const std::array<double, 6> moments{0.1, 0.2, 0.25, 0.01, -0.02, 0.03};
+const std::array<Expression, 6> fullInertia{0.1, 0.2, 0.25, 0.01, -0.02, 0.03};
 
 /// Hinges about these axes, a link and a body behind each; `size` scales lengths, `weight` masses.
 Mechanism chain(const std::vector<Axis>& axes, bool isPoint, double size = 1, double weight = 1) {
@@ -29,7 +30,7 @@ Mechanism chain(const std::vector<Axis>& axes, bool isPoint, double size = 1, do
     Mass body{"body" + number, "E" + number, weight};
     if (!isPoint)
       for (std::size_t k = 0; k < 6; ++k)
-        body.inertia[k] = fullInertia[k].factor() * Interval(weight) * sqr(Interval(size));
+        body.inertia[k] = Interval(moments[k]) * Interval(weight) * sqr(Interval(size));
     m.add(body);
     from = "E" + number;
   }

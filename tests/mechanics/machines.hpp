@@ -16,10 +16,10 @@ inline Mechanism doublePendulum(const Axis& axis = axisX) {
   m.addParameter("upper.length", 1.0);
   m.addParameter("lower.length", 1.0);
   m.add(Revolute{"shoulder", "inertial", "K1", axis, 0.75 * pi(), Interval("0.43")});
-  m.add(Link{"upper", "K1", "K2", {0.0, 0.0, Quantity::named("upper.length", -1.0)}});
+  m.add(Link{"upper", "K1", "K2", {0.0, 0.0, Expression::named("upper.length", -1.0)}});
   m.add(Mass{"elbowMass", "K2", 1.0});
   m.add(Revolute{"elbow", "K2", "K3", axis, -11 * pi() / 20, Interval("0.67")});
-  m.add(Link{"lower", "K3", "K4", {0.0, 0.0, Quantity::named("lower.length", -1.0)}});
+  m.add(Link{"lower", "K3", "K4", {0.0, 0.0, Expression::named("lower.length", -1.0)}});
   m.add(Mass{"tip", "K4", 1.0});
   m.setGravity({0.0, 0.0, Interval("-9.81")});
   return m;

@@ -62,9 +62,9 @@ TEST(Names, WhatIsExpectedAreNearNamesOrSomeOfAll) {
 }
 
 TEST(Mechanism, RefusesInertiaThatNoBodyHas) {
-  const auto found = [](const std::vector<Quantity>& inertia) {
+  const auto found = [](const std::vector<Expression>& inertia) {
     Mechanism m;
-    m.addParameter("J", 1.0);
+    m.addParameter("moment", 1.0);
     m.add(Revolute{"hinge", "inertial", "K1", axisX, 0.0, 0.0});
     Mass mass{"bob", "K1", 1.0};
     std::copy(inertia.begin(), inertia.end(), mass.inertia.begin());
@@ -78,7 +78,7 @@ TEST(Mechanism, RefusesInertiaThatNoBodyHas) {
   EXPECT_EQ(found({1.0, 1.0, 1.0, -0.9, -0.9, -0.9}), negative);  // only the determinant tells
   EXPECT_EQ(found({1.0, 1.0, 2.001}), triangle);
   EXPECT_EQ(found({1.0, 1.0, 1.0, 0.0, 0.6, 0.0}), triangle);  // principal moments 0.4, 1, 1.6
-  EXPECT_EQ(found({Quantity::named("J", -1.0), 1.0, 1.0}), negative);
+  EXPECT_EQ(found({Expression::named("moment", -1.0), 1.0, 1.0}), negative);
   // Bodies: a point, a rod, a plate whose decimals are no doubles, one askew, intervals that hold one.
   EXPECT_EQ(found({0.0, 0.0, 0.0}), "no complaint");
   EXPECT_EQ(found({0.0, 1.0, 1.0}), "no complaint");
@@ -102,6 +102,61 @@ TEST(Mechanism, NamesEveryNumberThatMayBeUncertain) {
   EXPECT_TRUE(isEqual(m.nominal("shoulder.rate"), Interval("0.43")));
   EXPECT_EQ(complaint([&] { m.nominal("uper.length"); }),
             "unknown quantity 'uper.length'; did you mean 'upper.length'?");
+}
+
+TEST(Mechanism, NumbersFollowFromParametersByFormulas) {
+  Mechanism m;
+  m.addParameter("length", Interval(2.0), "m");
+  m.addParameter("density", Interval(3.0));
+  m.addDerived("half", Expression::parse("length/2"));
+  m.addDerived("square", Expression::parse("half^2 + (1 m)^2"));
+  m.add(Revolute{"hinge", "inertial", "K1", axisX, Expression::parse("30 deg * length/(2 m)")});
+  m.add(Link{"rod", "K1", "K2", {0.0, 0.0, Expression::parse("-half - 50 cm")}});
+  m.add(Mass{"bob", "K2", Expression::parse("density*length/(1 m)")});
+  EXPECT_EQ(m.unitOf("half"), "m");
+  EXPECT_EQ(m.unitOf("square"), "m^2");
+  m.addParameter("share", Interval(0.5));
+  m.add(Mass{"half bob", "K2", Expression::parse("share*density*half/(1 m)")});
+  EXPECT_EQ(m.unitOf("share"), "1");
+  EXPECT_EQ(m.unitOf("density"), "kg");  // what it must be where it is used
+  EXPECT_TRUE(isEqual(m.nominal("square"), Interval(2.0)));
+  EXPECT_TRUE(m.isParameter("length"));
+  EXPECT_FALSE(m.isParameter("half"));
+  EXPECT_TRUE(m.dependsOn(Expression::parse("3*square"), "length"));
+  EXPECT_FALSE(m.dependsOn(Expression::parse("3*square"), "density"));
+  const Assembly<double> nominal(m), longer(m, {"length"}, std::vector{4.0});
+  EXPECT_NEAR(nominal.initialState()[0], 0.52359877559829887, 1e-15);
+  EXPECT_NEAR(longer.initialState()[0], 2 * 0.52359877559829887, 1e-15);
+  EXPECT_NEAR(longer.output("K2.position.z"), -2.5 * std::cos(longer.initialState()[0]), 1e-14);
+  EXPECT_TRUE(isEqual(m.rangeOf(Expression::parse("square"), {{"length", Interval(2, 4)}}), Interval(2, 5)));
+}
+
+TEST(Mechanism, RefusesFormulasThatDoNotFit) {
+  Mechanism m;
+  m.addParameter("length", Interval(2.0), "m");
+  m.addParameter("number", Interval(2.0));
+  m.addDerived("half", Expression::parse("length/2"));
+  const auto complaint = [](auto action) {
+    try {
+      action();
+    } catch (const std::invalid_argument& error) {
+      return std::string(error.what());
+    }
+    return std::string("nothing");
+  };
+  EXPECT_THAT(complaint([&] { m.addDerived("a", Expression::parse("length + 1 kg")); }), HasSubstr("adds kg to m"));
+  EXPECT_THAT(complaint([&] { m.addDerived("a", Expression::parse("2*number")); }), HasSubstr("'number' has no unit"));
+  EXPECT_THAT(complaint([&] { m.addDerived("a", Expression::parse("2*lenght")); }), HasSubstr("did you mean 'length'"));
+  EXPECT_THAT(complaint([&] { m.addDerived("half", Expression::parse("length")); }), HasSubstr("defined twice"));
+  EXPECT_THAT(complaint([&] { m.addParameter("half", Interval(1.0)); }), HasSubstr("defined twice"));
+  EXPECT_THAT(complaint([&] { m.addParameter("mm", Interval(1.0)); }),
+              HasSubstr("cannot be named 'mm': that is a unit"));
+  EXPECT_THAT(complaint([&] { m.addParameter("pi", Interval(3.0)); }), HasSubstr("cannot be named 'pi'"));
+  EXPECT_THAT(complaint([&] { m.addParameter("energy", Interval(3.0)); }), HasSubstr("cannot be named 'energy'"));
+  EXPECT_THAT(complaint([&] {
+                m.setGravity({0.0, 0.0, Expression::parse("length/(1 s)")});
+              }),
+              HasSubstr("'gravity.z': a quantity in m/s; expected one in m/s^2"));
 }
 
 TEST(Mechanism, KnowsTheUnitOfEveryQuantity) {
@@ -140,13 +195,13 @@ TEST(Mechanism, SaysWhatIsWrongWithAnElement) {
               }),
               HasSubstr("the frame 'tip' is named like a mass"));
   EXPECT_THAT(complaint([&] {
-                m.add(Mass{"extra", "K4", Quantity::named("mas")});
+                m.add(Mass{"extra", "K4", Expression::named("mas")});
               }),
               HasSubstr("unknown parameter 'mas'"));
   EXPECT_THAT(complaint([&] {
-                m.add(Mass{"extra", "K4", Quantity::named("upper.length")});
+                m.add(Mass{"extra", "K4", Expression::named("upper.length")});
               }),
-              HasSubstr("'upper.length' is in m, but 'extra.mass' is in kg"));
+              HasSubstr("the parameter 'upper.length' is in m, but 'extra.mass' is in kg"));
   EXPECT_THAT(complaint([&] {
                 m.add(JointSpring{"spring", "sholder", 1.0});
               }),
@@ -185,7 +240,7 @@ TEST(Mechanism, StartsAtItsInitialState) {
 TEST(Mechanism, MayGiveAnInitialValueByAParameter) {
   Mechanism m;
   m.addParameter("tilt", 0.5);
-  m.add(Revolute{"hinge", "inertial", "K1", axisX, Quantity::named("tilt", -2.0)});
+  m.add(Revolute{"hinge", "inertial", "K1", axisX, Expression::named("tilt", -2.0)});
   m.add(Mass{"bob", "K1", 1.0, {0.0, 0.0, -1.0}});
   EXPECT_EQ(m.unitOf("tilt"), "rad");
   EXPECT_EQ(Assembly<double>(m).initialState()[0], -1.0);

@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -93,13 +94,17 @@ class Signals : public ::testing::Test {
  protected:
   Signals() { folder_.write("s.toml", shortPendulum()); }
 
-  /// One whole run; how long it took from its begin, s.
+  /// The shortest of three whole runs from its begin, s.
   double measureRun() {
-    StartedRun run(folder_, arguments_);
-    run.awaitBegin();
-    const auto begin = Clock::now();
-    EXPECT_EQ(run.wait(), 0);
-    return Seconds(Clock::now() - begin).count();
+    double shortest = 1e9;
+    for (int i = 0; i < 3; ++i) {
+      StartedRun run(folder_, arguments_);
+      run.awaitBegin();
+      const auto begin = Clock::now();
+      EXPECT_EQ(run.wait(), 0);
+      shortest = std::min(shortest, Seconds(Clock::now() - begin).count());
+    }
+    return shortest;
   }
 
   int check() { return StartedRun(folder_, {"check", "s.h5"}).wait(); }

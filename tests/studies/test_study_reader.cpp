@@ -89,10 +89,66 @@ TEST(StudyReader, TakesParametersByNameWithAFactor) {
                                                     "vector = [\"1/2 rod.length\", \"10 mm\", \"-2*rod.length\"]"),
                                     "s.toml");
   const Link& link = std::get<Link>(study.mechanism.elements()[1]);
-  EXPECT_EQ(link.vector[0].parameter(), "rod.length");
-  EXPECT_TRUE(isEqual(link.vector[0].factor(), Interval(0.5)));
-  EXPECT_TRUE(isEqual(link.vector[2].factor(), Interval(-2.0)));
+  const auto valueAt = [&](std::size_t i) {
+    return link.vector[i].evaluate<Interval>([](const std::string& name) {
+      EXPECT_EQ(name, "rod.length");
+      return Interval(3.0);
+    });
+  };
+  EXPECT_TRUE(isEqual(valueAt(0), Interval(1.5)));
+  EXPECT_TRUE(isEqual(valueAt(2), Interval(-6.0)));
   EXPECT_TRUE(isEqual(study.mechanism.nominal("rod.vector.y"), Interval("0.01")));
+}
+
+TEST(StudyReader, TakesFormulasForNumbers) {
+  std::string text = sampleStudyWith("gravity = [0, 0, -9.81]",
+                                     "gravity = [0, 0, \"-fall\"]\nparameters = { fall = \"9.81 m/s^2\", "
+                                     "size = \"0.4 m\", half = \"size/2\" }");
+  const auto replace = [&](const std::string& old, const std::string& replacement) {
+    text.replace(text.find(old), old.size(), replacement);
+  };
+  replace("\"-rod.length\"", "\"-2 rod.length - half + 3 mm\"");
+  replace("length = 0.5", "length = \"sqrt(size^2 + (30 cm)^2)\"");
+  replace("\"250 g\"", "\"2.5 kg/m * half + 1/2*250 g\"");
+  const Mechanism mechanism = readStudyText(text, "s.toml").mechanism;
+  const auto is = [&](const Interval& found, const char* expected) {
+    EXPECT_TRUE(contains(found, midpoint(Interval(expected))) && width(found) < 1e-15) << toString(found);
+  };
+  is(mechanism.nominal("rod.length"), "0.5");
+  is(mechanism.rangeOf(std::get<Link>(mechanism.elements()[1]).vector[2]), "-1.197");
+  is(mechanism.rangeOf(std::get<Mass>(mechanism.elements()[2]).mass), "0.625");
+  EXPECT_EQ(mechanism.unitOf("rod.length"), "m");
+}
+
+TEST(StudyReader, SaysWhereAFormulaIsWrong) {
+  const auto complaint = [](const std::string& number) {
+    try {
+      readStudyText(sampleStudyWith("\"-rod.length\"", "\"" + number + "\""), "s.toml");
+    } catch (const StudyError& error) {
+      return std::string(error.what());
+    }
+    return std::string("nothing");
+  };
+  EXPECT_EQ(complaint("rod.length + bob"),
+            "s.toml:21:17: unknown parameter 'bob'; expected one of: gravity.x, gravity.y, gravity.z, rod.length, "
+            "rod.vector.x, rod.vector.y (for 'rod.vector.z')");
+  EXPECT_EQ(complaint("rod.length + 1 kg"),
+            "s.toml:21:17: 'mechanism.element.vector': adds kg to m at column 12; expected quantities of one kind");
+  EXPECT_EQ(complaint("rod.length^2"),
+            "s.toml:21:17: 'mechanism.element.vector': a quantity in m^2; expected one in m");
+  EXPECT_THAT(complaint("2 mas"), HasSubstr("s.toml:21:17: mechanism.element.vector: unknown unit 'mas' in '2 mas'"));
+}
+
+TEST(StudyReader, RefusesAnUncertainQuantityThatFollowsFromOthers) {
+  std::string text =
+      sampleStudyWith("gravity = [0, 0, -9.81]", "gravity = [0, 0, -9.81]\nparameters = { a = \"1 m\", b = \"2 a\" }");
+  text.replace(text.find("quantity = \"hinge.angle\""), 24, "quantity = \"b\"");
+  try {
+    readStudyText(text, "s.toml");
+    FAIL();
+  } catch (const StudyError& error) {
+    EXPECT_STREQ(error.what(), "s.toml:31:12: 'b' follows from a formula; expected one of the quantities in it: a");
+  }
 }
 
 TEST(StudyReader, KeepsQuarterTurnsExact) {
@@ -417,7 +473,7 @@ constexpr BadStudy badStudies[] = {
      "s.toml:27:8: mechanism.element.mass is negative; expected a mass of at least 0 kg"},
     {"quantity = \"hinge.angle\"\ninterval = \"± 1 %\"", "quantity = \"bob.mass\"\ninterval = \"± 101 %\"",
      "s.toml:31:12: uncertain.interval reaches down to a negative mass; expected a lower bound of at least 0 kg"},
-    {"± 1 %", "± 1 %%", "s.toml:31:12: uncertain.interval: ' 1 %%' has more than one '%'; expected one '%'"},
+    {"± 1 %", "± 1 %%", "s.toml:31:12: uncertain.interval: there is more than one '%' at column 5; expected one '%'"},
     {"horizon = 0.5", "horizon = ",
      "s.toml:4:11: not valid TOML: Error while parsing key-value pair: expected value, saw '\\n'; expected a file that "
      "follows https://toml.io"},
@@ -525,7 +581,7 @@ constexpr BadStudy badStudies[] = {
     {"\"-rod.length\"", "\"1/2 beam.length\"",
      "s.toml:21:17: unknown parameter 'beam.length'; expected 'rod.length' (for 'rod.vector.z')"},
     {"\"-rod.length\"", "\"-2 m rod.length\"",
-     "s.toml:21:17: mechanism.element.vector is written in a unit of the kind m; expected a number without unit"},
+     "s.toml:21:17: mechanism.element.vector: no operator before 'rod.length' at column 6; expected *, /, + or -"},
     {"mass = \"250 g\"", "mass = \"250 x\"",
      "s.toml:27:8: mechanism.element.mass: unknown unit 'x' in '250 x'; expected one of rad, deg, °, mrad, rpm, m, km, "
      "cm, mm, um, kg, g, t, s, ms, min, h, N, kN, J, kJ, W, GB, MB, GiB, MiB, %"},

@@ -1,14 +1,11 @@
-// Quantities as people write them, read without rounding: "135 deg", "3/4 pi", "-11/20 pi rad", "250 g", "9.81 m/s^2".
-// An Amount is rational * pi^k with a dimension, in SI units, so that 135 deg and 3/4 pi are the same number and an
-// interval around either is the tightest there is.
-//
-// Grammar: a product of factors, read from left to right, joined by a blank, '*' or '/' (which divides by the next
-// factor alone); a factor is a decimal, pi (or π) or a unit, a unit perhaps with a power ("m^2", "m²"). One sign in
-// front.
+// Dimensions, units, and numbers that are known exactly: an Amount is rational * pi^k with a dimension, in SI units, so
+// that 135 deg and 3/4 pi are the same number and an interval around either is the tightest there is. How people write
+// them: expression.hpp.
 #pragma once
 
 #include <gmpxx.h>
 
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -29,6 +26,9 @@ std::string unitOf(const Dimension& dimension);
 /// The dimension of a unit: "kg m^2", "N/m", "rad/s"; "" and "1" have none. Throws UnitError.
 Dimension dimensionOf(std::string_view unit);
 
+/// Whether they differ in radians at most.
+bool isAlike(Dimension a, const Dimension& b);
+
 /// True where `found` may be written for `expected`: radians may be left out or put in beside other units
 /// (N m is N m/rad), but an angle is no plain number.
 bool isCompatible(const Dimension& found, const Dimension& expected);
@@ -48,8 +48,21 @@ struct Amount {
   bool isRelative = false;  ///< written in percent
 };
 
-/// Reads an amount. Throws UnitError for malformed text, unknown units, division by zero and magnitudes beyond 1e±300.
+/// Reads an amount: an expression without names. Throws UnitError, also for one that is not rational * pi^k.
 Amount parseAmount(std::string_view text);
+
+/// One of the unit with this symbol: "mm", "deg", "%". Null if there is none.
+const Amount* unitNamed(std::string_view symbol);
+
+/// "rad, deg, …"
+std::string knownUnits();
+
+/// a * b, a / b and a^power. Units and percent carry over. Throw UnitError for 0 as a divisor and beyond 1e±300.
+Amount product(const Amount& a, const Amount& b);
+Amount quotient(const Amount& a, const Amount& b);
+Amount power(const Amount& a, int exponent);
+/// a + b, if both are rationals times the same power of pi and have one dimension.
+std::optional<Amount> sum(const Amount& a, const Amount& b);
 
 /// The tightest interval around the number.
 Interval enclose(const Amount& amount);

@@ -1,5 +1,5 @@
 // Quantities are read without rounding: what is enclosed is the number that was written.
-#include "studies/units.hpp"
+#include "mechanics/units.hpp"
 
 #include <gmock/gmock.h>
 
@@ -84,20 +84,19 @@ TEST(Amount, WhatCannotBeReadIsNamed) {
     const char* text;
     const char* message;
   } cases[] = {
-      {"", "holds no number; expected a number with an optional unit"},
+      {"", "holds no number at column 1; expected a number with an optional unit"},
       {"deg", "'deg' holds a unit but no number"},
       {"3 parsec", "unknown unit 'parsec' in '3 parsec'; expected one of rad, deg"},
-      {"1/0 m", "'1/0 m' divides by zero"},
-      {"3 *", "'3 *' ends after an operator"},
-      {"(3)", "unexpected '('"},
-      {"2 m^x", "has no readable power after '^'"},
+      {"1/0 m", "a division by zero at column 2"},
+      {"3 *", "the end after an operator at column 4"},
+      {"sqrt(2)", "'sqrt(2)' is no rational number times a power of pi"},
+      {"2 m^x", "unknown unit 'x'"},
       {"1e999", "too large or too small"},
       {"1e-301", "too large or too small"},
       {"1e99999999999999999999", "too large or too small"},
       {"1.5e", "unknown unit 'e'"},
       {"nan", "unknown unit 'nan'"},
       {".", "a point without digits"},
-      {"--1", "unexpected '-'"},
   };
   for (const auto& c : cases) {
     SCOPED_TRACE(c.text);

@@ -1,0 +1,501 @@
+// The grammar, read by recursive descent; what holds no names is computed, exactly, while it is read.
+#include "mechanics/expression.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <optional>
+#include <utility>
+
+#include "mechanics/names.hpp"
+
+namespace gamut {
+
+namespace {
+
+constexpr int deepest = 100;  // parentheses within each other
+
+bool isWordBegin(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_'; }
+bool isDigit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
+
+/// What a blank may join.
+enum class Piece { number, unit, other };
+
+}  // namespace
+
+class ExpressionParser {
+ public:
+  explicit ExpressionParser(std::string_view text) : text_(text) {}
+
+  Expression read() {
+    skipBlanks();
+    if (atEnd()) fail(fmt::format("'{}' holds no number", text_));
+    readSum();
+    if (!atEnd()) fail(fmt::format("unexpected '{}'", character()), "an operator or the end");
+    if (expression_.isConstant() && !hasNumber_) fail(fmt::format("'{}' holds a unit but no number", text_));
+    return std::move(expression_);
+  }
+
+ private:
+  using Operation = Expression::Operation;
+  struct Function {
+    std::string_view name;
+    Operation operation;
+  };
+  static constexpr Function functions[] = {
+      {"sqrt", Operation::sqrt}, {"exp", Operation::exp},     {"log", Operation::log},     {"sin", Operation::sin},
+      {"cos", Operation::cos},   {"tan", Operation::tan},     {"asin", Operation::asin},   {"acos", Operation::acos},
+      {"atan", Operation::atan}, {"sinh", Operation::sinh},   {"cosh", Operation::cosh},   {"tanh", Operation::tanh},
+      {"abs", Operation::abs},   {"atan2", Operation::atan2}, {"hypot", Operation::hypot}, {"min", Operation::min},
+      {"max", Operation::max}};
+  static constexpr const char* example =
+      "a number with an optional unit, such as 0.5, \"135 deg\" or \"3/4 pi\", or a formula such as \"2 rod.length + 3 "
+      "mm\"";
+
+  bool atEnd() const { return position_ == text_.size(); }
+  char here() const { return atEnd() ? '\0' : text_[position_]; }
+  void skipBlanks() {
+    while (here() == ' ' || here() == '\t') ++position_;
+  }
+  bool take(std::string_view token) {
+    if (!text_.substr(position_).starts_with(token)) return false;
+    position_ += token.size();
+    return true;
+  }
+  /// From 1, in characters.
+  int columnAt(std::size_t position) const {
+    return 1 + static_cast<int>(std::count_if(text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(position),
+                                              [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
+  }
+  int column() const { return columnAt(position_); }
+  /// The one here, whole.
+  std::string_view character() const {
+    std::size_t end = position_ + 1;
+    while (end < text_.size() && (static_cast<unsigned char>(text_[end]) & 0xC0) == 0x80) ++end;
+    return text_.substr(position_, end - position_);
+  }
+  [[noreturn]] void fail(const std::string& what, const std::string& expected = example) const {
+    throw UnitError(fmt::format("{} at column {}; expected {}", what, column(), expected));
+  }
+  /// What exact arithmetic refuses is said with its place.
+  template <class Action>
+  auto located(int column, Action action) const {
+    try {
+      return action();
+    } catch (const UnitError& error) {
+      const std::string what = error.what();
+      const std::size_t end = what.find(';');
+      throw UnitError(fmt::format("{} at column {}{}", what.substr(0, end), column, what.substr(end)));
+    }
+  }
+
+  /// Terms, and their exact values where they have one; an operation on exact operands leaves an exact result.
+  void push(Operation operation, int index, int column, std::optional<Amount> exact = std::nullopt) {
+    expression_.terms_.push_back({operation, index, column});
+    exact_.push_back(std::move(exact));
+  }
+  void pushConstant(const Amount& amount, int column) {
+    push(Operation::constant, static_cast<int>(expression_.constants_.size()), column, amount);
+    expression_.constants_.push_back({enclose(amount), amount});
+  }
+  void pop() {
+    if (expression_.terms_.back().operation == Operation::constant) expression_.constants_.pop_back();
+    expression_.terms_.pop_back();
+    exact_.pop_back();
+  }
+  void apply(Operation operation, int column) {
+    const std::size_t n = exact_.size();
+    if (exact_[n - 1] && exact_[n - 2]) {
+      const Amount a = *exact_[n - 2], b = *exact_[n - 1];
+      const std::optional<Amount> result = located(column, [&]() -> std::optional<Amount> {
+        switch (operation) {
+          case Operation::add:
+            return sum(a, b);
+          case Operation::subtract:
+            return sum(a, negative(b));
+          case Operation::multiply:
+            return product(a, b);
+          case Operation::divide:
+            return quotient(a, b);
+          default:
+            return std::nullopt;
+        }
+      });
+      if (result) {
+        pop();
+        pop();
+        pushConstant(*result, column);
+        return;
+      }
+    }
+    push(operation, 0, column);
+  }
+  void applyPower(int exponent, int column) {
+    if (!exact_.back()) return push(Operation::power, exponent, column);
+    const Amount result = located(column, [&] { return power(*exact_.back(), exponent); });
+    pop();
+    pushConstant(result, column);
+  }
+  static Amount negative(Amount amount) {
+    amount.value = -amount.value;
+    return amount;
+  }
+
+  void readSum() {
+    const int before = depth_++;
+    if (depth_ > deepest) fail("too many parentheses", fmt::format("at most {} within each other", deepest));
+    readProduct();
+    for (;;) {
+      const int at = column();
+      const bool subtracts = take("-") || take("−");
+      if (!subtracts && !take("+")) break;
+      skipBlanks();
+      if (atEnd()) fail("the end after an operator");
+      readProduct();
+      apply(subtracts ? Operation::subtract : Operation::add, at);
+    }
+    depth_ = before;
+  }
+
+  void readProduct() {
+    readSigned(false);
+    for (;;) {
+      skipBlanks();
+      const int at = column();
+      const bool divides = take("/");
+      if (divides || take("*") || take("·")) {
+        skipBlanks();
+        if (atEnd()) fail("the end after an operator");
+        readSigned(false);
+      } else if (isWordHere()) {
+        if (last_ == Piece::other || (last_ == Piece::unit && !isUnitHere()))
+          fail(fmt::format("no operator before '{}'", text_.substr(position_, wordLength())), "*, /, + or -");
+        readPower(last_ == Piece::number);
+      } else {
+        break;
+      }
+      apply(divides ? Operation::divide : Operation::multiply, at);
+    }
+  }
+
+  void readSigned(bool followsNumber) {
+    const int at = column();
+    bool isNegative = false;
+    for (;; skipBlanks()) {
+      if (take("-") || take("−"))
+        isNegative = !isNegative;
+      else if (!take("+"))
+        break;
+    }
+    readPower(followsNumber);
+    if (!isNegative) return;
+    if (!exact_.back()) return push(Operation::negate, 0, at);
+    const Amount result = negative(*exact_.back());
+    pop();
+    pushConstant(result, at);
+  }
+
+  void readPower(bool followsNumber) {
+    readPrimary(followsNumber);
+    const int at = column();
+    if (take("²")) return applyPower(2, at);
+    if (take("³")) return applyPower(3, at);
+    if (!take("^")) return;
+    const Piece piece = last_;
+    if (++depth_ > deepest) fail("too many powers", fmt::format("at most {} within each other", deepest));
+    readSigned(false);
+    --depth_;
+    const std::optional<Amount>& exponent = exact_.back();
+    const bool isWhole = exponent && exponent->piPower == 0 && !exponent->hasUnit && !exponent->isRelative &&
+                         exponent->value.get_den() == 1 && abs(exponent->value) < 1024;
+    last_ = piece;
+    if (!isWhole) return push(Operation::pow, 0, at);
+    const int whole = static_cast<int>(exponent->value.get_num().get_si());
+    pop();
+    applyPower(whole, at);
+  }
+
+  bool isWordHere() const {
+    const char c = here();
+    return isWordBegin(c) || c == '\'' || c == '%' || isOther(position_);
+  }
+  bool isUnitHere() const { return unitNamed(text_.substr(position_, wordLength())) != nullptr; }
+  /// A character beyond ASCII that units or pi may begin with.
+  bool isOther(std::size_t position) const {
+    const std::string_view rest = text_.substr(position);
+    return !rest.empty() && static_cast<unsigned char>(rest[0]) >= 0x80 && !rest.starts_with("²") &&
+           !rest.starts_with("³") && !rest.starts_with("·") && !rest.starts_with("−");
+  }
+  std::size_t wordLength() const {
+    std::size_t end = position_;
+    if (here() == '%') return 1;
+    if (startsWith("π")) return std::string_view("π").size();
+    while (end < text_.size() &&
+           (isWordBegin(text_[end]) || ((isDigit(text_[end]) || text_[end] == '.') && end > position_) || isOther(end)))
+      ++end;
+    return end - position_;
+  }
+  bool startsWith(std::string_view token) const { return text_.substr(position_).starts_with(token); }
+
+  void readPrimary(bool followsNumber) {
+    const int at = column();
+    if (isDigit(here()) || here() == '.') {
+      const Amount number{readDecimal(), 0, {}};
+      hasNumber_ = true;
+      pushConstant(located(at, [&] { return product(number, Amount{1, 0, {}}); }), at);
+      last_ = Piece::number;
+    } else if (take("(")) {
+      skipBlanks();
+      readSum();
+      if (!take(")")) fail(atEnd() ? "the end" : fmt::format("'{}'", character()), "')'");
+      last_ = Piece::other;
+      hasNumber_ = true;
+    } else if (take("'")) {
+      const std::size_t end = text_.find('\'', position_);
+      if (end == std::string_view::npos || end == position_) fail("a quotation mark without a name", "'name'");
+      pushName(std::string(text_.substr(position_, end - position_)), at);
+      position_ = end + 1;
+    } else if (isWordHere()) {
+      readWord(followsNumber);
+    } else {
+      fail(atEnd() ? "the end" : fmt::format("unexpected '{}'", character()));
+    }
+  }
+
+  void readWord(bool followsNumber) {
+    const int at = column();
+    const std::string word(text_.substr(position_, wordLength()));
+    position_ += word.size();
+    const Amount* unit = unitNamed(word);
+    const auto* function = std::ranges::find(functions, word, &Function::name);
+    if (word == "pi" || word == "π") {
+      hasNumber_ = true;
+      pushConstant({1, 1, {}}, at);
+      last_ = Piece::number;
+    } else if (here() == '(' && (function != std::end(functions) || unit == nullptr)) {
+      if (function == std::end(functions)) refuseFunction(word, at);
+      readCall(*function, at);
+    } else if (unit != nullptr && (word != "t" || followsNumber)) {
+      pushConstant(*unit, at);
+      last_ = Piece::unit;
+    } else {
+      pushName(word, at);
+    }
+  }
+
+  void pushName(const std::string& name, int at) {
+    std::vector<std::string>& names = expression_.names_;
+    const auto found = std::find(names.begin(), names.end(), name);
+    push(Operation::name, static_cast<int>(found - names.begin()), at);
+    if (found == names.end()) names.push_back(name);
+    last_ = Piece::other;
+  }
+
+  [[noreturn]] static void refuseFunction(const std::string& word, int at) {
+    std::vector<std::string> known;
+    for (const Function& f : functions) known.emplace_back(f.name);
+    throw UnitError(
+        fmt::format("unknown function '{}' at column {}; expected {}", word, at, expectedName(word, known)));
+  }
+
+  void readCall(const Function& function, int at) {
+    const int wanted = Expression::takesTwo(function.operation) ? 2 : 1;
+    take("(");
+    for (int i = 0; i < wanted; ++i) {
+      skipBlanks();
+      readSum();
+      if (!take(i + 1 < wanted ? "," : ")"))
+        fail(atEnd() ? "the end" : fmt::format("'{}'", character()),
+             fmt::format("'{}': {} takes {}", i + 1 < wanted ? "," : ")", function.name,
+                         wanted == 1 ? "one number" : "two numbers"));
+    }
+    push(function.operation, 0, at);
+    last_ = Piece::other;
+    hasNumber_ = true;
+  }
+
+  std::string readDigits() {
+    std::string digits;
+    for (; isDigit(here()) || here() == '_'; ++position_)
+      if (here() != '_') digits += here();
+    return digits;
+  }
+
+  /// digits [. digits] [e[+-]digits] as the rational it stands for.
+  mpq_class readDecimal() {
+    std::string digits = readDigits();
+    long exponent = 0;
+    if (take(".")) {
+      const std::string fraction = readDigits();
+      exponent = -static_cast<long>(fraction.size());
+      digits += fraction;
+    }
+    if (digits.empty()) fail("a point without digits");
+    exponent += readExponent();
+    if (digits.size() > 400 || exponent > 700 || exponent < -700)
+      fail("a number is too large or too small", "a magnitude between 1e-300 and 1e300, or 0");
+    mpz_class scale;
+    mpz_ui_pow_ui(scale.get_mpz_t(), 10, static_cast<unsigned long>(std::labs(exponent)));
+    mpq_class result(mpz_class(digits, 10));
+    if (exponent > 0) result *= scale;
+    if (exponent < 0) result /= scale;
+    return result;
+  }
+
+  long readExponent() {
+    const std::size_t begin = position_;
+    if (!take("e") && !take("E")) return 0;
+    const bool isNegative = take("-");
+    if (!isNegative) take("+");
+    const std::string digits = readDigits();
+    if (digits.empty()) {  // no exponent after all: a word follows
+      position_ = begin;
+      return 0;
+    }
+    return (isNegative ? -1 : 1) * std::stol(digits.substr(0, 6));
+  }
+
+  std::string_view text_;
+  std::size_t position_ = 0;
+  Expression expression_;
+  std::vector<std::optional<Amount>> exact_;  // of the terms that stand for a constant
+  Piece last_ = Piece::other;
+  bool hasNumber_ = false;
+  int depth_ = 0;
+};
+
+Expression::Expression(const Interval& value) : terms_{{Operation::constant}}, constants_{{value}} {}
+
+Expression Expression::named(const std::string& name, const Interval& factor) {
+  Expression result(factor);
+  result.names_.push_back(name);
+  result.terms_.push_back({Operation::name});
+  result.terms_.push_back({Operation::multiply});
+  return result;
+}
+
+Expression Expression::parse(std::string_view text) { return ExpressionParser(text).read(); }
+
+namespace {
+
+[[noreturn]] void refuse(const std::string& what, int column, const std::string& expected) {
+  throw UnitError(fmt::format("{} at column {}; expected {}", what, column, expected));
+}
+
+Dimension scaled(const Dimension& d, int times) {
+  return {d.mass * times, d.length * times, d.time * times, d.angle * times, d.memory * times};
+}
+
+Dimension plus(const Dimension& a, const Dimension& b, int sign) {
+  return {a.mass + sign * b.mass, a.length + sign * b.length, a.time + sign * b.time, a.angle + sign * b.angle,
+          a.memory + sign * b.memory};
+}
+
+}  // namespace
+
+Dimension Expression::dimension(const DimensionOf& dimensionOf) const {
+  std::vector<Dimension> stack;
+  for (const Term& term : terms_) {
+    if (term.operation == Operation::constant) {
+      const std::optional<Amount>& exact = constants_[static_cast<std::size_t>(term.index)].exact;
+      stack.push_back(exact ? exact->dimension : Dimension{});
+      continue;
+    }
+    if (term.operation == Operation::name) {
+      stack.push_back(dimensionOf(names_[static_cast<std::size_t>(term.index)]));
+      continue;
+    }
+    const Dimension b = stack.back();
+    if (takesTwo(term.operation)) stack.pop_back();
+    Dimension& a = stack.back();
+    const auto mustBeAlike = [&](const char* does, const char* joins) {
+      if (!isAlike(a, b))
+        refuse(fmt::format("{} {} {} {}", does, unitOf(b), joins, unitOf(a)), term.column, "quantities of one kind");
+      if (a.angle == 0) a.angle = b.angle;
+    };
+    const auto mustBePlain = [&](const Dimension& d, const char* what) {
+      if (!isAlike(d, {}))
+        refuse(fmt::format("{} {}", what, unitOf(d)), term.column, "a number without unit, or an angle");
+    };
+    switch (term.operation) {
+      case Operation::add:
+        mustBeAlike("adds", "to");
+        break;
+      case Operation::subtract:
+        mustBeAlike("subtracts", "from");
+        break;
+      case Operation::min:
+      case Operation::max:
+      case Operation::hypot:
+        mustBeAlike("compares", "with");
+        break;
+      case Operation::atan2:
+        mustBeAlike("compares", "with");
+        a = {0, 0, 0, 1};
+        break;
+      case Operation::multiply:
+        a = plus(a, b, 1);
+        break;
+      case Operation::divide:
+        a = plus(a, b, -1);
+        break;
+      case Operation::power:
+        a = scaled(b, term.index);
+        break;
+      case Operation::sqrt:
+        if (b.mass % 2 != 0 || b.length % 2 != 0 || b.time % 2 != 0 || b.memory % 2 != 0)
+          refuse(fmt::format("the square root of {}", unitOf(b)), term.column, "a unit that is a square, such as m^2");
+        a = {b.mass / 2, b.length / 2, b.time / 2, b.angle / 2, b.memory / 2};
+        break;
+      case Operation::pow:
+        mustBePlain(a, "a power of");
+        mustBePlain(b, "an exponent in");
+        a = {};
+        break;
+      case Operation::asin:
+      case Operation::acos:
+      case Operation::atan:
+        mustBePlain(b, "a function of");
+        a = {0, 0, 0, 1};
+        break;
+      case Operation::negate:
+      case Operation::abs:
+        break;
+      default:
+        mustBePlain(b, "a function of");
+        a = {};
+    }
+  }
+  return stack.back();
+}
+
+void Expression::check(const DimensionOf& dimensionOf, const Dimension& expected) const {
+  const Dimension found = dimension(dimensionOf);
+  const bool isPlain = isConstant() && std::ranges::none_of(constants_, [](const Constant& c) {
+                         return c.exact && (c.exact->hasUnit || c.exact->isRelative);
+                       });
+  if (!isPlain && !isAlike(found, expected))
+    throw UnitError(fmt::format("a quantity in {}; expected one in {}", unitOf(found), unitOf(expected)));
+}
+
+std::optional<Amount> Expression::amount() const {
+  return terms_.size() == 1 && terms_[0].operation == Operation::constant ? constants_[0].exact : std::nullopt;
+}
+
+Amount parseAmount(std::string_view text) {
+  const Expression expression = Expression::parse(text);
+  if (!expression.isConstant())
+    throw UnitError(
+        fmt::format("unknown unit '{}' in '{}'; expected one of {}", expression.names().front(), text, knownUnits()));
+  if (const std::optional<Amount> amount = expression.amount()) return *amount;
+  throw UnitError(fmt::format("'{}' is no rational number times a power of pi; expected one that is", text));
+}
+
+Dimension dimensionOf(std::string_view unit) {
+  if (unit.empty()) return {};
+  const bool hasNumber = isDigit(unit.front());
+  return parseAmount(hasNumber ? std::string(unit) : "1 " + std::string(unit)).dimension;
+}
+
+}  // namespace gamut

@@ -1,0 +1,206 @@
+// Numbers of a mechanism as formulas over names, with units: "2 rod.length + 3 mm", "-k*angle - c*rate^3",
+// "0.3 rad * sin(2*pi*t/period)". One formula serves every scalar; its dimensions are checked before it is computed.
+//
+//   sum      = product { ("+" | "-") product }
+//   product  = signed { ("*" | "·" | "/" | blank) signed }      from left to right; "/" divides by the next factor
+//   alone signed   = { "-" | "+" } power power    = primary [ "^" signed | "²" | "³" ]                -x^2 is -(x^2),
+//   2^3^2 is 2^(3^2) primary  = decimal | "pi" | unit | name | function "(" sum { "," sum } ")" | "(" sum ")"
+//
+// A blank (or nothing, as in 90° and 0.75pi) joins a number to a unit, to pi or to a name, never two names. What is
+// written without names is computed exactly as far as it is rational · πᵏ. A name is a word of letters, digits, "_" and
+// "."; any other is put in single quotes. "t" is the time; right behind a number and a blank it is a tonne.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "mechanics/units.hpp"
+#include "scalars/interval.hpp"
+#include "scalars/traits.hpp"
+
+namespace gamut {
+
+class Expression {
+ public:
+  /// A number in the SI unit that is expected where it stands.
+  Expression(double value) : Expression(Interval(value)) {}  // NOLINT: implicit, as numbers are
+  Expression(const Interval& value);                         // NOLINT: implicit, as numbers are
+  /// `factor` times what has this name.
+  static Expression named(const std::string& name, const Interval& factor = 1.0);
+  /// Throws UnitError: what is wrong, at which column (from 1, in characters), and what was expected.
+  static Expression parse(std::string_view text);
+
+  /// Each once, in the order of first use.
+  const std::vector<std::string>& names() const { return names_; }
+  bool isConstant() const { return names_.empty(); }
+
+  /// The whole as an exact number, if it is one.
+  std::optional<Amount> amount() const;
+
+  using DimensionOf = std::function<Dimension(const std::string& name)>;
+  /// The dimension of the whole. Radians count as 1 and are kept for display. Throws UnitError where terms do not fit
+  /// together.
+  Dimension dimension(const DimensionOf& dimensionOf) const;
+  /// Throws UnitError too if the whole is not of the `expected` dimension; without names and units it always is.
+  void check(const DimensionOf& dimensionOf, const Dimension& expected) const;
+
+  /// In SI units; `valueOf(name)` gives an S.
+  template <class S, class ValueOf>
+  S evaluate(const ValueOf& valueOf) const;
+
+ private:
+  friend class ExpressionParser;
+
+  enum class Operation : std::uint8_t {
+    constant,
+    name,  // index: which
+    add,
+    subtract,
+    multiply,
+    divide,
+    negate,
+    power,  // index: the exponent
+    sqrt,
+    exp,
+    log,
+    sin,
+    cos,
+    tan,
+    asin,
+    acos,
+    atan,
+    sinh,
+    cosh,
+    tanh,
+    abs,
+    atan2,
+    hypot,
+    min,
+    max,
+    pow
+  };
+  /// Postfix: operands come before what takes them.
+  struct Term {
+    Operation operation;
+    int index = 0, column = 0;
+  };
+  struct Constant {
+    Interval enclosure;
+    std::optional<Amount> exact = std::nullopt;
+  };
+
+  Expression() = default;
+  static bool takesTwo(Operation operation) {
+    return (operation >= Operation::add && operation <= Operation::divide) || operation >= Operation::atan2;
+  }
+
+  std::vector<Term> terms_;
+  std::vector<Constant> constants_;
+  std::vector<std::string> names_;
+};
+
+template <class S, class ValueOf>
+S Expression::evaluate(const ValueOf& valueOf) const {
+  using std::abs, std::acos, std::asin, std::atan, std::atan2, std::cos, std::cosh, std::exp, std::hypot, std::log,
+      std::max, std::min, std::pow, std::sin, std::sinh, std::sqrt, std::tan, std::tanh;
+  std::vector<S> values;
+  for (const Term& term : terms_) {
+    if (term.operation == Operation::constant) {
+      values.push_back(constant<S>(constants_[static_cast<std::size_t>(term.index)].enclosure));
+      continue;
+    }
+    if (term.operation == Operation::name) {
+      values.push_back(valueOf(names_[static_cast<std::size_t>(term.index)]));
+      continue;
+    }
+    const bool isBinary = takesTwo(term.operation);
+    const S y = values.back();
+    if (isBinary) values.pop_back();
+    S& x = values.back();
+    switch (term.operation) {
+      case Operation::add:
+        x = x + y;
+        break;
+      case Operation::subtract:
+        x = x - y;
+        break;
+      case Operation::multiply:
+        x = x * y;
+        break;
+      case Operation::divide:
+        x = x / y;
+        break;
+      case Operation::negate:
+        x = -y;
+        break;
+      case Operation::power:
+        x = term.index == 2 ? square(y) : S(pow(y, term.index));
+        break;
+      case Operation::sqrt:
+        x = sqrt(y);
+        break;
+      case Operation::exp:
+        x = exp(y);
+        break;
+      case Operation::log:
+        x = log(y);
+        break;
+      case Operation::sin:
+        x = sin(y);
+        break;
+      case Operation::cos:
+        x = cos(y);
+        break;
+      case Operation::tan:
+        x = tan(y);
+        break;
+      case Operation::asin:
+        x = asin(y);
+        break;
+      case Operation::acos:
+        x = acos(y);
+        break;
+      case Operation::atan:
+        x = atan(y);
+        break;
+      case Operation::sinh:
+        x = sinh(y);
+        break;
+      case Operation::cosh:
+        x = cosh(y);
+        break;
+      case Operation::tanh:
+        x = tanh(y);
+        break;
+      case Operation::abs:
+        x = abs(y);
+        break;
+      case Operation::atan2:
+        x = atan2(S(x), y);
+        break;
+      case Operation::hypot:
+        x = hypot(S(x), y);
+        break;
+      case Operation::min:
+        x = min(S(x), y);
+        break;
+      case Operation::max:
+        x = max(S(x), y);
+        break;
+      case Operation::pow:
+        x = pow(S(x), y);
+        break;
+      case Operation::constant:
+      case Operation::name:
+        break;
+    }
+  }
+  return values.back();
+}
+
+}  // namespace gamut

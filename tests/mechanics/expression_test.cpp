@@ -1,0 +1,227 @@
+// Formulas of a study: grammar, exact numbers, units that are checked, one formula in every scalar.
+#include "mechanics/expression.hpp"
+
+#include <gmock/gmock.h>
+
+#include <map>
+
+#include "scalars/evaluator.hpp"
+#include "scalars/fuzzy.hpp"
+#include "scalars/recorded.hpp"
+#include "scalars/samples.hpp"
+
+namespace gamut {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+const std::map<std::string, double> values = {{"rod.length", 1.5}, {"m1", 2},  {"angle", 0.25},  {"rate", -3},
+                                              {"k", 10},           {"t", 0.5}, {"upper arm", 7}, {"x_2", 0.125}};
+
+double valueOf(const std::string& name) { return values.at(name); }
+double value(const std::string& text) { return Expression::parse(text).evaluate<double>(valueOf); }
+
+TEST(Expression, FollowsTheGrammar) {
+  const struct {
+    const char* text;
+    double value;
+  } cases[] = {
+      {"2", 2},
+      {"2 rod.length + 3 mm", 3.003},
+      {"2*rod.length+3mm", 3.003},
+      {"1/2 rod.length", 0.75},
+      {"-rod.length", -1.5},
+      {"- rod.length", -1.5},
+      {"+rod.length", 1.5},
+      {"−rod.length", -1.5},
+      {"rod.length/2/3", 0.25},
+      {"rod.length / 2 * 3", 2.25},
+      {"rod.length - 1 m - 0.25 m", 0.25},
+      {"-k*angle - m1*rate^3", -2.5 + 54},
+      {"-rate^2", -9},
+      {"(-rate)^2", 9},
+      {"rate²", 9},
+      {"rate³", -27},
+      {"2^3^2", 512},
+      {"rate^-1", -1.0 / 3},
+      {"4^0.5", 2},
+      {"4^(1/2)", 2},
+      {"m1^m1", 4},
+      {"2 m1^2", 8},
+      {"9.81 m/s^2", 9.81},
+      {"1/s * 2", 2},
+      {"3*-2", -6},
+      {"3 - -2", 5},
+      {"--2", 2},
+      {"sqrt(rod.length^2 + (2 m)^2)", 2.5},
+      {"atan2(1, 1)", 0.78539816339744831},
+      {"hypot(3 m, 4 m)", 5},
+      {"max(rate, min(1, 2))", 1},
+      {"abs(rate)", 3},
+      {"2 sqrt(4)", 4},
+      {"0.3 rad * sin(2*pi*t)", 0.3 * 1.2246467991473532e-16},
+      {"2*pi*t/x_2", 25.132741228718345},
+      {"2 t", 2000},
+      {"2*t", 1},
+      {"'upper arm' + 1", 8},
+      {"((((1))))", 1},
+      {" 1 ", 1},
+      {"1e3", 1000},
+      {"2.5e-1k", 2.5},
+      {"tanh(0)", 0},
+      {"cosh(0)+sinh(0)+exp(0)+log(1)+asin(0)+acos(1)+atan(0)+tan(0)+cos(0)", 3},
+  };
+  for (const auto& c : cases) EXPECT_NEAR(value(c.text), c.value, 1e-15 * std::abs(c.value)) << c.text;
+}
+
+TEST(Expression, NumbersWithoutNamesAreExact) {
+  const auto enclosure = [](const char* text) {
+    return Expression::parse(text).evaluate<Interval>([](const std::string&) { return Interval::entire(); });
+  };
+  EXPECT_TRUE(isEqual(enclosure("0.1 + 0.2"), Interval("0.3")));
+  EXPECT_TRUE(isEqual(enclosure("3 mm + 1 m"), Interval("1.003")));
+  EXPECT_TRUE(isEqual(enclosure("1/3 * 3"), Interval(1.0)));
+  EXPECT_TRUE(isEqual(enclosure("(1/10)^2"), Interval("0.01")));
+  EXPECT_TRUE(isEqual(enclosure("90 deg + 1/4 pi"), enclosure("135 deg")));
+  EXPECT_TRUE(isEqual(enclosure("-(0.25 - 1)"), Interval(0.75)));
+}
+
+TEST(Expression, NamesStandInTheOrderOfTheirFirstUse) {
+  EXPECT_THAT(Expression::parse("b*a + b^2").names(), ElementsAre("b", "a"));
+  EXPECT_THAT(Expression::parse("2 m").names(), IsEmpty());
+  EXPECT_TRUE(Expression(3.0).isConstant());
+  EXPECT_EQ(Expression::named("k", 2.0).evaluate<double>(valueOf), 20);
+}
+
+const std::map<std::string, std::string> units = {{"rod.length", "m"}, {"mass", "kg"},   {"angle", "rad"},
+                                                  {"rate", "rad/s"},   {"k", "N m/rad"}, {"t", "s"}};
+
+Dimension unitFor(const std::string& name) { return dimensionOf(units.at(name)); }
+
+TEST(Expression, UnitsAreCarriedThrough) {
+  const struct {
+    const char *text, *unit;
+  } cases[] = {{"2 rod.length + 3 mm", "m"},          {"-k*angle", "N m/rad rad"}, {"rod.length^2", "m^2"},
+               {"sqrt(rod.length^2)", "m"},           {"rod.length/t", "m/s"},     {"sin(angle)*rod.length", "m"},
+               {"atan2(rod.length, 1 m)", "rad"},     {"angle + 1", "rad"},        {"1 + angle", "rad"},
+               {"0.5 mass*(rod.length*rate)^2", "J"}, {"abs(mass)", "kg"},         {"rod.length*t^-2", "m/s^2"}};
+  for (const auto& c : cases) {
+    Dimension expected = std::string_view(c.unit) == "N m/rad rad" ? dimensionOf("N m") : dimensionOf(c.unit);
+    Dimension found = Expression::parse(c.text).dimension(unitFor);
+    if (expected.mass != 0) found.angle = expected.angle;  // beside other units radians are only for display
+    EXPECT_EQ(unitOf(found), unitOf(expected)) << c.text;
+  }
+}
+
+TEST(Expression, WhatDoesNotFitTogetherIsRefusedWithItsPlace) {
+  const struct {
+    const char *text, *message;
+  } cases[] = {
+      {"rod.length + mass", "adds kg to m at column 12; expected quantities of one kind"},
+      {"rod.length - 3", "subtracts 1 from m at column 12"},
+      {"sin(rod.length)", "a function of m at column 1"},
+      {"sqrt(mass)", "the square root of kg at column 1"},
+      {"2^mass", "an exponent in kg at column 2"},
+      {"mass^0.5", "a power of kg at column 5"},
+      {"max(mass, t)", "compares s with kg at column 1"},
+      {"3 m + 2 kg", "adds kg to m at column 5"},
+      {"2 π + mass", "adds kg to 1 at column 5"},
+  };
+  for (const auto& c : cases) {
+    try {
+      Expression::parse(c.text).dimension(unitFor);
+      ADD_FAILURE() << c.text;
+    } catch (const UnitError& error) {
+      EXPECT_THAT(error.what(), HasSubstr(c.message)) << c.text;
+    }
+  }
+}
+
+TEST(Expression, TheWholeMustBeOfTheKindThatIsExpected) {
+  const Dimension metre = dimensionOf("m");
+  const auto check = [&](const char* text) { Expression::parse(text).check(unitFor, metre); };
+  EXPECT_NO_THROW(check("0.5"));
+  EXPECT_NO_THROW(check("1/2*3"));
+  EXPECT_NO_THROW(check("sqrt(2)"));
+  EXPECT_NO_THROW(check("2 rod.length"));
+  EXPECT_NO_THROW(check("rod.length*angle"));
+  for (const char* text : {"2 kg", "mass", "12 %", "angle", "sin(angle)", "2 m^2"})
+    EXPECT_THROW(check(text), UnitError);
+}
+
+TEST(Expression, WhatIsNoFormulaIsRefusedWithItsPlace) {
+  const struct {
+    const char *text, *message;
+  } cases[] = {
+      {"", "'' holds no number at column 1; expected"},
+      {"  ", "holds no number"},
+      {"m", "holds a unit but no number"},
+      {"2 +", "the end after an operator at column 4"},
+      {"2 *", "the end after an operator"},
+      {"(2", "the end at column 3; expected ')'"},
+      {"2)", "unexpected ')' at column 2"},
+      {"a b", "no operator before 'b' at column 3; expected *, /, + or -"},
+      {"a 3", "unexpected '3' at column 3"},
+      {"2 m k", "no operator before 'k' at column 5"},
+      {"2 m(3)", "unexpected '(' at column 4"},
+      {"(a) b", "no operator before 'b'"},
+      {"sine(2)", "unknown function 'sine' at column 1; expected 'sin'"},
+      {"sin(1, 2)", "',' at column 6; expected ')': sin takes one number"},
+      {"atan2(1)", "')' at column 8; expected ',': atan2 takes two numbers"},
+      {"1/0", "a division by zero at column 2"},
+      {"1/(2-2)", "a division by zero"},
+      {"0^-1", "a division by zero"},
+      {"1e999", "too large or too small"},
+      {"1e99999999999999999999", "too large or too small"},
+      {"10^1000", "too large or too small"},
+      {".", "a point without digits"},
+      {"2 $ 3", "unexpected '$' at column 3"},
+      {"2 m € 3", "no operator before '€' at column 5"},
+      {"''", "a quotation mark without a name"},
+      {"'a", "a quotation mark without a name"},
+      {"5 % %", "more than one '%'"},
+  };
+  for (const auto& c : cases) {
+    try {
+      Expression::parse(c.text);
+      ADD_FAILURE() << c.text;
+    } catch (const UnitError& error) {
+      EXPECT_THAT(error.what(), HasSubstr(c.message)) << c.text;
+      EXPECT_THAT(error.what(), HasSubstr("; expected ")) << c.text;
+    }
+  }
+  EXPECT_THROW(Expression::parse(std::string(100000, '(')), UnitError);
+  EXPECT_THROW(Expression::parse("2" + std::string(100000, '^')), UnitError);
+  std::string powers = "2";
+  for (int i = 0; i < 100000; ++i) powers += "^1";
+  EXPECT_THROW(Expression::parse(powers), UnitError);
+  EXPECT_EQ(value(std::string(100000, '-') + "2"), 2);
+}
+
+TEST(Expression, OneFormulaServesEveryScalar) {
+  const Expression formula = Expression::parse("0.3 * sin(2*pi*t) + sqrt(x^2 + 1)/max(x, 2) - x^3 + atan2(x, 3)^1.5");
+  const auto plain = [&](double t, double x) {
+    return formula.evaluate<double>([&](const std::string& name) { return name == "t" ? t : x; });
+  };
+  const Interval t(0.25, 0.3), x(1, 1.25);
+  const Interval range = formula.evaluate<Interval>([&](const std::string& name) { return name == "t" ? t : x; });
+  const Fuzzy fuzzy = formula.evaluate<Fuzzy>([&](const std::string& name) { return Fuzzy(name == "t" ? t : x); });
+  const Program program = record(1, 0, [&](auto time, const auto& state, const auto&, auto& out) {
+    out[0] = formula.evaluate<Recorded>([&](const std::string& name) { return name == "t" ? time : state[0]; });
+  });
+  Evaluator<double> recorded(program);
+  for (double a : {0.25, 0.28, 0.3})
+    for (double b : {1.0, 1.1, 1.25}) {
+      EXPECT_TRUE(contains(range, plain(a, b)));
+      EXPECT_TRUE(contains(fuzzy.cut(0), plain(a, b)));
+      EXPECT_NEAR(recorded(a, std::vector{b})[0], plain(a, b), 1e-14);
+      const Samples samples =
+          formula.evaluate<Samples>([&](const std::string& name) { return Samples(name == "t" ? a : b); });
+      EXPECT_NEAR(samples[0], plain(a, b), 1e-14);
+    }
+}
+
+}  // namespace
+}  // namespace gamut
