@@ -18,6 +18,11 @@ constexpr double tellingErrors = 100;  // an envelope narrower than so many of i
 constexpr double leastUlps = 4;        // of an output's magnitude: a trajectory of doubles is no more certain
 constexpr std::size_t batchSize = 16;  // samples that go to the arbiter before it is asked whether that is enough
 
+/// Of an output with this greatest magnitude.
+double leastError(double magnitude) {
+  return leastUlps * (std::nextafter(magnitude, std::numeric_limits<double>::infinity()) - magnitude);
+}
+
 /// A dispute and what its last two integrations gave.
 struct Case {
   Dispute dispute;
@@ -79,7 +84,7 @@ class Comparer {
     const std::vector<double> magnitude = magnitudes(trajectory);
     const auto errorAt = [&](std::size_t i) {
       const double size = magnitude[i % ensemble_.outputs];
-      const double floor = leastUlps * (std::nextafter(size, std::numeric_limits<double>::infinity()) - size);
+      const double floor = leastError(size);
       return c.error.empty() || !(c.error[i] > floor) ? floor : c.error[i];
     };
     std::size_t place = c.dispute.time * ensemble_.outputs + c.dispute.output;
@@ -253,12 +258,16 @@ Overestimation measureOverestimation(const EnclosureBounds& enclosure, const Env
   result.ratio = Table(error.times, outputs);
   result.excess = result.ratio;
   result.maximumOf.assign(outputs, std::numeric_limits<double>::quiet_NaN());
-  std::vector<double> ratios;
-  for (std::size_t i = 0; i < enclosure.reachedTimes * outputs; ++i) {
+  const std::size_t size = enclosure.reachedTimes * outputs;
+  std::vector<double> ratios, magnitude(outputs, 0.0);
+  for (std::size_t i = 0; i < size; ++i)
+    for (const double bound : {envelope.lower.data[i], envelope.upper.data[i]})
+      if (std::isfinite(bound)) magnitude[i % outputs] = std::max(magnitude[i % outputs], std::abs(bound));
+  for (std::size_t i = 0; i < size; ++i) {
     const double enclosed = enclosure.bounds.upper.data[i] - enclosure.bounds.lower.data[i];
     const double sampled = envelope.upper.data[i] - envelope.lower.data[i];
     result.excess.data[i] = enclosed - sampled;
-    if (!(sampled > tellingErrors * error.data[i])) continue;
+    if (!(sampled > tellingErrors * std::max(error.data[i], leastError(magnitude[i % outputs])))) continue;
     const double ratio = enclosed / sampled;
     result.ratio.data[i] = ratio;
     double& greatest = result.maximumOf[i % outputs];

@@ -81,7 +81,8 @@ struct Overestimation {
   std::vector<double> maximumOf;  ///< one an output
 };
 
-/// Against the envelope of samples whose integration has this error: one narrower than a hundred errors says nothing.
+/// Against the envelope of samples whose integration has this error, and 4 ulp of an output's magnitude at least: one
+/// narrower than a hundred errors says nothing.
 Overestimation measureOverestimation(const EnclosureBounds& enclosure, const Envelope& envelope, const Table& error);
 
 /// Compares at all output times that the enclosure reached. Samples found outside get their refined trajectories in

@@ -205,6 +205,17 @@ TEST_F(DecayCompared, OverestimationIsTheRatioOfWidthsWhereTheEnvelopeIsWideEnou
   EXPECT_EQ(c.maximumOf[0], c.maximum);
 }
 
+TEST_F(DecayCompared, AnEnvelopeOfRoundingAloneTellsNoOverestimation) {
+  Envelope envelope = ensemble.envelope();
+  envelope.lower(0, 0) = 1;  // as an output may start that is one number, but for rounding: the error there is 0
+  envelope.upper(0, 0) = 1 + 0x1p-52;
+  enclosure.bounds.lower(0, 0) = 1 - 0x1p-44;
+  enclosure.bounds.upper(0, 0) = 1 + 0x1p-44;
+  const Overestimation c = measureOverestimation(enclosure, envelope, ensemble.error);
+  EXPECT_TRUE(std::isnan(c.ratio(0, 0)));
+  EXPECT_LT(c.maximum, 1.001);
+}
+
 TEST_F(DecayCompared, AnUnboundedEnclosureHoldsEverything) {
   for (double& bound : enclosure.bounds.upper.data) bound = std::numeric_limits<double>::infinity();
   widen(1e-6);
