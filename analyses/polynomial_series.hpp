@@ -76,6 +76,8 @@ class PolynomialSeries {
   const double* frame(int i, int j) const { return &f_[plan_[at(frameNode(i, j))].f]; }
   int outputNode(int output) const { return outputs_[at(output)]; }
   double norm(int node) const { return norm_[at(node)]; }
+  /// Whether of some node more than this share of its norm is mass of the two highest grades.
+  bool reachesHighestGrades(double share) const;
   double rho0(int node) const { return rho0_[at(node)]; }
   double rho1(int node) const { return rho1_[at(node)]; }
   /// Σ i!/(i-k)! |c_{iα}| θ^{i-k}: a bound of the k-th derivative by σ over [0, θ], with the order that only states

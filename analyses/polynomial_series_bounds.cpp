@@ -62,6 +62,18 @@ bool PolynomialSeries::tabulate(double theta) {
 }
 
 /// Σ_{i+j ≥ m} T_a[i] T_b[j]: orders of a product that are not kept.
+bool PolynomialSeries::reachesHighestGrades(double share) const {
+  const int last = monomials_->degree();
+  for (std::size_t x = 0; x < plan_.size(); ++x) {
+    const Plan& v = plan_[x];
+    double mass = 0;
+    for (int q = std::max(last - 1, 1); q <= v.degree; ++q)
+      for (int i = 0; i < stride_; ++i) mass += t_[v.t + at(q * stride_ + i)];
+    if (mass > share * norm_[x]) return true;
+  }
+  return false;
+}
+
 double PolynomialSeries::tailTime(int a, int b) const {
   return kernels::dot(&total_[at(a) * at(stride_)], &s1_[at(b) * at(stride_)], stride_);
 }
