@@ -25,6 +25,7 @@
 #include <vector>
 
 #include "mechanics/names.hpp"
+#include "mechanics/units.hpp"
 #include "reports/report.hpp"
 #include "reports/verdict.hpp"
 #include "reports/words.hpp"
@@ -35,7 +36,6 @@
 #include "studies/results_file.hpp"
 #include "studies/study.hpp"
 #include "studies/summary.hpp"
-#include "mechanics/units.hpp"
 #include "studies/version.hpp"
 #include "studies/watch.hpp"
 

@@ -162,8 +162,8 @@ bool FlowStepper::tryStep(const FlowSet& set, double theta) {
   return true;
 }
 
-/// The defect bound holds rounding too, which splitting does not cure: what counts is mass in the highest grades, of any
-/// node, since what cancels in the states was truncated before.
+/// The defect bound holds rounding too, which splitting does not cure: what counts is mass in the highest grades, of
+/// any node, since what cancels in the states was truncated before.
 bool FlowStepper::isTruncationTooLarge(double splitDefect) const {
   const double allowed = splitDefect * h_;
   return splitDefect > 0 && truncation_ > allowed && series_.reachesHighestGrades(1e-3 * allowed);
