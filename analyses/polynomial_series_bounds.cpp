@@ -61,7 +61,6 @@ bool PolynomialSeries::tabulate(double theta) {
   return true;
 }
 
-/// Σ_{i+j ≥ m} T_a[i] T_b[j]: orders of a product that are not kept.
 bool PolynomialSeries::reachesHighestGrades(double share) const {
   const int last = monomials_->degree();
   for (std::size_t x = 0; x < plan_.size(); ++x) {
@@ -74,6 +73,7 @@ bool PolynomialSeries::reachesHighestGrades(double share) const {
   return false;
 }
 
+/// Σ_{i+j ≥ m} T_a[i] T_b[j]: orders of a product that are not kept.
 double PolynomialSeries::tailTime(int a, int b) const {
   return kernels::dot(&total_[at(a) * at(stride_)], &s1_[at(b) * at(stride_)], stride_);
 }

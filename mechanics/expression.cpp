@@ -14,7 +14,8 @@ namespace gamut {
 
 namespace {
 
-constexpr int deepest = 100;  // parentheses within each other
+constexpr int deepest = 100;             // parentheses within each other
+constexpr std::size_t longest = 10'000;  // characters: places of terms are found by counting
 
 bool isWordBegin(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 bool isDigit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
@@ -29,6 +30,8 @@ class ExpressionParser {
   explicit ExpressionParser(std::string_view text) : text_(text) {}
 
   Expression read() {
+    if (text_.size() > longest)
+      throw UnitError(fmt::format("a number of {} characters; expected at most {}", text_.size(), longest));
     skipBlanks();
     if (atEnd()) fail(fmt::format("'{}' holds no number", text_));
     readSum();
