@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "benchmarks/revolute_chain.hpp"
-#include "scalars/evaluator.hpp"
+#include "scalars/elementary/vector_functions.hpp"
+#include "scalars/evaluation/evaluator.hpp"
+#include "scalars/evaluation/sample_pack.hpp"
 #include "scalars/recorded.hpp"
-#include "scalars/sample_pack.hpp"
-#include "scalars/vector_functions.hpp"
 
 namespace gamut::benchmarks {
 namespace {

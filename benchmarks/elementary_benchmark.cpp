@@ -7,9 +7,9 @@
 #include <random>
 #include <vector>
 
-#include "scalars/elementary.hpp"
+#include "scalars/elementary/elementary.hpp"
+#include "scalars/elementary/mpfr_bounds.hpp"
 #include "scalars/interval.hpp"
-#include "scalars/mpfr_bounds.hpp"
 
 namespace {
 

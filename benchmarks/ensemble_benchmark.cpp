@@ -4,7 +4,7 @@
 // though their cost and that of the statistics is in the time.
 #include <benchmark/benchmark.h>
 
-#include "analyses/ensemble.hpp"
+#include "analyses/samples/ensemble.hpp"
 #include "benchmarks/double_pendulum.hpp"
 
 namespace gamut::benchmarks {

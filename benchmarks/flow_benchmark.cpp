@@ -3,7 +3,7 @@
 // Counters: CPU milliseconds of the flow itself per simulated second, steps, pieces, width of ψ1 at the horizon (rad).
 #include <benchmark/benchmark.h>
 
-#include "analyses/flow.hpp"
+#include "analyses/flow/flow.hpp"
 #include "benchmarks/double_pendulum.hpp"
 
 namespace gamut::benchmarks {

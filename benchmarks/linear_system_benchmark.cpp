@@ -1,14 +1,14 @@
 // Solutions of positive definite systems, factorised each time: samples in packs on each vector unit, beside the same
 // program sample by sample. Each sample of every pack has another matrix.
-#include "scalars/linear_system.hpp"
+#include "scalars/algebra/linear_system.hpp"
 
 #include <benchmark/benchmark.h>
 
 #include <random>
 #include <string>
 
-#include "scalars/evaluator.hpp"
-#include "scalars/sample_pack.hpp"
+#include "scalars/evaluation/evaluator.hpp"
+#include "scalars/evaluation/sample_pack.hpp"
 
 namespace gamut::benchmarks {
 namespace {

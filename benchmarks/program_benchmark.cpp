@@ -6,7 +6,7 @@
 #include <span>
 
 #include "benchmarks/double_pendulum.hpp"
-#include "scalars/evaluator.hpp"
+#include "scalars/evaluation/evaluator.hpp"
 
 namespace gamut::benchmarks {
 namespace {

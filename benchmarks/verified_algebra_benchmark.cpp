@@ -3,7 +3,7 @@
 
 #include <Eigen/LU>
 
-#include "scalars/verified_algebra.hpp"
+#include "scalars/algebra/verified_algebra.hpp"
 
 namespace gamut::benchmarks {
 namespace {

@@ -1,7 +1,7 @@
 # Refuses flags under which no bound of Gamut is a bound any more: they let the compiler re-associate sums, divide by
 # reciprocals, assume that there are no infinities, NaN or signed zeros, compute in other precisions, or flush subnormals
 # (as a program does that is only linked with -ffast-math). The headers refuse what they can see once more where they
-# are compiled (rounding.hpp).
+# are compiled (scalars/elementary/rounding.hpp).
 function(gamut_refuse_fast_math)
   get_directory_property(compile_options COMPILE_OPTIONS)
   get_directory_property(link_options LINK_OPTIONS)

@@ -12,10 +12,11 @@ function(gamut_compile_options target)
   endif()
 endfunction()
 
-# gamut_room(NAME ROOM_TO_THE_LEFT... ) builds libgamut_NAME from every *.cpp in the room's folder.
+# gamut_room(NAME ROOM_TO_THE_LEFT... ) builds libgamut_NAME from every *.cpp in the room's folder and its sub-rooms.
 function(gamut_room name)
-  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
-  file(GLOB headers CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.hpp)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  file(GLOB_RECURSE headers CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.hpp)
+  list(FILTER headers EXCLUDE REGEX /detail/)
   add_library(gamut_${name} STATIC ${sources})
   add_library(Gamut::${name} ALIAS gamut_${name})
   set_target_properties(gamut_${name} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)

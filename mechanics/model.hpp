@@ -6,7 +6,7 @@
 
 #include "mechanics/formulation.hpp"
 #include "mechanics/mechanism.hpp"
-#include "scalars/program.hpp"
+#include "scalars/program/program.hpp"
 
 namespace gamut {
 

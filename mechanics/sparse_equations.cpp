@@ -5,9 +5,9 @@
 #include <span>
 #include <utility>
 
-#include "scalars/differentiation.hpp"
-#include "scalars/linear_reduction.hpp"
-#include "scalars/linear_system.hpp"
+#include "scalars/algebra/linear_reduction.hpp"
+#include "scalars/algebra/linear_system.hpp"
+#include "scalars/program/differentiation.hpp"
 
 namespace gamut {
 namespace {

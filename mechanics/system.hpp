@@ -16,7 +16,7 @@
 #include "mechanics/element.hpp"
 #include "mechanics/formulation.hpp"
 #include "mechanics/least_constraint.hpp"
-#include "scalars/linear_system.hpp"
+#include "scalars/algebra/linear_system.hpp"
 
 namespace gamut {
 

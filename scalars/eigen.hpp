@@ -1,7 +1,7 @@
 // Eigen with Gamut's scalars: Eigen::Matrix<S, 3, 1>, products, sums, dot, cross, norm, transpose, quaternions,
 // inverses and determinants up to 4 x 4 (3 x 3 for all), and double * Matrix<S>. Comparisons are absent on purpose:
 // what branches on values (pivoting decompositions, isApprox, normalized(), a quaternion's inverse) does not compile.
-// Write v / v.norm(); for larger systems of intervals see verified_algebra.hpp.
+// Write v / v.norm(); for larger systems of intervals see algebra/verified_algebra.hpp.
 #pragma once
 
 #include <Eigen/Core>

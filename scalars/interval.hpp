@@ -1,8 +1,8 @@
 // Interval: a closed set of reals [lower, upper], possibly empty or unbounded, whose operations enclose the exact
 // results: for x in X and y in Y, x op y lies in X op Y. Storage, policies and the rare cases are Boost.Interval's; the
-// arithmetic (interval_arithmetic.hpp) and its rounding (rounding.hpp) are ours: the tightest enclosures, the same in
-// whatever rounding mode the caller left, and about ten times faster than switching it.
-// Semantics of empty, unbounded and partly undefined operations: IEEE 1788-2015, set-based flavour.
+// arithmetic (interval_arithmetic.hpp) and its rounding (elementary/rounding.hpp) are ours: the tightest enclosures,
+// the same in whatever rounding mode the caller left, and about ten times faster than switching it. Semantics of empty,
+// unbounded and partly undefined operations: IEEE 1788-2015, set-based flavour.
 //
 //   Interval mass("0.1");                  // contains one tenth; Interval(0.1) is the double nearest to it
 //   Interval period = twoPi() * sqrt(Interval(0.5, 0.6) / 9.81);

@@ -1,5 +1,6 @@
 // The arithmetic of intervals on pairs (lower, upper) of doubles in one vector register, both bounds at once and
-// without a branch that depends on signs: the tightest enclosures, in every rounding mode (rounding.hpp says how).
+// without a branch that depends on signs: the tightest enclosures, in every rounding mode (elementary/rounding.hpp says
+// how).
 //
 // A lower bound of a set is the negated upper bound of the negated set, so each kernel computes (-lower, upper), both
 // rounded up. Sums need no special case at all: infinities, overflow, subnormals and the empty interval (NaN, NaN) come
@@ -11,9 +12,9 @@
 // Implementation of Real Number Algorithms, 2008), there with the rounding mode switched.
 #pragma once
 
-#include "scalars/rounding.hpp"
+#include "scalars/elementary/rounding.hpp"
 
-#ifdef __clang__  // as in rounding.hpp
+#ifdef __clang__  // as in elementary/rounding.hpp
 #pragma float_control(push)
 #pragma float_control(precise, on)
 #endif

@@ -1,9 +1,10 @@
-// sin, cos, tan, exp, log and the inverse functions of intervals, from their bounds at doubles (elementary.hpp).
-// Monotone functions are taken at the endpoints; sin, cos and tan count the multiples of pi / 2 between them
-// rigorously. No rounding of the processor's enters but one subtraction, whose direction does not matter.
+// sin, cos, tan, exp, log and the inverse functions of intervals, from their bounds at doubles
+// (elementary/elementary.hpp). Monotone functions are taken at the endpoints; sin, cos and tan count the multiples of
+// pi / 2 between them rigorously. No rounding of the processor's enters but one subtraction, whose direction does not
+// matter.
 #include <algorithm>
 
-#include "scalars/elementary.hpp"
+#include "scalars/elementary/elementary.hpp"
 #include "scalars/interval.hpp"
 
 namespace gamut {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "scalars/elementary/mpfr_bounds.hpp"
 #include "scalars/interval.hpp"
-#include "scalars/mpfr_bounds.hpp"
 
 namespace gamut {
 namespace {

@@ -12,8 +12,8 @@
 #include <ostream>
 #include <stdexcept>
 
+#include "scalars/elementary/mpfr_bounds.hpp"
 #include "scalars/interval.hpp"
-#include "scalars/mpfr_bounds.hpp"
 
 namespace gamut {
 namespace {

@@ -24,8 +24,8 @@
 
 #include "scalars/index.hpp"
 #include "scalars/interval.hpp"
-#include "scalars/program.hpp"
-#include "scalars/recorder.hpp"
+#include "scalars/program/program.hpp"
+#include "scalars/program/recorder.hpp"
 #include "scalars/traits.hpp"
 
 namespace gamut {

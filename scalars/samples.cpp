@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "scalars/vector_functions.hpp"
+#include "scalars/elementary/vector_functions.hpp"
 
 namespace gamut {
 namespace {

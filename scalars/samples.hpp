@@ -91,7 +91,7 @@ class Samples {
   std::vector<double> values_;  // empty, or at least two values
 };
 
-// Sample by sample, as <cmath> does (NaN outside the domain); sin and cos as vector_functions.hpp does,
+// Sample by sample, as <cmath> does (NaN outside the domain); sin and cos as elementary/vector_functions.hpp does,
 // with errors < 1.25 ulp while doubles are rounded to nearest.
 Samples sqr(Samples x);
 Samples sqrt(Samples x);

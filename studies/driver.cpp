@@ -9,8 +9,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "analyses/comparison.hpp"
-#include "analyses/settlement.hpp"
+#include "analyses/comparison/comparison.hpp"
+#include "analyses/comparison/settlement.hpp"
 #include "mechanics/assembly.hpp"
 #include "scalars/fuzzy.hpp"
 #include "scalars/samples.hpp"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "analyses/ensemble.hpp"
+#include "analyses/samples/ensemble.hpp"
 #include "scalars/interval.hpp"
 #include "studies/study.hpp"
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "analyses/ensemble.hpp"
-#include "analyses/flow.hpp"
+#include "analyses/flow/flow.hpp"
+#include "analyses/samples/ensemble.hpp"
 #include "analyses/uncertainty.hpp"
 #include "mechanics/mechanism.hpp"
 #include "studies/results.hpp"

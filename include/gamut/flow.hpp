@@ -5,4 +5,4 @@
 // It brings record() and Program, Flow and Tube, Box and Interval, all in namespace gamut.
 #pragma once
 
-#include "analyses/flow.hpp"
+#include "analyses/flow/flow.hpp"

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "analyses/ensemble.hpp"
+#include "analyses/samples/ensemble.hpp"
 #include "scalars/recorded.hpp"
 
 namespace gamut::testing_motions {

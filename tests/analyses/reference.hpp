@@ -11,12 +11,12 @@
 #include <string>
 #include <vector>
 
-#include "analyses/arbiter.hpp"
-#include "scalars/evaluator.hpp"
+#include "analyses/samples/arbiter.hpp"
+#include "scalars/evaluation/evaluator.hpp"
+#include "scalars/evaluation/series.hpp"
 #include "scalars/interval.hpp"
-#include "scalars/program.hpp"
+#include "scalars/program/program.hpp"
 #include "scalars/recorded.hpp"
-#include "scalars/series.hpp"
 
 namespace gamut::testing {
 

@@ -5,8 +5,8 @@
 #include <limits>
 #include <utility>
 
-#include "analyses/comparison.hpp"
-#include "analyses/ensemble.hpp"
+#include "analyses/comparison/comparison.hpp"
+#include "analyses/samples/ensemble.hpp"
 
 namespace gamut::testing_motions {
 

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "analyses/flow.hpp"
+#include "analyses/flow/flow.hpp"
 #include "mechanics/model.hpp"
 #include "tests/campaigns/quadruple_pendulum.hpp"
 

@@ -1,6 +1,6 @@
 // Prints a digest of verified inverses, solutions and determinants of matrices of several sizes, badly conditioned ones
 // included: the same however this was compiled. Ends with 1 if an enclosure misses an inverse known exactly.
-#include "scalars/verified_algebra.hpp"
+#include "scalars/algebra/verified_algebra.hpp"
 
 #include <bit>
 #include <cstdint>

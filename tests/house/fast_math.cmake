@@ -40,7 +40,7 @@ expect_refusal(-ffinite-math-only ${BINARY}/parent)
 
 set(compile ${COMPILER} -std=c++20 -O2 -I${SOURCE} ${CMAKE_CURRENT_LIST_DIR}/fast_math.cpp)
 set(library ${BINARY}/rounding.o)
-execute_process(COMMAND ${COMPILER} -std=c++20 -O2 -I${SOURCE} -c ${SOURCE}/scalars/rounding.cpp -o ${library}
+execute_process(COMMAND ${COMPILER} -std=c++20 -O2 -I${SOURCE} -c ${SOURCE}/scalars/elementary/rounding.cpp -o ${library}
   COMMAND_ERROR_IS_FATAL ANY)
 
 # Compiled with these flags fast_math.cpp is refused by an #error, or, where that is allowed, its bounds are right.

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "scalars/rounding.hpp"
+#include "scalars/elementary/rounding.hpp"
 
 int main() {
   using namespace gamut;

@@ -8,7 +8,7 @@
 #include "mechanics/bodies.hpp"
 #include "mechanics/joints.hpp"
 #include "mechanics/model.hpp"
-#include "scalars/evaluator.hpp"
+#include "scalars/evaluation/evaluator.hpp"
 
 namespace gamut {
 namespace {

@@ -9,7 +9,7 @@
 #include "mechanics/joints.hpp"
 #include "mechanics/model.hpp"
 #include "mechanics/springs.hpp"
-#include "scalars/evaluator.hpp"
+#include "scalars/evaluation/evaluator.hpp"
 
 namespace gamut {
 namespace {

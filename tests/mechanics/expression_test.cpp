@@ -5,7 +5,7 @@
 
 #include <map>
 
-#include "scalars/evaluator.hpp"
+#include "scalars/evaluation/evaluator.hpp"
 #include "scalars/fuzzy.hpp"
 #include "scalars/recorded.hpp"
 #include "scalars/samples.hpp"

@@ -6,7 +6,7 @@
 
 #include "machines.hpp"
 #include "mechanics/model.hpp"
-#include "scalars/evaluator.hpp"
+#include "scalars/evaluation/evaluator.hpp"
 #include "scalars/interval.hpp"
 #include "tests/scalars/high_precision.hpp"
 

@@ -10,7 +10,7 @@
 #include "mechanics/model.hpp"
 #include "mechanics/names.hpp"
 #include "mechanics/rotation.hpp"
-#include "scalars/evaluator.hpp"
+#include "scalars/evaluation/evaluator.hpp"
 
 namespace gamut {
 namespace {

@@ -9,7 +9,7 @@
 #include <tuple>
 #include <vector>
 
-#include "scalars/evaluate.hpp"
+#include "scalars/evaluation/evaluate.hpp"
 #include "scalars/fuzzy.hpp"
 #include "scalars/interval.hpp"
 #include "scalars/recorded.hpp"

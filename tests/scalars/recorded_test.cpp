@@ -7,9 +7,9 @@
 #include <limits>
 #include <span>
 
-#include "scalars/differentiation.hpp"
 #include "scalars/eigen.hpp"
-#include "tests/scalars/random_program.hpp"
+#include "scalars/program/differentiation.hpp"
+#include "tests/scalars/program/random_program.hpp"
 
 namespace gamut::testing {
 namespace {

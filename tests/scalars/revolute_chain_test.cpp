@@ -5,7 +5,7 @@
 #include <Eigen/Dense>
 #include <vector>
 
-#include "scalars/evaluator.hpp"
+#include "scalars/evaluation/evaluator.hpp"
 #include "scalars/recorded.hpp"
 #include "tests/scalars/reference.hpp"
 

@@ -9,7 +9,7 @@
 #include <tuple>
 #include <vector>
 
-#include "scalars/rounding.hpp"
+#include "scalars/elementary/rounding.hpp"
 #include "tests/scalars/reference.hpp"
 
 namespace gamut {

@@ -5,7 +5,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "scalars/vector_functions.hpp"
+#include "scalars/elementary/vector_functions.hpp"
 #include "tests/scalars/reference.hpp"
 
 namespace gamut {

@@ -1,0 +1,290 @@
+// Disputes one after the other: Taylor series in doubles first, since they are cheap, then the arbiter in batches.
+#include "analyses/comparison/comparison.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <iterator>
+#include <map>
+#include <stdexcept>
+
+#include "analyses/samples/arbiter.hpp"
+#include "analyses/workers.hpp"
+
+namespace gamut {
+namespace {
+
+constexpr double tellingErrors = 100;  // an envelope narrower than so many of its errors tells no overestimation
+constexpr double leastUlps = 4;        // of an output's magnitude: a trajectory of doubles is no more certain
+constexpr std::size_t batchSize = 16;  // samples that go to the arbiter before it is asked whether that is enough
+
+/// Of an output with this greatest magnitude.
+double leastError(double magnitude) {
+  return leastUlps * (std::nextafter(magnitude, std::numeric_limits<double>::infinity()) - magnitude);
+}
+
+/// A dispute and what its last two integrations gave.
+struct Case {
+  Dispute dispute;
+  std::vector<double> error;  // [time][output]: the greatest change until then, which crossing trajectories do not hide
+  bool settled = false;       // found inside
+  bool lookedAt = false;      // by every instance, to the end
+  std::size_t times = 0;      // output times up to the last one at which it is outside: beyond, nothing is disputed
+};
+
+class Comparer {
+ public:
+  Comparer(const EnclosureBounds& enclosure, Ensemble& ensemble, const UncertainMotion& system,
+           const ComparisonOptions& options)
+      : enclosure_(enclosure), ensemble_(ensemble), system_(system), options_(options) {
+    const Table& lower = enclosure.bounds.lower;
+    const Table& upper = enclosure.bounds.upper;
+    const std::size_t size = enclosure.reachedTimes * ensemble.outputs;
+    if (enclosure.reachedTimes > ensemble.times.size() || lower.outputs != ensemble.outputs ||
+        upper.outputs != ensemble.outputs || lower.data.size() < size || upper.data.size() < size)
+      throw std::invalid_argument("the enclosure's bounds do not have the ensemble's times and outputs");
+    for (std::size_t i = 0; i < size; ++i)
+      if (!(lower.data[i] <= upper.data[i]))
+        throw std::invalid_argument("an enclosure's bounds must be numbers in order");
+  }
+
+  Comparison run() {
+    findDisputes();
+    refine();
+    arbitrateWorst();
+    informTwins();
+    return findings();
+  }
+
+ private:
+  /// How far a value lies outside; 0 inside, and where a failed sample has none.
+  double distanceOutside(std::size_t i, double value) const {
+    const double lower = enclosure_.bounds.lower.data[i], upper = enclosure_.bounds.upper.data[i];
+    return value < lower ? lower - value : value > upper ? value - upper : 0;
+  }
+
+  bool isInside(std::span<const double> trajectory) const {
+    for (std::size_t i = 0; i < enclosure_.reachedTimes * ensemble_.outputs; ++i)
+      if (distanceOutside(i, trajectory[i]) > 0) return false;
+    return true;
+  }
+
+  /// Greatest magnitude of each output along the sample.
+  std::vector<double> magnitudes(std::span<const double> trajectory) const {
+    std::vector<double> result(ensemble_.outputs, 0);
+    for (std::size_t i = 0; i < enclosure_.reachedTimes * ensemble_.outputs; ++i)
+      if (std::isfinite(trajectory[i]))
+        result[i % ensemble_.outputs] = std::max(result[i % ensemble_.outputs], std::abs(trajectory[i]));
+    return result;
+  }
+
+  /// Fills in where the sample lies outside by most of its errors; an inside sample keeps the place it was disputed at.
+  void locate(Case& c) const {
+    const std::span<const double> trajectory = std::as_const(ensemble_).trajectory(c.dispute.number);
+    const std::vector<double> magnitude = magnitudes(trajectory);
+    const auto errorAt = [&](std::size_t i) {
+      const double size = magnitude[i % ensemble_.outputs];
+      const double floor = leastError(size);
+      return c.error.empty() || !(c.error[i] > floor) ? floor : c.error[i];
+    };
+    std::size_t place = c.dispute.time * ensemble_.outputs + c.dispute.output;
+    double greatest = 0;
+    for (std::size_t i = 0; i < enclosure_.reachedTimes * ensemble_.outputs; ++i) {
+      const double excursion = distanceOutside(i, trajectory[i]) / errorAt(i);
+      if (excursion > greatest) {
+        greatest = excursion;
+        place = i;
+      }
+    }
+    Dispute& d = c.dispute;
+    d.time = place / ensemble_.outputs;
+    d.output = place % ensemble_.outputs;
+    d.value = trajectory[place];
+    d.lower = enclosure_.bounds.lower.data[place];
+    d.upper = enclosure_.bounds.upper.data[place];
+    d.distance = distanceOutside(place, d.value);
+    d.error = errorAt(place);
+    d.excursion = greatest;
+    d.farthest.assign(ensemble_.outputs, 0.0);
+    for (std::size_t i = 0; i < enclosure_.reachedTimes * ensemble_.outputs; ++i) {
+      double& farthest = d.farthest[i % ensemble_.outputs];
+      farthest = std::max(farthest, distanceOutside(i, trajectory[i]));
+    }
+  }
+
+  void findDisputes() {
+    std::map<std::vector<double>, std::size_t> caseOf;  // by the values of the uncertain quantities
+    for (std::size_t number = 0; number < ensemble_.size(); ++number) {
+      if (isInside(std::as_const(ensemble_).trajectory(number))) continue;
+      const std::span<const double> values = ensemble_.valuesOf(number);
+      const auto [known, isNew] = caseOf.try_emplace({values.begin(), values.end()}, cases_.size());
+      Case& c = (isNew ? cases_ : twins_).emplace_back();
+      if (!isNew) originals_.push_back(known->second);
+      c.dispute.number = number;
+      c.dispute.decided = "unresolved";
+      c.times = timesOutside(std::as_const(ensemble_).trajectory(number));
+      locate(c);
+    }
+  }
+
+  /// What was found of a sample holds for all of the same values.
+  void informTwins() {
+    for (std::size_t i = 0; i < twins_.size(); ++i) {
+      const Case& original = cases_[originals_[i]];
+      Case& twin = twins_[i];
+      if (!original.error.empty()) {  // it has a better trajectory
+        const std::size_t number = twin.dispute.number;
+        std::ranges::copy(std::as_const(ensemble_).trajectory(original.dispute.number),
+                          ensemble_.trajectory(number).begin());
+        twin = original;
+        twin.dispute.number = number;
+      }
+      twin.lookedAt = original.lookedAt;
+    }
+    std::ranges::move(twins_, std::back_inserter(cases_));
+    std::ranges::sort(cases_, {}, [](const Case& c) { return c.dispute.number; });
+  }
+
+  std::size_t timesOutside(std::span<const double> trajectory) const {
+    std::size_t i = enclosure_.reachedTimes * ensemble_.outputs;
+    while (i > 0 && !(distanceOutside(i - 1, trajectory[i - 1]) > 0)) --i;
+    return (i + ensemble_.outputs - 1) / ensemble_.outputs;
+  }
+
+  Motion disputedPart(const Case& c) const {
+    Motion part = system_.motion;
+    part.times.resize(c.times);
+    return part;
+  }
+
+  /// Takes over a better trajectory of the disputed part, unless it ends before that does where the old one did not.
+  bool replace(Case& c, std::span<const double> better) {
+    const std::span<double> trajectory = ensemble_.trajectory(c.dispute.number);
+    for (std::size_t i = 0; i < better.size(); ++i)
+      if (std::isnan(better[i]) && !std::isnan(trajectory[i])) return false;
+    c.error.assign(trajectory.size(), 0);
+    for (std::size_t i = 0; i < better.size(); ++i) c.error[i] = std::abs(better[i] - trajectory[i]);
+    accumulate(c.error);
+    std::ranges::copy(better, trajectory.begin());
+    c.times = timesOutside(trajectory);
+    return true;
+  }
+
+  /// Each output's greatest value until then.
+  void accumulate(std::vector<double>& rows) const {
+    for (std::size_t i = ensemble_.outputs; i < rows.size(); ++i)
+      if (!(rows[i] >= rows[i - ensemble_.outputs])) rows[i] = rows[i - ensemble_.outputs];
+  }
+
+  void refine() {
+    if (system_.motion.f.states() == 0) return;  // nothing is integrated: the arbiter looks at the outputs directly
+    forEachIndex(options_.jobs, cases_.size(), options_.cancelled, [&] {
+      return [&](std::size_t i) {
+        Case& c = cases_[i];
+        const std::vector<double> start = system_.start(ensemble_.valuesOf(c.dispute.number));
+        if (!replace(c, integrateByTaylor(disputedPart(c), start, options_.cancelled))) return;
+        locate(c);
+        c.settled = c.dispute.distance == 0;
+        c.dispute.decided = "Taylor 53 bits";
+      };
+    });
+  }
+
+  bool isCancelled() const { return options_.cancelled != nullptr && *options_.cancelled; }
+
+  /// The worst first, in batches, until one of a batch refutes the enclosure.
+  void arbitrateWorst() {
+    std::vector<Case*> open;
+    for (Case& c : cases_)
+      if (!c.settled && options_.asksArbiter) open.push_back(&c);
+    std::ranges::stable_sort(open, std::ranges::greater{}, [](const Case* c) { return c->dispute.excursion; });
+    for (std::size_t first = 0; first < open.size() && !isCancelled(); first += batchSize) {
+      if (options_.progress) options_.progress(static_cast<double>(first) / static_cast<double>(open.size()));
+      const std::span<Case*> batch = std::span(open).subspan(first, std::min(batchSize, open.size() - first));
+      forEachIndex(options_.jobs, batch.size(), options_.cancelled,
+                   [&] { return [&](std::size_t i) { arbitrateOne(*batch[i]); }; });
+      if (std::ranges::any_of(batch, [&](const Case* c) { return refutes(*c); })) break;
+    }
+  }
+
+  void arbitrateOne(Case& c) {
+    const PreciseTrajectory precise =
+        arbitrate(disputedPart(c), system_.start(ensemble_.valuesOf(c.dispute.number)), {}, options_.cancelled);
+    c.lookedAt = !isCancelled();
+    if (!replace(c, roundedToDoubles(precise, c.times * ensemble_.outputs))) return;
+    std::ranges::copy(precise.error, c.error.begin());  // the arbiter's last two integrations are both its own
+    accumulate(c.error);
+    locate(c);
+    c.settled = c.dispute.distance == 0;
+    c.lookedAt = true;
+    c.dispute.decided = "Taylor 128 bits";
+  }
+
+  /// Before any second integration the error is unknown, and nothing can be decided.
+  bool refutes(const Case& c) const {
+    return !c.settled && !c.error.empty() && c.dispute.excursion > options_.decisive;
+  }
+
+  /// What an interrupt kept from the last instance is neither outside nor past deciding.
+  Comparison findings() {
+    Comparison result;
+    for (Case& c : cases_) {
+      Dispute& d = c.dispute;
+      if (!c.settled && !c.lookedAt && isCancelled()) {
+        d.decided = "interrupted";
+      } else {
+        d.outside = refutes(c);
+        if (!c.settled && !d.outside) d.decided = "unresolved";
+        result.excursion = std::max(result.excursion, d.excursion);
+      }
+      result.disputes.push_back(d);
+    }
+    return result;
+  }
+
+  const EnclosureBounds& enclosure_;
+  Ensemble& ensemble_;
+  const UncertainMotion& system_;
+  const ComparisonOptions& options_;
+  std::vector<Case> cases_, twins_;     // twins: of the values of a case before them
+  std::vector<std::size_t> originals_;  // of the twins
+};
+
+}  // namespace
+
+Overestimation measureOverestimation(const EnclosureBounds& enclosure, const Envelope& envelope, const Table& error) {
+  const std::size_t outputs = error.outputs;
+  Overestimation result;
+  result.ratio = Table(error.times, outputs);
+  result.excess = result.ratio;
+  result.maximumOf.assign(outputs, std::numeric_limits<double>::quiet_NaN());
+  const std::size_t size = enclosure.reachedTimes * outputs;
+  std::vector<double> ratios, magnitude(outputs, 0.0);
+  for (std::size_t i = 0; i < size; ++i)
+    for (const double bound : {envelope.lower.data[i], envelope.upper.data[i]})
+      if (std::isfinite(bound)) magnitude[i % outputs] = std::max(magnitude[i % outputs], std::abs(bound));
+  for (std::size_t i = 0; i < size; ++i) {
+    const double enclosed = enclosure.bounds.upper.data[i] - enclosure.bounds.lower.data[i];
+    const double sampled = envelope.upper.data[i] - envelope.lower.data[i];
+    result.excess.data[i] = enclosed - sampled;
+    if (!(sampled > tellingErrors * std::max(error.data[i], leastError(magnitude[i % outputs])))) continue;
+    const double ratio = enclosed / sampled;
+    result.ratio.data[i] = ratio;
+    double& greatest = result.maximumOf[i % outputs];
+    if (!(greatest >= ratio)) greatest = ratio;
+    ratios.push_back(ratio);
+  }
+  if (ratios.empty()) return result;
+  std::ranges::sort(ratios);
+  const std::size_t middle = ratios.size() / 2;
+  result.maximum = ratios.back();
+  result.median = ratios.size() % 2 == 1 ? ratios[middle] : 0.5 * (ratios[middle - 1] + ratios[middle]);
+  return result;
+}
+
+Comparison compare(const EnclosureBounds& enclosure, Ensemble& ensemble, const UncertainMotion& system,
+                   const ComparisonOptions& options) {
+  return Comparer(enclosure, ensemble, system, options).run();
+}
+
+}  // namespace gamut

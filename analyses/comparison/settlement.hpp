@@ -1,0 +1,47 @@
+// Samples against all that is proved, block by block as they arrive: those that leave the enclosure, or an alpha-cut
+// whose values are theirs, are looked at again, and what they become counts in their place.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "analyses/comparison/comparison.hpp"
+#include "analyses/samples/ensemble.hpp"
+
+namespace gamut {
+
+/// What is proved at the first `reachedTimes` output times.
+struct Proved {
+  Envelope enclosure;          ///< for all samples; empty if there is none
+  std::vector<Envelope> cuts;  ///< one a level of alpha, rising
+  std::size_t reachedTimes = 0;
+};
+
+class Settlement {
+ public:
+  /// All that is referred to must outlive it.
+  Settlement(const Proved& proved, const UncertainMotion& system, const ComparisonOptions& options);
+
+  /// Gets what one comparison found, with the numbers of the samples, and the level of its cut; -1: the enclosure.
+  using Take = std::function<void(const Comparison&, int level)>;
+
+  /// Settles what is disputed of a block, against the enclosure, then from the narrowest cut to the widest. Once a
+  /// block has refuted one of them, no more samples go to the arbiter for its sake.
+  void settle(SampleBlock& block, const Take& take);
+
+  /// The tightest bounds of a sample that lies in so many cuts; NaN beyond what is reached.
+  const Envelope& boundsOf(std::size_t levels) const { return tightest_[levels]; }
+
+ private:
+  std::vector<std::size_t> leavers(const SampleBlock& block) const;
+  void compareSome(const Envelope& bounds, int level, SampleBlock& block, const std::vector<std::size_t>& disputed,
+                   const Take& take);
+
+  const Proved& proved_;
+  const UncertainMotion& system_;
+  ComparisonOptions options_;
+  std::vector<Envelope> tightest_;  // of the samples in so many cuts
+  std::vector<char> refuted_;       // the enclosure, then each cut
+};
+
+}  // namespace gamut

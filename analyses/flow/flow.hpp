@@ -1,0 +1,121 @@
+// The validated flow: encloses every solution of ẋ = f(t, x, p) for all initial values and parameters in a box.
+//
+//     Program f = record(2, 0, [](auto, const auto& x, const auto&, auto& dx) { dx[0] = x[1]; dx[1] = -sin(x[0]); });
+//     Tube tube = Flow(f).enclose({Interval(0.9, 1.1), 0.0}, 10.0, {1.0, 5.0, 10.0});
+//     tube.at(5.0)[0];    // an Interval that contains x[0](5 s) for every start in the box
+//
+// The set is kept as polynomials in the uncertain quantities plus a remainder in a moving frame; every step is computed
+// in floating point and certified afterwards. Method, theorems and bounds: docs/flow.md.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "scalars/interval.hpp"
+#include "scalars/program/program.hpp"
+#include "scalars/recorded.hpp"
+
+namespace gamut {
+
+/// Options of a flow; the defaults choose for themselves.
+struct FlowOptions {
+  int order = 20;        ///< in time: Taylor coefficients kept a step (4 … 30)
+  int degree = -1;       ///< of the polynomials in the uncertain quantities; -1: adapted on the way
+  int frameDegree = -1;  ///< of the remainder's frame; -1: by the number of uncertain quantities
+  double tolerance =
+      0;              ///< truncation error in time aimed at in a step, relative to the state; 0: 1e-15 thin, 1e-14 else
+  bool split = true;  ///< bisect the box where one piece cannot be followed tightly
+  double splitDefect = 1e-8;  ///< raise the degree, then bisect, when the truncation defect per second exceeds this
+                              ///< fraction of the box's relative width; tightened where the remainder shows
+  int maxPieces = 2000;       ///< give up beyond this many pieces
+  double maxWidth = std::numeric_limits<double>::infinity();  ///< end when an enclosure of a state becomes wider
+  int jobs = 1;                                               ///< threads that follow pieces
+  std::vector<std::string> stateNames;           ///< for Tube::why(); without them "state 0", "state 1", ...
+  std::function<void(double)> progress;          ///< called with the fraction done (0 … 1), from any thread
+  const std::atomic<bool>* cancelled = nullptr;  ///< set from outside to end early; what was proved is kept
+};
+
+/// Enclosures of all solutions that start in a box. Times are those asked for, and the horizon.
+class Tube {
+ public:
+  /// One enclosure a state at `time` if it is an output time; otherwise over the output interval that contains it.
+  /// Throws std::out_of_range beyond `reached()`.
+  const std::vector<Interval>& at(double time) const;
+  /// Proved up to here (s): the horizon, or the last time before the flow ended early.
+  double reached() const { return reached_; }
+  /// Why it ended before the horizon: at which time, which state, whether that grows without bound, is not known well
+  /// enough any more, or what else could not be proved. `interrupted` if `cancelled` was set before, `outOfMemory` if a
+  /// request for memory failed. Empty if it did not end early.
+  const std::string& why() const { return why_; }
+  static constexpr const char* interrupted = "interrupted";
+  static constexpr const char* outOfMemory = "out of memory";
+  /// Whether it ended early for one of these two, not for the motion's sake.
+  bool wasStopped() const { return why_ == interrupted || why_ == outOfMemory; }
+
+  /// Output times, rising, the start 0 first.
+  const std::vector<double>& times() const { return times_; }
+  /// Number of output times that were reached: rows 0 … reachedTimes()-1 below exist.
+  std::size_t reachedTimes() const { return states_.size(); }
+  /// States at times()[i].
+  const std::vector<Interval>& states(std::size_t i) const { return states_[i]; }
+  /// States over the whole interval [times()[i-1], times()[i]]; for i = 0 those at the start.
+  const std::vector<Interval>& statesOver(std::size_t i) const { return statesOver_[i]; }
+  /// Outputs y = g(t, x, p) at times()[i]; empty without an output program.
+  const std::vector<Interval>& outputs(std::size_t i) const { return outputs_[i]; }
+  /// Outputs over the whole interval [times()[i-1], times()[i]].
+  const std::vector<Interval>& outputsOver(std::size_t i) const { return outputsOver_[i]; }
+  /// Outputs at times()[i] when the uncertain quantities are confined to sub-box `level` (nested: intersected).
+  const std::vector<Interval>& cut(std::size_t level, std::size_t i) const { return cuts_[level][i]; }
+
+  int pieces() const { return pieces_; }            ///< sub-boxes followed to the end
+  long steps() const { return steps_; }             ///< steps of all pieces
+  double cpuSeconds() const { return cpu_; }        ///< s, all threads, without the sub-boxes' ranges
+  double cutCpuSeconds() const { return cutCpu_; }  ///< s, for the ranges over sub-boxes
+
+ private:
+  friend class FlowRun;
+  std::vector<double> times_;
+  std::vector<std::vector<Interval>> states_, statesOver_, outputs_, outputsOver_;
+  std::vector<std::vector<std::vector<Interval>>> cuts_;
+  double reached_ = 0;
+  std::string why_;
+  int pieces_ = 0;
+  long steps_ = 0;
+  double cpu_ = 0, cutCpu_ = 0;
+};
+
+/// The flow of ẋ = f(t, x, p).
+class Flow {
+ public:
+  /// f: one output a state. Throws std::invalid_argument if the program's shape or the options make no sense.
+  explicit Flow(Program f, FlowOptions options = {});
+  /// With outputs y = g(t, x, p): g has the states and parameters of f.
+  Flow(Program f, Program g, FlowOptions options = {});
+  ~Flow();
+  Flow(Flow&&) noexcept;
+  Flow& operator=(Flow&&) noexcept;
+
+  /// box: the n initial values, then the k parameters; thin ones included. horizon > 0 and output times in [0,
+  /// horizon], rising, in s. levels: boxes inside `box`, each inside the one before, for Tube::cut.
+  /// Throws std::invalid_argument, saying which argument makes no sense, and std::runtime_error if this thread does not
+  /// round to nearest.
+  Tube enclose(const Box& box, double horizon, const std::vector<double>& outputTimes = {},
+               const std::vector<Box>& levels = {}) const;
+
+ private:
+  struct Parts;
+  std::unique_ptr<const Parts> parts_;
+};
+
+/// Range of y = g(t, x, p) over a box (states, then parameters) by polynomials in the uncertain quantities; result[0]
+/// is over the box, result[i] over levels[i-1] (each inside the one before). degree -1: chosen by the number of
+/// quantities. Empty if `cancelled` was set before all was found.
+std::vector<std::vector<Interval>> encloseImage(const Program& g, double t, const Box& box,
+                                                const std::vector<Box>& levels = {}, int degree = -1,
+                                                const std::atomic<bool>* cancelled = nullptr);
+
+}  // namespace gamut

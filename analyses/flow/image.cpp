@@ -1,0 +1,75 @@
+// The image of a box: outputs without motion, by the flow's polynomials.
+#include <cmath>
+#include <memory>
+
+#include "analyses/flow/embedding.hpp"
+#include "analyses/flow/flow.hpp"
+#include "analyses/flow/outputs.hpp"
+#include "scalars/index.hpp"
+
+namespace gamut {
+
+using detail::at;
+
+namespace {
+
+/// Throws Cancelled.
+std::vector<std::vector<Interval>> image(const Program& g, double t, const Box& box, const std::vector<Box>& levels,
+                                         int degree, const std::atomic<bool>* cancelled) {
+  const Embedding embedding(box);
+  const int d = degree >= 1 && embedding.symbols > 0 ? degree : degreeLadder(embedding.symbols).back();
+  const auto monomials = std::make_shared<const Monomials>(std::vector<int>(at(embedding.symbols), 1), d);
+  FlowOutputs outputs(g, monomials, cancelled);
+  PolynomialRange range(monomials);
+  const int n = g.states(), N = monomials->count();
+  FlowPoint point;
+  point.p.assign(at(n * N), 0.0);
+  point.psi.assign(at(n * n), 0.0);
+  point.psiSum = point.psi;
+  point.total.assign(at(n), 0.0);
+  for (int i = 0; i < n; ++i) {
+    const Embedded& e = embedding.components[at(i)];
+    point.p[at(i * N)] = e.centre;
+    if (e.symbol >= 0) point.p[at(i * N + monomials->linear(e.symbol))] = e.half;
+    point.loose.push_back(e.radius);
+  }
+  point.radius = point.loose;
+  outputs.evaluate(t, point, std::vector<double>(at(n), 0.0),
+                   {embedding.components.begin() + n, embedding.components.end()});
+  std::vector<std::vector<Interval>> result;
+  std::vector<Box> boxes = levels;
+  boxes.insert(boxes.begin(), box);
+  for (const Box& level : boxes) {
+    Box xi(at(embedding.symbols), Interval(-1.0, 1.0));
+    restrictTo(level, embedding, std::vector<double>(at(embedding.symbols), 0.0),
+               std::vector<double>(at(embedding.symbols), 1.0), xi);
+    std::vector<Interval> row;
+    for (int o = 0; o < outputs.count(); ++o) {
+      if (cancelled != nullptr && *cancelled) throw Cancelled();
+      Interval value = std::isfinite(outputs.radius(o)) ? inflated(range(outputs.polynomial(o), xi), outputs.radius(o))
+                                                        : Interval::entire();
+      if (!result.empty()) value = intersection(value, result.back()[at(o)]);
+      row.push_back(value);
+    }
+    result.push_back(std::move(row));
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<std::vector<Interval>> encloseImage(const Program& g, double t, const Box& box,
+                                                const std::vector<Box>& levels, int degree,
+                                                const std::atomic<bool>* cancelled) {
+  requireThat(box.size() == at(g.states() + g.parameters()), "the box needs one interval a state and a parameter");
+  requireThat(degree >= -1 && degree <= 40, "the degree of the polynomials must be 0 to 40 (-1: automatic)");
+  requireNested(box, levels);
+  requireNearest();
+  try {
+    return image(g, t, box, levels, degree, cancelled);
+  } catch (const Cancelled&) {
+    return {};
+  }
+}
+
+}  // namespace gamut

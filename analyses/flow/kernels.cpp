@@ -1,0 +1,230 @@
+// Vectorised sums over orders and monomials, one clone a vector unit.
+#include "analyses/flow/kernels.hpp"
+
+#include <algorithm>
+
+// One clone for AVX-512, one for FMA3, one for the baseline, chosen when the program starts.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
+#define GAMUT_CLONES __attribute__((target_clones("avx512f", "fma", "default")))
+#else
+#define GAMUT_CLONES
+#endif
+#define GAMUT_INLINE inline __attribute__((always_inline))
+
+namespace gamut::kernels {
+namespace {
+
+typedef double Vector __attribute__((vector_size(64), aligned(8), may_alias));
+
+GAMUT_INLINE const Vector& load(const double* p) { return *reinterpret_cast<const Vector*>(p); }
+
+GAMUT_INLINE double sum(const Vector& v) { return ((v[0] + v[4]) + (v[2] + v[6])) + ((v[1] + v[5]) + (v[3] + v[7])); }
+
+template <int chunks>
+GAMUT_INLINE void convolveChunks(const Monomials::Pair* pairs, const std::int32_t* first, int count, const double* a,
+                                 const double* b, int stride, double* out) {
+  const int strideR = reversedStride(stride);
+  for (int g = 0; g < count; ++g) {
+    Vector even = {}, odd = {};
+    int q = first[g];
+    const int end = first[g + 1];
+    for (; q + 1 < end; q += 2) {
+      const double* x0 = a + pairs[q].a * stride;
+      const double* y0 = b + pairs[q].b * strideR;
+      const double* x1 = a + pairs[q + 1].a * stride;
+      const double* y1 = b + pairs[q + 1].b * strideR;
+      for (int c = 0; c < chunks; ++c) {
+        even += load(x0 + 8 * c) * load(y0 + 8 * c);
+        odd += load(x1 + 8 * c) * load(y1 + 8 * c);
+      }
+    }
+    if (q < end) {
+      const double* x = a + pairs[q].a * stride;
+      const double* y = b + pairs[q].b * strideR;
+      for (int c = 0; c < chunks; ++c) even += load(x + 8 * c) * load(y + 8 * c);
+    }
+    even += odd;
+    out[g] += sum(even);
+  }
+}
+
+}  // namespace
+
+GAMUT_CLONES void convolve(const Monomials::Pair* pairs, const std::int32_t* first, int count, const double* a,
+                           const double* bReversed, int stride, int i, double* out) {
+  const double* b = bReversed + stride - 1 - i;
+  switch (i / 8) {
+    case 0:
+      convolveChunks<1>(pairs, first, count, a, b, stride, out);
+      break;
+    case 1:
+      convolveChunks<2>(pairs, first, count, a, b, stride, out);
+      break;
+    case 2:
+      convolveChunks<3>(pairs, first, count, a, b, stride, out);
+      break;
+    default:
+      convolveChunks<4>(pairs, first, count, a, b, stride, out);
+      break;
+  }
+}
+
+GAMUT_CLONES void multiply(const Monomials::Pair* pairs, const std::int32_t* first, int count, const double* c,
+                           const double* x, int stride, double* out) {
+  for (int g = 0; g < count; ++g) {
+    double s = 0;
+    for (int q = first[g]; q < first[g + 1]; ++q) s += c[pairs[q].a * stride] * x[pairs[q].b * stride];
+    out[g] += s;
+  }
+}
+
+GAMUT_CLONES void tabulate(const Monomials& monomials, int count, const double* f, const double* power,
+                           const double* weights, int stride, double* table, double& norm, double& weighted) {
+  const int chunks = stride / 8;
+  std::fill(table, table + (monomials.grade(count - 1) + 1) * stride, 0.0);
+  Vector n = {}, w = {};
+  for (int g = 0; g < count; ++g) {
+    double* row = table + monomials.grade(g) * stride;
+    const double multiplicity = monomials.multiplicity(g);
+    Vector wg = {};
+    for (int c = 0; c < chunks; ++c) {
+      Vector v = load(f + g * stride + 8 * c);
+      v = v < 0 ? -v : v;
+      const Vector scaled = v * load(power + 8 * c);
+      *reinterpret_cast<Vector*>(row + 8 * c) += scaled;
+      n += scaled;
+      wg += v * load(weights + 8 * c);
+    }
+    w += multiplicity * wg;
+  }
+  norm = sum(n);
+  weighted = sum(w);
+}
+
+GAMUT_CLONES double dot(const double* a, const double* b, int stride) {
+  Vector s = {};
+  for (int c = 0; c < stride; c += 8) s += load(a + c) * load(b + c);
+  return sum(s);
+}
+
+namespace {
+
+/// Σ_{j≤i} a_j b_{i-j} over stored orders; entries of the order being computed are still zero.
+GAMUT_INLINE double thinDot(const double* a, const double* bReversed, int i) {
+  const double* b = bReversed - i;
+  Vector s = load(a) * load(b);
+  for (int c = 8; c <= i; c += 8) s += load(a + c) * load(b + c);
+  return sum(s);
+}
+
+}  // namespace
+
+/// Order i of the components from node x on: A₀ x_i = b_i - Σ_{j≥1} A_j x_{i-j}.
+GAMUT_INLINE void thinSolution(const ThinNode* v, int x, const ThinSolution& solution, int i, double* cur) {
+  const int n = static_cast<int>(solution.rightSide.size());
+  const int* entry = solution.matrix.data();
+  for (int k = 0; k < n; ++k) {
+    double s = cur[solution.rightSide[static_cast<std::size_t>(k)]];
+    for (int j = 0; j < n; ++j, ++entry)
+      if (*entry >= 0) s -= thinDot(v[*entry].forward, v[x + j].reversed, i) + cur[*entry] * v[x + j].forward[0];
+    cur[x + k] = s;
+  }
+  double* residual = solution.residual + i * n;
+  std::fill_n(residual, n, 0.0);
+  solution.factors->solve(cur + x, residual);
+}
+
+GAMUT_CLONES void thinRecursion(const std::vector<ThinNode>& nodes, const std::vector<const ThinSolution*>& solutions,
+                                const std::vector<std::pair<int, int>>& states, const std::vector<ThinSum>& frame,
+                                int time, int order, double h0, std::vector<double>& current) {
+  const int count = static_cast<int>(nodes.size());
+  const ThinNode* v = nodes.data();
+  double* cur = current.data();
+  for (int i = 0; i < order; ++i) {
+    if (i == 1)  // what does not change in time has order 0 only
+      for (int x = 0; x < count; ++x)
+        if (v[x].invariant) cur[x] = 0;
+    if (i > 0) {
+      cur[time] = i == 1 ? h0 : 0.0;
+      for (int x = time + 1; x < count; ++x) {
+        const ThinNode& n = v[x];
+        if (n.invariant || n.op == Op::state || isTwin(n.op)) continue;
+        const ThinNode& a = v[n.a];
+        switch (n.op) {
+          case Op::add:
+            cur[x] = cur[n.a] + cur[n.b];
+            break;
+          case Op::sub:
+            cur[x] = cur[n.a] - cur[n.b];
+            break;
+          case Op::neg:
+            cur[x] = -cur[n.a];
+            break;
+          case Op::mul:
+            cur[x] = n.scaled ? a.forward[0] * cur[n.b]
+                              : thinDot(a.forward, v[n.b].reversed, i) + a.forward[0] * cur[n.b] +
+                                    cur[n.a] * v[n.b].forward[0];
+            break;
+          case Op::sqr:
+            cur[x] = thinDot(a.forward, a.reversed, i) + 2 * (a.forward[0] * cur[n.a]);
+            break;
+          case Op::recip:
+            cur[x] = -(thinDot(n.forward, a.reversed, i) + n.forward[0] * cur[n.a]) * n.forward[0];
+            break;
+          case Op::sqrt:
+            cur[x] = 0.5 * (cur[n.a] - thinDot(n.forward, n.reversed, i)) / n.forward[0];
+            break;
+          case Op::exp:
+            cur[x] = (thinDot(a.derivative, n.reversed, i) + i * cur[n.a] * n.forward[0]) / i;
+            break;
+          case Op::log:
+          case Op::atan:
+            cur[x] = (cur[n.a] - thinDot(n.derivative, v[n.b].reversed, i) / i) / v[n.b].forward[0];
+            break;
+          case Op::sin: {
+            const double slope = i * cur[n.a];
+            cur[x] = (thinDot(a.derivative, v[x + 1].reversed, i) + slope * v[x + 1].forward[0]) / i;
+            cur[x + 1] = -(thinDot(a.derivative, n.reversed, i) + slope * n.forward[0]) / i;
+            break;
+          }
+          case Op::tanh:
+            cur[x] = (thinDot(a.derivative, v[x + 1].reversed, i) + i * cur[n.a] * v[x + 1].forward[0]) / i;
+            cur[x + 1] = -(thinDot(n.forward, n.reversed, i) + 2 * (n.forward[0] * cur[x]));
+            break;
+          case Op::solution:
+            if (n.b == 0) thinSolution(v, x, *solutions[static_cast<std::size_t>(n.a)], i, cur);
+            break;
+          default:
+            break;
+        }
+      }
+    }
+    for (int x = 0; x < count; ++x) {
+      const ThinNode& n = v[x];
+      if (n.invariant) continue;
+      n.forward[i] = cur[x];
+      n.forward[i + 1] = 0;
+      if (n.reversed != nullptr) {
+        n.reversed[-i] = cur[x];
+        n.reversed[-i - 1] = 0;
+      }
+      if (n.derivative != nullptr) {
+        n.derivative[i] = i * cur[x];
+        n.derivative[i + 1] = 0;
+      }
+    }
+    // The next order of the frame first: it reads this order's values of the states' derivatives' nodes only.
+    for (const ThinSum& row : frame) {
+      double s = 0;
+      for (const auto& [left, right] : row.terms)
+        s += v[left].invariant ? v[left].forward[0] * v[right].forward[i]
+                               : thinDot(v[left].forward, v[right].reversed, i);
+      cur[row.target] = s * h0 / (i + 1);
+    }
+    for (const auto& [state, slope] : states) cur[state] = v[slope].forward[i] * h0 / (i + 1);
+  }
+  for (const auto& [state, slope] : states) v[state].forward[order] = cur[state];
+  for (const ThinSum& row : frame) v[row.target].forward[order] = cur[row.target];
+}
+
+}  // namespace gamut::kernels

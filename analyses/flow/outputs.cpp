@@ -1,0 +1,169 @@
+// Taylor models of the outputs at one time and over a step, from those of the states.
+#include "analyses/flow/outputs.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "analyses/flow/embedding.hpp"
+#include "analyses/flow/error_bounds.hpp"
+#include "scalars/index.hpp"
+
+namespace gamut {
+
+using detail::at;
+
+FlowOutputs::FlowOutputs(const Program& g, std::shared_ptr<const Monomials> monomials,
+                         const std::atomic<bool>* cancelled)
+    : differentiated_(g.differentiated()),
+      n_(g.states()),
+      outputs_(g.outputs()),
+      monomials_(monomials->count()),
+      series_(differentiated_, outputs_, std::move(monomials), 0, 1, false, cancelled) {
+  polynomial_.assign(at(outputs_ * monomials_), 0.0);
+  radius_.assign(at(outputs_), 0.0);
+}
+
+void FlowOutputs::evaluate(double t, const FlowPoint& point, const std::vector<double>& R,
+                           const std::vector<Embedded>& parameters) {
+  for (int i = 0; i < n_; ++i) series_.setState(i, &point.p[at(i * monomials_)]);
+  for (std::size_t i = 0; i < parameters.size(); ++i) series_.setParameter(static_cast<int>(i), parameters[i]);
+  series_.compute(t, 1.0);
+  const double infinite = std::numeric_limits<double>::infinity();
+  std::fill(radius_.begin(), radius_.end(), infinite);
+  if (!series_.tabulate(1.0) || !series_.bound(nullptr, true)) {
+    series_.clear();
+    return;
+  }
+  std::vector<double> along(at(outputs_));
+  for (int o = 0; o < outputs_; ++o) {
+    const int node = series_.outputNode(o);
+    for (int g = 0; g < monomials_; ++g)
+      polynomial_[at(o * monomials_ + g)] = series_.series(node)[g * series_.stride()];
+    along[at(o)] = series_.rho0(node) + series_.rho1(node);
+  }
+  // y - g(p) = G (x - p) with G in ∂g/∂x on the hull, |G - G₀| ≤ ρ:  |y - g(p)| ≤ Σ_j |(G₀Ψ₀)_j| R_j + what is left.
+  if (!series_.bound(point.radius.data(), false)) return;
+  for (int o = 0; o < outputs_; ++o) {
+    double sum = along[at(o)];
+    std::vector<double> centre(at(n_)), spread(at(n_));
+    for (int k = 0; k < n_; ++k) {
+      const int node = series_.outputNode(outputs_ + o * n_ + k);
+      centre[at(k)] = series_.series(node)[0];
+      spread[at(k)] =
+          (series_.norm(node) - std::fabs(centre[at(k)]) * bounds::down + series_.rho0(node) + series_.rho1(node)) *
+          bounds::up;
+      sum += (std::fabs(centre[at(k)]) + spread[at(k)]) * point.loose[at(k)];
+    }
+    for (int j = 0; j < n_; ++j) {
+      double along0 = 0, size = 0, rest = 0;
+      for (int k = 0; k < n_; ++k) {
+        const double psi0 = point.psi[at(k * n_ + j)];
+        along0 += centre[at(k)] * psi0;
+        size += std::fabs(centre[at(k)] * psi0);
+        rest += spread[at(k)] * point.psiSum[at(k * n_ + j)] +
+                std::fabs(centre[at(k)]) * (point.psiSum[at(k * n_ + j)] - std::fabs(psi0) * bounds::down);
+      }
+      sum += std::fabs(along0) * R[at(j)] + ((n_ + 1) * bounds::unit * size + rest) * point.total[at(j)];
+    }
+    // Σ over generators |G₀ (Ψ₀Γ)_j|; its rounding is (n+1) u |G₀||Ψ₀||Γ|, counted with `size` above.
+    for (std::size_t column = 0; column < point.zonotope.size(); column += at(n_)) {
+      double along0 = 0;
+      for (int k = 0; k < n_; ++k) along0 += centre[at(k)] * point.zonotope[column + at(k)];
+      sum += std::fabs(along0);
+    }
+    radius_[at(o)] = sum * bounds::up;
+  }
+}
+
+FlowOutputChords::FlowOutputChords(const Program& g, std::shared_ptr<const Monomials> monomials, int order,
+                                   const std::atomic<bool>* cancelled)
+    : differentiated_(g.differentiated()),
+      n_(g.states()),
+      outputs_(g.outputs()),
+      order_(order + 1),
+      series_(differentiated_, outputs_, std::move(monomials), 0, order_, false, cancelled),
+      second_(at(outputs_)),
+      third_(at(outputs_)),
+      turn_(at(outputs_)),
+      rest_(at(outputs_)) {}
+
+/// As few orders in time as do: what is dropped of every state is small against what is uncertain about it.
+int FlowOutputChords::orderFor(const FlowStepper& stepper, std::vector<double>& dropped) const {
+  const PolynomialSeries& states = stepper.series();
+  const int stride = states.stride();
+  const auto norm = [&](int i, int order, int from) {
+    double sum = 0;
+    for (int g = from; g < states.count(); ++g) sum += std::fabs(states.series(i)[g * stride + order]);
+    return sum * std::pow(stepper.theta(), order);
+  };
+  int order = PolynomialSeries::leastOrder;
+  for (int i = 0; i < n_; ++i) {
+    const double allowed = 1e-4 * (norm(i, 0, 1) + stepper.tubeBound(i));
+    double tail = 0;
+    int needed = order_;
+    while (needed > order && (tail += norm(i, needed - 1, 0)) <= allowed) --needed;
+    order = std::max(order, needed);
+  }
+  dropped.assign(at(n_), 0.0);
+  for (int i = 0; i < n_; ++i)
+    for (int k = order; k < order_; ++k) dropped[at(i)] += norm(i, k, 0) * bounds::up;
+  return order;
+}
+
+/// Along one solution y = g(p) + G (x - p), G in ∂g/∂x between p and x, and x - p = Ψ v + loose with v constant. With
+/// g̃, G̃ the polynomials in σ that are kept of g(p) and, without ξ, of G:  y = z + ε,  z = g̃ + G̃ Ψ v, |ε| ≤ |g(p) - g̃| +
+/// |G - G̃| |x - p| + |G̃| |loose|. z leaves its chord as far as its second derivative allows; the chord of z is within
+/// |ε| of that of y, as z is of y: together 2 |ε|.
+void FlowOutputChords::load(const FlowStepper& stepper, const FlowSet& set) {
+  const PolynomialSeries& states = stepper.series();
+  const double theta = stepper.theta(), infinite = std::numeric_limits<double>::infinity();
+  scale_ = stepper.scale();
+  std::fill(rest_.begin(), rest_.end(), infinite);
+  std::vector<double> dropped;
+  series_.setOrder(orderFor(stepper, dropped));
+  for (int i = 0; i < n_; ++i) series_.setStateSeries(i, states.series(i), states.stride());
+  for (std::size_t i = 0; i < set.parameters.size(); ++i) series_.setParameter(static_cast<int>(i), set.parameters[i]);
+  series_.compute(set.t, scale_);
+  if (!series_.tabulate(theta) || !series_.bound(dropped.data(), true)) return series_.clear();
+  std::vector<double> own(at(outputs_)), tube(at(n_));
+  for (int o = 0; o < outputs_; ++o) {
+    const int node = series_.outputNode(o);
+    own[at(o)] = series_.rho0(node) + series_.rho1(node);
+    second_[at(o)] = series_.derivativeNorm(node, 2, theta);
+    third_[at(o)] = series_.derivativeNorm(node, 3, theta);
+  }
+  for (int i = 0; i < n_; ++i) tube[at(i)] = (stepper.tubeBound(i) + dropped[at(i)]) * bounds::up;
+  if (!series_.bound(tube.data(), false)) return;
+  // Σ_j |Ψ^{(k)}| total_j and all of |x - p|, for every state.
+  std::vector<double> moved(at(3 * n_), 0.0), loose(at(n_));
+  for (int i = 0; i < n_; ++i) {
+    loose[at(i)] = stepper.looseBound(i);
+    for (int j = 0; j < n_; ++j)
+      if (const double total = stepper.totalBound(j); total > 0)
+        for (int k = 0; k < 3; ++k) moved[at(3 * i + k)] += states.frameDerivativeNorm(i, j, k, theta) * total;
+  }
+  for (int o = 0; o < outputs_; ++o) {
+    double rest = own[at(o)], turn = 0;
+    for (int i = 0; i < n_; ++i) {
+      const int G = series_.outputNode(outputs_ + o * n_ + i);
+      const double norm = series_.norm(G), off = series_.rho0(G) + series_.rho1(G);
+      rest += off * tube[at(i)] + norm * loose[at(i)];
+      turn += series_.derivativeNorm(G, 2, theta) * moved[at(3 * i)] +
+              2 * series_.derivativeNorm(G, 1, theta) * moved[at(3 * i + 1)] + norm * moved[at(3 * i + 2)];
+    }
+    rest_[at(o)] = 2 * rest * bounds::up;
+    turn_[at(o)] = turn * bounds::up;
+  }
+}
+
+void FlowOutputChords::sag(double from, double to, std::vector<Interval>& bound) const {
+  bound.clear();
+  for (int o = 0; o < outputs_; ++o)
+    bound.push_back(rest_[at(o)] < std::numeric_limits<double>::infinity()
+                        ? inflated(series_.sag(series_.outputNode(o), from / scale_, to / scale_, second_[at(o)],
+                                               third_[at(o)], turn_[at(o)]),
+                                   rest_[at(o)])
+                        : Interval::entire());
+}
+
+}  // namespace gamut

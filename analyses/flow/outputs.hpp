@@ -1,0 +1,57 @@
+// Outputs y = g(t, x, p) of a set: the program on polynomials in ξ, with the mean-value form for what the polynomials
+// of the states leave over, so that outputs are as tight as states. Between two times: on polynomials in time and ξ.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <vector>
+
+#include "analyses/flow/step.hpp"
+
+namespace gamut {
+
+/// Evaluates g and ∂g/∂x on the polynomials of a FlowPoint. Holds the workspace: one a thread.
+class FlowOutputs {
+ public:
+  /// `g`: the outputs; its states and parameters are those of the flow.
+  FlowOutputs(const Program& g, std::shared_ptr<const Monomials> monomials,
+              const std::atomic<bool>* cancelled = nullptr);
+
+  /// polynomial(o) ± radius(o) contains output o for every ξ. A radius is infinite where nothing could be proved.
+  void evaluate(double t, const FlowPoint& point, const std::vector<double>& R,
+                const std::vector<Embedded>& parameters);
+  int count() const { return outputs_; }
+  const double* polynomial(int output) const { return &polynomial_[static_cast<std::size_t>(output * monomials_)]; }
+  double radius(int output) const { return radius_[static_cast<std::size_t>(output)]; }
+
+ private:
+  Program differentiated_;
+  int n_, outputs_, monomials_;
+  PolynomialSeries series_;
+  std::vector<double> polynomial_, radius_;
+};
+
+/// How far outputs leave the chord between two times of a step. Holds the workspace: one a thread.
+class FlowOutputChords {
+ public:
+  /// `g`, the monomials and `cancelled` as above; `order` that of the steps.
+  FlowOutputChords(const Program& g, std::shared_ptr<const Monomials> monomials, int order,
+                   const std::atomic<bool>* cancelled = nullptr);
+
+  /// Composes g with the step that `stepper` certified last from `set`.
+  void load(const FlowStepper& stepper, const FlowSet& set);
+  /// How far every output leaves the hull of its enclosures at two moments of the step, in seconds from its start,
+  /// between them; the whole line where nothing could be proved.
+  void sag(double from, double to, std::vector<Interval>& bound) const;
+
+ private:
+  int orderFor(const FlowStepper& stepper, std::vector<double>& dropped) const;
+
+  Program differentiated_;
+  int n_, outputs_, order_;
+  PolynomialSeries series_;
+  double scale_ = 1;
+  std::vector<double> second_, third_, turn_, rest_;  // of g̃: derivatives by σ; of what is not g̃: z'', 2 |ε|
+};
+
+}  // namespace gamut

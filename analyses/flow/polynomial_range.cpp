@@ -1,0 +1,162 @@
+// Monotone symbols go to their ends; what is left is bisected, the more promising half first.
+#include "analyses/flow/polynomial_range.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "analyses/flow/error_bounds.hpp"
+#include "scalars/elementary/rounding.hpp"
+#include "scalars/index.hpp"
+
+namespace gamut {
+
+using detail::at;
+
+PolynomialRange::PolynomialRange(std::shared_ptr<const Monomials> monomials) : monomials_(std::move(monomials)) {
+  const Monomials& m = *monomials_;
+  for (int l = 0; l < m.symbols(); ++l) {
+    down_.emplace_back(at(m.count()));
+    for (int g = 0; g < m.count(); ++g) down_.back()[at(g)] = m.shifted(g, l, -1);
+  }
+  for (int g = 0; g < m.count(); ++g) {
+    bool even = g > 0;
+    for (int l = 0; l < m.symbols(); ++l) even = even && m.exponent(g, l) % 2 == 0;
+    even_.push_back(even);
+  }
+  for (int n = 0; n <= m.degree(); ++n) {
+    binomial_.emplace_back(at(n + 1), 1.0);
+    for (int k = 1; k < n; ++k) binomial_[at(n)][at(k)] = binomial_[at(n - 1)][at(k - 1)] + binomial_[at(n - 1)][at(k)];
+  }
+  // A term c·binomial·middle^a·half^b takes at most d + 3 roundings and at most d more in the sum; 4d + 8 covers them.
+  shiftError_ = (4 * m.degree() + 8) * bounds::unit * bounds::up;
+}
+
+void PolynomialRange::substitute(int symbol, double middle, double half, const double* c, double* out) const {
+  const Monomials& m = *monomials_;
+  std::fill(out, out + m.count(), 0.0);
+  std::vector<double> middlePower(at(m.degree() + 1), 1.0), halfPower = middlePower;
+  for (int i = 1; i <= m.degree(); ++i) {
+    middlePower[at(i)] = middlePower[at(i - 1)] * middle;
+    halfPower[at(i)] = halfPower[at(i - 1)] * half;
+  }
+  for (int g = 0; g < m.count(); ++g) {
+    const int power = m.exponent(g, symbol);
+    int target = g;
+    for (int b = power; b >= 0; --b) {
+      out[target] += c[g] * (binomial_[at(power)][at(b)] * (middlePower[at(power - b)] * halfPower[at(b)]));
+      target = down_[at(symbol)][at(target)];
+    }
+  }
+}
+
+Interval PolynomialRange::operator()(const double* c, const Box& box, double tolerance) {
+  const Monomials& m = *monomials_;
+  if (m.count() == 1) return std::isfinite(c[0]) ? Interval(c[0]) : Interval::entire();
+  std::vector<double> q(c, c + m.count());
+  double norm = 0;
+  for (double value : q) norm += std::fabs(value);
+  double rounding = 0;
+  std::vector<double> moved(q.size());
+  for (int l = 0; l < m.symbols(); ++l) {
+    const double lower = box[at(l)].lower(), upper = box[at(l)].upper();
+    if (lower == -1 && upper == 1) continue;
+    // [lower, upper] ⊂ middle ± half. Σ|c'| ≤ Σ|c| (|middle| + half)^d, and |middle| + half ≤ 1 + 2^-51.
+    const double middle = 0.5 * (lower + upper);
+    const double half = std::max(subUp(upper, middle), subUp(middle, lower));
+    substitute(l, middle, half, q.data(), moved.data());
+    q.swap(moved);
+    rounding += shiftError_ * norm * bounds::up;
+  }
+  // Sums of up to N coefficients below are off by at most N u Σ|c|.
+  rounding = (rounding + (m.count() + 2) * bounds::unit * norm) * bounds::up + 0x1p-1000;
+  if (!std::isfinite(norm)) return Interval::entire();
+  std::vector<double> minus(q.size());
+  for (std::size_t g = 0; g < q.size(); ++g) minus[g] = -q[g];
+  const double upper = maximum(std::move(q), rounding, tolerance);
+  const double lower = -maximum(std::move(minus), rounding, tolerance);
+  return Interval(lower, upper);
+}
+
+double PolynomialRange::maximum(std::vector<double> c, double rounding, double tolerance) {
+  const double constant = c[0];
+  reduceMonotone(c);
+  double norm = 0;
+  for (std::size_t g = 1; g < c.size(); ++g) norm += std::fabs(c[g]);
+  if (norm == 0) return addUp(c[0], rounding);
+  Search state{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
+               std::max(tolerance * (norm + std::fabs(c[0] - constant)), rounding), 200, 0};
+  search(c, 0, state);
+  // Every bisection above a part adds its rounding, shiftError·Σ|c| and N u Σ|c| for monotone symbols; Σ|c| never
+  // grows.
+  const double shifts =
+      state.deepest * (shiftError_ + monomials_->count() * bounds::unit) * (norm + std::fabs(c[0])) * bounds::up;
+  return addUp(state.proved, addUp(rounding, shifts));
+}
+
+/// Symbols in which the polynomial is proved monotone over [-1,1]^k are set to the end where it is greatest.
+void PolynomialRange::reduceMonotone(std::vector<double>& c) const {
+  const Monomials& m = *monomials_;
+  for (int l = 0; l < m.symbols(); ++l) {
+    const int linear = m.linear(l);
+    if (linear < 0 || c[at(linear)] == 0) continue;
+    double others = 0;
+    for (int g = 0; g < m.count(); ++g)
+      if (g != linear && m.exponent(g, l) > 0) others += m.exponent(g, l) * std::fabs(c[at(g)]);
+    if (!(others * bounds::up < std::fabs(c[at(linear)]))) continue;
+    const double end = c[at(linear)] > 0 ? 1 : -1;
+    for (int g = m.count() - 1; g > 0; --g)
+      if (const int power = m.exponent(g, l); power > 0) {
+        int target = g;
+        for (int i = 0; i < power; ++i) target = down_[at(l)][at(target)];
+        c[at(target)] += power % 2 == 1 && end < 0 ? -c[at(g)] : c[at(g)];
+        c[at(g)] = 0;
+      }
+  }
+}
+
+void PolynomialRange::search(const std::vector<double>& c, int depth, Search& state) {
+  const Monomials& m = *monomials_;
+  state.deepest = std::max(state.deepest, depth);
+  // Σ over monomials of their greatest value: an even one lies in [0, 1], any other in [-1, 1].
+  double bound = 0, size = 0;
+  for (std::size_t g = c.size(); g-- > 1;) {
+    size += std::fabs(c[g]);
+    bound += even_[g] ? std::max(0.0, c[g]) : std::fabs(c[g]);
+  }
+  bound = addUp(c[0], bound * bounds::up);
+  // Values at the middle and, per symbol, at both ends of its axis.
+  state.best = std::max(state.best, c[0]);
+  for (int l = 0; l < m.symbols(); ++l)
+    for (int sign : {-1, 1}) {
+      double value = c[0];
+      for (int g = 1, power; g < m.count(); ++g)
+        if ((power = m.exponent(g, l)) > 0 && m.grade(g) == power * m.weight(l))
+          value += power % 2 == 1 && sign < 0 ? -c[at(g)] : c[at(g)];
+      state.best = std::max(state.best, value);
+    }
+  if (bound <= state.best + state.tolerance || depth >= 40 || state.left <= 0 || size == 0) {
+    state.proved = std::max(state.proved, bound);
+    return;
+  }
+  --state.left;
+  // Bisect the symbol with most in its nonlinear terms.
+  int symbol = 0;
+  double most = -1;
+  for (int l = 0; l < m.symbols(); ++l) {
+    double nonlinear = 0;
+    for (int g = 1; g < m.count(); ++g)
+      if (g != m.linear(l) && m.exponent(g, l) > 0) nonlinear += m.exponent(g, l) * std::fabs(c[at(g)]);
+    if (nonlinear > most) most = nonlinear, symbol = l;
+  }
+  std::vector<double> halves[2] = {std::vector<double>(c.size()), std::vector<double>(c.size())};
+  for (int side : {0, 1}) {
+    substitute(symbol, side == 0 ? -0.5 : 0.5, 0.5, c.data(), halves[side].data());
+    reduceMonotone(halves[side]);
+  }
+  // The half with the greater middle first: it raises `best` sooner.
+  const int firstSide = halves[1][0] >= halves[0][0] ? 1 : 0;
+  search(halves[firstSide], depth + 1, state);
+  search(halves[1 - firstSide], depth + 1, state);
+}
+
+}  // namespace gamut

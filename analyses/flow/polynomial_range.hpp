@@ -1,0 +1,45 @@
+// The range of a polynomial in ξ over a box inside [-1,1]^k: a proved enclosure, and nearly the range itself.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "analyses/flow/monomials.hpp"
+#include "scalars/interval.hpp"
+
+namespace gamut {
+
+/// Holds the tables and the workspace for one set of monomials; one a thread.
+class PolynomialRange {
+ public:
+  explicit PolynomialRange(std::shared_ptr<const Monomials> monomials);
+
+  /// Encloses { Σ c_g ξ^g : ξ in box }. c: one coefficient a monomial. box: one interval inside [-1,1] a symbol.
+  /// The result is wider than the range by at most about `tolerance` (relative) where bisection can achieve that.
+  Interval operator()(const double* c, const Box& box, double tolerance = 1e-4);
+
+  /// Writes the coefficients of the polynomial in η, where ξ_l = middle + half·η, |middle| + half ≤ 1. Each coefficient
+  /// is a sum of exact terms; all rounding together is at most `shiftError` times Σ|c|.
+  void substitute(int symbol, double middle, double half, const double* c, double* out) const;
+  double shiftError() const { return shiftError_; }
+
+ private:
+  struct Search {
+    double best;    // a value that the polynomial takes (nearly): the maximum is not below it
+    double proved;  // bound over the parts that are finished
+    double tolerance;
+    int left;     // bisections left
+    int deepest;  // bisections above the deepest part
+  };
+  double maximum(std::vector<double> c, double rounding, double tolerance);
+  void search(const std::vector<double>& c, int depth, Search& state);
+  void reduceMonotone(std::vector<double>& c) const;
+
+  std::shared_ptr<const Monomials> monomials_;
+  std::vector<std::vector<int>> down_;  // [symbol][g]: g / ξ_symbol, or -1
+  std::vector<std::vector<double>> binomial_;
+  std::vector<char> even_;
+  double shiftError_;
+};
+
+}  // namespace gamut

@@ -1,0 +1,527 @@
+// The recursion: coefficients of every node in plain floating point, order by order. No bound is computed here.
+#include "analyses/flow/polynomial_series.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "analyses/flow/kernels.hpp"
+
+namespace gamut {
+
+PolynomialSeries::PolynomialSeries(const Program& program, int primaryOutputs,
+                                   std::shared_ptr<const Monomials> monomials, int frameDegree, int order,
+                                   bool withFrame, const std::atomic<bool>* cancelled)
+    : n_(program.states()),
+      time_(program.states() + program.parameters()),
+      m_(order),
+      stride_((order + 1 + 7) / 8 * 8),
+      nodes_(static_cast<int>(program.nodes().size())),
+      frameDegree_(std::min(frameDegree, monomials->degree())),
+      withFrame_(withFrame),
+      cancelled_(cancelled),
+      monomials_(std::move(monomials)),
+      outputs_(program.outputNodes()) {
+  if (order < 1 || order > 31) throw std::invalid_argument("the order of a polynomial series must be 1 to 31");
+  frameCount_ = monomials_->countUpTo(frameDegree_);
+  const auto& nodes = program.nodes();
+  std::vector<char> primary(nodes.size(), 0);
+  for (int i = 0; i < primaryOutputs; ++i) primary[at(outputs_[at(i)])] = 1;
+  for (std::size_t i = nodes.size(); i-- > 0;) {
+    if (!isOperation(nodes[i].op)) primary[i] = 1;
+    if (!primary[i]) continue;
+    const int node = static_cast<int>(i);
+    detail::forEachTwin(program.table(), node, [&](int twin) { primary[at(twin)] = 1; });
+    detail::forEachOperand(program.table(), node, [&](int operand) { primary[at(operand)] = 1; });
+  }
+
+  constant_.assign(nodes.size(), 0.0);
+  radius_.assign(nodes.size(), 0.0);
+  pointError_.assign(nodes.size(), 0.0);
+  inverseAt_.assign(nodes.size(), none);
+  std::size_t sizeF = 0, sizeR = 0, sizeD = 0, sizeT = 0, sizeS2 = 0, sizeInverse = 0;
+  const auto place = [&](Plan& v) {
+    v.count = monomials_->countUpTo(v.degree);
+    v.f = sizeF;
+    sizeF += at(v.count) * at(stride_);
+    v.t = sizeT;
+    sizeT += at(v.degree + 1) * at(stride_);
+  };
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    Plan v{nodes[i].op, nodes[i].a, nodes[i].b, 0, 0, primary[i] != 0, program.isInvariant(static_cast<int>(i)), false};
+    v.degree = v.primary ? monomials_->degree() : frameDegree_;
+    if (v.op == Op::constant) {
+      v.constant = true;
+      const Interval& c = program.constants()[at(v.a)];
+      constant_[i] = midpoint(c);
+      radius_[i] = isThin(c) ? 0.0 : radius(c);
+    }
+    place(v);
+    plan_.push_back(v);
+  }
+  if (withFrame_)
+    for (int i = 0; i < n_ * n_; ++i) {
+      Plan v{Op::state, -1, -1, frameDegree_, 0, false, false, false};
+      place(v);
+      plan_.push_back(v);
+    }
+
+  planSystems(program);
+
+  // Which nodes are the right factor of a convolution, and need a reversed copy and tables of tails?
+  const auto rightFactor = [&](int node) {
+    Plan& v = plan_[at(node)];
+    v.needsTails = true;
+    if (v.r == none) {
+      v.r = sizeR;
+      sizeR += at(v.count) * at(kernels::reversedStride(stride_));
+    }
+  };
+  const auto derivative = [&](int node) {
+    Plan& v = plan_[at(node)];
+    if (v.d == none) {
+      v.d = sizeD;
+      sizeD += at(v.count) * at(stride_);
+    }
+  };
+  for (int i = 0; i < nodes_; ++i) {
+    Plan& v = plan_[at(i)];
+    switch (v.op) {
+      case Op::mul:
+        if (plan_[at(v.b)].invariant && !plan_[at(v.a)].invariant) std::swap(v.a, v.b);  // the invariant factor first
+        rightFactor(v.b);
+        break;
+      case Op::sqr:
+        rightFactor(v.a);
+        break;
+      case Op::recip:
+        rightFactor(v.a);
+        break;
+      case Op::sqrt:
+        rightFactor(i);
+        break;
+      case Op::exp:
+        rightFactor(i);
+        derivative(v.a);
+        break;
+      case Op::log:
+      case Op::atan:
+        rightFactor(v.b);
+        derivative(i);
+        break;
+      case Op::sin:
+      case Op::tanh:
+        rightFactor(i);
+        rightFactor(i + 1);
+        derivative(v.a);
+        break;
+      case Op::solution:
+        rightFactor(i);
+        break;
+      default:
+        break;
+    }
+    if (v.op == Op::recip || v.op == Op::sqrt || v.op == Op::log || v.op == Op::atan) {
+      inverseAt_[at(i)] = sizeInverse;
+      sizeInverse += at(v.count);
+    }
+  }
+  if (withFrame_)
+    for (int i = 0; i < n_ * n_; ++i) rightFactor(nodes_ + i);
+  for (Plan& v : plan_)
+    if (v.needsTails) {
+      v.s2 = sizeS2;
+      sizeS2 += at(v.degree + 2) * at(stride_);
+    }
+  f_.assign(sizeF, 0.0);
+  r_.assign(sizeR, 0.0);
+  d_.assign(sizeD, 0.0);
+  t_.assign(sizeT, 0.0);
+  s2_.assign(sizeS2, 0.0);
+  inverse_.assign(sizeInverse, 0.0);
+  total_.assign(plan_.size() * at(stride_), 0.0);
+  s1_.assign(plan_.size() * at(stride_), 0.0);
+  scratch_.assign(at(count()), 0.0);
+  scratch2_.assign(at(std::max(count(), largestSystem_)), 0.0);
+  rightSides_.assign(at(largestSystem_ * count()), 0.0);
+  combination_.assign(systems_.empty() ? 0 : at(count() * kernels::reversedStride(stride_)), 0.0);
+  for (auto* v : {&amplified_, &amplified2_}) v->assign(at(largestSystem_ * largestSystem_), 0.0);
+  for (auto* v : {&vector_, &vector2_, &vector3_}) v->assign(at(largestSystem_), 0.0);
+  for (auto* v : {&norm_, &weighted_, &own0_, &own1_, &rho0_, &rho1_, &top_}) v->assign(plan_.size(), 0.0);
+  power_.assign(at(stride_), 0.0);
+  weights_.assign(at(stride_), 0.0);
+  clear();
+  if (count() == 1 && withFrame_) prepareThin();
+}
+
+void PolynomialSeries::prepareThin() {
+  for (const Plan& v : plan_)
+    thin_.push_back({v.op, v.invariant, v.op == Op::mul && plan_[at(v.a)].invariant, v.a, v.b, &f_[v.f],
+                     v.r == none ? nullptr : &r_[v.r + at(stride_ - 1)], v.d == none ? nullptr : &d_[v.d]});
+  for (int s = 0; s < n_; ++s) thinStates_.emplace_back(s, outputs_[at(s)]);
+  for (int i = 0; i < n_; ++i)
+    for (int j = 0; j < n_; ++j) {
+      kernels::ThinSum row{frameNode(i, j), {}};
+      for (int k = 0; k < n_; ++k)
+        if (const int a = outputs_[at(n_ + i * n_ + k)]; !isKnownZero(a)) row.terms.emplace_back(a, frameNode(k, j));
+      thinFrame_.push_back(std::move(row));
+    }
+  for (Solution& solution : solutions_) {
+    const System& system = systems_[at(solution.system)];
+    solution.thin = {&system.factors, solution.residual.data(), system.entries, solution.rightSide};
+    for (int& entry : solution.thin.matrix)
+      if (plan_[at(entry)].invariant) entry = -1;
+    thinSolutions_.push_back(&solution.thin);
+  }
+  current_.assign(plan_.size(), 0.0);
+}
+
+void PolynomialSeries::clear() {
+  for (auto* v : {&f_, &r_, &d_}) std::fill(v->begin(), v->end(), 0.0);
+  for (int i = 0; i < nodes_; ++i)
+    if (plan_[at(i)].constant) put(plan_[at(i)], 0, 0, constant_[at(i)]);
+}
+
+void PolynomialSeries::setState(int i, const double* coefficients) {
+  for (int g = 0; g < count(); ++g) put(plan_[at(i)], g, 0, coefficients[g]);
+}
+
+void PolynomialSeries::setOrder(int order) {
+  if (order == m_) return;
+  m_ = order;
+  clear();
+}
+
+void PolynomialSeries::setStateSeries(int i, const double* series, int spacing) {
+  for (int g = 0; g < count(); ++g)
+    for (int order = 0; order < m_; ++order) put(plan_[at(i)], g, order, series[g * spacing + order]);
+}
+
+void PolynomialSeries::setParameter(int i, const double* coefficients, double radius) {
+  for (int g = 0; g < count(); ++g) put(plan_[at(n_ + i)], g, 0, coefficients[g]);
+  radius_[at(n_ + i)] = radius;
+}
+
+void PolynomialSeries::setParameter(int i, const Embedded& value) {
+  std::vector<double>& coefficients = scratch_;
+  std::fill(coefficients.begin(), coefficients.end(), 0.0);
+  coefficients[0] = value.centre;
+  if (value.symbol >= 0) coefficients[at(monomials_->linear(value.symbol))] = value.half;
+  setParameter(i, coefficients.data(), value.radius);
+}
+
+void PolynomialSeries::setFrame(int i, int j, const double* coefficients, int spacing) {
+  const Plan& v = plan_[at(frameNode(i, j))];
+  for (int g = 0; g < frameCount_; ++g) put(v, g, 0, coefficients[g * spacing]);
+}
+
+void PolynomialSeries::compute(double t0, double h0) {
+  for (System& system : systems_) system.isFactorised = false;
+  put(plan_[at(time_)], 0, 0, t0);
+  if (m_ > 1) put(plan_[at(time_)], 0, 1, h0);
+  if (!thin_.empty()) {
+    for (int node = time_ + 1; node < nodes_; ++node) computeOrder(node, 0);
+    for (std::size_t x = 0; x < plan_.size(); ++x) current_[x] = f_[plan_[x].f];
+    kernels::thinRecursion(thin_, thinSolutions_, thinStates_, thinFrame_, time_, m_, h0, current_);
+    return;
+  }
+  for (int i = 0; i < m_; ++i) {
+    for (int node = time_ + 1; node < nodes_; ++node) {
+      goOnUnlessCancelled();
+      computeOrder(node, i);
+    }
+    if (!withFrame_) continue;
+    for (int s = 0; s < n_; ++s) {
+      const Plan& from = plan_[at(outputs_[at(s)])];
+      const double* f = &f_[from.f];
+      for (int g = 0; g < count(); ++g) put(plan_[at(s)], g, i + 1, f[g * stride_ + i] * h0 / (i + 1));
+    }
+    computeFrameOrder(i, h0);
+  }
+}
+
+/// out[g] += order i of a·b.
+void PolynomialSeries::product(const Plan& a, const Plan& b, int count, int i, double* out) {
+  const auto* pairs = monomials_->pairs().data();
+  const auto* first = monomials_->first().data();
+  if (a.constant) {
+    const double c = f_[a.f];
+    for (int g = 0; g < count; ++g) out[g] += c * f_[b.f + at(g * stride_ + i)];
+  } else if (a.invariant) {
+    kernels::multiply(pairs, first, count, &f_[a.f], &f_[b.f + at(i)], stride_, out);
+  } else {
+    kernels::convolve(pairs, first, count, &f_[a.f], &r_[b.r], stride_, i, out);
+  }
+}
+
+void PolynomialSeries::computeOrder(int node, int i) {
+  const Plan& v = plan_[at(node)];
+  if ((v.invariant && i > 0) || v.op == Op::constant || isTwin(v.op)) return;
+  if (v.op == Op::solution) {
+    if (v.b == 0) computeSolution(node, i);
+    return;
+  }
+  const Plan& a = plan_[at(v.a)];
+  const double* fa = &f_[a.f];
+  const int N = v.count;
+  const auto* pairs = monomials_->pairs().data();
+  const auto* first = monomials_->first().data();
+  double* out = scratch_.data();
+  switch (v.op) {
+    case Op::add: {
+      const double* fb = &f_[plan_[at(v.b)].f];
+      for (int g = 0; g < N; ++g) put(v, g, i, fa[g * stride_ + i] + fb[g * stride_ + i]);
+      return;
+    }
+    case Op::sub: {
+      const double* fb = &f_[plan_[at(v.b)].f];
+      for (int g = 0; g < N; ++g) put(v, g, i, fa[g * stride_ + i] - fb[g * stride_ + i]);
+      return;
+    }
+    case Op::neg:
+      for (int g = 0; g < N; ++g) put(v, g, i, -fa[g * stride_ + i]);
+      return;
+    case Op::mul:
+    case Op::sqr:
+      std::fill(out, out + N, 0.0);
+      product(a, plan_[at(v.op == Op::sqr ? v.a : v.b)], N, i, out);
+      for (int g = 0; g < N; ++g) put(v, g, i, out[g]);
+      return;
+    default:
+      break;
+  }
+  if (i == 0) return initialRow(node);
+  std::fill(out, out + N, 0.0);
+  // The order that is being computed counts as zero in the sums below.
+  for (int g = 0; g < N; ++g) put(v, g, i, 0.0);
+  switch (v.op) {
+    case Op::recip: {  // c_i = -(Σ_{j<i} c_j b_{i-j}) / b_0
+      kernels::convolve(pairs, first, N, &f_[v.f], &r_[a.r], stride_, i, out);
+      double* quotient = scratch2_.data();
+      std::fill(quotient, quotient + N, 0.0);
+      kernels::multiply(pairs, first, N, out, &inverse_[inverseAt_[at(node)]], 1, quotient);
+      for (int g = 0; g < N; ++g) put(v, g, i, -quotient[g]);
+      return;
+    }
+    case Op::sqrt: {  // s_i = (b_i - Σ_{0<j<i} s_j s_{i-j}) / (2 s_0)
+      kernels::convolve(pairs, first, N, &f_[v.f], &r_[v.r], stride_, i, out);
+      for (int g = 0; g < N; ++g) out[g] = 0.5 * (fa[g * stride_ + i] - out[g]);
+      double* quotient = scratch2_.data();
+      std::fill(quotient, quotient + N, 0.0);
+      kernels::multiply(pairs, first, N, out, &inverse_[inverseAt_[at(node)]], 1, quotient);
+      for (int g = 0; g < N; ++g) put(v, g, i, quotient[g]);
+      return;
+    }
+    case Op::exp: {  // e_i = Σ_{j≥1} j u_j e_{i-j} / i
+      for (int g = 0; g < a.count; ++g) d_[a.d + at(g * stride_ + i)] = i * fa[g * stride_ + i];
+      kernels::convolve(pairs, first, N, &d_[a.d], &r_[v.r], stride_, i, out);
+      for (int g = 0; g < N; ++g) put(v, g, i, out[g] / i);
+      return;
+    }
+    case Op::log:
+    case Op::atan: {  // l_i = (u_i - Σ_{1≤j<i} j l_j w_{i-j} / i) / w_0
+      for (int g = 0; g < N; ++g) d_[v.d + at(g * stride_ + i)] = 0.0;
+      kernels::convolve(pairs, first, N, &d_[v.d], &r_[plan_[at(v.b)].r], stride_, i, out);
+      for (int g = 0; g < N; ++g) out[g] = fa[g * stride_ + i] - out[g] / i;
+      double* quotient = scratch2_.data();
+      std::fill(quotient, quotient + N, 0.0);
+      kernels::multiply(pairs, first, N, out, &inverse_[inverseAt_[at(node)]], 1, quotient);
+      for (int g = 0; g < N; ++g) {
+        put(v, g, i, quotient[g]);
+        d_[v.d + at(g * stride_ + i)] = i * quotient[g];
+      }
+      return;
+    }
+    case Op::sin: {  // s_i = Σ_{j≥1} j u_j c_{i-j} / i, c_i = -Σ_{j≥1} j u_j s_{i-j} / i
+      const Plan& c = plan_[at(node + 1)];
+      for (int g = 0; g < N; ++g) put(c, g, i, 0.0);
+      for (int g = 0; g < a.count; ++g) d_[a.d + at(g * stride_ + i)] = i * fa[g * stride_ + i];
+      double* cosine = scratch2_.data();
+      std::fill(cosine, cosine + N, 0.0);
+      kernels::convolve(pairs, first, N, &d_[a.d], &r_[c.r], stride_, i, out);
+      kernels::convolve(pairs, first, N, &d_[a.d], &r_[v.r], stride_, i, cosine);
+      for (int g = 0; g < N; ++g) {
+        put(v, g, i, out[g] / i);
+        put(c, g, i, -cosine[g] / i);
+      }
+      return;
+    }
+    case Op::tanh: {  // t_i = Σ_{j≥1} j u_j s_{i-j} / i, s_i = -Σ t_j t_{i-j}
+      const Plan& s = plan_[at(node + 1)];
+      for (int g = 0; g < N; ++g) put(s, g, i, 0.0);
+      for (int g = 0; g < a.count; ++g) d_[a.d + at(g * stride_ + i)] = i * fa[g * stride_ + i];
+      kernels::convolve(pairs, first, N, &d_[a.d], &r_[s.r], stride_, i, out);
+      for (int g = 0; g < N; ++g) put(v, g, i, out[g] / i);
+      std::fill(out, out + N, 0.0);
+      kernels::convolve(pairs, first, N, &f_[v.f], &r_[v.r], stride_, i, out);
+      for (int g = 0; g < N; ++g) put(s, g, i, -out[g]);
+      return;
+    }
+    default:
+      return;
+  }
+}
+
+/// Values at the expansion point, with their errors: f(u) for the constant coefficient u.
+void PolynomialSeries::pointFunctions(int node) {
+  const Plan& v = plan_[at(node)];
+  const double u = f_[plan_[at(v.a)].f];
+  const auto set = [&](int which, const Interval& value) {
+    const double c = isEmpty(value) ? std::nan("") : midpoint(value);
+    put(plan_[at(which)], 0, 0, c);
+    // The enclosure's ends are neighbours, and c is one of them: the error is at most its width.
+    pointError_[at(which)] = isEmpty(value) ? std::nan("") : width(value);
+  };
+  if (!std::isfinite(u)) {
+    put(v, 0, 0, std::nan(""));
+    if (twinOf(v.op) != v.op) put(plan_[at(node + 1)], 0, 0, std::nan(""));
+    return;
+  }
+  switch (v.op) {
+    case Op::sin: {
+      const SinCos value = sinCos(Interval(u));
+      set(node, value.sin);
+      set(node + 1, value.cos);
+      return;
+    }
+    case Op::tanh: {
+      const double far = std::min(std::fabs(u), 1e300);  // both are 0 there, but for rounding
+      const Interval e = exp(Interval(-2 * far));
+      set(node, tanh(Interval(u)));
+      set(node + 1, 4.0 * e / sqr(1.0 + e));  // not 1 - tanh²: to its own digits, however small
+      return;
+    }
+    case Op::exp:
+      set(node, exp(Interval(u)));
+      return;
+    case Op::log:
+      set(node, log(Interval(u)));
+      return;
+    case Op::atan:
+      set(node, atan(Interval(u)));
+      return;
+    default:
+      return;
+  }
+}
+
+/// Order 0 in time: the recursion in the grade of ξ (the path ξ → λ^weight ξ plays the part of time).
+void PolynomialSeries::initialRow(int node) {
+  const Plan& v = plan_[at(node)];
+  const Plan& a = plan_[at(v.a)];
+  const int N = v.count;
+  const auto& pairs = monomials_->pairs();
+  const auto& first = monomials_->first();
+  const auto coefficient = [&](const Plan& of, int g) { return f_[of.f + at(g * stride_)]; };
+  const auto grade = [&](int g) { return monomials_->grade(g); };
+  // 1 / leading polynomial, truncated: inv_0 = 1/b_0, inv_g = -Σ_{α≠0} b_α inv_{g/α} / b_0.
+  const auto invert = [&](const Plan& b) {
+    double* inverse = &inverse_[inverseAt_[at(node)]];
+    inverse[0] = 1.0 / coefficient(b, 0);
+    for (int g = 1; g < N; ++g) {
+      double s = 0;
+      for (auto q = first[at(g)]; q < first[at(g) + 1]; ++q)
+        if (pairs[at(q)].a != 0) s += coefficient(b, pairs[at(q)].a) * inverse[pairs[at(q)].b];
+      inverse[g] = -s * inverse[0];
+    }
+    return inverse;
+  };
+  switch (v.op) {
+    case Op::recip: {
+      const double* inverse = invert(a);
+      for (int g = 0; g < N; ++g) put(v, g, 0, inverse[g]);
+      return;
+    }
+    case Op::sqrt: {
+      const double root = std::sqrt(coefficient(a, 0));
+      put(v, 0, 0, root);
+      for (int g = 1; g < N; ++g) {
+        double s = 0;
+        for (auto q = first[at(g)]; q < first[at(g) + 1]; ++q)
+          if (pairs[at(q)].a != 0 && pairs[at(q)].b != 0)
+            s += coefficient(v, pairs[at(q)].a) * coefficient(v, pairs[at(q)].b);
+        put(v, g, 0, (coefficient(a, g) - s) / (2 * root));
+      }
+      invert(v);
+      return;
+    }
+    case Op::exp: {
+      pointFunctions(node);
+      for (int g = 0; g < a.count; ++g) d_[a.d + at(g * stride_)] = 0.0;
+      for (int g = 1; g < N; ++g) {
+        double s = 0;
+        for (auto q = first[at(g)]; q < first[at(g) + 1]; ++q)
+          if (const auto [p, r] = pairs[at(q)]; p != 0) s += grade(p) * coefficient(a, p) * coefficient(v, r);
+        put(v, g, 0, s / grade(g));
+      }
+      return;
+    }
+    case Op::log:
+    case Op::atan: {
+      const Plan& w = plan_[at(v.b)];
+      pointFunctions(node);
+      const double w0 = coefficient(w, 0);
+      for (int g = 1; g < N; ++g) {
+        double s = 0;
+        for (auto q = first[at(g)]; q < first[at(g) + 1]; ++q)
+          if (const auto [p, r] = pairs[at(q)]; p != 0 && r != 0) s += grade(p) * coefficient(v, p) * coefficient(w, r);
+        put(v, g, 0, (coefficient(a, g) - s / grade(g)) / w0);
+      }
+      for (int g = 0; g < N; ++g) d_[v.d + at(g * stride_)] = 0.0;
+      invert(w);
+      return;
+    }
+    case Op::sin: {
+      const Plan& c = plan_[at(node + 1)];
+      pointFunctions(node);
+      for (int g = 0; g < a.count; ++g) d_[a.d + at(g * stride_)] = 0.0;
+      for (int g = 1; g < N; ++g) {
+        double s = 0, t = 0;
+        for (auto q = first[at(g)]; q < first[at(g) + 1]; ++q)
+          if (const auto [p, r] = pairs[at(q)]; p != 0) {
+            const double du = grade(p) * coefficient(a, p);
+            s += du * coefficient(c, r);
+            t += du * coefficient(v, r);
+          }
+        put(v, g, 0, s / grade(g));
+        put(c, g, 0, -t / grade(g));
+      }
+      return;
+    }
+    case Op::tanh: {
+      const Plan& c = plan_[at(node + 1)];
+      pointFunctions(node);
+      for (int g = 0; g < a.count; ++g) d_[a.d + at(g * stride_)] = 0.0;
+      for (int g = 1; g < N; ++g) {
+        double s = 0, t = 0;
+        for (auto q = first[at(g)]; q < first[at(g) + 1]; ++q)
+          if (const auto [p, r] = pairs[at(q)]; p != 0) s += grade(p) * coefficient(a, p) * coefficient(c, r);
+        put(v, g, 0, s / grade(g));
+        for (auto q = first[at(g)]; q < first[at(g) + 1]; ++q)
+          t += coefficient(v, pairs[at(q)].a) * coefficient(v, pairs[at(q)].b);
+        put(c, g, 0, -t);
+      }
+      return;
+    }
+    default:
+      return;
+  }
+}
+
+void PolynomialSeries::computeFrameOrder(int i, double h0) {
+  double* out = scratch_.data();
+  for (int row = 0; row < n_; ++row)
+    for (int column = 0; column < n_; ++column) {
+      goOnUnlessCancelled();
+      std::fill(out, out + frameCount_, 0.0);
+      for (int k = 0; k < n_; ++k) {
+        const int entry = outputs_[at(n_ + row * n_ + k)];
+        if (isKnownZero(entry)) continue;
+        product(plan_[at(entry)], plan_[at(frameNode(k, column))], frameCount_, i, out);
+      }
+      const Plan& psi = plan_[at(frameNode(row, column))];
+      for (int g = 0; g < frameCount_; ++g) put(psi, g, i + 1, out[g] * h0 / (i + 1));
+    }
+}
+
+}  // namespace gamut

@@ -1,0 +1,210 @@
+// A recorded program evaluated on polynomial series Σ c_{iα} σ^i ξ^α (time σ in units of h0, uncertain quantities ξ in
+// [-1,1]^k): first in plain floating point, then bounded. For every node v, along the polynomial x̃ of the states,
+//     |v(σ, ξ) - ṽ(σ, ξ)| ≤ ρ0 + ρ1 (σ/θ)^m    for σ in [0, θ], ξ in [-1,1]^k,
+// where ṽ are the orders below m that were computed. docs/flow.md derives every term.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "analyses/flow/kernels.hpp"
+#include "analyses/flow/linear_factors.hpp"
+#include "analyses/flow/monomials.hpp"
+#include "scalars/index.hpp"
+#include "scalars/program/program.hpp"
+
+namespace gamut {
+
+/// One uncertain number: value = centre + half·ξ_symbol ± radius (symbol -1: no dependence).
+struct Embedded {
+  double centre = 0, half = 0, radius = 0;
+  int symbol = -1;
+};
+
+/// Thrown where a computation was told to end in its midst.
+struct Cancelled {};
+
+class PolynomialSeries {
+ public:
+  /// Nodes that the first `primaryOutputs` outputs need keep the monomials' full degree, all others `frameDegree`.
+  /// With a frame, outputs n … n+n²-1 are the Jacobian of the first n and Ψ' = (∂f/∂x) Ψ is solved alongside.
+  /// Once `cancelled`, if not null, is set, compute and tabulate throw Cancelled.
+  PolynomialSeries(const Program& program, int primaryOutputs, std::shared_ptr<const Monomials> monomials,
+                   int frameDegree, int order, bool withFrame, const std::atomic<bool>* cancelled = nullptr);
+  PolynomialSeries(const PolynomialSeries&) = delete;  // it points into itself
+  PolynomialSeries(PolynomialSeries&&) = default;
+
+  int states() const { return n_; }
+  int stride() const { return stride_; }
+  const Monomials& monomials() const { return *monomials_; }
+  int count() const { return monomials_->count(); }
+  int frameCount() const { return frameCount_; }
+
+  /// Without a frame: how many orders the next computation keeps, at most as many as the constructor was told.
+  /// No fewer than leastOrder. Forgets all coefficients where that changes, so that none is left beyond the last.
+  void setOrder(int order);
+  static constexpr int leastOrder = 4;
+
+  // Inputs: coefficients of order 0 in σ.
+  void setState(int i, const double* coefficients);                     // count() numbers
+  void setStateSeries(int i, const double* series, int spacing);        // orders below m too, a monomial each `spacing`
+  void setParameter(int i, const double* coefficients, double radius);  // count() numbers, |p - p̃| ≤ radius
+  void setParameter(int i, const Embedded& value);
+  void setFrame(int i, int j, const double* coefficients, int spacing);  // frameCount() numbers, `spacing` apart
+
+  /// The recursion from time t0; h0 a power of two. With order 1 it is an evaluation at t0.
+  void compute(double t0, double h0);
+
+  /// Norms and the errors that nodes make themselves, for σ in [0, θ], 0 < θ ≤ 1. False: not finite, or too large.
+  bool tabulate(double theta);
+  /// ρ0, ρ1 of all nodes when |x - x̃| ≤ E (null: along the polynomial). False: not proved (a division by zero, say).
+  bool bound(const double* E, bool primaryOnly);
+
+  /// How many times too long [0, θ] is for what is left unsaid by ρ1: a tanh whose argument moves so far that rounding
+  /// grows, or that nothing but its range is known. Not above 1: time is not what moves it.
+  double haste() const { return haste_; }
+
+  /// After tabulate or bound returned false: what could not be proved, in words.
+  std::string obstacle() const { return edgeOf(obstacle_); }
+  /// The operation that comes soonest to the edge of its domain, before σ = `within`, in words; empty if none does.
+  std::string nearestEdge(double within) const;
+
+  // Results. Node numbers are those of the program; frame entries are separate.
+  const double* series(int node) const { return &f_[plan_[at(node)].f]; }
+  const double* frame(int i, int j) const { return &f_[plan_[at(frameNode(i, j))].f]; }
+  int outputNode(int output) const { return outputs_[at(output)]; }
+  double norm(int node) const { return norm_[at(node)]; }
+  /// Whether of some node more than this share of its norm is mass of the two highest grades.
+  bool reachesHighestGrades(double share) const;
+  double rho0(int node) const { return rho0_[at(node)]; }
+  double rho1(int node) const { return rho1_[at(node)]; }
+  /// Σ i!/(i-k)! |c_{iα}| θ^{i-k}: a bound of the k-th derivative by σ over [0, θ], with the order that only states
+  /// keep.
+  double derivativeNorm(int node, int k, double theta) const { return derivativeNorm(plan_[at(node)], k, theta); }
+  double frameDerivativeNorm(int i, int j, int k, double theta) const {
+    return derivativeNorm(plan_[at(frameNode(i, j))], k, theta);
+  }
+  /// How far a node's polynomial leaves its chord between two times σ of [0, θ], for every ξ, downwards and upwards.
+  /// `second` and `third` are its derivativeNorms; `more` is added to the bound of its second derivative.
+  Interval sag(int node, double from, double to, double second, double third, double more) const;
+  /// Σ_α |c_{mα}| θ^m of state i: its last order.
+  double top(int state) const { return top_[at(state)]; }
+  /// |∂f_i/∂x_j| on the set that was bounded last.
+  double jacobianBound(int i, int j) const;
+  /// |Ψ̃' - (∂f/∂x)Ψ̃|_{ij} ≤ ν0 + ν1 (σ/θ)^m on the set that was bounded last.
+  void frameDefect(int i, int j, double& nu0, double& nu1) const;
+  /// Forgets all coefficients; needed after they became infinite.
+  void clear();
+
+ private:
+  static constexpr std::size_t at(int i) { return detail::at(i); }
+  int last() const { return withFrame_ ? m_ : m_ - 1; }  // the highest order that any node keeps
+  void goOnUnlessCancelled() const {
+    if (cancelled_ != nullptr && cancelled_->load(std::memory_order_relaxed)) throw Cancelled();
+  }
+  int frameNode(int i, int j) const { return nodes_ + i * n_ + j; }
+
+  struct Plan {
+    Op op;
+    int a, b;
+    int degree, count;
+    bool primary, invariant, constant;
+    std::size_t f = 0, r = none, d = none, t = 0, s2 = none;
+    bool needsTails = false;
+  };
+  static constexpr std::size_t none = static_cast<std::size_t>(-1);
+
+  /// The systems of one matrix A.
+  struct System {
+    int size;
+    std::vector<int> entries;                  // nodes, row by row
+    LinearFactors factors;                     // of A's leading coefficients
+    std::vector<std::vector<double>> inverse;  // C, a matrix for each of inverseTerms_
+    std::vector<double> norms;                 // ‖C‖
+    std::vector<double> own;                   // ‖I - C Ã‖
+    std::vector<double> amplifier;             // ≥ (I - H)⁻¹ |C| on the set that was bounded last
+    bool isFactorised, isBounded;
+
+    int entry(int i, int j) const { return entries[detail::at(i * size + j)]; }
+  };
+  struct Solution {
+    int system;
+    std::vector<int> rightSide;
+    kernels::ThinSolution thin;
+    std::vector<double> residual;  // Σ_α |s - A₀ x| of A₀ x = s, [order][component]
+  };
+
+  /// Order i of monomial g, in the reversed copy too.
+  void put(const Plan& v, int g, int i, double value) {
+    f_[v.f + at(g * stride_ + i)] = value;
+    if (v.r != none) r_[v.r + at(g * kernels::reversedStride(stride_) + stride_ - 1 - i)] = value;
+  }
+  double derivativeNorm(const Plan& v, int k, double theta) const;
+  void computeOrder(int node, int i);
+  void product(const Plan& a, const Plan& b, int count, int i, double* out);
+  void computeFrameOrder(int i, double h0);
+  void prepareThin();
+  void pointFunctions(int node);
+  void initialRow(int node);
+  double tailTime(int a, int b) const;
+  double tailDegree(int a, int b, int degree, int fromOrder) const;
+  double tailRow(int a, int b, int degree) const;
+  void ownErrors(int node);
+  void differentialErrors(int u, int of, int degree, double& e0, double& e1) const;
+  double productResidual(int left, int right, int target);
+  double quotientResidual(int node);
+  double dropped(int a, int degree) const;
+  double minimum(int node) const;
+  bool boundNode(int node);
+  void boundTanh(int node);
+  double leading(int node) const { return std::fabs(f_[plan_[at(node)].f]); }
+  double rest(int node) const;
+  double moved(int node) const;
+  double weightedRest(int node) const;
+  bool isKnownZero(int node) const;
+
+  // polynomial_systems.cpp; `first` is component 0 of a solution.
+  void planSystems(const Program& program);
+  int termsIn(const System& system, int row) const;
+  void factorise(System& system);
+  void computeSolution(int first, int i);
+  void invert(System& system);
+  void tabulateSystem(System& system);
+  void solutionOwnErrors(int first);
+  bool boundSystem(System& system);
+  bool boundSolution(int first);
+  bool refuse(int node);
+  std::string edgeOf(int node) const;
+
+  int n_, time_, m_, stride_, nodes_, frameCount_, frameDegree_;
+  int obstacle_ = 0;  // the node that failed
+  double haste_ = 0;
+  bool withFrame_;
+  const std::atomic<bool>* cancelled_;
+  std::shared_ptr<const Monomials> monomials_;
+  std::vector<Plan> plan_;
+  std::vector<int> outputs_;
+  std::vector<double> constant_, radius_, pointError_;
+  std::vector<double> f_, r_, d_, t_, total_, s1_, s2_, scratch_, scratch2_;
+  std::vector<double> inverse_;  // per recip/sqrt/log/atan node: 1/leading polynomial
+  std::vector<std::size_t> inverseAt_;
+  std::vector<double> norm_, weighted_, own0_, own1_, rho0_, rho1_, top_;
+  std::vector<double> power_, weights_;
+  std::vector<kernels::ThinNode> thin_;  // without symbols: the recursion's own view of the plan
+  std::vector<std::pair<int, int>> thinStates_;
+  std::vector<kernels::ThinSum> thinFrame_;
+  std::vector<const kernels::ThinSolution*> thinSolutions_;
+  std::vector<double> current_;
+  std::vector<System> systems_;
+  std::vector<Solution> solutions_;
+  static constexpr int inverseOrder = 3;  // of C in time; in ξ it is linear
+  static_assert(inverseOrder < leastOrder);
+  std::vector<std::pair<int, int>> inverseTerms_;  // order and symbol (-1: none): σ^order or ξ_symbol
+  std::vector<int> shift_;                         // number of ξ_symbol·(monomial g), [symbol][g]
+  int largestSystem_ = 0;
+  std::vector<double> rightSides_, combination_, amplified_, amplified2_, vector_, vector2_, vector3_;
+};
+
+}  // namespace gamut

@@ -1,0 +1,125 @@
+// Rewriting a set: other degrees, symbols for its remainder.
+#include "analyses/flow/set.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "analyses/flow/error_bounds.hpp"
+#include "scalars/index.hpp"
+
+namespace gamut {
+
+using detail::at;
+
+void totalRadius(const FlowSet& set, std::vector<double>& total) {
+  total = set.R;
+  const std::size_t n = set.R.size();
+  for (std::size_t j = 0; j < set.generators.size(); j += n)
+    for (std::size_t i = 0; i < n; ++i) total[i] += std::fabs(set.generators[j + i]);
+  for (double& value : total) value *= bounds::up;
+}
+
+double orthogonalityDefect(const Eigen::MatrixXd& Q) {
+  if (!Q.allFinite()) return std::numeric_limits<double>::infinity();
+  const Eigen::MatrixXd defect = Q.transpose() * Q - Eigen::MatrixXd::Identity(Q.cols(), Q.cols());
+  // A row of defects, and n + 2 roundings in each of its n entries, where Σ|q||q| < 2.
+  const auto n = static_cast<double>(Q.cols());
+  return ((defect.cwiseAbs() * Eigen::VectorXd::Ones(Q.cols())).maxCoeff() + n * 2 * (n + 2) * bounds::unit) *
+         bounds::up;
+}
+
+double relativeMass(const FlowSet& set, const Monomials& monomials, int above, int below) {
+  const std::size_t N = at(monomials.count()), n = set.p.size() / N;
+  double largest = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    double mass = 0, all = 0;
+    for (std::size_t g = 0; g < N; ++g) {
+      const double size = std::fabs(set.p[i * N + g]);
+      const int grade = monomials.grade(static_cast<int>(g));
+      all += size;
+      if (grade > above && grade <= below) mass += size;
+    }
+    if (all > 0) largest = std::max(largest, mass / all);
+  }
+  return largest;
+}
+
+void changeDegree(FlowSet& set, const Monomials& from, int fromFrameDegree, const Monomials& to, int toFrameDegree) {
+  const std::size_t n = set.R.size(), N = at(from.count()), newN = at(to.count());
+  const std::size_t NJ = at(from.countUpTo(fromFrameDegree)), newNJ = at(to.countUpTo(toFrameDegree));
+  std::vector<double> p(n * newN, 0.0), total;
+  totalRadius(set, total);
+  for (std::size_t i = 0; i < n; ++i) {
+    double dropped = 0;
+    for (std::size_t g = 0; g < N; ++g)
+      if (g < newN)
+        p[i * newN + g] = set.p[i * N + g];
+      else
+        dropped += std::fabs(set.p[i * N + g]);
+    for (std::size_t g = newNJ; g < NJ; ++g)
+      for (std::size_t j = 0; j < n; ++j) dropped += std::fabs(set.C[(g * n + i) * n + j]) * total[j];
+    if (!(dropped == 0)) set.W[i] = (set.W[i] + dropped) * bounds::up + bounds::tiny;
+  }
+  set.p = std::move(p);
+  set.C.resize(newNJ * n * n, 0.0);
+}
+
+bool expandRemainder(FlowSet& set, const Monomials& from, int fromFrameDegree, const Monomials& to, int toFrameDegree) {
+  using Matrix = Eigen::MatrixXd;
+  const int n = static_cast<int>(set.R.size()), N = from.count(), newN = to.count();
+  const int NJ = from.countUpTo(fromFrameDegree), newNJ = to.countUpTo(toFrameDegree);
+  std::vector<double> total, p(at(n * newN), 0.0);
+  totalRadius(set, total);
+  // H: the directions of C_0 (r + Γs); its entries are off by n roundings, at most n u |C_0| Σ|Γ|.
+  const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> C(set.C.data(), n, n);
+  const Eigen::Map<const Eigen::VectorXd> R(set.R.data(), n), radius(total.data(), n);
+  const Eigen::Map<const Matrix> generators(set.generators.data(), n, static_cast<int>(set.generators.size()) / n);
+  // In the units of the last step, powers of two: principal axes mean something there.
+  Eigen::VectorXd unit = Eigen::VectorXd::Ones(n);
+  for (std::size_t i = 0; i < set.units.size(); ++i) unit(static_cast<int>(i)) = std::ldexp(1.0, set.units[i]);
+  const Eigen::VectorXd inverse = unit.cwiseInverse();
+  Matrix H(n, n + generators.cols());
+  H.leftCols(n) = inverse.asDiagonal() * (C * R.asDiagonal());
+  H.rightCols(generators.cols()) = inverse.asDiagonal() * (C * generators);
+  const Eigen::VectorXd rounding = inverse.asDiagonal() * ((n + 1) * bounds::unit * (C.cwiseAbs() * radius));
+  const Matrix U = Eigen::SelfAdjointEigenSolver<Matrix>(H * H.transpose()).eigenvectors();
+  const double phi = orthogonalityDefect(U);
+  if (!(phi < 0.5)) return false;
+  // |U⁻¹H_j s_j| summed: the half-widths along the axes; the product UᵀH has n roundings an entry.
+  const Eigen::VectorXd ones = Eigen::VectorXd::Ones(H.cols());
+  Eigen::VectorXd half = (U.transpose() * H).cwiseAbs() * ones +
+                         (n + 1) * bounds::unit * (U.cwiseAbs().transpose() * (H.cwiseAbs() * ones)) +
+                         U.cwiseAbs().transpose() * rounding;
+  half.array() += phi / (1 - phi) * half.maxCoeff();
+  half *= bounds::up;
+  for (int i = 0; i < n; ++i) {
+    double dropped = 0;
+    for (int g = 0; g < N; ++g)
+      if (const int number = to.find(from, g); number >= 0)
+        p[at(i * newN + number)] = set.p[at(i * N + g)];
+      else
+        dropped += std::fabs(set.p[at(i * N + g)]);
+    for (int g = 1; g < NJ; ++g)  // the frame's own dependence on ξ
+      for (int j = 0; j < n; ++j) dropped += std::fabs(set.C[at((g * n + i) * n + j)]) * total[at(j)];
+    set.W[at(i)] += dropped;
+  }
+  for (int i = 0; i < n; ++i) {
+    double rounded = 0;
+    for (int j = 0; j < n; ++j) {
+      const double coefficient = U(i, j) * half(j) * unit(i);  // one rounding
+      p[at(i * newN + to.linear(from.symbols() + j))] = coefficient;
+      rounded += bounds::unit * std::fabs(coefficient);
+    }
+    set.W[at(i)] = (set.W[at(i)] + rounded) * bounds::up + bounds::tiny;
+  }
+  set.p = std::move(p);
+  set.C.assign(at(newNJ * n * n), 0.0);
+  for (int i = 0; i < n; ++i) set.C[at(i * n + i)] = 1;
+  set.R.assign(at(n), 0.0);
+  set.generators.clear();
+  return true;
+}
+
+}  // namespace gamut

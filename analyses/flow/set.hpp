@@ -1,0 +1,47 @@
+// What a piece of the box is at one time, and the ways to rewrite it without losing a solution. docs/flow.md,
+// section 1.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "analyses/flow/monomials.hpp"
+#include "analyses/flow/polynomial_series.hpp"
+
+namespace gamut {
+
+/// For every ξ in [-1,1]^k there are |r| ≤ R, |s_j| ≤ 1, |w| ≤ W with x(t; ξ) = p(ξ) + C(ξ) (r + Σ_j Γ_j s_j) + w.
+/// Every step's local error becomes generators Γ_j of its own: boxes would wrap, zonotopes do not.
+struct FlowSet {
+  double t = 0;
+  std::vector<double> p;  // [state][monomial]
+  std::vector<double> C;  // [monomial ≤ frameDegree][row][column]
+  std::vector<double> R, W;
+  std::vector<double> generators;  // [generator][row], oldest first
+  std::vector<Embedded> parameters;
+  std::vector<double> centre, half;    // ξ of the study = centre + half·ξ of this piece (exact: dyadic)
+  std::vector<int> units;              // FlowGrowth's, of the last step
+  std::vector<double> first, largest;  // size of each state over the first step, and the greatest so far
+  double nextStep = 0;                 // s, a guess
+  double caution = 1;                  // factor on the step that the last coefficients suggest
+};
+
+/// R + Σ_j |Γ_j|, rounded up.
+void totalRadius(const FlowSet& set, std::vector<double>& total);
+
+/// An upper bound of ‖QᵀQ - I‖∞, infinite if Q is not finite; then |Q⁻¹w| ≤ |Qᵀw| + φ/(1-φ) ‖Qᵀw‖∞ for every w, because
+/// Q⁻¹ = Σ (I - QᵀQ)^k Qᵀ.
+double orthogonalityDefect(const Eigen::MatrixXd& Q);
+
+/// Σ over grades in (above, below] of |p|, for each state, relative to Σ|p|; the largest of the states.
+double relativeMass(const FlowSet& set, const Monomials& monomials, int above, int below);
+
+/// Rewrites a set for monomials of another degree in the same symbols; what does not fit goes into W.
+void changeDegree(FlowSet& set, const Monomials& from, int fromFrameDegree, const Monomials& to, int toFrameDegree);
+
+/// Turns the remainder into n fresh symbols, one a principal axis of the zonotope: `to` has the symbols of `from` and n
+/// more behind them. From then on it is kept to higher order than the first.
+/// False, and nothing changed, if no axes are found.
+bool expandRemainder(FlowSet& set, const Monomials& from, int fromFrameDegree, const Monomials& to, int toFrameDegree);
+
+}  // namespace gamut

@@ -1,0 +1,98 @@
+// One step of the flow: the set of one piece, its certified step, its values in between and its update. docs/flow.md
+// states the theorem behind every function.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "analyses/flow/growth.hpp"
+#include "analyses/flow/polynomial_range.hpp"
+#include "analyses/flow/polynomial_series.hpp"
+#include "analyses/flow/set.hpp"
+#include "scalars/interval.hpp"
+
+namespace gamut {
+
+/// p(σ), Ψ(σ) and what bounds their distance from the truth at one time of the step.
+struct FlowPoint {
+  std::vector<double> p;         // [state][monomial]
+  std::vector<double> psi;       // [monomial][row][column]
+  std::vector<double> psiSum;    // Σ_α |Ψ_α| [row][column]
+  std::vector<double> zonotope;  // Ψ_0 Γ [generator][row]
+  std::vector<double> total;     // R + Σ_j |Γ_j|
+  std::vector<double> loose;     // everything but Ψ (r + Γs), a bound for each state
+  std::vector<double> radius;    // |x - p| ≤ radius
+};
+
+enum class StepOutcome { stepped, splitWanted, failed };
+
+/// Steps sets of one layout (monomials, degrees, order). Holds the workspace: one a thread. Once `cancelled`, if not
+/// null, is set, certify throws Cancelled.
+class FlowStepper {
+ public:
+  FlowStepper(const Program& motion, std::shared_ptr<const Monomials> monomials, int frameDegree, int order,
+              double tolerance, const std::atomic<bool>* cancelled = nullptr);
+
+  /// Certifies a step from `set` that ends no later than `end`. A truncation defect in ξ above `splitDefect` per second
+  /// (relative to the state; 0: any) is answered by splitWanted. h(), evaluate() and advance() refer to the step until
+  /// the next call.
+  StepOutcome certify(const FlowSet& set, double end, double quantum, double splitDefect);
+  double h() const { return h_; }
+  /// After a failure: what could not be proved, of which state, in one line.
+  const std::string& why() const { return why_; }
+  void setStateNames(const std::vector<std::string>& names) { names_ = names; }
+  std::string nameOf(int state) const;
+  /// After a failure: the remainder, not ξ, makes the set too wide; bisecting ξ cannot help.
+  bool isRemainderDominant(const FlowSet& set) const;
+
+  /// The set τ seconds into the step, 0 ≤ τ ≤ h.
+  void evaluate(const FlowSet& set, double tau, FlowPoint& point);
+  /// How far p + Ψ (r + Γs) leaves its chord between two moments of the step, in seconds from its start, for each
+  /// state.
+  void sag(double from, double to, std::vector<Interval>& bound) const;
+  /// The step for others: x = p + Ψ (r + Γs) + loose, p and Ψ polynomials in σ ∈ [0, θ], σ = (t - set.t) / scale.
+  const PolynomialSeries& series() const { return series_; }
+  double scale() const { return h0_; }
+  double theta() const { return theta_; }
+  double totalBound(int j) const { return total_[static_cast<std::size_t>(j)]; }  ///< R + Σ_j |Γ_j|
+  double tubeBound(int i) const { return E_[static_cast<std::size_t>(i)]; }       ///< |x - p| at every time
+  double looseBound(int i) const;                                                 ///< |loose| at every time
+  /// The set at the end of the step.
+  void advance(FlowSet& set);
+  /// The greatest remainder of all states, relative to the state's size over the step.
+  double relativeRemainder(const FlowSet& set) const;
+  /// The symbol whose high powers weigh most in the step.
+  int worstSymbol() const;
+  /// Bisects `set` in a symbol; `set` becomes one half, the other is returned.
+  FlowSet bisect(FlowSet& set, int symbol, const PolynomialRange& shift) const;
+
+  const Monomials& monomials() const { return series_.monomials(); }
+  int frameCount() const { return series_.frameCount(); }
+
+ private:
+  bool boundGrowth(double h);
+  bool tryStep(const FlowSet& set, double theta);
+  void load(const FlowSet& set);
+  void boundDerivatives();
+  double suggestion(double theta) const;
+  std::string reason(const FlowSet& set) const;
+  bool isTruncationTooLarge(double splitDefect) const;
+
+  int n_, m_;
+  double tolerance_;
+  PolynomialSeries series_;
+  FlowGrowth growth_;
+  double h0_ = 0, h_ = 0, theta_ = 0;
+  double timeError_ = 0, truncation_ = 0;
+  double caution_ = 1;
+  std::vector<std::string> names_;
+  std::string why_, obstacle_;  // obstacle_: of the last attempt
+  std::vector<double> delta0_, delta1_, start_, E_, y_, e1_, epsilon_, nu0_, nu1_, scale_, floor_;
+  std::vector<double> total_;                  // R + Σ_j |Γ_j| of the set being stepped
+  std::vector<double> second_, third_, turn_;  // bounds of derivatives by σ: p'' and the next, Ψ''(r + Γs)
+  FlowPoint end_;
+};
+
+}  // namespace gamut

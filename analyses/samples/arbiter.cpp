@@ -1,0 +1,198 @@
+// Taylor series with steps of their own, in doubles or in 128 bits; outputs within a step come from its series.
+#include "analyses/samples/arbiter.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "scalars/evaluation/evaluator.hpp"
+#include "scalars/evaluation/series.hpp"
+
+namespace gamut {
+namespace {
+
+/// The second integration: other steps, other series, so that what it gets wrong it gets wrong differently.
+constexpr double looser = 1e3;
+constexpr int lowerOrder = 4;
+constexpr double rounding = 0x1p-112;        // relative, of a value: some thousand roundings of 128 bits
+constexpr int leastSteps = 32, probes = 16;  // a pulse shorter than a five-hundredth of the horizon may be missed
+constexpr double shortestStep = 1e-12;       // of the horizon: below, the solution runs into a singularity
+
+bool isFinite(const Precise& value) { return boost::multiprecision::isfinite(value); }
+bool isFinite(double value) { return std::isfinite(value); }
+double rounded(const Precise& value) { return value.convert_to<double>(); }
+double rounded(double value) { return value; }
+
+/// What one integration found.
+template <class Real>
+struct Trajectory {
+  std::size_t times = 0;
+  double reached = 0;
+  std::string why;
+  std::vector<Real> values;
+};
+
+/// One integration from the start to the last output time.
+template <class Real>
+class TaylorRun {
+ public:
+  TaylorRun(const Motion& motion, std::span<const double> start, const ArbiterOptions& options,
+            const std::atomic<bool>* cancelled)
+      : motion_(motion),
+        options_(options),
+        cancelled_(cancelled),
+        series_(motion.forSamples(), options.order),
+        f_(motion.forSamples()),
+        g_(motion.g),
+        n_(static_cast<std::size_t>(motion.f.states())) {
+    for (std::size_t i = 0; i < start.size(); ++i) (i < n_ ? x_ : parameters_).push_back(Real(start[i]));
+    series_.setParameters(parameters_);
+    f_.setParameters(parameters_);
+    g_.setParameters(parameters_);
+  }
+
+  Trajectory<Real> run() {
+    const std::vector<double>& times = motion_.times;
+    const double horizon = times.empty() ? 0 : times.back();
+    Real t(0.0);
+    while (result_.times < times.size() && result_.why.empty()) {
+      const Real h = n_ == 0 ? Real(horizon) : nextStep(t, Real(horizon) - t, horizon);
+      // Every output time within the step is evaluated from the step's own series.
+      while (result_.why.empty() && result_.times < times.size() && Real(times[result_.times]) <= t + h)
+        watch(times[result_.times], Real(times[result_.times]) - t);
+      if (result_.times < times.size()) {
+        x_ = stateAfter(h);
+        t += h;
+      }
+    }
+    return std::move(result_);
+  }
+
+ private:
+  /// Solves for the series at t and returns how far it is good: (tolerance * size / |c_i|)^(1/i), with the greatest
+  /// state for the size.
+  Real nextStep(const Real& t, const Real& rest, double horizon) {
+    using std::abs;
+    series_.solve(t, x_);
+    Real size(0.0), rate(0.0);
+    bool finite = true;
+    for (int s = 0; s < motion_.f.states(); ++s) {
+      size = std::max(size, Real(abs(series_.at(s, 0))));
+      rate = std::max(rate, Real(abs(series_.at(s, 1))));
+      finite = finite && isFinite(series_.at(s, options_.order)) && isFinite(series_.at(s, options_.order - 1));
+    }
+    if (cancelled_ != nullptr && *cancelled_) return stop(t, "cancelled");
+    if (!finite) return stop(t, "the derivatives are not finite");
+    // Single orders may vanish (a series in t², say): the step heeds the whole upper half.
+    if (!(size > 0)) size = rate * horizon;
+    double reach = std::numeric_limits<double>::infinity();
+    for (int i = options_.order / 2; i <= options_.order; ++i)
+      for (int s = 0; s < motion_.f.states(); ++s)
+        if (const Real c = abs(series_.at(s, i)); c > 0 && size > 0)
+          reach = std::min(reach, std::pow(rounded(Real(size / c)), 1.0 / i));
+    Real h = std::min(rest, Real(std::pow(options_.tolerance, 1.0 / options_.order) * reach));
+    // A series may say nothing of what comes (tanh, far out; a pulse): the equations have to hold all along the step,
+    // which is kept short against the horizon.
+    h = std::min(h, Real(horizon / leastSteps));
+    const double unit = std::max(options_.tolerance, rounded(std::numeric_limits<Real>::epsilon()));
+    const Real allowed = size * (1000.0 * options_.order * unit);
+    while (h >= shortestStep * horizon && !(defectWithin(t, h) <= allowed)) h = h / 2;
+    if (h < rest && h < shortestStep * horizon) return stop(t, "steps became too short: the motion is singular here");
+    return h;
+  }
+
+  Real stop(const Real& t, const char* why) {
+    result_.why = why;
+    result_.reached = rounded(t);
+    return Real(0.0);
+  }
+
+  std::vector<Real> stateAfter(const Real& tau) {
+    std::vector<Real> x(n_);
+    for (std::size_t s = 0; s < n_; ++s)
+      for (int i = options_.order; i >= 0; --i) x[s] = x[s] * tau + series_.at(static_cast<int>(s), i);
+    return x;
+  }
+
+  /// The greatest |ẋ - f| of the series met at points of its step, in that time.
+  Real defectWithin(const Real& t, const Real& h) {
+    using std::abs;
+    Real greatest(0.0);
+    for (int point = probes; point >= 1; --point) {
+      const Real tau = h * Real(static_cast<double>(point) / probes);
+      const std::vector<Real> rate = f_(Real(t + tau), stateAfter(tau));
+      for (std::size_t s = 0; s < n_; ++s) {
+        Real slope(0.0);
+        for (int i = options_.order; i >= 1; --i) slope = slope * tau + Real(i) * series_.at(static_cast<int>(s), i);
+        const Real defect = abs(Real(slope - rate[s])) * h;
+        if (!(defect <= greatest)) greatest = defect;  // a NaN stays
+      }
+    }
+    return greatest;
+  }
+
+  void watch(double time, const Real& tau) {
+    const std::vector<Real> x = n_ == 0 ? std::vector<Real>{} : stateAfter(tau);
+    const std::vector<Real> y = g_(Real(time), x);
+    if (!std::all_of(y.begin(), y.end(), [](const Real& value) { return isFinite(value); })) {
+      stop(Real(time), "an output is not finite");
+      return;
+    }
+    result_.values.insert(result_.values.end(), y.begin(), y.end());
+    result_.reached = time;
+    ++result_.times;
+  }
+
+  const Motion& motion_;
+  ArbiterOptions options_;
+  const std::atomic<bool>* cancelled_;
+  Series<Real> series_;
+  Evaluator<Real> f_, g_;
+  std::size_t n_;
+  std::vector<Real> x_, parameters_;
+  Trajectory<Real> result_;
+};
+
+void check(const Motion& motion, std::span<const double> start, const ArbiterOptions& options) {
+  motion.check();
+  if (start.size() != motion.startValues())
+    throw std::invalid_argument("the arbiter needs one value for each start value");
+  if (options.order < 2 * lowerOrder || !(options.tolerance > 0 && options.tolerance < 1))
+    throw std::invalid_argument("the arbiter needs an order of at least 8 and a tolerance between 0 and 1");
+}
+
+}  // namespace
+
+std::vector<double> roundedToDoubles(const PreciseTrajectory& trajectory, std::size_t count) {
+  std::vector<double> result(count, std::numeric_limits<double>::quiet_NaN());
+  for (std::size_t i = 0; i < std::min(count, trajectory.values.size()); ++i) result[i] = rounded(trajectory.values[i]);
+  return result;
+}
+
+std::vector<double> integrateByTaylor(const Motion& motion, std::span<const double> start,
+                                      const std::atomic<bool>* cancelled) {
+  const ArbiterOptions options{24, 1e-18};
+  check(motion, start, options);
+  std::vector<double> result = TaylorRun<double>(motion, start, options, cancelled).run().values;
+  result.resize(motion.times.size() * motion.outputs(), std::numeric_limits<double>::quiet_NaN());
+  return result;
+}
+
+PreciseTrajectory arbitrate(const Motion& motion, std::span<const double> start, const ArbiterOptions& options,
+                            const std::atomic<bool>* cancelled) {
+  check(motion, start, options);
+  const auto first = TaylorRun<Precise>(motion, start, options, cancelled).run();
+  const ArbiterOptions other{options.order - lowerOrder, options.tolerance * looser};
+  const auto second = TaylorRun<Precise>(motion, start, other, cancelled).run();
+  // What only one of them reached is not confirmed.
+  const auto& shorter = second.times < first.times ? second : first;
+  PreciseTrajectory result{shorter.times, shorter.reached, shorter.why, first.values, {}};
+  result.values.resize(shorter.values.size());
+  for (std::size_t i = 0; i < result.values.size(); ++i)
+    result.error.push_back(
+        rounded(Precise(abs(result.values[i] - second.values[i]) + rounding * abs(result.values[i]))));
+  return result;
+}
+
+}  // namespace gamut

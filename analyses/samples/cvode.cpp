@@ -1,0 +1,277 @@
+// CVODE's memory, and its vector operations for packs: row by row, with the greatest of the samples' norms.
+#include "analyses/samples/cvode.hpp"
+
+#include <cvode/cvode.h>
+#include <nvector/nvector_serial.h>
+#include <sundials/sundials_context.h>
+#include <sunlinsol/sunlinsol_dense.h>
+#include <sunmatrix/sunmatrix_dense.h>
+#include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "analyses/workers.hpp"
+#include "scalars/evaluation/sample_pack.hpp"
+
+namespace gamut {
+namespace {
+
+using namespace detail;
+
+constexpr long maximumSteps = 2'000'000;      // between two output times: only a motion that goes nowhere needs more
+constexpr double shortestStep = 1e-13;        // of the horizon: below, the motion runs into a singularity
+constexpr long evaluationsBetweenLooks = 64;  // at the clock
+constexpr double tightest = 1e-14;            // relative tolerance, some 50 roundings
+
+template <class Handle>
+Handle required(Handle handle, const char* what) {
+  if (handle == nullptr) throw std::runtime_error(std::string("SUNDIALS could not make its ") + what);
+  return handle;
+}
+
+/// Without a branch in the loop, so that the compiler takes several values at once.
+bool allFinite(std::span<const double> values) {
+  bool finite = true;
+  for (const double value : values) finite &= std::abs(value) <= std::numeric_limits<double>::max();
+  return finite;
+}
+
+/// z = a x + b y. CVODE's prediction adds some eighty short vectors a step; without the library's dispatch on special
+/// coefficients a double pendulum's motion costs 30 % less.
+void addVectors(realtype a, N_Vector x, realtype b, N_Vector y, N_Vector z) {
+  const sunindextype n = NV_LENGTH_S(x);
+  const realtype* left = NV_DATA_S(x);
+  const realtype* right = NV_DATA_S(y);
+  realtype* sum = NV_DATA_S(z);
+  if (a == 1 && b == 1)
+    for (sunindextype i = 0; i < n; ++i) sum[i] = left[i] + right[i];
+  else
+    for (sunindextype i = 0; i < n; ++i) sum[i] = a * left[i] + b * right[i];
+}
+
+/// The same for rows.
+template <class V>
+GAMUT_INLINE void addRows(double a, N_Vector x, double b, N_Vector y, N_Vector z) {
+  const sunindextype n = NV_LENGTH_S(x);
+  const double* left = NV_DATA_S(x);
+  const double* right = NV_DATA_S(y);
+  double* sum = NV_DATA_S(z);
+  V l, r;
+  if (a == 1 && b == 1) {
+    for (sunindextype i = 0; i < n; i += lanes<V>) {
+      load(l, left + i);
+      load(r, right + i);
+      store(sum + i, l + r);
+    }
+  } else {
+    for (sunindextype i = 0; i < n; i += lanes<V>) {
+      load(l, left + i);
+      load(r, right + i);
+      store(sum + i, a * l + b * r);
+    }
+  }
+}
+
+/// The greatest of the samples' weighted root mean squares; infinite if one of them is no number, so that CVODE turns
+/// to a shorter step.
+template <class V>
+GAMUT_INLINE double greatestNorm(N_Vector x, N_Vector weights) {
+  const sunindextype n = NV_LENGTH_S(x);
+  const double* values = NV_DATA_S(x);
+  const double* weight = NV_DATA_S(weights);
+  double sums[packWidth];
+  for (int lane = 0; lane < packWidth; lane += lanes<V>) {
+    V sum = V{}, value, by;
+    for (sunindextype row = lane; row < n; row += packWidth) {
+      load(value, values + row);
+      load(by, weight + row);
+      value = value * by;
+      sum = sum + value * value;
+    }
+    store(sums + lane, sum);
+  }
+  double greatest = 0;
+  for (const double sum : sums)
+    if (!(sum <= greatest)) greatest = std::isnan(sum) ? std::numeric_limits<double>::infinity() : sum;
+  return std::sqrt(greatest / static_cast<double>(n / packWidth));
+}
+
+void addOnBaseline(double a, N_Vector x, double b, N_Vector y, N_Vector z) { addRows<Vector2>(a, x, b, y, z); }
+GAMUT_AVX2 void addOnAvx2(double a, N_Vector x, double b, N_Vector y, N_Vector z) { addRows<Vector4>(a, x, b, y, z); }
+GAMUT_AVX512 void addOnAvx512(double a, N_Vector x, double b, N_Vector y, N_Vector z) {
+  addRows<Vector8>(a, x, b, y, z);
+}
+double normOnBaseline(N_Vector x, N_Vector weights) { return greatestNorm<Vector2>(x, weights); }
+GAMUT_AVX2 double normOnAvx2(N_Vector x, N_Vector weights) { return greatestNorm<Vector4>(x, weights); }
+GAMUT_AVX512 double normOnAvx512(N_Vector x, N_Vector weights) { return greatestNorm<Vector8>(x, weights); }
+
+/// What CVODE's return means for a motion.
+std::string meaningOf(int flag, const std::string& message) {
+  switch (flag) {
+    case CV_TOO_MUCH_WORK:
+      return "it takes more than " + std::to_string(maximumSteps) + " steps between two output times";
+    case CV_TOO_MUCH_ACC:
+      return "its tolerance is finer than doubles can be";
+    case CV_ERR_FAILURE:
+    case CV_CONV_FAILURE:
+      return "its steps became too short, as where the motion runs into a singularity or springs are too stiff";
+    case CV_RHSFUNC_FAIL:
+    case CV_FIRST_RHSFUNC_ERR:
+    case CV_REPTD_RHSFUNC_ERR:
+    case CV_UNREC_RHSFUNC_ERR:
+      return "its accelerations are no finite numbers there, as where the motion is not determined";
+    default:
+      return "the integrator gave up: " + message;
+  }
+}
+
+}  // namespace
+
+Tolerance Tolerance::tightened(double factor) const {
+  return {std::max(relative / factor, std::min(relative, tightest)), absolute / factor};
+}
+
+/// In the order in which it is made (and unmade backwards).
+struct Cvode::Memory {
+  Memory(std::size_t size, const std::vector<double>& outputTimes, const std::atomic<bool>* stop)
+      : times(outputTimes), cancelled(stop), state(size) {
+    if (size == 0) return;
+    if (SUNContext_Create(nullptr, &context) != 0) throw std::runtime_error("SUNDIALS could not make its context");
+    x = required(N_VMake_Serial(static_cast<sunindextype>(size), state.data(), context), "state vector");
+  }
+  ~Memory() {
+    if (cvode != nullptr) CVodeFree(&cvode);
+    if (iteration != nullptr) SUNNonlinSolFree(iteration);
+    if (linear != nullptr) SUNLinSolFree(linear);
+    if (matrix != nullptr) SUNMatDestroy(matrix);
+    if (x != nullptr) N_VDestroy(x);
+    if (context != nullptr) SUNContext_Free(&context);
+  }
+  Memory(const Memory&) = delete;
+  Memory& operator=(const Memory&) = delete;
+
+  /// Once x has its operations: clones, CVODE's work vectors, inherit them.
+  void start(Method method) {
+    if (state.empty()) return;
+    cvode = required(CVodeCreate(method == Method::adams ? CV_ADAMS : CV_BDF, context), "integrator");
+    CVodeSetErrHandlerFn(cvode, &remember, this);
+    bool good = CVodeInit(cvode, &derivative, 0, x) == CV_SUCCESS;
+    good = good && CVodeSetUserData(cvode, this) == CV_SUCCESS && CVodeSStolerances(cvode, 1e-10, 1e-12) == CV_SUCCESS;
+    good = good && CVodeSetMaxNumSteps(cvode, maximumSteps) == CV_SUCCESS;
+    good = good && CVodeSetMaxHnilWarns(cvode, -1) == CV_SUCCESS;
+    if (!times.empty()) good = good && CVodeSetMinStep(cvode, shortestStep * times.back()) == CV_SUCCESS;
+    if (method == Method::adams) {
+      iteration = required(SUNNonlinSol_FixedPoint(x, 0, context), "functional iteration");
+      good = good && CVodeSetNonlinearSolver(cvode, iteration) == CV_SUCCESS;
+    } else {
+      const auto n = static_cast<sunindextype>(state.size());
+      matrix = required(SUNDenseMatrix(n, n, context), "matrix");
+      linear = required(SUNLinSol_Dense(x, matrix, context), "linear solver");
+      good = good && CVodeSetLinearSolver(cvode, linear, matrix) == CV_SUCCESS;
+    }
+    if (!good) throw std::runtime_error("SUNDIALS refused its settings: " + message);
+  }
+
+  bool restart(const Tolerance& tolerance) {
+    return CVodeReInit(cvode, 0, x) == CV_SUCCESS &&
+           CVodeSStolerances(cvode, tolerance.relative, tolerance.absolute) == CV_SUCCESS &&
+           CVodeSetStopTime(cvode, times.back()) == CV_SUCCESS;
+  }
+
+  bool isCancelled() const { return cancelled != nullptr && *cancelled; }
+
+  bool tookTooLong() {
+    if (++evaluations % evaluationsBetweenLooks == 0) isLate = threadCpuSeconds() - began >= allowed;
+    return isLate;
+  }
+
+  static int derivative(realtype t, N_Vector x, N_Vector dx, void* self) {
+    Memory& memory = *static_cast<Memory*>(self);
+    if (memory.isCancelled() || memory.tookTooLong()) return -1;
+    const std::size_t n = memory.state.size();
+    const std::span<double> rates(NV_DATA_S(dx), n);
+    memory.problem->differentiate(t, std::span<const double>(NV_DATA_S(x), n), rates);
+    return allFinite(rates) ? 0 : 1;
+  }
+
+  static void remember(int, const char*, const char*, char* text, void* self) {
+    static_cast<Memory*>(self)->message = text;
+  }
+
+  const std::vector<double> times;
+  const std::atomic<bool>* cancelled;
+  std::vector<double> state;
+  CvodeProblem* problem = nullptr;  // while it is integrated
+  std::string message;
+  double began = 0, allowed = 0;  // s of the thread's CPU time
+  long evaluations = 0;
+  bool isLate = false;
+  SUNContext context = nullptr;
+  N_Vector x = nullptr;
+  void* cvode = nullptr;
+  SUNNonlinearSolver iteration = nullptr;
+  SUNMatrix matrix = nullptr;
+  SUNLinearSolver linear = nullptr;
+};
+
+Cvode::Cvode(std::size_t states, const std::vector<double>& times, Method method, const std::atomic<bool>* cancelled)
+    : memory_(std::make_unique<Memory>(states, times, cancelled)) {
+  if (memory_->x != nullptr) memory_->x->ops->nvlinearsum = addVectors;
+  memory_->start(method);
+}
+
+Cvode::Cvode(std::size_t states, const std::vector<double>& times, VectorUnit unit, const std::atomic<bool>* cancelled)
+    : memory_(std::make_unique<Memory>(states * packWidth, times, cancelled)) {
+  if (memory_->x != nullptr) {
+    const auto operations = memory_->x->ops;
+    operations->nvlinearsum = unit == VectorUnit::avx512 ? addOnAvx512
+                              : unit == VectorUnit::avx2 ? addOnAvx2
+                                                         : addOnBaseline;
+    operations->nvwrmsnorm = unit == VectorUnit::avx512 ? normOnAvx512
+                             : unit == VectorUnit::avx2 ? normOnAvx2
+                                                        : normOnBaseline;
+  }
+  memory_->start(Method::adams);
+}
+
+Cvode::~Cvode() = default;
+Cvode::Cvode(Cvode&&) noexcept = default;
+Cvode& Cvode::operator=(Cvode&&) noexcept = default;
+
+Integration Cvode::integrate(CvodeProblem& problem, std::span<const double> x, const Tolerance& tolerance,
+                             double seconds) {
+  Memory& m = *memory_;
+  const std::vector<double>& times = m.times;
+  if (x.size() != m.state.size()) throw std::invalid_argument("the initial values do not have the problem's size");
+  std::ranges::copy(x, m.state.begin());
+  m.message.clear();
+  m.problem = &problem;
+  m.began = threadCpuSeconds();
+  m.allowed = seconds;
+  m.evaluations = 0;
+  m.isLate = false;
+  const bool moves = !x.empty();
+  int flag = !moves || times.empty() || times.back() == 0 || m.restart(tolerance) ? CV_SUCCESS : CV_ILL_INPUT;
+  bool isFinite = true;
+  Integration result;
+  for (std::size_t i = 0; i < times.size() && flag >= 0 && isFinite; ++i) {
+    realtype t = times[i];
+    // Output between steps is CVODE's interpolant, of the order of the step itself.
+    if (moves && times[i] > 0) flag = CVode(m.cvode, times[i], m.x, &t, CV_NORMAL);
+    result.reached = t;
+    if (flag < 0) break;
+    isFinite = problem.observe(i, t, m.state);
+    if (isFinite) result.times = i + 1;
+  }
+  if (flag < 0 || !isFinite)
+    result.why = m.isCancelled() ? "cancelled"
+                 : m.isLate      ? "the time limit of " + toString(seconds) + " s CPU for a sample was reached"
+                 : flag < 0      ? meaningOf(flag, m.message)
+                                 : "an output is not finite";
+  return result;
+}
+
+}  // namespace gamut

@@ -1,0 +1,406 @@
+// The integrations, spread over threads: every sample once, with its pack or alone, some of them a second time for the
+// witness's error.
+#include "analyses/samples/ensemble.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <iterator>
+#include <limits>
+#include <mutex>
+#include <optional>
+#include <stdexcept>
+
+#include "analyses/samples/arbiter.hpp"
+#include "analyses/samples/pack_witness.hpp"
+#include "analyses/workers.hpp"
+
+namespace gamut {
+namespace {
+
+constexpr std::size_t usualErrorStride = 50, leastErrorSamples = 8, mostErrorSamples = 1024;
+constexpr double errorTightening = 100;
+// A pack costs what 4 to 16 samples cost alone, with vectors of two doubles up to twice as many (motions of the tests
+// and a double pendulum): with as many times a sample's time, no pack is given up whose samples all keep theirs. The
+// number must not depend on the machine: the samples' last bits depend on it.
+constexpr std::size_t leastTogether = packWidth / 4;
+constexpr std::size_t firstSamples = 256, namedFailures = 10;
+// A block's rows take so many bytes, or as many packs: work for many threads between two looks, and no more packs than
+// gain something (studies/tip_position).
+constexpr std::size_t blockBytes = std::size_t{1} << 26, leastPacks = 8, mostPacks = 128;
+
+std::size_t packsOfBlock(std::size_t cells) {
+  return std::clamp(blockBytes / (sizeof(double) * packWidth * std::max<std::size_t>(cells, 1)), leastPacks, mostPacks);
+}
+
+/// Samples that are integrated at once.
+struct Piece {
+  std::size_t first = 0;
+  std::size_t count = 0;
+};
+
+/// The pieces of a block, in the order of their samples.
+std::vector<Piece> piecesOf(std::size_t samples, std::size_t width) {
+  std::vector<Piece> pieces;
+  for (std::size_t first = 0; first < samples; first += packWidth) {
+    const std::size_t count = std::min<std::size_t>(packWidth, samples - first);
+    if (width > 1 && count >= leastTogether)
+      pieces.push_back({first, count});
+    else
+      for (std::size_t i = 0; i < count; ++i) pieces.push_back({first + i, 1});
+  }
+  return pieces;
+}
+
+/// Integrates pieces of blocks. One a thread.
+class PieceIntegrator {
+ public:
+  PieceIntegrator(const UncertainMotion& system, const EnsembleOptions& options, std::size_t width)
+      : system_(system),
+        options_(options),
+        alone_(system.motion, options.method, options.cancelled),
+        trajectory_(system.motion.times.size() * system.motion.outputs()) {
+    if (width > 1) together_.emplace(system.motion, options.cancelled);
+  }
+
+  /// Tells `take` how many samples, the next of the piece, have come to their ends; no more once it is cancelled.
+  template <class Take>
+  void integrate(SampleBlock& block, const Piece& piece, const Take& take) {
+    if (piece.count > 1 && integrateTogether(block, piece)) return take(piece.count);
+    for (std::size_t i = piece.first; i < piece.first + piece.count && !isCancelled(); ++i) {
+      block.runs[i] =
+          alone_.integrate(system_.start(block.values(i)), options_.tolerance, trajectory_, options_.secondsPerSample);
+      block.setTrajectory(i, trajectory_);
+      if (block.runs[i].times < system_.motion.times.size() && isCancelled()) return;
+      take(1);
+    }
+  }
+
+ private:
+  bool isCancelled() const { return options_.cancelled != nullptr && *options_.cancelled; }
+
+  /// False if not all samples arrive: nothing is left written then.
+  bool integrateTogether(SampleBlock& block, const Piece& piece) {
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    starts_.resize(system_.motion.startValues() * packWidth);
+    for (std::size_t lane = 0; lane < packWidth; ++lane) {  // filled up with the last sample
+      const std::vector<double> values = system_.start(block.values(piece.first + std::min(lane, piece.count - 1)));
+      for (std::size_t row = 0; row < values.size(); ++row) starts_[row * packWidth + lane] = values[row];
+    }
+    const std::span<double> rows = block.pack(piece.first / packWidth);
+    const Integration run =
+        together_->integrate(starts_, options_.tolerance, rows, leastTogether * options_.secondsPerSample);
+    if (run.times < system_.motion.times.size()) {
+      std::ranges::fill(rows, none);
+      return false;
+    }
+    for (std::size_t row = 0; piece.count < packWidth && row < rows.size(); row += packWidth)
+      std::ranges::fill(rows.subspan(row + piece.count, packWidth - piece.count), none);
+    std::fill_n(block.runs.begin() + static_cast<std::ptrdiff_t>(piece.first), piece.count, run);
+    return true;
+  }
+
+  const UncertainMotion& system_;
+  const EnsembleOptions& options_;
+  Witness alone_;
+  std::optional<PackWitness> together_;
+  std::vector<double> starts_, trajectory_;
+};
+
+/// Every how manyth sample is integrated twice.
+std::size_t errorStrideFor(std::size_t samples) {
+  const std::size_t stride = std::clamp(samples / leastErrorSamples, std::size_t{1}, usualErrorStride);
+  return std::max(stride, (samples + mostErrorSamples - 1) / mostErrorSamples);
+}
+
+void includeDifference(Table& error, std::span<const double> one, std::span<const double> other) {
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    const double difference = std::abs(one[i] - other[i]);
+    if (!std::isnan(difference) && !(error.data[i] >= difference)) error.data[i] = difference;
+  }
+}
+
+/// The cuts of each level of alpha.
+std::vector<Box> cutsOf(const std::vector<Uncertain>& uncertain, const std::vector<double>& alpha) {
+  std::vector<Box> cuts;
+  for (const double level : alpha) {
+    Box& box = cuts.emplace_back();
+    for (const Uncertain& q : uncertain) box.push_back(q.membership.cut(level));
+  }
+  return cuts;
+}
+
+/// The sampling, after a look at what it shall be of. The cuts whose corners are corners of the ranges, or the centre,
+/// are left out.
+Sampling plannedSampling(const UncertainMotion& system, const EnsembleOptions& options) {
+  system.check();
+  if (!(options.tolerance.relative > 0) || !(options.tolerance.absolute > 0))
+    throw std::invalid_argument("the tolerances of an ensemble must be positive");
+  std::vector<Box> boxes = cutsOf(system.uncertain, options.alpha);
+  std::erase_if(boxes, [&](const Box& box) {
+    bool isRange = true, isCentre = true;
+    for (std::size_t j = 0; j < box.size(); ++j) {
+      isRange = isRange && isEqual(box[j], system.uncertain[j].range);
+      isCentre = isCentre && isEqual(box[j], Interval(system.uncertain[j].nominal));
+    }
+    return isRange || isCentre;
+  });
+  return Sampling(options.plan, system.uncertain.size(), options.samples, options.seed, std::move(boxes));
+}
+
+/// Of how many levels the cuts hold these values: they are nested.
+std::size_t levelsHolding(const std::vector<Box>& cuts, std::span<const double> values) {
+  std::size_t levels = 0;
+  for (const Box& box : cuts) {
+    for (std::size_t j = 0; j < box.size(); ++j)
+      if (!contains(box[j], values[j])) return levels;
+    ++levels;
+  }
+  return levels;
+}
+
+std::size_t widthOf(Method method) { return method == Method::adams ? packWidth : 1; }
+
+}  // namespace
+
+std::vector<double> UncertainMotion::start(std::span<const double> values) const {
+  std::vector<double> result = nominal;
+  for (std::size_t j = 0; j < values.size(); ++j) result[static_cast<std::size_t>(slot[j])] = values[j];
+  return result;
+}
+
+void UncertainMotion::check() const {
+  motion.check();
+  if (nominal.size() != motion.startValues())
+    throw std::invalid_argument("a motion with " + std::to_string(motion.startValues()) +
+                                " start values cannot start from " + std::to_string(nominal.size()));
+  if (slot.size() != uncertain.size())
+    throw std::invalid_argument("each uncertain quantity needs a place in the motion");
+  std::vector<char> taken(nominal.size(), 0);
+  for (std::size_t j = 0; j < slot.size(); ++j) {
+    uncertain[j].check();
+    if (slot[j] < 0 || static_cast<std::size_t>(slot[j]) >= nominal.size())
+      throw std::invalid_argument("uncertain quantity '" + uncertain[j].name + "' has no place in the motion");
+    if (taken[static_cast<std::size_t>(slot[j])]++ != 0)
+      throw std::invalid_argument("uncertain quantity '" + uncertain[j].name + "' is stated twice");
+  }
+}
+
+EnsembleRun::EnsembleRun(const UncertainMotion& system, EnsembleOptions options)
+    : system_(system),
+      options_(std::move(options)),
+      sampling_(plannedSampling(system, options_)),
+      cuts_(cutsOf(system.uncertain, options_.alpha)),
+      reachedTimes_(system.motion.times.size()),
+      error_(system.motion.times.size(), system.motion.outputs()),
+      errorStride_(errorStrideFor(sampling_.samples())),
+      nextBeside_(sampling_.samples()),
+      total_(sampling_.size() + (sampling_.samples() + errorStride_ - 1) / errorStride_) {}
+
+std::size_t EnsembleRun::packWidth() const { return widthOf(options_.method); }
+
+bool EnsembleRun::isCancelled() const { return options_.cancelled != nullptr && *options_.cancelled; }
+
+/// Reports every hundredth of the work, from whatever thread completes it.
+void EnsembleRun::completeOne() {
+  const std::size_t done = ++done_;
+  if (options_.progress && (done * 100 / total_ != (done - 1) * 100 / total_ || done == total_))
+    options_.progress(static_cast<double>(done) / static_cast<double>(total_));
+}
+
+std::size_t EnsembleRun::placeInPack(std::size_t number) const {
+  return (number < sampling_.samples() ? number : number - sampling_.samples()) % gamut::packWidth;
+}
+
+/// The samples from `next` on, before `end`, that make a block. A pack that was cut off inside was being integrated one
+/// by one: the rest of it makes a block of its own, and goes on so.
+SampleBlock EnsembleRun::nextBlock(std::size_t next, std::size_t end) const {
+  const std::size_t place = placeInPack(next);
+  const std::size_t count = place == 0 ? end - next : std::min(end - next, gamut::packWidth - place);
+  return {next,
+          count,
+          next < sampling_.samples(),
+          sampling_.quantities(),
+          system_.motion.times.size(),
+          system_.motion.outputs()};
+}
+
+/// Cuts the block off before the first sample that was cancelled.
+void EnsembleRun::integrate(SampleBlock& block) {
+  for (std::size_t i = 0; i < block.size(); ++i)
+    if (block.first() + i < sampling_.centre()) sampling_.unitPoint(block.first() + i, block.values(i));
+  const std::vector<Piece> pieces = piecesOf(block.size(), placeInPack(block.first()) == 0 ? packWidth() : 1);
+  std::vector<std::size_t> ended(pieces.size(), 0);
+  forEachIndex(options_.jobs, pieces.size(), options_.cancelled, [&] {
+    return [&, integrator = PieceIntegrator(system_, options_, packWidth())](std::size_t piece) mutable {
+      const auto [first, count] = pieces[piece];
+      for (std::size_t i = first; i < first + count; ++i) {
+        sampling_.toValues(block.first() + i, system_.uncertain, block.values(i));
+        block.levels[i] = levelsHolding(cuts_, block.values(i));
+      }
+      integrator.integrate(block, pieces[piece], [&](std::size_t more) {
+        ended[piece] += more;
+        for (std::size_t i = 0; i < more; ++i) completeOne();
+      });
+    };
+  });
+  std::size_t kept = 0, piece = 0;
+  while (piece < pieces.size() && ended[piece] == pieces[piece].count) kept += ended[piece++];
+  if (piece == pieces.size()) return;
+  kept += ended[piece++];
+  for (; piece < pieces.size(); ++piece) done_ -= ended[piece];
+  block.keepFirst(kept);
+}
+
+/// Unless that is known already.
+void EnsembleRun::measureError(const SampleBlock& block) {
+  if (!block.hasWeight() || block.first() < measured_) return;
+  std::vector<std::size_t> twice;
+  for (std::size_t i = 0; i < block.size(); ++i)
+    if ((block.first() + i) % errorStride_ == 0) twice.push_back(i);
+  const Motion& motion = system_.motion;
+  const Tolerance tight = options_.tolerance.tightened(errorTightening);
+  std::mutex mutex;
+  std::size_t compared = 0;
+  forEachIndex(options_.jobs, twice.size(), options_.cancelled, [&] {
+    return [&, witness = Witness(motion, options_.method, options_.cancelled),
+            again = std::vector<double>(error_.data.size())](std::size_t i) mutable {
+      const std::vector<double> start = system_.start(block.values(twice[i]));
+      if (motion.f.states() == 0)
+        again = roundedToDoubles(arbitrate(motion, start, {}, options_.cancelled), again.size());
+      else
+        witness.integrate(start, tight, again, options_.secondsPerSample);
+      completeOne();
+      const std::vector<double> once = block.trajectory(twice[i]);
+      const std::lock_guard lock(mutex);
+      includeDifference(error_, once, again);
+      ++compared;
+    };
+  });
+  if (isCancelled())
+    done_ -= compared;
+  else
+    measured_ = block.first() + block.size();
+}
+
+void EnsembleRun::noteFailures(const SampleBlock& block) {
+  for (std::size_t i = 0; i < block.size(); ++i) {
+    const Integration& run = block.runs[i];
+    if (run.times == system_.motion.times.size()) continue;
+    reachedTimes_ = std::min(reachedTimes_, run.times);
+    ++failures_;
+    failed_.push_back({block.first() + i, run.times, run.reached, run.why});
+  }
+  std::ranges::sort(failed_, {}, &FailedSample::number);
+  if (failed_.size() > namedFailures) failed_.resize(namedFailures);
+}
+
+/// Keeps the samples `next` … end - 1, as far as they come.
+void EnsembleRun::integrateFirst(std::size_t& next, std::size_t end) {
+  while (next < end && !isCancelled()) {
+    SampleBlock block = nextBlock(next, end);
+    integrate(block);
+    next += block.size();
+    if (block.size() > 0) first_.push_back(std::move(block));
+  }
+}
+
+void EnsembleRun::integrateFirst() {
+  integrateFirst(nextSample_, std::min(sampling_.samples(), firstSamples));
+  integrateFirst(nextBeside_, sampling_.size());
+  for (const SampleBlock& block : first_) measureError(block);
+}
+
+/// Where the first samples lie and a quarter of that to both sides, cut off where nothing is expected.
+Envelope EnsembleRun::expectedRange(const Envelope& expected) const {
+  constexpr double margin = 0.25;
+  Envelope range(system_.motion.times.size(), system_.motion.outputs());
+  for (const SampleBlock& block : first_)
+    for (std::size_t i = 0; i < block.size(); ++i)
+      for (std::size_t t = 0; t < range.lower.times; ++t)
+        for (std::size_t o = 0; o < range.lower.outputs; ++o) range.include(t, o, block(i, t, o));
+  for (std::size_t i = 0; i < range.lower.data.size(); ++i) {
+    double& lower = range.lower.data[i];
+    double& upper = range.upper.data[i];
+    const double beside = margin * (upper - lower);
+    lower -= beside;
+    upper += beside;
+    if (expected.empty() || !(expected.lower.data[i] <= expected.upper.data[i])) continue;
+    const double least = std::max(lower, expected.lower.data[i]), greatest = std::min(upper, expected.upper.data[i]);
+    if (!(least <= greatest)) continue;
+    lower = least;
+    upper = greatest;
+  }
+  return range;
+}
+
+void EnsembleRun::take(SampleBlock& block, const Look& look) {
+  noteFailures(block);
+  if (look) look(block);
+  statistics_->include(block, options_.jobs);
+  (block.hasWeight() ? counted_ : beside_) += block.size();
+}
+
+void EnsembleRun::integrateOthers(const Envelope& expected, const Look& look) {
+  integrateFirst();
+  statistics_.emplace(expectedRange(expected), cuts_.size());
+  for (SampleBlock& block : first_) take(block, look);
+  first_.clear();
+  const std::size_t size = gamut::packWidth * packsOfBlock(error_.data.size());
+  while (nextSample_ < sampling_.samples() && !isCancelled()) {
+    SampleBlock block = nextBlock(nextSample_, std::min(sampling_.samples(), nextSample_ + size));
+    integrate(block);
+    if (block.size() == 0) return;
+    nextSample_ += block.size();
+    measureError(block);
+    take(block, look);
+  }
+}
+
+double ensembleBytes(std::size_t times, std::size_t outputs, std::size_t quantities, std::size_t levels) {
+  const std::size_t cells = times * outputs, corners = std::size_t{1} << std::min<std::size_t>(quantities, 10);
+  const std::size_t first = firstSamples + corners + (levels > 0 ? 1024 : 0);
+  const std::size_t others = packWidth * packsOfBlock(cells);
+  const double statistics = sizeof(std::uint32_t) * static_cast<double>(EnsembleStatistics::binsFor(cells)) +
+                            sizeof(double) * static_cast<double>(2 * levels + 16);
+  return static_cast<double>(cells) * (sizeof(double) * static_cast<double>(std::max(first, others)) + statistics);
+}
+
+double EnsembleRun::reached() const {
+  const std::vector<double>& times = system_.motion.times;
+  return integrated() == 0 || reachedTimes_ == 0 ? 0 : times[reachedTimes_ - 1];
+}
+
+std::string EnsembleRun::why() const {
+  if (failed_.empty()) return "";
+  char reached[32];
+  std::snprintf(reached, sizeof reached, "%.6g", failed_.front().reached);
+  return "sample " + std::to_string(failed_.front().number) + " failed at " + reached + " s: " + failed_.front().why +
+         (failures_ > 1 ? " (and " + std::to_string(failures_ - 1) + " more)" : "") +
+         "; beyond, nothing is shown of the samples, since it would not be of all";
+}
+
+Envelope EnsembleRun::envelope() const { return statistics_->envelope(reachedTimes_); }
+std::vector<Envelope> EnsembleRun::innerCuts() const { return statistics_->innerCuts(reachedTimes_); }
+Statistics EnsembleRun::statistics(const std::vector<double>& probabilities) const {
+  return statistics_->statistics(reachedTimes_, probabilities);
+}
+
+std::vector<double> replaySample(const UncertainMotion& system, const EnsembleOptions& options, std::size_t number) {
+  Sampling sampling = plannedSampling(system, options);
+  if (number >= sampling.size()) throw std::invalid_argument("no sample has the number " + std::to_string(number));
+  const bool hasWeight = number < sampling.samples();
+  const std::size_t zone = hasWeight ? 0 : sampling.samples(), end = hasWeight ? sampling.samples() : sampling.size();
+  const std::size_t first = zone + (number - zone) / packWidth * packWidth;
+  SampleBlock block(first, std::min<std::size_t>(packWidth, end - first), hasWeight, sampling.quantities(),
+                    system.motion.times.size(), system.motion.outputs());
+  for (std::size_t i = 0; i < block.size(); ++i)
+    std::ranges::copy(sampling.values(first + i, system.uncertain), block.values(i).begin());
+  const std::size_t width = widthOf(options.method);
+  const std::vector<Piece> pieces = piecesOf(block.size(), width);
+  const auto after = std::ranges::upper_bound(pieces, number - first, {}, &Piece::first);
+  PieceIntegrator(system, options, width).integrate(block, *std::prev(after), [](std::size_t) {});
+  return block.trajectory(number - first);
+}
+
+}  // namespace gamut

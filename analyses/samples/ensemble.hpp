@@ -1,0 +1,150 @@
+// What is probable: many samples of the uncertain quantities, integrated by the witness (CVODE), by Adams's method in
+// packs, and what they say together: envelope, moments, quantiles, inner alpha-cuts, and the witness's own error.
+// Samples are looked at as they arrive, block by block, and not kept: memory does not grow with their number.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "analyses/samples/ensemble_statistics.hpp"
+#include "analyses/samples/sample_block.hpp"
+#include "analyses/samples/sampling.hpp"
+#include "analyses/samples/witness.hpp"
+#include "analyses/table.hpp"
+#include "analyses/uncertainty.hpp"
+
+namespace gamut {
+
+/// A motion whose start values are partly uncertain.
+struct UncertainMotion {
+  Motion motion;
+  std::vector<double> nominal;       ///< initial values, then parameters
+  std::vector<Uncertain> uncertain;  ///< the uncertain quantities
+  std::vector<int> slot;             ///< of each uncertain quantity: its place in `nominal`
+
+  /// The start values for these values of the uncertain quantities.
+  std::vector<double> start(std::span<const double> values) const;
+  /// Throws std::invalid_argument, saying what does not fit together.
+  void check() const;
+};
+
+struct EnsembleOptions {
+  Plan plan = Plan::sobol;
+  std::size_t samples = 4096;
+  std::uint64_t seed = 1;
+  Tolerance tolerance;
+  Method method = Method::adams;
+  /// CPU time after which a sample fails; a pack that takes longer than sixteen samples may is given up, and its
+  /// samples are integrated one by one
+  double secondsPerSample = std::numeric_limits<double>::infinity();
+  std::vector<double> alpha;                     ///< rising membership levels, of which inner cuts are wanted
+  int jobs = 1;                                  ///< threads
+  std::function<void(double)> progress;          ///< called with the fraction done (0 … 1), from any thread
+  const std::atomic<bool>* cancelled = nullptr;  ///< set from outside to end early; what has ended is kept
+};
+
+/// A sample that CVODE could not follow to the horizon.
+struct FailedSample {
+  std::size_t number = 0;
+  std::size_t times = 0;  ///< number of output times reached
+  double reached = 0;     ///< s
+  std::string why;
+};
+
+/// The samples of `system` on their way into the statistics: all samples of the plan, the corners, the corners of the
+/// alpha-cuts and the centre. Every number depends on the options' plan, samples, seed, tolerance, method and alpha
+/// alone, but which samples took too long. By Adams's method the samples of one number / packWidth are integrated
+/// together (corners and centre, which follow the samples, counted from the first corner), in the steps of the one that
+/// needs the shortest: a sample's trajectory is what its pack gave. Packs of so few samples that they would cost more
+/// than the samples alone, packs of which a sample fails, and all samples by Method::bdf are integrated one by one.
+/// Samples that fail are named.
+class EnsembleRun {
+ public:
+  /// Looks at samples before they count, and may put better trajectories in their place. Called from one thread, block
+  /// by block in one order.
+  using Look = std::function<void(SampleBlock&)>;
+
+  /// The system and what the options point to must outlive it. Throws std::invalid_argument for options or a system
+  /// that make no sense.
+  EnsembleRun(const UncertainMotion& system, EnsembleOptions options);
+  EnsembleRun(UncertainMotion&& system, EnsembleOptions options) = delete;
+
+  /// Integrates the first samples, at most 256, then the corners and the centre, and keeps them. If that is cancelled,
+  /// those before the first that has not come to its end are kept, and a second call goes on behind them.
+  void integrateFirst();
+  /// Takes the first samples into the statistics, with what was still missing of them, then integrates all others and
+  /// takes them. `expected`: where outputs are expected besides what the first samples say, such as an enclosure; NaN
+  /// where nothing is known, or empty.
+  void integrateOthers(const Envelope& expected = {}, const Look& look = {});
+
+  const EnsembleOptions& options() const { return options_; }
+  const Sampling& sampling() const { return sampling_; }
+  /// 64, or 1 where samples are integrated one by one.
+  std::size_t packWidth() const;
+  /// Samples that count in the statistics: those of the plan, unless cancelled.
+  std::size_t counted() const { return counted_; }
+  /// The same and corners and centre.
+  std::size_t integrated() const { return counted_ + beside_; }
+  /// All of them, and their error measured to the end.
+  bool isComplete() const { return integrated() == sampling_.size() && measured_ == sampling_.samples(); }
+  /// Output times at which all that were integrated have arrived; envelopes and statistics end there, since beyond they
+  /// would be of the survivors alone.
+  std::size_t reachedTimes() const { return reachedTimes_; }
+  double reached() const;  ///< s
+  /// Why that is not all times, naming the first sample that failed; or empty.
+  std::string why() const;
+  /// The first ten of the samples that failed, by rising number, and how many did.
+  const std::vector<FailedSample>& failed() const { return failed_; }
+  std::size_t failures() const { return failures_; }
+  /// Witness error: greatest change of a re-integrated sample at a hundred times tighter tolerance. Measured on every
+  /// fiftieth sample, integrated once more alone (on at least eight, or all if there are fewer; on 1024 at most;
+  /// without states, where nothing is integrated, against 128-bit arithmetic).
+  const Table& error() const { return error_; }
+
+  Envelope envelope() const;
+  std::vector<Envelope> innerCuts() const;
+  Statistics statistics(const std::vector<double>& probabilities = {0.01, 0.05, 0.5, 0.95, 0.99}) const;
+
+ private:
+  std::size_t placeInPack(std::size_t number) const;
+  SampleBlock nextBlock(std::size_t next, std::size_t end) const;
+  void integrate(SampleBlock& block);
+  void integrateFirst(std::size_t& next, std::size_t end);
+  void measureError(const SampleBlock& block);
+  void noteFailures(const SampleBlock& block);
+  void take(SampleBlock& block, const Look& look);
+  Envelope expectedRange(const Envelope& expected) const;
+  bool isCancelled() const;
+  void completeOne();
+
+  const UncertainMotion& system_;
+  EnsembleOptions options_;
+  Sampling sampling_;
+  std::vector<Box> cuts_;  // of each level of alpha
+  std::vector<SampleBlock> first_;
+  std::optional<EnsembleStatistics> statistics_;
+  std::vector<FailedSample> failed_;
+  std::size_t failures_ = 0, counted_ = 0, beside_ = 0, reachedTimes_;
+  Table error_;
+  std::size_t errorStride_;
+  std::size_t nextSample_ = 0, nextBeside_;  // to be integrated: of the plan, and of the corners with the centre
+  std::size_t measured_ = 0;                 // so many of the plan's samples have had their share in the error
+  std::size_t total_;
+  std::atomic<std::size_t> done_{0};
+};
+
+/// About as many bytes as an EnsembleRun takes, whatever the number of its samples.
+double ensembleBytes(std::size_t times, std::size_t outputs, std::size_t quantities, std::size_t levels);
+
+/// The trajectory of sample `number`, [time][output], bit for bit as in an EnsembleRun, by integrating its pack alone.
+/// Throws as EnsembleRun does, and std::invalid_argument for a number that no sample has.
+std::vector<double> replaySample(const UncertainMotion& system, const EnsembleOptions& options, std::size_t number);
+
+}  // namespace gamut

@@ -1,0 +1,69 @@
+// What an ensemble says, gathered in one pass: envelope, inner alpha-cuts, moments and quantiles. The memory that it
+// takes does not depend on the number of samples: quantiles come from a histogram of each output at each time, and are
+// as fine as its bins.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "analyses/samples/sample_block.hpp"
+#include "analyses/table.hpp"
+
+namespace gamut {
+
+/// What the samples (without corners and centre) say.
+struct Statistics {
+  Table mean;
+  Table deviation;                    ///< with N-1; NaN for a single sample
+  std::vector<double> probabilities;  ///< of the quantiles
+  std::vector<Table> quantiles;       ///< one a probability; between samples by linear interpolation
+  Table resolution;                   ///< no quantile there is farther than this from that of the samples themselves
+};
+
+class EnsembleStatistics {
+ public:
+  /// `expected`: between which values the histograms' bins lie; what lies beyond is counted in two open ends. `levels`:
+  /// of alpha.
+  EnsembleStatistics(const Envelope& expected, std::size_t levels);
+
+  /// Includes a block. What comes out depends on the blocks and their order alone, not on the number of jobs.
+  void include(const SampleBlock& block, int jobs);
+
+  // Each of the first `times` output times, NaN for the others.
+
+  /// Of samples, corners and centre.
+  Envelope envelope(std::size_t times) const;
+  /// Of the samples, corners and centre that lie in the cuts of each level. NaN where none does.
+  std::vector<Envelope> innerCuts(std::size_t times) const;
+  /// Throws std::invalid_argument unless the probabilities rise from 0 to 1.
+  Statistics statistics(std::size_t times,
+                        const std::vector<double>& probabilities = {0.01, 0.05, 0.5, 0.95, 0.99}) const;
+
+  /// Bins of one histogram, without the open ends.
+  std::size_t bins() const { return bins_; }
+  /// Bins of each histogram where there are so many: 4096, or fewer, so that all together have some 2^25, but at
+  /// least 64.
+  static std::size_t binsFor(std::size_t histograms);
+
+ private:
+  /// One output at one time.
+  struct Cell {
+    double lower = 0, upper = 0, scale = 0;   // of the bins; bins per unit
+    double count = 0, mean = 0, squares = 0;  // mean of the differences from `lower`
+    double least, greatest;                   // of the samples with weight
+  };
+
+  void includePack(Cell& cell, std::size_t index, const double* row);
+  void includeInLevels(std::size_t index, const double* row, const std::size_t* levels, std::size_t count);
+  void includeMoments(Cell& cell, const double* row);
+  Envelope envelopeOf(std::size_t level, std::size_t times) const;
+  void quantilesOf(std::size_t index, Statistics& result) const;
+
+  std::size_t times_, outputs_, levels_, bins_;
+  std::vector<Cell> cells_;               // [time][output]
+  std::vector<double> least_, greatest_;  // [time][output][levels that hold the sample]: of all samples
+  std::vector<std::uint32_t> counts_;     // [time][output][bin]: below, the bins, above
+};
+
+}  // namespace gamut

@@ -1,0 +1,279 @@
+// Plans by GSL's generators and by hashes, and the corners' orthogonal array. Points are made when they are asked for.
+#include "analyses/samples/sampling.hpp"
+
+#include <gsl/gsl_qrng.h>
+#include <gsl/gsl_rng.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <memory>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+
+namespace gamut {
+namespace {
+
+constexpr std::array<std::string_view, 5> planNames = {"sobol", "random", "latin-hypercube", "halton", "grid"};
+constexpr std::size_t cornerBits = 10;
+constexpr std::size_t mostBoxCorners = 1024;
+constexpr std::size_t largestGrid = std::size_t{1} << 24;  // points: more than anybody asks for
+
+using Random = std::unique_ptr<gsl_rng, decltype(&gsl_rng_free)>;
+using QuasiRandom = std::unique_ptr<gsl_qrng, decltype(&gsl_qrng_free)>;
+
+Random seeded(std::uint64_t seed) {
+  Random random(gsl_rng_alloc(gsl_rng_mt19937), &gsl_rng_free);
+  gsl_rng_set(random.get(), static_cast<unsigned long>((seed ^ (seed >> 32)) & 0xffffffffu));  // it takes 32 bits
+  return random;
+}
+
+/// Rotation by a random vector keeps the points evenly spread and makes them depend on the seed
+/// (Cranley & Patterson, SIAM J. Numer. Anal. 13, 1976).
+class QuasiRandomPoints : public PointSequence {
+ public:
+  QuasiRandomPoints(const gsl_qrng_type* type, Plan plan, std::size_t k, std::uint64_t seed)
+      : sequence_(nullptr, &gsl_qrng_free), shift_(k) {
+    if (k > type->max_dimension)
+      throw std::invalid_argument("the plan '" + std::string(nameOf(plan)) + "' serves at most " +
+                                  std::to_string(type->max_dimension) + " uncertain quantities, not " +
+                                  std::to_string(k));
+    sequence_.reset(gsl_qrng_alloc(type, static_cast<unsigned>(k)));
+    const Random random = seeded(seed);
+    for (double& s : shift_) s = gsl_rng_uniform(random.get());
+  }
+
+  void next(std::span<double> point) override {
+    gsl_qrng_get(sequence_.get(), point.data());
+    for (std::size_t j = 0; j < shift_.size(); ++j) {
+      point[j] += shift_[j];
+      if (point[j] >= 1) point[j] -= 1;
+    }
+  }
+
+ private:
+  QuasiRandom sequence_;
+  std::vector<double> shift_;
+};
+
+class RandomPoints : public PointSequence {
+ public:
+  explicit RandomPoints(std::uint64_t seed) : random_(seeded(seed)) {}
+  void next(std::span<double> point) override {
+    for (double& u : point) u = gsl_rng_uniform(random_.get());
+  }
+
+ private:
+  Random random_;
+};
+
+/// A hash of 64 bits, each of which depends on all of x (the finalizer of Steele, Lea & Flood, "Fast splittable
+/// pseudorandom number generators", OOPSLA 2014).
+std::uint64_t hashed(std::uint64_t x) {
+  x += 0x9e3779b97f4a7c15u;
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+  return x ^ (x >> 31);
+}
+
+/// A pseudo-random permutation of 0 … n-1 that needs no table: a Feistel network of hashes on the least even number of
+/// bits that holds n, gone through again until the result is below n (Black & Rogaway, CT-RSA 2002).
+class Permutation {
+ public:
+  Permutation(std::size_t n, std::uint64_t key) : n_(n), key_(key) {
+    while (half_ < 32 && (std::uint64_t{1} << (2 * half_)) < n) ++half_;
+  }
+
+  std::size_t operator()(std::size_t i) const {
+    std::uint64_t x = i;
+    do x = network(x);
+    while (x >= n_);
+    return x;
+  }
+
+ private:
+  static constexpr std::uint64_t rounds = 6;
+
+  std::uint64_t network(std::uint64_t x) const {
+    const std::uint64_t mask = (std::uint64_t{1} << half_) - 1;
+    std::uint64_t left = x >> half_, right = x & mask;
+    for (std::uint64_t round = 0; round < rounds; ++round) {
+      const std::uint64_t mixed = left ^ (hashed(key_ + (round << 32) + right) & mask);
+      left = right;
+      right = mixed;
+    }
+    return (left << half_) | right;
+  }
+
+  std::uint64_t n_, key_;
+  unsigned half_ = 1;
+};
+
+class LatinHypercube : public PointSequence {
+ public:
+  LatinHypercube(std::size_t k, std::size_t n, std::uint64_t seed) : n_(n) {
+    for (std::uint64_t j = 0; j < k; ++j) {
+      keys_.push_back(hashed(hashed(seed) + j));
+      strata_.emplace_back(n, keys_.back());
+    }
+  }
+
+  void next(std::span<double> point) override {
+    for (std::size_t j = 0; j < strata_.size(); ++j) {
+      const double within = static_cast<double>(hashed(~keys_[j] + number_) >> 11) * 0x1p-53;
+      point[j] = (static_cast<double>(strata_[j](number_)) + within) / static_cast<double>(n_);
+    }
+    ++number_;
+  }
+
+ private:
+  std::size_t n_, number_ = 0;
+  std::vector<std::uint64_t> keys_;
+  std::vector<Permutation> strata_;
+};
+
+class GridPoints : public PointSequence {
+ public:
+  explicit GridPoints(std::size_t perAxis) : perAxis_(perAxis) {}
+  void next(std::span<double> point) override {
+    std::size_t rest = number_++;
+    for (double& u : point) {
+      u = static_cast<double>(rest % perAxis_) / static_cast<double>(perAxis_ - 1);
+      rest /= perAxis_;
+    }
+  }
+
+ private:
+  std::size_t perAxis_, number_ = 0;
+};
+
+/// base^exponent, or `limit` if that is less.
+std::size_t cappedPower(std::size_t base, std::size_t exponent, std::size_t limit) {
+  std::size_t power = 1;
+  for (std::size_t i = 0; i < exponent && power < limit; ++i) power = power > limit / base ? limit : power * base;
+  return std::min(power, limit);
+}
+
+/// Values of every axis of a grid: at least two.
+std::size_t gridCount(std::size_t k, std::size_t samples) {
+  std::size_t count = 2;
+  while (cappedPower(count, k, samples) < samples) ++count;
+  return count;
+}
+
+std::unique_ptr<PointSequence> sequenceOf(Plan plan, std::size_t k, std::size_t n, std::uint64_t seed) {
+  switch (plan) {
+    case Plan::sobol:
+      return std::make_unique<QuasiRandomPoints>(gsl_qrng_sobol, plan, k, seed);
+    case Plan::halton:
+      return std::make_unique<QuasiRandomPoints>(gsl_qrng_halton, plan, k, seed);
+    case Plan::latinHypercube:
+      return std::make_unique<LatinHypercube>(k, n, seed);
+    case Plan::random:
+      return std::make_unique<RandomPoints>(seed);
+    case Plan::grid:
+      return std::make_unique<GridPoints>(gridCount(k, n));
+  }
+  throw std::invalid_argument("there is no such sampling plan");
+}
+
+}  // namespace
+
+std::string_view nameOf(Plan plan) { return planNames[static_cast<std::size_t>(plan)]; }
+
+Plan planNamed(std::string_view name) {
+  std::string choices;
+  for (std::size_t i = 0; i < planNames.size(); ++i) {
+    if (planNames[i] == name) return static_cast<Plan>(i);
+    choices += (i == 0 ? "" : ", ") + std::string(planNames[i]);
+  }
+  throw std::invalid_argument("no sampling plan is called '" + std::string(name) + "'; there are " + choices);
+}
+
+/// Column j of the corners' array has bit parity(corner & mask): masks of one bit first (all combinations of the first
+/// quantities), then the others with an odd number of bits, then those with an even number.
+Sampling::Ends::Ends(std::size_t bits) : masks_((std::size_t{1} << bits) - 1) {
+  std::iota(masks_.begin(), masks_.end(), std::size_t{1});
+  const auto rank = [&](std::size_t mask) {
+    const int ones = std::popcount(mask);
+    return ones % 2 == 1 ? ones : static_cast<int>(bits) + ones;
+  };
+  std::stable_sort(masks_.begin(), masks_.end(), [&](std::size_t a, std::size_t b) { return rank(a) < rank(b); });
+}
+
+bool Sampling::Ends::isUpper(std::size_t corner, std::size_t quantity) const {
+  return std::popcount(corner & masks_[quantity % masks_.size()]) % 2 == 1;
+}
+
+Sampling::Sampling(Plan plan, std::size_t quantities, std::size_t samples, std::uint64_t seed, std::vector<Box> boxes)
+    : plan_(plan),
+      quantities_(quantities),
+      samples_(quantities == 0 ? 1 : samples),
+      seed_(seed),
+      boxes_(quantities == 0 ? std::vector<Box>{} : std::move(boxes)) {
+  if (samples == 0) throw std::invalid_argument("a sampling plan needs at least one sample");
+  for (const Box& box : boxes_)
+    if (box.size() != quantities) throw std::invalid_argument("a box needs one interval for each quantity");
+  if (quantities == 0) return;
+  if (plan == Plan::grid) {
+    samples_ = cappedPower(gridCount(quantities, samples), quantities, largestGrid + 1);
+    if (samples_ > largestGrid)
+      throw std::invalid_argument("a grid with both ends of " + std::to_string(quantities) +
+                                  " uncertain quantities has too many points; choose another plan");
+  }
+  sequence_ = sequenceOf(plan_, quantities_, samples_, seed_);
+  ends_ = Ends(std::min(quantities, cornerBits));
+  std::size_t bits = 1;
+  while (bits < std::min(quantities, cornerBits) && boxes_.size() << (bits + 1) <= mostBoxCorners) ++bits;
+  boxEnds_ = Ends(bits);
+}
+
+void Sampling::unitPoint(std::size_t number, std::span<double> point) {
+  if (number >= centre()) throw std::out_of_range("only samples and corners have a point in the unit cube");
+  if (number >= samples_) {
+    const std::size_t corner = number - samples_, inner = corner - std::min(corner, corners());
+    for (std::size_t j = 0; j < quantities_; ++j)
+      point[j] = corner < corners() ? ends_.isUpper(corner, j) : boxEnds_.isUpper(inner % boxEnds_.count(), j);
+    return;
+  }
+  if (quantities_ == 0) return;
+  if (number < position_) {
+    sequence_ = sequenceOf(plan_, quantities_, samples_, seed_);
+    position_ = 0;
+  }
+  for (; position_ <= number; ++position_) sequence_->next(point);
+}
+
+std::vector<double> Sampling::unitPoint(std::size_t number) {
+  std::vector<double> point(quantities_);
+  unitPoint(number, point);
+  return point;
+}
+
+void Sampling::toValues(std::size_t number, const std::vector<Uncertain>& uncertain, std::span<double> point) const {
+  if (uncertain.size() != quantities_ || point.size() != quantities_)
+    throw std::invalid_argument("the sampling plan is for another number of quantities");
+  if (number >= size()) throw std::out_of_range("the sampling plan has no such number");
+  const std::size_t firstInner = samples_ + corners();
+  for (std::size_t j = 0; j < quantities_; ++j) {
+    const Uncertain& q = uncertain[j];
+    if (number == centre()) {
+      point[j] = q.nominal;
+    } else if (number < samples_) {
+      point[j] = q.distribution.quantile(point[j]);
+    } else {
+      const Interval& side = number < firstInner ? q.range : boxes_[(number - firstInner) / boxEnds_.count()][j];
+      point[j] = point[j] > 0 ? side.upper() : side.lower();
+    }
+  }
+}
+
+std::vector<double> Sampling::values(std::size_t number, const std::vector<Uncertain>& uncertain) {
+  std::vector<double> point(quantities_);
+  if (number < centre()) unitPoint(number, point);
+  toValues(number, uncertain, point);
+  return point;
+}
+
+}  // namespace gamut

@@ -1,0 +1,66 @@
+// A motion of one sample as a problem of CVODE.
+#include "analyses/samples/witness.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "scalars/evaluation/evaluator.hpp"
+
+namespace gamut {
+
+void Motion::check() const {
+  if (f.outputs() != f.states()) throw std::invalid_argument("a motion needs one derivative for each state");
+  if (g.states() != f.states() || g.parameters() != f.parameters())
+    throw std::invalid_argument("the outputs of a motion need the states and parameters of its derivatives");
+  if (sampled.outputs() > 0 &&
+      (sampled.outputs() != f.outputs() || sampled.states() != f.states() || sampled.parameters() != f.parameters()))
+    throw std::invalid_argument("a motion has the same states and parameters for samples as for enclosures");
+  if (g.outputs() == 0) throw std::invalid_argument("a motion without outputs shows nothing");
+  for (std::size_t i = 0; i < times.size(); ++i)
+    if (!(times[i] >= 0) || !std::isfinite(times[i]) || (i > 0 && times[i] <= times[i - 1]))
+      throw std::invalid_argument("output times must rise from 0 or later");
+}
+
+struct Witness::Solver : CvodeProblem {
+  Solver(const Motion& m, Method method, const std::atomic<bool>* cancelled)
+      : motion(m), f(m.forSamples()), g(m.g), cvode(detail::at(m.f.states()), m.times, method, cancelled) {}
+
+  void differentiate(double t, std::span<const double> x, std::span<double> rates) override { f(t, x, rates); }
+
+  bool observe(std::size_t i, double t, std::span<const double> x) override {
+    const std::span<double> outputs = trajectory.subspan(i * motion.outputs(), motion.outputs());
+    g(t, x, outputs);
+    if (std::ranges::all_of(outputs, [](double value) { return std::isfinite(value); })) return true;
+    std::ranges::fill(outputs, std::numeric_limits<double>::quiet_NaN());
+    return false;
+  }
+
+  const Motion& motion;
+  Evaluator<double> f, g;
+  std::span<double> trajectory;  // while a motion is integrated
+  Cvode cvode;
+};
+
+Witness::Witness(const Motion& motion, Method method, const std::atomic<bool>* cancelled)
+    : solver_(std::make_unique<Solver>(motion, method, cancelled)) {}
+Witness::~Witness() = default;
+Witness::Witness(Witness&&) noexcept = default;
+Witness& Witness::operator=(Witness&&) noexcept = default;
+
+Integration Witness::integrate(std::span<const double> start, const Tolerance& tolerance, std::span<double> trajectory,
+                               double seconds) {
+  Solver& s = *solver_;
+  const Motion& motion = s.motion;
+  if (start.size() != motion.startValues() || trajectory.size() != motion.times.size() * motion.outputs())
+    throw std::invalid_argument("start values or trajectory do not have the motion's size");
+  std::ranges::fill(trajectory, std::numeric_limits<double>::quiet_NaN());
+  const std::size_t states = detail::at(motion.f.states());
+  s.f.setParameters(start.subspan(states));
+  s.g.setParameters(start.subspan(states));
+  s.trajectory = trajectory;
+  return s.cvode.integrate(s, start.first(states), tolerance, seconds);
+}
+
+}  // namespace gamut

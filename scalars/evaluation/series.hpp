@@ -1,0 +1,168 @@
+// Taylor coefficients in time of a Program's nodes, for any scalar with exact-enough arithmetic: intervals (enclosures
+// of derivatives), high precision (references and arbitration). The flow has its own, faster kernels for polynomials.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "scalars/algebra/linear_system.hpp"
+#include "scalars/index.hpp"
+#include "scalars/program/program.hpp"
+#include "scalars/traits.hpp"
+
+namespace gamut {
+
+/// Coefficients c[node][i] of (t - t0)^i. Recurrences: W. Tucker, Validated Numerics (2011), ch. 4.
+template <class S>
+class Series {
+ public:
+  /// Orders 0 … `order` are kept for the nodes. The program has to outlive the series.
+  Series(const Program& program, int order)
+      : program_(&program),
+        size_(order + 1),
+        c_(program.nodes().size() * detail::at(size_), S(0.0)),
+        systems_(program.matrices().size()) {}
+
+  /// The constants and parameters; one value a parameter.
+  void setParameters(std::span<const S> p) {
+    for (std::size_t i = 0; i < program_->nodes().size(); ++i) {
+      const Node& n = program_->nodes()[i];
+      if (n.op == Op::parameter) at(static_cast<int>(i), 0) = p[detail::at(n.a)];
+      if (n.op == Op::constant) at(static_cast<int>(i), 0) = constant<S>(program_->constants()[detail::at(n.a)]);
+    }
+  }
+
+  /// Coefficient i of a node, 0 ≤ i ≤ order.
+  S& at(int node, int i) { return c_[detail::at(node) * detail::at(size_) + detail::at(i)]; }
+
+  /// The solution's coefficients from x(t0): the program is ẋ = f(t, x, p). Afterwards at(state, i), i ≤ order.
+  void solve(const S& t0, std::span<const S> x) {
+    setTime(t0);
+    for (int s = 0; s < program_->states(); ++s) at(s, 0) = x[detail::at(s)];
+    for (int i = 0; i + 1 < size_; ++i) {
+      for (int node = 0; node < nodeCount(); ++node) compute(node, i);
+      for (int s = 0; s < program_->states(); ++s)
+        at(s, i + 1) = at(program_->outputNodes()[detail::at(s)], i) / S(static_cast<double>(i + 1));
+    }
+  }
+
+  /// The outputs' coefficients when the states' coefficients (at(state, i)) have been set.
+  void evaluate(const S& t0) {
+    setTime(t0);
+    for (int i = 0; i < size_; ++i)
+      for (int node = 0; node < nodeCount(); ++node) compute(node, i);
+  }
+
+ private:
+  int nodeCount() const { return static_cast<int>(program_->nodes().size()); }
+
+  void setTime(const S& t0) {
+    const int time = program_->states() + program_->parameters();
+    at(time, 0) = t0;
+    if (size_ > 1) at(time, 1) = S(1.0);
+    isFactorised_.assign(systems_.size(), 0);
+  }
+
+  S convolution(int a, int b, int i, int from, int to) {  // Σ_{j=from}^{to} a_j b_{i-j}
+    S sum(0.0);
+    for (int j = from; j <= to; ++j) sum = sum + at(a, j) * at(b, i - j);
+    return sum;
+  }
+  S weighted(int a, int b, int i, int to) {  // Σ_{j=1}^{to} j a_j b_{i-j}
+    S sum(0.0);
+    for (int j = 1; j <= to; ++j) sum = sum + S(static_cast<double>(j)) * at(a, j) * at(b, i - j);
+    return sum;
+  }
+
+  void compute(int node, int i) {
+    using std::atan, std::cos, std::exp, std::log, std::sin, std::sqrt, std::tanh;
+    const Node& n = program_->nodes()[detail::at(node)];
+    const S k(static_cast<double>(i));
+    switch (n.op) {
+      case Op::state:
+      case Op::parameter:
+      case Op::time:
+      case Op::constant:
+        break;
+      case Op::add:
+        at(node, i) = at(n.a, i) + at(n.b, i);
+        break;
+      case Op::sub:
+        at(node, i) = at(n.a, i) - at(n.b, i);
+        break;
+      case Op::neg:
+        at(node, i) = -at(n.a, i);
+        break;
+      case Op::mul:
+        at(node, i) = convolution(n.a, n.b, i, 0, i);
+        break;
+      case Op::sqr: {
+        S sum(0.0);
+        for (int j = 0; 2 * j < i; ++j) sum = sum + at(n.a, j) * at(n.a, i - j);
+        sum = sum + sum;
+        if (i % 2 == 0) sum = sum + square(at(n.a, i / 2));
+        at(node, i) = sum;
+        break;
+      }
+      case Op::recip:  // r a = 1
+        at(node, i) = (i == 0 ? S(1.0) : -convolution(node, n.a, i, 0, i - 1)) / at(n.a, 0);
+        break;
+      case Op::sqrt:  // r r = a
+        at(node, i) = i == 0 ? S(sqrt(at(n.a, 0)))
+                             : S((at(n.a, i) - convolution(node, node, i, 1, i - 1)) / (S(2.0) * at(node, 0)));
+        break;
+      case Op::exp:  // r' = a' r
+        at(node, i) = i == 0 ? S(exp(at(n.a, 0))) : S(weighted(n.a, node, i, i) / k);
+        break;
+      case Op::log:
+      case Op::atan:  // r' b = a'
+        if (i == 0)
+          at(node, 0) = n.op == Op::log ? S(log(at(n.a, 0))) : S(atan(at(n.a, 0)));
+        else
+          at(node, i) = (at(n.a, i) - weighted(node, n.b, i, i - 1) / k) / at(n.b, 0);
+        break;
+      case Op::sin:  // s' = a' c; the cosine is computed with it, c' = -a' s
+        at(node, i) = i == 0 ? S(sin(at(n.a, 0))) : S(weighted(n.a, node + 1, i, i) / k);
+        at(node + 1, i) = i == 0 ? S(cos(at(n.a, 0))) : S(-weighted(n.a, node, i, i) / k);
+        break;
+      case Op::tanh:  // t' = a' s; s = 1 - t² is computed with it
+        at(node, i) = i == 0 ? S(tanh(at(n.a, 0))) : S(weighted(n.a, node + 1, i, i) / k);
+        at(node + 1, i) = i == 0 ? S(S(1.0) - square(at(node, 0))) : S(-convolution(node, node, i, 0, i));
+        break;
+      case Op::solution:
+        if (n.b == 0) computeSolution(node, i);
+        break;
+      case Op::cos:
+      case Op::sech2:
+        break;
+    }
+  }
+
+  /// A_0 x_i = r_i - Σ_{j=1}^{i} A_j x_{i-j}: one factorisation for all orders.
+  void computeSolution(int first, int i) {
+    const LinearSolution& solution = program_->solutions()[detail::at(program_->nodes()[detail::at(first)].a)];
+    const LinearMatrix& matrix = program_->matrices()[detail::at(solution.matrix)];
+    LinearSystem<S>& system = systems_[detail::at(solution.matrix)];
+    if (isFactorised_[detail::at(solution.matrix)] == 0) {
+      system.assign(matrix.kind, matrix.size, [&](int k, int l) -> const S& { return at(matrix.entry(k, l), 0); });
+      isFactorised_[detail::at(solution.matrix)] = 1;
+    }
+    std::vector<S> x;
+    for (int k = 0; k < matrix.size; ++k) {
+      S sum = at(solution.rightSide[detail::at(k)], i);
+      for (int l = 0; l < matrix.size; ++l)
+        sum = sum - convolution(solution.transposed ? matrix.entry(l, k) : matrix.entry(k, l), first + l, i, 1, i);
+      x.push_back(sum);
+    }
+    system.solve(x, solution.transposed);
+    for (int k = 0; k < matrix.size; ++k) at(first + k, i) = x[detail::at(k)];
+  }
+
+  const Program* program_;
+  int size_;
+  std::vector<S> c_;
+  std::vector<LinearSystem<S>> systems_;  // of the program's matrices
+  std::vector<char> isFactorised_;
+};
+
+}  // namespace gamut

@@ -1,0 +1,475 @@
+// From a Program to a Tape, in four steps: what the outputs need; which sums take in the products and sums that only
+// they use; in what order; and which slot each value gets (a linear scan, M. Poletto and V. Sarkar 1999).
+#include "scalars/evaluation/tape.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <ostream>
+
+namespace gamut {
+namespace {
+
+using detail::at;
+
+constexpr int longestChain = 8;  // instructions between two stores: the operands of all are alive at once
+
+bool isSum(Op op) { return op == Op::add || op == Op::sub; }
+
+TapeOp unary(Op op) {
+  switch (op) {
+    case Op::neg:
+      return TapeOp::negative;
+    case Op::sqr:
+      return TapeOp::square;
+    case Op::recip:
+      return TapeOp::reciprocal;
+    case Op::sqrt:
+      return TapeOp::squareRoot;
+    case Op::exp:
+      return TapeOp::exponential;
+    case Op::log:
+      return TapeOp::logarithm;
+    case Op::atan:
+      return TapeOp::arcTangent;
+    case Op::tanh:
+      return TapeOp::hyperbolicTangent;
+    default:
+      return TapeOp::sineCosine;
+  }
+}
+
+/// A second result goes to slot b.
+bool hasTwin(TapeOp op) { return op == TapeOp::sineCosine || op == TapeOp::hyperbolicTangent; }
+
+bool usesB(TapeOp op) {
+  return op == TapeOp::sum || op == TapeOp::difference || op == TapeOp::product || op == TapeOp::plusProduct ||
+         op == TapeOp::minusProduct;
+}
+
+/// Instructions whose a and b are nodes, from the first to the one that stores. A step is known by the node that it
+/// stores, the first of its twins; the factorisation of matrix m by the number m behind all nodes.
+struct Step {
+  int id;
+  std::vector<Instruction> chain;
+  std::vector<int> reads;    // nodes
+  std::vector<int> results;  // nodes that get slots
+};
+
+}  // namespace
+
+class TapeWriter {
+ public:
+  TapeWriter(const Program& program, Tape& tape) : program_(program), nodes_(program.nodes()), tape_(tape) {}
+
+  void write() {
+    countUses();
+    fuse();
+    system_.assign(program_.matrices().size(), -1);
+    slot_.assign(nodes_.size(), -1);
+    tape_.constants_ = program_.constants();
+    const std::vector<Step> invariants = stepsInOrder(true), steps = shortestLived();
+    keep(invariants);
+    tape_.slots_ = tape_.keptSlots_;
+    tape_.invariants_ = allocate(invariants, true);
+    tape_.instructions_ = allocate(steps, false);
+    for (int output : program_.outputNodes()) tape_.outputSlots_.push_back(slot_[at(output)]);
+  }
+
+ private:
+  const Node& node(int i) const { return nodes_[at(i)]; }
+  int count() const { return static_cast<int>(nodes_.size()); }
+  int steps() const { return count() + static_cast<int>(program_.matrices().size()); }
+  bool isNeeded(int i) const { return uses_[at(i)] > 0; }
+
+  const LinearSolution& solution(int i) const { return program_.solutions()[at(node(i).a)]; }
+  const LinearMatrix& matrix(int m) const { return program_.matrices()[at(m)]; }
+
+  /// The node whose step computes node i: a cosine comes from its sine's, a sech2 from its tanh's, a component with
+  /// component 0.
+  int source(int i) const {
+    if (isTwin(node(i).op)) return i - 1;
+    return node(i).op == Op::solution ? i - node(i).b : i;
+  }
+
+  void countUses() {
+    uses_.assign(nodes_.size(), 0);
+    isOutput_.assign(nodes_.size(), false);
+    isMatrixNeeded_.assign(program_.matrices().size(), false);
+    for (int output : program_.outputNodes()) ++uses_[at(output)], isOutput_[at(output)] = true;
+    for (int i = count() - 1; i >= 0; --i) {
+      if (!isNeeded(i) || !isOperation(node(i).op)) continue;
+      if (source(i) != i) {  // the operands are used by the source alone
+        ++uses_[at(source(i))];
+      } else if (node(i).op == Op::solution) {
+        for (int r : solution(i).rightSide) ++uses_[at(r)];
+        const int m = solution(i).matrix;
+        if (isMatrixNeeded_[at(m)]) continue;
+        isMatrixNeeded_[at(m)] = true;
+        for (int entry : matrix(m).entries) ++uses_[at(entry)];
+      } else {
+        ++uses_[at(node(i).a)];
+        if (operandsOf(node(i).op) == 2) ++uses_[at(node(i).b)];
+      }
+    }
+  }
+
+  /// Only `user` uses node i, so that its value need not be stored.
+  bool isOnlyFor(int i, int user) const {
+    return uses_[at(i)] == 1 && !isOutput_[at(i)] && program_.isInvariant(i) == program_.isInvariant(user);
+  }
+
+  /// Each sum takes in a sum that only it uses, as the accumulator's value, and products that only it uses.
+  void fuse() {
+    absorbed_.assign(nodes_.size(), false);
+    accumulator_.assign(nodes_.size(), -1);
+    std::vector<int> length(nodes_.size(), 1);
+    for (int i = 0; i < count(); ++i) {
+      const Node& n = node(i);
+      if (!isNeeded(i) || !isSum(n.op)) continue;
+      const auto fits = [&](int operand) {
+        return isSum(node(operand).op) && isOnlyFor(operand, i) && length[at(operand)] < longestChain;
+      };
+      // The later of two sums: the earlier one is a value that waits. A difference can continue its minuend alone.
+      int first = -1;
+      if (fits(n.a)) first = n.a;
+      if (n.op == Op::add && fits(n.b) && n.b > first) first = n.b;
+      for (int operand : {n.a, n.b})
+        if (operand == first || (node(operand).op == Op::mul && isOnlyFor(operand, i))) absorbed_[at(operand)] = true;
+      accumulator_[at(i)] = first;
+      length[at(i)] = first >= 0 ? length[at(first)] + 1 : 2;
+    }
+  }
+
+  bool isAbsorbedProduct(int i) const { return node(i).op == Op::mul && absorbed_[at(i)]; }
+
+  static Instruction instruction(TapeOp op, int a, int b) { return {op, false, 0, a, b}; }
+
+  /// acc ± node i, a product if only this sum uses it.
+  Instruction term(int i, bool negative) const {
+    if (isAbsorbedProduct(i))
+      return instruction(negative ? TapeOp::minusProduct : TapeOp::plusProduct, node(i).a, node(i).b);
+    return instruction(negative ? TapeOp::minus : TapeOp::plus, i, i);
+  }
+
+  void appendSum(int i, std::vector<Instruction>& chain) const {
+    const Node& n = node(i);
+    const bool negative = n.op == Op::sub;
+    if (const int first = accumulator_[at(i)]; first >= 0) {
+      appendSum(first, chain);
+      chain.push_back(term(first == n.a ? n.b : n.a, negative));
+    } else if (isAbsorbedProduct(n.a)) {
+      chain.push_back(instruction(TapeOp::product, node(n.a).a, node(n.a).b));
+      chain.push_back(term(n.b, negative));
+    } else if (isAbsorbedProduct(n.b) && !negative) {
+      chain.push_back(instruction(TapeOp::product, node(n.b).a, node(n.b).b));
+      chain.push_back(term(n.a, false));
+    } else if (isAbsorbedProduct(n.b)) {
+      chain.push_back(instruction(TapeOp::value, n.a, n.a));
+      chain.push_back(term(n.b, true));
+    } else {
+      chain.push_back(instruction(negative ? TapeOp::difference : TapeOp::sum, n.a, n.b));
+    }
+  }
+
+  bool isInvariantMatrix(int m) const {
+    const std::vector<int>& entries = matrix(m).entries;
+    return std::all_of(entries.begin(), entries.end(), [this](int entry) { return program_.isInvariant(entry); });
+  }
+
+  Step step(int id) const {
+    if (id >= count()) return {id, {{TapeOp::factorise, false}}, matrix(id - count()).entries, {}};
+    const int i = id;
+    const Node& n = node(i);
+    Step result{i, {}, {}, {}};
+    detail::forEachTwin(program_.table(), i, [&](int twin) { result.results.push_back(twin); });
+    if (n.op == Op::solution) {
+      result.chain.push_back({TapeOp::solution, false});
+      result.reads = solution(i).rightSide;
+      return result;
+    }
+    if (isSum(n.op))
+      appendSum(i, result.chain);
+    else if (n.op == Op::mul)
+      result.chain.push_back(instruction(TapeOp::product, n.a, n.b));
+    else
+      result.chain.push_back(instruction(unary(n.op), n.a, n.a));
+    result.chain.back().stores = true;
+    for (const Instruction& part : result.chain) result.reads.insert(result.reads.end(), {part.a, part.b});
+    return result;
+  }
+
+  bool hasStep(int id, bool invariant) const {
+    if (id >= count()) return isMatrixNeeded_[at(id - count())] && isInvariantMatrix(id - count()) == invariant;
+    return isNeeded(id) && !absorbed_[at(id)] && isOperation(node(id).op) && source(id) == id &&
+           program_.isInvariant(id) == invariant;
+  }
+
+  /// visit(step) for the steps that a step waits for.
+  template <class Visit>
+  void forEachSource(const Step& step, Visit visit) const {
+    for (int operand : step.reads) visit(source(operand));
+    if (step.id < count() && node(step.id).op == Op::solution) visit(count() + solution(step.id).matrix);
+  }
+
+  /// The steps of a section as recorded, each matrix factorised before its first solution, in whichever section that
+  /// is.
+  std::vector<Step> stepsInOrder(bool invariant) const {
+    std::vector<Step> written;
+    std::vector<char> isFactorised(program_.matrices().size(), 0);
+    for (int i = 0; i < count(); ++i) {
+      if (node(i).op == Op::solution && isFactorised[at(solution(i).matrix)] == 0) {
+        isFactorised[at(solution(i).matrix)] = 1;
+        if (const int id = count() + solution(i).matrix; hasStep(id, invariant)) written.push_back(step(id));
+      }
+      if (hasStep(i, invariant)) written.push_back(step(i));
+    }
+    return written;
+  }
+
+  /// The varying steps, each just before its first use, seen from the outputs.
+  std::vector<Step> stepsOnDemand() const {
+    std::vector<Step> written;
+    std::vector<char> done(at(steps()), 0);
+    std::vector<int> waiting;  // an explicit stack: programs are deep
+    for (int output : program_.outputNodes()) {
+      waiting.push_back(source(output));
+      while (!waiting.empty()) {
+        const int id = waiting.back();
+        if (done[at(id)] != 0 || !hasStep(id, false)) {
+          waiting.pop_back();
+          continue;
+        }
+        Step next = step(id);
+        const std::size_t before = waiting.size();
+        forEachSource(next, [&](int other) {
+          if (done[at(other)] == 0 && hasStep(other, false)) waiting.push_back(other);
+        });
+        if (waiting.size() > before) continue;
+        waiting.pop_back();
+        done[at(id)] = 1;
+        written.push_back(std::move(next));
+      }
+    }
+    return written;
+  }
+
+  /// The order that needs fewer slots.
+  std::vector<Step> shortestLived() const {
+    std::vector<Step> recorded = stepsInOrder(false), onDemand = stepsOnDemand();
+    return mostAlive(onDemand) < mostAlive(recorded) ? onDemand : recorded;
+  }
+
+  static constexpr int forever = std::numeric_limits<int>::max();
+
+  /// For each node the last step that reads it, -1 for none; outputs are read after the end.
+  std::vector<int> lastReads(const std::vector<Step>& steps) const {
+    std::vector<int> last(nodes_.size(), -1);
+    for (std::size_t s = 0; s < steps.size(); ++s)
+      for (int operand : steps[s].reads) last[at(operand)] = static_cast<int>(s);
+    for (int output : program_.outputNodes()) last[at(output)] = forever;
+    return last;
+  }
+
+  int mostAlive(const std::vector<Step>& steps) const {
+    const std::vector<int> last = lastReads(steps);
+    std::vector<int> change(steps.size() + 1, 0);
+    for (std::size_t s = 0; s < steps.size(); ++s) {
+      for (int i : steps[s].results) {
+        ++change[s];
+        if (last[at(i)] != forever) --change[std::max(s + 1, at(std::max(last[at(i)], 0)))];
+      }
+    }
+    int alive = 0, most = 0;
+    for (int difference : change) most = std::max(most, alive += difference);
+    return most;
+  }
+
+  /// Slots that outlive the invariant section: what the other section, or an output, reads of it.
+  void keep(const std::vector<Step>& invariants) {
+    std::vector<char> isKept(nodes_.size(), 0);
+    const auto mark = [&](int i) { isKept[at(i)] |= program_.isInvariant(i) ? 1 : 0; };
+    for (int i = 0; i < count(); ++i) {
+      if (!isNeeded(i) || !isOperation(node(i).op) || program_.isInvariant(i) || source(i) != i) continue;
+      if (node(i).op == Op::solution) {
+        for (int r : solution(i).rightSide) mark(r);
+        if (const int m = solution(i).matrix; !isInvariantMatrix(m))
+          for (int entry : matrix(m).entries) mark(entry);
+        continue;
+      }
+      mark(node(i).a);
+      if (operandsOf(node(i).op) == 2) mark(node(i).b);
+    }
+    for (int output : program_.outputNodes()) mark(output);
+    for (int i = 0; i < count(); ++i)
+      if (isKept[at(i)] != 0 && !isOperation(node(i).op)) slot_[at(i)] = tape_.keptSlots_++;
+    for (const Step& s : invariants)
+      for (int i : s.results)
+        if (isKept[at(i)] != 0) slot_[at(i)] = tape_.keptSlots_++;
+  }
+
+  /// Gives every value of a section a slot, reused after the value's last read, and writes the instructions.
+  std::vector<Instruction> allocate(const std::vector<Step>& steps, bool invariant) {
+    const std::vector<int> last = lastReads(steps);
+    std::vector<int> free;  // the slot freed last is taken first: it is in the cache
+    int next = tape_.keptSlots_;
+    const auto take = [&](int i) {
+      if (slot_[at(i)] >= 0) return;  // kept
+      if (free.empty()) free.push_back(next++);
+      slot_[at(i)] = free.back();
+      free.pop_back();
+    };
+    std::vector<std::vector<int>> dying(steps.size());
+    const auto lives = [&](int i) {
+      const bool isTemporary = slot_[at(i)] >= tape_.keptSlots_;
+      if (isTemporary && last[at(i)] >= 0 && last[at(i)] != forever) dying[at(last[at(i)])].push_back(i);
+    };
+    for (int i = 0; i < count(); ++i) {
+      const Node& n = node(i);
+      if (!isNeeded(i) || isOperation(n.op) || program_.isInvariant(i) != invariant) continue;
+      take(i);
+      lives(i);
+      const int slot = slot_[at(i)];
+      if (n.op == Op::constant) tape_.constantInputs_.push_back({n.a, slot});
+      if (n.op == Op::parameter) tape_.parameterInputs_.push_back({n.a, slot});
+      if (n.op == Op::state) tape_.stateInputs_.push_back({n.a, slot});
+      if (n.op == Op::time) tape_.timeSlot_ = slot;
+    }
+    std::vector<Instruction> written;
+    for (std::size_t s = 0; s < steps.size(); ++s) {
+      const Step& step = steps[s];
+      const auto takeResults = [&] {
+        for (int i : step.results) {
+          take(i);
+          lives(i);
+        }
+      };
+      // The result may take the slot of an operand that dies here: it is stored after all operands have been read. Not
+      // so a solution's components, which are worked out in place.
+      std::vector<Instruction> chain = step.chain;
+      const bool isSolution = chain.back().op == TapeOp::solution;
+      if (isSolution) takeResults();
+      const std::vector<std::int32_t> reads = slotsOf(step.reads);
+      for (int i : dying[s]) free.push_back(slot_[at(i)]);
+      if (!isSolution) takeResults();
+      if (isSolution) {
+        chain.back().result = static_cast<int>(tape_.solutions_.size());
+        const LinearSolution& of = solution(step.id);
+        tape_.solutions_.push_back({system_[at(of.matrix)], of.transposed, reads, slotsOf(step.results)});
+      } else if (chain.back().op == TapeOp::factorise) {
+        const LinearMatrix& of = matrix(step.id - count());
+        chain.back().result = system_[at(step.id - count())] = static_cast<int>(tape_.systems_.size());
+        tape_.systems_.push_back({of.kind, of.size, reads, detail::solvingOperations(program_.table(), of)});
+      } else {
+        for (std::size_t part = 0; part < chain.size(); ++part)
+          chain[part].a = reads[2 * part], chain[part].b = reads[2 * part + 1];
+        chain.back().result = slot_[at(step.id)];
+        if (hasTwin(chain.back().op)) chain.back().b = slot_[at(step.id + 1)];
+      }
+      for (int i : step.results)  // a sine without its cosine, say, or the reverse: the other is never read
+        if (last[at(i)] < 0 && slot_[at(i)] >= tape_.keptSlots_) free.push_back(slot_[at(i)]);
+      written.insert(written.end(), chain.begin(), chain.end());
+    }
+    tape_.slots_ = std::max(tape_.slots_, next);
+    return written;
+  }
+
+  std::vector<std::int32_t> slotsOf(const std::vector<int>& nodes) const {
+    std::vector<std::int32_t> slots;
+    for (int i : nodes) slots.push_back(slot_[at(i)]);
+    return slots;
+  }
+
+  const Program& program_;
+  const std::vector<Node>& nodes_;
+  Tape& tape_;
+  std::vector<int> uses_, accumulator_, slot_;
+  std::vector<int> system_;  // of each matrix, -1 before its factorisation
+  std::vector<bool> isOutput_, isMatrixNeeded_, absorbed_;
+};
+
+Tape::Tape(const Program& program) : states_(program.states()), parameters_(program.parameters()) {
+  TapeWriter(program, *this).write();
+}
+
+int Tape::operations() const {
+  int operations = 0;
+  for (const Instruction& i : instructions_) {
+    const bool isTwo = i.op == TapeOp::plusProduct || i.op == TapeOp::minusProduct || hasTwin(i.op);
+    if (i.op == TapeOp::factorise) {
+      operations += systems_[at(i.result)].operations.factorisation;
+    } else if (i.op == TapeOp::solution) {
+      operations += systems_[at(solutions_[at(i.result)].system)].operations.solution;
+    } else {
+      operations += i.op == TapeOp::value ? 0 : isTwo ? 2 : 1;
+    }
+  }
+  return operations;
+}
+
+std::ostream& operator<<(std::ostream& out, const Tape& tape) {
+  static const char* const names[] = {"value",
+                                      "sum",
+                                      "difference",
+                                      "product",
+                                      "plus",
+                                      "minus",
+                                      "plusProduct",
+                                      "minusProduct",
+                                      "negative",
+                                      "square",
+                                      "reciprocal",
+                                      "squareRoot",
+                                      "exponential",
+                                      "logarithm",
+                                      "arcTangent",
+                                      "sineCosine",
+                                      "hyperbolicTangent",
+                                      "factorise",
+                                      "solution"};
+  out << "tape: " << tape.states() << " states, " << tape.parameters() << " parameters, " << tape.outputs()
+      << " outputs, " << tape.operations() << " operations, " << tape.slots() << " slots (" << tape.keptSlots()
+      << " kept)\n";
+  for (const TapeInput& i : tape.constantInputs())
+    out << "  s" << i.slot << " = " << tape.constants()[at(i.input)] << '\n';
+  for (const TapeInput& i : tape.parameterInputs()) out << "  s" << i.slot << " = p[" << i.input << "]\n";
+  const auto slots = [&out](const std::vector<std::int32_t>& list) {
+    for (std::int32_t slot : list) out << " s" << slot;
+  };
+  const auto list = [&](const std::vector<Instruction>& section) {
+    for (const Instruction& i : section) {
+      out << "  " << names[static_cast<int>(i.op)];
+      if (i.op == TapeOp::factorise) {
+        const TapeSystem& system = tape.systems()[at(i.result)];
+        out << " m" << i.result << (system.kind == MatrixKind::positiveDefinite ? " positive definite" : "") << ':';
+        slots(system.entries);
+        out << '\n';
+        continue;
+      }
+      if (i.op == TapeOp::solution) {
+        const TapeSolution& solution = tape.solutions()[at(i.result)];
+        out << " m" << solution.system << (solution.transposed ? " transposed:" : ":");
+        slots(solution.rightSide);
+        out << " ->";
+        slots(solution.results);
+        out << '\n';
+        continue;
+      }
+      out << " s" << i.a;
+      if (usesB(i.op)) out << " s" << i.b;
+      if (i.stores) out << " -> s" << i.result;
+      if (hasTwin(i.op)) out << " s" << i.b;
+      out << '\n';
+    }
+  };
+  list(tape.invariants());
+  out << "  for each t, x:\n";
+  for (const TapeInput& i : tape.stateInputs()) out << "  s" << i.slot << " = x[" << i.input << "]\n";
+  if (tape.timeSlot() >= 0) out << "  s" << tape.timeSlot() << " = t\n";
+  list(tape.instructions());
+  out << "  outputs:";
+  for (int slot : tape.outputSlots()) out << " s" << slot;
+  return out << '\n';
+}
+
+}  // namespace gamut

@@ -1,0 +1,256 @@
+// Both directions use the same partial derivatives, written once below.
+#include "scalars/program/differentiation.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace gamut {
+namespace {
+
+using detail::at;
+
+/// A derivative that is known to be zero has no node.
+constexpr int zero = -1;
+
+/// d · ∂(node i)/∂(its operand), the first operand or (of a sum, difference or product) the second.
+int chained(Recorder& r, int i, bool second, int d) {
+  const Node n = r.node(i);
+  switch (n.op) {
+    case Op::add:
+      return d;
+    case Op::sub:
+      return second ? r.neg(d) : d;
+    case Op::neg:
+      return r.neg(d);
+    case Op::mul:
+      return second ? r.mul(n.a, d) : r.mul(d, n.b);
+    case Op::sqr: {
+      const int product = r.mul(n.a, d);
+      return r.mul(r.constant(2.0), product);
+    }
+    case Op::recip:  // (1/a)' = -1/a²
+      return r.neg(r.mul(r.sqr(i), d));
+    case Op::sqrt: {  // (√a)' = 1/(2√a)
+      const int inverse = r.recip(i);
+      return r.mul(r.mul(r.constant(0.5), inverse), d);
+    }
+    case Op::exp:
+      return r.mul(i, d);
+    case Op::log:  // 1/a
+      return r.mul(r.recip(n.a), d);
+    case Op::atan:  // 1/(1+a²)
+      return r.mul(r.recip(n.b), d);
+    case Op::sin:
+      return r.mul(i + 1, d);
+    case Op::cos:
+      return r.neg(r.mul(i - 1, d));
+    case Op::tanh:
+      return r.mul(i + 1, d);
+    case Op::sech2: {  // (1 - t²)' = -2 t t', t' = sech²
+      const int product = r.mul(i - 1, i);
+      return r.mul(r.constant(-2.0), r.mul(product, d));
+    }
+    case Op::state:
+    case Op::parameter:
+    case Op::time:
+    case Op::constant:
+    case Op::solution:  // as a whole, below
+      break;
+  }
+  return zero;
+}
+
+int sum(Recorder& r, int a, int b) { return a < 0 ? b : b < 0 ? a : r.add(a, b); }
+
+/// Terms of a sum that cancel are no node either.
+int orZero(const Recorder& r, int node) { return node >= 0 && r.isExactly(node, 0) ? zero : node; }
+int asNode(Recorder& r, int node) { return node < 0 ? r.constant(0.0) : node; }
+
+/// The last node of these, of its twins rather.
+int lastOf(const Recorder& r, const std::vector<int>& nodes) {
+  int last = nodes.empty() ? -1 : *std::max_element(nodes.begin(), nodes.end());
+  if (last >= 0) detail::forEachTwin(r.table(), last, [&](int twin) { last = std::max(last, twin); });
+  return last;
+}
+
+/// The matrix of a solution as it is solved: (k, j) is (j, k) of a transposed one.
+struct SolvedSystem {
+  LinearSolution solution;
+  LinearMatrix matrix;  // copies: recording moves the originals
+
+  SolvedSystem(const Recorder& r, int node)
+      : solution(r.table().solutions[at(r.node(node).a)]), matrix(r.table().matrices[at(solution.matrix)]) {}
+  int size() const { return matrix.size; }
+  int entry(int k, int j) const { return solution.transposed ? matrix.entry(j, k) : matrix.entry(k, j); }
+};
+
+/// The derivatives of the components first, first + 1, …: M x' = r' - M' x, the same matrix.
+void solutionTangents(Recorder& r, int first, std::vector<int>& d) {
+  const SolvedSystem system(r, first);
+  std::vector<int> rightSide;
+  bool isZero = true;
+  for (int k = 0; k < system.size(); ++k) {
+    int sum = d[at(system.solution.rightSide[at(k)])];
+    for (int j = 0; j < system.size(); ++j) {
+      const int entry = d[at(system.entry(k, j))];
+      if (entry < 0) continue;
+      const int product = r.mul(entry, first + j);
+      sum = sum < 0 ? r.neg(product) : r.sub(sum, product);
+    }
+    sum = orZero(r, sum);
+    isZero = isZero && sum < 0;
+    rightSide.push_back(asNode(r, sum));
+  }
+  if (isZero) return;
+  const std::vector<int> components = r.solve(system.solution.matrix, system.solution.transposed, rightSide);
+  for (int k = 0; k < system.size(); ++k) d[at(first + k)] = components[at(k)];
+}
+
+/// contribute(operand, adjoint) for a solution whose components have the adjoints x̄: with Mᵀ w = x̄ it is w for the
+/// right-hand side and -w xᵀ for M.
+template <class Contribute>
+void solutionAdjoints(Recorder& r, int first, const std::vector<int>& adjoint, const std::vector<char>& active,
+                      Contribute contribute) {
+  const SolvedSystem system(r, first);
+  std::vector<int> rightSide;
+  bool isZero = true;
+  for (int k = 0; k < system.size(); ++k) {
+    const int d = adjoint[at(first + k)];
+    isZero = isZero && d < 0;
+    rightSide.push_back(asNode(r, d));
+  }
+  if (isZero) return;
+  const std::vector<int> w = r.solve(system.solution.matrix, !system.solution.transposed, rightSide);
+  for (int k = 0; k < system.size(); ++k) {
+    if (active[at(system.solution.rightSide[at(k)])]) contribute(system.solution.rightSide[at(k)], w[at(k)]);
+    for (int j = 0; j < system.size(); ++j)
+      if (active[at(system.entry(k, j))]) contribute(system.entry(k, j), r.neg(r.mul(w[at(k)], first + j)));
+  }
+}
+
+/// The numbers first, first + 1, …: inputs of a program.
+std::vector<int> inputsFrom(int first, int count) {
+  std::vector<int> result;
+  for (int i = 0; i < count; ++i) result.push_back(first + i);
+  return result;
+}
+
+/// The Jacobian given as jacobian(i, j) behind the outputs: states first, then parameters.
+template <class Entry>
+Program withJacobian(const Recorder& recorder, const Program& program, int columns, Entry jacobian) {
+  std::vector<int> outputs = program.outputNodes();
+  for (int i = 0; i < program.outputs(); ++i)
+    for (int j = 0; j < program.states(); ++j) outputs.push_back(jacobian(i, j));
+  for (int i = 0; i < program.outputs(); ++i)
+    for (int j = program.states(); j < columns; ++j) outputs.push_back(jacobian(i, j));
+  return recorder.finish(outputs);
+}
+
+std::vector<int> outputsOf(const Program& program, const std::vector<int>& here) {
+  std::vector<int> result;
+  for (int output : program.outputNodes()) result.push_back(here[at(output)]);
+  return result;
+}
+
+}  // namespace
+
+std::vector<int> tangents(Recorder& r, const std::vector<int>& of, const std::vector<std::pair<int, int>>& seeds) {
+  const int last = lastOf(r, of);
+  std::vector<int> d(at(last + 1), zero);
+  for (const auto& [input, value] : seeds)
+    if (input <= last) d[at(input)] = orZero(r, value);
+  for (int i = 0; i <= last; ++i) {
+    const Node n = r.node(i);
+    if (n.op == Op::solution && n.b == 0) solutionTangents(r, i, d);
+    if (operandsOf(n.op) == 0) continue;
+    const int da = d[at(n.a)], db = operandsOf(n.op) == 2 ? d[at(n.b)] : zero;
+    if (da < 0 && db < 0) continue;
+    const int derivative = n.op == Op::sub && da >= 0 && db >= 0 ? r.sub(da, db) : [&] {
+      const int left = da < 0 ? zero : chained(r, i, false, da);
+      return sum(r, left, db < 0 ? zero : chained(r, i, true, db));
+    }();
+    d[at(i)] = orZero(r, derivative);
+  }
+  std::vector<int> result;
+  for (int node : of) result.push_back(asNode(r, d[at(node)]));
+  return result;
+}
+
+std::vector<int> adjoints(Recorder& r, const std::vector<int>& of, const std::vector<int>& weights,
+                          const std::vector<int>& inputs) {
+  const int last = std::max(lastOf(r, of), lastOf(r, inputs));
+  // Only what depends on one of the inputs is worth an adjoint.
+  std::vector<char> active(at(last + 1), 0);
+  for (int input : inputs) active[at(input)] = 1;
+  for (int i = 0; i <= last; ++i) {
+    const Node& n = r.node(i);
+    if (operandsOf(n.op) > 0 && active[at(n.a)]) active[at(i)] = 1;
+    if (operandsOf(n.op) > 1 && active[at(n.b)]) active[at(i)] = 1;
+    if (n.op == Op::solution)
+      detail::forEachOperand(r.table(), i, [&](int operand) {
+        if (active[at(operand)]) active[at(i)] = 1;
+      });
+  }
+  std::vector<int> adjoint(at(last + 1), zero);
+  const auto contribute = [&](int node, int d) { adjoint[at(node)] = orZero(r, sum(r, adjoint[at(node)], d)); };
+  for (std::size_t i = 0; i < of.size(); ++i)
+    if (active[at(of[i])]) contribute(of[i], orZero(r, weights[i]));
+  for (int i = last; i >= 0; --i) {
+    if (r.node(i).op == Op::solution && r.node(i).b == 0 && active[at(i)])
+      solutionAdjoints(r, i, adjoint, active, contribute);
+    const int operands = operandsOf(r.node(i).op), d = adjoint[at(i)];
+    if (operands == 0 || d < 0) continue;
+    const Node n = r.node(i);
+    if (active[at(n.a)]) contribute(n.a, chained(r, i, false, d));
+    if (operands > 1 && active[at(n.b)]) contribute(n.b, chained(r, i, true, d));
+  }
+  std::vector<int> result;
+  for (int input : inputs) result.push_back(asNode(r, adjoint[at(input)]));
+  return result;
+}
+
+Program forwardDifferentiated(const Program& program, bool withParameters) {
+  Recorder recorder(program);
+  const int columns = program.states() + (withParameters ? program.parameters() : 0);
+  std::vector<std::vector<int>> column;
+  for (int j = 0; j < columns; ++j)
+    column.push_back(tangents(recorder, program.outputNodes(), {{j, recorder.constant(1.0)}}));
+  return withJacobian(recorder, program, columns, [&](int i, int j) { return column[at(j)][at(i)]; });
+}
+
+Program reverseDifferentiated(const Program& program, bool withParameters) {
+  Recorder recorder(program);
+  const int columns = program.states() + (withParameters ? program.parameters() : 0);
+  std::vector<std::vector<int>> row;
+  for (int output : program.outputNodes())
+    row.push_back(adjoints(recorder, {output}, {recorder.constant(1.0)}, inputsFrom(0, columns)));
+  return withJacobian(recorder, program, columns, [&](int i, int j) { return row[at(i)][at(j)]; });
+}
+
+Program gradient(const Program& program, bool withParameters) {
+  if (program.outputs() != 1)
+    throw std::invalid_argument("a gradient belongs to one output, not to " + std::to_string(program.outputs()));
+  return reverseDifferentiated(program, withParameters);
+}
+
+Program jacobianTimesVector(const Program& program) {
+  Recorder recorder(program.states(), program.parameters() + program.states());
+  std::vector<int> outputs = outputsOf(program, recorder.append(program));
+  std::vector<std::pair<int, int>> seeds;
+  for (int j = 0; j < program.states(); ++j)
+    seeds.emplace_back(recorder.state(j), recorder.parameter(program.parameters() + j));
+  const std::vector<int> derivatives = tangents(recorder, outputs, seeds);
+  outputs.insert(outputs.end(), derivatives.begin(), derivatives.end());
+  return recorder.finish(outputs);
+}
+
+Program transposedJacobianTimesVector(const Program& program) {
+  Recorder recorder(program.states(), program.parameters() + program.outputs());
+  std::vector<int> outputs = outputsOf(program, recorder.append(program));
+  const std::vector<int> weights = inputsFrom(recorder.parameter(program.parameters()), program.outputs());
+  const std::vector<int> derivatives = adjoints(recorder, outputs, weights, inputsFrom(0, program.states()));
+  outputs.insert(outputs.end(), derivatives.begin(), derivatives.end());
+  return recorder.finish(outputs);
+}
+
+}  // namespace gamut

@@ -1,0 +1,360 @@
+// The Recorder's memory: nodes, constants, and what is known to have a node already. The rules are in rules.cpp.
+#include "scalars/program/recorder.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+#include <tuple>
+
+#include "scalars/program/rules.hpp"
+
+namespace gamut {
+
+using detail::at;
+
+namespace {
+
+constexpr int deepest = 16;  // rules inside one another; what is written by people and mechanisms needs a handful
+
+std::vector<int> keyOf(const LinearMatrix& matrix) {
+  std::vector<int> key{static_cast<int>(matrix.kind)};
+  key.insert(key.end(), matrix.entries.begin(), matrix.entries.end());
+  return key;
+}
+
+std::vector<int> keyOf(const LinearSolution& solution) {
+  std::vector<int> key{solution.matrix, solution.transposed};
+  key.insert(key.end(), solution.rightSide.begin(), solution.rightSide.end());
+  return key;
+}
+
+}  // namespace
+
+void detail::NodeList::push(const Node& node) {
+  const int number = static_cast<int>(nodes.size());
+  nodes.push_back(node);
+  const Signless inside = node.op == Op::neg ? signless[at(node.a)] : Signless{number, true};
+  signless.push_back({inside.node, !inside.isNegative});
+}
+
+bool detail::NodeList::isOnePlusSquare(int b, int a) const {
+  const auto node = [&](int i) -> const Node& { return nodes[at(i)]; };
+  const auto value = [&](int i) { return node(i).op == Op::constant ? constants[at(node(i).a)] : Interval::empty(); };
+  const auto isSquare = [&](int q) {
+    const bool isWritten = node(q).op == Op::sqr || (node(q).op == Op::mul && node(q).a == node(q).b);
+    // Folded only where it is a double: then the number is known.
+    const bool isFolded = isThin(value(a)) && isThin(value(q)) && isEqual(sqr(value(a)), value(q));
+    return isFolded || (isWritten && signless[at(node(q).a)].node == signless[at(a)].node);
+  };
+  const auto isOne = [&](int i) { return isEqual(value(i), 1.0); };
+  const Interval whole = 1.0 + sqr(value(a));
+  if (isThin(whole) && isEqual(value(b), whole)) return true;
+  const Node& sum = node(b);
+  return sum.op == Op::add && ((isOne(sum.a) && isSquare(sum.b)) || (isOne(sum.b) && isSquare(sum.a)));
+}
+
+std::uint64_t Recorder::nextIdentity() {
+  static std::atomic<std::uint64_t> last{0};
+  return ++last;
+}
+
+Recorder*& Recorder::current() {
+  thread_local Recorder* recorder = nullptr;
+  return recorder;
+}
+
+Recorder::Recorder(int states, int parameters, RuleSet rules)
+    : states_(states), parameters_(parameters), rules_(rules) {
+  if (states < 0 || parameters < 0) throw std::invalid_argument("a program needs zero or more states and parameters");
+  for (int i = 0; i < states; ++i) list_.push({Op::state, i});
+  for (int i = 0; i < parameters; ++i) list_.push({Op::parameter, i});
+  list_.push({Op::time});
+}
+
+Recorder::Recorder(const Program& program, RuleSet rules)
+    : states_(program.states()), parameters_(program.parameters()), rules_(rules) {
+  static_cast<detail::NodeTable&>(list_) = {{}, program.constants(), program.matrices(), program.solutions()};
+  for (const Node& n : program.nodes()) list_.push(n);
+  for (int i = 0; i < size(); ++i) {
+    const Node& n = node(i);
+    if (n.op == Op::constant && isThin(value(i))) knownDoubles_.emplace(value(i).lower(), i);
+    if (n.op == Op::solution && n.b == 0)
+      knownSolutions_.emplace(keyOf(list_.solutions[at(n.a)]), i);
+    else if (isOperation(n.op))
+      known_.emplace(Key{n.op, n.a, n.b}, i);
+  }
+  for (std::size_t m = 0; m < list_.matrices.size(); ++m)
+    knownMatrices_.emplace(keyOf(list_.matrices[m]), static_cast<int>(m));
+}
+
+bool Recorder::isExactly(int i, double number) const {
+  return isConstant(i) && value(i).lower() == number && value(i).upper() == number;
+}
+
+int Recorder::unknown() {
+  list_.push({Op::parameter, parameters_ + unknowns_++});
+  return size() - 1;
+}
+
+int Recorder::constant(const Interval& number) {
+  if (isEmpty(number) || !isBounded(number))
+    throw std::domain_error("a recorded constant must be a bounded number, not " + toString(number));
+  // -0.0 and 0.0 are one number: adding 0.0 maps both to 0.0.
+  const double lower = number.lower() + 0.0, upper = number.upper() + 0.0;
+  // Two real numbers may have the same enclosure: only a double is known by its value.
+  if (lower == upper && rules_.has(RuleGroup::mergeEqual))
+    if (const auto [known, isNew] = knownDoubles_.try_emplace(lower, size()); !isNew) return known->second;
+  list_.push({Op::constant, static_cast<int>(list_.constants.size())});
+  list_.constants.emplace_back(lower, upper);
+  return size() - 1;
+}
+
+int Recorder::constantFrom(Op op, int a, int b, const Interval& number) {
+  if (const auto known = derived_.find({op, a, b}); known != derived_.end()) return known->second;
+  const int node = constant(number);
+  derived_.emplace(Key{op, a, b}, node);
+  return node;
+}
+
+int Recorder::negated(int c) {
+  const int node = constantFrom(Op::neg, c, -1, -value(c));
+  derived_.emplace(Key{Op::neg, node, -1}, c);
+  return node;
+}
+
+int Recorder::scaled(int c, int d) {
+  const Interval product = value(c) * value(d);
+  if (!isBounded(product)) return -1;
+  // Exact if both endpoints come back: divided by the power of two they are what they were.
+  const auto [power, other] = isPowerOfTwo(value(c)) ? std::pair(c, d) : std::pair(d, c);
+  if (!isEqual(product / value(power), value(other))) return -1;
+  // Known by the value of the power, of which there may be several nodes: ±2^k is 2k, or 2k + 1 if negative.
+  const double factor = value(power).lower();
+  return constantFrom(Op::mul, other, 2 * std::ilogb(factor) + std::signbit(factor), product);
+}
+
+int Recorder::rewritten(Op op, int a, int b) {
+  if (depth_ == deepest) return -1;
+  struct Inside {
+    int& depth;
+    ~Inside() { --depth; }
+  } const inside{++depth_};
+  for (const Rule& rule : rulesOf(op)) {
+    if (!rules_.has(rule.group)) continue;
+    if (const int node = rule.apply(*this, a, b); node >= 0) return node;
+  }
+  return -1;
+}
+
+int Recorder::push(Op op, int a, int b) {
+  const bool isPair = twinOf(op) != op;
+  const auto append = [&] {
+    list_.push({op, a, b});
+    if (isPair) list_.push({twinOf(op), a, b});  // right behind: both are new or both are known
+    return size() - (isPair ? 2 : 1);
+  };
+  if (!rules_.has(op == Op::sin ? RuleGroup::pairSinCos : RuleGroup::mergeEqual)) return append();
+  // One order for a + b and b + a; a constant factor comes first.
+  if (op == Op::add || (op == Op::mul && isConstant(a) == isConstant(b))) std::tie(a, b) = std::minmax({a, b});
+  if (op == Op::mul && !isConstant(a) && isConstant(b)) std::swap(a, b);
+  const auto [known, isNew] = known_.try_emplace(Key{op, a, b}, size());
+  return isNew ? append() : known->second;
+}
+
+int Recorder::emit(Op op, int a, int b) {
+  if (op == Op::solution) throw std::invalid_argument("a solution is recorded by solve(), not by emit()");
+  if (twinOf(op) != op) return pair(op, a).first;
+  if (isTwin(op)) return pair(op == Op::cos ? Op::sin : Op::tanh, a).second;
+  if (op == Op::atan && !list_.isOnePlusSquare(b, a)) return atan(a);
+  const int node = rewritten(op, a, b);
+  return node >= 0 ? node : push(op, a, b);
+}
+
+int Recorder::recip(int a) {
+  if (isConstant(a) && contains(value(a), 0.0))
+    throw std::domain_error("recorded division by a constant that may be zero");
+  return emit(Op::recip, a);
+}
+
+int Recorder::sqrt(int a) {
+  if (isConstant(a) && value(a).lower() < 0)
+    throw std::domain_error("recorded square root of a constant that may be negative");
+  return emit(Op::sqrt, a);
+}
+
+int Recorder::log(int a) {
+  if (isConstant(a) && value(a).lower() <= 0)
+    throw std::domain_error("recorded logarithm of a constant that may not be positive");
+  return emit(Op::log, a, a);
+}
+
+int Recorder::atan(int a) {
+  if (const int node = rewritten(Op::atan, a, -1); node >= 0) return node;
+  const int square = sqr(a);
+  return push(Op::atan, a, add(constant(Interval(1.0)), square));
+}
+
+std::pair<int, int> Recorder::pair(Op op, int a) {
+  const int first = rewritten(op, a, -1), second = rewritten(twinOf(op), a, -1);
+  if (first >= 0 && second >= 0) return {first, second};
+  const int both = push(op, a, -1);
+  return {first >= 0 ? first : both, second >= 0 ? second : both + 1};
+}
+
+int Recorder::matrix(LinearMatrix matrix) {
+  if (matrix.size < 1 || matrix.entries.size() != at(matrix.size) * at(matrix.size))
+    throw std::invalid_argument("a recorded matrix of " + std::to_string(matrix.size) + " rows needs as many columns");
+  for (int i = 0; i < matrix.size; ++i)
+    for (int j = 0; j < i && matrix.kind == MatrixKind::positiveDefinite; ++j)
+      if (matrix.entry(i, j) != matrix.entry(j, i))
+        throw std::invalid_argument("a positive definite matrix is recorded with one node for entries (i, j), (j, i)");
+  const int next = static_cast<int>(list_.matrices.size());
+  if (rules_.has(RuleGroup::mergeEqual))
+    if (const auto [known, isNew] = knownMatrices_.try_emplace(keyOf(matrix), next); !isNew) return known->second;
+  list_.matrices.push_back(std::move(matrix));
+  return next;
+}
+
+std::vector<int> Recorder::solve(int matrix, bool transposed, const std::vector<int>& rightSide) {
+  const LinearMatrix& of = list_.matrices.at(at(matrix));
+  if (rightSide.size() != at(of.size))
+    throw std::invalid_argument("a system of " + std::to_string(of.size) + " equations has as many right-hand sides");
+  const auto isZero = [this](int r) { return isExactly(r, 0.0); };
+  if (rules_.has(RuleGroup::simplify) && std::all_of(rightSide.begin(), rightSide.end(), isZero)) return rightSide;
+  const LinearSolution solution{matrix, transposed && of.kind == MatrixKind::general, rightSide};
+  int first = size();
+  bool isNew = true;
+  if (rules_.has(RuleGroup::mergeEqual)) {
+    const auto [known, inserted] = knownSolutions_.try_emplace(keyOf(solution), first);
+    first = known->second;
+    isNew = inserted;
+  }
+  if (isNew) {
+    const int number = static_cast<int>(list_.solutions.size());
+    list_.solutions.push_back(solution);
+    for (int k = 0; k < of.size; ++k) list_.push({Op::solution, number, k});
+  }
+  std::vector<int> components(rightSide.size());
+  std::iota(components.begin(), components.end(), first);
+  return components;
+}
+
+std::vector<int> Recorder::append(const Program& program) {
+  std::vector<int> here, matrices, components;
+  here.reserve(program.nodes().size());
+  const auto mapped = [&here](std::vector<int> nodes) {
+    for (int& node : nodes) node = here[at(node)];
+    return nodes;
+  };
+  int twin = -1;
+  matrices.assign(program.matrices().size(), -1);
+  for (const Node& n : program.nodes()) {
+    if (n.op == Op::solution) {
+      if (n.b == 0) {
+        const LinearSolution& solution = program.solutions()[at(n.a)];
+        const LinearMatrix& of = program.matrices()[at(solution.matrix)];
+        int& number = matrices[at(solution.matrix)];
+        if (number < 0) number = matrix({of.kind, of.size, mapped(of.entries)});
+        components = solve(number, solution.transposed, mapped(solution.rightSide));
+      }
+      here.push_back(components[at(n.b)]);
+      continue;
+    }
+    const int a = isOperation(n.op) ? here[at(n.a)] : -1, b = isOperation(n.op) && n.b >= 0 ? here[at(n.b)] : -1;
+    switch (n.op) {
+      case Op::state:
+        here.push_back(state(n.a));
+        break;
+      case Op::parameter:
+        here.push_back(parameter(n.a));
+        break;
+      case Op::time:
+        here.push_back(time());
+        break;
+      case Op::constant:
+        here.push_back(constant(program.constants()[at(n.a)]));
+        break;
+      case Op::sin:
+      case Op::tanh: {
+        const auto [first, second] = pair(n.op, a);
+        here.push_back(first);
+        twin = second;
+        break;
+      }
+      case Op::cos:
+      case Op::sech2:
+        here.push_back(twin);
+        break;
+      default:
+        here.push_back(emit(n.op, a, b));
+    }
+  }
+  return here;
+}
+
+Program Recorder::program(const std::vector<int>& outputs) const {
+  return selected(std::vector<char>(list_.nodes.size(), 1), outputs);
+}
+
+Program Recorder::finish(const std::vector<int>& outputs) const {
+  std::vector<char> used(list_.nodes.size(), 0);
+  for (int i = 0; i <= states_ + parameters_; ++i) used[at(i)] = 1;
+  for (int output : outputs) used[at(output)] = 1;
+  for (int i = size() - 1; i >= 0; --i) {
+    if (!used[at(i)]) continue;
+    // Twins stay together; the last is met first on this way back, so the others are still to come.
+    detail::forEachTwin(list_, i, [&](int twin) { used[at(twin)] = 1; });
+    detail::forEachOperand(list_, i, [&](int operand) { used[at(operand)] = 1; });
+  }
+  return selected(used, outputs);
+}
+
+Program Recorder::selected(const std::vector<char>& wanted, const std::vector<int>& outputs) const {
+  Program program;
+  program.states_ = states_;
+  program.parameters_ = parameters_;
+  detail::NodeTable& table = program.table_;
+  std::vector<int> renumbered(list_.nodes.size(), -1), matrices(list_.matrices.size(), -1);
+  const auto moved = [&renumbered](std::vector<int> nodes) {
+    for (int& node : nodes) node = renumbered[at(node)];
+    return nodes;
+  };
+  for (int i = 0; i < size(); ++i) {
+    if (!wanted[at(i)]) continue;
+    Node n = node(i);
+    if (n.op == Op::parameter && n.a >= parameters_)
+      throw std::logic_error("a recorded program depends on an unknown that was to be eliminated");
+    bool invariant = n.op == Op::parameter || n.op == Op::constant || isOperation(n.op);
+    detail::forEachOperand(
+        list_, i, [&](int operand) { invariant = invariant && program.invariant_[at(renumbered[at(operand)])]; });
+    if (n.op == Op::constant) {
+      table.constants.push_back(list_.constants[at(n.a)]);
+      n.a = static_cast<int>(table.constants.size()) - 1;
+    } else if (n.op == Op::solution) {
+      if (n.b == 0) {
+        const LinearSolution& solution = list_.solutions[at(n.a)];
+        const LinearMatrix& matrix = list_.matrices[at(solution.matrix)];
+        int& number = matrices[at(solution.matrix)];
+        if (number < 0) {
+          number = static_cast<int>(table.matrices.size());
+          table.matrices.push_back({matrix.kind, matrix.size, moved(matrix.entries)});
+        }
+        table.solutions.push_back({number, solution.transposed, moved(solution.rightSide)});
+      }
+      n.a = static_cast<int>(table.solutions.size()) - 1;
+    } else if (isOperation(n.op)) {
+      n.a = renumbered[at(n.a)];
+      if (n.b >= 0) n.b = renumbered[at(n.b)];
+    }
+    renumbered[at(i)] = static_cast<int>(table.nodes.size());
+    table.nodes.push_back(n);
+    program.invariant_.push_back(invariant);
+  }
+  for (int output : outputs) program.outputs_.push_back(renumbered[at(output)]);
+  return program;
+}
+
+}  // namespace gamut

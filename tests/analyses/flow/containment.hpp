@@ -1,0 +1,131 @@
+// The judgement of a tube: trajectories of the reference, from corners and from random points of the box, must lie in
+// every enclosure the tube gives, at output times, between them and in every sub-box. No tolerance anywhere.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <optional>
+
+#include "analyses/flow/flow.hpp"
+#include "tests/analyses/reference.hpp"
+
+namespace gamut::testing {
+
+/// What is enclosed, and how it is judged.
+struct Containment {
+  Program f;
+  Box box;
+  double horizon = 1;
+  std::vector<double> times = {};
+  FlowOptions options = {};
+  std::optional<Program> g = {};
+  std::vector<Box> levels = {};
+  /// The truth where it is not f itself: f with decimals as further parameters, and their values in 128 bits.
+  std::optional<Program> truth = {};
+  Vector decimals = {};
+
+  Tube tube() const { return (g ? Flow(f, *g, options) : Flow(f, options)).enclose(box, horizon, times, levels); }
+};
+
+/// Random programs for outputs: x itself, a quotient, and a distance-like quantity.
+inline Program standardOutputs(int n, int k) {
+  return record(n, k, 3, [](auto t, const auto& x, const auto& p, auto& y) {
+    Recorded sum = t;
+    for (const Recorded& value : x) sum += sqr(value);
+    for (const Recorded& value : p) sum += value;
+    y[0] = x[0];
+    y[1] = sin(x[0]) / (3.0 + sqr(x.back()));
+    y[2] = sqrt(100.0 + sum) - x.back();
+  });
+}
+
+class Judge {
+ public:
+  explicit Judge(const Containment& c, unsigned seed = 3)
+      : c_(c), tube_(c.tube()), reference_(c.truth ? *c.truth : c.f), points_(seed) {
+    const std::vector<double>& times = tube_.times();
+    for (std::size_t i = 0; i < tube_.reachedTimes(); ++i) {
+      if (i > 0)
+        for (double part : {0.03, 0.31, 0.5, 0.77, 0.98}) {
+          const double between = times[i - 1] + part * (times[i] - times[i - 1]);
+          if (between > times[i - 1] && between < times[i]) moments_.push_back({between, i, false});
+        }
+      moments_.push_back({times[i], i, true});
+    }
+  }
+
+  const Tube& tube() const { return tube_; }
+
+  /// Trajectories from corners and from inside, of the box and of every sub-box.
+  void judge(int trajectories) {
+    for (int i = 0; i < trajectories && !::testing::Test::HasFatalFailure(); ++i) {
+      const std::size_t level =
+          c_.levels.empty() ? 0 : static_cast<std::size_t>(points_.integer(0, static_cast<int>(c_.levels.size())));
+      const Box& box = level == 0 ? c_.box : c_.levels[level - 1];
+      follow(i % 2 == 0 ? points_.corner(box) : points_.inside(box), level);
+    }
+  }
+
+  /// One trajectory; it starts in the first `level` sub-boxes.
+  void follow(const Vector& start, std::size_t level = 0) {
+    Vector given = start;
+    given.insert(given.end(), c_.decimals.begin(), c_.decimals.end());
+    std::vector<double> times;
+    for (const Moment& moment : moments_) times.push_back(moment.time);
+    const std::vector<Vector> states = reference_(given, times);
+    std::optional<Evaluator<Precise>> outputs;
+    if (c_.g) {
+      outputs.emplace(*c_.g);
+      outputs->setParameters(Vector(start.begin() + c_.f.states(), start.end()));
+    }
+    for (std::size_t m = 0; m < moments_.size(); ++m) {
+      const auto [time, row, isOutputTime] = moments_[m];
+      SCOPED_TRACE("t = " + std::to_string(time) + ", start " + describe(start));
+      within(tube_.statesOver(row), states[m], "over");
+      if (isOutputTime) within(tube_.states(row), states[m], "states");
+      Vector y = states[m];
+      if (outputs) {
+        y = (*outputs)(Precise(time), states[m]);
+        within(tube_.outputsOver(row), y, "outputs over");
+        if (isOutputTime) within(tube_.outputs(row), y, "outputs");
+      }
+      if (isOutputTime)
+        for (std::size_t l = 0; l < level; ++l) within(tube_.cut(l, row), y, "cut");
+      if (::testing::Test::HasFatalFailure()) return;
+    }
+  }
+
+ private:
+  struct Moment {
+    double time;
+    std::size_t row;
+    bool isOutputTime;
+  };
+  static std::string describe(const Vector& start) {
+    std::string text;
+    for (const Precise& value : start) text += value.str(17) + " ";
+    return text;
+  }
+  static void within(const std::vector<Interval>& intervals, const Vector& values, const char* what) {
+    ASSERT_EQ(intervals.size(), values.size());
+    for (std::size_t i = 0; i < values.size(); ++i) ASSERT_THAT(intervals[i], Encloses(values[i])) << what << ' ' << i;
+  }
+
+  const Containment& c_;
+  Tube tube_;
+  Reference reference_;
+  Points points_;
+  std::vector<Moment> moments_;
+};
+
+/// The tube holds every trajectory, and (unless told otherwise) gets to the horizon.
+inline Tube expectContainment(const Containment& c, int trajectories, bool toTheHorizon = true) {
+  Judge judge(c);
+  if (toTheHorizon) {
+    EXPECT_EQ(judge.tube().why(), "") << "reached " << judge.tube().reached();
+  }
+  judge.judge(trajectories);
+  return judge.tube();
+}
+
+}  // namespace gamut::testing

@@ -1,0 +1,668 @@
+// What a tube promises beside its enclosures: sub-boxes, pieces, threads, cancellation, the ways to end early,
+// arguments that make no sense, and boxes and scales at the edge of what doubles can say.
+#include <atomic>
+#include <cfenv>
+#include <cmath>
+#include <limits>
+
+#include "scalars/algebra/linear_system.hpp"
+#include "tests/analyses/flow/containment.hpp"
+
+namespace gamut::testing {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+Program pendulum() {
+  return record(2, 0, [](auto, const auto& x, const auto&, auto& dx) {
+    dx[0] = x[1];
+    dx[1] = -9.0 * sin(x[0]);
+  });
+}
+
+Program growth() {
+  return record(1, 0, [](auto, const auto& x, const auto&, auto& dx) { dx[0] = x[0]; });
+}
+
+/// Explodes at t = 1 / x(0).
+Program explosion() {
+  return record(1, 0, [](auto, const auto& x, const auto&, auto& dx) { dx[0] = sqr(x[0]); });
+}
+
+Program oneState(Recorded (*function)(const Recorded& t, const Recorded& x)) {
+  return record(1, 0, [&](auto t, const auto& x, const auto&, auto& dx) { dx[0] = function(t, x[0]); });
+}
+
+void expectEqual(const Tube& a, const Tube& b) {
+  ASSERT_EQ(a.reachedTimes(), b.reachedTimes());
+  EXPECT_EQ(a.reached(), b.reached());
+  EXPECT_EQ(a.pieces(), b.pieces());
+  EXPECT_EQ(a.steps(), b.steps());
+  for (std::size_t i = 0; i < a.reachedTimes(); ++i)
+    for (std::size_t s = 0; s < a.states(i).size(); ++s) {
+      EXPECT_TRUE(isEqual(a.states(i)[s], b.states(i)[s]))
+          << "row " << i << ": " << a.states(i)[s] << ' ' << b.states(i)[s];
+      EXPECT_TRUE(isEqual(a.statesOver(i)[s], b.statesOver(i)[s])) << "over row " << i;
+    }
+}
+
+// ---- Sub-boxes ------------------------------------------------------------------------------------------------------
+
+Containment withLevels() {
+  Containment c;
+  c.f = pendulum();
+  c.box = {Interval(0.8, 1.2), Interval(-0.1, 0.1)};
+  c.levels = {{Interval(0.85, 1.1), Interval(-0.05, 0.1)},
+              {Interval(0.95, 1.05), Interval(0.0, 0.02)},
+              {Interval(1.0, 1.0), Interval(0.01, 0.01)}};
+  c.horizon = 1.5;
+  c.times = {0.3, 0.9};
+  return c;
+}
+
+void expectNested(const Tube& tube, std::size_t levels, bool outputs) {
+  for (std::size_t row = 0; row < tube.reachedTimes(); ++row)
+    for (std::size_t level = 0; level < levels; ++level)
+      for (std::size_t i = 0; i < tube.cut(level, row).size(); ++i) {
+        const Interval& outside = level > 0 ? tube.cut(level - 1, row)[i]
+                                  : outputs ? tube.outputs(row)[i]
+                                            : tube.states(row)[i];
+        EXPECT_TRUE(isSubset(tube.cut(level, row)[i], outside));
+      }
+}
+
+TEST(Flow, CutsHoldTheTrajectoriesOfTheirSubBoxAndAreNested) {
+  const Containment c = withLevels();
+  const Tube tube = expectContainment(c, 24);
+  expectNested(tube, 3, false);
+  EXPECT_LT(width(tube.cut(2, 3)[0]), 1e-6) << "a thin sub-box";
+  EXPECT_LT(width(tube.cut(1, 2)[0]), 0.6 * width(tube.states(2)[0]));
+}
+
+TEST(Flow, CutsOfOutputsHoldTheirTrajectoriesOnManyPieces) {
+  Containment c = withLevels();
+  c.g = standardOutputs(2, 0);
+  c.options.splitDefect = 1e-13;
+  c.options.maxPieces = 24;
+  c.options.degree = 4;
+  const Tube tube = expectContainment(c, 24);
+  EXPECT_GT(tube.pieces(), 4);
+  expectNested(tube, 3, true);
+}
+
+// ---- Pieces and threads ---------------------------------------------------------------------------------------------
+
+TEST(Flow, HoldsTrajectoriesWithAndWithoutSplittingForEveryFrameDegree) {
+  for (const bool split : {false, true})
+    for (int frameDegree : {0, 1, 2, 3, 4}) {
+      SCOPED_TRACE("frame degree " + std::to_string(frameDegree));
+      Containment c = withLevels();
+      c.levels.clear();
+      c.options.split = split;
+      c.options.splitDefect = 1e-11;
+      c.options.degree = 5;
+      c.options.frameDegree = frameDegree;
+      c.options.maxPieces = 10;
+      const Tube tube = expectContainment(c, 4);
+      EXPECT_EQ(tube.pieces() > 1, split);
+      if (HasFatalFailure()) return;
+    }
+}
+
+TEST(Flow, GivesTheSameTubeWithOneAndWithTwoThreads) {
+  FlowOptions options;
+  options.splitDefect = 1e-11;
+  options.degree = 5;
+  const Box box{Interval(0.8, 1.2), Interval(-0.1, 0.1)};
+  const Tube one = Flow(pendulum(), options).enclose(box, 1.5, {0.3, 0.9});
+  options.jobs = 2;
+  const Tube two = Flow(pendulum(), options).enclose(box, 1.5, {0.3, 0.9});
+  EXPECT_GT(one.pieces(), 4);
+  expectEqual(one, two);
+}
+
+TEST(Flow, TellsItsProgress) {
+  FlowOptions options;
+  double last = -1;
+  bool rises = true;
+  options.progress = [&](double fraction) {
+    rises = rises && fraction >= last && fraction <= 1;
+    last = fraction;
+  };
+  Flow(pendulum(), options).enclose({1.0, 0.0}, 5.0);
+  EXPECT_TRUE(rises);
+  EXPECT_GT(last, 0.5);
+}
+
+TEST(Flow, KeepsWhatWasProvedWhenCancelled) {
+  std::atomic<bool> cancelled = false;
+  Containment c = withLevels();
+  c.horizon = 4;
+  c.times = {0.05, 0.5, 1, 2, 3};
+  c.options.cancelled = &cancelled;
+  c.options.progress = [&](double fraction) {
+    if (fraction > 0.3) cancelled = true;
+  };
+  const Tube tube = expectContainment(c, 6, false);
+  EXPECT_LT(tube.reached(), 4);
+  EXPECT_GE(tube.reached(), 0.3 * 4);
+  EXPECT_GE(tube.reachedTimes(), 3u);
+  EXPECT_THAT(tube.why(), Not(::testing::IsEmpty()));
+  EXPECT_THROW(tube.at(3.9), std::out_of_range);
+}
+
+TEST(Flow, KeepsTheStartWhenCancelledAtOnce) {
+  const std::atomic<bool> cancelled = true;
+  FlowOptions options;
+  options.cancelled = &cancelled;
+  const Tube tube = Flow(pendulum(), options).enclose({1.0, Interval(0, 0.1)}, 4, {1});
+  EXPECT_EQ(tube.reached(), 0);
+  EXPECT_EQ(tube.reachedTimes(), 1u);
+  EXPECT_TRUE(isSubset(Interval(0, 0.1), tube.at(0)[1]));
+}
+
+// ---- Ends before the horizon ----------------------------------------------------------------------------------------
+
+TEST(Flow, EndsWhenAnEnclosureBecomesWiderThanTheLimit) {
+  FlowOptions options;
+  options.maxWidth = 1;
+  const Tube tube = Flow(growth(), options).enclose({Interval(0.9, 1.1)}, 10, {1, 2, 3});
+  EXPECT_GT(tube.reached(), 1.5);  // 0.2 e^t = 1 at t = 1.609
+  EXPECT_LT(tube.reached(), 3);
+  EXPECT_THAT(tube.why(), HasSubstr("state 0 has become wider than the limit of 1"));
+}
+
+TEST(Flow, EndsBeforeASolutionThatEscapesInFiniteTime) {
+  for (const bool wide : {false, true}) {
+    Containment c;
+    c.f = explosion();
+    c.box = {wide ? Interval(0.9, 1.0) : Interval(1.0)};
+    c.horizon = 2;
+    c.times = {0.25, 0.5, 0.75, 1.5};
+    c.options.maxPieces = 50;
+    c.options.maxWidth = 1e30;
+    const Tube tube = expectContainment(c, 3, false);
+    EXPECT_LT(tube.reached(), 1);
+    EXPECT_GT(tube.reached(), wide ? 0.75 : 0.99);
+    EXPECT_THAT(tube.why(), Not(::testing::IsEmpty()));
+  }
+}
+
+TEST(Flow, SaysAtOnceThatAStartGrowsWithoutBound) {
+  const Program cubic = record(2, 1, [](auto, const auto& x, const auto& p, auto& dx) {
+    dx[0] = x[1];
+    dx[1] = p[0] * sqr(x[0]) * x[0];
+  });
+  for (const auto& [f, box, escape] :
+       {std::tuple{explosion(), Box{1.0}, 1.0}, std::tuple{explosion(), Box{Interval(0.9, 1.0)}, 1.0},
+        std::tuple{cubic, Box{Interval(0.99, 1.01), 1.0, Interval(1.98, 2.02)}, 0.99}}) {
+    FlowOptions options;
+    options.stateNames = {"the angle", "the rate"};
+    const Tube tube = Flow(f, options).enclose(box, 3, {0.5});
+    EXPECT_GT(tube.reached(), 0.999 * escape);
+    EXPECT_LE(tube.pieces(), 40);
+    EXPECT_LT(tube.steps(), 4000);
+    EXPECT_THAT(tube.why(), HasSubstr("grows without bound"));
+    EXPECT_THAT(tube.why(), HasSubstr("the "));
+  }
+}
+
+TEST(Flow, SaysWhichStateIsTooWide) {
+  FlowOptions options;
+  options.split = false;
+  options.stateNames = {"angle", "rate"};
+  const Tube tube = Flow(pendulum(), options).enclose({Interval(2.9, 3.2), Interval(-0.1, 0.1)}, 20);
+  EXPECT_LT(tube.reached(), 20);
+  EXPECT_THAT(tube.why(), HasSubstr("at " + toString(tube.reached()) + " s "));
+  EXPECT_THAT(tube.why(), HasSubstr("too wide"));
+  EXPECT_THAT(tube.why(), ::testing::AnyOf(HasSubstr("angle is "), HasSubstr("rate is ")));
+  EXPECT_THAT(tube.why(), Not(HasSubstr("without bound")));
+}
+
+TEST(Flow, EndsWhereTheEquationsLoseTheirMeaning) {
+  // x = 1 - t, so each of these leaves its domain at t = 1: 1/x, √x, log x.
+  const char* said[] = {"a division by", "the square root of", "the logarithm of"};
+  int which = 0;
+  for (auto* function : {+[](const Recorded&t, const Recorded&x) { return -1.0 - 1e-9 * t / x; },
+                         +[](const Recorded&, const Recorded&x) { return -1.0 + 1e-9 * sqrt(x); },
+                         +[](const Recorded&, const Recorded&x) { return -1.0 + 1e-9 * log(x); }}) {
+    const Tube tube = Flow(oneState(function)).enclose({1.0}, 3, {0.5, 2});
+    EXPECT_LT(tube.reached(), 1.001);
+    EXPECT_GT(tube.reached(), 0.9);
+    EXPECT_THAT(tube.why(), HasSubstr(said[which++]));
+    EXPECT_EQ(tube.reachedTimes(), 2u);
+  }
+}
+
+TEST(Flow, ProvesNothingButTheStartWhereTheEquationsHaveNoMeaningAtAll) {
+  for (const Interval& start : {Interval(0.0), Interval(-1.0), Interval(-0.5, 0.5)}) {
+    FlowOptions options;
+    options.maxPieces = 8;
+    const Tube tube =
+        Flow(oneState(+[](const Recorded&, const Recorded& x) { return log(x); }), options).enclose({start}, 1, {0.5});
+    EXPECT_EQ(tube.reached(), 0);
+    EXPECT_EQ(tube.reachedTimes(), 1u);
+    EXPECT_TRUE(isSubset(start, tube.states(0)[0]));
+    EXPECT_THAT(tube.why(), Not(::testing::IsEmpty()));
+  }
+}
+
+TEST(Flow, GivesTheWholeLineForOutputsItCannotProve) {
+  const Program g = record(1, 0, 2, [](auto, const auto& x, const auto&, auto& y) {
+    y[0] = 1.0 / (x[0] - 2.0);  // infinite on the way
+    y[1] = x[0];
+  });
+  const Tube tube = Flow(growth(), g).enclose({Interval(0.9, 1.1)}, 1, {0.2, std::log(2.0)});
+  EXPECT_EQ(tube.why(), "");
+  EXPECT_TRUE(isBounded(tube.outputs(1)[0]));
+  EXPECT_TRUE(isEntire(tube.outputs(2)[0]));
+  EXPECT_TRUE(isEntire(tube.outputsOver(2)[0]));
+}
+
+// ---- Arguments ------------------------------------------------------------------------------------------------------
+
+template <class Action>
+std::string complaint(Action&& action) {
+  try {
+    action();
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "no complaint";
+}
+
+TEST(Flow, RefusesArgumentsThatMakeNoSenseAndSaysWhy) {
+  const Flow flow(pendulum());
+  const Box box{1.0, 0.0};
+  EXPECT_THAT(complaint([&] { flow.enclose({1.0}, 1); }), HasSubstr("initial values"));
+  EXPECT_THAT(complaint([&] { flow.enclose({1.0, Interval::empty()}, 1); }), HasSubstr("bounded"));
+  EXPECT_THAT(complaint([&] { flow.enclose({1.0, Interval::entire()}, 1); }), HasSubstr("bounded"));
+  for (double horizon : {0.0, -1.0, std::numeric_limits<double>::infinity(), std::nan("")})
+    EXPECT_THAT(complaint([&] { flow.enclose(box, horizon); }), HasSubstr("horizon"));
+  for (const std::vector<double>& times : {std::vector<double>{-0.5}, {0.5, 0.2}, {2.0}, {std::nan("")}})
+    EXPECT_THAT(complaint([&] { flow.enclose(box, 1, times); }), HasSubstr("output times"));
+  EXPECT_THAT(complaint([&] { flow.enclose(box, 1, {}, {{1.0}}); }), HasSubstr("sub-box"));
+  EXPECT_THAT(complaint([&] { flow.enclose(box, 1, {}, {{1.0, Interval(0, 1)}}); }), HasSubstr("inside"));
+  for (int order : {3, 31, -1}) {
+    FlowOptions options;
+    options.order = order;
+    EXPECT_THAT(complaint([&] { Flow(pendulum(), options); }), HasSubstr("order"));
+  }
+  for (int degree : {-2, 41}) {
+    FlowOptions options;
+    options.degree = degree;
+    EXPECT_THAT(complaint([&] { Flow(pendulum(), options); }), HasSubstr("degree"));
+  }
+  FlowOptions options;
+  options.tolerance = -1;
+  EXPECT_THAT(complaint([&] { Flow(pendulum(), options); }), HasSubstr("tolerance"));
+  options = {};
+  options.maxPieces = 0;
+  EXPECT_THAT(complaint([&] { Flow(pendulum(), options); }), HasSubstr("piece"));
+  EXPECT_THAT(complaint([&] { Flow(standardOutputs(2, 0)); }), HasSubstr("derivative"));
+  EXPECT_THAT(complaint([&] { Flow(pendulum(), standardOutputs(2, 1)); }), HasSubstr("outputs"));
+  EXPECT_THAT(complaint([&] { encloseImage(standardOutputs(2, 0), 0, {1.0}); }), HasSubstr("box"));
+}
+
+TEST(EncloseImage, GivesNothingOnceCancelled) {
+  const std::atomic<bool> cancelled{true};
+  const Program square = record(1, 0, 1, [](auto, const auto& x, const auto&, auto& y) { y[0] = sqr(x[0]); });
+  EXPECT_TRUE(encloseImage(square, 0, {Interval(1.0, 2.0)}, {}, -1, &cancelled).empty());
+  EXPECT_EQ(encloseImage(square, 0, {Interval(1.0, 2.0)}).size(), 1U);
+}
+
+// ---- The edge of what doubles can say -------------------------------------------------------------------------------
+
+TEST(Flow, RefusesToProveAnythingInAnotherRoundingMode) {
+  const Flow flow(pendulum());
+  for (const int mode : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
+    std::fesetround(mode);
+    std::string said;
+    try {
+      flow.enclose({Interval(1), Interval(0)}, 1.0);
+    } catch (const std::runtime_error& error) {
+      said = error.what();
+    }
+    std::fesetround(FE_TONEAREST);
+    EXPECT_THAT(said, HasSubstr("rounding to nearest"));
+  }
+}
+
+TEST(Flow, HoldsConstantSolutionsExactly) {
+  Containment c;
+  c.f = record(2, 1, [](auto, const auto&, const auto&, auto& dx) { dx[0] = dx[1] = 0.0; });
+  c.box = {0.1, Interval(-3, 5), Interval(0, 1)};
+  c.horizon = 1e6;
+  c.times = {0.1, 1e3};
+  const Tube tube = expectContainment(c, 4);
+  EXPECT_LT(width(tube.at(1e6)[0]), 1e-15);
+  EXPECT_LT(width(tube.at(1e6)[1]), 8 + 1e-12);
+}
+
+TEST(Flow, HoldsTrajectoriesOverTinyAndHugeHorizons) {
+  for (double horizon : {1e-300, 1e-6, 1e6, 1e100}) {
+    SCOPED_TRACE(horizon);
+    Containment c;
+    const double rate = 1 / horizon;
+    c.f = record(2, 0, [&](auto, const auto& x, const auto&, auto& dx) {
+      dx[0] = rate * x[1];
+      dx[1] = -rate * x[0];
+    });
+    if (horizon < 1e-100)
+      c.f = record(2, 0, [](auto, const auto& x, const auto&, auto& dx) { dx[0] = x[1], dx[1] = -x[0]; });
+    c.box = {Interval(0.9, 1.1), 0.3};
+    c.horizon = horizon;
+    c.times = {0.1 * horizon, 0.7 * horizon};
+    c.options.degree = 2;
+    expectContainment(c, 3);
+    if (HasFatalFailure()) return;
+  }
+}
+
+TEST(Flow, HoldsTrajectoriesOfEveryScale) {
+  for (double scale : {5e-324, 1e-310, 1e-200, 1e-150, 1e-20, 1e20, 1e150, 1e300}) {
+    SCOPED_TRACE(scale);
+    Containment c;
+    c.f = record(2, 0, [](auto, const auto& x, const auto&, auto& dx) {
+      dx[0] = x[1] - 0.1 * x[0];
+      dx[1] = -x[0];
+    });
+    c.box = {Interval(scale, 2 * scale), scale};
+    c.horizon = 1;
+    c.times = {0.3};
+    c.options.degree = 2;
+    c.options.maxWidth = std::numeric_limits<double>::infinity();
+    c.options.maxPieces = 4;
+    expectContainment(c, 3, false);
+    if (HasFatalFailure()) return;
+  }
+}
+
+TEST(Flow, HoldsSolutionsThatGrowAndVanishOverManyOrdersOfMagnitude) {
+  for (double rate : {-200.0, 60.0}) {
+    Containment c;
+    c.f = record(1, 0, [&](auto, const auto& x, const auto&, auto& dx) { dx[0] = rate * x[0]; });
+    c.box = {Interval(1, 1.5)};
+    c.horizon = 4;
+    c.times = {0.5, 1, 2, 3};
+    c.options.maxWidth = 1e300;
+    c.options.maxPieces = 4;
+    expectContainment(c, 3, false);
+  }
+}
+
+/// A mass that hangs from a spring of uncertain stiffness, free to swing sideways too, where symmetry keeps it at 0.
+TEST(Flow, FollowsAStateThatSymmetryKeepsAtZero) {
+  Containment c;
+  c.f = record(4, 1, [](auto, const auto& x, const auto& p, auto& dx) {
+    const auto length = sqrt(sqr(x[0]) + sqr(x[1]));
+    const auto pull = p[0] * (length - 0.25) / (0.2 * length);
+    dx[0] = x[2];
+    dx[1] = x[3];
+    dx[2] = -pull * x[0];
+    dx[3] = -pull * x[1] - 9.81;
+  });
+  c.box = {0.0, -0.3, 0.0, 0.0, Interval(49, 51)};
+  c.horizon = 1;
+  c.times = {0.25};
+  const Tube tube = expectContainment(c, 3);
+  EXPECT_LT(tube.steps(), 200);
+  EXPECT_LT(width(tube.at(1)[0]), 1e-20);
+}
+
+/// A pendulum whose mass does not matter, though the equations hold it twice: what truncation in the mass adds must
+/// raise the degree, though no state depends on it.
+TEST(Flow, SeesTruncationThatCancelsInTheStates) {
+  Containment c;
+  c.f = record(2, 1, [](auto, const auto& x, const auto& p, auto& dx) {
+    dx[0] = x[1];
+    dx[1] = -((1.0 + p[0]) * 9.81 * 0.5 * sin(x[0])) / ((1.0 + p[0]) * 0.25);
+  });
+  c.box = {1.0, 0.0, Interval(0, 1)};
+  c.horizon = 1;
+  c.times = {0.5};
+  EXPECT_LT(width(expectContainment(c, 3).at(1)[0]), 1e-11);
+}
+
+/// From rest a stiff oscillator moves by the second order in time alone; the first step does not depend on the horizon.
+TEST(Flow, StartsFromRestWhateverTheHorizon) {
+  for (double horizon : {1e-3, 1.0, 1000.0}) {
+    FlowOptions options;
+    options.maxWidth = 1e-3;
+    const Program f = record(2, 1, [](auto, const auto& x, const auto& p, auto& dx) {
+      dx[0] = x[1];
+      dx[1] = -9.81 - p[0] * x[0] - 1000.0 * x[1];
+    });
+    std::atomic<bool> enough = false;
+    options.progress = [&](double fraction) { enough = fraction * horizon > 1e-3; };
+    options.cancelled = &enough;
+    const Tube tube = Flow(f, options).enclose({0.0, 0.0, Interval(0.99e9, 1.01e9)}, horizon);
+    EXPECT_GT(tube.reached(), 5e-4) << horizon << ": " << tube.why();
+  }
+}
+
+/// A body slides to rest; its rate falls far below what a double can say. Alone, and beside a motion that goes on.
+TEST(Flow, FollowsAStateThatVanishes) {
+  for (double eps : {0.01, 0.001})
+    for (double radius : {0.0, 0.01}) {
+      if (eps < 0.01 && radius > 0) continue;
+      Containment c;
+      c.f = record(2, 1, [&](auto, const auto& x, const auto& p, auto& dx) {
+        dx[0] = x[1];
+        dx[1] = -9.81 * p[0] * x[1] / sqrt(sqr(x[1]) + eps * eps);
+      });
+      c.box = {0.0, 0.25, 0.5 * Interval(1 - radius, 1 + radius)};
+      c.horizon = 1.75;  // e^{-490·1.6} = 1e-340
+      c.times = {0.02, 0.2, 1.5};
+      const Tube tube = expectContainment(c, 2);
+      EXPECT_LT(width(tube.at(1.75)[1]), 1e-25);
+    }
+  Containment c;
+  c.f = record(2, 0, [](auto, const auto& x, const auto&, auto& dx) {
+    dx[0] = -200.0 * x[0];
+    dx[1] = cos(x[1]);
+  });
+  c.box = {Interval(1, 1.5), 0.0};
+  c.horizon = 10;
+  c.times = {0.1, 1, 5};
+  const Tube tube = expectContainment(c, 3);
+  EXPECT_LT(width(tube.at(0.1)[0]), 1.0001 * 0.5 * std::exp(-20)) << "relative as long as that says something";
+}
+
+TEST(Flow, TakesBoxesThatAreThinInSomeComponentsOrNearlySo) {
+  const double next = std::nextafter(1.0, 2.0);
+  for (const Box& box : {Box{Interval(1.0, next), 0.25, Interval(2.0)},
+                         Box{Interval(1.0, 1.0 + 1e-12), Interval(-1e-320, 1e-320), Interval(2.0, 2.5)},
+                         Box{1.0, Interval(-1e-17, 1e-17), Interval(1.9, 2.1)},
+                         Box{1.0, 0.0, Interval(2.0, std::nextafter(2.0, 3.0))}}) {
+    Containment c;
+    c.f = record(2, 1, [](auto, const auto& x, const auto& p, auto& dx) {
+      dx[0] = x[1];
+      dx[1] = -sqr(p[0]) * sin(x[0]);
+    });
+    c.box = box;
+    c.horizon = 2;
+    c.times = {0.1, 1.0 / 3};
+    c.options.degree = 3;
+    expectContainment(c, 5);
+  }
+}
+
+TEST(Flow, EnclosesDecimalsNotTheDoublesNearThem) {
+  // x' = 0.1 from 0: the double nearest to 0.1 would be off by 5.6e-17 after ten steps of one second, and must not
+  // count.
+  Containment c;
+  c.f = record(1, 0, [](auto, const auto&, const auto&, auto& dx) { dx[0] = constant<Recorded>(Interval("0.1")); });
+  c.truth = record(1, 1, [](auto, const auto&, const auto& p, auto& dx) { dx[0] = p[0]; });
+  c.decimals = {Precise("0.1")};
+  c.box = {0.0};
+  c.horizon = 1;
+  c.times = {0.25, 0.5};
+  expectContainment(c, 1);
+  c.f = record(
+      1, 0, [](auto, const auto& x, const auto&, auto& dx) { dx[0] = -constant<Recorded>(Interval("9.81")) * x[0]; });
+  c.truth = record(1, 1, [](auto, const auto& x, const auto& p, auto& dx) { dx[0] = -p[0] * x[0]; });
+  c.decimals = {Precise("9.81")};
+  c.box = {Interval(1, 1.25)};
+  expectContainment(c, 3);
+}
+
+TEST(Flow, HoldsTheTrajectoriesOfEveryValueAnEnclosedConstantMayHave) {
+  Containment c;
+  c.f = record(1, 0, [](auto, const auto& x, const auto&, auto& dx) {
+    dx[0] = sin(constant<Recorded>(Interval(0.5, 0.5625)) * x[0]);
+  });
+  c.truth = record(1, 1, [](auto, const auto& x, const auto& p, auto& dx) { dx[0] = sin(p[0] * x[0]); });
+  c.box = {Interval(1, 1.25)};
+  c.horizon = 1;
+  c.times = {0.25, 0.5};
+  for (double value : {0.5, 0.53125, 0.5625}) {
+    c.decimals = {Precise(value)};
+    expectContainment(c, 3);
+  }
+}
+
+TEST(Flow, PutsAnOutputTimeOnAStepsEndIntoBothIntervals) {
+  FlowOptions options;
+  options.tolerance = 1e-8;
+  const Program f = growth();
+  std::vector<double> boundaries;  // steps end at multiples of the horizon's last bit: try many times, dyadic and not
+  for (int i = 1; i < 64; ++i) boundaries.push_back(i / 64.0);
+  for (int i = 1; i < 50; ++i) boundaries.push_back(i * 0.02 + 1e-3);
+  std::sort(boundaries.begin(), boundaries.end());
+  const Tube tube = Flow(f, options).enclose({1.0}, 1.0, boundaries);
+  ASSERT_EQ(tube.reachedTimes(), boundaries.size() + 2);
+  for (std::size_t i = 1; i < tube.reachedTimes(); ++i) {
+    const Precise before = exp(Precise(tube.times()[i - 1])), now = exp(Precise(tube.times()[i]));
+    EXPECT_THAT(tube.states(i)[0], Encloses(now));
+    EXPECT_THAT(tube.statesOver(i)[0], Encloses(before));
+    EXPECT_THAT(tube.statesOver(i)[0], Encloses(now));
+  }
+}
+
+TEST(Flow, LooksUpTimesBetweenOutputsInTheirInterval) {
+  const Tube tube = Flow(growth()).enclose({1.0}, 2.0, {0.5, 1.0});
+  EXPECT_THAT(tube.times(), ::testing::ElementsAre(0, 0.5, 1, 2));
+  EXPECT_TRUE(isEqual(tube.at(0.75)[0], tube.statesOver(2)[0]));
+  EXPECT_TRUE(isEqual(tube.at(1.0)[0], tube.states(2)[0]));
+  EXPECT_THAT(tube.at(0.75)[0], Encloses(exp(Precise(0.75))));
+  EXPECT_THROW(tube.at(2.5), std::out_of_range);
+  EXPECT_THROW(tube.at(-1), std::out_of_range);
+  EXPECT_THROW(tube.at(std::nan("")), std::out_of_range);
+}
+
+TEST(Flow, TubesBetweenFarOutputTimesHoldFastMotion) {
+  Containment c;
+  c.f = pendulum();
+  c.g = standardOutputs(2, 0);
+  c.box = {Interval(1.0, 1.1), 0.0};
+  c.horizon = 6;
+  c.options.order = 30;  // long steps
+  c.options.tolerance = 1e-6;
+  Judge judge(c);
+  judge.judge(4);
+  EXPECT_LT(width(judge.tube().statesOver(1)[0]), 4);
+}
+
+// ---- Between output times, and at the start
+// --------------------------------------------------------------------------
+
+/// A pendulum's angle, height, energy and kinetic energy.
+Program pendulumOutputs() {
+  return record(2, 0, 4, [](auto, const auto& x, const auto&, auto& y) {
+    y[0] = x[0];
+    y[1] = -cos(x[0]);
+    y[3] = 0.5 * sqr(x[1]);
+    y[2] = y[3] + 9.0 * y[1];
+  });
+}
+
+double sagFree(const Tube& tube, std::size_t row, std::size_t output) {
+  return width(hull(tube.outputs(row - 1)[output], tube.outputs(row)[output]));
+}
+
+TEST(Flow, OutputsBetweenTimesAreNearlyTheHullOfBothTimes) {
+  for (double radius : {0.0, 1e-6, 0.02}) {
+    SCOPED_TRACE(radius);
+    Containment c;
+    c.f = pendulum();
+    c.g = pendulumOutputs();
+    c.box = {Interval(1 - radius, 1 + radius), Interval(0.5, 0.5)};
+    c.horizon = 4;
+    for (int i = 1; i < 400; ++i) c.times.push_back(i * 0.01);
+    const Tube tube = expectContainment(c, radius > 0 ? 4 : 1);
+    for (std::size_t row = 20; row < tube.reachedTimes(); ++row) {
+      // Conserved: of a thin start nothing but what one step adds is left, more of it over a step than at one time.
+      EXPECT_LE(width(tube.outputsOver(row)[2]), 1.1 * sagFree(tube, row, 2) + 4e-12) << "at " << tube.times()[row];
+      for (std::size_t output : {0u, 1u, 3u}) {  // at a turning point the motion itself leaves the hull
+        const double rate = midpoint(tube.states(row)[1]), lift = std::fabs(std::sin(midpoint(tube.states(row)[0])));
+        const bool smooth = std::fabs(rate) > 0.5 && lift > 0.2;
+        if (!smooth) continue;
+        EXPECT_LE(width(tube.outputsOver(row)[output]), 1.1 * sagFree(tube, row, output))
+            << "output " << output << " at " << tube.times()[row];
+      }
+    }
+  }
+}
+
+TEST(Flow, OutputsBetweenFarTimesHoldFastMotion) {
+  for (int order : {4, 12, 30})
+    for (double radius : {0.0, 1e-9, 0.05}) {
+      Containment c;
+      c.f = pendulum();
+      c.g = pendulumOutputs();
+      c.box = {Interval(2 - radius, 2 + radius), 0.0};
+      c.horizon = 3;
+      c.times = {0.011, 0.7, 0.70001, 2};
+      c.options.order = order;
+      c.options.tolerance = 1e-7;
+      expectContainment(c, 6);
+      if (HasFatalFailure()) return;
+    }
+}
+
+/// Steps of different lengths keep different orders of the outputs' series; the certificate of a system reads beyond.
+TEST(Flow, OutputsOfLinearSystemsBetweenTimesHoldTheirTrajectories) {
+  for (double radius : {1e-10, 1e-4, 0.05}) {
+    Containment c;
+    c.f = pendulum();
+    c.g = record(2, 0, 2, [](auto t, const auto& x, const auto&, auto& y) {
+      const LinearSystem<Recorded> system(MatrixKind::general, 2,
+                                          {3.0 + cos(x[0]), sin(x[1]), x[0] * 0.5, 2.0 + sqr(sin(t + x[1]))});
+      std::vector<Recorded> right{x[0], 1.0 + t};
+      system.solve(right);
+      y[0] = right[0], y[1] = right[1];
+    });
+    c.box = {Interval(1 - radius, 1 + radius), 0.25};
+    c.horizon = 2.5;
+    c.times = {0.01, 0.4, 0.41, 1.1, 2};
+    expectContainment(c, 8);
+  }
+}
+
+TEST(Flow, ShowsExactlyWhatIsExactlyKnownAtTheStart) {
+  Containment c = withLevels();
+  c.box[1] = 0.0;
+  for (Box& level : c.levels) level[1] = 0.0;
+  const Tube states = c.tube();
+  c.g = record(2, 0, 3, [](auto, const auto& x, const auto&, auto& y) {
+    y[0] = x[0];
+    y[1] = 2.0 * x[1];
+    y[2] = sqr(x[0]);
+  });
+  const Tube outputs = c.tube();
+  EXPECT_TRUE(isEqual(states.states(0)[0], c.box[0]));
+  EXPECT_TRUE(isEqual(states.states(0)[1], 0.0));
+  EXPECT_TRUE(isEqual(outputs.outputs(0)[0], c.box[0]));
+  EXPECT_TRUE(isEqual(outputs.outputs(0)[1], 0.0));
+  EXPECT_TRUE(isEqual(outputs.outputsOver(0)[1], 0.0));
+  for (std::size_t level = 0; level < c.levels.size(); ++level) {
+    EXPECT_TRUE(isEqual(states.cut(level, 0)[1], 0.0));
+    EXPECT_TRUE(isEqual(outputs.cut(level, 0)[1], 0.0));
+    EXPECT_TRUE(isEqual(outputs.cut(level, 0)[0], c.levels[level][0]));
+  }
+}
+
+}  // namespace
+}  // namespace gamut::testing

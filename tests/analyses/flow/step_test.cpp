@@ -1,0 +1,622 @@
+// One step of the flow, judged in 128 bits. A step's set must hold every trajectory that starts in the set before it;
+// its update must hold the set at the step's end; the halves of a bisected set must hold the whole.
+#include "analyses/flow/step.hpp"
+
+#include <gtest/gtest.h>
+
+#include "analyses/flow/outputs.hpp"
+#include "tests/analyses/reference.hpp"
+
+namespace gamut::testing {
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// A stepper with a random set.
+struct Scene {
+  int n, symbols;
+  Program f, differentiated;
+  std::shared_ptr<const Monomials> monomials;
+  FlowStepper stepper;
+  FlowSet set;
+  Points& points;
+
+  Scene(Program motion, int symbolCount, int degree, int frameDegree, int order, double tolerance, Points& random)
+      : n(motion.states()),
+        symbols(symbolCount),
+        f(std::move(motion)),
+        differentiated(f.differentiated()),
+        monomials(std::make_shared<const Monomials>(std::vector<int>(at(symbolCount), 1), degree)),
+        stepper(differentiated, monomials, frameDegree, order, tolerance),
+        points(random) {}
+
+  /// x = p + C (r + Γ s) + w: p around `nominal`, all of the given sizes.
+  void fill(const std::vector<double>& nominal, double spread, double R, int generatorCount, double W,
+            double parameterRadius, double generatorSize = -1) {
+    if (generatorSize < 0) generatorSize = R;
+    const double turning = points.integer(0, 2) * 0.15;  // how much the frame depends on ξ
+    const int N = monomials->count(), NJ = stepper.frameCount();
+    for (int i = 0; i < n; ++i)
+      for (int g = 0; g < N; ++g)
+        set.p.push_back(g == 0 ? nominal[at(i)] : spread * std::ldexp(points.uniform(-1, 1), -2 * monomials->grade(g)));
+    for (int g = 0; g < NJ; ++g)
+      for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j)
+          set.C.push_back((g == 0 && i == j ? 1.0 : 0.0) + points.uniform(-1, 1) * (g == 0 ? 0.2 : turning));
+    for (int i = 0; i < n; ++i) {
+      set.R.push_back(R * points.uniform(0.1, 1));
+      set.W.push_back(W * points.uniform(0, 1));
+    }
+    for (int i = 0; i < generatorCount * n; ++i) set.generators.push_back(generatorSize * points.uniform(-1, 1));
+    for (int i = 0; i < f.parameters(); ++i) {
+      Embedded p;
+      p.centre = nominal[at(n + i)];
+      p.radius = parameterRadius;
+      if (i < symbols) {
+        p.symbol = i;
+        p.half = spread * 0.5;
+      }
+      set.parameters.push_back(p);
+    }
+    set.centre.assign(at(symbols), 0.0);
+    set.half.assign(at(symbols), 1.0);
+  }
+
+  std::vector<Precise> monomialsAt(const Vector& xi) const { return valuesOf(*monomials, xi); }
+  /// Symbols beyond those of ξ are zero.
+  static std::vector<Precise> valuesOf(const Monomials& of, const Vector& xi) {
+    std::vector<Precise> values;
+    for (int g = 0; g < of.count(); ++g) {
+      Precise product(1.0);
+      for (int l = 0; l < of.symbols(); ++l)
+        product *= at(l) < xi.size() ? Precise(pow(xi[at(l)], of.exponent(g, l)))
+                                     : Precise(of.exponent(g, l) == 0 ? 1.0 : 0.0);
+      values.push_back(product);
+    }
+    return values;
+  }
+  Vector randomSymbols() {
+    Vector xi;
+    for (int l = 0; l < symbols; ++l) xi.push_back(Precise(points.signedUnit()));
+    return xi;
+  }
+  Precise polynomial(const double* c, int count, const std::vector<Precise>& values, int spacing = 1) const {
+    Precise sum(0.0);
+    for (int g = 0; g < count; ++g) sum += values[at(g)] * c[g * spacing];
+    return sum;
+  }
+  /// A matrix of polynomials [monomial][row][column] at one ξ.
+  std::vector<Vector> matrix(const std::vector<double>& c, const std::vector<Precise>& values) const {
+    const int count = static_cast<int>(c.size()) / (n * n);
+    std::vector<Vector> m(at(n), Vector(at(n)));
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j) m[at(i)][at(j)] = polynomial(&c[at(i * n + j)], count, values, n * n);
+    return m;
+  }
+  Vector times(const std::vector<Vector>& m, const Vector& v) const {
+    Vector result(at(n));
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j) result[at(i)] += m[at(i)][at(j)] * v[at(j)];
+    return result;
+  }
+
+  /// Starts at random places of the set (its corners most of all), followed by the reference into the step.
+  void expectTrajectoriesInside(int trajectories) {
+    Reference reference(f);
+    for (int sample = 0; sample < trajectories; ++sample) {
+      const Vector xi = randomSymbols();
+      const std::vector<Precise> values = monomialsAt(xi);
+      Vector r(at(n));
+      for (int i = 0; i < n; ++i) r[at(i)] = Precise(set.R[at(i)]) * points.signedUnit();
+      for (std::size_t g = 0; g < set.generators.size(); g += at(n)) {
+        const double s = points.signedUnit();
+        for (int i = 0; i < n; ++i) r[at(i)] += Precise(set.generators[g + at(i)]) * s;
+      }
+      Vector start = times(matrix(set.C, values), r);
+      for (int i = 0; i < n; ++i)
+        start[at(i)] += polynomial(&set.p[at(i * monomials->count())], monomials->count(), values) +
+                        Precise(set.W[at(i)]) * points.signedUnit();
+      for (const Embedded& p : set.parameters)
+        start.push_back(Precise(p.centre) + Precise(p.radius) * points.signedUnit() +
+                        (p.symbol >= 0 ? Precise(p.half) * xi[at(p.symbol)] : Precise(0.0)));
+      for (double part : {0.0, 0.4, 1.0}) {
+        const double tau = part * stepper.h();
+        const Vector x = reference(start, {tau})[0];
+        FlowPoint point;
+        stepper.evaluate(set, tau, point);
+        const Vector linear = times(matrix(point.psi, values), r);
+        for (int i = 0; i < n; ++i) {
+          const Precise p = polynomial(&point.p[at(i * monomials->count())], monomials->count(), values);
+          ASSERT_LE(Precise(abs(x[at(i)] - p)), Precise(point.radius[at(i)])) << "radius at " << part;
+          ASSERT_LE(Precise(abs(x[at(i)] - p - linear[at(i)])), Precise(point.loose[at(i)])) << "loose at " << part;
+        }
+      }
+    }
+  }
+
+  /// For random ξ and directions, the support function of C'⁻¹ (Ψ (r + Γ s) + w) is below that of r' + Γ' s'.
+  void expectUpdateInside(int directions) {
+    FlowPoint point;
+    stepper.evaluate(set, stepper.h(), point);
+    const FlowSet before = set;
+    stepper.advance(set);
+    ASSERT_EQ(set.p, point.p);
+    for (int direction = 0; direction < directions; ++direction) {
+      const std::vector<Precise> values = monomialsAt(randomSymbols());
+      Vector along(at(n));
+      if (direction < 2 * n)
+        along[at(direction % n)] = 1;
+      else
+        for (Precise& value : along) value = points.uniform(-1, 1);
+      const Vector z = solveTransposed(matrix(set.C, values), along);
+      const std::vector<Vector> psi = matrix(point.psi, values);
+      Vector zPsi(at(n));
+      Precise was(0.0), is(0.0);
+      for (int j = 0; j < n; ++j) {
+        for (int i = 0; i < n; ++i) zPsi[at(j)] += z[at(i)] * psi[at(i)][at(j)];
+        was += abs(zPsi[at(j)]) * before.R[at(j)] + abs(z[at(j)]) * point.loose[at(j)];
+        is += abs(along[at(j)]) * set.R[at(j)];
+      }
+      was += reach(zPsi, before.generators);
+      is += reach(along, set.generators);
+      ASSERT_LE(was, is);
+      ASSERT_LE(is, was * 100);
+    }
+  }
+
+  /// Outputs g of random members p + Ψ (r + Γs) + w of the set at a step's end lie within the radii of their
+  /// polynomials.
+  void expectOutputsInside(const Program& g, int members) {
+    FlowPoint point;
+    stepper.evaluate(set, stepper.h(), point);
+    FlowOutputs outputs(g, monomials);
+    const double t = set.t + stepper.h();
+    outputs.evaluate(t, point, set.R, set.parameters);
+    Evaluator<Precise> truth(g);
+    for (int member = 0; member < members; ++member) {
+      const Vector xi = randomSymbols();
+      const std::vector<Precise> values = monomialsAt(xi);
+      Vector r(at(n)), p;
+      for (int i = 0; i < n; ++i) r[at(i)] = Precise(set.R[at(i)]) * points.signedUnit();
+      for (std::size_t j = 0; j < set.generators.size(); j += at(n)) {
+        const double s = points.signedUnit();
+        for (int i = 0; i < n; ++i) r[at(i)] += Precise(set.generators[j + at(i)]) * s;
+      }
+      Vector x = times(matrix(point.psi, values), r);
+      for (int i = 0; i < n; ++i)
+        x[at(i)] += polynomial(&point.p[at(i * monomials->count())], monomials->count(), values) +
+                    Precise(point.loose[at(i)]) * points.signedUnit() * 0.99;
+      for (const Embedded& q : set.parameters)
+        p.push_back(Precise(q.centre) + (q.symbol >= 0 ? Precise(q.half) * xi[at(q.symbol)] : Precise(0.0)));
+      truth.setParameters(p);
+      const Vector y = truth(Precise(t), x);
+      for (int o = 0; o < outputs.count(); ++o) {
+        const Precise computed = polynomial(outputs.polynomial(o), monomials->count(), values);
+        ASSERT_LE(Precise(abs(y[at(o)] - computed)), Precise(outputs.radius(o))) << "output " << o;
+      }
+    }
+  }
+
+  /// Both halves hold their part of the set.
+  void expectHalvesInside(int symbol, int samples) {
+    const PolynomialRange shift(monomials);
+    const FlowSet whole = set;
+    FlowSet halves[2];
+    halves[1] = stepper.bisect(set, symbol, shift);
+    halves[0] = set;
+    const Vector total = totalOf(whole);
+    for (int side : {0, 1})
+      for (int sample = 0; sample < samples; ++sample) {
+        const FlowSet& half = halves[side];
+        const Vector eta = randomSymbols();
+        Vector xi = eta;
+        xi[at(symbol)] = (eta[at(symbol)] + (side == 0 ? -1 : 1)) / 2;
+        const std::vector<Precise> was = monomialsAt(xi), is = monomialsAt(eta);
+        const std::vector<Vector> C = matrix(whole.C, was), halfC = matrix(half.C, is);
+        const int N = monomials->count();
+        for (int i = 0; i < n; ++i) {
+          Precise gap = abs(polynomial(&whole.p[at(i * N)], N, was) - polynomial(&half.p[at(i * N)], N, is));
+          for (int j = 0; j < n; ++j) gap += abs(C[at(i)][at(j)] - halfC[at(i)][at(j)]) * total[at(j)];
+          ASSERT_LE(gap, Precise(half.W[at(i)]) - Precise(whole.W[at(i)]));
+        }
+        for (std::size_t k = 0; k < whole.parameters.size(); ++k) {
+          const Embedded &a = whole.parameters[k], &b = half.parameters[k];
+          if (a.symbol < 0) continue;
+          const Precise gap =
+              abs(Precise(a.centre) + a.half * xi[at(a.symbol)] - b.centre - b.half * eta[at(a.symbol)]);
+          ASSERT_LE(gap, Precise(b.radius) - Precise(a.radius));
+        }
+        ASSERT_EQ(half.R, whole.R);
+        ASSERT_EQ(half.generators, whole.generators);
+      }
+  }
+
+  /// What is rewritten for another degree of the same symbols lies within what W has grown by.
+  void expectOtherDegreeInside(int degree, int frameDegree, int samples) {
+    const Monomials to(std::vector<int>(at(symbols), 1), degree);
+    const FlowSet before = set;
+    const int fromFrame = frameDegreeOf(*monomials, stepper.frameCount());
+    changeDegree(set, *monomials, fromFrame, to, frameDegree);
+    ASSERT_EQ(set.p.size(), at(n * to.count()));
+    ASSERT_EQ(set.C.size(), at(n * n * to.countUpTo(frameDegree)));
+    ASSERT_EQ(set.R, before.R);
+    ASSERT_EQ(set.generators, before.generators);
+    const Vector total = totalOf(before);
+    for (int sample = 0; sample < samples; ++sample) {
+      const Vector xi = randomSymbols();
+      const std::vector<Precise> was = monomialsAt(xi), is = valuesOf(to, xi);
+      const std::vector<Vector> C = matrix(before.C, was), newC = matrix(set.C, is);
+      for (int i = 0; i < n; ++i) {
+        Precise gap = abs(polynomial(&before.p[at(i * monomials->count())], monomials->count(), was) -
+                          polynomial(&set.p[at(i * to.count())], to.count(), is));
+        for (int j = 0; j < n; ++j) gap += abs(C[at(i)][at(j)] - newC[at(i)][at(j)]) * total[at(j)];
+        ASSERT_LE(gap, Precise(set.W[at(i)]) - Precise(before.W[at(i)]));
+      }
+    }
+  }
+
+  /// Support functions, for random ξ: C (r + Γs) + w and what p loses lie within the fresh symbols' share and the new
+  /// w.
+  void expectExpansionInside(const std::vector<int>& weights, int degree, int frameDegree, int directions) {
+    const Monomials to(weights, degree);
+    const FlowSet before = set;
+    expandRemainder(set, *monomials, frameDegreeOf(*monomials, stepper.frameCount()), to, frameDegree);
+    ASSERT_EQ(set.p.size(), at(n * to.count()));
+    ASSERT_TRUE(set.generators.empty());
+    for (int direction = 0; direction < directions; ++direction) {
+      const Vector xi = randomSymbols();
+      const std::vector<Precise> was = monomialsAt(xi), is = valuesOf(to, xi);
+      Vector along(at(n));
+      if (direction < 2 * n)
+        along[at(direction % n)] = 1;
+      else
+        for (Precise& value : along) value = points.uniform(-1, 1);
+      const std::vector<Vector> C = matrix(before.C, was);
+      Vector alongC(at(n));
+      Precise moved(0.0), inside(0.0), now(0.0);
+      for (int i = 0; i < n; ++i) {
+        moved += along[at(i)] * (polynomial(&before.p[at(i * monomials->count())], monomials->count(), was) -
+                                 polynomial(&set.p[at(i * to.count())], to.count(), is));
+        for (int j = 0; j < n; ++j) alongC[at(j)] += along[at(i)] * C[at(i)][at(j)];
+        inside += abs(along[at(i)]) * before.W[at(i)];
+        now += abs(along[at(i)]) * set.W[at(i)];
+        ASSERT_EQ(set.R[at(i)], 0);
+      }
+      for (int j = 0; j < n; ++j) {
+        inside += abs(alongC[at(j)]) * before.R[at(j)];
+        Precise fresh(0.0);
+        for (int i = 0; i < n; ++i) fresh += along[at(i)] * set.p[at(i * to.count() + to.linear(symbols + j))];
+        now += abs(fresh);
+      }
+      inside += reach(alongC, before.generators) + abs(moved);
+      ASSERT_LE(inside, now);
+    }
+  }
+
+ private:
+  static int frameDegreeOf(const Monomials& of, int count) {
+    int degree = 0;
+    while (of.countUpTo(degree) < count) ++degree;
+    return degree;
+  }
+  Vector totalOf(const FlowSet& of) const {
+    Vector total(of.R.begin(), of.R.end());
+    for (std::size_t g = 0; g < of.generators.size(); ++g) total[g % at(n)] += std::fabs(of.generators[g]);
+    return total;
+  }
+  Precise reach(const Vector& along, const std::vector<double>& generators) const {
+    Precise sum(0.0);
+    for (std::size_t g = 0; g < generators.size(); g += at(n)) {
+      Precise product(0.0);
+      for (int i = 0; i < n; ++i) product += along[at(i)] * generators[g + at(i)];
+      sum += abs(product);
+    }
+    return sum;
+  }
+  /// mᵀ z = v by elimination with row exchanges.
+  Vector solveTransposed(const std::vector<Vector>& m, Vector v) const {
+    std::vector<Vector> a(at(n), Vector(at(n)));
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j) a[at(i)][at(j)] = m[at(j)][at(i)];
+    for (int k = 0; k < n; ++k) {
+      int pivot = k;
+      for (int i = k + 1; i < n; ++i)
+        if (abs(a[at(i)][at(k)]) > abs(a[at(pivot)][at(k)])) pivot = i;
+      std::swap(a[at(k)], a[at(pivot)]);
+      std::swap(v[at(k)], v[at(pivot)]);
+      for (int i = k + 1; i < n; ++i) {
+        const Precise factor = a[at(i)][at(k)] / a[at(k)][at(k)];
+        for (int j = k; j < n; ++j) a[at(i)][at(j)] -= factor * a[at(k)][at(j)];
+        v[at(i)] -= factor * v[at(k)];
+      }
+    }
+    for (int k = n; k-- > 0;) {
+      for (int j = k + 1; j < n; ++j) v[at(k)] -= a[at(k)][at(j)] * v[at(j)];
+      v[at(k)] /= a[at(k)][at(k)];
+    }
+    return v;
+  }
+};
+
+constexpr double horizon = 4;
+constexpr double quantum = 0x1p-50;  // of a horizon of 4 s
+
+/// Autonomous systems of one to three states with one parameter (sets are at any time, the reference starts at t = 0).
+std::vector<std::pair<Program, std::vector<double>>> systems() {
+  return {{record(2, 1,
+                  [](auto, const auto& x, const auto& p, auto& dx) {
+                    dx[0] = x[1];
+                    dx[1] = -p[0] * sin(x[0]);
+                  }),
+           {1.0, 0.5, 4.0}},
+          {record(2, 1,
+                  [](auto, const auto& x, const auto& p, auto& dx) {
+                    dx[0] = sqr(x[0]) - p[0] * x[1];
+                    dx[1] = 1.0 / (2.0 + x[0] * x[1]);
+                  }),
+           {0.5, 0.8, 1.0}},
+          {record(3, 1,
+                  [](auto, const auto& x, const auto& p, auto& dx) {
+                    dx[0] = 2.0 * (x[1] - x[0]);
+                    dx[1] = x[0] * (p[0] - x[2]) - x[1];
+                    dx[2] = x[0] * x[1] - exp(0.5 * x[2]);
+                  }),
+           {1.0, 0.5, 0.25, 3.0}},
+          {record(1, 1, [](auto, const auto& x, const auto& p, auto& dx) { dx[0] = p[0] - x[0] * sqr(x[0]); }),
+           {1.5, 0.5}}};
+}
+
+TEST(FlowStep, HoldsEveryTrajectoryThatStartsInTheSet) {
+  Points points(5);
+  int steps = 0;
+  for (int round = 0; round < 25; ++round)
+    for (const auto& [f, nominal] : systems()) {
+      const int symbols = points.integer(0, 2), degree = symbols == 0 ? 0 : points.integer(1, 4);
+      Scene scene(f, symbols, degree, points.integer(0, 3), points.integer(4, 14),
+                  std::pow(10.0, -points.integer(3, 14)), points);
+      const double R = std::pow(10.0, -points.integer(1, 14)) * points.integer(0, 1);
+      scene.fill(nominal, std::pow(10.0, -points.integer(1, 3)), R, points.integer(0, 3), R * points.integer(0, 1),
+                 R * 0.1);
+      if (scene.stepper.certify(scene.set, horizon, quantum, 0) != StepOutcome::stepped) continue;
+      ++steps;
+      scene.expectTrajectoriesInside(4);
+      if (HasFatalFailure()) return;
+    }
+  EXPECT_GT(steps, 80);
+}
+
+// Sets so wide, and equations so steep, that derivatives along the polynomials alone, which rest, say far too little.
+TEST(FlowStep, HoldsEveryTrajectoryOfWideRemaindersUnderSteepEquations) {
+  const Program f = record(2, 0, [](auto, const auto& x, const auto&, auto& dx) {
+    dx[0] = exp(6.0 * x[0]) - 1.0 + x[1];
+    dx[1] = -x[1] * cos(3.0 * x[0]);
+  });
+  Points points(12);
+  int steps = 0;
+  for (int round = 0; round < 60; ++round) {
+    Scene scene(f, 0, 0, 0, points.integer(4, 10), std::pow(10.0, -points.integer(1, 5)), points);
+    const double size = points.uniform(0.05, 0.4);
+    const int kind = round % 3;  // all in W, all in R, in both
+    scene.fill({0, 0}, 0, kind == 0 ? 0 : size, 0, kind == 1 ? 0 : size, 0);
+    if (scene.stepper.certify(scene.set, horizon, quantum, 0) != StepOutcome::stepped) continue;
+    ++steps;
+    scene.expectTrajectoriesInside(5);
+    if (HasFatalFailure()) return;
+  }
+  EXPECT_GT(steps, 30);
+}
+
+TEST(FlowStep, UpdateHoldsTheSetAtItsEnd) {
+  Points points(6);
+  int steps = 0;
+  for (int round = 0; round < 40; ++round)
+    for (const auto& [f, nominal] : systems()) {
+      const int symbols = points.integer(0, 2), degree = symbols == 0 ? 0 : points.integer(1, 4);
+      Scene scene(f, symbols, degree, points.integer(0, 3), points.integer(6, 14),
+                  std::pow(10.0, -points.integer(5, 14)), points);
+      const double R = std::pow(10.0, -points.integer(2, 14)) * points.integer(0, 1);
+      scene.fill(nominal, std::pow(10.0, -points.integer(1, 3)), R, points.integer(0, 3), R * points.integer(0, 1), 0);
+      if (scene.stepper.certify(scene.set, horizon, quantum, 0) != StepOutcome::stepped) continue;
+      ++steps;
+      scene.expectUpdateInside(8);
+      if (HasFatalFailure()) return;
+    }
+  EXPECT_GT(steps, 120);
+}
+
+// With no box to hide it, rounding of the generators themselves must be covered.
+TEST(FlowStep, UpdateHoldsASetOfGeneratorsAlone) {
+  Points points(13);
+  for (int round = 0; round < 40; ++round)
+    for (const auto& [f, nominal] : systems()) {
+      const int symbols = points.integer(0, 1), degree = symbols == 0 ? 0 : points.integer(1, 4);
+      Scene scene(f, symbols, degree, points.integer(0, 1), 16, 1e-14, points);
+      scene.fill(nominal, 1e-4, 0, points.integer(1, 6), 0, 0, std::pow(10.0, -points.integer(4, 8)));
+      if (scene.stepper.certify(scene.set, horizon, quantum, 0) != StepOutcome::stepped) continue;
+      scene.expectUpdateInside(8);
+      if (HasFatalFailure()) return;
+    }
+}
+
+// x'' = x: coefficients of one sign, so that the bound of the second derivative is nearly reached at the step's end, by
+// the remainder around zero as by the polynomials without one.
+TEST(FlowStep, NothingLeavesItsChordByMoreThanTheSag) {
+  Points points(14);
+  const Program f = record(2, 0, [](auto, const auto& x, const auto&, auto& dx) {
+    dx[0] = x[1];
+    dx[1] = x[0];
+  });
+  for (int round = 0; round < 40; ++round) {
+    Scene scene(f, round % 2, round % 2, round % 2, 14, 1e-6, points);
+    const bool moves = round % 4 > 1;
+    scene.fill({moves ? 1.0 : 0.0, moves ? 1.0 : 0.0}, 1e-6, moves ? 0.0 : 0.1, moves ? 0 : 2, 0, 0);
+    ASSERT_EQ(scene.stepper.certify(scene.set, horizon, quantum, 0), StepOutcome::stepped);
+    const double h = scene.stepper.h(), length = h * std::ldexp(1.0, -points.integer(0, 5));
+    std::vector<Interval> sag;
+    scene.stepper.sag(h - length, h, sag);
+    for (int sample = 0; sample < 8; ++sample) {
+      const std::vector<Precise> values = scene.monomialsAt(scene.randomSymbols());
+      const double sign = points.signedUnit() < 0 ? -1 : 1;
+      const Vector r{scene.set.R[0] * Precise(sign), scene.set.R[1] * Precise(sign)};
+      Vector q[3];  // at both ends and in the middle of the step's last piece
+      for (int k = 0; k < 3; ++k) {
+        FlowPoint point;
+        scene.stepper.evaluate(scene.set, h - 0.5 * k * length, point);
+        q[k] = scene.times(scene.matrix(point.psi, values), r);
+        for (int i = 0; i < 2; ++i)
+          q[k][at(i)] += scene.polynomial(&point.p[at(i * scene.monomials->count())], scene.monomials->count(), values);
+      }
+      for (std::size_t i = 0; i < 2; ++i) {  // beyond the rounding of the three evaluations
+        const Precise departure = q[1][i] - (q[0][i] + q[2][i]) / 2;
+        ASSERT_TRUE(encloses(sag[i] + Interval(-1e-14, 1e-14), departure)) << "of length " << length << " of " << h;
+      }
+    }
+  }
+}
+
+// A chain at rest in which each state feels the next one only once that has moved: every attempt at a tube reaches one
+// link further, so that a step must be refused although the tubes of the links before it hold.
+TEST(FlowStep, RefusesAStepWhoseTubeIsNotProved) {
+  constexpr int links = 6;
+  const Program f = record(links, 0, [](auto, const auto& x, const auto&, auto& dx) {
+    for (std::size_t i = 0; i + 1 < links; ++i) dx[i] = 0.5 * sqr(x[i + 1]);
+    dx[links - 1] = 0.0;
+  });
+  Points points(16);
+  for (int round = 0; round < 4; ++round) {
+    Scene scene(f, 0, 0, 0, 8, 1e-6, points);
+    scene.fill(std::vector<double>(links, 0.0), 0, 1e-30, 0, 0, 0);
+    for (int i = 0; i < links; ++i)
+      for (int j = 0; j < links; ++j) scene.set.C[at(i * links + j)] = i == j ? 1.0 : 0.0;
+    scene.set.R.back() = 1.5;
+    ASSERT_EQ(scene.stepper.certify(scene.set, 1, quantum, 0), StepOutcome::stepped);
+    scene.expectTrajectoriesInside(8);
+    if (HasFatalFailure()) return;
+  }
+}
+
+// One column of the frame turns with ξ so much that it is made constant, the other keeps its ξ-dependence: the first
+// column's loss, in the box, is then turned by the second.
+TEST(FlowStep, UpdateTurnsWhatAConstantColumnLoses) {
+  const Program f = record(2, 0, [](auto, const auto& x, const auto&, auto& dx) {
+    dx[0] = 0.1 * x[1];
+    dx[1] = -0.1 * sin(x[0]);
+  });
+  Points points(17);
+  for (int round = 0; round < 20; ++round) {
+    Scene scene(f, 1, 2, 1, 10, 1e-12, points);
+    scene.fill({0.5, 0.5}, 1e-3, 1e-4, 0, 0, 0);
+    // C = I + ξ C_1: [row][column], the first column above the limit of 0.2, the second below.
+    scene.set.C = {1,
+                   0,
+                   0,
+                   1,
+                   points.uniform(0.3, 0.6),
+                   points.uniform(-0.1, 0.1),
+                   points.uniform(0.3, 0.6),
+                   points.uniform(0.1, 0.15) * (round % 2 == 0 ? 1 : -1)};
+    scene.set.R = {1e-4, 1e-5};
+    ASSERT_EQ(scene.stepper.certify(scene.set, 0x1p-6, quantum, 0), StepOutcome::stepped);
+    scene.expectUpdateInside(30);
+    if (HasFatalFailure()) return;
+  }
+}
+
+TEST(FlowStep, UpdateHoldsTheSetWhenOldGeneratorsMerge) {
+  Points points(7);
+  const auto [f, nominal] = systems()[0];
+  Scene scene(f, 1, 3, 2, 10, 1e-11, points);
+  scene.fill(nominal, 1e-3, 1e-12, 0, 0, 0);
+  for (int step = 0; step < 75; ++step) {
+    ASSERT_EQ(scene.stepper.certify(scene.set, 100, 0x1p-46, 0), StepOutcome::stepped);
+    scene.expectUpdateInside(4);
+    if (HasFatalFailure()) return;
+  }
+  EXPECT_EQ(scene.set.generators.size() % 4, 0u);
+}
+
+TEST(FlowStep, HalvesOfABisectedSetHoldIt) {
+  Points points(8);
+  for (int round = 0; round < 40; ++round)
+    for (const auto& [f, nominal] : systems()) {
+      const int symbols = points.integer(1, 3);
+      Scene scene(f, symbols, points.integer(1, 6), points.integer(0, 3), 8, 1e-12, points);
+      scene.fill(nominal, 0.3, 1e-3, points.integer(0, 3), round % 2 * 1e-16, round % 3 * 1e-15);
+      scene.expectHalvesInside(points.integer(0, symbols - 1), 4);
+      if (HasFatalFailure()) return;
+      // A remainder far greater than the polynomials: it is the frame's rounding that counts.
+      Scene loose(f, symbols, points.integer(2, 4), 2, 8, 1e-12, points);
+      loose.fill(std::vector<double>(nominal.size(), 0.0), 1e-20, 1e3, 1, 0, 0);
+      loose.expectHalvesInside(points.integer(0, symbols - 1), 4);
+      if (HasFatalFailure()) return;
+    }
+}
+
+TEST(FlowStep, OutputsHoldThoseOfEveryMemberOfTheSet) {
+  Points points(15);
+  int steps = 0;
+  for (int round = 0; round < 60; ++round)
+    for (const auto& [f, nominal] : systems()) {
+      const int symbols = points.integer(0, 2), degree = symbols == 0 ? 0 : points.integer(1, 4);
+      Scene scene(f, symbols, degree, points.integer(0, 2), 12, 1e-12, points);
+      // From remainders so wide that g bends over them to such that only rounding is left; box, generators or both.
+      const double size = std::pow(10.0, -points.integer(1, 13));
+      const int kind = round % 3;
+      scene.fill(nominal, std::pow(10.0, -points.integer(2, 8)), kind == 0 ? 0 : size, kind == 1 ? 0 : 2, 0, 0, size);
+      if (scene.stepper.certify(scene.set, horizon, quantum, 0) != StepOutcome::stepped) continue;
+      ++steps;
+      const Program g = record(f.states(), 1, 3, [](auto t, const auto& x, const auto& p, auto& y) {
+        y[0] = 2.0 * x[0];
+        y[1] = sqr(x[0]) * x.back();
+        y[2] = sin(3.0 * x[0]) / (4.0 + sqr(x.back())) + t * p[0];
+      });
+      scene.expectOutputsInside(g, 6);
+      if (HasFatalFailure()) return;
+    }
+  EXPECT_GT(steps, 150);
+}
+
+TEST(FlowStep, SetsOfAnotherDegreeHoldWhatTheyWere) {
+  Points points(10);
+  for (int round = 0; round < 40; ++round)
+    for (const auto& [f, nominal] : systems()) {
+      const int symbols = points.integer(1, 3);
+      Scene scene(f, symbols, points.integer(1, 5), points.integer(0, 3), 8, 1e-12, points);
+      scene.fill(nominal, 0.3, 1e-3, points.integer(0, 3), round % 2 * 1e-16, 0);
+      const int degree = points.integer(1, 6);
+      scene.expectOtherDegreeInside(degree, points.integer(0, degree), 4);
+      if (HasFatalFailure()) return;
+    }
+}
+
+TEST(FlowStep, FreshSymbolsHoldTheRemainder) {
+  Points points(11);
+  for (int round = 0; round < 40; ++round)
+    for (const auto& [f, nominal] : systems()) {
+      const int symbols = points.integer(0, 2), weight = symbols == 0 ? 1 : points.integer(1, 2);
+      Scene scene(f, symbols, symbols == 0 ? 0 : points.integer(1, 4), points.integer(0, 2), 8, 1e-12, points);
+      scene.fill(nominal, 0.1, std::pow(10.0, -points.integer(1, 9)), points.integer(0, 5), round % 2 * 1e-14, 0);
+      std::vector<int> weights(at(symbols), 1);
+      weights.resize(at(symbols + scene.n), weight);
+      scene.expectExpansionInside(weights, points.integer(2, 4), 1, 12);
+      if (HasFatalFailure()) return;
+    }
+}
+
+TEST(FlowStep, StaysWithinTheTimeLeftAndOnTheGrid) {
+  Points points(9);
+  const auto [f, nominal] = systems()[0];
+  Scene scene(f, 0, 0, 0, 12, 1e-15, points);
+  scene.fill(nominal, 0, 0, 0, 0, 0);
+  while (scene.set.t < horizon) {
+    ASSERT_EQ(scene.stepper.certify(scene.set, horizon, quantum, 0), StepOutcome::stepped);
+    const double before = scene.set.t;
+    scene.stepper.advance(scene.set);
+    EXPECT_EQ(scene.set.t - before, scene.stepper.h());
+    EXPECT_EQ(std::fmod(scene.set.t, quantum), 0);
+    ASSERT_LE(scene.set.t, horizon);
+  }
+}
+
+}  // namespace
+}  // namespace gamut::testing

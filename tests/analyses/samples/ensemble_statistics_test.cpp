@@ -1,0 +1,144 @@
+// Statistics gathered in one pass against those of the same numbers sorted and summed as they lie.
+#include "analyses/samples/ensemble_statistics.hpp"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <stdexcept>
+#include <vector>
+
+namespace gamut {
+namespace {
+
+using testing::DoubleNear;
+
+const std::vector<double> probabilities = {0, 0.01, 0.05, 0.5, 0.5, 0.95, 0.99, 1};
+
+/// Quantile by definition 7, from the sorted values.
+double exactQuantile(const std::vector<double>& sorted, double probability) {
+  const double position = probability * static_cast<double>(sorted.size() - 1);
+  const auto below = static_cast<std::size_t>(position);
+  const std::size_t above = std::min(below + 1, sorted.size() - 1);
+  return sorted[below] + (position - static_cast<double>(below)) * (sorted[above] - sorted[below]);
+}
+
+EnsembleStatistics gathered(const std::vector<double>& values, double lower, double upper,
+                            std::size_t blockSize = 1000) {
+  Envelope expected(1, 1);
+  expected.lower.data[0] = lower;
+  expected.upper.data[0] = upper;
+  EnsembleStatistics statistics(expected, 0);
+  for (std::size_t first = 0; first < values.size(); first += blockSize) {
+    SampleBlock block(first, std::min(blockSize, values.size() - first), true, 0, 1, 1);
+    for (std::size_t i = 0; i < block.size(); ++i) block(i, 0, 0) = values[first + i];
+    statistics.include(block, 1);
+  }
+  return statistics;
+}
+
+/// That every quantile is as near as is said. Returns the resolution.
+double expectWithinResolution(std::vector<double> values, double lower, double upper) {
+  const Statistics found = gathered(values, lower, upper).statistics(1, probabilities);
+  std::ranges::sort(values);
+  for (std::size_t q = 0; q < probabilities.size(); ++q)
+    EXPECT_LE(std::abs(found.quantiles[q](0, 0) - exactQuantile(values, probabilities[q])), found.resolution(0, 0))
+        << probabilities[q];
+  EXPECT_EQ(found.quantiles.front()(0, 0), values.front());
+  EXPECT_EQ(found.quantiles.back()(0, 0), values.back());
+  return found.resolution(0, 0);
+}
+
+std::vector<double> normal(std::size_t count, double mean, double deviation) {
+  std::mt19937_64 random(7);
+  std::normal_distribution<double> distribution(mean, deviation);
+  std::vector<double> values(count);
+  for (double& value : values) value = distribution(random);
+  return values;
+}
+
+TEST(EnsembleStatistics, QuantilesAreWithinABinOfThoseOfTheSortedSamples) {
+  for (std::size_t count : {1u, 2u, 3u, 64u, 1000u, 40000u}) {
+    const double resolution = expectWithinResolution(normal(count, 3, 0.1), 2, 4);
+    EXPECT_LE(resolution, 2.0 / 4096 + 1e-10) << count;
+    if (count > 2) {
+      EXPECT_GT(resolution, 1.9 / 4096) << count;
+    }
+  }
+}
+
+TEST(EnsembleStatistics, QuantilesInTheOpenEndsAreAsFineAsThoseAre) {
+  const std::vector<double> values = normal(10000, 3, 0.1);
+  const double least = *std::ranges::min_element(values);
+  EXPECT_THAT(expectWithinResolution(values, 2.9, 3.3), DoubleNear(2.9 - least, 1e-8));  // a sixth lies below
+  EXPECT_THAT(expectWithinResolution(values, 10, 12), DoubleNear(10 - least, 1e-8));
+}
+
+TEST(EnsembleStatistics, QuantilesOfGapsConstantsAndTinyWidthsAreWithinTheResolution) {
+  std::vector<double> twoHeaps;
+  for (int i = 0; i < 1000; ++i) twoHeaps.push_back(i % 2 == 0 ? 1 + 1e-5 * i : 5 - 1e-5 * i);
+  expectWithinResolution(twoHeaps, 0, 6);
+  EXPECT_LE(expectWithinResolution(std::vector<double>(100, 0.1), 0.1, 0.1), 1e-16);
+  EXPECT_LE(expectWithinResolution(std::vector<double>(100, 0.1), 0, 0), 0.1 + 1e-9);
+  std::vector<double> ulps;
+  for (int i = 0; i < 1000; ++i) ulps.push_back(1e6 + (i % 7) * 0x1p-33);
+  EXPECT_LE(expectWithinResolution(ulps, 1e6, 1e6 + 6 * 0x1p-33), 1e-9);
+  expectWithinResolution({-1e308, 0, 1e308}, -1e308, 1e308);
+  expectWithinResolution({5e-324, 0, 1e-323}, 0, 1e-323);
+}
+
+TEST(EnsembleStatistics, MomentsAreThoseOfTwoPassesFarFromZeroToo) {
+  for (double mean : {0.0, 1e6}) {
+    const std::vector<double> values = normal(100000, mean, 1e-3);
+    long double sum = 0, squares = 0;
+    for (const double value : values) sum += value;
+    const long double exact = sum / 100000;
+    for (const double value : values) squares += (value - exact) * (value - exact);
+    const Statistics found = gathered(values, mean - 1, mean + 1).statistics(1, probabilities);
+    EXPECT_NEAR(found.mean(0, 0), static_cast<double>(exact), 1e-16 + mean * 2e-16);
+    EXPECT_NEAR(found.deviation(0, 0), std::sqrt(static_cast<double>(squares) / 99999), 1e-3 * 1e-12 + mean * 1e-18);
+  }
+}
+
+TEST(EnsembleStatistics, DoNotDependOnTheSizeOfTheBlocks) {
+  const std::vector<double> values = normal(5000, 3, 0.1);
+  const Statistics one = gathered(values, 2, 4, 5000).statistics(1), many = gathered(values, 2, 4, 128).statistics(1);
+  EXPECT_EQ(one.mean.data, many.mean.data);
+  EXPECT_EQ(one.deviation.data, many.deviation.data);
+  for (std::size_t q = 0; q < 5; ++q) EXPECT_EQ(one.quantiles[q].data, many.quantiles[q].data);
+}
+
+TEST(EnsembleStatistics, ValuesThatAreMissingDoNotCount) {
+  std::vector<double> values = normal(1000, 3, 0.1), present;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (i % 3 == 0) values[i] = std::numeric_limits<double>::quiet_NaN();
+    if (i % 3 == 1) present.push_back(values[i]);
+    if (i % 3 == 2) values[i] = std::numeric_limits<double>::infinity();
+  }
+  const Statistics found = gathered(values, 2, 4).statistics(1), alone = gathered(present, 2, 4).statistics(1);
+  EXPECT_THAT(found.mean(0, 0), DoubleNear(alone.mean(0, 0), 1e-15));
+  EXPECT_EQ(found.quantiles[2].data, alone.quantiles[2].data);
+}
+
+TEST(EnsembleStatistics, ASingleSampleHasNoDeviation) {
+  const Statistics found = gathered({2.5}, 2, 4).statistics(1);
+  EXPECT_EQ(found.mean(0, 0), 2.5);
+  EXPECT_TRUE(std::isnan(found.deviation(0, 0)));
+}
+
+TEST(EnsembleStatistics, HaveFewerBinsTheMoreHistogramsThereAre) {
+  EXPECT_EQ(EnsembleStatistics::binsFor(2107), 4096u);
+  EXPECT_EQ(EnsembleStatistics::binsFor(1u << 15), 1024u);
+  EXPECT_EQ(EnsembleStatistics::binsFor(1u << 22), 64u);
+}
+
+TEST(EnsembleStatistics, RefuseProbabilitiesThatDoNotRise) {
+  const EnsembleStatistics statistics = gathered({2.5}, 2, 4);
+  EXPECT_THROW(statistics.statistics(1, {0.5, 0.1}), std::invalid_argument);
+  EXPECT_THROW(statistics.statistics(1, {0.5, 1.1}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace gamut

@@ -1,0 +1,280 @@
+// Interval against the ITF1788 vectors (IEEE 1788 conformance, collected from libieeep1788, MPFI, FI_LIB and C-XSC),
+// where that collection lies beside the source tree; skipped, and said so, where it does not. The table that it prints:
+//   test_scalars --gtest_filter='*Itf1788*'
+#include <algorithm>
+#include <cstdio>
+#include <functional>
+#include <map>
+#include <optional>
+#include <stdexcept>
+
+#include "tests/scalars/conformance/itf1788.hpp"
+#include "tests/scalars/reference.hpp"
+
+namespace gamut {
+namespace {
+
+using namespace gamut::testing;
+using Kind = ItfValue::Kind;
+
+// ---- IEEE 1788's names and ours -------------------------------------------------------------------------------------
+
+/// tight: what the row says, exactly. valid: an interval around it. failed: anything else.
+enum class Grade { tight, valid, failed };
+/// Nothing where the row is not of the form that the operation has.
+using Operation = std::function<std::optional<Grade>(const ItfRow&)>;
+
+bool isOfForm(const ItfRow& row, std::initializer_list<Kind> operands, std::initializer_list<Kind> results) {
+  const auto same = [](const ItfValue& value, Kind kind) { return value.kind == kind; };
+  return std::equal(row.operands.begin(), row.operands.end(), operands.begin(), operands.end(), same) &&
+         std::equal(row.results.begin(), row.results.end(), results.begin(), results.end(), same);
+}
+
+Grade grade(const Interval& result, const Interval& expected) {
+  if (isEqual(result, expected)) return Grade::tight;
+  return isSubset(expected, result) ? Grade::valid : Grade::failed;
+}
+Grade grade(double result, double expected) {
+  return result == expected || (std::isnan(result) && std::isnan(expected)) ? Grade::tight : Grade::failed;
+}
+
+using X = const Interval&;
+
+Operation unary(Interval (*f)(X)) {
+  return [f](const ItfRow& row) -> std::optional<Grade> {
+    if (!isOfForm(row, {Kind::interval}, {Kind::interval})) return {};
+    return grade(f(row.operands[0].interval), row.results[0].interval);
+  };
+}
+Operation binary(Interval (*f)(X, X)) {
+  return [f](const ItfRow& row) -> std::optional<Grade> {
+    if (!isOfForm(row, {Kind::interval, Kind::interval}, {Kind::interval})) return {};
+    return grade(f(row.operands[0].interval, row.operands[1].interval), row.results[0].interval);
+  };
+}
+Operation withInteger(Interval (*f)(X, int)) {
+  return [f](const ItfRow& row) -> std::optional<Grade> {
+    if (!isOfForm(row, {Kind::interval, Kind::number}, {Kind::interval})) return {};
+    return grade(f(row.operands[0].interval, static_cast<int>(row.operands[1].number)), row.results[0].interval);
+  };
+}
+Operation measure(double (*f)(X)) {
+  return [f](const ItfRow& row) -> std::optional<Grade> {
+    if (!isOfForm(row, {Kind::interval}, {Kind::number})) return {};
+    return grade(f(row.operands[0].interval), row.results[0].number);
+  };
+}
+Operation property(bool (*f)(X)) {
+  return [f](const ItfRow& row) -> std::optional<Grade> {
+    if (!isOfForm(row, {Kind::interval}, {Kind::truth})) return {};
+    return f(row.operands[0].interval) == row.results[0].truth ? Grade::tight : Grade::failed;
+  };
+}
+Operation relation(bool (*f)(X, X)) {
+  return [f](const ItfRow& row) -> std::optional<Grade> {
+    if (!isOfForm(row, {Kind::interval, Kind::interval}, {Kind::truth})) return {};
+    return f(row.operands[0].interval, row.operands[1].interval) == row.results[0].truth ? Grade::tight : Grade::failed;
+  };
+}
+
+/// Of what is no interval the vectors say "[empty] signal UndefinedOperation", where Gamut throws. Where they say
+/// "PossiblyUndefinedOperation" an implementation that cannot decide about lower <= upper gives the enclosure instead:
+/// Gamut decides, so it may do either.
+Grade gradeConstruction(const ItfRow& row, const std::function<Interval()>& construct) {
+  try {
+    const Interval x = construct();
+    return row.signal == "UndefinedOperation" ? Grade::failed : grade(x, row.results[0].interval);
+  } catch (const std::invalid_argument&) {
+    return row.signal.empty() ? Grade::failed : Grade::tight;
+  }
+}
+std::optional<Grade> fromText(const ItfRow& row) {
+  if (!isOfForm(row, {Kind::text}, {Kind::interval})) return {};
+  return gradeConstruction(row, [&] { return Interval::parse(row.operands[0].text); });
+}
+/// The same without the decoration that the text ends in.
+std::optional<Grade> fromDecoratedText(ItfRow row) {
+  if (row.operands.size() == 1) row.operands[0].text = row.operands[0].text.substr(0, row.operands[0].text.find('_'));
+  return fromText(row);
+}
+std::optional<Grade> fromNumbers(const ItfRow& row) {
+  if (!isOfForm(row, {Kind::number, Kind::number}, {Kind::interval})) return {};
+  return gradeConstruction(row, [&] { return Interval(row.operands[0].number, row.operands[1].number); });
+}
+std::optional<Grade> isMember(const ItfRow& row) {
+  if (!isOfForm(row, {Kind::number, Kind::interval}, {Kind::truth})) return {};
+  const bool is = contains(row.operands[1].interval, row.operands[0].number);
+  return is == row.results[0].truth ? Grade::tight : Grade::failed;
+}
+std::optional<Grade> midpointAndRadius(const ItfRow& row) {
+  if (!isOfForm(row, {Kind::interval}, {Kind::number, Kind::number})) return {};
+  const Interval x = row.operands[0].interval;
+  return std::max(grade(midpoint(x), row.results[0].number), grade(radius(x), row.results[1].number));
+}
+
+const std::map<std::string, Operation> operations = {
+    {"pos", unary([](X x) { return +x; })},
+    {"neg", unary([](X x) { return -x; })},
+    {"add", binary([](X x, X y) { return x + y; })},
+    {"sub", binary([](X x, X y) { return x - y; })},
+    {"mul", binary([](X x, X y) { return x * y; })},
+    {"div", binary([](X x, X y) { return x / y; })},
+    {"recip", unary([](X x) { return 1 / x; })},
+    {"sqr", unary(sqr)},
+    {"sqrt", unary(sqrt)},
+    {"cbrt", unary(cbrt)},
+    {"rootn", withInteger(rootn)},
+    {"hypot", binary(hypot)},
+    {"pown", withInteger(pow)},
+    {"pow", binary(pow)},
+    {"exp", unary(exp)},
+    {"exp2", unary(exp2)},
+    {"exp10", unary(exp10)},
+    {"expm1", unary(expm1)},
+    {"log", unary(log)},
+    {"log2", unary(log2)},
+    {"log10", unary(log10)},
+    {"logp1", unary(log1p)},
+    {"sin", unary(sin)},
+    {"cos", unary(cos)},
+    {"tan", unary(tan)},
+    {"asin", unary(asin)},
+    {"acos", unary(acos)},
+    {"atan", unary(atan)},
+    {"atan2", binary(atan2)},
+    {"sinh", unary(sinh)},
+    {"cosh", unary(cosh)},
+    {"tanh", unary(tanh)},
+    {"asinh", unary(asinh)},
+    {"acosh", unary(acosh)},
+    {"atanh", unary(atanh)},
+    {"abs", unary(abs)},
+    {"min", binary(min)},
+    {"max", binary(max)},
+    {"sign", unary(sign)},
+    {"floor", unary(floor)},
+    {"ceil", unary(ceil)},
+    {"trunc", unary(trunc)},
+    {"roundTiesToAway", unary(round)},
+    {"roundTiesToEven", unary(roundEven)},
+    {"convexHull", binary(hull)},
+    {"intersection", binary(intersection)},
+    // Of the empty interval IEEE 1788 has inf = +inf and sup = -inf, Gamut NaN.
+    {"inf", measure([](X x) { return isEmpty(x) ? infinity : x.lower(); })},
+    {"sup", measure([](X x) { return isEmpty(x) ? -infinity : x.upper(); })},
+    {"mid", measure(midpoint)},
+    {"rad", measure(radius)},
+    {"midRad", midpointAndRadius},
+    {"wid", measure(width)},
+    {"mag", measure(magnitude)},
+    {"mig", measure(mignitude)},
+    {"isEmpty", property(isEmpty)},
+    {"isEntire", property(isEntire)},
+    {"isSingleton", property(isThin)},
+    {"isCommonInterval", property(isCommon)},
+    {"isMember", isMember},
+    {"equal", relation(isEqual)},
+    {"subset", relation(isSubset)},
+    {"interior", relation(isInterior)},
+    {"disjoint", relation(isDisjoint)},
+    // IEEE 1788 claims these of empty intervals, Gamut's 'certainly' never does.
+    {"precedes", relation([](X x, X y) { return isEmpty(x) || isEmpty(y) || certainlyLessOrEqual(x, y); })},
+    {"strictPrecedes", relation([](X x, X y) { return isEmpty(x) || isEmpty(y) || certainlyLess(x, y); })},
+    {"b-textToInterval", fromText},
+    {"d-textToInterval", fromDecoratedText},
+    {"b-numsToInterval", fromNumbers},
+    {"d-numsToInterval", fromNumbers}};
+
+/// The least share of tight rows, where it is not all of them that are promised.
+double leastTight(const std::string& operation) {
+  static const std::map<std::string, double> shares = {{"exp", 0.97}, {"log", 0.97},  {"sin", 0.97}, {"cos", 0.97},
+                                                       {"tan", 0.97}, {"atan", 0.97}, {"pown", 0.97}};
+  const auto share = shares.find(operation);
+  return share == shares.end() ? 0.995 : share->second;
+}
+
+// ---- The run --------------------------------------------------------------------------------------------------------
+
+struct Count {
+  int rows = 0, tight = 0, valid = 0, failed = 0, aboutNaI = 0;
+};
+
+TEST(Interval, IsTightOnTheItf1788VectorsOfEveryOperationThatItHas) {
+  const auto folder = std::filesystem::path(GAMUT_SOURCE_DIR).parent_path() / "shared" / "data" / "itf1788";
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "the ITF1788 vectors are not beside the source tree";
+
+  std::map<std::string, Count> counts, leftOut;
+  Count all;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.path().extension() != ".itl") continue;
+    for (const ItfRow& row : readItf(entry.path())) {
+      ++all.rows;
+      const auto operation = operations.find(row.operation);
+      if (operation == operations.end()) {
+        ++leftOut[row.operation].rows;
+        continue;
+      }
+      Count& count = counts[row.operation];
+      if (row.isAboutNaI()) {
+        ++count.aboutNaI;
+        continue;
+      }
+      const std::optional<Grade> result = operation->second(row);
+      if (!result) ADD_FAILURE() << "not of the operation's form: " << row.where;
+      if (result == Grade::failed) ADD_FAILURE() << "failed: " << row.where;
+      if (result == Grade::valid) std::printf("valid, not tight: %s\n", row.where.c_str());
+      ++count.rows;
+      count.tight += result == Grade::tight;
+      count.valid += result == Grade::valid;
+      count.failed += !result || result == Grade::failed;
+    }
+  }
+
+  std::printf("%-18s %5s %5s %5s %6s %14s\n", "operation", "rows", "tight", "valid", "failed", "NaI, not run");
+  Count run;
+  for (const auto& [name, c] : counts) {
+    std::printf("%-18s %5d %5d %5d %6d %14d\n", name.c_str(), c.rows, c.tight, c.valid, c.failed, c.aboutNaI);
+    EXPECT_GE(c.tight, leastTight(name) * c.rows) << name;
+    run.rows += c.rows;
+    run.tight += c.tight;
+    run.valid += c.valid;
+    run.failed += c.failed;
+    run.aboutNaI += c.aboutNaI;
+  }
+  std::printf("%-18s %5d %5d %5d %6d %14d\n", "all", run.rows, run.tight, run.valid, run.failed, run.aboutNaI);
+  int rowsLeftOut = 0;
+  std::printf("operations that Interval has not:");
+  for (const auto& [name, c] : leftOut) {
+    std::printf("%s %s %d", rowsLeftOut == 0 ? "" : ",", name.c_str(), c.rows);
+    rowsLeftOut += c.rows;
+  }
+  std::printf("; together %d of %d rows\n", rowsLeftOut, all.rows);
+
+  EXPECT_EQ(counts.size(), operations.size()) << "an operation has no rows";
+  EXPECT_EQ(run.failed, 0);
+  EXPECT_EQ(all.rows, 9542);  // counted by an independent reader of the same files
+  EXPECT_EQ(run.rows, 6018);
+  EXPECT_EQ(run.aboutNaI, 73);
+}
+
+TEST(Itf1788Reader, RefusesWhatItCannotReadInsteadOfDroppingIt) {
+  const auto file = std::filesystem::temp_directory_path() / "gamut_unreadable.itl";
+  for (const char* text : {"testcase a { sqr [1,2 = [1,4]; }", "testcase a { sqr [1,2] [1,4]; }", "sqr [1,2] = [1,4];",
+                           "testcase a { sqr [1,2] = [1,4] }", "testcase a { sqr ?? = [1,4]; }",
+                           "testcase a { sqr [x,2] = [1,4]; }", "testcase a { sqr [1,2] = [1,4];"}) {
+    std::FILE* stream = std::fopen(file.c_str(), "w");
+    ASSERT_NE(stream, nullptr);
+    std::fputs(text, stream);
+    std::fclose(stream);
+    try {
+      readItf(file);
+      ADD_FAILURE() << text;
+    } catch (const std::runtime_error& error) {
+      EXPECT_THAT(error.what(), ::testing::HasSubstr("gamut_unreadable.itl:1: "));
+    }
+  }
+  std::filesystem::remove(file);
+}
+
+}  // namespace
+}  // namespace gamut
