@@ -20,6 +20,13 @@ Vector3<S> zeroVector() {
   return Vector3<S>(S(0.0), S(0.0), S(0.0));
 }
 
+template <class S>
+Matrix3<S> zeroMatrix() {
+  Matrix3<S> zero;
+  for (int i = 0; i < 3; ++i) zero.col(i) = zeroVector<S>();
+  return zero;
+}
+
 /// W with  ω̇ × d + ω × (ω × d) = W d  for every offset d that is fixed in the moving frame. Written as
 /// [ω̇]× + ω ωᵀ − |ω|² I, whose squares are shared by all offsets of one body.
 template <class S>

@@ -2,13 +2,9 @@
 #include "mechanics/assembly.hpp"
 
 #include <algorithm>
-#include <array>
 #include <stdexcept>
 
-#include "mechanics/bodies.hpp"
-#include "mechanics/joints.hpp"
 #include "mechanics/names.hpp"
-#include "mechanics/springs.hpp"
 
 namespace gamut {
 namespace {
@@ -24,146 +20,139 @@ std::vector<std::string> keys(const Map& map) {
 
 template <class S>
 Assembly<S>::Assembly(const Mechanism& mechanism, const std::vector<std::string>& freeParameters,
-                      std::span<const S> values)
-    : stateNames_(mechanism.stateNames()), outputNames_(mechanism.outputQuantities()) {
+                      std::span<const S> values) {
   mechanism.check();
+  takeNumbers(mechanism, freeParameters, values);
+  for (const std::string& name : mechanism.frames()) parts_.frames_.emplace(name, std::make_unique<Frame<S>>(name));
+  makeStates(mechanism);
+  for (const Described& element : mechanism.elements()) {
+    parts_.element_ = element.name();
+    element.assemble(parts_);
+  }
+  for (const auto* parts : {&parts_.first_, &parts_.parts_})
+    for (const auto& part : *parts) chain_ << *part;
+
+  typename System<S>::Speeds speeds;
+  const std::vector<std::string> names = mechanism.stateNames();
+  positions_ = mechanism.positions();
+  speeds_ = static_cast<std::size_t>(mechanism.degreesOfFreedom());
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const bool isSpeed = i >= positions_ && i < positions_ + speeds_;
+    if (isSpeed) {
+      speeds.push_back(*parts_.speeds_.at(names[i]));
+      states_.push_back(&speeds.back().get().rate);
+    } else if (const auto variable = parts_.variables_.find(names[i]); variable != parts_.variables_.end()) {
+      states_.push_back(&variable->second->position);
+      positionRates_.push_back([moved = variable->second] { return moved->rate; });
+    } else {
+      states_.push_back(&parts_.values_.at(names[i]));
+      (i < positions_ ? positionRates_ : ownRates_).push_back(parts_.rates_.at(names[i]));
+    }
+  }
+  const auto& gravity = mechanism.gravity();
+  system_ = std::make_unique<System<S>>(std::move(speeds), chain_, *parts_.frames_.at(Mechanism::inertialFrame),
+                                        gravity ? parts_.vector(*gravity) : zeroVector<S>());
+  measureFrames();
+  for (const Expression& initial : mechanism.initialState()) initialState_.push_back(parts_.number(initial));
+  setState(initialState_);
+}
+
+template <class S>
+void Assembly<S>::takeNumbers(const Mechanism& mechanism, const std::vector<std::string>& freeParameters,
+                              std::span<const S> values) {
   if (values.size() != freeParameters.size())
     throw std::invalid_argument(std::to_string(freeParameters.size()) + " free parameters need as many values, not " +
                                 std::to_string(values.size()));
   std::vector<std::string> parameters;
   for (const Mechanism::NamedValue& parameter : mechanism.parameters()) {
     parameters.push_back(parameter.name);
-    values_.emplace(parameter.name, constant<S>(parameter.nominal));
+    parts_.parameters_.emplace(parameter.name, constant<S>(parameter.nominal));
   }
   for (const Mechanism::NamedValue& initial : mechanism.initialValues())
-    values_.emplace(initial.name, constant<S>(initial.nominal));
+    parts_.initials_.emplace(initial.name, constant<S>(initial.nominal));
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (!mechanism.isParameter(freeParameters[i]))
       throw std::invalid_argument(unknownName("parameter", freeParameters[i], parameters));
     if (std::count(freeParameters.begin(), freeParameters.end(), freeParameters[i]) > 1)
       throw std::invalid_argument("the free parameter '" + freeParameters[i] + "' is named twice");
-    values_.at(freeParameters[i]) = values[i];
+    parts_.parameters_.at(freeParameters[i]) = values[i];
   }
-  for (const Mechanism::Derived& derived : mechanism.derived()) values_.emplace(derived.name, value(derived.formula));
+  for (const Mechanism::Derived& derived : mechanism.derived())
+    parts_.parameters_.emplace(derived.name, parts_.number(derived.formula));
+}
 
-  for (const std::string& name : mechanism.frames()) frames_.emplace(name, std::make_unique<Frame<S>>(name));
-  for (const ElementDescription& element : mechanism.elements())
-    std::visit([this](const auto& description) { this->add(description); }, element);
-  system_ = std::make_unique<System<S>>(variables_, chain_, *frames_.at(Mechanism::inertialFrame),
-                                        mechanism.gravity() ? vector(*mechanism.gravity()) : zeroVector<S>());
-  for (const Expression& initial : mechanism.initialState()) initialState_.push_back(value(initial));
-  setState(initialState_);
+/// Places for positions and speeds, by name, and for what is looked at under the same names.
+template <class S>
+void Assembly<S>::makeStates(const Mechanism& mechanism) {
+  for (const Mechanism::JointCoordinate& coordinate : mechanism.coordinates()) {
+    Variable<S>& variable = parts_.storedVariables_.emplace_back(coordinate.name);
+    parts_.variables_[coordinate.name] = &variable;
+    parts_.speeds_[coordinate.rate] = &variable;
+    parts_.measured_[coordinate.name] = [&variable] { return variable.position; };
+    parts_.measured_[coordinate.rate] = [&variable] { return variable.rate; };
+  }
+  for (const std::string& name : mechanism.stateNames()) {
+    if (parts_.variables_.contains(name) || parts_.speeds_.contains(name)) continue;
+    if (mechanism.isSpeed(name)) {
+      Speed<S>& speed = parts_.storedSpeeds_.emplace_back(name);
+      parts_.speeds_[name] = &speed;
+      parts_.measured_[name] = [&speed] { return speed.rate; };
+    } else {
+      S& value = parts_.values_.emplace(name, S(0.0)).first->second;
+      parts_.measured_[name] = [&value] { return value; };
+    }
+  }
 }
 
 template <class S>
-Assembly<S>::~Assembly() = default;
-
-template <class S>
-S Assembly<S>::value(const Expression& number) const {
-  return number.evaluate<S>([this](const std::string& name) { return values_.at(name); });
+void Assembly<S>::measureFrames() {
+  for (const auto& [name, owned] : parts_.frames_) {
+    if (owned->origin == nullptr) continue;
+    for (int i = 0; i < 3; ++i) {
+      const auto at = [&, frame = owned.get(), i](auto part) { return [frame, i, part] { return part(*frame)[i]; }; };
+      parts_.measured_[name + ".position." + components[static_cast<std::size_t>(i)]] =
+          at([](const Frame<S>& frame) { return frame.positionInInertial(); });
+      parts_.measured_[name + ".velocity." + components[static_cast<std::size_t>(i)]] =
+          at([](const Frame<S>& frame) { return frame.velocityInInertial(); });
+    }
+  }
+  parts_.measured_["energy"] = [this] { return system_->energy(); };
+  parts_.measured_["energy.kinetic"] = [this] { return system_->kineticEnergy(); };
+  parts_.measured_["energy.potential"] = [this] { return system_->potentialEnergy(); };
 }
 
 template <class S>
-Vector3<S> Assembly<S>::vector(const ExpressionVector& numbers) const {
-  return Vector3<S>(value(numbers[0]), value(numbers[1]), value(numbers[2]));
-}
-
-template <class S>
-template <class E, class... Arguments>
-E& Assembly<S>::make(Arguments&&... arguments) {
-  auto element = std::make_unique<E>(std::forward<Arguments>(arguments)...);
-  E& made = *element;
-  elements_.push_back(std::move(element));
-  chain_ << made;
-  return made;
-}
-
-template <class S>
-void Assembly<S>::add(const Revolute& joint) {
-  AngularVariable<S>& angle = angles_.emplace_back(joint.name + ".angle");
-  variables_.push_back(angle);
-  variableOf_.emplace(joint.name, &angle);
-  make<RevoluteJoint<S>>(*frames_.at(joint.from), *frames_.at(joint.to), angle, joint.axis);
-}
-
-template <class S>
-void Assembly<S>::add(const Prismatic& joint) {
-  LinearVariable<S>& displacement = displacements_.emplace_back(joint.name + ".displacement");
-  variables_.push_back(displacement);
-  variableOf_.emplace(joint.name, &displacement);
-  make<PrismaticJoint<S>>(*frames_.at(joint.from), *frames_.at(joint.to), displacement, joint.axis);
-}
-
-template <class S>
-void Assembly<S>::add(const Link& link) {
-  Rotation<S> rotation;
-  for (const FixedRotation& r : link.rotation)
-    rotation = rotation.then(Rotation<S>(r.axis, value(r.angle), r.quarterTurns));
-  make<RigidLink<S>>(*frames_.at(link.from), *frames_.at(link.to), vector(link.vector), rotation);
-}
-
-template <class S>
-void Assembly<S>::add(const Mass& mass) {
-  std::array<S, 6> entries;
-  std::transform(mass.inertia.begin(), mass.inertia.end(), entries.begin(), [this](const auto& q) { return value(q); });
-  const auto& [xx, yy, zz, xy, yz, zx] = entries;
-  Matrix3<S> inertia;
-  inertia << xx, xy, zx, xy, yy, yz, zx, yz, zz;
-  masses_.emplace(mass.name,
-                  &make<MassElement<S>>(*frames_.at(mass.at), value(mass.mass), vector(mass.centre), inertia));
-}
-
-template <class S>
-void Assembly<S>::add(const Spring& spring) {
-  make<SpringDamper<S>>(*frames_.at(spring.from), *frames_.at(spring.to), value(spring.stiffness),
-                        value(spring.restLength), value(spring.damping), vector(spring.fromPoint),
-                        vector(spring.toPoint));
-}
-
-template <class S>
-void Assembly<S>::add(const JointSpring& spring) {
-  make<JointSpringDamper<S>>(*variableOf_.at(spring.joint), value(spring.stiffness), value(spring.rest),
-                             value(spring.damping));
-}
-
-template <class S>
-void Assembly<S>::setState(std::span<const S> x) {
-  if (x.size() != 2 * variables_.size())
-    throw std::invalid_argument("the mechanism has " + std::to_string(2 * variables_.size()) + " states, not " +
+void Assembly<S>::setState(std::span<const S> x, const S& time) {
+  if (x.size() != states_.size())
+    throw std::invalid_argument("the mechanism has " + std::to_string(states_.size()) + " states, not " +
                                 std::to_string(x.size()));
-  for (std::size_t i = 0; i < variables_.size(); ++i) {
-    Variable<S>& variable = variables_[i];
-    variable.position = x[i];
-    variable.rate = x[variables_.size() + i];
-    variable.acceleration = S(0.0);
-  }
+  parts_.time_ = time;
+  for (std::size_t i = 0; i < x.size(); ++i) *states_[i] = x[i];
+  for (auto& [name, speed] : parts_.speeds_) speed->acceleration = S(0.0);
   system_->doMotion();
 }
 
 template <class S>
+std::vector<S> Assembly<S>::rates(Formulation formulation) {
+  std::vector<S> result;
+  for (const Signal<S>& rate : positionRates_) result.push_back(rate());
+  for (const S& acceleration : accelerations(formulation)) result.push_back(acceleration);
+  for (const Signal<S>& rate : ownRates_) result.push_back(rate());
+  return result;
+}
+
+template <class S>
 const Frame<S>& Assembly<S>::frame(const std::string& name) const {
-  const auto found = frames_.find(name);
-  if (found == frames_.end()) throw std::invalid_argument(unknownName("frame", name, keys(frames_)));
+  const auto found = parts_.frames_.find(name);
+  if (found == parts_.frames_.end()) throw std::invalid_argument(unknownName("frame", name, keys(parts_.frames_)));
   return *found->second;
 }
 
 template <class S>
 S Assembly<S>::output(const std::string& quantity) const {
-  if (const auto state = std::find(stateNames_.begin(), stateNames_.end(), quantity); state != stateNames_.end()) {
-    const auto i = static_cast<std::size_t>(state - stateNames_.begin()), f = variables_.size();
-    return i < f ? variables_[i].get().position : variables_[i - f].get().rate;
-  }
-  if (quantity == "energy") return system_->energy();
-  if (quantity == "energy.kinetic") return system_->kineticEnergy();
-  if (quantity == "energy.potential") return system_->potentialEnergy();
-  if (std::find(outputNames_.begin(), outputNames_.end(), quantity) == outputNames_.end())
-    throw std::invalid_argument(unknownName("output quantity", quantity, outputNames_));
-  const std::size_t component = quantity.rfind('.'), what = quantity.rfind('.', component - 1);
-  const std::string place = quantity.substr(0, what);
-  const auto mass = masses_.find(place);
-  const MovingPoint<S> point = mass != masses_.end() ? mass->second->position() : frame(place).inInertial({});
-  const Vector3<S>& vector = quantity.substr(what, component - what) == ".position" ? point.position : point.velocity;
-  return vector[quantity.back() - 'x'];
+  if (const auto measured = parts_.measured_.find(quantity); measured != parts_.measured_.end())
+    return measured->second();
+  return parts_.signal(Expression::parse(quantity))();
 }
 
 template class Assembly<double>;

@@ -6,23 +6,16 @@
 //   Interval height = arm.output("tip.position.z");
 #pragma once
 
-#include <deque>
-#include <map>
-#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "mechanics/element.hpp"
-#include "mechanics/mechanism.hpp"
-#include "mechanics/system.hpp"
+#include "mechanics/assembler.hpp"
+#include "mechanics/equations/system.hpp"
 #include "scalars/fuzzy.hpp"
 #include "scalars/samples.hpp"
 
 namespace gamut {
-
-template <class S>
-class MassElement;
 
 template <class S>
 class Assembly {
@@ -32,20 +25,21 @@ class Assembly {
   /// no parameter, and for a wrong number of values.
   explicit Assembly(const Mechanism& mechanism, const std::vector<std::string>& freeParameters = {},
                     std::span<const S> values = {});
-  ~Assembly();
   Assembly(const Assembly&) = delete;
   Assembly& operator=(const Assembly&) = delete;
 
-  /// The states x = [q; q̇] at the start.
+  /// The states x = [q; u; z] at the start.
   const std::vector<S>& initialState() const { return initialState_; }
-  /// Sets x and moves all frames. Throws std::invalid_argument for a wrong number of values.
-  void setState(std::span<const S> x);
-  /// q̈ for the present state.
+  /// Sets x and the time [s] and moves all frames. Throws std::invalid_argument for a wrong number of values.
+  void setState(std::span<const S> x, const S& time = S(0.0));
+  /// u̇ for the present state.
   std::vector<S> accelerations(Formulation formulation = Formulation::sparse) {
     return system_->accelerations(formulation);
   }
-  /// The present value of one of Mechanism::outputQuantities(). Throws std::invalid_argument, naming the nearest, for
-  /// any other.
+  /// ẋ for the present state: rates of positions, accelerations, rates of own states.
+  std::vector<S> rates(Formulation formulation = Formulation::sparse);
+  /// The present value of one of Mechanism::outputQuantities(), or of an expression of these, of parameters and of time
+  /// t. Throws std::invalid_argument for any other name, naming the nearest, and for what is no expression.
   S output(const std::string& quantity) const;
 
   System<S>& system() { return *system_; }
@@ -53,28 +47,17 @@ class Assembly {
   const Frame<S>& frame(const std::string& name) const;
 
  private:
-  S value(const Expression& number) const;
-  Vector3<S> vector(const ExpressionVector& numbers) const;
-  template <class E, class... Arguments>
-  E& make(Arguments&&... arguments);
-  void add(const Revolute& joint);
-  void add(const Prismatic& joint);
-  void add(const Link& link);
-  void add(const Mass& mass);
-  void add(const Spring& spring);
-  void add(const JointSpring& spring);
+  void takeNumbers(const Mechanism& mechanism, const std::vector<std::string>& freeParameters,
+                   std::span<const S> values);
+  void makeStates(const Mechanism& mechanism);
+  void measureFrames();
 
-  std::vector<std::string> stateNames_, outputNames_;
-  std::map<std::string, S> values_;  // of parameters and of initial values
-  std::map<std::string, std::unique_ptr<Frame<S>>> frames_;
-  std::deque<AngularVariable<S>> angles_;
-  std::deque<LinearVariable<S>> displacements_;
-  std::map<std::string, Variable<S>*> variableOf_;  // by joint
-  typename System<S>::Variables variables_;         // in the order of the joints
-  std::map<std::string, const MassElement<S>*> masses_;
-  std::vector<std::unique_ptr<Element<S>>> elements_;
+  Assembler<S> parts_;
   Chain<S> chain_;
   std::unique_ptr<System<S>> system_;
+  std::vector<S*> states_;                  // in the order of Mechanism::stateNames()
+  std::size_t positions_ = 0, speeds_ = 0;  // how many
+  std::vector<Signal<S>> positionRates_, ownRates_;
   std::vector<S> initialState_;
 };
 

@@ -46,6 +46,9 @@ class RigidLink final : public Transmission<S> {
   MovingPoint<S> inFrom(const MovingPoint<S>& point) const override {
     return {offset_ + rotation_.toParent(point.position), rotation_.toParent(point.velocity)};
   }
+  SpatialInertia<S> inFrom(const SpatialInertia<S>& inertia) override {
+    return rotation_.toParent(inertia).shifted(offset_);
+  }
 
  private:
   Vector3<S> offset_;
@@ -54,13 +57,13 @@ class RigidLink final : public Transmission<S> {
 
 /// A rigid body's mass [kg], centre of mass [m] and inertia tensor about that centre [kg m²], in frame `at`.
 template <class S>
-class MassElement final : public Element<S> {
+class MassElement final : public Inertia<S> {
  public:
   /// A point mass at the origin of `at`.
   MassElement(Frame<S>& at, S mass) : MassElement(at, std::move(mass), zeroVector<S>()) {}
   /// A point mass at `centre`.
   MassElement(Frame<S>& at, S mass, Vector3<S> centre)
-      : MassElement(at, std::move(mass), std::move(centre), zeroTensor()) {}
+      : MassElement(at, std::move(mass), std::move(centre), zeroMatrix<S>()) {}
   /// A body; `inertia` is symmetric.
   MassElement(Frame<S>& at, S mass, Vector3<S> centre, Matrix3<S> inertia)
       : at_(at), mass_(std::move(mass)), centre_(std::move(centre)), inertia_(std::move(inertia)) {}
@@ -95,7 +98,7 @@ class MassElement final : public Element<S> {
   /// The centre of mass, as the inertial frame sees it.
   MovingPoint<S> position() const { return at_.inInertial({centre_, zeroVector<S>()}); }
 
-  void collectInertia(std::vector<S>& accelerations, std::vector<InertiaWeight<S>>& weights) const override {
+  void collectRows(std::vector<S>& accelerations, std::vector<InertiaWeight<S>>& weights) const override {
     const int first = static_cast<int>(accelerations.size());
     for (int i = 0; i < 3; ++i) {
       accelerations.push_back(a_[i]);
@@ -107,13 +110,14 @@ class MassElement final : public Element<S> {
     }
   }
 
- private:
-  static Matrix3<S> zeroTensor() {
-    Matrix3<S> zero;
-    for (int i = 0; i < 3; ++i) zero.col(i) = zeroVector<S>();
-    return zero;
+  Frame<S>& frame() const override { return at_; }
+  SpatialInertia<S> spatial() const override {
+    SpatialInertia<S> atCentre{inertia_, zeroMatrix<S>(), zeroMatrix<S>()};
+    for (int i = 0; i < 3; ++i) atCentre.linear(i, i) = mass_;
+    return atCentre.shifted(centre_);
   }
 
+ private:
   Frame<S>& at_;
   S mass_;
   Vector3<S> centre_;

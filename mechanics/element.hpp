@@ -2,15 +2,18 @@
 //
 //   position q' = φ(q),  velocity q̇' = J q̇,  acceleration q̈' = J q̈ + J̇ q̇,  force Q = Jᵀ Q'
 //
-// An element remembers its inputs and outputs; a Chain is an ordered list of elements, force runs through it in
-// reverse. A new element needs these two (and inFrom, if it moves a frame), nothing else: derivatives come from the
-// recorded program.
+// A part is one of three: a Transmission moves a frame, ideally: what power goes in comes out. A Load acts on what is
+// moved. An Inertia (bodies.hpp) is moved: nothing else states mass. A new part needs doMotion and doForce, nothing
+// else: derivatives come from the recorded program. A Chain is an ordered list of parts, force runs through it in
+// reverse.
 #pragma once
 
+#include <array>
 #include <stdexcept>
 #include <vector>
 
 #include "mechanics/frame.hpp"
+#include "mechanics/spatial_inertia.hpp"
 #include "mechanics/variable.hpp"
 
 namespace gamut {
@@ -19,22 +22,14 @@ namespace gamut {
 enum class MotionLevel {
   position,      ///< positions only
   all,           ///< positions, velocities and accelerations
-  acceleration,  ///< accelerations J q̈ at the positions of the last call, as if every velocity were zero
+  acceleration,  ///< accelerations J u̇ at the positions of the last call, as if every velocity were zero
 };
 
-/// What doForce brings in; forces that arrive from behind are always handed on.
+/// Which forces doForce brings in; forces that arrive from behind are always handed on.
 enum class ForceKind {
   all,      ///< inertia and applied forces
-  applied,  ///< springs, dampers and gyroscopic moments
+  applied,  ///< loads and gyroscopic moments
   inertia,  ///< −m a and −Θ ω̇ alone: the answer to MotionLevel::acceleration
-};
-
-/// The weight w of rows k and l in the inertia quadratic form ½ Σ w a_k a_l of the bodies' accelerations; an
-/// off-diagonal weight stands for both (k, l) and (l, k).
-template <class S>
-struct InertiaWeight {
-  int k, l;
-  S w;
 };
 
 template <class S>
@@ -50,20 +45,12 @@ class Element {
   /// Forces and generalised forces of what this element moves become zero.
   virtual void clearForces() {}
 
-  /// The frame that this element moves by a variable of its own, if it has one: where equations of motion may be cut.
-  virtual Frame<S>* drivenFrame() { return nullptr; }
-
-  /// ½ m v² + ½ ω·Θω of the bodies of this element [J].
-  virtual S kineticEnergy() const { return S(0.0); }
   /// Energy in the field `gravity` [m/s², inertial frame] and in springs [J].
   virtual S potentialEnergy(const Vector3<S>& /*gravity*/) const { return S(0.0); }
-
-  /// Appends the accelerations of this element's bodies, one row a component, and the weights of these rows (numbered
-  /// as they stand in `accelerations`).
-  virtual void collectInertia(std::vector<S>& /*accelerations*/, std::vector<InertiaWeight<S>>& /*weights*/) const {}
 };
 
-/// An element that moves one frame by another.
+/// An element that moves one frame by another, and by speeds of its own if it is a joint. It is ideal: doForce brings
+/// in nothing of its own, so that Q = Jᵀ Q'.
 template <class S>
 class Transmission : public Element<S> {
  public:
@@ -74,22 +61,96 @@ class Transmission : public Element<S> {
     to.origin = this;
   }
 
-  const Frame<S>& from() const { return from_; }
-  const Frame<S>& to() const { return to_; }
-  void clearForces() override { to_.clearForces(); }
+  Frame<S>& from() const { return from_; }
+  Frame<S>& to() const { return to_; }
+  /// Those that this element moves `to()` by: where equations of motion may be cut.
+  virtual std::vector<Speed<S>*> speeds() const { return {}; }
+
+  void clearForces() override {
+    to_.clearForces();
+    for (Speed<S>* speed : speeds()) speed->force = S(0.0);
+  }
 
   /// A point given in `to()`, seen from `from()`.
   virtual MovingPoint<S> inFrom(const MovingPoint<S>& point) const = 0;
+
+  /// What moves like `to()` with this inertia, as `from()` feels it while the own speeds are held: Xᵀ M X, where X maps
+  /// accelerations of `from()` to those of `to()`. Got from doMotion, which changes the accelerations of both frames;
+  /// elements that know X say it in fewer operations.
+  virtual SpatialInertia<S> inFrom(const SpatialInertia<S>& inertia);
 
  protected:
   Frame<S>& from_;
   Frame<S>& to_;
 };
 
+/// An element that acts on frames and speeds, by what their positions and velocities are.
+template <class S>
+class Load : public Element<S> {
+ public:
+  void doMotion(MotionLevel /*level*/ = MotionLevel::all) override {}
+  void doForce(ForceKind kind = ForceKind::all) final {
+    if (kind != ForceKind::inertia) applyForce();
+  }
+
+ protected:
+  /// Adds its forces to those of frames and speeds. Accelerations must not enter: what they move is an Inertia.
+  virtual void applyForce() = 0;
+};
+
+/// The weight w of rows k and l in the inertia quadratic form ½ Σ w a_k a_l of the bodies' accelerations; an
+/// off-diagonal weight stands for both (k, l) and (l, k).
+template <class S>
+struct InertiaWeight {
+  int k, l;
+  S w;
+};
+
+/// An element that moves mass. What is said of it here is all that a system knows of inertia.
+template <class S>
+class Inertia : public Element<S> {
+ public:
+  /// ½ m v² + ½ ω·Θω [J].
+  virtual S kineticEnergy() const = 0;
+  /// Appends its accelerations, one row a component, and the weights of these rows (numbered as they stand in
+  /// `accelerations`).
+  virtual void collectRows(std::vector<S>& accelerations, std::vector<InertiaWeight<S>>& weights) const = 0;
+  /// The frame that it is fixed to, and its inertia there.
+  virtual Frame<S>& frame() const = 0;
+  virtual SpatialInertia<S> spatial() const = 0;
+};
+
 template <class S>
 MovingPoint<S> Frame<S>::inInertial(MovingPoint<S> point) const {
   for (const Frame* frame = this; frame->origin; frame = &frame->origin->from()) point = frame->origin->inFrom(point);
   return point;
+}
+
+template <class S>
+SpatialInertia<S> Transmission<S>::inFrom(const SpatialInertia<S>& inertia) {
+  // Column j of X from the j-th unit acceleration of `from`: angular 0 … 2, linear 3 … 5.
+  std::array<Vector3<S>, 6> angular, linear;
+  for (Speed<S>* speed : speeds()) speed->acceleration = S(0.0);
+  for (std::size_t j = 0; j < 6; ++j) {
+    from_.omegaDot = from_.a = zeroVector<S>();
+    (j < 3 ? from_.omegaDot : from_.a)[static_cast<Eigen::Index>(j % 3)] = S(1.0);
+    this->doMotion(MotionLevel::acceleration);
+    angular[j] = to_.omegaDot;
+    linear[j] = to_.a;
+  }
+  SpatialInertia<S> result;
+  for (std::size_t j = 0; j < 6; ++j) {
+    const Vector3<S> moment = inertia.angular * angular[j] + inertia.coupling * linear[j];
+    const Vector3<S> force = inertia.coupling.transpose() * angular[j] + inertia.linear * linear[j];
+    for (std::size_t i = 0; i < 6; ++i) {
+      const S entry = angular[i].dot(moment) + linear[i].dot(force);
+      const auto row = static_cast<Eigen::Index>(i % 3), column = static_cast<Eigen::Index>(j % 3);
+      if (i < 3 && j < 3) result.angular(row, column) = entry;
+      if (i < 3 && j >= 3) result.coupling(row, column) = entry;
+      if (i >= 3 && j >= 3) result.linear(row, column) = entry;
+    }
+  }
+  return result;
 }
 
 /// Elements in the order in which motion passes through them: `chain << joint << link << mass`.
@@ -99,6 +160,7 @@ class Chain final : public Element<S> {
   /// The element must outlive the chain.
   Chain& operator<<(Element<S>& element) {
     elements_.push_back(&element);
+    if (auto* inertia = dynamic_cast<Inertia<S>*>(&element)) inertias_.push_back(inertia);
     return *this;
   }
 
@@ -108,26 +170,21 @@ class Chain final : public Element<S> {
   void doForce(ForceKind kind = ForceKind::all) override {
     for (auto element = elements_.rbegin(); element != elements_.rend(); ++element) (*element)->doForce(kind);
   }
-  const std::vector<Element<S>*>& elements() const { return elements_; }
   void clearForces() override {
     for (Element<S>* element : elements_) element->clearForces();
-  }
-  S kineticEnergy() const override {
-    S sum(0.0);
-    for (const Element<S>* element : elements_) sum = sum + element->kineticEnergy();
-    return sum;
   }
   S potentialEnergy(const Vector3<S>& gravity) const override {
     S sum(0.0);
     for (const Element<S>* element : elements_) sum = sum + element->potentialEnergy(gravity);
     return sum;
   }
-  void collectInertia(std::vector<S>& accelerations, std::vector<InertiaWeight<S>>& weights) const override {
-    for (const Element<S>* element : elements_) element->collectInertia(accelerations, weights);
-  }
+
+  const std::vector<Element<S>*>& elements() const { return elements_; }
+  const std::vector<Inertia<S>*>& inertias() const { return inertias_; }
 
  private:
   std::vector<Element<S>*> elements_;
+  std::vector<Inertia<S>*> inertias_;
 };
 
 }  // namespace gamut

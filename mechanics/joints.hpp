@@ -19,7 +19,7 @@ namespace gamut {
 template <class S>
 class RevoluteJoint final : public Transmission<S> {
  public:
-  RevoluteJoint(Frame<S>& from, Frame<S>& to, AngularVariable<S>& angle, const Axis& axis)
+  RevoluteJoint(Frame<S>& from, Frame<S>& to, Variable<S>& angle, const Axis& axis)
       : Transmission<S>(from, to), angle_(angle), axis_(axis) {}
 
   void doMotion(MotionLevel level = MotionLevel::all) override {
@@ -47,20 +47,16 @@ class RevoluteJoint final : public Transmission<S> {
     angle_.force += axis_.template unit<S>().dot(this->to_.tau);
   }
 
-  void clearForces() override {
-    Transmission<S>::clearForces();
-    angle_.force = S(0.0);
-  }
-
-  Frame<S>* drivenFrame() override { return &this->to_; }
+  std::vector<Speed<S>*> speeds() const override { return {&angle_}; }
 
   MovingPoint<S> inFrom(const MovingPoint<S>& point) const override {
     const Vector3<S> turning = axis_.template unit<S>() * angle_.rate;
     return {rotation_.toParent(point.position), rotation_.toParent(point.velocity + turning.cross(point.position))};
   }
+  SpatialInertia<S> inFrom(const SpatialInertia<S>& inertia) override { return rotation_.toParent(inertia); }
 
  private:
-  AngularVariable<S>& angle_;
+  Variable<S>& angle_;
   Axis axis_;
   Rotation<S> rotation_;
 };
@@ -69,7 +65,7 @@ class RevoluteJoint final : public Transmission<S> {
 template <class S>
 class PrismaticJoint final : public Transmission<S> {
  public:
-  PrismaticJoint(Frame<S>& from, Frame<S>& to, LinearVariable<S>& displacement, const Axis& axis)
+  PrismaticJoint(Frame<S>& from, Frame<S>& to, Variable<S>& displacement, const Axis& axis)
       : Transmission<S>(from, to), path_(displacement), axis_(axis) {}
 
   void doMotion(MotionLevel level = MotionLevel::all) override {
@@ -99,20 +95,18 @@ class PrismaticJoint final : public Transmission<S> {
     path_.force += u.dot(this->to_.f);
   }
 
-  void clearForces() override {
-    Transmission<S>::clearForces();
-    path_.force = S(0.0);
-  }
-
-  Frame<S>* drivenFrame() override { return &this->to_; }
+  std::vector<Speed<S>*> speeds() const override { return {&path_}; }
 
   MovingPoint<S> inFrom(const MovingPoint<S>& point) const override {
     const Vector3<S> u = axis_.template unit<S>();
     return {point.position + u * path_.position, point.velocity + u * path_.rate};
   }
+  SpatialInertia<S> inFrom(const SpatialInertia<S>& inertia) override {
+    return inertia.shifted(axis_.template unit<S>() * path_.position);
+  }
 
  private:
-  LinearVariable<S>& path_;
+  Variable<S>& path_;
   Axis axis_;
 };
 

@@ -6,17 +6,17 @@
 #include <stdexcept>
 #include <type_traits>
 
-#include "mechanics/inertia.hpp"
 #include "mechanics/names.hpp"
 
 namespace gamut {
 namespace {
 
-constexpr std::array<const char*, 3> components = {".x", ".y", ".z"};
-
 std::string quoted(const std::string& name) { return "'" + name + "'"; }
 
 [[noreturn]] void refuse(const std::string& sentence) { throw std::invalid_argument(sentence); }
+
+/// Names of whole quantities, which parts of a mechanism must not have.
+bool isQuantity(const std::string& name) { return name == "energy" || name == "gravity" || name == "t"; }
 
 bool has(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
@@ -49,19 +49,17 @@ void Mechanism::addDerived(const std::string& name, const Expression& formula) {
   checkNames(formula, name);
   if (const std::vector<std::string> open = withoutUnit(formula); !open.empty())
     refuse("the parameter " + quoted(open[0]) + " has no unit, which the formula of " + quoted(name) + " needs");
-  const Dimension dimension = formula.dimension([this](const std::string& used) { return dimensionOf(unitOf(used)); });
-  derived_.push_back({name, gamut::unitOf(dimension), formula});
+  derived_.push_back({name, gamut::unitOf(dimensionOf(formula)), formula});
 }
 
 void Mechanism::checkParameterName(const std::string& name) const {
   if (name.empty()) refuse("a parameter needs a name");
   if (knows(name) || find(initials_, name) != nullptr) refuse("the quantity " + quoted(name) + " is defined twice");
-  const bool isQuantity = name == "energy" || name == "gravity" || name == "t";
-  if (unitNamed(name) != nullptr || isQuantity || name == "pi")
+  if (unitNamed(name) != nullptr || isQuantity(name) || name == "pi")
     refuse("a parameter cannot be named " + quoted(name) + ": that is a " +
-           (isQuantity     ? "quantity"
-            : name == "pi" ? "number"
-                           : "unit"));
+           (isQuantity(name) ? "quantity"
+            : name == "pi"   ? "number"
+                             : "unit"));
 }
 
 const Mechanism::Derived* Mechanism::findDerived(const std::string& name) const {
@@ -88,8 +86,7 @@ bool Mechanism::dependsOn(const Expression& number, const std::string& parameter
 void Mechanism::checkNewName(const std::string& kind, const std::string& name) const {
   if (name.empty()) refuse("a " + kind + " needs a name");
   if (has(names_, name)) refuse("two elements are named " + quoted(name) + "; every element needs a name of its own");
-  if (name == "energy" || name == "gravity")
-    refuse("an element cannot be named " + quoted(name) + ": that is a quantity");
+  if (isQuantity(name)) refuse("an element cannot be named " + quoted(name) + ": that is a quantity");
 }
 
 void Mechanism::checkFrame(const std::string& frame, const std::string& of) const {
@@ -101,19 +98,20 @@ void Mechanism::addFrame(const std::string& from, const std::string& to, const s
   checkFrame(from, of);
   if (to.empty()) refuse("the element " + quoted(of) + " needs the name of the frame that it moves");
   if (has(frames_, to)) refuse("the frame " + quoted(to) + " is defined twice; " + quoted(of) + " needs a new frame");
-  if (has(masses(), to)) refuse("the frame " + quoted(to) + " is named like a mass");
-  if (to == "energy" || to == "gravity") refuse("a frame cannot be named " + quoted(to) + ": that is a quantity");
+  if (unitOfMeasured(to + ".position.x") != nullptr) refuse("the frame " + quoted(to) + " is named like a mass");
+  if (isQuantity(to)) refuse("a frame cannot be named " + quoted(to) + ": that is a quantity");
   frames_.push_back(to);
 }
 
 void Mechanism::use(Expression& number, const std::string& name, const std::string& unit) {
-  const Dimension expected = dimensionOf(unit);
+  const Dimension expected = gamut::dimensionOf(unit);
   if (number.isConstant()) {
     check(number, name, expected);
     addParameter(name, number.evaluate<Interval>([](const std::string&) { return Interval::entire(); }), unit);
     number = Expression::named(name);
     return;
   }
+  checkNames(number, name);
   const Dimension assumed = check(number, name, expected);
   if (const std::vector<std::string> open = withoutUnit(number); open.size() == 1)
     std::ranges::find(parameters_, open[0], &NamedValue::name)->unit =
@@ -130,11 +128,11 @@ void Mechanism::checkNames(const Expression& number, const std::string& name) co
 }
 
 Dimension Mechanism::check(const Expression& number, const std::string& name, const Dimension& expected) const {
-  checkNames(number, name);
   const std::vector<std::string> open = withoutUnit(number);
   const auto dimensionOfNames = [&](const Dimension& assumed) {
     return [&open, assumed, this](const std::string& used) {
-      return open.size() == 1 && open[0] == used ? assumed : dimensionOf(unitOf(used));
+      if (used == "t") return gamut::dimensionOf("s");
+      return open.size() == 1 && open[0] == used ? assumed : gamut::dimensionOf(unitOf(used));
     };
   };
   const auto fits = [&](const Dimension& assumed) {
@@ -159,16 +157,12 @@ Dimension Mechanism::check(const Expression& number, const std::string& name, co
   return {};
 }
 
-void Mechanism::use(ExpressionVector& vector, const std::string& name, const std::string& unit) {
-  for (std::size_t i = 0; i < 3; ++i) use(vector[i], name + components[i], unit);
-}
-
 void Mechanism::addState(std::vector<State>& states, const std::string& name, const std::string& unit,
                          const Expression& initial) {
   State state{name, unit, initial};
   if (initial.isConstant()) {
-    if (isParameter(name)) refuse("the quantity " + quoted(name) + " is defined twice");
-    check(initial, name, dimensionOf(unit));
+    if (knows(name)) refuse("the quantity " + quoted(name) + " is defined twice");
+    check(initial, name, gamut::dimensionOf(unit));
     const Interval value = initial.evaluate<Interval>([](const std::string&) { return Interval::entire(); });
     if (isEmpty(value) || !isBounded(value))
       refuse("the initial value " + quoted(name) + " needs a finite value, not " + toString(value));
@@ -180,146 +174,247 @@ void Mechanism::addState(std::vector<State>& states, const std::string& name, co
   states.push_back(state);
 }
 
-template <class Description>
-void Mechanism::keep(Description element) {
-  names_.push_back(element.name);
-  elements_.emplace_back(std::move(element));
+void Mechanism::addMeasured(const std::string& name, const std::string& unit, const std::string& of) {
+  if (unitOfMeasured(name) != nullptr || knows(name))
+    refuse("the quantity " + quoted(name) + " of " + quoted(of) + " is defined twice");
+  measured_.push_back({name, unit});
 }
 
-void Mechanism::add(Revolute joint) {
-  checkNewName("revolute joint", joint.name);
-  addFrame(joint.from, joint.to, joint.name);
-  addState(positions_, joint.name + ".angle", "rad", joint.angle);
-  addState(rates_, joint.name + ".rate", "rad/s", joint.rate);
-  keep(std::move(joint));
+void Mechanism::addSignal(Signal signal, Expression& expression) {
+  if (std::ranges::all_of(expression.names(), [&](const std::string& used) { return knows(used); }))
+    use(expression, signal.name, signal.unit);
+  else
+    signals_.push_back(std::move(signal));
 }
 
-void Mechanism::add(Prismatic joint) {
-  checkNewName("prismatic joint", joint.name);
-  addFrame(joint.from, joint.to, joint.name);
-  addState(positions_, joint.name + ".displacement", "m", joint.displacement);
-  addState(rates_, joint.name + ".rate", "m/s", joint.rate);
-  keep(std::move(joint));
+void Mechanism::drive(const std::string& coordinate, const std::string& by) {
+  const auto driven = std::ranges::find(coordinates_, coordinate, &JointCoordinate::name);
+  if (driven->isDriven)
+    refuse("the joint " + quoted(coordinate) + " is driven twice, the second time by " + quoted(by));
+  for (const std::string& name : {driven->name, driven->rate}) {
+    const NamedValue* initial = find(initials_, name);
+    if (initial == nullptr || !isEqual(initial->nominal, Interval(0.0)))
+      refuse("the joint " + quoted(driven->element) + " has initial values, but is driven by " + quoted(by));
+  }
+  std::erase_if(initials_, [&](const auto& value) { return value.name == driven->name || value.name == driven->rate; });
+  std::erase_if(positions_, [&](const State& state) { return state.name == driven->name; });
+  std::erase_if(speeds_, [&](const State& state) { return state.name == driven->rate; });
+  driven->isDriven = true;
 }
 
-void Mechanism::add(Link link) {
-  checkNewName("link", link.name);
-  addFrame(link.from, link.to, link.name);
-  use(link.vector, link.name + ".vector", "m");
-  for (std::size_t i = 0; i < link.rotation.size(); ++i)
-    use(link.rotation[i].angle, link.name + ".rotation." + std::to_string(i + 1), "rad");
-  keep(std::move(link));
+/// Visits an element that is being added.
+class Mechanism::Checker final : public Fields {
+ public:
+  Checker(Mechanism& mechanism, std::string element) : m_(mechanism), element_(std::move(element)) {}
+
+  void frame(const Word& /*word*/, std::string& name) override { m_.checkFrame(name, element_); }
+  void otherFrame(const Word& word, std::string& name, const std::string& other) override {
+    frame(word, name);
+    if (name == other) refuse("the element " + quoted(element_) + " needs two different frames");
+  }
+  void massFrame(const Word& word, std::string& name) override {
+    frame(word, name);
+    if (has(m_.frames_, element_)) refuse("the mass " + quoted(element_) + " is named like a frame");
+    m_.massFrames_.push_back(name);
+  }
+  void movedFrame(const Word& /*word*/, std::string& name, const std::string& from) override {
+    m_.addFrame(from, name, element_);
+    m_.moved_.push_back({name, from, element_, false});
+    for (const char* component : components) {
+      m_.addMeasured(name + ".position." + component, "m", element_);
+      m_.addMeasured(name + ".velocity." + component, "m/s", element_);
+    }
+  }
+  void choice(const Word& word, std::string& value, const std::vector<std::string>& choices) override {
+    if (!has(choices, value))
+      refuse("the " + word.key + " of " + quoted(element_) + " is " + quoted(value) + ", not " +
+             expectedName(value, choices));
+  }
+  void axis(const Word& /*word*/, Axis& /*axis*/) override {}
+  void rotations(const Word& word, std::vector<FixedRotation>& rotations) override {
+    for (std::size_t i = 0; i < rotations.size(); ++i)
+      m_.use(rotations[i].angle, named(word) + "." + std::to_string(i + 1), "rad");
+  }
+  void number(const Word& word, Expression& number) override { m_.use(number, named(word), word.unit); }
+  void numbers(const Word& word, std::span<Expression> numbers, std::span<const char* const> names,
+               std::size_t /*least*/) override {
+    for (std::size_t i = 0; i < numbers.size(); ++i) m_.use(numbers[i], named(word) + "." + names[i], word.unit);
+  }
+
+  void coordinate(const Word& position, Expression& initial, Coordinate kind, const Word& rate,
+                  Expression& initialRate) override {
+    m_.addState(m_.positions_, named(position), gamut::unitOf(kind), initial);
+    m_.addState(m_.speeds_, named(rate), std::string(gamut::unitOf(kind)) + "/s", initialRate);
+    m_.coordinates_.push_back({element_, named(position), named(rate), kind});
+    movesByJoint();
+  }
+  void position(const Word& word, Expression& initial) override {
+    m_.addState(m_.positions_, named(word), word.unit, initial);
+  }
+  void speed(const Word& word, Expression& initial) override {
+    m_.addState(m_.speeds_, named(word), word.unit, initial);
+    movesByJoint();
+  }
+  std::string state(const Word& word, Expression& initial) override {
+    if (unitNamed(element_) != nullptr || element_ == "pi")
+      refuse("a state cannot be named " + quoted(element_) + ": that is a unit or a number");
+    std::string unit = word.unit;
+    if (unit.empty()) unit = gamut::unitOf(m_.dimensionOf(initial));
+    m_.addState(m_.own_, element_, unit, initial);
+    return unit;
+  }
+
+  Coordinate coordinateOf(const Word& /*word*/, std::string& name) override { return found(name).kind; }
+  Coordinate drivenCoordinate(const Word& /*word*/, std::string& name) override {
+    const Coordinate kind = found(name).kind;
+    m_.drive(name, element_);
+    return kind;
+  }
+  void timeFunction(const Word& word, Expression& number) override {
+    m_.addSignal({element_, named(word), word.unit, true, number}, number);
+  }
+  void signal(const Word& word, Expression& number) override {
+    m_.addSignal({element_, named(word), word.unit, false, number}, number);
+  }
+  void signals(const Word& word, ExpressionVector& vector) override {
+    for (std::size_t i = 0; i < 3; ++i)
+      m_.addSignal({element_, named(word) + "." + components[i], word.unit, false, vector[i]}, vector[i]);
+  }
+
+  void measure(const Word& word) override { m_.addMeasured(named(word), word.unit, element_); }
+
+ private:
+  std::string named(const Word& word) const { return element_ + "." + word.key; }
+  void movesByJoint() {
+    for (Moved& moved : m_.moved_) moved.isByJoint = moved.isByJoint || moved.element == element_;
+  }
+  /// The coordinate's full name replaces that of a joint with one.
+  const JointCoordinate& found(std::string& name) const {
+    const JointCoordinate& coordinate = m_.coordinate(name, element_);
+    name = coordinate.name;
+    return coordinate;
+  }
+
+  Mechanism& m_;
+  std::string element_;
+};
+
+void Mechanism::add(Described element) {
+  checkNewName(element.type(), element.name());
+  Checker checker(*this, element.name());
+  element.describe(checker);
+  names_.push_back(element.name());
+  elements_.push_back(std::move(element));
 }
 
-void Mechanism::add(Mass mass) {
-  checkNewName("mass", mass.name);
-  checkFrame(mass.at, mass.name);
-  if (has(frames_, mass.name)) refuse("the mass " + quoted(mass.name) + " is named like a frame");
-  use(mass.mass, mass.name + ".mass", "kg");
-  use(mass.centre, mass.name + ".centre", "m");
-  constexpr std::array<const char*, 6> entries = {"xx", "yy", "zz", "xy", "yz", "zx"};
-  for (std::size_t i = 0; i < 6; ++i) use(mass.inertia[i], mass.name + ".inertia." + entries[i], "kg m^2");
-  keep(std::move(mass));
-}
-
-void Mechanism::add(Spring spring) {
-  checkNewName("spring", spring.name);
-  checkFrame(spring.from, spring.name);
-  checkFrame(spring.to, spring.name);
-  if (spring.from == spring.to) refuse("the spring " + quoted(spring.name) + " needs two different frames");
-  use(spring.stiffness, spring.name + ".stiffness", "N/m");
-  use(spring.restLength, spring.name + ".rest_length", "m");
-  use(spring.damping, spring.name + ".damping", "N s/m");
-  use(spring.fromPoint, spring.name + ".from_point", "m");
-  use(spring.toPoint, spring.name + ".to_point", "m");
-  keep(std::move(spring));
-}
-
-void Mechanism::add(JointSpring spring) {
-  checkNewName("joint spring", spring.name);
-  const auto joint = std::find_if(positions_.begin(), positions_.end(), [&](const State& state) {
-    return state.name == spring.joint + ".angle" || state.name == spring.joint + ".displacement";
-  });
-  if (joint == positions_.end()) throw UnknownName("joint", spring.joint, joints(), "for " + quoted(spring.name));
-  const bool angular = joint->unit == "rad";
-  use(spring.stiffness, spring.name + ".stiffness", angular ? "N m/rad" : "N/m");
-  use(spring.rest, spring.name + ".rest", joint->unit);
-  use(spring.damping, spring.name + ".damping", angular ? "N m s/rad" : "N s/m");
-  keep(std::move(spring));
+const Mechanism::JointCoordinate& Mechanism::coordinate(const std::string& name, const std::string& of) const {
+  const auto isOnly = [&](const JointCoordinate& coordinate) {
+    return std::ranges::count(coordinates_, coordinate.element, &JointCoordinate::element) == 1;
+  };
+  std::vector<std::string> names;
+  for (const JointCoordinate& coordinate : coordinates_) {
+    if (coordinate.name == name || (coordinate.element == name && isOnly(coordinate))) return coordinate;
+    names.push_back(isOnly(coordinate) ? coordinate.element : coordinate.name);
+  }
+  throw UnknownName("joint", name, names, "for " + quoted(of));
 }
 
 void Mechanism::setGravity(ExpressionVector gravity) {
   if (gravity_) refuse("gravity is set twice");
-  use(gravity, "gravity", "m/s^2");
+  for (std::size_t i = 0; i < 3; ++i) use(gravity[i], std::string("gravity.") + components[i], "m/s^2");
   gravity_ = std::move(gravity);
 }
 
-void Mechanism::check() const {
-  if (positions_.empty()) refuse("the mechanism has no joint: nothing can move");
-  for (const ElementDescription& element : elements_)
-    if (const Mass* mass = std::get_if<Mass>(&element))
-      if (const std::string fault = inertiaFault(*mass, {}); !fault.empty()) refuse(fault);
+const std::string* Mechanism::unitOfMeasured(const std::string& name) const {
+  for (const auto* states : {&positions_, &speeds_, &own_})
+    for (const State& state : *states)
+      if (state.name == name) return &state.unit;
+  static const std::string joule = "J", radian = "rad", metre = "m", radianRate = "rad/s", metreRate = "m/s";
+  for (const JointCoordinate& coordinate : coordinates_) {
+    const bool turns = coordinate.kind == Coordinate::angle;
+    if (coordinate.isDriven && coordinate.name == name) return turns ? &radian : &metre;
+    if (coordinate.isDriven && coordinate.rate == name) return turns ? &radianRate : &metreRate;
+  }
+  for (const Measured& measured : measured_)
+    if (measured.name == name) return &measured.unit;
+  return name == "energy" || name == "energy.kinetic" || name == "energy.potential" ? &joule : nullptr;
 }
 
-std::string Mechanism::inertiaFault(const Mass& mass, const std::map<std::string, Interval>& ranges) const {
-  std::vector<std::string> varied;  // of the parameters that have a range, those of the entries
+Dimension Mechanism::dimensionOf(const Expression& signal) const {
+  return signal.dimension([this](const std::string& name) {
+    return name == "t" ? gamut::dimensionOf("s") : gamut::dimensionOf(unitOf(name));
+  });
+}
+
+void Mechanism::checkSignal(const Signal& signal) const {
+  for (const std::string& used : signal.expression.names()) {
+    if (used == "t" || knows(used) || (!signal.isOfTimeAlone && unitOfMeasured(used) != nullptr)) continue;
+    std::vector<std::string> known = namesOf(parameters_);
+    for (const Derived& derived : derived_) known.push_back(derived.name);
+    known.emplace_back("t");
+    if (!signal.isOfTimeAlone)
+      for (const std::string& quantity : outputQuantities()) known.push_back(quantity);
+    throw UnknownName("quantity", used, known, "for " + quoted(signal.name));
+  }
+  // Where no units are used at all, time is a plain number as well.
+  const Dimension expected = gamut::dimensionOf(signal.unit);
+  if (expected == Dimension{.time = -1} && dimensionOf(signal.expression) == Dimension{}) return;
+  check(signal.expression, signal.name, expected);
+}
+
+void Mechanism::check() const {
+  if (positions_.empty() && speeds_.empty() && own_.empty() && coordinates_.empty())
+    refuse("the mechanism has no joint and no state: nothing can move");
+  for (const Described& element : elements_) {
+    checkSignals(element.name());
+    for (const Fault& fault : faults(element, {})) refuse(fault.sentence);
+  }
+}
+
+void Mechanism::checkSignals(const std::string& element) const {
+  for (const Signal& signal : signals_)
+    if (signal.element == element) checkSignal(signal);
+}
+
+std::vector<Fault> Mechanism::faults(const Described& element, const std::map<std::string, Interval>& ranges) const {
+  std::vector<Expression> asked;
+  std::vector<Fault> found = element.faults([&](const Expression& number) {
+    asked.push_back(number);
+    return rangeOf(number);
+  });
+  std::vector<std::string> varied;
   for (const auto& [name, range] : ranges)
-    if (varied.size() < 12 &&
-        std::ranges::any_of(mass.inertia, [&](const auto& entry) { return dependsOn(entry, name); }))
+    if (varied.size() < 12 && std::ranges::any_of(asked, [&](const auto& number) { return dependsOn(number, name); }))
       varied.push_back(name);
-  // The tensors that a body can have are a convex cone: where each entry is affine in one parameter, what holds at the
-  // corners of the box holds in all of it.
-  for (unsigned corner = 0; corner < (1U << varied.size()); ++corner) {
+  // Where what makes sense is convex and each number affine in one parameter, what holds at the corners of the box
+  // holds in all of it.
+  for (unsigned corner = 0; found.empty() && !varied.empty() && corner < (1U << varied.size()); ++corner) {
     std::map<std::string, Interval> point;
     for (std::size_t i = 0; i < varied.size(); ++i) {
       const Interval& range = ranges.at(varied[i]);
       point[varied[i]] = ((corner >> i) & 1U) != 0 ? range.upper() : range.lower();
     }
-    std::array<Interval, 6> tensor;
-    std::transform(mass.inertia.begin(), mass.inertia.end(), tensor.begin(),
-                   [&](const Expression& entry) { return rangeOf(entry, point); });
-    const std::string fault = impossibilityOf(tensor);
-    if (!fault.empty()) return "the inertia of " + quoted(mass.name) + " " + fault;
+    found = element.faults([&](const Expression& number) { return rangeOf(number, point); });
   }
-  return "";
+  return found;
 }
 
 void Mechanism::checkMasses() const {
-  std::map<std::string, std::string> before;  // frame -> the frame that moves it
-  std::map<std::string, std::string> joint;   // frame -> the joint that moves it
-  std::map<std::string, bool> carries;        // frame -> whether a mass hangs on it
-  for (const ElementDescription& element : elements_) {
-    std::visit(
-        [&]<class Description>(const Description& e) {
-          if constexpr (requires { e.from, e.to, e.axis; } || std::is_same_v<Description, Link>) before[e.to] = e.from;
-          if constexpr (requires { e.axis; }) joint[e.to] = e.name;
-          if constexpr (std::is_same_v<Description, Mass>)
-            for (std::string at = e.at; !carries[at] && !at.empty(); at = before[at]) carries[at] = true;
-        },
-        element);
-  }
-  for (const auto& [frame, name] : joint)
-    if (!carries[frame])
-      refuse("the joint " + quoted(name) + " moves no mass; add a mass at the frame " + quoted(frame) +
+  std::map<std::string, bool> carries;  // frame -> whether a mass hangs on it
+  const auto before = [&](const std::string& frame) {
+    const auto moved = std::ranges::find(moved_, frame, &Moved::frame);
+    return moved == moved_.end() ? std::string() : moved->from;
+  };
+  for (const std::string& mass : massFrames_)
+    for (std::string at = mass; !at.empty() && !carries[at]; at = before(at)) carries[at] = true;
+  for (const Moved& moved : moved_) {
+    const auto isFree = [&](const JointCoordinate& c) { return c.element == moved.element && !c.isDriven; };
+    const auto isOf = [&](const JointCoordinate& c) { return c.element == moved.element; };
+    const bool isDriven = std::ranges::any_of(coordinates_, isOf) && std::ranges::none_of(coordinates_, isFree);
+    if (moved.isByJoint && !isDriven && !carries[moved.frame])
+      refuse("the joint " + quoted(moved.element) + " moves no mass; add a mass at the frame " + quoted(moved.frame) +
              " or at one that it carries");
-}
-
-std::vector<std::string> Mechanism::masses() const {
-  std::vector<std::string> names;
-  for (const ElementDescription& element : elements_)
-    if (const Mass* mass = std::get_if<Mass>(&element)) names.push_back(mass->name);
-  return names;
-}
-
-std::vector<std::string> Mechanism::joints() const {
-  std::vector<std::string> names;
-  for (const ElementDescription& element : elements_)
-    std::visit(
-        [&](const auto& e) {
-          if constexpr (requires { e.axis; }) names.push_back(e.name);
-        },
-        element);
-  return names;
+  }
 }
 
 std::vector<std::string> Mechanism::quantities() const {
@@ -345,43 +440,38 @@ Interval Mechanism::rangeOf(const Expression& number, const std::map<std::string
 
 std::vector<std::string> Mechanism::stateNames() const {
   std::vector<std::string> names;
-  for (const auto* states : {&positions_, &rates_})
+  for (const auto* states : {&positions_, &speeds_, &own_})
     for (const State& state : *states) names.push_back(state.name);
   return names;
 }
 
+bool Mechanism::isSpeed(const std::string& state) const {
+  return std::ranges::find(speeds_, state, &State::name) != speeds_.end();
+}
+
 std::vector<Expression> Mechanism::initialState() const {
   std::vector<Expression> initial;
-  for (const auto* states : {&positions_, &rates_})
+  for (const auto* states : {&positions_, &speeds_, &own_})
     for (const State& state : *states) initial.push_back(state.initial);
   return initial;
 }
 
 std::vector<std::string> Mechanism::outputQuantities() const {
-  std::vector<std::string> names = stateNames(), places(frames_.begin() + 1, frames_.end());
-  for (const std::string& mass : masses()) places.push_back(mass);
-  for (const std::string& place : places)
-    for (const char* what : {".position", ".velocity"})
-      for (const char* component : components) names.push_back(place + what + component);
-  for (const char* energy : {"energy", "energy.kinetic", "energy.potential"}) names.emplace_back(energy);
+  std::vector<std::string> names = stateNames();
+  for (const JointCoordinate& coordinate : coordinates_)
+    if (coordinate.isDriven) names.insert(names.end(), {coordinate.name, coordinate.rate});
+  for (const Measured& measured : measured_) names.push_back(measured.name);
+  if (!frames_.empty()) names.insert(names.end(), {"energy", "energy.kinetic", "energy.potential"});
   return names;
 }
 
 std::string Mechanism::unitOf(const std::string& quantity) const {
-  for (const auto* states : {&positions_, &rates_})
-    for (const State& state : *states)
-      if (state.name == quantity) return state.unit;
+  if (const std::string* unit = unitOfMeasured(quantity)) return *unit;
   if (const NamedValue* parameter = find(parameters_, quantity)) return parameter->unit;
   if (const Derived* derived = findDerived(quantity)) return derived->unit;
-  const std::vector<std::string> outputs = outputQuantities();
-  if (has(outputs, quantity)) {
-    if (quantity.starts_with("energy")) return "J";
-    // The last two parts say what it is; a frame's own name may hold dots.
-    return quantity.substr(0, quantity.size() - 2).ends_with(".velocity") ? "m/s" : "m";
-  }
   std::vector<std::string> known = quantities();
-  known.insert(known.end(), outputs.begin(), outputs.end());
-  refuse(unknownName("quantity", quantity, known));
+  for (const std::string& output : outputQuantities()) known.push_back(output);
+  throw UnknownName("quantity", quantity, known);
 }
 
 }  // namespace gamut

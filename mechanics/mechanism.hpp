@@ -4,7 +4,7 @@
 //
 //   Mechanism pendulum;
 //   pendulum.addParameter("rod.length", Interval(1.0));
-//   pendulum.add(Revolute{"hinge", "inertial", "K1", axisX, 0.5, 0.0});
+//   pendulum.add(Revolute{"hinge", "inertial", "K1", axisX, 0.5, 0.0});  // mechanics/elements/all.hpp
 //   pendulum.add(Link{"rod", "K1", "K2", {0.0, 0.0, Expression::named("rod.length", -1.0)}});
 //   pendulum.add(Mass{"bob", "K2", Interval("0.1")});
 //   pendulum.setGravity({0.0, 0.0, Interval("-9.81")});
@@ -13,75 +13,16 @@
 // parameters in it.
 #pragma once
 
-#include <array>
 #include <map>
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
-#include "mechanics/axis.hpp"
+#include "mechanics/described.hpp"
 #include "mechanics/expression.hpp"
 #include "scalars/interval.hpp"
 
 namespace gamut {
-
-using ExpressionVector = std::array<Expression, 3>;
-
-/// Revolute joint, hinge or pin; names NAME.angle [rad] and NAME.rate [rad/s] (initial values and states).
-struct Revolute {
-  std::string name, from, to;
-  Axis axis;
-  Expression angle = 0.0, rate = 0.0;
-};
-
-/// Prismatic joint or slider; names NAME.displacement [m] and NAME.rate [m/s] (initial values and states).
-struct Prismatic {
-  std::string name, from, to;
-  Axis axis;
-  Expression displacement = 0.0, rate = 0.0;
-};
-
-/// A fixed rotation: exact right angles plus an angle [rad] about an axis.
-struct FixedRotation {
-  Axis axis;
-  int quarterTurns = 0;
-  Expression angle = 0.0;
-};
-
-/// Rigid link from `from` to `to`; names NAME.vector.x … z [m], NAME.rotation.1 … [rad]. Rotations follow the offset,
-/// each about an axis of the frame that the one before has reached.
-struct Link {
-  std::string name, from, to;
-  ExpressionVector vector;
-  std::vector<FixedRotation> rotation = {};
-};
-
-/// A body at frame `at`; names NAME.mass [kg], NAME.centre.x … z [m], NAME.inertia.xx … zx [kg m²] (about the centre).
-struct Mass {
-  std::string name, at;
-  Expression mass;
-  ExpressionVector centre = {0.0, 0.0, 0.0};
-  /// xx, yy, zz, xy, yz, zx
-  std::array<Expression, 6> inertia = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
-};
-
-/// Spring and damper between points of two frames; names NAME.stiffness [N/m], NAME.rest_length [m], NAME.damping
-/// [N s/m], NAME.from_point.x … and NAME.to_point.x … [m].
-struct Spring {
-  std::string name, from, to;
-  Expression stiffness, restLength, damping = 0.0;
-  ExpressionVector fromPoint = {0.0, 0.0, 0.0}, toPoint = {0.0, 0.0, 0.0};
-};
-
-/// Spring and viscous friction on a joint's own variable; names NAME.stiffness [N m/rad or N/m], NAME.rest [rad or m],
-/// NAME.damping [N m s/rad or N s/m].
-struct JointSpring {
-  std::string name, joint;
-  Expression stiffness, rest = 0.0, damping = 0.0;
-};
-
-using ElementDescription = std::variant<Revolute, Prismatic, Link, Mass, Spring, JointSpring>;
 
 class Mechanism {
  public:
@@ -107,28 +48,29 @@ class Mechanism {
   /// Declares a parameter that follows from others, which have been declared with their units. Throws UnitError where
   /// its terms do not fit together.
   void addDerived(const std::string& name, const Expression& formula);
-  void add(Revolute joint);
-  void add(Prismatic joint);
-  void add(Link link);
-  void add(Mass mass);
-  void add(Spring spring);
-  void add(JointSpring spring);
+  /// Adds an element of any type: what its description says is checked, but for expressions of motion, whose names may
+  /// be defined later. Its numbers become references to the parameters named after them.
+  void add(Described element);
   /// Acceleration of free fall in the inertial frame [m/s²]; names gravity.x … z. Zero unless set; set at most once.
   void setGravity(ExpressionVector gravity);
   /// Throws UnknownName, WrongUnit or UnitError if a number, called `name`, is not of this dimension. Parameters
   /// without a unit count as plain numbers; a single one may also be what makes it so, and what it then is, is
   /// returned.
   Dimension check(const Expression& number, const std::string& name, const Dimension& expected) const;
-  /// Throws if there is no joint, or a mass with an inertia that no body has.
+  /// Throws if nothing can move, if an expression of motion names what there is not or has another unit, or if an
+  /// element has a fault.
   void check() const;
-  /// What is wrong with the inertia of one of the elements for some values within the ranges, as a clause: "the inertia
-  /// of 'arm' has a negative principal moment"; empty if nothing certainly is. Numbers without a range are nominal.
-  std::string inertiaFault(const Mass& mass, const std::map<std::string, Interval>& ranges) const;
+  /// The part of it that concerns the expressions of motion of one element.
+  void checkSignals(const std::string& element) const;
+  /// What is wrong with an element for some values within the ranges. Numbers without a range are nominal.
+  std::vector<Fault> faults(const Described& element, const std::map<std::string, Interval>& ranges) const;
   /// Throws if there is a joint that no mass hangs on: its motion would not be determined.
   void checkMasses() const;
+  /// The dimension of an expression of time, parameters and whatever can be measured. Throws UnknownName or UnitError.
+  Dimension dimensionOf(const Expression& signal) const;
 
   /// Elements as added, every constant replaced by a reference to the parameter or initial value named after it.
-  const std::vector<ElementDescription>& elements() const { return elements_; }
+  const std::vector<Described>& elements() const { return elements_; }
   /// Empty where none was set.
   const std::optional<ExpressionVector>& gravity() const { return gravity_; }
   const std::vector<std::string>& frames() const { return frames_; }
@@ -151,22 +93,50 @@ class Mechanism {
   /// A number where parameters have these ranges; those without a range are nominal.
   Interval rangeOf(const Expression& number, const std::map<std::string, Interval>& ranges = {}) const;
 
-  int degreesOfFreedom() const { return static_cast<int>(positions_.size()); }
-  /// Joint positions, then joint rates, in the order of the joints: x = [q; q̇].
+  /// A coordinate of a joint: NAME.KEY, with NAME.RATE.
+  struct JointCoordinate {
+    std::string element, name, rate;
+    Coordinate kind;
+    bool isDriven = false;
+  };
+  const std::vector<JointCoordinate>& coordinates() const { return coordinates_; }
+  /// By the joint's name if it has just one, or by the coordinate's own. Throws UnknownName, saying that `of` asks.
+  const JointCoordinate& coordinate(const std::string& name, const std::string& of) const;
+
+  /// How many positions there are.
+  std::size_t positions() const { return positions_.size(); }
+  bool isSpeed(const std::string& state) const;
+  /// How many speeds there are.
+  int degreesOfFreedom() const { return static_cast<int>(speeds_.size()); }
+  /// Positions, then speeds, in the order of the joints, then own states of elements: x = [q; u; z].
   std::vector<std::string> stateNames() const;
   /// The initial values of the states, in that order.
   std::vector<Expression> initialState() const;
 
   /// Everything that can be looked at: states; FRAME.position.x … z and FRAME.velocity.x … z, in the inertial frame;
-  /// the same for a mass, at its centre; energy, energy.kinetic, energy.potential.
+  /// what elements measure; energy, energy.kinetic, energy.potential.
   std::vector<std::string> outputQuantities() const;
   /// The unit of any quantity, number or output.
   std::string unitOf(const std::string& quantity) const;
 
  private:
+  class Checker;
   struct State {
     std::string name, unit;
     Expression initial;
+  };
+  struct Measured {
+    std::string name, unit;
+  };
+  /// What moves a frame, and whether by own coordinates.
+  struct Moved {
+    std::string frame, from, element;
+    bool isByJoint;
+  };
+  struct Signal {
+    std::string element, name, unit;
+    bool isOfTimeAlone;
+    Expression expression;
   };
 
   static const NamedValue* find(const std::vector<NamedValue>& values, const std::string& name);
@@ -176,24 +146,29 @@ class Mechanism {
   void addFrame(const std::string& from, const std::string& to, const std::string& of);
   void addState(std::vector<State>& states, const std::string& name, const std::string& unit,
                 const Expression& initial);
+  void addMeasured(const std::string& name, const std::string& unit, const std::string& of);
+  void addSignal(Signal signal, Expression& expression);
+  void drive(const std::string& coordinate, const std::string& by);
   /// Throws if its names or units do not fit; a constant becomes the parameter `name`.
   void use(Expression& number, const std::string& name, const std::string& unit);
   /// Throws if one of its names is no parameter.
   void checkNames(const Expression& number, const std::string& name) const;
+  void checkSignal(const Signal& signal) const;
   std::vector<std::string> withoutUnit(const Expression& number) const;
   const Derived* findDerived(const std::string& name) const;
-  void use(ExpressionVector& vector, const std::string& name, const std::string& unit);
-  template <class Description>
-  void keep(Description element);
-  std::vector<std::string> masses() const;
-  std::vector<std::string> joints() const;
+  /// Of states and of what is measured; null for any other.
+  const std::string* unitOfMeasured(const std::string& name) const;
 
-  std::vector<ElementDescription> elements_;
+  std::vector<Described> elements_;
   std::optional<ExpressionVector> gravity_;
-  std::vector<std::string> names_, frames_;
+  std::vector<std::string> names_, frames_, massFrames_;
+  std::vector<Moved> moved_;
   std::vector<NamedValue> parameters_, initials_;
   std::vector<Derived> derived_;
-  std::vector<State> positions_, rates_;
+  std::vector<State> positions_, speeds_, own_;
+  std::vector<JointCoordinate> coordinates_;
+  std::vector<Measured> measured_;
+  std::vector<Signal> signals_;
 };
 
 }  // namespace gamut

@@ -10,18 +10,14 @@ namespace gamut {
 
 Program recordMotion(const Mechanism& mechanism, const std::vector<std::string>& freeParameters,
                      Formulation formulation) {
-  const int f = mechanism.degreesOfFreedom();
+  const int states = static_cast<int>(mechanism.stateNames().size());
   mechanism.checkMasses();
   try {
-    return record(2 * f, static_cast<int>(freeParameters.size()), [&](auto, const auto& x, const auto& p, auto& dx) {
+    return record(states, static_cast<int>(freeParameters.size()), [&](auto t, const auto& x, const auto& p, auto& dx) {
       Assembly<Recorded> assembly(mechanism, freeParameters, p);
-      assembly.setState(x);
-      const std::vector<Recorded> acceleration = assembly.accelerations(formulation);
-      const auto split = static_cast<std::size_t>(f);
-      for (std::size_t i = 0; i < split; ++i) {
-        dx[i] = x[split + i];
-        dx[split + i] = acceleration[i];
-      }
+      assembly.setState(x, t);
+      const std::vector<Recorded> rates = assembly.rates(formulation);
+      for (std::size_t i = 0; i < rates.size(); ++i) dx[i] = rates[i];
     });
   } catch (const std::domain_error& error) {
     throw std::invalid_argument(std::string("the motion of the mechanism is not determined: ") + error.what());
@@ -30,10 +26,10 @@ Program recordMotion(const Mechanism& mechanism, const std::vector<std::string>&
 
 Program recordOutputs(const Mechanism& mechanism, const std::vector<std::string>& freeParameters,
                       const std::vector<std::string>& outputs) {
-  return record(2 * mechanism.degreesOfFreedom(), static_cast<int>(freeParameters.size()),
-                static_cast<int>(outputs.size()), [&](auto, const auto& x, const auto& p, auto& y) {
+  return record(static_cast<int>(mechanism.stateNames().size()), static_cast<int>(freeParameters.size()),
+                static_cast<int>(outputs.size()), [&](auto t, const auto& x, const auto& p, auto& y) {
                   Assembly<Recorded> assembly(mechanism, freeParameters, p);
-                  assembly.setState(x);
+                  assembly.setState(x, t);
                   for (std::size_t i = 0; i < outputs.size(); ++i) y[i] = assembly.output(outputs[i]);
                 });
 }

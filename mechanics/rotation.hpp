@@ -7,6 +7,7 @@
 
 #include "mechanics/algebra.hpp"
 #include "mechanics/axis.hpp"
+#include "mechanics/spatial_inertia.hpp"
 #include "scalars/traits.hpp"
 
 namespace gamut {
@@ -78,6 +79,39 @@ class Rotation {
       y[plane_->j] = plane_->c * x[plane_->j] - plane_->s * x[plane_->i];
     }
     return y;
+  }
+
+  /// A M Aᵀ.
+  Matrix3<S> matrixToParent(const Matrix3<S>& m) const {
+    Matrix3<S> turned;
+    for (int i = 0; i < 3; ++i) turned.row(i) = toParent(Vector3<S>(m.row(i).transpose())).transpose();
+    for (int j = 0; j < 3; ++j) turned.col(j) = toParent(Vector3<S>(turned.col(j)));
+    return turned;
+  }
+
+  /// The same for a symmetric M, which it stays; about a coordinate axis the trace of the turned part is kept.
+  Matrix3<S> symmetricToParent(const Matrix3<S>& m) const {
+    if (!plane_) {
+      Matrix3<S> turned = matrixToParent(m);
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < i; ++j) turned(i, j) = turned(j, i);
+      return turned;
+    }
+    const auto& [i, j, c, s] = *plane_;
+    const int k = 3 - i - j;
+    const S u = c * m(i, i) - s * m(i, j), v = c * m(i, j) - s * m(j, j), first = c * u - s * v;
+    Matrix3<S> turned = m;
+    turned(i, i) = first;
+    turned(j, j) = m(i, i) + m(j, j) - first;
+    turned(i, j) = turned(j, i) = s * u + c * v;
+    turned(i, k) = turned(k, i) = c * m(i, k) - s * m(j, k);
+    turned(j, k) = turned(k, j) = s * m(i, k) + c * m(j, k);
+    return turned;
+  }
+
+  /// What an inertia behind this rotation is in front of it.
+  SpatialInertia<S> toParent(const SpatialInertia<S>& inertia) const {
+    return {symmetricToParent(inertia.angular), matrixToParent(inertia.coupling), symmetricToParent(inertia.linear)};
   }
 
   /// R A, the orientation behind a frame of orientation R: rows of R are vectors of K.

@@ -11,19 +11,16 @@
 
 namespace gamut {
 
-/// A spring and a viscous damper in parallel between a point of frame `from` and a point of frame `to`, with stiffness
-/// c [N/m], rest length l₀ [m] and damping d [N s/m]. The points must never coincide.
+/// The straight line between a point of frame `from` and a point of frame `to`, which must never coincide: its length,
+/// and a force along it.
 template <class S>
-class SpringDamper final : public Element<S> {
+class Chord {
  public:
-  SpringDamper(Frame<S>& from, Frame<S>& to, S stiffness, S restLength, S damping,
-               Vector3<S> fromPoint = zeroVector<S>(), Vector3<S> toPoint = zeroVector<S>())
-      : ends_{{{from, std::move(fromPoint)}, {to, std::move(toPoint)}}},
-        stiffness_(std::move(stiffness)),
-        restLength_(std::move(restLength)),
-        damping_(std::move(damping)) {}
+  Chord(Frame<S>& from, Vector3<S> fromPoint, Frame<S>& to, Vector3<S> toPoint)
+      : ends_{{{from, std::move(fromPoint)}, {to, std::move(toPoint)}}} {}
 
-  void doMotion(MotionLevel level = MotionLevel::all) override {
+  /// Measures by the frames' present positions and, at MotionLevel::all, velocities.
+  void doMotion(MotionLevel level) {
     if (level == MotionLevel::acceleration) return;
     using std::sqrt;
     const MovingPoint<S> p1 = ends_[0].frame.inInertial({ends_[0].point, zeroVector<S>()});
@@ -31,12 +28,14 @@ class SpringDamper final : public Element<S> {
     const Vector3<S> x = p2.position - p1.position;
     length_ = sqrt(square(x[0]) + square(x[1]) + square(x[2]));
     direction_ = x / length_;
-    if (level == MotionLevel::all) lengthRate_ = direction_.dot(p2.velocity - p1.velocity);
+    if (level == MotionLevel::all) rate_ = direction_.dot(p2.velocity - p1.velocity);
   }
 
-  void doForce(ForceKind kind = ForceKind::all) override {
-    if (kind == ForceKind::inertia) return;
-    const S force = -(stiffness_ * (length_ - restLength_)) - damping_ * lengthRate_;
+  const S& length() const { return length_; }
+  const S& rate() const { return rate_; }
+
+  /// The force [N] pushes the points apart.
+  void push(const S& force) {
     double side = -1;
     for (End& end : ends_) {
       const Vector3<S> local = end.frame.R.transpose() * Vector3<S>(direction_ * (S(side) * force));
@@ -46,25 +45,48 @@ class SpringDamper final : public Element<S> {
     }
   }
 
-  S potentialEnergy(const Vector3<S>&) const override {
-    return S(0.5) * (stiffness_ * square(S(length_ - restLength_)));
-  }
-
  private:
   struct End {
     Frame<S>& frame;
     Vector3<S> point;
   };
   std::array<End, 2> ends_;
-  S stiffness_, restLength_, damping_;
-  S length_ = S(0.0), lengthRate_ = S(0.0);
+  S length_ = S(0.0), rate_ = S(0.0);
   Vector3<S> direction_ = zeroVector<S>();
+};
+
+/// A spring and a viscous damper in parallel along a chord, with stiffness c [N/m], rest length l₀ [m] and damping d
+/// [N s/m].
+template <class S>
+class SpringDamper final : public Load<S> {
+ public:
+  SpringDamper(Chord<S> chord, S stiffness, S restLength, S damping)
+      : chord_(std::move(chord)),
+        stiffness_(std::move(stiffness)),
+        restLength_(std::move(restLength)),
+        damping_(std::move(damping)) {}
+
+  void doMotion(MotionLevel level = MotionLevel::all) override { chord_.doMotion(level); }
+
+  const Chord<S>& chord() const { return chord_; }
+  /// Pushes the points apart where it is positive [N].
+  S force() const { return -(stiffness_ * (chord_.length() - restLength_)) - damping_ * chord_.rate(); }
+
+  S potentialEnergy(const Vector3<S>&) const override {
+    return S(0.5) * (stiffness_ * square(S(chord_.length() - restLength_)));
+  }
+
+ private:
+  void applyForce() override { chord_.push(force()); }
+
+  Chord<S> chord_;
+  S stiffness_, restLength_, damping_;
 };
 
 /// A torsional or linear spring and viscous friction on one joint variable: stiffness [N m/rad or N/m], rest position
 /// [rad or m], damping [N m s/rad or N s/m].
 template <class S>
-class JointSpringDamper final : public Element<S> {
+class JointSpringDamper final : public Load<S> {
  public:
   JointSpringDamper(Variable<S>& variable, S stiffness, S restPosition, S damping)
       : variable_(variable),
@@ -72,16 +94,15 @@ class JointSpringDamper final : public Element<S> {
         restPosition_(std::move(restPosition)),
         damping_(std::move(damping)) {}
 
-  void doMotion(MotionLevel = MotionLevel::all) override {}
-  void doForce(ForceKind kind = ForceKind::all) override {
-    if (kind == ForceKind::inertia) return;
-    variable_.force -= stiffness_ * (variable_.position - restPosition_) + damping_ * variable_.rate;
-  }
   S potentialEnergy(const Vector3<S>&) const override {
     return S(0.5) * (stiffness_ * square(S(variable_.position - restPosition_)));
   }
 
  private:
+  void applyForce() override {
+    variable_.force -= stiffness_ * (variable_.position - restPosition_) + damping_ * variable_.rate;
+  }
+
   Variable<S>& variable_;
   S stiffness_, restPosition_, damping_;
 };

@@ -1,4 +1,4 @@
-// Joint variables: what a joint's motion is made of, and the generalised force that works on it.
+// What moves a joint: speeds, with the generalised forces that work on them, and positions.
 #pragma once
 
 #include <string>
@@ -8,33 +8,29 @@
 
 namespace gamut {
 
-/// A minimal coordinate q with rate q̇, acceleration q̈ and generalised force Q (power Q q̇).
+/// A generalised speed u with its acceleration u̇ and its generalised force Q (power Q u): what equations of motion are
+/// about.
 template <class S>
-struct Variable {
-  Variable() = default;
-  /// `variableName` is used in messages.
-  explicit Variable(std::string variableName) : name(std::move(variableName)) {}
+struct Speed {
+  Speed() = default;
+  /// `speedName` is used in messages.
+  explicit Speed(std::string speedName) : name(std::move(speedName)) {}
+  Speed(const Speed&) = delete;
+  Speed& operator=(const Speed&) = delete;
 
-  S position = S(0.0);
   S rate = S(0.0);
   S acceleration = S(0.0);
   S force = S(0.0);
   std::string name;
-
- protected:
-  ~Variable() = default;
 };
 
-/// An angle [rad, rad/s, rad/s², N m].
+/// A coordinate q whose rate is its speed, q̇ = u: an angle [rad, rad/s, rad/s², N m] or a displacement [m, m/s, m/s²,
+/// N].
 template <class S>
-struct AngularVariable final : Variable<S> {
-  using Variable<S>::Variable;
-};
+struct Variable : Speed<S> {
+  using Speed<S>::Speed;
 
-/// A displacement [m, m/s, m/s², N].
-template <class S>
-struct LinearVariable final : Variable<S> {
-  using Variable<S>::Variable;
+  S position = S(0.0);
 };
 
 }  // namespace gamut

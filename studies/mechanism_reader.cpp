@@ -8,33 +8,37 @@
 #include <map>
 
 #include "mechanics/names.hpp"
+#include "mechanics/words.hpp"
 
 namespace gamut {
 namespace {
-
-constexpr Dimension plain{}, length{0, 1, 0, 0}, angle{0, 0, 0, 1}, mass{1, 0, 0, 0}, inertia{1, 2, 0, 0},
-    speed{0, 1, -1, 0}, rate{0, 0, -1, 1}, acceleration{0, 1, -2, 0}, stiffness{1, 0, -2, 0}, damping{1, 0, -1, 0},
-    turningStiffness{1, 2, -2, -1}, turningDamping{1, 2, -1, -1};
 
 bool isWordCharacter(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '.'; }
 
 class MechanismReader {
  public:
-  MechanismReader(const TomlSource& source, const toml::table& table)
-      : source_(source), section_(source, table, "mechanism", {"gravity", "parameters", "element"}) {}
+  MechanismReader(const TomlSource& source, const toml::table& table, const std::vector<Described>& types)
+      : source_(source), types_(types), section_(source, table, "mechanism", {"gravity", "parameters", "element"}) {}
 
   Mechanism read() {
     readParameters(section_, "");
-    if (const toml::node* gravity = section_.find("gravity"))
-      guarded(*gravity, [&] { mechanism_.setGravity(vector(*gravity, "mechanism.gravity", acceleration)); });
+    if (const toml::node* gravity = section_.find("gravity")) guarded(*gravity, [&] { setGravity(*gravity); });
     const toml::node& list = section_.require("element", "a table [[mechanism.element]] for each element");
     const toml::array& elements = source_.asArray(list, "mechanism.element");
     for (const toml::node& node : elements) readElement(source_.asTable(node, "mechanism.element"));
+    for (std::size_t i = 0; i < elements.size(); ++i)
+      guarded(elements[i], [&] { mechanism_.checkSignals(mechanism_.elements()[i].name()); });
     guarded(elements, [&] { mechanism_.check(); });
     return std::move(mechanism_);
   }
 
  private:
+  void setGravity(const toml::node& node) {
+    ExpressionVector gravity = {0.0, 0.0, 0.0};
+    readNumbers(node, "mechanism.gravity", gravity, components, 3, dimensionOf("m/s^2"));
+    mechanism_.setGravity(gravity);
+  }
+
   /// What the mechanism refuses is an error of the file at this place.
   template <class Action>
   void guarded(const toml::node& at, const Action& action) const {
@@ -107,123 +111,120 @@ class MechanismReader {
   }
 
   void readElement(const toml::table& table) {
+    std::vector<std::string> words;
+    for (const Described& type : types_) words.push_back(type.type());
     const toml::node* type = table.get("type");
-    const std::string expected = "type = \"revolute\", \"prismatic\", \"link\", \"mass\" or \"spring-damper\"";
-    if (type == nullptr) source_.fail(table, "'mechanism.element.type' is missing", expected);
-    const std::string kind =
-        source_.asChoice(*type, "mechanism.element.type", {"revolute", "prismatic", "link", "mass", "spring-damper"});
-    if (kind == "revolute") {
-      readRevolute(table);
-    } else if (kind == "prismatic") {
-      readPrismatic(table);
-    } else if (kind == "link") {
-      readLink(table);
-    } else if (kind == "mass") {
-      readMass(table);
-    } else if (table.contains("joint")) {
-      readJointSpring(table);
-    } else {
-      readSpring(table);
-    }
-  }
+    if (type == nullptr)
+      source_.fail(table, "'mechanism.element.type' is missing",
+                   fmt::format("type = one of: {}", fmt::join(words, ", ")));
+    const std::string word = source_.asChoice(*type, "mechanism.element.type", words);
+    Described element = *std::ranges::find(types_, word, &Described::type);
 
-  TomlSection element(const toml::table& table, std::vector<std::string> keys) {
-    keys.insert(keys.begin(), {"type", "name", "parameters"});
-    TomlSection section(source_, table, "mechanism.element", std::move(keys));
-    readParameters(section, section.text("name") + ".");
-    return section;
-  }
-
-  TomlSection initial(const TomlSection& joint, const std::string& position) {
+    std::vector<std::string> keys = {"type", "name", "parameters"}, initialKeys;
+    for (const auto& [key, isInitial] : wordsOf(element).keys) (isInitial ? initialKeys : keys).push_back(key.key);
+    if (!initialKeys.empty()) keys.emplace_back("initial");
+    const TomlSection section(source_, table, "mechanism.element", keys);
+    element.setName(section.text("name"));
+    readParameters(section, element.name() + ".");
     static const toml::table none;
-    const toml::node* node = joint.find("initial");
-    const toml::table& table = node == nullptr ? none : source_.asTable(*node, joint.nameOf("initial"));
-    return {source_, table, "mechanism.element.initial", {position, "rate"}};
-  }
-
-  void readRevolute(const toml::table& table) {
-    const TomlSection section = element(table, {"from", "to", "axis", "initial"});
-    const TomlSection start = initial(section, "angle");
-    Revolute joint{section.text("name"), section.text("from"),          section.text("to"),
-                   axis(section),        number(start, "angle", angle), number(start, "rate", rate)};
-    guarded(table, [&] { mechanism_.add(std::move(joint)); });
-  }
-
-  void readPrismatic(const toml::table& table) {
-    const TomlSection section = element(table, {"from", "to", "axis", "initial"});
-    const TomlSection start = initial(section, "displacement");
-    Prismatic joint{section.text("name"),
-                    section.text("from"),
-                    section.text("to"),
-                    axis(section),
-                    number(start, "displacement", length),
-                    number(start, "rate", speed)};
-    guarded(table, [&] { mechanism_.add(std::move(joint)); });
-  }
-
-  void readLink(const toml::table& table) {
-    const TomlSection section = element(table, {"from", "to", "vector", "rotation"});
-    const toml::node& offset = section.require("vector", "the place of frame 'to' in frame 'from', [x, y, z] in m");
-    Link link{section.text("name"), section.text("from"), section.text("to"),
-              vector(offset, section.nameOf("vector"), length), rotations(section)};
-    guarded(table, [&] { mechanism_.add(std::move(link)); });
-  }
-
-  void readMass(const toml::table& table) {
-    const TomlSection section = element(table, {"at", "mass", "centre", "inertia"});
-    const toml::node& weight = section.require("mass", "the mass in kg, or with a unit such as \"250 g\"");
-    Mass body{section.text("name"), section.text("at"), number(section, "mass", mass)};
-    const Expression given = body.mass;
-    if (const toml::node* centre = section.find("centre"))
-      body.centre = vector(*centre, section.nameOf("centre"), length);
-    if (const toml::node* node = section.find("inertia")) {
-      const toml::array& list = source_.asArray(*node, section.nameOf("inertia"));
-      if (list.size() != 3 && list.size() != 6)
-        source_.fail(*node, fmt::format("{} has {} numbers", section.nameOf("inertia"), list.size()),
-                     "[xx, yy, zz] or [xx, yy, zz, xy, yz, zx] in kg m^2");
-      for (std::size_t i = 0; i < list.size(); ++i)
-        body.inertia[i] = number(list[i], section.nameOf("inertia"), inertia);
+    const toml::node* node = section.find("initial");
+    const TomlSection initial(source_, node == nullptr ? none : source_.asTable(*node, section.nameOf("initial")),
+                              "mechanism.element.initial", initialKeys);
+    Filler filler(*this, section, initial);
+    element.describe(filler);
+    guarded(table, [&] { mechanism_.add(element); });
+    for (const Fault& fault : mechanism_.faults(mechanism_.elements().back(), {})) {
+      const toml::node* at = section.find(fault.key);
+      source_.failWith(at == nullptr ? table : *at, fault.sentence, fault.expected);
     }
-    guarded(table, [&] { mechanism_.add(std::move(body)); });
-    const std::string fault = mechanism_.inertiaFault(std::get<Mass>(mechanism_.elements().back()), {});
-    if (!fault.empty()) source_.fail(*section.find("inertia"), fault, "an inertia that a body can have");
-    const Interval value = mechanism_.rangeOf(given);
-    if (value.lower() < 0) source_.fail(weight, section.nameOf("mass") + " is negative", "a mass of at least 0 kg");
   }
 
-  void readSpring(const toml::table& table) {
-    const TomlSection section =
-        element(table, {"from", "to", "joint", "stiffness", "rest_length", "damping", "from_point", "to_point"});
-    Spring spring{section.text("name"),
-                  section.text("from"),
-                  section.text("to"),
-                  number(section, "stiffness", stiffness),
-                  number(section, "rest_length", length),
-                  number(section, "damping", damping)};
-    if (const toml::node* p = section.find("from_point"))
-      spring.fromPoint = vector(*p, section.nameOf("from_point"), length);
-    if (const toml::node* p = section.find("to_point")) spring.toPoint = vector(*p, section.nameOf("to_point"), length);
-    guarded(table, [&] { mechanism_.add(std::move(spring)); });
-  }
+  /// Gives a description what the file says.
+  class Filler final : public Fields {
+   public:
+    Filler(MechanismReader& reader, const TomlSection& section, const TomlSection& initial)
+        : reader_(reader), section_(section), initial_(initial) {}
 
-  void readJointSpring(const toml::table& table) {
-    const TomlSection section = element(table, {"joint", "stiffness", "rest", "damping"});
-    const std::string joint = section.text("joint");
-    const std::vector<std::string> states = mechanism_.stateNames();
-    const auto has = [&](const char* state) { return std::ranges::find(states, joint + state) != states.end(); };
-    const bool slides = has(".displacement");
-    if (!slides && !has(".angle"))  // refused before its numbers are, whose units depend on the joint
-      guarded(table, [&] { mechanism_.add(JointSpring{section.text("name"), joint, 0.0, 0.0, 0.0}); });
-    JointSpring spring{section.text("name"), joint, number(section, "stiffness", slides ? stiffness : turningStiffness),
-                       number(section, "rest", slides ? length : angle),
-                       number(section, "damping", slides ? damping : turningDamping)};
-    guarded(table, [&] { mechanism_.add(std::move(spring)); });
-  }
+    void frame(const Word& word, std::string& name) override { name = section_.text(word.key); }
+    void movedFrame(const Word& word, std::string& name, const std::string& /*from*/) override { frame(word, name); }
+    void choice(const Word& word, std::string& value, const std::vector<std::string>& choices) override {
+      if (const toml::node* node = section_.find(word.key))
+        value = section_.source().asChoice(*node, section_.nameOf(word.key), choices);
+    }
+    void axis(const Word& word, Axis& axis) override {
+      if (word.isRequired || section_.find(word.key) != nullptr) axis = reader_.axis(section_, word.key);
+    }
+    void rotations(const Word& word, std::vector<FixedRotation>& rotations) override {
+      rotations = reader_.rotations(section_, word.key);
+    }
+    void number(const Word& word, Expression& number) override {
+      if (const toml::node* node = given(section_, word))
+        number = reader_.number(*node, section_.nameOf(word.key), dimensionOf(word.unit));
+    }
+    void numbers(const Word& word, std::span<Expression> numbers, std::span<const char* const> names,
+                 std::size_t least) override {
+      if (const toml::node* node = given(section_, word))
+        reader_.readNumbers(*node, section_.nameOf(word.key), numbers, names, least, dimensionOf(word.unit));
+    }
+    void coordinate(const Word& position, Expression& initial, Coordinate /*kind*/, const Word& rate,
+                    Expression& initialRate) override {
+      this->position(position, initial);
+      speed(rate, initialRate);
+    }
+    void position(const Word& word, Expression& initial) override {
+      if (const toml::node* node = initial_.find(word.key))
+        initial = reader_.number(*node, initial_.nameOf(word.key), dimensionOf(word.unit));
+    }
+    void speed(const Word& word, Expression& initial) override { position(word, initial); }
+    std::string state(const Word& word, Expression& initial) override {
+      const toml::node* node = section_.find(word.key);
+      if (node == nullptr) return "1";
+      if (node->is_string()) initial = section_.source().asExpression(*node, section_.nameOf(word.key));
+      if (initial.isConstant()) {
+        const Amount amount = section_.source().asAnyAmount(*node, section_.nameOf(word.key));
+        if (!node->is_string()) initial = enclose(amount);
+        return unitOf(amount.dimension);
+      }
+      Dimension dimension;
+      reader_.guarded(*node, [&] { dimension = reader_.mechanism_.dimensionOf(initial); });
+      return unitOf(dimension);
+    }
+    Coordinate coordinateOf(const Word& word, std::string& name) override {
+      frame(word, name);
+      const toml::node& node = *section_.find(word.key);
+      Coordinate kind{};
+      reader_.guarded(node, [&] { kind = reader_.mechanism_.coordinate(name, section_.text("name")).kind; });
+      return kind;
+    }
+    void timeFunction(const Word& word, Expression& number) override { signal(word, number); }
+    void signal(const Word& word, Expression& number) override {
+      if (const toml::node* node = given(section_, word))
+        number = reader_.signal(*node, section_.nameOf(word.key), word);
+    }
+    void signals(const Word& word, ExpressionVector& vector) override {
+      const toml::node* node = given(section_, word);
+      if (node == nullptr) return;
+      const toml::array& list = reader_.listOf(*node, section_.nameOf(word.key), 3, 3, dimensionOf(word.unit));
+      for (std::size_t i = 0; i < 3; ++i) vector[i] = reader_.signal(list[i], section_.nameOf(word.key), word);
+    }
+    void measure(const Word& /*word*/) override {}
+
+   private:
+    static const toml::node* given(const TomlSection& section, const Word& word) {
+      if (!word.isRequired) return section.find(word.key);
+      const std::string unit = word.unit.empty() ? "" : fmt::format(", in {}", word.unit);
+      return &section.require(word.key, (word.meaning.empty() ? "a number" : word.meaning) + unit);
+    }
+
+    MechanismReader& reader_;
+    const TomlSection& section_;
+    const TomlSection& initial_;
+  };
 
   /// "x", "-y", … or a direction [x, y, z].
-  Axis axis(const TomlSection& section) const {
-    const toml::node& node = section.require("axis", "\"x\", \"y\", \"z\", the same with a minus sign, or [x, y, z]");
-    return axis(node, section.nameOf("axis"));
+  Axis axis(const TomlSection& section, const std::string& key) const {
+    const toml::node& node = section.require(key, "\"x\", \"y\", \"z\", the same with a minus sign, or [x, y, z]");
+    return axis(node, section.nameOf(key));
   }
 
   Axis axis(const toml::node& node, const std::string& what) const {
@@ -237,23 +238,23 @@ class MechanismReader {
     if (list.size() != 3)
       source_.fail(node, fmt::format("{} has {} numbers", what, list.size()), "three numbers [x, y, z]");
     double direction[3];
-    for (std::size_t i = 0; i < 3; ++i) direction[i] = nearest(source_.asAmount(list[i], what, plain));
+    for (std::size_t i = 0; i < 3; ++i) direction[i] = nearest(source_.asAmount(list[i], what, Dimension{}));
     if (direction[0] == 0 && direction[1] == 0 && direction[2] == 0)
       source_.fail(node, what + " is the zero vector", "a direction");
     return {direction[0], direction[1], direction[2]};
   }
 
   /// A list of { axis, angle }; whole quarter turns are exact.
-  std::vector<FixedRotation> rotations(const TomlSection& link) {
+  std::vector<FixedRotation> rotations(const TomlSection& element, const std::string& key) {
     std::vector<FixedRotation> result;
-    const toml::node* node = link.find("rotation");
+    const toml::node* node = element.find(key);
     if (node == nullptr) return result;
-    const std::string name = link.nameOf("rotation");
+    const std::string name = element.nameOf(key);
     for (const toml::node& entry : source_.asArray(*node, name)) {
       const TomlSection section(source_, source_.asTable(entry, name), name, {"axis", "angle"});
-      FixedRotation rotation{axis(section)};
+      FixedRotation rotation{axis(section, "axis")};
       const toml::node& turn = section.require("angle", "an angle such as \"90 deg\"");
-      rotation.angle = number(turn, section.nameOf("angle"), angle);
+      rotation.angle = number(turn, section.nameOf("angle"), dimensionOf("rad"));
       setQuarterTurns(rotation);
       result.push_back(std::move(rotation));
     }
@@ -269,18 +270,29 @@ class MechanismReader {
     rotation.angle = 0.0;
   }
 
-  ExpressionVector vector(const toml::node& node, const std::string& what, const Dimension& dimension) {
+  /// A list of at least and at most so many numbers.
+  const toml::array& listOf(const toml::node& node, const std::string& what, std::size_t least, std::size_t most,
+                            const Dimension& dimension) const {
     const toml::array& list = source_.asArray(node, what);
-    if (list.size() != 3)
+    if (list.size() != least && list.size() != most)
       source_.fail(node, fmt::format("{} has {} numbers", what, list.size()),
-                   fmt::format("three, [x, y, z] in {}", unitOf(dimension)));
-    return {number(list[0], what, dimension), number(list[1], what, dimension), number(list[2], what, dimension)};
+                   least == most ? fmt::format("three, [x, y, z] in {}", unitOf(dimension))
+                                 : fmt::format("[xx, yy, zz] or [xx, yy, zz, xy, yz, zx] in {}", unitOf(dimension)));
+    return list;
   }
 
-  /// 0 if the key is missing.
-  Expression number(const TomlSection& section, std::string_view key, const Dimension& dimension) {
-    const toml::node* node = section.find(key);
-    return node == nullptr ? Expression(0.0) : number(*node, section.nameOf(key), dimension);
+  void readNumbers(const toml::node& node, const std::string& what, std::span<Expression> numbers,
+                   std::span<const char* const> names, std::size_t least, const Dimension& dimension) {
+    const toml::array& list = listOf(node, what, least, names.size(), dimension);
+    for (std::size_t i = 0; i < list.size(); ++i) numbers[i] = number(list[i], what, dimension);
+  }
+
+  /// An expression of motion; its names are the mechanism's to check when all elements are known.
+  Expression signal(const toml::node& node, const std::string& what, const Word& word) {
+    if (!node.is_string()) return enclose(source_.asAmount(node, what, dimensionOf(word.unit)));
+    const Expression expression = source_.asExpression(node, what);
+    if (expression.amount()) source_.asAmount(node, what, dimensionOf(word.unit));  // refuses another unit
+    return expression;
   }
 
   /// A number, or a formula; the names in it and their units are the mechanism's to check.
@@ -301,6 +313,7 @@ class MechanismReader {
   }
 
   const TomlSource& source_;
+  const std::vector<Described>& types_;
   TomlSection section_;
   Mechanism mechanism_;
   std::map<std::string, const toml::node*> statedWithUnit_;  // parameters
@@ -308,8 +321,8 @@ class MechanismReader {
 
 }  // namespace
 
-Mechanism readMechanism(const TomlSource& source, const toml::table& table) {
-  return MechanismReader(source, table).read();
+Mechanism readMechanism(const TomlSource& source, const toml::table& table, const std::vector<Described>& types) {
+  return MechanismReader(source, table, types).read();
 }
 
 }  // namespace gamut

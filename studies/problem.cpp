@@ -28,7 +28,7 @@ void recordPrograms(const Study& study, Problem& problem) {
   motion.times = study.time;
   if (study.analysis == Study::Analysis::dynamics) {
     motion.f = recordMotion(study.mechanism, problem.freeParameters, Formulation::sparse);
-    motion.sampled = recordMotion(study.mechanism, problem.freeParameters, Formulation::compact);
+    motion.sampled = recordMotion(study.mechanism, problem.freeParameters, Formulation::articulated);
     motion.g = recordOutputs(study.mechanism, problem.freeParameters, problem.outputs);
   } else {
     motion.f = record(0, static_cast<int>(problem.box.size()), [](auto, const auto&, const auto&, auto&) {});

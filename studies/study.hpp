@@ -10,6 +10,7 @@
 #include "analyses/flow/flow.hpp"
 #include "analyses/samples/ensemble.hpp"
 #include "analyses/uncertainty.hpp"
+#include "mechanics/elements/all.hpp"
 #include "mechanics/mechanism.hpp"
 #include "studies/results.hpp"
 #include "studies/watch.hpp"
@@ -53,10 +54,12 @@ struct Study {
 /// The greatest number of output times of a study.
 inline constexpr std::size_t maxOutputTimes = 100000;
 
-/// Reads and checks a study file. Throws StudyError.
-Study readStudy(const std::string& path);
+/// Reads and checks a study file, whose elements are of these types; own ones may be added to elementTypes(). Throws
+/// StudyError.
+Study readStudy(const std::string& path, const std::vector<Described>& types = elementTypes());
 
 /// The same for text at hand; `name` is what messages call the file.
-Study readStudyText(const std::string& text, const std::string& name);
+Study readStudyText(const std::string& text, const std::string& name,
+                    const std::vector<Described>& types = elementTypes());
 
 }  // namespace gamut

@@ -29,12 +29,12 @@ class StudyReader {
     study_.file = name;
   }
 
-  Study read() {
+  Study read(const std::vector<Described>& types) {
     const TomlSection file(source_, source_.root(), "",
                            {"study", "mechanism", "uncertain", "output", "interval", "stochastic", "fuzzy", "limits"});
     readStudyTable(source_.asTable(file.require("study", "a table [study]"), "study"));
     study_.mechanism =
-        readMechanism(source_, source_.asTable(file.require("mechanism", "a table [mechanism]"), "mechanism"));
+        readMechanism(source_, source_.asTable(file.require("mechanism", "a table [mechanism]"), "mechanism"), types);
     readUncertain(source_, tables(file, "uncertain"), study_);
     file.require("output", "a table [[output]] for each output that is wanted");
     for (const toml::table* table : tables(file, "output")) readOutput(*table);
@@ -177,20 +177,36 @@ class StudyReader {
 
   // ---- [[output]] ---------------------------------------------------------------------------------------------------
 
+  /// Of a quantity, or of an expression of quantities.
+  std::string unitOfOutput(const toml::node& node, const std::string& quantity) const {
+    const std::vector<std::string> known = study_.mechanism.outputQuantities();
+    if (std::find(known.begin(), known.end(), quantity) != known.end()) return study_.mechanism.unitOf(quantity);
+    const auto isExpression = [&] { return quantity.find_first_of(" +-*/^()") != std::string::npos; };
+    if (!isExpression())
+      source_.fail(node, fmt::format("unknown quantity '{}'", quantity), quantityExpected(quantity, known));
+    const Expression expression = source_.asExpression(node, "output.quantity");
+    for (const std::string& name : expression.names())
+      if (name != "t" && !study_.mechanism.knows(name) && std::find(known.begin(), known.end(), name) == known.end())
+        source_.fail(node, fmt::format("unknown quantity '{}'", name), quantityExpected(name, known));
+    try {
+      return unitOf(study_.mechanism.dimensionOf(expression));
+    } catch (const UnitError& error) {
+      source_.fail(node, error);
+    }
+  }
+
   void readOutput(const toml::table& table) {
     const TomlSection section(source_, table, "output", {"name", "quantity"});
     const toml::node& node = section.require("quantity", "what is wanted, such as \"tip.position.z\" or \"energy\"");
     const std::string quantity = source_.asText(node, "output.quantity");
-    const std::vector<std::string> known = study_.mechanism.outputQuantities();
-    if (std::find(known.begin(), known.end(), quantity) == known.end())
-      source_.fail(node, fmt::format("unknown quantity '{}'", quantity), quantityExpected(quantity, known));
+    const std::string unit = unitOfOutput(node, quantity);
     const std::string name = section.text("name", quantity);
     for (const OutputInfo& other : study_.outputs)
       if (other.name == name) {
         const toml::node* at = section.find("name");
         source_.fail(at == nullptr ? node : *at, fmt::format("two outputs are named '{}'", name), "different names");
       }
-    study_.outputs.push_back({name, quantity, study_.mechanism.unitOf(quantity)});
+    study_.outputs.push_back({name, quantity, unit});
   }
 
   // ---- [interval], [stochastic], [fuzzy], [limits] ------------------------------------------------------------------
@@ -276,15 +292,17 @@ class StudyReader {
 
 }  // namespace
 
-Study readStudyText(const std::string& text, const std::string& name) { return StudyReader(text, name).read(); }
+Study readStudyText(const std::string& text, const std::string& name, const std::vector<Described>& types) {
+  return StudyReader(text, name).read(types);
+}
 
-Study readStudy(const std::string& path) {
+Study readStudy(const std::string& path, const std::vector<Described>& types) {
   const std::string expected = "; expected a study file (TOML)";
   if (const std::string fault = whyUnreadable(path); !fault.empty()) throw StudyError(path + ": " + fault + expected);
   std::ifstream file(path, std::ios::binary);
   const std::string content{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   if (content.find('\0') != std::string::npos) throw StudyError(path + ": is no text" + expected);
-  return readStudyText(content, path);
+  return readStudyText(content, path, types);
 }
 
 }  // namespace gamut

@@ -51,46 +51,31 @@ class UncertainReader {
     study_.uncertain.push_back(std::move(result));
   }
 
-  /// Says so if a link whose nominal length is some may have none: a mechanism may be singular there.
-  void noteLengths(const std::vector<const toml::table*>& tables) {
-    for (const ElementDescription& element : study_.mechanism.elements()) {
-      const Link* link = std::get_if<Link>(&element);
-      if (link == nullptr) continue;
-      bool isSomewhere = false, mayVanish = true;
-      std::size_t first = study_.uncertain.size();
-      for (const Expression& component : link->vector) {
-        isSomewhere = isSomewhere || !contains(study_.mechanism.rangeOf(component), 0);
-        mayVanish = mayVanish && contains(study_.mechanism.rangeOf(component, ranges()), 0);
-        const auto varies = [&](const UncertainQuantity& q) {
-          return study_.mechanism.dependsOn(component, q.quantity);
-        };
-        const auto found = std::ranges::find_if(study_.uncertain, varies);
-        first = std::min(first, static_cast<std::size_t>(found - study_.uncertain.begin()));
-      }
-      if (!isSomewhere || !mayVanish || first == study_.uncertain.size()) continue;
-      study_.notes.push_back(source_.note(
-          *tables[first]->get("interval"),
-          fmt::format("the interval holds a value with which the link '{}' has no length; where the motion is not "
-                      "determined there, nothing can be guaranteed",
-                      link->name)));
-    }
-  }
-
-  /// Says so if within the intervals there are inertias that no body has. They may still make sense: of a body that
-  /// only turns about one axis, the other moments do not matter.
-  void noteInertia(const std::vector<const toml::table*>& tables) {
-    for (const ElementDescription& element : study_.mechanism.elements()) {
-      const Mass* mass = std::get_if<Mass>(&element);
-      const std::string fault = mass == nullptr ? "" : study_.mechanism.inertiaFault(*mass, ranges());
-      if (fault.empty()) continue;
-      const auto isOfMass = [&](const UncertainQuantity& uncertain) {
-        return std::any_of(mass->inertia.begin(), mass->inertia.end(), [&](const Expression& entry) {
-          return study_.mechanism.dependsOn(entry, uncertain.quantity);
-        });
+  /// Says so if within the intervals there are values that make no sense, such as an inertia that no body has. They may
+  /// still be meant: of a body that only turns about one axis, the other moments do not matter.
+  void noteFaults(const std::vector<const toml::table*>& tables) {
+    const Mechanism& mechanism = study_.mechanism;
+    for (const Described& element : mechanism.elements()) {
+      std::vector<Expression> asked;
+      const auto range = [&](const Expression& number) {
+        asked.push_back(number);
+        return mechanism.rangeOf(number, ranges());
       };
-      const auto first = std::find_if(study_.uncertain.begin(), study_.uncertain.end(), isOfMass);
+      element.faults(range);
+      std::vector<std::string> sentences;
+      for (const Fault& doubt : element.doubts([&](const Expression& n) { return mechanism.rangeOf(n); }, range))
+        sentences.push_back(doubt.sentence);
+      for (const Fault& fault : mechanism.faults(element, ranges()))
+        sentences.push_back("for some values in the intervals " + fault.sentence);
+      if (sentences.empty()) continue;
+      const auto varies = [&](const UncertainQuantity& uncertain) {
+        return std::ranges::any_of(asked, [&](const auto& n) { return mechanism.dependsOn(n, uncertain.quantity); });
+      };
+      const auto first = std::ranges::find_if(study_.uncertain, varies);
+      if (first == study_.uncertain.end()) continue;
       const toml::table& table = *tables[static_cast<std::size_t>(first - study_.uncertain.begin())];
-      study_.notes.push_back(source_.note(*table.get("interval"), "for some values in the intervals " + fault));
+      for (const std::string& sentence : sentences)
+        study_.notes.push_back(source_.note(*table.get("interval"), sentence));
     }
   }
 
@@ -356,8 +341,7 @@ class UncertainReader {
 void readUncertain(const TomlSource& source, const std::vector<const toml::table*>& tables, Study& study) {
   UncertainReader reader(source, study);
   for (const toml::table* table : tables) reader.read(*table);
-  reader.noteInertia(tables);
-  reader.noteLengths(tables);
+  reader.noteFaults(tables);
 }
 
 std::string quantityExpected(const std::string& word, const std::vector<std::string>& known) {

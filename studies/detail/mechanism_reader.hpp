@@ -6,7 +6,7 @@
 
 namespace gamut {
 
-/// Reads gravity, parameters and elements, in the order of the file. Throws StudyError.
-Mechanism readMechanism(const TomlSource& source, const toml::table& table);
+/// Reads gravity, parameters and elements of these types, in the order of the file. Throws StudyError.
+Mechanism readMechanism(const TomlSource& source, const toml::table& table, const std::vector<Described>& types);
 
 }  // namespace gamut

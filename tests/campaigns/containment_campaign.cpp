@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "analyses/flow/flow.hpp"
+#include "mechanics/elements/all.hpp"
 #include "mechanics/model.hpp"
 #include "tests/campaigns/quadruple_pendulum.hpp"
 

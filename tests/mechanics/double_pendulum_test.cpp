@@ -31,7 +31,7 @@ std::array<Precise, 2> preciseAccelerations(const std::vector<double>& x) {
 template <class S>
 std::vector<S> accelerationsInUserCode(const std::vector<S>& x) {
   Frame<S> K0, K1, K2, K3, K4;
-  AngularVariable<S> psi1, psi2;
+  Variable<S> psi1, psi2;
   RevoluteJoint<S> shoulder(K0, K1, psi1, axisY), elbow(K2, K3, psi2, axisY);
   RigidLink<S> upper(K1, K2, {0, 0, -1}), lower(K3, K4, {0, 0, -1});
   MassElement<S> middle(K2, 1.0), tip(K4, 1.0);

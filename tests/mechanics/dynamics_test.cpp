@@ -187,7 +187,7 @@ void givePower(Frame<double>& from, Frame<double>& to, Variable<double>& q, Elem
 TEST(Power, PassesThroughRevoluteJoints) {
   for (const Axis& axis : {axisX, axisY, axisZ, Axis(0, 0, -1), Axis(1, -2, 3)}) {
     Frame<double> from, to;
-    AngularVariable<double> angle;
+    Variable<double> angle;
     RevoluteJoint<double> joint(from, to, angle, axis);
     givePower(from, to, angle, joint);
   }
@@ -196,7 +196,7 @@ TEST(Power, PassesThroughRevoluteJoints) {
 TEST(Power, PassesThroughPrismaticJoints) {
   for (const Axis& axis : {axisX, axisY, axisZ, Axis(0, -2, 0), Axis(3, 1, 1)}) {
     Frame<double> from, to;
-    LinearVariable<double> path;
+    Variable<double> path;
     PrismaticJoint<double> joint(from, to, path, axis);
     givePower(from, to, path, joint);
   }
@@ -204,7 +204,7 @@ TEST(Power, PassesThroughPrismaticJoints) {
 
 TEST(Power, PassesThroughRigidLinks) {
   Frame<double> from, to;
-  AngularVariable<double> none;
+  Variable<double> none;
   RigidLink<double> link(from, to, {0.3, -0.4, 1.2}, Rotation<double>(Axis(1, 1, 3), 0.8));
   givePower(from, to, none, link);
 }
@@ -247,7 +247,7 @@ TEST(Top, OnThreeRevoluteJointsFollowsEulersEquation) {
   Matrix3<double> theta;
   theta << 0.4, 0.02, -0.03, 0.02, 0.5, 0.05, -0.03, 0.05, 0.3;
   Frame<double> k0, k1, k2, k3;
-  AngularVariable<double> psi, pitch, phi;
+  Variable<double> psi, pitch, phi;
   RevoluteJoint<double> yaw(k0, k1, psi, axisZ), tilt(k1, k2, pitch, axisY), roll(k2, k3, phi, axisX);
   MassElement<double> body(k3, mass, c, theta);
   Chain<double> chain;
@@ -283,7 +283,7 @@ TEST(Top, OnThreeRevoluteJointsFollowsEulersEquation) {
 template <class S>
 class ScrewJoint final : public Transmission<S> {
  public:
-  ScrewJoint(Frame<S>& from, Frame<S>& to, AngularVariable<S>& angle, double lead)
+  ScrewJoint(Frame<S>& from, Frame<S>& to, Variable<S>& angle, double lead)
       : Transmission<S>(from, to), angle_(angle), lead_(lead) {}
 
   void doMotion(MotionLevel level = MotionLevel::all) override {
@@ -313,10 +313,7 @@ class ScrewJoint final : public Transmission<S> {
     angle_.force += u_.dot(this->to_.tau) + S(lead_) * u_.dot(this->to_.f);
   }
 
-  void clearForces() override {
-    Transmission<S>::clearForces();
-    angle_.force = S(0.0);
-  }
+  std::vector<Speed<S>*> speeds() const override { return {&angle_}; }
 
   MovingPoint<S> inFrom(const MovingPoint<S>& point) const override {
     const Vector3<S> turning = u_ * angle_.rate;
@@ -325,7 +322,7 @@ class ScrewJoint final : public Transmission<S> {
   }
 
  private:
-  AngularVariable<S>& angle_;
+  Variable<S>& angle_;
   double lead_;
   Vector3<S> u_ = axisZ.unit<S>(), d_ = zeroVector<S>();
   Rotation<S> turn_;
@@ -333,7 +330,7 @@ class ScrewJoint final : public Transmission<S> {
 
 TEST(Power, PassesThroughAUsersOwnElement) {
   Frame<double> from, to;
-  AngularVariable<double> angle;
+  Variable<double> angle;
   ScrewJoint<double> screw(from, to, angle, 0.25);
   givePower(from, to, angle, screw);
 }
@@ -341,7 +338,7 @@ TEST(Power, PassesThroughAUsersOwnElement) {
 TEST(UsersOwnElement, NeedsMotionAndForceOnly) {
   const Program f = record(2, 0, [](auto, const auto& x, const auto&, auto& dx) {
     Frame<Recorded> ground, nut;
-    AngularVariable<Recorded> angle;
+    Variable<Recorded> angle;
     ScrewJoint<Recorded> screw(ground, nut, angle, 0.25);
     Matrix3<Recorded> inertia = Rotation<Recorded>().matrix();
     MassElement<Recorded> mass(nut, 2.0, {0.0, 0.0, 0.0}, inertia);

@@ -5,6 +5,7 @@
 #include <random>
 #include <vector>
 
+#include "mechanics/elements/all.hpp"
 #include "mechanics/mechanism.hpp"
 
 namespace gamut::testing {

@@ -1,5 +1,6 @@
 // The description of a mechanism: its names, units and complaints; and the helpers for names and rotations.
 #include "mechanics/mechanism.hpp"
+#include "mechanics/elements/all.hpp"
 
 #include <gmock/gmock.h>
 

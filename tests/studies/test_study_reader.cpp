@@ -88,7 +88,7 @@ TEST(StudyReader, TakesParametersByNameWithAFactor) {
   const Study study = readStudyText(sampleStudyWith("vector = [0, 0, \"-rod.length\"]",
                                                     "vector = [\"1/2 rod.length\", \"10 mm\", \"-2*rod.length\"]"),
                                     "s.toml");
-  const Link& link = std::get<Link>(study.mechanism.elements()[1]);
+  const Link& link = *study.mechanism.elements()[1].as<Link>();
   const auto valueAt = [&](std::size_t i) {
     return link.vector[i].evaluate<Interval>([](const std::string& name) {
       EXPECT_EQ(name, "rod.length");
@@ -115,8 +115,8 @@ TEST(StudyReader, TakesFormulasForNumbers) {
     EXPECT_TRUE(contains(found, midpoint(Interval(expected))) && width(found) < 1e-15) << toString(found);
   };
   is(mechanism.nominal("rod.length"), "0.5");
-  is(mechanism.rangeOf(std::get<Link>(mechanism.elements()[1]).vector[2]), "-1.197");
-  is(mechanism.rangeOf(std::get<Mass>(mechanism.elements()[2]).mass), "0.625");
+  is(mechanism.rangeOf(mechanism.elements()[1].as<Link>()->vector[2]), "-1.197");
+  is(mechanism.rangeOf(mechanism.elements()[2].as<Mass>()->mass), "0.625");
   EXPECT_EQ(mechanism.unitOf("rod.length"), "m");
 }
 
@@ -157,7 +157,7 @@ TEST(StudyReader, KeepsQuarterTurnsExact) {
                                     "parameters = { length = 0.5 }\nrotation = [{ axis = \"z\", angle = \"-90 deg\" }, "
                                     "{ axis = \"y\", angle = \"10 deg\" }]"),
                     "s.toml");
-  const Link& link = std::get<Link>(study.mechanism.elements()[1]);
+  const Link& link = *study.mechanism.elements()[1].as<Link>();
   EXPECT_EQ(link.rotation[0].quarterTurns, -1);
   EXPECT_EQ(link.rotation[1].quarterTurns, 0);
 }
@@ -215,7 +215,7 @@ rest_length = 1
 damping = 2
 from_point = [0, 3, 0]
 [[mechanism.element]]
-type = "spring-damper"
+type = "joint-spring"
 name = "friction"
 joint = "hinge"
 damping = "0.1 N m s/rad"
@@ -464,13 +464,12 @@ constexpr BadStudy badStudies[] = {
     {"[stochastic]", "[limits]\nmemory = \"8 kg\"\n[stochastic]",
      "s.toml:40:10: limits.memory is written in a unit of the kind kg; expected a number in GB, or with a unit of that "
      "kind"},
-    {"mass = \"250 g\"", "mass = -1",
-     "s.toml:27:8: mechanism.element.mass is negative; expected a mass of at least 0 kg"},
+    {"mass = \"250 g\"", "mass = -1", "s.toml:27:8: the mass of 'bob' is negative; expected a mass of at least 0 kg"},
     {"parameters = { length = 0.5 }\n[[mechanism.element]]\ntype = \"mass\"\nname = \"bob\"\nat = \"tip\"\nmass = "
      "\"250 g\"",
      "parameters = { length = 0.5, weight = \"250 g\" }\n[[mechanism.element]]\ntype = \"mass\"\nname = \"bob\"\n"
      "at = \"tip\"\nmass = \"-rod.weight\"",
-     "s.toml:27:8: mechanism.element.mass is negative; expected a mass of at least 0 kg"},
+     "s.toml:27:8: the mass of 'bob' is negative; expected a mass of at least 0 kg"},
     {"quantity = \"hinge.angle\"\ninterval = \"± 1 %\"", "quantity = \"bob.mass\"\ninterval = \"± 101 %\"",
      "s.toml:31:12: uncertain.interval reaches down to a negative mass; expected a lower bound of at least 0 kg"},
     {"± 1 %", "± 1 %%", "s.toml:31:12: uncertain.interval: there is more than one '%' at column 5; expected one '%'"},
@@ -533,11 +532,12 @@ constexpr BadStudy badStudies[] = {
      "s.toml:8:18: mechanism.gravity is written in a unit of the kind m; expected a number in m/s^2, or with a unit of "
      "that kind"},
     {"type = \"revolute\"", "type = \"revolut\"",
-     "s.toml:10:8: mechanism.element.type is \"revolut\"; expected 'revolute'? (one of: revolute, prismatic, link, "
-     "mass, spring-damper)"},
+     "s.toml:10:8: mechanism.element.type is \"revolut\"; expected 'revolute'? (one of: revolute, prismatic, weld, "
+     "link, mass, spring-damper, "
+     "joint-spring, force, joint-force, drive, state, distance, relative-motion)"},
     {"type = \"revolute\"", "",
-     "s.toml:9:1: 'mechanism.element.type' is missing; expected type = \"revolute\", \"prismatic\", \"link\", \"mass\" "
-     "or \"spring-damper\""},
+     "s.toml:9:1: 'mechanism.element.type' is missing; expected type = one of: revolute, prismatic, weld, link, mass, "
+     "spring-damper, joint-spring, force, joint-force, drive, state, distance, relative-motion"},
     {"axis = \"x\"", "axis = \"w\"",
      "s.toml:14:8: mechanism.element.axis is \"w\"; expected 'x'? (one of: x, y, z, -x, -y, -z)"},
     {"axis = \"x\"", "axis = [0, 0, 0]",
@@ -573,7 +573,7 @@ constexpr BadStudy badStudies[] = {
     {"length = 0.5", "length = \"0.5 kg\"",
      "s.toml:22:25: the parameter 'rod.length' is in kg, but 'rod.vector.z' is in m; expected a parameter in m"},
     {"[[uncertain]]",
-     "[[mechanism.element]]\ntype = \"spring-damper\"\nname = \"sp\"\njoint = \"hing\"\nstiffness = \"1 N "
+     "[[mechanism.element]]\ntype = \"joint-spring\"\nname = \"sp\"\njoint = \"hing\"\nstiffness = \"1 N "
      "m/rad\"\nrest = \"1 mm\"\n[[uncertain]]",
      "s.toml:31:9: unknown joint 'hing'; expected 'hinge' (for 'sp')"},
     {"\"-rod.length\"", "\"-rod.lenght\"",
@@ -588,7 +588,7 @@ constexpr BadStudy badStudies[] = {
     {"mass = \"250 g\"", "mass = [1]",
      "s.toml:27:8: mechanism.element.mass is a list; expected a number, or text with a unit such as \"135 deg\""},
     {"mass = \"250 g\"", "",
-     "s.toml:23:1: 'mechanism.element.mass' is missing; expected the mass in kg, or with a unit such as \"250 g\""},
+     "s.toml:23:1: 'mechanism.element.mass' is missing; expected the mass, not negative, in kg"},
     {"mass = \"250 g\"", "mass = 1\ninertia = [1, 2]",
      "s.toml:28:11: mechanism.element.inertia has 2 numbers; expected [xx, yy, zz] or [xx, yy, zz, xy, yz, zx] in kg "
      "m^2"},

@@ -1,10 +1,10 @@
 // A mechanical system in minimal coordinates and its equations of motion, got from doMotion and doForce alone (the
-// kinetostatic method: one pass with q̈ = 0, one with each unit acceleration).
+// kinetostatic method: one pass with u̇ = 0, one with each unit acceleration).
 //
-// M q̈ = Q: the inertia matrix M from the inertia forces at unit accelerations, Q the forces that remain at q̈ = 0. Up to
-// two variables are eliminated (least_constraint.hpp), the systems of more are solved as wholes: with M, which needs
-// the fewest operations, or, for enclosures, cut at the joints (sparse_equations.hpp). No path depends on a scalar's
-// value.
+// M u̇ = Q: the inertia matrix M from the inertia forces at unit accelerations, Q the forces that remain at u̇ = 0. Up to
+// two speeds are eliminated (least_constraint.hpp); systems of more are solved joint by joint, in the fewest operations
+// (articulated_bodies.hpp), or as wholes, cut at the joints for enclosures (sparse_equations.hpp). No path depends on a
+// scalar's value.
 #pragma once
 
 #include <algorithm>
@@ -14,26 +14,35 @@
 #include <vector>
 
 #include "mechanics/element.hpp"
-#include "mechanics/formulation.hpp"
-#include "mechanics/least_constraint.hpp"
+#include "mechanics/equations/articulated_bodies.hpp"
+#include "mechanics/equations/formulation.hpp"
+#include "mechanics/equations/least_constraint.hpp"
 #include "scalars/algebra/linear_system.hpp"
 
 namespace gamut {
 
 template <class S>
+class System;
+
+/// Throws std::logic_error if a load depends on accelerations.
+void checkLoads(System<Recorded>& system);
+/// sparse_equations.hpp
+std::vector<Recorded> sparseAccelerations(System<Recorded>& system);
+
+template <class S>
 class System {
  public:
-  using Variables = std::vector<std::reference_wrapper<Variable<S>>>;
+  using Speeds = std::vector<std::reference_wrapper<Speed<S>>>;
 
   /// `gravity`: the acceleration of free fall in the inertial frame `base` [m/s²], e.g. {0, 0, -9.81}. Everything named
-  /// here must outlive the system. Throws std::invalid_argument without a variable or if an element moves `base`.
-  System(Variables variables, Chain<S>& chain, Frame<S>& base, Vector3<S> gravity)
-      : variables_(std::move(variables)), chain_(chain), base_(base), gravity_(std::move(gravity)) {
-    if (variables_.empty()) throw std::invalid_argument("a system needs at least one variable");
+  /// here must outlive the system. Speeds of joints that are not among `speeds` are driven: an element ahead of the
+  /// joint sets them. Throws std::invalid_argument if an element moves `base`.
+  System(Speeds speeds, Chain<S>& chain, Frame<S>& base, Vector3<S> gravity)
+      : speeds_(std::move(speeds)), chain_(chain), base_(base), gravity_(std::move(gravity)) {
     if (base.origin) throw std::invalid_argument("the inertial frame " + base.name + " must not be moved");
   }
 
-  int degreesOfFreedom() const { return static_cast<int>(variables_.size()); }
+  int degreesOfFreedom() const { return static_cast<int>(speeds_.size()); }
 
   /// Moves every frame by the variables' present positions, rates and accelerations.
   void doMotion(MotionLevel level = MotionLevel::all) {
@@ -52,11 +61,11 @@ class System {
   /// The variables' generalised forces after doForce.
   std::vector<S> generalisedForces() const {
     std::vector<S> q;
-    for (const Variable<S>& variable : variables_) q.push_back(variable.force);
+    for (const Speed<S>& speed : speeds_) q.push_back(speed.force);
     return q;
   }
 
-  /// The generalised forces that remain at q̈ = 0: with M q̈ = residual. With zero rates, the static forces.
+  /// The generalised forces that remain at u̇ = 0: with M u̇ = residual. With zero rates, the static forces.
   std::vector<S> residual() {
     setAccelerations(zeros());
     doMotion();
@@ -78,19 +87,23 @@ class System {
     return m;
   }
 
-  /// q̈ at the present positions and rates; the variables keep it and all frames move with it.
-  /// Throws std::domain_error, naming the variable, if a variable is known to move no inertia.
+  /// u̇ at the present positions and rates; the speeds keep it and all frames move with it.
+  /// Throws std::domain_error, naming the speed, if one is known to move no inertia.
   std::vector<S> accelerations(Formulation formulation = Formulation::sparse) {
+    if constexpr (std::is_same_v<S, Recorded>) checkLoads(*this);
     setAccelerations(zeros());
     doMotion();
-    const std::vector<std::vector<S>> columns = unitColumns();
-    const std::vector<S> result = degreesOfFreedom() <= 2 ? eliminated(columns) : solved(formulation);
+    if (speeds_.empty()) return {};
+    const std::vector<S> result = degreesOfFreedom() <= 2 ? eliminated()
+                                  : formulation == Formulation::articulated
+                                      ? articulatedAccelerations(speeds_, chain_, base_)
+                                      : solved();
     setAccelerations(result);
     doMotion();
     return result;
   }
 
-  /// Motion and force once through the chain with these q̈. On the way `visit` sees, and may change, every component of
+  /// Motion and force once through the chain with these u̇. On the way `visit` sees, and may change, every component of
   /// what passes each joint: ω̇ and a of the frame behind it, then, inwards again, f and τ that act on this frame.
   template <class Visit>
   void pass(const std::vector<S>& accelerations, Visit visit) {
@@ -102,26 +115,41 @@ class System {
     base_.a = -gravity_;
     for (Element<S>* element : chain_.elements()) {
       element->doMotion(MotionLevel::all);
-      if (Frame<S>* frame = element->drivenFrame()) visitBoth(frame->omegaDot, frame->a);
+      if (const auto* joint = jointAt(*element)) visitBoth(joint->to().omegaDot, joint->to().a);
     }
     base_.clearForces();
     chain_.clearForces();
     for (auto element = chain_.elements().rbegin(); element != chain_.elements().rend(); ++element) {
-      if (Frame<S>* frame = (*element)->drivenFrame()) visitBoth(frame->f, frame->tau);
+      if (const auto* joint = jointAt(**element)) visitBoth(joint->to().f, joint->to().tau);
       (*element)->doForce(ForceKind::all);
     }
   }
 
-  S kineticEnergy() const { return chain_.kineticEnergy(); }
+  S kineticEnergy() const {
+    S sum(0.0);
+    for (const Inertia<S>* inertia : chain_.inertias()) sum = sum + inertia->kineticEnergy();
+    return sum;
+  }
   S potentialEnergy() const { return chain_.potentialEnergy(gravity_); }
   /// Kinetic and potential energy of the present motion (after doMotion) [J].
   S energy() const { return kineticEnergy() + potentialEnergy(); }
 
- private:
-  std::vector<S> zeros() const { return std::vector<S>(variables_.size(), S(0.0)); }
   void setAccelerations(const std::vector<S>& values) {
-    for (std::size_t i = 0; i < values.size(); ++i) variables_[i].get().acceleration = values[i];
+    for (std::size_t i = 0; i < values.size(); ++i) speeds_[i].get().acceleration = values[i];
   }
+
+ private:
+  /// The element as one that is moved by a speed of the system, or null.
+  const Transmission<S>* jointAt(Element<S>& element) const {
+    const auto* transmission = dynamic_cast<const Transmission<S>*>(&element);
+    if (transmission == nullptr) return nullptr;
+    for (const Speed<S>* own : transmission->speeds())
+      for (const Speed<S>& speed : speeds_)
+        if (own == &speed) return transmission;
+    return nullptr;
+  }
+
+  std::vector<S> zeros() const { return std::vector<S>(speeds_.size(), S(0.0)); }
   void moveUnit(std::size_t j) {
     std::vector<S> unit = zeros();
     unit[j] = S(1.0);
@@ -131,7 +159,7 @@ class System {
   std::vector<S> bodyAccelerations() const {
     std::vector<S> rows;
     std::vector<InertiaWeight<S>> weights;
-    chain_.collectInertia(rows, weights);
+    for (const Inertia<S>* inertia : chain_.inertias()) inertia->collectRows(rows, weights);
     return rows;
   }
   std::vector<S> bodyAccelerations(const std::vector<S>& values) {
@@ -143,7 +171,7 @@ class System {
   std::vector<InertiaWeight<S>> inertiaWeights() const {
     std::vector<S> rows;
     std::vector<InertiaWeight<S>> weights;
-    chain_.collectInertia(rows, weights);
+    for (const Inertia<S>* inertia : chain_.inertias()) inertia->collectRows(rows, weights);
     std::erase_if(weights, [](const InertiaWeight<S>& weight) { return isKnownZero(weight.w); });
     return weights;
   }
@@ -152,19 +180,20 @@ class System {
   std::vector<std::vector<S>> unitColumns() {
     std::vector<std::vector<S>> columns;
     const std::vector<InertiaWeight<S>> weights = inertiaWeights();
-    for (std::size_t j = 0; j < variables_.size(); ++j) {
+    for (std::size_t j = 0; j < speeds_.size(); ++j) {
       moveUnit(j);
       columns.push_back(bodyAccelerations());
       const auto isMoved = [&](int row) { return !isKnownZero(columns[j][static_cast<std::size_t>(row)]); };
       if (std::none_of(weights.begin(), weights.end(), [&](const auto& w) { return isMoved(w.k) || isMoved(w.l); }))
-        throw std::domain_error("the variable " + variables_[j].get().name + " moves no mass");
+        throw std::domain_error("the variable " + speeds_[j].get().name + " moves no mass");
     }
     return columns;
   }
 
-  std::vector<S> solved(Formulation formulation);
+  std::vector<S> solved();
 
-  std::vector<S> eliminated(const std::vector<std::vector<S>>& columns) {
+  std::vector<S> eliminated() {
+    const std::vector<std::vector<S>> columns = unitColumns();
     doForce(ForceKind::applied);
     std::vector<S> loads = generalisedForces();
     const std::vector<InertiaWeight<S>> weights = inertiaWeights();
@@ -174,8 +203,8 @@ class System {
     return result;
   }
 
-  /// Any q̈ is as good a start as 0. Where a row moves with q̈_j by a number that is not zero, and with no later
-  /// variable, the q̈_j that holds it still is taken, if the row is then known to be zero: that is one component less to
+  /// Any u̇ is as good a start as 0. Where a row moves with u̇_j by a number that is not zero, and with no later
+  /// variable, the u̇_j that holds it still is taken, if the row is then known to be zero: that is one component less to
   /// be carried through the rest of the recorded program. For scalars other than Recorded nothing is known, and the
   /// start is 0.
   std::vector<S> start(const std::vector<std::vector<S>>& columns, const std::vector<InertiaWeight<S>>& weights) {
@@ -202,19 +231,16 @@ class System {
     return start;
   }
 
-  Variables variables_;
+  Speeds speeds_;
   Chain<S>& chain_;
   Frame<S>& base_;
   Vector3<S> gravity_;
 };
 
-std::vector<Recorded> sparseAccelerations(System<Recorded>& system);  // sparse_equations.hpp
-
 template <class S>
-std::vector<S> System<S>::solved(Formulation formulation) {
-  if constexpr (std::is_same_v<S, Recorded>) {
-    if (formulation == Formulation::sparse) return sparseAccelerations(*this);
-  }
+std::vector<S> System<S>::solved() {
+  unitColumns();
+  if constexpr (std::is_same_v<S, Recorded>) return sparseAccelerations(*this);
   std::vector<S> result = residual(), entries;
   const auto m = inertiaMatrix();
   for (int i = 0; i < m.rows(); ++i)

@@ -1,7 +1,7 @@
 // J = ∫ (|r|² I - r rᵀ) dm, so that S = ∫ r rᵀ dm = tr(J)/2 I - J is positive semidefinite: with J's principal moments
 // a, b, c that of S are (b + c - a)/2 and so on, hence the triangle inequalities, of which J's own semidefiniteness
 // follows.
-#include "mechanics/inertia.hpp"
+#include "mechanics/elements/inertia.hpp"
 
 namespace gamut {
 namespace {

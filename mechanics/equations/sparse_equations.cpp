@@ -1,5 +1,5 @@
 // The passes with unknowns at the cuts, their derivatives as entries, and the solution.
-#include "mechanics/sparse_equations.hpp"
+#include "mechanics/equations/sparse_equations.hpp"
 
 #include <cstddef>
 #include <span>

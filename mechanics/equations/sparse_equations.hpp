@@ -8,7 +8,7 @@
 
 #include <vector>
 
-#include "mechanics/system.hpp"
+#include "mechanics/equations/system.hpp"
 #include "scalars/recorded.hpp"
 
 namespace gamut {

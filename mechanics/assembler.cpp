@@ -1,0 +1,149 @@
+// Numbers and expressions, for each scalar. Time derivatives are those of the recorded expression.
+#include "mechanics/assembler.hpp"
+
+#include <algorithm>
+
+#include "mechanics/names.hpp"
+#include "scalars/fuzzy.hpp"
+#include "scalars/program/differentiation.hpp"
+#include "scalars/recorded.hpp"
+#include "scalars/samples.hpp"
+
+namespace gamut {
+namespace {
+
+/// f, f' and f'' of an expression of time, as functions of its other names: time is the program's only state.
+Program withDerivatives(const Expression& expression, const std::vector<std::string>& parameters) {
+  const Program f = record(1, static_cast<int>(parameters.size()), 1, [&](auto, const auto& t, const auto& p, auto& y) {
+    y[0] = expression.evaluate<Recorded>([&](const std::string& name) {
+      const auto parameter = std::find(parameters.begin(), parameters.end(), name);
+      return parameter == parameters.end() ? t[0] : p[static_cast<std::size_t>(parameter - parameters.begin())];
+    });
+  });
+  return f.differentiated().differentiated();  // f, f', then the derivatives of both
+}
+
+/// The outputs of a program of elementary functions at t and p. (Evaluator serves no Recorded.)
+template <class S>
+std::vector<S> valuesOf(const Program& program, const S& t, const std::vector<S>& p) {
+  using std::atan, std::cos, std::exp, std::log, std::sin, std::sqrt, std::tanh;
+  std::vector<S> values;
+  for (const Node& node : program.nodes()) {
+    const auto a = [&]() -> const S& { return values[static_cast<std::size_t>(node.a)]; };
+    const auto b = [&]() -> const S& { return values[static_cast<std::size_t>(node.b)]; };
+    const auto value = [&]() -> S {
+      switch (node.op) {
+        case Op::state:
+        case Op::time:
+          return t;
+        case Op::parameter:
+          return p[static_cast<std::size_t>(node.a)];
+        case Op::constant:
+          return constant<S>(program.constants()[static_cast<std::size_t>(node.a)]);
+        case Op::add:
+          return a() + b();
+        case Op::sub:
+          return a() - b();
+        case Op::neg:
+          return -a();
+        case Op::mul:
+          return a() * b();
+        case Op::sqr:
+          return square(a());
+        case Op::recip:
+          return S(1.0) / a();
+        case Op::sqrt:
+          return sqrt(a());
+        case Op::exp:
+          return exp(a());
+        case Op::log:
+          return log(a());
+        case Op::atan:
+          return atan(a());
+        case Op::sin:
+          return sin(a());
+        case Op::cos:
+          return cos(a());
+        case Op::tanh:
+          return tanh(a());
+        case Op::sech2:
+          return S(1.0) - square(S(tanh(a())));
+        case Op::solution:
+          break;
+      }
+      throw std::logic_error("an expression holds no linear system");
+    };
+    values.push_back(value());
+  }
+  std::vector<S> outputs;
+  for (int node : program.outputNodes()) outputs.push_back(values[static_cast<std::size_t>(node)]);
+  return outputs;
+}
+
+}  // namespace
+
+template <class S>
+S Assembler<S>::number(const Expression& number) const {
+  return number.evaluate<S>([this](const std::string& name) {
+    const auto parameter = parameters_.find(name);
+    return parameter != parameters_.end() ? parameter->second : initials_.at(name);
+  });
+}
+
+template <class S>
+Vector3<S> Assembler<S>::vector(const ExpressionVector& numbers) const {
+  return Vector3<S>(number(numbers[0]), number(numbers[1]), number(numbers[2]));
+}
+
+template <class S>
+Matrix3<S> Assembler<S>::symmetric(const std::array<Expression, 6>& entries) const {
+  const S xx = number(entries[0]), yy = number(entries[1]), zz = number(entries[2]);
+  const S xy = number(entries[3]), yz = number(entries[4]), zx = number(entries[5]);
+  Matrix3<S> matrix;
+  matrix << xx, xy, zx, xy, yy, yz, zx, yz, zz;
+  return matrix;
+}
+
+template <class S>
+Rotation<S> Assembler<S>::rotation(const std::vector<FixedRotation>& rotations) const {
+  Rotation<S> result;
+  for (const FixedRotation& r : rotations) result = result.then(Rotation<S>(r.axis, number(r.angle), r.quarterTurns));
+  return result;
+}
+
+template <class S>
+S Assembler<S>::valueOf(const std::string& name) const {
+  if (name == "t") return time_;
+  const auto parameter = parameters_.find(name);
+  if (parameter != parameters_.end()) return parameter->second;
+  if (const auto measured = measured_.find(name); measured != measured_.end()) return measured->second();
+  std::vector<std::string> known;
+  for (const auto& [quantity, value] : measured_) known.push_back(quantity);
+  throw UnknownName("output quantity", name, known);
+}
+
+template <class S>
+Signal<S> Assembler<S>::signal(const Expression& expression) const {
+  return
+      [this, expression] { return expression.evaluate<S>([this](const std::string& name) { return valueOf(name); }); };
+}
+
+template <class S>
+TimeFunction<S> Assembler<S>::timeFunction(const Expression& expression) const {
+  std::vector<std::string> names = expression.names();
+  std::erase(names, "t");
+  std::vector<S> values;
+  for (const std::string& name : names) values.push_back(parameters_.at(name));
+  return [this, program = withDerivatives(expression, names), values] {
+    const std::vector<S> y = valuesOf(program, time_, values);
+    return std::array<S, 3>{y[0], y[1], y[3]};
+  };
+}
+
+template class Assembler<double>;
+template class Assembler<Interval>;
+template class Assembler<Samples>;
+template class Assembler<Fuzzy>;
+template class Assembler<Recorded>;
+
+}  // namespace gamut

@@ -1,0 +1,127 @@
+// A Described holds the description of an element of any type, by value. A type is any struct with
+//
+//   static constexpr const char* type = "drag";          its word in files
+//   static constexpr const char* summary = "air drag …"; half a sentence
+//   std::string name;
+//   void describe(Fields& f);                             what it consists of
+//   template <class S> void assemble(Assembler<S>& a) const;
+//
+// and, if some values make no sense, `std::vector<Fault> faults(const RangeOf& rangeOf) const`; if a range of values
+// makes none that a single value would not, `doubts(const RangeOf& nominal, const RangeOf& range) const` likewise. Its
+// assembly for every scalar is compiled where it is instantiated: for own types where they become a Described, for
+// those of the library once, by GAMUT_ASSEMBLE in their own file.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mechanics/fields.hpp"
+
+namespace gamut {
+
+class Fuzzy;
+class Recorded;
+class Samples;
+
+template <class S>
+class Assembler;
+
+/// The range of a number within what is known of its parameters.
+using RangeOf = std::function<Interval(const Expression& number)>;
+
+/// What is wrong with the numbers of an element.
+struct Fault {
+  std::string key;       ///< of the number
+  std::string sentence;  ///< "the mass of 'bob' is negative"
+  std::string expected;  ///< "a mass of at least 0 kg"
+};
+
+class Described {
+ public:
+  template <class T>
+  requires requires(T element, Fields& fields) { element.describe(fields), element.name, T::type; }
+  Described(T element) : model_(std::make_unique<Model<T>>(std::move(element))) {}  // NOLINT: implicit, as it is one
+  Described(const Described& other) : model_(other.model_->clone()) {}
+  Described(Described&&) noexcept = default;
+  Described& operator=(Described other) noexcept {
+    model_ = std::move(other.model_);
+    return *this;
+  }
+  ~Described() = default;
+
+  std::string type() const { return model_->type(); }
+  std::string summary() const { return model_->summary(); }
+  const std::string& name() const { return model_->name(); }
+  void setName(std::string name) { model_->name() = std::move(name); }
+  /// The element itself, if it is a T, else null.
+  template <class T>
+  const T* as() const {
+    const auto* model = dynamic_cast<const Model<T>*>(model_.get());
+    return model == nullptr ? nullptr : &model->element;
+  }
+  void describe(Fields& fields) { model_->describe(fields); }
+  template <class S>
+  void assemble(Assembler<S>& assembler) const {
+    model_->assemble(assembler);
+  }
+  std::vector<Fault> faults(const RangeOf& rangeOf) const { return model_->faults(rangeOf); }
+  std::vector<Fault> doubts(const RangeOf& nominal, const RangeOf& range) const {
+    return model_->doubts(nominal, range);
+  }
+
+ private:
+  struct Concept {
+    virtual ~Concept() = default;
+    virtual std::unique_ptr<Concept> clone() const = 0;
+    virtual std::string type() const = 0;
+    virtual std::string summary() const = 0;
+    virtual std::string& name() = 0;
+    virtual void describe(Fields& fields) = 0;
+    virtual void assemble(Assembler<double>& assembler) const = 0;
+    virtual void assemble(Assembler<Interval>& assembler) const = 0;
+    virtual void assemble(Assembler<Samples>& assembler) const = 0;
+    virtual void assemble(Assembler<Fuzzy>& assembler) const = 0;
+    virtual void assemble(Assembler<Recorded>& assembler) const = 0;
+    virtual std::vector<Fault> faults(const RangeOf& rangeOf) const = 0;
+    virtual std::vector<Fault> doubts(const RangeOf& nominal, const RangeOf& range) const = 0;
+  };
+
+  template <class T>
+  struct Model final : Concept {
+    explicit Model(T own) : element(std::move(own)) {}
+    std::unique_ptr<Concept> clone() const override { return std::make_unique<Model>(element); }
+    std::string type() const override { return T::type; }
+    std::string summary() const override { return T::summary; }
+    std::string& name() override { return element.name; }
+    void describe(Fields& fields) override { element.describe(fields); }
+    void assemble(Assembler<double>& a) const override { element.assemble(a); }
+    void assemble(Assembler<Interval>& a) const override { element.assemble(a); }
+    void assemble(Assembler<Samples>& a) const override { element.assemble(a); }
+    void assemble(Assembler<Fuzzy>& a) const override { element.assemble(a); }
+    void assemble(Assembler<Recorded>& a) const override { element.assemble(a); }
+    std::vector<Fault> faults(const RangeOf& rangeOf) const override {
+      if constexpr (requires { element.faults(rangeOf); }) return element.faults(rangeOf);
+      return {};
+    }
+    std::vector<Fault> doubts(const RangeOf& nominal, const RangeOf& range) const override {
+      if constexpr (requires { element.doubts(nominal, range); }) return element.doubts(nominal, range);
+      return {};
+    }
+    T element;
+  };
+
+  std::unique_ptr<Concept> model_;
+};
+
+}  // namespace gamut
+
+/// Compiles the assembly of an element type of the library for every scalar.
+#define GAMUT_ASSEMBLE(Type)                                \
+  template void Type::assemble(Assembler<double>&) const;   \
+  template void Type::assemble(Assembler<Interval>&) const; \
+  template void Type::assemble(Assembler<Samples>&) const;  \
+  template void Type::assemble(Assembler<Fuzzy>&) const;    \
+  template void Type::assemble(Assembler<Recorded>&) const

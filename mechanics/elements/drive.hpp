@@ -1,0 +1,21 @@
+// A drive: a joint's motion is given as an expression of time.
+#pragma once
+
+#include "mechanics/described.hpp"
+
+namespace gamut {
+
+struct Drive {
+  static constexpr const char* type = "drive";
+  static constexpr const char* summary =
+      "a joint's coordinate as an expression of time `t`, instead of a state; its rate and acceleration follow";
+
+  std::string name, joint;
+  Expression position = 0.0;  ///< rad or m
+
+  void describe(Fields& f);
+  template <class S>
+  void assemble(Assembler<S>& a) const;
+};
+
+}  // namespace gamut

@@ -1,0 +1,23 @@
+#include "mechanics/elements/prismatic.hpp"
+
+#include "mechanics/assembler.hpp"
+#include "mechanics/joints.hpp"
+
+namespace gamut {
+
+void Prismatic::describe(Fields& f) {
+  f.frame({"from", "", "the frame that carries the joint"}, from);
+  f.movedFrame({"to", "", "the frame that slides"}, to, from);
+  f.axis({"axis", "", "along which it slides", true}, axis);
+  f.coordinate({"displacement", "m", "at the start"}, displacement, Coordinate::displacement,
+               {"rate", "m/s", "at the start"}, rate);
+}
+
+template <class S>
+void Prismatic::assemble(Assembler<S>& a) const {
+  a.template add<PrismaticJoint<S>>(a.frame(from), a.frame(to), a.variable("displacement"), axis);
+}
+
+GAMUT_ASSEMBLE(Prismatic);
+
+}  // namespace gamut

@@ -1,0 +1,21 @@
+// A weld: `to` is `from` by another name, or turned against it for good.
+#pragma once
+
+#include "mechanics/described.hpp"
+
+namespace gamut {
+
+struct Weld {
+  static constexpr const char* type = "weld";
+  static constexpr const char* summary =
+      "a fixed connection: `to` stands where `from` stands, turned by fixed rotations";
+
+  std::string name, from, to;
+  std::vector<FixedRotation> rotation = {};
+
+  void describe(Fields& f);
+  template <class S>
+  void assemble(Assembler<S>& a) const;
+};
+
+}  // namespace gamut

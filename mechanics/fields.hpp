@@ -1,0 +1,104 @@
+// The words of an element: what its description consists of, said once by its describe(Fields&) and visited by the
+// mechanism, which checks them, by readers of files, which fill them in, and by the documentation.
+//
+//   void describe(Fields& f) {
+//     f.frame({"at", "", "where it acts"}, at);
+//     f.number({"coefficient", "N s^2/m^2", "of the drag"}, coefficient);
+//   }
+#pragma once
+
+#include <array>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "mechanics/axis.hpp"
+#include "mechanics/expression.hpp"
+
+namespace gamut {
+
+using ExpressionVector = std::array<Expression, 3>;
+
+/// A fixed rotation: exact right angles plus an angle [rad] about an axis.
+struct FixedRotation {
+  Axis axis;
+  int quarterTurns = 0;
+  Expression angle = 0.0;
+};
+
+/// How a number's name is written: as ELEMENT.KEY, in SI units.
+struct Word {
+  std::string key;
+  std::string unit;     ///< empty for what is no number
+  std::string meaning;  ///< half a sentence
+  bool isRequired = false;
+};
+
+/// Names of the components of vectors, and of the entries of a symmetric matrix.
+inline constexpr std::array<const char*, 3> components = {"x", "y", "z"};
+inline constexpr std::array<const char*, 6> symmetricEntries = {"xx", "yy", "zz", "xy", "yz", "zx"};
+
+/// Whether a coordinate turns [rad] or slides [m].
+enum class Coordinate { angle, displacement };
+
+/// "rad", "m"
+constexpr const char* unitOf(Coordinate kind) { return kind == Coordinate::angle ? "rad" : "m"; }
+/// Of the generalised force: "N m", "N".
+constexpr const char* forceUnitOf(Coordinate kind) { return kind == Coordinate::angle ? "N m" : "N"; }
+
+class Fields {
+ public:
+  Fields() = default;
+  Fields(const Fields&) = delete;
+  Fields& operator=(const Fields&) = delete;
+  virtual ~Fields() = default;
+
+  /// A frame that an element before has defined.
+  virtual void frame(const Word& word, std::string& name) = 0;
+  /// The same; it is not `other`.
+  virtual void otherFrame(const Word& word, std::string& name, const std::string& /*other*/) { frame(word, name); }
+  /// The same, and a mass is fixed to it.
+  virtual void massFrame(const Word& word, std::string& name) { frame(word, name); }
+  /// A frame that this element moves by another.
+  virtual void movedFrame(const Word& word, std::string& name, const std::string& from) = 0;
+  /// One of the words.
+  virtual void choice(const Word& word, std::string& value, const std::vector<std::string>& choices) = 0;
+  /// A direction fixed in the frames.
+  virtual void axis(const Word& word, Axis& axis) = 0;
+  /// Fixed rotations, one after the other; their angles are KEY.1, KEY.2, …
+  virtual void rotations(const Word& word, std::vector<FixedRotation>& rotations) = 0;
+
+  // Numbers that do not change in a motion.
+  virtual void number(const Word& word, Expression& number) = 0;
+  /// Several of one kind, a list in files: KEY.x …; `least` of them are given.
+  virtual void numbers(const Word& word, std::span<Expression> numbers, std::span<const char* const> names,
+                       std::size_t least) = 0;
+  void vector(const Word& word, ExpressionVector& vector) { numbers(word, vector, components, 3); }
+
+  // States, with their initial values. Positions and speeds of a joint, own states.
+  /// A coordinate and, by another key, its rate.
+  virtual void coordinate(const Word& position, Expression& initial, Coordinate kind, const Word& rate,
+                          Expression& initialRate) = 0;
+  /// A position that is no coordinate (its rate is given by the assembled element), and a speed.
+  virtual void position(const Word& word, Expression& initial) = 0;
+  virtual void speed(const Word& word, Expression& initial) = 0;
+  /// The one state of an element, named like the element; its unit is the word's, or, if that is empty, that of the
+  /// initial value. Returns the unit.
+  virtual std::string state(const Word& word, Expression& initial) = 0;
+
+  // What refers to motion.
+  /// A coordinate of an element before: JOINT, if the joint has just one, or JOINT.KEY. Returns its kind.
+  virtual Coordinate coordinateOf(const Word& word, std::string& name) = 0;
+  /// The same; from now on it is no state but follows what this element says. Its initial values must not be given.
+  virtual Coordinate drivenCoordinate(const Word& word, std::string& name) { return coordinateOf(word, name); }
+  /// An expression of time alone and parameters.
+  virtual void timeFunction(const Word& word, Expression& number) = 0;
+  /// An expression of time, of any states and of all that can be measured; names may be defined by elements behind.
+  virtual void signal(const Word& word, Expression& number) = 0;
+  virtual void signals(const Word& word, ExpressionVector& vector) = 0;
+
+  /// What can be measured, as NAME.KEY; the assembled element gives the value (Assembler::measure).
+  virtual void measure(const Word& word) = 0;
+};
+
+}  // namespace gamut
