@@ -13,14 +13,15 @@
 #include "mechanics/elements/revolute.hpp"
 #include "mechanics/elements/spring.hpp"
 #include "mechanics/elements/state.hpp"
+#include "mechanics/elements/universal.hpp"
 #include "mechanics/elements/weld.hpp"
 
 namespace gamut {
 
 /// An empty description of each, in the order of the documentation, for visitors to fill in.
 inline std::vector<Described> elementTypes() {
-  return {Revolute{}, Prismatic{},  Weld{},  Link{},  Mass{},     Spring{},        JointSpring{},
-          Force{},    JointForce{}, Drive{}, State{}, Distance{}, RelativeMotion{}};
+  return {Revolute{},    Prismatic{}, Universal{},  Weld{},  Link{},  Mass{},     Spring{},
+          JointSpring{}, Force{},     JointForce{}, Drive{}, State{}, Distance{}, RelativeMotion{}};
 }
 
 }  // namespace gamut

@@ -118,6 +118,28 @@ TEST(ElementTypes, MoveAlikeInEveryScalar) {
   }
 }
 
+// ---- Joints made of joints ----------------------------------------------------------------------------------------
+
+/// The same programs as those of the joints that it consists of, with a frame between them.
+TEST(UniversalJoint, IsTwoHingesThatMeet) {
+  Mechanism one, two;
+  one.add(Universal{"cardan", "inertial", "C", Axis(1, 2, 0), axisY, 0.3, 0.1, -0.2, 0.4});
+  two.add(Revolute{"first", "inertial", "B", Axis(1, 2, 0), 0.3, 0.1});
+  two.add(Revolute{"second", "B", "C", axisY, -0.2, 0.4});
+  for (Mechanism* m : {&one, &two}) {
+    m->add(Mass{"body", "C", 1.5, {0.1, 0.05, 0.4}, {0.2, 0.25, 0.1, 0.0, 0.01, 0.0}});
+    m->setGravity({0.5, -1.0, -9.0});
+  }
+  EXPECT_TRUE(isIdentical(recordMotion(one), recordMotion(two)));
+  EXPECT_EQ(one.stateNames(),
+            (std::vector<std::string>{"cardan.angle1", "cardan.angle2", "cardan.rate1", "cardan.rate2"}));
+  EXPECT_EQ(Assembly<double>(one).initialState(), Assembly<double>(two).initialState());
+  one.add(JointSpring{"spring", "cardan.angle2", 3.0});
+  two.add(JointSpring{"spring", "second", 3.0});
+  EXPECT_TRUE(isIdentical(recordMotion(one), recordMotion(two)));
+  EXPECT_THROW(one.add(JointSpring{"wrong", "cardan", 3.0}), std::invalid_argument) << "it has two coordinates";
+}
+
 // ---- Forces ---------------------------------------------------------------------------------------------------------
 
 TEST(ForceElement, BringsInThePowerOfItsForceAndMoment) {

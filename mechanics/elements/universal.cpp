@@ -1,0 +1,27 @@
+// Two revolute joints about a hidden frame, the cross.
+#include "mechanics/elements/universal.hpp"
+
+#include "mechanics/assembler.hpp"
+#include "mechanics/joints.hpp"
+
+namespace gamut {
+
+void Universal::describe(Fields& f) {
+  f.frame({"from", "", "the frame that carries the joint"}, from);
+  f.movedFrame({"to", "", "the frame that turns"}, to, from);
+  f.axis({"axis", "", "of the first angle; `\"x\"` unless given"}, axis);
+  f.axis({"second_axis", "", "of the second angle; `\"y\"` unless given"}, secondAxis);
+  f.coordinate({"angle1", "rad", "at the start"}, angle1, Coordinate::angle, {"rate1", "rad/s", "at the start"}, rate1);
+  f.coordinate({"angle2", "rad", "at the start"}, angle2, Coordinate::angle, {"rate2", "rad/s", "at the start"}, rate2);
+}
+
+template <class S>
+void Universal::assemble(Assembler<S>& a) const {
+  Frame<S>& cross = a.hiddenFrame();
+  a.template add<RevoluteJoint<S>>(a.frame(from), cross, a.variable("angle1"), axis);
+  a.template add<RevoluteJoint<S>>(cross, a.frame(to), a.variable("angle2"), secondAxis);
+}
+
+GAMUT_ASSEMBLE(Universal);
+
+}  // namespace gamut
