@@ -1,6 +1,7 @@
 // The types of elements that there are: the one place where a new one is entered.
 #pragma once
 
+#include "mechanics/elements/cylindrical.hpp"
 #include "mechanics/elements/distance.hpp"
 #include "mechanics/elements/drive.hpp"
 #include "mechanics/elements/force.hpp"
@@ -20,8 +21,8 @@ namespace gamut {
 
 /// An empty description of each, in the order of the documentation, for visitors to fill in.
 inline std::vector<Described> elementTypes() {
-  return {Revolute{},    Prismatic{}, Universal{},  Weld{},  Link{},  Mass{},     Spring{},
-          JointSpring{}, Force{},     JointForce{}, Drive{}, State{}, Distance{}, RelativeMotion{}};
+  return {Revolute{},    Prismatic{}, Cylindrical{}, Universal{}, Weld{},  Link{},     Mass{},          Spring{},
+          JointSpring{}, Force{},     JointForce{},  Drive{},     State{}, Distance{}, RelativeMotion{}};
 }
 
 }  // namespace gamut

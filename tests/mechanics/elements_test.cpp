@@ -140,6 +140,21 @@ TEST(UniversalJoint, IsTwoHingesThatMeet) {
   EXPECT_THROW(one.add(JointSpring{"wrong", "cardan", 3.0}), std::invalid_argument) << "it has two coordinates";
 }
 
+TEST(CylindricalJoint, IsASliderAndAHingeOnOneAxis) {
+  Mechanism one, two;
+  one.add(Cylindrical{"sleeve", "inertial", "C", Axis(1, 2, 0), 0.3, 0.1, -0.2, 0.4});
+  two.add(Prismatic{"slide", "inertial", "B", Axis(1, 2, 0), 0.3, 0.1});
+  two.add(Revolute{"turn", "B", "C", Axis(1, 2, 0), -0.2, 0.4});
+  for (Mechanism* m : {&one, &two}) {
+    m->add(Mass{"body", "C", 1.5, {0.1, 0.05, 0.4}, {0.2, 0.25, 0.1, 0.0, 0.01, 0.0}});
+    m->setGravity({0.5, -1.0, -9.0});
+  }
+  EXPECT_TRUE(isIdentical(recordMotion(one), recordMotion(two)));
+  EXPECT_EQ(Assembly<double>(one).initialState(), Assembly<double>(two).initialState());
+  EXPECT_EQ(one.unitOf("sleeve.angle_rate"), "rad/s");
+  EXPECT_EQ(one.unitOf("sleeve.displacement"), "m");
+}
+
 // ---- Forces ---------------------------------------------------------------------------------------------------------
 
 TEST(ForceElement, BringsInThePowerOfItsForceAndMoment) {

@@ -537,7 +537,8 @@ constexpr BadStudy badStudies[] = {
      "link, mass, spring-damper, "
      "joint-spring, force, joint-force, drive, state, distance, relative-motion)"},
     {"type = \"revolute\"", "",
-     "s.toml:9:1: 'mechanism.element.type' is missing; expected type = one of: revolute, prismatic, universal, weld, "
+     "s.toml:9:1: 'mechanism.element.type' is missing; expected type = one of: revolute, prismatic, cylindrical, "
+     "universal, weld, "
      "link, mass, "
      "spring-damper, joint-spring, force, joint-force, drive, state, distance, relative-motion"},
     {"axis = \"x\"", "axis = \"w\"",
