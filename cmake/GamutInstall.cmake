@@ -1,15 +1,19 @@
-# cmake --install: the program, the rooms as libraries with their headers under include/gamut, and the package Gamut.
+# cmake --install: the program, the rooms as libraries with users' headers under include/gamut, and the package Gamut.
 include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/Gamut)
 
 # Gamut::gamut is what a program outside links to: the flow and all that is left of it; <gamut/flow.hpp> is its header.
+file(GLOB doors CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/include/gamut/*.hpp)
 add_library(gamut_library INTERFACE)
 add_library(Gamut::gamut ALIAS gamut_library)
 set_target_properties(gamut_library PROPERTIES EXPORT_NAME gamut)
 target_link_libraries(gamut_library INTERFACE gamut_analyses)
 target_sources(gamut_library PUBLIC
-  FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR}/include FILES ${PROJECT_SOURCE_DIR}/include/gamut/flow.hpp)
+  FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR}/include FILES ${doors})
 install(TARGETS gamut_library EXPORT Gamut-analyses FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+get_property(doors GLOBAL PROPERTY GAMUT_DOORS)
+install(CODE "set(DOORS \"${doors}\")\nset(SOURCE \"${PROJECT_SOURCE_DIR}\")
+  set(DESTINATION \"${CMAKE_INSTALL_INCLUDEDIR}/gamut\")\ninclude(\"${CMAKE_CURRENT_LIST_DIR}/GamutInstallHeaders.cmake\")")
 
 install(TARGETS gamut RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 foreach(room scalars mechanics analyses studies reports)

@@ -12,25 +12,37 @@ function(gamut_compile_options target)
   endif()
 endfunction()
 
-# gamut_room(NAME ROOM_TO_THE_LEFT... ) builds libgamut_NAME from every *.cpp in the room's folder and its sub-rooms.
+# gamut_room(NAME [LEFT rooms it stands on] [DOORS headers for users]) builds libgamut_NAME from every *.cpp in the room's
+# folder and its sub-rooms. Doors are patterns of files; they are installed, with all that they include and nothing else.
 function(gamut_room name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "LEFT;DOORS")
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
-  file(GLOB_RECURSE headers CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.hpp)
-  list(FILTER headers EXCLUDE REGEX /detail/)
   add_library(gamut_${name} STATIC ${sources})
   add_library(Gamut::${name} ALIAS gamut_${name})
   set_target_properties(gamut_${name} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
   # Sources say "scalars/interval.hpp", programs outside <gamut/scalars/interval.hpp>: both work when installed.
-  target_sources(gamut_${name} PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${headers})
-  target_include_directories(gamut_${name} INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  target_include_directories(gamut_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/gamut>)
   target_compile_features(gamut_${name} PUBLIC cxx_std_20)
   # Error-free transformations in the public headers: whoever compiles them must not contract.
   target_compile_options(gamut_${name} PUBLIC -ffp-contract=off)
   gamut_compile_options(gamut_${name})
-  foreach(left ${ARGN})
+  foreach(left ${arg_LEFT})
     target_link_libraries(gamut_${name} PUBLIC gamut_${left})
   endforeach()
-  install(TARGETS gamut_${name} EXPORT Gamut-${name}
-    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
-    FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/gamut)
+  install(TARGETS gamut_${name} EXPORT Gamut-${name} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+
+  foreach(door ${arg_DOORS})
+    file(GLOB headers RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${door})
+    if(NOT headers)
+      message(FATAL_ERROR "${name} has no header ${door}")
+    endif()
+    set_property(GLOBAL APPEND PROPERTY GAMUT_DOORS ${headers})
+  endforeach()
+
+  # Every header, a user's or not, has to compile on its own: the target all_verify_interface_header_sets.
+  file(GLOB_RECURSE headers CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.hpp)
+  add_library(gamut_${name}_headers INTERFACE)
+  target_link_libraries(gamut_${name}_headers INTERFACE gamut_${name})
+  target_sources(gamut_${name}_headers INTERFACE FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${headers})
 endfunction()

@@ -40,8 +40,6 @@ class EnsembleStatistics {
   Statistics statistics(std::size_t times,
                         const std::vector<double>& probabilities = {0.01, 0.05, 0.5, 0.95, 0.99}) const;
 
-  /// Bins of one histogram, without the open ends.
-  std::size_t bins() const { return bins_; }
   /// Bins of each histogram where there are so many: 4096, or fewer, so that all together have some 2^25, but at
   /// least 64.
   static std::size_t binsFor(std::size_t histograms);

@@ -270,8 +270,7 @@ void Sampling::toValues(std::size_t number, const std::vector<Uncertain>& uncert
 }
 
 std::vector<double> Sampling::values(std::size_t number, const std::vector<Uncertain>& uncertain) {
-  std::vector<double> point(quantities_);
-  if (number < centre()) unitPoint(number, point);
+  std::vector<double> point = number < centre() ? unitPoint(number) : std::vector<double>(quantities_);
   toValues(number, uncertain, point);
   return point;
 }

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <functional>
 #include <limits>
-#include <ostream>
 
 namespace gamut {
 namespace {
@@ -41,11 +40,6 @@ TapeOp unary(Op op) {
 
 /// A second result goes to slot b.
 bool hasTwin(TapeOp op) { return op == TapeOp::sineCosine || op == TapeOp::hyperbolicTangent; }
-
-bool usesB(TapeOp op) {
-  return op == TapeOp::sum || op == TapeOp::difference || op == TapeOp::product || op == TapeOp::plusProduct ||
-         op == TapeOp::minusProduct;
-}
 
 /// Instructions whose a and b are nodes, from the first to the one that stores. A step is known by the node that it
 /// stores, the first of its twins; the factorisation of matrix m by the number m behind all nodes.
@@ -388,9 +382,7 @@ class TapeWriter {
   std::vector<bool> isOutput_, isMatrixNeeded_, absorbed_;
 };
 
-Tape::Tape(const Program& program) : states_(program.states()), parameters_(program.parameters()) {
-  TapeWriter(program, *this).write();
-}
+Tape::Tape(const Program& program) { TapeWriter(program, *this).write(); }
 
 int Tape::operations() const {
   int operations = 0;
@@ -405,71 +397,6 @@ int Tape::operations() const {
     }
   }
   return operations;
-}
-
-std::ostream& operator<<(std::ostream& out, const Tape& tape) {
-  static const char* const names[] = {"value",
-                                      "sum",
-                                      "difference",
-                                      "product",
-                                      "plus",
-                                      "minus",
-                                      "plusProduct",
-                                      "minusProduct",
-                                      "negative",
-                                      "square",
-                                      "reciprocal",
-                                      "squareRoot",
-                                      "exponential",
-                                      "logarithm",
-                                      "arcTangent",
-                                      "sineCosine",
-                                      "hyperbolicTangent",
-                                      "factorise",
-                                      "solution"};
-  out << "tape: " << tape.states() << " states, " << tape.parameters() << " parameters, " << tape.outputs()
-      << " outputs, " << tape.operations() << " operations, " << tape.slots() << " slots (" << tape.keptSlots()
-      << " kept)\n";
-  for (const TapeInput& i : tape.constantInputs())
-    out << "  s" << i.slot << " = " << tape.constants()[at(i.input)] << '\n';
-  for (const TapeInput& i : tape.parameterInputs()) out << "  s" << i.slot << " = p[" << i.input << "]\n";
-  const auto slots = [&out](const std::vector<std::int32_t>& list) {
-    for (std::int32_t slot : list) out << " s" << slot;
-  };
-  const auto list = [&](const std::vector<Instruction>& section) {
-    for (const Instruction& i : section) {
-      out << "  " << names[static_cast<int>(i.op)];
-      if (i.op == TapeOp::factorise) {
-        const TapeSystem& system = tape.systems()[at(i.result)];
-        out << " m" << i.result << (system.kind == MatrixKind::positiveDefinite ? " positive definite" : "") << ':';
-        slots(system.entries);
-        out << '\n';
-        continue;
-      }
-      if (i.op == TapeOp::solution) {
-        const TapeSolution& solution = tape.solutions()[at(i.result)];
-        out << " m" << solution.system << (solution.transposed ? " transposed:" : ":");
-        slots(solution.rightSide);
-        out << " ->";
-        slots(solution.results);
-        out << '\n';
-        continue;
-      }
-      out << " s" << i.a;
-      if (usesB(i.op)) out << " s" << i.b;
-      if (i.stores) out << " -> s" << i.result;
-      if (hasTwin(i.op)) out << " s" << i.b;
-      out << '\n';
-    }
-  };
-  list(tape.invariants());
-  out << "  for each t, x:\n";
-  for (const TapeInput& i : tape.stateInputs()) out << "  s" << i.slot << " = x[" << i.input << "]\n";
-  if (tape.timeSlot() >= 0) out << "  s" << tape.timeSlot() << " = t\n";
-  list(tape.instructions());
-  out << "  outputs:";
-  for (int slot : tape.outputSlots()) out << " s" << slot;
-  return out << '\n';
 }
 
 }  // namespace gamut

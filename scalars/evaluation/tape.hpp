@@ -8,7 +8,6 @@
 #pragma once
 
 #include <cstdint>
-#include <iosfwd>
 #include <vector>
 
 #include "scalars/index.hpp"
@@ -79,8 +78,6 @@ class Tape {
  public:
   explicit Tape(const Program& program);
 
-  int states() const { return states_; }
-  int parameters() const { return parameters_; }
   int outputs() const { return static_cast<int>(outputSlots_.size()); }
 
   /// Slots of both sections together, and those that the invariant section leaves for the other.
@@ -102,13 +99,8 @@ class Tape {
   const std::vector<TapeSystem>& systems() const { return systems_; }
   const std::vector<TapeSolution>& solutions() const { return solutions_; }
 
-  /// A readable listing, one instruction a line.
-  friend std::ostream& operator<<(std::ostream& out, const Tape& tape);
-
  private:
   friend class TapeWriter;
-  int states_;
-  int parameters_;
   int slots_ = 0;
   int keptSlots_ = 0;
   int timeSlot_ = -1;

@@ -1,5 +1,8 @@
 # Installs Gamut below BINARY, builds the programs in SOURCE and the README's against it and runs them: outside returns 0
-# only if its enclosure is right. Then the scalars alone, and what the package refuses, in ROOMS.
+# only if its enclosure is right. Then rooms alone, and what the package refuses, in ROOMS. Headers are installed that
+# these programs and those of the GUIDES include, and what those include: no other, and none is missing.
+cmake_policy(VERSION 3.25)
+
 function(run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
   if(NOT status EQUAL 0)
@@ -58,9 +61,50 @@ if(NOT output MATCHES "^angle after 5 s: .*, proved up to 10 s\n$")
 endif()
 run(${BINARY}/prefix/bin/gamut --version)
 
-configure_rooms(scalars "${FLAGS}")
-run(${CMAKE_COMMAND} --build ${BINARY}/rooms --config ${CONFIG})
-run(${BINARY}/rooms/rooms)
+foreach(room scalars mechanics reports)
+  configure_rooms(${room} "${FLAGS}")
+  run(${CMAKE_COMMAND} --build ${BINARY}/rooms --config ${CONFIG})
+  run(${CMAKE_COMMAND} -E chdir ${BINARY} ${BINARY}/rooms/rooms ${documents}/studies/tip_position/study.toml)
+endforeach()
 configure_rooms(intervals "${FLAGS}"
   "Gamut has no component 'intervals', its components are scalars, mechanics, analyses, studies, reports")
 configure_rooms(scalars "${FLAGS} -ffast-math" "-ffast-math is refused")
+
+# ---- Headers --------------------------------------------------------------------------------------------------------
+
+# Appends to `waiting` what the files include of Gamut, with its place below include/gamut.
+function(note_includes)
+  foreach(file ${ARGN})
+    file(STRINGS ${file} lines REGEX "^ *# *include *[<\"][a-z_]+/")
+    foreach(line ${lines})
+      string(REGEX REPLACE "^[^<\"]*[<\"](gamut/)?([^>\"]*)[>\"].*" "\\2" header "${line}")
+      if(header MATCHES "^(scalars|mechanics|analyses|studies|reports)/|^[a-z]+[.]hpp$")
+        list(APPEND waiting ${header})
+      endif()
+    endforeach()
+  endforeach()
+  set(waiting ${waiting} PARENT_SCOPE)
+endfunction()
+
+set(place ${BINARY}/prefix/include/gamut)
+file(GLOB_RECURSE unneeded RELATIVE ${place} ${place}/*)
+list(LENGTH unneeded count)
+file(GLOB programs ${SOURCE}/*.cpp ${ROOMS}/*.cpp)
+set(waiting "")
+note_includes(${programs} ${BINARY}/readme.cpp ${GUIDES})
+set(needed "")
+while(waiting)
+  list(POP_FRONT waiting header)
+  if(NOT header IN_LIST needed)
+    if(NOT EXISTS ${place}/${header})
+      message(FATAL_ERROR "${header}, which users include, is not installed")
+    endif()
+    list(APPEND needed ${header})
+    note_includes(${place}/${header})
+  endif()
+endwhile()
+list(REMOVE_ITEM unneeded ${needed})
+if(unneeded)
+  message(FATAL_ERROR "installed, but neither the guides nor the programs outside include: ${unneeded}")
+endif()
+message("${count} headers are installed, and all are needed")

@@ -2,7 +2,6 @@
 #include "scalars/evaluation/tape.hpp"
 
 #include <bit>
-#include <sstream>
 
 #include "scalars/evaluation/evaluator.hpp"
 #include "tests/scalars/high_precision.hpp"
@@ -11,9 +10,6 @@
 
 namespace gamut::testing {
 namespace {
-
-using ::testing::HasSubstr;
-using ::testing::Not;
 
 /// Node by node, as the Program says: what every evaluator is judged by.
 std::vector<double> nodeByNode(const Program& program, double t, const std::vector<double>& x,
@@ -111,8 +107,7 @@ TEST(Tape, OfAnyProgramHasItsValuesToTheBit) {
       const std::vector<double> x{random.uniform(-3, 3), random.uniform(-3, 3), random.uniform(-3, 3)};
       evaluator.setParameters(p);
       for (double t : {0.3, -1.7})
-        ASSERT_TRUE(sameBits(evaluator(t, x), nodeByNode(program, t, x, p))) << "seed " << seed << '\n'
-                                                                             << program << evaluator.tape();
+        ASSERT_TRUE(sameBits(evaluator(t, x), nodeByNode(program, t, x, p))) << "seed " << seed << '\n' << program;
     }
   }
 }
@@ -136,7 +131,7 @@ TEST(Tape, OfProgramsWithSolutionsHasTheirValuesToTheBit) {
         for (double t : {point.t, point.t + 1e-6})
           ASSERT_TRUE(sameBits(evaluator(t, point.x), nodeByNode(program, t, point.x, point.p)))
               << "seed " << seed << '\n'
-              << program << evaluator.tape();
+              << program;
       }
     }
   }
@@ -159,15 +154,12 @@ TEST(Tape, FactorisesAMatrixOnceAndAnInvariantOneWithTheInvariants) {
   for (bool varies : {false, true}) {
     const Program program = dynamics(varies);
     const Tape tape(program);
-    EXPECT_EQ(tape.systems().size(), 1u) << tape;
-    EXPECT_EQ(tape.solutions().size(), 2u) << tape;
-    EXPECT_EQ(std::ranges::count(tape.instructions(), TapeOp::factorise, &Instruction::op), varies ? 1 : 0) << tape;
-    EXPECT_EQ(std::ranges::count(tape.invariants(), TapeOp::factorise, &Instruction::op), varies ? 0 : 1) << tape;
+    EXPECT_EQ(tape.systems().size(), 1u);
+    EXPECT_EQ(tape.solutions().size(), 2u);
+    EXPECT_EQ(std::ranges::count(tape.instructions(), TapeOp::factorise, &Instruction::op), varies ? 1 : 0);
+    EXPECT_EQ(std::ranges::count(tape.invariants(), TapeOp::factorise, &Instruction::op), varies ? 0 : 1);
     EXPECT_EQ(tape.operations(), program.operations());
-    std::ostringstream text;
-    text << tape;
-    EXPECT_THAT(text.str(), HasSubstr("  factorise m0 positive definite: s"));
-    EXPECT_THAT(text.str(), HasSubstr("  solution m0: s"));
+    EXPECT_EQ(tape.systems()[0].kind, MatrixKind::positiveDefinite);
   }
 }
 
@@ -205,8 +197,8 @@ TEST(Tape, RunsSumsOfProductsThroughTheAccumulator) {
     y[0] = x[0] * x[3] + x[1] * x[4] - x[2] * x[5] + x[0];
   });
   const Tape tape(dot);
-  EXPECT_EQ(stores(tape), 1) << tape;
-  EXPECT_EQ(tape.instructions().size(), 4u) << tape;
+  EXPECT_EQ(stores(tape), 1);
+  EXPECT_EQ(tape.instructions().size(), 4u);
   EXPECT_EQ(tape.operations(), dot.operations());
 }
 
@@ -227,7 +219,7 @@ TEST(Tape, KnowsTheThreeFormsOfAProductAndASum) {
     y[2] = x[0] - x[1] * x[2];
   });
   const Tape tape(program);
-  EXPECT_EQ(stores(tape), 3) << tape;
+  EXPECT_EQ(stores(tape), 3);
   EXPECT_EQ(Evaluator<double>(program)(0, {2, 3, 5}), (std::vector<double>{11, 7, -13}));
 }
 
@@ -236,7 +228,7 @@ TEST(Tape, ComputesASineAndACosineOfOneAngleTogether) {
       record(1, 0, 1, [](auto, const auto& x, const auto&, auto& y) { y[0] = sin(x[0]) * cos(x[0]); });
   const Tape tape(program);
   EXPECT_EQ(std::ranges::count(tape.instructions(), TapeOp::sineCosine, &Instruction::op), 1);
-  EXPECT_EQ(tape.instructions().size(), 2u) << tape;
+  EXPECT_EQ(tape.instructions().size(), 2u);
 }
 
 TEST(Tape, NeedsAsManySlotsAsValuesAreAliveAtOnce) {
@@ -273,25 +265,13 @@ TEST(Tape, ComputesInvariantsInASectionOfTheirOwn) {
       1, 2, 1, [](auto, const auto& x, const auto& p, auto& y) { y[0] = sqrt(exp(p[0]) * sin(p[1]) + 3.0) * x[0]; });
   const Tape tape(program);
   EXPECT_EQ(tape.operations(), 1);
-  EXPECT_EQ(tape.instructions().size(), 1u) << tape;
-  EXPECT_EQ(tape.keptSlots(), 1) << tape;
+  EXPECT_EQ(tape.instructions().size(), 1u);
+  EXPECT_EQ(tape.keptSlots(), 1);
 }
 
 TEST(Tape, LeavesOutWhatOnlyDerivativesRead) {
   const Program program = record(1, 0, 1, [](auto, const auto& x, const auto&, auto& y) { y[0] = atan(x[0]); });
   EXPECT_EQ(Tape(program).operations(), 1) << "1 + x² is the denominator of the derivative";
-}
-
-TEST(Tape, PrintsOneInstructionALine) {
-  std::ostringstream text;
-  text << Tape(
-      record(2, 1, 1, [](auto t, const auto& x, const auto& p, auto& y) { y[0] = p[0] * x[0] + 0.5 * cos(x[1]) - t; }));
-  EXPECT_THAT(text.str(), HasSubstr("tape: 2 states, 1 parameters, 1 outputs, 6 operations"));
-  EXPECT_THAT(text.str(), HasSubstr("= p[0]"));
-  EXPECT_THAT(text.str(), HasSubstr("= x[1]"));
-  EXPECT_THAT(text.str(), HasSubstr("plusProduct"));
-  EXPECT_THAT(text.str(), HasSubstr("sineCosine"));
-  EXPECT_THAT(text.str(), Not(HasSubstr("logarithm")));
 }
 
 }  // namespace

@@ -1,0 +1,21 @@
+# Installs the headers DOORS (relative to SOURCE) and those that they include, and so on, below DESTINATION. Run while
+# installing, so that it is the includes of that time which count.
+cmake_policy(VERSION 3.25)
+set(waiting ${DOORS})
+set(headers "")
+while(waiting)
+  list(POP_FRONT waiting header)
+  if(header IN_LIST headers)
+    continue()
+  endif()
+  list(APPEND headers ${header})
+  file(STRINGS ${SOURCE}/${header} includes REGEX "^ *# *include *\"")
+  string(REGEX REPLACE " *# *include *\"([^\"]*)\"[^;]*" "\\1" includes "${includes}")
+  list(APPEND waiting ${includes})
+endwhile()
+
+cmake_path(ABSOLUTE_PATH DESTINATION BASE_DIRECTORY ${CMAKE_INSTALL_PREFIX})
+foreach(header ${headers})
+  cmake_path(GET header PARENT_PATH folder)
+  file(INSTALL ${SOURCE}/${header} DESTINATION ${DESTINATION}/${folder})
+endforeach()
