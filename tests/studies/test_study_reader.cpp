@@ -533,6 +533,7 @@ constexpr BadStudy badStudies[] = {
      "that kind"},
     {"type = \"revolute\"", "type = \"revolut\"",
      "s.toml:10:8: mechanism.element.type is \"revolut\"; expected 'revolute'? (one of: revolute, prismatic, "
+     "cylindrical, "
      "universal, weld, "
      "link, mass, spring-damper, "
      "joint-spring, force, joint-force, drive, state, distance, relative-motion)"},
