@@ -2,7 +2,7 @@
 # include_direction.sh ROOT: fails, naming the lines, if a room or its tests include a room to the right of it.
 set -u
 cd "$1" || exit 1
-rooms=(scalars mechanics analyses studies reports)
+rooms=(scalars mechanics analyses studies reports commands)
 status=0
 for i in "${!rooms[@]}"; do
   room=${rooms[$i]}
