@@ -30,6 +30,7 @@ Action validate(CLI::App& command);
 Action check(CLI::App& command);
 Action report(CLI::App& command);
 Action info(CLI::App& command);
+Action replay(CLI::App& command);
 
 inline constexpr Command table[] = {
     {"run", "Run a study; write results and a report", run, Command::looksAtInterrupts},
@@ -37,6 +38,7 @@ inline constexpr Command table[] = {
     {"check", "The verdict, from the stored numbers: do all samples stay inside?", check},
     {"report", "Write the report page of a results file", report},
     {"info", "What a results file holds and where it comes from", info},
+    {"replay", "One sample of a run again, bit for bit, as CSV", replay},
 };
 
 }  // namespace commands
