@@ -409,11 +409,4 @@ class Judge {
 
 Verdict judge(const Results& results) { return Judge(results).judge(); }
 
-int exitCode(const Verdict& verdict) {
-  if (verdict.word == "inside") return 0;
-  if (verdict.word == "outside" || verdict.word == "unresolved") return 1;
-  if (verdict.word == "incomplete") return 3;
-  throw std::invalid_argument("no verdict: '" + verdict.word + "'");
-}
-
 }  // namespace gamut

@@ -32,8 +32,4 @@ struct Verdict {
 /// does not fit times and outputs.
 Verdict judge(const Results& results);
 
-/// What a program that ran `judge` returns to its caller: inside 0, outside or unresolved 1, incomplete 3.
-/// Throws std::invalid_argument for any other word.
-int exitCode(const Verdict& verdict);
-
 }  // namespace gamut

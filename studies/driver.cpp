@@ -5,16 +5,14 @@
 #include <algorithm>
 #include <new>
 #include <optional>
-#include <span>
 #include <stdexcept>
 #include <utility>
 
 #include "analyses/comparison/comparison.hpp"
 #include "analyses/comparison/settlement.hpp"
-#include "mechanics/assembly.hpp"
 #include "scalars/fuzzy.hpp"
-#include "scalars/samples.hpp"
 #include "studies/problem.hpp"
+#include "studies/sampled_study.hpp"
 #include "studies/summary.hpp"
 #include "studies/version.hpp"
 #include "studies/watch.hpp"
@@ -149,21 +147,10 @@ class Driver {
     return fuzzy;
   }
 
-  /// The assembly itself moved by the scalar, as a vector of the outputs.
-  template <class S>
-  std::vector<S> move(const std::vector<S>& numbers) const {
-    const std::span<const S> values(numbers);
-    Assembly<S> assembly(study_.mechanism, problem_.freeParameters, values.subspan(problem_.states));
-    assembly.setState(values.first(problem_.states));
-    std::vector<S> outputs;
-    for (const std::string& output : problem_.outputs) outputs.push_back(assembly.output(output));
-    return outputs;
-  }
-
   /// Plain intervals and polynomials both enclose, so their intersection does. What ends early leaves the former.
   void encloseConfiguration() {
     double start = processCpuSeconds();
-    const std::vector<Interval> direct = move<Interval>(problem_.box);
+    const std::vector<Interval> direct = assembledOutputs(study_, problem_, problem_.box);
     const auto images =
         encloseImage(problem_.motion.motion.g, 0.0, problem_.box, problem_.levels, study_.flow.degree, watch_.stop());
     std::vector<Interval> enclosure = direct;
@@ -185,7 +172,7 @@ class Driver {
     start = processCpuSeconds();
     FuzzyResult& fuzzy = startFuzzy();
     fuzzy.why = interval.why;
-    const std::vector<Fuzzy> moved = move<Fuzzy>(fuzzyNumbers());
+    const std::vector<Fuzzy> moved = assembledOutputs(study_, problem_, fuzzyNumbers());
     for (std::size_t level = 0; level < problem_.levels.size(); ++level) {
       narrow(level + 1);
       for (std::size_t j = 0; j < enclosure.size(); ++j) enclosure[j] = intersection(enclosure[j], moved[j].cut(level));
@@ -223,10 +210,8 @@ class Driver {
 
   /// Before the enclosure, so that one that ends early has something to be compared with.
   void sampleFirst() {
-    EnsembleOptions options = study_.ensemble;
-    options.seed = options_.seed.value_or(options.seed);
-    options.samples = options_.samples.value_or(options.samples);
-    options.alpha = problem_.alpha;
+    EnsembleOptions options =
+        ensembleOptions(study_, problem_, results_.seed, options_.samples.value_or(study_.ensemble.samples));
     options.jobs = options_.jobs;
     options.secondsPerSample = results_.limits.sampleTime;
     options.progress = progressOf("samples");
@@ -256,7 +241,7 @@ class Driver {
       const Proved proved{study_.interval ? results_.interval.at : Bounds(), results_.fuzzy.outer, reachedTimes_};
       Settlement settlement(proved, problem_.motion, comparisonOptions());
       ensemble_->integrateOthers(settlement.boundsOf(0), [&](SampleBlock& block) {
-        if (study_.analysis == Study::Analysis::kinematics) moveSamples(block);
+        if (study_.analysis == Study::Analysis::kinematics) moveSamples(study_, problem_, block);
         settlement.settle(block, [this](const Comparison& found, int level) { takeDisputes(found, level); });
       });
       describeSamples();
@@ -286,21 +271,6 @@ class Driver {
 
   /// There are none if the first of them were not all followed.
   bool hasSamples() const { return ensemble_ && ensemble_->integrated() > 0; }
-
-  /// Kinematics: the same samples once more, all at once, by the assembly itself instead of its recording.
-  void moveSamples(SampleBlock& block) {
-    std::vector<Samples> numbers;
-    const UncertainMotion& motion = problem_.motion;
-    for (const double value : motion.nominal) numbers.emplace_back(value);
-    for (std::size_t j = 0; j < motion.uncertain.size(); ++j) {
-      std::vector<double> values;
-      for (std::size_t i = 0; i < block.size(); ++i) values.push_back(block.values(i)[j]);
-      numbers[static_cast<std::size_t>(motion.slot[j])] = Samples(std::move(values));
-    }
-    const std::vector<Samples> moved = move<Samples>(numbers);
-    for (std::size_t j = 0; j < moved.size(); ++j)
-      for (std::size_t i = 0; i < block.size(); ++i) block(i, 0, j) = moved[j][moved[j].isConstant() ? 0 : i];
-  }
 
   // ---- Together -----------------------------------------------------------------------------------------------------
 

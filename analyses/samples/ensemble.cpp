@@ -386,7 +386,7 @@ Statistics EnsembleRun::statistics(const std::vector<double>& probabilities) con
   return statistics_->statistics(reachedTimes_, probabilities);
 }
 
-std::vector<double> replaySample(const UncertainMotion& system, const EnsembleOptions& options, std::size_t number) {
+SampleBlock replaySample(const UncertainMotion& system, const EnsembleOptions& options, std::size_t number) {
   Sampling sampling = plannedSampling(system, options);
   if (number >= sampling.size()) throw std::invalid_argument("no sample has the number " + std::to_string(number));
   const bool hasWeight = number < sampling.samples();
@@ -400,7 +400,13 @@ std::vector<double> replaySample(const UncertainMotion& system, const EnsembleOp
   const std::vector<Piece> pieces = piecesOf(block.size(), width);
   const auto after = std::ranges::upper_bound(pieces, number - first, {}, &Piece::first);
   PieceIntegrator(system, options, width).integrate(block, *std::prev(after), [](std::size_t) {});
-  return block.trajectory(number - first);
+  SampleBlock replayed(number, 1, hasWeight, sampling.quantities(), system.motion.times.size(),
+                       system.motion.outputs());
+  std::ranges::copy(block.values(number - first), replayed.values(0).begin());
+  replayed.setTrajectory(0, block.trajectory(number - first));
+  replayed.runs[0] = block.runs[number - first];
+  replayed.levels[0] = levelsHolding(cutsOf(system.uncertain, options.alpha), replayed.values(0));
+  return replayed;
 }
 
 }  // namespace gamut

@@ -143,8 +143,8 @@ class EnsembleRun {
 /// About as many bytes as an EnsembleRun takes, whatever the number of its samples.
 double ensembleBytes(std::size_t times, std::size_t outputs, std::size_t quantities, std::size_t levels);
 
-/// The trajectory of sample `number`, [time][output], bit for bit as in an EnsembleRun, by integrating its pack alone.
+/// Sample `number` alone in a block, its trajectory bit for bit as in an EnsembleRun, by integrating its pack alone.
 /// Throws as EnsembleRun does, and std::invalid_argument for a number that no sample has.
-std::vector<double> replaySample(const UncertainMotion& system, const EnsembleOptions& options, std::size_t number);
+SampleBlock replaySample(const UncertainMotion& system, const EnsembleOptions& options, std::size_t number);
 
 }  // namespace gamut

@@ -99,7 +99,7 @@ TEST(Driver, QuantilesAreWithinTheirResolutionOfThoseOfTheSamplesThemselves) {
   EnsembleOptions ensemble = study.ensemble;
   ensemble.samples = 700;
   std::vector<std::vector<double>> trajectories;
-  for (std::size_t i = 0; i < 700; ++i) trajectories.push_back(replaySample(problem.motion, ensemble, i));
+  for (std::size_t i = 0; i < 700; ++i) trajectories.push_back(replaySample(problem.motion, ensemble, i).trajectory(0));
   for (std::size_t cell = 0; cell < trajectories[0].size(); ++cell) {
     std::vector<double> column;
     for (const std::vector<double>& trajectory : trajectories) column.push_back(trajectory[cell]);

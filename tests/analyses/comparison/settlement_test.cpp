@@ -102,7 +102,7 @@ TEST_F(DecaySettled, AWrongEnclosureIsRefutedBySamplesInTheirBlocks) {
   EnsembleRun ensemble(system, sampled);
   for (const Dispute& d : disputes) {
     if (!d.outside) continue;
-    const std::vector<double> trajectory = replaySample(system, sampled, d.number);
+    const std::vector<double> trajectory = replaySample(system, sampled, d.number).trajectory(0);
     EXPECT_NEAR(trajectory[d.time], d.value, 1e-8) << d.number;
   }
 }

@@ -9,9 +9,9 @@
 #include <nlohmann/json.hpp>
 
 #include "studies/results_file.hpp"
+#include "tests/commands/program.hpp"
 #include "tests/studies/sample_results.hpp"
 #include "tests/studies/sample_study.hpp"
-#include "tests/studies/temporary_folder.hpp"
 
 namespace gamut {
 namespace {
@@ -20,27 +20,6 @@ using ::testing::HasSubstr;
 using ::testing::StartsWith;
 using Json = nlohmann::json;
 
-struct Outcome {
-  int exitCode = -1;
-  std::string out, error;
-};
-
-class Program : public ::testing::Test {
- protected:
-  /// Runs the program in the temporary folder, after `before` in the same shell.
-  Outcome gamut(const std::string& arguments, const std::string& before = "") const {
-    const std::string command =
-        "cd '" + folder_.path("") + "' && " + before + "'" GAMUT_PROGRAM "' " + arguments + " > .out 2> .error";
-    const int status = std::system(command.c_str());
-    const Outcome run{WIFEXITED(status) ? WEXITSTATUS(status) : -1, folder_.read(".out"), folder_.read(".error")};
-    std::filesystem::remove(folder_.path(".out"));
-    std::filesystem::remove(folder_.path(".error"));
-    return run;
-  }
-
-  TemporaryFolder folder_;
-};
-
 TEST_F(Program, TellsItsVersionAndItsExitCodes) {
   const Outcome version = gamut("--version");
   EXPECT_EQ(version.exitCode, 0);
@@ -48,7 +27,8 @@ TEST_F(Program, TellsItsVersionAndItsExitCodes) {
   const Outcome help = gamut("--help");
   EXPECT_EQ(help.exitCode, 0);
   EXPECT_THAT(help.out, HasSubstr("Exit codes:"));
-  for (const char* word : {"run", "validate", "check", "report", "info"}) EXPECT_THAT(help.out, HasSubstr(word));
+  for (const char* word : {"run", "validate", "check", "report", "info", "replay"})
+    EXPECT_THAT(help.out, HasSubstr(word));
 }
 
 TEST_F(Program, RefusesWrongUsageInOneLine) {
@@ -86,7 +66,7 @@ TEST_F(Program, RefusesWrongUsageInOneLine) {
   EXPECT_EQ(folder_.read("s.toml"), sampleStudy);
   EXPECT_EQ(gamut("rum s.toml").error, "gamut: unknown command 'rum'; expected 'run'\n");
   EXPECT_EQ(gamut("walk").error,
-            "gamut: unknown command 'walk'; expected one of: run, validate, check, report, info\n");
+            "gamut: unknown command 'walk'; expected one of: run, validate, check, report, info, replay\n");
   EXPECT_EQ(gamut("run s.toml --seed -1").error,
             "gamut: --seed: '-1' is no whole number from 0 to 9223372036854775807; see gamut run --help\n");
 }

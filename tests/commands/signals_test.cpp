@@ -122,7 +122,7 @@ TEST_F(Signals, AnInterruptAtAnyMomentKeepsWhatWasFoundAndAlarmsNobody) {
     SCOPED_TRACE(i);
     StartedRun run(folder_, arguments_);
     run.awaitBegin();
-    run.signalAfter(whole * (i + 0.5) / moments, signals[i % 4]);
+    run.signalAfter(whole * i / moments, signals[i % 4]);
     const int exitCode = run.wait();
     EXPECT_TRUE(exitCode == 3 || exitCode == 0) << exitCode;
     interrupted += exitCode == 3;

@@ -1,0 +1,24 @@
+// What the program returns to its caller, and how it says so to people.
+#pragma once
+
+#include "reports/verdict.hpp"
+
+namespace gamut {
+
+enum ExitCode { done = 0, refuted = 1, badInput = 2, endedEarly = 3, failed = 4 };
+
+/// The same in words, for help.
+inline constexpr const char* exitCodesText =
+    "Exit codes:\n"
+    "  0  done, and every sample lies inside its enclosure\n"
+    "  1  a sample left its enclosure, or stayed unresolved\n"
+    "  2  bad input or usage\n"
+    "  3  an analysis ended before its horizon, was interrupted or reached a limit of time or memory, or `gamut "
+    "check`\n"
+    "     found nothing to compare; what was proved is kept and reported\n"
+    "  4  an internal failure, or something could not be written";
+
+/// Throws std::invalid_argument for a verdict whose word has no exit code.
+ExitCode exitCode(const Verdict& verdict);
+
+}  // namespace gamut

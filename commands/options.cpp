@@ -1,0 +1,58 @@
+// Validators see the text of an option before it becomes a number.
+#include "commands/options.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <system_error>
+
+namespace gamut {
+namespace {
+
+void addInput(CLI::App& command, std::string& path, const std::string& name, const std::string& help,
+              const std::string& type) {
+  const auto refuseEmpty = [](const std::string& text) {
+    if (text.empty()) throw UsageError("the name of the input is empty; expected a file");
+    return std::string();
+  };
+  command.add_option(name, path, help)->required()->check({refuseEmpty, "", "name"})->type_name(type);
+}
+
+}  // namespace
+
+void addStudy(CLI::App& command, std::string& path) {
+  addInput(command, path, "study", "Study file (TOML)", "STUDY.toml");
+}
+
+void addResults(CLI::App& command, std::string& path) {
+  addInput(command, path, "results", "Results file", "RESULTS.h5");
+}
+
+CLI::Validator wholeNumber(std::uint64_t least, std::uint64_t most) {
+  const auto problem = [=](const std::string& text) {
+    std::uint64_t value = 0;
+    const char* end = text.data() + text.size();
+    const auto [last, error] = std::from_chars(text.data(), end, value);
+    const bool isFine = error == std::errc() && last == end && value >= least && value <= most;
+    return isFine ? std::string() : fmt::format("'{}' is no whole number from {} to {}", text, least, most);
+  };
+  return {problem, "", "whole number"};
+}
+
+CLI::Validator positiveAmount(const Dimension& dimension, const std::string& what, const std::string& examples) {
+  const auto replace = [=](std::string& text) {
+    const std::string problem = fmt::format("'{}' is no {} above 0, such as {}", text, what, examples);
+    try {
+      const Amount amount = parseAmount(text);
+      const bool fits = !amount.isRelative && (!amount.hasUnit || amount.dimension == dimension);
+      if (!fits || !(nearest(amount) > 0)) return problem;
+      text = fmt::format("{}", nearest(amount));
+      return std::string();
+    } catch (const UnitError&) {
+      return problem;
+    }
+  };
+  return {replace, "", "amount"};
+}
+
+}  // namespace gamut

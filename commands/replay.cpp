@@ -1,0 +1,162 @@
+// gamut replay: one sample of a run again, bit for bit, as a table for spreadsheets and programs (CSV). A row is an
+// output time. The values of the uncertain quantities stand in every row: whoever reads columns needs nothing else.
+#include "studies/replay.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <charconv>
+#include <cstdint>
+#include <cstdio>
+#include <iterator>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "commands/files.hpp"
+#include "commands/options.hpp"
+#include "commands/standard_streams.hpp"
+#include "commands/table.hpp"
+#include "studies/results_file.hpp"
+#include "studies/version.hpp"
+
+namespace gamut::commands {
+namespace {
+
+struct Arguments {
+  std::string results, output;
+  std::vector<std::string> sample;  // words: "17", "corner 3", "centre"
+  bool force = false;
+};
+
+/// The whole number that is all of `text`, or -1.
+std::int64_t wholeNumberIn(std::string_view text) {
+  std::int64_t number = -1;
+  const auto [last, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc() && last == text.data() + text.size() ? number : -1;
+}
+
+std::size_t numberOf(const Arguments& arguments, const StochasticResult& samples) {
+  const std::string name = fmt::format("{}", fmt::join(arguments.sample, " "));
+  if (name == "centre") return static_cast<std::size_t>(samples.planned() - 1);
+  struct Kind {
+    std::string_view name;
+    std::int64_t first, count;
+  };
+  const Kind kinds[] = {{"", 0, samples.planned()},
+                        {"corner ", samples.samples, samples.corners},
+                        {"alpha-corner ", samples.samples + samples.corners, samples.alphaCorners}};
+  std::string expected;
+  for (const auto& [kind, first, count] : kinds) {
+    if (count == 0) continue;
+    const std::int64_t i = name.starts_with(kind) ? wholeNumberIn(name.substr(kind.size())) : -1;
+    if (i >= 0 && i < count) return static_cast<std::size_t>(first + i);
+    expected += fmt::format("{}0 to {}, ", kind, count - 1);
+  }
+  throw UsageError(fmt::format("{}: no sample is '{}'; expected {}or centre", arguments.results, name, expected));
+}
+
+/// Quoted where it must be.
+std::string cell(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
+  return quoted + '"';
+}
+
+std::string heading(const std::string& name, const std::string& unit) {
+  return cell(unit == "1" ? name : fmt::format("{} ({})", name, unit));
+}
+
+/// Decimals that give the same doubles back, at most 17 digits; times that were not reached are left out.
+std::string csv(const Study& study, const ReplayedSample& sample) {
+  std::vector<std::string> headings;
+  const bool moves = study.analysis == Study::Analysis::dynamics;
+  if (moves) headings.push_back(heading("time", "s"));
+  for (const OutputInfo& output : study.outputs) headings.push_back(heading(output.name, output.unit));
+  for (const UncertainQuantity& uncertain : study.uncertain)
+    headings.push_back(heading("uncertain " + uncertain.uncertain.name, uncertain.unit));
+  fmt::memory_buffer text;
+  const auto end = std::back_inserter(text);
+  fmt::format_to(end, "{}\n", fmt::join(headings, ","));
+  for (std::size_t i = 0; i < sample.times; ++i) {
+    std::vector<double> row;
+    if (moves) row.push_back(study.time[i]);
+    for (std::size_t j = 0; j < study.outputs.size(); ++j) row.push_back(sample.trajectory(i, j));
+    row.insert(row.end(), sample.values.begin(), sample.values.end());
+    fmt::format_to(end, "{}\n", fmt::join(row, ","));
+  }
+  return fmt::to_string(text);
+}
+
+/// Whether a sample that went into the stored envelope lies in it, as far as that can be told.
+bool liesInEnvelope(const ReplayedSample& sample, const Results& results) {
+  const StochasticResult& samples = results.stochastic;
+  const bool allCounted = samples.integrated == samples.planned() &&
+                          (!results.comparison.present || results.comparison.verdict == "inside");
+  for (std::size_t i = 0; allCounted && i < sample.trajectory.data.size(); ++i) {
+    const double value = sample.trajectory.data[i];
+    if (value < samples.envelope.lower.data[i] || value > samples.envelope.upper.data[i]) return false;
+  }
+  return true;
+}
+
+void say(std::size_t number, const ReplayedSample& sample, const Results& results) {
+  if (!sample.decided.empty())
+    fmt::print(stderr, "note: sample {} seemed to leave what is proved, and was integrated again ({})\n", number,
+               sample.decided);
+  if (!sample.why.empty())
+    fmt::print(stderr, "note: sample {} ended at {} s: {}\n", number, sample.reached, sample.why);
+  if (!liesInEnvelope(sample, results))
+    fmt::print(
+        stderr,
+        "note: sample {} lies outside the envelope of the run, so it is not the same bit for bit; the run was by "
+        "Gamut {} on {}, this is Gamut {} on {}\n",
+        number, results.version, results.host, version(), hostName());
+}
+
+ExitCode replay(const Arguments& arguments) {
+  const Results results = readResults(arguments.results);
+  if (!results.stochastic.present)
+    throw UsageError(arguments.results +
+                     ": holds no samples; expected results of a study that compares \"stochastic\"");
+  const std::size_t number = numberOf(arguments, results.stochastic);
+  const Study study = readStudyText(results.studyText, results.studyFile + " in " + arguments.results);
+  ReplayedSample sample;
+  const auto table = [&] {
+    try {
+      sample = gamut::replay(study, results, number);
+    } catch (const std::invalid_argument& error) {
+      throw UsageError(arguments.results + ": " + error.what());
+    }
+    return csv(study, sample);
+  };
+  if (arguments.output.empty() || arguments.output == "-")
+    sayOut(table());
+  else
+    reserve(arguments.output, arguments.results, arguments.force).write(table());
+  say(number, sample, results);
+  return sample.why.empty() ? done : endedEarly;
+}
+
+}  // namespace
+
+Action replay(CLI::App& command) {
+  const auto arguments = std::make_shared<Arguments>();
+  addResults(command, arguments->results);
+  command
+      .add_option("sample", arguments->sample,
+                  "Which: a number from 0 (the plan's samples, the corners, those of the alpha-cuts, the centre), or "
+                  "corner K, alpha-corner K (from 0), centre")
+      ->required()
+      ->expected(1, 2)
+      ->type_name("SAMPLE");
+  command.add_option("-o,--output", arguments->output, "Table (CSV); otherwise on standard output")
+      ->type_name("SAMPLE.csv");
+  command.add_flag("--force", arguments->force, "Overwrite an existing file");
+  return [arguments] { return replay(*arguments); };
+}
+
+}  // namespace gamut::commands

@@ -1,0 +1,46 @@
+// gamut report: the page of a results file is written again.
+#include "reports/report.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "commands/files.hpp"
+#include "commands/options.hpp"
+#include "commands/table.hpp"
+#include "studies/results_file.hpp"
+
+namespace gamut::commands {
+namespace {
+
+struct Arguments {
+  std::string results, page;
+  bool force = false;
+};
+
+ExitCode report(const Arguments& arguments) {
+  const std::string path = arguments.page.empty()
+                               ? std::filesystem::path(arguments.results).filename().replace_extension(".html").string()
+                               : arguments.page;
+  const Results results = readResults(arguments.results);
+  reserve(path, arguments.results, arguments.force).write(renderReport(results));
+  fmt::print("{}\n", path);
+  return done;
+}
+
+}  // namespace
+
+Action report(CLI::App& command) {
+  const auto arguments = std::make_shared<Arguments>();
+  addResults(command, arguments->results);
+  command
+      .add_option("-o,--output", arguments->page,
+                  "Report page; otherwise, in the current folder, named like the results")
+      ->type_name("REPORT.html");
+  command.add_flag("--force", arguments->force, "Overwrite an existing file");
+  return [arguments] { return report(*arguments); };
+}
+
+}  // namespace gamut::commands

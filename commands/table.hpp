@@ -1,0 +1,45 @@
+// The commands of the program: each is a row here, and a file of its name that declares its options and does it.
+#pragma once
+
+#include <functional>
+
+#include "commands/exit_codes.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace gamut {
+
+/// Does what a command was told to do.
+using Action = std::function<ExitCode()>;
+
+struct Command {
+  const char* name;
+  const char* help;  ///< one line
+  /// Declares options and arguments. The action is for when they have been read.
+  Action (*declare)(CLI::App& command);
+  /// What an interrupt does: ends the program, or is left to the action to look at.
+  enum { isEnded, looksAtInterrupts } onInterrupt = isEnded;
+};
+
+namespace commands {
+
+Action run(CLI::App& command);
+Action validate(CLI::App& command);
+Action check(CLI::App& command);
+Action report(CLI::App& command);
+Action info(CLI::App& command);
+Action replay(CLI::App& command);
+
+inline constexpr Command table[] = {
+    {"run", "Run a study; write results and a report", run, Command::looksAtInterrupts},
+    {"validate", "Read and check a study file, no more", validate},
+    {"check", "The verdict, from the stored numbers: do all samples stay inside?", check},
+    {"report", "Write the report page of a results file", report},
+    {"info", "What a results file holds and where it comes from", info},
+    {"replay", "One sample of a run again, bit for bit, as CSV", replay},
+};
+
+}  // namespace commands
+}  // namespace gamut

@@ -1,0 +1,32 @@
+// How the samples of a study are taken, by its run and by a replay of one of them alike.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "mechanics/assembly.hpp"
+#include "studies/problem.hpp"
+#include "studies/study.hpp"
+
+namespace gamut {
+
+/// What says which values the samples have and how they are integrated; neither limits nor threads.
+EnsembleOptions ensembleOptions(const Study& study, const Problem& problem, std::uint64_t seed, std::size_t samples);
+
+/// Kinematics: the study's outputs by the assembly itself instead of its recording. `numbers` as Problem::box.
+template <class S>
+std::vector<S> assembledOutputs(const Study& study, const Problem& problem, const std::vector<S>& numbers) {
+  const std::span<const S> values(numbers);
+  Assembly<S> assembly(study.mechanism, problem.freeParameters, values.subspan(problem.states));
+  assembly.setState(values.first(problem.states));
+  std::vector<S> outputs;
+  for (const std::string& output : problem.outputs) outputs.push_back(assembly.output(output));
+  return outputs;
+}
+
+/// Kinematics: the same samples once more, all at once, by the assembly itself.
+void moveSamples(const Study& study, const Problem& problem, SampleBlock& block);
+
+}  // namespace gamut
