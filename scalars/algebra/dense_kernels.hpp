@@ -1,4 +1,4 @@
-// Small dense kernels on doubles for verified_algebra.cpp: products, an approximate inverse, approximate triangular
+// Small dense kernels on doubles for verified algebra: products, an approximate inverse, approximate triangular
 // factors. Nothing is claimed of their accuracy beyond each element of a product being an ordinary dot product.
 // Every element is summed in the order of its index whatever the vector unit's width, so results are the same to the
 // last bit with every compiler and machine. (Eigen's kernels sum in an order that depends on the machine.)

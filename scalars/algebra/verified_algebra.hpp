@@ -12,7 +12,7 @@
 //
 // How: floating-point algebra guesses R, about the inverse of A; then G >= |I - R A| is computed elementwise, with an
 // a-priori bound for its rounding errors, and if its row sums stay below 1 then A is regular and A^-1 lies near R
-// (Rump, Verification methods, Acta Numerica 2010, section 10.8; each step is proved in verified_algebra.cpp).
+// (Rump, Verification methods, Acta Numerica 2010, section 10.8; each step is proved in verified_proof.hpp).
 // Interval elimination would be wider by orders of magnitude, and needs comparisons that intervals do not have.
 //
 // No rounding mode is touched, and the enclosures hold in whichever the caller left (widest when it is not to nearest);

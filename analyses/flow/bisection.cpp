@@ -1,0 +1,88 @@
+// Which symbol of a set to bisect after a step, and the two halves. Derivation: docs/flow.md, section 4.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "analyses/flow/error_bounds.hpp"
+#include "analyses/flow/step.hpp"
+#include "scalars/index.hpp"
+
+namespace gamut {
+
+using detail::at;
+
+double FlowStepper::relativeRemainder(const FlowSet& set) const {
+  std::vector<double> total;
+  totalRadius(set, total);
+  double largest = 0;
+  for (int i = 0; i < n_; ++i) {
+    double remainder = set.W[at(i)];
+    for (int j = 0; j < n_; ++j) remainder += std::fabs(set.C[at(i * n_ + j)]) * total[at(j)];
+    largest = std::max(largest, remainder / scale_[at(i)]);
+  }
+  return largest;
+}
+
+int FlowStepper::worstSymbol() const {
+  const Monomials& m = monomials();
+  std::vector<double> weight(at(m.symbols()), 0.0);
+  for (int from : {m.degree() - 1, 1}) {  // the highest powers; at a fresh start, the linear terms
+    for (int i = 0; i < n_; ++i)
+      for (int g = 1; g < m.count(); ++g) {
+        if (m.grade(g) < from) continue;
+        double size = 0, power = 1;
+        for (int order = 0; order <= m_; ++order, power *= theta_)
+          size += std::fabs(series_.series(i)[g * series_.stride() + order]) * power;
+        for (int l = 0; l < m.symbols(); ++l) weight[at(l)] += m.exponent(g, l) * size / scale_[at(i)];
+      }
+    if (*std::max_element(weight.begin(), weight.end()) > 0) break;
+  }
+  return static_cast<int>(std::max_element(weight.begin(), weight.end()) - weight.begin());
+}
+
+FlowSet FlowStepper::bisect(FlowSet& set, int symbol, const PolynomialRange& shift) const {
+  const int N = series_.count(), NJ = series_.frameCount();
+  FlowSet halves[2] = {set, set};
+  std::vector<double> total;
+  totalRadius(set, total);
+  std::vector<double> from(at(N)), to(at(N));
+  for (int side : {0, 1}) {
+    FlowSet& s = halves[side];
+    const double middle = side == 0 ? -0.5 : 0.5;
+    for (int i = 0; i < n_; ++i) {
+      double norm = 0;
+      for (int g = 0; g < N; ++g) norm += std::fabs(set.p[at(i * N + g)]);
+      shift.substitute(symbol, middle, 0.5, &set.p[at(i * N)], &s.p[at(i * N)]);
+      double rounding = shift.shiftError() * norm;
+      for (int j = 0; j < n_; ++j) {
+        std::fill(from.begin(), from.end(), 0.0);
+        norm = 0;
+        for (int g = 0; g < NJ; ++g) {
+          from[at(g)] = set.C[at((g * n_ + i) * n_ + j)];
+          norm += std::fabs(from[at(g)]);
+        }
+        shift.substitute(symbol, middle, 0.5, from.data(), to.data());
+        for (int g = 0; g < NJ; ++g) s.C[at((g * n_ + i) * n_ + j)] = to[at(g)];
+        if (NJ > 1) rounding += shift.shiftError() * norm * total[at(j)];
+      }
+      s.W[at(i)] = (set.W[at(i)] + rounding) * bounds::up + bounds::tiny;
+    }
+    for (Embedded& p : s.parameters)
+      if (p.symbol == symbol) {
+        const double moved = p.half * middle;  // exact: a power of two
+        const double centre = p.centre + moved;
+        p.radius = (p.radius + bounds::unit * std::fabs(centre)) * bounds::up + bounds::tiny;
+        p.centre = centre;
+        p.half *= 0.5;
+      }
+    if (symbol < static_cast<int>(s.centre.size())) {
+      s.centre[at(symbol)] += s.half[at(symbol)] * middle;
+      s.half[at(symbol)] *= 0.5;
+    }
+  }
+  set = std::move(halves[0]);
+  return std::move(halves[1]);
+}
+
+}  // namespace gamut

@@ -1,0 +1,231 @@
+// Steps, and what is done between them: bisection, more or fewer degrees, enclosures at and between the output times.
+#include "analyses/flow/journey.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+#include <utility>
+
+#include "analyses/flow/run.hpp"
+#include "analyses/workers.hpp"
+#include "scalars/index.hpp"
+
+namespace gamut {
+
+using detail::at;
+
+namespace {
+
+constexpr double expandedAt = 1e-6;  // a remainder, relative to its state, that a linear term cannot carry much further
+
+}  // namespace
+
+void joinHulls(std::vector<Interval>& into, const std::vector<Interval>& from) {
+  if (into.empty()) {
+    into = from;
+    return;
+  }
+  for (std::size_t i = 0; i < into.size(); ++i) into[i] = hull(into[i], from[i]);
+}
+
+FlowJourney FlowFollower::followWhilePossible(FlowPiece& piece, double end) {
+  try {
+    return follow(piece, end);
+  } catch (const Cancelled&) {
+  } catch (const std::bad_alloc&) {
+    run_.ranOutOfMemory();
+  }
+  return FlowJourney::cancelled;
+}
+
+FlowJourney FlowFollower::follow(FlowPiece& piece, double end) {
+  while (piece.set.t < end) {
+    if (task_.options.cancelled != nullptr && task_.options.cancelled->load(std::memory_order_relaxed))
+      return FlowJourney::cancelled;
+    use(piece);
+    const bool uncertain = symbols_ > 0;
+    StepOutcome outcome =
+        tool_->stepper.certify(piece.set, task_.horizon, task_.quantum, uncertain ? task_.splitDefect : 0.0);
+    if (outcome != StepOutcome::stepped && uncertain) {
+      if (piece.layout + 1 < task_.degrees) {
+        changeLayout(piece, piece.layout + 1);
+        continue;
+      }
+      const bool futile = outcome == StepOutcome::failed && tool_->stepper.isRemainderDominant(piece.set);
+      const int symbol = tool_->stepper.worstSymbol();
+      // Centres of pieces are exact: fifty bisections of one symbol is as far as that goes.
+      const bool tooFine = symbol < task_.embedding.symbols && piece.set.half[at(symbol)] < 0x1p-50;
+      if (!futile && !tooFine && run_.mayBisect(piece)) {
+        FlowPiece other = piece;
+        other.set = tool_->stepper.bisect(piece.set, symbol, tool_->range);
+        run_.add(std::move(other));
+        continue;
+      }
+      if (outcome == StepOutcome::splitWanted) outcome = StepOutcome::stepped;  // certified all the same
+    }
+    if (outcome == StepOutcome::failed) {
+      run_.fail(piece.set.t, tool_->stepper.why());
+      return FlowJourney::ended;
+    }
+    if (!record(piece)) return FlowJourney::ended;
+    tool_->stepper.advance(piece.set);
+    ++collected_.steps;
+    if (!expand(piece)) lowerDegree(piece);
+  }
+  return FlowJourney::goesOn;
+}
+
+void FlowFollower::use(const FlowPiece& piece) {
+  std::unique_ptr<Tools>& tools = tools_[piece.layout];
+  if (!tools) {
+    const FlowLayout& layout = task_.layouts[piece.layout];
+    const FlowOptions& options = task_.options;
+    tools = std::make_unique<Tools>(Tools{FlowStepper(task_.differentiated, layout.monomials, layout.frameDegree,
+                                                      options.order, task_.tolerance, options.cancelled),
+                                          PolynomialRange(layout.monomials), nullptr, nullptr});
+    tools->stepper.setStateNames(options.stateNames);
+    if (task_.outputs.outputs() > 0) {
+      tools->outputs = std::make_unique<FlowOutputs>(task_.outputs, layout.monomials, options.cancelled);
+      tools->chords =
+          std::make_unique<FlowOutputChords>(task_.outputs, layout.monomials, options.order, options.cancelled);
+    }
+  }
+  tool_ = tools.get();
+  outputs_ = tool_->outputs.get();
+  monomialCount_ = task_.layouts[piece.layout].monomials->count();
+  symbols_ = task_.layouts[piece.layout].monomials->symbols();
+  whole_.assign(at(symbols_), Interval(-1.0, 1.0));
+}
+
+void FlowFollower::changeLayout(FlowPiece& piece, std::size_t to) {
+  const FlowLayout& from = task_.layouts[piece.layout];
+  changeDegree(piece.set, *from.monomials, from.frameDegree, *task_.layouts[to].monomials,
+               task_.layouts[to].frameDegree);
+  piece.layout = to;
+}
+
+/// Gives the remainder symbols of its own once it has grown to what a linear term cannot carry.
+bool FlowFollower::expand(FlowPiece& piece) {
+  const std::size_t expanded = task_.layouts.size() - 1;
+  if (!task_.layouts[expanded].expanded || piece.layout == expanded) return false;
+  // Where ξ can be bisected, doing so early keeps the remainder small; symbols for it would only be bisected too.
+  if (task_.embedding.symbols > 0 && task_.options.split) return false;
+  const FlowLayout& from = task_.layouts[piece.layout];
+  if (!(tool_->stepper.relativeRemainder(piece.set) > expandedAt)) return false;
+  if (!expandRemainder(piece.set, *from.monomials, from.frameDegree, *task_.layouts[expanded].monomials,
+                       task_.layouts[expanded].frameDegree))
+    return false;
+  piece.layout = expanded;
+  return true;
+}
+
+/// Back to a lower degree where the highest grades have become too small to matter.
+void FlowFollower::lowerDegree(FlowPiece& piece) {
+  if (piece.layout == 0 || piece.layout >= task_.degrees) return;
+  const Monomials& now = *task_.layouts[piece.layout].monomials;
+  const double dropped =
+      relativeMass(piece.set, now, task_.layouts[piece.layout - 1].monomials->degree(), now.degree());
+  if (dropped < 1e-4 * task_.splitDefect) changeLayout(piece, piece.layout - 1);
+}
+
+/// Enclosures of states and outputs at one time of the step.
+void FlowFollower::enclose(const FlowPiece& piece, double tau, std::vector<Interval>& states,
+                           std::vector<Interval>& outputs) {
+  tool_->stepper.evaluate(piece.set, tau, point_);
+  const int N = monomialCount_;
+  states.resize(at(task_.motion.states()));
+  for (int i = 0; i < task_.motion.states(); ++i)
+    states[at(i)] = inflated(tool_->range(&point_.p[at(i * N)], whole_), point_.radius[at(i)]);
+  outputs.clear();
+  if (!outputs_) return;
+  outputs_->evaluate(piece.set.t + tau, point_, piece.set.R, piece.set.parameters);
+  for (int o = 0; o < outputs_->count(); ++o)
+    outputs.push_back(std::isfinite(outputs_->radius(o))
+                          ? inflated(tool_->range(outputs_->polynomial(o), whole_), outputs_->radius(o))
+                          : Interval::entire());
+}
+
+void FlowFollower::encloseLevels(const FlowPiece& piece, std::size_t row) {
+  if (task_.levels.empty()) return;
+  const double began = threadCpuSeconds();
+  const int N = monomialCount_;
+  for (std::size_t level = 0; level < task_.levels.size(); ++level) {
+    Box xi = whole_;
+    if (!restrictTo(task_.levels[level], task_.embedding, piece.set.centre, piece.set.half, xi)) break;
+    std::vector<Interval> cut;
+    if (outputs_) {
+      for (int o = 0; o < outputs_->count(); ++o)
+        cut.push_back(std::isfinite(outputs_->radius(o))
+                          ? inflated(tool_->range(outputs_->polynomial(o), xi), outputs_->radius(o))
+                          : Interval::entire());
+    } else {
+      for (int i = 0; i < task_.motion.states(); ++i)
+        cut.push_back(inflated(tool_->range(&point_.p[at(i * N)], xi), point_.radius[at(i)]));
+    }
+    joinHulls(collected_.cuts[level][row], cut);
+  }
+  collected_.cutCpu += threadCpuSeconds() - began;
+}
+
+/// Adds what the step that was just certified contributes to the tube; false if the piece has grown too wide.
+bool FlowFollower::record(FlowPiece& piece) {
+  const std::vector<double>& times = task_.times;
+  const double t0 = piece.set.t, t1 = t0 + tool_->stepper.h();
+  if (piece.last.empty()) {  // the start
+    enclose(piece, 0.0, piece.last, piece.lastOutputs);
+    for (std::size_t i = 0; i < piece.last.size(); ++i) piece.last[i] = intersection(piece.last[i], task_.box[i]);
+    joinHulls(collected_.states[0], piece.last);
+    joinHulls(collected_.statesOver[0], piece.last);
+    joinHulls(collected_.outputs[0], piece.lastOutputs);
+    joinHulls(collected_.outputsOver[0], piece.lastOutputs);
+    encloseLevels(piece, 0);
+    piece.over = piece.last;
+    piece.overOutputs = piece.lastOutputs;
+    piece.next = 1;
+  }
+  std::vector<Interval> end, endOutputs;
+  double from = t0;
+  bool chordsKnown = false;
+  const auto segment = [&](double to) {  // from `from` to `to`: the chord's hull and how far a motion leaves a chord
+    tool_->stepper.sag(from - t0, to - t0, sag_);
+    for (std::size_t i = 0; i < end.size(); ++i)
+      piece.over[i] = hull(piece.over[i], hull(piece.last[i], end[i]) + sag_[i]);
+    if (outputs_) {
+      if (!chordsKnown) tool_->chords->load(tool_->stepper, piece.set);
+      chordsKnown = true;
+      tool_->chords->sag(from - t0, to - t0, sag_);
+      for (std::size_t i = 0; i < endOutputs.size(); ++i)
+        piece.overOutputs[i] = hull(piece.overOutputs[i], hull(piece.lastOutputs[i], endOutputs[i]) + sag_[i]);
+    }
+    piece.last = end;
+    piece.lastOutputs = endOutputs;
+    from = to;
+  };
+  for (; piece.next < times.size() && times[piece.next] <= t1; ++piece.next) {
+    enclose(piece, times[piece.next] - t0, end, endOutputs);  // an exact difference: docs/flow.md, "Time"
+    encloseLevels(piece, piece.next);
+    segment(times[piece.next]);
+    joinHulls(collected_.states[piece.next], end);
+    std::vector<double>& radii = collected_.radii[piece.next];
+    radii.resize(end.size(), 0.0);
+    for (std::size_t i = 0; i < end.size(); ++i) radii[i] = std::max(radii[i], point_.radius[i]);
+    joinHulls(collected_.outputs[piece.next], endOutputs);
+    joinHulls(collected_.statesOver[piece.next], piece.over);
+    joinHulls(collected_.outputsOver[piece.next], piece.overOutputs);
+    piece.over = end;
+    piece.overOutputs = endOutputs;
+  }
+  if (from < t1) {
+    enclose(piece, t1 - t0, end, endOutputs);
+    segment(t1);
+  }
+  for (std::size_t i = 0; i < piece.last.size(); ++i)
+    if (!(width(piece.last[i]) <= task_.options.maxWidth)) {
+      run_.fail(t1, tool_->stepper.nameOf(static_cast<int>(i)) + " has become wider than the limit of " +
+                        toString(task_.options.maxWidth));
+      return false;
+    }
+  return true;
+}
+
+}  // namespace gamut

@@ -1,0 +1,87 @@
+// The way of one piece of the box through time, step by step, and what it contributes to the tube on its way.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "analyses/flow/outputs.hpp"
+#include "analyses/flow/polynomial_range.hpp"
+#include "analyses/flow/step.hpp"
+#include "analyses/flow/task.hpp"
+
+namespace gamut {
+
+class FlowRun;
+
+/// One sub-box on its way, with what is known at its last boundary.
+struct FlowPiece {
+  FlowSet set;
+  std::size_t layout = 0;                          // which monomials it uses
+  std::size_t next = 0;                            // index of its next output time
+  std::vector<Interval> last, over;                // states at set.t; states since the last output time
+  std::vector<Interval> lastOutputs, overOutputs;  // likewise for the outputs
+};
+
+enum class FlowJourney { goesOn, ended, cancelled };
+
+/// Everything that pieces contributed at the output times.
+struct FlowCollected {
+  std::vector<std::vector<Interval>> states, statesOver, outputs, outputsOver;
+  std::vector<std::vector<std::vector<Interval>>> cuts;
+  std::vector<std::vector<double>> radii;  // greatest remainder of a piece, [time][state]
+  long steps = 0;
+  double cpu = 0, cutCpu = 0;
+  FlowCollected(std::size_t times, std::size_t levels)
+      : states(times),
+        statesOver(times),
+        outputs(times),
+        outputsOver(times),
+        cuts(levels, std::vector<std::vector<Interval>>(times)),
+        radii(times) {}
+};
+
+/// `into` becomes the hull of both, component by component; empty, it becomes `from`.
+void joinHulls(std::vector<Interval>& into, const std::vector<Interval>& from);
+
+/// Follows one piece after the other. Holds the workspace: one a thread.
+class FlowFollower {
+ public:
+  /// Halves of pieces, and why one cannot be followed, go to the run.
+  FlowFollower(FlowRun& run, const FlowTask& task, FlowCollected& collected)
+      : run_(run), task_(task), collected_(collected), tools_(task.layouts.size()) {}
+
+  /// Advances `piece` to `end` or to its failure. What ends within a step leaves the piece at the step's start; what
+  /// the step had given already is proved.
+  FlowJourney followWhilePossible(FlowPiece& piece, double end);
+
+ private:
+  /// The workspace of one layout.
+  struct Tools {
+    FlowStepper stepper;
+    PolynomialRange range;
+    std::unique_ptr<FlowOutputs> outputs;
+    std::unique_ptr<FlowOutputChords> chords;
+  };
+
+  FlowJourney follow(FlowPiece& piece, double end);
+  void use(const FlowPiece& piece);
+  void changeLayout(FlowPiece& piece, std::size_t to);
+  bool expand(FlowPiece& piece);
+  void lowerDegree(FlowPiece& piece);
+  void enclose(const FlowPiece& piece, double tau, std::vector<Interval>& states, std::vector<Interval>& outputs);
+  void encloseLevels(const FlowPiece& piece, std::size_t row);
+  bool record(FlowPiece& piece);
+
+  FlowRun& run_;
+  const FlowTask& task_;
+  FlowCollected& collected_;
+  std::vector<std::unique_ptr<Tools>> tools_;  // one a layout, made when first needed
+  Tools* tool_ = nullptr;                      // of the piece at hand, as are the next two
+  FlowOutputs* outputs_ = nullptr;
+  int monomialCount_ = 0, symbols_ = 0;
+  FlowPoint point_;
+  Box whole_;
+  std::vector<Interval> sag_;
+};
+
+}  // namespace gamut

@@ -1,0 +1,294 @@
+// The certificate, first part: what the recursion left out and rounded, node by node. Notation as in docs/flow.md:
+// ‖a‖ = Σ|c_{iα}|θ^i, ‖a‖_w = Σ (i+1)∏(α_l+1)|c_{iα}|θ^i, T_a[q][i] = Σ_{grade α = q} |c_{iα}|θ^i, u = 2^-53.
+// All quantities are nonnegative and computed in round-to-nearest; `bounds::up` then covers the
+// roundings of the bound itself.
+#include <algorithm>
+#include <cmath>
+
+#include "analyses/flow/error_bounds.hpp"
+#include "analyses/flow/kernels.hpp"
+#include "analyses/flow/polynomial_series.hpp"
+
+namespace gamut {
+
+bool PolynomialSeries::tabulate(double theta) {
+  power_[0] = 1;
+  for (int i = 1; i < stride_; ++i) power_[at(i)] = i < m_ ? power_[at(i - 1)] * theta : 0.0;
+  for (int i = 0; i < stride_; ++i) weights_[at(i)] = (i + 1) * power_[at(i)];
+  const double last = power_[at(m_ - 1)] * theta;  // θ^m
+  for (std::size_t x = 0; x < plan_.size(); ++x) {
+    const Plan& v = plan_[x];
+    double* table = &t_[v.t];
+    kernels::tabulate(*monomials_, v.count, &f_[v.f], power_.data(), weights_.data(), stride_, table, norm_[x],
+                      weighted_[x]);
+    norm_[x] *= bounds::up;
+    weighted_[x] *= bounds::up;
+    if (!(norm_[x] < bounds::largest)) return refuse(static_cast<int>(x));  // for NaN too
+    double* total = &total_[x * at(stride_)];
+    std::fill(total, total + stride_, 0.0);
+    for (int q = 0; q <= v.degree; ++q)
+      for (int i = 0; i < stride_; ++i) total[i] += table[q * stride_ + i];
+    if (v.op == Op::state) {
+      double sum = 0;
+      for (int g = 0; g < v.count; ++g) sum += std::fabs(f_[v.f + at(g * stride_ + m_)]);
+      top_[x] = withFrame_ ? sum * last * bounds::up : 0.0;
+      if (!(top_[x] < bounds::largest)) return refuse(static_cast<int>(x));
+    }
+    if (!v.needsTails) continue;
+    // s1[i] = Σ_{j ≥ m-i} total[j];  s2[q][i] = Σ_{p ≥ q} Σ_{j ≤ m-1-i} T[p][j].
+    double* s1 = &s1_[x * at(stride_)];
+    std::fill(s1, s1 + stride_, 0.0);
+    for (int i = 1; i < m_; ++i) s1[i] = s1[i - 1] + total[m_ - i];
+    if (monomials_->degree() == 0) continue;
+    double* s2 = &s2_[v.s2];
+    std::fill(s2 + (v.degree + 1) * stride_, s2 + (v.degree + 2) * stride_, 0.0);
+    for (int q = v.degree; q >= 0; --q) {
+      double* row = s2 + q * stride_;
+      std::fill(row, row + stride_, 0.0);
+      double sum = 0;
+      for (int i = m_ - 1; i >= 0; --i) row[i] = (sum += table[q * stride_ + m_ - 1 - i]);
+      for (int i = 0; i < m_; ++i) row[i] += row[stride_ + i];
+    }
+  }
+  for (System& system : systems_) {
+    goOnUnlessCancelled();
+    tabulateSystem(system);
+  }
+  for (int x = 0; x < nodes_; ++x) {
+    goOnUnlessCancelled();
+    ownErrors(x);
+  }
+  return true;
+}
+
+bool PolynomialSeries::reachesHighestGrades(double share) const {
+  const int last = monomials_->degree();
+  for (std::size_t x = 0; x < plan_.size(); ++x) {
+    const Plan& v = plan_[x];
+    double mass = 0;
+    for (int q = std::max(last - 1, 1); q <= v.degree; ++q)
+      for (int i = 0; i < stride_; ++i) mass += t_[v.t + at(q * stride_ + i)];
+    if (mass > share * norm_[x]) return true;
+  }
+  return false;
+}
+
+/// Σ_{i+j ≥ m} T_a[i] T_b[j]: orders of a product that are not kept.
+double PolynomialSeries::tailTime(int a, int b) const {
+  return kernels::dot(&total_[at(a) * at(stride_)], &s1_[at(b) * at(stride_)], stride_);
+}
+
+/// Σ_{i ≥ fromOrder, i+j < m, p+q > degree} T_a[p][i] T_b[q][j]: grades of a product that are not kept.
+double PolynomialSeries::tailDegree(int a, int b, int degree, int fromOrder) const {
+  const Plan& pa = plan_[at(a)];
+  const Plan& pb = plan_[at(b)];
+  double sum = 0;
+  for (int p = 0; p <= pa.degree; ++p) {
+    const int q = std::max(0, degree + 1 - p);
+    if (q > pb.degree) continue;
+    const double* row = &t_[pa.t + at(p * stride_)];
+    const double* tail = &s2_[pb.s2 + at(q * stride_)];
+    if (fromOrder == 0)
+      sum += kernels::dot(row, tail, stride_);
+    else
+      for (int i = fromOrder; i < m_; ++i) sum += row[i] * tail[i];
+  }
+  return sum;
+}
+
+/// Σ_{p ≥ 1, p+q > degree} T_a[p][0] T_b[q][0]: the same along ξ at σ = 0.
+double PolynomialSeries::tailRow(int a, int b, int degree) const {
+  const Plan& pa = plan_[at(a)];
+  const Plan& pb = plan_[at(b)];
+  double sum = 0, tail = 0;
+  int q = pb.degree + 1;
+  for (int p = 1; p <= pa.degree; ++p) {
+    for (; q > std::max(0, degree + 1 - p); --q) tail += t_[pb.t + at((q - 1) * stride_)];
+    sum += t_[pa.t + at(p * stride_)] * tail;
+  }
+  return sum;
+}
+
+/// Σ_{grade > degree} of a: what a node of lower degree drops.
+double PolynomialSeries::dropped(int a, int degree) const {
+  double sum = 0;
+  for (int q = degree + 1; q <= plan_[at(a)].degree; ++q)
+    for (int i = 0; i < m_; ++i) sum += t_[plan_[at(a)].t + at(q * stride_ + i)];
+  return sum;
+}
+
+/// A proved lower bound of |ṽ| when its constant coefficient is positive: |c_00| minus everything else.
+double PolynomialSeries::minimum(int node) const {
+  const double lead = f_[plan_[at(node)].f];
+  return (2 * lead - norm_[at(node)]) * bounds::down - bounds::tiny;
+}
+
+/// Σ_{(i,α)≠0} |c_{iα}| θ^i: how far ṽ goes from its constant coefficient, and along the way there: the integral of
+/// |ṽ'| from ξ = 0, σ = 0 over ξ at σ = 0 and then over σ.
+double PolynomialSeries::rest(int node) const {
+  const Plan& v = plan_[at(node)];
+  double sum = moved(node);
+  for (int q = 1; q <= v.degree; ++q) sum += t_[v.t + at(q * stride_)];
+  return sum * bounds::up;
+}
+
+/// The part of rest() that is over σ.
+double PolynomialSeries::moved(int node) const {
+  double sum = 0;
+  for (int i = 1; i < m_; ++i) sum += total_[at(node) * at(stride_) + at(i)];
+  return sum;
+}
+
+/// The same as rest() of ‖·‖_w. (A difference of ‖·‖_w and the constant coefficient would be off by what bounds::up
+/// adds.)
+double PolynomialSeries::weightedRest(int node) const {
+  const Plan& v = plan_[at(node)];
+  double sum = 0;
+  for (int g = 0; g < v.count; ++g)
+    for (int i = g == 0 ? 1 : 0; i < m_; ++i)
+      sum += weights_[at(i)] * monomials_->multiplicity(g) * std::fabs(f_[v.f + at(g * stride_ + i)]);
+  return sum * bounds::up;
+}
+
+/// Bounds of the defect of v' = u'·of (for sine, cosine, exponential, tanh), integrated over [0, θ], and of the row σ =
+/// 0. Rounding: a coefficient has N terms, one rounding in j·u_j and one in the division: γ_{N+2}, N ≤ weights.
+void PolynomialSeries::differentialErrors(int u, int of, int degree, double& e0, double& e1) const {
+  const double norm = rest(u), weighted = weighted_[at(u)] - leading(u) * bounds::down;
+  e1 = tailTime(u, of);  // the row i = 0 of u meets s1[0] = 0
+  e0 = bounds::unit * (weighted * weighted_[at(of)] + 2 * norm * norm_[at(of)]);
+  if (monomials_->degree() > 0)
+    // The row σ = 0 rounds likewise, with the weights of its own (smaller) terms.
+    e0 += tailDegree(u, of, degree, 1) + tailRow(u, of, degree) +
+          bounds::unit * (weighted * weighted_[at(of)] + 2 * norm * norm_[at(of)]);
+}
+
+/// Σ |target - left·right| over the kept coefficients, with the rounding of this evaluation: γ_{N+1}(|target|+Σ|..|),
+/// N + 1 ≤ 2N ≤ 2 weights. target -1 is the constant 1.
+double PolynomialSeries::productResidual(int left, int right, int target) {
+  const Plan& l = plan_[at(left)];
+  const int N = l.count;
+  double* out = scratch_.data();
+  double sum = 0;
+  const int orders = l.invariant ? 1 : m_;
+  for (int i = 0; i < orders; ++i) {
+    std::fill(out, out + N, 0.0);
+    kernels::convolve(monomials_->pairs().data(), monomials_->first().data(), N, &f_[l.f], &r_[plan_[at(right)].r],
+                      stride_, i, out);
+    for (int g = 0; g < N; ++g) {
+      const double wanted =
+          target >= 0 ? f_[plan_[at(target)].f + at(g * stride_ + i)] : (g == 0 && i == 0 ? 1.0 : 0.0);
+      sum += std::fabs(wanted - out[g]) * power_[at(i)];
+    }
+  }
+  return sum +
+         2 * bounds::unit * (weighted_[at(left)] * weighted_[at(right)] + (target >= 0 ? weighted_[at(target)] : 1.0));
+}
+
+/// Σ |i u_i - Σ_j j l_j w_{i-j}| / i over the kept coefficients of l' w = u', and the row σ = 0 likewise in the grades;
+/// rounding γ_{N+2} of (|u| + Σ|l||w|) for each of the two, N + 2 ≤ 3 weights.
+double PolynomialSeries::quotientResidual(int node) {
+  const Plan& l = plan_[at(node)];
+  const Plan& u = plan_[at(l.a)];
+  const Plan& w = plan_[at(l.b)];
+  const int N = l.count;
+  double* out = scratch_.data();
+  double sum = 0;
+  for (int i = 1; i < (l.invariant ? 1 : m_); ++i) {
+    std::fill(out, out + N, 0.0);
+    kernels::convolve(monomials_->pairs().data(), monomials_->first().data(), N, &d_[l.d], &r_[w.r], stride_, i, out);
+    for (int g = 0; g < N; ++g) sum += std::fabs(i * f_[u.f + at(g * stride_ + i)] - out[g]) / i * power_[at(i)];
+  }
+  for (int g = 1; g < N; ++g) {
+    double s = 0;
+    for (auto q = monomials_->first()[at(g)]; q < monomials_->first()[at(g) + 1]; ++q)
+      if (const auto [p, r] = monomials_->pairs()[at(q)]; p != 0)
+        s += monomials_->grade(p) * f_[l.f + at(p * stride_)] * f_[w.f + at(r * stride_)];
+    const int grade = monomials_->grade(g);
+    sum += std::fabs(grade * f_[u.f + at(g * stride_)] - s) / grade;
+  }
+  return sum + 6 * bounds::unit * (weighted_[at(l.a)] + weighted_[at(node)] * weighted_[at(l.b)]);
+}
+
+/// What a node adds to the errors of its operands.
+void PolynomialSeries::ownErrors(int node) {
+  const Plan& v = plan_[at(node)];
+  double e0 = 0, e1 = 0;
+  const bool graded = monomials_->degree() > 0;
+  switch (v.op) {
+    case Op::state:
+    case Op::parameter:
+    case Op::time:
+    case Op::constant:
+    case Op::cos:
+    case Op::sech2:
+      return;
+    case Op::solution:
+      if (v.b == 0) solutionOwnErrors(node);
+      return;
+    case Op::add:
+    case Op::sub:  // one rounding a coefficient; lower degree: what is dropped
+      e0 = bounds::unit * norm_[at(node)] + (graded ? dropped(v.a, v.degree) + dropped(v.b, v.degree) : 0.0);
+      break;
+    case Op::neg:
+      e0 = graded ? dropped(v.a, v.degree) : 0.0;
+      break;
+    case Op::mul:
+    case Op::sqr: {
+      const int b = v.op == Op::sqr ? v.a : v.b;
+      // A coefficient is a sum of N ≤ (i+1)∏(α_l+1) products in any order, fused or not: γ_N. A constant factor: one.
+      e0 = plan_[at(v.a)].constant ? bounds::unit * norm_[at(node)]
+                                   : bounds::unit * weighted_[at(v.a)] * weighted_[at(b)];
+      if (graded) e0 += tailDegree(v.a, b, v.degree, 0);
+      e1 = tailTime(v.a, b);
+      break;
+    }
+    case Op::recip:
+      e0 = productResidual(node, v.a, -1) + (graded ? tailDegree(node, v.a, v.degree, 0) : 0.0);
+      e1 = tailTime(node, v.a);
+      break;
+    case Op::sqrt:
+      e0 = productResidual(node, node, v.a) +
+           (graded ? tailDegree(node, node, v.degree, 0) + dropped(v.a, v.degree) : 0.0);
+      e1 = tailTime(node, node);
+      break;
+    case Op::exp:
+      differentialErrors(v.a, node, v.degree, e0, e1);
+      e0 += pointError_[at(node)];
+      break;
+    case Op::log:
+    case Op::atan:
+      e0 = quotientResidual(node);
+      if (graded) e0 += tailDegree(node, v.b, v.degree, 1) + tailRow(node, v.b, v.degree) + dropped(v.a, v.degree);
+      e1 = tailTime(node, v.b);
+      break;
+    case Op::sin: {  // both from one skew system: the error's Euclidean norm grows by no more than both defects
+      double c0 = 0, c1 = 0;
+      differentialErrors(v.a, node + 1, v.degree, e0, e1);
+      differentialErrors(v.a, node, v.degree, c0, c1);
+      e0 += c0 + pointError_[at(node)] + pointError_[at(node + 1)];
+      e1 += c1;
+      own0_[at(node + 1)] = e0 * bounds::up + bounds::tiny;
+      own1_[at(node + 1)] = e1 * bounds::up;
+      break;
+    }
+    case Op::tanh: {
+      // κ = |s̃ - (1 - t̂²)|, t̂ = t̃ + tanh u_00 - t_00: the constants of both cancel but for their own errors, and the
+      // others are sums of N ≤ weights products, in which t_00 meets only what is not constant.
+      const double weighted = weightedRest(node);
+      const double kappa0 = pointError_[at(node + 1)] + 2 * pointError_[at(node)] * rest(node) +
+                            bounds::unit * weighted * (2 * leading(node) + weighted) +
+                            (graded ? tailDegree(node, node, v.degree, 0) : 0.0);
+      const double kappa1 = tailTime(node, node);
+      own0_[at(node + 1)] = kappa0 * bounds::up + bounds::tiny;
+      own1_[at(node + 1)] = kappa1 * bounds::up;
+      differentialErrors(v.a, node + 1, v.degree, e0, e1);
+      e0 += rest(v.a) * own0_[at(node + 1)];
+      e1 += rest(v.a) * own1_[at(node + 1)];
+      break;
+    }
+  }
+  own0_[at(node)] = e0 * bounds::up + bounds::tiny;
+  own1_[at(node)] = e1 * bounds::up;
+}
+
+}  // namespace gamut

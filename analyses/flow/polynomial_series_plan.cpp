@@ -1,0 +1,216 @@
+// Before the recursion: which degree each node keeps, where its coefficients and tables lie, and what goes in.
+#include <algorithm>
+#include <stdexcept>
+
+#include "analyses/flow/kernels.hpp"
+#include "analyses/flow/polynomial_series.hpp"
+
+namespace gamut {
+
+PolynomialSeries::PolynomialSeries(const Program& program, int primaryOutputs,
+                                   std::shared_ptr<const Monomials> monomials, int frameDegree, int order,
+                                   bool withFrame, const std::atomic<bool>* cancelled)
+    : n_(program.states()),
+      time_(program.states() + program.parameters()),
+      m_(order),
+      stride_((order + 1 + 7) / 8 * 8),
+      nodes_(static_cast<int>(program.nodes().size())),
+      frameDegree_(std::min(frameDegree, monomials->degree())),
+      withFrame_(withFrame),
+      cancelled_(cancelled),
+      monomials_(std::move(monomials)),
+      outputs_(program.outputNodes()) {
+  if (order < 1 || order > 31) throw std::invalid_argument("the order of a polynomial series must be 1 to 31");
+  frameCount_ = monomials_->countUpTo(frameDegree_);
+  const auto& nodes = program.nodes();
+  std::vector<char> primary(nodes.size(), 0);
+  for (int i = 0; i < primaryOutputs; ++i) primary[at(outputs_[at(i)])] = 1;
+  for (std::size_t i = nodes.size(); i-- > 0;) {
+    if (!isOperation(nodes[i].op)) primary[i] = 1;
+    if (!primary[i]) continue;
+    const int node = static_cast<int>(i);
+    detail::forEachTwin(program.table(), node, [&](int twin) { primary[at(twin)] = 1; });
+    detail::forEachOperand(program.table(), node, [&](int operand) { primary[at(operand)] = 1; });
+  }
+
+  constant_.assign(nodes.size(), 0.0);
+  radius_.assign(nodes.size(), 0.0);
+  pointError_.assign(nodes.size(), 0.0);
+  inverseAt_.assign(nodes.size(), none);
+  std::size_t sizeF = 0, sizeR = 0, sizeD = 0, sizeT = 0, sizeS2 = 0, sizeInverse = 0;
+  const auto place = [&](Plan& v) {
+    v.count = monomials_->countUpTo(v.degree);
+    v.f = sizeF;
+    sizeF += at(v.count) * at(stride_);
+    v.t = sizeT;
+    sizeT += at(v.degree + 1) * at(stride_);
+  };
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    Plan v{nodes[i].op, nodes[i].a, nodes[i].b, 0, 0, primary[i] != 0, program.isInvariant(static_cast<int>(i)), false};
+    v.degree = v.primary ? monomials_->degree() : frameDegree_;
+    if (v.op == Op::constant) {
+      v.constant = true;
+      const Interval& c = program.constants()[at(v.a)];
+      constant_[i] = midpoint(c);
+      radius_[i] = isThin(c) ? 0.0 : radius(c);
+    }
+    place(v);
+    plan_.push_back(v);
+  }
+  if (withFrame_)
+    for (int i = 0; i < n_ * n_; ++i) {
+      Plan v{Op::state, -1, -1, frameDegree_, 0, false, false, false};
+      place(v);
+      plan_.push_back(v);
+    }
+
+  planSystems(program);
+
+  // Which nodes are the right factor of a convolution, and need a reversed copy and tables of tails?
+  const auto rightFactor = [&](int node) {
+    Plan& v = plan_[at(node)];
+    v.needsTails = true;
+    if (v.r == none) {
+      v.r = sizeR;
+      sizeR += at(v.count) * at(kernels::reversedStride(stride_));
+    }
+  };
+  const auto derivative = [&](int node) {
+    Plan& v = plan_[at(node)];
+    if (v.d == none) {
+      v.d = sizeD;
+      sizeD += at(v.count) * at(stride_);
+    }
+  };
+  for (int i = 0; i < nodes_; ++i) {
+    Plan& v = plan_[at(i)];
+    switch (v.op) {
+      case Op::mul:
+        if (plan_[at(v.b)].invariant && !plan_[at(v.a)].invariant) std::swap(v.a, v.b);  // the invariant factor first
+        rightFactor(v.b);
+        break;
+      case Op::sqr:
+        rightFactor(v.a);
+        break;
+      case Op::recip:
+        rightFactor(v.a);
+        break;
+      case Op::sqrt:
+        rightFactor(i);
+        break;
+      case Op::exp:
+        rightFactor(i);
+        derivative(v.a);
+        break;
+      case Op::log:
+      case Op::atan:
+        rightFactor(v.b);
+        derivative(i);
+        break;
+      case Op::sin:
+      case Op::tanh:
+        rightFactor(i);
+        rightFactor(i + 1);
+        derivative(v.a);
+        break;
+      case Op::solution:
+        rightFactor(i);
+        break;
+      default:
+        break;
+    }
+    if (v.op == Op::recip || v.op == Op::sqrt || v.op == Op::log || v.op == Op::atan) {
+      inverseAt_[at(i)] = sizeInverse;
+      sizeInverse += at(v.count);
+    }
+  }
+  if (withFrame_)
+    for (int i = 0; i < n_ * n_; ++i) rightFactor(nodes_ + i);
+  for (Plan& v : plan_)
+    if (v.needsTails) {
+      v.s2 = sizeS2;
+      sizeS2 += at(v.degree + 2) * at(stride_);
+    }
+  f_.assign(sizeF, 0.0);
+  r_.assign(sizeR, 0.0);
+  d_.assign(sizeD, 0.0);
+  t_.assign(sizeT, 0.0);
+  s2_.assign(sizeS2, 0.0);
+  inverse_.assign(sizeInverse, 0.0);
+  total_.assign(plan_.size() * at(stride_), 0.0);
+  s1_.assign(plan_.size() * at(stride_), 0.0);
+  scratch_.assign(at(count()), 0.0);
+  scratch2_.assign(at(std::max(count(), largestSystem_)), 0.0);
+  rightSides_.assign(at(largestSystem_ * count()), 0.0);
+  combination_.assign(systems_.empty() ? 0 : at(count() * kernels::reversedStride(stride_)), 0.0);
+  for (auto* v : {&amplified_, &amplified2_}) v->assign(at(largestSystem_ * largestSystem_), 0.0);
+  for (auto* v : {&vector_, &vector2_, &vector3_}) v->assign(at(largestSystem_), 0.0);
+  for (auto* v : {&norm_, &weighted_, &own0_, &own1_, &rho0_, &rho1_, &top_}) v->assign(plan_.size(), 0.0);
+  power_.assign(at(stride_), 0.0);
+  weights_.assign(at(stride_), 0.0);
+  clear();
+  if (count() == 1 && withFrame_) prepareThin();
+}
+
+void PolynomialSeries::prepareThin() {
+  for (const Plan& v : plan_)
+    thin_.push_back({v.op, v.invariant, v.op == Op::mul && plan_[at(v.a)].invariant, v.a, v.b, &f_[v.f],
+                     v.r == none ? nullptr : &r_[v.r + at(stride_ - 1)], v.d == none ? nullptr : &d_[v.d]});
+  for (int s = 0; s < n_; ++s) thinStates_.emplace_back(s, outputs_[at(s)]);
+  for (int i = 0; i < n_; ++i)
+    for (int j = 0; j < n_; ++j) {
+      kernels::ThinSum row{frameNode(i, j), {}};
+      for (int k = 0; k < n_; ++k)
+        if (const int a = outputs_[at(n_ + i * n_ + k)]; !isKnownZero(a)) row.terms.emplace_back(a, frameNode(k, j));
+      thinFrame_.push_back(std::move(row));
+    }
+  for (Solution& solution : solutions_) {
+    const System& system = systems_[at(solution.system)];
+    solution.thin = {&system.factors, solution.residual.data(), system.entries, solution.rightSide};
+    for (int& entry : solution.thin.matrix)
+      if (plan_[at(entry)].invariant) entry = -1;
+    thinSolutions_.push_back(&solution.thin);
+  }
+  current_.assign(plan_.size(), 0.0);
+}
+
+void PolynomialSeries::clear() {
+  for (auto* v : {&f_, &r_, &d_}) std::fill(v->begin(), v->end(), 0.0);
+  for (int i = 0; i < nodes_; ++i)
+    if (plan_[at(i)].constant) put(plan_[at(i)], 0, 0, constant_[at(i)]);
+}
+
+void PolynomialSeries::setState(int i, const double* coefficients) {
+  for (int g = 0; g < count(); ++g) put(plan_[at(i)], g, 0, coefficients[g]);
+}
+
+void PolynomialSeries::setOrder(int order) {
+  if (order == m_) return;
+  m_ = order;
+  clear();
+}
+
+void PolynomialSeries::setStateSeries(int i, const double* series, int spacing) {
+  for (int g = 0; g < count(); ++g)
+    for (int order = 0; order < m_; ++order) put(plan_[at(i)], g, order, series[g * spacing + order]);
+}
+
+void PolynomialSeries::setParameter(int i, const double* coefficients, double radius) {
+  for (int g = 0; g < count(); ++g) put(plan_[at(n_ + i)], g, 0, coefficients[g]);
+  radius_[at(n_ + i)] = radius;
+}
+
+void PolynomialSeries::setParameter(int i, const Embedded& value) {
+  std::vector<double>& coefficients = scratch_;
+  std::fill(coefficients.begin(), coefficients.end(), 0.0);
+  coefficients[0] = value.centre;
+  if (value.symbol >= 0) coefficients[at(monomials_->linear(value.symbol))] = value.half;
+  setParameter(i, coefficients.data(), value.radius);
+}
+
+void PolynomialSeries::setFrame(int i, int j, const double* coefficients, int spacing) {
+  const Plan& v = plan_[at(frameNode(i, j))];
+  for (int g = 0; g < frameCount_; ++g) put(v, g, 0, coefficients[g * spacing]);
+}
+
+}  // namespace gamut

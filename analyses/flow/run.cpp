@@ -1,0 +1,268 @@
+// The queue, the threads at it, and the tube that they make together.
+#include "analyses/flow/run.hpp"
+
+#include <algorithm>
+#include <thread>
+#include <utility>
+
+#include "analyses/workers.hpp"
+#include "scalars/evaluation/evaluator.hpp"
+#include "scalars/index.hpp"
+
+namespace gamut {
+
+using detail::at;
+
+namespace {
+
+/// Both hold; where nothing is left (no value is defined), `into` stays.
+void narrow(std::vector<Interval>& into, const std::vector<Interval>& other) {
+  for (std::size_t i = 0; i < into.size(); ++i)
+    if (const Interval both = intersection(into[i], other[i]); !isEmpty(both)) into[i] = both;
+}
+
+}  // namespace
+
+Tube FlowRun::run() {
+  queue_.push(start());
+  failedAt_ = std::numeric_limits<double>::infinity();
+  const int jobs = std::max(1, task_.options.jobs);
+  std::vector<FlowCollected> collected(at(jobs), FlowCollected(task_.times.size(), task_.levels.size()));
+  std::vector<std::jthread> threads;
+  for (int i = 1; i < jobs; ++i) threads.emplace_back([this, &collected, i] { work(collected[at(i)]); });
+  work(collected[0]);
+  threads.clear();  // joins
+  if (error_) std::rethrow_exception(error_);
+  return gather(collected);
+}
+
+FlowPiece FlowRun::start() const {
+  FlowPiece piece;
+  FlowSet& s = piece.set;
+  const Monomials& monomials = *task_.layouts[0].monomials;
+  const int n = task_.motion.states(), N = monomials.count(), NJ = monomials.countUpTo(task_.layouts[0].frameDegree);
+  s.p.assign(at(n * N), 0.0);
+  s.C.assign(at(NJ * n * n), 0.0);
+  s.R.assign(at(n), 0.0);
+  s.W.assign(at(n), 0.0);
+  for (int i = 0; i < n; ++i) {
+    const Embedded& e = task_.embedding.components[at(i)];
+    s.p[at(i * N)] = e.centre;
+    if (e.symbol >= 0) s.p[at(i * N + monomials.linear(e.symbol))] = e.half;
+    s.R[at(i)] = e.radius;
+    s.C[at(i * n + i)] = 1.0;
+  }
+  s.parameters.assign(task_.embedding.components.begin() + n, task_.embedding.components.end());
+  s.centre.assign(at(task_.embedding.symbols), 0.0);
+  s.half.assign(at(task_.embedding.symbols), 1.0);
+  return piece;
+}
+
+/// A thread: takes the earliest piece, follows it for a slice of time, puts it back.
+void FlowRun::work(FlowCollected& collected) {
+  const double began = threadCpuSeconds();
+  try {
+    FlowFollower follower(*this, task_, collected);
+    for (;;) {
+      FlowPiece piece;
+      double sliceEnd = 0;
+      {
+        std::unique_lock lock(mutex_);
+        wake_.wait(lock, [&] { return stop_ || !queue_.empty() || busy_ == 0; });
+        if (stop_ || queue_.empty()) break;
+        piece = queue_.top();
+        queue_.pop();
+        if (piece.set.t >= failedAt_) continue;  // beyond what can be proved for the whole box
+        ++busy_;
+        sliceEnd = std::min(task_.horizon, piece.set.t + task_.horizon / 64);
+        report(piece.set.t);
+      }
+      const FlowJourney journey = follower.followWhilePossible(piece, sliceEnd);
+      {
+        const std::lock_guard lock(mutex_);
+        --busy_;
+        if (journey == FlowJourney::cancelled) {
+          unfinished_ = std::min(unfinished_, piece.set.t);
+          stop_ = true;
+        } else if (journey == FlowJourney::goesOn && piece.set.t < task_.horizon) {
+          queue_.push(std::move(piece));
+        }
+      }
+      wake_.notify_all();
+    }
+  } catch (...) {
+    const std::lock_guard lock(mutex_);
+    error_ = std::current_exception();
+    stop_ = true;
+  }
+  wake_.notify_all();
+  collected.cpu += threadCpuSeconds() - began - collected.cutCpu;
+}
+
+void FlowRun::report(double earliest) {  // the queue's order makes `earliest` the earliest of all waiting pieces
+  if (task_.options.progress) task_.options.progress(earliest / task_.horizon);
+}
+
+void FlowRun::fail(double t, const std::string& why) {
+  const std::lock_guard lock(mutex_);
+  if (t < failedAt_) {
+    failedAt_ = t;
+    why_ = why;
+  }
+}
+
+bool FlowRun::mayBisect(const FlowPiece& piece) {
+  bool isTimeToProbe = false;
+  {
+    const std::lock_guard lock(mutex_);
+    if (!task_.options.split || pieces_ >= mostPieces_) return false;
+    ++pieces_;
+    isTimeToProbe = task_.embedding.symbols > 0 && pieces_ >= nextProbe_ && ended_.empty();
+    if (isTimeToProbe) nextProbe_ = 2 * pieces_;
+  }
+  if (isTimeToProbe) probe(piece);
+  return true;
+}
+
+/// Where bisection goes on and on: one start of the piece, followed alone. If not even that gets far beyond the
+/// piece, no bisection of the box does, and only as many pieces again are worth their while.
+void FlowRun::probe(const FlowPiece& piece) {
+  Box start = task_.box;
+  for (std::size_t i = 0; i < start.size(); ++i)
+    if (const Embedded& e = task_.embedding.components[i]; e.symbol >= 0)
+      start[i] =
+          std::clamp(e.centre + e.half * piece.set.centre[at(e.symbol)], task_.box[i].lower(), task_.box[i].upper());
+  FlowOptions options;
+  options.order = task_.options.order;
+  options.split = false;
+  options.maxWidth = task_.options.maxWidth;
+  options.cancelled = task_.options.cancelled;
+  options.stateNames = task_.options.stateNames;
+  const Program none =
+      record(task_.motion.states(), task_.motion.parameters(), 0, [](const auto&, const auto&, const auto&, auto&) {});
+  const double horizon = std::min(task_.horizon, 1.5 * piece.set.t);
+  if (!(horizon > 0)) return;
+  const std::vector<Box> noLevels;
+  const FlowTask task(task_.motion, task_.differentiated, none, options, start, horizon, {}, noLevels, 1.0);
+  const Tube alone = FlowRun(task).run();
+  if (alone.reached() >= horizon || alone.wasStopped()) return;
+  const std::lock_guard lock(mutex_);
+  ended_ = "one start of the box by itself: " + alone.why();
+  mostPieces_ = std::min(mostPieces_, 2 * pieces_);
+}
+
+void FlowRun::add(FlowPiece piece) {
+  {
+    const std::lock_guard lock(mutex_);
+    queue_.push(std::move(piece));
+  }
+  wake_.notify_one();
+}
+
+/// g over start values in plain intervals: exactly what is known exactly.
+std::vector<Interval> FlowRun::outputsAtStart(const Box& box) const {
+  Evaluator<Interval> g(task_.outputs);
+  const auto states = box.begin() + task_.motion.states();
+  g.setParameters(std::vector<Interval>(states, box.end()));
+  return g(Interval(0.0), std::vector<Interval>(box.begin(), states));
+}
+
+Tube FlowRun::gather(std::vector<FlowCollected>& collected) {
+  Tube tube;
+  tube.times_ = task_.times;
+  tube.reached_ = std::min(task_.horizon, failedAt_);
+  if (!why_.empty()) tube.why_ = "at " + toString(failedAt_) + " s " + why_ + (ended_.empty() ? "" : "; " + ended_);
+  double earliest = unfinished_;
+  if (!queue_.empty()) earliest = std::min(earliest, queue_.top().set.t);
+  if (stop_ && earliest < tube.reached_) {
+    tube.reached_ = earliest;
+    tube.why_ = outOfMemory_ ? Tube::outOfMemory : Tube::interrupted;
+  }
+  std::size_t rows = 0;
+  while (rows < task_.times.size() && task_.times[rows] <= tube.reached_ && (rows > 0 || tube.reached_ > 0)) ++rows;
+  const auto merge = [&](auto member, std::vector<std::vector<Interval>>& into) {
+    into.resize(rows);
+    for (std::size_t row = 0; row < rows; ++row)
+      for (FlowCollected& part : collected)
+        if (!(part.*member)[row].empty()) joinHulls(into[row], (part.*member)[row]);
+  };
+  merge(&FlowCollected::states, tube.states_);
+  merge(&FlowCollected::statesOver, tube.statesOver_);
+  merge(&FlowCollected::outputs, tube.outputs_);
+  merge(&FlowCollected::outputsOver, tube.outputsOver_);
+  if (rows == 0) {  // not even one step: the start itself is known
+    tube.states_ =
+        tube.statesOver_ = {std::vector<Interval>(task_.box.begin(), task_.box.begin() + task_.motion.states())};
+    tube.outputs_ = tube.outputsOver_ = {std::vector<Interval>(at(task_.outputs.outputs()), Interval::entire())};
+    rows = 1;
+    for (auto& part : collected)
+      for (auto& level : part.cuts) level[0] = tube.outputs_[0].empty() ? tube.states_[0] : tube.outputs_[0];
+  }
+  narrow(tube.outputs_[0], outputsAtStart(task_.box));
+  tube.outputsOver_[0] = tube.outputs_[0];
+  tube.cuts_.assign(task_.levels.size(), std::vector<std::vector<Interval>>(rows));
+  for (std::size_t level = 0; level < task_.levels.size(); ++level)
+    for (std::size_t row = 0; row < rows; ++row) {
+      std::vector<Interval>& cut = tube.cuts_[level][row];
+      for (FlowCollected& part : collected)
+        if (!part.cuts[level][row].empty()) joinHulls(cut, part.cuts[level][row]);
+      // Nested boxes have nested ranges, so the bound of the level outside holds here too.
+      const std::vector<Interval>& outside = level > 0                     ? tube.cuts_[level - 1][row]
+                                             : task_.outputs.outputs() > 0 ? tube.outputs_[row]
+                                                                           : tube.states_[row];
+      for (std::size_t i = 0; i < cut.size(); ++i) cut[i] = intersection(cut[i], outside[i]);
+      if (row == 0)
+        narrow(cut, task_.outputs.outputs() > 0 ? outputsAtStart(task_.levels[level]) : task_.levels[level]);
+    }
+  for (std::size_t row = 1; row < rows; ++row)
+    for (std::size_t i = 0; i < tube.states_[row].size(); ++i)
+      for (const FlowCollected& part : collected) {
+        if (part.radii[row].empty()) continue;
+        const double remainder = 2 * part.radii[row][i], rest = width(tube.states_[row][i]) - remainder;
+        if (remainder > 1e-12 * magnitude(tube.states_[row][i])) looseness_ = std::max(looseness_, remainder / rest);
+      }
+  tube.pieces_ = pieces_;
+  for (const FlowCollected& part : collected) {
+    tube.steps_ += part.steps;
+    tube.cpu_ += part.cpu;
+    tube.cutCpu_ += part.cutCpu;
+  }
+  return tube;
+}
+
+bool FlowRun::isLoose(const Tube& tube) const {
+  if (task_.embedding.symbols == 0 || !task_.options.split || !task_.bisectsForWidth() || tube.wasStopped() ||
+      pieces_ >= mostPieces_ || !ended_.empty())
+    return false;
+  return tube.reached() < task_.horizon || looseness_ > 0.005;
+}
+
+Tube FlowRun::meet(Tube a, Tube b) {
+  if (b.reached_ < a.reached_ || (b.reached_ == a.reached_ && b.reachedTimes() < a.reachedTimes())) std::swap(a, b);
+  const auto cross = [](std::vector<std::vector<Interval>>& into, const std::vector<std::vector<Interval>>& other) {
+    for (std::size_t row = 0; row < std::min(into.size(), other.size()); ++row)
+      for (std::size_t i = 0; i < into[row].size(); ++i) into[row][i] = intersection(into[row][i], other[row][i]);
+  };
+  cross(b.states_, a.states_);
+  cross(b.statesOver_, a.statesOver_);
+  cross(b.outputs_, a.outputs_);
+  cross(b.outputsOver_, a.outputsOver_);
+  for (std::size_t level = 0; level < b.cuts_.size(); ++level) cross(b.cuts_[level], a.cuts_[level]);
+  if (a.wasStopped() && !b.why_.empty()) b.why_ = a.why_;
+  b.steps_ += a.steps_;
+  b.cpu_ += a.cpu_;
+  b.cutCpu_ += a.cutCpu_;
+  return b;
+}
+
+void FlowRun::tighten(Tube& tube, std::size_t level, const Tube& own) {
+  const auto& better = own.outputs_.empty() || own.outputs_[0].empty() ? own.states_ : own.outputs_;
+  for (std::size_t inner = level; inner < tube.cuts_.size(); ++inner)
+    for (std::size_t row = 0; row < std::min(tube.cuts_[inner].size(), better.size()); ++row)
+      for (std::size_t i = 0; i < better[row].size(); ++i)
+        tube.cuts_[inner][row][i] = intersection(tube.cuts_[inner][row][i], better[row][i]);
+  tube.cutCpu_ += own.cpu_;
+  tube.steps_ += own.steps_;
+}
+
+}  // namespace gamut

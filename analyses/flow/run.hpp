@@ -1,0 +1,70 @@
+// One run of the flow over a box: pieces wait in a queue, earliest first, so that at any moment the earliest says how
+// far the whole box is proved. Threads share the queue; every thread collects hulls of its own, joined at the end.
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <exception>
+#include <limits>
+#include <mutex>
+#include <queue>
+#include <string>
+#include <vector>
+
+#include "analyses/flow/journey.hpp"
+#include "analyses/flow/task.hpp"
+
+namespace gamut {
+
+class FlowRun {
+ public:
+  /// Runs once. The task must outlive it.
+  explicit FlowRun(const FlowTask& task) : task_(task), mostPieces_(task.options.maxPieces) {}
+
+  Tube run();
+  /// The greatest share of the remainder in a width, and whether that or an early end makes a tighter threshold worth
+  /// trying.
+  double looseness() const { return looseness_; }
+  bool isLoose(const Tube& tube) const;
+
+  /// Both are proved, so their intersection is; the one that reaches further goes on alone. Costs add up.
+  static Tube meet(Tube a, Tube b);
+  /// Intersects the cuts of this level, and of all inside it, with a flow over the level's own box.
+  static void tighten(Tube& tube, std::size_t level, const Tube& own);
+
+  // For those who follow pieces, from any thread.
+
+  /// A piece cannot be followed beyond t, nor the whole box then.
+  void fail(double t, const std::string& why);
+  void ranOutOfMemory() { outOfMemory_ = true; }
+  /// Whether one piece more is allowed; it counts from then on.
+  bool mayBisect(const FlowPiece& piece);
+  void add(FlowPiece piece);
+
+ private:
+  struct Later {
+    bool operator()(const FlowPiece& a, const FlowPiece& b) const { return a.set.t > b.set.t; }
+  };
+
+  FlowPiece start() const;
+  void work(FlowCollected& collected);
+  void report(double earliest);
+  void probe(const FlowPiece& piece);
+  std::vector<Interval> outputsAtStart(const Box& box) const;
+  Tube gather(std::vector<FlowCollected>& collected);
+
+  const FlowTask& task_;
+  std::mutex mutex_;
+  std::condition_variable wake_;
+  std::priority_queue<FlowPiece, std::vector<FlowPiece>, Later> queue_;
+  int busy_ = 0, pieces_ = 1, mostPieces_, nextProbe_ = 16;
+  std::string ended_;  // what a probe found
+  double looseness_ = 0;
+  bool stop_ = false;
+  std::atomic<bool> outOfMemory_{false};
+  double failedAt_ = 0, unfinished_ = std::numeric_limits<double>::infinity();
+  std::string why_;
+  std::exception_ptr error_;
+};
+
+}  // namespace gamut

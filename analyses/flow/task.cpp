@@ -1,0 +1,76 @@
+// Chooses the layouts of a run by how many quantities are uncertain.
+#include "analyses/flow/task.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "scalars/index.hpp"
+
+namespace gamut {
+
+using detail::at;
+
+namespace {
+
+/// Monomials for `symbols` uncertain quantities and the remainder of n states in symbols of its own, to second order at
+/// least; null where there would be too many.
+std::shared_ptr<const Monomials> expandedMonomials(int symbols, int n) {
+  static constexpr int degreeOfThin[] = {0, 8, 6, 5, 4, 3, 3};
+  int degree = 0, weight = 1;
+  if (symbols == 0) {
+    degree = n <= 6 ? degreeOfThin[n] : 2;
+  } else {
+    degree = symbols == 1 ? 12 : symbols == 2 ? 8 : 4;
+    weight = degree / 2;
+  }
+  // ξ alone, ξ·ζ up to grade `degree - weight`, ζ·ζ: an upper bound on the count before it is built.
+  if (symbols + n > 12) return nullptr;
+  std::vector<int> weights(at(symbols), 1);
+  weights.resize(at(symbols + n), weight);
+  auto monomials = std::make_shared<const Monomials>(weights, degree);
+  return monomials->count() <= 300 ? monomials : nullptr;
+}
+
+}  // namespace
+
+FlowTask::FlowTask(const Program& f, const Program& df, const Program& g, const FlowOptions& flowOptions,
+                   const Box& startBox, double end, const std::vector<double>& outputTimes,
+                   const std::vector<Box>& levelBoxes, double tighter)
+    : motion(f),
+      differentiated(df),
+      outputs(g),
+      options(flowOptions),
+      box(startBox),
+      levels(levelBoxes),
+      embedding(startBox),
+      horizon(end) {
+  times.push_back(0.0);
+  for (double time : outputTimes)
+    if (time > times.back()) times.push_back(time);
+  if (horizon > times.back()) times.push_back(horizon);
+  int exponent = 0;
+  std::frexp(horizon, &exponent);
+  quantum = std::ldexp(1.0, exponent - 53);  // one unit in the last place of the horizon: sums of steps are exact
+  std::vector<int> ladder = degreeLadder(embedding.symbols);
+  if (options.degree >= 0 && embedding.symbols > 0) ladder = {options.degree};
+  for (int degree : ladder) {
+    requireThat(embedding.symbols == 0 || degree >= 1, "uncertain quantities need polynomials of degree one at least");
+    layouts.push_back({std::make_shared<const Monomials>(std::vector<int>(at(embedding.symbols), 1), degree),
+                       options.frameDegree >= 0 ? std::min(options.frameDegree, degree)
+                                                : automaticFrameDegree(embedding.symbols, degree)});
+  }
+  degrees = layouts.size();
+  if (auto expanded = options.degree < 0 ? expandedMonomials(embedding.symbols, motion.states()) : nullptr) {
+    const int frame = std::min(expanded->degree(), embedding.symbols == 0 ? 1 : expanded->weight(embedding.symbols));
+    layouts.push_back({std::move(expanded), frame, true});
+  }
+  // Bisection is cheap for one symbol and dear for several: with these, begin loosely.
+  const double patience = std::pow(20.0, std::clamp(embedding.symbols - 1, 0, 3));
+  splitDefect = bisectsForWidth() ? options.splitDefect * patience * embedding.widest / tighter
+                                  : std::numeric_limits<double>::infinity();
+  tolerance = options.tolerance > 0 ? options.tolerance : embedding.symbols == 0 ? 1e-15 : 1e-14;
+}
+
+}  // namespace gamut

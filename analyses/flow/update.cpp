@@ -1,0 +1,269 @@
+// A certified step at any of its times, between two of them, and the set at its end. Derivations: docs/flow.md,
+// sections 3 and 5.
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <type_traits>
+#include <vector>
+
+#include "analyses/flow/error_bounds.hpp"
+#include "analyses/flow/step.hpp"
+#include "scalars/index.hpp"
+
+namespace gamut {
+
+using detail::at;
+
+namespace {
+
+constexpr double dumpedAt = 0.2;  // a frame column with more ξ-dependence than this goes back to a constant one
+/// Steps whose errors are kept apart; older ones merge into the box R. What it costs grows as the rest of a step does,
+/// so that long motions of many states, which lose most by merging, keep more.
+int stepsKept(int n) { return std::clamp(30 * n, 60, 300); }
+
+/// Generators, n numbers each, as the columns of a matrix.
+template <class Generators>
+auto columnsOf(Generators& generators, int n) {
+  using Matrix = std::conditional_t<std::is_const_v<Generators>, const Eigen::MatrixXd, Eigen::MatrixXd>;
+  return Eigen::Map<Matrix>(generators.data(), n, static_cast<Eigen::Index>(generators.size()) / n);
+}
+
+}  // namespace
+
+void FlowStepper::evaluate(const FlowSet& set, double tau, FlowPoint& point) {
+  const int N = series_.count(), NJ = series_.frameCount(), stride = series_.stride();
+  const double sigma = tau / h0_;
+  point.p.assign(at(n_ * N), 0.0);
+  point.psi.assign(at(NJ * n_ * n_), 0.0);
+  point.psiSum.assign(at(n_ * n_), 0.0);
+  point.loose.assign(at(n_), 0.0);
+  point.radius.assign(at(n_), 0.0);
+  // Horner's scheme with its running error: fl(fl(sσ) + c) is off by u|fl(sσ)| + u|result|, times the σ's that follow.
+  const auto horner = [&](const double* c, double& error) {
+    double s = c[m_], e = 0;
+    for (int i = m_ - 1; i >= 0; --i) {
+      const double product = s * sigma;
+      s = product + c[i];
+      e = e * sigma + bounds::unit * (std::fabs(product) + std::fabs(s));
+    }
+    error += sigma == 0 ? 0.0 : e * bounds::up + bounds::tiny;
+    return s;
+  };
+  for (int i = 0; i < n_; ++i) {
+    double error = 0;
+    for (int g = 0; g < N; ++g) point.p[at(i * N + g)] = horner(series_.series(i) + g * stride, error);
+    point.loose[at(i)] = tau == 0 ? set.W[at(i)] : error + e1_[at(i)];  // the start itself is known
+  }
+  point.total = total_;
+  for (int i = 0; i < n_; ++i) {
+    double radius = 0, loose = point.loose[at(i)];
+    for (int j = 0; j < n_; ++j) {
+      double error = 0, sum = 0;
+      const double* psi = series_.frame(i, j);
+      for (int g = 0; g < NJ; ++g) {
+        const double value = horner(psi + g * stride, error);
+        point.psi[at((g * n_ + i) * n_ + j)] = value;
+        sum += std::fabs(value);
+      }
+      point.psiSum[at(i * n_ + j)] = sum * bounds::up;
+      // Ψ_0 r by the box R; Ψ_0 Γ s below; the higher Ψ_α by the whole radius.
+      const double leading = std::fabs(point.psi[at(i * n_ + j)]);
+      radius += leading * set.R[at(j)] + (sum * bounds::up - leading * bounds::down) * (NJ > 1 ? total_[at(j)] : 0.0);
+      if (tau != 0) loose += (error + epsilon_[at(i * n_ + j)]) * total_[at(j)];
+    }
+    point.loose[at(i)] = loose;
+    point.radius[at(i)] = radius;
+  }
+  // Ψ_0 Γ: n roundings an entry, together at most n u |Ψ_0| Σ|Γ_j|.
+  const std::size_t n = set.R.size();
+  point.zonotope.resize(set.generators.size());
+  const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> psi(point.psi.data(),
+                                                                                                     n_, n_);
+  Eigen::Map<Eigen::MatrixXd> zonotope = columnsOf(point.zonotope, n_);
+  zonotope.noalias() = psi * columnsOf(set.generators, n_);
+  Eigen::Map<Eigen::VectorXd>(point.radius.data(), n_) += zonotope.cwiseAbs().rowwise().sum();
+  for (std::size_t i = 0; i < n; ++i) {
+    double size = 0;
+    for (std::size_t k = 0; k < n; ++k) size += std::fabs(point.psi[i * n + k]) * total_[k];
+    point.loose[i] = (point.loose[i] + (n_ + 1) * bounds::unit * size) * bounds::up;
+    point.radius[i] = (point.radius[i] + point.loose[i]) * bounds::up + bounds::tiny;
+  }
+}
+
+double FlowStepper::looseBound(int i) const {
+  double loose = e1_[at(i)];
+  for (int j = 0; j < n_; ++j) loose += epsilon_[at(i * n_ + j)] * total_[at(j)];
+  return loose * bounds::up;
+}
+
+void FlowStepper::boundDerivatives() {
+  for (int i = 0; i < n_; ++i) {
+    second_[at(i)] = series_.derivativeNorm(i, 2, theta_);
+    third_[at(i)] = series_.derivativeNorm(i, 3, theta_);
+    turn_[at(i)] = 0;
+    for (int j = 0; j < n_; ++j)
+      if (total_[at(j)] > 0) turn_[at(i)] += series_.frameDerivativeNorm(i, j, 2, theta_) * total_[at(j)];
+  }
+}
+
+void FlowStepper::sag(double from, double to, std::vector<Interval>& bound) const {
+  bound.clear();
+  for (int i = 0; i < n_; ++i)  // in σ, exactly
+    bound.push_back(series_.sag(i, from / h0_, to / h0_, second_[at(i)], third_[at(i)], turn_[at(i)]));
+}
+
+void FlowStepper::advance(FlowSet& set) {
+  using Matrix = Eigen::MatrixXd;
+  evaluate(set, h_, end_);
+  const int NJ = series_.frameCount();
+  // All of it in balanced units z = D⁻¹x, D a diagonal of powers of two: lengths and angles mean something there.
+  std::vector<double> unit(at(n_));
+  for (int i = 0; i < n_; ++i) {
+    unit[at(i)] = std::ldexp(1.0, growth_.units()[at(i)]);
+    end_.loose[at(i)] /= unit[at(i)];
+    for (int g = 0; g < NJ; ++g)
+      for (int j = 0; j < n_; ++j) end_.psi[at((g * n_ + i) * n_ + j)] /= unit[at(i)];
+  }
+  const auto psi = [&](int g, int i, int j) { return end_.psi[at((g * n_ + i) * n_ + j)]; };
+
+  // Q, T: QR of the constant part, columns sorted by length × R, so that the longest keeps its direction.
+  std::vector<int> order(at(n_));
+  std::iota(order.begin(), order.end(), 0);
+  const double largestR = *std::max_element(total_.begin(), total_.end());
+  std::vector<double> length(at(n_));
+  for (int j = 0; j < n_; ++j) {
+    double sum = 0;
+    for (int i = 0; i < n_; ++i) sum += psi(0, i, j) * psi(0, i, j);
+    length[at(j)] = std::sqrt(sum) * (largestR > 0 ? std::max(total_[at(j)], 1e-20 * largestR) : 1.0);
+  }
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return length[at(a)] > length[at(b)]; });
+  Matrix psi0(n_, n_);
+  for (int j = 0; j < n_; ++j)
+    for (int i = 0; i < n_; ++i) psi0(i, j) = psi(0, i, order[at(j)]);
+  const Matrix Q = Eigen::HouseholderQR<Matrix>(psi0).householderQ();
+  Matrix T = Q.transpose() * psi0;
+  for (int i = 0; i < n_; ++i)
+    for (int j = 0; j < i; ++j) T(i, j) = 0;
+  const double phi = orthogonalityDefect(Q);
+  const double slack =
+      phi < 0.5 ? phi / (1 - phi) * bounds::up : std::numeric_limits<double>::infinity();  // then the next step fails
+
+  // C'_α = Ψ_α T⁻¹ for α ≠ 0, in floating point; what it misses is measured below.
+  std::vector<Matrix> C(at(NJ), Matrix::Zero(n_, n_));
+  C[0] = Q;
+  bool invertible = true;
+  for (int i = 0; i < n_; ++i) invertible = invertible && std::fabs(T(i, i)) > 1e-14 * std::fabs(T(0, 0));
+  std::vector<char> constant(at(n_), static_cast<char>(!invertible));
+  std::vector<Matrix> sorted(at(NJ), Matrix(n_, n_));
+  for (int g = 0; g < NJ; ++g)
+    for (int j = 0; j < n_; ++j)
+      for (int i = 0; i < n_; ++i) sorted[at(g)](i, j) = psi(g, i, order[at(j)]);
+  Matrix N = Matrix::Zero(n_, n_);
+  if (invertible && NJ > 1) {
+    Matrix inverse = Matrix::Identity(n_, n_);
+    T.triangularView<Eigen::Upper>().solveInPlace(inverse);
+    for (int g = 1; g < NJ; ++g) {
+      C[at(g)] = sorted[at(g)] * inverse;
+      // N = Σ_{α≠0} |Q⁻¹C'_α|; each product has n roundings.
+      N += (Q.transpose() * C[at(g)]).cwiseAbs() +
+           (n_ + 1) * bounds::unit * Q.cwiseAbs().transpose() * C[at(g)].cwiseAbs();
+    }
+    for (int j = 0; j < n_; ++j) {
+      const double largest = N.col(j).maxCoeff();
+      N.col(j).array() += slack * largest;
+      if (!(largest < dumpedAt)) constant[at(j)] = 1;
+    }
+    N *= bounds::up;
+  }
+  const auto makeConstant = [&](int j) {
+    for (int g = 1; g < NJ; ++g) C[at(g)].col(j).setZero();
+    N.col(j).setZero();
+  };
+  for (int j = 0; j < n_; ++j)
+    if (constant[at(j)]) makeConstant(j);
+  // (I - N)⁻¹ exists and is nonnegative when every row sum of N is below one.
+  while (!(N.rowwise().sum().maxCoeff() < 0.9)) {
+    int worst = 0;
+    N.colwise().sum().maxCoeff(&worst);
+    if (N.col(worst).maxCoeff() == 0) break;
+    makeConstant(worst);
+  }
+
+  // C'⁻¹v with v = D(ξ)(r + Γs) + w, D = Σ_α ξ^α (Ψ_α - C'_α T). The part of D goes into the box, with |QᵀD| as the
+  // absolute value of the product; w becomes generators Qᵀ diag(|w|), and what ξ adds to them goes into the box.
+  Eigen::VectorXd w(n_), box = Eigen::VectorXd::Zero(n_), R(n_), total(n_);
+  for (int i = 0; i < n_; ++i) w(i) = end_.loose[at(i)];
+  for (int j = 0; j < n_; ++j) {
+    R(j) = set.R[at(order[at(j)])];
+    total(j) = total_[at(order[at(j)])];
+  }
+  for (int g = 0; g < NJ; ++g) {
+    const Matrix D = sorted[at(g)] - C[at(g)] * T;
+    // n products, n sums and the difference: n + 2 roundings at most.
+    const Matrix size = sorted[at(g)].cwiseAbs() + C[at(g)].cwiseAbs() * T.cwiseAbs();
+    w += (n_ + 2) * bounds::unit * (size * total);
+    box += (Q.transpose() * D).cwiseAbs() * total +
+           (n_ + 1) * bounds::unit * (Q.cwiseAbs().transpose() * (D.cwiseAbs() * total));
+  }
+  w *= bounds::up;
+  const Eigen::VectorXd turned = Q.cwiseAbs().transpose() * w;
+  box.array() += slack * (box.maxCoeff() + turned.maxCoeff()) + bounds::tiny;
+  if (N.maxCoeff() > 0) {
+    // y ≥ b + N y, checked, gives y ≥ (I - N)⁻¹ b: once for the box, once for N (I - N)⁻¹ |Qᵀ| w.
+    const auto solve = [&](const Eigen::VectorXd& b) {
+      Eigen::VectorXd y = b;
+      for (int i = 0; i < 12; ++i) y = b + N * y;
+      // Row sums of N are below 0.9, so adding c·1 with c large enough passes; what is not finite fails in the next
+      // step.
+      for (double c = 1e-8 * y.maxCoeff(); std::isfinite(c); c *= 8) {
+        const Eigen::VectorXd z = y.array() + c;
+        if ((((b + N * z) * bounds::up).array() <= z.array()).all()) return z;
+      }
+      return Eigen::VectorXd(Eigen::VectorXd::Constant(n_, std::numeric_limits<double>::infinity()));
+    };
+    box = solve(box) + N * solve(turned);
+  }
+  // Γ' = fl(T Γ), n roundings an entry, and fl(Qᵀ diag w), one: together (n+1) u (|T| Σ|Γ| + |Qᵀ| w) into the box.
+  box += (n_ + 1) * bounds::unit * (T.cwiseAbs() * total + turned);
+  Matrix turn(n_, n_);  // T, its columns where the generators' components stand
+  for (int k = 0; k < n_; ++k) turn.col(order[at(k)]) = T.col(k);
+  // What ξ leaves in the box is kept apart as well, in n further columns: in the box it would wrap.
+  const auto before = columnsOf(set.generators, n_);
+  const int own = NJ > 1 ? 2 * n_ : n_;
+  Matrix moved(n_, before.cols() + own);
+  moved.leftCols(before.cols()).noalias() = turn * before;
+  moved.middleCols(before.cols(), n_) = (w.asDiagonal() * Q).transpose();
+  if (NJ > 1) {
+    moved.rightCols(n_) = (bounds::up * box).asDiagonal();
+    box.setZero();
+  }
+  const Eigen::Index oldest = std::max<Eigen::Index>(0, moved.cols() - stepsKept(n_) * own);
+  const Eigen::VectorXd merged = moved.leftCols(oldest).cwiseAbs().rowwise().sum();
+  const Eigen::VectorXd newR = (T.cwiseAbs() * R + merged + box) * bounds::up;
+  set.generators.assign(moved.data() + oldest * n_, moved.data() + moved.size());
+
+  set.t += h_;  // exact: both are multiples of the quantum
+  set.p = end_.p;
+  set.nextStep = h_ * 1.1;
+  set.caution = caution_;
+  set.units = growth_.units();
+  if (set.first.empty())
+    for (int i = 0; i < n_; ++i) set.first.push_back(series_.norm(i));
+  set.largest.resize(at(n_), 0.0);
+  for (int i = 0; i < n_; ++i) set.largest[at(i)] = std::max(set.largest[at(i)], series_.norm(i));
+  for (int i = 0; i < n_; ++i) {
+    set.R[at(i)] = newR(i);
+    set.W[at(i)] = 0;
+  }
+  for (int g = 0; g < NJ; ++g)
+    for (int i = 0; i < n_; ++i)
+      for (int j = 0; j < n_; ++j) {
+        double& entry = set.C[at((g * n_ + i) * n_ + j)];
+        entry = C[at(g)](i, j) * unit[at(i)];
+        if (entry / unit[at(i)] != C[at(g)](i, j)) set.W[at(i)] = bounds::tiny;  // underflow
+      }
+}
+
+}  // namespace gamut
