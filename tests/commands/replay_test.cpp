@@ -154,7 +154,7 @@ name = "block"
 at = "K1"
 mass = 1
 [[mechanism.element]]
-type = "spring-damper"
+type = "joint-spring"
 name = "push"
 joint = "slide"
 stiffness = -100

@@ -1,9 +1,9 @@
-# Turns text files into a C++ source of string literals, so that the program carries its page with it.
-#   cmake -DOUTPUT=page_parts.cpp -DNAMES="a;b" -DFILES="a.css;b.js" -P embed.cmake
-# Each file becomes `const std::string_view NAME` in gamut::page, declared in reports/page_parts.hpp.
-set(delimiter "gamut_page")
-set(source "// Made from the files in reports/page/ when Gamut was built.\n#include \"reports/page_parts.hpp\"\n\n")
-string(APPEND source "namespace gamut::page {\n\n")
+# Turns text files into a C++ source of string literals, so that the program carries them with it.
+#   cmake -DOUTPUT=parts.cpp -DNAMESPACE=gamut::page -DNAMES="a;b" -DFILES="a.css;b.js" -P embed.cmake
+# Each file becomes `extern const std::string_view NAME` in the namespace; whoever uses it declares it so.
+set(delimiter "gamut_file")
+set(source "// Made when Gamut was built, from the files of which it holds the text.\n#include <string_view>\n\n")
+string(APPEND source "namespace ${NAMESPACE} {\n\n")
 foreach(name file IN ZIP_LISTS NAMES FILES)
   file(READ "${file}" content)
   string(FIND "${content}" ")${delimiter}\"" clash)
@@ -11,7 +11,7 @@ foreach(name file IN ZIP_LISTS NAMES FILES)
     message(FATAL_ERROR "${file} holds the text that ends an embedded file: )${delimiter}\"")
   endif()
   # Pieces of 8000 characters: a string literal need not be longer than what every compiler takes.
-  string(APPEND source "const std::string_view ${name} =")
+  string(APPEND source "extern const std::string_view ${name};\nconst std::string_view ${name} =")
   string(LENGTH "${content}" length)
   set(from 0)
   while(from LESS length)
@@ -24,5 +24,5 @@ foreach(name file IN ZIP_LISTS NAMES FILES)
   endif()
   string(APPEND source ";\n\n")
 endforeach()
-string(APPEND source "}  // namespace gamut::page\n")
+string(APPEND source "}  // namespace ${NAMESPACE}\n")
 file(WRITE "${OUTPUT}" "${source}")
