@@ -54,7 +54,8 @@ Assembly<S>::Assembly(const Mechanism& mechanism, const std::vector<std::string>
                                         gravity ? parts_.vector(*gravity) : zeroVector<S>());
   measureFrames();
   for (const Expression& initial : mechanism.initialState()) initialState_.push_back(parts_.number(initial));
-  setState(initialState_);
+  // What is recorded is the motion from any state; at the initial one it may be singular.
+  if constexpr (!std::is_same_v<S, Recorded>) setState(initialState_);
 }
 
 template <class S>

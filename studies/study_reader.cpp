@@ -9,6 +9,7 @@
 #include <optional>
 #include <set>
 
+#include "mechanics/assembly.hpp"
 #include "mechanics/model.hpp"
 #include "studies/detail/mechanism_reader.hpp"
 #include "studies/detail/toml_source.hpp"
@@ -166,8 +167,21 @@ class StudyReader {
               fmt::format("the initial value as a number, and '{}' as the uncertain quantity", names[i]));
   }
 
+  /// Points between which a length is measured lie apart at the start, or its direction is not determined.
+  void checkLengths(const toml::node& mechanism) const {
+    const Assembly<double> assembly(study_.mechanism);
+    const std::vector<std::string> known = study_.mechanism.outputQuantities();
+    for (const Described& element : study_.mechanism.elements()) {
+      const std::string length = element.name() + ".length";
+      if (std::ranges::find(known, length) != known.end() && assembly.output(length) == 0)
+        source_.fail(mechanism, fmt::format("the {} '{}' has no length at the start", element.type(), element.name()),
+                     "points that lie apart");
+    }
+  }
+
   /// Records the equations of motion once: they exist, or the mechanism is at fault.
   void checkMotion(const toml::node& mechanism) const {
+    if (study_.analysis == Study::Analysis::dynamics) checkLengths(mechanism);
     try {
       if (study_.analysis == Study::Analysis::dynamics) recordMotion(study_.mechanism);
     } catch (const std::invalid_argument& error) {

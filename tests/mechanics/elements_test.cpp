@@ -229,6 +229,14 @@ TEST(Load, ThatDependsOnAccelerationsIsNoLoad) {
                std::logic_error);
 }
 
+TEST(SpringElement, IsRecordedWhereItsInitialLengthIsZero) {
+  Mechanism m;
+  m.add(Prismatic{"slide", "inertial", "A", axisX});
+  m.add(Mass{"block", "A", 1.0});
+  m.add(Spring{"spring", "inertial", "A", 100.0, 0.1});
+  EXPECT_NEAR(Evaluator<double>(recordMotion(m))(0.0, std::vector<double>{0.3, 0.0})[1], -20, 1e-13);
+}
+
 // ---- Drives ---------------------------------------------------------------------------------------------------------
 
 /// l q̈ = −g sin q − ẍ cos q  for a pendulum whose pivot moves by x(t) along the horizontal.
