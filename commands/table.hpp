@@ -31,8 +31,10 @@ Action check(CLI::App& command);
 Action report(CLI::App& command);
 Action info(CLI::App& command);
 Action replay(CLI::App& command);
+Action newStudy(CLI::App& command);
 
 inline constexpr Command table[] = {
+    {"new", "Write a study to start from, which explains itself", newStudy},
     {"run", "Run a study; write results and a report", run, Command::looksAtInterrupts},
     {"validate", "Read and check a study file, no more", validate},
     {"check", "The verdict, from the stored numbers: do all samples stay inside?", check},

@@ -66,7 +66,7 @@ TEST_F(Program, RefusesWrongUsageInOneLine) {
   EXPECT_EQ(folder_.read("s.toml"), sampleStudy);
   EXPECT_EQ(gamut("rum s.toml").error, "gamut: unknown command 'rum'; expected 'run'\n");
   EXPECT_EQ(gamut("walk").error,
-            "gamut: unknown command 'walk'; expected one of: run, validate, check, report, info, replay\n");
+            "gamut: unknown command 'walk'; expected one of: new, run, validate, check, report, info, replay\n");
   EXPECT_EQ(gamut("run s.toml --seed -1").error,
             "gamut: --seed: '-1' is no whole number from 0 to 9223372036854775807; see gamut run --help\n");
 }
