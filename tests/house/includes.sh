@@ -67,7 +67,10 @@ grep -rHnE '^[[:space:]]*#[[:space:]]*include' --include='*.[hc]*' --include='*.
       quoted = substr($0, RSTART, 1) == "\""; header = substr($0, RSTART + 1, RLENGTH - 2)
       ++includes; seen[file]
       from = placeOf(file)
-      if (from == "") { wrong("no line of the table says what " folder(file) " may include"); next }
+      if (from == "") {
+        if (!told[folder(file)]++) wrong("no line of the table says what " folder(file) " may include")
+        next
+      }
       used[from]
 
       while (sub(/^(\.\.?\/)/, "", header));
