@@ -21,8 +21,8 @@ template <class S>
 class Assembly {
  public:
   /// `values` has one value for each name in `freeParameters`; all other numbers keep their nominal value. The state is
-  /// the initial one (of Recorded none, until one is set). Throws std::invalid_argument for an incomplete mechanism (Mechanism::check), for a name that is
-  /// no parameter, and for a wrong number of values.
+  /// the initial one (of Recorded none, until one is set). Throws std::invalid_argument for an incomplete mechanism
+  /// (Mechanism::check), for a name that is no parameter, and for a wrong number of values.
   explicit Assembly(const Mechanism& mechanism, const std::vector<std::string>& freeParameters = {},
                     std::span<const S> values = {});
   Assembly(const Assembly&) = delete;

@@ -1,10 +1,13 @@
 // Numbers of a mechanism as formulas over names, with units: "2 rod.length + 3 mm", "-k*angle - c*rate^3",
 // "0.3 rad * sin(2*pi*t/period)". One formula serves every scalar; its dimensions are checked before it is computed.
 //
+// clang-format off
 //   sum      = product { ("+" | "-") product }
-//   product  = signed { ("*" | "·" | "/" | blank) signed }      from left to right; "/" divides by the next factor
-//   alone signed   = { "-" | "+" } power power    = primary [ "^" signed | "²" | "³" ]                -x^2 is -(x^2),
-//   2^3^2 is 2^(3^2) primary  = decimal | "pi" | unit | name | function "(" sum { "," sum } ")" | "(" sum ")"
+//   product  = signed { ("*" | "·" | "/" | blank) signed }      from left to right; "/" divides by the next factor alone
+//   signed   = { "-" | "+" } power
+//   power    = primary [ "^" signed | "²" | "³" ]                -x^2 is -(x^2), 2^3^2 is 2^(3^2)
+//   primary  = decimal | "pi" | unit | name | function "(" sum { "," sum } ")" | "(" sum ")"
+// clang-format on
 //
 // A blank (or nothing, as in 90° and 0.75pi) joins a number to a unit, to pi or to a name, never two names. What is
 // written without names is computed exactly as far as it is rational · πᵏ. A name is a word of letters, digits, "_" and

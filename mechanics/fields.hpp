@@ -57,10 +57,10 @@ class Fields {
   virtual void frame(const Word& word, std::string& name) = 0;
   /// The same; it is not `other`.
   virtual void otherFrame(const Word& word, std::string& name, const std::string& /*other*/) { frame(word, name); }
-  /// The same, and a mass is fixed to it.
-  virtual void massFrame(const Word& word, std::string& name) { frame(word, name); }
   /// A frame that this element moves by another.
   virtual void movedFrame(const Word& word, std::string& name, const std::string& from) = 0;
+  /// The element fixes a mass to this frame, which one of its words has named.
+  virtual void carriesMass(const std::string& /*frame*/) {}
   /// One of the words.
   virtual void choice(const Word& word, std::string& value, const std::vector<std::string>& choices) = 0;
   /// A direction fixed in the frames.

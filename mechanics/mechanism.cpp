@@ -212,10 +212,9 @@ class Mechanism::Checker final : public Fields {
     frame(word, name);
     if (name == other) refuse("the element " + quoted(element_) + " needs two different frames");
   }
-  void massFrame(const Word& word, std::string& name) override {
-    frame(word, name);
+  void carriesMass(const std::string& frame) override {
     if (has(m_.frames_, element_)) refuse("the mass " + quoted(element_) + " is named like a frame");
-    m_.massFrames_.push_back(name);
+    m_.massFrames_.push_back(frame);
   }
   void movedFrame(const Word& /*word*/, std::string& name, const std::string& from) override {
     m_.addFrame(from, name, element_);

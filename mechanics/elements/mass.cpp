@@ -9,7 +9,8 @@
 namespace gamut {
 
 void Mass::describe(Fields& f) {
-  f.massFrame({"at", "", "the frame that it is fixed to"}, at);
+  f.frame({"at", "", "the frame that it is fixed to"}, at);
+  f.carriesMass(at);
   f.number({"mass", "kg", "the mass, not negative", true}, mass);
   f.vector({"centre", "m", "centre of mass, in `at`"}, centre);
   f.numbers(
