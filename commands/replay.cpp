@@ -19,7 +19,7 @@
 #include "commands/options.hpp"
 #include "commands/standard_streams.hpp"
 #include "commands/table.hpp"
-#include "studies/results_file.hpp"
+#include "studies/results/results_file.hpp"
 #include "studies/version.hpp"
 
 namespace gamut::commands {

@@ -23,7 +23,7 @@
 #include "reports/words.hpp"
 #include "studies/driver.hpp"
 #include "studies/progress.hpp"
-#include "studies/results_file.hpp"
+#include "studies/results/results_file.hpp"
 #include "studies/summary.hpp"
 #include "studies/watch.hpp"
 

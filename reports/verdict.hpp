@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "studies/results.hpp"
+#include "studies/results/results.hpp"
 
 namespace gamut {
 

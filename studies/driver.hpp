@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "studies/results.hpp"
+#include "studies/results/results.hpp"
 #include "studies/study.hpp"
 
 namespace gamut {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "analyses/table.hpp"
-#include "studies/results.hpp"
+#include "studies/results/results.hpp"
 #include "studies/study.hpp"
 
 namespace gamut {

@@ -12,7 +12,7 @@
 #include "analyses/uncertainty.hpp"
 #include "mechanics/elements/all.hpp"
 #include "mechanics/mechanism.hpp"
-#include "studies/results.hpp"
+#include "studies/results/results.hpp"
 #include "studies/watch.hpp"
 
 namespace gamut {

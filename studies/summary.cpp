@@ -92,8 +92,8 @@ std::size_t lastRow(const Results& results) {
   return row > 0 ? row - 1 : 0;
 }
 
-/// Columns as wide as their widest entry (in code points), the first one left-aligned.
-std::string table(const std::vector<std::vector<std::string>>& rows) {
+/// Columns as wide as their widest entry (in code points), the first `left` ones left-aligned.
+std::string table(const std::vector<std::vector<std::string>>& rows, std::size_t left = 1) {
   const auto length = [](const std::string& text) {
     return static_cast<std::size_t>(std::count_if(
         text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
@@ -106,7 +106,7 @@ std::string table(const std::vector<std::vector<std::string>>& rows) {
     std::string line;
     for (std::size_t i = 0; i < row.size(); ++i) {
       const std::string padding(widths[i] - length(row[i]), ' ');
-      line += (i == 0 ? "" : "  ") + (i == 0 ? row[i] + padding : padding + row[i]);
+      line += (i == 0 ? "" : "  ") + (i < left ? row[i] + padding : padding + row[i]);
     }
     result += "  " + line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
   }
@@ -120,6 +120,40 @@ std::string samplesText(const StochasticResult& stochastic) {
              : counted(stochastic.samples, "sample");
 }
 
+/// A number or word itself, or "301 x 7" for what has dimensions; empty for what is not there.
+std::string contentOf(const Field& field, const Extents& extents) {
+  const std::string shape = fmt::format("{}", fmt::join(shapeOf(field.dimensions, extents), " x "));
+  return std::visit(Visitor{[](double* x) { return fmt::format("{:.12g}", *x); },
+                            [](std::int64_t* x) { return fmt::format("{}", *x); },
+                            [](std::uint64_t* x) { return fmt::format("{}", *x); }, [](std::string* x) { return *x; },
+                            [](WholeText x) { return counted(static_cast<std::int64_t>(x.text->size()), "byte"); },
+                            [&](auto* values) {
+                              if constexpr (requires { values->empty(); })
+                                return values->empty() ? std::string() : shape;
+                              return std::string();
+                            }},
+                    field.value);
+}
+
+/// One row a field, as far as it is there.
+std::string recordText(const Group& group, const Extents& extents) {
+  std::vector<std::vector<std::string>> rows;
+  for (const Field& field : group.fields(0)) {
+    const std::string content = contentOf(field, extents);
+    if (content.empty()) continue;
+    const bool hasUnit = field.dimensions.empty() && !field.unit.empty() && field.unit != unit::one;
+    rows.push_back({"  " + std::string(field.name), content + (hasUnit ? " " + std::string(field.unit) : ""),
+                    std::string(field.meaning)});
+  }
+  return table(rows, 3);
+}
+
+std::string listText(const Group& group) {
+  std::vector<std::string_view> names;
+  for (const Field& field : group.fields(0)) names.push_back(field.name);
+  return fmt::format("    {} of {}\n", group.size, fmt::join(names, ", "));
+}
+
 /// What was spent in all, and of how much.
 std::string spentText(const Results& results) {
   if (!std::isfinite(results.limits.time)) return {};
@@ -128,22 +162,6 @@ std::string spentText(const Results& results) {
 }
 
 }  // namespace
-
-double reachedTime(const Results& results) {
-  double reached = results.horizon;
-  if (results.interval.present) reached = std::min(reached, results.interval.reached);
-  if (results.stochastic.present) reached = std::min(reached, results.stochastic.reached);
-  if (results.fuzzy.present) reached = std::min(reached, results.fuzzy.reached);
-  return reached;
-}
-
-std::string whyEnded(const Results& results) {
-  std::vector<std::string> reasons;
-  for (const std::string* why : {&results.interval.why, &results.stochastic.stopped, &results.stochastic.why,
-                                 &results.fuzzy.why, &results.comparison.why})
-    if (!why->empty() && std::ranges::find(reasons, *why) == reasons.end()) reasons.push_back(*why);
-  return fmt::format("{}", fmt::join(reasons, "; "));
-}
 
 std::string jsonSummary(const Results& results, const std::string& verdict, const ResultFiles& files) {
   Json json;
@@ -224,6 +242,18 @@ std::string infoText(const Results& results) {
   if (const FuzzyResult& r = results.fuzzy; r.present)
     text += fmt::format("  alpha-cuts: {}{}, {:.2f} s CPU\n", until(r.reached, r.why),
                         counted(static_cast<std::int64_t>(r.alpha.size()), "level"), r.cpu);
+  return text;
+}
+
+std::string contentText(const Results& results) {
+  const std::vector<Group> groups = describe(results);
+  const Extents extents = extentsOf(groups);
+  std::string text;
+  for (const Group& group : groups) {
+    if (group.size == 0) continue;
+    text += fmt::format("  {}{}{}\n", group.path, group.meaning.empty() ? "" : ": ", group.meaning);
+    text += group.isList() ? listText(group) : recordText(group, extents);
+  }
   return text;
 }
 

@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "studies/results_file.hpp"
+#include "studies/results/results_file.hpp"
 #include "tests/commands/program.hpp"
 #include "tests/studies/sample_results.hpp"
 #include "tests/studies/sample_study.hpp"

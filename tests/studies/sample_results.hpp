@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "studies/results.hpp"
+#include "studies/results/results.hpp"
 
 namespace gamut {
 

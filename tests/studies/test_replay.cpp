@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "studies/driver.hpp"
-#include "studies/results_file.hpp"
+#include "studies/results/results_file.hpp"
 #include "tests/studies/sample_study.hpp"
 #include "tests/studies/temporary_folder.hpp"
 

@@ -130,6 +130,16 @@ TEST(InfoText, SpeaksOfNoTimeInKinematicsAndOfOneAsOne) {
   EXPECT_THAT(text, HasSubstr("nominal 0.3,"));
 }
 
+TEST(ContentText, ListsEveryFieldThatIsThere) {
+  const Results results = sampleResults();
+  const std::string text = contentText(results);
+  for (const Group& group : describe(results)) EXPECT_THAT(text, HasSubstr("  " + std::string(group.path)));
+  EXPECT_THAT(text, HasSubstr("  outer    3 x 3 x 2  proved alpha-cuts\n"));
+  EXPECT_THAT(text, HasSubstr("  pieces   4 "));
+  EXPECT_THAT(text, HasSubstr("  2 of number, time, output,"));
+  EXPECT_THAT(text, Not(HasSubstr("direct")));
+}
+
 TEST(ProgressLine, TellsTheTimeLeftOnceItCanBeKnown) {
   EXPECT_EQ(progressLine("samples", 0, 5), "samples      [                              ]   0 %");
   EXPECT_EQ(progressLine("samples", 0.5, 30), "samples      [###############               ]  50 %, 30 s left");

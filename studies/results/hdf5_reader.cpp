@@ -5,8 +5,8 @@
 #include <cstring>
 #include <type_traits>
 
-#include "studies/detail/hdf5.hpp"
 #include "studies/printable.hpp"
+#include "studies/results/detail/hdf5.hpp"
 
 namespace gamut {
 namespace {
@@ -239,32 +239,22 @@ std::string Hdf5Reader::wholeText(const std::string& name) const {
   });
 }
 
-std::vector<std::string> Hdf5Reader::attributeNames() const {
-  using Names = std::vector<std::string>;
-  return transcript_->answer<Names>([&] {
-    Names names;
-    const auto visit = [](hid_t, const char* name, const H5A_info_t*, void* list) -> herr_t {
-      static_cast<Names*>(list)->emplace_back(name);
-      return 0;
-    };
-    checkHdf5(H5Aiterate2(*group_, H5_INDEX_NAME, H5_ITER_INC, nullptr, visit, &names), "the attributes");
-    return names;
-  });
+/// A transcript may have come from a process that was out of its mind.
+template <class T>
+std::vector<T> Hdf5Reader::data(const std::string& name, hid_t type, H5T_class_t expected, Hdf5Shape& shape) const {
+  std::vector<T> values =
+      transcript_->answer<std::vector<T>>([&] { return readData<T>(*group_, name, type, expected, shape); });
+  shape = transcript_->answer<Hdf5Shape>([&] { return shape; });
+  if (countOf(shape) != values.size()) throw Hdf5Error(name);
+  return values;
 }
 
-std::vector<std::int64_t> Hdf5Reader::integers(const std::string& name) const {
-  Hdf5Shape shape;
-  return transcript_->answer<std::vector<std::int64_t>>(
-      [&] { return readData<std::int64_t>(*group_, name, H5T_NATIVE_INT64, H5T_INTEGER, shape); });
+std::vector<std::int64_t> Hdf5Reader::integers(const std::string& name, Hdf5Shape& shape) const {
+  return data<std::int64_t>(name, H5T_NATIVE_INT64, H5T_INTEGER, shape);
 }
 
 std::vector<double> Hdf5Reader::numbers(const std::string& name, Hdf5Shape& shape) const {
-  std::vector<double> values = transcript_->answer<std::vector<double>>(
-      [&] { return readData<double>(*group_, name, H5T_NATIVE_DOUBLE, H5T_FLOAT, shape); });
-  shape = transcript_->answer<Hdf5Shape>([&] { return shape; });
-  // A transcript may have come from a process that was out of its mind.
-  if (countOf(shape) != values.size()) throw Hdf5Error(name);
-  return values;
+  return data<double>(name, H5T_NATIVE_DOUBLE, H5T_FLOAT, shape);
 }
 
 }  // namespace gamut

@@ -1,6 +1,6 @@
 // The user block is written anew from the file's content and compared as a whole, so that no byte of it can change
 // unseen.
-#include "studies/detail/seal.hpp"
+#include "studies/results/detail/seal.hpp"
 
 #include <fmt/format.h>
 #include <openssl/sha.h>
@@ -10,8 +10,8 @@
 namespace gamut {
 namespace {
 
-/// 1 was without user block, with texts by reference.
-constexpr int formatVersion = 2;
+/// 1 was without user block, with texts by reference; 2 without the samples' values and motions.
+constexpr int formatVersion = 3;
 constexpr std::string_view title = "Gamut results, format ";
 
 std::string digestOf(std::string_view content) {

@@ -71,7 +71,6 @@ class Hdf5Writer {
   /// A new group.
   Hdf5Writer(hid_t parent, const std::string& name);
 
-  hid_t id() const { return group_; }
   void attribute(const std::string& name, double value);
   void attribute(const std::string& name, std::int64_t value);
   void attribute(const std::string& name, std::uint64_t value);
@@ -141,13 +140,14 @@ class Hdf5Reader {
   std::vector<std::string> texts(const std::string& name) const;
   /// A text as it is.
   std::string wholeText(const std::string& name) const;
-  std::vector<std::string> attributeNames() const;
-  std::vector<std::int64_t> integers(const std::string& name) const;
-  /// Values in row-major order; `shape` is set.
+  // Values in row-major order; `shape` is set.
+  std::vector<std::int64_t> integers(const std::string& name, Hdf5Shape& shape) const;
   std::vector<double> numbers(const std::string& name, Hdf5Shape& shape) const;
 
  private:
   void open(const std::function<Hdf5Handle()>& open);
+  template <class T>
+  std::vector<T> data(const std::string& name, hid_t type, H5T_class_t expected, Hdf5Shape& shape) const;
 
   std::optional<Hdf5Handle> file_, group_;  ///< none where a transcript is told again
   Hdf5Transcript* transcript_;

@@ -1,6 +1,6 @@
 // fork(): the child has all that the parent has, and what it does to itself stays with it. The result comes through a
 // pipe; that it is whole is said by a last byte, which also tells where exit statuses are ignored.
-#include "studies/detail/apart.hpp"
+#include "studies/results/detail/apart.hpp"
 
 #include <fcntl.h>
 #include <signal.h>

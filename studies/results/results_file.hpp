@@ -6,7 +6,7 @@
 #include <string>
 
 #include "studies/atomic_file.hpp"
-#include "studies/results.hpp"
+#include "studies/results/results.hpp"
 
 namespace gamut {
 
@@ -25,5 +25,8 @@ void writeResults(const Results& results, const std::string& path);
 /// differs in one byte is refused. Throws ResultsFileError. What the HDF5 library cannot survive ends a child process:
 /// only for a process without other threads.
 Results readResults(const std::string& path);
+
+/// Of the library that writes and reads them: "1.10.8".
+std::string hdf5Version();
 
 }  // namespace gamut

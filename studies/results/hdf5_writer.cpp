@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "studies/detail/hdf5.hpp"
+#include "studies/results/detail/hdf5.hpp"
 
 namespace gamut {
 namespace {

@@ -1,5 +1,5 @@
 // Handles and files in memory.
-#include "studies/detail/hdf5.hpp"
+#include "studies/results/detail/hdf5.hpp"
 
 #include <cstdlib>
 #include <cstring>
