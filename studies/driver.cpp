@@ -13,6 +13,7 @@
 #include "scalars/fuzzy.hpp"
 #include "studies/problem.hpp"
 #include "studies/sampled_study.hpp"
+#include "studies/running/sample_keeper.hpp"
 #include "studies/summary.hpp"
 #include "studies/version.hpp"
 #include "studies/watch.hpp"
@@ -68,6 +69,12 @@ class Driver {
       const Uncertain& u = q.uncertain;
       results_.uncertain.push_back({u.name, q.quantity, q.unit, u.range.lower(), u.nominal, u.range.upper(),
                                     std::string(u.distribution.name()), std::string(u.membership.name())});
+      const auto add = [&](const char* shape, const std::vector<ShapeNumber>& numbers) {
+        for (const ShapeNumber& n : numbers)
+          results_.shapes.push_back({u.name, shape, n.name, n.value, n.isOfQuantity ? q.unit : "1"});
+      };
+      add("distribution", u.distribution.numbers());
+      add("membership", u.membership.numbers());
     }
   }
 
@@ -240,11 +247,15 @@ class Driver {
     sampleWhileThereIsRoom(Watch::Stage::rest, [&] {
       const Proved proved{study_.interval ? results_.interval.at : Bounds(), results_.fuzzy.outer, reachedTimes_};
       Settlement settlement(proved, problem_.motion, comparisonOptions());
+      SampleKeeper keeper(ensemble_->sampling().size(), study_.uncertain.size(),
+                          study_.time.size() * study_.outputs.size(), study_.storage);
       ensemble_->integrateOthers(settlement.boundsOf(0), [&](SampleBlock& block) {
         if (study_.analysis == Study::Analysis::kinematics) moveSamples(study_, problem_, block);
         settlement.settle(block, [this](const Comparison& found, int level) { takeDisputes(found, level); });
+        keeper.keep(block);
       });
       describeSamples();
+      results_.stochastic.kept = keeper.take();
     });
   }
 
@@ -330,6 +341,17 @@ Limits limitsOf(const Study& study, const RunOptions& options) {
   if (options.timeLimit) limits.time = options.timeLimit;
   if (options.memoryLimit) limits.memory = options.memoryLimit;
   return limits.resolved();
+}
+
+double memoryNeeded(const Study& study, const RunOptions& options) {
+  if (!study.stochastic) return 0;
+  const std::size_t levels = study.fuzzy ? static_cast<std::size_t>(study.levels) : 0;
+  const std::size_t times = study.time.size(), outputs = study.outputs.size(), quantities = study.uncertain.size();
+  constexpr double beside = 2049;  // corners and centre at most
+  const double samples = static_cast<double>(options.samples.value_or(study.ensemble.samples)) + beside;
+  const double all = samples * static_cast<double>(sizeof(double) * (2 + quantities + times * outputs));
+  constexpr double copies = 3;  // the samples, the file in HDF5's hands and in ours
+  return ensembleBytes(times, outputs, quantities, levels) + copies * std::min(study.storage, all);
 }
 
 Results run(const Study& study, const RunOptions& options) { return Driver(study, options).run(); }

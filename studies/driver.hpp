@@ -30,6 +30,9 @@ struct RunOptions {
 /// The study's limits, or those of the options.
 Limits limitsOf(const Study& study, const RunOptions& options);
 
+/// About as many bytes as its samples take, and what is kept of them until it is written.
+double memoryNeeded(const Study& study, const RunOptions& options);
+
 /// Everything that the study asks for. An analysis that ends early says why in its part of the results; no verdict is
 /// given (ComparisonResult::present is false) unless samples and either enclosures or alpha-cuts were asked for.
 Results run(const Study& study, const RunOptions& options = {});

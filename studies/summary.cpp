@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "scalars/interval.hpp"
+#include "studies/words.hpp"
 
 namespace gamut {
 namespace {
@@ -57,11 +58,6 @@ std::string shortBounds(const Bounds& bounds, std::size_t time, std::size_t outp
 /// Three decimals, rounded up.
 std::string ratioText(double ratio) {
   return ratio < 1e6 ? fmt::format("{:.3f}", std::ceil(ratio * 1000) / 1000) : fmt::format("{:.4g}", ratio);
-}
-
-/// "1 piece", "16 pieces".
-std::string counted(std::int64_t count, std::string_view singular) {
-  return fmt::format("{} {}{}", count, singular, count == 1 ? "" : "s");
 }
 
 /// What is proved: the enclosure, or, in a study without, the alpha-cut that holds all others.
@@ -116,8 +112,8 @@ std::string table(const std::vector<std::vector<std::string>>& rows, std::size_t
 /// "4096 samples", those that count in the statistics; "100 of 4099 samples" where not all were followed.
 std::string samplesText(const StochasticResult& stochastic) {
   return stochastic.integrated < stochastic.planned()
-             ? fmt::format("{} of {}", stochastic.integrated, counted(stochastic.planned(), "sample"))
-             : counted(stochastic.samples, "sample");
+             ? fmt::format("{} of {}", stochastic.integrated, countText(stochastic.planned(), "sample"))
+             : countText(stochastic.samples, "sample");
 }
 
 /// A number or word itself, or "301 x 7" for what has dimensions; empty for what is not there.
@@ -126,7 +122,7 @@ std::string contentOf(const Field& field, const Extents& extents) {
   return std::visit(Visitor{[](double* x) { return fmt::format("{:.12g}", *x); },
                             [](std::int64_t* x) { return fmt::format("{}", *x); },
                             [](std::uint64_t* x) { return fmt::format("{}", *x); }, [](std::string* x) { return *x; },
-                            [](WholeText x) { return counted(static_cast<std::int64_t>(x.text->size()), "byte"); },
+                            [](WholeText x) { return countText(static_cast<long long>(x.text->size()), "byte"); },
                             [&](auto* values) {
                               if constexpr (requires { values->empty(); })
                                 return values->empty() ? std::string() : shape;
@@ -162,6 +158,32 @@ std::string spentText(const Results& results) {
 }
 
 }  // namespace
+
+std::string shapeText(const Results& results, const UncertainInfo& uncertain, const std::string& shape) {
+  const std::string& name = shape == "distribution" ? uncertain.distribution : uncertain.membership;
+  std::vector<std::string> numbers;
+  double lower = uncertain.lower, upper = uncertain.upper;
+  for (const ShapeInfo& number : results.shapes) {
+    if (number.quantity != uncertain.name || number.shape != shape) continue;
+    if (number.name == "lower") {
+      lower = number.value;
+    } else if (number.name == "upper") {
+      upper = number.value;
+    } else if (name != "table") {
+      numbers.push_back(fmt::format("{} {:.6g}", number.name, number.value));
+    }
+  }
+  if (lower != uncertain.lower || upper != uncertain.upper)
+    numbers.insert(numbers.begin(), "on " + rangeText(lower, upper, 6));
+  return numbers.empty() ? name : fmt::format("{} ({})", name, fmt::join(numbers, ", "));
+}
+
+std::string keptText(const KeptSamples& kept) {
+  const auto some = [](std::int64_t every) {
+    return every == 0 ? std::string("none") : every == 1 ? std::string("all") : fmt::format("one in {}", every);
+  };
+  return fmt::format("values of {}, motions of {}", some(kept.valuesEvery), some(kept.motionsEvery));
+}
 
 std::string jsonSummary(const Results& results, const std::string& verdict, const ResultFiles& files) {
   Json json;
@@ -224,8 +246,9 @@ std::string infoText(const Results& results) {
     text += fmt::format("  {} output times from {} s to {} s\n", results.time.size(), results.time.front(),
                         results.time.back());
   for (const UncertainInfo& u : results.uncertain)
-    text += fmt::format("  uncertain: {} ({}) in [{:.12g}, {:.12g}] {}, nominal {:.12g}, {}, {}\n", u.name, u.quantity,
-                        u.lower, u.upper, u.unit, u.nominal, u.distribution, u.membership);
+    text += fmt::format("  uncertain: {} ({}) in {} {}, nominal {:.12g}, {}, {}\n", u.name, u.quantity,
+                        rangeText(u.lower, u.upper, 12), u.unit, u.nominal, shapeText(results, u, "distribution"),
+                        shapeText(results, u, "membership"));
   for (const OutputInfo& o : results.outputs)
     text += fmt::format("  output: {} ({}), {}\n", o.name, o.quantity, o.unit);
   const auto until = [&](double reached, const std::string& why) {
@@ -233,15 +256,16 @@ std::string infoText(const Results& results) {
     return fmt::format("up to {} s{}; ", reached, why.empty() ? "" : ": " + why);
   };
   if (const IntervalResult& r = results.interval; r.present)
-    text += fmt::format("  enclosure: {}{}, {}, {:.2f} s CPU\n", until(r.reached, r.why), counted(r.pieces, "piece"),
-                        counted(r.steps, "step"), r.cpu);
+    text += fmt::format("  enclosure: {}{}, {}, {:.2f} s CPU\n", until(r.reached, r.why), countText(r.pieces, "piece"),
+                        countText(r.steps, "step"), r.cpu);
   if (const StochasticResult& r = results.stochastic; r.present)
     text += fmt::format("  samples: {}{} ({}) and {}, {:.2f} s CPU{}\n", until(r.reached, r.why), r.samples, r.plan,
-                        counted(r.corners + r.alphaCorners, "corner"), r.cpu,
-                        r.stopped.empty() ? "" : fmt::format("; {} were taken: {}", samplesText(r), r.stopped));
+                        countText(r.corners + r.alphaCorners, "corner"), r.cpu,
+                        (r.stopped.empty() ? "" : fmt::format("; {} were taken: {}", samplesText(r), r.stopped)) +
+                            (r.kept.present ? "; kept: " + keptText(r.kept) : ""));
   if (const FuzzyResult& r = results.fuzzy; r.present)
     text += fmt::format("  alpha-cuts: {}{}, {:.2f} s CPU\n", until(r.reached, r.why),
-                        counted(static_cast<std::int64_t>(r.alpha.size()), "level"), r.cpu);
+                        countText(static_cast<long long>(r.alpha.size()), "level"), r.cpu);
   return text;
 }
 

@@ -63,7 +63,8 @@ class ContentWriter {
                     const double* numbers, Hdf5Writer& out) const {
     const std::string name = std::string(field.name) + suffix;
     const std::vector<std::size_t> shape = shapeOf(dimensionsOf(group, field), extents_);
-    out.numbers(name, numbers, {shape.begin(), shape.end()}, std::string(field.meaning) + meaning, unitOf(field));
+    out.numbers(name, numbers, {shape.begin(), shape.end()}, std::string(field.meaning) + meaning, unitOf(field),
+                field.isNoise);
     place(group, field, name, out);
   }
 

@@ -46,8 +46,18 @@ bool areIntervals(const Envelope& envelope) {
 
 /// Scales of numbers rise.
 bool rises(const FieldValue& scale) {
-  const auto* numbers = std::get_if<std::vector<double>*>(&scale);
-  return numbers == nullptr || std::ranges::adjacent_find(**numbers, std::greater_equal<>()) == (*numbers)->end();
+  const auto isRising = [](auto* v) { return std::ranges::adjacent_find(*v, std::greater_equal<>()) == v->end(); };
+  return std::visit(
+      Visitor{[&](std::vector<double>* v) { return isRising(v); },
+              [&](std::vector<std::int64_t>* v) { return isRising(v); }, [](const auto&) { return true; }},
+      scale);
+}
+
+std::size_t sizeOf(const FieldValue& scale) {
+  return std::visit(
+      Visitor{[](std::vector<double>* v) { return v->size(); }, [](std::vector<std::int64_t>* v) { return v->size(); },
+              [](const auto&) { return std::size_t{0}; }},
+      scale);
 }
 
 bool makesSense(const Field& field, const Extents& extents) {
@@ -110,8 +120,7 @@ Extents extentsOf(const std::vector<Group>& groups) {
       extents.emplace(group.dimension, group.size);
     } else if (group.size > 0) {
       for (const Field& field : group.fields(0))
-        if (isScale(group, field))
-          extents.emplace(field.dimensions.front(), std::get<std::vector<double>*>(field.value)->size());
+        if (isScale(group, field)) extents.emplace(field.dimensions.front(), sizeOf(field.value));
     }
   }
   return extents;

@@ -30,7 +30,8 @@ using FieldValue =
 
 namespace dimension {  // a path in the file, where its scale lies
 inline constexpr std::string_view time = "/time", output = "/output", quantity = "/quantity",
-                                  probability = "/stochastic/probability", alpha = "/fuzzy/alpha",
+                                  probability = "/stochastic/probability", sample = "/stochastic/kept/number",
+                                  motion = "/stochastic/kept/motion_number", alpha = "/fuzzy/alpha",
                                   dispute = "/comparison/disputed/number";
 }
 
@@ -57,6 +58,7 @@ struct Field {
   std::vector<std::string_view> dimensions;
   Allowed allowed = allowed::anything;
   std::string_view indexOf = "";  ///< of an index: the dimension, whose extent it lies below
+  bool isNoise = false;           ///< its digits follow no rule that compression could use
 };
 
 /// A group of the file: one record, whose single values are attributes, or a list of records, one data set a field.

@@ -38,8 +38,9 @@ void writeTextAttribute(hid_t object, const std::string& name, const std::string
   writeAttribute(object, name, textType(value.size()), value.c_str());
 }
 
-/// Small data sets lie in their header; larger ones in chunks, shuffled and compressed, with a checksum each.
-Hdf5Handle layout(const Hdf5Shape& shape, std::size_t elementSize) {
+/// Small data sets lie in their header; larger ones in chunks with a checksum each, shuffled and compressed unless they
+/// are noise.
+Hdf5Handle layout(const Hdf5Shape& shape, std::size_t elementSize, bool isNoise) {
   Hdf5Handle properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "properties");
   const hsize_t size = countOf(shape) * elementSize;
   if (size <= (shape.empty() ? compactTextSize : compactSize)) {
@@ -51,8 +52,10 @@ Hdf5Handle layout(const Hdf5Shape& shape, std::size_t elementSize) {
   for (hsize_t& extent : chunk)
     while (countOf(chunk) * elementSize > chunkSize && extent > 1) extent = (extent + 1) / 2;
   checkHdf5(H5Pset_chunk(properties, static_cast<int>(chunk.size()), chunk.data()), "chunks");
-  checkHdf5(H5Pset_shuffle(properties), "shuffle");
-  checkHdf5(H5Pset_deflate(properties, 6), "deflate");
+  if (!isNoise) {
+    checkHdf5(H5Pset_shuffle(properties), "shuffle");
+    checkHdf5(H5Pset_deflate(properties, 6), "deflate");
+  }
   checkHdf5(H5Pset_fletcher32(properties), "checksum");
   return properties;
 }
@@ -81,9 +84,9 @@ void Hdf5Writer::attribute(const std::string& name, const std::string& value) {
 }
 
 void Hdf5Writer::data(const std::string& name, hid_t type, const Hdf5Shape& shape, const void* values,
-                      const std::string& longName) {
+                      const std::string& longName, bool isNoise) {
   const Hdf5Handle data(H5Dcreate2(group_, name.c_str(), type, space(shape, name), H5P_DEFAULT,
-                                   layout(shape, H5Tget_size(type)), H5P_DEFAULT),
+                                   layout(shape, H5Tget_size(type), isNoise), H5P_DEFAULT),
                         H5Dclose, name);
   checkHdf5(H5Dwrite(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), name);
   writeTextAttribute(data, "long_name", longName);
@@ -109,8 +112,8 @@ void Hdf5Writer::integers(const std::string& name, const std::vector<std::int64_
 }
 
 void Hdf5Writer::numbers(const std::string& name, const double* values, const Hdf5Shape& shape,
-                         const std::string& longName, const std::string& units) {
-  data(name, H5T_NATIVE_DOUBLE, shape, values, longName);
+                         const std::string& longName, const std::string& units, bool isNoise) {
+  data(name, H5T_NATIVE_DOUBLE, shape, values, longName, isNoise);
   if (units.empty()) return;
   const Hdf5Handle data(H5Dopen2(group_, name.c_str(), H5P_DEFAULT), H5Dclose, name);
   writeTextAttribute(data, "units", units);

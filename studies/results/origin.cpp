@@ -43,11 +43,20 @@ std::vector<Field> fieldsOfUncertain(UncertainInfo& u) {
   return {{dimension::quantity, &u.name, unit::none, "name of the uncertain quantity", {}},
           {"quantity", &u.quantity, unit::none, "quantity of the mechanism", {}},
           {"unit", &u.unit, unit::none, "its SI unit", {}},
-          {"lower", &u.lower, unit::ofQuantity, "lower bound of the interval", {}},
-          {"nominal", &u.nominal, unit::ofQuantity, "nominal value", {}},
-          {"upper", &u.upper, unit::ofQuantity, "upper bound of the interval", {}},
+          {"lower", &u.lower, unit::ofQuantity, "lower bound of the interval", {}, allowed::finite},
+          {"nominal", &u.nominal, unit::ofQuantity, "nominal value", {}, allowed::finite},
+          {"upper", &u.upper, unit::ofQuantity, "upper bound of the interval", {}, allowed::finite},
           {"distribution", &u.distribution, unit::none, "name of the distribution", {}},
           {"membership", &u.membership, unit::none, "name of the membership function", {}}};
+}
+
+std::vector<Field> fieldsOfShape(ShapeInfo& s) {
+  return {
+      {"of", &s.quantity, unit::none, "name of the uncertain quantity", {}},
+      {"shape", &s.shape, unit::none, "\"distribution\" or \"membership\"", {}},
+      {"name", &s.name, unit::none, "of the number, such as \"lower\" and \"upper\" (of the support), \"mode\"", {}},
+      {"value", &s.value, unit::none, "in the unit beside it", {}},
+      {"unit", &s.unit, unit::none, "its SI unit", {}}};
 }
 
 }  // namespace
@@ -61,6 +70,8 @@ void describe(Origin& o, std::vector<Group>& groups) {
   groups.push_back(
       listOf("/study/uncertain", "what is uncertain", dimension::quantity, o.uncertain, fieldsOfUncertain));
   groups.back().makesSense = [&o](std::size_t i) { return o.uncertain[i].lower <= o.uncertain[i].upper; };
+  groups.push_back(listOf("/study/shapes", "the numbers that distributions and membership functions are made of",
+                          "/study/shapes/of", o.shapes, fieldsOfShape));
 }
 
 }  // namespace gamut

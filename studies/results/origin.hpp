@@ -14,7 +14,16 @@ namespace gamut {
 struct UncertainInfo {
   std::string name, quantity, unit;
   double lower = 0, nominal = 0, upper = 0;
-  std::string distribution, membership;  ///< in words: "uniform", "triangular", …
+  std::string distribution, membership;  ///< by name: "uniform", "triangular", …
+};
+
+/// One of the numbers that a distribution or a membership function is made of.
+struct ShapeInfo {
+  std::string quantity;  ///< name of the uncertain quantity
+  std::string shape;     ///< "distribution" or "membership"
+  std::string name;      ///< of the number: "lower", "upper", "mode", …
+  double value = 0;
+  std::string unit;
 };
 
 struct OutputInfo {
@@ -38,6 +47,7 @@ struct Origin {
   std::string version, host, date;
   std::vector<LibraryInfo> libraries;
   std::vector<UncertainInfo> uncertain;
+  std::vector<ShapeInfo> shapes;  ///< of all of them
   std::vector<OutputInfo> outputs;
   double horizon = 0;        ///< s
   std::vector<double> time;  ///< output times, s

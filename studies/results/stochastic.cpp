@@ -47,10 +47,48 @@ std::vector<Field> fieldsOf(StochasticResult& r) {
         {time, output}}});
 }
 
+std::vector<Field> fieldsOfKept(KeptSamples& k) {
+  using namespace dimension;
+  return {
+      {"storage", &k.storage, unit::byte, "that values and motions may take", {}},
+      {"values_every",
+       &k.valuesEvery,
+       unit::none,
+       "`values` are of every so manyth sample by number, and of the centre; 0: of none",
+       {},
+       allowed::count},
+      {"motions_every", &k.motionsEvery, unit::none, "`motions` likewise", {}, allowed::count},
+      {"number",
+       &k.number,
+       unit::none,
+       "of the samples whose values are kept, counted as those of disputed samples",
+       {sample},
+       allowed::count},
+      {"values",
+       &k.values,
+       unit::ofQuantity,
+       "of the uncertain quantities",
+       {sample, quantity},
+       allowed::anything,
+       "",
+       true},
+      {"motion_number", &k.motionNumber, unit::none, "of the samples whose motions are kept", {motion}, allowed::count},
+      {"motions",
+       &k.motions,
+       unit::ofOutput,
+       "outputs of these samples, as they count in the statistics; NaN where a sample did not arrive",
+       {motion, time, output},
+       allowed::anything,
+       "",
+       true}};
+}
+
 }  // namespace
 
 void describe(StochasticResult& stochastic, std::vector<Group>& groups) {
   groups.push_back(groupOf("/stochastic", "what is probable: samples of every output", stochastic, fieldsOf));
+  groups.push_back(
+      groupOf("/stochastic/kept", "samples one by one, as far as they are kept", stochastic.kept, fieldsOfKept));
 }
 
 }  // namespace gamut

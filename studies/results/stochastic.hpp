@@ -10,6 +10,18 @@
 
 namespace gamut {
 
+/// Samples one by one: values of the uncertain quantities, and motions. Numbers as in DisputedSample.
+struct KeptSamples {
+  bool present = false;
+  double storage = 0;             ///< bytes that they may take
+  std::int64_t valuesEvery = 1;   ///< values are of the samples whose number it divides, and the centre; 0: of none
+  std::int64_t motionsEvery = 1;  ///< motions likewise; a multiple of the other
+  std::vector<std::int64_t> number;
+  std::vector<double> values;  ///< [number][quantity]
+  std::vector<std::int64_t> motionNumber;
+  std::vector<double> motions;  ///< [motionNumber][time][output], NaN where a sample did not arrive
+};
+
 /// Its `reached`: all samples that were followed arrived there; envelope and statistics end there.
 struct StochasticResult : Answer {
   /// The plan's samples, the corners and the centre.
@@ -29,9 +41,10 @@ struct StochasticResult : Answer {
   std::vector<Table> quantiles;       ///< one table a probability
   Table resolution;                   ///< no quantile is farther than this from that of the samples themselves
   Table error;                        ///< the witness's own error, measured at tighter tolerance
+  KeptSamples kept;
 };
 
-/// Adds the group of this part.
+/// Adds the groups of this part.
 void describe(StochasticResult& stochastic, std::vector<Group>& groups);
 
 }  // namespace gamut

@@ -115,6 +115,57 @@ TEST(Driver, QuantilesAreWithinTheirResolutionOfThoseOfTheSamplesThemselves) {
   }
 }
 
+TEST(Driver, KeepsValuesAndMotionsOfTheSamplesThemselves) {
+  Study study = readStudyText(sampleStudy, "s.toml");
+  study.ensemble.samples = 700;
+  study.storage = 2e4;
+  const Results results = run(study);
+  const KeptSamples& kept = results.stochastic.kept;
+  EXPECT_EQ(kept.storage, 2e4);
+  EXPECT_GT(kept.motionsEvery, kept.valuesEvery);
+  const Problem problem = makeProblem(study);
+  EnsembleOptions ensemble = study.ensemble;
+  ensemble.alpha = problem.alpha;
+  Sampling sampling(ensemble.plan, 1, 700, ensemble.seed);
+  EXPECT_EQ(kept.number.back() + 1, results.stochastic.planned());
+  EXPECT_EQ(kept.values.back(), study.uncertain[0].uncertain.nominal);
+  for (std::size_t i = 0; kept.number[i] < 700; ++i)
+    EXPECT_EQ(kept.values[i], sampling.values(static_cast<std::size_t>(kept.number[i]), problem.motion.uncertain)[0]);
+  const std::size_t cells = results.time.size() * results.outputs.size();
+  std::size_t asTheyWere = 0;
+  for (std::size_t i = 0; i < kept.motionNumber.size(); ++i) {
+    const auto begin = kept.motions.begin() + static_cast<std::ptrdiff_t>(i * cells);
+    const std::vector<double> motion(begin, begin + static_cast<std::ptrdiff_t>(cells)),
+        replayed = replaySample(problem.motion, ensemble, static_cast<std::size_t>(kept.motionNumber[i]));
+    const bool isDisputed = std::ranges::any_of(results.comparison.disputed, [&](const DisputedSample& sample) {
+      return sample.number == kept.motionNumber[i];
+    });
+    EXPECT_TRUE(isDisputed || motion == replayed) << kept.motionNumber[i];
+    asTheyWere += motion == replayed ? 1 : 0;
+    for (std::size_t cell = 0; cell < cells; ++cell) {
+      EXPECT_GE(motion[cell], results.stochastic.envelope.lower.data[cell]);
+      EXPECT_LE(motion[cell], results.stochastic.envelope.upper.data[cell]);
+    }
+  }
+  EXPECT_GT(asTheyWere, 100U);
+}
+
+TEST(Driver, KeepsTheNumbersOfDistributionsAndMembershipFunctions) {
+  const Results results =
+      run(sampleWith("distribution = { type = \"uniform\" }\nmembership = { type = \"triangular\" }",
+                     "distribution = { type = \"normal\", deviation = \"0.1 deg\" }\n"
+                     "membership = { type = \"table\", points = [[\"29.8 deg\", 0.5], [\"30 deg\", 1]] }"));
+  std::vector<std::string> found;
+  for (const ShapeInfo& s : results.shapes)
+    found.push_back(s.quantity + " " + s.shape + " " + s.name + " " + std::to_string(s.value) + " " + s.unit);
+  EXPECT_THAT(found, ::testing::ElementsAre(
+                         "start distribution lower 0.518363 rad", "start distribution upper 0.528835 rad",
+                         "start distribution mean 0.523599 rad", "start distribution deviation 0.001745 rad",
+                         "start membership lower 0.520108 rad", "start membership upper 0.523599 rad",
+                         "start membership value 1 0.520108 rad", "start membership membership 1 0.500000 1",
+                         "start membership value 2 0.523599 rad", "start membership membership 2 1.000000 1"));
+}
+
 TEST(Driver, AlphaCutsOfSeveralQuantitiesAreReachedByTheirCorners) {
   std::string text = sampleStudyWith("[[uncertain]]", threeUncertain);
   const std::string more = R"([[uncertain]]

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <set>
 #include <string>
 
@@ -76,9 +77,10 @@ TEST(Description, TellsWhichListsDiffer) {
   EXPECT_THAT(differences(sampleResults(), after), ElementsAre("/fuzzy", "/comparison/disputed"));
 }
 
-/// Bytes of an object that none of the fields holds, in the longest run of them.
-template <class Object>
-std::size_t longestGap(const Object& object, const std::vector<Field>& fields, std::size_t known) {
+/// The longest run of bytes of an object that none of the fields holds, nor any of the members that are groups of their
+/// own or say whether one is there.
+template <class Object, class... Known>
+std::size_t longestGap(const Object& object, const std::vector<Field>& fields, const Known&... known) {
   const auto* begin = reinterpret_cast<const char*>(&object);
   std::vector<char> isHeld(sizeof object, 0);
   const auto hold = [&](const auto* value) {
@@ -86,39 +88,32 @@ std::size_t longestGap(const Object& object, const std::vector<Field>& fields, s
     if (place >= begin && place < begin + sizeof object)
       std::fill_n(isHeld.begin() + (place - begin), sizeof *value, char{1});
   };
+  (hold(&known), ...);
   for (const Field& field : fields)
     std::visit(Visitor{[&](WholeText x) { hold(x.text); }, [&](const auto* x) { hold(x); }}, field.value);
   std::size_t longest = 0, run = 0;
-  for (std::size_t i = known; i < isHeld.size(); ++i) longest = std::max(longest, run = isHeld[i] != 0 ? 0 : run + 1);
+  for (const char held : isHeld) longest = std::max(longest, run = held != 0 ? 0 : run + 1);
   return longest;
 }
 
-/// All fields whose groups' paths begin so.
-std::vector<Field> fieldsBelow(const std::vector<Group>& groups, const std::string& path) {
-  std::vector<Field> fields;
-  for (const Group& group : groups)
-    if (std::string(group.path) == path)
-      for (const Field& field : group.fields(0)) fields.push_back(field);
-  return fields;
-}
-
 TEST(Description, LeavesOutNoMember) {
-  constexpr std::size_t padding = sizeof(double) - 1, present = sizeof(double);
+  constexpr std::size_t padding = sizeof(double) - 1;
   Results r = fullResults();
-  const std::vector<Group> groups = describe(r);
-  const auto fields = [&](const char* path) { return fieldsBelow(groups, path); };
-  EXPECT_LE(longestGap(r.interval, fields("/interval"), present), padding);
-  EXPECT_LE(longestGap(r.stochastic, fields("/stochastic"), present), padding);
-  EXPECT_LE(longestGap(r.fuzzy, fields("/fuzzy"), present), padding);
-  EXPECT_LE(longestGap(r.libraries[0], fields("/study/libraries"), 0), padding);
-  EXPECT_LE(longestGap(r.outputs[0], fields("/study/outputs"), 0), padding);
-  EXPECT_LE(longestGap(r.uncertain[0], fields("/study/uncertain"), 0), padding);
-  EXPECT_LE(longestGap(r.comparison.disputed[0], fields("/comparison/disputed"), 0), padding);
-  // Lists are members of these, described as groups of their own.
-  EXPECT_LE(longestGap(r.comparison, fields("/comparison"), present), sizeof(std::vector<int>));
-  std::vector<Field> origin = fields("/"), study = fields("/study");
-  origin.insert(origin.end(), study.begin(), study.end());
-  EXPECT_LE(longestGap<Origin>(r, origin, 0), 3 * sizeof(std::vector<int>));
+  std::map<std::string_view, std::vector<Field>> fields;
+  for (const Group& group : describe(r)) fields[group.path] = group.fields(0);
+  EXPECT_LE(longestGap(r.interval, fields["/interval"], r.interval.present), padding);
+  EXPECT_LE(longestGap(r.stochastic, fields["/stochastic"], r.stochastic.present, r.stochastic.kept), padding);
+  EXPECT_LE(longestGap(r.stochastic.kept, fields["/stochastic/kept"], r.stochastic.kept.present), padding);
+  EXPECT_LE(longestGap(r.fuzzy, fields["/fuzzy"], r.fuzzy.present), padding);
+  EXPECT_LE(longestGap(r.comparison, fields["/comparison"], r.comparison.present, r.comparison.disputed), padding);
+  EXPECT_LE(longestGap(r.comparison.disputed[0], fields["/comparison/disputed"]), padding);
+  EXPECT_LE(longestGap(r.libraries[0], fields["/study/libraries"]), padding);
+  EXPECT_LE(longestGap(r.outputs[0], fields["/study/outputs"]), padding);
+  EXPECT_LE(longestGap(r.uncertain[0], fields["/study/uncertain"]), padding);
+  EXPECT_LE(longestGap(r.shapes[0], fields["/study/shapes"]), padding);
+  std::vector<Field> origin = fields["/"];
+  origin.insert(origin.end(), fields["/study"].begin(), fields["/study"].end());
+  EXPECT_LE(longestGap<Origin>(r, origin, r.libraries, r.outputs, r.uncertain, r.shapes), padding);
 }
 
 /// "time × output" for what lies at "/time" and "/output".

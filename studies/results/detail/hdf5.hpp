@@ -78,9 +78,9 @@ class Hdf5Writer {
   void text(const std::string& name, const std::string& value, const std::string& longName);
   void texts(const std::string& name, const std::vector<std::string>& values, const std::string& longName);
   void integers(const std::string& name, const std::vector<std::int64_t>& values, const std::string& longName);
-  /// `units` may be empty: then there is no such attribute.
+  /// `units` may be empty: then there is no such attribute. Noise is not compressed.
   void numbers(const std::string& name, const double* values, const Hdf5Shape& shape, const std::string& longName,
-               const std::string& units);
+               const std::string& units, bool isNoise = false);
   /// Makes a data set of this group a dimension scale.
   void makeScale(const std::string& name, const std::string& label);
   /// Attaches scales (absolute paths in the file) to the dimensions of a data set.
@@ -88,7 +88,7 @@ class Hdf5Writer {
 
  private:
   void data(const std::string& name, hid_t type, const Hdf5Shape& shape, const void* values,
-            const std::string& longName);
+            const std::string& longName, bool isNoise = false);
 
   Hdf5Handle group_;
   std::string name_;
