@@ -1,3 +1,4 @@
+// What the file says of how the answers agree.
 #include "studies/results/comparison.hpp"
 
 namespace gamut {
@@ -59,6 +60,9 @@ std::vector<Field> fieldsOfDispute(DisputedSample& d) {
 }
 
 }  // namespace
+
+bool isUnresolved(const DisputedSample& sample) { return !sample.outside && sample.decided == "unresolved"; }
+bool isInterrupted(const DisputedSample& sample) { return !sample.outside && sample.decided == "interrupted"; }
 
 void describe(ComparisonResult& comparison, std::vector<Group>& groups) {
   groups.push_back(groupOf("/comparison", "how the answers agree", comparison, fieldsOf));

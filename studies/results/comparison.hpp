@@ -25,6 +25,11 @@ struct DisputedSample {
   std::vector<double> farthest;  ///< one an output: how far it lies outside at most, after the last integration
 };
 
+/// It lies outside, but no farther than its own error.
+bool isUnresolved(const DisputedSample& sample);
+/// It seemed outside when the run was interrupted.
+bool isInterrupted(const DisputedSample& sample);
+
 struct ComparisonResult {
   bool present = false;  ///< there were samples, and something to compare them with
   std::string verdict;   ///< "inside" | "outside" | "incomplete" | "unresolved"

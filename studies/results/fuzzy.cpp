@@ -1,3 +1,4 @@
+// What the file says of the alpha-cuts.
 #include "studies/results/fuzzy.hpp"
 
 namespace gamut {

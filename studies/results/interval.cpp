@@ -1,3 +1,4 @@
+// What the file says of the enclosures.
 #include "studies/results/interval.hpp"
 
 namespace gamut {

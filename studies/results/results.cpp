@@ -1,3 +1,4 @@
+// The parts in the order of the file, and what is asked of all of them.
 #include "studies/results/results.hpp"
 
 #include <fmt/format.h>

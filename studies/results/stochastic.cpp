@@ -1,3 +1,4 @@
+// What the file says of the samples, together and one by one.
 #include "studies/results/stochastic.hpp"
 
 namespace gamut {

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "reports/verdict.hpp"
-#include "studies/driver.hpp"
+#include "studies/running/run.hpp"
 #include "studies/results/results_file.hpp"
 #include "studies/study.hpp"
 #include "studies/watch.hpp"

@@ -1,5 +1,5 @@
-// The driver puts every uncertain number where the programs expect it, and keeps what was found when it is stopped.
-#include "studies/driver.hpp"
+// A run puts every uncertain number where the programs expect it, and keeps what was found when it is stopped.
+#include "studies/running/run.hpp"
 
 #include <gmock/gmock.h>
 
@@ -58,7 +58,7 @@ TEST(Problem, NestsTheLevelsFromTheSupportsToTheCores) {
   EXPECT_TRUE(isThin(problem.levels[10][2]));
 }
 
-TEST(Driver, LeavesOpenWhatAnInterruptKeepsFromBeingDecided) {
+TEST(Run, LeavesOpenWhatAnInterruptKeepsFromBeingDecided) {
   std::atomic<bool> cancelled{false};
   RunOptions options;
   options.cancelled = &cancelled;
@@ -73,7 +73,7 @@ TEST(Driver, LeavesOpenWhatAnInterruptKeepsFromBeingDecided) {
   EXPECT_THAT(comparison.disputed, Each(Field(&DisputedSample::decided, "interrupted")));
 }
 
-TEST(Driver, ComparesAFirstBlockOfSamplesWithAnEnclosureThatIsInterrupted) {
+TEST(Run, ComparesAFirstBlockOfSamplesWithAnEnclosureThatIsInterrupted) {
   std::atomic<bool> cancelled{false};
   RunOptions options;
   options.samples = 5000;
@@ -90,7 +90,7 @@ TEST(Driver, ComparesAFirstBlockOfSamplesWithAnEnclosureThatIsInterrupted) {
   EXPECT_FALSE(std::isnan(results.fuzzy.inner[5].lower(5, 0)));
 }
 
-TEST(Driver, QuantilesAreWithinTheirResolutionOfThoseOfTheSamplesThemselves) {
+TEST(Run, QuantilesAreWithinTheirResolutionOfThoseOfTheSamplesThemselves) {
   const Study study = readStudyText(sampleStudy, "s.toml");
   RunOptions options;
   options.samples = 700;
@@ -115,7 +115,7 @@ TEST(Driver, QuantilesAreWithinTheirResolutionOfThoseOfTheSamplesThemselves) {
   }
 }
 
-TEST(Driver, KeepsValuesAndMotionsOfTheSamplesThemselves) {
+TEST(Run, KeepsValuesAndMotionsOfTheSamplesThemselves) {
   Study study = readStudyText(sampleStudy, "s.toml");
   study.ensemble.samples = 700;
   study.storage = 2e4;
@@ -136,7 +136,7 @@ TEST(Driver, KeepsValuesAndMotionsOfTheSamplesThemselves) {
   for (std::size_t i = 0; i < kept.motionNumber.size(); ++i) {
     const auto begin = kept.motions.begin() + static_cast<std::ptrdiff_t>(i * cells);
     const std::vector<double> motion(begin, begin + static_cast<std::ptrdiff_t>(cells)),
-        replayed = replaySample(problem.motion, ensemble, static_cast<std::size_t>(kept.motionNumber[i]));
+        replayed = replaySample(problem.motion, ensemble, static_cast<std::size_t>(kept.motionNumber[i])).trajectory(0);
     const bool isDisputed = std::ranges::any_of(results.comparison.disputed, [&](const DisputedSample& sample) {
       return sample.number == kept.motionNumber[i];
     });
@@ -150,7 +150,7 @@ TEST(Driver, KeepsValuesAndMotionsOfTheSamplesThemselves) {
   EXPECT_GT(asTheyWere, 100U);
 }
 
-TEST(Driver, KeepsTheNumbersOfDistributionsAndMembershipFunctions) {
+TEST(Run, KeepsTheNumbersOfDistributionsAndMembershipFunctions) {
   const Results results =
       run(sampleWith("distribution = { type = \"uniform\" }\nmembership = { type = \"triangular\" }",
                      "distribution = { type = \"normal\", deviation = \"0.1 deg\" }\n"
@@ -166,7 +166,7 @@ TEST(Driver, KeepsTheNumbersOfDistributionsAndMembershipFunctions) {
                          "start membership value 2 0.523599 rad", "start membership membership 2 1.000000 1"));
 }
 
-TEST(Driver, AlphaCutsOfSeveralQuantitiesAreReachedByTheirCorners) {
+TEST(Run, AlphaCutsOfSeveralQuantitiesAreReachedByTheirCorners) {
   std::string text = sampleStudyWith("[[uncertain]]", threeUncertain);
   const std::string more = R"([[uncertain]]
 quantity = "hinge.rate"
@@ -184,7 +184,7 @@ interval = "± 1 %"
   }
 }
 
-TEST(Driver, KeepsSamplesInsideWithUncertainParametersAndInitialValues) {
+TEST(Run, KeepsSamplesInsideWithUncertainParametersAndInitialValues) {
   const Results results = run(sampleWith("[[uncertain]]", threeUncertain));
   EXPECT_EQ(results.comparison.verdict, "inside");
   EXPECT_EQ(results.stochastic.corners, 8);
@@ -194,7 +194,7 @@ TEST(Driver, KeepsSamplesInsideWithUncertainParametersAndInitialValues) {
   EXPECT_LT(results.comparison.maximum, 1.1);
 }
 
-TEST(Driver, MakesTheNumberUncertainThatTheStudyNames) {
+TEST(Run, MakesTheNumberUncertainThatTheStudyNames) {
   // At the start the height is -length cos(30 deg), and the angle does not depend on the length.
   const Results length = run(sampleWith("quantity = \"hinge.angle\"\ninterval", "quantity = \"rod.length\"\ninterval"));
   EXPECT_EQ(length.comparison.verdict, "inside");
@@ -204,7 +204,7 @@ TEST(Driver, MakesTheNumberUncertainThatTheStudyNames) {
   EXPECT_NEAR(length.interval.at.upper(0, 0) - length.interval.at.lower(0, 0), 0, 1e-12);
 }
 
-TEST(Driver, SeedAndNumberOfSamplesMayBeReplaced) {
+TEST(Run, SeedAndNumberOfSamplesMayBeReplaced) {
   RunOptions options;
   options.seed = 99;
   options.samples = 5;
@@ -214,7 +214,7 @@ TEST(Driver, SeedAndNumberOfSamplesMayBeReplaced) {
   EXPECT_NE(run(readStudyText(sampleStudy, "s.toml")).stochastic.mean.data, results.stochastic.mean.data);
 }
 
-TEST(Driver, ComparesAlphaCutsWithoutAnEnclosureOfTheWholeBox) {
+TEST(Run, ComparesAlphaCutsWithoutAnEnclosureOfTheWholeBox) {
   const Results results = run(sampleWith("\"interval\", ", ""));
   EXPECT_FALSE(results.interval.present);
   EXPECT_TRUE(results.fuzzy.present);
@@ -223,7 +223,7 @@ TEST(Driver, ComparesAlphaCutsWithoutAnEnclosureOfTheWholeBox) {
   EXPECT_EQ(results.comparison.verdict, "inside");
 }
 
-TEST(Driver, StopsWhenToldAndSaysSo) {
+TEST(Run, StopsWhenToldAndSaysSo) {
   const std::atomic<bool> cancelled{true};
   RunOptions options;
   options.cancelled = &cancelled;
@@ -243,7 +243,7 @@ Study unstableStudy() {
   return readStudyText(text, "s.toml");
 }
 
-TEST(Driver, EndsAnEnclosureThatTakesTooLongAndSamplesAllTheSame) {
+TEST(Run, EndsAnEnclosureThatTakesTooLongAndSamplesAllTheSame) {
   Study study = unstableStudy();
   study.limits.enclosureTime = 0.25;
   const Results results = run(study);
@@ -257,7 +257,7 @@ TEST(Driver, EndsAnEnclosureThatTakesTooLongAndSamplesAllTheSame) {
   EXPECT_EQ(results.comparison.verdict, "incomplete");
 }
 
-TEST(Driver, EndsARunThatTakesTooLong) {
+TEST(Run, EndsARunThatTakesTooLong) {
   RunOptions options;
   options.timeLimit = 0.5;
   options.samples = 200000;
@@ -273,7 +273,7 @@ TEST(Driver, EndsARunThatTakesTooLong) {
   EXPECT_GE(results.cpu, 0.5);
 }
 
-TEST(Driver, LeavesTimeToTheEnclosureWhereTheFirstSamplesTakeLong) {
+TEST(Run, LeavesTimeToTheEnclosureWhereTheFirstSamplesTakeLong) {
   std::string text = sampleStudyWith("samples = 16", "samples = 256");
   text.replace(text.find("horizon = 0.5"), 13, "horizon = 3000");
   text.replace(text.find("output_step = 0.1"), 17, "output_step = 10");
@@ -287,7 +287,7 @@ TEST(Driver, LeavesTimeToTheEnclosureWhereTheFirstSamplesTakeLong) {
   EXPECT_EQ(results.comparison.verdict, "incomplete");
 }
 
-TEST(Driver, GoesOnWithTheFirstSamplesAfterAnEnclosureThatLeavesThemTime) {
+TEST(Run, GoesOnWithTheFirstSamplesAfterAnEnclosureThatLeavesThemTime) {
   RunOptions options;
   options.samples = 256;
   std::atomic<int> calls{0};
@@ -309,7 +309,7 @@ TEST(Driver, GoesOnWithTheFirstSamplesAfterAnEnclosureThatLeavesThemTime) {
   EXPECT_LT(sampledBefore, 0.9);
 }
 
-TEST(Driver, EndsSamplesThatTakeTooLongAndNamesThem) {
+TEST(Run, EndsSamplesThatTakeTooLongAndNamesThem) {
   Study study = readStudyText(sampleStudy, "s.toml");
   study.limits.sampleTime = 1e-9;
   const Results results = run(study);
@@ -320,7 +320,7 @@ TEST(Driver, EndsSamplesThatTakeTooLongAndNamesThem) {
   EXPECT_EQ(results.comparison.verdict, "incomplete");
 }
 
-TEST(Driver, EndsWhereThereIsNoMoreMemory) {
+TEST(Run, EndsWhereThereIsNoMoreMemory) {
   RunOptions options;
   options.memoryLimit = 1e6;  // less than any process has
   const Results results = run(readStudyText(sampleStudy, "s.toml"), options);
@@ -347,7 +347,7 @@ std::string piecesOfARod(int count, const std::string& interval) {
          text.substr(tip + 5, output - tip - 5) + uncertain + text.substr(output);
 }
 
-TEST(Driver, EnclosesManyUncertainQuantitiesWithoutBisectingThem) {
+TEST(Run, EnclosesManyUncertainQuantitiesWithoutBisectingThem) {
   std::string text = piecesOfARod(300, "");
   text.replace(text.find("sobol"), 5, "random");
   const Results results = run(readStudyText(text, "s.toml"));
@@ -357,11 +357,11 @@ TEST(Driver, EnclosesManyUncertainQuantitiesWithoutBisectingThem) {
   EXPECT_LT(results.cpu, 60);
 }
 
-TEST(Driver, RefusesPolynomialsOfTooManyTerms) {
+TEST(Run, RefusesPolynomialsOfTooManyTerms) {
   EXPECT_THROW(run(readStudyText(piecesOfARod(39, "[interval]\ndegree = 4\n"), "s.toml")), std::invalid_argument);
 }
 
-TEST(Driver, ReportsTheProgressOfEveryAnalysis) {
+TEST(Run, ReportsTheProgressOfEveryAnalysis) {
   std::mutex mutex;
   std::map<std::string, double> greatest;
   RunOptions options;
@@ -382,7 +382,7 @@ Study kinematicStudy() {
   return readStudyText(text, "s.toml");
 }
 
-TEST(Driver, KeepsPlainIntervalsOfKinematicsThatIsInterrupted) {
+TEST(Run, KeepsPlainIntervalsOfKinematicsThatIsInterrupted) {
   const std::atomic<bool> cancelled{true};
   RunOptions options;
   options.cancelled = &cancelled;
@@ -399,7 +399,7 @@ TEST(Driver, KeepsPlainIntervalsOfKinematicsThatIsInterrupted) {
   }
 }
 
-TEST(Driver, EndsKinematicsAtTheLimitOfTheEnclosure) {
+TEST(Run, EndsKinematicsAtTheLimitOfTheEnclosure) {
   Study study = kinematicStudy();
   study.limits.enclosureTime = 1e-9;
   const Results results = run(study);
@@ -409,7 +409,7 @@ TEST(Driver, EndsKinematicsAtTheLimitOfTheEnclosure) {
   EXPECT_EQ(results.comparison.verdict, "incomplete");
 }
 
-TEST(Driver, EnclosesKinematicsWithAnUncertainParameter) {
+TEST(Run, EnclosesKinematicsWithAnUncertainParameter) {
   const Results results = run(kinematicStudy());
   EXPECT_EQ(results.comparison.verdict, "inside");
   EXPECT_EQ(results.time, std::vector<double>{0.0});
@@ -420,7 +420,7 @@ TEST(Driver, EnclosesKinematicsWithAnUncertainParameter) {
   }
 }
 
-TEST(Driver, MovesAnArmWithoutMassesInKinematics) {
+TEST(Run, MovesAnArmWithoutMassesInKinematics) {
   std::string text = "[study]\ntitle = \"Arm\"\nanalysis = \"kinematics\"\ncompare = [\"interval\", \"stochastic\"]\n";
   for (const char number : {'1', '2', '3'}) {
     const std::string n(1, number),

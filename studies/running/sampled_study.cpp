@@ -1,5 +1,5 @@
 // A number that is not uncertain is a constant of all samples.
-#include "studies/sampled_study.hpp"
+#include "studies/running/sampled_study.hpp"
 
 #include <utility>
 

@@ -1,12 +1,12 @@
-// The same steps as in the driver, with a block of one sample.
-#include "studies/replay.hpp"
+// The same steps as in a run, with a block of one sample.
+#include "studies/running/replay.hpp"
 
 #include <cmath>
 #include <stdexcept>
 
 #include "analyses/comparison/settlement.hpp"
 #include "studies/problem.hpp"
-#include "studies/sampled_study.hpp"
+#include "studies/running/sampled_study.hpp"
 
 namespace gamut {
 namespace {
