@@ -2,8 +2,8 @@
 #include <gmock/gmock.h>
 
 #include "reports/verdict.hpp"
-#include "studies/running/run.hpp"
 #include "studies/results/results_file.hpp"
+#include "studies/running/run.hpp"
 #include "studies/study.hpp"
 #include "studies/watch.hpp"
 #include "tests/studies/damage.hpp"
