@@ -19,7 +19,7 @@
 #include "mechanics/names.hpp"
 #include "studies/atomic_file.hpp"
 #include "studies/printable.hpp"
-#include "studies/results_file.hpp"
+#include "studies/results/results_file.hpp"
 #include "studies/study.hpp"
 #include "studies/version.hpp"
 

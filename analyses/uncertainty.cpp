@@ -81,6 +81,26 @@ std::string_view Distribution::name() const {
   return {};
 }
 
+std::vector<ShapeNumber> Distribution::numbers() const {
+  std::vector<ShapeNumber> numbers{{"lower", support_.lower()}, {"upper", support_.upper()}};
+  switch (shape_) {
+    case Shape::uniform:
+      break;
+    case Shape::triangular:
+      numbers.push_back({"mode", first_});
+      break;
+    case Shape::normal:
+      numbers.insert(numbers.end(), {{"mean", first_}, {"deviation", second_}});
+      break;
+    case Shape::beta:
+      numbers.insert(numbers.end(), {{"a", first_, false}, {"b", second_, false}});
+      break;
+    case Shape::lognormal:
+      numbers.insert(numbers.end(), {{"log_mean", first_, false}, {"log_deviation", second_, false}});
+  }
+  return numbers;
+}
+
 double Distribution::truncatedNormal(double u, double lower, double upper) const {
   const double a = (lower - first_) / second_, b = (upper - first_) / second_;
   // Where the support lies right of the mean, upper tails keep the digits that probabilities near 1 have lost; the

@@ -5,6 +5,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "scalars/interval.hpp"
 #include "scalars/membership.hpp"
@@ -35,6 +36,9 @@ class Distribution {
   const Interval& support() const { return support_; }
   /// "uniform", "triangular", "normal", "beta" or "lognormal".
   std::string_view name() const;
+  /// "lower" and "upper", the support; then "mode", "mean" and "deviation", "a" and "b", or "log_mean" and
+  /// "log_deviation".
+  std::vector<ShapeNumber> numbers() const;
 
  private:
   enum class Shape { uniform, triangular, normal, beta, lognormal };
@@ -44,8 +48,8 @@ class Distribution {
 
   Shape shape_ = Shape::uniform;
   Interval support_;
-  double first_ = 0;   // mode, mean or a
-  double second_ = 0;  // deviation or b
+  double first_ = 0;   // mode, mean or a, of the logarithm if that is normal
+  double second_ = 0;  // deviation or b, likewise
 };
 
 /// An uncertain quantity.

@@ -5,7 +5,7 @@
 #include "commands/options.hpp"
 #include "commands/table.hpp"
 #include "commands/verdict_lines.hpp"
-#include "studies/results_file.hpp"
+#include "studies/results/results_file.hpp"
 
 namespace gamut::commands {
 

@@ -7,7 +7,7 @@
 #include "commands/options.hpp"
 #include "commands/standard_streams.hpp"
 #include "commands/table.hpp"
-#include "studies/results_file.hpp"
+#include "studies/results/results_file.hpp"
 #include "studies/summary.hpp"
 
 namespace gamut::commands {
@@ -19,6 +19,7 @@ Action info(CLI::App& command) {
     const Results results = readResults(*path);
     sayOut(infoText(results));
     if (results.comparison.present) fmt::print("  {}\n", judge(results).sentence);
+    sayOut(contentText(results));
     return done;
   };
 }

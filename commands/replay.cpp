@@ -1,6 +1,6 @@
 // gamut replay: one sample of a run again, bit for bit, as a table for spreadsheets and programs (CSV). A row is an
 // output time. The values of the uncertain quantities stand in every row: whoever reads columns needs nothing else.
-#include "studies/replay.hpp"
+#include "studies/running/replay.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -19,7 +19,7 @@
 #include "commands/options.hpp"
 #include "commands/standard_streams.hpp"
 #include "commands/table.hpp"
-#include "studies/results_file.hpp"
+#include "studies/results/results_file.hpp"
 #include "studies/version.hpp"
 
 namespace gamut::commands {

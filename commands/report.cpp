@@ -10,7 +10,7 @@
 #include "commands/files.hpp"
 #include "commands/options.hpp"
 #include "commands/table.hpp"
-#include "studies/results_file.hpp"
+#include "studies/results/results_file.hpp"
 
 namespace gamut::commands {
 namespace {

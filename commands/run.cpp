@@ -21,9 +21,9 @@
 #include "commands/verdict_lines.hpp"
 #include "reports/report.hpp"
 #include "reports/words.hpp"
-#include "studies/driver.hpp"
+#include "studies/running/run.hpp"
 #include "studies/progress.hpp"
-#include "studies/results_file.hpp"
+#include "studies/results/results_file.hpp"
 #include "studies/summary.hpp"
 #include "studies/watch.hpp"
 
@@ -76,10 +76,9 @@ void say(const Arguments& arguments, const Results& results, const Verdict& verd
 
 /// A block of samples' motions is kept until it has been compared.
 void checkMemory(const Study& study, const RunOptions& options, const std::string& input) {
-  const std::size_t levels = study.fuzzy ? static_cast<std::size_t>(study.levels) : 0;
-  const double needed = ensembleBytes(study.time.size(), study.outputs.size(), study.uncertain.size(), levels);
+  const double needed = memoryNeeded(study, options);
   const double limit = limitsOf(study, options).memory;
-  if (study.stochastic && needed > limit)
+  if (needed > limit)
     throw UsageError(
         fmt::format("{}: samples of {} at {} need {:.3g} GB, the memory limit is {:.3g} GB; expected a limit "
                     "of at least {:.3g} GB, or fewer outputs or output times",

@@ -4,18 +4,12 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <cstddef>
 #include <map>
 #include <stdexcept>
 #include <string_view>
 
-#include "reports/curves.hpp"
-#include "reports/figures.hpp"
-#include "reports/page_data.hpp"
-#include "reports/page_parts.hpp"
-#include "reports/tables.hpp"
-#include "reports/verdict.hpp"
+#include "reports/page/page.hpp"
+#include "reports/page/parts.hpp"
 #include "reports/words.hpp"
 #include "studies/atomic_file.hpp"
 
@@ -39,128 +33,46 @@ std::string filled(std::string_view skeleton, const Places& places) {
   }
 }
 
-/// Paper shows no more points than this.
-constexpr std::size_t drawnTimes = 240;
+/// What has a section of its own has its row here.
+struct Section {
+  std::string_view title;
+  std::string (*html)(const Report& report);
+};
 
-bool moves(const Results& results) { return results.horizon > 0 && results.time.size() > 1; }
+constexpr Section sections[] = {{"What was asked", askedSection},
+                                {"Figures", figuresSection},
+                                {"Outputs", outputsSection},
+                                {"Provenance", provenanceSection}};
 
-std::string titleOf(const Results& results) {
-  if (!results.title.empty()) return results.title;
-  return results.studyFile.empty() ? "Untitled study" : results.studyFile;
-}
-
-std::string summaryLine(const Results& results) {
-  std::string line = results.analysis;
-  if (moves(results)) line += fmt::format(", 0 s to {} s", numberText(results.horizon, 6));
-  line += ", " + (results.uncertain.size() == 1 ? std::string("1 uncertain quantity")
-                                                : fmt::format("{} uncertain quantities", results.uncertain.size()));
-  line += ", " + countText(static_cast<long long>(results.outputs.size()), "output");
-  if (!results.date.empty()) line += ", " + results.date;
-  return escapeHtml(line);
-}
-
-std::string notesList(const Verdict& verdict) {
-  if (verdict.notes.empty()) return {};
-  std::string list = "<ul class=\"notes\">\n";
-  for (const std::string& note : verdict.notes) list += "<li>" + escapeHtml(note) + "</li>\n";
-  return list + "</ul>\n";
-}
-
-/// One key: a colour and what it stands for. The script makes it a switch.
-std::string keyText(std::string_view layer, const std::string& words) {
-  return fmt::format("<li data-layer=\"{0}\"><span class=\"swatch {0}\"></span>{1}</li>\n", layer, words);
-}
-
-std::string keysOf(const Curves& curves) {
-  std::string keys = "<ul class=\"keys\" aria-label=\"Key to the plot\">\n";
-  if (!curves.tube.empty()) keys += keyText("tube", "guaranteed at every instant");
-  if (!curves.guaranteed.empty()) keys += keyText("guaranteed", "guaranteed at the output times");
-  if (!curves.possible.empty()) keys += keyText("possible", "possible: alpha-cuts, the darker the more possible");
-  if (!curves.probable.empty()) {
-    keys += keyText("probable",
-                    fmt::format("probable: {:g} to {:g} % of the samples", 100 * curves.lowest, 100 * curves.highest));
-  }
-  if (!curves.median.empty()) keys += keyText("median", "median");
-  if (!curves.sampled.empty()) keys += keyText("sampled", "least and greatest sample");
-  return keys + "</ul>\n";
-}
-
-/// "guaranteed between -2.5 and 2.4 rad, sampled between .." for those who cannot see the drawing.
-std::string description(const Curves& curves) {
-  std::string words = curves.name;
-  const auto add = [&](std::string_view what, const Band& band) {
-    double low = INFINITY, high = -INFINITY;
-    for (std::size_t i = 0; i < band.lower.size(); ++i) {
-      low = std::fmin(low, band.lower[i]);
-      high = std::fmax(high, band.upper[i]);
-    }
-    if (low <= high) words += fmt::format(", {} {} {}", what, intervalText(low, high, 4), curves.unit);
-  };
-  add("guaranteed within", curves.guaranteed);
-  add("sampled within", curves.sampled);
-  return words;
-}
-
-std::string motionSection(const Curves& curves, std::size_t output) {
-  const std::string words = description(curves);
-  std::string html =
-      fmt::format("<section class=\"output\" data-output=\"{}\">\n<h3>{}</h3>\n", output, escapeHtml(curves.name));
-  html += keysOf(curves);
-  html += fmt::format("<div class=\"live\" role=\"group\" aria-label=\"{}\"></div>\n",
-                      escapeHtml("Interactive plot of " + words));
-  html += "<div class=\"static\">\n<figure>" + drawCurves(thinned(curves, drawnTimes), "Plot over time of " + words) +
-          "<figcaption>Over time</figcaption></figure>\n";
-  html += "<figure>" +
-          drawCurves(thinned(aroundReference(curves), drawnTimes), "Plot of the spread around the middle of " + words) +
-          fmt::format("<figcaption>Spread around {}</figcaption></figure>\n",
-                      curves.median.empty() ? "the middle" : "the median");
-  const std::string ratio =
-      drawOverestimation(thinned(curves, drawnTimes), "Plot of the overestimation of " + curves.name);
-  if (!ratio.empty()) html += "<figure>" + ratio + "</figure>\n";
-  return html + "</div>\n</section>\n";
-}
-
-std::string positionSection(const Curves& curves) {
-  return fmt::format("<section class=\"output\">\n<h3>{}</h3>\n<figure>{}</figure>\n</section>\n",
-                     escapeHtml(curves.name), drawBars(curves, "Bars of " + description(curves)));
-}
-
-std::string outputSections(const Results& results) {
-  std::string html;
-  if (results.time.empty()) return html;
-  for (std::size_t k = 0; k < results.outputs.size(); ++k) {
-    const Curves curves = curvesOf(results, k);
-    html += moves(results) ? motionSection(curves, k) : positionSection(curves);
-  }
-  return html;
+std::string sectionsOf(const Report& report) {
+  std::string text;
+  for (const auto& [title, html] : sections)
+    text += fmt::format("<section>\n<h2>{}</h2>\n{}</section>\n", title, html(report));
+  return text;
 }
 
 /// What only pages with plots over time need: the numbers and what draws them.
-std::string plottingPart(const Results& results) {
-  if (!moves(results)) return {};
+std::string plottingPart(const std::string& data) {
+  if (data.empty()) return {};
   return fmt::format(
-      "<script type=\"application/json\" id=\"numbers\">{}</script>\n<!--\n{}\n-->\n<script>{}</script>\n",
-      pageData(results), page::plottingLicence, page::plottingScript);
+      "<script type=\"application/json\" id=\"numbers\">{}</script>\n<!--\n{}\n-->\n<script>{}</script>\n", data,
+      page::plottingLicence, page::plottingScript);
 }
 
 }  // namespace
 
 std::string renderReport(const Results& results) {
-  const Verdict verdict = judge(results);
+  const Report report{results, judge(results), outputPlots(results)};
   return filled(page::skeleton, {{"title", escapeHtml(titleOf(results))},
-                                 {"summary", summaryLine(results)},
+                                 {"summary", escapeHtml(summaryLine(results))},
                                  {"style", std::string(page::style)},
-                                 {"plottingStyle", moves(results) ? std::string(page::plottingStyle) : ""},
-                                 {"word", verdict.word},
-                                 {"sentence", escapeHtml(verdict.sentence)},
-                                 {"notes", notesList(verdict)},
-                                 {"uncertain", uncertainTable(results)},
-                                 {"study", escapeHtml(results.studyText)},
-                                 {"figures", figuresTable(results, verdict)},
-                                 {"cost", costTable(results)},
-                                 {"outputs", outputSections(results)},
-                                 {"provenance", provenanceTable(results)},
-                                 {"plotting", plottingPart(results)},
+                                 {"layers", report.outputs.style},
+                                 {"plottingStyle", report.outputs.data.empty() ? "" : std::string(page::plottingStyle)},
+                                 {"word", report.verdict.word},
+                                 {"sentence", escapeHtml(report.verdict.sentence)},
+                                 {"notes", notesList(report.verdict)},
+                                 {"sections", sectionsOf(report)},
+                                 {"plotting", plottingPart(report.outputs.data)},
                                  {"script", std::string(page::script)}});
 }
 

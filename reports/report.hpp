@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "studies/results.hpp"
+#include "studies/results/results.hpp"
 
 namespace gamut {
 

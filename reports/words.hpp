@@ -1,31 +1,12 @@
-// Numbers and text as people read them: sensible digits, guaranteed bounds rounded outward, nothing a study's author
-// wrote taken for markup.
+// Text from studies inside pages: nothing that an author wrote is taken for markup. Numbers as in studies/words.hpp.
 #pragma once
 
 #include <string>
 #include <string_view>
-#include <utility>
+
+#include "studies/words.hpp"
 
 namespace gamut {
-
-/// x rounded to nearest, to so many significant digits, without trailing zeros: "1.004", "-2.5e-07", "none" for NaN.
-std::string numberText(double x, int digits = 4);
-
-/// x rounded up, never below x: for figures that promise "at most".
-std::string atMostText(double x, int digits = 4);
-
-/// Decimals of lower rounded down and of upper rounded up: the printed pair holds the interval.
-/// Infinite ends give "-inf", "inf"; both are "none" where there is no interval (a NaN, or lower > upper).
-std::pair<std::string, std::string> outwardText(double lower, double upper, int digits);
-
-/// "[lower, upper]" rounded outward, or "none".
-std::string intervalText(double lower, double upper, int digits);
-
-/// The significant digits with which numbers of this magnitude show a width to `resolved` digits; from 4 to 17.
-int digitsFor(double magnitude, double width, int resolved);
-
-/// "1 sample", "4096 samples".
-std::string countText(long long count, std::string_view singular);
 
 /// Safe inside an HTML or SVG element and inside a quoted attribute; bytes that are not UTF-8 become U+FFFD.
 std::string escapeHtml(std::string_view text);

@@ -135,6 +135,27 @@ std::string_view Membership::name() const {
   return {};
 }
 
+std::vector<ShapeNumber> Membership::numbers() const {
+  std::vector<ShapeNumber> numbers{{"lower", support_.lower()}, {"upper", support_.upper()}};
+  switch (shape_) {
+    case Shape::triangular:
+      numbers.push_back({"apex", core_.lower()});
+      break;
+    case Shape::trapezoidal:
+      numbers.insert(numbers.end(), {{"left", core_.lower()}, {"right", core_.upper()}});
+      break;
+    case Shape::gaussian:
+      numbers.insert(numbers.end(), {{"centre", core_.lower()}, {"deviation", deviation_}});
+      break;
+    case Shape::table:
+      for (std::size_t i = 0; i < points_.size(); ++i) {
+        numbers.push_back({"value " + std::to_string(i + 1), points_[i].value});
+        numbers.push_back({"membership " + std::to_string(i + 1), points_[i].degree, false});
+      }
+  }
+  return numbers;
+}
+
 Interval Membership::cut(double alpha) const {
   require(alpha >= 0 && alpha <= 1, "an alpha level lies between 0 and 1, not at " + toString(alpha));
   if (alpha == 0) return support_;

@@ -12,6 +12,13 @@
 
 namespace gamut {
 
+/// One of the numbers that a membership function or a distribution is made of.
+struct ShapeNumber {
+  std::string name;  ///< "lower", "apex", …
+  double value = 0;
+  bool isOfQuantity = true;  ///< a value of the quantity, or a distance of two; otherwise without unit
+};
+
 class Membership {
  public:
   /// One corner of a table: `degree` (0 … 1) at `value`.
@@ -56,6 +63,9 @@ class Membership {
   const Interval& core() const { return core_; }
   /// "triangular", "trapezoidal", "gaussian" or "table".
   std::string_view name() const;
+  /// "lower" and "upper", the support; then "apex"; "left" and "right"; "centre" and "deviation"; or of a table's
+  /// points "value 1", "membership 1", "value 2", …
+  std::vector<ShapeNumber> numbers() const;
 
  private:
   enum class Shape { triangular, trapezoidal, gaussian, table };

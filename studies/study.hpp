@@ -12,7 +12,7 @@
 #include "analyses/uncertainty.hpp"
 #include "mechanics/elements/all.hpp"
 #include "mechanics/mechanism.hpp"
-#include "studies/results.hpp"
+#include "studies/results/results.hpp"
 #include "studies/watch.hpp"
 
 namespace gamut {
@@ -44,6 +44,7 @@ struct Study {
   std::vector<OutputInfo> outputs;
   FlowOptions flow;          ///< without jobs, progress and cancelled, which belong to a run
   EnsembleOptions ensemble;  ///< likewise
+  double storage = 4e6;      ///< bytes that the samples' values and motions may take in the results
   int levels = 11;           ///< of alpha, from 0 to 1
   StatedLimits limits;
   std::vector<std::string> notes;  ///< what may be a mistake: lines "file:line:column: note: what"

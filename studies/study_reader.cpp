@@ -22,6 +22,7 @@ namespace gamut {
 namespace {
 
 constexpr Dimension seconds{0, 0, 1, 0}, gigabytes{0, 0, 0, 0, 1};
+constexpr double gigabyte = 1e9;
 
 class StudyReader {
  public:
@@ -249,7 +250,8 @@ class StudyReader {
   }
 
   void readStochastic(const toml::table& table) {
-    const TomlSection section(source_, table, "stochastic", {"samples", "plan", "seed", "tolerance", "method"});
+    const TomlSection section(source_, table, "stochastic",
+                              {"samples", "plan", "seed", "tolerance", "method", "storage"});
     EnsembleOptions& ensemble = study_.ensemble;
     ensemble.samples =
         static_cast<std::size_t>(section.integer("samples", static_cast<std::int64_t>(ensemble.samples), 1, 10000000));
@@ -261,6 +263,11 @@ class StudyReader {
     if (const toml::node* node = section.find("method"))
       ensemble.method =
           source_.asChoice(*node, "stochastic.method", {"adams", "bdf"}) == "bdf" ? Method::bdf : Method::adams;
+    if (const toml::node* node = section.find("storage")) {
+      study_.storage = gigabyte * nearest(source_.asAmount(*node, "stochastic.storage", gigabytes));
+      if (!(study_.storage >= 0 && study_.storage <= gigabyte))
+        source_.fail(*node, "stochastic.storage is not between 0 and 1 GB", "a size such as \"64 MB\"");
+    }
     const toml::node* node = section.find("tolerance");
     if (node == nullptr) return;
     const TomlSection tolerance(source_, source_.asTable(*node, "stochastic.tolerance"), "stochastic.tolerance",
@@ -294,7 +301,6 @@ class StudyReader {
       if (!(value > 0)) source_.fail(*node, section.nameOf(key) + " is not positive", "a number above 0");
       return scale * value;
     };
-    constexpr double gigabyte = 1e9;
     study_.limits = {limit("time", seconds, 1), limit("memory", gigabytes, gigabyte),
                      limit("enclosure_time", seconds, 1), limit("enclosure_memory", gigabytes, gigabyte),
                      limit("sample_time", seconds, 1)};

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "scalars/interval.hpp"
+#include "studies/words.hpp"
 
 namespace gamut {
 namespace {
@@ -59,11 +60,6 @@ std::string ratioText(double ratio) {
   return ratio < 1e6 ? fmt::format("{:.3f}", std::ceil(ratio * 1000) / 1000) : fmt::format("{:.4g}", ratio);
 }
 
-/// "1 piece", "16 pieces".
-std::string counted(std::int64_t count, std::string_view singular) {
-  return fmt::format("{} {}{}", count, singular, count == 1 ? "" : "s");
-}
-
 /// What is proved: the enclosure, or, in a study without, the alpha-cut that holds all others.
 const Bounds& provedBounds(const Results& results) {
   return results.interval.at.empty() && !results.fuzzy.outer.empty() ? results.fuzzy.outer.front()
@@ -92,8 +88,8 @@ std::size_t lastRow(const Results& results) {
   return row > 0 ? row - 1 : 0;
 }
 
-/// Columns as wide as their widest entry (in code points), the first one left-aligned.
-std::string table(const std::vector<std::vector<std::string>>& rows) {
+/// Columns as wide as their widest entry (in code points), the first `left` ones left-aligned.
+std::string table(const std::vector<std::vector<std::string>>& rows, std::size_t left = 1) {
   const auto length = [](const std::string& text) {
     return static_cast<std::size_t>(std::count_if(
         text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
@@ -106,7 +102,7 @@ std::string table(const std::vector<std::vector<std::string>>& rows) {
     std::string line;
     for (std::size_t i = 0; i < row.size(); ++i) {
       const std::string padding(widths[i] - length(row[i]), ' ');
-      line += (i == 0 ? "" : "  ") + (i == 0 ? row[i] + padding : padding + row[i]);
+      line += (i == 0 ? "" : "  ") + (i < left ? row[i] + padding : padding + row[i]);
     }
     result += "  " + line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
   }
@@ -116,8 +112,42 @@ std::string table(const std::vector<std::vector<std::string>>& rows) {
 /// "4096 samples", those that count in the statistics; "100 of 4099 samples" where not all were followed.
 std::string samplesText(const StochasticResult& stochastic) {
   return stochastic.integrated < stochastic.planned()
-             ? fmt::format("{} of {}", stochastic.integrated, counted(stochastic.planned(), "sample"))
-             : counted(stochastic.samples, "sample");
+             ? fmt::format("{} of {}", stochastic.integrated, countText(stochastic.planned(), "sample"))
+             : countText(stochastic.samples, "sample");
+}
+
+/// A number or word itself, or "301 x 7" for what has dimensions; empty for what is not there.
+std::string contentOf(const Field& field, const Extents& extents) {
+  const std::string shape = fmt::format("{}", fmt::join(shapeOf(field.dimensions, extents), " x "));
+  return std::visit(Visitor{[](double* x) { return fmt::format("{:.12g}", *x); },
+                            [](std::int64_t* x) { return fmt::format("{}", *x); },
+                            [](std::uint64_t* x) { return fmt::format("{}", *x); }, [](std::string* x) { return *x; },
+                            [](WholeText x) { return countText(static_cast<long long>(x.text->size()), "byte"); },
+                            [&](auto* values) {
+                              if constexpr (requires { values->empty(); })
+                                return values->empty() ? std::string() : shape;
+                              return std::string();
+                            }},
+                    field.value);
+}
+
+/// One row a field, as far as it is there.
+std::string recordText(const Group& group, const Extents& extents) {
+  std::vector<std::vector<std::string>> rows;
+  for (const Field& field : group.fields(0)) {
+    const std::string content = contentOf(field, extents);
+    if (content.empty()) continue;
+    const bool hasUnit = field.dimensions.empty() && !field.unit.empty() && field.unit != unit::one;
+    rows.push_back({"  " + std::string(field.name), content + (hasUnit ? " " + std::string(field.unit) : ""),
+                    std::string(field.meaning)});
+  }
+  return table(rows, 3);
+}
+
+std::string listText(const Group& group) {
+  std::vector<std::string_view> names;
+  for (const Field& field : group.fields(0)) names.push_back(field.name);
+  return fmt::format("    {} of {}\n", group.size, fmt::join(names, ", "));
 }
 
 /// What was spent in all, and of how much.
@@ -129,20 +159,30 @@ std::string spentText(const Results& results) {
 
 }  // namespace
 
-double reachedTime(const Results& results) {
-  double reached = results.horizon;
-  if (results.interval.present) reached = std::min(reached, results.interval.reached);
-  if (results.stochastic.present) reached = std::min(reached, results.stochastic.reached);
-  if (results.fuzzy.present) reached = std::min(reached, results.fuzzy.reached);
-  return reached;
+std::string shapeText(const Results& results, const UncertainInfo& uncertain, const std::string& shape) {
+  const std::string& name = shape == "distribution" ? uncertain.distribution : uncertain.membership;
+  std::vector<std::string> numbers;
+  double lower = uncertain.lower, upper = uncertain.upper;
+  for (const ShapeInfo& number : results.shapes) {
+    if (number.quantity != uncertain.name || number.shape != shape) continue;
+    if (number.name == "lower") {
+      lower = number.value;
+    } else if (number.name == "upper") {
+      upper = number.value;
+    } else if (name != "table") {
+      numbers.push_back(fmt::format("{} {:.6g}", number.name, number.value));
+    }
+  }
+  if (lower != uncertain.lower || upper != uncertain.upper)
+    numbers.insert(numbers.begin(), "on " + rangeText(lower, upper, 6));
+  return numbers.empty() ? name : fmt::format("{} ({})", name, fmt::join(numbers, ", "));
 }
 
-std::string whyEnded(const Results& results) {
-  std::vector<std::string> reasons;
-  for (const std::string* why : {&results.interval.why, &results.stochastic.stopped, &results.stochastic.why,
-                                 &results.fuzzy.why, &results.comparison.why})
-    if (!why->empty() && std::ranges::find(reasons, *why) == reasons.end()) reasons.push_back(*why);
-  return fmt::format("{}", fmt::join(reasons, "; "));
+std::string keptText(const KeptSamples& kept) {
+  const auto some = [](std::int64_t every) {
+    return every == 0 ? std::string("none") : every == 1 ? std::string("all") : fmt::format("one in {}", every);
+  };
+  return fmt::format("values of {}, motions of {}", some(kept.valuesEvery), some(kept.motionsEvery));
 }
 
 std::string jsonSummary(const Results& results, const std::string& verdict, const ResultFiles& files) {
@@ -206,8 +246,9 @@ std::string infoText(const Results& results) {
     text += fmt::format("  {} output times from {} s to {} s\n", results.time.size(), results.time.front(),
                         results.time.back());
   for (const UncertainInfo& u : results.uncertain)
-    text += fmt::format("  uncertain: {} ({}) in [{:.12g}, {:.12g}] {}, nominal {:.12g}, {}, {}\n", u.name, u.quantity,
-                        u.lower, u.upper, u.unit, u.nominal, u.distribution, u.membership);
+    text += fmt::format("  uncertain: {} ({}) in {} {}, nominal {:.12g}, {}, {}\n", u.name, u.quantity,
+                        rangeText(u.lower, u.upper, 12), u.unit, u.nominal, shapeText(results, u, "distribution"),
+                        shapeText(results, u, "membership"));
   for (const OutputInfo& o : results.outputs)
     text += fmt::format("  output: {} ({}), {}\n", o.name, o.quantity, o.unit);
   const auto until = [&](double reached, const std::string& why) {
@@ -215,15 +256,28 @@ std::string infoText(const Results& results) {
     return fmt::format("up to {} s{}; ", reached, why.empty() ? "" : ": " + why);
   };
   if (const IntervalResult& r = results.interval; r.present)
-    text += fmt::format("  enclosure: {}{}, {}, {:.2f} s CPU\n", until(r.reached, r.why), counted(r.pieces, "piece"),
-                        counted(r.steps, "step"), r.cpu);
+    text += fmt::format("  enclosure: {}{}, {}, {:.2f} s CPU\n", until(r.reached, r.why), countText(r.pieces, "piece"),
+                        countText(r.steps, "step"), r.cpu);
   if (const StochasticResult& r = results.stochastic; r.present)
     text += fmt::format("  samples: {}{} ({}) and {}, {:.2f} s CPU{}\n", until(r.reached, r.why), r.samples, r.plan,
-                        counted(r.corners + r.alphaCorners, "corner"), r.cpu,
-                        r.stopped.empty() ? "" : fmt::format("; {} were taken: {}", samplesText(r), r.stopped));
+                        countText(r.corners + r.alphaCorners, "corner"), r.cpu,
+                        (r.stopped.empty() ? "" : fmt::format("; {} were taken: {}", samplesText(r), r.stopped)) +
+                            (r.kept.present ? "; kept: " + keptText(r.kept) : ""));
   if (const FuzzyResult& r = results.fuzzy; r.present)
     text += fmt::format("  alpha-cuts: {}{}, {:.2f} s CPU\n", until(r.reached, r.why),
-                        counted(static_cast<std::int64_t>(r.alpha.size()), "level"), r.cpu);
+                        countText(static_cast<long long>(r.alpha.size()), "level"), r.cpu);
+  return text;
+}
+
+std::string contentText(const Results& results) {
+  const std::vector<Group> groups = describe(results);
+  const Extents extents = extentsOf(groups);
+  std::string text;
+  for (const Group& group : groups) {
+    if (group.size == 0) continue;
+    text += fmt::format("  {}{}{}\n", group.path, group.meaning.empty() ? "" : ": ", group.meaning);
+    text += group.isList() ? listText(group) : recordText(group, extents);
+  }
   return text;
 }
 

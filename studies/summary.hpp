@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "studies/results.hpp"
+#include "studies/results/results.hpp"
 
 namespace gamut {
 
@@ -12,12 +12,6 @@ struct ResultFiles {
   std::string results, report;
 };
 
-/// The time up to which every analysis that was asked for got (s).
-double reachedTime(const Results& results);
-
-/// Why the run ended before all was done, every reason once; empty if it did not.
-std::string whyEnded(const Results& results);
-
 /// One JSON object on one line; keys: docs/json.md. Numbers are the shortest decimals that give the same double back;
 /// what is not finite is null, and so is an empty verdict.
 std::string jsonSummary(const Results& results, const std::string& verdict, const ResultFiles& files = {});
@@ -25,7 +19,17 @@ std::string jsonSummary(const Results& results, const std::string& verdict, cons
 /// A table of the outputs at the last time reached, and what it cost; several lines, the last one ended.
 std::string textSummary(const Results& results);
 
-/// Where results come from and what they hold; several lines, the last one ended.
+/// Where results come from and what was found; several lines, the last one ended.
 std::string infoText(const Results& results);
+
+/// "normal (mean 0.8, deviation 0.01)", "triangular": the distribution or membership function of an uncertain quantity
+/// and its numbers; the support only where it is not the interval, a table without its points.
+std::string shapeText(const Results& results, const UncertainInfo& uncertain, const std::string& shape);
+
+/// What the results hold of the samples one by one: "values of all, motions of one in 18".
+std::string keptText(const KeptSamples& kept);
+
+/// Every field that a file of these results holds, as they describe it; several lines, the last one ended.
+std::string contentText(const Results& results);
 
 }  // namespace gamut

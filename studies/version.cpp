@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 #include <gmp.h>
 #include <gsl/gsl_version.h>
-#include <hdf5.h>
 #include <mpfr.h>
 #include <sundials/sundials_config.h>
 #include <unistd.h>
@@ -15,19 +14,19 @@
 #include <boost/version.hpp>
 #include <ctime>
 
+#include "studies/results/results_file.hpp"
+
 namespace gamut {
 
 std::string version() { return GAMUT_VERSION; }
 
-std::map<std::string, std::string> libraryVersions() {
-  unsigned major = 0, minor = 0, release = 0;
-  H5get_libversion(&major, &minor, &release);
+std::vector<LibraryInfo> libraryVersions() {
   return {
       {"Boost", fmt::format("{}.{}.{}", BOOST_VERSION / 100000, BOOST_VERSION / 100 % 1000, BOOST_VERSION % 100)},
       {"Eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
       {"GMP", gmp_version},
       {"GSL", gsl_version},
-      {"HDF5", fmt::format("{}.{}.{}", major, minor, release)},
+      {"HDF5", hdf5Version()},
       {"MPFR", mpfr_get_version()},
       {"SUNDIALS", SUNDIALS_VERSION},
   };

@@ -1,16 +1,18 @@
 // Which program this is, and with what it was built.
 #pragma once
 
-#include <map>
 #include <string>
+#include <vector>
+
+#include "studies/results/origin.hpp"
 
 namespace gamut {
 
 /// "0.1.0"
 std::string version();
 
-/// Name → version of the libraries that results depend on.
-std::map<std::string, std::string> libraryVersions();
+/// The libraries that results depend on.
+std::vector<LibraryInfo> libraryVersions();
 
 /// The machine's name.
 std::string hostName();

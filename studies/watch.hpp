@@ -11,7 +11,7 @@
 #include <string>
 #include <thread>
 
-#include "studies/results.hpp"
+#include "studies/results/results.hpp"
 
 namespace gamut {
 

@@ -29,34 +29,20 @@ window.addEventListener("error", event => { document.documentElement.dataset.err
     return Number((nearest + side * unit).toPrecision(digits)).toString();
   };
 
-  const middleOf = output => {
-    if (output.median) return output.median;
-    const cuts = output.possible;
-    const band = output.sampled || output.guaranteed || (cuts && cuts[cuts.length - 1]);
-    return band ? band[0].map((low, i) => low == null || band[1][i] == null ? null : (low + band[1][i]) / 2) : null;
-  };
-
   const minus = (line, middle) => middle ? line.map((x, i) => x == null || middle[i] == null ? null : x - middle[i]) : line;
 
   // ---- Layers -------------------------------------------------------------------------------------------------------
 
   // What is drawn, from back to front: {layer, line, stroke, dash, width}, and bands that fill between two of them.
-  const linesOf = (output, spread) => {
-    const middle = spread ? middleOf(output) : null;
+  const linesOf = (layers, middle) => {
     const lines = [], bands = [];
-    const addLine = (layer, line, style) => lines.push({ layer, line: minus(line, middle), ...style });
-    const addBand = (layer, band, fill, style) => {
-      bands.push({ series: [lines.length + 2, lines.length + 1], fill });
-      addLine(layer, band[0], style);
-      addLine(layer, band[1], style);
-    };
-    if (output.tube && !spread) addBand("tube", output.tube, color("tube-fill"), { width: 0 });
-    if (output.guaranteed) addBand("guaranteed", output.guaranteed, color("guaranteed-fill"), { stroke: color("guaranteed"), width: 1.2 });
-    for (const cut of output.possible || []) addBand("possible", cut, color("possible-fill"), { width: 0 });
-    if (output.probable) addBand("probable", output.probable, color("probable-fill"), { stroke: color("probable"), width: 0.8 });
-    if (output.median) addLine("median", output.median, { stroke: color("probable"), width: 1.6 });
-    if (output.sampled) {
-      for (const line of output.sampled) addLine("sampled", line, { stroke: color("sampled"), width: 1.2, dash: [6, 4] });
+    for (const layer of layers) {
+      if (middle && !layer.spread) continue;
+      const style = layer.width > 0 ? { stroke: color(layer.name), width: layer.width, dash: layer.dashed ? [6, 4] : undefined } : { width: 0 };
+      for (const band of layer.bands) {
+        if (layer.filled) bands.push({ series: [lines.length + 2, lines.length + 1], fill: color(layer.name + "-fill") });
+        for (const line of band) lines.push({ layer: layer.name, line: minus(line, middle), ...style });
+      }
     }
     return { lines, bands };
   };
@@ -97,15 +83,17 @@ window.addEventListener("error", event => { document.documentElement.dataset.err
 
   const readoutOf = (output, i) => {
     if (i == null) return "Drag to zoom, double-click to see all; point at the plot to read it.";
-    const reference = output.sampled || output.guaranteed;
-    const width = reference && reference[1][i] != null ? reference[1][i] - reference[0][i] : 0;
-    const pair = band => "[" + text(band[0][i], width, -1) + ", " + text(band[1][i], width, 1) + "]";
-    const parts = ["t = " + text(page.time[i]) + " s"];
-    if (output.guaranteed) parts.push("guaranteed " + pair(output.guaranteed));
-    if (output.sampled) parts.push("sampled " + pair(output.sampled));
-    if (output.probable) parts.push("probable " + pair(output.probable));
-    if (output.median) parts.push("median " + text(output.median[i], width));
-    if (output.overestimation && output.overestimation[i] != null) parts.push("overestimation " + text(output.overestimation[i]));
+    const said = output.layers.filter(layer => layer.readout);
+    const widths = said.map(layer => layer.kind === "band" && layer.bands[0][1][i] != null ? layer.bands[0][1][i] - layer.bands[0][0][i] : 0);
+    const width = Math.max(0, ...widths);
+    const numbers = layer => {
+      const [lower, upper] = layer.bands[0];
+      return layer.kind === "line" ? text(lower[i], width) : "[" + text(lower[i], width, -1) + ", " + text(upper[i], width, 1) + "]";
+    };
+    const parts = ["t = " + text(page.time[i]) + " s", ...said.map(layer => layer.readout + " " + numbers(layer))];
+    for (const ratio of output.ratios) {
+      if (ratio.bands[0][0][i] != null) parts.push(ratio.readout + " " + text(ratio.bands[0][0][i]));
+    }
     return parts.join(" \u00b7 ") + (output.unit ? " (" + output.unit + ")" : "");
   };
 
@@ -139,7 +127,7 @@ window.addEventListener("error", event => { document.documentElement.dataset.err
     addViews() {
       const views = this.place.appendChild(document.createElement("div"));
       views.className = "views";
-      const names = ["Motion", this.output.median ? "Spread around the median" : "Spread around the middle"];
+      const names = ["Motion", "Spread around " + this.output.middleName];
       names.forEach((name, i) => views.append(button([name], i === 0, event => {
         this.spread = i === 1;
         for (const other of views.children) other.setAttribute("aria-pressed", other === event.currentTarget);
@@ -169,15 +157,15 @@ window.addEventListener("error", event => { document.documentElement.dataset.err
           plot.destroy();
         }
       }
-      const { lines, bands } = linesOf(this.output, this.spread);
+      const { lines, bands } = linesOf(this.output.layers, this.spread ? this.output.middle : null);
       for (const line of lines) line.show = !this.hidden.has(line.layer);
       this.lines = lines;
       const read = i => { this.readout.textContent = readoutOf(this.output, i); };
       this.plot = makePlot(this.main, 320, this.output.unit, [page.time, ...lines.map(line => line.line)], lines, bands, read);
       read(null);
-      const ratios = this.output.overestimation;
-      this.ratioPlot = ratios && ratios.some(x => x != null)
-        ? makePlot(this.ratio, 130, "overestimation", [page.time, ratios], [{ stroke: color("guaranteed"), width: 1.5 }], [])
+      const ratios = linesOf(this.output.ratios, null);
+      this.ratioPlot = ratios.lines.length > 0
+        ? makePlot(this.ratio, 130, this.output.ratios[0].name, [page.time, ...ratios.lines.map(line => line.line)], ratios.lines, ratios.bands)
         : null;
       if (shown) this.plot.setScale("x", shown);
     }

@@ -22,6 +22,23 @@ std::vector<Distribution> oneOfEach() {
           Distribution::lognormal(support, -0.2, 0.6)};
 }
 
+/// "lower 0.3, upper 2.1, mode 0.7": the numbers as they are called; those without unit in parentheses.
+std::string written(const std::vector<ShapeNumber>& numbers) {
+  std::string text;
+  for (const auto& [name, value, isOfQuantity] : numbers)
+    text += (text.empty() ? "" : ", ") + name + " " + (isOfQuantity ? toString(value) : "(" + toString(value) + ")");
+  return text;
+}
+
+TEST(Distribution, SaysOfWhichNumbersItIsMade) {
+  std::vector<std::string> found;
+  for (const Distribution& d : oneOfEach()) found.push_back(written(d.numbers()));
+  EXPECT_THAT(found, testing::ElementsAre("lower 0.3, upper 2.1", "lower 0.3, upper 2.1, mode 0.7",
+                                          "lower 0.3, upper 2.1, mean 1, deviation 0.4",
+                                          "lower 0.3, upper 2.1, a (2.5), b (0.7)",
+                                          "lower 0.3, upper 2.1, log_mean (-0.2), log_deviation (0.6)"));
+}
+
 /// P(X > v) of the standard normal distribution.
 double upperTail(double v) { return 0.5 * std::erfc(v / std::numbers::sqrt2); }
 

@@ -17,7 +17,7 @@
 #include "reports/report.hpp"
 #include "reports/verdict.hpp"
 #include "studies/printable.hpp"
-#include "studies/results_file.hpp"
+#include "studies/results/results_file.hpp"
 #include "studies/summary.hpp"
 #include "tests/studies/damage.hpp"
 #include "tests/studies/sample_results.hpp"

@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "studies/results_file.hpp"
+#include "studies/results/results_file.hpp"
 #include "tests/commands/program.hpp"
 #include "tests/studies/sample_results.hpp"
 #include "tests/studies/sample_study.hpp"
@@ -187,8 +187,27 @@ TEST_F(Program, WritesResultsAndReportNamedAfterTheStudyAndPrintsJsonAlone) {
   EXPECT_EQ(info.exitCode, 0);
   for (const char* word : {"Pendulum", "hinge.angle", "tip.position.z", "seed 5"})
     EXPECT_THAT(info.out, HasSubstr(word));
-  EXPECT_EQ(gamut("report swing.h5 -o again.html").exitCode, 0);
-  EXPECT_TRUE(folder_.has("again.html"));
+}
+
+TEST_F(Program, WritesTheSamePageAgainFromTheResults) {
+  const std::string kinematics = [] {
+    std::string text = sampleStudyWith("dynamics", "kinematics");
+    text.erase(text.find("horizon = 0.5\n"), 14);
+    return text.erase(text.find("output_step = 0.1\n"), 18);
+  }();
+  const std::string studies[] = {sampleStudy, kinematics,
+                                 sampleStudyWith("[\"interval\", \"stochastic\", \"fuzzy\"]", "[\"fuzzy\"]"),
+                                 sampleStudyWith("\"Pendulum\"", "\"Pendel <b>µ</b> \\U0001F600\""),
+                                 sampleStudyWith("[stochastic]", "[limits]\nenclosure_time = 1e-9\n[stochastic]")};
+  for (const std::string& study : studies)
+    for (const std::string name : {"s.toml", "a\n\x1b[31mb.toml", "\xff\xfe.toml"}) {
+      SCOPED_TRACE(study + name);
+      folder_.write(name, study);
+      const Outcome run = gamut("run '" + name + "' -o s.h5 --force --quiet");
+      EXPECT_TRUE(run.exitCode == 0 || run.exitCode == 3) << run.error;
+      EXPECT_EQ(gamut("report s.h5 -o again.html --force").exitCode, 0);
+      EXPECT_EQ(folder_.read("again.html"), folder_.read("s.html"));
+    }
 }
 
 TEST_F(Program, NamesFilesAfterTheFolderOfAStudyToml) {

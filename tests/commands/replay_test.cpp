@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "studies/results_file.hpp"
+#include "studies/results/results_file.hpp"
 #include "tests/commands/program.hpp"
 #include "tests/studies/sample_results.hpp"
 #include "tests/studies/sample_study.hpp"

@@ -14,7 +14,7 @@
 #include <thread>
 #include <vector>
 
-#include "studies/results_file.hpp"
+#include "studies/results/results_file.hpp"
 #include "tests/studies/temporary_folder.hpp"
 
 namespace gamut {

@@ -2,8 +2,8 @@
 #include <gmock/gmock.h>
 
 #include "reports/verdict.hpp"
-#include "studies/driver.hpp"
-#include "studies/results_file.hpp"
+#include "studies/results/results_file.hpp"
+#include "studies/running/run.hpp"
 #include "studies/study.hpp"
 #include "studies/watch.hpp"
 #include "tests/studies/damage.hpp"
@@ -101,9 +101,9 @@ TEST_F(DamagedResults, SayWhatIsWrong) {
             path + ": damaged: its 5000 bytes are not as many as it says" + expected);
   EXPECT_EQ(complaint(sealed(whole_.substr(0, 600)), verdict), path + ": damaged: the file cannot be read" + expected);
   std::string newer = whole_;
-  newer[newer.find("format 2") + 7] = '3';
+  newer[newer.find("format 3") + 7] = '4';
   EXPECT_EQ(complaint(newer, verdict),
-            path + ": written in format 3 by a newer build of gamut; expected format 2, so use that build");
+            path + ": written in format 4 by a newer build of gamut; expected format 3, so use that build");
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 // widening with time. The tests break them one by one.
 #pragma once
 
-#include "studies/results.hpp"
+#include "studies/results/results.hpp"
 
 namespace gamut::example {
 

@@ -9,9 +9,12 @@
 #include <ostream>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
-#include "reports/page_data.hpp"
+#include "reports/drawing/screen.hpp"
 #include "reports/report.hpp"
+#include "reports/sections/contribution.hpp"
+#include "scalars/interval.hpp"
 #include "tests/reports/example_results.hpp"
 #include "tests/reports/page_text.hpp"
 #include "tests/studies/temporary_folder.hpp"
@@ -65,6 +68,27 @@ TEST(Report, EscapesEverythingAPersonWrote) {
   EXPECT_THAT(page, HasSubstr("&lt;/script&gt;"));
 }
 
+TEST(Report, PrintsTheIntervalOfAQuantityOutwardOrAsAStudyStatesIt) {
+  Results results = example::pendulum(2, 1);
+  UncertainInfo& quantity = results.uncertain[0];
+  const auto [lower, upper] = std::pair(std::nextafter(0.795, 0.0), std::nextafter(0.805, 1.0));
+  quantity.lower = Interval("0.795").lower();
+  quantity.upper = Interval("0.805").upper();
+  EXPECT_THAT(renderReport(results), HasSubstr("<td>[0.795, 0.805]</td>"));
+  quantity.lower = std::min(lower, std::nextafter(quantity.lower, 0.0));
+  quantity.upper = std::max(upper, std::nextafter(quantity.upper, 1.0));
+  EXPECT_THAT(renderReport(results), HasSubstr("<td>[0.794999, 0.805001]</td>"));
+  quantity.lower = 1.0 / 3;
+  quantity.upper = 2.0 / 3;
+  EXPECT_THAT(renderReport(results), HasSubstr("<td>[0.333333, 0.666667]</td>"));
+}
+
+TEST(Report, SaysHowManySamplesTheResultsHoldOneByOne) {
+  Results results = example::pendulum(2, 1);
+  results.stochastic.kept = {true, 4e6, 1, 18, {}, {}, {}, {}};
+  EXPECT_THAT(renderReport(results), HasSubstr("; in the results: values of all, motions of one in 18</td>"));
+}
+
 TEST(Report, PrintsGuaranteedBoundsOutwardInItsTable) {
   Results results = example::pendulum(2, 1);
   results.interval.at.lower(1, 0) = -1.23412;
@@ -73,34 +97,49 @@ TEST(Report, PrintsGuaranteedBoundsOutwardInItsTable) {
   EXPECT_THAT(renderReport(results), HasSubstr("<td>[-1.235, 7.655]</td>"));
 }
 
-TEST(PageData, HoldsEveryBoundItRounds) {
+json plotData(const Results& results) {
+  PlotData data;
+  for (std::size_t k = 0; k < results.outputs.size(); ++k) data.add(plotOf(results, k));
+  return json::parse(data.json());
+}
+
+/// The bands of one layer of one output.
+json bandsOf(const json& output, const std::string& layer) {
+  for (const json& one : output.at("layers"))
+    if (one.at("name") == layer) return one.at("bands");
+  throw std::logic_error("no layer " + layer);
+}
+
+TEST(PlotData, HoldsEveryBoundItRounds) {
   const Results results = example::pendulum(301, 1);
-  const json data = json::parse(pageData(results));
+  const json data = plotData(results);
   const json& output = data.at("outputs").at(0);
+  const json guaranteed = bandsOf(output, "guaranteed").at(0), possible = bandsOf(output, "possible");
   for (std::size_t i = 0; i < 301; ++i) {
     EXPECT_EQ(data.at("time").at(i), results.time[i]);
-    EXPECT_LE(output.at("guaranteed").at(0).at(i), results.interval.at.lower(i, 0));
-    EXPECT_GE(output.at("guaranteed").at(1).at(i), results.interval.at.upper(i, 0));
+    EXPECT_LE(guaranteed.at(0).at(i), results.interval.at.lower(i, 0));
+    EXPECT_GE(guaranteed.at(1).at(i), results.interval.at.upper(i, 0));
     for (std::size_t level = 0; level < 11; ++level) {
-      EXPECT_LE(output.at("possible").at(level).at(0).at(i), results.fuzzy.outer[level].lower(i, 0));
-      EXPECT_GE(output.at("possible").at(level).at(1).at(i), results.fuzzy.outer[level].upper(i, 0));
+      EXPECT_LE(possible.at(level).at(0).at(i), results.fuzzy.outer[level].lower(i, 0));
+      EXPECT_GE(possible.at(level).at(1).at(i), results.fuzzy.outer[level].upper(i, 0));
     }
   }
 }
 
-TEST(PageData, HasNullWhereThereIsNoFiniteNumber) {
+TEST(PlotData, HasNullWhereThereIsNoFiniteNumber) {
   Results results = example::pendulum(3, 1);
   results.interval.at.lower(1, 0) = std::numeric_limits<double>::quiet_NaN();
   results.interval.at.upper(2, 0) = std::numeric_limits<double>::infinity();
-  const json output = json::parse(pageData(results)).at("outputs").at(0);
-  EXPECT_TRUE(output.at("guaranteed").at(0).at(1).is_null());
-  EXPECT_TRUE(output.at("guaranteed").at(1).at(2).is_null());
+  const json guaranteed = bandsOf(plotData(results).at("outputs").at(0), "guaranteed").at(0);
+  EXPECT_TRUE(guaranteed.at(0).at(1).is_null());
+  EXPECT_TRUE(guaranteed.at(1).at(2).is_null());
+  EXPECT_LE(guaranteed.at(0).at(2), results.interval.at.lower(2, 0));
 }
 
-TEST(PageData, IsThinnedWhereThereAreTooManyTimes) {
-  const json data = json::parse(pageData(example::pendulum(5001, 1, 2)));
+TEST(PlotData, IsThinnedWhereThereAreTooManyTimes) {
+  const json data = plotData(example::pendulum(5001, 1, 2));
   EXPECT_LE(data.at("time").size(), plottedTimes);
-  EXPECT_EQ(data.at("time").size(), data.at("outputs").at(0).at("guaranteed").at(0).size());
+  EXPECT_EQ(data.at("time").size(), bandsOf(data.at("outputs").at(0), "guaranteed").at(0).at(0).size());
 }
 
 TEST(Report, StaysUnderThreeMegabytesForSevenOutputs) {
@@ -159,7 +198,7 @@ TEST(Report, OfKinematicsDrawsBarsAndNeedsNoPlottingLibrary) {
   EXPECT_THAT(page, AllOf(HasSubstr("<rect class=\"direct\""), HasSubstr("<rect class=\"guaranteed\""),
                           HasSubstr("<rect class=\"sampled\""), HasSubstr("<rect class=\"probable\"")));
   EXPECT_EQ(count(page, "<rect class=\"possible\""), 22u);
-  EXPECT_THAT(page, Not(HasSubstr("var uPlot=")));
+  EXPECT_THAT(page, AllOf(Not(HasSubstr("var uPlot=")), Not(HasSubstr("output times")), Not(HasSubstr("darker"))));
 }
 
 TEST(Report, DescribesEveryDrawingInWords) {

@@ -42,7 +42,7 @@ TEST_P(VerdictOf, IsTheWordExpected) {
   const Verdict verdict = judge(results);
   EXPECT_EQ(verdict.word, GetParam().word) << verdict.sentence;
   EXPECT_THAT(verdict.sentence, Not(IsEmpty()));
-  EXPECT_EQ(verdict.excursion > 0, verdict.word == "outside" || verdict.word == "unresolved");
+  EXPECT_EQ(verdict.excursion.distance > 0, verdict.word == "outside" || verdict.word == "unresolved");
 }
 
 /// Raises the envelope at one point to lie this far above the enclosure.
@@ -233,8 +233,8 @@ TEST(Verdict, NamesOutputTimeAndDistanceOfTheFarthestExcursion) {
   Results results = example::pendulum();
   leave(results, 0.25);
   const Verdict verdict = judge(results);
-  EXPECT_GE(verdict.excursion, 0.25 - 1e-9);
-  EXPECT_LE(verdict.excursion, 0.25 + 1e-9);
+  EXPECT_GE(verdict.excursion.distance, 0.25 - 1e-9);
+  EXPECT_LE(verdict.excursion.distance, 0.25 + 1e-9);
   EXPECT_THAT(verdict.sentence, AllOf(HasSubstr("outside the enclosure"), HasSubstr("elbow angle at 2 s")));
 }
 
@@ -381,6 +381,12 @@ TEST(Verdict, RefusesGridsWhoseShapeDoesNotFit) {
 TEST(Verdict, RefusesADisputedSampleWithoutADistanceForEachOutput) {
   Results results = example::pendulum();
   dispute(results, 0, "Taylor 53 bits").farthest.pop_back();
+  EXPECT_THROW(judge(results), std::invalid_argument);
+}
+
+TEST(Verdict, RefusesADisputedSampleOfAnOutputThatIsNotThere) {
+  Results results = example::pendulum();
+  dispute(results, 0, "Taylor 53 bits").output = results.outputs.size();
   EXPECT_THROW(judge(results), std::invalid_argument);
 }
 

@@ -250,5 +250,20 @@ TEST(Membership, ATableNamesTheFirstPointThatIsWrong) {
   }
 }
 
+TEST(Membership, SaysOfWhichNumbersItIsMade) {
+  const auto written = [](const Membership& m) {
+    std::string text;
+    for (const auto& [name, value, isOfQuantity] : m.numbers())
+      text += (text.empty() ? "" : ", ") + name + " " + (isOfQuantity ? toString(value) : "(" + toString(value) + ")");
+    return text;
+  };
+  EXPECT_EQ(written(Membership::triangular(1, 2, 4)), "lower 1, upper 4, apex 2");
+  EXPECT_EQ(written(Membership::trapezoidal(1, 2, 3, 4)), "lower 1, upper 4, left 2, right 3");
+  EXPECT_EQ(written(Membership::gaussian({0.0, 5.0}, 2, 0.5)), "lower 0, upper 5, centre 2, deviation 0.5");
+  EXPECT_EQ(
+      written(Membership::table({{1, 0}, {2, 1}, {4, 0.25}})),
+      "lower 1, upper 4, value 1 1, membership 1 (0), value 2 2, membership 2 (1), value 3 4, membership 3 (0.25)");
+}
+
 }  // namespace
 }  // namespace gamut

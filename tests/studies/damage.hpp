@@ -6,7 +6,7 @@
 #include <random>
 #include <string>
 
-#include "studies/detail/seal.hpp"
+#include "studies/results/detail/seal.hpp"
 
 namespace gamut {
 

@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "studies/results.hpp"
+#include "studies/results/results.hpp"
 
 namespace gamut {
 
@@ -36,6 +36,7 @@ inline Results sampleResults() {
   r.date = "2024-02-29T12:00:00Z";
   r.libraries = {{"HDF5", "1.10"}, {"SUNDIALS", "6.4"}};
   r.uncertain = {{"first angle", "shoulder.angle", "rad", 0.9, 1.0, 1.1, "uniform", "triangular"}};
+  r.shapes = {{"first angle", "distribution", "lower", 0.9, "rad"}, {"first angle", "membership", "apex", 1.0, "rad"}};
   r.outputs = {{"tip height", "tip.position.z", "m"}, {"energy", "energy", "J"}};
   r.horizon = 0.02;
   r.time = {0, 0.01, 0.02};
@@ -68,6 +69,9 @@ inline Results sampleResults() {
   r.stochastic.error = sampleGrid(3, 2, 1e-12);
   r.stochastic.resolution = sampleGrid(3, 2, 1e-4);
   r.stochastic.cpu = 1.5;
+  r.stochastic.kept = {true, 4e6, 64, 2048, {0, 64, 4117}, {0.9, 0.95, 1.0}, {0, 4117}, {}};
+  for (int i = 0; i < 12; ++i) r.stochastic.kept.motions.push_back(0.35 + i);
+  r.stochastic.kept.motions.back() = nan;
   r.fuzzy.present = true;
   r.fuzzy.reached = 0.01;
   r.fuzzy.alpha = {0, 0.5, 1};

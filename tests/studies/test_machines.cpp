@@ -1,7 +1,7 @@
 // Studies of machines that anyone may write, run to the end: the samples arrive and lie inside a tight guarantee.
 #include <gmock/gmock.h>
 
-#include "studies/driver.hpp"
+#include "studies/running/run.hpp"
 #include "studies/study.hpp"
 
 namespace gamut {

@@ -1,5 +1,5 @@
 // A replay gives each sample as it went into the statistics, bit for bit, from the results alone.
-#include "studies/replay.hpp"
+#include "studies/running/replay.hpp"
 
 #include <gmock/gmock.h>
 
@@ -8,8 +8,8 @@
 #include <map>
 #include <stdexcept>
 
-#include "studies/driver.hpp"
-#include "studies/results_file.hpp"
+#include "studies/running/run.hpp"
+#include "studies/results/results_file.hpp"
 #include "tests/studies/sample_study.hpp"
 #include "tests/studies/temporary_folder.hpp"
 

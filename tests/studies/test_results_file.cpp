@@ -1,18 +1,17 @@
 // What is written is what is read; a file explains itself; a write that fails or is killed leaves the old file.
-#include "studies/results_file.hpp"
+#include "studies/results/results_file.hpp"
 
 #include <gmock/gmock.h>
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <limits>
 
 #include "studies/atomic_file.hpp"
-#include "studies/detail/hdf5.hpp"
+#include "studies/results/detail/hdf5.hpp"
 #include "tests/studies/sample_results.hpp"
 #include "tests/studies/temporary_folder.hpp"
 
@@ -20,20 +19,8 @@ namespace gamut {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 using ::testing::Not;
-
-/// Bit for bit, NaN included.
-void expectSame(const Grid& found, const Grid& expected, const char* what) {
-  ASSERT_EQ(found.times, expected.times) << what;
-  ASSERT_EQ(found.outputs, expected.outputs) << what;
-  ASSERT_EQ(found.data.size(), expected.data.size()) << what;
-  EXPECT_EQ(std::memcmp(found.data.data(), expected.data.data(), found.data.size() * sizeof(double)), 0) << what;
-}
-
-void expectSame(const Bounds& found, const Bounds& expected, const char* what) {
-  expectSame(found.lower, expected.lower, what);
-  expectSame(found.upper, expected.upper, what);
-}
 
 /// Standard output of a command.
 std::string outputOf(const std::string& command) {
@@ -51,124 +38,16 @@ class ResultsFile : public ::testing::Test {
   std::string path_ = folder_.path("run.h5");
 };
 
-TEST_F(ResultsFile, GivesBackTheStudyAndItsOrigin) {
-  const Results expected = sampleResults();
-  writeResults(expected, path_);
-  const Results found = readResults(path_);
-  EXPECT_EQ(found.studyText, expected.studyText);
-  EXPECT_EQ(found.studyFile, expected.studyFile);
-  EXPECT_EQ(found.title, expected.title);
-  EXPECT_EQ(found.analysis, expected.analysis);
-  EXPECT_EQ(found.seed, expected.seed);
-  EXPECT_EQ(found.version, expected.version);
-  EXPECT_EQ(found.host, expected.host);
-  EXPECT_EQ(found.date, expected.date);
-  EXPECT_EQ(found.libraries, expected.libraries);
-  EXPECT_EQ(found.horizon, expected.horizon);
-  EXPECT_EQ(found.time, expected.time);
-  EXPECT_EQ(found.reportCpu, expected.reportCpu);
-  ASSERT_EQ(found.outputs.size(), 2U);
-  EXPECT_EQ(found.outputs[0].name, "tip height");
-  EXPECT_EQ(found.outputs[1].quantity, "energy");
-  EXPECT_EQ(found.outputs[1].unit, "J");
-  ASSERT_EQ(found.uncertain.size(), 1U);
-  EXPECT_EQ(found.uncertain[0].quantity, "shoulder.angle");
-  EXPECT_EQ(found.uncertain[0].unit, "rad");
-  EXPECT_EQ(found.uncertain[0].lower, 0.9);
-  EXPECT_EQ(found.uncertain[0].nominal, 1.0);
-  EXPECT_EQ(found.uncertain[0].upper, 1.1);
-  EXPECT_EQ(found.uncertain[0].distribution, "uniform");
-  EXPECT_EQ(found.uncertain[0].membership, "triangular");
-}
-
-TEST_F(ResultsFile, GivesBackEveryAnswer) {
-  const Results expected = sampleResults();
-  writeResults(expected, path_);
-  const Results found = readResults(path_);
-  ASSERT_TRUE(found.interval.present && found.stochastic.present && found.fuzzy.present);
-  expectSame(found.interval.at, expected.interval.at, "at");
-  expectSame(found.interval.over, expected.interval.over, "over");
-  EXPECT_TRUE(found.interval.direct.empty());
-  EXPECT_EQ(found.interval.reached, expected.interval.reached);
-  EXPECT_EQ(found.interval.why, expected.interval.why);
-  EXPECT_EQ(found.interval.pieces, expected.interval.pieces);
-  EXPECT_EQ(found.interval.steps, expected.interval.steps);
-  EXPECT_EQ(found.interval.cpu, expected.interval.cpu);
-  EXPECT_EQ(found.stochastic.plan, expected.stochastic.plan);
-  EXPECT_EQ(found.stochastic.samples, expected.stochastic.samples);
-  EXPECT_EQ(found.stochastic.corners, expected.stochastic.corners);
-  EXPECT_EQ(found.stochastic.alphaCorners, 18);
-  EXPECT_EQ(found.stochastic.integrated, 1000);
-  EXPECT_EQ(found.stochastic.stopped, "the run was interrupted");
-  EXPECT_EQ(found.stochastic.relativeTolerance, expected.stochastic.relativeTolerance);
-  EXPECT_EQ(found.stochastic.absoluteTolerance, expected.stochastic.absoluteTolerance);
-  EXPECT_EQ(found.stochastic.packWidth, 64);
-  EXPECT_EQ(found.stochastic.reached, expected.stochastic.reached);
-  EXPECT_EQ(found.stochastic.cpu, expected.stochastic.cpu);
-  EXPECT_EQ(found.stochastic.why, "");
-  expectSame(found.stochastic.envelope, expected.stochastic.envelope, "envelope");
-  expectSame(found.stochastic.mean, expected.stochastic.mean, "mean");
-  expectSame(found.stochastic.deviation, expected.stochastic.deviation, "deviation");
-  expectSame(found.stochastic.error, expected.stochastic.error, "error");
-  expectSame(found.stochastic.resolution, expected.stochastic.resolution, "resolution");
-  EXPECT_EQ(found.stochastic.probabilities, expected.stochastic.probabilities);
-  ASSERT_EQ(found.stochastic.quantiles.size(), 2U);
-  for (std::size_t i = 0; i < 2; ++i)
-    expectSame(found.stochastic.quantiles[i], expected.stochastic.quantiles[i], "quantiles");
-  EXPECT_EQ(found.fuzzy.alpha, expected.fuzzy.alpha);
-  EXPECT_EQ(found.fuzzy.reached, expected.fuzzy.reached);
-  EXPECT_EQ(found.fuzzy.cpu, expected.fuzzy.cpu);
-  ASSERT_EQ(found.fuzzy.outer.size(), 3U);
-  ASSERT_EQ(found.fuzzy.inner.size(), 3U);
-  for (std::size_t i = 0; i < 3; ++i) {
-    expectSame(found.fuzzy.outer[i], expected.fuzzy.outer[i], "outer");
-    expectSame(found.fuzzy.inner[i], expected.fuzzy.inner[i], "inner");
-  }
-}
-
-TEST_F(ResultsFile, GivesBackWhatWasSpentAndWhyItEnded) {
+TEST_F(ResultsFile, GivesBackWhatWasWritten) {
   writeResults(sampleResults(), path_);
   const Results found = readResults(path_);
-  EXPECT_EQ(found.stochastic.integrated, 1000);
-  EXPECT_EQ(found.stochastic.stopped, "the run was interrupted");
-  EXPECT_EQ(found.cpu, 2.25);
-  EXPECT_EQ(found.memory, 1.5e9);
-  EXPECT_EQ(found.limits.time, 1800);
-  EXPECT_EQ(found.limits.memory, 8e9);
-  EXPECT_EQ(found.limits.enclosureTime, 1200);
-  EXPECT_EQ(found.limits.enclosureMemory, 5e9);
-  EXPECT_EQ(found.limits.sampleTime, 18);
-}
-
-TEST_F(ResultsFile, GivesBackTheComparisonAndDisputedSamples) {
-  const Results expected = sampleResults();
-  writeResults(expected, path_);
-  const Results found = readResults(path_);
-  EXPECT_EQ(found.comparison.verdict, "incomplete");
-  EXPECT_EQ(found.comparison.maximum, 13);
-  EXPECT_EQ(found.comparison.median, 2.5);
-  EXPECT_EQ(found.comparison.maximumOf[0], 12);
+  EXPECT_THAT(differences(found, sampleResults()), IsEmpty());
+  EXPECT_EQ(found.outputs[0].name, "tip height");
+  EXPECT_EQ(found.seed, 0xFFFFFFFFFFFFFFFFU);
+  EXPECT_EQ(found.interval.steps, 123456789012);
   EXPECT_TRUE(std::isnan(found.comparison.maximumOf[1]));
-  expectSame(found.comparison.overestimation, expected.comparison.overestimation, "overestimation");
-  expectSame(found.comparison.excess, expected.comparison.excess, "excess");
-  ASSERT_EQ(found.comparison.disputed.size(), 2U);
-  const DisputedSample& sample = found.comparison.disputed[0];
-  EXPECT_EQ(sample.number, 17);
-  EXPECT_EQ(sample.time, 1U);
-  EXPECT_EQ(sample.output, 0U);
-  EXPECT_EQ(sample.value, 0.09);
-  EXPECT_EQ(sample.lower, 0.1);
-  EXPECT_EQ(sample.upper, 1.1);
-  EXPECT_EQ(sample.distance, 0.01);
-  EXPECT_EQ(sample.error, 1e-9);
-  EXPECT_EQ(sample.decided, "Taylor 53 bits");
-  EXPECT_TRUE(sample.outside);
-  EXPECT_EQ(sample.level, 2);
-  EXPECT_EQ(sample.farthest, (std::vector<double>{0.01, 0.25}));
-  EXPECT_EQ(found.comparison.disputed[1].level, -1);
-  EXPECT_EQ(found.comparison.why, "the run was interrupted");
-  EXPECT_FALSE(found.comparison.disputed[1].outside);
-  EXPECT_EQ(found.comparison.disputed[1].decided, "unresolved");
+  EXPECT_EQ(found.fuzzy.outer[1].upper(2, 1), sampleResults().fuzzy.outer[1].upper(2, 1));
+  EXPECT_EQ(found.comparison.disputed[0].farthest, (std::vector<double>{0.01, 0.25}));
 }
 
 TEST_F(ResultsFile, WithADisputeOverACutThatIsNotThereIsRefused) {
@@ -189,18 +68,16 @@ TEST_F(ResultsFile, KeepsAbsentPartsAbsent) {
   results.uncertain.clear();
   writeResults(results, path_);
   const Results found = readResults(path_);
+  EXPECT_THAT(differences(found, results), IsEmpty());
   EXPECT_TRUE(found.interval.present);
   EXPECT_FALSE(found.stochastic.present);
-  EXPECT_FALSE(found.fuzzy.present);
-  EXPECT_FALSE(found.comparison.present);
-  EXPECT_TRUE(found.uncertain.empty());
 }
 
 TEST_F(ResultsFile, ExplainsItselfToH5dump) {
   if (std::system("command -v h5dump > /dev/null 2>&1") != 0) GTEST_SKIP() << "h5dump (hdf5-tools) is not installed";
   writeResults(sampleResults(), path_);
   const std::string at = outputOf("h5dump -d /interval/at_lower " + path_);
-  for (const char* word : {"\"units\"", "\"m, J\"", "\"long_name\"", "enclosure at the output time, lower bound",
+  for (const char* word : {"\"units\"", "\"m, J\"", "\"long_name\"", "enclosure at the output times, lower bound",
                            "\"DIMENSION_LIST\"", "\"DIMENSION_LABELS\"", "\"time\", \"output\""})
     EXPECT_THAT(at, HasSubstr(word));
   const std::string time = outputOf("h5dump -d /time " + path_);
@@ -209,7 +86,8 @@ TEST_F(ResultsFile, ExplainsItselfToH5dump) {
   EXPECT_THAT(fuzzy, HasSubstr("( 3, 3, 2 )"));
   EXPECT_THAT(fuzzy, HasSubstr("\"alpha\", \"time\", \"output\""));
   const std::string study = outputOf("h5dump -g /study " + path_);
-  for (const char* word : {"9.8.7", "somewhere", "sample.toml", "18446744073709551615", "SUNDIALS"})
+  for (const char* word :
+       {"9.8.7", "somewhere", "sample.toml", "18446744073709551615", "SUNDIALS", "\"horizon_units\""})
     EXPECT_THAT(study, HasSubstr(word));
 }
 
@@ -224,7 +102,7 @@ TEST_F(ResultsFile, CompressesLargeGrids) {
   results.comparison = {};
   writeResults(results, path_);
   EXPECT_LT(std::filesystem::file_size(path_), 5000U * 2 * 8);
-  expectSame(readResults(path_).interval.at, results.interval.at, "at");
+  EXPECT_THAT(differences(readResults(path_), results), IsEmpty());
 }
 
 TEST_F(ResultsFile, IsRefusedInOneLineWhenItIsSomethingElse) {
@@ -259,7 +137,7 @@ TEST_F(ResultsFile, OfAnOlderBuildIsRefusedWithItsFormat) {
     ADD_FAILURE() << "was read";
   } catch (const ResultsFileError& error) {
     EXPECT_EQ(error.what(), path_ +
-                                ": written in format 1 by an older build of gamut; expected format 2, so run the "
+                                ": written in format 1 by an older build of gamut; expected format 3, so run the "
                                 "study again");
   }
 }
@@ -280,16 +158,16 @@ TEST_F(ResultsFile, IsRefusedIfItsNumbersMakeNoSense) {
   const auto refused = [&](const std::string& what) {
     return path_ + ": damaged: " + what + " cannot be read; expected the file as gamut run wrote it";
   };
-  EXPECT_EQ(message([](Results& r) { r.interval.at.upper(1, 1) = -1e9; }), refused("at"));
-  EXPECT_EQ(message([](Results& r) { r.interval.over.lower(1, 1) = infinity; }), refused("over"));
-  EXPECT_EQ(message([](Results& r) { r.fuzzy.outer[1].lower(0, 0) = 1e9; }), refused("outer"));
+  EXPECT_EQ(message([](Results& r) { r.interval.at.upper(1, 1) = -1e9; }), refused("/interval/at"));
+  EXPECT_EQ(message([](Results& r) { r.interval.over.lower(1, 1) = infinity; }), refused("/interval/over"));
+  EXPECT_EQ(message([](Results& r) { r.fuzzy.outer[1].lower(0, 0) = 1e9; }), refused("/fuzzy/outer"));
   EXPECT_EQ(message([](Results& r) { r.interval.at.upper(1, 1) = infinity; }), "it was read");
-  EXPECT_EQ(message([](Results& r) { r.uncertain[0].upper = 0; }), refused("uncertain"));
-  EXPECT_EQ(message([](Results& r) { r.comparison.disputed[0].lower = 2; }), refused("disputed"));
-  EXPECT_EQ(message([](Results& r) { r.comparison.disputed[0].number = -1; }), refused("number"));
-  EXPECT_EQ(message([](Results& r) { r.stochastic.samples = -1; }), refused("samples"));
-  EXPECT_EQ(message([](Results& r) { r.time[1] = 0.03; }), refused("time"));
-  EXPECT_EQ(message([](Results& r) { r.fuzzy.alpha[1] = 1.5; }), refused("alpha"));
+  EXPECT_EQ(message([](Results& r) { r.uncertain[0].upper = 0; }), refused("/study/uncertain"));
+  EXPECT_EQ(message([](Results& r) { r.comparison.disputed[0].lower = 2; }), refused("/comparison/disputed"));
+  EXPECT_EQ(message([](Results& r) { r.comparison.disputed[0].number = -1; }), refused("/comparison/disputed/number"));
+  EXPECT_EQ(message([](Results& r) { r.stochastic.samples = -1; }), refused("/stochastic/samples"));
+  EXPECT_EQ(message([](Results& r) { r.time[1] = 0.03; }), refused("/time"));
+  EXPECT_EQ(message([](Results& r) { r.fuzzy.alpha[1] = 1.5; }), refused("/fuzzy/alpha"));
 }
 
 TEST_F(ResultsFile, TellsItsDigestToCommonTools) {
@@ -329,7 +207,9 @@ TEST_F(ResultsFile, IsReadByXarrayWithUnitsAndNamedDimensions) {
   EXPECT_EQ(show("stochastic", "f.quantiles.sel(probability=0.95).shape, f.samples"), "(3, 2) 4096\n");
   EXPECT_EQ(show("comparison", "f.maximum_of.values, f.overestimation.units"), "[12. nan] 1\n");
   EXPECT_EQ(show("comparison/disputed", "f.decided.sel(number=17).item()"), "Taylor 53 bits\n");
-  EXPECT_EQ(show("study/uncertain", "f.sel(name=\"first angle\").upper.item(), f.upper.units"), "1.1 rad\n");
+  EXPECT_EQ(show("/", "f.quantity.values"), "['first angle']\n");
+  EXPECT_EQ(show("study/uncertain", "f.upper.dims, f.upper.values, f.upper.units"), "('quantity',) [1.1] rad\n");
+  EXPECT_EQ(show("study/libraries", "f.version.sel(name=\"HDF5\").item()"), "1.10\n");
   EXPECT_EQ(show("study", "f.text.item() == \"[study]\\ntitle = \\\"α\\\"\\n\""), "True\n");
 }
 

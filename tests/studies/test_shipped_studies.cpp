@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "mechanics/assembly.hpp"
-#include "studies/driver.hpp"
+#include "studies/running/run.hpp"
 #include "studies/study.hpp"
 
 namespace gamut {

@@ -181,6 +181,16 @@ TEST(StudyReader, TakesLimitsInSecondsAndGigabytes) {
   EXPECT_EQ(defaults.sampleTime, 18);
 }
 
+TEST(StudyReader, TakesStorageInGigabytesOrWithAUnit) {
+  const auto storage = [](const std::string& value) {
+    return readStudyText(sampleStudyWith("[stochastic]", "[stochastic]\nstorage = " + value), "s.toml").storage;
+  };
+  EXPECT_EQ(readStudyText(sampleStudy, "s.toml").storage, 4e6);
+  EXPECT_EQ(storage("0.25"), 2.5e8);
+  EXPECT_EQ(storage("\"64 MB\""), 64e6);
+  EXPECT_EQ(storage("0"), 0);
+}
+
 TEST(StudyReader, TakesTheHorizonInWhereTheStepDoesNotMeetIt) {
   EXPECT_THAT(readStudyText(sampleStudyWith("output_step = 0.1", "output_step = \"200 ms\""), "s.toml").time,
               ElementsAre(0, 0.2, 0.4, 0.5));
@@ -465,6 +475,10 @@ constexpr BadStudy badStudies[] = {
      "s.toml:40:10: limits.memory is written in a unit of the kind kg; expected a number in GB, or with a unit of that "
      "kind"},
     {"mass = \"250 g\"", "mass = -1", "s.toml:27:8: the mass of 'bob' is negative; expected a mass of at least 0 kg"},
+    {"[stochastic]", "[stochastic]\nstorage = 2",
+     "s.toml:40:11: stochastic.storage is not between 0 and 1 GB; expected a size such as \"64 MB\""},
+    {"[stochastic]", "[stochastic]\nstorage = -1",
+     "s.toml:40:11: stochastic.storage is not between 0 and 1 GB; expected a size such as \"64 MB\""},
     {"parameters = { length = 0.5 }\n[[mechanism.element]]\ntype = \"mass\"\nname = \"bob\"\nat = \"tip\"\nmass = "
      "\"250 g\"",
      "parameters = { length = 0.5, weight = \"250 g\" }\n[[mechanism.element]]\ntype = \"mass\"\nname = \"bob\"\n"

@@ -130,6 +130,49 @@ TEST(InfoText, SpeaksOfNoTimeInKinematicsAndOfOneAsOne) {
   EXPECT_THAT(text, HasSubstr("nominal 0.3,"));
 }
 
+TEST(ContentText, ListsEveryFieldThatIsThere) {
+  const Results results = sampleResults();
+  const std::string text = contentText(results);
+  for (const Group& group : describe(results)) EXPECT_THAT(text, HasSubstr("  " + std::string(group.path)));
+  EXPECT_THAT(text, HasSubstr("  outer    3 x 3 x 2  proved alpha-cuts\n"));
+  EXPECT_THAT(text, HasSubstr("  pieces   4 "));
+  EXPECT_THAT(text, HasSubstr("  2 of number, time, output,"));
+  EXPECT_THAT(text, Not(HasSubstr("direct")));
+}
+
+TEST(InfoText, RoundsTheIntervalOfAQuantityOutwardOrSaysTheDecimalsOfTheStudy) {
+  Results results = sampleResults();
+  results.uncertain[0].lower = Interval("0.9").lower();
+  results.uncertain[0].upper = Interval("1.1").upper();
+  EXPECT_THAT(infoText(results), HasSubstr(" in [0.9, 1.1] rad,"));
+  results.uncertain[0].lower = 1.0 / 3 * (1 - 1e-15);
+  results.uncertain[0].upper = 2.0 / 3;
+  EXPECT_THAT(infoText(results), HasSubstr(" in [0.333333333333, 0.666666666667] rad,"));
+  results.uncertain[0].upper = 4.0 / 3;
+  EXPECT_THAT(infoText(results), HasSubstr(", 1.33333333334] rad,"));
+}
+
+TEST(InfoText, TellsTheNumbersOfDistributionsAndMembershipFunctions) {
+  Results results = sampleResults();
+  results.uncertain[0].distribution = "normal";
+  results.shapes = {{"first angle", "distribution", "lower", results.uncertain[0].lower, "rad"},
+                    {"first angle", "distribution", "upper", results.uncertain[0].upper, "rad"},
+                    {"first angle", "distribution", "mean", 1.0, "rad"},
+                    {"first angle", "distribution", "deviation", 0.05, "rad"},
+                    {"first angle", "membership", "lower", 0.95, "rad"},
+                    {"first angle", "membership", "apex", 1.0, "rad"}};
+  EXPECT_THAT(infoText(results), HasSubstr(", normal (mean 1, deviation 0.05), triangular (on [0.95, 1.1], apex 1)\n"));
+}
+
+TEST(KeptText, SaysOfHowManySamples) {
+  KeptSamples kept;
+  EXPECT_EQ(keptText(kept), "values of all, motions of all");
+  kept.motionsEvery = 18;
+  EXPECT_EQ(keptText(kept), "values of all, motions of one in 18");
+  kept.valuesEvery = kept.motionsEvery = 0;
+  EXPECT_EQ(keptText(kept), "values of none, motions of none");
+}
+
 TEST(ProgressLine, TellsTheTimeLeftOnceItCanBeKnown) {
   EXPECT_EQ(progressLine("samples", 0, 5), "samples      [                              ]   0 %");
   EXPECT_EQ(progressLine("samples", 0.5, 30), "samples      [###############               ]  50 %, 30 s left");

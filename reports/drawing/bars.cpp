@@ -1,0 +1,100 @@
+// Kinematics: bars below each other, name and numbers above each; of a stack thin ones, from the narrowest on top down
+// to the widest.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "reports/drawing/axes.hpp"
+#include "reports/drawing/paper.hpp"
+#include "reports/words.hpp"
+
+namespace gamut {
+namespace {
+
+constexpr double barHeight = 14, rowHeight = 40, stackHeight = 12, stackHead = 24;
+
+bool isThere(const Band& band) { return !band.lower.empty() && band.lower[0] <= band.upper[0]; }
+
+class BarChart {
+ public:
+  BarChart(const Plot& plot, const std::string& label) : plot_(plot), digits_(plot.digits()) {
+    Range values;
+    double height = marginTop + marginBottom + 6;
+    for (const Layer& layer : plot.layers) {
+      if (layer.kind == Layer::Kind::line) continue;
+      if (layer.kind == Layer::Kind::stack) height += stackHead;
+      for (const Band& band : layer.bands) {
+        if (!isThere(band)) continue;
+        values.hold(band);
+        height += layer.kind == Layer::Kind::stack ? stackHeight : rowHeight;
+      }
+    }
+    frame_ = {values.padded(0.04), {0, 1}, height};
+    svg_ = openedDrawing(height, label);
+  }
+
+  /// Stacks last, below all bars.
+  std::string draw() {
+    drawHorizontalAxis(frame_, plot_.unit, 7, svg_);
+    for (std::size_t i = 0; i < plot_.layers.size(); ++i)
+      if (plot_.layers[i].kind == Layer::Kind::band && isThere(plot_.layers[i].bands.front())) drawBar(i);
+    for (const Layer& layer : plot_.layers)
+      if (layer.kind == Layer::Kind::stack) drawStack(layer);
+    return svg_ + "</svg>\n";
+  }
+
+ private:
+  std::string numbersOf(const Band& band) const {
+    return intervalText(band.lower[0], band.upper[0], digits_) + (plot_.unit.empty() ? "" : " " + plot_.unit);
+  }
+
+  /// Thin ones stay visible: at least one unit wide.
+  void drawRectangle(const Layer& layer, const Band& band, double y, double thickness, const std::string& title) {
+    const double from = frame_.across(clipped(band.lower[0], frame_.x)),
+                 to = frame_.across(clipped(band.upper[0], frame_.x));
+    fmt::format_to(
+        std::back_inserter(svg_),
+        "<rect class=\"{}\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\"><title>{}</title></rect>\n",
+        layer.name, from, y, std::max(to - from, 1.0), thickness, escapeHtml(title));
+  }
+
+  /// With the lines that are drawn on it, which follow it.
+  void drawBar(std::size_t i) {
+    const Layer& layer = plot_.layers[i];
+    const std::string text = layer.words + "  " + numbersOf(layer.bands.front());
+    drawText("bar", marginLeft, y_ + 8, text, svg_);
+    drawRectangle(layer, layer.bands.front(), y_ + 13, barHeight, text);
+    for (++i; i < plot_.layers.size() && plot_.layers[i].kind == Layer::Kind::line; ++i)
+      if (const double value = plot_.layers[i].bands.front().lower[0]; std::isfinite(value))
+        fmt::format_to(std::back_inserter(svg_), "<path class=\"{}\" d=\"M{:.1f} {:.1f}v{}\"/>\n", plot_.layers[i].name,
+                       frame_.across(value), y_ + 11, barHeight + 4);
+    y_ += rowHeight;
+  }
+
+  void drawStack(const Layer& layer) {
+    drawText("bar", marginLeft, y_ + 8, layer.words, svg_);
+    y_ += 13;
+    for (std::size_t i = layer.bands.size(); i-- > 0;) {
+      if (!isThere(layer.bands[i])) continue;
+      const std::string level = fmt::format("{:g}", layer.levels[i]);
+      drawRectangle(layer, layer.bands[i], y_, stackHeight - 1.5, level + ": " + numbersOf(layer.bands[i]));
+      drawText("tick end", marginLeft - 6, y_ + 9, level, svg_);
+      y_ += stackHeight;
+    }
+    y_ += stackHead - 13;
+  }
+
+  const Plot& plot_;
+  int digits_;
+  Frame frame_{};
+  double y_ = marginTop + 6;
+  std::string svg_;
+};
+
+}  // namespace
+
+std::string drawBars(const Plot& plot, const std::string& label) { return BarChart(plot, label).draw(); }
+
+}  // namespace gamut

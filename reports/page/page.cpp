@@ -1,0 +1,74 @@
+// The head of a page, what was asked and where the numbers come from.
+#include "reports/page/page.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "reports/page/table.hpp"
+#include "reports/words.hpp"
+#include "studies/summary.hpp"
+
+namespace gamut {
+namespace {
+
+std::string uncertainTable(const Results& results) {
+  TableText table("Uncertain quantities", {"name", "quantity", "interval", "nominal", "probable", "possible"});
+  for (const UncertainInfo& info : results.uncertain) {
+    const int digits =
+        std::max(6, digitsFor(std::max(std::abs(info.lower), std::abs(info.upper)), info.upper - info.lower, 4));
+    table.row(info.name, {withUnit(info.quantity, info.unit), rangeText(info.lower, info.upper, digits),
+                          numberText(info.nominal, digits), shapeText(results, info, "distribution"),
+                          shapeText(results, info, "membership")});
+  }
+  return table.html();
+}
+
+}  // namespace
+
+std::string titleOf(const Results& results) {
+  if (!results.title.empty()) return results.title;
+  return results.studyFile.empty() ? "Untitled study" : results.studyFile;
+}
+
+std::string summaryLine(const Results& results) {
+  std::string line = results.analysis;
+  if (results.horizon > 0) line += fmt::format(", 0 s to {} s", numberText(results.horizon, 6));
+  line += ", " + (results.uncertain.size() == 1 ? std::string("1 uncertain quantity")
+                                                : fmt::format("{} uncertain quantities", results.uncertain.size()));
+  line += ", " + countText(static_cast<long long>(results.outputs.size()), "output");
+  if (!results.date.empty()) line += ", " + results.date;
+  return line;
+}
+
+std::string notesList(const Verdict& verdict) {
+  if (verdict.notes.empty()) return {};
+  std::string list = "<ul class=\"notes\">\n";
+  for (const std::string& note : verdict.notes) list += "<li>" + escapeHtml(note) + "</li>\n";
+  return list + "</ul>\n";
+}
+
+std::string askedSection(const Report& report) {
+  return uncertainTable(report.results) + "<details><summary>The study as it was written</summary><pre>" +
+         escapeHtml(report.results.studyText) + "</pre></details>\n";
+}
+
+std::string outputsSection(const Report& report) { return report.outputs.html; }
+
+std::string provenanceSection(const Report& report) {
+  const Results& results = report.results;
+  TableText table("Origin of the numbers", {"what", "value"});
+  table.row("Gamut", {results.version});
+  table.row("study file", {results.studyFile});
+  table.row("computed", {results.date});
+  table.row("machine", {results.host});
+  table.row("seed", {fmt::format("{}", results.seed)});
+  std::string libraries;
+  for (const auto& [name, version] : results.libraries)
+    libraries += fmt::format("{}{} {}", libraries.empty() ? "" : ", ", name, version);
+  table.row("libraries", {libraries});
+  return table.html();
+}
+
+}  // namespace gamut

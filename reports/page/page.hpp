@@ -1,0 +1,47 @@
+// The sections of a page, each from results to HTML. What analyses add to them is in reports/sections/.
+#pragma once
+
+#include <string>
+
+#include "reports/verdict.hpp"
+#include "studies/results/results.hpp"
+
+namespace gamut {
+
+/// The title, or the study's file.
+std::string titleOf(const Results& results);
+
+/// What was asked, in one line.
+std::string summaryLine(const Results& results);
+
+/// The verdict's notes as a list; empty without notes.
+std::string notesList(const Verdict& verdict);
+
+/// The plots of all outputs, with what they need elsewhere in the page.
+struct OutputPlots {
+  std::string html;   ///< a section an output
+  std::string style;  ///< CSS of the plots' layers
+  std::string data;   ///< JSON for the interactive plots; empty where nothing moves
+};
+OutputPlots outputPlots(const Results& results);
+
+/// What sections are made of.
+struct Report {
+  const Results& results;
+  Verdict verdict;
+  OutputPlots outputs;
+};
+
+/// The uncertain quantities and the study word for word.
+std::string askedSection(const Report& report);
+
+/// One row an output: what the analyses found at the last time that all of them reached. Then what each of them cost.
+std::string figuresSection(const Report& report);
+
+/// The plots of every output.
+std::string outputsSection(const Report& report);
+
+/// Version, machine, date, seed, study file, libraries.
+std::string provenanceSection(const Report& report);
+
+}  // namespace gamut

@@ -1,0 +1,24 @@
+// A table of a page, as HTML, that is built row by row; every cell is escaped. On narrow screens it scrolls by itself.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gamut {
+
+class TableText {
+ public:
+  TableText(std::string_view caption, const std::vector<std::string>& heads);
+
+  void row(std::string_view name, const std::vector<std::string>& cells);
+  std::string html() const { return html_ + "</tbody></table></div>\n"; }
+
+ private:
+  std::string html_;
+};
+
+/// "angle (rad)", or the name alone.
+std::string withUnit(const std::string& name, const std::string& unit);
+
+}  // namespace gamut

@@ -1,0 +1,45 @@
+// What each analysis adds to the page: columns of the table of figures, rows of the costs, layers of the plots. An
+// analysis has its file here and its row in `analyses`.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "reports/drawing/plot.hpp"
+#include "studies/results/verdict.hpp"
+
+namespace gamut {
+
+/// A column of the table of figures.
+struct Column {
+  std::string head;
+  const Bounds* bounds = nullptr;  ///< of which the table shows one time; or
+  std::vector<std::string> texts;  ///< one an output
+};
+
+/// A row of the costs.
+struct Cost {
+  std::string name;
+  double cpu = 0;  ///< s
+  std::string amount;
+};
+
+/// All three give nothing where the analysis is absent.
+struct Contribution {
+  std::vector<Column> (*columns)(const Results& results, const Finding& finding);
+  std::vector<Cost> (*costs)(const Results& results);
+  /// Adds what is there of one output.
+  void (*draw)(const Results& results, std::size_t output, Plot& plot);
+};
+
+extern const Contribution guaranteed, possible, probable, compared;
+
+/// Of which the page consists, from the back of the plots to the front.
+inline const std::array analyses{&guaranteed, &possible, &probable, &compared};
+
+/// All layers of one output.
+Plot plotOf(const Results& results, std::size_t output);
+
+}  // namespace gamut

@@ -1,0 +1,38 @@
+// What is possible.
+#include "reports/sections/contribution.hpp"
+#include "reports/words.hpp"
+
+namespace gamut {
+namespace {
+
+/// The most possible: the cut of the highest level.
+std::vector<Column> columns(const Results& results, const Finding&) {
+  const FuzzyResult& fuzzy = results.fuzzy;
+  if (!fuzzy.present || fuzzy.outer.empty()) return {};
+  return {{"most possible", &fuzzy.outer.back(), {}}};
+}
+
+std::vector<Cost> costs(const Results& results) {
+  if (!results.fuzzy.present) return {};
+  return {{"possible", results.fuzzy.cpu, countText(static_cast<long long>(results.fuzzy.alpha.size()), "alpha-cut")}};
+}
+
+void draw(const Results& results, std::size_t output, Plot& plot) {
+  const FuzzyResult& fuzzy = results.fuzzy;
+  if (!fuzzy.present || fuzzy.outer.empty()) return;
+  Layer layer{.name = "possible",
+              .words = plot.isOverTime() ? "possible: alpha-cuts, the darker the more possible"
+                                         : "possible: alpha-cuts, the narrowest the most possible",
+              .style = {colour::violet, 0.11},
+              .kind = Layer::Kind::stack,
+              .isProved = true,
+              .levels = fuzzy.alpha};
+  for (const Bounds& cut : fuzzy.outer) layer.bands.push_back(bandOf(cut, output));
+  plot.layers.push_back(std::move(layer));
+}
+
+}  // namespace
+
+const Contribution possible{columns, costs, draw};
+
+}  // namespace gamut

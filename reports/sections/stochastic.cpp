@@ -1,0 +1,69 @@
+// What is probable.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "reports/sections/contribution.hpp"
+#include "reports/words.hpp"
+#include "studies/summary.hpp"
+
+namespace gamut {
+namespace {
+
+std::vector<Column> columns(const Results& results, const Finding&) {
+  if (!results.stochastic.present) return {};
+  return {{"sampled", &results.stochastic.envelope, {}}};
+}
+
+std::vector<Cost> costs(const Results& results) {
+  const StochasticResult& stochastic = results.stochastic;
+  if (!stochastic.present) return {};
+  return {{"probable", stochastic.cpu,
+           fmt::format("{} ({}), {}, tolerances {} relative, {} absolute{}", countText(stochastic.samples, "sample"),
+                       stochastic.plan, countText(stochastic.corners + stochastic.alphaCorners, "corner"),
+                       numberText(stochastic.relativeTolerance), numberText(stochastic.absoluteTolerance),
+                       stochastic.kept.present ? "; in the results: " + keptText(stochastic.kept) : "")}};
+}
+
+/// The quantile whose probability is nearest.
+std::size_t nearest(const std::vector<double>& probabilities, double wanted) {
+  const auto closer = [&](double a, double b) { return std::abs(a - wanted) < std::abs(b - wanted); };
+  return static_cast<std::size_t>(std::ranges::min_element(probabilities, closer) - probabilities.begin());
+}
+
+void draw(const Results& results, std::size_t output, Plot& plot) {
+  const StochasticResult& stochastic = results.stochastic;
+  if (!stochastic.present) return;
+  const std::vector<double>& probabilities = stochastic.probabilities;
+  const auto quantile = [&](std::size_t i) { return lineOf(stochastic.quantiles[i], output); };
+  const bool hasQuantiles = !probabilities.empty() && stochastic.quantiles.size() == probabilities.size();
+  const std::size_t low = nearest(probabilities, 0.05), middle = nearest(probabilities, 0.5),
+                    high = nearest(probabilities, 0.95);
+  if (hasQuantiles && low < high)
+    plot.layers.push_back({.name = "probable",
+                           .words = fmt::format("probable: {:g} to {:g} % of the samples", 100 * probabilities[low],
+                                                100 * probabilities[high]),
+                           .readout = "probable",
+                           .style = {colour::orange, 0.2, 0.8},
+                           .bands = {{quantile(low), quantile(high)}}});
+  if (hasQuantiles && probabilities[middle] == 0.5)
+    plot.layers.push_back({.name = "median",
+                           .words = "median",
+                           .readout = "median",
+                           .style = {colour::orange, 0, 1.6},
+                           .kind = Layer::Kind::line,
+                           .bands = {{quantile(middle), {}}}});
+  if (!stochastic.envelope.empty())
+    plot.layers.push_back({.name = "sampled",
+                           .words = "least and greatest sample",
+                           .readout = "sampled",
+                           .style = {colour::black, 0, 1.1, true},
+                           .bands = {bandOf(stochastic.envelope, output)}});
+}
+
+}  // namespace
+
+const Contribution probable{columns, costs, draw};
+
+}  // namespace gamut

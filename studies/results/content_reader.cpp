@@ -1,0 +1,183 @@
+// Group by group, in the order of the file, so that a dimension's extent is known when it is needed.
+#include <algorithm>
+#include <utility>
+
+#include "studies/results/detail/content.hpp"
+
+namespace gamut {
+namespace {
+
+class ContentReader {
+ public:
+  explicit ContentReader(const Hdf5Reader& root) : root_(root) {}
+
+  Results read() {
+    for (const Group& group : describe(results_)) {
+      const std::string path(group.path);
+      if (path == "/") {
+        readRecord(group, root_);
+      } else if (!isThere(path)) {
+        group.resize(0);
+      } else if (group.isList()) {
+        readColumns(group, Hdf5Reader(root_, path));
+      } else {
+        group.resize(1);
+        readRecord(group, Hdf5Reader(root_, path));
+      }
+    }
+    if (results_.time.empty()) throw Hdf5Error("/time");
+    if (results_.outputs.empty()) throw Hdf5Error("/output");
+    const std::vector<Group> groups = describe(results_);
+    for (const std::string& path : {misshapen(groups), senseless(groups)})
+      if (!path.empty()) throw Hdf5Error(path);
+    return std::move(results_);
+  }
+
+ private:
+  bool isThere(const std::string& path) const {
+    for (std::size_t end = path.find('/', 1); end != path.npos; end = path.find('/', end + 1))
+      if (!root_.has(path.substr(0, end))) return false;
+    return root_.has(path);
+  }
+
+  // ---- One record ---------------------------------------------------------------------------------------------------
+
+  /// Numbers of the shape that the field's dimensions give them; of any length where it is a scale. None if they are
+  /// not there.
+  template <class Number, class Read>
+  std::vector<Number> numbers(const Group& group, const Field& field, const std::string& name, const Hdf5Reader& in,
+                              const Read& read) {
+    if (!in.has(name)) return {};
+    Hdf5Shape shape;
+    std::vector<Number> values = read(name, shape);
+    const std::vector<std::size_t> expected = shapeOf(field.dimensions, extents_);
+    if (isScale(group, field) ? shape.size() != 1 : !std::ranges::equal(shape, expected))
+      throw Hdf5Error(pathOf(group, field));
+    if (isScale(group, field)) extents_.emplace(field.dimensions.front(), values.size());
+    return values;
+  }
+
+  std::vector<double> doubles(const Group& group, const Field& field, const std::string& suffix, const Hdf5Reader& in) {
+    return numbers<double>(group, field, std::string(field.name) + suffix, in,
+                           [&](const std::string& name, Hdf5Shape& shape) { return in.numbers(name, shape); });
+  }
+
+  /// Cut into tables of times and outputs.
+  std::vector<Table> tables(const Group& group, const Field& field, const std::string& suffix, const Hdf5Reader& in) {
+    const std::vector<double> numbers = doubles(group, field, suffix, in);
+    const std::size_t times = extents_[std::string(dimension::time)],
+                      outputs = extents_[std::string(dimension::output)];
+    std::vector<Table> stack;
+    for (std::size_t at = 0; at < numbers.size(); at += times * outputs) {
+      Table& table = stack.emplace_back();
+      table.times = times;
+      table.outputs = outputs;
+      table.data.assign(numbers.begin() + static_cast<std::ptrdiff_t>(at),
+                        numbers.begin() + static_cast<std::ptrdiff_t>(at + times * outputs));
+    }
+    return stack;
+  }
+
+  std::vector<Envelope> envelopes(const Group& group, const Field& field, const Hdf5Reader& in) {
+    std::vector<Table> lower = tables(group, field, "_lower", in), upper = tables(group, field, "_upper", in);
+    if (lower.size() != upper.size()) throw Hdf5Error(pathOf(group, field));
+    std::vector<Envelope> stack(lower.size());
+    for (std::size_t i = 0; i < stack.size(); ++i) {
+      stack[i].lower = std::move(lower[i]);
+      stack[i].upper = std::move(upper[i]);
+    }
+    return stack;
+  }
+
+  template <class T>
+  static void takeFirst(std::vector<T> stack, T& value) {
+    if (!stack.empty()) value = std::move(stack.front());
+  }
+
+  void readRecord(const Group& group, const Hdf5Reader& in) {
+    for (const Field& field : group.fields(0)) {
+      const std::string name(field.name);
+      std::visit(
+          Visitor{[&](double* x) { *x = in.number(name); }, [&](std::int64_t* x) { *x = in.integer(name); },
+                  [&](std::uint64_t* x) { *x = in.natural(name); }, [&](bool* x) { *x = in.integer(name) != 0; },
+                  [&](std::string* x) { *x = in.text(name); }, [&](WholeText x) { *x.text = in.wholeText(name); },
+                  [&](std::vector<double>* v) { *v = doubles(group, field, "", in); },
+                  [&](std::vector<std::int64_t>* v) {
+                    *v = numbers<std::int64_t>(group, field, name, in, [&](const std::string& n, Hdf5Shape& shape) {
+                      return in.integers(n, shape);
+                    });
+                  },
+                  [&](Table* t) { takeFirst(tables(group, field, "", in), *t); },
+                  [&](std::vector<Table>* v) { *v = tables(group, field, "", in); },
+                  [&](Envelope* e) { takeFirst(envelopes(group, field, in), *e); },
+                  [&](std::vector<Envelope>* v) { *v = envelopes(group, field, in); }},
+          field.value);
+    }
+  }
+
+  // ---- Lists --------------------------------------------------------------------------------------------------------
+
+  /// The values of one field of all records, to be put into them one by one.
+  using Column = std::variant<std::vector<double>, std::vector<std::int64_t>, std::vector<std::string>>;
+
+  static Column columnOf(const Field& field, const Hdf5Reader& in, Hdf5Shape& shape) {
+    const std::string name(field.name);
+    return std::visit(Visitor{[&](std::string*) -> Column {
+                                std::vector<std::string> texts = in.texts(name);
+                                shape = {texts.size()};
+                                return texts;
+                              },
+                              [&](double*) -> Column { return in.numbers(name, shape); },
+                              [&](std::vector<double>*) -> Column { return in.numbers(name, shape); },
+                              [&](const auto&) -> Column { return in.integers(name, shape); }},
+                      field.value);
+  }
+
+  void readColumns(const Group& group, const Hdf5Reader& in) {
+    group.resize(1);  // for the names and kinds of the fields
+    std::vector<Column> columns;
+    std::size_t size = 0;
+    for (const Field& field : group.fields(0)) {
+      Hdf5Shape shape;
+      columns.push_back(columnOf(field, in, shape));
+      if (columns.size() == 1 && shape.size() == 1) size = shape.front();
+      std::vector<std::size_t> expected = shapeOf(field.dimensions, extents_);
+      expected.insert(expected.begin(), size);
+      if (size == 0 || !std::ranges::equal(shape, expected)) throw Hdf5Error(pathOf(group, field));
+    }
+    extents_.emplace(group.dimension, size);
+    group.resize(size);
+    for (std::size_t i = 0; i < size; ++i) {
+      const std::vector<Field> fields = group.fields(i);
+      for (std::size_t f = 0; f < fields.size(); ++f) put(columns[f], i, size, fields[f]);
+    }
+  }
+
+  /// Value i of a column, or as many as there are for each of `size` records, into its field.
+  static void put(const Column& column, std::size_t i, std::size_t size, const Field& field) {
+    const auto integer = [&] { return std::get<std::vector<std::int64_t>>(column)[i]; };
+    std::visit(Visitor{[&](double* x) { *x = std::get<std::vector<double>>(column)[i]; },
+                       [&](std::int64_t* x) { *x = integer(); },
+                       [&](std::uint64_t* x) { *x = static_cast<std::uint64_t>(integer()); },
+                       [&](bool* x) { *x = integer() != 0; },
+                       [&](std::string* x) { *x = std::get<std::vector<std::string>>(column)[i]; },
+                       [&](std::vector<double>* v) {
+                         const std::vector<double>& all = std::get<std::vector<double>>(column);
+                         const auto each = static_cast<std::ptrdiff_t>(all.size() / size);
+                         const auto from = all.begin() + static_cast<std::ptrdiff_t>(i) * each;
+                         v->assign(from, from + each);
+                       },
+                       [](const auto&) {}},
+               field.value);
+  }
+
+  const Hdf5Reader& root_;
+  Results results_;
+  Extents extents_;
+};
+
+}  // namespace
+
+Results readContent(const Hdf5Reader& root) { return ContentReader(root).read(); }
+
+}  // namespace gamut

@@ -1,0 +1,135 @@
+// What the parts of the results say of themselves: every field once, with its name in the file, its unit, its meaning
+// and its dimensions. The writer and the reader of HDF5, `gamut info`, the comparison of two results and the tables of
+// docs/results-file.md are made from this.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <map>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "analyses/table.hpp"
+
+namespace gamut {
+
+/// A text as it is, control characters included: a data set of its own.
+struct WholeText {
+  std::string* text;
+};
+
+/// Where the value of a field lies. Vectors, tables and stacks of tables have a place for every combination of the
+/// field's dimensions, the last one running fastest; empty ones are not there. An Envelope is two fields, NAME_lower
+/// and NAME_upper.
+using FieldValue =
+    std::variant<double*, std::int64_t*, std::uint64_t*, bool*, std::string*, WholeText, std::vector<double>*,
+                 std::vector<std::int64_t>*, Table*, std::vector<Table>*, Envelope*, std::vector<Envelope>*>;
+
+namespace dimension {  // a path in the file, where its scale lies
+inline constexpr std::string_view time = "/time", output = "/output", quantity = "/quantity",
+                                  probability = "/stochastic/probability", sample = "/stochastic/kept/number",
+                                  motion = "/stochastic/kept/motion_number", alpha = "/fuzzy/alpha",
+                                  dispute = "/comparison/disputed/number";
+}
+
+namespace unit {
+inline constexpr std::string_view none, one = "1", second = "s", byte = "bytes", ofOutput = "of the output",
+                                        ofQuantity = "of the quantity";  // the last two one for each
+}
+
+/// Between which numbers every single number of a field lies, both included; NaN only where nothing is said.
+struct Allowed {
+  double least = -std::numeric_limits<double>::infinity(), greatest = -least;
+};
+
+namespace allowed {
+inline constexpr Allowed anything{}, finite{-std::numeric_limits<double>::max(), std::numeric_limits<double>::max()},
+    count{0, 9007199254740992.0}, share{0, 1};  // counts are exact in doubles too
+}
+
+struct Field {
+  std::string_view name;  ///< in its group; an absolute path for what lies elsewhere
+  FieldValue value;
+  std::string_view unit, meaning;
+  /// One that is the field's own path, and the only one, makes the field that dimension's scale, whose numbers rise.
+  std::vector<std::string_view> dimensions;
+  Allowed allowed = allowed::anything;
+  std::string_view indexOf = "";  ///< of an index: the dimension, whose extent it lies below
+  bool isNoise = false;           ///< its digits follow no rule that compression could use
+};
+
+/// A group of the file: one record, whose single values are attributes, or a list of records, one data set a field.
+struct Group {
+  std::string_view path, meaning;
+  std::string_view dimension;  ///< of a list: its first field is the scale; empty for one record
+  std::size_t size = 1;        ///< records, none if it is not there
+  /// Makes so many records, empty ones.
+  std::function<void(std::size_t)> resize;
+  /// Of record i < size, which must stay where it is. What depends on earlier groups is taken as they are now.
+  std::function<std::vector<Field>(std::size_t)> fields;
+  /// Whether the numbers of record i make sense together.
+  std::function<bool(std::size_t)> makesSense = [](std::size_t) { return true; };
+
+  bool isList() const { return !dimension.empty(); }
+};
+
+/// The path of a field in the file.
+std::string pathOf(const Group& group, const Field& field);
+
+/// Whether the field is a dimension's scale.
+bool isScale(const Group& group, const Field& field);
+
+/// A group that is there always, or, of a part that says so, if it is `present`.
+template <class Part>
+Group groupOf(std::string_view path, std::string_view meaning, Part& part, std::vector<Field> (*fields)(Part&)) {
+  Group group{path, meaning, "", 1, [](std::size_t) {}, {}};
+  if constexpr (requires { part.present; }) {
+    group.size = part.present ? 1 : 0;
+    group.resize = [&part](std::size_t size) { part.present = size > 0; };
+  }
+  group.fields = [&part, fields](std::size_t) { return fields(part); };
+  return group;
+}
+
+/// A list of records.
+template <class Record>
+Group listOf(std::string_view path, std::string_view meaning, std::string_view dimension, std::vector<Record>& records,
+             std::vector<Field> (*fields)(Record&)) {
+  Group group{path, meaning, dimension, records.size(), {}, {}};
+  group.resize = [&records](std::size_t size) { records.assign(size, Record()); };
+  group.fields = [&records, fields](std::size_t i) { return fields(records[i]); };
+  return group;
+}
+
+/// How many places each dimension has.
+using Extents = std::map<std::string, std::size_t, std::less<>>;
+Extents extentsOf(const std::vector<Group>& groups);
+
+/// The dimensions of a field, that of the list in front, if the group is one.
+std::vector<std::string_view> dimensionsOf(const Group& group, const Field& field);
+
+/// So many places, or none where a dimension is not there.
+std::vector<std::size_t> shapeOf(const std::vector<std::string_view>& dimensions, const Extents& extents);
+
+/// Whether the bounds are those of an interval that is not empty, or one is NaN.
+bool isInterval(double lower, double upper);
+
+/// The path of the first field whose value has not the shape that its dimensions give it; empty if there is none.
+std::string misshapen(const std::vector<Group>& groups);
+
+/// The path of the first field, or list, whose numbers make no sense; empty if all do.
+std::string senseless(const std::vector<Group>& groups);
+
+/// Whether two values are of the same shape and the same to the last bit.
+bool isSame(const FieldValue& one, const FieldValue& other);
+
+/// One visitor of several functions.
+template <class... Functions>
+struct Visitor : Functions... {
+  using Functions::operator()...;
+};
+
+}  // namespace gamut

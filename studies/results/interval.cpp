@@ -1,0 +1,27 @@
+// What the file says of the enclosures.
+#include "studies/results/interval.hpp"
+
+namespace gamut {
+namespace {
+
+std::vector<Field> fieldsOf(IntervalResult& r) {
+  using namespace dimension;
+  return r.fieldsAnd(
+      {{"pieces", &r.pieces, unit::none, "sub-boxes at the end", {}, allowed::count},
+       {"steps", &r.steps, unit::none, "steps in time, of all sub-boxes", {}, allowed::count},
+       {"at", &r.at, unit::ofOutput, "enclosure at the output times", {time, output}},
+       {"over",
+        &r.over,
+        unit::ofOutput,
+        "enclosure over the whole interval since the output time before",
+        {time, output}},
+       {"direct", &r.direct, unit::ofOutput, "kinematics: enclosure by plain interval arithmetic", {time, output}}});
+}
+
+}  // namespace
+
+void describe(IntervalResult& interval, std::vector<Group>& groups) {
+  groups.push_back(groupOf("/interval", "what is guaranteed: enclosures of every output", interval, fieldsOf));
+}
+
+}  // namespace gamut

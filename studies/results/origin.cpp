@@ -1,0 +1,77 @@
+// Outputs and uncertain quantities are dimensions of what follows: their names are scales at the root of the file.
+#include "studies/results/origin.hpp"
+
+namespace gamut {
+namespace {
+
+std::vector<Field> fieldsOfRoot(Origin& o) {
+  return {{"title", &o.title, unit::none, "of the study", {}},
+          {"time", &o.time, unit::second, "output times", {dimension::time}, allowed::finite}};
+}
+
+std::vector<Field> fieldsOfStudy(Origin& o) {
+  return {{"text", WholeText{&o.studyText}, unit::none, "the study file, word for word", {}},
+          {"file", &o.studyFile, unit::none, "name of the study file", {}},
+          {"analysis", &o.analysis, unit::none, "\"dynamics\" or \"kinematics\"", {}},
+          {"seed", &o.seed, unit::none, "of the samples", {}},
+          {"horizon", &o.horizon, unit::second, "time asked for; 0 in kinematics", {}, allowed::finite},
+          {"version", &o.version, unit::none, "of Gamut", {}},
+          {"host", &o.host, unit::none, "machine on which it ran", {}},
+          {"date", &o.date, unit::none, "when it began, UTC", {}},
+          {"cpu", &o.cpu, unit::second, "CPU time of all analyses", {}},
+          {"report_cpu", &o.reportCpu, unit::second, "CPU time of writing the page", {}},
+          {"memory", &o.memory, unit::byte, "the most that the run had at a time", {}},
+          {"time_limit", &o.limits.time, unit::second, "CPU time that the run was allowed", {}},
+          {"memory_limit", &o.limits.memory, unit::byte, "memory that the run was allowed", {}},
+          {"enclosure_time_limit", &o.limits.enclosureTime, unit::second, "of it to the enclosure", {}},
+          {"enclosure_memory_limit", &o.limits.enclosureMemory, unit::byte, "of it to the enclosure", {}},
+          {"sample_time_limit", &o.limits.sampleTime, unit::second, "of it to each sample", {}}};
+}
+
+std::vector<Field> fieldsOfLibrary(LibraryInfo& l) {
+  return {{"name", &l.name, unit::none, "name of the library", {}},
+          {"version", &l.version, unit::none, "its version", {}}};
+}
+
+std::vector<Field> fieldsOfOutput(OutputInfo& o) {
+  return {{dimension::output, &o.name, unit::none, "name of the output", {}},
+          {"quantity", &o.quantity, unit::none, "quantity of the mechanism", {}},
+          {"unit", &o.unit, unit::none, "its SI unit", {}}};
+}
+
+std::vector<Field> fieldsOfUncertain(UncertainInfo& u) {
+  return {{dimension::quantity, &u.name, unit::none, "name of the uncertain quantity", {}},
+          {"quantity", &u.quantity, unit::none, "quantity of the mechanism", {}},
+          {"unit", &u.unit, unit::none, "its SI unit", {}},
+          {"lower", &u.lower, unit::ofQuantity, "lower bound of the interval", {}, allowed::finite},
+          {"nominal", &u.nominal, unit::ofQuantity, "nominal value", {}, allowed::finite},
+          {"upper", &u.upper, unit::ofQuantity, "upper bound of the interval", {}, allowed::finite},
+          {"distribution", &u.distribution, unit::none, "name of the distribution", {}},
+          {"membership", &u.membership, unit::none, "name of the membership function", {}}};
+}
+
+std::vector<Field> fieldsOfShape(ShapeInfo& s) {
+  return {
+      {"of", &s.quantity, unit::none, "name of the uncertain quantity", {}},
+      {"shape", &s.shape, unit::none, "\"distribution\" or \"membership\"", {}},
+      {"name", &s.name, unit::none, "of the number, such as \"lower\" and \"upper\" (of the support), \"mode\"", {}},
+      {"value", &s.value, unit::none, "in the unit beside it", {}},
+      {"unit", &s.unit, unit::none, "its SI unit", {}}};
+}
+
+}  // namespace
+
+void describe(Origin& o, std::vector<Group>& groups) {
+  groups.push_back(groupOf("/", "", o, fieldsOfRoot));
+  groups.push_back(groupOf("/study", "what was asked, and where the numbers come from", o, fieldsOfStudy));
+  groups.push_back(
+      listOf("/study/libraries", "with what it was computed", "/study/libraries/name", o.libraries, fieldsOfLibrary));
+  groups.push_back(listOf("/study/outputs", "what was to be looked at", dimension::output, o.outputs, fieldsOfOutput));
+  groups.push_back(
+      listOf("/study/uncertain", "what is uncertain", dimension::quantity, o.uncertain, fieldsOfUncertain));
+  groups.back().makesSense = [&o](std::size_t i) { return o.uncertain[i].lower <= o.uncertain[i].upper; };
+  groups.push_back(listOf("/study/shapes", "the numbers that distributions and membership functions are made of",
+                          "/study/shapes/of", o.shapes, fieldsOfShape));
+}
+
+}  // namespace gamut

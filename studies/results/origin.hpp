@@ -1,0 +1,63 @@
+// What was asked, and where the numbers come from.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "studies/results/fields.hpp"
+
+namespace gamut {
+
+/// One uncertain quantity as the study states it.
+struct UncertainInfo {
+  std::string name, quantity, unit;
+  double lower = 0, nominal = 0, upper = 0;
+  std::string distribution, membership;  ///< by name: "uniform", "triangular", …
+};
+
+/// One of the numbers that a distribution or a membership function is made of.
+struct ShapeInfo {
+  std::string quantity;  ///< name of the uncertain quantity
+  std::string shape;     ///< "distribution" or "membership"
+  std::string name;      ///< of the number: "lower", "upper", "mode", …
+  double value = 0;
+  std::string unit;
+};
+
+struct OutputInfo {
+  std::string name, quantity, unit;
+};
+
+struct LibraryInfo {
+  std::string name, version;
+};
+
+/// What a run was allowed to spend: CPU time of all threads, s, and memory, bytes.
+struct Limits {
+  double time = std::numeric_limits<double>::infinity(), memory = time;                    ///< of the whole run
+  double enclosureTime = std::numeric_limits<double>::infinity(), enclosureMemory = time;  ///< of the guarantee
+  double sampleTime = std::numeric_limits<double>::infinity();                             ///< of each sample
+};
+
+struct Origin {
+  std::string studyText, studyFile, title, analysis;
+  std::uint64_t seed = 0;
+  std::string version, host, date;
+  std::vector<LibraryInfo> libraries;
+  std::vector<UncertainInfo> uncertain;
+  std::vector<ShapeInfo> shapes;  ///< of all of them
+  std::vector<OutputInfo> outputs;
+  double horizon = 0;        ///< s
+  std::vector<double> time;  ///< output times, s
+  double reportCpu = 0;      ///< s
+  Limits limits;
+  double cpu = 0;     ///< s, of all analyses
+  double memory = 0;  ///< bytes: the most that the process had at a time
+};
+
+/// Adds the groups of this part.
+void describe(Origin& origin, std::vector<Group>& groups);
+
+}  // namespace gamut

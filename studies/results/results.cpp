@@ -1,0 +1,63 @@
+// The parts in the order of the file, and what is asked of all of them.
+#include "studies/results/results.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+namespace gamut {
+
+std::vector<Group> describe(Results& results) {
+  std::vector<Group> groups;
+  describe(static_cast<Origin&>(results), groups);
+  describe(results.interval, groups);
+  describe(results.stochastic, groups);
+  describe(results.fuzzy, groups);
+  describe(results.comparison, groups);
+  return groups;
+}
+
+const std::vector<Group> describe(const Results& results) {
+  return describe(const_cast<Results&>(results));  // resize, which alone changes anything, is not const
+}
+
+std::vector<std::string> differences(const Results& one, const Results& other) {
+  const std::vector<Group> some = describe(one), others = describe(other);
+  std::vector<std::string> paths;
+  for (std::size_t g = 0; g < some.size(); ++g) {
+    if (some[g].size != others[g].size) {
+      paths.emplace_back(some[g].path);
+      continue;
+    }
+    std::vector<std::string> found;
+    for (std::size_t i = 0; i < some[g].size; ++i) {
+      const std::vector<Field> fields = some[g].fields(i), otherFields = others[g].fields(i);
+      for (std::size_t f = 0; f < fields.size(); ++f)
+        if (!isSame(fields[f].value, otherFields[f].value)) found.push_back(pathOf(some[g], fields[f]));
+    }
+    std::ranges::sort(found);
+    const auto rest = std::ranges::unique(found);
+    paths.insert(paths.end(), found.begin(), rest.begin());
+  }
+  return paths;
+}
+
+double reachedTime(const Results& results) {
+  double reached = results.horizon;
+  for (const Answer* answer :
+       {static_cast<const Answer*>(&results.interval), static_cast<const Answer*>(&results.stochastic),
+        static_cast<const Answer*>(&results.fuzzy)})
+    if (answer->present) reached = std::min(reached, answer->reached);
+  return reached;
+}
+
+std::string whyEnded(const Results& results) {
+  std::vector<std::string> reasons;
+  for (const std::string* why : {&results.interval.why, &results.stochastic.stopped, &results.stochastic.why,
+                                 &results.fuzzy.why, &results.comparison.why})
+    if (!why->empty() && std::ranges::find(reasons, *why) == reasons.end()) reasons.push_back(*why);
+  return fmt::format("{}", fmt::join(reasons, "; "));
+}
+
+}  // namespace gamut

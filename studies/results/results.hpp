@@ -1,0 +1,42 @@
+// Everything a study produced, as plain data: what the HDF5 file holds, what the JSON summary and the report show.
+// The report and the verdict are computed from this alone. Each part is described in a file of its own.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "studies/results/comparison.hpp"
+#include "studies/results/fuzzy.hpp"
+#include "studies/results/interval.hpp"
+#include "studies/results/origin.hpp"
+#include "studies/results/stochastic.hpp"
+
+namespace gamut {
+
+/// One number for every output at every output time; NaN where there is none. Shape: times x outputs.
+using Grid = Table;
+
+/// Lower and upper bounds of every output at every output time.
+using Bounds = Envelope;
+
+struct Results : Origin {
+  IntervalResult interval;
+  StochasticResult stochastic;
+  FuzzyResult fuzzy;
+  ComparisonResult comparison;
+};
+
+/// All groups of the file, in its order. They point into the results; what is const stays as it is.
+std::vector<Group> describe(Results& results);
+const std::vector<Group> describe(const Results& results);
+
+/// The paths of the fields in which two results differ, in number of records, shape or a single bit.
+std::vector<std::string> differences(const Results& one, const Results& other);
+
+/// The time up to which every analysis that was asked for got (s).
+double reachedTime(const Results& results);
+
+/// Why the run ended before all was done, every reason once; empty if it did not.
+std::string whyEnded(const Results& results);
+
+}  // namespace gamut

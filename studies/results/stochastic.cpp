@@ -1,0 +1,95 @@
+// What the file says of the samples, together and one by one.
+#include "studies/results/stochastic.hpp"
+
+namespace gamut {
+namespace {
+
+std::vector<Field> fieldsOf(StochasticResult& r) {
+  using namespace dimension;
+  return r.fieldsAnd(
+      {{"plan", &r.plan, unit::none, "how the samples were placed", {}},
+       {"samples", &r.samples, unit::none, "samples of the plan, which count in the statistics", {}, allowed::count},
+       {"corners", &r.corners, unit::none, "corners of the uncertain box, sampled besides", {}, allowed::count},
+       {"alpha_corners", &r.alphaCorners, unit::none, "corners of the alpha-cuts, sampled besides", {}, allowed::count},
+       {"integrated",
+        &r.integrated,
+        unit::none,
+        "how many of samples, corners and centre were followed",
+        {},
+        allowed::count},
+       {"stopped", &r.stopped, unit::none, "why not all were followed; empty if they were", {}},
+       {"relative_tolerance", &r.relativeTolerance, unit::one, "of the integration", {}},
+       {"absolute_tolerance", &r.absoluteTolerance, unit::none, "of the integration, in the unit of each state", {}},
+       {"pack_width",
+        &r.packWidth,
+        unit::none,
+        "samples of one number / `pack_width`, rounded down, were integrated together, in common steps; corners and "
+        "centre, counted from the first corner, likewise",
+        {},
+        {1, allowed::count.greatest}},
+       {"envelope",
+        &r.envelope,
+        unit::ofOutput,
+        "least and greatest of all samples, corners and centre; like all that samples say, NaN beyond `reached`",
+        {time, output}},
+       {"mean", &r.mean, unit::ofOutput, "mean of the samples", {time, output}},
+       {"deviation", &r.deviation, unit::ofOutput, "standard deviation of the samples", {time, output}},
+       {"error", &r.error, unit::ofOutput, "measured error of the integration of samples", {time, output}},
+       {"probability", &r.probabilities, unit::one, "probabilities of the quantiles", {probability}, allowed::share},
+       {"quantiles",
+        &r.quantiles,
+        unit::ofOutput,
+        "quantiles of the samples, from a histogram",
+        {probability, time, output}},
+       {"resolution",
+        &r.resolution,
+        unit::ofOutput,
+        "no quantile is farther than this from that of the samples themselves",
+        {time, output}}});
+}
+
+std::vector<Field> fieldsOfKept(KeptSamples& k) {
+  using namespace dimension;
+  return {
+      {"storage", &k.storage, unit::byte, "that values and motions may take", {}},
+      {"values_every",
+       &k.valuesEvery,
+       unit::none,
+       "`values` are of every so manyth sample by number, and of the centre; 0: of none",
+       {},
+       allowed::count},
+      {"motions_every", &k.motionsEvery, unit::none, "`motions` likewise", {}, allowed::count},
+      {"number",
+       &k.number,
+       unit::none,
+       "of the samples whose values are kept, counted as those of disputed samples",
+       {sample},
+       allowed::count},
+      {"values",
+       &k.values,
+       unit::ofQuantity,
+       "of the uncertain quantities",
+       {sample, quantity},
+       allowed::anything,
+       "",
+       true},
+      {"motion_number", &k.motionNumber, unit::none, "of the samples whose motions are kept", {motion}, allowed::count},
+      {"motions",
+       &k.motions,
+       unit::ofOutput,
+       "outputs of these samples, as they count in the statistics; NaN where a sample did not arrive",
+       {motion, time, output},
+       allowed::anything,
+       "",
+       true}};
+}
+
+}  // namespace
+
+void describe(StochasticResult& stochastic, std::vector<Group>& groups) {
+  groups.push_back(groupOf("/stochastic", "what is probable: samples of every output", stochastic, fieldsOf));
+  groups.push_back(
+      groupOf("/stochastic/kept", "samples one by one, as far as they are kept", stochastic.kept, fieldsOfKept));
+}
+
+}  // namespace gamut

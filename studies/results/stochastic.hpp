@@ -1,0 +1,50 @@
+// What is probable.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "analyses/table.hpp"
+#include "studies/results/answer.hpp"
+
+namespace gamut {
+
+/// Samples one by one: values of the uncertain quantities, and motions. Numbers as in DisputedSample.
+struct KeptSamples {
+  bool present = false;
+  double storage = 0;             ///< bytes that they may take
+  std::int64_t valuesEvery = 1;   ///< values are of the samples whose number it divides, and the centre; 0: of none
+  std::int64_t motionsEvery = 1;  ///< motions likewise; a multiple of the other
+  std::vector<std::int64_t> number;
+  std::vector<double> values;  ///< [number][quantity]
+  std::vector<std::int64_t> motionNumber;
+  std::vector<double> motions;  ///< [motionNumber][time][output], NaN where a sample did not arrive
+};
+
+/// Its `reached`: all samples that were followed arrived there; envelope and statistics end there.
+struct StochasticResult : Answer {
+  /// The plan's samples, the corners and the centre.
+  std::int64_t planned() const { return samples + corners + alphaCorners + 1; }
+
+  std::string plan;
+  std::int64_t samples = 0;       ///< that count in the statistics
+  std::int64_t corners = 0;       ///< of the uncertain box, integrated besides, without weight
+  std::int64_t alphaCorners = 0;  ///< of the alpha-cuts' boxes, likewise
+  std::int64_t integrated = 0;    ///< how many of samples, corners and centre were followed before the analysis ended
+  double relativeTolerance = 0, absoluteTolerance = 0;
+  std::int64_t packWidth = 1;  ///< samples of one number / packWidth were integrated together
+  std::string stopped;         ///< why not all were followed; empty if they were
+  Envelope envelope;           ///< of all samples, corners and centre
+  Table mean, deviation;
+  std::vector<double> probabilities;  ///< of the quantiles
+  std::vector<Table> quantiles;       ///< one table a probability
+  Table resolution;                   ///< no quantile is farther than this from that of the samples themselves
+  Table error;                        ///< the witness's own error, measured at tighter tolerance
+  KeptSamples kept;
+};
+
+/// Adds the groups of this part.
+void describe(StochasticResult& stochastic, std::vector<Group>& groups);
+
+}  // namespace gamut

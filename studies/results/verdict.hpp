@@ -1,0 +1,62 @@
+// Do the answers agree? Found from the numbers of the results alone, so that it can be found again long after the study
+// ran: every sampled motion must lie inside what is guaranteed, at every output time, for every output.
+//
+// There is no tolerance: a sample that seemed outside and was settled inside is stored with its refined motion, which
+// lies inside exactly. Only a sample that could not be decided, or was not because of an interrupt, refutes nothing.
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <string>
+
+#include "studies/results/results.hpp"
+
+namespace gamut {
+
+/// Samples outside a proved bound: how far, where, and which bound it was.
+struct Excursion {
+  enum class Bound { enclosure, tube, plainIntervals, alphaCut };
+
+  double distance = 0;  ///< in the unit of its output
+  std::size_t time = 0, output = 0;
+  Bound bound = Bound::enclosure;
+  std::int64_t level = -1;  ///< of the alpha-cut; -1 for all others
+};
+
+/// What the answers say about each other.
+struct Finding {
+  /// Why nothing more can be said than how far the samples were inside, or not even that.
+  enum class Gap {
+    none,
+    noAnswers,   ///< samples, or what they could be compared with, were not asked for
+    noSample,    ///< none was followed
+    noPosition,  ///< kinematics: an analysis ended before it had anything
+    undecided,   ///< a disputed sample was left when the run was interrupted
+    start,       ///< an analysis ended before the first output time
+    end          ///< the horizon was not reached, not all samples were followed, or numbers are missing
+  };
+
+  /// "inside"      every sample lies in the enclosure, over the whole horizon;
+  /// "outside"     at least one does not;
+  /// "unresolved"  at least one may or may not;
+  /// "incomplete"  neither, but there is a gap.
+  std::string word;
+  double reached = 0;   ///< s: compared up to here
+  Excursion excursion;  ///< the farthest that led to "outside" or "unresolved"; distance 0 otherwise
+  double overestimation = std::numeric_limits<double>::quiet_NaN();  ///< the greatest found; NaN where none was
+  Gap gap = Gap::none;
+  bool comparesEnclosure =
+      false;                 ///< there were an enclosure and samples; otherwise alpha-cuts and samples, or nothing
+  bool endsEarly = false;    ///< an analysis did not come as far as was asked for
+  std::size_t compared = 0;  ///< so many numbers were
+  std::size_t missing = 0;   ///< numbers of enclosure or envelope that were not there to compare
+};
+
+/// Never throws for missing analyses; throws std::invalid_argument if the shape of a field, or the time or output of a
+/// disputed sample, does not fit.
+Finding findVerdict(const Results& results);
+
+/// It neither arrived at the horizon nor, where nothing moves, had all that it could have.
+bool endsEarly(const Results& results, const Answer& answer);
+
+}  // namespace gamut

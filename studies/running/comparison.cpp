@@ -1,0 +1,43 @@
+// How the answers agree: what the samples' comparison with all that is proved found, and how wide that is against them.
+#include "analyses/comparison/comparison.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "studies/results/verdict.hpp"
+#include "studies/running/units.hpp"
+
+namespace gamut {
+
+void takeDisputes(Run& run, const Comparison& found, int level) {
+  ComparisonResult& comparison = run.results.comparison;
+  for (const Dispute& d : found.disputes) {
+    comparison.disputed.push_back({static_cast<std::int64_t>(d.number), d.time, d.output, d.value, d.lower, d.upper,
+                                   d.distance, d.error, d.decided, d.outside, level, d.farthest});
+    if (isInterrupted(comparison.disputed.back())) comparison.why = run.watch.why();
+  }
+  comparison.excursion = std::max(comparison.excursion, found.excursion);
+}
+
+void compareAnswers(Run& run) {
+  const Study& study = run.study;
+  if (!study.stochastic || !(study.interval || study.fuzzy)) return;
+  Results& results = run.results;
+  ComparisonResult& comparison = results.comparison;
+  comparison.present = true;
+  const std::size_t sampled = run.ensemble && run.ensemble->integrated() > 0 ? run.ensemble->reachedTimes() : 0;
+  const std::size_t compared = std::min(run.enclosed.reachedTimes, sampled);
+  const bool isOfTheStartAlone = study.time.size() > 1 && compared <= 1;
+  if (study.interval && sampled > 0 && !isOfTheStartAlone) {
+    Overestimation found = measureOverestimation({results.interval.at, run.enclosed.reachedTimes},
+                                                 results.stochastic.envelope, results.stochastic.error);
+    comparison.overestimation = std::move(found.ratio);
+    comparison.excess = std::move(found.excess);
+    comparison.maximum = found.maximum;
+    comparison.median = found.median;
+    comparison.maximumOf = std::move(found.maximumOf);
+  }
+  comparison.verdict = findVerdict(results).word;
+}
+
+}  // namespace gamut

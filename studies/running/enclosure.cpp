@@ -1,0 +1,92 @@
+// What is guaranteed and what is possible come from one flow over nested boxes, or, where nothing moves, from one
+// image.
+#include <new>
+#include <stdexcept>
+
+#include "analyses/flow/flow.hpp"
+#include "studies/running/sampled_study.hpp"
+#include "studies/running/units.hpp"
+
+namespace gamut {
+namespace {
+
+void setRow(Bounds& bounds, std::size_t row, const std::vector<Interval>& values) {
+  for (std::size_t j = 0; j < values.size(); ++j) {
+    bounds.lower(row, j) = values[j].lower();
+    bounds.upper(row, j) = values[j].upper();
+  }
+}
+
+void encloseMotion(Run& run) {
+  FlowOptions flow = run.study.flow;
+  flow.jobs = run.options.jobs;
+  flow.progress = run.progressOf("enclosure");
+  flow.cancelled = run.watch.stop();
+  flow.stateNames = run.study.mechanism.stateNames();
+  const Motion& motion = run.problem.motion.motion;
+  const Tube tube =
+      Flow(motion.f, motion.g, flow).enclose(run.problem.box, run.study.horizon, run.study.time, run.problem.levels);
+  if (tube.times() != run.study.time) throw std::logic_error("the flow's output times are not the study's");
+  Enclosed& enclosed = run.enclosed;
+  enclosed.reachedTimes = tube.reachedTimes();
+  enclosed.over = run.emptyBounds();
+  for (std::size_t i = 0; i < enclosed.reachedTimes; ++i) {
+    setRow(enclosed.at, i, tube.outputs(i));
+    setRow(enclosed.over, i, tube.outputsOver(i));
+    for (std::size_t level = 0; level < enclosed.cuts.size(); ++level)
+      setRow(enclosed.cuts[level], i, tube.cut(level, i));
+  }
+  enclosed.reached = tube.reached();
+  if (tube.why() == Tube::outOfMemory) run.watch.memoryFailed();
+  enclosed.why = tube.wasStopped() ? run.watch.why() : tube.why();
+  enclosed.pieces = tube.pieces();
+  enclosed.steps = tube.steps();
+  enclosed.cutCpu = tube.cutCpuSeconds();
+}
+
+/// Plain intervals and polynomials both enclose, so their intersection does. What ends early leaves the former.
+void encloseConfiguration(Run& run) {
+  Enclosed& enclosed = run.enclosed;
+  const std::vector<Interval> direct = assembledOutputs(run.study, run.problem, run.problem.box);
+  const auto images = encloseImage(run.problem.motion.motion.g, 0.0, run.problem.box, run.problem.levels,
+                                   run.study.flow.degree, run.watch.stop());
+  std::vector<Interval> enclosure = direct;
+  const auto narrow = [&](std::size_t image, Bounds& bounds) {
+    for (std::size_t j = 0; j < enclosure.size() && !images.empty(); ++j)
+      enclosure[j] = intersection(enclosure[j], images[image][j]);
+    setRow(bounds, 0, enclosure);
+  };
+  narrow(0, enclosed.at);
+  enclosed.direct = run.emptyBounds();
+  setRow(enclosed.direct, 0, direct);
+  for (std::size_t level = 0; level < enclosed.cuts.size(); ++level) narrow(level + 1, enclosed.cuts[level]);
+  if (images.empty()) enclosed.why = run.watch.why();
+  enclosed.pieces = 1;
+  enclosed.reachedTimes = 1;
+}
+
+/// As if nothing had been found yet.
+void clear(Run& run) {
+  run.enclosed = {};
+  run.enclosed.at = run.emptyBounds();
+  run.enclosed.cuts.assign(run.problem.levels.size(), run.emptyBounds());
+}
+
+}  // namespace
+
+void enclose(Run& run) {
+  if (!run.study.interval && !run.study.fuzzy) return;
+  const double start = processCpuSeconds();
+  run.watch.begin(Watch::Stage::enclosure);
+  clear(run);
+  try {
+    run.study.analysis == Study::Analysis::dynamics ? encloseMotion(run) : encloseConfiguration(run);
+  } catch (const std::bad_alloc&) {
+    run.watch.memoryFailed();
+    clear(run);
+    run.enclosed.why = run.watch.why();
+  }
+  run.enclosed.cpu = run.recordingCpu + processCpuSeconds() - start;
+}
+
+}  // namespace gamut

@@ -1,0 +1,58 @@
+// What is possible: the enclosures of the alpha-cuts' boxes; in kinematics narrowed by fuzzy numbers that move the
+// assembly.
+#include <new>
+#include <utility>
+
+#include "scalars/fuzzy.hpp"
+#include "studies/running/sampled_study.hpp"
+#include "studies/running/units.hpp"
+
+namespace gamut {
+namespace {
+
+/// The numbers of the problem, each uncertain one as the stack of its cuts.
+std::vector<Fuzzy> fuzzyNumbers(const Problem& problem) {
+  std::vector<Fuzzy> numbers(problem.box.begin(), problem.box.end());
+  for (const int slot : problem.motion.slot) {
+    std::vector<Interval> cuts;
+    for (const Box& level : problem.levels) cuts.push_back(level[static_cast<std::size_t>(slot)]);
+    numbers[static_cast<std::size_t>(slot)] = Fuzzy(std::move(cuts));
+  }
+  return numbers;
+}
+
+/// Both enclose, so their intersection does.
+void narrow(std::vector<Bounds>& cuts, const std::vector<Fuzzy>& outputs) {
+  for (std::size_t level = 0; level < cuts.size(); ++level)
+    for (std::size_t j = 0; j < outputs.size(); ++j) {
+      double &lower = cuts[level].lower(0, j), &upper = cuts[level].upper(0, j);
+      const Interval both = intersection(Interval(lower, upper), outputs[j].cut(level));
+      lower = both.lower();
+      upper = both.upper();
+    }
+}
+
+}  // namespace
+
+void findPossibilities(Run& run) {
+  if (!run.study.fuzzy) return;
+  const double start = processCpuSeconds();
+  Enclosed& enclosed = run.enclosed;
+  FuzzyResult& fuzzy = run.results.fuzzy;
+  fuzzy.present = true;
+  fuzzy.alpha = run.problem.alpha;
+  fuzzy.outer = std::move(enclosed.cuts);
+  fuzzy.reached = enclosed.reached;
+  fuzzy.why = enclosed.why;
+  if (run.study.analysis == Study::Analysis::kinematics && enclosed.reachedTimes > 0) {
+    try {
+      narrow(fuzzy.outer, assembledOutputs(run.study, run.problem, fuzzyNumbers(run.problem)));
+    } catch (const std::bad_alloc&) {
+      run.watch.memoryFailed();
+      fuzzy.why = run.watch.why();
+    }
+  }
+  fuzzy.cpu = enclosed.cpu - run.results.interval.cpu + processCpuSeconds() - start;
+}
+
+}  // namespace gamut

@@ -1,0 +1,51 @@
+// The same steps as in a run, with a block of one sample.
+#include "studies/running/replay.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "analyses/comparison/settlement.hpp"
+#include "studies/problem.hpp"
+#include "studies/running/sampled_study.hpp"
+
+namespace gamut {
+namespace {
+
+/// Rows from the first on that hold bounds.
+std::size_t rowsOf(const Bounds& bounds) {
+  std::size_t rows = 0;
+  while (rows < bounds.lower.times && !std::isnan(bounds.lower(rows, 0))) ++rows;
+  return rows;
+}
+
+Proved provedBy(const Results& results) {
+  const Bounds& enclosure = results.interval.at;
+  const std::vector<Bounds>& cuts = results.fuzzy.outer;
+  const std::size_t reached = !enclosure.empty() ? rowsOf(enclosure) : !cuts.empty() ? rowsOf(cuts.front()) : 0;
+  return {enclosure, cuts, reached};
+}
+
+}  // namespace
+
+ReplayedSample replay(const Study& study, const Results& results, std::size_t number) {
+  if (!results.stochastic.present) throw std::invalid_argument("the results hold no samples");
+  const Problem problem = makeProblem(study);
+  const auto samples = static_cast<std::size_t>(results.stochastic.samples);
+  SampleBlock block = replaySample(problem.motion, ensembleOptions(study, problem, results.seed, samples), number);
+  if (study.analysis == Study::Analysis::kinematics) moveSamples(study, problem, block);
+
+  ReplayedSample sample;
+  const Proved proved = provedBy(results);
+  Settlement(proved, problem.motion, {}).settle(block, [&](const Comparison& found, int) {
+    for (const Dispute& dispute : found.disputes) sample.decided = dispute.decided;
+  });
+  sample.values.assign(block.values(0).begin(), block.values(0).end());
+  sample.trajectory = Table(study.time.size(), study.outputs.size());
+  sample.trajectory.data = block.trajectory(0);
+  sample.times = block.runs[0].times;
+  sample.reached = block.runs[0].reached;
+  sample.why = block.runs[0].why;
+  return sample;
+}
+
+}  // namespace gamut

@@ -1,0 +1,90 @@
+// The units of a run one after the other.
+#include "studies/running/run.hpp"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "studies/printable.hpp"
+#include "studies/running/units.hpp"
+#include "studies/version.hpp"
+
+namespace gamut {
+namespace {
+
+/// An analysis has its row here, behind what it needs.
+constexpr void (*units[])(Run&) = {takeFirstSamples,  enclose,          guarantee,
+                                   findPossibilities, takeOtherSamples, compareAnswers};
+
+/// The part of the results that is known before anything runs. Words as they are read back from a file.
+void describeOrigin(Run& run) {
+  const Study& study = run.study;
+  Origin& origin = run.results;
+  origin.studyText = study.text;
+  origin.studyFile = printable(study.file);
+  origin.title = printable(study.title);
+  origin.analysis = study.analysisName();
+  origin.limits = limitsOf(study, run.options);
+  origin.seed = run.options.seed.value_or(study.ensemble.seed);
+  origin.version = version();
+  origin.host = printable(hostName());
+  origin.date = dateTime();
+  origin.libraries = libraryVersions();
+  origin.outputs = study.outputs;
+  origin.horizon = study.horizon;
+  origin.time = study.time;
+  for (const UncertainQuantity& q : study.uncertain) {
+    const Uncertain& u = q.uncertain;
+    origin.uncertain.push_back({u.name, q.quantity, q.unit, u.range.lower(), u.nominal, u.range.upper(),
+                                std::string(u.distribution.name()), std::string(u.membership.name())});
+    const auto add = [&](const char* shape, const std::vector<ShapeNumber>& numbers) {
+      for (const ShapeNumber& n : numbers)
+        origin.shapes.push_back({u.name, shape, n.name, n.value, n.isOfQuantity ? q.unit : "1"});
+    };
+    add("distribution", u.distribution.numbers());
+    add("membership", u.membership.numbers());
+  }
+}
+
+}  // namespace
+
+Run::Run(const Study& whatIsAsked, const RunOptions& howToRun)
+    : study(whatIsAsked), options(howToRun), watch(limitsOf(study, options), options.cancelled, {options.overdue}) {
+  describeOrigin(*this);
+  const double start = processCpuSeconds();
+  problem = makeProblem(study);
+  recordingCpu = processCpuSeconds() - start;
+}
+
+std::function<void(double)> Run::progressOf(const std::string& task) const {
+  if (!options.progress) return {};
+  return [this, task](double fraction) { options.progress(task, fraction); };
+}
+
+Limits limitsOf(const Study& study, const RunOptions& options) {
+  StatedLimits limits = study.limits;
+  if (options.timeLimit) limits.time = options.timeLimit;
+  if (options.memoryLimit) limits.memory = options.memoryLimit;
+  return limits.resolved();
+}
+
+double memoryNeeded(const Study& study, const RunOptions& options) {
+  if (!study.stochastic) return 0;
+  const std::size_t levels = study.fuzzy ? static_cast<std::size_t>(study.levels) : 0;
+  const std::size_t times = study.time.size(), outputs = study.outputs.size(), quantities = study.uncertain.size();
+  constexpr double beside = 2049;  // corners and centre at most
+  const double samples = static_cast<double>(options.samples.value_or(study.ensemble.samples)) + beside;
+  const double all = samples * static_cast<double>(sizeof(double) * (2 + quantities + times * outputs));
+  constexpr double copies = 3;  // the samples, the file in HDF5's hands and in ours
+  return ensembleBytes(times, outputs, quantities, levels) + copies * std::min(study.storage, all);
+}
+
+Results run(const Study& study, const RunOptions& options) {
+  Run run(study, options);
+  for (const auto& unit : units) unit(run);
+  run.results.cpu = run.watch.spent();
+  run.results.memory = peakMemory();
+  return std::move(run.results);
+}
+
+}  // namespace gamut

@@ -1,0 +1,32 @@
+// A number that is not uncertain is a constant of all samples.
+#include "studies/running/sampled_study.hpp"
+
+#include <utility>
+
+#include "scalars/samples.hpp"
+
+namespace gamut {
+
+EnsembleOptions ensembleOptions(const Study& study, const Problem& problem, std::uint64_t seed, std::size_t samples) {
+  EnsembleOptions options = study.ensemble;
+  options.seed = seed;
+  options.samples = samples;
+  options.alpha = problem.alpha;
+  return options;
+}
+
+void moveSamples(const Study& study, const Problem& problem, SampleBlock& block) {
+  std::vector<Samples> numbers;
+  const UncertainMotion& motion = problem.motion;
+  for (const double value : motion.nominal) numbers.emplace_back(value);
+  for (std::size_t j = 0; j < motion.uncertain.size(); ++j) {
+    std::vector<double> values;
+    for (std::size_t i = 0; i < block.size(); ++i) values.push_back(block.values(i)[j]);
+    numbers[static_cast<std::size_t>(motion.slot[j])] = Samples(std::move(values));
+  }
+  const std::vector<Samples> moved = assembledOutputs(study, problem, numbers);
+  for (std::size_t j = 0; j < moved.size(); ++j)
+    for (std::size_t i = 0; i < block.size(); ++i) block(i, 0, j) = moved[j][moved[j].isConstant() ? 0 : i];
+}
+
+}  // namespace gamut

@@ -1,0 +1,109 @@
+// What is probable: samples, a first block of them before all that is proved, the others after it.
+#include <new>
+#include <utility>
+
+#include "analyses/comparison/settlement.hpp"
+#include "studies/running/sample_keeper.hpp"
+#include "studies/running/sampled_study.hpp"
+#include "studies/running/units.hpp"
+
+namespace gamut {
+namespace {
+
+/// What finds no room is given up.
+template <class Sample>
+void sampleWhileThereIsRoom(Run& run, Watch::Stage stage, const Sample& sample) {
+  const double start = processCpuSeconds();
+  run.watch.begin(stage);
+  try {
+    sample();
+  } catch (const std::bad_alloc&) {
+    run.watch.memoryFailed();
+    run.ensemble.reset();
+    run.results.stochastic.kept = {};
+    run.results.stochastic.stopped = run.watch.why();
+  }
+  run.results.stochastic.cpu += processCpuSeconds() - start;
+}
+
+EnsembleOptions ensembleOptions(const Run& run) {
+  EnsembleOptions options = ensembleOptions(run.study, run.problem, run.results.seed,
+                                            run.options.samples.value_or(run.study.ensemble.samples));
+  options.jobs = run.options.jobs;
+  options.secondsPerSample = run.results.limits.sampleTime;
+  options.progress = run.progressOf("samples");
+  options.cancelled = run.watch.stop();
+  return options;
+}
+
+ComparisonOptions comparisonOptions(const Run& run) {
+  ComparisonOptions options;
+  options.jobs = run.options.jobs;
+  options.progress = run.progressOf("comparison");
+  options.cancelled = run.watch.stop();
+  return options;
+}
+
+void describeSamples(Run& run) {
+  StochasticResult& stochastic = run.results.stochastic;
+  const EnsembleRun& ensemble = *run.ensemble;
+  Statistics numbers = ensemble.statistics();
+  stochastic.mean = std::move(numbers.mean);
+  stochastic.deviation = std::move(numbers.deviation);
+  stochastic.probabilities = std::move(numbers.probabilities);
+  stochastic.quantiles = std::move(numbers.quantiles);
+  stochastic.resolution = std::move(numbers.resolution);
+  stochastic.error = ensemble.error();
+  stochastic.why = ensemble.why();
+  stochastic.envelope = ensemble.envelope();
+  stochastic.reached = ensemble.reached();
+  stochastic.integrated = static_cast<std::int64_t>(ensemble.integrated());
+  if (run.study.fuzzy) run.results.fuzzy.inner = ensemble.innerCuts();
+  if (ensemble.isComplete()) {
+    stochastic.stopped.clear();
+  } else if (*run.watch.stop()) {
+    stochastic.stopped = run.watch.why();
+  }
+}
+
+}  // namespace
+
+void takeFirstSamples(Run& run) {
+  if (!run.study.stochastic) return;
+  const EnsembleOptions options = ensembleOptions(run);
+  StochasticResult& stochastic = run.results.stochastic;
+  stochastic.present = true;
+  stochastic.plan = std::string(nameOf(options.plan));
+  stochastic.samples = static_cast<std::int64_t>(options.samples);
+  stochastic.relativeTolerance = options.tolerance.relative;
+  stochastic.absoluteTolerance = options.tolerance.absolute;
+  const bool isAllThereIs = !run.study.interval && !run.study.fuzzy;
+  sampleWhileThereIsRoom(run, isAllThereIs ? Watch::Stage::rest : Watch::Stage::firstSamples, [&] {
+    EnsembleRun& ensemble = run.ensemble.emplace(run.problem.motion, options);
+    stochastic.samples = static_cast<std::int64_t>(ensemble.sampling().samples());
+    stochastic.corners = static_cast<std::int64_t>(ensemble.sampling().corners());
+    stochastic.alphaCorners = static_cast<std::int64_t>(ensemble.sampling().boxCorners());
+    stochastic.packWidth = static_cast<std::int64_t>(ensemble.packWidth());
+    ensemble.integrateFirst();
+    if (*run.watch.stop()) stochastic.stopped = run.watch.why();
+  });
+}
+
+void takeOtherSamples(Run& run) {
+  if (!run.ensemble) return;
+  sampleWhileThereIsRoom(run, Watch::Stage::rest, [&] {
+    const Proved proved{run.results.interval.at, run.results.fuzzy.outer, run.enclosed.reachedTimes};
+    Settlement settlement(proved, run.problem.motion, comparisonOptions(run));
+    SampleKeeper keeper(run.ensemble->sampling().size(), run.study.uncertain.size(),
+                        run.study.time.size() * run.study.outputs.size(), run.study.storage);
+    run.ensemble->integrateOthers(settlement.boundsOf(0), [&](SampleBlock& block) {
+      if (run.study.analysis == Study::Analysis::kinematics) moveSamples(run.study, run.problem, block);
+      settlement.settle(block, [&](const Comparison& found, int level) { takeDisputes(run, found, level); });
+      keeper.keep(block);
+    });
+    describeSamples(run);
+    run.results.stochastic.kept = keeper.take();
+  });
+}
+
+}  // namespace gamut

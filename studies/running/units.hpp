@@ -1,0 +1,65 @@
+// What a run consists of: one unit an analysis, each from the study and what the units before it found to its part of
+// the results. A unit that the study does not ask for does nothing.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analyses/comparison/comparison.hpp"
+#include "analyses/samples/ensemble.hpp"
+#include "studies/problem.hpp"
+#include "studies/results/results.hpp"
+#include "studies/running/run.hpp"
+#include "studies/study.hpp"
+#include "studies/watch.hpp"
+
+namespace gamut {
+
+/// What is proved about the whole box and about the boxes of the alpha-cuts, of one flow or one image.
+struct Enclosed {
+  Bounds at, over, direct;   ///< as in IntervalResult
+  std::vector<Bounds> cuts;  ///< one a level; none unless alpha-cuts are asked for
+  std::size_t reachedTimes = 0;
+  double reached = 0;  ///< s
+  std::string why;     ///< why it ended before the horizon; empty if it did not
+  std::int64_t pieces = 0, steps = 0;
+  double cpu = 0, cutCpu = 0;  ///< s: of all, and of the alpha-cuts
+};
+
+/// One run on its way.
+struct Run {
+  Run(const Study& whatIsAsked, const RunOptions& howToRun);
+
+  Bounds emptyBounds() const { return {study.time.size(), study.outputs.size()}; }
+  /// What tells the user how far a task is.
+  std::function<void(double)> progressOf(const std::string& task) const;
+
+  const Study& study;
+  const RunOptions& options;
+  Watch watch;
+  Problem problem;
+  Results results;
+  double recordingCpu = 0;              ///< s
+  Enclosed enclosed;                    ///< filled by `enclose`
+  std::optional<EnsembleRun> ensemble;  ///< there from `takeFirstSamples` on, unless it found no room
+};
+
+// In the order in which they run.
+
+/// A first block, before the enclosure, so that one that ends early has something to be compared with.
+void takeFirstSamples(Run& run);
+/// The flow, or the image, that all proved bounds come from.
+void enclose(Run& run);
+void guarantee(Run& run);
+void findPossibilities(Run& run);
+/// Settles what leaves the proved bounds, then counts it.
+void takeOtherSamples(Run& run);
+void compareAnswers(Run& run);
+
+/// Takes what a comparison with an alpha-cut found, or, level -1, with the enclosure.
+void takeDisputes(Run& run, const Comparison& found, int level);
+
+}  // namespace gamut

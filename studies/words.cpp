@@ -1,0 +1,58 @@
+// Numbers by fmt (to nearest) and by Interval's text (outward, exact).
+#include "studies/words.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "scalars/interval.hpp"
+
+namespace gamut {
+
+std::string numberText(double x, int digits) { return std::isnan(x) ? "none" : fmt::format("{:.{}g}", x, digits); }
+
+std::string atMostText(double x, int digits) {
+  if (std::isnan(x)) return "none";
+  return std::isinf(x) ? numberText(x) : outwardText(x, x, digits).second;
+}
+
+std::pair<std::string, std::string> outwardText(double lower, double upper, int digits) {
+  if (!(lower <= upper)) return {"none", "none"};
+  if (std::isinf(lower) && std::isinf(upper)) return {numberText(lower), numberText(upper)};
+  const std::string text = toString(Interval(lower, upper), digits);  // "[lower, upper]"
+  const auto comma = text.find(',');
+  return {text.substr(1, comma - 1), text.substr(comma + 2, text.size() - comma - 3)};
+}
+
+std::string intervalText(double lower, double upper, int digits) {
+  const auto [below, above] = outwardText(lower, upper, digits);
+  return below == "none" ? below : "[" + below + ", " + above + "]";
+}
+
+int digitsFor(double magnitude, double width, int resolved) {
+  if (!(width > 0) || !(magnitude > 0) || std::isinf(magnitude) || std::isinf(width))
+    return std::clamp(resolved, 4, 17);
+  const double leading = std::ceil(std::log10(magnitude / width));
+  return std::clamp(resolved + static_cast<int>(std::clamp(leading, -20.0, 20.0)), 4, 17);
+}
+
+std::string countText(long long count, std::string_view singular) {
+  return fmt::format("{} {}{}", count, singular, count == 1 ? "" : "s");
+}
+
+std::string rangeText(double lower, double upper, int digits) {
+  const auto [below, above] = outwardText(lower, upper, digits);
+  const auto stated = [](double bound, bool isLower) -> std::string {
+    for (int n = 1; n <= 12 && std::isfinite(bound); ++n) {
+      const std::string text = fmt::format("{:.{}g}", bound, n);
+      const Interval decimal(text);  // as a study's number is enclosed
+      if ((isLower ? decimal.lower() : decimal.upper()) == bound) return text;
+    }
+    return "";
+  };
+  const std::string least = stated(lower, true), greatest = stated(upper, false);
+  return fmt::format("[{}, {}]", least.empty() ? below : least, greatest.empty() ? above : greatest);
+}
+
+}  // namespace gamut

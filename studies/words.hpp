@@ -1,0 +1,33 @@
+// Numbers as people read them: sensible digits, guaranteed bounds rounded outward.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace gamut {
+
+/// x rounded to nearest, to so many significant digits, without trailing zeros: "1.004", "-2.5e-07", "none" for NaN.
+std::string numberText(double x, int digits = 4);
+
+/// x rounded up, never below x: for figures that promise "at most".
+std::string atMostText(double x, int digits = 4);
+
+/// Decimals of lower rounded down and of upper rounded up: the printed pair holds the interval.
+/// Infinite ends give "-inf", "inf"; both are "none" where there is no interval (a NaN, or lower > upper).
+std::pair<std::string, std::string> outwardText(double lower, double upper, int digits);
+
+/// "[lower, upper]" rounded outward, or "none".
+std::string intervalText(double lower, double upper, int digits);
+
+/// The significant digits with which numbers of this magnitude show a width to `resolved` digits; from 4 to 17.
+int digitsFor(double magnitude, double width, int resolved);
+
+/// "1 sample", "4096 samples".
+std::string countText(long long count, std::string_view singular);
+
+/// "[0.795, 0.805]": each bound by the shortest decimal that a study can state it with, if it has no more than twelve
+/// digits; otherwise rounded outward to `digits`.
+std::string rangeText(double lower, double upper, int digits);
+
+}  // namespace gamut

@@ -1,0 +1,126 @@
+// Thinned proved bands still hold the full ones, also along the straight lines that a plot draws between points.
+#include "reports/drawing/plot.hpp"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <stdexcept>
+
+#include "reports/drawing/paper.hpp"
+#include "reports/drawing/screen.hpp"
+#include "reports/drawing/style.hpp"
+#include "reports/sections/contribution.hpp"
+#include "tests/reports/example_results.hpp"
+
+namespace gamut {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+const Layer& layerNamed(const Plot& plot, const std::string& name) {
+  const auto layer = std::ranges::find(plot.layers, name, &Layer::name);
+  if (layer == plot.layers.end()) throw std::logic_error("no layer " + name);
+  return *layer;
+}
+
+/// The line drawn through (time, line) at t.
+double drawn(const std::vector<double>& time, const std::vector<double>& line, double t) {
+  std::size_t j = 1;
+  while (j + 1 < time.size() && time[j] < t) ++j;
+  const double share = (t - time[j - 1]) / (time[j] - time[j - 1]);
+  return std::lerp(line[j - 1], line[j], share);
+}
+
+void expectHolds(const Plot& thin, const Band& outer, const Plot& full, const Band& inner) {
+  for (std::size_t i = 0; i < full.time.size(); ++i) {
+    EXPECT_LE(drawn(thin.time, outer.lower, full.time[i]), inner.lower[i]) << full.time[i];
+    EXPECT_GE(drawn(thin.time, outer.upper, full.time[i]), inner.upper[i]) << full.time[i];
+  }
+}
+
+TEST(ThinnedPlot, KeepsProvedBandsOutside) {
+  for (const std::size_t points : {2u, 3u, 17u, 100u, 299u}) {
+    const Plot full = plotOf(example::pendulum(301, 1, 3), 0);
+    const Plot thin = thinned(full, points);
+    ASSERT_LE(thin.time.size(), points);
+    ASSERT_EQ(thin.time.front(), full.time.front());
+    ASSERT_EQ(thin.time.back(), full.time.back());
+    for (const std::string name : {"guaranteed", "tube", "possible"}) {
+      const Layer &outer = layerNamed(thin, name), &inner = layerNamed(full, name);
+      EXPECT_TRUE(outer.isProved);
+      for (std::size_t band = 0; band < inner.bands.size(); ++band)
+        expectHolds(thin, outer.bands[band], full, inner.bands[band]);
+    }
+  }
+}
+
+TEST(ThinnedPlot, IsUnchangedWhereFewEnough) {
+  const Plot full = plotOf(example::pendulum(61, 1), 0);
+  EXPECT_EQ(thinned(full, 61).time, full.time);
+  EXPECT_EQ(layerNamed(thinned(full, 61), "guaranteed").bands[0].lower, layerNamed(full, "guaranteed").bands[0].lower);
+}
+
+TEST(Tube, CoversBothIntervalsThatMeetAtATime) {
+  const Results results = example::pendulum(61, 1);
+  const Band tube = layerNamed(plotOf(results, 0), "tube").bands[0];
+  for (std::size_t i = 0; i + 1 < 61; ++i) {
+    for (const std::size_t row : {i, i + 1}) {
+      EXPECT_LE(tube.lower[i], results.interval.over.lower(row, 0));
+      EXPECT_GE(tube.upper[i], results.interval.over.upper(row, 0));
+    }
+  }
+}
+
+TEST(PlotAroundItsMiddle, KeepsWidthsAndLeavesTheTubeOut) {
+  const Plot plot = plotOf(example::pendulum(), 0), around = aroundMiddle(plot);
+  EXPECT_EQ(plot.middleName(), "the median");
+  EXPECT_THROW(layerNamed(around, "tube"), std::logic_error);
+  const Band was = layerNamed(plot, "guaranteed").bands[0], is = layerNamed(around, "guaranteed").bands[0];
+  for (std::size_t i = 0; i < plot.time.size(); ++i) {
+    EXPECT_EQ(layerNamed(around, "median").bands[0].lower[i], 0);
+    EXPECT_NEAR(is.upper[i] - is.lower[i], was.upper[i] - was.lower[i], 1e-12);
+  }
+}
+
+TEST(PlotAroundItsMiddle, TakesTheMiddleOfTheFrontMostBandWhereThereIsNoLine) {
+  Results results = example::pendulum();
+  results.stochastic.probabilities.clear();
+  results.stochastic.quantiles.clear();
+  const Plot plot = plotOf(results, 0);
+  EXPECT_EQ(plot.middleName(), "the middle");
+  EXPECT_NEAR(plot.middle()[3],
+              0.5 * (results.stochastic.envelope.lower(3, 0) + results.stochastic.envelope.upper(3, 0)), 1e-15);
+}
+
+/// What adding a layer takes: one row in the analysis that it belongs to.
+TEST(Layer, OnceStatedIsInTheDrawingTheKeyTheStyleSheetAndTheInteractivePlot) {
+  Plot plot = plotOf(example::pendulum(5, 1), 0);
+  const Layer layer{.name = "typical",
+                    .words = "a typical sample",
+                    .readout = "typical",
+                    .style = {colour::black, 0, 0.7},
+                    .kind = Layer::Kind::line,
+                    .bands = {{plot.middle(), {}}}};
+  plot.layers.push_back(layer);
+  EXPECT_THAT(drawPlot(plot, "plot"), HasSubstr("<path class=\"typical\" d=\"M"));
+  EXPECT_THAT(drawKey(plot), HasSubstr("<li data-layer=\"typical\"><span class=\"swatch typical\"></span>a typical"));
+  StyleSheet style;
+  style.add(plot);
+  EXPECT_THAT(style.css(), HasSubstr(".drawing .typical{stroke:var(--typical);stroke-width:0.7}"));
+  EXPECT_THAT(style.css(), HasSubstr("--typical:#37424e;"));
+  PlotData data;
+  data.add(plot);
+  EXPECT_THAT(data.json(), HasSubstr(R"({"name":"typical","kind":"line","readout":"typical",)"));
+}
+
+TEST(Layer, OrderIsFromBackToFront) {
+  std::vector<std::string> names;
+  for (const Layer& layer : plotOf(example::pendulum(), 0).layers) names.push_back(layer.name);
+  EXPECT_THAT(names, ElementsAre("tube", "guaranteed", "possible", "probable", "median", "sampled"));
+}
+
+}  // namespace
+}  // namespace gamut

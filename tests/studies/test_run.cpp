@@ -1,0 +1,443 @@
+// A run puts every uncertain number where the programs expect it, and keeps what was found when it is stopped.
+#include "studies/running/run.hpp"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <map>
+#include <mutex>
+#include <stdexcept>
+
+#include "studies/problem.hpp"
+#include "studies/watch.hpp"
+#include "tests/studies/sample_study.hpp"
+
+namespace gamut {
+namespace {
+
+using ::testing::Each;
+using ::testing::Field;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+constexpr const char* threeUncertain = R"([[uncertain]]
+quantity = "rod.length"
+interval = "± 1 %"
+[[uncertain]]
+quantity = "gravity.z"
+interval = [-9.83, -9.79]
+[[uncertain]])";
+
+Study sampleWith(const std::string& old, const std::string& replacement) {
+  return readStudyText(sampleStudyWith(old, replacement), "s.toml");
+}
+
+TEST(Problem, PutsStatesFirstAndFreeParametersBehindThem) {
+  const Problem problem = makeProblem(sampleWith("[[uncertain]]", threeUncertain));
+  EXPECT_EQ(problem.states, 2U);
+  EXPECT_THAT(problem.freeParameters, ::testing::ElementsAre("rod.length", "gravity.z"));
+  ASSERT_EQ(problem.box.size(), 4U);
+  EXPECT_THAT(problem.motion.slot, ::testing::ElementsAre(2, 3, 0));
+  EXPECT_TRUE(isSubset(Interval("[0.495, 0.505]"), problem.box[2]));
+  EXPECT_TRUE(isSubset(Interval("[-9.83, -9.79]"), problem.box[3]));
+  EXPECT_TRUE(isEqual(problem.box[1], Interval(0.5)));
+  EXPECT_EQ(problem.motion.motion.f.parameters(), 2);
+  EXPECT_EQ(problem.motion.nominal[2], 0.5);
+}
+
+TEST(Problem, NestsTheLevelsFromTheSupportsToTheCores) {
+  const Problem problem = makeProblem(sampleWith("[[uncertain]]", threeUncertain));
+  ASSERT_EQ(problem.levels.size(), 11U);
+  EXPECT_EQ(problem.alpha.front(), 0);
+  EXPECT_EQ(problem.alpha.back(), 1);
+  for (std::size_t j = 0; j < 11; ++j)
+    for (std::size_t i = 0; i < 4; ++i)
+      EXPECT_TRUE(isSubset(problem.levels[j][i], j == 0 ? problem.box[i] : problem.levels[j - 1][i]));
+  EXPECT_TRUE(isThin(problem.levels[10][2]));
+}
+
+TEST(Run, LeavesOpenWhatAnInterruptKeepsFromBeingDecided) {
+  std::atomic<bool> cancelled{false};
+  RunOptions options;
+  options.cancelled = &cancelled;
+  options.progress = [&](const std::string& task, double fraction) {
+    if (task == "enclosure" && fraction > 0.5) cancelled = true;
+  };
+  const Results results = run(readStudyText(sampleStudy, "s.toml"), options);
+  const ComparisonResult& comparison = results.comparison;
+  EXPECT_EQ(comparison.verdict, "incomplete");
+  EXPECT_EQ(comparison.excursion, 0);
+  EXPECT_THAT(comparison.disputed, Not(IsEmpty()));
+  EXPECT_THAT(comparison.disputed, Each(Field(&DisputedSample::decided, "interrupted")));
+}
+
+TEST(Run, ComparesAFirstBlockOfSamplesWithAnEnclosureThatIsInterrupted) {
+  std::atomic<bool> cancelled{false};
+  RunOptions options;
+  options.samples = 5000;
+  options.cancelled = &cancelled;
+  options.progress = [&](const std::string& task, double) {
+    if (task == "enclosure") cancelled = true;
+  };
+  const Results results = run(readStudyText(sampleStudy, "s.toml"), options);
+  EXPECT_EQ(results.comparison.verdict, "incomplete");
+  EXPECT_EQ(results.stochastic.integrated, 256 + 2 + results.stochastic.alphaCorners + 1);
+  EXPECT_EQ(results.stochastic.stopped, "the run was interrupted");
+  EXPECT_EQ(results.stochastic.reached, 0.5);
+  EXPECT_FALSE(std::isnan(results.stochastic.quantiles[2](5, 0)));
+  EXPECT_FALSE(std::isnan(results.fuzzy.inner[5].lower(5, 0)));
+}
+
+TEST(Run, QuantilesAreWithinTheirResolutionOfThoseOfTheSamplesThemselves) {
+  const Study study = readStudyText(sampleStudy, "s.toml");
+  RunOptions options;
+  options.samples = 700;
+  const StochasticResult found = run(study, options).stochastic;
+  const Problem problem = makeProblem(study);
+  EnsembleOptions ensemble = study.ensemble;
+  ensemble.samples = 700;
+  std::vector<std::vector<double>> trajectories;
+  for (std::size_t i = 0; i < 700; ++i) trajectories.push_back(replaySample(problem.motion, ensemble, i).trajectory(0));
+  for (std::size_t cell = 0; cell < trajectories[0].size(); ++cell) {
+    std::vector<double> column;
+    for (const std::vector<double>& trajectory : trajectories) column.push_back(trajectory[cell]);
+    std::ranges::sort(column);
+    const double resolution = found.resolution.data[cell];
+    EXPECT_LE(resolution, 1.01 * (column.back() - column.front()) / 4096 + 1e-9);
+    for (std::size_t q = 0; q < found.probabilities.size(); ++q) {
+      const double position = found.probabilities[q] * 699, below = std::floor(position);
+      const auto k = static_cast<std::size_t>(below);
+      const double exact = column[k] + (position - below) * (column[k + 1] - column[k]);
+      EXPECT_LE(std::abs(found.quantiles[q].data[cell] - exact), resolution) << cell << ' ' << q;
+    }
+  }
+}
+
+TEST(Run, KeepsValuesAndMotionsOfTheSamplesThemselves) {
+  Study study = readStudyText(sampleStudy, "s.toml");
+  study.ensemble.samples = 700;
+  study.storage = 2e4;
+  const Results results = run(study);
+  const KeptSamples& kept = results.stochastic.kept;
+  EXPECT_EQ(kept.storage, 2e4);
+  EXPECT_GT(kept.motionsEvery, kept.valuesEvery);
+  const Problem problem = makeProblem(study);
+  EnsembleOptions ensemble = study.ensemble;
+  ensemble.alpha = problem.alpha;
+  Sampling sampling(ensemble.plan, 1, 700, ensemble.seed);
+  EXPECT_EQ(kept.number.back() + 1, results.stochastic.planned());
+  EXPECT_EQ(kept.values.back(), study.uncertain[0].uncertain.nominal);
+  for (std::size_t i = 0; kept.number[i] < 700; ++i)
+    EXPECT_EQ(kept.values[i], sampling.values(static_cast<std::size_t>(kept.number[i]), problem.motion.uncertain)[0]);
+  const std::size_t cells = results.time.size() * results.outputs.size();
+  std::size_t asTheyWere = 0;
+  for (std::size_t i = 0; i < kept.motionNumber.size(); ++i) {
+    const auto begin = kept.motions.begin() + static_cast<std::ptrdiff_t>(i * cells);
+    const std::vector<double> motion(begin, begin + static_cast<std::ptrdiff_t>(cells)),
+        replayed = replaySample(problem.motion, ensemble, static_cast<std::size_t>(kept.motionNumber[i])).trajectory(0);
+    const bool isDisputed = std::ranges::any_of(results.comparison.disputed, [&](const DisputedSample& sample) {
+      return sample.number == kept.motionNumber[i];
+    });
+    EXPECT_TRUE(isDisputed || motion == replayed) << kept.motionNumber[i];
+    asTheyWere += motion == replayed ? 1 : 0;
+    for (std::size_t cell = 0; cell < cells; ++cell) {
+      EXPECT_GE(motion[cell], results.stochastic.envelope.lower.data[cell]);
+      EXPECT_LE(motion[cell], results.stochastic.envelope.upper.data[cell]);
+    }
+  }
+  EXPECT_GT(asTheyWere, 100U);
+}
+
+TEST(Run, KeepsTheNumbersOfDistributionsAndMembershipFunctions) {
+  const Results results =
+      run(sampleWith("distribution = { type = \"uniform\" }\nmembership = { type = \"triangular\" }",
+                     "distribution = { type = \"normal\", deviation = \"0.1 deg\" }\n"
+                     "membership = { type = \"table\", points = [[\"29.8 deg\", 0.5], [\"30 deg\", 1]] }"));
+  std::vector<std::string> found;
+  for (const ShapeInfo& s : results.shapes)
+    found.push_back(s.quantity + " " + s.shape + " " + s.name + " " + std::to_string(s.value) + " " + s.unit);
+  EXPECT_THAT(found, ::testing::ElementsAre(
+                         "start distribution lower 0.518363 rad", "start distribution upper 0.528835 rad",
+                         "start distribution mean 0.523599 rad", "start distribution deviation 0.001745 rad",
+                         "start membership lower 0.520108 rad", "start membership upper 0.523599 rad",
+                         "start membership value 1 0.520108 rad", "start membership membership 1 0.500000 1",
+                         "start membership value 2 0.523599 rad", "start membership membership 2 1.000000 1"));
+}
+
+TEST(Run, AlphaCutsOfSeveralQuantitiesAreReachedByTheirCorners) {
+  std::string text = sampleStudyWith("[[uncertain]]", threeUncertain);
+  const std::string more = R"([[uncertain]]
+quantity = "hinge.rate"
+interval = "± 1 %"
+)";
+  text.insert(text.find("[[uncertain]]"), more);
+  const Results results = run(readStudyText(text, "s.toml"));
+  EXPECT_EQ(results.comparison.verdict, "inside");
+  EXPECT_EQ(results.stochastic.alphaCorners, 9 * 16);
+  const std::size_t last = results.time.size() - 1;
+  for (std::size_t level = 0; level < 10; ++level) {
+    const Bounds &inner = results.fuzzy.inner[level], &outer = results.fuzzy.outer[level];
+    const double sampled = inner.upper(last, 0) - inner.lower(last, 0);
+    EXPECT_GT(sampled, 0.95 * (outer.upper(last, 0) - outer.lower(last, 0))) << level;
+  }
+}
+
+TEST(Run, KeepsSamplesInsideWithUncertainParametersAndInitialValues) {
+  const Results results = run(sampleWith("[[uncertain]]", threeUncertain));
+  EXPECT_EQ(results.comparison.verdict, "inside");
+  EXPECT_EQ(results.stochastic.corners, 8);
+  EXPECT_EQ(results.stochastic.packWidth, 64);
+  EXPECT_EQ(results.uncertain.size(), 3U);
+  EXPECT_GE(results.comparison.maximum, 1);
+  EXPECT_LT(results.comparison.maximum, 1.1);
+}
+
+TEST(Run, MakesTheNumberUncertainThatTheStudyNames) {
+  // At the start the height is -length cos(30 deg), and the angle does not depend on the length.
+  const Results length = run(sampleWith("quantity = \"hinge.angle\"\ninterval", "quantity = \"rod.length\"\ninterval"));
+  EXPECT_EQ(length.comparison.verdict, "inside");
+  const double height = 0.5 * std::cos(std::acos(-1.0) / 6);
+  EXPECT_NEAR(length.interval.at.lower(0, 1), -1.01 * height, 1e-12);
+  EXPECT_NEAR(length.interval.at.upper(0, 1), -0.99 * height, 1e-12);
+  EXPECT_NEAR(length.interval.at.upper(0, 0) - length.interval.at.lower(0, 0), 0, 1e-12);
+}
+
+TEST(Run, SeedAndNumberOfSamplesMayBeReplaced) {
+  RunOptions options;
+  options.seed = 99;
+  options.samples = 5;
+  const Results results = run(readStudyText(sampleStudy, "s.toml"), options);
+  EXPECT_EQ(results.seed, 99U);
+  EXPECT_EQ(results.stochastic.samples, 5);
+  EXPECT_NE(run(readStudyText(sampleStudy, "s.toml")).stochastic.mean.data, results.stochastic.mean.data);
+}
+
+TEST(Run, ComparesAlphaCutsWithoutAnEnclosureOfTheWholeBox) {
+  const Results results = run(sampleWith("\"interval\", ", ""));
+  EXPECT_FALSE(results.interval.present);
+  EXPECT_TRUE(results.fuzzy.present);
+  EXPECT_EQ(results.fuzzy.inner.size(), 11U);
+  EXPECT_TRUE(results.comparison.present);
+  EXPECT_EQ(results.comparison.verdict, "inside");
+}
+
+TEST(Run, StopsWhenToldAndSaysSo) {
+  const std::atomic<bool> cancelled{true};
+  RunOptions options;
+  options.cancelled = &cancelled;
+  const Results results = run(readStudyText(sampleStudy, "s.toml"), options);
+  EXPECT_EQ(results.comparison.verdict, "incomplete");
+  EXPECT_LT(results.interval.reached, 0.5);
+  EXPECT_EQ(results.interval.why, "the run was interrupted");
+  EXPECT_EQ(results.stochastic.stopped, "the run was interrupted");
+  EXPECT_EQ(results.stochastic.integrated, 0);
+}
+
+/// A pendulum near its upper rest, whose enclosure is bisected again and again.
+Study unstableStudy() {
+  std::string text = sampleStudyWith("angle = \"30 deg\"", "angle = \"170 deg\"");
+  text.replace(text.find("± 1 %"), std::string("± 1 %").size(), "± 9 deg");
+  text.replace(text.find("horizon = 0.5"), 13, "horizon = 20.0");
+  return readStudyText(text, "s.toml");
+}
+
+TEST(Run, EndsAnEnclosureThatTakesTooLongAndSamplesAllTheSame) {
+  Study study = unstableStudy();
+  study.limits.enclosureTime = 0.25;
+  const Results results = run(study);
+  EXPECT_EQ(results.interval.why, "the time limit of 0.25 s CPU for the enclosure was reached");
+  EXPECT_EQ(results.fuzzy.why, results.interval.why);
+  EXPECT_GT(results.interval.reached, 0);
+  EXPECT_LT(results.interval.reached, 20);
+  EXPECT_LT(results.interval.cpu + results.fuzzy.cpu, 1);
+  EXPECT_EQ(results.stochastic.stopped, "");
+  EXPECT_EQ(results.stochastic.integrated, 16 + 2 + 18 + 1);
+  EXPECT_EQ(results.comparison.verdict, "incomplete");
+}
+
+TEST(Run, EndsARunThatTakesTooLong) {
+  RunOptions options;
+  options.timeLimit = 0.5;
+  options.samples = 200000;
+  const Results results = run(readStudyText(sampleStudy, "s.toml"), options);
+  EXPECT_EQ(results.interval.reached, 0.5);
+  EXPECT_EQ(results.stochastic.stopped, "the time limit of 0.5 s CPU for the whole run was reached");
+  EXPECT_GT(results.stochastic.integrated, 0);
+  EXPECT_LT(results.stochastic.integrated, results.stochastic.planned());
+  EXPECT_EQ(results.stochastic.reached, 0.5);
+  EXPECT_EQ(results.comparison.verdict, "incomplete");
+  EXPECT_FALSE(std::isnan(results.stochastic.envelope.lower(5, 0)));
+  EXPECT_EQ(results.limits.time, 0.5);
+  EXPECT_GE(results.cpu, 0.5);
+}
+
+TEST(Run, LeavesTimeToTheEnclosureWhereTheFirstSamplesTakeLong) {
+  std::string text = sampleStudyWith("samples = 16", "samples = 256");
+  text.replace(text.find("horizon = 0.5"), 13, "horizon = 3000");
+  text.replace(text.find("output_step = 0.1"), 17, "output_step = 10");
+  RunOptions options;
+  options.timeLimit = 0.6;
+  const Results results = run(readStudyText(text, "s.toml"), options);
+  EXPECT_GT(results.interval.reached, 0);
+  EXPECT_GT(results.interval.cpu + results.fuzzy.cpu, 0.1);
+  EXPECT_LT(results.stochastic.integrated, 257);
+  EXPECT_THAT(results.stochastic.stopped, ::testing::StartsWith("the time limit of 0."));
+  EXPECT_EQ(results.comparison.verdict, "incomplete");
+}
+
+TEST(Run, GoesOnWithTheFirstSamplesAfterAnEnclosureThatLeavesThemTime) {
+  RunOptions options;
+  options.samples = 256;
+  std::atomic<int> calls{0};
+  std::atomic<double> sampled{0}, sampledBefore{1};
+  options.progress = [&](const std::string& task, double fraction) {
+    if (task == "enclosure") sampledBefore = sampled.load();
+    if (task != "samples") return;
+    sampled = fraction;
+    if (calls++ != 3) return;
+    for (const double begin = processCpuSeconds(); processCpuSeconds() - begin < 2;) {  // more than the stage has
+    }
+  };
+  options.timeLimit = 5;
+  const Results results = run(readStudyText(sampleStudy, "s.toml"), options);
+  EXPECT_EQ(results.stochastic.stopped, "");
+  EXPECT_EQ(results.stochastic.integrated, results.stochastic.planned());
+  EXPECT_EQ(results.comparison.verdict, "inside");
+  EXPECT_GT(sampledBefore, 0);
+  EXPECT_LT(sampledBefore, 0.9);
+}
+
+TEST(Run, EndsSamplesThatTakeTooLongAndNamesThem) {
+  Study study = readStudyText(sampleStudy, "s.toml");
+  study.limits.sampleTime = 1e-9;
+  const Results results = run(study);
+  EXPECT_THAT(results.stochastic.why,
+              ::testing::MatchesRegex("sample 0 failed at 0[.0-9]* s: the time limit of 1e-09 s "
+                                      "CPU for a sample was reached.*"));
+  EXPECT_LT(results.stochastic.reached, 0.5);
+  EXPECT_EQ(results.comparison.verdict, "incomplete");
+}
+
+TEST(Run, EndsWhereThereIsNoMoreMemory) {
+  RunOptions options;
+  options.memoryLimit = 1e6;  // less than any process has
+  const Results results = run(readStudyText(sampleStudy, "s.toml"), options);
+  EXPECT_EQ(results.interval.why, "the memory limit of 0.000667 GB for the enclosure was reached");
+  EXPECT_EQ(results.stochastic.stopped, "the memory limit of 0.001 GB for the whole run was reached");
+  EXPECT_EQ(results.comparison.verdict, "incomplete");
+  EXPECT_GT(results.memory, 1e6);
+}
+
+/// A pendulum whose rod consists of so many pieces of uncertain length.
+std::string piecesOfARod(int count, const std::string& interval) {
+  const std::string text = sampleStudyWith("seed = 7\n", interval);
+  const auto mass = text.find("[[mechanism.element]]\ntype = \"mass\""), tip = text.find("\"tip\"", mass),
+             output = text.find("[[output]]");
+  std::string pieces, uncertain, end = "tip";
+  for (int i = 0; i < count; ++i) {
+    const std::string name = "piece" + std::to_string(i), next = "end" + std::to_string(i);
+    pieces += "[[mechanism.element]]\ntype = \"link\"\nname = \"" + name + "\"\nfrom = \"" + end + "\"\nto = \"" +
+              next + "\"\nvector = [0, 0, \"-" + name + ".length\"]\nparameters = { length = 0.1 }\n";
+    uncertain += "[[uncertain]]\nquantity = \"" + name + ".length\"\ninterval = \"± 1 %\"\n";
+    end = next;
+  }
+  return text.substr(0, mass) + pieces + text.substr(mass, tip - mass) + "\"" + end + "\"" +
+         text.substr(tip + 5, output - tip - 5) + uncertain + text.substr(output);
+}
+
+TEST(Run, EnclosesManyUncertainQuantitiesWithoutBisectingThem) {
+  std::string text = piecesOfARod(300, "");
+  text.replace(text.find("sobol"), 5, "random");
+  const Results results = run(readStudyText(text, "s.toml"));
+  EXPECT_EQ(results.comparison.verdict, "inside");
+  EXPECT_EQ(results.interval.pieces, 1);
+  EXPECT_LT(results.comparison.maximum, 1.5);
+  EXPECT_LT(results.cpu, 60);
+}
+
+TEST(Run, RefusesPolynomialsOfTooManyTerms) {
+  EXPECT_THROW(run(readStudyText(piecesOfARod(39, "[interval]\ndegree = 4\n"), "s.toml")), std::invalid_argument);
+}
+
+TEST(Run, ReportsTheProgressOfEveryAnalysis) {
+  std::mutex mutex;
+  std::map<std::string, double> greatest;
+  RunOptions options;
+  options.progress = [&](const std::string& task, double fraction) {
+    const std::lock_guard lock(mutex);
+    greatest[task] = std::max(greatest[task], fraction);
+  };
+  run(readStudyText(sampleStudy, "s.toml"), options);
+  EXPECT_GT(greatest["enclosure"], 0);
+  EXPECT_EQ(greatest["samples"], 1);
+}
+
+Study kinematicStudy() {
+  std::string text = sampleStudyWith("[[uncertain]]", threeUncertain);
+  text.replace(text.find("dynamics"), 8, "kinematics");
+  text.erase(text.find("horizon = 0.5\n"), 14);
+  text.erase(text.find("output_step = 0.1\n"), 18);
+  return readStudyText(text, "s.toml");
+}
+
+TEST(Run, KeepsPlainIntervalsOfKinematicsThatIsInterrupted) {
+  const std::atomic<bool> cancelled{true};
+  RunOptions options;
+  options.cancelled = &cancelled;
+  const Study study = kinematicStudy();
+  const Results results = run(study, options), whole = run(study);
+  EXPECT_EQ(results.comparison.verdict, "incomplete");
+  EXPECT_EQ(results.interval.why, "the run was interrupted");
+  EXPECT_EQ(results.fuzzy.why, "the run was interrupted");
+  for (std::size_t j = 0; j < 2; ++j) {
+    EXPECT_EQ(results.interval.at.lower(0, j), whole.interval.direct.lower(0, j));
+    EXPECT_EQ(results.interval.at.upper(0, j), whole.interval.direct.upper(0, j));
+    for (std::size_t level = 0; level < 11; ++level)
+      EXPECT_LE(results.fuzzy.outer[level].lower(0, j), whole.fuzzy.outer[level].lower(0, j));
+  }
+}
+
+TEST(Run, EndsKinematicsAtTheLimitOfTheEnclosure) {
+  Study study = kinematicStudy();
+  study.limits.enclosureTime = 1e-9;
+  const Results results = run(study);
+  EXPECT_EQ(results.interval.why, "the time limit of 1e-09 s CPU for the enclosure was reached");
+  EXPECT_EQ(results.stochastic.stopped, "");
+  EXPECT_EQ(results.stochastic.integrated, results.stochastic.planned());
+  EXPECT_EQ(results.comparison.verdict, "incomplete");
+}
+
+TEST(Run, EnclosesKinematicsWithAnUncertainParameter) {
+  const Results results = run(kinematicStudy());
+  EXPECT_EQ(results.comparison.verdict, "inside");
+  EXPECT_EQ(results.time, std::vector<double>{0.0});
+  for (std::size_t j = 0; j < 2; ++j) {
+    EXPECT_LE(results.interval.direct.lower(0, j), results.interval.at.lower(0, j));
+    EXPECT_GE(results.interval.direct.upper(0, j), results.interval.at.upper(0, j));
+    EXPECT_FALSE(std::isnan(results.stochastic.quantiles.front()(0, j)));
+  }
+}
+
+TEST(Run, MovesAnArmWithoutMassesInKinematics) {
+  std::string text = "[study]\ntitle = \"Arm\"\nanalysis = \"kinematics\"\ncompare = [\"interval\", \"stochastic\"]\n";
+  for (const char number : {'1', '2', '3'}) {
+    const std::string n(1, number),
+        base = number == '1' ? "inertial" : "K" + std::string(1, static_cast<char>(number - 1));
+    text += "[[mechanism.element]]\ntype = \"revolute\"\nname = \"joint" + n + "\"\nfrom = \"" + base + "\"\nto = \"J" +
+            n + "\"\naxis = \"x\"\ninitial = { angle = \"30 deg\" }\n" +
+            "[[mechanism.element]]\ntype = \"link\"\nname = \"arm" + n + "\"\nfrom = \"J" + n + "\"\nto = \"K" + n +
+            "\"\nvector = [0, 0, -1]\n";
+  }
+  text +=
+      "[[uncertain]]\nquantity = \"joint2.angle\"\ninterval = \"± 1 %\"\n[[output]]\nquantity = \"K3.position.z\"\n"
+      "[stochastic]\nsamples = 16\n";
+  const Results results = run(readStudyText(text, "s.toml"));
+  EXPECT_EQ(results.comparison.verdict, "inside");
+  EXPECT_LE(results.interval.at.lower(0, 0), -1.3660254);  // -(cos 30° + cos 60° + cos 90°)
+  EXPECT_GE(results.interval.at.upper(0, 0), -1.3660254);
+}
+
+}  // namespace
+}  // namespace gamut
