@@ -18,6 +18,15 @@ std::string quoted(const std::string& name) { return "'" + name + "'"; }
 /// Names of whole quantities, which parts of a mechanism must not have.
 bool isQuantity(const std::string& name) { return name == "energy" || name == "gravity" || name == "t"; }
 
+/// Whether a formula would take the name for a number.
+bool isNumber(const std::string& name) {
+  try {
+    return Expression::parse(name).isConstant();
+  } catch (const UnitError&) {
+    return false;
+  }
+}
+
 bool has(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
@@ -160,6 +169,7 @@ Dimension Mechanism::check(const Expression& number, const std::string& name, co
 void Mechanism::addState(std::vector<State>& states, const std::string& name, const std::string& unit,
                          const Expression& initial) {
   State state{name, unit, initial};
+  if (unitOfMeasured(name) != nullptr) refuse("the quantity " + quoted(name) + " is defined twice");
   if (initial.isConstant()) {
     if (knows(name)) refuse("the quantity " + quoted(name) + " is defined twice");
     check(initial, name, gamut::dimensionOf(unit));
@@ -255,7 +265,7 @@ class Mechanism::Checker final : public Fields {
     movesByJoint();
   }
   std::string state(const Word& word, Expression& initial) override {
-    if (unitNamed(element_) != nullptr || element_ == "pi")
+    if (unitNamed(element_) != nullptr || element_ == "pi" || isNumber(element_))
       refuse("a state cannot be named " + quoted(element_) + ": that is a unit or a number");
     std::string unit = word.unit;
     if (unit.empty()) unit = gamut::unitOf(m_.dimensionOf(initial));

@@ -127,7 +127,7 @@ class MechanismReader {
     element.setName(section.text("name"));
     readParameters(section, element.name() + ".");
     static const toml::table none;
-    const toml::node* node = section.find("initial");
+    const toml::node* node = initialKeys.empty() ? nullptr : section.find("initial");
     const TomlSection initial(source_, node == nullptr ? none : source_.asTable(*node, section.nameOf("initial")),
                               "mechanism.element.initial", initialKeys);
     Filler filler(*this, section, initial);

@@ -182,7 +182,12 @@ class StudyReader {
 
   /// Records the equations of motion once: they exist, or the mechanism is at fault.
   void checkMotion(const toml::node& mechanism) const {
-    if (study_.analysis == Study::Analysis::dynamics) checkLengths(mechanism);
+    if (study_.analysis == Study::Analysis::dynamics) {
+      if (study_.mechanism.stateNames().empty())
+        source_.fail(mechanism, "every joint is driven, so that nothing is left to move by itself",
+                     "a joint without a drive, or analysis = \"kinematics\"");
+      checkLengths(mechanism);
+    }
     try {
       if (study_.analysis == Study::Analysis::dynamics) recordMotion(study_.mechanism);
     } catch (const std::invalid_argument& error) {
@@ -196,8 +201,8 @@ class StudyReader {
   std::string unitOfOutput(const toml::node& node, const std::string& quantity) const {
     const std::vector<std::string> known = study_.mechanism.outputQuantities();
     if (std::find(known.begin(), known.end(), quantity) != known.end()) return study_.mechanism.unitOf(quantity);
-    const auto isExpression = [&] { return quantity.find_first_of(" +-*/^()") != std::string::npos; };
-    if (!isExpression())
+    const bool isNumber = quantity == "t" || study_.mechanism.knows(quantity);
+    if (!isNumber && quantity.find_first_of(" +-*/^()") == std::string::npos)
       source_.fail(node, fmt::format("unknown quantity '{}'", quantity), quantityExpected(quantity, known));
     const Expression expression = source_.asExpression(node, "output.quantity");
     for (const std::string& name : expression.names())

@@ -8,8 +8,8 @@
 #include <map>
 #include <stdexcept>
 
-#include "studies/running/run.hpp"
 #include "studies/results/results_file.hpp"
+#include "studies/running/run.hpp"
 #include "tests/studies/sample_study.hpp"
 #include "tests/studies/temporary_folder.hpp"
 

@@ -100,6 +100,32 @@ TEST(StudyReader, TakesParametersByNameWithAFactor) {
   EXPECT_TRUE(isEqual(study.mechanism.nominal("rod.vector.y"), Interval("0.01")));
 }
 
+/// A study of states alone, without any mechanism.
+std::string predatorAndPrey(const std::string& name, const std::string& initial, const std::string& output) {
+  return "[study]\nanalysis = \"dynamics\"\nhorizon = 1\noutput_step = 0.5\n[mechanism]\n"
+         "parameters = { a = \"1.5 /s\" }\n[[mechanism.element]]\ntype = \"state\"\nname = \"" +
+         name + "\"\ninitial = " + initial + "\nrate = \"-a*" + name + "\"\n[[output]]\nquantity = \"" + output +
+         "\"\n";
+}
+
+TEST(StudyReader, TakesStatesWithTheirInitialValuesAndUnits) {
+  const Study plain = readStudyText(predatorAndPrey("prey", "2", "prey"), "s.toml");
+  EXPECT_TRUE(isEqual(plain.mechanism.nominal("prey"), Interval(2.0)));
+  EXPECT_EQ(plain.mechanism.unitOf("prey"), "1");
+  const Study moment = readStudyText(predatorAndPrey("lag", "\"3 N m\"", "lag"), "s.toml");
+  EXPECT_EQ(moment.mechanism.unitOf("lag"), "J");
+}
+
+TEST(StudyReader, TakesTimeParametersAndExpressionsForOutputs) {
+  for (const auto& [output, unit] : {std::pair{"t", "s"}, {"a", "1/s"}, {"a*prey^2", "1/s"}, {"prey", "1"}})
+    EXPECT_EQ(readStudyText(predatorAndPrey("prey", "2", output), "s.toml").outputs[0].unit, unit) << output;
+}
+
+TEST(StudyReader, RefusesStatesNamedLikeNumbersOrUnits) {
+  for (const char* name : {"1e5", "kg", "pi", "t"})
+    EXPECT_THROW(readStudyText(predatorAndPrey(name, "2", "energy"), "s.toml"), StudyError) << name;
+}
+
 TEST(StudyReader, TakesFormulasForNumbers) {
   std::string text = sampleStudyWith("gravity = [0, 0, -9.81]",
                                      "gravity = [0, 0, \"-fall\"]\nparameters = { fall = \"9.81 m/s^2\", "
