@@ -21,9 +21,9 @@
 #include "commands/verdict_lines.hpp"
 #include "reports/report.hpp"
 #include "reports/words.hpp"
-#include "studies/running/run.hpp"
 #include "studies/progress.hpp"
 #include "studies/results/results_file.hpp"
+#include "studies/running/run.hpp"
 #include "studies/summary.hpp"
 #include "studies/watch.hpp"
 

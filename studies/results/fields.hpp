@@ -131,5 +131,7 @@ template <class... Functions>
 struct Visitor : Functions... {
   using Functions::operator()...;
 };
+template <class... Functions>
+Visitor(Functions...) -> Visitor<Functions...>;
 
 }  // namespace gamut

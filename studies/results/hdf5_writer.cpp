@@ -62,10 +62,10 @@ Hdf5Handle layout(const Hdf5Shape& shape, std::size_t elementSize, bool isNoise)
 
 }  // namespace
 
-Hdf5Writer::Hdf5Writer(hid_t file) : group_(H5Gopen2(file, "/", H5P_DEFAULT), H5Gclose, "/"), name_("/") {}
+Hdf5Writer::Hdf5Writer(hid_t file) : group_(H5Gopen2(file, "/", H5P_DEFAULT), H5Gclose, "/") {}
 
 Hdf5Writer::Hdf5Writer(hid_t parent, const std::string& name)
-    : group_(H5Gcreate2(parent, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, name), name_(name) {}
+    : group_(H5Gcreate2(parent, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, name) {}
 
 void Hdf5Writer::attribute(const std::string& name, double value) {
   writeAttribute(group_, name, H5T_NATIVE_DOUBLE, &value);

@@ -37,8 +37,7 @@ std::vector<std::string> differences(const Results& one, const Results& other) {
         if (!isSame(fields[f].value, otherFields[f].value)) found.push_back(pathOf(some[g], fields[f]));
     }
     std::ranges::sort(found);
-    const auto rest = std::ranges::unique(found);
-    paths.insert(paths.end(), found.begin(), rest.begin());
+    paths.insert(paths.end(), found.begin(), std::unique(found.begin(), found.end()));
   }
   return paths;
 }

@@ -91,7 +91,6 @@ class Hdf5Writer {
             const std::string& longName, bool isNoise = false);
 
   Hdf5Handle group_;
-  std::string name_;
 };
 
 /// What an Hdf5Reader was told by the library, to be told again where the library must not run.

@@ -1,8 +1,8 @@
 // All rooms: a study is read, run, kept, read again, judged and told. It fails unless every sample lies inside.
 #include <gamut/reports/report.hpp>
 #include <gamut/reports/verdict.hpp>
-#include <gamut/studies/driver.hpp>
-#include <gamut/studies/results_file.hpp>
+#include <gamut/studies/results/results_file.hpp>
+#include <gamut/studies/running/run.hpp>
 #include <gamut/studies/study.hpp>
 
 using namespace gamut;
