@@ -63,4 +63,11 @@ Study readStudy(const std::string& path, const std::vector<Described>& types = e
 Study readStudyText(const std::string& text, const std::string& name,
                     const std::vector<Described>& types = elementTypes());
 
+/// The mechanism of a study alone, by which a study may begin: of the rest, no more is asked than that it is TOML.
+Mechanism readMechanismText(const std::string& text, const std::string& name,
+                            const std::vector<Described>& types = elementTypes());
+
+/// The text of a study file. Throws StudyError if it cannot be read.
+std::string readStudyFile(const std::string& path);
+
 }  // namespace gamut

@@ -321,13 +321,22 @@ Study readStudyText(const std::string& text, const std::string& name, const std:
   return StudyReader(text, name).read(types);
 }
 
-Study readStudy(const std::string& path, const std::vector<Described>& types) {
-  const std::string expected = "; expected a study file (TOML)";
-  if (const std::string fault = whyUnreadable(path); !fault.empty()) throw StudyError(path + ": " + fault + expected);
+Mechanism readMechanismText(const std::string& text, const std::string& name, const std::vector<Described>& types) {
+  const TomlSource source(text, name);
+  const toml::node* mechanism = source.root().get("mechanism");
+  if (mechanism == nullptr) source.fail(source.root(), "'mechanism' is missing", "a table [mechanism]");
+  return readMechanism(source, source.asTable(*mechanism, "mechanism"), types);
+}
+
+std::string readStudyFile(const std::string& path) {
+  if (const std::string fault = whyUnreadable(path); !fault.empty())
+    throw StudyError(fmt::format("{}: {}; expected a study file (TOML)", path, fault));
   std::ifstream file(path, std::ios::binary);
-  const std::string content{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  if (content.find('\0') != std::string::npos) throw StudyError(path + ": is no text" + expected);
-  return readStudyText(content, path, types);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+Study readStudy(const std::string& path, const std::vector<Described>& types) {
+  return readStudyText(readStudyFile(path), path, types);
 }
 
 }  // namespace gamut

@@ -50,6 +50,7 @@ std::string suggestion(const std::string& word, const std::vector<std::string>& 
 
 TomlSource::TomlSource(std::string text, std::string name)
     : text_(std::move(text)), name_(std::move(name)), lineStarts_{0} {
+  if (text_.find('\0') != std::string::npos) throw StudyError(name_ + ": is no text; expected a study file (TOML)");
   for (std::size_t i = 0; i < text_.size(); ++i)
     if (text_[i] == '\n') lineStarts_.push_back(i + 1);
   checkKeys();

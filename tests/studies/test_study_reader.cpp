@@ -432,6 +432,28 @@ TEST(StudyReader, SaysWhyAFileCannotBeRead) {
   EXPECT_EQ(complaint(folder.path("binary")), folder.path("binary") + ": is no text; expected a study file (TOML)");
 }
 
+TEST(MechanismReader, ReadsTheMechanismOfAStudyThatIsOnlyBegun) {
+  const std::string begun = sampleStudy.substr(0, sampleStudy.find("[[uncertain]]"));
+  EXPECT_THROW(readStudyText(begun, "s.toml"), StudyError);
+  const Mechanism mechanism = readMechanismText(begun, "s.toml");
+  EXPECT_EQ(mechanism.quantities(), readStudyText(sampleStudy, "s.toml").mechanism.quantities());
+}
+
+TEST(MechanismReader, SaysWhereAMechanismIsWrongOrMissing) {
+  const auto refused = [](const std::string& text) {
+    try {
+      readMechanismText(text, "s.toml");
+    } catch (const StudyError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(refused("[study]\n"), "s.toml:1:1: 'mechanism' is missing; expected a table [mechanism]");
+  EXPECT_EQ(refused("mechanism = 3\n").substr(0, 12), "s.toml:1:13:");
+  EXPECT_EQ(refused(sampleStudyWith("axis = \"x\"", "axis = \"w\"")).substr(0, 11), "s.toml:14:8");
+  EXPECT_EQ(refused(std::string("[mechanism]\n\0", 13)), "s.toml: is no text; expected a study file (TOML)");
+}
+
 TEST(StudyReader, NotesAnInertiaThatIsImpossibleForSomeValuesOnly) {
   const auto notes = [](const std::string& inertia, const std::string& quantity) {
     const std::string uncertain = "\n[[uncertain]]\nquantity = \"" + quantity + "\"\ninterval = \"± 1 %\"\n";
