@@ -8,11 +8,23 @@
 #include <system_error>
 
 #include "commands/options.hpp"
+#include "commands/standard_streams.hpp"
 
 namespace gamut {
 
+StudyText readStudyFile(const std::string& path) {
+  if (path != "-") return {textOfStudy(path), path};
+  const std::string name = "standard input";
+  try {
+    return {readIn(), name};
+  } catch (const ReadError& error) {
+    throw StudyError(fmt::format("{}: cannot be read ({}); expected a study file (TOML)", name, error.what()));
+  }
+}
+
 Study readStudyNoting(const std::string& path, bool isQuiet) {
-  Study study = readStudy(path);
+  const auto [text, name] = readStudyFile(path);
+  Study study = readStudyText(text, name);
   if (!isQuiet)
     for (const std::string& note : study.notes) fmt::print(stderr, "{}\n", note);
   return study;

@@ -8,7 +8,15 @@
 
 namespace gamut {
 
-/// Reads a study; says on standard error, unless `isQuiet`, what may be a mistake in it. Throws StudyError.
+/// The text of a study, and what messages call the file that it stands in.
+struct StudyText {
+  std::string text, name;
+};
+
+/// Of a file, or of standard input if the path is "-". Throws StudyError.
+StudyText readStudyFile(const std::string& path);
+
+/// Reads a study, likewise; says on standard error, unless `isQuiet`, what may be a mistake in it. Throws StudyError.
 Study readStudyNoting(const std::string& path, bool isQuiet);
 
 /// Before any work is done: the file may be written, overwrites nothing that it must not, and is ours from now on.

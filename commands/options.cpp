@@ -21,7 +21,7 @@ void addInput(CLI::App& command, std::string& path, const std::string& name, con
 }  // namespace
 
 void addStudy(CLI::App& command, std::string& path) {
-  addInput(command, path, "study", "Study file (TOML)", "STUDY.toml");
+  addInput(command, path, "study", "Study file (TOML); - for standard input", "STUDY.toml");
 }
 
 void addResults(CLI::App& command, std::string& path) {

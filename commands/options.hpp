@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "mechanics/units.hpp"
+#include "mechanics/description/units.hpp"
 
 namespace gamut {
 

@@ -48,8 +48,9 @@ struct Arguments {
   std::_Exit(endedEarly);
 }
 
-/// "double_pendulum" for double_pendulum/study.toml, "arm" for arm.toml.
+/// "double_pendulum" for double_pendulum/study.toml, "arm" for arm.toml, "study" for standard input.
 std::string nameOfStudy(const std::string& path) {
+  if (path == "-") return "study";
   const fs::path file = fs::absolute(path);
   return file.stem() == "study" && file.has_parent_path() && file.parent_path().has_filename()
              ? file.parent_path().filename().string()
@@ -75,14 +76,14 @@ void say(const Arguments& arguments, const Results& results, const Verdict& verd
 }
 
 /// A block of samples' motions is kept until it has been compared.
-void checkMemory(const Study& study, const RunOptions& options, const std::string& input) {
+void checkMemory(const Study& study, const RunOptions& options) {
   const double needed = memoryNeeded(study, options);
   const double limit = limitsOf(study, options).memory;
   if (needed > limit)
     throw UsageError(
         fmt::format("{}: samples of {} at {} need {:.3g} GB, the memory limit is {:.3g} GB; expected a limit "
                     "of at least {:.3g} GB, or fewer outputs or output times",
-                    input, countText(static_cast<long long>(study.outputs.size()), "output"),
+                    study.file, countText(static_cast<long long>(study.outputs.size()), "output"),
                     countText(static_cast<long long>(study.time.size()), "time"), needed / 1e9, limit / 1e9,
                     std::ceil(needed / 1e6) / 1e3));
 }
@@ -110,7 +111,7 @@ ExitCode run(Arguments arguments) {
   const Study study = readStudyNoting(arguments.study, arguments.quiet);
   nameOutputs(arguments);
   RunOptions options = optionsOf(arguments);
-  checkMemory(study, options, arguments.study);
+  checkMemory(study, options);
   OutputFile resultsFile = reserve(arguments.results, arguments.study, arguments.force);
   OutputFile reportFile = reserve(arguments.report, arguments.study, arguments.force);
   ProgressBar bar(!arguments.quiet);
@@ -119,7 +120,7 @@ ExitCode run(Arguments arguments) {
   try {
     results = gamut::run(study, options);
   } catch (const std::invalid_argument& error) {
-    throw UsageError(arguments.study + ": " + error.what());
+    throw UsageError(study.file + ": " + error.what());
   }
   bar.wipe();
 
@@ -142,7 +143,7 @@ Action run(CLI::App& command) {
       .add_option(
           "-o,--output", arguments->results,
           "Results file; otherwise, in the current folder, named after the study (after its folder if it is called "
-          "study.toml)")
+          "study.toml; study.h5 for standard input)")
       ->type_name("RESULTS.h5");
   command.add_option("--report", arguments->report, "Report page; otherwise named like the results")
       ->type_name("REPORT.html");

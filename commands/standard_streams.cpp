@@ -5,10 +5,12 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstddef>
 #include <cstdio>
 #include <cstring>
 #include <string>
 
+#include "commands/interrupts.hpp"
 #include "studies/atomic_file.hpp"
 
 namespace gamut {
@@ -25,6 +27,17 @@ void occupyStandardStreams() {
   do file = ::open("/dev/null", O_RDWR);
   while (file >= 0 && file <= STDERR_FILENO);
   if (file >= 0) ::close(file);
+}
+
+std::string readIn() {
+  std::string text, block(65536, '\0');
+  for (;;) {
+    const ssize_t count = ::read(STDIN_FILENO, block.data(), block.size());
+    if (count == 0) return text;
+    if (count > 0) text.append(block, 0, static_cast<std::size_t>(count));
+    if (interrupted()) endOnInterrupt();
+    if (count < 0 && errno != EINTR) throw ReadError(std::strerror(errno));
+  }
 }
 
 void sayOut(std::string_view text) {

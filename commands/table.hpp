@@ -32,9 +32,11 @@ Action report(CLI::App& command);
 Action info(CLI::App& command);
 Action replay(CLI::App& command);
 Action newStudy(CLI::App& command);
+Action quantities(CLI::App& command);
 
 inline constexpr Command table[] = {
     {"new", "Write a study to start from, which explains itself", newStudy},
+    {"quantities", "What of a study can be uncertain, and what can be an output", quantities},
     {"run", "Run a study; write results and a report", run, Command::looksAtInterrupts},
     {"validate", "Read and check a study file, no more", validate},
     {"check", "The verdict, from the stored numbers: do all samples stay inside?", check},

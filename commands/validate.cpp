@@ -20,7 +20,7 @@ struct Arguments {
 ExitCode validate(const Arguments& arguments) {
   const Study study = readStudyNoting(arguments.study, arguments.quiet);
   if (!arguments.quiet)
-    fmt::print("{}: valid; {} with {}, {} uncertain {}, {}{}\n", arguments.study, study.analysisName(),
+    fmt::print("{}: valid; {} with {}, {} uncertain {}, {}{}\n", study.file, study.analysisName(),
                countText(static_cast<long long>(study.mechanism.elements().size()), "element"), study.uncertain.size(),
                study.uncertain.size() == 1 ? "quantity" : "quantities",
                countText(static_cast<long long>(study.outputs.size()), "output"),

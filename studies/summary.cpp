@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "scalars/interval.hpp"
+#include "studies/text_table.hpp"
 #include "studies/words.hpp"
 
 namespace gamut {
@@ -88,27 +89,6 @@ std::size_t lastRow(const Results& results) {
   return row > 0 ? row - 1 : 0;
 }
 
-/// Columns as wide as their widest entry (in code points), the first `left` ones left-aligned.
-std::string table(const std::vector<std::vector<std::string>>& rows, std::size_t left = 1) {
-  const auto length = [](const std::string& text) {
-    return static_cast<std::size_t>(std::count_if(
-        text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
-  };
-  std::vector<std::size_t> widths(rows.front().size(), 0);
-  for (const auto& row : rows)
-    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], length(row[i]));
-  std::string result;
-  for (const auto& row : rows) {
-    std::string line;
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      const std::string padding(widths[i] - length(row[i]), ' ');
-      line += (i == 0 ? "" : "  ") + (i < left ? row[i] + padding : padding + row[i]);
-    }
-    result += "  " + line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
-  }
-  return result;
-}
-
 /// "4096 samples", those that count in the statistics; "100 of 4099 samples" where not all were followed.
 std::string samplesText(const StochasticResult& stochastic) {
   return stochastic.integrated < stochastic.planned()
@@ -141,7 +121,7 @@ std::string recordText(const Group& group, const Extents& extents) {
     rows.push_back({"  " + std::string(field.name), content + (hasUnit ? " " + std::string(field.unit) : ""),
                     std::string(field.meaning)});
   }
-  return table(rows, 3);
+  return textTable(rows, 3);
 }
 
 std::string listText(const Group& group) {
@@ -227,7 +207,7 @@ std::string textSummary(const Results& results) {
                     shortBounds(results.stochastic.envelope, row, j),
                     known ? ratioText(results.comparison.maximumOf[j]) : "-"});
   }
-  std::string text = table(rows);
+  std::string text = textTable(rows);
   std::vector<std::string> costs;
   if (results.interval.present) costs.push_back(fmt::format("enclosure {:.2f} s", results.interval.cpu));
   if (results.stochastic.present)

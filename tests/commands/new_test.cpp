@@ -15,7 +15,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-class NewCommand : public Program {
+class NewCommand : public FromOutside {
  protected:
   static std::string shippedStudy() {
     std::ifstream file(GAMUT_SOURCE_DIR "/studies/spring_pendulum/study.toml", std::ios::binary);

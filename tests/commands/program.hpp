@@ -17,7 +17,7 @@ struct Outcome {
   std::string out, error;
 };
 
-class Program : public ::testing::Test {
+class FromOutside : public ::testing::Test {
  protected:
   /// Runs the program in the temporary folder, after `before` in the same shell.
   Outcome gamut(const std::string& arguments, const std::string& before = "") const {

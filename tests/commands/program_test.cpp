@@ -20,6 +20,8 @@ using ::testing::HasSubstr;
 using ::testing::StartsWith;
 using Json = nlohmann::json;
 
+using Program = FromOutside;
+
 TEST_F(Program, TellsItsVersionAndItsExitCodes) {
   const Outcome version = gamut("--version");
   EXPECT_EQ(version.exitCode, 0);
@@ -65,8 +67,9 @@ TEST_F(Program, RefusesWrongUsageInOneLine) {
   EXPECT_EQ(folder_.count(), 1U);
   EXPECT_EQ(folder_.read("s.toml"), sampleStudy);
   EXPECT_EQ(gamut("rum s.toml").error, "gamut: unknown command 'rum'; expected 'run'\n");
-  EXPECT_EQ(gamut("walk").error,
-            "gamut: unknown command 'walk'; expected one of: new, run, validate, check, report, info, replay\n");
+  EXPECT_EQ(
+      gamut("walk").error,
+      "gamut: unknown command 'walk'; expected one of: new, quantities, run, validate, check, report, info, replay\n");
   EXPECT_EQ(gamut("run s.toml --seed -1").error,
             "gamut: --seed: '-1' is no whole number from 0 to 9223372036854775807; see gamut run --help\n");
 }
@@ -216,6 +219,24 @@ TEST_F(Program, NamesFilesAfterTheFolderOfAStudyToml) {
   EXPECT_EQ(gamut("run arm/study.toml --quiet").exitCode, 0);
   EXPECT_TRUE(folder_.has("arm.h5"));
   EXPECT_TRUE(folder_.has("arm.html"));
+}
+
+TEST_F(Program, ReadsAStudyFromStandardInput) {
+  folder_.write("s.toml", sampleStudy);
+  EXPECT_EQ(gamut("validate - < s.toml").out,
+            "standard input: valid; dynamics with 3 elements, 1 uncertain quantity, 2 outputs at 6 times\n");
+  EXPECT_EQ(gamut("run - --quiet", "cat s.toml | ").exitCode, 0);
+  EXPECT_EQ(readResults(folder_.path("study.h5")).studyText, sampleStudy);
+  EXPECT_TRUE(folder_.has("study.html"));
+  EXPECT_EQ(gamut("check study.h5").exitCode, 0);
+
+  folder_.write("wrong.toml", sampleStudyWith("axis = \"x\"", "axis = \"w\""));
+  const Outcome wrong = gamut("run - < wrong.toml");
+  EXPECT_EQ(wrong.exitCode, 2);
+  EXPECT_THAT(wrong.error, StartsWith("standard input:14:8: "));
+  EXPECT_EQ(gamut("run - < .").error,
+            "standard input: cannot be read (Is a directory); expected a study file (TOML)\n");
+  EXPECT_EQ(gamut("run - <&-").error, "standard input:1:1: 'study' is missing; expected a table [study]\n");
 }
 
 TEST_F(Program, OverwritesOnlyWhenForced) {

@@ -19,7 +19,7 @@ using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-class ReplayCommand : public Program {
+class ReplayCommand : public FromOutside {
  protected:
   ReplayCommand() { folder_.write("s.toml", sampleStudy); }
 

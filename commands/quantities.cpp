@@ -1,0 +1,100 @@
+// gamut quantities: what of a study's mechanism can be uncertain, and what can be looked at, each with its value at the
+// start. The study need not be written further than that.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "commands/files.hpp"
+#include "commands/options.hpp"
+#include "commands/standard_streams.hpp"
+#include "commands/table.hpp"
+#include "mechanics/assembly.hpp"
+#include "studies/study.hpp"
+#include "studies/text_table.hpp"
+
+namespace gamut::commands {
+namespace {
+
+struct Arguments {
+  std::string study;
+  bool json = false;
+};
+
+struct Quantity {
+  std::string name, unit;
+  double nominal = 0;
+};
+
+/// The decimal of 15 digits, where it is one of the nominal values: 0.02 in [0.01999…97, 0.02].
+double readable(const Interval& nominal) {
+  const double middle = midpoint(nominal), decimal = std::strtod(fmt::format("{:.15g}", middle).c_str(), nullptr);
+  return contains(nominal, decimal) ? decimal : middle;
+}
+
+std::vector<Quantity> numbersOf(const Mechanism& mechanism) {
+  std::vector<Quantity> numbers;
+  for (const std::string& name : mechanism.quantities())
+    numbers.push_back({name, mechanism.unitOf(name), readable(mechanism.nominal(name))});
+  return numbers;
+}
+
+/// With their values at the start.
+std::vector<Quantity> outputsOf(const Mechanism& mechanism, const std::string& study) {
+  try {
+    const Assembly<double> assembly(mechanism);
+    std::vector<Quantity> outputs;
+    for (const std::string& name : mechanism.outputQuantities())
+      outputs.push_back({name, mechanism.unitOf(name), assembly.output(name) + 0.0});  // no -0
+    return outputs;
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(study + ": " + error.what());
+  }
+}
+
+std::string text(std::string_view title, const std::vector<Quantity>& quantities) {
+  std::vector<std::vector<std::string>> rows;
+  for (const auto& [name, unit, nominal] : quantities)
+    rows.push_back({name, fmt::format("{:.12g}{}", nominal, unit == "1" ? "" : " " + unit)});
+  return fmt::format("{}\n{}", title, rows.empty() ? "  none\n" : textTable(rows, 2));
+}
+
+std::string json(const std::vector<Quantity>& numbers, const std::vector<Quantity>& outputs) {
+  using Json = nlohmann::ordered_json;
+  const auto list = [](const std::vector<Quantity>& quantities) {
+    Json array = Json::array();
+    for (const Quantity& q : quantities)
+      array.push_back({{"quantity", q.name},
+                       {"unit", q.unit},
+                       {"nominal", std::isfinite(q.nominal) ? Json(q.nominal) : Json(nullptr)}});
+    return array;
+  };
+  return Json{{"uncertain", list(numbers)}, {"output", list(outputs)}}.dump() + "\n";
+}
+
+ExitCode list(const Arguments& arguments) {
+  const StudyText study = readStudyFile(arguments.study);
+  const Mechanism mechanism = readMechanismText(study.text, study.name);
+  const std::vector<Quantity> numbers = numbersOf(mechanism), outputs = outputsOf(mechanism, study.name);
+  sayOut(arguments.json ? json(numbers, outputs)
+                        : text("What can be uncertain, with its nominal value:", numbers) + "\n" +
+                              text("What can be an output, with its value at the start:", outputs));
+  return done;
+}
+
+}  // namespace
+
+Action quantities(CLI::App& command) {
+  const auto arguments = std::make_shared<Arguments>();
+  addStudy(command, arguments->study);
+  command.add_flag("--json", arguments->json, "One JSON object, for programs");
+  return [arguments] { return list(*arguments); };
+}
+
+}  // namespace gamut::commands
