@@ -16,7 +16,7 @@
 #include "commands/options.hpp"
 #include "commands/standard_streams.hpp"
 #include "commands/table.hpp"
-#include "mechanics/names.hpp"
+#include "mechanics/description/names.hpp"
 #include "studies/atomic_file.hpp"
 #include "studies/printable.hpp"
 #include "studies/results/results_file.hpp"

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "mechanics/names.hpp"
+#include "mechanics/description/names.hpp"
 #include "scalars/fuzzy.hpp"
 #include "scalars/program/differentiation.hpp"
 #include "scalars/recorded.hpp"

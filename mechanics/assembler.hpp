@@ -15,8 +15,8 @@
 #include <utility>
 #include <vector>
 
+#include "mechanics/description/mechanism.hpp"
 #include "mechanics/element.hpp"
-#include "mechanics/mechanism.hpp"
 #include "mechanics/rotation.hpp"
 #include "scalars/fuzzy.hpp"
 #include "scalars/samples.hpp"

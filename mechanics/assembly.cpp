@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "mechanics/names.hpp"
+#include "mechanics/description/names.hpp"
 
 namespace gamut {
 namespace {

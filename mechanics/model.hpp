@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "mechanics/description/mechanism.hpp"
 #include "mechanics/equations/formulation.hpp"
-#include "mechanics/mechanism.hpp"
 #include "scalars/program/program.hpp"
 
 namespace gamut {

@@ -10,8 +10,8 @@
 #include "analyses/flow/flow.hpp"
 #include "analyses/samples/ensemble.hpp"
 #include "analyses/uncertainty.hpp"
+#include "mechanics/description/mechanism.hpp"
 #include "mechanics/elements/all.hpp"
-#include "mechanics/mechanism.hpp"
 #include "studies/results/results.hpp"
 #include "studies/watch.hpp"
 
@@ -68,6 +68,6 @@ Mechanism readMechanismText(const std::string& text, const std::string& name,
                             const std::vector<Described>& types = elementTypes());
 
 /// The text of a study file. Throws StudyError if it cannot be read.
-std::string readStudyFile(const std::string& path);
+std::string textOfStudy(const std::string& path);
 
 }  // namespace gamut

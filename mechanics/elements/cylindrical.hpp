@@ -1,7 +1,7 @@
 // Cylindrical joint: `to` slides along an axis and turns about it, each as it likes.
 #pragma once
 
-#include "mechanics/described.hpp"
+#include "mechanics/description/described.hpp"
 
 namespace gamut {
 

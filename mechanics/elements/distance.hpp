@@ -1,7 +1,7 @@
 // The distance of two points, and its rate: a measurement.
 #pragma once
 
-#include "mechanics/described.hpp"
+#include "mechanics/description/described.hpp"
 
 namespace gamut {
 

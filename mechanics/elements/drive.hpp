@@ -1,7 +1,7 @@
 // A drive: a joint's motion is given as an expression of time.
 #pragma once
 
-#include "mechanics/described.hpp"
+#include "mechanics/description/described.hpp"
 
 namespace gamut {
 

@@ -1,7 +1,7 @@
 // An applied force and moment at a point of a frame.
 #pragma once
 
-#include "mechanics/described.hpp"
+#include "mechanics/description/described.hpp"
 
 namespace gamut {
 

@@ -1,7 +1,7 @@
 // A force or moment on a joint's coordinate, as an expression of the motion: nonlinear spring, friction, control.
 #pragma once
 
-#include "mechanics/described.hpp"
+#include "mechanics/description/described.hpp"
 
 namespace gamut {
 

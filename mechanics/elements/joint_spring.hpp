@@ -1,7 +1,7 @@
 // Spring and viscous friction on a joint's own coordinate.
 #pragma once
 
-#include "mechanics/described.hpp"
+#include "mechanics/description/described.hpp"
 
 namespace gamut {
 

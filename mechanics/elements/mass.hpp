@@ -1,7 +1,7 @@
 // A body fixed to a frame: mass, centre of mass, inertia about that centre.
 #pragma once
 
-#include "mechanics/described.hpp"
+#include "mechanics/description/described.hpp"
 
 namespace gamut {
 

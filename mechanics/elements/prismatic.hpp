@@ -1,7 +1,7 @@
 // Prismatic joint or slider: `to` slides along an axis.
 #pragma once
 
-#include "mechanics/described.hpp"
+#include "mechanics/description/described.hpp"
 
 namespace gamut {
 

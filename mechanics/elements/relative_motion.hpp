@@ -1,7 +1,7 @@
 // How a frame moves as another frame sees it: place, velocity, angle between two directions: a measurement.
 #pragma once
 
-#include "mechanics/described.hpp"
+#include "mechanics/description/described.hpp"
 
 namespace gamut {
 

@@ -1,7 +1,7 @@
 // Revolute joint, hinge or pin: `to` turns about an axis fixed in both frames.
 #pragma once
 
-#include "mechanics/described.hpp"
+#include "mechanics/description/described.hpp"
 
 namespace gamut {
 

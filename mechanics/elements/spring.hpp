@@ -1,7 +1,7 @@
 // Spring and damper in parallel between points of two frames.
 #pragma once
 
-#include "mechanics/described.hpp"
+#include "mechanics/description/described.hpp"
 
 namespace gamut {
 

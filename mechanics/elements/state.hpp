@@ -1,7 +1,7 @@
 // A state of its own, with an expression for its rate: controller, actuator, or a plain differential equation.
 #pragma once
 
-#include "mechanics/described.hpp"
+#include "mechanics/description/described.hpp"
 
 namespace gamut {
 

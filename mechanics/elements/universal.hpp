@@ -1,7 +1,7 @@
 // Universal joint, cardan or Hooke's joint: two hinges whose axes meet.
 #pragma once
 
-#include "mechanics/described.hpp"
+#include "mechanics/description/described.hpp"
 
 namespace gamut {
 

@@ -1,7 +1,7 @@
 // A weld: `to` is `from` by another name, or turned against it for good.
 #pragma once
 
-#include "mechanics/described.hpp"
+#include "mechanics/description/described.hpp"
 
 namespace gamut {
 

@@ -1,8 +1,8 @@
 // Prints docs/elements.md.
 #include <cstdio>
 
+#include "mechanics/description/words.hpp"
 #include "mechanics/elements/all.hpp"
-#include "mechanics/words.hpp"
 
 int main() {
   std::printf(

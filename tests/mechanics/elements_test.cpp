@@ -6,9 +6,9 @@
 #include "machines.hpp"
 #include "mechanics/assembly.hpp"
 #include "mechanics/bodies.hpp"
+#include "mechanics/description/words.hpp"
 #include "mechanics/joints.hpp"
 #include "mechanics/model.hpp"
-#include "mechanics/words.hpp"
 #include "scalars/evaluation/evaluator.hpp"
 
 namespace gamut {

@@ -1,5 +1,5 @@
 // Formulas of a study: grammar, exact numbers, units that are checked, one formula in every scalar.
-#include "mechanics/expression.hpp"
+#include "mechanics/description/expression.hpp"
 
 #include <gmock/gmock.h>
 

@@ -5,8 +5,8 @@
 #include <random>
 #include <vector>
 
+#include "mechanics/description/mechanism.hpp"
 #include "mechanics/elements/all.hpp"
-#include "mechanics/mechanism.hpp"
 
 namespace gamut::testing {
 

@@ -1,5 +1,5 @@
 // The description of a mechanism: its names, units and complaints; and the helpers for names and rotations.
-#include "mechanics/mechanism.hpp"
+#include "mechanics/description/mechanism.hpp"
 #include "mechanics/elements/all.hpp"
 
 #include <gmock/gmock.h>
@@ -8,8 +8,8 @@
 
 #include "machines.hpp"
 #include "mechanics/assembly.hpp"
+#include "mechanics/description/names.hpp"
 #include "mechanics/model.hpp"
-#include "mechanics/names.hpp"
 #include "mechanics/rotation.hpp"
 #include "scalars/evaluation/evaluator.hpp"
 

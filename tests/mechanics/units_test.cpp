@@ -1,5 +1,5 @@
 // Quantities are read without rounding: what is enclosed is the number that was written.
-#include "mechanics/units.hpp"
+#include "mechanics/description/units.hpp"
 
 #include <gmock/gmock.h>
 

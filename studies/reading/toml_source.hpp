@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "mechanics/expression.hpp"
+#include "mechanics/description/expression.hpp"
 #include "studies/study.hpp"
 
 namespace gamut {

@@ -1,5 +1,5 @@
 // Elements by their type; numbers that may be parameters; what the Mechanism itself refuses is said at the element.
-#include "studies/detail/mechanism_reader.hpp"
+#include "studies/reading/mechanism_reader.hpp"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,8 @@
 #include <cctype>
 #include <map>
 
-#include "mechanics/names.hpp"
-#include "mechanics/words.hpp"
+#include "mechanics/description/names.hpp"
+#include "mechanics/description/words.hpp"
 
 namespace gamut {
 namespace {

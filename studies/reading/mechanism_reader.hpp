@@ -1,8 +1,8 @@
 // The [mechanism] part of a study file.
 #pragma once
 
-#include "mechanics/mechanism.hpp"
-#include "studies/detail/toml_source.hpp"
+#include "mechanics/description/mechanism.hpp"
+#include "studies/reading/toml_source.hpp"
 
 namespace gamut {
 

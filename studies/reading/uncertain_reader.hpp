@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "studies/detail/toml_source.hpp"
+#include "studies/reading/toml_source.hpp"
 
 namespace gamut {
 

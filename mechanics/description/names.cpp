@@ -1,5 +1,5 @@
 // The nearest names by the distance of Damerau and Levenshtein, restricted to swaps of neighbours.
-#include "mechanics/names.hpp"
+#include "mechanics/description/names.hpp"
 
 #include <algorithm>
 #include <cctype>

@@ -1,12 +1,12 @@
 // Positions, messages and numbers of a TOML file.
-#include "studies/detail/toml_source.hpp"
+#include "studies/reading/toml_source.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 
-#include "mechanics/names.hpp"
+#include "mechanics/description/names.hpp"
 #include "studies/printable.hpp"
 
 namespace gamut {

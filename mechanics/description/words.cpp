@@ -1,5 +1,5 @@
 // A visitor that only listens.
-#include "mechanics/words.hpp"
+#include "mechanics/description/words.hpp"
 
 #include <fmt/format.h>
 

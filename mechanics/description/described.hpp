@@ -18,7 +18,7 @@
 #include <utility>
 #include <vector>
 
-#include "mechanics/fields.hpp"
+#include "mechanics/description/fields.hpp"
 
 namespace gamut {
 

@@ -22,7 +22,7 @@
 #include <string_view>
 #include <vector>
 
-#include "mechanics/units.hpp"
+#include "mechanics/description/units.hpp"
 #include "scalars/interval.hpp"
 #include "scalars/traits.hpp"
 

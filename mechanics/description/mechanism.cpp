@@ -1,12 +1,12 @@
 // The description of a mechanism: every name is checked when it is added, so that an assembly can rely on it.
-#include "mechanics/mechanism.hpp"
+#include "mechanics/description/mechanism.hpp"
 
 #include <algorithm>
 #include <map>
 #include <stdexcept>
 #include <type_traits>
 
-#include "mechanics/names.hpp"
+#include "mechanics/description/names.hpp"
 
 namespace gamut {
 namespace {
@@ -229,10 +229,8 @@ class Mechanism::Checker final : public Fields {
   void movedFrame(const Word& /*word*/, std::string& name, const std::string& from) override {
     m_.addFrame(from, name, element_);
     m_.moved_.push_back({name, from, element_, false});
-    for (const char* component : components) {
-      m_.addMeasured(name + ".position." + component, "m", element_);
-      m_.addMeasured(name + ".velocity." + component, "m/s", element_);
-    }
+    for (const char* component : components) m_.addMeasured(name + ".position." + component, "m", element_);
+    for (const char* component : components) m_.addMeasured(name + ".velocity." + component, "m/s", element_);
   }
   void choice(const Word& word, std::string& value, const std::vector<std::string>& choices) override {
     if (!has(choices, value))

@@ -1,6 +1,6 @@
 // The table of units, and exact arithmetic. Rationals are GMP's, pi is MPFR's with 320 bits, rounded in the direction
 // asked for.
-#include "mechanics/units.hpp"
+#include "mechanics/description/units.hpp"
 
 #include <fmt/format.h>
 #include <mpfr.h>

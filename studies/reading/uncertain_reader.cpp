@@ -1,5 +1,5 @@
 // Intervals, distributions and membership functions; each distribution and membership lies inside its interval.
-#include "studies/detail/uncertain_reader.hpp"
+#include "studies/reading/uncertain_reader.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <array>
 #include <map>
 
-#include "mechanics/names.hpp"
+#include "mechanics/description/names.hpp"
 
 namespace gamut {
 namespace {

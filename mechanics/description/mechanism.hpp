@@ -18,8 +18,8 @@
 #include <string>
 #include <vector>
 
-#include "mechanics/described.hpp"
-#include "mechanics/expression.hpp"
+#include "mechanics/description/described.hpp"
+#include "mechanics/description/expression.hpp"
 #include "scalars/interval.hpp"
 
 namespace gamut {

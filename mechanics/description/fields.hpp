@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "mechanics/axis.hpp"
-#include "mechanics/expression.hpp"
+#include "mechanics/description/expression.hpp"
 
 namespace gamut {
 

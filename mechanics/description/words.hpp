@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "mechanics/described.hpp"
+#include "mechanics/description/described.hpp"
 
 namespace gamut {
 

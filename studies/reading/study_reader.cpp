@@ -11,11 +11,11 @@
 
 #include "mechanics/assembly.hpp"
 #include "mechanics/model.hpp"
-#include "studies/detail/mechanism_reader.hpp"
-#include "studies/detail/toml_source.hpp"
-#include "studies/detail/uncertain_reader.hpp"
 #include "studies/printable.hpp"
 #include "studies/readable.hpp"
+#include "studies/reading/mechanism_reader.hpp"
+#include "studies/reading/toml_source.hpp"
+#include "studies/reading/uncertain_reader.hpp"
 #include "studies/study.hpp"
 
 namespace gamut {
@@ -328,7 +328,7 @@ Mechanism readMechanismText(const std::string& text, const std::string& name, co
   return readMechanism(source, source.asTable(*mechanism, "mechanism"), types);
 }
 
-std::string readStudyFile(const std::string& path) {
+std::string textOfStudy(const std::string& path) {
   if (const std::string fault = whyUnreadable(path); !fault.empty())
     throw StudyError(fmt::format("{}: {}; expected a study file (TOML)", path, fault));
   std::ifstream file(path, std::ios::binary);
@@ -336,7 +336,7 @@ std::string readStudyFile(const std::string& path) {
 }
 
 Study readStudy(const std::string& path, const std::vector<Described>& types) {
-  return readStudyText(readStudyFile(path), path, types);
+  return readStudyText(textOfStudy(path), path, types);
 }
 
 }  // namespace gamut

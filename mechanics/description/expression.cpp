@@ -1,0 +1,145 @@
+// Dimensions follow the terms, as values do.
+#include "mechanics/description/expression.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gamut {
+
+Expression::Expression(const Interval& value) : terms_{{Operation::constant}}, constants_{{value}} {}
+
+Expression Expression::named(const std::string& name, const Interval& factor) {
+  Expression result(factor);
+  result.names_.push_back(name);
+  result.terms_.push_back({Operation::name});
+  result.terms_.push_back({Operation::multiply});
+  return result;
+}
+
+namespace {
+
+[[noreturn]] void refuse(const std::string& what, int column, const std::string& expected) {
+  throw UnitError(fmt::format("{} at column {}; expected {}", what, column, expected));
+}
+
+Dimension scaled(const Dimension& d, int times) {
+  return {d.mass * times, d.length * times, d.time * times, d.angle * times, d.memory * times};
+}
+
+Dimension plus(const Dimension& a, const Dimension& b, int sign) {
+  return {a.mass + sign * b.mass, a.length + sign * b.length, a.time + sign * b.time, a.angle + sign * b.angle,
+          a.memory + sign * b.memory};
+}
+
+}  // namespace
+
+Dimension Expression::dimension(const DimensionOf& dimensionOf) const {
+  std::vector<Dimension> stack;
+  for (const Term& term : terms_) {
+    if (term.operation == Operation::constant) {
+      const std::optional<Amount>& exact = constants_[static_cast<std::size_t>(term.index)].exact;
+      stack.push_back(exact ? exact->dimension : Dimension{});
+      continue;
+    }
+    if (term.operation == Operation::name) {
+      stack.push_back(dimensionOf(names_[static_cast<std::size_t>(term.index)]));
+      continue;
+    }
+    const Dimension b = stack.back();
+    if (takesTwo(term.operation)) stack.pop_back();
+    Dimension& a = stack.back();
+    const auto mustBeAlike = [&](const char* does, const char* joins) {
+      if (!isAlike(a, b))
+        refuse(fmt::format("{} {} {} {}", does, unitOf(b), joins, unitOf(a)), term.column, "quantities of one kind");
+      if (a.angle == 0) a.angle = b.angle;
+    };
+    const auto mustBePlain = [&](const Dimension& d, const char* what) {
+      if (!isAlike(d, {}))
+        refuse(fmt::format("{} {}", what, unitOf(d)), term.column, "a number without unit, or an angle");
+    };
+    switch (term.operation) {
+      case Operation::add:
+        mustBeAlike("adds", "to");
+        break;
+      case Operation::subtract:
+        mustBeAlike("subtracts", "from");
+        break;
+      case Operation::min:
+      case Operation::max:
+      case Operation::hypot:
+        mustBeAlike("compares", "with");
+        break;
+      case Operation::atan2:
+        mustBeAlike("compares", "with");
+        a = {0, 0, 0, 1};
+        break;
+      case Operation::multiply:
+        a = plus(a, b, 1);
+        break;
+      case Operation::divide:
+        a = plus(a, b, -1);
+        break;
+      case Operation::power:
+        a = scaled(b, term.index);
+        break;
+      case Operation::sqrt:
+        if (b.mass % 2 != 0 || b.length % 2 != 0 || b.time % 2 != 0 || b.memory % 2 != 0)
+          refuse(fmt::format("the square root of {}", unitOf(b)), term.column, "a unit that is a square, such as m^2");
+        a = {b.mass / 2, b.length / 2, b.time / 2, b.angle / 2, b.memory / 2};
+        break;
+      case Operation::pow:
+        mustBePlain(a, "a power of");
+        mustBePlain(b, "an exponent in");
+        a = {};
+        break;
+      case Operation::asin:
+      case Operation::acos:
+      case Operation::atan:
+        mustBePlain(b, "a function of");
+        a = {0, 0, 0, 1};
+        break;
+      case Operation::negate:
+      case Operation::abs:
+        break;
+      default:
+        mustBePlain(b, "a function of");
+        a = {};
+    }
+  }
+  return stack.back();
+}
+
+void Expression::check(const DimensionOf& dimensionOf, const Dimension& expected) const {
+  const Dimension found = dimension(dimensionOf);
+  const bool isPlain = isConstant() && std::ranges::none_of(constants_, [](const Constant& c) {
+                         return c.exact && (c.exact->hasUnit || c.exact->isRelative);
+                       });
+  if (!isPlain && !isAlike(found, expected))
+    throw UnitError(fmt::format("a quantity in {}; expected one in {}", unitOf(found), unitOf(expected)));
+}
+
+std::optional<Amount> Expression::amount() const {
+  return terms_.size() == 1 && terms_[0].operation == Operation::constant ? constants_[0].exact : std::nullopt;
+}
+
+Amount parseAmount(std::string_view text) {
+  const Expression expression = Expression::parse(text);
+  if (!expression.isConstant())
+    throw UnitError(
+        fmt::format("unknown unit '{}' in '{}'; expected one of {}", expression.names().front(), text, knownUnits()));
+  if (const std::optional<Amount> amount = expression.amount()) return *amount;
+  throw UnitError(fmt::format("'{}' is no rational number times a power of pi; expected one that is", text));
+}
+
+Dimension dimensionOf(std::string_view unit) {
+  if (unit.empty()) return {};
+  const bool hasNumber = std::isdigit(static_cast<unsigned char>(unit.front())) != 0;
+  return parseAmount(hasNumber ? std::string(unit) : "1 " + std::string(unit)).dimension;
+}
+
+}  // namespace gamut
