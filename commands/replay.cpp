@@ -83,7 +83,7 @@ std::string csv(const Study& study, const ReplayedSample& sample) {
   fmt::format_to(end, "{}\n", fmt::join(headings, ","));
   for (std::size_t i = 0; i < sample.times; ++i) {
     std::vector<double> row;
-    if (moves) row.push_back(study.time[i]);
+    if (moves) row.push_back(study.motion.times[i]);
     for (std::size_t j = 0; j < study.outputs.size(); ++j) row.push_back(sample.trajectory(i, j));
     row.insert(row.end(), sample.values.begin(), sample.values.end());
     fmt::format_to(end, "{}\n", fmt::join(row, ","));

@@ -24,7 +24,7 @@ ExitCode validate(const Arguments& arguments) {
                countText(static_cast<long long>(study.mechanism.elements().size()), "element"), study.uncertain.size(),
                study.uncertain.size() == 1 ? "quantity" : "quantities",
                countText(static_cast<long long>(study.outputs.size()), "output"),
-               study.horizon > 0 ? fmt::format(" at {} times", study.time.size()) : "");
+               study.horizon > 0 ? fmt::format(" at {} times", study.motion.times.size()) : "");
   return done;
 }
 

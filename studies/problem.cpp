@@ -8,41 +8,64 @@
 #include "mechanics/assembly.hpp"
 #include "mechanics/model.hpp"
 #include "scalars/recorded.hpp"
+#include "studies/watch.hpp"
 
 namespace gamut {
 namespace {
 
+/// Those of the uncertain quantities that no state starts with.
+std::vector<std::string> freeParameters(const Study& study) {
+  const std::vector<std::string> states = study.mechanism.stateNames();
+  std::vector<std::string> names;
+  for (const UncertainQuantity& uncertain : study.uncertain)
+    if (std::ranges::find(states, uncertain.quantity) == states.end()) names.push_back(uncertain.quantity);
+  return names;
+}
+
+std::vector<std::string> outputQuantities(const Study& study) {
+  std::vector<std::string> quantities;
+  for (const OutputInfo& output : study.outputs) quantities.push_back(output.quantity);
+  return quantities;
+}
+
 /// y = g(p): outputs of the assembly at the configuration p (states, then free parameters).
-Program recordConfiguration(const Study& study, const Problem& problem) {
-  const int numbers = static_cast<int>(problem.box.size()), outputs = static_cast<int>(problem.outputs.size());
-  return record(0, numbers, outputs, [&](auto, const auto&, const auto& p, auto& y) {
+Program recordConfiguration(const Study& study, std::size_t states, int numbers) {
+  const std::vector<std::string> outputs = outputQuantities(study);
+  return record(0, numbers, static_cast<int>(outputs.size()), [&](auto, const auto&, const auto& p, auto& y) {
     const std::span<const Recorded> values(p);
-    Assembly<Recorded> assembly(study.mechanism, problem.freeParameters, values.subspan(problem.states));
-    assembly.setState(values.first(problem.states));
-    for (std::size_t i = 0; i < problem.outputs.size(); ++i) y[i] = assembly.output(problem.outputs[i]);
+    Assembly<Recorded> assembly(study.mechanism, freeParameters(study), values.subspan(states));
+    assembly.setState(values.first(states));
+    for (std::size_t i = 0; i < outputs.size(); ++i) y[i] = assembly.output(outputs[i]);
   });
 }
 
-void recordPrograms(const Study& study, Problem& problem) {
-  Motion& motion = problem.motion.motion;
-  motion.times = study.time;
-  if (study.analysis == Study::Analysis::dynamics) {
-    motion.f = recordMotion(study.mechanism, problem.freeParameters, Formulation::sparse);
-    motion.sampled = recordMotion(study.mechanism, problem.freeParameters, Formulation::articulated);
-    motion.g = recordOutputs(study.mechanism, problem.freeParameters, problem.outputs);
-  } else {
-    motion.f = record(0, static_cast<int>(problem.box.size()), [](auto, const auto&, const auto&, auto&) {});
-    motion.g = recordConfiguration(study, problem);
-  }
-}
-
 }  // namespace
+
+void recordPrograms(Study& study) {
+  const double start = processCpuSeconds();
+  const std::vector<std::string> parameters = freeParameters(study);
+  Motion& motion = study.motion;
+  if (study.analysis == Study::Analysis::dynamics) {
+    motion.f = recordMotion(study.mechanism, parameters, Formulation::sparse);
+    motion.sampled = recordMotion(study.mechanism, parameters, Formulation::articulated);
+    motion.g = recordOutputs(study.mechanism, parameters, outputQuantities(study));
+  } else {
+    const std::size_t states = study.mechanism.stateNames().size();
+    const int numbers = static_cast<int>(states + parameters.size());
+    motion.f = record(0, numbers, [](auto, const auto&, const auto&, auto&) {});
+    motion.g = recordConfiguration(study, states, numbers);
+  }
+  study.recordingCpu = processCpuSeconds() - start;
+}
 
 Problem makeProblem(const Study& study) {
   Problem problem;
   const Mechanism& mechanism = study.mechanism;
   const std::vector<std::string> names = mechanism.stateNames();
   problem.states = names.size();
+  problem.freeParameters = freeParameters(study);
+  problem.outputs = outputQuantities(study);
+  problem.motion.motion = study.motion;
   for (const Expression& initial : mechanism.initialState()) problem.box.push_back(mechanism.rangeOf(initial));
   for (const UncertainQuantity& uncertain : study.uncertain) {
     const auto state = std::find(names.begin(), names.end(), uncertain.quantity);
@@ -51,7 +74,6 @@ Problem makeProblem(const Study& study) {
       problem.motion.slot.push_back(static_cast<int>(state - names.begin()));
     } else {
       problem.motion.slot.push_back(static_cast<int>(problem.box.size()));
-      problem.freeParameters.push_back(uncertain.quantity);
       problem.box.push_back(mechanism.nominal(uncertain.quantity));
     }
   }
@@ -69,8 +91,6 @@ Problem makeProblem(const Study& study) {
           study.uncertain[i].uncertain.membership.cut(problem.alpha.back());
     problem.levels.push_back(std::move(level));
   }
-  for (const OutputInfo& output : study.outputs) problem.outputs.push_back(output.quantity);
-  recordPrograms(study, problem);
   return problem;
 }
 

@@ -22,8 +22,9 @@ struct Problem {
   UncertainMotion motion;  ///< its programs: dynamics f, g of the states; kinematics g of parameters alone
 };
 
-/// Records the programs and collects the numbers. Throws std::invalid_argument for a mechanism whose motion is not
-/// determined.
+/// Fills `study.motion` but for its times. Throws std::invalid_argument for a mechanism whose motion is not determined.
+void recordPrograms(Study& study);
+
 Problem makeProblem(const Study& study);
 
 }  // namespace gamut

@@ -36,8 +36,10 @@ struct Study {
   std::string file;  ///< as it was named
   std::string title;
   Analysis analysis = Analysis::dynamics;
-  double horizon = 0;        ///< s; 0 for kinematics
-  std::vector<double> time;  ///< output times, s: 0 first, rising, the horizon last
+  double horizon = 0;       ///< s; 0 for kinematics
+  Motion motion;            ///< its times: the output times, s, 0 first, rising, the horizon last; its programs are
+                            ///< those of the mechanism (problem.hpp says what they take)
+  double recordingCpu = 0;  ///< s, of these programs
   bool interval = true, stochastic = true, fuzzy = true;
   Mechanism mechanism;
   std::vector<UncertainQuantity> uncertain;

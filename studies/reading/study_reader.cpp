@@ -10,8 +10,8 @@
 #include <set>
 
 #include "mechanics/assembly.hpp"
-#include "mechanics/model.hpp"
 #include "studies/printable.hpp"
+#include "studies/problem.hpp"
 #include "studies/readable.hpp"
 #include "studies/reading/mechanism_reader.hpp"
 #include "studies/reading/toml_source.hpp"
@@ -41,7 +41,7 @@ class StudyReader {
     file.require("output", "a table [[output]] for each output that is wanted");
     for (const toml::table* table : tables(file, "output")) readOutput(*table);
     checkInitialValues();
-    checkMotion(*file.find("mechanism"));
+    recordMotion(*file.find("mechanism"));
     if (const toml::node* node = file.find("interval")) readInterval(source_.asTable(*node, "interval"));
     if (const toml::node* node = file.find("stochastic")) readStochastic(source_.asTable(*node, "stochastic"));
     checkPlan(file.find("stochastic"));
@@ -78,7 +78,7 @@ class StudyReader {
       for (const char* key : {"horizon", "output_step", "output_times"})
         if (const toml::node* node = section.find(key))
           source_.fail(*node, fmt::format("{} has no meaning in kinematics", section.nameOf(key)), "no such key");
-      study_.time = {0.0};
+      study_.motion.times = {0.0};
     }
     readCompare(section);
   }
@@ -126,10 +126,10 @@ class StudyReader {
     Amount time = step;
     for (unsigned long i = 0; i <= count; ++i) {
       time.value = step.value * i;
-      study_.time.push_back(nearest(time));
+      study_.motion.times.push_back(nearest(time));
     }
-    if (study_.time.back() < study_.horizon) study_.time.push_back(study_.horizon);
-    if (study_.time.size() > 1 && study_.time[1] == 0)
+    if (study_.motion.times.back() < study_.horizon) study_.motion.times.push_back(study_.horizon);
+    if (study_.motion.times.size() > 1 && study_.motion.times[1] == 0)
       source_.fail(node, "study.output_step is too small", "a longer step");
   }
 
@@ -138,19 +138,19 @@ class StudyReader {
     if (list.empty()) source_.fail(node, "study.output_times is empty", "at least one time");
     if (list.size() > maxOutputTimes - 2)
       source_.fail(node, fmt::format("study.output_times has more than {} times", maxOutputTimes - 2), "fewer times");
-    study_.time.push_back(0.0);
+    study_.motion.times.push_back(0.0);
     for (const toml::node& entry : list) {
       const double time = nearest(source_.asAmount(entry, "study.output_times", seconds));
       const bool isStart = time == 0 && &entry == list.get(0);
-      if (!isStart && !(time > study_.time.back()))
-        source_.fail(entry, fmt::format("the output time {} s does not follow {} s", time, study_.time.back()),
+      if (!isStart && !(time > study_.motion.times.back()))
+        source_.fail(entry, fmt::format("the output time {} s does not follow {} s", time, study_.motion.times.back()),
                      "times that rise from 0 s");
       if (time > nearest(horizon))
         source_.fail(entry, fmt::format("the output time {} s is beyond the horizon", time),
                      fmt::format("at most {} s", study_.horizon));
-      if (!isStart) study_.time.push_back(time);
+      if (!isStart) study_.motion.times.push_back(time);
     }
-    if (study_.time.back() < study_.horizon) study_.time.push_back(study_.horizon);
+    if (study_.motion.times.back() < study_.horizon) study_.motion.times.push_back(study_.horizon);
   }
 
   // ---- What the whole says ------------------------------------------------------------------------------------------
@@ -180,8 +180,8 @@ class StudyReader {
     }
   }
 
-  /// Records the equations of motion once: they exist, or the mechanism is at fault.
-  void checkMotion(const toml::node& mechanism) const {
+  /// The equations of motion exist, or the mechanism is at fault.
+  void recordMotion(const toml::node& mechanism) {
     if (study_.analysis == Study::Analysis::dynamics) {
       if (study_.mechanism.stateNames().empty())
         source_.fail(mechanism, "every joint is driven, so that nothing is left to move by itself",
@@ -189,7 +189,7 @@ class StudyReader {
       checkLengths(mechanism);
     }
     try {
-      if (study_.analysis == Study::Analysis::dynamics) recordMotion(study_.mechanism);
+      recordPrograms(study_);
     } catch (const std::invalid_argument& error) {
       source_.failWith(mechanism, error.what(), "a mass that every joint moves");
     }

@@ -24,9 +24,9 @@ void encloseMotion(Run& run) {
   flow.cancelled = run.watch.stop();
   flow.stateNames = run.study.mechanism.stateNames();
   const Motion& motion = run.problem.motion.motion;
-  const Tube tube =
-      Flow(motion.f, motion.g, flow).enclose(run.problem.box, run.study.horizon, run.study.time, run.problem.levels);
-  if (tube.times() != run.study.time) throw std::logic_error("the flow's output times are not the study's");
+  const Tube tube = Flow(motion.f, motion.g, flow)
+                        .enclose(run.problem.box, run.study.horizon, run.study.motion.times, run.problem.levels);
+  if (tube.times() != run.study.motion.times) throw std::logic_error("the flow's output times are not the study's");
   Enclosed& enclosed = run.enclosed;
   enclosed.reachedTimes = tube.reachedTimes();
   enclosed.over = run.emptyBounds();
@@ -86,7 +86,7 @@ void enclose(Run& run) {
     clear(run);
     run.enclosed.why = run.watch.why();
   }
-  run.enclosed.cpu = run.recordingCpu + processCpuSeconds() - start;
+  run.enclosed.cpu = run.study.recordingCpu + processCpuSeconds() - start;
 }
 
 }  // namespace gamut

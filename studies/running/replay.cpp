@@ -40,7 +40,7 @@ ReplayedSample replay(const Study& study, const Results& results, std::size_t nu
     for (const Dispute& dispute : found.disputes) sample.decided = dispute.decided;
   });
   sample.values.assign(block.values(0).begin(), block.values(0).end());
-  sample.trajectory = Table(study.time.size(), study.outputs.size());
+  sample.trajectory = Table(study.motion.times.size(), study.outputs.size());
   sample.trajectory.data = block.trajectory(0);
   sample.times = block.runs[0].times;
   sample.reached = block.runs[0].reached;

@@ -32,7 +32,7 @@ void describeOrigin(Run& run) {
   origin.libraries = libraryVersions();
   origin.outputs = study.outputs;
   origin.horizon = study.horizon;
-  origin.time = study.time;
+  origin.time = study.motion.times;
   for (const UncertainQuantity& q : study.uncertain) {
     const Uncertain& u = q.uncertain;
     origin.uncertain.push_back({u.name, q.quantity, q.unit, u.range.lower(), u.nominal, u.range.upper(),
@@ -51,9 +51,7 @@ void describeOrigin(Run& run) {
 Run::Run(const Study& whatIsAsked, const RunOptions& howToRun)
     : study(whatIsAsked), options(howToRun), watch(limitsOf(study, options), options.cancelled, {options.overdue}) {
   describeOrigin(*this);
-  const double start = processCpuSeconds();
   problem = makeProblem(study);
-  recordingCpu = processCpuSeconds() - start;
 }
 
 std::function<void(double)> Run::progressOf(const std::string& task) const {
@@ -71,7 +69,8 @@ Limits limitsOf(const Study& study, const RunOptions& options) {
 double memoryNeeded(const Study& study, const RunOptions& options) {
   if (!study.stochastic) return 0;
   const std::size_t levels = study.fuzzy ? static_cast<std::size_t>(study.levels) : 0;
-  const std::size_t times = study.time.size(), outputs = study.outputs.size(), quantities = study.uncertain.size();
+  const std::size_t times = study.motion.times.size(), outputs = study.outputs.size(),
+                    quantities = study.uncertain.size();
   constexpr double beside = 2049;  // corners and centre at most
   const double samples = static_cast<double>(options.samples.value_or(study.ensemble.samples)) + beside;
   const double all = samples * static_cast<double>(sizeof(double) * (2 + quantities + times * outputs));

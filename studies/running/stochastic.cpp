@@ -95,7 +95,7 @@ void takeOtherSamples(Run& run) {
     const Proved proved{run.results.interval.at, run.results.fuzzy.outer, run.enclosed.reachedTimes};
     Settlement settlement(proved, run.problem.motion, comparisonOptions(run));
     SampleKeeper keeper(run.ensemble->sampling().size(), run.study.uncertain.size(),
-                        run.study.time.size() * run.study.outputs.size(), run.study.storage);
+                        run.study.motion.times.size() * run.study.outputs.size(), run.study.storage);
     run.ensemble->integrateOthers(settlement.boundsOf(0), [&](SampleBlock& block) {
       if (run.study.analysis == Study::Analysis::kinematics) moveSamples(run.study, run.problem, block);
       settlement.settle(block, [&](const Comparison& found, int level) { takeDisputes(run, found, level); });

@@ -33,7 +33,7 @@ struct Enclosed {
 struct Run {
   Run(const Study& whatIsAsked, const RunOptions& howToRun);
 
-  Bounds emptyBounds() const { return {study.time.size(), study.outputs.size()}; }
+  Bounds emptyBounds() const { return {study.motion.times.size(), study.outputs.size()}; }
   /// What tells the user how far a task is.
   std::function<void(double)> progressOf(const std::string& task) const;
 
@@ -42,7 +42,6 @@ struct Run {
   Watch watch;
   Problem problem;
   Results results;
-  double recordingCpu = 0;              ///< s
   Enclosed enclosed;                    ///< filled by `enclose`
   std::optional<EnsembleRun> ensemble;  ///< there from `takeFirstSamples` on, unless it found no room
 };

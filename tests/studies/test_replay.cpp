@@ -82,10 +82,10 @@ std::vector<std::uint64_t> bitsOf(const std::vector<double>& values) {
 /// As the statistics do: sample by sample.
 Envelope envelopeOfReplays(const Results& results) {
   const Study study = readStudyText(results.studyText, "again.toml");
-  Envelope envelope(study.time.size(), study.outputs.size());
+  Envelope envelope(study.motion.times.size(), study.outputs.size());
   for (std::int64_t number = 0; number < results.stochastic.planned(); ++number) {
     const ReplayedSample sample = replay(study, results, static_cast<std::size_t>(number));
-    EXPECT_EQ(sample.times, study.time.size());
+    EXPECT_EQ(sample.times, study.motion.times.size());
     for (std::size_t i = 0; i < sample.times; ++i)
       for (std::size_t j = 0; j < study.outputs.size(); ++j) envelope.include(i, j, sample.trajectory(i, j));
   }
