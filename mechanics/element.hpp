@@ -2,14 +2,15 @@
 //
 //   position q' = φ(q),  velocity q̇' = J q̇,  acceleration q̈' = J q̈ + J̇ q̇,  force Q = Jᵀ Q'
 //
-// A part is one of three: a Transmission moves a frame, ideally: what power goes in comes out. A Load acts on what is
-// moved. An Inertia (bodies.hpp) is moved: nothing else states mass. A new part needs doMotion and doForce, nothing
-// else: derivatives come from the recorded program. A Chain is an ordered list of parts, force runs through it in
-// reverse.
+// A part is one of four: a Transmission moves a frame, ideally: what power goes in comes out. A Load acts on what is
+// moved. An Inertia (bodies.hpp) is moved: nothing else states mass. A Constraint holds rows closed. A new part needs
+// doMotion and doForce, nothing else: derivatives come from the recorded program. A Chain is an ordered list of parts,
+// force runs through it in reverse.
 #pragma once
 
 #include <array>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "mechanics/frame.hpp"
@@ -120,6 +121,42 @@ class Inertia : public Element<S> {
   virtual SpatialInertia<S> spatial() const = 0;
 };
 
+/// An element that holds rows g(q) = 0 closed, ideally, by the force Gᵀ λ, where ġ = G q̇ and λ has a multiplier a row.
+/// The system finds λ such that g̈ = −2 σ ġ − σ² g: where the motion starts closed it stays so, and what rounding
+/// opens closes again as e^(−σ t) (J. Baumgarte, Comput. Methods Appl. Mech. Eng. 1, 1972). The rows must be
+/// independent.
+template <class S>
+class Constraint : public Element<S> {
+ public:
+  /// `stabilisation`: σ [1/s].
+  explicit Constraint(S stabilisation = S(0.0)) : stabilisation_(std::move(stabilisation)) {}
+
+  /// g, one entry a row, at the present positions.
+  virtual std::vector<S> residuals() const = 0;
+  /// ġ at the present positions and velocities.
+  virtual std::vector<S> rates() const = 0;
+  /// g̈ at the present motion; at MotionLevel::acceleration, what the frames' accelerations give of it: G u̇.
+  virtual std::vector<S> accelerations(MotionLevel level) const = 0;
+
+  /// Of the present motion, a force or moment that fits its row: what the machine feels of being closed.
+  const std::vector<S>& multipliers() const { return multipliers_; }
+  void setMultipliers(std::vector<S> multipliers) { multipliers_ = std::move(multipliers); }
+  const S& stabilisation() const { return stabilisation_; }
+
+  void doMotion(MotionLevel /*level*/ = MotionLevel::all) override {}
+  void doForce(ForceKind kind = ForceKind::all) final {
+    if (kind == ForceKind::all && !multipliers_.empty()) applyForce();
+  }
+
+ protected:
+  /// Adds Gᵀ λ to the forces of frames and speeds.
+  virtual void applyForce() = 0;
+
+ private:
+  S stabilisation_;
+  std::vector<S> multipliers_;
+};
+
 template <class S>
 MovingPoint<S> Frame<S>::inInertial(MovingPoint<S> point) const {
   for (const Frame* frame = this; frame->origin; frame = &frame->origin->from()) point = frame->origin->inFrom(point);
@@ -161,6 +198,7 @@ class Chain final : public Element<S> {
   Chain& operator<<(Element<S>& element) {
     elements_.push_back(&element);
     if (auto* inertia = dynamic_cast<Inertia<S>*>(&element)) inertias_.push_back(inertia);
+    if (auto* constraint = dynamic_cast<Constraint<S>*>(&element)) constraints_.push_back(constraint);
     return *this;
   }
 
@@ -181,10 +219,12 @@ class Chain final : public Element<S> {
 
   const std::vector<Element<S>*>& elements() const { return elements_; }
   const std::vector<Inertia<S>*>& inertias() const { return inertias_; }
+  const std::vector<Constraint<S>*>& constraints() const { return constraints_; }
 
  private:
   std::vector<Element<S>*> elements_;
   std::vector<Inertia<S>*> inertias_;
+  std::vector<Constraint<S>*> constraints_;
 };
 
 }  // namespace gamut

@@ -3,8 +3,8 @@
 //
 // M u̇ = Q: the inertia matrix M from the inertia forces at unit accelerations, Q the forces that remain at u̇ = 0. Up to
 // two speeds are eliminated (least_constraint.hpp); systems of more are solved joint by joint, in the fewest operations
-// (articulated_bodies.hpp), or as wholes, cut at the joints for enclosures (sparse_equations.hpp). No path depends on a
-// scalar's value.
+// (articulated_bodies.hpp), or as wholes, cut at the joints for enclosures (sparse_equations.hpp). With constraints, M
+// is bordered by their rows. No path depends on a scalar's value.
 #pragma once
 
 #include <algorithm>
@@ -94,7 +94,8 @@ class System {
     setAccelerations(zeros());
     doMotion();
     if (speeds_.empty()) return {};
-    const std::vector<S> result = degreesOfFreedom() <= 2 ? eliminated()
+    const std::vector<S> result = !chain_.constraints().empty() ? constrained()
+                                  : degreesOfFreedom() <= 2     ? eliminated()
                                   : formulation == Formulation::articulated
                                       ? articulatedAccelerations(speeds_, chain_, base_)
                                       : solved();
@@ -149,6 +150,15 @@ class System {
     return nullptr;
   }
 
+  /// f(constraint) of all constraints, one after another.
+  template <class Rows>
+  std::vector<S> ofConstraints(Rows rows) const {
+    std::vector<S> all;
+    for (Constraint<S>* constraint : chain_.constraints())
+      for (S& row : rows(*constraint)) all.push_back(std::move(row));
+    return all;
+  }
+
   std::vector<S> zeros() const { return std::vector<S>(speeds_.size(), S(0.0)); }
   void moveUnit(std::size_t j) {
     std::vector<S> unit = zeros();
@@ -191,6 +201,9 @@ class System {
   }
 
   std::vector<S> solved();
+
+  /// With the multipliers of the constraints: M u̇ − Gᵀ λ = Q, G u̇ = −g̈(u̇ = 0) − 2 σ ġ − σ² g.
+  std::vector<S> constrained();
 
   std::vector<S> eliminated() {
     const std::vector<std::vector<S>> columns = unitColumns();
@@ -247,6 +260,45 @@ std::vector<S> System<S>::solved() {
     for (int j = 0; j < m.cols(); ++j) entries.push_back(m(i, j));
   LinearSystem<S>(MatrixKind::positiveDefinite, degreesOfFreedom(), std::move(entries)).solve(result);
   return result;
+}
+
+template <class S>
+std::vector<S> System<S>::constrained() {
+  for (Constraint<S>* constraint : chain_.constraints()) constraint->setMultipliers({});
+  std::vector<S> right = residual();
+  const std::vector<S> atRest = ofConstraints([](Constraint<S>& constraint) {
+    std::vector<S> rows = constraint.accelerations(MotionLevel::all);
+    const std::vector<S> rates = constraint.rates(), residuals = constraint.residuals();
+    const S& sigma = constraint.stabilisation();
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      rows[i] = -rows[i] - S(2.0) * sigma * rates[i] - square(sigma) * residuals[i];
+    return rows;
+  });
+  right.insert(right.end(), atRest.begin(), atRest.end());
+
+  const int f = degreesOfFreedom(), size = static_cast<int>(right.size());
+  const auto m = inertiaMatrix();
+  std::vector<S> entries(static_cast<std::size_t>(size * size), S(0.0));
+  const auto entry = [&](int i, int j) -> S& { return entries[static_cast<std::size_t>(i * size + j)]; };
+  for (int j = 0; j < f; ++j) {
+    for (int i = 0; i < f; ++i) entry(i, j) = m(i, j);
+    moveUnit(static_cast<std::size_t>(j));
+    const std::vector<S> column =
+        ofConstraints([](Constraint<S>& constraint) { return constraint.accelerations(MotionLevel::acceleration); });
+    for (int i = f; i < size; ++i) {
+      entry(i, j) = column[static_cast<std::size_t>(i - f)];
+      entry(j, i) = -entry(i, j);
+    }
+  }
+  LinearSystem<S>(MatrixKind::general, size, std::move(entries)).solve(right);
+  auto multiplier = right.begin() + f;
+  for (Constraint<S>* constraint : chain_.constraints()) {
+    const auto end = multiplier + static_cast<std::ptrdiff_t>(constraint->residuals().size());
+    constraint->setMultipliers({multiplier, end});
+    multiplier = end;
+  }
+  right.resize(static_cast<std::size_t>(f));
+  return right;
 }
 
 }  // namespace gamut
