@@ -13,9 +13,9 @@ inline constexpr const char* exitCodesText =
     "  0  done, and every sample lies inside its enclosure\n"
     "  1  a sample left its enclosure, or stayed unresolved\n"
     "  2  bad input or usage\n"
-    "  3  an analysis ended before its horizon, was interrupted or reached a limit of time or memory, or `gamut "
-    "check`\n"
-    "     found nothing to compare; what was proved is kept and reported\n"
+    "  3  an analysis ended before its horizon, was interrupted or reached a limit of time or memory, a bound "
+    "is\n"
+    "     infinite, or `gamut check` found nothing to compare; what was proved is kept and reported\n"
     "  4  an internal failure, or something could not be written";
 
 /// Throws std::invalid_argument for a verdict whose word has no exit code.

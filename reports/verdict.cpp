@@ -49,6 +49,7 @@ class Wording {
     noteSamples();
     if (results_.stochastic.integrated > 0) noteEnd("The samples end", results_.stochastic);
     noteEnd("The alpha-cuts end", results_.fuzzy);
+    noteUnbounded();
     noteMissing();
     verdict_.sentence = sentence();
     if (results_.comparison.present && results_.comparison.verdict != verdict_.word)
@@ -141,6 +142,14 @@ class Wording {
                  : fmt::format("{} early{}.", whatEnds, reason));
   }
 
+  void noteUnbounded() {
+    if (verdict_.unbounded == 0) return;
+    const Excursion& first = verdict_.firstUnbounded;
+    note(fmt::format("Nothing finite is guaranteed of {}{}{}: it may be infinite or undefined for some values.",
+                     results_.outputs[first.output].name, when(first.time),
+                     verdict_.unbounded > 1 ? " and later, or of other outputs" : ""));
+  }
+
   void noteMissing() {
     if (verdict_.missing == 0 || verdict_.compared == 0 || verdict_.gap == Gap::start) return;
     note(fmt::format("{} of the numbers to compare {} missing before the end was reached.", verdict_.missing,
@@ -178,6 +187,7 @@ class Wording {
         return fmt::format("It was not decided whether every sample stays inside: {}.", whyUndecided());
       case Gap::start:
         return nothing + "an analysis ended before the first output time." + horizonText();
+      case Gap::unbounded:
       case Gap::end:
       case Gap::none:
         break;
@@ -218,6 +228,7 @@ class Wording {
                           atMostText(verdict_.overestimation, 4));
     text += ".";
     if (verdict_.endsEarly) return text + (moves() ? horizonText() : " An analysis ended early.");
+    if (verdict_.unbounded > 0) text += " Not every output is bounded.";
     return text + (verdict_.missing > 0 ? " Not every number was there to compare." : "");
   }
 

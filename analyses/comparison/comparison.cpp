@@ -267,7 +267,9 @@ Overestimation measureOverestimation(const EnclosureBounds& enclosure, const Env
     const double enclosed = enclosure.bounds.upper.data[i] - enclosure.bounds.lower.data[i];
     const double sampled = envelope.upper.data[i] - envelope.lower.data[i];
     result.excess.data[i] = enclosed - sampled;
-    if (!(sampled > tellingErrors * std::max(error.data[i], leastError(magnitude[i % outputs])))) continue;
+    if (std::isinf(enclosed) ||
+        !(sampled > tellingErrors * std::max(error.data[i], leastError(magnitude[i % outputs]))))
+      continue;
     const double ratio = enclosed / sampled;
     result.ratio.data[i] = ratio;
     double& greatest = result.maximumOf[i % outputs];

@@ -74,8 +74,9 @@ struct Comparison {
 
 /// How wide an enclosure is against an envelope.
 struct Overestimation {
-  Table ratio;   ///< enclosure width over envelope width; NaN where the envelope is too narrow to tell
-  Table excess;  ///< enclosure width minus envelope width
+  Table ratio;  ///< enclosure width over envelope width; NaN where the envelope is too narrow to tell, or
+  /// the enclosure infinite
+  Table excess;                                               ///< enclosure width minus envelope width
   double maximum = std::numeric_limits<double>::quiet_NaN();  ///< of the ratios
   double median = std::numeric_limits<double>::quiet_NaN();
   std::vector<double> maximumOf;  ///< one an output

@@ -43,11 +43,12 @@ std::vector<std::vector<Interval>> image(const Program& g, double t, const Box& 
     Box xi(at(embedding.symbols), Interval(-1.0, 1.0));
     restrictTo(level, embedding, std::vector<double>(at(embedding.symbols), 0.0),
                std::vector<double>(at(embedding.symbols), 1.0), xi);
+    const std::vector<Interval> direct = plainOutputs(g, t, level);
     std::vector<Interval> row;
     for (int o = 0; o < outputs.count(); ++o) {
       if (cancelled != nullptr && *cancelled) throw Cancelled();
       Interval value = std::isfinite(outputs.radius(o)) ? inflated(range(outputs.polynomial(o), xi), outputs.radius(o))
-                                                        : Interval::entire();
+                                                        : direct[at(o)];
       if (!result.empty()) value = intersection(value, result.back()[at(o)]);
       row.push_back(value);
     }

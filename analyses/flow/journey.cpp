@@ -138,11 +138,23 @@ void FlowFollower::enclose(const FlowPiece& piece, double tau, std::vector<Inter
     states[at(i)] = inflated(tool_->range(&point_.p[at(i * N)], whole_), point_.radius[at(i)]);
   outputs.clear();
   if (!outputs_) return;
-  outputs_->evaluate(piece.set.t + tau, point_, piece.set.R, piece.set.parameters);
-  for (int o = 0; o < outputs_->count(); ++o)
-    outputs.push_back(std::isfinite(outputs_->radius(o))
-                          ? inflated(tool_->range(outputs_->polynomial(o), whole_), outputs_->radius(o))
-                          : Interval::entire());
+  at_ = piece.set.t + tau;
+  outputs_->evaluate(at_, point_, piece.set.R, piece.set.parameters);
+  appendOutputs(piece, states, whole_, outputs);
+}
+
+/// Over the part `xi` of the piece, where the states are in these boxes, at the time of `point_`.
+void FlowFollower::appendOutputs(const FlowPiece& piece, const std::vector<Interval>& states, const Box& xi,
+                                 std::vector<Interval>& outputs) {
+  const std::vector<Interval>* plain = nullptr;
+  for (int o = 0; o < outputs_->count(); ++o) {
+    if (std::isfinite(outputs_->radius(o))) {
+      outputs.push_back(inflated(tool_->range(outputs_->polynomial(o), xi), outputs_->radius(o)));
+    } else {
+      if (plain == nullptr) plain = &outputs_->overBox(Interval(at_), states, piece.set.parameters);
+      outputs.push_back((*plain)[at(o)]);
+    }
+  }
 }
 
 void FlowFollower::encloseLevels(const FlowPiece& piece, std::size_t row) {
@@ -152,16 +164,13 @@ void FlowFollower::encloseLevels(const FlowPiece& piece, std::size_t row) {
   for (std::size_t level = 0; level < task_.levels.size(); ++level) {
     Box xi = whole_;
     if (!restrictTo(task_.levels[level], task_.embedding, piece.set.centre, piece.set.half, xi)) break;
-    std::vector<Interval> cut;
-    if (outputs_) {
-      for (int o = 0; o < outputs_->count(); ++o)
-        cut.push_back(std::isfinite(outputs_->radius(o))
-                          ? inflated(tool_->range(outputs_->polynomial(o), xi), outputs_->radius(o))
-                          : Interval::entire());
-    } else {
-      for (int i = 0; i < task_.motion.states(); ++i)
-        cut.push_back(inflated(tool_->range(&point_.p[at(i * N)], xi), point_.radius[at(i)]));
-    }
+    std::vector<Interval> cut, states;
+    for (int i = 0; i < task_.motion.states(); ++i)
+      states.push_back(inflated(tool_->range(&point_.p[at(i * N)], xi), point_.radius[at(i)]));
+    if (outputs_)
+      appendOutputs(piece, states, xi, cut);
+    else
+      cut = std::move(states);
     joinHulls(collected_.cuts[level][row], cut);
   }
   collected_.cutCpu += threadCpuSeconds() - began;
@@ -188,14 +197,22 @@ bool FlowFollower::record(FlowPiece& piece) {
   bool chordsKnown = false;
   const auto segment = [&](double to) {  // from `from` to `to`: the chord's hull and how far a motion leaves a chord
     tool_->stepper.sag(from - t0, to - t0, sag_);
-    for (std::size_t i = 0; i < end.size(); ++i)
-      piece.over[i] = hull(piece.over[i], hull(piece.last[i], end[i]) + sag_[i]);
+    std::vector<Interval> between;
+    for (std::size_t i = 0; i < end.size(); ++i) {
+      between.push_back(hull(piece.last[i], end[i]) + sag_[i]);
+      piece.over[i] = hull(piece.over[i], between[i]);
+    }
     if (outputs_) {
       if (!chordsKnown) tool_->chords->load(tool_->stepper, piece.set);
       chordsKnown = true;
       tool_->chords->sag(from - t0, to - t0, sag_);
-      for (std::size_t i = 0; i < endOutputs.size(); ++i)
-        piece.overOutputs[i] = hull(piece.overOutputs[i], hull(piece.lastOutputs[i], endOutputs[i]) + sag_[i]);
+      const std::vector<Interval>* plain = nullptr;
+      for (std::size_t i = 0; i < endOutputs.size(); ++i) {
+        const bool isKnown = isBounded(sag_[i]);
+        if (!isKnown && plain == nullptr) plain = &outputs_->overBox(Interval(from, to), between, piece.set.parameters);
+        piece.overOutputs[i] =
+            hull(piece.overOutputs[i], isKnown ? hull(piece.lastOutputs[i], endOutputs[i]) + sag_[i] : (*plain)[i]);
+      }
     }
     piece.last = end;
     piece.lastOutputs = endOutputs;

@@ -69,6 +69,8 @@ class FlowFollower {
   bool expand(FlowPiece& piece);
   void lowerDegree(FlowPiece& piece);
   void enclose(const FlowPiece& piece, double tau, std::vector<Interval>& states, std::vector<Interval>& outputs);
+  void appendOutputs(const FlowPiece& piece, const std::vector<Interval>& states, const Box& xi,
+                     std::vector<Interval>& outputs);
   void encloseLevels(const FlowPiece& piece, std::size_t row);
   bool record(FlowPiece& piece);
 
@@ -80,6 +82,7 @@ class FlowFollower {
   FlowOutputs* outputs_ = nullptr;
   int monomialCount_ = 0, symbols_ = 0;
   FlowPoint point_;
+  double at_ = 0;  // its time
   Box whole_;
   std::vector<Interval> sag_;
 };

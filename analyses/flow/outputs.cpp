@@ -1,30 +1,63 @@
 // Taylor models of the outputs at one time and over a step, from those of the states.
 #include "analyses/flow/outputs.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "analyses/flow/embedding.hpp"
 #include "analyses/flow/error_bounds.hpp"
 #include "scalars/index.hpp"
+#include "scalars/program/recorder.hpp"
 
 namespace gamut {
 
 using detail::at;
 
+std::vector<Interval> plainOutputs(const Program& g, double t, const Box& box) {
+  Evaluator<Interval> evaluate(g);
+  const auto states = box.begin() + g.states();
+  evaluate.setParameters(std::vector<Interval>(states, box.end()));
+  return evaluate(Interval(t), std::vector<Interval>(box.begin(), states));
+}
+
+namespace {
+
+Program alone(const Program& g, int output) { return Recorder(g).finish({g.outputNodes()[at(output)]}); }
+
+}  // namespace
+
 FlowOutputs::FlowOutputs(const Program& g, std::shared_ptr<const Monomials> monomials,
                          const std::atomic<bool>* cancelled)
-    : differentiated_(g.differentiated()),
+    : g_(g),
+      differentiated_(g.differentiated()),
       n_(g.states()),
       outputs_(g.outputs()),
       monomials_(monomials->count()),
-      series_(differentiated_, outputs_, std::move(monomials), 0, 1, false, cancelled) {
+      layout_(std::move(monomials)),
+      cancelled_(cancelled),
+      series_(differentiated_, outputs_, layout_, 0, 1, false, cancelled),
+      plain_(g) {
   polynomial_.assign(at(outputs_ * monomials_), 0.0);
   radius_.assign(at(outputs_), 0.0);
 }
 
 void FlowOutputs::evaluate(double t, const FlowPoint& point, const std::vector<double>& R,
                            const std::vector<Embedded>& parameters) {
+  if (evaluateTogether(t, point, R, parameters) || outputs_ == 1) return;
+  if (apart_.empty())
+    for (int o = 0; o < outputs_; ++o) apart_.emplace_back(alone(g_, o), layout_, cancelled_);
+  for (int o = 0; o < outputs_; ++o) {
+    FlowOutputs& own = apart_[at(o)];
+    own.evaluate(t, point, R, parameters);
+    radius_[at(o)] = own.radius(0);
+    std::copy_n(own.polynomial(0), monomials_, &polynomial_[at(o * monomials_)]);
+  }
+}
+
+/// False if one could not be bounded: then nothing is known of any.
+bool FlowOutputs::evaluateTogether(double t, const FlowPoint& point, const std::vector<double>& R,
+                                   const std::vector<Embedded>& parameters) {
   for (int i = 0; i < n_; ++i) series_.setState(i, &point.p[at(i * monomials_)]);
   for (std::size_t i = 0; i < parameters.size(); ++i) series_.setParameter(static_cast<int>(i), parameters[i]);
   series_.compute(t, 1.0);
@@ -32,7 +65,7 @@ void FlowOutputs::evaluate(double t, const FlowPoint& point, const std::vector<d
   std::fill(radius_.begin(), radius_.end(), infinite);
   if (!series_.tabulate(1.0) || !series_.bound(nullptr, true)) {
     series_.clear();
-    return;
+    return false;
   }
   std::vector<double> along(at(outputs_));
   for (int o = 0; o < outputs_; ++o) {
@@ -42,7 +75,7 @@ void FlowOutputs::evaluate(double t, const FlowPoint& point, const std::vector<d
     along[at(o)] = series_.rho0(node) + series_.rho1(node);
   }
   // y - g(p) = G (x - p) with G in ∂g/∂x on the hull, |G - G₀| ≤ ρ:  |y - g(p)| ≤ Σ_j |(G₀Ψ₀)_j| R_j + what is left.
-  if (!series_.bound(point.radius.data(), false)) return;
+  if (!series_.bound(point.radius.data(), false)) return false;
   for (int o = 0; o < outputs_; ++o) {
     double sum = along[at(o)];
     std::vector<double> centre(at(n_)), spread(at(n_));
@@ -73,15 +106,28 @@ void FlowOutputs::evaluate(double t, const FlowPoint& point, const std::vector<d
     }
     radius_[at(o)] = sum * bounds::up;
   }
+  return true;
+}
+
+const std::vector<Interval>& FlowOutputs::overBox(const Interval& t, const std::vector<Interval>& states,
+                                                  const std::vector<Embedded>& parameters) {
+  std::vector<Interval> box;
+  for (const Embedded& p : parameters) box.push_back(inflated(Interval(p.centre), (p.half + p.radius) * bounds::up));
+  plain_.setParameters(box);
+  overBox_ = plain_(t, states);
+  return overBox_;
 }
 
 FlowOutputChords::FlowOutputChords(const Program& g, std::shared_ptr<const Monomials> monomials, int order,
                                    const std::atomic<bool>* cancelled)
-    : differentiated_(g.differentiated()),
+    : g_(g),
+      differentiated_(g.differentiated()),
       n_(g.states()),
       outputs_(g.outputs()),
       order_(order + 1),
-      series_(differentiated_, outputs_, std::move(monomials), 0, order_, false, cancelled),
+      layout_(std::move(monomials)),
+      cancelled_(cancelled),
+      series_(differentiated_, outputs_, layout_, 0, order_, false, cancelled),
       second_(at(outputs_)),
       third_(at(outputs_)),
       turn_(at(outputs_)),
@@ -115,6 +161,14 @@ int FlowOutputChords::orderFor(const FlowStepper& stepper, std::vector<double>& 
 /// |G - G̃| |x - p| + |G̃| |loose|. z leaves its chord as far as its second derivative allows; the chord of z is within
 /// |ε| of that of y, as z is of y: together 2 |ε|.
 void FlowOutputChords::load(const FlowStepper& stepper, const FlowSet& set) {
+  isApart_ = !loadTogether(stepper, set) && outputs_ > 1;
+  if (!isApart_) return;
+  if (apart_.empty())
+    for (int o = 0; o < outputs_; ++o) apart_.emplace_back(alone(g_, o), layout_, order_ - 1, cancelled_);
+  for (FlowOutputChords& own : apart_) own.load(stepper, set);
+}
+
+bool FlowOutputChords::loadTogether(const FlowStepper& stepper, const FlowSet& set) {
   const PolynomialSeries& states = stepper.series();
   const double theta = stepper.theta(), infinite = std::numeric_limits<double>::infinity();
   scale_ = stepper.scale();
@@ -124,7 +178,10 @@ void FlowOutputChords::load(const FlowStepper& stepper, const FlowSet& set) {
   for (int i = 0; i < n_; ++i) series_.setStateSeries(i, states.series(i), states.stride());
   for (std::size_t i = 0; i < set.parameters.size(); ++i) series_.setParameter(static_cast<int>(i), set.parameters[i]);
   series_.compute(set.t, scale_);
-  if (!series_.tabulate(theta) || !series_.bound(dropped.data(), true)) return series_.clear();
+  if (!series_.tabulate(theta) || !series_.bound(dropped.data(), true)) {
+    series_.clear();
+    return false;
+  }
   std::vector<double> own(at(outputs_)), tube(at(n_));
   for (int o = 0; o < outputs_; ++o) {
     const int node = series_.outputNode(o);
@@ -133,7 +190,7 @@ void FlowOutputChords::load(const FlowStepper& stepper, const FlowSet& set) {
     third_[at(o)] = series_.derivativeNorm(node, 3, theta);
   }
   for (int i = 0; i < n_; ++i) tube[at(i)] = (stepper.tubeBound(i) + dropped[at(i)]) * bounds::up;
-  if (!series_.bound(tube.data(), false)) return;
+  if (!series_.bound(tube.data(), false)) return false;
   // Σ_j |Ψ^{(k)}| total_j and all of |x - p|, for every state.
   std::vector<double> moved(at(3 * n_), 0.0), loose(at(n_));
   for (int i = 0; i < n_; ++i) {
@@ -154,10 +211,19 @@ void FlowOutputChords::load(const FlowStepper& stepper, const FlowSet& set) {
     rest_[at(o)] = 2 * rest * bounds::up;
     turn_[at(o)] = turn * bounds::up;
   }
+  return true;
 }
 
 void FlowOutputChords::sag(double from, double to, std::vector<Interval>& bound) const {
   bound.clear();
+  if (isApart_) {
+    for (const FlowOutputChords& one : apart_) {
+      std::vector<Interval> own;
+      one.sag(from, to, own);
+      bound.push_back(own.front());
+    }
+    return;
+  }
   for (int o = 0; o < outputs_; ++o)
     bound.push_back(rest_[at(o)] < std::numeric_limits<double>::infinity()
                         ? inflated(series_.sag(series_.outputNode(o), from / scale_, to / scale_, second_[at(o)],

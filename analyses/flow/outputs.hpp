@@ -7,8 +7,12 @@
 #include <vector>
 
 #include "analyses/flow/step.hpp"
+#include "scalars/evaluation/evaluator.hpp"
 
 namespace gamut {
+
+/// g at one time over a box (states, then parameters), by plain intervals.
+std::vector<Interval> plainOutputs(const Program& g, double t, const Box& box);
 
 /// Evaluates g and ∂g/∂x on the polynomials of a FlowPoint. Holds the workspace: one a thread.
 class FlowOutputs {
@@ -17,18 +21,32 @@ class FlowOutputs {
   FlowOutputs(const Program& g, std::shared_ptr<const Monomials> monomials,
               const std::atomic<bool>* cancelled = nullptr);
 
-  /// polynomial(o) ± radius(o) contains output o for every ξ. A radius is infinite where nothing could be proved.
+  /// polynomial(o) ± radius(o) contains output o for every ξ. A radius is infinite where nothing could be proved of
+  /// that output; the others do not suffer from it.
   void evaluate(double t, const FlowPoint& point, const std::vector<double>& R,
                 const std::vector<Embedded>& parameters);
   int count() const { return outputs_; }
   const double* polynomial(int output) const { return &polynomial_[static_cast<std::size_t>(output * monomials_)]; }
   double radius(int output) const { return radius_[static_cast<std::size_t>(output)]; }
 
+  /// The outputs wherever the states are in these boxes, by plain intervals, for those that have an infinite radius: at
+  /// a kink, or where an output is not defined for every ξ. Valid until the next call.
+  const std::vector<Interval>& overBox(const Interval& t, const std::vector<Interval>& states,
+                                       const std::vector<Embedded>& parameters);
+
  private:
-  Program differentiated_;
+  bool evaluateTogether(double t, const FlowPoint& point, const std::vector<double>& R,
+                        const std::vector<Embedded>& parameters);
+
+  Program g_, differentiated_;
   int n_, outputs_, monomials_;
+  std::shared_ptr<const Monomials> layout_;
+  const std::atomic<bool>* cancelled_;
   PolynomialSeries series_;
   std::vector<double> polynomial_, radius_;
+  std::vector<FlowOutputs> apart_;  // one an output, once they could not be bounded together
+  Evaluator<Interval> plain_;
+  std::vector<Interval> overBox_;
 };
 
 /// How far outputs leave the chord between two times of a step. Holds the workspace: one a thread.
@@ -45,13 +63,18 @@ class FlowOutputChords {
   void sag(double from, double to, std::vector<Interval>& bound) const;
 
  private:
+  bool loadTogether(const FlowStepper& stepper, const FlowSet& set);
   int orderFor(const FlowStepper& stepper, std::vector<double>& dropped) const;
 
-  Program differentiated_;
+  Program g_, differentiated_;
   int n_, outputs_, order_;
+  std::shared_ptr<const Monomials> layout_;
+  const std::atomic<bool>* cancelled_;
   PolynomialSeries series_;
   double scale_ = 1;
   std::vector<double> second_, third_, turn_, rest_;  // of g̃: derivatives by σ; of what is not g̃: z'', 2 |ε|
+  std::vector<FlowOutputChords> apart_;               // as above
+  bool isApart_ = false;                              // at present
 };
 
 }  // namespace gamut

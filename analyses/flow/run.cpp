@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "analyses/workers.hpp"
-#include "scalars/evaluation/evaluator.hpp"
 #include "scalars/index.hpp"
 
 namespace gamut {
@@ -159,14 +158,6 @@ void FlowRun::add(FlowPiece piece) {
   wake_.notify_one();
 }
 
-/// g over start values in plain intervals: exactly what is known exactly.
-std::vector<Interval> FlowRun::outputsAtStart(const Box& box) const {
-  Evaluator<Interval> g(task_.outputs);
-  const auto states = box.begin() + task_.motion.states();
-  g.setParameters(std::vector<Interval>(states, box.end()));
-  return g(Interval(0.0), std::vector<Interval>(box.begin(), states));
-}
-
 Tube FlowRun::gather(std::vector<FlowCollected>& collected) {
   Tube tube;
   tube.times_ = task_.times;
@@ -198,7 +189,8 @@ Tube FlowRun::gather(std::vector<FlowCollected>& collected) {
     for (auto& part : collected)
       for (auto& level : part.cuts) level[0] = tube.outputs_[0].empty() ? tube.states_[0] : tube.outputs_[0];
   }
-  narrow(tube.outputs_[0], outputsAtStart(task_.box));
+  // g over start values in plain intervals: exactly what is known exactly.
+  narrow(tube.outputs_[0], plainOutputs(task_.outputs, 0.0, task_.box));
   tube.outputsOver_[0] = tube.outputs_[0];
   tube.cuts_.assign(task_.levels.size(), std::vector<std::vector<Interval>>(rows));
   for (std::size_t level = 0; level < task_.levels.size(); ++level)
@@ -212,7 +204,8 @@ Tube FlowRun::gather(std::vector<FlowCollected>& collected) {
                                                                            : tube.states_[row];
       for (std::size_t i = 0; i < cut.size(); ++i) cut[i] = intersection(cut[i], outside[i]);
       if (row == 0)
-        narrow(cut, task_.outputs.outputs() > 0 ? outputsAtStart(task_.levels[level]) : task_.levels[level]);
+        narrow(cut, task_.outputs.outputs() > 0 ? plainOutputs(task_.outputs, 0.0, task_.levels[level])
+                                                : task_.levels[level]);
     }
   for (std::size_t row = 1; row < rows; ++row)
     for (std::size_t i = 0; i < tube.states_[row].size(); ++i)

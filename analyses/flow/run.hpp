@@ -50,7 +50,6 @@ class FlowRun {
   void work(FlowCollected& collected);
   void report(double earliest);
   void probe(const FlowPiece& piece);
-  std::vector<Interval> outputsAtStart(const Box& box) const;
   Tube gather(std::vector<FlowCollected>& collected);
 
   const FlowTask& task_;

@@ -18,7 +18,8 @@ std::vector<Field> fieldsOf(ComparisonResult& r) {
           {"overestimation",
            &r.overestimation,
            unit::one,
-           "width of the enclosure over width of the envelope; NaN where that is too narrow to tell",
+           "width of the enclosure over width of the envelope; NaN where that is too narrow to tell, or the enclosure "
+           "infinite",
            {time, output}},
           {"excess", &r.excess, unit::ofOutput, "width of the enclosure minus width of the envelope", {time, output}},
           {"maximum_of", &r.maximumOf, unit::one, "greatest overestimation of each output", {output}}};

@@ -35,8 +35,9 @@ struct ComparisonResult {
   std::string verdict;   ///< "inside" | "outside" | "incomplete" | "unresolved"
   std::string why;       ///< why it ended before all was decided; empty if it did not
   double excursion = 0;  ///< greatest distance outside, in multiples of that sample's measured error
-  Table overestimation;  ///< enclosure width over envelope width; NaN where the envelope is too narrow to tell
-  Table excess;          ///< enclosure width minus envelope width
+  Table overestimation;  ///< enclosure width over envelope width; NaN where the envelope is too narrow to tell, or
+  /// the enclosure infinite
+  Table excess;  ///< enclosure width minus envelope width
   double maximum = std::numeric_limits<double>::quiet_NaN();
   double median = std::numeric_limits<double>::quiet_NaN();
   std::vector<double> maximumOf;  ///< one an output

@@ -79,6 +79,8 @@ class Finder {
     const double lower = proved.lower(row, output), upper = proved.upper(row, output);
     if (std::isnan(low) || std::isnan(high) || std::isnan(lower) || std::isnan(upper)) return false;
     ++finding_.compared;
+    if (bound != Bound::plainIntervals && (std::isinf(lower) || std::isinf(upper)) && finding_.unbounded++ == 0)
+      finding_.firstUnbounded = {0, time, output, bound, level};
     const double distance = std::max(distanceOutside(low, lower, upper), distanceOutside(high, lower, upper));
     if (distance > 0) noteExcursion({distance, time, output, bound, level});
     return true;
@@ -155,15 +157,17 @@ class Finder {
     if (isUndecided_) return Gap::undecided;
     if (endedAtStart()) return Gap::start;
     const bool isUnfinished = results_.stochastic.present && !results_.stochastic.stopped.empty();
-    return finding_.endsEarly || isUnfinished || finding_.missing > 0 ? Gap::end : Gap::none;
+    if (finding_.endsEarly || isUnfinished || finding_.missing > 0) return Gap::end;
+    return finding_.unbounded > 0 ? Gap::unbounded : Gap::none;
   }
 
   void findOverestimation() {
     const Grid& ratios = results_.comparison.overestimation;
     double greatest = ratios.empty() ? results_.comparison.maximum : std::numeric_limits<double>::quiet_NaN();
     const std::size_t count = ratios.empty() ? 0 : timesUntil(finding_.reached) * ratios.outputs;
-    for (std::size_t i = 0; i < count; ++i) greatest = std::fmax(greatest, ratios.data[i]);
-    finding_.overestimation = greatest;
+    for (std::size_t i = 0; i < count; ++i)
+      if (!std::isinf(ratios.data[i])) greatest = std::fmax(greatest, ratios.data[i]);
+    if (!std::isinf(greatest)) finding_.overestimation = greatest;
   }
 
   const Results& results_;

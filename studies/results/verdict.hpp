@@ -33,6 +33,7 @@ struct Finding {
     noPosition,  ///< kinematics: an analysis ended before it had anything
     undecided,   ///< a disputed sample was left when the run was interrupted
     start,       ///< an analysis ended before the first output time
+    unbounded,   ///< what is guaranteed of an output is, somewhere, no finite interval
     end          ///< the horizon was not reached, not all samples were followed, or numbers are missing
   };
 
@@ -46,10 +47,12 @@ struct Finding {
   double overestimation = std::numeric_limits<double>::quiet_NaN();  ///< the greatest found; NaN where none was
   Gap gap = Gap::none;
   bool comparesEnclosure =
-      false;                 ///< there were an enclosure and samples; otherwise alpha-cuts and samples, or nothing
-  bool endsEarly = false;    ///< an analysis did not come as far as was asked for
-  std::size_t compared = 0;  ///< so many numbers were
-  std::size_t missing = 0;   ///< numbers of enclosure or envelope that were not there to compare
+      false;                  ///< there were an enclosure and samples; otherwise alpha-cuts and samples, or nothing
+  bool endsEarly = false;     ///< an analysis did not come as far as was asked for
+  std::size_t compared = 0;   ///< so many numbers were
+  std::size_t unbounded = 0;  ///< bounds that are infinite
+  Excursion firstUnbounded;   ///< where; its distance says nothing
+  std::size_t missing = 0;    ///< numbers of enclosure or envelope that were not there to compare
 };
 
 /// Never throws for missing analyses; throws std::invalid_argument if the shape of a field, or the time or output of a

@@ -90,6 +90,18 @@ const Case cases[] = {
            std::nextafter(r.fuzzy.outer[2].upper(40, 1), std::numeric_limits<double>::infinity());
      },
      "outside"},
+    {"InfiniteBound", [](Results& r) { r.interval.at.upper(40, 1) = std::numeric_limits<double>::infinity(); },
+     "incomplete"},
+    {"InfiniteBoundBetweenTimes",
+     [](Results& r) { r.interval.over.lower(40, 1) = -std::numeric_limits<double>::infinity(); }, "incomplete"},
+    {"InfiniteAlphaCut", [](Results& r) { r.fuzzy.outer[2].upper(40, 1) = std::numeric_limits<double>::infinity(); },
+     "incomplete"},
+    {"InfinitePlainIntervals",
+     [](Results& r) {
+       r.interval.direct = r.interval.at;
+       r.interval.direct.upper(40, 1) = std::numeric_limits<double>::infinity();
+     },
+     "inside"},
     {"ExcursionAtTheFirstTime", [](Results& r) { r.stochastic.envelope.lower(0, 0) -= 1; }, "outside"},
     {"ExcursionAtTheLastTime", [](Results& r) { r.stochastic.envelope.lower(60, 1) -= 1; }, "outside"},
     {"InfiniteSample", [](Results& r) { r.stochastic.envelope.upper(3, 0) = std::numeric_limits<double>::infinity(); },
@@ -218,6 +230,18 @@ TEST(Verdict, SpeaksOfPositionsWhereNothingMoves) {
   EXPECT_THAT(
       judge(example::kinematics()).sentence,
       AllOf(HasSubstr("All 4099 sampled positions stay inside the guaranteed enclosure;"), Not(HasSubstr(" s to "))));
+}
+
+TEST(Verdict, NamesTheOutputOfWhichNothingFiniteIsGuaranteed) {
+  Results results = example::pendulum(61, 2);
+  results.interval.at.upper(40, 1) = results.interval.at.upper(41, 1) = std::numeric_limits<double>::infinity();
+  results.comparison.overestimation(40, 1) = std::numeric_limits<double>::infinity();
+  const Verdict verdict = judge(results);
+  EXPECT_EQ(verdict.word, "incomplete");
+  EXPECT_TRUE(std::isfinite(verdict.overestimation));
+  EXPECT_THAT(verdict.sentence, HasSubstr("Not every output is bounded."));
+  EXPECT_THAT(verdict.notes, Contains(AllOf(HasSubstr("Nothing finite is guaranteed of " + results.outputs[1].name),
+                                            HasSubstr("infinite or undefined for some values"))));
 }
 
 TEST(Verdict, OfPositionsWhoseEnclosureWasEndedIsIncompleteAndSaysWhy) {

@@ -248,6 +248,40 @@ TEST(Flow, ProvesNothingButTheStartWhereTheEquationsHaveNoMeaningAtAll) {
   }
 }
 
+/// Where a kink or a pole lies in their range, plain intervals over the states bound them; others stay as tight as they
+/// are. x and v pass zero, the first square root touches it.
+TEST(Flow, BoundsOutputsAtTheirKinksAsTightlyAsTheirStates) {
+  Containment c;
+  c.f = pendulum();
+  c.g = record(2, 0, 5, [](auto t, const auto& x, const auto&, auto& y) {
+    y[0] = abs(x[0]);
+    y[1] = max(x[0], t - 0.5);
+    y[2] = sqrt(sqr(x[0]));
+    y[3] = cos(x[0]) * x[1] - sqr(x[1]) * x[0];
+    y[4] = atan2(x[1], x[0]);
+  });
+  c.box = {Interval(0.8, 1.2), Interval(-0.1, 0.1)};
+  c.levels = {{Interval(0.9, 1.1), Interval(-0.05, 0.1)}, {Interval(1.0, 1.0), Interval(0.01, 0.01)}};
+  c.horizon = 1.5;
+  for (int i = 1; i <= 15; ++i) c.times.push_back(0.1 * i);
+  Judge judge(c);
+  judge.judge(8);
+  Containment alone = c;
+  alone.g =
+      record(2, 0, 1, [](auto, const auto& x, const auto&, auto& y) { y[0] = cos(x[0]) * x[1] - sqr(x[1]) * x[0]; });
+  const Tube &tube = judge.tube(), state = alone.tube();
+  ASSERT_EQ(tube.reachedTimes(), 16U);
+  for (std::size_t i = 0; i < tube.reachedTimes(); ++i) {
+    const Interval most = abs(tube.states(i)[0]), mostOver = abs(tube.statesOver(i)[0]);
+    EXPECT_LE(width(tube.outputs(i)[0]), 1.0001 * width(most)) << i;
+    EXPECT_LE(width(tube.outputs(i)[2]), 1.0001 * most.upper()) << i;
+    EXPECT_LE(width(tube.outputsOver(i)[0]), 1.01 * width(mostOver)) << i;
+    EXPECT_TRUE(isBounded(tube.outputs(i)[1]) && isBounded(tube.outputs(i)[4]));
+    EXPECT_LE(width(tube.outputs(i)[3]), 1.0001 * width(state.outputs(i)[0])) << i;
+    EXPECT_LE(width(tube.outputsOver(i)[3]), 1.0001 * width(state.outputsOver(i)[0])) << i;
+  }
+}
+
 TEST(Flow, GivesTheWholeLineForOutputsItCannotProve) {
   const Program g = record(1, 0, 2, [](auto, const auto& x, const auto&, auto& y) {
     y[0] = 1.0 / (x[0] - 2.0);  // infinite on the way
