@@ -16,11 +16,7 @@ double FlowStepper::relativeRemainder(const FlowSet& set) const {
   std::vector<double> total;
   totalRadius(set, total);
   double largest = 0;
-  for (int i = 0; i < n_; ++i) {
-    double remainder = set.W[at(i)];
-    for (int j = 0; j < n_; ++j) remainder += std::fabs(set.C[at(i * n_ + j)]) * total[at(j)];
-    largest = std::max(largest, remainder / scale_[at(i)]);
-  }
+  for (int i = 0; i < n_; ++i) largest = std::max(largest, remainderOf(set, i, total) / scale_[at(i)]);
   return largest;
 }
 

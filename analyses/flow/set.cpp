@@ -21,6 +21,13 @@ void totalRadius(const FlowSet& set, std::vector<double>& total) {
   for (double& value : total) value *= bounds::up;
 }
 
+double remainderOf(const FlowSet& set, int state, const std::vector<double>& total) {
+  const std::size_t n = total.size(), i = at(state);
+  double remainder = set.W[i];
+  for (std::size_t j = 0; j < n; ++j) remainder += std::fabs(set.C[i * n + j]) * total[j];
+  return remainder;
+}
+
 double orthogonalityDefect(const Eigen::MatrixXd& Q) {
   if (!Q.allFinite()) return std::numeric_limits<double>::infinity();
   const Eigen::MatrixXd defect = Q.transpose() * Q - Eigen::MatrixXd::Identity(Q.cols(), Q.cols());

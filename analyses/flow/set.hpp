@@ -29,6 +29,9 @@ struct FlowSet {
 /// R + Σ_j |Γ_j|, rounded up.
 void totalRadius(const FlowSet& set, std::vector<double>& total);
 
+/// W_i + Σ_j |C_ij| total_j: what the polynomial of state i leaves over, but for roundings.
+double remainderOf(const FlowSet& set, int state, const std::vector<double>& total);
+
 /// An upper bound of ‖QᵀQ - I‖∞, infinite if Q is not finite; then |Q⁻¹w| ≤ |Qᵀw| + φ/(1-φ) ‖Qᵀw‖∞ for every w, because
 /// Q⁻¹ = Σ (I - QᵀQ)^k Qᵀ.
 double orthogonalityDefect(const Eigen::MatrixXd& Q);

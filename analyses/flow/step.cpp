@@ -156,10 +156,10 @@ bool FlowStepper::isTruncationTooLarge(double splitDefect) const {
 bool FlowStepper::isRemainderDominant(const FlowSet& set) const {
   const int N = series_.count();
   for (int i = 0; i < n_; ++i) {
-    double width = 0, remainder = set.W[at(i)];
+    double width = 0;
+    const double remainder = remainderOf(set, i, total_);
     const double centre = std::fabs(set.p[at(i * N)]);
     for (int g = 1; g < N; ++g) width += std::fabs(set.p[at(i * N + g)]);
-    for (int j = 0; j < n_; ++j) remainder += std::fabs(set.C[at(i * n_ + j)]) * total_[at(j)];
     if (remainder > 0.02 * width && remainder > 1e-12 * (centre + width)) return true;
   }
   return false;
@@ -183,9 +183,9 @@ std::string FlowStepper::reason(const FlowSet& set) const {
   for (int i = 0; i < n_; ++i) {
     const double* p = &set.p[at(i * N)];
     const double centre = p[0], rate = series_.series(i)[1] / h0_;
-    double half = 0, remainder = set.W[at(i)];
+    double half = 0;
     for (int g = 1; g < N; ++g) half += std::fabs(p[g]);
-    for (int j = 0; j < n_; ++j) remainder += std::fabs(set.C[at(i * n_ + j)]) * total_[at(j)];
+    const double remainder = remainderOf(set, i, total_);
     const double before = set.first.empty() ? std::fabs(centre) : set.first[at(i)], doubling = centre / rate;
     if (before > 0 && std::fabs(centre) > 1000 * before && doubling > 0 && doubling < 0.01 * set.t)
       return nameOf(i) + " grows without bound: it is about " + text(centre) + " and doubles within " + text(doubling) +

@@ -166,11 +166,6 @@ class TapeWriter {
     }
   }
 
-  bool isInvariantMatrix(int m) const {
-    const std::vector<int>& entries = matrix(m).entries;
-    return std::all_of(entries.begin(), entries.end(), [this](int entry) { return program_.isInvariant(entry); });
-  }
-
   Step step(int id) const {
     if (id >= count()) return {id, {{TapeOp::factorise, false}}, matrix(id - count()).entries, {}};
     const int i = id;
@@ -194,7 +189,8 @@ class TapeWriter {
   }
 
   bool hasStep(int id, bool invariant) const {
-    if (id >= count()) return isMatrixNeeded_[at(id - count())] && isInvariantMatrix(id - count()) == invariant;
+    if (id >= count())
+      return isMatrixNeeded_[at(id - count())] && program_.isInvariantMatrix(id - count()) == invariant;
     return isNeeded(id) && !absorbed_[at(id)] && isOperation(node(id).op) && source(id) == id &&
            program_.isInvariant(id) == invariant;
   }
@@ -287,7 +283,7 @@ class TapeWriter {
       if (!isNeeded(i) || !isOperation(node(i).op) || program_.isInvariant(i) || source(i) != i) continue;
       if (node(i).op == Op::solution) {
         for (int r : solution(i).rightSide) mark(r);
-        if (const int m = solution(i).matrix; !isInvariantMatrix(m))
+        if (const int m = solution(i).matrix; !program_.isInvariantMatrix(m))
           for (int entry : matrix(m).entries) mark(entry);
         continue;
       }

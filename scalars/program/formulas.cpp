@@ -106,14 +106,9 @@ class Printer {
       if (isUsed[at(solution.matrix)] != 0) continue;
       isUsed[at(solution.matrix)] = 1;
       for (int entry : program.matrices()[at(solution.matrix)].entries)
-        use(entry, !isInvariantMatrix(program, solution.matrix));
+        use(entry, !program.isInvariantMatrix(solution.matrix));
     }
     return uses;
-  }
-
-  static bool isInvariantMatrix(const Program& program, int m) {
-    const std::vector<int>& entries = program.matrices()[at(m)].entries;
-    return std::all_of(entries.begin(), entries.end(), [&](int entry) { return program.isInvariant(entry); });
   }
 
   /// "[a, b, c]".
@@ -134,7 +129,7 @@ class Printer {
       const auto row = [&](int i) {
         return list(matrix.size, [&](int j) { return formulas_[at(matrix.entry(i, j))].text; });
       };
-      lines[isInvariantMatrix(program_, solution.matrix) ? 0 : 1] +=
+      lines[program_.isInvariantMatrix(solution.matrix) ? 0 : 1] +=
           "  " + name + " = " + list(matrix.size, row) +
           (matrix.kind == MatrixKind::positiveDefinite ? ", positive definite\n" : "\n");
     }

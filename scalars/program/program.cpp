@@ -57,6 +57,10 @@ SolvingOperations solvingOperations(const NodeTable& table, const LinearMatrix& 
 
 }  // namespace detail
 
+bool Program::isInvariantMatrix(int m) const {
+  return std::ranges::all_of(matrices()[detail::at(m)].entries, [this](int entry) { return isInvariant(entry); });
+}
+
 int Program::operations() const {
   int count = 0;
   std::vector<char> isFactorised(matrices().size(), 0);
@@ -65,13 +69,10 @@ int Program::operations() const {
     if (n.op != Op::solution) {
       count += isOperation(n.op) && invariant_[i] == 0;
     } else if (n.b == 0 && invariant_[i] == 0) {
-      const auto m = detail::at(solutions()[detail::at(n.a)].matrix);
-      const LinearMatrix& matrix = matrices()[m];
-      const bool varies =
-          std::any_of(matrix.entries.begin(), matrix.entries.end(), [&](int entry) { return !isInvariant(entry); });
-      const detail::SolvingOperations solving = detail::solvingOperations(table(), matrix);
-      if (varies && isFactorised[m] == 0) count += solving.factorisation;
-      isFactorised[m] = 1;
+      const int m = solutions()[detail::at(n.a)].matrix;
+      const detail::SolvingOperations solving = detail::solvingOperations(table(), matrices()[detail::at(m)]);
+      if (!isInvariantMatrix(m) && isFactorised[detail::at(m)] == 0) count += solving.factorisation;
+      isFactorised[detail::at(m)] = 1;
       count += solving.solution;
     }
   }

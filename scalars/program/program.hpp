@@ -162,6 +162,8 @@ class Program {
   const detail::NodeTable& table() const { return table_; }
   /// True if the node's value depends neither on time nor on a state: it is evaluated once for given parameters.
   bool isInvariant(int node) const { return invariant_[detail::at(node)] != 0; }
+  /// Likewise of a matrix, number `m` of matrices(): all of its entries are.
+  bool isInvariantMatrix(int m) const;
   /// Number of operations of one evaluation: nodes that are neither inputs nor constants nor invariant, and in place of
   /// a solution's nodes the arithmetic of solving (detail::solvingOperations).
   int operations() const;
