@@ -22,4 +22,14 @@ Axis::Axis(double x, double y, double z) : direction_{x, y, z} {
   sign_ = direction_[static_cast<std::size_t>(last)] < 0 ? -1 : 1;
 }
 
+bool Axis::isParallelTo(const Axis& other) const {
+  // a d = b c: the products' roundings and what they dropped.
+  const auto isZero = [](double a, double d, double b, double c) {
+    return a * d == b * c && std::fma(a, d, -(a * d)) == std::fma(b, c, -(b * c));
+  };
+  const auto& [x, y, z] = direction_;
+  const auto& [u, v, w] = other.direction_;
+  return isZero(x, v, y, u) && isZero(y, w, z, v) && isZero(z, u, x, w);
+}
+
 }  // namespace gamut

@@ -19,6 +19,9 @@ class Axis {
   /// 1 or -1: the side of the coordinate axis to which an aligned axis points; 1 for any other.
   double sign() const { return sign_; }
 
+  /// Whether both are on one line: exactly, but for products that leave the range of doubles.
+  bool isParallelTo(const Axis& other) const;
+
   /// The unit vector, a Vector3<S>: exact zeros and ones if aligned, enclosed by S otherwise. Defined in rotation.hpp.
   template <class S>
   auto unit() const;

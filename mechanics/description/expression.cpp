@@ -114,13 +114,13 @@ Dimension Expression::dimension(const DimensionOf& dimensionOf) const {
   return stack.back();
 }
 
-void Expression::check(const DimensionOf& dimensionOf, const Dimension& expected) const {
+void Expression::check(const DimensionOf& dimensionOf, const std::string& unit) const {
   const Dimension found = dimension(dimensionOf);
   const bool isPlain = isConstant() && std::ranges::none_of(constants_, [](const Constant& c) {
                          return c.exact && (c.exact->hasUnit || c.exact->isRelative);
                        });
-  if (!isPlain && !isAlike(found, expected))
-    throw UnitError(fmt::format("a quantity in {}; expected one in {}", unitOf(found), unitOf(expected)));
+  if (!isPlain && !isAlike(found, gamut::dimensionOf(unit)))
+    throw UnitError(fmt::format("a quantity in {}; expected one in {}", unitOf(found), unit));
 }
 
 std::optional<Amount> Expression::amount() const {

@@ -49,8 +49,8 @@ class Expression {
   /// The dimension of the whole. Radians count as 1 and are kept for display. Throws UnitError where terms do not fit
   /// together.
   Dimension dimension(const DimensionOf& dimensionOf) const;
-  /// Throws UnitError too if the whole is not of the `expected` dimension; without names and units it always is.
-  void check(const DimensionOf& dimensionOf, const Dimension& expected) const;
+  /// Throws UnitError too if the whole is not of the kind of this unit; without names and units it always is.
+  void check(const DimensionOf& dimensionOf, const std::string& unit) const;
 
   /// In SI units; `valueOf(name)` gives an S.
   template <class S, class ValueOf>

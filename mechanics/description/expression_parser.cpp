@@ -35,7 +35,9 @@ class ExpressionParser {
     skipBlanks();
     if (atEnd()) fail(fmt::format("'{}' holds no number", text_));
     readSum();
-    if (!atEnd()) fail(fmt::format("unexpected '{}'", character()), "an operator or the end");
+    if (!atEnd())
+      fail(fmt::format("unexpected '{}'", character()),
+           std::string("an operator or the end") + (isDigit(text_[position_]) ? " (5/s, not 5 1/s)" : ""));
     if (expression_.isConstant() && !hasNumber_) fail(fmt::format("'{}' holds a unit but no number", text_));
     return std::move(expression_);
   }

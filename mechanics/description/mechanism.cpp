@@ -56,9 +56,13 @@ void Mechanism::addParameter(const std::string& name, const Interval& nominal, c
 void Mechanism::addDerived(const std::string& name, const Expression& formula) {
   checkParameterName(name);
   checkNames(formula, name);
-  if (const std::vector<std::string> open = withoutUnit(formula); !open.empty())
-    refuse("the parameter " + quoted(open[0]) + " has no unit, which the formula of " + quoted(name) + " needs");
-  derived_.push_back({name, gamut::unitOf(dimensionOf(formula)), formula});
+  for (const std::string& open : withoutUnit(formula))
+    std::ranges::find(parameters_, open, &NamedValue::name)->unit = "1";
+  try {
+    derived_.push_back({name, gamut::unitOf(dimensionOf(formula)), formula});
+  } catch (const UnitError& error) {
+    throw WrongNumber(name, error.what());
+  }
 }
 
 void Mechanism::checkParameterName(const std::string& name) const {
@@ -113,30 +117,32 @@ void Mechanism::addFrame(const std::string& from, const std::string& to, const s
 }
 
 void Mechanism::use(Expression& number, const std::string& name, const std::string& unit) {
-  const Dimension expected = gamut::dimensionOf(unit);
   if (number.isConstant()) {
-    check(number, name, expected);
+    check(number, name, unit);
     addParameter(name, number.evaluate<Interval>([](const std::string&) { return Interval::entire(); }), unit);
     number = Expression::named(name);
     return;
   }
   checkNames(number, name);
-  const Dimension assumed = check(number, name, expected);
+  const Dimension assumed = check(number, name, unit);
   if (const std::vector<std::string> open = withoutUnit(number); open.size() == 1)
     std::ranges::find(parameters_, open[0], &NamedValue::name)->unit =
-        assumed == expected ? unit : gamut::unitOf(assumed);
+        assumed == gamut::dimensionOf(unit) ? unit : gamut::unitOf(assumed);
 }
 
 void Mechanism::checkNames(const Expression& number, const std::string& name) const {
   for (const std::string& used : number.names()) {
     if (knows(used)) continue;
+    if (used == "t" || unitOfMeasured(used) != nullptr)
+      throw WrongNumber(name, quoted(used) + " changes in motion; expected a formula of parameters alone");
     std::vector<std::string> known = namesOf(parameters_);
     for (const Derived& derived : derived_) known.push_back(derived.name);
     throw UnknownName("parameter", used, known, "for " + quoted(name));
   }
 }
 
-Dimension Mechanism::check(const Expression& number, const std::string& name, const Dimension& expected) const {
+Dimension Mechanism::check(const Expression& number, const std::string& name, const std::string& unit) const {
+  const Dimension expected = gamut::dimensionOf(unit);
   const std::vector<std::string> open = withoutUnit(number);
   const auto dimensionOfNames = [&](const Dimension& assumed) {
     return [&open, assumed, this](const std::string& used) {
@@ -146,7 +152,7 @@ Dimension Mechanism::check(const Expression& number, const std::string& name, co
   };
   const auto fits = [&](const Dimension& assumed) {
     try {
-      number.check(dimensionOfNames(assumed), expected);
+      number.check(dimensionOfNames(assumed), unit);
       return true;
     } catch (const UnitError&) {
       return false;
@@ -158,10 +164,11 @@ Dimension Mechanism::check(const Expression& number, const std::string& name, co
   try {
     if (number.names().size() == 1)
       if (const Dimension own = dimensionOfName(number.names()[0]); number.dimension(dimensionOfName) == own)
-        throw WrongUnit(number.names()[0], gamut::unitOf(own), name, gamut::unitOf(expected));
-    number.check(dimensionOfName, expected);
+        throw WrongUnit(knows(number.names()[0]) ? "parameter" : "quantity", number.names()[0], gamut::unitOf(own),
+                        name, unit);
+    number.check(dimensionOfName, unit);
   } catch (const UnitError& error) {
-    throw UnitError(quoted(name) + ": " + error.what());
+    throw WrongNumber(name, error.what());
   }
   return {};
 }
@@ -172,7 +179,7 @@ void Mechanism::addState(std::vector<State>& states, const std::string& name, co
   if (unitOfMeasured(name) != nullptr) refuse("the quantity " + quoted(name) + " is defined twice");
   if (initial.isConstant()) {
     if (knows(name)) refuse("the quantity " + quoted(name) + " is defined twice");
-    check(initial, name, gamut::dimensionOf(unit));
+    check(initial, name, unit);
     const Interval value = initial.evaluate<Interval>([](const std::string&) { return Interval::entire(); });
     if (isEmpty(value) || !isBounded(value))
       refuse("the initial value " + quoted(name) + " needs a finite value, not " + toString(value));
@@ -318,11 +325,13 @@ const Mechanism::JointCoordinate& Mechanism::coordinate(const std::string& name,
   const auto isOnly = [&](const JointCoordinate& coordinate) {
     return std::ranges::count(coordinates_, coordinate.element, &JointCoordinate::element) == 1;
   };
-  std::vector<std::string> names;
+  std::vector<std::string> names, own;
   for (const JointCoordinate& coordinate : coordinates_) {
+    if (coordinate.element == name) own.push_back(coordinate.name);
     if (coordinate.name == name || (coordinate.element == name && isOnly(coordinate))) return coordinate;
     names.push_back(isOnly(coordinate) ? coordinate.element : coordinate.name);
   }
+  if (!own.empty()) throw UnknownName("joint with one coordinate", name, own, "for " + quoted(of));
   throw UnknownName("joint", name, names, "for " + quoted(of));
 }
 
@@ -366,7 +375,7 @@ void Mechanism::checkSignal(const Signal& signal) const {
   // Where no units are used at all, time is a plain number as well.
   const Dimension expected = gamut::dimensionOf(signal.unit);
   if (expected == Dimension{.time = -1} && dimensionOf(signal.expression) == Dimension{}) return;
-  check(signal.expression, signal.name, expected);
+  check(signal.expression, signal.name, signal.unit);
 }
 
 void Mechanism::check() const {

@@ -24,6 +24,18 @@
 
 namespace gamut {
 
+/// A number of a mechanism whose formula does not fit; what() is one line, "'NUMBER': what is wrong; what was
+/// expected".
+class WrongNumber : public UnitError {
+ public:
+  WrongNumber(const std::string& number, const std::string& what)
+      : UnitError("'" + number + "': " + what), number_(number) {}
+  const std::string& number() const { return number_; }
+
+ private:
+  std::string number_;
+};
+
 class Mechanism {
  public:
   /// The frame in which everything stands.
@@ -45,18 +57,18 @@ class Mechanism {
 
   /// Declares a parameter before its first use. Without a unit it takes that of its first use.
   void addParameter(const std::string& name, const Interval& nominal, const std::string& unit = "");
-  /// Declares a parameter that follows from others, which have been declared with their units. Throws UnitError where
-  /// its terms do not fit together.
+  /// Declares a parameter that follows from others; those that were declared without a unit are plain numbers. Throws
+  /// UnitError where its terms do not fit together.
   void addDerived(const std::string& name, const Expression& formula);
   /// Adds an element of any type: what its description says is checked, but for expressions of motion, whose names may
   /// be defined later. Its numbers become references to the parameters named after them.
   void add(Described element);
   /// Acceleration of free fall in the inertial frame [m/s²]; names gravity.x … z. Zero unless set; set at most once.
   void setGravity(ExpressionVector gravity);
-  /// Throws UnknownName, WrongUnit or UnitError if a number, called `name`, is not of this dimension. Parameters
+  /// Throws UnknownName, WrongUnit or WrongNumber if a number, called `name`, is not of this unit's kind. Parameters
   /// without a unit count as plain numbers; a single one may also be what makes it so, and what it then is, is
   /// returned.
-  Dimension check(const Expression& number, const std::string& name, const Dimension& expected) const;
+  Dimension check(const Expression& number, const std::string& name, const std::string& unit) const;
   /// Throws if nothing can move, if an expression of motion names what there is not or has another unit, or if an
   /// element has a fault.
   void check() const;

@@ -76,7 +76,7 @@ std::string nearestName(std::string_view word, const std::vector<std::string>& c
 }
 
 std::string expectedName(std::string_view word, const std::vector<std::string>& candidates) {
-  if (candidates.empty()) return "no such name: there is none yet";
+  if (candidates.empty()) return "one that was defined before; there is none yet";
   std::vector<std::string> names = nearNames(word, candidates);
   if (names.empty())
     std::copy_if(candidates.begin(), candidates.end(), std::back_inserter(names),
@@ -103,10 +103,11 @@ UnknownName::UnknownName(const std::string& kind, const std::string& word, const
       word_(word),
       expected_(expectedName(word, candidates) + (remark.empty() ? "" : " (" + remark + ")")) {}
 
-WrongUnit::WrongUnit(const std::string& parameter, const std::string& unit, const std::string& use,
-                     const std::string& wanted)
-    : std::invalid_argument("the parameter " + quoted(parameter) + " is in " + unit + ", but " + quoted(use) +
+WrongUnit::WrongUnit(const std::string& kind, const std::string& parameter, const std::string& unit,
+                     const std::string& use, const std::string& wanted)
+    : std::invalid_argument("the " + kind + " " + quoted(parameter) + " is in " + unit + ", but " + quoted(use) +
                             " is in " + wanted),
+      kind_(kind),
       parameter_(parameter),
       wanted_(wanted) {}
 

@@ -36,16 +36,20 @@ class UnknownName : public std::invalid_argument {
   std::string problem_, word_, expected_;
 };
 
-/// A parameter is used for a number of another unit than its own; what() is one sentence.
+/// A parameter, or another quantity, stands where a number of another unit than its own is needed; what() is one
+/// sentence.
 class WrongUnit : public std::invalid_argument {
  public:
-  WrongUnit(const std::string& parameter, const std::string& unit, const std::string& use, const std::string& wanted);
+  WrongUnit(const std::string& kind, const std::string& parameter, const std::string& unit, const std::string& use,
+            const std::string& wanted);
 
+  /// "parameter" or "quantity"
+  const std::string& kind() const { return kind_; }
   const std::string& parameter() const { return parameter_; }
   const std::string& wanted() const { return wanted_; }
 
  private:
-  std::string parameter_, wanted_;
+  std::string kind_, parameter_, wanted_;
 };
 
 }  // namespace gamut

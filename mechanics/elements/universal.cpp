@@ -15,6 +15,11 @@ void Universal::describe(Fields& f) {
   f.coordinate({"angle2", "rad", "at the start"}, angle2, Coordinate::angle, {"rate2", "rad/s", "at the start"}, rate2);
 }
 
+std::vector<Fault> Universal::faults(const RangeOf& /*rangeOf*/) const {
+  if (!axis.isParallelTo(secondAxis)) return {};
+  return {{"second_axis", "the axes of '" + name + "' are parallel", "two axes that differ in direction"}};
+}
+
 template <class S>
 void Universal::assemble(Assembler<S>& a) const {
   Frame<S>& cross = a.hiddenFrame();

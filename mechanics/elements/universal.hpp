@@ -1,6 +1,8 @@
 // Universal joint, cardan or Hooke's joint: two hinges whose axes meet.
 #pragma once
 
+#include <vector>
+
 #include "mechanics/description/described.hpp"
 
 namespace gamut {
@@ -15,6 +17,7 @@ struct Universal {
   Expression angle1 = 0.0, rate1 = 0.0, angle2 = 0.0, rate2 = 0.0;  ///< initial values [rad, rad/s]
 
   void describe(Fields& f);
+  std::vector<Fault> faults(const RangeOf& rangeOf) const;
   template <class S>
   void assemble(Assembler<S>& a) const;
 };

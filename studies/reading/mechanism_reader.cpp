@@ -20,7 +20,7 @@ class MechanismReader {
   MechanismReader(const TomlSource& source, const toml::table& table, const std::vector<Described>& types)
       : source_(source), types_(types), section_(source, table, "mechanism", {"gravity", "parameters", "element"}) {}
 
-  Mechanism read() {
+  ReadMechanism read() {
     readParameters(section_, "");
     if (const toml::node* gravity = section_.find("gravity")) guarded(*gravity, [&] { setGravity(*gravity); });
     const toml::node& list = section_.require("element", "a table [[mechanism.element]] for each element");
@@ -29,13 +29,13 @@ class MechanismReader {
     for (std::size_t i = 0; i < elements.size(); ++i)
       guarded(elements[i], [&] { mechanism_.checkSignals(mechanism_.elements()[i].name()); });
     guarded(elements, [&] { mechanism_.check(); });
-    return std::move(mechanism_);
+    return {std::move(mechanism_), std::move(places_)};
   }
 
  private:
   void setGravity(const toml::node& node) {
     ExpressionVector gravity = {0.0, 0.0, 0.0};
-    readNumbers(node, "mechanism.gravity", gravity, components, 3, dimensionOf("m/s^2"));
+    readNumbers(node, "gravity", "mechanism.gravity", gravity, components, 3, "m/s^2");
     mechanism_.setGravity(gravity);
   }
 
@@ -50,7 +50,10 @@ class MechanismReader {
     } catch (const WrongUnit& error) {
       const auto stated = statedWithUnit_.find(error.parameter());
       const toml::node* place = stated == statedWithUnit_.end() ? textWith(at, error.parameter()) : stated->second;
-      source_.fail(place == nullptr ? at : *place, error.what(), "a parameter in " + error.wanted());
+      source_.fail(place == nullptr ? at : *place, error.what(), "a " + error.kind() + " in " + error.wanted());
+    } catch (const WrongNumber& error) {
+      const auto place = places_.find(error.number());
+      source_.fail(place == places_.end() ? at : *place->second, error);
     } catch (const UnitError& error) {
       source_.fail(at, error);
     } catch (const std::invalid_argument& error) {
@@ -91,22 +94,47 @@ class MechanismReader {
     std::vector<std::pair<toml::source_position, std::string>> keys;  // in the order of the file
     for (const auto& [key, value] : table) keys.emplace_back(key.source().begin, std::string(key.str()));
     std::sort(keys.begin(), keys.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::vector<std::string> formulas;
     for (const auto& [position, key] : keys) {
       const toml::node& value = *table.get(key);
-      const std::string what = section.nameOf("parameters." + key);
-      const std::string name = prefix + key;
-      if (value.is_string()) {
-        const Expression formula = source_.asExpression(value, what);
-        if (!formula.isConstant()) {
-          guarded(value, [&] { mechanism_.addDerived(name, formula); });
-          statedWithUnit_[name] = &value;
-          continue;
-        }
+      const std::string what = section.nameOf("parameters." + key), name = prefix + key;
+      places_[name] = &value;
+      if (value.is_string() && !source_.asExpression(value, what).isConstant()) {
+        formulas.push_back(key);
+        continue;
       }
       const Amount amount = source_.asAnyAmount(value, what);
       const std::string unit = amount.hasUnit ? unitOf(amount.dimension) : "";
       guarded(value, [&] { mechanism_.addParameter(name, enclose(amount), unit); });
       if (amount.hasUnit) statedWithUnit_[name] = &value;
+    }
+    addFormulas(section, table, prefix, formulas);
+  }
+
+  /// Each when those that it follows from are known, whatever the order of the file.
+  void addFormulas(const TomlSection& section, const toml::table& table, const std::string& prefix,
+                   std::vector<std::string> keys) {
+    const auto formulaOf = [&](const std::string& key) {
+      return source_.asExpression(*table.get(key), section.nameOf("parameters." + key));
+    };
+    const auto waitsFor = [&](const std::string& key) {
+      std::vector<std::string> open = formulaOf(key).names();
+      std::erase_if(open, [&](const std::string& name) {
+        return std::ranges::none_of(keys, [&](const std::string& other) { return prefix + other == name; });
+      });
+      return open;
+    };
+    while (!keys.empty()) {
+      auto next = std::ranges::find_if(keys, [&](const std::string& key) { return waitsFor(key).empty(); });
+      if (next == keys.end())
+        source_.fail(*table.get(keys.front()),
+                     fmt::format("'{}' follows from '{}', which follows from it, or from others that do",
+                                 prefix + keys.front(), waitsFor(keys.front()).front()),
+                     "formulas of which none leads back to itself");
+      const toml::node& value = *table.get(*next);
+      guarded(value, [&] { mechanism_.addDerived(prefix + *next, formulaOf(*next)); });
+      statedWithUnit_[prefix + *next] = &value;
+      keys.erase(next);
     }
   }
 
@@ -125,6 +153,7 @@ class MechanismReader {
     if (!initialKeys.empty()) keys.emplace_back("initial");
     const TomlSection section(source_, table, "mechanism.element", keys);
     element.setName(section.text("name"));
+    places_[element.name()] = &table;
     readParameters(section, element.name() + ".");
     static const toml::table none;
     const toml::node* node = initialKeys.empty() ? nullptr : section.find("initial");
@@ -159,12 +188,12 @@ class MechanismReader {
     }
     void number(const Word& word, Expression& number) override {
       if (const toml::node* node = given(section_, word))
-        number = reader_.number(*node, section_.nameOf(word.key), dimensionOf(word.unit));
+        number = reader_.number(*node, named(word), section_.nameOf(word.key), word.unit);
     }
     void numbers(const Word& word, std::span<Expression> numbers, std::span<const char* const> names,
                  std::size_t least) override {
       if (const toml::node* node = given(section_, word))
-        reader_.readNumbers(*node, section_.nameOf(word.key), numbers, names, least, dimensionOf(word.unit));
+        reader_.readNumbers(*node, named(word), section_.nameOf(word.key), numbers, names, least, word.unit);
     }
     void coordinate(const Word& position, Expression& initial, Coordinate /*kind*/, const Word& rate,
                     Expression& initialRate) override {
@@ -173,7 +202,7 @@ class MechanismReader {
     }
     void position(const Word& word, Expression& initial) override {
       if (const toml::node* node = initial_.find(word.key))
-        initial = reader_.number(*node, initial_.nameOf(word.key), dimensionOf(word.unit));
+        initial = reader_.number(*node, named(word), initial_.nameOf(word.key), word.unit);
     }
     void speed(const Word& word, Expression& initial) override { position(word, initial); }
     std::string state(const Word& word, Expression& initial) override {
@@ -199,17 +228,19 @@ class MechanismReader {
     void timeFunction(const Word& word, Expression& number) override { signal(word, number); }
     void signal(const Word& word, Expression& number) override {
       if (const toml::node* node = given(section_, word))
-        number = reader_.signal(*node, section_.nameOf(word.key), word);
+        number = reader_.signal(*node, named(word), section_.nameOf(word.key), word);
     }
     void signals(const Word& word, ExpressionVector& vector) override {
       const toml::node* node = given(section_, word);
       if (node == nullptr) return;
       const toml::array& list = reader_.listOf(*node, section_.nameOf(word.key), 3, 3, dimensionOf(word.unit));
-      for (std::size_t i = 0; i < 3; ++i) vector[i] = reader_.signal(list[i], section_.nameOf(word.key), word);
+      for (std::size_t i = 0; i < 3; ++i)
+        vector[i] = reader_.signal(list[i], named(word) + "." + components[i], section_.nameOf(word.key), word);
     }
     void measure(const Word& /*word*/) override {}
 
    private:
+    std::string named(const Word& word) const { return section_.text("name") + "." + word.key; }
     static const toml::node* given(const TomlSection& section, const Word& word) {
       if (!word.isRequired) return section.find(word.key);
       const std::string unit = word.unit.empty() ? "" : fmt::format(", in {}", word.unit);
@@ -254,7 +285,8 @@ class MechanismReader {
       const TomlSection section(source_, source_.asTable(entry, name), name, {"axis", "angle"});
       FixedRotation rotation{axis(section, "axis")};
       const toml::node& turn = section.require("angle", "an angle such as \"90 deg\"");
-      rotation.angle = number(turn, section.nameOf("angle"), dimensionOf("rad"));
+      rotation.angle = number(turn, fmt::format("{}.{}.{}", element.text("name"), key, result.size() + 1),
+                              section.nameOf("angle"), "rad");
       setQuarterTurns(rotation);
       result.push_back(std::move(rotation));
     }
@@ -281,14 +313,16 @@ class MechanismReader {
     return list;
   }
 
-  void readNumbers(const toml::node& node, const std::string& what, std::span<Expression> numbers,
-                   std::span<const char* const> names, std::size_t least, const Dimension& dimension) {
-    const toml::array& list = listOf(node, what, least, names.size(), dimension);
-    for (std::size_t i = 0; i < list.size(); ++i) numbers[i] = number(list[i], what, dimension);
+  void readNumbers(const toml::node& node, const std::string& name, const std::string& what,
+                   std::span<Expression> numbers, std::span<const char* const> names, std::size_t least,
+                   const std::string& unit) {
+    const toml::array& list = listOf(node, what, least, names.size(), dimensionOf(unit));
+    for (std::size_t i = 0; i < list.size(); ++i) numbers[i] = number(list[i], name + "." + names[i], what, unit);
   }
 
   /// An expression of motion; its names are the mechanism's to check when all elements are known.
-  Expression signal(const toml::node& node, const std::string& what, const Word& word) {
+  Expression signal(const toml::node& node, const std::string& name, const std::string& what, const Word& word) {
+    places_[name] = &node;
     if (!node.is_string()) return enclose(source_.asAmount(node, what, dimensionOf(word.unit)));
     const Expression expression = source_.asExpression(node, what);
     if (expression.amount()) source_.asAmount(node, what, dimensionOf(word.unit));  // refuses another unit
@@ -296,15 +330,18 @@ class MechanismReader {
   }
 
   /// A number, or a formula; the names in it and their units are the mechanism's to check.
-  Expression number(const toml::node& node, const std::string& what, const Dimension& dimension) {
+  Expression number(const toml::node& node, const std::string& name, const std::string& what, const std::string& unit) {
+    const Dimension dimension = dimensionOf(unit);
+    places_[name] = &node;
     if (!node.is_string()) return enclose(source_.asAmount(node, what, dimension));
     Expression formula = source_.asExpression(node, what);
     const std::vector<std::string>& names = formula.names();
-    const bool isUnit = names.size() == 1 && !mechanism_.knows(names[0]) && names[0].find('.') == std::string::npos;
+    const bool isUnit =
+        names.size() == 1 && names[0] != "t" && !mechanism_.knows(names[0]) && names[0].find('.') == std::string::npos;
     if (formula.amount() || isUnit) source_.asAmount(node, what, dimension);  // refuses a unit that there is not
     try {
-      if (std::ranges::all_of(names, [&](const std::string& name) { return mechanism_.knows(name); }))
-        mechanism_.check(formula, what, dimension);
+      if (std::ranges::all_of(names, [&](const std::string& used) { return mechanism_.knows(used); }))
+        mechanism_.check(formula, name, unit);
     } catch (const UnitError& error) {
       source_.fail(node, error);
     } catch (const WrongUnit&) {  // whose place is where the parameter got its unit: the mechanism will say it
@@ -317,11 +354,12 @@ class MechanismReader {
   TomlSection section_;
   Mechanism mechanism_;
   std::map<std::string, const toml::node*> statedWithUnit_;  // parameters
+  std::map<std::string, const toml::node*> places_;
 };
 
 }  // namespace
 
-Mechanism readMechanism(const TomlSource& source, const toml::table& table, const std::vector<Described>& types) {
+ReadMechanism readMechanism(const TomlSource& source, const toml::table& table, const std::vector<Described>& types) {
   return MechanismReader(source, table, types).read();
 }
 

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <map>
 #include <optional>
 #include <set>
 
@@ -35,8 +36,10 @@ class StudyReader {
     const TomlSection file(source_, source_.root(), "",
                            {"study", "mechanism", "uncertain", "output", "interval", "stochastic", "fuzzy", "limits"});
     readStudyTable(source_.asTable(file.require("study", "a table [study]"), "study"));
-    study_.mechanism =
+    ReadMechanism read =
         readMechanism(source_, source_.asTable(file.require("mechanism", "a table [mechanism]"), "mechanism"), types);
+    study_.mechanism = std::move(read.mechanism);
+    places_ = std::move(read.places);
     readUncertain(source_, tables(file, "uncertain"), study_);
     file.require("output", "a table [[output]] for each output that is wanted");
     for (const toml::table* table : tables(file, "output")) readOutput(*table);
@@ -163,19 +166,20 @@ class StudyReader {
       for (const UncertainQuantity& uncertain : study_.uncertain)
         if (uncertain.quantity != names[i] && study_.mechanism.dependsOn(initial[i], uncertain.quantity))
           source_.fail(
-              source_.root(),
+              *places_.at(names[i]),
               fmt::format("the uncertain parameter '{}' sets the initial value '{}'", uncertain.quantity, names[i]),
               fmt::format("the initial value as a number, and '{}' as the uncertain quantity", names[i]));
   }
 
   /// Points between which a length is measured lie apart at the start, or its direction is not determined.
-  void checkLengths(const toml::node& mechanism) const {
+  void checkLengths() const {
     const Assembly<double> assembly(study_.mechanism);
     const std::vector<std::string> known = study_.mechanism.outputQuantities();
     for (const Described& element : study_.mechanism.elements()) {
       const std::string length = element.name() + ".length";
       if (std::ranges::find(known, length) != known.end() && assembly.output(length) == 0)
-        source_.fail(mechanism, fmt::format("the {} '{}' has no length at the start", element.type(), element.name()),
+        source_.fail(*places_.at(element.name()),
+                     fmt::format("the {} '{}' has no length at the start", element.type(), element.name()),
                      "points that lie apart");
     }
   }
@@ -186,12 +190,13 @@ class StudyReader {
       if (study_.mechanism.stateNames().empty())
         source_.fail(mechanism, "every joint is driven, so that nothing is left to move by itself",
                      "a joint without a drive, or analysis = \"kinematics\"");
-      checkLengths(mechanism);
+      checkLengths();
     }
     try {
       recordPrograms(study_);
     } catch (const std::invalid_argument& error) {
-      source_.failWith(mechanism, error.what(), "a mass that every joint moves");
+      source_.failWith(mechanism, error.what(),
+                       "a mass that every joint moves, and joints that move it in different ways");
     }
   }
 
@@ -313,6 +318,7 @@ class StudyReader {
 
   TomlSource source_;
   Study study_;
+  std::map<std::string, const toml::node*> places_;  // of the mechanism's numbers and elements
 };
 
 }  // namespace
@@ -325,7 +331,7 @@ Mechanism readMechanismText(const std::string& text, const std::string& name, co
   const TomlSource source(text, name);
   const toml::node* mechanism = source.root().get("mechanism");
   if (mechanism == nullptr) source.fail(source.root(), "'mechanism' is missing", "a table [mechanism]");
-  return readMechanism(source, source.asTable(*mechanism, "mechanism"), types);
+  return readMechanism(source, source.asTable(*mechanism, "mechanism"), types).mechanism;
 }
 
 std::string textOfStudy(const std::string& path) {

@@ -28,6 +28,11 @@ class UncertainReader {
       if (derived.name == quantity)
         source_.fail(node, fmt::format("'{}' follows from a formula", quantity),
                      fmt::format("one of the quantities in it: {}", fmt::join(derived.formula.names(), ", ")));
+    for (const Mechanism::JointCoordinate& coordinate : study_.mechanism.coordinates())
+      if (coordinate.isDriven && (coordinate.name == quantity || coordinate.rate == quantity))
+        source_.fail(
+            node, fmt::format("the joint '{}' is driven, so that '{}' follows from time", coordinate.element, quantity),
+            "a parameter in the drive's position");
     if (std::find(known.begin(), known.end(), quantity) == known.end())
       source_.fail(node, fmt::format("unknown quantity '{}'", quantity), quantityExpected(quantity, known));
     UncertainQuantity result{quantity, study_.mechanism.unitOf(quantity), {}};

@@ -59,7 +59,7 @@ TEST(Names, WhatIsExpectedAreNearNamesOrSomeOfAll) {
   EXPECT_EQ(expectedName("something", known), "one of: tip.x, tip.y, tip.z, rod.length, base");
   EXPECT_EQ(expectedName("something", std::vector<std::string>(14, "k")),
             "one of: k, k, k, k, k, k, k, k, k, k, k, k and 2 more");
-  EXPECT_EQ(expectedName("something", {}), "no such name: there is none yet");
+  EXPECT_EQ(expectedName("something", {}), "one that was defined before; there is none yet");
 }
 
 TEST(Mechanism, RefusesInertiaThatNoBodyHas) {
@@ -146,7 +146,9 @@ TEST(Mechanism, RefusesFormulasThatDoNotFit) {
     return std::string("nothing");
   };
   EXPECT_THAT(complaint([&] { m.addDerived("a", Expression::parse("length + 1 kg")); }), HasSubstr("adds kg to m"));
-  EXPECT_THAT(complaint([&] { m.addDerived("a", Expression::parse("2*number")); }), HasSubstr("'number' has no unit"));
+  m.addDerived("twice", Expression::parse("2*number*length"));
+  EXPECT_EQ(m.unitOf("number"), "1");
+  EXPECT_EQ(m.unitOf("twice"), "m");
   EXPECT_THAT(complaint([&] { m.addDerived("a", Expression::parse("2*lenght")); }), HasSubstr("did you mean 'length'"));
   EXPECT_THAT(complaint([&] { m.addDerived("half", Expression::parse("length")); }), HasSubstr("defined twice"));
   EXPECT_THAT(complaint([&] { m.addParameter("half", Interval(1.0)); }), HasSubstr("defined twice"));

@@ -159,9 +159,8 @@ TEST(StudyReader, SaysWhereAFormulaIsWrong) {
             "s.toml:21:17: unknown parameter 'bob'; expected one of: gravity.x, gravity.y, gravity.z, rod.length, "
             "rod.vector.x, rod.vector.y (for 'rod.vector.z')");
   EXPECT_EQ(complaint("rod.length + 1 kg"),
-            "s.toml:21:17: 'mechanism.element.vector': adds kg to m at column 12; expected quantities of one kind");
-  EXPECT_EQ(complaint("rod.length^2"),
-            "s.toml:21:17: 'mechanism.element.vector': a quantity in m^2; expected one in m");
+            "s.toml:21:17: 'rod.vector.z': adds kg to m at column 12; expected quantities of one kind");
+  EXPECT_EQ(complaint("rod.length^2"), "s.toml:21:17: 'rod.vector.z': a quantity in m^2; expected one in m");
   EXPECT_THAT(complaint("2 mas"), HasSubstr("s.toml:21:17: mechanism.element.vector: unknown unit 'mas' in '2 mas'"));
 }
 
@@ -518,6 +517,49 @@ TEST_P(BadStudyFile, IsRefusedInOneLineWithItsPlace) {
 }
 
 constexpr BadStudy badStudies[] = {
+    {"[[uncertain]]",
+     "[[mechanism.element]]\ntype = \"force\"\nname = \"f\"\nat = \"tip\"\nforce = [0, \"2 N + 3 m\", "
+     "0]\n[[uncertain]]",
+     "s.toml:32:13: 'f.force.y': adds m to N at column 5; expected quantities of one kind"},
+    {"[[uncertain]]",
+     "[[mechanism.element]]\ntype = \"force\"\nname = \"f\"\nat = \"tip\"\nforce = [0, 0, \"2 N + t*3 "
+     "m\"]\n[[uncertain]]",
+     "s.toml:32:16: 'f.force.z': adds m s to N at column 5; expected quantities of one kind"},
+    {"[[uncertain]]",
+     "[[mechanism.element]]\ntype = \"joint-force\"\nname = \"f\"\njoint = \"hinge\"\nforce = \"-3 "
+     "N*hinge.angle\"\n[[uncertain]]",
+     "s.toml:32:9: 'f.force': a quantity in kg m rad/s^2; expected one in N m"},
+    {"[[uncertain]]",
+     "[[mechanism.element]]\ntype = \"joint-force\"\nname = \"f\"\njoint = \"hinge\"\nforce = "
+     "\"hinge.rate\"\n[[uncertain]]",
+     "s.toml:32:9: the quantity 'hinge.rate' is in rad/s, but 'f.force' is in N m; expected a quantity in N m"},
+    {"[[uncertain]]",
+     "[[mechanism.element]]\ntype = \"state\"\nname = \"z\"\ninitial = \"1 m\"\nrate = \"-1.1 1/s*z\"\n[[uncertain]]",
+     "s.toml:32:8: mechanism.element.rate: unexpected '1' at column 6; expected an operator or the end (5/s, not 5 "
+     "1/s)"},
+    {"[[uncertain]]",
+     "[[mechanism.element]]\ntype = \"distance\"\nname = \"d\"\nfrom = \"inertial\"\nto = \"K1\"\n[[uncertain]]",
+     "s.toml:28:1: the distance 'd' has no length at the start; expected points that lie apart"},
+    {"[[uncertain]]",
+     "[[mechanism.element]]\ntype = \"spring-damper\"\nname = \"d\"\nfrom = \"inertial\"\nto = \"K1\"\nstiffness = \"3 "
+     "N/m\"\n[[uncertain]]",
+     "s.toml:28:1: the spring-damper 'd' has no length at the start; expected points that lie apart"},
+    {"[[uncertain]]",
+     "[[mechanism.element]]\ntype = \"universal\"\nname = \"u\"\nfrom = \"tip\"\nto = \"K2\"\naxis = [1, 1, "
+     "0]\nsecond_axis = [-2, -2, 0]\n[[uncertain]]",
+     "s.toml:34:15: the axes of 'u' are parallel; expected two axes that differ in direction"},
+    {"[[uncertain]]",
+     "[[mechanism.element]]\ntype = \"universal\"\nname = \"u\"\nfrom = \"tip\"\nto = "
+     "\"K2\"\n[[mechanism.element]]\ntype = \"mass\"\nname = \"end\"\nat = \"K2\"\nmass = "
+     "1\n[[mechanism.element]]\ntype = \"joint-spring\"\nname = \"s\"\njoint = \"u\"\nstiffness = 1\n[[uncertain]]",
+     "s.toml:41:9: unknown joint with one coordinate 'u'; expected one of: u.angle1, u.angle2 (for 's')"},
+    {"mass = \"250 g\"", "mass = \"1 kg*t/(1 s)\"",
+     "s.toml:27:8: 'bob.mass': 't' changes in motion; expected a formula of parameters alone"},
+    {"mass = \"250 g\"", "mass = \"1 kg*hinge.angle\"",
+     "s.toml:27:8: 'bob.mass': 'hinge.angle' changes in motion; expected a formula of parameters alone"},
+    {"parameters = { length = 0.5 }", "parameters = { length = \"2 rod.half\", half = \"rod.length/2\" }",
+     "s.toml:22:25: 'rod.length' follows from 'rod.half', which follows from it, or from others that do; expected "
+     "formulas of which none leads back to itself"},
     {"[stochastic]", "[limits]\ntime = 0\n[stochastic]",
      "s.toml:40:8: limits.time is not positive; expected a number above 0"},
     {"[stochastic]", "[limits]\nmemory = \"8 kg\"\n[stochastic]",
@@ -679,7 +721,7 @@ constexpr BadStudy badStudies[] = {
      "s.toml:26:6: unknown frame 'K2'; expected 'K1' ('bob' must come after the element that defines its frame)"},
     {"at = \"tip\"", "at = \"inertial\"",
      "s.toml:7:1: the joint 'hinge' moves no mass, add a mass at the frame 'K1' or at one that it carries; expected a "
-     "mass that every joint moves"},
+     "mass that every joint moves, and joints that move it in different ways"},
     {"name = \"bob\"", "name = \"rod\"",
      "s.toml:23:1: two elements are named 'rod', every element needs a name of its own; expected a mechanism that can "
      "be assembled"},
