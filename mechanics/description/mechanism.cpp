@@ -372,10 +372,18 @@ void Mechanism::checkSignal(const Signal& signal) const {
       for (const std::string& quantity : outputQuantities()) known.push_back(quantity);
     throw UnknownName("quantity", used, known, "for " + quoted(signal.name));
   }
-  // Where no units are used at all, time is a plain number as well.
-  const Dimension expected = gamut::dimensionOf(signal.unit);
-  if (expected == Dimension{.time = -1} && dimensionOf(signal.expression) == Dimension{}) return;
+  if (gamut::dimensionOf(signal.unit) == Dimension{.time = -1} && isWithoutUnits(signal.expression)) return;
   check(signal.expression, signal.name, signal.unit);
+}
+
+bool Mechanism::isWithoutUnits(const Expression& rate) const {
+  try {
+    return rate.dimension([this](const std::string& name) {
+      return name == "t" ? Dimension{} : gamut::dimensionOf(unitOf(name));
+    }) == Dimension{};
+  } catch (const UnitError&) {
+    return false;
+  }
 }
 
 void Mechanism::check() const {

@@ -166,6 +166,8 @@ class Mechanism {
   /// Throws if one of its names is no parameter.
   void checkNames(const Expression& number, const std::string& name) const;
   void checkSignal(const Signal& signal) const;
+  /// Where no units are used at all, time is a plain number as well.
+  bool isWithoutUnits(const Expression& rate) const;
   std::vector<std::string> withoutUnit(const Expression& number) const;
   const Derived* findDerived(const std::string& name) const;
   /// Of states and of what is measured; null for any other.

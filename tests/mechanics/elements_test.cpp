@@ -318,6 +318,15 @@ TEST(StateElement, IsADifferentialEquationWithoutAnyMechanism) {
   EXPECT_EQ(dx[1], 0.5 * (0.75 - 3));
 }
 
+TEST(StateElement, TakesTimeForAPlainNumberWhereNothingHasAUnit) {
+  Mechanism m;
+  m.add(State{"x", 1.0, Expression::parse("sin(2*pi*t) - x*t")});
+  EXPECT_NO_THROW(m.check());
+  EXPECT_NEAR(Evaluator<double>(recordMotion(m))(0.25, std::vector<double>{2.0})[0], 0.5, 1e-15);
+  m.add(State{"y", Expression::parse("1 m"), Expression::parse("y*sin(2*pi*t)")});
+  EXPECT_THROW(m.check(), WrongNumber);
+}
+
 TEST(StateElement, HasItsRateInItsUnitPerSecond) {
   Mechanism m;
   m.add(State{"level", Expression::parse("2 m"), Expression::parse("-level/(3 s)")});
