@@ -57,10 +57,10 @@ std::string nameOfStudy(const std::string& path) {
              : file.stem().string();
 }
 
-/// Without a comparison there is no verdict: what counts is that every analysis came to its end.
+/// Without a comparison there is no verdict: what counts is that every analysis came to its end, with finite bounds.
 ExitCode exitCodeOf(const Results& results, const Verdict& verdict) {
   if (results.comparison.present) return exitCode(verdict);
-  return whyEnded(results).empty() ? done : endedEarly;
+  return whyEnded(results).empty() && verdict.unbounded == 0 ? done : endedEarly;
 }
 
 void say(const Arguments& arguments, const Results& results, const Verdict& verdict) {

@@ -24,13 +24,26 @@ Program recordMotion(const Mechanism& mechanism, const std::vector<std::string>&
   }
 }
 
+std::vector<Recorded> recordOutputs(const Assembly<Recorded>& assembly, const std::vector<std::string>& outputs) {
+  std::vector<Recorded> values;
+  for (const std::string& output : outputs) {
+    try {
+      values.push_back(assembly.output(output));
+    } catch (const std::domain_error& error) {
+      throw UndefinedOutput(values.size(), "'" + output + "' has no value: " + error.what());
+    }
+  }
+  return values;
+}
+
 Program recordOutputs(const Mechanism& mechanism, const std::vector<std::string>& freeParameters,
                       const std::vector<std::string>& outputs) {
   return record(static_cast<int>(mechanism.stateNames().size()), static_cast<int>(freeParameters.size()),
                 static_cast<int>(outputs.size()), [&](auto t, const auto& x, const auto& p, auto& y) {
                   Assembly<Recorded> assembly(mechanism, freeParameters, p);
                   assembly.setState(x, t);
-                  for (std::size_t i = 0; i < outputs.size(); ++i) y[i] = assembly.output(outputs[i]);
+                  const std::vector<Recorded> values = recordOutputs(assembly, outputs);
+                  for (std::size_t i = 0; i < values.size(); ++i) y[i] = values[i];
                 });
 }
 

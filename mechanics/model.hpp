@@ -1,9 +1,12 @@
 // From the description of a mechanism to the programs that analyses work with.
 #pragma once
 
+#include <cstddef>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "mechanics/assembly.hpp"
 #include "mechanics/description/mechanism.hpp"
 #include "mechanics/equations/formulation.hpp"
 #include "scalars/program/program.hpp"
@@ -16,8 +19,22 @@ namespace gamut {
 Program recordMotion(const Mechanism& mechanism, const std::vector<std::string>& freeParameters = {},
                      Formulation formulation = Formulation::sparse);
 
-/// y = g(t, x, p): one value for each output, as in Assembly::output. Throws std::invalid_argument as recordMotion, and
-/// for an unknown output.
+/// An output has no value, whatever the motion; what() is one sentence.
+class UndefinedOutput : public std::invalid_argument {
+ public:
+  UndefinedOutput(std::size_t output, const std::string& sentence) : std::invalid_argument(sentence), output_(output) {}
+  /// Which of those that were asked for.
+  std::size_t output() const { return output_; }
+
+ private:
+  std::size_t output_;
+};
+
+/// The values of outputs, as in Assembly::output. Throws UndefinedOutput.
+std::vector<Recorded> recordOutputs(const Assembly<Recorded>& assembly, const std::vector<std::string>& outputs);
+
+/// y = g(t, x, p): one value for each output. Throws std::invalid_argument as recordMotion, for an unknown output, and
+/// UndefinedOutput.
 Program recordOutputs(const Mechanism& mechanism, const std::vector<std::string>& freeParameters,
                       const std::vector<std::string>& outputs);
 

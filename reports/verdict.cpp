@@ -147,7 +147,7 @@ class Wording {
     const Excursion& first = verdict_.firstUnbounded;
     note(fmt::format("Nothing finite is guaranteed of {}{}{}: it may be infinite or undefined for some values.",
                      results_.outputs[first.output].name, when(first.time),
-                     verdict_.unbounded > 1 ? " and later, or of other outputs" : ""));
+                     verdict_.unbounded > 1 ? fmt::format(" (and {} more bounds)", verdict_.unbounded - 1) : ""));
   }
 
   void noteMissing() {

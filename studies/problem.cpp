@@ -35,7 +35,8 @@ Program recordConfiguration(const Study& study, std::size_t states, int numbers)
     const std::span<const Recorded> values(p);
     Assembly<Recorded> assembly(study.mechanism, freeParameters(study), values.subspan(states));
     assembly.setState(values.first(states));
-    for (std::size_t i = 0; i < outputs.size(); ++i) y[i] = assembly.output(outputs[i]);
+    const std::vector<Recorded> found = recordOutputs(assembly, outputs);
+    for (std::size_t i = 0; i < found.size(); ++i) y[i] = found[i];
   });
 }
 

@@ -20,6 +20,7 @@ std::vector<std::vector<Interval>> image(const Program& g, double t, const Box& 
   const int d = degree >= 1 && embedding.symbols > 0 ? degree : degreeLadder(embedding.symbols).back();
   const auto monomials = std::make_shared<const Monomials>(std::vector<int>(at(embedding.symbols), 1), d);
   FlowOutputs outputs(g, monomials, cancelled);
+  PlainOutputs plain(g);
   PolynomialRange range(monomials);
   const int n = g.states(), N = monomials->count();
   FlowPoint point;
@@ -43,7 +44,7 @@ std::vector<std::vector<Interval>> image(const Program& g, double t, const Box& 
     Box xi(at(embedding.symbols), Interval(-1.0, 1.0));
     restrictTo(level, embedding, std::vector<double>(at(embedding.symbols), 0.0),
                std::vector<double>(at(embedding.symbols), 1.0), xi);
-    const std::vector<Interval> direct = plainOutputs(g, t, level);
+    const std::vector<Interval> direct = plain.over(t, level);
     std::vector<Interval> row;
     for (int o = 0; o < outputs.count(); ++o) {
       if (cancelled != nullptr && *cancelled) throw Cancelled();

@@ -146,15 +146,10 @@ void FlowFollower::enclose(const FlowPiece& piece, double tau, std::vector<Inter
 /// Over the part `xi` of the piece, where the states are in these boxes, at the time of `point_`.
 void FlowFollower::appendOutputs(const FlowPiece& piece, const std::vector<Interval>& states, const Box& xi,
                                  std::vector<Interval>& outputs) {
-  const std::vector<Interval>* plain = nullptr;
-  for (int o = 0; o < outputs_->count(); ++o) {
-    if (std::isfinite(outputs_->radius(o))) {
-      outputs.push_back(inflated(tool_->range(outputs_->polynomial(o), xi), outputs_->radius(o)));
-    } else {
-      if (plain == nullptr) plain = &outputs_->overBox(Interval(at_), states, piece.set.parameters);
-      outputs.push_back((*plain)[at(o)]);
-    }
-  }
+  for (int o = 0; o < outputs_->count(); ++o)
+    outputs.push_back(std::isfinite(outputs_->radius(o))
+                          ? inflated(tool_->range(outputs_->polynomial(o), xi), outputs_->radius(o))
+                          : outputs_->overBox(o, Interval(at_), states, piece.set.parameters));
 }
 
 void FlowFollower::encloseLevels(const FlowPiece& piece, std::size_t row) {
@@ -206,13 +201,11 @@ bool FlowFollower::record(FlowPiece& piece) {
       if (!chordsKnown) tool_->chords->load(tool_->stepper, piece.set);
       chordsKnown = true;
       tool_->chords->sag(from - t0, to - t0, sag_);
-      const std::vector<Interval>* plain = nullptr;
-      for (std::size_t i = 0; i < endOutputs.size(); ++i) {
-        const bool isKnown = isBounded(sag_[i]);
-        if (!isKnown && plain == nullptr) plain = &outputs_->overBox(Interval(from, to), between, piece.set.parameters);
+      for (std::size_t i = 0; i < endOutputs.size(); ++i)
         piece.overOutputs[i] =
-            hull(piece.overOutputs[i], isKnown ? hull(piece.lastOutputs[i], endOutputs[i]) + sag_[i] : (*plain)[i]);
-      }
+            hull(piece.overOutputs[i], isBounded(sag_[i]) ? hull(piece.lastOutputs[i], endOutputs[i]) + sag_[i]
+                                                          : outputs_->overBox(static_cast<int>(i), Interval(from, to),
+                                                                              between, piece.set.parameters));
     }
     piece.last = end;
     piece.lastOutputs = endOutputs;

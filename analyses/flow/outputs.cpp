@@ -14,13 +14,6 @@ namespace gamut {
 
 using detail::at;
 
-std::vector<Interval> plainOutputs(const Program& g, double t, const Box& box) {
-  Evaluator<Interval> evaluate(g);
-  const auto states = box.begin() + g.states();
-  evaluate.setParameters(std::vector<Interval>(states, box.end()));
-  return evaluate(Interval(t), std::vector<Interval>(box.begin(), states));
-}
-
 namespace {
 
 Program alone(const Program& g, int output) { return Recorder(g).finish({g.outputNodes()[at(output)]}); }
@@ -109,13 +102,11 @@ bool FlowOutputs::evaluateTogether(double t, const FlowPoint& point, const std::
   return true;
 }
 
-const std::vector<Interval>& FlowOutputs::overBox(const Interval& t, const std::vector<Interval>& states,
-                                                  const std::vector<Embedded>& parameters) {
+Interval FlowOutputs::overBox(int output, const Interval& t, const std::vector<Interval>& states,
+                              const std::vector<Embedded>& parameters) {
   std::vector<Interval> box;
   for (const Embedded& p : parameters) box.push_back(inflated(Interval(p.centre), (p.half + p.radius) * bounds::up));
-  plain_.setParameters(box);
-  overBox_ = plain_(t, states);
-  return overBox_;
+  return plain_.over(output, t, states, box);
 }
 
 FlowOutputChords::FlowOutputChords(const Program& g, std::shared_ptr<const Monomials> monomials, int order,

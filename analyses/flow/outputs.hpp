@@ -6,13 +6,10 @@
 #include <memory>
 #include <vector>
 
+#include "analyses/flow/plain_outputs.hpp"
 #include "analyses/flow/step.hpp"
-#include "scalars/evaluation/evaluator.hpp"
 
 namespace gamut {
-
-/// g at one time over a box (states, then parameters), by plain intervals.
-std::vector<Interval> plainOutputs(const Program& g, double t, const Box& box);
 
 /// Evaluates g and ∂g/∂x on the polynomials of a FlowPoint. Holds the workspace: one a thread.
 class FlowOutputs {
@@ -29,10 +26,10 @@ class FlowOutputs {
   const double* polynomial(int output) const { return &polynomial_[static_cast<std::size_t>(output * monomials_)]; }
   double radius(int output) const { return radius_[static_cast<std::size_t>(output)]; }
 
-  /// The outputs wherever the states are in these boxes, by plain intervals, for those that have an infinite radius: at
-  /// a kink, or where an output is not defined for every ξ. Valid until the next call.
-  const std::vector<Interval>& overBox(const Interval& t, const std::vector<Interval>& states,
-                                       const std::vector<Embedded>& parameters);
+  /// Output o wherever the states are in these boxes, by plain intervals, for one that has an infinite radius: at a
+  /// kink, or where it is not defined for every ξ.
+  Interval overBox(int output, const Interval& t, const std::vector<Interval>& states,
+                   const std::vector<Embedded>& parameters);
 
  private:
   bool evaluateTogether(double t, const FlowPoint& point, const std::vector<double>& R,
@@ -45,8 +42,7 @@ class FlowOutputs {
   PolynomialSeries series_;
   std::vector<double> polynomial_, radius_;
   std::vector<FlowOutputs> apart_;  // one an output, once they could not be bounded together
-  Evaluator<Interval> plain_;
-  std::vector<Interval> overBox_;
+  PlainOutputs plain_;
 };
 
 /// How far outputs leave the chord between two times of a step. Holds the workspace: one a thread.

@@ -190,7 +190,8 @@ Tube FlowRun::gather(std::vector<FlowCollected>& collected) {
       for (auto& level : part.cuts) level[0] = tube.outputs_[0].empty() ? tube.states_[0] : tube.outputs_[0];
   }
   // g over start values in plain intervals: exactly what is known exactly.
-  narrow(tube.outputs_[0], plainOutputs(task_.outputs, 0.0, task_.box));
+  PlainOutputs atStart(task_.outputs);
+  narrow(tube.outputs_[0], atStart.over(0.0, task_.box));
   tube.outputsOver_[0] = tube.outputs_[0];
   tube.cuts_.assign(task_.levels.size(), std::vector<std::vector<Interval>>(rows));
   for (std::size_t level = 0; level < task_.levels.size(); ++level)
@@ -204,8 +205,7 @@ Tube FlowRun::gather(std::vector<FlowCollected>& collected) {
                                                                            : tube.states_[row];
       for (std::size_t i = 0; i < cut.size(); ++i) cut[i] = intersection(cut[i], outside[i]);
       if (row == 0)
-        narrow(cut, task_.outputs.outputs() > 0 ? plainOutputs(task_.outputs, 0.0, task_.levels[level])
-                                                : task_.levels[level]);
+        narrow(cut, task_.outputs.outputs() > 0 ? atStart.over(0.0, task_.levels[level]) : task_.levels[level]);
     }
   for (std::size_t row = 1; row < rows; ++row)
     for (std::size_t i = 0; i < tube.states_[row].size(); ++i)

@@ -365,6 +365,9 @@ Dimension Mechanism::dimensionOf(const Expression& signal) const {
 void Mechanism::checkSignal(const Signal& signal) const {
   for (const std::string& used : signal.expression.names()) {
     if (used == "t" || knows(used) || (!signal.isOfTimeAlone && unitOfMeasured(used) != nullptr)) continue;
+    if (unitOfMeasured(used) != nullptr)
+      throw WrongNumber(signal.name,
+                        quoted(used) + " changes in motion; expected a formula of time and parameters alone");
     std::vector<std::string> known = namesOf(parameters_);
     for (const Derived& derived : derived_) known.push_back(derived.name);
     known.emplace_back("t");

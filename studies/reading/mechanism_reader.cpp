@@ -99,9 +99,16 @@ class MechanismReader {
       const toml::node& value = *table.get(key);
       const std::string what = section.nameOf("parameters." + key), name = prefix + key;
       places_[name] = &value;
-      if (value.is_string() && !source_.asExpression(value, what).isConstant()) {
-        formulas.push_back(key);
-        continue;
+      if (value.is_string()) {
+        const Expression formula = source_.asExpression(value, what);
+        if (!formula.isConstant()) {
+          formulas.push_back(key);
+          continue;
+        }
+        if (!formula.amount()) {  // "sqrt(2) m": a number, but no rational one
+          guarded(value, [&] { addConstant(name, formula); });
+          continue;
+        }
       }
       const Amount amount = source_.asAnyAmount(value, what);
       const std::string unit = amount.hasUnit ? unitOf(amount.dimension) : "";
@@ -109,6 +116,13 @@ class MechanismReader {
       if (amount.hasUnit) statedWithUnit_[name] = &value;
     }
     addFormulas(section, table, prefix, formulas);
+  }
+
+  void addConstant(const std::string& name, const Expression& formula) {
+    const auto none = [](const std::string&) -> Dimension { throw std::logic_error("a constant has no names"); };
+    const Dimension dimension = formula.dimension(none);
+    mechanism_.addParameter(name, formula.evaluate<Interval>([](const std::string&) { return Interval::entire(); }),
+                            dimension == Dimension{} ? "" : unitOf(dimension));
   }
 
   /// Each when those that it follows from are known, whatever the order of the file.

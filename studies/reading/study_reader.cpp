@@ -11,6 +11,7 @@
 #include <set>
 
 #include "mechanics/assembly.hpp"
+#include "mechanics/model.hpp"
 #include "studies/printable.hpp"
 #include "studies/problem.hpp"
 #include "studies/readable.hpp"
@@ -190,10 +191,14 @@ class StudyReader {
       if (study_.mechanism.stateNames().empty())
         source_.fail(mechanism, "every joint is driven, so that nothing is left to move by itself",
                      "a joint without a drive, or analysis = \"kinematics\"");
-      checkLengths();
     }
+    checkLengths();
     try {
       recordPrograms(study_);
+    } catch (const UndefinedOutput& error) {
+      source_.failWith(*outputNodes_[error.output()], error.what(), "a formula that has a value");
+    } catch (const std::domain_error& error) {
+      source_.failWith(mechanism, error.what(), "a mechanism in which all that is measured has a value");
     } catch (const std::invalid_argument& error) {
       source_.failWith(mechanism, error.what(),
                        "a mass that every joint moves, and joints that move it in different ways");
@@ -232,6 +237,7 @@ class StudyReader {
         source_.fail(at == nullptr ? node : *at, fmt::format("two outputs are named '{}'", name), "different names");
       }
     study_.outputs.push_back({name, quantity, unit});
+    outputNodes_.push_back(&node);
   }
 
   // ---- [interval], [stochastic], [fuzzy], [limits] ------------------------------------------------------------------
@@ -318,6 +324,7 @@ class StudyReader {
 
   TomlSource source_;
   Study study_;
+  std::vector<const toml::node*> outputNodes_;
   std::map<std::string, const toml::node*> places_;  // of the mechanism's numbers and elements
 };
 

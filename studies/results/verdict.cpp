@@ -28,6 +28,7 @@ class Finder {
   Finding find() {
     compareEnvelope();
     compareCuts();
+    findUnbounded();
     readDisputes();
     finding_.reached = comparesAnything() ? reached_ : reachedTime(results_);
     finding_.endsEarly = endsEarly();
@@ -79,8 +80,6 @@ class Finder {
     const double lower = proved.lower(row, output), upper = proved.upper(row, output);
     if (std::isnan(low) || std::isnan(high) || std::isnan(lower) || std::isnan(upper)) return false;
     ++finding_.compared;
-    if (bound != Bound::plainIntervals && (std::isinf(lower) || std::isinf(upper)) && finding_.unbounded++ == 0)
-      finding_.firstUnbounded = {0, time, output, bound, level};
     const double distance = std::max(distanceOutside(low, lower, upper), distanceOutside(high, lower, upper));
     if (distance > 0) noteExcursion({distance, time, output, bound, level});
     return true;
@@ -120,6 +119,26 @@ class Finder {
           compare(fuzzy.inner[level], i, fuzzy.outer[level], i, k, Bound::alphaCut, static_cast<std::int64_t>(level));
     }
     if (!finding_.comparesEnclosure) reached_ = reached;
+  }
+
+  void findUnbounded(const Bounds& proved, double reached, Bound bound, std::int64_t level = -1) {
+    if (proved.empty()) return;
+    for (std::size_t i = 0; i < std::min(timesUntil(reached), proved.lower.times); ++i)
+      for (std::size_t k = 0; k < results_.outputs.size(); ++k)
+        if ((std::isinf(proved.lower(i, k)) || std::isinf(proved.upper(i, k))) && finding_.unbounded++ == 0)
+          finding_.firstUnbounded = {0, i, k, bound, level};
+  }
+
+  void findUnbounded() {
+    const IntervalResult& interval = results_.interval;
+    if (interval.present) {
+      findUnbounded(interval.at, interval.reached, Bound::enclosure);
+      findUnbounded(interval.over, interval.reached, Bound::tube);
+    }
+    if (results_.fuzzy.present)
+      for (std::size_t level = 0; level < results_.fuzzy.outer.size(); ++level)
+        findUnbounded(results_.fuzzy.outer[level], results_.fuzzy.reached, Bound::alphaCut,
+                      static_cast<std::int64_t>(level));
   }
 
   void readDisputes() {

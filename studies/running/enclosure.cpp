@@ -44,7 +44,8 @@ void encloseMotion(Run& run) {
   enclosed.cutCpu = tube.cutCpuSeconds();
 }
 
-/// Plain intervals and polynomials both enclose, so their intersection does. What ends early leaves the former.
+/// Plain intervals and polynomials both enclose, so their intersection does; but where these found nothing, an output
+/// may have no value, of which those say nothing. What ends early leaves the former.
 void encloseConfiguration(Run& run) {
   Enclosed& enclosed = run.enclosed;
   const std::vector<Interval> direct = assembledOutputs(run.study, run.problem, run.problem.box);
@@ -53,7 +54,7 @@ void encloseConfiguration(Run& run) {
   std::vector<Interval> enclosure = direct;
   const auto narrow = [&](std::size_t image, Bounds& bounds) {
     for (std::size_t j = 0; j < enclosure.size() && !images.empty(); ++j)
-      enclosure[j] = intersection(enclosure[j], images[image][j]);
+      enclosure[j] = isEntire(images[image][j]) ? Interval::entire() : intersection(direct[j], images[image][j]);
     setRow(bounds, 0, enclosure);
   };
   narrow(0, enclosed.at);

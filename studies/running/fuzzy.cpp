@@ -21,11 +21,12 @@ std::vector<Fuzzy> fuzzyNumbers(const Problem& problem) {
   return numbers;
 }
 
-/// Both enclose, so their intersection does.
+/// Both enclose, so their intersection does, but where nothing is known of the cuts.
 void narrow(std::vector<Bounds>& cuts, const std::vector<Fuzzy>& outputs) {
   for (std::size_t level = 0; level < cuts.size(); ++level)
     for (std::size_t j = 0; j < outputs.size(); ++j) {
       double &lower = cuts[level].lower(0, j), &upper = cuts[level].upper(0, j);
+      if (isEntire(Interval(lower, upper))) continue;
       const Interval both = intersection(Interval(lower, upper), outputs[j].cut(level));
       lower = both.lower();
       upper = both.upper();

@@ -302,6 +302,19 @@ TEST_F(Program, GivesTheSameNumbersForTheSameSeedOnAnyNumberOfThreads) {
   EXPECT_EQ(one["envelope"], two["envelope"]);
 }
 
+TEST_F(Program, EndsEarlyWhereAnOutputLosesItsValue) {
+  for (const char* compare : {"[\"interval\"]", "[\"fuzzy\"]", "[\"interval\", \"stochastic\", \"fuzzy\"]"}) {
+    SCOPED_TRACE(compare);
+    std::string study = sampleStudyWith("[\"interval\", \"stochastic\", \"fuzzy\"]", compare);
+    study.replace(study.find("tip.position.z"), 14, "sqrt(hinge.angle - 0.2)");
+    folder_.write("s.toml", study);
+    const Outcome run = gamut("run s.toml --force");
+    EXPECT_EQ(run.exitCode, 3) << run.error;
+    EXPECT_THAT(run.out, HasSubstr("s: s.h5"));
+    EXPECT_TRUE(folder_.has("s.html"));
+  }
+}
+
 TEST_F(Program, RunsWithOneAnalysisAlone) {
   for (const char* analysis : {"interval", "stochastic", "fuzzy"}) {
     SCOPED_TRACE(analysis);

@@ -121,6 +121,28 @@ TEST(StudyReader, TakesTimeParametersAndExpressionsForOutputs) {
     EXPECT_EQ(readStudyText(predatorAndPrey("prey", "2", output), "s.toml").outputs[0].unit, unit) << output;
 }
 
+TEST(StudyReader, TakesConstantsThatAreNoRationalNumbers) {
+  const Mechanism mechanism =
+      readStudyText(sampleStudyWith("length = 0.5", "length = \"sqrt(2)*30 cm\", force = \"sqrt((3 N)^2 + (4 N)^2)\""),
+                    "s.toml")
+          .mechanism;
+  EXPECT_EQ(mechanism.unitOf("rod.length"), "m");
+  EXPECT_TRUE(contains(sqr(mechanism.nominal("rod.length")), 0.18));
+  EXPECT_LT(width(mechanism.nominal("rod.length")), 1e-15);
+  EXPECT_EQ(mechanism.unitOf("rod.force"), "N");
+  EXPECT_TRUE(contains(mechanism.nominal("rod.force"), 5.0));
+}
+
+TEST(StudyReader, RefusesPointsThatCoincideInKinematicsToo) {
+  std::string text = sampleStudyWith("dynamics", "kinematics");
+  text.erase(text.find("horizon = 0.5\n"), 14);
+  text.erase(text.find("output_step = 0.1\n"), 18);
+  text.insert(text.find("[[uncertain]]"),
+              "[[mechanism.element]]\ntype = \"distance\"\nname = \"d\"\nfrom = \"inertial\"\nto = \"K1\"\n");
+  EXPECT_EQ(messageOf(text),
+            "s.toml:26:1: the distance 'd' has no length at the start; expected points that lie apart");
+}
+
 TEST(StudyReader, RefusesStatesNamedLikeNumbersOrUnits) {
   for (const char* name : {"1e5", "kg", "pi", "t"})
     EXPECT_THROW(readStudyText(predatorAndPrey(name, "2", "energy"), "s.toml"), StudyError) << name;
@@ -517,6 +539,15 @@ TEST_P(BadStudyFile, IsRefusedInOneLineWithItsPlace) {
 }
 
 constexpr BadStudy badStudies[] = {
+    {"quantity = \"tip.position.z\"", "quantity = \"sqrt(-1)\"",
+     "s.toml:38:12: 'sqrt(-1)' has no value: recorded square root of a constant that may be negative; expected a "
+     "formula "
+     "that has a value"},
+    {"[[uncertain]]",
+     "[[mechanism.element]]\ntype = \"prismatic\"\nname = \"slide\"\nfrom = \"tip\"\nto = \"K2\"\naxis = \"y\"\n"
+     "[[mechanism.element]]\ntype = \"drive\"\nname = \"d\"\njoint = \"slide\"\nposition = "
+     "\"hinge.angle*1 m\"\n[[uncertain]]",
+     "s.toml:38:12: 'd.position': 'hinge.angle' changes in motion; expected a formula of time and parameters alone"},
     {"[[uncertain]]",
      "[[mechanism.element]]\ntype = \"force\"\nname = \"f\"\nat = \"tip\"\nforce = [0, \"2 N + 3 m\", "
      "0]\n[[uncertain]]",

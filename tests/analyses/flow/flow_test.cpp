@@ -282,6 +282,39 @@ TEST(Flow, BoundsOutputsAtTheirKinksAsTightlyAsTheirStates) {
   }
 }
 
+TEST(Flow, GivesTheWholeLineForOutputsThatHaveNoValueForSomeOfTheSet) {
+  const Program g = record(1, 0, 4, [](auto, const auto& x, const auto&, auto& y) {
+    y[0] = sqrt(x[0]);
+    y[1] = log(x[0]);
+    y[2] = pow(x[0], Recorded(1.5));
+    y[3] = x[0];
+  });
+  // x = x(0) - 2 t: positive, then of both signs, then negative.
+  const Program fall = record(1, 0, [](auto, const auto&, const auto&, auto& dx) { dx[0] = Recorded(-2.0); });
+  const Tube tube = Flow(fall, g).enclose({Interval(0.9, 1.1)}, 1, {0.25, 0.5, 0.75}, {{Interval(0.95, 1.05)}});
+  ASSERT_EQ(tube.reachedTimes(), 5U);
+  for (std::size_t o = 0; o < 3; ++o) {
+    EXPECT_TRUE(isBounded(tube.outputs(1)[o])) << o;
+    for (std::size_t i = 2; i < 5; ++i) {
+      EXPECT_TRUE(isEntire(tube.outputs(i)[o])) << o << ' ' << i;
+      EXPECT_TRUE(isEntire(tube.cut(0, i)[o])) << o << ' ' << i;
+      EXPECT_TRUE(isEntire(tube.outputsOver(i)[o])) << o << ' ' << i;
+    }
+  }
+  EXPECT_LT(width(tube.outputs(4)[3]), 0.2001);
+}
+
+TEST(EncloseImage, GivesTheWholeLineForWhatHasNoValueSomewhere) {
+  const Program g = record(0, 1, 2, [](auto, const auto&, const auto& p, auto& y) {
+    y[0] = sqrt(p[0]);
+    y[1] = abs(p[0]);
+  });
+  const auto image = encloseImage(g, 0, {Interval(-1, 1)}, {{Interval(0.25, 1)}});
+  EXPECT_TRUE(isEntire(image[0][0]));
+  EXPECT_TRUE(isSubset(Interval(0.5, 1), image[1][0]) && isBounded(image[1][0]));
+  EXPECT_TRUE(isEqual(image[0][1], Interval(0, 1)));
+}
+
 TEST(Flow, GivesTheWholeLineForOutputsItCannotProve) {
   const Program g = record(1, 0, 2, [](auto, const auto& x, const auto&, auto& y) {
     y[0] = 1.0 / (x[0] - 2.0);  // infinite on the way
