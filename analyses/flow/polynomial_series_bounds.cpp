@@ -168,7 +168,7 @@ std::string PolynomialSeries::edgeOf(int node) const {
     case Op::recip:
       return "a division by what may be zero";
     case Op::sqrt:
-      return "the square root of what may be zero or negative";
+      return "the square root of what may be zero or negative, as where abs, min or max have their kink";
     case Op::log:
       return "the logarithm of what may be zero or negative";
     case Op::exp:

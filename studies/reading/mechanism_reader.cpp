@@ -319,11 +319,13 @@ class MechanismReader {
   /// A list of at least and at most so many numbers.
   const toml::array& listOf(const toml::node& node, const std::string& what, std::size_t least, std::size_t most,
                             const Dimension& dimension) const {
-    const toml::array& list = source_.asArray(node, what);
+    const std::string expected = least == most
+                                     ? fmt::format("three, [x, y, z] in {}", unitOf(dimension))
+                                     : fmt::format("[xx, yy, zz] or [xx, yy, zz, xy, yz, zx] in {}", unitOf(dimension));
+    if (!node.is_array()) source_.fail(node, what + " is no list of numbers", expected);
+    const toml::array& list = *node.as_array();
     if (list.size() != least && list.size() != most)
-      source_.fail(node, fmt::format("{} has {} numbers", what, list.size()),
-                   least == most ? fmt::format("three, [x, y, z] in {}", unitOf(dimension))
-                                 : fmt::format("[xx, yy, zz] or [xx, yy, zz, xy, yz, zx] in {}", unitOf(dimension)));
+      source_.fail(node, fmt::format("{} has {} numbers", what, list.size()), expected);
     return list;
   }
 

@@ -138,7 +138,10 @@ bool TomlSource::asBool(const toml::node& node, const std::string& what) const {
 std::int64_t TomlSource::asInteger(const toml::node& node, const std::string& what, std::int64_t least,
                                    std::int64_t most) const {
   const std::string expected = fmt::format("a whole number between {} and {}", least, most);
-  if (!node.is_integer()) fail(node, fmt::format("{} is {}", what, describe(node)), expected);
+  if (!node.is_integer())
+    fail(node,
+         fmt::format("{} is {}{}", what, describe(node), node.is_floating_point() ? " with point or exponent" : ""),
+         expected);
   const std::int64_t value = node.as_integer()->get();
   if (value < least || value > most) fail(node, fmt::format("{} is {}", what, value), expected);
   return value;

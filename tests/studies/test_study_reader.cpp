@@ -853,7 +853,8 @@ constexpr BadStudy badStudies[] = {
     {"samples = 16", "samples = 0",
      "s.toml:40:11: stochastic.samples is 0; expected a whole number between 1 and 10000000"},
     {"samples = 16", "samples = 1.5",
-     "s.toml:40:11: stochastic.samples is the number 1.5; expected a whole number between 1 and 10000000"},
+     "s.toml:40:11: stochastic.samples is the number 1.5 with point or exponent; expected a whole number between 1 and "
+     "10000000"},
     {"plan = \"sobol\"", "plan = \"sobel\"",
      "s.toml:41:8: stochastic.plan is \"sobel\"; expected 'sobol'? (one of: sobol, random, latin-hypercube, halton, "
      "grid)"},
