@@ -45,8 +45,8 @@ bool restrictTo(const Box& level, const Embedding& embedding, const std::vector<
 
 std::vector<int> degreeLadder(int symbols) {
   if (symbols == 0) return {0};
-  static constexpr int highest[] = {0, 16, 10, 8, 6, 5, 4, 3, 3};
-  const int last = symbols < 9 ? highest[symbols] : symbols <= 60 ? 2 : 1;  // (k+1)(k+2)/2 monomials of degree 2
+  static constexpr int highest[] = {0, 16, 10, 8, 6, 6, 6, 4, 4, 3, 3, 3, 3};
+  const int last = symbols < 13 ? highest[symbols] : symbols <= 60 ? 2 : 1;  // (k+1)(k+2)/2 monomials of degree 2
   std::vector<int> ladder;
   for (int degree : {2, 4, 6, 8, 12, 16})
     if (degree < last) ladder.push_back(degree);
@@ -54,7 +54,9 @@ std::vector<int> degreeLadder(int symbols) {
   return ladder;
 }
 
-int automaticFrameDegree(int symbols, int degree) { return std::min(degree, symbols == 1 ? 4 : symbols <= 3 ? 2 : 1); }
+int automaticFrameDegree(int symbols, int degree) {
+  return std::min(degree, symbols == 1 ? 4 : symbols <= 3 ? 2 : symbols <= 8 ? 3 : 1);
+}
 
 Interval inflated(const Interval& range, double radius) {
   if (!(radius < std::numeric_limits<double>::infinity())) return Interval::entire();

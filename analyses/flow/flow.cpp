@@ -40,7 +40,8 @@ Flow::Flow(Program f, Program g, FlowOptions options) {
               "a flow needs one derivative for each of its states (and at least one state)");
   requireThat(g.states() == f.states() && g.parameters() == f.parameters(),
               "the outputs of a flow need its states and its parameters");
-  requireThat(options.order >= 4 && options.order <= 30, "the order of a flow must be 4 to 30");
+  requireThat(options.order == 0 || (options.order >= 4 && options.order <= 30),
+              "the order of a flow must be 4 to 30 (0: automatic)");
   requireThat(options.degree >= -1 && options.degree <= 40,
               "the degree of a flow's polynomials must be 0 to 40 (-1: automatic)");
   requireThat(options.maxPieces >= 1, "a flow needs at least one piece");

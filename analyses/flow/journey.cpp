@@ -81,13 +81,13 @@ void FlowFollower::use(const FlowPiece& piece) {
     const FlowLayout& layout = task_.layouts[piece.layout];
     const FlowOptions& options = task_.options;
     tools = std::make_unique<Tools>(Tools{FlowStepper(task_.differentiated, layout.monomials, layout.frameDegree,
-                                                      options.order, task_.tolerance, options.cancelled),
+                                                      task_.order, task_.tolerance, options.cancelled),
                                           PolynomialRange(layout.monomials), nullptr, nullptr});
     tools->stepper.setStateNames(options.stateNames);
     if (task_.outputs.outputs() > 0) {
       tools->outputs = std::make_unique<FlowOutputs>(task_.outputs, layout.monomials, options.cancelled);
       tools->chords =
-          std::make_unique<FlowOutputChords>(task_.outputs, layout.monomials, options.order, options.cancelled);
+          std::make_unique<FlowOutputChords>(task_.outputs, layout.monomials, task_.order, options.cancelled);
     }
   }
   tool_ = tools.get();

@@ -66,11 +66,14 @@ FlowTask::FlowTask(const Program& f, const Program& df, const Program& g, const 
     const int frame = std::min(expanded->degree(), embedding.symbols == 0 ? 1 : expanded->weight(embedding.symbols));
     layouts.push_back({std::move(expanded), frame, true});
   }
-  // Bisection is cheap for one symbol and dear for several: with these, begin loosely.
-  const double patience = std::pow(20.0, std::clamp(embedding.symbols - 1, 0, 3));
+  // Bisection is cheap for one symbol and dear for several: with these, begin loosely; and with many, whose polynomials
+  // are long, shorter steps of a lower order fill fewer of their grades.
+  const bool isMany = embedding.symbols >= 4;
+  const double patience = std::pow(20.0, std::clamp(embedding.symbols - 1, 0, 3)) * (isMany ? 100 : 1);
   splitDefect = bisectsForWidth() ? options.splitDefect * patience * embedding.widest / tighter
                                   : std::numeric_limits<double>::infinity();
-  tolerance = options.tolerance > 0 ? options.tolerance : embedding.symbols == 0 ? 1e-15 : 1e-14;
+  tolerance = options.tolerance > 0 ? options.tolerance : isMany ? 1e-11 : embedding.symbols > 0 ? 1e-14 : 1e-15;
+  order = options.order > 0 ? options.order : isMany ? 14 : 20;
 }
 
 }  // namespace gamut

@@ -34,6 +34,7 @@ struct FlowTask {
   const std::vector<Box>& levels;
   Embedding embedding;
   double horizon, quantum = 0, tolerance = 0, splitDefect = 0;
+  int order = 0;
   std::vector<FlowLayout> layouts;  // degrees rising, then the expanded one
   std::size_t degrees = 0;          // how many are not expanded
   std::vector<double> times;        // 0, those asked for, the horizon
