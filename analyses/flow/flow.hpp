@@ -28,7 +28,7 @@ struct FlowOptions {
   int frameDegree = -1;  ///< of the remainder's frame; -1: by the number of uncertain quantities
   double tolerance = 0;  ///< truncation error in time aimed at in a step, relative to the state; 0: 1e-15 thin, 1e-14
                          ///< for up to three uncertain quantities, 1e-11 for more
-  bool split = true;          ///< bisect the box where one piece cannot be followed tightly
+  bool split = true;     ///< bisect the box where one piece cannot be followed tightly
   double splitDefect = 1e-8;  ///< raise the degree, then bisect, when the truncation defect per second exceeds this
                               ///< fraction of the box's relative width; tightened where the remainder shows
   int maxPieces = 2000;       ///< give up beyond this many pieces
