@@ -6,6 +6,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "analyses/samples/time_cells.hpp"
 #include "scalars/evaluation/evaluator.hpp"
 #include "scalars/evaluation/series.hpp"
 
@@ -15,9 +16,10 @@ namespace {
 /// The second integration: other steps, other series, so that what it gets wrong it gets wrong differently.
 constexpr double looser = 1e3;
 constexpr int lowerOrder = 4;
-constexpr double rounding = 0x1p-112;        // relative, of a value: some thousand roundings of 128 bits
-constexpr int leastSteps = 32, probes = 16;  // a pulse shorter than a five-hundredth of the horizon may be missed
-constexpr double shortestStep = 1e-12;       // of the horizon: below, the solution runs into a singularity
+constexpr double rounding = 0x1p-112;  // relative, of a value: some thousand roundings of 128 bits
+constexpr int leastSteps = 32, probes = 16;
+constexpr double someRoundings = 8;     // of the equations, in a series that holds
+constexpr double shortestStep = 1e-12;  // of the horizon: below, the solution runs into a singularity
 
 bool isFinite(const Precise& value) { return boost::multiprecision::isfinite(value); }
 bool isFinite(double value) { return std::isfinite(value); }
@@ -45,16 +47,20 @@ class TaylorRun {
         series_(motion.forSamples(), options.order),
         f_(motion.forSamples()),
         g_(motion.g),
-        n_(static_cast<std::size_t>(motion.f.states())) {
+        bounds_(motion.forSamples()),
+        n_(static_cast<std::size_t>(motion.f.states())),
+        cells_(TimeCells(motion.forSamples(), motion.horizon())
+                   .ends(std::vector<Interval>(start.begin() + motion.f.states(), start.end()))) {
     for (std::size_t i = 0; i < start.size(); ++i) (i < n_ ? x_ : parameters_).push_back(Real(start[i]));
     series_.setParameters(parameters_);
     f_.setParameters(parameters_);
     g_.setParameters(parameters_);
+    bounds_.setParameters(std::vector<Interval>(start.begin() + motion.f.states(), start.end()));
   }
 
   Trajectory<Real> run() {
     const std::vector<double>& times = motion_.times;
-    const double horizon = times.empty() ? 0 : times.back();
+    const double horizon = motion_.horizon();
     Real t(0.0);
     while (result_.times < times.size() && result_.why.empty()) {
       const Real h = n_ == 0 ? Real(horizon) : nextStep(t, Real(horizon) - t, horizon);
@@ -97,7 +103,7 @@ class TaylorRun {
     h = std::min(h, Real(horizon / leastSteps));
     const double unit = std::max(options_.tolerance, rounded(std::numeric_limits<Real>::epsilon()));
     const Real allowed = size * (1000.0 * options_.order * unit);
-    while (h >= shortestStep * horizon && !(defectWithin(t, h) <= allowed)) h = h / 2;
+    while (h >= shortestStep * horizon && !holdsWithin(t, h, allowed)) h = h / 2;
     if (h < rest && h < shortestStep * horizon) return stop(t, "steps became too short: the motion is singular here");
     return h;
   }
@@ -115,21 +121,41 @@ class TaylorRun {
     return x;
   }
 
-  /// The greatest |ẋ - f| of the series met at points of its step, in that time.
-  Real defectWithin(const Real& t, const Real& h) {
+  /// Whether the series obeys the equations all along its step: at some points, and in each cell of time, |ẋ - f| in
+  /// that time is `allowed` or no more than roundings of f.
+  bool holdsWithin(const Real& t, const Real& h, const Real& allowed) {
+    std::vector<Real> points;
+    for (int point = probes; point >= 1; --point) points.push_back(h * Real(static_cast<double>(point) / probes));
+    for (auto end = std::ranges::upper_bound(cells_, rounded(t)); end != cells_.end() && Real(*end) < t + h; ++end)
+      points.push_back(Real(*end) - t);
+    return std::ranges::all_of(points, [&](const Real& tau) { return holdsAt(t, h, tau, allowed); });
+  }
+
+  bool holdsAt(const Real& t, const Real& h, const Real& tau, const Real& allowed) {
     using std::abs;
-    Real greatest(0.0);
-    for (int point = probes; point >= 1; --point) {
-      const Real tau = h * Real(static_cast<double>(point) / probes);
-      const std::vector<Real> rate = f_(Real(t + tau), stateAfter(tau));
-      for (std::size_t s = 0; s < n_; ++s) {
-        Real slope(0.0);
-        for (int i = options_.order; i >= 1; --i) slope = slope * tau + Real(i) * series_.at(static_cast<int>(s), i);
-        const Real defect = abs(Real(slope - rate[s])) * h;
-        if (!(defect <= greatest)) greatest = defect;  // a NaN stays
-      }
+    const std::vector<Real> x = stateAfter(tau), rate = f_(Real(t + tau), x);
+    std::vector<double> roundings;
+    for (std::size_t s = 0; s < n_; ++s) {
+      Real slope(0.0);
+      for (int i = options_.order; i >= 1; --i) slope = slope * tau + Real(i) * series_.at(static_cast<int>(s), i);
+      const Real defect = abs(Real(slope - rate[s])) * h;
+      if (defect <= allowed) continue;
+      if (roundings.empty()) roundings = roundingsOf(rounded(Real(t + tau)), x);
+      if (!(defect <= h * Real(someRoundings * roundings[s]))) return false;
     }
-    return greatest;
+    return true;
+  }
+
+  /// Of the rates at t and x, by intervals: what is left where large terms cancel, as before a pulse, may be no more.
+  std::vector<double> roundingsOf(double t, const std::vector<Real>& x) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    std::vector<Interval> box, rates(n_);
+    for (const Real& value : x) box.emplace_back(rounded(value));
+    bounds_(Interval(std::nextafter(t, -infinity), std::nextafter(t, infinity)), box, rates);
+    std::vector<double> result;
+    const double finer = rounded(Real(std::numeric_limits<Real>::epsilon())) / std::numeric_limits<double>::epsilon();
+    for (const Interval& rate : rates) result.push_back(isBounded(rate) ? finer * width(rate) : 0);
+    return result;
   }
 
   void watch(double time, const Real& tau) {
@@ -149,7 +175,9 @@ class TaylorRun {
   const std::atomic<bool>* cancelled_;
   Series<Real> series_;
   Evaluator<Real> f_, g_;
+  Evaluator<Interval> bounds_;
   std::size_t n_;
+  std::vector<double> cells_;
   std::vector<Real> x_, parameters_;
   Trajectory<Real> result_;
 };

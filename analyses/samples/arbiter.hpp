@@ -1,7 +1,8 @@
 // The arbiter decides where a sample lies when CVODE's doubles cannot: it integrates the recorded Program by Taylor
 // series in 128-bit arithmetic (MPFR), twice, and says how far the two results differ. Starting values and constants
 // are the very doubles that the sample's CVODE run used. The equations are checked at sixteen points of each of at
-// least thirty-two steps, since a series may say nothing of what comes; a shorter pulse in time may be missed by both.
+// least thirty-two steps and in every cell of time (TimeCells), since a series may say nothing of what comes; a narrow
+// change that hangs on the states may be missed by both.
 // Step size from the last coefficients: À. Jorba & M. Zou, Experimental Mathematics 14 (2005), section 3.2.
 #pragma once
 

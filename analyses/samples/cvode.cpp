@@ -181,6 +181,18 @@ struct Cvode::Memory {
            CVodeSetStopTime(cvode, times.back()) == CV_SUCCESS;
   }
 
+  /// To time t, in steps of which none passes over a whole cell: it ends no later than the cell after the one in which
+  /// it begins.
+  int advance(double t, std::span<const double> cells) {
+    for (long steps = 0; reached < t; ++steps) {
+      while (cell + 1 < cells.size() && cells[cell] <= reached) ++cell;
+      if (steps == maximumSteps) return CV_TOO_MUCH_WORK;
+      if (CVodeSetStopTime(cvode, cells[std::min(cell + 1, cells.size() - 1)]) != CV_SUCCESS) return CV_ILL_INPUT;
+      if (const int flag = CVode(cvode, t, x, &reached, CV_ONE_STEP); flag < 0) return flag;
+    }
+    return CVodeGetDky(cvode, t, 0, x);  // as CVode itself does between steps
+  }
+
   bool isCancelled() const { return cancelled != nullptr && *cancelled; }
 
   bool tookTooLong() {
@@ -208,6 +220,8 @@ struct Cvode::Memory {
   std::string message;
   double began = 0, allowed = 0;  // s of the thread's CPU time
   long evaluations = 0;
+  realtype reached = 0;  // by steps; the first cell that does not end before it
+  std::size_t cell = 0;
   bool isLate = false;
   SUNContext context = nullptr;
   N_Vector x = nullptr;
@@ -242,7 +256,7 @@ Cvode::Cvode(Cvode&&) noexcept = default;
 Cvode& Cvode::operator=(Cvode&&) noexcept = default;
 
 Integration Cvode::integrate(CvodeProblem& problem, std::span<const double> x, const Tolerance& tolerance,
-                             double seconds) {
+                             std::span<const double> cells, double seconds) {
   Memory& m = *memory_;
   const std::vector<double>& times = m.times;
   if (x.size() != m.state.size()) throw std::invalid_argument("the initial values do not have the problem's size");
@@ -253,6 +267,8 @@ Integration Cvode::integrate(CvodeProblem& problem, std::span<const double> x, c
   m.allowed = seconds;
   m.evaluations = 0;
   m.isLate = false;
+  m.reached = 0;
+  m.cell = 0;
   const bool moves = !x.empty();
   int flag = !moves || times.empty() || times.back() == 0 || m.restart(tolerance) ? CV_SUCCESS : CV_ILL_INPUT;
   bool isFinite = true;
@@ -260,8 +276,9 @@ Integration Cvode::integrate(CvodeProblem& problem, std::span<const double> x, c
   for (std::size_t i = 0; i < times.size() && flag >= 0 && isFinite; ++i) {
     realtype t = times[i];
     // Output between steps is CVODE's interpolant, of the order of the step itself.
-    if (moves && times[i] > 0) flag = CVode(m.cvode, times[i], m.x, &t, CV_NORMAL);
-    result.reached = t;
+    if (moves && times[i] > 0)
+      flag = cells.empty() ? CVode(m.cvode, times[i], m.x, &t, CV_NORMAL) : m.advance(times[i], cells);
+    result.reached = flag < 0 && !cells.empty() ? m.reached : t;
     if (flag < 0) break;
     isFinite = problem.observe(i, t, m.state);
     if (isFinite) result.times = i + 1;

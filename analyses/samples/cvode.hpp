@@ -56,10 +56,12 @@ class Cvode {
   Cvode(Cvode&&) noexcept;
   Cvode& operator=(Cvode&&) noexcept;
 
-  /// From x at time 0 to each of the output times; fails once it has taken `seconds` of CPU. The states depend on the
-  /// arguments alone; how far they come, on `seconds` and `cancelled` too, and so on the machine.
+  /// From x at time 0 to each of the output times; fails once it has taken `seconds` of CPU. No step passes over a
+  /// whole one of the cells (TimeCells) that end at these times, rising to the last output time; none: steps are as
+  /// long as the tolerance allows. The states depend on the arguments alone; how far they come, on `seconds` and
+  /// `cancelled` too, and so on the machine.
   Integration integrate(CvodeProblem& problem, std::span<const double> x, const Tolerance& tolerance,
-                        double seconds = std::numeric_limits<double>::infinity());
+                        std::span<const double> cells = {}, double seconds = std::numeric_limits<double>::infinity());
 
  private:
   struct Memory;

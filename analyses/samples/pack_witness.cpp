@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "analyses/samples/cvode.hpp"
+#include "analyses/samples/time_cells.hpp"
 #include "scalars/index.hpp"
 
 namespace gamut {
@@ -17,6 +18,7 @@ struct PackWitness::Solver : CvodeProblem {
         f(m.forSamples(), unit),
         g(m.g, unit),
         time(packWidth),
+        cells(m.forSamples(), m.horizon()),
         cvode(detail::at(m.f.states()), m.times, unit, cancelled) {}
 
   void differentiate(double t, std::span<const double> x, std::span<double> rates) override {
@@ -35,6 +37,7 @@ struct PackWitness::Solver : CvodeProblem {
   const Motion& motion;
   PackEvaluator f, g;
   std::vector<double> time;
+  TimeCells cells;
   std::span<double> trajectories;  // while a pack is integrated
   Cvode cvode;
 };
@@ -56,7 +59,12 @@ Integration PackWitness::integrate(std::span<const double> starts, const Toleran
   s.f.setParameters(starts.subspan(states));
   s.g.setParameters(starts.subspan(states));
   s.trajectories = trajectories;
-  return s.cvode.integrate(s, starts.first(states), tolerance, seconds);
+  std::vector<Interval> ranges;  // of the pack's parameters
+  for (std::span<const double> rest = starts.subspan(states); !rest.empty(); rest = rest.subspan(packWidth)) {
+    const auto [least, greatest] = std::ranges::minmax(rest.first(packWidth));
+    ranges.emplace_back(least, greatest);
+  }
+  return s.cvode.integrate(s, starts.first(states), tolerance, s.cells.ends(ranges), seconds);
 }
 
 }  // namespace gamut

@@ -6,6 +6,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "analyses/samples/time_cells.hpp"
 #include "scalars/evaluation/evaluator.hpp"
 
 namespace gamut {
@@ -25,7 +26,11 @@ void Motion::check() const {
 
 struct Witness::Solver : CvodeProblem {
   Solver(const Motion& m, Method method, const std::atomic<bool>* cancelled)
-      : motion(m), f(m.forSamples()), g(m.g), cvode(detail::at(m.f.states()), m.times, method, cancelled) {}
+      : motion(m),
+        f(m.forSamples()),
+        g(m.g),
+        cells(m.forSamples(), m.horizon()),
+        cvode(detail::at(m.f.states()), m.times, method, cancelled) {}
 
   void differentiate(double t, std::span<const double> x, std::span<double> rates) override { f(t, x, rates); }
 
@@ -39,6 +44,7 @@ struct Witness::Solver : CvodeProblem {
 
   const Motion& motion;
   Evaluator<double> f, g;
+  TimeCells cells;
   std::span<double> trajectory;  // while a motion is integrated
   Cvode cvode;
 };
@@ -60,7 +66,8 @@ Integration Witness::integrate(std::span<const double> start, const Tolerance& t
   s.f.setParameters(start.subspan(states));
   s.g.setParameters(start.subspan(states));
   s.trajectory = trajectory;
-  return s.cvode.integrate(s, start.first(states), tolerance, seconds);
+  const std::vector<Interval> parameters(start.begin() + static_cast<std::ptrdiff_t>(states), start.end());
+  return s.cvode.integrate(s, start.first(states), tolerance, s.cells.ends(parameters), seconds);
 }
 
 }  // namespace gamut

@@ -26,6 +26,8 @@ struct Motion {
   /// Number of start values: the states, then the parameters.
   std::size_t startValues() const { return static_cast<std::size_t>(f.states() + f.parameters()); }
   std::size_t outputs() const { return static_cast<std::size_t>(g.outputs()); }
+  /// The last output time, s.
+  double horizon() const { return times.empty() ? 0 : times.back(); }
   /// Throws std::invalid_argument, saying what does not fit together.
   void check() const;
 };
