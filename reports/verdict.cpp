@@ -66,7 +66,7 @@ class Wording {
 
   std::string withUnit(double x, std::size_t output) const {
     const std::string& unit = results_.outputs[output].unit;
-    return atMostText(x, 3) + (unit.empty() ? "" : " " + unit);
+    return atMostText(x, 3) + (unit.empty() || unit == "1" ? "" : " " + unit);
   }
 
   std::string when(std::size_t time) const {

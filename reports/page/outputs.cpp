@@ -24,7 +24,9 @@ std::string description(const Plot& plot) {
     double low = INFINITY, high = -INFINITY;
     for (const double x : layer.bands.front().lower) low = std::fmin(low, x);
     for (const double x : layer.bands.front().upper) high = std::fmax(high, x);
-    if (low <= high) words += fmt::format(", {} within {} {}", layer.readout, intervalText(low, high, 4), plot.unit);
+    if (low <= high)
+      words += fmt::format(", {} within {}{}{}", layer.readout, intervalText(low, high, 4),
+                           plot.unit.empty() ? "" : " ", plot.unit);
   }
   return words;
 }

@@ -21,7 +21,7 @@ void TableText::row(std::string_view name, const std::vector<std::string>& cells
 }
 
 std::string withUnit(const std::string& name, const std::string& unit) {
-  return unit.empty() ? name : name + " (" + unit + ")";
+  return unit.empty() || unit == "1" ? name : name + " (" + unit + ")";
 }
 
 }  // namespace gamut

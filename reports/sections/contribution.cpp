@@ -4,7 +4,8 @@
 namespace gamut {
 
 Plot plotOf(const Results& results, std::size_t output) {
-  Plot plot{results.outputs[output].name, results.outputs[output].unit, results.time, {}, {}};
+  const std::string& unit = results.outputs[output].unit;
+  Plot plot{results.outputs[output].name, unit == "1" ? "" : unit, results.time, {}, {}};
   for (const Contribution* analysis : analyses) analysis->draw(results, output, plot);
   return plot;
 }

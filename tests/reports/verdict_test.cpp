@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "reports/report.hpp"
 #include "reports/verdict.hpp"
 #include "tests/reports/example_results.hpp"
 
@@ -230,6 +231,14 @@ TEST(Verdict, SpeaksOfPositionsWhereNothingMoves) {
   EXPECT_THAT(
       judge(example::kinematics()).sentence,
       AllOf(HasSubstr("All 4099 sampled positions stay inside the guaranteed enclosure;"), Not(HasSubstr(" s to "))));
+}
+
+TEST(Verdict, SaysNoUnitOfPlainNumbers) {
+  Results results = example::pendulum(61, 2);
+  results.outputs[1].unit = "1";
+  leave(results, 1e-6);
+  EXPECT_THAT(judge(results).sentence, Not(HasSubstr(" 1 outside")));
+  EXPECT_THAT(renderReport(results), Not(HasSubstr(results.outputs[1].name + " (1)")));
 }
 
 TEST(Verdict, NamesTheOutputOfWhichNothingFiniteIsGuaranteed) {
