@@ -34,11 +34,10 @@ Assembly<S>::Assembly(const Mechanism& mechanism, const std::vector<std::string>
 
   typename System<S>::Speeds speeds;
   const std::vector<std::string> names = mechanism.stateNames();
-  positions_ = mechanism.positions();
-  speeds_ = static_cast<std::size_t>(mechanism.degreesOfFreedom());
+  const std::size_t positions = mechanism.positions();
+  const std::size_t end = positions + static_cast<std::size_t>(mechanism.degreesOfFreedom());  // of the speeds
   for (std::size_t i = 0; i < names.size(); ++i) {
-    const bool isSpeed = i >= positions_ && i < positions_ + speeds_;
-    if (isSpeed) {
+    if (i >= positions && i < end) {
       speeds.push_back(*parts_.speeds_.at(names[i]));
       states_.push_back(&speeds.back().get().rate);
     } else if (const auto variable = parts_.variables_.find(names[i]); variable != parts_.variables_.end()) {
@@ -46,7 +45,7 @@ Assembly<S>::Assembly(const Mechanism& mechanism, const std::vector<std::string>
       positionRates_.push_back([moved = variable->second] { return moved->rate; });
     } else {
       states_.push_back(&parts_.values_.at(names[i]));
-      (i < positions_ ? positionRates_ : ownRates_).push_back(parts_.rates_.at(names[i]));
+      (i < positions ? positionRates_ : ownRates_).push_back(parts_.rates_.at(names[i]));
     }
   }
   const auto& gravity = mechanism.gravity();

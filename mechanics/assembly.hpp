@@ -55,8 +55,7 @@ class Assembly {
   Assembler<S> parts_;
   Chain<S> chain_;
   std::unique_ptr<System<S>> system_;
-  std::vector<S*> states_;                  // in the order of Mechanism::stateNames()
-  std::size_t positions_ = 0, speeds_ = 0;  // how many
+  std::vector<S*> states_;  // in the order of Mechanism::stateNames()
   std::vector<Signal<S>> positionRates_, ownRates_;
   std::vector<S> initialState_;
 };

@@ -4,8 +4,8 @@
 //
 // A part is one of four: a Transmission moves a frame, ideally: what power goes in comes out. A Load acts on what is
 // moved. An Inertia (bodies.hpp) is moved: nothing else states mass. A Constraint holds rows closed. A new part needs
-// doMotion and doForce, nothing else: derivatives come from the recorded program. A Chain is an ordered list of parts,
-// force runs through it in reverse.
+// doMotion and doForce, a Constraint its rows besides; derivatives for analyses come from the recorded program. A Chain
+// is an ordered list of parts, force runs through it in reverse.
 #pragma once
 
 #include <array>

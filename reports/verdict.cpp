@@ -45,10 +45,8 @@ class Wording {
 
   Verdict word() {
     noteDisputes();
-    noteEnd("The guarantee ends", results_.interval);
     noteSamples();
-    if (results_.stochastic.integrated > 0) noteEnd("The samples end", results_.stochastic);
-    noteEnd("The alpha-cuts end", results_.fuzzy);
+    for (const Answer* answer : results_.answers()) noteEnd(*answer);
     noteUnbounded();
     noteMissing();
     verdict_.sentence = sentence();
@@ -79,8 +77,7 @@ class Wording {
                        inner = results_.stochastic.alphaCorners;
     if (!results_.stochastic.present || corner < 0 || corner > corners + inner) return fmt::format("Sample {}", number);
     if (corner == corners + inner) return "The centre";
-    return corner < corners ? fmt::format("Corner {} of {}", corner + 1, corners)
-                            : fmt::format("Corner {} of {} of the alpha-cuts", corner - corners + 1, inner);
+    return corner < corners ? fmt::format("Corner {}", corner) : fmt::format("Alpha-corner {}", corner - corners);
   }
 
   // ---- Notes --------------------------------------------------------------------------------------------------------
@@ -134,12 +131,12 @@ class Wording {
   }
 
   /// One analysis that ended before the horizon, or, where nothing moves, before it had all that it could have.
-  void noteEnd(std::string_view whatEnds, const Answer& answer) {
+  void noteEnd(const Answer& answer) {
     if (!endsEarly(results_, answer)) return;
     const std::string reason = answer.why.empty() ? "" : ": " + std::string(withoutTime(answer.why));
-    note(moves() ? fmt::format("{} at {} s of the {} s asked for{}.", whatEnds, numberText(answer.reached, 6),
-                               numberText(results_.horizon, 6), reason)
-                 : fmt::format("{} early{}.", whatEnds, reason));
+    note(moves() ? fmt::format("The {} ended at {} s of the {} s asked for{}.", answer.title(),
+                               numberText(answer.reached, 6), numberText(results_.horizon, 6), reason)
+                 : fmt::format("The {} ended early{}.", answer.title(), reason));
   }
 
   void noteUnbounded() {

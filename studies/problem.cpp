@@ -84,7 +84,7 @@ Problem makeProblem(const Study& study) {
     problem.box[slot] = study.uncertain[i].uncertain.range;
     problem.motion.nominal[slot] = study.uncertain[i].uncertain.nominal;
   }
-  for (int j = 0; study.fuzzy && j < study.levels; ++j) {
+  for (int j = 0; study.asksFor<FuzzyResult>() && j < study.levels; ++j) {
     problem.alpha.push_back(static_cast<double>(j) / (study.levels - 1));
     Box level = problem.box;
     for (std::size_t i = 0; i < study.uncertain.size(); ++i)

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -40,7 +42,7 @@ struct Study {
   Motion motion;            ///< its times: the output times, s, 0 first, rising, the horizon last; its programs are
                             ///< those of the mechanism (problem.hpp says what they take)
   double recordingCpu = 0;  ///< s, of these programs
-  bool interval = true, stochastic = true, fuzzy = true;
+  std::set<std::string, std::less<>> compare{"fuzzy", "interval", "stochastic"};  ///< words of the answers asked for
   Mechanism mechanism;
   std::vector<UncertainQuantity> uncertain;
   std::vector<OutputInfo> outputs;
@@ -50,6 +52,12 @@ struct Study {
   int levels = 11;           ///< of alpha, from 0 to 1
   StatedLimits limits;
   std::vector<std::string> notes;  ///< what may be a mistake: lines "file:line:column: note: what"
+
+  /// Whether it asks for this answer: `asksFor<IntervalResult>()`.
+  template <class A>
+  bool asksFor() const {
+    return compare.contains(A::name);
+  }
 
   std::string analysisName() const { return analysis == Analysis::kinematics ? "kinematics" : "dynamics"; }
 };

@@ -89,13 +89,6 @@ std::size_t lastRow(const Results& results) {
   return row > 0 ? row - 1 : 0;
 }
 
-/// "4096 samples", those that count in the statistics; "100 of 4099 samples" where not all were followed.
-std::string samplesText(const StochasticResult& stochastic) {
-  return stochastic.integrated < stochastic.planned()
-             ? fmt::format("{} of {}", stochastic.integrated, countText(stochastic.planned(), "sample"))
-             : countText(stochastic.samples, "sample");
-}
-
 /// A number or word itself, or "301 x 7" for what has dimensions; empty for what is not there.
 std::string contentOf(const Field& field, const Extents& extents) {
   const std::string shape = fmt::format("{}", fmt::join(shapeOf(field.dimensions, extents), " x "));
@@ -158,13 +151,6 @@ std::string shapeText(const Results& results, const UncertainInfo& uncertain, co
   return numbers.empty() ? name : fmt::format("{} ({})", name, fmt::join(numbers, ", "));
 }
 
-std::string keptText(const KeptSamples& kept) {
-  const auto some = [](std::int64_t every) {
-    return every == 0 ? std::string("none") : every == 1 ? std::string("all") : fmt::format("one in {}", every);
-  };
-  return fmt::format("values of {}, motions of {}", some(kept.valuesEvery), some(kept.motionsEvery));
-}
-
 std::string jsonSummary(const Results& results, const std::string& verdict, const ResultFiles& files) {
   Json json;
   json["verdict"] = textOrNull(verdict);
@@ -177,12 +163,11 @@ std::string jsonSummary(const Results& results, const std::string& verdict, cons
   json["overestimation"] = overestimationObject(results);
   json["enclosure"] = boundsObject(results.interval.at, results);
   json["envelope"] = boundsObject(results.stochastic.envelope, results);
-  json["cost"] = {{"interval", number(results.interval.cpu)},
-                  {"stochastic", number(results.stochastic.cpu)},
-                  {"fuzzy", number(results.fuzzy.cpu)},
-                  {"report", number(results.reportCpu)},
-                  {"total", number(results.cpu)},
-                  {"memory", number(results.memory)}};
+  Json& cost = json["cost"];
+  for (const Answer* answer : results.answers()) cost[std::string(answer->word())] = number(answer->cpu);
+  cost["report"] = number(results.reportCpu);
+  cost["total"] = number(results.cpu);
+  cost["memory"] = number(results.memory);
   const Limits& limits = results.limits;
   json["limits"] = {{"time", number(limits.time)},
                     {"memory", number(limits.memory)},
@@ -209,13 +194,10 @@ std::string textSummary(const Results& results) {
   }
   std::string text = textTable(rows);
   std::vector<std::string> costs;
-  if (results.interval.present) costs.push_back(fmt::format("enclosure {:.2f} s", results.interval.cpu));
-  if (results.stochastic.present)
-    costs.push_back(fmt::format("{} {:.2f} s", samplesText(results.stochastic), results.stochastic.cpu));
-  if (results.fuzzy.present) costs.push_back(fmt::format("alpha-cuts {:.2f} s", results.fuzzy.cpu));
-  std::string line;
-  for (const std::string& cost : costs) line += (line.empty() ? "" : ", ") + cost;
-  return text + (line.empty() ? "" : "  CPU: " + line + spentText(results) + "\n");
+  for (const Answer* answer : results.answers())
+    if (answer->present) costs.push_back(fmt::format("{} {:.2f} s", answer->title(), answer->cpu));
+  if (costs.empty()) return text;
+  return text + fmt::format("  CPU: {}{}\n", fmt::join(costs, ", "), spentText(results));
 }
 
 std::string infoText(const Results& results) {
@@ -231,21 +213,13 @@ std::string infoText(const Results& results) {
                         shapeText(results, u, "membership"));
   for (const OutputInfo& o : results.outputs)
     text += fmt::format("  output: {} ({}), {}\n", o.name, o.quantity, o.unit);
-  const auto until = [&](double reached, const std::string& why) {
-    if (!(results.horizon > 0)) return std::string();
-    return fmt::format("up to {} s{}; ", reached, why.empty() ? "" : ": " + why);
-  };
-  if (const IntervalResult& r = results.interval; r.present)
-    text += fmt::format("  enclosure: {}{}, {}, {:.2f} s CPU\n", until(r.reached, r.why), countText(r.pieces, "piece"),
-                        countText(r.steps, "step"), r.cpu);
-  if (const StochasticResult& r = results.stochastic; r.present)
-    text += fmt::format("  samples: {}{} ({}) and {}, {:.2f} s CPU{}\n", until(r.reached, r.why), r.samples, r.plan,
-                        countText(r.corners + r.alphaCorners, "corner"), r.cpu,
-                        (r.stopped.empty() ? "" : fmt::format("; {} were taken: {}", samplesText(r), r.stopped)) +
-                            (r.kept.present ? "; kept: " + keptText(r.kept) : ""));
-  if (const FuzzyResult& r = results.fuzzy; r.present)
-    text += fmt::format("  alpha-cuts: {}{}, {:.2f} s CPU\n", until(r.reached, r.why),
-                        countText(static_cast<long long>(r.alpha.size()), "level"), r.cpu);
+  for (const Answer* answer : results.answers()) {
+    if (!answer->present) continue;
+    text += fmt::format("  {}: ", answer->title());
+    if (results.horizon > 0)
+      text += fmt::format("up to {} s{}; ", answer->reached, answer->why.empty() ? "" : ": " + answer->why);
+    text += fmt::format("{:.2f} s CPU; {}\n", answer->cpu, answer->amount());
+  }
   return text;
 }
 

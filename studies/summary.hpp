@@ -1,4 +1,4 @@
-// What `gamut run` says on standard output: one JSON object for programs, or a short table for people.
+// What commands say of results on standard output: one JSON object for programs, or lines and tables for people.
 #pragma once
 
 #include <string>
@@ -25,9 +25,6 @@ std::string infoText(const Results& results);
 /// "normal (mean 0.8, deviation 0.01)", "triangular": the distribution or membership function of an uncertain quantity
 /// and its numbers; the support only where it is not the interval, a table without its points.
 std::string shapeText(const Results& results, const UncertainInfo& uncertain, const std::string& shape);
-
-/// What the results hold of the samples one by one: "values of all, motions of one in 18".
-std::string keptText(const KeptSamples& kept);
 
 /// Every field that a file of these results holds, as they describe it; several lines, the last one ended.
 std::string contentText(const Results& results);

@@ -111,7 +111,7 @@ void Mechanism::addFrame(const std::string& from, const std::string& to, const s
   checkFrame(from, of);
   if (to.empty()) refuse("the element " + quoted(of) + " needs the name of the frame that it moves");
   if (has(frames_, to)) refuse("the frame " + quoted(to) + " is defined twice; " + quoted(of) + " needs a new frame");
-  if (unitOfMeasured(to + ".position.x") != nullptr) refuse("the frame " + quoted(to) + " is named like a mass");
+  if (unitOfMeasured(to + ".position.x") != nullptr) refuse("the frame " + quoted(to) + " has the name of an element whose position is measured");
   if (isQuantity(to)) refuse("a frame cannot be named " + quoted(to) + ": that is a quantity");
   frames_.push_back(to);
 }
@@ -230,7 +230,7 @@ class Mechanism::Checker final : public Fields {
     if (name == other) refuse("the element " + quoted(element_) + " needs two different frames");
   }
   void carriesMass(const std::string& frame) override {
-    if (has(m_.frames_, element_)) refuse("the mass " + quoted(element_) + " is named like a frame");
+    if (has(m_.frames_, element_)) refuse("the element " + quoted(element_) + " has the name of a frame");
     m_.massFrames_.push_back(frame);
   }
   void movedFrame(const Word& /*word*/, std::string& name, const std::string& from) override {

@@ -118,9 +118,9 @@ std::vector<S> articulatedAccelerations(const std::vector<std::reference_wrapper
         (component < 3 ? to.tau : to.f)[component % 3] =
             S(-((*speed)->force / motion[static_cast<std::size_t>(component / 3)][component % 3]));
     }
-    const bool isOutmost = transmission->from().origin == nullptr;
+    const bool isInmost = transmission->from().origin == nullptr;
     transmission->doForce();
-    if (!isOutmost) behind[&transmission->from()] += transmission->inFrom(m);
+    if (!isInmost) behind[&transmission->from()] += transmission->inFrom(m);
   }
 
   std::vector<S> result(speeds.size(), S(0.0));

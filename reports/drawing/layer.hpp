@@ -54,7 +54,7 @@ struct Layer {
 };
 
 /// One output of results as a line; empty if there are none.
-Line lineOf(const Grid& grid, std::size_t output);
+Line lineOf(const Table& grid, std::size_t output);
 Band bandOf(const Bounds& bounds, std::size_t output);
 
 }  // namespace gamut

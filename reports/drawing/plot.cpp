@@ -56,7 +56,7 @@ const Layer* frontMost(const std::vector<Layer>& layers, bool isLine) {
 
 }  // namespace
 
-Line lineOf(const Grid& grid, std::size_t output) {
+Line lineOf(const Table& grid, std::size_t output) {
   Line line(grid.empty() ? 0 : grid.times);
   for (std::size_t i = 0; i < line.size(); ++i) line[i] = grid(i, output);
   return line;

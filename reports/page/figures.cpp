@@ -60,8 +60,8 @@ std::string secondsText(double seconds) { return numberText(seconds, seconds < 1
 
 std::string costTable(const Results& results) {
   TableText table("Cost", {"analysis", "CPU time", "amount"});
-  for (const Contribution* analysis : analyses)
-    for (const Cost& cost : analysis->costs(results)) table.row(cost.name, {secondsText(cost.cpu), cost.amount});
+  for (const Answer* answer : results.answers())
+    if (answer->present) table.row(answer->title(), {secondsText(answer->cpu), answer->amount()});
   if (std::isfinite(results.limits.time)) {
     const Limits& limits = results.limits;
     const auto gigabytes = [](double bytes) { return numberText(bytes / 1e9, 3) + " GB"; };

@@ -25,8 +25,6 @@ std::vector<Column> columns(const Results& results, const Finding& finding) {
   return {column};
 }
 
-std::vector<Cost> costs(const Results&) { return {}; }
-
 void draw(const Results& results, std::size_t output, Plot& plot) {
   const Line ratio = lineOf(results.comparison.overestimation, output);
   if (std::ranges::none_of(ratio, [](double x) { return std::isfinite(x); })) return;
@@ -40,6 +38,6 @@ void draw(const Results& results, std::size_t output, Plot& plot) {
 
 }  // namespace
 
-const Contribution compared{columns, costs, draw};
+const Contribution compared{columns, draw};
 
 }  // namespace gamut

@@ -1,4 +1,4 @@
-// What each analysis adds to the page: columns of the table of figures, rows of the costs, layers of the plots. An
+// What each analysis adds to the page: columns of the table of figures, layers of the plots. An
 // analysis has its file here and its row in `analyses`.
 #pragma once
 
@@ -19,17 +19,9 @@ struct Column {
   std::vector<std::string> texts;  ///< one an output
 };
 
-/// A row of the costs.
-struct Cost {
-  std::string name;
-  double cpu = 0;  ///< s
-  std::string amount;
-};
-
-/// All three give nothing where the analysis is absent.
+/// Both give nothing where the analysis is absent.
 struct Contribution {
   std::vector<Column> (*columns)(const Results& results, const Finding& finding);
-  std::vector<Cost> (*costs)(const Results& results);
   /// Adds what is there of one output.
   void (*draw)(const Results& results, std::size_t output, Plot& plot);
 };

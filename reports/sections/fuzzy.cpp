@@ -1,6 +1,5 @@
 // What is possible.
 #include "reports/sections/contribution.hpp"
-#include "reports/words.hpp"
 
 namespace gamut {
 namespace {
@@ -10,11 +9,6 @@ std::vector<Column> columns(const Results& results, const Finding&) {
   const FuzzyResult& fuzzy = results.fuzzy;
   if (!fuzzy.present || fuzzy.outer.empty()) return {};
   return {{"most possible", &fuzzy.outer.back(), {}}};
-}
-
-std::vector<Cost> costs(const Results& results) {
-  if (!results.fuzzy.present) return {};
-  return {{"possible", results.fuzzy.cpu, countText(static_cast<long long>(results.fuzzy.alpha.size()), "alpha-cut")}};
 }
 
 void draw(const Results& results, std::size_t output, Plot& plot) {
@@ -33,6 +27,6 @@ void draw(const Results& results, std::size_t output, Plot& plot) {
 
 }  // namespace
 
-const Contribution possible{columns, costs, draw};
+const Contribution possible{columns, draw};
 
 }  // namespace gamut

@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include "reports/sections/contribution.hpp"
-#include "reports/words.hpp"
 
 namespace gamut {
 namespace {
@@ -22,12 +21,6 @@ Band tubeOf(const Bounds& over, std::size_t output) {
 std::vector<Column> columns(const Results& results, const Finding&) {
   if (!results.interval.present) return {};
   return {{"guaranteed", &results.interval.at, {}}};
-}
-
-std::vector<Cost> costs(const Results& results) {
-  const IntervalResult& interval = results.interval;
-  if (!interval.present) return {};
-  return {{"guaranteed", interval.cpu, countText(interval.pieces, "piece") + ", " + countText(interval.steps, "step")}};
 }
 
 void draw(const Results& results, std::size_t output, Plot& plot) {
@@ -58,6 +51,6 @@ void draw(const Results& results, std::size_t output, Plot& plot) {
 
 }  // namespace
 
-const Contribution guaranteed{columns, costs, draw};
+const Contribution guaranteed{columns, draw};
 
 }  // namespace gamut

@@ -5,8 +5,6 @@
 #include <cmath>
 
 #include "reports/sections/contribution.hpp"
-#include "reports/words.hpp"
-#include "studies/summary.hpp"
 
 namespace gamut {
 namespace {
@@ -14,16 +12,6 @@ namespace {
 std::vector<Column> columns(const Results& results, const Finding&) {
   if (!results.stochastic.present) return {};
   return {{"sampled", &results.stochastic.envelope, {}}};
-}
-
-std::vector<Cost> costs(const Results& results) {
-  const StochasticResult& stochastic = results.stochastic;
-  if (!stochastic.present) return {};
-  return {{"probable", stochastic.cpu,
-           fmt::format("{} ({}), {}, tolerances {} relative, {} absolute{}", countText(stochastic.samples, "sample"),
-                       stochastic.plan, countText(stochastic.corners + stochastic.alphaCorners, "corner"),
-                       numberText(stochastic.relativeTolerance), numberText(stochastic.absoluteTolerance),
-                       stochastic.kept.present ? "; in the results: " + keptText(stochastic.kept) : "")}};
 }
 
 /// The quantile whose probability is nearest.
@@ -64,6 +52,6 @@ void draw(const Results& results, std::size_t output, Plot& plot) {
 
 }  // namespace
 
-const Contribution probable{columns, costs, draw};
+const Contribution probable{columns, draw};
 
 }  // namespace gamut

@@ -247,7 +247,7 @@ class MechanismReader {
     void signals(const Word& word, ExpressionVector& vector) override {
       const toml::node* node = given(section_, word);
       if (node == nullptr) return;
-      const toml::array& list = reader_.listOf(*node, section_.nameOf(word.key), 3, 3, dimensionOf(word.unit));
+      const toml::array& list = reader_.listOf(*node, section_.nameOf(word.key), components, 3, dimensionOf(word.unit));
       for (std::size_t i = 0; i < 3; ++i)
         vector[i] = reader_.signal(list[i], named(word) + "." + components[i], section_.nameOf(word.key), word);
     }
@@ -316,12 +316,12 @@ class MechanismReader {
     rotation.angle = 0.0;
   }
 
-  /// A list of at least and at most so many numbers.
-  const toml::array& listOf(const toml::node& node, const std::string& what, std::size_t least, std::size_t most,
-                            const Dimension& dimension) const {
-    const std::string expected = least == most
-                                     ? fmt::format("three, [x, y, z] in {}", unitOf(dimension))
-                                     : fmt::format("[xx, yy, zz] or [xx, yy, zz, xy, yz, zx] in {}", unitOf(dimension));
+  /// A list of numbers of these names; all, or the first `least`.
+  const toml::array& listOf(const toml::node& node, const std::string& what, std::span<const char* const> names,
+                            std::size_t least, const Dimension& dimension) const {
+    const std::size_t most = names.size();
+    std::string expected = fmt::format("[{}] in {}", fmt::join(names, ", "), unitOf(dimension));
+    if (least < most) expected = fmt::format("[{}] or {}", fmt::join(names.first(least), ", "), expected);
     if (!node.is_array()) source_.fail(node, what + " is no list of numbers", expected);
     const toml::array& list = *node.as_array();
     if (list.size() != least && list.size() != most)
@@ -332,7 +332,7 @@ class MechanismReader {
   void readNumbers(const toml::node& node, const std::string& name, const std::string& what,
                    std::span<Expression> numbers, std::span<const char* const> names, std::size_t least,
                    const std::string& unit) {
-    const toml::array& list = listOf(node, what, least, names.size(), dimensionOf(unit));
+    const toml::array& list = listOf(node, what, names, least, dimensionOf(unit));
     for (std::size_t i = 0; i < list.size(); ++i) numbers[i] = number(list[i], name + "." + names[i], what, unit);
   }
 

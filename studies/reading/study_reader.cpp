@@ -1,5 +1,6 @@
 // Reads a study file table by table. Everything is checked here, so that a study that was read can be run.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -8,7 +9,6 @@
 #include <limits>
 #include <map>
 #include <optional>
-#include <set>
 
 #include "mechanics/assembly.hpp"
 #include "mechanics/model.hpp"
@@ -90,17 +90,17 @@ class StudyReader {
   void readCompare(const TomlSection& section) {
     const toml::node* node = section.find("compare");
     if (node == nullptr) return;
-    std::set<std::string> found;
+    std::vector<std::string> words;
+    const Results known;
+    for (const Answer* answer : known.answers()) words.emplace_back(answer->word());
+    study_.compare.clear();
     for (const toml::node& entry : source_.asArray(*node, "study.compare")) {
-      const std::string word = source_.asChoice(entry, "study.compare", {"interval", "stochastic", "fuzzy"});
-      if (!found.insert(word).second)
+      const std::string word = source_.asChoice(entry, "study.compare", words);
+      if (!study_.compare.insert(word).second)
         source_.fail(entry, fmt::format("study.compare names \"{}\" twice", word), "every analysis once");
     }
-    if (found.empty())
-      source_.fail(*node, "study.compare is empty", "\"interval\", \"stochastic\", \"fuzzy\" or some of them");
-    study_.interval = found.contains("interval");
-    study_.stochastic = found.contains("stochastic");
-    study_.fuzzy = found.contains("fuzzy");
+    if (study_.compare.empty())
+      source_.fail(*node, "study.compare is empty", fmt::format("\"{}\" or some of them", fmt::join(words, "\", \"")));
   }
 
   void readTimes(const TomlSection& section) {
@@ -294,7 +294,7 @@ class StudyReader {
 
   /// Not every plan serves every number of quantities.
   void checkPlan(const toml::node* stochastic) const {
-    if (!study_.stochastic) return;
+    if (!study_.asksFor<StochasticResult>()) return;
     try {
       Sampling(study_.ensemble.plan, study_.uncertain.size(), 1, study_.ensemble.seed);
     } catch (const std::invalid_argument& error) {

@@ -1,6 +1,8 @@
 // What the file says of the alpha-cuts.
 #include "studies/results/fuzzy.hpp"
 
+#include "studies/words.hpp"
+
 namespace gamut {
 namespace {
 
@@ -18,8 +20,12 @@ std::vector<Field> fieldsOf(FuzzyResult& r) {
 
 }  // namespace
 
-void describe(FuzzyResult& fuzzy, std::vector<Group>& groups) {
-  groups.push_back(groupOf("/fuzzy", "what is possible: alpha-cuts of every output", fuzzy, fieldsOf));
+std::string FuzzyResult::title() const { return "alpha-cuts"; }
+
+std::string FuzzyResult::amount() const { return countText(static_cast<long long>(alpha.size()), "level"); }
+
+void FuzzyResult::describe(std::vector<Group>& groups) {
+  groups.push_back(groupOf("/fuzzy", "what is possible: alpha-cuts of every output", *this, fieldsOf));
 }
 
 }  // namespace gamut

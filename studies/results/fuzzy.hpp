@@ -9,13 +9,16 @@
 namespace gamut {
 
 /// Alpha-cuts, level 0 the widest.
-struct FuzzyResult : Answer {
+struct FuzzyResult final : Answer {
+  static constexpr std::string_view name = "fuzzy";
   std::vector<double> alpha;
   std::vector<Envelope> outer;  ///< proved, one a level
   std::vector<Envelope> inner;  ///< of the samples with at least this membership, one a level (empty without samples)
-};
 
-/// Adds the group of this part.
-void describe(FuzzyResult& fuzzy, std::vector<Group>& groups);
+  std::string_view word() const override { return name; }
+  std::string title() const override;
+  std::string amount() const override;
+  void describe(std::vector<Group>& groups) override;
+};
 
 }  // namespace gamut

@@ -1,6 +1,8 @@
 // What the file says of the enclosures.
 #include "studies/results/interval.hpp"
 
+#include "studies/words.hpp"
+
 namespace gamut {
 namespace {
 
@@ -20,8 +22,12 @@ std::vector<Field> fieldsOf(IntervalResult& r) {
 
 }  // namespace
 
-void describe(IntervalResult& interval, std::vector<Group>& groups) {
-  groups.push_back(groupOf("/interval", "what is guaranteed: enclosures of every output", interval, fieldsOf));
+std::string IntervalResult::title() const { return "enclosure"; }
+
+std::string IntervalResult::amount() const { return countText(pieces, "piece") + ", " + countText(steps, "step"); }
+
+void IntervalResult::describe(std::vector<Group>& groups) {
+  groups.push_back(groupOf("/interval", "what is guaranteed: enclosures of every output", *this, fieldsOf));
 }
 
 }  // namespace gamut

@@ -9,15 +9,18 @@
 
 namespace gamut {
 
-struct IntervalResult : Answer {
+struct IntervalResult final : Answer {
+  static constexpr std::string_view name = "interval";
   Envelope at;              ///< at the output times
   Envelope over;            ///< row i: over the whole output interval [time(i-1), time(i)] (row 0: at time 0)
   Envelope direct;          ///< kinematics only: the assembly moved by plain intervals, without polynomials
   std::int64_t pieces = 0;  ///< sub-boxes at the end
   std::int64_t steps = 0;
-};
 
-/// Adds the group of this part.
-void describe(IntervalResult& interval, std::vector<Group>& groups);
+  std::string_view word() const override { return name; }
+  std::string title() const override;
+  std::string amount() const override;
+  void describe(std::vector<Group>& groups) override;
+};
 
 }  // namespace gamut

@@ -11,9 +11,7 @@ namespace gamut {
 std::vector<Group> describe(Results& results) {
   std::vector<Group> groups;
   describe(static_cast<Origin&>(results), groups);
-  describe(results.interval, groups);
-  describe(results.stochastic, groups);
-  describe(results.fuzzy, groups);
+  for (Answer* answer : results.answers()) answer->describe(groups);
   describe(results.comparison, groups);
   return groups;
 }
@@ -44,18 +42,19 @@ std::vector<std::string> differences(const Results& one, const Results& other) {
 
 double reachedTime(const Results& results) {
   double reached = results.horizon;
-  for (const Answer* answer :
-       {static_cast<const Answer*>(&results.interval), static_cast<const Answer*>(&results.stochastic),
-        static_cast<const Answer*>(&results.fuzzy)})
+  for (const Answer* answer : results.answers())
     if (answer->present) reached = std::min(reached, answer->reached);
   return reached;
 }
 
 std::string whyEnded(const Results& results) {
   std::vector<std::string> reasons;
-  for (const std::string* why : {&results.interval.why, &results.stochastic.stopped, &results.stochastic.why,
-                                 &results.fuzzy.why, &results.comparison.why})
-    if (!why->empty() && std::ranges::find(reasons, *why) == reasons.end()) reasons.push_back(*why);
+  const auto add = [&](const std::string& why) {
+    if (!why.empty() && std::ranges::find(reasons, why) == reasons.end()) reasons.push_back(why);
+  };
+  for (const Answer* answer : results.answers()) add(answer->why);
+  add(results.stochastic.stopped);
+  add(results.comparison.why);
   return fmt::format("{}", fmt::join(reasons, "; "));
 }
 

@@ -2,6 +2,7 @@
 // The report and the verdict are computed from this alone. Each part is described in a file of its own.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -13,17 +14,18 @@
 
 namespace gamut {
 
-/// One number for every output at every output time; NaN where there is none. Shape: times x outputs.
-using Grid = Table;
-
 /// Lower and upper bounds of every output at every output time.
 using Bounds = Envelope;
 
+/// An analysis has its member here, and its row in answers().
 struct Results : Origin {
   IntervalResult interval;
   StochasticResult stochastic;
   FuzzyResult fuzzy;
   ComparisonResult comparison;
+
+  std::array<Answer*, 3> answers() { return {&interval, &stochastic, &fuzzy}; }
+  std::array<const Answer*, 3> answers() const { return {&interval, &stochastic, &fuzzy}; }
 };
 
 /// All groups of the file, in its order. They point into the results; what is const stays as it is.

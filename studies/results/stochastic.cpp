@@ -1,6 +1,10 @@
 // What the file says of the samples, together and one by one.
 #include "studies/results/stochastic.hpp"
 
+#include <fmt/format.h>
+
+#include "studies/words.hpp"
+
 namespace gamut {
 namespace {
 
@@ -86,10 +90,28 @@ std::vector<Field> fieldsOfKept(KeptSamples& k) {
 
 }  // namespace
 
-void describe(StochasticResult& stochastic, std::vector<Group>& groups) {
-  groups.push_back(groupOf("/stochastic", "what is probable: samples of every output", stochastic, fieldsOf));
-  groups.push_back(
-      groupOf("/stochastic/kept", "samples one by one, as far as they are kept", stochastic.kept, fieldsOfKept));
+std::string KeptSamples::text() const {
+  const auto some = [](std::int64_t every) {
+    return every == 0 ? std::string("none") : every == 1 ? std::string("all") : fmt::format("one in {}", every);
+  };
+  return fmt::format("values of {}, motions of {}", some(valuesEvery), some(motionsEvery));
+}
+
+std::string StochasticResult::title() const {
+  return integrated < planned() ? fmt::format("{} of {}", integrated, countText(planned(), "sample"))
+                                : countText(samples, "sample");
+}
+
+std::string StochasticResult::amount() const {
+  return fmt::format("plan {}, {}, tolerances {} relative, {} absolute{}{}", plan,
+                     countText(corners + alphaCorners, "corner"), numberText(relativeTolerance),
+                     numberText(absoluteTolerance), stopped.empty() ? "" : "; not all were taken: " + stopped,
+                     kept.present ? "; in the results: " + kept.text() : "");
+}
+
+void StochasticResult::describe(std::vector<Group>& groups) {
+  groups.push_back(groupOf("/stochastic", "what is probable: samples of every output", *this, fieldsOf));
+  groups.push_back(groupOf("/stochastic/kept", "samples one by one, as far as they are kept", kept, fieldsOfKept));
 }
 
 }  // namespace gamut

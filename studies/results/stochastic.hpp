@@ -20,10 +20,14 @@ struct KeptSamples {
   std::vector<double> values;  ///< [number][quantity]
   std::vector<std::int64_t> motionNumber;
   std::vector<double> motions;  ///< [motionNumber][time][output], NaN where a sample did not arrive
+
+  /// Of how many: "values of all, motions of one in 18".
+  std::string text() const;
 };
 
 /// Its `reached`: all samples that were followed arrived there; envelope and statistics end there.
-struct StochasticResult : Answer {
+struct StochasticResult final : Answer {
+  static constexpr std::string_view name = "stochastic";
   /// The plan's samples, the corners and the centre.
   std::int64_t planned() const { return samples + corners + alphaCorners + 1; }
 
@@ -42,9 +46,11 @@ struct StochasticResult : Answer {
   Table resolution;                   ///< no quantile is farther than this from that of the samples themselves
   Table error;                        ///< the witness's own error, measured at tighter tolerance
   KeptSamples kept;
-};
 
-/// Adds the groups of this part.
-void describe(StochasticResult& stochastic, std::vector<Group>& groups);
+  std::string_view word() const override { return name; }
+  std::string title() const override;
+  std::string amount() const override;
+  void describe(std::vector<Group>& groups) override;
+};
 
 }  // namespace gamut

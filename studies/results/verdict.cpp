@@ -165,8 +165,8 @@ class Finder {
   bool endedAtStart() const { return comparesAnything() && moves() && timesUntil(finding_.reached) <= 1; }
 
   bool endsEarly() const {
-    return gamut::endsEarly(results_, results_.interval) || gamut::endsEarly(results_, results_.fuzzy) ||
-           (results_.stochastic.integrated > 0 && gamut::endsEarly(results_, results_.stochastic));
+    return std::ranges::any_of(results_.answers(),
+                               [&](const Answer* answer) { return gamut::endsEarly(results_, *answer); });
   }
 
   Gap findGap() const {
@@ -181,7 +181,7 @@ class Finder {
   }
 
   void findOverestimation() {
-    const Grid& ratios = results_.comparison.overestimation;
+    const Table& ratios = results_.comparison.overestimation;
     double greatest = ratios.empty() ? results_.comparison.maximum : std::numeric_limits<double>::quiet_NaN();
     const std::size_t count = ratios.empty() ? 0 : timesUntil(finding_.reached) * ratios.outputs;
     for (std::size_t i = 0; i < count; ++i)

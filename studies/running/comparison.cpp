@@ -21,14 +21,14 @@ void takeDisputes(Run& run, const Comparison& found, int level) {
 
 void compareAnswers(Run& run) {
   const Study& study = run.study;
-  if (!study.stochastic || !(study.interval || study.fuzzy)) return;
+  if (!study.asksFor<StochasticResult>() || !(study.asksFor<IntervalResult>() || study.asksFor<FuzzyResult>())) return;
   Results& results = run.results;
   ComparisonResult& comparison = results.comparison;
   comparison.present = true;
   const std::size_t sampled = run.ensemble && run.ensemble->integrated() > 0 ? run.ensemble->reachedTimes() : 0;
   const std::size_t compared = std::min(run.enclosed.reachedTimes, sampled);
   const bool isOfTheStartAlone = study.motion.times.size() > 1 && compared <= 1;
-  if (study.interval && sampled > 0 && !isOfTheStartAlone) {
+  if (study.asksFor<IntervalResult>() && sampled > 0 && !isOfTheStartAlone) {
     Overestimation found = measureOverestimation({results.interval.at, run.enclosed.reachedTimes},
                                                  results.stochastic.envelope, results.stochastic.error);
     comparison.overestimation = std::move(found.ratio);

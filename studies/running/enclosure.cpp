@@ -76,7 +76,7 @@ void clear(Run& run) {
 }  // namespace
 
 void enclose(Run& run) {
-  if (!run.study.interval && !run.study.fuzzy) return;
+  if (!run.study.asksFor<IntervalResult>() && !run.study.asksFor<FuzzyResult>()) return;
   const double start = processCpuSeconds();
   run.watch.begin(Watch::Stage::enclosure);
   clear(run);

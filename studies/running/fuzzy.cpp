@@ -36,7 +36,7 @@ void narrow(std::vector<Bounds>& cuts, const std::vector<Fuzzy>& outputs) {
 }  // namespace
 
 void findPossibilities(Run& run) {
-  if (!run.study.fuzzy) return;
+  if (!run.study.asksFor<FuzzyResult>()) return;
   const double start = processCpuSeconds();
   Enclosed& enclosed = run.enclosed;
   FuzzyResult& fuzzy = run.results.fuzzy;

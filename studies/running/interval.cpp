@@ -6,7 +6,7 @@
 namespace gamut {
 
 void guarantee(Run& run) {
-  if (!run.study.interval) return;
+  if (!run.study.asksFor<IntervalResult>()) return;
   Enclosed& enclosed = run.enclosed;
   IntervalResult& interval = run.results.interval;
   interval.present = true;

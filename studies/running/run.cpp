@@ -12,10 +12,6 @@
 namespace gamut {
 namespace {
 
-/// An analysis has its row here, behind what it needs.
-constexpr void (*units[])(Run&) = {takeFirstSamples,  enclose,          guarantee,
-                                   findPossibilities, takeOtherSamples, compareAnswers};
-
 /// The part of the results that is known before anything runs. Words as they are read back from a file.
 void describeOrigin(Run& run) {
   const Study& study = run.study;
@@ -67,8 +63,8 @@ Limits limitsOf(const Study& study, const RunOptions& options) {
 }
 
 double memoryNeeded(const Study& study, const RunOptions& options) {
-  if (!study.stochastic) return 0;
-  const std::size_t levels = study.fuzzy ? static_cast<std::size_t>(study.levels) : 0;
+  if (!study.asksFor<StochasticResult>()) return 0;
+  const std::size_t levels = study.asksFor<FuzzyResult>() ? static_cast<std::size_t>(study.levels) : 0;
   const std::size_t times = study.motion.times.size(), outputs = study.outputs.size(),
                     quantities = study.uncertain.size();
   constexpr double beside = 2049;  // corners and centre at most

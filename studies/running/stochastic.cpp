@@ -58,7 +58,7 @@ void describeSamples(Run& run) {
   stochastic.envelope = ensemble.envelope();
   stochastic.reached = ensemble.reached();
   stochastic.integrated = static_cast<std::int64_t>(ensemble.integrated());
-  if (run.study.fuzzy) run.results.fuzzy.inner = ensemble.innerCuts();
+  if (run.study.asksFor<FuzzyResult>()) run.results.fuzzy.inner = ensemble.innerCuts();
   if (ensemble.isComplete()) {
     stochastic.stopped.clear();
   } else if (*run.watch.stop()) {
@@ -69,7 +69,7 @@ void describeSamples(Run& run) {
 }  // namespace
 
 void takeFirstSamples(Run& run) {
-  if (!run.study.stochastic) return;
+  if (!run.study.asksFor<StochasticResult>()) return;
   const EnsembleOptions options = ensembleOptions(run);
   StochasticResult& stochastic = run.results.stochastic;
   stochastic.present = true;
@@ -77,7 +77,7 @@ void takeFirstSamples(Run& run) {
   stochastic.samples = static_cast<std::int64_t>(options.samples);
   stochastic.relativeTolerance = options.tolerance.relative;
   stochastic.absoluteTolerance = options.tolerance.absolute;
-  const bool isAllThereIs = !run.study.interval && !run.study.fuzzy;
+  const bool isAllThereIs = !run.study.asksFor<IntervalResult>() && !run.study.asksFor<FuzzyResult>();
   sampleWhileThereIsRoom(run, isAllThereIs ? Watch::Stage::rest : Watch::Stage::firstSamples, [&] {
     EnsembleRun& ensemble = run.ensemble.emplace(run.problem.motion, options);
     stochastic.samples = static_cast<std::int64_t>(ensemble.sampling().samples());

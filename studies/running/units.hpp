@@ -46,7 +46,7 @@ struct Run {
   std::optional<EnsembleRun> ensemble;  ///< there from `takeFirstSamples` on, unless it found no room
 };
 
-// In the order in which they run.
+// An analysis has its unit, declared here and in the list below, behind what it needs.
 
 /// A first block, before the enclosure, so that one that ends early has something to be compared with.
 void takeFirstSamples(Run& run);
@@ -57,6 +57,10 @@ void findPossibilities(Run& run);
 /// Settles what leaves the proved bounds, then counts it.
 void takeOtherSamples(Run& run);
 void compareAnswers(Run& run);
+
+/// All units, in the order in which they run.
+inline constexpr void (*units[])(Run&) = {takeFirstSamples,  enclose,          guarantee,
+                                          findPossibilities, takeOtherSamples, compareAnswers};
 
 /// Takes what a comparison with an alpha-cut found, or, level -1, with the enclosure.
 void takeDisputes(Run& run, const Comparison& found, int level);

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "commands/table.hpp"
 #include "studies/results/results_file.hpp"
 #include "tests/commands/program.hpp"
 #include "tests/studies/sample_results.hpp"
@@ -29,8 +30,7 @@ TEST_F(Program, TellsItsVersionAndItsExitCodes) {
   const Outcome help = gamut("--help");
   EXPECT_EQ(help.exitCode, 0);
   EXPECT_THAT(help.out, HasSubstr("Exit codes:"));
-  for (const char* word : {"run", "validate", "check", "report", "info", "replay"})
-    EXPECT_THAT(help.out, HasSubstr(word));
+  for (const Command& command : commands::table) EXPECT_THAT(help.out, HasSubstr(command.help)) << command.name;
 }
 
 TEST_F(Program, RefusesWrongUsageInOneLine) {

@@ -192,11 +192,11 @@ TEST(Mechanism, SaysWhatIsWrongWithAnElement) {
               HasSubstr("the frame 'K2' is defined twice"));
   EXPECT_THAT(complaint([&] { m.add(Mass{"tip", "K4", 1.0}); }), HasSubstr("two elements are named 'tip'"));
   EXPECT_THAT(complaint([&] { m.add(Mass{"", "K4", 1.0}); }), HasSubstr("a mass needs a name"));
-  EXPECT_THAT(complaint([&] { m.add(Mass{"K3", "K4", 1.0}); }), HasSubstr("named like a frame"));
+  EXPECT_THAT(complaint([&] { m.add(Mass{"K3", "K4", 1.0}); }), HasSubstr("the element 'K3' has the name of a frame"));
   EXPECT_THAT(complaint([&] {
                 m.add(Link{"extra", "K4", "tip", {0.0, 0.0, 1.0}});
               }),
-              HasSubstr("the frame 'tip' is named like a mass"));
+              HasSubstr("the frame 'tip' has the name of an element whose position is measured"));
   EXPECT_THAT(complaint([&] {
                 m.add(Mass{"extra", "K4", Expression::named("mas")});
               }),

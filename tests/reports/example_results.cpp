@@ -60,12 +60,12 @@ Results pendulum(std::size_t times, std::size_t outputs, std::size_t levels) {
   stochastic.absoluteTolerance = 1e-12;
   stochastic.cpu = 8.21;
   stochastic.probabilities = {0.05, 0.25, 0.5, 0.75, 0.95};
-  stochastic.quantiles.assign(5, Grid(times, outputs));
-  stochastic.mean = stochastic.deviation = stochastic.error = Grid(times, outputs);
+  stochastic.quantiles.assign(5, Table(times, outputs));
+  stochastic.mean = stochastic.deviation = stochastic.error = Table(times, outputs);
   fuzzy.cpu = 2.02;
   interval.at = interval.over = stochastic.envelope = Bounds(times, outputs);
   results.comparison.verdict = "inside";
-  results.comparison.overestimation = Grid(times, outputs);
+  results.comparison.overestimation = Table(times, outputs);
   for (std::size_t level = 0; level < levels; ++level) {
     fuzzy.alpha.push_back(static_cast<double>(level) / static_cast<double>(levels - 1));
     fuzzy.outer.emplace_back(times, outputs);
@@ -105,7 +105,7 @@ Results kinematics() {
   results.analysis = "kinematics";
   results.horizon = results.interval.reached = results.stochastic.reached = results.fuzzy.reached = 0;
   results.time = {0};
-  const auto cut = [](Grid& grid) {
+  const auto cut = [](Table& grid) {
     grid.times = 1;
     grid.data.resize(grid.outputs);
   };
@@ -116,11 +116,11 @@ Results kinematics() {
   cutBand(results.interval.at);
   cutBand(results.stochastic.envelope);
   results.interval.over = {};
-  for (Grid* grid : {&results.stochastic.mean, &results.stochastic.deviation, &results.stochastic.error,
-                     &results.comparison.overestimation}) {
+  for (Table* grid : {&results.stochastic.mean, &results.stochastic.deviation, &results.stochastic.error,
+                      &results.comparison.overestimation}) {
     cut(*grid);
   }
-  for (Grid& grid : results.stochastic.quantiles) cut(grid);
+  for (Table& grid : results.stochastic.quantiles) cut(grid);
   for (Bounds& bounds : results.fuzzy.outer) cutBand(bounds);
   for (Bounds& bounds : results.fuzzy.inner) cutBand(bounds);
   results.interval.direct = Bounds(1, 2);

@@ -259,7 +259,7 @@ TEST(Verdict, OfPositionsWhoseEnclosureWasEndedIsIncompleteAndSaysWhy) {
   const Verdict verdict = judge(results);
   EXPECT_EQ(verdict.word, "incomplete");
   EXPECT_THAT(verdict.sentence, HasSubstr("An analysis ended early."));
-  EXPECT_THAT(verdict.notes, Contains("The guarantee ends early: the run was interrupted."));
+  EXPECT_THAT(verdict.notes, Contains("The enclosure ended early: the run was interrupted."));
 }
 
 TEST(Verdict, NamesOutputTimeAndDistanceOfTheFarthestExcursion) {
@@ -307,9 +307,8 @@ TEST(Verdict, NamesCornersAndTheCentreAsSuch) {
   for (const std::int64_t number : {4095, 4096, 4098, 4115, 4116})
     dispute(results, 1e-6, "interrupted").number = number;
   EXPECT_THAT(judge(results).notes,
-              ElementsAre(StartsWith("Sample 4095 ("), StartsWith("Corner 1 of 2 ("),
-                          StartsWith("Corner 1 of 18 of the alpha-cuts ("),
-                          StartsWith("Corner 18 of 18 of the alpha-cuts ("), StartsWith("The centre (")));
+              ElementsAre(StartsWith("Sample 4095 ("), StartsWith("Corner 0 ("),
+                          StartsWith("Alpha-corner 0 ("), StartsWith("Alpha-corner 17 ("), StartsWith("The centre (")));
   results.comparison.disputed.clear();
   EXPECT_THAT(judge(results).sentence, StartsWith("All 4117 sampled motions stay inside"));
 }
@@ -348,7 +347,7 @@ TEST(Verdict, ClaimsNothingOfMotionsThatEndedAtTheStart) {
   EXPECT_EQ(verdict.word, "incomplete");
   EXPECT_THAT(verdict.sentence,
               StartsWith("Nothing could be compared: an analysis ended before the first output time. The 3 s asked"));
-  EXPECT_THAT(verdict.notes, ElementsAre("The samples end at 0 s of the 3 s asked for: interrupted."));
+  EXPECT_THAT(verdict.notes, ElementsAre("The 4096 samples ended at 0 s of the 3 s asked for: interrupted."));
 }
 
 TEST(Verdict, ClaimsNothingOfTheStartAloneAndNamesATimeOnce) {
@@ -396,7 +395,7 @@ TEST(Verdict, TellsWhyAnAnalysisEndedEarly) {
   const Verdict verdict = judge(results);
   EXPECT_EQ(verdict.reached, 2.3);
   EXPECT_THAT(verdict.sentence, AllOf(HasSubstr("from 0 s to 2.3 s"), HasSubstr("3 s asked for were not reached")));
-  EXPECT_THAT(verdict.notes, Contains("The guarantee ends at 2.3 s of the 3 s asked for: the step became too small."));
+  EXPECT_THAT(verdict.notes, Contains("The enclosure ended at 2.3 s of the 3 s asked for: the step became too small."));
 }
 
 TEST(Verdict, CountsOverestimationOnlyAsFarAsWasCompared) {

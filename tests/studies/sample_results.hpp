@@ -8,8 +8,8 @@
 namespace gamut {
 
 /// A grid of distinct numbers: base + 10 time + output.
-inline Grid sampleGrid(std::size_t times, std::size_t outputs, double base) {
-  Grid grid(times, outputs);
+inline Table sampleGrid(std::size_t times, std::size_t outputs, double base) {
+  Table grid(times, outputs);
   for (std::size_t i = 0; i < times; ++i)
     for (std::size_t j = 0; j < outputs; ++j) grid(i, j) = base + 10 * static_cast<double>(i) + static_cast<double>(j);
   return grid;

@@ -164,13 +164,13 @@ TEST(InfoText, TellsTheNumbersOfDistributionsAndMembershipFunctions) {
   EXPECT_THAT(infoText(results), HasSubstr(", normal (mean 1, deviation 0.05), triangular (on [0.95, 1.1], apex 1)\n"));
 }
 
-TEST(KeptText, SaysOfHowManySamples) {
+TEST(KeptSamples, SayOfHowMany) {
   KeptSamples kept;
-  EXPECT_EQ(keptText(kept), "values of all, motions of all");
+  EXPECT_EQ(kept.text(), "values of all, motions of all");
   kept.motionsEvery = 18;
-  EXPECT_EQ(keptText(kept), "values of all, motions of one in 18");
+  EXPECT_EQ(kept.text(), "values of all, motions of one in 18");
   kept.valuesEvery = kept.motionsEvery = 0;
-  EXPECT_EQ(keptText(kept), "values of none, motions of none");
+  EXPECT_EQ(kept.text(), "values of none, motions of none");
 }
 
 TEST(ProgressLine, TellsTheTimeLeftOnceItCanBeKnown) {

@@ -33,7 +33,7 @@ TEST(StudyReader, ReadsWhatTheFileSays) {
   EXPECT_EQ(study.analysis, Study::Analysis::dynamics);
   EXPECT_EQ(study.horizon, 0.5);
   EXPECT_THAT(study.motion.times, ElementsAre(0, 0.1, 0.2, 0.3, 0.4, 0.5));
-  EXPECT_TRUE(study.interval && study.stochastic && study.fuzzy);
+  EXPECT_EQ(study.compare, (std::set<std::string, std::less<>>{"fuzzy", "interval", "stochastic"}));
   ASSERT_EQ(study.uncertain.size(), 1U);
   EXPECT_EQ(study.uncertain[0].quantity, "hinge.angle");
   EXPECT_EQ(study.uncertain[0].unit, "rad");
@@ -663,7 +663,7 @@ constexpr BadStudy badStudies[] = {
     {"compare = [\"interval\", \"stochastic\", \"fuzzy\"]", "compare = \"interval\"",
      "s.toml:6:11: study.compare is \"interval\"; expected a list [ … ]"},
     {"gravity = [0, 0, -9.81]", "gravity = [0, 0]",
-     "s.toml:8:11: mechanism.gravity has 2 numbers; expected three, [x, y, z] in m/s^2"},
+     "s.toml:8:11: mechanism.gravity has 2 numbers; expected [x, y, z] in m/s^2"},
     {"gravity = [0, 0, -9.81]", "gravity = [0, 0, \"9.81 m\"]",
      "s.toml:8:18: mechanism.gravity is written in a unit of the kind m; expected a number in m/s^2, or with a unit of "
      "that kind"},
