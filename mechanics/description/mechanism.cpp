@@ -111,7 +111,8 @@ void Mechanism::addFrame(const std::string& from, const std::string& to, const s
   checkFrame(from, of);
   if (to.empty()) refuse("the element " + quoted(of) + " needs the name of the frame that it moves");
   if (has(frames_, to)) refuse("the frame " + quoted(to) + " is defined twice; " + quoted(of) + " needs a new frame");
-  if (unitOfMeasured(to + ".position.x") != nullptr) refuse("the frame " + quoted(to) + " has the name of an element whose position is measured");
+  if (unitOfMeasured(to + ".position.x") != nullptr)
+    refuse("the frame " + quoted(to) + " has the name of an element whose position is measured");
   if (isQuantity(to)) refuse("a frame cannot be named " + quoted(to) + ": that is a quantity");
   frames_.push_back(to);
 }

@@ -307,8 +307,8 @@ TEST(Verdict, NamesCornersAndTheCentreAsSuch) {
   for (const std::int64_t number : {4095, 4096, 4098, 4115, 4116})
     dispute(results, 1e-6, "interrupted").number = number;
   EXPECT_THAT(judge(results).notes,
-              ElementsAre(StartsWith("Sample 4095 ("), StartsWith("Corner 0 ("),
-                          StartsWith("Alpha-corner 0 ("), StartsWith("Alpha-corner 17 ("), StartsWith("The centre (")));
+              ElementsAre(StartsWith("Sample 4095 ("), StartsWith("Corner 0 ("), StartsWith("Alpha-corner 0 ("),
+                          StartsWith("Alpha-corner 17 ("), StartsWith("The centre (")));
   results.comparison.disputed.clear();
   EXPECT_THAT(judge(results).sentence, StartsWith("All 4117 sampled motions stay inside"));
 }

@@ -83,7 +83,8 @@ template <class Object, class... Known>
 std::size_t longestGap(const Object& object, const std::vector<Field>& fields, const Known&... known) {
   const auto* begin = reinterpret_cast<const char*>(&object);
   std::vector<char> isHeld(sizeof object, 0);
-  if constexpr (std::is_polymorphic_v<Object>) std::fill_n(isHeld.begin(), sizeof(void*), char{1});  // its table of functions
+  if constexpr (std::is_polymorphic_v<Object>)
+    std::fill_n(isHeld.begin(), sizeof(void*), char{1});  // its table of functions
   const auto hold = [&](const auto* value) {
     const auto* place = reinterpret_cast<const char*>(value);
     if (place >= begin && place < begin + sizeof object)
