@@ -20,21 +20,44 @@ double FlowStepper::relativeRemainder(const FlowSet& set) const {
   return largest;
 }
 
-int FlowStepper::worstSymbol() const {
+/// Of each symbol, its part in the highest grades; at a fresh start, in all. `byGrade`: what each grade holds.
+std::vector<double> FlowStepper::symbolMass(std::vector<double>& byGrade) const {
   const Monomials& m = monomials();
-  std::vector<double> weight(at(m.symbols()), 0.0);
-  for (int from : {m.degree() - 1, 1}) {  // the highest powers; at a fresh start, the linear terms
+  std::vector<double> mass(at(m.symbols()), 0.0);
+  byGrade.assign(at(m.degree() + 1), 0.0);
+  for (int from : {m.degree() - 1, 1}) {
     for (int i = 0; i < n_; ++i)
       for (int g = 1; g < m.count(); ++g) {
-        if (m.grade(g) < from) continue;
+        if (from > 1 && m.grade(g) < from - 2) continue;
         double size = 0, power = 1;
         for (int order = 0; order <= m_; ++order, power *= theta_)
           size += std::fabs(series_.series(i)[g * series_.stride() + order]) * power;
-        for (int l = 0; l < m.symbols(); ++l) weight[at(l)] += m.exponent(g, l) * size / scale_[at(i)];
+        size /= scale_[at(i)];
+        byGrade[at(m.grade(g))] += size;
+        if (m.grade(g) >= from)
+          for (int l = 0; l < m.symbols(); ++l) mass[at(l)] += m.exponent(g, l) * size;
       }
-    if (*std::max_element(weight.begin(), weight.end()) > 0) break;
+    if (*std::max_element(mass.begin(), mass.end()) > 0) break;
   }
-  return static_cast<int>(std::max_element(weight.begin(), weight.end()) - weight.begin());
+  return mass;
+}
+
+int FlowStepper::worstSymbol() const {
+  std::vector<double> byGrade;
+  const std::vector<double> mass = symbolMass(byGrade);
+  return static_cast<int>(std::max_element(mass.begin(), mass.end()) - mass.begin());
+}
+
+GradeDecay FlowStepper::decay() const {
+  std::vector<double> byGrade;
+  const std::vector<double> mass = symbolMass(byGrade);
+  double sum = 0, squares = 0;
+  for (const double part : mass) sum += part, squares += part * part;
+  const int d = monomials().degree();
+  if (d < 2) return {1.0, 1.0};
+  // Over two grades: odd or even ones may be empty.
+  const double high = byGrade[at(d)] + byGrade[at(d - 1)], low = byGrade[at(d - 1)] + byGrade[at(d - 2)];
+  return {low > 0 ? high / low : 1.0, squares > 0 ? sum * sum / squares : 1.0};
 }
 
 FlowSet FlowStepper::bisect(FlowSet& set, int symbol, const PolynomialRange& shift) const {

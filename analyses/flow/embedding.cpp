@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
 
 #include "scalars/elementary/rounding.hpp"
@@ -13,13 +14,14 @@ namespace gamut {
 
 using detail::at;
 
-Embedding::Embedding(const Box& box) {
+Embedding::Embedding(const Box& box, const std::vector<int>& weights) {
+  std::size_t wide = 0;
   for (const Interval& value : box) {
     Embedded e;
     e.centre = midpoint(value);
     e.radius = isThin(value) ? 0.0 : radius(value);
     // Widths of the order of rounding are carried by the remainder; wider ones get a symbol.
-    if (e.radius > 1e-13 * std::fabs(e.centre)) {
+    if (e.radius > 1e-13 * std::fabs(e.centre) && (weights.empty() || weights[wide++] > 0)) {
       e.half = e.radius;
       e.radius = 0;
       e.symbol = symbols++;
@@ -43,15 +45,49 @@ bool restrictTo(const Box& level, const Embedding& embedding, const std::vector<
   return true;
 }
 
-std::vector<int> degreeLadder(int symbols) {
-  if (symbols == 0) return {0};
-  static constexpr int highest[] = {0, 16, 10, 8, 6, 6, 6, 4, 4, 3, 3, 3, 3};
-  const int last = symbols < 13 ? highest[symbols] : symbols <= 60 ? 2 : 1;  // (k+1)(k+2)/2 monomials of degree 2
+std::vector<int> degreeLadder(const std::vector<int>& weights) {
+  if (weights.empty()) return {0};
+  static constexpr int highest[] = {16, 16, 12, 10};
+  constexpr double mostMonomials = 2000;
+  const auto active = std::ranges::count(weights, 1);
   std::vector<int> ladder;
-  for (int degree : {2, 4, 6, 8, 12, 16})
-    if (degree < last) ladder.push_back(degree);
-  ladder.push_back(last);
+  for (int degree : {2, 3, 4, 5, 6, 7, 8, 10, 12, 16}) {
+    std::vector<double> count(at(degree + 1), 0.0);  // of monomials of each grade
+    count[0] = 1;
+    for (const int weight : weights)
+      for (int grade = std::min(weight, degree); grade <= degree; ++grade)
+        count[at(grade)] += count[at(grade - std::min(weight, degree))];
+    if (std::accumulate(count.begin(), count.end(), 0.0) > mostMonomials) break;
+    if (active > 3 || (degree % 2 == 0 && degree <= highest[active])) ladder.push_back(degree);
+  }
+  if (ladder.empty()) ladder.push_back(1);
   return ladder;
+}
+
+bool Emphasis::isUniform() const { return std::ranges::count(weights, 1) == std::ssize(weights); }
+
+Emphasis emphasisOf(const std::vector<Influence>& influence, double negligible, double share) {
+  double greatest = 0;
+  for (const Influence& of : influence) greatest = std::max(greatest, of.nonlinear);
+  Emphasis emphasis{std::vector<int>(influence.size(), 1), 0};
+  std::vector<int>& weights = emphasis.weights;
+  std::vector<int> order(influence.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::sort(order, {}, [&](int l) { return influence[at(l)].any; });
+  const double ratio = std::log(std::clamp(greatest, 0.02, 0.1));
+  double carried = 0, squares = 0;
+  for (const int l : order) {
+    const Influence& of = influence[at(l)];
+    squares += of.any * of.any;
+    if (carried += of.any; carried <= 5 * negligible * share) {
+      weights[at(l)] = 0;
+    } else if (of.nonlinear < negligible * greatest) {
+      const double grades = of.nonlinear > 0 ? std::log(of.nonlinear / greatest) / ratio : mostWeight;
+      weights[at(l)] = static_cast<int>(std::clamp(1.3 + grades, 1.0, static_cast<double>(mostWeight)));
+    }
+  }
+  emphasis.effective = squares > 0 ? carried * carried / squares : static_cast<double>(influence.size());
+  return emphasis;
 }
 
 int automaticFrameDegree(int symbols, int degree) {

@@ -15,15 +15,40 @@ struct Embedding {
   int symbols = 0;
   double widest = 0;  ///< greatest half-width relative to its centre, at most 1
 
-  explicit Embedding(const Box& box);
+  /// `weights`: of Emphasis, for all wide components in order; the width of one of weight 0 is carried as rounding is.
+  /// Without weights every one gets a symbol.
+  explicit Embedding(const Box& box, const std::vector<int>& weights = {});
 };
 
 /// The part of [-1,1] of each symbol that a sub-box covers on a piece ξ_study = centre + half·ξ; false if none.
 bool restrictTo(const Box& level, const Embedding& embedding, const std::vector<double>& centre,
                 const std::vector<double>& half, Box& xi);
 
-/// The degrees that a flow may use for so many symbols: higher ones only as needed, and no more monomials than pay.
-std::vector<int> degreeLadder(int symbols);
+/// A symbol of this weight is kept to its first power, without products.
+inline constexpr int mostWeight = 16;
+
+/// How much of a polynomial's variation is in terms that hold a symbol, of the polynomial where that is most.
+struct Influence {
+  double any = 0, nonlinear = 0;  ///< in all such terms; in those of more than the first order
+};
+
+/// How symbols are to be treated.
+struct Emphasis {
+  std::vector<int> weights;  ///< one a symbol (Monomials), 1 for those that matter most; 0: no symbol
+  double effective = 0;      ///< so many symbols of equal influence would count as much
+
+  bool isUniform() const;
+};
+
+/// A symbol whose nonlinear terms have less than
+/// `negligible` of what the greatest have is kept to fewer powers; those that together have less than five times
+/// `negligible` of the `share` that a remainder may have get weight 0.
+Emphasis emphasisOf(const std::vector<Influence>& influence, double negligible, double share);
+
+/// The degrees that a flow may use for symbols of these weights: higher ones only as needed, and no more monomials than
+/// pay.
+std::vector<int> degreeLadder(const std::vector<int>& weights);
+/// Of the frame, for so many symbols of weight 1.
 int automaticFrameDegree(int symbols, int degree);
 
 /// range + [-radius, radius]; the whole line for a radius that is infinite or no number.

@@ -1,4 +1,4 @@
-// The interface: what is asked of a flow is checked here, and asked again more tightly where it shows.
+// The interface: what is asked of a flow is checked here.
 #include "analyses/flow/flow.hpp"
 
 #include <algorithm>
@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "analyses/flow/refinement.hpp"
 #include "analyses/flow/run.hpp"
 #include "scalars/index.hpp"
 
@@ -46,6 +47,7 @@ Flow::Flow(Program f, Program g, FlowOptions options) {
               "the degree of a flow's polynomials must be 0 to 40 (-1: automatic)");
   requireThat(options.maxPieces >= 1, "a flow needs at least one piece");
   requireThat(options.tolerance >= 0 && options.splitDefect >= 0, "tolerances must not be negative");
+  requireThat(options.tightness > 1, "a flow's tightness must be above 1");
   Program differentiated = f.differentiated();
   parts_ =
       std::make_unique<const Parts>(Parts{std::move(f), std::move(differentiated), std::move(g), std::move(options)});
@@ -72,30 +74,16 @@ Tube Flow::enclose(const Box& box, double horizon, const std::vector<double>& ou
   double furthest = 0;  // runs and threads report one at a time; what they report must not go back
   if (parts.options.progress)
     options.progress = [&](double fraction) { parts.options.progress(furthest = std::max(furthest, fraction)); };
-  // Splitting acts too late where the remainder has grown already: where it shows in the result, once more and earlier.
-  const auto repeat = [&](const Box& whole, const std::vector<Box>& inside, double& looseness) {
-    Tube best;
-    for (double tighter : {1.0, 30.0, 1000.0, 30000.0}) {
-      const FlowTask task(parts.motion, parts.differentiated, parts.outputs, options, whole, horizon, outputTimes,
-                          inside, tighter);
-      FlowRun run(task);
-      Tube tube = run.run();
-      const bool again = run.isLoose(tube);
-      looseness = run.looseness();
-      best = tighter == 1.0 ? std::move(tube) : FlowRun::meet(std::move(best), std::move(tube));
-      if (!again) break;
-    }
-    return best;
-  };
+  const FlowQuestion question{parts.motion, parts.differentiated, parts.outputs, options, horizon, outputTimes};
   const Embedding uncertain(box);
   double looseness = 0, unused = 0;
-  Tube tube = repeat(box, levels, looseness);
+  Tube tube = refine(question, box, levels, looseness);
   // A remainder that is small for the whole box is not for a much smaller level: that one gets a flow of its own.
   for (std::size_t level = 0; level < levels.size() && !tube.wasStopped(); ++level) {
     double share = 0;
     for (std::size_t i = 0; i < box.size(); ++i)
       if (uncertain.components[i].symbol >= 0) share = std::max(share, width(levels[level][i]) / width(box[i]));
-    if (looseness > 0.01 * share) FlowRun::tighten(tube, level, repeat(levels[level], {}, unused));
+    if (looseness > 0.01 * share) FlowRun::tighten(tube, level, refine(question, levels[level], {}, unused));
   }
   return tube;
 }

@@ -21,17 +21,21 @@
 
 namespace gamut {
 
-/// Options of a flow; the defaults choose for themselves.
+/// Options of a flow; the defaults choose for themselves. One says how tight the enclosure is to be, from which the
+/// others follow.
 struct FlowOptions {
+  double tightness = 1.02;  ///< overestimation aimed at: what the remainder may add to the width of an output (without
+                            ///< outputs: of a state) at the output times is the part above 1
   int order = 0;    ///< in time: Taylor coefficients kept a step (4 … 30); 0: by the number of uncertain quantities
   int degree = -1;  ///< of the polynomials in the uncertain quantities; -1: adapted on the way
-  int frameDegree = -1;  ///< of the remainder's frame; -1: by the number of uncertain quantities
-  double tolerance = 0;  ///< truncation error in time aimed at in a step, relative to the state; 0: 1e-15 thin, 1e-14
-                         ///< for up to three uncertain quantities, 1e-11 for more
-  bool split = true;     ///< bisect the box where one piece cannot be followed tightly
-  double splitDefect = 1e-8;  ///< raise the degree, then bisect, when the truncation defect per second exceeds this
-                              ///< fraction of the box's relative width; tightened where the remainder shows
-  int maxPieces = 2000;       ///< give up beyond this many pieces
+  int frameDegree = -1;    ///< of the remainder's frame; -1: by the number of uncertain quantities
+  double tolerance = 0;    ///< truncation error in time aimed at in a step, relative to the state; 0: 1e-15 thin, 1e-14
+                           ///< for up to three uncertain quantities, 1e-11 for more
+  bool split = true;       ///< bisect the box where one piece cannot be followed tightly
+  double splitDefect = 0;  ///< raise the degree or bisect where the truncation defect per second exceeds this
+                           ///< fraction of the box's relative width, at first: it is adapted to `tightness`;
+                           ///< 0: by the number of uncertain quantities
+  int maxPieces = 2000;    ///< give up beyond this many pieces
   double maxWidth = std::numeric_limits<double>::infinity();  ///< end when an enclosure of a state becomes wider
   int jobs = 1;                                               ///< threads that follow pieces
   std::vector<std::string> stateNames;           ///< for Tube::why(); without them "state 0", "state 1", ...

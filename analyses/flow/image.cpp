@@ -17,9 +17,10 @@ namespace {
 std::vector<std::vector<Interval>> image(const Program& g, double t, const Box& box, const std::vector<Box>& levels,
                                          int degree, const std::atomic<bool>* cancelled) {
   const Embedding embedding(box);
-  const int d = degree >= 1 && embedding.symbols > 0 ? degree : degreeLadder(embedding.symbols).back();
-  const auto monomials = std::make_shared<const Monomials>(std::vector<int>(at(embedding.symbols), 1), d);
-  FlowOutputs outputs(g, monomials, cancelled);
+  const std::vector<int> weights(at(embedding.symbols), 1);
+  const int d = degree >= 1 && embedding.symbols > 0 ? degree : degreeLadder(weights).back();
+  const auto monomials = std::make_shared<const Monomials>(weights, d);
+  FlowOutputs outputs(g, monomials, monomials, cancelled);
   PlainOutputs plain(g);
   PolynomialRange range(monomials);
   const int n = g.states(), N = monomials->count();

@@ -47,7 +47,7 @@ FlowJourney FlowFollower::follow(FlowPiece& piece, double end) {
     StepOutcome outcome =
         tool_->stepper.certify(piece.set, task_.horizon, task_.quantum, uncertain ? task_.splitDefect : 0.0);
     if (outcome != StepOutcome::stepped && uncertain) {
-      if (piece.layout + 1 < task_.degrees) {
+      if (piece.layout + 1 < task_.degrees && isDegreeWorthwhile(piece, outcome)) {
         changeLayout(piece, piece.layout + 1);
         continue;
       }
@@ -70,6 +70,12 @@ FlowJourney FlowFollower::follow(FlowPiece& piece, double end) {
     if (!record(piece)) return FlowJourney::ended;
     tool_->stepper.advance(piece.set);
     ++collected_.steps;
+    for (std::size_t i = 0; symbols_ > 1 && i < piece.set.R.size(); ++i)
+      measureInfluence(&piece.set.p[i * at(monomialCount_)], tool_->stepper.monomials());
+    if (task_.mayTighten() && tool_->stepper.isRemainderTooLarge(piece.set)) {
+      run_.abandon(piece.set.t);
+      return FlowJourney::ended;
+    }
     if (!expand(piece)) lowerDegree(piece);
   }
   return FlowJourney::goesOn;
@@ -82,10 +88,12 @@ void FlowFollower::use(const FlowPiece& piece) {
     const FlowOptions& options = task_.options;
     tools = std::make_unique<Tools>(Tools{FlowStepper(task_.differentiated, layout.monomials, layout.frameDegree,
                                                       task_.order, task_.tolerance, options.cancelled),
-                                          PolynomialRange(layout.monomials), nullptr, nullptr});
+                                          PolynomialRange(layout.monomials), nullptr, nullptr, nullptr});
     tools->stepper.setStateNames(options.stateNames);
     if (task_.outputs.outputs() > 0) {
-      tools->outputs = std::make_unique<FlowOutputs>(task_.outputs, layout.monomials, options.cancelled);
+      const std::shared_ptr<const Monomials> own = task_.layouts[task_.outputLayout(piece.layout)].monomials;
+      tools->outputs = std::make_unique<FlowOutputs>(task_.outputs, own, layout.monomials, options.cancelled);
+      tools->outputRange = std::make_unique<PolynomialRange>(own);
       tools->chords =
           std::make_unique<FlowOutputChords>(task_.outputs, layout.monomials, task_.order, options.cancelled);
     }
@@ -102,6 +110,42 @@ void FlowFollower::changeLayout(FlowPiece& piece, std::size_t to) {
   changeDegree(piece.set, *from.monomials, from.frameDegree, *task_.layouts[to].monomials,
                task_.layouts[to].frameDegree);
   piece.layout = to;
+}
+
+void FlowFollower::measureInfluence(const double* polynomial, const Monomials& m) {
+  const int symbols = task_.embedding.symbols;
+  std::vector<Influence> mass(at(symbols));
+  double all = 0;
+  for (int g = 1; g < m.count(); ++g) {
+    const double size = std::fabs(polynomial[g]);
+    if (size == 0) continue;
+    all += size;
+    for (int l = 0; l < symbols; ++l)
+      if (m.exponent(g, l) > 0) {
+        mass[at(l)].any += size;
+        if (g != m.linear(l)) mass[at(l)].nonlinear += size;
+      }
+  }
+  if (!(all > 0)) return;
+  collected_.influence.resize(at(symbols));
+  for (std::size_t l = 0; l < mass.size(); ++l) {
+    Influence& of = collected_.influence[l];
+    of.any = std::max(of.any, mass[l].any / all);
+    of.nonlinear = std::max(of.nonlinear, mass[l].nonlinear / all);
+  }
+}
+
+/// Whether a higher degree cures truncation at less cost than bisection does. Per unit of the logarithm of cost: the
+/// next degree takes from the truncation what the grades' decay promises, and every product has so many more terms;
+/// halving all of the k' symbols that matter divides by 2^(d+1) and makes 2^k' pieces.
+bool FlowFollower::isDegreeWorthwhile(const FlowPiece& piece, StepOutcome outcome) const {
+  const Monomials &now = *task_.layouts[piece.layout].monomials, &next = *task_.layouts[piece.layout + 1].monomials;
+  if (outcome == StepOutcome::failed || now.degree() < 3 || !task_.options.split) return true;
+  const GradeDecay decay = tool_->stepper.decay();
+  const double gain = (next.degree() - now.degree()) * -std::log(std::min(decay.ratio, 1.0));
+  const double cost = std::log(static_cast<double>(next.pairs().size()) / static_cast<double>(now.pairs().size()));
+  const double preference = task_.active <= 3 ? 1.0 : 1.4;  // measured; of long polynomials more than products grows
+  return gain * decay.symbols > preference * cost * (now.degree() + 1);
 }
 
 /// Gives the remainder symbols of its own once it has grown to what a linear term cannot carry.
@@ -148,7 +192,7 @@ void FlowFollower::appendOutputs(const FlowPiece& piece, const std::vector<Inter
                                  std::vector<Interval>& outputs) {
   for (int o = 0; o < outputs_->count(); ++o)
     outputs.push_back(std::isfinite(outputs_->radius(o))
-                          ? inflated(tool_->range(outputs_->polynomial(o), xi), outputs_->radius(o))
+                          ? inflated((*tool_->outputRange)(outputs_->polynomial(o), xi), outputs_->radius(o))
                           : outputs_->overBox(o, Interval(at_), states, piece.set.parameters));
 }
 
@@ -216,9 +260,15 @@ bool FlowFollower::record(FlowPiece& piece) {
     encloseLevels(piece, piece.next);
     segment(times[piece.next]);
     joinHulls(collected_.states[piece.next], end);
-    std::vector<double>& radii = collected_.radii[piece.next];
-    radii.resize(end.size(), 0.0);
-    for (std::size_t i = 0; i < end.size(); ++i) radii[i] = std::max(radii[i], point_.radius[i]);
+    for (int o = 0; symbols_ > 1 && outputs_ && o < outputs_->count(); ++o)
+      if (std::isfinite(outputs_->radius(o))) measureInfluence(outputs_->polynomial(o), outputs_->monomials());
+    std::vector<double>&ofStates = collected_.stateRadii[piece.next], &ofOutputs = collected_.outputRadii[piece.next];
+    ofStates.resize(end.size(), 0.0);
+    ofOutputs.resize(endOutputs.size(), 0.0);
+    for (std::size_t i = 0; i < end.size(); ++i) ofStates[i] = std::max(ofStates[i], point_.radius[i]);
+    for (std::size_t i = 0; i < endOutputs.size(); ++i)
+      if (const double radius = outputs_->radius(static_cast<int>(i)); std::isfinite(radius))
+        ofOutputs[i] = std::max(ofOutputs[i], radius);  // else it is bounded by plain intervals
     joinHulls(collected_.outputs[piece.next], endOutputs);
     joinHulls(collected_.statesOver[piece.next], piece.over);
     joinHulls(collected_.outputsOver[piece.next], piece.overOutputs);

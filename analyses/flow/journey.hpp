@@ -28,7 +28,8 @@ enum class FlowJourney { goesOn, ended, cancelled };
 struct FlowCollected {
   std::vector<std::vector<Interval>> states, statesOver, outputs, outputsOver;
   std::vector<std::vector<std::vector<Interval>>> cuts;
-  std::vector<std::vector<double>> radii;  // greatest remainder of a piece, [time][state]
+  std::vector<std::vector<double>> stateRadii, outputRadii;  // greatest remainder of a piece, [time][state or output]
+  std::vector<Influence> influence;                          // of every symbol
   long steps = 0;
   double cpu = 0, cutCpu = 0;
   FlowCollected(std::size_t times, std::size_t levels)
@@ -37,7 +38,8 @@ struct FlowCollected {
         outputs(times),
         outputsOver(times),
         cuts(levels, std::vector<std::vector<Interval>>(times)),
-        radii(times) {}
+        stateRadii(times),
+        outputRadii(times) {}
 };
 
 /// `into` becomes the hull of both, component by component; empty, it becomes `from`.
@@ -60,11 +62,14 @@ class FlowFollower {
     FlowStepper stepper;
     PolynomialRange range;
     std::unique_ptr<FlowOutputs> outputs;
+    std::unique_ptr<PolynomialRange> outputRange;
     std::unique_ptr<FlowOutputChords> chords;
   };
 
   FlowJourney follow(FlowPiece& piece, double end);
   void use(const FlowPiece& piece);
+  void measureInfluence(const double* polynomial, const Monomials& m);
+  bool isDegreeWorthwhile(const FlowPiece& piece, StepOutcome outcome) const;
   void changeLayout(FlowPiece& piece, std::size_t to);
   bool expand(FlowPiece& piece);
   void lowerDegree(FlowPiece& piece);

@@ -69,12 +69,14 @@ GAMUT_CLONES void convolve(const Monomials::Pair* pairs, const std::int32_t* fir
   }
 }
 
-GAMUT_CLONES void multiply(const Monomials::Pair* pairs, const std::int32_t* first, int count, const double* c,
-                           const double* x, int stride, double* out) {
-  for (int g = 0; g < count; ++g) {
-    double s = 0;
-    for (int q = first[g]; q < first[g + 1]; ++q) s += c[pairs[q].a * stride] * x[pairs[q].b * stride];
-    out[g] += s;
+void multiply(const Monomials& monomials, int count, const double* c, const double* x, int stride, double* out) {
+  const Monomials::Pair* multiples = monomials.multiples().data();
+  const std::int32_t* first = monomials.firstMultiple().data();
+  for (int a = 0; a < count; ++a) {
+    const double factor = c[a * stride];
+    if (factor == 0) continue;
+    for (int q = first[a]; q < first[a + 1] && multiples[q].b < count; ++q)
+      out[multiples[q].b] += factor * x[multiples[q].a * stride];
   }
 }
 

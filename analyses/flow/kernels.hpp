@@ -19,9 +19,9 @@ constexpr int reversedStride(int stride) { return stride + 8; }
 void convolve(const Monomials::Pair* pairs, const std::int32_t* first, int count, const double* a,
               const double* bReversed, int stride, int i, double* out);
 
-/// out[g] += Σ_{(α,β) of g} c[α·stride] x[β·stride] for g < count: a product of polynomials at one order each.
-void multiply(const Monomials::Pair* pairs, const std::int32_t* first, int count, const double* c, const double* x,
-              int stride, double* out);
+/// out[g] += Σ_{(α,β) of g} c[α·stride] x[β·stride] for g < count: a product of polynomials at one order each. Terms of
+/// c that are 0 cost nothing (a parameter has two).
+void multiply(const Monomials& monomials, int count, const double* c, const double* x, int stride, double* out);
 
 /// table[q·stride + i] = Σ_{grade g = q} |f[g][i]| power[i]; returns the sum of all entries in `norm` and
 /// Σ (i+1) multiplicity(g) |f[g][i]| power[i] in `weighted`. `weights[i] = (i+1) power[i]`. Orders beyond the last have

@@ -56,6 +56,16 @@ Monomials::Monomials(std::vector<int> weights, int degree) : weight_(std::move(w
     }
   }
   first_.push_back(static_cast<std::int32_t>(pairs_.size()));
+  firstMultiple_.assign(grade_.size() + 1, 0);
+  for (const Pair& pair : pairs_) ++firstMultiple_[static_cast<std::size_t>(pair.a) + 1];
+  for (std::size_t g = 0; g < grade_.size(); ++g) firstMultiple_[g + 1] += firstMultiple_[g];
+  multiples_.resize(pairs_.size());
+  std::vector<std::int32_t> next = firstMultiple_;
+  for (int g = 0; g < count(); ++g)
+    for (auto q = static_cast<std::size_t>(first_[static_cast<std::size_t>(g)]);
+         q < static_cast<std::size_t>(first_[static_cast<std::size_t>(g) + 1]); ++q)
+      multiples_[static_cast<std::size_t>(next[static_cast<std::size_t>(pairs_[q].a)]++)] = {pairs_[q].b, g};
+  for (int l = 0; l < symbols(); ++l) linear_.push_back(shifted(0, l, 1));
 }
 
 int Monomials::shifted(int g, int symbol, int by) const {
@@ -69,6 +79,7 @@ int Monomials::shifted(int g, int symbol, int by) const {
 }
 
 int Monomials::find(const Monomials& other, int g) const {
+  if (other.weight_ == weight_) return g < count() ? g : -1;  // enumerated alike
   std::vector<std::uint8_t> e(weight_.size(), 0);
   for (int l = 0; l < other.symbols(); ++l)
     e[static_cast<std::size_t>(l)] = static_cast<std::uint8_t>(other.exponent(g, l));

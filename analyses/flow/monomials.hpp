@@ -37,11 +37,14 @@ class Monomials {
   /// The number of the monomial of `other` numbered g, whose symbols are the first ones here; -1 if it is not kept.
   int find(const Monomials& other, int g) const;
   /// The number of ξ_symbol itself, or -1 if it is not kept.
-  int linear(int symbol) const { return shifted(0, symbol, 1); }
+  int linear(int symbol) const { return linear_[static_cast<std::size_t>(symbol)]; }
 
   /// pairs()[first()[g]] … pairs()[first()[g+1]-1]: every (a, b) with a·b = g.
   const std::vector<Pair>& pairs() const { return pairs_; }
   const std::vector<std::int32_t>& first() const { return first_; }
+  /// multiples()[firstMultiple()[a]] …: every (b, g) with a·b = g, g rising: by its factor a what pairs() has by g.
+  const std::vector<Pair>& multiples() const { return multiples_; }
+  const std::vector<std::int32_t>& firstMultiple() const { return firstMultiple_; }
 
  private:
   std::vector<int> weight_;
@@ -50,6 +53,9 @@ class Monomials {
   std::vector<std::uint8_t> exponent_;
   std::vector<Pair> pairs_;
   std::vector<std::int32_t> first_;
+  std::vector<Pair> multiples_;
+  std::vector<std::int32_t> firstMultiple_;
+  std::vector<int> linear_;
   std::map<std::vector<std::uint8_t>, int> number_;
 };
 

@@ -21,25 +21,27 @@ Program alone(const Program& g, int output) { return Recorder(g).finish({g.outpu
 }  // namespace
 
 FlowOutputs::FlowOutputs(const Program& g, std::shared_ptr<const Monomials> monomials,
-                         const std::atomic<bool>* cancelled)
+                         std::shared_ptr<const Monomials> ofStates, const std::atomic<bool>* cancelled)
     : g_(g),
       differentiated_(g.differentiated()),
       n_(g.states()),
       outputs_(g.outputs()),
       monomials_(monomials->count()),
       layout_(std::move(monomials)),
+      ofStates_(std::move(ofStates)),
       cancelled_(cancelled),
       series_(differentiated_, outputs_, layout_, 0, 1, false, cancelled),
       plain_(g) {
   polynomial_.assign(at(outputs_ * monomials_), 0.0);
   radius_.assign(at(outputs_), 0.0);
+  for (int m = 0; m < ofStates_->count(); ++m) place_.push_back(layout_->find(*ofStates_, m));
 }
 
 void FlowOutputs::evaluate(double t, const FlowPoint& point, const std::vector<double>& R,
                            const std::vector<Embedded>& parameters) {
   if (evaluateTogether(t, point, R, parameters) || outputs_ == 1) return;
   if (apart_.empty())
-    for (int o = 0; o < outputs_; ++o) apart_.emplace_back(alone(g_, o), layout_, cancelled_);
+    for (int o = 0; o < outputs_; ++o) apart_.emplace_back(alone(g_, o), layout_, ofStates_, cancelled_);
   for (int o = 0; o < outputs_; ++o) {
     FlowOutputs& own = apart_[at(o)];
     own.evaluate(t, point, R, parameters);
@@ -51,7 +53,11 @@ void FlowOutputs::evaluate(double t, const FlowPoint& point, const std::vector<d
 /// False if one could not be bounded: then nothing is known of any.
 bool FlowOutputs::evaluateTogether(double t, const FlowPoint& point, const std::vector<double>& R,
                                    const std::vector<Embedded>& parameters) {
-  for (int i = 0; i < n_; ++i) series_.setState(i, &point.p[at(i * monomials_)]);
+  for (int i = 0; i < n_; ++i) {
+    state_.assign(at(monomials_), 0.0);
+    for (std::size_t m = 0; m < place_.size(); ++m) state_[at(place_[m])] = point.p[at(i) * place_.size() + m];
+    series_.setState(i, state_.data());
+  }
   for (std::size_t i = 0; i < parameters.size(); ++i) series_.setParameter(static_cast<int>(i), parameters[i]);
   series_.compute(t, 1.0);
   const double infinite = std::numeric_limits<double>::infinity();

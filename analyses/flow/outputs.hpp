@@ -14,8 +14,9 @@ namespace gamut {
 /// Evaluates g and ∂g/∂x on the polynomials of a FlowPoint. Holds the workspace: one a thread.
 class FlowOutputs {
  public:
-  /// `g`: the outputs; its states and parameters are those of the flow.
-  FlowOutputs(const Program& g, std::shared_ptr<const Monomials> monomials,
+  /// `g`: the outputs; its states and parameters are those of the flow. `monomials`: of the outputs, among them all of
+  /// `ofStates`, the states' polynomials.
+  FlowOutputs(const Program& g, std::shared_ptr<const Monomials> monomials, std::shared_ptr<const Monomials> ofStates,
               const std::atomic<bool>* cancelled = nullptr);
 
   /// polynomial(o) ± radius(o) contains output o for every ξ. A radius is infinite where nothing could be proved of
@@ -23,6 +24,7 @@ class FlowOutputs {
   void evaluate(double t, const FlowPoint& point, const std::vector<double>& R,
                 const std::vector<Embedded>& parameters);
   int count() const { return outputs_; }
+  const Monomials& monomials() const { return *layout_; }
   const double* polynomial(int output) const { return &polynomial_[static_cast<std::size_t>(output * monomials_)]; }
   double radius(int output) const { return radius_[static_cast<std::size_t>(output)]; }
 
@@ -37,10 +39,11 @@ class FlowOutputs {
 
   Program g_, differentiated_;
   int n_, outputs_, monomials_;
-  std::shared_ptr<const Monomials> layout_;
+  std::shared_ptr<const Monomials> layout_, ofStates_;
   const std::atomic<bool>* cancelled_;
   PolynomialSeries series_;
-  std::vector<double> polynomial_, radius_;
+  std::vector<int> place_;  // of the states' monomials among the outputs'
+  std::vector<double> polynomial_, radius_, state_;
   std::vector<FlowOutputs> apart_;  // one an output, once they could not be bounded together
   PlainOutputs plain_;
 };

@@ -41,7 +41,7 @@ void PolynomialSeries::product(const Plan& a, const Plan& b, int count, int i, d
     const double c = f_[a.f];
     for (int g = 0; g < count; ++g) out[g] += c * f_[b.f + at(g * stride_ + i)];
   } else if (a.invariant) {
-    kernels::multiply(pairs, first, count, &f_[a.f], &f_[b.f + at(i)], stride_, out);
+    kernels::multiply(*monomials_, count, &f_[a.f], &f_[b.f + at(i)], stride_, out);
   } else {
     kernels::convolve(pairs, first, count, &f_[a.f], &r_[b.r], stride_, i, out);
   }
@@ -92,7 +92,7 @@ void PolynomialSeries::computeOrder(int node, int i) {
       kernels::convolve(pairs, first, N, &f_[v.f], &r_[a.r], stride_, i, out);
       double* quotient = scratch2_.data();
       std::fill(quotient, quotient + N, 0.0);
-      kernels::multiply(pairs, first, N, out, &inverse_[inverseAt_[at(node)]], 1, quotient);
+      kernels::multiply(*monomials_, N, out, &inverse_[inverseAt_[at(node)]], 1, quotient);
       for (int g = 0; g < N; ++g) put(v, g, i, -quotient[g]);
       return;
     }
@@ -101,7 +101,7 @@ void PolynomialSeries::computeOrder(int node, int i) {
       for (int g = 0; g < N; ++g) out[g] = 0.5 * (fa[g * stride_ + i] - out[g]);
       double* quotient = scratch2_.data();
       std::fill(quotient, quotient + N, 0.0);
-      kernels::multiply(pairs, first, N, out, &inverse_[inverseAt_[at(node)]], 1, quotient);
+      kernels::multiply(*monomials_, N, out, &inverse_[inverseAt_[at(node)]], 1, quotient);
       for (int g = 0; g < N; ++g) put(v, g, i, quotient[g]);
       return;
     }
@@ -118,7 +118,7 @@ void PolynomialSeries::computeOrder(int node, int i) {
       for (int g = 0; g < N; ++g) out[g] = fa[g * stride_ + i] - out[g] / i;
       double* quotient = scratch2_.data();
       std::fill(quotient, quotient + N, 0.0);
-      kernels::multiply(pairs, first, N, out, &inverse_[inverseAt_[at(node)]], 1, quotient);
+      kernels::multiply(*monomials_, N, out, &inverse_[inverseAt_[at(node)]], 1, quotient);
       for (int g = 0; g < N; ++g) {
         put(v, g, i, quotient[g]);
         d_[v.d + at(g * stride_ + i)] = i * quotient[g];

@@ -261,14 +261,19 @@ void PolynomialSeries::ownErrors(int node) {
       if (graded) e0 += tailDegree(node, v.b, v.degree, 1) + tailRow(node, v.b, v.degree) + dropped(v.a, v.degree);
       e1 = tailTime(node, v.b);
       break;
-    case Op::sin: {  // both from one skew system: the error's Euclidean norm grows by no more than both defects
+    case Op::sin: {
+      // Both from one skew system: the error's Euclidean norm grows by no more than both defects; what crosses from one
+      // to the other is turned by u', of which rest(u) is the integral.
       double c0 = 0, c1 = 0;
       differentialErrors(v.a, node + 1, v.degree, e0, e1);
       differentialErrors(v.a, node, v.degree, c0, c1);
-      e0 += c0 + pointError_[at(node)] + pointError_[at(node + 1)];
-      e1 += c1;
-      own0_[at(node + 1)] = e0 * bounds::up + bounds::tiny;
-      own1_[at(node + 1)] = e1 * bounds::up;
+      e0 += pointError_[at(node)];
+      c0 += pointError_[at(node + 1)];
+      const double turned = rest(v.a), both0 = e0 + c0, both1 = e1 + c1;
+      e0 = std::min(both0, e0 + turned * both0);
+      e1 = std::min(both1, e1 + turned * both1);
+      own0_[at(node + 1)] = std::min(both0, c0 + turned * both0) * bounds::up + bounds::tiny;
+      own1_[at(node + 1)] = std::min(both1, c1 + turned * both1) * bounds::up;
       break;
     }
     case Op::tanh: {

@@ -38,8 +38,9 @@ Tube FlowRun::run() {
 FlowPiece FlowRun::start() const {
   FlowPiece piece;
   FlowSet& s = piece.set;
-  const Monomials& monomials = *task_.layouts[0].monomials;
-  const int n = task_.motion.states(), N = monomials.count(), NJ = monomials.countUpTo(task_.layouts[0].frameDegree);
+  const FlowLayout& layout = task_.layouts.front();
+  const Monomials& monomials = *layout.monomials;
+  const int n = task_.motion.states(), N = monomials.count(), NJ = monomials.countUpTo(layout.frameDegree);
   s.p.assign(at(n * N), 0.0);
   s.C.assign(at(NJ * n * n), 0.0);
   s.R.assign(at(n), 0.0);
@@ -110,6 +111,11 @@ void FlowRun::fail(double t, const std::string& why) {
   }
 }
 
+void FlowRun::abandon(double t) {
+  fail(t, "what steps have added has become as large as the set");
+  isAbandoned_ = true;
+}
+
 bool FlowRun::mayBisect(const FlowPiece& piece) {
   bool isTimeToProbe = false;
   {
@@ -142,7 +148,7 @@ void FlowRun::probe(const FlowPiece& piece) {
   const double horizon = std::min(task_.horizon, 1.5 * piece.set.t);
   if (!(horizon > 0)) return;
   const std::vector<Box> noLevels;
-  const FlowTask task(task_.motion, task_.differentiated, none, options, start, horizon, {}, noLevels, 1.0);
+  const FlowTask task(task_.motion, task_.differentiated, none, options, start, horizon, {}, noLevels, {});
   const Tube alone = FlowRun(task).run();
   if (alone.reached() >= horizon || alone.wasStopped()) return;
   const std::lock_guard lock(mutex_);
@@ -207,13 +213,29 @@ Tube FlowRun::gather(std::vector<FlowCollected>& collected) {
       if (row == 0)
         narrow(cut, task_.outputs.outputs() > 0 ? atStart.over(0.0, task_.levels[level]) : task_.levels[level]);
     }
-  for (std::size_t row = 1; row < rows; ++row)
-    for (std::size_t i = 0; i < tube.states_[row].size(); ++i)
-      for (const FlowCollected& part : collected) {
-        if (part.radii[row].empty()) continue;
-        const double remainder = 2 * part.radii[row][i], rest = width(tube.states_[row][i]) - remainder;
-        if (remainder > 1e-12 * magnitude(tube.states_[row][i])) looseness_ = std::max(looseness_, remainder / rest);
-      }
+  const double aim = task_.aim(),
+               wellKnown = 5e-5 * aim;  // nor are bounds measured that are so much tighter than the box
+  const auto greatestShare = [&](const std::vector<std::vector<Interval>>& bounds, auto radii) {
+    double loosest = 0;
+    for (std::size_t row = 1; row < rows; ++row)
+      for (const FlowCollected& part : collected)
+        for (std::size_t i = 0; i < (part.*radii)[row].size(); ++i) {
+          const Interval& bound = bounds[row][i];
+          const double remainder = 2 * (part.*radii)[row][i], rest = width(bound) - remainder;
+          const bool isZero = contains(bound, 0.0) && rest <= 1e-6 * remainder;  // as symmetry keeps it
+          if (!isZero && remainder > wellKnown * task_.embedding.widest * magnitude(bound))
+            loosest = std::max(loosest, remainder / rest);
+        }
+    return loosest;
+  };
+  const double ofStates = greatestShare(tube.states_, &FlowCollected::stateRadii);
+  looseness_ = task_.outputs.outputs() > 0 ? greatestShare(tube.outputs_, &FlowCollected::outputRadii) : ofStates;
+  needsDegree_ = looseness_ > aim && ofStates <= aim;
+  for (const FlowCollected& part : collected)
+    for (std::size_t l = 0; l < part.influence.size(); ++l) {
+      influence_[l].any = std::max(influence_[l].any, part.influence[l].any);
+      influence_[l].nonlinear = std::max(influence_[l].nonlinear, part.influence[l].nonlinear);
+    }
   tube.pieces_ = pieces_;
   for (const FlowCollected& part : collected) {
     tube.steps_ += part.steps;
@@ -223,11 +245,15 @@ Tube FlowRun::gather(std::vector<FlowCollected>& collected) {
   return tube;
 }
 
-bool FlowRun::isLoose(const Tube& tube) const {
+double FlowRun::tighterBy(const Tube& tube) const {
+  constexpr double blindly = 30, least = 2, most = 1000;
   if (task_.embedding.symbols == 0 || !task_.options.split || !task_.bisectsForWidth() || tube.wasStopped() ||
-      pieces_ >= mostPieces_ || !ended_.empty())
-    return false;
-  return tube.reached() < task_.horizon || looseness_ > 0.005;
+      pieces_ >= task_.options.maxPieces || !ended_.empty() ||
+      task_.splitDefect < 1e-16 * task_.embedding.widest)  // that is rounding
+    return 1;
+  if (tube.reached() < task_.horizon) return blindly;
+  const double aim = task_.aim();  // the remainder is about proportional to the threshold
+  return looseness_ > aim ? std::clamp(2 * looseness_ / aim, least, most) : 1;
 }
 
 Tube FlowRun::meet(Tube a, Tube b) {

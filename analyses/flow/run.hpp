@@ -19,13 +19,19 @@ namespace gamut {
 class FlowRun {
  public:
   /// Runs once. The task must outlive it.
-  explicit FlowRun(const FlowTask& task) : task_(task), mostPieces_(task.options.maxPieces) {}
+  explicit FlowRun(const FlowTask& task)
+      : task_(task), mostPieces_(task.mostPieces()), influence_(static_cast<std::size_t>(task.embedding.symbols)) {}
 
   Tube run();
-  /// The greatest share of the remainder in a width, and whether that or an early end makes a tighter threshold worth
-  /// trying.
+  /// The greatest share of the remainder in the width of an output (without outputs: a state), and how many times
+  /// tighter the threshold should be for that, or an early end; 1: as it is, or nothing would be won.
   double looseness() const { return looseness_; }
-  bool isLoose(const Tube& tube) const;
+  double tighterBy(const Tube& tube) const;
+  bool isAbandoned() const { return isAbandoned_; }
+  /// Outputs are loose where states are not: what they add is truncation of their own.
+  bool needsDegree() const { return needsDegree_; }
+  /// Of every symbol on the states' polynomials, at all steps.
+  const std::vector<Influence>& influence() const { return influence_; }
 
   /// Both are proved, so their intersection is; the one that reaches further goes on alone. Costs add up.
   static Tube meet(Tube a, Tube b);
@@ -37,6 +43,8 @@ class FlowRun {
   /// A piece cannot be followed beyond t, nor the whole box then.
   void fail(double t, const std::string& why);
   void ranOutOfMemory() { outOfMemory_ = true; }
+  /// What is left over at t is so much that this run cannot become tight: a tighter one comes.
+  void abandon(double t);
   /// Whether one piece more is allowed; it counts from then on.
   bool mayBisect(const FlowPiece& piece);
   void add(FlowPiece piece);
@@ -59,8 +67,9 @@ class FlowRun {
   int busy_ = 0, pieces_ = 1, mostPieces_, nextProbe_ = 16;
   std::string ended_;  // what a probe found
   double looseness_ = 0;
-  bool stop_ = false;
-  std::atomic<bool> outOfMemory_{false};
+  std::vector<Influence> influence_;
+  bool stop_ = false, needsDegree_ = false;
+  std::atomic<bool> outOfMemory_{false}, isAbandoned_{false};
   double failedAt_ = 0, unfinished_ = std::numeric_limits<double>::infinity();
   std::string why_;
   std::exception_ptr error_;

@@ -56,21 +56,30 @@ double relativeMass(const FlowSet& set, const Monomials& monomials, int above, i
 void changeDegree(FlowSet& set, const Monomials& from, int fromFrameDegree, const Monomials& to, int toFrameDegree) {
   const std::size_t n = set.R.size(), N = at(from.count()), newN = at(to.count());
   const std::size_t NJ = at(from.countUpTo(fromFrameDegree)), newNJ = at(to.countUpTo(toFrameDegree));
-  std::vector<double> p(n * newN, 0.0), total;
+  std::vector<double> p(n * newN, 0.0), C(newNJ * n * n, 0.0), dropped(n, 0.0), total;
   totalRadius(set, total);
-  for (std::size_t i = 0; i < n; ++i) {
-    double dropped = 0;
-    for (std::size_t g = 0; g < N; ++g)
-      if (g < newN)
-        p[i * newN + g] = set.p[i * N + g];
+  for (std::size_t g = 0; g < N; ++g) {
+    const int number = to.find(from, static_cast<int>(g));  // weights may differ as well, so that grades do
+    for (std::size_t i = 0; i < n; ++i) {
+      const double coefficient = set.p[i * N + g];
+      if (number >= 0)
+        p[i * newN + at(number)] = coefficient;
       else
-        dropped += std::fabs(set.p[i * N + g]);
-    for (std::size_t g = newNJ; g < NJ; ++g)
-      for (std::size_t j = 0; j < n; ++j) dropped += std::fabs(set.C[(g * n + i) * n + j]) * total[j];
-    if (!(dropped == 0)) set.W[i] = (set.W[i] + dropped) * bounds::up + bounds::tiny;
+        dropped[i] += std::fabs(coefficient);
+      if (g >= NJ) continue;
+      for (std::size_t j = 0; j < n; ++j) {
+        const double entry = set.C[(g * n + i) * n + j];
+        if (number >= 0 && at(number) < newNJ)
+          C[(at(number) * n + i) * n + j] = entry;
+        else
+          dropped[i] += std::fabs(entry) * total[j];
+      }
+    }
   }
+  for (std::size_t i = 0; i < n; ++i)
+    if (!(dropped[i] == 0)) set.W[i] = (set.W[i] + dropped[i]) * bounds::up + bounds::tiny;
   set.p = std::move(p);
-  set.C.resize(newNJ * n * n, 0.0);
+  set.C = std::move(C);
 }
 
 bool expandRemainder(FlowSet& set, const Monomials& from, int fromFrameDegree, const Monomials& to, int toFrameDegree) {

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <string>
 
 #include "analyses/flow/error_bounds.hpp"
@@ -146,11 +145,28 @@ bool FlowStepper::tryStep(const FlowSet& set, double theta) {
   return true;
 }
 
-/// The defect bound holds rounding too, which splitting does not cure: what counts is mass in the highest grades, of
-/// any node, since what cancels in the states was truncated before.
+/// The defect bound holds rounding and parameters' radii too, which splitting does not cure: what counts is mass in the
+/// highest grades, of any node, since what cancels in the states was truncated before; and no small part of the bound,
+/// or something else is most of it.
 bool FlowStepper::isTruncationTooLarge(double splitDefect) const {
   const double allowed = splitDefect * h_;
-  return splitDefect > 0 && truncation_ > allowed && series_.reachesHighestGrades(1e-3 * allowed);
+  return splitDefect > 0 && truncation_ > allowed && series_.reachesHighestGrades(std::max(allowed, 0.1 * truncation_));
+}
+
+bool FlowStepper::isRemainderTooLarge(const FlowSet& set) const {
+  constexpr double tooLarge = 0.5;
+  std::vector<double> total;
+  totalRadius(set, total);
+  const int N = series_.count();
+  double remainder = 0, width = 0, size = 0;
+  for (int i = 0; i < n_; ++i) {
+    const double unit = std::ldexp(1.0, -set.units[at(i)]), *p = &set.p[at(i * N)];
+    remainder += unit * remainderOf(set, i, total);
+    for (int g = 1; g < N; ++g) width += unit * std::fabs(p[g]);
+    size += unit * std::fabs(p[0]);
+  }
+  // What does not vary with ξ is no matter of truncation.
+  return remainder > tooLarge * width && remainder > 1e-9 * size && width > 1e-6 * remainder;
 }
 
 bool FlowStepper::isRemainderDominant(const FlowSet& set) const {

@@ -26,6 +26,12 @@ struct FlowPoint {
   std::vector<double> radius;    // |x - p| ≤ radius
 };
 
+/// How the polynomials of a step fade with their grade.
+struct GradeDecay {
+  double ratio;    // of what one grade holds to what the grade before holds, among the highest
+  double symbols;  // how many symbols share in the highest grades
+};
+
 enum class StepOutcome { stepped, splitWanted, failed };
 
 /// Steps sets of one layout (monomials, degrees, order). Holds the workspace: one a thread. Once `cancelled`, if not
@@ -46,6 +52,8 @@ class FlowStepper {
   std::string nameOf(int state) const;
   /// After a failure: the remainder, not ξ, makes the set too wide; bisecting ξ cannot help.
   bool isRemainderDominant(const FlowSet& set) const;
+  /// The remainder is about as large as the set, in balanced units: what grows from there is never tight again.
+  bool isRemainderTooLarge(const FlowSet& set) const;
 
   /// The set τ seconds into the step, 0 ≤ τ ≤ h.
   void evaluate(const FlowSet& set, double tau, FlowPoint& point);
@@ -65,6 +73,7 @@ class FlowStepper {
   double relativeRemainder(const FlowSet& set) const;
   /// The symbol whose high powers weigh most in the step.
   int worstSymbol() const;
+  GradeDecay decay() const;
   /// Bisects `set` in a symbol; `set` becomes one half, the other is returned.
   FlowSet bisect(FlowSet& set, int symbol, const PolynomialRange& shift) const;
 
@@ -79,6 +88,7 @@ class FlowStepper {
   double suggestion(double theta) const;
   std::string reason(const FlowSet& set) const;
   bool isTruncationTooLarge(double splitDefect) const;
+  std::vector<double> symbolMass(std::vector<double>& byGrade) const;
 
   int n_, m_;
   double tolerance_;

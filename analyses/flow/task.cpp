@@ -37,15 +37,18 @@ std::shared_ptr<const Monomials> expandedMonomials(int symbols, int n) {
 
 FlowTask::FlowTask(const Program& f, const Program& df, const Program& g, const FlowOptions& flowOptions,
                    const Box& startBox, double end, const std::vector<double>& outputTimes,
-                   const std::vector<Box>& levelBoxes, double tighter)
+                   const std::vector<Box>& levelBoxes, const FlowRound& round)
     : motion(f),
       differentiated(df),
       outputs(g),
       options(flowOptions),
       box(startBox),
       levels(levelBoxes),
-      embedding(startBox),
-      horizon(end) {
+      embedding(startBox, round.emphasis.weights),
+      horizon(end),
+      effective(round.emphasis.weights.empty() ? embedding.symbols : round.emphasis.effective),
+      isLast(round.isLast),
+      richer(round.richer) {
   times.push_back(0.0);
   for (double time : outputTimes)
     if (time > times.back()) times.push_back(time);
@@ -53,13 +56,18 @@ FlowTask::FlowTask(const Program& f, const Program& df, const Program& g, const 
   int exponent = 0;
   std::frexp(horizon, &exponent);
   quantum = std::ldexp(1.0, exponent - 53);  // one unit in the last place of the horizon: sums of steps are exact
-  std::vector<int> ladder = degreeLadder(embedding.symbols);
+  std::vector<int> weights(at(embedding.symbols), 1);
+  if (!round.emphasis.weights.empty()) std::ranges::remove_copy(round.emphasis.weights, weights.begin(), 0);
+  active = static_cast<int>(std::ranges::count(weights, 1));
+  std::vector<int> ladder = degreeLadder(weights);
   if (options.degree >= 0 && embedding.symbols > 0) ladder = {options.degree};
   for (int degree : ladder) {
     requireThat(embedding.symbols == 0 || degree >= 1, "uncertain quantities need polynomials of degree one at least");
-    layouts.push_back({std::make_shared<const Monomials>(std::vector<int>(at(embedding.symbols), 1), degree),
-                       options.frameDegree >= 0 ? std::min(options.frameDegree, degree)
-                                                : automaticFrameDegree(embedding.symbols, degree)});
+    std::vector<int> capped;  // every symbol keeps its first power
+    for (const int weight : weights) capped.push_back(std::min(weight, degree));
+    layouts.push_back({std::make_shared<const Monomials>(capped, degree), options.frameDegree >= 0
+                                                                              ? std::min(options.frameDegree, degree)
+                                                                              : automaticFrameDegree(active, degree)});
   }
   degrees = layouts.size();
   if (auto expanded = options.degree < 0 ? expandedMonomials(embedding.symbols, motion.states()) : nullptr) {
@@ -69,11 +77,20 @@ FlowTask::FlowTask(const Program& f, const Program& df, const Program& g, const 
   // Bisection is cheap for one symbol and dear for several: with these, begin loosely; and with many, whose polynomials
   // are long, shorter steps of a lower order fill fewer of their grades.
   const bool isMany = embedding.symbols >= 4;
-  const double patience = std::pow(20.0, std::clamp(embedding.symbols - 1, 0, 3)) * (isMany ? 100 : 1);
-  splitDefect = bisectsForWidth() ? options.splitDefect * patience * embedding.widest / tighter
-                                  : std::numeric_limits<double>::infinity();
+  static constexpr double patienceOf[] = {1, 1, 1e3, 4e4, 1e6};
+  const double patience = patienceOf[std::min(embedding.symbols, 4)];
+  const double first = options.splitDefect > 0 ? options.splitDefect : 1e-8;
+  splitDefect =
+      bisectsForWidth() ? first * patience * embedding.widest / round.tighter : std::numeric_limits<double>::infinity();
   tolerance = options.tolerance > 0 ? options.tolerance : isMany ? 1e-11 : embedding.symbols > 0 ? 1e-14 : 1e-15;
   order = options.order > 0 ? options.order : isMany ? 14 : 20;
+}
+
+std::size_t FlowTask::outputLayout(std::size_t layout) const {
+  constexpr int cheap = 130;
+  if (options.degree >= 0) return layout;
+  while (layout + 1 < degrees && layouts[layout + 1].monomials->count() <= cheap) ++layout;
+  return std::max(layout, std::min(layout + richer, degrees - 1));  // the expanded one is its own
 }
 
 }  // namespace gamut

@@ -18,15 +18,33 @@ struct FlowLayout {
   bool expanded = false;  // with one more symbol a state, for the remainder
 };
 
+/// What a repeated run does otherwise than the first.
+struct FlowRound {
+  double tighter = 1;      ///< splitDefect is so many times less than at first
+  std::size_t richer = 0;  ///< the outputs' layout is so many further on
+  bool isLast = true;      ///< no tighter run comes
+  Emphasis emphasis;       ///< none: every symbol alike
+};
+
 struct FlowTask {
-  /// `differentiated` is f and ∂f/∂x of the motion f; the rest as for Flow::enclose. All is referred to. splitDefect is
-  /// so many times `tighter` than the options say.
+  /// `differentiated` is f and ∂f/∂x of the motion f; the rest as for Flow::enclose. All is referred to.
   FlowTask(const Program& motion, const Program& differentiated, const Program& outputs, const FlowOptions& options,
            const Box& box, double horizon, const std::vector<double>& outputTimes, const std::vector<Box>& levels,
-           double tighter);
+           const FlowRound& round);
 
   /// Halving one of many symbols narrows the box by little: those are bisected only where a step fails otherwise.
-  bool bisectsForWidth() const { return embedding.symbols <= 8; }
+  /// Where not all symbols have weight 1, bisection may be for want of powers: a few pieces tell.
+  int mostPieces() const {
+    return active < embedding.symbols && !isLast ? std::min(options.maxPieces, 16) : options.maxPieces;
+  }
+  bool bisectsForWidth() const { return effective <= 8; }
+  /// Of outputs, for states of this layout: they may bend more, and are not integrated, so that more terms are cheap.
+  std::size_t outputLayout(std::size_t layout) const;
+  bool hasRicherOutputs() const { return outputs.outputs() > 0 && outputLayout(0) + 1 < degrees; }
+  /// The remainder's share of a width that is aimed at; a tenth is left for the ranges of polynomials.
+  double aim() const { return 0.9 * (options.tightness - 1); }
+  /// A tighter run may come.
+  bool mayTighten() const { return !isLast && embedding.symbols > 0 && options.split && bisectsForWidth(); }
 
   const Program &motion, &differentiated, &outputs;
   const FlowOptions& options;
@@ -34,9 +52,12 @@ struct FlowTask {
   const std::vector<Box>& levels;
   Embedding embedding;
   double horizon, quantum = 0, tolerance = 0, splitDefect = 0;
-  int order = 0;
+  int order = 0, active = 0;  // symbols of weight 1
+  double effective;           // Emphasis
+  bool isLast;
   std::vector<FlowLayout> layouts;  // degrees rising, then the expanded one
   std::size_t degrees = 0;          // how many are not expanded
+  std::size_t richer = 0;           // FlowRound
   std::vector<double> times;        // 0, those asked for, the horizon
 };
 

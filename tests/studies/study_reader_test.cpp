@@ -324,9 +324,10 @@ TEST(StudyReader, ReadsAMembershipTableAsItsPointsWithTheSupportRoundedOutward) 
 TEST(StudyReader, ReadsTheAnalysesOptions) {
   const std::string text =
       sampleStudy +
-      "method = \"bdf\"\ntolerance = { relative = 1e-9, absolute = 1e-11 }\n[interval]\ntolerance = "
+      "method = \"bdf\"\ntolerance = { relative = 1e-9, absolute = 1e-11 }\n[interval]\ntightness = 1.1\ntolerance = "
       "1e-12\norder = 18\ndegree = \"auto\"\nsplit = false\nmax_pieces = 10\n[fuzzy]\nlevels = 5\n";
   const Study study = readStudyText(text, "s.toml");
+  EXPECT_EQ(study.flow.tightness, 1.1);
   EXPECT_EQ(study.flow.tolerance, 1e-12);
   EXPECT_EQ(study.flow.order, 18);
   EXPECT_EQ(study.flow.degree, -1);
@@ -871,6 +872,8 @@ constexpr BadStudy badStudies[] = {
      "s.toml:44:9: interval.order is 99; expected a whole number between 4 and 30"},
     {"seed = 7", "seed = 7\n[interval]\nsplit = \"yes\"",
      "s.toml:44:9: interval.split is \"yes\"; expected true or false"},
+    {"seed = 7", "seed = 7\n[interval]\ntightness = 1",
+     "s.toml:44:13: interval.tightness is not above 1; expected the overestimation that is aimed at, such as 1.02"},
     {"seed = 7", "seed = 7\n[interval]\ntolerance = \"1 s\"",
      "s.toml:44:13: interval.tolerance is written in a unit of the kind s; expected a number without unit"},
     {"[stochastic]", "[[stochastic]]", "s.toml:39:1: stochastic is a list; expected a table"},

@@ -264,6 +264,8 @@ TEST(Flow, BoundsOutputsAtTheirKinksAsTightlyAsTheirStates) {
   c.levels = {{Interval(0.9, 1.1), Interval(-0.05, 0.1)}, {Interval(1.0, 1.0), Interval(0.01, 0.01)}};
   c.horizon = 1.5;
   for (int i = 1; i <= 15; ++i) c.times.push_back(0.1 * i);
+  c.options.splitDefect = 1e-9;
+  c.options.tightness = 1e6;  // one run, the same for both
   Judge judge(c);
   judge.judge(8);
   Containment alone = c;
@@ -489,6 +491,7 @@ TEST(Flow, SeesTruncationThatCancelsInTheStates) {
   c.box = {1.0, 0.0, Interval(0, 1)};
   c.horizon = 1;
   c.times = {0.5};
+  c.options.tightness = 1.00001;
   EXPECT_LT(width(expectContainment(c, 3).at(1)[0]), 1e-11);
 }
 

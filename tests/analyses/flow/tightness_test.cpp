@@ -1,0 +1,133 @@
+// How tight, and at what cost: the tightness asked for, and quantities that matter much, little or not at all.
+#include <cmath>
+
+#include "tests/analyses/flow/containment.hpp"
+
+namespace gamut::testing {
+namespace {
+
+/// A pendulum on a spring, with damping: x, y and their rates; length, stiffness, damping and weight as they are, and
+/// `minor` quantities more, each of which adds to the acceleration less than the one before.
+Containment springPendulum(int minor, double radius, double minorRadius) {
+  Containment c;
+  c.f = record(4, 4 + minor, [&](auto t, const auto& x, const auto& p, auto& dx) {
+    const Recorded length = sqrt(sqr(x[0]) + sqr(x[1])), pull = 40.0 * p[1] * (length - p[0]) / length;
+    Recorded disturbance = 0.0 * t;
+    for (int i = 0; i < minor; ++i)
+      disturbance += std::ldexp(1.0, -i) * (p[static_cast<std::size_t>(4 + i)] - 1.0) * sin((1.0 + 0.1 * i) * x[0]);
+    dx[0] = x[2];
+    dx[1] = x[3];
+    dx[2] = -pull * x[0] - p[2] * x[2] + disturbance;
+    dx[3] = -pull * x[1] - p[2] * x[3] + 9.81 * p[3];
+  });
+  c.box = {0.75,
+           0.5,
+           0.0,
+           0.0,
+           Interval(1 - radius, 1 + radius),
+           Interval(1 - radius, 1 + radius),
+           0.25,
+           Interval(1 - radius, 1 + radius)};
+  for (int i = 0; i < minor; ++i) c.box.push_back(Interval(1 - minorRadius, 1 + minorRadius));
+  c.horizon = 2;
+  c.times = {1};
+  return c;
+}
+
+/// Widths of what trajectories from all corners and from inside span: a lower bound of the true widths.
+std::vector<double> spanned(const Containment& c, double time, int inside) {
+  Reference reference(c.f);
+  Points points(11);
+  std::vector<Vector> ends;
+  std::vector<std::size_t> uncertain;
+  for (std::size_t i = 0; i < c.box.size(); ++i)
+    if (width(c.box[i]) > 0) uncertain.push_back(i);
+  for (unsigned corner = 0; corner < 1U << uncertain.size(); ++corner) {
+    Vector start;
+    for (const Interval& value : c.box) start.push_back(value.lower());
+    for (std::size_t k = 0; k < uncertain.size(); ++k)
+      if ((corner >> k) & 1) start[uncertain[k]] = c.box[uncertain[k]].upper();
+    ends.push_back(reference(start, {time})[0]);
+  }
+  for (int i = 0; i < inside; ++i) ends.push_back(reference(points.inside(c.box), {time})[0]);
+  std::vector<double> result;
+  for (std::size_t i = 0; i < ends[0].size(); ++i) {
+    const auto [least, most] = std::ranges::minmax(ends, {}, [&](const Vector& end) { return end[i]; });
+    result.push_back(static_cast<double>(Precise(most[i] - least[i])));
+  }
+  return result;
+}
+
+TEST(FlowTightness, IsThatAskedFor) {
+  Containment c = springPendulum(0, 0.02, 0);
+  const std::vector<double> least = spanned(c, 2, 20);
+  long steps = 0;
+  for (double tightness : {2.0, 1.02, 1.0005}) {
+    c.options.tightness = tightness;
+    const Tube tube = expectContainment(c, 4);
+    for (int i = 0; i < 4; ++i)
+      EXPECT_LE(width(tube.states(2)[static_cast<std::size_t>(i)]),
+                (tightness + 2e-3) * least[static_cast<std::size_t>(i)])
+          << tightness << ", state " << i;  // 2e-3: what the true width may be beyond what was spanned
+    EXPECT_GE(tube.steps(), steps) << tightness;
+    steps = tube.steps();
+  }
+}
+
+TEST(FlowTightness, OfOutputsIsThatAskedFor) {
+  Containment c = springPendulum(0, 0.02, 0);
+  c.g = record(4, 4, 1, [](auto, const auto& x, const auto&, auto& y) { y[0] = sin(20.0 * x[0]) * x[3]; });
+  c.options.tightness = 1.01;
+  const Tube loose = expectContainment(c, 4);
+  c.options.tightness = 1.00001;
+  const Tube tight = expectContainment(c, 2);
+  EXPECT_LE(width(loose.outputs(2)[0]), 1.01 * width(tight.outputs(2)[0]));
+}
+
+TEST(FlowTightness, HoldsQuantitiesOfEveryInfluence) {
+  for (int minor : {4, 12}) {
+    Containment c = springPendulum(minor, 0.01, 0.01);
+    c.g = standardOutputs(4, 4 + minor);
+    c.levels = {c.box, c.box};
+    for (std::size_t i = 0; i < c.box.size(); ++i) {
+      const double middle = midpoint(c.box[i]), half = 0.5 * width(c.box[i]);
+      c.levels[0][i] = intersection(c.box[i], Interval(middle - 0.5 * half, middle + 0.75 * half));
+      c.levels[1][i] = intersection(c.box[i], Interval(middle));
+    }
+    expectContainment(c, 4);
+  }
+}
+
+TEST(FlowTightness, QuantitiesThatHardlyMatterCostHardlyAnything) {
+  const Tube alone = springPendulum(0, 0.01, 0).tube();
+  const Containment c = springPendulum(16, 0.01, 1e-6);
+  const Tube all = expectContainment(c, 2);
+  EXPECT_LE(all.pieces(), alone.pieces());
+  EXPECT_LE(all.steps(), 2 * alone.steps());
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_LE(width(all.states(2)[i]), 1.02 * width(alone.states(2)[i]));
+}
+
+/// It escapes at 1/x(0): every run ends, and what the runs proved is kept.
+TEST(FlowTightness, EndsWithWhatIsProvedWhereItCannotBeReached) {
+  for (double tightness : {1.5, 1.0001}) {
+    Containment c;
+    c.f = record(1, 2, [](auto, const auto& x, const auto& p, auto& dx) { dx[0] = p[0] * sqr(x[0]) + p[1]; });
+    c.box = {Interval(0.9, 1.1), Interval(0.99, 1.01), Interval(-0.01, 0.01)};
+    c.horizon = 3;
+    c.times = {0.25, 0.5, 0.75};
+    c.options.tightness = tightness;
+    const Tube tube = expectContainment(c, 6, false);
+    EXPECT_GT(tube.reached(), 0.8);
+    EXPECT_LT(tube.reached(), 1.0);
+    EXPECT_NE(tube.why(), "");
+  }
+}
+
+TEST(FlowTightness, MustBeAboveOne) {
+  Containment c = springPendulum(0, 0.01, 0);
+  c.options.tightness = 1;
+  EXPECT_THROW(Flow(c.f, c.options), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace gamut::testing
