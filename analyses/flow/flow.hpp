@@ -26,11 +26,11 @@ namespace gamut {
 struct FlowOptions {
   double tightness = 1.02;  ///< overestimation aimed at: what the remainder may add to the width of an output (without
                             ///< outputs: of a state) at the output times is the part above 1
-  int order = 0;    ///< in time: Taylor coefficients kept a step (4 … 30); 0: by the number of uncertain quantities
-  int degree = -1;  ///< of the polynomials in the uncertain quantities; -1: adapted on the way
-  int frameDegree = -1;    ///< of the remainder's frame; -1: by the number of uncertain quantities
-  double tolerance = 0;    ///< truncation error in time aimed at in a step, relative to the state; 0: 1e-15 thin, 1e-14
-                           ///< for up to three uncertain quantities, 1e-11 for more
+  int order = 0;            ///< in time: Taylor coefficients kept a step (4 … 30); 0: by the tolerance
+  int degree = -1;          ///< of the polynomials in the uncertain quantities; -1: adapted on the way
+  int frameDegree = -1;     ///< of the remainder's frame; -1: by the number of uncertain quantities
+  double tolerance = 0;  ///< truncation error in time aimed at in a step, relative to the state; 0: by tightness, box
+                         ///< and number of uncertain quantities
   bool split = true;       ///< bisect the box where one piece cannot be followed tightly
   double splitDefect = 0;  ///< raise the degree or bisect where the truncation defect per second exceeds this
                            ///< fraction of the box's relative width, at first: it is adapted to `tightness`;

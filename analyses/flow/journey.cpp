@@ -70,6 +70,8 @@ FlowJourney FlowFollower::follow(FlowPiece& piece, double end) {
     if (!record(piece)) return FlowJourney::ended;
     tool_->stepper.advance(piece.set);
     ++collected_.steps;
+    collected_.timeError += tool_->stepper.timeError();
+    collected_.truncation += tool_->stepper.truncation();
     for (std::size_t i = 0; symbols_ > 1 && i < piece.set.R.size(); ++i)
       measureInfluence(&piece.set.p[i * at(monomialCount_)], tool_->stepper.monomials());
     if (task_.mayTighten() && tool_->stepper.isRemainderTooLarge(piece.set)) {

@@ -30,6 +30,7 @@ struct FlowCollected {
   std::vector<std::vector<std::vector<Interval>>> cuts;
   std::vector<std::vector<double>> stateRadii, outputRadii;  // greatest remainder of a piece, [time][state or output]
   std::vector<Influence> influence;                          // of every symbol
+  double timeError = 0, truncation = 0;                      // of all steps
   long steps = 0;
   double cpu = 0, cutCpu = 0;
   FlowCollected(std::size_t times, std::size_t levels)

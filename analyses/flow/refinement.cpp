@@ -97,7 +97,8 @@ Tube refine(const FlowQuestion& question, const Box& box, const std::vector<Box>
     } else if (mayRaise && !isInVain) {
       ++round.richer;
     } else if (factor > 1 && !isInVain) {
-      round.tighter *= factor;
+      if (run.timeShare() < 0.8) round.tighter *= factor;
+      if (run.timeShare() > 0.2) round.finer *= factor;
     } else if (run.isAbandoned()) {
       round.isLast = true;  // the same once more, as far as it comes
     } else {

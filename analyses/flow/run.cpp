@@ -231,6 +231,9 @@ Tube FlowRun::gather(std::vector<FlowCollected>& collected) {
   const double ofStates = greatestShare(tube.states_, &FlowCollected::stateRadii);
   looseness_ = task_.outputs.outputs() > 0 ? greatestShare(tube.outputs_, &FlowCollected::outputRadii) : ofStates;
   needsDegree_ = looseness_ > aim && ofStates <= aim;
+  double time = 0, all = 0;
+  for (const FlowCollected& part : collected) time += part.timeError, all += part.timeError + part.truncation;
+  timeShare_ = all > 0 ? time / all : 0;
   for (const FlowCollected& part : collected)
     for (std::size_t l = 0; l < part.influence.size(); ++l) {
       influence_[l].any = std::max(influence_[l].any, part.influence[l].any);

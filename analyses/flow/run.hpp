@@ -30,6 +30,8 @@ class FlowRun {
   bool isAbandoned() const { return isAbandoned_; }
   /// Outputs are loose where states are not: what they add is truncation of their own.
   bool needsDegree() const { return needsDegree_; }
+  /// The share of time, not of ξ, in what all steps left out.
+  double timeShare() const { return timeShare_; }
   /// Of every symbol on the states' polynomials, at all steps.
   const std::vector<Influence>& influence() const { return influence_; }
 
@@ -66,7 +68,7 @@ class FlowRun {
   std::priority_queue<FlowPiece, std::vector<FlowPiece>, Later> queue_;
   int busy_ = 0, pieces_ = 1, mostPieces_, nextProbe_ = 16;
   std::string ended_;  // what a probe found
-  double looseness_ = 0;
+  double looseness_ = 0, timeShare_ = 0;
   std::vector<Influence> influence_;
   bool stop_ = false, needsDegree_ = false;
   std::atomic<bool> outOfMemory_{false}, isAbandoned_{false};

@@ -46,6 +46,9 @@ class FlowStepper {
   /// the next call.
   StepOutcome certify(const FlowSet& set, double end, double quantum, double splitDefect);
   double h() const { return h_; }
+  /// What the step left out: orders in time; grades in ξ, and roundings. Of the states, relative to their size.
+  double timeError() const { return timeError_; }
+  double truncation() const { return truncation_; }
   /// After a failure: what could not be proved, of which state, in one line.
   const std::string& why() const { return why_; }
   void setStateNames(const std::vector<std::string>& names) { names_ = names; }

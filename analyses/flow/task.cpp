@@ -33,6 +33,9 @@ std::shared_ptr<const Monomials> expandedMonomials(int symbols, int n) {
   return monomials->count() <= 300 ? monomials : nullptr;
 }
 
+/// Of steps that are about as long whatever the tolerance is (measured).
+int orderFor(double tolerance) { return static_cast<int>(std::clamp(-2 * std::log10(tolerance) - 8, 10.0, 20.0)); }
+
 }  // namespace
 
 FlowTask::FlowTask(const Program& f, const Program& df, const Program& g, const FlowOptions& flowOptions,
@@ -76,14 +79,16 @@ FlowTask::FlowTask(const Program& f, const Program& df, const Program& g, const 
   }
   // Bisection is cheap for one symbol and dear for several: with these, begin loosely; and with many, whose polynomials
   // are long, shorter steps of a lower order fill fewer of their grades.
-  const bool isMany = embedding.symbols >= 4;
-  static constexpr double patienceOf[] = {1, 1, 1e3, 4e4, 1e6};
-  const double patience = patienceOf[std::min(embedding.symbols, 4)];
-  const double first = options.splitDefect > 0 ? options.splitDefect : 1e-8;
-  splitDefect =
-      bisectsForWidth() ? first * patience * embedding.widest / round.tighter : std::numeric_limits<double>::infinity();
-  tolerance = options.tolerance > 0 ? options.tolerance : isMany ? 1e-11 : embedding.symbols > 0 ? 1e-14 : 1e-15;
-  order = options.order > 0 ? options.order : isMany ? 14 : 20;
+  const int count = std::min(embedding.symbols, 4);
+  static constexpr double firstDefect[] = {1e-8, 1e-8, 1e-5, 4e-4, 1e-2};
+  static constexpr double firstTolerance[] = {1e-15, 1e-12, 1e-10, 1e-10, 1e-9};
+  const double first = options.splitDefect > 0 ? options.splitDefect : firstDefect[count];
+  splitDefect = bisectsForWidth() ? first * embedding.widest / round.tighter : std::numeric_limits<double>::infinity();
+  const double enough = 5e-5 * aim() * embedding.widest / round.finer;  // some hundred steps add as much of the width
+  tolerance = options.tolerance > 0    ? options.tolerance
+              : embedding.symbols == 0 ? firstTolerance[0]
+                                       : std::clamp(enough, 1e-15, firstTolerance[count] / round.finer);
+  order = options.order > 0 ? options.order : orderFor(tolerance);
 }
 
 std::size_t FlowTask::outputLayout(std::size_t layout) const {

@@ -21,6 +21,7 @@ struct FlowLayout {
 /// What a repeated run does otherwise than the first.
 struct FlowRound {
   double tighter = 1;      ///< splitDefect is so many times less than at first
+  double finer = 1;        ///< so is the tolerance
   std::size_t richer = 0;  ///< the outputs' layout is so many further on
   bool isLast = true;      ///< no tighter run comes
   Emphasis emphasis;       ///< none: every symbol alike

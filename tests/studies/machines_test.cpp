@@ -31,7 +31,8 @@ std::string mass(const std::string& name, const std::string& at, const std::stri
 std::string head(double horizon) {
   return "[study]\nanalysis = \"dynamics\"\nhorizon = " + std::to_string(horizon) +
          "\noutput_step = " + std::to_string(horizon / 10) +
-         "\ncompare = [\"interval\", \"stochastic\"]\n[stochastic]\nplan = \"grid\"\nsamples = "
+         "\ncompare = [\"interval\", \"stochastic\"]\n[interval]\ntightness = 1.005\n[stochastic]\nplan = "
+         "\"grid\"\nsamples = "
          "65\n[mechanism]\ngravity "
          "= [0, 0, -9.81]\n";
 }

@@ -491,7 +491,7 @@ TEST(Flow, SeesTruncationThatCancelsInTheStates) {
   c.box = {1.0, 0.0, Interval(0, 1)};
   c.horizon = 1;
   c.times = {0.5};
-  c.options.tightness = 1.00001;
+  c.options.tightness = 1.000001;
   EXPECT_LT(width(expectContainment(c, 3).at(1)[0]), 1e-11);
 }
 
