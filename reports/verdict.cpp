@@ -48,6 +48,8 @@ class Wording {
     noteSamples();
     for (const Answer* answer : results_.answers()) noteEnd(*answer);
     noteUnbounded();
+    if (const std::string& shortfall = results_.interval.shortfall; !shortfall.empty())
+      note("The enclosure is looser than was asked for: " + shortfall + ".");
     noteMissing();
     verdict_.sentence = sentence();
     if (results_.comparison.present && results_.comparison.verdict != verdict_.word)

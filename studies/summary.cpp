@@ -92,7 +92,7 @@ std::size_t lastRow(const Results& results) {
 /// A number or word itself, or "301 x 7" for what has dimensions; empty for what is not there.
 std::string contentOf(const Field& field, const Extents& extents) {
   const std::string shape = fmt::format("{}", fmt::join(shapeOf(field.dimensions, extents), " x "));
-  return std::visit(Visitor{[](double* x) { return fmt::format("{:.12g}", *x); },
+  return std::visit(Visitor{[](double* x) { return std::isnan(*x) ? std::string() : fmt::format("{:.12g}", *x); },
                             [](std::int64_t* x) { return fmt::format("{}", *x); },
                             [](std::uint64_t* x) { return fmt::format("{}", *x); }, [](std::string* x) { return *x; },
                             [](WholeText x) { return countText(static_cast<long long>(x.text->size()), "byte"); },
@@ -161,6 +161,8 @@ std::string jsonSummary(const Results& results, const std::string& verdict, cons
   json["integrated"] = results.stochastic.integrated;
   json["excursion"] = number(results.comparison.excursion);
   json["overestimation"] = overestimationObject(results);
+  json["tightness"] = number(results.interval.tightness);
+  json["shortfall"] = textOrNull(results.interval.shortfall);
   json["enclosure"] = boundsObject(results.interval.at, results);
   json["envelope"] = boundsObject(results.stochastic.envelope, results);
   Json& cost = json["cost"];

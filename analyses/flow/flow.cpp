@@ -31,6 +31,13 @@ const std::vector<Interval>& Tube::at(double time) const {
   return times_[row] == time ? states_[row] : statesOver_[row];
 }
 
+double Tube::tightness() const {
+  double excess = 0;
+  for (const std::vector<double>& row : excess_)
+    for (double of : row) excess = std::max(excess, of);
+  return 1 + excess;
+}
+
 Flow::Flow(Program f, FlowOptions options) {
   Program none = record(f.states(), f.parameters(), 0, [](const auto&, const auto&, const auto&, auto&) {});
   *this = Flow(std::move(f), std::move(none), std::move(options));
@@ -48,6 +55,7 @@ Flow::Flow(Program f, Program g, FlowOptions options) {
   requireThat(options.maxPieces >= 1, "a flow needs at least one piece");
   requireThat(options.tolerance >= 0 && options.splitDefect >= 0, "tolerances must not be negative");
   requireThat(options.tightness > 1, "a flow's tightness must be above 1");
+  requireThat(options.budget > 0, "a flow's budget must be positive");
   Program differentiated = f.differentiated();
   parts_ =
       std::make_unique<const Parts>(Parts{std::move(f), std::move(differentiated), std::move(g), std::move(options)});
@@ -74,7 +82,8 @@ Tube Flow::enclose(const Box& box, double horizon, const std::vector<double>& ou
   double furthest = 0;  // runs and threads report one at a time; what they report must not go back
   if (parts.options.progress)
     options.progress = [&](double fraction) { parts.options.progress(furthest = std::max(furthest, fraction)); };
-  const FlowQuestion question{parts.motion, parts.differentiated, parts.outputs, options, horizon, outputTimes};
+  FlowBudget budget{options.budget};
+  const FlowQuestion question{parts.motion, parts.differentiated, parts.outputs, options, horizon, outputTimes, budget};
   const Embedding uncertain(box);
   double looseness = 0, unused = 0;
   Tube tube = refine(question, box, levels, looseness);

@@ -29,17 +29,20 @@ struct FlowOptions {
   int order = 0;            ///< in time: Taylor coefficients kept a step (4 … 30); 0: by the tolerance
   int degree = -1;          ///< of the polynomials in the uncertain quantities; -1: adapted on the way
   int frameDegree = -1;     ///< of the remainder's frame; -1: by the number of uncertain quantities
-  double tolerance = 0;  ///< truncation error in time aimed at in a step, relative to the state; 0: by tightness, box
-                         ///< and number of uncertain quantities
+  double tolerance = 0;    ///< truncation error in time aimed at in a step, relative to the state; 0: by tightness, box
+                           ///< and number of uncertain quantities
   bool split = true;       ///< bisect the box where one piece cannot be followed tightly
   double splitDefect = 0;  ///< raise the degree or bisect where the truncation defect per second exceeds this
                            ///< fraction of the box's relative width, at first: it is adapted to `tightness`;
                            ///< 0: by the number of uncertain quantities
   int maxPieces = 2000;    ///< give up beyond this many pieces
   double maxWidth = std::numeric_limits<double>::infinity();  ///< end when an enclosure of a state becomes wider
-  int jobs = 1;                                               ///< threads that follow pieces
-  std::vector<std::string> stateNames;           ///< for Tube::why(); without them "state 0", "state 1", ...
-  std::function<void(double)> progress;          ///< called with the fraction done (0 … 1), from any thread
+  double budget = std::numeric_limits<double>::infinity();  ///< CPU time of all threads, s; when it is spent, what was
+                                                            ///< proved until then is the result
+  int jobs = 1;                                             ///< threads that follow pieces
+  std::vector<std::string> stateNames;   ///< for Tube::why() and shortfall(); without them "state 0", "state 1", ...
+  std::vector<std::string> outputNames;  ///< likewise
+  std::function<void(double)> progress;  ///< called with the fraction done (0 … 1), from any thread
   const std::atomic<bool>* cancelled = nullptr;  ///< set from outside to end early; what was proved is kept
 };
 
@@ -57,8 +60,17 @@ class Tube {
   const std::string& why() const { return why_; }
   static constexpr const char* interrupted = "interrupted";
   static constexpr const char* outOfMemory = "out of memory";
-  /// Whether it ended early for one of these two, not for the motion's sake.
-  bool wasStopped() const { return why_ == interrupted || why_ == outOfMemory; }
+  static constexpr const char* overBudget = "the budget of CPU time is spent";
+  /// Whether it ended early for one of these three, not for the motion's sake.
+  bool wasStopped() const { return why_ == interrupted || why_ == outOfMemory || why_ == overBudget; }
+  /// Overestimation at the output times that were reached: 1 + the greatest part that remainders (and ranges not found
+  /// to the end) add to the width of an output (without outputs: of a state). Of what plain intervals bound, of what is
+  /// known far better than the box, and without uncertain quantities, nothing is measured.
+  double tightness() const;
+  /// Where that is more than was asked for: "at 2 s state 1 may be 1.13 times as wide as necessary". Empty otherwise.
+  const std::string& shortfall() const { return shortfall_; }
+  /// Why no run became tighter then: which limit it met, `interrupted` and its like among them.
+  const std::string& limit() const { return limit_; }
 
   /// Output times, rising, the start 0 first.
   const std::vector<double>& times() const { return times_; }
@@ -85,8 +97,9 @@ class Tube {
   std::vector<double> times_;
   std::vector<std::vector<Interval>> states_, statesOver_, outputs_, outputsOver_;
   std::vector<std::vector<std::vector<Interval>>> cuts_;
+  std::vector<std::vector<double>> excess_;  // tightness() - 1 of each, [time][output or state]
   double reached_ = 0;
-  std::string why_;
+  std::string why_, shortfall_, limit_;
   int pieces_ = 0;
   long steps_ = 0;
   double cpu_ = 0, cutCpu_ = 0;

@@ -18,6 +18,12 @@ namespace {
 
 constexpr double expandedAt = 1e-6;  // a remainder, relative to its state, that a linear term cannot carry much further
 
+/// `into` becomes the greater of both, component by component.
+void raise(std::vector<double>& into, const std::vector<double>& to) {
+  into.resize(to.size(), 0.0);
+  for (std::size_t i = 0; i < to.size(); ++i) into[i] = std::max(into[i], to[i]);
+}
+
 }  // namespace
 
 void joinHulls(std::vector<Interval>& into, const std::vector<Interval>& from) {
@@ -42,6 +48,10 @@ FlowJourney FlowFollower::follow(FlowPiece& piece, double end) {
   while (piece.set.t < end) {
     if (task_.options.cancelled != nullptr && task_.options.cancelled->load(std::memory_order_relaxed))
       return FlowJourney::cancelled;
+    if (isOverBudget()) {
+      run_.ranOutOfBudget();
+      return FlowJourney::cancelled;
+    }
     use(piece);
     const bool uncertain = symbols_ > 0;
     StepOutcome outcome =
@@ -81,6 +91,13 @@ FlowJourney FlowFollower::follow(FlowPiece& piece, double end) {
     if (!expand(piece)) lowerDegree(piece);
   }
   return FlowJourney::goesOn;
+}
+
+bool FlowFollower::isOverBudget() {
+  if (std::isinf(task_.budget.limit)) return false;
+  const double now = threadCpuSeconds(), since = now - counted_;
+  counted_ = now;
+  return task_.budget.spent.fetch_add(since) + since > task_.budget.limit;
 }
 
 void FlowFollower::use(const FlowPiece& piece) {
@@ -180,22 +197,30 @@ void FlowFollower::enclose(const FlowPiece& piece, double tau, std::vector<Inter
   tool_->stepper.evaluate(piece.set, tau, point_);
   const int N = monomialCount_;
   states.resize(at(task_.motion.states()));
-  for (int i = 0; i < task_.motion.states(); ++i)
-    states[at(i)] = inflated(tool_->range(&point_.p[at(i * N)], whole_), point_.radius[at(i)]);
+  stateExcess_.clear();
+  for (int i = 0; i < task_.motion.states(); ++i) {
+    states[at(i)] = inflated(tool_->range(&point_.p[at(i * N)], whole_, task_.rangeTolerance()), point_.radius[at(i)]);
+    stateExcess_.push_back(point_.radius[at(i)] + tool_->range.gap());
+  }
   outputs.clear();
   if (!outputs_) return;
   at_ = piece.set.t + tau;
   outputs_->evaluate(at_, point_, piece.set.R, piece.set.parameters);
+  outputExcess_.clear();
   appendOutputs(piece, states, whole_, outputs);
 }
 
 /// Over the part `xi` of the piece, where the states are in these boxes, at the time of `point_`.
 void FlowFollower::appendOutputs(const FlowPiece& piece, const std::vector<Interval>& states, const Box& xi,
                                  std::vector<Interval>& outputs) {
-  for (int o = 0; o < outputs_->count(); ++o)
-    outputs.push_back(std::isfinite(outputs_->radius(o))
-                          ? inflated((*tool_->outputRange)(outputs_->polynomial(o), xi), outputs_->radius(o))
+  for (int o = 0; o < outputs_->count(); ++o) {
+    const double radius = outputs_->radius(o);
+    PolynomialRange& range = *tool_->outputRange;
+    outputs.push_back(std::isfinite(radius)
+                          ? inflated(range(outputs_->polynomial(o), xi, task_.rangeTolerance()), radius)
                           : outputs_->overBox(o, Interval(at_), states, piece.set.parameters));
+    outputExcess_.push_back(std::isfinite(radius) ? radius + range.gap() : 0.0);  // else plain intervals bound it
+  }
 }
 
 void FlowFollower::encloseLevels(const FlowPiece& piece, std::size_t row) {
@@ -259,18 +284,13 @@ bool FlowFollower::record(FlowPiece& piece) {
   };
   for (; piece.next < times.size() && times[piece.next] <= t1; ++piece.next) {
     enclose(piece, times[piece.next] - t0, end, endOutputs);  // an exact difference: docs/flow.md, "Time"
+    raise(collected_.stateExcess[piece.next], stateExcess_);
+    raise(collected_.outputExcess[piece.next], outputExcess_);
     encloseLevels(piece, piece.next);
     segment(times[piece.next]);
     joinHulls(collected_.states[piece.next], end);
     for (int o = 0; symbols_ > 1 && outputs_ && o < outputs_->count(); ++o)
       if (std::isfinite(outputs_->radius(o))) measureInfluence(outputs_->polynomial(o), outputs_->monomials());
-    std::vector<double>&ofStates = collected_.stateRadii[piece.next], &ofOutputs = collected_.outputRadii[piece.next];
-    ofStates.resize(end.size(), 0.0);
-    ofOutputs.resize(endOutputs.size(), 0.0);
-    for (std::size_t i = 0; i < end.size(); ++i) ofStates[i] = std::max(ofStates[i], point_.radius[i]);
-    for (std::size_t i = 0; i < endOutputs.size(); ++i)
-      if (const double radius = outputs_->radius(static_cast<int>(i)); std::isfinite(radius))
-        ofOutputs[i] = std::max(ofOutputs[i], radius);  // else it is bounded by plain intervals
     joinHulls(collected_.outputs[piece.next], endOutputs);
     joinHulls(collected_.statesOver[piece.next], piece.over);
     joinHulls(collected_.outputsOver[piece.next], piece.overOutputs);

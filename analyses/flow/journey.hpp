@@ -8,6 +8,7 @@
 #include "analyses/flow/polynomial_range.hpp"
 #include "analyses/flow/step.hpp"
 #include "analyses/flow/task.hpp"
+#include "analyses/workers.hpp"
 
 namespace gamut {
 
@@ -28,9 +29,10 @@ enum class FlowJourney { goesOn, ended, cancelled };
 struct FlowCollected {
   std::vector<std::vector<Interval>> states, statesOver, outputs, outputsOver;
   std::vector<std::vector<std::vector<Interval>>> cuts;
-  std::vector<std::vector<double>> stateRadii, outputRadii;  // greatest remainder of a piece, [time][state or output]
-  std::vector<Influence> influence;                          // of every symbol
-  double timeError = 0, truncation = 0;                      // of all steps
+  std::vector<std::vector<double>> stateExcess,
+      outputExcess;                      // see FlowFollower; the greatest, [time][state or output]
+  std::vector<Influence> influence;      // of every symbol
+  double timeError = 0, truncation = 0;  // of all steps
   long steps = 0;
   double cpu = 0, cutCpu = 0;
   FlowCollected(std::size_t times, std::size_t levels)
@@ -39,8 +41,8 @@ struct FlowCollected {
         outputs(times),
         outputsOver(times),
         cuts(levels, std::vector<std::vector<Interval>>(times)),
-        stateRadii(times),
-        outputRadii(times) {}
+        stateExcess(times),
+        outputExcess(times) {}
 };
 
 /// `into` becomes the hull of both, component by component; empty, it becomes `from`.
@@ -68,6 +70,7 @@ class FlowFollower {
   };
 
   FlowJourney follow(FlowPiece& piece, double end);
+  bool isOverBudget();
   void use(const FlowPiece& piece);
   void measureInfluence(const double* polynomial, const Monomials& m);
   bool isDegreeWorthwhile(const FlowPiece& piece, StepOutcome outcome) const;
@@ -88,9 +91,11 @@ class FlowFollower {
   FlowOutputs* outputs_ = nullptr;
   int monomialCount_ = 0, symbols_ = 0;
   FlowPoint point_;
-  double at_ = 0;  // its time
+  double at_ = 0;                        // its time
+  double counted_ = threadCpuSeconds();  // of this thread, in the budget
   Box whole_;
   std::vector<Interval> sag_;
+  std::vector<double> stateExcess_, outputExcess_;  // what remainder and range add to a bound at most, of `enclose`
 };
 
 }  // namespace gamut

@@ -51,6 +51,7 @@ void PolynomialRange::substitute(int symbol, double middle, double half, const d
 
 Interval PolynomialRange::operator()(const double* c, const Box& box, double tolerance) {
   const Monomials& m = *monomials_;
+  gap_ = 0;
   if (m.count() == 1) return std::isfinite(c[0]) ? Interval(c[0]) : Interval::entire();
   std::vector<double> q(c, c + m.count());
   double norm = 0;
@@ -90,7 +91,9 @@ double PolynomialRange::maximum(std::vector<double> c, double rounding, double t
   // grows.
   const double shifts =
       state.deepest * (shiftError_ + monomials_->count() * bounds::unit) * (norm + std::fabs(c[0])) * bounds::up;
-  return addUp(state.proved, addUp(rounding, shifts));
+  const double proved = addUp(state.proved, addUp(rounding, shifts));
+  gap_ = std::max(gap_, proved - state.best);
+  return proved;
 }
 
 /// Symbols in which the polynomial is proved monotone over [-1,1]^k are set to the end where it is greatest.

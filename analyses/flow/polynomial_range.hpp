@@ -17,6 +17,8 @@ class PolynomialRange {
   /// Encloses { Σ c_g ξ^g : ξ in box }. c: one coefficient a monomial. box: one interval inside [-1,1] a symbol.
   /// The result is wider than the range by at most about `tolerance` (relative) where bisection can achieve that.
   Interval operator()(const double* c, const Box& box, double tolerance = 1e-4);
+  /// By how much a bound of the last result may lie outside the range.
+  double gap() const { return gap_; }
 
   /// Writes the coefficients of the polynomial in η, where ξ_l = middle + half·η, |middle| + half ≤ 1. Each coefficient
   /// is a sum of exact terms; all rounding together is at most `shiftError` times Σ|c|.
@@ -39,7 +41,7 @@ class PolynomialRange {
   std::vector<std::vector<int>> down_;  // [symbol][g]: g / ξ_symbol, or -1
   std::vector<std::vector<double>> binomial_;
   std::vector<char> even_;
-  double shiftError_;
+  double shiftError_, gap_ = 0;
 };
 
 }  // namespace gamut

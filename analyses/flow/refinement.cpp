@@ -53,8 +53,9 @@ class Weighing {
     std::vector<double> times;
     for (int i = 1; i <= 8; ++i) times.push_back(question.horizon * i / 8);
     const std::vector<Box> noLevels;
-    const FlowTask task(question.motion, question.differentiated, question.outputs, options, box, question.horizon,
-                        times, noLevels, {.isLast = false, .emphasis = emphasis_});
+    const FlowQuestion rough{question.motion, question.differentiated, question.outputs, options, question.horizon,
+                             times,           question.budget};
+    const FlowTask task(rough, box, noLevels, {.isLast = false, .emphasis = emphasis_});
     FlowRun run(task);
     run.run();
     influence_ = run.influence();
@@ -72,6 +73,7 @@ class Weighing {
 
 Tube refine(const FlowQuestion& question, const Box& box, const std::vector<Box>& levels, double& looseness) {
   Tube best;
+  std::string limit;
   Weighing weighing(question, box);
   FlowRound round;
   round.isLast = false;
@@ -79,8 +81,7 @@ Tube refine(const FlowQuestion& question, const Box& box, const std::vector<Box>
   for (int count = 1;; ++count) {
     round.isLast = round.isLast || count == mostRounds;
     round.emphasis = weighing.emphasis();
-    const FlowTask task(question.motion, question.differentiated, question.outputs, question.options, box,
-                        question.horizon, question.outputTimes, levels, round);
+    const FlowTask task(question, box, levels, round);
     FlowRun run(task);
     Tube tube = run.run();
     looseness = run.looseness();
@@ -90,8 +91,9 @@ Tube refine(const FlowQuestion& question, const Box& box, const std::vector<Box>
     const bool mayRaise = factor > 1 && run.needsDegree() && task.hasRicherOutputs();
     reached = tube.reached();
     looseBefore = looseness;
+    limit = run.limit(tube);
     best = count == 1 ? std::move(tube) : FlowRun::meet(std::move(best), std::move(tube));
-    if (round.isLast) return best;
+    if (round.isLast) break;
     if (isMisjudged) {
       weighing.raise(run.influence());
     } else if (mayRaise && !isInVain) {
@@ -102,9 +104,11 @@ Tube refine(const FlowQuestion& question, const Box& box, const std::vector<Box>
     } else if (run.isAbandoned()) {
       round.isLast = true;  // the same once more, as far as it comes
     } else {
-      return best;
+      break;
     }
   }
+  FlowRun::explain(best, question.options, limit.empty() ? "tighter runs win nothing more" : limit);
+  return best;
 }
 
 }  // namespace gamut

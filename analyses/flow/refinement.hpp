@@ -3,17 +3,9 @@
 
 #include <vector>
 
-#include "analyses/flow/flow.hpp"
+#include "analyses/flow/task.hpp"
 
 namespace gamut {
-
-/// What every run is of; all is referred to.
-struct FlowQuestion {
-  const Program &motion, &differentiated, &outputs;  ///< f; f and ∂f/∂x; g
-  const FlowOptions& options;
-  double horizon;
-  const std::vector<double>& outputTimes;
-};
 
 /// Loosely first, then as the remainder's share of the widths asks; every run is proved, so that the results are
 /// intersected. `looseness`: that share, of the last run.

@@ -2,6 +2,7 @@
 #include "analyses/flow/run.hpp"
 
 #include <algorithm>
+#include <array>
 #include <thread>
 #include <utility>
 
@@ -148,7 +149,10 @@ void FlowRun::probe(const FlowPiece& piece) {
   const double horizon = std::min(task_.horizon, 1.5 * piece.set.t);
   if (!(horizon > 0)) return;
   const std::vector<Box> noLevels;
-  const FlowTask task(task_.motion, task_.differentiated, none, options, start, horizon, {}, noLevels, {});
+  const std::vector<double> noTimes;
+  FlowBudget rest{task_.budget.limit - task_.budget.spent};  // who follows the piece counts this too
+  const FlowQuestion question{task_.motion, task_.differentiated, none, options, horizon, noTimes, rest};
+  const FlowTask task(question, start, noLevels, {});
   const Tube alone = FlowRun(task).run();
   if (alone.reached() >= horizon || alone.wasStopped()) return;
   const std::lock_guard lock(mutex_);
@@ -173,7 +177,7 @@ Tube FlowRun::gather(std::vector<FlowCollected>& collected) {
   if (!queue_.empty()) earliest = std::min(earliest, queue_.top().set.t);
   if (stop_ && earliest < tube.reached_) {
     tube.reached_ = earliest;
-    tube.why_ = outOfMemory_ ? Tube::outOfMemory : Tube::interrupted;
+    tube.why_ = outOfMemory_ ? Tube::outOfMemory : overBudget_ ? Tube::overBudget : Tube::interrupted;
   }
   std::size_t rows = 0;
   while (rows < task_.times.size() && task_.times[rows] <= tube.reached_ && (rows > 0 || tube.reached_ > 0)) ++rows;
@@ -213,23 +217,29 @@ Tube FlowRun::gather(std::vector<FlowCollected>& collected) {
       if (row == 0)
         narrow(cut, task_.outputs.outputs() > 0 ? atStart.over(0.0, task_.levels[level]) : task_.levels[level]);
     }
+  constexpr double infinite = std::numeric_limits<double>::infinity();
   const double aim = task_.aim(),
                wellKnown = 5e-5 * aim;  // nor are bounds measured that are so much tighter than the box
-  const auto greatestShare = [&](const std::vector<std::vector<Interval>>& bounds, auto radii) {
-    double loosest = 0;
-    for (std::size_t row = 1; row < rows; ++row)
+  const auto excess = [&](const std::vector<std::vector<Interval>>& bounds, auto radii) {
+    std::vector<std::vector<double>> shares(rows);
+    for (std::size_t row = 0; row < rows; ++row) {
+      shares[row].resize(bounds[row].size(), 0.0);
       for (const FlowCollected& part : collected)
         for (std::size_t i = 0; i < (part.*radii)[row].size(); ++i) {
           const Interval& bound = bounds[row][i];
           const double remainder = 2 * (part.*radii)[row][i], rest = width(bound) - remainder;
           const bool isZero = contains(bound, 0.0) && rest <= 1e-6 * remainder;  // as symmetry keeps it
           if (!isZero && remainder > wellKnown * task_.embedding.widest * magnitude(bound))
-            loosest = std::max(loosest, remainder / rest);
+            shares[row][i] = std::max(shares[row][i], rest > 0 ? remainder / rest : infinite);
         }
-    return loosest;
+    }
+    return shares;
   };
-  const double ofStates = greatestShare(tube.states_, &FlowCollected::stateRadii);
-  looseness_ = task_.outputs.outputs() > 0 ? greatestShare(tube.outputs_, &FlowCollected::outputRadii) : ofStates;
+  tube.excess_ = excess(tube.states_, &FlowCollected::stateExcess);
+  const double ofStates = tube.tightness() - 1;
+  if (task_.outputs.outputs() > 0) tube.excess_ = excess(tube.outputs_, &FlowCollected::outputExcess);
+  if (task_.embedding.symbols == 0) tube.excess_.clear();
+  looseness_ = tube.tightness() - 1;
   needsDegree_ = looseness_ > aim && ofStates <= aim;
   double time = 0, all = 0;
   for (const FlowCollected& part : collected) time += part.timeError, all += part.timeError + part.truncation;
@@ -248,12 +258,19 @@ Tube FlowRun::gather(std::vector<FlowCollected>& collected) {
   return tube;
 }
 
+std::string FlowRun::limit(const Tube& tube) const {
+  if (tube.wasStopped()) return tube.why();
+  if (!ended_.empty()) return ended_;
+  if (!task_.options.split) return "bisection is switched off";
+  if (!task_.bisectsForWidth()) return "more than 8 quantities of like influence are not bisected for tightness";
+  if (pieces_ >= task_.options.maxPieces) return "all " + std::to_string(pieces_) + " pieces that are allowed are used";
+  if (task_.splitDefect < 1e-16 * task_.embedding.widest) return "what remains is rounding";
+  return {};
+}
+
 double FlowRun::tighterBy(const Tube& tube) const {
   constexpr double blindly = 30, least = 2, most = 1000;
-  if (task_.embedding.symbols == 0 || !task_.options.split || !task_.bisectsForWidth() || tube.wasStopped() ||
-      pieces_ >= task_.options.maxPieces || !ended_.empty() ||
-      task_.splitDefect < 1e-16 * task_.embedding.widest)  // that is rounding
-    return 1;
+  if (task_.embedding.symbols == 0 || !limit(tube).empty()) return 1;
   if (tube.reached() < task_.horizon) return blindly;
   const double aim = task_.aim();  // the remainder is about proportional to the threshold
   return looseness_ > aim ? std::clamp(2 * looseness_ / aim, least, most) : 1;
@@ -270,11 +287,32 @@ Tube FlowRun::meet(Tube a, Tube b) {
   cross(b.outputs_, a.outputs_);
   cross(b.outputsOver_, a.outputsOver_);
   for (std::size_t level = 0; level < b.cuts_.size(); ++level) cross(b.cuts_[level], a.cuts_[level]);
+  for (std::size_t row = 0; row < std::min(a.excess_.size(), b.excess_.size()); ++row)
+    for (std::size_t i = 0; i < a.excess_[row].size(); ++i)
+      b.excess_[row][i] = std::min(b.excess_[row][i], a.excess_[row][i]);
   if (a.wasStopped() && !b.why_.empty()) b.why_ = a.why_;
   b.steps_ += a.steps_;
   b.cpu_ += a.cpu_;
   b.cutCpu_ += a.cutCpu_;
   return b;
+}
+
+void FlowRun::explain(Tube& tube, const FlowOptions& options, const std::string& limit) {
+  double loosest = options.tightness - 1;
+  const bool ofOutputs = !tube.outputs_[0].empty();
+  const std::vector<std::string>& names = ofOutputs ? options.outputNames : options.stateNames;
+  for (std::size_t row = 0; row < tube.excess_.size(); ++row)
+    for (std::size_t i = 0; i < tube.excess_[row].size(); ++i) {
+      if (!(tube.excess_[row][i] > loosest)) continue;
+      loosest = tube.excess_[row][i];
+      const std::string number = std::to_string(i);
+      const std::string name = i < names.size() ? names[i] : (ofOutputs ? "output " : "state ") + number;
+      std::array<char, 32> times{};
+      std::snprintf(times.data(), times.size(), "%.4g", 1 + loosest);
+      tube.shortfall_ = "at " + toString(tube.times_[row]) + " s " + name + " may be " + times.data() +
+                        " times as wide as necessary";
+      tube.limit_ = limit;
+    }
 }
 
 void FlowRun::tighten(Tube& tube, std::size_t level, const Tube& own) {

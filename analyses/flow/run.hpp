@@ -27,6 +27,8 @@ class FlowRun {
   /// tighter the threshold should be for that, or an early end; 1: as it is, or nothing would be won.
   double looseness() const { return looseness_; }
   double tighterBy(const Tube& tube) const;
+  /// Why no tighter run would be tighter; empty if it might.
+  std::string limit(const Tube& tube) const;
   bool isAbandoned() const { return isAbandoned_; }
   /// Outputs are loose where states are not: what they add is truncation of their own.
   bool needsDegree() const { return needsDegree_; }
@@ -37,6 +39,8 @@ class FlowRun {
 
   /// Both are proved, so their intersection is; the one that reaches further goes on alone. Costs add up.
   static Tube meet(Tube a, Tube b);
+  /// Says in `tube` what is looser than was asked for, met by `limit`.
+  static void explain(Tube& tube, const FlowOptions& options, const std::string& limit);
   /// Intersects the cuts of this level, and of all inside it, with a flow over the level's own box.
   static void tighten(Tube& tube, std::size_t level, const Tube& own);
 
@@ -45,6 +49,7 @@ class FlowRun {
   /// A piece cannot be followed beyond t, nor the whole box then.
   void fail(double t, const std::string& why);
   void ranOutOfMemory() { outOfMemory_ = true; }
+  void ranOutOfBudget() { overBudget_ = true; }
   /// What is left over at t is so much that this run cannot become tight: a tighter one comes.
   void abandon(double t);
   /// Whether one piece more is allowed; it counts from then on.
@@ -71,7 +76,7 @@ class FlowRun {
   double looseness_ = 0, timeShare_ = 0;
   std::vector<Influence> influence_;
   bool stop_ = false, needsDegree_ = false;
-  std::atomic<bool> outOfMemory_{false}, isAbandoned_{false};
+  std::atomic<bool> outOfMemory_{false}, overBudget_{false}, isAbandoned_{false};
   double failedAt_ = 0, unfinished_ = std::numeric_limits<double>::infinity();
   std::string why_;
   std::exception_ptr error_;

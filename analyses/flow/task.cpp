@@ -38,22 +38,22 @@ int orderFor(double tolerance) { return static_cast<int>(std::clamp(-2 * std::lo
 
 }  // namespace
 
-FlowTask::FlowTask(const Program& f, const Program& df, const Program& g, const FlowOptions& flowOptions,
-                   const Box& startBox, double end, const std::vector<double>& outputTimes,
-                   const std::vector<Box>& levelBoxes, const FlowRound& round)
-    : motion(f),
-      differentiated(df),
-      outputs(g),
-      options(flowOptions),
+FlowTask::FlowTask(const FlowQuestion& question, const Box& startBox, const std::vector<Box>& levelBoxes,
+                   const FlowRound& round)
+    : motion(question.motion),
+      differentiated(question.differentiated),
+      outputs(question.outputs),
+      options(question.options),
+      budget(question.budget),
       box(startBox),
       levels(levelBoxes),
       embedding(startBox, round.emphasis.weights),
-      horizon(end),
+      horizon(question.horizon),
       effective(round.emphasis.weights.empty() ? embedding.symbols : round.emphasis.effective),
       isLast(round.isLast),
       richer(round.richer) {
   times.push_back(0.0);
-  for (double time : outputTimes)
+  for (double time : question.outputTimes)
     if (time > times.back()) times.push_back(time);
   if (horizon > times.back()) times.push_back(horizon);
   int exponent = 0;

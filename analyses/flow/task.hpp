@@ -2,6 +2,8 @@
 // Nothing of it changes while the run goes on.
 #pragma once
 
+#include <algorithm>
+#include <atomic>
 #include <memory>
 #include <vector>
 
@@ -10,6 +12,21 @@
 #include "analyses/flow/monomials.hpp"
 
 namespace gamut {
+
+/// CPU time that all runs of one flow may spend, s; every thread adds its own.
+struct FlowBudget {
+  double limit;
+  std::atomic<double> spent{0};
+};
+
+/// What every run is of; all is referred to.
+struct FlowQuestion {
+  const Program &motion, &differentiated, &outputs;  ///< f; f and ∂f/∂x; g
+  const FlowOptions& options;
+  double horizon;
+  const std::vector<double>& outputTimes;
+  FlowBudget& budget;
+};
 
 /// A set of monomials and the degree of the frame over it.
 struct FlowLayout {
@@ -28,10 +45,8 @@ struct FlowRound {
 };
 
 struct FlowTask {
-  /// `differentiated` is f and ∂f/∂x of the motion f; the rest as for Flow::enclose. All is referred to.
-  FlowTask(const Program& motion, const Program& differentiated, const Program& outputs, const FlowOptions& options,
-           const Box& box, double horizon, const std::vector<double>& outputTimes, const std::vector<Box>& levels,
-           const FlowRound& round);
+  /// Box and levels as for Flow::enclose. All is referred to.
+  FlowTask(const FlowQuestion& question, const Box& box, const std::vector<Box>& levels, const FlowRound& round);
 
   /// Halving one of many symbols narrows the box by little: those are bisected only where a step fails otherwise.
   /// Where not all symbols have weight 1, bisection may be for want of powers: a few pieces tell.
@@ -42,13 +57,16 @@ struct FlowTask {
   /// Of outputs, for states of this layout: they may bend more, and are not integrated, so that more terms are cheap.
   std::size_t outputLayout(std::size_t layout) const;
   bool hasRicherOutputs() const { return outputs.outputs() > 0 && outputLayout(0) + 1 < degrees; }
-  /// The remainder's share of a width that is aimed at; a tenth is left for the ranges of polynomials.
+  /// The share of a width that remainder and range may add.
   double aim() const { return 0.9 * (options.tightness - 1); }
+  /// Of their widths.
+  double rangeTolerance() const { return std::min(1e-4, 0.02 * aim()); }
   /// A tighter run may come.
   bool mayTighten() const { return !isLast && embedding.symbols > 0 && options.split && bisectsForWidth(); }
 
   const Program &motion, &differentiated, &outputs;
   const FlowOptions& options;
+  FlowBudget& budget;
   const Box& box;
   const std::vector<Box>& levels;
   Embedding embedding;

@@ -9,7 +9,9 @@ namespace {
 std::vector<Field> fieldsOf(IntervalResult& r) {
   using namespace dimension;
   return r.fieldsAnd(
-      {{"pieces", &r.pieces, unit::none, "sub-boxes at the end", {}, allowed::count},
+      {{"tightness", &r.tightness, unit::one, "dynamics: overestimation of `at` as far as it is proved", {}},
+       {"shortfall", &r.shortfall, unit::none, "what is looser than was asked for, and why; empty if nothing is", {}},
+       {"pieces", &r.pieces, unit::none, "sub-boxes at the end", {}, allowed::count},
        {"steps", &r.steps, unit::none, "steps in time, of all sub-boxes", {}, allowed::count},
        {"at", &r.at, unit::ofOutput, "enclosure at the output times", {time, output}},
        {"over",

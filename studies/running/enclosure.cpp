@@ -23,6 +23,7 @@ void encloseMotion(Run& run) {
   flow.progress = run.progressOf("enclosure");
   flow.cancelled = run.watch.stop();
   flow.stateNames = run.study.mechanism.stateNames();
+  for (const OutputInfo& output : run.study.outputs) flow.outputNames.push_back(output.name);
   const Motion& motion = run.problem.motion.motion;
   const Tube tube = Flow(motion.f, motion.g, flow)
                         .enclose(run.problem.box, run.study.horizon, run.study.motion.times, run.problem.levels);
@@ -39,6 +40,9 @@ void encloseMotion(Run& run) {
   enclosed.reached = tube.reached();
   if (tube.why() == Tube::outOfMemory) run.watch.memoryFailed();
   enclosed.why = tube.wasStopped() ? run.watch.why() : tube.why();
+  enclosed.tightness = tube.tightness();
+  if (!tube.shortfall().empty())
+    enclosed.shortfall = tube.shortfall() + ": " + (tube.limit() == Tube::interrupted ? run.watch.why() : tube.limit());
   enclosed.pieces = tube.pieces();
   enclosed.steps = tube.steps();
   enclosed.cutCpu = tube.cutCpuSeconds();

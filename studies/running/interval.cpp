@@ -15,6 +15,8 @@ void guarantee(Run& run) {
   interval.direct = std::move(enclosed.direct);
   interval.reached = enclosed.reached;
   interval.why = enclosed.why;
+  interval.tightness = enclosed.tightness;
+  interval.shortfall = enclosed.shortfall;
   interval.pieces = enclosed.pieces;
   interval.steps = enclosed.steps;
   interval.cpu = enclosed.cpu - enclosed.cutCpu;

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,6 +26,8 @@ struct Enclosed {
   std::size_t reachedTimes = 0;
   double reached = 0;  ///< s
   std::string why;     ///< why it ended before the horizon; empty if it did not
+  double tightness = std::numeric_limits<double>::quiet_NaN();  ///< as in IntervalResult
+  std::string shortfall;
   std::int64_t pieces = 0, steps = 0;
   double cpu = 0, cutCpu = 0;  ///< s: of all, and of the alpha-cuts
 };

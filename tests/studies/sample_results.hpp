@@ -47,6 +47,8 @@ inline Results sampleResults() {
   r.interval.at.lower(2, 0) = r.interval.at.upper(2, 0) = nan;
   r.interval.at.lower(2, 1) = r.interval.at.upper(2, 1) = nan;
   r.interval.over = sampleBounds(3, 2, -19.95, 60);
+  r.interval.tightness = 1.25;
+  r.interval.shortfall = "at 0.01 s tip may be 1.25 times as wide as necessary: bisection is switched off";
   r.interval.pieces = 4;
   r.interval.steps = 123456789012;
   r.interval.cpu = 0.25;

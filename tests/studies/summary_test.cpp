@@ -30,7 +30,8 @@ TEST(JsonSummary, HasTheDocumentedKeys) {
   EXPECT_EQ(text.find('\n'), std::string::npos);
   const Json json = Json::parse(text);
   EXPECT_THAT(keysOf(json), ElementsAre("cost", "enclosure", "envelope", "excursion", "files", "horizon", "integrated",
-                                        "limits", "overestimation", "reached", "samples", "verdict", "version", "why"));
+                                        "limits", "overestimation", "reached", "samples", "shortfall", "tightness",
+                                        "verdict", "version", "why"));
   EXPECT_THAT(keysOf(json["overestimation"]), ElementsAre("max", "median", "outputs"));
   EXPECT_THAT(keysOf(json["cost"]), ElementsAre("fuzzy", "interval", "memory", "report", "stochastic", "total"));
   EXPECT_THAT(keysOf(json["limits"]),
@@ -39,6 +40,8 @@ TEST(JsonSummary, HasTheDocumentedKeys) {
   EXPECT_EQ(json["horizon"], 0.02);
   EXPECT_EQ(json["reached"], 0.01);
   EXPECT_EQ(json["samples"], 4096);
+  EXPECT_EQ(json["tightness"], 1.25);
+  EXPECT_EQ(json["shortfall"], "at 0.01 s tip may be 1.25 times as wide as necessary: bisection is switched off");
   EXPECT_EQ(json["integrated"], 1000);
   EXPECT_EQ(json["why"], "the enclosure became wider than 1e6; the run was interrupted");
   EXPECT_EQ(json["cost"]["total"], 2.25);
@@ -135,7 +138,7 @@ TEST(ContentText, ListsEveryFieldThatIsThere) {
   const std::string text = contentText(results);
   for (const Group& group : describe(results)) EXPECT_THAT(text, HasSubstr("  " + std::string(group.path)));
   EXPECT_THAT(text, HasSubstr("  outer    3 x 3 x 2  proved alpha-cuts\n"));
-  EXPECT_THAT(text, HasSubstr("  pieces   4 "));
+  EXPECT_THAT(text, HasSubstr("  pieces     4 "));
   EXPECT_THAT(text, HasSubstr("  2 of number, time, output,"));
   EXPECT_THAT(text, Not(HasSubstr("direct")));
 }

@@ -1,4 +1,6 @@
 // How tight, and at what cost: the tightness asked for, and quantities that matter much, little or not at all.
+#include <gmock/gmock.h>
+
 #include <cmath>
 
 #include "tests/analyses/flow/containment.hpp"
@@ -121,6 +123,57 @@ TEST(FlowTightness, EndsWithWhatIsProvedWhereItCannotBeReached) {
     EXPECT_LT(tube.reached(), 1.0);
     EXPECT_NE(tube.why(), "");
   }
+}
+
+/// What is claimed of the widths, against what trajectories span.
+TEST(FlowTightness, IsKnownOfTheResult) {
+  for (double radius : {0.002, 0.02, 0.01}) {
+    Containment c = springPendulum(0, radius, 0);
+    c.options.split = radius != 0.01;
+    if (!c.options.split) c.options.degree = 2;
+    const std::vector<double> least = spanned(c, 2, 40);
+    const Tube tube = c.tube();
+    ASSERT_EQ(tube.reachedTimes(), 3U) << tube.why();
+    for (std::size_t i = 0; i < 4; ++i)
+      EXPECT_LE(width(tube.states(2)[i]), (tube.tightness() + 0.02) * least[i]) << radius << ", state " << i;
+    EXPECT_EQ(tube.tightness() > c.options.tightness, !tube.shortfall().empty());
+  }
+}
+
+TEST(FlowTightness, ThatIsNotReachedIsExplained) {
+  Containment c = springPendulum(0, 0.01, 0);
+  c.options.split = false;
+  c.options.degree = 2;
+  c.options.stateNames = {"x", "y", "rate of x", "rate of y"};
+  const Tube tube = expectContainment(c, 4, false);
+  EXPECT_EQ(tube.why(), "");
+  EXPECT_GT(tube.tightness(), 1.02);
+  EXPECT_THAT(tube.shortfall(), ::testing::MatchesRegex("at . s (x|y|rate of x|rate of y) may be [0-9.]+ times as wide "
+                                                        "as necessary"));
+  EXPECT_EQ(tube.limit(), "bisection is switched off");
+}
+
+/// A millisecond is not enough for the first run, a little more than that is not for those after it.
+TEST(FlowTightness, EndsWithItsBudget) {
+  Containment c = springPendulum(0, 0.05, 0);
+  c.options.tightness = 1.00001;
+  c.options.budget = 1e-6;
+  const Tube none = expectContainment(c, 2, false);
+  EXPECT_EQ(none.why(), Tube::overBudget);
+  EXPECT_TRUE(none.wasStopped());
+  EXPECT_LT(none.reached(), 2);
+  double budget = 1e-3;
+  for (bool isFar = false; !isFar && budget < 100; budget *= 1.5) {
+    c.options.budget = budget;
+    const Tube tube = c.tube();
+    isFar = tube.why().empty() && tube.limit() == Tube::overBudget;
+    if (isFar) {
+      EXPECT_GT(tube.tightness(), c.options.tightness);
+    }
+  }
+  EXPECT_LT(budget, 100);
+  c.options.budget = 0;
+  EXPECT_THROW(Flow(c.f, c.options), std::invalid_argument);
 }
 
 TEST(FlowTightness, MustBeAboveOne) {
