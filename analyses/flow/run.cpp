@@ -309,8 +309,8 @@ void FlowRun::explain(Tube& tube, const FlowOptions& options, const std::string&
       const std::string name = i < names.size() ? names[i] : (ofOutputs ? "output " : "state ") + number;
       std::array<char, 32> times{};
       std::snprintf(times.data(), times.size(), "%.4g", 1 + loosest);
-      tube.shortfall_ = "at " + toString(tube.times_[row]) + " s " + name + " may be " + times.data() +
-                        " times as wide as necessary";
+      tube.shortfall_ =
+          "at " + toString(tube.times_[row]) + " s " + name + " may be " + times.data() + " times as wide as necessary";
       tube.limit_ = limit;
     }
 }
