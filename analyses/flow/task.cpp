@@ -81,14 +81,15 @@ FlowTask::FlowTask(const FlowQuestion& question, const Box& startBox, const std:
   // are long, shorter steps of a lower order fill fewer of their grades.
   const int count = std::min(embedding.symbols, 4);
   static constexpr double firstDefect[] = {1e-8, 1e-8, 1e-5, 4e-4, 1e-2};
-  static constexpr double firstTolerance[] = {1e-15, 1e-12, 1e-10, 1e-10, 1e-9};
+  static constexpr double firstTolerance[] = {1e-16, 1e-12, 1e-10, 1e-10, 1e-9};
   const double first = options.splitDefect > 0 ? options.splitDefect : firstDefect[count];
   splitDefect = bisectsForWidth() ? first * embedding.widest / round.tighter : std::numeric_limits<double>::infinity();
   const double enough = 5e-5 * aim() * embedding.widest / round.finer;  // some hundred steps add as much of the width
   tolerance = options.tolerance > 0    ? options.tolerance
               : embedding.symbols == 0 ? firstTolerance[0]
                                        : std::clamp(enough, 1e-15, firstTolerance[count] / round.finer);
-  order = options.order > 0 ? options.order : orderFor(tolerance);
+  constexpr int thinOrder = 28;  // its polynomials are single numbers
+  order = options.order > 0 ? options.order : embedding.symbols == 0 ? thinOrder : orderFor(tolerance);
 }
 
 std::size_t FlowTask::outputLayout(std::size_t layout) const {

@@ -21,7 +21,7 @@ namespace {
 constexpr double dumpedAt = 0.2;  // a frame column with more ξ-dependence than this goes back to a constant one
 /// Steps whose errors are kept apart; older ones merge into the box R. What it costs grows as the rest of a step does,
 /// so that long motions of many states, which lose most by merging, keep more.
-int stepsKept(int n) { return std::clamp(30 * n, 60, 300); }
+int stepsKept(int n) { return std::clamp(60 * n, 60, 300); }
 
 /// Generators, n numbers each, as the columns of a matrix.
 template <class Generators>
