@@ -2,7 +2,8 @@
 //
 //     #include <gamut/flow.hpp>        // link to Gamut::gamut
 //
-// It brings record() and Program, Flow and Tube, Box and Interval, all in namespace gamut.
+// It brings record() and Program, Flow, DerivativeFlow and Tube, Box and Interval, all in namespace gamut.
 #pragma once
 
+#include "analyses/flow/derivatives.hpp"
 #include "analyses/flow/flow.hpp"

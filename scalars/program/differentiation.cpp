@@ -253,4 +253,24 @@ Program transposedJacobianTimesVector(const Program& program) {
   return recorder.finish(outputs);
 }
 
+Program alongDerivatives(const Program& program, const std::vector<int>& by) {
+  const int n = program.states(), k = program.parameters();
+  Recorder recorder(n * (1 + static_cast<int>(by.size())), k);
+  const std::vector<int> values = outputsOf(program, recorder.append(program));
+  std::vector<int> outputs = values;
+  int first = n;  // of the states ∂x/∂q
+  for (const int q : by) {
+    if (q < 0 || q >= n + k)
+      throw std::invalid_argument("there is no initial value or parameter " + std::to_string(q) +
+                                  " to differentiate by");
+    std::vector<std::pair<int, int>> seeds;
+    for (int j = 0; j < n; ++j) seeds.emplace_back(recorder.state(j), recorder.state(first + j));
+    if (q >= n) seeds.emplace_back(recorder.parameter(q - n), recorder.constant(1.0));
+    const std::vector<int> derivatives = tangents(recorder, values, seeds);
+    outputs.insert(outputs.end(), derivatives.begin(), derivatives.end());
+    first += n;
+  }
+  return recorder.finish(outputs);
+}
+
 }  // namespace gamut

@@ -34,6 +34,12 @@ Program jacobianTimesVector(const Program& program);
 /// further parameters behind the program's own k. One reverse sweep.
 Program transposedJacobianTimesVector(const Program& program);
 
+/// The m outputs, then for each q of `by` their m derivatives by q along solutions that depend on q. `by` counts what a
+/// motion starts from: the n initial values, then the k parameters. The result has the states x, then for each q the n
+/// values ∂x/∂q, and the program's parameters: of ẋ = f it is f and its variational equations, themselves a right-hand
+/// side; of y = g(t, x, p) it is y and dy/dq. Throws std::invalid_argument for a number that counts neither.
+Program alongDerivatives(const Program& program, const std::vector<int>& by);
+
 /// Forward, for those who record: derivatives of the nodes `of` along the direction in which node `seeds[s].first` has
 /// derivative `seeds[s].second` (a node) and every other input has derivative 0.
 std::vector<int> tangents(Recorder& recorder, const std::vector<int>& of,

@@ -1,0 +1,73 @@
+// The box of the variational equations: ∂x/∂q starts as a unit vector for an initial value, as zero for a parameter.
+#include "analyses/flow/derivatives.hpp"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "analyses/flow/embedding.hpp"
+#include "scalars/index.hpp"
+#include "scalars/program/differentiation.hpp"
+
+namespace gamut {
+
+using detail::at;
+
+namespace {
+
+/// Names of states or outputs and of their derivatives, where there are names.
+std::vector<std::string> extendedNames(std::vector<std::string> names, std::size_t count, std::size_t by) {
+  if (names.empty()) return names;
+  names.resize(count);
+  for (std::size_t i = 0, all = count * by; i < all; ++i)
+    names.push_back("derivative " + std::to_string(i / count) + " of " + names[i % count]);
+  return names;
+}
+
+FlowOptions withNames(FlowOptions options, int states, int outputs, std::size_t by) {
+  options.stateNames = extendedNames(std::move(options.stateNames), at(states), by);
+  options.outputNames = extendedNames(std::move(options.outputNames), at(outputs), by);
+  return options;
+}
+
+Program noOutputs(const Program& f) {
+  return record(f.states(), f.parameters(), 0, [](const auto&, const auto&, const auto&, auto&) {});
+}
+
+}  // namespace
+
+DerivativeFlow::DerivativeFlow(const Program& f, std::vector<int> by, FlowOptions options)
+    : DerivativeFlow(f, noOutputs(f), std::move(by), std::move(options)) {}
+
+DerivativeFlow::DerivativeFlow(const Program& f, const Program& g, std::vector<int> by, FlowOptions options)
+    : states_(f.states()),
+      parameters_(f.parameters()),
+      outputs_(g.outputs()),
+      by_(std::move(by)),
+      flow_(alongDerivatives(f, by_), alongDerivatives(g, by_),
+            withNames(std::move(options), states_, outputs_, by_.size())) {}
+
+Box DerivativeFlow::extended(const Box& box) const {
+  requireThat(box.size() == at(states_ + parameters_),
+              "the box needs " + std::to_string(states_) + " initial values and " + std::to_string(parameters_) +
+                  " parameters, not " + std::to_string(box.size()) + " numbers");
+  const auto parameters = box.begin() + states_;
+  Box result(box.begin(), parameters);
+  for (const int q : by_)
+    for (int i = 0; i < states_; ++i) result.emplace_back(i == q ? 1.0 : 0.0);
+  result.insert(result.end(), parameters, box.end());
+  return result;
+}
+
+Tube DerivativeFlow::enclose(const Box& box, double horizon, const std::vector<double>& outputTimes,
+                             const std::vector<Box>& levels) const {
+  std::vector<Box> inner;
+  for (const Box& level : levels) inner.push_back(extended(level));
+  return flow_.enclose(extended(box), horizon, outputTimes, inner);
+}
+
+std::size_t DerivativeFlow::derivative(int of, int which) const { return at(states_ * (1 + which) + of); }
+
+std::size_t DerivativeFlow::outputDerivative(int of, int which) const { return at(outputs_ * (1 + which) + of); }
+
+}  // namespace gamut
