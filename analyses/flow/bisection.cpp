@@ -14,7 +14,7 @@ using detail::at;
 
 double FlowStepper::relativeRemainder(const FlowSet& set) const {
   std::vector<double> total;
-  totalRadius(set, total);
+  errorRadius(set, total);
   double largest = 0;
   for (int i = 0; i < n_; ++i) largest = std::max(largest, remainderOf(set, i, total) / scale_[at(i)]);
   return largest;

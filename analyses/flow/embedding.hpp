@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "analyses/flow/flow.hpp"
 #include "analyses/flow/polynomial_series.hpp"
 #include "scalars/interval.hpp"
 
@@ -15,9 +16,12 @@ struct Embedding {
   int symbols = 0;
   double widest = 0;  ///< greatest half-width relative to its centre, at most 1
 
+  /// `inputs` vary in time and have no symbol: parameters, behind `states` initial values.
   /// `weights`: of Emphasis, for all wide components in order; the width of one of weight 0 is carried as rounding is.
   /// Without weights every one gets a symbol.
-  explicit Embedding(const Box& box, const std::vector<int>& weights = {});
+  Embedding(const Box& box, int states, const std::vector<VaryingParameter>& inputs,
+            const std::vector<int>& weights = {});
+  explicit Embedding(const Box& box) : Embedding(box, 0, {}) {}
 };
 
 /// The part of [-1,1] of each symbol that a sub-box covers on a piece ξ_study = centre + half·ξ; false if none.

@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
+#include "analyses/flow/formulation.hpp"
 #include "analyses/flow/refinement.hpp"
 #include "analyses/flow/run.hpp"
 #include "scalars/index.hpp"
@@ -15,9 +18,8 @@ namespace gamut {
 using detail::at;
 
 struct Flow::Parts {
-  Program motion;          // f
-  Program differentiated;  // f and ∂f/∂x
-  Program outputs;         // g
+  Formulation anyCourse;
+  std::optional<Formulation> ofRates;  // if some input has a bounded rate
   FlowOptions options;
 };
 
@@ -56,35 +58,40 @@ Flow::Flow(Program f, Program g, FlowOptions options) {
   requireThat(options.tolerance >= 0 && options.splitDefect >= 0, "tolerances must not be negative");
   requireThat(options.tightness > 1, "a flow's tightness must be above 1");
   requireThat(options.budget > 0, "a flow's budget must be positive");
-  Program differentiated = f.differentiated();
-  parts_ =
-      std::make_unique<const Parts>(Parts{std::move(f), std::move(differentiated), std::move(g), std::move(options)});
+  std::set<int> inputs;
+  bool hasRates = false;
+  for (const VaryingParameter& input : options.varying) {
+    requireThat(input.parameter >= 0 && input.parameter < f.parameters() && inputs.insert(input.parameter).second,
+                "what varies in time must be parameters, each said once");
+    requireThat(input.rate > 0, "the rate of what varies in time must be positive");
+    hasRates = hasRates || std::isfinite(input.rate);
+  }
+  Formulation anyCourse(std::move(f), std::move(g), options.varying);
+  std::optional<Formulation> ofRates;
+  if (hasRates) ofRates = anyCourse.ofRates();
+  parts_ = std::make_unique<const Parts>(Parts{std::move(anyCourse), std::move(ofRates), std::move(options)});
 }
 
 Flow::~Flow() = default;
 Flow::Flow(Flow&&) noexcept = default;
 Flow& Flow::operator=(Flow&&) noexcept = default;
 
-Tube Flow::enclose(const Box& box, double horizon, const std::vector<double>& outputTimes,
-                   const std::vector<Box>& levels) const {
-  const Parts& parts = *parts_;
-  requireThat(box.size() == at(parts.motion.states() + parts.motion.parameters()),
-              "the box needs " + std::to_string(parts.motion.states()) + " initial values and " +
-                  std::to_string(parts.motion.parameters()) + " parameters, not " + std::to_string(box.size()) +
-                  " numbers");
-  requireThat(horizon > 0 && std::isfinite(horizon), "the horizon must be a positive number of seconds");
-  for (std::size_t i = 0; i < outputTimes.size(); ++i)
-    requireThat(outputTimes[i] >= 0 && outputTimes[i] <= horizon && (i == 0 || outputTimes[i] >= outputTimes[i - 1]),
-                "output times must rise from 0 to the horizon");
-  requireNested(box, levels);
-  requireNearest();
-  FlowOptions options = parts.options;
-  double furthest = 0;  // runs and threads report one at a time; what they report must not go back
-  if (parts.options.progress)
-    options.progress = [&](double fraction) { parts.options.progress(furthest = std::max(furthest, fraction)); };
-  FlowBudget budget{options.budget};
-  const FlowQuestion question{parts.motion, parts.differentiated, parts.outputs, options, horizon, outputTimes, budget};
-  const Embedding uncertain(box);
+namespace {
+
+Tube answer(const Formulation& formulation, const FlowOptions& options, FlowBudget& budget, const Box& wholeBox,
+            double horizon, const std::vector<double>& outputTimes, const std::vector<Box>& wholeLevels) {
+  const Box box = formulation.boxOf(wholeBox);
+  std::vector<Box> levels;
+  for (const Box& level : wholeLevels) levels.push_back(formulation.boxOf(level));
+  const int n = formulation.motion.states();
+  const FlowQuestion question{
+      formulation.motion, formulation.differentiated, formulation.outputs, options, horizon, outputTimes, budget};
+  const Embedding uncertain(box, n, options.varying);
+  const auto narrowsInput = [&](const Box& level) {
+    return std::ranges::any_of(options.varying, [&](const VaryingParameter& input) {
+      return width(level[at(n + input.parameter)]) < width(box[at(n + input.parameter)]);
+    });
+  };
   double looseness = 0, unused = 0;
   Tube tube = refine(question, box, levels, looseness);
   // A remainder that is small for the whole box is not for a much smaller level: that one gets a flow of its own.
@@ -92,8 +99,45 @@ Tube Flow::enclose(const Box& box, double horizon, const std::vector<double>& ou
     double share = 0;
     for (std::size_t i = 0; i < box.size(); ++i)
       if (uncertain.components[i].symbol >= 0) share = std::max(share, width(levels[level][i]) / width(box[i]));
-    if (looseness > 0.01 * share) FlowRun::tighten(tube, level, refine(question, levels[level], {}, unused));
+    if (looseness > 0.01 * share || narrowsInput(levels[level]))
+      FlowRun::tighten(tube, level, refine(question, levels[level], {}, unused));
   }
+  return tube;
+}
+
+}  // namespace
+
+Tube Flow::enclose(const Box& box, double horizon, const std::vector<double>& outputTimes,
+                   const std::vector<Box>& levels) const {
+  const Formulation& formulation = parts_->anyCourse;
+  const Program& motion = formulation.motion;
+  requireThat(box.size() == at(motion.states() + motion.parameters()),
+              "the box needs " + std::to_string(motion.states()) + " initial values and " +
+                  std::to_string(motion.parameters()) + " parameters, not " + std::to_string(box.size()) + " numbers");
+  requireThat(horizon > 0 && std::isfinite(horizon), "the horizon must be a positive number of seconds");
+  for (std::size_t i = 0; i < outputTimes.size(); ++i)
+    requireThat(outputTimes[i] >= 0 && outputTimes[i] <= horizon && (i == 0 || outputTimes[i] >= outputTimes[i - 1]),
+                "output times must rise from 0 to the horizon");
+  requireNested(box, levels);
+  requireNearest();
+  FlowOptions options = parts_->options;
+  double furthest = 0;  // runs and threads report one at a time; what they report must not go back
+  if (parts_->options.progress)
+    options.progress = [&](double fraction) { parts_->options.progress(furthest = std::max(furthest, fraction)); };
+  FlowBudget budget{options.budget};
+  Tube tube = answer(formulation, options, budget, box, horizon, outputTimes, levels);
+  if (!parts_->ofRates || tube.wasStopped()) return tube;
+  // Up to an output time, so that both have the same rows.
+  const double told = parts_->ofRates->horizonOf(box, horizon);
+  std::vector<double> early;
+  for (double time : tube.times())
+    if (time > 0 && time <= std::min(told, tube.reached())) early.push_back(time);
+  if (early.empty()) return tube;
+  Tube ofRates = answer(*parts_->ofRates, options, budget, box, early.back(), early, levels);
+  FlowRun::dropStates(ofRates, motion.states());
+  const std::string limit = ofRates.limit();
+  tube = FlowRun::meet(std::move(tube), std::move(ofRates));
+  FlowRun::explain(tube, options, limit);
   return tube;
 }
 

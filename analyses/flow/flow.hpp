@@ -21,6 +21,13 @@
 
 namespace gamut {
 
+/// An input: a parameter that varies in time within its interval of the box, in any measurable way. The enclosures hold
+/// every absolutely continuous solution of ẋ = f(t, x, p(t)) almost everywhere (of the differential inclusion).
+struct VaryingParameter {
+  int parameter = 0;                                      ///< its number among the parameters
+  double rate = std::numeric_limits<double>::infinity();  ///< bound of |ṗ|, per s, where there is one
+};
+
 /// Options of a flow; the defaults choose for themselves. One says how tight the enclosure is to be, from which the
 /// others follow.
 struct FlowOptions {
@@ -40,6 +47,7 @@ struct FlowOptions {
   double budget = std::numeric_limits<double>::infinity();  ///< CPU time of all threads, s; when it is spent, what was
                                                             ///< proved until then is the result
   int jobs = 1;                                             ///< threads that follow pieces
+  std::vector<VaryingParameter> varying;                    ///< all other parameters are constant in time
   std::vector<std::string> stateNames;   ///< for Tube::why() and shortfall(); without them "state 0", "state 1", ...
   std::vector<std::string> outputNames;  ///< likewise
   std::function<void(double)> progress;  ///< called with the fraction done (0 … 1), from any thread

@@ -20,7 +20,7 @@ std::vector<std::vector<Interval>> image(const Program& g, double t, const Box& 
   const std::vector<int> weights(at(embedding.symbols), 1);
   const int d = degree >= 1 && embedding.symbols > 0 ? degree : degreeLadder(weights).back();
   const auto monomials = std::make_shared<const Monomials>(weights, d);
-  FlowOutputs outputs(g, monomials, monomials, cancelled);
+  FlowOutputs outputs(g, monomials, monomials, {}, cancelled);
   PlainOutputs plain(g);
   PolynomialRange range(monomials);
   const int n = g.states(), N = monomials->count();

@@ -105,13 +105,16 @@ void FlowFollower::use(const FlowPiece& piece) {
   if (!tools) {
     const FlowLayout& layout = task_.layouts[piece.layout];
     const FlowOptions& options = task_.options;
-    tools = std::make_unique<Tools>(Tools{FlowStepper(task_.differentiated, layout.monomials, layout.frameDegree,
-                                                      task_.order, task_.tolerance, options.cancelled),
-                                          PolynomialRange(layout.monomials), nullptr, nullptr, nullptr});
+    tools = std::make_unique<Tools>(
+        Tools{FlowStepper(task_.differentiated, layout.monomials, layout.frameDegree, task_.order, task_.tolerance,
+                          FlowInputs(task_.motion.states(), task_.order, task_.varying, 0.4 * (options.tightness - 1)),
+                          options.cancelled),
+              PolynomialRange(layout.monomials), nullptr, nullptr, nullptr});
     tools->stepper.setStateNames(options.stateNames);
     if (task_.outputs.outputs() > 0) {
       const std::shared_ptr<const Monomials> own = task_.layouts[task_.outputLayout(piece.layout)].monomials;
-      tools->outputs = std::make_unique<FlowOutputs>(task_.outputs, own, layout.monomials, options.cancelled);
+      tools->outputs =
+          std::make_unique<FlowOutputs>(task_.outputs, own, layout.monomials, task_.varying, options.cancelled);
       tools->outputRange = std::make_unique<PolynomialRange>(own);
       tools->chords =
           std::make_unique<FlowOutputChords>(task_.outputs, layout.monomials, task_.order, options.cancelled);
@@ -200,7 +203,7 @@ void FlowFollower::enclose(const FlowPiece& piece, double tau, std::vector<Inter
   stateExcess_.clear();
   for (int i = 0; i < task_.motion.states(); ++i) {
     states[at(i)] = inflated(tool_->range(&point_.p[at(i * N)], whole_, task_.rangeTolerance()), point_.radius[at(i)]);
-    stateExcess_.push_back(point_.radius[at(i)] + tool_->range.gap());
+    stateExcess_.push_back(point_.radius[at(i)] - point_.driven[at(i)] + tool_->range.gap());
   }
   outputs.clear();
   if (!outputs_) return;
@@ -219,7 +222,8 @@ void FlowFollower::appendOutputs(const FlowPiece& piece, const std::vector<Inter
     outputs.push_back(std::isfinite(radius)
                           ? inflated(range(outputs_->polynomial(o), xi, task_.rangeTolerance()), radius)
                           : outputs_->overBox(o, Interval(at_), states, piece.set.parameters));
-    outputExcess_.push_back(std::isfinite(radius) ? radius + range.gap() : 0.0);  // else plain intervals bound it
+    outputExcess_.push_back(std::isfinite(radius) ? radius - outputs_->driven(o) + range.gap()
+                                                  : 0.0);  // else plain intervals bound it
   }
 }
 

@@ -21,7 +21,8 @@ Program alone(const Program& g, int output) { return Recorder(g).finish({g.outpu
 }  // namespace
 
 FlowOutputs::FlowOutputs(const Program& g, std::shared_ptr<const Monomials> monomials,
-                         std::shared_ptr<const Monomials> ofStates, const std::atomic<bool>* cancelled)
+                         std::shared_ptr<const Monomials> ofStates, const std::vector<int>& varying,
+                         const std::atomic<bool>* cancelled)
     : g_(g),
       differentiated_(g.differentiated()),
       n_(g.states()),
@@ -31,9 +32,12 @@ FlowOutputs::FlowOutputs(const Program& g, std::shared_ptr<const Monomials> mono
       ofStates_(std::move(ofStates)),
       cancelled_(cancelled),
       series_(differentiated_, outputs_, layout_, 0, 1, false, cancelled),
+      varying_(varying),
       plain_(g) {
+  series_.setVarying(varying_);
   polynomial_.assign(at(outputs_ * monomials_), 0.0);
   radius_.assign(at(outputs_), 0.0);
+  driven_ = radius_;
   for (int m = 0; m < ofStates_->count(); ++m) place_.push_back(layout_->find(*ofStates_, m));
 }
 
@@ -41,11 +45,12 @@ void FlowOutputs::evaluate(double t, const FlowPoint& point, const std::vector<d
                            const std::vector<Embedded>& parameters) {
   if (evaluateTogether(t, point, R, parameters) || outputs_ == 1) return;
   if (apart_.empty())
-    for (int o = 0; o < outputs_; ++o) apart_.emplace_back(alone(g_, o), layout_, ofStates_, cancelled_);
+    for (int o = 0; o < outputs_; ++o) apart_.emplace_back(alone(g_, o), layout_, ofStates_, varying_, cancelled_);
   for (int o = 0; o < outputs_; ++o) {
     FlowOutputs& own = apart_[at(o)];
     own.evaluate(t, point, R, parameters);
     radius_[at(o)] = own.radius(0);
+    driven_[at(o)] = own.driven(0);
     std::copy_n(own.polynomial(0), monomials_, &polynomial_[at(o * monomials_)]);
   }
 }
@@ -72,6 +77,16 @@ bool FlowOutputs::evaluateTogether(double t, const FlowPoint& point, const std::
     for (int g = 0; g < monomials_; ++g)
       polynomial_[at(o * monomials_ + g)] = series_.series(node)[g * series_.stride()];
     along[at(o)] = series_.rho0(node) + series_.rho1(node);
+    driven_[at(o)] = 0;
+  }
+  if (!varying_.empty()) {  // inputs enter outputs themselves: |g(p, w) - g(p, centre)|
+    const std::vector<double> none(at(n_), 0.0);
+    if (!series_.bound(none.data(), true)) return false;
+    for (int o = 0; o < outputs_; ++o) {
+      const double withInputs = series_.rho0(series_.outputNode(o)) + series_.rho1(series_.outputNode(o));
+      driven_[at(o)] = std::max(0.0, withInputs - along[at(o)]);
+      along[at(o)] = std::max(along[at(o)], withInputs);
+    }
   }
   // y - g(p) = G (x - p) with G in ∂g/∂x on the hull, |G - G₀| ≤ ρ:  |y - g(p)| ≤ Σ_j |(G₀Ψ₀)_j| R_j + what is left.
   if (!series_.bound(point.radius.data(), false)) return false;
@@ -102,6 +117,7 @@ bool FlowOutputs::evaluateTogether(double t, const FlowPoint& point, const std::
       double along0 = 0;
       for (int k = 0; k < n_; ++k) along0 += centre[at(k)] * point.zonotope[column + at(k)];
       sum += std::fabs(along0);
+      if (column >= point.ofErrors) driven_[at(o)] += std::fabs(along0);
     }
     radius_[at(o)] = sum * bounds::up;
   }

@@ -15,9 +15,9 @@ namespace gamut {
 class FlowOutputs {
  public:
   /// `g`: the outputs; its states and parameters are those of the flow. `monomials`: of the outputs, among them all of
-  /// `ofStates`, the states' polynomials.
+  /// `ofStates`, the states' polynomials. `varying`: parameters that are inputs.
   FlowOutputs(const Program& g, std::shared_ptr<const Monomials> monomials, std::shared_ptr<const Monomials> ofStates,
-              const std::atomic<bool>* cancelled = nullptr);
+              const std::vector<int>& varying, const std::atomic<bool>* cancelled = nullptr);
 
   /// polynomial(o) ± radius(o) contains output o for every ξ. A radius is infinite where nothing could be proved of
   /// that output; the others do not suffer from it.
@@ -27,6 +27,8 @@ class FlowOutputs {
   const Monomials& monomials() const { return *layout_; }
   const double* polynomial(int output) const { return &polynomial_[static_cast<std::size_t>(output * monomials_)]; }
   double radius(int output) const { return radius_[static_cast<std::size_t>(output)]; }
+  /// What of the radius is not overestimation: what inputs did, before and at this moment.
+  double driven(int output) const { return driven_[static_cast<std::size_t>(output)]; }
 
   /// Output o wherever the states are in these boxes, by plain intervals, for one that has an infinite radius: at a
   /// kink, or where it is not defined for every ξ.
@@ -42,8 +44,9 @@ class FlowOutputs {
   std::shared_ptr<const Monomials> layout_, ofStates_;
   const std::atomic<bool>* cancelled_;
   PolynomialSeries series_;
+  std::vector<int> varying_;
   std::vector<int> place_;  // of the states' monomials among the outputs'
-  std::vector<double> polynomial_, radius_, state_;
+  std::vector<double> polynomial_, radius_, driven_, state_;
   std::vector<FlowOutputs> apart_;  // one an output, once they could not be bounded together
   PlainOutputs plain_;
 };

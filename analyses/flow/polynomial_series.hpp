@@ -52,6 +52,8 @@ class PolynomialSeries {
   void setStateSeries(int i, const double* series, int spacing);        // orders below m too, a monomial each `spacing`
   void setParameter(int i, const double* coefficients, double radius);  // count() numbers, |p - p̃| ≤ radius
   void setParameter(int i, const Embedded& value);
+  /// These vary within their radius: along the polynomial (bound without E) they are at their centres.
+  void setVarying(const std::vector<int>& parameters);
   void setFrame(int i, int j, const double* coefficients, int spacing);  // frameCount() numbers, `spacing` apart
 
   /// The recursion from time t0; h0 a power of two. With order 1 it is an evaluation at t0.
@@ -61,6 +63,12 @@ class PolynomialSeries {
   bool tabulate(double theta);
   /// ρ0, ρ1 of all nodes when |x - x̃| ≤ E (null: along the polynomial). False: not proved (a division by zero, say).
   bool bound(const double* E, bool primaryOnly);
+  /// The bounds are those along the polynomial: from then on what is between it and the set bounded last can be told.
+  void keepAlong();
+  /// The mean of ρ0 (ρ1) on the way from the polynomial to any point of the set bounded last: bounds are convex in E
+  /// and in the inputs' radii, sums and products of convex functions, but for tanh; so no more than half way between.
+  double meanRho0(int node) const { return mean(along0_, rho0_, node); }
+  double meanRho1(int node) const { return mean(along1_, rho1_, node); }
 
   /// How many times too long [0, θ] is for what is left unsaid by ρ1: a tanh whose argument moves so far that rounding
   /// grows, or that nothing but its range is known. Not above 1: time is not what moves it.
@@ -95,6 +103,10 @@ class PolynomialSeries {
   double jacobianBound(int i, int j) const;
   /// |Ψ̃' - (∂f/∂x)Ψ̃|_{ij} ≤ ν0 + ν1 (σ/θ)^m on the set that was bounded last.
   void frameDefect(int i, int j, double& nu0, double& nu1) const;
+  /// ‖Ψ̃_ij‖, and of what depends on ξ: ‖ṽ‖ and ‖Ψ̃_ij‖ without the grade 0.
+  double frameNorm(int i, int j) const { return norm_[at(frameNode(i, j))] + top_[at(frameNode(i, j))]; }
+  double variation(int node) const;
+  double frameVariation(int i, int j) const { return variation(frameNode(i, j)); }
   /// Forgets all coefficients; needed after they became infinite.
   void clear();
 
@@ -141,6 +153,9 @@ class PolynomialSeries {
     f_[v.f + at(g * stride_ + i)] = value;
     if (v.r != none) r_[v.r + at(g * kernels::reversedStride(stride_) + stride_ - 1 - i)] = value;
   }
+  double mean(const std::vector<double>& along, const std::vector<double>& there, int node) const {
+    return isConvex_ && !along.empty() ? 0.5 * (along[at(node)] + there[at(node)]) : there[at(node)];
+  }
   double derivativeNorm(const Plan& v, int k, double theta) const;
   void computeOrder(int node, int i);
   void product(const Plan& a, const Plan& b, int count, int i, double* out);
@@ -181,16 +196,17 @@ class PolynomialSeries {
   int n_, time_, m_, stride_, nodes_, frameCount_, frameDegree_;
   int obstacle_ = 0;  // the node that failed
   double haste_ = 0;
-  bool withFrame_;
+  bool withFrame_, isConvex_ = true;
   const std::atomic<bool>* cancelled_;
   std::shared_ptr<const Monomials> monomials_;
   std::vector<Plan> plan_;
   std::vector<int> outputs_;
   std::vector<double> constant_, radius_, pointError_;
+  std::vector<char> varies_;  // of each parameter
   std::vector<double> f_, r_, d_, t_, total_, s1_, s2_, scratch_, scratch2_;
   std::vector<double> inverse_;  // per recip/sqrt/log/atan node: 1/leading polynomial
   std::vector<std::size_t> inverseAt_;
-  std::vector<double> norm_, weighted_, own0_, own1_, rho0_, rho1_, top_;
+  std::vector<double> norm_, weighted_, own0_, own1_, rho0_, rho1_, along0_, along1_, top_;
   std::vector<double> power_, weights_;
   std::vector<kernels::ThinNode> thin_;  // without symbols: the recursion's own view of the plan
   std::vector<std::pair<int, int>> thinStates_;

@@ -137,6 +137,7 @@ bool PolynomialSeries::bound(const double* E, bool primaryOnly) {
   for (int i = 0; i < time_; ++i) {
     const bool state = i < n_;
     rho0_[at(i)] = !state ? radius_[at(i)] : E != nullptr ? E[i] : 0.0;
+    if (!state && E == nullptr && varies_[at(i - n_)] != 0) rho0_[at(i)] = 0;
     rho1_[at(i)] = state ? top_[at(i)] : 0.0;  // the order that x keeps and nodes do not
   }
   for (int node = time_ + 1; node < nodes_; ++node) {
@@ -145,6 +146,11 @@ bool PolynomialSeries::bound(const double* E, bool primaryOnly) {
     if (!boundNode(node)) return refuse(node);
   }
   return true;
+}
+
+void PolynomialSeries::keepAlong() {
+  along0_ = rho0_;
+  along1_ = rho1_;
 }
 
 bool PolynomialSeries::refuse(int node) {
@@ -229,7 +235,7 @@ void PolynomialSeries::frameDefect(int i, int j, double& nu0, double& nu1) const
     const int a = outputs_[at(n_ + i * n_ + k)], b = frameNode(k, j);
     if (isKnownZero(a)) continue;
     ++terms;
-    const double ra0 = rho0_[at(a)], ra1 = rho1_[at(a)], top = top_[at(b)];
+    const double ra0 = meanRho0(a), ra1 = meanRho1(a), top = top_[at(b)];
     z0 += norm_[at(b)] * ra0 + (ra0 + ra1) * top;
     z1 += norm_[at(b)] * ra1 + norm_[at(a)] * top + tailTime(a, b);
     if (monomials_->degree() > 0) z0 += tailDegree(a, b, frameDegree_, 0);

@@ -132,6 +132,14 @@ double PolynomialSeries::rest(int node) const {
   return sum * bounds::up;
 }
 
+double PolynomialSeries::variation(int node) const {
+  const Plan& v = plan_[at(node)];
+  double sum = node >= nodes_ ? top_[at(node)] : 0.0;
+  for (int q = 1; q <= v.degree; ++q)
+    for (int i = 0; i < stride_; ++i) sum += t_[v.t + at(q * stride_ + i)];
+  return sum * bounds::up;
+}
+
 /// The part of rest() that is over σ.
 double PolynomialSeries::moved(int node) const {
   double sum = 0;

@@ -33,6 +33,7 @@ PolynomialSeries::PolynomialSeries(const Program& program, int primaryOutputs,
     detail::forEachOperand(program.table(), node, [&](int operand) { primary[at(operand)] = 1; });
   }
 
+  varies_.assign(at(program.parameters()), 0);
   constant_.assign(nodes.size(), 0.0);
   radius_.assign(nodes.size(), 0.0);
   pointError_.assign(nodes.size(), 0.0);
@@ -48,6 +49,7 @@ PolynomialSeries::PolynomialSeries(const Program& program, int primaryOutputs,
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     Plan v{nodes[i].op, nodes[i].a, nodes[i].b, 0, 0, primary[i] != 0, program.isInvariant(static_cast<int>(i)), false};
     v.degree = v.primary ? monomials_->degree() : frameDegree_;
+    isConvex_ = isConvex_ && v.op != Op::tanh;
     if (v.op == Op::constant) {
       v.constant = true;
       const Interval& c = program.constants()[at(v.a)];
@@ -206,6 +208,10 @@ void PolynomialSeries::setParameter(int i, const Embedded& value) {
   coefficients[0] = value.centre;
   if (value.symbol >= 0) coefficients[at(monomials_->linear(value.symbol))] = value.half;
   setParameter(i, coefficients.data(), value.radius);
+}
+
+void PolynomialSeries::setVarying(const std::vector<int>& parameters) {
+  for (const int parameter : parameters) varies_[at(parameter)] = 1;
 }
 
 void PolynomialSeries::setFrame(int i, int j, const double* coefficients, int spacing) {

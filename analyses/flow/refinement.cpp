@@ -19,7 +19,7 @@ constexpr int mostRounds = 6;
 class Weighing {
  public:
   Weighing(const FlowQuestion& question, const Box& box) : share_(question.options.tightness - 1) {
-    const int symbols = Embedding(box).symbols;
+    const int symbols = Embedding(box, question.motion.states(), question.options.varying).symbols;
     emphasis_ = {std::vector<int>(at(symbols), 1), static_cast<double>(symbols)};
     if (symbols >= leastLookedAt && question.options.degree < 0) look(question, box);
   }

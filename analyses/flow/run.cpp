@@ -134,6 +134,8 @@ bool FlowRun::mayBisect(const FlowPiece& piece) {
 /// piece, no bisection of the box does, and only as many pieces again are worth their while.
 void FlowRun::probe(const FlowPiece& piece) {
   Box start = task_.box;
+  for (const int parameter : task_.varying)  // a constant is one way to vary
+    start[at(task_.motion.states() + parameter)] = midpoint(task_.box[at(task_.motion.states() + parameter)]);
   for (std::size_t i = 0; i < start.size(); ++i)
     if (const Embedded& e = task_.embedding.components[i]; e.symbol >= 0)
       start[i] =
@@ -238,7 +240,7 @@ Tube FlowRun::gather(std::vector<FlowCollected>& collected) {
   tube.excess_ = excess(tube.states_, &FlowCollected::stateExcess);
   const double ofStates = tube.tightness() - 1;
   if (task_.outputs.outputs() > 0) tube.excess_ = excess(tube.outputs_, &FlowCollected::outputExcess);
-  if (task_.embedding.symbols == 0) tube.excess_.clear();
+  if (task_.embedding.symbols == 0 && task_.varying.empty()) tube.excess_.clear();
   looseness_ = tube.tightness() - 1;
   needsDegree_ = looseness_ > aim && ofStates <= aim;
   double time = 0, all = 0;
@@ -297,7 +299,21 @@ Tube FlowRun::meet(Tube a, Tube b) {
   return b;
 }
 
+void FlowRun::dropStates(Tube& tube, int n) {
+  const bool hasOutputs = !tube.outputs_[0].empty();
+  const auto cut = [&](std::vector<std::vector<Interval>>& rows) {
+    for (std::vector<Interval>& row : rows) row.resize(at(n));
+  };
+  cut(tube.states_);
+  cut(tube.statesOver_);
+  if (hasOutputs) return;
+  for (auto& level : tube.cuts_) cut(level);
+  for (std::vector<double>& row : tube.excess_) row.resize(at(n));
+}
+
 void FlowRun::explain(Tube& tube, const FlowOptions& options, const std::string& limit) {
+  tube.shortfall_.clear();
+  tube.limit_.clear();
   double loosest = options.tightness - 1;
   const bool ofOutputs = !tube.outputs_[0].empty();
   const std::vector<std::string>& names = ofOutputs ? options.outputNames : options.stateNames;

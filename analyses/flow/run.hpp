@@ -39,6 +39,8 @@ class FlowRun {
 
   /// Both are proved, so their intersection is; the one that reaches further goes on alone. Costs add up.
   static Tube meet(Tube a, Tube b);
+  /// Forgets all states but the first n.
+  static void dropStates(Tube& tube, int n);
   /// Says in `tube` what is looser than was asked for, met by `limit`.
   static void explain(Tube& tube, const FlowOptions& options, const std::string& limit);
   /// Intersects the cuts of this level, and of all inside it, with a flow over the level's own box.

@@ -11,13 +11,15 @@
 namespace gamut {
 
 /// For every ξ in [-1,1]^k there are |r| ≤ R, |s_j| ≤ 1, |w| ≤ W with x(t; ξ) = p(ξ) + C(ξ) (r + Σ_j Γ_j s_j) + w.
-/// Every step's local error becomes generators Γ_j of its own: boxes would wrap, zonotopes do not.
+/// Every step's local error becomes generators Γ_j of its own: boxes would wrap, zonotopes do not. So does what inputs
+/// do.
 struct FlowSet {
   double t = 0;
   std::vector<double> p;  // [state][monomial]
   std::vector<double> C;  // [monomial ≤ frameDegree][row][column]
   std::vector<double> R, W;
   std::vector<double> generators;  // [generator][row], oldest first
+  std::vector<double> inputs;      // likewise, of what varies in time: [part of a step][input][row]
   std::vector<Embedded> parameters;
   std::vector<double> centre, half;    // ξ of the study = centre + half·ξ of this piece (exact: dyadic)
   std::vector<int> units;              // FlowGrowth's, of the last step
@@ -26,8 +28,13 @@ struct FlowSet {
   double caution = 1;                  // factor on the step that the last coefficients suggest
 };
 
-/// R + Σ_j |Γ_j|, rounded up.
+/// R + Σ_j |Γ_j|, rounded up; of errors alone, without what inputs did.
 void totalRadius(const FlowSet& set, std::vector<double>& total);
+void errorRadius(const FlowSet& set, std::vector<double>& total);
+/// Generators of two successive parts become their sum, where there are more than `most` numbers, in the older half: a
+/// s
+/// + b s' = (a + b)u + (a - b)v with |u|, |v| ≤ 1. The differences join the errors' generators. `count`: inputs.
+void mergeInputs(FlowSet& set, std::size_t count, std::size_t most);
 
 /// W_i + Σ_j |C_ij| total_j: what the polynomial of state i leaves over, but for roundings.
 double remainderOf(const FlowSet& set, int state, const std::vector<double>& total);

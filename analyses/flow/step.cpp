@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "analyses/flow/error_bounds.hpp"
 #include "scalars/index.hpp"
@@ -18,25 +19,30 @@ namespace {
 // A state is followed relative to its size, but a body at rest need not be: to what it was, or its box; nor one that
 // symmetry keeps at zero: to what the others are in balanced units; and never below what bounds can tell from
 // underflow, bounds::tiny over a tolerance.
+constexpr double mostGrowthOfInputs = 0.08;
 constexpr double vanished = 0x1p-120, unheard = 0x1p-80, leastSize = 0x1p-530;
 
 }  // namespace
 
 FlowStepper::FlowStepper(const Program& motion, std::shared_ptr<const Monomials> monomials, int frameDegree, int order,
-                         double tolerance, const std::atomic<bool>* cancelled)
+                         double tolerance, FlowInputs inputs, const std::atomic<bool>* cancelled)
     : n_(motion.states()),
       m_(order),
       tolerance_(tolerance),
       series_(motion, motion.states(), std::move(monomials), frameDegree, order, true, cancelled),
-      growth_(motion.states(), order) {
+      growth_(motion.states(), order),
+      inputs_(std::move(inputs)) {
+  series_.setVarying(inputs_.parameters());
   epsilon_.assign(at(n_ * n_), 0.0);
-  for (auto* v :
-       {&delta0_, &delta1_, &start_, &E_, &y_, &e1_, &nu0_, &nu1_, &scale_, &floor_, &second_, &third_, &turn_})
+  for (auto* v : {&delta0_, &delta1_, &start_, &E_, &y_, &e1_, &nu0_, &nu1_, &scale_, &floor_, &second_, &third_,
+                  &turn_, &driven_})
     v->assign(at(n_), 0.0);
 }
 
 void FlowStepper::load(const FlowSet& set) {
   totalRadius(set, total_);
+  errorRadius(set, errors_);
+  inputs_.load(set.parameters);
   const auto unit = [&](std::size_t i) { return set.units.empty() ? 0 : set.units[i]; };
   double greatest = 0;  // of all states, in balanced units
   for (std::size_t i = 0; i < set.largest.size(); ++i)
@@ -99,14 +105,17 @@ bool FlowStepper::tryStep(const FlowSet& set, double theta) {
       for (int j = 0; j < n_; ++j) start += std::fabs(set.C[at((g * n_ + i) * n_ + j)]) * total_[at(j)];
     start_[at(i)] = start * bounds::up;
   }
-  const auto tube = [&] {  // prop(δ) + e^{Ah} (|C|R + W)
+  const auto tube = [&] {  // prop(δ + |∂f/∂w| |w|) + e^{Ah} (|C|R + W)
+    std::vector<double> pushed(at(n_), 0.0);
+    for (int i = 0; i < n_; ++i) pushed[at(i)] = delta0_[at(i)] + inputs_.push(series_, i);
     for (int i = 0; i < n_; ++i) {
       double y = 0;
       for (int j = 0; j < n_; ++j)
-        y += growth_.M1(i, j) * delta0_[at(j)] + growth_.M2(i, j) * delta1_[at(j)] + growth_.M0(i, j) * start_[at(j)];
+        y += growth_.M1(i, j) * pushed[at(j)] + growth_.M2(i, j) * delta1_[at(j)] + growth_.M0(i, j) * start_[at(j)];
       y_[at(i)] = y * bounds::up + bounds::tiny;
     }
   };
+  series_.keepAlong();
   if (!boundGrowth(h)) return false;
   tube();
   bool proved = false;
@@ -122,6 +131,7 @@ bool FlowStepper::tryStep(const FlowSet& set, double theta) {
     for (int i = 0; i < n_; ++i) proved = proved && y_[at(i)] <= E_[at(i)];
   }
   if (!proved) return false;
+  inputs_.resolve(series_, growth_, theta, h);
   timeError_ = truncation_ = 0;
   for (int i = 0; i < n_; ++i) {
     double time = 0, truncation = 0, kept = 0;
@@ -130,7 +140,9 @@ bool FlowStepper::tryStep(const FlowSet& set, double theta) {
       time += growth_.M2(i, j) * delta1_[at(j)];
       kept += growth_.M0(i, j) * set.W[at(j)];
     }
-    e1_[at(i)] = (time + truncation + kept) * bounds::up + bounds::tiny;
+    e1_[at(i)] = (time + truncation + kept + inputs_.rest(i)) * bounds::up + bounds::tiny;
+    driven_[at(i)] = 0;
+    for (int j = 0; j < n_; ++j) driven_[at(i)] += series_.frameNorm(i, j) * inputs_.total(j) * bounds::up;
     timeError_ = std::max(timeError_, time / scale_[at(i)]);
     truncation_ = std::max(truncation_, truncation / scale_[at(i)]);
   }
@@ -156,7 +168,7 @@ bool FlowStepper::isTruncationTooLarge(double splitDefect) const {
 bool FlowStepper::isRemainderTooLarge(const FlowSet& set) const {
   constexpr double tooLarge = 0.5;
   std::vector<double> total;
-  totalRadius(set, total);
+  errorRadius(set, total);
   const int N = series_.count();
   double remainder = 0, width = 0, size = 0;
   for (int i = 0; i < n_; ++i) {
@@ -173,7 +185,7 @@ bool FlowStepper::isRemainderDominant(const FlowSet& set) const {
   const int N = series_.count();
   for (int i = 0; i < n_; ++i) {
     double width = 0;
-    const double remainder = remainderOf(set, i, total_);
+    const double remainder = remainderOf(set, i, errors_);
     const double centre = std::fabs(set.p[at(i * N)]);
     for (int g = 1; g < N; ++g) width += std::fabs(set.p[at(i * N + g)]);
     if (remainder > 0.02 * width && remainder > 1e-12 * (centre + width)) return true;
@@ -265,9 +277,14 @@ StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum,
         h *= factor;
         continue;
       }
-      if (growth_.growth() > 4 &&
-          attempt < 3) {  // stiff: the comparison with |Df| would lose a factor e^{growth} a step
-        h *= 3 / growth_.growth();
+      // Stiff, or so much is left over: the comparison with |Df| would lose a factor e^{growth} a step.
+      const double most = inputs_.empty() ? 4 : mostGrowthOfInputs;
+      if (growth_.growth() > most && attempt < 3) {
+        h *= 0.75 * most / growth_.growth();
+        continue;
+      }
+      if (inputs_.haste() > 1 && attempt < 12) {
+        h /= std::min(inputs_.haste() * 1.1, 16.0);
         continue;
       }
       if (series_.haste() > 1 && attempt < 12) {

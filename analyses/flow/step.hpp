@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "analyses/flow/growth.hpp"
+#include "analyses/flow/inputs.hpp"
 #include "analyses/flow/polynomial_range.hpp"
 #include "analyses/flow/polynomial_series.hpp"
 #include "analyses/flow/set.hpp"
@@ -20,10 +21,12 @@ struct FlowPoint {
   std::vector<double> p;         // [state][monomial]
   std::vector<double> psi;       // [monomial][row][column]
   std::vector<double> psiSum;    // Σ_α |Ψ_α| [row][column]
-  std::vector<double> zonotope;  // Ψ_0 Γ [generator][row]
+  std::vector<double> zonotope;  // Ψ_0 Γ [generator][row], errors' first, then those of inputs
+  std::size_t ofErrors = 0;      // how many of these numbers are the errors'
   std::vector<double> total;     // R + Σ_j |Γ_j|
   std::vector<double> loose;     // everything but Ψ (r + Γs), a bound for each state
   std::vector<double> radius;    // |x - p| ≤ radius
+  std::vector<double> driven;    // what of that inputs did
 };
 
 /// How the polynomials of a step fade with their grade.
@@ -38,8 +41,9 @@ enum class StepOutcome { stepped, splitWanted, failed };
 /// null, is set, certify throws Cancelled.
 class FlowStepper {
  public:
+  /// `motion`: f, ∂f/∂x, and, of each f_i, ∂f_i/∂w of all `inputs`.
   FlowStepper(const Program& motion, std::shared_ptr<const Monomials> monomials, int frameDegree, int order,
-              double tolerance, const std::atomic<bool>* cancelled = nullptr);
+              double tolerance, FlowInputs inputs, const std::atomic<bool>* cancelled = nullptr);
 
   /// Certifies a step from `set` that ends no later than `end`. A truncation defect in ξ above `splitDefect` per second
   /// (relative to the state; 0: any) is answered by splitWanted. h(), evaluate() and advance() refer to the step until
@@ -67,9 +71,9 @@ class FlowStepper {
   const PolynomialSeries& series() const { return series_; }
   double scale() const { return h0_; }
   double theta() const { return theta_; }
-  double totalBound(int j) const { return total_[static_cast<std::size_t>(j)]; }  ///< R + Σ_j |Γ_j|
+  double totalBound(int j) const { return total_[static_cast<std::size_t>(j)]; }  ///< R + Σ_j |Γ_j|, at the start
   double tubeBound(int i) const { return E_[static_cast<std::size_t>(i)]; }       ///< |x - p| at every time
-  double looseBound(int i) const;                                                 ///< |loose| at every time
+  double looseBound(int i) const;  ///< |loose| and what inputs do in the step, at every time
   /// The set at the end of the step.
   void advance(FlowSet& set);
   /// The greatest remainder of all states, relative to the state's size over the step.
@@ -97,13 +101,15 @@ class FlowStepper {
   double tolerance_;
   PolynomialSeries series_;
   FlowGrowth growth_;
+  FlowInputs inputs_;
   double h0_ = 0, h_ = 0, theta_ = 0;
   double timeError_ = 0, truncation_ = 0;
   double caution_ = 1;
   std::vector<std::string> names_;
   std::string why_, obstacle_;  // obstacle_: of the last attempt
   std::vector<double> delta0_, delta1_, start_, E_, y_, e1_, epsilon_, nu0_, nu1_, scale_, floor_;
-  std::vector<double> total_;                  // R + Σ_j |Γ_j| of the set being stepped
+  std::vector<double> total_, errors_;         // R + Σ_j |Γ_j| of the set being stepped; without inputs
+  std::vector<double> driven_;                 // what inputs do to a state within the step, at most
   std::vector<double> second_, third_, turn_;  // bounds of derivatives by σ: p'' and the next, Ψ''(r + Γs)
   FlowPoint end_;
 };

@@ -47,11 +47,12 @@ FlowTask::FlowTask(const FlowQuestion& question, const Box& startBox, const std:
       budget(question.budget),
       box(startBox),
       levels(levelBoxes),
-      embedding(startBox, round.emphasis.weights),
+      embedding(startBox, question.motion.states(), question.options.varying, round.emphasis.weights),
       horizon(question.horizon),
       effective(round.emphasis.weights.empty() ? embedding.symbols : round.emphasis.effective),
       isLast(round.isLast),
       richer(round.richer) {
+  for (const VaryingParameter& input : options.varying) varying.push_back(input.parameter);
   times.push_back(0.0);
   for (double time : question.outputTimes)
     if (time > times.back()) times.push_back(time);
@@ -84,12 +85,15 @@ FlowTask::FlowTask(const FlowQuestion& question, const Box& startBox, const std:
   static constexpr double firstTolerance[] = {1e-16, 1e-12, 1e-10, 1e-10, 1e-9};
   const double first = options.splitDefect > 0 ? options.splitDefect : firstDefect[count];
   splitDefect = bisectsForWidth() ? first * embedding.widest / round.tighter : std::numeric_limits<double>::infinity();
+  constexpr double besideInputs = 1e-10;
   const double enough = 5e-5 * aim() * embedding.widest / round.finer;  // some hundred steps add as much of the width
   tolerance = options.tolerance > 0    ? options.tolerance
-              : embedding.symbols == 0 ? firstTolerance[0]
+              : embedding.symbols == 0 ? (varying.empty() ? firstTolerance[0] : besideInputs)
                                        : std::clamp(enough, 1e-15, firstTolerance[count] / round.finer);
   constexpr int thinOrder = 28;  // its polynomials are single numbers
-  order = options.order > 0 ? options.order : embedding.symbols == 0 ? thinOrder : orderFor(tolerance);
+  order = options.order > 0                           ? options.order
+          : embedding.symbols == 0 && varying.empty() ? thinOrder
+                                                      : orderFor(tolerance);
 }
 
 std::size_t FlowTask::outputLayout(std::size_t layout) const {

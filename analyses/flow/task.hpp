@@ -74,6 +74,7 @@ struct FlowTask {
   int order = 0, active = 0;  // symbols of weight 1
   double effective;           // Emphasis
   bool isLast;
+  std::vector<int> varying;         // parameters that are inputs
   std::vector<FlowLayout> layouts;  // degrees rising, then the expanded one
   std::size_t degrees = 0;          // how many are not expanded
   std::size_t richer = 0;           // FlowRound

@@ -6,8 +6,10 @@
 #include <limits>
 #include <numeric>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
+#include "analyses/flow/embedding.hpp"
 #include "analyses/flow/error_bounds.hpp"
 #include "analyses/flow/step.hpp"
 #include "scalars/index.hpp"
@@ -22,6 +24,11 @@ constexpr double dumpedAt = 0.2;  // a frame column with more ξ-dependence than
 /// Steps whose errors are kept apart; older ones merge into the box R. What it costs grows as the rest of a step does,
 /// so that long motions of many states, which lose most by merging, keep more.
 int stepsKept(int n) { return std::clamp(60 * n, 60, 300); }
+
+/// As many where inputs are at work, whose rests are no roundings.
+constexpr int stepsBesideInputs = 2000;
+/// Of the generators of inputs, before pairs of them are merged.
+constexpr std::size_t mostInputNumbers = 40000;
 
 /// Generators, n numbers each, as the columns of a matrix.
 template <class Generators>
@@ -57,6 +64,7 @@ void FlowStepper::evaluate(const FlowSet& set, double tau, FlowPoint& point) {
     point.loose[at(i)] = tau == 0 ? set.W[at(i)] : error + e1_[at(i)];  // the start itself is known
   }
   point.total = total_;
+  for (int j = 0; j < n_ && tau != 0; ++j) point.total[at(j)] = (total_[at(j)] + inputs_.total(j)) * bounds::up;
   for (int i = 0; i < n_; ++i) {
     double radius = 0, loose = point.loose[at(i)];
     for (int j = 0; j < n_; ++j) {
@@ -70,31 +78,41 @@ void FlowStepper::evaluate(const FlowSet& set, double tau, FlowPoint& point) {
       point.psiSum[at(i * n_ + j)] = sum * bounds::up;
       // Ψ_0 r by the box R; Ψ_0 Γ s below; the higher Ψ_α by the whole radius.
       const double leading = std::fabs(point.psi[at(i * n_ + j)]);
-      radius += leading * set.R[at(j)] + (sum * bounds::up - leading * bounds::down) * (NJ > 1 ? total_[at(j)] : 0.0);
-      if (tau != 0) loose += (error + epsilon_[at(i * n_ + j)]) * total_[at(j)];
+      radius +=
+          leading * set.R[at(j)] + (sum * bounds::up - leading * bounds::down) * (NJ > 1 ? point.total[at(j)] : 0.0);
+      if (tau != 0) loose += (error + epsilon_[at(i * n_ + j)]) * point.total[at(j)];
     }
     point.loose[at(i)] = loose;
     point.radius[at(i)] = radius;
   }
   // Ψ_0 Γ: n roundings an entry, together at most n u |Ψ_0| Σ|Γ_j|.
   const std::size_t n = set.R.size();
-  point.zonotope.resize(set.generators.size());
+  const std::vector<double>& fresh = inputs_.generators();
+  std::vector<double> columns = set.generators;
+  columns.insert(columns.end(), set.inputs.begin(), set.inputs.end());
+  columns.insert(columns.end(), fresh.begin(),
+                 fresh.begin() + static_cast<std::ptrdiff_t>(tau == 0 ? 0 : inputs_.begunBefore(tau / h_)));
+  point.zonotope.resize(columns.size());
+  point.ofErrors = set.generators.size();
   const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> psi(point.psi.data(),
                                                                                                      n_, n_);
   Eigen::Map<Eigen::MatrixXd> zonotope = columnsOf(point.zonotope, n_);
-  zonotope.noalias() = psi * columnsOf(set.generators, n_);
+  zonotope.noalias() = psi * columnsOf(columns, n_);
   Eigen::Map<Eigen::VectorXd>(point.radius.data(), n_) += zonotope.cwiseAbs().rowwise().sum();
+  const Eigen::VectorXd driven =
+      zonotope.rightCols(zonotope.cols() - static_cast<Eigen::Index>(point.ofErrors / n)).cwiseAbs().rowwise().sum();
+  point.driven.assign(driven.data(), driven.data() + n_);
   for (std::size_t i = 0; i < n; ++i) {
     double size = 0;
-    for (std::size_t k = 0; k < n; ++k) size += std::fabs(point.psi[i * n + k]) * total_[k];
+    for (std::size_t k = 0; k < n; ++k) size += std::fabs(point.psi[i * n + k]) * point.total[k];
     point.loose[i] = (point.loose[i] + (n_ + 1) * bounds::unit * size) * bounds::up;
     point.radius[i] = (point.radius[i] + point.loose[i]) * bounds::up + bounds::tiny;
   }
 }
 
 double FlowStepper::looseBound(int i) const {
-  double loose = e1_[at(i)];
-  for (int j = 0; j < n_; ++j) loose += epsilon_[at(i * n_ + j)] * total_[at(j)];
+  double loose = e1_[at(i)] + driven_[at(i)];
+  for (int j = 0; j < n_; ++j) loose += epsilon_[at(i * n_ + j)] * (total_[at(j)] + inputs_.total(j));
   return loose * bounds::up;
 }
 
@@ -111,7 +129,8 @@ void FlowStepper::boundDerivatives() {
 void FlowStepper::sag(double from, double to, std::vector<Interval>& bound) const {
   bound.clear();
   for (int i = 0; i < n_; ++i)  // in σ, exactly
-    bound.push_back(series_.sag(i, from / h0_, to / h0_, second_[at(i)], third_[at(i)], turn_[at(i)]));
+    bound.push_back(
+        inflated(series_.sag(i, from / h0_, to / h0_, second_[at(i)], third_[at(i)], turn_[at(i)]), driven_[at(i)]));
 }
 
 void FlowStepper::advance(FlowSet& set) {
@@ -131,12 +150,13 @@ void FlowStepper::advance(FlowSet& set) {
   // Q, T: QR of the constant part, columns sorted by length × R, so that the longest keeps its direction.
   std::vector<int> order(at(n_));
   std::iota(order.begin(), order.end(), 0);
-  const double largestR = *std::max_element(total_.begin(), total_.end());
+  const std::vector<double>& all = end_.total;
+  const double largestR = *std::max_element(all.begin(), all.end());
   std::vector<double> length(at(n_));
   for (int j = 0; j < n_; ++j) {
     double sum = 0;
     for (int i = 0; i < n_; ++i) sum += psi(0, i, j) * psi(0, i, j);
-    length[at(j)] = std::sqrt(sum) * (largestR > 0 ? std::max(total_[at(j)], 1e-20 * largestR) : 1.0);
+    length[at(j)] = std::sqrt(sum) * (largestR > 0 ? std::max(all[at(j)], 1e-20 * largestR) : 1.0);
   }
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return length[at(a)] > length[at(b)]; });
   Matrix psi0(n_, n_);
@@ -197,7 +217,7 @@ void FlowStepper::advance(FlowSet& set) {
   for (int i = 0; i < n_; ++i) w(i) = end_.loose[at(i)];
   for (int j = 0; j < n_; ++j) {
     R(j) = set.R[at(order[at(j)])];
-    total(j) = total_[at(order[at(j)])];
+    total(j) = all[at(order[at(j)])];
   }
   for (int g = 0; g < NJ; ++g) {
     const Matrix D = sorted[at(g)] - C[at(g)] * T;
@@ -239,10 +259,17 @@ void FlowStepper::advance(FlowSet& set) {
     moved.rightCols(n_) = (bounds::up * box).asDiagonal();
     box.setZero();
   }
-  const Eigen::Index oldest = std::max<Eigen::Index>(0, moved.cols() - stepsKept(n_) * own);
+  const Eigen::Index kept = (inputs_.empty() ? stepsKept(n_) : stepsBesideInputs) * own;
+  const Eigen::Index oldest = std::max<Eigen::Index>(0, moved.cols() - kept);
   const Eigen::VectorXd merged = moved.leftCols(oldest).cwiseAbs().rowwise().sum();
   const Eigen::VectorXd newR = (T.cwiseAbs() * R + merged + box) * bounds::up;
   set.generators.assign(moved.data() + oldest * n_, moved.data() + moved.size());
+  if (!inputs_.empty()) {
+    set.inputs.insert(set.inputs.end(), inputs_.generators().begin(), inputs_.generators().end());
+    const Matrix driven = turn * columnsOf(std::as_const(set.inputs), n_);
+    set.inputs.assign(driven.data(), driven.data() + driven.size());
+    mergeInputs(set, at(inputs_.count()), mostInputNumbers);
+  }
 
   set.t += h_;  // exact: both are multiples of the quantum
   set.p = end_.p;

@@ -242,7 +242,7 @@ std::vector<int> Recorder::solve(int matrix, bool transposed, const std::vector<
   return components;
 }
 
-std::vector<int> Recorder::append(const Program& program) {
+std::vector<int> Recorder::append(const Program& program, const std::vector<int>& parameters) {
   std::vector<int> here, matrices, components;
   here.reserve(program.nodes().size());
   const auto mapped = [&here](std::vector<int> nodes) {
@@ -269,7 +269,7 @@ std::vector<int> Recorder::append(const Program& program) {
         here.push_back(state(n.a));
         break;
       case Op::parameter:
-        here.push_back(parameter(n.a));
+        here.push_back(parameters.empty() ? parameter(n.a) : parameters[at(n.a)]);
         break;
       case Op::time:
         here.push_back(time());

@@ -109,7 +109,9 @@ class Recorder {
 
   /// Writes the program's operations down once more, by this recorder's rules: for each of its nodes the node here that
   /// has the value. It may have fewer states and parameters than this recorder.
-  std::vector<int> append(const Program& program);
+  std::vector<int> append(const Program& program) { return append(program, {}); }
+  /// The same with the nodes `parameters` in place of its parameters.
+  std::vector<int> append(const Program& program, const std::vector<int>& parameters);
 
   const Node& node(int i) const { return list_.nodes[detail::at(i)]; }
   /// The nodes and what they refer to.

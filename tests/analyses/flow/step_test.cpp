@@ -30,7 +30,7 @@ struct Scene {
         f(std::move(motion)),
         differentiated(f.differentiated()),
         monomials(std::make_shared<const Monomials>(capped(degree), degree)),
-        stepper(differentiated, monomials, frameDegree, order, tolerance),
+        stepper(differentiated, monomials, frameDegree, order, tolerance, FlowInputs(n, order, {}, 0.1)),
         points(random) {}
 
   /// Most scenes weigh all alike, as most flows do.
@@ -186,7 +186,7 @@ struct Scene {
   void expectOutputsInside(const Program& g, int members) {
     FlowPoint point;
     stepper.evaluate(set, stepper.h(), point);
-    FlowOutputs outputs(g, monomials, monomials);
+    FlowOutputs outputs(g, monomials, monomials, {});
     const double t = set.t + stepper.h();
     outputs.evaluate(t, point, set.R, set.parameters);
     Evaluator<Precise> truth(g);

@@ -1,0 +1,31 @@
+// What a flow integrates: f, its derivatives and outputs, and which parameters are inputs. An input of bounded rate is
+// a further state in one formulation, ẇ = v with v an input of any course, and an input of any course itself in
+// another: both hold, the former is the tighter one as long as rate·t is less than what w may be.
+#pragma once
+
+#include <vector>
+
+#include "analyses/flow/flow.hpp"
+#include "scalars/program/program.hpp"
+
+namespace gamut {
+
+struct Formulation {
+  Program motion;          // f
+  Program differentiated;  // f, ∂f/∂x row by row, ∂f/∂w of the inputs row by row
+  Program outputs;         // g
+  int states;              // of f as it was asked for: those behind them are inputs
+  std::vector<VaryingParameter> inputs;
+
+  Formulation(Program f, Program g, std::vector<VaryingParameter> varying);
+  /// With a state for each input of bounded rate.
+  Formulation ofRates() const;
+
+  /// The box in this formulation: each further state starts anywhere in its interval, and its parameter's place is that
+  /// of its rate. Unchanged without further states.
+  Box boxOf(const Box& box) const;
+  /// No longer than the rates tell more than the intervals.
+  double horizonOf(const Box& box, double horizon) const;
+};
+
+}  // namespace gamut

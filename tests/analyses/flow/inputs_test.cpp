@@ -1,0 +1,260 @@
+// Parameters that vary in time: trajectories with switching courses, optimal ones where these are known, must lie
+// inside, exactly; and enclosures must be about as wide as what the optimal ones span.
+#include <cmath>
+
+#include "tests/analyses/flow/containment.hpp"
+
+namespace gamut::testing {
+namespace {
+
+/// One course of the inputs: constant from each time on to the next.
+struct Course {
+  std::vector<double> from{0.0};
+  std::vector<Vector> values;  // of all parameters
+
+  const Vector& at(double time) const {
+    std::size_t i = 0;
+    while (i + 1 < from.size() && from[i + 1] <= time) ++i;
+    return values[i];
+  }
+};
+
+/// States at `times` of an autonomous program along a course.
+std::vector<Vector> follow(const Program& f, Vector x, const Course& course, const std::vector<double>& times) {
+  Reference reference(f);
+  std::vector<Vector> result;
+  for (std::size_t i = 0; i < course.from.size() && result.size() < times.size(); ++i) {
+    const bool isLast = i + 1 == course.from.size();
+    std::vector<double> here;
+    while (result.size() + here.size() < times.size() &&
+           (isLast || times[result.size() + here.size()] < course.from[i + 1]))
+      here.push_back(times[result.size() + here.size()] - course.from[i]);
+    if (!isLast) here.push_back(course.from[i + 1] - course.from[i]);
+    Vector start = x;
+    start.insert(start.end(), course.values[i].begin(), course.values[i].end());
+    std::vector<Vector> ends = reference(start, here);
+    if (!isLast) {
+      x = ends.back();
+      ends.pop_back();
+    }
+    result.insert(result.end(), ends.begin(), ends.end());
+  }
+  return result;
+}
+
+/// Random switching: inputs at an end or anywhere in their interval, other parameters constant. Times are dyadic, so
+/// that differences of them are exact.
+Course switching(const Box& box, int states, const std::vector<VaryingParameter>& inputs, double horizon, int switches,
+                 Points& points) {
+  Course course;
+  const Vector start = points.inside(box);
+  Vector parameters(start.begin() + states, start.end());
+  for (int i = 0; i <= switches; ++i) {
+    if (i > 0) course.from.push_back(horizon * i / 1024 * (1024 / (switches + 1)));
+    const Vector other = points.integer(0, 3) == 0 ? points.inside(box) : points.corner(box);
+    for (const VaryingParameter& input : inputs)
+      parameters[static_cast<std::size_t>(input.parameter)] = other[static_cast<std::size_t>(states + input.parameter)];
+    course.values.push_back(parameters);
+  }
+  return course;
+}
+
+/// The tube holds random courses, at output times and between them.
+Tube expectCourses(const Containment& c, int courses, unsigned seed = 9) {
+  Tube tube = c.tube();
+  EXPECT_EQ(tube.why(), "");
+  if (tube.reachedTimes() < tube.times().size()) return tube;
+  Points points(seed);
+  const int n = c.f.states();
+  std::optional<Evaluator<Precise>> outputs;
+  if (c.g) outputs.emplace(*c.g);
+  std::vector<double> times;
+  for (int i = 1; i <= 64; ++i) times.push_back(c.horizon * i / 64);
+  for (int trial = 0; trial < courses; ++trial) {
+    const Vector start = trial % 2 == 0 ? points.corner(c.box) : points.inside(c.box);
+    const Course course = switching(c.box, n, c.options.varying, c.horizon, points.integer(0, 30), points);
+    const std::vector<Vector> motion = follow(c.f, Vector(start.begin(), start.begin() + n), course, times);
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      Vector y = motion[i];
+      if (outputs) {
+        outputs->setParameters(course.at(times[i]));
+        y = (*outputs)(Precise(times[i]), motion[i]);
+      }
+      for (std::size_t row = 1; row < tube.times().size(); ++row) {
+        const bool isAt = tube.times()[row] == times[i];
+        if (!isAt && !(tube.times()[row - 1] < times[i] && times[i] < tube.times()[row])) continue;
+        for (std::size_t s = 0; s < motion[i].size(); ++s)
+          EXPECT_THAT(isAt ? tube.states(row)[s] : tube.statesOver(row)[s], Encloses(motion[i][s])) << trial;
+        for (std::size_t o = 0; outputs && o < y.size(); ++o)
+          EXPECT_THAT(isAt ? tube.outputs(row)[o] : tube.outputsOver(row)[o], Encloses(y[o])) << trial;
+        if (::testing::Test::HasFailure()) return tube;
+      }
+    }
+  }
+  return tube;
+}
+
+/// ẍ = w - ω²x - 2ζωẋ from rest, |w| ≤ 1.
+Containment oscillator(double frequency, double damping) {
+  Containment c;
+  c.f = record(2, 1, [&](auto, const auto& x, const auto& p, auto& dx) {
+    dx[0] = x[1];
+    dx[1] = p[0] - frequency * frequency * x[0] - 2 * damping * frequency * x[1];
+  });
+  c.box = {0.0, 0.0, Interval(-1, 1)};
+  c.options.varying = {{0}};
+  c.horizon = 4;
+  c.times = {1, 2};
+  return c;
+}
+
+/// ∫|h| over [0, time]: the most that x can reach; h is the response to an impulse. By the sum of full half-waves.
+double farthest(double frequency, double damping, double time) {
+  const double turn = frequency * std::sqrt(1 - damping * damping), decay = damping * frequency;
+  const int parts = 1 << 20;
+  double sum = 0;
+  for (int i = 0; i < parts; ++i) {
+    const double s = (i + 0.5) * time / parts;
+    sum += std::fabs(std::exp(-decay * s) * std::sin(turn * s) / turn);
+  }
+  return sum * time / parts;
+}
+
+TEST(FlowInputs, AreAsTightAsAskedForAgainstTheOptimalCourse) {
+  for (double frequency : {2.0, 5.0, 50.0})
+    for (double tightness : {1.02, 1.004}) {
+      Containment c = oscillator(frequency, 0.1);
+      c.options.tightness = tightness;
+      const Tube tube = c.tube();
+      ASSERT_EQ(tube.why(), "");
+      for (std::size_t row : {1U, 2U, 3U}) {
+        const double most = farthest(frequency, 0.1, tube.times()[row]);
+        EXPECT_LT(width(tube.states(row)[0]), 2 * most * (tightness + 0.001)) << frequency << " at " << row;
+        EXPECT_GT(width(tube.states(row)[0]), 2 * most * (1 - 1e-6)) << frequency << " at " << row;
+      }
+    }
+}
+
+/// Bang-bang with the switches of the impulse response, counted back from the end.
+TEST(FlowInputs, HoldTheOptimalCourse) {
+  const Containment c = oscillator(4.0, 0.0);
+  const Tube tube = c.tube();
+  Course course;
+  const double end = 4, halfWave = 0.785398163397448309616;
+  double sign = std::sin(4.0 * end) > 0 ? 1 : -1;
+  course.values.push_back({Precise(sign)});
+  for (int wave = static_cast<int>(end / halfWave); wave >= 1; --wave) {
+    course.from.push_back(std::ldexp(std::round(std::ldexp(end - wave * halfWave, 40)), -40));
+    course.values.push_back({Precise(sign = -sign)});
+  }
+  const Vector x = follow(c.f, {Precise(0.0), Precise(0.0)}, course, {4.0})[0];
+  EXPECT_THAT(tube.at(4)[0], Encloses(x[0]));
+  EXPECT_GT(abs(x[0]), Precise(0.97 * magnitude(tube.at(4)[0])));
+}
+
+TEST(FlowInputs, HoldSwitchingCourses) {
+  expectCourses(oscillator(3.0, 0.05), 20);
+  // A pendulum whose support moves and whose length is uncertain; the input is in outputs too.
+  Containment c;
+  c.f = record(2, 3, [](auto, const auto& x, const auto& p, auto& dx) {
+    dx[0] = x[1];
+    dx[1] = (p[0] * cos(x[0]) - 9.81 * sin(x[0])) / p[1] - p[2] * x[1];
+  });
+  c.g = record(2, 3, 2, [](auto t, const auto& x, const auto& p, auto& y) {
+    y[0] = p[1] * sin(x[0]) + 0.1 * t;
+    y[1] = p[0] * cos(x[0]) + sqr(x[1]);
+  });
+  c.box = {Interval(0.3, 0.35), 0.0, Interval(-0.5, 0.5), Interval(0.99, 1.01), 0.2};
+  c.options.varying = {{0}};
+  c.horizon = 2;
+  c.times = {0.25, 1};
+  expectCourses(c, 20);
+  // The input multiplies states, enters as a square and in a denominator; a second input.
+  c.f = record(2, 3, [](auto, const auto& x, const auto& p, auto& dx) {
+    dx[0] = x[1] + 0.1 * p[1] * sin(x[0]);
+    dx[1] = -(4.0 + p[0]) * x[0] - sqr(p[0]) * x[1] + p[2] / (2.0 + p[1]);
+  });
+  c.box = {1.0, Interval(-0.1, 0.1), Interval(-0.3, 0.5), Interval(0, 0.2), Interval(0.9, 1.1)};
+  c.options.varying = {{1}, {0}};
+  c.g = standardOutputs(2, 3);
+  expectCourses(c, 20);
+}
+
+/// Many states, and inputs that act on the last of a chain.
+TEST(FlowInputs, HoldOnChains) {
+  Containment c;
+  c.f = record(10, 2, [](auto, const auto& x, const auto& p, auto& dx) {
+    for (std::size_t i = 0; i < 5; ++i) {
+      dx[i] = x[5 + i];
+      Recorded pull = i > 0 ? 40.0 * (x[i - 1] - x[i]) : -40.0 * p[1] * x[0];
+      if (i < 4) pull += 40.0 * (x[i + 1] - x[i]);
+      dx[5 + i] = pull - 0.5 * x[5 + i] - x[i] * sqr(x[i]);
+    }
+    dx[9] += p[0];
+  });
+  c.box = Box(10, 0.0);
+  c.box.push_back(Interval(-1, 2));
+  c.box.push_back(Interval(0.99, 1.01));
+  c.options.varying = {{0}};
+  c.horizon = 2;
+  expectCourses(c, 6);
+}
+
+/// With a bounded rate: ramps, whose rates switch. Narrower than without.
+TEST(FlowInputs, OfBoundedRateHoldRamps) {
+  Containment c = oscillator(5.0, 0.05);
+  const Tube free = c.tube();
+  for (double rate : {0.1, 0.7, 20.0}) {
+    c.options.varying = {{0, rate}};
+    const Tube tube = c.tube();
+    for (std::size_t i = 0; i < tube.reachedTimes(); ++i)
+      for (std::size_t s = 0; s < 2; ++s) EXPECT_TRUE(isSubset(tube.states(i)[s], free.states(i)[s]));
+    if (rate < 1) {
+      EXPECT_LT(width(tube.states(1)[0]), 0.9 * width(free.states(1)[0]));
+    }
+    // (x, ẋ, w) with the rate as the input, as long as |w| ≤ 1.
+    const Program ramped = record(3, 1, [](auto, const auto& x, const auto& p, auto& dx) {
+      dx[0] = x[1];
+      dx[1] = x[2] - 25.0 * x[0] - 0.5 * x[1];
+      dx[2] = p[0];
+    });
+    Points points(4);
+    for (int trial = 0; trial < 10; ++trial) {
+      Course course;
+      double w = points.integer(-8, 8) / 8.0;
+      const double begin = w;
+      for (int i = 0; i < 32; ++i) {
+        if (i > 0) course.from.push_back(i / 8.0);
+        double v = points.integer(0, 1) == 0 ? rate : -rate;
+        if (std::fabs(w + v / 8) > 1) v = -v;
+        if (std::fabs(w + v / 8) > 1) v = 0;
+        w += v / 8;
+        course.values.push_back({Precise(v)});
+      }
+      const std::vector<Vector> motion =
+          follow(ramped, {Precise(0.0), Precise(0.0), Precise(begin)}, course, {1.0, 2.0, 4.0});
+      for (std::size_t row = 1; row <= 3; ++row)
+        for (std::size_t s = 0; s < 2; ++s) EXPECT_THAT(tube.states(row)[s], Encloses(motion[row - 1][s])) << rate;
+    }
+  }
+}
+
+TEST(FlowInputs, OfALevelAreNarrower) {
+  Containment c = oscillator(5.0, 0.05);
+  c.levels = {c.box, c.box};
+  c.levels[1][2] = Interval(-0.25, 0.25);
+  const Tube tube = c.tube();
+  EXPECT_LT(width(tube.cut(1, 3)[0]), 0.26 * width(tube.cut(0, 3)[0]));
+}
+
+TEST(FlowInputs, AreRefusedWhereTheyMakeNoSense) {
+  Containment c = oscillator(5.0, 0.05);
+  for (const std::vector<VaryingParameter>& wrong :
+       {std::vector<VaryingParameter>{{1}}, {{-1}}, {{0}, {0}}, {{0, 0.0}}, {{0, -1.0}}, {{0, std::nan("")}}}) {
+    c.options.varying = wrong;
+    EXPECT_THROW(Flow(c.f, c.options), std::invalid_argument);
+  }
+}
+
+}  // namespace
+}  // namespace gamut::testing
