@@ -18,8 +18,8 @@ namespace gamut {
 using detail::at;
 
 struct Flow::Parts {
-  Formulation anyCourse;
-  std::optional<Formulation> ofRates;  // if some input has a bounded rate
+  FlowFormulation anyCourse;
+  std::optional<FlowFormulation> ofRates;  // if some input has a bounded rate
   FlowOptions options;
 };
 
@@ -66,8 +66,8 @@ Flow::Flow(Program f, Program g, FlowOptions options) {
     requireThat(input.rate > 0, "the rate of what varies in time must be positive");
     hasRates = hasRates || std::isfinite(input.rate);
   }
-  Formulation anyCourse(std::move(f), std::move(g), options.varying);
-  std::optional<Formulation> ofRates;
+  FlowFormulation anyCourse(std::move(f), std::move(g), options.varying);
+  std::optional<FlowFormulation> ofRates;
   if (hasRates) ofRates = anyCourse.ofRates();
   parts_ = std::make_unique<const Parts>(Parts{std::move(anyCourse), std::move(ofRates), std::move(options)});
 }
@@ -78,7 +78,7 @@ Flow& Flow::operator=(Flow&&) noexcept = default;
 
 namespace {
 
-Tube answer(const Formulation& formulation, const FlowOptions& options, FlowBudget& budget, const Box& wholeBox,
+Tube answer(const FlowFormulation& formulation, const FlowOptions& options, FlowBudget& budget, const Box& wholeBox,
             double horizon, const std::vector<double>& outputTimes, const std::vector<Box>& wholeLevels) {
   const Box box = formulation.boxOf(wholeBox);
   std::vector<Box> levels;
@@ -109,7 +109,7 @@ Tube answer(const Formulation& formulation, const FlowOptions& options, FlowBudg
 
 Tube Flow::enclose(const Box& box, double horizon, const std::vector<double>& outputTimes,
                    const std::vector<Box>& levels) const {
-  const Formulation& formulation = parts_->anyCourse;
+  const FlowFormulation& formulation = parts_->anyCourse;
   const Program& motion = formulation.motion;
   requireThat(box.size() == at(motion.states() + motion.parameters()),
               "the box needs " + std::to_string(motion.states()) + " initial values and " +

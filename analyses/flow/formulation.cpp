@@ -27,14 +27,14 @@ Program differentiatedFor(const Program& f, const std::vector<VaryingParameter>&
 
 }  // namespace
 
-Formulation::Formulation(Program f, Program g, std::vector<VaryingParameter> varying)
+FlowFormulation::FlowFormulation(Program f, Program g, std::vector<VaryingParameter> varying)
     : motion(std::move(f)),
       differentiated(differentiatedFor(motion, varying)),
       outputs(std::move(g)),
       states(motion.states()),
       inputs(std::move(varying)) {}
 
-Formulation Formulation::ofRates() const {
+FlowFormulation FlowFormulation::ofRates() const {
   const int limited = static_cast<int>(
       std::ranges::count_if(inputs, [](const VaryingParameter& input) { return std::isfinite(input.rate); }));
   const auto written = [&](const Program& program, bool withRates) {
@@ -53,12 +53,12 @@ Formulation Formulation::ofRates() const {
     if (withRates) results.insert(results.end(), rates.begin(), rates.end());
     return recorder.finish(results);
   };
-  Formulation result(written(motion, true), written(outputs, false), inputs);
+  FlowFormulation result(written(motion, true), written(outputs, false), inputs);
   result.states = states;
   return result;
 }
 
-Box Formulation::boxOf(const Box& box) const {
+Box FlowFormulation::boxOf(const Box& box) const {
   if (motion.states() == states) return box;
   Box result = box;
   auto place = result.begin() + states;
@@ -69,7 +69,7 @@ Box Formulation::boxOf(const Box& box) const {
   return result;
 }
 
-double Formulation::horizonOf(const Box& box, double horizon) const {
+double FlowFormulation::horizonOf(const Box& box, double horizon) const {
   constexpr double widest = 4;  // of w as a state, in widths of its interval
   for (const VaryingParameter& input : inputs)
     if (std::isfinite(input.rate))

@@ -10,16 +10,16 @@
 
 namespace gamut {
 
-struct Formulation {
+struct FlowFormulation {
   Program motion;          // f
   Program differentiated;  // f, ∂f/∂x row by row, ∂f/∂w of the inputs row by row
   Program outputs;         // g
   int states;              // of f as it was asked for: those behind them are inputs
   std::vector<VaryingParameter> inputs;
 
-  Formulation(Program f, Program g, std::vector<VaryingParameter> varying);
+  FlowFormulation(Program f, Program g, std::vector<VaryingParameter> varying);
   /// With a state for each input of bounded rate.
-  Formulation ofRates() const;
+  FlowFormulation ofRates() const;
 
   /// The box in this formulation: each further state starts anywhere in its interval, and its parameter's place is that
   /// of its rate. Unchanged without further states.
