@@ -3,8 +3,10 @@
 #include "studies/problem.hpp"
 
 #include <algorithm>
+#include <numbers>
 #include <span>
 
+#include "analyses/samples/courses.hpp"
 #include "mechanics/assembly.hpp"
 #include "mechanics/model.hpp"
 #include "scalars/recorded.hpp"
@@ -26,6 +28,25 @@ std::vector<std::string> outputQuantities(const Study& study) {
   std::vector<std::string> quantities;
   for (const OutputInfo& output : study.outputs) quantities.push_back(output.quantity);
   return quantities;
+}
+
+/// What varies in time follows a course: swinging once in the study's time at least, and twice as fast as the motion
+/// itself, or sixteen times in all, at most.
+void takeCourses(const Study& study, Problem& problem) {
+  std::vector<VaryingQuantity> quantities;
+  for (std::size_t i = 0; i < study.uncertain.size(); ++i) {
+    const UncertainQuantity& of = study.uncertain[i];
+    if (!of.varies) continue;
+    const int parameter = problem.motion.slot[i] - static_cast<int>(problem.states);
+    problem.varying.push_back({parameter, of.rate});
+    quantities.push_back({parameter, of.uncertain.range, of.uncertain.nominal, of.rate});
+  }
+  if (quantities.empty()) return;
+  const double once = 2 * std::numbers::pi / study.horizon,
+               fastest = std::max(16 * once, 2 * fastestTurn(study.motion.f, problem.motion.nominal));
+  Motion& motion = problem.motion.motion;
+  for (Program* program : {&motion.f, &motion.g, &motion.sampled})
+    if (program->outputs() > 0) *program = withCourses(*program, quantities, once, fastest);
 }
 
 /// y = g(p): outputs of the assembly at the configuration p (states, then free parameters).
@@ -84,6 +105,7 @@ Problem makeProblem(const Study& study) {
     problem.box[slot] = study.uncertain[i].uncertain.range;
     problem.motion.nominal[slot] = study.uncertain[i].uncertain.nominal;
   }
+  takeCourses(study, problem);
   for (int j = 0; study.asksFor<FuzzyResult>() && j < study.levels; ++j) {
     problem.alpha.push_back(static_cast<double>(j) / (study.levels - 1));
     Box level = problem.box;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "analyses/flow/flow.hpp"
 #include "analyses/samples/ensemble.hpp"
 #include "scalars/interval.hpp"
 #include "studies/study.hpp"
@@ -19,7 +20,9 @@ struct Problem {
   std::vector<double> alpha;  ///< membership levels, 0 first; empty unless alpha-cuts are asked for
   std::vector<Box> levels;    ///< the box with the alpha-cuts of the uncertain quantities, one a level
   std::vector<std::string> outputs;
-  UncertainMotion motion;  ///< its programs: dynamics f, g of the states; kinematics g of parameters alone
+  std::vector<VaryingParameter> varying;  ///< free parameters that vary in time
+  UncertainMotion motion;  ///< its programs, as samples follow them: dynamics f, g of the states; kinematics g of
+                           ///< parameters alone. What varies in time takes the course that its number chooses.
 };
 
 /// Fills `study.motion` but for its times. Throws std::invalid_argument for a mechanism whose motion is not determined.

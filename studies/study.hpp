@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -29,6 +30,8 @@ class StudyError : public std::runtime_error {
 struct UncertainQuantity {
   std::string quantity, unit;
   Uncertain uncertain;
+  bool varies = false;                                    ///< in time; else it is constant
+  double rate = std::numeric_limits<double>::infinity();  ///< of what varies, at most, in its unit per s
 };
 
 struct Study {

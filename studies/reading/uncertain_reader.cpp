@@ -20,7 +20,7 @@ class UncertainReader {
 
   void read(const toml::table& table) {
     const TomlSection section(source_, table, "uncertain",
-                              {"name", "quantity", "interval", "distribution", "membership"});
+                              {"name", "quantity", "interval", "distribution", "membership", "varies", "rate"});
     const toml::node& node = section.require("quantity", "the number that is uncertain, such as \"shoulder.angle\"");
     const std::string quantity = source_.asText(node, "uncertain.quantity");
     const std::vector<std::string> known = study_.mechanism.quantities();
@@ -48,6 +48,7 @@ class UncertainReader {
     readRange(interval, result);
     readDistribution(section, result);
     readMembership(section, result);
+    readCourse(section, node, result);
     try {
       result.uncertain.check();
     } catch (const std::invalid_argument& error) {
@@ -288,6 +289,38 @@ class UncertainReader {
     } catch (const std::invalid_argument& error) {
       source_.failWith(*node, error.what(), "a membership function inside the interval");
     }
+  }
+
+  /// `varies = "freely"`, or a `rate` that is the most it changes by in a second.
+  void readCourse(const TomlSection& section, const toml::node& quantity, UncertainQuantity& result) const {
+    const toml::node *varies = section.find("varies"), *rate = section.find("rate");
+    if (varies == nullptr && rate == nullptr) return;
+    const toml::node& first = varies != nullptr ? *varies : *rate;
+    if (varies != nullptr) source_.asChoice(*varies, "uncertain.varies", {"freely"});
+    if (varies != nullptr && rate != nullptr)
+      source_.fail(*rate, "what varies freely has no uncertain.rate", "one of the two");
+    for (const char* key : {"distribution", "membership"})
+      if (const toml::node* node = section.find(key))
+        source_.fail(*node, fmt::format("what varies in time has no uncertain.{}", key), "an interval alone");
+    if (study_.analysis == Study::Analysis::kinematics)
+      source_.fail(first, "in kinematics nothing varies in time", "analysis = \"dynamics\"");
+    const std::vector<std::string> states = study_.mechanism.stateNames();
+    if (std::ranges::find(states, result.quantity) != states.end())
+      source_.fail(quantity, fmt::format("'{}' is an initial value, which cannot vary in time", result.quantity),
+                   "a parameter or a number of an element");
+    result.varies = true;
+    const Interval& range = result.uncertain.range;
+    result.uncertain.membership = Membership::trapezoidal(range.lower(), range.lower(), range.upper(), range.upper());
+    if (rate == nullptr) return;
+    Dimension dimension = dimensionOf(result.unit);
+    --dimension.time;
+    std::string text = rate->is_string() ? source_.asText(*rate, "uncertain.rate") : "";
+    for (const std::string_view sign : signs)
+      if (text.starts_with(sign)) text.erase(0, sign.size());
+    result.rate = enclose(text.empty() ? source_.asAmount(*rate, "uncertain.rate", dimension)
+                                       : source_.readAmount(*rate, "uncertain.rate", text, dimension))
+                      .upper();
+    if (!(result.rate > 0)) source_.fail(*rate, "uncertain.rate is not positive", "the most it changes by in a second");
   }
 
   Membership tableOf(const TomlSection& section, const UncertainQuantity& quantity) const {

@@ -24,7 +24,8 @@ void encloseMotion(Run& run) {
   flow.cancelled = run.watch.stop();
   flow.stateNames = run.study.mechanism.stateNames();
   for (const OutputInfo& output : run.study.outputs) flow.outputNames.push_back(output.name);
-  const Motion& motion = run.problem.motion.motion;
+  flow.varying = run.problem.varying;
+  const Motion& motion = run.study.motion;  // of the samples', what varies in time has a course
   const Tube tube = Flow(motion.f, motion.g, flow)
                         .enclose(run.problem.box, run.study.horizon, run.study.motion.times, run.problem.levels);
   if (tube.times() != run.study.motion.times) throw std::logic_error("the flow's output times are not the study's");

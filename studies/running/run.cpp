@@ -1,7 +1,10 @@
 // The units of a run one after the other.
 #include "studies/running/run.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -33,6 +36,12 @@ void describeOrigin(Run& run) {
     const Uncertain& u = q.uncertain;
     origin.uncertain.push_back({u.name, q.quantity, q.unit, u.range.lower(), u.nominal, u.range.upper(),
                                 std::string(u.distribution.name()), std::string(u.membership.name())});
+    if (q.varies) {
+      UncertainInfo& info = origin.uncertain.back();
+      info.distribution = info.membership =
+          std::isfinite(q.rate) ? fmt::format("varies by {:.6g} {}/s at most", q.rate, q.unit) : "varies freely";
+      continue;
+    }
     const auto add = [&](const char* shape, const std::vector<ShapeNumber>& numbers) {
       for (const ShapeNumber& n : numbers)
         origin.shapes.push_back({u.name, shape, n.name, n.value, n.isOfQuantity ? q.unit : "1"});

@@ -204,6 +204,30 @@ TEST(Run, MakesTheNumberUncertainThatTheStudyNames) {
   EXPECT_NEAR(length.interval.at.upper(0, 0) - length.interval.at.lower(0, 0), 0, 1e-12);
 }
 
+/// Gravity as something that sways: samples follow courses of it, the guarantee holds for all.
+TEST(Run, HoldsWhatVariesInTime) {
+  double before = 0;
+  for (const char* course : {"rate = \"± 0.05 m/s^3\"", "varies = \"freely\""}) {
+    const Study study = sampleWith("[[uncertain]]", std::string("[[uncertain]]\nquantity = \"gravity.z\"\ninterval = "
+                                                                "[-10, -9.6]\n") +
+                                                        course + "\n[[uncertain]]");
+    const Problem problem = makeProblem(study);
+    ASSERT_EQ(problem.varying.size(), 1U);
+    EXPECT_EQ(problem.varying[0].parameter, 0);
+    for (const Box& level : problem.levels) EXPECT_TRUE(isEqual(level[2], problem.box[2]));
+    const Results results = run(study, {});
+    EXPECT_EQ(results.comparison.verdict, "inside");
+    EXPECT_LT(results.comparison.maximum, 1.5);
+    EXPECT_EQ(results.uncertain[0].distribution.substr(0, 6), "varies");
+    const std::size_t last = results.time.size() - 1;
+    const double size = results.interval.at.upper(last, 0) - results.interval.at.lower(last, 0);
+    EXPECT_GT(size, before);
+    before = size;
+    // Samples between the ends differ from those that stand still: the two ends do not span them.
+    EXPECT_GT(results.stochastic.deviation(last, 0), 0);
+  }
+}
+
 TEST(Run, SeedAndNumberOfSamplesMayBeReplaced) {
   RunOptions options;
   options.seed = 99;

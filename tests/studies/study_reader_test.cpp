@@ -772,6 +772,31 @@ constexpr BadStudy badStudies[] = {
      "that kind"},
     {"interval = \"± 1 %\"", "interval = \"± -1 %\"",
      "s.toml:31:12: uncertain.interval has no positive deviation; expected a deviation above 0"},
+    {"distribution = { type = \"uniform\" }\nmembership = { type = \"triangular\" }", "varies = \"freely\"",
+     "s.toml:30:12: 'hinge.angle' is an initial value, which cannot vary in time; expected a parameter or a number of "
+     "an "
+     "element"},
+    {"distribution = { type = \"uniform\" }\nmembership = { type = \"triangular\" }", "varies = \"wildly\"",
+     "s.toml:32:10: uncertain.varies is \"wildly\"; expected one of: freely"},
+    {"quantity = \"hinge.angle\"\ninterval = \"± 1 %\"",
+     "quantity = \"rod.length\"\ninterval = \"± 1 %\"\nvaries = \"freely\"",
+     "s.toml:33:16: what varies in time has no uncertain.distribution; expected an interval alone"},
+    {"quantity = \"hinge.angle\"\ninterval = \"± 1 %\"\ndistribution = { type = \"uniform\" }",
+     "quantity = \"rod.length\"\ninterval = \"± 1 %\"\nrate = \"1 m/s\"",
+     "s.toml:33:14: what varies in time has no uncertain.membership; expected an interval alone"},
+    {"quantity = \"hinge.angle\"\ninterval = \"± 1 %\"\ndistribution = { type = \"uniform\" }\nmembership = { type = "
+     "\"triangular\" }",
+     "quantity = \"rod.length\"\ninterval = \"± 1 %\"\nrate = \"1 m\"",
+     "s.toml:32:8: uncertain.rate is written in a unit of the kind m; expected a number in m/s, or with a unit of that "
+     "kind"},
+    {"quantity = \"hinge.angle\"\ninterval = \"± 1 %\"\ndistribution = { type = \"uniform\" }\nmembership = { type = "
+     "\"triangular\" }",
+     "quantity = \"rod.length\"\ninterval = \"± 1 %\"\nrate = 0",
+     "s.toml:32:8: uncertain.rate is not positive; expected the most it changes by in a second"},
+    {"quantity = \"hinge.angle\"\ninterval = \"± 1 %\"\ndistribution = { type = \"uniform\" }\nmembership = { type = "
+     "\"triangular\" }",
+     "quantity = \"rod.length\"\ninterval = \"± 1 %\"\nrate = 1\nvaries = \"freely\"",
+     "s.toml:32:8: what varies freely has no uncertain.rate; expected one of the two"},
     {"interval = \"± 1 %\"", "interval = \"± 0 %\"",
      "s.toml:31:12: uncertain.interval has no positive deviation; expected a deviation above 0"},
     {"interval = \"± 1 %\"", "interval = [0.6, 0.4]",
