@@ -26,7 +26,7 @@ Program withDerivatives(const Expression& expression, const std::vector<std::str
 /// The outputs of a program of elementary functions at t and p. (Evaluator serves no Recorded.)
 template <class S>
 std::vector<S> valuesOf(const Program& program, const S& t, const std::vector<S>& p) {
-  using std::atan, std::cos, std::exp, std::log, std::sin, std::sqrt, std::tanh;
+  using std::abs, std::atan, std::cos, std::exp, std::log, std::sin, std::sqrt, std::tanh;
   std::vector<S> values;
   for (const Node& node : program.nodes()) {
     const auto a = [&]() -> const S& { return values[static_cast<std::size_t>(node.a)]; };
@@ -68,6 +68,10 @@ std::vector<S> valuesOf(const Program& program, const S& t, const std::vector<S>
           return tanh(a());
         case Op::sech2:
           return S(1.0) - square(S(tanh(a())));
+        case Op::abs:
+          return abs(a());
+        case Op::sign:
+          return signOf(a());
         case Op::solution:
           break;
       }

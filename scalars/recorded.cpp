@@ -47,7 +47,9 @@ Recorded rootn(const Recorded& x, int n) {
   return exp(log(x) / Recorded(static_cast<double>(n)));
 }
 
-Recorded abs(const Recorded& x) { return sqrt(sqr(x)); }
+Recorded where(const Recorded& condition, const Recorded& x, const Recorded& y) {
+  return y + 0.5 * (1.0 + sign(condition)) * (x - y);
+}
 Recorded min(const Recorded& x, const Recorded& y) { return 0.5 * (x + y - abs(x - y)); }
 Recorded max(const Recorded& x, const Recorded& y) { return 0.5 * (x + y + abs(x - y)); }
 Recorded hypot(const Recorded& x, const Recorded& y) { return sqrt(sqr(x) + sqr(y)); }

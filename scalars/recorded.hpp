@@ -130,8 +130,12 @@ class Recorded {
   friend Recorded cbrt(const Recorded& x);
   /// e^{(log x)/n}, for x > 0 and n ≠ 0.
   friend Recorded rootn(const Recorded& x, int n);
-  /// √(x²), for all x (differentiable for x ≠ 0).
-  friend Recorded abs(const Recorded& x);
+  friend Recorded abs(const Recorded& a) { return node(recorder().abs(a.node())); }
+  /// -1, 0 or 1.
+  friend Recorded sign(const Recorded& a) { return node(recorder().sign(a.node())); }
+  /// x where the condition is above 0, y where it is below; where it is 0, their mean, and in ẋ = f all that lies
+  /// between.
+  friend Recorded where(const Recorded& condition, const Recorded& x, const Recorded& y);
   /// ½(x + y - |x - y|) and ½(x + y + |x - y|) (differentiable for x ≠ y); in doubles digits are lost where the result
   /// is much smaller than the other number.
   friend Recorded min(const Recorded& x, const Recorded& y);

@@ -68,6 +68,17 @@ S square(const S& x) {
     return x * x;
 }
 
+/// -1, 0 or 1, by the scalar's own `sign` where it has one.
+template <class S>
+S signOf(const S& x) {
+  if constexpr (requires {
+                  { sign(x) } -> std::same_as<S>;
+                })
+    return sign(x);
+  else
+    return S(static_cast<double>((S(0.0) < x) - (x < S(0.0))));
+}
+
 static_assert(Scalar<double> && Scalar<Interval>);
 
 }  // namespace gamut

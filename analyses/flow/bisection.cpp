@@ -43,6 +43,7 @@ std::vector<double> FlowStepper::symbolMass(std::vector<double>& byGrade) const 
 }
 
 int FlowStepper::worstSymbol() const {
+  if (symbolAcross_ >= 0) return symbolAcross_;
   std::vector<double> byGrade;
   const std::vector<double> mass = symbolMass(byGrade);
   return static_cast<int>(std::max_element(mass.begin(), mass.end()) - mass.begin());

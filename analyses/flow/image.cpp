@@ -49,8 +49,11 @@ std::vector<std::vector<Interval>> image(const Program& g, double t, const Box& 
     std::vector<Interval> row;
     for (int o = 0; o < outputs.count(); ++o) {
       if (cancelled != nullptr && *cancelled) throw Cancelled();
-      Interval value = std::isfinite(outputs.radius(o)) ? inflated(range(outputs.polynomial(o), xi), outputs.radius(o))
-                                                        : direct[at(o)];
+      Interval value = direct[at(o)];
+      if (std::isfinite(outputs.radius(o))) {
+        const Interval byPolynomial = inflated(range(outputs.polynomial(o), xi), outputs.radius(o));
+        value = outputs.hasKinks() ? intersection(byPolynomial, value) : byPolynomial;
+      }
       if (!result.empty()) value = intersection(value, result.back()[at(o)]);
       row.push_back(value);
     }

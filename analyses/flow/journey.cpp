@@ -55,9 +55,10 @@ FlowJourney FlowFollower::follow(FlowPiece& piece, double end) {
     use(piece);
     const bool uncertain = symbols_ > 0;
     StepOutcome outcome =
-        tool_->stepper.certify(piece.set, task_.horizon, task_.quantum, uncertain ? task_.splitDefect : 0.0);
+        tool_->stepper.certify(piece.set, task_.horizon, task_.quantum, uncertain ? task_.splitDefect : 0.0,
+                               uncertain ? task_.kinkShare : 0.0);
     if (outcome != StepOutcome::stepped && uncertain) {
-      if (piece.layout + 1 < task_.degrees && isDegreeWorthwhile(piece, outcome)) {
+      if (!tool_->stepper.isAcrossKink() && piece.layout + 1 < task_.degrees && isDegreeWorthwhile(piece, outcome)) {
         changeLayout(piece, piece.layout + 1);
         continue;
       }
@@ -219,11 +220,17 @@ void FlowFollower::appendOutputs(const FlowPiece& piece, const std::vector<Inter
   for (int o = 0; o < outputs_->count(); ++o) {
     const double radius = outputs_->radius(o);
     PolynomialRange& range = *tool_->outputRange;
-    outputs.push_back(std::isfinite(radius)
-                          ? inflated(range(outputs_->polynomial(o), xi, task_.rangeTolerance()), radius)
-                          : outputs_->overBox(o, Interval(at_), states, piece.set.parameters));
-    outputExcess_.push_back(std::isfinite(radius) ? radius - outputs_->driven(o) + range.gap()
-                                                  : 0.0);  // else plain intervals bound it
+    if (!std::isfinite(radius)) {
+      outputs.push_back(outputs_->overBox(o, Interval(at_), states, piece.set.parameters));
+      outputExcess_.push_back(0.0);  // not known
+      continue;
+    }
+    const Interval bound = inflated(range(outputs_->polynomial(o), xi, task_.rangeTolerance()), radius);
+    outputs.push_back(bound);
+    if (outputs_->hasKinks())  // of |y| through 0 the one knows what the other does not
+      outputs.back() = intersection(bound, outputs_->overBox(o, Interval(at_), states, piece.set.parameters));
+    outputExcess_.push_back(
+        std::max(0.0, radius - outputs_->driven(o) + range.gap() - 0.5 * (width(bound) - width(outputs.back()))));
   }
 }
 
@@ -276,11 +283,15 @@ bool FlowFollower::record(FlowPiece& piece) {
       if (!chordsKnown) tool_->chords->load(tool_->stepper, piece.set);
       chordsKnown = true;
       tool_->chords->sag(from - t0, to - t0, sag_);
-      for (std::size_t i = 0; i < endOutputs.size(); ++i)
-        piece.overOutputs[i] =
-            hull(piece.overOutputs[i], isBounded(sag_[i]) ? hull(piece.lastOutputs[i], endOutputs[i]) + sag_[i]
-                                                          : outputs_->overBox(static_cast<int>(i), Interval(from, to),
-                                                                              between, piece.set.parameters));
+      for (std::size_t i = 0; i < endOutputs.size(); ++i) {
+        Interval over = hull(piece.lastOutputs[i], endOutputs[i]) + sag_[i];
+        if (outputs_->hasKinks() || !isBounded(sag_[i])) {
+          const Interval wherever =
+              outputs_->overBox(static_cast<int>(i), Interval(from, to), between, piece.set.parameters);
+          over = isBounded(sag_[i]) ? intersection(over, wherever) : wherever;
+        }
+        piece.overOutputs[i] = hull(piece.overOutputs[i], over);
+      }
     }
     piece.last = end;
     piece.lastOutputs = endOutputs;

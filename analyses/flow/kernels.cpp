@@ -162,6 +162,12 @@ GAMUT_CLONES void thinRecursion(const std::vector<ThinNode>& nodes, const std::v
           case Op::neg:
             cur[x] = -cur[n.a];
             break;
+          case Op::abs:
+            cur[x] = *n.slope * cur[n.a];
+            break;
+          case Op::sign:
+            cur[x] = 0;
+            break;
           case Op::mul:
             cur[x] = n.scaled ? a.forward[0] * cur[n.b]
                               : thinDot(a.forward, v[n.b].reversed, i) + a.forward[0] * cur[n.b] +

@@ -39,8 +39,9 @@ struct ThinNode {
   bool scaled;  // a product whose factor a is invariant
   int a, b;     // of a solution, its number and the component
   double* forward;
-  double* reversed;    // at order 0, orders to the left; null if nobody convolves with it
-  double* derivative;  // i times order i; null if not needed
+  double* reversed;     // at order 0, orders to the left; null if nobody convolves with it
+  double* derivative;   // i times order i; null if not needed
+  const double* slope;  // of abs
 };
 
 /// A solution's matrix (nodes, row by row; -1 where it does not change in time) and right-hand side; its components'

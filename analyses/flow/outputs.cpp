@@ -67,7 +67,9 @@ bool FlowOutputs::evaluateTogether(double t, const FlowPoint& point, const std::
   series_.compute(t, 1.0);
   const double infinite = std::numeric_limits<double>::infinity();
   std::fill(radius_.begin(), radius_.end(), infinite);
-  if (!series_.tabulate(1.0) || !series_.bound(nullptr, true)) {
+  series_.forgetJumps();
+  if (!series_.tabulate(1.0) || (series_.hasJumps() && !series_.bound(point.radius.data(), true)) ||
+      !series_.bound(nullptr, true)) {
     series_.clear();
     return false;
   }
@@ -191,18 +193,20 @@ bool FlowOutputChords::loadTogether(const FlowStepper& stepper, const FlowSet& s
   for (int i = 0; i < n_; ++i) series_.setStateSeries(i, states.series(i), states.stride());
   for (std::size_t i = 0; i < set.parameters.size(); ++i) series_.setParameter(static_cast<int>(i), set.parameters[i]);
   series_.compute(set.t, scale_);
-  if (!series_.tabulate(theta) || !series_.bound(dropped.data(), true)) {
+  std::vector<double> own(at(outputs_)), tube(at(n_));
+  for (int i = 0; i < n_; ++i) tube[at(i)] = (stepper.tubeBound(i) + dropped[at(i)]) * bounds::up;
+  series_.forgetJumps();
+  if (!series_.tabulate(theta) || (series_.hasJumps() && !series_.bound(tube.data(), true)) ||
+      !series_.bound(dropped.data(), true)) {
     series_.clear();
     return false;
   }
-  std::vector<double> own(at(outputs_)), tube(at(n_));
   for (int o = 0; o < outputs_; ++o) {
     const int node = series_.outputNode(o);
     own[at(o)] = series_.rho0(node) + series_.rho1(node);
     second_[at(o)] = series_.derivativeNorm(node, 2, theta);
     third_[at(o)] = series_.derivativeNorm(node, 3, theta);
   }
-  for (int i = 0; i < n_; ++i) tube[at(i)] = (stepper.tubeBound(i) + dropped[at(i)]) * bounds::up;
   if (!series_.bound(tube.data(), false)) return false;
   // Σ_j |Ψ^{(k)}| total_j and all of |x - p|, for every state.
   std::vector<double> moved(at(3 * n_), 0.0), loose(at(n_));

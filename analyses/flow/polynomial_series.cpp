@@ -47,6 +47,23 @@ void PolynomialSeries::product(const Plan& a, const Plan& b, int count, int i, d
   }
 }
 
+/// |a| over [low, high], low < 0 < high, lies between the chord and -2 low high/(high - low) below it.
+PolynomialSeries::Chord PolynomialSeries::chordOf(int node) const {
+  const Plan& v = plan_[at(node)];
+  const double centre = f_[v.f];
+  double half = 0;
+  for (int g = 1; g < v.count; ++g) half += std::fabs(f_[v.f + at(g * stride_)]);
+  half = std::max(half, crossing_[at(node)]);
+  if (std::fabs(centre) >= half) return {centre > 0 ? 1.0 : centre < 0 ? -1.0 : 0.0, 0.0};
+  const double low = centre - half, high = centre + half;
+  return {(high + low) / (high - low), -low * high / (high - low)};
+}
+
+double PolynomialSeries::signOf(const Plan& v) const {
+  const double slope = chordOf(v.a).slope;
+  return v.primary && std::fabs(slope) < 1 ? 0.0 : slope;
+}
+
 void PolynomialSeries::computeOrder(int node, int i) {
   const Plan& v = plan_[at(node)];
   if ((v.invariant && i > 0) || v.op == Op::constant || isTwin(v.op)) return;
@@ -73,6 +90,14 @@ void PolynomialSeries::computeOrder(int node, int i) {
     }
     case Op::neg:
       for (int g = 0; g < N; ++g) put(v, g, i, -fa[g * stride_ + i]);
+      return;
+    case Op::abs:  // the chord over what a reaches at first: ±a where that is on one side
+      if (i == 0) chords_[at(node)] = chordOf(v.a);
+      for (int g = 0; g < N; ++g)
+        put(v, g, i, chords_[at(node)].slope * fa[g * stride_ + i] + (g + i == 0 ? chords_[at(node)].middle : 0.0));
+      return;
+    case Op::sign:
+      for (int g = 0; g < N; ++g) put(v, g, i, g + i == 0 ? signOf(v) : 0.0);
       return;
     case Op::mul:
     case Op::sqr:

@@ -4,6 +4,7 @@
 // where ṽ are the orders below m that were computed. docs/flow.md derives every term.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <memory>
 #include <string>
@@ -63,6 +64,21 @@ class PolynomialSeries {
   bool tabulate(double theta);
   /// ρ0, ρ1 of all nodes when |x - x̃| ≤ E (null: along the polynomial). False: not proved (a division by zero, say).
   bool bound(const double* E, bool primaryOnly);
+  /// Whether outputs themselves hold a sign, and, since forgetJumps, the bounds of a set found one that may be either
+  /// way there. From then on it counts so along the polynomial too: not as something that follows the states, but as an
+  /// input.
+  bool hasJumps() const { return hasJumps_; }
+  bool hasJumped() const { return hasJumped_; }
+  void forgetJumps();
+  bool hasKinks() const { return hasKinks_; }
+  /// What the next computations take of those that the set bounded last may cross: chords over all that it reaches, and
+  /// 0 for a sign in outputs themselves. False if none are crossed. Until forgetCrossings.
+  bool adaptToCrossings();
+  /// The symbol that decides most about when these are crossed; -1 if none does more than what is uncertain besides.
+  int symbolAcross() const;
+  void forgetCrossings() { std::fill(crossing_.begin(), crossing_.end(), 0.0); }
+  /// The set bounded last is that at the start of the step: so much is uncertain of where it crosses kinks.
+  void keepAtStart() { atStart_ = rho0_; }
   /// The bounds are those along the polynomial: from then on what is between it and the set bounded last can be told.
   void keepAlong();
   /// The mean of ρ0 (ρ1) on the way from the polynomial to any point of the set bounded last: bounds are convex in E
@@ -148,6 +164,12 @@ class PolynomialSeries {
     std::vector<double> residual;  // Σ_α |s - A₀ x| of A₀ x = s, [order][component]
   };
 
+  /// |a| ≈ slope a + middle.
+  struct Chord {
+    double slope = 0, middle = 0;
+  };
+  Chord chordOf(int node) const;
+  double signOf(const Plan& v) const;
   /// Order i of monomial g, in the reversed copy too.
   void put(const Plan& v, int g, int i, double value) {
     f_[v.f + at(g * stride_ + i)] = value;
@@ -174,6 +196,9 @@ class PolynomialSeries {
   double minimum(int node) const;
   bool boundNode(int node);
   void boundTanh(int node);
+  void boundAbs(int node);
+  void boundSign(int node);
+  bool mayCross(int u);
   double leading(int node) const { return std::fabs(f_[plan_[at(node)].f]); }
   double rest(int node) const;
   double moved(int node) const;
@@ -202,7 +227,12 @@ class PolynomialSeries {
   std::vector<Plan> plan_;
   std::vector<int> outputs_;
   std::vector<double> constant_, radius_, pointError_;
-  std::vector<char> varies_;  // of each parameter
+  std::vector<char> varies_;                          // of each parameter
+  std::vector<Chord> chords_;                         // of each abs
+  std::vector<double> reach_;                         // greatest norm that the argument of an abs or sign has had
+  std::vector<double> jump_;                          // radius of each sign
+  std::vector<double> atStart_, crossing_, reached_;  // of each argument: uncertain; what a chord spans; may have to
+  bool hasKinks_ = false, hasJumps_ = false, hasJumped_ = false;
   std::vector<double> f_, r_, d_, t_, total_, s1_, s2_, scratch_, scratch2_;
   std::vector<double> inverse_;  // per recip/sqrt/log/atan node: 1/leading polynomial
   std::vector<std::size_t> inverseAt_;

@@ -21,6 +21,12 @@ bool PolynomialSeries::boundNode(int node) {
     case Op::time:
     case Op::constant:
       return true;
+    case Op::abs:
+      boundAbs(node);
+      return rho0_[at(node)] + rho1_[at(node)] < bounds::largest;
+    case Op::sign:
+      boundSign(node);
+      return true;
     case Op::sech2:  // with its tanh
       return rho0_[at(node)] + rho1_[at(node)] < bounds::largest;
     case Op::solution:
@@ -129,6 +135,75 @@ void PolynomialSeries::boundTanh(int node) {
   const double twice = 2 + (e0 + e1), tilt = std::min(0.77, 2 * steepest);
   set(slope, own0_[at(slope)] + twice * e0 + tilt * rho0_[at(u)], own1_[at(slope)] + twice * e1 + tilt * rho1_[at(u)],
       pointError_[at(slope)] + rest(slope) + steepest);
+}
+
+/// Whether u may change its sign, or be zero, in the step. Then the step should end before, or be so short that u moves
+/// by less than what is uncertain about it.
+bool PolynomialSeries::mayCross(int u) {
+  constexpr double ahead = 0.9, across = 0.5, farTooLong = 16;  // of the way, of the uncertainty
+  const double centre = leading(u), V = rest(u), M = moved(u), rho = (rho0_[at(u)] + rho1_[at(u)]) * bounds::up;
+  reached_[at(u)] = 0;
+  if (centre * bounds::down > (V + rho) * bounds::up) return false;
+  const double apart = V - M + (atStart_.empty() ? rho : atStart_[at(u)]);
+  reached_[at(u)] = apart + M;
+  const double allowed = std::max(ahead * (centre - apart), across * apart);
+  haste_ = std::max(haste_, M < farTooLong * allowed ? M / allowed : farTooLong);
+  return true;
+}
+
+/// |u| - (slope u + middle) is greatest at an end of what u reaches, or where it is zero; the rest is slope (u - ũ).
+void PolynomialSeries::boundAbs(int node) {
+  const int u = plan_[at(node)].a;
+  const auto [slope, middle] = chords_[at(node)];
+  double off = 0;
+  if (mayCross(u) || middle > 0) {
+    const double centre = f_[plan_[at(u)].f], size = (rest(u) + rho0_[at(u)] + rho1_[at(u)]) * bounds::up;
+    off = middle;
+    for (const double end : {centre - size, centre + size})
+      off = std::max(off, std::fabs(std::fabs(end) - (slope * end + middle)));
+    off += 8 * bounds::unit * (std::fabs(centre) + size + middle);  // of centre ± size, the chord and the differences
+  }
+  rho0_[at(node)] = (off + own0_[at(node)] + std::fabs(slope) * rho0_[at(u)]) * bounds::up + bounds::tiny;
+  rho1_[at(node)] = std::fabs(slope) * rho1_[at(u)] * bounds::up;
+}
+
+/// Exact on one side, else anything between -1 and 1.
+void PolynomialSeries::boundSign(int node) {
+  const Plan& v = plan_[at(node)];
+  const double value = f_[v.f];
+  double radius = mayCross(v.a) || std::fabs(value) != 1 ? 1 + std::fabs(value) : 0.0;
+  if (v.primary) {
+    if (radius > jump_[at(node)]) hasJumped_ = true;
+    radius = jump_[at(node)] = std::max(radius, jump_[at(node)]);
+  }
+  rho0_[at(node)] = radius * bounds::up;
+  rho1_[at(node)] = 0;
+}
+
+bool PolynomialSeries::adaptToCrossings() {
+  crossing_ = reached_;
+  return std::ranges::any_of(crossing_, [](double half) { return half > 0; });
+}
+
+int PolynomialSeries::symbolAcross() const {
+  int symbol = -1;
+  double most = 0;
+  for (std::size_t u = 0; u < crossing_.size(); ++u) {
+    if (!(crossing_[u] > 0)) continue;
+    const Plan& v = plan_[u];
+    for (int l = 0; l < monomials_->symbols(); ++l) {
+      double mass = 0;
+      for (int g = 1; g < v.count; ++g)
+        if (monomials_->exponent(g, l) > 0) mass += std::fabs(f_[v.f + at(g * stride_)]);
+      if (mass /= crossing_[u]; mass > most && mass * crossing_[u] > 4 * atStart_[u]) most = mass, symbol = l;
+    }
+  }
+  return symbol;
+}
+
+void PolynomialSeries::forgetJumps() {
+  std::fill(jump_.begin(), jump_.end(), 0.0);
+  hasJumped_ = false;
 }
 
 bool PolynomialSeries::bound(const double* E, bool primaryOnly) {

@@ -229,6 +229,7 @@ void PolynomialSeries::ownErrors(int node) {
     case Op::constant:
     case Op::cos:
     case Op::sech2:
+    case Op::sign:
       return;
     case Op::solution:
       if (v.b == 0) solutionOwnErrors(node);
@@ -236,6 +237,10 @@ void PolynomialSeries::ownErrors(int node) {
     case Op::add:
     case Op::sub:  // one rounding a coefficient; lower degree: what is dropped
       e0 = bounds::unit * norm_[at(node)] + (graded ? dropped(v.a, v.degree) + dropped(v.b, v.degree) : 0.0);
+      break;
+    case Op::abs:
+      e0 = 2 * bounds::unit * norm_[at(node)] * (chords_[at(node)].middle > 0 ? 1 : 0) +
+           (graded ? dropped(v.a, v.degree) : 0.0);
       break;
     case Op::neg:
       e0 = graded ? dropped(v.a, v.degree) : 0.0;

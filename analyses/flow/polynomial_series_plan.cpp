@@ -34,6 +34,9 @@ PolynomialSeries::PolynomialSeries(const Program& program, int primaryOutputs,
   }
 
   varies_.assign(at(program.parameters()), 0);
+  chords_.assign(nodes.size(), {});
+  jump_.assign(nodes.size(), 0.0);
+  crossing_ = reached_ = jump_;
   constant_.assign(nodes.size(), 0.0);
   radius_.assign(nodes.size(), 0.0);
   pointError_.assign(nodes.size(), 0.0);
@@ -49,7 +52,9 @@ PolynomialSeries::PolynomialSeries(const Program& program, int primaryOutputs,
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     Plan v{nodes[i].op, nodes[i].a, nodes[i].b, 0, 0, primary[i] != 0, program.isInvariant(static_cast<int>(i)), false};
     v.degree = v.primary ? monomials_->degree() : frameDegree_;
-    isConvex_ = isConvex_ && v.op != Op::tanh;
+    isConvex_ = isConvex_ && v.op != Op::tanh && v.op != Op::abs && v.op != Op::sign;
+    hasKinks_ = hasKinks_ || v.op == Op::abs || v.op == Op::sign;
+    hasJumps_ = hasJumps_ || (v.op == Op::sign && v.primary);
     if (v.op == Op::constant) {
       v.constant = true;
       const Interval& c = program.constants()[at(v.a)];
@@ -157,7 +162,8 @@ PolynomialSeries::PolynomialSeries(const Program& program, int primaryOutputs,
 void PolynomialSeries::prepareThin() {
   for (const Plan& v : plan_)
     thin_.push_back({v.op, v.invariant, v.op == Op::mul && plan_[at(v.a)].invariant, v.a, v.b, &f_[v.f],
-                     v.r == none ? nullptr : &r_[v.r + at(stride_ - 1)], v.d == none ? nullptr : &d_[v.d]});
+                     v.r == none ? nullptr : &r_[v.r + at(stride_ - 1)], v.d == none ? nullptr : &d_[v.d],
+                     v.op == Op::abs ? &chords_[thin_.size()].slope : nullptr});
   for (int s = 0; s < n_; ++s) thinStates_.emplace_back(s, outputs_[at(s)]);
   for (int i = 0; i < n_; ++i)
     for (int j = 0; j < n_; ++j) {

@@ -93,12 +93,20 @@ bool FlowStepper::tryStep(const FlowSet& set, double theta) {
     obstacle_ = series_.obstacle();
     return false;
   };
-  if (!series_.tabulate(theta) || !series_.bound(nullptr, false)) return refuse();
+  series_.forgetJumps();
+  const auto boundAlong = [&] {
+    if (!series_.bound(nullptr, false)) return false;
+    series_.keepAlong();
+    for (int i = 0; i < n_; ++i) {
+      const int f = series_.outputNode(i);
+      // δ = x̃' - f(x̃): the bound of f's node, and one rounding in the division by i+1.
+      delta0_[at(i)] = (series_.rho0(f) + bounds::unit * series_.norm(f)) * bounds::up + bounds::tiny;
+      delta1_[at(i)] = series_.rho1(f);
+    }
+    return true;
+  };
+  if (!series_.tabulate(theta) || !boundAlong()) return refuse();
   for (int i = 0; i < n_; ++i) {
-    const int f = series_.outputNode(i);
-    // δ = x̃' - f(x̃): the bound of f's node, and one rounding in the division by i+1.
-    delta0_[at(i)] = (series_.rho0(f) + bounds::unit * series_.norm(f)) * bounds::up + bounds::tiny;
-    delta1_[at(i)] = series_.rho1(f);
     scale_[at(i)] = std::max(series_.norm(i), floor_[at(i)]);
     double start = set.W[at(i)];
     for (int g = 0; g < series_.frameCount(); ++g)
@@ -115,9 +123,12 @@ bool FlowStepper::tryStep(const FlowSet& set, double theta) {
       y_[at(i)] = y * bounds::up + bounds::tiny;
     }
   };
-  series_.keepAlong();
   if (!boundGrowth(h)) return false;
   tube();
+  if (series_.hasKinks()) {
+    if (!series_.bound(start_.data(), false)) return refuse();
+    series_.keepAtStart();
+  }
   bool proved = false;
   for (int attempt = 0; attempt < 4 && !proved; ++attempt) {
     for (int i = 0; i < n_; ++i) {
@@ -125,6 +136,7 @@ bool FlowStepper::tryStep(const FlowSet& set, double theta) {
       if (!(E_[at(i)] < bounds::largest)) return false;
     }
     if (!series_.bound(E_.data(), false)) return refuse();
+    if (series_.hasJumped() && !(boundAlong() && series_.bound(E_.data(), false))) return refuse();
     if (!boundGrowth(h)) return false;
     tube();
     proved = true;
@@ -231,10 +243,29 @@ std::string FlowStepper::reason(const FlowSet& set) const {
   return wide.empty() ? step + ": its errors would outgrow it" : wide;
 }
 
-StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum, double splitDefect) {
+/// Bisection shortens the time that a piece is on both sides as well as what a kink adds: to a quarter; a jump, to
+/// half.
+bool FlowStepper::isKinkTooWide(const FlowSet& set, double kinkShare) {
+  symbolAcross_ = series_.symbolAcross();
+  if (symbolAcross_ < 0 || kinkShare == 0) return false;
+  const int N = series_.count();
+  const std::size_t l = at(symbolAcross_);
+  const double allowed = kinkShare / (l < set.half.size() ? set.half[l] : 1.0);  // of the whole box, not of the piece
+  for (int i = 0; i < n_; ++i) {
+    double added = 0, width = 0;
+    for (int j = 0; j < n_; ++j) added += growth_.M1(i, j) * delta0_[at(j)];
+    for (int g = 1; g < N; ++g) width += std::fabs(set.p[at(i * N + g)]);
+    if (added > allowed * width && width > 1e-9 * scale_[at(i)]) return true;
+  }
+  return false;
+}
+
+StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum, double splitDefect, double kinkShare) {
+  symbolAcross_ = -1;
   const double left = end - set.t;
   caution_ = set.caution;
   growth_.setUnits(set.units);
+  series_.forgetCrossings();
   const auto powerOfTwoAbove = [](double x) {
     int exponent = 0;
     std::frexp(x, &exponent);
@@ -267,6 +298,7 @@ StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum,
     }
   }
   h = std::min({h, h0_, left});
+  bool isAdapted = false;
   for (int attempt = 0; attempt < 24; ++attempt) {
     if (h < left) h = onGrid(h);
     if (!(h >= smallest || h == left) || h <= 0) break;
@@ -287,8 +319,14 @@ StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum,
         h /= std::min(inputs_.haste() * 1.1, 16.0);
         continue;
       }
-      if (series_.haste() > 1 && attempt < 12) {
+      if (series_.haste() > 1 && attempt < 12 && h > 0x1p23 * quantum) {  // 1e-9 of the horizon
         h /= series_.haste();
+        continue;
+      }
+      if (!isAdapted && series_.hasKinks() && series_.adaptToCrossings()) {
+        isAdapted = true;
+        load(set);
+        series_.compute(set.t, h0_);
         continue;
       }
       h_ = h;
@@ -297,7 +335,9 @@ StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum,
       if (h < left)
         caution_ *= std::clamp(std::pow(tolerance_ / std::max(timeError_, 1e-40), 1.0 / (m_ + 1)), 0.7, 1.15);
       caution_ = std::clamp(caution_, 0x1p-6, 2.0);
-      return isTruncationTooLarge(splitDefect) ? StepOutcome::splitWanted : StepOutcome::stepped;
+      return isTruncationTooLarge(splitDefect) || (isAdapted && isKinkTooWide(set, kinkShare))
+                 ? StepOutcome::splitWanted
+                 : StepOutcome::stepped;
     }
     h *= std::min(0.6, 1 / series_.haste());
     caution_ = std::max(caution_ * 0.8, 0x1p-6);

@@ -48,7 +48,9 @@ class FlowStepper {
   /// Certifies a step from `set` that ends no later than `end`. A truncation defect in ξ above `splitDefect` per second
   /// (relative to the state; 0: any) is answered by splitWanted. h(), evaluate() and advance() refer to the step until
   /// the next call.
-  StepOutcome certify(const FlowSet& set, double end, double quantum, double splitDefect);
+  /// Where kinks or jumps are crossed, what they add to a state relative to its width in the whole box, above
+  /// `kinkShare` (0: any), is answered likewise.
+  StepOutcome certify(const FlowSet& set, double end, double quantum, double splitDefect, double kinkShare);
   double h() const { return h_; }
   /// What the step left out: orders in time; grades in ξ, and roundings. Of the states, relative to their size.
   double timeError() const { return timeError_; }
@@ -80,6 +82,8 @@ class FlowStepper {
   double relativeRemainder(const FlowSet& set) const;
   /// The symbol whose high powers weigh most in the step.
   int worstSymbol() const;
+  /// Whether that is what is wanted of it: no higher degree helps.
+  bool isAcrossKink() const { return symbolAcross_ >= 0; }
   GradeDecay decay() const;
   /// Bisects `set` in a symbol; `set` becomes one half, the other is returned.
   FlowSet bisect(FlowSet& set, int symbol, const PolynomialRange& shift) const;
@@ -95,6 +99,7 @@ class FlowStepper {
   double suggestion(double theta) const;
   std::string reason(const FlowSet& set) const;
   bool isTruncationTooLarge(double splitDefect) const;
+  bool isKinkTooWide(const FlowSet& set, double kinkShare);
   std::vector<double> symbolMass(std::vector<double>& byGrade) const;
 
   int n_, m_;
@@ -106,6 +111,7 @@ class FlowStepper {
   double timeError_ = 0, truncation_ = 0;
   double caution_ = 1;
   std::vector<std::string> names_;
+  int symbolAcross_ = -1;       // of kinks, for worstSymbol
   std::string why_, obstacle_;  // obstacle_: of the last attempt
   std::vector<double> delta0_, delta1_, start_, E_, y_, e1_, epsilon_, nu0_, nu1_, scale_, floor_;
   std::vector<double> total_, errors_;         // R + Σ_j |Γ_j| of the set being stepped; without inputs

@@ -85,6 +85,7 @@ FlowTask::FlowTask(const FlowQuestion& question, const Box& startBox, const std:
   static constexpr double firstTolerance[] = {1e-16, 1e-12, 1e-10, 1e-10, 1e-9};
   const double first = options.splitDefect > 0 ? options.splitDefect : firstDefect[count];
   splitDefect = bisectsForWidth() ? first * embedding.widest / round.tighter : std::numeric_limits<double>::infinity();
+  if (bisectsForWidth()) kinkShare = 0.3 * aim() / std::sqrt(round.tighter);  // of a step; a crossing takes a few
   constexpr double besideInputs = 1e-10;
   const double enough = 5e-5 * aim() * embedding.widest / round.finer;  // some hundred steps add as much of the width
   tolerance = options.tolerance > 0    ? options.tolerance

@@ -70,7 +70,7 @@ struct FlowTask {
   const Box& box;
   const std::vector<Box>& levels;
   Embedding embedding;
-  double horizon, quantum = 0, tolerance = 0, splitDefect = 0;
+  double horizon, quantum = 0, tolerance = 0, splitDefect = 0, kinkShare = 0;
   int order = 0, active = 0;  // symbols of weight 1
   double effective;           // Emphasis
   bool isLast;

@@ -51,7 +51,7 @@ Dimension Expression::dimension(const DimensionOf& dimensionOf) const {
       continue;
     }
     const Dimension b = stack.back();
-    if (takesTwo(term.operation)) stack.pop_back();
+    if (operands(term.operation) > 1) stack.pop_back();
     Dimension& a = stack.back();
     const auto mustBeAlike = [&](const char* does, const char* joins) {
       if (!isAlike(a, b))
@@ -102,6 +102,16 @@ Dimension Expression::dimension(const DimensionOf& dimensionOf) const {
       case Operation::atan:
         mustBePlain(b, "a function of");
         a = {0, 0, 0, 1};
+        break;
+      case Operation::where: {
+        mustBeAlike("compares", "with");
+        const Dimension either = a;
+        stack.pop_back();
+        stack.back() = either;
+        break;
+      }
+      case Operation::sign:
+        a = {};
         break;
       case Operation::negate:
       case Operation::abs:

@@ -81,11 +81,13 @@ class Expression {
     cosh,
     tanh,
     abs,
+    sign,
     atan2,
     hypot,
     min,
     max,
-    pow
+    pow,
+    where  // a condition, above 0 or not, and what is meant then and else
   };
   /// Postfix: operands come before what takes them.
   struct Term {
@@ -98,8 +100,9 @@ class Expression {
   };
 
   Expression() = default;
-  static bool takesTwo(Operation operation) {
-    return (operation >= Operation::add && operation <= Operation::divide) || operation >= Operation::atan2;
+  static int operands(Operation operation) {
+    if (operation == Operation::where) return 3;
+    return (operation >= Operation::add && operation <= Operation::divide) || operation >= Operation::atan2 ? 2 : 1;
   }
 
   std::vector<Term> terms_;
@@ -121,9 +124,14 @@ S Expression::evaluate(const ValueOf& valueOf) const {
       values.push_back(valueOf(names_[static_cast<std::size_t>(term.index)]));
       continue;
     }
-    const bool isBinary = takesTwo(term.operation);
     const S y = values.back();
-    if (isBinary) values.pop_back();
+    if (operands(term.operation) > 1) values.pop_back();
+    if (term.operation == Operation::where) {
+      const S x = values.back();
+      values.pop_back();
+      values.back() = y + S(0.5) * (S(1.0) + signOf(values.back())) * (x - y);
+      continue;
+    }
     S& x = values.back();
     switch (term.operation) {
       case Operation::add:
@@ -183,6 +191,9 @@ S Expression::evaluate(const ValueOf& valueOf) const {
       case Operation::abs:
         x = abs(y);
         break;
+      case Operation::sign:
+        x = signOf(y);
+        break;
       case Operation::atan2:
         x = atan2(S(x), y);
         break;
@@ -198,6 +209,7 @@ S Expression::evaluate(const ValueOf& valueOf) const {
       case Operation::pow:
         x = pow(S(x), y);
         break;
+      case Operation::where:
       case Operation::constant:
       case Operation::name:
         break;

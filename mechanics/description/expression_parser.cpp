@@ -49,11 +49,11 @@ class ExpressionParser {
     Operation operation;
   };
   static constexpr Function functions[] = {
-      {"sqrt", Operation::sqrt}, {"exp", Operation::exp},     {"log", Operation::log},     {"sin", Operation::sin},
-      {"cos", Operation::cos},   {"tan", Operation::tan},     {"asin", Operation::asin},   {"acos", Operation::acos},
-      {"atan", Operation::atan}, {"sinh", Operation::sinh},   {"cosh", Operation::cosh},   {"tanh", Operation::tanh},
-      {"abs", Operation::abs},   {"atan2", Operation::atan2}, {"hypot", Operation::hypot}, {"min", Operation::min},
-      {"max", Operation::max}};
+      {"sqrt", Operation::sqrt},   {"exp", Operation::exp},   {"log", Operation::log},     {"sin", Operation::sin},
+      {"cos", Operation::cos},     {"tan", Operation::tan},   {"asin", Operation::asin},   {"acos", Operation::acos},
+      {"atan", Operation::atan},   {"sinh", Operation::sinh}, {"cosh", Operation::cosh},   {"tanh", Operation::tanh},
+      {"abs", Operation::abs},     {"sign", Operation::sign}, {"where", Operation::where}, {"atan2", Operation::atan2},
+      {"hypot", Operation::hypot}, {"min", Operation::min},   {"max", Operation::max}};
   static constexpr const char* example =
       "a number with an optional unit, such as 0.5, \"135 deg\" or \"3/4 pi\", or a formula such as \"2 rod.length + 3 "
       "mm\"";
@@ -305,19 +305,34 @@ class ExpressionParser {
   }
 
   void readCall(const Function& function, int at) {
-    const int wanted = Expression::takesTwo(function.operation) ? 2 : 1;
+    const int wanted = Expression::operands(function.operation);
     take("(");
     for (int i = 0; i < wanted; ++i) {
       skipBlanks();
       readSum();
+      if (i == 0 && function.operation == Operation::where) readComparison();
       if (!take(i + 1 < wanted ? "," : ")"))
         fail(atEnd() ? "the end" : fmt::format("'{}'", character()),
              fmt::format("'{}': {} takes {}", i + 1 < wanted ? "," : ")", function.name,
-                         wanted == 1 ? "one number" : "two numbers"));
+                         wanted == 1   ? "one number"
+                         : wanted == 2 ? "two numbers"
+                                       : "a condition and two numbers"));
     }
     push(function.operation, 0, at);
     last_ = Piece::other;
     hasNumber_ = true;
+  }
+
+  /// The rest of `x > y` or `x < y`, if it is one: x - y, or y - x. (What holds at x = y is between both cases.)
+  void readComparison() {
+    const int at = column();
+    const bool isLess = take("<");
+    if (!isLess && !take(">")) return;
+    take("=");
+    skipBlanks();
+    readSum();
+    push(Operation::subtract, 0, at);
+    if (isLess) push(Operation::negate, 0, at);
   }
 
   std::string readDigits() {

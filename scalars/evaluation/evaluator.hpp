@@ -53,7 +53,7 @@ class Evaluator {
 
  private:
   void run(const std::vector<Instruction>& instructions) {
-    using std::atan, std::exp, std::log, std::sqrt, std::tanh;
+    using std::abs, std::atan, std::exp, std::log, std::sqrt, std::tanh;
     S* const slots = slot_.data();
     S acc(0.0);
     for (const Instruction& i : instructions) {
@@ -104,6 +104,12 @@ class Evaluator {
           break;
         case TapeOp::arcTangent:
           acc = atan(a);
+          break;
+        case TapeOp::absolute:
+          acc = abs(a);
+          break;
+        case TapeOp::sign:
+          acc = signOf(a);
           break;
         case TapeOp::sineCosine:
           sineAndCosine(a, acc, slots[i.b]);

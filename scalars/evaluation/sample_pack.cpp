@@ -42,6 +42,12 @@ void callFunction(TapeOp op, std::span<const double> a, std::span<double> result
     case TapeOp::arcTangent:
       std::ranges::transform(a, result.begin(), [](double x) { return std::atan(x); });
       break;
+    case TapeOp::absolute:
+      std::ranges::transform(a, result.begin(), [](double x) { return std::fabs(x); });
+      break;
+    case TapeOp::sign:
+      std::ranges::transform(a, result.begin(), [](double x) { return signOf(x); });
+      break;
     default:
       std::ranges::transform(a, result.begin(), [](double x) { return std::sqrt(x); });
       break;
@@ -185,6 +191,8 @@ GAMUT_INLINE void runBlock(const PackRun& pack, const Instruction* i, const Inst
       case TapeOp::exponential:
       case TapeOp::logarithm:
       case TapeOp::arcTangent:
+      case TapeOp::absolute:
+      case TapeOp::sign:
         callFunction(i->op, span(a), span(result));
         GAMUT_FOR_BLOCK acc[j] = V{};
         continue;

@@ -129,6 +129,12 @@ class Series {
         at(node, i) = i == 0 ? S(tanh(at(n.a, 0))) : S(weighted(n.a, node + 1, i, i) / k);
         at(node + 1, i) = i == 0 ? S(S(1.0) - square(at(node, 0))) : S(-convolution(node, node, i, 0, i));
         break;
+      case Op::abs:  // as just after the expansion point
+        at(node, i) = after(n.a, i) * at(n.a, i);
+        break;
+      case Op::sign:
+        at(node, i) = i == 0 ? after(n.a, i) : S(0.0);
+        break;
       case Op::solution:
         if (n.b == 0) computeSolution(node, i);
         break;
@@ -136,6 +142,16 @@ class Series {
       case Op::sech2:
         break;
     }
+  }
+
+  /// The sign of node a behind the expansion point, as far as its orders up to i tell.
+  S after(int a, int i) {
+    S sign = signOf(at(a, 0));
+    if constexpr (requires {
+                    { sign == S(0.0) } -> std::convertible_to<bool>;
+                  })
+      for (int j = 1; j <= i && sign == S(0.0); ++j) sign = signOf(at(a, j));
+    return sign;
   }
 
   /// A_0 x_i = r_i - Σ_{j=1}^{i} A_j x_{i-j}: one factorisation for all orders.

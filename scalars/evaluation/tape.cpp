@@ -31,6 +31,10 @@ TapeOp unary(Op op) {
       return TapeOp::logarithm;
     case Op::atan:
       return TapeOp::arcTangent;
+    case Op::abs:
+      return TapeOp::absolute;
+    case Op::sign:
+      return TapeOp::sign;
     case Op::tanh:
       return TapeOp::hyperbolicTangent;
     default:

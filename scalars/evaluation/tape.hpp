@@ -33,6 +33,8 @@ enum class TapeOp : std::uint8_t {
   exponential,
   logarithm,
   arcTangent,
+  absolute,
+  sign,
   sineCosine,         ///< acc = sin a, and cos a goes to slot b
   hyperbolicTangent,  ///< acc = tanh a, and 1 - acc² goes to slot b
   factorise,          ///< the matrix of system number `result`, for the solutions that follow

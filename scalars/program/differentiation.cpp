@@ -50,10 +50,13 @@ int chained(Recorder& r, int i, bool second, int d) {
       const int product = r.mul(i - 1, i);
       return r.mul(r.constant(-2.0), r.mul(product, d));
     }
+    case Op::abs:
+      return r.mul(r.sign(n.a), d);
     case Op::state:
     case Op::parameter:
     case Op::time:
     case Op::constant:
+    case Op::sign:
     case Op::solution:  // as a whole, below
       break;
   }

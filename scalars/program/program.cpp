@@ -10,8 +10,8 @@ namespace gamut {
 
 std::string_view nameOf(Op op) {
   static constexpr std::array<std::string_view, opCount> names{
-      "state", "parameter", "time", "constant", "add", "sub", "neg",  "mul",   "sqr",     "recip",
-      "sqrt",  "exp",       "log",  "atan",     "sin", "cos", "tanh", "sech2", "solution"};
+      "state", "parameter", "time", "constant", "add", "sub",  "neg",   "mul", "sqr",  "recip",   "sqrt",
+      "exp",   "log",       "atan", "sin",      "cos", "tanh", "sech2", "abs", "sign", "solution"};
   return names[static_cast<std::size_t>(op)];
 }
 

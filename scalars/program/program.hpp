@@ -35,6 +35,9 @@ enum class Op : std::uint8_t {
   cos,        ///< cosine of a; the node before is always the sine of the same a
   tanh,       ///< hyperbolic tangent of a; the next node is always the sech2 of the same a
   sech2,      ///< 1 - tanh² a, the derivative of tanh; the node before is always the tanh of the same a
+  abs,        ///< |a|; its derivative is sign a
+  sign,       ///< -1, 0 or 1 as a is below, at or above 0; its derivative is 0. In ẋ = f it stands for every value of
+              ///< [-1, 1] where a is 0, as in Filippov's solutions
   solution,   ///< component b of solutions()[a]; the components are nodes in a row, component 0 first
 };
 

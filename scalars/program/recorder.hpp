@@ -86,6 +86,8 @@ class Recorder {
   int mul(int a, int b) { return emit(Op::mul, a, b); }
   int sqr(int a) { return emit(Op::sqr, a); }
   int exp(int a) { return emit(Op::exp, a); }
+  int abs(int a) { return emit(Op::abs, a); }
+  int sign(int a) { return emit(Op::sign, a); }
   /// These three throw std::domain_error for a constant that may lie outside the domain.
   int recip(int a);
   int sqrt(int a);

@@ -236,6 +236,19 @@ constexpr Rule table[] = {
      [](Recorder& r, int a, int) { return r.isExactly(a, 0) ? r.constant(1.0) : none; }},
     {Op::sech2, moveSigns, "sech²(-x) = sech² x", everywhere,
      [](Recorder& r, int a, int) { return isOf(r, a, Op::neg) ? r.emit(Op::sech2, r.signless(a).node) : none; }},
+
+    {Op::abs, foldConstants, "|c|, where it is a double", everywhere,
+     [](Recorder& r, int a, int) { return foldedOf(r, a, [](const Interval& x) { return abs(x); }); }},
+    {Op::abs, moveSigns, "|-x| = |x|", everywhere,
+     [](Recorder& r, int a, int) { return isOf(r, a, Op::neg) ? r.abs(r.signless(a).node) : none; }},
+    {Op::sign, foldConstants, "sign c, where it is known", everywhere,
+     [](Recorder& r, int a, int) { return foldedOf(r, a, [](const Interval& x) { return sign(x); }); }},
+    {Op::sign, moveSigns, "sign(-x) = -sign x", everywhere,
+     [](Recorder& r, int a, int) {
+       if (!isOf(r, a, Op::neg)) return none;
+       const auto [x, isNegative] = r.signless(a);
+       return withSign(r, isNegative, r.sign(x));
+     }},
 };
 
 /// Where the rules of an operation begin and end in the table.

@@ -53,7 +53,7 @@ class Reference {
     }
   }
 
- private:
+ protected:
   Precise reach() {
     Precise size(0.0), h(1e300);
     for (int order = 0; order < 2 && size == 0; ++order)  // relative to the state, or to its rate where it is zero

@@ -60,6 +60,11 @@ TEST(Expression, FollowsTheGrammar) {
       {"hypot(3 m, 4 m)", 5},
       {"max(rate, min(1, 2))", 1},
       {"abs(rate)", 3},
+      {"sign(-rate) + sign(0) + 2 sign(m1)", 3},
+      {"where(rate > 2, 5, 7)", 7},
+      {"where(rate < 2, 5, 7)", 5},
+      {"where(rate >= -3, 5, 7)", 6},
+      {"where(2 >= rate, where(rate, 1, 2), 7)", 2},
       {"2 sqrt(4)", 4},
       {"0.3 rad * sin(2*pi*t)", 0.3 * 1.2246467991473532e-16},
       {"2*pi*t/x_2", 25.132741228718345},
@@ -103,10 +108,20 @@ Dimension unitFor(const std::string& name) { return dimensionOf(units.at(name));
 TEST(Expression, UnitsAreCarriedThrough) {
   const struct {
     const char *text, *unit;
-  } cases[] = {{"2 rod.length + 3 mm", "m"},          {"-k*angle", "N m/rad rad"}, {"rod.length^2", "m^2"},
-               {"sqrt(rod.length^2)", "m"},           {"rod.length/t", "m/s"},     {"sin(angle)*rod.length", "m"},
-               {"atan2(rod.length, 1 m)", "rad"},     {"angle + 1", "rad"},        {"1 + angle", "rad"},
-               {"0.5 mass*(rod.length*rate)^2", "J"}, {"abs(mass)", "kg"},         {"rod.length*t^-2", "m/s^2"}};
+  } cases[] = {{"2 rod.length + 3 mm", "m"},
+               {"-k*angle", "N m/rad rad"},
+               {"rod.length^2", "m^2"},
+               {"sqrt(rod.length^2)", "m"},
+               {"rod.length/t", "m/s"},
+               {"sin(angle)*rod.length", "m"},
+               {"atan2(rod.length, 1 m)", "rad"},
+               {"angle + 1", "rad"},
+               {"where(angle > 1, rod.length, 3 mm)", "m"},
+               {"sign(rod.length)", "1"},
+               {"1 + angle", "rad"},
+               {"0.5 mass*(rod.length*rate)^2", "J"},
+               {"abs(mass)", "kg"},
+               {"rod.length*t^-2", "m/s^2"}};
   for (const auto& c : cases) {
     Dimension expected = std::string_view(c.unit) == "N m/rad rad" ? dimensionOf("N m") : dimensionOf(c.unit);
     Dimension found = Expression::parse(c.text).dimension(unitFor);
@@ -169,6 +184,7 @@ TEST(Expression, WhatIsNoFormulaIsRefusedWithItsPlace) {
       {"sine(2)", "unknown function 'sine' at column 1; expected 'sin'"},
       {"sin(1, 2)", "',' at column 6; expected ')': sin takes one number"},
       {"atan2(1)", "')' at column 8; expected ',': atan2 takes two numbers"},
+      {"where(1, 2)", "')' at column 11; expected ',': where takes a condition and two numbers"},
       {"1/0", "a division by zero at column 2"},
       {"1/(2-2)", "a division by zero"},
       {"0^-1", "a division by zero"},

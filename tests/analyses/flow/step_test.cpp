@@ -394,7 +394,7 @@ TEST(FlowStep, HoldsEveryTrajectoryThatStartsInTheSet) {
       const double R = std::pow(10.0, -points.integer(1, 14)) * points.integer(0, 1);
       scene.fill(nominal, std::pow(10.0, -points.integer(1, 3)), R, points.integer(0, 3), R * points.integer(0, 1),
                  R * 0.1);
-      if (scene.stepper.certify(scene.set, horizon, quantum, 0) != StepOutcome::stepped) continue;
+      if (scene.stepper.certify(scene.set, horizon, quantum, 0, 0) != StepOutcome::stepped) continue;
       ++steps;
       scene.expectTrajectoriesInside(4);
       if (HasFatalFailure()) return;
@@ -415,7 +415,7 @@ TEST(FlowStep, HoldsEveryTrajectoryOfWideRemaindersUnderSteepEquations) {
     const double size = points.uniform(0.05, 0.4);
     const int kind = round % 3;  // all in W, all in R, in both
     scene.fill({0, 0}, 0, kind == 0 ? 0 : size, 0, kind == 1 ? 0 : size, 0);
-    if (scene.stepper.certify(scene.set, horizon, quantum, 0) != StepOutcome::stepped) continue;
+    if (scene.stepper.certify(scene.set, horizon, quantum, 0, 0) != StepOutcome::stepped) continue;
     ++steps;
     scene.expectTrajectoriesInside(5);
     if (HasFatalFailure()) return;
@@ -433,7 +433,7 @@ TEST(FlowStep, UpdateHoldsTheSetAtItsEnd) {
                   std::pow(10.0, -points.integer(5, 14)), points);
       const double R = std::pow(10.0, -points.integer(2, 14)) * points.integer(0, 1);
       scene.fill(nominal, std::pow(10.0, -points.integer(1, 3)), R, points.integer(0, 3), R * points.integer(0, 1), 0);
-      if (scene.stepper.certify(scene.set, horizon, quantum, 0) != StepOutcome::stepped) continue;
+      if (scene.stepper.certify(scene.set, horizon, quantum, 0, 0) != StepOutcome::stepped) continue;
       ++steps;
       scene.expectUpdateInside(8);
       if (HasFatalFailure()) return;
@@ -449,7 +449,7 @@ TEST(FlowStep, UpdateHoldsASetOfGeneratorsAlone) {
       const int symbols = points.integer(0, 1), degree = symbols == 0 ? 0 : points.integer(1, 4);
       Scene scene(f, symbols, degree, points.integer(0, 1), 16, 1e-14, points);
       scene.fill(nominal, 1e-4, 0, points.integer(1, 6), 0, 0, std::pow(10.0, -points.integer(4, 8)));
-      if (scene.stepper.certify(scene.set, horizon, quantum, 0) != StepOutcome::stepped) continue;
+      if (scene.stepper.certify(scene.set, horizon, quantum, 0, 0) != StepOutcome::stepped) continue;
       scene.expectUpdateInside(8);
       if (HasFatalFailure()) return;
     }
@@ -467,7 +467,7 @@ TEST(FlowStep, NothingLeavesItsChordByMoreThanTheSag) {
     Scene scene(f, round % 2, round % 2, round % 2, 14, 1e-6, points);
     const bool moves = round % 4 > 1;
     scene.fill({moves ? 1.0 : 0.0, moves ? 1.0 : 0.0}, 1e-6, moves ? 0.0 : 0.1, moves ? 0 : 2, 0, 0);
-    ASSERT_EQ(scene.stepper.certify(scene.set, horizon, quantum, 0), StepOutcome::stepped);
+    ASSERT_EQ(scene.stepper.certify(scene.set, horizon, quantum, 0, 0), StepOutcome::stepped);
     const double h = scene.stepper.h(), length = h * std::ldexp(1.0, -points.integer(0, 5));
     std::vector<Interval> sag;
     scene.stepper.sag(h - length, h, sag);
@@ -506,7 +506,7 @@ TEST(FlowStep, RefusesAStepWhoseTubeIsNotProved) {
     for (int i = 0; i < links; ++i)
       for (int j = 0; j < links; ++j) scene.set.C[at(i * links + j)] = i == j ? 1.0 : 0.0;
     scene.set.R.back() = 1.5;
-    ASSERT_EQ(scene.stepper.certify(scene.set, 1, quantum, 0), StepOutcome::stepped);
+    ASSERT_EQ(scene.stepper.certify(scene.set, 1, quantum, 0, 0), StepOutcome::stepped);
     scene.expectTrajectoriesInside(8);
     if (HasFatalFailure()) return;
   }
@@ -533,7 +533,7 @@ TEST(FlowStep, UpdateTurnsWhatAConstantColumnLoses) {
                    points.uniform(0.3, 0.6),
                    points.uniform(0.1, 0.15) * (round % 2 == 0 ? 1 : -1)};
     scene.set.R = {1e-4, 1e-5};
-    ASSERT_EQ(scene.stepper.certify(scene.set, 0x1p-6, quantum, 0), StepOutcome::stepped);
+    ASSERT_EQ(scene.stepper.certify(scene.set, 0x1p-6, quantum, 0, 0), StepOutcome::stepped);
     scene.expectUpdateInside(30);
     if (HasFatalFailure()) return;
   }
@@ -545,7 +545,7 @@ TEST(FlowStep, UpdateHoldsTheSetWhenOldGeneratorsMerge) {
   Scene scene(f, 1, 3, 2, 10, 1e-11, points);
   scene.fill(nominal, 1e-3, 1e-12, 0, 0, 0);
   for (int step = 0; step < 75; ++step) {
-    ASSERT_EQ(scene.stepper.certify(scene.set, 100, 0x1p-46, 0), StepOutcome::stepped);
+    ASSERT_EQ(scene.stepper.certify(scene.set, 100, 0x1p-46, 0, 0), StepOutcome::stepped);
     scene.expectUpdateInside(4);
     if (HasFatalFailure()) return;
   }
@@ -580,7 +580,7 @@ TEST(FlowStep, OutputsHoldThoseOfEveryMemberOfTheSet) {
       const double size = std::pow(10.0, -points.integer(1, 13));
       const int kind = round % 3;
       scene.fill(nominal, std::pow(10.0, -points.integer(2, 8)), kind == 0 ? 0 : size, kind == 1 ? 0 : 2, 0, 0, size);
-      if (scene.stepper.certify(scene.set, horizon, quantum, 0) != StepOutcome::stepped) continue;
+      if (scene.stepper.certify(scene.set, horizon, quantum, 0, 0) != StepOutcome::stepped) continue;
       ++steps;
       const Program g = record(f.states(), 1, 3, [](auto t, const auto& x, const auto& p, auto& y) {
         y[0] = 2.0 * x[0];
@@ -626,7 +626,7 @@ TEST(FlowStep, StaysWithinTheTimeLeftAndOnTheGrid) {
   Scene scene(f, 0, 0, 0, 12, 1e-15, points);
   scene.fill(nominal, 0, 0, 0, 0, 0);
   while (scene.set.t < horizon) {
-    ASSERT_EQ(scene.stepper.certify(scene.set, horizon, quantum, 0), StepOutcome::stepped);
+    ASSERT_EQ(scene.stepper.certify(scene.set, horizon, quantum, 0, 0), StepOutcome::stepped);
     const double before = scene.set.t;
     scene.stepper.advance(scene.set);
     EXPECT_EQ(scene.set.t - before, scene.stepper.h());

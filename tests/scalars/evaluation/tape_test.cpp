@@ -40,6 +40,12 @@ std::vector<double> nodeByNode(const Program& program, double t, const std::vect
       case Op::neg:
         v.push_back(-a);
         break;
+      case Op::abs:
+        v.push_back(std::fabs(a));
+        break;
+      case Op::sign:
+        v.push_back(signOf(a));
+        break;
       case Op::mul:
         v.push_back(a * b);
         break;

@@ -1,0 +1,245 @@
+// Right-hand sides with kinks and jumps: trajectories whose events are located in 128 bits must lie inside, exactly.
+#include <cmath>
+
+#include "scalars/program/recorder.hpp"
+#include "tests/analyses/flow/containment.hpp"
+
+namespace gamut::testing {
+namespace {
+
+/// Integrates from event to event: the arguments of all abs and sign keep their signs in between.
+class EventReference : private Reference {
+ public:
+  explicit EventReference(const Program& f) : Reference(f), switches_(argumentsOf(f)) {}
+
+  std::vector<Vector> operator()(const Vector& start, const std::vector<double>& times) {
+    const auto n = static_cast<std::size_t>(f_.states());
+    Vector x(start.begin(), start.begin() + static_cast<std::ptrdiff_t>(n));
+    const Vector p(start.begin() + static_cast<std::ptrdiff_t>(n), start.end());
+    series_.setParameters(p);
+    switches_.setParameters(p);
+    std::vector<Vector> result;
+    Precise t(0.0);
+    for (;;) {
+      series_.solve(t, x);
+      Precise h = std::min(reach(), Precise(0.125));
+      const std::vector<int> before = signs(t + h * Precise(1e-20), after(h * Precise(1e-20)));
+      // No more than a part of the step may hide two events of one argument: all of its tenths are looked at.
+      for (int part = 1; part <= 10; ++part) {
+        Precise high = h * part / 10;
+        if (signs(t + high, after(high)) == before) continue;
+        Precise low = h * (part - 1) / 10;
+        for (int i = 0; i < 130; ++i) {
+          const Precise middle = (low + high) / 2;
+          (signs(t + middle, after(middle)) == before ? low : high) = middle;
+        }
+        h = high + Precise(0x1p-110);  // just behind the event
+        ++events;
+        break;
+      }
+      while (result.size() < times.size() && Precise(times[result.size()]) <= t + h)
+        result.push_back(after(Precise(times[result.size()]) - t));
+      if (result.size() == times.size()) return result;
+      x = after(h);
+      t += h;
+    }
+  }
+
+  int events = 0;
+
+ private:
+  static Program argumentsOf(const Program& f) {
+    std::vector<int> arguments;
+    for (const Node& node : f.nodes())
+      if (node.op == Op::abs || node.op == Op::sign) arguments.push_back(node.a);
+    return Recorder(f).finish(arguments);
+  }
+  std::vector<int> signs(const Precise& t, const Vector& x) {
+    std::vector<int> result;
+    for (const Precise& value : switches_(t, x)) result.push_back(value > 0 ? 1 : value < 0 ? -1 : 0);
+    return result;
+  }
+  Evaluator<Precise> switches_;
+};
+
+/// Trajectories from corners and inside, at output times and between them; there must be events.
+Tube expectEvents(const Containment& c, int trajectories, bool hasEvents = true) {
+  Tube tube = c.tube();
+  EXPECT_EQ(tube.why(), "");
+  if (tube.reachedTimes() < tube.times().size()) return tube;
+  EventReference reference(c.f);
+  Points points(17);
+  std::vector<double> times;
+  for (int i = 1; i <= 128; ++i) times.push_back(c.horizon * i / 128);
+  std::optional<Evaluator<Precise>> outputs;
+  if (c.g) outputs.emplace(*c.g);
+  for (int trial = 0; trial < trajectories; ++trial) {
+    const Vector start = trial % 2 == 0 ? points.corner(c.box) : points.inside(c.box);
+    const std::vector<Vector> motion = reference(start, times);
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      Vector y;
+      if (outputs) {
+        outputs->setParameters(Vector(start.begin() + c.f.states(), start.end()));
+        y = (*outputs)(Precise(times[i]), motion[i]);
+      }
+      for (std::size_t row = 1; row < tube.times().size(); ++row) {
+        const bool isAt = tube.times()[row] == times[i];
+        if (!isAt && !(tube.times()[row - 1] < times[i] && times[i] < tube.times()[row])) continue;
+        for (std::size_t s = 0; s < motion[i].size(); ++s)
+          EXPECT_THAT(isAt ? tube.states(row)[s] : tube.statesOver(row)[s], Encloses(motion[i][s])) << times[i];
+        for (std::size_t o = 0; o < y.size(); ++o)
+          EXPECT_THAT(isAt ? tube.outputs(row)[o] : tube.outputsOver(row)[o], Encloses(y[o])) << times[i];
+        if (::testing::Test::HasFailure()) return tube;
+      }
+    }
+  }
+  EXPECT_EQ(reference.events > 0, hasEvents);
+  return tube;
+}
+
+struct Machine {
+  std::string name;
+  Program f;
+  Box centre;  // with zeros where `spread` says how wide
+  Box spread;  // times the width
+  double horizon;
+};
+
+const std::vector<Machine>& machines() {
+  static const std::vector<Machine> all{
+      {"bouncesOnASpring",
+       record(2, 1,
+              [](auto, const auto& x, const auto& p, auto& dx) {
+                dx[0] = x[1];
+                dx[1] = -9.81 - 100.0 * p[0] * min(x[0], Recorded(0.0)) - 0.1 * x[1];
+              }),
+       {1.0, 0.0, 1.0},
+       {Interval(-1, 1), 0.0, Interval(-1, 1)},
+       2},
+      {"saturates",
+       record(2, 0,
+              [](auto, const auto& x, const auto&, auto& dx) {
+                dx[0] = x[1];
+                dx[1] = max(Recorded(-0.5), min(Recorded(0.5), -4.0 * x[0] - x[1]));
+              }),
+       {1.0, 0.0},
+       {Interval(-1, 1), Interval(-1, 1)},
+       4},
+      {"hasBacklash",
+       record(2, 0,
+              [](auto t, const auto& x, const auto&, auto& dx) {
+                dx[0] = x[1];
+                dx[1] = cos(t) - x[0] - 5.0 * (max(x[0] - 0.5, Recorded(0.0)) + min(x[0] + 0.5, Recorded(0.0)));
+              }),
+       {0.0, 0.0},
+       {Interval(-1, 1), 0.0},
+       6},
+      {"slidesWithDryFriction",
+       record(2, 1,
+              [](auto, const auto& x, const auto& p, auto& dx) {
+                dx[0] = x[1];
+                dx[1] = -4.0 * x[0] - 0.3 * p[0] * sign(x[1]);
+              }),
+       {1.0, -0.0625, 1.0},
+       {Interval(-1, 1), 0.0, Interval(-1, 1)},
+       3.5},
+      {"changesItsRate",
+       record(
+           1, 0,
+           [](auto, const auto& x, const auto&, auto& dx) { dx[0] = where(x[0] - 1.5, Recorded(1.0), Recorded(2.0)); }),
+       {1.0},
+       {Interval(-1, 1)},
+       1},
+      {"dragsQuadratically",
+       record(2, 0,
+              [](auto, const auto& x, const auto&, auto& dx) {
+                dx[0] = x[1];
+                dx[1] = -x[0] - 0.4 * abs(x[1]) * x[1] + 0.2 * abs(x[0] - 0.3);
+              }),
+       {1.0, 0.0},
+       {Interval(-1, 1), Interval(-1, 1)},
+       5}};
+  return all;
+}
+
+class FlowKinks : public ::testing::TestWithParam<Machine> {};
+
+TEST_P(FlowKinks, HoldTrajectoriesAcrossEvents) {
+  const Machine& machine = GetParam();
+  for (double width : {0.0, 1e-6, 0.003}) {
+    SCOPED_TRACE(width);
+    Containment c;
+    c.f = machine.f;
+    c.box = machine.centre;
+    for (std::size_t i = 0; i < c.box.size(); ++i) c.box[i] = machine.centre[i] + Interval(width) * machine.spread[i];
+    c.horizon = machine.horizon;
+    c.times = {machine.horizon / 4, machine.horizon / 2};
+    const Tube tube = expectEvents(c, width == 0 ? 1 : 12);
+    for (const Interval& state : tube.states(tube.reachedTimes() - 1))
+      EXPECT_LT(gamut::width(state), width == 0 ? 1e-6 : 60 * width);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Flow, FlowKinks, ::testing::ValuesIn(machines()),
+                         [](const auto& machine) { return machine.param.name; });
+
+/// On one side all the time: as exact as without.
+TEST(FlowKink, OnOneSidePassExactly) {
+  Containment c;
+  c.box = {Interval(0.9, 1.1), 0.0};
+  c.horizon = 2;
+  c.f = record(2, 0, [](auto, const auto& x, const auto&, auto& dx) {
+    dx[0] = x[1];
+    dx[1] = -sin(x[0]);
+  });
+  const Tube smooth = c.tube();
+  c.f = record(2, 0, [](auto, const auto& x, const auto&, auto& dx) {
+    dx[0] = x[1];
+    dx[1] = -sin(abs(x[0] + 20.0) - 20.0 * sign(x[0] + 3.0));
+  });
+  const Tube tube = c.tube();
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_LT(width(tube.at(2)[i]), (1 + 1e-6) * width(smooth.at(2)[i]));
+}
+
+/// Friction holds a body for ever: the solution of the inclusion stays at rest. What leaves it is enclosed with it.
+TEST(FlowKink, HoldWhatSticks) {
+  Containment c;
+  c.f = record(2, 0, [](auto, const auto& x, const auto&, auto& dx) {
+    dx[0] = x[1];
+    dx[1] = 0.1 - 0.3 * sign(x[1]);
+  });
+  c.box = {0.5, 0.0};
+  c.horizon = 1;
+  c.times = {0.25, 0.5};
+  const Tube tube = c.tube();
+  ASSERT_EQ(tube.why(), "");
+  for (std::size_t i = 0; i < tube.reachedTimes(); ++i) {
+    EXPECT_TRUE(contains(tube.states(i)[0], 0.5));
+    EXPECT_TRUE(contains(tube.states(i)[1], 0.0));
+    EXPECT_TRUE(contains(tube.statesOver(i)[1], 0.0));
+  }
+}
+
+/// In outputs: kinks and jumps in the range, at output times and between them.
+TEST(FlowKink, InOutputs) {
+  Containment c;
+  c.f = record(2, 0, [](auto, const auto& x, const auto&, auto& dx) {
+    dx[0] = x[1];
+    dx[1] = -4.0 * x[0];
+  });
+  c.g = record(2, 0, 4, [](auto t, const auto& x, const auto&, auto& y) {
+    y[0] = abs(x[0]);
+    y[1] = max(x[0], x[1]) + t;
+    y[2] = where(x[1], x[0], 3.0 + x[0]);
+    y[3] = sign(x[0]);
+  });
+  c.box = {Interval(-0.5, 1), Interval(0, 0.1)};
+  c.horizon = 2;
+  c.times = {0.25, 0.5, 0.75, 1.5};
+  const Tube tube = expectEvents(c, 40, false);
+  EXPECT_GE(tube.outputs(0)[0].lower(), 0);
+  EXPECT_LT(width(tube.outputs(1)[0]), 1.01 * magnitude(tube.states(1)[0]));
+}
+
+}  // namespace
+}  // namespace gamut::testing
