@@ -219,11 +219,15 @@ Tube FlowRun::gather(std::vector<FlowCollected>& collected) {
       if (row == 0)
         narrow(cut, task_.outputs.outputs() > 0 ? atStart.over(0.0, task_.levels[level]) : task_.levels[level]);
     }
+  constexpr double unheard = 1e-9;  // of what it will be
   constexpr double infinite = std::numeric_limits<double>::infinity();
   const double aim = task_.aim(),
                wellKnown = 5e-5 * aim;  // nor are bounds measured that are so much tighter than the box
   const auto excess = [&](const std::vector<std::vector<Interval>>& bounds, auto radii) {
     std::vector<std::vector<double>> shares(rows);
+    std::vector<double> widest(bounds[0].size(), 0.0);  // over all times
+    for (const std::vector<Interval>& row : bounds)
+      for (std::size_t i = 0; i < row.size(); ++i) widest[i] = std::max(widest[i], width(row[i]));
     for (std::size_t row = 0; row < rows; ++row) {
       shares[row].resize(bounds[row].size(), 0.0);
       for (const FlowCollected& part : collected)
@@ -231,7 +235,8 @@ Tube FlowRun::gather(std::vector<FlowCollected>& collected) {
           const Interval& bound = bounds[row][i];
           const double remainder = 2 * (part.*radii)[row][i], rest = width(bound) - remainder;
           const bool isZero = contains(bound, 0.0) && rest <= 1e-6 * remainder;  // as symmetry keeps it
-          if (!isZero && remainder > wellKnown * task_.embedding.widest * magnitude(bound))
+          if (!isZero && remainder > wellKnown * task_.embedding.widest * magnitude(bound) &&
+              remainder > unheard * widest[i])
             shares[row][i] = std::max(shares[row][i], rest > 0 ? remainder / rest : infinite);
         }
     }
@@ -240,7 +245,8 @@ Tube FlowRun::gather(std::vector<FlowCollected>& collected) {
   tube.excess_ = excess(tube.states_, &FlowCollected::stateExcess);
   const double ofStates = tube.tightness() - 1;
   if (task_.outputs.outputs() > 0) tube.excess_ = excess(tube.outputs_, &FlowCollected::outputExcess);
-  if (task_.embedding.symbols == 0 && task_.varying.empty()) tube.excess_.clear();
+  const auto isWide = [&](int input) { return !isThin(task_.box[at(task_.motion.states() + input)]); };
+  if (task_.embedding.symbols == 0 && std::ranges::none_of(task_.varying, isWide)) tube.excess_.clear();
   looseness_ = tube.tightness() - 1;
   needsDegree_ = looseness_ > aim && ofStates <= aim;
   double time = 0, all = 0;

@@ -47,6 +47,8 @@ void FlowStepper::load(const FlowSet& set) {
   double greatest = 0;  // of all states, in balanced units
   for (std::size_t i = 0; i < set.largest.size(); ++i)
     greatest = std::max(greatest, std::ldexp(set.largest[i], -unit(i)));
+  for (std::size_t i = 0; i < set.p.size() && set.largest.empty(); ++i)
+    greatest = std::max(greatest, std::fabs(set.p[i]));
   for (std::size_t i = 0; i < at(n_); ++i) {
     floor_[i] = std::max(leastSize, std::ldexp(unheard * greatest, unit(i)));
     if (!set.largest.empty()) floor_[i] = std::max(floor_[i], vanished * set.largest[i]);
@@ -246,17 +248,20 @@ std::string FlowStepper::reason(const FlowSet& set) const {
 /// Bisection shortens the time that a piece is on both sides as well as what a kink adds: to a quarter; a jump, to
 /// half.
 bool FlowStepper::isKinkTooWide(const FlowSet& set, double kinkShare) {
-  symbolAcross_ = series_.symbolAcross();
-  if (symbolAcross_ < 0 || kinkShare == 0) return false;
+  symbolAcross_ = kinkShare > 0 ? series_.symbolAcross() : -1;
+  if (symbolAcross_ < 0) return false;
   const int N = series_.count();
   const std::size_t l = at(symbolAcross_);
-  const double allowed = kinkShare / (l < set.half.size() ? set.half[l] : 1.0);  // of the whole box, not of the piece
-  for (int i = 0; i < n_; ++i) {
+  constexpr double leastPart = 0x1p-6;  // so little of the whole that even a jump adds less than is aimed at mostly
+  const bool mayBisect = l < set.half.size() && set.half[l] > leastPart;
+  for (int i = 0; mayBisect && i < n_; ++i) {
+    const double allowed = kinkShare / set.half[l];  // of the whole box, not of the piece
     double added = 0, width = 0;
     for (int j = 0; j < n_; ++j) added += growth_.M1(i, j) * delta0_[at(j)];
     for (int g = 1; g < N; ++g) width += std::fabs(set.p[at(i * N + g)]);
     if (added > allowed * width && width > 1e-9 * scale_[at(i)]) return true;
   }
+  symbolAcross_ = -1;
   return false;
 }
 

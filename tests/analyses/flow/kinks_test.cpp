@@ -1,66 +1,11 @@
 // Right-hand sides with kinks and jumps: trajectories whose events are located in 128 bits must lie inside, exactly.
 #include <cmath>
 
-#include "scalars/program/recorder.hpp"
+#include "tests/analyses/event_reference.hpp"
 #include "tests/analyses/flow/containment.hpp"
 
 namespace gamut::testing {
 namespace {
-
-/// Integrates from event to event: the arguments of all abs and sign keep their signs in between.
-class EventReference : private Reference {
- public:
-  explicit EventReference(const Program& f) : Reference(f), switches_(argumentsOf(f)) {}
-
-  std::vector<Vector> operator()(const Vector& start, const std::vector<double>& times) {
-    const auto n = static_cast<std::size_t>(f_.states());
-    Vector x(start.begin(), start.begin() + static_cast<std::ptrdiff_t>(n));
-    const Vector p(start.begin() + static_cast<std::ptrdiff_t>(n), start.end());
-    series_.setParameters(p);
-    switches_.setParameters(p);
-    std::vector<Vector> result;
-    Precise t(0.0);
-    for (;;) {
-      series_.solve(t, x);
-      Precise h = std::min(reach(), Precise(0.125));
-      const std::vector<int> before = signs(t + h * Precise(1e-20), after(h * Precise(1e-20)));
-      // No more than a part of the step may hide two events of one argument: all of its tenths are looked at.
-      for (int part = 1; part <= 10; ++part) {
-        Precise high = h * part / 10;
-        if (signs(t + high, after(high)) == before) continue;
-        Precise low = h * (part - 1) / 10;
-        for (int i = 0; i < 130; ++i) {
-          const Precise middle = (low + high) / 2;
-          (signs(t + middle, after(middle)) == before ? low : high) = middle;
-        }
-        h = high + Precise(0x1p-110);  // just behind the event
-        ++events;
-        break;
-      }
-      while (result.size() < times.size() && Precise(times[result.size()]) <= t + h)
-        result.push_back(after(Precise(times[result.size()]) - t));
-      if (result.size() == times.size()) return result;
-      x = after(h);
-      t += h;
-    }
-  }
-
-  int events = 0;
-
- private:
-  static Program argumentsOf(const Program& f) {
-    std::vector<int> arguments;
-    for (const Node& node : f.nodes())
-      if (node.op == Op::abs || node.op == Op::sign) arguments.push_back(node.a);
-    return Recorder(f).finish(arguments);
-  }
-  std::vector<int> signs(const Precise& t, const Vector& x) {
-    std::vector<int> result;
-    for (const Precise& value : switches_(t, x)) result.push_back(value > 0 ? 1 : value < 0 ? -1 : 0);
-    return result;
-  }
-  Evaluator<Precise> switches_;
-};
 
 /// Trajectories from corners and inside, at output times and between them; there must be events.
 Tube expectEvents(const Containment& c, int trajectories, bool hasEvents = true) {
