@@ -73,7 +73,8 @@ void FlowInputs::resolve(const PolynomialSeries& series, const FlowGrowth& growt
   for (int i = 0; i < n_; ++i)
     for (int k = 0; k < m; ++k) {
       moving(i) += radius_[at(k)] * speed(i, k, g.col(k).cwiseAbs()) * theta / 4;
-      driving(i) += radius_[at(k)] * std::fabs(B(i, k));
+      const int b = node(series, i, k);  // its value may pass through zero
+      driving(i) += radius_[at(k)] * (series.norm(b) + series.rho0(b) + series.rho1(b));
     }
   double mostMoved = 0, mostDone = 0, each = 1;
   for (int i = 0; i < n_; ++i) {

@@ -18,6 +18,7 @@ class FlowInputs {
       : n_(states), order_(order), share_(share), parameters_(std::move(parameters)) {}
 
   bool empty() const { return parameters_.empty(); }
+  double share() const { return share_; }
   int count() const { return static_cast<int>(parameters_.size()); }
   const std::vector<int>& parameters() const { return parameters_; }
   void load(const std::vector<Embedded>& parameters);

@@ -179,6 +179,17 @@ bool FlowStepper::isTruncationTooLarge(double splitDefect) const {
   return splitDefect > 0 && truncation_ > allowed && series_.reachesHighestGrades(std::max(allowed, 0.1 * truncation_));
 }
 
+/// What the step leaves over, against what inputs do in it, in balanced units.
+bool FlowStepper::isLooserThanDriven() const {
+  double loose = 0, driven = 0;
+  for (int i = 0; i < n_; ++i) {
+    const double unit = std::ldexp(1.0, -growth_.units()[at(i)]);
+    loose = std::max(loose, unit * (looseBound(i) - driven_[at(i)]));
+    driven = std::max(driven, unit * driven_[at(i)]);
+  }
+  return loose > 2 * inputs_.share() * driven;
+}
+
 bool FlowStepper::isRemainderTooLarge(const FlowSet& set) const {
   constexpr double tooLarge = 0.5;
   std::vector<double> total;
@@ -315,12 +326,12 @@ StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum,
         continue;
       }
       // Stiff, or so much is left over: the comparison with |Df| would lose a factor e^{growth} a step.
-      const double most = inputs_.empty() ? 4 : mostGrowthOfInputs;
+      const double most = inputs_.empty() || !isLooserThanDriven() ? 4 : mostGrowthOfInputs;
       if (growth_.growth() > most && attempt < 3) {
         h *= 0.75 * most / growth_.growth();
         continue;
       }
-      if (inputs_.haste() > 1 && attempt < 12) {
+      if (inputs_.haste() > 1 && attempt < 12 && h > 0x1p33 * quantum) {  // 1e-6 of the horizon
         h /= std::min(inputs_.haste() * 1.1, 16.0);
         continue;
       }

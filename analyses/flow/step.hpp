@@ -99,6 +99,7 @@ class FlowStepper {
   double suggestion(double theta) const;
   std::string reason(const FlowSet& set) const;
   bool isTruncationTooLarge(double splitDefect) const;
+  bool isLooserThanDriven() const;
   bool isKinkTooWide(const FlowSet& set, double kinkShare);
   std::vector<double> symbolMass(std::vector<double>& byGrade) const;
 

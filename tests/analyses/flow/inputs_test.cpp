@@ -129,6 +129,21 @@ TEST(FlowInputs, HoldSwitchingCourses) {
   expectCourses(c, 20);
 }
 
+/// What the input multiplies passes through zero, for all of the set and for a part of it.
+TEST(FlowInputs, HoldWhereTheyDoNothingForAMoment) {
+  Containment c;
+  c.f = record(2, 2, [](auto, const auto& x, const auto& p, auto& dx) {
+    dx[0] = x[1] + p[1] * x[0];
+    dx[1] = -p[0] * x[0];
+  });
+  c.options.varying = {{0}, {1}};
+  c.horizon = 2;
+  for (double spread : {0.0, 0.05}) {
+    c.box = {Interval(1 - spread, 1 + spread), 0.0, Interval(3.9, 4.1), Interval(-0.05, 0.05)};
+    EXPECT_LT(expectCourses(c, 8).steps(), 400);
+  }
+}
+
 /// Many states, and inputs that act on the last of a chain.
 TEST(FlowInputs, HoldOnChains) {
   Containment c;
