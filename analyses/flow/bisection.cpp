@@ -88,6 +88,21 @@ FlowSet FlowStepper::bisect(FlowSet& set, int symbol, const PolynomialRange& shi
       }
       s.W[at(i)] = (set.W[at(i)] + rounding) * bounds::up + bounds::tiny;
     }
+    if (at(symbol) < s.inputsOfXi.size()) {  // Γ + ξ Γ_l, one rounding an entry: |C| times that
+      std::vector<double>& ofXi = s.inputsOfXi[at(symbol)];
+      std::vector<double> moved(at(n_), 0.0);
+      for (std::size_t c = 0; c < ofXi.size(); ++c) {
+        s.inputs[c] += middle * ofXi[c];
+        moved[c % at(n_)] += bounds::unit * std::fabs(s.inputs[c]);
+        ofXi[c] *= 0.5;
+      }
+      for (int i = 0; i < n_; ++i) {
+        double rounding = 0;
+        for (int g = 0; g < NJ; ++g)
+          for (int j = 0; j < n_; ++j) rounding += std::fabs(s.C[at((g * n_ + i) * n_ + j)]) * moved[at(j)];
+        s.W[at(i)] = (s.W[at(i)] + rounding) * bounds::up;
+      }
+    }
     for (Embedded& p : s.parameters)
       if (p.symbol == symbol) {
         const double moved = p.half * middle;  // exact: a power of two

@@ -101,26 +101,38 @@ bool FlowOutputs::evaluateTogether(double t, const FlowPoint& point, const std::
       spread[at(k)] =
           (series_.norm(node) - std::fabs(centre[at(k)]) * bounds::down + series_.rho0(node) + series_.rho1(node)) *
           bounds::up;
-      sum += (std::fabs(centre[at(k)]) + spread[at(k)]) * point.loose[at(k)];
+      sum += (std::fabs(centre[at(k)]) + spread[at(k)]) * (point.loose[at(k)] + point.beyond[at(k)]);
     }
     for (int j = 0; j < n_; ++j) {
-      double along0 = 0, size = 0, rest = 0;
+      double along0 = 0, size = 0, wide = 0, rest = 0;
       for (int k = 0; k < n_; ++k) {
         const double psi0 = point.psi[at(k * n_ + j)];
         along0 += centre[at(k)] * psi0;
-        size += std::fabs(centre[at(k)] * psi0);
-        rest += spread[at(k)] * point.psiSum[at(k * n_ + j)] +
-                std::fabs(centre[at(k)]) * (point.psiSum[at(k * n_ + j)] - std::fabs(psi0) * bounds::down);
+        size += std::fabs(centre[at(k)]) * point.psiSum[at(k * n_ + j)];
+        wide += spread[at(k)] * point.psiSum[at(k * n_ + j)];
+        rest += std::fabs(centre[at(k)]) * (point.psiSum[at(k * n_ + j)] - std::fabs(psi0) * bounds::down);
       }
-      sum += std::fabs(along0) * R[at(j)] + ((n_ + 1) * bounds::unit * size + rest) * point.total[at(j)];
+      sum += std::fabs(along0) * R[at(j)] + ((2 * n_ + 4) * bounds::unit * size + wide) * point.total[at(j)] +
+             rest * point.ofR[at(j)];
     }
     // Σ over generators |G₀ (Ψ₀Γ)_j|; its rounding is (n+1) u |G₀||Ψ₀||Γ|, counted with `size` above.
-    for (std::size_t column = 0; column < point.zonotope.size(); column += at(n_)) {
-      double along0 = 0;
-      for (int k = 0; k < n_; ++k) along0 += centre[at(k)] * point.zonotope[column + at(k)];
-      sum += std::fabs(along0);
-      if (column >= point.ofErrors) driven_[at(o)] += std::fabs(along0);
-    }
+    const auto alongColumns = [&](const std::vector<double>& columns, std::size_t from, std::size_t to) {
+      std::vector<double> result;
+      for (std::size_t column = from; column < to; column += at(n_)) {
+        double along0 = 0;
+        for (int k = 0; k < n_; ++k) along0 += centre[at(k)] * columns[column + at(k)];
+        result.push_back(along0);
+      }
+      return result;
+    };
+    for (const double along0 : alongColumns(point.zonotope, 0, point.ofErrors)) sum += std::fabs(along0);
+    std::vector<std::vector<double>> ofXi;
+    for (const std::vector<double>& columns : point.drivenOfXi)
+      ofXi.push_back(alongColumns(columns, 0, columns.size()));
+    const double driven =
+        drivenRadius(alongColumns(point.zonotope, point.ofErrors, point.zonotope.size()), ofXi, 0, 1) * bounds::up;
+    driven_[at(o)] += driven;
+    sum += driven;
     radius_[at(o)] = sum * bounds::up;
   }
   return true;

@@ -14,14 +14,10 @@ namespace gamut {
 
 using detail::at;
 
-namespace {
-
 void addColumns(const std::vector<double>& columns, std::vector<double>& total) {
   for (std::size_t j = 0; j < columns.size(); j += total.size())
     for (std::size_t i = 0; i < total.size(); ++i) total[i] += std::fabs(columns[j + i]);
 }
-
-}  // namespace
 
 void errorRadius(const FlowSet& set, std::vector<double>& total) {
   total = set.R;
@@ -32,21 +28,27 @@ void errorRadius(const FlowSet& set, std::vector<double>& total) {
 void totalRadius(const FlowSet& set, std::vector<double>& total) {
   errorRadius(set, total);
   addColumns(set.inputs, total);
+  for (const std::vector<double>& columns : set.inputsOfXi) addColumns(columns, total);
   for (double& value : total) value *= bounds::up;
 }
 
 void mergeInputs(FlowSet& set, std::size_t count, std::size_t most) {
-  if (set.inputs.size() <= most) return;
+  if (set.inputs.size() * (1 + set.inputsOfXi.size()) <= most) return;
   const std::size_t n = set.R.size(), part = count * n, pairs = set.inputs.size() / (4 * part);
-  std::vector<double> merged, apart(n, 0.0);
-  for (std::size_t pair = 0; pair < pairs; ++pair)
-    for (std::size_t i = 0; i < part; ++i) {
-      const double a = set.inputs[2 * pair * part + i], b = set.inputs[(2 * pair + 1) * part + i];
-      merged.push_back(a + b);
-      apart[i % n] += (std::fabs(a - b) + bounds::unit * std::fabs(a + b)) * bounds::up;  // and the sum's rounding
-    }
-  merged.insert(merged.end(), set.inputs.begin() + static_cast<std::ptrdiff_t>(2 * pairs * part), set.inputs.end());
-  set.inputs = std::move(merged);
+  std::vector<double> apart(n, 0.0);
+  const auto merge = [&](std::vector<double>& columns) {
+    std::vector<double> merged;
+    for (std::size_t pair = 0; pair < pairs; ++pair)
+      for (std::size_t i = 0; i < part; ++i) {
+        const double a = columns[2 * pair * part + i], b = columns[(2 * pair + 1) * part + i];
+        merged.push_back(a + b);
+        apart[i % n] += (std::fabs(a - b) + bounds::unit * std::fabs(a + b)) * bounds::up;  // and the sum's rounding
+      }
+    merged.insert(merged.end(), columns.begin() + static_cast<std::ptrdiff_t>(2 * pairs * part), columns.end());
+    columns = std::move(merged);
+  };
+  merge(set.inputs);
+  for (std::vector<double>& columns : set.inputsOfXi) merge(columns);
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = 0; j < n; ++j) set.generators.push_back(i == j ? apart[i] * bounds::up : 0.0);
 }
@@ -166,13 +168,17 @@ bool expandRemainder(FlowSet& set, const Monomials& from, int fromFrameDegree, c
   for (int i = 0; i < n; ++i) set.C[at(i * n + i)] = 1;
   set.R.assign(at(n), 0.0);
   set.generators.clear();
-  // Inputs are as they were, in the new frame: C_0 Γ, n roundings an entry, and one for the frame's new entries.
-  const Eigen::Map<const Matrix> inputs(set.inputs.data(), n, static_cast<int>(set.inputs.size()) / n);
-  const Matrix driven = oldFrame * inputs;
-  const Eigen::VectorXd rounded =
-      (n + 1) * bounds::unit * (oldFrame.cwiseAbs() * (inputs.cwiseAbs() * Eigen::VectorXd::Ones(inputs.cols())));
-  for (int i = 0; i < n; ++i) set.W[at(i)] = (set.W[at(i)] + rounded(i)) * bounds::up;
-  set.inputs.assign(driven.data(), driven.data() + driven.size());
+  // Inputs are as they were, in the new frame: C_0 Γ, n roundings an entry. (C_α Γ, α ≠ 0, is in W by now.)
+  const auto reframe = [&](std::vector<double>& columns) {
+    const Eigen::Map<const Matrix> before(columns.data(), n, static_cast<int>(columns.size()) / n);
+    const Matrix driven = oldFrame * before;
+    const Eigen::VectorXd rounded =
+        (n + 1) * bounds::unit * (oldFrame.cwiseAbs() * (before.cwiseAbs() * Eigen::VectorXd::Ones(before.cols())));
+    for (int i = 0; i < n; ++i) set.W[at(i)] = (set.W[at(i)] + rounded(i)) * bounds::up;
+    columns.assign(driven.data(), driven.data() + driven.size());
+  };
+  reframe(set.inputs);
+  for (std::vector<double>& columns : set.inputsOfXi) reframe(columns);
   return true;
 }
 

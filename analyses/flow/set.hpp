@@ -10,7 +10,7 @@
 
 namespace gamut {
 
-/// For every ξ in [-1,1]^k there are |r| ≤ R, |s_j| ≤ 1, |w| ≤ W with x(t; ξ) = p(ξ) + C(ξ) (r + Σ_j Γ_j s_j) + w.
+/// For every ξ in [-1,1]^k there are |r| ≤ R, |s_j| ≤ 1, |w| ≤ W with x(t; ξ) = p(ξ) + C(ξ) (r + Σ_j Γ_j(ξ) s_j) + w.
 /// Every step's local error becomes generators Γ_j of its own: boxes would wrap, zonotopes do not. So does what inputs
 /// do.
 struct FlowSet {
@@ -18,8 +18,9 @@ struct FlowSet {
   std::vector<double> p;  // [state][monomial]
   std::vector<double> C;  // [monomial ≤ frameDegree][row][column]
   std::vector<double> R, W;
-  std::vector<double> generators;  // [generator][row], oldest first
-  std::vector<double> inputs;      // likewise, of what varies in time: [part of a step][input][row]
+  std::vector<double> generators;               // [generator][row], oldest first
+  std::vector<double> inputs;                   // likewise, of what varies in time: [part of a step][input][row]
+  std::vector<std::vector<double>> inputsOfXi;  // what of them is linear in each symbol, likewise; none: nothing is
   std::vector<Embedded> parameters;
   std::vector<double> centre, half;    // ξ of the study = centre + half·ξ of this piece (exact: dyadic)
   std::vector<int> units;              // FlowGrowth's, of the last step
@@ -31,6 +32,8 @@ struct FlowSet {
 /// R + Σ_j |Γ_j|, rounded up; of errors alone, without what inputs did.
 void totalRadius(const FlowSet& set, std::vector<double>& total);
 void errorRadius(const FlowSet& set, std::vector<double>& total);
+/// += Σ |columns|, in round-to-nearest.
+void addColumns(const std::vector<double>& columns, std::vector<double>& total);
 /// Generators of two successive parts become their sum, where there are more than `most` numbers, in the older half: a
 /// s
 /// + b s' = (a + b)u + (a - b)v with |u|, |v| ≤ 1. The differences join the errors' generators. `count`: inputs.

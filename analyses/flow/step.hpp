@@ -18,15 +18,18 @@ namespace gamut {
 
 /// p(σ), Ψ(σ) and what bounds their distance from the truth at one time of the step.
 struct FlowPoint {
-  std::vector<double> p;         // [state][monomial]
-  std::vector<double> psi;       // [monomial][row][column]
-  std::vector<double> psiSum;    // Σ_α |Ψ_α| [row][column]
-  std::vector<double> zonotope;  // Ψ_0 Γ [generator][row], errors' first, then those of inputs
-  std::size_t ofErrors = 0;      // how many of these numbers are the errors'
-  std::vector<double> total;     // R + Σ_j |Γ_j|
-  std::vector<double> loose;     // everything but Ψ (r + Γs), a bound for each state
-  std::vector<double> radius;    // |x - p| ≤ radius
-  std::vector<double> driven;    // what of that inputs did
+  std::vector<double> p;                        // [state][monomial]
+  std::vector<double> psi;                      // [monomial][row][column]
+  std::vector<double> psiSum;                   // Σ_α |Ψ_α| [row][column]
+  std::vector<double> zonotope;                 // Ψ_0 Γ [generator][row], errors' first, then those of inputs
+  std::size_t ofErrors = 0;                     // how many of these numbers are the errors'
+  std::vector<std::vector<double>> drivenOfXi;  // linear in each symbol, of those of inputs
+  std::vector<double> total;                    // R + Σ_j |Γ_j|
+  std::vector<double> ofR;                      // the same of errors alone
+  std::vector<double> beyond;                   // of each state, what is of higher order in ξ of inputs
+  std::vector<double> loose;                    // everything but Ψ (r + Γs), a bound for each state
+  std::vector<double> radius;                   // |x - p| ≤ radius
+  std::vector<double> driven;                   // what of that inputs did
 };
 
 /// How the polynomials of a step fade with their grade.
@@ -34,6 +37,11 @@ struct GradeDecay {
   double ratio;    // of what one grade holds to what the grade before holds, among the highest
   double symbols;  // how many symbols share in the highest grades
 };
+
+/// Of a number that inputs drive, Σ_c |a_c + Σ_l ξ_l b_lc| at most, c every `stride`: convex in ξ, so greatest at a
+/// corner. In a from `first` on; in each b from the beginning, but for the same place within a stride.
+double drivenRadius(const std::vector<double>& a, const std::vector<std::vector<double>>& b, std::size_t first,
+                    std::size_t stride);
 
 enum class StepOutcome { stepped, splitWanted, failed };
 
@@ -92,6 +100,7 @@ class FlowStepper {
   int frameCount() const { return series_.frameCount(); }
 
  private:
+  void evaluateInputs(const FlowSet& set, const std::vector<double>& columns, FlowPoint& point) const;
   bool boundGrowth(double h);
   bool tryStep(const FlowSet& set, double theta);
   void load(const FlowSet& set);

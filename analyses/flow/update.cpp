@@ -37,6 +37,13 @@ auto columnsOf(Generators& generators, int n) {
   return Eigen::Map<Matrix>(generators.data(), n, static_cast<Eigen::Index>(generators.size()) / n);
 }
 
+/// Ψ_g of the point.
+auto frameOf(const FlowPoint& point, int g) {
+  const auto n = static_cast<Eigen::Index>(point.loose.size());
+  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  return Eigen::Map<const RowMajor>(point.psi.data() + g * n * n, n, n);
+}
+
 }  // namespace
 
 void FlowStepper::evaluate(const FlowSet& set, double tau, FlowPoint& point) {
@@ -78,36 +85,92 @@ void FlowStepper::evaluate(const FlowSet& set, double tau, FlowPoint& point) {
       point.psiSum[at(i * n_ + j)] = sum * bounds::up;
       // Ψ_0 r by the box R; Ψ_0 Γ s below; the higher Ψ_α by the whole radius.
       const double leading = std::fabs(point.psi[at(i * n_ + j)]);
-      radius +=
-          leading * set.R[at(j)] + (sum * bounds::up - leading * bounds::down) * (NJ > 1 ? point.total[at(j)] : 0.0);
+      radius += leading * set.R[at(j)] + (sum * bounds::up - leading * bounds::down) * (NJ > 1 ? errors_[at(j)] : 0.0);
       if (tau != 0) loose += (error + epsilon_[at(i * n_ + j)]) * point.total[at(j)];
     }
     point.loose[at(i)] = loose;
     point.radius[at(i)] = radius;
   }
-  // Ψ_0 Γ: n roundings an entry, together at most n u |Ψ_0| Σ|Γ_j|.
+  // Ψ_0 Γ: n roundings an entry, together at most n u |Ψ_0| Σ|Γ_j|; with what is linear in ξ of inputs twice as many.
   const std::size_t n = set.R.size();
   const std::vector<double>& fresh = inputs_.generators();
+  const auto begun = static_cast<std::ptrdiff_t>(tau == 0 ? 0 : inputs_.begunBefore(tau / h_));
   std::vector<double> columns = set.generators;
   columns.insert(columns.end(), set.inputs.begin(), set.inputs.end());
-  columns.insert(columns.end(), fresh.begin(),
-                 fresh.begin() + static_cast<std::ptrdiff_t>(tau == 0 ? 0 : inputs_.begunBefore(tau / h_)));
+  columns.insert(columns.end(), fresh.begin(), fresh.begin() + begun);
   point.zonotope.resize(columns.size());
   point.ofErrors = set.generators.size();
-  const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> psi(point.psi.data(),
-                                                                                                     n_, n_);
+  point.ofR = errors_;
   Eigen::Map<Eigen::MatrixXd> zonotope = columnsOf(point.zonotope, n_);
-  zonotope.noalias() = psi * columnsOf(columns, n_);
-  Eigen::Map<Eigen::VectorXd>(point.radius.data(), n_) += zonotope.cwiseAbs().rowwise().sum();
-  const Eigen::VectorXd driven =
-      zonotope.rightCols(zonotope.cols() - static_cast<Eigen::Index>(point.ofErrors / n)).cwiseAbs().rowwise().sum();
-  point.driven.assign(driven.data(), driven.data() + n_);
+  zonotope.noalias() = frameOf(point, 0) * columnsOf(columns, n_);
+  Eigen::Map<Eigen::VectorXd>(point.radius.data(), n_) +=
+      zonotope.leftCols(static_cast<Eigen::Index>(point.ofErrors / n)).cwiseAbs().rowwise().sum();
+  evaluateInputs(set, columns, point);
   for (std::size_t i = 0; i < n; ++i) {
     double size = 0;
-    for (std::size_t k = 0; k < n; ++k) size += std::fabs(point.psi[i * n + k]) * point.total[k];
-    point.loose[i] = (point.loose[i] + (n_ + 1) * bounds::unit * size) * bounds::up;
-    point.radius[i] = (point.radius[i] + point.loose[i]) * bounds::up + bounds::tiny;
+    for (std::size_t k = 0; k < n; ++k) size += point.psiSum[i * n + k] * point.total[k];
+    point.loose[i] = (point.loose[i] + (2 * n_ + 4) * bounds::unit * size) * bounds::up;
+    point.radius[i] =
+        (point.radius[i] + point.driven[i] + point.beyond[i] + point.loose[i]) * bounds::up + bounds::tiny;
   }
+}
+
+/// What inputs did: (Ψ_0 + Σ_l Ψ_l ξ_l) (Γ + Σ_l Γ_l ξ_l) to the first order in ξ; the rest goes `beyond`.
+void FlowStepper::evaluateInputs(const FlowSet& set, const std::vector<double>& columns, FlowPoint& point) const {
+  const std::size_t n = at(n_), first = point.ofErrors, symbols = set.inputsOfXi.size();
+  point.driven.assign(n, 0.0);
+  point.beyond.assign(n, 0.0);
+  point.drivenOfXi.assign(symbols, std::vector<double>(columns.size() - first, 0.0));
+  if (columns.size() == first) return;
+  const Eigen::Map<const Eigen::MatrixXd> own(columns.data() + first, n_,
+                                              static_cast<Eigen::Index>((columns.size() - first) / n));
+  std::vector<double> plain(n, 0.0), ofXi(n, 0.0);
+  addColumns({columns.begin() + static_cast<std::ptrdiff_t>(first), columns.end()}, plain);
+  Eigen::MatrixXd all(n_, n_);  // Σ_{α≠0} |Ψ_α|
+  for (int i = 0; i < n_; ++i)
+    for (int j = 0; j < n_; ++j)
+      all(i, j) = point.psiSum[at(i * n_ + j)] - std::fabs(point.psi[at(i * n_ + j)]) * bounds::down;
+  Eigen::MatrixXd higher = all;  // without those taken below
+  for (std::size_t l = 0; l < symbols; ++l) {
+    const int g = monomials().linear(static_cast<int>(l));
+    addColumns(set.inputsOfXi[l], ofXi);
+    Eigen::Map<Eigen::MatrixXd> linear = columnsOf(point.drivenOfXi[l], n_);
+    const auto before = columnsOf(set.inputsOfXi[l], n_);
+    linear.leftCols(before.cols()).noalias() = frameOf(point, 0) * before;
+    if (g < 0 || g >= series_.frameCount()) continue;
+    linear.noalias() += frameOf(point, g) * own;
+    higher -= frameOf(point, g).cwiseAbs() * bounds::down;
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = 0; j < n; ++j) {
+      const auto row = static_cast<Eigen::Index>(i), column = static_cast<Eigen::Index>(j);
+      point.beyond[i] += std::max(0.0, higher(row, column)) * plain[j] + all(row, column) * ofXi[j];
+    }
+    point.beyond[i] *= bounds::up;
+    point.driven[i] = drivenRadius(point.zonotope, point.drivenOfXi, first + i, n) * bounds::up;
+  }
+}
+
+double drivenRadius(const std::vector<double>& a, const std::vector<std::vector<double>>& b, std::size_t first,
+                    std::size_t stride) {
+  constexpr std::size_t mostCorners = 5;  // so many symbols' corners are looked at: beyond, the sum of all
+  const bool byCorners = b.size() <= mostCorners;
+  double most = 0;
+  for (std::size_t corner = 0; corner < (byCorners ? std::size_t{1} << b.size() : 1); ++corner) {
+    double sum = 0;
+    for (std::size_t c = first, k = first % stride; c < a.size(); c += stride, k += stride) {
+      double value = a[c], size = 0;
+      for (std::size_t l = 0; l < b.size(); ++l) {
+        if (byCorners)
+          value += ((corner >> l) & 1) != 0 ? b[l][k] : -b[l][k];
+        else
+          size += std::fabs(b[l][k]);
+      }
+      sum += std::fabs(value) + size;
+    }
+    most = std::max(most, sum);
+  }
+  return most;
 }
 
 double FlowStepper::looseBound(int i) const {
@@ -193,7 +256,7 @@ void FlowStepper::advance(FlowSet& set) {
     for (int j = 0; j < n_; ++j) {
       const double largest = N.col(j).maxCoeff();
       N.col(j).array() += slack * largest;
-      if (!(largest < dumpedAt)) constant[at(j)] = 1;
+      if (!(largest < dumpedAt) || !inputs_.empty()) constant[at(j)] = 1;
     }
     N *= bounds::up;
   }
@@ -213,23 +276,43 @@ void FlowStepper::advance(FlowSet& set) {
 
   // C'⁻¹v with v = D(ξ)(r + Γs) + w, D = Σ_α ξ^α (Ψ_α - C'_α T). The part of D goes into the box, with |QᵀD| as the
   // absolute value of the product; w becomes generators Qᵀ diag(|w|), and what ξ adds to them goes into the box.
-  Eigen::VectorXd w(n_), box = Eigen::VectorXd::Zero(n_), R(n_), total(n_);
+  // Of inputs what is linear in ξ is kept, so that frames are constant there.
+  Eigen::VectorXd w(n_), box = Eigen::VectorXd::Zero(n_), R(n_), total(n_), plain(n_), kept = box;
+  std::vector<double> ofInputs(at(n_), 0.0);
+  addColumns(set.inputs, ofInputs);
+  addColumns(inputs_.generators(), ofInputs);
+  std::vector<Matrix> turnOfXi(inputs_.empty() ? 0 : set.half.size());
   for (int i = 0; i < n_; ++i) w(i) = end_.loose[at(i)];
   for (int j = 0; j < n_; ++j) {
     R(j) = set.R[at(order[at(j)])];
     total(j) = all[at(order[at(j)])];
+    plain(j) = ofInputs[at(order[at(j)])] * bounds::down;  // no more than its part of the total
   }
+  const auto symbolOf = [&](int g) {  // whose first power the monomial is, of those kept
+    for (std::size_t l = 0; l < turnOfXi.size() && g > 0; ++l)
+      if (monomials().linear(static_cast<int>(l)) == g) return l;
+    return turnOfXi.size();
+  };
   for (int g = 0; g < NJ; ++g) {
     const Matrix D = sorted[at(g)] - C[at(g)] * T;
     // n products, n sums and the difference: n + 2 roundings at most.
     const Matrix size = sorted[at(g)].cwiseAbs() + C[at(g)].cwiseAbs() * T.cwiseAbs();
     w += (n_ + 2) * bounds::unit * (size * total);
-    box += (Q.transpose() * D).cwiseAbs() * total +
-           (n_ + 1) * bounds::unit * (Q.cwiseAbs().transpose() * (D.cwiseAbs() * total));
+    const Matrix turnedD = Q.transpose() * D;
+    if (const std::size_t l = symbolOf(g); l < turnOfXi.size()) {
+      box += turnedD.cwiseAbs() * (total - plain);
+      kept += turnedD.cwiseAbs() * plain;
+      turnOfXi[l].resize(n_, n_);
+      for (int k = 0; k < n_; ++k) turnOfXi[l].col(order[at(k)]) = turnedD.col(k);
+    } else {
+      box += turnedD.cwiseAbs() * total;
+    }
+    // n products in QᵀD; where it is kept, as many again in the product with Γ.
+    box += (2 * n_ + 3) * bounds::unit * (Q.cwiseAbs().transpose() * (D.cwiseAbs() * total));
   }
   w *= bounds::up;
   const Eigen::VectorXd turned = Q.cwiseAbs().transpose() * w;
-  box.array() += slack * (box.maxCoeff() + turned.maxCoeff()) + bounds::tiny;
+  box.array() += slack * (box.maxCoeff() + turned.maxCoeff() + kept.maxCoeff()) + bounds::tiny;
   if (N.maxCoeff() > 0) {
     // y ≥ b + N y, checked, gives y ≥ (I - N)⁻¹ b: once for the box, once for N (I - N)⁻¹ |Qᵀ| w.
     const auto solve = [&](const Eigen::VectorXd& b) {
@@ -259,14 +342,22 @@ void FlowStepper::advance(FlowSet& set) {
     moved.rightCols(n_) = (bounds::up * box).asDiagonal();
     box.setZero();
   }
-  const Eigen::Index kept = (inputs_.empty() ? stepsKept(n_) : stepsBesideInputs) * own;
-  const Eigen::Index oldest = std::max<Eigen::Index>(0, moved.cols() - kept);
+  const Eigen::Index held = (inputs_.empty() ? stepsKept(n_) : stepsBesideInputs) * own;
+  const Eigen::Index oldest = std::max<Eigen::Index>(0, moved.cols() - held);
   const Eigen::VectorXd merged = moved.leftCols(oldest).cwiseAbs().rowwise().sum();
   const Eigen::VectorXd newR = (T.cwiseAbs() * R + merged + box) * bounds::up;
   set.generators.assign(moved.data() + oldest * n_, moved.data() + moved.size());
   if (!inputs_.empty()) {
     set.inputs.insert(set.inputs.end(), inputs_.generators().begin(), inputs_.generators().end());
-    const Matrix driven = turn * columnsOf(std::as_const(set.inputs), n_);
+    set.inputsOfXi.resize(turnOfXi.size());
+    const auto inputs = columnsOf(std::as_const(set.inputs), n_);
+    for (std::size_t l = 0; l < turnOfXi.size(); ++l) {
+      set.inputsOfXi[l].resize(set.inputs.size(), 0.0);
+      Matrix driven = turn * columnsOf(std::as_const(set.inputsOfXi[l]), n_);
+      if (turnOfXi[l].size() > 0) driven += turnOfXi[l] * inputs;
+      set.inputsOfXi[l].assign(driven.data(), driven.data() + driven.size());
+    }
+    const Matrix driven = turn * inputs;
     set.inputs.assign(driven.data(), driven.data() + driven.size());
     mergeInputs(set, at(inputs_.count()), mostInputNumbers);
   }

@@ -84,6 +84,26 @@ TEST(FlowInputs, AreAsTightAsAskedForAgainstTheOptimalCourse) {
     }
 }
 
+/// A stiffness known to 1 %: the optimal course of its ends is a lower bound of what is possible.
+TEST(FlowInputs, AreTightBesideUncertainParameters) {
+  Containment c;
+  c.f = record(2, 2, [](auto, const auto& x, const auto& p, auto& dx) {
+    dx[0] = x[1];
+    dx[1] = p[0] - 25.0 * p[1] * x[0] - x[1];
+  });
+  c.g = record(2, 2, 1, [](auto, const auto& x, const auto&, auto& y) { y[0] = x[0] + 0.1 * x[1] * x[0]; });
+  c.box = {0.0, 0.0, Interval(-1, 1), Interval(0.99, 1.01)};
+  c.options.varying = {{0}};
+  c.horizon = 4;
+  c.times = {1, 2};
+  const Tube tube = expectCourses(c, 10);
+  for (std::size_t row : {1U, 2U, 3U})
+    EXPECT_LT(width(tube.states(row)[0]),
+              2 * 1.05 *
+                  std::max(farthest(5 * std::sqrt(0.99), 0.1 / std::sqrt(0.99), tube.times()[row]),
+                           farthest(5 * std::sqrt(1.01), 0.1 / std::sqrt(1.01), tube.times()[row])));
+}
+
 /// Bang-bang with the switches of the impulse response, counted back from the end.
 TEST(FlowInputs, HoldTheOptimalCourse) {
   const Containment c = oscillator(4.0, 0.0);
@@ -162,6 +182,23 @@ TEST(FlowInputs, HoldOnChains) {
   c.options.varying = {{0}};
   c.horizon = 2;
   expectCourses(c, 6);
+}
+
+/// Pieces of a wide box, and symbols for the errors of a thin one.
+TEST(FlowInputs, HoldWherePiecesAreBisectedOrExpanded) {
+  Containment c;
+  c.f = record(2, 2, [](auto, const auto& x, const auto& p, auto& dx) {
+    dx[0] = x[1];
+    dx[1] = p[1] * (1.0 - sqr(x[0])) * x[1] - x[0] + p[0];
+  });
+  c.g = standardOutputs(2, 2);
+  c.options.varying = {{0}};
+  c.horizon = 4;
+  c.times = {1, 2, 3};
+  c.box = {Interval(1.2, 1.8), Interval(2.2, 2.6), Interval(-0.001, 0.001), Interval(0.95, 1.05)};
+  EXPECT_GT(expectCourses(c, 8).pieces(), 1);
+  c.box = {1.5, 2.4, Interval(-1e-4, 1e-4), 1.0};
+  expectCourses(c, 8);
 }
 
 /// With a bounded rate: ramps, whose rates switch. Narrower than without.
