@@ -149,6 +149,25 @@ TEST(FlowInputs, HoldSwitchingCourses) {
   expectCourses(c, 20);
 }
 
+/// Of ẋ = x² + w the second order counts: the derivative half way to the extreme courses, the constant ones.
+TEST(FlowInputs, HoldTheExtremesOfAQuadraticEquation) {
+  Containment c;
+  c.f = record(1, 1, [](auto, const auto& x, const auto& p, auto& dx) { dx[0] = sqr(x[0]) + p[0]; });
+  c.options.varying = {{0}};
+  for (double radius : {0.01, 0.1, 0.2}) {
+    c.box = {0.5, Interval(-radius, radius)};
+    c.horizon = 1.25;
+    c.times = {0.25, 0.5, 0.75, 1};
+    const Tube tube = c.tube();
+    ASSERT_EQ(tube.why(), "");
+    Reference reference(c.f);
+    for (double course : {-radius, radius}) {
+      const std::vector<Vector> motion = reference({Precise(0.5), Precise(course)}, {0.25, 0.5, 0.75, 1.0, 1.25});
+      for (std::size_t row = 1; row <= 5; ++row) EXPECT_THAT(tube.states(row)[0], Encloses(motion[row - 1][0]));
+    }
+  }
+}
+
 /// What the input multiplies passes through zero, for all of the set and for a part of it.
 TEST(FlowInputs, HoldWhereTheyDoNothingForAMoment) {
   Containment c;
