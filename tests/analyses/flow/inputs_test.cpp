@@ -168,6 +168,29 @@ TEST(FlowInputs, HoldTheExtremesOfAQuadraticEquation) {
   }
 }
 
+/// Far from the centre of a parameter what inputs do is not linear in it: the optimal courses of both ends are held.
+TEST(FlowInputs, HoldTheOptimalCourseOfEveryParameter) {
+  for (double spread : {0.1, 0.3}) {
+    Containment c;
+    c.f = record(2, 2, [](auto, const auto& x, const auto& p, auto& dx) {
+      dx[0] = x[1];
+      dx[1] = p[0] - 25.0 * p[1] * x[0] - 0.5 * x[1];
+    });
+    c.box = {0.0, 0.0, Interval(-1, 1), Interval(1 - spread, 1 + spread)};
+    c.options.varying = {{0}};
+    c.horizon = 1.5;
+    for (int i = 1; i < 15; ++i) c.times.push_back(0.1 * i);
+    const Tube tube = c.tube();
+    ASSERT_EQ(tube.why(), "");
+    for (std::size_t row = 1; row < tube.reachedTimes(); ++row)
+      for (double part : {-1.0, -0.5, 0.5, 1.0}) {
+        const double frequency = 5 * std::sqrt(1 + part * spread);
+        EXPECT_GT(tube.states(row)[0].upper(), farthest(frequency, 0.25 / frequency, tube.times()[row]) * (1 - 1e-9))
+            << spread << ' ' << part << ' ' << row;
+      }
+  }
+}
+
 /// What the input multiplies passes through zero, for all of the set and for a part of it.
 TEST(FlowInputs, HoldWhereTheyDoNothingForAMoment) {
   Containment c;

@@ -165,6 +165,25 @@ TEST(FlowKink, HoldWhatSticks) {
   }
 }
 
+/// The polynomial stays on one side, the set that an input makes of it does not.
+TEST(FlowKink, HoldJumpsThatInputsReach) {
+  Containment c;
+  c.f = record(2, 1, [](auto, const auto& x, const auto& p, auto& dx) {
+    dx[0] = p[0];
+    dx[1] = sign(x[0]);
+  });
+  c.box = {0.0625, 0.0, Interval(-1, 1)};
+  c.options.varying = {{0}};
+  c.horizon = 1;
+  c.times = {0.25, 0.5};
+  const Tube tube = c.tube();
+  ASSERT_EQ(tube.why(), "");
+  for (std::size_t row = 1; row < tube.reachedTimes(); ++row) {  // w = -1, w = 1
+    EXPECT_LE(tube.states(row)[1].lower(), 0.125 - tube.times()[row]);
+    EXPECT_GE(tube.states(row)[1].upper(), tube.times()[row]);
+  }
+}
+
 /// In outputs: kinks and jumps in the range, at output times and between them.
 TEST(FlowKink, InOutputs) {
   Containment c;
