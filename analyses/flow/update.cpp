@@ -28,7 +28,7 @@ int stepsKept(int n) { return std::clamp(60 * n, 60, 300); }
 /// As many where inputs are at work, whose rests are no roundings.
 constexpr int stepsBesideInputs = 2000;
 /// Of the generators of inputs, before pairs of them are merged.
-constexpr std::size_t mostInputNumbers = 40000;
+constexpr std::size_t mostInputNumbers = 1000000;
 
 /// Generators, n numbers each, as the columns of a matrix.
 template <class Generators>
