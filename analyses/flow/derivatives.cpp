@@ -24,7 +24,12 @@ std::vector<std::string> extendedNames(std::vector<std::string> names, std::size
   return names;
 }
 
-FlowOptions withNames(FlowOptions options, int states, int outputs, std::size_t by) {
+/// Of the flow along derivatives by these components.
+FlowOptions checked(FlowOptions options, int states, int outputs, const std::vector<int>& which) {
+  for (const VaryingParameter& input : options.varying)
+    requireThat(std::ranges::find(which, states + input.parameter) == which.end(),
+                "there is no derivative by what varies in time");
+  const std::size_t by = which.size();
   options.stateNames = extendedNames(std::move(options.stateNames), at(states), by);
   options.outputNames = extendedNames(std::move(options.outputNames), at(outputs), by);
   return options;
@@ -44,8 +49,7 @@ DerivativeFlow::DerivativeFlow(const Program& f, const Program& g, std::vector<i
       parameters_(f.parameters()),
       outputs_(g.outputs()),
       by_(std::move(by)),
-      flow_(alongDerivatives(f, by_), alongDerivatives(g, by_),
-            withNames(std::move(options), states_, outputs_, by_.size())) {}
+      flow_(alongDerivatives(f, by_), alongDerivatives(g, by_), checked(std::move(options), states_, outputs_, by_)) {}
 
 Box DerivativeFlow::extended(const Box& box) const {
   requireThat(box.size() == at(states_ + parameters_),

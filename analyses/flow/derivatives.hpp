@@ -19,7 +19,7 @@ namespace gamut {
 class DerivativeFlow {
  public:
   /// As Flow. `by`: components of the box, n initial values first, then k parameters, each at most once.
-  /// Throws std::invalid_argument for one that the box does not have.
+  /// Throws std::invalid_argument for one that the box does not have, or that varies in time.
   DerivativeFlow(const Program& f, std::vector<int> by, FlowOptions options = {});
   DerivativeFlow(const Program& f, const Program& g, std::vector<int> by, FlowOptions options = {});
 

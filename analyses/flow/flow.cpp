@@ -135,7 +135,7 @@ Tube Flow::enclose(const Box& box, double horizon, const std::vector<double>& ou
   if (early.empty()) return tube;
   Tube ofRates = answer(*parts_->ofRates, options, budget, box, early.back(), early, levels);
   FlowRun::dropStates(ofRates, motion.states());
-  const std::string limit = ofRates.limit();
+  const std::string limit = ofRates.limit().empty() ? tube.limit() : ofRates.limit();
   tube = FlowRun::meet(std::move(tube), std::move(ofRates));
   FlowRun::explain(tube, options, limit);
   return tube;

@@ -88,8 +88,10 @@ void FlowInputs::resolve(const PolynomialSeries& series, const FlowGrowth& growt
     mostMoved = std::max(mostMoved, unit * moved);
     mostDone = std::max(mostDone, unit * driving(i) * h);
   }
-  const double wanted = mostDone > 0 ? mostMoved / (share_ * mostDone) : 1.0;
-  parts_ = static_cast<int>(std::ceil(std::clamp(wanted, std::min(each, fewParts), mostParts)));
+  double wanted = mostDone > 0 ? mostMoved / (share_ * mostDone) : 1.0;
+  if (!std::isfinite(wanted)) wanted = mostParts;  // a frame that cannot be solved for: the next step fails
+  const double least = each < fewParts ? each : fewParts;
+  parts_ = static_cast<int>(std::ceil(std::clamp(wanted, least, mostParts)));
   haste_ = wanted / mostParts;
 
   std::vector<double> turning(at(n_), 0.0), constant(at(n_), 0.0);

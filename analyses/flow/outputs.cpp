@@ -115,7 +115,8 @@ bool FlowOutputs::evaluateTogether(double t, const FlowPoint& point, const std::
       sum += std::fabs(along0) * R[at(j)] + ((2 * n_ + 4) * bounds::unit * size + wide) * point.total[at(j)] +
              rest * point.ofR[at(j)];
     }
-    // Σ over generators |G₀ (Ψ₀Γ)_j|; its rounding is (n+1) u |G₀||Ψ₀||Γ|, counted with `size` above.
+    // Σ over generators |G₀ (Ψ₀Γ)_j|; its rounding is (n+1) u |G₀||Ψ₀||Γ|, of inputs (n+5) u with their five symbols at
+    // most (drivenRadius): both are counted with `size` above.
     const auto alongColumns = [&](const std::vector<double>& columns, std::size_t from, std::size_t to) {
       std::vector<double> result;
       for (std::size_t column = from; column < to; column += at(n_)) {

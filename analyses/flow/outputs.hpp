@@ -31,8 +31,8 @@ class FlowOutputs {
   /// What of the radius is not overestimation: what inputs did, before and at this moment.
   double driven(int output) const { return driven_[static_cast<std::size_t>(output)]; }
 
-  /// Output o wherever the states are in these boxes, by plain intervals, for one that has an infinite radius: at a
-  /// kink, or where it is not defined for every ξ.
+  /// Output o wherever the states are in these boxes, by plain intervals, for one that has an infinite radius:
+  /// where it is not defined for every ξ; and for what has kinks, of which it may know more.
   Interval overBox(int output, const Interval& t, const std::vector<Interval>& states,
                    const std::vector<Embedded>& parameters);
 

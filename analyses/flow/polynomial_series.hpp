@@ -82,7 +82,8 @@ class PolynomialSeries {
   /// The bounds are those along the polynomial: from then on what is between it and the set bounded last can be told.
   void keepAlong();
   /// The mean of ρ0 (ρ1) on the way from the polynomial to any point of the set bounded last: bounds are convex in E
-  /// and in the inputs' radii, sums and products of convex functions, but for tanh; so no more than half way between.
+  /// and in the inputs' radii, sums and products of convex functions, but for tanh, abs and sign; so no more than half
+  /// way between.
   double meanRho0(int node) const { return mean(along0_, rho0_, node); }
   double meanRho1(int node) const { return mean(along1_, rho1_, node); }
 
@@ -167,6 +168,7 @@ class PolynomialSeries {
   /// |a| ≈ slope a + middle.
   struct Chord {
     double slope = 0, middle = 0;
+    bool isExact() const { return (slope == 1 || slope == -1) && middle == 0; }  // where u stays on one side
   };
   Chord chordOf(int node) const;
   double signOf(const Plan& v) const;
@@ -229,7 +231,6 @@ class PolynomialSeries {
   std::vector<double> constant_, radius_, pointError_;
   std::vector<char> varies_;                          // of each parameter
   std::vector<Chord> chords_;                         // of each abs
-  std::vector<double> reach_;                         // greatest norm that the argument of an abs or sign has had
   std::vector<double> jump_;                          // radius of each sign
   std::vector<double> atStart_, crossing_, reached_;  // of each argument: uncertain; what a chord spans; may have to
   bool hasKinks_ = false, hasJumps_ = false, hasJumped_ = false;

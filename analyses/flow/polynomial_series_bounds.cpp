@@ -156,7 +156,7 @@ void PolynomialSeries::boundAbs(int node) {
   const int u = plan_[at(node)].a;
   const auto [slope, middle] = chords_[at(node)];
   double off = 0;
-  if (mayCross(u) || middle > 0) {
+  if (mayCross(u) || !chords_[at(node)].isExact()) {
     const double centre = f_[plan_[at(u)].f], size = (rest(u) + rho0_[at(u)] + rho1_[at(u)]) * bounds::up;
     off = middle;
     for (const double end : {centre - size, centre + size})
@@ -249,7 +249,7 @@ std::string PolynomialSeries::edgeOf(int node) const {
     case Op::recip:
       return "a division by what may be zero";
     case Op::sqrt:
-      return "the square root of what may be zero or negative, as where abs, min or max have their kink";
+      return "the square root of what may be zero or negative";
     case Op::log:
       return "the logarithm of what may be zero or negative";
     case Op::exp:

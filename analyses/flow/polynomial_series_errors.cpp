@@ -239,7 +239,8 @@ void PolynomialSeries::ownErrors(int node) {
       e0 = bounds::unit * norm_[at(node)] + (graded ? dropped(v.a, v.degree) + dropped(v.b, v.degree) : 0.0);
       break;
     case Op::abs:
-      e0 = 2 * bounds::unit * norm_[at(node)] * (chords_[at(node)].middle > 0 ? 1 : 0) +
+      // A product and, of the constant, a sum.
+      e0 = (chords_[at(node)].isExact() ? 0.0 : 2 * bounds::unit * (norm_[at(node)] + norm_[at(v.a)])) +
            (graded ? dropped(v.a, v.degree) : 0.0);
       break;
     case Op::neg:

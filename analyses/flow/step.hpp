@@ -24,7 +24,7 @@ struct FlowPoint {
   std::vector<double> zonotope;                 // Ψ_0 Γ [generator][row], errors' first, then those of inputs
   std::size_t ofErrors = 0;                     // how many of these numbers are the errors'
   std::vector<std::vector<double>> drivenOfXi;  // linear in each symbol, of those of inputs
-  std::vector<double> total;                    // R + Σ_j |Γ_j|
+  std::vector<double> total;                    // R + Σ_j |Γ_j|, inputs included
   std::vector<double> ofR;                      // the same of errors alone
   std::vector<double> beyond;                   // of each state, what is of higher order in ξ of inputs
   std::vector<double> loose;                    // everything but Ψ (r + Γs), a bound for each state

@@ -30,6 +30,9 @@ constexpr int stepsBesideInputs = 2000;
 /// Of the generators of inputs, before pairs of them are merged.
 constexpr std::size_t mostInputNumbers = 1000000;
 
+/// So many symbols' corners are looked at: beyond, the sum of all.
+constexpr std::size_t mostCorners = 5;
+
 /// Generators, n numbers each, as the columns of a matrix.
 template <class Generators>
 auto columnsOf(Generators& generators, int n) {
@@ -91,7 +94,8 @@ void FlowStepper::evaluate(const FlowSet& set, double tau, FlowPoint& point) {
     point.loose[at(i)] = loose;
     point.radius[at(i)] = radius;
   }
-  // Ψ_0 Γ: n roundings an entry, together at most n u |Ψ_0| Σ|Γ_j|; with what is linear in ξ of inputs twice as many.
+  // Ψ_0 Γ: n roundings an entry, together at most n u |Ψ_0| Σ|Γ_j|. Of inputs n + 1 in what is linear in ξ, and one
+  // more for each symbol in drivenRadius, which sums with signs: n + 1 + mostCorners ≤ 2n + 8.
   const std::size_t n = set.R.size();
   const std::vector<double>& fresh = inputs_.generators();
   const auto begun = static_cast<std::ptrdiff_t>(tau == 0 ? 0 : inputs_.begunBefore(tau / h_));
@@ -109,7 +113,7 @@ void FlowStepper::evaluate(const FlowSet& set, double tau, FlowPoint& point) {
   for (std::size_t i = 0; i < n; ++i) {
     double size = 0;
     for (std::size_t k = 0; k < n; ++k) size += point.psiSum[i * n + k] * point.total[k];
-    point.loose[i] = (point.loose[i] + (2 * n_ + 4) * bounds::unit * size) * bounds::up;
+    point.loose[i] = (point.loose[i] + (2 * n_ + 8) * bounds::unit * size) * bounds::up;
     point.radius[i] =
         (point.radius[i] + point.driven[i] + point.beyond[i] + point.loose[i]) * bounds::up + bounds::tiny;
   }
@@ -153,7 +157,6 @@ void FlowStepper::evaluateInputs(const FlowSet& set, const std::vector<double>& 
 
 double drivenRadius(const std::vector<double>& a, const std::vector<std::vector<double>>& b, std::size_t first,
                     std::size_t stride) {
-  constexpr std::size_t mostCorners = 5;  // so many symbols' corners are looked at: beyond, the sum of all
   const bool byCorners = b.size() <= mostCorners;
   double most = 0;
   for (std::size_t corner = 0; corner < (byCorners ? std::size_t{1} << b.size() : 1); ++corner) {
@@ -301,7 +304,7 @@ void FlowStepper::advance(FlowSet& set) {
     const Matrix turnedD = Q.transpose() * D;
     if (const std::size_t l = symbolOf(g); l < turnOfXi.size()) {
       box += turnedD.cwiseAbs() * (total - plain);
-      kept += turnedD.cwiseAbs() * plain;
+      kept += turnedD.cwiseAbs() * total;
       turnOfXi[l].resize(n_, n_);
       for (int k = 0; k < n_; ++k) turnOfXi[l].col(order[at(k)]) = turnedD.col(k);
     } else {

@@ -21,6 +21,7 @@ Recorded course(const VaryingQuantity& of, const Recorded& drawn, const Recorded
   const double centre = midpoint(of.range);
   // centre ± radius lies in the interval.
   const double radius = std::min(subDown(centre, of.range.lower()), subDown(of.range.upper(), centre));
+  if (!(radius > 0)) return drawn;  // an interval of two numbers
   const Recorded z = (drawn - centre) / radius;
   const Recorded inner = 1.0 - sqr(sqr(sqr(sqr(z))));  // 0 at the ends: those stand still
   const auto choice = [&](double wave) {

@@ -77,6 +77,9 @@ TEST(DerivativeFlow, IsTightOnALinearEquation) {
 TEST(DerivativeFlow, RefusesWhatTheBoxDoesNotHave) {
   EXPECT_THROW(DerivativeFlow(pendulum(), {5}), std::invalid_argument);
   EXPECT_THROW(DerivativeFlow(pendulum(), {-1}), std::invalid_argument);
+  FlowOptions options;
+  options.varying = {{1}};
+  EXPECT_THROW(DerivativeFlow(pendulum(), {3}, options), std::invalid_argument);
   EXPECT_THROW(DerivativeFlow(pendulum(), {0}).enclose({0.0, 0.0}, 1), std::invalid_argument);
   EXPECT_EQ(DerivativeFlow(pendulum(), {}).enclose({0.1, 0.0, 1.0, 0.25, 0.5}, 1).at(1).size(), 2U);
 }

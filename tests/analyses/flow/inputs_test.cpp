@@ -168,7 +168,8 @@ TEST(FlowInputs, HoldTheExtremesOfAQuadraticEquation) {
   }
 }
 
-/// Far from the centre of a parameter what inputs do is not linear in it: the optimal courses of both ends are held.
+/// Far from the centre of a parameter what inputs do is not linear in it: the optimal courses of both ends are held
+/// (1e-9: the quadrature's own error, 2e-12 of a million parts, and more).
 TEST(FlowInputs, HoldTheOptimalCourseOfEveryParameter) {
   for (double spread : {0.1, 0.3}) {
     Containment c;

@@ -153,7 +153,7 @@ TEST(FlowTightness, ThatIsNotReachedIsExplained) {
   EXPECT_EQ(tube.limit(), "bisection is switched off");
 }
 
-/// A millisecond is not enough for the first run, a little more than that is not for those after it.
+/// A microsecond is not enough for the first run; some budget is enough for that, not for those after it.
 TEST(FlowTightness, EndsWithItsBudget) {
   Containment c = springPendulum(0, 0.05, 0);
   c.options.tightness = 1.00001;
