@@ -169,7 +169,7 @@ TEST(FlowInputs, HoldTheExtremesOfAQuadraticEquation) {
 }
 
 /// Far from the centre of a parameter what inputs do is not linear in it: the optimal courses of both ends are held
-/// (1e-9: the quadrature's own error, 2e-12 of a million parts, and more).
+/// (1e-9: more than the quadrature's own error, 2.7e-12 against four times as many parts).
 TEST(FlowInputs, HoldTheOptimalCourseOfEveryParameter) {
   for (double spread : {0.1, 0.3}) {
     Containment c;
