@@ -21,6 +21,8 @@ struct Embedding {
   /// Without weights every one gets a symbol.
   Embedding(const Box& box, int states, const std::vector<VaryingParameter>& inputs,
             const std::vector<int>& weights = {});
+  /// A thin box, whose components are known so.
+  void refine(const std::vector<PreciseValue>& values);
   explicit Embedding(const Box& box) : Embedding(box, 0, {}) {}
 };
 

@@ -6,6 +6,10 @@ namespace gamut::bounds {
 /// Unit roundoff: |fl(a ∘ b) - a ∘ b| ≤ u |fl(a ∘ b)|.
 constexpr double unit = 0x1p-53;
 
+/// A coefficient in double-double, a sum of N products and what follows it: N times this of Σ|products|
+/// (fine_recursion.cpp).
+constexpr double fine = 0x1p-96;
+
 /// (1 + 2^-53)^(2^22) ≤ 1 + 2^-30: covers a formula of nonnegative numbers with fewer than four million roundings.
 constexpr double up = 1 + 0x1p-30;
 

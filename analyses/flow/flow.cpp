@@ -66,6 +66,10 @@ Flow::Flow(Program f, Program g, FlowOptions options) {
     requireThat(input.rate > 0, "the rate of what varies in time must be positive");
     hasRates = hasRates || std::isfinite(input.rate);
   }
+  for (const PreciseValue& value : options.precise)
+    requireThat(value.component >= 0 && value.component < f.states() + f.parameters() && std::isfinite(value.high) &&
+                    std::fabs(value.low) <= 0x1p-52 * std::fabs(value.high) && value.radius >= 0,
+                "a precise value needs a component of the box, a low part below the high one's digits, and a radius");
   FlowFormulation anyCourse(std::move(f), std::move(g), options.varying);
   std::optional<FlowFormulation> ofRates;
   if (hasRates) ofRates = anyCourse.ofRates();

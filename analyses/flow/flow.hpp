@@ -28,6 +28,13 @@ struct VaryingParameter {
   double rate = std::numeric_limits<double>::infinity();  ///< bound of |ṗ|, per s, where there is one
 };
 
+/// A component of the box that is known beyond double precision: |value - (high + low)| ≤ radius. Where the whole box
+/// is thin the enclosures know it so; elsewhere the box alone counts.
+struct PreciseValue {
+  int component = 0;  ///< initial values first, then parameters
+  double high = 0, low = 0, radius = 0;
+};
+
 /// Options of a flow; the defaults choose for themselves. One says how tight the enclosure is to be, from which the
 /// others follow.
 struct FlowOptions {
@@ -48,6 +55,7 @@ struct FlowOptions {
                                                             ///< proved until then is the result
   int jobs = 1;                                             ///< threads that follow pieces
   std::vector<VaryingParameter> varying;                    ///< all other parameters are constant in time
+  std::vector<PreciseValue> precise;                        ///< each within its component of the box
   std::vector<std::string> stateNames;   ///< for Tube::why() and shortfall(); without them "state 0", "state 1", ...
   std::vector<std::string> outputNames;  ///< likewise
   std::function<void(double)> progress;  ///< called with the fraction done (0 … 1), from any thread

@@ -26,6 +26,7 @@ std::vector<std::vector<Interval>> image(const Program& g, double t, const Box& 
   const int n = g.states(), N = monomials->count();
   FlowPoint point;
   point.p.assign(at(n * N), 0.0);
+  point.low.assign(at(n), 0.0);
   point.psi.assign(at(n * n), 0.0);
   point.psiSum = point.psi;
   point.total.assign(at(n), 0.0);

@@ -62,7 +62,8 @@ FlowJourney FlowFollower::follow(FlowPiece& piece, double end) {
         changeLayout(piece, piece.layout + 1);
         continue;
       }
-      const bool futile = outcome == StepOutcome::failed && tool_->stepper.isRemainderDominant(piece.set);
+      const bool escapes = task_.embedding.symbols == 0 && tool_->stepper.escaping(piece.set) >= 0;
+      const bool futile = outcome == StepOutcome::failed && (escapes || tool_->stepper.isRemainderDominant(piece.set));
       const int symbol = tool_->stepper.worstSymbol();
       // Centres of pieces are exact: fifty bisections of one symbol is as far as that goes.
       const bool tooFine = symbol < task_.embedding.symbols && piece.set.half[at(symbol)] < 0x1p-50;
@@ -111,6 +112,7 @@ void FlowFollower::use(const FlowPiece& piece) {
                           FlowInputs(task_.motion.states(), task_.order, task_.varying, 0.4 * (options.tightness - 1)),
                           options.cancelled),
               PolynomialRange(layout.monomials), nullptr, nullptr, nullptr});
+    if (layout.monomials->symbols() == 0 && task_.fineOrders > 0) tools->stepper.setFineOrders(task_.fineOrders);
     tools->stepper.setStateNames(options.stateNames);
     if (task_.outputs.outputs() > 0) {
       const std::shared_ptr<const Monomials> own = task_.layouts[task_.outputLayout(piece.layout)].monomials;
@@ -203,7 +205,8 @@ void FlowFollower::enclose(const FlowPiece& piece, double tau, std::vector<Inter
   states.resize(at(task_.motion.states()));
   stateExcess_.clear();
   for (int i = 0; i < task_.motion.states(); ++i) {
-    states[at(i)] = inflated(tool_->range(&point_.p[at(i * N)], whole_, task_.rangeTolerance()), point_.radius[at(i)]);
+    const Interval rest = inflated(Interval(point_.low[at(i)]), point_.radius[at(i)]);
+    states[at(i)] = tool_->range(&point_.p[at(i * N)], whole_, task_.rangeTolerance()) + rest;
     stateExcess_.push_back(point_.radius[at(i)] - point_.driven[at(i)] + tool_->range.gap());
   }
   outputs.clear();
@@ -243,7 +246,8 @@ void FlowFollower::encloseLevels(const FlowPiece& piece, std::size_t row) {
     if (!restrictTo(task_.levels[level], task_.embedding, piece.set.centre, piece.set.half, xi)) break;
     std::vector<Interval> cut, states;
     for (int i = 0; i < task_.motion.states(); ++i)
-      states.push_back(inflated(tool_->range(&point_.p[at(i * N)], xi), point_.radius[at(i)]));
+      states.push_back(tool_->range(&point_.p[at(i * N)], xi) +
+                       inflated(Interval(point_.low[at(i)]), point_.radius[at(i)]));
     if (outputs_)
       appendOutputs(piece, states, xi, cut);
     else

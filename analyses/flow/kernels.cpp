@@ -138,7 +138,8 @@ GAMUT_INLINE void thinSolution(const ThinNode* v, int x, const ThinSolution& sol
 
 GAMUT_CLONES void thinRecursion(const std::vector<ThinNode>& nodes, const std::vector<const ThinSolution*>& solutions,
                                 const std::vector<std::pair<int, int>>& states, const std::vector<ThinSum>& frame,
-                                int time, int order, double h0, std::vector<double>& current) {
+                                const ThinLeading& leading, int time, int order, double h0,
+                                std::vector<double>& current) {
   const int count = static_cast<int>(nodes.size());
   const ThinNode* v = nodes.data();
   double* cur = current.data();
@@ -148,9 +149,12 @@ GAMUT_CLONES void thinRecursion(const std::vector<ThinNode>& nodes, const std::v
         if (v[x].invariant) cur[x] = 0;
     if (i > 0) {
       cur[time] = i == 1 ? h0 : 0.0;
+      const bool isLeading = i < leading.orders;
+      if (isLeading)
+        for (const int x : leading.nodes) cur[x] = leading.values[static_cast<std::size_t>(x * leading.orders + i)];
       for (int x = time + 1; x < count; ++x) {
         const ThinNode& n = v[x];
-        if (n.invariant || n.op == Op::state || isTwin(n.op)) continue;
+        if (n.invariant || n.op == Op::state || isTwin(n.op) || (isLeading && n.fine)) continue;
         const ThinNode& a = v[n.a];
         switch (n.op) {
           case Op::add:

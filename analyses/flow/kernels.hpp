@@ -42,6 +42,14 @@ struct ThinNode {
   double* reversed;     // at order 0, orders to the left; null if nobody convolves with it
   double* derivative;   // i times order i; null if not needed
   const double* slope;  // of abs
+  bool fine = false;    // its first orders are known
+};
+
+/// Of the fine nodes: values for orders 1 … orders - 1, [node][order], by whoever has them more precisely.
+struct ThinLeading {
+  int orders = 0;
+  std::vector<int> nodes;
+  std::vector<double> values;
 };
 
 /// A solution's matrix (nodes, row by row; -1 where it does not change in time) and right-hand side; its components'
@@ -62,7 +70,7 @@ struct ThinSum {
 /// a state with the node of its derivative; `current` has one number a node. Newest coefficients are kept aside and
 /// stored together behind an order: a vector load right behind a scalar store would stall.
 void thinRecursion(const std::vector<ThinNode>& nodes, const std::vector<const ThinSolution*>& solutions,
-                   const std::vector<std::pair<int, int>>& states, const std::vector<ThinSum>& frame, int time,
-                   int order, double h0, std::vector<double>& current);
+                   const std::vector<std::pair<int, int>>& states, const std::vector<ThinSum>& frame,
+                   const ThinLeading& leading, int time, int order, double h0, std::vector<double>& current);
 
 }  // namespace gamut::kernels

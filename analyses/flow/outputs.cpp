@@ -58,6 +58,11 @@ void FlowOutputs::evaluate(double t, const FlowPoint& point, const std::vector<d
 /// False if one could not be bounded: then nothing is known of any.
 bool FlowOutputs::evaluateTogether(double t, const FlowPoint& point, const std::vector<double>& R,
                                    const std::vector<Embedded>& parameters) {
+  const auto beside = [&](std::vector<double> bound) {  // p alone is seen here
+    for (std::size_t i = 0; i < bound.size(); ++i) bound[i] += std::fabs(point.low[i]);
+    return bound;
+  };
+  const std::vector<double> radius = beside(point.radius), loose = beside(point.loose);
   for (int i = 0; i < n_; ++i) {
     state_.assign(at(monomials_), 0.0);
     for (std::size_t m = 0; m < place_.size(); ++m) state_[at(place_[m])] = point.p[at(i) * place_.size() + m];
@@ -68,7 +73,7 @@ bool FlowOutputs::evaluateTogether(double t, const FlowPoint& point, const std::
   const double infinite = std::numeric_limits<double>::infinity();
   std::fill(radius_.begin(), radius_.end(), infinite);
   series_.forgetJumps();
-  if (!series_.tabulate(1.0) || (series_.hasJumps() && !series_.bound(point.radius.data(), true)) ||
+  if (!series_.tabulate(1.0) || (series_.hasJumps() && !series_.bound(radius.data(), true)) ||
       !series_.bound(nullptr, true)) {
     series_.clear();
     return false;
@@ -91,7 +96,7 @@ bool FlowOutputs::evaluateTogether(double t, const FlowPoint& point, const std::
     }
   }
   // y - g(p) = G (x - p) with G in ∂g/∂x on the hull, |G - G₀| ≤ ρ:  |y - g(p)| ≤ Σ_j |(G₀Ψ₀)_j| R_j + what is left.
-  if (!series_.bound(point.radius.data(), false)) return false;
+  if (!series_.bound(radius.data(), false)) return false;
   for (int o = 0; o < outputs_; ++o) {
     double sum = along[at(o)];
     std::vector<double> centre(at(n_)), spread(at(n_));
@@ -101,7 +106,7 @@ bool FlowOutputs::evaluateTogether(double t, const FlowPoint& point, const std::
       spread[at(k)] =
           (series_.norm(node) - std::fabs(centre[at(k)]) * bounds::down + series_.rho0(node) + series_.rho1(node)) *
           bounds::up;
-      sum += (std::fabs(centre[at(k)]) + spread[at(k)]) * (point.loose[at(k)] + point.beyond[at(k)]);
+      sum += (std::fabs(centre[at(k)]) + spread[at(k)]) * (loose[at(k)] + point.beyond[at(k)]);
     }
     for (int j = 0; j < n_; ++j) {
       double along0 = 0, size = 0, wide = 0, rest = 0;

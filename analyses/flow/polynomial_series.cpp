@@ -13,9 +13,11 @@ void PolynomialSeries::compute(double t0, double h0) {
   put(plan_[at(time_)], 0, 0, t0);
   if (m_ > 1) put(plan_[at(time_)], 0, 1, h0);
   if (!thin_.empty()) {
-    for (int node = time_ + 1; node < nodes_; ++node) computeOrder(node, 0);
+    if (isFine()) computeLeading(t0, h0);
+    for (int node = time_ + 1; node < nodes_; ++node)
+      if (!isFine(node)) computeOrder(node, 0);
     for (std::size_t x = 0; x < plan_.size(); ++x) current_[x] = f_[plan_[x].f];
-    kernels::thinRecursion(thin_, thinSolutions_, thinStates_, thinFrame_, time_, m_, h0, current_);
+    kernels::thinRecursion(thin_, thinSolutions_, thinStates_, thinFrame_, leading_, time_, m_, h0, current_);
     return;
   }
   for (int i = 0; i < m_; ++i) {
@@ -30,6 +32,17 @@ void PolynomialSeries::compute(double t0, double h0) {
       for (int g = 0; g < count(); ++g) put(plan_[at(s)], g, i + 1, f[g * stride_ + i] * h0 / (i + 1));
     }
     computeFrameOrder(i, h0);
+  }
+}
+
+/// The first orders of all primary nodes.
+void PolynomialSeries::computeLeading(double t0, double h0) {
+  fine_.compute(t0, h0);
+  for (System& system : systems_) system.isFactorised = system.isFine;
+  for (const int node : leading_.nodes) {
+    for (int i = 0; i < leading_.orders; ++i) leading_.values[at(node * leading_.orders + i)] = fine_.value(node, i).hi;
+    put(plan_[at(node)], 0, 0, fine_.value(node, 0).hi);
+    pointError_[at(node)] = fine_.pointError(node);
   }
 }
 

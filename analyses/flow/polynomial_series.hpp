@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "analyses/flow/error_bounds.hpp"
+#include "analyses/flow/fine_recursion.hpp"
 #include "analyses/flow/kernels.hpp"
 #include "analyses/flow/linear_factors.hpp"
 #include "analyses/flow/monomials.hpp"
@@ -22,6 +24,7 @@ namespace gamut {
 struct Embedded {
   double centre = 0, half = 0, radius = 0;
   int symbol = -1;
+  double low = 0, fineRadius = radius;  // the same number = centre + low ± fineRadius
 };
 
 /// Thrown where a computation was told to end in its midst.
@@ -47,6 +50,14 @@ class PolynomialSeries {
   /// No fewer than leastOrder. Forgets all coefficients where that changes, so that none is left beyond the last.
   void setOrder(int order);
   static constexpr int leastOrder = 4;
+
+  /// Without symbols: so many first orders (2 at least) of the primary nodes have a second double each. Only where
+  /// FineRecursion::isPossible.
+  void setFineOrders(int orders);
+  bool isFine() const { return fine_.orders() > 0; }
+  /// Of a node's order, the second double; 0 where there is none.
+  double low(int node, int order) const { return order < fine_.orders() ? fine_.value(node, order).lo : 0.0; }
+  void setStateLow(int i, double low) { fine_.set(i, {f_[plan_[at(i)].f], low}); }
 
   // Inputs: coefficients of order 0 in σ.
   void setState(int i, const double* coefficients);                     // count() numbers
@@ -101,6 +112,10 @@ class PolynomialSeries {
   const double* frame(int i, int j) const { return &f_[plan_[at(frameNode(i, j))].f]; }
   int outputNode(int output) const { return outputs_[at(output)]; }
   double norm(int node) const { return norm_[at(node)]; }
+  /// What the second doubles of a state's series hold, at most.
+  double lowNorm(int state) const { return isFine() ? 2 * bounds::unit * norm_[at(state)] : 0.0; }
+  /// What the roundings in x_{i+1} = f_i h0 / (i+1) add to the defect of state i.
+  double slopeRounding(int i) const;
   /// Whether of some node more than this share of its norm is mass of the two highest grades.
   bool reachesHighestGrades(double share) const;
   double rho0(int node) const { return rho0_[at(node)]; }
@@ -155,6 +170,7 @@ class PolynomialSeries {
     std::vector<double> own;                   // ‖I - C Ã‖
     std::vector<double> amplifier;             // ≥ (I - H)⁻¹ |C| on the set that was bounded last
     bool isFactorised, isBounded;
+    bool isFine = false;  // factorised by the fine recursion
 
     int entry(int i, int j) const { return entries[detail::at(i * size + j)]; }
   };
@@ -185,6 +201,13 @@ class PolynomialSeries {
   void product(const Plan& a, const Plan& b, int count, int i, double* out);
   void computeFrameOrder(int i, double h0);
   void prepareThin();
+  void computeLeading(double t0, double h0);
+  bool isFine(int node) const { return fine_.orders() > 0 && node < nodes_ && plan_[at(node)].primary; }
+  /// What is between a node and its first doubles.
+  double lowOf(int node) const { return isFine(node) ? 2 * bounds::unit * norm_[at(node)] : 0.0; }
+  double coarseNorm(int node, int from) const;
+  double coarseProduct(int a, int b, int from) const;
+  double productRounding(int node, int a, int b, int from, double coarse) const;
   void pointFunctions(int node);
   void initialRow(int node);
   double tailTime(int a, int b) const;
@@ -244,6 +267,8 @@ class PolynomialSeries {
   std::vector<kernels::ThinSum> thinFrame_;
   std::vector<const kernels::ThinSolution*> thinSolutions_;
   std::vector<double> current_;
+  FineRecursion fine_;
+  kernels::ThinLeading leading_;
   std::vector<System> systems_;
   std::vector<Solution> solutions_;
   static constexpr int inverseOrder = 3;  // of C in time; in ξ it is linear

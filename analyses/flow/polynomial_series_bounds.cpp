@@ -10,9 +10,10 @@ namespace gamut {
 
 bool PolynomialSeries::boundNode(int node) {
   const Plan& v = plan_[at(node)];
-  const auto r0 = [&](int i) { return rho0_[at(i)]; };
+  const bool seesLow = isFine(node);
+  const auto r0 = [&](int i) { return rho0_[at(i)] + (seesLow ? 0.0 : lowOf(i)); };
   const auto r1 = [&](int i) { return rho1_[at(i)]; };
-  const auto r = [&](int i) { return rho0_[at(i)] + rho1_[at(i)]; };
+  const auto r = [&](int i) { return r0(i) + rho1_[at(i)]; };
   const double own0 = own0_[at(node)], own1 = own1_[at(node)];
   double z0 = 0, z1 = 0;
   switch (v.op) {
@@ -274,7 +275,7 @@ double PolynomialSeries::derivativeNorm(const Plan& v, int k, double theta) cons
 
 /// y = chord - ½ (σ - from)(to - σ) ÿ(somewhere), so y leaves it by -share²/8 times a value of ÿ or of zero. About the
 /// middle ÿ = Σ_α ÿ_α(middle) ξ^α + at most half times the third derivative; Horner's scheme for ÿ_α has 2m roundings,
-/// and one more in i(i-1)c.
+/// one more in i(i-1)c, and one for a second double.
 Interval PolynomialSeries::sag(int node, double from, double to, double second, double third, double more) const {
   const Plan& v = plan_[at(node)];
   const double middle = 0.5 * (from + to), half = std::max(to - middle, middle - from) * bounds::up;
@@ -288,7 +289,7 @@ Interval PolynomialSeries::sag(int node, double from, double to, double second, 
     else
       others += std::fabs(sum);
   }
-  others = (others + half * third + (2 * m_ + 2) * bounds::unit * second + more) * bounds::up;
+  others = (others + half * third + (2 * m_ + 3) * bounds::unit * second + more) * bounds::up;
   const double share = to - from, eighth = share * share / 8, most = (second + more) * bounds::up;
   const auto bound = [&](double slope) {
     const double curvature = std::min(most, slope + others + bounds::unit * std::fabs(slope));
@@ -299,7 +300,7 @@ Interval PolynomialSeries::sag(int node, double from, double to, double second, 
 
 double PolynomialSeries::jacobianBound(int i, int j) const {
   const int node = outputs_[at(n_ + i * n_ + j)];
-  const double bound = (norm_[at(node)] + rho0_[at(node)] + rho1_[at(node)]) * bounds::up;
+  const double bound = (norm_[at(node)] + lowOf(node) + rho0_[at(node)] + rho1_[at(node)]) * bounds::up;
   return bound > 0 ? bound + bounds::tiny : 0.0;  // never so small that balancing it would underflow
 }
 
@@ -310,7 +311,7 @@ void PolynomialSeries::frameDefect(int i, int j, double& nu0, double& nu1) const
     const int a = outputs_[at(n_ + i * n_ + k)], b = frameNode(k, j);
     if (isKnownZero(a)) continue;
     ++terms;
-    const double ra0 = meanRho0(a), ra1 = meanRho1(a), top = top_[at(b)];
+    const double ra0 = meanRho0(a) + lowOf(a), ra1 = meanRho1(a), top = top_[at(b)];
     z0 += norm_[at(b)] * ra0 + (ra0 + ra1) * top;
     z1 += norm_[at(b)] * ra1 + norm_[at(a)] * top + tailTime(a, b);
     if (monomials_->degree() > 0) z0 += tailDegree(a, b, frameDegree_, 0);

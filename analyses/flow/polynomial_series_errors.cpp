@@ -28,6 +28,10 @@ bool PolynomialSeries::tabulate(double theta) {
     std::fill(total, total + stride_, 0.0);
     for (int q = 0; q <= v.degree; ++q)
       for (int i = 0; i < stride_; ++i) total[i] += table[q * stride_ + i];
+    for (int i = 0; i < fine_.orders() && isFine(static_cast<int>(x)); ++i) {
+      const FineRecursion::Number& c = fine_.value(static_cast<int>(x), i);
+      if (!(std::fabs(c.lo) <= bounds::unit * std::fabs(c.hi))) return refuse(static_cast<int>(x));
+    }
     if (v.op == Op::state) {
       double sum = 0;
       for (int g = 0; g < v.count; ++g) sum += std::fabs(f_[v.f + at(g * stride_ + m_)]);
@@ -158,11 +162,48 @@ double PolynomialSeries::weightedRest(int node) const {
   return sum * bounds::up;
 }
 
+/// Σ_{i ≥ from} |c_i| θ^i, without symbols.
+double PolynomialSeries::coarseNorm(int node, int from) const {
+  double sum = 0;
+  for (int i = from; i < m_; ++i) sum += t_[plan_[at(node)].t + at(i)];
+  return sum;
+}
+
+/// Σ_{i ≥ from, i+j ≥ K} (i+1)(j+1) |a_i||b_j| θ^{i+j}, K the orders in double-double; without symbols.
+double PolynomialSeries::coarseProduct(int a, int b, int from) const {
+  const double *ta = &t_[plan_[at(a)].t], *tb = &t_[plan_[at(b)].t];
+  double sum = 0, tail = 0;
+  int j = m_;
+  for (int i = from; i < m_; ++i) {
+    for (; j > std::max(0, fine_.orders() - i); --j) tail += j * tb[j - 1];
+    sum += (i + 1) * ta[i] * tail;
+  }
+  return sum;
+}
+
+/// Rounding of a node whose coefficients are sums of the products of a's and b's, those of a from order `from` on. In
+/// double-double a coefficient has N ≤ weights terms; from order K on two roundings more, for the second doubles that
+/// are not seen there, and few others: no more than `coarse` N in all.
+double PolynomialSeries::productRounding(int node, int a, int b, int from, double coarse) const {
+  if (!isFine(node)) return bounds::unit * weighted_[at(a)] * weighted_[at(b)];
+  return bounds::fine * weighted_[at(a)] * weighted_[at(b)] + coarse * bounds::unit * coarseProduct(a, b, from);
+}
+
+double PolynomialSeries::slopeRounding(int i) const {
+  const int f = outputs_[at(i)];
+  if (!isFine(f)) return bounds::unit * norm_[at(f)];
+  return bounds::fine * norm_[at(f)] + 2 * bounds::unit * coarseNorm(f, fine_.orders() - 1);
+}
+
 /// Bounds of the defect of v' = u'·of (for sine, cosine, exponential, tanh), integrated over [0, θ], and of the row σ =
 /// 0. Rounding: a coefficient has N terms, one rounding in j·u_j and one in the division: γ_{N+2}, N ≤ weights.
 void PolynomialSeries::differentialErrors(int u, int of, int degree, double& e0, double& e1) const {
   const double norm = rest(u), weighted = weighted_[at(u)] - leading(u) * bounds::down;
   e1 = tailTime(u, of);  // the row i = 0 of u meets s1[0] = 0
+  if (isFine(of)) {
+    e0 = productRounding(of, u, of, 1, 3);
+    return;
+  }
   e0 = bounds::unit * (weighted * weighted_[at(of)] + 2 * norm * norm_[at(of)]);
   if (monomials_->degree() > 0)
     // The row σ = 0 rounds likewise, with the weights of its own (smaller) terms.
@@ -173,6 +214,10 @@ void PolynomialSeries::differentialErrors(int u, int of, int degree, double& e0,
 /// Σ |target - left·right| over the kept coefficients, with the rounding of this evaluation: γ_{N+1}(|target|+Σ|..|),
 /// N + 1 ≤ 2N ≤ 2 weights. target -1 is the constant 1.
 double PolynomialSeries::productResidual(int left, int right, int target) {
+  if (isFine(left))  // not measured: the recursion makes it vanish but for rounding
+    return productRounding(left, left, right, 0, 4) +
+           (target >= 0 ? 2 * bounds::fine * norm_[at(target)] + 4 * bounds::unit * coarseNorm(target, fine_.orders())
+                        : 0.0);
   const Plan& l = plan_[at(left)];
   const int N = l.count;
   double* out = scratch_.data();
@@ -196,6 +241,9 @@ double PolynomialSeries::productResidual(int left, int right, int target) {
 /// rounding γ_{N+2} of (|u| + Σ|l||w|) for each of the two, N + 2 ≤ 3 weights.
 double PolynomialSeries::quotientResidual(int node) {
   const Plan& l = plan_[at(node)];
+  if (isFine(node))
+    return productRounding(node, node, l.b, 1, 4) + 2 * bounds::fine * norm_[at(l.a)] +
+           4 * bounds::unit * coarseNorm(l.a, fine_.orders());
   const Plan& u = plan_[at(l.a)];
   const Plan& w = plan_[at(l.b)];
   const int N = l.count;
@@ -236,7 +284,10 @@ void PolynomialSeries::ownErrors(int node) {
       return;
     case Op::add:
     case Op::sub:  // one rounding a coefficient; lower degree: what is dropped
-      e0 = bounds::unit * norm_[at(node)] + (graded ? dropped(v.a, v.degree) + dropped(v.b, v.degree) : 0.0);
+      e0 = (isFine(node)
+                ? bounds::fine * (norm_[at(v.a)] + norm_[at(v.b)]) + bounds::unit * coarseNorm(node, fine_.orders())
+                : bounds::unit * norm_[at(node)]) +
+           (graded ? dropped(v.a, v.degree) + dropped(v.b, v.degree) : 0.0);
       break;
     case Op::abs:
       // A product and, of the constant, a sum.
@@ -250,8 +301,8 @@ void PolynomialSeries::ownErrors(int node) {
     case Op::sqr: {
       const int b = v.op == Op::sqr ? v.a : v.b;
       // A coefficient is a sum of N ≤ (i+1)∏(α_l+1) products in any order, fused or not: γ_N. A constant factor: one.
-      e0 = plan_[at(v.a)].constant ? bounds::unit * norm_[at(node)]
-                                   : bounds::unit * weighted_[at(v.a)] * weighted_[at(b)];
+      e0 = plan_[at(v.a)].constant && !isFine(node) ? bounds::unit * norm_[at(node)]
+                                                    : productRounding(node, v.a, b, 0, 3);
       if (graded) e0 += tailDegree(v.a, b, v.degree, 0);
       e1 = tailTime(v.a, b);
       break;

@@ -182,6 +182,32 @@ void PolynomialSeries::prepareThin() {
   current_.assign(plan_.size(), 0.0);
 }
 
+void PolynomialSeries::setFineOrders(int orders) {
+  if (thin_.empty()) throw std::invalid_argument("double-double orders are for series without symbols");
+  orders = std::min(orders, m_);
+  std::vector<FineRecursion::Node> nodes;
+  std::vector<FineRecursion::Solution> solutions(solutions_.size());
+  std::vector<std::pair<int, int>> states;
+  std::vector<int> computed;
+  for (int x = 0; x < nodes_; ++x) {
+    const Plan& v = plan_[at(x)];
+    nodes.push_back({v.op, v.a, v.b, v.invariant});
+    if (!v.primary) continue;
+    thin_[at(x)].fine = true;
+    if (isOperation(v.op)) computed.push_back(x);
+    if (v.op != Op::solution || v.b > 0) continue;
+    System& system = systems_[at(solutions_[at(v.a)].system)];
+    solutions[at(v.a)] = {&system.factors, !system.isFine, system.entries, solutions_[at(v.a)].rightSide, {}};
+    system.isFine = true;
+  }
+  for (int s = 0; s < n_; ++s) states.emplace_back(s, outputs_[at(s)]);
+  leading_ = {orders, computed, std::vector<double>(at(nodes_ * orders))};
+  for (int s = 0; s < n_; ++s) leading_.nodes.push_back(s);
+  fine_.plan(orders, std::move(nodes), std::move(computed), std::move(solutions), std::move(states), time_);
+  for (int x = 0; x < nodes_; ++x)
+    if (plan_[at(x)].constant) fine_.set(x, {constant_[at(x)], 0});
+}
+
 void PolynomialSeries::clear() {
   for (auto* v : {&f_, &r_, &d_}) std::fill(v->begin(), v->end(), 0.0);
   for (int i = 0; i < nodes_; ++i)
@@ -190,6 +216,7 @@ void PolynomialSeries::clear() {
 
 void PolynomialSeries::setState(int i, const double* coefficients) {
   for (int g = 0; g < count(); ++g) put(plan_[at(i)], g, 0, coefficients[g]);
+  if (isFine()) setStateLow(i, 0);
 }
 
 void PolynomialSeries::setOrder(int order) {
@@ -206,6 +233,7 @@ void PolynomialSeries::setStateSeries(int i, const double* series, int spacing) 
 void PolynomialSeries::setParameter(int i, const double* coefficients, double radius) {
   for (int g = 0; g < count(); ++g) put(plan_[at(n_ + i)], g, 0, coefficients[g]);
   radius_[at(n_ + i)] = radius;
+  if (isFine()) fine_.set(n_ + i, {coefficients[0], 0});
 }
 
 void PolynomialSeries::setParameter(int i, const Embedded& value) {
@@ -214,6 +242,9 @@ void PolynomialSeries::setParameter(int i, const Embedded& value) {
   coefficients[0] = value.centre;
   if (value.symbol >= 0) coefficients[at(monomials_->linear(value.symbol))] = value.half;
   setParameter(i, coefficients.data(), value.radius);
+  if (!isFine()) return;
+  radius_[at(n_ + i)] = value.fineRadius;
+  fine_.set(n_ + i, {value.centre, value.low});
 }
 
 void PolynomialSeries::setVarying(const std::vector<int>& parameters) {

@@ -200,7 +200,7 @@ bool PolynomialSeries::boundSystem(System& system) {
       double s = system.own[at(i * n + j)];
       for (int k = 0; k < n; ++k) {
         const int entry = system.entry(k, j);
-        s += C[at(i * n + k)] * (rho0_[at(entry)] + rho1_[at(entry)]);
+        s += C[at(i * n + k)] * (rho0_[at(entry)] + rho1_[at(entry)] + lowOf(entry));
       }
       H[at(i * n + j)] = s * bounds::up + bounds::tiny;
       if (!(H[at(i * n + j)] < bounds::largest && C[at(i * n + j)] < bounds::largest)) return false;
@@ -257,7 +257,8 @@ bool PolynomialSeries::boundSystem(System& system) {
 
 /// |b̃ - Ãx̃| for each component. Kept coefficients: γ_{N+2T+1} of all terms, with T entries in the row, a convolution's
 /// N ≤ weights inside and at most 2T subtractions outside, and the measured residual of A₀ x = s, whose evaluation has
-/// T + 1 roundings of |s| + |A₀||x̃|, where |s| ≤ residual + |A₀||x̃|. Then what x̃ and b do not keep.
+/// T + 1 roundings of |s| + |A₀||x̃|, where |s| ≤ residual + |A₀||x̃|. Then what x̃ and b do not keep. In double-double
+/// the same of its roundings; of later orders all of that and the second doubles, 5T + 7 roundings of |A||x̃|.
 void PolynomialSeries::solutionOwnErrors(int first) {
   const Plan& v = plan_[at(first)];
   const Solution& solution = solutions_[at(v.a)];
@@ -267,18 +268,24 @@ void PolynomialSeries::solutionOwnErrors(int first) {
   for (int k = 0; k < n; ++k) {
     const int b = solution.rightSide[at(k)];
     const int terms = termsIn(system, k);
+    const bool fine = isFine(first);
     double residual = 0;
-    for (int i = 0; i < (v.invariant ? 1 : m_); ++i) residual += solution.residual[at(i * n + k)] * power_[at(i)];
+    for (int i = 0; i < (v.invariant ? 1 : m_); ++i)
+      residual +=
+          (i < fine_.orders() && fine ? fine_.residual(v.a, k, i) : solution.residual[at(i * n + k)]) * power_[at(i)];
     double rounding = (2 * terms + 1) * norm_[at(b)] + 3 * (terms + 1) * system.factors.size(k, &norm_[at(first)]);
+    double coarse = fine ? (2 * terms + 1) * coarseNorm(b, fine_.orders()) : 0.0;
     double e0 = 2 * residual + (graded ? dropped(b, v.degree) : 0.0), e1 = 0;
     for (int j = 0; j < n; ++j) {
       const int a = system.entry(k, j), x = first + j;
       if (isKnownZero(a)) continue;
       rounding += weighted_[at(a)] * weighted_[at(x)] + (2 * terms + 1) * norm_[at(a)] * norm_[at(x)];
+      if (fine) coarse += (5 * terms + 7) * coarseProduct(a, x, 0);
       e1 += tailTime(a, x);
       if (graded) e0 += tailDegree(a, x, v.degree, 0);
     }
-    own0_[at(first + k)] = (e0 + bounds::unit * rounding) * bounds::up + bounds::tiny;
+    rounding = fine ? bounds::fine * rounding + bounds::unit * coarse : bounds::unit * rounding;
+    own0_[at(first + k)] = (e0 + rounding) * bounds::up + bounds::tiny;
     own1_[at(first + k)] = e1 * bounds::up;
   }
 }
@@ -289,12 +296,13 @@ bool PolynomialSeries::boundSolution(int first) {
   if (!system.isBounded && !boundSystem(system)) return false;
   const int n = system.size;
   std::vector<double>&residual0 = vector_, &residual1 = vector2_;
+  const auto low = [&](int node) { return isFine(first) ? 0.0 : lowOf(node); };
   for (int k = 0; k < n; ++k) {
     const int b = solution.rightSide[at(k)];
-    double e0 = own0_[at(first + k)] + rho0_[at(b)], e1 = own1_[at(first + k)] + rho1_[at(b)];
+    double e0 = own0_[at(first + k)] + rho0_[at(b)] + low(b), e1 = own1_[at(first + k)] + rho1_[at(b)];
     for (int j = 0; j < n; ++j) {
       const int a = system.entry(k, j);
-      e0 += rho0_[at(a)] * norm_[at(first + j)];
+      e0 += (rho0_[at(a)] + low(a)) * norm_[at(first + j)];
       e1 += rho1_[at(a)] * norm_[at(first + j)];
     }
     residual0[at(k)] = e0;

@@ -50,7 +50,8 @@ FlowPiece FlowRun::start() const {
     const Embedded& e = task_.embedding.components[at(i)];
     s.p[at(i * N)] = e.centre;
     if (e.symbol >= 0) s.p[at(i * N + monomials.linear(e.symbol))] = e.half;
-    s.R[at(i)] = e.radius;
+    s.R[at(i)] = task_.fineOrders > 0 ? e.fineRadius : e.radius;
+    if (task_.fineOrders > 0) s.low.push_back(e.low);
     s.C[at(i * n + i)] = 1.0;
   }
   s.parameters.assign(task_.embedding.components.begin() + n, task_.embedding.components.end());
@@ -219,15 +220,16 @@ Tube FlowRun::gather(std::vector<FlowCollected>& collected) {
       if (row == 0)
         narrow(cut, task_.outputs.outputs() > 0 ? atStart.over(0.0, task_.levels[level]) : task_.levels[level]);
     }
-  constexpr double unheard = 1e-9;  // of what it will be
+  constexpr double unheard = 1e-9;                               // of what it will be
+  const double widest = std::max(task_.embedding.widest, 1e-8);  // inputs apart
   constexpr double infinite = std::numeric_limits<double>::infinity();
   const double aim = task_.aim(),
                wellKnown = 5e-5 * aim;  // nor are bounds measured that are so much tighter than the box
   const auto excess = [&](const std::vector<std::vector<Interval>>& bounds, auto radii) {
     std::vector<std::vector<double>> shares(rows);
-    std::vector<double> widest(bounds[0].size(), 0.0);  // over all times
+    std::vector<double> greatest(bounds[0].size(), 0.0);  // width over all times
     for (const std::vector<Interval>& row : bounds)
-      for (std::size_t i = 0; i < row.size(); ++i) widest[i] = std::max(widest[i], width(row[i]));
+      for (std::size_t i = 0; i < row.size(); ++i) greatest[i] = std::max(greatest[i], width(row[i]));
     for (std::size_t row = 0; row < rows; ++row) {
       shares[row].resize(bounds[row].size(), 0.0);
       for (const FlowCollected& part : collected)
@@ -235,8 +237,7 @@ Tube FlowRun::gather(std::vector<FlowCollected>& collected) {
           const Interval& bound = bounds[row][i];
           const double remainder = 2 * (part.*radii)[row][i], rest = width(bound) - remainder;
           const bool isZero = contains(bound, 0.0) && rest <= 1e-6 * remainder;  // as symmetry keeps it
-          if (!isZero && remainder > wellKnown * task_.embedding.widest * magnitude(bound) &&
-              remainder > unheard * widest[i])
+          if (!isZero && remainder > wellKnown * widest * magnitude(bound) && remainder > unheard * greatest[i])
             shares[row][i] = std::max(shares[row][i], rest > 0 ? remainder / rest : infinite);
         }
     }

@@ -15,8 +15,11 @@ namespace gamut {
 using detail::at;
 
 void addColumns(const std::vector<double>& columns, std::vector<double>& total) {
-  for (std::size_t j = 0; j < columns.size(); j += total.size())
-    for (std::size_t i = 0; i < total.size(); ++i) total[i] += std::fabs(columns[j + i]);
+  const auto n = static_cast<Eigen::Index>(total.size());
+  const Eigen::Map<const Eigen::MatrixXd> matrix(columns.data(), n, static_cast<Eigen::Index>(columns.size()) / n);
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(n);
+  for (Eigen::Index j = 0; j < matrix.cols(); ++j) sum += matrix.col(j).cwiseAbs();
+  Eigen::Map<Eigen::VectorXd>(total.data(), n) += sum;
 }
 
 void errorRadius(const FlowSet& set, std::vector<double>& total) {
@@ -151,8 +154,10 @@ bool expandRemainder(FlowSet& set, const Monomials& from, int fromFrameDegree, c
         dropped += std::fabs(set.p[at(i * N + g)]);
     for (int g = 1; g < NJ; ++g)  // the frame's own dependence on ξ
       for (int j = 0; j < n; ++j) dropped += std::fabs(set.C[at((g * n + i) * n + j)]) * total[at(j)];
+    if (!set.low.empty()) dropped += std::fabs(set.low[at(i)]);
     set.W[at(i)] += dropped;
   }
+  set.low.clear();
   for (int i = 0; i < n; ++i) {
     double rounded = 0;
     for (int j = 0; j < n; ++j) {

@@ -15,8 +15,9 @@ namespace gamut {
 /// do.
 struct FlowSet {
   double t = 0;
-  std::vector<double> p;  // [state][monomial]
-  std::vector<double> C;  // [monomial ≤ frameDegree][row][column]
+  std::vector<double> p;    // [state][monomial]
+  std::vector<double> low;  // second doubles of p, of sets without symbols; empty: all are 0
+  std::vector<double> C;    // [monomial ≤ frameDegree][row][column]
   std::vector<double> R, W;
   std::vector<double> generators;               // [generator][row], oldest first
   std::vector<double> inputs;                   // likewise, of what varies in time: [part of a step][input][row]

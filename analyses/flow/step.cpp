@@ -55,6 +55,7 @@ void FlowStepper::load(const FlowSet& set) {
   }
   const int N = series_.count();
   for (int i = 0; i < n_; ++i) series_.setState(i, &set.p[at(i * N)]);
+  for (std::size_t i = 0; i < set.low.size(); ++i) series_.setStateLow(static_cast<int>(i), set.low[i]);
   for (std::size_t i = 0; i < set.parameters.size(); ++i) series_.setParameter(static_cast<int>(i), set.parameters[i]);
   for (int i = 0; i < n_; ++i)
     for (int j = 0; j < n_; ++j) series_.setFrame(i, j, &set.C[at(i * n_ + j)], n_ * n_);
@@ -101,8 +102,8 @@ bool FlowStepper::tryStep(const FlowSet& set, double theta) {
     series_.keepAlong();
     for (int i = 0; i < n_; ++i) {
       const int f = series_.outputNode(i);
-      // δ = x̃' - f(x̃): the bound of f's node, and one rounding in the division by i+1.
-      delta0_[at(i)] = (series_.rho0(f) + bounds::unit * series_.norm(f)) * bounds::up + bounds::tiny;
+      // δ = x̃' - f(x̃): the bound of f's node, and the rounding in the division by i+1.
+      delta0_[at(i)] = (series_.rho0(f) + series_.slopeRounding(i)) * bounds::up + bounds::tiny;
       delta1_[at(i)] = series_.rho1(f);
     }
     return true;
@@ -222,8 +223,22 @@ std::string FlowStepper::nameOf(int state) const {
   return at(state) < names_.size() ? names_[at(state)] : "state " + std::to_string(state);
 }
 
-/// A state that has grown a thousandfold and would double long before the time it took is on its way to infinity. Else
-/// a state that is hardly known to one part in ten makes the set too wide. Else it is the step itself.
+/// The time in which a state doubles at its present rate, negative if it shrinks.
+double FlowStepper::doubling(const FlowSet& set, int state) const {
+  return set.p[at(state * series_.count())] / (series_.series(state)[1] / h0_);
+}
+
+int FlowStepper::escaping(const FlowSet& set) const {
+  for (int i = 0; i < n_; ++i) {
+    const double size = std::fabs(set.p[at(i * series_.count())]), before = set.first.empty() ? size : set.first[at(i)];
+    const double time = doubling(set, i);
+    if (before > 0 && size > 1000 * before && time > 0 && time < 0.01 * set.t) return i;
+  }
+  return -1;
+}
+
+/// A state that escapes is on its way to infinity. Else a state that is hardly known to one part in ten makes the set
+/// too wide. Else it is the step itself.
 std::string FlowStepper::reason(const FlowSet& set) const {
   const int N = series_.count();
   std::string wide;
@@ -233,16 +248,15 @@ std::string FlowStepper::reason(const FlowSet& set) const {
     std::snprintf(digits.data(), digits.size(), "%.3g", value);
     return std::string(digits.data());
   };
+  if (const int i = escaping(set); i >= 0)
+    return nameOf(i) + " grows without bound: it is about " + text(set.p[at(i * N)]) + " and doubles within " +
+           text(doubling(set, i)) + " s";
   for (int i = 0; i < n_; ++i) {
     const double* p = &set.p[at(i * N)];
-    const double centre = p[0], rate = series_.series(i)[1] / h0_;
+    const double centre = p[0];
     double half = 0;
     for (int g = 1; g < N; ++g) half += std::fabs(p[g]);
     const double remainder = remainderOf(set, i, total_);
-    const double before = set.first.empty() ? std::fabs(centre) : set.first[at(i)], doubling = centre / rate;
-    if (before > 0 && std::fabs(centre) > 1000 * before && doubling > 0 && doubling < 0.01 * set.t)
-      return nameOf(i) + " grows without bound: it is about " + text(centre) + " and doubles within " + text(doubling) +
-             " s";
     const double size = std::max(std::fabs(centre), floor_[at(i)] / vanished);
     if (const double share = (half + remainder) / size; share > widest) {
       widest = share;
@@ -354,6 +368,14 @@ StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum,
       return isTruncationTooLarge(splitDefect) || (isAdapted && isKinkTooWide(set, kinkShare))
                  ? StepOutcome::splitWanted
                  : StepOutcome::stepped;
+    }
+    // What jumps there may be possible only at its middle: 1/(2 + sign u) where u may be zero.
+    const bool isLate = attempt >= 3 || h < 0x1p25 * quantum;
+    if (isLate && !isAdapted && series_.hasJumps() && series_.adaptToCrossings()) {
+      isAdapted = true;
+      load(set);
+      series_.compute(set.t, h0_);
+      continue;
     }
     h *= std::min(0.6, 1 / series_.haste());
     caution_ = std::max(caution_ * 0.8, 0x1p-6);

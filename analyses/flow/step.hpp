@@ -19,6 +19,7 @@ namespace gamut {
 /// p(σ), Ψ(σ) and what bounds their distance from the truth at one time of the step.
 struct FlowPoint {
   std::vector<double> p;                        // [state][monomial]
+  std::vector<double> low;                      // of each state, p's second double
   std::vector<double> psi;                      // [monomial][row][column]
   std::vector<double> psiSum;                   // Σ_α |Ψ_α| [row][column]
   std::vector<double> zonotope;                 // Ψ_0 Γ [generator][row], errors' first, then those of inputs
@@ -28,7 +29,7 @@ struct FlowPoint {
   std::vector<double> ofR;                      // the same of errors alone
   std::vector<double> beyond;                   // of each state, what is of higher order in ξ of inputs
   std::vector<double> loose;                    // everything but Ψ (r + Γs), a bound for each state
-  std::vector<double> radius;                   // |x - p| ≤ radius
+  std::vector<double> radius;                   // |x - p - low| ≤ radius
   std::vector<double> driven;                   // what of that inputs did
 };
 
@@ -61,10 +62,14 @@ class FlowStepper {
   StepOutcome certify(const FlowSet& set, double end, double quantum, double splitDefect, double kinkShare);
   double h() const { return h_; }
   /// What the step left out: orders in time; grades in ξ, and roundings. Of the states, relative to their size.
+  /// So many first orders in double-double, where there are no symbols (PolynomialSeries).
+  void setFineOrders(int orders) { series_.setFineOrders(orders); }
   double timeError() const { return timeError_; }
   double truncation() const { return truncation_; }
   /// After a failure: what could not be proved, of which state, in one line.
   const std::string& why() const { return why_; }
+  /// A state that has grown a thousandfold and would double long before the time it took; -1 if none has.
+  int escaping(const FlowSet& set) const;
   void setStateNames(const std::vector<std::string>& names) { names_ = names; }
   std::string nameOf(int state) const;
   /// After a failure: the remainder, not ξ, makes the set too wide; bisecting ξ cannot help.
@@ -82,7 +87,7 @@ class FlowStepper {
   double scale() const { return h0_; }
   double theta() const { return theta_; }
   double totalBound(int j) const { return total_[static_cast<std::size_t>(j)]; }  ///< R + Σ_j |Γ_j|, at the start
-  double tubeBound(int i) const { return E_[static_cast<std::size_t>(i)]; }       ///< |x - p| at every time
+  double tubeBound(int i) const { return E_[static_cast<std::size_t>(i)] + series_.lowNorm(i); }  ///< |x - p| always
   double looseBound(int i) const;  ///< |loose| and what inputs do in the step, at every time
   /// The set at the end of the step.
   void advance(FlowSet& set);
@@ -107,6 +112,7 @@ class FlowStepper {
   void boundDerivatives();
   double suggestion(double theta) const;
   std::string reason(const FlowSet& set) const;
+  double doubling(const FlowSet& set, int state) const;
   bool isTruncationTooLarge(double splitDefect) const;
   bool isLooserThanDriven() const;
   bool isKinkTooWide(const FlowSet& set, double kinkShare);

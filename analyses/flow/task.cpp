@@ -82,19 +82,34 @@ FlowTask::FlowTask(const FlowQuestion& question, const Box& startBox, const std:
   // are long, shorter steps of a lower order fill fewer of their grades.
   const int count = std::min(embedding.symbols, 4);
   static constexpr double firstDefect[] = {1e-8, 1e-8, 1e-5, 4e-4, 1e-2};
-  static constexpr double firstTolerance[] = {1e-16, 1e-12, 1e-10, 1e-10, 1e-9};
+  static constexpr double firstTolerance[] = {0, 1e-12, 1e-10, 1e-10, 1e-9};
   const double first = options.splitDefect > 0 ? options.splitDefect : firstDefect[count];
   splitDefect = bisectsForWidth() ? first * embedding.widest / round.tighter : std::numeric_limits<double>::infinity();
   if (bisectsForWidth()) kinkShare = 0.3 * aim() / std::sqrt(round.tighter);  // of a step; a crossing takes a few
   constexpr double besideInputs = 1e-10;
   const double enough = 5e-5 * aim() * embedding.widest / round.finer;  // some hundred steps add as much of the width
+  const bool isFine = embedding.symbols == 0 && varying.empty() && FineRecursion::isPossible(differentiated.nodes());
+  if (isFine) embedding.refine(options.precise);
+  const double ofThin = !varying.empty()            ? besideInputs
+                        : options.order > 0         ? 1e-16
+                        : isFine && isKnownFinely() ? 1e-28
+                                                    : 3e-17;
   tolerance = options.tolerance > 0    ? options.tolerance
-              : embedding.symbols == 0 ? (varying.empty() ? firstTolerance[0] : besideInputs)
+              : embedding.symbols == 0 ? ofThin
                                        : std::clamp(enough, 1e-15, firstTolerance[count] / round.finer);
-  constexpr int thinOrder = 28;  // its polynomials are single numbers
+  constexpr int thinOrder = 30;  // its polynomials are single numbers
   order = options.order > 0                           ? options.order
           : embedding.symbols == 0 && varying.empty() ? thinOrder
                                                       : orderFor(tolerance);
+  // Rounding of order i, some hundred units, weighs tolerance^(i/order).
+  if (const double above = std::log(512 * 0x1p-53 / tolerance); isFine && above > 0)
+    fineOrders = std::min(order, 2 + static_cast<int>(order * above / -std::log(tolerance)));
+}
+
+bool FlowTask::isKnownFinely() const {
+  const auto isFine = [](const Embedded& e) { return e.fineRadius <= 0x1p-90 * std::fabs(e.centre); };
+  return std::ranges::all_of(embedding.components, isFine) &&
+         std::ranges::all_of(differentiated.constants(), [](const Interval& c) { return isThin(c); });
 }
 
 std::size_t FlowTask::outputLayout(std::size_t layout) const {

@@ -61,6 +61,8 @@ struct FlowTask {
   double aim() const { return 0.9 * (options.tightness - 1); }
   /// Of their widths.
   double rangeTolerance() const { return std::min(1e-4, 0.02 * aim()); }
+  /// Without symbols: all numbers beyond double precision, so that following them so is worth it.
+  bool isKnownFinely() const;
   /// A tighter run may come.
   bool mayTighten() const { return !isLast && embedding.symbols > 0 && options.split && bisectsForWidth(); }
 
@@ -72,6 +74,7 @@ struct FlowTask {
   Embedding embedding;
   double horizon, quantum = 0, tolerance = 0, splitDefect = 0, kinkShare = 0;
   int order = 0, active = 0;  // symbols of weight 1
+  int fineOrders = 0;         // in double-double, without symbols: where rounding would limit the width
   double effective;           // Emphasis
   bool isLast;
   std::vector<int> varying;         // parameters that are inputs

@@ -55,15 +55,20 @@ class Reference {
 
  protected:
   Precise reach() {
-    Precise size(0.0), h(1e300);
-    for (int order = 0; order < 2 && size == 0; ++order)  // relative to the state, or to its rate where it is zero
-      for (int s = 0; s < f_.states(); ++s) size = std::max(size, Precise(abs(series_.at(s, order))));
+    Precise largest(0.0), h(1e300);
+    for (int order = 0; order < 2 && largest == 0; ++order)  // relative to the state, or to its rate where it is zero
+      for (int s = 0; s < f_.states(); ++s) largest = std::max(largest, Precise(abs(series_.at(s, order))));
     const Precise share = exp(log(Precise(1e-34)) / order_);
-    for (int s = 0; s < f_.states(); ++s)
+    for (int s = 0; s < f_.states(); ++s) {
+      // One that vanishes beside the others is followed relative to itself a while longer.
+      const Precise own = abs(series_.at(s, 0));
+      const bool vanishes = own > 0 && own < largest * 1e-20;
+      const Precise size = vanishes ? std::max(own, Precise(largest * 1e-40)) : largest;
       for (int i = order_ / 2; i <= order_; ++i) {  // single orders may vanish
         const Precise c = abs(series_.at(s, i));
         if (c > 0 && size > 0) h = std::min(h, Precise(share * exp(log(size / c) / i)));
       }
+    }
     return h;
   }
   Vector after(const Precise& tau) {

@@ -44,6 +44,7 @@ struct Setting {
   double size = 0.1;    // of the coefficients that are not constant
   double theta = 0.25;  // length of the step
   bool thinStates = false;
+  int fineOrders = 0;  // in double-double
   double rounded = 1;  // values as large as this have the reference's own rounding in them
 };
 
@@ -61,15 +62,23 @@ class Certificate {
         series_(program_, s.states, monomials_, s.frameDegree, s.order, true),
         evaluator_(everything_) {
     const int N = monomials_->count();
+    if (s.fineOrders > 0 && FineRecursion::isPossible(program_.nodes())) series_.setFineOrders(s.fineOrders);
     for (int i = 0; i < s.states; ++i) {
       states_.push_back(randomPolynomial(nominal[static_cast<std::size_t>(i)], N));
       if (s.thinStates) std::fill(states_.back().begin() + 1, states_.back().end(), 0.0);
       series_.setState(i, states_.back().data());
+      if (series_.isFine()) series_.setStateLow(i, states_.back()[0] * points_.uniform(-0x1p-54, 0x1p-54));
     }
     for (int i = 0; i < s.parameters; ++i) {
       parameters_.push_back(randomPolynomial(nominal[static_cast<std::size_t>(s.states + i)], N));
       radius_.push_back(points.integer(0, 1) * s.size * 1e-3);
       series_.setParameter(i, parameters_.back().data(), radius_.back());
+      if (series_.isFine()) {
+        Embedded known{parameters_.back()[0], 0, 1, -1, parameters_.back()[0] * points_.uniform(-0x1p-54, 0x1p-54)};
+        known.fineRadius = radius_.back();
+        parameterLow_.push_back(known.low);
+        series_.setParameter(i, known);
+      }
     }
     for (int i = 0; i < s.states; ++i)
       for (int j = 0; j < s.states; ++j)
@@ -89,18 +98,20 @@ class Certificate {
       const std::vector<Precise> powers = monomialValues();
       Vector x, p;
       for (int i = 0; i < n; ++i)
-        x.push_back(value(series_.series(i), sigma, powers, monomials_->count(), s_.order) +
+        x.push_back(value(series_.series(i), sigma, powers, monomials_->count(), s_.order) + low(i, sigma) +
                     (E.empty() ? 0.0 : E[static_cast<std::size_t>(i)] * points_.signedUnit()));
       for (std::size_t i = 0; i < parameters_.size(); ++i) {
         Precise sum = Precise(radius_[i]) * points_.signedUnit();
         for (std::size_t g = 0; g < powers.size(); ++g) sum += parameters_[i][g] * powers[g];
+        if (series_.isFine()) sum += parameterLow_[i];
         p.push_back(sum);
       }
       evaluator_.setParameters(p);
       const Vector truth = evaluator_(Precise(t0_) + Precise(sigma), x);
       for (int node = 0; node < static_cast<int>(truth.size()); ++node) {
         const int count = full_[static_cast<std::size_t>(node)] ? monomials_->count() : series_.frameCount();
-        const Precise computed = value(series_.series(node), sigma, powers, count, s_.order - 1);
+        Precise computed = value(series_.series(node), sigma, powers, count, s_.order - 1);
+        if (full_[static_cast<std::size_t>(node)]) computed += low(node, sigma);
         const Precise error = beyondRounding(truth[static_cast<std::size_t>(node)] - computed, computed);
         const Precise bound = Precise(series_.rho0(node)) + Precise(series_.rho1(node)) * fraction;
         ASSERT_LE(error, bound) << "node " << node << " at " << sigma << " of\n" << program_;
@@ -170,6 +181,13 @@ class Certificate {
     return sum;
   }
 
+  /// What second doubles hold.
+  Precise low(int node, double sigma) const {
+    Precise sum(0.0);
+    for (int i = s_.fineOrders - 1; i >= 0 && series_.isFine(); --i) sum = sum * sigma + series_.low(node, i);
+    return sum;
+  }
+
   static constexpr double t0_ = 0.5;
   Setting s_;
   Points& points_;
@@ -179,7 +197,7 @@ class Certificate {
   PolynomialSeries series_;
   Evaluator<Precise> evaluator_;
   std::vector<std::vector<double>> states_, parameters_;
-  std::vector<double> radius_;
+  std::vector<double> radius_, parameterLow_;
 };
 
 inline void expectCertified(const Program& f, const Setting& s, Points& points, const std::vector<double>& nominal,
@@ -207,12 +225,22 @@ inline Setting randomSetting(Points& points) {
   return s;
 }
 
-/// What dominates a bound: truncation in time, in the uncertain quantities, or nothing but rounding.
-enum class Regime { time, quantities, rounding };
+/// What dominates a bound: truncation in time, in the uncertain quantities, or nothing but rounding, of doubles or of
+/// double-doubles.
+enum class Regime { time, quantities, rounding, fine };
 
 inline Setting settingOf(Regime regime, Points& points) {
   Setting s;
   s.parameters = 1;
+  if (regime == Regime::fine) {  // where second doubles end, and where nothing else is left
+    s.weights.clear();
+    s.degree = s.frameDegree = 0;
+    s.order = 24;
+    s.size = 0x1p-90;
+    s.theta = std::ldexp(1.0, -points.integer(3, 7));
+    s.fineOrders = points.integer(2, 24);
+    return s;
+  }
   const int symbols = regime == Regime::time ? points.integer(0, 1) : points.integer(0, 2);
   s.weights.assign(static_cast<std::size_t>(symbols), 1);
   s.degree = symbols == 0 ? 0 : regime == Regime::quantities ? points.integer(1, 3) : 4;

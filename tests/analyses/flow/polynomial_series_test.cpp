@@ -49,7 +49,7 @@ class OfBareFunction : public ::testing::TestWithParam<std::pair<std::string, Re
 
 TEST_P(OfBareFunction, EveryNodeLiesWithinItsBounds) {
   Points points(13);
-  for (const Regime regime : {Regime::time, Regime::quantities, Regime::rounding})
+  for (const Regime regime : {Regime::time, Regime::quantities, Regime::rounding, Regime::fine})
     for (int round = 0; round < 25; ++round) {
       const std::vector<double> nominal{points.uniform(0.8, 2), points.uniform(0.8, 2), points.uniform(0.8, 2)};
       // The function of a state, of a parameter, of time; then, with no more than the frame's degree, of each again.
@@ -153,7 +153,7 @@ TEST(PolynomialSeries, UnderflowIsBounded) {
 TEST(PolynomialSeries, NodesOfTheFramesDegreeLieWithinTheirBoundsWhateverTheyStandFor) {
   Points points(19);
   for (int round = 0; round < 60; ++round) {
-    Setting s = settingOf(static_cast<Regime>(round % 3), points);
+    Setting s = settingOf(static_cast<Regime>(round % 4), points);
     const std::vector<double> nominal{points.uniform(-1, 1), points.uniform(-1, 1), points.uniform(-1, 1)};
     RandomExpressions expression(points, nominal);
     const Program program = record(2, 1, 6, [&](auto t, const auto& x, const auto& p, auto& y) {
@@ -172,6 +172,18 @@ TEST(PolynomialSeries, RandomProgramsLieWithinTheirBounds) {
   Points points(11);
   for (int round = 0; round < 60; ++round) {
     const Setting s = randomSetting(points);
+    const std::vector<double> nominal{points.uniform(-1, 1), points.uniform(-1, 1), points.uniform(-1, 1)};
+    RandomExpressions expression(points, nominal);
+    const Program f = record(2, 1, [&](auto t, const auto& x, const auto& p, auto& dx) { expression(t, x, p, dx, 6); });
+    expectCertified(f.differentiated(), s, points, nominal, 3);
+    if (HasFatalFailure()) return;
+  }
+}
+
+TEST(PolynomialSeries, RandomProgramsInDoubleDoubleLieWithinTheirBounds) {
+  Points points(12);
+  for (int round = 0; round < 60; ++round) {
+    const Setting s = settingOf(Regime::fine, points);
     const std::vector<double> nominal{points.uniform(-1, 1), points.uniform(-1, 1), points.uniform(-1, 1)};
     RandomExpressions expression(points, nominal);
     const Program f = record(2, 1, [&](auto t, const auto& x, const auto& p, auto& dx) { expression(t, x, p, dx, 6); });

@@ -74,7 +74,7 @@ class OfSystem : public ::testing::TestWithParam<Kind> {};
 
 TEST_P(OfSystem, EveryNodeLiesWithinItsBounds) {
   Points points(21);
-  for (const Regime regime : {Regime::time, Regime::quantities, Regime::rounding})
+  for (const Regime regime : {Regime::time, Regime::quantities, Regime::rounding, Regime::fine})
     for (int round = 0; round < 12; ++round) {
       const std::vector<double> nominal{points.uniform(-1, 1), points.uniform(-1, 1), points.uniform(-1, 1)};
       const RandomSystem system(points, GetParam()), other(points, GetParam());

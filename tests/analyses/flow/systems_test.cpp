@@ -190,8 +190,46 @@ TEST(PublishedPendulum, ThinStartStaysAsThinAsPromised) {
   Judge judge(c);
   const Precise pi = acos(Precise(-1.0));
   judge.follow({pi * 3 / 4, pi * -11 / 20, Precise("0.43"), Precise("0.67")});
-  for (const Interval& state : judge.tube().at(1)) EXPECT_LE(width(state), 1e-11);
-  for (const Interval& state : judge.tube().at(10)) EXPECT_LE(width(state), 5e-8);
+  for (const Interval& state : judge.tube().at(1)) EXPECT_LE(width(state), 3e-13);
+  for (const Interval& state : judge.tube().at(10)) EXPECT_LE(width(state), 6e-11);
+}
+
+/// `value` in two doubles.
+PreciseValue preciseValue(int component, const Precise& value) {
+  PreciseValue result;
+  result.component = component;
+  result.high = static_cast<double>(value);
+  result.low = static_cast<double>(Precise(value - result.high));
+  result.radius = 0x1p-106 * std::fabs(result.high);
+  return result;
+}
+
+TEST(PublishedPendulum, IsKnownToItsLastDigitsWhereItsNumbersAre) {
+  Containment c = pendulum(0);
+  c.f = *c.truth;  // gravity is a parameter
+  c.truth = {};
+  c.decimals = {};
+  c.box.push_back(Interval("9.81"));
+  c.g = standardOutputs(4, 1);
+  c.horizon = 10;
+  c.times = {1, 5};
+  const Precise pi = acos(Precise(-1.0));
+  const Vector start{pi * 3 / 4, pi * -11 / 20, Precise("0.43"), Precise("0.67"), Precise("9.81")};
+  for (int i = 0; i < 5; ++i) c.options.precise.push_back(preciseValue(i, start[static_cast<std::size_t>(i)]));
+  Judge judge(c);
+  judge.follow(start);
+  for (const Interval& state : judge.tube().at(1)) EXPECT_LE(width(state), 1e-15);
+  for (const Interval& state : judge.tube().at(10)) EXPECT_LE(width(state), 1e-14);
+}
+
+TEST(PublishedPendulum, PreciseValuesMustBeOfTheBoxAndInOrder) {
+  const Containment c = pendulum(0);
+  for (const PreciseValue& wrong : {PreciseValue{4, 1, 0, 0}, PreciseValue{-1, 1, 0, 0}, PreciseValue{0, 1, 1e-10, 0},
+                                    PreciseValue{0, 1, 0, -1}, PreciseValue{0, std::nan(""), 0, 0}}) {
+    FlowOptions options;
+    options.precise = {wrong};
+    EXPECT_THROW(Flow(c.f, options), std::invalid_argument);
+  }
 }
 
 TEST(PublishedPendulum, OnePercentBoxIsAsTightAsDenseSampling) {
