@@ -35,6 +35,19 @@ FlowOptions checked(FlowOptions options, int states, int outputs, const std::vec
   return options;
 }
 
+/// At a jump of f solutions have derivatives that jump too, which the variational equations do not know.
+const Program& checkedForJumps(const Program& f, const std::vector<int>& by) {
+  std::vector<char> varies(f.nodes().size(), 0);
+  for (std::size_t i = 0; i < varies.size(); ++i) {
+    const Node& v = f.nodes()[i];
+    varies[i] = v.op == Op::state || (v.op == Op::parameter && std::ranges::find(by, f.states() + v.a) != by.end());
+    detail::forEachOperand(f.table(), static_cast<int>(i), [&](int operand) { varies[i] |= varies[at(operand)]; });
+    requireThat(v.op != Op::sign || !varies[i],
+                "there are no derivatives across a jump (sign, where) of what they are by");
+  }
+  return f;
+}
+
 Program noOutputs(const Program& f) {
   return record(f.states(), f.parameters(), 0, [](const auto&, const auto&, const auto&, auto&) {});
 }
@@ -49,7 +62,8 @@ DerivativeFlow::DerivativeFlow(const Program& f, const Program& g, std::vector<i
       parameters_(f.parameters()),
       outputs_(g.outputs()),
       by_(std::move(by)),
-      flow_(alongDerivatives(f, by_), alongDerivatives(g, by_), checked(std::move(options), states_, outputs_, by_)) {}
+      flow_(alongDerivatives(checkedForJumps(f, by_), by_), alongDerivatives(checkedForJumps(g, by_), by_),
+            checked(std::move(options), states_, outputs_, by_)) {}
 
 Box DerivativeFlow::extended(const Box& box) const {
   requireThat(box.size() == at(states_ + parameters_),

@@ -19,7 +19,8 @@ namespace gamut {
 class DerivativeFlow {
  public:
   /// As Flow. `by`: components of the box, n initial values first, then k parameters, each at most once.
-  /// Throws std::invalid_argument for one that the box does not have, or that varies in time.
+  /// Throws std::invalid_argument for one that the box does not have, or that varies in time, and where f or g jumps
+  /// (sign, where) with the states or one of these: derivatives of solutions jump there. (abs, min, max do not.)
   DerivativeFlow(const Program& f, std::vector<int> by, FlowOptions options = {});
   DerivativeFlow(const Program& f, const Program& g, std::vector<int> by, FlowOptions options = {});
 

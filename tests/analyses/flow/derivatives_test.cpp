@@ -74,6 +74,28 @@ TEST(DerivativeFlow, IsTightOnALinearEquation) {
   EXPECT_TRUE(contains(x[flow.derivative(0, 1)], midpoint(byDecay)));
 }
 
+TEST(DerivativeFlow, RefusesJumpsOfWhatItIsBy) {
+  const auto across = [](Recorded (*jump)(const Recorded& t, const Recorded& x, const Recorded& p)) {
+    return record(2, 1, [&](auto t, const auto& x, const auto& p, auto& dx) {
+      dx[0] = 1.0;
+      dx[1] = jump(t, x[0], p[0]);
+    });
+  };
+  const Program ofState = across([](const Recorded&, const Recorded& x, const Recorded&) { return sign(x); });
+  const Program ofParameter = across([](const Recorded&, const Recorded&, const Recorded& p) { return sign(p); });
+  const Program ofTime = across([](const Recorded& t, const Recorded&, const Recorded&) { return sign(t - 0.5); });
+  const Program ofKink = across([](const Recorded&, const Recorded& x, const Recorded&) { return abs(x); });
+  EXPECT_THROW(DerivativeFlow(ofState, {0}), std::invalid_argument);
+  EXPECT_THROW(DerivativeFlow(ofKink, ofState, {0}), std::invalid_argument) << "an output";
+  EXPECT_THROW(DerivativeFlow(ofParameter, {2}), std::invalid_argument);
+  EXPECT_NO_THROW(DerivativeFlow(ofParameter, {0}));
+  EXPECT_NO_THROW(DerivativeFlow(ofTime, {0}));
+  // |x| from -¾ … -½ to ¼ … ½: y = ½(x0² + (1 + x0)²), ∂y/∂x0 = 1 + 2 x0.
+  const DerivativeFlow flow(ofKink, {0});
+  const Tube tube = flow.enclose({Interval(-0.75, -0.5), 0.0, 0.0}, 1);
+  EXPECT_TRUE(isSubset(Interval(-0.5, 0.0), tube.at(1)[flow.derivative(1, 0)]));
+}
+
 TEST(DerivativeFlow, RefusesWhatTheBoxDoesNotHave) {
   EXPECT_THROW(DerivativeFlow(pendulum(), {5}), std::invalid_argument);
   EXPECT_THROW(DerivativeFlow(pendulum(), {-1}), std::invalid_argument);

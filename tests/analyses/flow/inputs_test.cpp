@@ -245,6 +245,21 @@ TEST(FlowInputs, HoldWherePiecesAreBisectedOrExpanded) {
 }
 
 /// With a bounded rate: ramps, whose rates switch. Narrower than without.
+/// x(¼) = 1/32 for w = p = -1, though x is below that at both ends of the step: what inputs do is not convex in time.
+TEST(FlowInputs, HoldBetweenTheEndsOfAStep) {
+  for (const double v : {0.0, 32.0, 40.0, 200.0})
+    for (const double tightness : {1.02, 1.5, 3.0}) {
+      const Program f = record(1, 2, [&](auto t, const auto&, const auto& p, auto& dx) {
+        dx[0] = -(v + 0.25) + (v * p[1] + (t - 0.5)) * p[0];
+      });
+      FlowOptions options;
+      options.varying = {{0}};
+      options.tightness = tightness;
+      const Tube tube = Flow(f, options).enclose({0.0, Interval(-1, 1), Interval(-1, 1)}, 1);
+      EXPECT_GE(tube.statesOver(1)[0].upper(), 0x1p-5) << v << ' ' << tightness;
+    }
+}
+
 TEST(FlowInputs, OfBoundedRateHoldRamps) {
   Containment c = oscillator(5.0, 0.05);
   const Tube free = c.tube();
