@@ -18,10 +18,10 @@ namespace {
 
 constexpr double expandedAt = 1e-6;  // a remainder, relative to its state, that a linear term cannot carry much further
 
-/// `into` becomes the greater of both, component by component.
-void raise(std::vector<double>& into, const std::vector<double>& to) {
-  into.resize(to.size(), 0.0);
-  for (std::size_t i = 0; i < to.size(); ++i) into[i] = std::max(into[i], to[i]);
+/// Without `excess` at both ends; a point where that is more than all of it.
+Interval without(const Interval& bound, double excess) {
+  const double lower = bound.lower() + excess, upper = bound.upper() - excess;
+  return lower <= upper ? Interval(lower, upper) : Interval(midpoint(bound));
 }
 
 }  // namespace
@@ -203,17 +203,17 @@ void FlowFollower::enclose(const FlowPiece& piece, double tau, std::vector<Inter
   tool_->stepper.evaluate(piece.set, tau, point_);
   const int N = monomialCount_;
   states.resize(at(task_.motion.states()));
-  stateExcess_.clear();
+  stateCore_.clear();
   for (int i = 0; i < task_.motion.states(); ++i) {
     const Interval rest = inflated(Interval(point_.low[at(i)]), point_.radius[at(i)]);
     states[at(i)] = tool_->range(&point_.p[at(i * N)], whole_, task_.rangeTolerance()) + rest;
-    stateExcess_.push_back(point_.radius[at(i)] - point_.driven[at(i)] + tool_->range.gap());
+    stateCore_.push_back(without(states[at(i)], point_.radius[at(i)] - point_.driven[at(i)] + tool_->range.gap()));
   }
   outputs.clear();
   if (!outputs_) return;
   at_ = piece.set.t + tau;
   outputs_->evaluate(at_, point_, piece.set.R, piece.set.parameters);
-  outputExcess_.clear();
+  outputCore_.clear();
   appendOutputs(piece, states, whole_, outputs);
 }
 
@@ -225,15 +225,15 @@ void FlowFollower::appendOutputs(const FlowPiece& piece, const std::vector<Inter
     PolynomialRange& range = *tool_->outputRange;
     if (!std::isfinite(radius)) {
       outputs.push_back(outputs_->overBox(o, Interval(at_), states, piece.set.parameters));
-      outputExcess_.push_back(0.0);  // not known
+      outputCore_.push_back(outputs.back());  // not known
       continue;
     }
     const Interval bound = inflated(range(outputs_->polynomial(o), xi, task_.rangeTolerance()), radius);
     outputs.push_back(bound);
     if (outputs_->hasKinks())  // of |y| through 0 the one knows what the other does not
       outputs.back() = intersection(bound, outputs_->overBox(o, Interval(at_), states, piece.set.parameters));
-    outputExcess_.push_back(
-        std::max(0.0, radius - outputs_->driven(o) + range.gap() - 0.5 * (width(bound) - width(outputs.back()))));
+    const double known = 0.5 * (width(bound) - width(outputs.back()));
+    outputCore_.push_back(without(outputs.back(), std::max(0.0, radius - outputs_->driven(o) + range.gap() - known)));
   }
 }
 
@@ -303,8 +303,8 @@ bool FlowFollower::record(FlowPiece& piece) {
   };
   for (; piece.next < times.size() && times[piece.next] <= t1; ++piece.next) {
     enclose(piece, times[piece.next] - t0, end, endOutputs);  // an exact difference: docs/flow.md, "Time"
-    raise(collected_.stateExcess[piece.next], stateExcess_);
-    raise(collected_.outputExcess[piece.next], outputExcess_);
+    joinHulls(collected_.stateCore[piece.next], stateCore_);
+    joinHulls(collected_.outputCore[piece.next], outputCore_);
     encloseLevels(piece, piece.next);
     segment(times[piece.next]);
     joinHulls(collected_.states[piece.next], end);

@@ -29,10 +29,9 @@ enum class FlowJourney { goesOn, ended, cancelled };
 struct FlowCollected {
   std::vector<std::vector<Interval>> states, statesOver, outputs, outputsOver;
   std::vector<std::vector<std::vector<Interval>>> cuts;
-  std::vector<std::vector<double>> stateExcess,
-      outputExcess;                      // see FlowFollower; the greatest, [time][state or output]
-  std::vector<Influence> influence;      // of every symbol
-  double timeError = 0, truncation = 0;  // of all steps
+  std::vector<std::vector<Interval>> stateCore, outputCore;  // see FlowFollower; their hulls
+  std::vector<Influence> influence;                          // of every symbol
+  double timeError = 0, truncation = 0;                      // of all steps
   long steps = 0;
   double cpu = 0, cutCpu = 0;
   FlowCollected(std::size_t times, std::size_t levels)
@@ -41,8 +40,8 @@ struct FlowCollected {
         outputs(times),
         outputsOver(times),
         cuts(levels, std::vector<std::vector<Interval>>(times)),
-        stateExcess(times),
-        outputExcess(times) {}
+        stateCore(times),
+        outputCore(times) {}
 };
 
 /// `into` becomes the hull of both, component by component; empty, it becomes `from`.
@@ -95,7 +94,7 @@ class FlowFollower {
   double counted_ = threadCpuSeconds();  // of this thread, in the budget
   Box whole_;
   std::vector<Interval> sag_;
-  std::vector<double> stateExcess_, outputExcess_;  // what remainder and range add to a bound at most, of `enclose`
+  std::vector<Interval> stateCore_, outputCore_;  // bounds of `enclose` without what remainder and range add at most
 };
 
 }  // namespace gamut

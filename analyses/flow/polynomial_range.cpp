@@ -1,4 +1,4 @@
-// Monotone symbols go to their ends; what is left is bisected, the more promising half first.
+// Monotone symbols go to their ends; what is left is bisected, the part with the greatest bound first.
 #include "analyses/flow/polynomial_range.hpp"
 
 #include <algorithm>
@@ -79,20 +79,45 @@ Interval PolynomialRange::operator()(const double* c, const Box& box, double tol
 }
 
 double PolynomialRange::maximum(std::vector<double> c, double rounding, double tolerance) {
+  constexpr int mostParts = 400, mostDepth = 40;
   const double constant = c[0];
   reduceMonotone(c);
   double norm = 0;
   for (std::size_t g = 1; g < c.size(); ++g) norm += std::fabs(c[g]);
   if (norm == 0) return addUp(c[0], rounding);
-  Search state{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
-               std::max(tolerance * (norm + std::fabs(c[0] - constant)), rounding), 200, 0};
-  search(c, 0, state);
+  const double size = norm + std::fabs(c[0]),
+               enough = std::max(tolerance * (norm + std::fabs(c[0] - constant)), rounding);
+  // The part with the greatest bound is bisected until that bound is nearly taken: it is the bound of all then.
+  parts_.clear();
+  double best = -std::numeric_limits<double>::infinity();
+  int deepest = 0;
+  const auto add = [&](std::vector<double>&& part, int depth) {
+    best = std::max(best, greatestValue(part));
+    const double bound = upperBound(part);
+    deepest = std::max(deepest, depth);
+    if (!parts_.empty() && bound <= best) return;
+    parts_.push_back({bound, depth, std::move(part)});
+    std::ranges::push_heap(parts_, {}, &Part::bound);
+  };
+  add(std::move(c), 0);
+  for (int parts = 1; parts < mostParts && parts_.front().bound > best + enough; ++parts) {
+    if (parts_.front().depth >= mostDepth) break;
+    std::ranges::pop_heap(parts_, {}, &Part::bound);
+    const Part part = std::move(parts_.back());
+    parts_.pop_back();
+    const int symbol = mostNonlinear(part.c);
+    for (const double middle : {-0.5, 0.5}) {
+      std::vector<double> half(part.c.size());
+      substitute(symbol, middle, 0.5, part.c.data(), half.data());
+      reduceMonotone(half);
+      add(std::move(half), part.depth + 1);
+    }
+  }
   // Every bisection above a part adds its rounding, shiftError·Σ|c| and N u Σ|c| for monotone symbols; Σ|c| never
   // grows.
-  const double shifts =
-      state.deepest * (shiftError_ + monomials_->count() * bounds::unit) * (norm + std::fabs(c[0])) * bounds::up;
-  const double proved = addUp(state.proved, addUp(rounding, shifts));
-  gap_ = std::max(gap_, proved - state.best);
+  const double shifts = deepest * (shiftError_ + monomials_->count() * bounds::unit) * size * bounds::up;
+  const double proved = addUp(std::max(best, parts_.front().bound), addUp(rounding, shifts));
+  gap_ = std::max(gap_, proved - best);
   return proved;
 }
 
@@ -117,32 +142,31 @@ void PolynomialRange::reduceMonotone(std::vector<double>& c) const {
   }
 }
 
-void PolynomialRange::search(const std::vector<double>& c, int depth, Search& state) {
+/// Σ over monomials of their greatest value: an even one lies in [0, 1], any other in [-1, 1].
+double PolynomialRange::upperBound(const std::vector<double>& c) const {
+  double bound = 0;
+  for (std::size_t g = c.size(); g-- > 1;) bound += even_[g] ? std::max(0.0, c[g]) : std::fabs(c[g]);
+  return addUp(c[0], bound * bounds::up);
+}
+
+/// At the middle and, per symbol, at both ends of its axis.
+double PolynomialRange::greatestValue(const std::vector<double>& c) const {
   const Monomials& m = *monomials_;
-  state.deepest = std::max(state.deepest, depth);
-  // Σ over monomials of their greatest value: an even one lies in [0, 1], any other in [-1, 1].
-  double bound = 0, size = 0;
-  for (std::size_t g = c.size(); g-- > 1;) {
-    size += std::fabs(c[g]);
-    bound += even_[g] ? std::max(0.0, c[g]) : std::fabs(c[g]);
-  }
-  bound = addUp(c[0], bound * bounds::up);
-  // Values at the middle and, per symbol, at both ends of its axis.
-  state.best = std::max(state.best, c[0]);
+  double best = c[0];
   for (int l = 0; l < m.symbols(); ++l)
     for (int sign : {-1, 1}) {
       double value = c[0];
       for (int g = 1, power; g < m.count(); ++g)
         if ((power = m.exponent(g, l)) > 0 && m.grade(g) == power * m.weight(l))
           value += power % 2 == 1 && sign < 0 ? -c[at(g)] : c[at(g)];
-      state.best = std::max(state.best, value);
+      best = std::max(best, value);
     }
-  if (bound <= state.best + state.tolerance || depth >= 40 || state.left <= 0 || size == 0) {
-    state.proved = std::max(state.proved, bound);
-    return;
-  }
-  --state.left;
-  // Bisect the symbol with most in its nonlinear terms.
+  return best;
+}
+
+/// The symbol with most in its nonlinear terms.
+int PolynomialRange::mostNonlinear(const std::vector<double>& c) const {
+  const Monomials& m = *monomials_;
   int symbol = 0;
   double most = -1;
   for (int l = 0; l < m.symbols(); ++l) {
@@ -151,15 +175,7 @@ void PolynomialRange::search(const std::vector<double>& c, int depth, Search& st
       if (g != m.linear(l) && m.exponent(g, l) > 0) nonlinear += m.exponent(g, l) * std::fabs(c[at(g)]);
     if (nonlinear > most) most = nonlinear, symbol = l;
   }
-  std::vector<double> halves[2] = {std::vector<double>(c.size()), std::vector<double>(c.size())};
-  for (int side : {0, 1}) {
-    substitute(symbol, side == 0 ? -0.5 : 0.5, 0.5, c.data(), halves[side].data());
-    reduceMonotone(halves[side]);
-  }
-  // The half with the greater middle first: it raises `best` sooner.
-  const int firstSide = halves[1][0] >= halves[0][0] ? 1 : 0;
-  search(halves[firstSide], depth + 1, state);
-  search(halves[1 - firstSide], depth + 1, state);
+  return symbol;
 }
 
 }  // namespace gamut

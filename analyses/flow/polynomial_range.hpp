@@ -26,15 +26,16 @@ class PolynomialRange {
   double shiftError() const { return shiftError_; }
 
  private:
-  struct Search {
-    double best;    // a value that the polynomial takes (nearly): the maximum is not below it
-    double proved;  // bound over the parts that are finished
-    double tolerance;
-    int left;     // bisections left
-    int deepest;  // bisections above the deepest part
+  /// The polynomial over a part of the box, that in [-1,1]^k.
+  struct Part {
+    double bound;
+    int depth;  // bisections above it
+    std::vector<double> c;
   };
   double maximum(std::vector<double> c, double rounding, double tolerance);
-  void search(const std::vector<double>& c, int depth, Search& state);
+  double upperBound(const std::vector<double>& c) const;
+  double greatestValue(const std::vector<double>& c) const;
+  int mostNonlinear(const std::vector<double>& c) const;
   void reduceMonotone(std::vector<double>& c) const;
 
   std::shared_ptr<const Monomials> monomials_;
@@ -42,6 +43,7 @@ class PolynomialRange {
   std::vector<std::vector<double>> binomial_;
   std::vector<char> even_;
   double shiftError_, gap_ = 0;
+  std::vector<Part> parts_;  // a heap by bounds
 };
 
 }  // namespace gamut

@@ -34,8 +34,11 @@ class Weighing {
       influence_[l].any = std::max(influence_[l].any, found[next].any);
       influence_[l].nonlinear = std::max(influence_[l].nonlinear, found[next++].nonlinear);
     }
-    negligible_ /= 30;
-    emphasis_ = emphasisOf(influence_, negligible_, share_);
+    const std::vector<int> before = emphasis_.weights;
+    while (emphasis_.weights == before && !emphasis_.isUniform()) {
+      negligible_ /= 30;
+      emphasis_ = emphasisOf(influence_, negligible_, share_);
+    }
   }
 
  private:
@@ -55,7 +58,7 @@ class Weighing {
     const std::vector<Box> noLevels;
     const FlowQuestion rough{question.motion, question.differentiated, question.outputs, options, question.horizon,
                              times,           question.budget};
-    const FlowTask task(rough, box, noLevels, {.isLast = false, .emphasis = emphasis_});
+    const FlowTask task(rough, box, noLevels, {.isLast = false, .isLook = true, .emphasis = emphasis_});
     FlowRun run(task);
     run.run();
     influence_ = run.influence();
@@ -78,6 +81,7 @@ Tube refine(const FlowQuestion& question, const Box& box, const std::vector<Box>
   FlowRound round;
   round.isLast = false;
   double reached = 0, looseBefore = 0;
+  bool isAlike = true;  // to the round before, but tighter
   for (int count = 1;; ++count) {
     round.isLast = round.isLast || count == mostRounds;
     round.emphasis = weighing.emphasis();
@@ -86,7 +90,8 @@ Tube refine(const FlowQuestion& question, const Box& box, const std::vector<Box>
     Tube tube = run.run();
     looseness = run.looseness();
     const double factor = run.tighterBy(tube);
-    const bool isInVain = reached == question.horizon && tube.reached() == reached && looseness > 0.5 * looseBefore;
+    const bool isInVain =
+        isAlike && reached == question.horizon && tube.reached() == reached && looseness > 0.5 * looseBefore;
     const bool isMisjudged = factor > 1 && !round.emphasis.isUniform();
     const bool mayRaise = factor > 1 && run.needsDegree() && task.hasRicherOutputs();
     reached = tube.reached();
@@ -94,6 +99,7 @@ Tube refine(const FlowQuestion& question, const Box& box, const std::vector<Box>
     limit = run.limit(tube);
     best = count == 1 ? std::move(tube) : FlowRun::meet(std::move(best), std::move(tube));
     if (round.isLast) break;
+    isAlike = !isMisjudged;
     if (isMisjudged) {
       weighing.raise(run.influence());
     } else if (mayRaise && !isInVain) {

@@ -225,27 +225,34 @@ Tube FlowRun::gather(std::vector<FlowCollected>& collected) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
   const double aim = task_.aim(),
                wellKnown = 5e-5 * aim;  // nor are bounds measured that are so much tighter than the box
-  const auto excess = [&](const std::vector<std::vector<Interval>>& bounds, auto radii) {
+  const auto excess = [&](const std::vector<std::vector<Interval>>& bounds, auto cores) {
     std::vector<std::vector<double>> shares(rows);
+    std::vector<std::vector<Interval>> core(rows);
     std::vector<double> greatest(bounds[0].size(), 0.0);  // width over all times
-    for (const std::vector<Interval>& row : bounds)
-      for (std::size_t i = 0; i < row.size(); ++i) greatest[i] = std::max(greatest[i], width(row[i]));
+    std::vector<char> isZero(bounds[0].size(), 1);        // at all times, as symmetry keeps it
+    for (std::size_t row = 0; row < rows; ++row) {
+      for (const FlowCollected& part : collected)
+        if (!(part.*cores)[row].empty()) joinHulls(core[row], (part.*cores)[row]);
+      for (std::size_t i = 0; i < core[row].size(); ++i) {
+        const Interval& bound = bounds[row][i];
+        greatest[i] = std::max(greatest[i], width(bound));
+        if (!(contains(bound, 0.0) && magnitude(core[row][i]) <= 1e-6 * width(bound))) isZero[i] = 0;
+      }
+    }
     for (std::size_t row = 0; row < rows; ++row) {
       shares[row].resize(bounds[row].size(), 0.0);
-      for (const FlowCollected& part : collected)
-        for (std::size_t i = 0; i < (part.*radii)[row].size(); ++i) {
-          const Interval& bound = bounds[row][i];
-          const double remainder = 2 * (part.*radii)[row][i], rest = width(bound) - remainder;
-          const bool isZero = contains(bound, 0.0) && rest <= 1e-6 * remainder;  // as symmetry keeps it
-          if (!isZero && remainder > wellKnown * widest * magnitude(bound) && remainder > unheard * greatest[i])
-            shares[row][i] = std::max(shares[row][i], rest > 0 ? remainder / rest : infinite);
-        }
+      for (std::size_t i = 0; i < core[row].size(); ++i) {
+        const Interval& bound = bounds[row][i];
+        const double rest = width(core[row][i]), remainder = width(bound) - rest;
+        if (isZero[i] == 0 && remainder > wellKnown * widest * magnitude(bound) && remainder > unheard * greatest[i])
+          shares[row][i] = rest > 0 ? remainder / rest : infinite;
+      }
     }
     return shares;
   };
-  tube.excess_ = excess(tube.states_, &FlowCollected::stateExcess);
+  tube.excess_ = excess(tube.states_, &FlowCollected::stateCore);
   const double ofStates = tube.tightness() - 1;
-  if (task_.outputs.outputs() > 0) tube.excess_ = excess(tube.outputs_, &FlowCollected::outputExcess);
+  if (task_.outputs.outputs() > 0) tube.excess_ = excess(tube.outputs_, &FlowCollected::outputCore);
   const auto isWide = [&](int input) { return !isThin(task_.box[at(task_.motion.states() + input)]); };
   if (task_.embedding.symbols == 0 && std::ranges::none_of(task_.varying, isWide)) tube.excess_.clear();
   looseness_ = tube.tightness() - 1;

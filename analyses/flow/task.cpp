@@ -51,6 +51,7 @@ FlowTask::FlowTask(const FlowQuestion& question, const Box& startBox, const std:
       horizon(question.horizon),
       effective(round.emphasis.weights.empty() ? embedding.symbols : round.emphasis.effective),
       isLast(round.isLast),
+      isLook(round.isLook),
       richer(round.richer) {
   for (const VaryingParameter& input : options.varying) varying.push_back(input.parameter);
   times.push_back(0.0);
@@ -69,9 +70,10 @@ FlowTask::FlowTask(const FlowQuestion& question, const Box& startBox, const std:
     requireThat(embedding.symbols == 0 || degree >= 1, "uncertain quantities need polynomials of degree one at least");
     std::vector<int> capped;  // every symbol keeps its first power
     for (const int weight : weights) capped.push_back(std::min(weight, degree));
-    layouts.push_back({std::make_shared<const Monomials>(capped, degree), options.frameDegree >= 0
-                                                                              ? std::min(options.frameDegree, degree)
-                                                                              : automaticFrameDegree(active, degree)});
+    layouts.push_back({std::make_shared<const Monomials>(capped, degree),
+                       options.frameDegree >= 0
+                           ? std::min(options.frameDegree, degree)
+                           : std::min(round.tighter == 1 ? 2 : 9, automaticFrameDegree(active, degree))});
   }
   degrees = layouts.size();
   if (auto expanded = options.degree < 0 ? expandedMonomials(embedding.symbols, motion.states()) : nullptr) {
@@ -81,8 +83,8 @@ FlowTask::FlowTask(const FlowQuestion& question, const Box& startBox, const std:
   // Bisection is cheap for one symbol and dear for several: with these, begin loosely; and with many, whose polynomials
   // are long, shorter steps of a lower order fill fewer of their grades.
   const int count = std::min(embedding.symbols, 4);
-  static constexpr double firstDefect[] = {1e-8, 1e-8, 1e-5, 4e-4, 1e-2};
-  static constexpr double firstTolerance[] = {0, 1e-12, 1e-10, 1e-10, 1e-9};
+  static constexpr double firstDefect[] = {1e-8, 1e-8, 1e-5, 4e-4, 2e-2};
+  static constexpr double firstTolerance[] = {0, 1e-12, 1e-10, 1e-10, 1e-8};
   const double first = options.splitDefect > 0 ? options.splitDefect : firstDefect[count];
   splitDefect = bisectsForWidth() ? first * embedding.widest / round.tighter : std::numeric_limits<double>::infinity();
   if (bisectsForWidth()) kinkShare = 0.3 * aim() / std::sqrt(round.tighter);  // of a step; a crossing takes a few

@@ -182,5 +182,36 @@ TEST(FlowTightness, MustBeAboveOne) {
   EXPECT_THROW(Flow(c.f, c.options), std::invalid_argument);
 }
 
+/// Relaxation oscillations: where the fast motion begins, ranges of polynomials are what is hard to bound.
+TEST(FlowTightness, ReachesWhatIsAskedForWherePolynomialsBend) {
+  const Program f = record(2, 2, [](auto, const auto& x, const auto& p, auto& dx) {
+    dx[0] = x[1];
+    dx[1] = p[0] * (1.0 - sqr(x[0])) * x[1] - p[1] * x[0];
+  });
+  const Tube tube = Flow(f).enclose(
+      {Interval(1.99, 2.01), Interval(-0.01, 0.01), Interval(1.98, 2.02), Interval(0.99, 1.01)}, 5, {1.25, 2.5, 3.75});
+  EXPECT_EQ(tube.shortfall(), "");
+  EXPECT_LT(tube.tightness(), 1.02);
+}
+
+/// Servo with a saturated voltage, a current that starts at zero: without bisection remainders grow beyond all bounds.
+TEST(FlowTightness, IsNotClaimedWhereNothingIsKnown) {
+  const Program f = record(3, 2, [](auto, const auto& x, const auto& p, auto& dx) {
+    dx[0] = x[1];
+    dx[1] = (0.05 * x[2] - 0.001 * x[1]) / p[0];
+    dx[2] = (12.0 * tanh(2.0 * (1.0 - x[0])) - p[1] * x[2] - 0.05 * x[1]) / 0.01;
+  });
+  FlowOptions options;
+  options.split = false;
+  options.degree = 3;
+  options.tolerance = 1e-7;
+  const Tube tube =
+      Flow(f, options)
+          .enclose({Interval(-0.01, 0.01), 0.0, 0.0, Interval(0.00098, 0.00102), Interval(0.98, 1.02)}, 1, {0.25, 0.5});
+  EXPECT_GT(width(tube.at(0.5)[2]), 1e3) << "nothing is known, and";
+  EXPECT_GT(tube.tightness(), 100) << "it is said";
+  EXPECT_NE(tube.shortfall(), "");
+}
+
 }  // namespace
 }  // namespace gamut::testing
