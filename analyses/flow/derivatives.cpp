@@ -30,6 +30,8 @@ FlowOptions checked(FlowOptions options, int states, int outputs, const std::vec
     requireThat(std::ranges::find(which, states + input.parameter) == which.end(),
                 "there is no derivative by what varies in time");
   const std::size_t by = which.size();
+  for (PreciseValue& value : options.precise)  // parameters stand behind the derivatives
+    if (value.component >= states) value.component += states * static_cast<int>(by);
   options.stateNames = extendedNames(std::move(options.stateNames), at(states), by);
   options.outputNames = extendedNames(std::move(options.outputNames), at(outputs), by);
   return options;

@@ -7,7 +7,6 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "analyses/flow/error_bounds.hpp"
 #include "scalars/elementary/double_double.hpp"
 #include "scalars/elementary/rounding.hpp"
 #include "scalars/index.hpp"
@@ -32,17 +31,14 @@ Embedding::Embedding(const Box& box, int states, const std::vector<VaryingParame
       e.symbol = symbols++;
       widest = std::max(widest, e.half < std::fabs(e.centre) ? e.half / std::fabs(e.centre) : 1.0);
     }
-    e.fineRadius = e.radius;
     components.push_back(e);
   }
 }
 
-void Embedding::refine(const std::vector<PreciseValue>& values) {
-  if (symbols > 0) return;
+void Embedding::takeDigitsOf(const std::vector<PreciseValue>& values) {
   for (const PreciseValue& value : values) {
-    Embedded& e = components[at(value.component)];
     const auto [high, low] = detail::exactSum(value.high, value.low);
-    e = {high, 0, (std::fabs(low) + value.radius) * bounds::up, -1, low, value.radius};
+    components[at(value.component)] = {high, 0, value.radius, -1, low};
   }
 }
 

@@ -21,9 +21,10 @@ struct Embedding {
   /// Without weights every one gets a symbol.
   Embedding(const Box& box, int states, const std::vector<VaryingParameter>& inputs,
             const std::vector<int>& weights = {});
-  /// A thin box, whose components are known so.
-  void refine(const std::vector<PreciseValue>& values);
   explicit Embedding(const Box& box) : Embedding(box, 0, {}) {}
+
+  /// Of a thin box: its components as they are known.
+  void takeDigitsOf(const std::vector<PreciseValue>& values);
 };
 
 /// The part of [-1,1] of each symbol that a sub-box covers on a piece ξ_study = centre + half·ξ; false if none.

@@ -1,6 +1,7 @@
 // Order by order, node by node. Sums of products: a product errs by less than 8u², a sum by 3u² of both, a factor j by
 // 5u², u = 2^-53; N of them by less than 17 N u² of Σ|products|; what follows, at most three times 2^-98. All of it is
-// below N bounds::fine.
+// below N bounds::fine. (Underflow of second doubles is within bounds::tiny a node, beyond 2^996 they are no numbers,
+// which is refused.)
 #include "analyses/flow/fine_recursion.hpp"
 
 #include <algorithm>

@@ -22,7 +22,8 @@ class FineRecursion {
     int a, b;
     bool invariant;
   };
-  /// Of nodes; `factors` of the matrix' leading coefficients, taken at order 0 where `factorises`.
+  /// Numbers of the nodes of matrix and right-hand side. `factors` are the series' own, of the matrix' leading
+  /// coefficients; one solution of a matrix factorises it, at order 0.
   struct Solution {
     LinearFactors* factors;
     bool factorises;

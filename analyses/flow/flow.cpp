@@ -66,10 +66,13 @@ Flow::Flow(Program f, Program g, FlowOptions options) {
     requireThat(input.rate > 0, "the rate of what varies in time must be positive");
     hasRates = hasRates || std::isfinite(input.rate);
   }
+  std::set<int> components;
   for (const PreciseValue& value : options.precise)
-    requireThat(value.component >= 0 && value.component < f.states() + f.parameters() && std::isfinite(value.high) &&
+    requireThat(components.insert(value.component).second && value.component >= 0 &&
+                    value.component < f.states() + f.parameters() && std::isfinite(value.high) &&
                     std::fabs(value.low) <= 0x1p-52 * std::fabs(value.high) && value.radius >= 0,
-                "a precise value needs a component of the box, a low part below the high one's digits, and a radius");
+                "a precise value needs a component of the box of its own, a low part below the high one's digits, and "
+                "a radius");
   FlowFormulation anyCourse(std::move(f), std::move(g), options.varying);
   std::optional<FlowFormulation> ofRates;
   if (hasRates) ofRates = anyCourse.ofRates();
@@ -91,6 +94,10 @@ Tube answer(const FlowFormulation& formulation, const FlowOptions& options, Flow
   const FlowQuestion question{
       formulation.motion, formulation.differentiated, formulation.outputs, options, horizon, outputTimes, budget};
   const Embedding uncertain(box, n, options.varying);
+  FlowOptions ofLevels = options;  // one may be thin where the box is not: precise values are of thin boxes
+  if (uncertain.symbols > 0) ofLevels.precise.clear();
+  const FlowQuestion levelQuestion{
+      formulation.motion, formulation.differentiated, formulation.outputs, ofLevels, horizon, outputTimes, budget};
   const auto narrowsInput = [&](const Box& level) {
     return std::ranges::any_of(options.varying, [&](const VaryingParameter& input) {
       return width(level[at(n + input.parameter)]) < width(box[at(n + input.parameter)]);
@@ -104,7 +111,7 @@ Tube answer(const FlowFormulation& formulation, const FlowOptions& options, Flow
     for (std::size_t i = 0; i < box.size(); ++i)
       if (uncertain.components[i].symbol >= 0) share = std::max(share, width(levels[level][i]) / width(box[i]));
     if (looseness > 0.01 * share || narrowsInput(levels[level]))
-      FlowRun::tighten(tube, level, refine(question, levels[level], {}, unused));
+      FlowRun::tighten(tube, level, refine(levelQuestion, levels[level], {}, unused));
   }
   return tube;
 }
@@ -123,6 +130,10 @@ Tube Flow::enclose(const Box& box, double horizon, const std::vector<double>& ou
     requireThat(outputTimes[i] >= 0 && outputTimes[i] <= horizon && (i == 0 || outputTimes[i] >= outputTimes[i - 1]),
                 "output times must rise from 0 to the horizon");
   requireNested(box, levels);
+  for (const PreciseValue& value : parts_->options.precise) {
+    const Interval known = Interval(value.high) + Interval(value.low) + Interval(-value.radius, value.radius);
+    requireThat(!isEmpty(intersection(known, box[at(value.component)])), "a precise value must be one of the box's");
+  }
   requireNearest();
   FlowOptions options = parts_->options;
   double furthest = 0;  // runs and threads report one at a time; what they report must not go back

@@ -147,7 +147,8 @@ bool FlowOutputs::evaluateTogether(double t, const FlowPoint& point, const std::
 Interval FlowOutputs::overBox(int output, const Interval& t, const std::vector<Interval>& states,
                               const std::vector<Embedded>& parameters) {
   std::vector<Interval> box;
-  for (const Embedded& p : parameters) box.push_back(inflated(Interval(p.centre), (p.half + p.radius) * bounds::up));
+  for (const Embedded& p : parameters)
+    box.push_back(inflated(Interval(p.centre), (p.half + p.coarseRadius()) * bounds::up));
   return plain_.over(output, t, states, box);
 }
 

@@ -17,7 +17,7 @@ class PolynomialRange {
   /// Encloses { Σ c_g ξ^g : ξ in box }. c: one coefficient a monomial. box: one interval inside [-1,1] a symbol.
   /// The result is wider than the range by at most about `tolerance` (relative) where bisection can achieve that.
   Interval operator()(const double* c, const Box& box, double tolerance = 1e-4);
-  /// By how much a bound of the last result may lie outside the range.
+  /// By how much, about, a bound of the last result may lie outside the range.
   double gap() const { return gap_; }
 
   /// Writes the coefficients of the polynomial in η, where ξ_l = middle + half·η, |middle| + half ≤ 1. Each coefficient

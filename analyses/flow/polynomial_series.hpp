@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <memory>
 #include <string>
 #include <vector>
@@ -20,11 +21,13 @@
 
 namespace gamut {
 
-/// One uncertain number: value = centre + half·ξ_symbol ± radius (symbol -1: no dependence).
+/// One uncertain number: value = centre + low + half·ξ_symbol ± radius (symbol -1: no dependence).
 struct Embedded {
   double centre = 0, half = 0, radius = 0;
   int symbol = -1;
-  double low = 0, fineRadius = radius;  // the same number = centre + low ± fineRadius
+  double low = 0;  // second double of the centre
+  /// |value - centre - half·ξ| ≤ this, for whoever does not see `low`.
+  double coarseRadius() const { return low == 0 ? radius : (std::fabs(low) + radius) * bounds::up; }
 };
 
 /// Thrown where a computation was told to end in its midst.

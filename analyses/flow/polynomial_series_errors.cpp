@@ -182,8 +182,9 @@ double PolynomialSeries::coarseProduct(int a, int b, int from) const {
 }
 
 /// Rounding of a node whose coefficients are sums of the products of a's and b's, those of a from order `from` on. In
-/// double-double a coefficient has N ≤ weights terms; from order K on two roundings more, for the second doubles that
-/// are not seen there, and few others: no more than `coarse` N in all.
+/// double-double a coefficient has N ≤ weights terms. From order K on (N ≥ 2) no more than `coarse` N roundings: N + 2
+/// in a product, for the second doubles that are not seen (3 N); N + 4 in u'v, with factor and quotient (3 N); N + 6
+/// where the product's last term is divided by (4 N).
 double PolynomialSeries::productRounding(int node, int a, int b, int from, double coarse) const {
   if (!isFine(node)) return bounds::unit * weighted_[at(a)] * weighted_[at(b)];
   return bounds::fine * weighted_[at(a)] * weighted_[at(b)] + coarse * bounds::unit * coarseProduct(a, b, from);

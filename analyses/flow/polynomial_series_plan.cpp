@@ -183,7 +183,8 @@ void PolynomialSeries::prepareThin() {
 }
 
 void PolynomialSeries::setFineOrders(int orders) {
-  if (thin_.empty()) throw std::invalid_argument("double-double orders are for series without symbols");
+  if (thin_.empty() || isFine() || orders < 2)
+    throw std::invalid_argument("double-double orders, two at least, are for series without symbols, said once");
   orders = std::min(orders, m_);
   std::vector<FineRecursion::Node> nodes;
   std::vector<FineRecursion::Solution> solutions(solutions_.size());
@@ -241,10 +242,8 @@ void PolynomialSeries::setParameter(int i, const Embedded& value) {
   std::fill(coefficients.begin(), coefficients.end(), 0.0);
   coefficients[0] = value.centre;
   if (value.symbol >= 0) coefficients[at(monomials_->linear(value.symbol))] = value.half;
-  setParameter(i, coefficients.data(), value.radius);
-  if (!isFine()) return;
-  radius_[at(n_ + i)] = value.fineRadius;
-  fine_.set(n_ + i, {value.centre, value.low});
+  setParameter(i, coefficients.data(), isFine() ? value.radius : value.coarseRadius());
+  if (isFine()) fine_.set(n_ + i, {value.centre, value.low});
 }
 
 void PolynomialSeries::setVarying(const std::vector<int>& parameters) {

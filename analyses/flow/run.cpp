@@ -50,7 +50,7 @@ FlowPiece FlowRun::start() const {
     const Embedded& e = task_.embedding.components[at(i)];
     s.p[at(i * N)] = e.centre;
     if (e.symbol >= 0) s.p[at(i * N + monomials.linear(e.symbol))] = e.half;
-    s.R[at(i)] = task_.fineOrders > 0 ? e.fineRadius : e.radius;
+    s.R[at(i)] = task_.fineOrders > 0 ? e.radius : e.coarseRadius();
     if (task_.fineOrders > 0) s.low.push_back(e.low);
     s.C[at(i * n + i)] = 1.0;
   }
@@ -225,6 +225,8 @@ Tube FlowRun::gather(std::vector<FlowCollected>& collected) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
   const double aim = task_.aim(),
                wellKnown = 5e-5 * aim;  // nor are bounds measured that are so much tighter than the box
+  const double hardlyVaries =
+      3 * aim * aim;  // what hardly varies at all, but for what is left over, is no width to keep
   const auto excess = [&](const std::vector<std::vector<Interval>>& bounds, auto cores) {
     std::vector<std::vector<double>> shares(rows);
     std::vector<std::vector<Interval>> core(rows);
@@ -244,7 +246,9 @@ Tube FlowRun::gather(std::vector<FlowCollected>& collected) {
       for (std::size_t i = 0; i < core[row].size(); ++i) {
         const Interval& bound = bounds[row][i];
         const double rest = width(core[row][i]), remainder = width(bound) - rest;
-        if (isZero[i] == 0 && remainder > wellKnown * widest * magnitude(bound) && remainder > unheard * greatest[i])
+        const bool isInvariant = rest < 0.5 * remainder && remainder < hardlyVaries * widest * magnitude(bound);
+        if (isZero[i] == 0 && !isInvariant && remainder > wellKnown * widest * magnitude(bound) &&
+            remainder > unheard * greatest[i])
           shares[row][i] = rest > 0 ? remainder / rest : infinite;
       }
     }

@@ -111,6 +111,8 @@ void changeDegree(FlowSet& set, const Monomials& from, int fromFrameDegree, cons
       }
     }
   }
+  for (std::size_t i = 0; i < set.low.size(); ++i) dropped[i] += std::fabs(set.low[i]);
+  set.low.clear();
   for (std::size_t i = 0; i < n; ++i)
     if (!(dropped[i] == 0)) set.W[i] = (set.W[i] + dropped[i]) * bounds::up + bounds::tiny;
   set.p = std::move(p);

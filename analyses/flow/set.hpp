@@ -35,9 +35,8 @@ void totalRadius(const FlowSet& set, std::vector<double>& total);
 void errorRadius(const FlowSet& set, std::vector<double>& total);
 /// += Σ |columns|, in round-to-nearest.
 void addColumns(const std::vector<double>& columns, std::vector<double>& total);
-/// Generators of two successive parts become their sum, where there are more than `most` numbers, in the older half: a
-/// s
-/// + b s' = (a + b)u + (a - b)v with |u|, |v| ≤ 1. The differences join the errors' generators. `count`: inputs.
+/// Where there are more than `most` numbers, generators of two successive parts become their sum, in the older half:
+/// as + bs' = (a + b)u + (a - b)v with |u|, |v| ≤ 1. The differences join the errors' generators. `count`: inputs.
 void mergeInputs(FlowSet& set, std::size_t count, std::size_t most);
 
 /// W_i + Σ_j |C_ij| total_j: what the polynomial of state i leaves over, but for roundings.

@@ -16,10 +16,12 @@ using detail::at;
 
 namespace {
 
+/// ρ(A)h at most, where steps leave over more than their share of what inputs do.
+constexpr double mostGrowthOfInputs = 0.08;
+
 // A state is followed relative to its size, but a body at rest need not be: to what it was, or its box; nor one that
 // symmetry keeps at zero: to what the others are in balanced units; and never below what bounds can tell from
 // underflow, bounds::tiny over a tolerance.
-constexpr double mostGrowthOfInputs = 0.08;
 constexpr double vanished = 0x1p-120, unheard = 0x1p-80, leastSize = 0x1p-530;
 
 }  // namespace

@@ -61,9 +61,9 @@ class FlowStepper {
   /// `kinkShare` (0: any), is answered likewise.
   StepOutcome certify(const FlowSet& set, double end, double quantum, double splitDefect, double kinkShare);
   double h() const { return h_; }
-  /// What the step left out: orders in time; grades in ξ, and roundings. Of the states, relative to their size.
   /// So many first orders in double-double, where there are no symbols (PolynomialSeries).
   void setFineOrders(int orders) { series_.setFineOrders(orders); }
+  /// What the step left out: orders in time; grades in ξ, and roundings. Of the states, relative to their size.
   double timeError() const { return timeError_; }
   double truncation() const { return truncation_; }
   /// After a failure: what could not be proved, of which state, in one line.

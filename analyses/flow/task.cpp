@@ -91,7 +91,7 @@ FlowTask::FlowTask(const FlowQuestion& question, const Box& startBox, const std:
   constexpr double besideInputs = 1e-10;
   const double enough = 5e-5 * aim() * embedding.widest / round.finer;  // some hundred steps add as much of the width
   const bool isFine = embedding.symbols == 0 && varying.empty() && FineRecursion::isPossible(differentiated.nodes());
-  if (isFine) embedding.refine(options.precise);
+  if (isFine) embedding.takeDigitsOf(options.precise);
   const double ofThin = !varying.empty()            ? besideInputs
                         : options.order > 0         ? 1e-16
                         : isFine && isKnownFinely() ? 1e-28
@@ -109,7 +109,7 @@ FlowTask::FlowTask(const FlowQuestion& question, const Box& startBox, const std:
 }
 
 bool FlowTask::isKnownFinely() const {
-  const auto isFine = [](const Embedded& e) { return e.fineRadius <= 0x1p-90 * std::fabs(e.centre); };
+  const auto isFine = [](const Embedded& e) { return e.radius <= 0x1p-90 * std::fabs(e.centre); };
   return std::ranges::all_of(embedding.components, isFine) &&
          std::ranges::all_of(differentiated.constants(), [](const Interval& c) { return isThin(c); });
 }

@@ -26,8 +26,8 @@ constexpr double dumpedAt = 0.2;  // a frame column with more ξ-dependence than
 /// so that long motions of many states, which lose most by merging, keep more.
 int stepsKept(int n) { return std::clamp(40 * n, 60, 300); }
 
-/// As many where inputs are at work, whose rests are no roundings.
-constexpr int stepsBesideInputs = 2000;
+/// As many where inputs are at work, whose rests are no roundings and would wrap: `perStep` numbers each.
+Eigen::Index stepsBesideInputs(Eigen::Index perStep) { return std::max<Eigen::Index>(2000, 500000 / perStep); }
 /// Of the generators of inputs, before pairs of them are merged.
 constexpr std::size_t mostInputNumbers = 1000000;
 
@@ -367,7 +367,7 @@ void FlowStepper::advance(FlowSet& set) {
     moved.rightCols(n_) = (bounds::up * box).asDiagonal();
     box.setZero();
   }
-  const Eigen::Index held = (inputs_.empty() ? stepsKept(n_) : stepsBesideInputs) * own;
+  const Eigen::Index held = (inputs_.empty() ? stepsKept(n_) : stepsBesideInputs(n_ * own)) * own;
   const Eigen::Index oldest = std::max<Eigen::Index>(0, moved.cols() - held);
   const Eigen::VectorXd merged = moved.leftCols(oldest).cwiseAbs().rowwise().sum();
   const Eigen::VectorXd newR = (T.cwiseAbs() * R + merged + box) * bounds::up;

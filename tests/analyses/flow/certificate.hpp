@@ -74,8 +74,8 @@ class Certificate {
       radius_.push_back(points.integer(0, 1) * s.size * 1e-3);
       series_.setParameter(i, parameters_.back().data(), radius_.back());
       if (series_.isFine()) {
-        Embedded known{parameters_.back()[0], 0, 1, -1, parameters_.back()[0] * points_.uniform(-0x1p-54, 0x1p-54)};
-        known.fineRadius = radius_.back();
+        const double low = parameters_.back()[0] * points_.uniform(-0x1p-54, 0x1p-54);
+        const Embedded known{parameters_.back()[0], 0, radius_.back(), -1, low};
         parameterLow_.push_back(known.low);
         series_.setParameter(i, known);
       }

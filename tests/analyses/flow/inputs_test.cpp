@@ -57,7 +57,7 @@ Containment oscillator(double frequency, double damping) {
   return c;
 }
 
-/// ∫|h| over [0, time]: the most that x can reach; h is the response to an impulse. By the sum of full half-waves.
+/// ∫|h| over [0, time]: the most that x can reach; h is the response to an impulse. By quadrature.
 double farthest(double frequency, double damping, double time) {
   const double turn = frequency * std::sqrt(1 - damping * damping), decay = damping * frequency;
   const int parts = 1 << 20;

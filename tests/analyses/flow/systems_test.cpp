@@ -1,5 +1,6 @@
 // The flow on classical systems, from thin and wide boxes, judged by trajectories of the reference; and the published
 // double pendulum, whose enclosures must be as tight as the published and sampled figures say.
+#include "analyses/flow/derivatives.hpp"
 #include "scalars/algebra/linear_system.hpp"
 #include "tests/analyses/flow/containment.hpp"
 
@@ -222,6 +223,51 @@ TEST(PublishedPendulum, IsKnownToItsLastDigitsWhereItsNumbersAre) {
   for (const Interval& state : judge.tube().at(10)) EXPECT_LE(width(state), 1e-14);
 }
 
+/// Doubles are known so; at last the remainder gets symbols of its own.
+TEST(PublishedPendulum, FromDoublesStaysOneUnitWideForLong) {
+  Containment c;
+  c.f = record(4, 0, [](auto, const auto& x, const auto&, auto& dx) { doublePendulum(Recorded(9.8125), x, dx); });
+  c.g = standardOutputs(4, 0);
+  c.box = {2.35, -1.73, 0.43, 0.67};
+  c.horizon = 37;
+  c.times = {10, 20, 30};
+  Judge judge(c);
+  judge.follow({2.35, -1.73, 0.43, 0.67});
+  for (const Interval& state : judge.tube().at(10)) EXPECT_LE(width(state), 0x1p-52 * std::max(2.0, magnitude(state)));
+  for (const Interval& state : judge.tube().at(30)) EXPECT_LE(width(state), 1e-9);
+  for (const Interval& state : judge.tube().at(37)) EXPECT_LE(width(state), 1e-3);
+}
+
+/// ẋ = p x: the derivatives by start and parameter, where both are known beyond doubles.
+TEST(PreciseValues, OfParametersReachDerivatives) {
+  const Program f = record(1, 1, [](auto, const auto& x, const auto& p, auto& dx) { dx[0] = p[0] * x[0]; });
+  const Precise x0("0.3"), p("0.7");
+  FlowOptions options;
+  options.precise = {preciseValue(0, x0), preciseValue(1, p)};
+  const DerivativeFlow flow(f, {0, 1}, options);
+  const Tube tube = flow.enclose({Interval("0.3"), Interval("0.7")}, 2);
+  const Precise growth = exp(Precise(2 * p));
+  EXPECT_THAT(tube.at(2)[0], Encloses(Precise(x0 * growth)));
+  EXPECT_THAT(tube.at(2)[flow.derivative(0, 0)], Encloses(growth));
+  EXPECT_THAT(tube.at(2)[flow.derivative(0, 1)], Encloses(Precise(2 * x0 * growth)));
+  for (const Interval& state : tube.at(2)) EXPECT_LE(width(state), 0x1p-52 * magnitude(state));
+}
+
+/// A level that is thin where the box is not: the precise value is not one of its own.
+TEST(PreciseValues, DoNotCountWhereTheBoxIsWide) {
+  Containment c;
+  c.f = record(2, 0, [](auto, const auto& x, const auto&, auto& dx) {
+    dx[0] = x[1];
+    dx[1] = -sin(x[0]);
+  });
+  c.box = {Interval(0.5, 1.5), 0.0};
+  c.levels = {{Interval(0.9, 0.9), 0.0}};
+  c.horizon = 3;
+  c.options.precise = {PreciseValue{0, 1.0, 0.0, 0.0}};
+  Judge judge(c);
+  judge.follow({0.9, 0.0}, 1);
+}
+
 TEST(PublishedPendulum, PreciseValuesMustBeOfTheBoxAndInOrder) {
   const Containment c = pendulum(0);
   for (const PreciseValue& wrong : {PreciseValue{4, 1, 0, 0}, PreciseValue{-1, 1, 0, 0}, PreciseValue{0, 1, 1e-10, 0},
@@ -230,6 +276,11 @@ TEST(PublishedPendulum, PreciseValuesMustBeOfTheBoxAndInOrder) {
     options.precise = {wrong};
     EXPECT_THROW(Flow(c.f, options), std::invalid_argument);
   }
+  FlowOptions options;
+  options.precise = {PreciseValue{3, 0.67, 0, 0}, PreciseValue{3, 0.67, 0, 0}};
+  EXPECT_THROW(Flow(c.f, options), std::invalid_argument) << "said twice";
+  options.precise = {PreciseValue{3, 0.68, 0, 0}};
+  EXPECT_THROW(Flow(c.f, options).enclose(c.box, 1), std::invalid_argument) << "not in the box";
 }
 
 TEST(PublishedPendulum, OnePercentBoxIsAsTightAsDenseSampling) {

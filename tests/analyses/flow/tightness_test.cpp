@@ -213,5 +213,46 @@ TEST(FlowTightness, IsNotClaimedWhereNothingIsKnown) {
   EXPECT_NE(tube.shortfall(), "");
 }
 
+/// What a motion keeps its enclosure keeps: no width for them grows with that of the states.
+TEST(FlowTightness, InvariantsStayAsNarrowAsTheyBegin) {
+  const Program kepler = record(4, 0, [](auto, const auto& x, const auto&, auto& dx) {
+    const Recorded r2 = sqr(x[0]) + sqr(x[1]), r3 = r2 * sqrt(r2);
+    dx[0] = x[2];
+    dx[1] = x[3];
+    dx[2] = -x[0] / r3;
+    dx[3] = -x[1] / r3;
+  });
+  const Program kept = record(4, 0, 2, [](auto, const auto& x, const auto&, auto& y) {
+    y[0] = 0.5 * (sqr(x[2]) + sqr(x[3])) - 1.0 / sqrt(sqr(x[0]) + sqr(x[1]));
+    y[1] = x[0] * x[3] - x[1] * x[2];
+  });
+  const Tube orbit = Flow(kepler, kept).enclose({Interval(0.499, 0.501), 0.0, 0.0, Interval(1.731, 1.733)}, 9, {3, 6});
+  for (std::size_t row = 1; row < orbit.reachedTimes(); ++row)
+    for (std::size_t i = 0; i < 2; ++i)
+      EXPECT_LT(width(orbit.outputs(row)[i]), 1.001 * width(orbit.outputs(0)[i])) << row;
+  EXPECT_GT(width(orbit.at(6)[0]), 50 * width(orbit.at(0)[0]));
+
+  // A body that turns freely: quaternion and body rates.
+  const Program body = record(7, 1, [](auto, const auto& x, const auto& p, auto& dx) {
+    const Recorded &a = x[4], &b = x[5], &c = x[6];
+    dx[0] = -0.5 * (x[1] * a + x[2] * b + x[3] * c);
+    dx[1] = 0.5 * (x[0] * a + x[2] * c - x[3] * b);
+    dx[2] = 0.5 * (x[0] * b + x[3] * a - x[1] * c);
+    dx[3] = 0.5 * (x[0] * c + x[1] * b - x[2] * a);
+    dx[4] = (p[0] - 3.0) * b * c;
+    dx[5] = 2.0 / p[0] * c * a;
+    dx[6] = (1.0 - p[0]) / 3.0 * a * b;
+  });
+  const Program norm = record(
+      7, 1, 1, [](auto, const auto& x, const auto&, auto& y) { y[0] = sqr(x[0]) + sqr(x[1]) + sqr(x[2]) + sqr(x[3]); });
+  const Tube turning =
+      Flow(body, norm)
+          .enclose({1.0, 0.0, 0.0, 0.0, Interval(0.099, 0.101), 2.0, Interval(0.099, 0.101), Interval(1.998, 2.002)}, 4,
+                   {2});
+  EXPECT_GT(width(turning.at(4)[0]), 1e-2);
+  EXPECT_LT(width(turning.outputs(2)[0]), 1e-5);
+  EXPECT_EQ(turning.shortfall(), "") << "no width is asked of what does not vary";
+}
+
 }  // namespace
 }  // namespace gamut::testing
