@@ -77,6 +77,27 @@ std::vector<int> degreeLadder(const std::vector<int>& weights) {
 
 bool Emphasis::isUniform() const { return std::ranges::count(weights, 1) == std::ssize(weights); }
 
+void measureInfluence(const double* polynomial, const Monomials& m, std::vector<Influence>& influence) {
+  const int symbols = static_cast<int>(influence.size());
+  std::vector<Influence> mass(influence.size());
+  double all = 0;
+  for (int g = 1; g < m.count(); ++g) {
+    const double size = std::fabs(polynomial[g]);
+    if (size == 0) continue;
+    all += size;
+    for (int l = 0; l < symbols; ++l)
+      if (m.exponent(g, l) > 0) {
+        mass[at(l)].any += size;
+        if (g != m.linear(l)) mass[at(l)].nonlinear += size;
+      }
+  }
+  if (!(all > 0)) return;
+  for (std::size_t l = 0; l < mass.size(); ++l) {
+    influence[l].any = std::max(influence[l].any, mass[l].any / all);
+    influence[l].nonlinear = std::max(influence[l].nonlinear, mass[l].nonlinear / all);
+  }
+}
+
 Emphasis emphasisOf(const std::vector<Influence>& influence, double negligible, double share) {
   double greatest = 0;
   for (const Influence& of : influence) greatest = std::max(greatest, of.nonlinear);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "analyses/flow/flow.hpp"
+#include "analyses/flow/monomials.hpp"
 #include "analyses/flow/polynomial_series.hpp"
 #include "scalars/interval.hpp"
 
@@ -38,6 +39,9 @@ inline constexpr int mostWeight = 16;
 struct Influence {
   double any = 0, nonlinear = 0;  ///< in all such terms; in those of more than the first order
 };
+
+/// Raises `influence`, one for each of the first symbols, to what they have in this polynomial.
+void measureInfluence(const double* polynomial, const Monomials& m, std::vector<Influence>& influence);
 
 /// How symbols are to be treated.
 struct Emphasis {

@@ -85,7 +85,7 @@ FlowJourney FlowFollower::follow(FlowPiece& piece, double end) {
     collected_.timeError += tool_->stepper.timeError();
     collected_.truncation += tool_->stepper.truncation();
     for (std::size_t i = 0; symbols_ > 1 && i < piece.set.R.size(); ++i)
-      measureInfluence(&piece.set.p[i * at(monomialCount_)], tool_->stepper.monomials());
+      measureInfluence(&piece.set.p[i * at(monomialCount_)], tool_->stepper.monomials(), collected_.influence);
     if (task_.mayTighten() && tool_->stepper.isRemainderTooLarge(piece.set)) {
       run_.abandon(piece.set.t);
       return FlowJourney::ended;
@@ -135,29 +135,6 @@ void FlowFollower::changeLayout(FlowPiece& piece, std::size_t to) {
   changeDegree(piece.set, *from.monomials, from.frameDegree, *task_.layouts[to].monomials,
                task_.layouts[to].frameDegree);
   piece.layout = to;
-}
-
-void FlowFollower::measureInfluence(const double* polynomial, const Monomials& m) {
-  const int symbols = task_.embedding.symbols;
-  std::vector<Influence> mass(at(symbols));
-  double all = 0;
-  for (int g = 1; g < m.count(); ++g) {
-    const double size = std::fabs(polynomial[g]);
-    if (size == 0) continue;
-    all += size;
-    for (int l = 0; l < symbols; ++l)
-      if (m.exponent(g, l) > 0) {
-        mass[at(l)].any += size;
-        if (g != m.linear(l)) mass[at(l)].nonlinear += size;
-      }
-  }
-  if (!(all > 0)) return;
-  collected_.influence.resize(at(symbols));
-  for (std::size_t l = 0; l < mass.size(); ++l) {
-    Influence& of = collected_.influence[l];
-    of.any = std::max(of.any, mass[l].any / all);
-    of.nonlinear = std::max(of.nonlinear, mass[l].nonlinear / all);
-  }
 }
 
 /// Whether a higher degree cures truncation at less cost than bisection does. Per unit of the logarithm of cost: the
@@ -309,7 +286,8 @@ bool FlowFollower::record(FlowPiece& piece) {
     segment(times[piece.next]);
     joinHulls(collected_.states[piece.next], end);
     for (int o = 0; symbols_ > 1 && outputs_ && o < outputs_->count(); ++o)
-      if (std::isfinite(outputs_->radius(o))) measureInfluence(outputs_->polynomial(o), outputs_->monomials());
+      if (std::isfinite(outputs_->radius(o)))
+        measureInfluence(outputs_->polynomial(o), outputs_->monomials(), collected_.influence);
     joinHulls(collected_.outputs[piece.next], endOutputs);
     joinHulls(collected_.statesOver[piece.next], piece.over);
     joinHulls(collected_.outputsOver[piece.next], piece.overOutputs);

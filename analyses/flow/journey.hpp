@@ -52,7 +52,9 @@ class FlowFollower {
  public:
   /// Halves of pieces, and why one cannot be followed, go to the run.
   FlowFollower(FlowRun& run, const FlowTask& task, FlowCollected& collected)
-      : run_(run), task_(task), collected_(collected), tools_(task.layouts.size()) {}
+      : run_(run), task_(task), collected_(collected), tools_(task.layouts.size()) {
+    collected_.influence.resize(static_cast<std::size_t>(task.embedding.symbols));
+  }
 
   /// Advances `piece` to `end` or to its failure. What ends within a step leaves the piece at the step's start; what
   /// the step had given already is proved.
@@ -71,7 +73,6 @@ class FlowFollower {
   FlowJourney follow(FlowPiece& piece, double end);
   bool isOverBudget();
   void use(const FlowPiece& piece);
-  void measureInfluence(const double* polynomial, const Monomials& m);
   bool isDegreeWorthwhile(const FlowPiece& piece, StepOutcome outcome) const;
   void changeLayout(FlowPiece& piece, std::size_t to);
   bool expand(FlowPiece& piece);

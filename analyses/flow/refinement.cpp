@@ -2,9 +2,14 @@
 #include "analyses/flow/refinement.hpp"
 
 #include <algorithm>
+#include <memory>
 #include <utility>
+#include <vector>
 
+#include "analyses/flow/polynomial_series.hpp"
 #include "analyses/flow/run.hpp"
+#include "analyses/flow/set.hpp"
+#include "analyses/flow/step.hpp"
 #include "scalars/index.hpp"
 
 namespace gamut {
@@ -42,27 +47,39 @@ class Weighing {
   }
 
  private:
-  static constexpr int leastLookedAt = 4, mostOfSecondDegree = 8;
+  static constexpr int leastLookedAt = 4, mostOfSecondDegree = 8, roughOrder = 6, mostSteps = 2000;
+  static constexpr double roughTolerance = 1e-5;
 
-  /// One piece of low degree and order, as far as it comes.
+  /// One piece of low degree and order, of which nothing is proved.
   void look(const FlowQuestion& question, const Box& box) {
-    FlowOptions options = question.options;
-    options.order = options.order > 0 ? options.order : 6;
-    options.tolerance = std::max(options.tolerance, 1e-5);
-    options.degree = std::ssize(emphasis_.weights) <= mostOfSecondDegree ? 2 : 1;
-    options.frameDegree = 0;
-    options.split = false;
-    options.progress = nullptr;
-    std::vector<double> times;
-    for (int i = 1; i <= 8; ++i) times.push_back(question.horizon * i / 8);
-    const std::vector<Box> noLevels;
-    const FlowQuestion rough{question.motion, question.differentiated, question.outputs, options, question.horizon,
-                             times,           question.budget};
-    const FlowTask task(rough, box, noLevels, {.isLast = false, .isLook = true, .emphasis = emphasis_});
-    FlowRun run(task);
-    run.run();
-    influence_ = run.influence();
-    if (options.degree == 1)  // what is nonlinear is not known: at most as much, in proportion
+    const Embedding embedding(box, question.motion.states(), question.options.varying);
+    const int n = question.motion.states(), degree = embedding.symbols <= mostOfSecondDegree ? 2 : 1;
+    const auto monomials = std::make_shared<const Monomials>(std::vector<int>(at(embedding.symbols), 1), degree);
+    std::vector<int> inputs;
+    for (const VaryingParameter& input : question.options.varying) inputs.push_back(input.parameter);
+    FlowStepper stepper(question.differentiated, monomials, 0, roughOrder, roughTolerance,
+                        FlowInputs(n, roughOrder, inputs, 1), question.options.cancelled);
+    PolynomialSeries outputs(question.outputs, question.outputs.outputs(), monomials, 0, 1, false);
+    influence_.assign(at(embedding.symbols), {});
+    FlowSet set = startOf(embedding, n, *monomials, 0);
+    for (int part = 1, steps = 0; part <= 8; ++part) {
+      const double end = question.horizon * part / 8;
+      while (set.t < end) {
+        if (++steps > mostSteps || !stepper.drift(set, end)) part = 8, set.t = end;
+        for (int i = 0; i < n; ++i) measureInfluence(&set.p[at(i * monomials->count())], *monomials, influence_);
+      }
+      for (int i = 0; i < n; ++i) outputs.setState(i, &set.p[at(i * monomials->count())]);
+      for (std::size_t i = 0; i < set.parameters.size(); ++i)
+        outputs.setParameter(static_cast<int>(i), set.parameters[i]);
+      outputs.compute(set.t, 1.0);
+      std::vector<double> polynomial(at(monomials->count()));
+      for (int o = 0; o < question.outputs.outputs(); ++o) {
+        for (std::size_t g = 0; g < polynomial.size(); ++g)
+          polynomial[g] = outputs.series(outputs.outputNode(o))[static_cast<int>(g) * outputs.stride()];
+        measureInfluence(polynomial.data(), *monomials, influence_);
+      }
+    }
+    if (degree == 1)  // what is nonlinear is not known: at most as much, in proportion
       for (Influence& of : influence_) of.nonlinear = of.any;
     emphasis_ = emphasisOf(influence_, negligible_, share_);
   }

@@ -38,25 +38,12 @@ Tube FlowRun::run() {
 
 FlowPiece FlowRun::start() const {
   FlowPiece piece;
-  FlowSet& s = piece.set;
   const FlowLayout& layout = task_.layouts.front();
-  const Monomials& monomials = *layout.monomials;
-  const int n = task_.motion.states(), N = monomials.count(), NJ = monomials.countUpTo(layout.frameDegree);
-  s.p.assign(at(n * N), 0.0);
-  s.C.assign(at(NJ * n * n), 0.0);
-  s.R.assign(at(n), 0.0);
-  s.W.assign(at(n), 0.0);
-  for (int i = 0; i < n; ++i) {
-    const Embedded& e = task_.embedding.components[at(i)];
-    s.p[at(i * N)] = e.centre;
-    if (e.symbol >= 0) s.p[at(i * N + monomials.linear(e.symbol))] = e.half;
-    s.R[at(i)] = task_.fineOrders > 0 ? e.radius : e.coarseRadius();
-    if (task_.fineOrders > 0) s.low.push_back(e.low);
-    s.C[at(i * n + i)] = 1.0;
+  piece.set = startOf(task_.embedding, task_.motion.states(), *layout.monomials, layout.frameDegree);
+  for (int i = 0; task_.fineOrders > 0 && i < task_.motion.states(); ++i) {
+    piece.set.R[at(i)] = task_.embedding.components[at(i)].radius;
+    piece.set.low.push_back(task_.embedding.components[at(i)].low);
   }
-  s.parameters.assign(task_.embedding.components.begin() + n, task_.embedding.components.end());
-  s.centre.assign(at(task_.embedding.symbols), 0.0);
-  s.half.assign(at(task_.embedding.symbols), 1.0);
   return piece;
 }
 
@@ -282,7 +269,9 @@ std::string FlowRun::limit(const Tube& tube) const {
   if (tube.wasStopped()) return tube.why();
   if (!ended_.empty()) return ended_;
   if (!task_.options.split) return "bisection is switched off";
-  if (!task_.bisectsForWidth()) return "more than 8 quantities of like influence are not bisected for tightness";
+  constexpr double mostlyTime = 0.8;  // then smaller tolerances help
+  if (!task_.bisectsForWidth() && timeShare_ < mostlyTime)
+    return "more than 8 quantities of like influence are not bisected for tightness";
   if (pieces_ >= task_.options.maxPieces) return "all " + std::to_string(pieces_) + " pieces that are allowed are used";
   if (task_.splitDefect < 1e-16 * task_.embedding.widest) return "what remains is rounding";
   return {};

@@ -14,6 +14,26 @@ namespace gamut {
 
 using detail::at;
 
+FlowSet startOf(const Embedding& embedding, int n, const Monomials& monomials, int frameDegree) {
+  FlowSet s;
+  const int N = monomials.count(), NJ = monomials.countUpTo(frameDegree);
+  s.p.assign(at(n * N), 0.0);
+  s.C.assign(at(NJ * n * n), 0.0);
+  s.R.assign(at(n), 0.0);
+  s.W.assign(at(n), 0.0);
+  for (int i = 0; i < n; ++i) {
+    const Embedded& e = embedding.components[at(i)];
+    s.p[at(i * N)] = e.centre;
+    if (e.symbol >= 0) s.p[at(i * N + monomials.linear(e.symbol))] = e.half;
+    s.R[at(i)] = e.coarseRadius();
+    s.C[at(i * n + i)] = 1.0;
+  }
+  s.parameters.assign(embedding.components.begin() + n, embedding.components.end());
+  s.centre.assign(at(embedding.symbols), 0.0);
+  s.half.assign(at(embedding.symbols), 1.0);
+  return s;
+}
+
 void addColumns(const std::vector<double>& columns, std::vector<double>& total) {
   const auto n = static_cast<Eigen::Index>(total.size());
   const Eigen::Map<const Eigen::MatrixXd> matrix(columns.data(), n, static_cast<Eigen::Index>(columns.size()) / n);

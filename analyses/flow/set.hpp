@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "analyses/flow/embedding.hpp"
 #include "analyses/flow/monomials.hpp"
 #include "analyses/flow/polynomial_series.hpp"
 
@@ -29,6 +30,9 @@ struct FlowSet {
   double nextStep = 0;                 // s, a guess
   double caution = 1;                  // factor on the step that the last coefficients suggest
 };
+
+/// The set of n states at the start, without second doubles.
+FlowSet startOf(const Embedding& embedding, int n, const Monomials& monomials, int frameDegree);
 
 /// R + Σ_j |Γ_j|, rounded up; of errors alone, without what inputs did.
 void totalRadius(const FlowSet& set, std::vector<double>& total);

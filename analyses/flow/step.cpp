@@ -292,42 +292,67 @@ bool FlowStepper::isKinkTooWide(const FlowSet& set, double kinkShare) {
   return false;
 }
 
-StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum, double splitDefect, double kinkShare) {
-  symbolAcross_ = -1;
-  const double left = end - set.t;
-  caution_ = set.caution;
-  growth_.setUnits(set.units);
-  series_.forgetCrossings();
+/// Computes the series in a scale h0 about as long as a step, which is returned; 0 if that would be below `smallest`,
+/// NaN if numbers are not finite whatever the scale.
+double FlowStepper::expand(const FlowSet& set, double left, double smallest) {
   const auto powerOfTwoAbove = [](double x) {
     int exponent = 0;
     std::frexp(x, &exponent);
     return std::ldexp(1.0, exponent);
   };
-  const auto onGrid = [&](double h) { return std::floor(h / quantum) * quantum; };
   double guess = set.nextStep > 0 ? set.nextStep : left / 16;
-  const double smallest = 1024 * quantum;  // below this, time itself is too coarse
-  double h = 0;
   for (int attempt = 0;; ++attempt) {
     h0_ = powerOfTwoAbove(std::min(guess, left));
     load(set);
     series_.compute(set.t, h0_);
     const double theta = suggestion(guess / h0_) * caution_;
     if (std::isfinite(theta)) {
-      h = theta * h0_;
+      const double h = theta * h0_;
       // A scale far from the step loses digits to overflow and underflow: once more with a better one.
       const bool tooLarge = theta < 0x1p-4;
       const bool tooSmall = theta > 16 && h0_ < left && set.nextStep == 0;
-      if (!(tooLarge || tooSmall) || attempt >= 8) break;
+      if (!(tooLarge || tooSmall) || attempt >= 8) return h;
       guess = h;
     } else {
       series_.clear();
       guess /= 1024;
     }
-    if (!(guess > smallest) || attempt > 40) {
-      obstacle_ = std::isfinite(theta) ? "" : "a number that is not defined or too large";
-      why_ = reason(set);
-      return StepOutcome::failed;
+    if (!(guess > smallest) || attempt > 40) return std::isfinite(theta) ? 0.0 : std::nan("");
+  }
+}
+
+bool FlowStepper::drift(FlowSet& set, double end) {
+  caution_ = set.caution;
+  growth_.setUnits(set.units);
+  series_.forgetCrossings();
+  const double left = end - set.t, h = std::min({expand(set, left, 1e-9 * left), h0_, left});
+  if (!(h > 0)) return false;
+  const int N = series_.count();
+  for (int i = 0; i < n_; ++i)
+    for (int g = 0; g < N; ++g) {
+      const double* c = series_.series(i) + g * series_.stride();
+      double s = c[m_];
+      for (int k = m_ - 1; k >= 0; --k) s = s * (h / h0_) + c[k];
+      set.p[at(i * N + g)] = s;
     }
+  set.t = h == left ? end : set.t + h;
+  set.nextStep = 1.1 * h;
+  return true;
+}
+
+StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum, double splitDefect, double kinkShare) {
+  symbolAcross_ = -1;
+  const double left = end - set.t;
+  caution_ = set.caution;
+  growth_.setUnits(set.units);
+  series_.forgetCrossings();
+  const auto onGrid = [&](double h) { return std::floor(h / quantum) * quantum; };
+  const double smallest = 1024 * quantum;  // below this, time itself is too coarse
+  double h = expand(set, left, smallest);
+  if (!(h > 0)) {
+    obstacle_ = h == 0 ? "" : "a number that is not defined or too large";
+    why_ = reason(set);
+    return StepOutcome::failed;
   }
   h = std::min({h, h0_, left});
   bool isAdapted = false;

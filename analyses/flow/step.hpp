@@ -66,6 +66,8 @@ class FlowStepper {
   /// What the step left out: orders in time; grades in ξ, and roundings. Of the states, relative to their size.
   double timeError() const { return timeError_; }
   double truncation() const { return truncation_; }
+  /// Moves the polynomials of `set` on by a step that nothing is proved of; false if there is none.
+  bool drift(FlowSet& set, double end);
   /// After a failure: what could not be proved, of which state, in one line.
   const std::string& why() const { return why_; }
   /// A state that has grown a thousandfold and would double long before the time it took; -1 if none has.
@@ -109,6 +111,7 @@ class FlowStepper {
   bool boundGrowth(double h);
   bool tryStep(const FlowSet& set, double theta);
   void load(const FlowSet& set);
+  double expand(const FlowSet& set, double left, double smallest);
   void boundDerivatives();
   double suggestion(double theta) const;
   std::string reason(const FlowSet& set) const;

@@ -51,7 +51,6 @@ FlowTask::FlowTask(const FlowQuestion& question, const Box& startBox, const std:
       horizon(question.horizon),
       effective(round.emphasis.weights.empty() ? embedding.symbols : round.emphasis.effective),
       isLast(round.isLast),
-      isLook(round.isLook),
       richer(round.richer) {
   for (const VaryingParameter& input : options.varying) varying.push_back(input.parameter);
   times.push_back(0.0);

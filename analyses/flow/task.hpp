@@ -41,7 +41,6 @@ struct FlowRound {
   double finer = 1;        ///< so is the tolerance
   std::size_t richer = 0;  ///< the outputs' layout is so many further on
   bool isLast = true;      ///< no tighter run comes
-  bool isLook = false;     ///< of influences alone
   Emphasis emphasis;       ///< none: every symbol alike
 };
 
@@ -65,7 +64,7 @@ struct FlowTask {
   /// Without symbols: all numbers beyond double precision, so that following them so is worth it.
   bool isKnownFinely() const;
   /// A tighter run may come.
-  bool mayTighten() const { return isLook || (!isLast && embedding.symbols > 0 && options.split && bisectsForWidth()); }
+  bool mayTighten() const { return !isLast && embedding.symbols > 0 && options.split && bisectsForWidth(); }
 
   const Program &motion, &differentiated, &outputs;
   const FlowOptions& options;
@@ -77,7 +76,7 @@ struct FlowTask {
   int order = 0, active = 0;  // symbols of weight 1
   int fineOrders = 0;         // in double-double, without symbols: where rounding would limit the width
   double effective;           // Emphasis
-  bool isLast, isLook;
+  bool isLast;
   std::vector<int> varying;         // parameters that are inputs
   std::vector<FlowLayout> layouts;  // degrees rising, then the expanded one
   std::size_t degrees = 0;          // how many are not expanded
