@@ -9,6 +9,7 @@
 #include "analyses/samples/time_cells.hpp"
 #include "scalars/evaluation/evaluator.hpp"
 #include "scalars/evaluation/series.hpp"
+#include "scalars/program/recorder.hpp"
 
 namespace gamut {
 namespace {
@@ -18,13 +19,22 @@ constexpr double looser = 1e3;
 constexpr int lowerOrder = 4;
 constexpr double rounding = 0x1p-112;  // relative, of a value: some thousand roundings of 128 bits
 constexpr int leastSteps = 32, probes = 16;
-constexpr double someRoundings = 8;     // of the equations, in a series that holds
+constexpr double someRoundings = 8;  // of the equations, in a series that holds
+constexpr int mostShortEvents = 20;
 constexpr double shortestStep = 1e-12;  // of the horizon: below, the solution runs into a singularity
 
 bool isFinite(const Precise& value) { return boost::multiprecision::isfinite(value); }
 bool isFinite(double value) { return std::isfinite(value); }
 double rounded(const Precise& value) { return value.convert_to<double>(); }
 double rounded(double value) { return value; }
+
+/// The arguments of abs and sign: where one changes its sign, f has a kink or a jump.
+Program switchesOf(const Program& f) {
+  std::vector<int> arguments;
+  for (const Node& node : f.nodes())
+    if (node.op == Op::abs || node.op == Op::sign) arguments.push_back(node.a);
+  return Recorder(f).finish(arguments);
+}
 
 /// What one integration found.
 template <class Real>
@@ -33,6 +43,13 @@ struct Trajectory {
   double reached = 0;
   std::string why;
   std::vector<Real> values;
+};
+
+/// A kink or a jump within a step, after `before` and not after `behind`.
+template <class Real>
+struct Event {
+  bool isThere = false;
+  Real before{0.0}, behind{0.0};
 };
 
 /// One integration from the start to the last output time.
@@ -48,6 +65,8 @@ class TaylorRun {
         f_(motion.forSamples()),
         g_(motion.g),
         bounds_(motion.forSamples()),
+        switches_(switchesOf(motion.forSamples())),
+        hasSwitches_(switchesOf(motion.forSamples()).outputs() > 0),
         n_(static_cast<std::size_t>(motion.f.states())),
         cells_(TimeCells(motion.forSamples(), motion.horizon())
                    .ends(std::vector<Interval>(start.begin() + motion.f.states(), start.end()))) {
@@ -55,6 +74,7 @@ class TaylorRun {
     series_.setParameters(parameters_);
     f_.setParameters(parameters_);
     g_.setParameters(parameters_);
+    switches_.setParameters(parameters_);
     bounds_.setParameters(std::vector<Interval>(start.begin() + motion.f.states(), start.end()));
   }
 
@@ -80,7 +100,7 @@ class TaylorRun {
   /// state for the size.
   Real nextStep(const Real& t, const Real& rest, double horizon) {
     using std::abs;
-    series_.solve(t, x_);
+    series_.solve(offSurface(t, horizon), x_);
     Real size(0.0), rate(0.0);
     bool finite = true;
     for (int s = 0; s < motion_.f.states(); ++s) {
@@ -103,9 +123,51 @@ class TaylorRun {
     h = std::min(h, Real(horizon / leastSteps));
     const double unit = std::max(options_.tolerance, rounded(std::numeric_limits<Real>::epsilon()));
     const Real allowed = size * (1000.0 * options_.order * unit);
+    if (const Event<Real> event = nextEvent(t, h); event.isThere) {
+      // Where solutions slide along a jump, one event follows upon the other.
+      shortEvents_ = event.before < shortestStep * horizon ? shortEvents_ + 1 : 0;
+      if (shortEvents_ > mostShortEvents) return stop(t, "the motion is held where its equations jump");
+      if (shortEvents_ > 0 || holdsWithin(t, event.before, allowed)) return std::min(rest, event.behind);
+      h = event.before / 2;
+    }
     while (h >= shortestStep * horizon && !holdsWithin(t, h, allowed)) h = h / 2;
     if (h < rest && h < shortestStep * horizon) return stop(t, "steps became too short: the motion is singular here");
     return h;
+  }
+
+  /// Where a switch is zero, the series would be that of neither side: on by the last digit of time.
+  Real offSurface(const Real& t, double horizon) {
+    if (!hasSwitches_) return t;
+    const std::vector<Real> values = switches_(t, x_);
+    if (std::ranges::none_of(values, [](const Real& value) { return value == 0; })) return t;
+    const std::vector<Real> rates = f_(t, x_);
+    const Real on(horizon * Real(std::numeric_limits<Real>::epsilon()));
+    for (std::size_t s = 0; s < n_; ++s) x_[s] += rates[s] * on;
+    return t + on;
+  }
+
+  /// The first change of a switch that one of the probes shows, to the last digits of time.
+  Event<Real> nextEvent(const Real& t, const Real& h) {
+    if (!hasSwitches_) return {};
+    const Real epsilon(std::numeric_limits<Real>::epsilon());
+    const auto signsAt = [&](const Real& tau) {
+      std::vector<int> signs;
+      for (const Real& value : switches_(Real(t + tau), stateAfter(tau)))
+        signs.push_back(value > 0 ? 1 : value < 0 ? -1 : 0);
+      return signs;
+    };
+    const std::vector<int> now = signsAt(Real(h * epsilon));
+    for (int probe = 1; probe <= probes; ++probe) {
+      Real low(h * (probe - 1) / probes), high(h * probe / probes);
+      if (signsAt(high) == now) continue;
+      const Real smallest(std::max(t, high) * epsilon);
+      while (high - low > smallest) {
+        const Real middle((low + high) / 2);
+        (signsAt(middle) == now ? low : high) = middle;
+      }
+      return {true, low, Real(high + 4 * smallest)};
+    }
+    return {};
   }
 
   Real stop(const Real& t, const char* why) {
@@ -176,8 +238,11 @@ class TaylorRun {
   Series<Real> series_;
   Evaluator<Real> f_, g_;
   Evaluator<Interval> bounds_;
+  Evaluator<Real> switches_;
+  bool hasSwitches_;
   std::size_t n_;
   std::vector<double> cells_;
+  int shortEvents_ = 0;  // in a row
   std::vector<Real> x_, parameters_;
   Trajectory<Real> result_;
 };

@@ -2,7 +2,8 @@
 // series in 128-bit arithmetic (MPFR), twice, and says how far the two results differ. Starting values and constants
 // are the very doubles that the sample's CVODE run used. The equations are checked at sixteen points of each of at
 // least thirty-two steps and in every cell of time (TimeCells), since a series may say nothing of what comes; a narrow
-// change that hangs on the states may be missed by both.
+// change that hangs on the states may be missed by both. Kinks and jumps (abs, sign) end a step where one of these
+// points shows that they were passed.
 // Step size from the last coefficients: À. Jorba & M. Zou, Experimental Mathematics 14 (2005), section 3.2.
 #pragma once
 

@@ -11,7 +11,7 @@ namespace gamut {
 namespace {
 
 /// 1 was without user block, with texts by reference; 2 without the samples' values and motions.
-constexpr int formatVersion = 3;
+constexpr int formatVersion = 4;
 constexpr std::string_view title = "Gamut results, format ";
 
 std::string digestOf(std::string_view content) {

@@ -161,6 +161,59 @@ TEST(Arbiter, AndSeriesInDoublesDoNotStepOverAPulse) {
   }
 }
 
+/// ẍ = -100 x - sign ẋ from rest at 0.3: turns at k π/10, each time nearer to 0 by 0.02.
+TEST(Arbiter, AndSeriesInDoublesLocateJumps) {
+  Motion motion;
+  motion.f = record(2, 0, [](auto, const auto& x, const auto&, auto& dx) {
+    dx[0] = x[1];
+    dx[1] = -100.0 * x[0] - sign(x[1]);
+  });
+  motion.g = record(2, 0, 1, [](auto, const auto& x, const auto&, auto& y) { y[0] = x[0]; });
+  for (int i = 1; i <= 16; ++i) motion.times.push_back(i * 0.125);
+  const std::array start{0.3, 0.0};
+  const PreciseTrajectory y = arbitrate(motion, start);
+  const std::vector<double> inDoubles = integrateByTaylor(motion, start);
+  ASSERT_EQ(y.times, 16u) << y.why;
+  const Wide pi = acos(Wide(-1));
+  for (std::size_t i = 0; i < 16; ++i) {
+    const Wide t(motion.times[i]);
+    const int half = static_cast<int>((t * 10 / pi).convert_to<double>());  // half swings that are over
+    const Wide side = half % 2 == 0 ? 1 : -1, centre = side / 100;
+    const Wide amplitude = Wide(0.3) - Wide(2 * half + 1) / 100;
+    const Wide exact = centre + amplitude * cos(t * 10);
+    EXPECT_LT(abs(widened(y.values[i]) - exact), Wide(1e-30)) << t;
+    EXPECT_LT(y.error[i], 1e-30);
+    EXPECT_NEAR(inDoubles[i], exact.convert_to<double>(), 1e-13);
+  }
+}
+
+/// ẋ = |sin t|, a switch that only time passes, at 0 as well.
+TEST(Arbiter, LocatesKinksInTime) {
+  Motion motion;
+  motion.f = record(1, 0, [](auto t, const auto&, const auto&, auto& dx) { dx[0] = abs(sin(t)); });
+  motion.g = record(1, 0, 1, [](auto, const auto& x, const auto&, auto& y) { y[0] = x[0]; });
+  motion.times = {1, 4, 7, 10};
+  const std::array start{0.5};
+  const PreciseTrajectory y = arbitrate(motion, start);
+  ASSERT_EQ(y.times, 4u) << y.why;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Wide t(motion.times[i]);
+    const Wide exact = Wide(0.5) + 2 * static_cast<int>(i) + 1 - cos(t) * (i % 2 == 0 ? 1 : -1);
+    EXPECT_LT(abs(widened(y.values[i]) - exact), Wide(1e-30)) << t;
+  }
+}
+
+/// Held by friction: there is no series that goes on.
+TEST(Arbiter, SaysWhereAMotionIsHeld) {
+  Motion motion;
+  motion.f = record(1, 0, [](auto t, const auto& x, const auto&, auto& dx) { dx[0] = 0.25 * cos(t) - sign(x[0]); });
+  motion.g = record(1, 0, 1, [](auto, const auto& x, const auto&, auto& y) { y[0] = x[0]; });
+  motion.times = {0.25, 2};
+  const PreciseTrajectory y = arbitrate(motion, std::array{0.5});
+  EXPECT_EQ(y.times, 1u);
+  EXPECT_THAT(y.why, HasSubstr("held where its equations jump"));
+}
+
 TEST(Arbiter, EvaluatesAMotionWithoutStatesDirectly) {
   const PreciseTrajectory y = arbitrate(line().motion, std::array{0.1});
   ASSERT_EQ(y.times, 2u);
