@@ -133,6 +133,14 @@ void Expression::check(const DimensionOf& dimensionOf, const std::string& unit) 
     throw UnitError(fmt::format("a quantity in {}; expected one in {}", unitOf(found), unit));
 }
 
+bool Expression::isSmooth() const {
+  using enum Operation;
+  return std::ranges::none_of(terms_, [](const Term& term) {
+    return term.operation == abs || term.operation == sign || term.operation == min || term.operation == max ||
+           term.operation == where;
+  });
+}
+
 std::optional<Amount> Expression::amount() const {
   return terms_.size() == 1 && terms_[0].operation == Operation::constant ? constants_[0].exact : std::nullopt;
 }

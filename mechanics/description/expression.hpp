@@ -41,6 +41,8 @@ class Expression {
   /// Each once, in the order of first use.
   const std::vector<std::string>& names() const { return names_; }
   bool isConstant() const { return names_.empty(); }
+  /// Without abs, sign, min, max, where: it has derivatives wherever it has values.
+  bool isSmooth() const;
 
   /// The whole as an exact number, if it is one.
   std::optional<Amount> amount() const;

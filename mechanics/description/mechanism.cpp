@@ -286,6 +286,9 @@ class Mechanism::Checker final : public Fields {
     return kind;
   }
   void timeFunction(const Word& word, Expression& number) override {
+    if (!number.isSmooth())
+      refuse("the " + word.key + " of " + quoted(element_) +
+             " has a kink or a jump (abs, sign, min, max, where), where its rate would jump");
     m_.addSignal({element_, named(word), word.unit, true, number}, number);
   }
   void signal(const Word& word, Expression& number) override {

@@ -295,6 +295,9 @@ TEST(DriveElement, IsRefusedWhereItCannotBe) {
     return "no complaint";
   };
   EXPECT_THAT(complaint(Drive{"d", "hinge", 0.0}), HasSubstr("'hinge' has initial values, but is driven by 'd'"));
+  for (const char* motion : {"abs(sin(t/(1 s)))", "where(t > 1 s, 1, 0)", "min(t/(1 s), 1)", "0.1*sign(t - 1 s)"})
+    EXPECT_THAT(complaint(Drive{"d", "second", Expression::parse(motion)}), HasSubstr("has a kink or a jump"))
+        << motion;
   EXPECT_THAT(complaint(Drive{"d", "hing", 0.0}), HasSubstr("unknown joint 'hing'"));
   EXPECT_THAT(complaint(Drive{"d", "second", Expression::parse("hinge.angle")}),
               HasSubstr("'hinge.angle' changes in motion"));
