@@ -50,6 +50,8 @@ std::string shortBounds(const Bounds& bounds, std::size_t time, std::size_t outp
   if (bounds.empty()) return "-";
   const double lower = bounds.lower(time, output), upper = bounds.upper(time, output);
   if (std::isnan(lower) || std::isnan(upper)) return "-";
+  constexpr double legible = 1e12;  // beyond, with an exponent
+  if (std::max(std::abs(lower), std::abs(upper)) >= legible) return intervalText(lower, upper, 6);
   const double size = upper - lower;
   const int decimals =
       size > 0 && std::isfinite(size) ? std::clamp(3 - static_cast<int>(std::floor(std::log10(size))), 0, 15) : 15;

@@ -227,6 +227,13 @@ TEST(Verdict, SaysHowManyMotionsStayedInsideHowLongAndHowTight) {
   EXPECT_EQ(verdict.reached, 3);
 }
 
+TEST(Verdict, SaysWhereAGuaranteeSaysLittle) {
+  Results results = example::pendulum();
+  results.comparison.overestimation.data.back() = 1234.5;
+  EXPECT_THAT(judge(results).sentence,
+              HasSubstr(", but the guarantee says little: for some output it is at most 1235 times as wide"));
+}
+
 TEST(Verdict, SpeaksOfPositionsWhereNothingMoves) {
   EXPECT_THAT(
       judge(example::kinematics()).sentence,
