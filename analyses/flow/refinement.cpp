@@ -122,8 +122,9 @@ Tube refine(const FlowQuestion& question, const Box& box, const std::vector<Box>
     } else if (mayRaise && !isInVain) {
       ++round.richer;
     } else if (factor > 1 && !isInVain) {
-      if (run.timeShare() < 0.8) round.tighter *= factor;
-      if (run.timeShare() > 0.2) round.finer *= factor;
+      const double hardly = reached < question.horizon ? 0.05 : 0.2;  // an early end says less of what was to blame
+      if (run.timeShare() < 1 - hardly) round.tighter *= factor;
+      if (run.timeShare() > hardly) round.finer *= factor;
     } else if (run.isAbandoned()) {
       round.isLast = true;  // the same once more, as far as it comes
     } else {

@@ -72,7 +72,7 @@ FlowTask::FlowTask(const FlowQuestion& question, const Box& startBox, const std:
     layouts.push_back({std::make_shared<const Monomials>(capped, degree),
                        options.frameDegree >= 0
                            ? std::min(options.frameDegree, degree)
-                           : std::min(round.tighter == 1 ? 2 : 9, automaticFrameDegree(active, degree))});
+                           : std::min(round.tighter == 1 && active > 4 ? 2 : 9, automaticFrameDegree(active, degree))});
   }
   degrees = layouts.size();
   if (auto expanded = options.degree < 0 ? expandedMonomials(embedding.symbols, motion.states()) : nullptr) {
@@ -82,7 +82,7 @@ FlowTask::FlowTask(const FlowQuestion& question, const Box& startBox, const std:
   // Bisection is cheap for one symbol and dear for several: with these, begin loosely; and with many, whose polynomials
   // are long, shorter steps of a lower order fill fewer of their grades.
   const int count = std::min(embedding.symbols, 4);
-  static constexpr double firstDefect[] = {1e-8, 1e-8, 1e-5, 4e-4, 2e-2};
+  static constexpr double firstDefect[] = {1e-8, 1e-8, 1e-5, 4e-4, 1e-2};
   static constexpr double firstTolerance[] = {0, 1e-12, 1e-10, 1e-10, 1e-8};
   const double first = options.splitDefect > 0 ? options.splitDefect : firstDefect[count];
   splitDefect = bisectsForWidth() ? first * embedding.widest / round.tighter : std::numeric_limits<double>::infinity();
