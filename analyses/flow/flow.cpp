@@ -91,13 +91,11 @@ Tube answer(const FlowFormulation& formulation, const FlowOptions& options, Flow
   std::vector<Box> levels;
   for (const Box& level : wholeLevels) levels.push_back(formulation.boxOf(level));
   const int n = formulation.motion.states();
-  const FlowQuestion question{
-      formulation.motion, formulation.differentiated, formulation.outputs, options, horizon, outputTimes, budget};
   const Embedding uncertain(box, n, options.varying);
-  FlowOptions ofLevels = options;  // one may be thin where the box is not: precise values are of thin boxes
-  if (uncertain.symbols > 0) ofLevels.precise.clear();
-  const FlowQuestion levelQuestion{
-      formulation.motion, formulation.differentiated, formulation.outputs, ofLevels, horizon, outputTimes, budget};
+  FlowOptions own = options;
+  if (uncertain.symbols > 0) own.precise.clear();  // they are of thin boxes, not of a thin level of a wide one
+  const FlowQuestion question{
+      formulation.motion, formulation.differentiated, formulation.outputs, own, horizon, outputTimes, budget};
   const auto narrowsInput = [&](const Box& level) {
     return std::ranges::any_of(options.varying, [&](const VaryingParameter& input) {
       return width(level[at(n + input.parameter)]) < width(box[at(n + input.parameter)]);
@@ -111,7 +109,7 @@ Tube answer(const FlowFormulation& formulation, const FlowOptions& options, Flow
     for (std::size_t i = 0; i < box.size(); ++i)
       if (uncertain.components[i].symbol >= 0) share = std::max(share, width(levels[level][i]) / width(box[i]));
     if (looseness > 0.01 * share || narrowsInput(levels[level]))
-      FlowRun::tighten(tube, level, refine(levelQuestion, levels[level], {}, unused));
+      FlowRun::tighten(tube, level, refine(question, levels[level], {}, unused));
   }
   return tube;
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <new>
 #include <utility>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "analyses/flow/run.hpp"
 #include "analyses/flow/set.hpp"
 #include "analyses/flow/step.hpp"
+#include "analyses/workers.hpp"
 #include "scalars/index.hpp"
 
 namespace gamut {
@@ -26,10 +28,19 @@ class Weighing {
   Weighing(const FlowQuestion& question, const Box& box) : share_(question.options.tightness - 1) {
     const int symbols = Embedding(box, question.motion.states(), question.options.varying).symbols;
     emphasis_ = {std::vector<int>(at(symbols), 1), static_cast<double>(symbols)};
-    if (symbols >= leastLookedAt && question.options.degree < 0) look(question, box);
+    if (symbols < leastLookedAt || question.options.degree >= 0) return;
+    const double began = threadCpuSeconds();
+    try {
+      look(question, box);
+    } catch (const Cancelled&) {  // the run that follows says so
+    } catch (const std::bad_alloc&) {
+    }
+    cpu_ = threadCpuSeconds() - began;
+    question.budget.spent += cpu_;
   }
 
   const Emphasis& emphasis() const { return emphasis_; }
+  double cpuSeconds() const { return cpu_; }
 
   /// Fewer of them are taken for negligible.
   void raise(const std::vector<Influence>& found) {
@@ -84,7 +95,7 @@ class Weighing {
     emphasis_ = emphasisOf(influence_, negligible_, share_);
   }
 
-  double share_, negligible_ = 0.01;
+  double share_, negligible_ = 0.01, cpu_ = 0;
   Emphasis emphasis_;
   std::vector<Influence> influence_;
 };
@@ -131,6 +142,7 @@ Tube refine(const FlowQuestion& question, const Box& box, const std::vector<Box>
       break;
     }
   }
+  FlowRun::charge(best, weighing.cpuSeconds());
   FlowRun::explain(best, question.options, limit.empty() ? "tighter runs win nothing more" : limit);
   return best;
 }

@@ -39,6 +39,8 @@ class FlowRun {
 
   /// Both are proved, so their intersection is; the one that reaches further goes on alone. Costs add up.
   static Tube meet(Tube a, Tube b);
+  /// Adds CPU time that no run has counted.
+  static void charge(Tube& tube, double cpuSeconds) { tube.cpu_ += cpuSeconds; }
   /// Forgets all states but the first n.
   static void dropStates(Tube& tube, int n);
   /// Says in `tube` what is looser than was asked for, met by `limit`.

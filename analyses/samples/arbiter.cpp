@@ -19,8 +19,8 @@ constexpr double looser = 1e3;
 constexpr int lowerOrder = 4;
 constexpr double rounding = 0x1p-112;  // relative, of a value: some thousand roundings of 128 bits
 constexpr int leastSteps = 32, probes = 16;
-constexpr double someRoundings = 8;  // of the equations, in a series that holds
-constexpr int mostShortEvents = 20;
+constexpr double someRoundings = 8;     // of the equations, in a series that holds
+constexpr int mostShortEvents = 20;     // in a row, of steps below the shortest: the motion slides
 constexpr double shortestStep = 1e-12;  // of the horizon: below, the solution runs into a singularity
 
 bool isFinite(const Precise& value) { return boost::multiprecision::isfinite(value); }
@@ -135,32 +135,35 @@ class TaylorRun {
     return h;
   }
 
-  /// Where a switch is zero, the series would be that of neither side: on by the last digit of time.
+  /// Of time, relative: how well switches are located. The second integration's is the coarser one by as much as its
+  /// tolerance is, so that what it adds shows in their difference.
+  Real tick() const { return std::max(Real(std::numeric_limits<Real>::epsilon()), Real(options_.tolerance / looser)); }
+
+  /// Where a switch is zero, the series would be that of neither side: on by a tick.
   Real offSurface(const Real& t, double horizon) {
     if (!hasSwitches_) return t;
     const std::vector<Real> values = switches_(t, x_);
     if (std::ranges::none_of(values, [](const Real& value) { return value == 0; })) return t;
     const std::vector<Real> rates = f_(t, x_);
-    const Real on(horizon * Real(std::numeric_limits<Real>::epsilon()));
+    const Real on(horizon * tick());
     for (std::size_t s = 0; s < n_; ++s) x_[s] += rates[s] * on;
     return t + on;
   }
 
-  /// The first change of a switch that one of the probes shows, to the last digits of time.
+  /// The first change of a switch that one of the probes shows, to some ticks.
   Event<Real> nextEvent(const Real& t, const Real& h) {
     if (!hasSwitches_) return {};
-    const Real epsilon(std::numeric_limits<Real>::epsilon());
     const auto signsAt = [&](const Real& tau) {
       std::vector<int> signs;
       for (const Real& value : switches_(Real(t + tau), stateAfter(tau)))
         signs.push_back(value > 0 ? 1 : value < 0 ? -1 : 0);
       return signs;
     };
-    const std::vector<int> now = signsAt(Real(h * epsilon));
+    const std::vector<int> now = signsAt(Real(h * tick()));
     for (int probe = 1; probe <= probes; ++probe) {
       Real low(h * (probe - 1) / probes), high(h * probe / probes);
       if (signsAt(high) == now) continue;
-      const Real smallest(std::max(t, high) * epsilon);
+      const Real smallest(std::max(t, high) * tick());
       while (high - low > smallest) {
         const Real middle((low + high) / 2);
         (signsAt(middle) == now ? low : high) = middle;

@@ -162,6 +162,21 @@ TEST(Flow, KeepsTheStartWhenCancelledAtOnce) {
   EXPECT_TRUE(isSubset(Interval(0, 0.1), tube.at(0)[1]));
 }
 
+/// Four quantities are looked at before anything is proved: an interrupt then is one too.
+TEST(Flow, KeepsTheStartWhenCancelledBeforeTheFirstRun) {
+  const std::atomic<bool> cancelled = true;
+  FlowOptions options;
+  options.cancelled = &cancelled;
+  const Program f = record(2, 2, [](auto, const auto& x, const auto& p, auto& dx) {
+    dx[0] = x[1];
+    dx[1] = -p[0] * sin(x[0]) - p[1] * x[1];
+  });
+  const Tube tube =
+      Flow(f, options).enclose({Interval(0.9, 1.1), Interval(-0.1, 0.1), Interval(8, 9), Interval(0.1, 0.2)}, 2, {1});
+  EXPECT_EQ(tube.why(), Tube::interrupted);
+  EXPECT_EQ(tube.reached(), 0);
+}
+
 // ---- Ends before the horizon ----------------------------------------------------------------------------------------
 
 TEST(Flow, EndsWhenAnEnclosureBecomesWiderThanTheLimit) {
