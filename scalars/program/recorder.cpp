@@ -242,7 +242,8 @@ std::vector<int> Recorder::solve(int matrix, bool transposed, const std::vector<
   return components;
 }
 
-std::vector<int> Recorder::append(const Program& program, const std::vector<int>& parameters) {
+std::vector<int> Recorder::append(const Program& program, const std::vector<int>& parameters,
+                                  const std::vector<int>& instead) {
   std::vector<int> here, matrices, components;
   here.reserve(program.nodes().size());
   const auto mapped = [&here](std::vector<int> nodes) {
@@ -252,6 +253,10 @@ std::vector<int> Recorder::append(const Program& program, const std::vector<int>
   int twin = -1;
   matrices.assign(program.matrices().size(), -1);
   for (const Node& n : program.nodes()) {
+    if (!instead.empty() && instead[here.size()] >= 0) {
+      here.push_back(instead[here.size()]);
+      continue;
+    }
     if (n.op == Op::solution) {
       if (n.b == 0) {
         const LinearSolution& solution = program.solutions()[at(n.a)];

@@ -112,8 +112,10 @@ class Recorder {
   /// Writes the program's operations down once more, by this recorder's rules: for each of its nodes the node here that
   /// has the value. It may have fewer states and parameters than this recorder.
   std::vector<int> append(const Program& program) { return append(program, {}); }
-  /// The same with the nodes `parameters` in place of its parameters.
-  std::vector<int> append(const Program& program, const std::vector<int>& parameters);
+  /// The same with the nodes `parameters` in place of its parameters (empty: this recorder's), and, where `instead` has
+  /// one (not -1) for a node of the program, with that in its place.
+  std::vector<int> append(const Program& program, const std::vector<int>& parameters,
+                          const std::vector<int>& instead = {});
 
   const Node& node(int i) const { return list_.nodes[detail::at(i)]; }
   /// The nodes and what they refer to.

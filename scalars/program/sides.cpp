@@ -1,0 +1,114 @@
+// Signs become parameters first; sides are values of these.
+#include "scalars/program/sides.hpp"
+
+#include <stdexcept>
+#include <utility>
+
+#include "scalars/index.hpp"
+#include "scalars/program/differentiation.hpp"
+#include "scalars/program/recorder.hpp"
+
+namespace gamut {
+
+using detail::at;
+
+std::vector<int> jumpsOf(const Program& program) {
+  std::vector<int> jumps;
+  for (std::size_t i = 0; i < program.nodes().size(); ++i)
+    if (program.nodes()[i].op == Op::sign) jumps.push_back(static_cast<int>(i));
+  return jumps;
+}
+
+Program withSignsGiven(const Program& f) {
+  if (f.outputs() != f.states()) throw std::invalid_argument("sides need one rate for each state");
+  const std::vector<int> jumps = jumpsOf(f);
+  const int n = f.states(), k = f.parameters();
+  Recorder recorder(n, k + static_cast<int>(jumps.size()));
+  std::vector<int> instead(f.nodes().size(), -1);
+  for (std::size_t j = 0; j < jumps.size(); ++j) instead[at(jumps[j])] = recorder.parameter(k + static_cast<int>(j));
+  const std::vector<int> here = recorder.append(f, {}, instead);
+  std::vector<int> outputs, arguments;
+  std::vector<std::pair<int, int>> seeds{{recorder.time(), recorder.constant(1.0)}};
+  for (int i = 0; i < n; ++i) {
+    outputs.push_back(here[at(f.outputNodes()[at(i)])]);
+    seeds.emplace_back(recorder.state(i), outputs.back());
+  }
+  for (const int jump : jumps) arguments.push_back(here[at(f.nodes()[at(jump)].a)]);
+  const std::vector<int> rates = tangents(recorder, arguments, seeds);
+  outputs.insert(outputs.end(), arguments.begin(), arguments.end());
+  outputs.insert(outputs.end(), rates.begin(), rates.end());
+  return recorder.finish(outputs);
+}
+
+bool isAffineInSigns(const Program& f) {
+  std::vector<char> depends;
+  const auto of = [&](int node) { return node >= 0 && depends[at(node)] != 0; };
+  for (const Node& node : f.nodes()) {
+    bool does = node.op == Op::sign, isAffine = true;
+    if (node.op == Op::solution) {
+      const LinearSolution& solution = f.solutions()[at(node.a)];
+      for (const int entry : f.matrices()[at(solution.matrix)].entries) isAffine = isAffine && !of(entry);
+      for (const int entry : solution.rightSide) does = does || of(entry);
+    } else if (isOperation(node.op) && !does) {
+      does = of(node.a) || of(node.b);
+      isAffine = !does || node.op == Op::add || node.op == Op::sub || node.op == Op::neg ||
+                 (node.op == Op::mul && !(of(node.a) && of(node.b)));
+    } else if (does) {
+      isAffine = !of(node.a);
+    }
+    if (!isAffine) return false;
+    depends.push_back(static_cast<char>(does));
+  }
+  return true;
+}
+
+Program onSides(const Program& f, std::span<const Side> sides) {
+  const Program given = withSignsGiven(f);
+  const int n = f.states(), k = f.parameters(), jumps = static_cast<int>(sides.size());
+  if (given.parameters() != k + jumps) throw std::invalid_argument("sides need one for each jump");
+  Recorder recorder(n, k);
+  std::vector<int> parameters, held;
+  for (int i = 0; i < k; ++i) parameters.push_back(recorder.parameter(i));
+  for (int j = 0; j < jumps; ++j) {
+    const bool isHeld = sides[at(j)] == Side::held;
+    if (isHeld) held.push_back(j);
+    parameters.push_back(recorder.constant(isHeld ? -1.0 : static_cast<double>(sides[at(j)])));
+  }
+  const auto outputsWith = [&](const std::vector<int>& values) {
+    const std::vector<int> here = recorder.append(given, values);
+    std::vector<int> outputs;
+    for (const int output : given.outputNodes()) outputs.push_back(here[at(output)]);
+    return outputs;
+  };
+  std::vector<int> outputs = outputsWith(parameters);
+  const std::vector<int> below = outputs;
+  std::vector<std::vector<int>> steps;  // from below to above in one of those held
+  for (const int j : held) {
+    std::vector<int> values = parameters;
+    values[at(k + j)] = recorder.constant(1.0);
+    steps.push_back(outputsWith(values));
+    for (std::size_t o = 0; o < below.size(); ++o) steps.back()[o] = recorder.sub(steps.back()[o], below[o]);
+  }
+  const auto rate = [&](int j) { return at(n + jumps + j); };  // its place among outputs
+  std::vector<int> shares;
+  if (held.size() == 1) {
+    shares.push_back(recorder.neg(recorder.mul(below[rate(held[0])], recorder.recip(steps[0][rate(held[0])]))));
+  } else if (!held.empty()) {
+    LinearMatrix matrix{MatrixKind::general, static_cast<int>(held.size()), {}};
+    std::vector<int> rightSide;
+    for (const int j : held) {
+      for (const std::vector<int>& step : steps) matrix.entries.push_back(step[rate(j)]);
+      rightSide.push_back(recorder.neg(below[rate(j)]));
+    }
+    shares = recorder.solve(recorder.matrix(std::move(matrix)), false, rightSide);
+  }
+  for (std::size_t h = 0; h < held.size(); ++h) {
+    for (int o = 0; o < n; ++o) outputs[at(o)] = recorder.add(outputs[at(o)], recorder.mul(shares[h], steps[h][at(o)]));
+    parameters[at(k + held[h])] = recorder.sub(recorder.mul(recorder.constant(2.0), shares[h]), recorder.constant(1.0));
+  }
+  outputs.resize(at(n + jumps));
+  outputs.insert(outputs.end(), parameters.begin() + k, parameters.end());
+  return recorder.finish(outputs);
+}
+
+}  // namespace gamut

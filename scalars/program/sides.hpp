@@ -1,0 +1,32 @@
+// Functions that jump, one smooth piece at a time. Where u in sign u is not zero, f is that of one side; where
+// solutions of ẋ = f are driven to u = 0 from both sides they are held there, and follow the mean of both sides' rates
+// of which u stays zero (Filippov, Differential Equations with Discontinuous Righthand Sides, 1988, §4).
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "scalars/program/program.hpp"
+
+namespace gamut {
+
+/// Of one jump: its sign is -1, 0, 1, or what keeps its argument as it is.
+enum class Side : signed char { below = -1, between = 0, above = 1, held = 2 };
+
+/// The nodes of `program` that jump, in their order: its signs.
+std::vector<int> jumpsOf(const Program& program);
+
+/// f with its K signs s_1 … s_K as parameters behind its own. Outputs: f's n, the signs' arguments u_1 … u_K, and their
+/// rates ∂u/∂t + ∂u/∂x f. f has as many outputs as states.
+Program withSignsGiven(const Program& f);
+
+/// Whether f depends on its signs by sums and by products with what does not: then a mean of f over values of signs is
+/// f at their mean.
+bool isAffineInSigns(const Program& f);
+
+/// f on these sides, one a jump. Outputs: f's n, the arguments u_1 … u_K, the signs s_1 … s_K. Of several that are held
+/// the rates are those of one side and what each other side alone adds, times (1 + s)/2. Where no value holds, outputs
+/// are not finite. Throws std::domain_error if a held argument's rate is the same whatever its sign.
+Program onSides(const Program& f, std::span<const Side> sides);
+
+}  // namespace gamut
