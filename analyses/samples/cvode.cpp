@@ -13,6 +13,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "analyses/samples/sides_of_motion.hpp"
 #include "analyses/workers.hpp"
 #include "scalars/evaluation/sample_pack.hpp"
 
@@ -25,6 +26,8 @@ constexpr long maximumSteps = 2'000'000;      // between two output times: only 
 constexpr double shortestStep = 1e-13;        // of the horizon: below, the motion runs into a singularity
 constexpr long evaluationsBetweenLooks = 64;  // at the clock
 constexpr double tightest = 1e-14;            // relative tolerance, some 50 roundings
+constexpr double longestUnwatched = 0x1p-8;   // of the horizon: the longest step where equations turn
+constexpr double nothingLeft = 1e-14;         // of the horizon, for which CVODE would not begin anew
 
 template <class Handle>
 Handle required(Handle handle, const char* what) {
@@ -193,6 +196,82 @@ struct Cvode::Memory {
     return CVodeGetDky(cvode, t, 0, x);  // as CVode itself does between steps
   }
 
+  /// Before the first step of a motion whose equations turn. CVODE finds where a function falls from above zero; below
+  /// zero it may be by what rounding left of it at the last turn.
+  bool startWatching() {
+    const std::size_t count = problem->watched();
+    last = {state, std::vector<double>(count)};
+    problem->watch(0, last.x, last.values);
+    values.assign(count, 0);
+    fallen.assign(count, 0);
+    hasToTurn = false;
+    events = shortEvents = 0;
+    lastEvent = -times.back();
+    halted.clear();
+    if (found.size() == count) return true;
+    found.assign(count, -1);
+    return CVodeRootInit(cvode, static_cast<int>(count), &watchedFunctions) == CV_SUCCESS &&
+           CVodeSetRootDirection(cvode, found.data()) == CV_SUCCESS &&
+           CVodeSetNoInactiveRootWarn(cvode) == CV_SUCCESS &&
+           CVodeSetMaxStep(cvode, longestUnwatched * times.back()) == CV_SUCCESS;
+  }
+
+  /// As `advance`, where equations turn. A turn waits for the output times before it, which lie within CVODE's step.
+  int follow(double t, std::span<const double> cells) {
+    for (long steps = 0; reached < t; ++steps) {
+      if (steps == maximumSteps) return CV_TOO_MUCH_WORK;
+      if (hasToTurn && !turn(reached, last.x)) return CV_SUCCESS;
+      if (times.back() - reached <= nothingLeft * times.back()) {
+        state = last.x;
+        return CV_SUCCESS;
+      }
+      while (cell + 1 < cells.size() && cells[cell] <= reached) ++cell;
+      const double stop = cells.empty() ? times.back() : cells[std::min(cell + 1, cells.size() - 1)];
+      if (CVodeSetStopTime(cvode, stop) != CV_SUCCESS) return CV_ILL_INPUT;
+      realtype now = reached;
+      const int flag = CVode(cvode, times.back(), x, &now, CV_ONE_STEP);
+      if (flag < 0) return flag;
+      if (!endStep(now, flag == CV_ROOT_RETURN)) return CV_SUCCESS;
+    }
+    return CVodeGetDky(cvode, t, 0, x);
+  }
+
+  /// A function that was not above zero before the step, and fell, turned where the step began. False if the motion
+  /// ends.
+  bool endStep(double now, bool hasRoot) {
+    problem->watch(now, state, values);
+    bool fellAtOnce = false;
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      fallen[k] = static_cast<char>(values[k] < 0 && last.values[k] <= 0 && values[k] < last.values[k]);
+      fellAtOnce = fellAtOnce || fallen[k] != 0;
+    }
+    if (fellAtOnce) return turn(now, state);
+    if (hasRoot) {
+      CVodeGetRootInfo(cvode, found.data());
+      std::ranges::transform(found, fallen.begin(), [](int root) { return static_cast<char>(root != 0); });
+      hasToTurn = true;
+    }
+    last = {state, values};
+    reached = now;
+    return true;
+  }
+
+  bool turn(double later, std::span<const double> xLater) {
+    hasToTurn = false;
+    shortEvents = reached - lastEvent <= shortestPhase * times.back() ? shortEvents + 1 : 0;
+    lastEvent = reached;
+    if (++events > mostEvents || shortEvents > mostShortEvents)
+      halted = jumpsWithoutEnd;
+    else
+      halted = problem->turn(reached, last.x, later, xLater, fallen);
+    if (!halted.empty()) return false;
+    state = last.x;
+    problem->watch(reached, last.x, last.values);
+    if (CVodeReInit(cvode, reached, x) == CV_SUCCESS) return true;
+    halted = "the integrator gave up: " + message;
+    return false;
+  }
+
   bool isCancelled() const { return cancelled != nullptr && *cancelled; }
 
   bool tookTooLong() {
@@ -209,6 +288,13 @@ struct Cvode::Memory {
     return allFinite(rates) ? 0 : 1;
   }
 
+  static int watchedFunctions(realtype t, N_Vector x, realtype* values, void* self) {
+    Memory& memory = *static_cast<Memory*>(self);
+    memory.problem->watch(t, std::span<const double>(NV_DATA_S(x), memory.state.size()),
+                          std::span<double>(values, memory.found.size()));
+    return 0;
+  }
+
   static void remember(int, const char*, const char*, char* text, void* self) {
     static_cast<Memory*>(self)->message = text;
   }
@@ -223,6 +309,16 @@ struct Cvode::Memory {
   realtype reached = 0;  // by steps; the first cell that does not end before it
   std::size_t cell = 0;
   bool isLate = false;
+  struct {
+    std::vector<double> x, values;
+  } last;                      // at the end of the last step, or at the last turn
+  std::vector<double> values;  // of the watched functions
+  std::vector<char> fallen;
+  std::vector<int> found;
+  bool hasToTurn = false;  // at the end of the last step
+  int events = 0, shortEvents = 0;
+  double lastEvent = 0;
+  std::string halted;  // why the equations do not turn
   SUNContext context = nullptr;
   N_Vector x = nullptr;
   void* cvode = nullptr;
@@ -271,15 +367,21 @@ Integration Cvode::integrate(CvodeProblem& problem, std::span<const double> x, c
   m.cell = 0;
   const bool moves = !x.empty();
   int flag = !moves || times.empty() || times.back() == 0 || m.restart(tolerance) ? CV_SUCCESS : CV_ILL_INPUT;
+  const bool turns = moves && !times.empty() && times.back() > 0 && problem.watched() > 0;
+  if (turns && flag >= 0 && !m.startWatching()) flag = CV_ILL_INPUT;
   bool isFinite = true;
   Integration result;
   for (std::size_t i = 0; i < times.size() && flag >= 0 && isFinite; ++i) {
     realtype t = times[i];
     // Output between steps is CVODE's interpolant, of the order of the step itself.
     if (moves && times[i] > 0)
-      flag = cells.empty() ? CVode(m.cvode, times[i], m.x, &t, CV_NORMAL) : m.advance(times[i], cells);
-    result.reached = flag < 0 && !cells.empty() ? m.reached : t;
-    if (flag < 0) break;
+      flag = turns           ? m.follow(times[i], cells)
+             : cells.empty() ? CVode(m.cvode, times[i], m.x, &t, CV_NORMAL)
+                             : m.advance(times[i], cells);
+    const bool isHalted = turns && !m.halted.empty();
+    result.reached = isHalted || (flag < 0 && (turns || !cells.empty())) ? m.reached : t;
+    if (isHalted) result.why = m.halted;
+    if (flag < 0 || isHalted) break;
     isFinite = problem.observe(i, t, m.state);
     if (isFinite) result.times = i + 1;
   }

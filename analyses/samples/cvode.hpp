@@ -41,6 +41,18 @@ class CvodeProblem {
   virtual void differentiate(double t, std::span<const double> x, std::span<double> rates) = 0;
   /// Takes down the outputs of output time number i; false if one of them is not finite, which ends the integration.
   virtual bool observe(std::size_t i, double t, std::span<const double> x) = 0;
+
+  /// How many functions of time and states end a piece of the motion where they fall below zero, since other equations
+  /// hold from there on. The same number for all motions of a Cvode; packs have none.
+  virtual std::size_t watched() const { return 0; }
+  /// values: one a watched function.
+  virtual void watch(double, std::span<const double>, std::span<double>) {}
+  /// Those marked in `fallen` have come to zero at t and x, and are below at `later`: other equations hold from t on.
+  /// Returns why there are none, or nothing.
+  virtual std::string turn(double /*t*/, std::span<const double> /*x*/, double /*later*/,
+                           std::span<const double> /*xLater*/, std::span<const char> /*fallen*/) {
+    return {};
+  }
 };
 
 /// CVODE's memory for problems of one size. One a thread.
@@ -56,10 +68,10 @@ class Cvode {
   Cvode(Cvode&&) noexcept;
   Cvode& operator=(Cvode&&) noexcept;
 
-  /// From x at time 0 to each of the output times; fails once it has taken `seconds` of CPU. No step passes over a
-  /// whole one of the cells (TimeCells) that end at these times, rising to the last output time; none: steps are as
-  /// long as the tolerance allows. The states depend on the arguments alone; how far they come, on `seconds` and
-  /// `cancelled` too, and so on the machine.
+  /// From x at time 0 to each of the output times, CVODE beginning anew where equations turn; fails once it has taken
+  /// `seconds` of CPU. No step passes over a whole one of the cells (TimeCells) that end at these times, rising to the
+  /// last output time; none: steps are as long as the tolerance allows. The states depend on the arguments alone; how
+  /// far they come, on `seconds` and `cancelled` too, and so on the machine.
   Integration integrate(CvodeProblem& problem, std::span<const double> x, const Tolerance& tolerance,
                         std::span<const double> cells = {}, double seconds = std::numeric_limits<double>::infinity());
 

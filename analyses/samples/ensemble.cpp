@@ -14,6 +14,7 @@
 #include "analyses/samples/arbiter.hpp"
 #include "analyses/samples/pack_witness.hpp"
 #include "analyses/workers.hpp"
+#include "scalars/program/sides.hpp"
 
 namespace gamut {
 namespace {
@@ -159,7 +160,10 @@ std::size_t levelsHolding(const std::vector<Box>& cuts, std::span<const double> 
   return levels;
 }
 
-std::size_t widthOf(Method method) { return method == Method::adams ? packWidth : 1; }
+/// Samples come to a jump each at its own time: they cannot share steps.
+std::size_t widthOf(const Motion& motion, Method method) {
+  return method == Method::adams && jumpsOf(motion.forSamples()).empty() ? packWidth : 1;
+}
 
 }  // namespace
 
@@ -197,7 +201,7 @@ EnsembleRun::EnsembleRun(const UncertainMotion& system, EnsembleOptions options)
       nextBeside_(sampling_.samples()),
       total_(sampling_.size() + (sampling_.samples() + errorStride_ - 1) / errorStride_) {}
 
-std::size_t EnsembleRun::packWidth() const { return widthOf(options_.method); }
+std::size_t EnsembleRun::packWidth() const { return widthOf(system_.motion, options_.method); }
 
 bool EnsembleRun::isCancelled() const { return options_.cancelled != nullptr && *options_.cancelled; }
 
@@ -396,7 +400,7 @@ SampleBlock replaySample(const UncertainMotion& system, const EnsembleOptions& o
                     system.motion.times.size(), system.motion.outputs());
   for (std::size_t i = 0; i < block.size(); ++i)
     std::ranges::copy(sampling.values(first + i, system.uncertain), block.values(i).begin());
-  const std::size_t width = widthOf(options.method);
+  const std::size_t width = widthOf(system.motion, options.method);
   const std::vector<Piece> pieces = piecesOf(block.size(), width);
   const auto after = std::ranges::upper_bound(pieces, number - first, {}, &Piece::first);
   PieceIntegrator(system, options, width).integrate(block, *std::prev(after), [](std::size_t) {});

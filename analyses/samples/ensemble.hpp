@@ -63,8 +63,8 @@ struct FailedSample {
 /// alone, but which samples took too long. By Adams's method the samples of one number / packWidth are integrated
 /// together (corners and centre, which follow the samples, counted from the first corner), in the steps of the one that
 /// needs the shortest: a sample's trajectory is what its pack gave. Packs of so few samples that they would cost more
-/// than the samples alone, packs of which a sample fails, and all samples by Method::bdf are integrated one by one.
-/// Samples that fail are named.
+/// than the samples alone, packs of which a sample fails, all samples by Method::bdf and those of a motion whose
+/// equations jump are integrated one by one. Samples that fail are named.
 class EnsembleRun {
  public:
   /// Looks at samples before they count, and may put better trajectories in their place. Called from one thread, block

@@ -6,6 +6,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "analyses/samples/sides_of_motion.hpp"
 #include "analyses/samples/time_cells.hpp"
 #include "scalars/evaluation/evaluator.hpp"
 
@@ -29,10 +30,25 @@ struct Witness::Solver : CvodeProblem {
       : motion(m),
         f(m.forSamples()),
         g(m.g),
+        sides(m.forSamples()),
         cells(m.forSamples(), m.horizon()),
         cvode(detail::at(m.f.states()), m.times, method, cancelled) {}
 
-  void differentiate(double t, std::span<const double> x, std::span<double> rates) override { f(t, x, rates); }
+  void differentiate(double t, std::span<const double> x, std::span<double> rates) override {
+    if (sides.count() > 0)
+      sides.piece().rates(t, x, rates);
+    else
+      f(t, x, rates);
+  }
+
+  std::size_t watched() const override { return sides.count(); }
+  void watch(double t, std::span<const double> x, std::span<double> values) override {
+    sides.piece().watched(t, x, values);
+  }
+  std::string turn(double t, std::span<const double> x, double later, std::span<const double> xLater,
+                   std::span<const char> fallen) override {
+    return sides.turn(t, x, later, xLater, fallen) ? "" : heldWhereItJumps;
+  }
 
   bool observe(std::size_t i, double t, std::span<const double> x) override {
     const std::span<double> outputs = trajectory.subspan(i * motion.outputs(), motion.outputs());
@@ -44,6 +60,7 @@ struct Witness::Solver : CvodeProblem {
 
   const Motion& motion;
   Evaluator<double> f, g;
+  SidesOfMotion<double> sides;
   TimeCells cells;
   std::span<double> trajectory;  // while a motion is integrated
   Cvode cvode;
@@ -66,6 +83,8 @@ Integration Witness::integrate(std::span<const double> start, const Tolerance& t
   s.f.setParameters(start.subspan(states));
   s.g.setParameters(start.subspan(states));
   s.trajectory = trajectory;
+  s.sides.setParameters(start.subspan(states));
+  if (s.sides.count() > 0 && !s.sides.begin(0, start.first(states))) return {0, 0, heldWhereItJumps};
   const std::vector<Interval> parameters(start.begin() + static_cast<std::ptrdiff_t>(states), start.end());
   return s.cvode.integrate(s, start.first(states), tolerance, s.cells.ends(parameters), seconds);
 }

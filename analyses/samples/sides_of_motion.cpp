@@ -1,0 +1,51 @@
+// The programs of a piece are written down from the program on its sides.
+#include "analyses/samples/sides_of_motion.hpp"
+
+#include <stdexcept>
+#include <utility>
+
+#include "scalars/index.hpp"
+#include "scalars/program/differentiation.hpp"
+#include "scalars/program/recorder.hpp"
+
+namespace gamut {
+namespace {
+
+using detail::at;
+
+/// The function of a jump on its side that falls below zero where it leaves.
+int watchedOf(Recorder& recorder, Side side, int u, int s) {
+  if (side == Side::above) return u;
+  if (side == Side::below) return recorder.neg(u);
+  if (side == Side::held) return recorder.sub(recorder.constant(1.0), recorder.sqr(s));
+  return recorder.neg(recorder.abs(u));
+}
+
+SidedPrograms programsOf(const Program& sided, std::span<const Side> sides) {
+  Recorder recorder(sided);
+  const auto n = sided.outputNodes().begin() + sided.states();
+  const std::vector<int> rates(sided.outputNodes().begin(), n);
+  const auto count = static_cast<std::ptrdiff_t>(sides.size());
+  const std::vector<int> arguments(n, n + count), signs(n + count, n + 2 * count);
+  std::vector<std::pair<int, int>> seeds{{recorder.time(), recorder.constant(1.0)}};
+  for (int i = 0; i < sided.states(); ++i) seeds.emplace_back(recorder.state(i), rates[at(i)]);
+  std::vector<int> watched, judged = arguments;
+  for (std::size_t k = 0; k < sides.size(); ++k)
+    watched.push_back(watchedOf(recorder, sides[k], arguments[k], signs[k]));
+  const std::vector<int> changes = tangents(recorder, arguments, seeds);
+  judged.insert(judged.end(), signs.begin(), signs.end());
+  judged.insert(judged.end(), changes.begin(), changes.end());
+  return {recorder.finish(rates), recorder.finish(watched), recorder.finish(judged)};
+}
+
+}  // namespace
+
+std::optional<SidedPrograms> sidedPrograms(const Program& f, std::span<const Side> sides) {
+  try {
+    return programsOf(onSides(f, sides), sides);
+  } catch (const std::domain_error&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace gamut

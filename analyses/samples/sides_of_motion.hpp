@@ -1,0 +1,222 @@
+// A motion whose equations jump, from one smooth piece to the next: on which sides of its jumps it is, and which sides
+// it takes where it comes to the surface of one. The rules are the same for doubles and for 128 bits.
+//
+// A jump is held where both sides drive the motion to its surface, and released where the sign that holds it leaves
+// [-1, 1]. Of several that depend on each other, one that does not agree with the motion is changed at a time, the
+// first first, until all agree: that ends where solutions are unique (K. G. Murty, Opsearch 11 (1974), on linear
+// complementarity), which is the case of dry friction.
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "scalars/evaluation/evaluator.hpp"
+#include "scalars/program/sides.hpp"
+
+namespace gamut {
+
+inline constexpr const char* heldWhereItJumps = "the motion is held where its equations jump";
+inline constexpr const char* jumpsWithoutEnd = "its equations jump again and again, and the motion does not go on";
+constexpr int mostEvents = 100'000;      // of one motion
+constexpr int mostShortEvents = 20;      // in a row
+constexpr double shortestPhase = 1e-12;  // between two events, of the horizon
+
+/// ẋ = f on some sides, and what is asked of it.
+struct SidedPrograms {
+  Program rates;    ///< f there
+  Program watched;  ///< one a jump, below zero where the jump is not on its side: u, -u, 1 - s², of `between` -|u|
+  Program judged;   ///< of the jumps the arguments u, then the signs s, then the rates of u
+};
+
+/// Nothing where no sign can hold a jump.
+std::optional<SidedPrograms> sidedPrograms(const Program& f, std::span<const Side> sides);
+
+/// The sides of one motion after another. One a thread; f must outlive it.
+template <class Real>
+class SidesOfMotion {
+ public:
+  struct Piece {
+    explicit Piece(SidedPrograms&& p)
+        : programs(std::move(p)), rates(programs.rates), watched(programs.watched), judged(programs.judged) {}
+    SidedPrograms programs;
+    Evaluator<Real> rates, watched, judged;
+  };
+
+  explicit SidesOfMotion(const Program& f) : f_(f), count_(jumpsOf(f).size()) {}
+
+  /// The number of jumps; without any there are no pieces, and nothing to begin or to turn.
+  std::size_t count() const { return count_; }
+  const std::vector<Side>& sides() const { return sides_; }
+  /// On these sides.
+  Piece& piece() { return *piece_; }
+
+  void setParameters(std::span<const Real> p) {
+    parameters_.assign(p.begin(), p.end());
+    for (auto& [sides, piece] : pieces_)
+      if (piece) setParametersOf(*piece);
+  }
+
+  /// Takes the sides of a motion that starts here. False if no sides agree.
+  bool begin(const Real& t, std::span<const Real> x) {
+    sides_.assign(count_, Side::between);
+    isOnSurface_.assign(count_, 1);
+    Judgement now;
+    // A jump's argument may jump with another, hence more than once.
+    for (std::size_t pass = 0; pass <= count_; ++pass) {
+      if (!judge(sides_, t, x, now)) return false;
+      for (std::size_t k = 0; k < count_; ++k) {
+        sides_[k] = sideOf(now.u[k]);
+        isOnSurface_[k] = sides_[k] == Side::between ? 1 : 0;
+      }
+    }
+    std::vector<Side> chosen = sides_;
+    for (std::size_t k = 0; k < count_; ++k)
+      if (isOnSurface_[k] != 0) chosen[k] = sideOnSurface(k, t, x);
+    sides_ = std::move(chosen);
+    return agree(t, x, now.u);
+  }
+
+  /// Takes the sides from (t, x) on, where those watched functions that are marked in `fallen` have come to zero; a
+  /// little later, at (later, xLater), they are beyond. False if no sides agree.
+  bool turn(const Real& t, std::span<const Real> x, const Real& later, std::span<const Real> xLater,
+            std::span<const char> fallen) {
+    Judgement now, then;
+    if (!judge(sides_, t, x, now) || !judge(sides_, later, xLater, then)) return false;
+    std::vector<Side> chosen = sides_;
+    for (std::size_t k = 0; k < count_; ++k) {
+      isOnSurface_[k] = fallen[k] != 0 || !isSide(sides_[k]) ? 1 : 0;
+      if (fallen[k] == 0) continue;
+      if (sides_[k] == Side::held)
+        chosen[k] = now.s[k] > 0 ? Side::above : Side::below;
+      else if (sides_[k] == Side::between)
+        chosen[k] = sideOf(then.u[k]);
+      else
+        chosen[k] = sideBehind(k, now.rate[k], t, x);
+    }
+    sides_ = std::move(chosen);
+    return agree(t, x, now.u);
+  }
+
+ private:
+  struct Judgement {
+    std::vector<Real> u, s, rate;
+  };
+
+  static bool isSide(Side side) { return side == Side::above || side == Side::below; }
+  static Side sideOf(const Real& u) { return u > 0 ? Side::above : u < 0 ? Side::below : Side::between; }
+  static Side opposite(Side side) { return side == Side::above ? Side::below : Side::above; }
+  /// Of a value, as seen from a side: positive away from the surface.
+  static Real outwards(Side side, const Real& value) { return side == Side::above ? value : Real(-value); }
+  /// Whether nothing is left of `part` but what rounding may have left of `whole`.
+  static bool isRounding(const Real& part, const Real& whole) {
+    using std::abs;
+    return abs(part) <= abs(whole) * Real(1024.0) * Real(std::numeric_limits<Real>::epsilon());
+  }
+
+  void setParametersOf(Piece& piece) {
+    piece.rates.setParameters(parameters_);
+    piece.watched.setParameters(parameters_);
+    piece.judged.setParameters(parameters_);
+  }
+
+  Piece* pieceOn(const std::vector<Side>& sides) {
+    const auto [place, isNew] = pieces_.try_emplace(sides);
+    if (isNew) {
+      if (auto programs = sidedPrograms(f_, sides)) {
+        place->second = std::make_unique<Piece>(std::move(*programs));
+        setParametersOf(*place->second);
+      }
+    }
+    return place->second.get();
+  }
+
+  /// False if some jump that shall be held cannot be.
+  bool judge(const std::vector<Side>& sides, const Real& t, std::span<const Real> x, Judgement& result) {
+    Piece* const piece = pieceOn(sides);
+    if (piece == nullptr) return false;
+    std::vector<Real> all(3 * count_, Real(0.0));
+    piece->judged(t, x, all);
+    const auto part = [&](std::size_t i) {
+      const auto from = all.begin() + static_cast<std::ptrdiff_t>(i * count_);
+      return std::vector<Real>(from, from + static_cast<std::ptrdiff_t>(count_));
+    };
+    result = {part(0), part(1), part(2)};
+    for (std::size_t k = 0; k < count_; ++k)
+      if (sides[k] == Side::held && !(result.s[k] - result.s[k] == 0)) return false;
+    return true;
+  }
+
+  /// The rate of u_k if it alone were on that side; zero if that is not known.
+  Real rateOn(Side side, std::size_t k, const Real& t, std::span<const Real> x) {
+    std::vector<Side> sides = sides_;
+    sides[k] = side;
+    Judgement there;
+    return judge(sides, t, x, there) ? there.rate[k] : Real(0.0);
+  }
+
+  /// Of a jump whose surface a motion starts on: held if that is possible at all, or where its argument goes.
+  Side sideOnSurface(std::size_t k, const Real& t, std::span<const Real> x) {
+    using std::abs;
+    const Real above = rateOn(Side::above, k, t, x), below = rateOn(Side::below, k, t, x);
+    return isRounding(above - below, abs(above) + abs(below)) ? sideOf(above) : Side::held;
+  }
+
+  /// Of a jump that came to its surface from its side, at this rate: held if the other side drives it back.
+  Side sideBehind(std::size_t k, const Real& rate, const Real& t, std::span<const Real> x) {
+    const Side side = sides_[k];
+    const Real other = rateOn(opposite(side), k, t, x);
+    if (!(outwards(side, other) > 0)) return opposite(side);
+    return outwards(side, rate) < 0 ? heldUnlessMarginal(side, rate, other) : side;
+  }
+
+  /// Where the sign that holds a jump is that of its side but for rounding, both agree.
+  static Side heldUnlessMarginal(Side side, const Real& rate, const Real& other) {
+    return isRounding(rate, other) ? side : Side::held;
+  }
+
+  /// Changes sides until all agree with the motion. uBefore: the arguments on the sides before.
+  bool agree(const Real& t, std::span<const Real> x, std::span<const Real> uBefore) {
+    Judgement now;
+    for (std::size_t change = 0; change <= 50 * (count_ + 1); ++change) {
+      if (!judge(sides_, t, x, now)) return false;
+      std::size_t k = 0;
+      Side better = Side::held;
+      for (; k < count_; ++k)
+        if (better = betterSide(k, now, t, x, uBefore); better != sides_[k]) break;
+      if (k == count_) {
+        piece_ = pieceOn(sides_);
+        return true;
+      }
+      sides_[k] = better;
+    }
+    return false;
+  }
+
+  Side betterSide(std::size_t k, const Judgement& now, const Real& t, std::span<const Real> x,
+                  std::span<const Real> uBefore) {
+    const Side side = sides_[k];
+    if (side == Side::held) return now.s[k] > 1 ? Side::above : now.s[k] < -1 ? Side::below : side;
+    if (side == Side::between) return sideOf(now.rate[k]);
+    const Real distance = outwards(side, now.u[k]);
+    const bool hasJumped = isOnSurface_[k] == 0 && outwards(side, uBefore[k]) > 0 && distance < 0;
+    if (hasJumped) return opposite(side);
+    if ((isOnSurface_[k] == 0 && distance > 0) || !(outwards(side, now.rate[k]) < 0)) return side;
+    const Real other = rateOn(opposite(side), k, t, x);
+    return outwards(side, other) > 0 ? heldUnlessMarginal(side, now.rate[k], other) : opposite(side);
+  }
+
+  const Program& f_;
+  std::size_t count_;
+  std::vector<Real> parameters_;
+  std::map<std::vector<Side>, std::unique_ptr<Piece>> pieces_;
+  Piece* piece_ = nullptr;
+  std::vector<Side> sides_;
+  std::vector<char> isOnSurface_;
+};
+
+}  // namespace gamut
