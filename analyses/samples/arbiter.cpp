@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <memory>
 #include <stdexcept>
 
+#include "analyses/samples/sides_of_motion.hpp"
 #include "analyses/samples/time_cells.hpp"
 #include "scalars/evaluation/evaluator.hpp"
 #include "scalars/evaluation/series.hpp"
@@ -20,7 +23,6 @@ constexpr int lowerOrder = 4;
 constexpr double rounding = 0x1p-112;  // relative, of a value: some thousand roundings of 128 bits
 constexpr int leastSteps = 32, probes = 16;
 constexpr double someRoundings = 8;     // of the equations, in a series that holds
-constexpr int mostShortEvents = 20;     // in a row, of steps below the shortest: the motion slides
 constexpr double shortestStep = 1e-12;  // of the horizon: below, the solution runs into a singularity
 
 bool isFinite(const Precise& value) { return boost::multiprecision::isfinite(value); }
@@ -28,13 +30,33 @@ bool isFinite(double value) { return std::isfinite(value); }
 double rounded(const Precise& value) { return value.convert_to<double>(); }
 double rounded(double value) { return value; }
 
-/// The arguments of abs and sign: where one changes its sign, f has a kink or a jump.
-Program switchesOf(const Program& f) {
+/// The arguments of abs: where one changes its sign, f has a kink.
+Program kinksOf(const Program& f) {
   std::vector<int> arguments;
   for (const Node& node : f.nodes())
-    if (node.op == Op::abs || node.op == Op::sign) arguments.push_back(node.a);
+    if (node.op == Op::abs) arguments.push_back(node.a);
   return Recorder(f).finish(arguments);
 }
+
+/// ẋ = f without jumps, evaluated. f must outlive it.
+template <class Real>
+struct SmoothEquations {
+  SmoothEquations(const Program& program, int order, const std::vector<Real>& parameters,
+                  const std::vector<Interval>& ranges)
+      : series(program, order), f(program), bounds(program), kinks(kinksOf(program)) {
+    series.setParameters(parameters);
+    f.setParameters(parameters);
+    kinks.setParameters(parameters);
+    bounds.setParameters(ranges);
+  }
+
+  bool hasKinks() const { return kinks.tape().outputs() > 0; }
+
+  Series<Real> series;
+  Evaluator<Real> f;
+  Evaluator<Interval> bounds;
+  Evaluator<Real> kinks;
+};
 
 /// What one integration found.
 template <class Real>
@@ -61,35 +83,31 @@ class TaylorRun {
       : motion_(motion),
         options_(options),
         cancelled_(cancelled),
-        series_(motion.forSamples(), options.order),
-        f_(motion.forSamples()),
+        sides_(motion.forSamples()),
         g_(motion.g),
-        bounds_(motion.forSamples()),
-        switches_(switchesOf(motion.forSamples())),
-        hasSwitches_(switchesOf(motion.forSamples()).outputs() > 0),
         n_(static_cast<std::size_t>(motion.f.states())),
-        cells_(TimeCells(motion.forSamples(), motion.horizon())
-                   .ends(std::vector<Interval>(start.begin() + motion.f.states(), start.end()))) {
+        ranges_(start.begin() + motion.f.states(), start.end()),
+        cells_(TimeCells(motion.forSamples(), motion.horizon()).ends(ranges_)) {
     for (std::size_t i = 0; i < start.size(); ++i) (i < n_ ? x_ : parameters_).push_back(Real(start[i]));
-    series_.setParameters(parameters_);
-    f_.setParameters(parameters_);
+    sides_.setParameters(parameters_);
     g_.setParameters(parameters_);
-    switches_.setParameters(parameters_);
-    bounds_.setParameters(std::vector<Interval>(start.begin() + motion.f.states(), start.end()));
+    if (sides_.count() == 0) here_ = &equationsOf(motion.forSamples());
   }
 
   Trajectory<Real> run() {
     const std::vector<double>& times = motion_.times;
     const double horizon = motion_.horizon();
     Real t(0.0);
+    if (sides_.count() > 0) take(sides_.begin(t, x_), t);
     while (result_.times < times.size() && result_.why.empty()) {
       const Real h = n_ == 0 ? Real(horizon) : nextStep(t, Real(horizon) - t, horizon);
       // Every output time within the step is evaluated from the step's own series.
       while (result_.why.empty() && result_.times < times.size() && Real(times[result_.times]) <= t + h)
         watch(times[result_.times], Real(times[result_.times]) - t);
-      if (result_.times < times.size()) {
+      if (result_.times < times.size() && result_.why.empty()) {
         x_ = stateAfter(h);
         t += h;
+        if (sides_.count() > 0) turn(t, t, x_, fallenAfter(t, x_));
       }
     }
     return std::move(result_);
@@ -100,13 +118,14 @@ class TaylorRun {
   /// state for the size.
   Real nextStep(const Real& t, const Real& rest, double horizon) {
     using std::abs;
-    series_.solve(offSurface(t, horizon), x_);
+    here_->series.solve(offKinks(t, horizon), x_);
     Real size(0.0), rate(0.0);
     bool finite = true;
     for (int s = 0; s < motion_.f.states(); ++s) {
-      size = std::max(size, Real(abs(series_.at(s, 0))));
-      rate = std::max(rate, Real(abs(series_.at(s, 1))));
-      finite = finite && isFinite(series_.at(s, options_.order)) && isFinite(series_.at(s, options_.order - 1));
+      size = std::max(size, Real(abs(here_->series.at(s, 0))));
+      rate = std::max(rate, Real(abs(here_->series.at(s, 1))));
+      finite =
+          finite && isFinite(here_->series.at(s, options_.order)) && isFinite(here_->series.at(s, options_.order - 1));
     }
     if (cancelled_ != nullptr && *cancelled_) return stop(t, "cancelled");
     if (!finite) return stop(t, "the derivatives are not finite");
@@ -115,7 +134,7 @@ class TaylorRun {
     double reach = std::numeric_limits<double>::infinity();
     for (int i = options_.order / 2; i <= options_.order; ++i)
       for (int s = 0; s < motion_.f.states(); ++s)
-        if (const Real c = abs(series_.at(s, i)); c > 0 && size > 0)
+        if (const Real c = abs(here_->series.at(s, i)); c > 0 && size > 0)
           reach = std::min(reach, std::pow(rounded(Real(size / c)), 1.0 / i));
     Real h = std::min(rest, Real(std::pow(options_.tolerance, 1.0 / options_.order) * reach));
     // A series may say nothing of what comes (tanh, far out; a pulse): the equations have to hold all along the step,
@@ -123,10 +142,10 @@ class TaylorRun {
     h = std::min(h, Real(horizon / leastSteps));
     const double unit = std::max(options_.tolerance, rounded(std::numeric_limits<Real>::epsilon()));
     const Real allowed = size * (1000.0 * options_.order * unit);
+    if (sides_.count() > 0 && leavesSurface(t, h)) return nextStep(t, rest, horizon);
     if (const Event<Real> event = nextEvent(t, h); event.isThere) {
-      // Where solutions slide along a jump, one event follows upon the other.
-      shortEvents_ = event.before < shortestStep * horizon ? shortEvents_ + 1 : 0;
-      if (shortEvents_ > mostShortEvents) return stop(t, "the motion is held where its equations jump");
+      shortEvents_ = event.before < shortestPhase * horizon ? shortEvents_ + 1 : 0;
+      if (shortEvents_ > mostShortEvents || ++events_ > mostEvents) return stop(t, jumpsWithoutEnd);
       if (shortEvents_ > 0 || holdsWithin(t, event.before, allowed)) return std::min(rest, event.behind);
       h = event.before / 2;
     }
@@ -139,38 +158,109 @@ class TaylorRun {
   /// tolerance is, so that what it adds shows in their difference.
   Real tick() const { return std::max(Real(std::numeric_limits<Real>::epsilon()), Real(options_.tolerance / looser)); }
 
-  /// Where a switch is zero, the series would be that of neither side: on by a tick.
-  Real offSurface(const Real& t, double horizon) {
-    if (!hasSwitches_) return t;
-    const std::vector<Real> values = switches_(t, x_);
+  /// Where a kink's argument is zero, the series would be that of neither side: on by a tick.
+  Real offKinks(const Real& t, double horizon) {
+    if (!here_->hasKinks()) return t;
+    const std::vector<Real> values = here_->kinks(t, x_);
     if (std::ranges::none_of(values, [](const Real& value) { return value == 0; })) return t;
-    const std::vector<Real> rates = f_(t, x_);
+    const std::vector<Real> rates = here_->f(t, x_);
     const Real on(horizon * tick());
     for (std::size_t s = 0; s < n_; ++s) x_[s] += rates[s] * on;
     return t + on;
   }
 
-  /// The first change of a switch that one of the probes shows, to some ticks.
+  /// The first change that one of the probes shows, to some ticks: of a kink's sign, or of a jump that leaves its side.
   Event<Real> nextEvent(const Real& t, const Real& h) {
-    if (!hasSwitches_) return {};
+    if (!here_->hasKinks() && sides_.count() == 0) return {};
     const auto signsAt = [&](const Real& tau) {
       std::vector<int> signs;
-      for (const Real& value : switches_(Real(t + tau), stateAfter(tau)))
+      for (const Real& value : here_->kinks(Real(t + tau), stateAfter(tau)))
         signs.push_back(value > 0 ? 1 : value < 0 ? -1 : 0);
       return signs;
     };
     const std::vector<int> now = signsAt(Real(h * tick()));
-    for (int probe = 1; probe <= probes; ++probe) {
-      Real low(h * (probe - 1) / probes), high(h * probe / probes);
-      if (signsAt(high) == now) continue;
+    lowest_ = lowestAllowed(t);
+    const auto isBehind = [&](const Real& tau) {
+      return signsAt(tau) != now || (sides_.count() > 0 && hasFallen(fallenAfter(Real(t + tau), stateAfter(tau))));
+    };
+    Real low(0.0);
+    for (const Real& probe : probesOf(t, h)) {
+      Real high(probe);
+      if (!isBehind(high)) {
+        low = high;
+        continue;
+      }
       const Real smallest(std::max(t, high) * tick());
       while (high - low > smallest) {
         const Real middle((low + high) / 2);
-        (signsAt(middle) == now ? low : high) = middle;
+        (isBehind(middle) ? high : low) = middle;
       }
       return {true, low, Real(high + 4 * smallest)};
     }
     return {};
+  }
+
+  /// Where a step is looked at. What jumps with time alone may come and go in each cell of time.
+  std::vector<Real> probesOf(const Real& t, const Real& h) const {
+    std::vector<Real> result;
+    for (int probe = 1; probe <= probes; ++probe) result.push_back(h * probe / probes);
+    if (sides_.count() == 0) return result;
+    for (auto end = std::ranges::upper_bound(cells_, rounded(t)); end != cells_.end() && Real(*end) < t + h; ++end)
+      if (Real(*end) > t) result.push_back(Real(*end) - t);
+    std::ranges::sort(result);
+    return result;
+  }
+
+  /// Below zero a watched function may be by what was left of it at the last turn, from which it rises.
+  std::vector<Real> lowestAllowed(const Real& t) {
+    std::vector<Real> lowest;
+    if (sides_.count() > 0) lowest = sides_.piece().watched(t, x_);
+    for (Real& value : lowest) value = std::min(value, Real(0.0));
+    return lowest;
+  }
+
+  std::vector<char> fallenAfter(const Real& t, const std::vector<Real>& x) {
+    const std::vector<Real> values = sides_.piece().watched(t, x);
+    std::vector<char> fallen;
+    for (std::size_t k = 0; k < values.size(); ++k) fallen.push_back(static_cast<char>(values[k] < lowest_[k]));
+    return fallen;
+  }
+  static bool hasFallen(const std::vector<char>& fallen) { return std::ranges::count(fallen, 1) > 0; }
+
+  /// A jump between its sides leaves them, if at all, where the step begins: on the piece that follows all is analytic.
+  bool leavesSurface(const Real& t, const Real& h) {
+    std::vector<char> isBetween;
+    for (const Side side : sides_.sides()) isBetween.push_back(static_cast<char>(side == Side::between));
+    if (!hasFallen(isBetween)) return false;
+    lowest_ = lowestAllowed(t);
+    for (const Real& probe : probesOf(t, h)) {
+      const std::vector<Real> x = stateAfter(probe);
+      std::vector<char> fallen = fallenAfter(Real(t + probe), x);
+      for (std::size_t k = 0; k < fallen.size(); ++k)
+        fallen[k] = static_cast<char>(fallen[k] != 0 && isBetween[k] != 0);
+      if (!hasFallen(fallen)) continue;
+      turn(t, Real(t + probe), x, fallen);
+      return result_.why.empty();
+    }
+    return false;
+  }
+
+  void turn(const Real& t, const Real& later, const std::vector<Real>& xLater, const std::vector<char>& fallen) {
+    if (hasFallen(fallen)) take(sides_.turn(t, x_, later, xLater, fallen), t);
+  }
+
+  /// The equations on the sides that were found.
+  void take(bool areFound, const Real& t) {
+    if (areFound)
+      here_ = &equationsOf(sides_.piece().programs.rates);
+    else
+      stop(t, heldWhereItJumps);
+  }
+
+  SmoothEquations<Real>& equationsOf(const Program& f) {
+    auto& equations = equations_[&f];
+    if (!equations) equations = std::make_unique<SmoothEquations<Real>>(f, options_.order, parameters_, ranges_);
+    return *equations;
   }
 
   Real stop(const Real& t, const char* why) {
@@ -182,7 +272,7 @@ class TaylorRun {
   std::vector<Real> stateAfter(const Real& tau) {
     std::vector<Real> x(n_);
     for (std::size_t s = 0; s < n_; ++s)
-      for (int i = options_.order; i >= 0; --i) x[s] = x[s] * tau + series_.at(static_cast<int>(s), i);
+      for (int i = options_.order; i >= 0; --i) x[s] = x[s] * tau + here_->series.at(static_cast<int>(s), i);
     return x;
   }
 
@@ -198,11 +288,12 @@ class TaylorRun {
 
   bool holdsAt(const Real& t, const Real& h, const Real& tau, const Real& allowed) {
     using std::abs;
-    const std::vector<Real> x = stateAfter(tau), rate = f_(Real(t + tau), x);
+    const std::vector<Real> x = stateAfter(tau), rate = here_->f(Real(t + tau), x);
     std::vector<double> roundings;
     for (std::size_t s = 0; s < n_; ++s) {
       Real slope(0.0);
-      for (int i = options_.order; i >= 1; --i) slope = slope * tau + Real(i) * series_.at(static_cast<int>(s), i);
+      for (int i = options_.order; i >= 1; --i)
+        slope = slope * tau + Real(i) * here_->series.at(static_cast<int>(s), i);
       const Real defect = abs(Real(slope - rate[s])) * h;
       if (defect <= allowed) continue;
       if (roundings.empty()) roundings = roundingsOf(rounded(Real(t + tau)), x);
@@ -216,7 +307,7 @@ class TaylorRun {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     std::vector<Interval> box, rates(n_);
     for (const Real& value : x) box.emplace_back(rounded(value));
-    bounds_(Interval(std::nextafter(t, -infinity), std::nextafter(t, infinity)), box, rates);
+    here_->bounds(Interval(std::nextafter(t, -infinity), std::nextafter(t, infinity)), box, rates);
     std::vector<double> result;
     const double finer = rounded(Real(std::numeric_limits<Real>::epsilon())) / std::numeric_limits<double>::epsilon();
     for (const Interval& rate : rates) result.push_back(isBounded(rate) ? finer * width(rate) : 0);
@@ -238,13 +329,15 @@ class TaylorRun {
   const Motion& motion_;
   ArbiterOptions options_;
   const std::atomic<bool>* cancelled_;
-  Series<Real> series_;
-  Evaluator<Real> f_, g_;
-  Evaluator<Interval> bounds_;
-  Evaluator<Real> switches_;
-  bool hasSwitches_;
+  SidesOfMotion<Real> sides_;
+  Evaluator<Real> g_;
   std::size_t n_;
+  std::vector<Interval> ranges_;  // of the parameters
   std::vector<double> cells_;
+  std::map<const Program*, std::unique_ptr<SmoothEquations<Real>>> equations_;
+  SmoothEquations<Real>* here_ = nullptr;
+  std::vector<Real> lowest_;  // of the watched functions, in this step
+  int events_ = 0;
   int shortEvents_ = 0;  // in a row
   std::vector<Real> x_, parameters_;
   Trajectory<Real> result_;

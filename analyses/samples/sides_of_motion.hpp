@@ -135,7 +135,7 @@ class SidesOfMotion {
     return place->second.get();
   }
 
-  /// False if some jump that shall be held cannot be.
+  /// False if a jump that shall be held never can be.
   bool judge(const std::vector<Side>& sides, const Real& t, std::span<const Real> x, Judgement& result) {
     Piece* const piece = pieceOn(sides);
     if (piece == nullptr) return false;
@@ -146,8 +146,6 @@ class SidesOfMotion {
       return std::vector<Real>(from, from + static_cast<std::ptrdiff_t>(count_));
     };
     result = {part(0), part(1), part(2)};
-    for (std::size_t k = 0; k < count_; ++k)
-      if (sides[k] == Side::held && !(result.s[k] - result.s[k] == 0)) return false;
     return true;
   }
 
@@ -200,7 +198,7 @@ class SidesOfMotion {
   Side betterSide(std::size_t k, const Judgement& now, const Real& t, std::span<const Real> x,
                   std::span<const Real> uBefore) {
     const Side side = sides_[k];
-    if (side == Side::held) return now.s[k] > 1 ? Side::above : now.s[k] < -1 ? Side::below : side;
+    if (side == Side::held) return heldOrReleased(now.s[k]);
     if (side == Side::between) return sideOf(now.rate[k]);
     const Real distance = outwards(side, now.u[k]);
     const bool hasJumped = isOnSurface_[k] == 0 && outwards(side, uBefore[k]) > 0 && distance < 0;
@@ -208,6 +206,11 @@ class SidesOfMotion {
     if ((isOnSurface_[k] == 0 && distance > 0) || !(outwards(side, now.rate[k]) < 0)) return side;
     const Real other = rateOn(opposite(side), k, t, x);
     return outwards(side, other) > 0 ? heldUnlessMarginal(side, now.rate[k], other) : opposite(side);
+  }
+
+  /// Jumps of one surface cannot be held all at once: one of them is taken for above, until it is found to be below.
+  static Side heldOrReleased(const Real& s) {
+    return s > 1 ? Side::above : s < -1 ? Side::below : s - s == 0 ? Side::held : Side::above;
   }
 
   const Program& f_;

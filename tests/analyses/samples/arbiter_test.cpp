@@ -203,17 +203,6 @@ TEST(Arbiter, LocatesKinksInTime) {
   }
 }
 
-/// Held by friction: there is no series that goes on.
-TEST(Arbiter, SaysWhereAMotionIsHeld) {
-  Motion motion;
-  motion.f = record(1, 0, [](auto t, const auto& x, const auto&, auto& dx) { dx[0] = 0.25 * cos(t) - sign(x[0]); });
-  motion.g = record(1, 0, 1, [](auto, const auto& x, const auto&, auto& y) { y[0] = x[0]; });
-  motion.times = {0.25, 2};
-  const PreciseTrajectory y = arbitrate(motion, std::array{0.5});
-  EXPECT_EQ(y.times, 1u);
-  EXPECT_THAT(y.why, HasSubstr("held where its equations jump"));
-}
-
 TEST(Arbiter, EvaluatesAMotionWithoutStatesDirectly) {
   const PreciseTrajectory y = arbitrate(line().motion, std::array{0.1});
   ASSERT_EQ(y.times, 2u);
