@@ -131,6 +131,7 @@ class TaylorRun {
     if (!finite) return stop(t, "the derivatives are not finite");
     // Single orders may vanish (a series in t², say): the step heeds the whole upper half.
     if (!(size > 0)) size = rate * horizon;
+    if (!(size > 0) && sides_.count() > 0) size = sizeToCome(horizon / leastSteps);
     double reach = std::numeric_limits<double>::infinity();
     for (int i = options_.order / 2; i <= options_.order; ++i)
       for (int s = 0; s < motion_.f.states(); ++s)
@@ -152,6 +153,16 @@ class TaylorRun {
     while (h >= shortestStep * horizon && !holdsWithin(t, h, allowed)) h = h / 2;
     if (h < rest && h < shortestStep * horizon) return stop(t, "steps became too short: the motion is singular here");
     return h;
+  }
+
+  /// Of what begins at zero and at rest, as a mass that a force is about to break loose: the greatest term after `h`.
+  Real sizeToCome(double h) {
+    using std::abs;
+    Real size(0.0);
+    for (int s = 0; s < motion_.f.states(); ++s)
+      for (int i = 0; i <= options_.order; ++i)
+        size = std::max(size, Real(abs(here_->series.at(s, i)) * Real(std::pow(h, i))));
+    return size;
   }
 
   /// Of time, relative: how well switches are located. The second integration's is the coarser one by as much as its
