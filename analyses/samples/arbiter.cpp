@@ -83,7 +83,7 @@ class TaylorRun {
       : motion_(motion),
         options_(options),
         cancelled_(cancelled),
-        sides_(motion.forSamples()),
+        sides_(motion.forSamples(), motion.horizon()),
         g_(motion.g),
         n_(static_cast<std::size_t>(motion.f.states())),
         ranges_(start.begin() + motion.f.states(), start.end()),
@@ -225,13 +225,19 @@ class TaylorRun {
   /// Below zero a watched function may be by what was left of it at the last turn, from which it rises.
   std::vector<Real> lowestAllowed(const Real& t) {
     std::vector<Real> lowest;
-    if (sides_.count() > 0) lowest = sides_.piece().watched(t, x_);
+    if (sides_.count() > 0) lowest = watched(t, x_);
     for (Real& value : lowest) value = std::min(value, Real(0.0));
     return lowest;
   }
 
+  std::vector<Real> watched(const Real& t, const std::vector<Real>& x) {
+    std::vector<Real> values(sides_.count(), Real(0.0));
+    sides_.watch(t, x, values);
+    return values;
+  }
+
   std::vector<char> fallenAfter(const Real& t, const std::vector<Real>& x) {
-    const std::vector<Real> values = sides_.piece().watched(t, x);
+    const std::vector<Real> values = watched(t, x);
     std::vector<char> fallen;
     for (std::size_t k = 0; k < values.size(); ++k) fallen.push_back(static_cast<char>(values[k] < lowest_[k]));
     return fallen;
@@ -241,7 +247,7 @@ class TaylorRun {
   /// A jump between its sides leaves them, if at all, where the step begins: on the piece that follows all is analytic.
   bool leavesSurface(const Real& t, const Real& h) {
     std::vector<char> isBetween;
-    for (const Side side : sides_.sides()) isBetween.push_back(static_cast<char>(side == Side::between));
+    for (std::size_t k = 0; k < sides_.count(); ++k) isBetween.push_back(static_cast<char>(sides_.isFree(k)));
     if (!hasFallen(isBetween)) return false;
     lowest_ = lowestAllowed(t);
     for (const Real& probe : probesOf(t, h)) {

@@ -7,6 +7,7 @@
 // complementarity), which is the case of dry friction.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -15,6 +16,7 @@
 #include <span>
 #include <vector>
 
+#include "analyses/samples/influence_of_signs.hpp"
 #include "scalars/evaluation/evaluator.hpp"
 #include "scalars/program/sides.hpp"
 
@@ -47,16 +49,27 @@ class SidesOfMotion {
     Evaluator<Real> rates, watched, judged;
   };
 
-  explicit SidesOfMotion(const Program& f) : f_(f), count_(jumpsOf(f).size()) {}
+  SidesOfMotion(const Program& f, double horizon) : f_(f), horizon_(horizon), count_(jumpsOf(f).size()) {
+    if (count_ > 0) influence_.emplace(f);
+  }
 
   /// The number of jumps; without any there are no pieces, and nothing to begin or to turn.
   std::size_t count() const { return count_; }
   const std::vector<Side>& sides() const { return sides_; }
   /// On these sides.
   Piece& piece() { return *piece_; }
+  /// Whether jump k, at its surface, leaves it at once if its argument moves at all.
+  bool isFree(std::size_t k) const { return sides_[k] == Side::between && lift_[k] == 0; }
+
+  /// values: one a jump, below zero where it is not on its side. What is left to others is given some room.
+  void watch(const Real& t, std::span<const Real> x, std::span<Real> values) {
+    piece_->watched(t, x, values);
+    for (std::size_t k = 0; k < count_; ++k) values[k] = values[k] + lift_[k];
+  }
 
   void setParameters(std::span<const Real> p) {
     parameters_.assign(p.begin(), p.end());
+    if (influence_) influence_->setParameters(p);
     for (auto& [sides, piece] : pieces_)
       if (piece) setParametersOf(*piece);
   }
@@ -65,6 +78,8 @@ class SidesOfMotion {
   bool begin(const Real& t, std::span<const Real> x) {
     sides_.assign(count_, Side::between);
     isOnSurface_.assign(count_, 1);
+    isReleased_.assign(count_, 0);
+    lastTurn_ = t;
     Judgement now;
     // A jump's argument may jump with another, hence more than once.
     for (std::size_t pass = 0; pass <= count_; ++pass) {
@@ -89,6 +104,8 @@ class SidesOfMotion {
     if (!judge(sides_, t, x, now) || !judge(sides_, later, xLater, then)) return false;
     std::vector<Side> chosen = sides_;
     for (std::size_t k = 0; k < count_; ++k) {
+      const bool isReleased = (fallen[k] != 0 && sides_[k] == Side::held) || (isReleased_[k] != 0 && t == lastTurn_);
+      isReleased_[k] = isReleased ? 1 : 0;
       isOnSurface_[k] = fallen[k] != 0 || !isSide(sides_[k]) ? 1 : 0;
       if (fallen[k] == 0) continue;
       if (sides_[k] == Side::held)
@@ -99,6 +116,7 @@ class SidesOfMotion {
         chosen[k] = sideBehind(k, now.rate[k], t, x);
     }
     sides_ = std::move(chosen);
+    lastTurn_ = t;
     return agree(t, x, now.u);
   }
 
@@ -169,25 +187,22 @@ class SidesOfMotion {
     const Side side = sides_[k];
     const Real other = rateOn(opposite(side), k, t, x);
     if (!(outwards(side, other) > 0)) return opposite(side);
-    return outwards(side, rate) < 0 ? heldUnlessMarginal(side, rate, other) : side;
-  }
-
-  /// Where the sign that holds a jump is that of its side but for rounding, both agree.
-  static Side heldUnlessMarginal(Side side, const Real& rate, const Real& other) {
-    return isRounding(rate, other) ? side : Side::held;
+    return outwards(side, rate) < 0 ? Side::held : side;
   }
 
   /// Changes sides until all agree with the motion. uBefore: the arguments on the sides before.
   bool agree(const Real& t, std::span<const Real> x, std::span<const Real> uBefore) {
+    influence_->evaluate(t, x, sides_);
     Judgement now;
     for (std::size_t change = 0; change <= 50 * (count_ + 1); ++change) {
+      holdIndependent();
       if (!judge(sides_, t, x, now)) return false;
       std::size_t k = 0;
       Side better = Side::held;
       for (; k < count_; ++k)
         if (better = betterSide(k, now, t, x, uBefore); better != sides_[k]) break;
       if (k == count_) {
-        piece_ = pieceOn(sides_);
+        settle(t, x, now);
         return true;
       }
       sides_[k] = better;
@@ -195,31 +210,66 @@ class SidesOfMotion {
     return false;
   }
 
+  /// Of those that shall be held the first that are independent; the others between.
+  void holdIndependent() {
+    held_.clear();
+    for (std::size_t k = 0; k < count_; ++k) {
+      if (sides_[k] != Side::held) continue;
+      if (influence_->isLeftTo(held_, k))
+        sides_[k] = Side::between;
+      else
+        held_.push_back(k);
+    }
+  }
+
+  bool isLeftToOthers(std::size_t k, const Judgement& now) const {
+    const bool isAway = isOnSurface_[k] == 0 && isSide(sides_[k]) && outwards(sides_[k], now.u[k]) > 0;
+    return sides_[k] != Side::held && !isAway && influence_->isNothing(now.rate[k], k) &&
+           influence_->isLeftTo(held_, k);
+  }
+
+  void settle(const Real& t, std::span<const Real> x, const Judgement& now) {
+    piece_ = pieceOn(sides_);
+    lift_.assign(count_, Real(0.0));
+    std::vector<Real> values(count_, Real(0.0));
+    piece_->watched(t, x, values);
+    for (std::size_t k = 0; k < count_; ++k)
+      if (isLeftToOthers(k, now)) lift_[k] = influence_->small() * influence_->own(k) * Real(horizon_) - values[k];
+  }
+
   Side betterSide(std::size_t k, const Judgement& now, const Real& t, std::span<const Real> x,
                   std::span<const Real> uBefore) {
+    using std::abs;
     const Side side = sides_[k];
-    if (side == Side::held) return heldOrReleased(now.s[k]);
+    if (side == Side::held) {
+      if (isRounding(Real(std::max(Real(abs(now.s[k])), Real(1.0)) - 1), Real(1.0))) return side;
+      isReleased_[k] = 1;
+      return now.s[k] > 0 ? Side::above : Side::below;
+    }
+    if (isLeftToOthers(k, now)) return side;
     if (side == Side::between) return sideOf(now.rate[k]);
     const Real distance = outwards(side, now.u[k]);
     const bool hasJumped = isOnSurface_[k] == 0 && outwards(side, uBefore[k]) > 0 && distance < 0;
     if (hasJumped) return opposite(side);
     if ((isOnSurface_[k] == 0 && distance > 0) || !(outwards(side, now.rate[k]) < 0)) return side;
     const Real other = rateOn(opposite(side), k, t, x);
-    return outwards(side, other) > 0 ? heldUnlessMarginal(side, now.rate[k], other) : opposite(side);
-  }
-
-  /// Jumps of one surface cannot be held all at once: one of them is taken for above, until it is found to be below.
-  static Side heldOrReleased(const Real& s) {
-    return s > 1 ? Side::above : s < -1 ? Side::below : s - s == 0 ? Side::held : Side::above;
+    if (!(outwards(side, other) > 0)) return opposite(side);
+    // At its release the sign of a jump is that of its side: what drives it back is rounding.
+    return isReleased_[k] != 0 && isRounding(now.rate[k], other) ? side : Side::held;
   }
 
   const Program& f_;
+  double horizon_;
   std::size_t count_;
+  std::optional<InfluenceOfSigns<Real>> influence_;
   std::vector<Real> parameters_;
   std::map<std::vector<Side>, std::unique_ptr<Piece>> pieces_;
   Piece* piece_ = nullptr;
   std::vector<Side> sides_;
-  std::vector<char> isOnSurface_;
+  std::vector<char> isOnSurface_, isReleased_;
+  Real lastTurn_{0.0};
+  std::vector<std::size_t> held_;
+  std::vector<Real> lift_;  // of the watched functions: zero but for what is left to others
 };
 
 }  // namespace gamut

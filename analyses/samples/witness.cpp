@@ -30,7 +30,7 @@ struct Witness::Solver : CvodeProblem {
       : motion(m),
         f(m.forSamples()),
         g(m.g),
-        sides(m.forSamples()),
+        sides(m.forSamples(), m.horizon()),
         cells(m.forSamples(), m.horizon()),
         cvode(detail::at(m.f.states()), m.times, method, cancelled) {}
 
@@ -42,9 +42,7 @@ struct Witness::Solver : CvodeProblem {
   }
 
   std::size_t watched() const override { return sides.count(); }
-  void watch(double t, std::span<const double> x, std::span<double> values) override {
-    sides.piece().watched(t, x, values);
-  }
+  void watch(double t, std::span<const double> x, std::span<double> values) override { sides.watch(t, x, values); }
   std::string turn(double t, std::span<const double> x, double later, std::span<const double> xLater,
                    std::span<const char> fallen) override {
     return sides.turn(t, x, later, xLater, fallen) ? "" : heldWhereItJumps;
