@@ -113,7 +113,7 @@ class SidesOfMotion {
       else if (sides_[k] == Side::between)
         chosen[k] = sideOf(then.u[k]);
       else
-        chosen[k] = sideBehind(k, now.rate[k], t, x);
+        chosen[k] = sideBehind(k, std::min(outwards(sides_[k], now.rate[k]), outwards(sides_[k], then.rate[k])), t, x);
     }
     sides_ = std::move(chosen);
     lastTurn_ = t;
@@ -182,12 +182,13 @@ class SidesOfMotion {
     return isRounding(above - below, abs(above) + abs(below)) ? sideOf(above) : Side::held;
   }
 
-  /// Of a jump that came to its surface from its side, at this rate: held if the other side drives it back.
+  /// Of a jump that comes to its surface from its side, at this rate away from it: held if the other side drives it
+  /// back.
   Side sideBehind(std::size_t k, const Real& rate, const Real& t, std::span<const Real> x) {
     const Side side = sides_[k];
     const Real other = rateOn(opposite(side), k, t, x);
     if (!(outwards(side, other) > 0)) return opposite(side);
-    return outwards(side, rate) < 0 ? Side::held : side;
+    return rate < 0 ? Side::held : side;
   }
 
   /// Changes sides until all agree with the motion. uBefore: the arguments on the sides before.
