@@ -3,7 +3,7 @@
 // are the very doubles that the sample's CVODE run used. The equations are checked at sixteen points of each of at
 // least thirty-two steps and in every cell of time (TimeCells), since a series may say nothing of what comes; a narrow
 // change that hangs on the states may be missed by both. Kinks and jumps (abs, sign) end a step where one of these
-// points shows that they were passed.
+// points shows that they were passed; where a motion is held at a jump, the equations are those that hold it.
 // Step size from the last coefficients: À. Jorba & M. Zou, Experimental Mathematics 14 (2005), section 3.2.
 #pragma once
 

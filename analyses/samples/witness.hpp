@@ -1,6 +1,7 @@
 // The independent witness: one motion at a time, integrated by SUNDIALS CVODE (Hindmarsh et al., ACM TOMS 31, 2005) in
 // ordinary double arithmetic. With the validated flow it shares the mechanism and the outputs' Program; its equations
-// are recorded apart (Motion::sampled), and are those of the flow only where that is one form.
+// are recorded apart (Motion::sampled), and are those of the flow only where that is one form. Where they jump, CVODE
+// goes from one smooth piece to the next (SidesOfMotion).
 #pragma once
 
 #include <atomic>

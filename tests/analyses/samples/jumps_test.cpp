@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "analyses/samples/arbiter.hpp"
 #include "analyses/samples/witness.hpp"
 #include "tests/analyses/motions.hpp"
+#include "tests/analyses/whole_ensemble.hpp"
 
 namespace gamut {
 namespace {
@@ -283,6 +285,105 @@ TEST(Jumps, WithoutEndEndTheMotionAndSaySo) {
   const Integration run = Witness(motion).integrate(std::vector{1.0, 0.0}, {}, y);
   EXPECT_THAT(run.why, HasSubstr("again and again"));
   EXPECT_THAT(arbitrate(motion, std::vector{1.0, 0.0}).why, HasSubstr("again and again"));
+}
+
+/// A pulse that CVODE's steps would pass over strikes a mass that friction holds: x'' = p(t) - 0.1 sign v.
+TEST(Jumps, APulseIsMetByAMassAtRest) {
+  const double steepness = 4e3, height = 500;
+  const Motion motion = motionOf(2, 2, 20, [=](auto t, const auto& x, const auto&, auto& dx) {
+    dx[0] = x[1];
+    dx[1] = height * (1.0 - sqr(tanh(steepness * (t - 1.03)))) - 0.1 * sign(x[1]);
+  });
+  const std::vector<double> start(2), y = sampled(motion, start), exact = arbitrated(motion, start);
+  EXPECT_EQ(exact[2 * 10], 0);
+  EXPECT_GT(exact[2 * 11 + 1], 0.2);
+  for (std::size_t i = 0; i < y.size(); ++i) EXPECT_NEAR(y[i], exact[i], 1e-7) << i;
+}
+
+TEST(Jumps, AnOutputAtTheMomentOfAnEventIsThatOfBothPieces) {
+  Motion motion = rubbingMass(1);
+  motion.times = {pi, std::nextafter(pi, 4.0), 2 * pi, 3 * pi};
+  const std::vector<double> y = sampled(motion, {1, 0}), series = integrateByTaylor(motion, std::vector{1.0, 0.0});
+  const std::vector<double> exact{-0.7, -0.7, 0.4, -0.1};
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_NEAR(y[2 * i], exact[i], 1e-8);
+    EXPECT_NEAR(series[2 * i], exact[i], 1e-13);
+    EXPECT_NEAR(y[2 * i + 1], 0, 1e-8);
+  }
+}
+
+TEST(Jumps, AMotionIsCancelledOrLateBetweenThemToo) {
+  const Motion motion = motionOf(2, 1e7, 2, [](auto, const auto& x, const auto&, auto& dx) {
+    dx[0] = x[1];
+    dx[1] = -x[0] - 1e-9 * sign(x[1]);
+  });
+  std::vector<double> y(6);
+  const Integration late = Witness(motion).integrate(std::vector{1.0, 0.0}, {}, y, 0.01);
+  EXPECT_THAT(late.why, HasSubstr("time limit of 0.01 s"));
+  EXPECT_GT(late.reached, 0);
+  std::atomic<bool> cancelled = true;
+  EXPECT_EQ(Witness(motion, Method::adams, &cancelled).integrate(std::vector{1.0, 0.0}, {}, y).why, "cancelled");
+}
+
+/// What a witness knows of other samples' sides does not matter.
+TEST(Jumps, ATrajectoryDoesNotDependOnThoseBefore) {
+  const Motion motion = rubbingMass(1);
+  std::vector<double> alone(motion.times.size() * 2), later = alone;
+  Witness(motion).integrate(std::vector{1.0, 0.0}, {}, alone);
+  Witness witness(motion);
+  for (const double start : {0.05, -3.0, 1.0}) witness.integrate(std::vector{start, 0.0}, {}, later);
+  EXPECT_EQ(alone, later);
+}
+
+/// x'' = -w² x - 0.3 sign x', amplitude and w uncertain: each sample comes to rest elsewhere, at its own time.
+UncertainMotion rubbingOscillator() {
+  UncertainMotion system = oscillator(30, 24);
+  system.motion.f = record(2, 1, [](auto, const auto& x, const auto& p, auto& dx) {
+    dx[0] = x[1];
+    dx[1] = -sqr(p[0]) * x[0] - 0.3 * sign(x[1]);
+  });
+  return system;
+}
+
+double resting(double w, double amplitude) {
+  const double step = 0.6 / (w * w);
+  double x = amplitude;
+  while (std::abs(x) > step / 2) x = x > 0 ? step - x : -step - x;
+  return x;
+}
+
+TEST(Ensemble, OfAMotionThatJumpsIsTheSameWithAnyJobsAndReplayed) {
+  const UncertainMotion system = rubbingOscillator();
+  EnsembleOptions options;
+  options.samples = 100;
+  const WholeEnsemble one = sampleEnsemble(system, options);
+  options.jobs = 3;
+  const WholeEnsemble three = sampleEnsemble(system, options);
+  EXPECT_EQ(one.packWidth, 1u);
+  EXPECT_EQ(one.failures, 0u);
+  EXPECT_EQ(one.data, three.data);
+  EXPECT_EQ(one.error.data, three.error.data);
+  for (const std::size_t i : {0u, 37u, 63u, 64u, 99u, 100u, 104u}) {
+    const SampleBlock again = replaySample(system, options, i);
+    EXPECT_EQ(again.trajectory(0), std::vector(one.trajectory(i).begin(), one.trajectory(i).end())) << i;
+  }
+}
+
+TEST(Ensemble, OfAMotionThatComesToRestMeasuresItsError) {
+  const UncertainMotion system = rubbingOscillator();
+  EnsembleOptions options;
+  options.samples = 100;
+  const WholeEnsemble e = sampleEnsemble(system, options);
+  double greatest = 0;
+  for (std::size_t i = 0; i < e.size(); ++i) {
+    const double rest = resting(e.valuesOf(i)[0], e.valuesOf(i)[1]);
+    greatest = std::max(greatest, std::abs(e(i, 24, 0) - rest));
+    EXPECT_NEAR(e(i, 24, 1), 0, 1e-12);
+  }
+  EXPECT_LT(greatest, 1e-7);
+  EXPECT_GT(greatest, 1e-13);
+  EXPECT_LT(e.error(24, 0), 1e-7);
+  EXPECT_GT(e.error(24, 0), greatest / 30);
 }
 
 }  // namespace
