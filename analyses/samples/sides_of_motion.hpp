@@ -55,7 +55,6 @@ class SidesOfMotion {
 
   /// The number of jumps; without any there are no pieces, and nothing to begin or to turn.
   std::size_t count() const { return count_; }
-  const std::vector<Side>& sides() const { return sides_; }
   /// On these sides.
   Piece& piece() { return *piece_; }
   /// Whether jump k, at its surface, leaves it at once if its argument moves at all.
