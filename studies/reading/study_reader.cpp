@@ -256,10 +256,12 @@ class StudyReader {
     const TomlSection section(source_, table, "interval",
                               {"tightness", "tolerance", "order", "degree", "split", "max_pieces"});
     FlowOptions& flow = study_.flow;
-    flow.tightness = section.positive("tightness", flow.tightness);
-    if (!(flow.tightness > 1))
-      source_.fail(*section.find("tightness"), "interval.tightness is not above 1",
-                   "the overestimation that is aimed at, such as 1.02");
+    if (const toml::node* tightness = section.find("tightness")) {
+      flow.tightness = nearest(source_.asAmount(*tightness, "interval.tightness", Dimension{}));
+      if (!(flow.tightness > 1))
+        source_.fail(*tightness, "interval.tightness is not above 1",
+                     "the overestimation that is aimed at, such as 1.02");
+    }
     flow.tolerance = section.positive("tolerance", flow.tolerance);
     if (flow.tolerance > 1) source_.fail(*section.find("tolerance"), "interval.tolerance is above 1", "a small number");
     flow.order = integerOrAuto(section, "order", flow.order, 4, 30);
