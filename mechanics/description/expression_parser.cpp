@@ -2,13 +2,12 @@
 #include "mechanics/description/expression.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
 #include <optional>
 #include <utility>
-
-#include "mechanics/description/names.hpp"
 
 namespace gamut {
 
@@ -298,10 +297,10 @@ class ExpressionParser {
   }
 
   [[noreturn]] static void refuseFunction(const std::string& word, int at) {
-    std::vector<std::string> known;
-    for (const Function& f : functions) known.emplace_back(f.name);
+    std::vector<std::string_view> known;
+    for (const Function& f : functions) known.push_back(f.name);
     throw UnitError(
-        fmt::format("unknown function '{}' at column {}; expected {}", word, at, expectedName(word, known)));
+        fmt::format("unknown function '{}' at column {}; expected one of: {}", word, at, fmt::join(known, ", ")));
   }
 
   void readCall(const Function& function, int at) {

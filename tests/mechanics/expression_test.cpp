@@ -181,7 +181,9 @@ TEST(Expression, WhatIsNoFormulaIsRefusedWithItsPlace) {
       {"2 m k", "no operator before 'k' at column 5"},
       {"2 m(3)", "unexpected '(' at column 4"},
       {"(a) b", "no operator before 'b'"},
-      {"sine(2)", "unknown function 'sine' at column 1; expected 'sin'"},
+      {"sine(2)",
+       "unknown function 'sine' at column 1; expected one of: sqrt, exp, log, sin, cos, tan, asin, acos, atan, sinh, "
+       "cosh, tanh, abs, sign, where, atan2, hypot, min, max"},
       {"sin(1, 2)", "',' at column 6; expected ')': sin takes one number"},
       {"atan2(1)", "')' at column 8; expected ',': atan2 takes two numbers"},
       {"where(1, 2)", "')' at column 11; expected ',': where takes a condition and two numbers"},
