@@ -322,9 +322,11 @@ class ExpressionParser {
     hasNumber_ = true;
   }
 
-  /// The rest of `x > y` or `x < y`, if it is one: x - y, or y - x. (What holds at x = y is between both cases.)
+  /// The rest of `x > y` or `x < y`, if it is one: x - y, or y - x. `>=` is `>` and `<=` is `<`: at x = y no case holds
+  /// alone, and the value is halfway between both.
   void readComparison() {
     const int at = column();
+    if (here() == '=' || here() == '!') fail(fmt::format("'{}'", character()), "a comparison by >, >=, < or <=");
     const bool isLess = take("<");
     if (!isLess && !take(">")) return;
     take("=");
