@@ -125,6 +125,13 @@ std::string listText(const Group& group) {
   return fmt::format("    {} of {}\n", group.size, fmt::join(names, ", "));
 }
 
+/// Distribution and membership, or what stands in the place of both.
+std::string shapesText(const Results& results, const UncertainInfo& uncertain) {
+  const std::string distribution = shapeText(results, uncertain, "distribution"),
+                    membership = shapeText(results, uncertain, "membership");
+  return distribution == membership ? distribution : distribution + ", " + membership;
+}
+
 /// What was spent in all, and of how much.
 std::string spentText(const Results& results) {
   if (!std::isfinite(results.limits.time)) return {};
@@ -212,9 +219,8 @@ std::string infoText(const Results& results) {
     text += fmt::format("  {} output times from {} s to {} s\n", results.time.size(), results.time.front(),
                         results.time.back());
   for (const UncertainInfo& u : results.uncertain)
-    text += fmt::format("  uncertain: {} ({}) in {} {}, nominal {:.12g}, {}, {}\n", u.name, u.quantity,
-                        rangeText(u.lower, u.upper, 12), u.unit, u.nominal, shapeText(results, u, "distribution"),
-                        shapeText(results, u, "membership"));
+    text += fmt::format("  uncertain: {} ({}) in {} {}, nominal {:.12g}, {}\n", u.name, u.quantity,
+                        rangeText(u.lower, u.upper, 12), u.unit, u.nominal, shapesText(results, u));
   for (const OutputInfo& o : results.outputs)
     text += fmt::format("  output: {} ({}), {}\n", o.name, o.quantity, o.unit);
   for (const Answer* answer : results.answers()) {

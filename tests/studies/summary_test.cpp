@@ -167,6 +167,15 @@ TEST(InfoText, TellsTheNumbersOfDistributionsAndMembershipFunctions) {
   EXPECT_THAT(infoText(results), HasSubstr(", normal (mean 1, deviation 0.05), triangular (on [0.95, 1.1], apex 1)\n"));
 }
 
+TEST(InfoText, SaysOnceHowAQuantityVaries) {
+  Results results = sampleResults();
+  results.uncertain[0].distribution = results.uncertain[0].membership = "varies freely";
+  results.shapes.clear();
+  const std::string text = infoText(results);
+  EXPECT_THAT(text, HasSubstr(", varies freely\n"));
+  EXPECT_EQ(text.find("varies"), text.rfind("varies"));
+}
+
 TEST(KeptSamples, SayOfHowMany) {
   KeptSamples kept;
   EXPECT_EQ(kept.text(), "values of all, motions of all");
