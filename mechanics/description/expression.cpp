@@ -28,12 +28,8 @@ namespace {
 }
 
 Dimension scaled(const Dimension& d, int times) {
-  return {d.mass * times, d.length * times, d.time * times, d.angle * times, d.memory * times};
-}
-
-Dimension plus(const Dimension& a, const Dimension& b, int sign) {
-  return {a.mass + sign * b.mass, a.length + sign * b.length, a.time + sign * b.time, a.angle + sign * b.angle,
-          a.memory + sign * b.memory};
+  return {d.mass * times,  d.length * times, d.time * times,
+          d.angle * times, d.memory * times, d.isOfMoment && times > 0};
 }
 
 }  // namespace
@@ -56,7 +52,11 @@ Dimension Expression::dimension(const DimensionOf& dimensionOf) const {
     const auto mustBeAlike = [&](const char* does, const char* joins) {
       if (!isAlike(a, b))
         refuse(fmt::format("{} {} {} {}", does, unitOf(b), joins, unitOf(a)), term.column, "quantities of one kind");
-      if (a.angle == 0) a.angle = b.angle;
+      if (a.mass != 0)
+        a.angle = std::min(a.angle, b.angle);  // N m + N m rad is N m, N m/rad + N m is N m/rad
+      else if (a.angle == 0)
+        a.angle = b.angle;
+      a.isOfMoment = a.isOfMoment || b.isOfMoment;
     };
     const auto mustBePlain = [&](const Dimension& d, const char* what) {
       if (!isAlike(d, {}))
@@ -79,10 +79,10 @@ Dimension Expression::dimension(const DimensionOf& dimensionOf) const {
         a = {0, 0, 0, 1};
         break;
       case Operation::multiply:
-        a = plus(a, b, 1);
+        a = joined(a, b, 1);
         break;
       case Operation::divide:
-        a = plus(a, b, -1);
+        a = joined(a, b, -1);
         break;
       case Operation::power:
         a = scaled(b, term.index);
@@ -90,7 +90,7 @@ Dimension Expression::dimension(const DimensionOf& dimensionOf) const {
       case Operation::sqrt:
         if (b.mass % 2 != 0 || b.length % 2 != 0 || b.time % 2 != 0 || b.memory % 2 != 0)
           refuse(fmt::format("the square root of {}", unitOf(b)), term.column, "a unit that is a square, such as m^2");
-        a = {b.mass / 2, b.length / 2, b.time / 2, b.angle / 2, b.memory / 2};
+        a = {b.mass / 2, b.length / 2, b.time / 2, b.angle / 2, b.memory / 2, b.isOfMoment};
         break;
       case Operation::pow:
         mustBePlain(a, "a power of");

@@ -23,7 +23,7 @@ struct Unit {
 
 constexpr Dimension none{};
 constexpr Dimension angle{0, 0, 0, 1}, perSecond{0, 0, -1, 1}, newton{1, 1, -2, 0}, joule{1, 2, -2, 0},
-    memory{0, 0, 0, 0, 1};
+    metre{0, 1, 0, 0}, memory{0, 0, 0, 0, 1};
 
 constexpr std::array units{
     Unit{"rad", "1", 0, angle},
@@ -60,6 +60,12 @@ struct NamedUnit {
   std::string_view name;
   Dimension dimension;
 };
+constexpr std::array namedUnitsOfMoments{
+    NamedUnit{"N m", joule},
+    NamedUnit{"N m/s", {1, 2, -3, 0}},
+    NamedUnit{"N m rad", {1, 2, -2, 1}},
+    NamedUnit{"N m rad/s", {1, 2, -3, 1}},
+};
 constexpr std::array namedUnits{
     NamedUnit{"N", newton},
     NamedUnit{"J", joule},
@@ -82,15 +88,14 @@ Amount checked(Amount amount) {
   return amount;
 }
 
-/// Dimensions and flags of a · b^sign.
+/// Dimensions and flags of a · b^sign. Who writes N m means a moment.
 Amount joined(const Amount& a, const Amount& b, int sign) {
   Amount result = a;
   result.piPower += sign * b.piPower;
-  result.dimension.mass += sign * b.dimension.mass;
-  result.dimension.length += sign * b.dimension.length;
-  result.dimension.time += sign * b.dimension.time;
-  result.dimension.angle += sign * b.dimension.angle;
-  result.dimension.memory += sign * b.dimension.memory;
+  result.dimension = joined(a.dimension, b.dimension, sign);
+  const bool isLever =
+      (a.dimension == newton && b.dimension == metre) || (a.dimension == metre && b.dimension == newton);
+  if (isLever && sign > 0) result.dimension.isOfMoment = true;
   result.hasUnit = a.hasUnit || b.hasUnit;
   result.isRelative = a.isRelative || b.isRelative;
   return result;
@@ -131,7 +136,16 @@ std::string productOf(const std::vector<std::pair<std::string, int>>& powers) {
 
 }  // namespace
 
+Dimension joined(const Dimension& a, const Dimension& b, int sign) {
+  Dimension result{a.mass + sign * b.mass, a.length + sign * b.length, a.time + sign * b.time, a.angle + sign * b.angle,
+                   a.memory + sign * b.memory};
+  result.isOfMoment = (a.isOfMoment || b.isOfMoment) && result.mass != 0 && result.length == 2 * result.mass;
+  return result;
+}
+
 std::string unitOf(const Dimension& dimension) {
+  for (const NamedUnit& named : namedUnitsOfMoments)
+    if (dimension.isOfMoment && named.dimension == dimension) return std::string(named.name);
   for (const NamedUnit& named : namedUnits)
     if (named.dimension == dimension) return std::string(named.name);
   return productOf({{"kg", dimension.mass},

@@ -17,10 +17,17 @@ namespace gamut {
 /// Powers of kilogram, metre, second, radian and gigabyte.
 struct Dimension {
   int mass = 0, length = 0, time = 0, angle = 0, memory = 0;
-  friend bool operator==(const Dimension&, const Dimension&) = default;
+  bool isOfMoment = false;  ///< N m is meant and not J, as far as it is known; for display, no part of the kind
+  friend constexpr bool operator==(const Dimension& a, const Dimension& b) {
+    return a.mass == b.mass && a.length == b.length && a.time == b.time && a.angle == b.angle && a.memory == b.memory;
+  }
 };
 
+/// The dimension of a · b^sign. What is made of a moment is of a moment where that can be: per radian, times seconds.
+Dimension joined(const Dimension& a, const Dimension& b, int sign);
+
 /// The dimension's SI unit in words, e.g. "kg m^2", "rad/s", "N/m" where it has a name of its own; "1" without one.
+/// "N m" of what is known to be a moment, else "J".
 std::string unitOf(const Dimension& dimension);
 
 /// The dimension of a unit: "kg m^2", "N/m", "rad/s"; "" and "1" have none. Throws UnitError.

@@ -110,6 +110,21 @@ const std::map<std::string, std::string> units = {{"rod.length", "m"}, {"mass", 
 
 Dimension unitFor(const std::string& name) { return dimensionOf(units.at(name)); }
 
+TEST(Expression, AMomentIsKnownByWhatItIsMadeOf) {
+  const std::map<std::string, std::string> of = {{"M", "N m"},      {"k", "N m/rad"},   {"angle", "rad"},
+                                                 {"rate", "rad/s"}, {"c", "N m s/rad"}, {"F", "N"},
+                                                 {"lever", "m"},    {"E", "J"},         {"t", "s"}};
+  const auto unit = [&](const char* text) {
+    return unitOf(Expression::parse(text).dimension([&](const std::string& name) { return dimensionOf(of.at(name)); }));
+  };
+  for (const char* text : {"M", "-2*M", "k*angle", "-k*angle - c*rate", "max(-M, min(M, -30 N m*angle))", "F*lever + M",
+                           "where(angle > 0, M, 0 J)", "sqrt(M^2 + (k*angle)^2)", "F/(2 N)*M"})
+    EXPECT_EQ(unit(text), "N m") << text;
+  for (const char* text : {"E", "F*lever", "E + 2*E", "E*(M/M)", "E*M^0"}) EXPECT_EQ(unit(text), "J") << text;
+  EXPECT_EQ(unit("M/t"), "N m/s");
+  EXPECT_EQ(unit("E/t"), "W");
+}
+
 TEST(Expression, UnitsAreCarriedThrough) {
   const struct {
     const char *text, *unit;

@@ -64,6 +64,17 @@ TEST(Amount, UnitsAreConvertedExactly) {
   expectEqual(enclose(speed), enclose(parseAmount("pi")));
 }
 
+TEST(Amount, AMomentIsShownInNewtonMetresAndAnEnergyInJoules) {
+  const auto unit = [](const char* text) { return unitOf(parseAmount(text).dimension); };
+  for (const char* text : {"4 N m", "2 m N", "3 kN cm", "5 N m/rad * 1 rad", "8 N m s/rad * 2 rad/s"})
+    EXPECT_EQ(unit(text), "N m") << text;
+  for (const char* text : {"4 J", "2 kJ", "3 kg m^2/s^2", "3 N/m m^2", "2 W s"}) EXPECT_EQ(unit(text), "J") << text;
+  EXPECT_EQ(unit("4 N m/s"), "N m/s");
+  EXPECT_EQ(unit("4 J/s"), "W");
+  EXPECT_EQ(unit("30 N m * 1 rad"), "N m rad");
+  EXPECT_TRUE(dimensionOf("N m") == dimensionOf("J"));
+}
+
 TEST(Amount, ADivisionIsByTheNextFactorAlone) {
   EXPECT_TRUE(parseAmount("1/2 m").value == mpq_class(1, 2));
   EXPECT_EQ(unitOf(parseAmount("1 m/s s").dimension), "m");
