@@ -70,6 +70,7 @@ constexpr std::array namedUnits{
     NamedUnit{"N", newton},
     NamedUnit{"J", joule},
     NamedUnit{"W", {1, 2, -3, 0}},
+    NamedUnit{"N/s", {1, 1, -3, 0}},
     NamedUnit{"N/m", {1, 0, -2, 0}},
     NamedUnit{"N s/m", {1, 0, -1, 0}},
     NamedUnit{"N m/rad", {1, 2, -2, -1}},
@@ -153,6 +154,12 @@ std::string unitOf(const Dimension& dimension) {
                     {"rad", dimension.angle},
                     {"s", dimension.time},
                     {"GB", dimension.memory}});
+}
+
+std::string rateUnitOf(std::string_view unit) {
+  Dimension dimension = dimensionOf(unit);
+  --dimension.time;
+  return dimension.mass == 0 ? unitOf(dimension) : std::string(unit) + "/s";
 }
 
 bool isAlike(Dimension a, const Dimension& b) {

@@ -33,6 +33,9 @@ std::string unitOf(const Dimension& dimension);
 /// The dimension of a unit: "kg m^2", "N/m", "rad/s"; "" and "1" have none. Throws UnitError.
 Dimension dimensionOf(std::string_view unit);
 
+/// Of what changes by so much in a second: "N/s", "m/s^3".
+std::string rateUnitOf(std::string_view unit);
+
 /// Whether they differ in radians at most.
 bool isAlike(Dimension a, const Dimension& b);
 

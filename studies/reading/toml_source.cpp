@@ -186,20 +186,21 @@ Expression TomlSource::asExpression(const toml::node& node, const std::string& w
   }
 }
 
-Amount TomlSource::asAmount(const toml::node& node, const std::string& what, const Dimension& dimension) const {
-  return checked(node, what, asAnyAmount(node, what), dimension);
+Amount TomlSource::asAmount(const toml::node& node, const std::string& what, const Dimension& dimension,
+                            const std::string& unit) const {
+  return checked(node, what, asAnyAmount(node, what), dimension, unit);
 }
 
 Amount TomlSource::readAmount(const toml::node& node, const std::string& what, const std::string& text,
-                              const Dimension& dimension) const {
-  return checked(node, what, readAnyAmount(node, what, text), dimension);
+                              const Dimension& dimension, const std::string& unit) const {
+  return checked(node, what, readAnyAmount(node, what, text), dimension, unit);
 }
 
-Amount TomlSource::checked(const toml::node& node, const std::string& what, Amount amount,
-                           const Dimension& dimension) const {
-  const std::string unit = unitOf(dimension);
+Amount TomlSource::checked(const toml::node& node, const std::string& what, Amount amount, const Dimension& dimension,
+                           const std::string& unit) const {
+  const std::string wanted = unit.empty() ? unitOf(dimension) : unit;
   const std::string expected =
-      unit == "1" ? "a number without unit" : fmt::format("a number in {}, or with a unit of that kind", unit);
+      wanted == "1" ? "a number without unit" : fmt::format("a number in {}, or with a unit of that kind", wanted);
   if (amount.isRelative && !(dimension == Dimension{})) fail(node, what + " is written in percent", expected);
   if (amount.hasUnit && !isCompatible(amount.dimension, dimension))
     fail(node, fmt::format("{} is written in a unit of the kind {}", what, unitOf(amount.dimension)), expected);

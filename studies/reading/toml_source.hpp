@@ -43,13 +43,14 @@ class TomlSource {
   std::int64_t asInteger(const toml::node& node, const std::string& what, std::int64_t least, std::int64_t most) const;
   const toml::table& asTable(const toml::node& node, const std::string& what) const;
   const toml::array& asArray(const toml::node& node, const std::string& what) const;
-  /// A number in SI units or a string with a unit of the dimension.
-  Amount asAmount(const toml::node& node, const std::string& what, const Dimension& dimension) const;
+  /// A number in SI units or a string with a unit of the dimension, which messages call `unit` if that is not empty.
+  Amount asAmount(const toml::node& node, const std::string& what, const Dimension& dimension,
+                  const std::string& unit = "") const;
   /// A number or string whose dimension is not checked.
   Amount asAnyAmount(const toml::node& node, const std::string& what) const;
   /// As asAmount and asAnyAmount, for `text` that was found at `node`.
   Amount readAmount(const toml::node& node, const std::string& what, const std::string& text,
-                    const Dimension& dimension) const;
+                    const Dimension& dimension, const std::string& unit = "") const;
   Expression asExpression(const toml::node& node, const std::string& what) const;
   Amount readAnyAmount(const toml::node& node, const std::string& what, const std::string& text) const;
   /// One of the words; a near miss is named.
@@ -64,7 +65,8 @@ class TomlSource {
   std::size_t lineOf(std::size_t place) const;
   std::string placed(const toml::source_position& at, const std::string& text) const;
   std::string tokenAt(const toml::source_position& at) const;
-  Amount checked(const toml::node& node, const std::string& what, Amount amount, const Dimension& dimension) const;
+  Amount checked(const toml::node& node, const std::string& what, Amount amount, const Dimension& dimension,
+                 const std::string& unit) const;
 
   std::string text_, name_;
   std::vector<std::size_t> lineStarts_;

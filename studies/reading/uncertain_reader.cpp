@@ -312,13 +312,13 @@ class UncertainReader {
     const Interval& range = result.uncertain.range;
     result.uncertain.membership = Membership::trapezoidal(range.lower(), range.lower(), range.upper(), range.upper());
     if (rate == nullptr) return;
-    Dimension dimension = dimensionOf(result.unit);
-    --dimension.time;
+    const std::string unit = rateUnitOf(result.unit);
+    const Dimension dimension = dimensionOf(unit);
     std::string text = rate->is_string() ? source_.asText(*rate, "uncertain.rate") : "";
     for (const std::string_view sign : signs)
       if (text.starts_with(sign)) text.erase(0, sign.size());
-    result.rate = enclose(text.empty() ? source_.asAmount(*rate, "uncertain.rate", dimension)
-                                       : source_.readAmount(*rate, "uncertain.rate", text, dimension))
+    result.rate = enclose(text.empty() ? source_.asAmount(*rate, "uncertain.rate", dimension, unit)
+                                       : source_.readAmount(*rate, "uncertain.rate", text, dimension, unit))
                       .upper();
     if (!(result.rate > 0)) source_.fail(*rate, "uncertain.rate is not positive", "the most it changes by in a second");
   }

@@ -38,8 +38,9 @@ void describeOrigin(Run& run) {
                                 std::string(u.distribution.name()), std::string(u.membership.name())});
     if (q.varies) {
       UncertainInfo& info = origin.uncertain.back();
-      info.distribution = info.membership =
-          std::isfinite(q.rate) ? fmt::format("varies by {:.6g} {}/s at most", q.rate, q.unit) : "varies freely";
+      info.distribution = info.membership = std::isfinite(q.rate)
+                                                ? fmt::format("varies by {:.6g} {} at most", q.rate, rateUnitOf(q.unit))
+                                                : "varies freely";
       continue;
     }
     const auto add = [&](const char* shape, const std::vector<ShapeNumber>& numbers) {

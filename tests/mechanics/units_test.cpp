@@ -75,6 +75,19 @@ TEST(Amount, AMomentIsShownInNewtonMetresAndAnEnergyInJoules) {
   EXPECT_TRUE(dimensionOf("N m") == dimensionOf("J"));
 }
 
+TEST(Amount, ARateIsShownInTheUnitPerSecond) {
+  const struct {
+    const char *unit, *rate;
+  } cases[] = {{"N", "N/s"},           {"N m", "N m/s"}, {"N/m", "N/m/s"}, {"J", "J/s"},      {"kg", "kg/s"},
+               {"kg m^2", "kg m^2/s"}, {"m", "m/s"},     {"rad", "rad/s"}, {"1", "1/s"},      {"", "1/s"},
+               {"rad/s", "rad/s^2"},   {"1/s", "1/s^2"}, {"s", "1"},       {"m/s^2", "m/s^3"}};
+  for (const auto& c : cases) {
+    EXPECT_EQ(rateUnitOf(c.unit), c.rate);
+    EXPECT_TRUE(joined(dimensionOf(c.unit), dimensionOf("s"), -1) == dimensionOf(c.rate)) << c.unit;
+  }
+  EXPECT_EQ(unitOf(parseAmount("2 N/s").dimension), "N/s");
+}
+
 TEST(Amount, ADivisionIsByTheNextFactorAlone) {
   EXPECT_TRUE(parseAmount("1/2 m").value == mpq_class(1, 2));
   EXPECT_EQ(unitOf(parseAmount("1 m/s s").dimension), "m");

@@ -797,6 +797,11 @@ constexpr BadStudy badStudies[] = {
      "\"triangular\" }",
      "quantity = \"rod.length\"\ninterval = \"± 1 %\"\nrate = 1\nvaries = \"freely\"",
      "s.toml:32:8: what varies freely has no uncertain.rate; expected one of the two"},
+    {"[[uncertain]]",
+     "[[mechanism.element]]\ntype = \"force\"\nname = \"wind\"\nat = \"tip\"\nforce = [0, \"1 N\", 0]\n[[uncertain]]\n"
+     "quantity = \"wind.force.y\"\ninterval = \"± 1 N\"\nrate = \"± 2 N\"\n[[uncertain]]",
+     "s.toml:36:8: uncertain.rate is written in a unit of the kind N; expected a number in N/s, or with a unit of that "
+     "kind"},
     {"interval = \"± 1 %\"", "interval = \"± 0 %\"",
      "s.toml:31:12: uncertain.interval has no positive deviation; expected a deviation above 0"},
     {"interval = \"± 1 %\"", "interval = [0.6, 0.4]",
