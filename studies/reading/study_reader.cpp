@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <initializer_list>
 #include <iterator>
 #include <limits>
 #include <map>
 #include <optional>
+#include <string_view>
 
 #include "mechanics/assembly.hpp"
 #include "mechanics/model.hpp"
@@ -79,12 +81,17 @@ class StudyReader {
     if (isMotion) {
       readTimes(section);
     } else {
-      for (const char* key : {"horizon", "output_step", "output_times"})
-        if (const toml::node* node = section.find(key))
-          source_.fail(*node, fmt::format("{} has no meaning in kinematics", section.nameOf(key)), "no such key");
+      refuse(section, {"horizon", "output_step", "output_times"});
       study_.motion.times = {0.0};
     }
     readCompare(section);
+  }
+
+  /// What only a motion has.
+  void refuse(const TomlSection& section, std::initializer_list<std::string_view> keys) const {
+    for (const std::string_view key : keys)
+      if (const toml::node* node = section.find(key))
+        source_.fail(*node, fmt::format("{} has no meaning in kinematics", section.nameOf(key)), "no such key");
   }
 
   void readCompare(const TomlSection& section) {
@@ -255,6 +262,8 @@ class StudyReader {
   void readInterval(const toml::table& table) {
     const TomlSection section(source_, table, "interval",
                               {"tightness", "tolerance", "order", "degree", "split", "max_pieces"});
+    if (study_.analysis == Study::Analysis::kinematics)
+      refuse(section, {"tightness", "tolerance", "order", "split", "max_pieces"});
     FlowOptions& flow = study_.flow;
     if (const toml::node* tightness = section.find("tightness")) {
       flow.tightness = nearest(source_.asAmount(*tightness, "interval.tightness", Dimension{}));

@@ -913,6 +913,18 @@ constexpr BadStudy badStudies[] = {
     {"[stochastic]", "[[stochastic]]", "s.toml:39:1: stochastic is a list; expected a table"},
 };
 
+TEST(StudyReader, RefusesInKinematicsWhatOnlyAMotionHas) {
+  std::string text = sampleStudyWith("dynamics", "kinematics");
+  text.erase(text.find("horizon"), text.find("compare") - text.find("horizon"));
+  for (const char* key : {"tightness = 1.1", "tolerance = 1e-9", "order = 12", "split = true", "max_pieces = 5"}) {
+    const std::string name(key, std::string_view(key).find(' '));
+    EXPECT_EQ(messageOf(text + "[interval]\n" + key + "\n"), "s.toml:42:" + std::to_string(name.size() + 4) +
+                                                                 ": interval." + name +
+                                                                 " has no meaning in kinematics; expected no such key");
+  }
+  EXPECT_EQ(messageOf(text + "[interval]\ndegree = 3\n"), "it was read");
+}
+
 INSTANTIATE_TEST_SUITE_P(StudyReader, BadStudyFile, ::testing::ValuesIn(badStudies));
 
 }  // namespace
