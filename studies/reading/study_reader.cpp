@@ -336,6 +336,22 @@ class StudyReader {
     study_.limits = {limit("time", seconds, 1), limit("memory", gigabytes, gigabyte),
                      limit("enclosure_time", seconds, 1), limit("enclosure_memory", gigabytes, gigabyte),
                      limit("sample_time", seconds, 1)};
+    const StatedLimits& limits = study_.limits;
+    if (limits.enclosureTime.value_or(0) > limits.resolved().time)
+      refusePart(section, "enclosure_time", "time", fmt::format("{:.12g} s", *limits.enclosureTime),
+                 fmt::format("{:.12g} s", limits.resolved().time));
+    if (limits.memory && limits.enclosureMemory.value_or(0) > *limits.memory)
+      refusePart(section, "enclosure_memory", "memory", fmt::format("{:.12g} GB", *limits.enclosureMemory / gigabyte),
+                 fmt::format("{:.12g} GB", *limits.memory / gigabyte));
+  }
+
+  /// The enclosure cannot have more than the whole run.
+  [[noreturn]] void refusePart(const TomlSection& section, std::string_view part, std::string_view whole,
+                               const std::string& ofPart, const std::string& ofWhole) const {
+    source_.fail(*section.find(part),
+                 fmt::format("{} is {}, more than {}, which is {}{}", section.nameOf(part), ofPart,
+                             section.nameOf(whole), ofWhole, section.find(whole) == nullptr ? " unless given" : ""),
+                 fmt::format("at most {}, or a greater {}", ofWhole, section.nameOf(whole)));
   }
 
   TomlSource source_;

@@ -226,6 +226,11 @@ TEST(StudyReader, TakesLimitsInSecondsAndGigabytes) {
   EXPECT_EQ(defaults.time, 1800);
   EXPECT_EQ(defaults.memory, 0.75 * memoryPresent());
   EXPECT_EQ(defaults.sampleTime, 18);
+  const StatedLimits all =
+      readStudyText(sampleStudyWith("[stochastic]", "[limits]\ntime = 60\nenclosure_time = \"1 min\"\n[stochastic]"),
+                    "s.toml")
+          .limits;
+  EXPECT_EQ(all.resolved().enclosureTime, 60);
 }
 
 TEST(StudyReader, TakesStorageInGigabytesOrWithAUnit) {
@@ -910,6 +915,16 @@ constexpr BadStudy badStudies[] = {
      "s.toml:44:13: interval.tightness is not above 1; expected the overestimation that is aimed at, such as 1.02"},
     {"seed = 7", "seed = 7\n[interval]\ntolerance = \"1 s\"",
      "s.toml:44:13: interval.tolerance is written in a unit of the kind s; expected a number without unit"},
+    {"[stochastic]", "[limits]\ntime = 60\nenclosure_time = \"2 min\"\n[stochastic]",
+     "s.toml:41:18: limits.enclosure_time is 120 s, more than limits.time, which is 60 s; expected at most 60 s, or a "
+     "greater limits.time"},
+    {"[stochastic]", "[limits]\nenclosure_time = \"1 h\"\n[stochastic]",
+     "s.toml:40:18: limits.enclosure_time is 3600 s, more than limits.time, which is 1800 s unless given; expected at "
+     "most 1800 s, or a greater limits.time"},
+    {"[stochastic]", "[limits]\nenclosure_memory = 2\nmemory = \"500 MB\"\n[stochastic]",
+     "s.toml:40:20: limits.enclosure_memory is 2 GB, more than limits.memory, which is 0.5 GB; expected at most 0.5 "
+     "GB, "
+     "or a greater limits.memory"},
     {"[stochastic]", "[[stochastic]]", "s.toml:39:1: stochastic is a list; expected a table"},
 };
 
