@@ -11,9 +11,11 @@
 #include <map>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 #include "mechanics/assembly.hpp"
 #include "mechanics/model.hpp"
+#include "scalars/recorded.hpp"
 #include "studies/printable.hpp"
 #include "studies/problem.hpp"
 #include "studies/readable.hpp"
@@ -192,6 +194,42 @@ class StudyReader {
     }
   }
 
+  /// Of a number in recorded equations: the quantities that are open have these values, all others are constant.
+  Recorded valueOf(const Expression& number, const std::vector<std::string>& open,
+                   const std::vector<Recorded>& values) const {
+    return number.evaluate<Recorded>([&](const std::string& name) -> Recorded {
+      const auto found = std::ranges::find(open, name);
+      if (found != open.end()) return values[static_cast<std::size_t>(found - open.begin())];
+      const std::vector<Mechanism::Derived>& derived = study_.mechanism.derived();
+      const auto formula = std::ranges::find(derived, name, &Mechanism::Derived::name);
+      return formula != derived.end() ? valueOf(formula->formula, open, values)
+                                      : constant<Recorded>(study_.mechanism.nominal(name));
+    });
+  }
+
+  /// Throws StudyError at the first number of the mechanism that has no value, as one that is divided by 0.
+  void refuseNumberWithoutValue() const {
+    std::vector<std::string> open = study_.mechanism.outputQuantities();
+    open.emplace_back("t");
+    for (const UncertainQuantity& uncertain : study_.uncertain) open.push_back(uncertain.quantity);
+    std::vector<std::pair<const toml::node*, std::string>> numbers;
+    for (const auto& [name, node] : places_)
+      if (node->is_string()) numbers.emplace_back(node, name);
+    std::ranges::sort(numbers, {}, [](const auto& number) {
+      const toml::source_position at = number.first->source().begin;
+      return std::pair(at.line, at.column);
+    });
+    for (const auto& [node, name] : numbers) {
+      const Expression number = source_.asExpression(*node, name);
+      try {
+        record(0, static_cast<int>(open.size()), 1,
+               [&](auto, const auto&, const auto& p, auto& y) { y[0] = valueOf(number, open, p); });
+      } catch (const std::domain_error& error) {
+        source_.failWith(*node, fmt::format("'{}' has no value: {}", name, error.what()), "a formula that has a value");
+      }
+    }
+  }
+
   /// The equations of motion exist, or the mechanism is at fault.
   void recordMotion(const toml::node& mechanism) {
     if (study_.analysis == Study::Analysis::dynamics) {
@@ -205,8 +243,10 @@ class StudyReader {
     } catch (const UndefinedOutput& error) {
       source_.failWith(*outputNodes_[error.output()], error.what(), "a formula that has a value");
     } catch (const std::domain_error& error) {
+      refuseNumberWithoutValue();
       source_.failWith(mechanism, error.what(), "a mechanism in which all that is measured has a value");
     } catch (const std::invalid_argument& error) {
+      refuseNumberWithoutValue();
       source_.failWith(mechanism, error.what(),
                        "a mass that every joint moves, and joints that move it in different ways");
     }

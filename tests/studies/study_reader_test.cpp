@@ -807,6 +807,19 @@ constexpr BadStudy badStudies[] = {
      "quantity = \"wind.force.y\"\ninterval = \"± 1 N\"\nrate = \"± 2 N\"\n[[uncertain]]",
      "s.toml:36:8: uncertain.rate is written in a unit of the kind N; expected a number in N/s, or with a unit of that "
      "kind"},
+    {"[[uncertain]]",
+     "[[mechanism.element]]\ntype = \"force\"\nname = \"gust\"\nat = \"tip\"\nparameters = { wind = \"1 N\" }\n"
+     "force = [0, \"gust.wind/0\", 0]\n[[uncertain]]\nquantity = \"gust.wind\"\ninterval = \"± 1 N\"\n[[uncertain]]",
+     "s.toml:33:13: 'gust.force.y' has no value: recorded division by a constant that may be zero; expected a formula "
+     "that has a value"},
+    {"[[uncertain]]",
+     "[[mechanism.element]]\ntype = \"joint-force\"\nname = \"motor\"\njoint = \"hinge\"\nparameters = { none = \"1 "
+     "rad - 1 rad\", gain = \"3 N m\" }\nforce = \"motor.gain*hinge.angle/motor.none\"\n[[uncertain]]",
+     "s.toml:33:9: 'motor.force' has no value: recorded division by a constant that may be zero; expected a formula "
+     "that has a value"},
+    {"\"-rod.length\"", "\"-rod.length/0\"",
+     "s.toml:21:17: 'rod.vector.z' has no value: recorded division by a constant that may be zero; expected a formula "
+     "that has a value"},
     {"interval = \"± 1 %\"", "interval = \"± 0 %\"",
      "s.toml:31:12: uncertain.interval has no positive deviation; expected a deviation above 0"},
     {"interval = \"± 1 %\"", "interval = [0.6, 0.4]",
