@@ -3,9 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <limits>
 #include <set>
 #include <stdexcept>
 #include <string_view>
@@ -84,41 +87,75 @@ class Wording {
 
   // ---- Notes --------------------------------------------------------------------------------------------------------
 
-  /// Grave findings first, every one of them; of several settled ones their number.
+  /// Grave findings first. Of each kind the worst are named; of settled ones the one that came nearest to its bound.
   void noteDisputes() {
-    std::vector<std::string> doubtful, undecided, settled;
+    std::vector<const DisputedSample*> outside, doubtful, undecided, settled;
     std::set<std::int64_t> open, inside;  // a sample is disputed once for each bound that it leaves
     for (const DisputedSample& sample : results_.comparison.disputed) {
-      const std::string who =
-          fmt::format("{} ({}{})", sampleName(sample.number), results_.outputs[sample.output].name, when(sample.time));
       if (sample.outside) {
-        note(fmt::format("{} lies outside by {}, decided by {}.", who, withUnit(sample.distance, sample.output),
-                         sample.decided));
+        outside.push_back(&sample);
       } else if (isUnresolved(sample)) {
-        doubtful.push_back(fmt::format("{} could not be decided: it lies outside by {}, its own error is {}.", who,
-                                       withUnit(sample.distance, sample.output),
-                                       withUnit(sample.error, sample.output)));
+        doubtful.push_back(&sample);
       } else if (isInterrupted(sample)) {
-        if (open.insert(sample.number).second)
-          undecided.push_back(fmt::format("{} seemed outside and was not decided: {}.", who, whyUndecided()));
-      } else if (inside.insert(sample.number).second) {
-        settled.push_back(fmt::format("{} seemed outside and was found inside, decided by {}.", who, sample.decided));
+        if (open.insert(sample.number).second) undecided.push_back(&sample);
+      } else {
+        inside.insert(sample.number);
+        settled.push_back(&sample);
       }
     }
-    verdict_.notes.insert(verdict_.notes.end(), doubtful.begin(), doubtful.end());
-    noteSome(undecided, "seemed outside and were not decided");
-    if (settled.size() == 1) note(settled.front());
-    if (settled.size() > 1)
-      note(
-          fmt::format("{} samples seemed outside and were found inside when they were integrated more accurately; the "
-                      "results name them all, in /comparison/disputed.",
-                      settled.size()));
+    noteSome(worstFirst(outside), "are outside", [&](const DisputedSample& sample) {
+      return fmt::format("lies outside by {}, decided by {}.", withUnit(sample.distance, sample.output),
+                         sample.decided);
+    });
+    noteSome(worstFirst(doubtful), "could not be decided", [&](const DisputedSample& sample) {
+      return fmt::format("could not be decided: it lies outside by {}, its own error is {}.",
+                         withUnit(sample.distance, sample.output), withUnit(sample.error, sample.output));
+    });
+    noteSome(undecided, "seemed outside and were not decided", [&](const DisputedSample& /*sample*/) {
+      return fmt::format("seemed outside and was not decided: {}.", whyUndecided());
+    });
+    if (!settled.empty()) noteSettled(**std::ranges::min_element(settled, {}, relativeMargin), inside.size());
   }
 
-  void noteSome(const std::vector<std::string>& notes, std::string_view what) {
+  std::string whoIs(const DisputedSample& sample) const {
+    return fmt::format("{} ({}{})", sampleName(sample.number), results_.outputs[sample.output].name, when(sample.time));
+  }
+
+  void noteSettled(const DisputedSample& nearest, std::size_t count) {
+    if (count == 1)
+      return note(
+          fmt::format("{} seemed outside and was found inside, decided by {}.", whoIs(nearest), nearest.decided));
+    note(
+        fmt::format("{} samples seemed outside and were found inside when they were integrated more accurately, the "
+                    "nearest to its bound by {}: {}. The results name them all, in /comparison/disputed.",
+                    count, withUnit(margin(nearest), nearest.output), whoIs(nearest)));
+  }
+
+  /// How far it lies inside.
+  static double margin(const DisputedSample& sample) {
+    return std::min(sample.value - sample.lower, sample.upper - sample.value);
+  }
+
+  /// The same as a share of what it was compared with, so that different outputs compare.
+  static double relativeMargin(const DisputedSample* sample) {
+    const double share = margin(*sample) / (sample->upper - sample->lower);
+    return std::isfinite(share) ? share : std::numeric_limits<double>::infinity();
+  }
+
+  /// By the distance in multiples of their own error.
+  static std::vector<const DisputedSample*> worstFirst(std::vector<const DisputedSample*> samples) {
+    std::ranges::stable_sort(samples, std::ranges::greater{}, [](const DisputedSample* sample) {
+      const double multiples = sample->distance / sample->error;
+      return std::isnan(multiples) ? std::numeric_limits<double>::infinity() : multiples;
+    });
+    return samples;
+  }
+
+  template <class Say>
+  void noteSome(const std::vector<const DisputedSample*>& samples, std::string_view what, const Say& say) {
     constexpr std::size_t named = 5;
-    const std::size_t others = notes.size() > named + 1 ? notes.size() - named : 0;
-    verdict_.notes.insert(verdict_.notes.end(), notes.begin(), notes.end() - static_cast<std::ptrdiff_t>(others));
+    const std::size_t others = samples.size() > named + 1 ? samples.size() - named : 0;
+    for (std::size_t i = 0; i + others < samples.size(); ++i) note(whoIs(*samples[i]) + " " + say(*samples[i]));
     if (others > 0) note(fmt::format("{} more {}; the results name them all, in /comparison/disputed.", others, what));
   }
 

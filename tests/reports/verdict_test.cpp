@@ -333,15 +333,37 @@ TEST(Verdict, OfAFirstBlockOfSamplesIsIncompleteThoughTheyAllReachTheHorizon) {
 
 TEST(Verdict, CountsTheSettledSamplesUnlessThereIsOneAlone) {
   Results results = example::pendulum();
-  for (int i = 0; i < 200; ++i) dispute(results, 1e-6, "Taylor 53 bits").number = i / 2;  // of two bounds each
+  for (int i = 0; i < 200; ++i) {  // of two bounds each
+    DisputedSample& sample = dispute(results, 0, "Taylor 53 bits");
+    sample.number = i / 2;
+    sample.value = sample.upper - (i == 187 ? 1e-6 : 2e-6);
+  }
   dispute(results, 1e-6, "unresolved");
   const std::vector<std::string> notes = judge(results).notes;
   ASSERT_EQ(notes.size(), 2U);
   EXPECT_THAT(notes.front(), HasSubstr("could not be decided"));
   EXPECT_THAT(notes.back(), StartsWith("100 samples seemed outside and were found inside when"));
+  EXPECT_THAT(notes.back(), HasSubstr("the nearest to its bound by 1e-06 rad: Sample 93 (elbow angle at 2 s). The"));
   Results other = example::pendulum();
   dispute(other, 1e-6, "Taylor 53 bits");
   EXPECT_THAT(judge(other).notes, ElementsAre(HasSubstr("seemed outside and was found inside, decided by Tay")));
+}
+
+TEST(Verdict, NamesTheWorstOfManyThatLieOutsideOrCouldNotBeDecidedAndCountsTheOthers) {
+  Results results = example::pendulum();
+  for (int i = 0; i < 300; ++i) {
+    DisputedSample& sample = dispute(results, i == 200 ? 4e-6 : 2e-6, i < 150 ? "Taylor 53 bits" : "unresolved");
+    sample.number = i;
+    sample.error = i == 100 ? 1e-9 : 1e-8;
+    sample.outside = i < 150;
+  }
+  const std::vector<std::string> notes = judge(results).notes;
+  ASSERT_EQ(notes.size(), 12U);
+  EXPECT_THAT(notes[0], StartsWith("Sample 100 (elbow angle at 2 s) lies outside by 2e-06 rad"));
+  EXPECT_THAT(notes[1], StartsWith("Sample 0 ("));
+  EXPECT_THAT(notes[5], StartsWith("145 more are outside; the results name them all"));
+  EXPECT_THAT(notes[6], StartsWith("Sample 200 (elbow angle at 2 s) could not be decided: it lies outside by 4e-06"));
+  EXPECT_THAT(notes[11], StartsWith("145 more could not be decided; the results name them all"));
 }
 
 TEST(Verdict, ClaimsNothingOfMotionsThatEndedAtTheStart) {
