@@ -51,7 +51,8 @@ class Weighing {
       influence_[l].nonlinear = std::max(influence_[l].nonlinear, found[next++].nonlinear);
     }
     const std::vector<int> before = emphasis_.weights;
-    while (emphasis_.weights == before && !emphasis_.isUniform()) {
+    constexpr double nothing = 1e-300;  // what has no influence at all stays negligible
+    while (emphasis_.weights == before && !emphasis_.isUniform() && negligible_ > nothing) {
       negligible_ /= 30;
       emphasis_ = emphasisOf(influence_, negligible_, share_);
     }

@@ -254,5 +254,15 @@ TEST(FlowTightness, InvariantsStayAsNarrowAsTheyBegin) {
   EXPECT_EQ(turning.shortfall(), "") << "no width is asked of what does not vary";
 }
 
+/// Of what has no influence at all nothing is ever more than negligible.
+TEST(FlowTightness, UnusedQuantitiesEndNoRound) {
+  const Program f = record(2, 2, [](auto, const auto& x, const auto&, auto& dx) {
+    dx[0] = x[1];
+    dx[1] = -x[0] + abs(x[0]);
+  });
+  const Tube tube = Flow(f).enclose({Interval(-0.5, 0.5), Interval(0, 0.5), Interval(0, 1), Interval(0, 1)}, 2);
+  EXPECT_EQ(tube.why(), "");
+}
+
 }  // namespace
 }  // namespace gamut::testing
