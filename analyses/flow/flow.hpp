@@ -80,9 +80,9 @@ class Tube {
   /// Whether it ended early for one of these three, not for the motion's sake.
   bool wasStopped() const { return why_ == interrupted || why_ == outOfMemory || why_ == overBudget; }
   /// Overestimation at the output times that were reached: 1 + the greatest part that remainders (and ranges not found
-  /// to the end) add to the width of an output (without outputs: of a state). Of what plain intervals bound, of what is
-  /// known far better than the box or than at other times (invariants among them), and without uncertain quantities,
-  /// nothing is measured.
+  /// to the end) add to the width of an output (without outputs: of a state). Of what plain intervals bound, of what
+  /// comes to a jump's surface or leaves it, of what is known far better than the box or than at other times
+  /// (invariants among them), and without uncertain quantities, nothing is measured.
   double tightness() const;
   /// Where that is more than was asked for: "at 2 s state 1 may be 1.13 times as wide as necessary". Empty otherwise.
   const std::string& shortfall() const { return shortfall_; }

@@ -7,6 +7,7 @@
 
 #include "scalars/index.hpp"
 #include "scalars/program/recorder.hpp"
+#include "scalars/program/sides.hpp"
 
 namespace gamut {
 
@@ -14,18 +15,60 @@ using detail::at;
 
 namespace {
 
-Program differentiatedFor(const Program& f, const std::vector<VaryingParameter>& inputs) {
-  if (inputs.empty()) return f.differentiated();
-  const Program all = f.differentiated(true);
+/// The outputs of `all` = f.differentiated(): f's first n rows, their Jacobian, and columns of inputs; then what else f
+/// has for outputs, without derivatives.
+Program selected(const Program& all, int functions, const Program& f, const std::vector<VaryingParameter>& inputs) {
   const int n = f.states(), k = f.parameters();
-  std::vector<int> outputs(all.outputNodes().begin(), all.outputNodes().begin() + n + n * n);
+  const std::vector<int>& from = all.outputNodes();
+  std::vector<int> outputs(from.begin(), from.begin() + n);
+  outputs.insert(outputs.end(), from.begin() + functions, from.begin() + functions + n * n);
   for (int i = 0; i < n; ++i)
     for (const VaryingParameter& input : inputs)
-      outputs.push_back(all.outputNodes()[at(n + n * n + i * k + input.parameter)]);
+      outputs.push_back(from[at(functions + functions * n + i * k + input.parameter)]);
+  outputs.insert(outputs.end(), from.begin() + n, from.begin() + functions);
   return Recorder(all).finish(outputs);
 }
 
+/// Of each node, whether it depends on a parameter from number `first` on.
+std::vector<char> dependents(const Program& program, int first) {
+  std::vector<char> result;
+  for (std::size_t i = 0; i < program.nodes().size(); ++i) {
+    const Node& node = program.nodes()[i];
+    bool does = node.op == Op::parameter && node.a >= first;
+    detail::forEachOperand(program.table(), static_cast<int>(i), [&](int operand) {
+      does = does || (operand < static_cast<int>(i) && result[at(operand)] != 0);
+    });
+    result.push_back(static_cast<char>(does));
+  }
+  return result;
+}
+
 }  // namespace
+
+/// Signs in f are inputs to it: nodes of their own, which the derivative of |u| has no part in.
+Program differentiatedFor(const Program& f, const std::vector<VaryingParameter>& inputs) {
+  const int n = f.states(), k = f.parameters(), jumps = static_cast<int>(jumpsOf(f).size());
+  if (jumps == 0 || !isAffineInSigns(f))
+    return inputs.empty() ? f.differentiated() : selected(f.differentiated(true), n, f, inputs);
+  const Program given = withSignsGiven(f);
+  const Program functions =
+      Recorder(given).finish({given.outputNodes().begin(), given.outputNodes().begin() + n + jumps});
+  const Program signless = selected(functions.differentiated(!inputs.empty()), n + jumps, functions, inputs);
+  Recorder recorder(n, k, RuleSet::none());
+  std::vector<int> parameters;
+  for (int i = 0; i < k; ++i) parameters.push_back(recorder.parameter(i));
+  parameters.resize(at(k + jumps), recorder.constant(0.0));
+  const std::vector<int> without = recorder.append(signless, parameters), all = signless.outputNodes();
+  for (int j = 0; j < jumps; ++j)
+    parameters[at(k + j)] = recorder.sign(without[at(all[all.size() - at(jumps) + at(j)])]);
+  std::vector<int> instead = without, outputs;
+  const std::vector<char> depend = dependents(signless, k);
+  for (std::size_t i = 0; i < instead.size(); ++i)
+    if (depend[i] != 0) instead[i] = -1;
+  const std::vector<int> here = recorder.append(signless, parameters, instead);
+  for (std::size_t o = 0; o + at(jumps) < all.size(); ++o) outputs.push_back(here[at(all[o])]);
+  return recorder.finish(outputs);
+}
 
 FlowFormulation::FlowFormulation(Program f, Program g, std::vector<VaryingParameter> varying)
     : motion(std::move(f)),

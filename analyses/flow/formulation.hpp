@@ -10,9 +10,12 @@
 
 namespace gamut {
 
+/// f, ∂f/∂x row by row, ∂f/∂w of the inputs row by row.
+Program differentiatedFor(const Program& f, const std::vector<VaryingParameter>& inputs);
+
 struct FlowFormulation {
   Program motion;          // f
-  Program differentiated;  // f, ∂f/∂x row by row, ∂f/∂w of the inputs row by row
+  Program differentiated;  // differentiatedFor
   Program outputs;         // g
   int states;              // of f as it was asked for: those behind them are inputs
   std::vector<VaryingParameter> inputs;

@@ -38,7 +38,7 @@ std::vector<std::vector<Interval>> image(const Program& g, double t, const Box& 
   }
   point.radius = point.loose;
   point.ofR = point.total;
-  point.beyond.assign(at(n), 0.0);
+  point.beyond = point.known = point.total;
   outputs.evaluate(t, point, std::vector<double>(at(n), 0.0),
                    {embedding.components.begin() + n, embedding.components.end()});
   std::vector<std::vector<Interval>> result;

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <new>
+#include <stdexcept>
 #include <utility>
 
+#include "analyses/flow/formulation.hpp"
 #include "analyses/flow/run.hpp"
 #include "analyses/workers.hpp"
 #include "scalars/index.hpp"
@@ -52,11 +54,20 @@ FlowJourney FlowFollower::follow(FlowPiece& piece, double end) {
       run_.ranOutOfBudget();
       return FlowJourney::cancelled;
     }
-    use(piece);
+    const auto certified = [&] {
+      const bool isUncertain = symbols_ > 0;
+      return tool_->stepper.certify(piece.set, task_.horizon, task_.quantum, isUncertain ? task_.splitDefect : 0.0,
+                                    isUncertain ? task_.kinkShare : 0.0);
+    };
+    StepOutcome outcome = StepOutcome::released;
+    for (std::vector<char> held = FlowStepper::resting(piece.set, task_.jumps); outcome == StepOutcome::released;) {
+      use(piece, held);
+      if (tool_ == nullptr) use(piece, held = {});
+      outcome = certified();
+      if (outcome == StepOutcome::released) held = tool_->stepper.stillHeld();
+      if (outcome == StepOutcome::failed && !held.empty()) held.clear(), outcome = StepOutcome::released;
+    }
     const bool uncertain = symbols_ > 0;
-    StepOutcome outcome =
-        tool_->stepper.certify(piece.set, task_.horizon, task_.quantum, uncertain ? task_.splitDefect : 0.0,
-                               uncertain ? task_.kinkShare : 0.0);
     if (outcome != StepOutcome::stepped && uncertain) {
       if (!tool_->stepper.isAcrossKink() && piece.layout + 1 < task_.degrees && isDegreeWorthwhile(piece, outcome)) {
         changeLayout(piece, piece.layout + 1);
@@ -102,18 +113,35 @@ bool FlowFollower::isOverBudget() {
   return task_.budget.spent.fetch_add(since) + since > task_.budget.limit;
 }
 
-void FlowFollower::use(const FlowPiece& piece) {
-  std::unique_ptr<Tools>& tools = tools_[piece.layout];
-  if (!tools) {
+/// For the motion in which these jumps are held, if any; without tools where they cannot be.
+void FlowFollower::use(const FlowPiece& piece, std::vector<char> held) {
+  if (std::ranges::count(held, 0) == std::ssize(held)) held.clear();
+  const auto [place, isNew] = tools_.try_emplace({piece.layout, held});
+  std::unique_ptr<Tools>& tools = place->second;
+  if (isNew) {
     const FlowLayout& layout = task_.layouts[piece.layout];
     const FlowOptions& options = task_.options;
-    tools = std::make_unique<Tools>(
-        Tools{FlowStepper(task_.differentiated, layout.monomials, layout.frameDegree, task_.order, task_.tolerance,
+    Program motion = task_.differentiated;
+    std::unique_ptr<FlowJumps> left;
+    tool_ = nullptr;
+    if (!held.empty()) try {
+        motion = differentiatedFor(task_.jumps.heldProgram(held), options.varying);
+        left = std::make_unique<FlowJumps>(motion, task_.varying);
+      } catch (const std::logic_error&) {  // these do not decide about themselves
+        return;
+      }
+    auto made = std::make_unique<Tools>(
+        Tools{std::move(left),
+              FlowStepper(motion, layout.monomials, layout.frameDegree, task_.order, task_.tolerance,
                           FlowInputs(task_.motion.states(), task_.order, task_.varying, 0.4 * (options.tightness - 1)),
                           options.cancelled),
               PolynomialRange(layout.monomials), nullptr, nullptr, nullptr});
-    if (layout.monomials->symbols() == 0 && task_.fineOrders > 0) tools->stepper.setFineOrders(task_.fineOrders);
-    tools->stepper.setStateNames(options.stateNames);
+    if (layout.monomials->symbols() == 0 && task_.fineOrders > 0) made->stepper.setFineOrders(task_.fineOrders);
+    made->stepper.setStateNames(options.stateNames);
+    const bool isChecked =
+        task_.jumps.count() > 0 && made->stepper.setJumps(made->jumps ? *made->jumps : task_.jumps, task_.jumps, held);
+    if (!held.empty() && !isChecked) return;
+    tools = std::move(made);
     if (task_.outputs.outputs() > 0) {
       const std::shared_ptr<const Monomials> own = task_.layouts[task_.outputLayout(piece.layout)].monomials;
       tools->outputs =
@@ -124,6 +152,7 @@ void FlowFollower::use(const FlowPiece& piece) {
     }
   }
   tool_ = tools.get();
+  if (tool_ == nullptr) return;
   outputs_ = tool_->outputs.get();
   monomialCount_ = task_.layouts[piece.layout].monomials->count();
   symbols_ = task_.layouts[piece.layout].monomials->symbols();
@@ -176,15 +205,16 @@ void FlowFollower::lowerDegree(FlowPiece& piece) {
 
 /// Enclosures of states and outputs at one time of the step.
 void FlowFollower::enclose(const FlowPiece& piece, double tau, std::vector<Interval>& states,
-                           std::vector<Interval>& outputs) {
-  tool_->stepper.evaluate(piece.set, tau, point_);
+                           std::vector<Interval>& outputs, bool narrowed) {
+  tool_->stepper.evaluate(piece.set, tau, point_, narrowed);
   const int N = monomialCount_;
   states.resize(at(task_.motion.states()));
   stateCore_.clear();
   for (int i = 0; i < task_.motion.states(); ++i) {
     const Interval rest = inflated(Interval(point_.low[at(i)]), point_.radius[at(i)]);
     states[at(i)] = tool_->range(&point_.p[at(i * N)], whole_, task_.rangeTolerance()) + rest;
-    stateCore_.push_back(without(states[at(i)], point_.radius[at(i)] - point_.driven[at(i)] + tool_->range.gap()));
+    stateCore_.push_back(
+        without(states[at(i)], point_.radius[at(i)] - point_.driven[at(i)] - point_.known[at(i)] + tool_->range.gap()));
   }
   outputs.clear();
   if (!outputs_) return;
@@ -250,22 +280,29 @@ bool FlowFollower::record(FlowPiece& piece) {
     piece.overOutputs = piece.lastOutputs;
     piece.next = 1;
   }
-  std::vector<Interval> end, endOutputs;
+  // Chords are those of what the step itself bounds: what is known of jumps besides holds at single times.
+  const FlowStepper& stepper = tool_->stepper;
+  std::vector<Interval> end, endOutputs, before = piece.last, beforeOutputs = piece.lastOutputs, behind, behindOutputs;
   double from = t0;
   bool chordsKnown = false;
   const auto segment = [&](double to) {  // from `from` to `to`: the chord's hull and how far a motion leaves a chord
-    tool_->stepper.sag(from - t0, to - t0, sag_);
-    std::vector<Interval> between;
-    for (std::size_t i = 0; i < end.size(); ++i) {
-      between.push_back(hull(piece.last[i], end[i]) + sag_[i]);
-      piece.over[i] = hull(piece.over[i], between[i]);
+    if (stepper.narrows()) {
+      enclose(piece, to - t0, behind, behindOutputs, false);
+    } else {
+      behind = end;
+      behindOutputs = endOutputs;
     }
+    stepper.sag(from - t0, to - t0, sag_);
+    std::vector<Interval> between;
+    for (std::size_t i = 0; i < behind.size(); ++i) between.push_back(hull(before[i], behind[i]) + sag_[i]);
+    if (stepper.narrows()) stepper.narrowOver(between);
+    for (std::size_t i = 0; i < between.size(); ++i) piece.over[i] = hull(piece.over[i], between[i]);
     if (outputs_) {
-      if (!chordsKnown) tool_->chords->load(tool_->stepper, piece.set);
+      if (!chordsKnown) tool_->chords->load(stepper, piece.set);
       chordsKnown = true;
       tool_->chords->sag(from - t0, to - t0, sag_);
-      for (std::size_t i = 0; i < endOutputs.size(); ++i) {
-        Interval over = hull(piece.lastOutputs[i], endOutputs[i]) + sag_[i];
+      for (std::size_t i = 0; i < behindOutputs.size(); ++i) {
+        Interval over = hull(beforeOutputs[i], behindOutputs[i]) + sag_[i];
         if (outputs_->hasKinks() || !isBounded(sag_[i])) {
           const Interval wherever =
               outputs_->overBox(static_cast<int>(i), Interval(from, to), between, piece.set.parameters);
@@ -274,6 +311,8 @@ bool FlowFollower::record(FlowPiece& piece) {
         piece.overOutputs[i] = hull(piece.overOutputs[i], over);
       }
     }
+    before = behind;
+    beforeOutputs = behindOutputs;
     piece.last = end;
     piece.lastOutputs = endOutputs;
     from = to;
@@ -283,12 +322,12 @@ bool FlowFollower::record(FlowPiece& piece) {
     joinHulls(collected_.stateCore[piece.next], stateCore_);
     joinHulls(collected_.outputCore[piece.next], outputCore_);
     encloseLevels(piece, piece.next);
-    segment(times[piece.next]);
     joinHulls(collected_.states[piece.next], end);
     for (int o = 0; symbols_ > 1 && outputs_ && o < outputs_->count(); ++o)
       if (std::isfinite(outputs_->radius(o)))
         measureInfluence(outputs_->polynomial(o), outputs_->monomials(), collected_.influence);
     joinHulls(collected_.outputs[piece.next], endOutputs);
+    segment(times[piece.next]);
     joinHulls(collected_.statesOver[piece.next], piece.over);
     joinHulls(collected_.outputsOver[piece.next], piece.overOutputs);
     piece.over = end;

@@ -1,7 +1,9 @@
 // The way of one piece of the box through time, step by step, and what it contributes to the tube on its way.
 #pragma once
 
+#include <map>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "analyses/flow/outputs.hpp"
@@ -52,7 +54,7 @@ class FlowFollower {
  public:
   /// Halves of pieces, and why one cannot be followed, go to the run.
   FlowFollower(FlowRun& run, const FlowTask& task, FlowCollected& collected)
-      : run_(run), task_(task), collected_(collected), tools_(task.layouts.size()) {
+      : run_(run), task_(task), collected_(collected) {
     collected_.influence.resize(static_cast<std::size_t>(task.embedding.symbols));
   }
 
@@ -63,6 +65,7 @@ class FlowFollower {
  private:
   /// The workspace of one layout.
   struct Tools {
+    std::unique_ptr<FlowJumps> jumps;  // where some of the motion's are held, those of what is left
     FlowStepper stepper;
     PolynomialRange range;
     std::unique_ptr<FlowOutputs> outputs;
@@ -72,12 +75,13 @@ class FlowFollower {
 
   FlowJourney follow(FlowPiece& piece, double end);
   bool isOverBudget();
-  void use(const FlowPiece& piece);
+  void use(const FlowPiece& piece, std::vector<char> held = {});
   bool isDegreeWorthwhile(const FlowPiece& piece, StepOutcome outcome) const;
   void changeLayout(FlowPiece& piece, std::size_t to);
   bool expand(FlowPiece& piece);
   void lowerDegree(FlowPiece& piece);
-  void enclose(const FlowPiece& piece, double tau, std::vector<Interval>& states, std::vector<Interval>& outputs);
+  void enclose(const FlowPiece& piece, double tau, std::vector<Interval>& states, std::vector<Interval>& outputs,
+               bool narrowed = true);
   void appendOutputs(const FlowPiece& piece, const std::vector<Interval>& states, const Box& xi,
                      std::vector<Interval>& outputs);
   void encloseLevels(const FlowPiece& piece, std::size_t row);
@@ -86,8 +90,9 @@ class FlowFollower {
   FlowRun& run_;
   const FlowTask& task_;
   FlowCollected& collected_;
-  std::vector<std::unique_ptr<Tools>> tools_;  // one a layout, made when first needed
-  Tools* tool_ = nullptr;                      // of the piece at hand, as are the next two
+  /// One a layout and jumps held, made when first needed; null where these cannot be held together.
+  std::map<std::pair<std::size_t, std::vector<char>>, std::unique_ptr<Tools>> tools_;
+  Tools* tool_ = nullptr;  // of the piece at hand, as are the next two
   FlowOutputs* outputs_ = nullptr;
   int monomialCount_ = 0, symbols_ = 0;
   FlowPoint point_;

@@ -106,7 +106,9 @@ bool FlowOutputs::evaluateTogether(double t, const FlowPoint& point, const std::
       spread[at(k)] =
           (series_.norm(node) - std::fabs(centre[at(k)]) * bounds::down + series_.rho0(node) + series_.rho1(node)) *
           bounds::up;
-      sum += (std::fabs(centre[at(k)]) + spread[at(k)]) * (loose[at(k)] + point.beyond[at(k)]);
+      const double slope = std::fabs(centre[at(k)]) + spread[at(k)];
+      sum += slope * (loose[at(k)] + point.beyond[at(k)]);
+      driven_[at(o)] += slope * point.known[at(k)];
     }
     for (int j = 0; j < n_; ++j) {
       double along0 = 0, size = 0, wide = 0, rest = 0;

@@ -28,7 +28,7 @@ class FlowOutputs {
   const Monomials& monomials() const { return *layout_; }
   const double* polynomial(int output) const { return &polynomial_[static_cast<std::size_t>(output * monomials_)]; }
   double radius(int output) const { return radius_[static_cast<std::size_t>(output)]; }
-  /// What of the radius is not overestimation: what inputs did, before and at this moment.
+  /// What of the radius is not overestimation: what inputs did, before and at this moment; what is known of jumps.
   double driven(int output) const { return driven_[static_cast<std::size_t>(output)]; }
 
   /// Output o wherever the states are in these boxes, by plain intervals, for one that has an infinite radius:

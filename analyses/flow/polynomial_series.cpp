@@ -62,6 +62,7 @@ void PolynomialSeries::product(const Plan& a, const Plan& b, int count, int i, d
 
 /// |a| over [low, high], low < 0 < high, lies between the chord and -2 low high/(high - low) below it.
 PolynomialSeries::Chord PolynomialSeries::chordOf(int node) const {
+  if (side_[at(node)] != 0) return {side_[at(node)], 0.0};
   const Plan& v = plan_[at(node)];
   const double centre = f_[v.f];
   double half = 0;
@@ -73,6 +74,7 @@ PolynomialSeries::Chord PolynomialSeries::chordOf(int node) const {
 }
 
 double PolynomialSeries::signOf(const Plan& v) const {
+  if (const auto& given = given_[at(static_cast<int>(&v - plan_.data()))]) return midpoint(*given);
   const double slope = chordOf(v.a).slope;
   return v.primary && std::fabs(slope) < 1 ? 0.0 : slope;
 }

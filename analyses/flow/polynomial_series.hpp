@@ -8,6 +8,7 @@
 #include <atomic>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@
 #include "analyses/flow/linear_factors.hpp"
 #include "analyses/flow/monomials.hpp"
 #include "scalars/index.hpp"
+#include "scalars/interval.hpp"
 #include "scalars/program/program.hpp"
 
 namespace gamut {
@@ -81,16 +83,24 @@ class PolynomialSeries {
   /// Whether outputs themselves hold a sign, and, since forgetJumps, the bounds of a set found one that may be either
   /// way there. From then on it counts so along the polynomial too: not as something that follows the states, but as an
   /// input.
-  bool hasJumps() const { return hasJumps_; }
+  bool hasJumps() const { return !jumps_.empty(); }
   bool hasJumped() const { return hasJumped_; }
   void forgetJumps();
   bool hasKinks() const { return hasKinks_; }
+  /// The signs in outputs themselves, in the program's order. `mayTurn`: on the set bounded last it may be either.
+  const std::vector<int>& jumps() const { return jumps_; }
+  bool mayTurn(int jump) const { return reached_[at(plan_[at(jump)].a)] > 0; }
+  /// The sign, or means of it, until forgetCrossings, as for the next computations. Its argument asks for no haste
+  /// then, and where that is nowhere on one side, |u| and its derivative are those of the other.
+  void giveSign(int jump, const Interval& sign, const Interval& argument);
+  /// Where state i is while |x - x̃| ≤ error.
+  Interval reach(int i, double error) const;
   /// What the next computations take of those that the set bounded last may cross: chords over all that it reaches, and
   /// 0 for a sign in outputs themselves. False if none are crossed. Until forgetCrossings.
   bool adaptToCrossings();
   /// The symbol that decides most about when these are crossed; -1 if none does more than what is uncertain besides.
   int symbolAcross() const;
-  void forgetCrossings() { std::fill(crossing_.begin(), crossing_.end(), 0.0); }
+  void forgetCrossings();
   /// The set bounded last is that at the start of the step: so much is uncertain of where it crosses kinks.
   void keepAtStart() { atStart_ = rho0_; }
   /// The bounds are those along the polynomial: from then on what is between it and the set bounded last can be told.
@@ -257,9 +267,13 @@ class PolynomialSeries {
   std::vector<double> constant_, radius_, pointError_;
   std::vector<char> varies_;                          // of each parameter
   std::vector<Chord> chords_;                         // of each abs
+  std::vector<int> jumps_;                            // signs in outputs themselves
   std::vector<double> jump_;                          // radius of each sign
+  std::vector<std::optional<Interval>> given_;        // of each sign, what it is
+  std::vector<char> isCalm_;                          // arguments of those: they need no haste
+  std::vector<double> side_;                          // of each argument, if known for all solutions: 1, -1
   std::vector<double> atStart_, crossing_, reached_;  // of each argument: uncertain; what a chord spans; may have to
-  bool hasKinks_ = false, hasJumps_ = false, hasJumped_ = false;
+  bool hasKinks_ = false, hasJumped_ = false;
   std::vector<double> f_, r_, d_, t_, total_, s1_, s2_, scratch_, scratch2_;
   std::vector<double> inverse_;  // per recip/sqrt/log/atan node: 1/leading polynomial
   std::vector<std::size_t> inverseAt_;

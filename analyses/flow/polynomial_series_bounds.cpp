@@ -146,7 +146,8 @@ bool PolynomialSeries::mayCross(int u) {
   reached_[at(u)] = 0;
   if (centre * bounds::down > (V + rho) * bounds::up) return false;
   const double apart = V - M + (atStart_.empty() ? rho : atStart_[at(u)]);
-  reached_[at(u)] = apart + M;
+  reached_[at(u)] = apart + M + bounds::tiny;
+  if (isCalm_[at(u)] != 0) return true;
   const double allowed = std::max(ahead * (centre - apart), across * apart);
   haste_ = std::max(haste_, M < farTooLong * allowed ? M / allowed : farTooLong);
   return true;
@@ -157,7 +158,7 @@ void PolynomialSeries::boundAbs(int node) {
   const int u = plan_[at(node)].a;
   const auto [slope, middle] = chords_[at(node)];
   double off = 0;
-  if (mayCross(u) || !chords_[at(node)].isExact()) {
+  if (side_[at(u)] == 0 && (mayCross(u) || !chords_[at(node)].isExact())) {
     const double centre = f_[plan_[at(u)].f], size = (rest(u) + rho0_[at(u)] + rho1_[at(u)]) * bounds::up;
     off = middle;
     for (const double end : {centre - size, centre + size})
@@ -172,13 +173,40 @@ void PolynomialSeries::boundAbs(int node) {
 void PolynomialSeries::boundSign(int node) {
   const Plan& v = plan_[at(node)];
   const double value = f_[v.f];
-  double radius = mayCross(v.a) || std::fabs(value) != 1 ? 1 + std::fabs(value) : 0.0;
+  if (given_[at(node)]) {
+    mayCross(v.a);  // for what it reaches
+    rho0_[at(node)] = (Interval(value) - *given_[at(node)]).upper() * bounds::up;
+    rho0_[at(node)] = std::max(rho0_[at(node)], (*given_[at(node)] - Interval(value)).upper() * bounds::up);
+    rho1_[at(node)] = 0;
+    return;
+  }
+  const bool isOnOneSide = !v.primary && side_[at(v.a)] != 0;
+  double radius = !isOnOneSide && (mayCross(v.a) || std::fabs(value) != 1) ? 1 + std::fabs(value) : 0.0;
   if (v.primary) {
     if (radius > jump_[at(node)]) hasJumped_ = true;
     radius = jump_[at(node)] = std::max(radius, jump_[at(node)]);
   }
   rho0_[at(node)] = radius * bounds::up;
   rho1_[at(node)] = 0;
+}
+
+void PolynomialSeries::giveSign(int jump, const Interval& sign, const Interval& argument) {
+  given_[at(jump)] = sign;
+  const std::size_t u = at(plan_[at(jump)].a);
+  isCalm_[u] = 1;
+  side_[u] = argument.lower() >= 0 ? 1 : argument.upper() <= 0 ? -1 : 0;
+}
+
+void PolynomialSeries::forgetCrossings() {
+  std::fill(crossing_.begin(), crossing_.end(), 0.0);
+  for (const int jump : jumps_) given_[at(jump)].reset();
+  std::ranges::fill(isCalm_, 0);
+  std::ranges::fill(side_, 0.0);
+}
+
+Interval PolynomialSeries::reach(int i, double error) const {
+  const double radius = (rest(i) + top_[at(i)] + lowOf(i) + error) * bounds::up;
+  return Interval(f_[plan_[at(i)].f]) + Interval(-radius, radius);
 }
 
 bool PolynomialSeries::adaptToCrossings() {

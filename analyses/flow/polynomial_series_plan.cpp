@@ -36,6 +36,9 @@ PolynomialSeries::PolynomialSeries(const Program& program, int primaryOutputs,
   varies_.assign(at(program.parameters()), 0);
   chords_.assign(nodes.size(), {});
   jump_.assign(nodes.size(), 0.0);
+  given_.assign(nodes.size(), std::nullopt);
+  isCalm_.assign(nodes.size(), 0);
+  side_.assign(nodes.size(), 0.0);
   crossing_ = reached_ = jump_;
   constant_.assign(nodes.size(), 0.0);
   radius_.assign(nodes.size(), 0.0);
@@ -54,7 +57,7 @@ PolynomialSeries::PolynomialSeries(const Program& program, int primaryOutputs,
     v.degree = v.primary ? monomials_->degree() : frameDegree_;
     isConvex_ = isConvex_ && v.op != Op::tanh && v.op != Op::abs && v.op != Op::sign;
     hasKinks_ = hasKinks_ || v.op == Op::abs || v.op == Op::sign;
-    hasJumps_ = hasJumps_ || (v.op == Op::sign && v.primary);
+    if (v.op == Op::sign && v.primary) jumps_.push_back(static_cast<int>(i));
     if (v.op == Op::constant) {
       v.constant = true;
       const Interval& c = program.constants()[at(v.a)];

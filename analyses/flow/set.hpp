@@ -27,7 +27,9 @@ struct FlowSet {
   std::vector<double> centre, half;    // ξ of the study = centre + half·ξ of this piece (exact: dyadic)
   std::vector<int> units;              // FlowGrowth's, of the last step
   std::vector<double> first, largest;  // size of each state over the first step, and the greatest so far
-  double nextStep = 0;                 // s, a guess
+  std::vector<Interval> arguments;     // of jumps, what is known of them besides (FlowJumps); none: nothing is
+  double slideStep = 0;                // s, of the last step, if solutions came to be held or left in it
+  double nextStep = 0, freeStep = 0;   // s, a guess; what it was before jumps made steps shorter
   double caution = 1;                  // factor on the step that the last coefficients suggest
 };
 

@@ -23,6 +23,7 @@ constexpr double mostGrowthOfInputs = 0.08;
 // symmetry keeps at zero: to what the others are in balanced units; and never below what bounds can tell from
 // underflow, bounds::tiny over a tolerance.
 constexpr double vanished = 0x1p-120, unheard = 0x1p-80, leastSize = 0x1p-530;
+constexpr double hardlyMoving = 0x1p-20;  // of what is left over, a polynomial that says nothing of the state
 
 }  // namespace
 
@@ -148,6 +149,8 @@ bool FlowStepper::tryStep(const FlowSet& set, double theta) {
     for (int i = 0; i < n_; ++i) proved = proved && y_[at(i)] <= E_[at(i)];
   }
   if (!proved) return false;
+  // One that is at rest, driven by what others leave over, is relative to that.
+  for (int i = 0; i < n_; ++i) scale_[at(i)] = std::max(scale_[at(i)], hardlyMoving * y_[at(i)]);
   inputs_.resolve(series_, growth_, theta, h);
   timeError_ = truncation_ = 0;
   for (int i = 0; i < n_; ++i) {
@@ -275,6 +278,7 @@ std::string FlowStepper::reason(const FlowSet& set) const {
 /// Bisection shortens the time that a piece is on both sides as well as what a kink adds: to a quarter; a jump, to
 /// half.
 bool FlowStepper::isKinkTooWide(const FlowSet& set, double kinkShare) {
+  if (isSliding_) return (symbolAcross_ = symbolOfSliding(set, kinkShare)) >= 0;
   symbolAcross_ = kinkShare > 0 ? series_.symbolAcross() : -1;
   if (symbolAcross_ < 0) return false;
   const int N = series_.count();
@@ -342,6 +346,9 @@ bool FlowStepper::drift(FlowSet& set, double end) {
 
 StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum, double splitDefect, double kinkShare) {
   symbolAcross_ = -1;
+  isGiven_ = isSliding_ = isShortened_ = false;
+  ownBounds_.clear();
+  heldBounds_.clear();
   const double left = end - set.t;
   caution_ = set.caution;
   growth_.setUnits(set.units);
@@ -372,6 +379,21 @@ StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum,
         h *= 0.75 * most / growth_.growth();
         continue;
       }
+      if (own_ || holding_) {
+        const Look look = lookAtJumps(set, h, 0x1p14 * quantum);
+        if (look == Look::released) return StepOutcome::released;
+        if (look == Look::shorter) {
+          isShortened_ = true;
+          --attempt;
+          continue;
+        }
+        if (look == Look::again) {
+          isAdapted = series_.adaptToCrossings();
+          load(set);
+          series_.compute(set.t, h0_);
+          continue;
+        }
+      }
       if (inputs_.haste() > 1 && attempt < 12 && h > 0x1p33 * quantum) {  // 1e-6 of the horizon
         h /= std::min(inputs_.haste() * 1.1, 16.0);
         continue;
@@ -392,7 +414,7 @@ StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum,
       if (h < left)
         caution_ *= std::clamp(std::pow(tolerance_ / std::max(timeError_, 1e-40), 1.0 / (m_ + 1)), 0.7, 1.15);
       caution_ = std::clamp(caution_, 0x1p-6, 2.0);
-      return isTruncationTooLarge(splitDefect) || (isAdapted && isKinkTooWide(set, kinkShare))
+      return isTruncationTooLarge(splitDefect) || ((isAdapted || isSliding_) && isKinkTooWide(set, kinkShare))
                  ? StepOutcome::splitWanted
                  : StepOutcome::stepped;
     }

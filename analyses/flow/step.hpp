@@ -4,11 +4,13 @@
 
 #include <atomic>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "analyses/flow/growth.hpp"
 #include "analyses/flow/inputs.hpp"
+#include "analyses/flow/jumps.hpp"
 #include "analyses/flow/polynomial_range.hpp"
 #include "analyses/flow/polynomial_series.hpp"
 #include "analyses/flow/set.hpp"
@@ -31,6 +33,7 @@ struct FlowPoint {
   std::vector<double> loose;                    // everything but Ψ (r + Γs), a bound for each state
   std::vector<double> radius;                   // |x - p - low| ≤ radius
   std::vector<double> driven;                   // what of that inputs did
+  std::vector<double> known;                    // what of that is known of jumps' arguments besides
 };
 
 /// How the polynomials of a step fade with their grade.
@@ -44,7 +47,11 @@ struct GradeDecay {
 double drivenRadius(const std::vector<double>& a, const std::vector<std::vector<double>>& b, std::size_t first,
                     std::size_t stride);
 
-enum class StepOutcome { stepped, splitWanted, failed };
+/// What the argument of a jump is on the set, `total` being its totalRadius.
+Interval argumentOf(const FlowSet& set, const LinearForm& form, const std::vector<double>& total);
+
+/// `released`: solutions that were held may leave.
+enum class StepOutcome { stepped, splitWanted, failed, released };
 
 /// Steps sets of one layout (monomials, degrees, order). Holds the workspace: one a thread. Once `cancelled`, if not
 /// null, is set, certify throws Cancelled.
@@ -72,6 +79,14 @@ class FlowStepper {
   const std::string& why() const { return why_; }
   /// A state that has grown a thousandfold and would double long before the time it took; -1 if none has.
   int escaping(const FlowSet& set) const;
+  /// `own`: of the stepper's motion. That is the one of the jumps `of`, or the one in which those of `held`, if there
+  /// are any, are held (FlowJumps::heldProgram): of these, arguments have to be zero in every set. False if nothing can
+  /// be said of them.
+  bool setJumps(const FlowJumps& own, const FlowJumps& of, std::vector<char> held);
+  /// After `released`: of each jump, whether solutions at it stay held.
+  const std::vector<char>& stillHeld() const { return stillHeld_; }
+  /// Of each jump, whether its argument is zero for all solutions in the set; empty if none is.
+  static std::vector<char> resting(const FlowSet& set, const FlowJumps& jumps);
   void setStateNames(const std::vector<std::string>& names) { names_ = names; }
   std::string nameOf(int state) const;
   /// After a failure: the remainder, not ξ, makes the set too wide; bisecting ξ cannot help.
@@ -79,8 +94,12 @@ class FlowStepper {
   /// The remainder is about as large as the set, in balanced units: what grows from there is never tight again.
   bool isRemainderTooLarge(const FlowSet& set) const;
 
-  /// The set τ seconds into the step, 0 ≤ τ ≤ h.
-  void evaluate(const FlowSet& set, double tau, FlowPoint& point);
+  /// The set τ seconds into the step, 0 ≤ τ ≤ h; what is known of jumps' arguments besides counts if `narrowed`.
+  void evaluate(const FlowSet& set, double tau, FlowPoint& point, bool narrowed = true);
+  /// Whether more is known of these in this step than the set says.
+  bool narrows() const { return !ownBounds_.empty() || !heldBounds_.empty(); }
+  /// Narrows what the states are during the whole step by what is known of these.
+  void narrowOver(std::vector<Interval>& states) const;
   /// How far p + Ψ (r + Γs) leaves its chord between two moments of the step, in seconds from its start, for each
   /// state.
   void sag(double from, double to, std::vector<Interval>& bound) const;
@@ -119,6 +138,19 @@ class FlowStepper {
   bool isTruncationTooLarge(double splitDefect) const;
   bool isLooserThanDriven() const;
   bool isKinkTooWide(const FlowSet& set, double kinkShare);
+  enum class Look { goOn, again, shorter, released };
+  Look lookAtJumps(const FlowSet& set, double& h, double smallest);
+  int symbolOfSliding(const FlowSet& set, double kinkShare) const;
+  double longestWhileSliding(const JumpBound& bound, const JumpBound& atStart, double h, double last) const;
+  bool boundOwnJumps(const FlowSet& set, const Interval& time, const Box& box, double h,
+                     std::vector<JumpBound>& bounds);
+  void boundHeldJumps(const FlowSet& set, const Interval& time, const Box& box, double h,
+                      const std::vector<JumpBound>& own, std::vector<JumpBound>& bounds);
+  Interval transferred(const Interval& argument, std::size_t jump) const;
+  std::vector<Interval> argumentsBehind() const;
+  template <class Visit>
+  void forEachKnown(Visit visit) const;
+  void narrowArguments(const FlowSet& set, double tau, FlowPoint& point) const;
   std::vector<double> symbolMass(std::vector<double>& byGrade) const;
 
   int n_, m_;
@@ -130,7 +162,17 @@ class FlowStepper {
   double timeError_ = 0, truncation_ = 0;
   double caution_ = 1;
   std::vector<std::string> names_;
-  int symbolAcross_ = -1;       // of kinks, for worstSymbol
+  int symbolAcross_ = -1;                     // of kinks, for worstSymbol
+  const FlowJumps* of_ = nullptr;             // without any held
+  std::optional<JumpBounder> own_, holding_;  // of the stepper's own jumps; of those of which some are held
+  std::vector<char> held_, stillHeld_;        // of each of these; none: none
+  struct Same {
+    int own;  // -1: none
+    double factor;
+  };
+  std::vector<Same> same_;                         // of each of these, which own jump has its argument, times `factor`
+  std::vector<JumpBound> ownBounds_, heldBounds_;  // over the step; none: nothing is known
+  bool isGiven_ = false, isSliding_ = false, isShortened_ = false;
   std::string why_, obstacle_;  // obstacle_: of the last attempt
   std::vector<double> delta0_, delta1_, start_, E_, y_, e1_, epsilon_, nu0_, nu1_, scale_, floor_;
   std::vector<double> total_, errors_;         // R + Σ_j |Γ_j| of the set being stepped; without inputs

@@ -33,6 +33,12 @@ std::shared_ptr<const Monomials> expandedMonomials(int symbols, int n) {
   return monomials->count() <= 300 ? monomials : nullptr;
 }
 
+std::vector<int> parametersOf(const std::vector<VaryingParameter>& inputs) {
+  std::vector<int> parameters;
+  for (const VaryingParameter& input : inputs) parameters.push_back(input.parameter);
+  return parameters;
+}
+
 /// Of steps that are about as long whatever the tolerance is (measured).
 int orderFor(double tolerance) { return static_cast<int>(std::clamp(-2 * std::log10(tolerance) - 8, 10.0, 20.0)); }
 
@@ -48,11 +54,12 @@ FlowTask::FlowTask(const FlowQuestion& question, const Box& startBox, const std:
       box(startBox),
       levels(levelBoxes),
       embedding(startBox, question.motion.states(), question.options.varying, round.emphasis.weights),
+      jumps(question.differentiated, parametersOf(question.options.varying)),
       horizon(question.horizon),
       effective(round.emphasis.weights.empty() ? embedding.symbols : round.emphasis.effective),
       isLast(round.isLast),
       richer(round.richer) {
-  for (const VaryingParameter& input : options.varying) varying.push_back(input.parameter);
+  varying = parametersOf(options.varying);
   times.push_back(0.0);
   for (double time : question.outputTimes)
     if (time > times.back()) times.push_back(time);

@@ -9,6 +9,7 @@
 
 #include "analyses/flow/embedding.hpp"
 #include "analyses/flow/flow.hpp"
+#include "analyses/flow/jumps.hpp"
 #include "analyses/flow/monomials.hpp"
 
 namespace gamut {
@@ -72,6 +73,7 @@ struct FlowTask {
   const Box& box;
   const std::vector<Box>& levels;
   Embedding embedding;
+  FlowJumps jumps;
   double horizon, quantum = 0, tolerance = 0, splitDefect = 0, kinkShare = 0;
   int order = 0, active = 0;  // symbols of weight 1
   int fineOrders = 0;         // in double-double, without symbols: where rounding would limit the width

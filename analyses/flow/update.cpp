@@ -50,7 +50,7 @@ auto frameOf(const FlowPoint& point, int g) {
 
 }  // namespace
 
-void FlowStepper::evaluate(const FlowSet& set, double tau, FlowPoint& point) {
+void FlowStepper::evaluate(const FlowSet& set, double tau, FlowPoint& point, bool narrowed) {
   const int N = series_.count(), NJ = series_.frameCount(), stride = series_.stride();
   const double sigma = tau / h0_;
   point.p.assign(at(n_ * N), 0.0);
@@ -86,6 +86,7 @@ void FlowStepper::evaluate(const FlowSet& set, double tau, FlowPoint& point) {
     return s.hi;
   };
   point.low.assign(at(n_), 0.0);
+  point.known.assign(at(n_), 0.0);
   for (int i = 0; i < n_; ++i) {
     double error = 0;
     if (series_.isFine())
@@ -138,6 +139,7 @@ void FlowStepper::evaluate(const FlowSet& set, double tau, FlowPoint& point) {
     point.radius[i] =
         (point.radius[i] + point.driven[i] + point.beyond[i] + point.loose[i]) * bounds::up + bounds::tiny;
   }
+  if (tau != 0 && narrowed) narrowArguments(set, tau, point);
 }
 
 /// What inputs did: (Ψ_0 + Σ_l Ψ_l ξ_l) (Γ + Σ_l Γ_l ξ_l) to the first order in ξ; the rest goes `beyond`.
@@ -388,9 +390,14 @@ void FlowStepper::advance(FlowSet& set) {
   }
 
   set.t += h_;  // exact: both are multiples of the quantum
+  set.arguments = argumentsBehind();
+  set.slideStep = isSliding_ ? h_ : 0;
   set.p = end_.p;
   if (series_.isFine()) set.low = end_.low;
-  set.nextStep = h_ * 1.1;
+  // Where jumps made it short, the step before tells more; but first to the end of that.
+  if (isShortened_ && set.freeStep == 0) set.freeStep = set.nextStep;
+  set.nextStep = isSliding_ ? 2 * h_ : std::max(h_ * 1.1, set.freeStep);
+  if (!isShortened_) set.freeStep = 0;
   set.caution = caution_;
   set.units = growth_.units();
   if (set.first.empty())

@@ -268,10 +268,12 @@ class TaylorRun {
 
   /// The equations on the sides that were found.
   void take(bool areFound, const Real& t) {
-    if (areFound)
-      here_ = &equationsOf(sides_.piece().programs.rates);
-    else
+    if (!areFound) {
       stop(t, heldWhereItJumps);
+      return;
+    }
+    here_ = &equationsOf(sides_.piece().programs.rates);
+    sides_.rest(x_);
   }
 
   SmoothEquations<Real>& equationsOf(const Program& f) {

@@ -49,8 +49,8 @@ class CvodeProblem {
   virtual void watch(double, std::span<const double>, std::span<double>) {}
   /// Those marked in `fallen` have come to zero at t and x, and are below at `later`: other equations hold from t on.
   /// Returns why there are none, or nothing.
-  virtual std::string turn(double /*t*/, std::span<const double> /*x*/, double /*later*/,
-                           std::span<const double> /*xLater*/, std::span<const char> /*fallen*/) {
+  virtual std::string turn(double /*t*/, std::span<double> /*x*/, double /*later*/, std::span<const double> /*xLater*/,
+                           std::span<const char> /*fallen*/) {
     return {};
   }
 };

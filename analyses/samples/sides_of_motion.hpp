@@ -18,6 +18,7 @@
 
 #include "analyses/samples/influence_of_signs.hpp"
 #include "scalars/evaluation/evaluator.hpp"
+#include "scalars/program/linear_form.hpp"
 #include "scalars/program/sides.hpp"
 
 namespace gamut {
@@ -51,6 +52,7 @@ class SidesOfMotion {
 
   SidesOfMotion(const Program& f, double horizon) : f_(f), horizon_(horizon), count_(jumpsOf(f).size()) {
     if (count_ > 0) influence_.emplace(f);
+    for (const int jump : jumpsOf(f)) forms_.push_back(linearFormOf(f, f.nodes()[detail::at(jump)].a));
   }
 
   /// The number of jumps; without any there are no pieces, and nothing to begin or to turn.
@@ -64,6 +66,18 @@ class SidesOfMotion {
   void watch(const Real& t, std::span<const Real> x, std::span<Real> values) {
     piece_->watched(t, x, values);
     for (std::size_t k = 0; k < count_; ++k) values[k] = values[k] + lift_[k];
+  }
+
+  /// Of jumps that are held and depend on one state, this exactly.
+  void rest(std::span<Real> x) const {
+    for (std::size_t k = 0; k < count_; ++k) {
+      if (sides_[k] != Side::held || !forms_[k] || !isOfOneState(*forms_[k])) continue;
+      Real others = constant<Real>(forms_[k]->constant);
+      for (std::size_t i = 0; i < parameters_.size(); ++i)
+        if (forms_[k]->parameters[i] != 0) others = others + parameters_[i] * Real(forms_[k]->parameters[i]);
+      const std::size_t state = detail::at(forms_[k]->pivot);
+      x[state] = -others / Real(forms_[k]->states[state]);
+    }
   }
 
   void setParameters(std::span<const Real> p) {
@@ -262,6 +276,7 @@ class SidesOfMotion {
   double horizon_;
   std::size_t count_;
   std::optional<InfluenceOfSigns<Real>> influence_;
+  std::vector<std::optional<LinearForm>> forms_;  // of each argument that is one
   std::vector<Real> parameters_;
   std::map<std::vector<Side>, std::unique_ptr<Piece>> pieces_;
   Piece* piece_ = nullptr;

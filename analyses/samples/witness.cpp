@@ -43,9 +43,11 @@ struct Witness::Solver : CvodeProblem {
 
   std::size_t watched() const override { return sides.count(); }
   void watch(double t, std::span<const double> x, std::span<double> values) override { sides.watch(t, x, values); }
-  std::string turn(double t, std::span<const double> x, double later, std::span<const double> xLater,
+  std::string turn(double t, std::span<double> x, double later, std::span<const double> xLater,
                    std::span<const char> fallen) override {
-    return sides.turn(t, x, later, xLater, fallen) ? "" : heldWhereItJumps;
+    if (!sides.turn(t, x, later, xLater, fallen)) return heldWhereItJumps;
+    sides.rest(x);
+    return "";
   }
 
   bool observe(std::size_t i, double t, std::span<const double> x) override {

@@ -1,11 +1,13 @@
 // Signs become parameters first; sides are values of these.
 #include "scalars/program/sides.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
 #include "scalars/index.hpp"
 #include "scalars/program/differentiation.hpp"
+#include "scalars/program/linear_form.hpp"
 #include "scalars/program/recorder.hpp"
 
 namespace gamut {
@@ -70,24 +72,38 @@ Program onSides(const Program& f, std::span<const Side> sides) {
   std::vector<int> parameters, held;
   for (int i = 0; i < k; ++i) parameters.push_back(recorder.parameter(i));
   for (int j = 0; j < jumps; ++j) {
-    const bool isHeld = sides[at(j)] == Side::held;
-    if (isHeld) held.push_back(j);
-    parameters.push_back(recorder.constant(isHeld ? -1.0 : static_cast<double>(sides[at(j)])));
+    const bool isFixed = sides[at(j)] != Side::held && sides[at(j)] != Side::open;
+    if (sides[at(j)] == Side::held) held.push_back(j);
+    parameters.push_back(recorder.constant(isFixed ? static_cast<double>(sides[at(j)]) : -1.0));
   }
+  std::vector<int> instead(given.nodes().size(), -1);  // what is held is zero, wherever it stands
+  for (const int j : held) instead[at(given.outputNodes()[at(n + j)])] = recorder.constant(0.0);
   const auto outputsWith = [&](const std::vector<int>& values) {
-    const std::vector<int> here = recorder.append(given, values);
+    const std::vector<int> here = recorder.append(given, values, instead);
     std::vector<int> outputs;
     for (const int output : given.outputNodes()) outputs.push_back(here[at(output)]);
     return outputs;
   };
   std::vector<int> outputs = outputsWith(parameters);
+  if (std::ranges::find(sides, Side::open) != sides.end()) {
+    for (int j = 0; j < jumps; ++j)
+      if (sides[at(j)] == Side::open) parameters[at(k + j)] = recorder.sign(outputs[at(n + j)]);
+    const std::vector<int> arguments(outputs.begin() + n, outputs.begin() + n + jumps);
+    outputs = outputsWith(parameters);
+    if (!std::equal(arguments.begin(), arguments.end(), outputs.begin() + n))
+      throw std::invalid_argument("a jump that depends on another one cannot be left open");
+  }
   const std::vector<int> below = outputs;
-  std::vector<std::vector<int>> steps;  // from below to above in one of those held
+  std::vector<std::vector<int>> steps;  // from below to above in one of those held: the same whatever those open are
+  std::vector<int> values = parameters;
+  for (int j = 0; j < jumps; ++j)
+    if (sides[at(j)] == Side::open) values[at(k + j)] = recorder.constant(0.0);
+  const std::vector<int> from = held.empty() ? outputs : outputsWith(values);
   for (const int j : held) {
-    std::vector<int> values = parameters;
     values[at(k + j)] = recorder.constant(1.0);
     steps.push_back(outputsWith(values));
-    for (std::size_t o = 0; o < below.size(); ++o) steps.back()[o] = recorder.sub(steps.back()[o], below[o]);
+    values[at(k + j)] = recorder.constant(-1.0);
+    for (std::size_t o = 0; o < from.size(); ++o) steps.back()[o] = recorder.sub(steps.back()[o], from[o]);
   }
   const auto rate = [&](int j) { return at(n + jumps + j); };  // its place among outputs
   std::vector<int> shares;
@@ -106,6 +122,10 @@ Program onSides(const Program& f, std::span<const Side> sides) {
     for (int o = 0; o < n; ++o) outputs[at(o)] = recorder.add(outputs[at(o)], recorder.mul(shares[h], steps[h][at(o)]));
     parameters[at(k + held[h])] = recorder.sub(recorder.mul(recorder.constant(2.0), shares[h]), recorder.constant(1.0));
   }
+  const std::vector<int> signs = jumpsOf(f);
+  for (const int j : held)  // not but for roundings
+    if (const auto form = linearFormOf(f, f.nodes()[at(signs[at(j)])].a); form && isOfOneState(*form))
+      outputs[at(form->pivot)] = recorder.constant(0.0);
   outputs.resize(at(n + jumps));
   outputs.insert(outputs.end(), parameters.begin() + k, parameters.end());
   return recorder.finish(outputs);

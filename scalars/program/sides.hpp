@@ -10,8 +10,8 @@
 
 namespace gamut {
 
-/// Of one jump: its sign is -1, 0, 1, or what keeps its argument as it is.
-enum class Side : signed char { below = -1, between = 0, above = 1, held = 2 };
+/// Of one jump: its sign is -1, 0, 1, or what keeps its argument as it is, or as ever.
+enum class Side : signed char { below = -1, between = 0, above = 1, held = 2, open = 3 };
 
 /// The nodes of `program` that jump, in their order: its signs.
 std::vector<int> jumpsOf(const Program& program);
@@ -24,9 +24,11 @@ Program withSignsGiven(const Program& f);
 /// f at their mean.
 bool isAffineInSigns(const Program& f);
 
-/// f on these sides, one a jump. Outputs: f's n, the arguments u_1 … u_K, the signs s_1 … s_K. Of several that are held
-/// the rates are those of one side and what each other side alone adds, times (1 + s)/2. Where no value holds, outputs
-/// are not finite. Throws std::domain_error if a held argument's rate is the same whatever its sign.
+/// f on these sides, one a jump. Outputs: f's n, the arguments u_1 … u_K, the signs s_1 … s_K. A held argument counts
+/// as zero. Of several that are held the rates are those of one side and what each other side alone adds, times (1 +
+/// s)/2; where one is open f has to be affine in its signs. Where no value holds, outputs are not finite. Throws
+/// std::domain_error if a held argument's rate is the same whatever its sign, std::invalid_argument if one is open
+/// where a sign decides about a sign.
 Program onSides(const Program& f, std::span<const Side> sides);
 
 }  // namespace gamut

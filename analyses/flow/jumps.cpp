@@ -1,0 +1,154 @@
+// Rates by intervals, and what follows from them. Derivations: docs/flow.md, section 7.
+#include "analyses/flow/jumps.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "analyses/flow/embedding.hpp"
+#include "scalars/index.hpp"
+#include "scalars/program/sides.hpp"
+
+namespace gamut {
+
+using detail::at;
+
+/// An argument with an input in it moves at rates that nobody knows.
+FlowJumps::FlowJumps(const Program& differentiated, const std::vector<int>& varying)
+    : f(Recorder(differentiated)
+            .finish({differentiated.outputNodes().begin(),
+                     differentiated.outputNodes().begin() + differentiated.states()})),
+      given(f) {
+  const std::vector<int> jumps = jumpsOf(f);
+  if (jumps.empty() || !isAffineInSigns(f)) return;
+  given = withSignsGiven(f);
+  for (const int jump : jumps) {
+    forms.push_back(linearFormOf(f, f.nodes()[at(jump)].a));
+    for (const int parameter : varying)
+      if (forms.back() && forms.back()->parameters[at(parameter)] != 0) forms.back().reset();
+  }
+}
+
+Program FlowJumps::heldProgram(const std::vector<char>& held) const {
+  std::vector<Side> sides;
+  for (const char isHeld : held) sides.push_back(isHeld != 0 ? Side::held : Side::open);
+  const Program all = onSides(f, sides);
+  return Recorder(all).finish({all.outputNodes().begin(), all.outputNodes().begin() + f.states()});
+}
+
+JumpBounder::JumpBounder(const FlowJumps& jumps)
+    : jumps_(jumps), given_(jumps.given), results_(at(jumps.given.outputs())) {}
+
+void JumpBounder::setParameters(const std::vector<Embedded>& parameters) {
+  parameters_.clear();
+  for (const Embedded& e : parameters)
+    parameters_.push_back(inflated(Interval(e.centre), std::fabs(e.half)) + inflated(Interval(0.0), e.coarseRadius()));
+}
+
+/// Of the argument, with its sign given.
+Interval JumpBounder::rate(std::size_t jump, double sign, const Interval& time, const Box& box,
+                           const std::vector<JumpBound>& bounds) {
+  Box all = parameters_;
+  for (const JumpBound& bound : bounds) all.push_back(bound.sign);
+  all[parameters_.size() + jump] = Interval(sign);
+  given_.setParameters(all);
+  given_(time, box, results_);
+  return results_[box.size() + bounds.size() + jump];
+}
+
+void JumpBounder::narrow(const LinearForm& form, const Interval& argument, Box& box) const {
+  Interval others = form.constant;
+  for (std::size_t k = 0; k < parameters_.size(); ++k)
+    if (form.parameters[k] != 0) others += Interval(form.parameters[k]) * parameters_[k];
+  for (std::size_t j = 0; j < box.size(); ++j)
+    if (form.states[j] != 0 && j != at(form.pivot)) others += Interval(form.states[j]) * box[j];
+  Interval& pivot = box[at(form.pivot)];
+  const Interval both = intersection(pivot, (argument - others) / Interval(form.states[at(form.pivot)]));
+  if (!isEmpty(both)) pivot = both;
+}
+
+void JumpBounder::bound(const Interval& time, const Box& box, const std::vector<Interval>& start, double h,
+                        std::vector<JumpBound>& bounds) {
+  constexpr int rounds = 2;  // what is known of arguments narrows the states, and these the rates
+  Box narrowed = box;
+  for (int round = 0; round < rounds; ++round)
+    for (std::size_t k = 0; k < bounds.size(); ++k) {
+      if (!isBounded(start[k])) continue;
+      boundOne(k, time, narrowed, start[k], h, bounds);
+      if (jumps_.forms[k]) narrow(*jumps_.forms[k], bounds[k].over, narrowed);
+    }
+}
+
+/// So long as it is on one side it goes no further than the rates there take it, and once at zero it stays or leaves to
+/// where its rate points away.
+JumpBound::Reach JumpBound::after(double seconds) const {
+  const Interval length(seconds), passed(0.0, seconds);
+  const double low = start.lower(), high = start.upper();
+  // Seen from above; from below the same, mirrored.
+  const auto above = [&](double from, const Interval& own) {  // {at all times, at the end}, upper bounds
+    const double begin = std::max(from, 0.0);
+    const double most = (Interval(begin) + passed * Interval(own.upper())).upper();
+    const double end =
+        own.upper() <= 0 ? std::max(0.0, (Interval(from) + length * Interval(own.upper())).upper()) : most;
+    return std::pair(most, end);
+  };
+  auto [mostEver, mostEnd] = above(high, up);
+  auto [mirroredEver, mirroredEnd] = above(-low, -down);
+  double leastEver = -mirroredEver, leastEnd = -mirroredEnd;
+  // Those that are on one side at all times, and those that leave from zero to one side for good.
+  const auto away = [&](double from, const Interval& own, const Interval& other, double& ever, double& end) {
+    const double reached = (Interval(from) + passed * Interval(own.lower())).lower();
+    const bool staysThere = from > 0 && reached > 0, leaves = from >= 0 && own.lower() > 0 && other.lower() > 0;
+    if (!staysThere && !leaves) return;
+    ever = staysThere ? reached : from;
+    end = (Interval(from) + length * Interval(own.lower())).lower();
+  };
+  away(low, up, down, leastEver, leastEnd);
+  double mirrored = -mostEver, mirroredAtEnd = -mostEnd;
+  away(-high, -down, -up, mirrored, mirroredAtEnd);
+  const auto between = [](double lower, double upper) {  // no number fits both only if there are no solutions
+    return lower <= upper ? Interval(lower, upper) : Interval::entire();
+  };
+  return {between(leastEver, -mirrored), between(leastEnd, -mirroredAtEnd)};
+}
+
+void JumpBounder::boundOne(std::size_t jump, const Interval& time, const Box& box, const Interval& start, double h,
+                           std::vector<JumpBound>& bounds) {
+  JumpBound& bound = bounds[jump];
+  const Interval up = rate(jump, 1.0, time, box, bounds), down = rate(jump, -1.0, time, box, bounds);
+  if (!isBounded(up) || !isBounded(down)) return;
+  bound.start = start;
+  bound.up = up;
+  bound.down = down;
+  bound.over = bound.after(h).ever;
+  if (!bound.isKnown()) return;
+  const double leastEver = bound.over.lower(), greatestEver = bound.over.upper();
+  bound.holds = up.upper() < 0 && down.lower() > 0;
+  // Those at zero pass, or leave, where both sides point to the same side. A rate of zero lets them stay on its side.
+  const bool passes = (up.lower() > 0 && down.lower() > 0) || (up.upper() < 0 && down.upper() < 0);
+  bound.maySlide = leastEver <= 0 && greatestEver >= 0 && !passes;
+  bound.turned = 0;
+  Interval sign = Interval::empty();
+  if (greatestEver > 0) sign = hull(sign, Interval(1.0));
+  if (leastEver < 0) sign = hull(sign, Interval(-1.0));
+  if (bound.maySlide) {
+    // s = (up + down)/(down - up) rises with both, as long as up ≤ 0 ≤ down.
+    const auto sliding = [](double u, double d) {
+      const Interval sum = Interval(u) + Interval(d), difference = Interval(d) - Interval(u);
+      return difference.lower() > 0 ? sum / difference : Interval(-1.0, 1.0);
+    };
+    const bool mayRepel = up.upper() >= 0 && down.lower() <= 0;
+    const Interval slid = mayRepel || up.lower() > 0 || down.upper() < 0
+                              ? Interval(-1.0, 1.0)
+                              : Interval(sliding(up.lower(), std::max(down.lower(), 0.0)).lower(),
+                                         sliding(std::min(up.upper(), 0.0), down.upper()).upper());
+    const double most = down.upper() - up.upper(), least = down.lower() - up.lower();
+    bound.turned = most > 0 && least > 0 ? (up.upper() + down.upper()) / most - (up.lower() + down.lower()) / least
+                                         : std::numeric_limits<double>::infinity();
+    sign = hull(sign, slid);
+  }
+  sign = intersection(sign, bound.sign);
+  if (!isEmpty(sign)) bound.sign = sign;
+}
+
+}  // namespace gamut

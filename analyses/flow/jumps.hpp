@@ -1,0 +1,73 @@
+// Where f jumps: how fast the arguments of its signs move on either side, and what that leaves of the signs and of the
+// arguments over a step. docs/flow.md, section 7.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "analyses/flow/polynomial_series.hpp"
+#include "scalars/evaluation/evaluator.hpp"
+#include "scalars/interval.hpp"
+#include "scalars/program/linear_form.hpp"
+#include "scalars/program/program.hpp"
+
+namespace gamut {
+
+/// The jumps of a motion, the same for all steps.
+struct FlowJumps {
+  /// `differentiated` as for FlowStepper; `varying`: parameters that are inputs.
+  FlowJumps(const Program& differentiated, const std::vector<int>& varying);
+  std::size_t count() const { return forms.size(); }
+  /// f with the jumps of `held` held, the others as they are; throws as onSides.
+  Program heldProgram(const std::vector<char>& held) const;
+
+  Program f;                                     ///< without derivatives
+  Program given;                                 ///< withSignsGiven(f), where f is affine in its signs
+  std::vector<std::optional<LinearForm>> forms;  ///< of each argument that is one; none if f is not affine
+};
+
+/// Of one jump, over a step.
+struct JumpBound {
+  Interval start = Interval::entire();  ///< its argument at first; nothing is known of it: entire
+  Interval up = Interval::entire(), down = Interval::entire();  ///< the argument's rate above zero, and below
+  Interval over = Interval::entire();                           ///< the argument, at all times
+  Interval sign{-1.0, 1.0};                                     ///< or a mean of signs
+  bool maySlide = true;                                         ///< solutions may stay where the argument is zero
+  bool holds = false;                                           ///< those there stay there, all of them
+  double turned = 0;                                            ///< how much the sign that would hold them varies
+
+  bool isKnown() const { return isCommon(over); }
+  /// The argument until `seconds` into the step, and then.
+  struct Reach {
+    Interval ever, then;
+  };
+  Reach after(double seconds) const;
+};
+
+/// What a step finds about jumps; one a stepper.
+class JumpBounder {
+ public:
+  const FlowJumps& jumps() const { return jumps_; }
+  explicit JumpBounder(const FlowJumps& jumps);
+  void setParameters(const std::vector<Embedded>& parameters);
+
+  /// While time is within `time` and states within `box`, h seconds long, with arguments that start in `start` (whole
+  /// lines where nothing is known of them): narrows `bounds`, one a jump, of which the signs hold already.
+  void bound(const Interval& time, const Box& box, const std::vector<Interval>& start, double h,
+             std::vector<JumpBound>& bounds);
+  /// Narrows the pivot's state in `box` by what the form is.
+  void narrow(const LinearForm& form, const Interval& argument, Box& box) const;
+
+ private:
+  void boundOne(std::size_t jump, const Interval& time, const Box& box, const Interval& start, double h,
+                std::vector<JumpBound>& bounds);
+  Interval rate(std::size_t jump, double sign, const Interval& time, const Box& box,
+                const std::vector<JumpBound>& bounds);
+
+  const FlowJumps& jumps_;
+  Evaluator<Interval> given_;
+  Box parameters_;
+  std::vector<Interval> results_;
+};
+
+}  // namespace gamut

@@ -1,0 +1,376 @@
+// Steps in which solutions come to the surface of a jump, are held there, or leave it. Derivations: docs/flow.md,
+// section 7.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "analyses/flow/error_bounds.hpp"
+#include "analyses/flow/step.hpp"
+#include "scalars/index.hpp"
+
+namespace gamut {
+
+using detail::at;
+
+namespace {
+
+constexpr double nearlyAny = 1.9;  // the width of a sign of which hardly anything is known
+
+}  // namespace
+
+bool FlowStepper::setJumps(const FlowJumps& own, const FlowJumps& of, std::vector<char> held) {
+  held_ = std::move(held);
+  if (series_.jumps().size() == own.count() && own.count() > 0) own_.emplace(own);
+  of_ = &of;
+  if (held_.empty()) return own_.has_value() && of.count() == own.count();
+  holding_.emplace(of);
+  std::vector<char> zeros(at(n_), 0);
+  for (std::size_t k = 0; k < of.count(); ++k)
+    if (held_[k] != 0 && of.forms[k] && zeroOf(*of.forms[k]) >= 0) zeros[at(zeroOf(*of.forms[k]))] = 1;
+  for (std::size_t k = 0; k < of.count(); ++k) {
+    same_.push_back({-1, 0});
+    for (std::size_t j = 0; own_ && held_[k] == 0 && j < own.count(); ++j)
+      if (of.forms[k] && own.forms[j])
+        if (const double factor = sameForm(*of.forms[k], *own.forms[j], zeros); factor != 0)
+          same_.back() = {static_cast<int>(j), factor};
+  }
+  return true;
+}
+
+std::vector<char> FlowStepper::resting(const FlowSet& set, const FlowJumps& jumps) {
+  std::vector<double> total;
+  totalRadius(set, total);
+  std::vector<char> result;
+  bool any = false;
+  for (std::size_t k = 0; k < jumps.count(); ++k) {
+    bool rests = false;
+    if (jumps.forms[k]) {
+      const bool isKnown = !set.arguments.empty() && isEqual(set.arguments[k], Interval(0.0));
+      rests = isKnown || isEqual(argumentOf(set, *jumps.forms[k], total), Interval(0.0));
+    }
+    result.push_back(static_cast<char>(rests));
+    any = any || rests;
+  }
+  return any ? result : std::vector<char>{};
+}
+
+Interval argumentOf(const FlowSet& set, const LinearForm& form, const std::vector<double>& total) {
+  const std::size_t n = form.states.size(), N = set.p.size() / n, frames = set.C.size() / (n * n);
+  double centre = 0, half = 0, rest = 0, size = 0, roundings = 0;
+  std::size_t terms = 0;
+  bool isExact = true, isZero = true;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double by = std::fabs(form.states[i]);
+    if (by == 0) continue;
+    ++terms;
+    isExact = isExact && by == 1;
+    double own = set.W[i];
+    for (std::size_t g = 0; g < frames; ++g)
+      for (std::size_t j = 0; j < n; ++j) own += std::fabs(set.C[(g * n + i) * n + j]) * total[j];
+    rest += by * own;
+    isZero = isZero && own == 0;
+    for (std::size_t g = 0; g < N; ++g) isZero = isZero && set.p[i * N + g] == 0;
+  }
+  for (std::size_t g = 0; g < N; ++g) {
+    double sum = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      sum += form.states[i] * set.p[i * N + g];
+      size += std::fabs(form.states[i] * set.p[i * N + g]);
+    }
+    (g == 0 ? centre : half) += g == 0 ? sum : std::fabs(sum);
+  }
+  Interval result = form.constant;
+  for (std::size_t k = 0; k < form.parameters.size(); ++k)
+    if (const double by = form.parameters[k]; by != 0) {
+      const Embedded& e = set.parameters[k];
+      result += Interval(by) * inflated(inflated(Interval(e.centre), e.half), e.coarseRadius());
+    }
+  if (isZero) return result;
+  // As many products and sums a monomial; none where there is one term, times 1.
+  if (!isExact || terms > 1) roundings = static_cast<double>(2 * terms + 2) * bounds::unit * size + bounds::tiny;
+  return result + inflated(Interval(centre), (half + rest + roundings) * bounds::up);
+}
+
+/// How long the step should be at most where solutions are about to be held or to leave. `atStart`: bounds of the first
+/// moment; `last`: the step before, if it was one of these.
+double FlowStepper::longestWhileSliding(const JumpBound& bound, const JumpBound& atStart, double h, double last) const {
+  const Interval& start = bound.start;
+  constexpr double ahead = 0.9, parts = 8, turnedMore = 1.2, turnedBesides = 1e-6;
+  if (bound.holds) {  // the last come after, the first before
+    const double latest = std::max(start.upper() / -bound.up.upper(), -start.lower() / bound.down.lower());
+    const double first = std::max(start.lower() / -bound.up.lower(), -start.upper() / bound.down.upper());
+    return std::max({last, latest > 0 ? latest / parts : h, ahead * first});
+  }
+  return bound.turned <= turnedMore * atStart.turned + turnedBesides ? h : 0.5 * h;
+}
+
+/// What comes to be held or leaves does so over a time Δ, in which the set loses its dependence on ξ in what moves
+/// then: of its width, about a quarter of what the motion turns in that time. The symbol to bisect for less; -1 for
+/// none.
+int FlowStepper::symbolOfSliding(const FlowSet& set, double kinkShare) const {
+  if (!(kinkShare > 0) || set.slideStep > 0) return -1;
+  const int N = series_.count();
+  int symbol = -1;
+  double longest = 0;
+  for (std::size_t k = 0; k < ownBounds_.size(); ++k) {
+    const JumpBound& bound = ownBounds_[k];
+    if (!bound.isKnown() || !bound.maySlide) continue;
+    const LinearForm& form = *own_->jumps().forms[k];
+    std::vector<double> mass(at(monomials().symbols()), 0.0);
+    double sum = 0, rate = 0;
+    for (int g = 0; g < N; ++g) {
+      double value = 0;
+      for (std::size_t i = 0; i < form.states.size(); ++i) {
+        const double* f = series_.series(series_.outputNode(static_cast<int>(i)));
+        value += form.states[i] * (bound.holds ? set.p[i * at(N) + at(g)] : f[g * series_.stride()]);
+        if (g == 0) rate += form.states[i] * (bound.holds ? f[0] : f[1] / h0_);
+      }
+      for (std::size_t l = 0; l < mass.size(); ++l)
+        if (monomials().exponent(g, static_cast<int>(l)) > 0) mass[l] += std::fabs(value);
+      if (g > 0) sum += std::fabs(value);
+    }
+    const auto worst = std::ranges::max_element(mass);
+    if (mass.empty() || !(*worst > 0) || rate == 0) continue;
+    if (const double time = 2 * sum / std::fabs(rate); time > longest) {
+      longest = time;
+      symbol = static_cast<int>(worst - mass.begin());
+    }
+  }
+  constexpr double leastPart = 0x1p-6, lost = 0.25;
+  if (symbol < 0 || at(symbol) >= set.half.size() || set.half[at(symbol)] <= leastPart) return -1;
+  return lost * longest * growth_.growth() / h_ > kinkShare / set.half[at(symbol)] ? symbol : -1;
+}
+
+/// The signs of the motion's own jumps that are not known to be on one side, and their arguments.
+bool FlowStepper::boundOwnJumps(const FlowSet& set, const Interval& time, const Box& box, double h,
+                                std::vector<JumpBound>& bounds) {
+  if (!own_) return false;
+  const FlowJumps& own = own_->jumps();
+  bool any = false;
+  std::vector<Interval> start(own.count(), Interval::entire());
+  bounds.assign(own.count(), {});
+  for (std::size_t j = 0; j < own.count(); ++j) {
+    const int sign = series_.jumps()[j];
+    const double value = series_.series(sign)[0];
+    if (!series_.mayTurn(sign)) {
+      if (std::fabs(value) == 1) bounds[j].sign = Interval(value);
+      continue;
+    }
+    any = true;
+    if (!own.forms[j]) continue;
+    start[j] = argumentOf(set, *own.forms[j], total_);
+    const auto meet = [&](const Interval& known) {
+      if (const Interval both = intersection(start[j], known); !isEmpty(both)) start[j] = both;
+    };
+    if (!set.arguments.empty() && held_.empty()) meet(set.arguments[j]);
+    for (std::size_t k = 0; k < same_.size() && !set.arguments.empty(); ++k)
+      if (same_[k].own == static_cast<int>(j)) meet(Interval(same_[k].factor) * transferred(set.arguments[k], k));
+  }
+  own_->setParameters(set.parameters);
+  own_->bound(time, box, start, h, bounds);
+  return any;
+}
+
+/// What is known of the argument of one jump, for its like: their constants are two numbers of one enclosure.
+Interval FlowStepper::transferred(const Interval& argument, std::size_t jump) const {
+  const Interval& constant = of_->forms[jump]->constant;
+  return isBounded(argument) ? argument + (constant - constant) : argument;
+}
+
+void FlowStepper::boundHeldJumps(const FlowSet& set, const Interval& time, const Box& box, double h,
+                                 const std::vector<JumpBound>& own, std::vector<JumpBound>& bounds) {
+  std::vector<Interval> start(held_.size(), Interval::entire());
+  bounds.assign(held_.size(), {});
+  for (std::size_t k = 0; k < held_.size(); ++k) {
+    if (held_[k] != 0) start[k] = Interval(0.0);
+    if (same_[k].own >= 0) bounds[k].sign = Interval(same_[k].factor) * own[at(same_[k].own)].sign;
+  }
+  holding_->setParameters(set.parameters);
+  holding_->bound(time, box, start, h, bounds);
+}
+
+FlowStepper::Look FlowStepper::lookAtJumps(const FlowSet& set, double& h, double smallest) {
+  ownBounds_.clear();
+  heldBounds_.clear();
+  isSliding_ = false;
+  Box box, boxAtStart;
+  for (int i = 0; i < n_; ++i) {
+    box.push_back(series_.reach(i, y_[at(i)]));  // proved: no more than E
+    LinearForm own;
+    own.states.assign(at(n_), 0.0);
+    own.states[at(i)] = 1;
+    boxAtStart.push_back(argumentOf(set, own, total_));
+  }
+  const Interval began(set.t), time = began + Interval(0.0, h);
+  std::vector<JumpBound> atStart, heldAtStart;
+  if (!boundOwnJumps(set, time, box, h, ownBounds_) && !holding_) {
+    ownBounds_.clear();
+    return Look::goOn;
+  }
+  boundOwnJumps(set, began, boxAtStart, 0.0, atStart);
+  if (holding_) {
+    boundHeldJumps(set, time, box, h, ownBounds_, heldBounds_);
+    boundHeldJumps(set, began, boxAtStart, 0.0, atStart, heldAtStart);
+    const auto isHeld = [&](const std::vector<JumpBound>& bounds) {
+      bool holds = true;
+      for (std::size_t k = 0; k < held_.size(); ++k) holds = holds && (held_[k] == 0 || bounds[k].holds);
+      return holds;
+    };
+    const bool couldHold = isHeld(heldAtStart);
+    if (!isHeld(heldBounds_)) {
+      if (couldHold && h >= 0x1p10 * smallest) {
+        h *= 0.5;
+        return Look::shorter;
+      }
+      stillHeld_ = held_;
+      for (std::size_t k = 0; k < held_.size(); ++k)
+        stillHeld_[k] &= static_cast<char>((couldHold ? heldBounds_ : heldAtStart)[k].holds);
+      return Look::released;
+    }
+  }
+  double longest = h;
+  std::vector<std::size_t> narrower;
+  for (std::size_t j = 0; j < ownBounds_.size(); ++j) {
+    const JumpBound& bound = ownBounds_[j];
+    const bool isNarrower = width(bound.sign) < nearlyAny, slides = bound.maySlide && (bound.holds || isNarrower);
+    if (!bound.isKnown() || !(slides || isNarrower)) continue;
+    narrower.push_back(j);
+    if (!slides) continue;
+    isSliding_ = true;
+    longest = std::min(longest, longestWhileSliding(bound, atStart[j], h, set.slideStep));
+  }
+  if (longest < 0.99 * h && h > smallest) {
+    h = std::max(longest, smallest);
+    return Look::shorter;
+  }
+  if (narrower.empty() || isGiven_) return Look::goOn;
+  isGiven_ = true;
+  for (const std::size_t j : narrower) series_.giveSign(series_.jumps()[j], ownBounds_[j].sign, ownBounds_[j].over);
+  return Look::again;
+}
+
+/// For the next step, of all jumps of the motion in which none is held.
+std::vector<Interval> FlowStepper::argumentsBehind() const {
+  std::vector<Interval> result;
+  const auto behind = [&](const JumpBound& bound) {
+    return bound.isKnown() ? bound.after(h_).then : Interval::entire();
+  };
+  if (held_.empty()) {
+    for (const JumpBound& bound : ownBounds_) result.push_back(behind(bound));
+    return result;
+  }
+  for (std::size_t k = 0; k < held_.size(); ++k) {
+    result.push_back(held_[k] != 0 ? behind(heldBounds_[k]) : Interval::entire());
+    if (same_[k].own < 0 || ownBounds_.empty()) continue;
+    const Interval own = behind(ownBounds_[at(same_[k].own)]);
+    if (isBounded(own)) result.back() = transferred(Interval(same_[k].factor) * own, k);
+  }
+  return result;
+}
+
+/// visit(form, bound) for all of which something is known in this step.
+template <class Visit>
+void FlowStepper::forEachKnown(Visit visit) const {
+  for (std::size_t j = 0; j < ownBounds_.size(); ++j)
+    if (ownBounds_[j].isKnown()) visit(*own_->jumps().forms[j], ownBounds_[j]);
+  for (std::size_t k = 0; k < heldBounds_.size(); ++k)
+    if (heldBounds_[k].isKnown()) visit(*of_->forms[k], heldBounds_[k]);
+}
+
+void FlowStepper::narrowOver(std::vector<Interval>& states) const {
+  forEachKnown([&](const LinearForm& form, const JumpBound& bound) {
+    (own_ ? *own_ : *holding_).narrow(form, bound.over, states);
+  });
+}
+
+/// x_i = (u - Σ_{j≠i} c_j x_j - Σ_k d_k p_k - constant)/c_i, where u is known better so than by the set.
+void FlowStepper::narrowArguments(const FlowSet& set, double tau, FlowPoint& point) const {
+  const int N = series_.count(), NJ = series_.frameCount();
+  const std::size_t n = at(n_);
+  forEachKnown([&](const LinearForm& form, const JumpBound& bound) {
+    const Interval u = bound.after(tau).then;
+    if (!isCommon(u)) return;
+    const std::size_t i = at(form.pivot);
+    const double by = form.states[i];
+    double now = 0;
+    for (int g = 1; g < N; ++g) {
+      double sum = 0;
+      for (std::size_t j = 0; j < n; ++j) sum += form.states[j] * point.p[j * at(N) + at(g)];
+      now += std::fabs(sum);
+    }
+    for (std::size_t j = 0; j < n; ++j) now += std::fabs(form.states[j]) * point.radius[j];
+    if (width(u) > 0 && !(width(u) < 1.8 * now)) return;
+    constexpr double leastRatio = 0x1p-500;  // below, products might underflow
+    bool isZero = isEqual(u, Interval(0.0)) && isEqual(form.constant, Interval(0.0)), isSafe = true;
+    std::vector<double> ratio(n, 0.0);
+    for (std::size_t j = 0; j < n; ++j) {
+      if (j == i || form.states[j] == 0) continue;
+      ratio[j] = -form.states[j] / by;
+      isZero = false;
+      isSafe = isSafe && std::fabs(ratio[j]) > leastRatio;
+    }
+    for (const double parameter : form.parameters) {
+      isZero = isZero && parameter == 0;
+      isSafe = isSafe && (parameter == 0 || std::fabs(parameter / by) > leastRatio);
+    }
+    if (!isSafe) return;
+    const Interval constant = (Interval(midpoint(u)) - form.constant) / Interval(by);
+    double loose = std::max((u.upper() - midpoint(u)), (midpoint(u) - u.lower())) / std::fabs(by) + radius(constant);
+    double size = std::fabs(midpoint(u) / by) + std::fabs(midpoint(constant));
+    std::vector<double> p(at(N), 0.0);
+    p[0] = midpoint(constant);
+    for (std::size_t q = 0; q < form.parameters.size(); ++q) {
+      const double part = -form.parameters[q] / by;
+      const Embedded& e = set.parameters[q];
+      if (part == 0) continue;
+      p[0] += part * e.centre;
+      if (e.symbol >= 0) p[at(monomials().linear(e.symbol))] += part * e.half;
+      loose += std::fabs(part) * e.coarseRadius();
+      size += std::fabs(part) * (std::fabs(e.centre) + e.half);
+    }
+    double radiusOfOthers = 0;
+    point.driven[i] = point.beyond[i] = 0;
+    for (int g = 0; g < NJ; ++g)
+      for (std::size_t c = 0; c < n; ++c) {
+        double sum = 0;
+        for (std::size_t j = 0; j < n; ++j) sum += ratio[j] * point.psi[(at(g) * n + j) * n + c];
+        point.psi[(at(g) * n + i) * n + c] = sum;
+      }
+    std::fill_n(point.psiSum.begin() + static_cast<std::ptrdiff_t>(i * n), n, 0.0);
+    const auto combine = [&](std::vector<double>& columns) {  // generators, n numbers each
+      for (std::size_t c = 0; c + n <= columns.size(); c += n) {
+        double sum = 0;
+        for (std::size_t j = 0; j < n; ++j) sum += ratio[j] * columns[c + j];
+        columns[c + i] = sum;
+      }
+    };
+    combine(point.zonotope);
+    for (std::vector<double>& of : point.drivenOfXi) combine(of);
+    for (std::size_t j = 0; j < n; ++j) {
+      if (ratio[j] == 0) continue;
+      const double share = std::fabs(ratio[j]) * bounds::up;
+      for (int g = 0; g < N; ++g) {
+        p[at(g)] += ratio[j] * point.p[j * at(N) + at(g)];
+        size += share * std::fabs(point.p[j * at(N) + at(g)]);
+      }
+      for (std::size_t c = 0; c < n; ++c) {
+        point.psiSum[i * n + c] += share * point.psiSum[j * n + c];
+        size += share * point.psiSum[j * n + c] * point.total[c];
+      }
+      loose += share * point.loose[j];
+      radiusOfOthers += share * point.radius[j];
+      point.driven[i] += share * point.driven[j];
+      point.beyond[i] += share * point.beyond[j];
+    }
+    // No sum has more than 2n + N + parameters terms, each of two roundings.
+    const double roundings = 4.0 * static_cast<double>(2 * n + at(N) + form.parameters.size()) + 16;
+    const double own = isZero ? 0.0 : (loose + roundings * bounds::unit * size) * bounds::up + bounds::tiny;
+    std::ranges::copy(p, point.p.begin() + static_cast<std::ptrdiff_t>(i * at(N)));
+    point.loose[i] = own;
+    point.known[i] = 0.5 * width(u) / std::fabs(by);
+    point.radius[i] = (radiusOfOthers + own) * bounds::up;
+  });
+}
+
+}  // namespace gamut

@@ -1,0 +1,338 @@
+// Solutions that are held at jumps: trajectories whose events are located in 128 bits, and closed forms, must lie
+// inside, exactly; and enclosures are hardly wider than they.
+#include <cmath>
+
+#include "analyses/flow/jumps.hpp"
+#include "tests/analyses/flow/containment.hpp"
+#include "tests/analyses/sliding_reference.hpp"
+
+namespace gamut::testing {
+namespace {
+
+struct Machine {
+  std::string name;
+  Program f;
+  Box centre, spread;  // spread: times the width
+  double horizon;
+  SlidingReference::Rest rest;
+  double loosest;  // of the first state's width over that of the trajectories, at one percent
+};
+
+Recorded stribeck(const Recorded& u) { return sign(u) / (1.0 + 2.0 * abs(u)); }
+
+const std::vector<Machine>& machines() {
+  static const std::vector<Machine> all{
+      {"comesToRest",
+       record(2, 1,
+              [](auto, const auto& x, const auto& p, auto& dx) {
+                dx[0] = x[1];
+                dx[1] = -x[0] - 0.25 * p[0] * sign(x[1]);
+              }),
+       {1.0, 0.0, 0.875},
+       {Interval(-1, 1), 0.0, Interval(-1, 1)},
+       8,
+       [](const auto& sides, const Vector&, Vector& x) {
+         if (sides[0] == Side::held) x[1] = 0;
+       },
+       1.01},
+      {"sticksAndSlipsOnABelt",
+       record(2, 2,
+              [](auto, const auto& x, const auto& p, auto& dx) {
+                dx[0] = x[1];
+                dx[1] = -x[0] - p[0] * stribeck(x[1] - p[1]);
+              }),
+       {0.0, 0.25, 1.0, 0.25},
+       {0.0, 0.0, Interval(-1, 1), 0.0},
+       12,
+       [](const auto& sides, const Vector& p, Vector& x) {
+         if (sides[0] == Side::held) x[1] = p[1];
+       },
+       1.1},
+      {"breaksLoose",
+       record(2, 1,
+              [](auto t, const auto& x, const auto& p, auto& dx) {
+                dx[0] = x[1];
+                dx[1] = p[0] * t - sign(x[1]);
+              }),
+       {0.0, 0.0, 0.5},
+       {0.0, 0.0, Interval(-1, 1)},
+       4,
+       [](const auto& sides, const Vector&, Vector& x) {
+         if (sides[0] == Side::held) x[1] = 0;
+       },
+       1.02},
+      {"twoRub",
+       record(4, 2,
+              [](auto, const auto& x, const auto& p, auto& dx) {
+                dx[0] = x[2];
+                dx[1] = x[3];
+                dx[2] = -x[0] + (x[1] - x[0]) - p[0] * sign(x[2]);
+                dx[3] = -(x[1] - x[0]) - p[1] * sign(x[3]);
+              }),
+       {0.5, 1.0, 0.0, 0.0, 0.1, 0.15},
+       {0.0, 0.0, 0.0, 0.0, Interval(-0.1, 0.1), Interval(-0.1, 0.1)},
+       4,
+       [](const auto& sides, const Vector&, Vector& x) {
+         if (sides[0] == Side::held) x[2] = 0;
+         if (sides[1] == Side::held) x[3] = 0;
+       },
+       1.02},
+      {"sledOnASled",
+       record(4, 1,
+              [](auto t, const auto& x, const auto& p, auto& dx) {
+                const auto force = p[0] * sign(x[2] - x[3]);
+                dx[0] = x[2];
+                dx[1] = x[3];
+                dx[2] = -2.0 * force;
+                dx[3] = 0.5 * (force + 4.0 * sin(3.0 * t) - x[1]);
+              }),
+       {0.0, 0.0, 0.0, 0.0, 0.5},
+       {0.0, 0.0, 0.0, 0.0, Interval(-0.25, 0.25)},
+       4,
+       [](const auto& sides, const Vector&, Vector& x) {
+         if (sides[0] == Side::held) x[2] = x[3];
+       },
+       2.5},
+      {"relay",
+       record(1, 1, [](auto, const auto& x, const auto& p, auto& dx) { dx[0] = -p[0] * sign(x[0]) + 0.25; }),
+       {1.0, 1.0},
+       {Interval(-1, 1), Interval(-1, 1)},
+       2,
+       [](const auto& sides, const Vector&, Vector& x) {
+         if (sides[0] == Side::held) x[0] = 0;
+       },
+       1}};
+  return all;
+}
+
+/// Of the (at most two) wide components.
+Vector cornerOf(const Box& box, int number) {
+  Vector corner;
+  for (const Interval& x : box) {
+    corner.emplace_back(number % 2 == 0 ? x.lower() : x.upper());
+    if (!isThin(x)) number /= 2;
+  }
+  return corner;
+}
+
+class FlowSliding : public ::testing::TestWithParam<Machine> {};
+
+TEST_P(FlowSliding, HoldsTrajectories) {
+  const Machine& machine = GetParam();
+  for (const double width : {0.0, 1e-6, 0.01}) {
+    SCOPED_TRACE(width);
+    Box box = machine.centre;
+    for (std::size_t i = 0; i < box.size(); ++i) box[i] = machine.centre[i] + Interval(width) * machine.spread[i];
+    std::vector<double> rows, times;
+    for (int i = 1; i <= 4; ++i) rows.push_back(machine.horizon * i / 4);
+    for (int i = 1; i <= 32; ++i) times.push_back(machine.horizon * i / 32);
+    const Tube tube = Flow(machine.f).enclose(box, machine.horizon, rows);
+    ASSERT_EQ(tube.why(), "");
+    SlidingReference reference(machine.f, machine.rest);
+    Points points(17);
+    std::vector<Interval> seen;
+    for (int trial = 0; trial < (width == 0 ? 1 : 6); ++trial) {
+      const std::vector<Vector> motion = reference(trial < 4 ? cornerOf(box, trial) : points.inside(box), times);
+      for (std::size_t i = 0; i < times.size(); ++i)
+        for (std::size_t row = 1; row < tube.times().size(); ++row)
+          for (std::size_t s = 0; s < motion[i].size(); ++s) {
+            const bool isAt = times[i] == tube.times()[row];
+            if (!isAt && !(tube.times()[row - 1] < times[i] && times[i] < tube.times()[row])) continue;
+            ASSERT_THAT(isAt ? tube.states(row)[s] : tube.statesOver(row)[s], Encloses(motion[i][s]))
+                << times[i] << " state " << s;
+          }
+      for (std::size_t s = 0; s < motion.back().size(); ++s) {
+        const Interval value(motion.back()[s].convert_to<double>());
+        if (trial == 0)
+          seen.push_back(value);
+        else
+          seen[s] = hull(seen[s], value);
+      }
+    }
+    EXPECT_GT(reference.events, 0);
+    const Interval& last = tube.states(tube.reachedTimes() - 1)[0];
+    const double widest = width == 0 ? 1e-6 : width < 1e-4 ? 1.0 : machine.loosest * gamut::width(seen[0]) + 1e-12;
+    EXPECT_LE(gamut::width(last), widest);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Flow, FlowSliding, ::testing::ValuesIn(machines()),
+                         [](const auto& machine) { return machine.param.name; });
+
+/// Half-periods of π, each 2μ less: from x(0) the mass rests at x(0) - 4μ after two of them, whatever the units.
+TEST(FlowSlidingExactly, RestIsRest) {
+  for (const double unit : {1.0, 0x1p-20, 0x1p20}) {
+    SCOPED_TRACE(unit);
+    const Program f = record(2, 2, [](auto, const auto& x, const auto& p, auto& dx) {
+      dx[0] = x[1];
+      dx[1] = -x[0] - p[0] * p[1] * sign(x[1]);
+    });
+    const Box box{unit * Interval(0.984375, 1.015625), 0.0, Interval(0.2109375, 0.21875), Interval(unit)};
+    const Tube tube = Flow(f).enclose(box, 100, {7, 100});
+    ASSERT_EQ(tube.why(), "");
+    for (const std::size_t row : {1u, 2u}) {
+      const Interval truth = unit * Interval(0.984375 - 4 * 0.21875, 1.015625 - 4 * 0.2109375);
+      EXPECT_TRUE(isSubset(truth, tube.states(row)[0]));
+      EXPECT_LT(width(tube.states(row)[0]), (1 + 1e-6) * width(truth));
+      EXPECT_LT(magnitude(tube.states(row)[1]), 1e-100);
+    }
+  }
+}
+
+/// Nothing tells when a motion leaves a surface that repels, or on which side: ẋ = sign x + w, |w| ≤ ½, and with it y.
+TEST(FlowSlidingExactly, LeavesAtAnyTime) {
+  const Program f = record(1, 1, [](auto, const auto& x, const auto& p, auto& dx) { dx[0] = sign(x[0]) + 0.5 * p[0]; });
+  for (const bool varies : {false, true}) {
+    FlowOptions options;
+    if (varies) options.varying = {{0}};
+    const Tube tube = Flow(f, options).enclose({0.0, Interval(-1, 1)}, 1, {0.5, 1});
+    ASSERT_EQ(tube.why(), "");
+    for (const std::size_t row : {1u, 2u})
+      EXPECT_TRUE(isSubset(1.5 * tube.times()[row] * Interval(-1, 1), tube.states(row)[0]));
+  }
+}
+
+/// An input holds the sliding mass at the surface or takes it away: v' = w - sign v, |w| ≤ 2: |v| ≤ t and |x| ≤ t²/2.
+TEST(FlowSlidingExactly, HoldsWhatInputsMove) {
+  const Program f = record(2, 1, [](auto, const auto& x, const auto& p, auto& dx) {
+    dx[0] = x[1];
+    dx[1] = p[0] - sign(x[1]);
+  });
+  FlowOptions options;
+  options.varying = {{0}};
+  const Tube away = Flow(f, options).enclose({0.0, 0.0, Interval(-2, 2)}, 1, {0.5, 1});
+  ASSERT_EQ(away.why(), "");
+  for (const std::size_t row : {1u, 2u}) {
+    const double t = away.times()[row];
+    EXPECT_TRUE(isSubset(Interval(-t, t), away.states(row)[1]));
+    EXPECT_TRUE(isSubset(0.5 * t * Interval(-t, t), away.states(row)[0]));
+    EXPECT_LT(magnitude(away.states(row)[1]), 1.3 * t);
+  }
+  const Tube held = Flow(f, options).enclose({0.0, 0.0, Interval(-0.5, 0.5)}, 1, {0.5, 1});
+  EXPECT_LT(magnitude(held.states(2)[0]), 1e-100);
+}
+
+/// Outputs between their times, where the set's own bounds and what is known of the argument meet.
+TEST(FlowSlidingExactly, OutputsHoldTrajectories) {
+  const Machine& machine = machines()[1];
+  const Program g = record(2, 2, 2, [](auto, const auto& x, const auto& p, auto& y) {
+    y[0] = sqr(x[1]) + x[0];
+    y[1] = sin(10.0 * x[1]) * p[0];
+  });
+  const Box box{0.0, 0.25, Interval(0.99, 1.01), 0.25};
+  const Tube tube = Flow(machine.f, g).enclose(box, 12, {3, 6, 9, 12});
+  ASSERT_EQ(tube.why(), "");
+  SlidingReference reference(machine.f, machine.rest);
+  std::vector<double> times;
+  for (int i = 1; i <= 192; ++i) times.push_back(i / 16.0);
+  Points points(5);
+  Evaluator<Precise> outputs(g);
+  for (int trial = 0; trial < 4; ++trial) {
+    const Vector start = points.inside(box);
+    outputs.setParameters(Vector(start.begin() + 2, start.end()));
+    const std::vector<Vector> motion = reference(start, times);
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      const Vector y = outputs(Precise(times[i]), motion[i]);
+      const std::size_t row = (i + 48) / 48;
+      const auto& bounds = times[i] == tube.times()[row] ? tube.outputs(row) : tube.outputsOver(row);
+      for (std::size_t o = 0; o < 2; ++o) ASSERT_THAT(bounds[o], Encloses(y[o])) << times[i];
+    }
+  }
+}
+
+/// A rate of zero on one side lets solutions stay on the surface as long as they like.
+TEST(FlowSlidingExactly, StaysWhereOneSideIsAtRest) {
+  const Program up = record(1, 0, [](auto, const auto& x, const auto&, auto& dx) { dx[0] = 1.0 + sign(x[0]); });
+  const Program down = record(1, 0, [](auto, const auto& x, const auto&, auto& dx) { dx[0] = -1.0 + sign(x[0]); });
+  const Program later =
+      record(1, 0, [](auto t, const auto& x, const auto&, auto& dx) { dx[0] = (t - 1.0) * (1.0 + sign(x[0])) * 0.5; });
+  EXPECT_TRUE(isSubset(Interval(0, 2), Flow(up).enclose({0.0}, 1).at(1)[0]));
+  EXPECT_TRUE(isSubset(Interval(-2, 0), Flow(down).enclose({0.0}, 1).at(1)[0]));
+  EXPECT_TRUE(
+      isSubset(Interval(0, 2), Flow(later).enclose({0.0625}, 3).at(3)[0]));  // at rest from 0.06 s on, or till 1 s
+}
+
+/// What is held may make other signs one, a number, or nothing.
+TEST(FlowSlidingExactly, HeldArgumentsChangeOtherSigns) {
+  const Program block = record(2, 0, [](auto t, const auto& x, const auto&, auto& dx) {
+    dx[0] = -0.125 * sign(x[0]) - 0.125 * sign(x[0] - x[1]);
+    dx[1] = t - sign(x[1]);
+  });
+  const Tube two = Flow(block).enclose({10.0, 0.0}, 3);
+  EXPECT_THAT(two.at(3)[0], Encloses(Precise(9.25)));
+  EXPECT_THAT(two.at(3)[1], Encloses(Precise(2.0)));
+  const Program step = record(
+      1, 0, [](auto t, const auto& x, const auto&, auto& dx) { dx[0] = t - sign(x[0]) - 0.25 * sign(x[0] - 0.5); });
+  EXPECT_THAT(Flow(step).enclose({0.0}, 1.25).at(1.25)[0], Encloses(Precise(0.125)));  // (t - 0.75)²/2
+  const Program faint = record(2, 0, [](auto t, const auto& x, const auto&, auto& dx) {
+    dx[0] = 1.0 + 0.125 * sign(x[0]) * x[1];
+    dx[1] = t - sign(x[1]);
+  });
+  const Tube nothing = Flow(faint).enclose({1.0, 0.0}, 3);
+  EXPECT_THAT(nothing.at(3)[1], Encloses(Precise(2.0)));
+  EXPECT_THAT(nothing.at(3)[0], Encloses(Precise(4 + Precise(1) / 6)));  // ∫ (t - 1)²/16
+  const Program turned = record(2, 0, [](auto, const auto& x, const auto&, auto& dx) {
+    const auto s = sign(x[0] - x[1]);
+    dx[0] = -5.0 * sign(x[0]) - s;
+    dx[1] = 0.5 * s + 0.25;
+  });
+  for (const Interval& start : {Interval(0.0078125, 0.015625), Interval(1.0)}) {
+    const Tube tube = Flow(turned).enclose({0.0, start}, 8);
+    ASSERT_EQ(tube.why(), "");
+    EXPECT_TRUE(contains(tube.at(8)[0], 0.0));
+    EXPECT_TRUE(contains(tube.at(8)[1], 0.0));
+    EXPECT_LT(magnitude(tube.at(8)[1]), 1e-9);
+  }
+}
+
+/// u = x - w with an input w: it holds nothing, since w moves. With s = sign cos 20 t, x = -∫s and w = x - s/100.
+TEST(FlowSlidingExactly, InputsMoveArguments) {
+  const Program f = record(2, 1, [](auto t, const auto& x, const auto& p, auto& dx) {
+    const auto s = sign(x[0] - p[0]);
+    dx[0] = -s;
+    dx[1] = s * cos(20.0 * t);
+  });
+  FlowOptions options;
+  options.varying = {{0}};
+  EXPECT_GT(Flow(f, options).enclose({0.0, 0.0, Interval(-0.125, 0.125)}, 2).at(2)[1].upper(), 1.2626);
+}
+
+/// What a wide start that is carried as a remainder does to an argument, it does through the frame's ξ too.
+TEST(FlowSlidingExactly, RemaindersMoveArguments) {
+  const Program f = record(3, 1, [](auto, const auto& x, const auto& p, auto& dx) {
+    dx[0] = 6e6 * p[0] * (x[1] - 1048576.0) - sign(x[0]);
+    dx[1] = Recorded(0.0);
+    dx[2] = x[0];
+  });
+  const double offset = 0x1p-24;
+  const Tube tube = Flow(f).enclose({1.0, Interval(1048576 - offset, 1048576 + offset), 0.0, Interval(0.85, 1.15)}, 1.5,
+                                    {0.8, 1.4, 1.5});
+  for (const std::size_t row : {1u, 2u, 3u}) {
+    const Precise slowest = 1 - Precise(tube.times()[row]) * (1 - Precise(6e6) * Precise(1.15) * offset);
+    EXPECT_GE(Precise(tube.states(row)[0].upper()), slowest);
+  }
+}
+
+/// |u| and sign u of one argument: x(t) = 0 holds, and with it y = 0; e is zero, but plain intervals do not know.
+TEST(FlowSlidingExactly, SlopesOfKinksAreNotSigns) {
+  const Program f = record(2, 1, [](auto, const auto& x, const auto& p, auto& dx) {
+    const auto e = sqr(p[0] + 1.0) - sqr(p[0]) - 2.0 * p[0] - 1.0;
+    dx[0] = 0.5 - sign(x[0]) + sqr(e);
+    dx[1] = abs(x[0]) - x[0];
+  });
+  const Tube tube = Flow(f).enclose({0.0, 0.0, Interval(-1, 1)}, 1);
+  EXPECT_TRUE(contains(tube.at(1)[0], 0.0));
+  EXPECT_TRUE(contains(tube.at(1)[1], 0.0));
+}
+
+/// Products that vanish in doubles are not zero.
+TEST(FlowSlidingExactly, TinyArgumentsAreArguments) {
+  for (const double scale : {0x1p-1074, 0x1p-1000}) {
+    const Program f =
+        record(1, 0, [scale](auto, const auto& x, const auto&, auto& dx) { dx[0] = -sign(Recorded(scale) * x[0]); });
+    EXPECT_THAT(Flow(f).enclose({0.375}, 0.25).at(0.25)[0], Encloses(Precise(0.125)));
+  }
+}
+
+}  // namespace
+}  // namespace gamut::testing

@@ -1,0 +1,148 @@
+// The truth where solutions are held at jumps: events are located in 128 bits, and in between f is smooth.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "scalars/program/recorder.hpp"
+#include "scalars/program/sides.hpp"
+#include "tests/analyses/reference.hpp"
+
+namespace gamut::testing {
+
+/// Integrates from event to event: every jump is on a side or held.
+class SlidingReference {
+ public:
+  /// `rest` sets those states exactly that are held, which series only are to some 1e-33.
+  using Rest = std::function<void(const std::vector<Side>&, const Vector& parameters, Vector& states)>;
+  SlidingReference(Program f, Rest rest) : f_(std::move(f)), given_(withSignsGiven(f_)), rest_(std::move(rest)) {}
+
+  std::vector<Vector> operator()(const Vector& start, const std::vector<double>& times) {
+    const auto n = static_cast<std::ptrdiff_t>(f_.states());
+    p_.assign(start.begin() + n, start.end());
+    phases_.clear();
+    Vector x(start.begin(), start.begin() + n);
+    Precise t(0.0);
+    sides_.assign(jumpsOf(f_).size(), Side::between);
+    for (std::size_t k = 0; k < sides_.size(); ++k) {
+      const Precise u = rates(t, x)[at(k, 0)];
+      sides_[k] = u > 0 ? Side::above : u < 0 ? Side::below : sideFrom(k, t, x);
+    }
+    std::vector<Vector> result;
+    while (result.size() < times.size()) {
+      Phase& phase = phaseOf(sides_);
+      phase.series.solve(t, x);
+      Precise h = reach(phase);
+      const Precise event = firstEvent(phase, t, h);
+      if (event < h) h = event + Precise(0x1p-108);
+      while (result.size() < times.size() && Precise(times[result.size()]) <= t + h)
+        result.push_back(after(phase, Precise(times[result.size()]) - t));
+      x = after(phase, h);
+      t += h;
+      if (event >= h) continue;
+      ++events;
+      for (std::size_t k = 0; k < sides_.size(); ++k)
+        if (watched(phase, k, t, x) < -tiny()) {
+          const Precise s = phase.all(t, x)[at(k, 1)];
+          sides_[k] = sides_[k] == Side::held ? (s > 0 ? Side::above : Side::below) : sideFrom(k, t, x);
+        }
+      rest_(sides_, p_, x);
+    }
+    return result;
+  }
+
+  int events = 0;
+
+ private:
+  static constexpr int order = 30, parts = 32;
+  struct Phase {
+    Phase(const Program& onSides, int states, const Vector& p)
+        : all(onSides),
+          f(Recorder(onSides).finish({onSides.outputNodes().begin(), onSides.outputNodes().begin() + states})),
+          series(f, order) {
+      all.setParameters(p);
+      series.setParameters(p);
+    }
+    Evaluator<Precise> all;
+    Program f;
+    Series<Precise> series;
+  };
+
+  static Precise tiny() { return Precise(1e-30); }
+  std::size_t at(std::size_t k, std::size_t group) const {
+    return static_cast<std::size_t>(f_.states()) + group * sides_.size() + k;
+  }
+  Phase& phaseOf(const std::vector<Side>& sides) {
+    std::unique_ptr<Phase>& phase = phases_[sides];
+    if (!phase) phase = std::make_unique<Phase>(onSides(f_, sides), f_.states(), p_);
+    return *phase;
+  }
+  /// f, arguments and their rates, with signs as they are, but for one.
+  Vector rates(const Precise& t, const Vector& x, std::size_t k = static_cast<std::size_t>(-1), double sign = 0) {
+    Vector signs;
+    const Vector now = phaseOf(sides_).all(t, x);
+    for (std::size_t j = 0; j < sides_.size(); ++j) signs.push_back(j == k ? Precise(sign) : now[at(j, 1)]);
+    Vector all = p_;
+    all.insert(all.end(), signs.begin(), signs.end());
+    Evaluator<Precise> given(given_);
+    given.setParameters(all);
+    return given(t, x);
+  }
+  Side sideFrom(std::size_t k, const Precise& t, const Vector& x) {
+    const Precise up = rates(t, x, k, 1)[at(k, 1)], down = rates(t, x, k, -1)[at(k, 1)];
+    return up < 0 && down > 0 ? Side::held : up + down > 0 ? Side::above : Side::below;
+  }
+  /// Where the last orders are 1e-34 of the states.
+  Precise reach(Phase& phase) const {
+    Precise largest(0x1p-20), h(0.125);
+    for (int s = 0; s < f_.states(); ++s)
+      largest = std::max({largest, Precise(abs(phase.series.at(s, 0))), Precise(abs(phase.series.at(s, 1)))});
+    for (int s = 0; s < f_.states(); ++s)
+      for (int i = order / 2; i <= order; ++i)
+        if (const Precise c = abs(phase.series.at(s, i)); c > 0)
+          h = std::min(h, Precise(exp(log(Precise(1e-34) * largest / c) / i)));
+    return h;
+  }
+  Vector after(Phase& phase, const Precise& tau) {
+    Vector x(static_cast<std::size_t>(f_.states()));
+    for (std::size_t s = 0; s < x.size(); ++s)
+      for (int i = order; i >= 0; --i) x[s] = x[s] * tau + phase.series.at(static_cast<int>(s), i);
+    rest_(sides_, p_, x);
+    return x;
+  }
+  /// Negative once the phase is over for jump k.
+  Precise watched(Phase& phase, std::size_t k, const Precise& t, const Vector& x) {
+    const Vector all = phase.all(t, x);
+    if (sides_[k] == Side::held) return 1 - all[at(k, 1)] * all[at(k, 1)];
+    return all[at(k, 0)] * static_cast<double>(sides_[k]);
+  }
+  /// No more than a part of the step may hide two events of one jump: all of its parts are looked at.
+  Precise firstEvent(Phase& phase, const Precise& t, const Precise& h) {
+    const auto isOver = [&](const Precise& tau) {
+      const Vector x = after(phase, tau);
+      for (std::size_t k = 0; k < sides_.size(); ++k)
+        if (watched(phase, k, Precise(t + tau), x) < -tiny()) return true;
+      return false;
+    };
+    for (int part = 1; part <= parts; ++part) {
+      Precise low = h * (part - 1) / parts, high = h * part / parts;
+      if (!isOver(high)) continue;
+      for (int i = 0; i < 120; ++i) {
+        const Precise middle = (low + high) / 2;
+        (isOver(middle) ? high : low) = middle;
+      }
+      return high;
+    }
+    return 2 * h;
+  }
+
+  Program f_, given_;
+  Rest rest_;
+  Vector p_;
+  std::vector<Side> sides_;
+  std::map<std::vector<Side>, std::unique_ptr<Phase>> phases_;
+};
+
+}  // namespace gamut::testing
