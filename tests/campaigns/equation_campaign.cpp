@@ -2,7 +2,7 @@
 // flow as it chooses for itself; then trajectories in 128 bits, corners first, with events located and inputs switched.
 // Every one must lie in the tube at every output time and between, compared exactly. Usage:
 //     equation_campaign [trajectories of each start = 3]
-// Prints a table; the exit status is 1 if one trajectory is outside.
+// Prints a table; the exit status is 1 if one trajectory is outside, or if a start has none.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -13,6 +13,7 @@
 
 #include "analyses/flow/flow.hpp"
 #include "tests/analyses/event_reference.hpp"
+#include "tests/analyses/sliding_reference.hpp"
 #include "tests/analyses/switching_courses.hpp"
 
 namespace gamut::testing {
@@ -25,6 +26,7 @@ struct Equation {
   std::vector<double> spread;  // of each; a wide start is ± spread, a narrow one a thousandth of it
   double horizon;
   std::vector<VaryingParameter> varying = {};
+  SlidingReference::Rest rest = {};  // where solutions are held at jumps
 };
 
 template <class Function>
@@ -253,6 +255,34 @@ std::vector<Equation> equationList() {
         dx[1] = -p[0] * x[0];
       },
       {{0}, {1}});
+  // State `x` rests, or moves as parameter `p` says.
+  const auto held = [&](std::size_t x, std::size_t p = 9) {
+    list.back().rest = [=](const vector<Side>& sides, const Vector& parameters, Vector& states) {
+      if (sides[0] == Side::held) states[x] = p < parameters.size() ? parameters[p] : Precise(0);
+    };
+  };
+  add("comes to rest", 2, 1, {1, 0, 0.22}, {0.02, 0, 0.005}, 10, [](auto, const auto& x, const auto& p, auto& dx) {
+    dx[0] = x[1];
+    dx[1] = -x[0] - p[0] * sign(x[1]);
+  });
+  held(1);
+  add("stick and slip", 2, 2, {0, 0.25, 1, 0.25}, {0, 0, 0.01, 0}, 12,
+      [](auto, const auto& x, const auto& p, auto& dx) {
+        const auto u = x[1] - p[1];
+        dx[0] = x[1];
+        dx[1] = -x[0] - p[0] * sign(u) / (1.0 + 2.0 * abs(u));
+      });
+  held(1, 1);
+  add("breaks loose", 2, 2, {0, 0, 0.5, 1}, {0, 0, 0.01, 0.01}, 4, [](auto t, const auto& x, const auto& p, auto& dx) {
+    dx[0] = x[1];
+    dx[1] = p[0] * t - p[1] * sign(x[1]);
+  });
+  held(1);
+  add("hinge that rubs", 2, 1, {1, 0, 0.5}, {0.01, 0, 0.01}, 2.5, [](auto, const auto& x, const auto& p, auto& dx) {
+    dx[0] = x[1];
+    dx[1] = -9.81 * sin(x[0]) - p[0] * sign(x[1]);
+  });
+  held(1);
   return list;
 }
 
@@ -276,11 +306,14 @@ Outcome judge(const Equation& equation, const Box& box, const Tube& tube, int tr
   }
   if (moments.empty()) return outcome;
   EventReference reference(equation.f);
+  SlidingReference sliding(equation.f, equation.rest);
   const int n = equation.f.states();
   for (int trial = 0; trial < trajectories; ++trial) {
     const Vector start = trial % 2 == 0 ? points.corner(box) : points.inside(box);
     std::vector<Vector> motion;
-    if (equation.varying.empty()) {
+    if (equation.rest) {
+      motion = sliding(start, moments);
+    } else if (equation.varying.empty()) {
       motion = reference(start, moments);
     } else {
       const Course course = switching(box, n, equation.varying, equation.horizon, points.integer(0, 20), points);
@@ -301,6 +334,7 @@ int run(int trajectories) {
   fmt::print("{:<24} {:>8} {:>8} {:>8} {:>7} {:>8} {:>9} {:>12} {:>8}\n", "equations", "start", "horizon", "reached",
              "pieces", "tight", "flow/s", "trajectories", "outside");
   Outcome all;
+  int without = 0;  // trajectories
   Points points(1);
   for (const Equation& equation : equationList())
     for (const auto& [name, share] : {std::pair("thin", 0.0), std::pair("narrow", 1e-3), std::pair("wide", 1.0)}) {
@@ -320,12 +354,13 @@ int run(int trajectories) {
                  equation.horizon, tube.reached(), tube.pieces(), tube.tightness(), tube.cpuSeconds(),
                  outcome.trajectories, outcome.outside);
       std::fflush(stdout);
+      without += outcome.trajectories == 0;
       all.trajectories += outcome.trajectories;
       all.comparisons += outcome.comparisons;
       all.outside += outcome.outside;
     }
   fmt::print("{} trajectories, {} comparisons, {} outside\n", all.trajectories, all.comparisons, all.outside);
-  return all.outside > 0 ? 1 : 0;
+  return all.outside > 0 || without > 0 ? 1 : 0;
 }
 
 }  // namespace
