@@ -54,6 +54,7 @@ class Wording {
     if (const std::string& shortfall = results_.interval.shortfall; !shortfall.empty())
       note("The enclosure is looser than was asked for: " + shortfall + ".");
     noteMissing();
+    noteCoincidences();
     verdict_.sentence = sentence();
     if (results_.comparison.present && results_.comparison.verdict != verdict_.word)
       verdict_.sentence += fmt::format(" (The results were stored as \"{}\"; their own numbers say \"{}\".)",
@@ -90,7 +91,7 @@ class Wording {
   /// Grave findings first. Of each kind the worst are named; of settled ones the one that came nearest to its bound.
   void noteDisputes() {
     std::vector<const DisputedSample*> outside, doubtful, undecided, settled;
-    std::set<std::int64_t> open, inside;  // a sample is disputed once for each bound that it leaves
+    std::set<std::int64_t> open, inside;
     for (const DisputedSample& sample : results_.comparison.disputed) {
       if (sample.outside) {
         outside.push_back(&sample);
@@ -115,6 +116,30 @@ class Wording {
       return fmt::format("seemed outside and was not decided: {}.", whyUndecided());
     });
     if (!settled.empty()) noteSettled(**std::ranges::min_element(settled, {}, relativeMargin), inside.size());
+  }
+
+  /// Where samples coincide there is no ratio: what is guaranteed there may be wide all the same.
+  void noteCoincidences() {
+    constexpr double telling = 1e-3;  // of the greatest value that was sampled
+    const Table& ratio = results_.comparison.overestimation;
+    const Envelope &proved = results_.interval.at, &sampled = results_.stochastic.envelope;
+    if (ratio.empty() || proved.empty() || sampled.empty()) return;
+    double widest = telling;
+    std::string who;
+    for (std::size_t o = 0; o < ratio.outputs; ++o) {
+      double size = 0;
+      for (std::size_t t = 0; t < ratio.times; ++t)
+        for (const Table* bound : {&sampled.lower, &sampled.upper})
+          if (std::isfinite((*bound)(t, o))) size = std::max(size, std::fabs((*bound)(t, o)));
+      for (std::size_t t = 0; t < ratio.times; ++t) {
+        const double width = proved.upper(t, o) - proved.lower(t, o);
+        const bool isSampled = std::isfinite(sampled.upper(t, o) - sampled.lower(t, o));
+        if (!std::isnan(ratio(t, o)) || !isSampled || !std::isfinite(width) || !(width > widest * size)) continue;
+        widest = width / size;
+        who = fmt::format("{}{} its guarantee is {} wide", results_.outputs[o].name, when(t), withUnit(width, o));
+      }
+    }
+    if (!who.empty()) note("Where samples coincide, or their errors are not known, no ratio is told: of " + who + ".");
   }
 
   std::string whoIs(const DisputedSample& sample) const {
@@ -148,6 +173,8 @@ class Wording {
       const double multiples = sample->distance / sample->error;
       return std::isnan(multiples) ? std::numeric_limits<double>::infinity() : multiples;
     });
+    std::set<std::int64_t> named;  // a sample is disputed once for each bound that it leaves
+    std::erase_if(samples, [&](const DisputedSample* sample) { return !named.insert(sample->number).second; });
     return samples;
   }
 

@@ -357,6 +357,11 @@ TEST(Verdict, NamesTheWorstOfManyThatLieOutsideOrCouldNotBeDecidedAndCountsTheOt
     sample.error = i == 100 ? 1e-9 : 1e-8;
     sample.outside = i < 150;
   }
+  for (int i = 0; i < 300; ++i) {  // each leaves two bounds
+    DisputedSample again = results.comparison.disputed[static_cast<std::size_t>(i)];
+    again.distance *= 0.5;
+    results.comparison.disputed.push_back(again);
+  }
   const std::vector<std::string> notes = judge(results).notes;
   ASSERT_EQ(notes.size(), 12U);
   EXPECT_THAT(notes[0], StartsWith("Sample 100 (elbow angle at 2 s) lies outside by 2e-06 rad"));
@@ -364,6 +369,13 @@ TEST(Verdict, NamesTheWorstOfManyThatLieOutsideOrCouldNotBeDecidedAndCountsTheOt
   EXPECT_THAT(notes[5], StartsWith("145 more are outside; the results name them all"));
   EXPECT_THAT(notes[6], StartsWith("Sample 200 (elbow angle at 2 s) could not be decided: it lies outside by 4e-06"));
   EXPECT_THAT(notes[11], StartsWith("145 more could not be decided; the results name them all"));
+}
+
+TEST(Verdict, SaysHowWideTheGuaranteeIsWhereSamplesCoincide) {
+  Results results = example::pendulum();
+  EXPECT_THAT(judge(results).notes, Not(Contains(HasSubstr("no ratio is told"))));
+  results.comparison.overestimation(2, 0) = none;
+  EXPECT_THAT(judge(results).notes, Contains(HasSubstr("no ratio is told: of shoulder angle at 0.1 s")));
 }
 
 TEST(Verdict, ClaimsNothingOfMotionsThatEndedAtTheStart) {
