@@ -35,9 +35,8 @@ std::vector<char> dependents(const Program& program, int first) {
   for (std::size_t i = 0; i < program.nodes().size(); ++i) {
     const Node& node = program.nodes()[i];
     bool does = node.op == Op::parameter && node.a >= first;
-    detail::forEachOperand(program.table(), static_cast<int>(i), [&](int operand) {
-      does = does || (operand < static_cast<int>(i) && result[at(operand)] != 0);
-    });
+    detail::forEachOperand(program.table(), static_cast<int>(i),
+                           [&](int operand) { does = does || result[at(operand)] != 0; });
     result.push_back(static_cast<char>(does));
   }
   return result;
@@ -46,7 +45,8 @@ std::vector<char> dependents(const Program& program, int first) {
 }  // namespace
 
 /// Signs in f are inputs to it: nodes of their own, which the derivative of |u| has no part in.
-Program differentiatedFor(const Program& f, const std::vector<VaryingParameter>& inputs) {
+Program differentiatedFor(const Program& motion, const std::vector<VaryingParameter>& inputs) {
+  const Program f = affineInSign(withOneSignASurface(motion));
   const int n = f.states(), k = f.parameters(), jumps = static_cast<int>(jumpsOf(f).size());
   if (jumps == 0 || !isAffineInSigns(f))
     return inputs.empty() ? f.differentiated() : selected(f.differentiated(true), n, f, inputs);

@@ -11,6 +11,7 @@
 #include "analyses/flow/run.hpp"
 #include "analyses/workers.hpp"
 #include "scalars/index.hpp"
+#include "scalars/program/sides.hpp"
 
 namespace gamut {
 
@@ -54,19 +55,7 @@ FlowJourney FlowFollower::follow(FlowPiece& piece, double end) {
       run_.ranOutOfBudget();
       return FlowJourney::cancelled;
     }
-    const auto certified = [&] {
-      const bool isUncertain = symbols_ > 0;
-      return tool_->stepper.certify(piece.set, task_.horizon, task_.quantum, isUncertain ? task_.splitDefect : 0.0,
-                                    isUncertain ? task_.kinkShare : 0.0);
-    };
-    StepOutcome outcome = StepOutcome::released;
-    for (std::vector<char> held = FlowStepper::resting(piece.set, task_.jumps); outcome == StepOutcome::released;) {
-      use(piece, held);
-      if (tool_ == nullptr) use(piece, held = {});
-      outcome = certified();
-      if (outcome == StepOutcome::released) held = tool_->stepper.stillHeld();
-      if (outcome == StepOutcome::failed && !held.empty()) held.clear(), outcome = StepOutcome::released;
-    }
+    StepOutcome outcome = certify(piece);
     const bool uncertain = symbols_ > 0;
     if (outcome != StepOutcome::stepped && uncertain) {
       if (!tool_->stepper.isAcrossKink() && piece.layout + 1 < task_.degrees && isDegreeWorthwhile(piece, outcome)) {
@@ -113,50 +102,77 @@ bool FlowFollower::isOverBudget() {
   return task_.budget.spent.fetch_add(since) + since > task_.budget.limit;
 }
 
-/// For the motion in which these jumps are held, if any; without tools where they cannot be.
-void FlowFollower::use(const FlowPiece& piece, std::vector<char> held) {
-  if (std::ranges::count(held, 0) == std::ssize(held)) held.clear();
-  const auto [place, isNew] = tools_.try_emplace({piece.layout, held});
-  std::unique_ptr<Tools>& tools = place->second;
-  if (isNew) {
-    const FlowLayout& layout = task_.layouts[piece.layout];
-    const FlowOptions& options = task_.options;
-    Program motion = task_.differentiated;
-    std::unique_ptr<FlowJumps> left;
-    tool_ = nullptr;
-    if (!held.empty()) try {
-        motion = differentiatedFor(task_.jumps.heldProgram(held), options.varying);
-        left = std::make_unique<FlowJumps>(motion, task_.varying);
-      } catch (const std::logic_error&) {  // these do not decide about themselves
-        return;
-      }
-    auto made = std::make_unique<Tools>(
-        Tools{std::move(left),
-              FlowStepper(motion, layout.monomials, layout.frameDegree, task_.order, task_.tolerance,
-                          FlowInputs(task_.motion.states(), task_.order, task_.varying, 0.4 * (options.tightness - 1)),
-                          options.cancelled),
-              PolynomialRange(layout.monomials), nullptr, nullptr, nullptr});
-    if (layout.monomials->symbols() == 0 && task_.fineOrders > 0) made->stepper.setFineOrders(task_.fineOrders);
-    made->stepper.setStateNames(options.stateNames);
-    const bool isChecked =
-        task_.jumps.count() > 0 && made->stepper.setJumps(made->jumps ? *made->jumps : task_.jumps, task_.jumps, held);
-    if (!held.empty() && !isChecked) return;
-    tools = std::move(made);
-    if (task_.outputs.outputs() > 0) {
-      const std::shared_ptr<const Monomials> own = task_.layouts[task_.outputLayout(piece.layout)].monomials;
-      tools->outputs =
-          std::make_unique<FlowOutputs>(task_.outputs, own, layout.monomials, task_.varying, options.cancelled);
-      tools->outputRange = std::make_unique<PolynomialRange>(own);
-      tools->chords =
-          std::make_unique<FlowOutputChords>(task_.outputs, layout.monomials, task_.order, options.cancelled);
+/// One step, with the jumps held at which all of the piece is; of those that may be left, without.
+StepOutcome FlowFollower::certify(const FlowPiece& piece) {
+  std::vector<char> held = FlowStepper::resting(piece.set, task_.jumps);
+  for (;;) {
+    const bool holds = std::ranges::find(held, 1) != held.end();
+    if (!holds) held.clear();
+    if (!use(piece, held)) {
+      held.clear();
+      continue;
     }
+    const bool uncertain = symbols_ > 0;
+    const StepOutcome outcome =
+        tool_->stepper.certify(piece.set, task_.horizon, task_.quantum, uncertain ? task_.splitDefect : 0.0,
+                               uncertain ? task_.kinkShare : 0.0);
+    if (!holds || (outcome != StepOutcome::released && outcome != StepOutcome::failed)) return outcome;
+    held = outcome == StepOutcome::released ? tool_->stepper.stillHeld() : std::vector<char>{};
   }
-  tool_ = tools.get();
-  if (tool_ == nullptr) return;
+}
+
+/// Null where these jumps do not decide about themselves.
+std::unique_ptr<FlowFollower::Tools> FlowFollower::toolsFor(const FlowPiece& piece,
+                                                            const std::vector<char>& held) const {
+  const FlowLayout& layout = task_.layouts[piece.layout];
+  const FlowOptions& options = task_.options;
+  Program motion = task_.differentiated;
+  std::unique_ptr<FlowJumps> jumps;
+  std::vector<int> left;
+  std::vector<double> factor;
+  try {
+    if (!held.empty()) {
+      FlowJumps::Held found = task_.jumps.heldProgram(held);
+      motion = differentiatedFor(found.f, options.varying);
+      jumps = std::make_unique<FlowJumps>(motion, task_.varying);
+      if (jumps->count() != jumpsOf(found.f).size()) std::ranges::fill(found.left, -1);
+      left = std::move(found.left);
+      factor = std::move(found.factor);
+    }
+  } catch (const std::logic_error&) {
+    return nullptr;
+  }
+  auto tools = std::make_unique<Tools>(
+      Tools{std::move(jumps),
+            FlowStepper(motion, layout.monomials, layout.frameDegree, task_.order, task_.tolerance,
+                        FlowInputs(task_.motion.states(), task_.order, task_.varying, 0.4 * (options.tightness - 1)),
+                        options.cancelled),
+            PolynomialRange(layout.monomials), nullptr, nullptr, nullptr});
+  if (layout.monomials->symbols() == 0 && task_.fineOrders > 0) tools->stepper.setFineOrders(task_.fineOrders);
+  tools->stepper.setStateNames(options.stateNames);
+  if (task_.jumps.count() > 0)
+    tools->stepper.setJumps(tools->jumps ? *tools->jumps : task_.jumps, task_.jumps, held, left, factor);
+  if (task_.outputs.outputs() > 0) {
+    const std::shared_ptr<const Monomials> own = task_.layouts[task_.outputLayout(piece.layout)].monomials;
+    tools->outputs =
+        std::make_unique<FlowOutputs>(task_.outputs, own, layout.monomials, task_.varying, options.cancelled);
+    tools->outputRange = std::make_unique<PolynomialRange>(own);
+    tools->chords = std::make_unique<FlowOutputChords>(task_.outputs, layout.monomials, task_.order, options.cancelled);
+  }
+  return tools;
+}
+
+/// The tools for the motion in which these jumps are held, if any; false if there are none.
+bool FlowFollower::use(const FlowPiece& piece, const std::vector<char>& held) {
+  const auto [place, isNew] = tools_.try_emplace({piece.layout, held});
+  if (isNew) place->second = toolsFor(piece, held);
+  if (!place->second) return false;
+  tool_ = place->second.get();
   outputs_ = tool_->outputs.get();
   monomialCount_ = task_.layouts[piece.layout].monomials->count();
   symbols_ = task_.layouts[piece.layout].monomials->symbols();
   whole_.assign(at(symbols_), Interval(-1.0, 1.0));
+  return true;
 }
 
 void FlowFollower::changeLayout(FlowPiece& piece, std::size_t to) {

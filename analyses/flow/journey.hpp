@@ -63,7 +63,7 @@ class FlowFollower {
   FlowJourney followWhilePossible(FlowPiece& piece, double end);
 
  private:
-  /// The workspace of one layout.
+  /// The workspace of one layout, and of the motion or of that in which some of its jumps are held.
   struct Tools {
     std::unique_ptr<FlowJumps> jumps;  // where some of the motion's are held, those of what is left
     FlowStepper stepper;
@@ -75,7 +75,9 @@ class FlowFollower {
 
   FlowJourney follow(FlowPiece& piece, double end);
   bool isOverBudget();
-  void use(const FlowPiece& piece, std::vector<char> held = {});
+  StepOutcome certify(const FlowPiece& piece);
+  std::unique_ptr<Tools> toolsFor(const FlowPiece& piece, const std::vector<char>& held) const;
+  bool use(const FlowPiece& piece, const std::vector<char>& held);
   bool isDegreeWorthwhile(const FlowPiece& piece, StepOutcome outcome) const;
   void changeLayout(FlowPiece& piece, std::size_t to);
   bool expand(FlowPiece& piece);

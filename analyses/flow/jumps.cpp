@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
+#include <utility>
 
 #include "analyses/flow/embedding.hpp"
 #include "scalars/index.hpp"
@@ -29,11 +31,43 @@ FlowJumps::FlowJumps(const Program& differentiated, const std::vector<int>& vary
   }
 }
 
-Program FlowJumps::heldProgram(const std::vector<char>& held) const {
+FlowJumps::Held FlowJumps::heldProgram(const std::vector<char>& held) const {
   std::vector<Side> sides;
   for (const char isHeld : held) sides.push_back(isHeld != 0 ? Side::held : Side::open);
   const Program all = onSides(f, sides);
-  return Recorder(all).finish({all.outputNodes().begin(), all.outputNodes().begin() + f.states()});
+  const std::vector<int>& outputs = all.outputNodes();
+  const std::size_t n = at(f.states()), count = held.size();
+  Held result{Recorder(all).finish({outputs.begin(), outputs.begin() + f.states()}), std::vector<int>(count, -1),
+              std::vector<double>(count, 1.0)};
+  std::vector<int> nodes(count, -1);  // of the signs left; where surfaces meet, two that agree elsewhere are still two
+  for (std::size_t k = 0; k < count; ++k) {
+    if (held[k] != 0) continue;
+    int node = outputs[n + count + k];
+    if (all.nodes()[at(node)].op == Op::neg) {
+      node = all.nodes()[at(node)].a;
+      result.factor[k] = -1;
+    }
+    const Node& sign = all.nodes()[at(node)];
+    const bool isFixed =
+        sign.op == Op::constant && magnitude(all.constants()[at(sign.a)]) == 1 && isThin(all.constants()[at(sign.a)]);
+    if (isFixed) continue;
+    if (sign.op != Op::sign || std::ranges::find(nodes, node) != nodes.end())
+      throw std::logic_error("signs become one or zero where others are held");
+    nodes[k] = node;
+  }
+  std::vector<char> isUsed(all.nodes().size(), 0);
+  for (std::size_t i = 0; i < n; ++i) isUsed[at(outputs[i])] = 1;
+  for (std::size_t i = isUsed.size(); i-- > 0;)
+    if (isUsed[i] != 0)
+      detail::forEachOperand(all.table(), static_cast<int>(i), [&](int operand) { isUsed[at(operand)] = 1; });
+  int next = 0;
+  for (const int jump : jumpsOf(all)) {
+    const auto place = std::ranges::find(nodes, jump);
+    if (isUsed[at(jump)] == 0) continue;
+    if (place == nodes.end()) throw std::logic_error("a sign of which it is not known what it was");
+    result.left[static_cast<std::size_t>(place - nodes.begin())] = next++;
+  }
+  return result;
 }
 
 JumpBounder::JumpBounder(const FlowJumps& jumps)
@@ -70,7 +104,15 @@ void JumpBounder::narrow(const LinearForm& form, const Interval& argument, Box& 
 void JumpBounder::bound(const Interval& time, const Box& box, const std::vector<Interval>& start, double h,
                         std::vector<JumpBound>& bounds) {
   constexpr int rounds = 2;  // what is known of arguments narrows the states, and these the rates
-  Box narrowed = box;
+  Box narrowed = box, all = parameters_;
+  for (const JumpBound& bound : bounds) all.push_back(bound.sign);
+  given_.setParameters(all);
+  given_(time, box, results_);
+  for (std::size_t k = 0; k < bounds.size(); ++k) {  // arguments that are on one side all the time
+    const Interval& argument = results_[box.size() + k];
+    const double side = argument.lower() > 0 ? 1 : argument.upper() < 0 ? -1 : 0;
+    if (side != 0 && contains(bounds[k].sign, side)) bounds[k].sign = Interval(side);
+  }
   for (int round = 0; round < rounds; ++round)
     for (std::size_t k = 0; k < bounds.size(); ++k) {
       if (!isBounded(start[k])) continue;
@@ -116,7 +158,7 @@ void JumpBounder::boundOne(std::size_t jump, const Interval& time, const Box& bo
                            std::vector<JumpBound>& bounds) {
   JumpBound& bound = bounds[jump];
   const Interval up = rate(jump, 1.0, time, box, bounds), down = rate(jump, -1.0, time, box, bounds);
-  if (!isBounded(up) || !isBounded(down)) return;
+  if (!isCommon(up) || !isCommon(down)) return;
   bound.start = start;
   bound.up = up;
   bound.down = down;

@@ -18,8 +18,14 @@ struct FlowJumps {
   /// `differentiated` as for FlowStepper; `varying`: parameters that are inputs.
   FlowJumps(const Program& differentiated, const std::vector<int>& varying);
   std::size_t count() const { return forms.size(); }
-  /// f with the jumps of `held` held, the others as they are; throws as onSides.
-  Program heldProgram(const std::vector<char>& held) const;
+  /// f with some jumps held and the others as they are.
+  struct Held {
+    Program f;
+    std::vector<int> left;       ///< of each jump, which of that f's it is; -1: none
+    std::vector<double> factor;  ///< its sign is that one's, or the negative
+  };
+  /// Throws std::logic_error where these do not decide about themselves, or others become one or zero where they are.
+  Held heldProgram(const std::vector<char>& held) const;
 
   Program f;                                     ///< without derivatives
   Program given;                                 ///< withSignsGiven(f), where f is affine in its signs

@@ -73,8 +73,9 @@ PolynomialSeries::Chord PolynomialSeries::chordOf(int node) const {
   return {(high + low) / (high - low), -low * high / (high - low)};
 }
 
-double PolynomialSeries::signOf(const Plan& v) const {
-  if (const auto& given = given_[at(static_cast<int>(&v - plan_.data()))]) return midpoint(*given);
+double PolynomialSeries::signOf(int node) const {
+  if (const auto& given = given_[at(node)]) return midpoint(*given);
+  const Plan& v = plan_[at(node)];
   const double slope = chordOf(v.a).slope;
   return v.primary && std::fabs(slope) < 1 ? 0.0 : slope;
 }
@@ -112,7 +113,7 @@ void PolynomialSeries::computeOrder(int node, int i) {
         put(v, g, i, chords_[at(node)].slope * fa[g * stride_ + i] + (g + i == 0 ? chords_[at(node)].middle : 0.0));
       return;
     case Op::sign:
-      for (int g = 0; g < N; ++g) put(v, g, i, g + i == 0 ? signOf(v) : 0.0);
+      for (int g = 0; g < N; ++g) put(v, g, i, g + i == 0 ? signOf(node) : 0.0);
       return;
     case Op::mul:
     case Op::sqr:

@@ -94,7 +94,7 @@ class PolynomialSeries {
   /// then, and where that is nowhere on one side, |u| and its derivative are those of the other.
   void giveSign(int jump, const Interval& sign, const Interval& argument);
   /// Where state i is while |x - x̃| ≤ error.
-  Interval reach(int i, double error) const;
+  Interval rangeOf(int i, double error) const;
   /// What the next computations take of those that the set bounded last may cross: chords over all that it reaches, and
   /// 0 for a sign in outputs themselves. False if none are crossed. Until forgetCrossings.
   bool adaptToCrossings();
@@ -200,7 +200,7 @@ class PolynomialSeries {
     bool isExact() const { return (slope == 1 || slope == -1) && middle == 0; }  // where u stays on one side
   };
   Chord chordOf(int node) const;
-  double signOf(const Plan& v) const;
+  double signOf(int node) const;
   /// Order i of monomial g, in the reversed copy too.
   void put(const Plan& v, int g, int i, double value) {
     f_[v.f + at(g * stride_ + i)] = value;

@@ -146,7 +146,7 @@ bool PolynomialSeries::mayCross(int u) {
   reached_[at(u)] = 0;
   if (centre * bounds::down > (V + rho) * bounds::up) return false;
   const double apart = V - M + (atStart_.empty() ? rho : atStart_[at(u)]);
-  reached_[at(u)] = apart + M + bounds::tiny;
+  reached_[at(u)] = apart + M + bounds::tiny;  // of what is exactly at zero too
   if (isCalm_[at(u)] != 0) return true;
   const double allowed = std::max(ahead * (centre - apart), across * apart);
   haste_ = std::max(haste_, M < farTooLong * allowed ? M / allowed : farTooLong);
@@ -175,8 +175,7 @@ void PolynomialSeries::boundSign(int node) {
   const double value = f_[v.f];
   if (given_[at(node)]) {
     mayCross(v.a);  // for what it reaches
-    rho0_[at(node)] = (Interval(value) - *given_[at(node)]).upper() * bounds::up;
-    rho0_[at(node)] = std::max(rho0_[at(node)], (*given_[at(node)] - Interval(value)).upper() * bounds::up);
+    rho0_[at(node)] = magnitude(*given_[at(node)] - Interval(value)) * bounds::up;
     rho1_[at(node)] = 0;
     return;
   }
@@ -204,7 +203,7 @@ void PolynomialSeries::forgetCrossings() {
   std::ranges::fill(side_, 0.0);
 }
 
-Interval PolynomialSeries::reach(int i, double error) const {
+Interval PolynomialSeries::rangeOf(int i, double error) const {
   const double radius = (rest(i) + top_[at(i)] + lowOf(i) + error) * bounds::up;
   return Interval(f_[plan_[at(i)].f]) + Interval(-radius, radius);
 }

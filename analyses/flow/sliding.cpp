@@ -15,30 +15,25 @@ using detail::at;
 
 namespace {
 
-constexpr double nearlyAny = 1.9;  // the width of a sign of which hardly anything is known
+constexpr double nearlyAny = 1.9;     // the width of a sign of which hardly anything is known
+constexpr double clearlyLess = 1.8;   // of a half width: a row that loses its ξ should win at least a tenth
+constexpr double leastHold = 0x1p10;  // in shortest steps: shorter ones would win less than leaving costs
 
 }  // namespace
 
-bool FlowStepper::setJumps(const FlowJumps& own, const FlowJumps& of, std::vector<char> held) {
+void FlowStepper::setJumps(const FlowJumps& own, const FlowJumps& of, std::vector<char> held, std::vector<int> left,
+                           std::vector<double> factor) {
   held_ = std::move(held);
+  left_ = std::move(left);
+  factor_ = std::move(factor);
   if (series_.jumps().size() == own.count() && own.count() > 0) own_.emplace(own);
+  if (!own_) std::ranges::fill(left_, -1);
   of_ = &of;
-  if (held_.empty()) return own_.has_value() && of.count() == own.count();
-  holding_.emplace(of);
-  std::vector<char> zeros(at(n_), 0);
-  for (std::size_t k = 0; k < of.count(); ++k)
-    if (held_[k] != 0 && of.forms[k] && zeroOf(*of.forms[k]) >= 0) zeros[at(zeroOf(*of.forms[k]))] = 1;
-  for (std::size_t k = 0; k < of.count(); ++k) {
-    same_.push_back({-1, 0});
-    for (std::size_t j = 0; own_ && held_[k] == 0 && j < own.count(); ++j)
-      if (of.forms[k] && own.forms[j])
-        if (const double factor = sameForm(*of.forms[k], *own.forms[j], zeros); factor != 0)
-          same_.back() = {static_cast<int>(j), factor};
-  }
-  return true;
+  if (!held_.empty()) holding_.emplace(of);
 }
 
 std::vector<char> FlowStepper::resting(const FlowSet& set, const FlowJumps& jumps) {
+  if (jumps.count() == 0) return {};
   std::vector<double> total;
   totalRadius(set, total);
   std::vector<char> result;
@@ -96,6 +91,7 @@ Interval argumentOf(const FlowSet& set, const LinearForm& form, const std::vecto
 /// moment; `last`: the step before, if it was one of these.
 double FlowStepper::longestWhileSliding(const JumpBound& bound, const JumpBound& atStart, double h, double last) const {
   const Interval& start = bound.start;
+  // Measured on machines that stick and slip: more parts cost more than they win; thin sets need the last.
   constexpr double ahead = 0.9, parts = 8, turnedMore = 1.2, turnedBesides = 1e-6;
   if (bound.holds) {  // the last come after, the first before
     const double latest = std::max(start.upper() / -bound.up.upper(), -start.lower() / bound.down.lower());
@@ -106,8 +102,8 @@ double FlowStepper::longestWhileSliding(const JumpBound& bound, const JumpBound&
 }
 
 /// What comes to be held or leaves does so over a time Δ, in which the set loses its dependence on ξ in what moves
-/// then: of its width, about a quarter of what the motion turns in that time. The symbol to bisect for less; -1 for
-/// none.
+/// then: of its width, about a quarter of what the motion turns in that time; and what the signs, unknown meanwhile, do
+/// to states besides. The symbol to bisect for less; -1 for none.
 int FlowStepper::symbolOfSliding(const FlowSet& set, double kinkShare) const {
   if (!(kinkShare > 0) || set.slideStep > 0) return -1;
   const int N = series_.count();
@@ -139,7 +135,18 @@ int FlowStepper::symbolOfSliding(const FlowSet& set, double kinkShare) const {
   }
   constexpr double leastPart = 0x1p-6, lost = 0.25;
   if (symbol < 0 || at(symbol) >= set.half.size() || set.half[at(symbol)] <= leastPart) return -1;
-  return lost * longest * growth_.growth() / h_ > kinkShare / set.half[at(symbol)] ? symbol : -1;
+  const double allowed = kinkShare / set.half[at(symbol)], steps = longest / h_;
+  bool isTooWide = lost * longest * growth_.growth() / h_ > allowed;
+  for (int i = 0; i < n_; ++i) {
+    bool isPivot = false;
+    for (std::size_t k = 0; k < ownBounds_.size(); ++k)
+      isPivot = isPivot || (ownBounds_[k].isKnown() && own_->jumps().forms[k]->pivot == i);
+    double added = 0, width = 0;
+    for (int j = 0; j < n_; ++j) added += growth_.M1(i, j) * delta0_[at(j)];
+    for (int g = 1; g < N; ++g) width += std::fabs(set.p[at(i * N + g)]);
+    isTooWide = isTooWide || (!isPivot && steps * added > allowed * width && width > 1e-9 * scale_[at(i)]);
+  }
+  return isTooWide ? symbol : -1;
 }
 
 /// The signs of the motion's own jumps that are not known to be on one side, and their arguments.
@@ -164,18 +171,12 @@ bool FlowStepper::boundOwnJumps(const FlowSet& set, const Interval& time, const 
       if (const Interval both = intersection(start[j], known); !isEmpty(both)) start[j] = both;
     };
     if (!set.arguments.empty() && held_.empty()) meet(set.arguments[j]);
-    for (std::size_t k = 0; k < same_.size() && !set.arguments.empty(); ++k)
-      if (same_[k].own == static_cast<int>(j)) meet(Interval(same_[k].factor) * transferred(set.arguments[k], k));
+    for (std::size_t k = 0; k < left_.size() && !set.arguments.empty(); ++k)
+      if (left_[k] == static_cast<int>(j)) meet(Interval(factor_[k]) * set.arguments[k]);
   }
   own_->setParameters(set.parameters);
   own_->bound(time, box, start, h, bounds);
   return any;
-}
-
-/// What is known of the argument of one jump, for its like: their constants are two numbers of one enclosure.
-Interval FlowStepper::transferred(const Interval& argument, std::size_t jump) const {
-  const Interval& constant = of_->forms[jump]->constant;
-  return isBounded(argument) ? argument + (constant - constant) : argument;
 }
 
 void FlowStepper::boundHeldJumps(const FlowSet& set, const Interval& time, const Box& box, double h,
@@ -184,7 +185,7 @@ void FlowStepper::boundHeldJumps(const FlowSet& set, const Interval& time, const
   bounds.assign(held_.size(), {});
   for (std::size_t k = 0; k < held_.size(); ++k) {
     if (held_[k] != 0) start[k] = Interval(0.0);
-    if (same_[k].own >= 0) bounds[k].sign = Interval(same_[k].factor) * own[at(same_[k].own)].sign;
+    if (left_[k] >= 0) bounds[k].sign = Interval(factor_[k]) * own[at(left_[k])].sign;
   }
   holding_->setParameters(set.parameters);
   holding_->bound(time, box, start, h, bounds);
@@ -196,7 +197,7 @@ FlowStepper::Look FlowStepper::lookAtJumps(const FlowSet& set, double& h, double
   isSliding_ = false;
   Box box, boxAtStart;
   for (int i = 0; i < n_; ++i) {
-    box.push_back(series_.reach(i, y_[at(i)]));  // proved: no more than E
+    box.push_back(series_.rangeOf(i, y_[at(i)]));  // proved: no more than E
     LinearForm own;
     own.states.assign(at(n_), 0.0);
     own.states[at(i)] = 1;
@@ -219,7 +220,7 @@ FlowStepper::Look FlowStepper::lookAtJumps(const FlowSet& set, double& h, double
     };
     const bool couldHold = isHeld(heldAtStart);
     if (!isHeld(heldBounds_)) {
-      if (couldHold && h >= 0x1p10 * smallest) {
+      if (couldHold && h >= leastHold * smallest) {
         h *= 0.5;
         return Look::shorter;
       }
@@ -244,8 +245,9 @@ FlowStepper::Look FlowStepper::lookAtJumps(const FlowSet& set, double& h, double
     h = std::max(longest, smallest);
     return Look::shorter;
   }
-  if (narrower.empty() || isGiven_) return Look::goOn;
-  isGiven_ = true;
+  constexpr double muchShorter = 0.5;  // than when signs were given: they are known better now
+  if (narrower.empty() || (givenAt_ > 0 && h > muchShorter * givenAt_)) return Look::goOn;
+  givenAt_ = h;
   for (const std::size_t j : narrower) series_.giveSign(series_.jumps()[j], ownBounds_[j].sign, ownBounds_[j].over);
   return Look::again;
 }
@@ -262,9 +264,7 @@ std::vector<Interval> FlowStepper::argumentsBehind() const {
   }
   for (std::size_t k = 0; k < held_.size(); ++k) {
     result.push_back(held_[k] != 0 ? behind(heldBounds_[k]) : Interval::entire());
-    if (same_[k].own < 0 || ownBounds_.empty()) continue;
-    const Interval own = behind(ownBounds_[at(same_[k].own)]);
-    if (isBounded(own)) result.back() = transferred(Interval(same_[k].factor) * own, k);
+    if (left_[k] >= 0 && !ownBounds_.empty()) result.back() = Interval(factor_[k]) * behind(ownBounds_[at(left_[k])]);
   }
   return result;
 }
@@ -300,7 +300,7 @@ void FlowStepper::narrowArguments(const FlowSet& set, double tau, FlowPoint& poi
       now += std::fabs(sum);
     }
     for (std::size_t j = 0; j < n; ++j) now += std::fabs(form.states[j]) * point.radius[j];
-    if (width(u) > 0 && !(width(u) < 1.8 * now)) return;
+    if (width(u) > 0 && !(width(u) < clearlyLess * now)) return;
     constexpr double leastRatio = 0x1p-500;  // below, products might underflow
     bool isZero = isEqual(u, Interval(0.0)) && isEqual(form.constant, Interval(0.0)), isSafe = true;
     std::vector<double> ratio(n, 0.0);

@@ -346,7 +346,8 @@ bool FlowStepper::drift(FlowSet& set, double end) {
 
 StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum, double splitDefect, double kinkShare) {
   symbolAcross_ = -1;
-  isGiven_ = isSliding_ = isShortened_ = false;
+  isSliding_ = isShortened_ = false;
+  givenAt_ = 0;
   ownBounds_.clear();
   heldBounds_.clear();
   const double left = end - set.t;
@@ -388,7 +389,6 @@ StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum,
           continue;
         }
         if (look == Look::again) {
-          isAdapted = series_.adaptToCrossings();
           load(set);
           series_.compute(set.t, h0_);
           continue;

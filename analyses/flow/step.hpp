@@ -79,10 +79,10 @@ class FlowStepper {
   const std::string& why() const { return why_; }
   /// A state that has grown a thousandfold and would double long before the time it took; -1 if none has.
   int escaping(const FlowSet& set) const;
-  /// `own`: of the stepper's motion. That is the one of the jumps `of`, or the one in which those of `held`, if there
-  /// are any, are held (FlowJumps::heldProgram): of these, arguments have to be zero in every set. False if nothing can
-  /// be said of them.
-  bool setJumps(const FlowJumps& own, const FlowJumps& of, std::vector<char> held);
+  /// `own`: of the stepper's motion. That is the one of the jumps `of`, or, if `held` is not empty, the one in which
+  /// those are held: of these, arguments have to be zero in every set. left, factor: as of FlowJumps::heldProgram.
+  void setJumps(const FlowJumps& own, const FlowJumps& of, std::vector<char> held, std::vector<int> left,
+                std::vector<double> factor);
   /// After `released`: of each jump, whether solutions at it stay held.
   const std::vector<char>& stillHeld() const { return stillHeld_; }
   /// Of each jump, whether its argument is zero for all solutions in the set; empty if none is.
@@ -146,7 +146,6 @@ class FlowStepper {
                      std::vector<JumpBound>& bounds);
   void boundHeldJumps(const FlowSet& set, const Interval& time, const Box& box, double h,
                       const std::vector<JumpBound>& own, std::vector<JumpBound>& bounds);
-  Interval transferred(const Interval& argument, std::size_t jump) const;
   std::vector<Interval> argumentsBehind() const;
   template <class Visit>
   void forEachKnown(Visit visit) const;
@@ -162,17 +161,15 @@ class FlowStepper {
   double timeError_ = 0, truncation_ = 0;
   double caution_ = 1;
   std::vector<std::string> names_;
-  int symbolAcross_ = -1;                     // of kinks, for worstSymbol
-  const FlowJumps* of_ = nullptr;             // without any held
-  std::optional<JumpBounder> own_, holding_;  // of the stepper's own jumps; of those of which some are held
-  std::vector<char> held_, stillHeld_;        // of each of these; none: none
-  struct Same {
-    int own;  // -1: none
-    double factor;
-  };
-  std::vector<Same> same_;                         // of each of these, which own jump has its argument, times `factor`
+  int symbolAcross_ = -1;                          // of kinks, for worstSymbol
+  const FlowJumps* of_ = nullptr;                  // without any held
+  std::optional<JumpBounder> own_, holding_;       // of the stepper's own jumps; of those of which some are held
+  std::vector<char> held_, stillHeld_;             // of each of these; none: none
+  std::vector<int> left_;                          // of each of these, which own jump it is; -1: none
+  std::vector<double> factor_;                     // its argument is that one's, times this
   std::vector<JumpBound> ownBounds_, heldBounds_;  // over the step; none: nothing is known
-  bool isGiven_ = false, isSliding_ = false, isShortened_ = false;
+  bool isSliding_ = false, isShortened_ = false;
+  double givenAt_ = 0;          // the step when signs were given; 0: none were
   std::string why_, obstacle_;  // obstacle_: of the last attempt
   std::vector<double> delta0_, delta1_, start_, E_, y_, e1_, epsilon_, nu0_, nu1_, scale_, floor_;
   std::vector<double> total_, errors_;         // R + Σ_j |Γ_j| of the set being stepped; without inputs

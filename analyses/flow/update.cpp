@@ -394,7 +394,7 @@ void FlowStepper::advance(FlowSet& set) {
   set.slideStep = isSliding_ ? h_ : 0;
   set.p = end_.p;
   if (series_.isFine()) set.low = end_.low;
-  // Where jumps made it short, the step before tells more; but first to the end of that.
+  // A step that jumps made short says little of the next: that is as long as the one before was, once none does.
   if (isShortened_ && set.freeStep == 0) set.freeStep = set.nextStep;
   set.nextStep = isSliding_ ? 2 * h_ : std::max(h_ * 1.1, set.freeStep);
   if (!isShortened_) set.freeStep = 0;

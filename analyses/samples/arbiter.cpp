@@ -143,7 +143,8 @@ class TaylorRun {
     h = std::min(h, Real(horizon / leastSteps));
     const double unit = std::max(options_.tolerance, rounded(std::numeric_limits<Real>::epsilon()));
     const Real allowed = size * (1000.0 * options_.order * unit);
-    if (sides_.count() > 0 && leavesSurface(t, h)) return nextStep(t, rest, horizon);
+    if (sides_.count() > 0 && leavesSurface(t, h))
+      return ++shortEvents_ > mostShortEvents ? stop(t, jumpsWithoutEnd) : nextStep(t, rest, horizon);
     if (const Event<Real> event = nextEvent(t, h); event.isThere) {
       shortEvents_ = event.before < shortestPhase * horizon ? shortEvents_ + 1 : 0;
       if (shortEvents_ > mostShortEvents || ++events_ > mostEvents) return stop(t, jumpsWithoutEnd);
@@ -269,7 +270,7 @@ class TaylorRun {
   /// The equations on the sides that were found.
   void take(bool areFound, const Real& t) {
     if (!areFound) {
-      stop(t, heldWhereItJumps);
+      stop(t, noSidesAgree);
       return;
     }
     here_ = &equationsOf(sides_.piece().programs.rates);

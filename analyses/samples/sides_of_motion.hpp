@@ -14,6 +14,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "analyses/samples/influence_of_signs.hpp"
@@ -23,11 +24,11 @@
 
 namespace gamut {
 
-inline constexpr const char* heldWhereItJumps = "the motion is held where its equations jump";
+inline constexpr const char* noSidesAgree = "its equations jump, and no sides of the jumps agree with the motion";
 inline constexpr const char* jumpsWithoutEnd = "its equations jump again and again, and the motion does not go on";
-constexpr int mostEvents = 100'000;      // of one motion
-constexpr int mostShortEvents = 20;      // in a row
-constexpr double shortestPhase = 1e-12;  // between two events, of the horizon
+inline constexpr int mostEvents = 100'000;      // of one motion: a caution
+inline constexpr int mostShortEvents = 20;      // in a row
+inline constexpr double shortestPhase = 1e-12;  // between two events, of the horizon
 
 /// ẋ = f on some sides, and what is asked of it.
 struct SidedPrograms {
@@ -39,7 +40,7 @@ struct SidedPrograms {
 /// Nothing where no sign can hold a jump.
 std::optional<SidedPrograms> sidedPrograms(const Program& f, std::span<const Side> sides);
 
-/// The sides of one motion after another. One a thread; f must outlive it.
+/// The sides of one motion after another. One a thread.
 template <class Real>
 class SidesOfMotion {
  public:
@@ -50,9 +51,10 @@ class SidesOfMotion {
     Evaluator<Real> rates, watched, judged;
   };
 
-  SidesOfMotion(const Program& f, double horizon) : f_(f), horizon_(horizon), count_(jumpsOf(f).size()) {
-    if (count_ > 0) influence_.emplace(f);
-    for (const int jump : jumpsOf(f)) forms_.push_back(linearFormOf(f, f.nodes()[detail::at(jump)].a));
+  SidesOfMotion(const Program& f, double horizon)
+      : f_(withOneSignASurface(f)), horizon_(horizon), count_(jumpsOf(f_).size()) {
+    if (count_ > 0) influence_.emplace(f_);
+    for (const int jump : jumpsOf(f_)) forms_.push_back(linearFormOf(f_, f_.nodes()[detail::at(jump)].a));
   }
 
   /// The number of jumps; without any there are no pieces, and nothing to begin or to turn.
@@ -68,15 +70,20 @@ class SidesOfMotion {
     for (std::size_t k = 0; k < count_; ++k) values[k] = values[k] + lift_[k];
   }
 
-  /// Of jumps that are held and depend on one state, this exactly.
+  /// Sets exactly the states that follow from held jumps' arguments being zero.
   void rest(std::span<Real> x) const {
-    for (std::size_t k = 0; k < count_; ++k) {
-      if (sides_[k] != Side::held || !forms_[k] || !isOfOneState(*forms_[k])) continue;
-      Real others = constant<Real>(forms_[k]->constant);
+    std::vector<const LinearForm*> forms;
+    for (std::size_t k = 0; k < count_; ++k)
+      if (sides_[k] == Side::held && forms_[k]) forms.push_back(&*forms_[k]);
+    for (const auto& [which, state] : statesThatFollow(forms)) {
+      const LinearForm& form = *forms[which];
+      const double own = form.states[detail::at(state)];
+      Real others = constant<Real>(form.constant) / Real(own);
       for (std::size_t i = 0; i < parameters_.size(); ++i)
-        if (forms_[k]->parameters[i] != 0) others = others + parameters_[i] * Real(forms_[k]->parameters[i]);
-      const std::size_t state = detail::at(forms_[k]->pivot);
-      x[state] = -others / Real(forms_[k]->states[state]);
+        if (form.parameters[i] != 0) others = others + parameters_[i] * Real(form.parameters[i]) / Real(own);
+      for (std::size_t i = 0; i < x.size(); ++i)
+        if (form.states[i] != 0 && i != detail::at(state)) others = others + Real(form.states[i] / own) * x[i];
+      x[detail::at(state)] = -others;
     }
   }
 
@@ -272,7 +279,7 @@ class SidesOfMotion {
     return isReleased_[k] != 0 && isRounding(now.rate[k], other) ? side : Side::held;
   }
 
-  const Program& f_;
+  const Program f_;
   double horizon_;
   std::size_t count_;
   std::optional<InfluenceOfSigns<Real>> influence_;

@@ -45,7 +45,7 @@ struct Witness::Solver : CvodeProblem {
   void watch(double t, std::span<const double> x, std::span<double> values) override { sides.watch(t, x, values); }
   std::string turn(double t, std::span<double> x, double later, std::span<const double> xLater,
                    std::span<const char> fallen) override {
-    if (!sides.turn(t, x, later, xLater, fallen)) return heldWhereItJumps;
+    if (!sides.turn(t, x, later, xLater, fallen)) return noSidesAgree;
     sides.rest(x);
     return "";
   }
@@ -84,7 +84,7 @@ Integration Witness::integrate(std::span<const double> start, const Tolerance& t
   s.g.setParameters(start.subspan(states));
   s.trajectory = trajectory;
   s.sides.setParameters(start.subspan(states));
-  if (s.sides.count() > 0 && !s.sides.begin(0, start.first(states))) return {0, 0, heldWhereItJumps};
+  if (s.sides.count() > 0 && !s.sides.begin(0, start.first(states))) return {0, 0, noSidesAgree};
   const std::vector<Interval> parameters(start.begin() + static_cast<std::ptrdiff_t>(states), start.end());
   return s.cvode.integrate(s, start.first(states), tolerance, s.cells.ends(parameters), seconds);
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "scalars/index.hpp"
 
@@ -76,26 +77,41 @@ std::optional<LinearForm> linearFormOf(const Program& f, int node) {
   return result;
 }
 
-double sameForm(const LinearForm& a, const LinearForm& b, const std::vector<char>& zeros) {
-  for (const double factor : {1.0, -1.0}) {
-    bool isSame = true;
-    for (std::size_t i = 0; i < zeros.size(); ++i)
-      isSame = isSame && (zeros[i] != 0 || a.states[i] == factor * b.states[i]);
-    for (std::size_t k = 0; k < a.parameters.size(); ++k)
-      isSame = isSame && a.parameters[k] == factor * b.parameters[k];
-    if (isSame) return factor;
+std::vector<std::pair<std::size_t, int>> statesThatFollow(const std::vector<const LinearForm*>& forms) {
+  std::vector<std::pair<std::size_t, int>> result;
+  std::vector<char> taken;
+  const auto count = [](const LinearForm& form) {
+    return std::ranges::count_if(form.states, [](double by) { return by != 0; });
+  };
+  std::multimap<std::ptrdiff_t, std::size_t> order;  // by how many states
+  for (std::size_t k = 0; k < forms.size(); ++k) order.emplace(count(*forms[k]), k);
+  for (const auto& [states, k] : order) {
+    const LinearForm& form = *forms[k];
+    taken.resize(form.states.size(), 0);
+    for (std::size_t i = 0; i < form.states.size(); ++i) {
+      bool isExact = form.states[i] != 0 && taken[i] == 0;
+      for (const double other : form.states) isExact = isExact && isThin(Interval(other) / Interval(form.states[i]));
+      if (!isExact) continue;
+      result.emplace_back(k, static_cast<int>(i));
+      taken[i] = 1;
+      break;
+    }
   }
-  return 0;
+  return result;
 }
 
-bool isOfOneState(const LinearForm& form) {
-  return std::ranges::count_if(form.states, [](double by) { return by != 0; }) == 1;
-}
-
-int zeroOf(const LinearForm& form) {
-  const bool isAlone = isOfOneState(form) && std::ranges::all_of(form.parameters, [](double by) { return by == 0; }) &&
-                       isEqual(form.constant, Interval(0.0));
-  return isAlone ? form.pivot : -1;
+double signOfRatio(const LinearForm& a, const LinearForm& b) {
+  const double ofA = a.states[at(b.pivot)], ofB = b.states[at(b.pivot)];
+  const auto isSame = [&](const Interval& x, const Interval& y) {  // x/ofA = y/ofB
+    const Interval left = x * Interval(ofB), right = y * Interval(ofA);
+    const bool isZero = isEqual(x, Interval(0.0)) && isEqual(y, Interval(0.0));
+    return isZero || (isThin(left) && isEqual(left, right) && left.lower() != 0);
+  };
+  bool isMultiple = ofA != 0 && isSame(a.constant, b.constant);
+  for (std::size_t i = 0; i < a.states.size(); ++i) isMultiple = isMultiple && isSame(a.states[i], b.states[i]);
+  for (std::size_t k = 0; k < a.parameters.size(); ++k)
+    isMultiple = isMultiple && isSame(a.parameters[k], b.parameters[k]);
+  return !isMultiple ? 0 : (ofA > 0) == (ofB > 0) ? 1 : -1;
 }
 
 }  // namespace gamut

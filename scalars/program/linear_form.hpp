@@ -1,7 +1,9 @@
 // Nodes that are linear in states and parameters.
 #pragma once
 
+#include <cstddef>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "scalars/interval.hpp"
@@ -19,13 +21,11 @@ struct LinearForm {
 /// The form of a node, if it is one with exact coefficients, one of a state at least.
 std::optional<LinearForm> linearFormOf(const Program& f, int node);
 
-/// Whether the form has one state.
-bool isOfOneState(const LinearForm& form);
+/// For forms that are zero together: which state x_i = -(Σ_{j≠i} c_j x_j + Σ d_k p_k + constant)/c_i follows from which
+/// of them, {form, i} one after the other, those of few states first; ratios c_j/c_i are exact. Some may have none.
+std::vector<std::pair<std::size_t, int>> statesThatFollow(const std::vector<const LinearForm*>& forms);
 
-/// Whether a = factor·b but for constants and where these states are zero, factor 1 or -1; 0 if not.
-double sameForm(const LinearForm& a, const LinearForm& b, const std::vector<char>& zeros);
-
-/// The state that has to be zero for the form to be; -1 if that is none alone.
-int zeroOf(const LinearForm& form);
+/// Whether a = c·b with c ≠ 0, seen without rounding: its sign, 1 or -1; 0 if not.
+double signOfRatio(const LinearForm& a, const LinearForm& b);
 
 }  // namespace gamut

@@ -21,6 +21,41 @@ std::vector<int> jumpsOf(const Program& program) {
   return jumps;
 }
 
+Program withOneSignASurface(const Program& f) {
+  std::vector<int> outputs = f.outputNodes(), instead(f.nodes().size(), -1);
+  std::vector<std::pair<int, LinearForm>> surfaces;  // with the first sign of each
+  bool isNew = false;
+  for (const int jump : jumpsOf(f)) {
+    const auto form = linearFormOf(f, f.nodes()[at(jump)].a);
+    if (!form) continue;
+    double ratio = 0;
+    for (const auto& [first, of] : surfaces) {
+      ratio = signOfRatio(*form, of);
+      if (ratio == 0) continue;
+      instead[at(jump)] = first;
+      isNew = true;
+      break;
+    }
+    if (ratio == 0) surfaces.emplace_back(jump, *form);
+  }
+  if (!isNew) return f;
+  // Written anew: each later sign is the first of its surface, or the negative of that.
+  Recorder result(f.states(), f.parameters());
+  std::vector<int> signs(f.nodes().size(), -1), here;
+  for (int pass = 0; pass < 2; ++pass) {
+    here = result.append(f, {}, signs);
+    for (const int jump : jumpsOf(f)) {
+      const int first = instead[at(jump)];
+      if (first < 0) continue;
+      const double ratio =
+          signOfRatio(*linearFormOf(f, f.nodes()[at(jump)].a), *linearFormOf(f, f.nodes()[at(first)].a));
+      signs[at(jump)] = ratio > 0 ? here[at(first)] : result.neg(here[at(first)]);
+    }
+  }
+  for (int& output : outputs) output = here[at(output)];
+  return result.finish(outputs);
+}
+
 Program withSignsGiven(const Program& f) {
   if (f.outputs() != f.states()) throw std::invalid_argument("sides need one rate for each state");
   const std::vector<int> jumps = jumpsOf(f);
@@ -42,26 +77,71 @@ Program withSignsGiven(const Program& f) {
   return recorder.finish(outputs);
 }
 
-bool isAffineInSigns(const Program& f) {
+namespace {
+
+/// Of each node, whether it depends on a state.
+std::vector<char> ofStates(const Program& f) {
+  std::vector<char> result;
+  for (std::size_t i = 0; i < f.nodes().size(); ++i) {
+    bool does = f.nodes()[i].op == Op::state;
+    detail::forEachOperand(f.table(), static_cast<int>(i),
+                           [&](int operand) { does = does || result[at(operand)] != 0; });
+    result.push_back(static_cast<char>(does));
+  }
+  return result;
+}
+
+/// Whether f depends on its signs by sums and by products, of which both factors may depend on signs if `anyPower`. One
+/// of what does not depend on states is as good as any number: no solution is held at it.
+bool isPolynomialInSigns(const Program& f, bool anyPower) {
   std::vector<char> depends;
+  const std::vector<char> moves = ofStates(f);
   const auto of = [&](int node) { return node >= 0 && depends[at(node)] != 0; };
   for (const Node& node : f.nodes()) {
-    bool does = node.op == Op::sign, isAffine = true;
+    bool does = node.op == Op::sign && moves[at(node.a)] != 0, isAllowed = !does || !of(node.a);
     if (node.op == Op::solution) {
       const LinearSolution& solution = f.solutions()[at(node.a)];
-      for (const int entry : f.matrices()[at(solution.matrix)].entries) isAffine = isAffine && !of(entry);
+      for (const int entry : f.matrices()[at(solution.matrix)].entries) isAllowed = isAllowed && !of(entry);
       for (const int entry : solution.rightSide) does = does || of(entry);
     } else if (isOperation(node.op) && !does) {
       does = of(node.a) || of(node.b);
-      isAffine = !does || node.op == Op::add || node.op == Op::sub || node.op == Op::neg ||
-                 (node.op == Op::mul && !(of(node.a) && of(node.b)));
-    } else if (does) {
-      isAffine = !of(node.a);
+      isAllowed = !does || node.op == Op::add || node.op == Op::sub || node.op == Op::neg ||
+                  (node.op == Op::mul && (anyPower || !(of(node.a) && of(node.b)))) || (node.op == Op::sqr && anyPower);
     }
-    if (!isAffine) return false;
+    if (!isAllowed) return false;
     depends.push_back(static_cast<char>(does));
   }
   return true;
+}
+
+}  // namespace
+
+bool isAffineInSigns(const Program& f) { return isPolynomialInSigns(f, false); }
+
+Program affineInSign(const Program& f) {
+  const std::vector<int> jumps = jumpsOf(f);
+  if (jumps.size() != 1 || isAffineInSigns(f) || !isPolynomialInSigns(f, true)) return f;
+  const Program given = withSignsGiven(f);
+  Recorder recorder(f.states(), f.parameters());
+  std::vector<int> parameters;
+  for (int i = 0; i < f.parameters(); ++i) parameters.push_back(recorder.parameter(i));
+  const auto outputsWith = [&](double sign) {
+    parameters.resize(at(f.parameters()));
+    parameters.push_back(recorder.constant(sign));
+    const std::vector<int> here = recorder.append(given, parameters);
+    std::vector<int> outputs;
+    for (const int output : given.outputNodes()) outputs.push_back(here[at(output)]);
+    return outputs;
+  };
+  const std::vector<int> above = outputsWith(1), below = outputsWith(-1);
+  const int sign = recorder.sign(above[at(f.states())]), half = recorder.constant(0.5);
+  std::vector<int> rates;
+  for (int i = 0; i < f.states(); ++i) {
+    const int mean = recorder.mul(half, recorder.add(above[at(i)], below[at(i)]));
+    rates.push_back(
+        recorder.add(mean, recorder.mul(sign, recorder.mul(half, recorder.sub(above[at(i)], below[at(i)])))));
+  }
+  return recorder.finish(rates);
 }
 
 Program onSides(const Program& f, std::span<const Side> sides) {
@@ -93,11 +173,13 @@ Program onSides(const Program& f, std::span<const Side> sides) {
     if (!std::equal(arguments.begin(), arguments.end(), outputs.begin() + n))
       throw std::invalid_argument("a jump that depends on another one cannot be left open");
   }
-  const std::vector<int> below = outputs;
-  std::vector<std::vector<int>> steps;  // from below to above in one of those held: the same whatever those open are
+  const std::vector<int> signs = jumpsOf(f);
+  const std::vector<char> moves = ofStates(f);
+  std::vector<std::vector<int>>
+      steps;  // from below to above in one of those held: the same whatever those of states that are open are
   std::vector<int> values = parameters;
   for (int j = 0; j < jumps; ++j)
-    if (sides[at(j)] == Side::open) values[at(k + j)] = recorder.constant(0.0);
+    if (sides[at(j)] == Side::open && moves[at(signs[at(j)])] != 0) values[at(k + j)] = recorder.constant(0.0);
   const std::vector<int> from = held.empty() ? outputs : outputsWith(values);
   for (const int j : held) {
     values[at(k + j)] = recorder.constant(1.0);
@@ -108,13 +190,13 @@ Program onSides(const Program& f, std::span<const Side> sides) {
   const auto rate = [&](int j) { return at(n + jumps + j); };  // its place among outputs
   std::vector<int> shares;
   if (held.size() == 1) {
-    shares.push_back(recorder.neg(recorder.mul(below[rate(held[0])], recorder.recip(steps[0][rate(held[0])]))));
+    shares.push_back(recorder.neg(recorder.mul(outputs[rate(held[0])], recorder.recip(steps[0][rate(held[0])]))));
   } else if (!held.empty()) {
     LinearMatrix matrix{MatrixKind::general, static_cast<int>(held.size()), {}};
     std::vector<int> rightSide;
     for (const int j : held) {
       for (const std::vector<int>& step : steps) matrix.entries.push_back(step[rate(j)]);
-      rightSide.push_back(recorder.neg(below[rate(j)]));
+      rightSide.push_back(recorder.neg(outputs[rate(j)]));
     }
     shares = recorder.solve(recorder.matrix(std::move(matrix)), false, rightSide);
   }
@@ -122,10 +204,18 @@ Program onSides(const Program& f, std::span<const Side> sides) {
     for (int o = 0; o < n; ++o) outputs[at(o)] = recorder.add(outputs[at(o)], recorder.mul(shares[h], steps[h][at(o)]));
     parameters[at(k + held[h])] = recorder.sub(recorder.mul(recorder.constant(2.0), shares[h]), recorder.constant(1.0));
   }
-  const std::vector<int> signs = jumpsOf(f);
-  for (const int j : held)  // not but for roundings
-    if (const auto form = linearFormOf(f, f.nodes()[at(signs[at(j)])].a); form && isOfOneState(*form))
-      outputs[at(form->pivot)] = recorder.constant(0.0);
+  std::vector<LinearForm> forms;
+  for (const int j : held)
+    if (const auto form = linearFormOf(f, f.nodes()[at(signs[at(j)])].a)) forms.push_back(*form);
+  std::vector<const LinearForm*> all;
+  for (const LinearForm& form : forms) all.push_back(&form);
+  for (const auto& [which, state] : statesThatFollow(all)) {  // exactly, not only up to rounding
+    int sum = recorder.constant(0.0);
+    for (int i = 0; i < n; ++i)
+      if (const double by = forms[which].states[at(i)]; by != 0 && i != state)
+        sum = recorder.sub(sum, recorder.mul(recorder.constant(by / forms[which].states[at(state)]), outputs[at(i)]));
+    outputs[at(state)] = sum;
+  }
   outputs.resize(at(n + jumps));
   outputs.insert(outputs.end(), parameters.begin() + k, parameters.end());
   return recorder.finish(outputs);

@@ -16,13 +16,21 @@ enum class Side : signed char { below = -1, between = 0, above = 1, held = 2, op
 /// The nodes of `program` that jump, in their order: its signs.
 std::vector<int> jumpsOf(const Program& program);
 
+/// f with one sign for all arguments that are multiples of each other: at a surface they are one.
+Program withOneSignASurface(const Program& f);
+
 /// f with its K signs s_1 … s_K as parameters behind its own. Outputs: f's n, the signs' arguments u_1 … u_K, and their
 /// rates ∂u/∂t + ∂u/∂x f. f has as many outputs as states.
 Program withSignsGiven(const Program& f);
 
 /// Whether f depends on its signs by sums and by products with what does not: then a mean of f over values of signs is
-/// f at their mean.
+/// f at their mean. A sign of what does not depend on states (time, parameters) counts as a number.
 bool isAffineInSigns(const Program& f);
+
+/// f with its one sign s to the first power: (1 + s)/2 of f on one side and (1 - s)/2 of f on the other, which has the
+/// same Filippov solutions. f itself where it is affine in its signs, has several, or depends on one by more than sums
+/// and products.
+Program affineInSign(const Program& f);
 
 /// f on these sides, one a jump. Outputs: f's n, the arguments u_1 … u_K, the signs s_1 … s_K. A held argument counts
 /// as zero. Of several that are held the rates are those of one side and what each other side alone adds, times (1 +

@@ -1,9 +1,11 @@
 // The truth where solutions are held at jumps: events are located in 128 bits, and in between f is smooth.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <map>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "scalars/program/recorder.hpp"

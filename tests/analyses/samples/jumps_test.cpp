@@ -192,7 +192,7 @@ TEST(Jumps, OfNoHeightAreLeftToTheSideOfTheMotion) {
   expectAll(stop(0, 1), {0, 0}, [](std::size_t, double) { return 0.0; });
 }
 
-/// Held while the push is less than the friction, at two rates of the one argument: x' = 0.25 cos t - sign x.
+/// Held while the push is less than the friction: x' = 1.25 sin t - sign x.
 TEST(Jumps, AMotionIsHeldWhileWhatPushesItChanges) {
   const Motion motion =
       motionOf(1, 8, 64, [](auto t, const auto& x, const auto&, auto& dx) { dx[0] = 1.25 * sin(t) - sign(x[0]); });

@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "scalars/evaluation/evaluate.hpp"
+#include "scalars/program/linear_form.hpp"
 #include "scalars/recorded.hpp"
 
 namespace gamut::testing {
@@ -78,6 +81,106 @@ TEST(Sides, ProductsOfSignsAreNotAffine) {
   EXPECT_FALSE(isAffine([](const auto& x) { return 1.0 / (2.0 + sign(x[1])); }));
   EXPECT_FALSE(isAffine([](const auto& x) { return sqr(3.0 + sign(x[1])); }));
   EXPECT_FALSE(isAffine([](const auto& x) { return sign(x[0] + sign(x[1])); }));
+}
+
+TEST(Sides, OneSignToTheFirstPowerIsTheSameOnBothSides) {
+  const Program f = record(2, 0, [](auto, const auto& x, const auto&, auto& dx) {
+    dx[0] = x[1];
+    dx[1] = -sign(x[1]) * where(x[1], Recorded(2.0), x[0]) + sqr(3.0 + sign(x[1]));
+  });
+  const Program affine = affineInSign(f);
+  EXPECT_FALSE(isAffineInSigns(f));
+  EXPECT_TRUE(isAffineInSigns(affine));
+  for (const double v : {-2.0, 0.25}) {
+    const std::vector<double> x{0.75, v};
+    EXPECT_EQ(evaluate<double>(affine, x), evaluate<double>(f, x));
+  }
+  EXPECT_EQ(evaluate<double>(affine, std::vector{0.75, 0.0})[1], 0.5 * ((16 - 2.0) + (4 + 0.75)));
+  const Program root = record(
+      1, 0, [](auto, const auto& x, const auto&, auto& dx) { dx[0] = sqrt(x[0] * sign(x[0])); });  // not on both sides
+  EXPECT_TRUE(isIdentical(affineInSign(root), root));
+}
+
+TEST(LinearForms, AreThoseOfArguments) {
+  const Program f = record(3, 1, [](auto t, const auto& x, const auto& p, auto& dx) {
+    dx[0] = sign(-2.0 * (x[0] - x[2]) + 0.5 * p[0] - 3.0);
+    dx[1] = sign(x[0] * x[1]);
+    dx[2] = sign(p[0] - 1.0) + sign(x[1] - t);
+  });
+  std::vector<std::optional<LinearForm>> forms;
+  for (const int jump : jumpsOf(f)) forms.push_back(linearFormOf(f, f.nodes()[static_cast<std::size_t>(jump)].a));
+  ASSERT_EQ(forms.size(), 4u);
+  ASSERT_TRUE(forms[0].has_value());
+  const double sense = forms[0]->states[0] / -2.0;  // a sign may have been taken out
+  EXPECT_EQ(std::fabs(sense), 1);
+  EXPECT_EQ(forms[0]->states, (std::vector{-2 * sense, 0.0, 2 * sense}));
+  EXPECT_EQ(forms[0]->parameters, std::vector{0.5 * sense});
+  EXPECT_TRUE(isEqual(forms[0]->constant, Interval(-3.0 * sense)));
+  for (std::size_t other : {1u, 2u, 3u}) EXPECT_FALSE(forms[other].has_value()) << other;
+  const LinearForm a{{0, 1, -1}, {2}, Interval(-0.5), 1}, b{{0, -3, 3}, {-6}, Interval(1.5), 1};
+  LinearForm c = b;
+  c.constant = Interval(1.25);
+  const LinearForm alone{{0, 0, 1}, {0}, Interval(0.0), 2};
+  const std::vector<std::pair<std::size_t, int>> follow{{1, 2}, {0, 1}};  // x₂ first, then x₁ from it
+  EXPECT_EQ(statesThatFollow({&a, &alone}), follow);
+  EXPECT_EQ(signOfRatio(a, b), -1);
+  EXPECT_EQ(signOfRatio(b, b), 1);
+  EXPECT_EQ(signOfRatio(c, b), 0);
+  EXPECT_EQ(signOfRatio({{0, 1, 0}, {0}, Interval(0.0), 1}, {{0, 1, 1}, {0}, Interval(0.0), 1}), 0);
+}
+
+/// A held argument of one state rests exactly, whatever rounding leaves of its rate.
+TEST(Sides, HeldStatesRestExactly) {
+  const Program f = record(2, 1, [](auto, const auto& x, const auto& p, auto& dx) {
+    dx[0] = x[1] + 0.1;
+    dx[1] = -(p[0] * x[0]) - 0.3 * sign(x[1]);
+  });
+  for (const double x : {0.1, 0.7, 1.3}) {
+    const std::vector<double> y = evaluate<double>(onSides(f, std::vector{Side::held}), {x, 0.0}, {0.1});
+    EXPECT_EQ(y[0], 0.1);
+    EXPECT_EQ(y[1], 0);
+  }
+}
+
+/// One held and one open: on both sides of the open one what both sides fixed give.
+TEST(Sides, OpenOnesKeepTheirSigns) {
+  const Program f = record(2, 0, [](auto, const auto& v, const auto&, auto& dv) {
+    const auto a = 1.0 - 2.0 * sign(v[0]), b = -3.0 - 4.0 * sign(v[1] - 1.0);
+    dv[0] = a - b;
+    dv[1] = 2.0 * b - a;
+  });
+  for (const double v : {0.5, 1.5}) {
+    const std::vector<double> x{0.0, v};
+    const Side side = v > 1 ? Side::above : Side::below;
+    const std::vector<double> open = evaluate<double>(onSides(f, std::vector{Side::held, Side::open}), x);
+    const std::vector<double> fixed = evaluate<double>(onSides(f, std::vector{Side::held, side}), x);
+    for (std::size_t i = 0; i < 2; ++i) EXPECT_NEAR(open[i], fixed[i], 1e-14);
+    EXPECT_EQ(open[5], static_cast<double>(side));
+  }
+}
+
+TEST(Sides, RefusesWhatCannotBe) {
+  const Program of = record(2, 0, [](auto, const auto& x, const auto&, auto& dx) {
+    dx[0] = x[1] - sign(x[1]);
+    dx[1] = 1.0;
+  });
+  EXPECT_THROW(onSides(of, std::vector{Side::held}), std::domain_error);
+  EXPECT_THROW(onSides(of, std::vector{Side::above, Side::above}), std::invalid_argument);
+  const Program nested =
+      record(1, 0, [](auto t, const auto& x, const auto&, auto& dx) { dx[0] = -sign(x[0] + sign(t - 1.0)); });
+  EXPECT_THROW(onSides(nested, std::vector{Side::open, Side::open}), std::invalid_argument);
+}
+
+TEST(Sides, MultiplesShareTheirSign) {
+  const Program f = record(2, 0, [](auto, const auto& x, const auto&, auto& dx) {
+    dx[0] = 0.5 - sign(x[0] - x[1]) + sign(x[0] - 1.0);
+    dx[1] = sign(3.0 * (x[1] - x[0])) - 2.0 * sign(2.0 * x[0] - 2.0);
+  });
+  const Program one = withOneSignASurface(f);
+  EXPECT_EQ(jumpsOf(f).size(), 4u);
+  EXPECT_EQ(jumpsOf(one).size(), 2u);
+  for (const double a : {0.25, 1.5})
+    for (const double b : {0.5, 1.25}) EXPECT_EQ(evaluate<double>(one, {a, b}), evaluate<double>(f, {a, b}));
 }
 
 }  // namespace
