@@ -121,6 +121,7 @@ class Wording {
   /// Where samples coincide there is no ratio: what is guaranteed there may be wide all the same.
   void noteCoincidences() {
     constexpr double telling = 1e-3;  // of the greatest value that was sampled
+    constexpr double least = 1e-100;  // where all samples are zero
     const Table& ratio = results_.comparison.overestimation;
     const Envelope &proved = results_.interval.at, &sampled = results_.stochastic.envelope;
     if (ratio.empty() || proved.empty() || sampled.empty()) return;
@@ -134,8 +135,10 @@ class Wording {
       for (std::size_t t = 0; t < ratio.times; ++t) {
         const double width = proved.upper(t, o) - proved.lower(t, o);
         const bool isSampled = std::isfinite(sampled.upper(t, o) - sampled.lower(t, o));
-        if (!std::isnan(ratio(t, o)) || !isSampled || !std::isfinite(width) || !(width > widest * size)) continue;
-        widest = width / size;
+        if (!std::isnan(ratio(t, o)) || !isSampled || !std::isfinite(width) ||
+            !(width > std::max(least, widest * size)))
+          continue;
+        widest = size > 0 ? width / size : std::numeric_limits<double>::infinity();
         who = fmt::format("{}{} its guarantee is {} wide", results_.outputs[o].name, when(t), withUnit(width, o));
       }
     }

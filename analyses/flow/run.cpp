@@ -331,7 +331,7 @@ void FlowRun::explain(Tube& tube, const FlowOptions& options, const std::string&
       const std::string number = std::to_string(i);
       const std::string name = i < names.size() ? names[i] : (ofOutputs ? "output " : "state ") + number;
       std::array<char, 32> times{};
-      constexpr double beyondTelling = 1e3;  // more says nothing but that the piece is all remainder
+      constexpr double beyondTelling = 999;  // more says nothing but that the piece is all remainder
       std::snprintf(times.data(), times.size(), "%.4g", 1 + std::min(loosest, beyondTelling));
       tube.shortfall_ = "at " + toString(tube.times_[row]) + " s " + name + " may be " +
                         (loosest > beyondTelling ? "more than " : "") + times.data() + " times as wide as necessary";
