@@ -363,7 +363,7 @@ void FlowStepper::narrowArguments(const FlowSet& set, double tau, FlowPoint& poi
       point.driven[i] += share * point.driven[j];
       point.beyond[i] += share * point.beyond[j];
     }
-    // No sum has more than 2n + N + parameters terms, each of two roundings.
+    // No sum has more than 2n + N + parameters terms, of two roundings each; twice as many are counted.
     const double roundings = 4.0 * static_cast<double>(2 * n + at(N) + form.parameters.size()) + 16;
     const double own = isZero ? 0.0 : (loose + roundings * bounds::unit * size) * bounds::up + bounds::tiny;
     std::ranges::copy(p, point.p.begin() + static_cast<std::ptrdiff_t>(i * at(N)));
