@@ -93,6 +93,8 @@ class PolynomialSeries {
   /// The sign, or means of it, until forgetCrossings, as for the next computations. Its argument asks for no haste
   /// then, and where that is nowhere on one side, |u| and its derivative are those of the other.
   void giveSign(int jump, const Interval& sign, const Interval& argument);
+  /// Whether along the polynomial the sign counts as what it is there, since its push is reckoned apart.
+  void setApart(int jump, bool isApart) { isApart_[at(jump)] = static_cast<char>(isApart); }
   /// Where state i is while |x - x̃| ≤ error.
   Interval rangeOf(int i, double error) const;
   /// What the next computations take of those that the set bounded last may cross: chords over all that it reaches, and
@@ -270,10 +272,11 @@ class PolynomialSeries {
   std::vector<int> jumps_;                            // signs in outputs themselves
   std::vector<double> jump_;                          // radius of each sign
   std::vector<std::optional<Interval>> given_;        // of each sign, what it is
+  std::vector<char> isApart_;                         // of each sign: its push is not one of errors
   std::vector<char> isCalm_;                          // arguments of those: they need no haste
   std::vector<double> side_;                          // of each argument, if known for all solutions: 1, -1
   std::vector<double> atStart_, crossing_, reached_;  // of each argument: uncertain; what a chord spans; may have to
-  bool hasKinks_ = false, hasJumped_ = false;
+  bool hasKinks_ = false, hasJumped_ = false, isAlong_ = false;
   std::vector<double> f_, r_, d_, t_, total_, s1_, s2_, scratch_, scratch2_;
   std::vector<double> inverse_;  // per recip/sqrt/log/atan node: 1/leading polynomial
   std::vector<std::size_t> inverseAt_;

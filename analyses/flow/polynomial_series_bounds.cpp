@@ -173,6 +173,10 @@ void PolynomialSeries::boundAbs(int node) {
 void PolynomialSeries::boundSign(int node) {
   const Plan& v = plan_[at(node)];
   const double value = f_[v.f];
+  if (isAlong_ && isApart_[at(node)] != 0) {
+    rho0_[at(node)] = rho1_[at(node)] = 0;
+    return;
+  }
   if (given_[at(node)]) {
     mayCross(v.a);  // for what it reaches
     rho0_[at(node)] = magnitude(*given_[at(node)] - Interval(value)) * bounds::up;
@@ -236,6 +240,7 @@ void PolynomialSeries::forgetJumps() {
 
 bool PolynomialSeries::bound(const double* E, bool primaryOnly) {
   for (System& system : systems_) system.isBounded = false;
+  isAlong_ = E == nullptr;
   haste_ = 0;
   for (int i = 0; i < time_; ++i) {
     const bool state = i < n_;

@@ -37,6 +37,7 @@ PolynomialSeries::PolynomialSeries(const Program& program, int primaryOutputs,
   chords_.assign(nodes.size(), {});
   jump_.assign(nodes.size(), 0.0);
   given_.assign(nodes.size(), std::nullopt);
+  isApart_.assign(nodes.size(), 0);
   isCalm_.assign(nodes.size(), 0);
   side_.assign(nodes.size(), 0.0);
   crossing_ = reached_ = jump_;

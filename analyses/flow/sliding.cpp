@@ -17,6 +17,7 @@ namespace {
 
 constexpr double nearlyAny = 1.9;     // the width of a sign of which hardly anything is known
 constexpr double clearlyLess = 1.8;   // of a half width: a row that loses its ξ should win at least a tenth
+constexpr double beyond = 1.0625;     // the last crossing, that rates over the whole step may still tell of it
 constexpr double leastHold = 0x1p10;  // in shortest steps: shorter ones would win less than leaving costs
 
 }  // namespace
@@ -99,6 +100,20 @@ double FlowStepper::longestWhileSliding(const JumpBound& bound, const JumpBound&
     return std::max({last, latest > 0 ? latest / parts : h, ahead * first});
   }
   return bound.turned <= turnedMore * atStart.turned + turnedBesides ? h : 0.5 * h;
+}
+
+/// Where solutions come to a surface to pass it, the step ends before the first does, or when all of them have: the
+/// second once the first is no farther away than they are from each other.
+double FlowStepper::longestBeforeCrossing(const JumpBound& bound, const JumpBound& atStart, double h,
+                                          double smallest) const {
+  const auto first = atStart.crossing();
+  if (!first || !bound.isKnown() || !contains(bound.over, 0.0)) return h;
+  constexpr double ahead = 0.999;
+  const Interval& rate = first->before > 0 ? bound.up : bound.down;
+  const double soonest = std::max(mignitude(bound.start) / magnitude(rate), 0.5 * first->moment.lower());
+  if (ahead * soonest > std::max(width(first->moment), smallest)) return std::min(h, ahead * soonest);
+  const auto all = bound.crossing();
+  return std::min(h, std::max(beyond * std::max(first->moment.upper(), all ? all->moment.upper() : 0.0), smallest));
 }
 
 /// What comes to be held or leaves does so over a time Δ, in which the set loses its dependence on ξ in what moves
@@ -191,9 +206,10 @@ void FlowStepper::boundHeldJumps(const FlowSet& set, const Interval& time, const
   holding_->bound(time, box, start, h, bounds);
 }
 
-FlowStepper::Look FlowStepper::lookAtJumps(const FlowSet& set, double& h, double smallest) {
+FlowStepper::Look FlowStepper::lookAtJumps(const FlowSet& set, double& h, double smallest, double left) {
   ownBounds_.clear();
   heldBounds_.clear();
+  crossings_.clear();
   isSliding_ = false;
   Box box, boxAtStart;
   for (int i = 0; i < n_; ++i) {
@@ -230,12 +246,17 @@ FlowStepper::Look FlowStepper::lookAtJumps(const FlowSet& set, double& h, double
       return Look::released;
     }
   }
-  double longest = h;
+  double longest = h, longer = h;
   std::vector<std::size_t> narrower;
   for (std::size_t j = 0; j < ownBounds_.size(); ++j) {
     const JumpBound& bound = ownBounds_[j];
     const bool isNarrower = width(bound.sign) < nearlyAny, slides = bound.maySlide && (bound.holds || isNarrower);
-    if (!bound.isKnown() || !(slides || isNarrower)) continue;
+    longest = std::min(longest, longestBeforeCrossing(bound, atStart[j], h, smallest));
+    const auto crossing = bound.crossing();
+    const bool crosses = crossing && (crossing->moment.upper() <= h || h == left) && !isNarrower;
+    if (crossing && !crosses && !isNarrower) longer = std::max(longer, beyond * crossing->moment.upper());
+    if (crosses) crossings_.push_back({j, *crossing, {}, {}});
+    if (!bound.isKnown() || !(slides || isNarrower || crosses)) continue;
     narrower.push_back(j);
     if (!slides) continue;
     isSliding_ = true;
@@ -243,6 +264,11 @@ FlowStepper::Look FlowStepper::lookAtJumps(const FlowSet& set, double& h, double
   }
   if (longest < 0.99 * h && h > smallest) {
     h = std::max(longest, smallest);
+    return Look::shorter;
+  }
+  constexpr int mostTries = 4;
+  if (longer > h && longer < 4 * h && longest >= h && ++lengthened_ < mostTries) {
+    h = std::min({longer, h0_, left});
     return Look::shorter;
   }
   constexpr double muchShorter = 0.5;  // than when signs were given: they are known better now

@@ -288,7 +288,8 @@ bool FlowStepper::isKinkTooWide(const FlowSet& set, double kinkShare) {
   for (int i = 0; mayBisect && i < n_; ++i) {
     const double allowed = kinkShare / set.half[l];  // of the whole box, not of the piece
     double added = 0, width = 0;
-    for (int j = 0; j < n_; ++j) added += growth_.M1(i, j) * delta0_[at(j)];
+    for (int j = 0; j < n_ && crossings_.empty(); ++j) added += growth_.M1(i, j) * delta0_[at(j)];
+    if (!crossings_.empty()) added = crossed_[at(i)];
     for (int g = 1; g < N; ++g) width += std::fabs(set.p[at(i * N + g)]);
     if (added > allowed * width && width > 1e-9 * scale_[at(i)]) return true;
   }
@@ -347,7 +348,9 @@ bool FlowStepper::drift(FlowSet& set, double end) {
 StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum, double splitDefect, double kinkShare) {
   symbolAcross_ = -1;
   isSliding_ = isShortened_ = false;
+  crossings_.clear();
   givenAt_ = 0;
+  lengthened_ = 0;
   ownBounds_.clear();
   heldBounds_.clear();
   const double left = end - set.t;
@@ -381,7 +384,7 @@ StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum,
         continue;
       }
       if (own_ || holding_) {
-        const Look look = lookAtJumps(set, h, 0x1p14 * quantum);
+        const Look look = lookAtJumps(set, h, 0x1p14 * quantum, left);
         if (look == Look::released) return StepOutcome::released;
         if (look == Look::shorter) {
           isShortened_ = true;
@@ -411,10 +414,11 @@ StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum,
       h_ = h;
       theta_ = h / h0_;
       boundDerivatives();
+      boundCrossings(set);
       if (h < left)
         caution_ *= std::clamp(std::pow(tolerance_ / std::max(timeError_, 1e-40), 1.0 / (m_ + 1)), 0.7, 1.15);
       caution_ = std::clamp(caution_, 0x1p-6, 2.0);
-      return isTruncationTooLarge(splitDefect) || ((isAdapted || isSliding_) && isKinkTooWide(set, kinkShare))
+      return isTruncationTooLarge(splitDefect) || ((isAdapted || isSliding_ || !crossings_.empty()) && isKinkTooWide(set, kinkShare))
                  ? StepOutcome::splitWanted
                  : StepOutcome::stepped;
     }

@@ -139,7 +139,18 @@ class FlowStepper {
   bool isLooserThanDriven() const;
   bool isKinkTooWide(const FlowSet& set, double kinkShare);
   enum class Look { goOn, again, shorter, released };
-  Look lookAtJumps(const FlowSet& set, double& h, double smallest);
+  Look lookAtJumps(const FlowSet& set, double& h, double smallest, double left);
+  double longestBeforeCrossing(const JumpBound& bound, const JumpBound& atStart, double h, double smallest) const;
+  /// In this step all solutions go from one side of a jump to the other.
+  struct Crossing {
+    std::size_t jump;
+    JumpBound::Crossing at;
+    std::vector<double> push;    // about ∂f/∂sign
+    std::vector<double> spread;  // |∂f/∂sign - push|
+    double impulse = 0;          // at most, of sign - its centre, from the step's start to any of its times
+  };
+  void boundCrossings(const FlowSet& set);
+  void addCrossings(const FlowSet& set, double tau, FlowPoint& point) const;
   int symbolOfSliding(const FlowSet& set, double kinkShare) const;
   double longestWhileSliding(const JumpBound& bound, const JumpBound& atStart, double h, double last) const;
   bool boundOwnJumps(const FlowSet& set, const Interval& time, const Box& box, double h,
@@ -168,7 +179,10 @@ class FlowStepper {
   std::vector<int> left_;                          // of each of these, which own jump it is; -1: none
   std::vector<double> factor_;                     // its argument is that one's, times this
   std::vector<JumpBound> ownBounds_, heldBounds_;  // over the step; none: nothing is known
+  std::vector<Crossing> crossings_;
+  std::vector<double> crossed_;  // like e1_, if what these do is known
   bool isSliding_ = false, isShortened_ = false;
+  int lengthened_ = 0;          // so often, for all solutions to pass a jump in one step
   double givenAt_ = 0;          // the step when signs were given; 0: none were
   std::string why_, obstacle_;  // obstacle_: of the last attempt
   std::vector<double> delta0_, delta1_, start_, E_, y_, e1_, epsilon_, nu0_, nu1_, scale_, floor_;

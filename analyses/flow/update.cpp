@@ -53,6 +53,7 @@ auto frameOf(const FlowPoint& point, int g) {
 void FlowStepper::evaluate(const FlowSet& set, double tau, FlowPoint& point, bool narrowed) {
   const int N = series_.count(), NJ = series_.frameCount(), stride = series_.stride();
   const double sigma = tau / h0_;
+  const bool crosses = tau != 0 && narrowed && !crossings_.empty();
   point.p.assign(at(n_ * N), 0.0);
   point.psi.assign(at(NJ * n_ * n_), 0.0);
   point.psiSum.assign(at(n_ * n_), 0.0);
@@ -93,29 +94,28 @@ void FlowStepper::evaluate(const FlowSet& set, double tau, FlowPoint& point, boo
       point.p[at(i)] = fineHorner(i, point.low[at(i)], error);
     else
       for (int g = 0; g < N; ++g) point.p[at(i * N + g)] = horner(series_.series(i) + g * stride, error);
-    point.loose[at(i)] = tau == 0 ? set.W[at(i)] : error + e1_[at(i)];  // the start itself is known
+    point.loose[at(i)] = tau == 0 ? set.W[at(i)] : error + (crosses ? crossed_ : e1_)[at(i)];  // the start is known
   }
   point.total = total_;
   for (int j = 0; j < n_ && tau != 0; ++j) point.total[at(j)] = (total_[at(j)] + inputs_.total(j)) * bounds::up;
-  for (int i = 0; i < n_; ++i) {
-    double radius = 0, loose = point.loose[at(i)];
+  for (int i = 0; i < n_; ++i)
     for (int j = 0; j < n_; ++j) {
-      double error = 0, sum = 0;
+      double error = 0;
       const double* psi = series_.frame(i, j);
-      for (int g = 0; g < NJ; ++g) {
-        const double value = horner(psi + g * stride, error);
-        point.psi[at((g * n_ + i) * n_ + j)] = value;
-        sum += std::fabs(value);
-      }
+      for (int g = 0; g < NJ; ++g) point.psi[at((g * n_ + i) * n_ + j)] = horner(psi + g * stride, error);
+      if (tau != 0) point.loose[at(i)] += (error + epsilon_[at(i * n_ + j)]) * point.total[at(j)];
+    }
+  if (crosses) addCrossings(set, tau, point);
+  for (int i = 0; i < n_; ++i)
+    for (int j = 0; j < n_; ++j) {
+      double sum = 0;
+      for (int g = 0; g < NJ; ++g) sum += std::fabs(point.psi[at((g * n_ + i) * n_ + j)]);
       point.psiSum[at(i * n_ + j)] = sum * bounds::up;
       // Ψ_0 r by the box R; Ψ_0 Γ s below; the higher Ψ_α by the whole radius.
       const double leading = std::fabs(point.psi[at(i * n_ + j)]);
-      radius += leading * set.R[at(j)] + (sum * bounds::up - leading * bounds::down) * (NJ > 1 ? errors_[at(j)] : 0.0);
-      if (tau != 0) loose += (error + epsilon_[at(i * n_ + j)]) * point.total[at(j)];
+      point.radius[at(i)] +=
+          leading * set.R[at(j)] + (sum * bounds::up - leading * bounds::down) * (NJ > 1 ? errors_[at(j)] : 0.0);
     }
-    point.loose[at(i)] = loose;
-    point.radius[at(i)] = radius;
-  }
   // Ψ_0 Γ: n roundings an entry, together at most n u |Ψ_0| Σ|Γ_j|. Of inputs n + 1 in what is linear in ξ, and one
   // more for each symbol in drivenRadius, which sums with signs: n + 1 + mostCorners ≤ 2n + 8.
   const std::size_t n = set.R.size();
