@@ -1,9 +1,10 @@
-// Steps in which all solutions pass through the surface of a jump. What the sign pushes them by is linear in when each
-// of them does, and that in its start: it is kept so. Derivations: docs/flow.md, section 7.
+// Steps in which all solutions pass through the surface of a jump: when each of them does is a polynomial in ξ, and so
+// is what the other side makes of it from then on. Derivations: docs/flow.md, section 7.
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "analyses/flow/bounded_polynomial.hpp"
 #include "analyses/flow/error_bounds.hpp"
 #include "analyses/flow/step.hpp"
 #include "scalars/index.hpp"
@@ -14,32 +15,130 @@ using detail::at;
 
 namespace {
 
-/// ∫(s - centre) up to τ, for all solutions: perUnit u(0) + constant.
-struct Impulse {
-  Interval perUnit, constant;
-};
-
-/// s is `before` until t* and the opposite from then on: before (2 min(t*, τ) - τ) - centre τ. min(t*, τ) is the chord
-/// over what t* may be, and as much as the corner rises above that.
-Impulse impulseUntil(double tau, const JumpBound::Crossing& at, double centre) {
-  const double first = at.moment.lower(), last = at.moment.upper();
-  const double slope = tau <= first ? 0 : tau >= last ? 1 : (tau - first) / (last - first);
-  Interval rest(tau);
-  if (tau >= last)
-    rest = Interval(0.0);
-  else if (tau > first)
-    rest = hull(hull(Interval(first) - Interval(slope) * Interval(first),
-                     Interval(tau) - Interval(slope) * Interval(tau)),
-                Interval(tau) - Interval(slope) * Interval(last));
-  const Interval twice(2 * at.before);
-  return {twice * Interval(slope) * at.perUnit,
-          twice * rest - Interval(at.before) * Interval(tau) - Interval(centre) * Interval(tau)};
+/// |bound - value|, where |bound| holds |value| among others.
+double besides(double bound, double value) {
+  return std::max(0.0, bound - std::fabs(value)) * bounds::up + bounds::unit * bound;
 }
 
 }  // namespace
 
-/// With y = x - x̃ - Ψ̃(r + Γs) and b about ∂f/∂s, z = y - b ∫(s - s̃) obeys
-///     z' = J̄z - δ - ν(r + Γs) + J̄ b ∫(s - s̃) + (∂f/∂s - b)(s - s̃) ,   δ without what the sign does.
+/// ∂f_state/∂(sign).
+int FlowStepper::pushNode(int state, std::size_t jump) const {
+  const auto jumps = static_cast<int>(series_.jumps().size());
+  return series_.outputNode(n_ + n_ * n_ + n_ * inputs_.count() + state * jumps + static_cast<int>(jump));
+}
+
+/// Before it passes, u = ũ + w with ũ = c·x̃ + …, w = c·(Ψ̃(r + Γs) + z + D of the others). From ũ(m(ξ)) = ε and u = 0
+/// follows moment = m(ξ) - (w + ε)/ũ', ũ' a mean of the polynomial's own rate. False if that may be zero.
+bool FlowStepper::boundMoment(const FlowSet& set, Crossing& crossing) const {
+  const LinearForm& form = *own_->jumps().forms[crossing.jump];
+  const std::size_t n = at(n_), N = at(series_.count()), orders = at(m_) + 1;
+  const double last = crossing.moments.upper() / h0_ * bounds::up;
+  // ũ by orders of σ; sums of n + parameters + 1 terms of two roundings each.
+  std::vector<BoundedPolynomial> u(orders, {std::vector<double>(N, 0.0)});
+  const double roundings = (2.0 * static_cast<double>(n + form.parameters.size()) + 4) * bounds::unit;
+  for (std::size_t order = 0; order < orders; ++order) {
+    double size = 0;
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t g = 0; g < N && form.states[i] != 0; ++g) {
+        const double part = form.states[i] * series_.series(static_cast<int>(i))[g * at(series_.stride()) + order];
+        u[order].c[g] += part;
+        size += std::fabs(part);
+      }
+    u[order].error = roundings * size * bounds::up + bounds::tiny;
+  }
+  u[0].c[0] += midpoint(form.constant);
+  double size = std::fabs(midpoint(form.constant)), unknown = radius(form.constant);
+  for (std::size_t q = 0; q < form.parameters.size(); ++q) {
+    const double d = form.parameters[q];
+    const Embedded& e = set.parameters[q];
+    if (d == 0) continue;
+    u[0].c[0] += d * e.centre;
+    if (e.symbol >= 0) u[0].c[at(monomials().linear(e.symbol))] += d * e.half;
+    size += std::fabs(d) * (std::fabs(e.centre) + std::fabs(e.half));
+    unknown += std::fabs(d) * e.coarseRadius();
+  }
+  u[0].error = (u[0].error + roundings * (size + u[0].norm()) + unknown) * bounds::up;
+
+  // m(ξ), by Newton's method with the rate at the centre.
+  double middle = -u[0].c[0] / u[1].c[0], slope = u[1].c[0];
+  for (int round = 0; round < 4; ++round) {
+    double value = 0;
+    slope = 0;
+    for (std::size_t order = orders; order-- > 0;) {
+      slope = slope * middle + value;
+      value = value * middle + u[order].c[0];
+    }
+    middle -= value / slope;
+  }
+  BoundedPolynomial moment{std::vector<double>(N, 0.0)}, left;
+  moment.c[0] = middle;
+  constexpr int rounds = 12;
+  for (int round = 0; round < rounds; ++round) {
+    BoundedPolynomial found = composed(monomials(), u, moment);
+    if (round > 0 && !(found.norm() < 0.5 * left.norm())) break;  // as good as it comes
+    left = found;
+    crossing.moment = moment;
+    found.error = 0;
+    moment += (found *= -1 / slope);
+    moment.error = 0;
+  }
+  // ũ' = Σ i u_i σ^{i-1}: everything but u_10 counts as what varies.
+  const double reach = std::max(last, std::fabs(crossing.moment.c[0]) + crossing.moment.variation());
+  double varies = u[1].variation() + u[1].error, power = reach;
+  for (std::size_t order = 2; order < orders; ++order, power *= reach)
+    varies += static_cast<double>(order) * power * u[order].norm();
+  const Interval rate = inflated(Interval(u[1].c[0]), varies * bounds::up) / Interval(h0_);
+  crossing.rate = slope / h0_;
+  if (contains(rate, 0.0) || !isCommon(rate) || !std::isfinite(crossing.rate) || crossing.rate == 0) return false;
+  const Interval perUnit = Interval(1.0) / rate;
+  double others = left.norm();
+  for (std::size_t i = 0; i < n; ++i) {
+    if (form.states[i] == 0) continue;
+    double own = crossed_[i] + driven_[i];
+    for (int j = 0; j < n_; ++j)
+      own += epsilon_[i * n + at(j)] * (total_[at(j)] + inputs_.total(j)) +
+             last * series_.frameDerivativeNorm(static_cast<int>(i), j, 1, theta_) * total_[at(j)];
+    others += std::fabs(form.states[i]) * own;
+  }
+  for (const Crossing& other : crossings_) {
+    const double since = (crossing.moments.upper() - other.moments.lower()) * bounds::up;
+    if (other.jump == crossing.jump || !(since > 0)) continue;
+    double leads = 0, most = 0, bent = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      const int push = pushNode(static_cast<int>(i), other.jump);
+      const double c = std::fabs(form.states[i]);
+      leads += form.states[i] * series_.series(push)[0];
+      most += c * std::fabs(series_.series(push)[0]);
+      bent += c * (besides(series_.norm(push), series_.series(push)[0]) + 0.5 * since * std::fabs(other.curvature[i]));
+    }
+    others += 2 * since * (std::fabs(leads) + 2 * static_cast<double>(n) * bounds::unit * most + bent);
+  }
+  crossing.remainder = 0;
+  for (int g = 0; g < series_.frameCount(); ++g)
+    for (std::size_t j = 0; j < n; ++j) {
+      double sum = 0;
+      for (std::size_t i = 0; i < n; ++i) sum += std::fabs(form.states[i] * set.C[(at(g) * n + i) * n + j]);
+      crossing.remainder += sum * total_[j];
+    }
+  crossing.remainder *= bounds::up;
+  crossing.off = (crossing.remainder * magnitude(perUnit - Interval(1.0) / Interval(crossing.rate)) +
+                  others * bounds::up * magnitude(perUnit)) *
+                 bounds::up;
+  const double spread = crossing.moment.variation() * h0_ + crossing.remainder * magnitude(perUnit) +
+                        others * bounds::up * magnitude(perUnit);
+  crossing.moment *= h0_;
+  crossing.moment.error = 0;  // a power of two, and m is what it is
+  const Interval found = inflated(Interval(crossing.moment.c[0]), spread * bounds::up);
+  const Interval both = intersection(found, crossing.moments);
+  if (isEmpty(both) || !isBounded(found)) return false;
+  crossing.moments = both;
+  return true;
+}
+
+/// With ℓ = (t - moment)₊ and D = Σ -2 before (B̃ℓ + Kℓ²/2), B̃ about ∂f/∂s, z = x - x̃ - Ψ̃(r + Γs) - D obeys
+///     z' = J̄z - δ - ν(r + Γs) - 2 before [(B̄ - B̃) + ℓ(J̄B̃ - B̃' - K) + ℓ²/2 J̄K] ,
+/// δ without what these signs do.
 void FlowStepper::boundCrossings(const FlowSet& set) {
   if (crossings_.empty()) return;
   const std::vector<int>& signs = series_.jumps();
@@ -53,103 +152,112 @@ void FlowStepper::boundCrossings(const FlowSet& set) {
   }
   for (const Crossing& crossing : crossings_) series_.setApart(signs[crossing.jump], false);
   isBounded = series_.bound(E_.data(), false) && isBounded;
-  Box box;
-  for (int i = 0; i < n_; ++i) box.push_back(series_.rangeOf(i, E_[at(i)]));
-  const Interval time = Interval(set.t) + Interval(0.0, h_);
-  std::vector<JumpBound> bounds = ownBounds_;  // the polynomial's signs too
-  for (std::size_t j = 0; j < bounds.size(); ++j)
-    bounds[j].sign = hull(bounds[j].sign, Interval(series_.series(signs[j])[0]));
-  for (Crossing& crossing : crossings_) {
-    const double centre = series_.series(signs[crossing.jump])[0];
-    const Interval before(crossing.at.before - centre);
-    crossing.impulse = std::max(magnitude(before * crossing.at.moment),
-                                magnitude(before * crossing.at.moment -
-                                          Interval(crossing.at.before + centre) * (Interval(h_) - crossing.at.moment)));
-    for (const Interval& push : own_->pushOf(crossing.jump, time, box, bounds)) {
-      isBounded = isBounded && isCommon(push);
-      crossing.push.push_back(midpoint(push));
-      crossing.spread.push_back(magnitude(push - Interval(crossing.push.back())) * (1 + std::fabs(centre)));
-    }
-    for (std::size_t i = 0; i < at(n_) && isBounded; ++i) {
-      rest[i] += crossing.spread[i];
-      for (std::size_t j = 0; j < at(n_); ++j)
-        rest[i] += series_.jacobianBound(static_cast<int>(i), static_cast<int>(j)) * std::fabs(crossing.push[j]) *
-                   crossing.impulse;
-    }
-  }
-  if (!isBounded) {
-    crossings_.clear();
-    return;
-  }
-  crossed_.assign(at(n_), 0.0);
-  for (int i = 0; i < n_; ++i) {
+  const auto propagated = [&](int i) {
     double sum = inputs_.rest(i);
     for (int j = 0; j < n_; ++j)
       sum += growth_.M1(i, j) * rest[at(j)] + growth_.M2(i, j) * last[at(j)] + growth_.M0(i, j) * set.W[at(j)];
-    crossed_[at(i)] = sum * bounds::up + bounds::tiny;
+    return sum * bounds::up + bounds::tiny;
+  };
+  const auto leading = [&](int node) { return series_.series(node)[0]; };
+  const auto jacobian = [&](int i, int j) { return series_.outputNode(n_ + i * n_ + j); };
+  for (Crossing& crossing : crossings_) {
+    isBounded = isBounded && series_.series(signs[crossing.jump])[0] == crossing.before;
+    if (!isBounded) break;
+    const double longest = std::max(0.0, h_ - crossing.moments.lower()) * bounds::up;
+    crossing.curvature.assign(at(n_), 0.0);
+    std::vector<double> spread(at(n_), 0.0);
+    for (int i = 0; i < n_; ++i) {
+      const int push = pushNode(i, crossing.jump);
+      const double turn = series_.series(push)[1] / h0_;
+      double K = -turn, size = std::fabs(turn);
+      spread[at(i)] = besides(series_.derivativeNorm(push, 1, theta_) / h0_, turn);
+      for (int j = 0; j < n_; ++j) {
+        const double J = leading(jacobian(i, j)), B = leading(pushNode(j, crossing.jump));
+        const double most = series_.jacobianBound(i, j);
+        K += J * B;
+        size += std::fabs(J * B);
+        spread[at(i)] += most * besides(series_.norm(pushNode(j, crossing.jump)), B) + besides(most, J) * std::fabs(B);
+      }
+      spread[at(i)] += (2 * n_ + 2) * bounds::unit * size;
+      crossing.curvature[at(i)] = K;
+    }
+    for (int i = 0; i < n_; ++i) {
+      double bent = 0;
+      for (int j = 0; j < n_; ++j) bent += series_.jacobianBound(i, j) * std::fabs(crossing.curvature[at(j)]);
+      const int push = pushNode(i, crossing.jump);
+      rest[at(i)] +=
+          2 * (series_.meanRho0(push) + series_.meanRho1(push) + longest * (spread[at(i)] + 0.5 * longest * bent));
+    }
   }
+  crossed_.clear();
+  for (int i = 0; i < n_; ++i) crossed_.push_back(propagated(i));
+  for (Crossing& crossing : crossings_) isBounded = isBounded && boundMoment(set, crossing);
+  if (!isBounded) crossings_.clear();
 }
 
-/// x += b ∫(s - s̃), u(0) as what the set says it is: Σ_g u_g ξ^g + Σ_i c_i C_i (r + Γs) ± the rest.
+/// ℓ at τ: min(moment, τ) is the chord over what the moments may be, and as much as the corner rises above that.
 void FlowStepper::addCrossings(const FlowSet& set, double tau, FlowPoint& point) const {
-  const std::size_t n = at(n_), N = at(series_.count()), frames = at(series_.frameCount());
+  const std::size_t n = at(n_), frames = at(series_.frameCount());
   for (const Crossing& crossing : crossings_) {
     const LinearForm& form = *own_->jumps().forms[crossing.jump];
-    const double centre = series_.series(series_.jumps()[crossing.jump])[0];
-    const Impulse impulse = impulseUntil(tau, crossing.at, centre);
-    const double a = midpoint(impulse.perUnit), b = midpoint(impulse.constant);
-    double rest = magnitude(impulse.constant - Interval(b)) +
-                  magnitude(impulse.perUnit - Interval(a)) * magnitude(ownBounds_[crossing.jump].start);
-    std::vector<double> u(N, 0.0), ofFrame(frames * n, 0.0);
-    u[0] = midpoint(form.constant);
-    double size = std::fabs(u[0]), ofW = radius(form.constant);
-    for (std::size_t q = 0; q < form.parameters.size(); ++q) {
-      const double d = form.parameters[q];
-      const Embedded& e = set.parameters[q];
-      if (d == 0) continue;
-      u[0] += d * e.centre;
-      if (e.symbol >= 0) u[at(monomials().linear(e.symbol))] += d * e.half;
-      size += std::fabs(d) * (std::fabs(e.centre) + std::fabs(e.half));
-      ofW += std::fabs(d) * e.coarseRadius();
-    }
-    std::vector<double> sizeOfFrame(n, 0.0), sum(n, 0.0);
-    for (std::size_t i = 0; i < n; ++i) {
-      const double c = form.states[i];
-      if (c == 0) continue;
-      ofW += std::fabs(c) * set.W[i];
-      for (std::size_t g = 0; g < N; ++g) {
-        u[g] += c * set.p[i * N + g];
-        size += std::fabs(c * set.p[i * N + g]);
-      }
-      for (std::size_t g = 0; g < frames; ++g)
-        for (std::size_t j = 0; j < n; ++j) {
-          const double part = c * set.C[(g * n + i) * n + j];
-          ofFrame[g * n + j] += part;
-          sizeOfFrame[j] += std::fabs(part);
-        }
-    }
+    const double first = crossing.moments.lower(), last = crossing.moments.upper();
+    const double slope = tau <= first ? 0 : tau >= last ? 1 : (tau - first) / (last - first);
+    Interval rest(tau);
+    if (tau >= last)
+      rest = Interval(0.0);
+    else if (tau > first)
+      rest = hull(
+          hull(Interval(first) - Interval(slope) * Interval(first), Interval(tau) - Interval(slope) * Interval(tau)),
+          Interval(tau) - Interval(slope) * Interval(last));
+    const Interval constant = Interval(tau) - rest;
+    BoundedPolynomial l = crossing.moment;
+    l *= -slope;
+    l += {{midpoint(constant)}, radius(constant)};
+    l.error = (l.error + slope * crossing.off) * bounds::up;
+    const double linear = slope / crossing.rate, linearMost = std::fabs(linear) * crossing.remainder * bounds::up;
+    BoundedPolynomial half = product(monomials(), l, l);
+    half *= 0.5;
+    // c·C(ξ): n roundings of two; as many again for what is made of it.
+    const double roundings = (4.0 * static_cast<double>(n) + 12) * bounds::unit;
+    std::vector<double> ofFrame(frames * n, 0.0), sum(n, 0.0);
     for (std::size_t g = 0; g < frames; ++g)
-      for (std::size_t j = 0; j < n; ++j) sum[j] += std::fabs(ofFrame[g * n + j]);
-    rest += std::fabs(a) * ofW;
-    // No sum has more than n + parameters + 1 terms of two roundings; three more in what is added of it.
-    const double roundings = (2.0 * static_cast<double>(n + form.parameters.size()) + 8) * bounds::unit;
-    for (std::size_t i = 0; i < n; ++i) {
-      const double push = crossing.push[i], by = push * a;
-      if (push == 0) continue;
-      double loose = std::fabs(push) * (rest + roundings * (std::fabs(a) * size + std::fabs(b)));
-      for (std::size_t g = 0; g < N; ++g) {
-        double& p = point.p[i * N + g];
-        loose += roundings * std::fabs(p);
-        p += by * u[g];
-      }
-      point.p[i * N] += push * b;
       for (std::size_t j = 0; j < n; ++j) {
-        // What inputs do in the step itself is not in u(0).
-        loose += std::fabs(by) * (roundings * sizeOfFrame[j] * point.total[j] + sum[j] * inputs_.total(static_cast<int>(j)));
+        double& entry = ofFrame[g * n + j];
+        for (std::size_t i = 0; i < n; ++i) entry += form.states[i] * set.C[(g * n + i) * n + j];
+        sum[j] += std::fabs(entry);
+      }
+    for (std::size_t i = 0; i < n; ++i) {
+      const int push = pushNode(static_cast<int>(i), crossing.jump);
+      std::vector<BoundedPolynomial> orders;
+      const int kept = std::min(series_.frameCount(), series_.count());
+      for (int order = 0; order < m_; ++order) {
+        BoundedPolynomial& of = orders.emplace_back();
+        for (int g = 0; g < kept; ++g) of.c.push_back(series_.series(push)[g * series_.stride() + order]);
+      }
+      BoundedPolynomial B;
+      for (auto order = orders.rbegin(); order != orders.rend(); ++order) (B *= tau / h0_) += *order;
+      const double K = crossing.curvature[i], by = -2 * crossing.before * linear * (B.c[0] + K * l.c[0]);
+      BoundedPolynomial added = half;
+      added *= K;
+      added += product(monomials(), B, l);
+      added *= -2 * crossing.before;
+      double loose = added.error;
+      // (l + w)²/2 = l²/2 + l w + w²/2; of B and l the leading coefficients are in `by`.
+      loose += 2 * linearMost *
+               (B.variation() + B.error + std::fabs(K) * (l.variation() + l.error + 0.5 * linearMost) +
+                roundings * (std::fabs(B.c[0]) + std::fabs(K * l.c[0])));
+      for (std::size_t g = 0; g < added.c.size(); ++g) {
+        double& p = point.p[i * at(series_.count()) + g];
+        p += added.c[g];
+        loose += bounds::unit * std::fabs(p);
+      }
+      for (std::size_t j = 0; j < n; ++j) {
+        // What inputs do in the step itself is no part of the set at its start.
+        loose += std::fabs(by) * sum[j] * inputs_.total(static_cast<int>(j));
         for (std::size_t g = 0; g < frames; ++g) {
           double& psi = point.psi[(g * n + i) * n + j];
-          loose += roundings * std::fabs(psi) * point.total[j];
           psi += by * ofFrame[g * n + j];
+          loose += bounds::unit * std::fabs(psi) * point.total[j];
         }
       }
       point.loose[i] += loose * bounds::up + bounds::tiny;

@@ -15,9 +15,10 @@ using detail::at;
 
 namespace {
 
-/// The outputs of `all` = f.differentiated(): f's first n rows, their Jacobian, and columns of inputs; then what else f
-/// has for outputs, without derivatives.
-Program selected(const Program& all, int functions, const Program& f, const std::vector<VaryingParameter>& inputs) {
+/// The outputs of `all` = f.differentiated(): f's first n rows, their Jacobian, columns of inputs and of the parameters
+/// from `signs` on; then what else f has for outputs, without derivatives.
+Program selected(const Program& all, int functions, const Program& f, const std::vector<VaryingParameter>& inputs,
+                 int signs) {
   const int n = f.states(), k = f.parameters();
   const std::vector<int>& from = all.outputNodes();
   std::vector<int> outputs(from.begin(), from.begin() + n);
@@ -25,6 +26,9 @@ Program selected(const Program& all, int functions, const Program& f, const std:
   for (int i = 0; i < n; ++i)
     for (const VaryingParameter& input : inputs)
       outputs.push_back(from[at(functions + functions * n + i * k + input.parameter)]);
+  for (int i = 0; i < n; ++i)
+    for (int parameter = signs; parameter < k; ++parameter)
+      outputs.push_back(from[at(functions + functions * n + i * k + parameter)]);
   outputs.insert(outputs.end(), from.begin() + n, from.begin() + functions);
   return Recorder(all).finish(outputs);
 }
@@ -49,11 +53,11 @@ Program differentiatedFor(const Program& motion, const std::vector<VaryingParame
   const Program f = affineInSign(withOneSignASurface(motion));
   const int n = f.states(), k = f.parameters(), jumps = static_cast<int>(jumpsOf(f).size());
   if (jumps == 0 || !isAffineInSigns(f))
-    return inputs.empty() ? f.differentiated() : selected(f.differentiated(true), n, f, inputs);
+    return inputs.empty() ? f.differentiated() : selected(f.differentiated(true), n, f, inputs, k);
   const Program given = withSignsGiven(f);
   const Program functions =
       Recorder(given).finish({given.outputNodes().begin(), given.outputNodes().begin() + n + jumps});
-  const Program signless = selected(functions.differentiated(!inputs.empty()), n + jumps, functions, inputs);
+  const Program signless = selected(functions.differentiated(true), n + jumps, functions, inputs, k);
   Recorder recorder(n, k, RuleSet::none());
   std::vector<int> parameters;
   for (int i = 0; i < k; ++i) parameters.push_back(recorder.parameter(i));

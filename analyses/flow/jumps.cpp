@@ -20,20 +20,10 @@ FlowJumps::FlowJumps(const Program& differentiated, const std::vector<int>& vary
     : f(Recorder(differentiated)
             .finish({differentiated.outputNodes().begin(),
                      differentiated.outputNodes().begin() + differentiated.states()})),
-      given(f),
-      pushes(f) {
+      given(f) {
   const std::vector<int> jumps = jumpsOf(f);
   if (jumps.empty() || !isAffineInSigns(f)) return;
   given = withSignsGiven(f);
-  const Program rates =
-      Recorder(given).finish({given.outputNodes().begin(), given.outputNodes().begin() + f.states()});
-  const Program all = rates.differentiated(true);
-  const std::size_t n = at(f.states()), own = at(f.parameters()), count = jumps.size();
-  std::vector<int> columns;
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t k = 0; k < count; ++k)
-      columns.push_back(all.outputNodes()[n + n * n + i * (own + count) + own + k]);
-  pushes = Recorder(all).finish(columns);
   for (const int jump : jumps) {
     forms.push_back(linearFormOf(f, f.nodes()[at(jump)].a));
     for (const int parameter : varying)
@@ -81,7 +71,7 @@ FlowJumps::Held FlowJumps::heldProgram(const std::vector<char>& held) const {
 }
 
 JumpBounder::JumpBounder(const FlowJumps& jumps)
-    : jumps_(jumps), given_(jumps.given), pushes_(jumps.pushes), results_(at(jumps.given.outputs())) {}
+    : jumps_(jumps), given_(jumps.given), results_(at(jumps.given.outputs())) {}
 
 void JumpBounder::setParameters(const std::vector<Embedded>& parameters) {
   parameters_.clear();
@@ -98,17 +88,6 @@ Interval JumpBounder::rate(std::size_t jump, double sign, const Interval& time, 
   given_.setParameters(all);
   given_(time, box, results_);
   return results_[box.size() + bounds.size() + jump];
-}
-
-std::vector<Interval> JumpBounder::pushOf(std::size_t jump, const Interval& time, const Box& box,
-                                          const std::vector<JumpBound>& bounds) {
-  Box all = parameters_;
-  for (const JumpBound& bound : bounds) all.push_back(bound.sign);
-  std::vector<Interval> columns(box.size() * bounds.size()), result;
-  pushes_.setParameters(all);
-  pushes_(time, box, columns);
-  for (std::size_t i = 0; i < box.size(); ++i) result.push_back(columns[i * bounds.size() + jump]);
-  return result;
 }
 
 void JumpBounder::narrow(const LinearForm& form, const Interval& argument, Box& box) const {
@@ -181,9 +160,9 @@ std::optional<JumpBound::Crossing> JumpBound::crossing() const {
   const bool falls = start.lower() >= 0 && up.upper() < 0 && down.upper() < 0;
   const bool rises = start.upper() <= 0 && down.lower() > 0 && up.lower() > 0;
   if (!isKnown() || !(falls || rises)) return std::nullopt;
-  const Interval perUnit = Interval(-1.0) / (falls ? up : down), moment = perUnit * start;
-  if (!isCommon(perUnit) || !isCommon(moment)) return std::nullopt;
-  return Crossing{falls ? 1.0 : -1.0, perUnit, Interval(std::max(0.0, moment.lower()), moment.upper())};
+  const Interval moment = -start / (falls ? up : down);
+  if (!isCommon(moment)) return std::nullopt;
+  return Crossing{falls ? 1.0 : -1.0, Interval(std::max(0.0, moment.lower()), moment.upper())};
 }
 
 void JumpBounder::boundOne(std::size_t jump, const Interval& time, const Box& box, const Interval& start, double h,

@@ -29,7 +29,6 @@ struct FlowJumps {
 
   Program f;                                     ///< without derivatives
   Program given;                                 ///< withSignsGiven(f), where f is affine in its signs
-  Program pushes;                                ///< ∂f_i/∂s_k of that, [i][k], which no s_k itself is in
   std::vector<std::optional<LinearForm>> forms;  ///< of each argument that is one; none if f is not affine
 };
 
@@ -46,8 +45,7 @@ struct JumpBound {
   bool isKnown() const { return isCommon(over); }
   /// Where all solutions pass from one side to the other, how many seconds into the step each of them does.
   struct Crossing {
-    double before;     ///< the sign until then
-    Interval perUnit;  ///< moment = perUnit times the argument at first
+    double before;  ///< the sign until then
     Interval moment;
   };
   std::optional<Crossing> crossing() const;
@@ -69,9 +67,6 @@ class JumpBounder {
   /// lines where nothing is known of them): narrows `bounds`, one a jump, of which the signs hold already.
   void bound(const Interval& time, const Box& box, const std::vector<Interval>& start, double h,
              std::vector<JumpBound>& bounds);
-  /// ∂f/∂(this sign), while time and states are within these.
-  std::vector<Interval> pushOf(std::size_t jump, const Interval& time, const Box& box,
-                               const std::vector<JumpBound>& bounds);
   /// Narrows the pivot's state in `box` by what the form is.
   void narrow(const LinearForm& form, const Interval& argument, Box& box) const;
 
@@ -82,7 +77,7 @@ class JumpBounder {
                 const std::vector<JumpBound>& bounds);
 
   const FlowJumps& jumps_;
-  Evaluator<Interval> given_, pushes_;
+  Evaluator<Interval> given_;
   Box parameters_;
   std::vector<Interval> results_;
 };

@@ -74,7 +74,7 @@ PolynomialSeries::Chord PolynomialSeries::chordOf(int node) const {
 }
 
 double PolynomialSeries::signOf(int node) const {
-  if (const auto& given = given_[at(node)]) return midpoint(*given);
+  if (given_[at(node)]) return about_[at(node)];
   const Plan& v = plan_[at(node)];
   const double slope = chordOf(v.a).slope;
   return v.primary && std::fabs(slope) < 1 ? 0.0 : slope;

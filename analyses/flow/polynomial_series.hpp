@@ -91,8 +91,9 @@ class PolynomialSeries {
   const std::vector<int>& jumps() const { return jumps_; }
   bool mayTurn(int jump) const { return reached_[at(plan_[at(jump)].a)] > 0; }
   /// The sign, or means of it, until forgetCrossings, as for the next computations. Its argument asks for no haste
-  /// then, and where that is nowhere on one side, |u| and its derivative are those of the other.
-  void giveSign(int jump, const Interval& sign, const Interval& argument);
+  /// then, and where that is nowhere on one side, |u| and its derivative are those of the other. The polynomials take
+  /// `about` for it.
+  void giveSign(int jump, const Interval& sign, const Interval& argument, double about);
   /// Whether along the polynomial the sign counts as what it is there, since its push is reckoned apart.
   void setApart(int jump, bool isApart) { isApart_[at(jump)] = static_cast<char>(isApart); }
   /// Where state i is while |x - x̃| ≤ error.
@@ -272,6 +273,7 @@ class PolynomialSeries {
   std::vector<int> jumps_;                            // signs in outputs themselves
   std::vector<double> jump_;                          // radius of each sign
   std::vector<std::optional<Interval>> given_;        // of each sign, what it is
+  std::vector<double> about_;                         // and what polynomials take for it
   std::vector<char> isApart_;                         // of each sign: its push is not one of errors
   std::vector<char> isCalm_;                          // arguments of those: they need no haste
   std::vector<double> side_;                          // of each argument, if known for all solutions: 1, -1

@@ -193,8 +193,9 @@ void PolynomialSeries::boundSign(int node) {
   rho1_[at(node)] = 0;
 }
 
-void PolynomialSeries::giveSign(int jump, const Interval& sign, const Interval& argument) {
+void PolynomialSeries::giveSign(int jump, const Interval& sign, const Interval& argument, double about) {
   given_[at(jump)] = sign;
+  about_[at(jump)] = about;
   const std::size_t u = at(plan_[at(jump)].a);
   isCalm_[u] = 1;
   side_[u] = argument.lower() >= 0 ? 1 : argument.upper() <= 0 ? -1 : 0;

@@ -38,6 +38,7 @@ PolynomialSeries::PolynomialSeries(const Program& program, int primaryOutputs,
   jump_.assign(nodes.size(), 0.0);
   given_.assign(nodes.size(), std::nullopt);
   isApart_.assign(nodes.size(), 0);
+  about_.assign(nodes.size(), 0.0);
   isCalm_.assign(nodes.size(), 0);
   side_.assign(nodes.size(), 0.0);
   crossing_ = reached_ = jump_;

@@ -102,18 +102,35 @@ double FlowStepper::longestWhileSliding(const JumpBound& bound, const JumpBound&
   return bound.turned <= turnedMore * atStart.turned + turnedBesides ? h : 0.5 * h;
 }
 
-/// Where solutions come to a surface to pass it, the step ends before the first does, or when all of them have: the
+/// Where solutions come to surfaces to pass them, the step ends before the first does, or when all of them have: the
 /// second once the first is no farther away than they are from each other.
-double FlowStepper::longestBeforeCrossing(const JumpBound& bound, const JumpBound& atStart, double h,
-                                          double smallest) const {
-  const auto first = atStart.crossing();
-  if (!first || !bound.isKnown() || !contains(bound.over, 0.0)) return h;
+double FlowStepper::longestToCross(const std::vector<JumpBound>& atStart, double h, double smallest) const {
+  struct Passage {
+    JumpBound::Crossing first;
+    const JumpBound* bound;
+  };
+  std::vector<Passage> passages;
+  for (std::size_t j = 0; j < ownBounds_.size(); ++j) {
+    const auto first = atStart[j].crossing();
+    if (first && ownBounds_[j].isKnown() && contains(ownBounds_[j].over, 0.0))
+      passages.push_back({*first, &ownBounds_[j]});
+  }
+  if (passages.empty()) return h;
+  std::ranges::sort(passages, {}, [](const Passage& p) { return p.first.moment.lower(); });
   constexpr double ahead = 0.999;
-  const Interval& rate = first->before > 0 ? bound.up : bound.down;
-  const double soonest = std::max(mignitude(bound.start) / magnitude(rate), 0.5 * first->moment.lower());
-  if (ahead * soonest > std::max(width(first->moment), smallest)) return std::min(h, ahead * soonest);
-  const auto all = bound.crossing();
-  return std::min(h, std::max(beyond * std::max(first->moment.upper(), all ? all->moment.upper() : 0.0), smallest));
+  const auto& [earliest, bound] = passages.front();
+  double latest = 0, surely = 0;  // at the rates of the first moment; of the step
+  for (const Passage& p : passages) {
+    if (latest > 0 && p.first.moment.lower() > beyond * latest) break;
+    latest = std::max(latest, p.first.moment.upper());
+    const auto all = p.bound->crossing();
+    surely = std::max({surely, latest, all ? all->moment.upper() : 0.0});
+  }
+  const double guess = ahead * earliest.moment.lower();  // at the rate of the first moment; else at those of the step
+  if (guess <= std::max(latest - earliest.moment.lower(), smallest))
+    return std::min(h, std::max(beyond * surely, smallest));
+  const Interval& rate = earliest.before > 0 ? bound->up : bound->down;
+  return h > guess ? guess : std::min(h, ahead * std::max(mignitude(bound->start) / magnitude(rate), 0.5 * guess));
 }
 
 /// What comes to be held or leaves does so over a time Δ, in which the set loses its dependence on ξ in what moves
@@ -246,16 +263,17 @@ FlowStepper::Look FlowStepper::lookAtJumps(const FlowSet& set, double& h, double
       return Look::released;
     }
   }
-  double longest = h, longer = h;
+  double longest = longestToCross(atStart, h, smallest), longer = h;
   std::vector<std::size_t> narrower;
   for (std::size_t j = 0; j < ownBounds_.size(); ++j) {
     const JumpBound& bound = ownBounds_[j];
     const bool isNarrower = width(bound.sign) < nearlyAny, slides = bound.maySlide && (bound.holds || isNarrower);
-    longest = std::min(longest, longestBeforeCrossing(bound, atStart[j], h, smallest));
     const auto crossing = bound.crossing();
     const bool crosses = crossing && (crossing->moment.upper() <= h || h == left) && !isNarrower;
     if (crossing && !crosses && !isNarrower) longer = std::max(longer, beyond * crossing->moment.upper());
-    if (crosses) crossings_.push_back({j, *crossing, {}, {}});
+    if (crosses)
+      crossings_.push_back(
+          {.jump = j, .before = crossing->before, .moment = {}, .moments = crossing->moment, .curvature = {}});
     if (!bound.isKnown() || !(slides || isNarrower || crosses)) continue;
     narrower.push_back(j);
     if (!slides) continue;
@@ -266,7 +284,7 @@ FlowStepper::Look FlowStepper::lookAtJumps(const FlowSet& set, double& h, double
     h = std::max(longest, smallest);
     return Look::shorter;
   }
-  constexpr int mostTries = 4;
+  constexpr int mostTries = 8;
   if (longer > h && longer < 4 * h && longest >= h && ++lengthened_ < mostTries) {
     h = std::min({longer, h0_, left});
     return Look::shorter;
@@ -274,7 +292,11 @@ FlowStepper::Look FlowStepper::lookAtJumps(const FlowSet& set, double& h, double
   constexpr double muchShorter = 0.5;  // than when signs were given: they are known better now
   if (narrower.empty() || (givenAt_ > 0 && h > muchShorter * givenAt_)) return Look::goOn;
   givenAt_ = h;
-  for (const std::size_t j : narrower) series_.giveSign(series_.jumps()[j], ownBounds_[j].sign, ownBounds_[j].over);
+  for (const std::size_t j : narrower) {
+    const auto crossing = std::ranges::find(crossings_, j, &Crossing::jump);
+    const double about = crossing == crossings_.end() ? midpoint(ownBounds_[j].sign) : crossing->before;
+    series_.giveSign(series_.jumps()[j], ownBounds_[j].sign, ownBounds_[j].over, about);
+  }
   return Look::again;
 }
 

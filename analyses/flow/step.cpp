@@ -418,7 +418,8 @@ StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum,
       if (h < left)
         caution_ *= std::clamp(std::pow(tolerance_ / std::max(timeError_, 1e-40), 1.0 / (m_ + 1)), 0.7, 1.15);
       caution_ = std::clamp(caution_, 0x1p-6, 2.0);
-      return isTruncationTooLarge(splitDefect) || ((isAdapted || isSliding_ || !crossings_.empty()) && isKinkTooWide(set, kinkShare))
+      return isTruncationTooLarge(splitDefect) ||
+                     ((isAdapted || isSliding_ || !crossings_.empty()) && isKinkTooWide(set, kinkShare))
                  ? StepOutcome::splitWanted
                  : StepOutcome::stepped;
     }

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "analyses/flow/bounded_polynomial.hpp"
 #include "analyses/flow/growth.hpp"
 #include "analyses/flow/inputs.hpp"
 #include "analyses/flow/jumps.hpp"
@@ -140,16 +141,21 @@ class FlowStepper {
   bool isKinkTooWide(const FlowSet& set, double kinkShare);
   enum class Look { goOn, again, shorter, released };
   Look lookAtJumps(const FlowSet& set, double& h, double smallest, double left);
-  double longestBeforeCrossing(const JumpBound& bound, const JumpBound& atStart, double h, double smallest) const;
-  /// In this step all solutions go from one side of a jump to the other.
+  double longestToCross(const std::vector<JumpBound>& atStart, double h, double smallest) const;
+  /// In this step all solutions go from one side of a jump to the other: at moment(ξ) - c·C(ξ)(r + Γs)/rate ± off.
   struct Crossing {
     std::size_t jump;
-    JumpBound::Crossing at;
-    std::vector<double> push;    // about ∂f/∂sign
-    std::vector<double> spread;  // |∂f/∂sign - push|
-    double impulse = 0;          // at most, of sign - its centre, from the step's start to any of its times
+    double before;             // the sign until then
+    BoundedPolynomial moment;  // s
+    double off = 0;
+    Interval moments;               // of all solutions
+    double rate = 0;                // of the argument, about
+    double remainder = 0;           // |c·C(ξ)(r + Γs)|
+    std::vector<double> curvature;  // K of docs/flow.md
   };
   void boundCrossings(const FlowSet& set);
+  bool boundMoment(const FlowSet& set, Crossing& crossing) const;
+  int pushNode(int state, std::size_t jump) const;
   void addCrossings(const FlowSet& set, double tau, FlowPoint& point) const;
   int symbolOfSliding(const FlowSet& set, double kinkShare) const;
   double longestWhileSliding(const JumpBound& bound, const JumpBound& atStart, double h, double last) const;

@@ -4,24 +4,15 @@
 
 #include "analyses/flow/jumps.hpp"
 #include "tests/analyses/flow/containment.hpp"
-#include "tests/analyses/sliding_reference.hpp"
+#include "tests/analyses/flow/jumping_machine.hpp"
 
 namespace gamut::testing {
 namespace {
 
-struct Machine {
-  std::string name;
-  Program f;
-  Box centre, spread;  // spread: times the width
-  double horizon;
-  SlidingReference::Rest rest;
-  double loosest;  // of the first state's width over that of the trajectories
-};
-
 Recorded stribeck(const Recorded& u) { return sign(u) / (1.0 + 2.0 * abs(u)); }
 
-const std::vector<Machine>& machines() {
-  static const std::vector<Machine> all{
+const std::vector<JumpingMachine>& machines() {
+  static const std::vector<JumpingMachine> all{
       {"comesToRest",
        record(2, 1,
               [](auto, const auto& x, const auto& p, auto& dx) {
@@ -105,56 +96,9 @@ const std::vector<Machine>& machines() {
   return all;
 }
 
-/// Of the (at most two) wide components.
-Vector cornerOf(const Box& box, int number) {
-  Vector corner;
-  for (const Interval& x : box) {
-    corner.emplace_back(number % 2 == 0 ? x.lower() : x.upper());
-    if (!isThin(x)) number /= 2;
-  }
-  return corner;
-}
+class FlowSliding : public ::testing::TestWithParam<JumpingMachine> {};
 
-class FlowSliding : public ::testing::TestWithParam<Machine> {};
-
-TEST_P(FlowSliding, HoldsTrajectories) {
-  const Machine& machine = GetParam();
-  for (const double width : {0.0, 1e-6, 0.01}) {
-    SCOPED_TRACE(width);
-    Box box = machine.centre;
-    for (std::size_t i = 0; i < box.size(); ++i) box[i] = machine.centre[i] + Interval(width) * machine.spread[i];
-    std::vector<double> rows, times;
-    for (int i = 1; i <= 4; ++i) rows.push_back(machine.horizon * i / 4);
-    for (int i = 1; i <= 32; ++i) times.push_back(machine.horizon * i / 32);
-    const Tube tube = Flow(machine.f).enclose(box, machine.horizon, rows);
-    ASSERT_EQ(tube.why(), "");
-    SlidingReference reference(machine.f, machine.rest);
-    Points points(17);
-    std::vector<Interval> seen;
-    for (int trial = 0; trial < (width == 0 ? 1 : 6); ++trial) {
-      const std::vector<Vector> motion = reference(trial < 4 ? cornerOf(box, trial) : points.inside(box), times);
-      for (std::size_t i = 0; i < times.size(); ++i)
-        for (std::size_t row = 1; row < tube.times().size(); ++row)
-          for (std::size_t s = 0; s < motion[i].size(); ++s) {
-            const bool isAt = times[i] == tube.times()[row];
-            if (!isAt && !(tube.times()[row - 1] < times[i] && times[i] < tube.times()[row])) continue;
-            ASSERT_THAT(isAt ? tube.states(row)[s] : tube.statesOver(row)[s], Encloses(motion[i][s]))
-                << times[i] << " state " << s;
-          }
-      for (std::size_t s = 0; s < motion.back().size(); ++s) {
-        const Interval value(motion.back()[s].convert_to<double>());
-        if (trial == 0)
-          seen.push_back(value);
-        else
-          seen[s] = hull(seen[s], value);
-      }
-    }
-    EXPECT_GT(reference.events, 0);
-    const Interval& last = tube.states(tube.reachedTimes() - 1)[0];
-    const double widest = width == 0 ? 1e-6 : machine.loosest * gamut::width(seen[0]) + 1e-9;
-    EXPECT_LE(gamut::width(last), widest);
-  }
-}
+TEST_P(FlowSliding, HoldsTrajectories) { holdsTrajectories(GetParam(), {0.0, 1e-6, 0.01}, 4); }
 
 INSTANTIATE_TEST_SUITE_P(Flow, FlowSliding, ::testing::ValuesIn(machines()),
                          [](const auto& machine) { return machine.param.name; });
@@ -217,7 +161,7 @@ TEST(FlowSlidingExactly, HoldsWhatInputsMove) {
 
 /// Outputs between their times, where the set's own bounds and what is known of the argument meet.
 TEST(FlowSlidingExactly, OutputsHoldTrajectories) {
-  const Machine& machine = machines()[1];
+  const JumpingMachine& machine = machines()[1];
   const Program g = record(2, 2, 2, [](auto, const auto& x, const auto& p, auto& y) {
     y[0] = sqr(x[1]) + x[0];
     y[1] = sin(10.0 * x[1]) * p[0];

@@ -1,0 +1,30 @@
+// Polynomials in ξ with a bound of what they leave out, for the few places where one is put into another.
+#pragma once
+
+#include <vector>
+
+#include "analyses/flow/monomials.hpp"
+
+namespace gamut {
+
+/// Σ_g c_g ξ^g ± error for ξ in [-1,1]^k; of all monomials, or of the first ones.
+struct BoundedPolynomial {
+  std::vector<double> c;
+  double error = 0;
+
+  /// Σ_g |c_g|, without what belongs to 1: rounded up.
+  double variation() const;
+  double norm() const;  ///< of all, and the error
+
+  BoundedPolynomial& operator+=(const BoundedPolynomial& other);
+  BoundedPolynomial& operator*=(double factor);
+};
+
+/// a b, of all monomials; of what these do not hold, the bound.
+BoundedPolynomial product(const Monomials& monomials, const BoundedPolynomial& a, const BoundedPolynomial& b);
+
+/// Σ_i a_i x^i.
+BoundedPolynomial composed(const Monomials& monomials, const std::vector<BoundedPolynomial>& a,
+                           const BoundedPolynomial& x);
+
+}  // namespace gamut
