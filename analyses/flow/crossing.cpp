@@ -229,10 +229,10 @@ void FlowStepper::addCrossings(const FlowSet& set, double tau, FlowPoint& point)
     for (std::size_t i = 0; i < n; ++i) {
       const int push = pushNode(static_cast<int>(i), crossing.jump);
       std::vector<BoundedPolynomial> orders;
-      const int kept = std::min(series_.frameCount(), series_.count());
       for (int order = 0; order < m_; ++order) {
         BoundedPolynomial& of = orders.emplace_back();
-        for (int g = 0; g < kept; ++g) of.c.push_back(series_.series(push)[g * series_.stride() + order]);
+        for (int g = 0; g < series_.count(push); ++g)
+          of.c.push_back(series_.series(push)[g * series_.stride() + order]);
       }
       BoundedPolynomial B;
       for (auto order = orders.rbegin(); order != orders.rend(); ++order) (B *= tau / h0_) += *order;

@@ -49,6 +49,8 @@ class PolynomialSeries {
   int stride() const { return stride_; }
   const Monomials& monomials() const { return *monomials_; }
   int count() const { return monomials_->count(); }
+  /// So many monomials a node keeps, the first ones.
+  int count(int node) const { return plan_[at(node)].count; }
   int frameCount() const { return frameCount_; }
 
   /// Without a frame: how many orders the next computation keeps, at most as many as the constructor was told.

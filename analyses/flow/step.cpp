@@ -253,7 +253,8 @@ std::string FlowStepper::reason(const FlowSet& set) const {
     std::snprintf(digits.data(), digits.size(), "%.3g", value);
     return std::string(digits.data());
   };
-  if (const int i = escaping(set); i >= 0)
+  const auto remainder = [&](int i) { return remainderOf(set, i, total_); };
+  if (const int i = escaping(set); i >= 0 && remainder(i) < std::fabs(set.p[at(i * N)]))
     return nameOf(i) + " grows without bound: it is about " + text(set.p[at(i * N)]) + " and doubles within " +
            text(doubling(set, i)) + " s";
   for (int i = 0; i < n_; ++i) {
@@ -261,12 +262,11 @@ std::string FlowStepper::reason(const FlowSet& set) const {
     const double centre = p[0];
     double half = 0;
     for (int g = 1; g < N; ++g) half += std::fabs(p[g]);
-    const double remainder = remainderOf(set, i, total_);
-    const double size = std::max(std::fabs(centre), floor_[at(i)] / vanished);
-    if (const double share = (half + remainder) / size; share > widest) {
+    const double left = remainder(i), size = std::max(std::fabs(centre), floor_[at(i)] / vanished);
+    if (const double share = (half + left) / size; share > widest) {
       widest = share;
-      wide = "the set has grown too wide: " + nameOf(i) + " is " + text(centre) + " ± " + text(half + remainder) +
-             (remainder > half ? ", most of it what steps have added" : "");
+      wide = "the set has grown too wide: " + nameOf(i) + " is " + text(centre) + " ± " + text(half + left) +
+             (left > half ? ", most of it what steps have added" : "");
     }
   }
   const std::string step = "no step could be certified";

@@ -76,6 +76,8 @@ class FlowStepper {
   double truncation() const { return truncation_; }
   /// Moves the polynomials of `set` on by a step that nothing is proved of; false if there is none.
   bool drift(FlowSet& set, double end);
+  /// How many jumps all solutions pass in the step.
+  std::size_t crossings() const { return crossings_.size(); }
   /// After a failure: what could not be proved, of which state, in one line.
   const std::string& why() const { return why_; }
   /// A state that has grown a thousandfold and would double long before the time it took; -1 if none has.

@@ -21,38 +21,72 @@ std::vector<int> jumpsOf(const Program& program) {
   return jumps;
 }
 
+namespace {
+
+/// What a sign is of, without factors of which the sign is known: sign u = sign of `node`, times `by`.
+struct Argument {
+  int node;
+  double by = 1;
+};
+
+Argument argumentOf(const Program& f, int jump) {
+  Argument result{f.nodes()[at(jump)].a};
+  for (;;) {
+    const Node& u = f.nodes()[at(result.node)];
+    const auto signOf = [&](int node) {  // 0: not known
+      if (f.nodes()[at(node)].op == Op::recip) node = f.nodes()[at(node)].a;
+      const Node& of = f.nodes()[at(node)];
+      if (of.op != Op::constant) return 0.0;
+      const Interval& value = f.constants()[at(of.a)];
+      return value.lower() > 0 ? 1.0 : value.upper() < 0 ? -1.0 : 0.0;
+    };
+    if (u.op == Op::neg)
+      result = {u.a, -result.by};
+    else if (u.op == Op::mul && signOf(u.a) != 0)
+      result = {u.b, signOf(u.a) * result.by};
+    else if (u.op == Op::mul && signOf(u.b) != 0)
+      result = {u.a, signOf(u.b) * result.by};
+    else
+      return result;
+  }
+}
+
+}  // namespace
+
 Program withOneSignASurface(const Program& f) {
-  std::vector<int> outputs = f.outputNodes(), instead(f.nodes().size(), -1);
-  std::vector<std::pair<int, LinearForm>> surfaces;  // with the first sign of each
+  struct Surface {
+    int node;
+    std::optional<LinearForm> form;
+  };
+  const std::vector<int> jumps = jumpsOf(f);
+  std::vector<Surface> surfaces;
+  std::vector<std::pair<std::size_t, double>> of;  // of each sign, which surface, and the sign's sign
   bool isNew = false;
-  for (const int jump : jumpsOf(f)) {
-    const auto form = linearFormOf(f, f.nodes()[at(jump)].a);
-    if (!form) continue;
+  for (const int jump : jumps) {
+    const auto [node, by] = argumentOf(f, jump);
+    const auto form = linearFormOf(f, node);
     double ratio = 0;
-    for (const auto& [first, of] : surfaces) {
-      ratio = signOfRatio(*form, of);
-      if (ratio == 0) continue;
-      instead[at(jump)] = first;
-      isNew = true;
-      break;
-    }
-    if (ratio == 0) surfaces.emplace_back(jump, *form);
+    std::size_t k = 0;
+    for (; k < surfaces.size() && ratio == 0; ++k)
+      ratio = surfaces[k].node == node ? 1 : form && surfaces[k].form ? signOfRatio(*form, *surfaces[k].form) : 0;
+    isNew = isNew || ratio != 0 || node != f.nodes()[at(jump)].a;
+    if (ratio == 0) surfaces.push_back({node, form});
+    of.emplace_back(ratio == 0 ? k : k - 1, by * (ratio == 0 ? 1 : ratio));
   }
   if (!isNew) return f;
-  // Written anew: each later sign is the first of its surface, or the negative of that.
+  // Written anew; once more, for signs within arguments.
   Recorder result(f.states(), f.parameters());
-  std::vector<int> signs(f.nodes().size(), -1), here;
+  std::vector<int> signs(f.nodes().size(), -1), here, outputs;
   for (int pass = 0; pass < 2; ++pass) {
     here = result.append(f, {}, signs);
-    for (const int jump : jumpsOf(f)) {
-      const int first = instead[at(jump)];
-      if (first < 0) continue;
-      const double ratio =
-          signOfRatio(*linearFormOf(f, f.nodes()[at(jump)].a), *linearFormOf(f, f.nodes()[at(first)].a));
-      signs[at(jump)] = ratio > 0 ? here[at(first)] : result.neg(here[at(first)]);
+    for (std::size_t j = 0; j < jumps.size(); ++j) {
+      const auto [surface, by] = of[j];
+      const int sign = result.sign(here[at(surfaces[surface].node)]);
+      signs[at(jumps[j])] = by > 0 ? sign : result.neg(sign);
     }
   }
-  for (int& output : outputs) output = here[at(output)];
+  here = result.append(f, {}, signs);
+  for (const int output : f.outputNodes()) outputs.push_back(here[at(output)]);
   return result.finish(outputs);
 }
 

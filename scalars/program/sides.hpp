@@ -16,7 +16,8 @@ enum class Side : signed char { below = -1, between = 0, above = 1, held = 2, op
 /// The nodes of `program` that jump, in their order: its signs.
 std::vector<int> jumpsOf(const Program& program);
 
-/// f with one sign for all arguments that are multiples of each other: at a surface they are one.
+/// f with one sign for all arguments that are multiples of each other: at a surface they are one. Constant factors are
+/// taken off arguments: 0.1 v is as positive as v.
 Program withOneSignASurface(const Program& f);
 
 /// f with its K signs s_1 … s_K as parameters behind its own. Outputs: f's n, the signs' arguments u_1 … u_K, and their

@@ -4,8 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include "analyses/flow/formulation.hpp"
 #include "analyses/flow/outputs.hpp"
 #include "tests/analyses/reference.hpp"
+#include "tests/analyses/sliding_reference.hpp"
 
 namespace gamut::testing {
 namespace {
@@ -22,16 +24,19 @@ struct Scene {
   FlowSet set;
   Points& points;
 
+  /// `jumps`: of the motion, where it has some.
   Scene(Program motion, int symbolCount, int degree, int frameDegree, int order, double tolerance, Points& random,
-        bool isUniform = false)
+        bool isUniform = false, const FlowJumps* jumps = nullptr)
       : n(motion.states()),
         symbols(symbolCount),
         weights(isUniform ? std::vector<int>(at(symbolCount), 1) : randomWeights(symbolCount, random)),
         f(std::move(motion)),
-        differentiated(f.differentiated()),
+        differentiated(jumps != nullptr ? differentiatedFor(f, {}) : f.differentiated()),
         monomials(std::make_shared<const Monomials>(capped(degree), degree)),
         stepper(differentiated, monomials, frameDegree, order, tolerance, FlowInputs(n, order, {}, 0.1)),
-        points(random) {}
+        points(random) {
+    if (jumps != nullptr) stepper.setJumps(*jumps, *jumps, {}, {}, {});
+  }
 
   /// Most scenes weigh all alike, as most flows do.
   static std::vector<int> randomWeights(int count, Points& random) {
@@ -120,6 +125,10 @@ struct Scene {
   /// Starts at random places of the set (its corners most of all), followed by the reference into the step.
   void expectTrajectoriesInside(int trajectories) {
     Reference reference(f);
+    expectTrajectoriesInside(trajectories, reference, {0.0, 0.4, 1.0});
+  }
+  template <class Truth>
+  void expectTrajectoriesInside(int trajectories, Truth& reference, const std::vector<double>& parts) {
     for (int sample = 0; sample < trajectories; ++sample) {
       const Vector xi = randomSymbols();
       const std::vector<Precise> values = monomialsAt(xi);
@@ -136,7 +145,7 @@ struct Scene {
       for (const Embedded& p : set.parameters)
         start.push_back(Precise(p.centre) + Precise(p.radius) * points.signedUnit() +
                         (p.symbol >= 0 ? Precise(p.half) * xi[at(p.symbol)] : Precise(0.0)));
-      for (double part : {0.0, 0.4, 1.0}) {
+      for (double part : parts) {
         const double tau = part * stepper.h();
         const Vector x = reference(start, {tau})[0];
         FlowPoint point;
@@ -400,6 +409,62 @@ TEST(FlowStep, HoldsEveryTrajectoryThatStartsInTheSet) {
       if (HasFatalFailure()) return;
     }
   EXPECT_GT(steps, 80);
+}
+
+/// Two surfaces that solutions pass, at once or one after the other; each sign's push moves the other's argument too,
+/// and varies with the states.
+Program twoSurfaces(Points& points) {
+  const auto any = [&](double size) { return size * std::ldexp(points.integer(-8, 8), -3); };
+  double A[3][3], push[3][2], bend[3][2];
+  for (int i = 0; i < 3; ++i) {
+    for (double& entry : A[i]) entry = any(1);
+    for (int k = 0; k < 2; ++k) push[i][k] = any(0.5), bend[i][k] = points.integer(0, 1) * any(0.5);
+  }
+  const double tilt = any(0.5);
+  return record(3, 1, [&](auto, const auto& x, const auto& p, auto& dx) {
+    const Recorded s[2] = {sign(x[0] + 0.5 * x[2]), sign(x[1] - tilt * x[2] - 0.25 * p[0])};
+    for (int i = 0; i < 3; ++i) {
+      dx[i] = A[i][0] * x[0] + A[i][1] * x[1] + A[i][2] * sin(x[2]) + (i == 2 ? p[0] : -2.0 - p[0]);
+      for (int k = 0; k < 2; ++k) dx[i] = dx[i] + p[0] * push[i][k] * s[k] + bend[i][k] * x[2] * s[k];
+    }
+  });
+}
+
+TEST(FlowStep, HoldsEveryTrajectoryThatPassesJumps) {
+  Points points(27);
+  int passed = 0, both = 0;
+  for (int round = 0; round < 300; ++round) {
+    const Program f = twoSurfaces(points);
+    const FlowJumps jumps(differentiatedFor(f, {}), {});
+    const int symbols = points.integer(0, 2), degree = symbols == 0 ? 0 : points.integer(1, 3);
+    Scene scene(f, symbols, degree, points.integer(0, 2), points.integer(6, 14), 1e-8, points, false, &jumps);
+    const double size = std::pow(10.0, -points.integer(1, 6)), near = 4 * size;
+    const double R = size * points.integer(0, 1) * std::pow(10.0, -points.integer(0, 3));
+    // Both arguments are some sizes above zero, or one far above.
+    const double third = points.uniform(-0.5, 0.5), parameter = 0.5;
+    const double first = near - 0.5 * third,
+                 second = (points.integer(0, 2) > 0 ? near : 0.5) + 0.125 + points.uniform(-1, 1) * size;
+    scene.fill({first, second, third, parameter}, size, R, points.integer(0, 3), R * points.integer(0, 1), R * 0.1);
+    const auto stepped = [&] {
+      return scene.stepper.certify(scene.set, horizon, quantum, 0, 0) == StepOutcome::stepped;
+    };
+    bool is = stepped();
+    for (int before = 0; before < 8 && is && scene.stepper.crossings() == 0; ++before) {
+      scene.stepper.advance(scene.set);
+      scene.set.arguments.clear();  // of the set itself all is followed
+      is = stepped();
+    }
+    if (!is || scene.stepper.crossings() == 0) continue;
+    passed += 1;
+    both += scene.stepper.crossings() == 2 ? 1 : 0;
+    SlidingReference reference(f, [](const auto&, const Vector&, Vector&) {});
+    scene.expectTrajectoriesInside(3, reference, {0.0, 0.3, 0.6, 0.9, 1.0});
+    if (HasFatalFailure()) return;
+    scene.expectUpdateInside(4);
+    if (HasFatalFailure()) return;
+  }
+  EXPECT_GT(passed, 80);
+  EXPECT_GT(both, 20);
 }
 
 // Sets so wide, and equations so steep, that derivatives along the polynomials alone, which rest, say far too little.

@@ -183,5 +183,18 @@ TEST(Sides, MultiplesShareTheirSign) {
     for (const double b : {0.5, 1.25}) EXPECT_EQ(evaluate<double>(one, {a, b}), evaluate<double>(f, {a, b}));
 }
 
+TEST(Sides, ConstantFactorsAreTakenOffArguments) {
+  const Program f = record(2, 1, [](auto, const auto& x, const auto& p, auto& dx) {
+    dx[0] = sign(-(0.1 * (x[0] - p[0])) / 0.3) + sign(0.7 * (0.9 * x[0] * x[1]));
+    dx[1] = sign(p[0] * x[0]) + 3.0 * sign(x[0] - p[0]);
+  });
+  const Program plain = withOneSignASurface(f);
+  EXPECT_EQ(jumpsOf(plain).size(), 3u);
+  EXPECT_TRUE(linearFormOf(plain, plain.nodes()[static_cast<std::size_t>(jumpsOf(plain)[0])].a));
+  for (const double a : {-0.25, 1.5})
+    for (const double b : {-0.5, 0.0, 1.25})
+      EXPECT_EQ(evaluate<double>(plain, {a, b}, {0.5}), evaluate<double>(f, {a, b}, {0.5}));
+}
+
 }  // namespace
 }  // namespace gamut::testing
