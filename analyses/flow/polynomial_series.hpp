@@ -82,6 +82,9 @@ class PolynomialSeries {
   bool tabulate(double theta);
   /// ρ0, ρ1 of all nodes when |x - x̃| ≤ E (null: along the polynomial). False: not proved (a division by zero, say).
   bool bound(const double* E, bool primaryOnly);
+  /// Likewise along the polynomial, as if parameters were what their polynomials are: no bound of anything, but what is
+  /// due to truncation and rounding.
+  bool boundWithoutRadii();
   /// Whether outputs themselves hold a sign, and, since forgetJumps, the bounds of a set found one that may be either
   /// way there. From then on it counts so along the polynomial too: not as something that follows the states, but as an
   /// input.
@@ -280,7 +283,7 @@ class PolynomialSeries {
   std::vector<char> isCalm_;                          // arguments of those: they need no haste
   std::vector<double> side_;                          // of each argument, if known for all solutions: 1, -1
   std::vector<double> atStart_, crossing_, reached_;  // of each argument: uncertain; what a chord spans; may have to
-  bool hasKinks_ = false, hasJumped_ = false, isAlong_ = false;
+  bool hasKinks_ = false, hasJumped_ = false, isAlong_ = false, knowsParameters_ = false;
   std::vector<double> f_, r_, d_, t_, total_, s1_, s2_, scratch_, scratch2_;
   std::vector<double> inverse_;  // per recip/sqrt/log/atan node: 1/leading polynomial
   std::vector<std::size_t> inverseAt_;

@@ -246,7 +246,7 @@ bool PolynomialSeries::bound(const double* E, bool primaryOnly) {
   for (int i = 0; i < time_; ++i) {
     const bool state = i < n_;
     rho0_[at(i)] = !state ? radius_[at(i)] : E != nullptr ? E[i] : 0.0;
-    if (!state && E == nullptr && varies_[at(i - n_)] != 0) rho0_[at(i)] = 0;
+    if (!state && E == nullptr && (knowsParameters_ || varies_[at(i - n_)] != 0)) rho0_[at(i)] = 0;
     rho1_[at(i)] = state ? top_[at(i)] : 0.0;  // the order that x keeps and nodes do not
   }
   for (int node = time_ + 1; node < nodes_; ++node) {
@@ -255,6 +255,13 @@ bool PolynomialSeries::bound(const double* E, bool primaryOnly) {
     if (!boundNode(node)) return refuse(node);
   }
   return true;
+}
+
+bool PolynomialSeries::boundWithoutRadii() {
+  knowsParameters_ = true;
+  const bool isBounded = bound(nullptr, true);
+  knowsParameters_ = false;
+  return isBounded;
 }
 
 void PolynomialSeries::keepAlong() {

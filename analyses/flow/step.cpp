@@ -177,12 +177,24 @@ bool FlowStepper::tryStep(const FlowSet& set, double theta) {
   return true;
 }
 
-/// The defect bound holds rounding and parameters' radii too, which splitting does not cure: what counts is mass in the
-/// highest grades, of any node, since what cancels in the states was truncated before; and no small part of the bound,
-/// or something else is most of it.
-bool FlowStepper::isTruncationTooLarge(double splitDefect) const {
+/// The defect bound holds parameters' radii and rounding too, which splitting does not cure: without radii it is
+/// computed once more; and what counts is mass in the highest grades, of any node, since what cancels in the states was
+/// truncated before; and no small part of the bound, or rounding is most of it.
+bool FlowStepper::isTruncationTooLarge(double splitDefect) {
   const double allowed = splitDefect * h_;
-  return splitDefect > 0 && truncation_ > allowed && series_.reachesHighestGrades(std::max(allowed, 0.1 * truncation_));
+  if (!(splitDefect > 0 && truncation_ > allowed)) return false;
+  double truncation = 0;
+  bool isBounded = series_.boundWithoutRadii();
+  for (int i = 0; i < n_ && isBounded; ++i) {
+    double sum = 0;
+    for (int j = 0; j < n_; ++j) {
+      const int f = series_.outputNode(j);
+      sum += growth_.M1(i, j) * (series_.rho0(f) + series_.slopeRounding(j));
+    }
+    truncation = std::max(truncation, sum / scale_[at(i)]);
+  }
+  isBounded = series_.bound(E_.data(), false) && isBounded;  // as it was
+  return !isBounded || (truncation > allowed && series_.reachesHighestGrades(std::max(allowed, 0.1 * truncation)));
 }
 
 /// What the step leaves over, against what inputs do in it, in balanced units.

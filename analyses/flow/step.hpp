@@ -138,7 +138,7 @@ class FlowStepper {
   double suggestion(double theta) const;
   std::string reason(const FlowSet& set) const;
   double doubling(const FlowSet& set, int state) const;
-  bool isTruncationTooLarge(double splitDefect) const;
+  bool isTruncationTooLarge(double splitDefect);
   bool isLooserThanDriven() const;
   bool isKinkTooWide(const FlowSet& set, double kinkShare);
   enum class Look { goOn, again, shorter, released };
