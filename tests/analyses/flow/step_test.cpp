@@ -466,6 +466,26 @@ TEST(FlowStep, HoldsEveryTrajectoryThatPassesJumps) {
   EXPECT_GT(both, 20) << passed;
 }
 
+/// What is uncertain besides hides no truncation, and is none: it asks for no bisection.
+TEST(FlowStep, RadiiOfParametersAreNoTruncation) {
+  const Program f = record(1, 1, [](auto, const auto& x, const auto& p, auto& dx) { dx[0] = p[0] * sin(x[0]); });
+  Points points(3);
+  for (const double radius : {0.0, 1e-6, 1e-3}) {
+    Scene scene(f, 1, 4, 1, 10, 1e-12, points, true);
+    scene.set.p = {1.0, 0.01, 0.0, 0.0, 0.0};
+    scene.set.C = {1.0, 0.0};
+    scene.set.R = scene.set.W = {0.0};
+    Embedded p;
+    p.centre = 0.5;
+    p.radius = radius;
+    scene.set.parameters = {p};
+    scene.set.centre = {0.0};
+    scene.set.half = {1.0};
+    EXPECT_EQ(scene.stepper.certify(scene.set, 1, quantum, 1e-9, 0), StepOutcome::stepped) << radius;
+    EXPECT_EQ(scene.stepper.certify(scene.set, 1, quantum, 1e-16, 0), StepOutcome::splitWanted) << radius;
+  }
+}
+
 // Sets so wide, and equations so steep, that derivatives along the polynomials alone, which rest, say far too little.
 TEST(FlowStep, HoldsEveryTrajectoryOfWideRemaindersUnderSteepEquations) {
   const Program f = record(2, 0, [](auto, const auto& x, const auto&, auto& dx) {
