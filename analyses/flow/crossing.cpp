@@ -23,17 +23,111 @@ double besides(double bound, double value) {
 }  // namespace
 
 /// ∂f_state/∂(sign).
-int FlowStepper::pushNode(int state, std::size_t jump) const {
+int FlowStepper::pushNode(int state, int jump) const {
   const auto jumps = static_cast<int>(series_.jumps().size());
-  return series_.outputNode(n_ + n_ * n_ + n_ * inputs_.count() + state * jumps + static_cast<int>(jump));
+  return series_.outputNode(n_ + n_ * n_ + n_ * inputs_.count() + state * jumps + jump);
+}
+
+/// Where solutions come to surfaces to pass them, the step ends before the first does, or when all of them have: the
+/// second once the first is no farther away than they are from each other.
+double FlowStepper::longestToCross(const std::vector<JumpBound>& bounds, const std::vector<JumpBound>& atStart,
+                                   double h, double smallest) {
+  struct Passage {
+    JumpBound::Crossing first;
+    const JumpBound* bound;
+  };
+  std::vector<Passage> passages;
+  for (std::size_t j = 0; j < bounds.size(); ++j) {
+    const auto first = atStart[j].crossing();
+    if (first && bounds[j].isKnown() && contains(bounds[j].over, 0.0)) passages.push_back({*first, &bounds[j]});
+  }
+  if (passages.empty()) return h;
+  std::ranges::sort(passages, {}, [](const Passage& p) { return p.first.moment.lower(); });
+  constexpr double ahead = 0.999;
+  const auto& [earliest, bound] = passages.front();
+  double latest = 0, surely = 0;  // at the rates of the first moment; of the step
+  for (const Passage& p : passages) {
+    if (latest > 0 && p.first.moment.lower() > beyondTheLast * latest) break;
+    latest = std::max(latest, p.first.moment.upper());
+    const auto all = p.bound->crossing();
+    surely = std::max({surely, latest, all ? all->moment.upper() : 0.0});
+  }
+  const double guess = ahead * earliest.moment.lower();  // at the rate of the first moment; else at those of the step
+  if (guess <= std::max(latest - earliest.moment.lower(), smallest))
+    return std::min(h, std::max(beyondTheLast * surely, smallest));
+  const Interval& rate = earliest.before > 0 ? bound->up : bound->down;
+  return h > guess ? guess : std::min(h, ahead * std::max(mignitude(bound->start) / magnitude(rate), 0.5 * guess));
+}
+
+Box FlowStepper::boxAtStart(const FlowSet& set) const {
+  Box box;
+  for (int i = 0; i < n_; ++i) {
+    LinearForm own;
+    own.states.assign(at(n_), 0.0);
+    own.states[at(i)] = 1;
+    box.push_back(argumentOf(set, own, total_));
+  }
+  return box;
+}
+
+FlowStepper::Look FlowStepper::lookAtKinks(const FlowSet& set, double& h, double smallest, double left) {
+  Box box;
+  for (int i = 0; i < n_; ++i) box.push_back(series_.rangeOf(i, y_[at(i)]));
+  std::vector<Interval> u, uAtStart, rates;
+  const Interval began(set.t);
+  kinks_->bound(began, boxAtStart(set), set.parameters, uAtStart, rates);
+  std::vector<JumpBound> bounds(u.size()), atStart;
+  for (std::size_t k = 0; k < kinks_->count(); ++k) {
+    JumpBound& bound = atStart.emplace_back();
+    bound.start = bound.over = argumentOf(set, kinks_->form(k), total_);
+    bound.up = bound.down = rates[k];
+  }
+  kinks_->bound(began + Interval(0.0, h), box, set.parameters, u, kinkRates_);
+  double longer = h;
+  bool isNew = false;
+  for (std::size_t k = 0; k < kinks_->count(); ++k) {
+    JumpBound& bound = bounds.emplace_back();
+    bound.start = atStart[k].start;
+    bound.over = u[k];
+    bound.up = bound.down = kinkRates_[k];
+  }
+  const double longest = longestToCross(bounds, atStart, h, smallest);
+  if (longest < 0.99 * h && h > smallest) {
+    h = std::max(longest, smallest);
+    return Look::shorter;
+  }
+  for (std::size_t k = 0; k < kinks_->count(); ++k) {
+    const auto crossing = bounds[k].crossing();
+    if (!crossing || !contains(u[k], 0.0) || contains(bounds[k].start, 0.0)) continue;
+    if (crossing->moment.upper() > h && h < left) {
+      longer = std::max(longer, beyondTheLast * crossing->moment.upper());
+      continue;
+    }
+    isNew = series_.passKink(kinks_->node(k), crossing->before) || isNew;
+    crossings_.push_back({.form = &kinks_->form(k),
+                          .node = kinks_->node(k),
+                          .jump = -1,
+                          .kink = static_cast<int>(k),
+                          .before = crossing->before,
+                          .moment = {},
+                          .moments = crossing->moment,
+                          .curvature = {}});
+  }
+  constexpr int mostTries = 8;
+  if (longer > h && longer < 4 * h && ++lengthened_ < mostTries) {
+    h = std::min({longer, h0_, left});
+    return Look::longer;
+  }
+  return isNew ? Look::again : Look::goOn;
 }
 
 /// Before it passes, u = ũ + w with ũ = c·x̃ + …, w = c·(Ψ̃(r + Γs) + z + D of the others). From ũ(m(ξ)) = ε and u = 0
 /// follows moment = m(ξ) - (w + ε)/ũ', ũ' a mean of the polynomial's own rate. False if that may be zero.
 bool FlowStepper::boundMoment(const FlowSet& set, Crossing& crossing) const {
-  const LinearForm& form = *own_->jumps().forms[crossing.jump];
+  const LinearForm& form = *crossing.form;
   const std::size_t n = at(n_), N = at(series_.count()), orders = at(m_) + 1;
-  const double last = crossing.moments.upper() / h0_ * bounds::up;
+  const bool passAll = crossing.moments.upper() <= h_;  // else the horizon comes before
+  const double last = std::min(crossing.moments.upper(), h_) / h0_ * bounds::up;
   // ũ by orders of σ; sums of n + parameters + 1 terms of two roundings each.
   std::vector<BoundedPolynomial> u(orders, {std::vector<double>(N, 0.0)});
   const double roundings = (2.0 * static_cast<double>(n + form.parameters.size()) + 4) * bounds::unit;
@@ -84,7 +178,8 @@ bool FlowStepper::boundMoment(const FlowSet& set, Crossing& crossing) const {
     moment.error = 0;
   }
   // ũ' = Σ i u_i σ^{i-1}: everything but u_10 counts as what varies.
-  const double reach = std::max(last, std::fabs(crossing.moment.c[0]) + crossing.moment.variation());
+  const double farthest = std::fabs(crossing.moment.c[0]) + crossing.moment.variation();
+  const double reach = std::max(last, passAll ? farthest : 1.25 * farthest);
   double varies = u[1].variation() + u[1].error, power = reach;
   for (std::size_t order = 2; order < orders; ++order, power *= reach)
     varies += static_cast<double>(order) * power * u[order].norm();
@@ -102,15 +197,17 @@ bool FlowStepper::boundMoment(const FlowSet& set, Crossing& crossing) const {
     others += std::fabs(form.states[i]) * own;
   }
   for (const Crossing& other : crossings_) {
-    const double since = (crossing.moments.upper() - other.moments.lower()) * bounds::up;
-    if (other.jump == crossing.jump || !(since > 0)) continue;
+    const double since = (std::min(crossing.moments.upper(), h_) - other.moments.lower()) * bounds::up;
+    if (&other == &crossing || !(since > 0)) continue;
     double leads = 0, most = 0, bent = 0;
     for (std::size_t i = 0; i < n; ++i) {
-      const int push = pushNode(static_cast<int>(i), other.jump);
       const double c = std::fabs(form.states[i]);
+      bent += c * 0.5 * since * std::fabs(other.curvature[i]);
+      if (other.jump < 0) continue;
+      const int push = pushNode(static_cast<int>(i), other.jump);
       leads += form.states[i] * series_.series(push)[0];
       most += c * std::fabs(series_.series(push)[0]);
-      bent += c * (besides(series_.norm(push), series_.series(push)[0]) + 0.5 * since * std::fabs(other.curvature[i]));
+      bent += c * besides(series_.norm(push), series_.series(push)[0]);
     }
     others += 2 * since * (std::fabs(leads) + 2 * static_cast<double>(n) * bounds::unit * most + bent);
   }
@@ -130,19 +227,56 @@ bool FlowStepper::boundMoment(const FlowSet& set, Crossing& crossing) const {
   crossing.moment *= h0_;
   crossing.moment.error = 0;  // a power of two, and m is what it is
   const Interval found = inflated(Interval(crossing.moment.c[0]), spread * bounds::up);
-  const Interval both = intersection(found, crossing.moments);
-  if (isEmpty(both) || !isBounded(found)) return false;
+  // Those that do not pass by then would, if ũ went on as it does and w stayed: no sooner than in the step.
+  if (!isBounded(found) || (!passAll && found.upper() > reach * h0_ * bounds::down)) return false;
+  const Interval both = passAll ? intersection(found, crossing.moments)
+                                : Interval(std::max(found.lower(), crossing.moments.lower()),
+                                           std::max(found.upper(), crossing.moments.lower()));
+  if (isEmpty(both)) return false;
   crossing.moments = both;
+  return true;
+}
+
+/// K = J B - B' at the step's start and centre, and what ℓ(J̄B̃ - B̃' - K) and B̄ - B̃ are beside it.
+bool FlowStepper::boundCurvature(Crossing& crossing, double longest, std::vector<double>& rest) const {
+  const auto leading = [&](int node) { return series_.series(node)[0]; };
+  for (int i = 0; i < n_; ++i) {
+    const int push = pushNode(i, crossing.jump);
+    const double turn = series_.series(push)[1] / h0_;
+    double K = -turn, size = std::fabs(turn), spread = besides(series_.derivativeNorm(push, 1, theta_) / h0_, turn);
+    for (int j = 0; j < n_; ++j) {
+      const double J = leading(series_.outputNode(n_ + i * n_ + j)), B = leading(pushNode(j, crossing.jump));
+      const double most = series_.jacobianBound(i, j);
+      K += J * B;
+      size += std::fabs(J * B);
+      spread += most * besides(series_.norm(pushNode(j, crossing.jump)), B) + besides(most, J) * std::fabs(B);
+    }
+    spread += (2 * n_ + 2) * bounds::unit * size;
+    crossing.curvature[at(i)] = K;
+    rest[at(i)] += 2 * (series_.meanRho0(push) + series_.meanRho1(push) + longest * spread);
+  }
+  return true;
+}
+
+/// |u| = before u - 2 before u from then on, u = ℓ times a mean of its rates: K = B rate, and no B.
+bool FlowStepper::boundCurvatureOfKink(Crossing& crossing, double longest, std::vector<double>& rest) {
+  const Interval rate = kinkRates_[at(crossing.kink)];
+  const std::vector<Interval> push = kinks_->pushOf(at(crossing.kink));
+  for (std::size_t i = 0; i < push.size(); ++i) {
+    const Interval K = push[i] * rate;
+    if (!isCommon(K)) return false;
+    crossing.curvature[i] = midpoint(K);
+    rest[i] += 2 * longest * magnitude(K - Interval(crossing.curvature[i]));
+  }
   return true;
 }
 
 /// With ℓ = (t - moment)₊ and D = Σ -2 before (B̃ℓ + Kℓ²/2), B̃ about ∂f/∂s, z = x - x̃ - Ψ̃(r + Γs) - D obeys
 ///     z' = J̄z - δ - ν(r + Γs) - 2 before [(B̄ - B̃) + ℓ(J̄B̃ - B̃' - K) + ℓ²/2 J̄K] ,
-/// δ without what these signs do.
+/// δ without what these signs do; of kinks (B̄ u/ℓ - K)ℓ + ℓ²/2 J̄K stands in the brackets.
 void FlowStepper::boundCrossings(const FlowSet& set) {
   if (crossings_.empty()) return;
-  const std::vector<int>& signs = series_.jumps();
-  for (const Crossing& crossing : crossings_) series_.setApart(signs[crossing.jump], true);
+  for (const Crossing& crossing : crossings_) series_.setApart(crossing.node, true);
   bool isBounded = series_.bound(nullptr, false);
   std::vector<double> rest(at(n_), 0.0), last(at(n_), 0.0);
   for (int i = 0; i < n_ && isBounded; ++i) {
@@ -150,47 +284,25 @@ void FlowStepper::boundCrossings(const FlowSet& set) {
     rest[at(i)] = (series_.rho0(f) + series_.slopeRounding(i)) * bounds::up + bounds::tiny;
     last[at(i)] = series_.rho1(f);
   }
-  for (const Crossing& crossing : crossings_) series_.setApart(signs[crossing.jump], false);
+  for (const Crossing& crossing : crossings_) series_.setApart(crossing.node, false);
   isBounded = series_.bound(E_.data(), false) && isBounded;
-  const auto propagated = [&](int i) {
+  for (Crossing& crossing : crossings_) {
+    isBounded = isBounded && series_.slopeOf(crossing.node) == crossing.before;
+    const double longest = std::max(0.0, h_ - crossing.moments.lower()) * bounds::up;
+    crossing.curvature.assign(at(n_), 0.0);
+    isBounded = isBounded && (crossing.jump >= 0 ? boundCurvature(crossing, longest, rest)
+                                                 : boundCurvatureOfKink(crossing, longest, rest));
+    for (int i = 0; i < n_ && isBounded; ++i)
+      for (int j = 0; j < n_; ++j)
+        rest[at(i)] += longest * longest * series_.jacobianBound(i, j) * std::fabs(crossing.curvature[at(j)]);
+  }
+  crossed_.clear();
+  for (int i = 0; i < n_; ++i) {
     double sum = inputs_.rest(i);
     for (int j = 0; j < n_; ++j)
       sum += growth_.M1(i, j) * rest[at(j)] + growth_.M2(i, j) * last[at(j)] + growth_.M0(i, j) * set.W[at(j)];
-    return sum * bounds::up + bounds::tiny;
-  };
-  const auto leading = [&](int node) { return series_.series(node)[0]; };
-  const auto jacobian = [&](int i, int j) { return series_.outputNode(n_ + i * n_ + j); };
-  for (Crossing& crossing : crossings_) {
-    isBounded = isBounded && series_.series(signs[crossing.jump])[0] == crossing.before;
-    if (!isBounded) break;
-    const double longest = std::max(0.0, h_ - crossing.moments.lower()) * bounds::up;
-    crossing.curvature.assign(at(n_), 0.0);
-    std::vector<double> spread(at(n_), 0.0);
-    for (int i = 0; i < n_; ++i) {
-      const int push = pushNode(i, crossing.jump);
-      const double turn = series_.series(push)[1] / h0_;
-      double K = -turn, size = std::fabs(turn);
-      spread[at(i)] = besides(series_.derivativeNorm(push, 1, theta_) / h0_, turn);
-      for (int j = 0; j < n_; ++j) {
-        const double J = leading(jacobian(i, j)), B = leading(pushNode(j, crossing.jump));
-        const double most = series_.jacobianBound(i, j);
-        K += J * B;
-        size += std::fabs(J * B);
-        spread[at(i)] += most * besides(series_.norm(pushNode(j, crossing.jump)), B) + besides(most, J) * std::fabs(B);
-      }
-      spread[at(i)] += (2 * n_ + 2) * bounds::unit * size;
-      crossing.curvature[at(i)] = K;
-    }
-    for (int i = 0; i < n_; ++i) {
-      double bent = 0;
-      for (int j = 0; j < n_; ++j) bent += series_.jacobianBound(i, j) * std::fabs(crossing.curvature[at(j)]);
-      const int push = pushNode(i, crossing.jump);
-      rest[at(i)] +=
-          2 * (series_.meanRho0(push) + series_.meanRho1(push) + longest * (spread[at(i)] + 0.5 * longest * bent));
-    }
+    crossed_.push_back(sum * bounds::up + bounds::tiny);
   }
-  crossed_.clear();
-  for (int i = 0; i < n_; ++i) crossed_.push_back(propagated(i));
   for (Crossing& crossing : crossings_) isBounded = isBounded && boundMoment(set, crossing);
   if (!isBounded) crossings_.clear();
 }
@@ -199,7 +311,7 @@ void FlowStepper::boundCrossings(const FlowSet& set) {
 void FlowStepper::addCrossings(const FlowSet& set, double tau, FlowPoint& point) const {
   const std::size_t n = at(n_), frames = at(series_.frameCount());
   for (const Crossing& crossing : crossings_) {
-    const LinearForm& form = *own_->jumps().forms[crossing.jump];
+    const LinearForm& form = *crossing.form;
     const double first = crossing.moments.lower(), last = crossing.moments.upper();
     const double slope = tau <= first ? 0 : tau >= last ? 1 : (tau - first) / (last - first);
     Interval rest(tau);
@@ -227,14 +339,14 @@ void FlowStepper::addCrossings(const FlowSet& set, double tau, FlowPoint& point)
         sum[j] += std::fabs(entry);
       }
     for (std::size_t i = 0; i < n; ++i) {
-      const int push = pushNode(static_cast<int>(i), crossing.jump);
+      const int push = crossing.jump >= 0 ? pushNode(static_cast<int>(i), crossing.jump) : -1;
       std::vector<BoundedPolynomial> orders;
-      for (int order = 0; order < m_; ++order) {
+      for (int order = 0; order < m_ && push >= 0; ++order) {
         BoundedPolynomial& of = orders.emplace_back();
         for (int g = 0; g < series_.count(push); ++g)
           of.c.push_back(series_.series(push)[g * series_.stride() + order]);
       }
-      BoundedPolynomial B;
+      BoundedPolynomial B{{0.0}};
       for (auto order = orders.rbegin(); order != orders.rend(); ++order) (B *= tau / h0_) += *order;
       const double K = crossing.curvature[i], by = -2 * crossing.before * linear * (B.c[0] + K * l.c[0]);
       BoundedPolynomial added = half;

@@ -131,6 +131,10 @@ Interval inflated(const Interval& range, double radius) {
   return range + Interval(-radius, radius);
 }
 
+Interval rangeOf(const Embedded& value) {
+  return inflated(inflated(Interval(value.centre), std::fabs(value.half)), value.coarseRadius());
+}
+
 void requireThat(bool condition, const std::string& what) {
   if (!condition) throw std::invalid_argument(what);
 }

@@ -65,6 +65,9 @@ int automaticFrameDegree(int symbols, int degree);
 /// range + [-radius, radius]; the whole line for a radius that is infinite or no number.
 Interval inflated(const Interval& range, double radius);
 
+/// All that the number may be.
+Interval rangeOf(const Embedded& value);
+
 /// Throws std::invalid_argument unless the condition holds.
 void requireThat(bool condition, const std::string& what);
 /// Throws std::invalid_argument unless the box is bounded and every level lies in the one before, the first in the box.

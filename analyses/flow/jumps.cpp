@@ -75,8 +75,7 @@ JumpBounder::JumpBounder(const FlowJumps& jumps)
 
 void JumpBounder::setParameters(const std::vector<Embedded>& parameters) {
   parameters_.clear();
-  for (const Embedded& e : parameters)
-    parameters_.push_back(inflated(Interval(e.centre), std::fabs(e.half)) + inflated(Interval(0.0), e.coarseRadius()));
+  for (const Embedded& e : parameters) parameters_.push_back(rangeOf(e));
 }
 
 /// Of the argument, with its sign given.

@@ -149,8 +149,7 @@ bool FlowOutputs::evaluateTogether(double t, const FlowPoint& point, const std::
 Interval FlowOutputs::overBox(int output, const Interval& t, const std::vector<Interval>& states,
                               const std::vector<Embedded>& parameters) {
   std::vector<Interval> box;
-  for (const Embedded& p : parameters)
-    box.push_back(inflated(Interval(p.centre), (p.half + p.coarseRadius()) * bounds::up));
+  for (const Embedded& p : parameters) box.push_back(rangeOf(p));
   return plain_.over(output, t, states, box);
 }
 

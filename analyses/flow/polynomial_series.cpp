@@ -63,6 +63,7 @@ void PolynomialSeries::product(const Plan& a, const Plan& b, int count, int i, d
 /// |a| over [low, high], low < 0 < high, lies between the chord and -2 low high/(high - low) below it.
 PolynomialSeries::Chord PolynomialSeries::chordOf(int node) const {
   if (side_[at(node)] != 0) return {side_[at(node)], 0.0};
+  if (passed_[at(node)] != 0) return {passed_[at(node)], 0.0};
   const Plan& v = plan_[at(node)];
   const double centre = f_[v.f];
   double half = 0;

@@ -99,8 +99,15 @@ class PolynomialSeries {
   /// then, and where that is nowhere on one side, |u| and its derivative are those of the other. The polynomials take
   /// `about` for it.
   void giveSign(int jump, const Interval& sign, const Interval& argument, double about);
-  /// Whether along the polynomial the sign counts as what it is there, since its push is reckoned apart.
-  void setApart(int jump, bool isApart) { isApart_[at(jump)] = static_cast<char>(isApart); }
+  /// Whether along the polynomial the sign, or |u|, counts as what it is there, since its push is reckoned apart.
+  void setApart(int node, bool isApart) { isApart_[at(node)] = static_cast<char>(isApart); }
+  /// What all solutions pass in the step: the next computations take |u| as `side` times u, 1 or -1, until
+  /// forgetCrossings. False if they did already.
+  bool passKink(int kink, double side);
+  /// What they take for the sign, or for the slope of |u|.
+  double slopeOf(int node) const {
+    return plan_[at(node)].op == Op::abs ? chords_[at(node)].slope : f_[plan_[at(node)].f];
+  }
   /// Where state i is while |x - x̃| ≤ error.
   Interval rangeOf(int i, double error) const;
   /// What the next computations take of those that the set bounded last may cross: chords over all that it reaches, and
@@ -281,6 +288,7 @@ class PolynomialSeries {
   std::vector<double> about_;                         // and what polynomials take for it
   std::vector<char> isApart_;                         // of each sign: its push is not one of errors
   std::vector<char> isCalm_;                          // arguments of those: they need no haste
+  std::vector<double> passed_;                        // of each argument, whose kink all pass: the side they come from
   std::vector<double> side_;                          // of each argument, if known for all solutions: 1, -1
   std::vector<double> atStart_, crossing_, reached_;  // of each argument: uncertain; what a chord spans; may have to
   bool hasKinks_ = false, hasJumped_ = false, isAlong_ = false, knowsParameters_ = false;

@@ -158,7 +158,8 @@ void PolynomialSeries::boundAbs(int node) {
   const int u = plan_[at(node)].a;
   const auto [slope, middle] = chords_[at(node)];
   double off = 0;
-  if (side_[at(u)] == 0 && (mayCross(u) || !chords_[at(node)].isExact())) {
+  const bool isReckonedApart = isAlong_ && isApart_[at(node)] != 0;
+  if (!isReckonedApart && side_[at(u)] == 0 && (mayCross(u) || !chords_[at(node)].isExact())) {
     const double centre = f_[plan_[at(u)].f], size = (rest(u) + rho0_[at(u)] + rho1_[at(u)]) * bounds::up;
     off = middle;
     for (const double end : {centre - size, centre + size})
@@ -206,6 +207,15 @@ void PolynomialSeries::forgetCrossings() {
   for (const int jump : jumps_) given_[at(jump)].reset();
   std::ranges::fill(isCalm_, 0);
   std::ranges::fill(side_, 0.0);
+  std::ranges::fill(passed_, 0.0);
+}
+
+bool PolynomialSeries::passKink(int kink, double side) {
+  const std::size_t u = at(plan_[at(kink)].a);
+  const bool isNew = passed_[u] != side;
+  passed_[u] = side;
+  isCalm_[u] = 1;
+  return isNew;
 }
 
 Interval PolynomialSeries::rangeOf(int i, double error) const {

@@ -41,6 +41,7 @@ PolynomialSeries::PolynomialSeries(const Program& program, int primaryOutputs,
   about_.assign(nodes.size(), 0.0);
   isCalm_.assign(nodes.size(), 0);
   side_.assign(nodes.size(), 0.0);
+  passed_ = side_;
   crossing_ = reached_ = jump_;
   constant_.assign(nodes.size(), 0.0);
   radius_.assign(nodes.size(), 0.0);

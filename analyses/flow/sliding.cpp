@@ -17,7 +17,6 @@ namespace {
 
 constexpr double nearlyAny = 1.9;     // the width of a sign of which hardly anything is known
 constexpr double clearlyLess = 1.8;   // of a half width: a row that loses its ξ should win at least a tenth
-constexpr double beyond = 1.0625;     // the last crossing, that rates over the whole step may still tell of it
 constexpr double leastHold = 0x1p10;  // in shortest steps: shorter ones would win less than leaving costs
 
 }  // namespace
@@ -27,7 +26,8 @@ void FlowStepper::setJumps(const FlowJumps& own, const FlowJumps& of, std::vecto
   held_ = std::move(held);
   left_ = std::move(left);
   factor_ = std::move(factor);
-  if (series_.jumps().size() == own.count() && own.count() > 0) own_.emplace(own);
+  if (own.count() > 0 && series_.jumps().size() == own.count() && at(pushes_) == at(n_) * own.count())
+    own_.emplace(own);
   if (!own_) std::ranges::fill(left_, -1);
   of_ = &of;
   if (!held_.empty()) holding_.emplace(of);
@@ -78,10 +78,7 @@ Interval argumentOf(const FlowSet& set, const LinearForm& form, const std::vecto
   }
   Interval result = form.constant;
   for (std::size_t k = 0; k < form.parameters.size(); ++k)
-    if (const double by = form.parameters[k]; by != 0) {
-      const Embedded& e = set.parameters[k];
-      result += Interval(by) * inflated(inflated(Interval(e.centre), e.half), e.coarseRadius());
-    }
+    if (const double by = form.parameters[k]; by != 0) result += Interval(by) * rangeOf(set.parameters[k]);
   if (isZero) return result;
   // As many products and sums a monomial; none where there is one term, times 1.
   if (!isExact || terms > 1) roundings = static_cast<double>(2 * terms + 2) * bounds::unit * size + bounds::tiny;
@@ -100,37 +97,6 @@ double FlowStepper::longestWhileSliding(const JumpBound& bound, const JumpBound&
     return std::max({last, latest > 0 ? latest / parts : h, ahead * first});
   }
   return bound.turned <= turnedMore * atStart.turned + turnedBesides ? h : 0.5 * h;
-}
-
-/// Where solutions come to surfaces to pass them, the step ends before the first does, or when all of them have: the
-/// second once the first is no farther away than they are from each other.
-double FlowStepper::longestToCross(const std::vector<JumpBound>& atStart, double h, double smallest) const {
-  struct Passage {
-    JumpBound::Crossing first;
-    const JumpBound* bound;
-  };
-  std::vector<Passage> passages;
-  for (std::size_t j = 0; j < ownBounds_.size(); ++j) {
-    const auto first = atStart[j].crossing();
-    if (first && ownBounds_[j].isKnown() && contains(ownBounds_[j].over, 0.0))
-      passages.push_back({*first, &ownBounds_[j]});
-  }
-  if (passages.empty()) return h;
-  std::ranges::sort(passages, {}, [](const Passage& p) { return p.first.moment.lower(); });
-  constexpr double ahead = 0.999;
-  const auto& [earliest, bound] = passages.front();
-  double latest = 0, surely = 0;  // at the rates of the first moment; of the step
-  for (const Passage& p : passages) {
-    if (latest > 0 && p.first.moment.lower() > beyond * latest) break;
-    latest = std::max(latest, p.first.moment.upper());
-    const auto all = p.bound->crossing();
-    surely = std::max({surely, latest, all ? all->moment.upper() : 0.0});
-  }
-  const double guess = ahead * earliest.moment.lower();  // at the rate of the first moment; else at those of the step
-  if (guess <= std::max(latest - earliest.moment.lower(), smallest))
-    return std::min(h, std::max(beyond * surely, smallest));
-  const Interval& rate = earliest.before > 0 ? bound->up : bound->down;
-  return h > guess ? guess : std::min(h, ahead * std::max(mignitude(bound->start) / magnitude(rate), 0.5 * guess));
 }
 
 /// What comes to be held or leaves does so over a time Δ, in which the set loses its dependence on ξ in what moves
@@ -226,26 +192,20 @@ void FlowStepper::boundHeldJumps(const FlowSet& set, const Interval& time, const
 FlowStepper::Look FlowStepper::lookAtJumps(const FlowSet& set, double& h, double smallest, double left) {
   ownBounds_.clear();
   heldBounds_.clear();
-  crossings_.clear();
   isSliding_ = false;
-  Box box, boxAtStart;
-  for (int i = 0; i < n_; ++i) {
-    box.push_back(series_.rangeOf(i, y_[at(i)]));  // proved: no more than E
-    LinearForm own;
-    own.states.assign(at(n_), 0.0);
-    own.states[at(i)] = 1;
-    boxAtStart.push_back(argumentOf(set, own, total_));
-  }
+  Box box;
+  for (int i = 0; i < n_; ++i) box.push_back(series_.rangeOf(i, y_[at(i)]));  // proved: no more than E
+  const Box first = boxAtStart(set);
   const Interval began(set.t), time = began + Interval(0.0, h);
   std::vector<JumpBound> atStart, heldAtStart;
   if (!boundOwnJumps(set, time, box, h, ownBounds_) && !holding_) {
     ownBounds_.clear();
     return Look::goOn;
   }
-  boundOwnJumps(set, began, boxAtStart, 0.0, atStart);
+  boundOwnJumps(set, began, first, 0.0, atStart);
   if (holding_) {
     boundHeldJumps(set, time, box, h, ownBounds_, heldBounds_);
-    boundHeldJumps(set, began, boxAtStart, 0.0, atStart, heldAtStart);
+    boundHeldJumps(set, began, first, 0.0, atStart, heldAtStart);
     const auto isHeld = [&](const std::vector<JumpBound>& bounds) {
       bool holds = true;
       for (std::size_t k = 0; k < held_.size(); ++k) holds = holds && (held_[k] == 0 || bounds[k].holds);
@@ -263,17 +223,23 @@ FlowStepper::Look FlowStepper::lookAtJumps(const FlowSet& set, double& h, double
       return Look::released;
     }
   }
-  double longest = longestToCross(atStart, h, smallest), longer = h;
+  double longest = longestToCross(ownBounds_, atStart, h, smallest), longer = h;
   std::vector<std::size_t> narrower;
   for (std::size_t j = 0; j < ownBounds_.size(); ++j) {
     const JumpBound& bound = ownBounds_[j];
     const bool isNarrower = width(bound.sign) < nearlyAny, slides = bound.maySlide && (bound.holds || isNarrower);
     const auto crossing = bound.crossing();
     const bool crosses = crossing && (crossing->moment.upper() <= h || h == left) && !isNarrower;
-    if (crossing && !crosses && !isNarrower) longer = std::max(longer, beyond * crossing->moment.upper());
+    if (crossing && !crosses && !isNarrower) longer = std::max(longer, beyondTheLast * crossing->moment.upper());
     if (crosses)
-      crossings_.push_back(
-          {.jump = j, .before = crossing->before, .moment = {}, .moments = crossing->moment, .curvature = {}});
+      crossings_.push_back({.form = &*own_->jumps().forms[j],
+                            .node = series_.jumps()[j],
+                            .jump = static_cast<int>(j),
+                            .kink = -1,
+                            .before = crossing->before,
+                            .moment = {},
+                            .moments = crossing->moment,
+                            .curvature = {}});
     if (!bound.isKnown() || !(slides || isNarrower || crosses)) continue;
     narrower.push_back(j);
     if (!slides) continue;
@@ -287,13 +253,13 @@ FlowStepper::Look FlowStepper::lookAtJumps(const FlowSet& set, double& h, double
   constexpr int mostTries = 8;
   if (longer > h && longer < 4 * h && longest >= h && ++lengthened_ < mostTries) {
     h = std::min({longer, h0_, left});
-    return Look::shorter;
+    return Look::longer;
   }
   constexpr double muchShorter = 0.5;  // than when signs were given: they are known better now
   if (narrower.empty() || (givenAt_ > 0 && h > muchShorter * givenAt_)) return Look::goOn;
   givenAt_ = h;
   for (const std::size_t j : narrower) {
-    const auto crossing = std::ranges::find(crossings_, j, &Crossing::jump);
+    const auto crossing = std::ranges::find(crossings_, static_cast<int>(j), &Crossing::jump);
     const double about = crossing == crossings_.end() ? midpoint(ownBounds_[j].sign) : crossing->before;
     series_.giveSign(series_.jumps()[j], ownBounds_[j].sign, ownBounds_[j].over, about);
   }

@@ -31,11 +31,14 @@ FlowStepper::FlowStepper(const Program& motion, std::shared_ptr<const Monomials>
                          double tolerance, FlowInputs inputs, const std::atomic<bool>* cancelled)
     : n_(motion.states()),
       m_(order),
+      pushes_(motion.outputs() - n_ - n_ * n_ - n_ * inputs.count()),
       tolerance_(tolerance),
       series_(motion, motion.states(), std::move(monomials), frameDegree, order, true, cancelled),
       growth_(motion.states(), order),
       inputs_(std::move(inputs)) {
   series_.setVarying(inputs_.parameters());
+  kinks_ = std::make_unique<FlowKinks>(motion, inputs_.parameters());
+  if (kinks_->count() == 0) kinks_.reset();
   epsilon_.assign(at(n_ * n_), 0.0);
   for (auto* v : {&delta0_, &delta1_, &start_, &E_, &y_, &e1_, &nu0_, &nu1_, &scale_, &floor_, &second_, &third_,
                   &turn_, &driven_})
@@ -382,6 +385,12 @@ StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum,
   for (int attempt = 0; attempt < 24; ++attempt) {
     if (h < left) h = onGrid(h);
     if (!(h >= smallest || h == left) || h <= 0) break;
+    if (givenAt_ > 0 && h > givenAt_) {  // signs that were given are those of a shorter step
+      givenAt_ = 0;
+      series_.forgetCrossings();
+      load(set);
+      series_.compute(set.t, h0_);
+    }
     if (tryStep(set, h / h0_)) {
       if (timeError_ > 5 * tolerance_ && attempt < 3) {
         const double factor = std::pow(tolerance_ / timeError_, 1.0 / (m_ + 1));
@@ -395,10 +404,13 @@ StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum,
         h *= 0.75 * most / growth_.growth();
         continue;
       }
-      if (own_ || holding_) {
-        const Look look = lookAtJumps(set, h, 0x1p14 * quantum, left);
+      if (own_ || holding_ || kinks_) {
+        const double least = 0x1p14 * quantum;
+        crossings_.clear();
+        Look look = own_ || holding_ ? lookAtJumps(set, h, least, left) : Look::goOn;
+        if (look == Look::goOn && kinks_) look = lookAtKinks(set, h, least, left);
         if (look == Look::released) return StepOutcome::released;
-        if (look == Look::shorter) {
+        if (look == Look::shorter || look == Look::longer) {
           isShortened_ = true;
           --attempt;
           continue;

@@ -12,6 +12,7 @@
 #include "analyses/flow/growth.hpp"
 #include "analyses/flow/inputs.hpp"
 #include "analyses/flow/jumps.hpp"
+#include "analyses/flow/kinks.hpp"
 #include "analyses/flow/polynomial_range.hpp"
 #include "analyses/flow/polynomial_series.hpp"
 #include "analyses/flow/set.hpp"
@@ -50,6 +51,9 @@ double drivenRadius(const std::vector<double>& a, const std::vector<std::vector<
 
 /// What the argument of a jump is on the set, `total` being its totalRadius.
 Interval argumentOf(const FlowSet& set, const LinearForm& form, const std::vector<double>& total);
+
+/// How much longer than until the last solution has passed a jump a step is, so that rates over all of it still say so.
+constexpr double beyondTheLast = 1.0625;
 
 /// `released`: solutions that were held may leave.
 enum class StepOutcome { stepped, splitWanted, failed, released };
@@ -100,7 +104,7 @@ class FlowStepper {
   /// The set τ seconds into the step, 0 ≤ τ ≤ h; what is known of jumps' arguments besides counts if `narrowed`.
   void evaluate(const FlowSet& set, double tau, FlowPoint& point, bool narrowed = true);
   /// Whether more is known of these in this step than the set says.
-  bool narrows() const { return !ownBounds_.empty() || !heldBounds_.empty(); }
+  bool narrows() const { return !ownBounds_.empty() || !heldBounds_.empty() || !crossings_.empty(); }
   /// Narrows what the states are during the whole step by what is known of these.
   void narrowOver(std::vector<Interval>& states) const;
   /// How far p + Ψ (r + Γs) leaves its chord between two moments of the step, in seconds from its start, for each
@@ -141,12 +145,18 @@ class FlowStepper {
   bool isTruncationTooLarge(double splitDefect);
   bool isLooserThanDriven() const;
   bool isKinkTooWide(const FlowSet& set, double kinkShare);
-  enum class Look { goOn, again, shorter, released };
+  enum class Look { goOn, again, shorter, longer, released };
   Look lookAtJumps(const FlowSet& set, double& h, double smallest, double left);
-  double longestToCross(const std::vector<JumpBound>& atStart, double h, double smallest) const;
-  /// In this step all solutions go from one side of a jump to the other: at moment(ξ) - c·C(ξ)(r + Γs)/rate ± off.
+  Look lookAtKinks(const FlowSet& set, double& h, double smallest, double left);
+  static double longestToCross(const std::vector<JumpBound>& bounds, const std::vector<JumpBound>& atStart, double h,
+                               double smallest);
+  Box boxAtStart(const FlowSet& set) const;
+  /// In this step all solutions go from one side of a jump or kink to the other: at moment(ξ) - c·C(ξ)(r + Γs)/rate ±
+  /// off.
   struct Crossing {
-    std::size_t jump;
+    const LinearForm* form;
+    int node;                  // the sign, or |u|
+    int jump, kink;            // one of these; -1: not
     double before;             // the sign until then
     BoundedPolynomial moment;  // s
     double off = 0;
@@ -157,7 +167,9 @@ class FlowStepper {
   };
   void boundCrossings(const FlowSet& set);
   bool boundMoment(const FlowSet& set, Crossing& crossing) const;
-  int pushNode(int state, std::size_t jump) const;
+  int pushNode(int state, int jump) const;
+  bool boundCurvature(Crossing& crossing, double longest, std::vector<double>& rest) const;
+  bool boundCurvatureOfKink(Crossing& crossing, double longest, std::vector<double>& rest);
   void addCrossings(const FlowSet& set, double tau, FlowPoint& point) const;
   int symbolOfSliding(const FlowSet& set, double kinkShare) const;
   double longestWhileSliding(const JumpBound& bound, const JumpBound& atStart, double h, double last) const;
@@ -172,6 +184,7 @@ class FlowStepper {
   std::vector<double> symbolMass(std::vector<double>& byGrade) const;
 
   int n_, m_;
+  int pushes_;  // outputs of the motion that are ∂f/∂(a sign)
   double tolerance_;
   PolynomialSeries series_;
   FlowGrowth growth_;
@@ -187,6 +200,8 @@ class FlowStepper {
   std::vector<int> left_;                          // of each of these, which own jump it is; -1: none
   std::vector<double> factor_;                     // its argument is that one's, times this
   std::vector<JumpBound> ownBounds_, heldBounds_;  // over the step; none: nothing is known
+  std::unique_ptr<FlowKinks> kinks_;               // null: there are none
+  std::vector<Interval> kinkRates_;                // over the step
   std::vector<Crossing> crossings_;
   std::vector<double> crossed_;  // like e1_, if what these do is known
   bool isSliding_ = false, isShortened_ = false;

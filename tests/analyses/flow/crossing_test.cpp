@@ -166,6 +166,54 @@ TEST(FlowCrossingExactly, InputsMoveIt) {
         }
 }
 
+/// The horizon comes before all have passed: some would only long after it, at a rate that fades.
+TEST(FlowCrossingExactly, SomeHaveNotPassedAtTheEnd) {
+  for (const double fading : {0.375, 0.4375})
+    for (const double horizon : {0.125, 0.25}) {
+      const Program f = record(2, 0, [&](auto t, const auto& x, const auto&, auto& dx) {
+        dx[0] = fading * t - 1.0;
+        dx[1] = sign(x[0]) - 4.0 * x[0];
+      });
+      const Tube tube = Flow(f).enclose({Interval(0.015625, 1.0), 0.0}, horizon, {horizon / 2, horizon});
+      ASSERT_EQ(tube.why(), "");
+      for (std::size_t row = 1; row <= 2; ++row) {
+        const Precise t = tube.times()[row];  // from 1: above the surface all the time
+        const Precise x = 1 - t + fading * t * t / 2, y = t - 4 * (t - t * t / 2 + fading * t * t * t / 6);
+        EXPECT_THAT(tube.states(row)[0], Encloses(x)) << horizon;
+        EXPECT_THAT(tube.states(row)[1], Encloses(y)) << horizon;
+      }
+    }
+}
+
+/// Steps that are made short for one reason and long for another: signs are those of the step that is made.
+TEST(FlowCrossingExactly, SignsAreThoseOfTheStep) {
+  const double c = 0.1875, d = 0.13;
+  const Program f = record(5, 1, [&](auto t, const auto& x, const auto& p, auto& dx) {
+    dx[4] = 1e-30 * (1.0 / (1.0 + 7.0 * t));
+    const auto s0 = sign(x[0]), s1 = sign(x[1]);
+    dx[0] = -1.0;
+    dx[1] = 0.5 * (1.0 + s1) * (c * t - 1.0) + 0.5 * (1.0 - s1) * p[0];
+    dx[2] = s0 + 100.0 * s1 + 0.5 * abs(x[3]);
+    dx[3] = -1.0;
+  });
+  FlowOptions options;
+  options.split = false;
+  const std::vector<double> times{0.131, 0.132, 0.1325, 0.14, 0.15, 1.0};
+  const Tube tube =
+      Flow(f, options).enclose({Interval(0.05, 0.125), d, 0.0, 0.06, 1.0, Interval(-0.15, 0.05)}, 1.0, times);
+  ASSERT_EQ(tube.why(), "");
+  const Precise passes = (1 - sqrt(1 - 2 * Precise(c) * Precise(d))) / c;
+  for (std::size_t row = 2; row < tube.times().size(); ++row)
+    for (const double start : {0.05, 0.125})
+      for (const double p : {-0.15, -0.05}) {
+        const Precise t = tube.times()[row], away = t - Precise(0.06);
+        if (t < start) continue;
+        EXPECT_THAT(tube.states(row)[1], Encloses(Precise(p * (t - passes))));
+        EXPECT_THAT(tube.states(row)[2], Encloses(Precise((2 * Precise(start) - t) + 100 * (2 * passes - t) +
+                                                          (Precise(0.06) * Precise(0.06) + away * away) / 4)));
+      }
+}
+
 TEST(BoundedPolynomial, ProductsHoldWhatTheyDrop) {
   const Monomials monomials({1, 2}, 3);
   Points points(5);

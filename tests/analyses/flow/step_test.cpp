@@ -486,6 +486,79 @@ TEST(FlowStep, RadiiOfParametersAreNoTruncation) {
   }
 }
 
+/// Two kinks and a jump, passed at once or one after the other; one of the kinks bends what the other's argument does.
+Program twoKinks(double tilt, Points& points) {
+  const auto any = [&](double size) { return size * std::ldexp(points.integer(-8, 8), -3); };
+  double A[3][3], push[3][3], bend[3];
+  for (int i = 0; i < 3; ++i) {
+    for (double& entry : A[i]) entry = any(1);
+    for (double& entry : push[i]) entry = any(8);
+    push[i][2] = points.integer(0, 2) == 0 ? any(0.25) : 0.0;
+    bend[i] = points.integer(0, 1) * any(2);
+  }
+  return record(3, 1, [&](auto, const auto& x, const auto& p, auto& dx) {
+    const Recorded u[2] = {x[0] + 0.5 * x[2], x[1] - tilt * x[2] - 0.25 * p[0]};
+    // |u| as the reference has it, too: it locates signs.
+    const Recorded k[2] = {abs(u[0]), abs(u[1])};
+    for (int i = 0; i < 3; ++i) {
+      dx[i] = A[i][0] * x[0] + A[i][1] * x[1] + A[i][2] * sin(x[2]) + (i == 2 ? p[0] : -2.0 - p[0]);
+      dx[i] = dx[i] + p[0] * push[i][0] * k[0] + push[i][1] * k[1] + bend[i] * x[2] * k[0] * k[1];
+      if (push[i][2] != 0) dx[i] = dx[i] + push[i][2] * sign(u[1]);
+    }
+  });
+}
+
+/// The same with u sign u for |u|, whose events a reference locates.
+Program withSigns(const Program& f) {
+  Recorder recorder(f.states(), f.parameters(), RuleSet::none());
+  std::vector<int> instead(f.nodes().size(), -1), outputs;
+  const std::vector<int> plain = recorder.append(f);
+  for (std::size_t i = 0; i < instead.size(); ++i)
+    if (const Node& node = f.nodes()[i]; node.op == Op::abs) {
+      const int u = plain[static_cast<std::size_t>(node.a)];
+      instead[i] = recorder.mul(u, recorder.sign(u));
+    }
+  const std::vector<int> here = recorder.append(f, {}, instead);
+  for (const int output : f.outputNodes()) outputs.push_back(here[static_cast<std::size_t>(output)]);
+  return recorder.finish(outputs);
+}
+
+TEST(FlowStep, HoldsEveryTrajectoryThatPassesKinks) {
+  Points points(28);
+  int passed = 0, both = 0;
+  for (int round = 0; round < 300; ++round) {
+    const double tilt = 0.125 * points.integer(-4, 4);
+    const Program f = twoKinks(tilt, points);
+    const FlowJumps jumps(differentiatedFor(f, {}), {});
+    const int symbols = points.integer(0, 2), degree = symbols == 0 ? 0 : points.integer(1, 3);
+    Scene scene(f, symbols, degree, points.integer(0, 2), points.integer(6, 14), 1e-8, points, false, &jumps);
+    const double size = std::pow(10.0, -points.integer(1, 6)), near = 4 * size;
+    const double R = size * points.integer(0, 1) * std::pow(10.0, -points.integer(0, 3));
+    const double third = points.uniform(-0.5, 0.5), parameter = 0.5;
+    const double first = near - 0.5 * third, second = (points.integer(0, 3) > 0 ? near : 0.5) + 0.125 + tilt * third;
+    scene.fill({first, second, third, parameter}, size, R, points.integer(0, 3), R * points.integer(0, 1), R * 0.1);
+    const auto stepped = [&] {
+      return scene.stepper.certify(scene.set, horizon, quantum, 0, 0) == StepOutcome::stepped;
+    };
+    bool is = stepped();
+    for (int before = 0; before < 8 && is && scene.stepper.crossings() == 0; ++before) {
+      scene.stepper.advance(scene.set);
+      scene.set.arguments.clear();  // of the set itself all is followed
+      is = stepped();
+    }
+    if (!is || scene.stepper.crossings() == 0) continue;
+    passed += 1;
+    both += scene.stepper.crossings() == 2 ? 1 : 0;
+    SlidingReference reference(withSigns(f), [](const auto&, const Vector&, Vector&) {});
+    scene.expectTrajectoriesInside(2, reference, {0.4, 0.8, 1.0});
+    if (HasFatalFailure()) return;
+    scene.expectUpdateInside(4);
+    if (HasFatalFailure()) return;
+  }
+  EXPECT_GT(passed, 80) << both;
+  EXPECT_GT(both, 20) << passed;
+}
+
 // Sets so wide, and equations so steep, that derivatives along the polynomials alone, which rest, say far too little.
 TEST(FlowStep, HoldsEveryTrajectoryOfWideRemaindersUnderSteepEquations) {
   const Program f = record(2, 0, [](auto, const auto& x, const auto&, auto& dx) {
