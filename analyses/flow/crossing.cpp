@@ -98,7 +98,14 @@ FlowStepper::Look FlowStepper::lookAtKinks(const FlowSet& set, double& h, double
   }
   for (std::size_t k = 0; k < kinks_->count(); ++k) {
     const auto crossing = bounds[k].crossing();
-    if (!crossing || !contains(u[k], 0.0) || contains(bounds[k].start, 0.0)) continue;
+    if (!contains(u[k], 0.0) || contains(bounds[k].start, 0.0)) continue;
+    // Those that move away stay on their side, or do not come so far.
+    const Interval over = bounds[k].start + Interval(0.0, h) * kinkRates_[k];
+    if (isCommon(over) && !contains(over, 0.0) && series_.giveSide(kinks_->node(k), over.lower() > 0 ? 1 : -1)) {
+      givenAt_ = givenAt_ > 0 ? std::min(givenAt_, h) : h;
+      isNew = true;
+    }
+    if (!crossing || !isCommon(over) || !contains(over, 0.0)) continue;
     if (crossing->moment.upper() > h && h < left) {
       longer = std::max(longer, beyondTheLast * crossing->moment.upper());
       continue;
@@ -115,7 +122,7 @@ FlowStepper::Look FlowStepper::lookAtKinks(const FlowSet& set, double& h, double
   }
   constexpr int mostTries = 8;
   if (longer > h && longer < 4 * h && ++lengthened_ < mostTries) {
-    h = std::min({longer, h0_, left});
+    h = std::min(longer, left);
     return Look::longer;
   }
   return isNew ? Look::again : Look::goOn;
@@ -222,8 +229,18 @@ bool FlowStepper::boundMoment(const FlowSet& set, Crossing& crossing) const {
   crossing.off = (crossing.remainder * magnitude(perUnit - Interval(1.0) / Interval(crossing.rate)) +
                   others * bounds::up * magnitude(perUnit)) *
                  bounds::up;
-  const double spread = crossing.moment.variation() * h0_ + crossing.remainder * magnitude(perUnit) +
-                        others * bounds::up * magnitude(perUnit);
+  crossing.away = (crossing.remainder + others) * bounds::up * magnitude(perUnit);
+  crossing.fastest = magnitude(rate);
+  const double spread = crossing.moment.variation() * h0_ + crossing.away;
+  if (crossing.kink >= 0) {
+    crossing.area.assign(1, {std::vector<double>(N, 0.0)});
+    for (std::size_t order = 0; order < orders; ++order)
+      crossing.area.emplace_back(u[order]) *= h0_ / static_cast<double>(order + 1);
+    for (std::size_t order = 1; order <= orders; ++order)  // the quotient's own rounding
+      crossing.area[order].error += bounds::unit * crossing.area[order].norm();
+    BoundedPolynomial before = composed(monomials(), crossing.area, crossing.moment);
+    crossing.area[0] = before *= -1;
+  }
   crossing.moment *= h0_;
   crossing.moment.error = 0;  // a power of two, and m is what it is
   const Interval found = inflated(Interval(crossing.moment.c[0]), spread * bounds::up);
@@ -258,22 +275,26 @@ bool FlowStepper::boundCurvature(Crossing& crossing, double longest, std::vector
   return true;
 }
 
-/// |u| = before u - 2 before u from then on, u = ℓ times a mean of its rates: K = B rate, and no B.
+/// |u| = before u, less 2 before u from then on, and u = ũ + c·(Ψ̃(r + Γs) + what else there is in the step): D = -2
+/// before B ∫(ũ + c·Ψ̃(r + Γs)), below Kℓ²/2 with K = B times any rate.
 bool FlowStepper::boundCurvatureOfKink(Crossing& crossing, double longest, std::vector<double>& rest) {
   const Interval rate = kinkRates_[at(crossing.kink)];
   const std::vector<Interval> push = kinks_->pushOf(at(crossing.kink));
+  double apart = 0;  // of u and ũ + c·Ψ̃(r + Γs)
+  for (int i = 0; i < n_; ++i) apart += std::fabs(crossing.form->states[at(i)]) * looseBound(i);
   for (std::size_t i = 0; i < push.size(); ++i) {
-    const Interval K = push[i] * rate;
-    if (!isCommon(K)) return false;
-    crossing.curvature[i] = midpoint(K);
-    rest[i] += 2 * longest * magnitude(K - Interval(crossing.curvature[i]));
+    if (!isCommon(push[i] * rate)) return false;
+    crossing.push.push_back(midpoint(push[i]));
+    crossing.curvature[i] = magnitude(push[i]) * magnitude(rate);
+    rest[i] += 2 * (magnitude(push[i] - Interval(crossing.push[i])) * longest * magnitude(rate) +
+                    std::fabs(crossing.push[i]) * apart);
   }
   return true;
 }
 
 /// With ℓ = (t - moment)₊ and D = Σ -2 before (B̃ℓ + Kℓ²/2), B̃ about ∂f/∂s, z = x - x̃ - Ψ̃(r + Γs) - D obeys
 ///     z' = J̄z - δ - ν(r + Γs) - 2 before [(B̄ - B̃) + ℓ(J̄B̃ - B̃' - K) + ℓ²/2 J̄K] ,
-/// δ without what these signs do; of kinks (B̄ u/ℓ - K)ℓ + ℓ²/2 J̄K stands in the brackets.
+/// δ without what these signs do; of kinks (B̄ - B)u + B(u - ũ - c·Ψ̃(r + Γs)) + J̄D stands in the brackets.
 void FlowStepper::boundCrossings(const FlowSet& set) {
   if (crossings_.empty()) return;
   for (const Crossing& crossing : crossings_) series_.setApart(crossing.node, true);
@@ -327,8 +348,19 @@ void FlowStepper::addCrossings(const FlowSet& set, double tau, FlowPoint& point)
     l += {{midpoint(constant)}, radius(constant)};
     l.error = (l.error + slope * crossing.off) * bounds::up;
     const double linear = slope / crossing.rate, linearMost = std::fabs(linear) * crossing.remainder * bounds::up;
-    BoundedPolynomial half = product(monomials(), l, l);
+    BoundedPolynomial half = crossing.kink >= 0 ? BoundedPolynomial{{0.0}} : product(monomials(), l, l);
     half *= 0.5;
+    for (auto order = crossing.area.rbegin(); order != crossing.area.rend(); ++order) (half *= tau / h0_) += *order;
+    if (crossing.kink >= 0) {  // nothing of those that have not passed
+      if (tau <= first) continue;
+      half.error += 0.5 * crossing.fastest * (crossing.away * crossing.away + std::pow(std::max(0.0, last - tau), 2));
+      double turned = 0;
+      for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t j = 0; j < n; ++j)
+          turned += std::fabs(form.states[i]) * tau / h0_ *
+                    series_.frameDerivativeNorm(static_cast<int>(i), static_cast<int>(j), 1, theta_) * total_[j];
+      half.error = (half.error + (tau - first) * turned) * bounds::up;
+    }
     // c·C(ξ): n roundings of two; as many again for what is made of it.
     const double roundings = (4.0 * static_cast<double>(n) + 12) * bounds::unit;
     std::vector<double> ofFrame(frames * n, 0.0), sum(n, 0.0);
@@ -348,14 +380,16 @@ void FlowStepper::addCrossings(const FlowSet& set, double tau, FlowPoint& point)
       }
       BoundedPolynomial B{{0.0}};
       for (auto order = orders.rbegin(); order != orders.rend(); ++order) (B *= tau / h0_) += *order;
-      const double K = crossing.curvature[i], by = -2 * crossing.before * linear * (B.c[0] + K * l.c[0]);
+      const double K = crossing.kink >= 0 ? crossing.push[i] : crossing.curvature[i];
+      const double by = -2 * crossing.before * (crossing.kink >= 0 ? K * l.c[0] : linear * (B.c[0] + K * l.c[0]));
       BoundedPolynomial added = half;
       added *= K;
       added += product(monomials(), B, l);
       added *= -2 * crossing.before;
       double loose = added.error;
-      // (l + w)²/2 = l²/2 + l w + w²/2; of B and l the leading coefficients are in `by`.
-      loose += 2 * linearMost *
+      // (l + w)²/2 = l²/2 + l w + w²/2; of B and l the leading coefficients are in `by`. Of a kink, l w.
+      const double most = crossing.kink >= 0 ? crossing.remainder : linearMost;
+      loose += 2 * most *
                (B.variation() + B.error + std::fabs(K) * (l.variation() + l.error + 0.5 * linearMost) +
                 roundings * (std::fabs(B.c[0]) + std::fabs(K * l.c[0])));
       for (std::size_t g = 0; g < added.c.size(); ++g) {

@@ -210,6 +210,14 @@ void PolynomialSeries::forgetCrossings() {
   std::ranges::fill(passed_, 0.0);
 }
 
+bool PolynomialSeries::giveSide(int kink, double side) {
+  const std::size_t u = at(plan_[at(kink)].a);
+  const bool isNew = side_[u] != side;
+  side_[u] = side;
+  isCalm_[u] = 1;
+  return isNew;
+}
+
 bool PolynomialSeries::passKink(int kink, double side) {
   const std::size_t u = at(plan_[at(kink)].a);
   const bool isNew = passed_[u] != side;

@@ -252,7 +252,7 @@ FlowStepper::Look FlowStepper::lookAtJumps(const FlowSet& set, double& h, double
   }
   constexpr int mostTries = 8;
   if (longer > h && longer < 4 * h && longest >= h && ++lengthened_ < mostTries) {
-    h = std::min({longer, h0_, left});
+    h = std::min(longer, left);
     return Look::longer;
   }
   constexpr double muchShorter = 0.5;  // than when signs were given: they are known better now

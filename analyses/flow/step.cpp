@@ -412,6 +412,11 @@ StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum,
         if (look == Look::released) return StepOutcome::released;
         if (look == Look::shorter || look == Look::longer) {
           isShortened_ = true;
+          if (h > h0_) {
+            while (h0_ < h) h0_ *= 2;
+            load(set);
+            series_.compute(set.t, h0_);
+          }
           --attempt;
           continue;
         }

@@ -163,7 +163,12 @@ class FlowStepper {
     Interval moments;               // of all solutions
     double rate = 0;                // of the argument, about
     double remainder = 0;           // |c·C(ξ)(r + Γs)|
-    std::vector<double> curvature;  // K of docs/flow.md
+    std::vector<double> curvature;  // K of docs/flow.md; of a kink, no less
+    // Of a kink: ∂f/∂|u|, about; the integral of ũ from the moment on, by orders of σ; how fast ũ moves at most, and
+    // how far moments are from those of ξ.
+    std::vector<double> push = {};
+    std::vector<BoundedPolynomial> area = {};
+    double fastest = 0, away = 0;
   };
   void boundCrossings(const FlowSet& set);
   bool boundMoment(const FlowSet& set, Crossing& crossing) const;
