@@ -36,10 +36,13 @@ Dimension scaled(const Dimension& d, int times) {
 
 Dimension Expression::dimension(const DimensionOf& dimensionOf) const {
   std::vector<Dimension> stack;
+  std::vector<char> isNothing;  // a plain 0, which is of any kind
   for (const Term& term : terms_) {
+    isNothing.resize(stack.size(), 0);
     if (term.operation == Operation::constant) {
       const std::optional<Amount>& exact = constants_[static_cast<std::size_t>(term.index)].exact;
       stack.push_back(exact ? exact->dimension : Dimension{});
+      isNothing.push_back(static_cast<char>(exact && exact->value == 0 && !exact->hasUnit));
       continue;
     }
     if (term.operation == Operation::name) {
@@ -47,10 +50,19 @@ Dimension Expression::dimension(const DimensionOf& dimensionOf) const {
       continue;
     }
     const Dimension b = stack.back();
-    if (operands(term.operation) > 1) stack.pop_back();
+    const bool isPlainZero = isNothing.back() != 0;
+    if (operands(term.operation) > 1) {
+      stack.pop_back();
+      isNothing.pop_back();
+    }
     Dimension& a = stack.back();
+    const bool wasPlainZero = isNothing.back() != 0;
+    isNothing.back() = 0;
     const auto mustBeAlike = [&](const char* does, const char* joins) {
-      if (!isAlike(a, b))
+      if (isPlainZero) return;
+      if (wasPlainZero)
+        a = b;
+      else if (!isAlike(a, b))
         refuse(fmt::format("{} {} {} {}", does, unitOf(b), joins, unitOf(a)), term.column, "quantities of one kind");
       if (a.mass != 0)
         a.angle = std::min(a.angle, b.angle);  // N m + N m rad is N m, N m/rad + N m is N m/rad

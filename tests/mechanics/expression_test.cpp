@@ -141,6 +141,11 @@ TEST(Expression, UnitsAreCarriedThrough) {
                {"1 + angle", "rad"},
                {"0.5 mass*(rod.length*rate)^2", "J"},
                {"abs(mass)", "kg"},
+               {"max(rod.length, 0)", "m"},  // nothing is of any kind
+               {"max(0, 2 rod.length)", "m"},
+               {"where(mass > 0, rod.length, 0)", "m"},
+               {"where(0 < t, 0, rod.length)", "m"},
+               {"0 - mass + 0", "kg"},
                {"rod.length*t^-2", "m/s^2"}};
   for (const auto& c : cases) {
     Dimension expected = std::string_view(c.unit) == "N m/rad rad" ? dimensionOf("N m") : dimensionOf(c.unit);
@@ -156,6 +161,8 @@ TEST(Expression, WhatDoesNotFitTogetherIsRefusedWithItsPlace) {
   } cases[] = {
       {"rod.length + mass", "adds kg to m at column 12; expected quantities of one kind"},
       {"rod.length - 3", "subtracts 1 from m at column 12"},
+      {"rod.length - 0 s", "subtracts s from m at column 12"},
+      {"max(rod.length, 0 + 0 mass)", "compares kg with m"},
       {"sin(rod.length)", "a function of m at column 1"},
       {"sqrt(mass)", "the square root of kg at column 1"},
       {"2^mass", "an exponent in kg at column 2"},
