@@ -209,7 +209,7 @@ bool FlowStepper::boundMoment(const FlowSet& set, Crossing& crossing) const {
     double leads = 0, most = 0, bent = 0;
     for (std::size_t i = 0; i < n; ++i) {
       const double c = std::fabs(form.states[i]);
-      bent += c * 0.5 * since * std::fabs(other.curvature[i]);
+      bent += c * (0.5 * since * std::fabs(other.curvature[i]) + other.drift(i));
       if (other.jump < 0) continue;
       const int push = pushNode(static_cast<int>(i), other.jump);
       leads += form.states[i] * series_.series(push)[0];
@@ -282,12 +282,13 @@ bool FlowStepper::boundCurvatureOfKink(Crossing& crossing, double longest, std::
   const std::vector<Interval> push = kinks_->pushOf(at(crossing.kink));
   double apart = 0;  // of u and ũ + c·Ψ̃(r + Γs)
   for (int i = 0; i < n_; ++i) apart += std::fabs(crossing.form->states[at(i)]) * looseBound(i);
+  crossing.apart = apart * bounds::up;
   for (std::size_t i = 0; i < push.size(); ++i) {
     if (!isCommon(push[i] * rate)) return false;
     crossing.push.push_back(midpoint(push[i]));
     crossing.curvature[i] = magnitude(push[i]) * magnitude(rate);
     rest[i] += 2 * (magnitude(push[i] - Interval(crossing.push[i])) * longest * magnitude(rate) +
-                    std::fabs(crossing.push[i]) * apart);
+                    std::fabs(crossing.push[i]) * crossing.apart);
   }
   return true;
 }
@@ -315,7 +316,8 @@ void FlowStepper::boundCrossings(const FlowSet& set) {
                                                  : boundCurvatureOfKink(crossing, longest, rest));
     for (int i = 0; i < n_ && isBounded; ++i)
       for (int j = 0; j < n_; ++j)
-        rest[at(i)] += longest * longest * series_.jacobianBound(i, j) * std::fabs(crossing.curvature[at(j)]);
+        rest[at(i)] += series_.jacobianBound(i, j) *
+                       (longest * longest * std::fabs(crossing.curvature[at(j)]) + 2 * longest * crossing.drift(at(j)));
   }
   crossed_.clear();
   for (int i = 0; i < n_; ++i) {
@@ -353,7 +355,9 @@ void FlowStepper::addCrossings(const FlowSet& set, double tau, FlowPoint& point)
     for (auto order = crossing.area.rbegin(); order != crossing.area.rend(); ++order) (half *= tau / h0_) += *order;
     if (crossing.kink >= 0) {  // nothing of those that have not passed
       if (tau <= first) continue;
-      half.error += 0.5 * crossing.fastest * (crossing.away * crossing.away + std::pow(std::max(0.0, last - tau), 2));
+      // ũ is at most fastest·away where m says that it is zero, and moves by no more.
+      const double late = std::max(0.0, last - tau) + crossing.away;
+      half.error += 1.5 * crossing.fastest * (crossing.away * crossing.away + late * late);
       double turned = 0;
       for (std::size_t i = 0; i < n; ++i)
         for (std::size_t j = 0; j < n; ++j)

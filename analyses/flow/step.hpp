@@ -169,6 +169,8 @@ class FlowStepper {
     std::vector<double> push = {};
     std::vector<BoundedPolynomial> area = {};
     double fastest = 0, away = 0;
+    double apart = 0;  // u from the ũ + c·Ψ̃(r + Γs) that D is made of, at most
+    double drift(std::size_t i) const { return push.empty() ? 0.0 : std::fabs(push[i]) * apart; }
   };
   void boundCrossings(const FlowSet& set);
   bool boundMoment(const FlowSet& set, Crossing& crossing) const;
