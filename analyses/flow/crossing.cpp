@@ -1,5 +1,5 @@
-// Steps in which all solutions pass through the surface of a jump: when each of them does is a polynomial in ξ, and so
-// is what the other side makes of it from then on. Derivations: docs/flow.md, section 7.
+// Steps in which all solutions pass through the surface of a jump or kink: when each of them does is a polynomial in ξ,
+// and so is what the other side makes of it from then on. Derivations: docs/flow.md, section 7.
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -76,7 +76,7 @@ FlowStepper::Look FlowStepper::lookAtKinks(const FlowSet& set, double& h, double
   std::vector<Interval> u, uAtStart, rates;
   const Interval began(set.t);
   kinks_->bound(began, boxAtStart(set), set.parameters, uAtStart, rates);
-  std::vector<JumpBound> bounds(u.size()), atStart;
+  std::vector<JumpBound> bounds, atStart;
   for (std::size_t k = 0; k < kinks_->count(); ++k) {
     JumpBound& bound = atStart.emplace_back();
     bound.start = bound.over = argumentOf(set, kinks_->form(k), total_);
@@ -96,20 +96,26 @@ FlowStepper::Look FlowStepper::lookAtKinks(const FlowSet& set, double& h, double
     h = std::max(longest, smallest);
     return Look::shorter;
   }
+  for (const JumpBound& bound : bounds)
+    if (const auto crossing = bound.crossing(); crossing && h < left && contains(bound.over, 0.0))
+      longer = std::max(longer, crossing->moment.upper() > h ? beyondTheLast * crossing->moment.upper() : 0.0);
+  constexpr int mostTries = 8;
+  if (longer > h && longer < 4 * h && ++lengthened_ < mostTries) {
+    h = std::min(longer, left);
+    return Look::longer;
+  }
   for (std::size_t k = 0; k < kinks_->count(); ++k) {
-    const auto crossing = bounds[k].crossing();
-    if (!contains(u[k], 0.0) || contains(bounds[k].start, 0.0)) continue;
     // Those that move away stay on their side, or do not come so far.
     const Interval over = bounds[k].start + Interval(0.0, h) * kinkRates_[k];
-    if (isCommon(over) && !contains(over, 0.0) && series_.giveSide(kinks_->node(k), over.lower() > 0 ? 1 : -1)) {
-      givenAt_ = givenAt_ > 0 ? std::min(givenAt_, h) : h;
+    if (!contains(u[k], 0.0) || contains(bounds[k].start, 0.0) || !isCommon(over)) continue;
+    if (!contains(over, 0.0)) {
+      if (!series_.giveSide(kinks_->node(k), over.lower() > 0 ? 1 : -1)) continue;
+      givenAt_ = h;
       isNew = true;
-    }
-    if (!crossing || !isCommon(over) || !contains(over, 0.0)) continue;
-    if (crossing->moment.upper() > h && h < left) {
-      longer = std::max(longer, beyondTheLast * crossing->moment.upper());
       continue;
     }
+    const auto crossing = bounds[k].crossing();
+    if (!crossing || (crossing->moment.upper() > h && h < left)) continue;
     isNew = series_.passKink(kinks_->node(k), crossing->before) || isNew;
     crossings_.push_back({.form = &kinks_->form(k),
                           .node = kinks_->node(k),
@@ -119,11 +125,6 @@ FlowStepper::Look FlowStepper::lookAtKinks(const FlowSet& set, double& h, double
                           .moment = {},
                           .moments = crossing->moment,
                           .curvature = {}});
-  }
-  constexpr int mostTries = 8;
-  if (longer > h && longer < 4 * h && ++lengthened_ < mostTries) {
-    h = std::min(longer, left);
-    return Look::longer;
   }
   return isNew ? Look::again : Look::goOn;
 }
@@ -255,7 +256,7 @@ bool FlowStepper::boundMoment(const FlowSet& set, Crossing& crossing) const {
 }
 
 /// K = J B - B' at the step's start and centre, and what ℓ(J̄B̃ - B̃' - K) and B̄ - B̃ are beside it.
-bool FlowStepper::boundCurvature(Crossing& crossing, double longest, std::vector<double>& rest) const {
+void FlowStepper::boundCurvature(Crossing& crossing, double longest, std::vector<double>& rest) const {
   const auto leading = [&](int node) { return series_.series(node)[0]; };
   for (int i = 0; i < n_; ++i) {
     const int push = pushNode(i, crossing.jump);
@@ -272,11 +273,10 @@ bool FlowStepper::boundCurvature(Crossing& crossing, double longest, std::vector
     crossing.curvature[at(i)] = K;
     rest[at(i)] += 2 * (series_.meanRho0(push) + series_.meanRho1(push) + longest * spread);
   }
-  return true;
 }
 
-/// |u| = before u, less 2 before u from then on, and u = ũ + c·(Ψ̃(r + Γs) + what else there is in the step): D = -2
-/// before B ∫(ũ + c·Ψ̃(r + Γs)), below Kℓ²/2 with K = B times any rate.
+/// |u| = before u until it passes, -before u from then on. With B about ∂f/∂|u|, D = -2 before B ∫(ũ + c·Ψ̃(r + Γs))
+/// from then on, so |D| ≤ Kℓ² + 2 drift ℓ, K = |B u̇|. False if rates or pushes are not bounded.
 bool FlowStepper::boundCurvatureOfKink(Crossing& crossing, double longest, std::vector<double>& rest) {
   const Interval rate = kinkRates_[at(crossing.kink)];
   const std::vector<Interval> push = kinks_->pushOf(at(crossing.kink));
@@ -312,8 +312,10 @@ void FlowStepper::boundCrossings(const FlowSet& set) {
     isBounded = isBounded && series_.slopeOf(crossing.node) == crossing.before;
     const double longest = std::max(0.0, h_ - crossing.moments.lower()) * bounds::up;
     crossing.curvature.assign(at(n_), 0.0);
-    isBounded = isBounded && (crossing.jump >= 0 ? boundCurvature(crossing, longest, rest)
-                                                 : boundCurvatureOfKink(crossing, longest, rest));
+    if (crossing.jump >= 0)
+      boundCurvature(crossing, longest, rest);
+    else
+      isBounded = isBounded && boundCurvatureOfKink(crossing, longest, rest);
     for (int i = 0; i < n_ && isBounded; ++i)
       for (int j = 0; j < n_; ++j)
         rest[at(i)] += series_.jacobianBound(i, j) *
@@ -350,20 +352,20 @@ void FlowStepper::addCrossings(const FlowSet& set, double tau, FlowPoint& point)
     l += {{midpoint(constant)}, radius(constant)};
     l.error = (l.error + slope * crossing.off) * bounds::up;
     const double linear = slope / crossing.rate, linearMost = std::fabs(linear) * crossing.remainder * bounds::up;
-    BoundedPolynomial half = crossing.kink >= 0 ? BoundedPolynomial{{0.0}} : product(monomials(), l, l);
-    half *= 0.5;
-    for (auto order = crossing.area.rbegin(); order != crossing.area.rend(); ++order) (half *= tau / h0_) += *order;
+    BoundedPolynomial second = crossing.kink >= 0 ? BoundedPolynomial{{0.0}} : product(monomials(), l, l);
+    second *= 0.5;
+    for (auto order = crossing.area.rbegin(); order != crossing.area.rend(); ++order) (second *= tau / h0_) += *order;
     if (crossing.kink >= 0) {  // nothing of those that have not passed
       if (tau <= first) continue;
       // ũ is at most fastest·away where m says that it is zero, and moves by no more.
       const double late = std::max(0.0, last - tau) + crossing.away;
-      half.error += 1.5 * crossing.fastest * (crossing.away * crossing.away + late * late);
+      second.error += 1.5 * crossing.fastest * (crossing.away * crossing.away + late * late);
       double turned = 0;
       for (std::size_t i = 0; i < n; ++i)
         for (std::size_t j = 0; j < n; ++j)
           turned += std::fabs(form.states[i]) * tau / h0_ *
                     series_.frameDerivativeNorm(static_cast<int>(i), static_cast<int>(j), 1, theta_) * total_[j];
-      half.error = (half.error + (tau - first) * turned) * bounds::up;
+      second.error = (second.error + (tau - first) * turned) * bounds::up;
     }
     // c·C(ξ): n roundings of two; as many again for what is made of it.
     const double roundings = (4.0 * static_cast<double>(n) + 12) * bounds::unit;
@@ -386,9 +388,9 @@ void FlowStepper::addCrossings(const FlowSet& set, double tau, FlowPoint& point)
       for (auto order = orders.rbegin(); order != orders.rend(); ++order) (B *= tau / h0_) += *order;
       const double K = crossing.kink >= 0 ? crossing.push[i] : crossing.curvature[i];
       const double by = -2 * crossing.before * (crossing.kink >= 0 ? K * l.c[0] : linear * (B.c[0] + K * l.c[0]));
-      BoundedPolynomial added = half;
+      BoundedPolynomial added = second;  // ℓ²/2, or of a kink the integral
       added *= K;
-      added += product(monomials(), B, l);
+      if (push >= 0) added += product(monomials(), B, l);
       added *= -2 * crossing.before;
       double loose = added.error;
       // (l + w)²/2 = l²/2 + l w + w²/2; of B and l the leading coefficients are in `by`. Of a kink, l w.

@@ -9,6 +9,7 @@
 
 #include "analyses/flow/embedding.hpp"
 #include "scalars/index.hpp"
+#include "scalars/program/recorder.hpp"
 #include "scalars/program/sides.hpp"
 
 namespace gamut {

@@ -103,9 +103,9 @@ class PolynomialSeries {
   void setApart(int node, bool isApart) { isApart_[at(node)] = static_cast<char>(isApart); }
   /// What all solutions pass in the step: the next computations take |u| as `side` times u, 1 or -1, until
   /// forgetCrossings. False if they did already.
-  bool passKink(int kink, double side);
+  bool passKink(int kink, double side) { return noteSide(passed_, kink, side); }
   /// On which side u is for all solutions in the step, until forgetCrossings. False if that is known.
-  bool giveSide(int kink, double side);
+  bool giveSide(int kink, double side) { return noteSide(side_, kink, side); }
   /// What they take for the sign, or for the slope of |u|.
   double slopeOf(int node) const {
     return plan_[at(node)].op == Op::abs ? chords_[at(node)].slope : f_[plan_[at(node)].f];
@@ -216,6 +216,7 @@ class PolynomialSeries {
     double slope = 0, middle = 0;
     bool isExact() const { return (slope == 1 || slope == -1) && middle == 0; }  // where u stays on one side
   };
+  bool noteSide(std::vector<double>& sides, int kink, double side);
   Chord chordOf(int node) const;
   double signOf(int node) const;
   /// Order i of monomial g, in the reversed copy too.
@@ -288,7 +289,7 @@ class PolynomialSeries {
   std::vector<double> jump_;                          // radius of each sign
   std::vector<std::optional<Interval>> given_;        // of each sign, what it is
   std::vector<double> about_;                         // and what polynomials take for it
-  std::vector<char> isApart_;                         // of each sign: its push is not one of errors
+  std::vector<char> isApart_;                         // of each sign and |u|: its push is reckoned apart
   std::vector<char> isCalm_;                          // arguments of those: they need no haste
   std::vector<double> passed_;                        // of each argument, whose kink all pass: the side they come from
   std::vector<double> side_;                          // of each argument, if known for all solutions: 1, -1

@@ -2,6 +2,7 @@
 // notation this is) and what its operands have. Also what follows from them: chords, the Jacobian, the frame's defect.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "analyses/flow/error_bounds.hpp"
 #include "analyses/flow/polynomial_series.hpp"
@@ -210,20 +211,10 @@ void PolynomialSeries::forgetCrossings() {
   std::ranges::fill(passed_, 0.0);
 }
 
-bool PolynomialSeries::giveSide(int kink, double side) {
+bool PolynomialSeries::noteSide(std::vector<double>& sides, int kink, double side) {
   const std::size_t u = at(plan_[at(kink)].a);
-  const bool isNew = side_[u] != side;
-  side_[u] = side;
   isCalm_[u] = 1;
-  return isNew;
-}
-
-bool PolynomialSeries::passKink(int kink, double side) {
-  const std::size_t u = at(plan_[at(kink)].a);
-  const bool isNew = passed_[u] != side;
-  passed_[u] = side;
-  isCalm_[u] = 1;
-  return isNew;
+  return std::exchange(sides[u], side) != side;
 }
 
 Interval PolynomialSeries::rangeOf(int i, double error) const {

@@ -256,8 +256,8 @@ FlowStepper::Look FlowStepper::lookAtJumps(const FlowSet& set, double& h, double
     return Look::longer;
   }
   constexpr double muchShorter = 0.5;  // than when signs were given: they are known better now
-  if (narrower.empty() || (givenAt_ > 0 && h > muchShorter * givenAt_)) return Look::goOn;
-  givenAt_ = h;
+  if (narrower.empty() || (signsAt_ > 0 && h > muchShorter * signsAt_)) return Look::goOn;
+  signsAt_ = givenAt_ = h;
   for (const std::size_t j : narrower) {
     const auto crossing = std::ranges::find(crossings_, static_cast<int>(j), &Crossing::jump);
     const double about = crossing == crossings_.end() ? midpoint(ownBounds_[j].sign) : crossing->before;

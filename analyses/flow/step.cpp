@@ -303,7 +303,7 @@ bool FlowStepper::isKinkTooWide(const FlowSet& set, double kinkShare) {
   for (int i = 0; mayBisect && i < n_; ++i) {
     const double allowed = kinkShare / set.half[l];  // of the whole box, not of the piece
     double added = 0, width = 0;
-    for (int j = 0; j < n_ && crossings_.empty(); ++j) added += growth_.M1(i, j) * delta0_[at(j)];
+    for (int j = 0; j < n_; ++j) added += growth_.M1(i, j) * delta0_[at(j)];
     if (!crossings_.empty()) added = crossed_[at(i)];
     for (int g = 1; g < N; ++g) width += std::fabs(set.p[at(i * N + g)]);
     if (added > allowed * width && width > 1e-9 * scale_[at(i)]) return true;
@@ -364,7 +364,7 @@ StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum,
   symbolAcross_ = -1;
   isSliding_ = isShortened_ = false;
   crossings_.clear();
-  givenAt_ = 0;
+  givenAt_ = signsAt_ = 0;
   lengthened_ = 0;
   ownBounds_.clear();
   heldBounds_.clear();
@@ -382,14 +382,18 @@ StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum,
   }
   h = std::min({h, h0_, left});
   bool isAdapted = false;
+  const auto compute = [&] {
+    load(set);
+    series_.compute(set.t, h0_);
+  };
   for (int attempt = 0; attempt < 24; ++attempt) {
     if (h < left) h = onGrid(h);
     if (!(h >= smallest || h == left) || h <= 0) break;
     if (givenAt_ > 0 && h > givenAt_) {  // signs that were given are those of a shorter step
-      givenAt_ = 0;
+      givenAt_ = signsAt_ = 0;
       series_.forgetCrossings();
-      load(set);
-      series_.compute(set.t, h0_);
+      isAdapted = false;
+      compute();
     }
     if (tryStep(set, h / h0_)) {
       if (timeError_ > 5 * tolerance_ && attempt < 3) {
@@ -414,15 +418,13 @@ StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum,
           isShortened_ = true;
           if (h > h0_) {
             while (h0_ < h) h0_ *= 2;
-            load(set);
-            series_.compute(set.t, h0_);
+            compute();
           }
           --attempt;
           continue;
         }
         if (look == Look::again) {
-          load(set);
-          series_.compute(set.t, h0_);
+          compute();
           continue;
         }
       }
@@ -436,8 +438,7 @@ StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum,
       }
       if (!isAdapted && series_.hasKinks() && series_.adaptToCrossings()) {
         isAdapted = true;
-        load(set);
-        series_.compute(set.t, h0_);
+        compute();
         continue;
       }
       h_ = h;
@@ -447,8 +448,7 @@ StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum,
       if (h < left)
         caution_ *= std::clamp(std::pow(tolerance_ / std::max(timeError_, 1e-40), 1.0 / (m_ + 1)), 0.7, 1.15);
       caution_ = std::clamp(caution_, 0x1p-6, 2.0);
-      return isTruncationTooLarge(splitDefect) ||
-                     ((isAdapted || isSliding_ || !crossings_.empty()) && isKinkTooWide(set, kinkShare))
+      return isTruncationTooLarge(splitDefect) || ((isAdapted || isSliding_) && isKinkTooWide(set, kinkShare))
                  ? StepOutcome::splitWanted
                  : StepOutcome::stepped;
     }
@@ -456,8 +456,7 @@ StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum,
     const bool isLate = attempt >= 3 || h < 0x1p25 * quantum;
     if (isLate && !isAdapted && series_.hasJumps() && series_.adaptToCrossings()) {
       isAdapted = true;
-      load(set);
-      series_.compute(set.t, h0_);
+      compute();
       continue;
     }
     h *= std::min(0.6, 1 / series_.haste());

@@ -52,7 +52,8 @@ double drivenRadius(const std::vector<double>& a, const std::vector<std::vector<
 /// What the argument of a jump is on the set, `total` being its totalRadius.
 Interval argumentOf(const FlowSet& set, const LinearForm& form, const std::vector<double>& total);
 
-/// How much longer than until the last solution has passed a jump a step is, so that rates over all of it still say so.
+/// How much longer than until the last solution has passed a jump or kink a step is, so that rates over all of it still
+/// say so.
 constexpr double beyondTheLast = 1.0625;
 
 /// `released`: solutions that were held may leave.
@@ -80,7 +81,7 @@ class FlowStepper {
   double truncation() const { return truncation_; }
   /// Moves the polynomials of `set` on by a step that nothing is proved of; false if there is none.
   bool drift(FlowSet& set, double end);
-  /// How many jumps all solutions pass in the step.
+  /// How many jumps and kinks all solutions pass in the step, or come to before the horizon.
   std::size_t crossings() const { return crossings_.size(); }
   /// After a failure: what could not be proved, of which state, in one line.
   const std::string& why() const { return why_; }
@@ -163,7 +164,7 @@ class FlowStepper {
     Interval moments;               // of all solutions
     double rate = 0;                // of the argument, about
     double remainder = 0;           // |c·C(ξ)(r + Γs)|
-    std::vector<double> curvature;  // K of docs/flow.md; of a kink, no less
+    std::vector<double> curvature;  // K of docs/flow.md; of a kink, |B u̇| at most
     // Of a kink: ∂f/∂|u|, about; the integral of ũ from the moment on, by orders of σ; how fast ũ moves at most, and
     // how far moments are from those of ξ.
     std::vector<double> push = {};
@@ -175,7 +176,7 @@ class FlowStepper {
   void boundCrossings(const FlowSet& set);
   bool boundMoment(const FlowSet& set, Crossing& crossing) const;
   int pushNode(int state, int jump) const;
-  bool boundCurvature(Crossing& crossing, double longest, std::vector<double>& rest) const;
+  void boundCurvature(Crossing& crossing, double longest, std::vector<double>& rest) const;
   bool boundCurvatureOfKink(Crossing& crossing, double longest, std::vector<double>& rest);
   void addCrossings(const FlowSet& set, double tau, FlowPoint& point) const;
   int symbolOfSliding(const FlowSet& set, double kinkShare) const;
@@ -213,7 +214,8 @@ class FlowStepper {
   std::vector<double> crossed_;  // like e1_, if what these do is known
   bool isSliding_ = false, isShortened_ = false;
   int lengthened_ = 0;          // so often, for all solutions to pass a jump in one step
-  double givenAt_ = 0;          // the step when signs were given; 0: none were
+  double signsAt_ = 0;          // the step when signs were given; 0: none were
+  double givenAt_ = 0;          // the longest step that what was given holds for: signs, sides
   std::string why_, obstacle_;  // obstacle_: of the last attempt
   std::vector<double> delta0_, delta1_, start_, E_, y_, e1_, epsilon_, nu0_, nu1_, scale_, floor_;
   std::vector<double> total_, errors_;         // R + Σ_j |Γ_j| of the set being stepped; without inputs

@@ -35,32 +35,30 @@ Dimension scaled(const Dimension& d, int times) {
 }  // namespace
 
 Dimension Expression::dimension(const DimensionOf& dimensionOf) const {
-  std::vector<Dimension> stack;
-  std::vector<char> isNothing;  // a plain 0, which is of any kind
+  struct Operand {
+    Dimension dimension;
+    bool isNothing = false;  // a plain 0, which is of any kind
+  };
+  std::vector<Operand> stack;
   for (const Term& term : terms_) {
-    isNothing.resize(stack.size(), 0);
     if (term.operation == Operation::constant) {
       const std::optional<Amount>& exact = constants_[static_cast<std::size_t>(term.index)].exact;
-      stack.push_back(exact ? exact->dimension : Dimension{});
-      isNothing.push_back(static_cast<char>(exact && exact->value == 0 && !exact->hasUnit));
+      stack.push_back({exact ? exact->dimension : Dimension{}, exact && exact->value == 0 && !exact->hasUnit});
       continue;
     }
     if (term.operation == Operation::name) {
-      stack.push_back(dimensionOf(names_[static_cast<std::size_t>(term.index)]));
+      stack.push_back({dimensionOf(names_[static_cast<std::size_t>(term.index)])});
       continue;
     }
-    const Dimension b = stack.back();
-    const bool isPlainZero = isNothing.back() != 0;
-    if (operands(term.operation) > 1) {
-      stack.pop_back();
-      isNothing.pop_back();
-    }
-    Dimension& a = stack.back();
-    const bool wasPlainZero = isNothing.back() != 0;
-    isNothing.back() = 0;
-    const auto mustBeAlike = [&](const char* does, const char* joins) {
-      if (isPlainZero) return;
-      if (wasPlainZero)
+    const auto [b, isSecondNothing] = stack.back();
+    if (operands(term.operation) > 1) stack.pop_back();
+    Dimension& a = stack.back().dimension;
+    const bool isFirstNothing = stack.back().isNothing;
+    stack.back().isNothing = false;
+    const auto mustBeAlike = [&, &b = b, &isSecondNothing = isSecondNothing](const char* does, const char* joins) {
+      stack.back().isNothing = isFirstNothing && isSecondNothing;
+      if (isSecondNothing) return;
+      if (isFirstNothing)
         a = b;
       else if (!isAlike(a, b))
         refuse(fmt::format("{} {} {} {}", does, unitOf(b), joins, unitOf(a)), term.column, "quantities of one kind");
@@ -117,7 +115,7 @@ Dimension Expression::dimension(const DimensionOf& dimensionOf) const {
         break;
       case Operation::where: {
         mustBeAlike("compares", "with");
-        const Dimension either = a;
+        const Operand either = stack.back();
         stack.pop_back();
         stack.back() = either;
         break;
@@ -133,7 +131,7 @@ Dimension Expression::dimension(const DimensionOf& dimensionOf) const {
         a = {};
     }
   }
-  return stack.back();
+  return stack.back().dimension;
 }
 
 void Expression::check(const DimensionOf& dimensionOf, const std::string& unit) const {

@@ -2,6 +2,7 @@
 #include "scalars/program/sides.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -29,7 +30,7 @@ struct Argument {
   double by = 1;
 };
 
-Argument argumentOf(const Program& f, int jump) {
+Argument bareArgumentOf(const Program& f, int jump) {
   Argument result{f.nodes()[at(jump)].a};
   for (;;) {
     const Node& u = f.nodes()[at(result.node)];
@@ -63,7 +64,7 @@ Program withOneSignASurface(const Program& f) {
   std::vector<std::pair<std::size_t, double>> of;  // of each sign, which surface, and the sign's sign
   bool isNew = false;
   for (const int jump : jumps) {
-    const auto [node, by] = argumentOf(f, jump);
+    const auto [node, by] = bareArgumentOf(f, jump);
     const auto form = linearFormOf(f, node);
     double ratio = 0;
     std::size_t k = 0;

@@ -146,6 +146,8 @@ TEST(Expression, UnitsAreCarriedThrough) {
                {"where(mass > 0, rod.length, 0)", "m"},
                {"where(0 < t, 0, rod.length)", "m"},
                {"0 - mass + 0", "kg"},
+               {"rod.length + max(0, 0)", "m"},
+               {"rod.length + where(1, 0, 0)", "m"},
                {"rod.length*t^-2", "m/s^2"}};
   for (const auto& c : cases) {
     Dimension expected = std::string_view(c.unit) == "N m/rad rad" ? dimensionOf("N m") : dimensionOf(c.unit);
@@ -163,6 +165,7 @@ TEST(Expression, WhatDoesNotFitTogetherIsRefusedWithItsPlace) {
       {"rod.length - 3", "subtracts 1 from m at column 12"},
       {"rod.length - 0 s", "subtracts s from m at column 12"},
       {"max(rod.length, 0 + 0 mass)", "compares kg with m"},
+      {"where(0, mass, mass) + rod.length", "adds m to kg"},
       {"sin(rod.length)", "a function of m at column 1"},
       {"sqrt(mass)", "the square root of kg at column 1"},
       {"2^mass", "an exponent in kg at column 2"},

@@ -71,6 +71,23 @@ const std::vector<JumpingMachine>& machines() {
        4,
        keep,
        1.1},
+      {"stopOnOneSide",
+       record(2, 2,
+              [](auto, const auto& x, const auto& p, auto& dx) {
+                dx[0] = x[1];
+                dx[1] = -x[0] - p[0] * max(x[0] - p[1], Recorded(0.0));
+              }),
+       {-1.0, 0.0, 20.0, 0.25},
+       {all, 0.0, 20.0 * all, 0.25 * all},
+       5,
+       keep,
+       1.02,
+       record(2, 2,
+              [](auto, const auto& x, const auto& p, auto& dx) {
+                const auto u = x[0] - p[1];
+                dx[0] = x[1];
+                dx[1] = -x[0] - 0.5 * p[0] * (u + u * sign(u));
+              })},
       {"rising",  // in other units: nanometres
        record(2, 1,
               [](auto, const auto& x, const auto& p, auto& dx) {
@@ -120,6 +137,19 @@ TEST(FlowCrossingExactly, ParabolasStayParabolas) {
       }
       EXPECT_LE(width(tube.states(row)[0]), 1.3 * width(seen) + 0.1 * half + 1e-11) << half << " " << tube.times()[row];
     }
+  }
+}
+
+/// A stop that is hit and left twice: a piece or two are enough.
+TEST(FlowCrossingExactly, KinksCostNoPieces) {
+  const JumpingMachine& stop = *std::ranges::find(machines(), "stopOnOneSide", &JumpingMachine::name);
+  for (const double width : {1e-6, 1e-3}) {
+    Box box = stop.centre;
+    for (std::size_t i = 0; i < box.size(); ++i) box[i] += Interval(width) * stop.spread[i];
+    const Tube tube = Flow(stop.f).enclose(box, stop.horizon, {});
+    ASSERT_EQ(tube.why(), "");
+    EXPECT_LE(tube.pieces(), 4) << width;
+    EXPECT_LE(tube.tightness(), 1.02) << width;
   }
 }
 

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,7 +21,8 @@ struct JumpingMachine {
   Box centre, spread;  // spread: times the width
   double horizon;
   SlidingReference::Rest rest;
-  double loosest;  // of the first state's width over that of the trajectories, at the end
+  double loosest;                     // of the first state's width over that of the trajectories, at the end
+  std::optional<Program> truth = {};  // with u sign u for |u|: references locate signs
 };
 
 /// Of the box's wide components, each number's corner.
@@ -48,7 +51,7 @@ inline void holdsTrajectories(const JumpingMachine& machine, const std::vector<d
     for (int i = 1; i <= 8 * rows; ++i) times.push_back(machine.horizon * i / (8 * rows));
     const Tube tube = Flow(machine.f).enclose(box, machine.horizon, outputTimes);
     ASSERT_EQ(tube.why(), "");
-    SlidingReference reference(machine.f, machine.rest);
+    SlidingReference reference(machine.truth.value_or(machine.f), machine.rest);
     Points points(17);
     std::vector<Interval> seen;
     for (int trial = 0; trial < trials; ++trial) {
