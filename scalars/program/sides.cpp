@@ -24,6 +24,18 @@ std::vector<int> jumpsOf(const Program& program) {
 
 namespace {
 
+/// Of each node, whether it depends on a state.
+std::vector<char> ofStates(const Program& f) {
+  std::vector<char> result;
+  for (std::size_t i = 0; i < f.nodes().size(); ++i) {
+    bool does = f.nodes()[i].op == Op::state;
+    detail::forEachOperand(f.table(), static_cast<int>(i),
+                           [&](int operand) { does = does || result[at(operand)] != 0; });
+    result.push_back(static_cast<char>(does));
+  }
+  return result;
+}
+
 /// What a sign is of, without factors of which the sign is known: sign u = sign of `node`, times `by`.
 struct Argument {
   int node;
@@ -53,6 +65,35 @@ Argument bareArgumentOf(const Program& f, int jump) {
 }
 
 }  // namespace
+
+Program withBareKinks(const Program& f) {
+  const std::vector<char> moves = ofStates(f);
+  Recorder result(f.states(), f.parameters());
+  std::vector<int> instead(f.nodes().size(), -1), outputs;
+  const std::vector<int> plain = result.append(f);
+  bool isNew = false;
+  for (std::size_t i = 0; i < instead.size(); ++i) {
+    if (f.nodes()[i].op != Op::abs || moves[i] == 0) continue;
+    int u = f.nodes()[i].a, factor = -1;
+    for (;;) {
+      const Node& node = f.nodes()[at(u)];
+      const bool isProduct = node.op == Op::mul && (moves[at(node.a)] == 0 || moves[at(node.b)] == 0);
+      if (node.op != Op::neg && !isProduct) break;
+      if (isProduct) {
+        const int size = result.abs(plain[at(moves[at(node.a)] == 0 ? node.a : node.b)]);
+        factor = factor < 0 ? size : result.mul(factor, size);
+      }
+      u = isProduct && moves[at(node.a)] == 0 ? node.b : node.a;
+    }
+    if (factor < 0) continue;
+    instead[i] = result.mul(factor, result.abs(plain[at(u)]));
+    isNew = true;
+  }
+  if (!isNew) return f;
+  const std::vector<int> here = result.append(f, {}, instead);
+  for (const int output : f.outputNodes()) outputs.push_back(here[at(output)]);
+  return result.finish(outputs);
+}
 
 Program withOneSignASurface(const Program& f) {
   struct Surface {
@@ -113,18 +154,6 @@ Program withSignsGiven(const Program& f) {
 }
 
 namespace {
-
-/// Of each node, whether it depends on a state.
-std::vector<char> ofStates(const Program& f) {
-  std::vector<char> result;
-  for (std::size_t i = 0; i < f.nodes().size(); ++i) {
-    bool does = f.nodes()[i].op == Op::state;
-    detail::forEachOperand(f.table(), static_cast<int>(i),
-                           [&](int operand) { does = does || result[at(operand)] != 0; });
-    result.push_back(static_cast<char>(does));
-  }
-  return result;
-}
 
 /// Whether f depends on its signs by sums and by products, of which both factors may depend on signs if `anyPower`. One
 /// of what does not depend on states is as good as any number: no solution is held at it.

@@ -16,6 +16,9 @@ enum class Side : signed char { below = -1, between = 0, above = 1, held = 2, op
 /// The nodes of `program` that jump, in their order: its signs.
 std::vector<int> jumpsOf(const Program& program);
 
+/// f with |a||u| for |a u| where no state is in a: where u is zero, a has no part in it.
+Program withBareKinks(const Program& f);
+
 /// f with one sign for all arguments that are multiples of each other: at a surface they are one. Constant factors are
 /// taken off arguments: 0.1 v is as positive as v.
 Program withOneSignASurface(const Program& f);

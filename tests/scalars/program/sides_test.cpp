@@ -196,5 +196,24 @@ TEST(Sides, ConstantFactorsAreTakenOffArguments) {
       EXPECT_EQ(evaluate<double>(plain, {a, b}, {0.5}), evaluate<double>(f, {a, b}, {0.5}));
 }
 
+TEST(Sides, FactorsWithoutStatesAreTakenOffKinks) {
+  const Program f = record(2, 2, [](auto t, const auto& x, const auto& p, auto& dx) {
+    dx[0] = max(Recorded(0.0), -p[0] * x[0]) + abs(-(x[0] - p[1]) / p[0]);
+    dx[1] = abs(0.1 * sin(t) * (x[0] * x[1])) + abs(p[0] * p[1]) + abs(x[0] + p[0]);
+  });
+  const Program bare = withBareKinks(f);
+  int linear = 0;
+  for (const Node& node : bare.nodes())
+    if (node.op == Op::abs && linearFormOf(bare, node.a)) ++linear;
+  EXPECT_EQ(linear, 3);
+  for (const double a : {-0.25, 0.0, 1.5})
+    for (const double k : {-2.0, 3.0}) {
+      const std::vector<double> was = evaluate<double>(f, {a, 0.75}, {k, 0.5}),
+                                is = evaluate<double>(bare, {a, 0.75}, {k, 0.5});
+      for (std::size_t i = 0; i < 2; ++i) EXPECT_NEAR(is[i], was[i], 1e-15 * std::abs(was[i])) << a << " " << k;
+    }
+  EXPECT_TRUE(isIdentical(withBareKinks(bare), bare));
+}
+
 }  // namespace
 }  // namespace gamut::testing
