@@ -56,6 +56,7 @@ Interval PolynomialRange::operator()(const double* c, const Box& box, double tol
   std::vector<double> q(c, c + m.count());
   double norm = 0;
   for (double value : q) norm += std::fabs(value);
+  if (norm == 0) return Interval(0.0);  // no coefficient, nothing rounded: what is at rest is
   double rounding = 0;
   std::vector<double> moved(q.size());
   for (int l = 0; l < m.symbols(); ++l) {

@@ -272,6 +272,10 @@ TEST(BoundedPolynomial, ProductsHoldWhatTheyDrop) {
       EXPECT_LE(abs(at(inside) - at(a) - at(b) * at(a) - at(b) * at(a) * at(a)), inside.error);
       EXPECT_LE(abs(at(ab)), ab.norm());
     }
+    // Nothing is dropped of two that are linear: roundings alone are left.
+    const BoundedPolynomial low{{a.c[0], a.c[1]}, 0}, other{{b.c[0], b.c[1]}, 0};
+    EXPECT_LT(product(monomials, low, other).error, 1e-14);
+    EXPECT_LT(composed(monomials, {low, other}, low).error, 1e-14);
   }
 }
 

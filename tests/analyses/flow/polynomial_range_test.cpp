@@ -120,6 +120,14 @@ TEST(PolynomialRange, IsHardlyWiderThanSampling) {
     }
 }
 
+TEST(PolynomialRange, OfNothingIsNothing) {
+  const auto monomials = std::make_shared<const Monomials>(std::vector<int>{1, 1}, 3);
+  const std::vector<double> none(static_cast<std::size_t>(monomials->count()), 0.0);
+  PolynomialRange range(monomials);
+  for (const Interval& part : {Interval(-1, 1), Interval(-0.25, 0.75)})
+    EXPECT_TRUE(isEqual(range(none.data(), {part, Interval(-1, 1)}), Interval(0.0)));
+}
+
 TEST(PolynomialRange, OfAConstantOrALinearPolynomialIsExact) {
   const auto constant = std::make_shared<const Monomials>(std::vector<int>{}, 0);
   const double c = 0.1;
