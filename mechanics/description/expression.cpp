@@ -77,7 +77,7 @@ Dimension Expression::dimension(const DimensionOf& dimensionOf) const {
         mustBeAlike("adds", "to");
         break;
       case Operation::subtract:
-        mustBeAlike("subtracts", "from");
+        mustBeAlike(term.index == 0 ? "subtracts" : "compares", term.index == 0 ? "from" : "with");
         break;
       case Operation::min:
       case Operation::max:

@@ -94,7 +94,7 @@ class Expression {
   /// Postfix: operands come before what takes them.
   struct Term {
     Operation operation;
-    int index = 0, column = 0;
+    int index = 0, column = 0;  // index: of a constant, a name; an exponent; 1 for the subtraction of a comparison
   };
   struct Constant {
     Interval enclosure;

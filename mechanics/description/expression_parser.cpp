@@ -1,6 +1,8 @@
 // The grammar, read by recursive descent; what holds no names is computed, exactly, while it is read.
 #include "mechanics/description/expression.hpp"
 
+#include "mechanics/description/names.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -34,6 +36,7 @@ class ExpressionParser {
     skipBlanks();
     if (atEnd()) fail(fmt::format("'{}' holds no number", text_));
     readSum();
+    refuseComparison();
     if (!atEnd())
       fail(fmt::format("unexpected '{}'", character()),
            std::string("an operator or the end") + (isDigit(text_[position_]) ? " (5/s, not 5 1/s)" : ""));
@@ -252,6 +255,7 @@ class ExpressionParser {
     } else if (take("(")) {
       skipBlanks();
       readSum();
+      refuseComparison();
       if (!take(")")) fail(atEnd() ? "the end" : fmt::format("'{}'", character()), "')'");
       last_ = Piece::other;
       hasNumber_ = true;
@@ -297,10 +301,12 @@ class ExpressionParser {
   }
 
   [[noreturn]] static void refuseFunction(const std::string& word, int at) {
-    std::vector<std::string_view> known;
-    for (const Function& f : functions) known.push_back(f.name);
-    throw UnitError(
-        fmt::format("unknown function '{}' at column {}; expected one of: {}", word, at, fmt::join(known, ", ")));
+    std::vector<std::string> known;
+    for (const Function& f : functions) known.emplace_back(f.name);
+    const std::string nearest = word == "if" ? "where" : nearestName(word, known);
+    throw UnitError(fmt::format("unknown function '{}' at column {}; expected {}one of: {}", word, at,
+                                nearest.empty() ? "" : fmt::format("'{}'? (", nearest), fmt::join(known, ", ")) +
+                    (nearest.empty() ? "" : ")"));
   }
 
   void readCall(const Function& function, int at) {
@@ -332,8 +338,16 @@ class ExpressionParser {
     take("=");
     skipBlanks();
     readSum();
-    push(Operation::subtract, 0, at);
+    push(Operation::subtract, 1, at);
     if (isLess) push(Operation::negate, 0, at);
+    if (here() == '&' || here() == '|' || here() == '<' || here() == '>')
+      fail("a second condition", "one; where(a, where(b, x, y), y) is x where both a and b hold");
+  }
+
+  /// A condition is no number.
+  void refuseComparison() const {
+    if (here() == '<' || here() == '>' || here() == '=')
+      fail(fmt::format("a comparison by '{}'", character()), "one as the first of where(condition, a, b)");
   }
 
   std::string readDigits() {
