@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "mechanics/description/names.hpp"
+#include "mechanics/description/orientation.hpp"
 #include "scalars/fuzzy.hpp"
 #include "scalars/program/differentiation.hpp"
 #include "scalars/recorded.hpp"
@@ -111,8 +112,25 @@ Matrix3<S> Assembler<S>::symmetric(const std::array<Expression, 6>& entries) con
 template <class S>
 Rotation<S> Assembler<S>::rotation(const std::vector<FixedRotation>& rotations) const {
   Rotation<S> result;
-  for (const FixedRotation& r : rotations) result = result.then(Rotation<S>(r.axis, number(r.angle), r.quarterTurns));
+  for (const FixedRotation& r : rotations) {
+    if (!r.quaternion) {
+      result = result.then(Rotation<S>(r.axis, number(r.angle), r.quarterTurns));
+      continue;
+    }
+    const Quaternion<Expression> e = normalised(*r.quaternion);
+    result = result.then(Rotation<S>(Quaternion<S>{number(e[0]), number(e[1]), number(e[2]), number(e[3])}));
+  }
   return result;
+}
+
+template <class S>
+Orientation<S> Assembler<S>::orientation(const std::string& rateKey) {
+  Orientation<S> own;
+  for (std::size_t i = 0; i < 3; ++i) own.speeds[i] = &speed(rateKey + "." + components[i]);
+  const auto key = [](std::size_t i) { return std::string("quaternion.") + quaternionComponents[i]; };
+  for (std::size_t i = 0; i < 4; ++i) own.quaternion[i] = &values_.at(element_ + "." + key(i));
+  for (std::size_t i = 0; i < 4; ++i) position(key(i), [own, i] { return own.quaternionRate(i); });
+  return own;
 }
 
 template <class S>

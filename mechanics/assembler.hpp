@@ -52,6 +52,8 @@ class Assembler {
   Speed<S>& speed(const std::string& key) { return *speeds_.at(element_ + "." + key); }
   /// The element's own position that is no coordinate, with its rate as a function of the present motion.
   S& position(const std::string& key, Signal<S> rate) { return giveRate(element_ + "." + key, std::move(rate)); }
+  /// The element's own orientation, with speeds of this key.
+  Orientation<S> orientation(const std::string& rateKey);
   /// The element's own state, with its rate.
   S& state(Signal<S> rate) { return giveRate(element_, std::move(rate)); }
 

@@ -7,6 +7,7 @@
 
 #include "mechanics/algebra.hpp"
 #include "mechanics/axis.hpp"
+#include "mechanics/quaternion.hpp"
 #include "mechanics/spatial_inertia.hpp"
 #include "scalars/traits.hpp"
 
@@ -57,6 +58,17 @@ class Rotation {
       (*dense_)(i, j) = rest * (u[i] * u[j]) - s * u[k];
       (*dense_)(j, i) = rest * (u[i] * u[j]) + s * u[k];
     }
+  }
+
+  /// Of a unit quaternion.
+  explicit Rotation(const Quaternion<S>& e) {
+    const auto& [w, x, y, z] = e;
+    const S one(1.0), two(2.0), xx = square(x), yy = square(y), zz = square(z);
+    const S wx = w * x, wy = w * y, wz = w * z, xy = x * y, yz = y * z, zx = z * x;
+    dense_.emplace();
+    *dense_ << one - two * (yy + zz), two * (xy - wz), two * (zx + wy),  //
+        two * (xy + wz), one - two * (zz + xx), two * (yz - wx),         //
+        two * (zx - wy), two * (yz + wx), one - two * (xx + yy);
   }
 
   /// A x'.

@@ -1,10 +1,12 @@
-// What moves a joint: speeds, with the generalised forces that work on them, and positions.
+// What moves a joint: speeds, with the generalised forces that work on them, positions and orientations.
 #pragma once
 
+#include <array>
 #include <string>
 #include <utility>
 
 #include "mechanics/algebra.hpp"
+#include "mechanics/quaternion.hpp"
 
 namespace gamut {
 
@@ -31,6 +33,24 @@ struct Variable : Speed<S> {
   using Speed<S>::Speed;
 
   S position = S(0.0);
+};
+
+/// An orientation by a unit quaternion e with ė = ½ e ∘ (0, u): of three speeds u, the angular velocity in the axes of
+/// the frame that turns. No position of it is singular; |e| does not change, whatever u is.
+template <class S>
+struct Orientation {
+  Quaternion<S*> quaternion;
+  std::array<Speed<S>*, 3> speeds;
+
+  Vector3<S> rate() const { return {speeds[0]->rate, speeds[1]->rate, speeds[2]->rate}; }
+  Vector3<S> acceleration() const {
+    return {speeds[0]->acceleration, speeds[1]->acceleration, speeds[2]->acceleration};
+  }
+  Quaternion<S> value() const { return {*quaternion[0], *quaternion[1], *quaternion[2], *quaternion[3]}; }
+  S quaternionRate(std::size_t i) const {
+    const Vector3<S> u = rate();
+    return S(0.5) * product(value(), Quaternion<S>{S(0.0), u[0], u[1], u[2]})[i];
+  }
 };
 
 }  // namespace gamut

@@ -55,7 +55,7 @@ Program recordConfiguration(const Study& study, std::size_t states, int numbers)
   return record(0, numbers, static_cast<int>(outputs.size()), [&](auto, const auto&, const auto& p, auto& y) {
     const std::span<const Recorded> values(p);
     Assembly<Recorded> assembly(study.mechanism, freeParameters(study), values.subspan(states));
-    assembly.setState(values.first(states));
+    assembly.setState(fromStart(assembly, study.mechanism, freeParameters(study), values.first(states)));
     const std::vector<Recorded> found = recordOutputs(assembly, outputs);
     for (std::size_t i = 0; i < found.size(); ++i) y[i] = found[i];
   });
@@ -88,7 +88,9 @@ Problem makeProblem(const Study& study) {
   problem.freeParameters = freeParameters(study);
   problem.outputs = outputQuantities(study);
   problem.motion.motion = study.motion;
-  for (const Expression& initial : mechanism.initialState()) problem.box.push_back(mechanism.rangeOf(initial));
+  const std::vector<bool> isDifference = mechanism.startsWith(problem.freeParameters);
+  for (const Expression& initial : mechanism.initialState())
+    problem.box.push_back(isDifference[problem.box.size()] ? Interval(0.0) : mechanism.rangeOf(initial));
   for (const UncertainQuantity& uncertain : study.uncertain) {
     const auto state = std::find(names.begin(), names.end(), uncertain.quantity);
     problem.motion.uncertain.push_back(uncertain.uncertain);

@@ -21,6 +21,54 @@ Expression Expression::named(const std::string& name, const Interval& factor) {
   return result;
 }
 
+Expression& Expression::append(const Expression& other) {
+  const int shift = static_cast<int>(constants_.size());
+  for (Term term : other.terms_) {
+    if (term.operation == Operation::constant) term.index += shift;
+    if (term.operation == Operation::name) {
+      const std::string& name = other.names_[static_cast<std::size_t>(term.index)];
+      const auto found = std::ranges::find(names_, name);
+      term.index = static_cast<int>(found - names_.begin());
+      if (found == names_.end()) names_.push_back(name);
+    }
+    terms_.push_back(term);
+  }
+  constants_.insert(constants_.end(), other.constants_.begin(), other.constants_.end());
+  return *this;
+}
+
+Expression& Expression::append(Operation operation) {
+  terms_.push_back({operation});
+  return *this;
+}
+
+bool Expression::isExactly(double value) const {
+  return terms_.size() == 1 && isConstant() && isEqual(constants_[0].enclosure, Interval(value));
+}
+
+Expression operator+(const Expression& a, const Expression& b) {
+  if (a.isExactly(0)) return b;
+  return b.isExactly(0) ? a : Expression(a).append(b).append(Expression::Operation::add);
+}
+
+Expression operator-(const Expression& a, const Expression& b) {
+  return b.isExactly(0) ? a : Expression(a).append(b).append(Expression::Operation::subtract);
+}
+
+Expression operator*(const Expression& a, const Expression& b) {
+  if (a.isExactly(0) || b.isExactly(1)) return a;
+  if (b.isExactly(0) || a.isExactly(1)) return b;
+  return Expression(a).append(b).append(Expression::Operation::multiply);
+}
+
+Expression operator/(const Expression& a, const Expression& b) {
+  return Expression(a).append(b).append(Expression::Operation::divide);
+}
+
+Expression sqrt(const Expression& a) { return Expression(a).append(Expression::Operation::sqrt); }
+Expression sin(const Expression& a) { return Expression(a).append(Expression::Operation::sin); }
+Expression cos(const Expression& a) { return Expression(a).append(Expression::Operation::cos); }
+
 namespace {
 
 [[noreturn]] void refuse(const std::string& what, int column, const std::string& expected) {

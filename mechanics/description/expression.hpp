@@ -38,6 +38,15 @@ class Expression {
   /// Throws UnitError: what is wrong, at which column (from 1, in characters), and what was expected.
   static Expression parse(std::string_view text);
 
+  // Formulas of formulas; what is known to be zero or one is left out.
+  friend Expression operator+(const Expression& a, const Expression& b);
+  friend Expression operator-(const Expression& a, const Expression& b);
+  friend Expression operator*(const Expression& a, const Expression& b);
+  friend Expression operator/(const Expression& a, const Expression& b);
+  friend Expression sqrt(const Expression& a);
+  friend Expression sin(const Expression& a);
+  friend Expression cos(const Expression& a);
+
   /// Each once, in the order of first use.
   const std::vector<std::string>& names() const { return names_; }
   bool isConstant() const { return names_.empty(); }
@@ -102,6 +111,9 @@ class Expression {
   };
 
   Expression() = default;
+  Expression& append(const Expression& other);
+  Expression& append(Operation operation);
+  bool isExactly(double value) const;
   static int operands(Operation operation) {
     if (operation == Operation::where) return 3;
     return (operation >= Operation::add && operation <= Operation::divide) || operation >= Operation::atan2 ? 2 : 1;

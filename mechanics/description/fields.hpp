@@ -8,34 +8,39 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "mechanics/axis.hpp"
 #include "mechanics/description/expression.hpp"
+#include "mechanics/quaternion.hpp"
 
 namespace gamut {
 
 using ExpressionVector = std::array<Expression, 3>;
 
-/// A fixed rotation: exact right angles plus an angle [rad] about an axis.
+/// A fixed rotation: exact right angles plus an angle [rad] about an axis, or that of a quaternion of any length.
 struct FixedRotation {
-  Axis axis;
+  Axis axis = axisX;
   int quarterTurns = 0;
   Expression angle = 0.0;
+  std::string key = {};  ///< of the angle, after the rotation's own; empty: its number, from 1
+  std::optional<Quaternion<Expression>> quaternion = std::nullopt;  ///< instead of axis and angle
 };
 
 /// How a number's name is written: as ELEMENT.KEY, in SI units.
 struct Word {
   std::string key;
-  std::string unit;     ///< empty for what is no number
-  std::string meaning;  ///< half a sentence
+  std::string unit = {};     ///< empty for what is no number
+  std::string meaning = {};  ///< half a sentence
   bool isRequired = false;
 };
 
-/// Names of the components of vectors, and of the entries of a symmetric matrix.
+/// Names of the components of vectors and quaternions, and of the entries of a symmetric matrix.
 inline constexpr std::array<const char*, 3> components = {"x", "y", "z"};
+inline constexpr std::array<const char*, 4> quaternionComponents = {"w", "x", "y", "z"};
 inline constexpr std::array<const char*, 6> symmetricEntries = {"xx", "yy", "zz", "xy", "yz", "zx"};
 
 /// Whether a coordinate turns [rad] or slides [m].
@@ -65,7 +70,7 @@ class Fields {
   virtual void choice(const Word& word, std::string& value, const std::vector<std::string>& choices) = 0;
   /// A direction fixed in the frames.
   virtual void axis(const Word& word, Axis& axis) = 0;
-  /// Fixed rotations, one after the other; their angles are KEY.1, KEY.2, …
+  /// Fixed rotations, one after the other; their numbers are KEY.1, KEY.2, … or KEY.roll, KEY.w and the like.
   virtual void rotations(const Word& word, std::vector<FixedRotation>& rotations) = 0;
 
   // Numbers that do not change in a motion.
@@ -79,6 +84,13 @@ class Fields {
   /// A coordinate and, by another key, its rate.
   virtual void coordinate(const Word& position, Expression& initial, Coordinate kind, const Word& rate,
                           Expression& initialRate) = 0;
+  /// Three of one kind, a list in files: KEY.x …, and by another key their rates.
+  virtual void coordinates(const Word& position, ExpressionVector& initial, Coordinate kind, const Word& rate,
+                           ExpressionVector& initialRates) = 0;
+  /// An orientation at the start, from which positions that are no coordinates begin: `quaternion.w` … `z`, a unit
+  /// quaternion; and by another key three speeds, the angular velocity in the axes of the frame that turns.
+  virtual void orientation(const Word& word, std::vector<FixedRotation>& initial, const Word& rate,
+                           ExpressionVector& initialRates) = 0;
   /// A position that is no coordinate (its rate is given by the assembled element), and a speed.
   virtual void position(const Word& word, Expression& initial) = 0;
   virtual void speed(const Word& word, Expression& initial) = 0;

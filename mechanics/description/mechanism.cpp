@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "mechanics/description/names.hpp"
+#include "mechanics/description/orientation.hpp"
 
 namespace gamut {
 namespace {
@@ -247,8 +248,17 @@ class Mechanism::Checker final : public Fields {
   }
   void axis(const Word& /*word*/, Axis& /*axis*/) override {}
   void rotations(const Word& word, std::vector<FixedRotation>& rotations) override {
-    for (std::size_t i = 0; i < rotations.size(); ++i)
-      m_.use(rotations[i].angle, named(word) + "." + std::to_string(i + 1), "rad");
+    for (std::size_t i = 0; i < rotations.size(); ++i) {
+      auto& [axis, quarterTurns, angle, key, quaternion] = rotations[i];
+      if (quaternion)
+        numbers({word.key, "1"}, *quaternion, quaternionComponents, 4);
+      else
+        m_.use(angle, named(word) + "." + (key.empty() ? std::to_string(i + 1) : key), "rad");
+      if (quaternion && std::ranges::all_of(*quaternion, [&](const Expression& component) {
+            return isEqual(m_.rangeOf(component), Interval(0.0));
+          }))
+        refuse("the quaternion of " + quoted(element_) + " is zero, which is no orientation");
+    }
   }
   void number(const Word& word, Expression& number) override { m_.use(number, named(word), word.unit); }
   void numbers(const Word& word, std::span<Expression> numbers, std::span<const char* const> names,
@@ -262,6 +272,20 @@ class Mechanism::Checker final : public Fields {
     m_.addState(m_.speeds_, named(rate), std::string(gamut::unitOf(kind)) + "/s", initialRate);
     m_.coordinates_.push_back({element_, named(position), named(rate), kind});
     movesByJoint();
+  }
+  void coordinates(const Word& position, ExpressionVector& initial, Coordinate kind, const Word& rate,
+                   ExpressionVector& initialRates) override {
+    for (std::size_t i = 0; i < 3; ++i)
+      coordinate({position.key + "." + components[i]}, initial[i], kind, {rate.key + "." + components[i]},
+                 initialRates[i]);
+  }
+  void orientation(const Word& word, std::vector<FixedRotation>& initial, const Word& rate,
+                   ExpressionVector& initialRates) override {
+    rotations(word, initial);
+    Quaternion<Expression> quaternion = quaternionOf(initial);
+    for (std::size_t i = 0; i < 4; ++i)
+      position({std::string("quaternion.") + quaternionComponents[i], "1"}, quaternion[i]);
+    for (std::size_t i = 0; i < 3; ++i) speed({rate.key + "." + components[i], "rad/s"}, initialRates[i]);
   }
   void position(const Word& word, Expression& initial) override {
     m_.addState(m_.positions_, named(word), word.unit, initial);
@@ -485,6 +509,14 @@ std::vector<Expression> Mechanism::initialState() const {
   for (const auto* states : {&positions_, &speeds_, &own_})
     for (const State& state : *states) initial.push_back(state.initial);
   return initial;
+}
+
+std::vector<bool> Mechanism::startsWith(const std::vector<std::string>& freeParameters) const {
+  std::vector<bool> follows;
+  for (const Expression& initial : initialState())
+    follows.push_back(
+        std::ranges::any_of(freeParameters, [&](const std::string& name) { return dependsOn(initial, name); }));
+  return follows;
 }
 
 std::vector<std::string> Mechanism::outputQuantities() const {

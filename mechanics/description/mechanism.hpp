@@ -124,6 +124,8 @@ class Mechanism {
   std::vector<std::string> stateNames() const;
   /// The initial values of the states, in that order.
   std::vector<Expression> initialState() const;
+  /// Of each state, whether its initial value follows from one of these parameters.
+  std::vector<bool> startsWith(const std::vector<std::string>& freeParameters) const;
 
   /// Everything that can be looked at: states; FRAME.position.x … z and FRAME.velocity.x … z, in the inertial frame;
   /// what elements measure; energy, energy.kinetic, energy.potential.

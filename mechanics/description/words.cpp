@@ -29,6 +29,16 @@ class Listener final : public Fields {
     initial(position);
     initial(rate);
   }
+  void coordinates(const Word& position, ExpressionVector& /*initial*/, Coordinate /*kind*/, const Word& rate,
+                   ExpressionVector& /*initialRates*/) override {
+    initial(position);
+    initial(rate);
+  }
+  void orientation(const Word& word, std::vector<FixedRotation>& /*initial*/, const Word& rate,
+                   ExpressionVector& /*initialRates*/) override {
+    initial(word);
+    initial(rate);
+  }
   void position(const Word& word, Expression& /*initial*/) override { initial(word); }
   void speed(const Word& word, Expression& /*initial*/) override { initial(word); }
   std::string state(const Word& word, Expression& /*initial*/) override {

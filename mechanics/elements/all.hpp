@@ -5,13 +5,17 @@
 #include "mechanics/elements/distance.hpp"
 #include "mechanics/elements/drive.hpp"
 #include "mechanics/elements/force.hpp"
+#include "mechanics/elements/free.hpp"
 #include "mechanics/elements/joint_force.hpp"
 #include "mechanics/elements/joint_spring.hpp"
 #include "mechanics/elements/link.hpp"
 #include "mechanics/elements/mass.hpp"
+#include "mechanics/elements/planar.hpp"
 #include "mechanics/elements/prismatic.hpp"
 #include "mechanics/elements/relative_motion.hpp"
 #include "mechanics/elements/revolute.hpp"
+#include "mechanics/elements/screw.hpp"
+#include "mechanics/elements/spherical.hpp"
 #include "mechanics/elements/spring.hpp"
 #include "mechanics/elements/state.hpp"
 #include "mechanics/elements/universal.hpp"
@@ -21,8 +25,9 @@ namespace gamut {
 
 /// An empty description of each, in the order of the documentation, for visitors to fill in.
 inline std::vector<Described> elementTypes() {
-  return {Revolute{},    Prismatic{}, Cylindrical{}, Universal{}, Weld{},  Link{},     Mass{},          Spring{},
-          JointSpring{}, Force{},     JointForce{},  Drive{},     State{}, Distance{}, RelativeMotion{}};
+  return {Revolute{},   Prismatic{}, Screw{}, Cylindrical{}, Universal{},     Planar{},      Spherical{},
+          Free{},       Weld{},      Link{},  Mass{},        Spring{},        JointSpring{}, Force{},
+          JointForce{}, Drive{},     State{}, Distance{},    RelativeMotion{}};
 }
 
 }  // namespace gamut

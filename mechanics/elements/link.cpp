@@ -4,6 +4,7 @@
 
 #include "mechanics/assembler.hpp"
 #include "mechanics/bodies.hpp"
+#include "mechanics/description/orientation.hpp"
 
 namespace gamut {
 
@@ -11,7 +12,7 @@ void Link::describe(Fields& f) {
   f.frame({"from", "", "the frame that carries the link"}, from);
   f.movedFrame({"to", "", "the frame at its end"}, to, from);
   f.vector({"vector", "m", "the place of `to` in `from`", true}, vector);
-  f.rotations({"rotation", "rad", "list of `{ axis, angle }`: of `to` against `from`, one after the other"}, rotation);
+  f.rotations({"rotation", "rad", "of `to` against `from`: " + orientationForms}, rotation);
 }
 
 template <class S>

@@ -2,13 +2,14 @@
 
 #include "mechanics/assembler.hpp"
 #include "mechanics/bodies.hpp"
+#include "mechanics/description/orientation.hpp"
 
 namespace gamut {
 
 void Weld::describe(Fields& f) {
   f.frame({"from", "", "the frame that carries the other"}, from);
   f.movedFrame({"to", "", "the frame that is fixed to it"}, to, from);
-  f.rotations({"rotation", "rad", "list of `{ axis, angle }`: of `to` against `from`, one after the other"}, rotation);
+  f.rotations({"rotation", "rad", "of `to` against `from`: " + orientationForms}, rotation);
 }
 
 template <class S>

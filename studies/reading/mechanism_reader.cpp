@@ -8,6 +8,7 @@
 #include <map>
 
 #include "mechanics/description/names.hpp"
+#include "mechanics/description/orientation.hpp"
 #include "mechanics/description/words.hpp"
 
 namespace gamut {
@@ -198,7 +199,7 @@ class MechanismReader {
       if (word.isRequired || section_.find(word.key) != nullptr) axis = reader_.axis(section_, word.key);
     }
     void rotations(const Word& word, std::vector<FixedRotation>& rotations) override {
-      rotations = reader_.rotations(section_, word.key);
+      rotations = reader_.rotations(section_, section_, word.key);
     }
     void number(const Word& word, Expression& number) override {
       if (const toml::node* node = given(section_, word))
@@ -213,6 +214,16 @@ class MechanismReader {
                     Expression& initialRate) override {
       this->position(position, initial);
       speed(rate, initialRate);
+    }
+    void coordinates(const Word& position, ExpressionVector& initial, Coordinate /*kind*/, const Word& rate,
+                     ExpressionVector& initialRates) override {
+      initialVector(position, initial);
+      initialVector(rate, initialRates);
+    }
+    void orientation(const Word& word, std::vector<FixedRotation>& initial, const Word& rate,
+                     ExpressionVector& initialRates) override {
+      if (initial_.find(word.key) != nullptr) initial = reader_.rotations(section_, initial_, word.key);
+      initialVector(rate, initialRates);
     }
     void position(const Word& word, Expression& initial) override {
       if (const toml::node* node = initial_.find(word.key))
@@ -254,6 +265,10 @@ class MechanismReader {
     void measure(const Word& /*word*/) override {}
 
    private:
+    void initialVector(const Word& word, ExpressionVector& vector) {
+      if (const toml::node* node = initial_.find(word.key))
+        reader_.readNumbers(*node, named(word), initial_.nameOf(word.key), vector, components, 3, word.unit);
+    }
     std::string named(const Word& word) const { return section_.text("name") + "." + word.key; }
     static const toml::node* given(const TomlSection& section, const Word& word) {
       if (!word.isRequired) return section.find(word.key);
@@ -289,21 +304,45 @@ class MechanismReader {
     return {direction[0], direction[1], direction[2]};
   }
 
-  /// A list of { axis, angle }; whole quarter turns are exact.
-  std::vector<FixedRotation> rotations(const TomlSection& element, const std::string& key) {
-    std::vector<FixedRotation> result;
-    const toml::node* node = element.find(key);
-    if (node == nullptr) return result;
-    const std::string name = element.nameOf(key);
-    for (const toml::node& entry : source_.asArray(*node, name)) {
-      const TomlSection section(source_, source_.asTable(entry, name), name, {"axis", "angle"});
-      FixedRotation rotation{axis(section, "axis")};
-      const toml::node& turn = section.require("angle", "an angle such as \"90 deg\"");
-      rotation.angle = number(turn, fmt::format("{}.{}.{}", element.text("name"), key, result.size() + 1),
-                              section.nameOf("angle"), "rad");
+  /// [{ axis, angle }, …] or one alone, { roll, pitch, yaw } or { quaternion = [w, x, y, z] }; whole quarter turns are
+  /// exact.
+  std::vector<FixedRotation> rotations(const TomlSection& element, const TomlSection& section, const std::string& key) {
+    const toml::node* node = section.find(key);
+    if (node == nullptr) return {};
+    const std::string what = section.nameOf(key), name = fmt::format("{}.{}", element.text("name"), key);
+    const auto turned = [&](const toml::node& turn, FixedRotation rotation, const std::string& number) {
+      rotation.angle = this->number(turn, fmt::format("{}.{}", name, number), what, "rad");
       setQuarterTurns(rotation);
-      result.push_back(std::move(rotation));
+      return rotation;
+    };
+    const auto aboutAxis = [&](const toml::node& entry, const std::string& number) {
+      const TomlSection part(source_, source_.asTable(entry, what), what, {"axis", "angle"});
+      return turned(part.require("angle", "an angle such as \"90 deg\""), {.axis = axis(part, "axis")}, number);
+    };
+    std::vector<FixedRotation> result;
+    if (const toml::array* list = node->as_array()) {
+      for (const toml::node& entry : *list) result.push_back(aboutAxis(entry, std::to_string(result.size() + 1)));
+      return result;
     }
+    if (!node->is_table())
+      source_.fail(*node, what + " is no rotation",
+                   "[{ axis, angle }, …], { axis, angle }, { roll, pitch, yaw } or { quaternion = [w, x, y, z] }");
+    if (node->as_table()->contains("axis")) {
+      result.push_back(aboutAxis(*node, "angle"));
+      result[0].key = "angle";
+      return result;
+    }
+    const TomlSection part(source_, *node->as_table(), what, {"roll", "pitch", "yaw", "quaternion"});
+    if (const toml::node* quaternion = part.find("quaternion")) {
+      for (const char* angle : {"roll", "pitch", "yaw"})
+        if (const toml::node* other = part.find(angle))
+          source_.fail(*other, fmt::format("'{}' beside a quaternion", angle), "one of the two");
+      Quaternion<Expression> e = {0.0, 0.0, 0.0, 0.0};
+      readNumbers(*quaternion, name, part.nameOf("quaternion"), e, quaternionComponents, 4, "1");
+      return {byQuaternion(e)};
+    }
+    for (FixedRotation& rotation : result = rollPitchYaw())
+      if (const toml::node* angle = part.find(rotation.key)) rotation = turned(*angle, rotation, rotation.key);
     return result;
   }
 

@@ -168,17 +168,17 @@ class StudyReader {
 
   // ---- What the whole says ------------------------------------------------------------------------------------------
 
-  /// An initial value that follows an uncertain parameter would be a second copy of it, which no analysis could tell.
+  /// What varies in time has no one value that a motion could start with.
   void checkInitialValues() const {
     const std::vector<std::string> names = study_.mechanism.stateNames();
     const std::vector<Expression> initial = study_.mechanism.initialState();
     for (std::size_t i = 0; i < names.size(); ++i)
       for (const UncertainQuantity& uncertain : study_.uncertain)
-        if (uncertain.quantity != names[i] && study_.mechanism.dependsOn(initial[i], uncertain.quantity))
-          source_.fail(
-              *places_.at(names[i]),
-              fmt::format("the uncertain parameter '{}' sets the initial value '{}'", uncertain.quantity, names[i]),
-              fmt::format("the initial value as a number, and '{}' as the uncertain quantity", names[i]));
+        if (uncertain.varies && study_.mechanism.dependsOn(initial[i], uncertain.quantity))
+          source_.fail(*places_.at(names[i]),
+                       fmt::format("the initial value '{}' follows from '{}', which varies in time", names[i],
+                                   uncertain.quantity),
+                       "an initial value that follows from what does not");
   }
 
   /// Points between which a length is measured lie apart at the start, or its direction is not determined.

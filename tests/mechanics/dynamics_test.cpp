@@ -355,5 +355,36 @@ TEST(UsersOwnElement, NeedsMotionAndForceOnly) {
   EXPECT_EQ(f.differentiated().outputs(), 6);
 }
 
+/// J u̇ + u × J u = c × m Aᵀ g about the fixed point, and ė = ½ e ∘ (0, u).
+TEST(Top, FollowsEulersEquation) {
+  Matrix3<double> theta;
+  theta << 0.4, 0.02, -0.03, 0.02, 0.5, 0.05, -0.03, 0.05, 0.3;
+  const Vector3<double> c(0.1, -0.2, 0.4), g(0.3, 0.7, -9.81);
+  const double mass = 1.3;
+  const Matrix3<double> j = theta + mass * (c.squaredNorm() * Matrix3<double>::Identity() - c * c.transpose());
+  Mechanism m;
+  m.add(Spherical{"ball", "inertial", "A"});
+  m.add(Mass{"body", "A", mass, {0.1, -0.2, 0.4}, {0.4, 0.5, 0.3, 0.02, 0.05, -0.03}});
+  m.setGravity({0.3, 0.7, -9.81});
+  testing::RandomStates states;
+  for (const Formulation formulation : {Formulation::sparse, Formulation::articulated}) {
+    Evaluator<double> motion(recordMotion(m, {}, formulation));
+    for (int round = 0; round < 50; ++round) {
+      std::vector<double> x = states(7, 1.4);
+      const Eigen::Quaterniond e = Eigen::Quaterniond(x[0], x[1], x[2], x[3]).normalized();
+      x[0] = e.w(), x[1] = e.x(), x[2] = e.y(), x[3] = e.z();
+      const std::vector<double> dx = motion(0.0, x);
+      const Vector3<double> u(x[4], x[5], x[6]), uDot(dx[4], dx[5], dx[6]);
+      const Vector3<double> moment = c.cross(mass * (e.toRotationMatrix().transpose() * g));
+      EXPECT_LT((j * uDot + u.cross(j * u) - moment).norm(), 1e-12 * (1 + uDot.norm()));
+      const Eigen::Quaterniond rate = e * Eigen::Quaterniond(0.0, u[0] / 2, u[1] / 2, u[2] / 2);
+      EXPECT_NEAR(dx[0], rate.w(), 1e-15);
+      EXPECT_NEAR(dx[1], rate.x(), 1e-15);
+      EXPECT_NEAR(dx[2], rate.y(), 1e-15);
+      EXPECT_NEAR(dx[3], rate.z(), 1e-15);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace gamut

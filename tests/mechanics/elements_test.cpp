@@ -83,7 +83,8 @@ TEST(ElementTypes, GiveAValueForAllThatTheySayCanBeMeasured) {
   for (const Described& type : elementTypes())
     if (std::ranges::none_of(mechanism.elements(), [&](const Described& e) { return e.type() == type.type(); }))
       missing.push_back(type.type());
-  EXPECT_THAT(missing, ::testing::IsSubsetOf({"universal", "cylindrical"})) << "have tests of their own";
+  EXPECT_THAT(missing, ::testing::IsSubsetOf({"universal", "cylindrical", "screw", "planar", "spherical", "free"}))
+      << "have tests of their own";
   Assembly<double> assembly(mechanism);
   for (const std::string& quantity : mechanism.outputQuantities())
     EXPECT_TRUE(std::isfinite(assembly.output(quantity))) << quantity;
@@ -153,6 +154,82 @@ TEST(CylindricalJoint, IsASliderAndAHingeOnOneAxis) {
   EXPECT_EQ(Assembly<double>(one).initialState(), Assembly<double>(two).initialState());
   EXPECT_EQ(one.unitOf("sleeve.angle_rate"), "rad/s");
   EXPECT_EQ(one.unitOf("sleeve.displacement"), "m");
+}
+
+TEST(PlanarJoint, IsTwoSlidersAndAHinge) {
+  Mechanism one, two;
+  one.add(Planar{"table", "inertial", "C", Axis(0, -1, 0), 0.3, 0.1, -0.2, 0.4, 0.5, 0.6});
+  two.add(Prismatic{"first", "inertial", "A", axisZ, 0.3, 0.1});
+  two.add(Prismatic{"second", "A", "B", axisX, -0.2, 0.4});
+  two.add(Revolute{"turn", "B", "C", Axis(0, -1, 0), 0.5, 0.6});
+  for (Mechanism* m : {&one, &two}) {
+    m->add(Mass{"body", "C", 1.5, {0.1, 0.05, 0.4}, {0.2, 0.25, 0.1, 0.0, 0.01, 0.0}});
+    m->setGravity({0.5, -1.0, -9.0});
+  }
+  EXPECT_TRUE(isIdentical(recordMotion(one), recordMotion(two)));
+  EXPECT_EQ(Assembly<double>(one).initialState(), Assembly<double>(two).initialState());
+  Mechanism oblique;
+  oblique.add(Planar{"table", "inertial", "C", Axis(1, 1, 0)});
+  EXPECT_EQ(oblique.faults(oblique.elements()[0], {}).at(0).key, "axis");
+}
+
+/// (J + m (c² + h²)) β̈ = m h g·u + (c × m Aᵀ g)·u for a body whose centre lies at c across the axis u, with the lead 2π
+/// h.
+TEST(ScrewJoint, TurnsAsItSlides) {
+  Mechanism m;
+  m.add(Screw{"screw", "inertial", "C", axisZ, Expression(2.0) * Expression(pi()) * Expression(0.25), 0.3, 2.0});
+  m.add(Mass{"body", "C", 2.0, {0.5, 0.0, 0.0}, {0.5, 0.5, 0.75, 0.0, 0.0, 0.0}});
+  m.setGravity({0.0, 3.0, -9.0});
+  Assembly<double> assembly(m);
+  EXPECT_NEAR(assembly.output("C.position.z"), 0.25 * 0.3, 1e-16);
+  EXPECT_NEAR(assembly.output("C.velocity.z"), 0.25 * 2.0, 1e-16);
+  EXPECT_NEAR(assembly.rates()[1],
+              (2.0 * 0.25 * -9.0 + 2.0 * 0.5 * 3.0 * std::cos(0.3)) / (0.75 + 2.0 * (0.25 + 0.0625)), 1e-14);
+}
+
+// ---- Orientations -------------------------------------------------------------------------------------------------
+
+/// A ball joint stands at the start as a link that is turned likewise.
+TEST(Orientation, IsThatOfTheSameFixedRotations) {
+  const std::vector<std::vector<FixedRotation>> orientations = {
+      rollPitchYaw(0.3, -0.7, 1.1),
+      rollPitchYaw(0.0, pi() / Interval(2.0), 0.4),
+      {{axisX, 1, 0.0}, {Axis(1, 2, -2), 0, 0.4}, {Axis(0, -1, 0), 3, 0.2}},
+      {byQuaternion({0.5, -1.0, 2.0, 0.25})},
+      {{axisZ, 2, 0.0}, byQuaternion({0.0, 0.0, -3.0, 0.0})},
+      {}};
+  for (const std::vector<FixedRotation>& orientation : orientations) {
+    Mechanism m;
+    m.add(Spherical{"ball", "inertial", "A", orientation});
+    m.add(Mass{"body", "A", 1.0, {0.0, 0.0, 0.5}, {0.1, 0.2, 0.25, 0.0, 0.0, 0.0}});
+    m.add(Weld{"weld", "inertial", "B", orientation});
+    m.add(Free{"free", "inertial", "C", {1.0, 2.0, 3.0}, {0.0, 0.0, 0.0}, orientation});
+    m.add(Mass{"bird", "C", 1.0, {0.0, 0.0, 0.5}, {0.1, 0.2, 0.25, 0.0, 0.0, 0.0}});
+    Assembly<double> assembly(m);
+    EXPECT_LT((assembly.frame("A").R - assembly.frame("B").R).norm(), 1e-15);
+    EXPECT_LT((assembly.frame("C").R - assembly.frame("B").R).norm(), 1e-15);
+    EXPECT_LT((assembly.frame("C").positionInInertial() - Vector3<double>(1.0, 2.0, 3.0)).norm(), 1e-15);
+    Assembly<Interval> enclosed(m);
+    for (int i = 0; i < 9; ++i) EXPECT_LE(width(enclosed.frame("A").R(i / 3, i % 3)), 1e-14);
+  }
+}
+
+/// R = Rz(yaw) Ry(pitch) Rx(roll).
+TEST(Orientation, ByRollPitchAndYawIsThatOfRobotics) {
+  Mechanism m;
+  m.add(Weld{"weld", "inertial", "B", rollPitchYaw(0.3, -0.7, 1.1)});
+  m.add(State{"x"});
+  const Eigen::Matrix3d expected =
+      (Eigen::AngleAxisd(1.1, Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(-0.7, Eigen::Vector3d::UnitY()) *
+       Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitX()))
+          .toRotationMatrix();
+  EXPECT_LT((Assembly<double>(m).frame("B").R - expected).norm(), 1e-15);
+  EXPECT_TRUE(m.isParameter("weld.rotation.pitch"));
+}
+
+TEST(Orientation, OfAZeroQuaternionIsNone) {
+  Mechanism m;
+  EXPECT_THROW(m.add(Spherical{"ball", "inertial", "A", {byQuaternion({0.0, 0.0, 0.0, 0.0})}}), std::invalid_argument);
 }
 
 // ---- Forces ---------------------------------------------------------------------------------------------------------

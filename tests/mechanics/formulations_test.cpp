@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <functional>
+#include <span>
 
 #include "machines.hpp"
 #include "mechanics/model.hpp"
@@ -68,6 +69,53 @@ Mechanism wristWithoutMass() {
   return m;
 }
 
+/// A floating trunk with an arm on a ball joint, a screw and a puck that slides on a plane.
+Mechanism floatingMachine(double size = 1) {
+  Mechanism m;
+  m.add(Free{"trunk", "inertial", "T"});
+  m.add(Mass{"trunkBody", "T", 2.0, {0.1 * size, -0.2 * size, 0.3 * size}, fullInertia});
+  m.add(Link{"shoulder", "T", "S", {0.2 * size, 0.0, 0.4 * size}, {{Axis(1, 2, -2), 0, 0.4}}});
+  m.add(Spherical{"ball", "S", "U"});
+  m.add(Mass{"arm", "U", 0.7, {0.0, 0.05 * size, -0.3 * size}, fullInertia});
+  m.add(Screw{"screw", "U", "W", Axis(0, 2, 1), 0.7 * size});
+  m.add(Mass{"nut", "W", 0.4, {0.02 * size, 0.0, 0.03 * size}, fullInertia});
+  m.add(Link{"table", "T", "P", {0.0, 0.3 * size, 0.0}, {{axisY, 0, 0.3}}});
+  m.add(Planar{"puck", "P", "Q", Axis(0, -1, 0)});
+  m.add(Mass{"disc", "Q", 0.3, {0.1 * size, 0.05 * size, 0.0}, fullInertia});
+  m.setGravity({0.5, -1.0, -9.0});
+  return m;
+}
+
+/// Bodies on ball joints, one behind the other.
+Mechanism ballChain(int count, bool isPoint) {
+  Mechanism m;
+  std::string from = Mechanism::inertialFrame;
+  for (int i = 0; i < count; ++i) {
+    const std::string number = std::to_string(i);
+    m.add(Spherical{"ball" + number, from, "K" + number});
+    m.add(Link{"link" + number, "K" + number, "E" + number, {0.0, 0.0, -0.4}});
+    Mass body{"body" + number, "E" + number, 1.0};
+    body.inertia = isPoint ? std::array<Expression, 6>{1e-3, 1e-3, 2e-3, 0.0, 0.0, 0.0} : fullInertia;
+    m.add(body);
+    from = "E" + number;
+  }
+  m.setGravity({0.0, 0.0, -10.0});
+  return m;
+}
+
+/// Numbers as states: quaternions of length 1, about that of no rotation.
+std::vector<double> asStates(const Mechanism& mechanism, std::vector<double> x) {
+  const std::vector<std::string> names = mechanism.stateNames();
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (!names[i].ends_with("quaternion.w")) continue;
+    const auto e = std::span(x).subspan(i, 4);
+    e[0] += 1;
+    const double length = std::hypot(std::hypot(e[0], e[1]), std::hypot(e[2], e[3]));
+    for (double& component : e) component /= length;
+  }
+  return x;
+}
+
 struct Machine {
   std::string name;
   std::function<Mechanism()> make;
@@ -85,9 +133,9 @@ TEST_P(Formulations, AreTheSameEquations) {
   const auto n = static_cast<std::size_t>(sparse.states());
   RandomStates states;
   for (int round = 0; round < 6; ++round) {
-    const std::vector<double> x = round == 0   ? std::vector<double>(n, 0.0)
-                                  : round == 1 ? std::vector<double>(n, 0.5)
-                                               : states(n, 1.5);
+    const std::vector<double> x = asStates(mechanism, round == 0   ? std::vector<double>(n, 0.0)
+                                                      : round == 1 ? std::vector<double>(n, 0.5)
+                                                                   : states(n, 1.5));
     const std::vector<HighPrecision> a = one(0, {x.begin(), x.end()}), b = other(0, {x.begin(), x.end()});
     const std::vector<Interval> box(x.begin(), x.end()), c = enclosed(0.0, box), d = enclosedArticulated(0.0, box);
     HighPrecision largest(1e-30);
@@ -111,7 +159,7 @@ TEST_P(Formulations, KeepTheEnergy) {
   Evaluator<HighPrecision> rate(f), energy(y);
   RandomStates states;
   for (int round = 0; round < 3; ++round) {
-    const std::vector<double> x = states(static_cast<std::size_t>(f.states()), 1.5);
+    const std::vector<double> x = asStates(mechanism, states(static_cast<std::size_t>(f.states()), 1.5));
     const std::vector<HighPrecision> dx = rate(0, {x.begin(), x.end()}), dy = energy(0, {x.begin(), x.end()});
     HighPrecision power(0), size(0);
     for (std::size_t i = 0; i < x.size(); ++i) {
@@ -143,6 +191,11 @@ INSTANTIATE_TEST_SUITE_P(
                       Machine{"kilometresAndKilotons", [] { return chain(alternating(4), false, 1e3, 1e6); }},
                       Machine{"tree", [] { return tree(); }},
                       Machine{"wristWithoutMass", [] { return wristWithoutMass(); }},
+                      Machine{"floating", [] { return floatingMachine(); }},
+                      Machine{"floatingInMillimetres", [] { return floatingMachine(1e-3); }},
+                      Machine{"oneBall", [] { return ballChain(1, false); }},
+                      Machine{"chainOfBalls", [] { return ballChain(4, false); }},
+                      Machine{"chainOfBallsWithSlenderRods", [] { return ballChain(3, true); }},
                       Machine{"spatialArm", [] { return testing::spatialArm(); }}),
     [](const auto& machine) { return machine.param.name; });
 

@@ -1,4 +1,4 @@
-// A user's own joint whose positions are no integrals of its speeds: a ball joint by a unit quaternion and body rates.
+// A user's own joint whose positions are no integrals of its speeds: a hinge by the cosine and the sine of its angle.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,13 +12,12 @@
 namespace gamut {
 namespace {
 
-/// With A the rotation of e = (e0, e⃗), R' = R A, r' = Aᵀ r, ω' = Aᵀ ω + u, ω̇' = Aᵀ ω̇ + Aᵀ ω × u + u̇, Q = τ'; and
-/// ė = ½ e ∘ (0, u).
+/// About z, by the speed u: ċ = −s u, ṡ = c u.
 template <class S>
-class BallTransmission final : public Transmission<S> {
+class WheelTransmission final : public Transmission<S> {
  public:
-  BallTransmission(Frame<S>& from, Frame<S>& to, std::array<S*, 4> e, std::array<Speed<S>*, 3> u)
-      : Transmission<S>(from, to), e_(e), u_(u) {}
+  WheelTransmission(Frame<S>& from, Frame<S>& to, const S& c, const S& s, Speed<S>& u)
+      : Transmission<S>(from, to), c_(c), s_(s), u_(u) {}
 
   void doMotion(MotionLevel level = MotionLevel::all) override {
     const Frame<S>& k = this->from_;
@@ -27,126 +26,104 @@ class BallTransmission final : public Transmission<S> {
     moved.R = k.R * a;
     moved.r = back * k.r;
     if (level == MotionLevel::position) return;
-    const Vector3<S> acceleration(u_[0]->acceleration, u_[1]->acceleration, u_[2]->acceleration);
-    moved.omegaDot = back * k.omegaDot + acceleration;
+    moved.omegaDot = back * k.omegaDot + axis() * u_.acceleration;
     moved.a = back * k.a;
     if (level == MotionLevel::acceleration) return;
-    const Vector3<S> carried = back * k.omega;
-    moved.omega = carried + rate();
+    const Vector3<S> carried = back * k.omega, own = axis() * u_.rate;
+    moved.omega = carried + own;
     moved.v = back * k.v;
-    moved.omegaDot += carried.cross(rate());
+    moved.omegaDot += carried.cross(own);
   }
   void doForce(ForceKind = ForceKind::all) override {
-    const Matrix3<S> a = rotation();
-    this->from_.f += a * this->to_.f;
-    this->from_.tau += a * this->to_.tau;
-    for (int i = 0; i < 3; ++i) u_[static_cast<std::size_t>(i)]->force += this->to_.tau[i];
+    this->from_.f += rotation() * this->to_.f;
+    this->from_.tau += rotation() * this->to_.tau;
+    u_.force += this->to_.tau[2];
   }
-  std::vector<Speed<S>*> speeds() const override { return {u_.begin(), u_.end()}; }
+  std::vector<Speed<S>*> speeds() const override { return {&u_}; }
   using Transmission<S>::inFrom;
   MovingPoint<S> inFrom(const MovingPoint<S>& point) const override {
-    const Matrix3<S> a = rotation();
-    return {a * point.position, a * Vector3<S>(point.velocity + rate().cross(point.position))};
-  }
-
-  S positionRate(int i) const {
-    const S &w = *e_[0], &x = *e_[1], &y = *e_[2], &z = *e_[3];
-    const Vector3<S> u = rate();
-    const S twice = i == 0   ? S(-(x * u[0]) - y * u[1] - z * u[2])
-                    : i == 1 ? S(w * u[0] + y * u[2] - z * u[1])
-                    : i == 2 ? S(w * u[1] + z * u[0] - x * u[2])
-                             : S(w * u[2] + x * u[1] - y * u[0]);
-    return S(0.5) * twice;
+    const Vector3<S> turning = axis() * u_.rate;
+    return {rotation() * point.position, rotation() * Vector3<S>(point.velocity + turning.cross(point.position))};
   }
 
  private:
-  Vector3<S> rate() const { return {u_[0]->rate, u_[1]->rate, u_[2]->rate}; }
+  static Vector3<S> axis() { return {S(0.0), S(0.0), S(1.0)}; }
   Matrix3<S> rotation() const {
-    const S &w = *e_[0], &x = *e_[1], &y = *e_[2], &z = *e_[3];
-    const S two(2.0), one(1.0);
     Matrix3<S> a;
-    a << one - two * (y * y + z * z), two * (x * y - w * z), two * (x * z + w * y),  //
-        two * (x * y + w * z), one - two * (x * x + z * z), two * (y * z - w * x),   //
-        two * (x * z - w * y), two * (y * z + w * x), one - two * (x * x + y * y);
+    a << c_, -s_, S(0.0), s_, c_, S(0.0), S(0.0), S(0.0), S(1.0);
     return a;
   }
 
-  std::array<S*, 4> e_;
-  std::array<Speed<S>*, 3> u_;
+  const S &c_, &s_;
+  Speed<S>& u_;
 };
 
-struct Ball {
-  static constexpr const char* type = "ball";
-  static constexpr const char* summary = "a ball joint";
+struct Wheel {
+  static constexpr const char* type = "wheel";
+  static constexpr const char* summary = "a hinge by the cosine and the sine of its angle";
   std::string name, from, to;
-  std::array<Expression, 4> quaternion = {1.0, 0.0, 0.0, 0.0};
-  ExpressionVector rate = {0.0, 0.0, 0.0};
-
-  static std::string positionKey(int i) { return "e" + std::to_string(i); }
-  static std::string rateKey(int i) { return std::string("rate.") + components[static_cast<std::size_t>(i)]; }
+  Expression cosine = 1.0, sine = 0.0, rate = 0.0;
 
   void describe(Fields& f) {
     f.frame({"from", "", "the frame that carries the joint"}, from);
     f.movedFrame({"to", "", "the frame that turns"}, to, from);
-    for (int i = 0; i < 4; ++i)
-      f.position({positionKey(i), "1", "at the start"}, quaternion[static_cast<std::size_t>(i)]);
-    for (int i = 0; i < 3; ++i)
-      f.speed({rateKey(i), "rad/s", "in the axes of `to`"}, rate[static_cast<std::size_t>(i)]);
+    f.position({"cosine", "1", "at the start"}, cosine);
+    f.position({"sine", "1", "at the start"}, sine);
+    f.speed({"rate", "rad/s", "at the start"}, rate);
   }
   template <class S>
   void assemble(Assembler<S>& a) const {
-    std::array<S*, 4> e;
-    std::array<Speed<S>*, 3> u;
-    const auto joint = std::make_shared<BallTransmission<S>*>();
-    for (int i = 0; i < 4; ++i)
-      e[static_cast<std::size_t>(i)] = &a.position(positionKey(i), [joint, i] { return (*joint)->positionRate(i); });
-    for (int i = 0; i < 3; ++i) u[static_cast<std::size_t>(i)] = &a.speed(rateKey(i));
-    *joint = &a.template add<BallTransmission<S>>(a.frame(from), a.frame(to), e, u);
+    Speed<S>& u = a.speed("rate");
+    const auto joint = std::make_shared<std::array<S*, 2>>();
+    (*joint)[0] = &a.position("cosine", [joint, &u] { return S(-(*(*joint)[1] * u.rate)); });
+    (*joint)[1] = &a.position("sine", [joint, &u] { return S(*(*joint)[0] * u.rate); });
+    a.template add<WheelTransmission<S>>(a.frame(from), a.frame(to), *(*joint)[0], *(*joint)[1], u);
   }
 };
 
-Mechanism top() {
+/// Three wheels, one behind the other, or as many hinges.
+template <class Joint>
+Mechanism threeOf() {
   Mechanism m;
-  m.add(Ball{"ball", "inertial", "A"});
-  m.add(Mass{"body", "A", 1.3, {0.1, -0.2, 0.4}, {0.4, 0.5, 0.3, 0.02, 0.05, -0.03}});
+  std::string from = Mechanism::inertialFrame;
+  for (const std::string number : {"0", "1", "2"}) {
+    Joint joint{"joint" + number, from, "K" + number};
+    if constexpr (std::is_same_v<Joint, Revolute>) joint.axis = axisZ;
+    m.add(joint);
+    m.add(Mass{"body" + number, "K" + number, 1.3, {0.1, -0.2, 0.4}, {0.4, 0.5, 0.3, 0.02, 0.05, -0.03}});
+    m.add(Link{"link" + number, "K" + number, "E" + number, {0.5, 0.1, 0.0}, {{axisX, 0, 0.4}}});
+    from = "E" + number;
+  }
   m.setGravity({0.3, 0.7, -9.81});
   return m;
 }
 
-/// J u̇ + u × J u = c × m Aᵀ g about the fixed point, and |e| is kept.
-TEST(BallJoint, OfAUserFollowsEulersEquation) {
-  Matrix3<double> theta;
-  theta << 0.4, 0.02, -0.03, 0.02, 0.5, 0.05, -0.03, 0.05, 0.3;
-  const Vector3<double> c(0.1, -0.2, 0.4), g(0.3, 0.7, -9.81);
-  const double mass = 1.3;
-  const Matrix3<double> j = theta + mass * (c.squaredNorm() * Matrix3<double>::Identity() - c * c.transpose());
-  const Mechanism m = top();
-  EXPECT_EQ(m.positions(), 4U);
-  EXPECT_EQ(m.degreesOfFreedom(), 3);
+/// As a hinge moves, and c² + s² is kept.
+TEST(OwnJoint, MovesAsTheHingeThatItIs) {
+  const Mechanism wheels = threeOf<Wheel>(), hinges = threeOf<Revolute>();
+  EXPECT_EQ(wheels.positions(), 6U);
+  EXPECT_EQ(wheels.degreesOfFreedom(), 3);
   testing::RandomStates states;
   for (const Formulation formulation : {Formulation::sparse, Formulation::articulated}) {
-    Evaluator<double> motion(recordMotion(m, {}, formulation));
+    Evaluator<double> motion(recordMotion(wheels, {}, formulation)), truth(recordMotion(hinges, {}, formulation));
     for (int round = 0; round < 50; ++round) {
-      std::vector<double> x = states(7, 1.4);
-      const double norm = std::hypot(std::hypot(x[0], x[1]), std::hypot(x[2], x[3]));
-      for (int i = 0; i < 4; ++i) x[static_cast<std::size_t>(i)] /= norm;
-      const std::vector<double> dx = motion(0.0, x);
-      const Eigen::Quaterniond e(x[0], x[1], x[2], x[3]);
-      const Vector3<double> u(x[4], x[5], x[6]), uDot(dx[4], dx[5], dx[6]);
-      const Vector3<double> moment = c.cross(mass * (e.toRotationMatrix().transpose() * g));
-      EXPECT_LT((j * uDot + u.cross(j * u) - moment).norm(), 1e-12 * (1 + uDot.norm()));
-      const Eigen::Quaterniond half(0.0, u[0] / 2, u[1] / 2, u[2] / 2), rate = e * half;
-      EXPECT_NEAR(dx[0], rate.w(), 1e-15);
-      EXPECT_NEAR(dx[1], rate.x(), 1e-15);
-      EXPECT_NEAR(dx[2], rate.y(), 1e-15);
-      EXPECT_NEAR(dx[3], rate.z(), 1e-15);
+      const std::vector<double> x = states(6, 1.4);
+      std::vector<double> y;
+      for (std::size_t i = 0; i < 3; ++i) y.insert(y.end(), {std::cos(x[i]), std::sin(x[i])});
+      y.insert(y.end(), x.begin() + 3, x.end());
+      const std::vector<double> dx = truth(0.0, x), dy = motion(0.0, y);
+      for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_NEAR(dy[6 + i], dx[3 + i], 1e-11 * (1 + std::abs(dx[3 + i])));
+        EXPECT_NEAR(dy[2 * i] * y[2 * i] + dy[2 * i + 1] * y[2 * i + 1], 0, 1e-15);
+        EXPECT_NEAR(dy[2 * i + 1], y[2 * i] * dx[i], 1e-15);
+      }
     }
   }
 }
 
-TEST(BallJoint, OfAUserServesEveryScalar) {
-  const Mechanism m = top();
-  const std::vector<double> x = {0.8, 0.0, 0.6, 0.0, 1.0, -2.0, 0.5};
+TEST(OwnJoint, ServesEveryScalar) {
+  const Mechanism m = threeOf<Wheel>();
+  const std::vector<double> x = {0.8, 0.6, 1.0, 0.0, 0.6, -0.8, 1.0, -2.0, 0.5};
   const auto rates = [&]<class S>(S /*scalar*/) {
     Assembly<S> assembly(m);
     assembly.setState(std::vector<S>(x.begin(), x.end()));

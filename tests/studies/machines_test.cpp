@@ -75,6 +75,29 @@ std::string perpendicular(int axes) {
   return text + uncertain("joint1.angle") + output("joint0.angle") + output("joint1.angle") + output("joint1.rate");
 }
 
+/// A body without a joint, or on a ball, turned by an uncertain roll about an uncertain start.
+std::string tumbling(const std::string& type, double horizon) {
+  return head(horizon) + "[[mechanism.element]]\ntype = \"" + type +
+         "\"\nname = \"joint\"\nfrom = \"inertial\"\nto = \"B\"\ninitial = { orientation = { roll = \"30 deg\", yaw = "
+         "1 }, "
+         "rate = [0.1, 3, 0.1] }\n" +
+         mass("body", "B", "mass = 1\ncentre = [0, 0, 0.3]\ninertia = [1, 2, 2.5]") +
+         uncertain("joint.orientation.roll") + uncertain("body.inertia.yy") + output("joint.quaternion.w") +
+         output("joint.rate.x") + output("body.position.z");
+}
+
+/// Its length is also what the slider starts with.
+std::string startsAtALength() {
+  return head(2) +
+         "[[mechanism.element]]\ntype = \"prismatic\"\nname = \"slide\"\nfrom = \"inertial\"\nto = \"S\"\naxis = "
+         "\"x\"\nparameters = { length = \"1 m\" }\ninitial = { displacement = \"sqrt(slide.length * 1 m) + "
+         "slide.length^2 / 2 m\" }\n" +
+         mass("body", "S", "mass = 1") +
+         "[[mechanism.element]]\ntype = \"joint-spring\"\nname = \"spring\"\njoint = \"slide\"\nstiffness = 10\nrest = "
+         "\"slide.length\"\n" +
+         uncertain("slide.length") + output("slide.displacement") + output("slide.rate");
+}
+
 class Machines : public ::testing::TestWithParam<Machine> {};
 
 TEST_P(Machines, ArriveInsideATightGuarantee) {
@@ -89,6 +112,9 @@ INSTANTIATE_TEST_SUITE_P(Study, Machines,
                          ::testing::Values(Machine{"perpendicularHinges", perpendicular(2), 1.01},
                                            Machine{"threePerpendicularHinges", perpendicular(3), 1.01},
                                            Machine{"sixPerpendicularHinges", perpendicular(6), 1.01},
+                                           Machine{"freeBody", tumbling("free", 5), 1.01},
+                                           Machine{"top", tumbling("spherical", 3), 1.01},
+                                           Machine{"startsAtALength", startsAtALength(), 1.01},
                                            Machine{"chainOfThree", planarChain(3, 2), 1.01},
                                            Machine{"chainOfFive", planarChain(5, 2), 1.01},
                                            Machine{"chainOfEight", planarChain(8, 2), 1.01},

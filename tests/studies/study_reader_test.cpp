@@ -5,6 +5,7 @@
 #include <set>
 #include <string>
 
+#include "mechanics/assembly.hpp"
 #include "studies/printable.hpp"
 #include "studies/study.hpp"
 #include "tests/studies/sample_study.hpp"
@@ -207,6 +208,42 @@ TEST(StudyReader, KeepsQuarterTurnsExact) {
   const Link& link = *study.mechanism.elements()[1].as<Link>();
   EXPECT_EQ(link.rotation[0].quarterTurns, -1);
   EXPECT_EQ(link.rotation[1].quarterTurns, 0);
+}
+
+TEST(StudyReader, TakesOrientationsAsUsersHaveThem) {
+  const auto ball = [](const std::string& initial) {
+    const Study study = readStudyText(
+        sampleStudyWith(
+            "[[uncertain]]",
+            "[[mechanism.element]]\ntype = \"spherical\"\nname = \"ball\"\nfrom = \"tip\"\nto = \"B\"\n" + initial +
+                "[[mechanism.element]]\ntype = \"mass\"\nname = \"body\"\nat = \"B\"\nmass = 1\ninertia = [1, "
+                "1, 1]\n[[uncertain]]"),
+        "s.toml");
+    return study.mechanism;
+  };
+  const auto orientationOf = [](const Mechanism& mechanism) {
+    return Assembly<double>(mechanism).frame("B").R.transpose() * Assembly<double>(mechanism).frame("tip").R;
+  };
+  const auto degrees = [](const Mechanism& m, const std::string& number) {
+    return midpoint(m.nominal(number)) * 180 / M_PI;
+  };
+  const Mechanism angles =
+      ball("initial = { orientation = { pitch = \"30 deg\", yaw = \"90 deg\" }, rate = [1, \"2 deg/s\", 0] }\n");
+  EXPECT_NEAR(degrees(angles, "ball.orientation.pitch"), 30, 1e-12);
+  EXPECT_EQ(midpoint(angles.nominal("ball.orientation.roll")), 0);
+  EXPECT_EQ(midpoint(angles.nominal("ball.rate.x")), 1);
+  const Mechanism turns = ball(
+      "initial = { orientation = [{ axis = \"z\", angle = \"90 deg\" }, { axis = \"y\", angle = \"30 deg\" }] }\n");
+  EXPECT_NEAR(degrees(turns, "ball.orientation.2"), 30, 1e-12);
+  EXPECT_LT((orientationOf(angles) - orientationOf(turns)).norm(), 1e-15);
+  const Mechanism one = ball("initial = { orientation = { axis = [0, 3, 4], angle = \"120 deg\" } }\n");
+  EXPECT_NEAR(degrees(one, "ball.orientation.angle"), 120, 1e-12);
+  const Mechanism quaternion =
+      ball("initial = { orientation = { quaternion = [1, 0, \"0.6 sqrt(3)\", \"0.8 sqrt(3)\"] } }\n");
+  EXPECT_LT((orientationOf(one) - orientationOf(quaternion)).norm(), 1e-15) << "tan 60 deg is the square root of 3";
+  EXPECT_TRUE(quaternion.isParameter("ball.orientation.y"));
+  const Mechanism none = ball("");
+  EXPECT_TRUE(none.isParameter("ball.orientation.yaw")) << "it may be uncertain";
 }
 
 TEST(StudyReader, TakesLimitsInSecondsAndGigabytes) {
@@ -545,6 +582,11 @@ TEST_P(BadStudyFile, IsRefusedInOneLineWithItsPlace) {
 }
 
 constexpr BadStudy badStudies[] = {
+    {"parameters = { length = 0.5 }", "parameters = { length = 0.5 }\nrotation = \"30 deg\"", "XX"},
+    {"parameters = { length = 0.5 }",
+     "parameters = { length = 0.5 }\nrotation = { roll = 1, quaternion = [1, 0, 0, 0] }", "XX"},
+    {"parameters = { length = 0.5 }", "parameters = { length = 0.5 }\nrotation = { quaternion = [0, 0, 0, 0] }", "XX"},
+    {"parameters = { length = 0.5 }", "parameters = { length = 0.5 }\nrotation = { quaternion = [1, 0, 0] }", "XX"},
     {"quantity = \"tip.position.z\"", "quantity = \"sqrt(-1)\"",
      "s.toml:38:12: 'sqrt(-1)' has no value: recorded square root of a constant that may be negative; expected a "
      "formula "
