@@ -113,12 +113,14 @@ template <class S>
 Rotation<S> Assembler<S>::rotation(const std::vector<FixedRotation>& rotations) const {
   Rotation<S> result;
   for (const FixedRotation& r : rotations) {
-    if (!r.quaternion) {
-      result = result.then(Rotation<S>(r.axis, number(r.angle), r.quarterTurns));
+    if (r.quaternion) {
+      const Quaternion<Expression> e = normalised(*r.quaternion);
+      result = result.then(Rotation<S>(Quaternion<S>{number(e[0]), number(e[1]), number(e[2]), number(e[3])}));
       continue;
     }
-    const Quaternion<Expression> e = normalised(*r.quaternion);
-    result = result.then(Rotation<S>(Quaternion<S>{number(e[0]), number(e[1]), number(e[2]), number(e[3])}));
+    const S angle = number(r.angle);
+    if (r.quarterTurns % 4 == 0 && isKnownZero(angle)) continue;
+    result = result.then(Rotation<S>(r.axis, angle, r.quarterTurns));
   }
   return result;
 }

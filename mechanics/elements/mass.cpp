@@ -16,6 +16,8 @@ void Mass::describe(Fields& f) {
   f.numbers(
       {"inertia", "kg m^2", "`[xx, yy, zz]` or `[xx, yy, zz, xy, yz, zx]`, about the centre, in the axes of `at`"},
       inertia, symmetricEntries, 3);
+  f.rotations({"rotation", "rad", "list of `{ axis, angle }`: of the inertia's axes against `at`, one after the other"},
+              rotation);
   for (const char* component : components) {
     f.measure({std::string("position.") + component, "m", "of the centre, in the inertial frame"});
     f.measure({std::string("velocity.") + component, "m/s", "of the centre, in the inertial frame"});
@@ -24,8 +26,8 @@ void Mass::describe(Fields& f) {
 
 template <class S>
 void Mass::assemble(Assembler<S>& a) const {
-  const auto& body =
-      a.template add<MassElement<S>>(a.frame(at), a.number(mass), a.vector(centre), a.symmetric(inertia));
+  const auto& body = a.template add<MassElement<S>>(a.frame(at), a.number(mass), a.vector(centre),
+                                                    a.rotation(rotation).symmetricToParent(a.symmetric(inertia)));
   for (int i = 0; i < 3; ++i) {
     const std::string component = components[static_cast<std::size_t>(i)];
     a.measure("position." + component, [&body, i] { return body.position().position[i]; });

@@ -13,6 +13,7 @@ struct Mass {
   Expression mass = 0.0;                                               ///< kg
   ExpressionVector centre = {0.0, 0.0, 0.0};                           ///< in `at` [m]
   std::array<Expression, 6> inertia = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};  ///< xx, yy, zz, xy, yz, zx [kg m²]
+  std::vector<FixedRotation> rotation = {};                            ///< of the inertia's axes against `at`
 
   void describe(Fields& f);
   template <class S>
