@@ -2,8 +2,9 @@
 //
 //   position q' = φ(q),  velocity q̇' = J q̇,  acceleration q̈' = J q̈ + J̇ q̇,  force Q = Jᵀ Q'
 //
-// A part is one of four: a Transmission moves a frame, ideally: what power goes in comes out. A Load acts on what is
-// moved. An Inertia (bodies.hpp) is moved: nothing else states mass. A Constraint holds rows closed. A new part needs
+// A part is one of five: a Transmission moves a frame, ideally: what power goes in comes out. A Gear moves one joint's
+// coordinate by another's, ideally too. A Load acts on what is moved. An Inertia (bodies.hpp) is moved: nothing else
+// states mass. A Constraint holds rows closed. A new part needs
 // doMotion and doForce, a Constraint its rows besides; derivatives for analyses come from the recorded program. A Chain
 // is an ordered list of parts, force runs through it in reverse.
 #pragma once
@@ -83,6 +84,27 @@ class Transmission : public Element<S> {
  protected:
   Frame<S>& from_;
   Frame<S>& to_;
+};
+
+/// An element that moves one coordinate by another, in proportion: q' = i q + c, Q += i Q'. It stands ahead of both
+/// joints, so that motion passes on through them, and the forces of both have come in when it hands on its own.
+template <class S>
+class Gear final : public Element<S> {
+ public:
+  Gear(Variable<S>& from, Variable<S>& to, S ratio, S offset)
+      : from_(from), to_(to), ratio_(std::move(ratio)), offset_(std::move(offset)) {}
+
+  void doMotion(MotionLevel level = MotionLevel::all) override {
+    if (level != MotionLevel::acceleration) to_.position = ratio_ * from_.position + offset_;
+    if (level == MotionLevel::all) to_.rate = ratio_ * from_.rate;
+    if (level != MotionLevel::position) to_.acceleration = ratio_ * from_.acceleration;
+  }
+  void doForce(ForceKind = ForceKind::all) override { from_.force += ratio_ * to_.force; }
+
+ private:
+  Variable<S>& from_;
+  Variable<S>& to_;
+  S ratio_, offset_;
 };
 
 /// An element that acts on frames and speeds, by what their positions and velocities are.
@@ -199,6 +221,7 @@ class Chain final : public Element<S> {
     elements_.push_back(&element);
     if (auto* inertia = dynamic_cast<Inertia<S>*>(&element)) inertias_.push_back(inertia);
     if (auto* constraint = dynamic_cast<Constraint<S>*>(&element)) constraints_.push_back(constraint);
+    hasGears_ = hasGears_ || dynamic_cast<Gear<S>*>(&element) != nullptr;
     return *this;
   }
 
@@ -220,11 +243,14 @@ class Chain final : public Element<S> {
   const std::vector<Element<S>*>& elements() const { return elements_; }
   const std::vector<Inertia<S>*>& inertias() const { return inertias_; }
   const std::vector<Constraint<S>*>& constraints() const { return constraints_; }
+  /// Whether some frames move by speeds of joints that they do not hang on.
+  bool hasGears() const { return hasGears_; }
 
  private:
   std::vector<Element<S>*> elements_;
   std::vector<Inertia<S>*> inertias_;
   std::vector<Constraint<S>*> constraints_;
+  bool hasGears_ = false;
 };
 
 }  // namespace gamut

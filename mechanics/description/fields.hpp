@@ -103,6 +103,10 @@ class Fields {
   virtual Coordinate coordinateOf(const Word& word, std::string& name) = 0;
   /// The same; from now on it is no state but follows what this element says. Its initial values must not be given.
   virtual Coordinate drivenCoordinate(const Word& word, std::string& name) { return coordinateOf(word, name); }
+  /// The same; what it follows is another coordinate, `leader`, and no other coordinate follows it yet.
+  virtual Coordinate followingCoordinate(const Word& word, std::string& name, const std::string& /*leader*/) {
+    return coordinateOf(word, name);
+  }
   /// An expression of time alone and parameters.
   virtual void timeFunction(const Word& word, Expression& number) = 0;
   /// An expression of time, of any states and of all that can be measured; names may be defined by elements behind.

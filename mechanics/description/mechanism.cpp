@@ -5,6 +5,7 @@
 #include <map>
 #include <stdexcept>
 #include <type_traits>
+#include <utility>
 
 #include "mechanics/description/names.hpp"
 #include "mechanics/description/orientation.hpp"
@@ -210,6 +211,10 @@ void Mechanism::drive(const std::string& coordinate, const std::string& by) {
   const auto driven = std::ranges::find(coordinates_, coordinate, &JointCoordinate::name);
   if (driven->isDriven)
     refuse("the joint " + quoted(coordinate) + " is driven twice, the second time by " + quoted(by));
+  for (const Following& following : followings_)
+    if (following.leader == coordinate)
+      refuse("the joint " + quoted(coordinate) + " is driven by " + quoted(by) + " after " +
+             quoted(following.follower) + " follows it; it must be driven before");
   for (const std::string& name : {driven->name, driven->rate}) {
     const NamedValue* initial = find(initials_, name);
     if (initial == nullptr || !isEqual(initial->nominal, Interval(0.0)))
@@ -308,6 +313,12 @@ class Mechanism::Checker final : public Fields {
     const Coordinate kind = found(name).kind;
     m_.drive(name, element_);
     return kind;
+  }
+  Coordinate followingCoordinate(const Word& word, std::string& name, const std::string& leader) override {
+    found(name);
+    if (name == leader) refuse("the joint " + quoted(name) + " follows itself, as " + quoted(element_) + " has it");
+    m_.followings_.push_back({name, leader});
+    return drivenCoordinate(word, name);
   }
   void timeFunction(const Word& word, Expression& number) override {
     if (!number.isSmooth())
@@ -454,14 +465,30 @@ std::vector<Fault> Mechanism::faults(const Described& element, const std::map<st
   return found;
 }
 
-void Mechanism::checkMasses() const {
-  std::map<std::string, bool> carries;  // frame -> whether a mass hangs on it
-  const auto before = [&](const std::string& frame) {
-    const auto moved = std::ranges::find(moved_, frame, &Moved::frame);
-    return moved == moved_.end() ? std::string() : moved->from;
+std::map<std::string, bool> Mechanism::framesThatMoveMass() const {
+  std::map<std::string, bool> moves;
+  const auto elementOf = [&](const std::string& coordinate) {
+    return std::ranges::find(coordinates_, coordinate, &JointCoordinate::name)->element;
   };
-  for (const std::string& mass : massFrames_)
-    for (std::string at = mass; !at.empty() && !carries[at]; at = before(at)) carries[at] = true;
+  const auto moverOf = [&](const std::string& frame) { return std::ranges::find(moved_, frame, &Moved::frame); };
+  std::vector<std::string> open = massFrames_;
+  while (!open.empty()) {
+    const std::string frame = open.back();
+    open.pop_back();
+    if (std::exchange(moves[frame], true)) continue;
+    const auto mover = moverOf(frame);
+    if (mover == moved_.end()) continue;
+    open.push_back(mover->from);
+    for (const Following& following : followings_)
+      if (elementOf(following.follower) == mover->element)
+        for (const Moved& led : moved_)
+          if (led.element == elementOf(following.leader)) open.push_back(led.frame);
+  }
+  return moves;
+}
+
+void Mechanism::checkMasses() const {
+  std::map<std::string, bool> carries = framesThatMoveMass();
   for (const Moved& moved : moved_) {
     const auto isFree = [&](const JointCoordinate& c) { return c.element == moved.element && !c.isDriven; };
     const auto isOf = [&](const JointCoordinate& c) { return c.element == moved.element; };

@@ -147,6 +147,10 @@ class Mechanism {
     std::string frame, from, element;
     bool isByJoint;
   };
+  /// Names of coordinates, of which one follows the other.
+  struct Following {
+    std::string follower, leader;
+  };
   struct Signal {
     std::string element, name, unit;
     bool isOfTimeAlone;
@@ -163,6 +167,9 @@ class Mechanism {
   void addMeasured(const std::string& name, const std::string& unit, const std::string& of);
   void addSignal(Signal signal, Expression& expression);
   void drive(const std::string& coordinate, const std::string& by);
+  /// What moves with a frame: itself, or one that it carries, also by coordinates that follow one of the element that
+  /// moves it.
+  std::map<std::string, bool> framesThatMoveMass() const;
   /// Throws if its names or units do not fit; a constant becomes the parameter `name`.
   void use(Expression& number, const std::string& name, const std::string& unit);
   /// Throws if one of its names is no parameter.
@@ -183,6 +190,7 @@ class Mechanism {
   std::vector<Derived> derived_;
   std::vector<State> positions_, speeds_, own_;
   std::vector<JointCoordinate> coordinates_;
+  std::vector<Following> followings_;
   std::vector<Measured> measured_;
   std::vector<Signal> signals_;
 };

@@ -1,6 +1,7 @@
 // The types of elements that there are: the one place where a new one is entered.
 #pragma once
 
+#include "mechanics/elements/coupling.hpp"
 #include "mechanics/elements/cylindrical.hpp"
 #include "mechanics/elements/distance.hpp"
 #include "mechanics/elements/drive.hpp"
@@ -25,9 +26,9 @@ namespace gamut {
 
 /// An empty description of each, in the order of the documentation, for visitors to fill in.
 inline std::vector<Described> elementTypes() {
-  return {Revolute{},   Prismatic{}, Screw{}, Cylindrical{}, Universal{},     Planar{},      Spherical{},
-          Free{},       Weld{},      Link{},  Mass{},        Spring{},        JointSpring{}, Force{},
-          JointForce{}, Drive{},     State{}, Distance{},    RelativeMotion{}};
+  return {Revolute{},   Prismatic{}, Screw{},    Cylindrical{}, Universal{}, Planar{},        Spherical{},
+          Free{},       Weld{},      Link{},     Mass{},        Spring{},    JointSpring{},   Force{},
+          JointForce{}, Drive{},     Coupling{}, State{},       Distance{},  RelativeMotion{}};
 }
 
 }  // namespace gamut

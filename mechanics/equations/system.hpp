@@ -4,7 +4,8 @@
 // M u̇ = Q: the inertia matrix M from the inertia forces at unit accelerations, Q the forces that remain at u̇ = 0. Up to
 // two speeds are eliminated (least_constraint.hpp); systems of more are solved joint by joint, in the fewest operations
 // (articulated_bodies.hpp), or as wholes, cut at the joints for enclosures (sparse_equations.hpp). With constraints, M
-// is bordered by their rows. No path depends on a scalar's value.
+// is bordered by their rows. With gears, what a joint moves is more than what hangs on it, so that M takes the place of
+// the way joint by joint. No path depends on a scalar's value.
 #pragma once
 
 #include <algorithm>
@@ -94,11 +95,11 @@ class System {
     setAccelerations(zeros());
     doMotion();
     if (speeds_.empty()) return {};
-    const std::vector<S> result = !chain_.constraints().empty() ? constrained()
-                                  : degreesOfFreedom() <= 2     ? eliminated()
-                                  : formulation == Formulation::articulated
-                                      ? articulatedAccelerations(speeds_, chain_, base_)
-                                      : solved();
+    const std::vector<S> result = !chain_.constraints().empty()        ? constrained()
+                                  : degreesOfFreedom() <= 2            ? eliminated()
+                                  : formulation == Formulation::sparse ? solved()
+                                  : chain_.hasGears()                  ? solvedByInertia()
+                                                      : articulatedAccelerations(speeds_, chain_, base_);
     setAccelerations(result);
     doMotion();
     return result;
@@ -201,6 +202,7 @@ class System {
   }
 
   std::vector<S> solved();
+  std::vector<S> solvedByInertia();
 
   /// With the multipliers of the constraints: M u̇ − Gᵀ λ = Q, G u̇ = −g̈(u̇ = 0) − 2 σ ġ − σ² g.
   std::vector<S> constrained();
@@ -252,8 +254,17 @@ class System {
 
 template <class S>
 std::vector<S> System<S>::solved() {
+  if constexpr (std::is_same_v<S, Recorded>) {
+    unitColumns();
+    return sparseAccelerations(*this);
+  } else {
+    return solvedByInertia();
+  }
+}
+
+template <class S>
+std::vector<S> System<S>::solvedByInertia() {
   unitColumns();
-  if constexpr (std::is_same_v<S, Recorded>) return sparseAccelerations(*this);
   std::vector<S> result = residual(), entries;
   const auto m = inertiaMatrix();
   for (int i = 0; i < m.rows(); ++i)

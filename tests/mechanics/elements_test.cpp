@@ -70,6 +70,9 @@ Mechanism withOneOfEach() {
   m.add(Force{"push", "E", {Expression::parse("3 N * sin(2*t/(1 s))"), 0.0, 1.0}});
   m.add(JointForce{"motor", "hinge", Expression::parse("-2 N m * hinge.angle - lag")});
   m.add(Drive{"shaft", "driven", Expression::parse("0.4 rad * sin(3*t/(1 s))")});
+  m.add(Prismatic{"rack", "E", "F", axisY});
+  m.add(Mass{"carriage", "F", 0.5, {0.0, 0.1, 0.0}});
+  m.add(Coupling{"gear", "rack", "hinge", -0.2, 0.1});
   m.add(State{"lag", Expression::parse("0 N m"), Expression::parse("(1 N m * hinge.rate * 1 s - lag)/(0.1 s)")});
   m.add(Distance{"gap", "inertial", "E"});
   m.add(RelativeMotion{"seen", "A", "E", axisZ});
@@ -380,6 +383,89 @@ TEST(DriveElement, IsRefusedWhereItCannotBe) {
               HasSubstr("'hinge.angle' changes in motion"));
   EXPECT_THAT(complaint(Drive{"d", "second", Expression::parse("3 m * t")}), HasSubstr("'d.position'"));
   EXPECT_EQ(complaint(Drive{"d", "second", Expression::parse("3 rad * t/(1 s)")}), "no complaint");
+}
+
+// ---- Couplings ------------------------------------------------------------------------------------------------------
+
+/// A motor of inertia J drives a pendulum of inertia I by q_motor = i q + c: (I + i² J) q̈ = -m g l sin q + i M,
+/// whichever of both is the state.
+TEST(CouplingElement, IsAGear) {
+  const double i = -20, c = 0.3, inertia = 2 * 0.5 * 0.5 + 0.1, motorInertia = 1e-3, q = 0.4, u = 0.7, moment = 0.9;
+  const auto machine = [&](bool motorFollows) {
+    Mechanism m;
+    m.add(Revolute{"arm", "inertial", "A", axisX});
+    m.add(Mass{"bob", "A", 2.0, {0.0, 0.0, -0.5}, {0.1, 0.0, 0.1, 0.0, 0.0, 0.0}});
+    m.add(Revolute{"motor", "inertial", "M", axisX});
+    m.add(Mass{"rotor", "M", 0.0, {0.0, 0.0, 0.0}, {motorInertia, motorInertia, 0.0, 0.0, 0.0, 0.0}});
+    m.add(JointForce{"drive", "motor", moment});
+    m.add(motorFollows ? Coupling{"gear", "motor", "arm", i, c} : Coupling{"gear", "arm", "motor", 1 / i, -c / i});
+    m.setGravity({0.0, 0.0, -10.0});
+    return m;
+  };
+  const double expected = (-2 * 10 * 0.5 * std::sin(q) + i * moment) / (inertia + i * i * motorInertia);
+  for (const bool motorFollows : {true, false}) {
+    Assembly<double> assembly(machine(motorFollows));
+    assembly.setState(motorFollows ? std::vector<double>{q, u} : std::vector<double>{i * q + c, i * u});
+    EXPECT_NEAR(assembly.output("arm.angle"), q, 1e-14);
+    EXPECT_NEAR(assembly.output("motor.rate"), i * u, 1e-13);
+    EXPECT_NEAR(assembly.accelerations()[0], expected * (motorFollows ? 1 : i), 1e-11);
+    EXPECT_NEAR(assembly.output("energy.kinetic"), 0.5 * (inertia + i * i * motorInertia) * u * u, 1e-13);
+  }
+}
+
+/// A rack: the slider's mass is felt as m r² by the pinion.
+TEST(CouplingElement, JoinsTurningToSliding) {
+  Mechanism m;
+  m.add(Revolute{"pinion", "inertial", "A", axisX});
+  m.add(Prismatic{"rack", "inertial", "B", axisY});
+  m.add(Mass{"carriage", "B", 3.0});
+  m.add(JointForce{"push", "rack", 6.0});
+  m.add(Coupling{"teeth", "rack", "pinion", Expression::parse("0.25 m/rad")});
+  Assembly<double> assembly(m);  // the pinion itself has no mass
+  EXPECT_DOUBLE_EQ(assembly.accelerations()[0], 6 * 0.25 / (3 * 0.25 * 0.25));
+  EXPECT_NO_THROW(m.checkMasses());
+  EXPECT_EQ(m.unitOf("teeth.offset"), "m");
+}
+
+TEST(CouplingElement, FollowsADrive) {
+  Mechanism m;
+  m.add(Revolute{"crank", "inertial", "A", axisX});
+  m.add(Revolute{"wheel", "inertial", "B", axisX});
+  m.add(Revolute{"free", "B", "C", axisX});
+  m.add(Mass{"bob", "C", 1.0, {0.0, 1.0, 0.0}});
+  m.add(Drive{"shaft", "crank", Expression::parse("0.5 rad * (t/(1 s))^2")});
+  m.add(Coupling{"gear", "wheel", "crank", 3.0});
+  Assembly<double> assembly(m);
+  assembly.setState(std::vector<double>{0.0, 0.0}, 2.0);
+  EXPECT_DOUBLE_EQ(assembly.output("wheel.angle"), 6.0);
+  EXPECT_DOUBLE_EQ(assembly.output("wheel.rate"), 6.0);
+  EXPECT_DOUBLE_EQ(assembly.accelerations()[0], -3.0) << "the bob stays where it is, as the wheel runs away";
+}
+
+TEST(CouplingElement, IsRefusedWhereItCannotBe) {
+  const auto complaint = [](const std::vector<Described>& added) -> std::string {
+    Mechanism m;
+    m.add(Revolute{"a", "inertial", "A", axisX});
+    m.add(Revolute{"b", "A", "B", axisX});
+    m.add(Prismatic{"c", "B", "C", axisX});
+    m.add(Revolute{"moved", "C", "D", axisX, 0.1});
+    m.add(Mass{"bob", "D", 1.0, {0.0, 0.0, 1.0}});
+    try {
+      for (const Described& element : added) m.add(element);
+      m.check();
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "no complaint";
+  };
+  EXPECT_EQ(complaint({Coupling{"g", "b", "a"}, Coupling{"h", "c", "b"}}), "no complaint");
+  EXPECT_THAT(complaint({Coupling{"g", "a", "a"}}), HasSubstr("the joint 'a.angle' follows itself"));
+  EXPECT_THAT(complaint({Coupling{"g", "b", "a"}, Coupling{"h", "b", "c"}}), HasSubstr("driven twice"));
+  EXPECT_THAT(complaint({Coupling{"g", "b", "a"}, Coupling{"h", "a", "b"}}),
+              HasSubstr("the joint 'a.angle' is driven by 'h' after 'b.angle' follows it"));
+  EXPECT_THAT(complaint({Coupling{"g", "b", "a"}, Drive{"d", "a", 0.0}}), HasSubstr("it must be driven before"));
+  EXPECT_THAT(complaint({Coupling{"g", "moved", "a"}}), HasSubstr("'moved' has initial values"));
+  EXPECT_THAT(complaint({Coupling{"g", "b", "a", Expression::parse("2 m/rad")}}), HasSubstr("'g.ratio'"));
 }
 
 // ---- States ---------------------------------------------------------------------------------------------------------

@@ -116,6 +116,26 @@ std::vector<double> asStates(const Mechanism& mechanism, std::vector<double> x) 
   return x;
 }
 
+/// The first joint of a chain drives the last by a gear, and the one before a slider on a branch by a rack.
+Mechanism geared(int count, bool isPoint = false) {
+  Mechanism m = chain(alternating(count), isPoint);
+  m.add(Prismatic{"slide", "E0", "S", Axis(1, -1, 2)});
+  m.add(Mass{"carriage", "S", 0.5, {0.0, 0.1, 0.2}, fullInertia});
+  const std::string last = "joint" + std::to_string(count - 1);
+  m.add(Coupling{"gear", last, "joint0", -1.5, 0.25});
+  m.add(Coupling{"rack", "slide", "joint" + std::to_string(count - 2), 0.125});
+  return m;
+}
+
+/// A joint that follows one that follows: of five hinges, two are left.
+Mechanism gearedInSeries() {
+  Mechanism m = chain(alternating(5), false);
+  m.add(Coupling{"first", "joint2", "joint0", 0.5});
+  m.add(Coupling{"second", "joint3", "joint2", -2.0, 0.5});
+  m.add(Coupling{"third", "joint4", "joint0", 0.25});
+  return m;
+}
+
 struct Machine {
   std::string name;
   std::function<Mechanism()> make;
@@ -172,31 +192,35 @@ TEST_P(Formulations, KeepTheEnergy) {
 
 INSTANTIATE_TEST_SUITE_P(
     Of, Formulations,
-    ::testing::Values(Machine{"oneHinge", [] { return chain({axisY}, true); }},
-                      Machine{"twoPerpendicularHinges",
-                              [] {
-                                return chain({axisZ, axisY}, false);
-                              }},
-                      Machine{"threePerpendicularHinges", [] { return chain(alternating(3), false); }},
-                      Machine{"fourPerpendicularHinges", [] { return chain(alternating(4), false); }},
-                      Machine{"sixPerpendicularHinges", [] { return chain(alternating(6), false); }},
-                      Machine{"obliqueHinges",
-                              [] {
-                                return chain({Axis(1, 2, 2), Axis(-2, 1, 2), Axis(0, 1, 1)}, false);
-                              }},
-                      Machine{"planarChainOfThree", [] { return chain(std::vector<Axis>(3, axisY), true); }},
-                      Machine{"planarChainOfFiveBodies", [] { return chain(std::vector<Axis>(5, axisY), false); }},
-                      Machine{"planarChainOfTen", [] { return chain(std::vector<Axis>(10, axisY), true); }},
-                      Machine{"millimetresAndGrams", [] { return chain(alternating(4), false, 1e-3, 1e-3); }},
-                      Machine{"kilometresAndKilotons", [] { return chain(alternating(4), false, 1e3, 1e6); }},
-                      Machine{"tree", [] { return tree(); }},
-                      Machine{"wristWithoutMass", [] { return wristWithoutMass(); }},
-                      Machine{"floating", [] { return floatingMachine(); }},
-                      Machine{"floatingInMillimetres", [] { return floatingMachine(1e-3); }},
-                      Machine{"oneBall", [] { return ballChain(1, false); }},
-                      Machine{"chainOfBalls", [] { return ballChain(4, false); }},
-                      Machine{"chainOfBallsWithSlenderRods", [] { return ballChain(3, true); }},
-                      Machine{"spatialArm", [] { return testing::spatialArm(); }}),
+    ::testing::Values(
+        Machine{"oneHinge", [] { return chain({axisY}, true); }},
+        Machine{"twoPerpendicularHinges",
+                [] {
+                  return chain({axisZ, axisY}, false);
+                }},
+        Machine{"threePerpendicularHinges", [] { return chain(alternating(3), false); }},
+        Machine{"fourPerpendicularHinges", [] { return chain(alternating(4), false); }},
+        Machine{"sixPerpendicularHinges", [] { return chain(alternating(6), false); }},
+        Machine{"obliqueHinges",
+                [] {
+                  return chain({Axis(1, 2, 2), Axis(-2, 1, 2), Axis(0, 1, 1)}, false);
+                }},
+        Machine{"planarChainOfThree", [] { return chain(std::vector<Axis>(3, axisY), true); }},
+        Machine{"planarChainOfFiveBodies", [] { return chain(std::vector<Axis>(5, axisY), false); }},
+        Machine{"planarChainOfTen", [] { return chain(std::vector<Axis>(10, axisY), true); }},
+        Machine{"millimetresAndGrams", [] { return chain(alternating(4), false, 1e-3, 1e-3); }},
+        Machine{"kilometresAndKilotons", [] { return chain(alternating(4), false, 1e3, 1e6); }},
+        Machine{"tree", [] { return tree(); }}, Machine{"wristWithoutMass", [] { return wristWithoutMass(); }},
+        Machine{"gearedToOneSpeed", [] { return geared(2); }}, Machine{"gearedToTwoSpeeds", [] { return geared(3); }},
+        Machine{"gearedToThreeSpeeds", [] { return geared(4); }},
+        Machine{"gearedToSixSpeeds", [] { return geared(7); }}, Machine{"gearedPoints", [] { return geared(4, true); }},
+        Machine{"gearedInSeries", [] { return gearedInSeries(); }},
+        Machine{"floating", [] { return floatingMachine(); }},
+        Machine{"floatingInMillimetres", [] { return floatingMachine(1e-3); }},
+        Machine{"oneBall", [] { return ballChain(1, false); }},
+        Machine{"chainOfBalls", [] { return ballChain(4, false); }},
+        Machine{"chainOfBallsWithSlenderRods", [] { return ballChain(3, true); }},
+        Machine{"spatialArm", [] { return testing::spatialArm(); }}),
     [](const auto& machine) { return machine.param.name; });
 
 /// Each chain alone is solved for itself.

@@ -720,12 +720,12 @@ constexpr BadStudy badStudies[] = {
      "cylindrical, "
      "universal, weld, "
      "link, mass, spring-damper, "
-     "joint-spring, force, joint-force, drive, state, distance, relative-motion)"},
+     "joint-spring, force, joint-force, drive, coupling, state, distance, relative-motion)"},
     {"type = \"revolute\"", "",
      "s.toml:9:1: 'mechanism.element.type' is missing; expected type = one of: revolute, prismatic, cylindrical, "
      "universal, weld, "
      "link, mass, "
-     "spring-damper, joint-spring, force, joint-force, drive, state, distance, relative-motion"},
+     "spring-damper, joint-spring, force, joint-force, drive, coupling, state, distance, relative-motion"},
     {"axis = \"x\"", "axis = \"w\"",
      "s.toml:14:8: mechanism.element.axis is \"w\"; expected 'x'? (one of: x, y, z, -x, -y, -z)"},
     {"axis = \"x\"", "axis = [0, 0, 0]",
