@@ -123,7 +123,8 @@ ExitCode replay(const Arguments& arguments) {
     throw UsageError(arguments.results +
                      ": holds no samples; expected results of a study that compares \"stochastic\"");
   const std::size_t number = numberOf(arguments, results.stochastic);
-  const Study study = readStudyText(results.studyText, results.studyFile + " in " + arguments.results);
+  const Study study = readStudyText(results.studyText, results.studyFile + " in " + arguments.results, elementTypes(),
+                                    results.robotText);
   ReplayedSample sample;
   const auto table = [&] {
     try {

@@ -22,6 +22,27 @@ bool hasControlCharacters(std::string_view text) {
   return false;
 }
 
+bool isUtf8(std::string_view text) {
+  for (std::size_t i = 0; i < text.size();) {
+    const auto byte = [&](std::size_t at) { return at < text.size() ? static_cast<unsigned char>(text[at]) : 0U; };
+    const unsigned first = byte(i);
+    const std::size_t length = first < 0x80   ? 1
+                               : first < 0xc2 ? 0
+                               : first < 0xe0 ? 2
+                               : first < 0xf0 ? 3
+                               : first < 0xf5 ? 4
+                                              : 0;
+    for (std::size_t k = 1; k < length; ++k)
+      if ((byte(i + k) & 0xc0U) != 0x80) return false;
+    const unsigned second = byte(i + 1);
+    if (length == 0 || (first == 0xe0 && second < 0xa0) || (first == 0xed && second > 0x9f) ||  // too long, surrogates
+        (first == 0xf0 && second < 0x90) || (first == 0xf4 && second > 0x8f))                   // beyond U+10FFFF
+      return false;
+    i += length;
+  }
+  return true;
+}
+
 std::string printable(std::string_view text) {
   std::string result;
   for (std::size_t i = 0; i < text.size(); ++i) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -37,8 +38,9 @@ struct UncertainQuantity {
 struct Study {
   enum class Analysis { kinematics, dynamics };
 
-  std::string text;  ///< of the file, word for word
-  std::string file;  ///< as it was named
+  std::string text;   ///< of the file, word for word
+  std::string file;   ///< as it was named
+  std::string robot;  ///< text of the URDF file that it names, word for word; empty without one
   std::string title;
   Analysis analysis = Analysis::dynamics;
   double horizon = 0;       ///< s; 0 for kinematics
@@ -72,9 +74,10 @@ inline constexpr std::size_t maxOutputTimes = 100000;
 /// StudyError.
 Study readStudy(const std::string& path, const std::vector<Described>& types = elementTypes());
 
-/// The same for text at hand; `name` is what messages call the file.
+/// The same for text at hand; `name` is what messages call the file, and where the path of a robot's file begins.
+/// `robot`: the text of that file, which is not looked for then.
 Study readStudyText(const std::string& text, const std::string& name,
-                    const std::vector<Described>& types = elementTypes());
+                    const std::vector<Described>& types = elementTypes(), const std::optional<std::string>& robot = {});
 
 /// The mechanism of a study alone, by which a study may begin: of the rest, no more is asked than that it is TOML.
 Mechanism readMechanismText(const std::string& text, const std::string& name,

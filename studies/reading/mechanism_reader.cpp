@@ -5,11 +5,16 @@
 
 #include <algorithm>
 #include <cctype>
+#include <filesystem>
 #include <map>
+#include <optional>
 
 #include "mechanics/description/names.hpp"
 #include "mechanics/description/orientation.hpp"
 #include "mechanics/description/words.hpp"
+#include "studies/printable.hpp"
+#include "studies/reading/robot_elements.hpp"
+#include "studies/robot.hpp"
 
 namespace gamut {
 namespace {
@@ -18,22 +23,147 @@ bool isWordCharacter(char c) { return std::isalnum(static_cast<unsigned char>(c)
 
 class MechanismReader {
  public:
-  MechanismReader(const TomlSource& source, const toml::table& table, const std::vector<Described>& types)
-      : source_(source), types_(types), section_(source, table, "mechanism", {"gravity", "parameters", "element"}) {}
+  MechanismReader(const TomlSource& source, const toml::table& table, const std::vector<Described>& types,
+                  const std::optional<std::string>& robot)
+      : source_(source), types_(types), robotAtHand_(robot), section_(source, table, "mechanism", keysOf(table)) {}
 
   ReadMechanism read() {
     readParameters(section_, "");
     if (const toml::node* gravity = section_.find("gravity")) guarded(*gravity, [&] { setGravity(*gravity); });
-    const toml::node& list = section_.require("element", "a table [[mechanism.element]] for each element");
-    const toml::array& elements = source_.asArray(list, "mechanism.element");
-    for (const toml::node& node : elements) readElement(source_.asTable(node, "mechanism.element"));
-    for (std::size_t i = 0; i < elements.size(); ++i)
-      guarded(elements[i], [&] { mechanism_.checkSignals(mechanism_.elements()[i].name()); });
-    guarded(elements, [&] { mechanism_.check(); });
-    return {std::move(mechanism_), std::move(places_)};
+    const toml::node* robot = section_.find("urdf");
+    if (robot != nullptr) addRobot(*robot);
+    const std::size_t ofRobot = mechanism_.elements().size();
+    if (robot == nullptr || section_.find("element") != nullptr) {
+      const toml::node& list = section_.require("element", "a table [[mechanism.element]] for each element");
+      const toml::array& elements = source_.asArray(list, "mechanism.element");
+      for (const toml::node& node : elements) readElement(source_.asTable(node, "mechanism.element"));
+      for (std::size_t i = 0; i < elements.size(); ++i)
+        guarded(elements[i], [&] { mechanism_.checkSignals(mechanism_.elements()[ofRobot + i].name()); });
+    }
+    guarded(robot != nullptr ? *robot : *section_.find("element"), [&] { mechanism_.check(); });
+    return {std::move(mechanism_), std::move(places_), std::move(robotText_), std::move(notes_)};
   }
 
  private:
+  static std::vector<std::string> keysOf(const toml::table& table) {
+    std::vector<std::string> keys = {"gravity", "parameters", "element", "urdf"};
+    if (table.contains("urdf")) keys.insert(keys.end(), {"base", "damping", "friction", "mimic", "initial"});
+    return keys;
+  }
+
+  // ---- A robot ------------------------------------------------------------------------------------------------------
+
+  void addRobot(const toml::node& node) {
+    const std::string path = source_.asText(node, "mechanism.urdf");
+    const std::string found = (std::filesystem::path(source_.name()).parent_path() / path).string();
+    robotText_ = robotAtHand_ ? *robotAtHand_ : textOfRobotAt(node, found);
+    const Robot robot = readRobotText(robotText_, robotAtHand_ ? path + " in " + source_.name() : found);
+    notes_ = robot.notes;
+
+    RobotChoices choices;
+    if (const toml::node* base = section_.find("base"))
+      choices.isFree = source_.asChoice(*base, "mechanism.base", {"fixed", "free"}) == "free";
+    choices.damping = section_.flag("damping", true);
+    choices.friction = section_.flag("friction", true);
+    choices.mimic = section_.flag("mimic", true);
+
+    const toml::node* initial = section_.find("initial");
+    std::map<std::string, const toml::node*> given;
+    if (initial != nullptr) collect(source_.asTable(*initial, "mechanism.initial"), "", given);
+    std::vector<RobotElement> elements;
+    guarded(node, [&] { elements = robotElements(robot, choices, mechanism_); });
+    std::vector<std::string> known;
+    for (RobotElement& element : elements) {
+      InitialValues initialValues(*this, element.element.name(), given, known);
+      element.element.describe(initialValues);
+      places_[element.element.name()] = &section_.table();
+      try {
+        mechanism_.add(element.element);
+      } catch (const WrongNumber& error) {
+        guarded(node, [&]() -> void { throw error; });
+      } catch (const std::invalid_argument& error) {
+        refuseRobot(robot, element.line, error.what());
+      }
+    }
+    if (!given.empty()) {
+      const auto& [name, place] = *given.begin();
+      source_.fail(*place, fmt::format("the robot has no initial value '{}'", name), expectedName(name, known));
+    }
+  }
+
+  std::string textOfRobotAt(const toml::node& node, const std::string& path) const {
+    try {
+      return textOfRobot(path);
+    } catch (const StudyError& error) {
+      std::string what = error.what();
+      const std::size_t end = what.find("; expected ");
+      source_.fail(node, what.substr(0, end), what.substr(end + std::string("; expected ").size()));
+    }
+  }
+
+  [[noreturn]] static void refuseRobot(const Robot& robot, int line, std::string what) {
+    std::ranges::replace(what, ';', ',');
+    throw StudyError(
+        printable(fmt::format("{}:{}: {}; expected a robot whose parts fit together", robot.file, line, what)));
+  }
+
+  /// Every value in tables within tables, by the names of all of them.
+  void collect(const toml::table& table, const std::string& prefix,
+               std::map<std::string, const toml::node*>& values) const {
+    for (const auto& [key, value] : table) {
+      const std::string name = prefix + std::string(key.str());
+      if (const toml::table* inner = value.as_table())
+        collect(*inner, name + ".", values);
+      else if (!values.emplace(name, &value).second)
+        source_.fail(value, fmt::format("'{}' is given twice", name), "one value for each");
+    }
+  }
+
+  /// Gives an element of the robot the initial values that the study states for it, and takes them off the list.
+  class InitialValues final : public Fields {
+   public:
+    InitialValues(MechanismReader& reader, std::string element, std::map<std::string, const toml::node*>& given,
+                  std::vector<std::string>& known)
+        : reader_(reader), element_(std::move(element)), given_(given), known_(known) {}
+
+    void frame(const Word& /*word*/, std::string& /*name*/) override {}
+    void movedFrame(const Word& /*word*/, std::string& /*name*/, const std::string& /*from*/) override {}
+    void choice(const Word& /*word*/, std::string& /*value*/, const std::vector<std::string>& /*choices*/) override {}
+    void axis(const Word& /*word*/, Axis& /*axis*/) override {}
+    void rotations(const Word& /*word*/, std::vector<FixedRotation>& /*rotations*/) override {}
+    void number(const Word& /*word*/, Expression& /*number*/) override {}
+    void numbers(const Word& /*word*/, std::span<Expression> /*numbers*/, std::span<const char* const> /*names*/,
+                 std::size_t /*least*/) override {}
+    void coordinate(const Word& position, Expression& initial, Coordinate /*kind*/, const Word& rate,
+                    Expression& initialRate) override {
+      this->position(position, initial);
+      speed(rate, initialRate);
+    }
+    void position(const Word& word, Expression& initial) override {
+      const std::string name = element_ + "." + word.key;
+      known_.push_back(name);
+      const auto found = given_.find(name);
+      if (found == given_.end()) return;
+      initial = reader_.number(*found->second, name, "mechanism.initial." + name, word.unit);
+      given_.erase(found);
+    }
+    void speed(const Word& word, Expression& initial) override { position(word, initial); }
+    std::string state(const Word& word, Expression& /*initial*/) override { return word.unit; }
+    Coordinate coordinateOf(const Word& /*word*/, std::string& /*name*/) override { return Coordinate::angle; }
+    void timeFunction(const Word& /*word*/, Expression& /*number*/) override {}
+    void signal(const Word& /*word*/, Expression& /*number*/) override {}
+    void signals(const Word& /*word*/, ExpressionVector& /*vector*/) override {}
+    void measure(const Word& /*word*/) override {}
+
+   private:
+    MechanismReader& reader_;
+    std::string element_;
+    std::map<std::string, const toml::node*>& given_;
+    std::vector<std::string>& known_;
+  };
+
+  // ---- Gravity, parameters, elements --------------------------------------------------------------------------------
+
   void setGravity(const toml::node& node) {
     ExpressionVector gravity = {0.0, 0.0, 0.0};
     readNumbers(node, "gravity", "mechanism.gravity", gravity, components, 3, "m/s^2");
@@ -406,16 +536,20 @@ class MechanismReader {
 
   const TomlSource& source_;
   const std::vector<Described>& types_;
+  const std::optional<std::string>& robotAtHand_;
   TomlSection section_;
   Mechanism mechanism_;
+  std::string robotText_;
+  std::vector<std::string> notes_;
   std::map<std::string, const toml::node*> statedWithUnit_;  // parameters
   std::map<std::string, const toml::node*> places_;
 };
 
 }  // namespace
 
-ReadMechanism readMechanism(const TomlSource& source, const toml::table& table, const std::vector<Described>& types) {
-  return MechanismReader(source, table, types).read();
+ReadMechanism readMechanism(const TomlSource& source, const toml::table& table, const std::vector<Described>& types,
+                            const std::optional<std::string>& robot) {
+  return MechanismReader(source, table, types, robot).read();
 }
 
 }  // namespace gamut

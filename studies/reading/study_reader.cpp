@@ -37,13 +37,15 @@ class StudyReader {
     study_.file = name;
   }
 
-  Study read(const std::vector<Described>& types) {
+  Study read(const std::vector<Described>& types, const std::optional<std::string>& robot) {
     const TomlSection file(source_, source_.root(), "",
                            {"study", "mechanism", "uncertain", "output", "interval", "stochastic", "fuzzy", "limits"});
     readStudyTable(source_.asTable(file.require("study", "a table [study]"), "study"));
-    ReadMechanism read =
-        readMechanism(source_, source_.asTable(file.require("mechanism", "a table [mechanism]"), "mechanism"), types);
+    ReadMechanism read = readMechanism(
+        source_, source_.asTable(file.require("mechanism", "a table [mechanism]"), "mechanism"), types, robot);
     study_.mechanism = std::move(read.mechanism);
+    study_.robot = std::move(read.robot);
+    study_.notes = std::move(read.notes);
     places_ = std::move(read.places);
     readUncertain(source_, tables(file, "uncertain"), study_);
     file.require("output", "a table [[output]] for each output that is wanted");
@@ -402,8 +404,9 @@ class StudyReader {
 
 }  // namespace
 
-Study readStudyText(const std::string& text, const std::string& name, const std::vector<Described>& types) {
-  return StudyReader(text, name).read(types);
+Study readStudyText(const std::string& text, const std::string& name, const std::vector<Described>& types,
+                    const std::optional<std::string>& robot) {
+  return StudyReader(text, name).read(types, robot);
 }
 
 Mechanism readMechanismText(const std::string& text, const std::string& name, const std::vector<Described>& types) {

@@ -21,6 +21,7 @@ class TomlSource {
   TomlSource(std::string text, std::string name);
 
   const toml::table& root() const { return root_; }
+  const std::string& name() const { return name_; }
 
   /// Throws StudyError "file:line:column: what; expected …".
   [[noreturn]] void fail(const toml::source_position& at, const std::string& what, const std::string& expected) const;

@@ -10,22 +10,24 @@ std::vector<Field> fieldsOfRoot(Origin& o) {
 }
 
 std::vector<Field> fieldsOfStudy(Origin& o) {
-  return {{"text", WholeText{&o.studyText}, unit::none, "the study file, word for word", {}},
-          {"file", &o.studyFile, unit::none, "name of the study file", {}},
-          {"analysis", &o.analysis, unit::none, "\"dynamics\" or \"kinematics\"", {}},
-          {"seed", &o.seed, unit::none, "of the samples", {}},
-          {"horizon", &o.horizon, unit::second, "time asked for; 0 in kinematics", {}, allowed::finite},
-          {"version", &o.version, unit::none, "of Gamut", {}},
-          {"host", &o.host, unit::none, "machine on which it ran", {}},
-          {"date", &o.date, unit::none, "when it began, UTC", {}},
-          {"cpu", &o.cpu, unit::second, "CPU time of all analyses", {}},
-          {"report_cpu", &o.reportCpu, unit::second, "CPU time of writing the page", {}},
-          {"memory", &o.memory, unit::byte, "the most that the run had at a time", {}},
-          {"time_limit", &o.limits.time, unit::second, "CPU time that the run was allowed", {}},
-          {"memory_limit", &o.limits.memory, unit::byte, "memory that the run was allowed", {}},
-          {"enclosure_time_limit", &o.limits.enclosureTime, unit::second, "of it to the enclosure", {}},
-          {"enclosure_memory_limit", &o.limits.enclosureMemory, unit::byte, "of it to the enclosure", {}},
-          {"sample_time_limit", &o.limits.sampleTime, unit::second, "of it to each sample", {}}};
+  return {
+      {"text", WholeText{&o.studyText}, unit::none, "the study file, word for word", {}},
+      {"urdf", WholeText{&o.robotText}, unit::none, "the robot's file that it names, word for word; else empty", {}},
+      {"file", &o.studyFile, unit::none, "name of the study file", {}},
+      {"analysis", &o.analysis, unit::none, "\"dynamics\" or \"kinematics\"", {}},
+      {"seed", &o.seed, unit::none, "of the samples", {}},
+      {"horizon", &o.horizon, unit::second, "time asked for; 0 in kinematics", {}, allowed::finite},
+      {"version", &o.version, unit::none, "of Gamut", {}},
+      {"host", &o.host, unit::none, "machine on which it ran", {}},
+      {"date", &o.date, unit::none, "when it began, UTC", {}},
+      {"cpu", &o.cpu, unit::second, "CPU time of all analyses", {}},
+      {"report_cpu", &o.reportCpu, unit::second, "CPU time of writing the page", {}},
+      {"memory", &o.memory, unit::byte, "the most that the run had at a time", {}},
+      {"time_limit", &o.limits.time, unit::second, "CPU time that the run was allowed", {}},
+      {"memory_limit", &o.limits.memory, unit::byte, "memory that the run was allowed", {}},
+      {"enclosure_time_limit", &o.limits.enclosureTime, unit::second, "of it to the enclosure", {}},
+      {"enclosure_memory_limit", &o.limits.enclosureMemory, unit::byte, "of it to the enclosure", {}},
+      {"sample_time_limit", &o.limits.sampleTime, unit::second, "of it to each sample", {}}};
 }
 
 std::vector<Field> fieldsOfLibrary(LibraryInfo& l) {

@@ -42,7 +42,7 @@ struct Limits {
 };
 
 struct Origin {
-  std::string studyText, studyFile, title, analysis;
+  std::string studyText, robotText, studyFile, title, analysis;
   std::uint64_t seed = 0;
   std::string version, host, date;
   std::vector<LibraryInfo> libraries;

@@ -20,6 +20,7 @@ void describeOrigin(Run& run) {
   const Study& study = run.study;
   Origin& origin = run.results;
   origin.studyText = study.text;
+  origin.robotText = study.robot;
   origin.studyFile = printable(study.file);
   origin.title = printable(study.title);
   origin.analysis = study.analysisName();

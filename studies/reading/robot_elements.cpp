@@ -1,0 +1,160 @@
+// Joints stand behind frames of their own, so that each number of the file is one number of the mechanism, by name.
+#include "studies/reading/robot_elements.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "mechanics/elements/all.hpp"
+#include "studies/printable.hpp"
+#include "studies/study.hpp"
+
+namespace gamut {
+namespace {
+
+constexpr std::array<const char*, 3> turns = {"roll", "pitch", "yaw"};
+
+class RobotElements {
+ public:
+  RobotElements(const Robot& robot, const RobotChoices& choices, Mechanism& mechanism)
+      : robot_(robot), choices_(choices), mechanism_(mechanism) {}
+
+  std::vector<RobotElement> make() {
+    addBase();
+    addBody(robot_.root());
+    for (std::size_t i = 0; i < robot_.joints.size(); ++i) {
+      addJoint(robot_.joints[i]);
+      addBody(robot_.links[i + 1]);
+    }
+    if (choices_.mimic) addMimics();
+    for (const Robot::Joint& joint : robot_.joints) addResistance(joint);
+    return std::move(elements_);
+  }
+
+ private:
+  void add(Described element, int line) { elements_.push_back({std::move(element), line}); }
+
+  [[noreturn]] void refuse(int line, const std::string& what, const std::string& expected) const {
+    throw StudyError(printable(fmt::format("{}:{}: {}; expected {}", robot_.file, line, what, expected)));
+  }
+
+  Expression number(const std::string& name, const Interval& value, const char* unit) {
+    mechanism_.addParameter(name, value, unit);
+    return Expression::named(name);
+  }
+
+  ExpressionVector vector(const std::string& name, const std::array<Interval, 3>& xyz) {
+    ExpressionVector vector = {0.0, 0.0, 0.0};
+    for (std::size_t i = 0; i < 3; ++i) vector[i] = number(name + "." + components[i], xyz[i], "m");
+    return vector;
+  }
+
+  /// About fixed axes x, y, z is about z, y, x of the frame that turns along.
+  std::vector<FixedRotation> rotation(const std::string& name, const std::array<Interval, 3>& rpy) {
+    const std::array<Axis, 3> axes = {axisX, axisY, axisZ};
+    std::vector<FixedRotation> rotation;
+    for (std::size_t i = 0; i < 3; ++i)
+      rotation.insert(rotation.begin(), {axes[i], 0, number(name + "." + turns[i], rpy[i], "rad")});
+    return rotation;
+  }
+
+  void addBase() {
+    const Robot::Link& root = robot_.root();
+    const std::string name = root.name + ".base";
+    if (choices_.isFree)
+      refuse(root.line, fmt::format("the root '{}' moves freely, which is not supported yet", root.name),
+             "base = \"fixed\"");
+    add(Weld{name, Mechanism::inertialFrame, root.name}, root.line);
+  }
+
+  void addBody(const Robot::Link& link) {
+    if (!link.inertial) return;
+    const Robot::Inertial& inertial = *link.inertial;
+    Mass body{link.name + ".body", link.name};
+    body.mass = number(link.name + ".mass", inertial.mass, "kg");
+    body.centre = vector(link.name + ".centre", inertial.place.xyz);
+    for (std::size_t i = 0; i < 6; ++i)
+      body.inertia[i] = number(link.name + ".inertia." + symmetricEntries[i], inertial.inertia[i], "kg m^2");
+    body.rotation = rotation(link.name + ".inertia", inertial.place.rpy);
+    add(std::move(body), link.line);
+  }
+
+  void addJoint(const Robot::Joint& joint) {
+    const std::string origin = joint.name + ".origin";
+    ExpressionVector place = vector(origin, joint.origin.xyz);
+    std::vector<FixedRotation> turn = rotation(origin, joint.origin.rpy);
+    if (joint.type == Robot::Type::fixed) {
+      add(Link{joint.name, joint.parent, joint.child, std::move(place), std::move(turn)}, joint.line);
+      return;
+    }
+    add(Link{origin, joint.parent, origin, std::move(place), std::move(turn)}, joint.line);
+    add(movable(joint, origin), joint.line);
+  }
+
+  Described movable(const Robot::Joint& joint, const std::string& from) const {
+    switch (joint.type) {
+      case Robot::Type::prismatic:
+        return Prismatic{joint.name, from, joint.child, joint.axis};
+      case Robot::Type::planar:
+      case Robot::Type::floating:
+        refuse(joint.line, fmt::format("'{}' is {}, which is not supported yet", joint.name, wordOf(joint.type)),
+               "a joint that is revolute, continuous, prismatic or fixed");
+      default:
+        return Revolute{joint.name, from, joint.child, joint.axis};
+    }
+  }
+
+  /// Those that follow others after these.
+  void addMimics() {
+    std::vector<std::string> done;
+    const auto isDone = [&](const Robot::Joint& joint) { return std::ranges::count(done, joint.name) != 0; };
+    const auto addBehindLeader = [&](const Robot::Joint& first) {
+      std::vector<const Robot::Joint*> open = {&first};
+      while (!open.empty()) {
+        const Robot::Joint& joint = *open.back();
+        const Robot::Joint& leader = *std::ranges::find(robot_.joints, joint.mimic->joint, &Robot::Joint::name);
+        if (leader.mimic && !isDone(leader)) {
+          open.push_back(&leader);
+          continue;
+        }
+        open.pop_back();
+        if (isDone(joint)) continue;
+        done.push_back(joint.name);
+        const std::string name = joint.name + ".mimic";
+        add(Coupling{name, joint.name, leader.name, joint.mimic->multiplier, joint.mimic->offset}, joint.mimic->line);
+      }
+    };
+    for (const Robot::Joint& joint : robot_.joints)
+      if (joint.mimic) addBehindLeader(joint);
+  }
+
+  /// Viscous damping and dry friction: −d q̇ and −F sign(q̇).
+  void addResistance(const Robot::Joint& joint) {
+    if (!hasCoordinate(joint)) return;
+    const bool slides = joint.type == Robot::Type::prismatic;
+    const auto isZero = [](const Interval& x) { return isEqual(x, Interval(0.0)); };
+    const auto add = [&](const std::string& name, const Interval& value, const char* unit, const std::string& law) {
+      mechanism_.addParameter(name, value, unit);
+      this->add(JointForce{name, joint.name, Expression::parse(fmt::format(fmt::runtime(law), name, joint.name))},
+                joint.line);
+    };
+    if (choices_.damping && !isZero(joint.damping))
+      add(joint.name + ".damping", joint.damping, slides ? "N s/m" : "N m s/rad", "-'{}' * '{}.rate'");
+    if (choices_.friction && !isZero(joint.friction))
+      add(joint.name + ".friction", joint.friction, slides ? "N" : "N m", "-'{}' * sign('{}.rate')");
+  }
+
+  const Robot& robot_;
+  const RobotChoices& choices_;
+  Mechanism& mechanism_;
+  std::vector<RobotElement> elements_;
+};
+
+}  // namespace
+
+std::vector<RobotElement> robotElements(const Robot& robot, const RobotChoices& choices, Mechanism& mechanism) {
+  return RobotElements(robot, choices, mechanism).make();
+}
+
+}  // namespace gamut

@@ -1,0 +1,30 @@
+// A robot as elements of a mechanism.
+#pragma once
+
+#include <vector>
+
+#include "mechanics/description/mechanism.hpp"
+#include "studies/robot.hpp"
+
+namespace gamut {
+
+/// What of a robot is taken, and how it stands.
+struct RobotChoices {
+  bool isFree = false;  ///< its root moves in six degrees of freedom; else it is fixed to the inertial frame
+  bool damping = true, friction = true, mimic = true;
+};
+
+/// An element, and where in the robot's file it comes from.
+struct RobotElement {
+  Described element;
+  int line;
+};
+
+/// Declares the robot's numbers in the mechanism: LINK.mass, LINK.centre.x … z, LINK.inertia.xx …, the inertia's
+/// LINK.inertia.roll, pitch and yaw, JOINT.origin.x … z, JOINT.origin.roll, pitch and yaw, and, where they are not 0,
+/// JOINT.damping and JOINT.friction. Returns the elements that are to be added to it, in this order: a frame LINK for
+/// each link, a mass LINK.body, a joint JOINT behind a frame JOINT.origin. Throws StudyError for what is not supported
+/// yet, std::invalid_argument as Mechanism::addParameter does.
+std::vector<RobotElement> robotElements(const Robot& robot, const RobotChoices& choices, Mechanism& mechanism);
+
+}  // namespace gamut

@@ -1,0 +1,375 @@
+// URDF, element by element. urdfdom is no help here: it keeps doubles where enclosures of the decimals are needed, says
+// no lines, drops an inertial that it cannot read, refuses joints without limits, and its parser has no bound on depth.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <utility>
+
+#include "mechanics/description/names.hpp"
+#include "mechanics/description/units.hpp"
+#include "mechanics/elements/inertia.hpp"
+#include "studies/readable.hpp"
+#include "studies/reading/xml_source.hpp"
+#include "studies/robot.hpp"
+#include "studies/words.hpp"
+
+namespace gamut {
+namespace {
+
+using Element = XmlSource::Element;
+
+constexpr std::size_t mostLinks = 1000;
+constexpr std::uintmax_t mostBytes = 4'000'000;  // meshes lie in files of their own
+
+constexpr std::pair<Robot::Type, std::string_view> types[] = {
+    {Robot::Type::revolute, "revolute"}, {Robot::Type::continuous, "continuous"}, {Robot::Type::prismatic, "prismatic"},
+    {Robot::Type::fixed, "fixed"},       {Robot::Type::planar, "planar"},         {Robot::Type::floating, "floating"}};
+
+std::string quoted(const std::string& name) { return "'" + name + "'"; }
+
+template <class Named>
+auto find(const std::vector<Named>& all, const std::string& name) {
+  return std::ranges::find(all, name, &Named::name);
+}
+
+/// A direction by whole numbers, where doubles hold them: 0.6 0 0.8 is exactly that of 3 0 4.
+Axis directionOf(const std::vector<std::string>& decimals) {
+  mpq_class parts[3];
+  mpz_class common = 1, divisor = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    parts[i] = parseAmount(decimals[i]).value;
+    common = lcm(common, parts[i].get_den());
+  }
+  for (const mpq_class& part : parts) divisor = gcd(divisor, mpq_class(part * common).get_num());
+  double direction[3];
+  for (std::size_t i = 0; i < 3; ++i) {
+    const mpz_class whole = mpq_class(parts[i] * common).get_num() / divisor;
+    direction[i] = whole.get_d();
+    if (mpz_class(direction[i]) != whole || std::abs(direction[i]) > 0x1p53) {  // the nearest doubles, then
+      for (std::size_t k = 0; k < 3; ++k) direction[k] = nearest(parseAmount(decimals[k]));
+      break;
+    }
+  }
+  return {direction[0], direction[1], direction[2]};
+}
+
+/// What a file holds beyond what is read, by name, with the line of the first.
+class LeftOut {
+ public:
+  void add(const std::string& word, int line) {
+    if (first_ == 0) first_ = line;
+    ++counts_[word];
+  }
+  /// A note, if there is anything: "<a> (2), <b>" and `what`.
+  void say(const XmlSource& source, const std::string& what, std::vector<std::string>& notes) const {
+    if (counts_.empty()) return;
+    std::vector<std::string> words;
+    for (const auto& [word, count] : counts_) {
+      if (words.size() == 12) {
+        words.emplace_back("…");
+        break;
+      }
+      words.push_back(count == 1 ? word : fmt::format("{} ({})", word, count));
+    }
+    notes.push_back(source.note(first_, fmt::format("{}{}", fmt::join(words, ", "), what)));
+  }
+
+ private:
+  std::map<std::string, int> counts_;
+  int first_ = 0;
+};
+
+class UrdfReader {
+ public:
+  UrdfReader(const std::string& text, const std::string& name) : source_(text, name) { robot_.file = name; }
+
+  Robot read() {
+    const Element& root = source_.root("robot");
+    lookAt(root, {"name", "version"}, {"link", "joint"});
+    if (root.Attribute("name") != nullptr) robot_.name = source_.requiredName(root, "name", "the robot's name");
+    for (const Element* e = root.FirstChildElement("link"); e != nullptr; e = e->NextSiblingElement("link"))
+      readLink(*e);
+    for (const Element* e = root.FirstChildElement("joint"); e != nullptr; e = e->NextSiblingElement("joint"))
+      readJoint(*e);
+    if (robot_.links.empty()) source_.fail(root.GetLineNum(), "<robot> has no <link>", "one at least");
+    checkMimics();
+    sortOutwards();
+    say();
+    return std::move(robot_);
+  }
+
+ private:
+  /// Notes attributes and elements that are not read. Throws StudyError for what must not be overlooked.
+  void lookAt(const Element& element, std::initializer_list<std::string_view> attributes,
+              std::initializer_list<std::string_view> children) {
+    const auto knows = [](const auto& words, std::string_view word) { return std::ranges::count(words, word) != 0; };
+    for (const tinyxml2::XMLAttribute* a = element.FirstAttribute(); a != nullptr; a = a->Next())
+      if (!knows(attributes, a->Name()) && !std::string_view(a->Name()).starts_with("xmlns"))
+        attributes_.add(fmt::format("'{}' of <{}>", shortened(a->Name()), element.Name()), a->GetLineNum());
+    for (const Element* e = element.FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
+      const std::string_view word = e->Name();
+      if (word.starts_with("xacro:"))
+        source_.fail(e->GetLineNum(), fmt::format("<{}> is of xacro", shortened(word)),
+                     "the file that xacro makes of this one: xacro FILE.xacro > FILE.urdf");
+      if (!knows(children, word))
+        (word == "visual" || word == "collision" ? shapes_ : elements_)
+            .add(fmt::format("<{}>", shortened(word)), e->GetLineNum());
+    }
+  }
+
+  void say() {
+    shapes_.say(source_, ": shapes and meshes are left out", robot_.notes);
+    elements_.say(source_, ": left out, as they say nothing of how bodies and joints move", robot_.notes);
+    attributes_.say(source_, ": left out, as URDF knows no such attribute", robot_.notes);
+    limits_.say(source_, ": kept for information; motions may go beyond", robot_.notes);
+  }
+
+  Robot::Place readPlace(const Element& parent) {
+    Robot::Place place;
+    const Element* origin = source_.child(parent, "origin");
+    if (origin == nullptr) return place;
+    lookAt(*origin, {"xyz", "rpy"}, {});
+    for (const auto& [attribute, numbers] : {std::pair("xyz", &place.xyz), std::pair("rpy", &place.rpy)})
+      if (origin->Attribute(attribute) != nullptr)
+        std::ranges::copy(source_.numbers(*origin, attribute, 3), numbers->begin());
+    return place;
+  }
+
+  void readLink(const Element& element) {
+    lookAt(element, {"name", "type"}, {"inertial"});
+    Robot::Link link{source_.requiredName(element, "name", "the name of the link"), element.GetLineNum()};
+    if (const auto other = find(robot_.links, link.name); other != robot_.links.end())
+      source_.fail(link.line, fmt::format("there is a link {} in line {} already", quoted(link.name), other->line),
+                   "a name for each");
+    if (const Element* inertial = source_.child(element, "inertial"))
+      link.inertial = readInertial(*inertial, link.name);
+    robot_.links.push_back(std::move(link));
+    if (robot_.links.size() > mostLinks)
+      source_.fail(element.GetLineNum(), "there are too many links", fmt::format("at most {}", mostLinks));
+  }
+
+  Robot::Inertial readInertial(const Element& element, const std::string& link) {
+    lookAt(element, {}, {"origin", "mass", "inertia"});
+    Robot::Inertial inertial;
+    inertial.place = readPlace(element);
+    const Element& mass = source_.requiredChild(element, "mass", "<mass value=\"…\"/>, in kg");
+    lookAt(mass, {"value"}, {});
+    inertial.mass = source_.numbers(mass, "value", 1).front();
+    if (inertial.mass.upper() < 0)
+      source_.fail(mass.GetLineNum(), fmt::format("the mass of {} is negative", quoted(link)),
+                   "a mass of at least 0 kg");
+    const Element& inertia = source_.requiredChild(
+        element, "inertia", "<inertia ixx=\"…\" ixy=\"…\" ixz=\"…\" iyy=\"…\" iyz=\"…\" izz=\"…\"/>");
+    lookAt(inertia, {"ixx", "ixy", "ixz", "iyy", "iyz", "izz"}, {});
+    constexpr const char* entries[] = {"ixx", "iyy", "izz", "ixy", "iyz", "ixz"};
+    for (std::size_t i = 0; i < 6; ++i) inertial.inertia[i] = source_.numbers(inertia, entries[i], 1).front();
+    if (const std::string fault = impossibilityOf(inertial.inertia); !fault.empty())
+      source_.fail(inertia.GetLineNum(), fmt::format("the inertia of {} {}", quoted(link), fault),
+                   "an inertia that a body can have");
+    return inertial;
+  }
+
+  void readJoint(const Element& element) {
+    lookAt(element, {"name", "type"}, {"origin", "parent", "child", "axis", "limit", "dynamics", "mimic"});
+    Robot::Joint joint;
+    joint.line = element.GetLineNum();
+    joint.name = source_.requiredName(element, "name", "the name of the joint");
+    if (const auto other = find(robot_.joints, joint.name); other != robot_.joints.end())
+      source_.fail(joint.line, fmt::format("there is a joint {} in line {} already", quoted(joint.name), other->line),
+                   "a name for each");
+    joint.type = readType(element);
+    joint.parent = readEnd(element, "parent");
+    joint.child = readEnd(element, "child");
+    for (const Robot::Joint& other : robot_.joints)
+      if (other.child == joint.child)
+        source_.fail(joint.line,
+                     fmt::format("the link {} is the child of two joints, {} and {}", quoted(joint.child),
+                                 quoted(other.name), quoted(joint.name)),
+                     "a tree, in which each link has one parent (elements of a study may close loops)");
+    joint.origin = readPlace(element);
+    if (const Element* axis = source_.child(element, "axis")) readAxis(*axis, joint);
+    if (const Element* limit = source_.child(element, "limit")) joint.limits = readLimits(*limit);
+    if (const Element* dynamics = source_.child(element, "dynamics")) readDynamics(*dynamics, joint);
+    if (const Element* mimic = source_.child(element, "mimic")) joint.mimic = readMimic(*mimic);
+    robot_.joints.push_back(std::move(joint));
+  }
+
+  Robot::Type readType(const Element& element) const {
+    const std::string word = source_.requiredName(element, "type", "its type, such as \"revolute\"");
+    std::vector<std::string> words;
+    for (const auto& [type, name] : types) {
+      if (word == name) return type;
+      words.emplace_back(name);
+    }
+    source_.fail(element.GetLineNum(),
+                 fmt::format("the joint is of the type \"{}\", which URDF does not have", shortened(word)),
+                 expectedName(word, words));
+  }
+
+  std::string readEnd(const Element& element, const char* end) {
+    const Element& found = source_.requiredChild(element, end, fmt::format("<{} link=\"…\"/>", end));
+    lookAt(found, {"link"}, {});
+    const std::string name = source_.requiredName(found, "link", "the name of a link");
+    if (find(robot_.links, name) == robot_.links.end()) {
+      std::vector<std::string> known;
+      for (const Robot::Link& link : robot_.links) known.push_back(link.name);
+      source_.fail(found.GetLineNum(), fmt::format("there is no link {}", quoted(name)), expectedName(name, known));
+    }
+    return name;
+  }
+
+  void readAxis(const Element& element, Robot::Joint& joint) {
+    lookAt(element, {"xyz"}, {});
+    const std::vector<Interval> numbers = source_.numbers(element, "xyz", 3);
+    if (std::ranges::all_of(numbers, [](const Interval& x) { return isEqual(x, Interval(0.0)); })) {
+      if (joint.type == Robot::Type::fixed) return;  // exporters write it so
+      source_.fail(element.GetLineNum(), fmt::format("the axis of {} is the zero vector", quoted(joint.name)),
+                   "a direction");
+    }
+    const std::vector<std::string> decimals = source_.decimals(element, "xyz", 3);
+    joint.axis = directionOf(decimals);
+    joint.direction = fmt::format("{}", fmt::join(decimals, " "));
+  }
+
+  Robot::Limits readLimits(const Element& element) {
+    lookAt(element, {"lower", "upper", "effort", "velocity"}, {});
+    limits_.add("<limit>", element.GetLineNum());
+    Robot::Limits limits;
+    for (const auto& [attribute, number] :
+         {std::pair("lower", &limits.lower), std::pair("upper", &limits.upper), std::pair("effort", &limits.effort),
+          std::pair("velocity", &limits.velocity)})
+      if (element.Attribute(attribute) != nullptr) *number = midpoint(source_.numbers(element, attribute, 1).front());
+    return limits;
+  }
+
+  void readDynamics(const Element& element, Robot::Joint& joint) {
+    lookAt(element, {"damping", "friction"}, {});
+    for (const auto& [attribute, number] :
+         {std::pair("damping", &joint.damping), std::pair("friction", &joint.friction)}) {
+      *number = source_.number(element, attribute, 0.0);
+      if (number->upper() < 0)
+        source_.fail(element.GetLineNum(), fmt::format("the {} of {} is negative", attribute, quoted(joint.name)),
+                     "a number of at least 0");
+    }
+  }
+
+  Robot::Mimic readMimic(const Element& element) {
+    lookAt(element, {"joint", "multiplier", "offset"}, {});
+    return {source_.requiredName(element, "joint", "the joint that is followed"),
+            source_.number(element, "multiplier", 1.0), source_.number(element, "offset", 0.0), element.GetLineNum()};
+  }
+
+  /// Each follows a joint with one coordinate, and none itself in the end.
+  void checkMimics() const {
+    std::vector<std::string> known;
+    std::map<std::string, const Robot::Joint*> named;
+    for (const Robot::Joint& joint : robot_.joints) {
+      if (hasCoordinate(joint)) known.push_back(joint.name);
+      named[joint.name] = &joint;
+    }
+    for (const Robot::Joint& joint : robot_.joints) {
+      if (!joint.mimic) continue;
+      const int line = joint.mimic->line;
+      if (!hasCoordinate(joint))
+        source_.fail(line, fmt::format("{} is {} and follows another joint", quoted(joint.name), wordOf(joint.type)),
+                     "<mimic> in a joint that is revolute, continuous or prismatic");
+      if (std::ranges::count(known, joint.mimic->joint) == 0)
+        source_.fail(line, fmt::format("there is no joint {} to follow", quoted(joint.mimic->joint)),
+                     expectedName(joint.mimic->joint, known));
+      const Robot::Joint* leader = &joint;
+      for (std::size_t i = 0; leader != nullptr && leader->mimic && i <= named.size(); ++i)
+        leader = named[leader->mimic->joint];  // null where that joint is still to be looked at, and refused
+      if (leader != nullptr && leader->mimic)
+        source_.fail(line, fmt::format("{} follows joints that follow one another in a circle", quoted(joint.name)),
+                     "a joint in the end that follows none");
+    }
+  }
+
+  /// Links and joints from the root outwards, branch by branch, in the file's order.
+  void sortOutwards() {
+    std::map<std::string, std::vector<const Robot::Joint*>> carried;  // by link
+    std::map<std::string, const Robot::Joint*> carrying;
+    for (const Robot::Joint& joint : robot_.joints) {
+      carried[joint.parent].push_back(&joint);
+      carrying[joint.child] = &joint;
+    }
+    const Robot::Link* root = nullptr;
+    for (const Robot::Link& link : robot_.links) {
+      if (carrying.contains(link.name)) continue;
+      if (root != nullptr)
+        source_.fail(link.line,
+                     fmt::format("{} has no parent, and {} of line {} has none either", quoted(link.name),
+                                 quoted(root->name), root->line),
+                     "one root");
+      root = &link;
+    }
+    std::vector<Robot::Link> links;
+    std::vector<Robot::Joint> joints;
+    if (root != nullptr) links.push_back(*root);
+    std::vector<std::pair<const Robot::Joint*, int>> open;  // with their depths
+    const auto lookBehind = [&](const std::string& link, int depth) {
+      const auto& next = carried[link];
+      for (auto joint = next.rbegin(); joint != next.rend(); ++joint) open.emplace_back(*joint, depth);
+    };
+    if (root != nullptr) lookBehind(root->name, 0);
+    while (!open.empty()) {
+      const auto [joint, depth] = open.back();
+      open.pop_back();
+      joints.push_back(*joint);
+      joints.back().depth = depth;
+      links.push_back(*find(robot_.links, joint->child));
+      lookBehind(joint->child, depth + 1);
+    }
+    for (const Robot::Joint& joint : robot_.joints)
+      if (find(joints, joint.name) == joints.end())
+        source_.fail(joint.line,
+                     fmt::format("the links {} and {} carry one another in a circle, with joints such as {}",
+                                 quoted(joint.parent), quoted(joint.child), quoted(joint.name)),
+                     "a tree (elements of a study may close loops)");
+    robot_.links = std::move(links);
+    robot_.joints = std::move(joints);
+  }
+
+  XmlSource source_;
+  Robot robot_;
+  LeftOut shapes_, elements_, attributes_, limits_;
+};
+
+}  // namespace
+
+std::string_view wordOf(Robot::Type type) {
+  return std::ranges::find(types, type, &std::pair<Robot::Type, std::string_view>::first)->second;
+}
+
+bool hasCoordinate(const Robot::Joint& joint) {
+  return joint.type == Robot::Type::revolute || joint.type == Robot::Type::continuous ||
+         joint.type == Robot::Type::prismatic;
+}
+
+int freedomOf(const Robot::Joint& joint) {
+  if (hasCoordinate(joint)) return joint.mimic ? 0 : 1;
+  return joint.type == Robot::Type::planar ? 3 : joint.type == Robot::Type::floating ? 6 : 0;
+}
+
+std::string textOfRobot(const std::string& path) {
+  const std::string expected = "a robot's description (URDF)";
+  if (const std::string fault = whyUnreadable(path); !fault.empty())
+    throw StudyError(fmt::format("{}: {}; expected {}", path, fault, expected));
+  std::ifstream file(path, std::ios::binary);
+  std::string text(mostBytes + 1, '\0');
+  file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(file.gcount()));
+  if (text.size() > mostBytes)
+    throw StudyError(
+        fmt::format("{}: has more than {} MB; expected {} without meshes", path, mostBytes / 1'000'000, expected));
+  return text;
+}
+
+Robot readRobotText(const std::string& text, const std::string& name) { return UrdfReader(text, name).read(); }
+
+}  // namespace gamut

@@ -1,0 +1,79 @@
+// A Robot is what a URDF file says of a machine: links with their inertia, joints between them as a tree, numbers as
+// enclosures of the decimals that stand there. It is read from the file (https://wiki.ros.org/urdf/XML); whatever is
+// wrong there is said with file and line.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "mechanics/axis.hpp"
+#include "scalars/interval.hpp"
+
+namespace gamut {
+
+struct Robot {
+  /// Of a frame in another: m, and rad about the fixed axes x, y, z, in this order.
+  struct Place {
+    std::array<Interval, 3> xyz = {0.0, 0.0, 0.0}, rpy = {0.0, 0.0, 0.0};
+  };
+  struct Inertial {
+    Place place;                                                       ///< of the centre of mass, in the link
+    Interval mass = 0.0;                                               ///< kg
+    std::array<Interval, 6> inertia = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0};  ///< xx, yy, zz, xy, yz, zx, in axes of `place`
+  };
+  struct Link {
+    std::string name;
+    int line = 0;
+    std::optional<Inertial> inertial = {};
+  };
+  enum class Type { revolute, continuous, prismatic, fixed, planar, floating };
+  /// What stands in the file; nothing is held to it.
+  struct Limits {
+    std::optional<double> lower, upper, effort, velocity;  ///< rad or m, N m or N, rad/s or m/s
+  };
+  struct Mimic {
+    std::string joint;
+    Interval multiplier = 1.0, offset = 0.0;
+    int line = 0;
+  };
+  struct Joint {
+    std::string name;
+    int line = 0;
+    Type type = Type::fixed;
+    std::string parent, child;
+    Place origin;  ///< of the joint, and of `child` where the joint is at 0, in `parent`
+    Axis axis = axisX;
+    std::string direction = "1 0 0";         ///< of the axis, as it stands in the file
+    Interval damping = 0.0, friction = 0.0;  ///< N m s/rad or N s/m, N m or N
+    std::optional<Limits> limits = {};
+    std::optional<Mimic> mimic = {};
+    int depth = 0;  ///< how many joints lie between it and the root
+  };
+
+  std::string name;
+  std::string file;                ///< as messages call it
+  std::vector<Link> links;         ///< the root first, each after the one that carries it
+  std::vector<Joint> joints;       ///< joint i moves link i + 1
+  std::vector<std::string> notes;  ///< what is left out: lines "file:line: note: what"
+
+  const Link& root() const { return links.front(); }
+};
+
+/// Whether it turns about an axis or slides along one.
+bool hasCoordinate(const Robot::Joint& joint);
+/// Degrees of freedom: none of a joint that follows another.
+int freedomOf(const Robot::Joint& joint);
+
+/// "revolute", …, as in the file.
+std::string_view wordOf(Robot::Type type);
+
+/// Throws StudyError, for files that no robot description is as large as, too.
+std::string textOfRobot(const std::string& path);
+
+/// Throws StudyError. `name` is what messages call the file.
+Robot readRobotText(const std::string& text, const std::string& name);
+
+}  // namespace gamut
