@@ -1,4 +1,5 @@
-// gamut new: writes a study to start from, the shipped studies/spring_pendulum, which comes along inside the program.
+// gamut new: writes a study to start from: the shipped studies/spring_pendulum, which comes along inside the program,
+// or one of a robot.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -8,9 +9,12 @@
 
 #include "commands/files.hpp"
 #include "commands/options.hpp"
+#include "commands/robot_texts.hpp"
 #include "commands/standard_streams.hpp"
 #include "commands/table.hpp"
 #include "studies/printable.hpp"
+#include "studies/robot.hpp"
+#include "studies/study.hpp"
 
 namespace gamut::commands {
 
@@ -19,7 +23,7 @@ extern const std::string_view studyToStartFrom;
 namespace {
 
 struct Arguments {
-  std::string name;
+  std::string name, robot;
   bool force = false;
 };
 
@@ -40,13 +44,37 @@ std::string quoted(const std::string& path) {
   return result + "'";
 }
 
+/// The robot's file as a study of this path finds it.
+std::string pathFrom(const std::string& study, const std::string& file) {
+  const auto absolute = [](const std::string& path) { return std::filesystem::absolute(path).lexically_normal(); };
+  return absolute(file).lexically_relative(absolute(study).parent_path()).string();
+}
+
+/// What it takes to run is not in every robot's file.
+void noteWhatIsAmiss(const std::string& study, const std::string& path, const std::string& robot) {
+  try {
+    readStudyText(study, path, elementTypes(), robot);
+  } catch (const StudyError& error) {
+    fmt::print(stderr, "note: this study does not run as it is: {}\n", error.what());
+  }
+}
+
 ExitCode write(const Arguments& arguments) {
-  if (arguments.name == "-") {
-    sayOut(studyToStartFrom);
+  const bool isOut = arguments.name == "-";
+  const std::string path = isOut ? "standard input" : fileNamed(arguments.name);
+  std::string study(studyToStartFrom), robotText;
+  if (!arguments.robot.empty()) {
+    robotText = textOfRobot(arguments.robot);
+    const Robot robot = readRobotText(robotText, arguments.robot);
+    for (const std::string& note : robot.notes) fmt::print(stderr, "{}\n", note);
+    study = studyOf(robot, pathFrom(path, arguments.robot));
+  }
+  if (isOut) {
+    sayOut(study);
     return done;
   }
-  const std::string path = fileNamed(arguments.name);
-  reserve(path, "", arguments.force).write(studyToStartFrom);
+  reserve(path, arguments.robot, arguments.force).write(study);
+  if (!arguments.robot.empty()) noteWhatIsAmiss(study, path, robotText);
   fmt::print(
       "{0}: a study to start from\n"
       "  gamut run {1}         runs it, and writes results and a report to look at\n"
@@ -63,6 +91,9 @@ Action newStudy(CLI::App& command) {
   command.add_option("name", arguments->name, "Name, or path, of the study; .toml is added. - for standard output")
       ->required()
       ->type_name("NAME");
+  command
+      .add_option("--urdf", arguments->robot, "Of the robot that this file describes, which the study will refer to")
+      ->type_name("ROBOT.urdf");
   command.add_flag("--force", arguments->force, "Overwrite an existing file");
   return [arguments] { return write(*arguments); };
 }

@@ -28,6 +28,10 @@ void addResults(CLI::App& command, std::string& path) {
   addInput(command, path, "results", "Results file", "RESULTS.h5");
 }
 
+void addResultsOrRobot(CLI::App& command, std::string& path) {
+  addInput(command, path, "results", "Results file, or a robot's description (URDF)", "RESULTS.h5|ROBOT.urdf");
+}
+
 CLI::Validator wholeNumber(std::uint64_t least, std::uint64_t most) {
   const auto problem = [=](const std::string& text) {
     std::uint64_t value = 0;

@@ -21,6 +21,9 @@ void addStudy(CLI::App& command, std::string& path);
 /// The argument RESULTS.h5.
 void addResults(CLI::App& command, std::string& path);
 
+/// The argument RESULTS.h5, which may also be a robot's file.
+void addResultsOrRobot(CLI::App& command, std::string& path);
+
 /// Decimal digits alone, within bounds: no sign that wraps around, no number that is cut off.
 CLI::Validator wholeNumber(std::uint64_t least, std::uint64_t most);
 

@@ -41,7 +41,7 @@ inline constexpr Command table[] = {
     {"validate", "Read and check a study file, no more", validate},
     {"check", "The verdict, from the stored numbers: do all samples stay inside?", check},
     {"report", "Write the report page of a results file", report},
-    {"info", "What a results file holds and where it comes from", info},
+    {"info", "What a results file holds and where it comes from; or the tree of a robot (URDF)", info},
     {"replay", "One sample of a run again, bit for bit, as CSV", replay},
 };
 
