@@ -43,6 +43,8 @@ class Assembly {
   S output(const std::string& quantity) const;
 
   System<S>& system() { return *system_; }
+  /// A number of the mechanism: a formula over its parameters.
+  S number(const Expression& number) const { return parts_.number(number); }
   /// A frame by name. Throws std::invalid_argument, naming the nearest, if there is none.
   const Frame<S>& frame(const std::string& name) const;
 

@@ -1,0 +1,61 @@
+// What of a mechanism can be seen: points, and the parts between them. For pictures; no motion depends on it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mechanics/assembly.hpp"
+#include "mechanics/description/mechanism.hpp"
+
+namespace gamut {
+
+struct Skeleton {
+  /// What a frame, a centre of mass or an end of a spring stands at; those that stand together whatever the motion are
+  /// one point.
+  struct Point {
+    std::string name;         ///< of the first frame there, or "ELEMENT.WORD": "bob.centre"
+    std::string frame;        ///< that carries it
+    ExpressionVector offset;  ///< in that frame [m]
+    bool isFixed = false;     ///< it has the same place in every motion
+    bool isGround = false;    ///< the inertial frame carries it, by links and welds alone
+  };
+
+  enum class Kind {
+    rigid,   ///< a link, a weld: `to` is fixed to `from`
+    joint,   ///< `to` moves against `from`
+    mass,    ///< `from` is the frame that it is fixed to, `to` its centre
+    spring,  ///< a load between two points
+  };
+  struct Part {
+    std::string name, type;  ///< as in the study
+    Kind kind = Kind::rigid;
+    std::size_t from = 0, to = 0;  ///< points
+    int turns = 0, slides = 0;     ///< of a joint: how many of its speeds turn [rad/s] and slide [m/s]
+    Expression mass = 0.0;         ///< kg
+  };
+  /// A direction that belongs to a joint.
+  struct JointAxis {
+    std::string name;      ///< "hinge.axis"
+    std::size_t part = 0;  ///< the joint
+    std::string frame;     ///< in which the direction is fixed
+    Axis axis = axisX;
+  };
+
+  std::vector<Point> points;
+  std::vector<Part> parts;
+  std::vector<JointAxis> axes;
+};
+
+/// In the order of the elements; empty for a mechanism of states alone. Points count as one only if they are for all
+/// values of the free parameters. Elements that only measure, or act at a point, are no parts.
+Skeleton skeletonOf(const Mechanism& mechanism, const std::vector<std::string>& freeParameters = {});
+
+/// x, y, z of every point [m], of their velocities [m/s], or of the axes' unit vectors, in the inertial frame.
+template <class S>
+std::vector<S> positionsOf(const Assembly<S>& assembly, const Skeleton& skeleton);
+template <class S>
+std::vector<S> velocitiesOf(const Assembly<S>& assembly, const Skeleton& skeleton);
+template <class S>
+std::vector<S> axesOf(const Assembly<S>& assembly, const Skeleton& skeleton);
+
+}  // namespace gamut

@@ -1,0 +1,121 @@
+// What of a mechanism is seen: which points there are, what lies between them, and where they are.
+#include "mechanics/skeleton.hpp"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+
+#include "tests/mechanics/machines.hpp"
+
+namespace gamut::testing {
+namespace {
+
+using ::testing::ElementsAre;
+using Kind = Skeleton::Kind;
+
+std::vector<std::string> namesOf(const Skeleton& skeleton) {
+  std::vector<std::string> names;
+  for (const Skeleton::Point& point : skeleton.points) names.push_back(point.name);
+  return names;
+}
+
+TEST(Skeleton, JoinsWhatStandsTogether) {
+  const Skeleton skeleton = skeletonOf(doublePendulum());
+  EXPECT_THAT(namesOf(skeleton), ElementsAre("inertial", "K2", "K4"));
+  EXPECT_TRUE(skeleton.points[0].isFixed);
+  EXPECT_FALSE(skeleton.points[1].isFixed);
+  ASSERT_EQ(skeleton.parts.size(), 6u);
+  const Skeleton::Part &shoulder = skeleton.parts[0], &upper = skeleton.parts[1], &tip = skeleton.parts[5];
+  EXPECT_EQ(shoulder.kind, Kind::joint);
+  EXPECT_EQ(shoulder.type, "revolute");
+  EXPECT_EQ(shoulder.turns, 1);
+  EXPECT_EQ(shoulder.slides, 0);
+  EXPECT_EQ(shoulder.from, shoulder.to);
+  EXPECT_EQ(upper.kind, Kind::rigid);
+  EXPECT_EQ(upper.to, 1u);
+  EXPECT_EQ(tip.kind, Kind::mass);
+  EXPECT_EQ(tip.to, 2u);
+  ASSERT_EQ(skeleton.axes.size(), 2u);
+  EXPECT_EQ(skeleton.axes[1].name, "elbow.axis");
+  EXPECT_EQ(skeleton.axes[1].part, 3u);
+}
+
+TEST(Skeleton, KeepsApartWhatMayComeApart) {
+  Mechanism m;
+  m.add(Revolute{"hinge", "inertial", "K", axisX});
+  m.add(Link{"rod", "K", "end", {0.0, 0.0, 0.0}});
+  m.add(Mass{"bob", "end", 1.0});
+  EXPECT_THAT(namesOf(skeletonOf(m)), ElementsAre("inertial"));
+  EXPECT_THAT(namesOf(skeletonOf(m, {"rod.vector.z"})), ElementsAre("inertial", "end"));
+}
+
+TEST(Skeleton, TellsGroundFromWhatOnlyStaysInItsPlace) {
+  Mechanism m;
+  m.add(Link{"base", "inertial", "B", {1.0, 0.0, 0.0}});
+  m.add(Revolute{"turn", "B", "K", axisZ});
+  m.add(Link{"column", "K", "top", {0.0, 0.0, 0.5}});
+  m.add(Link{"arm", "top", "end", {0.3, 0.0, 0.0}});
+  m.add(Mass{"body", "end", 1.0});
+  const Skeleton skeleton = skeletonOf(m);
+  ASSERT_THAT(namesOf(skeleton), ElementsAre("inertial", "B", "top", "end"));
+  EXPECT_TRUE(skeleton.points[1].isGround);
+  EXPECT_TRUE(skeleton.points[2].isFixed);
+  EXPECT_FALSE(skeleton.points[2].isGround);
+}
+
+TEST(Skeleton, SaysWhatEachPartIs) {
+  Mechanism m;
+  m.add(Prismatic{"rail", "inertial", "cart", axisY, 0.1});
+  m.add(Cylindrical{"sleeve", "cart", "S", axisZ, 0.1});
+  m.add(Universal{"cross", "S", "U"});
+  m.add(Weld{"weld", "U", "W"});
+  m.add(Mass{"body", "W", 2.0, {0.0, 0.1, 0.0}});
+  m.add(Spring{"buffer", "inertial", "cart", 10.0, 1.0, 0.0, {0.0, -1.0, 0.0}});
+  m.add(Distance{"gauge", "inertial", "cart", {1.0, 0.0, 0.0}});
+  const Skeleton skeleton = skeletonOf(m);
+  std::vector<std::string> parts;
+  for (const Skeleton::Part& part : skeleton.parts) parts.push_back(part.name);
+  EXPECT_THAT(parts, ElementsAre("rail", "sleeve", "cross", "weld", "body", "buffer"));
+  EXPECT_EQ(skeleton.parts[0].slides, 1);
+  EXPECT_EQ(skeleton.parts[1].turns + skeleton.parts[1].slides, 2);
+  EXPECT_EQ(skeleton.parts[2].turns, 2);
+  EXPECT_EQ(skeleton.parts[5].kind, Kind::spring);
+  EXPECT_THAT(namesOf(skeleton), ElementsAre("inertial", "cart", "S", "body.centre", "buffer.from"));
+  ASSERT_EQ(skeleton.axes.size(), 4u);
+  EXPECT_EQ(skeleton.axes[2].frame, "S");
+  EXPECT_EQ(skeleton.axes[3].frame, "U");
+}
+
+TEST(Skeleton, IsWhereTheAssemblyIs) {
+  const Mechanism arm = spatialArm();
+  const Skeleton skeleton = skeletonOf(arm);
+  Assembly<double> assembly(arm);
+  const std::vector<double> places = positionsOf(assembly, skeleton), velocities = velocitiesOf(assembly, skeleton),
+                            axes = axesOf(assembly, skeleton);
+  const auto expectAt = [&](const std::string& point, const std::string& quantity) {
+    const auto names = namesOf(skeleton);
+    const auto found = std::ranges::find(names, point);
+    ASSERT_NE(found, names.end()) << point;
+    const auto k = 3 * static_cast<std::size_t>(found - names.begin());
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_DOUBLE_EQ(places[k + i], assembly.output(quantity + ".position." + components[i])) << point;
+      EXPECT_DOUBLE_EQ(velocities[k + i], assembly.output(quantity + ".velocity." + components[i])) << point;
+    }
+  };
+  expectAt("E", "E");
+  expectAt("column.centre", "column");
+  expectAt("hand.centre", "hand");
+  for (std::size_t a = 0; a + 3 <= axes.size(); a += 3)
+    EXPECT_NEAR(std::hypot(axes[a], axes[a + 1], axes[a + 2]), 1, 1e-14);
+}
+
+TEST(Skeleton, OfStatesAloneIsEmpty) {
+  Mechanism m;
+  m.add(State{"prey", 1.0, Expression::parse("prey")});
+  const Skeleton skeleton = skeletonOf(m);
+  EXPECT_TRUE(skeleton.points.empty());
+  EXPECT_TRUE(skeleton.parts.empty());
+}
+
+}  // namespace
+}  // namespace gamut::testing
