@@ -50,6 +50,9 @@ Flow::Flow(Program f, Program g, FlowOptions options) {
               "a flow needs one derivative for each of its states (and at least one state)");
   requireThat(g.states() == f.states() && g.parameters() == f.parameters(),
               "the outputs of a flow need its states and its parameters");
+  requireThat(options.aside.values.outputs() == 0 ||
+                  (options.aside.values.states() == f.states() && options.aside.values.parameters() == f.parameters()),
+              "what is looked at besides needs the states and the parameters of the flow");
   requireThat(options.order == 0 || (options.order >= 4 && options.order <= 30),
               "the order of a flow must be 4 to 30 (0: automatic)");
   requireThat(options.degree >= -1 && options.degree <= 40,
@@ -73,7 +76,7 @@ Flow::Flow(Program f, Program g, FlowOptions options) {
                     std::fabs(value.low) <= 0x1p-52 * std::fabs(value.high) && value.radius >= 0,
                 "a precise value needs a component of the box of its own, a low part below the high one's digits, and "
                 "a radius");
-  FlowFormulation anyCourse(std::move(f), std::move(g), options.varying);
+  FlowFormulation anyCourse(std::move(f), std::move(g), options.varying, options.aside.values);
   std::optional<FlowFormulation> ofRates;
   if (hasRates) ofRates = anyCourse.ofRates();
   parts_ = std::make_unique<const Parts>(Parts{std::move(anyCourse), std::move(ofRates), std::move(options)});
@@ -94,8 +97,14 @@ Tube answer(const FlowFormulation& formulation, const FlowOptions& options, Flow
   const Embedding uncertain(box, n, options.varying);
   FlowOptions own = options;
   if (uncertain.symbols > 0) own.precise.clear();  // they are of thin boxes, not of a thin level of a wide one
-  const FlowQuestion question{
-      formulation.motion, formulation.differentiated, formulation.outputs, own, horizon, outputTimes, budget};
+  FlowOptions ofLevels = own;
+  ofLevels.aside = {};
+  own.aside.values = formulation.asides;
+  const auto questionWith = [&](const FlowOptions& with) {
+    return FlowQuestion{
+        formulation.motion, formulation.differentiated, formulation.outputs, with, horizon, outputTimes, budget};
+  };
+  const FlowQuestion question = questionWith(own), levelQuestion = questionWith(ofLevels);
   const auto narrowsInput = [&](const Box& level) {
     return std::ranges::any_of(options.varying, [&](const VaryingParameter& input) {
       return width(level[at(n + input.parameter)]) < width(box[at(n + input.parameter)]);
@@ -109,7 +118,7 @@ Tube answer(const FlowFormulation& formulation, const FlowOptions& options, Flow
     for (std::size_t i = 0; i < box.size(); ++i)
       if (uncertain.components[i].symbol >= 0) share = std::max(share, width(levels[level][i]) / width(box[i]));
     if (looseness > 0.01 * share || narrowsInput(levels[level]))
-      FlowRun::tighten(tube, level, refine(question, levels[level], {}, unused));
+      FlowRun::tighten(tube, level, refine(levelQuestion, levels[level], {}, unused));
   }
   return tube;
 }

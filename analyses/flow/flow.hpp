@@ -35,6 +35,13 @@ struct PreciseValue {
   double high = 0, low = 0, radius = 0;
 };
 
+/// Values y = a(t, x, p) that are looked at besides, at some of the output times: proved, but nothing that a flow does
+/// depends on them.
+struct FlowAside {
+  Program values;             ///< of the flow's states and parameters; without outputs: none
+  std::vector<double> times;  ///< s, rising; those that are no output times do not count
+};
+
 /// Options of a flow; the defaults choose for themselves. One says how tight the enclosure is to be, from which the
 /// others follow.
 struct FlowOptions {
@@ -56,6 +63,7 @@ struct FlowOptions {
   int jobs = 1;                                             ///< threads that follow pieces
   std::vector<VaryingParameter> varying;                    ///< all other parameters are constant in time
   std::vector<PreciseValue> precise;                        ///< each within its component of the box
+  FlowAside aside;                                          ///< for Tube::asides
   std::vector<std::string> stateNames;   ///< for Tube::why() and shortfall(); without them "state 0", "state 1", ...
   std::vector<std::string> outputNames;  ///< likewise
   std::function<void(double)> progress;  ///< called with the fraction done (0 … 1), from any thread
@@ -101,6 +109,8 @@ class Tube {
   const std::vector<Interval>& outputs(std::size_t i) const { return outputs_[i]; }
   /// Outputs over the whole interval [times()[i-1], times()[i]].
   const std::vector<Interval>& outputsOver(std::size_t i) const { return outputsOver_[i]; }
+  /// Values looked at besides at times()[i]; empty at times that FlowAside does not name.
+  const std::vector<Interval>& asides(std::size_t i) const { return asides_[i]; }
   /// Outputs at times()[i] when the uncertain quantities are confined to sub-box `level` (nested: intersected).
   const std::vector<Interval>& cut(std::size_t level, std::size_t i) const { return cuts_[level][i]; }
 
@@ -112,7 +122,7 @@ class Tube {
  private:
   friend class FlowRun;
   std::vector<double> times_;
-  std::vector<std::vector<Interval>> states_, statesOver_, outputs_, outputsOver_;
+  std::vector<std::vector<Interval>> states_, statesOver_, outputs_, outputsOver_, asides_;
   std::vector<std::vector<std::vector<Interval>>> cuts_;
   std::vector<std::vector<double>> excess_;  // tightness() - 1 of each, [time][output or state]
   double reached_ = 0;

@@ -74,10 +74,11 @@ Program differentiatedFor(const Program& motion, const std::vector<VaryingParame
   return recorder.finish(outputs);
 }
 
-FlowFormulation::FlowFormulation(Program f, Program g, std::vector<VaryingParameter> varying)
+FlowFormulation::FlowFormulation(Program f, Program g, std::vector<VaryingParameter> varying, Program besides)
     : motion(std::move(f)),
       differentiated(differentiatedFor(motion, varying)),
       outputs(std::move(g)),
+      asides(std::move(besides)),
       states(motion.states()),
       inputs(std::move(varying)) {}
 
@@ -100,7 +101,7 @@ FlowFormulation FlowFormulation::ofRates() const {
     if (withRates) results.insert(results.end(), rates.begin(), rates.end());
     return recorder.finish(results);
   };
-  FlowFormulation result(written(motion, true), written(outputs, false), inputs);
+  FlowFormulation result(written(motion, true), written(outputs, false), inputs, written(asides, false));
   result.states = states;
   return result;
 }

@@ -17,10 +17,11 @@ struct FlowFormulation {
   Program motion;          // f
   Program differentiated;  // differentiatedFor
   Program outputs;         // g
+  Program asides;          // FlowOptions::aside
   int states;              // of f as it was asked for: those behind them are inputs
   std::vector<VaryingParameter> inputs;
 
-  FlowFormulation(Program f, Program g, std::vector<VaryingParameter> varying);
+  FlowFormulation(Program f, Program g, std::vector<VaryingParameter> varying, Program besides);
   /// With a state for each input of bounded rate.
   FlowFormulation ofRates() const;
 

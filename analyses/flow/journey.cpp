@@ -147,7 +147,7 @@ std::unique_ptr<FlowFollower::Tools> FlowFollower::toolsFor(const FlowPiece& pie
             FlowStepper(motion, layout.monomials, layout.frameDegree, task_.order, task_.tolerance,
                         FlowInputs(task_.motion.states(), task_.order, task_.varying, 0.4 * (options.tightness - 1)),
                         options.cancelled),
-            PolynomialRange(layout.monomials), nullptr, nullptr, nullptr});
+            PolynomialRange(layout.monomials), nullptr, nullptr, nullptr, nullptr});
   if (layout.monomials->symbols() == 0 && task_.fineOrders > 0) tools->stepper.setFineOrders(task_.fineOrders);
   tools->stepper.setStateNames(options.stateNames);
   if (task_.jumps.count() > 0)
@@ -280,6 +280,16 @@ void FlowFollower::encloseLevels(const FlowPiece& piece, std::size_t row) {
   collected_.cutCpu += threadCpuSeconds() - began;
 }
 
+/// At the time of `point_`, where the states are in these boxes.
+void FlowFollower::lookAside(const FlowPiece& piece, std::size_t row, const std::vector<Interval>& states) {
+  if (task_.looksAside[row] == 0) return;
+  if (!tool_->asides)
+    tool_->asides = std::make_unique<FlowAsides>(
+        task_.options.aside.values, task_.layouts[task_.outputLayout(piece.layout)].monomials,
+        task_.layouts[piece.layout].monomials, task_.varying, task_.options.cancelled);
+  joinHulls(collected_.asides[row], tool_->asides->enclose(task_.times[row], point_, states, piece.set.parameters));
+}
+
 /// Adds what the step that was just certified contributes to the tube; false if the piece has grown too wide.
 bool FlowFollower::record(FlowPiece& piece) {
   const std::vector<double>& times = task_.times;
@@ -292,6 +302,7 @@ bool FlowFollower::record(FlowPiece& piece) {
     joinHulls(collected_.outputs[0], piece.lastOutputs);
     joinHulls(collected_.outputsOver[0], piece.lastOutputs);
     encloseLevels(piece, 0);
+    lookAside(piece, 0, piece.last);
     piece.over = piece.last;
     piece.overOutputs = piece.lastOutputs;
     piece.next = 1;
@@ -338,6 +349,7 @@ bool FlowFollower::record(FlowPiece& piece) {
     joinHulls(collected_.stateCore[piece.next], stateCore_);
     joinHulls(collected_.outputCore[piece.next], outputCore_);
     encloseLevels(piece, piece.next);
+    lookAside(piece, piece.next, end);
     joinHulls(collected_.states[piece.next], end);
     for (int o = 0; symbols_ > 1 && outputs_ && o < outputs_->count(); ++o)
       if (std::isfinite(outputs_->radius(o)))

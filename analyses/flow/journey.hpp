@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "analyses/flow/asides.hpp"
 #include "analyses/flow/outputs.hpp"
 #include "analyses/flow/polynomial_range.hpp"
 #include "analyses/flow/step.hpp"
@@ -29,7 +30,7 @@ enum class FlowJourney { goesOn, ended, cancelled };
 
 /// Everything that pieces contributed at the output times.
 struct FlowCollected {
-  std::vector<std::vector<Interval>> states, statesOver, outputs, outputsOver;
+  std::vector<std::vector<Interval>> states, statesOver, outputs, outputsOver, asides;
   std::vector<std::vector<std::vector<Interval>>> cuts;
   std::vector<std::vector<Interval>> stateCore, outputCore;  // see FlowFollower; their hulls
   std::vector<Influence> influence;                          // of every symbol
@@ -41,6 +42,7 @@ struct FlowCollected {
         statesOver(times),
         outputs(times),
         outputsOver(times),
+        asides(times),
         cuts(levels, std::vector<std::vector<Interval>>(times)),
         stateCore(times),
         outputCore(times) {}
@@ -71,6 +73,7 @@ class FlowFollower {
     std::unique_ptr<FlowOutputs> outputs;
     std::unique_ptr<PolynomialRange> outputRange;
     std::unique_ptr<FlowOutputChords> chords;
+    std::unique_ptr<FlowAsides> asides;  // once needed
   };
 
   FlowJourney follow(FlowPiece& piece, double end);
@@ -87,6 +90,7 @@ class FlowFollower {
   void appendOutputs(const FlowPiece& piece, const std::vector<Interval>& states, const Box& xi,
                      std::vector<Interval>& outputs);
   void encloseLevels(const FlowPiece& piece, std::size_t row);
+  void lookAside(const FlowPiece& piece, std::size_t row, const std::vector<Interval>& states);
   bool record(FlowPiece& piece);
 
   FlowRun& run_;

@@ -181,10 +181,13 @@ Tube FlowRun::gather(std::vector<FlowCollected>& collected) {
   merge(&FlowCollected::statesOver, tube.statesOver_);
   merge(&FlowCollected::outputs, tube.outputs_);
   merge(&FlowCollected::outputsOver, tube.outputsOver_);
+  merge(&FlowCollected::asides, tube.asides_);
   if (rows == 0) {  // not even one step: the start itself is known
     tube.states_ =
         tube.statesOver_ = {std::vector<Interval>(task_.box.begin(), task_.box.begin() + task_.motion.states())};
     tube.outputs_ = tube.outputsOver_ = {std::vector<Interval>(at(task_.outputs.outputs()), Interval::entire())};
+    tube.asides_ = {std::vector<Interval>(task_.looksAside[0] == 0 ? 0 : at(task_.options.aside.values.outputs()),
+                                          Interval::entire())};
     rows = 1;
     for (auto& part : collected)
       for (auto& level : part.cuts) level[0] = tube.outputs_[0].empty() ? tube.states_[0] : tube.outputs_[0];
@@ -193,6 +196,7 @@ Tube FlowRun::gather(std::vector<FlowCollected>& collected) {
   PlainOutputs atStart(task_.outputs);
   narrow(tube.outputs_[0], atStart.over(0.0, task_.box));
   tube.outputsOver_[0] = tube.outputs_[0];
+  if (!tube.asides_[0].empty()) narrow(tube.asides_[0], PlainOutputs(task_.options.aside.values).over(0.0, task_.box));
   tube.cuts_.assign(task_.levels.size(), std::vector<std::vector<Interval>>(rows));
   for (std::size_t level = 0; level < task_.levels.size(); ++level)
     for (std::size_t row = 0; row < rows; ++row) {
@@ -295,6 +299,7 @@ Tube FlowRun::meet(Tube a, Tube b) {
   cross(b.statesOver_, a.statesOver_);
   cross(b.outputs_, a.outputs_);
   cross(b.outputsOver_, a.outputsOver_);
+  cross(b.asides_, a.asides_);
   for (std::size_t level = 0; level < b.cuts_.size(); ++level) cross(b.cuts_[level], a.cuts_[level]);
   for (std::size_t row = 0; row < std::min(a.excess_.size(), b.excess_.size()); ++row)
     for (std::size_t i = 0; i < a.excess_[row].size(); ++i)

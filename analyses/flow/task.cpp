@@ -64,6 +64,10 @@ FlowTask::FlowTask(const FlowQuestion& question, const Box& startBox, const std:
   for (double time : question.outputTimes)
     if (time > times.back()) times.push_back(time);
   if (horizon > times.back()) times.push_back(horizon);
+  const FlowAside& aside = options.aside;
+  for (const double time : times)
+    looksAside.push_back(
+        static_cast<char>(aside.values.outputs() > 0 && std::ranges::binary_search(aside.times, time)));
   int exponent = 0;
   std::frexp(horizon, &exponent);
   quantum = std::ldexp(1.0, exponent - 53);  // one unit in the last place of the horizon: sums of steps are exact

@@ -84,6 +84,7 @@ struct FlowTask {
   std::size_t degrees = 0;          // how many are not expanded
   std::size_t richer = 0;           // FlowRound
   std::vector<double> times;        // 0, those asked for, the horizon
+  std::vector<char> looksAside;     // at each of them
 };
 
 }  // namespace gamut

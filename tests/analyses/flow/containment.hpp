@@ -73,11 +73,13 @@ class Judge {
     std::vector<double> times;
     for (const Moment& moment : moments_) times.push_back(moment.time);
     const std::vector<Vector> states = reference_(given, times);
-    std::optional<Evaluator<Precise>> outputs;
-    if (c_.g) {
-      outputs.emplace(*c_.g);
-      outputs->setParameters(Vector(start.begin() + c_.f.states(), start.end()));
-    }
+    std::optional<Evaluator<Precise>> outputs, asides;
+    const auto take = [&](std::optional<Evaluator<Precise>>& evaluator, const Program& program) {
+      evaluator.emplace(program);
+      evaluator->setParameters(Vector(start.begin() + c_.f.states(), start.end()));
+    };
+    if (c_.g) take(outputs, *c_.g);
+    if (c_.options.aside.values.outputs() > 0) take(asides, c_.options.aside.values);
     for (std::size_t m = 0; m < moments_.size(); ++m) {
       const auto [time, row, isOutputTime] = moments_[m];
       SCOPED_TRACE("t = " + std::to_string(time) + ", start " + describe(start));
@@ -89,6 +91,8 @@ class Judge {
         within(tube_.outputsOver(row), y, "outputs over");
         if (isOutputTime) within(tube_.outputs(row), y, "outputs");
       }
+      if (isOutputTime && asides && !tube_.asides(row).empty())
+        within(tube_.asides(row), (*asides)(Precise(time), states[m]), "asides");
       if (isOutputTime)
         for (std::size_t l = 0; l < level; ++l) within(tube_.cut(l, row), y, "cut");
       if (::testing::Test::HasFatalFailure()) return;
