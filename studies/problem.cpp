@@ -6,7 +6,6 @@
 #include <numbers>
 #include <span>
 
-#include "analyses/samples/courses.hpp"
 #include "mechanics/assembly.hpp"
 #include "mechanics/model.hpp"
 #include "scalars/recorded.hpp"
@@ -33,20 +32,19 @@ std::vector<std::string> outputQuantities(const Study& study) {
 /// What varies in time follows a course: swinging once in the study's time at least, and twice as fast as the motion
 /// itself, or sixteen times in all, at most.
 void takeCourses(const Study& study, Problem& problem) {
-  std::vector<VaryingQuantity> quantities;
   for (std::size_t i = 0; i < study.uncertain.size(); ++i) {
     const UncertainQuantity& of = study.uncertain[i];
     if (!of.varies) continue;
     const int parameter = problem.motion.slot[i] - static_cast<int>(problem.states);
     problem.varying.push_back({parameter, of.rate});
-    quantities.push_back({parameter, of.uncertain.range, of.uncertain.nominal, of.rate});
+    problem.courses.push_back({parameter, of.uncertain.range, of.uncertain.nominal, of.rate});
   }
-  if (quantities.empty()) return;
-  const double once = 2 * std::numbers::pi / study.horizon,
-               fastest = std::max(16 * once, 2 * fastestTurn(study.motion.f, problem.motion.nominal));
+  if (problem.courses.empty()) return;
+  problem.slowest = 2 * std::numbers::pi / study.horizon;
+  problem.fastest = std::max(16 * problem.slowest, 2 * fastestTurn(study.motion.f, problem.motion.nominal));
   Motion& motion = problem.motion.motion;
   for (Program* program : {&motion.f, &motion.g, &motion.sampled})
-    if (program->outputs() > 0) *program = withCourses(*program, quantities, once, fastest);
+    if (program->outputs() > 0) *program = alongCourses(problem, *program);
 }
 
 /// y = g(p): outputs of the assembly at the configuration p (states, then free parameters).
@@ -62,6 +60,10 @@ Program recordConfiguration(const Study& study, std::size_t states, int numbers)
 }
 
 }  // namespace
+
+Program alongCourses(const Problem& problem, const Program& program) {
+  return problem.courses.empty() ? program : withCourses(program, problem.courses, problem.slowest, problem.fastest);
+}
 
 void recordPrograms(Study& study) {
   const double start = processCpuSeconds();

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "analyses/flow/flow.hpp"
+#include "analyses/samples/courses.hpp"
 #include "analyses/samples/ensemble.hpp"
 #include "scalars/interval.hpp"
 #include "studies/study.hpp"
@@ -21,6 +22,8 @@ struct Problem {
   std::vector<Box> levels;    ///< the box with the alpha-cuts of the uncertain quantities, one a level
   std::vector<std::string> outputs;
   std::vector<VaryingParameter> varying;  ///< free parameters that vary in time
+  std::vector<VaryingQuantity> courses;   ///< what of them the samples take, turning no slower and no faster than so
+  double slowest = 0, fastest = 0;        ///< rad/s
   UncertainMotion motion;  ///< its programs, as samples follow them: dynamics f, g of the states; kinematics g of
                            ///< parameters alone. What varies in time takes the course that its number chooses.
 };
@@ -29,5 +32,8 @@ struct Problem {
 void recordPrograms(Study& study);
 
 Problem makeProblem(const Study& study);
+
+/// A program of states and free parameters as samples follow it: what varies in time takes its course.
+Program alongCourses(const Problem& problem, const Program& program);
 
 }  // namespace gamut

@@ -9,6 +9,7 @@
 #include "studies/results/comparison.hpp"
 #include "studies/results/fuzzy.hpp"
 #include "studies/results/interval.hpp"
+#include "studies/results/machine.hpp"
 #include "studies/results/origin.hpp"
 #include "studies/results/stochastic.hpp"
 
@@ -23,6 +24,7 @@ struct Results : Origin {
   StochasticResult stochastic;
   FuzzyResult fuzzy;
   ComparisonResult comparison;
+  MachineResult machine;
 
   std::array<Answer*, 3> answers() { return {&interval, &stochastic, &fuzzy}; }
   std::array<const Answer*, 3> answers() const { return {&interval, &stochastic, &fuzzy}; }

@@ -25,6 +25,7 @@ void encloseMotion(Run& run) {
   flow.stateNames = run.study.mechanism.stateNames();
   for (const OutputInfo& output : run.study.outputs) flow.outputNames.push_back(output.name);
   flow.varying = run.problem.varying;
+  if (run.seen.isEnclosed) flow.aside = {run.seen.positions, run.seen.at};
   const Motion& motion = run.study.motion;  // of the samples', what varies in time has a course
   const Tube tube = Flow(motion.f, motion.g, flow)
                         .enclose(run.problem.box, run.study.horizon, run.study.motion.times, run.problem.levels);
@@ -47,6 +48,7 @@ void encloseMotion(Run& run) {
   enclosed.pieces = tube.pieces();
   enclosed.steps = tube.steps();
   enclosed.cutCpu = tube.cutCpuSeconds();
+  enclosePlaces(run, tube);
 }
 
 /// Plain intervals and polynomials both enclose, so their intersection does; but where these found nothing, an output
@@ -67,6 +69,7 @@ void encloseConfiguration(Run& run) {
   setRow(enclosed.direct, 0, direct);
   for (std::size_t level = 0; level < enclosed.cuts.size(); ++level) narrow(level + 1, enclosed.cuts[level]);
   if (images.empty()) enclosed.why = run.watch.why();
+  enclosePlaces(run);
   enclosed.pieces = 1;
   enclosed.reachedTimes = 1;
 }
@@ -76,6 +79,8 @@ void clear(Run& run) {
   run.enclosed = {};
   run.enclosed.at = run.emptyBounds();
   run.enclosed.cuts.assign(run.problem.levels.size(), run.emptyBounds());
+  Places& places = run.results.machine.places;
+  places.lower = places.upper = places.sag = {};
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "studies/problem.hpp"
 #include "studies/results/results.hpp"
 #include "studies/running/run.hpp"
+#include "studies/running/seen.hpp"
 #include "studies/study.hpp"
 #include "studies/watch.hpp"
 
@@ -45,12 +46,15 @@ struct Run {
   Watch watch;
   Problem problem;
   Results results;
+  Seen seen;                            ///< filled by `lookAtMachine`
   Enclosed enclosed;                    ///< filled by `enclose`
   std::optional<EnsembleRun> ensemble;  ///< there from `takeFirstSamples` on, unless it found no room
 };
 
 // An analysis has its unit, declared here and in the list below, behind what it needs.
 
+/// The machine's parts and its nominal motion, for the picture; what is seen of it is known from then on.
+void lookAtMachine(Run& run);
 /// A first block, before the enclosure, so that one that ends early has something to be compared with.
 void takeFirstSamples(Run& run);
 /// The flow, or the image, that all proved bounds come from.
@@ -60,10 +64,16 @@ void findPossibilities(Run& run);
 /// Settles what leaves the proved bounds, then counts it.
 void takeOtherSamples(Run& run);
 void compareAnswers(Run& run);
+/// A few of them, for the picture.
+void showSamples(Run& run);
 
 /// All units, in the order in which they run.
-inline constexpr void (*units[])(Run&) = {takeFirstSamples,  enclose,          guarantee,
-                                          findPossibilities, takeOtherSamples, compareAnswers};
+inline constexpr void (*units[])(Run&) = {lookAtMachine,     takeFirstSamples, enclose,        guarantee,
+                                          findPossibilities, takeOtherSamples, compareAnswers, showSamples};
+
+/// Where points certainly are, by the flow's tube, or, where nothing moves, by the image of the box.
+void enclosePlaces(Run& run, const Tube& tube);
+void enclosePlaces(Run& run);
 
 /// Takes what a comparison with an alpha-cut found, or, level -1, with the enclosure.
 void takeDisputes(Run& run, const Comparison& found, int level);

@@ -91,6 +91,23 @@ inline Results sampleResults() {
   r.comparison.maximumOf = {12, nan};
   r.comparison.disputed = {{17, 1, 0, 0.09, 0.1, 1.1, 0.01, 1e-9, "Taylor 53 bits", true, 2, {0.01, 0.25}},
                            {4098, 0, 1, 1.2, 1.1, 2.1, 0, 1e-9, "unresolved", false, -1, {0, 0}}};
+  r.machine.present = r.machine.places.present = true;
+  r.machine.why = "the enclosure became wider than 1e6";
+  r.machine.directions = {{"x", 0}, {"y", 0}, {"z", -9.81}};
+  r.machine.points = {{"inertial", true, true}, {"tip", false, false}};
+  r.machine.parts = {{"hinge", "revolute", "joint", 0, 0, 1, 0, 0},
+                     {"rod", "link", "rigid", 0, 1, 0, 0, 0},
+                     {"bob", "mass", "mass", 1, 1, 0, 0, 0.25}};
+  r.machine.axes = {{"hinge.axis", 0}};
+  r.machine.places = {true,
+                      {0, 0.02},
+                      {0, 0, 0, 0, 0.3, -0.4, 0, 0, 0, 0, 0.4, -0.3},
+                      {1, 0, 0, 1, 0, 0},
+                      {0, 3},
+                      std::vector<double>(24, 0.125),
+                      {0, 0, 0, 0, 0.2, -0.5, 0, 0, 0, nan, nan, nan},
+                      {0, 0, 0, 0, 0.4, -0.3, 0, 0, 0, nan, nan, nan},
+                      std::vector<double>(12, 0.01)};
   r.reportCpu = 0.0625;
   r.limits = {1800, 8e9, 1200, 5e9, 18};
   r.cpu = 2.25;

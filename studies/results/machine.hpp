@@ -1,0 +1,65 @@
+// The machine as a picture shows it: points, the parts between them, and where the points are.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "studies/results/fields.hpp"
+
+namespace gamut {
+
+/// Of the inertial frame.
+struct DirectionInfo {
+  std::string name;    ///< "x", "y", "z"
+  double gravity = 0;  ///< acceleration of free fall along it, nominal, m/s²
+};
+
+struct PointInfo {
+  std::string name;       ///< of the first frame, centre of mass or end of a spring there
+  bool isFixed = false;   ///< no motion moves it
+  bool isGround = false;  ///< the inertial frame carries it
+};
+
+/// Between two points, by index.
+struct PartInfo {
+  std::string name, type;  ///< as in the study
+  std::string kind;        ///< "rigid", "joint", "mass", "spring"
+  std::uint64_t from = 0, to = 0;
+  std::int64_t turns = 0, slides = 0;  ///< of a joint
+  double mass = 0;                     ///< nominal, kg
+};
+
+struct AxisInfo {
+  std::string name;        ///< "hinge.axis"
+  std::uint64_t part = 0;  ///< the joint
+};
+
+/// At some of the output times, all in the inertial frame, [time][point][direction] unless said otherwise, m. NaN where
+/// a motion did not arrive or nothing is known.
+struct Places {
+  bool present = false;
+  std::vector<double> time;
+  std::vector<double> nominal;
+  std::vector<double> axes;  ///< unit vectors in the nominal motion, [time][axis][direction]
+  std::vector<std::int64_t> sample;
+  std::vector<double> samples;       ///< [sample][time][point][direction]
+  std::vector<double> lower, upper;  ///< of every point, at these times
+  /// How far a point may be, since the time before, from the straight line between its places at both times.
+  std::vector<double> sag;
+};
+
+struct MachineResult {
+  bool present = false;  ///< there is something to be seen
+  std::string why;       ///< why places are not enclosed, or not to the end; empty if they are, or nobody asked
+  std::vector<DirectionInfo> directions;
+  std::vector<PointInfo> points;
+  std::vector<PartInfo> parts;
+  std::vector<AxisInfo> axes;
+  Places places;
+};
+
+/// Adds the groups of this part.
+void describe(MachineResult& machine, std::vector<Group>& groups);
+
+}  // namespace gamut

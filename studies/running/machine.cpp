@@ -1,0 +1,243 @@
+// The picture's numbers: the machine's parts, a few motions, and where its points certainly are.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <new>
+
+#include "analyses/flow/plain_outputs.hpp"
+#include "analyses/samples/sampling.hpp"
+#include "scalars/evaluation/evaluator.hpp"
+#include "studies/printable.hpp"
+#include "studies/running/sampled_study.hpp"
+#include "studies/running/units.hpp"
+
+namespace gamut {
+namespace {
+
+void describeParts(Run& run) {
+  const Mechanism& mechanism = run.study.mechanism;
+  const Skeleton& skeleton = run.seen.skeleton;
+  MachineResult& machine = run.results.machine;
+  const auto nominal = [&](const Expression& number) { return midpoint(mechanism.rangeOf(number)); };
+  machine.present = machine.places.present = true;
+  for (std::size_t i = 0; i < 3; ++i)
+    machine.directions.push_back({components[i], mechanism.gravity() ? nominal((*mechanism.gravity())[i]) : 0.0});
+  for (const Skeleton::Point& point : skeleton.points)
+    machine.points.push_back({printable(point.name), point.isFixed, point.isGround});
+  for (const Skeleton::Part& part : skeleton.parts) {
+    constexpr const char* kinds[] = {"rigid", "joint", "mass", "spring"};
+    machine.parts.push_back({printable(part.name), printable(part.type), kinds[static_cast<std::size_t>(part.kind)],
+                             part.from, part.to, part.turns, part.slides, nominal(part.mass)});
+  }
+  for (const Skeleton::JointAxis& axis : skeleton.axes) machine.axes.push_back({printable(axis.name), axis.part});
+}
+
+/// Integrates one motion after the other, each alone.
+class Follower {
+ public:
+  explicit Follower(Run& run)
+      : run_(run),
+        motion_(run.problem.motion.motion),
+        tolerance_(run.study.ensemble.tolerance),
+        seconds_(run.results.limits.sampleTime) {
+    motion_.g = alongCourses(run.problem, run.seen.drawn);
+    motion_.times = run.seen.at;
+    witness_.emplace(motion_, run.study.ensemble.method, run.watch.stop());
+  }
+
+  /// [time][point and axis][direction]; what was not reached is NaN, but for the start, where nothing is integrated.
+  Table follow(const std::vector<double>& start) {
+    Table table(motion_.times.size(), motion_.outputs());
+    witness_->integrate(start, tolerance_, table.data, seconds_);
+    const auto states = static_cast<std::ptrdiff_t>(motion_.f.states());
+    Evaluator<double> evaluate(motion_.g);
+    evaluate.setParameters(std::vector<double>(start.begin() + states, start.end()));
+    std::ranges::copy(evaluate(0.0, {start.begin(), start.begin() + states}), table.data.begin());
+    return table;
+  }
+
+ private:
+  Run& run_;
+  Motion motion_;
+  Tolerance tolerance_;
+  double seconds_;
+  std::optional<Witness> witness_;
+};
+
+/// Of each row the numbers from `first` to `last`.
+void append(std::vector<double>& to, const Table& table, std::size_t first, std::size_t last) {
+  for (std::size_t i = 0; i < table.times; ++i)
+    for (std::size_t k = first; k < last; ++k) to.push_back(table(i, k));
+}
+
+/// Plans are such that their first samples lie apart, but for grids.
+std::vector<std::size_t> shownSamples(const Sampling& sampling, Plan plan) {
+  std::vector<std::size_t> numbers;
+  const std::size_t count = std::min(seenSamples, sampling.samples());
+  for (std::size_t i = 0; i < count; ++i)
+    numbers.push_back(plan == Plan::grid ? i * (sampling.samples() - 1) / std::max<std::size_t>(count - 1, 1) : i);
+  return numbers;
+}
+
+/// Values over boxes, wherever they are needed together; nothing is known of any that may have no value there.
+class BoxValues {
+ public:
+  BoxValues(const Program& program, std::span<const Interval> parameters)
+      : evaluate_(program), isDefined_(std::ranges::none_of(program.nodes(), [](const Node& node) {
+          return node.op == Op::sqrt || node.op == Op::log;
+        })) {
+    evaluate_.setParameters(parameters);
+  }
+  std::vector<Interval> over(const Interval& t, const std::vector<Interval>& states) {
+    std::vector<Interval> values = evaluate_(t, states);
+    for (Interval& value : values)
+      if (!isDefined_ || isEmpty(value)) value = Interval::entire();
+    return values;
+  }
+
+ private:
+  Evaluator<Interval> evaluate_;
+  bool isDefined_;
+};
+
+/// Whether an output depends on a parameter that varies in time: then it may move without its velocity.
+bool mayJump(const Program& program, const std::vector<VaryingParameter>& varying) {
+  std::vector<char> isUsed(program.nodes().size(), 0);
+  for (const int output : program.outputNodes()) isUsed[static_cast<std::size_t>(output)] = 1;
+  for (std::size_t i = isUsed.size(); i-- > 0;)
+    if (isUsed[i] != 0)
+      detail::forEachOperand(program.table(), static_cast<int>(i),
+                             [&](int operand) { isUsed[static_cast<std::size_t>(operand)] = 1; });
+  return std::ranges::any_of(varying, [&](const VaryingParameter& of) {
+    for (std::size_t i = 0; i < isUsed.size(); ++i)
+      if (isUsed[i] != 0 && program.nodes()[i].op == Op::parameter && program.nodes()[i].a == of.parameter) return true;
+    return false;
+  });
+}
+
+/// Bounds of how far points leave chords.
+class Sags {
+ public:
+  Sags(const Run& run, const Tube& tube)
+      : run_(run),
+        tube_(tube),
+        parameters_(run.problem.box.begin() + static_cast<std::ptrdiff_t>(run.problem.states), run.problem.box.end()),
+        jumps_(mayJump(run.seen.positions, run.problem.varying)),
+        values_(jumps_ ? run.seen.positions : run.seen.velocities, parameters_) {}
+
+  /// Between output times i < j. A path that goes at speeds between l and u leaves the chord, of slope m, by no more
+  /// than (u - m) s after the time s, nor by more than (m - l)(h - s), since it comes to its end: by (u - l) h / 4 at
+  /// most; likewise downwards. A place that may jump is somewhere in its box, and a point of the chord is the middle of
+  /// `end`.
+  std::vector<double> between(std::size_t i, std::size_t j, const std::vector<Interval>& end) {
+    std::vector<Interval> range;
+    for (std::size_t k = i + 1; k <= j; ++k) {
+      const Interval during(tube_.times()[k - 1], tube_.times()[k]);
+      std::vector<Interval> own = values_.over(during, tube_.statesOver(k));
+      if (range.empty())
+        range = std::move(own);
+      else
+        for (std::size_t v = 0; v < range.size(); ++v) range[v] = hull(range[v], own[v]);
+    }
+    const Interval h = Interval(tube_.times()[j]) - Interval(tube_.times()[i]);
+    std::vector<double> sags;
+    for (std::size_t v = 0; v < range.size(); ++v) {
+      const Interval far = jumps_ ? abs(range[v] - Interval(midpoint(end[v])))
+                                  : (Interval(range[v].upper()) - Interval(range[v].lower())) * h * Interval(0.25);
+      sags.push_back(isBounded(range[v]) ? far.upper() : std::numeric_limits<double>::infinity());
+    }
+    return sags;
+  }
+
+ private:
+  const Run& run_;
+  const Tube& tube_;
+  std::vector<Interval> parameters_;
+  bool jumps_;
+  BoxValues values_;
+};
+
+void put(std::vector<double>& lower, std::vector<double>& upper, std::size_t row, const std::vector<Interval>& bounds) {
+  for (std::size_t k = 0; k < bounds.size(); ++k) {
+    lower[row * bounds.size() + k] = bounds[k].lower();
+    upper[row * bounds.size() + k] = bounds[k].upper();
+  }
+}
+
+void makeRoom(const Run& run, Places& places) {
+  const std::size_t numbers = run.seen.times.size() * 3 * run.seen.skeleton.points.size();
+  for (std::vector<double>* of : {&places.lower, &places.upper, &places.sag})
+    of->assign(numbers, std::numeric_limits<double>::quiet_NaN());
+}
+
+}  // namespace
+
+void lookAtMachine(Run& run) try {
+  run.watch.begin(Watch::Stage::firstSamples);
+  run.seen = whatIsSeen(run.study, run.problem);
+  if (run.seen.empty()) return;
+  describeParts(run);
+  Places& places = run.results.machine.places;
+  places.time = run.seen.at;
+  const Table nominal = Follower(run).follow(run.problem.motion.nominal);
+  const std::size_t coordinates = 3 * run.seen.skeleton.points.size();
+  append(places.nominal, nominal, 0, coordinates);
+  append(places.axes, nominal, coordinates, nominal.outputs);
+} catch (const std::bad_alloc&) {  // the answers are worth more than a picture
+  run.seen = {};
+  run.results.machine = {};
+}
+
+void enclosePlaces(Run& run, const Tube& tube) {
+  if (!run.seen.isEnclosed) return;
+  Places& places = run.results.machine.places;
+  makeRoom(run, places);
+  Sags sags(run, tube);
+  const std::vector<std::size_t>& times = run.seen.times;
+  for (std::size_t row = 0; row < times.size() && times[row] < tube.reachedTimes(); ++row) {
+    const std::vector<Interval>& bounds = tube.asides(times[row]);
+    put(places.lower, places.upper, row, bounds);
+    const std::vector<double> sag =
+        row == 0 ? std::vector<double>(bounds.size(), 0.0) : sags.between(times[row - 1], times[row], bounds);
+    std::ranges::copy(sag, places.sag.begin() + static_cast<std::ptrdiff_t>(row * bounds.size()));
+  }
+}
+
+void enclosePlaces(Run& run) {
+  if (!run.seen.isEnclosed) return;
+  Places& places = run.results.machine.places;
+  const auto images =
+      encloseImage(run.seen.positions, 0.0, run.problem.box, {}, run.study.flow.degree, run.watch.stop());
+  std::vector<Interval> bounds = BoxValues(run.seen.positions, run.problem.box).over(Interval(0.0), {});
+  for (std::size_t k = 0; k < bounds.size() && !images.empty(); ++k)
+    bounds[k] = intersection(bounds[k], images.front()[k]);
+  makeRoom(run, places);
+  put(places.lower, places.upper, 0, bounds);
+  std::ranges::fill(places.sag, 0.0);
+}
+
+void showSamples(Run& run) try {
+  if (run.seen.empty()) return;
+  MachineResult& machine = run.results.machine;
+  if (run.study.asksFor<IntervalResult>())
+    machine.why = run.seen.isEnclosed
+                      ? run.enclosed.why
+                      : "of more than " + std::to_string(mostEnclosedPoints) + " moving points no places are enclosed";
+  if (!run.study.asksFor<StochasticResult>() || *run.watch.stop()) return;
+  run.watch.begin(Watch::Stage::rest);
+  const EnsembleOptions options = ensembleOptions(run.study, run.problem, run.results.seed,
+                                                  run.options.samples.value_or(run.study.ensemble.samples));
+  Sampling sampling(options.plan, run.study.uncertain.size(), options.samples, options.seed);
+  Follower follower(run);
+  const UncertainMotion& motion = run.problem.motion;
+  for (const std::size_t number : shownSamples(sampling, options.plan)) {
+    const Table sample = follower.follow(motion.start(sampling.values(number, motion.uncertain)));
+    machine.places.sample.push_back(static_cast<std::int64_t>(number));
+    append(machine.places.samples, sample, 0, 3 * run.seen.skeleton.points.size());
+  }
+} catch (const std::bad_alloc&) {
+  run.results.machine.places.sample.clear();
+  run.results.machine.places.samples.clear();
+}
+
+}  // namespace gamut

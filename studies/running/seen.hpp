@@ -1,0 +1,37 @@
+// What of a study's machine is seen, and when: for the picture in the report.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "mechanics/skeleton.hpp"
+#include "scalars/program/program.hpp"
+#include "studies/problem.hpp"
+#include "studies/study.hpp"
+
+namespace gamut {
+
+/// Programs take what those of the study's motion take: states and free parameters, in kinematics parameters alone.
+struct Seen {
+  Skeleton skeleton;
+  std::vector<std::size_t> times;  ///< indices of output times, rising; first and last are among them
+  std::vector<double> at;          ///< s: those times
+  Program positions, velocities;   ///< x, y, z of every point [m, m/s]
+  Program drawn;                   ///< positions, then the unit vectors of the axes
+  bool isEnclosed = false;         ///< the places of all points are to be bounded
+
+  bool empty() const { return skeleton.parts.empty(); }
+};
+
+/// At most so many times, and fewer of so many points that their places exceed the second; but never fewer than the
+/// third: what a page can hold.
+inline constexpr std::size_t mostSeenTimes = 301, mostSeenPlaces = 3000, leastSeenTimes = 31;
+/// Samples whose motions are seen.
+inline constexpr std::size_t seenSamples = 6;
+/// Of more moving points no places are enclosed.
+inline constexpr std::size_t mostEnclosedPoints = 120;
+
+/// Empty for a mechanism of states alone.
+Seen whatIsSeen(const Study& study, const Problem& problem);
+
+}  // namespace gamut

@@ -1,0 +1,213 @@
+// What the results hold for the picture: where the assembly is, samples inside the enclosures at shown times and
+// between them, limits of how much is shown.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+#include "mechanics/assembly.hpp"
+#include "studies/running/run.hpp"
+#include "studies/running/seen.hpp"
+#include "tests/studies/sample_study.hpp"
+
+namespace gamut {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+Results resultsOf(const std::string& text) { return run(readStudyText(text, "sample.toml")); }
+
+std::string fine(const std::string& step) { return sampleStudyWith("output_step = 0.1", "output_step = " + step); }
+
+std::size_t pointNamed(const MachineResult& machine, const std::string& name) {
+  const auto found = std::ranges::find(machine.points, name, &PointInfo::name);
+  EXPECT_NE(found, machine.points.end()) << name;
+  return static_cast<std::size_t>(found - machine.points.begin());
+}
+
+TEST(SeenMachine, NamesPointsAndParts) {
+  const MachineResult machine = resultsOf(sampleStudy).machine;
+  ASSERT_TRUE(machine.present);
+  ASSERT_EQ(machine.points.size(), 2u);
+  EXPECT_EQ(machine.points[0].name, "inertial");
+  EXPECT_TRUE(machine.points[0].isFixed);
+  EXPECT_EQ(machine.points[1].name, "tip");
+  ASSERT_EQ(machine.parts.size(), 3u);
+  EXPECT_EQ(machine.parts[0].kind, "joint");
+  EXPECT_EQ(machine.parts[1].kind, "rigid");
+  EXPECT_EQ(machine.parts[2].kind, "mass");
+  EXPECT_EQ(machine.parts[2].mass, 0.25);
+  ASSERT_EQ(machine.axes.size(), 1u);
+  EXPECT_EQ(machine.axes[0].part, 0u);
+  ASSERT_EQ(machine.directions.size(), 3u);
+  EXPECT_DOUBLE_EQ(machine.directions[2].gravity, -9.81);
+  EXPECT_THAT(machine.why, IsEmpty());
+}
+
+TEST(SeenMachine, IsWhereTheAssemblyIsInTheNominalMotion) {
+  const Study study = readStudyText(sampleStudy, "sample.toml");
+  const Results results = run(study);
+  const Places& places = results.machine.places;
+  ASSERT_EQ(places.time, results.time);
+  const KeptSamples& kept = results.stochastic.kept;
+  const std::size_t centre = kept.motionNumber.size() - 1, times = results.time.size();  // the nominal motion
+  Assembly<double> assembly(study.mechanism);
+  for (std::size_t i = 0; i < times; ++i) {
+    const double angle = kept.motions[(centre * times + i) * 2];
+    assembly.setState(std::vector<double>{angle, 0.0});
+    for (std::size_t d = 0; d < 3; ++d)
+      EXPECT_NEAR(places.nominal[(2 * i + 1) * 3 + d], assembly.output(std::string("tip.position.") + components[d]),
+                  1e-9);
+    EXPECT_EQ(places.axes[3 * i], 1.0);
+  }
+}
+
+/// Of every sample and every output time between two shown times: the point lies within the boxes' convex combination,
+/// wider by the sag, in every direction. No tolerance.
+void expectSamplesInside(const Results& results) {
+  const Places& places = results.machine.places;
+  const std::size_t points = results.machine.points.size(), tip = pointNamed(results.machine, "tip"), outputs = 2;
+  const KeptSamples& kept = results.stochastic.kept;
+  ASSERT_GT(kept.motionNumber.size(), 1u);
+  const auto at = [&](std::size_t row, std::size_t d) { return 3 * (row * points + tip) + d; };
+  for (std::size_t s = 0; s < kept.motionNumber.size(); ++s)
+    for (std::size_t row = 1; row < places.time.size(); ++row)
+      for (std::size_t i = 0; i < results.time.size(); ++i) {
+        const double t = results.time[i], from = places.time[row - 1], to = places.time[row];
+        if (t < from || t > to) continue;
+        const double share = (t - from) / (to - from);
+        for (std::size_t d = 1; d < 3; ++d) {
+          const double x = kept.motions[(s * results.time.size() + i) * outputs + d - 1];
+          const double sag = places.sag[at(row, d)];
+          EXPECT_GE(x, (1 - share) * places.lower[at(row - 1, d)] + share * places.lower[at(row, d)] - sag) << s << t;
+          EXPECT_LE(x, (1 - share) * places.upper[at(row - 1, d)] + share * places.upper[at(row, d)] + sag) << s << t;
+        }
+      }
+  for (std::size_t s = 0; s < places.sample.size(); ++s)
+    for (std::size_t row = 0; row < places.time.size(); ++row)
+      for (std::size_t d = 1; d < 3; ++d) {
+        const double x = places.samples[s * places.time.size() * points * 3 + at(row, d)];
+        EXPECT_GE(x, places.lower[at(row, d)]);
+        EXPECT_LE(x, places.upper[at(row, d)]);
+      }
+}
+
+/// With both coordinates of the tip for outputs.
+std::string withTip(std::string text) {
+  const std::string angle = "name = \"angle\"\nquantity = \"hinge.angle\"";
+  return text.replace(text.find(angle), angle.size(), "quantity = \"tip.position.y\"");
+}
+
+TEST(SeenMachine, HoldsSamplesAtShownTimesAndBetween) {
+  const Results results = resultsOf(withTip(fine("0.0005")));
+  ASSERT_EQ(results.outputs[0].quantity, "tip.position.y");
+  ASSERT_EQ(results.outputs[1].quantity, "tip.position.z");
+  EXPECT_LE(results.machine.places.time.size(), mostSeenTimes);
+  EXPECT_LT(results.machine.places.time.size(), results.time.size());
+  EXPECT_EQ(results.machine.places.time.back(), 0.5);
+  EXPECT_EQ(results.machine.places.sample.size(), seenSamples);
+  expectSamplesInside(results);
+}
+
+TEST(SeenMachine, HoldsSamplesOfARodWhoseLengthVariesInTime) {
+  std::string text = withTip(fine("0.001"));
+  text += "[[uncertain]]\nquantity = \"rod.length\"\ninterval = \"± 1 %\"\nvaries = \"freely\"\n";
+  expectSamplesInside(resultsOf(text));
+}
+
+TEST(SeenMachine, IsTightlyEnclosed) {
+  const Results results = resultsOf(sampleStudy);
+  const Places& places = results.machine.places;
+  const std::size_t tip = pointNamed(results.machine, "tip"), points = results.machine.points.size();
+  for (std::size_t i = 0; i < results.time.size(); ++i) {
+    const std::size_t z = 3 * (i * points + tip) + 2;
+    EXPECT_LE(places.upper[z] - places.lower[z],
+              1.02 * (results.interval.at.upper(i, 1) - results.interval.at.lower(i, 1)) + 1e-12);
+  }
+}
+
+TEST(SeenMachine, ChangesNoAnswer) {
+  const Results results = resultsOf(sampleStudy);
+  EXPECT_EQ(results.outputs.size(), 2u);
+  EXPECT_EQ(results.interval.at.lower.outputs, 2u);
+  EXPECT_EQ(results.comparison.verdict, "inside");
+}
+
+TEST(SeenMachine, ShowsWhatWasAskedForAlone) {
+  const auto compared = [](const std::string& words) {
+    return resultsOf(sampleStudyWith("\"interval\", \"stochastic\", \"fuzzy\"", words)).machine;
+  };
+  const MachineResult samples = compared("\"stochastic\"");
+  EXPECT_TRUE(samples.places.lower.empty());
+  EXPECT_FALSE(samples.places.samples.empty());
+  EXPECT_THAT(samples.why, IsEmpty());
+  const MachineResult enclosure = compared("\"interval\"");
+  EXPECT_FALSE(enclosure.places.lower.empty());
+  EXPECT_TRUE(enclosure.places.samples.empty());
+  EXPECT_TRUE(compared("\"fuzzy\"").places.lower.empty());
+}
+
+TEST(SeenMachine, StandsAtItsStartWhereTheRunWasInterrupted) {
+  const std::atomic<bool> cancelled{true};
+  RunOptions options;
+  options.cancelled = &cancelled;
+  const MachineResult machine = run(readStudyText(sampleStudy, "sample.toml"), options).machine;
+  ASSERT_TRUE(machine.present);
+  EXPECT_NEAR(machine.places.nominal[4], 0.25, 1e-15);  // sin 30° / 2
+  EXPECT_NE(machine.why, "");
+}
+
+TEST(SeenMachine, OfKinematicsIsEnclosedWhereItStands) {
+  std::string text = sampleStudyWith("\"dynamics\"", "\"kinematics\"");
+  for (const std::string line : {"horizon = 0.5\n", "output_step = 0.1\n"}) text.erase(text.find(line), line.size());
+  const MachineResult machine = resultsOf(text).machine;
+  ASSERT_EQ(machine.places.time, std::vector<double>{0});
+  const std::size_t y = 3 * pointNamed(machine, "tip") + 1;
+  for (std::size_t s = 0; s < machine.places.sample.size(); ++s) {
+    EXPECT_GE(machine.places.samples[6 * s + y], machine.places.lower[y]);
+    EXPECT_LE(machine.places.samples[6 * s + y], machine.places.upper[y]);
+  }
+  EXPECT_LT(machine.places.upper[y] - machine.places.lower[y], 0.006);
+}
+
+TEST(SeenMachine, OfPlainDifferentialEquationsIsNotThere) {
+  const MachineResult machine = resultsOf(R"([study]
+analysis = "dynamics"
+horizon = 0.5
+output_step = 0.1
+[[mechanism.element]]
+type = "state"
+name = "prey"
+initial = 1
+rate = "-prey"
+[[uncertain]]
+quantity = "prey"
+interval = "± 1 %"
+[[output]]
+quantity = "prey"
+[stochastic]
+samples = 8
+)")
+                                    .machine;
+  EXPECT_FALSE(machine.present);
+  EXPECT_FALSE(machine.places.present);
+  EXPECT_THAT(machine.points, IsEmpty());
+}
+
+TEST(SeenMachine, OfManyPointsShowsFewerTimesAndEnclosesNone) {
+  std::string text = sampleStudyWith("horizon = 0.5\noutput_step = 0.1", "horizon = 0.01\noutput_step = 0.0001");
+  std::string more;
+  for (std::size_t i = 0; i <= mostEnclosedPoints; ++i)
+    more += "[[mechanism.element]]\ntype = \"link\"\nname = \"l" + std::to_string(i) + "\"\nfrom = \"tip\"\nto = \"e" +
+            std::to_string(i) + "\"\nvector = [0, 0.01, " + std::to_string(0.001 * static_cast<double>(i)) + "]\n";
+  text.insert(text.find("[[uncertain]]"), more);
+  const MachineResult machine = resultsOf(text).machine;
+  EXPECT_EQ(machine.places.time.size(), leastSeenTimes - 5u);
+  EXPECT_TRUE(machine.places.lower.empty());
+  EXPECT_NE(machine.why.find("moving points"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace gamut
