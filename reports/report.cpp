@@ -33,13 +33,14 @@ std::string filled(std::string_view skeleton, const Places& places) {
   }
 }
 
-/// What has a section of its own has its row here.
+/// What has a section of its own has its row here; one without content is left out.
 struct Section {
   std::string_view title;
   std::string (*html)(const Report& report);
 };
 
 constexpr Section sections[] = {{"What was asked", askedSection},
+                                {"The machine", machineSection},
                                 {"Figures", figuresSection},
                                 {"Outputs", outputsSection},
                                 {"Provenance", provenanceSection}};
@@ -47,7 +48,8 @@ constexpr Section sections[] = {{"What was asked", askedSection},
 std::string sectionsOf(const Report& report) {
   std::string text;
   for (const auto& [title, html] : sections)
-    text += fmt::format("<section>\n<h2>{}</h2>\n{}</section>\n", title, html(report));
+    if (const std::string content = html(report); !content.empty())
+      text += fmt::format("<section>\n<h2>{}</h2>\n{}</section>\n", title, content);
   return text;
 }
 
@@ -57,6 +59,11 @@ std::string plottingPart(const std::string& data) {
   return fmt::format(
       "<script type=\"application/json\" id=\"numbers\">{}</script>\n<!--\n{}\n-->\n<script>{}</script>\n", data,
       page::plottingLicence, page::plottingScript);
+}
+
+/// What moves the picture of the machine.
+std::string movingPart(const Results& results) {
+  return results.machine.present ? fmt::format("<script>{}</script>\n", page::machineScript) : "";
 }
 
 }  // namespace
@@ -73,6 +80,7 @@ std::string renderReport(const Results& results) {
                                  {"notes", notesList(report.verdict)},
                                  {"sections", sectionsOf(report)},
                                  {"plotting", plottingPart(report.outputs.data)},
+                                 {"machine", movingPart(results)},
                                  {"script", std::string(page::script)}});
 }
 

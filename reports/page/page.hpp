@@ -35,6 +35,9 @@ struct Report {
 /// The uncertain quantities and the study word for word.
 std::string askedSection(const Report& report);
 
+/// The machine, drawn, with the numbers that make it move; empty where there is none.
+std::string machineSection(const Report& report);
+
 /// One row an output: what the analyses found at the last time that all of them reached. Then what each of them cost.
 std::string figuresSection(const Report& report);
 

@@ -2,10 +2,15 @@
 #include <gmock/gmock.h>
 
 #include <array>
+#include <cctype>
 #include <cstddef>
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <sstream>
 #include <string>
+#include <vector>
 
 #include "reports/report.hpp"
 #include "tests/reports/example_results.hpp"
@@ -40,9 +45,11 @@ class Browser : public testing::Test {
   }
 
   /// What becomes of the page of these results once its script has run.
-  std::string opened(const Results& results) {
+  /// `doing`: what a reader does then, as a script.
+  std::string opened(const Results& results, const std::string& doing = "") {
     const std::string page = folder_.path("report.html");
     writeReport(results, page);
+    if (!doing.empty()) std::ofstream(page, std::ios::app) << "<script>" << doing << "</script>";
     return outputOf(
         "chromium --headless --no-sandbox --disable-gpu --disable-quic --no-first-run --disable-background-networking "
         "--disable-component-update --disable-sync --virtual-time-budget=5000 --user-data-dir='" +
@@ -90,6 +97,60 @@ TEST_F(Browser, ShowsTextFromAStudyAsText) {
   EXPECT_THAT(rootOf(page), AllOf(HasSubstr("data-page=\"ready\""), Not(HasSubstr("data-error"))));
   EXPECT_THAT(page, HasSubstr("&lt;script&gt;document.body.remove()"));
   EXPECT_EQ(count(page, "<canvas"), 2u);
+}
+
+/// What an attribute of the first element of this class is.
+std::string attributeOf(const std::string& page, const std::string& element, const std::string& name) {
+  const auto begin = page.find("class=\"" + element), from = page.find(" " + name + "=\"", begin) + name.size() + 3;
+  return begin == std::string::npos ? "" : page.substr(from, page.find('"', from) - from);
+}
+
+/// Of a path.
+std::vector<double> numbersOf(std::string path) {
+  for (char& c : path)
+    if (std::isalpha(static_cast<unsigned char>(c)) != 0) c = ' ';
+  std::istringstream text(path);
+  return {std::istream_iterator<double>(text), {}};
+}
+
+constexpr const char* slide =
+    "const slider = document.querySelector('.controls input'); slider.value = 3;"
+    "slider.dispatchEvent(new Event('input'));";
+
+TEST_F(Browser, MovesTheMachineThroughTime) {
+  const Results results = example::machine();
+  const std::string start = opened(results), later = opened(results, slide), still = renderReport(results);
+  EXPECT_THAT(rootOf(start), AllOf(HasSubstr("data-page=\"ready\""), Not(HasSubstr("data-error"))));
+  EXPECT_THAT(start, HasSubstr("t = 0 s"));
+  EXPECT_THAT(later, HasSubstr("t = 1.5 s"));
+  for (const char* element : {"link", "sample", "now", "spring", "pin edge"}) {
+    EXPECT_NE(attributeOf(start, element, "d"), "") << element;
+    if (std::string(element) != "pin edge") {
+      EXPECT_NE(attributeOf(later, element, "d"), attributeOf(start, element, "d"));
+    }
+  }
+  EXPECT_NE(attributeOf(later, "mass", "cx"), attributeOf(start, "mass", "cx"));
+  for (const char* element : {"link", "sample", "spring", "pin edge"})  // the script draws what was drawn without it
+    EXPECT_THAT(numbersOf(attributeOf(start, element, "d")),
+                testing::Pointwise(testing::DoubleNear(0.15), numbersOf(attributeOf(still, element, "d"))))
+        << element;
+}
+
+TEST_F(Browser, TurnsTheMachine) {
+  const std::string turned = opened(example::machine(true), "document.querySelectorAll('.views button')[3].click();");
+  EXPECT_THAT(rootOf(turned), Not(HasSubstr("data-error")));
+  EXPECT_THAT(turned, HasSubstr("<button type=\"button\" aria-pressed=\"true\">x\u2013y</button>"));
+  const std::string start = opened(example::machine(true));
+  EXPECT_NE(attributeOf(turned, "swept", "d"), attributeOf(start, "swept", "d"));
+}
+
+TEST_F(Browser, PrintsTheMachineAtItsStart) {
+  const Results results = example::machine();
+  const std::string printed = opened(results, std::string(slide) + "window.dispatchEvent(new Event('beforeprint'));");
+  EXPECT_THAT(
+      numbersOf(attributeOf(printed, "link", "d")),
+      testing::Pointwise(testing::DoubleNear(0.15), numbersOf(attributeOf(renderReport(results), "link", "d"))));
+  EXPECT_THAT(printed, HasSubstr("Side view, at the start."));
 }
 
 TEST_F(Browser, OpensAPageOfKinematicsWithoutPlots) {

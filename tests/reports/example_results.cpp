@@ -128,4 +128,37 @@ Results kinematics() {
   return results;
 }
 
+Results machine(bool isSpatial, std::size_t seen) {
+  Results results = pendulum();
+  MachineResult& m = results.machine;
+  m.present = m.places.present = true;
+  m.directions = {{"x", 0}, {"y", 0}, {"z", -9.81}};
+  m.points = {{"inertial", true, true}, {"elbow", false, false}, {"tip", false, false}, {"wall", true, true}};
+  m.parts = {{"shoulder", "revolute", "joint", 0, 0, 1, 0, 0},    {"upper", "link", "rigid", 0, 1, 0, 0, 0},
+             {"heavy", "mass", "mass", 1, 1, 0, 0, 2.0},          {"wrist", "revolute", "joint", 1, 1, 1, 0, 0},
+             {"lower", "link", "rigid", 1, 2, 0, 0, 0},           {"light", "mass", "mass", 2, 2, 0, 0, 0.5},
+             {"rubber", "spring-damper", "spring", 3, 2, 0, 0, 0}};
+  m.axes = {{"shoulder.axis", 0}, {"wrist.axis", 3}};
+  Places& p = m.places;
+  p.sample = {0, 1};
+  const auto place = [&](std::vector<double>& to, std::size_t i, double off, double turn) {
+    const double angle = centre(results.horizon * static_cast<double>(i) / static_cast<double>(seen - 1), 0) + turn,
+                 x = isSpatial ? 0.3 * std::cos(angle) : 0;
+    const double coordinates[] = {
+        0, 0, 0, x, std::sin(angle), -std::cos(angle), 2 * x, 2 * std::sin(angle), -std::cos(angle) - 0.5, 0, 2, -1};
+    for (std::size_t k = 0; k < 12; ++k) to.push_back(coordinates[k] + (k < 3 || k > 8 ? 0 : off));
+  };
+  for (std::size_t i = 0; i < seen; ++i) {
+    p.time.push_back(results.horizon * static_cast<double>(i) / static_cast<double>(seen - 1));
+    place(p.nominal, i, 0, 0);
+    place(p.lower, i, -0.05, 0);
+    place(p.upper, i, 0.05, 0);
+    for (std::size_t k = 0; k < 12; ++k) p.sag.push_back(0.01);
+    for (const double e : {1, 0, 0, 1, 0, 0}) p.axes.push_back(e);
+  }
+  for (const double turn : {-0.02, 0.02})
+    for (std::size_t i = 0; i < seen; ++i) place(p.samples, i, 0, turn);
+  return results;
+}
+
 }  // namespace gamut::example

@@ -12,4 +12,8 @@ Results pendulum(std::size_t times = 61, std::size_t outputs = 2, std::size_t le
 /// One position of a mechanism: time {0}, horizon 0, plain intervals beside the polynomial enclosure.
 Results kinematics();
 
+/// pendulum() with a machine to look at: two hinged rods with masses and a spring to the ground, that swing in the
+/// plane of y and z, or, `isSpatial`, leave it; seen at so many times.
+Results machine(bool isSpatial = false, std::size_t seen = 7);
+
 }  // namespace gamut::example

@@ -1,0 +1,216 @@
+// The plane of the motion is that of the two longest independent ways between points.
+#include "reports/drawing/view.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "reports/drawing/axes.hpp"
+
+namespace gamut {
+namespace {
+
+double dot(const Place& a, const Place& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+Place cross(const Place& a, const Place& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+Place minus(const Place& a, const Place& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+Place times(const Place& a, double factor) { return {a[0] * factor, a[1] * factor, a[2] * factor}; }
+double norm(const Place& a) { return std::hypot(a[0], a[1], a[2]); }
+Place normalised(const Place& a) { return times(a, 1 / norm(a)); }
+
+Place axis(std::size_t i) {
+  Place e{0, 0, 0};
+  e[i] = 1;
+  return e;
+}
+
+/// All that is known of the motions themselves.
+std::vector<Place> motionsOf(const MachineResult& machine) {
+  std::vector<Place> found;
+  const Places& places = machine.places;
+  for (const auto* of : {&places.nominal, &places.samples})
+    for (std::size_t i = 0; i + 3 <= of->size(); i += 3)
+      if (const Place place{(*of)[i], (*of)[i + 1], (*of)[i + 2]}; isKnown(place)) found.push_back(place);
+  return found;
+}
+
+/// The direction of all axes at the start; zero if they differ, or there are none.
+Place commonAxis(const MachineResult& machine) {
+  Place common{0, 0, 0};
+  for (std::size_t a = 0; a < machine.axes.size(); ++a) {
+    const Place one = placeOf(machine.places.axes, 0, machine.axes.size(), a);
+    if (!isKnown(one) || machine.parts[machine.axes[a].part].turns == 0) continue;
+    if (norm(common) == 0) common = one;
+    if (norm(cross(common, one)) > 1e-6) return {0, 0, 0};
+  }
+  return norm(common) > 0 ? normalised(common) : common;
+}
+
+/// Normal to the plane of all places, or zero: they fill space. Places on a line, or at one place, are in many planes:
+/// that across all axes is chosen, or one that looks familiar.
+Place normalOf(const MachineResult& machine, const std::vector<Place>& places) {
+  constexpr double flat = 1e-6;  // of the size
+  Place longest{0, 0, 0}, normal{0, 0, 0};
+  for (const Place& place : places)
+    if (const Place way = minus(place, places.front()); norm(way) > norm(longest)) longest = way;
+  const double size = norm(longest);
+  const Place turning = commonAxis(machine);
+  if (size == 0) return turning;
+  for (const Place& place : places)
+    if (const Place across = cross(longest, minus(place, places.front())); norm(across) > norm(normal)) normal = across;
+  if (norm(normal) <= flat * size * size) {
+    if (norm(turning) > 0 && std::fabs(dot(turning, longest)) <= flat * size) return turning;
+    const Place along = normalised(longest), across = std::fabs(along[1]) > 0.7 ? axis(0) : axis(1);
+    return normalised(minus(across, times(along, dot(across, along))));
+  }
+  normal = normalised(normal);
+  for (const Place& place : places)
+    if (std::fabs(dot(minus(place, places.front()), normal)) > flat * size) return {0, 0, 0};
+  return normal;
+}
+
+/// Looked at so that the usual axes point to the right and up: x towards the beholder, y away, z towards.
+Place towards(const Place& normal) {
+  std::size_t main = 0;
+  for (std::size_t i = 1; i < 3; ++i)
+    if (std::fabs(normal[i]) > std::fabs(normal[main]) + 1e-9) main = i;
+  const bool isRight = main == 1 ? normal[1] < 0 : normal[main] > 0;
+  return isRight ? normal : times(normal, -1);
+}
+
+void aim(View& view, const Place& toBeholder, const Place& upwards) {
+  Place up = minus(upwards, times(toBeholder, dot(upwards, toBeholder)));
+  if (norm(up) < 0.1) {  // a table seen from above
+    const Place other = std::fabs(toBeholder[1]) < 0.7 ? axis(1) : axis(2);
+    up = minus(other, times(toBeholder, dot(other, toBeholder)));
+  }
+  view.up = normalised(up);
+  view.right = cross(view.up, toBeholder);
+}
+
+Place againstGravity(const MachineResult& machine) {
+  Place gravity{0, 0, 0};
+  for (std::size_t i = 0; i < std::min<std::size_t>(3, machine.directions.size()); ++i)
+    gravity[i] = machine.directions[i].gravity;
+  return norm(gravity) > 0 ? normalised(times(gravity, -1)) : axis(2);
+}
+
+/// Enclosures may add a quarter of the motions' size on each side.
+Range extent(const MachineResult& machine, const std::vector<Place>& motions, const Place& along) {
+  Range range, wide;
+  for (const Place& place : motions) range.hold(dot(place, along));
+  for (const auto* of : {&machine.places.lower, &machine.places.upper})
+    for (std::size_t i = 0; i + 3 <= of->size(); i += 3)
+      if (const Place place{(*of)[i], (*of)[i + 1], (*of)[i + 2]}; isKnown(place)) wide.hold(dot(place, along));
+  if (!(range.high >= range.low)) return {0, 0};
+  const double room = range.high > range.low ? 0.25 * (range.high - range.low) : 1e300;
+  if (wide.high >= wide.low) {
+    range.low = std::min(range.low, std::max(wide.low, range.low - room));
+    range.high = std::max(range.high, std::min(wide.high, range.high + room));
+  }
+  return range;
+}
+
+}  // namespace
+
+Place placeOf(const std::vector<double>& places, std::size_t row, std::size_t points, std::size_t k) {
+  const std::size_t at = 3 * (row * points + k);
+  if (at + 3 > places.size()) return {NAN, NAN, NAN};
+  return {places[at], places[at + 1], places[at + 2]};
+}
+
+bool isKnown(const Place& place) {
+  return std::isfinite(place[0]) && std::isfinite(place[1]) && std::isfinite(place[2]);
+}
+
+Sight View::operator()(const Place& place) const {
+  const Sight from = direction(minus(place, centre));
+  return {width / 2 + scale * from.x, height / 2 + scale * from.y};
+}
+
+Sight View::direction(const Place& vector) const { return {dot(vector, right), -dot(vector, up)}; }
+
+View viewOf(const MachineResult& machine) {
+  constexpr double margin = 64, marginUp = 36, leastHeight = 240, mostHeight = 460;
+  View view;
+  view.width = paperWidth;
+  const std::vector<Place> motions = motionsOf(machine);
+  if (motions.empty()) return view;
+  const Place normal = normalOf(machine, motions);
+  view.isSideView = norm(normal) > 0;
+  const Place up = view.vertical = againstGravity(machine);
+  if (view.isSideView) {
+    aim(view, towards(normal), up);
+  } else {  // thirty degrees above the horizon, x to the right and towards the beholder
+    const Place side = std::fabs(up[2]) > 0.9   ? Place{0.5, -0.8, 0}
+                       : std::fabs(up[1]) > 0.9 ? Place{0.5, 0, 0.8}
+                                                : Place{0, 0.5, 0.8};
+    Place level = minus(side, times(up, dot(side, up)));
+    level = normalised(level);
+    aim(view, normalised({level[0] + 0.45 * up[0], level[1] + 0.45 * up[1], level[2] + 0.45 * up[2]}), up);
+  }
+  const Place toBeholder = cross(view.right, view.up);
+  const Range across = extent(machine, motions, view.right), upwards = extent(machine, motions, view.up),
+              deep = extent(machine, motions, toBeholder);
+  const auto middle = [](const Range& range) { return 0.5 * range.low + 0.5 * range.high; };
+  for (std::size_t i = 0; i < 3; ++i)
+    view.centre[i] = middle(across) * view.right[i] + middle(upwards) * view.up[i] + middle(deep) * toBeholder[i];
+  double wide = across.high - across.low, high = upwards.high - upwards.low;
+  if (!view.isSideView) {  // however it is turned about the vertical
+    double radius = 0;
+    for (const Place& place : motions) {
+      const Place way = minus(place, view.centre);
+      radius = std::max(radius, norm(minus(way, times(up, dot(way, up)))));
+    }
+    const Range along = extent(machine, motions, up);
+    wide = 2 * radius;
+    high = (along.high - along.low) * dot(view.up, up) + 2 * radius * std::fabs(dot(toBeholder, up));
+  }
+  double farthest = 0;
+  for (const Place& place : motions) farthest = std::max(farthest, norm(place));
+  constexpr double rounding = 1e-12;
+  if (std::max(wide, high) <= rounding * farthest) wide = high = 0;
+  view.size = std::max(wide, high);
+  const double room = view.width - 2 * margin;
+  view.height = mostHeight;
+  if (view.size > 0) {
+    const double fitting = wide > 0 ? room / wide * high + 2 * marginUp : mostHeight;
+    view.height = std::clamp(fitting, leastHeight, mostHeight);
+    view.scale = std::min(wide > 0 ? room / wide : INFINITY, high > 0 ? (view.height - 2 * marginUp) / high : INFINITY);
+  }
+  return view;
+}
+
+/// By rising x, then the lower and the upper chain (A. M. Andrew, Inf. Process. Lett. 9, 1979).
+std::vector<Sight> hullOf(std::vector<Sight> sights) {
+  std::erase_if(sights, [](const Sight& p) { return !std::isfinite(p.x) || !std::isfinite(p.y); });
+  std::ranges::sort(sights, [](const Sight& a, const Sight& b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
+  std::vector<Sight> hull;
+  const auto chain = [&](auto begin, auto end) {
+    const std::size_t first = hull.size();
+    for (auto at = begin; at != end; ++at) {
+      const auto turnsRight = [&] {
+        const Sight &a = hull[hull.size() - 2], &b = hull.back();
+        return (b.x - a.x) * (at->y - a.y) - (b.y - a.y) * (at->x - a.x) <= 0;
+      };
+      while (hull.size() >= first + 2 && turnsRight()) hull.pop_back();
+      hull.push_back(*at);
+    }
+    hull.pop_back();  // it begins the other chain
+  };
+  if (sights.size() < 2) return sights;
+  chain(sights.begin(), sights.end());
+  chain(sights.rbegin(), sights.rend());
+  return hull;
+}
+
+std::vector<Sight> cornersOf(const View& view, const Place& lower, const Place& upper) {
+  std::vector<Sight> corners;
+  for (unsigned corner = 0; corner < 8; ++corner)
+    corners.push_back(view({(corner & 1U) != 0 ? upper[0] : lower[0], (corner & 2U) != 0 ? upper[1] : lower[1],
+                            (corner & 4U) != 0 ? upper[2] : lower[2]}));
+  return corners;
+}
+
+}  // namespace gamut

@@ -1,0 +1,56 @@
+// The picture of the machine with its key, and what it shows in words.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "reports/drawing/machine.hpp"
+#include "reports/page/page.hpp"
+#include "reports/words.hpp"
+
+namespace gamut {
+namespace {
+
+std::string key(std::string_view name, const std::string& words) {
+  return fmt::format("<li data-layer=\"{0}\"><span class=\"swatch machine-{0}\"></span>{1}</li>\n", name,
+                     escapeHtml(words));
+}
+
+std::string keysOf(const Results& results) {
+  const MachineResult& machine = results.machine;
+  const bool moves = machine.places.time.size() > 1;
+  std::string keys = "<ul class=\"keys\" aria-label=\"Key to the picture\">\n";
+  keys += key("nominal", moves ? "nominal motion" : "nominal");
+  const auto samples = static_cast<long long>(machine.places.sample.size());
+  if (samples > 0) keys += key("sample", countText(samples, "sample"));
+  if (isEnclosed(machine)) {
+    keys += key("now", moves ? "guaranteed place of each point now" : "guaranteed place of each point");
+    if (moves)
+      keys += key("swept", fmt::format("guaranteed region from 0 s to {} s",
+                                       numberText(std::min(results.interval.reached, results.horizon), 6)));
+  }
+  return keys + "</ul>\n";
+}
+
+/// What is shown, and what is not.
+std::string caption(const MachineResult& machine, const View& view) {
+  std::string words = view.isSideView ? "Side view" : "View from above and aside";
+  words += ", at the start";
+  if (!machine.why.empty()) words += "; " + machine.why;
+  return words + ".";
+}
+
+}  // namespace
+
+std::string machineSection(const Report& report) {
+  const MachineResult& machine = report.results.machine;
+  if (!machine.present || machine.points.empty() || machine.places.nominal.empty()) return {};
+  const View view = viewOf(machine);
+  const std::string label = fmt::format("The machine at the start: {} and {} in between",
+                                        countText(static_cast<long long>(machine.points.size()), "point"),
+                                        countText(static_cast<long long>(machine.parts.size()), "part"));
+  return "<div class=\"picture\">\n" + keysOf(report.results) + "<figure>" + drawMachine(machine, view, label) +
+         "<figcaption>" + escapeHtml(caption(machine, view)) + "</figcaption></figure>\n</div>\n" +
+         fmt::format("<script type=\"application/json\" id=\"machine\">{}</script>\n", machineData(machine, view));
+}
+
+}  // namespace gamut

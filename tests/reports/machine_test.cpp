@@ -1,0 +1,191 @@
+// The picture of the machine as text: an element for each part, a view that suits it, enclosures outward.
+#include "reports/drawing/machine.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "reports/report.hpp"
+#include "tests/reports/example_results.hpp"
+#include "tests/reports/page_text.hpp"
+
+namespace gamut {
+namespace {
+
+using nlohmann::json;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+std::string drawn(const MachineResult& machine) { return drawMachine(machine, viewOf(machine), "machine"); }
+
+/// A machine of one point that is at these places in turn.
+MachineResult moving(const std::vector<Place>& places) {
+  MachineResult m;
+  m.present = m.places.present = true;
+  m.directions = {{"x", 0}, {"y", 0}, {"z", -9.81}};
+  m.points = {{"bob", false, false}};
+  m.parts = {{"weight", "mass", "mass", 0, 0, 0, 0, 1}};
+  for (const Place& place : places) {
+    m.places.time.push_back(static_cast<double>(m.places.time.size()));
+    m.places.nominal.insert(m.places.nominal.end(), place.begin(), place.end());
+  }
+  return m;
+}
+
+TEST(MachinePicture, HasAnElementForEachPart) {
+  const std::string svg = drawn(example::machine().machine);
+  EXPECT_EQ(count(svg, "class=\"link\""), 2u);
+  EXPECT_EQ(count(svg, "class=\"mass\""), 2u);
+  EXPECT_EQ(count(svg, "class=\"spring\""), 1u);
+  EXPECT_EQ(count(svg, "class=\"pin face hinge\""), 2u);
+  EXPECT_EQ(count(svg, "class=\"sample\""), 2u);
+  EXPECT_EQ(count(svg, "class=\"ground\""), 2u);
+  EXPECT_EQ(count(svg, "class=\"swept\""), 1u);
+  EXPECT_EQ(count(svg, "class=\"now\""), 1u);
+  EXPECT_THAT(svg, AllOf(HasSubstr(">heavy</text>"), HasSubstr("light (mass, 0.5 kg)"), HasSubstr("500 mm</text>")));
+}
+
+TEST(MachinePicture, StandsOnThePageBeforeAnyScript) {
+  const std::string page = renderReport(example::machine());
+  EXPECT_EQ(count(page, "<svg class=\"drawing machine\""), 1u);
+  EXPECT_THAT(page, AllOf(HasSubstr("<h2>The machine</h2>"), HasSubstr("Side view, at the start."),
+                          HasSubstr("guaranteed region from 0 s to 3 s"), HasSubstr("2 samples")));
+}
+
+TEST(MachinePicture, IsLeftOutWhereThereIsNoMachine) {
+  const std::string page = renderReport(example::pendulum());
+  EXPECT_THAT(page, AllOf(Not(HasSubstr("The machine")), Not(HasSubstr("id=\"machine\""))));
+}
+
+TEST(MachinePicture, SaysWhatIsMissing) {
+  Results results = example::machine();
+  results.machine.why = "the run was interrupted";
+  results.machine.places.lower = results.machine.places.upper = results.machine.places.sag = {};
+  results.machine.places.sample = {};
+  results.machine.places.samples = {};
+  const std::string page = renderReport(results);
+  EXPECT_THAT(page, AllOf(HasSubstr("at the start; the run was interrupted."), Not(HasSubstr("class=\"swept\"")),
+                          Not(HasSubstr("guaranteed region"))));
+}
+
+TEST(MachinePicture, EscapesNames) {
+  Results results = example::machine();
+  const std::string attack = "</script></svg><script>alert(1)</script>";
+  results.machine.why = attack;
+  for (PointInfo& point : results.machine.points) point.name = attack;
+  for (PartInfo& part : results.machine.parts) part.name = part.type = attack;
+  results.machine.parts[1].kind = attack;
+  for (DirectionInfo& direction : results.machine.directions) direction.name = attack;
+  const std::string page = renderReport(results);
+  EXPECT_EQ(count(page, "<script"), count(renderReport(example::machine()), "<script"));
+  EXPECT_THAT(page, Not(HasSubstr("<script>alert")));
+}
+
+TEST(MachinePicture, IsASideViewOfThePlaneOfMotion) {
+  struct Case {
+    std::vector<Place> places;
+    Place right, up;
+  };
+  for (const auto& [places, right, up] : std::vector<Case>{{{{0, 0, 0}, {0, 1, 0}, {0, 1, 1}}, {0, 1, 0}, {0, 0, 1}},
+                                                           {{{0, 0, 0}, {1, 0, 0}, {1, 0, 1}}, {1, 0, 0}, {0, 0, 1}},
+                                                           {{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}, {1, 0, 0}, {0, 1, 0}},
+                                                           {{{0, 0, 0}, {2, 0, 0}}, {1, 0, 0}, {0, 0, 1}},
+                                                           {{{0, 0, 0}, {0, 2, 0}}, {0, 1, 0}, {0, 0, 1}}}) {
+    const View view = viewOf(moving(places));
+    EXPECT_TRUE(view.isSideView);
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_NEAR(view.right[i], right[i], 1e-12);
+      EXPECT_NEAR(view.up[i], up[i], 1e-12);
+    }
+  }
+  EXPECT_TRUE(viewOf(example::machine().machine).isSideView);
+  EXPECT_FALSE(viewOf(example::machine(true).machine).isSideView);
+}
+
+TEST(MachinePicture, OfAMachineAtRestIsSeenAlongItsAxes) {
+  for (std::size_t i : {0, 1}) {
+    MachineResult machine = moving({{0, 0, 0}, {0, 0, -1}});
+    machine.parts.push_back({"hinge", "revolute", "joint", 0, 0, 1, 0, 0});
+    machine.axes = {{"hinge.axis", 1}};
+    machine.places.axes = {0, 0, 0, 0, 0, 0};
+    machine.places.axes[i] = 1;
+    const View view = viewOf(machine);
+    EXPECT_TRUE(view.isSideView);
+    EXPECT_NEAR(view.right[1 - i], 1, 1e-12);
+  }
+}
+
+TEST(MachinePicture, HasUpAgainstGravity) {
+  MachineResult machine = moving({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}});
+  machine.directions = {{"x", 9.81}, {"y", 0}, {"z", 0}};
+  const View view = viewOf(machine);
+  EXPECT_NEAR(view.up[0], -1, 1e-12);
+  EXPECT_NEAR(view.right[1], 1, 1e-12);
+}
+
+TEST(MachinePicture, FitsOnThePaperWhateverTheSize) {
+  for (const double size : {1e-6, 1e-3, 1.0, 100.0, 1e5})
+    for (const bool isSpatial : {false, true}) {
+      MachineResult machine = example::machine(isSpatial).machine;
+      for (auto* of : {&machine.places.nominal, &machine.places.samples, &machine.places.lower, &machine.places.upper})
+        for (double& x : *of) x *= size;
+      const View view = viewOf(machine);
+      for (std::size_t i = 0; i < machine.places.nominal.size(); i += 3) {
+        const Sight at =
+            view({machine.places.nominal[i], machine.places.nominal[i + 1], machine.places.nominal[i + 2]});
+        EXPECT_GT(at.x, 0) << size;
+        EXPECT_LT(at.x, view.width) << size;
+        EXPECT_GT(at.y, 0) << size;
+        EXPECT_LT(at.y, view.height) << size;
+      }
+    }
+}
+
+TEST(MachinePicture, OfOnePlaceIsThereToo) {
+  const std::string svg = drawn(moving({{1, 2, 3}, {1, 2, 3}}));
+  EXPECT_THAT(svg, AllOf(HasSubstr("class=\"mass\""), Not(HasSubstr("nan")), Not(HasSubstr("class=\"scale\""))));
+}
+
+TEST(MachinePicture, SurvivesNumbersThatAreNone) {
+  for (const double odd : {std::nan(""), infinity, -infinity, 1e308, -1e308}) {
+    MachineResult machine = example::machine(true).machine;
+    for (auto* of : {&machine.places.nominal, &machine.places.samples, &machine.places.lower, &machine.places.upper,
+                     &machine.places.sag, &machine.places.axes})
+      for (std::size_t i = 7; i < of->size(); i += 7) (*of)[i] = odd;
+    EXPECT_THAT(drawn(machine), HasSubstr("</svg>"));
+    EXPECT_TRUE(json::accept(machineData(machine, viewOf(machine)))) << odd;
+  }
+}
+
+TEST(MachinePicture, HandsOnEnclosuresOutward) {
+  const MachineResult machine = example::machine().machine;
+  const View view = viewOf(machine);
+  const json data = json::parse(machineData(machine, view));
+  const double unit = data["unit"];
+  for (std::size_t i = 0; i < machine.places.lower.size(); ++i) {
+    EXPECT_LE(view.centre[i % 3] + data["lower"][i].get<double>() * unit, machine.places.lower[i] + 1e-12);
+    EXPECT_GE(view.centre[i % 3] + data["upper"][i].get<double>() * unit, machine.places.upper[i] - 1e-12);
+    EXPECT_GE(data["sag"][i].get<double>() * unit, machine.places.sag[i] - 1e-12);
+  }
+}
+
+TEST(Hull, HoldsAllAndIsConvex) {
+  std::vector<Sight> sights;
+  for (int i = 0; i < 60; ++i) sights.push_back({std::sin(7.3 * i) + 0.3 * std::cos(i), std::cos(3.1 * i * i)});
+  const std::vector<Sight> hull = hullOf(sights);
+  ASSERT_GE(hull.size(), 3u);
+  for (std::size_t k = 0; k < hull.size(); ++k) {
+    const Sight &a = hull[k], &b = hull[(k + 1) % hull.size()];
+    for (const Sight& p : sights) EXPECT_GE((b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x), -1e-12);
+  }
+  EXPECT_TRUE(hullOf({}).empty());
+  EXPECT_EQ(hullOf({{1, 2}}).size(), 1u);
+}
+
+}  // namespace
+}  // namespace gamut
