@@ -52,7 +52,13 @@ Assembly<S>::Assembly(const Mechanism& mechanism, const std::vector<std::string>
   system_ = std::make_unique<System<S>>(std::move(speeds), chain_, *parts_.frames_.at(Mechanism::inertialFrame),
                                         gravity ? parts_.vector(*gravity) : zeroVector<S>());
   measureFrames();
-  for (const Expression& initial : mechanism.initialState()) initialState_.push_back(parts_.number(initial));
+  const std::vector<bool> isDifference = mechanism.startsWith(freeParameters);
+  for (const Expression& initial : mechanism.initialState()) {
+    const bool differs = isDifference[initialState_.size()];
+    const S value = parts_.number(initial);
+    initialState_.push_back(differs ? S(0.0) : value);
+    differsFrom_.push_back(differs ? value : S(0.0));
+  }
   // What is recorded is the motion from any state; at the initial one it may be singular.
   if constexpr (!std::is_same_v<S, Recorded>) setState(initialState_);
 }
@@ -127,7 +133,7 @@ void Assembly<S>::setState(std::span<const S> x, const S& time) {
     throw std::invalid_argument("the mechanism has " + std::to_string(states_.size()) + " states, not " +
                                 std::to_string(x.size()));
   parts_.time_ = time;
-  for (std::size_t i = 0; i < x.size(); ++i) *states_[i] = x[i];
+  for (std::size_t i = 0; i < x.size(); ++i) *states_[i] = isKnownZero(differsFrom_[i]) ? x[i] : x[i] + differsFrom_[i];
   for (auto& [name, speed] : parts_.speeds_) speed->acceleration = S(0.0);
   system_->doMotion();
 }

@@ -28,7 +28,9 @@ class Assembly {
   Assembly(const Assembly&) = delete;
   Assembly& operator=(const Assembly&) = delete;
 
-  /// The states x = [q; u; z] at the start.
+  /// The states x = [q; u; z] at the start. One whose initial value follows from a free parameter
+  /// (Mechanism::startsWith) is everywhere given as its difference from that, which is zero at the start: so each
+  /// parameter stands in one place.
   const std::vector<S>& initialState() const { return initialState_; }
   /// Sets x and the time [s] and moves all frames. Throws std::invalid_argument for a wrong number of values.
   void setState(std::span<const S> x, const S& time = S(0.0));
@@ -59,7 +61,7 @@ class Assembly {
   std::unique_ptr<System<S>> system_;
   std::vector<S*> states_;  // in the order of Mechanism::stateNames()
   std::vector<Signal<S>> positionRates_, ownRates_;
-  std::vector<S> initialState_;
+  std::vector<S> initialState_, differsFrom_;  // the second: of each state, zero of those that stand for themselves
 };
 
 extern template class Assembly<double>;

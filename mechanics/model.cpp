@@ -8,15 +8,6 @@
 
 namespace gamut {
 
-std::vector<Recorded> fromStart(const Assembly<Recorded>& assembly, const Mechanism& mechanism,
-                                const std::vector<std::string>& freeParameters, std::span<const Recorded> x) {
-  std::vector<Recorded> states(x.begin(), x.end());
-  const std::vector<bool> follows = mechanism.startsWith(freeParameters);
-  for (std::size_t i = 0; i < states.size(); ++i)
-    if (follows[i]) states[i] = states[i] + assembly.initialState()[i];
-  return states;
-}
-
 Program recordMotion(const Mechanism& mechanism, const std::vector<std::string>& freeParameters,
                      Formulation formulation) {
   const int states = static_cast<int>(mechanism.stateNames().size());
@@ -24,7 +15,7 @@ Program recordMotion(const Mechanism& mechanism, const std::vector<std::string>&
   try {
     return record(states, static_cast<int>(freeParameters.size()), [&](auto t, const auto& x, const auto& p, auto& dx) {
       Assembly<Recorded> assembly(mechanism, freeParameters, p);
-      assembly.setState(fromStart(assembly, mechanism, freeParameters, x), t);
+      assembly.setState(x, t);
       const std::vector<Recorded> rates = assembly.rates(formulation);
       for (std::size_t i = 0; i < rates.size(); ++i) dx[i] = rates[i];
     });
@@ -50,7 +41,7 @@ Program recordOutputs(const Mechanism& mechanism, const std::vector<std::string>
   return record(static_cast<int>(mechanism.stateNames().size()), static_cast<int>(freeParameters.size()),
                 static_cast<int>(outputs.size()), [&](auto t, const auto& x, const auto& p, auto& y) {
                   Assembly<Recorded> assembly(mechanism, freeParameters, p);
-                  assembly.setState(fromStart(assembly, mechanism, freeParameters, x), t);
+                  assembly.setState(x, t);
                   const std::vector<Recorded> values = recordOutputs(assembly, outputs);
                   for (std::size_t i = 0; i < values.size(); ++i) y[i] = values[i];
                 });

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -15,16 +14,11 @@
 namespace gamut {
 
 /// ẋ = f(t, x, p): x = [q; u; z] in the order of Mechanism::stateNames(), p the named parameters in the order given;
-/// every other number is a constant of the program. A state whose initial value follows from one of them
-/// (Mechanism::startsWith) is given as its difference from it, which is zero at the start: so each parameter stands in
-/// one place. Throws std::invalid_argument for an incomplete mechanism, for a
-/// name that is no parameter, and if a joint moves no inertia.
+/// every other number is a constant of the program. States that start by one of them are differences
+/// (Assembly::initialState). Throws std::invalid_argument for an incomplete mechanism, for a name that is no parameter,
+/// and if a joint moves no inertia.
 Program recordMotion(const Mechanism& mechanism, const std::vector<std::string>& freeParameters = {},
                      Formulation formulation = Formulation::sparse);
-
-/// The states where those that recordMotion takes as differences have these.
-std::vector<Recorded> fromStart(const Assembly<Recorded>& assembly, const Mechanism& mechanism,
-                                const std::vector<std::string>& freeParameters, std::span<const Recorded> x);
 
 /// An output has no value, whatever the motion; what() is one sentence.
 class UndefinedOutput : public std::invalid_argument {

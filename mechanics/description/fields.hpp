@@ -86,11 +86,11 @@ class Fields {
                           Expression& initialRate) = 0;
   /// Three of one kind, a list in files: KEY.x …, and by another key their rates.
   virtual void coordinates(const Word& position, ExpressionVector& initial, Coordinate kind, const Word& rate,
-                           ExpressionVector& initialRates) = 0;
+                           ExpressionVector& initialRates);
   /// An orientation at the start, from which positions that are no coordinates begin: `quaternion.w` … `z`, a unit
   /// quaternion; and by another key three speeds, the angular velocity in the axes of the frame that turns.
   virtual void orientation(const Word& word, std::vector<FixedRotation>& initial, const Word& rate,
-                           ExpressionVector& initialRates) = 0;
+                           ExpressionVector& initialRates);
   /// A position that is no coordinate (its rate is given by the assembled element), and a speed.
   virtual void position(const Word& word, Expression& initial) = 0;
   virtual void speed(const Word& word, Expression& initial) = 0;

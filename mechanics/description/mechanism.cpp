@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "mechanics/description/names.hpp"
-#include "mechanics/description/orientation.hpp"
 
 namespace gamut {
 namespace {
@@ -277,20 +276,6 @@ class Mechanism::Checker final : public Fields {
     m_.addState(m_.speeds_, named(rate), std::string(gamut::unitOf(kind)) + "/s", initialRate);
     m_.coordinates_.push_back({element_, named(position), named(rate), kind});
     movesByJoint();
-  }
-  void coordinates(const Word& position, ExpressionVector& initial, Coordinate kind, const Word& rate,
-                   ExpressionVector& initialRates) override {
-    for (std::size_t i = 0; i < 3; ++i)
-      coordinate({position.key + "." + components[i]}, initial[i], kind, {rate.key + "." + components[i]},
-                 initialRates[i]);
-  }
-  void orientation(const Word& word, std::vector<FixedRotation>& initial, const Word& rate,
-                   ExpressionVector& initialRates) override {
-    rotations(word, initial);
-    Quaternion<Expression> quaternion = quaternionOf(initial);
-    for (std::size_t i = 0; i < 4; ++i)
-      position({std::string("quaternion.") + quaternionComponents[i], "1"}, quaternion[i]);
-    for (std::size_t i = 0; i < 3; ++i) speed({rate.key + "." + components[i], "rad/s"}, initialRates[i]);
   }
   void position(const Word& word, Expression& initial) override {
     m_.addState(m_.positions_, named(word), word.unit, initial);

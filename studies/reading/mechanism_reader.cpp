@@ -139,6 +139,22 @@ class MechanismReader {
       this->position(position, initial);
       speed(rate, initialRate);
     }
+    void coordinates(const Word& position, ExpressionVector& initial, Coordinate /*kind*/, const Word& rate,
+                     ExpressionVector& initialRates) override {
+      vector(position, initial);
+      vector(rate, initialRates);
+    }
+    /// By `roll`, `pitch` and `yaw`, or by a quaternion's `w` … `z`.
+    void orientation(const Word& word, std::vector<FixedRotation>& initial, const Word& rate,
+                     ExpressionVector& initialRates) override {
+      initial = rollPitchYaw();
+      for (FixedRotation& turn : initial) position({word.key + "." + turn.key, word.unit}, turn.angle);
+      Quaternion<Expression> e = {0.0, 0.0, 0.0, 0.0};
+      const std::size_t before = given_.size();
+      for (std::size_t i = 0; i < 4; ++i) position({word.key + "." + quaternionComponents[i], "1"}, e[i]);
+      if (given_.size() < before) initial = {byQuaternion(e)};
+      vector(rate, initialRates);
+    }
     void position(const Word& word, Expression& initial) override {
       const std::string name = element_ + "." + word.key;
       known_.push_back(name);
@@ -156,6 +172,18 @@ class MechanismReader {
     void measure(const Word& /*word*/) override {}
 
    private:
+    /// As a list, or by components.
+    void vector(const Word& word, ExpressionVector& vector) {
+      const std::string name = element_ + "." + word.key;
+      const auto found = given_.find(name);
+      if (found == given_.end()) {
+        for (std::size_t i = 0; i < 3; ++i) position({word.key + "." + components[i], word.unit}, vector[i]);
+        return;
+      }
+      reader_.readNumbers(*found->second, name, "mechanism.initial." + name, vector, components, 3, word.unit);
+      given_.erase(found);
+    }
+
     MechanismReader& reader_;
     std::string element_;
     std::map<std::string, const toml::node*>& given_;

@@ -63,9 +63,9 @@ class RobotElements {
     const Robot::Link& root = robot_.root();
     const std::string name = root.name + ".base";
     if (choices_.isFree)
-      refuse(root.line, fmt::format("the root '{}' moves freely, which is not supported yet", root.name),
-             "base = \"fixed\"");
-    add(Weld{name, Mechanism::inertialFrame, root.name}, root.line);
+      add(Free{name, Mechanism::inertialFrame, root.name}, root.line);
+    else
+      add(Weld{name, Mechanism::inertialFrame, root.name}, root.line);
   }
 
   void addBody(const Robot::Link& link) {
@@ -97,9 +97,12 @@ class RobotElements {
       case Robot::Type::prismatic:
         return Prismatic{joint.name, from, joint.child, joint.axis};
       case Robot::Type::planar:
+        if (!joint.axis.isAligned())
+          refuse(joint.line, fmt::format("the plane of '{}' is across ({})", joint.name, joint.direction),
+                 "a plane across an axis of its origin, 1 0 0, 0 1 0 or 0 0 1, which may be turned");
+        return Planar{joint.name, from, joint.child, joint.axis};
       case Robot::Type::floating:
-        refuse(joint.line, fmt::format("'{}' is {}, which is not supported yet", joint.name, wordOf(joint.type)),
-               "a joint that is revolute, continuous, prismatic or fixed");
+        return Free{joint.name, from, joint.child};
       default:
         return Revolute{joint.name, from, joint.child, joint.axis};
     }
