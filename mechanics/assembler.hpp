@@ -66,6 +66,12 @@ class Assembler {
   /// Gives the value of what the element has described as measured by this key.
   void measure(const std::string& key, Signal<S> value) { measured_[element_ + "." + key] = std::move(value); }
 
+  /// The same of what is known once the equations of motion are solved: accelerations of frames (without −g) and of
+  /// speeds, forces on frames, generalised forces.
+  void measureSolved(const std::string& key, Signal<S> value) {
+    measureSolvedAs(element_ + "." + key, std::move(value));
+  }
+
   /// Makes a part and appends it to the chain, or puts it ahead of all that is appended.
   template <class Part, class... Arguments>
   Part& add(Arguments&&... arguments) {
@@ -86,6 +92,12 @@ class Assembler {
     parts.push_back(std::move(part));
     return made;
   }
+  void measureSolvedAs(const std::string& name, Signal<S> value) {
+    measured_[name] = [this, value = std::move(value)] {
+      solve_();
+      return value();
+    };
+  }
   S& giveRate(const std::string& state, Signal<S> rate) {
     rates_[state] = std::move(rate);
     return values_.at(state);
@@ -93,7 +105,8 @@ class Assembler {
   /// Of anything that an expression may name. Throws UnknownName.
   S valueOf(const std::string& name) const;
 
-  std::string element_;  // that is being assembled
+  std::function<void()> solve_;  // makes all that measureSolved may ask for the present motion's
+  std::string element_;          // that is being assembled
   S time_ = S(0.0);
   std::map<std::string, S> parameters_, initials_;
   std::map<std::string, std::unique_ptr<Frame<S>>> frames_;

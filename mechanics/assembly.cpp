@@ -51,7 +51,10 @@ Assembly<S>::Assembly(const Mechanism& mechanism, const std::vector<std::string>
   const auto& gravity = mechanism.gravity();
   system_ = std::make_unique<System<S>>(std::move(speeds), chain_, *parts_.frames_.at(Mechanism::inertialFrame),
                                         gravity ? parts_.vector(*gravity) : zeroVector<S>());
+  parts_.solve_ = [this] { solve(); };
   measureFrames();
+  measureReactions(mechanism);
+  measureWhole();
   const std::vector<bool> isDifference = mechanism.startsWith(freeParameters);
   for (const Expression& initial : mechanism.initialState()) {
     const bool differs = isDifference[initialState_.size()];
@@ -90,12 +93,16 @@ void Assembly<S>::takeNumbers(const Mechanism& mechanism, const std::vector<std:
 /// Places for positions and speeds, by name, and for what is looked at under the same names.
 template <class S>
 void Assembly<S>::makeStates(const Mechanism& mechanism) {
+  const auto measureAcceleration = [this](const Speed<S>& speed, const std::string& name) {
+    parts_.measureSolvedAs(Mechanism::accelerationOf(name), [&speed] { return speed.acceleration; });
+  };
   for (const Mechanism::JointCoordinate& coordinate : mechanism.coordinates()) {
     Variable<S>& variable = parts_.storedVariables_.emplace_back(coordinate.name);
     parts_.variables_[coordinate.name] = &variable;
     parts_.speeds_[coordinate.rate] = &variable;
     parts_.measured_[coordinate.name] = [&variable] { return variable.position; };
     parts_.measured_[coordinate.rate] = [&variable] { return variable.rate; };
+    measureAcceleration(variable, coordinate.rate);
   }
   for (const std::string& name : mechanism.stateNames()) {
     if (parts_.variables_.contains(name) || parts_.speeds_.contains(name)) continue;
@@ -103,6 +110,7 @@ void Assembly<S>::makeStates(const Mechanism& mechanism) {
       Speed<S>& speed = parts_.storedSpeeds_.emplace_back(name);
       parts_.speeds_[name] = &speed;
       parts_.measured_[name] = [&speed] { return speed.rate; };
+      measureAcceleration(speed, name);
     } else {
       S& value = parts_.values_.emplace(name, S(0.0)).first->second;
       parts_.measured_[name] = [&value] { return value; };
@@ -111,20 +119,72 @@ void Assembly<S>::makeStates(const Mechanism& mechanism) {
 }
 
 template <class S>
+template <class Of>
+void Assembly<S>::measureVector(const std::string& name, bool isSolved, const Of& of,
+                                const std::array<const char*, 3>& keys) {
+  for (int i = 0; i < 3; ++i) {
+    const std::string component = name + "." + keys[static_cast<std::size_t>(i)];
+    const Signal<S> value = [of, i] { return S(of()[i]); };
+    if (isSolved)
+      parts_.measureSolvedAs(component, value);
+    else
+      parts_.measured_[component] = value;
+  }
+}
+
+template <class S>
 void Assembly<S>::measureFrames() {
   for (const auto& [name, owned] : parts_.frames_) {
     if (owned->origin == nullptr) continue;
-    for (int i = 0; i < 3; ++i) {
-      const auto at = [&, frame = owned.get(), i](auto part) { return [frame, i, part] { return part(*frame)[i]; }; };
-      parts_.measured_[name + ".position." + components[static_cast<std::size_t>(i)]] =
-          at([](const Frame<S>& frame) { return frame.positionInInertial(); });
-      parts_.measured_[name + ".velocity." + components[static_cast<std::size_t>(i)]] =
-          at([](const Frame<S>& frame) { return frame.velocityInInertial(); });
-    }
+    const Frame<S>* k = owned.get();
+    const auto turned = [k](const Vector3<S>& x) { return Vector3<S>(k->R * x); };
+    measureVector(name + ".position", false, [k] { return k->positionInInertial(); });
+    measureVector(name + ".velocity", false, [k] { return k->velocityInInertial(); });
+    measureVector(name + ".acceleration", true, [k, turned] { return turned(k->a); });
+    measureVector(name + ".angular_velocity", false, [k, turned] { return turned(k->omega); });
+    measureVector(name + ".angular_acceleration", true, [k, turned] { return turned(k->omegaDot); });
+    measureVector(name + ".rotation_vector", false, [k] { return rotationVector(k->R); });
+    measureVector(
+        name + ".orientation", false, [k] { return rollPitchYaw(k->R); }, rollPitchYawNames);
   }
+}
+
+/// What acts on a frame from behind, inertia among it, is held by what moves it.
+template <class S>
+void Assembly<S>::measureReactions(const Mechanism& mechanism) {
+  for (const Mechanism::Moved& moved : mechanism.moved()) {
+    const Frame<S>* k = parts_.frames_.at(moved.frame).get();
+    const std::string reaction = mechanism.reactionOf(moved.frame);
+    measureVector(reaction + ".force", true, [k] { return Vector3<S>(-k->f); });
+    measureVector(reaction + ".moment", true, [k] { return Vector3<S>(-k->tau); });
+  }
+}
+
+template <class S>
+Momentum<S> Assembly<S>::momentum() const {
+  Momentum<S> sum;
+  for (const Inertia<S>* inertia : chain_.inertias()) sum += momentumOf(*inertia);
+  return sum;
+}
+
+template <class S>
+void Assembly<S>::measureWhole() {
   parts_.measured_["energy"] = [this] { return system_->energy(); };
   parts_.measured_["energy.kinetic"] = [this] { return system_->kineticEnergy(); };
   parts_.measured_["energy.potential"] = [this] { return system_->potentialEnergy(); };
+  parts_.measured_["energy.gravity"] = [this] { return system_->gravityEnergy(); };
+  parts_.measured_["energy.springs"] = [this] { return chain_.potentialEnergy(zeroVector<S>()); };
+  measureVector("momentum", false, [this] { return momentum().linear; });
+  measureVector("angular_momentum", false, [this] { return momentum().angular; });
+  const auto ofMass = [this](auto part) {
+    return [this, part] {
+      const Momentum<S> sum = momentum();
+      return Vector3<S>(sum.*part / sum.mass);
+    };
+  };
+  measureVector("centre_of_mass.position", false, ofMass(&Momentum<S>::moment));
+  measureVector("centre_of_mass.velocity", false, ofMass(&Momentum<S>::linear));
+  measureVector("centre_of_mass.acceleration", true, ofMass(&Momentum<S>::linearChange));
 }
 
 template <class S>
@@ -136,6 +196,31 @@ void Assembly<S>::setState(std::span<const S> x, const S& time) {
   for (std::size_t i = 0; i < x.size(); ++i) *states_[i] = isKnownZero(differsFrom_[i]) ? x[i] : x[i] + differsFrom_[i];
   for (auto& [name, speed] : parts_.speeds_) speed->acceleration = S(0.0);
   system_->doMotion();
+  known_ = Known::state;
+}
+
+template <class S>
+std::vector<S> Assembly<S>::accelerations(Formulation formulation) {
+  known_ = Known::solving;
+  try {
+    std::vector<S> result = system_->accelerations(formulation);
+    known_ = Known::accelerations;
+    return result;
+  } catch (...) {
+    known_ = Known::state;
+    throw;
+  }
+}
+
+template <class S>
+void Assembly<S>::solve() {
+  if (known_ == Known::forces) return;
+  if (known_ == Known::solving)
+    throw std::logic_error("a load asks for what follows from all loads: an acceleration or a reaction");
+  if (known_ == Known::state) accelerations();
+  known_ = Known::solving;
+  system_->complete();
+  known_ = Known::forces;
 }
 
 template <class S>

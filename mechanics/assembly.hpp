@@ -12,6 +12,7 @@
 
 #include "mechanics/assembler.hpp"
 #include "mechanics/equations/system.hpp"
+#include "mechanics/measurements.hpp"
 #include "scalars/fuzzy.hpp"
 #include "scalars/samples.hpp"
 
@@ -35,16 +36,18 @@ class Assembly {
   /// Sets x and the time [s] and moves all frames. Throws std::invalid_argument for a wrong number of values.
   void setState(std::span<const S> x, const S& time = S(0.0));
   /// u̇ for the present state.
-  std::vector<S> accelerations(Formulation formulation = Formulation::sparse) {
-    return system_->accelerations(formulation);
-  }
+  std::vector<S> accelerations(Formulation formulation = Formulation::sparse);
   /// ẋ for the present state: rates of positions, accelerations, rates of own states.
   std::vector<S> rates(Formulation formulation = Formulation::sparse);
   /// The present value of one of Mechanism::outputQuantities(), or of an expression of these, of parameters and of time
   /// t. Throws std::invalid_argument for any other name, naming the nearest, and for what is no expression.
   S output(const std::string& quantity) const;
 
-  System<S>& system() { return *system_; }
+  /// Whatever is done to it counts as another motion.
+  System<S>& system() {
+    known_ = Known::state;
+    return *system_;
+  }
   /// A number of the mechanism: a formula over its parameters.
   S number(const Expression& number) const { return parts_.number(number); }
   /// A frame by name. Throws std::invalid_argument, naming the nearest, if there is none.
@@ -55,6 +58,17 @@ class Assembly {
                    std::span<const S> values);
   void makeStates(const Mechanism& mechanism);
   void measureFrames();
+  void measureReactions(const Mechanism& mechanism);
+  void measureWhole();
+  /// f(frame)[i] as NAME.x … of an owned frame.
+  template <class Of>
+  void measureVector(const std::string& name, bool isSolved, const Of& of,
+                     const std::array<const char*, 3>& keys = components);
+  Momentum<S> momentum() const;
+  void solve();
+
+  /// Of the present motion.
+  enum class Known { state, solving, accelerations, forces };
 
   Assembler<S> parts_;
   Chain<S> chain_;
@@ -62,6 +76,7 @@ class Assembly {
   std::vector<S*> states_;  // in the order of Mechanism::stateNames()
   std::vector<Signal<S>> positionRates_, ownRates_;
   std::vector<S> initialState_, differsFrom_;  // the second: of each state, zero of those that stand for themselves
+  Known known_ = Known::state;
 };
 
 extern template class Assembly<double>;

@@ -98,6 +98,9 @@ class MassElement final : public Inertia<S> {
   /// The centre of mass, as the inertial frame sees it.
   MovingPoint<S> position() const { return at_.inInertial({centre_, zeroVector<S>()}); }
 
+  /// Of the centre of mass, in inertial axes.
+  Vector3<S> acceleration() const { return at_.R * a_; }
+
   void collectRows(std::vector<S>& accelerations, std::vector<InertiaWeight<S>>& weights) const override {
     const int first = static_cast<int>(accelerations.size());
     for (int i = 0; i < 3; ++i) {

@@ -27,12 +27,13 @@ struct Frame {
   Frame(const Frame&) = delete;
   Frame& operator=(const Frame&) = delete;
 
-  Matrix3<S> R;                             ///< orientation: components in K to components in the inertial frame
-  Vector3<S> r = zeroVector<S>();           ///< position of the origin [m]; R r in the inertial frame
-  Vector3<S> omega = zeroVector<S>();       ///< angular velocity [rad/s]
-  Vector3<S> v = zeroVector<S>();           ///< velocity of the origin [m/s]
-  Vector3<S> omegaDot = zeroVector<S>();    ///< angular acceleration [rad/s²]
-  Vector3<S> a = zeroVector<S>();           ///< acceleration of the origin, gravity included as −g [m/s²]
+  Matrix3<S> R;                           ///< orientation: components in K to components in the inertial frame
+  Vector3<S> r = zeroVector<S>();         ///< position of the origin [m]; R r in the inertial frame
+  Vector3<S> omega = zeroVector<S>();     ///< angular velocity [rad/s]
+  Vector3<S> v = zeroVector<S>();         ///< velocity of the origin [m/s]
+  Vector3<S> omegaDot = zeroVector<S>();  ///< angular acceleration [rad/s²]
+  Vector3<S> a =
+      zeroVector<S>();  ///< acceleration of the origin [m/s²]; while forces are sought, gravity is in it as −g
   Vector3<S> f = zeroVector<S>();           ///< force that acts on the frame [N]
   Vector3<S> tau = zeroVector<S>();         ///< moment about the origin that acts on the frame [N m]
   const Transmission<S>* origin = nullptr;  ///< the element that moves this frame; none for the inertial frame

@@ -38,9 +38,10 @@ struct Word {
   bool isRequired = false;
 };
 
-/// Names of the components of vectors and quaternions, and of the entries of a symmetric matrix.
+/// Names of the components of vectors, quaternions and angles, and of the entries of a symmetric matrix.
 inline constexpr std::array<const char*, 3> components = {"x", "y", "z"};
 inline constexpr std::array<const char*, 4> quaternionComponents = {"w", "x", "y", "z"};
+inline constexpr std::array<const char*, 3> rollPitchYawNames = {"roll", "pitch", "yaw"};
 inline constexpr std::array<const char*, 6> symmetricEntries = {"xx", "yy", "zz", "xy", "yz", "zx"};
 
 /// Whether a coordinate turns [rad] or slides [m].
@@ -112,9 +113,14 @@ class Fields {
   /// An expression of time, of any states and of all that can be measured; names may be defined by elements behind.
   virtual void signal(const Word& word, Expression& number) = 0;
   virtual void signals(const Word& word, ExpressionVector& vector) = 0;
+  /// The same for the rate of an own state, which no force waits for: accelerations and reactions may enter.
+  virtual void stateRate(const Word& word, Expression& number) { signal(word, number); }
 
   /// What can be measured, as NAME.KEY; the assembled element gives the value (Assembler::measure).
   virtual void measure(const Word& word) = 0;
+  /// The same of what is known once the equations of motion are solved, an acceleration or a reaction
+  /// (Assembler::measureSolved); no load may depend on it.
+  virtual void measureSolved(const Word& word) { measure(word); }
 };
 
 }  // namespace gamut

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "mechanics/description/names.hpp"
+#include "mechanics/description/quantities.hpp"
 
 namespace gamut {
 namespace {
@@ -17,7 +18,11 @@ std::string quoted(const std::string& name) { return "'" + name + "'"; }
 [[noreturn]] void refuse(const std::string& sentence) { throw std::invalid_argument(sentence); }
 
 /// Names of whole quantities, which parts of a mechanism must not have.
-bool isQuantity(const std::string& name) { return name == "energy" || name == "gravity" || name == "t"; }
+bool isQuantity(const std::string& name) {
+  return name == "gravity" || name == "t" || std::ranges::any_of(wholeQuantities(), [&](const WholeQuantity& whole) {
+           return whole.name.substr(0, whole.name.find('.')) == name;
+         });
+}
 
 /// Whether a formula would take the name for a number.
 bool isNumber(const std::string& name) {
@@ -193,10 +198,23 @@ void Mechanism::addState(std::vector<State>& states, const std::string& name, co
   states.push_back(state);
 }
 
-void Mechanism::addMeasured(const std::string& name, const std::string& unit, const std::string& of) {
+void Mechanism::addMeasured(const std::string& name, const std::string& unit, const std::string& of, bool isSolved) {
   if (unitOfMeasured(name) != nullptr || knows(name))
     refuse("the quantity " + quoted(name) + " of " + quoted(of) + " is defined twice");
-  measured_.push_back({name, unit});
+  measured_.push_back({name, unit, of, isSolved});
+}
+
+std::string Mechanism::accelerationOf(const std::string& speed) {
+  for (std::size_t at = speed.rfind("rate"); at != std::string::npos && at > 0; at = speed.rfind("rate", at - 1))
+    if (speed[at - 1] == '.' || speed[at - 1] == '_')
+      return speed.substr(0, at) + "acceleration" + speed.substr(at + 4);
+  return speed + "_acceleration";
+}
+
+std::string Mechanism::reactionOf(const std::string& frame) const {
+  const auto moved = std::ranges::find(moved_, frame, &Moved::frame);
+  const auto first = std::ranges::find(moved_, moved->element, &Moved::element);
+  return moved->element + (first == moved ? "" : "." + frame) + ".reaction";
 }
 
 void Mechanism::addSignal(Signal signal, Expression& expression) {
@@ -242,8 +260,11 @@ class Mechanism::Checker final : public Fields {
   void movedFrame(const Word& /*word*/, std::string& name, const std::string& from) override {
     m_.addFrame(from, name, element_);
     m_.moved_.push_back({name, from, element_, false});
-    for (const char* component : components) m_.addMeasured(name + ".position." + component, "m", element_);
-    for (const char* component : components) m_.addMeasured(name + ".velocity." + component, "m/s", element_);
+    for (const FrameQuantity& quantity : frameQuantities())
+      m_.addMeasured(name + "." + quantity.name, quantity.unit, element_, quantity.isSolved);
+    const std::string reaction = m_.reactionOf(name);
+    for (const char* component : components) m_.addMeasured(reaction + ".force." + component, "N", element_, true);
+    for (const char* component : components) m_.addMeasured(reaction + ".moment." + component, "N m", element_, true);
   }
   void choice(const Word& word, std::string& value, const std::vector<std::string>& choices) override {
     if (!has(choices, value))
@@ -275,6 +296,7 @@ class Mechanism::Checker final : public Fields {
     m_.addState(m_.positions_, named(position), gamut::unitOf(kind), initial);
     m_.addState(m_.speeds_, named(rate), std::string(gamut::unitOf(kind)) + "/s", initialRate);
     m_.coordinates_.push_back({element_, named(position), named(rate), kind});
+    m_.addMeasured(accelerationOf(named(rate)), std::string(gamut::unitOf(kind)) + "/s^2", element_, true);
     movesByJoint();
   }
   void position(const Word& word, Expression& initial) override {
@@ -282,6 +304,7 @@ class Mechanism::Checker final : public Fields {
   }
   void speed(const Word& word, Expression& initial) override {
     m_.addState(m_.speeds_, named(word), word.unit, initial);
+    m_.addMeasured(accelerationOf(named(word)), rateUnitOf(word.unit), element_, true);
     movesByJoint();
   }
   std::string state(const Word& word, Expression& initial) override {
@@ -309,17 +332,21 @@ class Mechanism::Checker final : public Fields {
     if (!number.isSmooth())
       refuse("the " + word.key + " of " + quoted(element_) +
              " has a kink or a jump (abs, sign, min, max, where), where its rate would jump");
-    m_.addSignal({element_, named(word), word.unit, true, number}, number);
+    m_.addSignal({element_, named(word), word.unit, Reach::time, number}, number);
   }
   void signal(const Word& word, Expression& number) override {
-    m_.addSignal({element_, named(word), word.unit, false, number}, number);
+    m_.addSignal({element_, named(word), word.unit, Reach::motion, number}, number);
+  }
+  void stateRate(const Word& word, Expression& number) override {
+    m_.addSignal({element_, named(word), word.unit, Reach::solution, number}, number);
   }
   void signals(const Word& word, ExpressionVector& vector) override {
     for (std::size_t i = 0; i < 3; ++i)
-      m_.addSignal({element_, named(word) + "." + components[i], word.unit, false, vector[i]}, vector[i]);
+      m_.addSignal({element_, named(word) + "." + components[i], word.unit, Reach::motion, vector[i]}, vector[i]);
   }
 
   void measure(const Word& word) override { m_.addMeasured(named(word), word.unit, element_); }
+  void measureSolved(const Word& word) override { m_.addMeasured(named(word), word.unit, element_, true); }
 
  private:
   std::string named(const Word& word) const { return element_ + "." + word.key; }
@@ -369,15 +396,20 @@ const std::string* Mechanism::unitOfMeasured(const std::string& name) const {
   for (const auto* states : {&positions_, &speeds_, &own_})
     for (const State& state : *states)
       if (state.name == name) return &state.unit;
-  static const std::string joule = "J", radian = "rad", metre = "m", radianRate = "rad/s", metreRate = "m/s";
+  static const std::string radian = "rad", metre = "m", radianRate = "rad/s", metreRate = "m/s";
   for (const JointCoordinate& coordinate : coordinates_) {
     const bool turns = coordinate.kind == Coordinate::angle;
     if (coordinate.isDriven && coordinate.name == name) return turns ? &radian : &metre;
     if (coordinate.isDriven && coordinate.rate == name) return turns ? &radianRate : &metreRate;
   }
-  for (const Measured& measured : measured_)
-    if (measured.name == name) return &measured.unit;
-  return name == "energy" || name == "energy.kinetic" || name == "energy.potential" ? &joule : nullptr;
+  if (const Measured* measured = findMeasured(name)) return &measured->unit;
+  const auto whole = std::ranges::find(wholeQuantities(), name, &WholeQuantity::name);
+  return whole == wholeQuantities().end() ? nullptr : &whole->unit;
+}
+
+const Mechanism::Measured* Mechanism::findMeasured(const std::string& name) const {
+  const auto found = std::ranges::find(measured_, name, &Measured::name);
+  return found == measured_.end() ? nullptr : &*found;
 }
 
 Dimension Mechanism::dimensionOf(const Expression& signal) const {
@@ -388,14 +420,22 @@ Dimension Mechanism::dimensionOf(const Expression& signal) const {
 
 void Mechanism::checkSignal(const Signal& signal) const {
   for (const std::string& used : signal.expression.names()) {
-    if (used == "t" || knows(used) || (!signal.isOfTimeAlone && unitOfMeasured(used) != nullptr)) continue;
+    if (signal.reach == Reach::motion) {
+      const Measured* measured = findMeasured(used);
+      const auto whole = std::ranges::find(wholeQuantities(), used, &WholeQuantity::name);
+      if ((measured != nullptr && measured->isSolved) || (whole != wholeQuantities().end() && whole->isSolved))
+        throw WrongNumber(signal.name, quoted(used) +
+                                           " follows from all forces, this one among them; expected a formula "
+                                           "of time, positions, velocities and own states");
+    }
+    if (used == "t" || knows(used) || (signal.reach != Reach::time && unitOfMeasured(used) != nullptr)) continue;
     if (unitOfMeasured(used) != nullptr)
       throw WrongNumber(signal.name,
                         quoted(used) + " changes in motion; expected a formula of time and parameters alone");
     std::vector<std::string> known = namesOf(parameters_);
     for (const Derived& derived : derived_) known.push_back(derived.name);
     known.emplace_back("t");
-    if (!signal.isOfTimeAlone)
+    if (signal.reach != Reach::time)
       for (const std::string& quantity : outputQuantities()) known.push_back(quantity);
     throw UnknownName("quantity", used, known, "for " + quoted(signal.name));
   }
@@ -423,8 +463,30 @@ void Mechanism::check() const {
 }
 
 void Mechanism::checkSignals(const std::string& element) const {
-  for (const Signal& signal : signals_)
-    if (signal.element == element) checkSignal(signal);
+  for (const Signal& signal : signals_) {
+    if (signal.element != element) continue;
+    checkSignal(signal);
+    checkCycle(signal);
+  }
+}
+
+/// What an element measures may depend on all of its expressions.
+void Mechanism::checkCycle(const Signal& signal) const {
+  std::vector<std::string> reached, open = signal.expression.names();
+  for (; signal.reach == Reach::motion && !open.empty();) {
+    const std::string name = open.back();
+    open.pop_back();
+    const Measured* measured = findMeasured(name);
+    if (measured == nullptr || has(reached, measured->element)) continue;
+    if (measured->element == signal.element)
+      throw WrongNumber(signal.name, "it depends on " + quoted(name) +
+                                         ", which depends on it; expected a formula of "
+                                         "what is known without it");
+    reached.push_back(measured->element);
+    for (const Signal& other : signals_)
+      if (other.element == measured->element && other.reach == Reach::motion)
+        open.insert(open.end(), other.expression.names().begin(), other.expression.names().end());
+  }
 }
 
 std::vector<Fault> Mechanism::faults(const Described& element, const std::map<std::string, Interval>& ranges) const {
@@ -536,7 +598,7 @@ std::vector<std::string> Mechanism::outputQuantities() const {
   for (const JointCoordinate& coordinate : coordinates_)
     if (coordinate.isDriven) names.insert(names.end(), {coordinate.name, coordinate.rate});
   for (const Measured& measured : measured_) names.push_back(measured.name);
-  if (!frames_.empty()) names.insert(names.end(), {"energy", "energy.kinetic", "energy.potential"});
+  for (const WholeQuantity& whole : wholeQuantities()) names.push_back(whole.name);
   return names;
 }
 

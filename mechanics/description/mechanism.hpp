@@ -115,6 +115,21 @@ class Mechanism {
   /// By the joint's name if it has just one, or by the coordinate's own. Throws UnknownName, saying that `of` asks.
   const JointCoordinate& coordinate(const std::string& name, const std::string& of) const;
 
+  /// The name of a speed's acceleration: hinge.rate, hinge.acceleration; sleeve.angle_rate, sleeve.angle_acceleration;
+  /// ball.rate.x, ball.acceleration.x; any other NAME, NAME_acceleration.
+  static std::string accelerationOf(const std::string& speed);
+
+  /// What moves a frame, and whether by own coordinates.
+  struct Moved {
+    std::string frame, from, element;
+    bool isByJoint;
+  };
+  /// Frames that elements move, in the order of assembly.
+  const std::vector<Moved>& moved() const { return moved_; }
+  /// What stands before ".force.x" and ".moment.x" in the names of the reaction that moves a frame: ELEMENT.reaction,
+  /// or, of a further frame that the element moves, ELEMENT.FRAME.reaction.
+  std::string reactionOf(const std::string& frame) const;
+
   /// How many positions there are.
   std::size_t positions() const { return positions_.size(); }
   bool isSpeed(const std::string& state) const;
@@ -127,8 +142,8 @@ class Mechanism {
   /// Of each state, whether its initial value follows from one of these parameters.
   std::vector<bool> startsWith(const std::vector<std::string>& freeParameters) const;
 
-  /// Everything that can be looked at: states; FRAME.position.x … z and FRAME.velocity.x … z, in the inertial frame;
-  /// what elements measure; energy, energy.kinetic, energy.potential.
+  /// Everything that can be looked at: states; motion of frames and quantities of the whole
+  /// (description/quantities.hpp); accelerations of speeds; reactions; what elements measure.
   std::vector<std::string> outputQuantities() const;
   /// The unit of any quantity, number or output.
   std::string unitOf(const std::string& quantity) const;
@@ -140,20 +155,18 @@ class Mechanism {
     Expression initial;
   };
   struct Measured {
-    std::string name, unit;
-  };
-  /// What moves a frame, and whether by own coordinates.
-  struct Moved {
-    std::string frame, from, element;
-    bool isByJoint;
+    std::string name, unit, element;
+    bool isSolved;  ///< known once the equations of motion are solved
   };
   /// Names of coordinates, of which one follows the other.
   struct Following {
     std::string follower, leader;
   };
+  /// What an expression of motion may name.
+  enum class Reach { time, motion, solution };
   struct Signal {
     std::string element, name, unit;
-    bool isOfTimeAlone;
+    Reach reach;
     Expression expression;
   };
 
@@ -164,7 +177,7 @@ class Mechanism {
   void addFrame(const std::string& from, const std::string& to, const std::string& of);
   void addState(std::vector<State>& states, const std::string& name, const std::string& unit,
                 const Expression& initial);
-  void addMeasured(const std::string& name, const std::string& unit, const std::string& of);
+  void addMeasured(const std::string& name, const std::string& unit, const std::string& of, bool isSolved = false);
   void addSignal(Signal signal, Expression& expression);
   void drive(const std::string& coordinate, const std::string& by);
   /// What moves with a frame: itself, or one that it carries, also by coordinates that follow one of the element that
@@ -175,6 +188,9 @@ class Mechanism {
   /// Throws if one of its names is no parameter.
   void checkNames(const Expression& number, const std::string& name) const;
   void checkSignal(const Signal& signal) const;
+  /// Throws if what the expression says is needed to compute what it names.
+  void checkCycle(const Signal& signal) const;
+  const Measured* findMeasured(const std::string& name) const;
   /// Where no units are used at all, time is a plain number as well.
   bool isWithoutUnits(const Expression& rate) const;
   std::vector<std::string> withoutUnit(const Expression& number) const;

@@ -34,11 +34,17 @@ class PrescribedMotion final : public Load<S> {
 void Drive::describe(Fields& f) {
   const Coordinate kind = f.drivenCoordinate({"joint", "", "the joint, or one of its coordinates"}, joint);
   f.timeFunction({"position", unitOf(kind), "at time `t`", true}, position);
+  f.measureSolved({"force", forceUnitOf(kind), "that it needs, in the direction in which the coordinate grows"});
+  f.measureSolved({"power", "W", "that it brings in"});
 }
 
 template <class S>
 void Drive::assemble(Assembler<S>& a) const {
+  const Variable<S>& driven = a.coordinate(joint);
   a.template addFirst<PrescribedMotion<S>>(a.coordinate(joint), a.timeFunction(position));
+  // All other forces on the coordinate, those of inertia among them, are held.
+  a.measureSolved("force", [&driven] { return S(-driven.force); });
+  a.measureSolved("power", [&driven] { return S(-driven.force * driven.rate); });
 }
 
 GAMUT_ASSEMBLE(Drive);

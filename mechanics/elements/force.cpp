@@ -19,6 +19,8 @@ class FrameLoad final : public Load<S> {
         force_(std::move(force)),
         moment_(std::move(moment)) {}
 
+  S power() const { return present(force_).dot(at_.v + at_.omega.cross(point_)) + present(moment_).dot(at_.omega); }
+
  private:
   Vector3<S> present(const SignalVector<S>& signals) const {
     const Vector3<S> given(signals[0](), signals[1](), signals[2]());
@@ -45,6 +47,7 @@ void Force::describe(Fields& f) {
   f.vector({"point", "m", "where the force acts, in `at`"}, point);
   f.choice({"in", "", "whose axes the components have: `\"inertial\"` (unless given) or `\"frame\"`, those of `at`"},
            in, {"inertial", "frame"});
+  f.measure({"power", "W", "that it brings in"});
 }
 
 template <class S>
@@ -52,7 +55,9 @@ void Force::assemble(Assembler<S>& a) const {
   const auto signals = [&](const ExpressionVector& v) {
     return SignalVector<S>{a.signal(v[0]), a.signal(v[1]), a.signal(v[2])};
   };
-  a.template add<FrameLoad<S>>(a.frame(at), a.vector(point), in == "frame", signals(force), signals(moment));
+  const auto& load =
+      a.template add<FrameLoad<S>>(a.frame(at), a.vector(point), in == "frame", signals(force), signals(moment));
+  a.measure("power", [&load] { return load.power(); });
 }
 
 GAMUT_ASSEMBLE(Force);

@@ -21,6 +21,7 @@ void Mass::describe(Fields& f) {
   for (const char* component : components) {
     f.measure({std::string("position.") + component, "m", "of the centre, in the inertial frame"});
     f.measure({std::string("velocity.") + component, "m/s", "of the centre, in the inertial frame"});
+    f.measureSolved({std::string("acceleration.") + component, "m/s^2", "of the centre, in the inertial frame"});
   }
 }
 
@@ -32,6 +33,7 @@ void Mass::assemble(Assembler<S>& a) const {
     const std::string component = components[static_cast<std::size_t>(i)];
     a.measure("position." + component, [&body, i] { return body.position().position[i]; });
     a.measure("velocity." + component, [&body, i] { return body.position().velocity[i]; });
+    a.measureSolved("acceleration." + component, [&body, i] { return body.acceleration()[i]; });
   }
 }
 

@@ -1,56 +1,60 @@
-// With r, v, ω resolved in each frame and A = R₁ᵀ R₂:  x = A r₂ − r₁,  ẋ = A v₂ − v₁ − ω₁ × x,  cos φ = u·A u, sin φ =
-// |u × A u|.
+// cos φ = u·A u, sin φ = |u × A u| of the angle between the axes; the rest in measurements.hpp.
 #include "mechanics/elements/relative_motion.hpp"
 
 #include "mechanics/assembler.hpp"
+#include "mechanics/measurements.hpp"
 
 namespace gamut {
-namespace {
-
-template <class S>
-class Observer final : public Load<S> {
- public:
-  Observer(Frame<S>& from, Frame<S>& to, const Axis& axis) : from_(from), to_(to), axis_(axis) {}
-
-  Vector3<S> position() const { return seen(to_.r) - from_.r; }
-  Vector3<S> velocity() const { return seen(to_.v) - from_.v - from_.omega.cross(position()); }
-  S angle() const {
-    using std::atan2, std::sqrt;
-    const Vector3<S> u = axis_.template unit<S>(), other = seen(u), across = u.cross(other);
-    return atan2(S(sqrt(square(across[0]) + square(across[1]) + square(across[2]))), S(u.dot(other)));
-  }
-
- private:
-  void applyForce() override {}
-  Vector3<S> seen(const Vector3<S>& x) const { return from_.R.transpose() * Vector3<S>(to_.R * x); }
-
-  Frame<S>& from_;
-  Frame<S>& to_;
-  Axis axis_;
-};
-
-}  // namespace
 
 void RelativeMotion::describe(Fields& f) {
   f.frame({"from", "", "the frame that sees"}, from);
   f.otherFrame({"to", "", "the frame that is seen"}, to, from);
+  f.vector({"from_point", "m", "the point of `from` from which is measured"}, fromPoint);
+  f.vector({"to_point", "m", "the point of `to` that is seen"}, toPoint);
   f.axis({"axis", "", "whose directions in both frames are compared; `\"z\"` unless given"}, axis);
-  for (const char* component : components) {
-    f.measure({std::string("position.") + component, "m", "of `to`, in the axes of `from`"});
-    f.measure({std::string("velocity.") + component, "m/s", "of `to`, as `from` sees it"});
-  }
+  const auto vector = [&](const std::string& kind, const char* unit, const char* meaning, bool isSolved = false) {
+    for (const char* component : components) {
+      const Word word{kind + "." + component, unit, meaning};
+      isSolved ? f.measureSolved(word) : f.measure(word);
+    }
+  };
+  vector("position", "m", "of `to_point`, in the axes of `from`");
+  vector("velocity", "m/s", "of `to_point`, as `from` sees it");
+  vector("acceleration", "m/s^2", "of `to_point`, as `from` sees it", true);
+  vector("angular_velocity", "rad/s", "of `to`, as `from` sees it");
+  vector("angular_acceleration", "rad/s^2", "of `to`, as `from` sees it", true);
+  vector("rotation_vector", "rad", "of `to` against `from`: axis times angle; singular at angles 0 and π");
+  f.measure({"orientation.roll", "rad", "of `to` against `from`: first, about x of `from`"});
+  f.measure({"orientation.pitch", "rad", "then about y of `from`; at ± π/2 all three are singular"});
+  f.measure({"orientation.yaw", "rad", "then about z of `from`"});
   f.measure({"angle", "rad", "between the axes, from 0 to π; not differentiable at its ends"});
 }
 
 template <class S>
 void RelativeMotion::assemble(Assembler<S>& a) const {
-  const auto& observer = a.template add<Observer<S>>(a.frame(from), a.frame(to), axis);
-  for (int i = 0; i < 3; ++i) {
-    const std::string component = components[static_cast<std::size_t>(i)];
-    a.measure("position." + component, [&observer, i] { return observer.position()[i]; });
-    a.measure("velocity." + component, [&observer, i] { return observer.velocity()[i]; });
-  }
-  a.measure("angle", [&observer] { return observer.angle(); });
+  const RelativeMotionOf<S> motion(a.frame(from), a.vector(fromPoint), a.frame(to), a.vector(toPoint));
+  const auto vector = [&](const std::string& kind, auto of, bool isSolved = false) {
+    for (int i = 0; i < 3; ++i) {
+      const std::string key = kind + "." + components[static_cast<std::size_t>(i)];
+      const Signal<S> value = [motion, of, i] { return S(of(motion)[i]); };
+      isSolved ? a.measureSolved(key, value) : a.measure(key, value);
+    }
+  };
+  using Motion = RelativeMotionOf<S>;
+  vector("position", std::mem_fn(&Motion::position));
+  vector("velocity", std::mem_fn(&Motion::velocity));
+  vector("acceleration", std::mem_fn(&Motion::acceleration), true);
+  vector("angular_velocity", std::mem_fn(&Motion::angularVelocity));
+  vector("angular_acceleration", std::mem_fn(&Motion::angularAcceleration), true);
+  vector("rotation_vector", [](const Motion& seen) { return rotationVector(seen.orientation()); });
+  for (int i = 0; i < 3; ++i)
+    a.measure(std::string("orientation.") + rollPitchYawNames[static_cast<std::size_t>(i)],
+              [motion, i] { return S(rollPitchYaw(motion.orientation())[i]); });
+  a.measure("angle", [motion, along = axis] {
+    using std::atan2, std::sqrt;
+    const Vector3<S> u = along.template unit<S>(), other = motion.seen(u), across = u.cross(other);
+    return S(atan2(S(sqrt(square(across[0]) + square(across[1]) + square(across[2]))), S(u.dot(other))));
+  });
 }
 
 GAMUT_ASSEMBLE(RelativeMotion);

@@ -1,4 +1,4 @@
-// How a frame moves as another frame sees it: place, velocity, angle between two directions: a measurement.
+// How a frame, or a point of it, moves as another frame sees it: a measurement.
 #pragma once
 
 #include "mechanics/description/described.hpp"
@@ -8,10 +8,11 @@ namespace gamut {
 struct RelativeMotion {
   static constexpr const char* type = "relative-motion";
   static constexpr const char* summary =
-      "measures place and velocity of a frame as another one sees them, and the angle between an axis of each";
+      "measures how a frame, or a point of it, moves and is turned as another frame sees it";
 
   std::string name, from, to;
-  Axis axis = axisZ;  ///< of both
+  Axis axis = axisZ;                                                        ///< of both
+  ExpressionVector fromPoint = {0.0, 0.0, 0.0}, toPoint = {0.0, 0.0, 0.0};  ///< m
 
   void describe(Fields& f);
   template <class S>

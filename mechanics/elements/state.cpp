@@ -6,7 +6,7 @@ namespace gamut {
 
 void State::describe(Fields& f) {
   const std::string unit = f.state({"initial", "", "at the start, with the unit that the state has"}, initial);
-  f.signal({"rate", unit + "/s", "its change in time", true}, rate);
+  f.stateRate({"rate", unit + "/s", "its change in time", true}, rate);
 }
 
 template <class S>

@@ -105,6 +105,14 @@ class System {
     return result;
   }
 
+  /// After accelerations(): the forces of this motion, those of its inertia among them, on all frames and speeds; then
+  /// the accelerations of frames as they are, without −g.
+  void complete() {
+    doForce();
+    base_.a = zeroVector<S>();
+    chain_.doMotion(MotionLevel::all);
+  }
+
   /// Motion and force once through the chain with these u̇. On the way `visit` sees, and may change, every component of
   /// what passes each joint: ω̇ and a of the frame behind it, then, inwards again, f and τ that act on this frame.
   template <class Visit>
@@ -133,6 +141,11 @@ class System {
     return sum;
   }
   S potentialEnergy() const { return chain_.potentialEnergy(gravity_); }
+  S gravityEnergy() const {
+    S sum(0.0);
+    for (const Inertia<S>* inertia : chain_.inertias()) sum = sum + inertia->potentialEnergy(gravity_);
+    return sum;
+  }
   /// Kinetic and potential energy of the present motion (after doMotion) [J].
   S energy() const { return kineticEnergy() + potentialEnergy(); }
 
