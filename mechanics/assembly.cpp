@@ -51,6 +51,9 @@ Assembly<S>::Assembly(const Mechanism& mechanism, const std::vector<std::string>
   const auto& gravity = mechanism.gravity();
   system_ = std::make_unique<System<S>>(std::move(speeds), chain_, *parts_.frames_.at(Mechanism::inertialFrame),
                                         gravity ? parts_.vector(*gravity) : zeroVector<S>());
+  if (const auto& shaking = mechanism.baseAcceleration())
+    system_->shake([of = std::array{parts_.signal((*shaking)[0]), parts_.signal((*shaking)[1]),
+                                    parts_.signal((*shaking)[2])}] { return Vector3<S>(of[0](), of[1](), of[2]()); });
   parts_.solve_ = [this] { solve(); };
   measureFrames();
   measureReactions(mechanism);

@@ -141,6 +141,8 @@ class Inertia : public Element<S> {
   /// The frame that it is fixed to, and its inertia there.
   virtual Frame<S>& frame() const = 0;
   virtual SpatialInertia<S> spatial() const = 0;
+  /// Speeds whose accelerations it resists besides, and by how much (rotors.hpp).
+  virtual std::vector<std::pair<const Speed<S>*, S>> reflected() const { return {}; }
 };
 
 /// An element that holds rows g(q) = 0 closed, ideally, by the force Gᵀ λ, where ġ = G q̇ and λ has a multiplier a row.

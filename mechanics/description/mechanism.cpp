@@ -13,13 +13,17 @@
 namespace gamut {
 namespace {
 
+/// Stands for an element where its expressions are checked.
+constexpr const char* baseAccelerationName = "base_acceleration";
+
 std::string quoted(const std::string& name) { return "'" + name + "'"; }
 
 [[noreturn]] void refuse(const std::string& sentence) { throw std::invalid_argument(sentence); }
 
 /// Names of whole quantities, which parts of a mechanism must not have.
 bool isQuantity(const std::string& name) {
-  return name == "gravity" || name == "t" || std::ranges::any_of(wholeQuantities(), [&](const WholeQuantity& whole) {
+  return name == "gravity" || name == "t" || name == baseAccelerationName ||
+         std::ranges::any_of(wholeQuantities(), [&](const WholeQuantity& whole) {
            return whole.name.substr(0, whole.name.find('.')) == name;
          });
 }
@@ -392,6 +396,15 @@ void Mechanism::setGravity(ExpressionVector gravity) {
   gravity_ = std::move(gravity);
 }
 
+void Mechanism::setBaseAcceleration(ExpressionVector acceleration) {
+  if (baseAcceleration_) refuse("the acceleration of the base is set twice");
+  for (std::size_t i = 0; i < 3; ++i)
+    addSignal({baseAccelerationName, std::string(baseAccelerationName) + "." + components[i], "m/s^2", Reach::time,
+               acceleration[i]},
+              acceleration[i]);
+  baseAcceleration_ = std::move(acceleration);
+}
+
 const std::string* Mechanism::unitOfMeasured(const std::string& name) const {
   for (const auto* states : {&positions_, &speeds_, &own_})
     for (const State& state : *states)
@@ -456,6 +469,7 @@ bool Mechanism::isWithoutUnits(const Expression& rate) const {
 void Mechanism::check() const {
   if (positions_.empty() && speeds_.empty() && own_.empty() && coordinates_.empty())
     refuse("the mechanism has no joint and no state: nothing can move");
+  checkSignals(baseAccelerationName);
   for (const Described& element : elements_) {
     checkSignals(element.name());
     for (const Fault& fault : faults(element, {})) refuse(fault.sentence);

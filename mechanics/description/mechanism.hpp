@@ -65,6 +65,9 @@ class Mechanism {
   void add(Described element);
   /// Acceleration of free fall in the inertial frame [m/s²]; names gravity.x … z. Zero unless set; set at most once.
   void setGravity(ExpressionVector gravity);
+  /// Acceleration of the base, expressions of time [m/s²]; names base_acceleration.x … z. The inertial frame then is
+  /// one that moves with the base: what is measured is measured as seen from there. Zero unless set; set at most once.
+  void setBaseAcceleration(ExpressionVector acceleration);
   /// Throws UnknownName, WrongUnit or WrongNumber if a number, called `name`, is not of this unit's kind. Parameters
   /// without a unit count as plain numbers; a single one may also be what makes it so, and what it then is, is
   /// returned.
@@ -85,6 +88,7 @@ class Mechanism {
   const std::vector<Described>& elements() const { return elements_; }
   /// Empty where none was set.
   const std::optional<ExpressionVector>& gravity() const { return gravity_; }
+  const std::optional<ExpressionVector>& baseAcceleration() const { return baseAcceleration_; }
   const std::vector<std::string>& frames() const { return frames_; }
 
   /// Numbers on which motion depends, in the order of their declaration.
@@ -199,7 +203,7 @@ class Mechanism {
   const std::string* unitOfMeasured(const std::string& name) const;
 
   std::vector<Described> elements_;
-  std::optional<ExpressionVector> gravity_;
+  std::optional<ExpressionVector> gravity_, baseAcceleration_;
   std::vector<std::string> names_, frames_, massFrames_;
   std::vector<Moved> moved_;
   std::vector<NamedValue> parameters_, initials_;

@@ -1,6 +1,7 @@
 // The types of elements that there are: the one place where a new one is entered.
 #pragma once
 
+#include "mechanics/elements/bushing.hpp"
 #include "mechanics/elements/coupling.hpp"
 #include "mechanics/elements/cylindrical.hpp"
 #include "mechanics/elements/distance.hpp"
@@ -8,9 +9,12 @@
 #include "mechanics/elements/force.hpp"
 #include "mechanics/elements/free.hpp"
 #include "mechanics/elements/joint_force.hpp"
+#include "mechanics/elements/joint_friction.hpp"
 #include "mechanics/elements/joint_spring.hpp"
+#include "mechanics/elements/joint_stop.hpp"
 #include "mechanics/elements/link.hpp"
 #include "mechanics/elements/mass.hpp"
+#include "mechanics/elements/motor.hpp"
 #include "mechanics/elements/planar.hpp"
 #include "mechanics/elements/prismatic.hpp"
 #include "mechanics/elements/relative_motion.hpp"
@@ -26,9 +30,9 @@ namespace gamut {
 
 /// An empty description of each, in the order of the documentation, for visitors to fill in.
 inline std::vector<Described> elementTypes() {
-  return {Revolute{},   Prismatic{}, Screw{},    Cylindrical{}, Universal{}, Planar{},        Spherical{},
-          Free{},       Weld{},      Link{},     Mass{},        Spring{},    JointSpring{},   Force{},
-          JointForce{}, Drive{},     Coupling{}, State{},       Distance{},  RelativeMotion{}};
+  return {Revolute{},    Prismatic{}, Screw{},   Cylindrical{},   Universal{}, Planar{}, Spherical{}, Free{}, Weld{},
+          Link{}, Mass{}, Spring{}, JointSpring{}, Bushing{}, JointFriction{}, SmoothedJointFriction{}, JointStop{}, Motor{}, Force{},
+          JointForce{}, Drive{}, Coupling{}, State{}, Distance{}, RelativeMotion{}};
 }
 
 }  // namespace gamut

@@ -91,7 +91,14 @@ std::vector<S> articulatedAccelerations(const std::vector<std::reference_wrapper
       transmissions.push_back(transmission);
     else
       (*element)->doForce();
-  for (const Inertia<S>* inertia : chain.inertias()) behind[&inertia->frame()] += inertia->spatial();
+  std::unordered_map<const Speed<S>*, S> reflected;
+  for (const Inertia<S>* inertia : chain.inertias()) {
+    behind[&inertia->frame()] += inertia->spatial();
+    for (const auto& [speed, resistance] : inertia->reflected()) {
+      const auto [at, isFirst] = reflected.emplace(speed, resistance);
+      if (!isFirst) at->second = at->second + resistance;
+    }
+  }
 
   for (Transmission<S>* transmission : transmissions) {
     Frame<S>& to = transmission->to();
@@ -104,13 +111,14 @@ std::vector<S> articulatedAccelerations(const std::vector<std::reference_wrapper
       transmission->doMotion(MotionLevel::acceleration);
       const Spatial<S> motion = {to.omegaDot, to.a};
       const Spatial<S> u = detail::times(m, motion);
-      const S d = detail::dot(motion, u);
+      const auto rotor = reflected.find(*speed);
+      const S ofBodies = detail::dot(motion, u), d = rotor == reflected.end() ? ofBodies : S(ofBodies + rotor->second);
       if (isKnownZero(d)) throw std::domain_error("the variable " + (*speed)->name + " moves no mass");
       const S inverse = S(1.0) / d;
       const S free = ((*speed)->force + detail::dot(motion, {to.tau, to.f})) * inverse;
       const Spatial<S> g = {Vector3<S>(u[0] * inverse), Vector3<S>(u[1] * inverse)};
       joints[transmission].push_back({*speed, motion, g, free});
-      const int component = detail::onlyComponent(motion);
+      const int component = rotor == reflected.end() ? detail::onlyComponent(motion) : -1;
       detail::giveWay(m, u, g, component);
       to.tau -= u[0] * free;
       to.f -= u[1] * free;

@@ -48,7 +48,7 @@ class System {
   /// Moves every frame by the variables' present positions, rates and accelerations.
   void doMotion(MotionLevel level = MotionLevel::all) {
     // A base accelerated by −g is a base at rest in the field g.
-    base_.a = level == MotionLevel::acceleration ? zeroVector<S>() : Vector3<S>(-gravity_);
+    base_.a = level == MotionLevel::acceleration ? zeroVector<S>() : baseAtRest();
     chain_.doMotion(level);
   }
 
@@ -106,12 +106,15 @@ class System {
   }
 
   /// After accelerations(): the forces of this motion, those of its inertia among them, on all frames and speeds; then
-  /// the accelerations of frames as they are, without −g.
+  /// the accelerations of frames as the base sees them, without −g.
   void complete() {
     doForce();
     base_.a = zeroVector<S>();
     chain_.doMotion(MotionLevel::all);
   }
+
+  /// The acceleration of a base that is shaken, as a function of the present time; all motion is relative to it.
+  void shake(std::function<Vector3<S>()> acceleration) { shaking_ = std::move(acceleration); }
 
   /// Motion and force once through the chain with these u̇. On the way `visit` sees, and may change, every component of
   /// what passes each joint: ω̇ and a of the frame behind it, then, inwards again, f and τ that act on this frame.
@@ -122,7 +125,7 @@ class System {
         for (int i = 0; i < 3; ++i) visit((*vector)[i]);
     };
     setAccelerations(accelerations);
-    base_.a = -gravity_;
+    base_.a = baseAtRest();
     for (Element<S>* element : chain_.elements()) {
       element->doMotion(MotionLevel::all);
       if (const auto* joint = jointAt(*element)) visitBoth(joint->to().omegaDot, joint->to().a);
@@ -154,6 +157,8 @@ class System {
   }
 
  private:
+  Vector3<S> baseAtRest() const { return shaking_ ? Vector3<S>(shaking_() - gravity_) : Vector3<S>(-gravity_); }
+
   /// The element as one that is moved by a speed of the system, or null.
   const Transmission<S>* jointAt(Element<S>& element) const {
     const auto* transmission = dynamic_cast<const Transmission<S>*>(&element);
@@ -263,6 +268,7 @@ class System {
   Chain<S>& chain_;
   Frame<S>& base_;
   Vector3<S> gravity_;
+  std::function<Vector3<S>()> shaking_;
 };
 
 template <class S>

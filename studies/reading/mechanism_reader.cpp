@@ -30,6 +30,8 @@ class MechanismReader {
   ReadMechanism read() {
     readParameters(section_, "");
     if (const toml::node* gravity = section_.find("gravity")) guarded(*gravity, [&] { setGravity(*gravity); });
+    const toml::node* shaking = section_.find("base_acceleration");
+    if (shaking != nullptr) guarded(*shaking, [&] { setBaseAcceleration(*shaking); });
     const toml::node* robot = section_.find("urdf");
     if (robot != nullptr) addRobot(*robot);
     const std::size_t ofRobot = mechanism_.elements().size();
@@ -46,7 +48,7 @@ class MechanismReader {
 
  private:
   static std::vector<std::string> keysOf(const toml::table& table) {
-    std::vector<std::string> keys = {"gravity", "parameters", "element", "urdf"};
+    std::vector<std::string> keys = {"gravity", "base_acceleration", "parameters", "element", "urdf"};
     if (table.contains("urdf")) keys.insert(keys.end(), {"base", "damping", "friction", "mimic", "initial"});
     return keys;
   }
@@ -196,6 +198,16 @@ class MechanismReader {
     ExpressionVector gravity = {0.0, 0.0, 0.0};
     readNumbers(node, "gravity", "mechanism.gravity", gravity, components, 3, "m/s^2");
     mechanism_.setGravity(gravity);
+  }
+
+  void setBaseAcceleration(const toml::node& node) {
+    const std::string what = "mechanism.base_acceleration";
+    const Word word{"base_acceleration", "m/s^2", ""};
+    const toml::array& list = listOf(node, what, components, 3, dimensionOf(word.unit));
+    ExpressionVector acceleration = {0.0, 0.0, 0.0};
+    for (std::size_t i = 0; i < 3; ++i) acceleration[i] = signal(list[i], word.key + "." + components[i], what, word);
+    mechanism_.setBaseAcceleration(acceleration);
+    mechanism_.checkSignals(word.key);
   }
 
   /// What the mechanism refuses is an error of the file at this place.

@@ -74,6 +74,11 @@ Mechanism withOneOfEach() {
   m.add(Mass{"carriage", "F", 0.5, {0.0, 0.1, 0.0}});
   m.add(Coupling{"gear", "rack", "hinge", -0.2, 0.1});
   m.add(State{"lag", Expression::parse("0 N m"), Expression::parse("(1 N m * hinge.rate * 1 s - lag)/(0.1 s)")});
+  m.add(Bushing{"mount", "A", "E", {1.0, 2.0, 3.0}, {0.1, 0.2, 0.3}, {1.0, 2.0, 2.0}, {0.1, 0.1, 0.1}});
+  m.add(JointFriction{"dry", "slide", 0.5, 0.1});
+  m.add(SmoothedJointFriction{"smooth", "hinge", 0.5, 0.1, 0.2});
+  m.add(JointStop{"stop", "slide", -0.2, 0.3, 40.0, 1.0});
+  m.add(Motor{"geared", "hinge", Expression::parse("0.2 N m - 0.1 N m s * hinge.rate"), 5.0, 0.01, 0.02});
   m.add(Distance{"gap", "inertial", "E"});
   m.add(RelativeMotion{"seen", "A", "E", axisZ});
   m.setGravity({0.0, 0.0, -9.81});
@@ -86,7 +91,7 @@ TEST(ElementTypes, GiveAValueForAllThatTheySayCanBeMeasured) {
   for (const Described& type : elementTypes())
     if (std::ranges::none_of(mechanism.elements(), [&](const Described& e) { return e.type() == type.type(); }))
       missing.push_back(type.type());
-  EXPECT_THAT(missing, ::testing::IsSubsetOf({"universal", "cylindrical", "screw", "planar", "spherical", "free"}))
+  EXPECT_THAT(missing, ::testing::IsSubsetOf({"universal", "cylindrical", "screw", "planar", "spherical", "free", "table-drive"}))
       << "have tests of their own";
   Assembly<double> assembly(mechanism);
   for (const std::string& quantity : mechanism.outputQuantities())

@@ -1,0 +1,52 @@
+#include "mechanics/elements/joint_friction.hpp"
+
+#include "mechanics/elements/coordinate_load.hpp"
+
+namespace gamut {
+namespace {
+
+/// The words that both have. Returns the coordinate's kind.
+Coordinate describeFriction(Fields& f, std::string& joint, Expression& coulomb, Expression& viscous) {
+  const Coordinate kind = f.coordinateOf({"joint", "", "the joint, or one of its coordinates"}, joint);
+  const std::string force = forceUnitOf(kind);
+  f.number({"coulomb", force, "against the motion, whatever its speed", true}, coulomb);
+  f.number({"viscous", force + " s/" + unitOf(kind), "against the motion, by its speed"}, viscous);
+  return kind;
+}
+
+}  // namespace
+
+void JointFriction::describe(Fields& f) { describeCoordinateLoad(f, describeFriction(f, joint, coulomb, viscous)); }
+
+template <class S>
+void JointFriction::assemble(Assembler<S>& a) const {
+  const S dry = a.number(coulomb), wet = a.number(viscous);
+  addCoordinateLoad(a, joint, [dry, wet](const Variable<S>& q) { return S(-(dry * signOf(q.rate)) - wet * q.rate); });
+}
+
+void SmoothedJointFriction::describe(Fields& f) {
+  const Coordinate kind = describeFriction(f, joint, coulomb, viscous);
+  f.number({"slip_rate", std::string(unitOf(kind)) + "/s",
+            "over which it is smoothed: at it, 76 % of `coulomb` are there, at three times it 99.5 %", true},
+           slipRate);
+  describeCoordinateLoad(f, kind);
+}
+
+template <class S>
+void SmoothedJointFriction::assemble(Assembler<S>& a) const {
+  const S dry = a.number(coulomb), wet = a.number(viscous), slip = a.number(slipRate);
+  addCoordinateLoad(a, joint, [dry, wet, slip](const Variable<S>& q) {
+    using std::tanh;
+    return S(-(dry * tanh(S(q.rate / slip))) - wet * q.rate);
+  });
+}
+
+std::vector<Fault> SmoothedJointFriction::faults(const RangeOf& rangeOf) const {
+  if (rangeOf(slipRate).lower() > 0) return {};
+  return {{"slip_rate", "the slip rate of '" + name + "' is not positive", "a slow rate above 0"}};
+}
+
+GAMUT_ASSEMBLE(JointFriction);
+GAMUT_ASSEMBLE(SmoothedJointFriction);
+
+}  // namespace gamut
