@@ -1,5 +1,6 @@
 // Slots: state i is number i, free parameter k is number states + k. In kinematics nothing moves by itself: the states
-// are given, so they are parameters of a program without states.
+// are given, so they are parameters of a program without states. A motion that is given as a whole has one state that
+// rests, for flow and samples to follow.
 #include "studies/problem.hpp"
 
 #include <algorithm>
@@ -59,6 +60,18 @@ Program recordConfiguration(const Study& study, std::size_t states, int numbers)
   });
 }
 
+/// y = g(t, p) where everything is driven.
+Program recordGivenMotion(const Study& study, const std::vector<std::string>& parameters) {
+  const std::vector<std::string> outputs = outputQuantities(study);
+  return record(1, static_cast<int>(parameters.size()), static_cast<int>(outputs.size()),
+                [&](auto t, const auto&, const auto& p, auto& y) {
+                  Assembly<Recorded> assembly(study.mechanism, parameters, p);
+                  assembly.setState({}, t);
+                  const std::vector<Recorded> found = recordOutputs(assembly, outputs);
+                  for (std::size_t i = 0; i < found.size(); ++i) y[i] = found[i];
+                });
+}
+
 }  // namespace
 
 Program alongCourses(const Problem& problem, const Program& program) {
@@ -69,7 +82,11 @@ void recordPrograms(Study& study) {
   const double start = processCpuSeconds();
   const std::vector<std::string> parameters = freeParameters(study);
   Motion& motion = study.motion;
-  if (study.analysis == Study::Analysis::dynamics) {
+  if (study.isMotionGiven()) {
+    motion.f =
+        record(1, static_cast<int>(parameters.size()), [](auto, const auto&, const auto&, auto& dx) { dx[0] = 0.0; });
+    motion.g = recordGivenMotion(study, parameters);
+  } else if (study.analysis != Study::Analysis::kinematics) {
     motion.f = recordMotion(study.mechanism, parameters, Formulation::sparse);
     motion.sampled = recordMotion(study.mechanism, parameters, Formulation::articulated);
     motion.g = recordOutputs(study.mechanism, parameters, outputQuantities(study));
@@ -93,6 +110,10 @@ Problem makeProblem(const Study& study) {
   const std::vector<bool> isDifference = mechanism.startsWith(problem.freeParameters);
   for (const Expression& initial : mechanism.initialState())
     problem.box.push_back(isDifference[problem.box.size()] ? Interval(0.0) : mechanism.rangeOf(initial));
+  if (study.isMotionGiven()) {
+    problem.states = 1;
+    problem.box.emplace_back(0.0);
+  }
   for (const UncertainQuantity& uncertain : study.uncertain) {
     const auto state = std::find(names.begin(), names.end(), uncertain.quantity);
     problem.motion.uncertain.push_back(uncertain.uncertain);

@@ -36,7 +36,7 @@ struct UncertainQuantity {
 };
 
 struct Study {
-  enum class Analysis { kinematics, dynamics };
+  enum class Analysis { kinematics, dynamics, inverseDynamics };
 
   std::string text;   ///< of the file, word for word
   std::string file;   ///< as it was named
@@ -64,7 +64,14 @@ struct Study {
     return compare.contains(A::name);
   }
 
-  std::string analysisName() const { return analysis == Analysis::kinematics ? "kinematics" : "dynamics"; }
+  /// Its word in files.
+  std::string analysisName() const {
+    return analysis == Analysis::kinematics ? "kinematics"
+           : analysis == Analysis::dynamics ? "dynamics"
+                                            : "inverse-dynamics";
+  }
+  /// Time passes, but the motion is given: it has no states.
+  bool isMotionGiven() const { return analysis != Analysis::kinematics && mechanism.stateNames().empty(); }
 };
 
 /// The greatest number of output times of a study.

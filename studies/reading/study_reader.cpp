@@ -47,6 +47,7 @@ class StudyReader {
     study_.robot = std::move(read.robot);
     study_.notes = std::move(read.notes);
     places_ = std::move(read.places);
+    if (study_.analysis == Study::Analysis::inverseDynamics) checkDrives(*file.find("mechanism"));
     readUncertain(source_, tables(file, "uncertain"), study_);
     file.require("output", "a table [[output]] for each output that is wanted");
     for (const toml::table* table : tables(file, "output")) readOutput(*table);
@@ -79,10 +80,14 @@ class StudyReader {
     const TomlSection section(source_, table, "study",
                               {"title", "analysis", "horizon", "output_step", "output_times", "compare"});
     study_.title = section.text("title", printable(std::filesystem::path(study_.file).stem().string()));
-    const toml::node& analysis = section.require("analysis", "\"dynamics\" or \"kinematics\"");
-    const bool isMotion = source_.asChoice(analysis, "study.analysis", {"dynamics", "kinematics"}) == "dynamics";
-    study_.analysis = isMotion ? Study::Analysis::dynamics : Study::Analysis::kinematics;
-    if (isMotion) {
+    const toml::node& analysis = section.require("analysis", "\"dynamics\", \"inverse-dynamics\" or \"kinematics\"");
+    const std::string word =
+        source_.asChoice(analysis, "study.analysis", {"dynamics", "inverse-dynamics", "kinematics"});
+    for (const auto each : {Study::Analysis::dynamics, Study::Analysis::inverseDynamics, Study::Analysis::kinematics}) {
+      study_.analysis = each;
+      if (study_.analysisName() == word) break;
+    }
+    if (study_.analysis != Study::Analysis::kinematics) {
       readTimes(section);
     } else {
       refuse(section, {"horizon", "output_step", "output_times"});
@@ -232,12 +237,24 @@ class StudyReader {
     }
   }
 
+  /// Throws if some joint moves by itself.
+  void checkDrives(const toml::node& mechanism) const {
+    const Mechanism& m = study_.mechanism;
+    if (m.positions() == 0 && m.degreesOfFreedom() == 0) return;
+    const std::string state = m.stateNames().front();
+    const auto joint = std::ranges::find_if(
+        m.elements(), [&](const Described& element) { return state.starts_with(element.name() + "."); });
+    source_.fail(joint == m.elements().end() ? mechanism : *places_.at(joint->name()),
+                 fmt::format("nothing drives '{}'", state),
+                 "a drive for every coordinate, or analysis = \"dynamics\", which tells what drives need as well");
+  }
+
   /// The equations of motion exist, or the mechanism is at fault.
   void recordMotion(const toml::node& mechanism) {
     if (study_.analysis == Study::Analysis::dynamics) {
       if (study_.mechanism.stateNames().empty())
         source_.fail(mechanism, "every joint is driven, so that nothing is left to move by itself",
-                     "a joint without a drive, or analysis = \"kinematics\"");
+                     "a joint without a drive, or analysis = \"inverse-dynamics\" or \"kinematics\"");
     }
     checkLengths();
     try {

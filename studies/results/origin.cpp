@@ -14,7 +14,7 @@ std::vector<Field> fieldsOfStudy(Origin& o) {
       {"text", WholeText{&o.studyText}, unit::none, "the study file, word for word", {}},
       {"urdf", WholeText{&o.robotText}, unit::none, "the robot's file that it names, word for word; else empty", {}},
       {"file", &o.studyFile, unit::none, "name of the study file", {}},
-      {"analysis", &o.analysis, unit::none, "\"dynamics\" or \"kinematics\"", {}},
+      {"analysis", &o.analysis, unit::none, "\"dynamics\", \"inverse-dynamics\" or \"kinematics\"", {}},
       {"seed", &o.seed, unit::none, "of the samples", {}},
       {"horizon", &o.horizon, unit::second, "time asked for; 0 in kinematics", {}, allowed::finite},
       {"version", &o.version, unit::none, "of Gamut", {}},

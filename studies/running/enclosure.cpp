@@ -23,6 +23,7 @@ void encloseMotion(Run& run) {
   flow.progress = run.progressOf("enclosure");
   flow.cancelled = run.watch.stop();
   flow.stateNames = run.study.mechanism.stateNames();
+  if (run.study.isMotionGiven()) flow.stateNames = {"rest"};
   for (const OutputInfo& output : run.study.outputs) flow.outputNames.push_back(output.name);
   flow.varying = run.problem.varying;
   if (run.seen.isEnclosed) flow.aside = {run.seen.positions, run.seen.at};
@@ -91,7 +92,7 @@ void enclose(Run& run) {
   run.watch.begin(Watch::Stage::enclosure);
   clear(run);
   try {
-    run.study.analysis == Study::Analysis::dynamics ? encloseMotion(run) : encloseConfiguration(run);
+    run.study.analysis == Study::Analysis::kinematics ? encloseConfiguration(run) : encloseMotion(run);
   } catch (const std::bad_alloc&) {
     run.watch.memoryFailed();
     clear(run);

@@ -672,8 +672,10 @@ constexpr BadStudy badStudies[] = {
     {"title = \"Pendulum\"", "title = 3", "s.toml:2:9: study.title is the number 3; expected text in quotes"},
     {"title = \"Pendulum\"", "title = \"  \"", "s.toml:2:9: study.title is empty; expected text"},
     {"analysis = \"dynamics\"", "analysis = \"dynamic\"",
-     "s.toml:3:12: study.analysis is \"dynamic\"; expected 'dynamics'? (one of: dynamics, kinematics)"},
-    {"analysis = \"dynamics\"", "", "s.toml:1:1: 'study.analysis' is missing; expected \"dynamics\" or \"kinematics\""},
+     "s.toml:3:12: study.analysis is \"dynamic\"; expected 'dynamics'? (one of: dynamics, inverse-dynamics, "
+     "kinematics)"},
+    {"analysis = \"dynamics\"", "",
+     "s.toml:1:1: 'study.analysis' is missing; expected \"dynamics\", \"inverse-dynamics\" or \"kinematics\""},
     {"analysis = \"dynamics\"", "analysis = \"kinematics\"",
      "s.toml:4:11: study.horizon has no meaning in kinematics; expected no such key"},
     {"horizon = 0.5", "", "s.toml:1:1: 'study.horizon' is missing; expected the time to be reached, in s"},

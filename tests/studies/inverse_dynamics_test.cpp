@@ -1,0 +1,197 @@
+// Loads of a motion that is given, from the study file to the verdict: closed formulas, all corners of the box.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <string>
+
+#include "mechanics/assembly.hpp"
+#include "studies/running/run.hpp"
+#include "studies/study.hpp"
+
+namespace gamut {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// A pendulum that is driven to and fro.
+std::string drivenPendulum(const std::string& drive) {
+  return R"([study]
+analysis = "inverse-dynamics"
+horizon = 1
+output_step = 0.25
+[mechanism]
+gravity = [0, 0, -9.81]
+[[mechanism.element]]
+type = "revolute"
+name = "hinge"
+from = "inertial"
+to = "K1"
+axis = "x"
+[[mechanism.element]]
+type = "link"
+name = "rod"
+from = "K1"
+to = "tip"
+vector = [0, 0, -0.5]
+[[mechanism.element]]
+type = "mass"
+name = "bob"
+at = "tip"
+mass = "250 g"
+)" + drive +
+         R"(
+[[uncertain]]
+quantity = "bob.mass"
+interval = "± 5 %"
+[[output]]
+quantity = "servo.force"
+[[output]]
+quantity = "hinge.reaction.force.z"
+[[output]]
+quantity = "servo.power"
+[stochastic]
+samples = 32
+)";
+}
+
+const std::string servo = R"toml([[mechanism.element]]
+type = "drive"
+name = "servo"
+joint = "hinge"
+position = "0.4 rad * sin(3*t/(1 s))")toml";
+
+std::string messageOf(const std::string& text) {
+  try {
+    readStudyText(text, "s.toml");
+  } catch (const StudyError& error) {
+    return error.what();
+  }
+  return "it was read";
+}
+
+/// m l² q̈ + m g l sin q; m (g cos q + l q̇²).
+TEST(InverseDynamics, OfAPendulumIsItsEquation) {
+  const Study study = readStudyText(drivenPendulum(servo), "s.toml");
+  EXPECT_EQ(study.analysisName(), "inverse-dynamics");
+  const Results results = run(study);
+  EXPECT_EQ(results.comparison.verdict, "inside");
+  EXPECT_EQ(results.interval.reached, 1.0);
+  for (std::size_t i = 0; i < results.time.size(); ++i) {
+    const double t = results.time[i], q = 0.4 * std::sin(3 * t), rate = 1.2 * std::cos(3 * t), second = -9 * q;
+    const double moment = 0.25 * second + 0.5 * 9.81 * std::sin(q),  // of a mass of 1 kg
+        force = 9.81 * std::cos(q) + 0.5 * rate * rate;
+    const std::array<double, 3> ofOneKilogram = {moment, force, moment * rate};
+    for (std::size_t j = 0; j < 3; ++j) {
+      const auto [least, most] = std::minmax({0.2375 * ofOneKilogram[j], 0.2625 * ofOneKilogram[j]});
+      const double lower = results.interval.at.lower(i, j), upper = results.interval.at.upper(i, j);
+      EXPECT_LE(lower, least + 1e-15) << t;
+      EXPECT_GE(upper, most - 1e-15) << t;
+      EXPECT_LE(upper - lower, 1.000001 * (most - least) + 1e-13) << t;
+      EXPECT_NEAR(results.fuzzy.outer.back().lower(i, j), 0.25 * ofOneKilogram[j], 1e-12) << "the nominal mass";
+    }
+  }
+}
+
+TEST(InverseDynamics, NeedsADriveForEveryJoint) {
+  EXPECT_EQ(
+      messageOf(drivenPendulum("")),
+      "s.toml:7:1: nothing drives 'hinge.angle'; expected a drive for every coordinate, or analysis = \"dynamics\", "
+      "which tells what drives need as well");
+  std::string text = drivenPendulum(servo);
+  text.replace(text.find("inverse-dynamics"), 16, "dynamics");
+  EXPECT_THAT(messageOf(text), HasSubstr("every joint is driven, so that nothing is left to move by itself; expected a "
+                                         "joint without a drive, or analysis = \"inverse-dynamics\""));
+}
+
+/// Held still: m g l sin q.
+TEST(InverseDynamics, OfJointsAtRestIsStatics) {
+  std::string still = servo;
+  still.replace(still.find("\"0.4"), std::string::npos, "\"30 deg\"");
+  const Results results = run(readStudyText(drivenPendulum(still), "s.toml"));
+  EXPECT_EQ(results.comparison.verdict, "inside");
+  for (std::size_t i = 0; i < results.time.size(); ++i) {
+    EXPECT_NEAR(results.interval.at.lower(i, 0), 0.2375 * 9.81 * 0.25, 1e-12);
+    EXPECT_NEAR(results.interval.at.upper(i, 0), 0.2625 * 9.81 * 0.25, 1e-12);
+  }
+}
+
+// ---- The seven-joint arm --------------------------------------------------------------------------------------------
+
+std::string arm(const std::string& analysis, const std::string& tolerance, bool isDriven) {
+  const std::array<double, 7> q = {0.3, 0.7, -0.4, -1.2, 0.5, 0.9, 0.2};
+  std::string text = "[study]\nanalysis = \"" + analysis + "\"\ncompare = [\"interval\"]\n";
+  if (isDriven) text += "horizon = 0.6\noutput_step = 0.2\n";
+  text += "[mechanism]\ngravity = [0, 0, -9.81]\n";
+  std::string from = "inertial", rest;
+  for (int i = 0; i < 7; ++i) {
+    const std::string n = std::to_string(i), at = std::to_string(q[static_cast<std::size_t>(i)]);
+    text += "[[mechanism.element]]\ntype = \"revolute\"\nname = \"j" + n + "\"\nfrom = \"" + from + "\"\nto = \"K" + n +
+            "\"\naxis = \"" + (i % 2 == 0 ? "z" : "y") + "\"\n";
+    if (!isDriven) text += "initial = { angle = " + at + ", rate = 0." + n + " }\n";
+    text += "[[mechanism.element]]\ntype = \"mass\"\nname = \"b" + n + "\"\nat = \"K" + n +
+            "\"\nmass = " + std::to_string(4.0 - 0.4 * i) +
+            "\ncentre = [0.01, -0.03, 0.12]\ninertia = [0.05, 0.04, 0.02, 0.001, -0.002, 0.001]\n" +
+            "[[mechanism.element]]\ntype = \"link\"\nname = \"l" + n + "\"\nfrom = \"K" + n + "\"\nto = \"E" + n +
+            "\"\nvector = [0.05, 0, 0.25]\n";
+    if (isDriven)
+      text += "[[mechanism.element]]\ntype = \"drive\"\nname = \"d" + n + "\"\njoint = \"j" + n + "\"\nposition = \"" +
+              at + " rad + 0.5 rad*sin((1 + 0.3*" + n + ")*t/(1 s))\"\n";
+    rest += "[[uncertain]]\nquantity = \"b" + n + ".mass\"\ninterval = \"± " + tolerance + " %\"\n";
+    from = "E" + n;
+  }
+  for (int i = 0; i < 7; ++i)
+    rest += "[[output]]\nquantity = \"" +
+            (isDriven ? "d" + std::to_string(i) + ".force" : "j" + std::to_string(i) + ".acceleration") + "\"\n";
+  return text + rest;
+}
+
+/// How many times wider the enclosure is at most than what the 2⁷ corners span, which it must hold.
+double overestimation(const Study& study) {
+  const Results results = run(study);
+  std::vector<std::string> masses;
+  std::vector<Interval> ranges;
+  for (const UncertainQuantity& uncertain : study.uncertain) {
+    masses.push_back(uncertain.quantity);
+    ranges.push_back(uncertain.uncertain.range);
+  }
+  double worst = 0;
+  for (std::size_t i = 0; i < results.time.size(); ++i) {
+    std::vector<double> least(study.outputs.size(), 1e300), most(study.outputs.size(), -1e300);
+    for (unsigned corner = 0; corner < 128; ++corner) {
+      std::vector<double> values;
+      for (std::size_t k = 0; k < 7; ++k)
+        values.push_back(((corner >> k) & 1U) != 0 ? ranges[k].upper() : ranges[k].lower());
+      Assembly<double> machine(study.mechanism, masses, values);
+      const std::vector<double> start = machine.initialState();
+      machine.setState(start, results.time[i]);
+      for (std::size_t j = 0; j < least.size(); ++j) {
+        const double y = machine.output(study.outputs[j].quantity);
+        least[j] = std::min(least[j], y);
+        most[j] = std::max(most[j], y);
+      }
+    }
+    for (std::size_t j = 0; j < least.size(); ++j) {
+      const double lower = results.interval.at.lower(i, j), upper = results.interval.at.upper(i, j);
+      const double rounding = 1e-12 * (1 + std::abs(least[j]) + std::abs(most[j]));  // of the corners
+      EXPECT_LE(lower, least[j] + rounding);
+      EXPECT_GE(upper, most[j] - rounding);
+      if (most[j] - least[j] > 1e-9) worst = std::max(worst, (upper - lower) / (most[j] - least[j]));
+    }
+  }
+  return worst;
+}
+
+/// Masses enter loads linearly: the enclosure is the corners' hull.
+TEST(InverseDynamics, OfASevenJointArmIsTightForAllMassesTogether) {
+  for (const char* tolerance : {"0.1", "1", "5"})
+    EXPECT_LE(overestimation(readStudyText(arm("inverse-dynamics", tolerance, true), "s.toml")), 1.001) << tolerance;
+}
+
+TEST(ForwardDynamics, OfASevenJointArmAtAStateIsTightForAllMassesTogether) {
+  const std::vector<std::pair<std::string, double>> bars = {{"0.1", 1.02}, {"1", 1.10}, {"5", 1.30}};
+  for (const auto& [tolerance, bar] : bars)
+    EXPECT_LE(overestimation(readStudyText(arm("kinematics", tolerance, false), "s.toml")), bar) << tolerance;
+}
+
+}  // namespace
+}  // namespace gamut
