@@ -15,6 +15,7 @@
 
 #include "mechanics/axis.hpp"
 #include "mechanics/description/expression.hpp"
+#include "mechanics/description/time_table.hpp"
 #include "mechanics/quaternion.hpp"
 
 namespace gamut {
@@ -110,6 +111,8 @@ class Fields {
   }
   /// An expression of time alone and parameters.
   virtual void timeFunction(const Word& word, Expression& number) = 0;
+  /// A column of a CSV file over its first, which is time: the words of the file and of the column.
+  virtual void table(const Word& /*file*/, const Word& /*column*/, Coordinate /*kind*/, TimeTable& /*table*/) {}
   /// An expression of time, of any states and of all that can be measured; names may be defined by elements behind.
   virtual void signal(const Word& word, Expression& number) = 0;
   virtual void signals(const Word& word, ExpressionVector& vector) = 0;

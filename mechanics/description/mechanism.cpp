@@ -2,6 +2,7 @@
 #include "mechanics/description/mechanism.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <stdexcept>
 #include <type_traits>
@@ -337,6 +338,13 @@ class Mechanism::Checker final : public Fields {
       refuse("the " + word.key + " of " + quoted(element_) +
              " has a kink or a jump (abs, sign, min, max, where), where its rate would jump");
     m_.addSignal({element_, named(word), word.unit, Reach::time, number}, number);
+  }
+  void table(const Word& /*file*/, const Word& /*column*/, Coordinate /*kind*/, TimeTable& table) override {
+    const std::vector<mpq_class>& times = table.times;
+    if (times.size() < 2 || table.values.size() != times.size() || times.size() > maxTableRows ||
+        std::ranges::adjacent_find(times, std::greater_equal<>()) != times.end())
+      refuse("the table of " + quoted(element_) + " does not have 2 to " + std::to_string(maxTableRows) +
+             " rows whose times rise");
   }
   void signal(const Word& word, Expression& number) override {
     m_.addSignal({element_, named(word), word.unit, Reach::motion, number}, number);

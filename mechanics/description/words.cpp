@@ -49,6 +49,10 @@ class Listener final : public Fields {
     required(word);
     return kind_;
   }
+  void table(const Word& file, const Word& column, Coordinate /*kind*/, TimeTable& /*table*/) override {
+    key(file);
+    key(column);
+  }
   void timeFunction(const Word& word, Expression& /*number*/) override { key(word); }
   void signal(const Word& word, Expression& /*number*/) override { key(word); }
   void signals(const Word& word, ExpressionVector& /*vector*/) override { key(word); }

@@ -32,7 +32,7 @@ namespace gamut {
 inline std::vector<Described> elementTypes() {
   return {Revolute{},    Prismatic{}, Screw{},   Cylindrical{},   Universal{}, Planar{}, Spherical{}, Free{}, Weld{},
           Link{}, Mass{}, Spring{}, JointSpring{}, Bushing{}, JointFriction{}, SmoothedJointFriction{}, JointStop{}, Motor{}, Force{},
-          JointForce{}, Drive{}, Coupling{}, State{}, Distance{}, RelativeMotion{}};
+          JointForce{}, Drive{}, TableDrive{}, Coupling{}, State{}, Distance{}, RelativeMotion{}};
 }
 
 }  // namespace gamut

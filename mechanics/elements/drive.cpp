@@ -2,6 +2,7 @@
 #include "mechanics/elements/drive.hpp"
 
 #include "mechanics/assembler.hpp"
+#include "mechanics/spline.hpp"
 
 namespace gamut {
 namespace {
@@ -29,24 +30,48 @@ class PrescribedMotion final : public Load<S> {
   TimeFunction<S> motion_;
 };
 
+void describeNeeds(Fields& f, Coordinate kind) {
+  f.measureSolved({"force", forceUnitOf(kind), "that it needs, in the direction in which the coordinate grows"});
+  f.measureSolved({"power", "W", "that it brings in"});
+}
+
+/// All other forces on the coordinate, those of inertia among them, are held.
+template <class S>
+void addDrive(Assembler<S>& a, const std::string& joint, TimeFunction<S> motion) {
+  const Variable<S>& driven = a.coordinate(joint);
+  a.template addFirst<PrescribedMotion<S>>(a.coordinate(joint), std::move(motion));
+  a.measureSolved("force", [&driven] { return S(-driven.force); });
+  a.measureSolved("power", [&driven] { return S(-driven.force * driven.rate); });
+}
+
 }  // namespace
 
 void Drive::describe(Fields& f) {
   const Coordinate kind = f.drivenCoordinate({"joint", "", "the joint, or one of its coordinates"}, joint);
   f.timeFunction({"position", unitOf(kind), "at time `t`", true}, position);
-  f.measureSolved({"force", forceUnitOf(kind), "that it needs, in the direction in which the coordinate grows"});
-  f.measureSolved({"power", "W", "that it brings in"});
+  describeNeeds(f, kind);
 }
 
 template <class S>
 void Drive::assemble(Assembler<S>& a) const {
-  const Variable<S>& driven = a.coordinate(joint);
-  a.template addFirst<PrescribedMotion<S>>(a.coordinate(joint), a.timeFunction(position));
-  // All other forces on the coordinate, those of inertia among them, are held.
-  a.measureSolved("force", [&driven] { return S(-driven.force); });
-  a.measureSolved("power", [&driven] { return S(-driven.force * driven.rate); });
+  addDrive(a, joint, a.timeFunction(position));
+}
+
+void TableDrive::describe(Fields& f) {
+  const Coordinate kind = f.drivenCoordinate({"joint", "", "the joint, or one of its coordinates"}, joint);
+  f.table(
+      {"file", "", "beside the study; its first row names the columns, its first column is time in s", true},
+      {"column", unitOf(kind), "that holds the positions; a unit may follow its name in the file: `hip [deg]`", true},
+      kind, table);
+  describeNeeds(f, kind);
+}
+
+template <class S>
+void TableDrive::assemble(Assembler<S>& a) const {
+  addDrive<S>(a, joint, [&time = a.time(), spline = CubicSpline(table)] { return spline.at(time); });
 }
 
 GAMUT_ASSEMBLE(Drive);
+GAMUT_ASSEMBLE(TableDrive);
 
 }  // namespace gamut

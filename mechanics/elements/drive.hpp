@@ -18,4 +18,18 @@ struct Drive {
   void assemble(Assembler<S>& a) const;
 };
 
+struct TableDrive {
+  static constexpr const char* type = "table-drive";
+  static constexpr const char* summary =
+      "a joint's coordinate by a table in a CSV file, joined by a natural cubic spline; rate and acceleration follow, "
+      "and before and behind the table it goes on at a steady rate";
+
+  std::string name, joint;
+  TimeTable table = {};  ///< rad or m
+
+  void describe(Fields& f);
+  template <class S>
+  void assemble(Assembler<S>& a) const;
+};
+
 }  // namespace gamut

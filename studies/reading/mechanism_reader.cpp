@@ -14,6 +14,7 @@
 #include "mechanics/description/words.hpp"
 #include "studies/printable.hpp"
 #include "studies/reading/robot_elements.hpp"
+#include "studies/reading/table_reader.hpp"
 #include "studies/robot.hpp"
 
 namespace gamut {
@@ -419,6 +420,20 @@ class MechanismReader {
       Coordinate kind{};
       reader_.guarded(node, [&] { kind = reader_.mechanism_.coordinate(name, section_.text("name")).kind; });
       return kind;
+    }
+    void table(const Word& file, const Word& column, Coordinate kind, TimeTable& table) override {
+      const toml::node& node = *given(section_, file);
+      const toml::node& name = *given(section_, column);
+      const std::filesystem::path path =
+          section_.source().folder() / section_.source().asText(node, section_.nameOf(file.key));
+      const std::string wanted = section_.source().asText(name, section_.nameOf(column.key));
+      try {
+        table = readTable(path.string(), wanted, unitOf(kind));
+      } catch (const UnknownName& unknown) {
+        section_.source().fail(name, unknown.problem(), unknown.expected());
+      } catch (const std::invalid_argument& error) {
+        section_.source().failWith(node, error.what(), "a CSV file, named as seen from the study's folder");
+      }
     }
     void timeFunction(const Word& word, Expression& number) override { signal(word, number); }
     void signal(const Word& word, Expression& number) override {

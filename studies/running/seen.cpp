@@ -21,14 +21,17 @@ std::vector<std::size_t> seenTimes(std::size_t times, std::size_t points) {
 /// `what(assembly)` at a state and time of the study's motion.
 template <class What>
 Program recordedOf(const Study& study, const Problem& problem, std::size_t values, const What& what) {
-  const bool moves = study.analysis == Study::Analysis::dynamics;
+  const bool moves = study.analysis != Study::Analysis::kinematics;
   const int numbers = static_cast<int>(problem.box.size()), states = static_cast<int>(problem.states);
   return record(moves ? states : 0, moves ? numbers - states : numbers, static_cast<int>(values),
                 [&](auto t, const auto& x, const auto& p, auto& y) {
                   const std::span<const Recorded> given(p);
                   Assembly<Recorded> assembly(study.mechanism, problem.freeParameters,
                                               moves ? given : given.subspan(problem.states));
-                  moves ? assembly.setState(x, t) : assembly.setState(given.first(problem.states));
+                  if (study.isMotionGiven())
+                    assembly.setState({}, t);
+                  else
+                    moves ? assembly.setState(x, t) : assembly.setState(given.first(problem.states));
                   std::ranges::copy(what(assembly), y.begin());
                 });
 }

@@ -1,12 +1,14 @@
-// Loads of a motion that is given, from the study file to the verdict: closed formulas, all corners of the box.
+// Loads of a motion that is given, from the study file to the verdict: closed formulas, all corners of the box, tables.
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <fstream>
 #include <string>
 
 #include "mechanics/assembly.hpp"
 #include "studies/running/run.hpp"
 #include "studies/study.hpp"
+#include "tests/studies/temporary_folder.hpp"
 
 namespace gamut {
 namespace {
@@ -60,9 +62,9 @@ name = "servo"
 joint = "hinge"
 position = "0.4 rad * sin(3*t/(1 s))")toml";
 
-std::string messageOf(const std::string& text) {
+std::string messageOf(const std::string& text, const std::string& name = "s.toml") {
   try {
-    readStudyText(text, "s.toml");
+    readStudyText(text, name);
   } catch (const StudyError& error) {
     return error.what();
   }
@@ -191,6 +193,74 @@ TEST(ForwardDynamics, OfASevenJointArmAtAStateIsTightForAllMassesTogether) {
   const std::vector<std::pair<std::string, double>> bars = {{"0.1", 1.02}, {"1", 1.10}, {"5", 1.30}};
   for (const auto& [tolerance, bar] : bars)
     EXPECT_LE(overestimation(readStudyText(arm("kinematics", tolerance, false), "s.toml")), bar) << tolerance;
+}
+
+// ---- Tables ---------------------------------------------------------------------------------------------------------
+
+const std::string byTable = R"([[mechanism.element]]
+type = "table-drive"
+name = "servo"
+joint = "hinge"
+file = "motion.csv"
+column = "hip")";
+
+/// Two rows are a motion at a steady rate.
+TEST(InverseDynamics, FollowsATable) {
+  const TemporaryFolder folder;
+  const std::string path = folder.path("s.toml");
+  std::ofstream(path) << drivenPendulum(byTable);
+  std::ofstream(folder.path("motion.csv"))
+      << "# measured\ntime [ms], knee, hip [deg]\n0, 1, 0\n\n500, 2, 15\n2000, 3, 60\n";
+  const Results results = run(readStudy(path));
+  EXPECT_EQ(results.comparison.verdict, "inside");
+  for (std::size_t i = 0; i < results.time.size(); ++i) {
+    const double moment = 0.5 * 9.81 * std::sin(results.time[i] * 30 * M_PI / 180);
+    EXPECT_NEAR(results.interval.at.lower(i, 0), 0.2375 * moment, 1e-11);
+    EXPECT_NEAR(results.interval.at.upper(i, 0), 0.2625 * moment, 1e-11);
+  }
+}
+
+TEST(InverseDynamics, IsTightBetweenRowsOfATable) {
+  const TemporaryFolder folder;
+  const std::string path = folder.path("s.toml");
+  std::ofstream(path) << drivenPendulum(byTable);
+  std::ofstream table(folder.path("motion.csv"));
+  table << "t,hip\n";
+  for (int i = 0; i <= 30; ++i) table << i / 20.0 << "," << 0.4 * std::sin(3 * i / 20.0) << "\n";
+  table.close();
+  const Results results = run(readStudy(path));
+  EXPECT_EQ(results.comparison.verdict, "inside");
+  EXPECT_EQ(results.interval.reached, 1.0);
+  for (std::size_t i = 1; i < results.time.size(); ++i) {
+    const double q = 0.4 * std::sin(3 * results.time[i]), moment = -0.25 * 9 * q + 0.5 * 9.81 * std::sin(q);
+    EXPECT_NEAR(results.interval.at.lower(i, 0) + results.interval.at.upper(i, 0), 0.5 * moment, 0.02);
+    EXPECT_NEAR(results.interval.at.upper(i, 0) - results.interval.at.lower(i, 0), 0.025 * std::abs(moment), 1e-3);
+  }
+  EXPECT_LE(results.interval.tightness, 1.02);
+}
+
+TEST(InverseDynamics, SaysWhatIsWrongWithATable) {
+  const TemporaryFolder folder;
+  const std::string study = folder.path("s.toml"), path = folder.path("motion.csv"), text = drivenPendulum(byTable);
+  EXPECT_THAT(messageOf(text, study), HasSubstr("s.toml:28:8: the table '" + path + "' cannot be read"));
+  const auto with = [&](const std::string& table) {
+    std::ofstream(path, std::ios::binary) << table;
+    return messageOf(text, study);
+  };
+  EXPECT_EQ(with("t,hip\n0,1\n1,2\n"), "it was read");
+  EXPECT_EQ(with("\xEF\xBB\xBFt,hip\r\n0,1\r\n1,2\r\n"), "it was read");
+  EXPECT_THAT(with(""), HasSubstr("it is empty"));
+  EXPECT_THAT(with("t,hip\n"), HasSubstr("it has fewer than two rows of numbers"));
+  EXPECT_THAT(with("t,hap\n0,1\n1,2\n"), HasSubstr("s.toml:29:10: unknown column 'hip'; expected 'hap'"));
+  EXPECT_EQ(with("t,hip\n0,1\n0,2\n"),
+            path + ":3:1: the time 0 does not follow the one before; expected times that rise");
+  EXPECT_EQ(with("t,hip\n0,1\n1,nan\n"), path + ":3:3: 'nan' is no number; expected a decimal such as -1.5 or 2e-3");
+  EXPECT_EQ(with("t,hip\n0,1\n1\n"), path + ":3:1: the row has 1 cells; expected 2 as in the first row");
+  EXPECT_EQ(with("t,hip [kg]\n0,1\n1,2\n"), path + ":1:3: the column is in kg; expected a column in rad");
+  EXPECT_THAT(with("t,hip\n0,1\n1,1e400\n"), HasSubstr(path + ":3:3: "));
+  std::string many = "t,hip\n";
+  for (int i = 0; i < 1001; ++i) many += std::to_string(i) + ",0\n";
+  EXPECT_EQ(with(many), path + ":1002:1: the table has more than 1000 rows; expected fewer rows");
 }
 
 }  // namespace

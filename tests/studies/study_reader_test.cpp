@@ -718,16 +718,15 @@ constexpr BadStudy badStudies[] = {
      "s.toml:8:18: mechanism.gravity is written in a unit of the kind m; expected a number in m/s^2, or with a unit of "
      "that kind"},
     {"type = \"revolute\"", "type = \"revolut\"",
-     "s.toml:10:8: mechanism.element.type is \"revolut\"; expected 'revolute'? (one of: revolute, prismatic, "
-     "cylindrical, "
-     "universal, weld, "
-     "link, mass, spring-damper, "
-     "joint-spring, force, joint-force, drive, coupling, state, distance, relative-motion)"},
+     "s.toml:10:8: mechanism.element.type is \"revolut\"; expected 'revolute'? (one of: revolute, prismatic, screw, "
+     "cylindrical, universal, planar, spherical, free, weld, "
+     "link, mass, spring-damper, joint-spring, bushing, joint-friction, smoothed-joint-friction, joint-stop, motor, "
+     "force, joint-force, drive, table-drive, coupling, state, distance, relative-motion)"},
     {"type = \"revolute\"", "",
-     "s.toml:9:1: 'mechanism.element.type' is missing; expected type = one of: revolute, prismatic, cylindrical, "
-     "universal, weld, "
-     "link, mass, "
-     "spring-damper, joint-spring, force, joint-force, drive, coupling, state, distance, relative-motion"},
+     "s.toml:9:1: 'mechanism.element.type' is missing; expected type = one of: revolute, prismatic, screw, "
+     "cylindrical, universal, planar, spherical, free, weld, "
+     "link, mass, spring-damper, joint-spring, bushing, joint-friction, smoothed-joint-friction, joint-stop, motor, "
+     "force, joint-force, drive, table-drive, coupling, state, distance, relative-motion"},
     {"axis = \"x\"", "axis = \"w\"",
      "s.toml:14:8: mechanism.element.axis is \"w\"; expected 'x'? (one of: x, y, z, -x, -y, -z)"},
     {"axis = \"x\"", "axis = [0, 0, 0]",

@@ -1,0 +1,148 @@
+// Line by line; cells keep the column at which they begin.
+#include "studies/reading/table_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+#include "mechanics/description/names.hpp"
+#include "studies/printable.hpp"
+#include "studies/study.hpp"
+
+namespace gamut {
+namespace {
+
+constexpr std::uintmax_t maxTableBytes = 10'000'000;
+
+struct Cell {
+  std::string text;
+  std::size_t column = 1;  // in bytes, from 1
+};
+
+std::string trimmed(const std::string& text) {
+  const auto first = text.find_first_not_of(" \t\r"), last = text.find_last_not_of(" \t\r");
+  return first == std::string::npos ? "" : text.substr(first, last - first + 1);
+}
+
+std::vector<Cell> cellsOf(const std::string& line) {
+  std::vector<Cell> cells;
+  for (std::size_t begin = 0; begin <= line.size();) {
+    const std::size_t end = std::min(line.find(',', begin), line.size());
+    const std::size_t text = std::min(line.find_first_not_of(" \t", begin), end);
+    cells.push_back({trimmed(line.substr(begin, end - begin)), text + 1});
+    begin = end + 1;
+  }
+  return cells;
+}
+
+class TableReader {
+ public:
+  explicit TableReader(const std::string& path) : path_(path) {
+    std::error_code error;
+    const std::uintmax_t size = std::filesystem::file_size(path, error);
+    if (error) refuse(error.message());
+    if (size > maxTableBytes) refuse(fmt::format("it has {} bytes; the most are {}", size, maxTableBytes));
+    file_.open(path, std::ios::binary);
+    if (!file_) refuse("it cannot be opened");
+  }
+
+  TimeTable read(const std::string& column, const std::string& unit) {
+    if (!next()) refuse("it is empty");
+    const std::size_t width = cells_.size(), wanted = find(column);
+    Amount time, scale;
+    nameOf(cells_[0], "s", time);
+    nameOf(cells_[wanted], unit, scale);
+    TimeTable table{path_, column, {}, {}};
+    while (next()) {
+      if (cells_.size() != width)
+        fail(cells_.back(), fmt::format("the row has {} cells", cells_.size()),
+             fmt::format("{} as in the first row", width));
+      const mpq_class at = number(cells_[0]) * time.value;
+      if (!table.times.empty() && at <= table.times.back())
+        fail(cells_[0], fmt::format("the time {} does not follow the one before", printable(cells_[0].text)),
+             "times that rise");
+      if (table.times.size() == maxTableRows)
+        fail(cells_[0], fmt::format("the table has more than {} rows", maxTableRows), "fewer rows");
+      table.times.push_back(at);
+      table.values.push_back(withPi(number(cells_[wanted]), scale));
+    }
+    if (table.times.size() < 2) refuse("it has fewer than two rows of numbers");
+    return table;
+  }
+
+ private:
+  [[noreturn]] void refuse(const std::string& why) const {
+    throw std::invalid_argument(fmt::format("the table '{}' cannot be read: {}", printable(path_), why));
+  }
+  [[noreturn]] void fail(const Cell& cell, const std::string& what, const std::string& expected) const {
+    throw StudyError(fmt::format("{}:{}:{}: {}; expected {}", printable(path_), line_, cell.column, what, expected));
+  }
+
+  /// The next row that says something.
+  bool next() {
+    for (std::string text; std::getline(file_, text);) {
+      ++line_;
+      if (line_ == 1 && text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
+      if (const std::string content = trimmed(text); content.empty() || content.front() == '#') continue;
+      cells_ = cellsOf(text);
+      return true;
+    }
+    return false;
+  }
+
+  /// The name in a cell of the first row, and one of its unit.
+  std::string nameOf(const Cell& cell, const std::string& unit, Amount& one) const {
+    const std::size_t open = cell.text.find('[');
+    const bool hasUnit = open != std::string::npos && cell.text.back() == ']';
+    const std::string stated = hasUnit ? cell.text.substr(open + 1, cell.text.size() - open - 2) : unit;
+    try {
+      one = parseAmount("1 " + stated);
+    } catch (const UnitError&) {
+      fail(cell, fmt::format("'{}' is no unit", printable(stated)), "a unit such as " + unit);
+    }
+    if (!(one.dimension == dimensionOf(unit)))
+      fail(cell, fmt::format("the column is in {}", printable(stated)), "a column in " + unit);
+    return hasUnit ? trimmed(cell.text.substr(0, open)) : cell.text;
+  }
+
+  std::size_t find(const std::string& column) const {
+    std::vector<std::string> names;
+    for (std::size_t i = 1; i < cells_.size(); ++i) {
+      names.push_back(trimmed(cells_[i].text.substr(0, cells_[i].text.find('['))));
+      if (names.back() == column) return i;
+    }
+    throw UnknownName("column", column, names, "in " + path_);
+  }
+
+  mpq_class number(const Cell& cell) const {
+    try {
+      const Amount amount = parseAmount(cell.text);
+      if (!amount.hasUnit && amount.piPower == 0 && !amount.isRelative) return amount.value;
+    } catch (const UnitError&) {
+    }
+    fail(cell, fmt::format("'{}' is no number", printable(cell.text)), "a decimal such as -1.5 or 2e-3");
+  }
+
+  /// Degrees are no rational numbers of radians: their nearest double is meant.
+  static mpq_class withPi(const mpq_class& value, const Amount& scale) {
+    if (scale.piPower == 0) return value * scale.value;
+    Amount whole = scale;
+    whole.value *= value;
+    return mpq_class(nearest(whole));
+  }
+
+  std::string path_;
+  std::ifstream file_;
+  std::size_t line_ = 0;
+  std::vector<Cell> cells_;
+};
+
+}  // namespace
+
+TimeTable readTable(const std::string& path, const std::string& column, const std::string& unit) {
+  return TableReader(path).read(column, unit);
+}
+
+}  // namespace gamut
