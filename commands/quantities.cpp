@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -45,13 +46,22 @@ std::vector<Quantity> numbersOf(const Mechanism& mechanism) {
   return numbers;
 }
 
+/// Not a number where it has no value: an acceleration of what moves no mass.
+double valueOf(const Assembly<double>& assembly, const std::string& name) {
+  try {
+    return assembly.output(name) + 0.0;  // no -0
+  } catch (const std::domain_error&) {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+}
+
 /// With their values at the start.
 std::vector<Quantity> outputsOf(const Mechanism& mechanism, const std::string& study) {
   try {
     const Assembly<double> assembly(mechanism);
     std::vector<Quantity> outputs;
     for (const std::string& name : mechanism.outputQuantities())
-      outputs.push_back({name, mechanism.unitOf(name), assembly.output(name) + 0.0});  // no -0
+      outputs.push_back({name, mechanism.unitOf(name), valueOf(assembly, name)});
     return outputs;
   } catch (const std::invalid_argument& error) {
     throw UsageError(study + ": " + error.what());
@@ -61,7 +71,8 @@ std::vector<Quantity> outputsOf(const Mechanism& mechanism, const std::string& s
 std::string text(std::string_view title, const std::vector<Quantity>& quantities) {
   std::vector<std::vector<std::string>> rows;
   for (const auto& [name, unit, nominal] : quantities)
-    rows.push_back({name, fmt::format("{:.12g}{}", nominal, unit == "1" ? "" : " " + unit)});
+    rows.push_back({name, std::isfinite(nominal) ? fmt::format("{:.12g}{}", nominal, unit == "1" ? "" : " " + unit)
+                                                 : "has no value at the start"});
   return fmt::format("{}\n{}", title, rows.empty() ? "  none\n" : textTable(rows, 2));
 }
 

@@ -77,6 +77,17 @@ TEST_F(QuantitiesCommand, ServesAStudyThatIsOnlyBegun) {
   EXPECT_EQ(gamut("quantities begun.toml").out, gamut("quantities s.toml").out);
 }
 
+TEST_F(QuantitiesCommand, ListsAccelerationsOfWhatMovesNoMass) {
+  std::string text = sampleStudyWith("analysis = \"dynamics\"", "analysis = \"kinematics\"");
+  text.erase(text.find("[[mechanism.element]]\ntype = \"mass\""),
+             text.find("[[uncertain]]") - text.find("[[mechanism.element]]\ntype = \"mass\""));
+  folder_.write("light.toml", text);
+  const Outcome listed = gamut("quantities light.toml");
+  EXPECT_EQ(listed.exitCode, 0);
+  EXPECT_THAT(listed.out, ::testing::HasSubstr("hinge.acceleration"));
+  EXPECT_THAT(listed.out, ::testing::HasSubstr("has no value at the start"));
+}
+
 TEST_F(QuantitiesCommand, ReadsStandardInput) {
   EXPECT_EQ(gamut("quantities - < s.toml").out, gamut("quantities s.toml").out);
 }
