@@ -30,9 +30,13 @@ namespace gamut {
 
 /// An empty description of each, in the order of the documentation, for visitors to fill in.
 inline std::vector<Described> elementTypes() {
-  return {Revolute{},    Prismatic{}, Screw{},   Cylindrical{},   Universal{}, Planar{}, Spherical{}, Free{}, Weld{},
-          Link{}, Mass{}, Spring{}, JointSpring{}, Bushing{}, JointFriction{}, SmoothedJointFriction{}, JointStop{}, Motor{}, Force{},
-          JointForce{}, Drive{}, TableDrive{}, Coupling{}, State{}, Distance{}, RelativeMotion{}};
+  return {Revolute{},    Prismatic{},     Screw{},         Cylindrical{},
+          Universal{},   Planar{},        Spherical{},     Free{},
+          Weld{},        Link{},          Mass{},          Spring{},
+          JointSpring{}, Bushing{},       JointFriction{}, SmoothedJointFriction{},
+          JointStop{},   Motor{},         Force{},         JointForce{},
+          Drive{},       TableDrive{},    Coupling{},      State{},
+          Distance{},    RelativeMotion{}};
 }
 
 }  // namespace gamut
