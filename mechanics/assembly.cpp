@@ -60,10 +60,8 @@ Assembly<S>::Assembly(const Mechanism& mechanism, const std::vector<std::string>
   measureWhole();
   const std::vector<bool> isDifference = mechanism.startsWith(freeParameters);
   for (const Expression& initial : mechanism.initialState()) {
-    const bool differs = isDifference[initialState_.size()];
-    const S value = parts_.number(initial);
-    initialState_.push_back(differs ? S(0.0) : value);
-    differsFrom_.push_back(differs ? value : S(0.0));
+    initialState_.push_back(parts_.number(initial));
+    origin_.push_back(isDifference[origin_.size()] ? initialState_.back() : S(0.0));
   }
   // What is recorded is the motion from any state; at the initial one it may be singular.
   if constexpr (!std::is_same_v<S, Recorded>) setState(initialState_);
@@ -196,10 +194,18 @@ void Assembly<S>::setState(std::span<const S> x, const S& time) {
     throw std::invalid_argument("the mechanism has " + std::to_string(states_.size()) + " states, not " +
                                 std::to_string(x.size()));
   parts_.time_ = time;
-  for (std::size_t i = 0; i < x.size(); ++i) *states_[i] = isKnownZero(differsFrom_[i]) ? x[i] : x[i] + differsFrom_[i];
+  for (std::size_t i = 0; i < x.size(); ++i) *states_[i] = x[i];
   for (auto& [name, speed] : parts_.speeds_) speed->acceleration = S(0.0);
   system_->doMotion();
   known_ = Known::state;
+}
+
+template <class S>
+void Assembly<S>::setMotion(std::span<const S> x, const S& time) {
+  std::vector<S> states(x.begin(), x.end());
+  for (std::size_t i = 0; i < states.size() && i < origin_.size(); ++i)
+    if (!isKnownZero(origin_[i])) states[i] = states[i] + origin_[i];
+  setState(states, time);
 }
 
 template <class S>

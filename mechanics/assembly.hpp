@@ -29,12 +29,14 @@ class Assembly {
   Assembly(const Assembly&) = delete;
   Assembly& operator=(const Assembly&) = delete;
 
-  /// The states x = [q; u; z] at the start. One whose initial value follows from a free parameter
-  /// (Mechanism::startsWith) is everywhere given as its difference from that, which is zero at the start: so each
-  /// parameter stands in one place.
+  /// The states x = [q; u; z] at the start.
   const std::vector<S>& initialState() const { return initialState_; }
   /// Sets x and the time [s] and moves all frames. Throws std::invalid_argument for a wrong number of values.
   void setState(std::span<const S> x, const S& time = S(0.0));
+  /// The same by the states of a recorded motion: one whose initial value follows from a free parameter
+  /// (Mechanism::startsWith) is given as its difference from that, which is zero at the start, so that each parameter
+  /// stands in one place.
+  void setMotion(std::span<const S> x, const S& time = S(0.0));
   /// u̇ for the present state.
   std::vector<S> accelerations(Formulation formulation = Formulation::sparse);
   /// ẋ for the present state: rates of positions, accelerations, rates of own states.
@@ -75,7 +77,7 @@ class Assembly {
   std::unique_ptr<System<S>> system_;
   std::vector<S*> states_;  // in the order of Mechanism::stateNames()
   std::vector<Signal<S>> positionRates_, ownRates_;
-  std::vector<S> initialState_, differsFrom_;  // the second: of each state, zero of those that stand for themselves
+  std::vector<S> initialState_, origin_;  // the second: what differences of states are from; else zero
   Known known_ = Known::state;
 };
 

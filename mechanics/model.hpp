@@ -15,7 +15,7 @@ namespace gamut {
 
 /// ẋ = f(t, x, p): x = [q; u; z] in the order of Mechanism::stateNames(), p the named parameters in the order given;
 /// every other number is a constant of the program. States that start by one of them are differences
-/// (Assembly::initialState). Throws std::invalid_argument for an incomplete mechanism, for a name that is no parameter,
+/// (Assembly::setMotion). Throws std::invalid_argument for an incomplete mechanism, for a name that is no parameter,
 /// and if a joint moves no inertia.
 Program recordMotion(const Mechanism& mechanism, const std::vector<std::string>& freeParameters = {},
                      Formulation formulation = Formulation::sparse);

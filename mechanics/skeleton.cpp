@@ -176,7 +176,7 @@ Skeleton skeletonOf(const Mechanism& mechanism, const std::vector<std::string>& 
   join(skeleton, record(states, parameters, static_cast<int>(3 * skeleton.points.size()),
                         [&](auto t, const auto& x, const auto& p, auto& y) {
                           Assembly<Recorded> assembly(mechanism, freeParameters, p);
-                          assembly.setState(x, t);
+                          assembly.setMotion(x, t);
                           std::ranges::copy(positionsOf(assembly, skeleton), y.begin());
                         }));
   return skeleton;

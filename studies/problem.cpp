@@ -54,7 +54,7 @@ Program recordConfiguration(const Study& study, std::size_t states, int numbers)
   return record(0, numbers, static_cast<int>(outputs.size()), [&](auto, const auto&, const auto& p, auto& y) {
     const std::span<const Recorded> values(p);
     Assembly<Recorded> assembly(study.mechanism, freeParameters(study), values.subspan(states));
-    assembly.setState(values.first(states));
+    assembly.setMotion(values.first(states));
     const std::vector<Recorded> found = recordOutputs(assembly, outputs);
     for (std::size_t i = 0; i < found.size(); ++i) y[i] = found[i];
   });

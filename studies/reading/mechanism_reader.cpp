@@ -544,7 +544,8 @@ class MechanismReader {
   const toml::array& listOf(const toml::node& node, const std::string& what, std::span<const char* const> names,
                             std::size_t least, const Dimension& dimension) const {
     const std::size_t most = names.size();
-    std::string expected = fmt::format("[{}] in {}", fmt::join(names, ", "), unitOf(dimension));
+    std::string expected = fmt::format("[{}]", fmt::join(names, ", "));
+    if (dimension != Dimension{}) expected += " in " + unitOf(dimension);
     if (least < most) expected = fmt::format("[{}] or {}", fmt::join(names.first(least), ", "), expected);
     if (!node.is_array()) source_.fail(node, what + " is no list of numbers", expected);
     const toml::array& list = *node.as_array();

@@ -20,7 +20,7 @@ template <class S>
 std::vector<S> assembledOutputs(const Study& study, const Problem& problem, const std::vector<S>& numbers) {
   const std::span<const S> values(numbers);
   Assembly<S> assembly(study.mechanism, problem.freeParameters, values.subspan(problem.states));
-  assembly.setState(values.first(problem.states));
+  assembly.setMotion(values.first(problem.states));
   std::vector<S> outputs;
   for (const std::string& output : problem.outputs) outputs.push_back(assembly.output(output));
   return outputs;

@@ -31,7 +31,7 @@ Program recordedOf(const Study& study, const Problem& problem, std::size_t value
                   if (study.isMotionGiven())
                     assembly.setState({}, t);
                   else
-                    moves ? assembly.setState(x, t) : assembly.setState(given.first(problem.states));
+                    moves ? assembly.setMotion(x, t) : assembly.setMotion(given.first(problem.states));
                   std::ranges::copy(what(assembly), y.begin());
                 });
 }

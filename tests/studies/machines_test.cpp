@@ -91,7 +91,7 @@ std::string startsAtALength() {
   return head(2) +
          "[[mechanism.element]]\ntype = \"prismatic\"\nname = \"slide\"\nfrom = \"inertial\"\nto = \"S\"\naxis = "
          "\"x\"\nparameters = { length = \"1 m\" }\ninitial = { displacement = \"sqrt(slide.length * 1 m) + "
-         "slide.length^2 / 2 m\" }\n" +
+         "slide.length^2 / (2 m)\" }\n" +
          mass("body", "S", "mass = 1") +
          "[[mechanism.element]]\ntype = \"joint-spring\"\nname = \"spring\"\njoint = \"slide\"\nstiffness = 10\nrest = "
          "\"slide.length\"\n" +

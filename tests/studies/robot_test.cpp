@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "mechanics/assembly.hpp"
 #include "mechanics/model.hpp"
 #include "scalars/evaluation/evaluator.hpp"
 #include "studies/robot.hpp"
@@ -284,11 +285,28 @@ TEST(RobotStudy, RunsWithUncertainNumbersByNameAndElementsOfItsOwn) {
       << "the results hold all that the study is made of";
 }
 
+TEST(RobotStudy, FloatsFromWhereItIsSaidToBe) {
+  const Files files;
+  const auto assembled = [&](const std::string& initial) {
+    return readStudyText(studyOf("base = \"free\"\n[mechanism.initial]\n" + initial), files.folder.path("s.toml"))
+        .mechanism;
+  };
+  const Mechanism rolled = assembled(
+      "ground.base.position = [1, \"20 cm\", 3]\nground.base.velocity.z = 2\nground.base.orientation = { roll = "
+      "\"90 deg\" }\nground.base.rate = [0, 0, 0.5]");
+  EXPECT_TRUE(contains(rolled.nominal("ground.base.position.y"), 0.2));
+  EXPECT_TRUE(isEqual(rolled.nominal("ground.base.velocity.z"), Interval(2.0)));
+  EXPECT_TRUE(isEqual(rolled.nominal("ground.base.rate.z"), Interval(0.5)));
+  const Mechanism turned = assembled("ground.base.position = [1, 0.2, 3]\nground.base.orientation = { w = 2, x = 2 }");
+  EXPECT_LT((Assembly<double>(rolled).frame("ground").R - Assembly<double>(turned).frame("ground").R).norm(), 1e-15);
+}
+
 TEST(RobotStudy, SaysWhatIsWrongInOneLine) {
   const Files files;
   EXPECT_THAT(files.complaint("base = \"fixt\""), HasSubstr("s.toml:3:8: mechanism.base is \"fixt\""));
-  EXPECT_EQ(files.complaint("base = \"free\""),
-            "r.urdf:12: the root 'ground' moves freely, which is not supported yet; expected base = \"fixed\"");
+  EXPECT_THAT(files.complaint("base = \"free\"\n[mechanism.initial]\nground.base.orientation.rol = 1"),
+              StartsWith("s.toml:5:31: the robot has no initial value 'ground.base.orientation.rol'; expected "
+                         "'ground.base.orientation.roll'"));
   EXPECT_THAT(files.complaint("[mechanism.initial]\nhinge.angel = 1"),
               StartsWith("s.toml:4:15: the robot has no initial value 'hinge.angel'; expected 'hinge.angle'"));
   EXPECT_THAT(files.complaint("[mechanism.initial]\nhinge.angle = \"1 m\""),

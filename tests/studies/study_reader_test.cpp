@@ -222,7 +222,8 @@ TEST(StudyReader, TakesOrientationsAsUsersHaveThem) {
     return study.mechanism;
   };
   const auto orientationOf = [](const Mechanism& mechanism) {
-    return Assembly<double>(mechanism).frame("B").R.transpose() * Assembly<double>(mechanism).frame("tip").R;
+    const Assembly<double> assembly(mechanism);
+    return Matrix3<double>(assembly.frame("tip").R.transpose() * assembly.frame("B").R);
   };
   const auto degrees = [](const Mechanism& m, const std::string& number) {
     return midpoint(m.nominal(number)) * 180 / M_PI;
@@ -582,11 +583,17 @@ TEST_P(BadStudyFile, IsRefusedInOneLineWithItsPlace) {
 }
 
 constexpr BadStudy badStudies[] = {
-    {"parameters = { length = 0.5 }", "parameters = { length = 0.5 }\nrotation = \"30 deg\"", "XX"},
+    {"parameters = { length = 0.5 }", "parameters = { length = 0.5 }\nrotation = \"30 deg\"",
+     "s.toml:23:12: mechanism.element.rotation is no rotation; expected [{ axis, angle }, …], { axis, angle }, { roll, "
+     "pitch, yaw } or { quaternion = [w, x, y, z] }"},
     {"parameters = { length = 0.5 }",
-     "parameters = { length = 0.5 }\nrotation = { roll = 1, quaternion = [1, 0, 0, 0] }", "XX"},
-    {"parameters = { length = 0.5 }", "parameters = { length = 0.5 }\nrotation = { quaternion = [0, 0, 0, 0] }", "XX"},
-    {"parameters = { length = 0.5 }", "parameters = { length = 0.5 }\nrotation = { quaternion = [1, 0, 0] }", "XX"},
+     "parameters = { length = 0.5 }\nrotation = { roll = 1, quaternion = [1, 0, 0, 0] }",
+     "s.toml:23:21: 'roll' beside a quaternion; expected one of the two"},
+    {"parameters = { length = 0.5 }", "parameters = { length = 0.5 }\nrotation = { quaternion = [0, 0, 0, 0] }",
+     "s.toml:16:1: the quaternion of 'rod' is zero, which is no orientation; expected a mechanism that can be "
+     "assembled"},
+    {"parameters = { length = 0.5 }", "parameters = { length = 0.5 }\nrotation = { quaternion = [1, 0, 0] }",
+     "s.toml:23:27: mechanism.element.rotation.quaternion has 3 numbers; expected [w, x, y, z]"},
     {"quantity = \"tip.position.z\"", "quantity = \"sqrt(-1)\"",
      "s.toml:38:12: 'sqrt(-1)' has no value: recorded square root of a constant that may be negative; expected a "
      "formula "
