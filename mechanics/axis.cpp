@@ -32,4 +32,16 @@ bool Axis::isParallelTo(const Axis& other) const {
   return isZero(x, v, y, u) && isZero(y, w, z, v) && isZero(z, u, x, w);
 }
 
+std::array<Interval, 3> Axis::enclosure() const {
+  std::array<Interval, 3> u = {0.0, 0.0, 0.0};
+  if (isAligned()) {
+    u[static_cast<std::size_t>(index_)] = sign_;
+    return u;
+  }
+  Interval squares(0.0);
+  for (const double component : direction_) squares += sqr(Interval(component));
+  for (std::size_t i = 0; i < 3; ++i) u[i] = direction_[i] / sqrt(squares);
+  return u;
+}
+
 }  // namespace gamut

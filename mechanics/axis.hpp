@@ -1,7 +1,9 @@
-// The axes of joints and rotations. Without a scalar and without Eigen, so that a description needs neither.
+// The axes of joints and rotations. Without Eigen, which a description does not need.
 #pragma once
 
 #include <array>
+
+#include "scalars/interval.hpp"
 
 namespace gamut {
 
@@ -22,7 +24,9 @@ class Axis {
   /// Whether both are on one line: exactly, but for products that leave the range of doubles.
   bool isParallelTo(const Axis& other) const;
 
-  /// The unit vector, a Vector3<S>: exact zeros and ones if aligned, enclosed by S otherwise. Defined in rotation.hpp.
+  /// The unit vector, its components exact if aligned, enclosed otherwise.
+  std::array<Interval, 3> enclosure() const;
+  /// The same as a Vector3<S>. Defined in rotation.hpp.
   template <class S>
   auto unit() const;
 

@@ -15,14 +15,9 @@ namespace gamut {
 
 template <class S>
 auto Axis::unit() const {
-  Vector3<S> u = zeroVector<S>();
-  if (isAligned()) {
-    u[index_] = S(sign_);
-    return u;
-  }
-  Interval squares(0.0);
-  for (double component : direction_) squares += sqr(Interval(component));
-  for (int i = 0; i < 3; ++i) u[i] = constant<S>(direction_[static_cast<std::size_t>(i)] / sqrt(squares));
+  const std::array<Interval, 3> own = enclosure();
+  Vector3<S> u;
+  for (int i = 0; i < 3; ++i) u[i] = constant<S>(own[static_cast<std::size_t>(i)]);
   return u;
 }
 

@@ -1,7 +1,6 @@
 // About an axis u by the angle φ: e = (cos φ/2, u sin φ/2).
 #include "mechanics/description/orientation.hpp"
 
-#include "mechanics/rotation.hpp"
 #include "scalars/interval.hpp"
 
 namespace gamut {
@@ -29,7 +28,7 @@ Quaternion<Expression> quaternionOf(const std::vector<FixedRotation>& rotations)
       continue;
     }
     const Expression half = Expression(0.5) * rotation.angle + Interval(rotation.quarterTurns) * pi() / Interval(4.0);
-    const Vector3<Interval> u = rotation.axis.unit<Interval>();
+    const std::array<Interval, 3> u = rotation.axis.enclosure();
     whole = product(whole, {cos(half), u[0] * sin(half), u[1] * sin(half), u[2] * sin(half)});
   }
   return whole;
