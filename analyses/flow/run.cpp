@@ -216,12 +216,14 @@ Tube FlowRun::gather(std::vector<FlowCollected>& collected) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
   const double aim = task_.aim(),
                wellKnown = 5e-5 * aim;  // nor are bounds measured that are so much tighter than the box
+  const double rounding = std::min(0x1p-44, wellKnown * widest);  // of its greatest size: where it passes through zero
   const double hardlyVaries =
       3 * aim * aim;  // what hardly varies at all, but for what is left over, is no width to keep
   const auto excess = [&](const std::vector<std::vector<Interval>>& bounds, auto cores) {
     std::vector<std::vector<double>> shares(rows);
     std::vector<std::vector<Interval>> core(rows);
     std::vector<double> greatest(bounds[0].size(), 0.0);  // width over all times
+    std::vector<double> largest(bounds[0].size(), 0.0);   // magnitude
     std::vector<char> isZero(bounds[0].size(), 1);        // at all times, as symmetry keeps it
     for (std::size_t row = 0; row < rows; ++row) {
       for (const FlowCollected& part : collected)
@@ -229,6 +231,7 @@ Tube FlowRun::gather(std::vector<FlowCollected>& collected) {
       for (std::size_t i = 0; i < core[row].size(); ++i) {
         const Interval& bound = bounds[row][i];
         greatest[i] = std::max(greatest[i], width(bound));
+        largest[i] = std::max(largest[i], magnitude(bound));
         if (!(contains(bound, 0.0) && magnitude(core[row][i]) <= 1e-6 * width(bound))) isZero[i] = 0;
       }
     }
@@ -239,7 +242,7 @@ Tube FlowRun::gather(std::vector<FlowCollected>& collected) {
         const double rest = width(core[row][i]), remainder = width(bound) - rest;
         const bool isInvariant = rest < 0.5 * remainder && remainder < hardlyVaries * widest * magnitude(bound);
         if (isZero[i] == 0 && !isInvariant && remainder > wellKnown * widest * magnitude(bound) &&
-            remainder > unheard * greatest[i])
+            remainder > unheard * greatest[i] && remainder > rounding * largest[i])
           shares[row][i] = rest > 0 ? remainder / rest : infinite;
       }
     }

@@ -86,6 +86,22 @@ TEST(FlowTightness, OfOutputsIsThatAskedFor) {
   EXPECT_LE(width(loose.outputs(2)[0]), 1.01 * width(tight.outputs(2)[0]));
 }
 
+/// Half a period's sine comes to 0, of which no width is to be kept: it asks for no tighter rounds.
+TEST(FlowTightness, OfOutputsOfTimeAloneIsNoMatter) {
+  Containment c = springPendulum(0, 0.02, 0);
+  c.times = {0.5, 1};
+  c.g = record(4, 4, 1, [](auto, const auto& x, const auto&, auto& y) { y[0] = x[0]; });
+  const Tube without = c.tube();
+  c.g = record(4, 4, 2, [](auto t, const auto& x, const auto&, auto& y) {
+    y[0] = x[0];
+    y[1] = 0.2 * sin(Recorded(pi()) * t);
+  });
+  const Tube with = expectContainment(c, 4);
+  EXPECT_LE(with.tightness(), c.options.tightness) << with.limit();
+  EXPECT_EQ(with.pieces(), without.pieces());
+  EXPECT_EQ(c.tube().steps(), without.steps());
+}
+
 TEST(FlowTightness, HoldsQuantitiesOfEveryInfluence) {
   for (int minor : {4, 12}) {
     Containment c = springPendulum(minor, 0.01, 0.01);
