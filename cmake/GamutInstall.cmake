@@ -27,8 +27,4 @@ install(FILES ${PROJECT_BINARY_DIR}/GamutConfig.cmake ${PROJECT_BINARY_DIR}/Gamu
 # The README's links lead to the same places there as in the sources.
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs DESTINATION ${CMAKE_INSTALL_DOCDIR} FILES_MATCHING PATTERN *.md PATTERN *.png)
-file(GLOB studies RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/studies/*/study.toml)
-foreach(study ${studies})
-  cmake_path(GET study PARENT_PATH folder)
-  install(FILES ${PROJECT_SOURCE_DIR}/${study} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder})
-endforeach()
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/studies/examples DESTINATION ${CMAKE_INSTALL_DOCDIR}/studies)

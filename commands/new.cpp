@@ -1,4 +1,4 @@
-// gamut new: writes a study to start from: the shipped studies/spring_pendulum, which comes along inside the program,
+// gamut new: writes a study to start from: the shipped studies/examples/spring_pendulum, which comes along inside the program,
 // or one of a robot.
 #include <fmt/format.h>
 

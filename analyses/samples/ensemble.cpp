@@ -27,7 +27,7 @@ constexpr double errorTightening = 100;
 constexpr std::size_t leastTogether = packWidth / 4;
 constexpr std::size_t firstSamples = 256, namedFailures = 10;
 // A block's rows take so many bytes, or as many packs: work for many threads between two looks, and no more packs than
-// gain something (studies/tip_position).
+// gain something (studies/examples/tip_position).
 constexpr std::size_t blockBytes = std::size_t{1} << 26, leastPacks = 8, mostPacks = 128;
 
 std::size_t packsOfBlock(std::size_t cells) {

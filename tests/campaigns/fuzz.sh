@@ -15,7 +15,7 @@ options=(-max_total_time="$seconds" -timeout=20 -rss_limit_mb=4096 -artifact_pre
 case $target in
   study)
     cp tests/studies/corpus/*.toml "$corpus"
-    for study in studies/*/study.toml; do cp "$study" "$corpus/$(basename "$(dirname "$study")").toml"; done
+    for study in studies/examples/*/study.toml; do cp "$study" "$corpus/$(basename "$(dirname "$study")").toml"; done
     options+=(-dict=tests/campaigns/study.dict -max_len=8192)
     ;;
   results) options+=(-max_len=100000) ;;

@@ -18,7 +18,7 @@ using ::testing::StartsWith;
 class NewCommand : public FromOutside {
  protected:
   static std::string shippedStudy() {
-    std::ifstream file(GAMUT_SOURCE_DIR "/studies/spring_pendulum/study.toml", std::ios::binary);
+    std::ifstream file(GAMUT_SOURCE_DIR "/studies/examples/spring_pendulum/study.toml", std::ios::binary);
     std::ostringstream text;
     text << file.rdbuf();
     return text.str();

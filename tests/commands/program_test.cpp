@@ -118,7 +118,7 @@ TEST_F(Program, RefusesMoreOutputsThanTheMemoryHolds) {
 
 /// Three million motions kept would be 2.5 GB.
 TEST_F(Program, TakesNoMoreMemoryForMoreSamples) {
-  std::filesystem::copy(GAMUT_SOURCE_DIR "/studies/tip_position/study.toml", folder_.path("tip.toml"));
+  std::filesystem::copy(GAMUT_SOURCE_DIR "/studies/examples/tip_position/study.toml", folder_.path("tip.toml"));
   const std::string command = "cd '" + folder_.path("") +
                               "' && ulimit -v 1000000 && '" GAMUT_PROGRAM
                               "' run tip.toml --samples 3000000 --jobs 2 --quiet";

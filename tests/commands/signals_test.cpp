@@ -31,7 +31,7 @@ std::string replaced(std::string text, const std::string& old, const std::string
 
 /// The shipped double pendulum, shorter: samples and alpha-cuts are disputed in several outputs at once.
 std::string shortPendulum() {
-  std::ifstream file(GAMUT_SOURCE_DIR "/studies/double_pendulum/study.toml");
+  std::ifstream file(GAMUT_SOURCE_DIR "/studies/examples/double_pendulum/study.toml");
   std::ostringstream text;
   text << file.rdbuf();
   return replaced(replaced(text.str(), "horizon = 3.0", "horizon = 1.0"), "samples = 4096", "samples = 1024");

@@ -15,7 +15,7 @@ Results runShipped(const std::string& name, std::size_t samples) {
   RunOptions options;
   options.jobs = 2;
   options.samples = samples;
-  return run(readStudy(GAMUT_SOURCE_DIR "/studies/" + name + "/study.toml"), options);
+  return run(readStudy(GAMUT_SOURCE_DIR "/studies/examples/" + name + "/study.toml"), options);
 }
 
 std::size_t rowOf(const Results& results, double time) {
@@ -27,7 +27,7 @@ double printed(double value) { return std::trunc(value * 1e4) / 1e4; }
 
 /// The published row of plain intervals: the point's local coordinates turned back by the frame's rotation.
 Vector3<Interval> publishedNaiveTip() {
-  const Study study = readStudy(GAMUT_SOURCE_DIR "/studies/tip_position/study.toml");
+  const Study study = readStudy(GAMUT_SOURCE_DIR "/studies/examples/tip_position/study.toml");
   Assembly<Interval> assembly(study.mechanism);
   std::vector<Interval> state = assembly.initialState();
   state[0] = study.uncertain[0].uncertain.range;
