@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <optional>
+#include <vector>
 
 #include "mechanics/algebra.hpp"
 #include "mechanics/axis.hpp"
@@ -116,9 +117,14 @@ class Rotation {
     return turned;
   }
 
-  /// What an inertia behind this rotation is in front of it.
-  SpatialInertia<S> toParent(const SpatialInertia<S>& inertia) const {
-    return {symmetricToParent(inertia.angular), matrixToParent(inertia.coupling), symmetricToParent(inertia.linear)};
+  /// What an inertia behind this rotation is in front of it: turn by turn, if it is made of turns about coordinate
+  /// axes, which together take fewer operations than the whole.
+  SpatialInertia<S> toParent(SpatialInertia<S> inertia) const {
+    if (dense_ && turns_.empty())
+      return {symmetricToParent(inertia.angular), matrixToParent(inertia.coupling), symmetricToParent(inertia.linear)};
+    if (plane_) turn(inertia, *plane_);
+    for (auto plane = turns_.rbegin(); plane != turns_.rend(); ++plane) turn(inertia, *plane);
+    return inertia;
   }
 
   /// R A, the orientation behind a frame of orientation R: rows of R are vectors of K.
@@ -134,6 +140,10 @@ class Rotation {
     if (!next.plane_ && !next.dense_) return *this;
     Rotation both;
     both.dense_ = next.after(matrix());
+    if (isMadeOfTurns() && next.isMadeOfTurns()) {
+      both.turns_ = turns();
+      for (const Plane& plane : next.turns()) both.turns_.push_back(plane);
+    }
     return both;
   }
 
@@ -150,8 +160,43 @@ class Rotation {
     int i, j;
     S c, s;
   };
+  bool isMadeOfTurns() const { return plane_ || !turns_.empty(); }
+  std::vector<Plane> turns() const { return plane_ ? std::vector<Plane>{*plane_} : turns_; }
+
+  /// A M Aᵀ for each part of the inertia. In the plane, M changes by multiples of (m_ii − m_jj, m_ij + m_ji) alone, so
+  /// that its trace and m_ij − m_ji are kept.
+  static void turn(SpatialInertia<S>& inertia, const Plane& plane) {
+    const auto& [i, j, c, s] = plane;
+    const int k = 3 - i - j;
+    const S squared = square(s), product = s * c;
+    const auto turnPlane = [&, i = i, j = j](Matrix3<S>& m, const S& sum) {
+      const S difference = m(i, i) - m(j, j);
+      const S onDiagonal = squared * difference + product * sum, across = product * difference - squared * sum;
+      m(i, i) = m(i, i) - onDiagonal;
+      m(j, j) = m(j, j) + onDiagonal;
+      m(i, j) = m(i, j) + across;
+      m(j, i) = m(j, i) + across;
+    };
+    const auto turnPair = [&c = c, &s = s](S& x, S& y) {
+      const S turned = c * x - s * y;
+      y = s * x + c * y;
+      x = turned;
+    };
+    for (Matrix3<S>* m : {&inertia.angular, &inertia.linear}) {
+      turnPlane(*m, S(2.0) * (*m)(i, j));
+      turnPair((*m)(i, k), (*m)(j, k));
+      (*m)(k, i) = (*m)(i, k);
+      (*m)(k, j) = (*m)(j, k);
+    }
+    Matrix3<S>& coupling = inertia.coupling;
+    turnPlane(coupling, coupling(i, j) + coupling(j, i));
+    turnPair(coupling(i, k), coupling(j, k));
+    turnPair(coupling(k, i), coupling(k, j));
+  }
+
   std::optional<Plane> plane_;
   std::optional<Matrix3<S>> dense_;
+  std::vector<Plane> turns_;  ///< that dense_ is made of, the first one first; none if it is not
 };
 
 }  // namespace gamut

@@ -59,6 +59,27 @@ Mechanism tree() {
   return m;
 }
 
+/// Links that turn in one, two and three steps, about axes that joints are parallel to, too.
+Mechanism turnedLinks() {
+  Mechanism m;
+  std::string from = Mechanism::inertialFrame;
+  const std::vector<std::vector<FixedRotation>> turns{{},
+                                                      {{axisX, 0, 0.3}},
+                                                      {{axisZ, 0, -0.7}, {axisX, 0, 1.1}},
+                                                      {{axisZ, 0, 0.4}, {axisY, 0, -0.9}, {axisX, 0, 2.0}},
+                                                      {{axisX, 0, 0.2}, {Axis(1, 1, 0), 0, 0.5}},
+                                                      {{axisY, 1, 0.0}, {axisY, 0, 0.25}}};
+  for (std::size_t i = 0; i < turns.size(); ++i) {
+    const std::string n = std::to_string(i);
+    m.add(Link{"link" + n, from, "seat" + n, {0.1, -0.2, 0.3}, turns[i]});
+    m.add(Revolute{"joint" + n, "seat" + n, "K" + n, i % 2 == 0 ? axisZ : axisX});
+    m.add(Mass{"body" + n, "K" + n, 1.0, {0.05, 0.1, -0.2}, fullInertia});
+    from = "K" + n;
+  }
+  m.setGravity({0.5, -1.0, -9.0});
+  return m;
+}
+
 /// Joints and links without a body of their own between two bodies.
 Mechanism wristWithoutMass() {
   Mechanism m = chain({axisZ}, false);
@@ -192,35 +213,37 @@ TEST_P(Formulations, KeepTheEnergy) {
 
 INSTANTIATE_TEST_SUITE_P(
     Of, Formulations,
-    ::testing::Values(
-        Machine{"oneHinge", [] { return chain({axisY}, true); }},
-        Machine{"twoPerpendicularHinges",
-                [] {
-                  return chain({axisZ, axisY}, false);
-                }},
-        Machine{"threePerpendicularHinges", [] { return chain(alternating(3), false); }},
-        Machine{"fourPerpendicularHinges", [] { return chain(alternating(4), false); }},
-        Machine{"sixPerpendicularHinges", [] { return chain(alternating(6), false); }},
-        Machine{"obliqueHinges",
-                [] {
-                  return chain({Axis(1, 2, 2), Axis(-2, 1, 2), Axis(0, 1, 1)}, false);
-                }},
-        Machine{"planarChainOfThree", [] { return chain(std::vector<Axis>(3, axisY), true); }},
-        Machine{"planarChainOfFiveBodies", [] { return chain(std::vector<Axis>(5, axisY), false); }},
-        Machine{"planarChainOfTen", [] { return chain(std::vector<Axis>(10, axisY), true); }},
-        Machine{"millimetresAndGrams", [] { return chain(alternating(4), false, 1e-3, 1e-3); }},
-        Machine{"kilometresAndKilotons", [] { return chain(alternating(4), false, 1e3, 1e6); }},
-        Machine{"tree", [] { return tree(); }}, Machine{"wristWithoutMass", [] { return wristWithoutMass(); }},
-        Machine{"gearedToOneSpeed", [] { return geared(2); }}, Machine{"gearedToTwoSpeeds", [] { return geared(3); }},
-        Machine{"gearedToThreeSpeeds", [] { return geared(4); }},
-        Machine{"gearedToSixSpeeds", [] { return geared(7); }}, Machine{"gearedPoints", [] { return geared(4, true); }},
-        Machine{"gearedInSeries", [] { return gearedInSeries(); }},
-        Machine{"floating", [] { return floatingMachine(); }},
-        Machine{"floatingInMillimetres", [] { return floatingMachine(1e-3); }},
-        Machine{"oneBall", [] { return ballChain(1, false); }},
-        Machine{"chainOfBalls", [] { return ballChain(4, false); }},
-        Machine{"chainOfBallsWithSlenderRods", [] { return ballChain(3, true); }},
-        Machine{"spatialArm", [] { return testing::spatialArm(); }}),
+    ::testing::Values(Machine{"oneHinge", [] { return chain({axisY}, true); }},
+                      Machine{"twoPerpendicularHinges",
+                              [] {
+                                return chain({axisZ, axisY}, false);
+                              }},
+                      Machine{"threePerpendicularHinges", [] { return chain(alternating(3), false); }},
+                      Machine{"fourPerpendicularHinges", [] { return chain(alternating(4), false); }},
+                      Machine{"sixPerpendicularHinges", [] { return chain(alternating(6), false); }},
+                      Machine{"obliqueHinges",
+                              [] {
+                                return chain({Axis(1, 2, 2), Axis(-2, 1, 2), Axis(0, 1, 1)}, false);
+                              }},
+                      Machine{"planarChainOfThree", [] { return chain(std::vector<Axis>(3, axisY), true); }},
+                      Machine{"planarChainOfFiveBodies", [] { return chain(std::vector<Axis>(5, axisY), false); }},
+                      Machine{"planarChainOfTen", [] { return chain(std::vector<Axis>(10, axisY), true); }},
+                      Machine{"millimetresAndGrams", [] { return chain(alternating(4), false, 1e-3, 1e-3); }},
+                      Machine{"kilometresAndKilotons", [] { return chain(alternating(4), false, 1e3, 1e6); }},
+                      Machine{"tree", [] { return tree(); }}, Machine{"turnedLinks", [] { return turnedLinks(); }},
+                      Machine{"wristWithoutMass", [] { return wristWithoutMass(); }},
+                      Machine{"gearedToOneSpeed", [] { return geared(2); }},
+                      Machine{"gearedToTwoSpeeds", [] { return geared(3); }},
+                      Machine{"gearedToThreeSpeeds", [] { return geared(4); }},
+                      Machine{"gearedToSixSpeeds", [] { return geared(7); }},
+                      Machine{"gearedPoints", [] { return geared(4, true); }},
+                      Machine{"gearedInSeries", [] { return gearedInSeries(); }},
+                      Machine{"floating", [] { return floatingMachine(); }},
+                      Machine{"floatingInMillimetres", [] { return floatingMachine(1e-3); }},
+                      Machine{"oneBall", [] { return ballChain(1, false); }},
+                      Machine{"chainOfBalls", [] { return ballChain(4, false); }},
+                      Machine{"chainOfBallsWithSlenderRods", [] { return ballChain(3, true); }},
+                      Machine{"spatialArm", [] { return testing::spatialArm(); }}),
     [](const auto& machine) { return machine.param.name; });
 
 /// Each chain alone is solved for itself.
