@@ -139,6 +139,11 @@ GAMUT_AVX512 void runTaskOnAvx512(const PositiveDefiniteTask& task, int sample, 
   runTask<Vector8>(task, sample, count);
 }
 
+template <class V>
+GAMUT_INLINE void broadcast(V& to, double from) {
+  to = from - V{};  // exactly: −0 stays −0
+}
+
 // For each vector j of the block; unrolled, so that the accumulator stays in registers.
 #define GAMUT_FOR_BLOCK _Pragma("GCC unroll 8") for (int j = 0; j < block<V>; ++j)
 // acc = expression(left, right), the values of the operands.
@@ -150,6 +155,22 @@ GAMUT_AVX512 void runTaskOnAvx512(const PositiveDefiniteTask& task, int sample, 
     acc[j] = expression;             \
   }                                  \
   break
+
+// The same where the right operand is one number for all samples: it is loaded once.
+#define GAMUT_ACCUMULATE_UNIFORM(expression) \
+  {                                          \
+    V right;                                 \
+    broadcast(right, *b);                    \
+    GAMUT_FOR_BLOCK {                        \
+      [[maybe_unused]] V left;               \
+      load(left, a + j * lanes<V>);          \
+      acc[j] = expression;                   \
+    }                                        \
+  }                                          \
+  break
+
+/// An instruction as a case of a switch.
+constexpr int caseOf(TapeOp op, bool isUniform = false) { return 2 * static_cast<int>(op) + (isUniform ? 1 : 0); }
 
 /// Runs the instructions on the block of samples from `sample` on.
 template <class V>
@@ -163,52 +184,66 @@ GAMUT_INLINE void runBlock(const PackRun& pack, const Instruction* i, const Inst
     double* const a = slots + static_cast<std::ptrdiff_t>(i->a) * packWidth;
     double* const b = slots + static_cast<std::ptrdiff_t>(i->b) * packWidth;
     double* const result = slots + static_cast<std::ptrdiff_t>(i->result) * packWidth;
-    switch (i->op) {
-      case TapeOp::value:
+    switch (caseOf(i->op, i->isUniform)) {
+      case caseOf(TapeOp::value):
         GAMUT_ACCUMULATE(left);
-      case TapeOp::sum:
+      case caseOf(TapeOp::sum):
         GAMUT_ACCUMULATE(left + right);
-      case TapeOp::difference:
+      case caseOf(TapeOp::difference):
         GAMUT_ACCUMULATE(left - right);
-      case TapeOp::product:
+      case caseOf(TapeOp::product):
         GAMUT_ACCUMULATE(left * right);
-      case TapeOp::plus:
+      case caseOf(TapeOp::plus):
         GAMUT_ACCUMULATE(acc[j] + left);
-      case TapeOp::minus:
+      case caseOf(TapeOp::minus):
         GAMUT_ACCUMULATE(acc[j] - left);
-      case TapeOp::plusProduct:
+      case caseOf(TapeOp::plusProduct):
         GAMUT_ACCUMULATE(acc[j] + left * right);
-      case TapeOp::minusProduct:
+      case caseOf(TapeOp::minusProduct):
         GAMUT_ACCUMULATE(acc[j] - left * right);
-      case TapeOp::negative:
+      case caseOf(TapeOp::negative):
         GAMUT_ACCUMULATE(-left);
-      case TapeOp::square:
+      case caseOf(TapeOp::square):
         GAMUT_ACCUMULATE(left * left);
-      case TapeOp::reciprocal:
+      case caseOf(TapeOp::reciprocal):
         GAMUT_ACCUMULATE(1.0 / left);
+      case caseOf(TapeOp::sum, true):
+        GAMUT_ACCUMULATE_UNIFORM(left + right);
+      case caseOf(TapeOp::difference, true):
+        GAMUT_ACCUMULATE_UNIFORM(left - right);
+      case caseOf(TapeOp::product, true):
+        GAMUT_ACCUMULATE_UNIFORM(left * right);
+      case caseOf(TapeOp::plus, true):
+        GAMUT_ACCUMULATE_UNIFORM(acc[j] + right);
+      case caseOf(TapeOp::minus, true):
+        GAMUT_ACCUMULATE_UNIFORM(acc[j] - right);
+      case caseOf(TapeOp::plusProduct, true):
+        GAMUT_ACCUMULATE_UNIFORM(acc[j] + left * right);
+      case caseOf(TapeOp::minusProduct, true):
+        GAMUT_ACCUMULATE_UNIFORM(acc[j] - left * right);
       // These store their results themselves and leave no accumulator behind.
-      case TapeOp::squareRoot:
-      case TapeOp::exponential:
-      case TapeOp::logarithm:
-      case TapeOp::arcTangent:
-      case TapeOp::absolute:
-      case TapeOp::sign:
+      case caseOf(TapeOp::squareRoot):
+      case caseOf(TapeOp::exponential):
+      case caseOf(TapeOp::logarithm):
+      case caseOf(TapeOp::arcTangent):
+      case caseOf(TapeOp::absolute):
+      case caseOf(TapeOp::sign):
         callFunction(i->op, span(a), span(result));
         GAMUT_FOR_BLOCK acc[j] = V{};
         continue;
-      case TapeOp::sineCosine:
+      case caseOf(TapeOp::sineCosine):
         sineCosine(pack.unit, span(a), span(result), span(b));
         GAMUT_FOR_BLOCK acc[j] = V{};
         continue;
-      case TapeOp::hyperbolicTangent:
+      case caseOf(TapeOp::hyperbolicTangent):
         callTanh(span(a), span(result), span(b));
         GAMUT_FOR_BLOCK acc[j] = V{};
         continue;
-      case TapeOp::factorise:
+      case caseOf(TapeOp::factorise):
         pack.factorise(i->result, sample, samples);
         GAMUT_FOR_BLOCK acc[j] = V{};
         continue;
-      case TapeOp::solution:
+      case caseOf(TapeOp::solution):
         pack.solve(i->result, sample, samples);
         GAMUT_FOR_BLOCK acc[j] = V{};
         continue;

@@ -63,6 +63,7 @@ class TapeWriter {
   void write() {
     countUses();
     fuse();
+    findUniform();
     system_.assign(program_.matrices().size(), -1);
     slot_.assign(nodes_.size(), -1);
     tape_.constants_ = program_.constants();
@@ -112,6 +113,17 @@ class TapeWriter {
     }
   }
 
+  /// Constants, and what follows from them alone.
+  void findUniform() {
+    isUniform_.assign(nodes_.size(), true);
+    for (int i = 0; i < count(); ++i) {
+      if (!isOperation(node(i).op)) isUniform_[at(i)] = node(i).op == Op::constant;
+      if (node(i).op == Op::solution) isUniform_[at(i)] = false;
+      for (int operand = 0; operand < operandsOf(node(i).op); ++operand)
+        if (!isUniform_[at(operand == 0 ? node(i).a : node(i).b)]) isUniform_[at(i)] = false;
+    }
+  }
+
   /// Only `user` uses node i, so that its value need not be stored.
   bool isOnlyFor(int i, int user) const {
     return uses_[at(i)] == 1 && !isOutput_[at(i)] && program_.isInvariant(i) == program_.isInvariant(user);
@@ -141,7 +153,7 @@ class TapeWriter {
 
   bool isAbsorbedProduct(int i) const { return node(i).op == Op::mul && absorbed_[at(i)]; }
 
-  static Instruction instruction(TapeOp op, int a, int b) { return {op, false, 0, a, b}; }
+  static Instruction instruction(TapeOp op, int a, int b) { return {op, false, false, 0, a, b}; }
 
   /// acc ± node i, a product if only this sum uses it.
   Instruction term(int i, bool negative) const {
@@ -170,6 +182,25 @@ class TapeWriter {
     }
   }
 
+  /// What is uniform comes second, where the order is free.
+  void markUniform(Instruction& part) const {
+    switch (part.op) {
+      case TapeOp::sum:
+      case TapeOp::product:
+      case TapeOp::plusProduct:
+      case TapeOp::minusProduct:
+        if (isUniform_[at(part.a)]) std::swap(part.a, part.b);
+        [[fallthrough]];
+      case TapeOp::difference:
+      case TapeOp::plus:
+      case TapeOp::minus:
+        part.isUniform = isUniform_[at(part.b)];
+        break;
+      default:
+        break;
+    }
+  }
+
   Step step(int id) const {
     if (id >= count()) return {id, {{TapeOp::factorise, false}}, matrix(id - count()).entries, {}};
     const int i = id;
@@ -188,6 +219,7 @@ class TapeWriter {
     else
       result.chain.push_back(instruction(unary(n.op), n.a, n.a));
     result.chain.back().stores = true;
+    for (Instruction& part : result.chain) markUniform(part);
     for (const Instruction& part : result.chain) result.reads.insert(result.reads.end(), {part.a, part.b});
     return result;
   }
@@ -379,7 +411,7 @@ class TapeWriter {
   Tape& tape_;
   std::vector<int> uses_, accumulator_, slot_;
   std::vector<int> system_;  // of each matrix, -1 before its factorisation
-  std::vector<bool> isOutput_, isMatrixNeeded_, absorbed_;
+  std::vector<bool> isOutput_, isMatrixNeeded_, absorbed_, isUniform_;
 };
 
 Tape::Tape(const Program& program) { TapeWriter(program, *this).write(); }

@@ -43,7 +43,8 @@ enum class TapeOp : std::uint8_t {
 
 struct Instruction {
   TapeOp op;
-  bool stores;  ///< the accumulator goes to slot `result` afterwards
+  bool stores;             ///< the accumulator goes to slot `result` afterwards
+  bool isUniform = false;  ///< b is the same whatever the parameters and the state are; it is a for plus and minus
   std::int32_t result = 0;
   std::int32_t a = 0;
   std::int32_t b = 0;  ///< a where the operation has one operand

@@ -1,6 +1,7 @@
 // A pack's sample is Evaluator<double>'s value, to the bit, on every vector unit and at every place of the pack.
 #include "scalars/evaluation/sample_pack.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -60,6 +61,35 @@ TEST(PackEvaluator, GivesEachSampleTheBitsItHasAloneOnEveryUnit) {
     expectSameBits(program, t, x, p, "seed " + std::to_string(seed));
     if (HasFatalFailure()) return;
   }
+}
+
+/// Constants and what follows from them, as either operand of whatever sums and products become, -0 among the values.
+TEST(PackEvaluator, GivesEachSampleTheBitsItHasAloneWhereConstantsMeetIt) {
+  const Program program = record(3, 1, 12, [](auto, const auto& x, const auto& p, auto& y) {
+    const Recorded c = constant<Recorded>(Interval("0.1")), d = c * constant<Recorded>(Interval("-0.7")), e = p[0] * c;
+    y[0] = x[0] + c;
+    y[1] = x[0] - c;
+    y[2] = c - x[0];
+    y[3] = c * x[0];
+    y[4] = x[0] * x[1] + c;
+    y[5] = x[1] * x[2] - d;
+    y[6] = x[0] * x[2] + d * x[2];
+    y[7] = x[0] * x[2] - x[2] * c;
+    y[8] = c - x[0] * x[2];
+    y[9] = e * x[0] + e - x[1] * e;
+    y[10] = c * d;
+    y[11] = sin(d) * x[0] + cos(d) * x[1];
+  });
+  const Tape tape(program);
+  const std::vector<Instruction>& instructions = tape.instructions();
+  for (const TapeOp op : {TapeOp::sum, TapeOp::difference, TapeOp::product, TapeOp::plus, TapeOp::minus,
+                          TapeOp::plusProduct, TapeOp::minusProduct})
+    EXPECT_TRUE(std::ranges::any_of(instructions, [op](const Instruction& i) { return i.op == op && i.isUniform; }))
+        << static_cast<int>(op);
+  RandomDoubles random;
+  std::vector<double> x = randomRows(random, 3 * width);
+  x[7] = -0.0;
+  expectSameBits(program, randomRows(random, width), x, randomRows(random, width), "constants");
 }
 
 TEST(PackEvaluator, GivesEachSampleOfASolutionTheBitsItHasAloneOnEveryUnit) {
