@@ -1,5 +1,5 @@
-// gamut new: writes a study to start from: the shipped studies/examples/spring_pendulum, which comes along inside the program,
-// or one of a robot.
+// gamut new: writes a study to start from: the shipped studies/examples/spring_pendulum, which comes along inside the
+// program, or one of a robot.
 #include <fmt/format.h>
 
 #include <filesystem>
