@@ -60,10 +60,12 @@ struct FlowOptions {
   double maxWidth = std::numeric_limits<double>::infinity();  ///< end when an enclosure of a state becomes wider
   double budget = std::numeric_limits<double>::infinity();  ///< CPU time of all threads, s; when it is spent, what was
                                                             ///< proved until then is the result
-  int jobs = 1;                                             ///< threads that follow pieces
-  std::vector<VaryingParameter> varying;                    ///< all other parameters are constant in time
-  std::vector<PreciseValue> precise;                        ///< each within its component of the box
-  FlowAside aside;                                          ///< for Tube::asides
+  double longestStep = std::numeric_limits<double>::infinity();  ///< s; between output times, outputs that depend on
+                                                                 ///< time itself are followed as far as a step
+  int jobs = 1;                                                  ///< threads that follow pieces
+  std::vector<VaryingParameter> varying;                         ///< all other parameters are constant in time
+  std::vector<PreciseValue> precise;                             ///< each within its component of the box
+  FlowAside aside;                                               ///< for Tube::asides
   std::vector<std::string> stateNames;   ///< for Tube::why() and shortfall(); without them "state 0", "state 1", ...
   std::vector<std::string> outputNames;  ///< likewise
   std::function<void(double)> progress;  ///< called with the fraction done (0 … 1), from any thread

@@ -113,9 +113,10 @@ StepOutcome FlowFollower::certify(const FlowPiece& piece) {
       continue;
     }
     const bool uncertain = symbols_ > 0;
-    const StepOutcome outcome =
-        tool_->stepper.certify(piece.set, task_.horizon, task_.quantum, uncertain ? task_.splitDefect : 0.0,
-                               uncertain ? task_.kinkShare : 0.0);
+    const double longest = std::max(std::floor(task_.options.longestStep / task_.quantum), 0x1p20) * task_.quantum;
+    const double end = std::min(task_.horizon, piece.set.t + longest);  // exact: both are multiples of the quantum
+    const StepOutcome outcome = tool_->stepper.certify(
+        piece.set, end, task_.quantum, uncertain ? task_.splitDefect : 0.0, uncertain ? task_.kinkShare : 0.0);
     if (!holds || (outcome != StepOutcome::released && outcome != StepOutcome::failed)) return outcome;
     held = outcome == StepOutcome::released ? tool_->stepper.stillHeld() : std::vector<char>{};
   }

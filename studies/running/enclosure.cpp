@@ -1,5 +1,6 @@
 // What is guaranteed and what is possible come from one flow over nested boxes, or, where nothing moves, from one
 // image.
+#include <algorithm>
 #include <new>
 #include <stdexcept>
 
@@ -17,13 +18,25 @@ void setRow(Bounds& bounds, std::size_t row, const std::vector<Interval>& values
   }
 }
 
+/// Where the motion is given there is nothing to step by, but loads change as fast as what drives them.
+double longestStepOf(const Study& study) {
+  constexpr double parts = 64;  // of the horizon, at least
+  double longest = 0;
+  for (std::size_t i = 1; i < study.motion.times.size(); ++i)
+    longest = std::max(longest, study.motion.times[i] - study.motion.times[i - 1]);
+  return std::min(longest, study.horizon / parts);
+}
+
 void encloseMotion(Run& run) {
   FlowOptions flow = run.study.flow;
   flow.jobs = run.options.jobs;
   flow.progress = run.progressOf("enclosure");
   flow.cancelled = run.watch.stop();
   flow.stateNames = run.study.mechanism.stateNames();
-  if (run.study.isMotionGiven()) flow.stateNames = {"rest"};
+  if (run.study.isMotionGiven()) {
+    flow.stateNames = {"rest"};
+    flow.longestStep = longestStepOf(run.study);
+  }
   for (const OutputInfo& output : run.study.outputs) flow.outputNames.push_back(output.name);
   flow.varying = run.problem.varying;
   if (run.seen.isEnclosed) flow.aside = {run.seen.positions, run.seen.at};

@@ -94,6 +94,26 @@ TEST(InverseDynamics, OfAPendulumIsItsEquation) {
   }
 }
 
+/// Between output times loads go from one to the other, in a rest-to-rest motion as in any.
+TEST(InverseDynamics, IsTightBetweenOutputTimes) {
+  std::string text = drivenPendulum(
+      "[[mechanism.element]]\ntype = \"drive\"\nname = \"servo\"\njoint = \"hinge\"\nposition = \"60 deg * (10*(t/(1 "
+      "s))^3 - 15*(t/(1 s))^4 + 6*(t/(1 s))^5)\"\n");
+  text.replace(text.find("output_step = 0.25"), 18, "output_step = 0.01");
+  const Results results = run(readStudyText(text, "s.toml"));
+  const IntervalResult& proved = results.interval;
+  ASSERT_EQ(proved.reached, 1.0);
+  double widest = 0;
+  for (std::size_t i = 1; i <= 100; ++i) widest = std::max(widest, proved.at.upper(i, 0) - proved.at.lower(i, 0));
+  for (std::size_t i = 1; i <= 100; ++i) {
+    const double lower = std::min(proved.at.lower(i, 0), proved.at.lower(i - 1, 0)),
+                 upper = std::max(proved.at.upper(i, 0), proved.at.upper(i - 1, 0));
+    EXPECT_LE(proved.over.lower(i, 0), lower);
+    EXPECT_GE(proved.over.upper(i, 0), upper);
+    EXPECT_LE(proved.over.upper(i, 0) - proved.over.lower(i, 0), upper - lower + 0.05 * widest) << i;
+  }
+}
+
 TEST(InverseDynamics, NeedsADriveForEveryJoint) {
   EXPECT_EQ(
       messageOf(drivenPendulum("")),
