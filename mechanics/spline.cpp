@@ -37,15 +37,17 @@ CubicSpline::CubicSpline(const TimeTable& table) {
   for (std::size_t i = 0; i + 1 < t.size(); ++i)
     if (t[i + 1] <= t[i]) throw std::invalid_argument("the times of a table must rise");
   const std::vector<double> m = secondDerivatives(t, y);
-  first_ = enclosed(y[0]);
+  const Interval unit = enclose(Amount{.value = 1, .piPower = table.piPower, .dimension = {}});
+  first_ = unit * enclosed(y[0]);
   mpq_class h = t[1] - t[0], rate = (y[1] - y[0]) / h - h * mpq_class(m[1]) / 6;
   for (std::size_t i = 0; i + 1 < t.size(); ++i) {
     h = t[i + 1] - t[i];
     const mpq_class second(m[i]), next(m[i + 1]), third = (next - second) / h;
-    pieces_.push_back({enclosed(t[i]), enclosed(t[i + 1]), enclosed(rate), enclosed(second), enclosed(third)});
+    pieces_.push_back(
+        {enclosed(t[i]), enclosed(t[i + 1]), unit * enclosed(rate), unit * enclosed(second), unit * enclosed(third)});
     rate += (second + next) * h / 2;
   }
-  lastRate_ = enclosed(rate);
+  lastRate_ = unit * enclosed(rate);
 }
 
 }  // namespace gamut

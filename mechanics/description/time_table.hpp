@@ -9,8 +9,10 @@
 namespace gamut {
 
 struct TimeTable {
-  std::string file, column;              ///< where it is from
-  std::vector<mpq_class> times, values;  ///< s, rising; SI units; two rows at least
+  std::string file, column;  ///< where it is from
+  std::vector<mpq_class> times,
+      values;  ///< s, rising; SI units, of which they are so many times π^piPower; two at least
+  int piPower = 0;
 };
 
 /// The most rows that a table has: each is a piece of the motion's equations.

@@ -175,6 +175,13 @@ class StudyReader {
 
   // ---- What the whole says ------------------------------------------------------------------------------------------
 
+  /// Where it is given, or that of which it is.
+  const toml::node& placeOf(std::string name) const {
+    while (!places_.contains(name) && name.find('.') != std::string::npos) name.resize(name.rfind('.'));
+    const auto found = places_.find(name);
+    return found == places_.end() ? *places_.begin()->second : *found->second;
+  }
+
   /// What varies in time has no one value that a motion could start with.
   void checkInitialValues() const {
     const std::vector<std::string> names = study_.mechanism.stateNames();
@@ -182,7 +189,7 @@ class StudyReader {
     for (std::size_t i = 0; i < names.size(); ++i)
       for (const UncertainQuantity& uncertain : study_.uncertain)
         if (uncertain.varies && study_.mechanism.dependsOn(initial[i], uncertain.quantity))
-          source_.fail(*places_.at(names[i]),
+          source_.fail(placeOf(names[i]),
                        fmt::format("the initial value '{}' follows from '{}', which varies in time", names[i],
                                    uncertain.quantity),
                        "an initial value that follows from what does not");

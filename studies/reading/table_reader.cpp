@@ -54,7 +54,7 @@ class TableReader {
     Amount time, scale;
     nameOf(cells_[0], "s", time);
     nameOf(cells_[wanted], unit, scale);
-    TimeTable table{path_, column, {}, {}};
+    TimeTable table{path_, column, {}, {}, scale.piPower};
     while (next()) {
       if (cells_.size() != width)
         fail(cells_.back(), fmt::format("the row has {} cells", cells_.size()),
@@ -66,7 +66,7 @@ class TableReader {
       if (table.times.size() == maxTableRows)
         fail(cells_[0], fmt::format("the table has more than {} rows", maxTableRows), "fewer rows");
       table.times.push_back(at);
-      table.values.push_back(withPi(number(cells_[wanted]), scale));
+      table.values.push_back(number(cells_[wanted]) * scale.value);
     }
     if (table.times.size() < 2) refuse("it has fewer than two rows of numbers");
     return table;
@@ -123,14 +123,6 @@ class TableReader {
     } catch (const UnitError&) {
     }
     fail(cell, fmt::format("'{}' is no number", printable(cell.text)), "a decimal such as -1.5 or 2e-3");
-  }
-
-  /// Degrees are no rational numbers of radians: their nearest double is meant.
-  static mpq_class withPi(const mpq_class& value, const Amount& scale) {
-    if (scale.piPower == 0) return value * scale.value;
-    Amount whole = scale;
-    whole.value *= value;
-    return mpq_class(nearest(whole));
   }
 
   std::string path_;

@@ -240,6 +240,22 @@ TEST(InverseDynamics, FollowsATable) {
   }
 }
 
+/// 30 degrees are π/6, which lies between these two doubles.
+TEST(InverseDynamics, EnclosesDegreesOfATable) {
+  const TemporaryFolder folder;
+  const std::string path = folder.path("s.toml");
+  std::string text = drivenPendulum(byTable);
+  text.replace(text.find("\"servo.force\""), 13, "\"hinge.angle\"");
+  std::ofstream(path) << text;
+  std::ofstream(folder.path("motion.csv")) << "time, hip [deg]\n0, 30\n1, 30\n";
+  const Results results = run(readStudy(path));
+  for (std::size_t i = 0; i < results.time.size(); ++i) {
+    EXPECT_LE(results.interval.at.lower(i, 0), 0x1.0c152382d7365p-1);
+    EXPECT_GE(results.interval.at.upper(i, 0), 0x1.0c152382d7366p-1);
+    EXPECT_LE(results.interval.at.upper(i, 0) - results.interval.at.lower(i, 0), 1e-14);
+  }
+}
+
 TEST(InverseDynamics, IsTightBetweenRowsOfATable) {
   const TemporaryFolder folder;
   const std::string path = folder.path("s.toml");

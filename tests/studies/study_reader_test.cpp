@@ -583,6 +583,12 @@ TEST_P(BadStudyFile, IsRefusedInOneLineWithItsPlace) {
 }
 
 constexpr BadStudy badStudies[] = {
+    {"[[uncertain]]",
+     "[[mechanism.element]]\ntype = \"spherical\"\nname = \"ball\"\nfrom = \"tip\"\nto = \"B\"\n"
+     "[[mechanism.element]]\ntype = \"mass\"\nname = \"body\"\nat = \"B\"\nmass = 1\ninertia = [1, 1, 1]\n"
+     "[[uncertain]]\nquantity = \"ball.orientation.roll\"\ninterval = [-0.1, 0.1]\nvaries = \"freely\"\n[[uncertain]]",
+     "s.toml:28:1: the initial value 'ball.quaternion.w' follows from 'ball.orientation.roll', which varies in time; "
+     "expected an initial value that follows from what does not"},
     {"parameters = { length = 0.5 }", "parameters = { length = 0.5 }\nrotation = \"30 deg\"",
      "s.toml:23:12: mechanism.element.rotation is no rotation; expected [{ axis, angle }, …], { axis, angle }, { roll, "
      "pitch, yaw } or { quaternion = [w, x, y, z] }"},

@@ -198,6 +198,12 @@ TEST(FlowTightness, MustBeAboveOne) {
   EXPECT_THROW(Flow(c.f, c.options), std::invalid_argument);
 }
 
+TEST(FlowOptions, StepsMustBeLongerThanNothing) {
+  Containment c = springPendulum(0, 0.01, 0);
+  c.options.longestStep = 0;
+  EXPECT_THROW(Flow(c.f, c.options), std::invalid_argument);
+}
+
 /// Relaxation oscillations: where the fast motion begins, ranges of polynomials are what is hard to bound.
 TEST(FlowTightness, ReachesWhatIsAskedForWherePolynomialsBend) {
   const Program f = record(2, 2, [](auto, const auto& x, const auto& p, auto& dx) {
