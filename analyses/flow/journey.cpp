@@ -114,7 +114,9 @@ StepOutcome FlowFollower::certify(const FlowPiece& piece) {
     }
     const bool uncertain = symbols_ > 0;
     const double longest = std::max(std::floor(task_.options.longestStep / task_.quantum), 0x1p20) * task_.quantum;
-    const double end = std::min(task_.horizon, piece.set.t + longest);  // exact: both are multiples of the quantum
+    const auto next = std::ranges::upper_bound(task_.ends, piece.set.t);
+    const double within = next == task_.ends.end() ? task_.horizon : *next;
+    const double end = std::min(within, piece.set.t + longest);  // exact: both are multiples of the quantum
     const StepOutcome outcome = tool_->stepper.certify(
         piece.set, end, task_.quantum, uncertain ? task_.splitDefect : 0.0, uncertain ? task_.kinkShare : 0.0);
     if (!holds || (outcome != StepOutcome::released && outcome != StepOutcome::failed)) return outcome;
@@ -151,6 +153,7 @@ std::unique_ptr<FlowFollower::Tools> FlowFollower::toolsFor(const FlowPiece& pie
             PolynomialRange(layout.monomials), nullptr, nullptr, nullptr, nullptr});
   if (layout.monomials->symbols() == 0 && task_.fineOrders > 0) tools->stepper.setFineOrders(task_.fineOrders);
   tools->stepper.setStateNames(options.stateNames);
+  tools->stepper.setTimeKinks(held.empty() ? task_.timeKinks : TimeKinks(motion, task_.horizon, task_.quantum));
   if (task_.jumps.count() > 0)
     tools->stepper.setJumps(tools->jumps ? *tools->jumps : task_.jumps, task_.jumps, held, left, factor);
   if (task_.outputs.outputs() > 0) {
@@ -158,7 +161,8 @@ std::unique_ptr<FlowFollower::Tools> FlowFollower::toolsFor(const FlowPiece& pie
     tools->outputs =
         std::make_unique<FlowOutputs>(task_.outputs, own, layout.monomials, task_.varying, options.cancelled);
     tools->outputRange = std::make_unique<PolynomialRange>(own);
-    tools->chords = std::make_unique<FlowOutputChords>(task_.outputs, layout.monomials, task_.order, options.cancelled);
+    tools->chords = std::make_unique<FlowOutputChords>(task_.outputs, layout.monomials, task_.order, task_.horizon,
+                                                       task_.quantum, options.cancelled);
   }
   return tools;
 }

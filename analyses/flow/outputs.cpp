@@ -154,7 +154,7 @@ Interval FlowOutputs::overBox(int output, const Interval& t, const std::vector<I
 }
 
 FlowOutputChords::FlowOutputChords(const Program& g, std::shared_ptr<const Monomials> monomials, int order,
-                                   const std::atomic<bool>* cancelled)
+                                   double length, double resolution, const std::atomic<bool>* cancelled)
     : g_(g),
       differentiated_(g.differentiated()),
       n_(g.states()),
@@ -163,6 +163,9 @@ FlowOutputChords::FlowOutputChords(const Program& g, std::shared_ptr<const Monom
       layout_(std::move(monomials)),
       cancelled_(cancelled),
       series_(differentiated_, outputs_, layout_, 0, order_, false, cancelled),
+      length_(length),
+      resolution_(resolution),
+      timeKinks_(differentiated_, length, resolution),
       second_(at(outputs_)),
       third_(at(outputs_)),
       turn_(at(outputs_)),
@@ -199,7 +202,8 @@ void FlowOutputChords::load(const FlowStepper& stepper, const FlowSet& set) {
   isApart_ = !loadTogether(stepper, set) && outputs_ > 1;
   if (!isApart_) return;
   if (apart_.empty())
-    for (int o = 0; o < outputs_; ++o) apart_.emplace_back(alone(g_, o), layout_, order_ - 1, cancelled_);
+    for (int o = 0; o < outputs_; ++o)
+      apart_.emplace_back(alone(g_, o), layout_, order_ - 1, length_, resolution_, cancelled_);
   for (FlowOutputChords& own : apart_) own.load(stepper, set);
 }
 
@@ -212,6 +216,8 @@ bool FlowOutputChords::loadTogether(const FlowStepper& stepper, const FlowSet& s
   series_.setOrder(orderFor(stepper, dropped));
   for (int i = 0; i < n_; ++i) series_.setStateSeries(i, states.series(i), states.stride());
   for (std::size_t i = 0; i < set.parameters.size(); ++i) series_.setParameter(static_cast<int>(i), set.parameters[i]);
+  series_.forgetCrossings();
+  timeKinks_.giveSides(set.parameters, set.t, set.t + stepper.h(), series_);
   series_.compute(set.t, scale_);
   std::vector<double> own(at(outputs_)), tube(at(n_));
   for (int i = 0; i < n_; ++i) tube[at(i)] = (stepper.tubeBound(i) + dropped[at(i)]) * bounds::up;

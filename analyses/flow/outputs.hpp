@@ -55,9 +55,9 @@ class FlowOutputs {
 /// How far outputs leave the chord between two times of a step. Holds the workspace: one a thread.
 class FlowOutputChords {
  public:
-  /// `g`, the monomials and `cancelled` as above; `order` that of the steps.
-  FlowOutputChords(const Program& g, std::shared_ptr<const Monomials> monomials, int order,
-                   const std::atomic<bool>* cancelled = nullptr);
+  /// `g`, the monomials and `cancelled` as above; `order` that of the steps; `length` and `resolution` of time, s.
+  FlowOutputChords(const Program& g, std::shared_ptr<const Monomials> monomials, int order, double length,
+                   double resolution, const std::atomic<bool>* cancelled = nullptr);
 
   /// Composes g with the step that `stepper` certified last from `set`.
   void load(const FlowStepper& stepper, const FlowSet& set);
@@ -74,6 +74,8 @@ class FlowOutputChords {
   std::shared_ptr<const Monomials> layout_;
   const std::atomic<bool>* cancelled_;
   PolynomialSeries series_;
+  double length_, resolution_;
+  TimeKinks timeKinks_;
   double scale_ = 1;
   std::vector<double> second_, third_, turn_, rest_;  // of g̃: derivatives by σ; of what is not g̃: z'', 2 |ε|
   std::vector<FlowOutputChords> apart_;               // as above

@@ -104,8 +104,9 @@ class PolynomialSeries {
   /// What all solutions pass in the step: the next computations take |u| as `side` times u, 1 or -1, until
   /// forgetCrossings. False if they did already.
   bool passKink(int kink, double side) { return noteSide(passed_, kink, side); }
-  /// On which side u is for all solutions in the step, until forgetCrossings. False if that is known.
-  bool giveSide(int kink, double side) { return noteSide(side_, kink, side); }
+  /// On which side u is for all solutions in the step, until forgetCrossings; of |u| and of sign u. False if that is
+  /// known.
+  bool giveSide(int kink, double side);
   /// What they take for the sign, or for the slope of |u|.
   double slopeOf(int node) const {
     return plan_[at(node)].op == Op::abs ? chords_[at(node)].slope : f_[plan_[at(node)].f];

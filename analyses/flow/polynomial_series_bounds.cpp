@@ -185,7 +185,7 @@ void PolynomialSeries::boundSign(int node) {
     rho1_[at(node)] = 0;
     return;
   }
-  const bool isOnOneSide = !v.primary && side_[at(v.a)] != 0;
+  const bool isOnOneSide = side_[at(v.a)] != 0;
   double radius = !isOnOneSide && (mayCross(v.a) || std::fabs(value) != 1) ? 1 + std::fabs(value) : 0.0;
   if (v.primary) {
     if (radius > jump_[at(node)]) hasJumped_ = true;
@@ -209,6 +209,11 @@ void PolynomialSeries::forgetCrossings() {
   std::ranges::fill(isCalm_, 0);
   std::ranges::fill(side_, 0.0);
   std::ranges::fill(passed_, 0.0);
+}
+
+bool PolynomialSeries::giveSide(int kink, double side) {
+  reached_[at(plan_[at(kink)].a)] = 0;
+  return noteSide(side_, kink, side);
 }
 
 bool PolynomialSeries::noteSide(std::vector<double>& sides, int kink, double side) {

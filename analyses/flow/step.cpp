@@ -79,6 +79,8 @@ double FlowStepper::suggestion(double theta) const {
     };
     double size = 0;  // over the step; one that starts from rest moves by a later order
     for (int order = 3; order >= 0; --order) size = size * std::min(theta, 1.0) + norm(order);
+    for (int order = 4; size == 0 && order <= m_ / 2; ++order)
+      size = norm(order) * std::pow(std::min(theta, 1.0), order);
     size = std::max(size, floor_[at(i)]);
     for (int order : {m_ - 1, m_}) {
       const double last = norm(order);
@@ -345,6 +347,7 @@ bool FlowStepper::drift(FlowSet& set, double end) {
   caution_ = set.caution;
   growth_.setUnits(set.units);
   series_.forgetCrossings();
+  timeKinks_.giveSides(set.parameters, set.t, end, series_);
   const double left = end - set.t, h = std::min({expand(set, left, 1e-9 * left), h0_, left});
   if (!(h > 0)) return false;
   const int N = series_.count();
@@ -371,7 +374,11 @@ StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum,
   const double left = end - set.t;
   caution_ = set.caution;
   growth_.setUnits(set.units);
-  series_.forgetCrossings();
+  const auto forgetCrossings = [&] {
+    series_.forgetCrossings();
+    timeKinks_.giveSides(set.parameters, set.t, end, series_);
+  };
+  forgetCrossings();
   const auto onGrid = [&](double h) { return std::floor(h / quantum) * quantum; };
   const double smallest = 1024 * quantum;  // below this, time itself is too coarse
   double h = expand(set, left, smallest);
@@ -380,6 +387,7 @@ StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum,
     why_ = reason(set);
     return StepOutcome::failed;
   }
+  isShortened_ = left < std::min(h, h0_);  // the next goes on as if nothing had been
   h = std::min({h, h0_, left});
   bool isAdapted = false;
   const auto compute = [&] {
@@ -391,7 +399,7 @@ StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum,
     if (!(h >= smallest || h == left) || h <= 0) break;
     if (givenAt_ > 0 && h > givenAt_) {  // signs that were given are those of a shorter step
       givenAt_ = signsAt_ = 0;
-      series_.forgetCrossings();
+      forgetCrossings();
       isAdapted = false;
       compute();
     }

@@ -16,6 +16,7 @@
 #include "analyses/flow/polynomial_range.hpp"
 #include "analyses/flow/polynomial_series.hpp"
 #include "analyses/flow/set.hpp"
+#include "analyses/flow/time_kinks.hpp"
 #include "scalars/interval.hpp"
 
 namespace gamut {
@@ -95,6 +96,8 @@ class FlowStepper {
   const std::vector<char>& stillHeld() const { return stillHeld_; }
   /// Of each jump, whether its argument is zero for all solutions in the set; empty if none is.
   static std::vector<char> resting(const FlowSet& set, const FlowJumps& jumps);
+  /// Of the stepper's motion.
+  void setTimeKinks(TimeKinks kinks) { timeKinks_ = std::move(kinks); }
   void setStateNames(const std::vector<std::string>& names) { names_ = names; }
   std::string nameOf(int state) const;
   /// After a failure: the remainder, not ξ, makes the set too wide; bisecting ξ cannot help.
@@ -209,7 +212,8 @@ class FlowStepper {
   std::vector<double> factor_;                     // its argument is that one's, times this
   std::vector<JumpBound> ownBounds_, heldBounds_;  // over the step; none: nothing is known
   std::unique_ptr<FlowKinks> kinks_;               // null: there are none
-  std::vector<Interval> kinkRates_;                // over the step
+  TimeKinks timeKinks_;
+  std::vector<Interval> kinkRates_;  // over the step
   std::vector<Crossing> crossings_;
   std::vector<double> crossed_;  // like e1_, if what these do is known
   bool isSliding_ = false, isShortened_ = false;

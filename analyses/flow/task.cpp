@@ -71,6 +71,15 @@ FlowTask::FlowTask(const FlowQuestion& question, const Box& startBox, const std:
   int exponent = 0;
   std::frexp(horizon, &exponent);
   quantum = std::ldexp(1.0, exponent - 53);  // one unit in the last place of the horizon: sums of steps are exact
+  timeKinks = TimeKinks(differentiated, horizon, quantum);
+  const std::vector<Embedded> parameters{embedding.components.begin() + motion.states(), embedding.components.end()};
+  for (const TimeKinks& kinks : {timeKinks, TimeKinks(outputs, horizon, quantum)})
+    for (const Interval& moment : kinks.moments(parameters))
+      for (const double end : {std::floor(moment.lower() / quantum), std::ceil(moment.upper() / quantum)})
+        if (end > 0 && end * quantum < horizon) ends.push_back(end * quantum);
+  std::ranges::sort(ends);
+  const auto repeated = std::ranges::unique(ends);
+  ends.erase(repeated.begin(), repeated.end());
   std::vector<int> weights(at(embedding.symbols), 1);
   if (!round.emphasis.weights.empty()) std::ranges::remove_copy(round.emphasis.weights, weights.begin(), 0);
   active = static_cast<int>(std::ranges::count(weights, 1));

@@ -11,6 +11,7 @@
 #include "analyses/flow/flow.hpp"
 #include "analyses/flow/jumps.hpp"
 #include "analyses/flow/monomials.hpp"
+#include "analyses/flow/time_kinks.hpp"
 
 namespace gamut {
 
@@ -85,6 +86,8 @@ struct FlowTask {
   std::size_t richer = 0;           // FlowRound
   std::vector<double> times;        // 0, those asked for, the horizon
   std::vector<char> looksAside;     // at each of them
+  TimeKinks timeKinks;              // of `differentiated`
+  std::vector<double> ends;         // of steps besides: next to kinks in time, of outputs too; rising
 };
 
 }  // namespace gamut

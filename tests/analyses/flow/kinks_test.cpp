@@ -1,5 +1,6 @@
 // Right-hand sides with kinks and jumps: trajectories whose events are located in 128 bits must lie inside, exactly.
 #include <cmath>
+#include <tuple>
 
 #include "tests/analyses/event_reference.hpp"
 #include "tests/analyses/flow/containment.hpp"
@@ -127,6 +128,63 @@ TEST_P(FlowKinks, HoldTrajectoriesAcrossEvents) {
 
 INSTANTIATE_TEST_SUITE_P(Flow, FlowKinks, ::testing::ValuesIn(machines()),
                          [](const auto& machine) { return machine.param.name; });
+
+/// Loads of time on a mass at rest, whose kinks and jumps are between doubles (⅓ s, ⅔ s) or depend on what is
+/// uncertain.
+TEST(FlowKink, OfTimeEndSteps) {
+  const auto rising = [](const Recorded& t, const Recorded&) { return max(3.0 * t - 1.0, Recorded(0.0)); };
+  const auto ramp = [](const Recorded& t, const Recorded&) {
+    return min(max(3.0 * t - 1.0, Recorded(0.0)), Recorded(1.0));
+  };
+  const auto soft = [](const Recorded& t, const Recorded&) { return sqr(max(t - 0.25, Recorded(0.0))); };
+  const auto step = [](const Recorded& t, const Recorded&) { return 1.0 + sign(3.0 * t - 1.0); };
+  const auto pulses = [](const Recorded& t, const Recorded&) { return 1.0 + sign(sin(20.0 * t) - 0.5); };
+  const auto late = [](const Recorded& t, const Recorded& p) { return max(t - 0.25 * p, Recorded(0.0)); };
+  const std::tuple<Recorded (*)(const Recorded&, const Recorded&), long, double> loads[] = {
+      {rising, 20, 1.02}, {ramp, 20, 1.02}, {soft, 20, 1.02}, {step, 20, 1.02}, {pulses, 60, 1.02}, {late, 100000, 10}};
+  for (const auto& [load, steps, tightness] : loads)
+    for (const double width : {0.0, 1e-6, 0.02}) {
+      SCOPED_TRACE(width);
+      Containment c;
+      c.f = record(2, 2, [&](auto t, const auto& x, const auto& p, auto& dx) {
+        dx[0] = x[1];
+        dx[1] = 10.0 * load(t, p[1]) - 40.0 * p[0] * x[0] - 2.0 * x[1];
+      });
+      const Interval around = Interval(1.0) + Interval(width) * Interval(-1, 1);
+      c.box = {0.0, 0.0, around, around};
+      c.horizon = 1;
+      c.times = {0.25, 0.5};
+      const Tube tube = expectEvents(c, width == 0 ? 1 : 6);
+      EXPECT_LT(tube.steps(), steps);
+      EXPECT_LT(tube.tightness(), tightness);
+      if (width == 0) {
+        EXPECT_LT(gamut::width(tube.at(1)[0]), 1e-12);
+      }
+    }
+}
+
+/// Between output times too, what outputs make of time.
+TEST(FlowKink, OfTimeInOutputs) {
+  Containment c;
+  c.f = record(1, 1, [](auto, const auto& x, const auto&, auto& dx) { dx[0] = -x[0]; });
+  c.g = record(1, 1, 2, [](auto t, const auto& x, const auto& p, auto& y) {
+    y[0] = p[0] * abs(3.0 * t - 1.0) * x[0];
+    y[1] = p[0] * (2.0 + sign(3.0 * t - 2.0));
+  });
+  c.box = {Interval(0.99, 1.01), Interval(0.99, 1.01)};
+  c.horizon = 1;
+  for (int i = 1; i < 16; ++i) c.times.push_back(i / 16.0);
+  const Tube tube = expectEvents(c, 6, false);
+  for (std::size_t row = 1; row < tube.times().size(); ++row) {
+    const double from = tube.times()[row - 1], to = tube.times()[row];
+    const auto size = [](double t) { return std::fabs(3 * t - 1) * std::exp(-t); };
+    // |3t - 1|e^{-t} rises to t = 4/3 but for the kink.
+    EXPECT_LE(tube.outputsOver(row)[0].upper(), 1.0221 * std::max(size(from), size(to)) + 3e-3) << row;
+    if (to < 0.66 || from > 0.67) {
+      EXPECT_LT(width(tube.outputsOver(row)[1]), 0.0601 + 0.04 * (from > 0.67)) << row;
+    }
+  }
+}
 
 /// On one side all the time: as exact as without.
 TEST(FlowKink, OnOneSidePassExactly) {
