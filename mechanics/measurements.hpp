@@ -9,12 +9,13 @@
 namespace gamut {
 
 /// Roll, pitch and yaw [rad] of a rotation R = Rz(yaw) Ry(pitch) Rx(roll): turned about the fixed axes x, y and z, in
-/// this order. Singular where pitch is ±π/2; roll and yaw jump at ±π.
+/// this order. Singular where pitch is ±π/2; roll and yaw jump at ±π, and are π where they are either (so zeros lose
+/// their signs).
 template <class S>
 Vector3<S> rollPitchYaw(const Matrix3<S>& r) {
   using std::atan2, std::sqrt;
-  return {S(atan2(r(2, 1), r(2, 2))), S(atan2(S(-r(2, 0)), S(sqrt(square(r(0, 0)) + square(r(1, 0)))))),
-          S(atan2(r(1, 0), r(0, 0)))};
+  return {S(atan2(S(r(2, 1) + S(0.0)), r(2, 2))), S(atan2(S(-r(2, 0)), S(sqrt(square(r(0, 0)) + square(r(1, 0)))))),
+          S(atan2(S(r(1, 0) + S(0.0)), r(0, 0)))};
 }
 
 /// θ u [rad] of a rotation by the angle θ, from 0 to π, about the unit vector u. Singular at θ = 0 and at θ = π: with

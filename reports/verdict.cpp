@@ -91,7 +91,7 @@ class Wording {
   /// Grave findings first. Of each kind the worst are named; of settled ones the one that came nearest to its bound.
   void noteDisputes() {
     std::vector<const DisputedSample*> outside, doubtful, undecided, settled;
-    std::set<std::int64_t> open, inside;
+    std::set<std::int64_t> open, inside, rounding;
     for (const DisputedSample& sample : results_.comparison.disputed) {
       if (sample.outside) {
         outside.push_back(&sample);
@@ -99,6 +99,8 @@ class Wording {
         doubtful.push_back(&sample);
       } else if (isInterrupted(sample)) {
         if (open.insert(sample.number).second) undecided.push_back(&sample);
+      } else if (isRounding(sample)) {
+        rounding.insert(sample.number);
       } else {
         inside.insert(sample.number);
         settled.push_back(&sample);
@@ -109,13 +111,20 @@ class Wording {
                          sample.decided);
     });
     noteSome(worstFirst(doubtful), "could not be decided", [&](const DisputedSample& sample) {
-      return fmt::format("could not be decided: it lies outside by {}, its own error is {}.",
-                         withUnit(sample.distance, sample.output), withUnit(sample.error, sample.output));
+      const std::string distance = withUnit(sample.distance, sample.output);
+      return std::isinf(sample.error)
+                 ? fmt::format("could not be decided: it lies outside by {}, and no other integration came so far.",
+                               distance)
+                 : fmt::format("could not be decided: it lies outside by {}, its own error is {}.", distance,
+                               withUnit(sample.error, sample.output));
     });
     noteSome(undecided, "seemed outside and were not decided", [&](const DisputedSample& /*sample*/) {
       return fmt::format("seemed outside and was not decided: {}.", whyUndecided());
     });
     if (!settled.empty()) noteSettled(**std::ranges::min_element(settled, {}, relativeMargin), inside.size());
+    if (!rounding.empty())
+      note(fmt::format("{} more lie outside by no more than the rounding of their numbers, as these did.",
+                       rounding.size()));
   }
 
   /// Where samples coincide there is no ratio: what is guaranteed there may be wide all the same.

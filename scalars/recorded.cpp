@@ -24,8 +24,17 @@ Recorded asin(const Recorded& x) { return 2.0 * atan(x / (1.0 + sqrt(1.0 - sqr(x
 // π/2 - asin x, with π/4 = atan 1.
 Recorded acos(const Recorded& x) { return 2.0 * (atan(Recorded(1.0)) - atan(x / (1.0 + sqrt(1.0 - sqr(x))))); }
 
-// With x = r cos φ, y = r sin φ: sin φ/(1 + cos φ) = tan(φ/2).
-Recorded atan2(const Recorded& y, const Recorded& x) { return 2.0 * atan(y / (x + hypot(x, y))); }
+// With x = r cos φ, y = r sin φ: sin φ/(1 + cos φ) = tan(φ/2). Where y is exactly 0 the quotient by r + x is that even
+// where this is 0 for the angle π: so it is y √(1/(r + x))², which has no value there.
+Recorded atan2(const Recorded& y, const Recorded& x) {
+  Recorder& current = Recorded::recorder();
+  const int nodeOfY = y.node(), nodeOfX = x.node();
+  if (current.isConstant(nodeOfY) && current.isConstant(nodeOfX))
+    if (const Interval angle = atan2(current.value(nodeOfY), current.value(nodeOfX)); !isEmpty(angle))
+      return Recorded(angle);
+  if (current.isExactly(nodeOfY, 0.0)) return 2.0 * atan(Recorded(1.0)) * (1.0 - sign(x));
+  return 2.0 * atan(y * sqr(1.0 / sqrt(x + hypot(x, y))));
+}
 
 Recorded sinh(const Recorded& x) { return 0.5 * (exp(x) - exp(-x)); }
 Recorded cosh(const Recorded& x) { return 0.5 * (exp(x) + exp(-x)); }

@@ -24,6 +24,9 @@ Samples combined(Samples x, const Samples& y) {
   return std::move(x.combine(y, [](double a, double b) { return function(a, b); }));
 }
 
+/// As of intervals, in (-π, π]: no zero has a sign.
+double angleOf(double y, double x) { return std::atan2(y + 0.0, x); }
+
 }  // namespace
 
 Samples::Samples(std::vector<double> values) {
@@ -94,7 +97,7 @@ Samples round(Samples x) { return mapped<std::round>(std::move(x)); }
 Samples sign(Samples x) {
   return std::move(x.transform([](double v) { return v > 0 ? 1.0 : v < 0 ? -1.0 : v; }));
 }
-Samples atan2(Samples y, const Samples& x) { return combined<std::atan2>(std::move(y), x); }
+Samples atan2(Samples y, const Samples& x) { return combined<angleOf>(std::move(y), x); }
 Samples hypot(Samples x, const Samples& y) { return combined<std::hypot>(std::move(x), y); }
 Samples min(Samples x, const Samples& y) {
   return std::move(x.combine(y, [](double a, double b) { return std::min(a, b); }));

@@ -204,7 +204,25 @@ class Comparer {
       forEachIndex(options_.jobs, batch.size(), options_.cancelled,
                    [&] { return [&](std::size_t i) { arbitrateOne(*batch[i]); }; });
       if (std::ranges::any_of(batch, [&](const Case* c) { return refutes(*c); })) break;
+      if (std::ranges::all_of(batch, [](const Case* c) { return c->settled; })) leaveRounding(open, first + batchSize);
     }
+  }
+
+  /// Where bounds are as narrow as rounding, trajectories of doubles lie outside by the hundred. Those that do so by no
+  /// more are told from a wrong enclosure by the worst of them, which 128 bits have just found inside.
+  void leaveRounding(std::vector<Case*>& open, std::size_t from) {
+    for (std::size_t i = from; i < open.size(); ++i) {
+      Dispute& d = open[i]->dispute;
+      const std::vector<double> size = magnitudes(std::as_const(ensemble_).trajectory(d.number));
+      bool isRounding = !open[i]->error.empty();
+      for (std::size_t k = 0; k < size.size(); ++k) isRounding = isRounding && d.farthest[k] <= leastError(size[k]);
+      if (!isRounding) continue;
+      open[i]->settled = true;
+      d.decided = "rounding";
+    }
+    const auto left = std::remove_if(open.begin() + static_cast<std::ptrdiff_t>(std::min(from, open.size())),
+                                     open.end(), [](const Case* c) { return c->settled; });
+    open.erase(left, open.end());
   }
 
   void arbitrateOne(Case& c) {
@@ -235,6 +253,7 @@ class Comparer {
       } else {
         d.outside = refutes(c);
         if (!c.settled && !d.outside) d.decided = "unresolved";
+        if (c.error.empty()) d.error = std::numeric_limits<double>::infinity();
         result.excursion = std::max(result.excursion, d.excursion);
       }
       result.disputes.push_back(d);

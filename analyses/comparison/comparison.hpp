@@ -60,9 +60,10 @@ struct Dispute {
   double value = 0, lower = 0, upper = 0;
   double distance = 0;   ///< outside, after the last integration
   double error = 0;      ///< this sample's measured error there: the greatest change so far by the last
-                         ///< integration, at least 4 ulp of the output's magnitude
+                         ///< integration, at least 4 ulp of the output's magnitude; infinite if none came so far
   double excursion = 0;  ///< distance / error
-  std::string decided;   ///< by what: "Taylor 53 bits", "Taylor 128 bits"; "unresolved", or "interrupted" before that
+  std::string decided;   ///< by what: "Taylor 53 bits", "Taylor 128 bits"; "rounding": outside by no more than that
+                         ///< floor, after worse ones were found inside; "unresolved", or "interrupted" before that
   bool outside = false;  ///< it refutes the enclosure
   std::vector<double> farthest;  ///< one an output: how far it lies outside at most, after the last integration
 };

@@ -24,7 +24,8 @@ class FlowOutputs {
   void evaluate(double t, const FlowPoint& point, const std::vector<double>& R,
                 const std::vector<Embedded>& parameters);
   int count() const { return outputs_; }
-  bool hasKinks() const { return series_.hasKinks(); }
+  /// Whether plain intervals know what polynomials do not.
+  bool hasKinks() const { return series_.hasKinks() || plain_.hasAngles(); }
   const Monomials& monomials() const { return *layout_; }
   const double* polynomial(int output) const { return &polynomial_[static_cast<std::size_t>(output * monomials_)]; }
   double radius(int output) const { return radius_[static_cast<std::size_t>(output)]; }

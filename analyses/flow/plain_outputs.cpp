@@ -26,24 +26,76 @@ std::vector<int> arguments(const Program& g, int output) {
   return found;
 }
 
+/// The value, then what it takes roots and logarithms of.
+Program withArguments(const Program& g, int output) {
+  std::vector<int> nodes = arguments(g, output);
+  nodes.insert(nodes.begin(), output);
+  return Recorder(g).finish(nodes);
+}
+
+/// atan(y √(1/d)²), as Recorded writes half of atan2(y, x).
+bool isHalfAngle(const Program& g, const Node& node) {
+  if (node.op != Op::atan) return false;
+  const auto isReciprocal = [&](int i) {
+    const Node& square = g.nodes()[at(i)];
+    if (square.op != Op::sqr) return false;
+    const Node& inverse = g.nodes()[at(square.a)];
+    return inverse.op == Op::recip && g.nodes()[at(inverse.a)].op == Op::sqrt;
+  };
+  const Node& quotient = g.nodes()[at(node.a)];
+  return quotient.op == Op::mul && (isReciprocal(quotient.a) || isReciprocal(quotient.b));
+}
+
+std::vector<int> halfAnglesOf(const Program& g) {
+  std::vector<int> found;
+  for (std::size_t i = 0; i < g.nodes().size(); ++i)
+    if (isHalfAngle(g, g.nodes()[i])) found.push_back(static_cast<int>(i));
+  return found;
+}
+
+/// Output 0 with these nodes as further parameters.
+Program withNodesGiven(const Program& g, const std::vector<int>& nodes) {
+  Recorder recorder(g.states(), g.parameters() + static_cast<int>(nodes.size()));
+  std::vector<int> instead(g.nodes().size(), -1);
+  for (std::size_t j = 0; j < nodes.size(); ++j)
+    instead[at(nodes[j])] = recorder.parameter(g.parameters() + static_cast<int>(j));
+  return recorder.finish({recorder.append(g, {}, instead)[at(g.outputNodes()[0])]});
+}
+
+/// The value among `found`; empty if one of the others, which roots and logarithms are taken of, may be negative.
+Interval valueOf(const std::vector<Interval>& found) {
+  for (std::size_t i = 1; i < found.size(); ++i)
+    if (!(found[i].lower() >= 0)) return Interval::empty();
+  return found[0];
+}
+
 }  // namespace
 
 PlainOutputs::PlainOutputs(const Program& g) : states_(g.states()) {
   for (const int output : g.outputNodes()) {
-    std::vector<int> nodes = arguments(g, output);
-    nodes.insert(nodes.begin(), output);
-    outputs_.emplace_back(Recorder(g).finish(nodes));
+    const Program own = Recorder(g).finish({output});
+    Output& of = outputs_.emplace_back(withArguments(own, own.outputNodes()[0]));
+    const std::vector<int> angles = halfAnglesOf(own);
+    if (angles.empty()) continue;
+    const Program given = withNodesGiven(own, angles);
+    of.atWorst.emplace_back(withArguments(given, given.outputNodes()[0]));
+    of.angles = angles.size();
+    hasAngles_ = true;
   }
 }
 
 Interval PlainOutputs::over(int output, const Interval& t, const std::vector<Interval>& states,
                             const std::vector<Interval>& parameters) {
-  Evaluator<Interval>& evaluate = outputs_[at(output)];
-  evaluate.setParameters(parameters);
-  const std::vector<Interval> found = evaluate(t, states);
-  for (std::size_t i = 1; i < found.size(); ++i)
-    if (!(found[i].lower() >= 0)) return Interval::entire();
-  return isEmpty(found[0]) ? Interval::entire() : found[0];
+  Output& of = outputs_[at(output)];
+  of.value.setParameters(parameters);
+  Interval value = valueOf(of.value(t, states));
+  if (isEmpty(value) && of.angles > 0) {
+    std::vector<Interval> all = parameters;
+    all.resize(all.size() + of.angles, hull(-halfPi(), halfPi()));
+    of.atWorst[0].setParameters(all);
+    value = valueOf(of.atWorst[0](t, states));
+  }
+  return isEmpty(value) ? Interval::entire() : value;
 }
 
 std::vector<Interval> PlainOutputs::over(double t, const Box& box) {

@@ -16,15 +16,26 @@ class PlainOutputs {
   explicit PlainOutputs(const Program& g);
 
   /// Output number `output` wherever time, states and parameters are in these intervals; the whole line if somewhere
-  /// there it may have no value, as the root or logarithm of a negative number has none.
+  /// there it may have no value, as the root or logarithm of a negative number has none. An angle of two coordinates
+  /// (atan2) that may be ±π is anything from -π to π.
   Interval over(int output, const Interval& t, const std::vector<Interval>& states,
                 const std::vector<Interval>& parameters);
   /// All of them at one time over a box (states, then parameters).
   std::vector<Interval> over(double t, const Box& box);
+  /// Whether there are such angles: near ±π polynomials say nothing of them.
+  bool hasAngles() const { return hasAngles_; }
 
  private:
+  struct Output {
+    explicit Output(const Program& whole) : value(whole) {}
+    Evaluator<Interval> value;                 // and all that it takes a root or logarithm of
+    std::vector<Evaluator<Interval>> atWorst;  // likewise, with halves of angles as further parameters; or none
+    std::size_t angles = 0;
+  };
+
   int states_;
-  std::vector<Evaluator<Interval>> outputs_;  // each with its value, then all that it takes a root or logarithm of
+  bool hasAngles_ = false;
+  std::vector<Output> outputs_;
 };
 
 }  // namespace gamut

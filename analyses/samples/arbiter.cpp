@@ -131,7 +131,7 @@ class TaylorRun {
     if (!finite) return stop(t, "the derivatives are not finite");
     // Single orders may vanish (a series in t², say): the step heeds the whole upper half.
     if (!(size > 0)) size = rate * horizon;
-    if (!(size > 0) && sides_.count() > 0) size = sizeToCome(horizon / leastSteps);
+    if (!(size > 0)) size = sizeToCome(horizon / leastSteps);
     double reach = std::numeric_limits<double>::infinity();
     for (int i = options_.order / 2; i <= options_.order; ++i)
       for (int s = 0; s < motion_.f.states(); ++s)
@@ -156,7 +156,7 @@ class TaylorRun {
     return h;
   }
 
-  /// Of what begins at zero and at rest, as a mass that a force is about to break loose: the greatest term after `h`.
+  /// Of what begins at zero and at rest, as a mass that a force is about to move: the greatest term after `h`.
   Real sizeToCome(double h) {
     using std::abs;
     Real size(0.0);

@@ -209,7 +209,7 @@ S Expression::evaluate(const ValueOf& valueOf) const {
         x = signOf(y);
         break;
       case Operation::atan2:
-        x = atan2(S(x), y);
+        x = atan2(S(x + S(0.0)), y);  // no zero has a sign
         break;
       case Operation::hypot:
         x = hypot(S(x), y);

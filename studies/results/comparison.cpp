@@ -44,7 +44,8 @@ std::vector<Field> fieldsOfDispute(DisputedSample& d) {
           {"decided",
            &d.decided,
            unit::none,
-           "what decided; \"unresolved\", or \"interrupted\" before the last instance",
+           "what decided; \"rounding\": no farther outside than that, as worse ones that were found inside; "
+           "\"unresolved\", or \"interrupted\" before the last instance",
            {}},
           {"level",
            &d.level,
@@ -63,6 +64,7 @@ std::vector<Field> fieldsOfDispute(DisputedSample& d) {
 }  // namespace
 
 bool isUnresolved(const DisputedSample& sample) { return !sample.outside && sample.decided == "unresolved"; }
+bool isRounding(const DisputedSample& sample) { return !sample.outside && sample.decided == "rounding"; }
 bool isInterrupted(const DisputedSample& sample) { return !sample.outside && sample.decided == "interrupted"; }
 
 void describe(ComparisonResult& comparison, std::vector<Group>& groups) {

@@ -18,8 +18,9 @@ struct DisputedSample {
   std::uint64_t output = 0;  ///< index of the output
   double value = 0, lower = 0, upper = 0;
   double distance = 0;  ///< outside, after the last integration
-  double error = 0;     ///< this sample's measured error
-  std::string decided;  ///< by what: "Taylor 53 bits", "Taylor 128 bits"; "unresolved", or "interrupted" before that
+  double error = 0;     ///< this sample's measured error; infinite if no second integration came so far
+  std::string decided;  ///< by what: "Taylor 53 bits", "Taylor 128 bits"; "rounding": outside by no more than that,
+                        ///< after worse ones were found inside; "unresolved", or "interrupted" before that
   bool outside = false;
   std::int64_t level = -1;       ///< of the alpha-cut that it was compared with; -1: the enclosure
   std::vector<double> farthest;  ///< one an output: how far it lies outside at most, after the last integration
@@ -27,6 +28,8 @@ struct DisputedSample {
 
 /// It lies outside, but no farther than its own error.
 bool isUnresolved(const DisputedSample& sample);
+/// It lies outside by no more than rounding, and worse ones were found inside.
+bool isRounding(const DisputedSample& sample);
 /// It seemed outside when the run was interrupted.
 bool isInterrupted(const DisputedSample& sample);
 

@@ -68,7 +68,7 @@ class Finder {
   /// Refined motions are stored in place of the disputed ones, so that nothing outside is left but what was not
   /// decided.
   void noteExcursion(const Excursion& found) {
-    if (isExplained(found, isInterrupted)) return;
+    if (isExplained(found, isInterrupted) || isExplained(found, isRounding)) return;
     Excursion& of = isExplained(found, isUnresolved) ? doubtful_ : outside_;
     if (found.distance > of.distance) of = found;
   }

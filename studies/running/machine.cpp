@@ -7,6 +7,7 @@
 #include "analyses/flow/plain_outputs.hpp"
 #include "analyses/samples/sampling.hpp"
 #include "scalars/evaluation/evaluator.hpp"
+#include "scalars/program/recorder.hpp"
 #include "studies/printable.hpp"
 #include "studies/running/sampled_study.hpp"
 #include "studies/running/units.hpp"
@@ -79,25 +80,34 @@ std::vector<std::size_t> shownSamples(const Sampling& sampling, Plan plan) {
   return numbers;
 }
 
-/// Values over boxes, wherever they are needed together; nothing is known of any that may have no value there.
+/// The outputs, then what the program takes roots and logarithms of.
+Program withArguments(const Program& program) {
+  std::vector<int> nodes = program.outputNodes();
+  for (const Node& node : program.nodes())
+    if (node.op == Op::sqrt || node.op == Op::log) nodes.push_back(node.a);
+  return Recorder(program).finish(nodes);
+}
+
+/// Values over boxes; nothing is known of any where one of them may have none.
 class BoxValues {
  public:
   BoxValues(const Program& program, std::span<const Interval> parameters)
-      : evaluate_(program), isDefined_(std::ranges::none_of(program.nodes(), [](const Node& node) {
-          return node.op == Op::sqrt || node.op == Op::log;
-        })) {
+      : outputs_(static_cast<std::size_t>(program.outputs())), evaluate_(withArguments(program)) {
     evaluate_.setParameters(parameters);
   }
   std::vector<Interval> over(const Interval& t, const std::vector<Interval>& states) {
     std::vector<Interval> values = evaluate_(t, states);
+    const bool isDefined = std::all_of(values.begin() + static_cast<std::ptrdiff_t>(outputs_), values.end(),
+                                       [](const Interval& argument) { return argument.lower() >= 0; });
+    values.resize(outputs_, Interval(0.0));
     for (Interval& value : values)
-      if (!isDefined_ || isEmpty(value)) value = Interval::entire();
+      if (!isDefined || isEmpty(value)) value = Interval::entire();
     return values;
   }
 
  private:
+  std::size_t outputs_;
   Evaluator<Interval> evaluate_;
-  bool isDefined_;
 };
 
 /// Whether an output depends on a parameter that varies in time: then it may move without its velocity.
@@ -142,9 +152,11 @@ class Sags {
     const Interval h = Interval(tube_.times()[j]) - Interval(tube_.times()[i]);
     std::vector<double> sags;
     for (std::size_t v = 0; v < range.size(); ++v) {
+      sags.push_back(std::numeric_limits<double>::infinity());
+      if (!isBounded(range[v])) continue;
       const Interval far = jumps_ ? abs(range[v] - Interval(midpoint(end[v])))
                                   : (Interval(range[v].upper()) - Interval(range[v].lower())) * h * Interval(0.25);
-      sags.push_back(isBounded(range[v]) ? far.upper() : std::numeric_limits<double>::infinity());
+      sags.back() = far.upper();
     }
     return sags;
   }

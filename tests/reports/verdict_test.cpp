@@ -135,6 +135,18 @@ const Case cases[] = {
        dispute(r, 1e-6, "interrupted");
      },
      "incomplete"},
+    {"OutsideByRounding",
+     [](Results& r) {
+       leave(r, 1e-6);
+       dispute(r, 1e-6, "rounding");
+     },
+     "inside"},
+    {"RoundingExcusesNoMore",
+     [](Results& r) {
+       leave(r, 2e-6);
+       dispute(r, 1e-6, "rounding");
+     },
+     "outside"},
     {"AnUnresolvedSampleExcusesNoOtherOutput",
      [](Results& r) {
        r.stochastic.envelope.upper(40, 0) = r.interval.at.upper(40, 0) + 1e-6;

@@ -146,6 +146,28 @@ TEST(Recorded, FunctionsOfTwoVariablesHaveTheirValues) {
     }
 }
 
+/// On the negative x-axis, where no quotient tells it from the positive one.
+TEST(Recorded, AnglesOfPointsOnTheAxis) {
+  const Precise pi = 4 * atan(Precise(1.0));
+  const Program ofZero = record<1>([](const auto& x) {
+    return std::array{atan2(Recorded(0.0), x[0]), atan2(x[0] - x[0], x[0])};
+  });
+  for (const Precise& angle : evaluate<Precise>(ofZero, {Precise(-2.0)})) EXPECT_THAT(angle, AgreesTo45Digits(pi));
+  for (const Interval& angle : evaluate<Interval>(ofZero, {Interval(-2.0)})) EXPECT_THAT(angle, Holds(pi));
+  for (const double angle : evaluate<double>(ofZero, {2.0})) EXPECT_EQ(angle, 0);
+  const Program ofConstants = record<1>([](const auto&) {
+    const Recorded almostZero = sin(4.0 * atan(Recorded(1.0)));
+    return std::array{atan2(Recorded(0.0), Recorded(-1.0)), atan2(almostZero, Recorded(-1.0)),
+                      atan2(Recorded(1.0), Recorded(-1.0))};
+  });
+  const auto angles = evaluate<Interval>(ofConstants, {Interval(0.0)});
+  EXPECT_THAT(angles[0], Holds(pi));
+  EXPECT_LT(width(angles[0]), 1e-15);
+  EXPECT_THAT(angles[1], Holds(pi));
+  EXPECT_THAT(angles[1], Holds(Precise(-pi)));
+  EXPECT_THAT(angles[2], Holds(Precise(3 * pi / 4)));
+}
+
 TEST(Recorded, FunctionsKeepRangesTightWhereTheyAreMonotone) {
   const Program program = record<1>([](const auto& x) {
     return std::array{asin(x[0]), acos(x[0]), atanh(x[0]), acosh(x[0] + 1.0), abs(-x[0])};

@@ -18,10 +18,13 @@ namespace gamut {
 namespace {
 
 using namespace testing_motions;
+using testing::AllOf;
 using testing::AnyOf;
 using testing::Contains;
 using testing::DoubleNear;
 using testing::Field;
+using testing::Gt;
+using testing::Lt;
 
 constexpr std::size_t sampleCount = 64;
 
@@ -160,6 +163,33 @@ TEST_F(DecayCompared, SamplesOfTheSameValuesAreDecidedTogetherHoweverMany) {
   for (std::size_t i = 1; i < c.disputes.size(); ++i) EXPECT_LT(c.disputes[i - 1].number, c.disputes[i].number);
   for (const Dispute& d : c.disputes) EXPECT_EQ(d.distance, 0);
   expectEnvelopeInside(ensemble.envelope());
+}
+
+/// What is uncertain does not matter, and the enclosure is a unit or two wide: x = exp(-t/2).
+TEST_F(DecayCompared, SamplesOutsideByRoundingAreToldByTheWorstOfThem) {
+  ensemble = {};
+  system.motion.f = record(1, 1, [](auto, const auto& x, const auto&, auto& dx) { dx[0] = -0.5 * x[0]; });
+  EnsembleOptions sampling;
+  sampling.samples = 200;
+  ensemble = sampleEnsemble(system, sampling);
+  for (std::size_t t = 0; t < ensemble.times.size(); ++t) {
+    const Interval exact = exp(-Interval(0.5) * ensemble.times[t]);
+    enclosure.bounds.lower(t, 0) = exact.lower();
+    enclosure.bounds.upper(t, 0) = exact.upper();
+  }
+  const Comparison c = compare(enclosure, ensemble, system);
+  EXPECT_EQ(gravest(c), "inside");
+  EXPECT_EQ(std::ranges::count(c.disputes, "Taylor 128 bits", &Dispute::decided), 16);
+  EXPECT_GT(std::ranges::count(c.disputes, "rounding", &Dispute::decided), 100);
+  for (const Dispute& d : c.disputes) {
+    if (d.decided == "rounding") {
+      EXPECT_THAT(d.distance, AllOf(Gt(0), Lt(1e-15)));
+    }
+  }
+  // A wrong one is wrong all the same.
+  for (std::size_t t = 20; t < 41; ++t)
+    for (Table* bound : {&enclosure.bounds.lower, &enclosure.bounds.upper}) bound->data[t] -= 1e-13;
+  EXPECT_EQ(gravest(compare(enclosure, ensemble, system)), "outside");
 }
 
 TEST_F(DecayCompared, ASampleOutsideByLessThanItsErrorIsUnresolved) {

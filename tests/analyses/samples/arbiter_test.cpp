@@ -203,6 +203,26 @@ TEST(Arbiter, LocatesKinksInTime) {
   }
 }
 
+/// ẍ = 1 - cos t from rest at zero: the series at the start begins with t⁴/24.
+TEST(Arbiter, AndSeriesInDoublesBeginAtRestWithAForceThatBeginsAtZero) {
+  Motion motion;
+  motion.f = record(2, 0, [](auto t, const auto& x, const auto&, auto& dx) {
+    dx[0] = x[1];
+    dx[1] = 1.0 - cos(t);
+  });
+  motion.g = record(2, 0, 1, [](auto, const auto& x, const auto&, auto& y) { y[0] = x[0]; });
+  motion.times = {1, 4, 10};
+  const std::array start{0.0, 0.0};
+  const PreciseTrajectory y = arbitrate(motion, start);
+  const std::vector<double> inDoubles = integrateByTaylor(motion, start);
+  ASSERT_EQ(y.times, 3u) << y.why;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Wide t(motion.times[i]), exact = t * t / 2 + cos(t) - 1;
+    EXPECT_LT(relativeError(y.values[i], exact), 1e-28) << t;
+    EXPECT_NEAR(inDoubles[i], exact.convert_to<double>(), 1e-13 * inDoubles[i]) << t;
+  }
+}
+
 TEST(Arbiter, EvaluatesAMotionWithoutStatesDirectly) {
   const PreciseTrajectory y = arbitrate(line().motion, std::array{0.1});
   ASSERT_EQ(y.times, 2u);
