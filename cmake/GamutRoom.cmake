@@ -12,6 +12,11 @@ function(gamut_compile_options target)
   endif()
 endfunction()
 
+# What computes nothing that takes time: a third less to compile than with -O3.
+function(gamut_compile_quickly target)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+endfunction()
+
 # gamut_room(NAME [LEFT rooms it stands on] [DOORS headers for users]) builds libgamut_NAME from every *.cpp in the room's
 # folder and its sub-rooms. Doors are patterns of files; they are installed, with all that they include and nothing else.
 function(gamut_room name)
@@ -40,8 +45,11 @@ function(gamut_room name)
     set_property(GLOBAL APPEND PROPERTY GAMUT_DOORS ${headers})
   endforeach()
 
-  # Every header, a user's or not, has to compile on its own: the target all_verify_interface_header_sets.
+  # Every header, a user's or not, has to compile on its own: by the source of its name, which includes it first
+  # (tests/house/includes.sh), or where there is none, by the target all_verify_interface_header_sets.
   file(GLOB_RECURSE headers CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.hpp)
+  list(TRANSFORM sources REPLACE "\\.cpp$" ".hpp" OUTPUT_VARIABLE proved)
+  list(REMOVE_ITEM headers ${proved})
   add_library(gamut_${name}_headers INTERFACE)
   target_link_libraries(gamut_${name}_headers INTERFACE gamut_${name})
   target_sources(gamut_${name}_headers INTERFACE FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${headers})

@@ -53,7 +53,7 @@ std::string pathFrom(const std::string& study, const std::string& file) {
 /// What it takes to run is not in every robot's file.
 void noteWhatIsAmiss(const std::string& study, const std::string& path, const std::string& robot) {
   try {
-    readStudyText(study, path, elementTypes(), robot);
+    readStudyText(study, path, elementTypes(), FilesAtHand{robot, {}});
   } catch (const StudyError& error) {
     fmt::print(stderr, "note: this study does not run as it is: {}\n", error.what());
   }

@@ -73,7 +73,7 @@ std::string heading(const std::string& name, const std::string& unit) {
 /// Decimals that give the same doubles back, at most 17 digits; times that were not reached are left out.
 std::string csv(const Study& study, const ReplayedSample& sample) {
   std::vector<std::string> headings;
-  const bool moves = study.analysis == Study::Analysis::dynamics;
+  const bool moves = study.horizon > 0;
   if (moves) headings.push_back(heading("time", "s"));
   for (const OutputInfo& output : study.outputs) headings.push_back(heading(output.name, output.unit));
   for (const UncertainQuantity& uncertain : study.uncertain)
@@ -117,14 +117,23 @@ void say(std::size_t number, const ReplayedSample& sample, const Results& result
         number, results.version, results.host, version(), hostName());
 }
 
+NamedTexts tablesOf(const Results& results, const std::string& file) {
+  try {
+    return namedTextsIn(results.tablesText);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(file + ": " + error.what());
+  }
+}
+
 ExitCode replay(const Arguments& arguments) {
   const Results results = readResults(arguments.results);
   if (!results.stochastic.present)
     throw UsageError(arguments.results +
                      ": holds no samples; expected results of a study that compares \"stochastic\"");
   const std::size_t number = numberOf(arguments, results.stochastic);
-  const Study study = readStudyText(results.studyText, results.studyFile + " in " + arguments.results, elementTypes(),
-                                    results.robotText);
+  const FilesAtHand files{results.robotText, tablesOf(results, arguments.results)};
+  const Study study =
+      readStudyText(results.studyText, results.studyFile + " in " + arguments.results, elementTypes(), files);
   ReplayedSample sample;
   const auto table = [&] {
     try {

@@ -15,7 +15,8 @@
 #include "analyses/samples/ensemble.hpp"
 #include "analyses/uncertainty.hpp"
 #include "mechanics/description/mechanism.hpp"
-#include "mechanics/elements/all.hpp"
+#include "mechanics/element_types.hpp"
+#include "studies/named_texts.hpp"
 #include "studies/results/results.hpp"
 #include "studies/watch.hpp"
 
@@ -41,6 +42,7 @@ struct Study {
   std::string text;   ///< of the file, word for word
   std::string file;   ///< as it was named
   std::string robot;  ///< text of the URDF file that it names, word for word; empty without one
+  NamedTexts tables;  ///< of the CSV files that it names, word for word, by these names
   std::string title;
   Analysis analysis = Analysis::dynamics;
   double horizon = 0;       ///< s; 0 for kinematics
@@ -81,10 +83,16 @@ inline constexpr std::size_t maxOutputTimes = 100000;
 /// StudyError.
 Study readStudy(const std::string& path, const std::vector<Described>& types = elementTypes());
 
-/// The same for text at hand; `name` is what messages call the file, and where the path of a robot's file begins.
-/// `robot`: the text of that file, which is not looked for then.
+/// What stands in the files that a study names.
+struct FilesAtHand {
+  std::string robot;
+  NamedTexts tables;
+};
+
+/// The same for text at hand; `name` is what messages call the file, and where paths of other files begin; with
+/// `files`, none of them is looked for.
 Study readStudyText(const std::string& text, const std::string& name,
-                    const std::vector<Described>& types = elementTypes(), const std::optional<std::string>& robot = {});
+                    const std::vector<Described>& types = elementTypes(), const std::optional<FilesAtHand>& files = {});
 
 /// The mechanism of a study alone, by which a study may begin: of the rest, no more is asked than that it is TOML.
 Mechanism readMechanismText(const std::string& text, const std::string& name,

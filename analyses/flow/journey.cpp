@@ -238,6 +238,7 @@ void FlowFollower::enclose(const FlowPiece& piece, double tau, std::vector<Inter
         without(states[at(i)], point_.radius[at(i)] - point_.driven[at(i)] - point_.known[at(i)] + tool_->range.gap()));
   }
   outputs.clear();
+  outputLimits_.clear();
   if (!outputs_) return;
   at_ = piece.set.t + tau;
   outputs_->evaluate(at_, point_, piece.set.R, piece.set.parameters);
@@ -254,12 +255,14 @@ void FlowFollower::appendOutputs(const FlowPiece& piece, const std::vector<Inter
     if (!std::isfinite(radius)) {
       outputs.push_back(outputs_->overBox(o, Interval(at_), states, piece.set.parameters));
       outputCore_.push_back(outputs.back());  // not known
+      outputLimits_.push_back(outputs_->hasJumps() ? Interval::entire() : outputs.back());
       continue;
     }
     const Interval bound = inflated(range(outputs_->polynomial(o), xi, task_.rangeTolerance()), radius);
     outputs.push_back(bound);
     if (outputs_->hasKinks())  // of |y| through 0 the one knows what the other does not
       outputs.back() = intersection(bound, outputs_->overBox(o, Interval(at_), states, piece.set.parameters));
+    outputLimits_.push_back(outputs_->hasJumps() ? bound : outputs.back());
     const double known = 0.5 * (width(bound) - width(outputs.back()));
     outputCore_.push_back(without(outputs.back(), std::max(0.0, radius - outputs_->driven(o) + range.gap() - known)));
   }
@@ -300,29 +303,33 @@ bool FlowFollower::record(FlowPiece& piece) {
   const std::vector<double>& times = task_.times;
   const double t0 = piece.set.t, t1 = t0 + tool_->stepper.h();
   if (piece.last.empty()) {  // the start
-    enclose(piece, 0.0, piece.last, piece.lastOutputs);
+    std::vector<Interval> outputs;
+    enclose(piece, 0.0, piece.last, outputs);
+    piece.lastOutputs = outputLimits_;
     for (std::size_t i = 0; i < piece.last.size(); ++i) piece.last[i] = intersection(piece.last[i], task_.box[i]);
     joinHulls(collected_.states[0], piece.last);
     joinHulls(collected_.statesOver[0], piece.last);
-    joinHulls(collected_.outputs[0], piece.lastOutputs);
-    joinHulls(collected_.outputsOver[0], piece.lastOutputs);
+    joinHulls(collected_.outputs[0], outputs);
+    joinHulls(collected_.outputsOver[0], outputs);
     encloseLevels(piece, 0);
     lookAside(piece, 0, piece.last);
     piece.over = piece.last;
-    piece.overOutputs = piece.lastOutputs;
+    piece.overOutputs = outputs;
     piece.next = 1;
   }
   // Chords are those of what the step itself bounds: what is known of jumps besides holds at single times.
   const FlowStepper& stepper = tool_->stepper;
-  std::vector<Interval> end, endOutputs, before = piece.last, beforeOutputs = piece.lastOutputs, behind, behindOutputs;
+  std::vector<Interval> end, endOutputs, endLimits, before = piece.last, beforeLimits = piece.lastOutputs, behind;
+  std::vector<Interval> behindOutputs, behindLimits;
   double from = t0;
   bool chordsKnown = false;
   const auto segment = [&](double to) {  // from `from` to `to`: the chord's hull and how far a motion leaves a chord
     if (stepper.narrows()) {
       enclose(piece, to - t0, behind, behindOutputs, false);
+      behindLimits = outputLimits_;
     } else {
       behind = end;
-      behindOutputs = endOutputs;
+      behindLimits = endLimits;
     }
     stepper.sag(from - t0, to - t0, sag_);
     std::vector<Interval> between;
@@ -333,24 +340,25 @@ bool FlowFollower::record(FlowPiece& piece) {
       if (!chordsKnown) tool_->chords->load(stepper, piece.set);
       chordsKnown = true;
       tool_->chords->sag(from - t0, to - t0, sag_);
-      for (std::size_t i = 0; i < behindOutputs.size(); ++i) {
-        Interval over = hull(beforeOutputs[i], behindOutputs[i]) + sag_[i];
-        if (outputs_->hasKinks() || !isBounded(sag_[i])) {
+      for (std::size_t i = 0; i < behindLimits.size(); ++i) {
+        Interval over = hull(beforeLimits[i], behindLimits[i]) + sag_[i];
+        if (outputs_->hasKinks() || !isBounded(over)) {
           const Interval wherever =
               outputs_->overBox(static_cast<int>(i), Interval(from, to), between, piece.set.parameters);
-          over = isBounded(sag_[i]) ? intersection(over, wherever) : wherever;
+          over = isBounded(over) ? intersection(over, wherever) : wherever;
         }
         piece.overOutputs[i] = hull(piece.overOutputs[i], over);
       }
     }
     before = behind;
-    beforeOutputs = behindOutputs;
+    beforeLimits = behindLimits;
     piece.last = end;
-    piece.lastOutputs = endOutputs;
+    piece.lastOutputs = endLimits;
     from = to;
   };
   for (; piece.next < times.size() && times[piece.next] <= t1; ++piece.next) {
     enclose(piece, times[piece.next] - t0, end, endOutputs);  // an exact difference: docs/flow.md, "Time"
+    endLimits = outputLimits_;
     joinHulls(collected_.stateCore[piece.next], stateCore_);
     joinHulls(collected_.outputCore[piece.next], outputCore_);
     encloseLevels(piece, piece.next);
@@ -368,6 +376,7 @@ bool FlowFollower::record(FlowPiece& piece) {
   }
   if (from < t1) {
     enclose(piece, t1 - t0, end, endOutputs);
+    endLimits = outputLimits_;
     segment(t1);
   }
   for (std::size_t i = 0; i < piece.last.size(); ++i)

@@ -23,7 +23,7 @@ struct FlowPiece {
   std::size_t layout = 0;                          // which monomials it uses
   std::size_t next = 0;                            // index of its next output time
   std::vector<Interval> last, over;                // states at set.t; states since the last output time
-  std::vector<Interval> lastOutputs, overOutputs;  // likewise for the outputs
+  std::vector<Interval> lastOutputs, overOutputs;  // likewise for the outputs; lastOutputs: outputLimits_
 };
 
 enum class FlowJourney { goesOn, ended, cancelled };
@@ -106,6 +106,7 @@ class FlowFollower {
   double counted_ = threadCpuSeconds();  // of this thread, in the budget
   Box whole_;
   std::vector<Interval> sag_;
+  std::vector<Interval> outputLimits_;            // of `enclose` too: the outputs, and their limits where they jump
   std::vector<Interval> stateCore_, outputCore_;  // bounds of `enclose` without what remainder and range add at most
 };
 

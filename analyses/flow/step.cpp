@@ -387,7 +387,7 @@ StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum,
     why_ = reason(set);
     return StepOutcome::failed;
   }
-  isShortened_ = left < std::min(h, h0_);  // the next goes on as if nothing had been
+  const double suggested = h;
   h = std::min({h, h0_, left});
   bool isAdapted = false;
   const auto compute = [&] {
@@ -451,6 +451,7 @@ StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum,
       }
       h_ = h;
       theta_ = h / h0_;
+      isCut_ = h == left && suggested > left;
       boundDerivatives();
       boundCrossings(set);
       if (h < left)

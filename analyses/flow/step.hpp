@@ -217,6 +217,7 @@ class FlowStepper {
   std::vector<Crossing> crossings_;
   std::vector<double> crossed_;  // like e1_, if what these do is known
   bool isSliding_ = false, isShortened_ = false;
+  bool isCut_ = false;          // by the end that was given
   int lengthened_ = 0;          // so often, for all solutions to pass a jump in one step
   double signsAt_ = 0;          // the step when signs were given; 0: none were
   double givenAt_ = 0;          // the longest step that what was given holds for: signs, sides

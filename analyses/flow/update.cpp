@@ -395,9 +395,13 @@ void FlowStepper::advance(FlowSet& set) {
   set.p = end_.p;
   if (series_.isFine()) set.low = end_.low;
   // A step that jumps made short says little of the next: that is as long as the one before was, once none does.
-  if (isShortened_ && set.freeStep == 0) set.freeStep = set.nextStep;
-  set.nextStep = isSliding_ ? 2 * h_ : std::max(h_ * 1.1, set.freeStep);
-  if (!isShortened_) set.freeStep = 0;
+  // After one that its end cut short, the next goes on as if nothing had been.
+  if ((isShortened_ || isCut_) && set.freeStep == 0) set.freeStep = set.nextStep;
+  if (isCut_)
+    set.nextStep = std::max(set.nextStep, set.freeStep);
+  else
+    set.nextStep = isSliding_ ? 2 * h_ : std::max(h_ * 1.1, set.freeStep);
+  if (!isShortened_ && !isCut_) set.freeStep = 0;
   set.caution = caution_;
   set.units = growth_.units();
   if (set.first.empty())

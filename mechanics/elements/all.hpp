@@ -1,6 +1,7 @@
-// The types of elements that there are: the one place where a new one is entered.
+// All types of elements; a new one is entered here and in all.cpp.
 #pragma once
 
+#include "mechanics/element_types.hpp"
 #include "mechanics/elements/bushing.hpp"
 #include "mechanics/elements/coupling.hpp"
 #include "mechanics/elements/cylindrical.hpp"
@@ -25,18 +26,3 @@
 #include "mechanics/elements/state.hpp"
 #include "mechanics/elements/universal.hpp"
 #include "mechanics/elements/weld.hpp"
-
-namespace gamut {
-
-/// An empty description of each, in the order of the documentation, for visitors to fill in.
-inline std::vector<Described> elementTypes() {
-  return {Revolute{},    Prismatic{},     Screw{},         Cylindrical{},
-          Universal{},   Planar{},        Spherical{},     Free{},
-          Weld{},        Link{},          Mass{},          Spring{},
-          JointSpring{}, Bushing{},       JointFriction{}, SmoothedJointFriction{},
-          JointStop{},   Motor{},         Force{},         JointForce{},
-          Drive{},       TableDrive{},    Coupling{},      State{},
-          Distance{},    RelativeMotion{}};
-}
-
-}  // namespace gamut

@@ -25,8 +25,8 @@ bool isWordCharacter(char c) { return std::isalnum(static_cast<unsigned char>(c)
 class MechanismReader {
  public:
   MechanismReader(const TomlSource& source, const toml::table& table, const std::vector<Described>& types,
-                  const std::optional<std::string>& robot)
-      : source_(source), types_(types), robotAtHand_(robot), section_(source, table, "mechanism", keysOf(table)) {}
+                  const std::optional<FilesAtHand>& files)
+      : source_(source), types_(types), atHand_(files), section_(source, table, "mechanism", keysOf(table)) {}
 
   ReadMechanism read() {
     readParameters(section_, "");
@@ -44,7 +44,7 @@ class MechanismReader {
         guarded(elements[i], [&] { mechanism_.checkSignals(mechanism_.elements()[ofRobot + i].name()); });
     }
     guarded(robot != nullptr ? *robot : *section_.find("element"), [&] { mechanism_.check(); });
-    return {std::move(mechanism_), std::move(places_), std::move(robotText_), std::move(notes_)};
+    return {std::move(mechanism_), std::move(places_), std::move(files_), std::move(notes_)};
   }
 
  private:
@@ -54,13 +54,22 @@ class MechanismReader {
     return keys;
   }
 
+  /// A column of a table of this name.
+  TimeTable tableOf(const std::string& name, const std::string& column, const std::string& unit) {
+    const std::string path = atHand_ ? name + " in " + source_.name() : (source_.folder() / name).string();
+    if (atHand_ && !atHand_->tables.contains(name)) throw std::invalid_argument("there is no table " + printable(name));
+    std::string& text = files_.tables[name];
+    if (text.empty()) text = atHand_ ? atHand_->tables.at(name) : textOfTable(path);
+    return readTable(text, path, column, unit);
+  }
+
   // ---- A robot ------------------------------------------------------------------------------------------------------
 
   void addRobot(const toml::node& node) {
     const std::string path = source_.asText(node, "mechanism.urdf");
-    const std::string found = (std::filesystem::path(source_.name()).parent_path() / path).string();
-    robotText_ = robotAtHand_ ? *robotAtHand_ : textOfRobotAt(node, found);
-    const Robot robot = readRobotText(robotText_, robotAtHand_ ? path + " in " + source_.name() : found);
+    const std::string found = (source_.folder() / path).string();
+    files_.robot = atHand_ ? atHand_->robot : textOfRobotAt(node, found);
+    const Robot robot = readRobotText(files_.robot, atHand_ ? path + " in " + source_.name() : found);
     notes_ = robot.notes;
 
     RobotChoices choices;
@@ -424,11 +433,10 @@ class MechanismReader {
     void table(const Word& file, const Word& column, Coordinate kind, TimeTable& table) override {
       const toml::node& node = *given(section_, file);
       const toml::node& name = *given(section_, column);
-      const std::filesystem::path path =
-          section_.source().folder() / section_.source().asText(node, section_.nameOf(file.key));
+      const std::string path = section_.source().asText(node, section_.nameOf(file.key));
       const std::string wanted = section_.source().asText(name, section_.nameOf(column.key));
       try {
-        table = readTable(path.string(), wanted, unitOf(kind));
+        table = reader_.tableOf(path, wanted, unitOf(kind));
       } catch (const UnknownName& unknown) {
         section_.source().fail(name, unknown.problem(), unknown.expected());
       } catch (const std::invalid_argument& error) {
@@ -592,10 +600,10 @@ class MechanismReader {
 
   const TomlSource& source_;
   const std::vector<Described>& types_;
-  const std::optional<std::string>& robotAtHand_;
+  const std::optional<FilesAtHand>& atHand_;
   TomlSection section_;
   Mechanism mechanism_;
-  std::string robotText_;
+  FilesAtHand files_;
   std::vector<std::string> notes_;
   std::map<std::string, const toml::node*> statedWithUnit_;  // parameters
   std::map<std::string, const toml::node*> places_;
@@ -604,8 +612,8 @@ class MechanismReader {
 }  // namespace
 
 ReadMechanism readMechanism(const TomlSource& source, const toml::table& table, const std::vector<Described>& types,
-                            const std::optional<std::string>& robot) {
-  return MechanismReader(source, table, types, robot).read();
+                            const std::optional<FilesAtHand>& files) {
+  return MechanismReader(source, table, types, files).read();
 }
 
 }  // namespace gamut

@@ -15,13 +15,12 @@ namespace gamut {
 struct ReadMechanism {
   Mechanism mechanism;
   std::map<std::string, const toml::node*> places;
-  std::string robot;               ///< text of the robot's file; empty without one
+  FilesAtHand files;               ///< those that it names
   std::vector<std::string> notes;  ///< what of it is left out
 };
 
-/// Reads gravity, parameters, a robot and elements of these types, in the order of the file. The robot is read from the
-/// file that the table names, or, if `robot` is given, from this text instead. Throws StudyError.
+/// Reads gravity, parameters, a robot and elements of these types, in the order of the file. Throws StudyError.
 ReadMechanism readMechanism(const TomlSource& source, const toml::table& table, const std::vector<Described>& types,
-                            const std::optional<std::string>& robot = {});
+                            const std::optional<FilesAtHand>& files = {});
 
 }  // namespace gamut

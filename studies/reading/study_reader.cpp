@@ -37,14 +37,15 @@ class StudyReader {
     study_.file = name;
   }
 
-  Study read(const std::vector<Described>& types, const std::optional<std::string>& robot) {
+  Study read(const std::vector<Described>& types, const std::optional<FilesAtHand>& files) {
     const TomlSection file(source_, source_.root(), "",
                            {"study", "mechanism", "uncertain", "output", "interval", "stochastic", "fuzzy", "limits"});
     readStudyTable(source_.asTable(file.require("study", "a table [study]"), "study"));
     ReadMechanism read = readMechanism(
-        source_, source_.asTable(file.require("mechanism", "a table [mechanism]"), "mechanism"), types, robot);
+        source_, source_.asTable(file.require("mechanism", "a table [mechanism]"), "mechanism"), types, files);
     study_.mechanism = std::move(read.mechanism);
-    study_.robot = std::move(read.robot);
+    study_.robot = std::move(read.files.robot);
+    study_.tables = std::move(read.files.tables);
     study_.notes = std::move(read.notes);
     places_ = std::move(read.places);
     if (study_.analysis == Study::Analysis::inverseDynamics) checkDrives(*file.find("mechanism"));
@@ -429,8 +430,8 @@ class StudyReader {
 }  // namespace
 
 Study readStudyText(const std::string& text, const std::string& name, const std::vector<Described>& types,
-                    const std::optional<std::string>& robot) {
-  return StudyReader(text, name).read(types, robot);
+                    const std::optional<FilesAtHand>& files) {
+  return StudyReader(text, name).read(types, files);
 }
 
 Mechanism readMechanismText(const std::string& text, const std::string& name, const std::vector<Described>& types) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 
 #include "mechanics/description/names.hpp"
 #include "studies/printable.hpp"
@@ -37,16 +38,13 @@ std::vector<Cell> cellsOf(const std::string& line) {
   return cells;
 }
 
+[[noreturn]] void refuse(const std::string& path, const std::string& why) {
+  throw std::invalid_argument(fmt::format("the table '{}' cannot be read: {}", printable(path), why));
+}
+
 class TableReader {
  public:
-  explicit TableReader(const std::string& path) : path_(path) {
-    std::error_code error;
-    const std::uintmax_t size = std::filesystem::file_size(path, error);
-    if (error) refuse(error.message());
-    if (size > maxTableBytes) refuse(fmt::format("it has {} bytes; the most are {}", size, maxTableBytes));
-    file_.open(path, std::ios::binary);
-    if (!file_) refuse("it cannot be opened");
-  }
+  TableReader(const std::string& text, const std::string& path) : path_(path), text_(text) {}
 
   TimeTable read(const std::string& column, const std::string& unit) {
     if (!next()) refuse("it is empty");
@@ -73,16 +71,14 @@ class TableReader {
   }
 
  private:
-  [[noreturn]] void refuse(const std::string& why) const {
-    throw std::invalid_argument(fmt::format("the table '{}' cannot be read: {}", printable(path_), why));
-  }
+  [[noreturn]] void refuse(const std::string& why) const { gamut::refuse(path_, why); }
   [[noreturn]] void fail(const Cell& cell, const std::string& what, const std::string& expected) const {
     throw StudyError(fmt::format("{}:{}:{}: {}; expected {}", printable(path_), line_, cell.column, what, expected));
   }
 
   /// The next row that says something.
   bool next() {
-    for (std::string text; std::getline(file_, text);) {
+    for (std::string text; std::getline(text_, text);) {
       ++line_;
       if (line_ == 1 && text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
       if (const std::string content = trimmed(text); content.empty() || content.front() == '#') continue;
@@ -126,15 +122,26 @@ class TableReader {
   }
 
   std::string path_;
-  std::ifstream file_;
+  std::istringstream text_;
   std::size_t line_ = 0;
   std::vector<Cell> cells_;
 };
 
 }  // namespace
 
-TimeTable readTable(const std::string& path, const std::string& column, const std::string& unit) {
-  return TableReader(path).read(column, unit);
+TimeTable readTable(const std::string& text, const std::string& path, const std::string& column,
+                    const std::string& unit) {
+  return TableReader(text, path).read(column, unit);
+}
+
+std::string textOfTable(const std::string& path) {
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  if (error) refuse(path, error.message());
+  if (size > maxTableBytes) refuse(path, fmt::format("it has {} bytes; the most are {}", size, maxTableBytes));
+  std::ifstream file(path, std::ios::binary);
+  if (!file) refuse(path, "it cannot be opened");
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
 }  // namespace gamut

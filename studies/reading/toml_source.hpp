@@ -23,10 +23,8 @@ class TomlSource {
 
   const toml::table& root() const { return root_; }
   const std::string& name() const { return name_; }
-  /// In which files lie that it names; of a study in results, "FILE in RESULTS", that of FILE.
-  std::filesystem::path folder() const {
-    return std::filesystem::path(name_.substr(0, name_.find(" in "))).parent_path();
-  }
+  /// In which files lie that it names.
+  std::filesystem::path folder() const { return std::filesystem::path(name_).parent_path(); }
 
   /// Throws StudyError "file:line:column: what; expected …".
   [[noreturn]] void fail(const toml::source_position& at, const std::string& what, const std::string& expected) const;

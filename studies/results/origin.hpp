@@ -42,7 +42,7 @@ struct Limits {
 };
 
 struct Origin {
-  std::string studyText, robotText, studyFile, title, analysis;
+  std::string studyText, robotText, tablesText, studyFile, title, analysis;  ///< tablesText: NamedTexts in one
   std::uint64_t seed = 0;
   std::string version, host, date;
   std::vector<LibraryInfo> libraries;

@@ -21,6 +21,7 @@ void describeOrigin(Run& run) {
   Origin& origin = run.results;
   origin.studyText = study.text;
   origin.robotText = study.robot;
+  origin.tablesText = inOneText(study.tables);
   origin.studyFile = printable(study.file);
   origin.title = printable(study.title);
   origin.analysis = study.analysisName();

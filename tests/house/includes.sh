@@ -65,6 +65,9 @@ grep -rHnE '^[[:space:]]*#[[:space:]]*include' --include='*.[hc]*' --include='*.
       split($0, field, ":"); file = field[1]; at = field[1] ":" field[2]
       if (!match($0, /[<"][^>"]+[>"]/)) { wrong("names no header that can be followed"); next }
       quoted = substr($0, RSTART, 1) == "\""; header = substr($0, RSTART + 1, RLENGTH - 2)
+      own = file
+      if (!(file in seen) && sub(/\.cpp$/, ".hpp", own) && own != header && isThere(own))
+        wrong("its own header comes first: no other source proves that this compiles alone")
       ++includes; seen[file]
       from = placeOf(file)
       if (from == "") {

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <string>
 
@@ -238,6 +239,24 @@ TEST(InverseDynamics, FollowsATable) {
     EXPECT_NEAR(results.interval.at.lower(i, 0), 0.2375 * moment, 1e-11);
     EXPECT_NEAR(results.interval.at.upper(i, 0), 0.2625 * moment, 1e-11);
   }
+}
+
+/// In a folder with a name as good as any; then without the file.
+TEST(InverseDynamics, KeepsItsTables) {
+  const TemporaryFolder folder;
+  const std::string lab = folder.path("robots in lab"), path = lab + "/s.toml";
+  std::filesystem::create_directory(lab);
+  std::ofstream(path) << drivenPendulum(byTable);
+  const std::string table = "# measured\ntime, hip [deg]\n0, 30\n0.5, 40\n1, 20\n";
+  std::ofstream(lab + "/motion.csv") << table;
+  const Results results = run(readStudy(path));
+  std::filesystem::remove(lab + "/motion.csv");
+  EXPECT_THROW(readStudy(path), StudyError);
+  const FilesAtHand files{"", namedTextsIn(results.tablesText)};
+  EXPECT_EQ(files.tables, (NamedTexts{{"motion.csv", table}}));
+  const Study again = readStudyText(results.studyText, "s.toml in results.h5", elementTypes(), files);
+  EXPECT_EQ(run(again).interval.at.upper.data, results.interval.at.upper.data);
+  EXPECT_THROW(readStudyText(results.studyText, "s.toml", elementTypes(), FilesAtHand{}), StudyError);
 }
 
 /// 30 degrees are π/6, which lies between these two doubles.

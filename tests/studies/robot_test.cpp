@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "mechanics/assembly.hpp"
+#include "mechanics/elements/all.hpp"
 #include "mechanics/model.hpp"
 #include "scalars/evaluation/evaluator.hpp"
 #include "studies/robot.hpp"
@@ -281,7 +282,9 @@ TEST(RobotStudy, RunsWithUncertainNumbersByNameAndElementsOfItsOwn) {
   const Results results = run(study);
   EXPECT_EQ(results.comparison.verdict, "inside");
   EXPECT_EQ(results.robotText, sampleRobot);
-  EXPECT_EQ(readStudyText(results.studyText, "elsewhere/s.toml", elementTypes(), results.robotText).robot, sampleRobot)
+  EXPECT_EQ(
+      readStudyText(results.studyText, "elsewhere/s.toml", elementTypes(), FilesAtHand{results.robotText, {}}).robot,
+      sampleRobot)
       << "the results hold all that the study is made of";
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "mechanics/assembly.hpp"
+#include "mechanics/elements/all.hpp"
 #include "studies/printable.hpp"
 #include "studies/study.hpp"
 #include "tests/studies/sample_study.hpp"

@@ -139,9 +139,11 @@ TEST(FlowKink, OfTimeEndSteps) {
   const auto soft = [](const Recorded& t, const Recorded&) { return sqr(max(t - 0.25, Recorded(0.0))); };
   const auto step = [](const Recorded& t, const Recorded&) { return 1.0 + sign(3.0 * t - 1.0); };
   const auto pulses = [](const Recorded& t, const Recorded&) { return 1.0 + sign(sin(20.0 * t) - 0.5); };
+  const auto rectified = [](const Recorded& t, const Recorded&) { return abs(sin(20.0 * t)); };
   const auto late = [](const Recorded& t, const Recorded& p) { return max(t - 0.25 * p, Recorded(0.0)); };
   const std::tuple<Recorded (*)(const Recorded&, const Recorded&), long, double> loads[] = {
-      {rising, 20, 1.02}, {ramp, 20, 1.02}, {soft, 20, 1.02}, {step, 20, 1.02}, {pulses, 60, 1.02}, {late, 100000, 10}};
+      {rising, 20, 1.02}, {ramp, 20, 1.02},   {soft, 20, 1.02},  {step, 20, 1.02},
+      {pulses, 60, 1.02}, {rectified, 60, 1.02}, {late, 100000, 10}};
   for (const auto& [load, steps, tightness] : loads)
     for (const double width : {0.0, 1e-6, 0.02}) {
       SCOPED_TRACE(width);
@@ -161,6 +163,24 @@ TEST(FlowKink, OfTimeEndSteps) {
         EXPECT_LT(gamut::width(tube.at(1)[0]), 1e-12);
       }
     }
+}
+
+/// What jumps at a double is what it was up to there, and not the mean that it is there.
+TEST(FlowKink, OutputsJumpBetweenOutputTimes) {
+  for (const int rows : {1, 2, 4, 16}) {
+    Containment c;
+    c.f = record(1, 1, [](auto, const auto& x, const auto&, auto& dx) { dx[0] = -x[0]; });
+    c.g = record(1, 1, 3, [](auto t, const auto& x, const auto& p, auto& y) {
+      y[0] = p[0] * where(t - 0.5, Recorded(-2.0), t * x[0]);
+      y[1] = p[0] * where(sin(20.0 * t), t, x[0]);
+      y[2] = where(x[0] - p[0], 1.0 + t, t - 1.0);
+    });
+    c.box = {Interval(0.99, 1.01), 0.5};
+    c.horizon = 1;
+    for (int i = 1; i < rows; ++i) c.times.push_back(i / static_cast<double>(rows));
+    const Tube tube = expectEvents(c, 6, false);
+    EXPECT_EQ(tube.reached(), 1);
+  }
 }
 
 /// Between output times too, what outputs make of time.
