@@ -72,7 +72,8 @@ class Assembler {
     measureSolvedAs(element_ + "." + key, std::move(value));
   }
 
-  /// Makes a part and appends it to the chain, or puts it ahead of all that is appended.
+  /// Makes a part and appends it to the chain; to what goes before all that, since it moves joints; or to what goes
+  /// before everything, since nothing else moves what it asks for.
   template <class Part, class... Arguments>
   Part& add(Arguments&&... arguments) {
     return make<Part>(parts_, std::forward<Arguments>(arguments)...);
@@ -80,6 +81,10 @@ class Assembler {
   template <class Part, class... Arguments>
   Part& addFirst(Arguments&&... arguments) {
     return make<Part>(first_, std::forward<Arguments>(arguments)...);
+  }
+  template <class Part, class... Arguments>
+  Part& addGiven(Arguments&&... arguments) {
+    return make<Part>(given_, std::forward<Arguments>(arguments)...);
   }
 
  private:
@@ -118,7 +123,7 @@ class Assembler {
   std::map<std::string, S> values_;                // of positions that are no coordinates, and of own states
   std::map<std::string, Signal<S>> rates_;         // of these
   std::map<std::string, Signal<S>> measured_;      // whatever can be looked at
-  std::vector<std::unique_ptr<Element<S>>> first_, parts_;
+  std::vector<std::unique_ptr<Element<S>>> given_, first_, parts_;
 };
 
 extern template class Assembler<double>;

@@ -29,7 +29,7 @@ Assembly<S>::Assembly(const Mechanism& mechanism, const std::vector<std::string>
     parts_.element_ = element.name();
     element.assemble(parts_);
   }
-  for (const auto* parts : {&parts_.first_, &parts_.parts_})
+  for (const auto* parts : {&parts_.given_, &parts_.first_, &parts_.parts_})
     for (const auto& part : *parts) chain_ << *part;
 
   typename System<S>::Speeds speeds;

@@ -2,11 +2,11 @@
 //
 //   position q' = φ(q),  velocity q̇' = J q̇,  acceleration q̈' = J q̈ + J̇ q̇,  force Q = Jᵀ Q'
 //
-// A part is one of five: a Transmission moves a frame, ideally: what power goes in comes out. A Gear moves one joint's
-// coordinate by another's, ideally too. A Load acts on what is moved. An Inertia (bodies.hpp) is moved: nothing else
-// states mass. A Constraint holds rows closed. A new part needs
-// doMotion and doForce, a Constraint its rows besides; derivatives for analyses come from the recorded program. A Chain
-// is an ordered list of parts, force runs through it in reverse.
+// Every part is an Element. Of its kinds, a Transmission moves a frame, ideally: what power goes in comes out. A Gear
+// moves one joint's coordinate by another's, ideally too. A Load acts on what is moved. An Inertia (bodies.hpp) is
+// moved: nothing else states mass. A Constraint holds rows closed. A new part needs doMotion and doForce, a Constraint
+// its rows besides; derivatives for analyses come from the recorded program. A Chain is an ordered list of parts, force
+// runs through it in reverse.
 #pragma once
 
 #include <array>

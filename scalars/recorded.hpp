@@ -102,8 +102,8 @@ class Recorded {
   /// = 1.
   friend Recorded acos(const Recorded& x);
   /// 2·atan(y / (x + √(x²+y²))), everywhere but where y is 0 and x <= 0: the angle in (-π, π). In doubles digits are
-  /// lost where x < 0 and |y| << |x|: x + √ cancels there. (No one formula is free of it for all angles.) Of a y that is
-  /// 0 whatever the inputs are, 0 or π, and at x = 0 their mean.
+  /// lost where x < 0 and |y| << |x|: x + √ cancels there. (No one formula is free of it for all angles.) Of a y that
+  /// is 0 whatever the inputs are, 0 or π, and at x = 0 their mean.
   friend Recorded atan2(const Recorded& y, const Recorded& x);
   /// ½(eˣ - e⁻ˣ); in doubles digits are lost near x = 0.
   friend Recorded sinh(const Recorded& x);

@@ -233,10 +233,6 @@ void Mechanism::drive(const std::string& coordinate, const std::string& by) {
   const auto driven = std::ranges::find(coordinates_, coordinate, &JointCoordinate::name);
   if (driven->isDriven)
     refuse("the joint " + quoted(coordinate) + " is driven twice, the second time by " + quoted(by));
-  for (const Following& following : followings_)
-    if (following.leader == coordinate)
-      refuse("the joint " + quoted(coordinate) + " is driven by " + quoted(by) + " after " +
-             quoted(following.follower) + " follows it; it must be driven before");
   for (const std::string& name : {driven->name, driven->rate}) {
     const NamedValue* initial = find(initials_, name);
     if (initial == nullptr || !isEqual(initial->nominal, Interval(0.0)))
@@ -330,6 +326,10 @@ class Mechanism::Checker final : public Fields {
   Coordinate followingCoordinate(const Word& word, std::string& name, const std::string& leader) override {
     found(name);
     if (name == leader) refuse("the joint " + quoted(name) + " follows itself, as " + quoted(element_) + " has it");
+    for (const Following& following : m_.followings_)
+      if (following.leader == name)
+        refuse("the joint " + quoted(name) + " is driven by " + quoted(element_) + " after " +
+               quoted(following.follower) + " follows it; it must be driven before");
     m_.followings_.push_back({name, leader});
     return drivenCoordinate(word, name);
   }

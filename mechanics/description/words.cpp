@@ -99,7 +99,8 @@ std::string elementPage(const std::vector<Described>& types) {
     if (!turning.measured.empty()) page += "\nIt measures:";
     for (std::size_t i = 0; i < turning.measured.size(); ++i) {
       const Word& word = turning.measured[i];
-      page += fmt::format("{} `NAME.{}` ({}), {}", i == 0 ? "" : ";", word.key, word.unit, word.meaning);
+      page += fmt::format("{} `NAME.{}` ({}), {}", i == 0 ? "" : ";", word.key,
+                          eitherUnit(word.unit, sliding.measured[i].unit), word.meaning);
     }
     page += turning.measured.empty() ? "\n" : ".\n\n";
   }

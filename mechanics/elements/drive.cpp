@@ -39,7 +39,7 @@ void describeNeeds(Fields& f, Coordinate kind) {
 template <class S>
 void addDrive(Assembler<S>& a, const std::string& joint, TimeFunction<S> motion) {
   const Variable<S>& driven = a.coordinate(joint);
-  a.template addFirst<PrescribedMotion<S>>(a.coordinate(joint), std::move(motion));
+  a.template addGiven<PrescribedMotion<S>>(a.coordinate(joint), std::move(motion));
   a.measureSolved("force", [&driven] { return S(-driven.force); });
   a.measureSolved("power", [&driven] { return S(-driven.force * driven.rate); });
 }

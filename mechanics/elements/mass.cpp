@@ -16,8 +16,7 @@ void Mass::describe(Fields& f) {
   f.numbers(
       {"inertia", "kg m^2", "`[xx, yy, zz]` or `[xx, yy, zz, xy, yz, zx]`, about the centre, in the axes of `at`"},
       inertia, symmetricEntries, 3);
-  f.rotations({"rotation", "rad", "list of `{ axis, angle }`: of the inertia's axes against `at`, one after the other"},
-              rotation);
+  f.rotations({"rotation", "rad", "of the inertia's axes against `at`; written as that of a link"}, rotation);
   for (const char* component : components) {
     f.measure({std::string("position.") + component, "m", "of the centre, in the inertial frame"});
     f.measure({std::string("velocity.") + component, "m/s", "of the centre, in the inertial frame"});

@@ -53,7 +53,7 @@ void drawBand(const std::vector<double>& time, const Band& band, const Frame& fr
   drawPath(path, layer, svg);
 }
 
-/// Of a stack five bands tell the shape on paper: drawing more would only make the page heavier.
+/// Of a stack a few bands tell the shape on paper: drawing more would only make the page heavier.
 void drawLayer(const std::vector<double>& time, const Layer& layer, const Frame& frame, std::string& svg) {
   const std::size_t stride = std::max<std::size_t>(1, (layer.bands.size() + 3) / 5);
   for (std::size_t i = 0; i < layer.bands.size(); i += stride) {

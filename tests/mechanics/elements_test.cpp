@@ -433,19 +433,26 @@ TEST(CouplingElement, JoinsTurningToSliding) {
   EXPECT_EQ(m.unitOf("teeth.offset"), "m");
 }
 
+/// As a robot's fingers follow one that a study drives: the gear may be there before the drive is.
 TEST(CouplingElement, FollowsADrive) {
-  Mechanism m;
-  m.add(Revolute{"crank", "inertial", "A", axisX});
-  m.add(Revolute{"wheel", "inertial", "B", axisX});
-  m.add(Revolute{"free", "B", "C", axisX});
-  m.add(Mass{"bob", "C", 1.0, {0.0, 1.0, 0.0}});
-  m.add(Drive{"shaft", "crank", Expression::parse("0.5 rad * (t/(1 s))^2")});
-  m.add(Coupling{"gear", "wheel", "crank", 3.0});
-  Assembly<double> assembly(m);
-  assembly.setState(std::vector<double>{0.0, 0.0}, 2.0);
-  EXPECT_DOUBLE_EQ(assembly.output("wheel.angle"), 6.0);
-  EXPECT_DOUBLE_EQ(assembly.output("wheel.rate"), 6.0);
-  EXPECT_DOUBLE_EQ(assembly.accelerations()[0], -3.0) << "the bob stays where it is, as the wheel runs away";
+  for (const bool isGearFirst : {false, true}) {
+    Mechanism m;
+    m.add(Revolute{"crank", "inertial", "A", axisX});
+    m.add(Revolute{"wheel", "inertial", "B", axisX});
+    m.add(Revolute{"free", "B", "C", axisX});
+    m.add(Mass{"disc", "B", 0.0, {0.0, 0.0, 0.0}, {2.0, 0.0, 0.0, 0.0, 0.0, 0.0}});
+    m.add(Mass{"bob", "C", 1.0, {0.0, 1.0, 0.0}});
+    const Coupling gear{"gear", "wheel", "crank", 3.0};
+    if (isGearFirst) m.add(gear);
+    m.add(Drive{"shaft", "crank", Expression::parse("0.5 rad * (t/(1 s))^2")});
+    if (!isGearFirst) m.add(gear);
+    Assembly<double> assembly(m);
+    assembly.setState(std::vector<double>{0.0, 0.0}, 2.0);
+    EXPECT_DOUBLE_EQ(assembly.output("wheel.angle"), 6.0);
+    EXPECT_DOUBLE_EQ(assembly.output("wheel.rate"), 6.0);
+    EXPECT_DOUBLE_EQ(assembly.accelerations()[0], -3.0) << "the bob stays where it is, as the wheel runs away";
+    EXPECT_DOUBLE_EQ(assembly.output("shaft.force"), 3.0 * 2.0 * 3.0);
+  }
 }
 
 TEST(CouplingElement, IsRefusedWhereItCannotBe) {
@@ -469,7 +476,7 @@ TEST(CouplingElement, IsRefusedWhereItCannotBe) {
   EXPECT_THAT(complaint({Coupling{"g", "b", "a"}, Coupling{"h", "b", "c"}}), HasSubstr("driven twice"));
   EXPECT_THAT(complaint({Coupling{"g", "b", "a"}, Coupling{"h", "a", "b"}}),
               HasSubstr("the joint 'a.angle' is driven by 'h' after 'b.angle' follows it"));
-  EXPECT_THAT(complaint({Coupling{"g", "b", "a"}, Drive{"d", "a", 0.0}}), HasSubstr("it must be driven before"));
+  EXPECT_EQ(complaint({Coupling{"g", "b", "a"}, Drive{"d", "a", 0.0}}), "no complaint");
   EXPECT_THAT(complaint({Coupling{"g", "moved", "a"}}), HasSubstr("'moved' has initial values"));
   EXPECT_THAT(complaint({Coupling{"g", "b", "a", Expression::parse("2 m/rad")}}), HasSubstr("'g.ratio'"));
 }

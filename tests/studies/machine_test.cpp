@@ -128,13 +128,6 @@ TEST(SeenMachine, IsTightlyEnclosed) {
   }
 }
 
-TEST(SeenMachine, ChangesNoAnswer) {
-  const Results results = resultsOf(sampleStudy);
-  EXPECT_EQ(results.outputs.size(), 2u);
-  EXPECT_EQ(results.interval.at.lower.outputs, 2u);
-  EXPECT_EQ(results.comparison.verdict, "inside");
-}
-
 TEST(SeenMachine, ShowsWhatWasAskedForAlone) {
   const auto compared = [](const std::string& words) {
     return resultsOf(sampleStudyWith("\"interval\", \"stochastic\", \"fuzzy\"", words)).machine;

@@ -142,7 +142,7 @@ TEST(FlowKink, OfTimeEndSteps) {
   const auto rectified = [](const Recorded& t, const Recorded&) { return abs(sin(20.0 * t)); };
   const auto late = [](const Recorded& t, const Recorded& p) { return max(t - 0.25 * p, Recorded(0.0)); };
   const std::tuple<Recorded (*)(const Recorded&, const Recorded&), long, double> loads[] = {
-      {rising, 20, 1.02}, {ramp, 20, 1.02},   {soft, 20, 1.02},  {step, 20, 1.02},
+      {rising, 20, 1.02}, {ramp, 20, 1.02},      {soft, 20, 1.02},  {step, 20, 1.02},
       {pulses, 60, 1.02}, {rectified, 60, 1.02}, {late, 100000, 10}};
   for (const auto& [load, steps, tightness] : loads)
     for (const double width : {0.0, 1e-6, 0.02}) {
