@@ -79,8 +79,7 @@ double FlowStepper::suggestion(double theta) const {
     };
     double size = 0;  // over the step; one that starts from rest moves by a later order
     for (int order = 3; order >= 0; --order) size = size * std::min(theta, 1.0) + norm(order);
-    for (int order = 4; size == 0 && order <= m_; ++order)
-      size = norm(order) * std::pow(std::min(theta, 1.0), order);
+    for (int order = 4; size == 0 && order <= m_; ++order) size = norm(order) * std::pow(std::min(theta, 1.0), order);
     size = std::max(size, floor_[at(i)]);
     for (int order : {m_ - 1, m_}) {
       const double last = norm(order);

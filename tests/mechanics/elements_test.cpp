@@ -440,7 +440,7 @@ TEST(CouplingElement, FollowsADrive) {
     m.add(Revolute{"crank", "inertial", "A", axisX});
     m.add(Revolute{"wheel", "inertial", "B", axisX});
     m.add(Revolute{"free", "B", "C", axisX});
-    m.add(Mass{"disc", "B", 0.0, {0.0, 0.0, 0.0}, {2.0, 0.0, 0.0, 0.0, 0.0, 0.0}});
+    m.add(Mass{"disc", "B", 0.0, {0.0, 0.0, 0.0}, {2.0, 2.0, 0.0, 0.0, 0.0, 0.0}});
     m.add(Mass{"bob", "C", 1.0, {0.0, 1.0, 0.0}});
     const Coupling gear{"gear", "wheel", "crank", 3.0};
     if (isGearFirst) m.add(gear);
