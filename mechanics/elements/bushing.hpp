@@ -12,7 +12,8 @@ struct Bushing {
   static constexpr const char* type = "bushing";
   static constexpr const char* summary =
       "an elastic bushing, with springs and dampers along and about the axes of `from`; about an axis the moment is "
-      "`angular_stiffness` times the sine of the turn: linear while turns are small";
+      "`angular_stiffness` times the sine of the turn: linear while turns are small; turns about several axes have the "
+      "energy Σ c_i (1 − A_ii), c_i = (κ_j + κ_k − κ_i)/2, with A the orientation of `to` in `from`";
 
   std::string name, from, to;
   ExpressionVector stiffness = {0.0, 0.0, 0.0}, damping = {0.0, 0.0, 0.0};                ///< N/m, N s/m

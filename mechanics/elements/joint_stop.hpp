@@ -11,7 +11,7 @@ struct JointStop {
   static constexpr const char* type = "joint-stop";
   static constexpr const char* summary =
       "elastic stops at both ends of a joint's travel: `stiffness` times depth times (1 + `damping` times the speed of "
-      "entering)";
+      "entering); what leaves faster than 1/`damping` is held back";
 
   std::string name, joint;
   Expression lower = 0.0, upper = 0.0, stiffness = 0.0, damping = 0.0;  ///< rad or m, N m/rad or N/m, s/rad or s/m
