@@ -5,12 +5,19 @@
 # everywhere except where a file asks for it (the flow's kernels, whose certificate covers it).
 function(gamut_compile_options target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -ffp-contract=off
-    $<$<BOOL:${GAMUT_WERROR}>:-Werror>)
+    $<$<BOOL:${GAMUT_WERROR}>:-Werror> ${unity_warnings})
   # g++ 12 at -O3 warns wrongly inside its own library: "text" + std::string (GCC bug 105651), < of vectors of bytes.
   if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
     target_compile_options(${target} PRIVATE -Wno-restrict -Wno-stringop-overread)
   endif()
 endfunction()
+
+# Of sources compiled some at a time (CMAKE_UNITY_BUILD) g++ takes each for a header, in which unnamed namespaces would
+# be a fault, and what one calls like another does shadows it.
+set(unity_warnings "")
+if(CMAKE_UNITY_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+  set(unity_warnings -Wno-subobject-linkage -Wno-shadow)
+endif()
 
 # What computes nothing that takes time: a third less to compile than with -O3.
 function(gamut_compile_quickly target)

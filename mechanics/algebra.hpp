@@ -4,8 +4,11 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include "mechanics/scalars.hpp"
 #include "scalars/eigen.hpp"
+#include "scalars/fuzzy.hpp"
 #include "scalars/recorded.hpp"
+#include "scalars/samples.hpp"
 #include "scalars/traits.hpp"
 
 namespace gamut {

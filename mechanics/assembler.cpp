@@ -164,10 +164,6 @@ TimeFunction<S> Assembler<S>::timeFunction(const Expression& expression) const {
   };
 }
 
-template class Assembler<double>;
-template class Assembler<Interval>;
-template class Assembler<Samples>;
-template class Assembler<Fuzzy>;
-template class Assembler<Recorded>;
+GAMUT_COMPILED_HERE(Assembler)
 
 }  // namespace gamut

@@ -18,8 +18,6 @@
 #include "mechanics/description/mechanism.hpp"
 #include "mechanics/element.hpp"
 #include "mechanics/rotation.hpp"
-#include "scalars/fuzzy.hpp"
-#include "scalars/samples.hpp"
 
 namespace gamut {
 
@@ -126,10 +124,6 @@ class Assembler {
   std::vector<std::unique_ptr<Element<S>>> given_, first_, parts_;
 };
 
-extern template class Assembler<double>;
-extern template class Assembler<Interval>;
-extern template class Assembler<Samples>;
-extern template class Assembler<Fuzzy>;
-extern template class Assembler<Recorded>;
+GAMUT_COMPILED_ELSEWHERE(Assembler)
 
 }  // namespace gamut

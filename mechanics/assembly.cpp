@@ -255,10 +255,6 @@ S Assembly<S>::output(const std::string& quantity) const {
   return parts_.signal(Expression::parse(quantity))();
 }
 
-template class Assembly<double>;
-template class Assembly<Interval>;
-template class Assembly<Samples>;
-template class Assembly<Fuzzy>;
-template class Assembly<Recorded>;
+GAMUT_COMPILED_HERE(Assembly)
 
 }  // namespace gamut

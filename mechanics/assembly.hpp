@@ -13,8 +13,6 @@
 #include "mechanics/assembler.hpp"
 #include "mechanics/equations/system.hpp"
 #include "mechanics/measurements.hpp"
-#include "scalars/fuzzy.hpp"
-#include "scalars/samples.hpp"
 
 namespace gamut {
 
@@ -81,10 +79,6 @@ class Assembly {
   Known known_ = Known::state;
 };
 
-extern template class Assembly<double>;
-extern template class Assembly<Interval>;
-extern template class Assembly<Samples>;
-extern template class Assembly<Fuzzy>;
-extern template class Assembly<Recorded>;
+GAMUT_COMPILED_ELSEWHERE(Assembly)
 
 }  // namespace gamut

@@ -181,51 +181,12 @@ class Constraint : public Element<S> {
   std::vector<S> multipliers_;
 };
 
-template <class S>
-MovingPoint<S> Frame<S>::inInertial(MovingPoint<S> point) const {
-  for (const Frame* frame = this; frame->origin; frame = &frame->origin->from()) point = frame->origin->inFrom(point);
-  return point;
-}
-
-template <class S>
-SpatialInertia<S> Transmission<S>::inFrom(const SpatialInertia<S>& inertia) {
-  // Column j of X from the j-th unit acceleration of `from`: angular 0 … 2, linear 3 … 5.
-  std::array<Vector3<S>, 6> angular, linear;
-  for (Speed<S>* speed : speeds()) speed->acceleration = S(0.0);
-  for (std::size_t j = 0; j < 6; ++j) {
-    from_.omegaDot = from_.a = zeroVector<S>();
-    (j < 3 ? from_.omegaDot : from_.a)[static_cast<Eigen::Index>(j % 3)] = S(1.0);
-    this->doMotion(MotionLevel::acceleration);
-    angular[j] = to_.omegaDot;
-    linear[j] = to_.a;
-  }
-  SpatialInertia<S> result;
-  for (std::size_t j = 0; j < 6; ++j) {
-    const Vector3<S> moment = inertia.angular * angular[j] + inertia.coupling * linear[j];
-    const Vector3<S> force = inertia.coupling.transpose() * angular[j] + inertia.linear * linear[j];
-    for (std::size_t i = 0; i < 6; ++i) {
-      const S entry = angular[i].dot(moment) + linear[i].dot(force);
-      const auto row = static_cast<Eigen::Index>(i % 3), column = static_cast<Eigen::Index>(j % 3);
-      if (i < 3 && j < 3) result.angular(row, column) = entry;
-      if (i < 3 && j >= 3) result.coupling(row, column) = entry;
-      if (i >= 3 && j >= 3) result.linear(row, column) = entry;
-    }
-  }
-  return result;
-}
-
 /// Elements in the order in which motion passes through them: `chain << joint << link << mass`.
 template <class S>
 class Chain final : public Element<S> {
  public:
   /// The element must outlive the chain.
-  Chain& operator<<(Element<S>& element) {
-    elements_.push_back(&element);
-    if (auto* inertia = dynamic_cast<Inertia<S>*>(&element)) inertias_.push_back(inertia);
-    if (auto* constraint = dynamic_cast<Constraint<S>*>(&element)) constraints_.push_back(constraint);
-    hasGears_ = hasGears_ || dynamic_cast<Gear<S>*>(&element) != nullptr;
-    return *this;
-  }
+  Chain& operator<<(Element<S>& element);
 
   void doMotion(MotionLevel level = MotionLevel::all) override {
     for (Element<S>* element : elements_) element->doMotion(level);
@@ -254,5 +215,9 @@ class Chain final : public Element<S> {
   std::vector<Constraint<S>*> constraints_;
   bool hasGears_ = false;
 };
+
+GAMUT_COMPILED_ELSEWHERE(Frame)
+GAMUT_COMPILED_ELSEWHERE(Transmission)
+GAMUT_COMPILED_ELSEWHERE(Chain)
 
 }  // namespace gamut

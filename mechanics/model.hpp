@@ -6,12 +6,16 @@
 #include <string>
 #include <vector>
 
-#include "mechanics/assembly.hpp"
 #include "mechanics/description/mechanism.hpp"
 #include "mechanics/equations/formulation.hpp"
 #include "scalars/program/program.hpp"
 
 namespace gamut {
+
+class Recorded;
+
+template <class S>
+class Assembly;
 
 /// ẋ = f(t, x, p): x = [q; u; z] in the order of Mechanism::stateNames(), p the named parameters in the order given;
 /// every other number is a constant of the program. States that start by one of them are differences

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "mechanics/assembly.hpp"
 #include "mechanics/rotation.hpp"
 #include "scalars/program/program.hpp"
 #include "scalars/recorded.hpp"
@@ -199,14 +200,9 @@ std::vector<S> axesOf(const Assembly<S>& assembly, const Skeleton& skeleton) {
   });
 }
 
-#define GAMUT_SEEN_BY(S)                                                     \
-  template std::vector<S> positionsOf(const Assembly<S>&, const Skeleton&);  \
-  template std::vector<S> velocitiesOf(const Assembly<S>&, const Skeleton&); \
-  template std::vector<S> axesOf(const Assembly<S>&, const Skeleton&)
-GAMUT_SEEN_BY(double);
-GAMUT_SEEN_BY(Interval);
-GAMUT_SEEN_BY(Samples);
-GAMUT_SEEN_BY(Recorded);
-#undef GAMUT_SEEN_BY
+#define GAMUT_COMPILE_FUNCTION(FUNCTION, S) template std::vector<S> FUNCTION(const Assembly<S>&, const Skeleton&);
+GAMUT_FOR_EVERY_SCALAR(GAMUT_COMPILE_FUNCTION, positionsOf)
+GAMUT_FOR_EVERY_SCALAR(GAMUT_COMPILE_FUNCTION, velocitiesOf)
+GAMUT_FOR_EVERY_SCALAR(GAMUT_COMPILE_FUNCTION, axesOf)
 
 }  // namespace gamut

@@ -4,10 +4,13 @@
 #include <string>
 #include <vector>
 
-#include "mechanics/assembly.hpp"
+#include "mechanics/axis.hpp"
 #include "mechanics/description/mechanism.hpp"
 
 namespace gamut {
+
+template <class S>
+class Assembly;
 
 struct Skeleton {
   /// What a frame, a centre of mass or an end of a spring stands at; those that stand together whatever the motion are

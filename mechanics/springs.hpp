@@ -20,30 +20,13 @@ class Chord {
       : ends_{{{from, std::move(fromPoint)}, {to, std::move(toPoint)}}} {}
 
   /// Measures by the frames' present positions and, at MotionLevel::all, velocities.
-  void doMotion(MotionLevel level) {
-    if (level == MotionLevel::acceleration) return;
-    using std::sqrt;
-    const MovingPoint<S> p1 = ends_[0].frame.inInertial({ends_[0].point, zeroVector<S>()});
-    const MovingPoint<S> p2 = ends_[1].frame.inInertial({ends_[1].point, zeroVector<S>()});
-    const Vector3<S> x = p2.position - p1.position;
-    length_ = sqrt(square(x[0]) + square(x[1]) + square(x[2]));
-    direction_ = x / length_;
-    if (level == MotionLevel::all) rate_ = direction_.dot(p2.velocity - p1.velocity);
-  }
+  void doMotion(MotionLevel level);
 
   const S& length() const { return length_; }
   const S& rate() const { return rate_; }
 
   /// The force [N] pushes the points apart.
-  void push(const S& force) {
-    double side = -1;
-    for (End& end : ends_) {
-      const Vector3<S> local = end.frame.R.transpose() * Vector3<S>(direction_ * (S(side) * force));
-      end.frame.f += local;
-      end.frame.tau += end.point.cross(local);
-      side = 1;
-    }
-  }
+  void push(const S& force);
 
  private:
   struct End {
@@ -66,18 +49,16 @@ class SpringDamper final : public Load<S> {
         restLength_(std::move(restLength)),
         damping_(std::move(damping)) {}
 
-  void doMotion(MotionLevel level = MotionLevel::all) override { chord_.doMotion(level); }
+  void doMotion(MotionLevel level = MotionLevel::all) override;
 
   const Chord<S>& chord() const { return chord_; }
   /// Pushes the points apart where it is positive [N].
-  S force() const { return -(stiffness_ * (chord_.length() - restLength_)) - damping_ * chord_.rate(); }
+  S force() const;
 
-  S potentialEnergy(const Vector3<S>&) const override {
-    return S(0.5) * (stiffness_ * square(S(chord_.length() - restLength_)));
-  }
+  S potentialEnergy(const Vector3<S>&) const override;
 
  private:
-  void applyForce() override { chord_.push(force()); }
+  void applyForce() override;
 
   Chord<S> chord_;
   S stiffness_, restLength_, damping_;
@@ -94,17 +75,17 @@ class JointSpringDamper final : public Load<S> {
         restPosition_(std::move(restPosition)),
         damping_(std::move(damping)) {}
 
-  S potentialEnergy(const Vector3<S>&) const override {
-    return S(0.5) * (stiffness_ * square(S(variable_.position - restPosition_)));
-  }
+  S potentialEnergy(const Vector3<S>&) const override;
 
  private:
-  void applyForce() override {
-    variable_.force -= stiffness_ * (variable_.position - restPosition_) + damping_ * variable_.rate;
-  }
+  void applyForce() override;
 
   Variable<S>& variable_;
   S stiffness_, restPosition_, damping_;
 };
+
+GAMUT_COMPILED_ELSEWHERE(Chord)
+GAMUT_COMPILED_ELSEWHERE(SpringDamper)
+GAMUT_COMPILED_ELSEWHERE(JointSpringDamper)
 
 }  // namespace gamut

@@ -10,8 +10,8 @@
 
 #include "scalars/elementary/fine_functions.hpp"
 #include "scalars/elementary/rounding.hpp"
+#include "scalars/elementary/vector_unit.hpp"
 
-#define GAMUT_INLINE [[gnu::always_inline]] inline
 #ifdef __x86_64__
 #define GAMUT_FUSED [[gnu::target("fma")]]
 #else

@@ -21,7 +21,7 @@ constexpr double calm = 0.25;            // change against greatest magnitude
 constexpr double shortest = 0x1p-30;     // cell, of the horizon
 constexpr std::size_t mostCells = 4096;  // an integrator takes at least a step in each
 constexpr double beyond = 1e150;         // nothing is integrated with such numbers
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 struct Dependence {
   bool time = false, state = false;
@@ -98,10 +98,10 @@ TimeCells::Cell TimeCells::evaluated(double begin, double end) {
   for (std::size_t k = 0; k < functions; ++k) {
     const Interval &value = values_[k], &derivative = values_[functions + k];
     const bool isNowhere = isEmpty(value) || mignitude(value) > beyond;
-    const double steepness = isEmpty(derivative) ? infinity : magnitude(derivative);
+    const double steepness = isEmpty(derivative) ? unbounded : magnitude(derivative);
     const double change = std::min(width(value), steepness * width(time));
     cell.sizes.push_back(isNowhere ? 0 : magnitude(value));
-    cell.changes.push_back(isNowhere ? 0 : std::isnan(change) ? infinity : change);
+    cell.changes.push_back(isNowhere ? 0 : std::isnan(change) ? unbounded : change);
   }
   return cell;
 }

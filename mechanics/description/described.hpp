@@ -19,12 +19,9 @@
 #include <vector>
 
 #include "mechanics/description/fields.hpp"
+#include "mechanics/scalars.hpp"
 
 namespace gamut {
-
-class Fuzzy;
-class Recorded;
-class Samples;
 
 template <class S>
 class Assembler;
@@ -80,11 +77,9 @@ class Described {
     virtual std::string summary() const = 0;
     virtual std::string& name() = 0;
     virtual void describe(Fields& fields) = 0;
-    virtual void assemble(Assembler<double>& assembler) const = 0;
-    virtual void assemble(Assembler<Interval>& assembler) const = 0;
-    virtual void assemble(Assembler<Samples>& assembler) const = 0;
-    virtual void assemble(Assembler<Fuzzy>& assembler) const = 0;
-    virtual void assemble(Assembler<Recorded>& assembler) const = 0;
+#define GAMUT_ASSEMBLED_BY(FUNCTION, SCALAR) virtual void FUNCTION(Assembler<SCALAR>& assembler) const = 0;
+    GAMUT_FOR_EVERY_SCALAR(GAMUT_ASSEMBLED_BY, assemble)
+#undef GAMUT_ASSEMBLED_BY
     virtual std::vector<Fault> faults(const RangeOf& rangeOf) const = 0;
     virtual std::vector<Fault> doubts(const RangeOf& nominal, const RangeOf& range) const = 0;
   };
@@ -97,11 +92,10 @@ class Described {
     std::string summary() const override { return T::summary; }
     std::string& name() override { return element.name; }
     void describe(Fields& fields) override { element.describe(fields); }
-    void assemble(Assembler<double>& a) const override { element.assemble(a); }
-    void assemble(Assembler<Interval>& a) const override { element.assemble(a); }
-    void assemble(Assembler<Samples>& a) const override { element.assemble(a); }
-    void assemble(Assembler<Fuzzy>& a) const override { element.assemble(a); }
-    void assemble(Assembler<Recorded>& a) const override { element.assemble(a); }
+#define GAMUT_ASSEMBLED_BY(FUNCTION, SCALAR) \
+  void FUNCTION(Assembler<SCALAR>& assembler) const override { element.FUNCTION(assembler); }
+    GAMUT_FOR_EVERY_SCALAR(GAMUT_ASSEMBLED_BY, assemble)
+#undef GAMUT_ASSEMBLED_BY
     std::vector<Fault> faults(const RangeOf& rangeOf) const override {
       if constexpr (requires { element.faults(rangeOf); }) return element.faults(rangeOf);
       return {};
@@ -119,9 +113,5 @@ class Described {
 }  // namespace gamut
 
 /// Compiles the assembly of an element type of the library for every scalar.
-#define GAMUT_ASSEMBLE(Type)                                \
-  template void Type::assemble(Assembler<double>&) const;   \
-  template void Type::assemble(Assembler<Interval>&) const; \
-  template void Type::assemble(Assembler<Samples>&) const;  \
-  template void Type::assemble(Assembler<Fuzzy>&) const;    \
-  template void Type::assemble(Assembler<Recorded>&) const
+#define GAMUT_ASSEMBLE(Type) GAMUT_FOR_EVERY_SCALAR(GAMUT_ASSEMBLE_FOR, Type)
+#define GAMUT_ASSEMBLE_FOR(Type, SCALAR) template void Type::assemble(Assembler<SCALAR>&) const;

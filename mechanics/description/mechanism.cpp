@@ -17,8 +17,6 @@ namespace {
 /// Stands for an element where its expressions are checked.
 constexpr const char* baseAccelerationName = "base_acceleration";
 
-std::string quoted(const std::string& name) { return "'" + name + "'"; }
-
 [[noreturn]] void refuse(const std::string& sentence) { throw std::invalid_argument(sentence); }
 
 /// Names of whole quantities, which parts of a mechanism must not have.
@@ -60,7 +58,7 @@ const Mechanism::NamedValue* Mechanism::find(const std::vector<NamedValue>& valu
 void Mechanism::addParameter(const std::string& name, const Interval& nominal, const std::string& unit) {
   checkParameterName(name);
   if (isEmpty(nominal) || !isBounded(nominal))
-    refuse("the quantity " + quoted(name) + " needs a finite value, not " + toString(nominal));
+    refuse("the quantity " + inQuotes(name) + " needs a finite value, not " + toString(nominal));
   parameters_.push_back({name, unit, nominal});
 }
 
@@ -78,9 +76,9 @@ void Mechanism::addDerived(const std::string& name, const Expression& formula) {
 
 void Mechanism::checkParameterName(const std::string& name) const {
   if (name.empty()) refuse("a parameter needs a name");
-  if (knows(name) || find(initials_, name) != nullptr) refuse("the quantity " + quoted(name) + " is defined twice");
+  if (knows(name) || find(initials_, name) != nullptr) refuse("the quantity " + inQuotes(name) + " is defined twice");
   if (unitNamed(name) != nullptr || isQuantity(name) || name == "pi")
-    refuse("a parameter cannot be named " + quoted(name) + ": that is a " +
+    refuse("a parameter cannot be named " + inQuotes(name) + ": that is a " +
            (isQuantity(name) ? "quantity"
             : name == "pi"   ? "number"
                              : "unit"));
@@ -109,22 +107,23 @@ bool Mechanism::dependsOn(const Expression& number, const std::string& parameter
 
 void Mechanism::checkNewName(const std::string& kind, const std::string& name) const {
   if (name.empty()) refuse("a " + kind + " needs a name");
-  if (has(names_, name)) refuse("two elements are named " + quoted(name) + "; every element needs a name of its own");
-  if (isQuantity(name)) refuse("an element cannot be named " + quoted(name) + ": that is a quantity");
+  if (has(names_, name)) refuse("two elements are named " + inQuotes(name) + "; every element needs a name of its own");
+  if (isQuantity(name)) refuse("an element cannot be named " + inQuotes(name) + ": that is a quantity");
 }
 
 void Mechanism::checkFrame(const std::string& frame, const std::string& of) const {
   if (!has(frames_, frame))
-    throw UnknownName("frame", frame, frames_, quoted(of) + " must come after the element that defines its frame");
+    throw UnknownName("frame", frame, frames_, inQuotes(of) + " must come after the element that defines its frame");
 }
 
 void Mechanism::addFrame(const std::string& from, const std::string& to, const std::string& of) {
   checkFrame(from, of);
-  if (to.empty()) refuse("the element " + quoted(of) + " needs the name of the frame that it moves");
-  if (has(frames_, to)) refuse("the frame " + quoted(to) + " is defined twice; " + quoted(of) + " needs a new frame");
+  if (to.empty()) refuse("the element " + inQuotes(of) + " needs the name of the frame that it moves");
+  if (has(frames_, to))
+    refuse("the frame " + inQuotes(to) + " is defined twice; " + inQuotes(of) + " needs a new frame");
   if (unitOfMeasured(to + ".position.x") != nullptr)
-    refuse("the frame " + quoted(to) + " has the name of an element whose position is measured");
-  if (isQuantity(to)) refuse("a frame cannot be named " + quoted(to) + ": that is a quantity");
+    refuse("the frame " + inQuotes(to) + " has the name of an element whose position is measured");
+  if (isQuantity(to)) refuse("a frame cannot be named " + inQuotes(to) + ": that is a quantity");
   frames_.push_back(to);
 }
 
@@ -146,10 +145,10 @@ void Mechanism::checkNames(const Expression& number, const std::string& name) co
   for (const std::string& used : number.names()) {
     if (knows(used)) continue;
     if (used == "t" || unitOfMeasured(used) != nullptr)
-      throw WrongNumber(name, quoted(used) + " changes in motion; expected a formula of parameters alone");
+      throw WrongNumber(name, inQuotes(used) + " changes in motion; expected a formula of parameters alone");
     std::vector<std::string> known = namesOf(parameters_);
     for (const Derived& derived : derived_) known.push_back(derived.name);
-    throw UnknownName("parameter", used, known, "for " + quoted(name));
+    throw UnknownName("parameter", used, known, "for " + inQuotes(name));
   }
 }
 
@@ -188,13 +187,13 @@ Dimension Mechanism::check(const Expression& number, const std::string& name, co
 void Mechanism::addState(std::vector<State>& states, const std::string& name, const std::string& unit,
                          const Expression& initial) {
   State state{name, unit, initial};
-  if (unitOfMeasured(name) != nullptr) refuse("the quantity " + quoted(name) + " is defined twice");
+  if (unitOfMeasured(name) != nullptr) refuse("the quantity " + inQuotes(name) + " is defined twice");
   if (initial.isConstant()) {
-    if (knows(name)) refuse("the quantity " + quoted(name) + " is defined twice");
+    if (knows(name)) refuse("the quantity " + inQuotes(name) + " is defined twice");
     check(initial, name, unit);
     const Interval value = initial.evaluate<Interval>([](const std::string&) { return Interval::entire(); });
     if (isEmpty(value) || !isBounded(value))
-      refuse("the initial value " + quoted(name) + " needs a finite value, not " + toString(value));
+      refuse("the initial value " + inQuotes(name) + " needs a finite value, not " + toString(value));
     initials_.push_back({name, unit, value});
     state.initial = Expression::named(name);
   } else {
@@ -205,7 +204,7 @@ void Mechanism::addState(std::vector<State>& states, const std::string& name, co
 
 void Mechanism::addMeasured(const std::string& name, const std::string& unit, const std::string& of, bool isSolved) {
   if (unitOfMeasured(name) != nullptr || knows(name))
-    refuse("the quantity " + quoted(name) + " of " + quoted(of) + " is defined twice");
+    refuse("the quantity " + inQuotes(name) + " of " + inQuotes(of) + " is defined twice");
   measured_.push_back({name, unit, of, isSolved});
 }
 
@@ -232,11 +231,11 @@ void Mechanism::addSignal(Signal signal, Expression& expression) {
 void Mechanism::drive(const std::string& coordinate, const std::string& by) {
   const auto driven = std::ranges::find(coordinates_, coordinate, &JointCoordinate::name);
   if (driven->isDriven)
-    refuse("the joint " + quoted(coordinate) + " is driven twice, the second time by " + quoted(by));
+    refuse("the joint " + inQuotes(coordinate) + " is driven twice, the second time by " + inQuotes(by));
   for (const std::string& name : {driven->name, driven->rate}) {
     const NamedValue* initial = find(initials_, name);
     if (initial == nullptr || !isEqual(initial->nominal, Interval(0.0)))
-      refuse("the joint " + quoted(driven->element) + " has initial values, but is driven by " + quoted(by));
+      refuse("the joint " + inQuotes(driven->element) + " has initial values, but is driven by " + inQuotes(by));
   }
   std::erase_if(initials_, [&](const auto& value) { return value.name == driven->name || value.name == driven->rate; });
   std::erase_if(positions_, [&](const State& state) { return state.name == driven->name; });
@@ -252,10 +251,10 @@ class Mechanism::Checker final : public Fields {
   void frame(const Word& /*word*/, std::string& name) override { m_.checkFrame(name, element_); }
   void otherFrame(const Word& word, std::string& name, const std::string& other) override {
     frame(word, name);
-    if (name == other) refuse("the element " + quoted(element_) + " needs two different frames");
+    if (name == other) refuse("the element " + inQuotes(element_) + " needs two different frames");
   }
   void carriesMass(const std::string& frame) override {
-    if (has(m_.frames_, element_)) refuse("the element " + quoted(element_) + " has the name of a frame");
+    if (has(m_.frames_, element_)) refuse("the element " + inQuotes(element_) + " has the name of a frame");
     m_.massFrames_.push_back(frame);
   }
   void movedFrame(const Word& /*word*/, std::string& name, const std::string& from) override {
@@ -269,7 +268,7 @@ class Mechanism::Checker final : public Fields {
   }
   void choice(const Word& word, std::string& value, const std::vector<std::string>& choices) override {
     if (!has(choices, value))
-      refuse("the " + word.key + " of " + quoted(element_) + " is " + quoted(value) + ", not " +
+      refuse("the " + word.key + " of " + inQuotes(element_) + " is " + inQuotes(value) + ", not " +
              expectedName(value, choices));
   }
   void axis(const Word& /*word*/, Axis& /*axis*/) override {}
@@ -283,7 +282,7 @@ class Mechanism::Checker final : public Fields {
       if (quaternion && std::ranges::all_of(*quaternion, [&](const Expression& component) {
             return isEqual(m_.rangeOf(component), Interval(0.0));
           }))
-        refuse("the quaternion of " + quoted(element_) + " is zero, which is no orientation");
+        refuse("the quaternion of " + inQuotes(element_) + " is zero, which is no orientation");
     }
   }
   void number(const Word& word, Expression& number) override { m_.use(number, named(word), word.unit); }
@@ -310,7 +309,7 @@ class Mechanism::Checker final : public Fields {
   }
   std::string state(const Word& word, Expression& initial) override {
     if (unitNamed(element_) != nullptr || element_ == "pi" || isNumber(element_))
-      refuse("a state cannot be named " + quoted(element_) + ": that is a unit or a number");
+      refuse("a state cannot be named " + inQuotes(element_) + ": that is a unit or a number");
     std::string unit = word.unit;
     if (unit.empty()) unit = gamut::unitOf(m_.dimensionOf(initial));
     m_.addState(m_.own_, element_, unit, initial);
@@ -325,17 +324,17 @@ class Mechanism::Checker final : public Fields {
   }
   Coordinate followingCoordinate(const Word& word, std::string& name, const std::string& leader) override {
     found(name);
-    if (name == leader) refuse("the joint " + quoted(name) + " follows itself, as " + quoted(element_) + " has it");
+    if (name == leader) refuse("the joint " + inQuotes(name) + " follows itself, as " + inQuotes(element_) + " has it");
     for (const Following& following : m_.followings_)
       if (following.leader == name)
-        refuse("the joint " + quoted(name) + " is driven by " + quoted(element_) + " after " +
-               quoted(following.follower) + " follows it; it must be driven before");
+        refuse("the joint " + inQuotes(name) + " is driven by " + inQuotes(element_) + " after " +
+               inQuotes(following.follower) + " follows it; it must be driven before");
     m_.followings_.push_back({name, leader});
     return drivenCoordinate(word, name);
   }
   void timeFunction(const Word& word, Expression& number) override {
     if (!number.isSmooth())
-      refuse("the " + word.key + " of " + quoted(element_) +
+      refuse("the " + word.key + " of " + inQuotes(element_) +
              " has a kink or a jump (abs, sign, min, max, where), where its rate would jump");
     m_.addSignal({element_, named(word), word.unit, Reach::time, number}, number);
   }
@@ -343,7 +342,7 @@ class Mechanism::Checker final : public Fields {
     const std::vector<mpq_class>& times = table.times;
     if (times.size() < 2 || table.values.size() != times.size() || times.size() > maxTableRows ||
         std::ranges::adjacent_find(times, std::greater_equal<>()) != times.end())
-      refuse("the table of " + quoted(element_) + " does not have 2 to " + std::to_string(maxTableRows) +
+      refuse("the table of " + inQuotes(element_) + " does not have 2 to " + std::to_string(maxTableRows) +
              " rows whose times rise");
   }
   void signal(const Word& word, Expression& number) override {
@@ -394,8 +393,8 @@ const Mechanism::JointCoordinate& Mechanism::coordinate(const std::string& name,
     if (coordinate.name == name || (coordinate.element == name && isOnly(coordinate))) return coordinate;
     names.push_back(isOnly(coordinate) ? coordinate.element : coordinate.name);
   }
-  if (!own.empty()) throw UnknownName("joint with one coordinate", name, own, "for " + quoted(of));
-  throw UnknownName("joint", name, names, "for " + quoted(of));
+  if (!own.empty()) throw UnknownName("joint with one coordinate", name, own, "for " + inQuotes(of));
+  throw UnknownName("joint", name, names, "for " + inQuotes(of));
 }
 
 void Mechanism::setGravity(ExpressionVector gravity) {
@@ -445,20 +444,20 @@ void Mechanism::checkSignal(const Signal& signal) const {
       const Measured* measured = findMeasured(used);
       const auto whole = std::ranges::find(wholeQuantities(), used, &WholeQuantity::name);
       if ((measured != nullptr && measured->isSolved) || (whole != wholeQuantities().end() && whole->isSolved))
-        throw WrongNumber(signal.name, quoted(used) +
+        throw WrongNumber(signal.name, inQuotes(used) +
                                            " follows from all forces, this one among them; expected a formula "
                                            "of time, positions, velocities and own states");
     }
     if (used == "t" || knows(used) || (signal.reach != Reach::time && unitOfMeasured(used) != nullptr)) continue;
     if (unitOfMeasured(used) != nullptr)
       throw WrongNumber(signal.name,
-                        quoted(used) + " changes in motion; expected a formula of time and parameters alone");
+                        inQuotes(used) + " changes in motion; expected a formula of time and parameters alone");
     std::vector<std::string> known = namesOf(parameters_);
     for (const Derived& derived : derived_) known.push_back(derived.name);
     known.emplace_back("t");
     if (signal.reach != Reach::time)
       for (const std::string& quantity : outputQuantities()) known.push_back(quantity);
-    throw UnknownName("quantity", used, known, "for " + quoted(signal.name));
+    throw UnknownName("quantity", used, known, "for " + inQuotes(signal.name));
   }
   if (gamut::dimensionOf(signal.unit) == Dimension{.time = -1} && isWithoutUnits(signal.expression)) return;
   check(signal.expression, signal.name, signal.unit);
@@ -501,7 +500,7 @@ void Mechanism::checkCycle(const Signal& signal) const {
     const Measured* measured = findMeasured(name);
     if (measured == nullptr || has(reached, measured->element)) continue;
     if (measured->element == signal.element)
-      throw WrongNumber(signal.name, "it depends on " + quoted(name) +
+      throw WrongNumber(signal.name, "it depends on " + inQuotes(name) +
                                          ", which depends on it; expected a formula of "
                                          "what is known without it");
     reached.push_back(measured->element);
@@ -563,8 +562,8 @@ void Mechanism::checkMasses() const {
     const auto isOf = [&](const JointCoordinate& c) { return c.element == moved.element; };
     const bool isDriven = std::ranges::any_of(coordinates_, isOf) && std::ranges::none_of(coordinates_, isFree);
     if (moved.isByJoint && !isDriven && !carries[moved.frame])
-      refuse("the joint " + quoted(moved.element) + " moves no mass; add a mass at the frame " + quoted(moved.frame) +
-             " or at one that it carries");
+      refuse("the joint " + inQuotes(moved.element) + " moves no mass; add a mass at the frame " +
+             inQuotes(moved.frame) + " or at one that it carries");
   }
 }
 

@@ -58,17 +58,17 @@ bool shareAPart(std::string_view a, std::string_view b) {
   return false;
 }
 
-std::string quoted(const std::string& name) { return "'" + name + "'"; }
-
 /// "'a', 'b' or 'c'" of the first three.
 std::string alternatives(const std::vector<std::string>& names) {
   const std::size_t n = std::min<std::size_t>(names.size(), 3);
-  std::string text = quoted(names[0]);
-  for (std::size_t i = 1; i < n; ++i) text += (i + 1 < n ? ", " : " or ") + quoted(names[i]);
+  std::string text = inQuotes(names[0]);
+  for (std::size_t i = 1; i < n; ++i) text += (i + 1 < n ? ", " : " or ") + inQuotes(names[i]);
   return text;
 }
 
 }  // namespace
+
+std::string inQuotes(const std::string& name) { return "'" + name + "'"; }
 
 std::string nearestName(std::string_view word, const std::vector<std::string>& candidates) {
   const std::vector<std::string> near = nearNames(word, candidates);
@@ -99,13 +99,13 @@ std::string unknownName(std::string_view kind, std::string_view word, const std:
 UnknownName::UnknownName(const std::string& kind, const std::string& word, const std::vector<std::string>& candidates,
                          const std::string& remark)
     : std::invalid_argument(unknownName(kind, word, candidates) + (remark.empty() ? "" : " (" + remark + ")")),
-      problem_("unknown " + kind + " " + quoted(word)),
+      problem_("unknown " + kind + " " + inQuotes(word)),
       word_(word),
       expected_(expectedName(word, candidates) + (remark.empty() ? "" : " (" + remark + ")")) {}
 
 WrongUnit::WrongUnit(const std::string& kind, const std::string& parameter, const std::string& unit,
                      const std::string& use, const std::string& wanted)
-    : std::invalid_argument("the " + kind + " " + quoted(parameter) + " is in " + unit + ", but " + quoted(use) +
+    : std::invalid_argument("the " + kind + " " + inQuotes(parameter) + " is in " + unit + ", but " + inQuotes(use) +
                             " is in " + wanted),
       kind_(kind),
       parameter_(parameter),

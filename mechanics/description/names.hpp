@@ -8,6 +8,9 @@
 
 namespace gamut {
 
+/// In single quotes.
+std::string inQuotes(const std::string& name);
+
 /// The candidate with the fewest insertions, deletions, replacements and swaps of neighbours away from `word`, capitals
 /// ignored; the first of equals. Empty if none is within two of them or, for a long word, a third of its length.
 std::string nearestName(std::string_view word, const std::vector<std::string>& candidates);

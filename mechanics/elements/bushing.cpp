@@ -100,6 +100,6 @@ void Bushing::assemble(Assembler<S>& a) const {
   }
 }
 
-GAMUT_ASSEMBLE(Bushing);
+GAMUT_ASSEMBLE(Bushing)
 
 }  // namespace gamut

@@ -20,6 +20,6 @@ void Coupling::assemble(Assembler<S>& a) const {
   a.template addFirst<Gear<S>>(a.coordinate(to), a.coordinate(joint), a.number(ratio), a.number(offset));
 }
 
-GAMUT_ASSEMBLE(Coupling);
+GAMUT_ASSEMBLE(Coupling)
 
 }  // namespace gamut

@@ -23,6 +23,6 @@ void Cylindrical::assemble(Assembler<S>& a) const {
   a.template add<RevoluteJoint<S>>(slid, a.frame(to), a.variable("angle"), axis);
 }
 
-GAMUT_ASSEMBLE(Cylindrical);
+GAMUT_ASSEMBLE(Cylindrical)
 
 }  // namespace gamut

@@ -37,6 +37,6 @@ void Distance::assemble(Assembler<S>& a) const {
   a.measure("rate", [&meter] { return meter.chord().rate(); });
 }
 
-GAMUT_ASSEMBLE(Distance);
+GAMUT_ASSEMBLE(Distance)
 
 }  // namespace gamut

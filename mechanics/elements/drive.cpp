@@ -71,7 +71,7 @@ void TableDrive::assemble(Assembler<S>& a) const {
   addDrive<S>(a, joint, [&time = a.time(), spline = CubicSpline(table)] { return spline.at(time); });
 }
 
-GAMUT_ASSEMBLE(Drive);
-GAMUT_ASSEMBLE(TableDrive);
+GAMUT_ASSEMBLE(Drive)
+GAMUT_ASSEMBLE(TableDrive)
 
 }  // namespace gamut

@@ -60,6 +60,6 @@ void Force::assemble(Assembler<S>& a) const {
   a.measure("power", [&load] { return load.power(); });
 }
 
-GAMUT_ASSEMBLE(Force);
+GAMUT_ASSEMBLE(Force)
 
 }  // namespace gamut

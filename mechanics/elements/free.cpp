@@ -28,6 +28,6 @@ void Free::assemble(Assembler<S>& a) const {
   a.template add<SphericalJoint<S>>(*at, a.frame(to), a.orientation("rate"));
 }
 
-GAMUT_ASSEMBLE(Free);
+GAMUT_ASSEMBLE(Free)
 
 }  // namespace gamut

@@ -34,6 +34,6 @@ void JointForce::assemble(Assembler<S>& a) const {
   a.measure("power", [&load] { return load.power(); });
 }
 
-GAMUT_ASSEMBLE(JointForce);
+GAMUT_ASSEMBLE(JointForce)
 
 }  // namespace gamut

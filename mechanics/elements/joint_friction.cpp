@@ -46,7 +46,7 @@ std::vector<Fault> SmoothedJointFriction::faults(const RangeOf& rangeOf) const {
   return {{"slip_rate", "the slip rate of '" + name + "' is not positive", "a slow rate above 0"}};
 }
 
-GAMUT_ASSEMBLE(JointFriction);
-GAMUT_ASSEMBLE(SmoothedJointFriction);
+GAMUT_ASSEMBLE(JointFriction)
+GAMUT_ASSEMBLE(SmoothedJointFriction)
 
 }  // namespace gamut

@@ -9,7 +9,7 @@ namespace gamut {
 struct JointFriction {
   static constexpr const char* type = "joint-friction";
   static constexpr const char* summary =
-      "Coulomb and viscous friction on a joint; where it holds the joint, it holds it fast";
+      "Coulomb and viscous friction on a joint; where it holds the joint, it holds it fast, with what force that takes";
 
   std::string name, joint;
   Expression coulomb = 0.0, viscous = 0.0;  ///< N m or N, N m s/rad or N s/m

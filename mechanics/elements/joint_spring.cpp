@@ -18,6 +18,6 @@ void JointSpring::assemble(Assembler<S>& a) const {
   a.template add<JointSpringDamper<S>>(a.coordinate(joint), a.number(stiffness), a.number(rest), a.number(damping));
 }
 
-GAMUT_ASSEMBLE(JointSpring);
+GAMUT_ASSEMBLE(JointSpring)
 
 }  // namespace gamut

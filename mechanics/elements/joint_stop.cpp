@@ -29,6 +29,6 @@ std::vector<Fault> JointStop::faults(const RangeOf& rangeOf) const {
   return {{"upper", "the upper stop of '" + name + "' is not above the lower one", "a place above `lower`"}};
 }
 
-GAMUT_ASSEMBLE(JointStop);
+GAMUT_ASSEMBLE(JointStop)
 
 }  // namespace gamut

@@ -31,6 +31,6 @@ std::vector<Fault> Link::doubts(const RangeOf& nominal, const RangeOf& range) co
            "a length"}};
 }
 
-GAMUT_ASSEMBLE(Link);
+GAMUT_ASSEMBLE(Link)
 
 }  // namespace gamut

@@ -45,6 +45,6 @@ std::vector<Fault> Mass::faults(const RangeOf& rangeOf) const {
   return {{"inertia", "the inertia of '" + name + "' " + fault, "an inertia that a body can have"}};
 }
 
-GAMUT_ASSEMBLE(Mass);
+GAMUT_ASSEMBLE(Mass)
 
 }  // namespace gamut

@@ -32,6 +32,6 @@ std::vector<Fault> Motor::faults(const RangeOf& rangeOf) const {
   return {{"inertia", "the rotor of '" + name + "' has a negative inertia", "an inertia of at least 0 kg m^2"}};
 }
 
-GAMUT_ASSEMBLE(Motor);
+GAMUT_ASSEMBLE(Motor)
 
 }  // namespace gamut

@@ -34,6 +34,6 @@ void Planar::assemble(Assembler<S>& a) const {
   a.template add<RevoluteJoint<S>>(second, a.frame(to), a.variable("angle"), axis);
 }
 
-GAMUT_ASSEMBLE(Planar);
+GAMUT_ASSEMBLE(Planar)
 
 }  // namespace gamut

@@ -18,6 +18,6 @@ void Prismatic::assemble(Assembler<S>& a) const {
   a.template add<PrismaticJoint<S>>(a.frame(from), a.frame(to), a.variable("displacement"), axis);
 }
 
-GAMUT_ASSEMBLE(Prismatic);
+GAMUT_ASSEMBLE(Prismatic)
 
 }  // namespace gamut

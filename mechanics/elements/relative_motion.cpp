@@ -57,6 +57,6 @@ void RelativeMotion::assemble(Assembler<S>& a) const {
   });
 }
 
-GAMUT_ASSEMBLE(RelativeMotion);
+GAMUT_ASSEMBLE(RelativeMotion)
 
 }  // namespace gamut

@@ -17,6 +17,6 @@ void Revolute::assemble(Assembler<S>& a) const {
   a.template add<RevoluteJoint<S>>(a.frame(from), a.frame(to), a.variable("angle"), axis);
 }
 
-GAMUT_ASSEMBLE(Revolute);
+GAMUT_ASSEMBLE(Revolute)
 
 }  // namespace gamut

@@ -19,6 +19,6 @@ void Screw::assemble(Assembler<S>& a) const {
   a.template add<ScrewJoint<S>>(a.frame(from), a.frame(to), a.variable("angle"), a.number(lead) / turn, axis);
 }
 
-GAMUT_ASSEMBLE(Screw);
+GAMUT_ASSEMBLE(Screw)
 
 }  // namespace gamut

@@ -18,6 +18,6 @@ void Spherical::assemble(Assembler<S>& a) const {
   a.template add<SphericalJoint<S>>(a.frame(from), a.frame(to), a.orientation("rate"));
 }
 
-GAMUT_ASSEMBLE(Spherical);
+GAMUT_ASSEMBLE(Spherical)
 
 }  // namespace gamut

@@ -26,6 +26,6 @@ void Spring::assemble(Assembler<S>& a) const {
   a.measure("force", [&spring] { return spring.force(); });
 }
 
-GAMUT_ASSEMBLE(Spring);
+GAMUT_ASSEMBLE(Spring)
 
 }  // namespace gamut

@@ -14,6 +14,6 @@ void State::assemble(Assembler<S>& a) const {
   a.state(a.signal(rate));
 }
 
-GAMUT_ASSEMBLE(State);
+GAMUT_ASSEMBLE(State)
 
 }  // namespace gamut

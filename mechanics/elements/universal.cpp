@@ -27,6 +27,6 @@ void Universal::assemble(Assembler<S>& a) const {
   a.template add<RevoluteJoint<S>>(cross, a.frame(to), a.variable("angle2"), secondAxis);
 }
 
-GAMUT_ASSEMBLE(Universal);
+GAMUT_ASSEMBLE(Universal)
 
 }  // namespace gamut

@@ -17,6 +17,6 @@ void Weld::assemble(Assembler<S>& a) const {
   a.template add<RigidLink<S>>(a.frame(from), a.frame(to), zeroVector<S>(), a.rotation(rotation));
 }
 
-GAMUT_ASSEMBLE(Weld);
+GAMUT_ASSEMBLE(Weld)
 
 }  // namespace gamut

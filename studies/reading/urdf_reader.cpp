@@ -30,8 +30,6 @@ constexpr std::pair<Robot::Type, std::string_view> types[] = {
     {Robot::Type::revolute, "revolute"}, {Robot::Type::continuous, "continuous"}, {Robot::Type::prismatic, "prismatic"},
     {Robot::Type::fixed, "fixed"},       {Robot::Type::planar, "planar"},         {Robot::Type::floating, "floating"}};
 
-std::string quoted(const std::string& name) { return "'" + name + "'"; }
-
 template <class Named>
 auto find(const std::vector<Named>& all, const std::string& name) {
   return std::ranges::find(all, name, &Named::name);
@@ -144,7 +142,7 @@ class UrdfReader {
     lookAt(element, {"name", "type"}, {"inertial"});
     Robot::Link link{source_.requiredName(element, "name", "the name of the link"), element.GetLineNum()};
     if (const auto other = find(robot_.links, link.name); other != robot_.links.end())
-      source_.fail(link.line, fmt::format("there is a link {} in line {} already", quoted(link.name), other->line),
+      source_.fail(link.line, fmt::format("there is a link {} in line {} already", inQuotes(link.name), other->line),
                    "a name for each");
     if (const Element* inertial = source_.child(element, "inertial"))
       link.inertial = readInertial(*inertial, link.name);
@@ -161,7 +159,7 @@ class UrdfReader {
     lookAt(mass, {"value"}, {});
     inertial.mass = source_.numbers(mass, "value", 1).front();
     if (inertial.mass.upper() < 0)
-      source_.fail(mass.GetLineNum(), fmt::format("the mass of {} is negative", quoted(link)),
+      source_.fail(mass.GetLineNum(), fmt::format("the mass of {} is negative", inQuotes(link)),
                    "a mass of at least 0 kg");
     const Element& inertia = source_.requiredChild(
         element, "inertia", "<inertia ixx=\"…\" ixy=\"…\" ixz=\"…\" iyy=\"…\" iyz=\"…\" izz=\"…\"/>");
@@ -169,7 +167,7 @@ class UrdfReader {
     constexpr const char* entries[] = {"ixx", "iyy", "izz", "ixy", "iyz", "ixz"};
     for (std::size_t i = 0; i < 6; ++i) inertial.inertia[i] = source_.numbers(inertia, entries[i], 1).front();
     if (const std::string fault = impossibilityOf(inertial.inertia); !fault.empty())
-      source_.fail(inertia.GetLineNum(), fmt::format("the inertia of {} {}", quoted(link), fault),
+      source_.fail(inertia.GetLineNum(), fmt::format("the inertia of {} {}", inQuotes(link), fault),
                    "an inertia that a body can have");
     return inertial;
   }
@@ -180,7 +178,7 @@ class UrdfReader {
     joint.line = element.GetLineNum();
     joint.name = source_.requiredName(element, "name", "the name of the joint");
     if (const auto other = find(robot_.joints, joint.name); other != robot_.joints.end())
-      source_.fail(joint.line, fmt::format("there is a joint {} in line {} already", quoted(joint.name), other->line),
+      source_.fail(joint.line, fmt::format("there is a joint {} in line {} already", inQuotes(joint.name), other->line),
                    "a name for each");
     joint.type = readType(element);
     joint.parent = readEnd(element, "parent");
@@ -188,8 +186,8 @@ class UrdfReader {
     for (const Robot::Joint& other : robot_.joints)
       if (other.child == joint.child)
         source_.fail(joint.line,
-                     fmt::format("the link {} is the child of two joints, {} and {}", quoted(joint.child),
-                                 quoted(other.name), quoted(joint.name)),
+                     fmt::format("the link {} is the child of two joints, {} and {}", inQuotes(joint.child),
+                                 inQuotes(other.name), inQuotes(joint.name)),
                      "a tree, in which each link has one parent (elements of a study may close loops)");
     joint.origin = readPlace(element);
     if (const Element* axis = source_.child(element, "axis")) readAxis(*axis, joint);
@@ -218,7 +216,7 @@ class UrdfReader {
     if (find(robot_.links, name) == robot_.links.end()) {
       std::vector<std::string> known;
       for (const Robot::Link& link : robot_.links) known.push_back(link.name);
-      source_.fail(found.GetLineNum(), fmt::format("there is no link {}", quoted(name)), expectedName(name, known));
+      source_.fail(found.GetLineNum(), fmt::format("there is no link {}", inQuotes(name)), expectedName(name, known));
     }
     return name;
   }
@@ -228,7 +226,7 @@ class UrdfReader {
     const std::vector<Interval> numbers = source_.numbers(element, "xyz", 3);
     if (std::ranges::all_of(numbers, [](const Interval& x) { return isEqual(x, Interval(0.0)); })) {
       if (joint.type == Robot::Type::fixed) return;  // exporters write it so
-      source_.fail(element.GetLineNum(), fmt::format("the axis of {} is the zero vector", quoted(joint.name)),
+      source_.fail(element.GetLineNum(), fmt::format("the axis of {} is the zero vector", inQuotes(joint.name)),
                    "a direction");
     }
     const std::vector<std::string> decimals = source_.decimals(element, "xyz", 3);
@@ -253,7 +251,7 @@ class UrdfReader {
          {std::pair("damping", &joint.damping), std::pair("friction", &joint.friction)}) {
       *number = source_.number(element, attribute, 0.0);
       if (number->upper() < 0)
-        source_.fail(element.GetLineNum(), fmt::format("the {} of {} is negative", attribute, quoted(joint.name)),
+        source_.fail(element.GetLineNum(), fmt::format("the {} of {} is negative", attribute, inQuotes(joint.name)),
                      "a number of at least 0");
     }
   }
@@ -276,16 +274,16 @@ class UrdfReader {
       if (!joint.mimic) continue;
       const int line = joint.mimic->line;
       if (!hasCoordinate(joint))
-        source_.fail(line, fmt::format("{} is {} and follows another joint", quoted(joint.name), wordOf(joint.type)),
+        source_.fail(line, fmt::format("{} is {} and follows another joint", inQuotes(joint.name), wordOf(joint.type)),
                      "<mimic> in a joint that is revolute, continuous or prismatic");
       if (std::ranges::count(known, joint.mimic->joint) == 0)
-        source_.fail(line, fmt::format("there is no joint {} to follow", quoted(joint.mimic->joint)),
+        source_.fail(line, fmt::format("there is no joint {} to follow", inQuotes(joint.mimic->joint)),
                      expectedName(joint.mimic->joint, known));
       const Robot::Joint* leader = &joint;
       for (std::size_t i = 0; leader != nullptr && leader->mimic && i <= named.size(); ++i)
         leader = named[leader->mimic->joint];  // null where that joint is still to be looked at, and refused
       if (leader != nullptr && leader->mimic)
-        source_.fail(line, fmt::format("{} follows joints that follow one another in a circle", quoted(joint.name)),
+        source_.fail(line, fmt::format("{} follows joints that follow one another in a circle", inQuotes(joint.name)),
                      "a joint in the end that follows none");
     }
   }
@@ -303,8 +301,8 @@ class UrdfReader {
       if (carrying.contains(link.name)) continue;
       if (root != nullptr)
         source_.fail(link.line,
-                     fmt::format("{} has no parent, and {} of line {} has none either", quoted(link.name),
-                                 quoted(root->name), root->line),
+                     fmt::format("{} has no parent, and {} of line {} has none either", inQuotes(link.name),
+                                 inQuotes(root->name), root->line),
                      "one root");
       root = &link;
     }
@@ -329,7 +327,7 @@ class UrdfReader {
       if (find(joints, joint.name) == joints.end())
         source_.fail(joint.line,
                      fmt::format("the links {} and {} carry one another in a circle, with joints such as {}",
-                                 quoted(joint.parent), quoted(joint.child), quoted(joint.name)),
+                                 inQuotes(joint.parent), inQuotes(joint.child), inQuotes(joint.name)),
                      "a tree (elements of a study may close loops)");
     robot_.links = std::move(links);
     robot_.joints = std::move(joints);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <span>
 
+#include "mechanics/assembly.hpp"
 #include "scalars/recorded.hpp"
 
 namespace gamut {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "machines.hpp"
+#include "mechanics/any_scalar.hpp"
 #include "mechanics/bodies.hpp"
 #include "mechanics/equations/system.hpp"
 #include "mechanics/joints.hpp"

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "mechanics/assembly.hpp"
 #include "tests/mechanics/machines.hpp"
 
 namespace gamut::testing {

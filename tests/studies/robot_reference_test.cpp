@@ -9,6 +9,7 @@
 #include <map>
 #include <sstream>
 
+#include "mechanics/assembly.hpp"
 #include "mechanics/model.hpp"
 #include "scalars/evaluation/evaluator.hpp"
 #include "studies/robot.hpp"

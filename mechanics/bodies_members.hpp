@@ -1,0 +1,112 @@
+// Members of class templates, for those who compile them.
+#pragma once
+
+#include "mechanics/bodies.hpp"
+
+namespace gamut {
+
+template <class S>
+void RigidLink<S>::doMotion(MotionLevel level) {
+  const Frame<S>& k = this->from_;
+  Frame<S>& moved = this->to_;
+  if (level != MotionLevel::acceleration) {
+    moved.R = rotation_.after(k.R);
+    moved.r = rotation_.toChild(k.r + offset_);
+  }
+  if (level == MotionLevel::position) return;
+  moved.omegaDot = rotation_.toChild(k.omegaDot);
+  if (level == MotionLevel::acceleration) {
+    moved.a = rotation_.toChild(k.a + k.omegaDot.cross(offset_));
+    return;
+  }
+  moved.omega = rotation_.toChild(k.omega);
+  moved.v = rotation_.toChild(k.v + k.omega.cross(offset_));
+  moved.a = rotation_.toChild(k.a + offsetAcceleration(k.omega, k.omegaDot) * offset_);
+}
+
+template <class S>
+void RigidLink<S>::doForce(ForceKind) {
+  const Vector3<S> force = rotation_.toParent(this->to_.f);
+  this->from_.f += force;
+  this->from_.tau += rotation_.toParent(this->to_.tau) + offset_.cross(force);
+}
+
+template <class S>
+MovingPoint<S> RigidLink<S>::inFrom(const MovingPoint<S>& point) const {
+  return {offset_ + rotation_.toParent(point.position), rotation_.toParent(point.velocity)};
+}
+
+template <class S>
+SpatialInertia<S> RigidLink<S>::inFrom(const SpatialInertia<S>& inertia) {
+  return rotation_.toParent(inertia).shifted(offset_);
+}
+
+template <class S>
+void MassElement<S>::doMotion(MotionLevel level) {
+  if (level == MotionLevel::position) return;
+  a_ = level == MotionLevel::acceleration ? Vector3<S>(at_.a + at_.omegaDot.cross(centre_))
+                                          : Vector3<S>(at_.a + offsetAcceleration(at_.omega, at_.omegaDot) * centre_);
+}
+
+template <class S>
+void MassElement<S>::doForce(ForceKind kind) {
+  if (kind != ForceKind::applied) {
+    const Vector3<S> force = mass_ * a_;
+    at_.f -= force;
+    at_.tau -= inertia_ * at_.omegaDot + centre_.cross(force);
+  }
+  if (kind != ForceKind::inertia) at_.tau -= at_.omega.cross(inertia_ * at_.omega);
+}
+
+template <class S>
+S MassElement<S>::kineticEnergy() const {
+  const Vector3<S> v = at_.v + at_.omega.cross(centre_);
+  S energy = mass_ * (square(v[0]) + square(v[1]) + square(v[2]));
+  for (int i = 0; i < 3; ++i) {
+    energy = energy + inertia_(i, i) * square(at_.omega[i]);
+    for (int j = i + 1; j < 3; ++j) energy = energy + S(2.0) * (inertia_(i, j) * (at_.omega[i] * at_.omega[j]));
+  }
+  return S(0.5) * energy;
+}
+
+template <class S>
+S MassElement<S>::potentialEnergy(const Vector3<S>& gravity) const {
+  return -(mass_ * gravity.dot(position().position));
+}
+
+template <class S>
+MovingPoint<S> MassElement<S>::position() const {
+  return at_.inInertial({centre_, zeroVector<S>()});
+}
+
+template <class S>
+Vector3<S> MassElement<S>::acceleration() const {
+  return at_.R * a_;
+}
+
+template <class S>
+void MassElement<S>::collectRows(std::vector<S>& accelerations, std::vector<InertiaWeight<S>>& weights) const {
+  const int first = static_cast<int>(accelerations.size());
+  for (int i = 0; i < 3; ++i) {
+    accelerations.push_back(a_[i]);
+    weights.push_back({first + i, first + i, mass_});
+  }
+  for (int i = 0; i < 3; ++i) {
+    accelerations.push_back(at_.omegaDot[i]);
+    for (int j = i; j < 3; ++j) weights.push_back({first + 3 + i, first + 3 + j, inertia_(i, j)});
+  }
+}
+
+template <class S>
+Frame<S>& MassElement<S>::frame() const {
+  return at_;
+}
+
+template <class S>
+SpatialInertia<S> MassElement<S>::spatial() const {
+  SpatialInertia<S> atCentre{inertia_, zeroMatrix<S>(), zeroMatrix<S>()};
+  for (int i = 0; i < 3; ++i) atCentre.linear(i, i) = mass_;
+  return atCentre.shifted(centre_);
+}
+
+}  // namespace gamut

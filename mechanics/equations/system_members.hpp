@@ -1,0 +1,254 @@
+// Members of class templates, for those who compile them.
+#pragma once
+
+#include "mechanics/equations/system.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "mechanics/equations/articulated_bodies.hpp"
+#include "mechanics/equations/least_constraint.hpp"
+#include "scalars/algebra/linear_system.hpp"
+
+namespace gamut {
+
+template <class S>
+void System<S>::doMotion(MotionLevel level) {
+  // A base accelerated by −g is a base at rest in the field g.
+  base_.a = level == MotionLevel::acceleration ? zeroVector<S>() : baseAtRest();
+  chain_.doMotion(level);
+}
+
+template <class S>
+void System<S>::doForce(ForceKind kind) {
+  base_.clearForces();
+  chain_.clearForces();
+  chain_.doForce(kind);
+}
+
+template <class S>
+std::vector<S> System<S>::generalisedForces() const {
+  std::vector<S> q;
+  for (const Speed<S>& speed : speeds_) q.push_back(speed.force);
+  return q;
+}
+
+template <class S>
+std::vector<S> System<S>::residual() {
+  setAccelerations(zeros());
+  doMotion();
+  doForce();
+  return generalisedForces();
+}
+
+template <class S>
+Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> System<S>::inertiaMatrix() {
+  const int f = degreesOfFreedom();
+  doMotion();
+  Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic> m(f, f);
+  for (int j = 0; j < f; ++j) {
+    moveUnit(static_cast<std::size_t>(j));
+    doForce(ForceKind::inertia);
+    const std::vector<S> column = generalisedForces();
+    for (int i = j; i < f; ++i) m(i, j) = m(j, i) = -column[static_cast<std::size_t>(i)];
+  }
+  return m;
+}
+
+template <class S>
+std::vector<S> System<S>::accelerations(Formulation formulation) {
+  if constexpr (std::is_same_v<S, Recorded>) checkLoads(*this);
+  setAccelerations(zeros());
+  doMotion();
+  if (speeds_.empty()) return {};
+  const std::vector<S> result = !chain_.constraints().empty()        ? constrained()
+                                : degreesOfFreedom() <= 2            ? eliminated()
+                                : formulation == Formulation::sparse ? solved()
+                                : chain_.hasGears()                  ? solvedByInertia()
+                                                                     : articulatedAccelerations(speeds_, chain_, base_);
+  setAccelerations(result);
+  doMotion();
+  return result;
+}
+
+template <class S>
+void System<S>::complete() {
+  doForce();
+  base_.a = zeroVector<S>();
+  chain_.doMotion(MotionLevel::all);
+}
+
+template <class S>
+S System<S>::kineticEnergy() const {
+  S sum(0.0);
+  for (const Inertia<S>* inertia : chain_.inertias()) sum = sum + inertia->kineticEnergy();
+  return sum;
+}
+
+template <class S>
+S System<S>::gravityEnergy() const {
+  S sum(0.0);
+  for (const Inertia<S>* inertia : chain_.inertias()) sum = sum + inertia->potentialEnergy(gravity_);
+  return sum;
+}
+
+template <class S>
+void System<S>::setAccelerations(const std::vector<S>& values) {
+  for (std::size_t i = 0; i < values.size(); ++i) speeds_[i].get().acceleration = values[i];
+}
+
+template <class S>
+const Transmission<S>* System<S>::jointAt(Element<S>& element) const {
+  const auto* transmission = dynamic_cast<const Transmission<S>*>(&element);
+  if (transmission == nullptr) return nullptr;
+  for (const Speed<S>* own : transmission->speeds())
+    for (const Speed<S>& speed : speeds_)
+      if (own == &speed) return transmission;
+  return nullptr;
+}
+
+template <class S>
+void System<S>::moveUnit(std::size_t j) {
+  std::vector<S> unit = zeros();
+  unit[j] = S(1.0);
+  setAccelerations(unit);
+  doMotion(MotionLevel::acceleration);
+}
+
+template <class S>
+std::vector<S> System<S>::bodyAccelerations() const {
+  std::vector<S> rows;
+  std::vector<InertiaWeight<S>> weights;
+  for (const Inertia<S>* inertia : chain_.inertias()) inertia->collectRows(rows, weights);
+  return rows;
+}
+
+template <class S>
+std::vector<S> System<S>::bodyAccelerations(const std::vector<S>& values) {
+  setAccelerations(values);
+  doMotion();
+  return bodyAccelerations();
+}
+
+template <class S>
+std::vector<InertiaWeight<S>> System<S>::inertiaWeights() const {
+  std::vector<S> rows;
+  std::vector<InertiaWeight<S>> weights;
+  for (const Inertia<S>* inertia : chain_.inertias()) inertia->collectRows(rows, weights);
+  std::erase_if(weights, [](const InertiaWeight<S>& weight) { return isKnownZero(weight.w); });
+  return weights;
+}
+
+template <class S>
+std::vector<std::vector<S>> System<S>::unitColumns() {
+  std::vector<std::vector<S>> columns;
+  const std::vector<InertiaWeight<S>> weights = inertiaWeights();
+  for (std::size_t j = 0; j < speeds_.size(); ++j) {
+    moveUnit(j);
+    columns.push_back(bodyAccelerations());
+    const auto isMoved = [&](int row) { return !isKnownZero(columns[j][static_cast<std::size_t>(row)]); };
+    if (std::none_of(weights.begin(), weights.end(), [&](const auto& w) { return isMoved(w.k) || isMoved(w.l); }))
+      throw std::domain_error("the variable " + speeds_[j].get().name + " moves no mass");
+  }
+  return columns;
+}
+
+template <class S>
+std::vector<S> System<S>::eliminated() {
+  const std::vector<std::vector<S>> columns = unitColumns();
+  doForce(ForceKind::applied);
+  std::vector<S> loads = generalisedForces();
+  const std::vector<InertiaWeight<S>> weights = inertiaWeights();
+  std::vector<S> result = start(columns, weights);
+  const std::vector<S> rest = leastConstraint(columns, bodyAccelerations(result), std::move(loads), weights);
+  for (std::size_t j = 0; j < result.size(); ++j) result[j] = result[j] + rest[j];
+  return result;
+}
+
+template <class S>
+std::vector<S> System<S>::start(const std::vector<std::vector<S>>& columns,
+                                const std::vector<InertiaWeight<S>>& weights) {
+  std::vector<S> start = zeros();
+  std::set<std::size_t> weighted;
+  for (const InertiaWeight<S>& weight : weights)
+    weighted.insert({static_cast<std::size_t>(weight.k), static_cast<std::size_t>(weight.l)});
+  for (std::size_t j = 0; j < columns.size(); ++j) {
+    const auto movesLast = [&](std::size_t row) {
+      return isKnownNonzero(columns[j][row]) &&
+             std::all_of(columns.begin() + static_cast<std::ptrdiff_t>(j) + 1, columns.end(),
+                         [&](const auto& later) { return isKnownZero(later[row]); });
+    };
+    const std::vector<S> gamma = bodyAccelerations(start);
+    for (std::size_t row : weighted) {
+      if (!movesLast(row) || isKnownZero(gamma[row])) continue;
+      std::vector<S> trial = start;
+      trial[j] = -(gamma[row] / columns[j][row]);
+      if (!isKnownZero(bodyAccelerations(trial)[row])) continue;
+      start = std::move(trial);
+      break;
+    }
+  }
+  return start;
+}
+
+template <class S>
+std::vector<S> System<S>::solved() {
+  if constexpr (std::is_same_v<S, Recorded>) {
+    unitColumns();
+    return sparseAccelerations(*this);
+  } else {
+    return solvedByInertia();
+  }
+}
+
+template <class S>
+std::vector<S> System<S>::solvedByInertia() {
+  unitColumns();
+  std::vector<S> result = residual(), entries;
+  const auto m = inertiaMatrix();
+  for (int i = 0; i < m.rows(); ++i)
+    for (int j = 0; j < m.cols(); ++j) entries.push_back(m(i, j));
+  LinearSystem<S>(MatrixKind::positiveDefinite, degreesOfFreedom(), std::move(entries)).solve(result);
+  return result;
+}
+
+template <class S>
+std::vector<S> System<S>::constrained() {
+  for (Constraint<S>* constraint : chain_.constraints()) constraint->setMultipliers({});
+  std::vector<S> right = residual();
+  const std::vector<S> atRest = ofConstraints([](Constraint<S>& constraint) {
+    std::vector<S> rows = constraint.accelerations(MotionLevel::all);
+    const std::vector<S> rates = constraint.rates(), residuals = constraint.residuals();
+    const S& sigma = constraint.stabilisation();
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      rows[i] = -rows[i] - S(2.0) * sigma * rates[i] - square(sigma) * residuals[i];
+    return rows;
+  });
+  right.insert(right.end(), atRest.begin(), atRest.end());
+
+  const int f = degreesOfFreedom(), size = static_cast<int>(right.size());
+  const auto m = inertiaMatrix();
+  std::vector<S> entries(static_cast<std::size_t>(size * size), S(0.0));
+  const auto entry = [&](int i, int j) -> S& { return entries[static_cast<std::size_t>(i * size + j)]; };
+  for (int j = 0; j < f; ++j) {
+    for (int i = 0; i < f; ++i) entry(i, j) = m(i, j);
+    moveUnit(static_cast<std::size_t>(j));
+    const std::vector<S> column =
+        ofConstraints([](Constraint<S>& constraint) { return constraint.accelerations(MotionLevel::acceleration); });
+    for (int i = f; i < size; ++i) {
+      entry(i, j) = column[static_cast<std::size_t>(i - f)];
+      entry(j, i) = -entry(i, j);
+    }
+  }
+  LinearSystem<S>(MatrixKind::general, size, std::move(entries)).solve(right);
+  auto multiplier = right.begin() + f;
+  for (Constraint<S>* constraint : chain_.constraints()) {
+    const auto end = multiplier + static_cast<std::ptrdiff_t>(constraint->residuals().size());
+    constraint->setMultipliers({multiplier, end});
+    multiplier = end;
+  }
+  right.resize(static_cast<std::size_t>(f));
+  return right;
+}
+
+}  // namespace gamut
