@@ -129,7 +129,7 @@ std::unique_ptr<FlowFollower::Tools> FlowFollower::toolsFor(const FlowPiece& pie
                                                             const std::vector<char>& held) const {
   const FlowLayout& layout = task_.layouts[piece.layout];
   const FlowOptions& options = task_.options;
-  Program motion = task_.differentiated;
+  Program motion = task_.differentiated, outputs = task_.outputs;
   std::unique_ptr<FlowJumps> jumps;
   std::vector<int> left;
   std::vector<double> factor;
@@ -137,6 +137,7 @@ std::unique_ptr<FlowFollower::Tools> FlowFollower::toolsFor(const FlowPiece& pie
     if (!held.empty()) {
       FlowJumps::Held found = task_.jumps.heldProgram(held);
       motion = differentiatedFor(found.f, options.varying);
+      if (outputs.outputs() > 0) outputs = task_.jumps.heldOutputs(outputs, held);
       jumps = std::make_unique<FlowJumps>(motion, task_.varying);
       if (jumps->count() != jumpsOf(found.f).size()) std::ranges::fill(found.left, -1);
       left = std::move(found.left);
@@ -158,10 +159,9 @@ std::unique_ptr<FlowFollower::Tools> FlowFollower::toolsFor(const FlowPiece& pie
     tools->stepper.setJumps(tools->jumps ? *tools->jumps : task_.jumps, task_.jumps, held, left, factor);
   if (task_.outputs.outputs() > 0) {
     const std::shared_ptr<const Monomials> own = task_.layouts[task_.outputLayout(piece.layout)].monomials;
-    tools->outputs =
-        std::make_unique<FlowOutputs>(task_.outputs, own, layout.monomials, task_.varying, options.cancelled);
+    tools->outputs = std::make_unique<FlowOutputs>(outputs, own, layout.monomials, task_.varying, options.cancelled);
     tools->outputRange = std::make_unique<PolynomialRange>(own);
-    tools->chords = std::make_unique<FlowOutputChords>(task_.outputs, layout.monomials, task_.order, task_.horizon,
+    tools->chords = std::make_unique<FlowOutputChords>(outputs, layout.monomials, task_.order, task_.horizon,
                                                        task_.quantum, options.cancelled);
   }
   return tools;

@@ -32,10 +32,22 @@ FlowJumps::FlowJumps(const Program& differentiated, const std::vector<int>& vary
   }
 }
 
-FlowJumps::Held FlowJumps::heldProgram(const std::vector<char>& held) const {
+namespace {
+
+std::vector<Side> sidesOf(const std::vector<char>& held) {
   std::vector<Side> sides;
   for (const char isHeld : held) sides.push_back(isHeld != 0 ? Side::held : Side::open);
-  const Program all = onSides(f, sides);
+  return sides;
+}
+
+}  // namespace
+
+Program FlowJumps::heldOutputs(const Program& g, const std::vector<char>& held) const {
+  return outputsOnSides(f, g, sidesOf(held));
+}
+
+FlowJumps::Held FlowJumps::heldProgram(const std::vector<char>& held) const {
+  const Program all = onSides(f, sidesOf(held));
   const std::vector<int>& outputs = all.outputNodes();
   const std::size_t n = at(f.states()), count = held.size();
   Held result{Recorder(all).finish({outputs.begin(), outputs.begin() + f.states()}), std::vector<int>(count, -1),

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "analyses/flow/polynomial_series.hpp"
@@ -26,6 +27,8 @@ struct FlowJumps {
   };
   /// Throws std::logic_error where these do not decide about themselves, or others become one or zero where they are.
   Held heldProgram(const std::vector<char>& held) const;
+  /// Outputs g there: what holds a jump is in them. Throws as heldProgram.
+  Program heldOutputs(const Program& g, const std::vector<char>& held) const;
 
   Program f;                                     ///< without derivatives
   Program given;                                 ///< withSignsGiven(f), where f is affine in its signs
@@ -62,6 +65,7 @@ class JumpBounder {
   const FlowJumps& jumps() const { return jumps_; }
   explicit JumpBounder(const FlowJumps& jumps);
   void setParameters(const std::vector<Embedded>& parameters);
+  void setParameters(Box parameters) { parameters_ = std::move(parameters); }
 
   /// While time is within `time` and states within `box`, h seconds long, with arguments that start in `start` (whole
   /// lines where nothing is known of them): narrows `bounds`, one a jump, of which the signs hold already.

@@ -2,6 +2,7 @@
 #include "analyses/flow/plain_outputs.hpp"
 
 #include "scalars/index.hpp"
+#include "scalars/program/angles.hpp"
 #include "scalars/program/recorder.hpp"
 
 namespace gamut {
@@ -31,26 +32,6 @@ Program withArguments(const Program& g, int output) {
   std::vector<int> nodes = arguments(g, output);
   nodes.insert(nodes.begin(), output);
   return Recorder(g).finish(nodes);
-}
-
-/// atan(y √(1/d)²), as Recorded writes half of atan2(y, x).
-bool isHalfAngle(const Program& g, const Node& node) {
-  if (node.op != Op::atan) return false;
-  const auto isReciprocal = [&](int i) {
-    const Node& square = g.nodes()[at(i)];
-    if (square.op != Op::sqr) return false;
-    const Node& inverse = g.nodes()[at(square.a)];
-    return inverse.op == Op::recip && g.nodes()[at(inverse.a)].op == Op::sqrt;
-  };
-  const Node& quotient = g.nodes()[at(node.a)];
-  return quotient.op == Op::mul && (isReciprocal(quotient.a) || isReciprocal(quotient.b));
-}
-
-std::vector<int> halfAnglesOf(const Program& g) {
-  std::vector<int> found;
-  for (std::size_t i = 0; i < g.nodes().size(); ++i)
-    if (isHalfAngle(g, g.nodes()[i])) found.push_back(static_cast<int>(i));
-  return found;
 }
 
 /// Output 0 with these nodes as further parameters.

@@ -6,6 +6,7 @@
 #include <thread>
 #include <utility>
 
+#include "analyses/flow/start_outputs.hpp"
 #include "analyses/workers.hpp"
 #include "scalars/index.hpp"
 
@@ -193,8 +194,8 @@ Tube FlowRun::gather(std::vector<FlowCollected>& collected) {
       for (auto& level : part.cuts) level[0] = tube.outputs_[0].empty() ? tube.states_[0] : tube.outputs_[0];
   }
   // g over start values in plain intervals: exactly what is known exactly.
-  PlainOutputs atStart(task_.outputs);
-  narrow(tube.outputs_[0], atStart.over(0.0, task_.box));
+  StartOutputs atStart(task_);
+  narrow(tube.outputs_[0], atStart.over(task_.box));
   tube.outputsOver_[0] = tube.outputs_[0];
   if (!tube.asides_[0].empty()) narrow(tube.asides_[0], PlainOutputs(task_.options.aside.values).over(0.0, task_.box));
   tube.cuts_.assign(task_.levels.size(), std::vector<std::vector<Interval>>(rows));
@@ -208,8 +209,7 @@ Tube FlowRun::gather(std::vector<FlowCollected>& collected) {
                                              : task_.outputs.outputs() > 0 ? tube.outputs_[row]
                                                                            : tube.states_[row];
       for (std::size_t i = 0; i < cut.size(); ++i) cut[i] = intersection(cut[i], outside[i]);
-      if (row == 0)
-        narrow(cut, task_.outputs.outputs() > 0 ? atStart.over(0.0, task_.levels[level]) : task_.levels[level]);
+      if (row == 0) narrow(cut, task_.outputs.outputs() > 0 ? atStart.over(task_.levels[level]) : task_.levels[level]);
     }
   constexpr double unheard = 1e-9;                               // of what it will be
   const double widest = std::max(task_.embedding.widest, 1e-8);  // inputs apart

@@ -22,8 +22,8 @@ constexpr double looser = 1e3;
 constexpr int lowerOrder = 4;
 constexpr double rounding = 0x1p-112;  // relative, of a value: some thousand roundings of 128 bits
 constexpr int leastSteps = 32, probes = 16;
-constexpr double someRoundings = 8;     // of the equations, in a series that holds
-constexpr double shortestStep = 1e-12;  // of the horizon: below, the solution runs into a singularity
+constexpr double someRoundings = 8;           // of the equations, in a series that holds
+constexpr double shortestTaylorStep = 1e-12;  // of the horizon: below, the solution runs into a singularity
 
 bool isFinite(const Precise& value) { return boost::multiprecision::isfinite(value); }
 bool isFinite(double value) { return std::isfinite(value); }
@@ -83,8 +83,9 @@ class TaylorRun {
       : motion_(motion),
         options_(options),
         cancelled_(cancelled),
-        sides_(motion.forSamples(), motion.horizon()),
-        g_(motion.g),
+        seen_(motion.outputsForSamples()),
+        sides_(motion.forSamples(), motion.g, motion.horizon()),
+        g_(seen_),
         n_(static_cast<std::size_t>(motion.f.states())),
         ranges_(start.begin() + motion.f.states(), start.end()),
         cells_(TimeCells(motion.forSamples(), motion.horizon()).ends(ranges_)) {
@@ -151,8 +152,9 @@ class TaylorRun {
       if (shortEvents_ > 0 || holdsWithin(t, event.before, allowed)) return std::min(rest, event.behind);
       h = event.before / 2;
     }
-    while (h >= shortestStep * horizon && !holdsWithin(t, h, allowed)) h = h / 2;
-    if (h < rest && h < shortestStep * horizon) return stop(t, "steps became too short: the motion is singular here");
+    while (h >= shortestTaylorStep * horizon && !holdsWithin(t, h, allowed)) h = h / 2;
+    if (h < rest && h < shortestTaylorStep * horizon)
+      return stop(t, "steps became too short: the motion is singular here");
     return h;
   }
 
@@ -339,7 +341,7 @@ class TaylorRun {
 
   void watch(double time, const Real& tau) {
     const std::vector<Real> x = n_ == 0 ? std::vector<Real>{} : stateAfter(tau);
-    const std::vector<Real> y = g_(Real(time), x);
+    const std::vector<Real> y = (sides_.count() > 0 ? sides_.piece().outputs : g_)(Real(time), x);
     if (!std::all_of(y.begin(), y.end(), [](const Real& value) { return isFinite(value); })) {
       stop(Real(time), "an output is not finite");
       return;
@@ -352,6 +354,7 @@ class TaylorRun {
   const Motion& motion_;
   ArbiterOptions options_;
   const std::atomic<bool>* cancelled_;
+  const Program seen_;
   SidesOfMotion<Real> sides_;
   Evaluator<Real> g_;
   std::size_t n_;

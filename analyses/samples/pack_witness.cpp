@@ -16,7 +16,7 @@ struct PackWitness::Solver : CvodeProblem {
   Solver(const Motion& m, VectorUnit unit, const std::atomic<bool>* cancelled)
       : motion(m),
         f(m.forSamples(), unit),
-        g(m.g, unit),
+        g(m.outputsForSamples(), unit),
         time(packWidth),
         cells(m.forSamples(), m.horizon()),
         cvode(detail::at(m.f.states()), m.times, unit, cancelled) {}

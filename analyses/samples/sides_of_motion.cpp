@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "scalars/index.hpp"
+#include "scalars/program/angles.hpp"
 #include "scalars/program/differentiation.hpp"
 #include "scalars/program/recorder.hpp"
 
@@ -21,7 +22,7 @@ int watchedOf(Recorder& recorder, Side side, int u, int s) {
   return recorder.neg(recorder.abs(u));
 }
 
-SidedPrograms programsOf(const Program& sided, std::span<const Side> sides) {
+SidedPrograms programsOf(const Program& sided, Program outputs, std::span<const Side> sides) {
   Recorder recorder(sided);
   const auto n = sided.outputNodes().begin() + sided.states();
   const std::vector<int> rates(sided.outputNodes().begin(), n);
@@ -35,14 +36,14 @@ SidedPrograms programsOf(const Program& sided, std::span<const Side> sides) {
   const std::vector<int> changes = tangents(recorder, arguments, seeds);
   judged.insert(judged.end(), signs.begin(), signs.end());
   judged.insert(judged.end(), changes.begin(), changes.end());
-  return {recorder.finish(rates), recorder.finish(watched), recorder.finish(judged)};
+  return {recorder.finish(rates), std::move(outputs), recorder.finish(watched), recorder.finish(judged)};
 }
 
 }  // namespace
 
-std::optional<SidedPrograms> sidedPrograms(const Program& f, std::span<const Side> sides) {
+std::optional<SidedPrograms> sidedPrograms(const Program& f, const Program& g, std::span<const Side> sides) {
   try {
-    return programsOf(onSides(f, sides), sides);
+    return programsOf(onSides(f, sides), withHalfTurns(outputsOnSides(f, g, sides)), sides);
   } catch (const std::domain_error&) {
     return std::nullopt;
   }

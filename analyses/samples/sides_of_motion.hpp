@@ -30,15 +30,16 @@ inline constexpr int mostEvents = 100'000;      // of one motion: a caution
 inline constexpr int mostShortEvents = 20;      // in a row
 inline constexpr double shortestPhase = 1e-12;  // between two events, of the horizon
 
-/// ẋ = f on some sides, and what is asked of it.
+/// ẋ = f on some sides, what is seen of it, and what is asked of it.
 struct SidedPrograms {
   Program rates;    ///< f there
+  Program outputs;  ///< g there, with a value at angles of ±π too
   Program watched;  ///< one a jump, below zero where the jump is not on its side: u, -u, 1 - s², of `between` -|u|
   Program judged;   ///< of the jumps the arguments u, then the signs s, then the rates of u
 };
 
 /// Nothing where no sign can hold a jump.
-std::optional<SidedPrograms> sidedPrograms(const Program& f, std::span<const Side> sides);
+std::optional<SidedPrograms> sidedPrograms(const Program& f, const Program& g, std::span<const Side> sides);
 
 /// The sides of one motion after another. One a thread.
 template <class Real>
@@ -46,13 +47,18 @@ class SidesOfMotion {
  public:
   struct Piece {
     explicit Piece(SidedPrograms&& p)
-        : programs(std::move(p)), rates(programs.rates), watched(programs.watched), judged(programs.judged) {}
+        : programs(std::move(p)),
+          rates(programs.rates),
+          outputs(programs.outputs),
+          watched(programs.watched),
+          judged(programs.judged) {}
     SidedPrograms programs;
-    Evaluator<Real> rates, watched, judged;
+    Evaluator<Real> rates, outputs, watched, judged;
   };
 
-  SidesOfMotion(const Program& f, double horizon)
-      : f_(withOneSignASurface(f)), horizon_(horizon), count_(jumpsOf(f_).size()) {
+  /// `g` must outlive it.
+  SidesOfMotion(const Program& f, const Program& g, double horizon)
+      : f_(withOneSignASurface(f)), g_(g), horizon_(horizon), count_(jumpsOf(f_).size()) {
     if (count_ > 0) influence_.emplace(f_);
     for (const int jump : jumpsOf(f_)) forms_.push_back(linearFormOf(f_, f_.nodes()[detail::at(jump)].a));
   }
@@ -158,6 +164,7 @@ class SidesOfMotion {
 
   void setParametersOf(Piece& piece) {
     piece.rates.setParameters(parameters_);
+    piece.outputs.setParameters(parameters_);
     piece.watched.setParameters(parameters_);
     piece.judged.setParameters(parameters_);
   }
@@ -165,7 +172,7 @@ class SidesOfMotion {
   Piece* pieceOn(const std::vector<Side>& sides) {
     const auto [place, isNew] = pieces_.try_emplace(sides);
     if (isNew) {
-      if (auto programs = sidedPrograms(f_, sides)) {
+      if (auto programs = sidedPrograms(f_, g_, sides)) {
         place->second = std::make_unique<Piece>(std::move(*programs));
         setParametersOf(*place->second);
       }
@@ -280,6 +287,7 @@ class SidesOfMotion {
   }
 
   const Program f_;
+  const Program& g_;
   double horizon_;
   std::size_t count_;
   std::optional<InfluenceOfSigns<Real>> influence_;

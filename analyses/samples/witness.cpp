@@ -9,6 +9,7 @@
 #include "analyses/samples/sides_of_motion.hpp"
 #include "analyses/samples/time_cells.hpp"
 #include "scalars/evaluation/evaluator.hpp"
+#include "scalars/program/angles.hpp"
 
 namespace gamut {
 
@@ -25,12 +26,15 @@ void Motion::check() const {
       throw std::invalid_argument("output times must rise from 0 or later");
 }
 
+Program Motion::outputsForSamples() const { return withHalfTurns(g); }
+
 struct Witness::Solver : CvodeProblem {
   Solver(const Motion& m, Method method, const std::atomic<bool>* cancelled)
       : motion(m),
+        seen(m.outputsForSamples()),
         f(m.forSamples()),
-        g(m.g),
-        sides(m.forSamples(), m.horizon()),
+        g(seen),
+        sides(m.forSamples(), m.g, m.horizon()),
         cells(m.forSamples(), m.horizon()),
         cvode(detail::at(m.f.states()), m.times, method, cancelled) {}
 
@@ -52,13 +56,14 @@ struct Witness::Solver : CvodeProblem {
 
   bool observe(std::size_t i, double t, std::span<const double> x) override {
     const std::span<double> outputs = trajectory.subspan(i * motion.outputs(), motion.outputs());
-    g(t, x, outputs);
+    (sides.count() > 0 ? sides.piece().outputs : g)(t, x, outputs);
     if (std::ranges::all_of(outputs, [](double value) { return std::isfinite(value); })) return true;
     std::ranges::fill(outputs, std::numeric_limits<double>::quiet_NaN());
     return false;
   }
 
   const Motion& motion;
+  const Program seen;
   Evaluator<double> f, g;
   SidesOfMotion<double> sides;
   TimeCells cells;

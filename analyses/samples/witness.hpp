@@ -22,8 +22,9 @@ struct Motion {
   Program sampled;            ///< f once more, recorded as suits samples; without outputs: f itself
   std::vector<double> times;  ///< output times, rising, s; the motion starts at 0
 
-  /// What samples, and their arbiter, integrate.
+  /// What samples, and their arbiter, integrate, and see: g, which has a value at angles of ±π too.
   const Program& forSamples() const { return sampled.outputs() > 0 ? sampled : f; }
+  Program outputsForSamples() const;
   /// Number of start values: the states, then the parameters.
   std::size_t startValues() const { return static_cast<std::size_t>(f.states() + f.parameters()); }
   std::size_t outputs() const { return static_cast<std::size_t>(g.outputs()); }

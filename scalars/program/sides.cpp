@@ -208,6 +208,76 @@ Program affineInSign(const Program& f) {
   return recorder.finish(rates);
 }
 
+namespace {
+
+/// Which of f's signs, or its negative, a sign of another program is.
+struct SharedSign {
+  int jump;
+  std::size_t which;
+  double by;
+};
+
+/// The signs of states in g that are signs of f's surfaces.
+std::vector<SharedSign> sharedSigns(const Program& f, const Program& g) {
+  struct Surface {
+    int node;
+    double by;
+    std::optional<LinearForm> form;
+  };
+  Recorder both(f.states(), f.parameters());
+  const std::vector<int> ofF = both.append(f), ofG = both.append(g);
+  std::vector<Surface> surfaces;
+  for (const int jump : jumpsOf(f)) {
+    const auto [node, by] = bareArgumentOf(f, jump);
+    surfaces.push_back({ofF[at(node)], by, linearFormOf(f, node)});
+  }
+  std::vector<SharedSign> shared;
+  const std::vector<char> moves = ofStates(g);
+  for (const int jump : jumpsOf(g)) {
+    if (moves[at(jump)] == 0) continue;
+    const auto [node, by] = bareArgumentOf(g, jump);
+    const auto form = linearFormOf(g, node);
+    for (std::size_t k = 0; k < surfaces.size(); ++k) {
+      const Surface& surface = surfaces[k];
+      const double ratio = surface.node == ofG[at(node)] ? 1
+                           : form && surface.form        ? signOfRatio(*form, *surface.form)
+                                                         : 0;
+      if (ratio == 0) continue;
+      shared.push_back({jump, k, by * surface.by * ratio});
+      break;
+    }
+  }
+  return shared;
+}
+
+/// g's outputs with nodes of `recorder` for the signs of f.
+Program withSigns(Recorder& recorder, const std::vector<int>& signs, const Program& f, const Program& g) {
+  std::vector<int> parameters, instead(g.nodes().size(), -1), outputs;
+  for (int i = 0; i < g.parameters(); ++i) parameters.push_back(recorder.parameter(i));
+  for (const auto& [jump, which, by] : sharedSigns(f, g))
+    instead[at(jump)] = by > 0 ? signs[which] : recorder.neg(signs[which]);
+  const std::vector<int> here = recorder.append(g, parameters, instead);
+  for (const int output : g.outputNodes()) outputs.push_back(here[at(output)]);
+  return recorder.finish(outputs);
+}
+
+}  // namespace
+
+Program outputsOnSides(const Program& f, const Program& g, std::span<const Side> sides) {
+  const Program sided = onSides(f, sides);
+  Recorder recorder(sided);
+  const auto signs = sided.outputNodes().end() - static_cast<std::ptrdiff_t>(sides.size());
+  return withSigns(recorder, {signs, sided.outputNodes().end()}, f, g);
+}
+
+Program withSignsGiven(const Program& f, const Program& g) {
+  const int k = g.parameters(), jumps = static_cast<int>(jumpsOf(f).size());
+  Recorder recorder(g.states(), k + jumps);
+  std::vector<int> signs;
+  for (int j = 0; j < jumps; ++j) signs.push_back(recorder.parameter(k + j));
+  return withSigns(recorder, signs, f, g);
+}
+
 Program onSides(const Program& f, std::span<const Side> sides) {
   const Program given = withSignsGiven(f);
   const int n = f.states(), k = f.parameters(), jumps = static_cast<int>(sides.size());

@@ -43,4 +43,12 @@ Program affineInSign(const Program& f);
 /// where a sign decides about a sign.
 Program onSides(const Program& f, std::span<const Side> sides);
 
+/// Functions g of the states and parameters of f where f is on these sides: signs of states that are signs of f's
+/// surfaces are as they are there, of a held one what holds it (a force of dry friction at standstill is what keeps
+/// still); other signs stay. Throws as onSides.
+Program outputsOnSides(const Program& f, const Program& g, std::span<const Side> sides);
+
+/// g with those signs as parameters behind its own, one a jump of f.
+Program withSignsGiven(const Program& f, const Program& g);
+
 }  // namespace gamut

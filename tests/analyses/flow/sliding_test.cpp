@@ -187,6 +187,50 @@ TEST(FlowSlidingExactly, OutputsHoldTrajectories) {
   }
 }
 
+/// A crate on a slope that tilts, at rest from the start on, until friction (μ = 3) no longer holds it: what holds it
+/// is the load, not zero. Outputs: friction, acceleration; times before and after 3 = (2 + t) w, w = 0.9 … 1.1.
+TEST(FlowSlidingExactly, OutputsHoldWhatHolds) {
+  const auto acceleration = [](auto t, const auto& x, const auto& p) { return (2.0 + t) * p[0] - 3.0 * sign(x[1]); };
+  const Program f = record(2, 1, [&](auto t, const auto& x, const auto& p, auto& dx) {
+    dx[0] = x[1];
+    dx[1] = acceleration(t, x, p);
+  });
+  const Program g = record(2, 1, 2, [&](auto t, const auto& x, const auto& p, auto& y) {
+    y[0] = -3.0 * sign(x[1]);
+    y[1] = acceleration(t, x, p);
+  });
+  for (const Interval& w : {Interval(1.0), Interval(0.9375, 1.0625)}) {
+    SCOPED_TRACE(toString(w));
+    const Tube tube = Flow(f, g).enclose({0.0, 0.0, w}, 3, {0.25, 0.5, 2.5, 3});
+    ASSERT_EQ(tube.why(), "");
+    for (std::size_t row = 0; row < 3; ++row) {  // held; and right after row 2 at the greatest w still
+      const Interval load = (2.0 + Interval(tube.times()[row])) * w;
+      EXPECT_TRUE(isSubset(-load, tube.outputs(row)[0])) << row;
+      EXPECT_TRUE(contains(tube.outputs(row)[1], 0.0)) << row;
+      EXPECT_LT(width(tube.outputs(row)[0]), 1.01 * width(load) + 1e-12) << row;
+      EXPECT_LT(magnitude(tube.outputs(row)[1]), 1e-12) << row;
+    }
+    EXPECT_TRUE(isSubset(-hull(2.25 * w, 2.5 * w), tube.outputsOver(2)[0]));
+    EXPECT_TRUE(contains(tube.outputs(4)[0], -3.0));
+    EXPECT_TRUE(isSubset(5.0 * w - 3.0, tube.outputs(4)[1]));
+    EXPECT_LT(width(tube.outputs(4)[0]), 1e-12);
+  }
+}
+
+/// At the start a motion may leave at once, and the sign is anything.
+TEST(FlowSlidingExactly, OutputsAtTheStartAllowForEverySign) {
+  const Program f = record(1, 1, [](auto, const auto& x, const auto& p, auto& dx) { dx[0] = p[0] - sign(x[0]); });
+  const Program g = record(1, 1, 1, [](auto, const auto& x, const auto&, auto& y) { y[0] = 2.0 * sign(-x[0]); });
+  const auto atStart = [&](const Interval& x, const Interval& w) {
+    return Flow(f, g).enclose({x, w}, 1, {1}).outputs(0)[0];
+  };
+  EXPECT_TRUE(isEqual(atStart(0.0, 3.0), Interval(-2.0, 2.0)));
+  EXPECT_TRUE(isEqual(atStart(0.0, Interval(0.5, 3.0)), Interval(-2.0, 2.0)));
+  EXPECT_TRUE(isEqual(atStart(0.0, 0.5), Interval(-1.0)));  // held
+  EXPECT_TRUE(isEqual(atStart(Interval(0.0, 1.0), 0.5), Interval(-2.0, 2.0)));
+  EXPECT_TRUE(isEqual(atStart(Interval(0.5, 1.0), 3.0), Interval(-2.0)));
+}
+
 /// A rate of zero on one side lets solutions stay on the surface as long as they like.
 TEST(FlowSlidingExactly, StaysWhereOneSideIsAtRest) {
   const Program up = record(1, 0, [](auto, const auto& x, const auto&, auto& dx) { dx[0] = 1.0 + sign(x[0]); });

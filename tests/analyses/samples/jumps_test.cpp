@@ -312,6 +312,42 @@ TEST(Jumps, AnOutputAtTheMomentOfAnEventIsThatOfBothPieces) {
   }
 }
 
+/// What a force of 2 + t pushes rubs with as much until it is 3, and then with 3; two masses, the second twice as
+/// heavy.
+TEST(Jumps, WhatHoldsAMassIsSeen) {
+  Motion motion = motionOf(2, 2, 8, [](auto t, const auto& v, const auto&, auto& dv) {
+    dv[0] = 2.0 + t - 3.0 * sign(v[0]);
+    dv[1] = (-1.0 - 0.25 * t - 3.0 * sign(v[1])) / 2.0;
+  });
+  motion.g = record(2, 0, 3, [](auto t, const auto& v, const auto&, auto& y) {
+    y[0] = -3.0 * sign(v[0]);
+    y[1] = 2.0 + t - 3.0 * sign(v[0]);
+    y[2] = 3.0 * sign(-0.5 * v[1]);
+  });
+  for (const auto& y : {sampled(motion, {0.0, 0.0}), arbitrated(motion, {0.0, 0.0})})
+    for (std::size_t i = 0; i < motion.times.size(); ++i) {
+      const double t = motion.times[i];
+      if (t == 1) continue;
+      EXPECT_NEAR(y[3 * i], t < 1 ? -2 - t : -3, 1e-14) << t;
+      EXPECT_NEAR(y[3 * i + 1], t < 1 ? 0 : t - 1, 1e-14) << t;
+      EXPECT_NEAR(y[3 * i + 2], 1 + 0.25 * t, 1e-14) << t;
+    }
+}
+
+/// An angle of half a turn, beside what rubs.
+TEST(Jumps, AnglesOfHalfATurnAreSeen) {
+  for (const double height : {0.0, 1.0}) {
+    Motion motion = motionOf(2, 1, 4, [&](auto, const auto& x, const auto&, auto& dx) {
+      dx[0] = x[1];
+      dx[1] = -height * sign(x[1]) - 1.0;
+    });
+    motion.g = record(2, 0, 1,
+                      [](auto, const auto& x, const auto&, auto& y) { y[0] = atan2(0.0 * x[0] + x[1] - x[1], x[0]); });
+    for (const auto& y : {sampled(motion, {-1.0, 0.0}), arbitrated(motion, {-1.0, 0.0})})
+      for (const double angle : y) EXPECT_EQ(angle, pi);
+  }
+}
+
 TEST(Jumps, AMotionIsCancelledOrLateBetweenThemToo) {
   const Motion motion = motionOf(2, 1e7, 2, [](auto, const auto& x, const auto&, auto& dx) {
     dx[0] = x[1];

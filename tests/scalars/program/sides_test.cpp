@@ -48,6 +48,28 @@ TEST(Sides, RatesOfArgumentsAreAlongTheMotion) {
   EXPECT_EQ(y, (std::vector{3.0, -2.5, -7.0, -2.5 - 3.0 * 5.0 - 2.0}));
 }
 
+/// What rubs, and the acceleration: at standstill the first holds still.
+TEST(Sides, OutputsAreThoseOfTheSide) {
+  const Program g = record(2, 1, 4, [](auto t, const auto& x, const auto& p, auto& y) {
+    y[0] = -3.0 * sign(x[1]);
+    y[1] = -(p[0] * x[0]) - 3.0 * sign(x[1]);
+    y[2] = sign(-2.0 * x[1]);     // of the same surface
+    y[3] = sign(x[0]) + sign(t);  // of none
+  });
+  const std::vector<double> x{0.5, 0.0}, p{2.0};
+  const auto found = [&](Side side) {
+    return evaluate<double>(outputsOnSides(rubbing(), g, std::vector{side}), x, p, 0.0);
+  };
+  EXPECT_EQ(found(Side::above), (std::vector{-3.0, -4.0, -1.0, 1.0}));
+  EXPECT_EQ(found(Side::below), (std::vector{3.0, 2.0, 1.0, 1.0}));
+  const std::vector<double> held = found(Side::held);
+  EXPECT_NEAR(held[0], 1.0, 1e-15);
+  EXPECT_NEAR(held[1], 0.0, 1e-15);
+  EXPECT_NEAR(held[2], 1.0 / 3, 1e-15);
+  EXPECT_EQ(held[3], 1.0);
+  EXPECT_EQ(evaluate<double>(withSignsGiven(rubbing(), g), x, {2.0, 0.5}, 0.0), (std::vector{-1.5, -2.5, -0.5, 1.0}));
+}
+
 /// Two rubbing masses that one matrix couples: M v' = F - μ sign(v).
 TEST(Sides, SeveralAreHeldAtOnce) {
   const Program f = record(2, 2, [](auto, const auto& v, const auto& p, auto& dv) {

@@ -1,0 +1,89 @@
+#include "scalars/program/angles.hpp"
+
+#include <optional>
+#include <utility>
+
+#include "scalars/index.hpp"
+#include "scalars/program/recorder.hpp"
+
+namespace gamut {
+
+using detail::at;
+
+namespace {
+
+struct HalfAngle {
+  std::vector<int> y;  ///< factors
+  int d = -1;
+};
+
+/// d, where the node is √(1/d)²; else -1.
+int inverseAt(const Program& program, const Node& square) {
+  if (square.op != Op::sqr) return -1;
+  const Node& inverse = program.nodes()[at(square.a)];
+  if (inverse.op != Op::recip) return -1;
+  const Node& root = program.nodes()[at(inverse.a)];
+  return root.op == Op::sqrt ? root.a : -1;
+}
+
+std::optional<HalfAngle> halfAngleAt(const Program& program, const Node& node) {
+  if (node.op != Op::atan) return std::nullopt;
+  HalfAngle found;
+  std::vector<int> open{node.a};
+  while (!open.empty()) {
+    const int i = open.back();
+    open.pop_back();
+    const Node& factor = program.nodes()[at(i)];
+    if (const int d = inverseAt(program, factor); d >= 0 && found.d < 0) {
+      found.d = d;
+    } else if (factor.op == Op::mul) {
+      open.push_back(factor.a);
+      open.push_back(factor.b);
+    } else {
+      found.y.push_back(i);
+    }
+  }
+  return found.d >= 0 && !found.y.empty() ? std::optional(found) : std::nullopt;
+}
+
+}  // namespace
+
+std::vector<int> halfAnglesOf(const Program& program) {
+  std::vector<int> found;
+  for (std::size_t i = 0; i < program.nodes().size(); ++i)
+    if (halfAngleAt(program, program.nodes()[i])) found.push_back(static_cast<int>(i));
+  return found;
+}
+
+Program withHalfTurns(const Program& program) {
+  const std::vector<int> angles = halfAnglesOf(program);
+  if (angles.empty()) return program;
+  Recorder result(program.states(), program.parameters());
+  std::vector<int> instead(program.nodes().size(), -1), here, outputs;
+  const int one = result.constant(1.0), half = result.constant(0.5), eighth = result.atan(one);
+  for (const int angle : angles) {  // operands come first, so that angles of angles find theirs
+    here = result.append(program, {}, instead);
+    const HalfAngle of = *halfAngleAt(program, program.nodes()[at(angle)]);
+    const Node& sum = program.nodes()[at(of.d)];
+    if (sum.op != Op::add && sum.op != Op::sub) continue;  // x is known not to be below zero
+    const auto isRoot = [&](int node) { return program.nodes()[at(node)].op == Op::sqrt; };
+    if (!isRoot(sum.a) && !(sum.op == Op::add && isRoot(sum.b))) continue;
+    const int x = sum.op == Op::sub ? result.neg(here[at(sum.b)]) : here[at(isRoot(sum.a) ? sum.b : sum.a)];
+    int isNone = one;  // the product of the factors' signs' squares
+    for (const int y : of.y) isNone = result.mul(isNone, result.sqr(result.sign(here[at(y)])));
+    const int isZero = result.sub(one, isNone);
+    const int d = result.add(here[at(of.d)], result.mul(isZero, result.abs(x)));
+    const int inverse = result.sqr(result.recip(result.sqrt(d)));
+    std::vector<int> own = instead;
+    for (std::size_t i = 0; i < own.size(); ++i)
+      if (inverseAt(program, program.nodes()[i]) == of.d) own[i] = inverse;
+    const int plain = result.append(program, {}, own)[at(angle)];
+    const int turn = result.mul(result.mul(half, result.sub(one, result.sign(x))), result.add(eighth, eighth));
+    instead[at(angle)] = result.add(plain, result.mul(isZero, turn));
+  }
+  here = result.append(program, {}, instead);
+  for (const int output : program.outputNodes()) outputs.push_back(here[at(output)]);
+  return result.finish(outputs);
+}
+
+}  // namespace gamut

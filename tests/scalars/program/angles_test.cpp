@@ -1,0 +1,41 @@
+// Angles of two coordinates on the negative axis, for numbers.
+#include "scalars/program/angles.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "scalars/evaluation/evaluate.hpp"
+#include "scalars/recorded.hpp"
+
+namespace gamut {
+namespace {
+
+TEST(HalfTurns, HaveAValueOnTheNegativeAxisAndChangeNoOther) {
+  const Program g = record(2, 1, 3, [](auto, const auto& x, const auto& p, auto& y) {
+    y[0] = atan2(x[0], x[1]);
+    y[1] = atan2(x[0] * p[0], -x[1]) + 1.0;
+    y[2] = atan2(atan2(x[0], x[1]), -2.0 * p[0] + x[0]);  // an angle of an angle
+  });
+  const Program turned = withHalfTurns(g);
+  ASSERT_EQ(halfAnglesOf(g).size(), 3u);
+  for (const double y : {0.0, 1e-300, -1e-9, 0.5, -2.0})
+    for (const double x : {1.0, -1.0, 1e-100, -3.5}) {
+      const std::vector<double> plain = evaluate<double>(g, std::vector{y, x}, std::vector{2.0}, 0.0),
+                                found = evaluate<double>(turned, std::vector{y, x}, std::vector{2.0}, 0.0);
+      for (std::size_t i = 0; i < plain.size(); ++i) {
+        ASSERT_TRUE(std::isfinite(found[i])) << y << " " << x << " " << i;
+        if (std::isnan(plain[i])) continue;
+        EXPECT_EQ(found[i], plain[i]) << y << " " << x << " " << i;
+      }
+      EXPECT_NEAR(found[0], std::atan2(y, x), 1e-15);
+      EXPECT_NEAR(found[1] - 1, std::atan2(2 * y, -x), 1e-15);
+    }
+  EXPECT_TRUE(std::isnan(evaluate<double>(turned, std::vector{0.0, 0.0}, std::vector{2.0}, 0.0)[0]));
+  const Program none = record(1, 0, 1, [](auto, const auto& x, const auto&, auto& y) { y[0] = atan(x[0]); });
+  EXPECT_EQ(withHalfTurns(none).nodes().size(), none.nodes().size());
+}
+
+}  // namespace
+}  // namespace gamut
