@@ -4,7 +4,9 @@
 #include <gsl/gsl_cdf.h>
 
 #include <algorithm>
+#include <array>
 #include <boost/math/special_functions/beta.hpp>
+#include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
 #include <stdexcept>
 
@@ -19,6 +21,11 @@ void requirePositive(double value, const char* what) {
   require(value > 0 && std::isfinite(value), std::string(what) + " must be positive, not " + toString(value));
 }
 
+void requireNotNegative(const Interval& support, const char* what) {
+  require(support.lower() >= 0,
+          std::string(what) + " distribution needs a support that is not negative, not " + toString(support));
+}
+
 double clamp(double value, const Interval& range) { return std::clamp(value, range.lower(), range.upper()); }
 
 }  // namespace
@@ -28,13 +35,9 @@ double clamp(double value, const Interval& range) { return std::clamp(value, ran
 Distribution::Distribution(Shape shape, const Interval& support, double first, double second)
     : shape_(shape), support_(support), first_(first), second_(second) {
   require(!isEmpty(support) && isBounded(support), "a distribution needs a bounded support, not " + toString(support));
-  if ((shape == Shape::normal || shape == Shape::lognormal) && !isThin(support)) {
-    const bool logarithmic = shape == Shape::lognormal;
-    const double lower = logarithmic ? std::log(support.lower()) : support.lower();
-    const double upper = logarithmic ? std::log(support.upper()) : support.upper();
-    require(truncatedNormalCumulative(upper, lower, upper) == 1,  // 0/0 without mass
-            "the " + std::string(name()) + " distribution has no mass on its support " + toString(support));
-  }
+  if (!isTruncated() || isThin(support)) return;
+  require(below(support.upper()) - below(support.lower()) > 0 || above(support.lower()) - above(support.upper()) > 0,
+          "the " + std::string(this->name()) + " distribution has no mass on its support " + toString(support));
 }
 
 Distribution Distribution::uniform(const Interval& support) { return {Shape::uniform, support, 0, 0}; }
@@ -60,25 +63,33 @@ Distribution Distribution::beta(const Interval& support, double a, double b) {
 Distribution Distribution::lognormal(const Interval& support, double logMean, double logDeviation) {
   require(std::isfinite(logMean), "the logarithmic mean of a lognormal distribution must be finite");
   requirePositive(logDeviation, "the logarithmic deviation of a lognormal distribution");
-  require(support.lower() >= 0,
-          "a lognormal distribution needs a support that is not negative, not " + toString(support));
+  requireNotNegative(support, "a lognormal");
   return {Shape::lognormal, support, logMean, logDeviation};
 }
 
+Distribution Distribution::weibull(const Interval& support, double shape, double scale) {
+  requirePositive(shape, "the shape of a Weibull distribution");
+  requirePositive(scale, "the scale of a Weibull distribution");
+  requireNotNegative(support, "a Weibull");
+  return {Shape::weibull, support, shape, scale};
+}
+
+Distribution Distribution::gamma(const Interval& support, double shape, double scale) {
+  requirePositive(shape, "the shape of a gamma distribution");
+  requirePositive(scale, "the scale of a gamma distribution");
+  requireNotNegative(support, "a gamma");
+  return {Shape::gamma, support, shape, scale};
+}
+
+Distribution Distribution::exponential(const Interval& support, double mean) {
+  requirePositive(mean, "the mean of an exponential distribution");
+  requireNotNegative(support, "an exponential");
+  return {Shape::exponential, support, 1, mean};  // Weibull's of shape 1
+}
+
 std::string_view Distribution::name() const {
-  switch (shape_) {
-    case Shape::uniform:
-      return "uniform";
-    case Shape::triangular:
-      return "triangular";
-    case Shape::normal:
-      return "normal";
-    case Shape::beta:
-      return "beta";
-    case Shape::lognormal:
-      return "lognormal";
-  }
-  return {};
+  constexpr std::array names{"uniform", "triangular", "normal", "beta", "lognormal", "weibull", "gamma", "exponential"};
+  return names[static_cast<std::size_t>(shape_)];
 }
 
 std::vector<ShapeNumber> Distribution::numbers() const {
@@ -97,28 +108,69 @@ std::vector<ShapeNumber> Distribution::numbers() const {
       break;
     case Shape::lognormal:
       numbers.insert(numbers.end(), {{"log_mean", first_, false}, {"log_deviation", second_, false}});
+      break;
+    case Shape::weibull:
+    case Shape::gamma:
+      numbers.insert(numbers.end(), {{"shape", first_, false}, {"scale", second_}});
+      break;
+    case Shape::exponential:
+      numbers.push_back({"mean", second_});
   }
+  if (isTruncated()) numbers.push_back({"cut_off", cutOff(), false});
   return numbers;
 }
 
-double Distribution::truncatedNormal(double u, double lower, double upper) const {
-  const double a = (lower - first_) / second_, b = (upper - first_) / second_;
-  // Where the support lies right of the mean, upper tails keep the digits that probabilities near 1 have lost; the
-  // inverse is taken on the side on which the result lies.
-  if (a + b > 0) {
-    const double tail = gsl_cdf_ugaussian_Q(b) + (1 - u) * (gsl_cdf_ugaussian_Q(a) - gsl_cdf_ugaussian_Q(b));
-    return first_ + second_ * gsl_cdf_ugaussian_Qinv(tail);
+double Distribution::below(double value) const {
+  switch (shape_) {
+    case Shape::gamma:
+      return boost::math::gamma_p(first_, value / second_);
+    case Shape::weibull:
+    case Shape::exponential:
+      return -std::expm1(-std::pow(value / second_, first_));
+    default:
+      return gsl_cdf_ugaussian_P(((shape_ == Shape::lognormal ? std::log(value) : value) - first_) / second_);
   }
-  const double tail = gsl_cdf_ugaussian_P(a) + u * (gsl_cdf_ugaussian_P(b) - gsl_cdf_ugaussian_P(a));
-  return first_ + second_ * gsl_cdf_ugaussian_Pinv(tail);
 }
 
-double Distribution::truncatedNormalCumulative(double value, double lower, double upper) const {
-  const double a = (lower - first_) / second_, b = (upper - first_) / second_, v = (value - first_) / second_;
-  if (a + b > 0)
-    return (gsl_cdf_ugaussian_Q(a) - gsl_cdf_ugaussian_Q(v)) / (gsl_cdf_ugaussian_Q(a) - gsl_cdf_ugaussian_Q(b));
-  return (gsl_cdf_ugaussian_P(v) - gsl_cdf_ugaussian_P(a)) / (gsl_cdf_ugaussian_P(b) - gsl_cdf_ugaussian_P(a));
+double Distribution::above(double value) const {
+  switch (shape_) {
+    case Shape::gamma:
+      return boost::math::gamma_q(first_, value / second_);
+    case Shape::weibull:
+    case Shape::exponential:
+      return std::exp(-std::pow(value / second_, first_));
+    default:
+      return gsl_cdf_ugaussian_Q(((shape_ == Shape::lognormal ? std::log(value) : value) - first_) / second_);
+  }
 }
+
+double Distribution::whereBelow(double probability) const {
+  switch (shape_) {
+    case Shape::gamma:
+      return second_ * boost::math::gamma_p_inv(first_, probability);
+    case Shape::weibull:
+    case Shape::exponential:
+      return second_ * std::pow(-std::log1p(-probability), 1 / first_);
+    default:
+      const double value = first_ + second_ * gsl_cdf_ugaussian_Pinv(probability);
+      return shape_ == Shape::lognormal ? std::exp(value) : value;
+  }
+}
+
+double Distribution::whereAbove(double probability) const {
+  switch (shape_) {
+    case Shape::gamma:
+      return second_ * boost::math::gamma_q_inv(first_, probability);
+    case Shape::weibull:
+    case Shape::exponential:
+      return second_ * std::pow(-std::log(probability), 1 / first_);
+    default:
+      const double value = first_ + second_ * gsl_cdf_ugaussian_Qinv(probability);
+      return shape_ == Shape::lognormal ? std::exp(value) : value;
+  }
+}
+
+double Distribution::cutOff() const { return isTruncated() ? below(support_.lower()) + above(support_.upper()) : 0.0; }
 
 double Distribution::quantile(double u) const {
   require(u >= 0 && u <= 1, "a probability lies between 0 and 1, not at " + toString(u));
@@ -132,15 +184,18 @@ double Distribution::quantile(double u) const {
       // u = (v-lower)² / (span (mode-lower)) up to the mode, 1-u = (upper-v)² / (span (upper-mode)) beyond
       if (u * span < first_ - lower) return clamp(lower + std::sqrt(u * span * (first_ - lower)), support_);
       return clamp(upper - std::sqrt((1 - u) * span * (upper - first_)), support_);
-    case Shape::normal:
-      return clamp(truncatedNormal(u, lower, upper), support_);
     // GSL's inverse ends the process when its iteration does not converge; Boost.Math's holds for all parameters.
     case Shape::beta:
       return clamp(lower + boost::math::ibeta_inv(first_, second_, u) * span, support_);
-    case Shape::lognormal:
-      return clamp(std::exp(truncatedNormal(u, std::log(lower), std::log(upper))), support_);
+    default:
+      break;
   }
-  return lower;
+  // Where the support lies in the upper half, upper tails keep the digits that probabilities near 1 have lost.
+  if (above(lower) + above(upper) < 1) {
+    const double tail = above(upper) + (1 - u) * (above(lower) - above(upper));
+    return clamp(whereAbove(tail), support_);
+  }
+  return clamp(whereBelow(below(lower) + u * (below(upper) - below(lower))), support_);
 }
 
 // ---- Uncertain ------------------------------------------------------------------------------------------------------

@@ -28,28 +28,40 @@ class Distribution {
   static Distribution beta(const Interval& support, double a, double b);
   /// The logarithm is normal with `logMean` and `logDeviation`; truncated to the support, which is not negative.
   static Distribution lognormal(const Interval& support, double logMean, double logDeviation);
+  /// These three on a support that is not negative, to which they are truncated. P(v) = 1 - exp(-(v/scale)^shape):
+  static Distribution weibull(const Interval& support, double shape, double scale);
+  /// Density proportional to v^(shape-1) exp(-v/scale).
+  static Distribution gamma(const Interval& support, double shape, double scale);
+  /// Density proportional to exp(-v/mean).
+  static Distribution exponential(const Interval& support, double mean);
 
   /// The value below which the quantity lies with probability u (0 … 1): 0 and 1 give the support's ends exactly, and
   /// every result lies in the support. Throws std::invalid_argument for another u.
   double quantile(double u) const;
 
   const Interval& support() const { return support_; }
-  /// "uniform", "triangular", "normal", "beta" or "lognormal".
+  /// The probability that truncation to the support cut off; 0 of what is bounded by itself.
+  double cutOff() const;
+  /// "uniform", "triangular", "normal", "beta", "lognormal", "weibull", "gamma" or "exponential".
   std::string_view name() const;
-  /// "lower" and "upper", the support; then "mode", "mean" and "deviation", "a" and "b", or "log_mean" and
-  /// "log_deviation".
+  /// "lower" and "upper", the support; then "mode", "mean" and "deviation", "a" and "b", "log_mean" and
+  /// "log_deviation", "shape" and "scale", or "mean"; and "cut_off" of what is truncated.
   std::vector<ShapeNumber> numbers() const;
 
  private:
-  enum class Shape { uniform, triangular, normal, beta, lognormal };
+  enum class Shape { uniform, triangular, normal, beta, lognormal, weibull, gamma, exponential };
   Distribution(Shape shape, const Interval& support, double first, double second);
-  double truncatedNormal(double u, double lower, double upper) const;
-  double truncatedNormalCumulative(double value, double lower, double upper) const;
+  bool isTruncated() const { return shape_ != Shape::uniform && shape_ != Shape::triangular && shape_ != Shape::beta; }
+  // Of what is truncated, before it is: the probability below a value and above it, and the values of these.
+  double below(double value) const;
+  double above(double value) const;
+  double whereBelow(double probability) const;
+  double whereAbove(double probability) const;
 
   Shape shape_ = Shape::uniform;
   Interval support_;
-  double first_ = 0;   // mode, mean or a, of the logarithm if that is normal
-  double second_ = 0;  // deviation or b, likewise
+  double first_ = 0;   // mode, mean, a or shape; of the logarithm if that is normal
+  double second_ = 0;  // deviation, b or scale, likewise
 };
 
 /// An uncertain quantity.

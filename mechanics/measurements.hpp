@@ -2,6 +2,7 @@
 // another one sees it.
 #pragma once
 
+#include <array>
 #include <cmath>
 
 #include "mechanics/element.hpp"
@@ -18,15 +19,42 @@ Vector3<S> rollPitchYaw(const Matrix3<S>& r) {
           S(atan2(S(r(1, 0) + S(0.0)), r(0, 0)))};
 }
 
-/// θ u [rad] of a rotation by the angle θ, from 0 to π, about the unit vector u. Singular at θ = 0 and at θ = π: with
-/// w = 2 sin θ u, it is w θ/|w|.
+namespace detail {
+
+/// c_0 … c_n with asin(x)/x = Σ c_k x^(2k) for |x| ≤ sin(π/16): c_k = c_(k-1) (2k - 1)²/(2k (2k + 1)), which fall, so
+/// that all terms from x^(2n) on are within c_n x^(2n) [1, 1/(1 - x²)].
+inline std::array<Interval, 11> arcSineCoefficients() {
+  std::array<Interval, 11> c{Interval(1.0)};
+  for (std::size_t k = 1; k < c.size(); ++k) {
+    const double even = 2.0 * static_cast<double>(k);
+    c[k] = c[k - 1] * Interval((even - 1) * (even - 1)) / Interval(even * (even + 1));
+  }
+  c.back() *= Interval(1.0, 1.04);  // sin²(π/16) < 0.0381
+  return c;
+}
+
+}  // namespace detail
+
+/// θ u [rad] of a rotation by the angle θ, from 0 to π, about the unit vector u. Singular at θ = π. With w = 2 sin θ u,
+/// which R - Rᵀ holds, it is w (θ/sin θ)/2, and
+///   θ/sin θ = asin(x)/x / (cos(θ/2) cos(θ/4) cos(θ/8) cos(θ/16)),   x = sin(θ/16)   (F. Viète, 1593).
 template <class S>
 Vector3<S> rotationVector(const Matrix3<S>& r) {
-  using std::atan2, std::sqrt;
+  using std::sqrt;
+  const S half(0.5);
   const Vector3<S> w(r(2, 1) - r(1, 2), r(0, 2) - r(2, 0), r(1, 0) - r(0, 1));
-  const S length = sqrt(square(w[0]) + square(w[1]) + square(w[2]));
-  const S factor = atan2(length, S(r(0, 0) + r(1, 1) + r(2, 2) - S(1.0))) / length;
-  return w * factor;
+  // cos²(θ/2) = A = A² + A (1 - A), of which near θ = π the second keeps its digits.
+  const S a = S(0.25) * S(r(0, 0) + r(1, 1) + r(2, 2) + S(1.0));
+  S cosine = sqrt(S(square(a) + S(0.0625) * S(square(w[0]) + square(w[1]) + square(w[2])))), product = cosine;
+  for (int halving = 1; halving < 4; ++halving) {
+    cosine = sqrt(S(half + half * cosine));
+    product = product * cosine;
+  }
+  const std::array<Interval, 11> c = detail::arcSineCoefficients();
+  const S xx = S(1.0) - cosine * cosine;
+  S series = constant<S>(c.back());
+  for (std::size_t k = c.size() - 1; k-- > 0;) series = constant<S>(c[k]) + xx * series;
+  return w * S(half * series / product);
 }
 
 /// The acceleration of a point fixed in the frame, in its axes.

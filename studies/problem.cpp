@@ -96,6 +96,7 @@ void recordPrograms(Study& study) {
     motion.f = record(0, numbers, [](auto, const auto&, const auto&, auto&) {});
     motion.g = recordConfiguration(study, states, numbers);
   }
+  motion.outputNames = outputQuantities(study);
   study.recordingCpu = processCpuSeconds() - start;
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "scalars/interval.hpp"
 
@@ -43,15 +44,17 @@ std::string countText(long long count, std::string_view singular) {
 
 std::string rangeText(double lower, double upper, int digits) {
   const auto [below, above] = outwardText(lower, upper, digits);
-  const auto stated = [](double bound, bool isLower) -> std::string {
+  const auto stated = [](double bound) -> std::string {
+    constexpr double roundings = 8;  // of a number and its tolerance, outward
     for (int n = 1; n <= 12 && std::isfinite(bound); ++n) {
       const std::string text = fmt::format("{:.{}g}", bound, n);
-      const Interval decimal(text);  // as a study's number is enclosed
-      if ((isLower ? decimal.lower() : decimal.upper()) == bound) return text;
+      const Interval decimal(text);
+      const double ulp = std::nextafter(std::abs(bound), std::numeric_limits<double>::infinity()) - std::abs(bound);
+      if (std::abs(midpoint(decimal) - bound) <= roundings * ulp) return text;
     }
     return "";
   };
-  const std::string least = stated(lower, true), greatest = stated(upper, false);
+  const std::string least = stated(lower), greatest = stated(upper);
   return fmt::format("[{}, {}]", least.empty() ? below : least, greatest.empty() ? above : greatest);
 }
 

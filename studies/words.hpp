@@ -26,8 +26,8 @@ int digitsFor(double magnitude, double width, int resolved);
 /// "1 sample", "4096 samples".
 std::string countText(long long count, std::string_view singular);
 
-/// "[0.795, 0.805]": each bound by the shortest decimal that a study can state it with, if it has no more than twelve
-/// digits; otherwise rounded outward to `digits`.
+/// "[0.795, 0.805]", as a study states it: each bound by the shortest decimal from which it is some outward roundings
+/// away at most, if that has no more than twelve digits; otherwise rounded outward to `digits`.
 std::string rangeText(double lower, double upper, int digits);
 
 }  // namespace gamut

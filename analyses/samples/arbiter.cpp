@@ -285,8 +285,8 @@ class TaylorRun {
     return *equations;
   }
 
-  Real stop(const Real& t, const char* why) {
-    result_.why = why;
+  Real stop(const Real& t, std::string why) {
+    result_.why = std::move(why);
     result_.reached = rounded(t);
     return Real(0.0);
   }
@@ -343,7 +343,9 @@ class TaylorRun {
     const std::vector<Real> x = n_ == 0 ? std::vector<Real>{} : stateAfter(tau);
     const std::vector<Real> y = (sides_.count() > 0 ? sides_.piece().outputs : g_)(Real(time), x);
     if (!std::all_of(y.begin(), y.end(), [](const Real& value) { return isFinite(value); })) {
-      stop(Real(time), "an output is not finite");
+      std::vector<double> doubles;
+      for (const Real& value : y) doubles.push_back(rounded(value));
+      stop(Real(time), motion_.whatIsNotFinite(doubles));
       return;
     }
     result_.values.insert(result_.values.end(), y.begin(), y.end());

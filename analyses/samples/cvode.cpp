@@ -389,7 +389,7 @@ Integration Cvode::integrate(CvodeProblem& problem, std::span<const double> x, c
     result.why = m.isCancelled() ? "cancelled"
                  : m.isLate      ? "the time limit of " + toString(seconds) + " s CPU for a sample was reached"
                  : flag < 0      ? meaningOf(flag, m.message)
-                                 : "an output is not finite";
+                                 : problem.whatIsNotFinite();
   return result;
 }
 

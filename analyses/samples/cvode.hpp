@@ -41,6 +41,8 @@ class CvodeProblem {
   virtual void differentiate(double t, std::span<const double> x, std::span<double> rates) = 0;
   /// Takes down the outputs of output time number i; false if one of them is not finite, which ends the integration.
   virtual bool observe(std::size_t i, double t, std::span<const double> x) = 0;
+  /// Of outputs that observe could not take down: which is not finite.
+  virtual std::string whatIsNotFinite() const { return "an output is not finite"; }
 
   /// How many functions of time and states end a piece of the motion where they fall below zero, since other equations
   /// hold from there on. The same number for all motions of a Cvode; packs have none.

@@ -28,6 +28,12 @@ void Motion::check() const {
 
 Program Motion::outputsForSamples() const { return withHalfTurns(g); }
 
+std::string Motion::whatIsNotFinite(std::span<const double> values) const {
+  const auto first = std::ranges::find_if(values, [](double value) { return !std::isfinite(value); });
+  const auto place = static_cast<std::size_t>(first - values.begin());
+  return (place < outputNames.size() ? "'" + outputNames[place] + "'" : std::string("an output")) + " is not finite";
+}
+
 struct Witness::Solver : CvodeProblem {
   Solver(const Motion& m, Method method, const std::atomic<bool>* cancelled)
       : motion(m),
@@ -58,11 +64,15 @@ struct Witness::Solver : CvodeProblem {
     const std::span<double> outputs = trajectory.subspan(i * motion.outputs(), motion.outputs());
     (sides.count() > 0 ? sides.piece().outputs : g)(t, x, outputs);
     if (std::ranges::all_of(outputs, [](double value) { return std::isfinite(value); })) return true;
+    notFinite = motion.whatIsNotFinite(outputs);
     std::ranges::fill(outputs, std::numeric_limits<double>::quiet_NaN());
     return false;
   }
 
+  std::string whatIsNotFinite() const override { return notFinite; }
+
   const Motion& motion;
+  std::string notFinite;
   const Program seen;
   Evaluator<double> f, g;
   SidesOfMotion<double> sides;

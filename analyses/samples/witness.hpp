@@ -8,6 +8,7 @@
 #include <limits>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "analyses/samples/cvode.hpp"
@@ -21,10 +22,13 @@ struct Motion {
   Program g;                  ///< the states and parameters of f; one output a watched quantity
   Program sampled;            ///< f once more, recorded as suits samples; without outputs: f itself
   std::vector<double> times;  ///< output times, rising, s; the motion starts at 0
+  std::vector<std::string> outputNames = {};  ///< for messages; one an output, or none
 
   /// What samples, and their arbiter, integrate, and see: g, which has a value at angles of ±π too.
   const Program& forSamples() const { return sampled.outputs() > 0 ? sampled : f; }
   Program outputsForSamples() const;
+  /// Says which of these outputs, the first, is not finite.
+  std::string whatIsNotFinite(std::span<const double> outputs) const;
   /// Number of start values: the states, then the parameters.
   std::size_t startValues() const { return static_cast<std::size_t>(f.states() + f.parameters()); }
   std::size_t outputs() const { return static_cast<std::size_t>(g.outputs()); }

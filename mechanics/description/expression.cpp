@@ -206,8 +206,8 @@ std::optional<Amount> Expression::amount() const {
 Amount parseAmount(std::string_view text) {
   const Expression expression = Expression::parse(text);
   if (!expression.isConstant())
-    throw UnitError(
-        fmt::format("unknown unit '{}' in '{}'; expected one of {}", expression.names().front(), text, knownUnits()));
+    throw UnitError(fmt::format("unknown unit '{}' in '{}'; expected {}", expression.names().front(), text,
+                                unitInsteadOf(expression.names().front())));
   if (const std::optional<Amount> amount = expression.amount()) return *amount;
   throw UnitError(fmt::format("'{}' is no rational number times a power of pi; expected one that is", text));
 }

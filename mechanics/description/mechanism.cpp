@@ -36,6 +36,13 @@ bool isNumber(const std::string& name) {
   }
 }
 
+/// What an unknown name was for; of two units written together, as they should be.
+std::string remarkOn(const std::string& name, const std::string& use) {
+  if (const std::string apart = unitsApart(name); !apart.empty())
+    return "for " + inQuotes(use) + ", or " + inQuotes(apart) + " with a blank between units";
+  return "for " + inQuotes(use);
+}
+
 bool has(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
@@ -76,12 +83,14 @@ void Mechanism::addDerived(const std::string& name, const Expression& formula) {
 
 void Mechanism::checkParameterName(const std::string& name) const {
   if (name.empty()) refuse("a parameter needs a name");
-  if (knows(name) || find(initials_, name) != nullptr) refuse("the quantity " + inQuotes(name) + " is defined twice");
+  if (knows(name) || find(initials_, name) != nullptr)
+    refuse("the quantity " + inQuotes(name) + " is defined twice; expected another name");
   if (unitNamed(name) != nullptr || isQuantity(name) || name == "pi")
     refuse("a parameter cannot be named " + inQuotes(name) + ": that is a " +
            (isQuantity(name) ? "quantity"
             : name == "pi"   ? "number"
-                             : "unit"));
+                             : "unit") +
+           "; expected another name");
 }
 
 const Mechanism::Derived* Mechanism::findDerived(const std::string& name) const {
@@ -107,8 +116,9 @@ bool Mechanism::dependsOn(const Expression& number, const std::string& parameter
 
 void Mechanism::checkNewName(const std::string& kind, const std::string& name) const {
   if (name.empty()) refuse("a " + kind + " needs a name");
-  if (has(names_, name)) refuse("two elements are named " + inQuotes(name) + "; every element needs a name of its own");
-  if (isQuantity(name)) refuse("an element cannot be named " + inQuotes(name) + ": that is a quantity");
+  if (has(names_, name)) refuse("two elements are named " + inQuotes(name) + "; expected a name of its own");
+  if (isQuantity(name))
+    refuse("an element cannot be named " + inQuotes(name) + ": that is a quantity; expected another name");
 }
 
 void Mechanism::checkFrame(const std::string& frame, const std::string& of) const {
@@ -120,10 +130,11 @@ void Mechanism::addFrame(const std::string& from, const std::string& to, const s
   checkFrame(from, of);
   if (to.empty()) refuse("the element " + inQuotes(of) + " needs the name of the frame that it moves");
   if (has(frames_, to))
-    refuse("the frame " + inQuotes(to) + " is defined twice; " + inQuotes(of) + " needs a new frame");
+    refuse("the frame " + inQuotes(to) + " is defined twice; expected a new frame for " + inQuotes(of));
   if (unitOfMeasured(to + ".position.x") != nullptr)
-    refuse("the frame " + inQuotes(to) + " has the name of an element whose position is measured");
-  if (isQuantity(to)) refuse("a frame cannot be named " + inQuotes(to) + ": that is a quantity");
+    refuse("the frame " + inQuotes(to) +
+           " has the name of an element whose position is measured; expected another name");
+  if (isQuantity(to)) refuse("a frame cannot be named " + inQuotes(to) + ": that is a quantity; expected another name");
   frames_.push_back(to);
 }
 
@@ -148,7 +159,7 @@ void Mechanism::checkNames(const Expression& number, const std::string& name) co
       throw WrongNumber(name, inQuotes(used) + " changes in motion; expected a formula of parameters alone");
     std::vector<std::string> known = namesOf(parameters_);
     for (const Derived& derived : derived_) known.push_back(derived.name);
-    throw UnknownName("parameter", used, known, "for " + inQuotes(name));
+    throw UnknownName("parameter", used, known, remarkOn(used, name));
   }
 }
 
@@ -187,9 +198,10 @@ Dimension Mechanism::check(const Expression& number, const std::string& name, co
 void Mechanism::addState(std::vector<State>& states, const std::string& name, const std::string& unit,
                          const Expression& initial) {
   State state{name, unit, initial};
-  if (unitOfMeasured(name) != nullptr) refuse("the quantity " + inQuotes(name) + " is defined twice");
+  if (unitOfMeasured(name) != nullptr)
+    refuse("the quantity " + inQuotes(name) + " is defined twice; expected another name");
   if (initial.isConstant()) {
-    if (knows(name)) refuse("the quantity " + inQuotes(name) + " is defined twice");
+    if (knows(name)) refuse("the quantity " + inQuotes(name) + " is defined twice; expected another name");
     check(initial, name, unit);
     const Interval value = initial.evaluate<Interval>([](const std::string&) { return Interval::entire(); });
     if (isEmpty(value) || !isBounded(value))
@@ -231,11 +243,13 @@ void Mechanism::addSignal(Signal signal, Expression& expression) {
 void Mechanism::drive(const std::string& coordinate, const std::string& by) {
   const auto driven = std::ranges::find(coordinates_, coordinate, &JointCoordinate::name);
   if (driven->isDriven)
-    refuse("the joint " + inQuotes(coordinate) + " is driven twice, the second time by " + inQuotes(by));
+    refuse("the joint " + inQuotes(coordinate) + " is driven twice, the second time by " + inQuotes(by) +
+           "; expected one drive, coupling or motion a joint");
   for (const std::string& name : {driven->name, driven->rate}) {
     const NamedValue* initial = find(initials_, name);
     if (initial == nullptr || !isEqual(initial->nominal, Interval(0.0)))
-      refuse("the joint " + inQuotes(driven->element) + " has initial values, but is driven by " + inQuotes(by));
+      refuse("the joint " + inQuotes(driven->element) + " has initial values, but is driven by " + inQuotes(by) +
+             "; expected no initial values: it starts where it is driven");
   }
   std::erase_if(initials_, [&](const auto& value) { return value.name == driven->name || value.name == driven->rate; });
   std::erase_if(positions_, [&](const State& state) { return state.name == driven->name; });
@@ -251,10 +265,12 @@ class Mechanism::Checker final : public Fields {
   void frame(const Word& /*word*/, std::string& name) override { m_.checkFrame(name, element_); }
   void otherFrame(const Word& word, std::string& name, const std::string& other) override {
     frame(word, name);
-    if (name == other) refuse("the element " + inQuotes(element_) + " needs two different frames");
+    if (name == other)
+      refuse("the element " + inQuotes(element_) + " joins a frame to itself; expected two different frames");
   }
   void carriesMass(const std::string& frame) override {
-    if (has(m_.frames_, element_)) refuse("the element " + inQuotes(element_) + " has the name of a frame");
+    if (has(m_.frames_, element_))
+      refuse("the element " + inQuotes(element_) + " has the name of a frame; expected another name");
     m_.massFrames_.push_back(frame);
   }
   void movedFrame(const Word& /*word*/, std::string& name, const std::string& from) override {
@@ -282,7 +298,8 @@ class Mechanism::Checker final : public Fields {
       if (quaternion && std::ranges::all_of(*quaternion, [&](const Expression& component) {
             return isEqual(m_.rangeOf(component), Interval(0.0));
           }))
-        refuse("the quaternion of " + inQuotes(element_) + " is zero, which is no orientation");
+        refuse("the quaternion of " + inQuotes(element_) +
+               " is zero, which is no orientation; expected four numbers of which one is not zero");
     }
   }
   void number(const Word& word, Expression& number) override { m_.use(number, named(word), word.unit); }
@@ -309,7 +326,7 @@ class Mechanism::Checker final : public Fields {
   }
   std::string state(const Word& word, Expression& initial) override {
     if (unitNamed(element_) != nullptr || element_ == "pi" || isNumber(element_))
-      refuse("a state cannot be named " + inQuotes(element_) + ": that is a unit or a number");
+      refuse("a state cannot be named " + inQuotes(element_) + ": that is a unit or a number; expected another name");
     std::string unit = word.unit;
     if (unit.empty()) unit = gamut::unitOf(m_.dimensionOf(initial));
     m_.addState(m_.own_, element_, unit, initial);
@@ -324,11 +341,13 @@ class Mechanism::Checker final : public Fields {
   }
   Coordinate followingCoordinate(const Word& word, std::string& name, const std::string& leader) override {
     found(name);
-    if (name == leader) refuse("the joint " + inQuotes(name) + " follows itself, as " + inQuotes(element_) + " has it");
+    if (name == leader)
+      refuse("the joint " + inQuotes(name) + " follows itself, as " + inQuotes(element_) +
+             " has it; expected another joint");
     for (const Following& following : m_.followings_)
       if (following.leader == name)
         refuse("the joint " + inQuotes(name) + " is driven by " + inQuotes(element_) + " after " +
-               inQuotes(following.follower) + " follows it; it must be driven before");
+               inQuotes(following.follower) + " follows it; expected its drive ahead of what follows it");
     m_.followings_.push_back({name, leader});
     return drivenCoordinate(word, name);
   }
@@ -457,7 +476,7 @@ void Mechanism::checkSignal(const Signal& signal) const {
     known.emplace_back("t");
     if (signal.reach != Reach::time)
       for (const std::string& quantity : outputQuantities()) known.push_back(quantity);
-    throw UnknownName("quantity", used, known, "for " + inQuotes(signal.name));
+    throw UnknownName("quantity", used, known, remarkOn(used, signal.name));
   }
   if (gamut::dimensionOf(signal.unit) == Dimension{.time = -1} && isWithoutUnits(signal.expression)) return;
   check(signal.expression, signal.name, signal.unit);

@@ -23,7 +23,7 @@ struct Unit {
 
 constexpr Dimension none{};
 constexpr Dimension angle{0, 0, 0, 1}, perSecond{0, 0, -1, 1}, newton{1, 1, -2, 0}, joule{1, 2, -2, 0},
-    metre{0, 1, 0, 0}, memory{0, 0, 0, 0, 1};
+    watt{1, 2, -3, 0}, pascal{1, -1, -2, 0}, metre{0, 1, 0, 0}, memory{0, 0, 0, 0, 1};
 
 constexpr std::array units{
     Unit{"rad", "1", 0, angle},
@@ -36,18 +36,35 @@ constexpr std::array units{
     Unit{"cm", "1/100", 0, {0, 1, 0, 0}},
     Unit{"mm", "1/1000", 0, {0, 1, 0, 0}},
     Unit{"um", "1/1000000", 0, {0, 1, 0, 0}},
+    Unit{"in", "127/5000", 0, {0, 1, 0, 0}},
+    Unit{"ft", "381/1250", 0, {0, 1, 0, 0}},
     Unit{"kg", "1", 0, {1, 0, 0, 0}},
     Unit{"g", "1/1000", 0, {1, 0, 0, 0}},
+    Unit{"mg", "1/1000000", 0, {1, 0, 0, 0}},
     Unit{"t", "1000", 0, {1, 0, 0, 0}},
+    Unit{"lb", "45359237/100000000", 0, {1, 0, 0, 0}},
     Unit{"s", "1", 0, {0, 0, 1, 0}},
     Unit{"ms", "1/1000", 0, {0, 0, 1, 0}},
+    Unit{"us", "1/1000000", 0, {0, 0, 1, 0}},
     Unit{"min", "60", 0, {0, 0, 1, 0}},
     Unit{"h", "3600", 0, {0, 0, 1, 0}},
     Unit{"N", "1", 0, newton},
+    Unit{"mN", "1/1000", 0, newton},
     Unit{"kN", "1000", 0, newton},
+    Unit{"MN", "1000000", 0, newton},
+    Unit{"lbf", "8896443230521/2000000000000", 0, newton},  // lb times 9.80665 m/s^2
     Unit{"J", "1", 0, joule},
     Unit{"kJ", "1000", 0, joule},
-    Unit{"W", "1", 0, {1, 2, -3, 0}},
+    Unit{"MJ", "1000000", 0, joule},
+    Unit{"mW", "1/1000", 0, watt},
+    Unit{"W", "1", 0, watt},
+    Unit{"kW", "1000", 0, watt},
+    Unit{"MW", "1000000", 0, watt},
+    Unit{"Pa", "1", 0, pascal},
+    Unit{"kPa", "1000", 0, pascal},
+    Unit{"MPa", "1000000", 0, pascal},
+    Unit{"GPa", "1000000000", 0, pascal},
+    Unit{"bar", "100000", 0, pascal},
     Unit{"GB", "1", 0, memory},
     Unit{"MB", "1/1000", 0, memory},
     Unit{"GiB", "2097152/1953125", 0, memory},  // 2^30 / 10^9
@@ -69,7 +86,8 @@ constexpr std::array namedUnitsOfMoments{
 constexpr std::array namedUnits{
     NamedUnit{"N", newton},
     NamedUnit{"J", joule},
-    NamedUnit{"W", {1, 2, -3, 0}},
+    NamedUnit{"W", watt},
+    NamedUnit{"Pa", pascal},
     NamedUnit{"N/s", {1, 1, -3, 0}},
     NamedUnit{"N/m", {1, 0, -2, 0}},
     NamedUnit{"N s/m", {1, 0, -1, 0}},
@@ -186,10 +204,18 @@ const Amount* unitNamed(std::string_view symbol) {
   return found == amounts.end() ? nullptr : &found->second;
 }
 
-std::string knownUnits() {
+std::string unitsApart(const std::string& word) {
+  for (const std::string first : {"N", "kN", "mN", "MN", "lbf", "W", "kW", "kg"})
+    if (word.starts_with(first) && unitNamed(word.substr(first.size())) != nullptr)
+      return first + " " + word.substr(first.size());
+  return "";
+}
+
+std::string unitInsteadOf(const std::string& word) {
+  if (const std::string apart = unitsApart(word); !apart.empty()) return "'" + apart + "', with a blank between units";
   std::string list;
   for (const Unit& unit : units) list += (list.empty() ? "" : ", ") + std::string(unit.symbol);
-  return list;
+  return "one of " + list;
 }
 
 Amount product(const Amount& a, const Amount& b) {

@@ -64,8 +64,12 @@ Amount parseAmount(std::string_view text);
 /// One of the unit with this symbol: "mm", "deg", "%". Null if there is none.
 const Amount* unitNamed(std::string_view symbol);
 
-/// "rad, deg, …"
-std::string knownUnits();
+/// What would do instead of a word that is no unit: "'N m', with a blank between units" for "Nm"; else "one of rad,
+/// deg, …".
+std::string unitInsteadOf(const std::string& word);
+
+/// "N m" of "Nm": a unit of force, power or mass and one written to it, apart; empty of anything else.
+std::string unitsApart(const std::string& word);
 
 /// a * b, a / b and a^power. Units and percent carry over. Throw UnitError for 0 as a divisor and beyond 1e±300.
 Amount product(const Amount& a, const Amount& b);

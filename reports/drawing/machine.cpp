@@ -127,13 +127,25 @@ class Drawing {
     }
   }
 
+  /// The foot of what carries this point: rigid parts lead from one to the other.
+  std::uint64_t footOf(std::uint64_t point) const {
+    for (std::size_t step = 0; step < m_.parts.size(); ++step) {
+      const auto below = std::ranges::find_if(m_.parts, [&](const PartInfo& part) {
+        return part.kind == "rigid" && part.to == point && part.from != point && m_.points[part.from].isGround;
+      });
+      if (below == m_.parts.end()) break;
+      point = below->from;
+    }
+    return point;
+  }
+
   /// Where something hangs on the inertial frame.
   void drawGround() {
     std::vector<char> isHeld(m_.points.size(), 0);
     for (const PartInfo& part : m_.parts)
       if (part.kind == "joint" || part.kind == "spring")
         for (const std::uint64_t point : {part.from, part.to})
-          if (m_.points[point].isGround) isHeld[point] = 1;
+          if (m_.points[point].isGround) isHeld[footOf(point)] = 1;
     for (std::size_t k = 0; k < m_.points.size(); ++k) {
       if (isHeld[k] == 0) continue;
       const Sight at = seen(k);

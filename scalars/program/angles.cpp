@@ -68,18 +68,18 @@ Program withHalfTurns(const Program& program) {
     if (sum.op != Op::add && sum.op != Op::sub) continue;  // x is known not to be below zero
     const auto isRoot = [&](int node) { return program.nodes()[at(node)].op == Op::sqrt; };
     if (!isRoot(sum.a) && !(sum.op == Op::add && isRoot(sum.b))) continue;
-    const int x = sum.op == Op::sub ? result.neg(here[at(sum.b)]) : here[at(isRoot(sum.a) ? sum.b : sum.a)];
-    int isNone = one;  // the product of the factors' signs' squares
-    for (const int y : of.y) isNone = result.mul(isNone, result.sqr(result.sign(here[at(y)])));
-    const int isZero = result.sub(one, isNone);
-    const int d = result.add(here[at(of.d)], result.mul(isZero, result.abs(x)));
-    const int inverse = result.sqr(result.recip(result.sqrt(d)));
+    const int r = here[at(isRoot(sum.a) ? sum.a : sum.b)], other = here[at(isRoot(sum.a) ? sum.b : sum.a)];
+    const int x = sum.op == Op::sub ? result.neg(other) : other;
+    const int d = result.add(r, result.abs(x)), inverse = result.sqr(result.recip(result.sqrt(d)));
     std::vector<int> own = instead;
     for (std::size_t i = 0; i < own.size(); ++i)
       if (inverseAt(program, program.nodes()[i]) == of.d) own[i] = inverse;
-    const int plain = result.append(program, {}, own)[at(angle)];
+    const int acute = result.append(program, {}, own)[at(angle)];
+    int side = one;  // of y
+    for (const int y : of.y) side = result.mul(side, result.sign(here[at(y)]));
+    side = result.sub(result.add(side, one), result.sqr(side));
     const int turn = result.mul(result.mul(half, result.sub(one, result.sign(x))), result.add(eighth, eighth));
-    instead[at(angle)] = result.add(plain, result.mul(isZero, turn));
+    instead[at(angle)] = result.add(result.mul(result.sign(x), acute), result.mul(side, turn));
   }
   here = result.append(program, {}, instead);
   for (const int output : program.outputNodes()) outputs.push_back(here[at(output)]);

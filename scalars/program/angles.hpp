@@ -10,8 +10,9 @@ namespace gamut {
 /// The nodes atan(y √(1/d)²) of a program.
 std::vector<int> halfAnglesOf(const Program& program);
 
-/// For numbers: where y is exactly zero and x below zero, such a node has no value in `program`, and is π/2 here, as if
-/// y were above zero. All else is computed as there.
+/// For numbers: where x is below zero, d loses the digits of a small y, and has none left of a y of zero, so that such
+/// a node has no value in `program`. With a = atan(y √(1/(√(x² + y²) + |x|))²) it is ±π/2 - a here, as if a zero were
+/// above zero.
 Program withHalfTurns(const Program& program);
 
 }  // namespace gamut

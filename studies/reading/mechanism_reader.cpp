@@ -238,7 +238,11 @@ class MechanismReader {
     } catch (const UnitError& error) {
       source_.fail(at, error);
     } catch (const std::invalid_argument& error) {
-      source_.failWith(at, error.what(), "a mechanism that can be assembled");
+      const std::string what = error.what(), expected = "; expected ";
+      const std::size_t end = what.find(expected);
+      source_.failWith(
+          at, what.substr(0, end),
+          end == std::string::npos ? "a mechanism that can be assembled" : what.substr(end + expected.size()));
     }
   }
 

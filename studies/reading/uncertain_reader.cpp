@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <regex>
+#include <utility>
 
 #include "mechanics/description/names.hpp"
 
@@ -44,7 +46,7 @@ class UncertainReader {
         source_.fail(table, fmt::format("two uncertain quantities are named '{}'", other.uncertain.name),
                      "different names");
     }
-    const toml::node& interval = section.require("interval", "\"± 1 %\", \"± 2 deg\" or [lower, upper]");
+    const toml::node& interval = section.require("interval", waysToSayIt);
     readRange(interval, result);
     readDistribution(section, result);
     readMembership(section, result);
@@ -92,7 +94,7 @@ class UncertainReader {
     return result;
   }
 
-  /// [lower, upper], or a deviation to both sides of the nominal value: relative to it in percent, or in its unit.
+  /// [lower, upper], or deviations from the nominal value, to both sides alike or not.
   void readRange(const toml::node& node, UncertainQuantity& result) {
     const std::string what = "uncertain.interval";
     const Dimension dimension = dimensionOf(result.unit);
@@ -101,23 +103,17 @@ class UncertainReader {
     if (node.is_array()) {
       result.uncertain.range = pair(node, what, dimension);
     } else {
-      const std::string text = source_.asText(node, what);
-      const auto sign = std::find_if(signs.begin(), signs.end(), [&](auto s) { return text.starts_with(s); });
-      if (sign == signs.end())
-        source_.fail(node, fmt::format("{} is \"{}\"", what, text), "\"± 1 %\", \"± 2 deg\" or [lower, upper]");
-      const std::string rest = text.substr(sign->size());
-      Amount deviation = source_.readAnyAmount(node, what, rest);
-      if (deviation.value <= 0) source_.fail(node, what + " has no positive deviation", "a deviation above 0");
-      if (deviation.isRelative && !deviation.hasUnit) {
-        if (isEqual(nominal, Interval(0.0)))
-          source_.fail(node, fmt::format("{} is a share of the nominal value, which is 0", what),
-                       fmt::format("an absolute deviation, such as \"± 0.01 {}\"", result.unit));
-        const Interval share = enclose(deviation);
-        result.uncertain.range = nominal * hull(1.0 - share, 1.0 + share);  // |v - nominal| <= share |nominal|
+      const auto [below, above] = deviations(node, what, source_.asText(node, what));
+      const Reach down = reachOf(node, what, below, result, nominal), up = reachOf(node, what, above, result, nominal);
+      if (isEqual(down.size, Interval(0.0)) && isEqual(up.size, Interval(0.0)))
+        source_.fail(node, what + " has no positive deviation", "a deviation above 0");
+      if (down.isShare && up.isShare) {  // of |nominal|
+        const bool isNegative = nominal.upper() <= 0;
+        result.uncertain.range =
+            nominal * hull(1.0 - (isNegative ? up : down).size, 1.0 + (isNegative ? down : up).size);
       } else {
-        deviation = source_.readAmount(node, what, rest, dimension);
-        const Interval size = enclose(deviation);
-        result.uncertain.range = hull(nominal - size, nominal + size);
+        const auto size = [&](const Reach& reach) { return reach.isShare ? reach.size * abs(nominal) : reach.size; };
+        result.uncertain.range = hull(nominal - size(down), nominal + size(up));
       }
     }
     const Interval& range = result.uncertain.range;
@@ -128,6 +124,43 @@ class UncertainReader {
     if (!contains(range, result.uncertain.nominal))
       source_.fail(node, fmt::format("{} does not hold the nominal value {:.6g}", what, result.uncertain.nominal),
                    "an interval around the nominal value");
+  }
+
+  /// "± 1 mm": twice "1 mm"; "+2 / -1 mm": "1 mm", "2 mm". The unit of the second is that of both unless each has one.
+  std::pair<std::string, std::string> deviations(const toml::node& node, const std::string& what,
+                                                 const std::string& text) const {
+    const auto sign = std::find_if(signs.begin(), signs.end(), [&](auto s) { return text.starts_with(s); });
+    if (sign != signs.end()) return {text.substr(sign->size()), text.substr(sign->size())};
+    static const std::regex bothSides(
+        R"(\s*([+-])\s*([0-9.eE]+(?:[eE][+-]?[0-9]+)?)([^/]*)/\s*([+-])\s*([0-9.]+(?:[eE][+-]?[0-9]+)?)(.*))");
+    std::string plainText = text;
+    for (std::size_t at = 0; (at = plainText.find("−", at)) != std::string::npos;)
+      plainText.replace(at, std::string_view("−").size(), "-");
+    std::smatch parts;
+    if (!std::regex_match(plainText, parts, bothSides) || parts[1] == parts[4])
+      source_.fail(node, fmt::format("{} is \"{}\"", what, text), waysToSayIt);
+    const bool hasUnit = parts[3].str().find_first_not_of(' ') != std::string::npos;
+    const std::string first = parts[2].str() + (hasUnit ? parts[3] : parts[6]).str(),
+                      second = parts[5].str() + parts[6].str();
+    return parts[1] == "-" ? std::pair(first, second) : std::pair(second, first);
+  }
+
+  /// A deviation, in the quantity's unit or as a share of the nominal value.
+  struct Reach {
+    Interval size;
+    bool isShare = false;
+  };
+
+  Reach reachOf(const toml::node& node, const std::string& what, const std::string& text,
+                const UncertainQuantity& result, const Interval& nominal) const {
+    const Amount deviation = source_.readAnyAmount(node, what, text);
+    if (deviation.value < 0) source_.fail(node, what + " has no positive deviation", "a deviation above 0");
+    if (!deviation.isRelative || deviation.hasUnit)
+      return {enclose(source_.readAmount(node, what, text, dimensionOf(result.unit)))};
+    if (isEqual(nominal, Interval(0.0)))
+      source_.fail(node, fmt::format("{} is a share of the nominal value, which is 0", what),
+                   fmt::format("an absolute deviation, such as \"± 0.01 {}\"", result.unit));
+    return {enclose(deviation), true};
   }
 
   /// [lower, upper] as the hull of both enclosures.
@@ -230,7 +263,10 @@ class UncertainReader {
                                     {"triangular", {"support", "mode"}},
                                     {"normal", {"support", "mean", "deviation"}},
                                     {"beta", {"support", "a", "b"}},
-                                    {"lognormal", {"support", "log_mean", "log_deviation"}}},
+                                    {"lognormal", {"support", "log_mean", "log_deviation"}},
+                                    {"weibull", {"support", "shape", "scale"}},
+                                    {"gamma", {"support", "shape", "scale"}},
+                                    {"exponential", {"support", "mean"}}},
                                    type);
     const Dimension dimension = dimensionOf(result.unit);
     const Interval on = support(table, result);
@@ -247,6 +283,14 @@ class UncertainReader {
       if (type == "lognormal")
         uncertain.distribution = Distribution::lognormal(on, requiredNumber(table, "log_mean", plain),
                                                          requiredNumber(table, "log_deviation", plain));
+      if (type == "weibull")
+        uncertain.distribution =
+            Distribution::weibull(on, requiredNumber(table, "shape", plain), requiredNumber(table, "scale", dimension));
+      if (type == "gamma")
+        uncertain.distribution =
+            Distribution::gamma(on, requiredNumber(table, "shape", plain), requiredNumber(table, "scale", dimension));
+      if (type == "exponential")
+        uncertain.distribution = Distribution::exponential(on, number(table, "mean", result, uncertain.nominal));
     } catch (const std::invalid_argument& error) {
       source_.failWith(*node, error.what(), "a distribution inside the interval");
     }
@@ -369,6 +413,7 @@ class UncertainReader {
   }
 
   static constexpr std::array<std::string_view, 3> signs{"±", "+-", "+/-"};
+  static constexpr const char* waysToSayIt = "\"± 1 %\", \"± 2 deg\", \"+2 / -1 mm\" or [lower, upper]";
 
   const TomlSource& source_;
   Study& study_;

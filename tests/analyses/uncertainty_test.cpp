@@ -17,9 +17,14 @@ using testing::ThrowsMessage;
 
 std::vector<Distribution> oneOfEach() {
   const Interval support(0.3, 2.1);
-  return {Distribution::uniform(support), Distribution::triangular(support, 0.7),
-          Distribution::normal(support, 1.0, 0.4), Distribution::beta(support, 2.5, 0.7),
-          Distribution::lognormal(support, -0.2, 0.6)};
+  return {Distribution::uniform(support),
+          Distribution::triangular(support, 0.7),
+          Distribution::normal(support, 1.0, 0.4),
+          Distribution::beta(support, 2.5, 0.7),
+          Distribution::lognormal(support, -0.2, 0.6),
+          Distribution::weibull(support, 1.5, 0.8),
+          Distribution::gamma(support, 2.5, 0.5),
+          Distribution::exponential(support, 0.75)};
 }
 
 /// "lower 0.3, upper 2.1, mode 0.7": the numbers as they are called; those without unit in parentheses.
@@ -32,11 +37,21 @@ std::string written(const std::vector<ShapeNumber>& numbers) {
 
 TEST(Distribution, SaysOfWhichNumbersItIsMade) {
   std::vector<std::string> found;
-  for (const Distribution& d : oneOfEach()) found.push_back(written(d.numbers()));
-  EXPECT_THAT(found, testing::ElementsAre("lower 0.3, upper 2.1", "lower 0.3, upper 2.1, mode 0.7",
-                                          "lower 0.3, upper 2.1, mean 1, deviation 0.4",
-                                          "lower 0.3, upper 2.1, a (2.5), b (0.7)",
-                                          "lower 0.3, upper 2.1, log_mean (-0.2), log_deviation (0.6)"));
+  for (const Distribution& d : oneOfEach()) {
+    std::vector<ShapeNumber> numbers = d.numbers();
+    if (d.cutOff() > 0) {
+      EXPECT_EQ(numbers.back().name, "cut_off");
+      EXPECT_EQ(numbers.back().value, d.cutOff());
+      numbers.pop_back();
+    }
+    found.push_back(written(numbers));
+  }
+  EXPECT_THAT(found, testing::ElementsAre(
+                         "lower 0.3, upper 2.1", "lower 0.3, upper 2.1, mode 0.7",
+                         "lower 0.3, upper 2.1, mean 1, deviation 0.4", "lower 0.3, upper 2.1, a (2.5), b (0.7)",
+                         "lower 0.3, upper 2.1, log_mean (-0.2), log_deviation (0.6)",
+                         "lower 0.3, upper 2.1, shape (1.5), scale 0.8", "lower 0.3, upper 2.1, shape (2.5), scale 0.5",
+                         "lower 0.3, upper 2.1, mean 0.75"));
 }
 
 /// P(X > v) of the standard normal distribution.
@@ -89,6 +104,33 @@ TEST(Distribution, LognormalQuantilesAreExponentialsOfNormalOnes) {
   EXPECT_THAT(d.quantile(0.975), DoubleNear(std::exp(0.5 + 0.25 * 1.959963984540054), 1e-12));
 }
 
+TEST(Distribution, WeibullGammaAndExponentialMatchTheirClosedForms) {
+  for (const double u : {0.01, 0.3, 0.5, 0.9, 0.999}) {
+    const double tail = -std::log1p(-u);
+    EXPECT_THAT(Distribution::weibull({0.0, 1e9}, 2.0, 3.0).quantile(u), DoubleNear(3 * std::sqrt(tail), 1e-13));
+    EXPECT_THAT(Distribution::exponential({0.0, 1e9}, 3.0).quantile(u), DoubleNear(3 * tail, 1e-13));
+    EXPECT_THAT(Distribution::gamma({0.0, 1e9}, 1.0, 3.0).quantile(u), DoubleNear(3 * tail, 1e-12));
+    // Truncated to [2, 5]: P(v) = (e^(-2/3) - e^(-v/3))/(e^(-2/3) - e^(-5/3))
+    const double v = Distribution::exponential({2.0, 5.0}, 3.0).quantile(u), from = std::exp(-2 / 3.0);
+    EXPECT_THAT((from - std::exp(-v / 3)) / (from - std::exp(-5 / 3.0)), DoubleNear(u, 1e-14));
+    // Far out nothing of the tail is lost.
+    const double far = Distribution::exponential({300.0, 400.0}, 3.0).quantile(u);
+    EXPECT_THAT(far, DoubleNear(300 - 3 * std::log1p(-u * -std::expm1(-100 / 3.0)), 1e-12));
+  }
+  // Gamma of shape 2: P(v) = 1 - (1 + v) e^(-v).
+  const double v = Distribution::gamma({0.0, 100.0}, 2.0, 1.0).quantile(0.25);
+  EXPECT_THAT(1 - (1 + v) * std::exp(-v), DoubleNear(0.25, 1e-14));
+}
+
+TEST(Distribution, SaysHowMuchTruncationCutsOff) {
+  EXPECT_EQ(Distribution::uniform({0.0, 1.0}).cutOff(), 0);
+  EXPECT_EQ(Distribution::beta({0.0, 1.0}, 2, 3).cutOff(), 0);
+  EXPECT_THAT(Distribution::normal({-1.0, 2.0}, 0, 1).cutOff(), DoubleNear(upperTail(1) + upperTail(2), 1e-15));
+  EXPECT_THAT(Distribution::lognormal({0.0, 1.0}, 0, 1).cutOff(), DoubleNear(0.5, 1e-15));
+  EXPECT_THAT(Distribution::exponential({1.0, 4.0}, 2).cutOff(),
+              DoubleNear(1 - std::exp(-0.5) + std::exp(-2.0), 1e-15));
+}
+
 TEST(Distribution, QuantilesRiseFromOneEndOfTheSupportToTheOtherAndNeverLeaveIt) {
   for (const Distribution& d : oneOfEach()) {
     EXPECT_EQ(d.quantile(0), d.support().lower()) << d.name();
@@ -115,6 +157,11 @@ TEST(Distribution, RefusesWhatIsNoDistribution) {
   EXPECT_THROW(Distribution::beta({0.0, 1.0}, -1, 2), std::invalid_argument);
   EXPECT_THROW(Distribution::lognormal({-1.0, 1.0}, 0, 1), std::invalid_argument);
   EXPECT_THROW(Distribution::uniform({0.0, 1.0}).quantile(1.5), std::invalid_argument);
+  EXPECT_THROW(Distribution::weibull({-1.0, 1.0}, 1, 1), std::invalid_argument);
+  EXPECT_THROW(Distribution::weibull({0.0, 1.0}, 0, 1), std::invalid_argument);
+  EXPECT_THROW(Distribution::gamma({0.0, 1.0}, 1, -1), std::invalid_argument);
+  EXPECT_THROW(Distribution::exponential({0.0, 1.0}, 0), std::invalid_argument);
+  EXPECT_THROW(Distribution::exponential({1e6, 2e6}, 1), std::invalid_argument);
   EXPECT_THAT(
       [] {
         Distribution::triangular({0.0, 1e-9}, 2e-9);

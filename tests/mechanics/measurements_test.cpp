@@ -212,6 +212,25 @@ TEST(Orientation, TurnsBackToTheRotationMatrix) {
   }
 }
 
+/// About one axis the rotation vector is the angle, of which it is an enclosure, from none on.
+TEST(Orientation, TheRotationVectorIsTheAngle) {
+  Mechanism m;
+  m.add(Revolute{"a", "inertial", "A", axisY});
+  m.add(Mass{"body", "A", 1.0, {0.0, 0.0, 0.0}, {1.0, 1.0, 1.0, 0.0, 0.0, 0.0}});
+  Assembly<Interval> turned(m);
+  Assembly<double> sampled(m);
+  for (const double angle : {0.0, 1e-300, 1e-9, -1e-5, 0.1, -0.75, 1.0, 2.0, -3.0, 3.14}) {
+    turned.setState(std::vector<Interval>{angle, 0.0});
+    sampled.setState(std::vector<double>{angle, 0.0});
+    const Interval found = turned.output("A.rotation_vector.y");
+    const double left = 3.2 - std::abs(angle);
+    EXPECT_TRUE(contains(found, angle)) << found << " " << angle;
+    EXPECT_LE(width(found), 1e-13 * std::abs(angle) / left) << angle;
+    EXPECT_TRUE(isEqual(turned.output("A.rotation_vector.x"), Interval(0.0)));
+    EXPECT_NEAR(sampled.output("A.rotation_vector.y"), angle, 1e-14 * std::abs(angle) / left);
+  }
+}
+
 /// Without forces from outside, momentum and the angular momentum about the origin stay; with gravity they change by
 /// it.
 TEST(Momentum, ChangesByForcesFromOutside) {

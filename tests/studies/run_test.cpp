@@ -158,12 +158,13 @@ TEST(Run, KeepsTheNumbersOfDistributionsAndMembershipFunctions) {
   std::vector<std::string> found;
   for (const ShapeInfo& s : results.shapes)
     found.push_back(s.quantity + " " + s.shape + " " + s.name + " " + std::to_string(s.value) + " " + s.unit);
-  EXPECT_THAT(found, ::testing::ElementsAre(
-                         "start distribution lower 0.518363 rad", "start distribution upper 0.528835 rad",
-                         "start distribution mean 0.523599 rad", "start distribution deviation 0.001745 rad",
-                         "start membership lower 0.520108 rad", "start membership upper 0.523599 rad",
-                         "start membership value 1 0.520108 rad", "start membership membership 1 0.500000 1",
-                         "start membership value 2 0.523599 rad", "start membership membership 2 1.000000 1"));
+  EXPECT_THAT(
+      found, ::testing::ElementsAre("start distribution lower 0.518363 rad", "start distribution upper 0.528835 rad",
+                                    "start distribution mean 0.523599 rad", "start distribution deviation 0.001745 rad",
+                                    "start distribution cut_off 0.002700 1", "start membership lower 0.520108 rad",
+                                    "start membership upper 0.523599 rad", "start membership value 1 0.520108 rad",
+                                    "start membership membership 1 0.500000 1", "start membership value 2 0.523599 rad",
+                                    "start membership membership 2 1.000000 1"));
 }
 
 TEST(Run, AlphaCutsOfSeveralQuantitiesAreReachedByTheirCorners) {

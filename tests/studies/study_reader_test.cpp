@@ -83,6 +83,21 @@ TEST(StudyReader, TakesADeviationRelativeToTheNominalValueOrInItsUnit) {
   const Interval twoDegrees = rangeOf("\"± 2 deg\"");
   EXPECT_TRUE(isSubset(pi() * Interval(28.0, 32.0) / 180.0, twoDegrees));
   EXPECT_LT(width(twoDegrees), 4.0001 / 180 * 3.1416);
+  for (const char* text : {"+2 / -1 deg", "- 1 / + 2 deg", "+ 2 deg / −1 deg"}) {
+    const Interval range = rangeOf("\"" + std::string(text) + "\"");
+    EXPECT_TRUE(isSubset(pi() * Interval(29.0, 32.0) / 180.0, range)) << text;
+    EXPECT_LT(width(range), 3.0001 / 180 * 3.1416) << text;
+  }
+  const Interval oneSided = rangeOf("\"+0 / -1e0 %\"");
+  EXPECT_TRUE(isSubset(nominal * Interval("[0.99, 1]"), oneSided));
+  EXPECT_LT(width(oneSided), 0.0100001 * nominal.upper());
+  const Study falling =
+      readStudyText(sampleStudyWith("[[uncertain]]",
+                                    "[[uncertain]]\nquantity = \"gravity.z\"\ninterval = \"+2 / -1 %\"\n[[uncertain]]"),
+                    "s.toml");
+  const Interval field = falling.uncertain[0].uncertain.range;  // about -9.81: up is towards zero
+  EXPECT_TRUE(isSubset(Interval("9.81") * Interval("[-1.01, -0.98]"), field));
+  EXPECT_LT(width(field), 9.81 * 0.030001);
   EXPECT_TRUE(isEqual(rangeOf("[\"20 deg\", 0.6]"), Interval((pi() / 9.0).lower(), Interval("0.6").upper())));
 }
 
@@ -597,8 +612,8 @@ constexpr BadStudy badStudies[] = {
      "parameters = { length = 0.5 }\nrotation = { roll = 1, quaternion = [1, 0, 0, 0] }",
      "s.toml:23:21: 'roll' beside a quaternion; expected one of the two"},
     {"parameters = { length = 0.5 }", "parameters = { length = 0.5 }\nrotation = { quaternion = [0, 0, 0, 0] }",
-     "s.toml:16:1: the quaternion of 'rod' is zero, which is no orientation; expected a mechanism that can be "
-     "assembled"},
+     "s.toml:16:1: the quaternion of 'rod' is zero, which is no orientation; expected four numbers of which "
+     "one is not zero"},
     {"parameters = { length = 0.5 }", "parameters = { length = 0.5 }\nrotation = { quaternion = [1, 0, 0] }",
      "s.toml:23:27: mechanism.element.rotation.quaternion has 3 numbers; expected [w, x, y, z]"},
     {"quantity = \"tip.position.z\"", "quantity = \"sqrt(-1)\"",
@@ -756,12 +771,11 @@ constexpr BadStudy badStudies[] = {
     {"from = \"inertial\"", "from = \"elsewhere\"",
      "s.toml:12:8: unknown frame 'elsewhere'; expected one of: inertial ('hinge' must come after the element that "
      "defines its frame)"},
-    {"to = \"tip\"", "to = \"K1\"",
-     "s.toml:16:1: the frame 'K1' is defined twice, 'rod' needs a new frame; expected a mechanism that can be "
-     "assembled"},
+    {"to = \"tip\"", "to = \"K1\"", "s.toml:16:1: the frame 'K1' is defined twice; expected a new frame for 'rod'"},
     {"angle = \"30 deg\"", "angle = \"30 grad\"",
      "s.toml:15:21: mechanism.element.initial.angle: unknown unit 'grad' in '30 grad'; expected one of rad, deg, °, "
-     "mrad, rpm, m, km, cm, mm, um, kg, g, t, s, ms, min, h, N, kN, J, kJ, W, GB, MB, GiB, MiB, %"},
+     "mrad, rpm, m, km, cm, mm, um, in, ft, kg, g, mg, t, lb, s, ms, us, min, h, N, mN, kN, MN, lbf, J, kJ, MJ, mW, W, "
+     "kW, MW, Pa, kPa, MPa, GPa, bar, GB, MB, GiB, MiB, %"},
     {"angle = \"30 deg\"", "angle = \"30 mm\"",
      "s.toml:15:21: mechanism.element.initial.angle is written in a unit of the kind m; expected a number in rad, or "
      "with a unit of that kind"},
@@ -773,6 +787,8 @@ constexpr BadStudy badStudies[] = {
     {"quantity = \"hinge.angle\"\ninterval", "quantity = \"bob.centre.x\"\ninterval",
      "s.toml:31:12: uncertain.interval is a share of the nominal value, which is 0; expected an absolute deviation, "
      "such as \"± 0.01 m\""},
+    {"\"-rod.length\"", "\"2 Nm\"",
+     "s.toml:21:17: mechanism.element.vector: unknown unit 'Nm' in '2 Nm'; expected 'N m', with a blank between units"},
     {"length = 0.5", "length = \"0.5 kg\"",
      "s.toml:22:25: the parameter 'rod.length' is in kg, but 'rod.vector.z' is in m; expected a parameter in m"},
     {"[[uncertain]]",
@@ -786,8 +802,9 @@ constexpr BadStudy badStudies[] = {
     {"\"-rod.length\"", "\"-2 m rod.length\"",
      "s.toml:21:17: mechanism.element.vector: no operator before 'rod.length' at column 6; expected *, /, + or -"},
     {"mass = \"250 g\"", "mass = \"250 x\"",
-     "s.toml:27:8: mechanism.element.mass: unknown unit 'x' in '250 x'; expected one of rad, deg, °, mrad, rpm, m, km, "
-     "cm, mm, um, kg, g, t, s, ms, min, h, N, kN, J, kJ, W, GB, MB, GiB, MiB, %"},
+     "s.toml:27:8: mechanism.element.mass: unknown unit 'x' in '250 x'; expected one of rad, deg, °, "
+     "mrad, rpm, m, km, cm, mm, um, in, ft, kg, g, mg, t, lb, s, ms, us, min, h, N, mN, kN, MN, lbf, J, kJ, MJ, mW, W, "
+     "kW, MW, Pa, kPa, MPa, GPa, bar, GB, MB, GiB, MiB, %"},
     {"mass = \"250 g\"", "mass = [1]",
      "s.toml:27:8: mechanism.element.mass is a list; expected a number, or text with a unit such as \"135 deg\""},
     {"mass = \"250 g\"", "",
@@ -816,9 +833,7 @@ constexpr BadStudy badStudies[] = {
     {"at = \"tip\"", "at = \"inertial\"",
      "s.toml:7:1: the joint 'hinge' moves no mass, add a mass at the frame 'K1' or at one that it carries; expected a "
      "mass that every joint moves, and joints that move it in different ways"},
-    {"name = \"bob\"", "name = \"rod\"",
-     "s.toml:23:1: two elements are named 'rod', every element needs a name of its own; expected a mechanism that can "
-     "be assembled"},
+    {"name = \"bob\"", "name = \"rod\"", "s.toml:23:1: two elements are named 'rod'; expected a name of its own"},
     {"quantity = \"hinge.angle\"\ninterval", "quantity = \"hinge.angel\"\ninterval",
      "s.toml:30:12: unknown quantity 'hinge.angel'; expected a quantity of the mechanism, such as 'hinge.angle'"},
     {"quantity = \"hinge.angle\"\ninterval", "quantity = \"tip.position.z\"\ninterval",
@@ -828,7 +843,7 @@ constexpr BadStudy badStudies[] = {
     {"quantity = \"hinge.angle\"\ninterval", "quantity = \"length\"\ninterval",
      "s.toml:30:12: unknown quantity 'length'; expected a quantity of the mechanism, such as 'rod.length'"},
     {"interval = \"± 1 %\"", "interval = \"1 %\"",
-     "s.toml:31:12: uncertain.interval is \"1 %\"; expected \"± 1 %\", \"± 2 deg\" or [lower, upper]"},
+     "s.toml:31:12: uncertain.interval is \"1 %\"; expected \"± 1 %\", \"± 2 deg\", \"+2 / -1 mm\" or [lower, upper]"},
     {"interval = \"± 1 %\"", "interval = \"± 1 mm\"",
      "s.toml:31:12: uncertain.interval is written in a unit of the kind m; expected a number in rad, or with a unit of "
      "that kind"},
@@ -886,11 +901,16 @@ constexpr BadStudy badStudies[] = {
      "nominal value"},
     {"interval = \"± 1 %\"", "interval = [0.4, 0.6, 0.7]",
      "s.toml:31:12: uncertain.interval has 3 numbers; expected two, [lower, upper]"},
+    {"interval = \"± 1 %\"", "interval = \"+1 / +2 mm\"",
+     "s.toml:31:12: uncertain.interval is \"+1 / +2 mm\"; expected \"± 1 %\", \"± 2 deg\", \"+2 / -1 mm\" or [lower, "
+     "upper]"},
+    {"interval = \"± 1 %\"", "interval = \"+0 / -0 deg\"",
+     "s.toml:31:12: uncertain.interval has no positive deviation; expected a deviation above 0"},
     {"interval = \"± 1 %\"", "",
-     "s.toml:28:1: 'uncertain.interval' is missing; expected \"± 1 %\", \"± 2 deg\" or [lower, upper]"},
+     "s.toml:28:1: 'uncertain.interval' is missing; expected \"± 1 %\", \"± 2 deg\", \"+2 / -1 mm\" or [lower, upper]"},
     {"distribution = { type = \"uniform\" }", "distribution = { type = \"unifrom\" }",
      "s.toml:32:25: uncertain.distribution.type is \"unifrom\"; expected 'uniform'? (one of: uniform, triangular, "
-     "normal, beta, lognormal)"},
+     "normal, beta, lognormal, weibull, gamma, exponential)"},
     {"distribution = { type = \"uniform\" }", "distribution = { }",
      "s.toml:32:16: 'uncertain.distribution.type' is missing; expected { type = \"uniform\" }"},
     {"distribution = { type = \"uniform\" }", "distribution = \"uniform\"",

@@ -12,7 +12,7 @@
 namespace gamut {
 namespace {
 
-TEST(HalfTurns, HaveAValueOnTheNegativeAxisAndChangeNoOther) {
+TEST(HalfTurns, HaveAValueOnTheNegativeAxisAndAllDigitsBesideIt) {
   const Program g = record(2, 1, 3, [](auto, const auto& x, const auto& p, auto& y) {
     y[0] = atan2(x[0], x[1]);
     y[1] = atan2(x[0] * p[0], -x[1]) + 1.0;
@@ -24,10 +24,9 @@ TEST(HalfTurns, HaveAValueOnTheNegativeAxisAndChangeNoOther) {
     for (const double x : {1.0, -1.0, 1e-100, -3.5}) {
       const std::vector<double> plain = evaluate<double>(g, std::vector{y, x}, std::vector{2.0}, 0.0),
                                 found = evaluate<double>(turned, std::vector{y, x}, std::vector{2.0}, 0.0);
-      for (std::size_t i = 0; i < plain.size(); ++i) {
-        ASSERT_TRUE(std::isfinite(found[i])) << y << " " << x << " " << i;
-        if (std::isnan(plain[i])) continue;
-        EXPECT_EQ(found[i], plain[i]) << y << " " << x << " " << i;
+      for (const double angle : found) ASSERT_TRUE(std::isfinite(angle)) << y << " " << x;
+      if (x > 0) {
+        EXPECT_EQ(found[0], plain[0]) << y << " " << x;
       }
       EXPECT_NEAR(found[0], std::atan2(y, x), 1e-15);
       EXPECT_NEAR(found[1] - 1, std::atan2(2 * y, -x), 1e-15);
