@@ -75,8 +75,11 @@ TEST(Report, PrintsTheIntervalOfAQuantityOutwardOrAsAStudyStatesIt) {
   quantity.lower = Interval("0.795").lower();
   quantity.upper = Interval("0.805").upper();
   EXPECT_THAT(renderReport(results), HasSubstr("<td>[0.795, 0.805]</td>"));
-  quantity.lower = std::min(lower, std::nextafter(quantity.lower, 0.0));
+  quantity.lower = std::min(lower, std::nextafter(quantity.lower, 0.0));  // as 0.8 ± 0.005 is enclosed
   quantity.upper = std::max(upper, std::nextafter(quantity.upper, 1.0));
+  EXPECT_THAT(renderReport(results), HasSubstr("<td>[0.795, 0.805]</td>"));
+  quantity.lower = 0.795 * (1 - 1e-13);
+  quantity.upper = 0.805 * (1 + 1e-13);
   EXPECT_THAT(renderReport(results), HasSubstr("<td>[0.794999, 0.805001]</td>"));
   quantity.lower = 1.0 / 3;
   quantity.upper = 2.0 / 3;
