@@ -54,6 +54,8 @@ std::vector<char> StartOutputs::held(const Box& states, const Box& parameters) {
   for (std::size_t k = 0; k < count; ++k) {
     result.push_back(static_cast<char>(bounds[k].holds && isEqual(start[k], Interval(0.0))));
     any = any || result.back() != 0;
+    // What holds one depends on the signs of others: one that leaves has not that of its argument at this moment.
+    if (result.back() == 0 && !isThin(signs_[k])) return {};
   }
   return any ? result : std::vector<char>{};
 }

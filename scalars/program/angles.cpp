@@ -1,5 +1,7 @@
 #include "scalars/program/angles.hpp"
 
+#include <algorithm>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -46,6 +48,38 @@ std::optional<HalfAngle> halfAngleAt(const Program& program, const Node& node) {
   return found.d >= 0 && !found.y.empty() ? std::optional(found) : std::nullopt;
 }
 
+/// The factors of a product, in order.
+std::vector<int> factorsOf(const Program& program, int node) {
+  std::vector<int> open{node}, found;
+  while (!open.empty()) {
+    const Node& factor = program.nodes()[at(open.back())];
+    const int i = open.back();
+    open.pop_back();
+    if (factor.op == Op::mul)
+      open.insert(open.end(), {factor.a, factor.b});
+    else if (factor.op == Op::neg)
+      open.push_back(factor.a);
+    else
+      found.push_back(i);
+  }
+  std::ranges::sort(found);
+  return found;
+}
+
+/// Whether r is √(x² + y²), of y's factors, up to signs.
+bool isLength(const Program& program, int r, int x, const std::vector<int>& y) {
+  const Node& sum = program.nodes()[at(program.nodes()[at(r)].a)];
+  if (sum.op != Op::add) return false;
+  std::vector<int> ofY;
+  for (const int factor : y) std::ranges::copy(factorsOf(program, factor), std::back_inserter(ofY));
+  std::ranges::sort(ofY);
+  const auto isSquareOf = [&](int square, const std::vector<int>& factors) {
+    return program.nodes()[at(square)].op == Op::sqr && factorsOf(program, program.nodes()[at(square)].a) == factors;
+  };
+  const std::vector<int> ofX = factorsOf(program, x);
+  return (isSquareOf(sum.a, ofX) && isSquareOf(sum.b, ofY)) || (isSquareOf(sum.b, ofX) && isSquareOf(sum.a, ofY));
+}
+
 }  // namespace
 
 std::vector<int> halfAnglesOf(const Program& program) {
@@ -65,10 +99,12 @@ Program withHalfTurns(const Program& program) {
     here = result.append(program, {}, instead);
     const HalfAngle of = *halfAngleAt(program, program.nodes()[at(angle)]);
     const Node& sum = program.nodes()[at(of.d)];
-    if (sum.op != Op::add && sum.op != Op::sub) continue;  // x is known not to be below zero
+    if (sum.op != Op::add && sum.op != Op::sub) continue;
     const auto isRoot = [&](int node) { return program.nodes()[at(node)].op == Op::sqrt; };
-    if (!isRoot(sum.a) && !(sum.op == Op::add && isRoot(sum.b))) continue;
-    const int r = here[at(isRoot(sum.a) ? sum.a : sum.b)], other = here[at(isRoot(sum.a) ? sum.b : sum.a)];
+    const auto isOurs = [&](int root, int x) { return isRoot(root) && isLength(program, root, x, of.y); };
+    const bool isFirst = isOurs(sum.a, sum.b);
+    if (!isFirst && !(sum.op == Op::add && isOurs(sum.b, sum.a))) continue;
+    const int r = here[at(isFirst ? sum.a : sum.b)], other = here[at(isFirst ? sum.b : sum.a)];
     const int x = sum.op == Op::sub ? result.neg(other) : other;
     const int d = result.add(r, result.abs(x)), inverse = result.sqr(result.recip(result.sqrt(d)));
     std::vector<int> own = instead;

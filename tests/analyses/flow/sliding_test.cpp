@@ -231,6 +231,20 @@ TEST(FlowSlidingExactly, OutputsAtTheStartAllowForEverySign) {
   EXPECT_TRUE(isEqual(atStart(Interval(0.5, 1.0), 3.0), Interval(-2.0)));
 }
 
+/// What holds one block at the start depends on the friction of another, which leaves with its own.
+TEST(FlowSlidingExactly, OutputsAtTheStartHeedWhatLeaves) {
+  const Program f = record(2, 0, [](auto, const auto& v, const auto&, auto& dv) {
+    dv[0] = 1.0 - 3.0 * sign(v[0]) + 0.5 * sign(v[1]);
+    dv[1] = 5.0 - sign(v[1]);
+  });
+  const Program g = record(2, 0, 1, [](auto, const auto& v, const auto&, auto& y) { y[0] = -3.0 * sign(v[0]); });
+  const Tube tube = Flow(f, g).enclose({0.0, 0.0}, 1, {1});
+  ASSERT_EQ(tube.why(), "");
+  EXPECT_TRUE(contains(tube.outputs(0)[0], -1.5));
+  EXPECT_TRUE(contains(tube.outputs(1)[0], -1.5));
+  EXPECT_LT(width(tube.outputs(1)[0]), 1e-12);
+}
+
 /// A rate of zero on one side lets solutions stay on the surface as long as they like.
 TEST(FlowSlidingExactly, StaysWhereOneSideIsAtRest) {
   const Program up = record(1, 0, [](auto, const auto& x, const auto&, auto& dx) { dx[0] = 1.0 + sign(x[0]); });

@@ -32,6 +32,12 @@ TEST(HalfTurns, HaveAValueOnTheNegativeAxisAndAllDigitsBesideIt) {
       EXPECT_NEAR(found[1] - 1, std::atan2(2 * y, -x), 1e-15);
     }
   EXPECT_TRUE(std::isnan(evaluate<double>(turned, std::vector{0.0, 0.0}, std::vector{2.0}, 0.0)[0]));
+  // No length: what only looks like an angle stays.
+  const Program other = record(2, 0, 1, [](auto, const auto& x, const auto&, auto& y) {
+    y[0] = atan(x[0] * sqr(1.0 / sqrt(x[1] + sqrt(sqr(x[0]) + 4.0))));
+  });
+  EXPECT_EQ(evaluate<double>(withHalfTurns(other), std::vector{1.0, -2.0}),
+            evaluate<double>(other, std::vector{1.0, -2.0}));
   const Program none = record(1, 0, 1, [](auto, const auto& x, const auto&, auto& y) { y[0] = atan(x[0]); });
   EXPECT_EQ(withHalfTurns(none).nodes().size(), none.nodes().size());
 }
