@@ -39,6 +39,13 @@ class Distribution {
   /// every result lies in the support. Throws std::invalid_argument for another u.
   double quantile(double u) const;
 
+  /// The probability that the quantity is not above a number that lies in `value`: a proved enclosure.
+  Interval enclosedBelow(const Interval& value) const;
+
+  /// Whether the density certainly rises or falls all over `values`, where it is positive: then the distribution
+  /// function bends to one side there.
+  bool isMonotone(const Interval& values) const;
+
   const Interval& support() const { return support_; }
   /// The probability that truncation to the support cut off; 0 of what is bounded by itself.
   double cutOff() const;
@@ -57,6 +64,7 @@ class Distribution {
   double above(double value) const;
   double whereBelow(double probability) const;
   double whereAbove(double probability) const;
+  Interval boundBelow(const Interval& value) const;
 
   Shape shape_ = Shape::uniform;
   Interval support_;

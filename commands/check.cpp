@@ -1,22 +1,35 @@
-// gamut check: the verdict is found again from the stored numbers.
+// gamut check: the verdict is found again from the stored numbers; with --requirements, what was proved of these
+// counts.
 #include <memory>
 #include <string>
 
 #include "commands/options.hpp"
 #include "commands/table.hpp"
 #include "commands/verdict_lines.hpp"
+#include "reports/requirements.hpp"
 #include "studies/results/results_file.hpp"
 
 namespace gamut::commands {
 
 Action check(CLI::App& command) {
   const auto path = std::make_shared<std::string>();
+  const auto countsRequirements = std::make_shared<bool>(false);
   addResults(command, *path);
+  command.add_flag("--requirements", *countsRequirements,
+                   "Count requirements: 1 if one is violated, for some values at least, 3 if one is neither proved nor "
+                   "refuted");
   command.footer(exitCodesText);
-  return [path] {
-    const Verdict verdict = judge(readResults(*path));
+  return [path, countsRequirements] {
+    const Results results = readResults(*path);
+    if (*countsRequirements && results.requirements.empty())
+      throw UsageError(*path + ": holds no requirements; expected results of a study with [[requirement]]");
+    const Verdict verdict = judge(results);
+    printRequirements(stdout, results);
     printVerdict(stdout, verdict);
-    return exitCode(verdict);
+    const ExitCode ofSamples = exitCode(verdict);
+    if (!*countsRequirements || ofSamples == refuted) return ofSamples;
+    const std::string word = wordOfRequirements(results);
+    return word == "violated" ? refuted : word == "open" ? endedEarly : ofSamples;
   };
 }
 

@@ -11,11 +11,13 @@ enum ExitCode { done = 0, refuted = 1, badInput = 2, endedEarly = 3, failed = 4 
 inline constexpr const char* exitCodesText =
     "Exit codes:\n"
     "  0  done, and every sample lies inside its enclosure\n"
-    "  1  a sample left its enclosure, or stayed unresolved\n"
+    "  1  a sample left its enclosure, or stayed unresolved; with `gamut check --requirements` also: a requirement\n"
+    "     is violated\n"
     "  2  bad input or usage\n"
     "  3  an analysis ended before its horizon, was interrupted or reached a limit of time or memory, a bound "
     "is\n"
-    "     infinite, or `gamut check` found nothing to compare; what was proved is kept and reported\n"
+    "     infinite, or `gamut check` found nothing to compare; with --requirements also: one is neither proved nor\n"
+    "     refuted; what was proved is kept and reported\n"
     "  4  an internal failure, or something could not be written";
 
 /// Throws std::invalid_argument for a verdict whose word has no exit code.

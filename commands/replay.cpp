@@ -125,19 +125,35 @@ NamedTexts tablesOf(const Results& results, const std::string& file) {
   }
 }
 
+/// The requirement that "violation NAME" names; null for a sample.
+const RequirementResult* requirementOf(const Arguments& arguments, const Results& results) {
+  if (arguments.sample.front() != "violation") return nullptr;
+  std::vector<std::string> names;
+  for (const RequirementResult& requirement : results.requirements) {
+    if (arguments.sample.size() == 2 && requirement.name == arguments.sample[1]) return &requirement;
+    names.push_back("'" + requirement.name + "'");
+  }
+  throw UsageError(fmt::format(
+      "{}: holds no requirement {}; expected violation and {}", arguments.results,
+      arguments.sample.size() == 2 ? "'" + arguments.sample[1] + "'" : "without a name",
+      names.empty() ? "results of a study with [[requirement]]" : fmt::format("one of {}", fmt::join(names, ", "))));
+}
+
 ExitCode replay(const Arguments& arguments) {
   const Results results = readResults(arguments.results);
-  if (!results.stochastic.present)
+  const RequirementResult* const requirement = requirementOf(arguments, results);
+  if (requirement == nullptr && !results.stochastic.present)
     throw UsageError(arguments.results +
                      ": holds no samples; expected results of a study that compares \"stochastic\"");
-  const std::size_t number = numberOf(arguments, results.stochastic);
+  const std::size_t number = requirement == nullptr ? numberOf(arguments, results.stochastic) : 0;
   const FilesAtHand files{results.robotText, tablesOf(results, arguments.results)};
   const Study study =
       readStudyText(results.studyText, results.studyFile + " in " + arguments.results, elementTypes(), files);
   ReplayedSample sample;
   const auto table = [&] {
     try {
-      sample = gamut::replay(study, results, number);
+      sample = requirement == nullptr ? gamut::replay(study, results, number)
+                                      : replayViolation(study, results, *requirement);
     } catch (const std::invalid_argument& error) {
       throw UsageError(arguments.results + ": " + error.what());
     }
@@ -147,7 +163,7 @@ ExitCode replay(const Arguments& arguments) {
     sayOut(table());
   else
     reserve(arguments.output, arguments.results, arguments.force).write(table());
-  say(number, sample, results);
+  if (requirement == nullptr) say(number, sample, results);
   return sample.why.empty() ? done : endedEarly;
 }
 
@@ -159,7 +175,7 @@ Action replay(CLI::App& command) {
   command
       .add_option("sample", arguments->sample,
                   "Which: a number from 0 (the plan's samples, the corners, those of the alpha-cuts, the centre), or "
-                  "corner K, alpha-corner K (from 0), centre")
+                  "corner K, alpha-corner K (from 0), centre; or violation NAME, of a requirement")
       ->required()
       ->expected(1, 2)
       ->type_name("SAMPLE");

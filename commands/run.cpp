@@ -66,6 +66,7 @@ ExitCode exitCodeOf(const Results& results, const Verdict& verdict) {
 void say(const Arguments& arguments, const Results& results, const Verdict& verdict) {
   std::FILE* stream = arguments.json ? stderr : stdout;
   if (!arguments.quiet) {
+    printRequirements(stream, results);
     printVerdict(stream, verdict);
     fmt::print(stream, "{}", textSummary(results));
     fmt::print(stream, "  results: {}\n  report:  {}\n", arguments.results, arguments.report);

@@ -31,6 +31,7 @@ Action check(CLI::App& command);
 Action report(CLI::App& command);
 Action info(CLI::App& command);
 Action replay(CLI::App& command);
+Action tolerance(CLI::App& command);
 Action newStudy(CLI::App& command);
 Action quantities(CLI::App& command);
 
@@ -40,6 +41,8 @@ inline constexpr Command table[] = {
     {"run", "Run a study; write results and a report", run, Command::looksAtInterrupts},
     {"validate", "Read and check a study file, no more", validate},
     {"check", "The verdict, from the stored numbers: do all samples stay inside?", check},
+    {"tolerance", "How far the uncertain quantities may deviate so that all requirements are met", tolerance,
+     Command::looksAtInterrupts},
     {"report", "Write the report page of a results file", report},
     {"info", "What a results file holds and where it comes from; or the tree of a robot (URDF)", info},
     {"replay", "One sample of a run again, bit for bit, as CSV", replay},

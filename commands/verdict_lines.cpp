@@ -3,7 +3,23 @@
 
 #include <fmt/format.h>
 
+#include "reports/requirements.hpp"
+
 namespace gamut {
+
+void printRequirements(std::FILE* stream, const Results& results) {
+  if (results.requirements.empty()) return;
+  fmt::print(stream, "{}\n", sentenceOfRequirements(results));
+  for (const RequirementWords& words : wordsOfRequirements(results)) {
+    fmt::print(stream, "  {}: {} ({})\n", words.name, words.verdict, words.demand);
+    const auto print = [&](const char* title, const std::string& text) {
+      if (!text.empty()) fmt::print(stream, "    {:<11} {}\n", title, text);
+    };
+    print("guaranteed", words.guaranteed);
+    print("probable", words.probable);
+    print("possible", words.possible);
+  }
+}
 
 void printVerdict(std::FILE* stream, const Verdict& verdict) {
   fmt::print(stream, "{}\n", verdict.sentence);

@@ -75,6 +75,7 @@ std::string renderReport(const Results& results) {
                                  {"style", std::string(page::style)},
                                  {"layers", report.outputs.style},
                                  {"plottingStyle", report.outputs.data.empty() ? "" : std::string(page::plottingStyle)},
+                                 {"requirements", requirementsSection(results)},
                                  {"word", report.verdict.word},
                                  {"sentence", escapeHtml(report.verdict.sentence)},
                                  {"notes", notesList(report.verdict)},

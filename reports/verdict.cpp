@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -77,13 +78,11 @@ class Wording {
     return moves() ? fmt::format(" at {} s", numberText(results_.time[time], 6)) : "";
   }
 
-  /// The plan's samples come first, then the corners of the box, then those of the alpha-cuts, the centre is last.
+  /// As a sentence begins.
   std::string sampleName(std::int64_t number) const {
-    const std::int64_t corner = number - results_.stochastic.samples, corners = results_.stochastic.corners,
-                       inner = results_.stochastic.alphaCorners;
-    if (!results_.stochastic.present || corner < 0 || corner > corners + inner) return fmt::format("Sample {}", number);
-    if (corner == corners + inner) return "The centre";
-    return corner < corners ? fmt::format("Corner {}", corner) : fmt::format("Alpha-corner {}", corner - corners);
+    std::string name = results_.stochastic.nameOf(number);
+    name[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(name[0])));
+    return name;
   }
 
   // ---- Notes --------------------------------------------------------------------------------------------------------

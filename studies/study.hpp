@@ -36,6 +36,16 @@ struct UncertainQuantity {
   double rate = std::numeric_limits<double>::infinity();  ///< of what varies, at most, in its unit per s
 };
 
+/// What the motion is to keep: all margins above zero, always or once at least in a window of time.
+struct Requirement {
+  std::string name;
+  std::string statement;             ///< "always tip.position.z > 0.2 m"
+  bool isAlways = true;              ///< otherwise eventually
+  double from = 0, until = 0;        ///< s: output times, both included
+  std::vector<std::size_t> margins;  ///< numbers of outputs
+  std::vector<char> isMetAtZero;     ///< whether zero is enough, one a margin
+};
+
 struct Study {
   enum class Analysis { kinematics, dynamics, inverseDynamics };
 
@@ -52,7 +62,8 @@ struct Study {
   std::set<std::string, std::less<>> compare{"fuzzy", "interval", "stochastic"};  ///< words of the answers asked for
   Mechanism mechanism;
   std::vector<UncertainQuantity> uncertain;
-  std::vector<OutputInfo> outputs;
+  std::vector<OutputInfo> outputs;  ///< those of the requirements behind all others
+  std::vector<Requirement> requirements;
   FlowOptions flow;          ///< without jobs, progress and cancelled, which belong to a run
   EnsembleOptions ensemble;  ///< likewise
   double storage = 4e6;      ///< bytes that the samples' values and motions may take in the results

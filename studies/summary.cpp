@@ -43,6 +43,35 @@ Json overestimationObject(const Results& results) {
   return {{"max", number(comparison.maximum)}, {"median", number(comparison.median)}, {"outputs", outputs}};
 }
 
+Json textOrNull(const std::string& text);
+
+Json requirementsArray(const Results& results) {
+  Json array = Json::array();
+  for (const RequirementResult& r : results.requirements) {
+    Json violation = nullptr;
+    for (std::size_t q = 0; q < r.violation.size(); ++q)
+      if (!std::isnan(r.violation[q])) violation[results.uncertain[q].name] = r.violation[q];
+    array.push_back(
+        {{"name", r.name},
+         {"statement", r.statement},
+         {"from", r.from},
+         {"until", r.until},
+         {"guaranteed", r.word},
+         {"why", textOrNull(r.why)},
+         {"met", r.met},
+         {"violated", r.violated},
+         {"factor", r.factor},
+         {"violation", violation},
+         {"probability", Json::array({r.probabilityLower, r.probabilityUpper})},
+         {"samples", r.samples},
+         {"violating", r.violating},
+         {"confidence", std::isnan(r.shareLower) ? Json(nullptr) : Json::array({r.shareLower, r.shareUpper})},
+         {"worst_sample", r.worstSample < 0 ? Json(nullptr) : Json(r.worstSample)},
+         {"violation_possibility", Json::array({r.violationLeast, r.violationMost})}});
+  }
+  return array;
+}
+
 Json textOrNull(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
 
 /// "[1.2345, 1.3456]", bounds rounded outward, with three decimals more than their width needs, 15 at most.
@@ -172,6 +201,7 @@ std::string jsonSummary(const Results& results, const std::string& verdict, cons
   json["overestimation"] = overestimationObject(results);
   json["tightness"] = number(results.interval.tightness);
   json["shortfall"] = textOrNull(results.interval.shortfall);
+  json["requirements"] = requirementsArray(results);
   json["enclosure"] = boundsObject(results.interval.at, results);
   json["envelope"] = boundsObject(results.stochastic.envelope, results);
   Json& cost = json["cost"];

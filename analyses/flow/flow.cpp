@@ -62,6 +62,10 @@ Flow::Flow(Program f, Program g, FlowOptions options) {
   requireThat(options.tolerance >= 0 && options.splitDefect >= 0, "tolerances must not be negative");
   requireThat(options.tightness > 1, "a flow's tightness must be above 1");
   requireThat(options.budget > 0, "a flow's budget must be positive");
+  for (const int output : options.modelled)
+    requireThat(output >= 0 && output < g.outputs(), "models are kept of outputs that there are");
+  for (const int output : options.uncounted)
+    requireThat(output >= 0 && output < g.outputs(), "outputs that do not count are outputs that there are");
   std::set<int> inputs;
   bool hasRates = false;
   for (const VaryingParameter& input : options.varying) {
@@ -100,6 +104,7 @@ Tube answer(const FlowFormulation& formulation, const FlowOptions& options, Flow
   if (uncertain.symbols > 0) own.precise.clear();  // they are of thin boxes, not of a thin level of a wide one
   FlowOptions ofLevels = own;
   ofLevels.aside = {};
+  ofLevels.modelled.clear();
   own.aside.values = formulation.asides;
   const auto questionWith = [&](const FlowOptions& with) {
     return FlowQuestion{
@@ -159,7 +164,9 @@ Tube Flow::enclose(const Box& box, double horizon, const std::vector<double>& ou
   Tube ofRates = answer(*parts_->ofRates, options, budget, box, early.back(), early, levels);
   FlowRun::dropStates(ofRates, motion.states());
   const std::string limit = ofRates.limit().empty() ? tube.limit() : ofRates.limit();
+  const std::shared_ptr<const FlowModels> models = tube.models();
   tube = FlowRun::meet(std::move(tube), std::move(ofRates));
+  FlowRun::setModels(tube, models);
   FlowRun::explain(tube, options, limit);
   return tube;
 }

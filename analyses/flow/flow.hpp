@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "analyses/flow/models.hpp"
 #include "scalars/interval.hpp"
 #include "scalars/program/program.hpp"
 #include "scalars/recorded.hpp"
@@ -66,6 +67,9 @@ struct FlowOptions {
   std::vector<VaryingParameter> varying;                         ///< all other parameters are constant in time
   std::vector<PreciseValue> precise;                             ///< each within its component of the box
   FlowAside aside;                                               ///< for Tube::asides
+  std::vector<int> modelled;                                     ///< outputs of which models are kept, for Tube::models
+  double modelBytes = 1e9;                                       ///< that these may take; of more, none are kept
+  std::vector<int> uncounted;            ///< outputs that need not be as tight as `tightness` says
   std::vector<std::string> stateNames;   ///< for Tube::why() and shortfall(); without them "state 0", "state 1", ...
   std::vector<std::string> outputNames;  ///< likewise
   std::function<void(double)> progress;  ///< called with the fraction done (0 … 1), from any thread
@@ -116,6 +120,10 @@ class Tube {
   /// Outputs at times()[i] when the uncertain quantities are confined to sub-box `level` (nested: intersected).
   const std::vector<Interval>& cut(std::size_t level, std::size_t i) const { return cuts_[level][i]; }
 
+  /// Outputs as functions of the uncertain quantities, of FlowOptions::modelled, of the tightest run; of inputs with a
+  /// bounded rate, without heed to that. Null if none are asked for, or kept.
+  const std::shared_ptr<const FlowModels>& models() const { return models_; }
+
   int pieces() const { return pieces_; }            ///< sub-boxes followed to the end
   long steps() const { return steps_; }             ///< steps of all pieces
   double cpuSeconds() const { return cpu_; }        ///< s, all threads, without the sub-boxes' ranges
@@ -127,6 +135,7 @@ class Tube {
   std::vector<std::vector<Interval>> states_, statesOver_, outputs_, outputsOver_, asides_;
   std::vector<std::vector<std::vector<Interval>>> cuts_;
   std::vector<std::vector<double>> excess_;  // tightness() - 1 of each, [time][output or state]
+  std::shared_ptr<const FlowModels> models_;
   double reached_ = 0;
   std::string why_, shortfall_, limit_;
   int pieces_ = 0;
@@ -163,5 +172,10 @@ class Flow {
 std::vector<std::vector<Interval>> encloseImage(const Program& g, double t, const Box& box,
                                                 const std::vector<Box>& levels = {}, int degree = -1,
                                                 const std::atomic<bool>* cancelled = nullptr);
+
+/// Models of these outputs of the image over the box, at the one time t. Null if `cancelled` was set before.
+std::shared_ptr<const FlowModels> modelImage(const Program& g, double t, const Box& box,
+                                             const std::vector<int>& modelled, int degree = -1,
+                                             const std::atomic<bool>* cancelled = nullptr);
 
 }  // namespace gamut

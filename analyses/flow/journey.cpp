@@ -288,6 +288,21 @@ void FlowFollower::encloseLevels(const FlowPiece& piece, std::size_t row) {
   collected_.cutCpu += threadCpuSeconds() - began;
 }
 
+/// Of what was enclosed last, whose outputs lie in these bounds; null if none are to be kept.
+std::shared_ptr<const FlowSnapshot> FlowFollower::modelOutputs(const FlowPiece& piece,
+                                                               const std::vector<Interval>& outputs) {
+  if (!outputs_ || !run_.keepsModels()) return nullptr;
+  auto snapshot = std::make_shared<FlowSnapshot>();
+  snapshot->time = at_;
+  snapshot->part = {piece.set.centre, piece.set.half};
+  snapshot->monomials = task_.layouts[task_.outputLayout(piece.layout)].monomials;
+  for (const int o : task_.options.modelled)
+    snapshot->outputs.push_back(modelOf(outputs_->polynomial(o), outputs_->radius(o), *snapshot->monomials,
+                                        task_.embedding.symbols, outputs[at(o)]));
+  run_.countModel(*snapshot);
+  return snapshot;
+}
+
 /// At the time of `point_`, where the states are in these boxes.
 void FlowFollower::lookAside(const FlowPiece& piece, std::size_t row, const std::vector<Interval>& states) {
   if (task_.looksAside[row] == 0) return;
@@ -298,6 +313,26 @@ void FlowFollower::lookAside(const FlowPiece& piece, std::size_t row, const std:
   joinHulls(collected_.asides[row], tool_->asides->enclose(task_.times[row], point_, states, piece.set.parameters));
 }
 
+/// Into how many chords a part of a step is cut, so that modelled outputs leave them by little of what is uncertain
+/// about them. What does not become less with the square of their length counts for nothing. Times in seconds from the
+/// step's start.
+int FlowFollower::chordsFor(FlowPiece& piece, const std::vector<Interval>& before, double from, double to) {
+  constexpr double little = 2e-3, hardly = 0.02, most = 32, square = 0.3;
+  double parts = 1;
+  std::vector<Interval> half;
+  tool_->chords->sag(from, from + 0.5 * (to - from), half);
+  tool_->chords->sag(from, to, sag_);
+  piece.modelled.resize(task_.options.modelled.size(), Interval::empty());
+  for (std::size_t k = 0; k < piece.modelled.size(); ++k) {
+    const std::size_t o = at(task_.options.modelled[k]);
+    piece.modelled[k] = hull(piece.modelled[k], before[o]);
+    const double extent = std::max(width(before[o]), hardly * width(piece.modelled[k] + sag_[o]));
+    if (isBounded(sag_[o]) && extent > 0 && width(half[o]) < square * width(sag_[o]))
+      parts = std::max(parts, std::sqrt(width(sag_[o]) / (little * extent)));
+  }
+  return static_cast<int>(std::ceil(std::min(parts, most)));
+}
+
 /// Adds what the step that was just certified contributes to the tube; false if the piece has grown too wide.
 bool FlowFollower::record(FlowPiece& piece) {
   const std::vector<double>& times = task_.times;
@@ -306,6 +341,8 @@ bool FlowFollower::record(FlowPiece& piece) {
     std::vector<Interval> outputs;
     enclose(piece, 0.0, piece.last, outputs);
     piece.lastOutputs = outputLimits_;
+    piece.lastModel = modelOutputs(piece, outputLimits_);
+    if (piece.lastModel) collected_.models[0].push_back(piece.lastModel);
     for (std::size_t i = 0; i < piece.last.size(); ++i) piece.last[i] = intersection(piece.last[i], task_.box[i]);
     joinHulls(collected_.states[0], piece.last);
     joinHulls(collected_.statesOver[0], piece.last);
@@ -321,15 +358,18 @@ bool FlowFollower::record(FlowPiece& piece) {
   const FlowStepper& stepper = tool_->stepper;
   std::vector<Interval> end, endOutputs, endLimits, before = piece.last, beforeLimits = piece.lastOutputs, behind;
   std::vector<Interval> behindOutputs, behindLimits;
+  std::shared_ptr<const FlowSnapshot> endModel, beforeModel = piece.lastModel, behindModel;
   double from = t0;
   bool chordsKnown = false;
   const auto segment = [&](double to) {  // from `from` to `to`: the chord's hull and how far a motion leaves a chord
     if (stepper.narrows()) {
       enclose(piece, to - t0, behind, behindOutputs, false);
       behindLimits = outputLimits_;
+      behindModel = modelOutputs(piece, behindLimits);
     } else {
       behind = end;
       behindLimits = endLimits;
+      behindModel = endModel;
     }
     stepper.sag(from - t0, to - t0, sag_);
     std::vector<Interval> between;
@@ -340,6 +380,7 @@ bool FlowFollower::record(FlowPiece& piece) {
       if (!chordsKnown) tool_->chords->load(stepper, piece.set);
       chordsKnown = true;
       tool_->chords->sag(from - t0, to - t0, sag_);
+      std::vector<Interval> overs;
       for (std::size_t i = 0; i < behindLimits.size(); ++i) {
         Interval over = hull(beforeLimits[i], behindLimits[i]) + sag_[i];
         if (outputs_->hasKinks() || !isBounded(over)) {
@@ -348,17 +389,46 @@ bool FlowFollower::record(FlowPiece& piece) {
           over = isBounded(over) ? intersection(over, wherever) : wherever;
         }
         piece.overOutputs[i] = hull(piece.overOutputs[i], over);
+        overs.push_back(over);
+      }
+      if (beforeModel && behindModel && piece.next < times.size()) {
+        FlowChord chord{{piece.set.centre, piece.set.half}, beforeModel, behindModel, {}, {}};
+        for (const int o : task_.options.modelled) {
+          chord.sag.push_back(sag_[at(o)]);
+          chord.bound.push_back(overs[at(o)]);
+        }
+        collected_.chords[piece.next].push_back(std::move(chord));
       }
     }
     before = behind;
     beforeLimits = behindLimits;
+    beforeModel = behindModel;
     piece.last = end;
     piece.lastOutputs = endLimits;
+    piece.lastModel = endModel;
     from = to;
   };
+  const auto modelUntil = [&](double to) {  // further chords before `to`, where models are wanted
+    if (!outputs_ || !run_.keepsModels() || !beforeModel) return;
+    if (!chordsKnown) tool_->chords->load(stepper, piece.set);
+    chordsKnown = true;
+    const double begin = from;
+    const int parts = chordsFor(piece, beforeLimits, from - t0, to - t0);
+    for (int part = 1; part < parts; ++part) {
+      const double until = begin + (to - begin) * part / parts;  // any double is exact enough: docs/flow.md, "Time"
+      if (!(until > from && until < to)) continue;
+      enclose(piece, until - t0, end, endOutputs);
+      endLimits = outputLimits_;
+      endModel = modelOutputs(piece, endLimits);
+      segment(until);
+    }
+  };
   for (; piece.next < times.size() && times[piece.next] <= t1; ++piece.next) {
+    modelUntil(times[piece.next]);
     enclose(piece, times[piece.next] - t0, end, endOutputs);  // an exact difference: docs/flow.md, "Time"
     endLimits = outputLimits_;
+    endModel = modelOutputs(piece, endLimits);
+    if (endModel) collected_.models[piece.next].push_back(endModel);
     joinHulls(collected_.stateCore[piece.next], stateCore_);
     joinHulls(collected_.outputCore[piece.next], outputCore_);
     encloseLevels(piece, piece.next);
@@ -375,8 +445,10 @@ bool FlowFollower::record(FlowPiece& piece) {
     piece.overOutputs = endOutputs;
   }
   if (from < t1) {
+    modelUntil(t1);
     enclose(piece, t1 - t0, end, endOutputs);
     endLimits = outputLimits_;
+    endModel = modelOutputs(piece, endLimits);
     segment(t1);
   }
   for (std::size_t i = 0; i < piece.last.size(); ++i)

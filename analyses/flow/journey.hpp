@@ -24,6 +24,8 @@ struct FlowPiece {
   std::size_t next = 0;                            // index of its next output time
   std::vector<Interval> last, over;                // states at set.t; states since the last output time
   std::vector<Interval> lastOutputs, overOutputs;  // likewise for the outputs; lastOutputs: outputLimits_
+  std::shared_ptr<const FlowSnapshot> lastModel;   // of these
+  std::vector<Interval> modelled;                  // of modelled outputs: all that they were so far
 };
 
 enum class FlowJourney { goesOn, ended, cancelled };
@@ -32,9 +34,11 @@ enum class FlowJourney { goesOn, ended, cancelled };
 struct FlowCollected {
   std::vector<std::vector<Interval>> states, statesOver, outputs, outputsOver, asides;
   std::vector<std::vector<std::vector<Interval>>> cuts;
-  std::vector<std::vector<Interval>> stateCore, outputCore;  // see FlowFollower; their hulls
-  std::vector<Influence> influence;                          // of every symbol
-  double timeError = 0, truncation = 0;                      // of all steps
+  std::vector<std::vector<Interval>> stateCore, outputCore;              // see FlowFollower; their hulls
+  std::vector<std::vector<std::shared_ptr<const FlowSnapshot>>> models;  // FlowModels
+  std::vector<std::vector<FlowChord>> chords;
+  std::vector<Influence> influence;      // of every symbol
+  double timeError = 0, truncation = 0;  // of all steps
   long steps = 0;
   double cpu = 0, cutCpu = 0;
   FlowCollected(std::size_t times, std::size_t levels)
@@ -45,7 +49,9 @@ struct FlowCollected {
         asides(times),
         cuts(levels, std::vector<std::vector<Interval>>(times)),
         stateCore(times),
-        outputCore(times) {}
+        outputCore(times),
+        models(times),
+        chords(times) {}
 };
 
 /// `into` becomes the hull of both, component by component; empty, it becomes `from`.
@@ -90,7 +96,9 @@ class FlowFollower {
   void appendOutputs(const FlowPiece& piece, const std::vector<Interval>& states, const Box& xi,
                      std::vector<Interval>& outputs);
   void encloseLevels(const FlowPiece& piece, std::size_t row);
+  std::shared_ptr<const FlowSnapshot> modelOutputs(const FlowPiece& piece, const std::vector<Interval>& outputs);
   void lookAside(const FlowPiece& piece, std::size_t row, const std::vector<Interval>& states);
+  int chordsFor(FlowPiece& piece, const std::vector<Interval>& before, double from, double to);
   bool record(FlowPiece& piece);
 
   FlowRun& run_;

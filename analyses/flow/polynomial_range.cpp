@@ -31,15 +31,16 @@ PolynomialRange::PolynomialRange(std::shared_ptr<const Monomials> monomials) : m
   shiftError_ = (4 * m.degree() + 8) * bounds::unit * bounds::up;
 }
 
-void PolynomialRange::substitute(int symbol, double middle, double half, const double* c, double* out) const {
+void PolynomialRange::substitute(int symbol, double middle, double half, const double* c, double* out, int count) const {
   const Monomials& m = *monomials_;
-  std::fill(out, out + m.count(), 0.0);
+  if (count < 0) count = m.count();
+  std::fill(out, out + count, 0.0);
   std::vector<double> middlePower(at(m.degree() + 1), 1.0), halfPower = middlePower;
   for (int i = 1; i <= m.degree(); ++i) {
     middlePower[at(i)] = middlePower[at(i - 1)] * middle;
     halfPower[at(i)] = halfPower[at(i - 1)] * half;
   }
-  for (int g = 0; g < m.count(); ++g) {
+  for (int g = 0; g < count; ++g) {
     const int power = m.exponent(g, symbol);
     int target = g;
     for (int b = power; b >= 0; --b) {

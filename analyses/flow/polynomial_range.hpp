@@ -21,8 +21,9 @@ class PolynomialRange {
   double gap() const { return gap_; }
 
   /// Writes the coefficients of the polynomial in η, where ξ_l = middle + half·η, |middle| + half ≤ 1. Each coefficient
-  /// is a sum of exact terms; all rounding together is at most `shiftError` times Σ|c|.
-  void substitute(int symbol, double middle, double half, const double* c, double* out) const;
+  /// is a sum of exact terms; all rounding together is at most `shiftError` times Σ|c|. With a `count`, c and out have
+  /// so many coefficients: all up to some grade.
+  void substitute(int symbol, double middle, double half, const double* c, double* out, int count = -1) const;
   double shiftError() const { return shiftError_; }
 
  private:

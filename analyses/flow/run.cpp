@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <thread>
 #include <utility>
 
@@ -192,6 +193,8 @@ Tube FlowRun::gather(std::vector<FlowCollected>& collected) {
     rows = 1;
     for (auto& part : collected)
       for (auto& level : part.cuts) level[0] = tube.outputs_[0].empty() ? tube.states_[0] : tube.outputs_[0];
+  } else {
+    tube.models_ = modelsOf(collected, rows);
   }
   // g over start values in plain intervals: exactly what is known exactly.
   StartOutputs atStart(task_);
@@ -251,6 +254,8 @@ Tube FlowRun::gather(std::vector<FlowCollected>& collected) {
   tube.excess_ = excess(tube.states_, &FlowCollected::stateCore);
   const double ofStates = tube.tightness() - 1;
   if (task_.outputs.outputs() > 0) tube.excess_ = excess(tube.outputs_, &FlowCollected::outputCore);
+  for (const int output : task_.options.uncounted)
+    for (std::vector<double>& row : tube.excess_) row[at(output)] = 0;
   const auto isWide = [&](int input) { return !isThin(task_.box[at(task_.motion.states() + input)]); };
   if (task_.embedding.symbols == 0 && std::ranges::none_of(task_.varying, isWide)) tube.excess_.clear();
   looseness_ = tube.tightness() - 1;
@@ -270,6 +275,21 @@ Tube FlowRun::gather(std::vector<FlowCollected>& collected) {
     tube.cutCpu_ += part.cutCpu;
   }
   return tube;
+}
+
+std::shared_ptr<const FlowModels> FlowRun::modelsOf(std::vector<FlowCollected>& collected, std::size_t rows) const {
+  if (!keepsModels()) return nullptr;
+  auto models = std::make_shared<FlowModels>();
+  for (const Embedded& e : task_.embedding.components) models->components.push_back({e.centre, e.half, e.symbol});
+  models->symbols = task_.embedding.symbols;
+  models->at.resize(rows);
+  models->over.resize(rows);
+  for (std::size_t row = 0; row < rows; ++row)
+    for (FlowCollected& part : collected) {
+      std::ranges::move(part.models[row], std::back_inserter(models->at[row]));
+      std::ranges::move(part.chords[row], std::back_inserter(models->over[row]));
+    }
+  return models;
 }
 
 std::string FlowRun::limit(const Tube& tube) const {

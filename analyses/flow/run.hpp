@@ -41,6 +41,7 @@ class FlowRun {
   static Tube meet(Tube a, Tube b);
   /// Adds CPU time that no run has counted.
   static void charge(Tube& tube, double cpuSeconds) { tube.cpu_ += cpuSeconds; }
+  static void setModels(Tube& tube, std::shared_ptr<const FlowModels> models) { tube.models_ = std::move(models); }
   /// Forgets all states but the first n.
   static void dropStates(Tube& tube, int n);
   /// Says in `tube` what is looser than was asked for, met by `limit`.
@@ -52,6 +53,9 @@ class FlowRun {
 
   /// A piece cannot be followed beyond t, nor the whole box then.
   void fail(double t, const std::string& why);
+  /// Whether models of outputs are wanted, and have found room so far.
+  bool keepsModels() const { return !task_.options.modelled.empty() && modelBytes_ <= task_.options.modelBytes; }
+  void countModel(const FlowSnapshot& model) { modelBytes_ += bytesOf(model); }
   void ranOutOfMemory() { outOfMemory_ = true; }
   void ranOutOfBudget() { overBudget_ = true; }
   /// What is left over at t is so much that this run cannot become tight: a tighter one comes.
@@ -70,6 +74,7 @@ class FlowRun {
   void report(double earliest);
   void probe(const FlowPiece& piece);
   Tube gather(std::vector<FlowCollected>& collected);
+  std::shared_ptr<const FlowModels> modelsOf(std::vector<FlowCollected>& collected, std::size_t rows) const;
 
   const FlowTask& task_;
   std::mutex mutex_;
@@ -81,6 +86,7 @@ class FlowRun {
   std::vector<Influence> influence_;
   bool stop_ = false, needsDegree_ = false;
   std::atomic<bool> outOfMemory_{false}, overBudget_{false}, isAbandoned_{false};
+  std::atomic<double> modelBytes_{0};
   double failedAt_ = 0, unfinished_ = std::numeric_limits<double>::infinity();
   std::string why_;
   std::exception_ptr error_;

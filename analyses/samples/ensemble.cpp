@@ -390,6 +390,14 @@ Statistics EnsembleRun::statistics(const std::vector<double>& probabilities) con
   return statistics_->statistics(reachedTimes_, probabilities);
 }
 
+SampleBlock integrateValues(const UncertainMotion& system, const EnsembleOptions& options,
+                            const std::vector<double>& values) {
+  SampleBlock block(0, 1, false, system.uncertain.size(), system.motion.times.size(), system.motion.outputs());
+  std::ranges::copy(values, block.values(0).begin());
+  PieceIntegrator(system, options, 1).integrate(block, {0, 1}, [](std::size_t) {});
+  return block;
+}
+
 SampleBlock replaySample(const UncertainMotion& system, const EnsembleOptions& options, std::size_t number) {
   Sampling sampling = plannedSampling(system, options);
   if (number >= sampling.size()) throw std::invalid_argument("no sample has the number " + std::to_string(number));

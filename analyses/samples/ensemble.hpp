@@ -143,6 +143,10 @@ class EnsembleRun {
 /// About as many bytes as an EnsembleRun takes, whatever the number of its samples.
 double ensembleBytes(std::size_t times, std::size_t outputs, std::size_t quantities, std::size_t levels);
 
+/// These values of the uncertain quantities, integrated alone: a block of one sample. Throws as EnsembleRun does.
+SampleBlock integrateValues(const UncertainMotion& system, const EnsembleOptions& options,
+                            const std::vector<double>& values);
+
 /// Sample `number` alone in a block, its trajectory bit for bit as in an EnsembleRun, by integrating its pack alone.
 /// Throws as EnsembleRun does, and std::invalid_argument for a number that no sample has.
 SampleBlock replaySample(const UncertainMotion& system, const EnsembleOptions& options, std::size_t number);

@@ -14,6 +14,9 @@ std::string titleOf(const Results& results);
 /// What was asked, in one line.
 std::string summaryLine(const Results& results);
 
+/// The requirements with their three answers; empty without requirements.
+std::string requirementsSection(const Results& results);
+
 /// The verdict's notes as a list; empty without notes.
 std::string notesList(const Verdict& verdict);
 

@@ -20,6 +20,7 @@
 #include "studies/problem.hpp"
 #include "studies/readable.hpp"
 #include "studies/reading/mechanism_reader.hpp"
+#include "studies/reading/requirement_reader.hpp"
 #include "studies/reading/toml_source.hpp"
 #include "studies/reading/uncertain_reader.hpp"
 #include "studies/study.hpp"
@@ -38,8 +39,9 @@ class StudyReader {
   }
 
   Study read(const std::vector<Described>& types, const std::optional<FilesAtHand>& files) {
-    const TomlSection file(source_, source_.root(), "",
-                           {"study", "mechanism", "uncertain", "output", "interval", "stochastic", "fuzzy", "limits"});
+    const TomlSection file(
+        source_, source_.root(), "",
+        {"study", "mechanism", "uncertain", "output", "requirement", "interval", "stochastic", "fuzzy", "limits"});
     readStudyTable(source_.asTable(file.require("study", "a table [study]"), "study"));
     ReadMechanism read = readMechanism(
         source_, source_.asTable(file.require("mechanism", "a table [mechanism]"), "mechanism"), types, files);
@@ -52,6 +54,7 @@ class StudyReader {
     readUncertain(source_, tables(file, "uncertain"), study_);
     file.require("output", "a table [[output]] for each output that is wanted");
     for (const toml::table* table : tables(file, "output")) readOutput(*table);
+    readRequirements(source_, tables(file, "requirement"), study_, outputNodes_);
     checkInitialValues();
     recordMotion(*file.find("mechanism"));
     if (const toml::node* node = file.find("interval")) readInterval(source_.asTable(*node, "interval"));

@@ -13,6 +13,7 @@ std::vector<Group> describe(Results& results) {
   describe(static_cast<Origin&>(results), groups);
   for (Answer* answer : results.answers()) answer->describe(groups);
   describe(results.comparison, groups);
+  describe(results.requirements, groups);
   describe(results.machine, groups);
   return groups;
 }

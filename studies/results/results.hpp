@@ -11,6 +11,7 @@
 #include "studies/results/interval.hpp"
 #include "studies/results/machine.hpp"
 #include "studies/results/origin.hpp"
+#include "studies/results/requirements.hpp"
 #include "studies/results/stochastic.hpp"
 
 namespace gamut {
@@ -24,6 +25,7 @@ struct Results : Origin {
   StochasticResult stochastic;
   FuzzyResult fuzzy;
   ComparisonResult comparison;
+  std::vector<RequirementResult> requirements;
   MachineResult machine;
 
   std::array<Answer*, 3> answers() { return {&interval, &stochastic, &fuzzy}; }

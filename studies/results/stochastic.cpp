@@ -97,6 +97,13 @@ std::string KeptSamples::text() const {
   return fmt::format("values of {}, motions of {}", some(valuesEvery), some(motionsEvery));
 }
 
+std::string StochasticResult::nameOf(std::int64_t number) const {
+  const std::int64_t corner = number - samples;
+  if (!present || corner < 0 || corner > corners + alphaCorners) return fmt::format("sample {}", number);
+  if (corner == corners + alphaCorners) return "the centre";
+  return corner < corners ? fmt::format("corner {}", corner) : fmt::format("alpha-corner {}", corner - corners);
+}
+
 std::string StochasticResult::title() const {
   return integrated < planned() ? fmt::format("{} of {}", integrated, countText(planned(), "sample"))
                                 : countText(samples, "sample");

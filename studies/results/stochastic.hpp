@@ -31,6 +31,10 @@ struct StochasticResult final : Answer {
   /// The plan's samples, the corners and the centre.
   std::int64_t planned() const { return samples + corners + alphaCorners + 1; }
 
+  /// "sample 17", "corner 3", "alpha-corner 3", "the centre", as `gamut replay` knows it: the plan's samples come
+  /// first, then the corners of the box, then those of the alpha-cuts, the centre is last.
+  std::string nameOf(std::int64_t number) const;
+
   std::string plan;
   std::int64_t samples = 0;       ///< that count in the statistics
   std::int64_t corners = 0;       ///< of the uncertain box, integrated besides, without weight

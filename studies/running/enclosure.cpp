@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "analyses/flow/flow.hpp"
+#include "studies/running/flow_of_study.hpp"
 #include "studies/running/sampled_study.hpp"
 #include "studies/running/units.hpp"
 
@@ -18,28 +19,13 @@ void setRow(Bounds& bounds, std::size_t row, const std::vector<Interval>& values
   }
 }
 
-/// Where the motion is given there is nothing to step by, but loads change as fast as what drives them.
-double longestStepOf(const Study& study) {
-  constexpr double parts = 64;  // of the horizon, at least
-  double longest = 0;
-  for (std::size_t i = 1; i < study.motion.times.size(); ++i)
-    longest = std::max(longest, study.motion.times[i] - study.motion.times[i - 1]);
-  return std::min(longest, study.horizon / parts);
-}
-
 void encloseMotion(Run& run) {
-  FlowOptions flow = run.study.flow;
-  flow.jobs = run.options.jobs;
+  FlowOptions flow = flowOptions(run.study, run.problem, run.options.jobs, run.watch.stop());
   flow.progress = run.progressOf("enclosure");
-  flow.cancelled = run.watch.stop();
-  flow.stateNames = run.study.mechanism.stateNames();
-  if (run.study.isMotionGiven()) {
-    flow.stateNames = {"rest"};
-    flow.longestStep = longestStepOf(run.study);
-  }
   for (const OutputInfo& output : run.study.outputs) flow.outputNames.push_back(output.name);
-  flow.varying = run.problem.varying;
   if (run.seen.isEnclosed) flow.aside = {run.seen.positions, run.seen.at};
+  flow.uncounted = marginOutputs(run.study);  // a flow of their own comes where these are too loose
+  if (run.study.asksFor<IntervalResult>()) flow.modelled = flow.uncounted;
   const Motion& motion = run.study.motion;  // of the samples', what varies in time has a course
   const Tube tube = Flow(motion.f, motion.g, flow)
                         .enclose(run.problem.box, run.study.horizon, run.study.motion.times, run.problem.levels);
@@ -54,6 +40,7 @@ void encloseMotion(Run& run) {
       setRow(enclosed.cuts[level], i, tube.cut(level, i));
   }
   enclosed.reached = tube.reached();
+  enclosed.models = tube.models();
   if (tube.why() == Tube::outOfMemory) run.watch.memoryFailed();
   enclosed.why = tube.wasStopped() ? run.watch.why() : tube.why();
   enclosed.tightness = tube.tightness();
@@ -83,6 +70,9 @@ void encloseConfiguration(Run& run) {
   setRow(enclosed.direct, 0, direct);
   for (std::size_t level = 0; level < enclosed.cuts.size(); ++level) narrow(level + 1, enclosed.cuts[level]);
   if (images.empty()) enclosed.why = run.watch.why();
+  if (!images.empty() && !run.study.requirements.empty() && run.study.asksFor<IntervalResult>())
+    enclosed.models = modelImage(run.problem.motion.motion.g, 0.0, run.problem.box, marginOutputs(run.study),
+                                 run.study.flow.degree, run.watch.stop());
   enclosePlaces(run);
   enclosed.pieces = 1;
   enclosed.reachedTimes = 1;

@@ -25,6 +25,16 @@ Proved provedBy(const Results& results) {
   return {enclosure, cuts, reached};
 }
 
+/// Of a block of one.
+void take(const SampleBlock& block, const Study& study, ReplayedSample& sample) {
+  sample.values.assign(block.values(0).begin(), block.values(0).end());
+  sample.trajectory = Table(study.motion.times.size(), study.outputs.size());
+  sample.trajectory.data = block.trajectory(0);
+  sample.times = block.runs[0].times;
+  sample.reached = block.runs[0].reached;
+  sample.why = block.runs[0].why;
+}
+
 }  // namespace
 
 ReplayedSample replay(const Study& study, const Results& results, std::size_t number) {
@@ -39,12 +49,24 @@ ReplayedSample replay(const Study& study, const Results& results, std::size_t nu
   Settlement(proved, problem.motion, {}).settle(block, [&](const Comparison& found, int) {
     for (const Dispute& dispute : found.disputes) sample.decided = dispute.decided;
   });
-  sample.values.assign(block.values(0).begin(), block.values(0).end());
-  sample.trajectory = Table(study.motion.times.size(), study.outputs.size());
-  sample.trajectory.data = block.trajectory(0);
-  sample.times = block.runs[0].times;
-  sample.reached = block.runs[0].reached;
-  sample.why = block.runs[0].why;
+  take(block, study, sample);
+  return sample;
+}
+
+ReplayedSample replayViolation(const Study& study, const Results& results, const RequirementResult& requirement) {
+  if (requirement.violationSample >= 0)
+    return replay(study, results, static_cast<std::size_t>(requirement.violationSample));
+  const Problem problem = makeProblem(study);
+  std::vector<double> values;
+  for (std::size_t q = 0; q < study.uncertain.size(); ++q) {
+    if (std::isnan(requirement.violation[q]) && !study.uncertain[q].varies)
+      throw std::invalid_argument("no values are known that violate '" + requirement.name + "'");
+    values.push_back(study.uncertain[q].varies ? study.uncertain[q].uncertain.nominal : requirement.violation[q]);
+  }
+  SampleBlock block = integrateValues(problem.motion, ensembleOptions(study, problem, results.seed, 1), values);
+  if (study.analysis == Study::Analysis::kinematics) moveSamples(study, problem, block);
+  ReplayedSample sample;
+  take(block, study, sample);
   return sample;
 }
 

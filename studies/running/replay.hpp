@@ -27,4 +27,8 @@ struct ReplayedSample {
 /// results without samples and for a number that no sample has.
 ReplayedSample replay(const Study& study, const Results& results, std::size_t number);
 
+/// Values for which a requirement is violated, as the results state them; what varies in time keeps to the course of
+/// its nominal value. Throws std::invalid_argument where no such values are known.
+ReplayedSample replayViolation(const Study& study, const Results& results, const RequirementResult& requirement);
+
 }  // namespace gamut

@@ -99,6 +99,7 @@ void takeOtherSamples(Run& run) {
     run.ensemble->integrateOthers(settlement.boundsOf(0), [&](SampleBlock& block) {
       if (run.study.analysis == Study::Analysis::kinematics) moveSamples(run.study, run.problem, block);
       settlement.settle(block, [&](const Comparison& found, int level) { takeDisputes(run, found, level); });
+      noteRequirements(run, block);
       keeper.keep(block);
     });
     describeSamples(run);

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,7 +31,8 @@ struct Enclosed {
   double tightness = std::numeric_limits<double>::quiet_NaN();  ///< as in IntervalResult
   std::string shortfall;
   std::int64_t pieces = 0, steps = 0;
-  double cpu = 0, cutCpu = 0;  ///< s: of all, and of the alpha-cuts
+  double cpu = 0, cutCpu = 0;                ///< s: of all, and of the alpha-cuts
+  std::shared_ptr<const FlowModels> models;  ///< of the requirements' margins
 };
 
 /// One run on its way.
@@ -46,9 +48,10 @@ struct Run {
   Watch watch;
   Problem problem;
   Results results;
-  Seen seen;                            ///< filled by `lookAtMachine`
-  Enclosed enclosed;                    ///< filled by `enclose`
-  std::optional<EnsembleRun> ensemble;  ///< there from `takeFirstSamples` on, unless it found no room
+  Seen seen;                               ///< filled by `lookAtMachine`
+  Enclosed enclosed;                       ///< filled by `enclose`
+  std::vector<std::vector<double>> worst;  ///< of each requirement: values of the worst sample
+  std::optional<EnsembleRun> ensemble;     ///< there from `takeFirstSamples` on, unless it found no room
 };
 
 // An analysis has its unit, declared here and in the list below, behind what it needs.
@@ -64,16 +67,23 @@ void findPossibilities(Run& run);
 /// Settles what leaves the proved bounds, then counts it.
 void takeOtherSamples(Run& run);
 void compareAnswers(Run& run);
+/// What is asked of the motion; then, of each requirement, what is guaranteed, probable and possible.
+void stateRequirements(Run& run);
+void checkRequirements(Run& run);
 /// A few of them, for the picture.
 void showSamples(Run& run);
 
 /// All units, in the order in which they run.
-inline constexpr void (*units[])(Run&) = {lookAtMachine,     takeFirstSamples, enclose,        guarantee,
-                                          findPossibilities, takeOtherSamples, compareAnswers, showSamples};
+inline constexpr void (*units[])(Run&) = {stateRequirements, lookAtMachine,     takeFirstSamples, enclose,
+                                          guarantee,         findPossibilities, takeOtherSamples, compareAnswers,
+                                          checkRequirements, showSamples};
 
 /// Where points certainly are, by the flow's tube, or, where nothing moves, by the image of the box.
 void enclosePlaces(Run& run, const Tube& tube);
 void enclosePlaces(Run& run);
+
+/// Counts a block of samples that are settled.
+void noteRequirements(Run& run, const SampleBlock& block);
 
 /// Takes what a comparison with an alpha-cut found, or, level -1, with the enclosure.
 void takeDisputes(Run& run, const Comparison& found, int level);

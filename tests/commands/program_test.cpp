@@ -67,9 +67,9 @@ TEST_F(Program, RefusesWrongUsageInOneLine) {
   EXPECT_EQ(folder_.count(), 1U);
   EXPECT_EQ(folder_.read("s.toml"), sampleStudy);
   EXPECT_EQ(gamut("rum s.toml").error, "gamut: unknown command 'rum'; expected 'run'\n");
-  EXPECT_EQ(
-      gamut("walk").error,
-      "gamut: unknown command 'walk'; expected one of: new, quantities, run, validate, check, report, info, replay\n");
+  EXPECT_EQ(gamut("walk").error,
+            "gamut: unknown command 'walk'; expected one of: new, quantities, run, validate, check, tolerance, report, "
+            "info, replay\n");
   EXPECT_EQ(gamut("run s.toml --seed -1").error,
             "gamut: --seed: '-1' is no whole number from 0 to 9223372036854775807; see gamut run --help\n");
 }
@@ -375,6 +375,58 @@ TEST_F(Program, RefusesWhatIsNoResultsFile) {
     EXPECT_THAT(run.error, HasSubstr("; expected a results file written by gamut run\n"));
     EXPECT_EQ(run.error.find('\n'), run.error.size() - 1);
   }
+}
+
+/// What counts for others: exit codes by requirements, and the values that violate one.
+TEST_F(Program, ChecksRequirements) {
+  const auto studyWith = [](const std::string& requirement) {
+    return sampleStudyWith("[stochastic]", "[[requirement]]\nname = \"limit\"\n" + requirement + "\n[stochastic]");
+  };
+  folder_.write("met.toml", studyWith("always = \"angle < 1\""));
+  folder_.write("partly.toml", studyWith("always = \"angle < 30.1 deg\"\nuntil = 0"));
+  folder_.write("none.toml", sampleStudy);
+  EXPECT_THAT(gamut("run met.toml").out, StartsWith("The requirement is met, whatever the uncertain quantities are.\n"
+                                                    "  limit: met (always angle < 1)\n    guaranteed  met for every"));
+  EXPECT_EQ(gamut("run partly.toml --quiet").exitCode, 0);
+  EXPECT_EQ(gamut("run none.toml --quiet").exitCode, 0);
+  EXPECT_EQ(gamut("check met.h5 --requirements").exitCode, 0);
+  EXPECT_EQ(gamut("check partly.h5").exitCode, 0);
+  const Outcome partly = gamut("check partly.h5 --requirements");
+  EXPECT_EQ(partly.exitCode, 1);
+  EXPECT_THAT(partly.out, HasSubstr("limit: violated for some values (always angle < 30.1 deg, at 0 s)"));
+  const Outcome none = gamut("check none.h5 --requirements");
+  EXPECT_EQ(none.exitCode, 2);
+  EXPECT_THAT(none.error, HasSubstr("holds no requirements; expected results of a study with [[requirement]]"));
+  const Outcome violation = gamut("replay partly.h5 violation limit");
+  EXPECT_EQ(violation.exitCode, 0);
+  EXPECT_THAT(violation.out, StartsWith("time (s),angle (rad),tip.position.z (m),limit (rad)"));
+  EXPECT_THAT(gamut("replay partly.h5 violation limits").error,
+              HasSubstr("holds no requirement 'limits'; expected violation and one of 'limit'"));
+  EXPECT_EQ(gamut("replay met.h5 violation limit").exitCode, 2);
+  const Json requirement = Json::parse(gamut("run partly.toml --json --force").out)["requirements"][0];
+  EXPECT_EQ(requirement["guaranteed"], "partly");
+  EXPECT_GT(requirement["violation"]["start"], 0.525);
+}
+
+TEST_F(Program, TellsTolerances) {
+  const std::string begin = "[[requirement]]\nname = \"limit\"\nuntil = 0\nalways = \"angle < ";
+  folder_.write("wide.toml", sampleStudyWith("[stochastic]", begin + "31 deg\"\n[stochastic]"));
+  folder_.write("narrow.toml", sampleStudyWith("[stochastic]", begin + "30.1 deg\"\n[stochastic]"));
+  folder_.write("never.toml", sampleStudyWith("[stochastic]", begin + "29 deg\"\n[stochastic]"));
+  folder_.write("none.toml", sampleStudy);
+  const Outcome wide = gamut("tolerance wide.toml --quiet");
+  EXPECT_EQ(wide.exitCode, 0);
+  EXPECT_THAT(wide.out, StartsWith("All requirements are met, also with deviations 3.3"));
+  const Outcome narrow = gamut("tolerance narrow.toml --json --quiet");
+  EXPECT_EQ(narrow.exitCode, 1);
+  const Json json = Json::parse(narrow.out);
+  EXPECT_LE(json["together"]["factor"], 1.0 / 3);
+  EXPECT_GT(json["together"]["factor"], 0.32);
+  EXPECT_EQ(json["alone"]["start"]["limited_by"], "limit");
+  EXPECT_EQ(gamut("tolerance never.toml --quiet").exitCode, 3);
+  const Outcome none = gamut("tolerance none.toml");
+  EXPECT_EQ(none.exitCode, 2);
+  EXPECT_EQ(none.error, "gamut: none.toml: the study has no [[requirement]]\n");
 }
 
 }  // namespace

@@ -228,5 +228,31 @@ TEST(WrittenReport, NamesThePathThatCannotBeWritten) {
   }
 }
 
+/// Requirements lead the page and are words, not markup.
+TEST(Report, BeginsWithRequirements) {
+  Results results = example::pendulum();
+  EXPECT_THAT(renderReport(results), Not(HasSubstr("class=\"requirements\"")));
+  RequirementResult& requirement = results.requirements.emplace_back();
+  requirement.name = "<b>clearance";
+  requirement.statement = "always angle > 0";
+  requirement.until = results.horizon;
+  requirement.word = "partly";
+  requirement.factor = 0.98765;
+  requirement.probabilityLower = 0.96841;
+  requirement.probabilityUpper = 0.97019;
+  requirement.violation.assign(results.uncertain.size(), 0.25);
+  requirement.violationTime = 0.5;
+  requirement.violationLower = -0.003;
+  requirement.violationUpper = -0.001;
+  const std::string page = renderReport(results);
+  EXPECT_LT(page.find("class=\"requirements\""), page.find("class=\"verdict"));
+  EXPECT_THAT(page, AllOf(HasSubstr("&lt;b&gt;clearance"), HasSubstr("violated for some values"),
+                          HasSubstr("up to 98.7 % of what is stated"), HasSubstr("a probability of 0.968"),
+                          HasSubstr("(short by 0.002")));
+  EXPECT_THAT(page, HasSubstr("Of 1 requirement, 1 is violated, for some values at least."));
+  requirement.word = "met";
+  EXPECT_THAT(renderReport(results), HasSubstr("The requirement is met, whatever the uncertain quantities are."));
+}
+
 }  // namespace
 }  // namespace gamut

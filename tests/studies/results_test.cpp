@@ -109,6 +109,7 @@ TEST(Description, LeavesOutNoMember) {
   EXPECT_LE(longestGap(r.fuzzy, fields["/fuzzy"], r.fuzzy.present), padding);
   EXPECT_LE(longestGap(r.comparison, fields["/comparison"], r.comparison.present, r.comparison.disputed), padding);
   EXPECT_LE(longestGap(r.comparison.disputed[0], fields["/comparison/disputed"]), padding);
+  EXPECT_LE(longestGap(r.requirements[0], fields["/requirements"]), padding);
   EXPECT_LE(longestGap(r.libraries[0], fields["/study/libraries"]), padding);
   EXPECT_LE(longestGap(r.outputs[0], fields["/study/outputs"]), padding);
   EXPECT_LE(longestGap(r.uncertain[0], fields["/study/uncertain"]), padding);

@@ -1,10 +1,12 @@
 // The judgement of a tube: trajectories of the reference, from corners and from random points of the box, must lie in
-// every enclosure the tube gives, at output times, between them and in every sub-box. No tolerance anywhere.
+// every enclosure the tube gives, at output times, between them and in every sub-box, and in the models of the outputs
+// at their own place of the box. No tolerance anywhere.
 #pragma once
 
 #include <gtest/gtest.h>
 
 #include <optional>
+#include <utility>
 
 #include "analyses/flow/flow.hpp"
 #include "tests/analyses/reference.hpp"
@@ -24,7 +26,12 @@ struct Containment {
   std::optional<Program> truth = {};
   Vector decimals = {};
 
-  Tube tube() const { return (g ? Flow(f, *g, options) : Flow(f, options)).enclose(box, horizon, times, levels); }
+  Tube tube() const {
+    FlowOptions own = options;
+    const bool models = g && own.modelled.empty();
+    for (int output = 0; models && output < g->outputs(); ++output) own.modelled.push_back(output);
+    return (g ? Flow(f, *g, own) : Flow(f, own)).enclose(box, horizon, times, levels);
+  }
 };
 
 /// Random programs for outputs: x itself, a quotient, and a distance-like quantity.
@@ -90,6 +97,7 @@ class Judge {
         y = (*outputs)(Precise(time), states[m]);
         within(tube_.outputsOver(row), y, "outputs over");
         if (isOutputTime) within(tube_.outputs(row), y, "outputs");
+        judgeModels(start, time, row, isOutputTime, y);
       }
       if (isOutputTime && asides && !tube_.asides(row).empty())
         within(tube_.asides(row), (*asides)(Precise(time), states[m]), "asides");
@@ -99,7 +107,78 @@ class Judge {
     }
   }
 
+  /// Places where a model was judged.
+  std::size_t modelled() const { return modelled_; }
+
  private:
+  /// What of the box a start is, in the symbols of a part of it; nothing if it lies in another part.
+  std::optional<Vector> placeIn(const FlowPart& part, const Vector& start) const {
+    const FlowModels& models = *tube_.models();
+    Vector place(static_cast<std::size_t>(models.symbols));
+    for (std::size_t i = 0; i < start.size(); ++i) {
+      const FlowSymbol& of = models.components[i];
+      if (of.symbol < 0) continue;
+      const auto l = static_cast<std::size_t>(of.symbol);
+      place[l] = ((start[i] - Precise(of.centre)) / Precise(of.half) - Precise(part.centre[l])) / Precise(part.half[l]);
+      if (abs(place[l]) > 1) return std::nullopt;
+    }
+    return place;
+  }
+
+  static Precise valueOf(const OutputModel& model, const Monomials& monomials, const Vector& place) {
+    Precise sum(0.0);
+    for (std::size_t g = 0; g < model.c.size(); ++g) {
+      Precise term(model.c[g]);
+      for (std::size_t l = 0; l < place.size(); ++l)
+        for (int i = monomials.exponent(static_cast<int>(g), static_cast<int>(l)); i > 0; --i) term *= place[l];
+      sum += term;
+    }
+    return sum;
+  }
+
+  /// P(η) ± radius; nothing where there is no polynomial.
+  std::optional<std::pair<Precise, Precise>> rangeAt(const FlowSnapshot& snapshot, std::size_t output,
+                                                     const Vector& start) const {
+    const OutputModel& model = snapshot.outputs[output];
+    const std::optional<Vector> place = placeIn(snapshot.part, start);
+    if (model.c.empty() || !place) return std::nullopt;
+    const Precise value = valueOf(model, *snapshot.monomials, *place);
+    return std::pair(value - Precise(model.radius), value + Precise(model.radius));
+  }
+
+  void judgeModels(const Vector& start, double time, std::size_t row, bool isOutputTime, const Vector& y) {
+    if (!tube_.models()) return;
+    const FlowModels& models = *tube_.models();
+    std::size_t covering = 0;
+    for (const auto& snapshot : models.at[row])
+      if (isOutputTime && placeIn(snapshot->part, start)) {
+        ++covering;
+        for (std::size_t o = 0; o < y.size(); ++o) {
+          ASSERT_THAT(snapshot->outputs[o].bound, Encloses(y[o])) << "model's bound of " << o;
+          const auto range = rangeAt(*snapshot, o, start);
+          if (!range) continue;
+          ASSERT_LE(range->first, y[o]) << "model of " << o;
+          ASSERT_GE(range->second, y[o]) << "model of " << o;
+        }
+      }
+    ASSERT_TRUE(covering > 0 || !isOutputTime);
+    if (row == 0) return;
+    covering = 0;
+    for (const FlowChord& chord : models.over[row]) {
+      if (!(chord.before->time <= time && time <= chord.behind->time) || !placeIn(chord.part, start)) continue;
+      ++covering;
+      for (std::size_t o = 0; o < y.size(); ++o) {
+        ASSERT_THAT(chord.bound[o], Encloses(y[o])) << "chord's bound of " << o;
+        const auto before = rangeAt(*chord.before, o, start), behind = rangeAt(*chord.behind, o, start);
+        if (!before || !behind || !isBounded(chord.sag[o])) continue;
+        ASSERT_LE(std::min(before->first, behind->first) + Precise(chord.sag[o].lower()), y[o]) << "chord of " << o;
+        ASSERT_GE(std::max(before->second, behind->second) + Precise(chord.sag[o].upper()), y[o]) << "chord of " << o;
+      }
+    }
+    ASSERT_GT(covering, 0U);
+    ++modelled_;
+  }
+
   struct Moment {
     double time;
     std::size_t row;
@@ -120,6 +199,7 @@ class Judge {
   Reference reference_;
   Points points_;
   std::vector<Moment> moments_;
+  std::size_t modelled_ = 0;
 };
 
 /// The tube holds every trajectory, and (unless told otherwise) gets to the horizon.

@@ -1,0 +1,160 @@
+// Distribution functions with bounds: every one is a formula of interval functions, or a series of positive terms, of
+// which what is left is at most geometric.
+#include <algorithm>
+#include <limits>
+
+#include "analyses/uncertainty.hpp"
+#include "scalars/elementary/special_functions.hpp"
+
+namespace gamut {
+namespace {
+
+Interval between(const detail::Bounds& bounds) { return {bounds.down, bounds.up}; }
+/// Of a function that rises.
+template <class F>
+Interval rising(const F& f, const Interval& x) {
+  return hull(f(x.lower()), f(x.upper()));
+}
+
+const Interval share(0.0, 1.0);
+
+/// |d/dx log Γ(x)| ≤ |log x| + 1/x (Abramowitz and Stegun 6.3.21: log x - 1/x < ψ(x) < log x), which counts where x is
+/// no single number.
+Interval logGamma(const Interval& x) {
+  const Interval slope = abs(log(x)) + Interval(1.0) / x;
+  return between(detail::boundLogGamma(x.lower())) + slope * (x - Interval(x.lower())) * Interval(-1.0, 1.0);
+}
+
+/// 1 + r_0 + r_0 r_1 + …, all ratios positive, as bounded by `atMost(n)` from r_n on. Where that stays at 1 or above,
+/// the sum is not known.
+template <class Ratio, class AtMost>
+Interval sumOf(const Ratio& ratio, const AtMost& atMost) {
+  constexpr int most = 100000;
+  constexpr double enough = 0x1p-60;
+  Interval sum(1.0), term(1.0);
+  for (int n = 0; n < most; ++n) {
+    const double bound = atMost(n);
+    if (bound < 1) {
+      const Interval rest = term * Interval(0.0, bound) / (Interval(1.0) - Interval(bound));
+      if (rest.upper() <= enough * sum.lower()) return sum + rest;
+    }
+    term = term * ratio(n);
+    sum = sum + term;
+  }
+  return {sum.lower(), std::numeric_limits<double>::infinity()};
+}
+
+/// ½ erfc(-z/√2).
+Interval normalBelow(const Interval& z) {
+  const Interval x = -z / sqrt(Interval(2.0));
+  return 0.5 * hull(between(detail::boundErfc(x.upper())), between(detail::boundErfc(x.lower())));
+}
+
+/// P(a, x) = x^a e^-x / Γ(a+1) Σ xⁿ/((a+1)…(a+n)) (Abramowitz and Stegun 6.5.29).
+Interval gammaBelow(double a, double value) {
+  if (value <= 0) return Interval(0.0);
+  const Interval x(value), shape(a);
+  const auto ratio = [&](int n) { return x / (shape + Interval(n + 1.0)); };
+  const Interval sum = sumOf(ratio, [&](int n) { return ratio(n).upper(); });  // they fall
+  return intersection(exp(shape * log(x) - x - logGamma(shape)) / shape * sum, share);
+}
+
+/// x^a (1-x)^b / (a B(a, b)) Σ Π (a+b+i)/(a+1+i) xⁿ, n ≥ 0 and i < n (Abramowitz and Stegun 26.5.4).
+Interval betaSeries(const Interval& a, const Interval& b, const Interval& x) {
+  const Interval both = a + b;
+  const auto ratio = [&](int n) { return (both + Interval(static_cast<double>(n))) / (a + Interval(n + 1.0)) * x; };
+  // They run from r_n to x, rising or falling.
+  const Interval sum = sumOf(ratio, [&](int n) { return std::max(ratio(n).upper(), x.upper()); });
+  const Interval logBeta = logGamma(a) + logGamma(b) - logGamma(both);
+  return exp(a * log(x) + b * log(Interval(1.0) - x) - logBeta) / a * sum;
+}
+
+/// I_x(a, b), from the side where its series converges sooner.
+Interval betaBelow(double a, double b, double value) {
+  if (value <= 0) return Interval(0.0);
+  if (value >= 1) return Interval(1.0);
+  const Interval x(value), first(a), second(b);
+  const Interval found = value <= (a + 1) / (a + b + 2) ? betaSeries(first, second, x)
+                                                        : Interval(1.0) - betaSeries(second, first, Interval(1.0) - x);
+  return intersection(found, share);
+}
+
+}  // namespace
+
+/// Before truncation.
+Interval Distribution::boundBelow(const Interval& value) const {
+  const Interval first(first_), second(second_);
+  switch (shape_) {
+    case Shape::gamma:
+      return rising([&](double v) { return gammaBelow(first_, v); }, value / second);
+    case Shape::weibull:
+    case Shape::exponential: {
+      const Interval v = intersection(value / second, Interval(0.0, std::numeric_limits<double>::infinity()));
+      return -expm1(-pow(v, first));
+    }
+    case Shape::lognormal:
+      if (value.upper() <= 0) return Interval(0.0);
+      return normalBelow((log(value) - first) / second);
+    default:
+      return normalBelow((value - first) / second);
+  }
+}
+
+Interval Distribution::enclosedBelow(const Interval& value) const {
+  if (value.lower() >= support_.upper()) return Interval(1.0);
+  if (value.upper() <= support_.lower()) return Interval(0.0);
+  const Interval lower(support_.lower()), upper(support_.upper()), span = upper - lower,
+                                                                   v = intersection(value, support_);
+  switch (shape_) {
+    case Shape::uniform:
+      return intersection((v - lower) / span, share);
+    case Shape::triangular: {
+      const Interval mode(first_);
+      const auto at = [&](double x) {
+        if (x <= first_)
+          return x <= support_.lower() ? Interval(0.0) : sqr(Interval(x) - lower) / (span * (mode - lower));
+        return x >= support_.upper() ? Interval(1.0)
+                                     : Interval(1.0) - sqr(upper - Interval(x)) / (span * (upper - mode));
+      };
+      return intersection(rising(at, v), share);
+    }
+    case Shape::beta:
+      return rising([&](double x) { return betaBelow(first_, second_, x); }, (v - lower) / span);
+    default: {
+      const Interval cut = boundBelow(lower), all = boundBelow(upper) - cut;
+      const Interval found = (boundBelow(v) - cut) / all;
+      return isEmpty(found) ? share : intersection(found, share);
+    }
+  }
+}
+
+bool Distribution::isMonotone(const Interval& values) const {
+  const Interval v = intersection(values, support_);
+  if (isEmpty(v)) return true;
+  if (values.lower() < support_.lower() || values.upper() > support_.upper()) return false;  // it jumps from zero
+  const auto isBeside = [&](const Interval& mode) { return mode.upper() <= v.lower() || mode.lower() >= v.upper(); };
+  const Interval first(first_), one(1.0);
+  switch (shape_) {
+    case Shape::uniform:
+    case Shape::exponential:
+      return true;
+    case Shape::triangular:
+    case Shape::normal:
+      return isBeside(first);
+    case Shape::beta: {
+      if (first_ == 1 && second_ == 1) return true;
+      if ((first_ <= 1) != (second_ <= 1)) return true;  // (a-1)/v - (b-1)/(1-v) has one sign
+      const Interval place = (first - one) / (first + Interval(second_) - Interval(2.0));
+      return isBeside(Interval(support_.lower()) + place * (Interval(support_.upper()) - Interval(support_.lower())));
+    }
+    case Shape::lognormal:
+      return isBeside(exp(first - sqr(Interval(second_))));
+    case Shape::weibull:
+      return first_ <= 1 || isBeside(Interval(second_) * pow((first - one) / first, one / first));
+    case Shape::gamma:
+      return first_ <= 1 || isBeside(Interval(second_) * (first - one));
+  }
+  return false;
+}
+
+}  // namespace gamut

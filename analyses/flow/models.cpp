@@ -1,0 +1,57 @@
+// What of a polynomial is worth keeping.
+#include "analyses/flow/models.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "analyses/flow/error_bounds.hpp"
+#include "scalars/index.hpp"
+
+namespace gamut {
+
+using detail::at;
+
+namespace {
+
+bool isOf(const Monomials& m, int g, int symbols) {
+  for (int l = symbols; l < m.symbols(); ++l)
+    if (m.exponent(g, l) > 0) return false;
+  return true;
+}
+
+}  // namespace
+
+OutputModel modelOf(const double* polynomial, double radius, const Monomials& monomials, int symbols,
+                    const Interval& bound) {
+  constexpr double next = 1e-7, ofRadius = 0.01;  // of the variation; of what is not known anyway
+  OutputModel model{{}, radius, bound};
+  if (!std::isfinite(radius)) return model;
+  double variation = 0, beside = 0;  // Σ|c|: of all that varies; of the terms that are left out, |ξ^α| ≤ 1
+  model.c.assign(polynomial, polynomial + monomials.count());
+  for (int g = 1; g < monomials.count(); ++g) {
+    const double size = std::fabs(polynomial[g]);
+    variation += size;
+    if (isOf(monomials, g, symbols)) continue;
+    beside += size;
+    model.c[at(g)] = 0;
+  }
+  int grade = monomials.degree();
+  for (double dropped = 0; grade > 0; --grade) {
+    for (int g = monomials.countUpTo(grade - 1); g < monomials.countUpTo(grade); ++g)
+      dropped += std::fabs(model.c[at(g)]);
+    if (!(dropped <= next * variation + ofRadius * radius)) break;
+  }
+  for (std::size_t g = at(monomials.countUpTo(grade)); g < model.c.size(); ++g) beside += std::fabs(model.c[g]);
+  model.c.resize(at(monomials.countUpTo(grade)));
+  model.radius = (radius + beside) * bounds::up;
+  return model;
+}
+
+double bytesOf(const FlowSnapshot& snapshot) {
+  double bytes = sizeof(FlowSnapshot) + 16.0 * static_cast<double>(snapshot.part.centre.size());
+  for (const OutputModel& model : snapshot.outputs)
+    bytes += static_cast<double>(sizeof(OutputModel) + sizeof(double) * model.c.size());
+  return bytes;
+}
+
+}  // namespace gamut

@@ -1,0 +1,64 @@
+// Outputs as functions of the uncertain quantities: what a flow knew of them on every part of the box, kept. From these
+// follow answers for parts of the box, for a probability, for a single sample, without another flow.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "analyses/flow/monomials.hpp"
+#include "scalars/interval.hpp"
+
+namespace gamut {
+
+/// A part of the box: ξ = centre + half·η, η in [-1,1]^k; exact, since it comes from bisections of [-1,1].
+struct FlowPart {
+  std::vector<double> centre, half;  ///< one a symbol
+};
+
+/// One output on a part: y lies in `bound`, and for every η in P(η) ± radius.
+struct OutputModel {
+  std::vector<double> c;  ///< of P, one a monomial, those of the highest grades left out; none: nothing but the bound
+  double radius = 0;
+  Interval bound;
+};
+
+/// Outputs at one time on one part. Its monomials may have symbols behind those of the part, which no term here holds.
+struct FlowSnapshot {
+  double time = 0;  ///< s
+  FlowPart part;
+  std::shared_ptr<const Monomials> monomials;
+  std::vector<OutputModel> outputs;  ///< in the order of FlowOptions::modelled
+};
+
+/// Outputs on a part from one time to another: each in the hull of the two snapshots, whose parts hold this one, plus
+/// `sag`; and in `bound`.
+struct FlowChord {
+  FlowPart part;
+  std::shared_ptr<const FlowSnapshot> before, behind;
+  std::vector<Interval> sag, bound;  ///< one an output; a sag of the whole line: the bound alone is known
+};
+
+/// How a number of the box is written in symbols: centre + half·ξ[symbol]; of one without a symbol, -1, the models hold
+/// for all that it may be.
+struct FlowSymbol {
+  double centre = 0, half = 0;
+  int symbol = -1;
+};
+
+/// Of every part of the box, at the output times that were reached and between them.
+struct FlowModels {
+  std::vector<FlowSymbol> components;  ///< of the box
+  int symbols = 0;
+  std::vector<std::vector<std::shared_ptr<const FlowSnapshot>>> at;  ///< [time]: at the time, all parts of the box
+  std::vector<std::vector<FlowChord>> over;  ///< [time]: since the output time before, all parts of box and time
+};
+
+/// Polynomial ± radius in as few grades as cost next to nothing; what is left out counts in the radius, as do terms in
+/// more than the first `symbols` symbols.
+OutputModel modelOf(const double* polynomial, double radius, const Monomials& monomials, int symbols,
+                    const Interval& bound);
+
+/// About how many bytes it takes.
+double bytesOf(const FlowSnapshot& snapshot);
+
+}  // namespace gamut

@@ -1,0 +1,433 @@
+// All parts come from bisections of [-1,1] in their middles: of two intervals of one symbol, one holds the other, or
+// they have a point in common at most.
+#include "analyses/requirements/cells.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include "analyses/flow/error_bounds.hpp"
+#include "scalars/elementary/rounding.hpp"
+#include "scalars/index.hpp"
+
+namespace gamut {
+
+using detail::at;
+
+namespace {
+
+bool meet(const FlowPart& a, const FlowPart& b) {
+  for (std::size_t l = 0; l < a.centre.size(); ++l)
+    if (!(std::fabs(a.centre[l] - b.centre[l]) < std::max(a.half[l], b.half[l]))) return false;
+  return true;
+}
+
+bool holds(const FlowPart& a, const FlowPart& b) {
+  for (std::size_t l = 0; l < a.half.size(); ++l)
+    if (a.half[l] < b.half[l]) return false;
+  return meet(a, b);
+}
+
+}  // namespace
+
+double Cell::bytes() const {
+  double bytes = sizeof(Cell) + 24.0 * static_cast<double>(chords_.size() + moments_.size());
+  for (const Local& local : locals_) {
+    bytes += sizeof(Local) + 16.0 * static_cast<double>(local.part.centre.size());
+    for (const std::vector<double>& c : local.c) bytes += 48.0 + sizeof(double) * static_cast<double>(c.size());
+  }
+  return bytes;
+}
+
+Cells::Cells(const FlowModels& models, CellQuestion question) : models_(models), question_(std::move(question)) {
+  if (question_.from > question_.until || question_.until >= models_.at.size())
+    throw std::invalid_argument("the models do not reach to the end of the window");
+  for (std::size_t row = question_.from; row <= question_.until; ++row)
+    if (models_.at[row].empty() || (row > question_.from && models_.over[row].empty()))
+      throw std::invalid_argument("there are no models of some time of the window");
+}
+
+const Cells::Tables& Cells::tablesOf(const FlowSnapshot& snapshot) const {
+  std::unique_ptr<Tables>& found = tables_[snapshot.monomials.get()];
+  if (found) return *found;
+  const Monomials& m = *snapshot.monomials;
+  found = std::make_unique<Tables>(Tables{PolynomialRange(snapshot.monomials), {}, {}, {}});
+  for (int g = 0; g < m.count(); ++g) {
+    bool isEven = true;
+    int linear = -1;
+    std::vector<int> symbols;
+    for (int l = 0; l < models_.symbols; ++l) {
+      isEven = isEven && m.exponent(g, l) % 2 == 0;
+      if (m.linear(l) == g) linear = l;
+      if (m.exponent(g, l) > 0) symbols.push_back(l);
+    }
+    found->isEven.push_back(isEven ? 1 : 0);
+    found->linear.push_back(linear);
+    found->symbols.push_back(std::move(symbols));
+  }
+  return *found;
+}
+
+std::unique_ptr<Cell> Cells::whole() {
+  auto cell = std::make_unique<Cell>();
+  cell->part_ = {std::vector<double>(at(models_.symbols), 0.0), std::vector<double>(at(models_.symbols), 1.0)};
+  std::map<const FlowSnapshot*, std::size_t> places;
+  const auto placeOf = [&](const FlowSnapshot& snapshot) {
+    const auto [found, isNew] = places.try_emplace(&snapshot, cell->locals_.size());
+    if (isNew) {
+      Cell::Local local{&snapshot, snapshot.part, {}, {}, {}};
+      for (const int margin : question_.margins) {
+        local.c.push_back(snapshot.outputs[at(margin)].c);
+        local.radius.push_back(snapshot.outputs[at(margin)].radius);
+      }
+      cell->locals_.push_back(std::move(local));
+    }
+    return found->second;
+  };
+  for (std::size_t row = question_.from; row <= question_.until; ++row) {
+    Cell::Moment moment;
+    for (const auto& snapshot : models_.at[row]) moment.snapshots.push_back(placeOf(*snapshot));
+    cell->moments_.push_back(std::move(moment));
+    if (row == question_.from) continue;
+    for (const FlowChord& chord : models_.over[row])
+      cell->chords_.push_back({&chord, placeOf(*chord.before), placeOf(*chord.behind)});
+  }
+  decide(*cell);
+  return cell;
+}
+
+/// Σ over monomials of their least and greatest values; sums of N coefficients are off by N u Σ|c|.
+Interval Cells::rangeOf(const Cell::Local& local, std::size_t margin) const {
+  const Interval& bound = local.of->outputs[at(question_.margins[margin])].bound;
+  const std::vector<double>& c = local.c[margin];
+  if (c.empty()) return bound;
+  const Tables& tables = tablesOf(*local.of);
+  double down = 0, up = 0, norm = std::fabs(c[0]);
+  for (std::size_t g = 1; g < c.size(); ++g) {
+    const bool isEven = tables.isEven[g] != 0;
+    const double size = std::fabs(c[g]);
+    norm += size;
+    if (!isEven || c[g] < 0) down += size;
+    if (!isEven || c[g] > 0) up += size;
+  }
+  const double rest = (local.radius[margin] + static_cast<double>(c.size() + 2) * bounds::unit * norm) * bounds::up;
+  return intersection(Interval(subDown(c[0], (down * bounds::up + rest) * bounds::up),
+                               addUp(c[0], (up * bounds::up + rest) * bounds::up)),
+                      bound);
+}
+
+Cells::Outcome Cells::outcomeOf(const std::vector<Interval>& margins) const {
+  bool isMet = true;
+  for (std::size_t i = 0; i < margins.size(); ++i) {
+    const bool atZero = question_.isMetAtZero[i] != 0;
+    if (atZero ? margins[i].upper() < 0 : margins[i].upper() <= 0) return Outcome::violated;
+    isMet = isMet && (atZero ? margins[i].lower() >= 0 : margins[i].lower() > 0);
+  }
+  return isMet ? Outcome::met : Outcome::open;
+}
+
+Cells::Outcome Cells::outcomeOf(const Cell& cell, const Cell::Chord& chord) const {
+  std::vector<Interval> margins;
+  for (std::size_t i = 0; i < question_.margins.size(); ++i) {
+    const std::size_t of = at(question_.margins[i]);
+    const Interval ends = hull(cell.locals_[chord.before].range[i], cell.locals_[chord.behind].range[i]);
+    margins.push_back(intersection(ends + chord.of->sag[of], chord.of->bound[of]));
+  }
+  return outcomeOf(margins);
+}
+
+/// Always: met if it is at every time, violated if at one output time, or all of a chord, it is nowhere met.
+/// Eventually: the other way round. What is decided of a cell is of its halves.
+void Cells::decide(Cell& cell) {
+  for (Cell::Local& local : cell.locals_) {
+    local.range.clear();
+    for (std::size_t i = 0; i < question_.margins.size(); ++i) local.range.push_back(rangeOf(local, i));
+  }
+  const bool isAlways = question_.when == CellQuestion::When::always;
+  const Outcome throughout = isAlways ? Outcome::met : Outcome::violated;
+  const Outcome once = isAlways ? Outcome::violated : Outcome::met;
+  const bool isOneMoment = question_.from == question_.until;
+  bool isThroughout = true;
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  double least = isAlways ? infinite : -infinite;
+  std::vector<Cell::Moment> moments;
+  for (Cell::Moment& moment : cell.moments_) {
+    bool isOnce = !moment.snapshots.empty(), isOver = true;
+    for (const std::size_t place : moment.snapshots) {
+      const Outcome outcome = outcomeOf(cell.locals_[place].range);
+      for (const Interval& margin : cell.locals_[place].range)
+        least = isAlways ? std::min(least, margin.lower()) : std::max(least, margin.lower());
+      isOnce = isOnce && outcome == once;
+      isOver = isOver && outcome == throughout;
+    }
+    if (isOnce) {
+      cell.verdict_ = isAlways ? Cell::Verdict::violated : Cell::Verdict::met;
+      return;
+    }
+    if (isOver) continue;
+    if (isOneMoment) isThroughout = false;
+    moments.push_back(std::move(moment));
+  }
+  bool isOnceBetween = false;
+  std::erase_if(cell.chords_, [&](const Cell::Chord& chord) {
+    const Outcome outcome = outcomeOf(cell, chord);
+    isOnceBetween = isOnceBetween || (outcome == once && holds(chord.of->part, cell.part_));
+    return outcome == throughout;
+  });
+  if (isOnceBetween) {
+    cell.verdict_ = isAlways ? Cell::Verdict::violated : Cell::Verdict::met;
+    return;
+  }
+  cell.moments_ = std::move(moments);
+  cell.least_ = least;
+  if (cell.chords_.empty() && isThroughout) {
+    cell.verdict_ = isAlways ? Cell::Verdict::met : Cell::Verdict::violated;
+    return;
+  }
+  dropUnused(cell);
+}
+
+void Cells::dropUnused(Cell& cell) const {
+  std::vector<std::size_t> place(cell.locals_.size(), cell.locals_.size());
+  std::vector<Cell::Local> used;
+  const auto use = [&](std::size_t& local) {
+    if (place[local] == cell.locals_.size()) {
+      place[local] = used.size();
+      used.push_back(std::move(cell.locals_[local]));
+    }
+    local = place[local];
+  };
+  for (Cell::Chord& chord : cell.chords_) use(chord.before), use(chord.behind);
+  for (Cell::Moment& moment : cell.moments_)
+    for (std::size_t& local : moment.snapshots) use(local);
+  cell.locals_ = std::move(used);
+}
+
+std::vector<std::unique_ptr<Cell>> Cells::halves(const Cell& cell) {
+  std::vector<double> weight(at(models_.symbols), 0.0);
+  // What no bisection makes less: radii, and how far outputs leave their chords.
+  std::vector<double> sag(cell.locals_.size() * question_.margins.size(), 0.0);
+  for (const Cell::Chord& chord : cell.chords_)
+    for (const std::size_t place : {chord.before, chord.behind})
+      for (std::size_t i = 0; i < question_.margins.size(); ++i)
+        if (const Interval& by = chord.of->sag[at(question_.margins[i])]; isBounded(by)) {
+          double& most = sag[place * question_.margins.size() + i];
+          most = std::max(most, 0.5 * width(by));
+        }
+  for (std::size_t place = 0; place < cell.locals_.size(); ++place)
+    for (std::size_t i = 0; i < question_.margins.size(); ++i) {
+      const Cell::Local& local = cell.locals_[place];
+      const Tables& tables = tablesOf(*local.of);
+      std::vector<double> mass(weight.size(), 0.0);
+      double all = local.radius[i] + sag[place * question_.margins.size() + i];
+      for (std::size_t g = 1; g < local.c[i].size(); ++g) {
+        const double size = std::fabs(local.c[i][g]);
+        all += size;
+        for (const int l : tables.symbols[g]) mass[at(l)] += size;
+      }
+      for (std::size_t l = 0; l < mass.size() && all > 0 && std::isfinite(all); ++l)
+        weight[l] = std::max(weight[l], mass[l] / all);
+    }
+  // A part that only some models cover is bisected towards these.
+  for (const Cell::Local& local : cell.locals_)
+    for (std::size_t l = 0; l < weight.size(); ++l)
+      if (local.part.half[l] < cell.part_.half[l]) weight[l] += 1;
+  constexpr double hardly = 0.1, finest = 0x1p-40;
+  int symbol = -1;
+  double most = hardly;
+  for (int l = 0; l < models_.symbols; ++l)
+    if (weight[at(l)] > most && cell.part_.half[at(l)] > finest) most = weight[at(l)], symbol = l;
+  std::vector<std::unique_ptr<Cell>> both;
+  if (symbol < 0) return both;
+  for (const double side : {-0.5, 0.5}) both.push_back(half(cell, symbol, side));
+  return both;
+}
+
+std::unique_ptr<Cell> Cells::half(const Cell& cell, int symbol, double side) {
+  const std::size_t l = at(symbol);
+  auto half = std::make_unique<Cell>();
+  half->part_ = cell.part_;
+  half->part_.centre[l] += side * cell.part_.half[l];
+  half->part_.half[l] *= 0.5;
+  constexpr std::size_t none = static_cast<std::size_t>(-1);
+  std::vector<std::size_t> place;
+  for (const Cell::Local& local : cell.locals_) {
+    if (!meet(local.part, half->part_)) {
+      place.push_back(none);
+      continue;
+    }
+    place.push_back(half->locals_.size());
+    half->locals_.push_back(local);
+    Cell::Local& own = half->locals_.back();
+    if (own.part.half[l] <= half->part_.half[l]) continue;
+    own.part.centre[l] = half->part_.centre[l];
+    own.part.half[l] = half->part_.half[l];
+    const PolynomialRange& tables = tablesOf(*own.of).range;
+    for (std::size_t i = 0; i < own.c.size(); ++i) {
+      std::vector<double> moved(own.c[i].size());
+      double norm = 0;
+      for (const double c : own.c[i]) norm += std::fabs(c);
+      tables.substitute(symbol, side, 0.5, own.c[i].data(), moved.data(), static_cast<int>(moved.size()));
+      own.c[i] = std::move(moved);
+      own.radius[i] = (own.radius[i] + tables.shiftError() * norm) * bounds::up + bounds::tiny;
+    }
+  }
+  for (const Cell::Chord& chord : cell.chords_)
+    if (meet(chord.of->part, half->part_))
+      half->chords_.push_back({chord.of, place[chord.before], place[chord.behind]});
+  for (const Cell::Moment& moment : cell.moments_) {
+    Cell::Moment own;
+    for (const std::size_t local : moment.snapshots)
+      if (place[local] != none) own.snapshots.push_back(place[local]);
+    half->moments_.push_back(std::move(own));
+  }
+  decide(*half);
+  return half;
+}
+
+/// Nothing where the polynomial does not cover the cell, or there is none.
+std::optional<Cells::Form> Cells::formOf(const Cell& cell, std::size_t place, std::size_t margin) const {
+  const Cell::Local& local = cell.locals_[place];
+  const std::vector<double>& c = local.c[margin];
+  if (c.empty() || !holds(local.part, cell.part_)) return std::nullopt;
+  const Tables& tables = tablesOf(*local.of);
+  Form form{c[0], 0, 0, local.radius[margin], std::vector<double>(at(models_.symbols), 0.0)};
+  double norm = std::fabs(c[0]);
+  for (std::size_t g = 1; g < c.size(); ++g) {
+    norm += std::fabs(c[g]);
+    if (tables.linear[g] >= 0) {
+      form.slope[at(tables.linear[g])] = c[g];
+      continue;
+    }
+    const bool isEven = tables.isEven[g] != 0;
+    if (!isEven || c[g] < 0) form.down += std::fabs(c[g]);
+    if (!isEven || c[g] > 0) form.up += std::fabs(c[g]);
+  }
+  // All that is computed with the form is off by no more than so many roundings of its numbers.
+  const double rest =
+      (local.radius[margin] + static_cast<double>(2 * c.size() + 16) * 4 * bounds::unit * norm) * bounds::up +
+      bounds::tiny;
+  form.down = (form.down + rest) * bounds::up;
+  form.up = (form.up + rest) * bounds::up;
+  return form;
+}
+
+/// Of several margins that must all be above zero, the least is above slope·η + min_j (constant_j - down_j - Σ|slope_j
+/// - slope|), with the slope of the one that comes lowest.
+CellPlanes Cells::planes(const Cell& cell) const {
+  const bool isAlways = question_.when == CellQuestion::When::always;
+  struct Bounded {
+    Form form;
+    double from, to;  // constant and what comes to it
+  };
+  const auto range = [](const Form& form) {
+    double sum = 0;
+    for (const double slope : form.slope) sum += std::fabs(slope);
+    return sum;
+  };
+  /// A plane below all (sign 1), or above all (-1).
+  const auto beside = [&](const std::vector<Bounded>& forms, int sign, std::vector<double>& slope, double& constant) {
+    const auto extreme = [&](const Bounded& b) { return sign > 0 ? b.from - range(b.form) : -b.to - range(b.form); };
+    const Bounded& lowest = *std::ranges::min_element(forms, {}, extreme);
+    slope = lowest.form.slope;
+    double least = std::numeric_limits<double>::infinity();
+    for (const Bounded& b : forms) {
+      double apart = 0;
+      for (std::size_t l = 0; l < slope.size(); ++l) apart += std::fabs(b.form.slope[l] - slope[l]);
+      least = std::min(least, subDown(sign > 0 ? b.from : -b.to, apart * bounds::up));
+    }
+    constant = sign * least;
+  };
+  CellPlanes planes;
+  const auto boundedOf = [&](std::size_t local, std::size_t margin, const Interval& sag) -> std::optional<Bounded> {
+    const std::optional<Form> form = formOf(cell, local, margin);
+    if (!form || !isBounded(sag)) return std::nullopt;
+    planes.rest = std::max(planes.rest, 2 * form->radius + width(sag));
+    return Bounded{*form, subDown(form->constant, subUp(form->down, sag.lower())),
+                   addUp(form->constant, addUp(form->up, sag.upper()))};
+  };
+  // Throughout: all chords.
+  std::vector<Bounded> throughout;
+  bool isKnown = isAlways || question_.margins.size() == 1;
+  const auto include = [&](std::size_t local, std::size_t margin, const Interval& sag) {
+    const std::optional<Bounded> bounded = boundedOf(local, margin, sag);
+    isKnown = isKnown && bounded;
+    if (bounded) throughout.push_back(*bounded);
+  };
+  for (std::size_t i = 0; i < question_.margins.size(); ++i) {
+    for (const Cell::Chord& chord : cell.chords_)
+      for (const std::size_t local : {chord.before, chord.behind})
+        include(local, i, chord.of->sag[at(question_.margins[i])]);
+    if (question_.from == question_.until)
+      for (const Cell::Moment& moment : cell.moments_)
+        for (const std::size_t local : moment.snapshots) include(local, i, Interval(0.0));
+  }
+  if (isKnown && !throughout.empty())
+    isAlways ? beside(throughout, 1, planes.met, planes.metAbove)
+             : beside(throughout, -1, planes.violated, planes.violatedBelow);
+  // Once: the output time that decides most.
+  double best = -std::numeric_limits<double>::infinity();
+  for (const Cell::Moment& moment : cell.moments_) {
+    if (moment.snapshots.size() != 1) continue;
+    std::vector<Bounded> margins;
+    for (std::size_t i = 0; i < question_.margins.size(); ++i)
+      if (const auto bounded = boundedOf(moment.snapshots[0], i, Interval(0.0))) margins.push_back(*bounded);
+    if (margins.size() != question_.margins.size()) continue;
+    if (isAlways) {
+      for (const Bounded& margin : margins)
+        if (-margin.to > best) {
+          best = -margin.to;
+          planes.violated = margin.form.slope;
+          planes.violatedBelow = margin.to;
+        }
+    } else {
+      std::vector<double> slope;
+      double constant = 0;
+      beside(margins, 1, slope, constant);
+      if (constant > best) {
+        best = constant;
+        planes.met = std::move(slope);
+        planes.metAbove = constant;
+      }
+    }
+  }
+  return planes;
+}
+
+Cell::Verdict Cells::verdictAt(const std::vector<double>& xi) {
+  const auto cell = whole();
+  for (std::size_t l = 0; l < xi.size() && cell->verdict_ == Cell::Verdict::open; ++l) {
+    cell->part_.centre[l] = xi[l];
+    cell->part_.half[l] = 0;
+  }
+  if (cell->verdict_ != Cell::Verdict::open) return cell->verdict_;
+  const auto covers = [&](const FlowPart& part) {
+    for (std::size_t l = 0; l < xi.size(); ++l)
+      if (std::fabs(xi[l] - part.centre[l]) > part.half[l]) return false;
+    return true;
+  };
+  for (Cell::Local& local : cell->locals_) {
+    if (!covers(local.part)) continue;
+    const PolynomialRange& tables = tablesOf(*local.of).range;
+    for (std::size_t i = 0; i < local.c.size(); ++i)
+      for (int l = 0; l < models_.symbols && !local.c[i].empty(); ++l) {
+        std::vector<double> moved(local.c[i].size());
+        double norm = 0;
+        for (const double c : local.c[i]) norm += std::fabs(c);
+        // The middle is off by its roundings, which the half-width covers.
+        const double middle = (xi[at(l)] - local.part.centre[at(l)]) / local.part.half[at(l)];
+        tables.substitute(l, middle, 8 * bounds::unit, local.c[i].data(), moved.data(), static_cast<int>(moved.size()));
+        local.c[i] = std::move(moved);
+        local.radius[i] = (local.radius[i] + tables.shiftError() * norm) * bounds::up + bounds::tiny;
+      }
+  }
+  std::erase_if(cell->chords_, [&](const Cell::Chord& chord) { return !covers(chord.of->part); });
+  for (Cell::Moment& moment : cell->moments_)
+    std::erase_if(moment.snapshots, [&](std::size_t local) { return !covers(cell->locals_[local].of->part); });
+  decide(*cell);
+  return cell->verdict_;
+}
+
+}  // namespace gamut

@@ -1,0 +1,119 @@
+// Parts of a box on which it is decided whether a requirement is met: bisected, the most important first, until what is
+// asked is known well enough. What is known of a cell comes from a flow's models alone.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "analyses/flow/models.hpp"
+#include "analyses/flow/polynomial_range.hpp"
+#include "scalars/interval.hpp"
+
+namespace gamut {
+
+/// What is to be found out of models.
+struct CellQuestion {
+  /// At all times of the window, or at one of them at least.
+  enum class When { always, eventually };
+
+  When when = When::always;
+  std::vector<int> margins;         ///< numbers of outputs in the models: met at a time where all are above zero,
+  std::vector<char> isMetAtZero;    ///< or zero where this says so; one a margin
+  std::size_t from = 0, until = 0;  ///< the window: output times, both included
+};
+
+/// Where a cell is decided, in its own η ∈ [-1,1]^k: met where met·η + metAbove > 0, violated where violated·η +
+/// violatedBelow < 0. Nothing is said where slopes are empty.
+struct CellPlanes {
+  std::vector<double> met, violated;
+  double metAbove = 0, violatedBelow = 0;
+  double rest = 0;  ///< so much of what lies between both no bisection would take away
+};
+
+/// A part of the box and what is left to be known of it.
+class Cell {
+ public:
+  enum class Verdict { met, violated, open };
+
+  const FlowPart& part() const { return part_; }
+  Verdict verdict() const { return verdict_; }
+  /// The least that a margin may be at an output time of the window where it counts: the least at all of them for
+  /// `always`, the greatest for `eventually`.
+  double least() const { return least_; }
+  double bytes() const;
+
+ private:
+  friend class Cells;
+  /// One snapshot's polynomials in the symbols of what both it and the cell cover.
+  struct Local {
+    const FlowSnapshot* of;
+    FlowPart part;
+    std::vector<std::vector<double>> c;  // [margin]
+    std::vector<double> radius;
+    std::vector<Interval> range;
+  };
+  struct Chord {
+    const FlowChord* of;
+    std::size_t before, behind;  // among the locals
+  };
+  struct Moment {
+    std::vector<std::size_t> snapshots;  // of one output time, among the locals
+  };
+
+  FlowPart part_;
+  Verdict verdict_ = Verdict::open;
+  double least_ = 0;
+  std::vector<Local> locals_;
+  std::vector<Chord> chords_;
+  std::vector<Moment> moments_;
+};
+
+class Cells {
+ public:
+  /// The models must outlive it. Throws std::invalid_argument for a window that they do not reach.
+  Cells(const FlowModels& models, CellQuestion question);
+
+  /// The whole box.
+  std::unique_ptr<Cell> whole();
+  /// Both halves in the symbol that most depends on; nothing where no bisection would help.
+  std::vector<std::unique_ptr<Cell>> halves(const Cell& cell);
+  /// Of an open cell.
+  CellPlanes planes(const Cell& cell) const;
+  /// Of one point of the box, in its symbols.
+  Cell::Verdict verdictAt(const std::vector<double>& xi);
+
+ private:
+  enum class Outcome { met, violated, open };
+  /// A margin in a cell: constant + slope·η + [-down, up].
+  struct Form {
+    double constant = 0, down = 0, up = 0;
+    double radius = 0;  // in `down` and `up`
+    std::vector<double> slope;
+  };
+  void decide(Cell& cell);
+  std::optional<Form> formOf(const Cell& cell, std::size_t local, std::size_t margin) const;
+  std::unique_ptr<Cell> half(const Cell& cell, int symbol, double side);
+  Outcome outcomeOf(const std::vector<Interval>& margins) const;
+  Outcome outcomeOf(const Cell& cell, const Cell::Chord& chord) const;
+  void dropUnused(Cell& cell) const;
+  Interval rangeOf(const Cell::Local& local, std::size_t margin) const;
+  /// What is asked of a layout's monomials again and again.
+  struct Tables {
+    PolynomialRange range;
+    std::vector<char> isEven;               // in all symbols
+    std::vector<int> linear;                // the symbol that it is; -1: none
+    std::vector<std::vector<int>> symbols;  // that it holds
+  };
+  const Tables& tablesOf(const FlowSnapshot& snapshot) const;
+
+  const FlowModels& models_;
+  CellQuestion question_;
+  mutable std::map<const Monomials*, std::unique_ptr<Tables>> tables_;
+};
+
+}  // namespace gamut

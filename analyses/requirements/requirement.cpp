@@ -1,0 +1,394 @@
+// Three searches over the same cells: where most probability is undecided, where the deviations are least, where the
+// values are most possible. Each takes the cell that matters most, and bisects it unless it is decided.
+#include "analyses/requirements/requirement.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include "analyses/requirements/cube.hpp"
+#include "scalars/elementary/rounding.hpp"
+#include "scalars/index.hpp"
+
+namespace gamut {
+
+using detail::at;
+
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+class Examiner {
+ public:
+  Examiner(const FlowModels& models, const CellQuestion& question, const std::vector<CellQuantity>& quantities,
+           const RequirementOptions& options)
+      : models_(models), cells_(models, question), quantities_(quantities), options_(options) {
+    below_.resize(quantities.size());
+    deviate_.assign(quantities.size(), 1);
+  }
+
+  RequirementFinding find() {
+    lookForViolation();
+    if (finding_.isAlwaysMet) {
+      finding_.met = finding_.factor = 1;
+      finding_.probability = Interval(1.0);
+      finding_.violationPossibility = Interval(0.0);
+      return std::move(finding_);
+    }
+    weigh();
+    measureDeviations();
+    measurePossibility();
+    return std::move(finding_);
+  }
+
+  double factor(const std::vector<char>& deviate) {
+    deviate_ = deviate;
+    lookForViolation();
+    if (finding_.isAlwaysMet) return 1;
+    measureDeviations();
+    return finding_.factor;
+  }
+
+ private:
+  struct Entry {
+    double key;
+    std::size_t number;  // so that the order depends on nothing else
+    std::unique_ptr<Cell> cell;
+    bool operator<(const Entry& other) const { return key != other.key ? key < other.key : number > other.number; }
+  };
+
+  /// Takes cells by falling key until `take` says that it is enough. `take` sees decided and open ones; an open one
+  /// that may not be bisected any more comes with `isLast`.
+  template <class Key, class Take>
+  void search(const Key& keyOf, const Take& take) {
+    std::vector<Entry> heap;
+    std::size_t number = 0, count = 0;
+    double bytes = 0;
+    const auto push = [&](std::unique_ptr<Cell> cell) {
+      bytes += cell->bytes();
+      const double key = keyOf(*cell);
+      heap.push_back({key, number++, std::move(cell)});
+      std::push_heap(heap.begin(), heap.end());
+    };
+    push(cells_.whole());
+    while (!heap.empty()) {
+      std::pop_heap(heap.begin(), heap.end());
+      const std::unique_ptr<Cell> cell = std::move(heap.back().cell);
+      heap.pop_back();
+      bytes -= cell->bytes();
+      ++count;
+      const bool isCancelled = options_.cancelled != nullptr && *options_.cancelled;
+      std::vector<std::unique_ptr<Cell>> halves;
+      const bool mayGoOn = !isCancelled && count < options_.mostCells && bytes < options_.mostBytes;
+      if (cell->verdict() == Cell::Verdict::open && mayGoOn && !isFineEnough_(*cell)) halves = cells_.halves(*cell);
+      if (!halves.empty()) {
+        for (std::unique_ptr<Cell>& half : halves) push(std::move(half));
+        continue;
+      }
+      if (!take(*cell)) break;
+    }
+    finding_.cells += count;
+  }
+
+  /// The values of a quantity in a cell.
+  Interval valuesOf(std::size_t quantity, const Cell& cell) const {
+    const FlowSymbol& of = models_.components[at(quantities_[quantity].component)];
+    const Interval& range = quantities_[quantity].uncertain->range;
+    if (of.symbol < 0) return range;
+    const auto valueAt = [&](double xi) { return Interval(of.centre) + Interval(of.half) * Interval(xi); };
+    const double centre = cell.part().centre[at(of.symbol)], half = cell.part().half[at(of.symbol)];
+    return intersection(hull(valueAt(centre - half), valueAt(centre + half)), range);
+  }
+
+  /// Its probability: between the distribution functions of its ends.
+  Interval massOf(const Cell& cell) {
+    Interval mass(1.0);
+    for (std::size_t q = 0; q < quantities_.size(); ++q) {
+      const FlowSymbol& of = models_.components[at(quantities_[q].component)];
+      if (of.symbol < 0) continue;
+      const double centre = cell.part().centre[at(of.symbol)], half = cell.part().half[at(of.symbol)];
+      mass = mass * intersection(belowOf(q, centre + half) - belowOf(q, centre - half), Interval(0.0, 1.0));
+    }
+    return mass;
+  }
+
+  /// Of a quantity at an end of a cell; found once.
+  Interval belowOf(std::size_t quantity, double xi) {
+    if (xi == -1) return Interval(0.0);
+    if (xi == 1) return Interval(1.0);
+    const auto [found, isNew] = below_[quantity].try_emplace(xi);
+    if (!isNew) return found->second;
+    const FlowSymbol& of = models_.components[at(quantities_[quantity].component)];
+    return found->second = quantities_[quantity].uncertain->distribution.enclosedBelow(
+               Interval(of.centre) + Interval(of.half) * Interval(xi));
+  }
+
+  double volumeOf(const Cell& cell) const {  // of [-1,1]^k, as a share: exact unless it underflows
+    double volume = 1;
+    for (const double half : cell.part().half) volume *= half;
+    return volume;
+  }
+
+  // ---- Violation ----------------------------------------------------------------------------------------------------
+
+  /// Where margins are least first; if none of the cells is left open, the requirement is met everywhere.
+  void lookForViolation() {
+    bool isMet = true;
+    isFineEnough_ = [](const Cell&) { return false; };
+    search([](const Cell& cell) { return cell.verdict() == Cell::Verdict::violated ? infinite : -cell.least(); },
+           [&](const Cell& cell) {
+             if (cell.verdict() == Cell::Verdict::met) return true;
+             isMet = false;
+             const bool isViolated = cell.verdict() == Cell::Verdict::violated;
+             (isViolated ? finding_.violating : finding_.doubtful) = middleOf(cell);
+             return false;
+           });
+    finding_.isAlwaysMet = isMet;
+  }
+
+  std::vector<double> middleOf(const Cell& cell) const {
+    std::vector<double> values;
+    for (std::size_t q = 0; q < quantities_.size(); ++q) values.push_back(midpoint(valuesOf(q, cell)));
+    return values;
+  }
+
+  // ---- Probability --------------------------------------------------------------------------------------------------
+
+  /// What of an open cell's probability planes decide. Its quantities are independent and so are w_i = 2 (F(q_i) - F) /
+  /// (F'
+  /// - F) - 1, uniform on [-1,1], with F and F' at its ends. Where the density is monotone, w - η is concave or convex
+  /// in η and zero at both ends, hence at most twice what it is in the middle: |w_i - η_i| ≤ δ_i = 2 |w_i(0)|. So Σ a_i
+  /// η_i > c where Σ a_i w_i > c + Σ |a_i| δ_i.
+  struct Decided {
+    double met = 0, violated = 0;              // shares of the cell's probability, at least
+    double metVolume = 0, violatedVolume = 0;  // of its volume
+    bool isFine = false;                       // what is left is not made less by bisection
+  };
+  Decided decidedOf(const Cell& cell) {
+    Decided decided;
+    const CellPlanes planes = cells_.planes(cell);
+    const auto metBeyond = [&](double bend) {  // not met: Σ a w <= -metAbove + bend, at most
+      return planes.met.empty()
+                 ? 0.0
+                 : std::max(0.0, subDown(1.0, partOfCube(planes.met, addUp(-planes.metAbove, bend)).upper()));
+    };
+    const auto violatedBeyond = [&](double bend) {
+      return planes.violated.empty() ? 0.0 : partOfCube(planes.violated, subDown(-planes.violatedBelow, bend)).lower();
+    };
+    constexpr double mostly = 0.85;
+    decided.isFine = !planes.met.empty() && !planes.violated.empty() &&
+                     planes.rest > mostly * (planes.violatedBelow - planes.metAbove);
+    decided.metVolume = metBeyond(0);
+    decided.violatedVolume = violatedBeyond(0);
+    std::vector<double> bend(at(models_.symbols), 0.0);
+    for (std::size_t q = 0; q < quantities_.size(); ++q) {
+      const FlowSymbol& of = models_.components[at(quantities_[q].component)];
+      if (of.symbol < 0) continue;
+      const Distribution& distribution = quantities_[q].uncertain->distribution;
+      const double centre = cell.part().centre[at(of.symbol)], half = cell.part().half[at(of.symbol)];
+      if (!distribution.isMonotone(valuesOf(q, cell))) return decided;
+      if (distribution.name() == "uniform" && isEqual(distribution.support(), quantities_[q].uncertain->range))
+        continue;
+      const Interval low = belowOf(q, centre - half), high = belowOf(q, centre + half);
+      const Interval middle = 2.0 * (belowOf(q, centre) - low) / (high - low) - Interval(1.0);
+      if (isEmpty(middle) || !isBounded(middle)) return decided;
+      bend[at(of.symbol)] = std::min(2.0, 2 * magnitude(middle));
+    }
+    const auto bendOf = [&](const std::vector<double>& slope) {
+      Interval sum(0.0);
+      for (std::size_t l = 0; l < slope.size(); ++l) sum = sum + abs(Interval(slope[l])) * Interval(bend[l]);
+      return sum.upper();
+    };
+    decided.met = metBeyond(bendOf(planes.met));
+    decided.violated = violatedBeyond(bendOf(planes.violated));
+    return decided;
+  }
+
+  /// P(met) ≥ Σ lower masses of what is met, ≤ 1 - Σ lower masses of what is violated.
+  void weigh() {
+    double met = 0, violated = 0;  // rounded down
+    double undecided = 0;          // of all cells that wait, about
+    bool isNeverMet = true;
+    struct Waiting {
+      Decided decided;
+      double undecided;
+    };
+    std::map<const Cell*, Waiting> waiting;  // open cells
+    isFineEnough_ = [&](const Cell& cell) {
+      if (undecided <= options_.gap || waiting[&cell].decided.isFine) return true;
+      undecided -= waiting[&cell].undecided;
+      return false;
+    };
+    search(
+        [&](const Cell& cell) {
+          if (cell.verdict() != Cell::Verdict::open) return infinite;  // what is decided is counted at once
+          const double mass = massOf(cell).upper();
+          const Decided share = decidedOf(cell);
+          waiting[&cell] = {share, mass * (1 - share.met - share.violated)};
+          undecided += waiting[&cell].undecided;
+          return waiting[&cell].undecided;
+        },
+        [&](const Cell& cell) {
+          const Interval mass = massOf(cell);
+          if (cell.verdict() == Cell::Verdict::met) {
+            met = addDown(met, mass.lower());
+            finding_.met = addDown(finding_.met, volumeOf(cell));
+            isNeverMet = false;
+          } else if (cell.verdict() == Cell::Verdict::violated) {
+            violated = addDown(violated, mass.lower());
+            finding_.violated = addDown(finding_.violated, volumeOf(cell));
+            if (finding_.violating.empty()) finding_.violating = middleOf(cell);
+          } else {
+            isNeverMet = false;
+            const Decided share = waiting[&cell].decided;
+            met = addDown(met, mulDown(mass.lower(), share.met));
+            violated = addDown(violated, mulDown(mass.lower(), share.violated));
+            finding_.met = addDown(finding_.met, mulDown(volumeOf(cell), share.metVolume));
+            finding_.violated = addDown(finding_.violated, mulDown(volumeOf(cell), share.violatedVolume));
+          }
+          return true;
+        });
+    finding_.isNeverMet = isNeverMet;
+    finding_.probability = isNeverMet ? Interval(0.0) : Interval(met, std::max(met, subUp(1.0, violated)));
+  }
+
+  // ---- Deviations ---------------------------------------------------------------------------------------------------
+
+  /// The least factor of a box about the nominal values that has a point in common with these: rounded down.
+  double factorOf(std::size_t quantity, const Interval& values) const {
+    const Uncertain& u = *quantities_[quantity].uncertain;
+    if (contains(values, u.nominal)) return 0;
+    const bool isAbove = values.lower() > u.nominal;
+    const Interval distance = isAbove ? Interval(values.lower()) - u.nominal : u.nominal - Interval(values.upper());
+    const Interval whole = isAbove ? Interval(u.range.upper()) - u.nominal : u.nominal - Interval(u.range.lower());
+    return std::clamp((distance / whole).lower(), 0.0, 1.0);
+  }
+
+  double factorOf(const Cell& cell) const {
+    double factor = 0;
+    for (std::size_t q = 0; q < quantities_.size(); ++q)
+      if (deviate_[q] != 0) factor = std::max(factor, factorOf(q, valuesOf(q, cell)));
+    return factor;
+  }
+
+  /// The greatest over what the cell covers.
+  double farthestOf(const Cell& cell) const {
+    double factor = 0;
+    for (std::size_t q = 0; q < quantities_.size(); ++q) {
+      const Interval values = valuesOf(q, cell);
+      if (deviate_[q] != 0)
+        factor = std::max({factor, factorOf(q, Interval(values.lower())), factorOf(q, Interval(values.upper()))});
+    }
+    return factor;
+  }
+
+  void measureDeviations() {
+    finding_.factor = 1;
+    isFineEnough_ = [&](const Cell& cell) { return farthestOf(cell) - factorOf(cell) < options_.factorGap; };
+    search([&](const Cell& cell) { return -factorOf(cell); },
+           [&](const Cell& cell) {
+             if (cell.verdict() == Cell::Verdict::met) return true;
+             finding_.factor = factorOf(cell);
+             return false;
+           });
+  }
+
+  // ---- Possibility --------------------------------------------------------------------------------------------------
+
+  /// An upper bound of the membership at a value: of a degree above it the value lies outside the cut.
+  static double degreeAtMost(const Membership& membership, double value) {
+    if (contains(membership.core(), value)) return 1;
+    const double degree = membership(value);
+    for (double more = 0x1p-50; degree + more < 1; more *= 2)
+      if (!contains(membership.cut(degree + more), value)) return degree + more;
+    return 1;
+  }
+
+  /// The most possible values of a cell.
+  Interval membershipOf(const Cell& cell) const {
+    double least = 1, most = 1;
+    for (std::size_t q = 0; q < quantities_.size(); ++q) {
+      const Membership& membership = quantities_[q].uncertain->membership;
+      const Interval values = valuesOf(q, cell);
+      if (!isEmpty(intersection(values, membership.core()))) continue;
+      const double nearest = values.lower() > membership.core().upper() ? values.lower() : values.upper();
+      least = std::min(least, std::max(0.0, membership(nearest)));
+      most = std::min(most, degreeAtMost(membership, nearest));
+    }
+    return {std::min(least, most), most};
+  }
+
+  /// The degree of values that violate it, on the way from the nominal ones through the middle of a cell; 0 if none do.
+  double degreeBeyond(const Cell& cell) {
+    for (const double way : {1.0, 1.003, 1.01, 1.03, 1.1, 1.3, 2.0}) {
+      std::vector<double> xi(at(models_.symbols), 0.0);
+      double degree = 1;
+      for (std::size_t q = 0; q < quantities_.size(); ++q) {
+        const FlowSymbol& of = models_.components[at(quantities_[q].component)];
+        const Uncertain& u = *quantities_[q].uncertain;
+        if (of.symbol < 0) continue;
+        const double wanted = u.nominal + way * (midpoint(valuesOf(q, cell)) - u.nominal);
+        xi[at(of.symbol)] = std::clamp((wanted - of.centre) / of.half, -1.0, 1.0);
+        const Interval value =
+            intersection(Interval(of.centre) + Interval(of.half) * Interval(xi[at(of.symbol)]), u.range);
+        if (isEmpty(value)) return 0;
+        degree = std::min({degree, u.membership(value.lower()), u.membership(value.upper())});
+      }
+      if (degree == 0) return 0;
+      if (cells_.verdictAt(xi) == Cell::Verdict::violated) return degree;
+    }
+    return 0;
+  }
+
+  /// min t-norm over quantities that do not interact (Zadeh 1978): the possibility of a violation is that of the most
+  /// possible values for which it is violated.
+  void measurePossibility() {
+    constexpr double fine = 0.002;
+    double least = 0, most = 0;
+    int patience = 20;  // for one near which it is certainly violated
+    isFineEnough_ = [&](const Cell& cell) {
+      double lowest = 1;  // over the cell: of its farther ends
+      for (std::size_t q = 0; q < quantities_.size(); ++q) {
+        const Interval values = valuesOf(q, cell);
+        const Membership& membership = quantities_[q].uncertain->membership;
+        lowest = std::min({lowest, membership(values.lower()), membership(values.upper())});
+      }
+      return membershipOf(cell).upper() - lowest < fine;
+    };
+    search([&](const Cell& cell) { return membershipOf(cell).upper(); },
+           [&](const Cell& cell) {
+             if (cell.verdict() == Cell::Verdict::met) return true;
+             most = std::max(most, membershipOf(cell).upper());  // the first one's
+             least = cell.verdict() == Cell::Verdict::violated ? membershipOf(cell).lower() : degreeBeyond(cell);
+             return least == 0 && --patience > 0;
+           });
+    finding_.violationPossibility = Interval(std::min(least, most), most);
+  }
+
+  const FlowModels& models_;
+  Cells cells_;
+  const std::vector<CellQuantity>& quantities_;
+  const RequirementOptions& options_;
+  std::vector<char> deviate_;                      // of the quantities: those that count in a factor
+  std::vector<std::map<double, Interval>> below_;  // of each quantity: its distribution function by ξ
+  std::function<bool(const Cell&)> isFineEnough_;
+  RequirementFinding finding_;
+};
+
+}  // namespace
+
+RequirementFinding examine(const FlowModels& models, const CellQuestion& question,
+                           const std::vector<CellQuantity>& quantities, const RequirementOptions& options) {
+  return Examiner(models, question, quantities, options).find();
+}
+
+double guaranteedFactor(const FlowModels& models, const CellQuestion& question,
+                        const std::vector<CellQuantity>& quantities, const std::vector<char>& deviate,
+                        const RequirementOptions& options) {
+  return Examiner(models, question, quantities, options).factor(deviate);
+}
+
+}  // namespace gamut

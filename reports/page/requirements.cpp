@@ -1,0 +1,33 @@
+// The requirements, each with its three answers side by side: the first that a reader sees.
+#include <fmt/format.h>
+
+#include "reports/page/page.hpp"
+#include "reports/page/table.hpp"
+#include "reports/requirements.hpp"
+#include "reports/words.hpp"
+
+namespace gamut {
+namespace {
+
+std::string answer(const char* title, const std::string& text) {
+  return text.empty() ? "" : fmt::format("<dt>{}</dt><dd>{}</dd>\n", title, escapeHtml(text));
+}
+
+}  // namespace
+
+std::string requirementsSection(const Results& results) {
+  if (results.requirements.empty()) return {};
+  std::string html =
+      fmt::format("<section class=\"requirements\" aria-label=\"Requirements\">\n<p class=\"lead\">{}</p>\n",
+                  escapeHtml(sentenceOfRequirements(results)));
+  for (const RequirementWords& words : wordsOfRequirements(results))
+    html += fmt::format(
+        "<article class=\"requirement {}\">\n<h2><span>{}</span> <b>{}</b></h2>\n<p "
+        "class=\"demand\">{}</p>\n<dl>\n{}{}{}</dl>\n"
+        "</article>\n",
+        words.word, escapeHtml(words.name), escapeHtml(words.verdict), escapeHtml(words.demand),
+        answer("guaranteed", words.guaranteed), answer("probable", words.probable), answer("possible", words.possible));
+  return html + "</section>\n";
+}
+
+}  // namespace gamut

@@ -1,0 +1,157 @@
+#include "reports/requirements.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "studies/words.hpp"
+
+namespace gamut {
+namespace {
+
+std::string withUnit(const std::string& number, const std::string& unit) {
+  return unit.empty() || unit == "1" ? number : number + " " + unit;
+}
+
+/// "0.9684 to 0.9702", outward; "1" of a number that is exactly known.
+std::string rangeOfShare(double lower, double upper) {
+  if (lower == upper) return numberText(lower, 6);
+  const auto [low, high] = outwardText(lower, upper, std::max(3, digitsFor(1, upper - lower, 2)));
+  return fmt::format("{} to {}", std::stod(low) < 0 ? "0" : low, std::stod(high) > 1 ? "1" : high);
+}
+
+/// Rounded down, in per cent.
+std::string percentText(double share) {
+  const double percent = std::floor(1000 * share) / 10;
+  return numberText(percent, 4) + " %";
+}
+
+class Wording {
+ public:
+  Wording(const Results& results, const RequirementResult& requirement) : results_(results), r_(requirement) {}
+
+  RequirementWords words() const {
+    return {r_.name,
+            r_.statement + window(),
+            r_.word,
+            r_.word == "met"        ? "met"
+            : r_.word == "violated" ? "violated"
+            : r_.word == "partly"   ? "violated for some values"
+                                    : "open",
+            results_.interval.present ? guaranteed() : "",
+            probable(),
+            results_.fuzzy.present && results_.interval.present ? possible() : ""};
+  }
+
+ private:
+  std::string window() const {
+    if (results_.horizon == 0 || (r_.from == 0 && r_.until == results_.horizon)) return {};
+    return r_.from == r_.until ? fmt::format(", at {} s", numberText(r_.from, 6))
+                               : fmt::format(", from {} s to {} s", numberText(r_.from, 6), numberText(r_.until, 6));
+  }
+
+  const std::string& unit() const { return results_.outputs[r_.margin].unit; }
+
+  std::string guaranteed() const {
+    if (r_.word == "met")
+      return "met for every value, at every instant" + std::string(r_.isAlways ? "" : " that counts");
+    if (r_.word == "violated") return "violated for every value" + violation();
+    std::string text = r_.word == "partly" ? "violated for some values" + violation() : "neither proved nor refuted";
+    if (!r_.why.empty()) text += ": " + r_.why;
+    if (r_.factor > 0)
+      text += fmt::format("; met where all deviate by up to {} of what is stated", percentText(r_.factor));
+    if (r_.met > 0) text += fmt::format("; met for {} of the box", percentText(r_.met));
+    return text;
+  }
+
+  /// "angle 0.51 rad, … (short by 0.0012 m at 0.8 s)".
+  std::string violation() const {
+    std::vector<std::string> values;
+    for (std::size_t q = 0; q < r_.violation.size(); ++q)
+      if (!std::isnan(r_.violation[q]))
+        values.push_back(withUnit(fmt::format("{} {}", results_.uncertain[q].name, numberText(r_.violation[q], 8)),
+                                  results_.uncertain[q].unit));
+    if (values.empty()) return {};
+    constexpr std::size_t most = 6;
+    const std::size_t others = values.size() > most ? values.size() - most : 0;
+    if (others > 0) values.resize(most);
+    std::string text = fmt::format(
+        ", as by {}{}{}", r_.violationSample < 0 ? "" : results_.stochastic.nameOf(r_.violationSample) + ": ",
+        fmt::join(values, ", "), others > 0 ? fmt::format(" and {} more", others) : std::string());
+    if (std::isnan(r_.violationTime) && r_.isAlways)
+      text += " (between output times)";
+    else if (!std::isnan(r_.violationUpper) && r_.violationUpper <= 0)
+      text += fmt::format(" (short by {}{})",
+                          withUnit(numberText(-0.5 * (r_.violationLower + r_.violationUpper), 3), unit()),
+                          results_.horizon > 0 ? fmt::format(" at {} s", numberText(r_.violationTime, 6)) : "");
+    return text;
+  }
+
+  std::string probable() const {
+    std::vector<std::string> parts;
+    if (results_.interval.present)
+      parts.push_back(
+          fmt::format("met with a probability of {}, proved", rangeOfShare(r_.probabilityLower, r_.probabilityUpper)));
+    if (r_.samples > 0) {
+      std::string share = fmt::format("{} of {} samples meet it{}", r_.samples - r_.violating, r_.samples,
+                                      results_.horizon > 0 ? " at the output times" : "");
+      if (!std::isnan(r_.shareLower))
+        share += fmt::format(" (95 % confidence: {})", rangeOfShare(r_.shareLower, r_.shareUpper));
+      parts.push_back(std::move(share));
+    }
+    return fmt::format("{}", fmt::join(parts, "; "));
+  }
+
+  std::string possible() const {
+    return fmt::format("violated with a possibility of {}, met with a necessity of {}",
+                       rangeOfShare(r_.violationLeast, r_.violationMost),
+                       rangeOfShare(1 - r_.violationMost, 1 - r_.violationLeast));
+  }
+
+  const Results& results_;
+  const RequirementResult& r_;
+};
+
+bool isViolated(const RequirementResult& requirement) {
+  return requirement.word == "violated" || requirement.word == "partly";
+}
+
+}  // namespace
+
+std::vector<RequirementWords> wordsOfRequirements(const Results& results) {
+  std::vector<RequirementWords> words;
+  for (const RequirementResult& requirement : results.requirements)
+    words.push_back(Wording(results, requirement).words());
+  return words;
+}
+
+std::string wordOfRequirements(const Results& results) {
+  if (std::ranges::any_of(results.requirements, isViolated)) return "violated";
+  return std::ranges::all_of(results.requirements, [](const RequirementResult& r) { return r.word == "met"; }) ? "met"
+                                                                                                               : "open";
+}
+
+std::string sentenceOfRequirements(const Results& results) {
+  const std::size_t count = results.requirements.size();
+  if (count == 0) return {};
+  const auto number = [&](auto is) {
+    return static_cast<std::size_t>(std::ranges::count_if(results.requirements, is));
+  };
+  const std::size_t met = number([](const RequirementResult&r) { return r.word == "met"; }),
+                    violated = number(isViolated);
+  if (met == count)
+    return count == 1 ? "The requirement is met, whatever the uncertain quantities are."
+                      : fmt::format("All {} requirements are met, whatever the uncertain quantities are.", count);
+  std::vector<std::string> parts;
+  const auto add = [&](std::size_t some, const char* what, const char* others) {
+    if (some > 0) parts.push_back(fmt::format("{} {}", some, some == 1 ? what : others));
+  };
+  add(violated, "is violated, for some values at least", "are violated, for some values at least");
+  add(count - met - violated, "is neither proved nor refuted", "are neither proved nor refuted");
+  add(met, "is met for all values", "are met for all values");
+  return fmt::format("Of {}, {}.", countText(static_cast<long long>(count), "requirement"), fmt::join(parts, ", "));
+}
+
+}  // namespace gamut

@@ -1,0 +1,28 @@
+// What was found of requirements, in words.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "studies/results/results.hpp"
+
+namespace gamut {
+
+struct RequirementWords {
+  std::string name, demand;                    ///< "clearance", "always tip.position.z > 0.2 m, from 0 s to 1 s"
+  std::string word;                            ///< "met", "violated", "partly", "open", as RequirementResult
+  std::string verdict;                         ///< one or two words: "met", "violated for some"
+  std::string guaranteed, probable, possible;  ///< a sentence each, without markup; empty where not asked for
+};
+
+/// One a requirement.
+std::vector<RequirementWords> wordsOfRequirements(const Results& results);
+
+/// What they are together: "met" if all are, "violated" if one is, for some values at least, otherwise "open".
+std::string wordOfRequirements(const Results& results);
+
+/// One sentence about all of them; empty without requirements.
+std::string sentenceOfRequirements(const Results& results);
+
+}  // namespace gamut

@@ -1,0 +1,16 @@
+// [[requirement]]: what the motion is to keep. Its margins become outputs of the study, behind all others.
+#pragma once
+
+#include <vector>
+
+#include "studies/reading/toml_source.hpp"
+#include "studies/study.hpp"
+
+namespace gamut {
+
+/// Adds requirements, their margins and the ends of their windows to a study whose mechanism, outputs and times are
+/// known. `nodes`: where each output stands, added to. Throws StudyError.
+void readRequirements(const TomlSource& source, const std::vector<const toml::table*>& tables, Study& study,
+                      std::vector<const toml::node*>& nodes);
+
+}  // namespace gamut

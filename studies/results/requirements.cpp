@@ -1,0 +1,104 @@
+// What the file says of requirements.
+#include "studies/results/requirements.hpp"
+
+namespace gamut {
+namespace {
+
+std::vector<Field> fieldsOf(RequirementResult& r) {
+  using namespace dimension;
+  return {
+      {"name", &r.name, unit::none, "as in the study", {}},
+      {"statement", &r.statement, unit::none, "what is demanded", {}},
+      {"always", &r.isAlways, unit::none, "1: at all times of the window; 0: once at least", {}},
+      {"from", &r.from, unit::second, "begin of the window", {}},
+      {"until", &r.until, unit::second, "end of the window", {}},
+      {"margin",
+       &r.margin,
+       unit::none,
+       "index of the output that is its first margin: above zero where it is met",
+       {},
+       allowed::count,
+       output},
+      {"margins", &r.margins, unit::none, "so many outputs from there on are its margins", {}, {1, 2}},
+      {"met_at_zero", &r.metAtZero, unit::none, "bit i: a margin of zero is enough of margin i", {}, {0, 3}},
+      {"word",
+       &r.word,
+       unit::none,
+       "guaranteed: \"met\" or \"violated\" (for every value of the uncertain quantities), \"partly\" (violated for "
+       "some), \"open\"",
+       {}},
+      {"why", &r.why, unit::none, "why no more is known; empty if all is", {}},
+      {"met", &r.met, unit::one, "part of the uncertain box for which it is proved to be met", {}, allowed::share},
+      {"violated", &r.violated, unit::one, "part for which it is proved to be violated", {}, allowed::share},
+      {"factor",
+       &r.factor,
+       unit::one,
+       "it is proved to be met where deviations from the nominal values are up to so many times those of the "
+       "intervals; "
+       "1: for all",
+       {},
+       allowed::share},
+      {"violation",
+       &r.violation,
+       unit::ofQuantity,
+       "values for which it is proved to be violated; NaN where none are known",
+       {quantity}},
+      {"violation_sample",
+       &r.violationSample,
+       unit::none,
+       "number of the sample that has these values; -1: none has",
+       {},
+       {-1, allowed::count.greatest}},
+      {"violation_time",
+       &r.violationTime,
+       unit::second,
+       "an output time at which they violate it; NaN: none is one",
+       {}},
+      {"violation_lower", &r.violationLower, unit::none, "lower bound of the margin there, in its unit", {}},
+      {"violation_upper", &r.violationUpper, unit::none, "upper bound", {}},
+      {"probability_lower",
+       &r.probabilityLower,
+       unit::one,
+       "proved bound of the probability that it is met",
+       {},
+       allowed::share},
+      {"probability_upper", &r.probabilityUpper, unit::one, "upper bound", {}, allowed::share},
+      {"samples", &r.samples, unit::none, "samples of the plan that arrived", {}, allowed::count},
+      {"violating", &r.violating, unit::none, "of these, violate it at the output times", {}, allowed::count},
+      {"share_lower",
+       &r.shareLower,
+       unit::one,
+       "95 % confidence interval (Clopper and Pearson) of the probability that it is met, from the samples at the "
+       "output "
+       "times; NaN unless these are independent",
+       {}},
+      {"share_upper", &r.shareUpper, unit::one, "its upper end", {}},
+      {"worst_sample",
+       &r.worstSample,
+       unit::none,
+       "number of the sample that comes closest to violating it, or violates it most; -1: none",
+       {},
+       {-1, allowed::count.greatest}},
+      {"worst_time", &r.worstTime, unit::second, "when", {}},
+      {"worst_margin", &r.worstMargin, unit::none, "its margin then, in its unit", {}},
+      {"violation_possibility_lower",
+       &r.violationLeast,
+       unit::one,
+       "proved bound of the possibility that it is violated; its necessity is 1 minus the possibility",
+       {},
+       allowed::share},
+      {"violation_possibility_upper", &r.violationMost, unit::one, "upper bound", {}, allowed::share}};
+}
+
+}  // namespace
+
+void describe(std::vector<RequirementResult>& requirements, std::vector<Group>& groups) {
+  groups.push_back(listOf("/requirements", "what the motion is to keep", "/requirements/name", requirements, fieldsOf));
+  groups.back().makesSense = [&requirements](std::size_t i) {
+    const RequirementResult& r = requirements[i];
+    return r.probabilityLower <= r.probabilityUpper && r.violationLeast <= r.violationMost &&
+           r.violating <= r.samples && isInterval(r.violationLower, r.violationUpper) && r.from <= r.until;
+  };
+}
+
+}  // namespace gamut

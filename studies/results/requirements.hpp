@@ -1,0 +1,43 @@
+// What was found of each requirement.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "studies/results/fields.hpp"
+
+namespace gamut {
+
+struct RequirementResult {
+  static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+  std::string name, statement;  ///< "clearance", "always tip.position.z > 0.2 m"
+  bool isAlways = true;         ///< at all times of the window; otherwise once at least
+  double from = 0, until = 0;   ///< s: output times
+  std::uint64_t margin = 0;     ///< index of the output that is its first margin
+  std::int64_t margins = 1;     ///< so many outputs from there on are above zero where it is met
+  std::int64_t metAtZero = 0;   ///< bit i: zero is enough of margin i
+  // What is guaranteed.
+  std::string word = "open";          ///< "met", "violated": of all values; "partly": it is violated for some; "open"
+  std::string why;                    ///< why no more is known; empty if all is
+  double met = 0, violated = 0;       ///< of at least so much of the uncertain box, by volume
+  double factor = 0;                  ///< met for deviations from nominal up to so many times those stated
+  std::vector<double> violation;      ///< values for which it is violated, one a quantity; NaN: none are known
+  std::int64_t violationSample = -1;  ///< these are of a sample: its number; -1: they are not
+  double violationTime = unknown;     ///< s; NaN where it is no output time
+  double violationLower = unknown, violationUpper = unknown;  ///< the margin there, proved
+  // What is probable.
+  double probabilityLower = 0, probabilityUpper = 1;  ///< that it is met, proved
+  std::int64_t samples = 0, violating = 0;            ///< that arrived; of these, violate it at an output time
+  double shareLower = unknown, shareUpper = unknown;  ///< 95 % confidence of the share that is met; NaN: none holds
+  std::int64_t worstSample = -1;                      ///< with the least margin, corners and centre among them
+  double worstTime = unknown, worstMargin = unknown;  ///< of it: s, and the margin there
+  // What is possible.
+  double violationLeast = 0, violationMost = 1;  ///< bounds of the possibility that it is violated; 1 - that: necessity
+};
+
+void describe(std::vector<RequirementResult>& requirements, std::vector<Group>& groups);
+
+}  // namespace gamut

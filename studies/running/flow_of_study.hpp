@@ -1,0 +1,30 @@
+// How flows enclose the motion of a study, and the margins of its requirements.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <vector>
+
+#include "analyses/flow/flow.hpp"
+#include "analyses/requirements/cells.hpp"
+#include "studies/problem.hpp"
+#include "studies/study.hpp"
+
+namespace gamut {
+
+/// Without progress and names of outputs.
+FlowOptions flowOptions(const Study& study, const Problem& problem, int jobs, const std::atomic<bool>* cancelled);
+
+/// Outputs of the study that are margins, one behind the other.
+std::vector<int> marginOutputs(const Study& study);
+
+/// The index of an output time.
+std::size_t rowOf(const std::vector<double>& times, double time);
+
+/// What is asked of models of all margins, which reach so many output times.
+CellQuestion questionOf(const Study& study, const Requirement& requirement, std::size_t rows);
+
+/// A flow whose outputs are the margins alone, with models of them, over a box like that of the study's problem.
+Tube modelMargins(const Study& study, FlowOptions options, const Box& box);
+
+}  // namespace gamut

@@ -1,0 +1,292 @@
+// Each requirement three ways: by the models of its margins, by the samples, and, where neither decides, by a flow of
+// the values for which it most likely is violated.
+#include <algorithm>
+#include <cmath>
+#include <new>
+#include <optional>
+
+#include "analyses/requirements/requirement.hpp"
+#include "analyses/samples/binomial.hpp"
+#include "studies/running/flow_of_study.hpp"
+#include "studies/running/units.hpp"
+
+namespace gamut {
+namespace {
+
+/// The margin that counts at one time: the least of all.
+double marginOf(const SampleBlock& block, std::size_t i, std::size_t row, const Requirement& requirement) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const std::size_t output : requirement.margins) {
+    const double margin = block(i, row, output);
+    if (!(margin >= least)) least = margin;  // NaN stays
+  }
+  return least;
+}
+
+bool isMet(const SampleBlock& block, std::size_t i, std::size_t row, const Requirement& requirement) {
+  for (std::size_t k = 0; k < requirement.margins.size(); ++k) {
+    const double margin = block(i, row, requirement.margins[k]);
+    if (!(requirement.isMetAtZero[k] != 0 ? margin >= 0 : margin > 0)) return false;
+  }
+  return true;
+}
+
+struct Margin {
+  double value;
+  std::size_t row;
+};
+
+/// The worst over the window of what must be always met, the best of what must be once.
+Margin worstOf(const SampleBlock& block, std::size_t i, std::size_t from, std::size_t until,
+               const Requirement& requirement) {
+  Margin worst{marginOf(block, i, from, requirement), from};
+  for (std::size_t row = from + 1; row <= until; ++row) {
+    const double margin = marginOf(block, i, row, requirement);
+    if (requirement.isAlways ? margin < worst.value : margin > worst.value) worst = {margin, row};
+  }
+  return worst;
+}
+
+/// What holds of the whole window, of what was found up to where the models reach.
+void forgetWhatIsNotKnown(RequirementFinding& finding, bool isAlways) {
+  if (isAlways) {
+    finding.isAlwaysMet = false;
+    finding.met = finding.factor = 0;
+    finding.probability = Interval(0.0, finding.probability.upper());
+    finding.violationPossibility = Interval(finding.violationPossibility.lower(), 1.0);
+  } else {
+    finding.isNeverMet = false;
+    finding.violated = 0;
+    finding.violating.clear();
+    finding.probability = Interval(finding.probability.lower(), 1.0);
+    finding.violationPossibility = Interval(0.0, finding.violationPossibility.upper());
+  }
+}
+
+/// The box with these values of what is uncertain.
+Box boxAt(const Problem& problem, const std::vector<double>& values) {
+  Box box = problem.box;
+  for (std::size_t q = 0; q < values.size(); ++q)
+    if (const auto slot = static_cast<std::size_t>(problem.motion.slot[q]); !std::isnan(values[q]))
+      box[slot] = values[q];
+  return box;
+}
+
+/// Models of the margins for these values alone; null where they do not reach the window.
+std::shared_ptr<const FlowModels> modelsAt(Run& run, const std::vector<double>& values, const CellQuestion& question) {
+  const Box box = boxAt(run.problem, values);
+  if (run.study.analysis == Study::Analysis::kinematics)
+    return modelImage(run.study.motion.g, 0.0, box, marginOutputs(run.study), run.study.flow.degree, run.watch.stop());
+  const Tube tube =
+      modelMargins(run.study, flowOptions(run.study, run.problem, run.options.jobs, run.watch.stop()), box);
+  return tube.reachedTimes() > question.until ? tube.models() : nullptr;
+}
+
+/// Whether all that is known of these values is that they violate it; then when, and by how much, where that is told.
+bool isViolatedAt(Run& run, const std::vector<double>& values, const CellQuestion& question,
+                  RequirementResult& result) {
+  const auto models = modelsAt(run, values, question);
+  if (!models || Cells(*models, question).whole()->verdict() != Cell::Verdict::violated) return false;
+  result.violation = values;
+  const bool isAlways = question.when == CellQuestion::When::always;
+  std::optional<Interval> found;
+  for (std::size_t row = question.from; row <= question.until; ++row)
+    for (const auto& snapshot : models->at[row])
+      for (const int margin : question.margins) {
+        const Interval bound = snapshot->outputs[static_cast<std::size_t>(margin)].bound;
+        if (bound.upper() > 0) continue;  // of several margins, another one fails
+        if (found && (isAlways ? bound.upper() >= found->upper() : bound.upper() <= found->upper())) continue;
+        found = bound;
+        result.violationTime = run.study.motion.times[row];
+      }
+  if (!found) return true;
+  result.violationLower = found->lower();
+  result.violationUpper = found->upper();
+  return true;
+}
+
+/// Besides what is known already: all of it holds.
+void take(RequirementResult& result, const RequirementFinding& finding) {
+  result.word = finding.isAlwaysMet ? "met" : finding.isNeverMet ? "violated" : "open";
+  result.met = std::max(result.met, finding.met);
+  result.violated = std::max(result.violated, finding.violated);
+  result.factor = std::max(result.factor, finding.factor);
+  result.probabilityLower = std::max(result.probabilityLower, finding.probability.lower());
+  result.probabilityUpper = std::min(result.probabilityUpper, finding.probability.upper());
+  result.violationLeast = std::max(result.violationLeast, finding.violationPossibility.lower());
+  result.violationMost = std::min(result.violationMost, finding.violationPossibility.upper());
+}
+
+/// By the degree of possibility of values that violate it.
+void noteMembership(const Study& study, RequirementResult& result) {
+  double degree = 1;
+  for (std::size_t q = 0; q < study.uncertain.size(); ++q)
+    if (!std::isnan(result.violation[q]))
+      degree = std::min(degree, study.uncertain[q].uncertain.membership(result.violation[q]));
+  result.violationLeast = std::max(result.violationLeast, std::min(degree, result.violationMost));
+}
+
+/// Whether bounds are so far apart that tighter models are worth their while.
+bool isVague(const RequirementResult& result) {
+  constexpr double gap = 0.008;
+  return result.word != "met" && result.word != "violated" &&
+         (result.word == "open" || result.probabilityUpper - result.probabilityLower > gap ||
+          result.violationMost - result.violationLeast > 6 * gap);
+}
+
+/// What models of the margins say of one requirement; no less than what is known of it already.
+void examine(Run& run, const FlowModels& models, std::size_t number, std::vector<std::vector<double>>& suspects) {
+  const Study& study = run.study;
+  const Requirement& requirement = study.requirements[number];
+  const CellQuestion whole = questionOf(study, requirement, study.motion.times.size());
+  if (models.at.size() <= whole.from) return;
+  const CellQuestion question = questionOf(study, requirement, models.at.size());
+  std::vector<CellQuantity> quantities;
+  for (std::size_t q = 0; q < study.uncertain.size(); ++q)
+    if (!study.uncertain[q].varies) quantities.push_back({run.problem.motion.slot[q], &study.uncertain[q].uncertain});
+  RequirementOptions options;
+  options.cancelled = run.watch.stop();
+  RequirementFinding finding = gamut::examine(models, question, quantities, options);
+  if (question.until < whole.until) forgetWhatIsNotKnown(finding, requirement.isAlways);
+  take(run.results.requirements[number], finding);
+  for (const std::vector<double>& values : {finding.violating, finding.doubtful}) {
+    if (values.empty()) continue;
+    std::vector<double>& all = suspects.emplace_back();
+    for (std::size_t q = 0, next = 0; q < study.uncertain.size(); ++q)
+      all.push_back(study.uncertain[q].varies ? RequirementResult::unknown : values[next++]);
+  }
+}
+
+/// Models by a flow that is to be so tight; null if it comes less far than the first.
+std::shared_ptr<const FlowModels> tighterModels(Run& run, double tightness) {
+  constexpr double leastBudget = 2, mostBudget = 4;  // s; of what the first enclosure took
+  FlowOptions options = flowOptions(run.study, run.problem, run.options.jobs, run.watch.stop());
+  options.tightness = tightness;
+  options.budget = std::max(leastBudget, mostBudget * run.enclosed.cpu);
+  options.progress = run.progressOf("requirements");
+  const auto models = modelMargins(run.study, std::move(options), run.problem.box).models();
+  return models && models->at.size() >= run.enclosed.models->at.size() ? models : nullptr;
+}
+
+/// Values that violate it, by a flow of their own: of the worst sample, or where the models leave most doubt.
+void findViolation(Run& run, std::size_t number, std::vector<std::vector<double>> suspects) {
+  RequirementResult& result = run.results.requirements[number];
+  const CellQuestion whole = questionOf(run.study, run.study.requirements[number], run.study.motion.times.size());
+  const bool isOfSample = result.worstSample >= 0 && result.worstMargin < 0;
+  if (isOfSample) suspects.insert(suspects.begin(), run.worst[number]);
+  for (std::size_t i = 0; i < suspects.size(); ++i) {
+    if (*run.watch.stop() || !isViolatedAt(run, suspects[i], whole, result)) continue;
+    if (isOfSample && i == 0) result.violationSample = result.worstSample;
+    if (result.word == "open") result.word = "partly";
+    noteMembership(run.study, result);
+    return;
+  }
+}
+
+std::string whyOpen(const Run& run, const RequirementResult& result) {
+  if (!run.study.asksFor<IntervalResult>()) return "no enclosure was asked for";
+  if (!run.enclosed.models) return run.enclosed.why.empty() ? "models of its margins found no room" : run.enclosed.why;
+  if (run.study.motion.times[run.enclosed.models->at.size() - 1] < result.until) return run.enclosed.why;
+  return result.word == "open" ? "the enclosure is not tight enough to tell" : "";
+}
+
+void proveAll(Run& run) {
+  const std::size_t count = run.study.requirements.size();
+  std::vector<std::vector<std::vector<double>>> suspects(count);
+  const auto examineAll = [&](const FlowModels& models) {
+    for (std::size_t r = 0; r < count; ++r)
+      if (isVague(run.results.requirements[r])) {
+        suspects[r].clear();
+        examine(run, models, r, suspects[r]);
+      }
+  };
+  if (run.enclosed.models) examineAll(*run.enclosed.models);
+  double excess = run.study.flow.tightness - 1;
+  for (int round = 0; round < 2 && run.enclosed.models; ++round) {
+    if (run.study.analysis == Study::Analysis::kinematics || *run.watch.stop() ||
+        std::ranges::none_of(run.results.requirements, isVague))
+      break;
+    const auto models = tighterModels(run, 1 + (excess /= 4));
+    if (!models) break;
+    examineAll(*models);
+  }
+  for (std::size_t r = 0; r < count; ++r) {
+    RequirementResult& result = run.results.requirements[r];
+    if (result.word != "met") findViolation(run, r, std::move(suspects[r]));
+    if (result.word == "open" || result.word == "partly") result.why = whyOpen(run, result);
+  }
+}
+
+void countShares(RequirementResult& result, Plan plan) {
+  if (plan != Plan::random || result.samples == 0) return;
+  const Interval share = confidenceOfShare(result.samples - result.violating, result.samples);
+  result.shareLower = share.lower();
+  result.shareUpper = share.upper();
+}
+
+}  // namespace
+
+void stateRequirements(Run& run) {
+  for (const Requirement& requirement : run.study.requirements) {
+    RequirementResult& result = run.results.requirements.emplace_back();
+    result.name = requirement.name;
+    result.statement = requirement.statement;
+    result.isAlways = requirement.isAlways;
+    result.from = requirement.from;
+    result.until = requirement.until;
+    result.margin = requirement.margins.front();
+    result.margins = static_cast<std::int64_t>(requirement.margins.size());
+    for (std::size_t k = 0; k < requirement.isMetAtZero.size(); ++k)
+      result.metAtZero |= static_cast<std::int64_t>(requirement.isMetAtZero[k] != 0 ? 1 : 0) << k;
+    result.violation.assign(run.study.uncertain.size(), RequirementResult::unknown);
+  }
+  run.worst.resize(run.study.requirements.size());
+}
+
+void noteRequirements(Run& run, const SampleBlock& block) {
+  for (std::size_t r = 0; r < run.study.requirements.size(); ++r) {
+    const Requirement& requirement = run.study.requirements[r];
+    RequirementResult& result = run.results.requirements[r];
+    const std::size_t from = rowOf(run.study.motion.times, requirement.from),
+                      until = rowOf(run.study.motion.times, requirement.until);
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      if (std::isnan(block(i, until, requirement.margins.front()))) continue;  // it did not arrive
+      bool always = true, once = false;
+      for (std::size_t row = from; row <= until; ++row) {
+        const bool isMetNow = isMet(block, i, row, requirement);
+        always = always && isMetNow;
+        once = once || isMetNow;
+      }
+      if (block.hasWeight()) {
+        ++result.samples;
+        if (!(requirement.isAlways ? always : once)) ++result.violating;
+      }
+      const Margin worst = worstOf(block, i, from, until, requirement);
+      if (!(result.worstSample < 0 || worst.value < result.worstMargin)) continue;
+      result.worstSample = static_cast<std::int64_t>(block.first() + i);
+      result.worstMargin = worst.value;
+      result.worstTime = run.study.motion.times[worst.row];
+      run.worst[r].assign(block.values(i).begin(), block.values(i).end());
+      for (std::size_t q = 0; q < run.study.uncertain.size(); ++q)
+        if (run.study.uncertain[q].varies) run.worst[r][q] = RequirementResult::unknown;
+    }
+  }
+}
+
+void checkRequirements(Run& run) {
+  if (run.study.requirements.empty()) return;
+  run.watch.begin(Watch::Stage::rest);
+  const double start = processCpuSeconds();
+  try {
+    proveAll(run);
+  } catch (const std::bad_alloc&) {
+    run.watch.memoryFailed();
+    for (RequirementResult& result : run.results.requirements)
+      if (result.word == "open") result.why = run.watch.why();
+  }
+  for (RequirementResult& result : run.results.requirements) countShares(result, run.study.ensemble.plan);
+  run.enclosed.models.reset();
+  run.results.interval.cpu += processCpuSeconds() - start;
+}
+
+}  // namespace gamut

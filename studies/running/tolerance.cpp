@@ -1,0 +1,145 @@
+// One flow over a box tells by its models how much less would do; so a greater box is tried, then one that is little
+// greater than what that told, since a lesser box is known more tightly.
+#include "studies/running/tolerance.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "analyses/requirements/requirement.hpp"
+#include "studies/running/flow_of_study.hpp"
+
+namespace gamut {
+namespace {
+
+class Finder {
+ public:
+  Finder(const Study& study, const ToleranceOptions& options)
+      : study_(study), options_(options), problem_(makeProblem(study)) {
+    if (study.requirements.empty()) throw std::invalid_argument("the study has no [[requirement]]");
+    if (study.uncertain.empty()) throw std::invalid_argument("the study has no [[uncertain]] quantity");
+  }
+
+  AllowedDeviations find() {
+    AllowedDeviations found;
+    const std::size_t count = study_.uncertain.size();
+    found.together = largest(std::vector<char>(count, 1));
+    for (std::size_t q = 0; q < count; ++q) {
+      done_ = static_cast<double>(q + 1) / static_cast<double>(count + 1);
+      if (options_.progress) options_.progress(done_);
+      AllowedDeviation& alone = found.alone.emplace_back();
+      if (count == 1) {
+        alone = found.together;
+      } else {
+        std::vector<char> deviate(count, 0);
+        deviate[q] = 1;
+        alone = largest(deviate);
+      }
+      alone.name = study_.uncertain[q].uncertain.name;
+      alone.interval = scaled(q, alone.factor);
+    }
+    return found;
+  }
+
+ private:
+  /// Rounded outward, but for factor 1: as stated.
+  Interval scaled(std::size_t quantity, double factor) const {
+    const Uncertain& u = study_.uncertain[quantity].uncertain;
+    return factor == 1 ? u.range : Interval(u.nominal) + Interval(factor) * (u.range - Interval(u.nominal));
+  }
+
+  struct Trial {
+    double proved = 0;  ///< this factor
+    std::string limit;  ///< why it is less than what was tried; empty if it is not
+  };
+
+  /// Deviations of these quantities `factor` times the stated ones.
+  Trial attempt(const std::vector<char>& deviate, double factor) {
+    std::vector<Uncertain> uncertain;
+    Box box = problem_.box;
+    for (std::size_t q = 0; q < study_.uncertain.size(); ++q) {
+      Uncertain& u = uncertain.emplace_back(study_.uncertain[q].uncertain);
+      if (deviate[q] != 0) u.range = scaled(q, factor);
+      box[static_cast<std::size_t>(problem_.motion.slot[q])] = u.range;
+    }
+    std::vector<CellQuantity> quantities;
+    std::vector<char> deviates;
+    for (std::size_t q = 0; q < uncertain.size(); ++q) {
+      if (study_.uncertain[q].varies) continue;
+      quantities.push_back({problem_.motion.slot[q], &uncertain[q]});
+      deviates.push_back(deviate[q]);
+    }
+    std::shared_ptr<const FlowModels> models;
+    Trial trial{1, {}};
+    std::string why;
+    try {
+      if (study_.analysis == Study::Analysis::kinematics) {
+        models = modelImage(study_.motion.g, 0.0, box, marginOutputs(study_), study_.flow.degree, options_.cancelled);
+      } else {
+        const Tube tube = modelMargins(study_, flowOptions(study_, problem_, options_.jobs, options_.cancelled), box);
+        models = tube.models();
+        why = tube.why();
+      }
+    } catch (const std::invalid_argument& error) {  // no such box makes sense
+      return {0, error.what()};
+    }
+    if (!models) return {0, why.empty() ? "the enclosure was not found" : why};
+    RequirementOptions own;
+    own.cancelled = options_.cancelled;
+    for (const Requirement& requirement : study_.requirements) {
+      const std::size_t until = rowOf(study_.motion.times, requirement.until);
+      const bool reaches = models->at.size() > until;
+      const CellQuestion question = questionOf(study_, requirement, models->at.size());
+      if (!reaches && (requirement.isAlways || question.from >= models->at.size())) return {0, why};
+      const double part = guaranteedFactor(*models, question, quantities, deviates, own);
+      if (part < trial.proved) trial = {part, requirement.name};
+    }
+    trial.proved *= factor;
+    return trial;
+  }
+
+  /// What is proved of some factor holds of all that are less.
+  AllowedDeviation largest(const std::vector<char>& deviate) {
+    AllowedDeviation found;
+    double tried = 1;
+    const auto isCancelled = [&] { return options_.cancelled != nullptr && *options_.cancelled; };
+    double least = 0, failed = 2 * options_.most;  // `least` is proved
+    constexpr int mostTrials = 12;
+    for (int trial = 0; trial < mostTrials && !isCancelled(); ++trial) {
+      const Trial result = attempt(deviate, tried);
+      if (result.limit.empty()) {
+        least = std::max(least, tried);
+        if (tried >= options_.most) break;
+        tried = failed > options_.most ? std::min(2 * tried, options_.most) : std::sqrt(least * failed);
+      } else {
+        failed = std::min(failed, tried);
+        least = std::max(least, result.proved);
+        found.limit = result.limit;
+        if (failed <= least * (1 + options_.accuracy)) break;
+        const double next =
+            least > 0 ? std::min(least * (1 + 2 * options_.accuracy), std::sqrt(least * failed)) : failed / 4;
+        if (least == 0 && failed < 1e-3) break;
+        tried = next;
+      }
+      if (failed <= least * (1 + options_.accuracy)) break;
+    }
+    found.factor = least;
+    if (least >= options_.most) found.limit.clear();
+    if (isCancelled()) found.limit = "interrupted";
+    return found;
+  }
+
+  const Study& study_;
+  const ToleranceOptions& options_;
+  const Problem problem_;
+  double done_ = 0;
+};
+
+}  // namespace
+
+AllowedDeviations findTolerances(const Study& study, const ToleranceOptions& options) {
+  return Finder(study, options).find();
+}
+
+}  // namespace gamut

@@ -1,0 +1,289 @@
+// Requirements from the study's text to what the results say of them.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "studies/results/results_file.hpp"
+#include "studies/running/replay.hpp"
+#include "studies/running/run.hpp"
+#include "studies/running/tolerance.hpp"
+#include "studies/summary.hpp"
+#include "tests/studies/sample_study.hpp"
+#include "tests/studies/temporary_folder.hpp"
+
+namespace gamut {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
+
+/// The pendulum of sampleStudy, let go at 30 degrees ± 1 % with 0.5 rad/s, with these requirements.
+std::string withRequirements(const std::string& text) {
+  return sampleStudyWith("[stochastic]", text + "\n[stochastic]");
+}
+
+Study read(const std::string& text) { return readStudyText(text, "s.toml"); }
+
+const RequirementResult& named(const Results& results, const std::string& name) {
+  for (const RequirementResult& requirement : results.requirements)
+    if (requirement.name == name) return requirement;
+  throw std::logic_error("no requirement " + name);
+}
+
+TEST(Requirements, AreReadWithTheirMargins) {
+  const Study study = read(withRequirements(R"(
+[[requirement]]
+name = "clearance"
+always = "tip.position.z > -0.5 m"
+from = "100 ms"
+until = 0.25
+[[requirement]]
+eventually = "-20 deg <= angle < 20 deg"
+[[requirement]]
+name = "slow"
+always = "abs(hinge.rate) <= 3 rad/s"
+[[requirement]]
+name = "sign"
+always = "hinge.angle^2 >= 0"
+)"));
+  ASSERT_EQ(study.requirements.size(), 4U);
+  const Requirement& clearance = study.requirements[0];
+  EXPECT_EQ(clearance.statement, "always tip.position.z > -0.5 m");
+  EXPECT_TRUE(clearance.isAlways);
+  EXPECT_EQ(clearance.from, 0.1);
+  EXPECT_EQ(clearance.until, 0.25);
+  EXPECT_THAT(study.motion.times, ::testing::ElementsAre(0, 0.1, 0.2, 0.25, 0.3, 0.4, 0.5));
+  ASSERT_EQ(study.outputs.size(), 8U);
+  EXPECT_EQ(study.outputs[2].name, "clearance");
+  EXPECT_EQ(study.outputs[2].unit, "m");
+  EXPECT_EQ(study.outputs[3].quantity, "hinge.angle - (-20 deg)");
+  EXPECT_EQ(study.outputs[4].quantity, "20 deg - hinge.angle");
+  EXPECT_EQ(study.requirements[1].name, "-20 deg <= angle < 20 deg");
+  EXPECT_FALSE(study.requirements[1].isAlways);
+  EXPECT_THAT(study.requirements[1].isMetAtZero, ::testing::ElementsAre(1, 0));
+  EXPECT_EQ(study.outputs[5].name, "slow, from above");
+  EXPECT_EQ(study.outputs[6].quantity, "(3 rad/s) - (-(hinge.rate))");
+  EXPECT_EQ(study.outputs[7].quantity, "hinge.angle^2");
+}
+
+TEST(Requirements, ThatMakeNoSenseAreRefusedInOneLine) {
+  const auto refusal = [](const std::string& text) {
+    return [text] { read(withRequirements("[[requirement]]\n" + text)); };
+  };
+  const auto says = [](const char* what) { return ThrowsMessage<StudyError>(HasSubstr(what)); };
+  EXPECT_THAT(refusal("name = \"x\""), says("'requirement.always' is missing; expected always or eventually"));
+  EXPECT_THAT(refusal("always = \"angle > 0\"\neventually = \"angle > 0\""), says("are both given; expected one of"));
+  EXPECT_THAT(refusal("always = \"angle\""), says("'angle' compares nothing; expected a comparison with <"));
+  EXPECT_THAT(refusal("always = \"angle == 0\""), says("no comparison that a margin could be found of"));
+  EXPECT_THAT(refusal("always = \"angle > \""), says("nothing on one side"));
+  EXPECT_THAT(refusal("always = \"0 < angle > 1\""), says("comparisons that do not belong together"));
+  EXPECT_THAT(refusal("always = \"angel > 0\""), says("unknown quantity 'angel'; expected"));
+  EXPECT_THAT(refusal("always = \"tip.position.z > 2 s\""), says("s.toml:"));
+  EXPECT_THAT(refusal("always = \"angle > 0\"\nfrom = 0.6"),
+              says("outside the study's time; expected a time from 0 s"));
+  EXPECT_THAT(refusal("always = \"angle > 0\"\nfrom = 0.4\nuntil = 0.3"), says("expected from before until"));
+  EXPECT_THAT(refusal("always = \"angle > 0\"\n[[requirement]]\nalways = \"angle > 0\""),
+              says("are named 'angle > 0'"));
+  EXPECT_THAT(refusal("name = \"angle\"\nalways = \"angle > 0\""), says("both named 'angle'"));
+  EXPECT_THAT(refusal("alwys = \"angle > 0\""), says("unknown key 'alwys'"));
+}
+
+/// The angle falls from 0.5236 ± 1 % to below -0.3 within half a second; its peak is early.
+const std::string four = R"(
+[[requirement]]
+name = "met"
+always = "angle < 0.6"
+[[requirement]]
+name = "violated"
+always = "angle > 0.2"
+[[requirement]]
+name = "partly"
+always = "angle < 0.527"
+until = 0
+[[requirement]]
+name = "passes"
+eventually = "angle < 0"
+)";
+
+TEST(Requirements, HaveThreeAnswersEach) {
+  const Results results = run(read(withRequirements(four)));
+  ASSERT_EQ(results.requirements.size(), 4U);
+  const RequirementResult& met = named(results, "met");
+  EXPECT_EQ(met.word, "met");
+  EXPECT_EQ(met.factor, 1);
+  EXPECT_EQ(met.probabilityLower, 1);
+  EXPECT_EQ(met.violationMost, 0);
+  EXPECT_EQ(met.samples, 16);
+  EXPECT_EQ(met.violating, 0);
+  EXPECT_TRUE(std::isnan(met.shareLower));  // the samples are not independent
+  const RequirementResult& violated = named(results, "violated");
+  EXPECT_EQ(violated.word, "violated");
+  EXPECT_EQ(violated.probabilityUpper, 0);
+  EXPECT_EQ(violated.violationLeast, 1);
+  EXPECT_EQ(violated.violating, 16);
+  // Uniform on π/6 (1 ± 0.01): below 0.527 with probability (0.527 / (π/6) - 0.99) / 0.02.
+  const RequirementResult& partly = named(results, "partly");
+  const double share = (0.527 * 6 / 3.141592653589793 - 0.99) / 0.02;
+  EXPECT_EQ(partly.word, "partly");
+  EXPECT_LE(partly.probabilityLower, share + 1e-9);  // the share is rounded, as the nominal value is
+  EXPECT_GE(partly.probabilityUpper, share - 1e-9);
+  EXPECT_LT(partly.probabilityUpper - partly.probabilityLower, 1e-6);
+  EXPECT_NEAR(partly.factor, 2 * share - 1, 2.5e-3);
+  EXPECT_LE(partly.violationLeast, 2 - 2 * share + 1e-9);
+  EXPECT_GE(partly.violationMost, 2 - 2 * share - 1e-9);
+  EXPECT_NEAR(partly.violationMost - partly.violationLeast, 0, 0.01);
+  EXPECT_GT(partly.violation[0], 0.527);
+  EXPECT_LE(partly.violationUpper, 0);
+  EXPECT_EQ(partly.violationTime, 0);
+  EXPECT_EQ(named(results, "passes").word, "met");
+  EXPECT_THAT(jsonSummary(results, "inside", {"a", "b"}), HasSubstr("\"guaranteed\":\"partly\""));
+}
+
+TEST(Requirements, AreKeptInTheFile) {
+  const TemporaryFolder folder;
+  const Results results = run(read(withRequirements(four)));
+  writeResults(results, folder.path("r.h5"));
+  EXPECT_THAT(differences(results, readResults(folder.path("r.h5"))), ::testing::IsEmpty());
+}
+
+TEST(Requirements, OfIndependentSamplesHaveAConfidence) {
+  std::string text = withRequirements(four);
+  text.replace(text.find("\"sobol\""), 7, "\"random\"");
+  const RequirementResult& partly = named(run(read(text)), "partly");
+  EXPECT_LT(partly.shareLower, partly.probabilityLower);
+  EXPECT_GT(partly.shareUpper, partly.probabilityUpper);
+}
+
+/// Violated in one corner of three quantities, with a probability of 1e-6.
+TEST(Requirements, AreRefutedByACornerThatSamplesMiss) {
+  std::string text = withRequirements(R"(
+[[requirement]]
+name = "corner"
+always = "angle + 4*bob.mass/(1 kg) + 2*rod.length/(1 m) < 2.61308"
+until = 0
+)");
+  text.replace(text.find("[[output]]"), 10, R"([[uncertain]]
+quantity = "bob.mass"
+interval = "± 5 %"
+[[uncertain]]
+quantity = "rod.length"
+interval = "± 3.5 %"
+[[output]])");
+  const Results results = run(read(text));
+  const RequirementResult& corner = named(results, "corner");
+  EXPECT_EQ(corner.word, "partly");
+  EXPECT_EQ(corner.violating, 0);
+  EXPECT_EQ(results.stochastic.nameOf(corner.violationSample), "corner 7");
+  EXPECT_LE(corner.violationUpper, 0);
+  EXPECT_GT(corner.probabilityLower, 0.99);
+  EXPECT_GT(corner.factor, 0.98);
+}
+
+TEST(Requirements, KeepWhatWasProvedWhereTheEnclosureEnds) {
+  std::string text = withRequirements(four);
+  text.replace(text.find("[stochastic]"), 12, "[interval]\nmax_pieces = 1\n[stochastic]");
+  Study study = read(text);
+  study.flow.maxWidth = 1e-3;  // ends at once
+  const Results results = run(study);
+  EXPECT_LT(results.interval.reached, 0.5);
+  const RequirementResult& met = named(results, "met");
+  EXPECT_EQ(met.word, "open");
+  EXPECT_NE(met.why, "");
+  EXPECT_EQ(met.probabilityLower, 0);
+  EXPECT_EQ(met.factor, 0);
+}
+
+TEST(Requirements, AreSampledWithoutAGuarantee) {
+  std::string text = withRequirements(four);
+  text.replace(text.find("[\"interval\", \"stochastic\", \"fuzzy\"]"), 35, "[\"stochastic\"]");
+  const Results results = run(read(text));
+  EXPECT_EQ(named(results, "met").word, "open");
+  EXPECT_EQ(named(results, "met").why, "no enclosure was asked for");
+  EXPECT_EQ(named(results, "partly").word, "partly");  // a flow of that sample's values proves it
+  EXPECT_EQ(named(results, "met").violating, 0);
+}
+
+TEST(Requirements, HoldWithoutMotion) {
+  const Results results = run(read(R"([study]
+analysis = "kinematics"
+[mechanism]
+[[mechanism.element]]
+type = "revolute"
+name = "hinge"
+from = "inertial"
+to = "K1"
+axis = "x"
+initial = { angle = 0.5 }
+[[mechanism.element]]
+type = "link"
+name = "rod"
+from = "K1"
+to = "tip"
+vector = [0, 0, "-1 m"]
+[[uncertain]]
+quantity = "hinge.angle"
+interval = [0, 1]
+[[output]]
+quantity = "tip.position.z"
+[[requirement]]
+name = "low"
+always = "tip.position.z < -0.54 m"
+[[requirement]]
+name = "lower"
+always = "tip.position.z < -0.8 m"
+)"));
+  EXPECT_EQ(named(results, "low").word, "met");
+  const RequirementResult& lower = named(results, "lower");
+  EXPECT_EQ(lower.word, "partly");
+  EXPECT_LE(lower.probabilityLower, std::acos(0.8));
+  EXPECT_GE(lower.probabilityUpper, std::acos(0.8));
+  EXPECT_LT(lower.probabilityUpper - lower.probabilityLower, 0.01);
+}
+
+TEST(Requirements, ThatAreViolatedCanBeReplayed) {
+  const Study study = read(withRequirements(four));
+  const Results results = run(study);
+  RequirementResult partly = named(results, "partly");
+  const ReplayedSample sample = replayViolation(study, results, partly);
+  EXPECT_EQ(sample.values[0], partly.violation[0]);
+  EXPECT_LT(sample.trajectory(0, partly.margin), 0);
+  partly.violationSample = -1;  // as of values that no sample has
+  EXPECT_EQ(replayViolation(study, results, partly).values[0], partly.violation[0]);
+  EXPECT_THROW(replayViolation(study, results, named(results, "met")), std::invalid_argument);
+}
+
+// ---- Tolerances -----------------------------------------------------------------------------------------------------
+
+TEST(Tolerances, AreAsLargeAsRequirementsAllow) {
+  // 30° (1 + d) < 32°: d = 0.0667, 6.67 times 1 %.
+  const std::string text =
+      withRequirements("[[requirement]]\nname = \"limit\"\nalways = \"angle < 32 deg\"\nuntil = 0\n");
+  const AllowedDeviations found = findTolerances(read(text));
+  EXPECT_LE(found.together.factor, 20.0 / 3);
+  EXPECT_GT(found.together.factor, 0.97 * 20 / 3);
+  EXPECT_EQ(found.together.limit, "limit");
+  ASSERT_EQ(found.alone.size(), 1U);
+  EXPECT_EQ(found.alone[0].name, "start");
+  EXPECT_LE(found.alone[0].interval.upper(), 32.0 * 3.1415927 / 180);
+}
+
+TEST(Tolerances, ShrinkOneByOne) {
+  std::string text = withRequirements(
+      "[[requirement]]\nname = \"limit\"\nalways = \"angle + 0*rod.length/m < 30.15 deg\"\nuntil = 0\n");
+  text.replace(text.find("[[output]]"), 10,
+               "[[uncertain]]\nquantity = \"rod.length\"\ninterval = \"± 1 %\"\n[[output]]");
+  const AllowedDeviations found = findTolerances(read(text));
+  EXPECT_NEAR(found.together.factor, 0.5, 0.01);
+  EXPECT_LE(found.together.factor, 0.5);
+  EXPECT_NEAR(found.alone[0].factor, 0.5, 0.01);
+  EXPECT_EQ(found.alone[1].factor, 0);  // it does not help
+}
+
+TEST(Tolerances, NeedSomethingToBeRequired) {
+  EXPECT_THAT([] { findTolerances(read(sampleStudy)); },
+              ThrowsMessage<std::invalid_argument>("the study has no [[requirement]]"));
+}
+
+}  // namespace
+}  // namespace gamut
