@@ -31,7 +31,8 @@ PolynomialRange::PolynomialRange(std::shared_ptr<const Monomials> monomials) : m
   shiftError_ = (4 * m.degree() + 8) * bounds::unit * bounds::up;
 }
 
-void PolynomialRange::substitute(int symbol, double middle, double half, const double* c, double* out, int count) const {
+void PolynomialRange::substitute(int symbol, double middle, double half, const double* c, double* out,
+                                 int count) const {
   const Monomials& m = *monomials_;
   if (count < 0) count = m.count();
   std::fill(out, out + count, 0.0);

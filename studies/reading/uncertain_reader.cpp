@@ -24,44 +24,20 @@ class UncertainReader {
     const TomlSection section(source_, table, "uncertain",
                               {"name", "quantity", "interval", "distribution", "membership", "varies", "rate"});
     const toml::node& node = section.require("quantity", "the number that is uncertain, such as \"shoulder.angle\"");
-    const std::string quantity = source_.asText(node, "uncertain.quantity");
-    const std::vector<std::string> known = study_.mechanism.quantities();
-    for (const Mechanism::Derived& derived : study_.mechanism.derived())
-      if (derived.name == quantity)
-        source_.fail(node, fmt::format("'{}' follows from a formula", quantity),
-                     fmt::format("one of the quantities in it: {}", fmt::join(derived.formula.names(), ", ")));
-    for (const Mechanism::JointCoordinate& coordinate : study_.mechanism.coordinates())
-      if (coordinate.isDriven && (coordinate.name == quantity || coordinate.rate == quantity))
-        source_.fail(
-            node, fmt::format("the joint '{}' is driven, so that '{}' follows from time", coordinate.element, quantity),
-            "a parameter in the drive's position");
-    if (std::find(known.begin(), known.end(), quantity) == known.end())
-      source_.fail(node, fmt::format("unknown quantity '{}'", quantity), quantityExpected(quantity, known));
-    UncertainQuantity result{quantity, study_.mechanism.unitOf(quantity), {}};
-    result.uncertain.name = section.text("name", quantity);
-    for (const UncertainQuantity& other : study_.uncertain) {
-      if (other.quantity == quantity)
-        source_.fail(node, fmt::format("'{}' is made uncertain twice", quantity), "every quantity once");
-      if (other.uncertain.name == result.uncertain.name)
-        source_.fail(table, fmt::format("two uncertain quantities are named '{}'", other.uncertain.name),
-                     "different names");
+    const std::vector<std::pair<const toml::node*, std::string>> quantities = quantitiesAt(node);
+    if (quantities.size() > 1)
+      if (const toml::node* name = section.find("name"))
+        source_.fail(*name, fmt::format("one name is given to {} quantities", quantities.size()),
+                     "no name: each has that of its quantity");
+    for (const auto& [place, quantity] : quantities) {
+      readOne(section, *place, quantity);
+      tables_.push_back(&table);
     }
-    const toml::node& interval = section.require("interval", waysToSayIt);
-    readRange(interval, result);
-    readDistribution(section, result);
-    readMembership(section, result);
-    readCourse(section, node, result);
-    try {
-      result.uncertain.check();
-    } catch (const std::invalid_argument& error) {
-      source_.failWith(interval, error.what(), "an interval that holds the nominal value and both supports");
-    }
-    study_.uncertain.push_back(std::move(result));
   }
 
   /// Says so if within the intervals there are values that make no sense, such as an inertia that no body has. They may
   /// still be meant: of a body that only turns about one axis, the other moments do not matter.
-  void noteFaults(const std::vector<const toml::table*>& tables) {
+  void noteFaults() {
     const Mechanism& mechanism = study_.mechanism;
     for (const Described& element : mechanism.elements()) {
       std::vector<Expression> asked;
@@ -81,13 +57,112 @@ class UncertainReader {
       };
       const auto first = std::ranges::find_if(study_.uncertain, varies);
       if (first == study_.uncertain.end()) continue;
-      const toml::table& table = *tables[static_cast<std::size_t>(first - study_.uncertain.begin())];
+      const toml::table& table = *tables_[static_cast<std::size_t>(first - study_.uncertain.begin())];
+      const toml::node* interval = table.get("interval");
       for (const std::string& sentence : sentences)
-        study_.notes.push_back(source_.note(*table.get("interval"), sentence));
+        study_.notes.push_back(source_.note(interval != nullptr ? *interval : *table.get("quantity"), sentence));
     }
   }
 
  private:
+  /// One quantity of a table that may name several.
+  void readOne(const TomlSection& section, const toml::node& node, const std::string& quantity) {
+    const std::vector<std::string> known = study_.mechanism.quantities();
+    for (const Mechanism::Derived& derived : study_.mechanism.derived())
+      if (derived.name == quantity)
+        source_.fail(node, fmt::format("'{}' follows from a formula", quantity),
+                     fmt::format("one of the quantities in it: {}", fmt::join(derived.formula.names(), ", ")));
+    for (const Mechanism::JointCoordinate& coordinate : study_.mechanism.coordinates())
+      if (coordinate.isDriven && (coordinate.name == quantity || coordinate.rate == quantity))
+        source_.fail(
+            node, fmt::format("the joint '{}' is driven, so that '{}' follows from time", coordinate.element, quantity),
+            "a parameter in the drive's position");
+    if (std::find(known.begin(), known.end(), quantity) == known.end())
+      source_.fail(node, fmt::format("unknown quantity '{}'", quantity), quantityExpected(quantity, known));
+    UncertainQuantity result{quantity, study_.mechanism.unitOf(quantity), {}};
+    result.uncertain.name = section.text("name", quantity);
+    for (const UncertainQuantity& other : study_.uncertain) {
+      if (other.quantity == quantity)
+        source_.fail(node, fmt::format("'{}' is made uncertain twice", quantity), "every quantity once");
+      if (other.uncertain.name == result.uncertain.name)
+        source_.fail(section.table(), fmt::format("two uncertain quantities are named '{}'", other.uncertain.name),
+                     "different names");
+    }
+    const toml::node* stated = section.find("interval");
+    if (stated != nullptr)
+      readRange(*stated, result);
+    else
+      takeSupports(section, result);
+    const toml::node& interval = stated != nullptr ? *stated : static_cast<const toml::node&>(section.table());
+    readDistribution(section, result);
+    readMembership(section, result);
+    readCourse(section, node, result);
+    try {
+      result.uncertain.check();
+    } catch (const std::invalid_argument& error) {
+      source_.failWith(interval, error.what(), "an interval that holds the nominal value and both supports");
+    }
+    study_.uncertain.push_back(std::move(result));
+  }
+
+  /// Text, with * for any characters, or a list of such texts.
+  std::vector<std::pair<const toml::node*, std::string>> quantitiesAt(const toml::node& node) const {
+    std::vector<std::pair<const toml::node*, std::string>> found;
+    const auto add = [&](const toml::node& entry) {
+      const std::string text = source_.asText(entry, "uncertain.quantity");
+      if (text.find('*') == std::string::npos) {
+        found.emplace_back(&entry, text);
+        return;
+      }
+      const std::size_t before = found.size();
+      for (const std::string& quantity : study_.mechanism.quantities())
+        if (fits(quantity, text)) found.emplace_back(&entry, quantity);
+      if (found.size() == before)
+        source_.fail(entry, fmt::format("no quantity fits '{}'", text),
+                     "a pattern that `gamut quantities` shows a quantity of");
+    };
+    if (!node.is_array()) {
+      add(node);
+      return found;
+    }
+    for (const toml::node& entry : *node.as_array()) add(entry);
+    if (found.empty()) source_.fail(node, "uncertain.quantity is empty", "at least one quantity");
+    return found;
+  }
+
+  /// Whether the text is the pattern, with any characters in the place of each *.
+  static bool fits(std::string_view text, std::string_view pattern) {
+    const std::size_t star = pattern.find('*');
+    if (star == pattern.npos) return text == pattern;
+    if (!text.starts_with(pattern.substr(0, star))) return false;
+    for (std::size_t skipped = star; skipped <= text.size(); ++skipped)
+      if (fits(text.substr(skipped), pattern.substr(star + 1))) return true;
+    return false;
+  }
+
+  /// Without an interval: what distribution and membership are stated on.
+  void takeSupports(const TomlSection& section, UncertainQuantity& result) {
+    const Dimension dimension = dimensionOf(result.unit);
+    Interval range = Interval::empty();
+    for (const char* key : {"distribution", "membership"}) {
+      const toml::node* node = section.find(key);
+      if (node == nullptr || !node->is_table()) continue;
+      const std::string name = section.nameOf(key);
+      if (const toml::node* support = node->as_table()->get("support"))
+        range = hull(range, pair(*support, name + ".support", dimension));
+      const toml::node* points = node->as_table()->get("points");
+      if (points == nullptr || !points->is_array()) continue;
+      for (const toml::node& point : *points->as_array())
+        if (point.is_array() && !point.as_array()->empty())
+          range = hull(range, enclose(source_.asAmount((*point.as_array())[0], name + ".points", dimension)));
+    }
+    if (isEmpty(range))
+      section.require("interval", fmt::format("{}, or a distribution or membership with a support", waysToSayIt));
+    result.uncertain.nominal = midpoint(study_.mechanism.nominal(result.quantity));
+    result.uncertain.range = range;
+    checkRange(section.table(), "the support of '" + result.quantity + "'", result);
+  }
+
   std::map<std::string, Interval> ranges() const {
     std::map<std::string, Interval> result;
     for (const UncertainQuantity& q : study_.uncertain) result[q.quantity] = q.uncertain.range;
@@ -116,10 +191,14 @@ class UncertainReader {
         result.uncertain.range = hull(nominal - size(down), nominal + size(up));
       }
     }
+    checkRange(node, what, result);
+  }
+
+  void checkRange(const toml::node& node, const std::string& what, const UncertainQuantity& result) const {
     const Interval& range = result.uncertain.range;
     if (!(range.lower() < range.upper()))
       source_.fail(node, what + " holds one value only", "a lower bound below the upper one");
-    if (dimension == Dimension{1, 0, 0, 0} && range.lower() < 0)
+    if (dimensionOf(result.unit) == Dimension{1, 0, 0, 0} && range.lower() < 0)
       source_.fail(node, fmt::format("{} reaches down to a negative mass", what), "a lower bound of at least 0 kg");
     if (!contains(range, result.uncertain.nominal))
       source_.fail(node, fmt::format("{} does not hold the nominal value {:.6g}", what, result.uncertain.nominal),
@@ -417,6 +496,7 @@ class UncertainReader {
 
   const TomlSource& source_;
   Study& study_;
+  std::vector<const toml::table*> tables_;  // of each uncertain quantity
 };
 
 }  // namespace
@@ -424,7 +504,7 @@ class UncertainReader {
 void readUncertain(const TomlSource& source, const std::vector<const toml::table*>& tables, Study& study) {
   UncertainReader reader(source, study);
   for (const toml::table* table : tables) reader.read(*table);
-  reader.noteFaults(tables);
+  reader.noteFaults();
 }
 
 std::string quantityExpected(const std::string& word, const std::vector<std::string>& known) {

@@ -101,6 +101,44 @@ TEST(StudyReader, TakesADeviationRelativeToTheNominalValueOrInItsUnit) {
   EXPECT_TRUE(isEqual(rangeOf("[\"20 deg\", 0.6]"), Interval((pi() / 9.0).lower(), Interval("0.6").upper())));
 }
 
+TEST(StudyReader, MakesManyQuantitiesUncertainAtOnce) {
+  const auto quantitiesOf = [](const std::string& quantity) {
+    std::vector<std::string> found;
+    for (const UncertainQuantity& q :
+         readStudyText(sampleStudyWith("name = \"start\"\nquantity = \"hinge.angle\"", "quantity = " + quantity),
+                       "s.toml")
+             .uncertain)
+      found.push_back(q.uncertain.name);
+    return found;
+  };
+  using ::testing::ElementsAre;
+  EXPECT_THAT(quantitiesOf("[\"hinge.angle\", \"bob.mass\"]"), ElementsAre("hinge.angle", "bob.mass"));
+  EXPECT_THAT(quantitiesOf("\"hinge.*\""), ElementsAre("hinge.angle", "hinge.rate"));
+  EXPECT_THAT(quantitiesOf("[\"*.length\", \"h*e.*t*\"]"), ElementsAre("rod.length", "hinge.rate"));
+  const Study study = readStudyText(
+      sampleStudyWith("name = \"start\"\nquantity = \"hinge.angle\"", "quantity = \"hinge.*\""), "s.toml");
+  EXPECT_TRUE(isSubset(Interval("[0.495, 0.505]"), study.uncertain[1].uncertain.range));
+  EXPECT_LT(width(study.uncertain[1].uncertain.range), 0.0100001);
+}
+
+TEST(StudyReader, TakesTheIntervalFromSupports) {
+  const auto rangeOf = [](const std::string& shapes) {
+    return readStudyText(sampleStudyWith("interval = \"± 1 %\"\ndistribution = { type = \"uniform\" }\n"
+                                         "membership = { type = \"triangular\" }",
+                                         shapes),
+                         "s.toml")
+        .uncertain[0]
+        .uncertain.range;
+  };
+  const Interval both = rangeOf(
+      "distribution = { type = \"beta\", a = 2, b = 2, support = [0.5, 0.55] }\n"
+      "membership = { type = \"table\", points = [[0.45, 0], [0.52, 1], [0.54, 0]] }");
+  EXPECT_TRUE(isSubset(Interval("[0.45, 0.55]"), both));
+  EXPECT_LT(width(both), 0.1000001);
+  EXPECT_TRUE(
+      isSubset(Interval("[0.5, 0.6]"), rangeOf("membership = { type = \"triangular\", support = [0.5, 0.6] }")));
+}
+
 TEST(StudyReader, TakesParametersByNameWithAFactor) {
   const Study study = readStudyText(sampleStudyWith("vector = [0, 0, \"-rod.length\"]",
                                                     "vector = [\"1/2 rod.length\", \"10 mm\", \"-2*rod.length\"]"),
@@ -697,7 +735,17 @@ constexpr BadStudy badStudies[] = {
      "output_times, compare)"},
     {"[uncertain]]\nname", "[uncertan]]\nname",
      "s.toml:28:3: unknown key 'uncertan'; expected 'uncertain'? (one of: study, mechanism, uncertain, output, "
+     "requirement, "
      "interval, stochastic, fuzzy, limits)"},
+    {"\"hinge.angle\"\ninterval", "\"hinges.*\"\ninterval",
+     "s.toml:30:12: no quantity fits 'hinges.*'; expected a pattern that `gamut quantities` shows a quantity of"},
+    {"\"hinge.angle\"\ninterval", "[\"hinge.angle\", \"hinge.rate\"]\ninterval",
+     "s.toml:29:8: one name is given to 2 quantities; expected no name: each has that of its quantity"},
+    {"interval = \"± 1 %\"\ndistribution = { type = \"uniform\" }",
+     "distribution = { type = \"uniform\", support = [0.6, 0.7] }",
+     "s.toml:28:1: the support of 'hinge.angle' does not hold the nominal value 0.523599; expected an interval around "
+     "the "
+     "nominal value"},
     {"title = \"Pendulum\"", "title = 3", "s.toml:2:9: study.title is the number 3; expected text in quotes"},
     {"title = \"Pendulum\"", "title = \"  \"", "s.toml:2:9: study.title is empty; expected text"},
     {"analysis = \"dynamics\"", "analysis = \"dynamic\"",
@@ -907,7 +955,9 @@ constexpr BadStudy badStudies[] = {
     {"interval = \"± 1 %\"", "interval = \"+0 / -0 deg\"",
      "s.toml:31:12: uncertain.interval has no positive deviation; expected a deviation above 0"},
     {"interval = \"± 1 %\"", "",
-     "s.toml:28:1: 'uncertain.interval' is missing; expected \"± 1 %\", \"± 2 deg\", \"+2 / -1 mm\" or [lower, upper]"},
+     "s.toml:28:1: 'uncertain.interval' is missing; expected \"± 1 %\", \"± 2 deg\", \"+2 / -1 mm\" or [lower, upper], "
+     "or "
+     "a distribution or membership with a support"},
     {"distribution = { type = \"uniform\" }", "distribution = { type = \"unifrom\" }",
      "s.toml:32:25: uncertain.distribution.type is \"unifrom\"; expected 'uniform'? (one of: uniform, triangular, "
      "normal, beta, lognormal, weibull, gamma, exponential)"},

@@ -30,8 +30,8 @@ TEST(JsonSummary, HasTheDocumentedKeys) {
   EXPECT_EQ(text.find('\n'), std::string::npos);
   const Json json = Json::parse(text);
   EXPECT_THAT(keysOf(json), ElementsAre("cost", "enclosure", "envelope", "excursion", "files", "horizon", "integrated",
-                                        "limits", "overestimation", "reached", "samples", "shortfall", "tightness",
-                                        "verdict", "version", "why"));
+                                        "limits", "overestimation", "reached", "requirements", "samples", "shortfall",
+                                        "tightness", "verdict", "version", "why"));
   EXPECT_THAT(keysOf(json["overestimation"]), ElementsAre("max", "median", "outputs"));
   EXPECT_THAT(keysOf(json["cost"]), ElementsAre("fuzzy", "interval", "memory", "report", "stochastic", "total"));
   EXPECT_THAT(keysOf(json["limits"]),
