@@ -26,6 +26,7 @@ void encloseMotion(Run& run) {
   if (run.seen.isEnclosed) flow.aside = {run.seen.positions, run.seen.at};
   flow.uncounted = marginOutputs(run.study);  // a flow of their own comes where these are too loose
   if (run.study.asksFor<IntervalResult>()) flow.modelled = flow.uncounted;
+  flow.modelBytes = std::min(flow.modelBytes, 0.25 * run.results.limits.enclosureMemory);
   const Motion& motion = run.study.motion;  // of the samples', what varies in time has a course
   const Tube tube = Flow(motion.f, motion.g, flow)
                         .enclose(run.problem.box, run.study.horizon, run.study.motion.times, run.problem.levels);

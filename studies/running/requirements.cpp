@@ -184,6 +184,7 @@ void findViolation(Run& run, std::size_t number, std::vector<std::vector<double>
 }
 
 std::string whyOpen(const Run& run, const RequirementResult& result) {
+  if (*run.watch.stop()) return run.watch.why();
   if (!run.study.asksFor<IntervalResult>()) return "no enclosure was asked for";
   if (!run.enclosed.models) return run.enclosed.why.empty() ? "models of its margins found no room" : run.enclosed.why;
   if (run.study.motion.times[run.enclosed.models->at.size() - 1] < result.until) return run.enclosed.why;

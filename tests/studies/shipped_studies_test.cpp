@@ -78,6 +78,10 @@ TEST(DoublePendulum, KeepsEverySampleInsideOverThreeSeconds) {
   EXPECT_EQ(results.interval.reached, 3.0) << results.interval.why;
   EXPECT_EQ(results.stochastic.reached, 3.0) << results.stochastic.why;
   EXPECT_EQ(results.comparison.verdict, "inside");
+  ASSERT_EQ(results.requirements.size(), 2U);
+  EXPECT_EQ(results.requirements[0].word, "met");
+  EXPECT_EQ(results.requirements[1].word, "partly");
+  EXPECT_LT(results.requirements[1].probabilityUpper - results.requirements[1].probabilityLower, 0.01);
   for (std::size_t i = 0; i < results.time.size(); ++i)
     for (std::size_t j = 0; j < results.outputs.size(); ++j) {
       const double lower = results.interval.at.lower(i, j), upper = results.interval.at.upper(i, j);
