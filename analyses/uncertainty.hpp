@@ -80,6 +80,10 @@ struct Uncertain {
   Distribution distribution;
   Membership membership;
 
+  /// Values that certainly are what is meant, where the ends of `range` were rounded outward from decimals and formulas
+  /// of few operations: 32 roundings of the greatest number in it away from these. Empty of a range no wider.
+  Interval inside() const;
+
   /// Throws std::invalid_argument, naming the quantity, unless the nominal value and both supports lie in the range.
   void check() const;
 };

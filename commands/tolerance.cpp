@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -26,6 +27,7 @@ namespace {
 struct Arguments {
   std::string study;
   int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  std::optional<double> timeLimit;
   bool json = false, quiet = false;
 };
 
@@ -67,6 +69,9 @@ std::string text(const Study& study, const AllowedDeviations& found, const Toler
       : found.together.factor > 0
           ? fmt::format("All requirements are met where all deviations are {} times as large as stated, or less.\n",
                         factorText(found.together, options.most))
+      : !found.nominal.empty() ? fmt::format("The nominal values themselves violate '{}'.\n", found.nominal)
+      : found.together.limit == "interrupted" || found.together.limit == "the time limit"
+          ? fmt::format("Nothing was found before the end: {}.\n", found.together.limit)
           : "Not even for the nominal values are all requirements proved to be met.\n";
   return head + textTable(rows);
 }
@@ -74,16 +79,21 @@ std::string text(const Study& study, const AllowedDeviations& found, const Toler
 std::string json(const Study& study, const AllowedDeviations& found) {
   using Json = nlohmann::ordered_json;
   const auto object = [](const AllowedDeviation& t) {
-    return Json{{"factor", t.factor}, {"limited_by", t.limit.empty() ? Json(nullptr) : Json(t.limit)}};
+    return Json{{"factor", t.factor > 0 ? Json(t.factor) : Json(nullptr)},
+                {"limited_by", t.limit.empty() ? Json(nullptr) : Json(t.limit)}};
   };
   Json alone = Json::object();
   for (std::size_t q = 0; q < found.alone.size(); ++q) {
     Json& of = alone[found.alone[q].name] = object(found.alone[q]);
-    of["interval"] = Json::array({found.alone[q].interval.lower(), found.alone[q].interval.upper()});
+    of["interval"] = found.alone[q].factor > 0
+                         ? Json::array({found.alone[q].interval.lower(), found.alone[q].interval.upper()})
+                         : Json(nullptr);
     of["unit"] = study.uncertain[q].unit;
   }
-  return Json{{"together", object(found.together)}, {"alone", alone}}.dump(-1, ' ', false,
-                                                                           Json::error_handler_t::replace);
+  return Json{{"violated_by_nominal", found.nominal.empty() ? Json(nullptr) : Json(found.nominal)},
+              {"together", object(found.together)},
+              {"alone", alone}}
+      .dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 ExitCode tolerance(const Arguments& arguments) {
@@ -91,6 +101,7 @@ ExitCode tolerance(const Arguments& arguments) {
   ToleranceOptions options;
   options.jobs = arguments.jobs;
   options.cancelled = &interrupted();
+  options.budget = arguments.timeLimit.value_or(study.limits.resolved().time);
   ProgressBar bar(!arguments.quiet);
   options.progress = [&](double fraction) { bar.update("tolerances", fraction); };
   AllowedDeviations found;
@@ -113,6 +124,11 @@ Action tolerance(CLI::App& command) {
   command.add_option("--jobs", arguments->jobs, "Threads, 1 to 1024; otherwise as many as the machine has")
       ->check(wholeNumber(1, 1024))
       ->type_name("N");
+  command
+      .add_option("--time-limit", arguments->timeLimit,
+                  "CPU time, s or \"2 h\", instead of the study's (otherwise 1800); what was found until then is told")
+      ->transform(positiveAmount({0, 0, 1, 0, 0}, "time", "90, \"5 min\" or \"2 h\""))
+      ->type_name("SECONDS");
   command.add_flag("--json", arguments->json, "One JSON object on standard output");
   command.add_flag("--quiet", arguments->quiet, "No progress");
   command.footer(

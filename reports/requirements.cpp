@@ -40,9 +40,9 @@ class Wording {
             : r_.word == "violated" ? "violated"
             : r_.word == "partly"   ? "violated for some values"
                                     : "open",
-            results_.interval.present ? guaranteed() : "",
+            guaranteed(),
             probable(),
-            results_.fuzzy.present && results_.interval.present ? possible() : ""};
+            results_.fuzzy.present ? possible() : ""};
   }
 
  private:
@@ -91,7 +91,7 @@ class Wording {
 
   std::string probable() const {
     std::vector<std::string> parts;
-    if (results_.interval.present)
+    if (results_.interval.present || results_.fuzzy.present)
       parts.push_back(
           fmt::format("met with a probability of {}, proved", rangeOfShare(r_.probabilityLower, r_.probabilityUpper)));
     if (r_.samples > 0) {

@@ -18,6 +18,13 @@ namespace {
 
 Program alone(const Program& g, int output) { return Recorder(g).finish({g.outputNodes()[at(output)]}); }
 
+bool dependsOnTime(const Program& g) {
+  const std::vector<Node>& nodes = g.nodes();
+  const auto isTime = [&](int node) { return node >= 0 && nodes[at(node)].op == Op::time; };
+  return std::ranges::any_of(
+      nodes, [&](const Node& node) { return isOperation(node.op) && (isTime(node.a) || isTime(node.b)); });
+}
+
 }  // namespace
 
 FlowOutputs::FlowOutputs(const Program& g, std::shared_ptr<const Monomials> monomials,
@@ -166,6 +173,7 @@ FlowOutputChords::FlowOutputChords(const Program& g, std::shared_ptr<const Monom
       length_(length),
       resolution_(resolution),
       timeKinks_(differentiated_, length, resolution),
+      dependsOnTime_(dependsOnTime(g)),
       second_(at(outputs_)),
       third_(at(outputs_)),
       turn_(at(outputs_)),
@@ -180,7 +188,9 @@ int FlowOutputChords::orderFor(const FlowStepper& stepper, std::vector<double>& 
     for (int g = from; g < states.count(); ++g) sum += std::fabs(states.series(i)[g * stride + order]);
     return sum * std::pow(stepper.theta(), order);
   };
-  int order = PolynomialSeries::leastOrder;
+  // What time itself moves is followed further than the states tell.
+  constexpr int ofTime = 14;
+  int order = dependsOnTime_ ? std::min(order_, ofTime) : PolynomialSeries::leastOrder;
   for (int i = 0; i < n_; ++i) {
     const double allowed = 1e-4 * (norm(i, 0, 1) + stepper.tubeBound(i));
     double tail = 0;

@@ -79,6 +79,7 @@ class FlowOutputChords {
   PolynomialSeries series_;
   double length_, resolution_;
   TimeKinks timeKinks_;
+  bool dependsOnTime_;
   double scale_ = 1;
   std::vector<double> second_, third_, turn_, rest_;  // of g̃: derivatives by σ; of what is not g̃: z'', 2 |ε|
   std::vector<FlowOutputChords> apart_;               // as above

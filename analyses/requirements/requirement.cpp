@@ -39,6 +39,7 @@ class Examiner {
       return std::move(finding_);
     }
     weigh();
+    if (finding_.met == 0) lookForWhatIsMet();
     measureDeviations();
     measurePossibility();
     return std::move(finding_);
@@ -142,16 +143,34 @@ class Examiner {
            [&](const Cell& cell) {
              if (cell.verdict() == Cell::Verdict::met) return true;
              isMet = false;
-             const bool isViolated = cell.verdict() == Cell::Verdict::violated;
-             (isViolated ? finding_.violating : finding_.doubtful) = middleOf(cell);
+             const std::vector<double> values = insideOf(cell);
+             if (values.empty()) return true;  // nothing but what the box was rounded by
+             (cell.verdict() == Cell::Verdict::violated ? finding_.violating : finding_.doubtful) = values;
              return false;
            });
     finding_.isAlwaysMet = isMet;
   }
 
-  std::vector<double> middleOf(const Cell& cell) const {
+  /// Where margins are greatest first; if all of the cells are violated, it never is.
+  void lookForWhatIsMet() {
+    bool isViolated = true;
+    isFineEnough_ = [](const Cell&) { return false; };
+    search([](const Cell& cell) { return cell.verdict() == Cell::Verdict::met ? infinite : cell.least(); },
+           [&](const Cell& cell) { return isViolated = cell.verdict() == Cell::Verdict::violated; });
+    finding_.isNeverMet = isViolated;
+    if (!isViolated) return;
+    finding_.violated = 1;
+    finding_.probability = Interval(0.0);
+  }
+
+  /// Values of a cell that are certainly meant; none where there are none.
+  std::vector<double> insideOf(const Cell& cell) const {
     std::vector<double> values;
-    for (std::size_t q = 0; q < quantities_.size(); ++q) values.push_back(midpoint(valuesOf(q, cell)));
+    for (std::size_t q = 0; q < quantities_.size(); ++q) {
+      const Interval inside = intersection(valuesOf(q, cell), quantities_[q].uncertain->inside());
+      if (isEmpty(inside)) return {};
+      values.push_back(midpoint(inside));
+    }
     return values;
   }
 
@@ -179,8 +198,6 @@ class Examiner {
       return planes.violated.empty() ? 0.0 : partOfCube(planes.violated, subDown(-planes.violatedBelow, bend)).lower();
     };
     constexpr double mostly = 0.85;
-    decided.isFine = !planes.met.empty() && !planes.violated.empty() &&
-                     planes.rest > mostly * (planes.violatedBelow - planes.metAbove);
     decided.metVolume = metBeyond(0);
     decided.violatedVolume = violatedBeyond(0);
     std::vector<double> bend(at(models_.symbols), 0.0);
@@ -204,6 +221,9 @@ class Examiner {
     };
     decided.met = metBeyond(bendOf(planes.met));
     decided.violated = violatedBeyond(bendOf(planes.violated));
+    const double band =
+        planes.violatedBelow - planes.metAbove + bendOf(planes.met) + bendOf(planes.violated);  // of what is open
+    decided.isFine = !planes.met.empty() && !planes.violated.empty() && planes.rest > mostly * band;
     return decided;
   }
 
@@ -211,7 +231,6 @@ class Examiner {
   void weigh() {
     double met = 0, violated = 0;  // rounded down
     double undecided = 0;          // of all cells that wait, about
-    bool isNeverMet = true;
     struct Waiting {
       Decided decided;
       double undecided;
@@ -236,13 +255,11 @@ class Examiner {
           if (cell.verdict() == Cell::Verdict::met) {
             met = addDown(met, mass.lower());
             finding_.met = addDown(finding_.met, volumeOf(cell));
-            isNeverMet = false;
           } else if (cell.verdict() == Cell::Verdict::violated) {
             violated = addDown(violated, mass.lower());
             finding_.violated = addDown(finding_.violated, volumeOf(cell));
-            if (finding_.violating.empty()) finding_.violating = middleOf(cell);
+            if (finding_.violating.empty()) finding_.violating = insideOf(cell);
           } else {
-            isNeverMet = false;
             const Decided share = waiting[&cell].decided;
             met = addDown(met, mulDown(mass.lower(), share.met));
             violated = addDown(violated, mulDown(mass.lower(), share.violated));
@@ -251,8 +268,7 @@ class Examiner {
           }
           return true;
         });
-    finding_.isNeverMet = isNeverMet;
-    finding_.probability = isNeverMet ? Interval(0.0) : Interval(met, std::max(met, subUp(1.0, violated)));
+    finding_.probability = Interval(met, std::max(met, subUp(1.0, violated)));
   }
 
   // ---- Deviations ---------------------------------------------------------------------------------------------------
@@ -331,16 +347,30 @@ class Examiner {
         const Uncertain& u = *quantities_[q].uncertain;
         if (of.symbol < 0) continue;
         const double wanted = u.nominal + way * (midpoint(valuesOf(q, cell)) - u.nominal);
-        xi[at(of.symbol)] = std::clamp((wanted - of.centre) / of.half, -1.0, 1.0);
-        const Interval value =
-            intersection(Interval(of.centre) + Interval(of.half) * Interval(xi[at(of.symbol)]), u.range);
-        if (isEmpty(value)) return 0;
+        const Interval inside = u.inside();
+        if (isEmpty(inside)) return 0;
+        xi[at(of.symbol)] =
+            std::clamp((std::clamp(wanted, inside.lower(), inside.upper()) - of.centre) / of.half, -1.0, 1.0);
+        const Interval value = Interval(of.centre) + Interval(of.half) * Interval(xi[at(of.symbol)]);
+        if (!isSubset(value, u.range)) return 0;
         degree = std::min({degree, u.membership(value.lower()), u.membership(value.upper())});
       }
       if (degree == 0) return 0;
       if (cells_.verdictAt(xi) == Cell::Verdict::violated) return degree;
     }
     return 0;
+  }
+
+  /// The degree of the most possible values of a cell that are certainly meant.
+  double degreeInside(const Cell& cell) const {
+    double degree = 1;
+    for (std::size_t q = 0; q < quantities_.size(); ++q) {
+      const Uncertain& u = *quantities_[q].uncertain;
+      const Interval values = intersection(valuesOf(q, cell), u.inside());
+      if (!isEmpty(intersection(values, u.membership.core()))) continue;
+      degree = std::min(degree, std::max(u.membership(values.lower()), u.membership(values.upper())));
+    }
+    return degree;
   }
 
   /// min t-norm over quantities that do not interact (Zadeh 1978): the possibility of a violation is that of the most
@@ -362,7 +392,8 @@ class Examiner {
            [&](const Cell& cell) {
              if (cell.verdict() == Cell::Verdict::met) return true;
              most = std::max(most, membershipOf(cell).upper());  // the first one's
-             least = cell.verdict() == Cell::Verdict::violated ? membershipOf(cell).lower() : degreeBeyond(cell);
+             least = cell.verdict() == Cell::Verdict::violated && !insideOf(cell).empty() ? degreeInside(cell)
+                                                                                          : degreeBeyond(cell);
              return least == 0 && --patience > 0;
            });
     finding_.violationPossibility = Interval(std::min(least, most), most);

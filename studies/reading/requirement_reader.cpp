@@ -119,6 +119,7 @@ class RequirementReader {
       const std::size_t begin = i == 0 ? 0 : signs[i - 1].end, end = i == signs.size() ? text.size() : signs[i].begin;
       sides.push_back(readSide(node, text, begin, end));
     }
+    takeUnits(node, text, sides);
     for (std::size_t i = 0; i < signs.size(); ++i) {
       const Side &greater = sides[signs[i].isGreater ? i : i + 1], &less = sides[signs[i].isGreater ? i + 1 : i];
       const std::string which = signs.size() == 1                ? ""
@@ -169,6 +170,26 @@ class RequirementReader {
     side.isZero = amount && amount->value == 0;
     side.quantity = withoutOutputs(trimmed, side.expression.names());
     return side;
+  }
+
+  /// A plain number is one in the SI unit of what it is compared with, as everywhere in a study.
+  void takeUnits(const toml::node& node, const std::string& text, std::vector<Side>& sides) const {
+    const auto isPlainNumber = [](const Side& side) {
+      const std::optional<Amount> amount = side.expression.amount();
+      return amount && !amount->hasUnit && !amount->isRelative;
+    };
+    const auto first = std::ranges::find_if_not(sides, isPlainNumber);
+    if (first == sides.end()) return;
+    const Dimension dimension = dimensionOf(first->expression);
+    for (Side& side : sides) {
+      if (dimensionOf(side.expression) == dimension || side.isZero) continue;
+      if (!isPlainNumber(side))
+        source_.fail(
+            node,
+            fmt::format("'{}' compares {} with {}", text, unitOf(dimension), unitOf(dimensionOf(side.expression))),
+            "quantities of one kind");
+      side.quantity += " " + unitOf(dimension);
+    }
   }
 
   void addMargin(const toml::node& node, const std::string& name, const Side& greater, const Side& less) {

@@ -46,7 +46,7 @@ std::vector<Field> fieldsOf(RequirementResult& r) {
       {"violation_sample",
        &r.violationSample,
        unit::none,
-       "number of the sample that has these values; -1: none has",
+       "number of the sample that has these values, or, at an interval's end, some roundings beside them; -1: none has",
        {},
        {-1, allowed::count.greatest}},
       {"violation_time",

@@ -20,13 +20,14 @@ struct RequirementResult {
   std::int64_t margins = 1;     ///< so many outputs from there on are above zero where it is met
   std::int64_t metAtZero = 0;   ///< bit i: zero is enough of margin i
   // What is guaranteed.
-  std::string word = "open";          ///< "met", "violated": of all values; "partly": it is violated for some; "open"
-  std::string why;                    ///< why no more is known; empty if all is
-  double met = 0, violated = 0;       ///< of at least so much of the uncertain box, by volume
-  double factor = 0;                  ///< met for deviations from nominal up to so many times those stated
-  std::vector<double> violation;      ///< values for which it is violated, one a quantity; NaN: none are known
-  std::int64_t violationSample = -1;  ///< these are of a sample: its number; -1: they are not
-  double violationTime = unknown;     ///< s; NaN where it is no output time
+  std::string word = "open";      ///< "met", "violated": of all values; "partly": it is violated for some; "open"
+  std::string why;                ///< why no more is known; empty if all is
+  double met = 0, violated = 0;   ///< of at least so much of the uncertain box, by volume
+  double factor = 0;              ///< met for deviations from nominal up to so many times those stated
+  std::vector<double> violation;  ///< values for which it is violated, one a quantity; NaN: none are known
+  /// These are of a sample, or some roundings from it where that lies at an interval's end: its number; -1: of none.
+  std::int64_t violationSample = -1;
+  double violationTime = unknown;                             ///< s; NaN where it is no output time
   double violationLower = unknown, violationUpper = unknown;  ///< the margin there, proved
   // What is probable.
   double probabilityLower = 0, probabilityUpper = 1;  ///< that it is met, proved

@@ -25,7 +25,7 @@ void encloseMotion(Run& run) {
   for (const OutputInfo& output : run.study.outputs) flow.outputNames.push_back(output.name);
   if (run.seen.isEnclosed) flow.aside = {run.seen.positions, run.seen.at};
   flow.uncounted = marginOutputs(run.study);  // a flow of their own comes where these are too loose
-  if (run.study.asksFor<IntervalResult>()) flow.modelled = flow.uncounted;
+  flow.modelled = flow.uncounted;
   flow.modelBytes = std::min(flow.modelBytes, 0.25 * run.results.limits.enclosureMemory);
   const Motion& motion = run.study.motion;  // of the samples', what varies in time has a course
   const Tube tube = Flow(motion.f, motion.g, flow)
@@ -71,7 +71,7 @@ void encloseConfiguration(Run& run) {
   setRow(enclosed.direct, 0, direct);
   for (std::size_t level = 0; level < enclosed.cuts.size(); ++level) narrow(level + 1, enclosed.cuts[level]);
   if (images.empty()) enclosed.why = run.watch.why();
-  if (!images.empty() && !run.study.requirements.empty() && run.study.asksFor<IntervalResult>())
+  if (!images.empty() && !run.study.requirements.empty())
     enclosed.models = modelImage(run.problem.motion.motion.g, 0.0, run.problem.box, marginOutputs(run.study),
                                  run.study.flow.degree, run.watch.stop());
   enclosePlaces(run);

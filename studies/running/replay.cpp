@@ -54,8 +54,6 @@ ReplayedSample replay(const Study& study, const Results& results, std::size_t nu
 }
 
 ReplayedSample replayViolation(const Study& study, const Results& results, const RequirementResult& requirement) {
-  if (requirement.violationSample >= 0)
-    return replay(study, results, static_cast<std::size_t>(requirement.violationSample));
   const Problem problem = makeProblem(study);
   std::vector<double> values;
   for (std::size_t q = 0; q < study.uncertain.size(); ++q) {

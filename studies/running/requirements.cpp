@@ -107,7 +107,8 @@ bool isViolatedAt(Run& run, const std::vector<double>& values, const CellQuestio
 
 /// Besides what is known already: all of it holds.
 void take(RequirementResult& result, const RequirementFinding& finding) {
-  result.word = finding.isAlwaysMet ? "met" : finding.isNeverMet ? "violated" : "open";
+  if (result.word != "partly" || finding.isNeverMet)
+    result.word = finding.isAlwaysMet ? "met" : finding.isNeverMet ? "violated" : "open";
   result.met = std::max(result.met, finding.met);
   result.violated = std::max(result.violated, finding.violated);
   result.factor = std::max(result.factor, finding.factor);
@@ -148,20 +149,25 @@ void examine(Run& run, const FlowModels& models, std::size_t number, std::vector
   options.cancelled = run.watch.stop();
   RequirementFinding finding = gamut::examine(models, question, quantities, options);
   if (question.until < whole.until) forgetWhatIsNotKnown(finding, requirement.isAlways);
-  take(run.results.requirements[number], finding);
+  RequirementResult& result = run.results.requirements[number];
+  take(result, finding);
   for (const std::vector<double>& values : {finding.violating, finding.doubtful}) {
     if (values.empty()) continue;
     std::vector<double>& all = suspects.emplace_back();
     for (std::size_t q = 0, next = 0; q < study.uncertain.size(); ++q)
       all.push_back(study.uncertain[q].varies ? RequirementResult::unknown : values[next++]);
   }
+  if (finding.violating.empty()) return;  // else the models prove it; a flow of its own will tell when and by how much
+  if (result.word == "open") result.word = "partly";
+  result.violation = suspects.front();
 }
 
-/// Models by a flow that is to be so tight; null if it comes less far than the first.
-std::shared_ptr<const FlowModels> tighterModels(Run& run, double tightness) {
+/// Models by a flow that is to be so tight, in steps (s) no longer than that; null if it comes less far than the first.
+std::shared_ptr<const FlowModels> tighterModels(Run& run, double tightness, double longestStep) {
   constexpr double leastBudget = 2, mostBudget = 4;  // s; of what the first enclosure took
   FlowOptions options = flowOptions(run.study, run.problem, run.options.jobs, run.watch.stop());
   options.tightness = tightness;
+  options.longestStep = std::min(options.longestStep, longestStep);
   options.budget = std::max(leastBudget, mostBudget * run.enclosed.cpu);
   options.progress = run.progressOf("requirements");
   const auto models = modelMargins(run.study, std::move(options), run.problem.box).models();
@@ -173,7 +179,13 @@ void findViolation(Run& run, std::size_t number, std::vector<std::vector<double>
   RequirementResult& result = run.results.requirements[number];
   const CellQuestion whole = questionOf(run.study, run.study.requirements[number], run.study.motion.times.size());
   const bool isOfSample = result.worstSample >= 0 && result.worstMargin < 0;
-  if (isOfSample) suspects.insert(suspects.begin(), run.worst[number]);
+  if (isOfSample) {  // a corner's values are those of the rounded intervals: what is meant lies some roundings inside
+    std::vector<double> values = run.worst[number];
+    for (std::size_t q = 0; q < values.size(); ++q)
+      if (const Interval inside = run.study.uncertain[q].uncertain.inside(); !std::isnan(values[q]) && !isEmpty(inside))
+        values[q] = std::clamp(values[q], inside.lower(), inside.upper());
+    suspects.insert(suspects.begin(), std::move(values));
+  }
   for (std::size_t i = 0; i < suspects.size(); ++i) {
     if (*run.watch.stop() || !isViolatedAt(run, suspects[i], whole, result)) continue;
     if (isOfSample && i == 0) result.violationSample = result.worstSample;
@@ -185,7 +197,7 @@ void findViolation(Run& run, std::size_t number, std::vector<std::vector<double>
 
 std::string whyOpen(const Run& run, const RequirementResult& result) {
   if (*run.watch.stop()) return run.watch.why();
-  if (!run.study.asksFor<IntervalResult>()) return "no enclosure was asked for";
+  if (!run.study.asksFor<IntervalResult>() && !run.study.asksFor<FuzzyResult>()) return "no enclosure was asked for";
   if (!run.enclosed.models) return run.enclosed.why.empty() ? "models of its margins found no room" : run.enclosed.why;
   if (run.study.motion.times[run.enclosed.models->at.size() - 1] < result.until) return run.enclosed.why;
   return result.word == "open" ? "the enclosure is not tight enough to tell" : "";
@@ -207,7 +219,9 @@ void proveAll(Run& run) {
     if (run.study.analysis == Study::Analysis::kinematics || *run.watch.stop() ||
         std::ranges::none_of(run.results.requirements, isVague))
       break;
-    const auto models = tighterModels(run, 1 + (excess /= 4));
+    constexpr double parts = 128;  // of the horizon: outputs leave the chords of long steps
+    const auto models =
+        tighterModels(run, 1 + (excess /= 4), round == 0 ? run.study.horizon : run.study.horizon / parts);
     if (!models) break;
     examineAll(*models);
   }

@@ -9,6 +9,7 @@
 
 #include "analyses/requirements/requirement.hpp"
 #include "studies/running/flow_of_study.hpp"
+#include "studies/watch.hpp"
 
 namespace gamut {
 namespace {
@@ -24,12 +25,13 @@ class Finder {
   AllowedDeviations find() {
     AllowedDeviations found;
     const std::size_t count = study_.uncertain.size();
-    found.together = largest(std::vector<char>(count, 1));
+    found.nominal = violatedAtNominal();
+    if (found.nominal.empty()) found.together = largest(std::vector<char>(count, 1));
     for (std::size_t q = 0; q < count; ++q) {
       done_ = static_cast<double>(q + 1) / static_cast<double>(count + 1);
       if (options_.progress) options_.progress(done_);
       AllowedDeviation& alone = found.alone.emplace_back();
-      if (count == 1) {
+      if (count == 1 || !found.nominal.empty()) {
         alone = found.together;
       } else {
         std::vector<char> deviate(count, 0);
@@ -54,6 +56,30 @@ class Finder {
     std::string limit;  ///< why it is less than what was tried; empty if it is not
   };
 
+  FlowOptions ownOptions() const {
+    FlowOptions options = flowOptions(study_, problem_, options_.jobs, options_.cancelled);
+    options.budget = std::max(0.1, options_.budget - (processCpuSeconds() - began_));
+    return options;
+  }
+
+  /// A flow of the nominal values alone tells.
+  std::string violatedAtNominal() const {
+    Box box = problem_.box;
+    for (std::size_t q = 0; q < study_.uncertain.size(); ++q)
+      if (!study_.uncertain[q].varies)
+        box[static_cast<std::size_t>(problem_.motion.slot[q])] = study_.uncertain[q].uncertain.nominal;
+    const auto models =
+        study_.analysis == Study::Analysis::kinematics
+            ? modelImage(study_.motion.g, 0.0, box, marginOutputs(study_), study_.flow.degree, options_.cancelled)
+            : modelMargins(study_, ownOptions(), box).models();
+    for (const Requirement& requirement : study_.requirements)
+      if (models && models->at.size() > rowOf(study_.motion.times, requirement.until) &&
+          Cells(*models, questionOf(study_, requirement, models->at.size())).whole()->verdict() ==
+              Cell::Verdict::violated)
+        return requirement.name;
+    return {};
+  }
+
   /// Deviations of these quantities `factor` times the stated ones.
   Trial attempt(const std::vector<char>& deviate, double factor) {
     std::vector<Uncertain> uncertain;
@@ -77,7 +103,7 @@ class Finder {
       if (study_.analysis == Study::Analysis::kinematics) {
         models = modelImage(study_.motion.g, 0.0, box, marginOutputs(study_), study_.flow.degree, options_.cancelled);
       } else {
-        const Tube tube = modelMargins(study_, flowOptions(study_, problem_, options_.jobs, options_.cancelled), box);
+        const Tube tube = modelMargins(study_, ownOptions(), box);
         models = tube.models();
         why = tube.why();
       }
@@ -103,7 +129,9 @@ class Finder {
   AllowedDeviation largest(const std::vector<char>& deviate) {
     AllowedDeviation found;
     double tried = 1;
-    const auto isCancelled = [&] { return options_.cancelled != nullptr && *options_.cancelled; };
+    const auto isCancelled = [&] {
+      return (options_.cancelled != nullptr && *options_.cancelled) || processCpuSeconds() - began_ > options_.budget;
+    };
     double least = 0, failed = 2 * options_.most;  // `least` is proved
     constexpr int mostTrials = 12;
     for (int trial = 0; trial < mostTrials && !isCancelled(); ++trial) {
@@ -126,13 +154,15 @@ class Finder {
     }
     found.factor = least;
     if (least >= options_.most) found.limit.clear();
-    if (isCancelled()) found.limit = "interrupted";
+    if (isCancelled())
+      found.limit = options_.cancelled != nullptr && *options_.cancelled ? "interrupted" : "the time limit";
     return found;
   }
 
   const Study& study_;
   const ToleranceOptions& options_;
   const Problem problem_;
+  const double began_ = processCpuSeconds();
   double done_ = 0;
 };
 

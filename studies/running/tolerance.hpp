@@ -15,6 +15,7 @@ struct ToleranceOptions {
   int jobs = 1;
   double most = 16;        ///< greater factors are not looked for
   double accuracy = 0.01;  ///< of a factor, relative
+  double budget = 1800;    ///< CPU time of all, s
   std::function<void(double)> progress;
   const std::atomic<bool>* cancelled = nullptr;  ///< set from outside: what was found until then holds
 };
@@ -28,6 +29,7 @@ struct AllowedDeviation {
 };
 
 struct AllowedDeviations {
+  std::string nominal;                  ///< the requirement that the nominal values violate; empty: none is known
   AllowedDeviation together;            ///< of all quantities
   std::vector<AllowedDeviation> alone;  ///< of each, where all others may be what they may
 };

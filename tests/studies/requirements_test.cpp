@@ -25,7 +25,7 @@ std::string withRequirements(const std::string& text) {
 
 Study read(const std::string& text) { return readStudyText(text, "s.toml"); }
 
-const RequirementResult& named(const Results& results, const std::string& name) {
+RequirementResult named(const Results& results, const std::string& name) {
   for (const RequirementResult& requirement : results.requirements)
     if (requirement.name == name) return requirement;
   throw std::logic_error("no requirement " + name);
@@ -109,7 +109,7 @@ eventually = "angle < 0"
 TEST(Requirements, HaveThreeAnswersEach) {
   const Results results = run(read(withRequirements(four)));
   ASSERT_EQ(results.requirements.size(), 4U);
-  const RequirementResult& met = named(results, "met");
+  const RequirementResult met = named(results, "met");
   EXPECT_EQ(met.word, "met");
   EXPECT_EQ(met.factor, 1);
   EXPECT_EQ(met.probabilityLower, 1);
@@ -117,13 +117,13 @@ TEST(Requirements, HaveThreeAnswersEach) {
   EXPECT_EQ(met.samples, 16);
   EXPECT_EQ(met.violating, 0);
   EXPECT_TRUE(std::isnan(met.shareLower));  // the samples are not independent
-  const RequirementResult& violated = named(results, "violated");
+  const RequirementResult violated = named(results, "violated");
   EXPECT_EQ(violated.word, "violated");
   EXPECT_EQ(violated.probabilityUpper, 0);
   EXPECT_EQ(violated.violationLeast, 1);
   EXPECT_EQ(violated.violating, 16);
   // Uniform on π/6 (1 ± 0.01): below 0.527 with probability (0.527 / (π/6) - 0.99) / 0.02.
-  const RequirementResult& partly = named(results, "partly");
+  const RequirementResult partly = named(results, "partly");
   const double share = (0.527 * 6 / 3.141592653589793 - 0.99) / 0.02;
   EXPECT_EQ(partly.word, "partly");
   EXPECT_LE(partly.probabilityLower, share + 1e-9);  // the share is rounded, as the nominal value is
@@ -150,7 +150,7 @@ TEST(Requirements, AreKeptInTheFile) {
 TEST(Requirements, OfIndependentSamplesHaveAConfidence) {
   std::string text = withRequirements(four);
   text.replace(text.find("\"sobol\""), 7, "\"random\"");
-  const RequirementResult& partly = named(run(read(text)), "partly");
+  const RequirementResult partly = named(run(read(text)), "partly");
   EXPECT_LT(partly.shareLower, partly.probabilityLower);
   EXPECT_GT(partly.shareUpper, partly.probabilityUpper);
 }
@@ -171,13 +171,43 @@ quantity = "rod.length"
 interval = "± 3.5 %"
 [[output]])");
   const Results results = run(read(text));
-  const RequirementResult& corner = named(results, "corner");
+  const RequirementResult corner = named(results, "corner");
   EXPECT_EQ(corner.word, "partly");
   EXPECT_EQ(corner.violating, 0);
   EXPECT_EQ(results.stochastic.nameOf(corner.violationSample), "corner 7");
   EXPECT_LE(corner.violationUpper, 0);
   EXPECT_GT(corner.probabilityLower, 0.99);
   EXPECT_GT(corner.factor, 0.98);
+}
+
+/// The ends of ± 10 % of 0.3 are 0.27 and 0.33: what the box is wider by than that violates nothing.
+TEST(Requirements, AreNotRefutedByRoundings) {
+  for (const char* statement : {"always = \"angle <= 0.33\"", "always = \"angle >= 0.27\"",
+                                "eventually = \"angle <= 0.33\"", "always = \"where(angle > 0.33, 1, -1) <= 0\""}) {
+    std::string text = withRequirements("[[requirement]]\nname = \"end\"\nuntil = 0\n" + std::string(statement) + "\n");
+    text.replace(text.find("\"30 deg\""), 8, "0.3");
+    text.replace(text.find("± 1 %"), 6, "± 10 %");
+    const RequirementResult end = named(run(read(text)), "end");
+    EXPECT_TRUE(end.word == "open" || end.word == "met") << statement << ": " << end.word;
+    EXPECT_TRUE(std::isnan(end.violation[0])) << statement;
+  }
+}
+
+TEST(Requirements, ComparePlainNumbersInSiUnits) {
+  const Study study =
+      read(withRequirements("[[requirement]]\nname = \"plain\"\nalways = \"-3 < tip.position.z < 4\"\n"));
+  EXPECT_EQ(study.outputs[2].quantity, "tip.position.z - (-3 m)");
+  EXPECT_EQ(study.outputs[3].unit, "m");
+}
+
+/// Normal on a narrow interval: as tight as a uniform one.
+TEST(Requirements, OfPeakedDistributionsAreAsTight) {
+  std::string text = withRequirements("[[requirement]]\nname = \"peak\"\nalways = \"angle < 0.525\"\nuntil = 0\n");
+  text.replace(text.find("\"uniform\""), 9, "\"normal\", deviation = 0.002");
+  const RequirementResult peak = named(run(read(text)), "peak");
+  EXPECT_LT(peak.probabilityUpper - peak.probabilityLower, 0.005);
+  EXPECT_GT(peak.probabilityLower, 0.7);  // Φ(0.7) and some
+  EXPECT_LT(peak.probabilityUpper, 0.8);
 }
 
 TEST(Requirements, KeepWhatWasProvedWhereTheEnclosureEnds) {
@@ -187,7 +217,7 @@ TEST(Requirements, KeepWhatWasProvedWhereTheEnclosureEnds) {
   study.flow.maxWidth = 1e-3;  // ends at once
   const Results results = run(study);
   EXPECT_LT(results.interval.reached, 0.5);
-  const RequirementResult& met = named(results, "met");
+  const RequirementResult met = named(results, "met");
   EXPECT_EQ(met.word, "open");
   EXPECT_NE(met.why, "");
   EXPECT_EQ(met.probabilityLower, 0);
@@ -234,7 +264,7 @@ name = "lower"
 always = "tip.position.z < -0.8 m"
 )"));
   EXPECT_EQ(named(results, "low").word, "met");
-  const RequirementResult& lower = named(results, "lower");
+  const RequirementResult lower = named(results, "lower");
   EXPECT_EQ(lower.word, "partly");
   EXPECT_LE(lower.probabilityLower, std::acos(0.8));
   EXPECT_GE(lower.probabilityUpper, std::acos(0.8));
@@ -278,6 +308,13 @@ TEST(Tolerances, ShrinkOneByOne) {
   EXPECT_LE(found.together.factor, 0.5);
   EXPECT_NEAR(found.alone[0].factor, 0.5, 0.01);
   EXPECT_EQ(found.alone[1].factor, 0);  // it does not help
+}
+
+TEST(Tolerances, SayWhatNominalValuesViolate) {
+  const AllowedDeviations found =
+      findTolerances(read(withRequirements("[[requirement]]\nname = \"limit\"\nalways = \"angle < 29 deg\"\n")));
+  EXPECT_EQ(found.nominal, "limit");
+  EXPECT_EQ(found.together.factor, 0);
 }
 
 TEST(Tolerances, NeedSomethingToBeRequired) {
