@@ -1,11 +1,9 @@
 // Distribution functions with bounds: every one is a formula of interval functions, or a series of positive terms, of
 // which what is left is at most geometric.
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "analyses/uncertainty.hpp"
-#include "scalars/elementary/rounding.hpp"
 #include "scalars/elementary/special_functions.hpp"
 
 namespace gamut {
@@ -82,12 +80,6 @@ Interval betaBelow(double a, double b, double value) {
 }
 
 }  // namespace
-
-Interval Uncertain::inside() const {
-  const double rounding = 32 * 0x1p-53 * std::max(magnitude(range), std::fabs(nominal));
-  const double lower = addUp(range.lower(), rounding), upper = subDown(range.upper(), rounding);
-  return lower <= upper ? Interval(lower, upper) : Interval::empty();
-}
 
 /// Before truncation.
 Interval Distribution::boundBelow(const Interval& value) const {

@@ -10,6 +10,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "scalars/elementary/rounding.hpp"
+
 namespace gamut {
 namespace {
 
@@ -199,6 +201,12 @@ double Distribution::quantile(double u) const {
 }
 
 // ---- Uncertain ------------------------------------------------------------------------------------------------------
+
+Interval Uncertain::inside() const {
+  const double rounding = 32 * 0x1p-53 * std::max(magnitude(range), std::fabs(nominal)) + 4 * blur;
+  const double lower = addUp(range.lower(), rounding), upper = subDown(range.upper(), rounding);
+  return lower <= upper ? Interval(lower, upper) : Interval::empty();
+}
 
 void Uncertain::check() const {
   const std::string of = "uncertain quantity '" + name + "': ";

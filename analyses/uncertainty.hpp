@@ -80,8 +80,10 @@ struct Uncertain {
   Distribution distribution;
   Membership membership;
 
-  /// Values that certainly are what is meant, where the ends of `range` were rounded outward from decimals and formulas
-  /// of few operations: 32 roundings of the greatest number in it away from these. Empty of a range no wider.
+  double blur = 0;  ///< how wide the nominal value itself is known, as of a formula
+  /// Values that certainly are what is meant, where the ends of `range` were rounded outward from decimals and the
+  /// nominal value: away from these by 32 roundings of the greatest number in it and four times `blur`. Empty of a
+  /// range no wider.
   Interval inside() const;
 
   /// Throws std::invalid_argument, naming the quantity, unless the nominal value and both supports lie in the range.

@@ -80,7 +80,7 @@ class Wording {
     std::string text = fmt::format(
         ", as by {}{}{}", r_.violationSample < 0 ? "" : results_.stochastic.nameOf(r_.violationSample) + ": ",
         fmt::join(values, ", "), others > 0 ? fmt::format(" and {} more", others) : std::string());
-    if (std::isnan(r_.violationTime) && r_.isAlways)
+    if (r_.isViolatedBetween)
       text += " (between output times)";
     else if (!std::isnan(r_.violationUpper) && r_.violationUpper <= 0)
       text += fmt::format(" (short by {}{})",

@@ -161,6 +161,7 @@ Tube Flow::enclose(const Box& box, double horizon, const std::vector<double>& ou
   for (double time : tube.times())
     if (time > 0 && time <= std::min(told, tube.reached())) early.push_back(time);
   if (early.empty()) return tube;
+  options.modelled.clear();
   Tube ofRates = answer(*parts_->ofRates, options, budget, box, early.back(), early, levels);
   FlowRun::dropStates(ofRates, motion.states());
   const std::string limit = ofRates.limit().empty() ? tube.limit() : ofRates.limit();

@@ -70,6 +70,7 @@ FlowJourney FlowFollower::follow(FlowPiece& piece, double end) {
       if (!futile && !tooFine && run_.mayBisect(piece)) {
         FlowPiece other = piece;
         other.set = tool_->stepper.bisect(piece.set, symbol, tool_->range);
+        if (symbol >= task_.embedding.symbols) run_.makeAlternatives();
         run_.add(std::move(other));
         continue;
       }
@@ -397,6 +398,7 @@ bool FlowFollower::record(FlowPiece& piece) {
           chord.sag.push_back(sag_[at(o)]);
           chord.bound.push_back(overs[at(o)]);
         }
+        run_.countChord();
         collected_.chords[piece.next].push_back(std::move(chord));
       }
     }

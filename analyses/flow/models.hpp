@@ -22,7 +22,8 @@ struct OutputModel {
   Interval bound;
 };
 
-/// Outputs at one time on one part. Its monomials may have symbols behind those of the part, which no term here holds.
+/// Outputs at one time on one part (but FlowModels::areAlternatives). Its monomials may have symbols behind those of
+/// the part, which no term here holds.
 struct FlowSnapshot {
   double time = 0;  ///< s
   FlowPart part;
@@ -49,6 +50,9 @@ struct FlowSymbol {
 struct FlowModels {
   std::vector<FlowSymbol> components;  ///< of the box
   int symbols = 0;
+  /// Several of a time and part: the motion is in one of them, nobody knows in which. So it is where a remainder was
+  /// bisected. Else what one says of its part is so.
+  bool areAlternatives = false;
   std::vector<std::vector<std::shared_ptr<const FlowSnapshot>>> at;  ///< [time]: at the time, all parts of the box
   std::vector<std::vector<FlowChord>> over;  ///< [time]: since the output time before, all parts of box and time
 };

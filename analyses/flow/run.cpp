@@ -282,6 +282,7 @@ std::shared_ptr<const FlowModels> FlowRun::modelsOf(std::vector<FlowCollected>& 
   auto models = std::make_shared<FlowModels>();
   for (const Embedded& e : task_.embedding.components) models->components.push_back({e.centre, e.half, e.symbol});
   models->symbols = task_.embedding.symbols;
+  models->areAlternatives = areAlternatives_;
   models->at.resize(rows);
   models->over.resize(rows);
   for (std::size_t row = 0; row < rows; ++row)

@@ -56,6 +56,9 @@ class FlowRun {
   /// Whether models of outputs are wanted, and have found room so far.
   bool keepsModels() const { return !task_.options.modelled.empty() && modelBytes_ <= task_.options.modelBytes; }
   void countModel(const FlowSnapshot& model) { modelBytes_ += bytesOf(model); }
+  void countChord() { modelBytes_ += 400; }  // about
+  /// A remainder's own symbol was bisected.
+  void makeAlternatives() { areAlternatives_ = true; }
   void ranOutOfMemory() { outOfMemory_ = true; }
   void ranOutOfBudget() { overBudget_ = true; }
   /// What is left over at t is so much that this run cannot become tight: a tighter one comes.
@@ -87,6 +90,7 @@ class FlowRun {
   bool stop_ = false, needsDegree_ = false;
   std::atomic<bool> outOfMemory_{false}, overBudget_{false}, isAbandoned_{false};
   std::atomic<double> modelBytes_{0};
+  std::atomic<bool> areAlternatives_{false};
   double failedAt_ = 0, unfinished_ = std::numeric_limits<double>::infinity();
   std::string why_;
   std::exception_ptr error_;

@@ -173,7 +173,7 @@ void Cells::decide(Cell& cell) {
   bool isOnceBetween = false;
   std::erase_if(cell.chords_, [&](const Cell::Chord& chord) {
     const Outcome outcome = outcomeOf(cell, chord);
-    isOnceBetween = isOnceBetween || (outcome == once && holds(chord.of->part, cell.part_));
+    isOnceBetween = isOnceBetween || (outcome == once && !models_.areAlternatives && holds(chord.of->part, cell.part_));
     return outcome == throughout;
   });
   if (isOnceBetween) {
@@ -237,6 +237,7 @@ std::vector<std::unique_ptr<Cell>> Cells::halves(const Cell& cell) {
   constexpr double hardly = 0.1, finest = 0x1p-40;
   int symbol = -1;
   double most = hardly;
+  for (const int l : question_.besides) weight[at(l)] = 0;
   for (int l = 0; l < models_.symbols; ++l)
     if (weight[at(l)] > most && cell.part_.half[at(l)] > finest) most = weight[at(l)], symbol = l;
   std::vector<std::unique_ptr<Cell>> both;
@@ -297,8 +298,9 @@ std::optional<Cells::Form> Cells::formOf(const Cell& cell, std::size_t place, st
   double norm = std::fabs(c[0]);
   for (std::size_t g = 1; g < c.size(); ++g) {
     norm += std::fabs(c[g]);
-    if (tables.linear[g] >= 0) {
-      form.slope[at(tables.linear[g])] = c[g];
+    const int linear = tables.linear[g];
+    if (linear >= 0 && std::ranges::find(question_.besides, linear) == question_.besides.end()) {
+      form.slope[at(linear)] = c[g];
       continue;
     }
     const bool isEven = tables.isEven[g] != 0;
@@ -398,14 +400,18 @@ CellPlanes Cells::planes(const Cell& cell) const {
 
 Cell::Verdict Cells::verdictAt(const std::vector<double>& xi) {
   const auto cell = whole();
+  const auto isBeside = [&](std::size_t l) {
+    return std::ranges::find(question_.besides, static_cast<int>(l)) != question_.besides.end();
+  };
   for (std::size_t l = 0; l < xi.size() && cell->verdict_ == Cell::Verdict::open; ++l) {
+    if (isBeside(l)) continue;
     cell->part_.centre[l] = xi[l];
     cell->part_.half[l] = 0;
   }
   if (cell->verdict_ != Cell::Verdict::open) return cell->verdict_;
   const auto covers = [&](const FlowPart& part) {
     for (std::size_t l = 0; l < xi.size(); ++l)
-      if (std::fabs(xi[l] - part.centre[l]) > part.half[l]) return false;
+      if (!isBeside(l) && std::fabs(xi[l] - part.centre[l]) > part.half[l]) return false;
     return true;
   };
   for (Cell::Local& local : cell->locals_) {
@@ -413,6 +419,7 @@ Cell::Verdict Cells::verdictAt(const std::vector<double>& xi) {
     const PolynomialRange& tables = tablesOf(*local.of).range;
     for (std::size_t i = 0; i < local.c.size(); ++i)
       for (int l = 0; l < models_.symbols && !local.c[i].empty(); ++l) {
+        if (isBeside(at(l))) continue;
         std::vector<double> moved(local.c[i].size());
         double norm = 0;
         for (const double c : local.c[i]) norm += std::fabs(c);

@@ -2,9 +2,7 @@
 // asked is known well enough. What is known of a cell comes from a flow's models alone.
 #pragma once
 
-#include <atomic>
 #include <cstddef>
-#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -25,6 +23,7 @@ struct CellQuestion {
   std::vector<int> margins;         ///< numbers of outputs in the models: met at a time where all are above zero,
   std::vector<char> isMetAtZero;    ///< or zero where this says so; one a margin
   std::size_t from = 0, until = 0;  ///< the window: output times, both included
+  std::vector<int> besides = {};    ///< symbols of no quantity: what is said holds for all that they may be
 };
 
 /// Where a cell is decided, in its own η ∈ [-1,1]^k: met where met·η + metAbove > 0, violated where violated·η +

@@ -45,7 +45,7 @@ Interval partOfCube(const std::vector<double>& slope, double limit) {
     }
     return intersection(total / scale, Interval(0.0, 1.0));
   };
-  if (b.empty()) return limit >= rest ? Interval(1.0) : limit < -rest ? Interval(0.0) : Interval(0.0, 1.0);
+  if (b.empty()) return limit > rest ? Interval(1.0) : limit < -rest ? Interval(0.0) : Interval(0.0, 1.0);
   return {part(subDown(limit, rest)).lower(), part(addUp(limit, rest)).upper()};
 }
 

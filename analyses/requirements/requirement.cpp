@@ -25,7 +25,10 @@ class Examiner {
  public:
   Examiner(const FlowModels& models, const CellQuestion& question, const std::vector<CellQuantity>& quantities,
            const RequirementOptions& options)
-      : models_(models), cells_(models, question), quantities_(quantities), options_(options) {
+      : models_(models),
+        cells_(models, withBesides(models, question, quantities)),
+        quantities_(quantities),
+        options_(options) {
     below_.resize(quantities.size());
     deviate_.assign(quantities.size(), 1);
   }
@@ -47,13 +50,21 @@ class Examiner {
 
   double factor(const std::vector<char>& deviate) {
     deviate_ = deviate;
-    lookForViolation();
-    if (finding_.isAlwaysMet) return 1;
     measureDeviations();
     return finding_.factor;
   }
 
  private:
+  static CellQuestion withBesides(const FlowModels& models, CellQuestion question,
+                                  const std::vector<CellQuantity>& quantities) {
+    std::vector<char> isOwned(at(models.symbols), 0);
+    for (const CellQuantity& quantity : quantities)
+      if (const int symbol = models.components[at(quantity.component)].symbol; symbol >= 0) isOwned[at(symbol)] = 1;
+    for (int l = 0; l < models.symbols; ++l)
+      if (isOwned[at(l)] == 0) question.besides.push_back(l);
+    return question;
+  }
+
   struct Entry {
     double key;
     std::size_t number;  // so that the order depends on nothing else
@@ -99,9 +110,12 @@ class Examiner {
     const FlowSymbol& of = models_.components[at(quantities_[quantity].component)];
     const Interval& range = quantities_[quantity].uncertain->range;
     if (of.symbol < 0) return range;
-    const auto valueAt = [&](double xi) { return Interval(of.centre) + Interval(of.half) * Interval(xi); };
     const double centre = cell.part().centre[at(of.symbol)], half = cell.part().half[at(of.symbol)];
-    return intersection(hull(valueAt(centre - half), valueAt(centre + half)), range);
+    return intersection(hull(valueAt(of, centre - half), valueAt(of, centre + half)), range);
+  }
+
+  static Interval valueAt(const FlowSymbol& of, double xi) {
+    return Interval(of.centre) + Interval(of.half) * Interval(xi);
   }
 
   /// Its probability: between the distribution functions of its ends.
@@ -163,11 +177,21 @@ class Examiner {
     finding_.probability = Interval(0.0);
   }
 
-  /// Values of a cell that are certainly meant; none where there are none.
+  /// Values of a quantity that are certainly in the cell, and certainly meant.
+  Interval insideOf(std::size_t quantity, const Cell& cell) const {
+    const FlowSymbol& of = models_.components[at(quantities_[quantity].component)];
+    const Interval meant = quantities_[quantity].uncertain->inside();
+    if (of.symbol < 0) return meant;
+    const double centre = cell.part().centre[at(of.symbol)], half = cell.part().half[at(of.symbol)];
+    const double lower = valueAt(of, centre - half).upper(), upper = valueAt(of, centre + half).lower();
+    return lower <= upper ? intersection(Interval(lower, upper), meant) : Interval::empty();
+  }
+
+  /// Such values of all; none where there are none.
   std::vector<double> insideOf(const Cell& cell) const {
     std::vector<double> values;
     for (std::size_t q = 0; q < quantities_.size(); ++q) {
-      const Interval inside = intersection(valuesOf(q, cell), quantities_[q].uncertain->inside());
+      const Interval inside = insideOf(q, cell);
       if (isEmpty(inside)) return {};
       values.push_back(midpoint(inside));
     }
@@ -207,12 +231,17 @@ class Examiner {
       const Distribution& distribution = quantities_[q].uncertain->distribution;
       const double centre = cell.part().centre[at(of.symbol)], half = cell.part().half[at(of.symbol)];
       if (!distribution.isMonotone(valuesOf(q, cell))) return decided;
-      if (distribution.name() == "uniform" && isEqual(distribution.support(), quantities_[q].uncertain->range))
-        continue;
       const Interval low = belowOf(q, centre - half), high = belowOf(q, centre + half);
       const Interval middle = 2.0 * (belowOf(q, centre) - low) / (high - low) - Interval(1.0);
       if (isEmpty(middle) || !isBounded(middle)) return decided;
-      bend[at(of.symbol)] = std::min(2.0, 2 * magnitude(middle));
+      // By rounding the cell reaches beyond the interval, where F rests, by s of its half-width: w - η' is bent to one
+      // side with η' the same on what is left, |η' - η| <= s, and concave functions are d(x) >= max d (1 - |x|)/2.
+      const Interval ends(valueAt(of, centre - half).lower(), valueAt(of, centre + half).upper());
+      const Interval& range = quantities_[q].uncertain->range;
+      const double beyond = std::max({subUp(range.lower(), ends.lower()), subUp(ends.upper(), range.upper()), 0.0});
+      const Interval s = Interval(beyond) / (Interval(of.half) * Interval(half));
+      if (!(s.upper() < 0.5)) return decided;
+      bend[at(of.symbol)] = std::min(2.0, (2.0 * (abs(middle) + s) / (Interval(1.0) - s) + s).upper());
     }
     const auto bendOf = [&](const std::vector<double>& slope) {
       Interval sum(0.0);
@@ -366,7 +395,7 @@ class Examiner {
     double degree = 1;
     for (std::size_t q = 0; q < quantities_.size(); ++q) {
       const Uncertain& u = *quantities_[q].uncertain;
-      const Interval values = intersection(valuesOf(q, cell), u.inside());
+      const Interval values = insideOf(q, cell);
       if (!isEmpty(intersection(values, u.membership.core()))) continue;
       degree = std::min(degree, std::max(u.membership(values.lower()), u.membership(values.upper())));
     }

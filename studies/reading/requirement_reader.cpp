@@ -188,7 +188,9 @@ class RequirementReader {
             node,
             fmt::format("'{}' compares {} with {}", text, unitOf(dimension), unitOf(dimensionOf(side.expression))),
             "quantities of one kind");
-      side.quantity += " " + unitOf(dimension);
+      const bool isOneNumber = side.quantity.find_first_of("+*/^( ") == std::string::npos;
+      side.quantity = isOneNumber ? fmt::format("{} {}", side.quantity, unitOf(dimension))
+                                  : fmt::format("({})*(1 {})", side.quantity, unitOf(dimension));
     }
   }
 
@@ -272,8 +274,10 @@ class RequirementReader {
       if (output == nullptr) continue;
       const std::string word = quoted(name), instead = inParentheses(quantityOf(*output));
       for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at)) {
+        const bool isQuoted = word.front() != '\'' &&
+                              std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\'') % 2 != 0;
         const bool isWhole =
-            (at == 0 || !isOfWord(static_cast<unsigned char>(text[at - 1]))) &&
+            !isQuoted && (at == 0 || !isOfWord(static_cast<unsigned char>(text[at - 1]))) &&
             (at + word.size() == text.size() || !isOfWord(static_cast<unsigned char>(text[at + word.size()])));
         if (isWhole) text.replace(at, word.size(), instead);
         at += isWhole ? instead.size() : word.size();

@@ -175,6 +175,7 @@ class UncertainReader {
     const Dimension dimension = dimensionOf(result.unit);
     const Interval nominal = study_.mechanism.nominal(result.quantity);
     result.uncertain.nominal = midpoint(nominal);
+    result.uncertain.blur = width(nominal);
     if (node.is_array()) {
       result.uncertain.range = pair(node, what, dimension);
     } else {

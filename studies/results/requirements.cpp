@@ -49,10 +49,15 @@ std::vector<Field> fieldsOf(RequirementResult& r) {
        "number of the sample that has these values, or, at an interval's end, some roundings beside them; -1: none has",
        {},
        {-1, allowed::count.greatest}},
+      {"violation_between",
+       &r.isViolatedBetween,
+       unit::none,
+       "1: these violate it between output times alone, as far as that is proved",
+       {}},
       {"violation_time",
        &r.violationTime,
        unit::second,
-       "an output time at which they violate it; NaN: none is one",
+       "an output time at which they violate it; NaN: none is known",
        {}},
       {"violation_lower", &r.violationLower, unit::none, "lower bound of the margin there, in its unit", {}},
       {"violation_upper", &r.violationUpper, unit::none, "upper bound", {}},
@@ -68,9 +73,8 @@ std::vector<Field> fieldsOf(RequirementResult& r) {
       {"share_lower",
        &r.shareLower,
        unit::one,
-       "95 % confidence interval (Clopper and Pearson) of the probability that it is met, from the samples at the "
-       "output "
-       "times; NaN unless these are independent",
+       "95 % confidence interval (Clopper and Pearson) of the probability that it is met at the output times; NaN "
+       "unless all samples arrived and are independent",
        {}},
       {"share_upper", &r.shareUpper, unit::one, "its upper end", {}},
       {"worst_sample",

@@ -27,7 +27,8 @@ struct RequirementResult {
   std::vector<double> violation;  ///< values for which it is violated, one a quantity; NaN: none are known
   /// These are of a sample, or some roundings from it where that lies at an interval's end: its number; -1: of none.
   std::int64_t violationSample = -1;
-  double violationTime = unknown;                             ///< s; NaN where it is no output time
+  bool isViolatedBetween = false;  ///< these violate it between output times alone, as far as that is proved
+  double violationTime = unknown;  ///< s; NaN where it is no output time
   double violationLower = unknown, violationUpper = unknown;  ///< the margin there, proved
   // What is probable.
   double probabilityLower = 0, probabilityUpper = 1;  ///< that it is met, proved

@@ -18,7 +18,8 @@ double marginOf(const SampleBlock& block, std::size_t i, std::size_t row, const 
   double least = std::numeric_limits<double>::infinity();
   for (const std::size_t output : requirement.margins) {
     const double margin = block(i, row, output);
-    if (!(margin >= least)) least = margin;  // NaN stays
+    if (std::isnan(margin)) return margin;
+    least = std::min(least, margin);
   }
   return least;
 }
@@ -91,14 +92,16 @@ bool isViolatedAt(Run& run, const std::vector<double>& values, const CellQuestio
   const bool isAlways = question.when == CellQuestion::When::always;
   std::optional<Interval> found;
   for (std::size_t row = question.from; row <= question.until; ++row)
-    for (const auto& snapshot : models->at[row])
-      for (const int margin : question.margins) {
-        const Interval bound = snapshot->outputs[static_cast<std::size_t>(margin)].bound;
-        if (bound.upper() > 0) continue;  // of several margins, another one fails
-        if (found && (isAlways ? bound.upper() >= found->upper() : bound.upper() <= found->upper())) continue;
-        found = bound;
-        result.violationTime = run.study.motion.times[row];
-      }
+    for (std::size_t k = 0; k < question.margins.size(); ++k) {
+      Interval bound = Interval::empty();
+      for (const auto& snapshot : models->at[row])
+        bound = hull(bound, snapshot->outputs[static_cast<std::size_t>(question.margins[k])].bound);
+      if (question.isMetAtZero[k] != 0 ? !(bound.upper() < 0) : !(bound.upper() <= 0)) continue;
+      if (found && (isAlways ? bound.upper() >= found->upper() : bound.upper() <= found->upper())) continue;
+      found = bound;
+      result.violationTime = run.study.motion.times[row];
+    }
+  result.isViolatedBetween = isAlways && !found;
   if (!found) return true;
   result.violationLower = found->lower();
   result.violationUpper = found->upper();
@@ -136,7 +139,7 @@ bool isVague(const RequirementResult& result) {
 }
 
 /// What models of the margins say of one requirement; no less than what is known of it already.
-void examine(Run& run, const FlowModels& models, std::size_t number, std::vector<std::vector<double>>& suspects) {
+void examineModels(Run& run, const FlowModels& models, std::size_t number, std::vector<std::vector<double>>& suspects) {
   const Study& study = run.study;
   const Requirement& requirement = study.requirements[number];
   const CellQuestion whole = questionOf(study, requirement, study.motion.times.size());
@@ -209,8 +212,9 @@ void proveAll(Run& run) {
   const auto examineAll = [&](const FlowModels& models) {
     for (std::size_t r = 0; r < count; ++r)
       if (isVague(run.results.requirements[r])) {
-        suspects[r].clear();
-        examine(run, models, r, suspects[r]);
+        std::vector<std::vector<double>> found;
+        examineModels(run, models, r, found);
+        suspects[r].insert(suspects[r].begin(), found.begin(), found.end());
       }
   };
   if (run.enclosed.models) examineAll(*run.enclosed.models);
@@ -232,8 +236,8 @@ void proveAll(Run& run) {
   }
 }
 
-void countShares(RequirementResult& result, Plan plan) {
-  if (plan != Plan::random || result.samples == 0) return;
+void countShares(RequirementResult& result, Plan plan, std::int64_t planned) {
+  if (plan != Plan::random || result.samples == 0 || result.samples < planned) return;
   const Interval share = confidenceOfShare(result.samples - result.violating, result.samples);
   result.shareLower = share.lower();
   result.shareUpper = share.upper();
@@ -277,7 +281,7 @@ void noteRequirements(Run& run, const SampleBlock& block) {
         if (!(requirement.isAlways ? always : once)) ++result.violating;
       }
       const Margin worst = worstOf(block, i, from, until, requirement);
-      if (!(result.worstSample < 0 || worst.value < result.worstMargin)) continue;
+      if (std::isnan(worst.value) || (result.worstSample >= 0 && worst.value >= result.worstMargin)) continue;
       result.worstSample = static_cast<std::int64_t>(block.first() + i);
       result.worstMargin = worst.value;
       result.worstTime = run.study.motion.times[worst.row];
@@ -299,7 +303,8 @@ void checkRequirements(Run& run) {
     for (RequirementResult& result : run.results.requirements)
       if (result.word == "open") result.why = run.watch.why();
   }
-  for (RequirementResult& result : run.results.requirements) countShares(result, run.study.ensemble.plan);
+  for (RequirementResult& result : run.results.requirements)
+    countShares(result, run.study.ensemble.plan, run.results.stochastic.samples);
   run.enclosed.models.reset();
   run.results.interval.cpu += processCpuSeconds() - start;
 }

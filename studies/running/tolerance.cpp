@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "analyses/requirements/requirement.hpp"
+#include "scalars/elementary/rounding.hpp"
 #include "studies/running/flow_of_study.hpp"
 #include "studies/watch.hpp"
 
@@ -39,7 +40,7 @@ class Finder {
         alone = largest(deviate);
       }
       alone.name = study_.uncertain[q].uncertain.name;
-      alone.interval = scaled(q, alone.factor);
+      alone.interval = inward(q, alone.factor);
     }
     return found;
   }
@@ -49,6 +50,16 @@ class Finder {
   Interval scaled(std::size_t quantity, double factor) const {
     const Uncertain& u = study_.uncertain[quantity].uncertain;
     return factor == 1 ? u.range : Interval(u.nominal) + Interval(factor) * (u.range - Interval(u.nominal));
+  }
+
+  /// The same, rounded inward.
+  Interval inward(std::size_t quantity, double factor) const {
+    const Uncertain& u = study_.uncertain[quantity].uncertain;
+    const auto end = [&](double of) {
+      return Interval(u.nominal) + Interval(factor) * (Interval(of) - Interval(u.nominal));
+    };
+    const double lower = end(u.range.lower()).upper(), upper = end(u.range.upper()).lower();
+    return lower <= upper ? Interval(lower, upper) : Interval(u.nominal);
   }
 
   struct Trial {
@@ -121,7 +132,7 @@ class Finder {
       const double part = guaranteedFactor(*models, question, quantities, deviates, own);
       if (part < trial.proved) trial = {part, requirement.name};
     }
-    trial.proved *= factor;
+    trial.proved = mulDown(trial.proved, factor);
     return trial;
   }
 

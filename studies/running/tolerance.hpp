@@ -23,7 +23,7 @@ struct ToleranceOptions {
 /// Deviations `factor` times those of the intervals are proved to be allowed.
 struct AllowedDeviation {
   std::string name;        ///< of the quantity; empty for all of them together
-  double factor = 0;       ///< 0: not even nominal values are; `most` of the options: none greater was looked for
+  double factor = 0;       ///< 0: none is; `most` of the options: none greater was looked for
   Interval interval{0.0};  ///< of one quantity: what it may then be
   std::string limit;       ///< the requirement that a greater factor is not proved of; or why that is not known
 };

@@ -147,7 +147,7 @@ class Judge {
   }
 
   void judgeModels(const Vector& start, double time, std::size_t row, bool isOutputTime, const Vector& y) {
-    if (!tube_.models()) return;
+    if (!tube_.models() || tube_.models()->areAlternatives) return;
     const FlowModels& models = *tube_.models();
     std::size_t covering = 0;
     for (const auto& snapshot : models.at[row])

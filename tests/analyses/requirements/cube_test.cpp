@@ -9,7 +9,8 @@ namespace gamut {
 namespace {
 
 TEST(PartOfCube, IsThatOfClosedForms) {
-  EXPECT_TRUE(isEqual(partOfCube({}, 0.0), Interval(1.0)));
+  EXPECT_TRUE(isEqual(partOfCube({}, 1e-300), Interval(1.0)));
+  EXPECT_TRUE(isEqual(partOfCube({}, 0.0), Interval(0.0, 1.0)));  // < or <=, nobody says
   EXPECT_TRUE(isEqual(partOfCube({}, -1e-300), Interval(0.0)));
   EXPECT_TRUE(contains(partOfCube({2.0}, 1.0), 0.75));
   EXPECT_TRUE(contains(partOfCube({-2.0}, 1.0), 0.75));
