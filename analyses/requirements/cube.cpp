@@ -22,6 +22,9 @@ Interval partOfCube(const std::vector<double>& slope, double limit) {
     rest = addUp(rest, b.back());
     b.pop_back();
   }
+  // In units in which no power over- or underflows: exact, since all that is left is within 1 : 50.
+  const double unit = b.empty() ? 1.0 : std::ldexp(1.0, std::clamp(-std::ilogb(b.front()), -1000, 1000));
+  for (double& side : b) side *= unit;
   const auto part = [&](double to) {
     double sum = 0;
     for (const double side : b) sum = addUp(sum, side);
@@ -46,7 +49,7 @@ Interval partOfCube(const std::vector<double>& slope, double limit) {
     return intersection(total / scale, Interval(0.0, 1.0));
   };
   if (b.empty()) return limit > rest ? Interval(1.0) : limit < -rest ? Interval(0.0) : Interval(0.0, 1.0);
-  return {part(subDown(limit, rest)).lower(), part(addUp(limit, rest)).upper()};
+  return {part(mulDown(subDown(limit, rest), unit)).lower(), part(mulUp(addUp(limit, rest), unit)).upper()};
 }
 
 }  // namespace gamut

@@ -72,8 +72,8 @@ class Examiner {
     bool operator<(const Entry& other) const { return key != other.key ? key < other.key : number > other.number; }
   };
 
-  /// Takes cells by falling key until `take` says that it is enough. `take` sees decided and open ones; an open one
-  /// that may not be bisected any more comes with `isLast`.
+  /// Takes cells by falling key until `take` says that it is enough. `take` sees those that are decided, or fine
+  /// enough, or that may not be bisected any more.
   template <class Key, class Take>
   void search(const Key& keyOf, const Take& take) {
     std::vector<Entry> heap;
@@ -200,11 +200,10 @@ class Examiner {
 
   // ---- Probability --------------------------------------------------------------------------------------------------
 
-  /// What of an open cell's probability planes decide. Its quantities are independent and so are w_i = 2 (F(q_i) - F) /
-  /// (F'
-  /// - F) - 1, uniform on [-1,1], with F and F' at its ends. Where the density is monotone, w - η is concave or convex
-  /// in η and zero at both ends, hence at most twice what it is in the middle: |w_i - η_i| ≤ δ_i = 2 |w_i(0)|. So Σ a_i
-  /// η_i > c where Σ a_i w_i > c + Σ |a_i| δ_i.
+  /// What of an open cell's probability planes decide. Its quantities are independent, and so are
+  /// w_i = 2 (F(q_i) - F(a_i)) / (F(b_i) - F(a_i)) - 1, uniform on [-1,1], with a_i and b_i its ends. Where the density
+  /// is monotone, w - η is concave or convex in η and zero at both ends, hence nowhere more than twice what it is in
+  /// the middle: |w_i - η_i| ≤ δ_i = 2 |w_i(0)|. So Σ s_i η_i > c where Σ s_i w_i > c + Σ |s_i| δ_i.
   struct Decided {
     double met = 0, violated = 0;              // shares of the cell's probability, at least
     double metVolume = 0, violatedVolume = 0;  // of its volume

@@ -18,6 +18,11 @@ TEST(PartOfCube, IsThatOfClosedForms) {
   EXPECT_TRUE(contains(partOfCube({1.0, -1.0, 1.0}, -2.0), 1.0 / 48));
   EXPECT_TRUE(contains(partOfCube({1.0, 1.0, 1.0, 1.0}, 0.0), 0.5));
   EXPECT_LT(width(partOfCube({1.0, 0.7, 0.4, 1.3}, 0.3)), 1e-12);
+  for (const double unit : {1e-290, 1e-9, 1e12, 1e290}) {
+    const Interval part = partOfCube({unit, unit, -unit, 0.5 * unit}, 0.25 * unit);
+    EXPECT_TRUE(contains(part, midpoint(partOfCube({1.0, 1.0, -1.0, 0.5}, 0.25)))) << unit;
+    EXPECT_LT(width(part), 1e-12) << unit;
+  }
   EXPECT_TRUE(isEqual(partOfCube({1.0, 2.0}, 3.0), Interval(1.0)));
   EXPECT_TRUE(isEqual(partOfCube({1.0, 2.0}, -3.0), Interval(0.0)));
 }
