@@ -46,6 +46,13 @@ struct Requirement {
   std::vector<char> isMetAtZero;     ///< whether zero is enough, one a margin
 };
 
+/// Of which output times probabilities of the outputs' values are bounded, and how closely.
+struct DistributionPlan {
+  double gap = 0.005;         ///< between the bounds, aimed at
+  std::size_t count = 10;     ///< of output times, spread evenly behind the start, if they are not stated; 0: none
+  std::vector<double> times;  ///< s: output times, rising
+};
+
 struct Study {
   enum class Analysis { kinematics, dynamics, inverseDynamics };
 
@@ -64,6 +71,7 @@ struct Study {
   std::vector<UncertainQuantity> uncertain;
   std::vector<OutputInfo> outputs;  ///< those of the requirements behind all others
   std::vector<Requirement> requirements;
+  DistributionPlan distribution;
   FlowOptions flow;          ///< without jobs, progress and cancelled, which belong to a run
   EnsembleOptions ensemble;  ///< likewise
   double storage = 4e6;      ///< bytes that the samples' values and motions may take in the results

@@ -62,6 +62,8 @@ Flow::Flow(Program f, Program g, FlowOptions options) {
   requireThat(options.tolerance >= 0 && options.splitDefect >= 0, "tolerances must not be negative");
   requireThat(options.tightness > 1, "a flow's tightness must be above 1");
   requireThat(options.budget > 0, "a flow's budget must be positive");
+  for (const int output : options.modelledAt)
+    requireThat(output >= 0 && output < g.outputs(), "models are kept of outputs that there are");
   for (const int output : options.modelled)
     requireThat(output >= 0 && output < g.outputs(), "models are kept of outputs that there are");
   for (const int output : options.uncounted)
@@ -105,6 +107,7 @@ Tube answer(const FlowFormulation& formulation, const FlowOptions& options, Flow
   FlowOptions ofLevels = own;
   ofLevels.aside = {};
   ofLevels.modelled.clear();
+  ofLevels.modelledAt.clear();
   own.aside.values = formulation.asides;
   const auto questionWith = [&](const FlowOptions& with) {
     return FlowQuestion{
@@ -162,6 +165,7 @@ Tube Flow::enclose(const Box& box, double horizon, const std::vector<double>& ou
     if (time > 0 && time <= std::min(told, tube.reached())) early.push_back(time);
   if (early.empty()) return tube;
   options.modelled.clear();
+  options.modelledAt.clear();
   Tube ofRates = answer(*parts_->ofRates, options, budget, box, early.back(), early, levels);
   FlowRun::dropStates(ofRates, motion.states());
   const std::string limit = ofRates.limit().empty() ? tube.limit() : ofRates.limit();

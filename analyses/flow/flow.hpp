@@ -67,9 +67,11 @@ struct FlowOptions {
   std::vector<VaryingParameter> varying;                         ///< all other parameters are constant in time
   std::vector<PreciseValue> precise;                             ///< each within its component of the box
   FlowAside aside;                                               ///< for Tube::asides
-  std::vector<int> modelled;                                     ///< outputs of which models are kept, for Tube::models
-  double modelBytes = 1e9;                                       ///< that these may take; of more, none are kept
-  std::vector<int> uncounted;            ///< outputs that need not be as tight as `tightness` says
+  std::vector<int> modelled;    ///< outputs of which models are kept, at output times and between, for Tube::models
+  std::vector<int> modelledAt;  ///< behind these in the snapshots of output times: models at these times alone
+  double modelAtBytes = 1e9;    ///< that the latter may take; of more, none are kept
+  double modelBytes = 1e9;      ///< that these may take; of more, none are kept
+  std::vector<int> uncounted;   ///< outputs that need not be as tight as `tightness` says
   std::vector<std::string> stateNames;   ///< for Tube::why() and shortfall(); without them "state 0", "state 1", ...
   std::vector<std::string> outputNames;  ///< likewise
   std::function<void(double)> progress;  ///< called with the fraction done (0 … 1), from any thread

@@ -119,6 +119,7 @@ std::shared_ptr<const FlowModels> modelImage(const Program& g, double t, const B
     auto models = std::make_shared<FlowModels>();
     for (const Embedded& e : of.embedding.components) models->components.push_back({e.centre, e.half, e.symbol});
     models->symbols = of.embedding.symbols;
+    models->modelled = modelled.size();
     models->at = {{snapshot}};
     models->over.resize(1);
     return models;

@@ -291,16 +291,22 @@ void FlowFollower::encloseLevels(const FlowPiece& piece, std::size_t row) {
 
 /// Of what was enclosed last, whose outputs lie in these bounds; null if none are to be kept.
 std::shared_ptr<const FlowSnapshot> FlowFollower::modelOutputs(const FlowPiece& piece,
-                                                               const std::vector<Interval>& outputs) {
-  if (!outputs_ || !run_.keepsModels()) return nullptr;
+                                                               const std::vector<Interval>& outputs,
+                                                               bool isOutputTime) {
+  if (!outputs_ || !run_.keepsModels() || (!isOutputTime && task_.options.modelled.empty())) return nullptr;
   auto snapshot = std::make_shared<FlowSnapshot>();
   snapshot->time = at_;
   snapshot->part = {piece.set.centre, piece.set.half};
   snapshot->monomials = task_.layouts[task_.outputLayout(piece.layout)].monomials;
-  for (const int o : task_.options.modelled)
+  const auto include = [&](int o) {
     snapshot->outputs.push_back(modelOf(outputs_->polynomial(o), outputs_->radius(o), *snapshot->monomials,
                                         task_.embedding.symbols, outputs[at(o)]));
-  run_.countModel(*snapshot);
+  };
+  for (const int o : task_.options.modelled) include(o);
+  const double bytes = bytesOf(*snapshot);
+  if (isOutputTime && run_.keepsModelsAt())
+    for (const int o : task_.options.modelledAt) include(o);
+  run_.countModel(bytes, bytesOf(*snapshot) - bytes);
   return snapshot;
 }
 
@@ -342,7 +348,7 @@ bool FlowFollower::record(FlowPiece& piece) {
     std::vector<Interval> outputs;
     enclose(piece, 0.0, piece.last, outputs);
     piece.lastOutputs = outputLimits_;
-    piece.lastModel = modelOutputs(piece, outputLimits_);
+    piece.lastModel = modelOutputs(piece, outputLimits_, true);
     if (piece.lastModel) collected_.models[0].push_back(piece.lastModel);
     for (std::size_t i = 0; i < piece.last.size(); ++i) piece.last[i] = intersection(piece.last[i], task_.box[i]);
     joinHulls(collected_.states[0], piece.last);
@@ -366,7 +372,7 @@ bool FlowFollower::record(FlowPiece& piece) {
     if (stepper.narrows()) {
       enclose(piece, to - t0, behind, behindOutputs, false);
       behindLimits = outputLimits_;
-      behindModel = modelOutputs(piece, behindLimits);
+      behindModel = modelOutputs(piece, behindLimits, false);
     } else {
       behind = end;
       behindLimits = endLimits;
@@ -392,7 +398,7 @@ bool FlowFollower::record(FlowPiece& piece) {
         piece.overOutputs[i] = hull(piece.overOutputs[i], over);
         overs.push_back(over);
       }
-      if (beforeModel && behindModel && piece.next < times.size()) {
+      if (beforeModel && behindModel && piece.next < times.size() && !task_.options.modelled.empty()) {
         FlowChord chord{{piece.set.centre, piece.set.half}, beforeModel, behindModel, {}, {}};
         for (const int o : task_.options.modelled) {
           chord.sag.push_back(sag_[at(o)]);
@@ -411,7 +417,7 @@ bool FlowFollower::record(FlowPiece& piece) {
     from = to;
   };
   const auto modelUntil = [&](double to) {  // further chords before `to`, where models are wanted
-    if (!outputs_ || !run_.keepsModels() || !beforeModel) return;
+    if (!outputs_ || !run_.keepsModels() || !beforeModel || task_.options.modelled.empty()) return;
     if (!chordsKnown) tool_->chords->load(stepper, piece.set);
     chordsKnown = true;
     const double begin = from;
@@ -421,7 +427,7 @@ bool FlowFollower::record(FlowPiece& piece) {
       if (!(until > from && until < to)) continue;
       enclose(piece, until - t0, end, endOutputs);
       endLimits = outputLimits_;
-      endModel = modelOutputs(piece, endLimits);
+      endModel = modelOutputs(piece, endLimits, false);
       segment(until);
     }
   };
@@ -429,7 +435,7 @@ bool FlowFollower::record(FlowPiece& piece) {
     modelUntil(times[piece.next]);
     enclose(piece, times[piece.next] - t0, end, endOutputs);  // an exact difference: docs/flow.md, "Time"
     endLimits = outputLimits_;
-    endModel = modelOutputs(piece, endLimits);
+    endModel = modelOutputs(piece, endLimits, true);
     if (endModel) collected_.models[piece.next].push_back(endModel);
     joinHulls(collected_.stateCore[piece.next], stateCore_);
     joinHulls(collected_.outputCore[piece.next], outputCore_);
@@ -450,7 +456,7 @@ bool FlowFollower::record(FlowPiece& piece) {
     modelUntil(t1);
     enclose(piece, t1 - t0, end, endOutputs);
     endLimits = outputLimits_;
-    endModel = modelOutputs(piece, endLimits);
+    endModel = modelOutputs(piece, endLimits, false);
     segment(t1);
   }
   for (std::size_t i = 0; i < piece.last.size(); ++i)

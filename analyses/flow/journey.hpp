@@ -96,7 +96,8 @@ class FlowFollower {
   void appendOutputs(const FlowPiece& piece, const std::vector<Interval>& states, const Box& xi,
                      std::vector<Interval>& outputs);
   void encloseLevels(const FlowPiece& piece, std::size_t row);
-  std::shared_ptr<const FlowSnapshot> modelOutputs(const FlowPiece& piece, const std::vector<Interval>& outputs);
+  std::shared_ptr<const FlowSnapshot> modelOutputs(const FlowPiece& piece, const std::vector<Interval>& outputs,
+                                                   bool isOutputTime);
   void lookAside(const FlowPiece& piece, std::size_t row, const std::vector<Interval>& states);
   int chordsFor(FlowPiece& piece, const std::vector<Interval>& before, double from, double to);
   bool record(FlowPiece& piece);

@@ -21,6 +21,18 @@ bool isOf(const Monomials& m, int g, int symbols) {
 
 }  // namespace
 
+bool meet(const FlowPart& a, const FlowPart& b) {
+  for (std::size_t l = 0; l < a.centre.size(); ++l)
+    if (!(std::fabs(a.centre[l] - b.centre[l]) < std::max(a.half[l], b.half[l]))) return false;
+  return true;
+}
+
+bool isInside(const FlowPart& inner, const FlowPart& outer) {
+  for (std::size_t l = 0; l < inner.half.size(); ++l)
+    if (inner.half[l] > outer.half[l]) return false;
+  return meet(inner, outer);
+}
+
 OutputModel modelOf(const double* polynomial, double radius, const Monomials& monomials, int symbols,
                     const Interval& bound) {
   constexpr double next = 1e-7, ofRadius = 0.01;  // of the variation; of what is not known anyway

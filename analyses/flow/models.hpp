@@ -15,6 +15,11 @@ struct FlowPart {
   std::vector<double> centre, half;  ///< one a symbol
 };
 
+/// Whether two parts have more than a face in common. Of two intervals of one symbol one holds the other, or they have
+/// a point in common at most.
+bool meet(const FlowPart& a, const FlowPart& b);
+bool isInside(const FlowPart& inner, const FlowPart& outer);
+
 /// One output on a part: y lies in `bound`, and for every η in P(η) ± radius.
 struct OutputModel {
   std::vector<double> c;  ///< of P, one a monomial, those of the highest grades left out; none: nothing but the bound
@@ -28,7 +33,7 @@ struct FlowSnapshot {
   double time = 0;  ///< s
   FlowPart part;
   std::shared_ptr<const Monomials> monomials;
-  std::vector<OutputModel> outputs;  ///< in the order of FlowOptions::modelled
+  std::vector<OutputModel> outputs;  ///< FlowOptions::modelled; at output times, those of `modelledAt` behind them
 };
 
 /// Outputs on a part from one time to another: each in the hull of the two snapshots, whose parts hold this one, plus
@@ -50,6 +55,7 @@ struct FlowSymbol {
 struct FlowModels {
   std::vector<FlowSymbol> components;  ///< of the box
   int symbols = 0;
+  std::size_t modelled = 0;  ///< so many outputs of each snapshot of an output time count; there may be others behind
   /// Several of a time and part: the motion is in one of them, nobody knows in which. So it is where a remainder was
   /// bisected. Else what one says of its part is so.
   bool areAlternatives = false;

@@ -283,6 +283,8 @@ std::shared_ptr<const FlowModels> FlowRun::modelsOf(std::vector<FlowCollected>& 
   for (const Embedded& e : task_.embedding.components) models->components.push_back({e.centre, e.half, e.symbol});
   models->symbols = task_.embedding.symbols;
   models->areAlternatives = areAlternatives_;
+  models->modelled = task_.options.modelled.size();
+  if (keepsModelsAt()) models->modelled += task_.options.modelledAt.size();
   models->at.resize(rows);
   models->over.resize(rows);
   for (std::size_t row = 0; row < rows; ++row)

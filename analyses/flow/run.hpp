@@ -54,8 +54,13 @@ class FlowRun {
   /// A piece cannot be followed beyond t, nor the whole box then.
   void fail(double t, const std::string& why);
   /// Whether models of outputs are wanted, and have found room so far.
-  bool keepsModels() const { return !task_.options.modelled.empty() && modelBytes_ <= task_.options.modelBytes; }
-  void countModel(const FlowSnapshot& model) { modelBytes_ += bytesOf(model); }
+  bool keepsModels() const {
+    return (!task_.options.modelled.empty() || !task_.options.modelledAt.empty()) &&
+           modelBytes_ <= task_.options.modelBytes;
+  }
+  /// Likewise, of FlowOptions::modelledAt.
+  bool keepsModelsAt() const { return modelAtBytes_ <= task_.options.modelAtBytes; }
+  void countModel(double bytes, double bytesAt) { modelBytes_ += bytes, modelAtBytes_ += bytesAt; }
   void countChord() { modelBytes_ += 400; }  // about
   /// A remainder's own symbol was bisected.
   void makeAlternatives() { areAlternatives_ = true; }
@@ -89,7 +94,7 @@ class FlowRun {
   std::vector<Influence> influence_;
   bool stop_ = false, needsDegree_ = false;
   std::atomic<bool> outOfMemory_{false}, overBudget_{false}, isAbandoned_{false};
-  std::atomic<double> modelBytes_{0};
+  std::atomic<double> modelBytes_{0}, modelAtBytes_{0};
   std::atomic<bool> areAlternatives_{false};
   double failedAt_ = 0, unfinished_ = std::numeric_limits<double>::infinity();
   std::string why_;

@@ -16,22 +16,6 @@ namespace gamut {
 
 using detail::at;
 
-namespace {
-
-bool meet(const FlowPart& a, const FlowPart& b) {
-  for (std::size_t l = 0; l < a.centre.size(); ++l)
-    if (!(std::fabs(a.centre[l] - b.centre[l]) < std::max(a.half[l], b.half[l]))) return false;
-  return true;
-}
-
-bool holds(const FlowPart& a, const FlowPart& b) {
-  for (std::size_t l = 0; l < a.half.size(); ++l)
-    if (a.half[l] < b.half[l]) return false;
-  return meet(a, b);
-}
-
-}  // namespace
-
 double Cell::bytes() const {
   double bytes = sizeof(Cell) + 24.0 * static_cast<double>(chords_.size() + moments_.size());
   for (const Local& local : locals_) {
@@ -173,7 +157,8 @@ void Cells::decide(Cell& cell) {
   bool isOnceBetween = false;
   std::erase_if(cell.chords_, [&](const Cell::Chord& chord) {
     const Outcome outcome = outcomeOf(cell, chord);
-    isOnceBetween = isOnceBetween || (outcome == once && !models_.areAlternatives && holds(chord.of->part, cell.part_));
+    isOnceBetween =
+        isOnceBetween || (outcome == once && !models_.areAlternatives && isInside(cell.part_, chord.of->part));
     return outcome == throughout;
   });
   if (isOnceBetween) {
@@ -292,7 +277,7 @@ std::unique_ptr<Cell> Cells::half(const Cell& cell, int symbol, double side) {
 std::optional<Cells::Form> Cells::formOf(const Cell& cell, std::size_t place, std::size_t margin) const {
   const Cell::Local& local = cell.locals_[place];
   const std::vector<double>& c = local.c[margin];
-  if (c.empty() || !holds(local.part, cell.part_)) return std::nullopt;
+  if (c.empty() || !isInside(cell.part_, local.part)) return std::nullopt;
   const Tables& tables = tablesOf(*local.of);
   Form form{c[0], 0, 0, local.radius[margin], std::vector<double>(at(models_.symbols), 0.0)};
   double norm = std::fabs(c[0]);

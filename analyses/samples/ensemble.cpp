@@ -384,6 +384,9 @@ std::string EnsembleRun::why() const {
          "; beyond, nothing is shown of the samples, since it would not be of all";
 }
 
+SampledShares EnsembleRun::shares(std::size_t time, std::size_t output) const {
+  return statistics_ ? statistics_->shares(time, output) : SampledShares();
+}
 Envelope EnsembleRun::envelope() const { return statistics_->envelope(reachedTimes_); }
 std::vector<Envelope> EnsembleRun::innerCuts() const { return statistics_->innerCuts(reachedTimes_); }
 Statistics EnsembleRun::statistics(const std::vector<double>& probabilities) const {

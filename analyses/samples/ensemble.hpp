@@ -109,6 +109,7 @@ class EnsembleRun {
   const Table& error() const { return error_; }
 
   Envelope envelope() const;
+  SampledShares shares(std::size_t time, std::size_t output) const;
   std::vector<Envelope> innerCuts() const;
   Statistics statistics(const std::vector<double>& probabilities = {0.01, 0.05, 0.5, 0.95, 0.99}) const;
 

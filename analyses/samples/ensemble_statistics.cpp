@@ -132,6 +132,29 @@ void EnsembleStatistics::includePack(Cell& cell, std::size_t index, const double
   }
 }
 
+SampledShares EnsembleStatistics::shares(std::size_t time, std::size_t output) const {
+  const std::size_t index = time * outputs_ + output;
+  const Cell& cell = cells_[index];
+  SampledShares shares;
+  if (cell.count == 0) return shares;
+  const std::uint32_t* counts = counts_.data() + index * (bins_ + 2);
+  const auto add = [&](double value, double below) {
+    shares.value.push_back(value);
+    shares.below.push_back(below / cell.count);
+  };
+  if (cell.scale == 0) {
+    add(cell.lower, counts[0]);
+    if (cell.upper > cell.lower) add(cell.upper, cell.count - counts[bins_ + 1]);
+    return shares;
+  }
+  double below = 0;
+  for (std::size_t bin = 0; bin <= bins_; ++bin) {
+    below += counts[bin];
+    add(bin == bins_ ? cell.upper : cell.lower + static_cast<double>(bin) / cell.scale, below);
+  }
+  return shares;
+}
+
 Envelope EnsembleStatistics::envelopeOf(std::size_t level, std::size_t times) const {
   Envelope result(times_, outputs_);
   for (std::size_t i = 0; i < times * outputs_; ++i) {

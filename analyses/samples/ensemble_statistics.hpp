@@ -21,6 +21,11 @@ struct Statistics {
   Table resolution;                   ///< no quantile there is farther than this from that of the samples themselves
 };
 
+/// The share of the samples below some values, which rise.
+struct SampledShares {
+  std::vector<double> value, below;
+};
+
 class EnsembleStatistics {
  public:
   /// `expected`: between which values the histograms' bins lie; what lies beyond is counted in two open ends. `levels`:
@@ -39,6 +44,9 @@ class EnsembleStatistics {
   /// Throws std::invalid_argument unless the probabilities rise from 0 to 1.
   Statistics statistics(std::size_t times,
                         const std::vector<double>& probabilities = {0.01, 0.05, 0.5, 0.95, 0.99}) const;
+
+  /// Of one output at one time, at the bins' ends; nothing without samples that arrived.
+  SampledShares shares(std::size_t time, std::size_t output) const;
 
   /// Bins of each histogram where there are so many: 4096, or fewer, so that all together have some 2^25, but at
   /// least 64.

@@ -39,9 +39,9 @@ class StudyReader {
   }
 
   Study read(const std::vector<Described>& types, const std::optional<FilesAtHand>& files) {
-    const TomlSection file(
-        source_, source_.root(), "",
-        {"study", "mechanism", "uncertain", "output", "requirement", "interval", "stochastic", "fuzzy", "limits"});
+    const TomlSection file(source_, source_.root(), "",
+                           {"study", "mechanism", "uncertain", "output", "requirement", "interval", "stochastic",
+                            "distribution", "fuzzy", "limits"});
     readStudyTable(source_.asTable(file.require("study", "a table [study]"), "study"));
     ReadMechanism read = readMechanism(
         source_, source_.asTable(file.require("mechanism", "a table [mechanism]"), "mechanism"), types, files);
@@ -55,6 +55,7 @@ class StudyReader {
     file.require("output", "a table [[output]] for each output that is wanted");
     for (const toml::table* table : tables(file, "output")) readOutput(*table);
     readRequirements(source_, tables(file, "requirement"), study_, outputNodes_);
+    if (const toml::node* node = file.find("distribution")) readDistribution(source_.asTable(*node, "distribution"));
     checkInitialValues();
     recordMotion(*file.find("mechanism"));
     if (const toml::node* node = file.find("interval")) readInterval(source_.asTable(*node, "interval"));
@@ -317,7 +318,8 @@ class StudyReader {
     outputNodes_.push_back(&node);
   }
 
-  // ---- [interval], [stochastic], [fuzzy], [limits] ------------------------------------------------------------------
+  // ---- [interval], [stochastic], [distribution], [fuzzy], [limits]
+  // ------------------------------------------------------------------
 
   /// A whole number, or "auto" for the default.
   int integerOrAuto(const TomlSection& section, std::string_view key, int otherwise, int least, int most) const {
@@ -386,6 +388,35 @@ class StudyReader {
     } catch (const std::invalid_argument& error) {
       source_.failWith(stochastic == nullptr ? source_.root() : *stochastic, error.what(), "another plan");
     }
+  }
+
+  void readDistribution(const toml::table& table) {
+    const TomlSection section(source_, table, "distribution", {"times", "gap"});
+    DistributionPlan& plan = study_.distribution;
+    if (const toml::node* node = section.find("gap")) {
+      plan.gap = nearest(source_.asAmount(*node, "distribution.gap", Dimension{}));
+      if (!(plan.gap >= 0.001 && plan.gap <= 1))
+        source_.fail(*node, "distribution.gap is not between 0.001 and 1",
+                     "a difference of probabilities, such as 0.005");
+    }
+    const toml::node* times = section.find("times");
+    if (times == nullptr) return;
+    if (study_.analysis == Study::Analysis::kinematics) refuse(section, {"times"});
+    if (!times->is_array()) {
+      plan.count = static_cast<std::size_t>(section.integer("times", 0, 0, 1000));
+      return;
+    }
+    for (const toml::node& entry : *times->as_array()) {
+      const double time = nearest(source_.asAmount(entry, "distribution.times", seconds));
+      if (!(time >= 0 && time <= study_.horizon))
+        source_.fail(entry, fmt::format("distribution.times has {} s, outside the study's time", time),
+                     fmt::format("times from 0 s to {} s", study_.horizon));
+      for (std::vector<double>* all : {&study_.motion.times, &plan.times}) {
+        const auto place = std::ranges::lower_bound(*all, time);
+        if (place == all->end() || *place != time) all->insert(place, time);
+      }
+    }
+    plan.count = plan.times.size();
   }
 
   void readFuzzy(const toml::table& table) {

@@ -14,6 +14,8 @@ std::vector<Group> describe(Results& results) {
   for (Answer* answer : results.answers()) answer->describe(groups);
   describe(results.comparison, groups);
   describe(results.requirements, groups);
+  describe(results.distribution, groups);
+  describe(results.sensitivity, groups);
   describe(results.machine, groups);
   return groups;
 }

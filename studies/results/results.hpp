@@ -11,6 +11,7 @@
 #include "studies/results/interval.hpp"
 #include "studies/results/machine.hpp"
 #include "studies/results/origin.hpp"
+#include "studies/results/probability.hpp"
 #include "studies/results/requirements.hpp"
 #include "studies/results/stochastic.hpp"
 
@@ -26,6 +27,8 @@ struct Results : Origin {
   FuzzyResult fuzzy;
   ComparisonResult comparison;
   std::vector<RequirementResult> requirements;
+  DistributionResult distribution;
+  SensitivityResult sensitivity;
   MachineResult machine;
 
   std::array<Answer*, 3> answers() { return {&interval, &stochastic, &fuzzy}; }

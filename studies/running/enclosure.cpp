@@ -1,6 +1,7 @@
 // What is guaranteed and what is possible come from one flow over nested boxes, or, where nothing moves, from one
 // image.
 #include <algorithm>
+#include <iterator>
 #include <new>
 #include <stdexcept>
 
@@ -26,7 +27,8 @@ void encloseMotion(Run& run) {
   if (run.seen.isEnclosed) flow.aside = {run.seen.positions, run.seen.at};
   flow.uncounted = marginOutputs(run.study);  // a flow of their own comes where these are too loose
   flow.modelled = flow.uncounted;
-  flow.modelBytes = std::min(flow.modelBytes, 0.25 * run.results.limits.enclosureMemory);
+  if (asksForDistributions(run.study)) flow.modelledAt = plainOutputs(run.study);
+  flow.modelAtBytes = flow.modelBytes = std::min(flow.modelBytes, 0.25 * run.results.limits.enclosureMemory);
   const Motion& motion = run.study.motion;  // of the samples', what varies in time has a course
   const Tube tube = Flow(motion.f, motion.g, flow)
                         .enclose(run.problem.box, run.study.horizon, run.study.motion.times, run.problem.levels);
@@ -71,9 +73,12 @@ void encloseConfiguration(Run& run) {
   setRow(enclosed.direct, 0, direct);
   for (std::size_t level = 0; level < enclosed.cuts.size(); ++level) narrow(level + 1, enclosed.cuts[level]);
   if (images.empty()) enclosed.why = run.watch.why();
-  if (!images.empty() && !run.study.requirements.empty())
-    enclosed.models = modelImage(run.problem.motion.motion.g, 0.0, run.problem.box, marginOutputs(run.study),
-                                 run.study.flow.degree, run.watch.stop());
+  if (!images.empty() && (!run.study.requirements.empty() || asksForDistributions(run.study))) {
+    std::vector<int> modelled = marginOutputs(run.study);
+    std::ranges::copy(plainOutputs(run.study), std::back_inserter(modelled));
+    enclosed.models = modelImage(run.problem.motion.motion.g, 0.0, run.problem.box, modelled, run.study.flow.degree,
+                                 run.watch.stop());
+  }
   enclosePlaces(run);
   enclosed.pieces = 1;
   enclosed.reachedTimes = 1;

@@ -1,6 +1,7 @@
 #include "studies/running/flow_of_study.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "scalars/program/recorder.hpp"
@@ -16,6 +17,17 @@ double longestStepOf(const Study& study) {
   for (std::size_t i = 1; i < study.motion.times.size(); ++i)
     longest = std::max(longest, study.motion.times[i] - study.motion.times[i - 1]);
   return std::min(longest, study.horizon / parts);
+}
+
+/// These outputs alone; `numbers` becomes their new numbers, 0, 1, ...
+Program programOf(const Study& study, const std::vector<int>& outputs, std::vector<int>& numbers) {
+  numbers.clear();
+  std::vector<int> nodes;
+  for (const int output : outputs) {
+    numbers.push_back(static_cast<int>(nodes.size()));
+    nodes.push_back(study.motion.g.outputNodes()[static_cast<std::size_t>(output)]);
+  }
+  return Recorder(study.motion.g).finish(nodes);
 }
 
 }  // namespace
@@ -40,6 +52,14 @@ std::vector<int> marginOutputs(const Study& study) {
   return outputs;
 }
 
+std::vector<int> plainOutputs(const Study& study) {
+  const std::vector<int> margins = marginOutputs(study);
+  std::vector<int> outputs;
+  for (int output = 0; output < static_cast<int>(study.outputs.size()); ++output)
+    if (std::ranges::find(margins, output) == margins.end()) outputs.push_back(output);
+  return outputs;
+}
+
 std::size_t rowOf(const std::vector<double>& times, double time) {
   return static_cast<std::size_t>(std::ranges::lower_bound(times, time) - times.begin());
 }
@@ -56,13 +76,18 @@ CellQuestion questionOf(const Study& study, const Requirement& requirement, std:
 }
 
 Tube modelMargins(const Study& study, FlowOptions options, const Box& box) {
-  const Motion& motion = study.motion;
-  std::vector<int> nodes;
-  for (const int output : marginOutputs(study)) {
-    options.modelled.push_back(static_cast<int>(nodes.size()));
-    nodes.push_back(motion.g.outputNodes()[static_cast<std::size_t>(output)]);
-  }
-  return Flow(motion.f, Recorder(motion.g).finish(nodes), std::move(options)).enclose(box, study.horizon, motion.times);
+  Program g = programOf(study, marginOutputs(study), options.modelled);
+  return Flow(study.motion.f, std::move(g), std::move(options)).enclose(box, study.horizon, study.motion.times);
+}
+
+Tube modelAll(const Study& study, FlowOptions options, const Box& box) {
+  std::vector<int> all = marginOutputs(study);
+  const std::size_t margins = all.size();
+  std::ranges::copy(plainOutputs(study), std::back_inserter(all));
+  Program g = programOf(study, all, options.modelled);
+  options.modelledAt.assign(options.modelled.begin() + static_cast<std::ptrdiff_t>(margins), options.modelled.end());
+  options.modelled.resize(margins);
+  return Flow(study.motion.f, std::move(g), std::move(options)).enclose(box, study.horizon, study.motion.times);
 }
 
 }  // namespace gamut

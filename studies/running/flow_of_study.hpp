@@ -17,6 +17,8 @@ FlowOptions flowOptions(const Study& study, const Problem& problem, int jobs, co
 
 /// Outputs of the study that are margins, one behind the other.
 std::vector<int> marginOutputs(const Study& study);
+/// All others.
+std::vector<int> plainOutputs(const Study& study);
 
 /// The index of an output time.
 std::size_t rowOf(const std::vector<double>& times, double time);
@@ -24,7 +26,9 @@ std::size_t rowOf(const std::vector<double>& times, double time);
 /// What is asked of models of all margins, which reach so many output times.
 CellQuestion questionOf(const Study& study, const Requirement& requirement, std::size_t rows);
 
-/// A flow whose outputs are the margins alone, with models of them, over a box like that of the study's problem.
+/// A flow whose outputs are the margins alone, with models of them, over a box like that of the study's problem; or
+/// the margins, and then all others with models at output times.
 Tube modelMargins(const Study& study, FlowOptions options, const Box& box);
+Tube modelAll(const Study& study, FlowOptions options, const Box& box);
 
 }  // namespace gamut

@@ -165,18 +165,6 @@ void examineModels(Run& run, const FlowModels& models, std::size_t number, std::
   result.violation = suspects.front();
 }
 
-/// Models by a flow that is to be so tight, in steps (s) no longer than that; null if it comes less far than the first.
-std::shared_ptr<const FlowModels> tighterModels(Run& run, double tightness, double longestStep) {
-  constexpr double leastBudget = 2, mostBudget = 4;  // s; of what the first enclosure took
-  FlowOptions options = flowOptions(run.study, run.problem, run.options.jobs, run.watch.stop());
-  options.tightness = tightness;
-  options.longestStep = std::min(options.longestStep, longestStep);
-  options.budget = std::max(leastBudget, mostBudget * run.enclosed.cpu);
-  options.progress = run.progressOf("requirements");
-  const auto models = modelMargins(run.study, std::move(options), run.problem.box).models();
-  return models && models->at.size() >= run.enclosed.models->at.size() ? models : nullptr;
-}
-
 /// Values that violate it, by a flow of their own: of the worst sample, or where the models leave most doubt.
 void findViolation(Run& run, std::size_t number, std::vector<std::vector<double>> suspects) {
   RequirementResult& result = run.results.requirements[number];
@@ -224,10 +212,10 @@ void proveAll(Run& run) {
         std::ranges::none_of(run.results.requirements, isVague))
       break;
     constexpr double parts = 128;  // of the horizon: outputs leave the chords of long steps
-    const auto models =
-        tighterModels(run, 1 + (excess /= 4), round == 0 ? run.study.horizon : run.study.horizon / parts);
-    if (!models) break;
-    examineAll(*models);
+    constexpr double budget = 4;
+    const double longest = round == 0 ? run.study.horizon : run.study.horizon / parts;
+    if (!tightenModels(run, 1 + (excess /= 4), budget, longest, "requirements")) break;
+    examineAll(*run.enclosed.models);
   }
   for (std::size_t r = 0; r < count; ++r) {
     RequirementResult& result = run.results.requirements[r];
@@ -305,7 +293,6 @@ void checkRequirements(Run& run) {
   }
   for (RequirementResult& result : run.results.requirements)
     countShares(result, run.study.ensemble.plan, run.results.stochastic.samples);
-  run.enclosed.models.reset();
   run.results.interval.cpu += processCpuSeconds() - start;
 }
 

@@ -31,8 +31,10 @@ struct Enclosed {
   double tightness = std::numeric_limits<double>::quiet_NaN();  ///< as in IntervalResult
   std::string shortfall;
   std::int64_t pieces = 0, steps = 0;
-  double cpu = 0, cutCpu = 0;                ///< s: of all, and of the alpha-cuts
-  std::shared_ptr<const FlowModels> models;  ///< of the requirements' margins
+  double cpu = 0, cutCpu = 0;  ///< s: of all, and of the alpha-cuts
+  /// Of the requirements' margins, and, where distributions are asked for, of all other outputs behind them.
+  std::shared_ptr<const FlowModels> models;
+  double modelTightness = 0;  ///< that the models' flow was to have; 0: that of the study
 };
 
 /// One run on its way.
@@ -70,17 +72,27 @@ void compareAnswers(Run& run);
 /// What is asked of the motion; then, of each requirement, what is guaranteed, probable and possible.
 void stateRequirements(Run& run);
 void checkRequirements(Run& run);
+/// How probable values of the outputs are, and whose doing their variance is.
+void boundProbabilities(Run& run);
 /// A few of them, for the picture.
 void showSamples(Run& run);
 
 /// All units, in the order in which they run.
-inline constexpr void (*units[])(Run&) = {stateRequirements, lookAtMachine,     takeFirstSamples, enclose,
-                                          guarantee,         findPossibilities, takeOtherSamples, compareAnswers,
-                                          checkRequirements, showSamples};
+inline constexpr void (*units[])(Run&) = {stateRequirements, lookAtMachine,      takeFirstSamples, enclose,
+                                          guarantee,         findPossibilities,  takeOtherSamples, compareAnswers,
+                                          checkRequirements, boundProbabilities, showSamples};
 
 /// Where points certainly are, by the flow's tube, or, where nothing moves, by the image of the box.
 void enclosePlaces(Run& run, const Tube& tube);
 void enclosePlaces(Run& run);
+
+/// Whether probabilities of the outputs' values are to be bounded.
+bool asksForDistributions(const Study& study);
+
+/// Other models of margins and, where distributions are asked for, of all outputs, by a flow that is to be so tight,
+/// with at most so many times the CPU time of the enclosure, in steps no longer than that (s). They take the place of
+/// those that there are. False if it comes less far than these.
+bool tightenModels(Run& run, double tightness, double budget, double longestStep, const char* task);
 
 /// Counts a block of samples that are settled.
 void noteRequirements(Run& run, const SampleBlock& block);

@@ -1,0 +1,34 @@
+// How probable it is that an output is not above a value: proved bounds of its distribution function, from its
+// polynomials in the uncertain quantities and from theirs, all at once for many values.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <vector>
+
+#include "analyses/probability/quantity_masses.hpp"
+#include "analyses/surrogate/surrogate.hpp"
+
+namespace gamut {
+
+struct DistributionOptions {
+  double gap = 0.005;           ///< between the bounds, aimed at
+  int points = 512;             ///< values, at most
+  double negligible = 0;        ///< of an output that is known to no more than that, its ends are all that is told
+  std::size_t mostCells = 256;  ///< into which the box is bisected
+  const std::atomic<bool>* cancelled = nullptr;
+};
+
+/// lower[i] <= P(y <= value[i]) <= upper[i], values rising. Between them P is between lower[i] and upper[i+1]; before
+/// the first it is 0, from the last on 1.
+struct DistributionBounds {
+  std::vector<double> value, lower, upper;
+  double gap = 1;  ///< the greatest upper[i+1] - lower[i]: nowhere are the bounds farther apart
+};
+
+/// Of one output, at the time that the parts are of. Empty where no bounds of the output are known, or if it was
+/// cancelled.
+DistributionBounds boundDistribution(const std::vector<SurrogatePart>& parts, std::size_t output,
+                                     const QuantityMasses& masses, const DistributionOptions& options = {});
+
+}  // namespace gamut

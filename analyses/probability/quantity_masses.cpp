@@ -1,0 +1,87 @@
+#include "analyses/probability/quantity_masses.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "analyses/flow/error_bounds.hpp"
+#include "scalars/elementary/rounding.hpp"
+#include "scalars/index.hpp"
+
+namespace gamut {
+
+using detail::at;
+
+bool QuantityMasses::hold(const FlowPart& part) {
+  return std::ranges::all_of(part.half, [](double half) { return half * bins >= 2; });
+}
+
+std::pair<long, long> QuantityMasses::of(const FlowPart& part, int symbol) {
+  const double centre = part.centre[at(symbol)], half = part.half[at(symbol)];
+  return {static_cast<long>((centre - half + 1) * bins / 2), static_cast<long>(half * bins)};
+}
+
+QuantityMasses::QuantityMasses(const Surrogate& surrogate, const std::vector<const Uncertain*>& uncertain)
+    : symbols_(at(surrogate.symbols)) {
+  constexpr double width = 2.0 / bins;
+  for (std::size_t q = 0; q < uncertain.size(); ++q) {
+    const FlowSymbol& of = surrogate.quantities[q];
+    if (of.symbol < 0) continue;
+    const Distribution& distribution = uncertain[q]->distribution;
+    const auto valueAt = [&](double xi) { return Interval(of.centre) + Interval(of.half) * Interval(xi); };
+    Symbol& symbol = symbols_[at(of.symbol)];
+    double middle = 0, off = 0, error = 0;  // `middle` is off by that at most
+    for (int i = 1; i <= bins; ++i) {
+      const Interval next = i == bins ? Interval(1.0) : distribution.enclosedBelow(valueAt(-1 + i * width));
+      // A value raised to one before, which is above F there by `off` at most, is above F here by no more.
+      const bool isRaised = middle > midpoint(next);
+      const double nextMiddle = isRaised ? middle : midpoint(next);
+      const double nextOff = isRaised ? std::max(off, gamut::width(next)) : gamut::width(next);
+      symbol.mass.push_back(nextMiddle - middle);
+      error += off + nextOff + 2 * bounds::unit;
+      middle = nextMiddle;
+      off = nextOff;
+    }
+    symbol.error = error * bounds::up;
+    // Any density: half the bin's width off its middle. One that rises (or falls) over the bin and its neighbours: it
+    // lies between the means of these, a and b, so that |∫ (ξ - middle) (d - (a+b)/2) dξ| <= (width²/4) |b - a|/2.
+    for (int i = 0; i < bins; ++i) {
+      double lean = 0.5 * width * symbol.mass[at(i)];
+      if (i > 0 && i + 1 < bins &&
+          distribution.isMonotone(hull(valueAt(-1 + (i - 1) * width), valueAt(-1 + (i + 2) * width))))
+        lean = std::min(lean, width / 8 * std::fabs(symbol.mass[at(i + 1)] - symbol.mass[at(i - 1)]));
+      symbol.lean.push_back(lean);
+    }
+  }
+}
+
+/// On a bin f(ξ) = η^n ζ^m is f(middle) + f'(middle) (ξ - middle) + f'' (ξ - middle)²/2, |f'| <= n/h + m/k and
+/// |f''| <= (n/h + m/k)² with the parts' half-widths h and k.
+Interval QuantityMasses::moment(int symbol, const FlowPart& eta, int n, const FlowPart& zeta, int m) const {
+  const Symbol& s = symbols_[at(symbol)];
+  const auto [first, count] = of(eta, symbol);
+  const auto [otherFirst, otherCount] = of(zeta, symbol);
+  const long from = std::max(first, otherFirst), until = std::min(first + count, otherFirst + otherCount);
+  double sum = 0, lean = 0, mass = 0;
+  for (long i = from; i < until; ++i) {
+    const auto own = [&](long begin, long all) {
+      return (2 * static_cast<double>(i - begin) + 1) / static_cast<double>(all) - 1;
+    };
+    const double p = s.mass[static_cast<std::size_t>(i)];
+    double value = 1;
+    const double x = own(first, count), z = own(otherFirst, otherCount);
+    for (int j = 0; j < n; ++j) value *= x;
+    for (int j = 0; j < m; ++j) value *= z;
+    sum += p * value;
+    lean += s.lean[static_cast<std::size_t>(i)];
+    mass += p;
+  }
+  const double slope = n / eta.half[at(symbol)] + m / zeta.half[at(symbol)], reach = 1.0 / bins;
+  // The lean is of masses that are off by `error` in all; |f| <= 1.
+  const double leanError = n + m > 0 ? slope * (lean + s.error / bins) + 0.5 * slope * slope * reach * reach * mass : 0;
+  const double roundings = static_cast<double>(until - from + 4 * (n + m) + 8) * bounds::unit;
+  const double error = (leanError + s.error + roundings * (mass + bounds::tiny)) * bounds::up;
+  return until > from ? Interval(subDown(sum, error), addUp(sum, error)) : Interval(0.0);
+}
+
+}  // namespace gamut

@@ -1,0 +1,90 @@
+// What the file says of probabilities.
+#include "studies/results/probability.hpp"
+
+#include <cmath>
+
+namespace gamut {
+namespace {
+
+constexpr std::string_view times = "/distribution/time", points = "/distribution/point";
+
+std::vector<Field> fieldsOf(DistributionResult& d) {
+  using namespace dimension;
+  return {
+      {"wanted", &d.wanted, unit::one, "gap between the bounds that was aimed at", {}, allowed::share},
+      {"gap", &d.gap, unit::one, "the greatest that was left; NaN if nothing is known of some", {}, allowed::share},
+      {"why", &d.why, unit::none, "why it is more than was aimed at; empty if it is not", {}},
+      {"cpu", &d.cpu, unit::second, "CPU time, that of sensitivities and of flows for both included", {}},
+      {"band",
+       &d.band,
+       unit::one,
+       "half the 95 % band of Dvoretzky, Kiefer and Wolfowitz about the share of samples; 0 unless all samples "
+       "arrived and are independent",
+       {}},
+      {"time", &d.time, unit::second, "output times of which distributions are bounded", {times}},
+      {"point", &d.point, unit::none, "numbers of values", {points}, allowed::count},
+      {"value", &d.value, unit::ofOutput, "values, rising; behind the last NaN", {times, output, points}},
+      {"lower",
+       &d.lower,
+       unit::one,
+       "proved bound of the probability that the output is not above the value; between two values it is at least "
+       "that of the lower one and at most the upper bound of the higher one",
+       {times, output, points}},
+      {"upper", &d.upper, unit::one, "upper bound", {times, output, points}},
+      {"sampled",
+       &d.sampled,
+       unit::one,
+       "share of the samples that is not above the value, from a histogram",
+       {times, output, points}},
+      {"gaps", &d.gaps, unit::one, "greatest distance of the bounds, between the values too", {times, output}},
+      {"excess", &d.excess, unit::one, "by how much the share of samples leaves the bounds, at most", {times, output}}};
+}
+
+std::vector<Field> fieldsOf(SensitivityResult& s) {
+  using namespace dimension;
+  return {{"mean_lower", &s.meanLower, unit::ofOutput, "proved bound of the mean", {times, output}},
+          {"mean_upper", &s.meanUpper, unit::ofOutput, "upper bound", {times, output}},
+          {"deviation_lower", &s.deviationLower, unit::ofOutput, "of the standard deviation", {times, output}},
+          {"deviation_upper", &s.deviationUpper, unit::ofOutput, "upper bound", {times, output}},
+          {"first_lower",
+           &s.firstLower,
+           unit::one,
+           "proved bound of the Sobol' index: the share of the variance that would vanish on average if the quantity "
+           "were known",
+           {times, output, quantity}},
+          {"first_upper", &s.firstUpper, unit::one, "upper bound", {times, output, quantity}},
+          {"total_lower",
+           &s.totalLower,
+           unit::one,
+           "of the total Sobol' index: the share that would stay on average if all other quantities were known",
+           {times, output, quantity}},
+          {"total_upper", &s.totalUpper, unit::one, "upper bound", {times, output, quantity}}};
+}
+
+/// Bounds of a share, or nothing is known.
+bool areShares(const std::vector<double>& lower, const std::vector<double>& upper) {
+  for (std::size_t i = 0; i < lower.size(); ++i) {
+    const bool isNothing = std::isnan(lower[i]) && std::isnan(upper[i]);
+    if (!isNothing && !(0 <= lower[i] && lower[i] <= upper[i] && upper[i] <= 1)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+void describe(DistributionResult& distribution, std::vector<Group>& groups) {
+  groups.push_back(groupOf("/distribution", "how probable values of the outputs are, proved", distribution, fieldsOf));
+  groups.back().makesSense = [&distribution](std::size_t) {
+    return areShares(distribution.lower, distribution.upper) && areShares(distribution.sampled, distribution.sampled);
+  };
+}
+
+void describe(SensitivityResult& sensitivity, std::vector<Group>& groups) {
+  groups.push_back(groupOf("/sensitivity", "whose doing the outputs' variance is, proved", sensitivity, fieldsOf));
+  groups.back().makesSense = [&sensitivity](std::size_t) {
+    return areShares(sensitivity.firstLower, sensitivity.firstUpper) &&
+           areShares(sensitivity.totalLower, sensitivity.totalUpper);
+  };
+}
+
+}  // namespace gamut

@@ -1,0 +1,44 @@
+// What is proved about the probability of the outputs' values, and whose doing their spread is.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "studies/results/fields.hpp"
+
+namespace gamut {
+
+/// Bounds of distribution functions, of all outputs but the requirements' margins, at some output times. Independent
+/// quantities.
+struct DistributionResult {
+  bool present = false;
+  double wanted = 0;                 ///< gap that was aimed at
+  double gap = 0;                    ///< the greatest; 1 if some are not known at all
+  std::string why;                   ///< why that is more than was wanted; empty if it is not
+  double cpu = 0;                    ///< s, sensitivities and all flows for both included
+  double band = 0;                   ///< half, of Dvoretzky, Kiefer and Wolfowitz at 95 %; 0: none holds
+  std::vector<double> time;          ///< s: output times
+  std::vector<double> point;         ///< 0, 1, ...: numbers of the values, as many as the longest list has
+  std::vector<double> value;         ///< [time][output][point], rising, then NaN
+  std::vector<double> lower, upper;  ///< likewise: of the probability that the output is not above the value
+  std::vector<double> sampled;       ///< likewise: of the samples
+  std::vector<double> gaps;          ///< [time][output]; NaN where nothing is known
+  std::vector<double> excess;        ///< [time][output]: by how much the samples' share leaves the bounds, at most
+
+  /// Where the numbers of an output at a time begin in `value` and its like.
+  std::size_t begin(std::size_t at, std::size_t output, std::size_t outputs) const {
+    return (at * outputs + output) * point.size();
+  }
+};
+
+/// Bounds of Sobol' indices, at the same times; those of a quantity that varies in time are not known.
+struct SensitivityResult {
+  bool present = false;
+  std::vector<double> meanLower, meanUpper, deviationLower, deviationUpper;  ///< [time][output]
+  std::vector<double> firstLower, firstUpper, totalLower, totalUpper;        ///< [time][output][quantity]
+};
+
+void describe(DistributionResult& distribution, std::vector<Group>& groups);
+void describe(SensitivityResult& sensitivity, std::vector<Group>& groups);
+
+}  // namespace gamut

@@ -1,0 +1,291 @@
+// Distributions and sensitivities come from the outputs' polynomials in the uncertain quantities; where their errors
+// are too great, from those of a tighter flow.
+#include <algorithm>
+#include <cmath>
+#include <new>
+#include <optional>
+
+#include "analyses/probability/output_distribution.hpp"
+#include "analyses/probability/sobol_indices.hpp"
+#include "analyses/workers.hpp"
+#include "studies/running/flow_of_study.hpp"
+#include "studies/running/units.hpp"
+
+namespace gamut {
+namespace {
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+/// The output times of which distributions are wanted.
+std::vector<std::size_t> rowsOf(const Study& study) {
+  const std::vector<double>& times = study.motion.times;
+  std::vector<std::size_t> rows;
+  for (const double time : study.distribution.times) rows.push_back(rowOf(times, time));
+  if (!rows.empty()) return rows;
+  const std::size_t count = study.distribution.count, last = times.size() - 1;
+  if (last == 0) return {0};
+  for (std::size_t i = 1; i <= count; ++i)
+    if (const std::size_t row = (i * last + count / 2) / count; row > 0 && (rows.empty() || row > rows.back()))
+      rows.push_back(row);
+  return rows;
+}
+
+class Probabilities {
+ public:
+  explicit Probabilities(Run& run)
+      : run_(run), rows_(rowsOf(run.study)), outputs_(plainOutputs(run.study)), count_(run.study.outputs.size()) {
+    for (std::size_t q = 0; q < run.study.uncertain.size(); ++q) {
+      if (run.study.uncertain[q].varies) continue;
+      quantities_.push_back(q);
+      components_.push_back(run.problem.motion.slot[q]);
+      uncertain_.push_back(&run.study.uncertain[q].uncertain);
+    }
+    found_.resize(rows_.size() * outputs_.size());
+  }
+
+  void find() {
+    if (!run_.enclosed.models) return;
+    const double tightness = run_.study.flow.tightness;
+    double excess = (run_.enclosed.modelTightness > 0 ? run_.enclosed.modelTightness : tightness) - 1;
+    constexpr double budget = 1, finest = 1.0 / 1024;
+    take(*run_.enclosed.models);
+    while (run_.study.analysis != Study::Analysis::kinematics && isVague() && !*run_.watch.stop() &&
+           excess > finest * (tightness - 1)) {
+      if (!tightenModels(run_, 1 + (excess /= 8), budget, run_.study.horizon, "probabilities")) break;
+      take(*run_.enclosed.models);
+    }
+    bound();
+  }
+
+  void describe() {
+    DistributionResult& result = run_.results.distribution;
+    result.wanted = run_.study.distribution.gap;
+    std::size_t most = 0;
+    for (const DistributionBounds& bounds : found_) most = std::max(most, bounds.value.size());
+    for (const std::size_t row : rows_) result.time.push_back(run_.study.motion.times[row]);
+    for (std::size_t i = 0; i < most; ++i) result.point.push_back(static_cast<double>(i));
+    for (std::vector<double>* numbers : {&result.value, &result.lower, &result.upper, &result.sampled})
+      numbers->assign(rows_.size() * count_ * most, unknown);
+    for (std::vector<double>* numbers : {&result.gaps, &result.excess}) numbers->assign(rows_.size() * count_, unknown);
+    bool areAllKnown = true;
+    for (std::size_t at = 0; at < rows_.size(); ++at)
+      for (std::size_t k = 0; k < outputs_.size(); ++k) {
+        const auto output = static_cast<std::size_t>(outputs_[k]);
+        const DistributionBounds& bounds = found_[at * outputs_.size() + k];
+        const std::size_t begin = result.begin(at, output, count_), cell = at * count_ + output;
+        areAllKnown = areAllKnown && !bounds.value.empty();
+        if (bounds.value.empty()) continue;
+        const auto put = [&](const std::vector<double>& from, std::vector<double>& to) {
+          std::ranges::copy(from, to.begin() + static_cast<std::ptrdiff_t>(begin));
+        };
+        put(bounds.value, result.value);
+        put(bounds.lower, result.lower);
+        put(bounds.upper, result.upper);
+        result.gaps[cell] = bounds.gap;
+        result.gap = std::max(result.gap, bounds.gap);
+        compare(bounds, rows_[at], output, result.sampled.begin() + static_cast<std::ptrdiff_t>(begin),
+                result.excess[cell]);
+      }
+    if (!areAllKnown) result.gap = 1;
+    if (result.gap > result.wanted) result.why = why();
+    describeBand(result);
+    describeIndices();
+  }
+
+ private:
+  /// Whether errors of the polynomials, beside what they vary by, keep bounds apart that are asked for.
+  bool isVague() const {
+    constexpr double part = 0.05;
+    for (const std::size_t row : rows_) {
+      const auto parts = partsAt(surrogate_, row);
+      if (!parts) return true;
+      for (std::size_t k = 0; k < outputs_.size(); ++k)
+        for (const SurrogatePart& each : *parts) {
+          const OutputModel& model = each.outputs[k];
+          double varies = model.c.empty() ? width(model.bound) : 0;
+          for (std::size_t g = 1; g < model.c.size(); ++g) varies += std::fabs(model.c[g]);
+          const double radius = model.c.empty() ? varies : model.radius;
+          if (radius > negligible_[k] && radius > part * run_.study.distribution.gap * varies) return true;
+        }
+    }
+    return false;
+  }
+
+  void take(const FlowModels& models) {
+    const std::size_t margins = marginOutputs(run_.study).size();
+    surrogate_ = surrogateOf(models, components_, margins, margins + outputs_.size());
+    measureNegligible(surrogate_);
+  }
+
+  void bound() {
+    if (surrogate_.rows.empty()) return;
+    masses_.emplace(surrogate_, uncertain_);
+    DistributionOptions options;
+    options.gap = run_.study.distribution.gap;
+    options.cancelled = run_.watch.stop();
+    constexpr std::size_t cells = 10240, least = 64, most = 4096;  // of all together
+    options.mostCells = std::clamp(cells / found_.size(), least, most);
+    std::atomic<std::size_t> done{0};
+    const auto progress = run_.progressOf("probabilities");
+    forEachIndex(run_.options.jobs, found_.size(), run_.watch.stop(), [&] {
+      return [&](std::size_t i) {
+        const std::size_t output = i % outputs_.size();
+        const auto parts = partsAt(surrogate_, rows_[i / outputs_.size()]);
+        if (!parts) return;
+        DistributionOptions own = options;
+        own.negligible = negligible_[output];
+        found_[i] = boundDistribution(*parts, output, *masses_, own);
+        if (progress) progress(static_cast<double>(++done) / static_cast<double>(found_.size()));
+      };
+    });
+  }
+
+  /// What does not depend on anything uncertain is known to some roundings.
+  void measureNegligible(const Surrogate& surrogate) {
+    constexpr double part = 1e-9;  // of the greatest value
+    negligible_.assign(outputs_.size(), 0.0);
+    for (const std::vector<SurrogatePart>& parts : surrogate.at)
+      for (const SurrogatePart& each : parts)
+        for (std::size_t k = 0; k < outputs_.size(); ++k)
+          if (isBounded(each.outputs[k].bound))
+            negligible_[k] = std::max(negligible_[k], part * magnitude(each.outputs[k].bound));
+  }
+
+  static const std::vector<SurrogatePart>* partsAt(const Surrogate& surrogate, std::size_t row) {
+    const auto place = std::ranges::lower_bound(surrogate.rows, row);
+    if (place == surrogate.rows.end() || *place != row) return nullptr;
+    return &surrogate.at[static_cast<std::size_t>(place - surrogate.rows.begin())];
+  }
+
+  /// Samples beside the bounds; those of a value are off by the measured error of their integration.
+  void compare(const DistributionBounds& bounds, std::size_t row, std::size_t output, std::vector<double>::iterator at,
+               double& excess) const {
+    if (!run_.ensemble) return;
+    const SampledShares shares = run_.ensemble->shares(row, output);
+    if (shares.value.empty()) return;
+    const Table& errors = run_.results.stochastic.error;
+    const double error = errors.empty() || !(errors(row, output) >= 0) ? 0 : errors(row, output);
+    std::size_t next = 0;
+    for (const double value : bounds.value) {  // between two ends of bins about as if evenly spread
+      while (next < shares.value.size() && shares.value[next] < value) ++next;
+      double share = next == 0 ? 0 : 1;
+      if (next > 0 && next < shares.value.size()) {
+        const double part = (value - shares.value[next - 1]) / (shares.value[next] - shares.value[next - 1]);
+        share = shares.below[next - 1] + part * (shares.below[next] - shares.below[next - 1]);
+      }
+      *at++ = value == bounds.value.back() ? 1 : share;
+    }
+    // At the ends of bins shares are exact: those below v are not fewer than lower(v') of v' < v, nor more than
+    // upper(v).
+    excess = 0;
+    for (std::size_t i = 0; i < shares.value.size(); ++i) {
+      const auto below = std::ranges::lower_bound(bounds.value, shares.value[i] - error) - bounds.value.begin();
+      const auto above = std::ranges::lower_bound(bounds.value, shares.value[i] + error) - bounds.value.begin();
+      const double least = below == 0 ? 0 : bounds.lower[static_cast<std::size_t>(below - 1)];
+      const double most = above == std::ssize(bounds.value) ? 1 : bounds.upper[static_cast<std::size_t>(above)];
+      excess = std::max({excess, least - shares.below[i], shares.below[i] - most});
+    }
+  }
+
+  void describeBand(DistributionResult& result) const {
+    const StochasticResult& stochastic = run_.results.stochastic;
+    if (run_.study.ensemble.plan != Plan::random || stochastic.samples == 0 ||
+        stochastic.integrated < stochastic.planned() || !stochastic.why.empty())
+      return;
+    result.band = std::sqrt(std::log(2 / 0.05) / (2.0 * static_cast<double>(stochastic.samples)));
+  }
+
+  void describeIndices() {
+    SensitivityResult& result = run_.results.sensitivity;
+    const std::size_t all = run_.study.uncertain.size();
+    result.present = true;
+    for (auto* numbers : {&result.meanLower, &result.meanUpper, &result.deviationLower, &result.deviationUpper})
+      numbers->assign(rows_.size() * count_, unknown);
+    for (auto* numbers : {&result.firstLower, &result.firstUpper, &result.totalLower, &result.totalUpper})
+      numbers->assign(rows_.size() * count_ * all, unknown);
+    if (!masses_) return;
+    forEachIndex(run_.options.jobs, rows_.size() * outputs_.size(), run_.watch.stop(), [&] {
+      return [&](std::size_t i) {
+        const std::size_t at = i / outputs_.size(), k = i % outputs_.size();
+        const auto parts = partsAt(surrogate_, rows_[at]);
+        if (!parts) return;
+        const SobolIndices indices = sobolIndices(surrogate_, *parts, k, *masses_);
+        const std::size_t cell = at * count_ + static_cast<std::size_t>(outputs_[k]);
+        const auto put = [](const Interval& bounds, double& lower, double& upper) {
+          if (isBounded(bounds)) lower = bounds.lower(), upper = bounds.upper();
+        };
+        put(indices.mean, result.meanLower[cell], result.meanUpper[cell]);
+        put(indices.deviation, result.deviationLower[cell], result.deviationUpper[cell]);
+        for (std::size_t q = 0; q < quantities_.size(); ++q) {
+          const std::size_t of = cell * all + quantities_[q];
+          put(indices.first[q], result.firstLower[of], result.firstUpper[of]);
+          put(indices.total[q], result.totalLower[of], result.totalUpper[of]);
+        }
+      };
+    });
+  }
+
+  std::string why() const {
+    if (*run_.watch.stop()) return run_.watch.why();
+    if (!run_.enclosed.models) return run_.enclosed.why.empty() ? "models of outputs found no room" : run_.enclosed.why;
+    if (surrogate_.rows.empty()) return "models of outputs found no room";
+    if (run_.study.motion.times[surrogate_.rows.back()] < run_.results.distribution.time.back())
+      return run_.enclosed.why;
+    return "the enclosure is not tight enough, or the outputs depend on too many quantities together";
+  }
+
+  Run& run_;
+  const std::vector<std::size_t> rows_;
+  const std::vector<int> outputs_;
+  const std::size_t count_;              // of outputs, margins among them
+  std::vector<std::size_t> quantities_;  // of the study that are constant
+  std::vector<int> components_;          // of these
+  std::vector<const Uncertain*> uncertain_;
+  std::vector<DistributionBounds> found_;  // [row][output]
+  Surrogate surrogate_;
+  std::optional<QuantityMasses> masses_;
+  std::vector<double> negligible_;  // width of each output
+};
+
+}  // namespace
+
+bool asksForDistributions(const Study& study) {
+  return study.distribution.count > 0 && study.asksFor<StochasticResult>() &&
+         (study.asksFor<IntervalResult>() || study.asksFor<FuzzyResult>()) &&
+         study.outputs.size() > marginOutputs(study).size();
+}
+
+bool tightenModels(Run& run, double tightness, double budget, double longestStep, const char* task) {
+  constexpr double leastBudget = 2;  // s
+  FlowOptions options = flowOptions(run.study, run.problem, run.options.jobs, run.watch.stop());
+  options.tightness = tightness;
+  options.longestStep = std::min(options.longestStep, longestStep);
+  options.budget = std::max(leastBudget, budget * run.enclosed.cpu);
+  options.progress = run.progressOf(task);
+  options.modelAtBytes = options.modelBytes = std::min(options.modelBytes, 0.25 * run.results.limits.enclosureMemory);
+  const bool all = asksForDistributions(run.study);
+  const auto models = (all ? modelAll : modelMargins)(run.study, std::move(options), run.problem.box).models();
+  if (!models || models->at.size() < run.enclosed.models->at.size() || models->modelled < run.enclosed.models->modelled)
+    return false;
+  run.enclosed.models = models;
+  run.enclosed.modelTightness = tightness;
+  return true;
+}
+
+void boundProbabilities(Run& run) {
+  if (!asksForDistributions(run.study)) return;
+  run.watch.begin(Watch::Stage::rest);
+  const double start = processCpuSeconds();
+  run.results.distribution.present = true;
+  Probabilities probabilities(run);
+  try {
+    probabilities.find();
+  } catch (const std::bad_alloc&) {
+    run.watch.memoryFailed();
+  }
+  probabilities.describe();
+  run.enclosed.models.reset();
+  run.results.distribution.cpu = processCpuSeconds() - start;
+}
+
+}  // namespace gamut

@@ -1,0 +1,116 @@
+// Surrogates of motions whose truth is known: in whatever order quantities are named, with others beside them, on all
+// parts that a flow has bisected the box into.
+#include "analyses/surrogate/surrogate.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <random>
+
+#include "analyses/flow/flow.hpp"
+#include "tests/analyses/reference.hpp"
+
+namespace gamut::testing {
+namespace {
+
+/// x' = -b x², y' = c: x = a / (1 + a b t), y = d + c t.
+struct Decay {
+  Program f = record(2, 2, [](auto, const auto& x, const auto& p, auto& dx) {
+    dx[0] = -p[0] * sqr(x[0]);
+    dx[1] = p[1];
+  });
+  Program g = record(2, 2, 3, [](auto, const auto& x, const auto&, auto& y) {
+    y[0] = 2.0 * x[0];
+    y[1] = x[0] * x[1];
+    y[2] = x[1];
+  });
+  Box box{{1.0, 3.0}, {0.5, 0.6}, {0.5, 2.0}, {-1.0, 1.0}};
+  std::vector<double> times{0.5, 1.5, 2.0};
+
+  Tube tube(FlowOptions options) const { return Flow(f, g, std::move(options)).enclose(box, 2.0, times); }
+
+  static double output(int number, double time, const std::vector<double>& of) {
+    const double x = of[0] / (1 + of[0] * of[2] * time), y = of[1] + of[3] * time;
+    return number == 0 ? 2 * x : number == 1 ? x * y : y;
+  }
+};
+
+/// What a surrogate says of values; the rest of the whole box is `others`.
+void expectHolds(const Decay& decay, const std::vector<double>& times, const Surrogate& surrogate,
+                 const std::vector<int>& components, const std::vector<int>& outputs) {
+  std::mt19937_64 engine(4);
+  std::uniform_real_distribution<double> anywhere(-1, 1);
+  int found = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    std::vector<double> values, xi(components.size());
+    for (const Interval& range : decay.box) values.push_back(midpoint(range) + 0.5 * width(range) * anywhere(engine));
+    for (std::size_t q = 0; q < components.size(); ++q) {
+      const FlowSymbol& of = surrogate.quantities[q];
+      ASSERT_GE(of.symbol, 0);
+      xi[static_cast<std::size_t>(of.symbol)] = (values[static_cast<std::size_t>(components[q])] - of.centre) / of.half;
+    }
+    for (std::size_t r = 0; r < surrogate.rows.size(); ++r)
+      for (const SurrogatePart& part : surrogate.at[r]) {
+        std::vector<double> eta;
+        bool isHere = true;
+        for (std::size_t l = 0; l < xi.size(); ++l) {
+          eta.push_back((xi[l] - part.part.centre[l]) / part.part.half[l]);
+          isHere = isHere && std::fabs(eta.back()) <= 1;
+        }
+        if (!isHere) continue;
+        ++found;
+        for (std::size_t o = 0; o < outputs.size(); ++o) {
+          const OutputModel& model = part.outputs[o];
+          ASSERT_FALSE(model.c.empty());
+          double sum = 0;
+          for (std::size_t g = 0; g < model.c.size(); ++g) {
+            double term = model.c[g];
+            for (std::size_t l = 0; l < eta.size(); ++l)
+              term *= std::pow(eta[l], part.monomials->exponent(static_cast<int>(g), static_cast<int>(l)));
+            sum += term;
+          }
+          const double truth = Decay::output(outputs[o], times[surrogate.rows[r]], values);
+          EXPECT_LE(std::fabs(sum - truth), model.radius + 1e-14) << outputs[o] << " at " << times[surrogate.rows[r]];
+        }
+      }
+  }
+  EXPECT_GE(found, 300 * static_cast<int>(surrogate.rows.size()));
+}
+
+TEST(Surrogate, IsOfAllPartsInAnyOrderOfQuantities) {
+  const Decay decay;
+  FlowOptions options;
+  options.modelled = {2};
+  options.modelledAt = {0, 1};
+  const Tube tube = decay.tube(options);
+  ASSERT_EQ(tube.why(), "");
+  ASSERT_EQ(tube.models()->modelled, 3U);
+  for (const std::vector<int>& components : {std::vector<int>{0, 1, 2, 3}, {3, 0, 2, 1}, {2, 3, 1, 0}}) {
+    expectHolds(decay, tube.times(), surrogateOf(*tube.models(), components, 1, 3), components, {0, 1});
+    expectHolds(decay, tube.times(), surrogateOf(*tube.models(), components, 0, 1), components, {2});
+  }
+  // What is not named may be anything.
+  const Surrogate part = surrogateOf(*tube.models(), {2, 0}, 0, 3);
+  EXPECT_EQ(part.symbols, 2);
+  expectHolds(decay, tube.times(), part, {2, 0}, {2, 0, 1});
+  // A remainder was bisected, or so it is said.
+  FlowModels doubtful = *tube.models();
+  doubtful.areAlternatives = true;
+  expectHolds(decay, tube.times(), surrogateOf(doubtful, {3, 0, 2, 1}, 0, 3), {3, 0, 2, 1}, {2, 0, 1});
+}
+
+TEST(Surrogate, IsEmptyWhereModelsFoundNoRoom) {
+  const Decay decay;
+  FlowOptions options;
+  options.modelled = {2};
+  options.modelledAt = {0, 1};
+  options.modelAtBytes = 100;
+  const Tube tube = decay.tube(options);
+  ASSERT_TRUE(tube.models());
+  EXPECT_EQ(tube.models()->modelled, 1U);
+  EXPECT_TRUE(surrogateOf(*tube.models(), {0, 1, 2, 3}, 1, 3).rows.empty());
+  EXPECT_EQ(surrogateOf(*tube.models(), {0, 1, 2, 3}, 0, 1).rows.size(), tube.reachedTimes());
+}
+
+}  // namespace
+}  // namespace gamut::testing

@@ -1,0 +1,107 @@
+// Probabilities and sensitivities of a study: what is asked, what the samples say of it, what the file keeps.
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "studies/results/results_file.hpp"
+#include "studies/running/run.hpp"
+#include "tests/studies/sample_study.hpp"
+#include "tests/studies/temporary_folder.hpp"
+
+namespace gamut {
+namespace {
+
+using ::testing::Each;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::ThrowsMessage;
+
+/// The pendulum of sampleStudy with a length and a mass that are uncertain too, named before the state's uncertainty or
+/// behind it, and independent samples.
+Study asked(const std::string& plan, bool isAngleLast = false) {
+  const std::string others = R"([[uncertain]]
+name = "length"
+quantity = "rod.length"
+interval = "± 2 %"
+distribution = { type = "triangular" }
+[[uncertain]]
+name = "mass"
+quantity = "bob.mass"
+interval = "± 5 %"
+)";
+  const std::string anchor = isAngleLast ? "[[uncertain]]\nname = \"start\"" : "[[output]]\nname = \"angle\"";
+  std::string text = sampleStudyWith(anchor, others + anchor);
+  text.replace(text.find("[stochastic]"), std::string::npos,
+               plan + "\n[stochastic]\nsamples = 4096\nplan = \"random\"\nseed = 7\n");
+  return readStudyText(text, "s.toml");
+}
+
+TEST(Probabilities, AreAskedForAtSomeTimes) {
+  EXPECT_EQ(asked("").distribution.count, 10U);
+  EXPECT_EQ(asked("[distribution]\ntimes = 3\n").distribution.count, 3U);
+  const Study study = asked("[distribution]\ntimes = [\"250 ms\", 0.5, 0.25]\ngap = \"1 %\"\n");
+  EXPECT_THAT(study.distribution.times, ElementsAre(0.25, 0.5));
+  EXPECT_EQ(study.distribution.gap, 0.01);
+  EXPECT_THAT(study.motion.times, ElementsAre(0, 0.1, 0.2, 0.25, 0.3, 0.4, 0.5));
+  const auto refusal = [](const std::string& text) { return [text] { asked("[distribution]\n" + text + "\n"); }; };
+  EXPECT_THAT(refusal("times = [0.6]"),
+              ThrowsMessage<StudyError>(HasSubstr("distribution.times has 0.6 s, outside the study's time; expected "
+                                                  "times from 0 s to 0.5 s")));
+  EXPECT_THAT(refusal("gap = 0"), ThrowsMessage<StudyError>(HasSubstr("distribution.gap is not between 0.001 and 1")));
+  EXPECT_THAT(refusal("time = 3"), ThrowsMessage<StudyError>(HasSubstr("expected 'times'?")));
+}
+
+/// Quantities in either order: bounds hold the shares of samples but for the band that their number leaves.
+TEST(Probabilities, HoldTheSharesOfSamples) {
+  for (const bool isAngleLast : {false, true}) {
+    const Results results = run(asked("[distribution]\ntimes = [0.1, 0.3, 0.5]\n", isAngleLast));
+    const DistributionResult& distribution = results.distribution;
+    ASSERT_TRUE(distribution.present);
+    EXPECT_EQ(distribution.why, "");
+    EXPECT_LE(distribution.gap, 0.005);
+    EXPECT_THAT(distribution.time, ElementsAre(0.1, 0.3, 0.5));
+    const double surely = std::sqrt(std::log(2 / 1e-9) / (2.0 * 4096));
+    EXPECT_LT(distribution.band, surely);
+    EXPECT_GT(distribution.band, 0.5 * surely / 3);
+    ASSERT_EQ(distribution.excess.size(), 6U);
+    for (const double excess : distribution.excess) {
+      EXPECT_GE(excess, 0);
+      EXPECT_LE(excess, surely);
+    }
+    for (std::size_t i = 0; i < distribution.value.size(); ++i)
+      if (!std::isnan(distribution.value[i])) {
+        EXPECT_LE(distribution.lower[i], distribution.sampled[i] + surely);
+        EXPECT_GE(distribution.upper[i], distribution.sampled[i] - surely);
+      }
+    // The motion does not depend on the mass; all of the variance is the others'.
+    const SensitivityResult& sensitivity = results.sensitivity;
+    const std::size_t mass = isAngleLast ? 1 : 2;
+    for (std::size_t cell = 0; cell < 6; ++cell) {
+      EXPECT_LT(sensitivity.totalUpper[cell * 3 + mass], 1e-4);
+      double least = 0;
+      for (std::size_t q = 0; q < 3; ++q) least += sensitivity.totalLower[cell * 3 + q];
+      EXPECT_GT(least, 0.999);
+      const double mean = results.stochastic.mean.data[(cell / 2 == 0 ? 1 : cell / 2 == 1 ? 3 : 5) * 2 + cell % 2];
+      EXPECT_NEAR(mean, 0.5 * (sensitivity.meanLower[cell] + sensitivity.meanUpper[cell]),
+                  6 * sensitivity.deviationUpper[cell] / 64);
+    }
+  }
+}
+
+TEST(Probabilities, AreNotBoundedWhereNobodyAsks) {
+  EXPECT_FALSE(run(asked("[distribution]\ntimes = 0\n")).distribution.present);
+}
+
+TEST(Probabilities, AreKeptInTheFile) {
+  TemporaryFolder folder;
+  Results results = run(asked("[distribution]\ntimes = 2\n"));
+  writeResults(results, folder.path("r.h5"));
+  EXPECT_THAT(differences(results, readResults(folder.path("r.h5"))), IsEmpty());
+  results.distribution.lower[1] = 2;
+  writeResults(results, folder.path("wrong.h5"));
+  EXPECT_ANY_THROW(readResults(folder.path("wrong.h5")));
+}
+
+}  // namespace
+}  // namespace gamut
