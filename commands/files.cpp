@@ -30,6 +30,16 @@ Study readStudyNoting(const std::string& path, bool isQuiet) {
   return study;
 }
 
+Study studyOf(const Results& results, const std::string& path) {
+  FilesAtHand files{results.robotText, {}};
+  try {
+    files.tables = namedTextsIn(results.tablesText);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(path + ": " + error.what());
+  }
+  return readStudyText(results.studyText, results.studyFile + " in " + path, elementTypes(), files);
+}
+
 OutputFile reserve(const std::string& path, const std::string& input, bool force) {
   std::error_code error;
   if (std::filesystem::equivalent(path, input, error)) throw UsageError(path + ": cannot be written; it is the input");

@@ -19,6 +19,10 @@ StudyText readStudyFile(const std::string& path);
 /// Reads a study, likewise; says on standard error, unless `isQuiet`, what may be a mistake in it. Throws StudyError.
 Study readStudyNoting(const std::string& path, bool isQuiet);
 
+/// The study that results from `path` are of, with the files that it names, as they hold them. Throws StudyError, or
+/// UsageError if they make no sense.
+Study studyOf(const Results& results, const std::string& path);
+
 /// Before any work is done: the file may be written, overwrites nothing that it must not, and is ours from now on.
 /// Throws UsageError if it is the input, OutputRefused or WriteError as OutputFile does.
 OutputFile reserve(const std::string& path, const std::string& input, bool force);

@@ -21,6 +21,7 @@
 #include "commands/table.hpp"
 #include "studies/results/results_file.hpp"
 #include "studies/version.hpp"
+#include "studies/words.hpp"
 
 namespace gamut::commands {
 namespace {
@@ -58,26 +59,14 @@ std::size_t numberOf(const Arguments& arguments, const StochasticResult& samples
   throw UsageError(fmt::format("{}: no sample is '{}'; expected {}or centre", arguments.results, name, expected));
 }
 
-/// Quoted where it must be.
-std::string cell(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-  return quoted + '"';
-}
-
-std::string heading(const std::string& name, const std::string& unit) {
-  return cell(unit == "1" ? name : fmt::format("{} ({})", name, unit));
-}
-
 /// Decimals that give the same doubles back, at most 17 digits; times that were not reached are left out.
 std::string csv(const Study& study, const ReplayedSample& sample) {
   std::vector<std::string> headings;
   const bool moves = study.horizon > 0;
-  if (moves) headings.push_back(heading("time", "s"));
-  for (const OutputInfo& output : study.outputs) headings.push_back(heading(output.name, output.unit));
+  if (moves) headings.push_back(csvHeading("time", "s"));
+  for (const OutputInfo& output : study.outputs) headings.push_back(csvHeading(output.name, output.unit));
   for (const UncertainQuantity& uncertain : study.uncertain)
-    headings.push_back(heading("uncertain " + uncertain.uncertain.name, uncertain.unit));
+    headings.push_back(csvHeading("uncertain " + uncertain.uncertain.name, uncertain.unit));
   fmt::memory_buffer text;
   const auto end = std::back_inserter(text);
   fmt::format_to(end, "{}\n", fmt::join(headings, ","));
@@ -117,14 +106,6 @@ void say(std::size_t number, const ReplayedSample& sample, const Results& result
         number, results.version, results.host, version(), hostName());
 }
 
-NamedTexts tablesOf(const Results& results, const std::string& file) {
-  try {
-    return namedTextsIn(results.tablesText);
-  } catch (const std::invalid_argument& error) {
-    throw UsageError(file + ": " + error.what());
-  }
-}
-
 /// The requirement that "violation NAME" names; null for a sample.
 const RequirementResult* requirementOf(const Arguments& arguments, const Results& results) {
   if (arguments.sample.front() != "violation") return nullptr;
@@ -146,9 +127,7 @@ ExitCode replay(const Arguments& arguments) {
     throw UsageError(arguments.results +
                      ": holds no samples; expected results of a study that compares \"stochastic\"");
   const std::size_t number = requirement == nullptr ? numberOf(arguments, results.stochastic) : 0;
-  const FilesAtHand files{results.robotText, tablesOf(results, arguments.results)};
-  const Study study =
-      readStudyText(results.studyText, results.studyFile + " in " + arguments.results, elementTypes(), files);
+  const Study study = studyOf(results, arguments.results);
   ReplayedSample sample;
   const auto table = [&] {
     try {

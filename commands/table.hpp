@@ -31,6 +31,7 @@ Action check(CLI::App& command);
 Action report(CLI::App& command);
 Action info(CLI::App& command);
 Action replay(CLI::App& command);
+Action sample(CLI::App& command);
 Action tolerance(CLI::App& command);
 Action newStudy(CLI::App& command);
 Action quantities(CLI::App& command);
@@ -46,6 +47,7 @@ inline constexpr Command table[] = {
     {"report", "Write the report page of a results file", report},
     {"info", "What a results file holds and where it comes from; or the tree of a robot (URDF)", info},
     {"replay", "One sample of a run again, bit for bit, as CSV", replay},
+    {"sample", "Many samples of outputs without integrating, each with its proved error", sample},
 };
 
 }  // namespace commands

@@ -39,11 +39,9 @@ struct Section {
   std::string (*html)(const Report& report);
 };
 
-constexpr Section sections[] = {{"What was asked", askedSection},
-                                {"The machine", machineSection},
-                                {"Figures", figuresSection},
-                                {"Outputs", outputsSection},
-                                {"Provenance", provenanceSection}};
+constexpr Section sections[] = {{"What was asked", askedSection},      {"The machine", machineSection},
+                                {"Figures", figuresSection},           {"Outputs", outputsSection},
+                                {"Probabilities", probabilitySection}, {"Provenance", provenanceSection}};
 
 std::string sectionsOf(const Report& report) {
   std::string text;
@@ -61,19 +59,22 @@ std::string plottingPart(const std::string& data) {
       page::plottingLicence, page::plottingScript);
 }
 
-/// What moves the picture of the machine.
+/// What moves the picture of the machine, and chooses times.
 std::string movingPart(const Results& results) {
-  return results.machine.present ? fmt::format("<script>{}</script>\n", page::machineScript) : "";
+  std::string scripts;
+  if (results.machine.present) scripts += fmt::format("<script>{}</script>\n", page::machineScript);
+  if (results.distribution.present) scripts += fmt::format("<script>{}</script>\n", page::probabilityScript);
+  return scripts;
 }
 
 }  // namespace
 
 std::string renderReport(const Results& results) {
-  const Report report{results, judge(results), outputPlots(results)};
+  const Report report{results, judge(results), outputPlots(results), probabilityPlots(results)};
   return filled(page::skeleton, {{"title", escapeHtml(titleOf(results))},
                                  {"summary", escapeHtml(summaryLine(results))},
                                  {"style", std::string(page::style)},
-                                 {"layers", report.outputs.style},
+                                 {"layers", report.outputs.style + report.probabilities.style},
                                  {"plottingStyle", report.outputs.data.empty() ? "" : std::string(page::plottingStyle)},
                                  {"requirements", requirementsSection(results)},
                                  {"word", report.verdict.word},

@@ -31,6 +31,8 @@ std::string_view nameOf(Excursion::Bound bound) {
       return "the plain interval enclosure";
     case Excursion::Bound::alphaCut:
       return "its alpha-cut";
+    case Excursion::Bound::probability:
+      return "the proved bounds of its probability";
   }
   return {};
 }
@@ -55,6 +57,7 @@ class Wording {
     if (const std::string& shortfall = results_.interval.shortfall; !shortfall.empty())
       note("The enclosure is looser than was asked for: " + shortfall + ".");
     noteMissing();
+    noteUnlikely();
     noteCoincidences();
     verdict_.sentence = sentence();
     if (results_.comparison.present && results_.comparison.verdict != verdict_.word)
@@ -86,6 +89,15 @@ class Wording {
   }
 
   // ---- Notes --------------------------------------------------------------------------------------------------------
+
+  void noteUnlikely() {
+    const Excursion& unlikely = verdict_.unlikely;
+    if (unlikely.distance == 0 || verdict_.word == "outside") return;
+    note(
+        fmt::format("The samples' shares leave the proved bounds of probability by up to {} in {}{}, more than they do "
+                    "in 95 of 100 runs: bad luck, if another seed does not show it.",
+                    atMostText(unlikely.distance, 3), results_.outputs[unlikely.output].name, when(unlikely.time)));
+  }
 
   /// Grave findings first. Of each kind the worst are named; of settled ones the one that came nearest to its bound.
   void noteDisputes() {
@@ -238,7 +250,10 @@ class Wording {
 
   std::string excursionText() const {
     const Excursion& excursion = verdict_.excursion;
-    return fmt::format("up to {} outside {} in {}{}", withUnit(excursion.distance, excursion.output),
+    return fmt::format("up to {} outside {} in {}{}",
+                       excursion.bound == Excursion::Bound::probability
+                           ? atMostText(excursion.distance, 3)
+                           : withUnit(excursion.distance, excursion.output),
                        nameOf(excursion.bound), results_.outputs[excursion.output].name, when(excursion.time));
   }
 

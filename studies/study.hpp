@@ -51,6 +51,7 @@ struct DistributionPlan {
   double gap = 0.005;         ///< between the bounds, aimed at
   std::size_t count = 10;     ///< of output times, spread evenly behind the start, if they are not stated; 0: none
   std::vector<double> times;  ///< s: output times, rising
+  double storage = 8e6;       ///< bytes that the outputs' polynomials may take in the results
 };
 
 struct Study {

@@ -72,6 +72,65 @@ Json requirementsArray(const Results& results) {
   return array;
 }
 
+/// Proved bounds of the value below which an output lies with probability p; null where an end is not known.
+Json quantileOf(const DistributionResult& d, std::size_t begin, double p) {
+  Json bounds = Json::array({nullptr, nullptr});
+  for (std::size_t i = begin; i < begin + d.point.size() && !std::isnan(d.value[i]); ++i) {
+    if (d.upper[i] < p) bounds[0] = d.value[i];
+    if (d.lower[i] >= p && bounds[1].is_null()) bounds[1] = d.value[i];
+  }
+  return bounds;
+}
+
+Json distributionObject(const Results& results) {
+  const DistributionResult& d = results.distribution;
+  if (!d.present) return nullptr;
+  Json outputs = Json::object();
+  for (std::size_t k = 0; k < results.outputs.size(); ++k)
+    for (std::size_t at = 0; at < d.time.size(); ++at) {
+      const std::size_t cell = at * results.outputs.size() + k;
+      if (d.gaps.empty() || std::isnan(d.gaps[cell])) continue;
+      Json quantiles = Json::object();
+      for (const double p : {0.01, 0.05, 0.5, 0.95, 0.99})
+        quantiles[fmt::format("{}", p)] = quantileOf(d, d.begin(at, k, results.outputs.size()), p);
+      outputs[results.outputs[k].name][fmt::format("{}", d.time[at])] = {
+          {"gap", d.gaps[cell]}, {"excess", number(d.excess[cell])}, {"quantiles", quantiles}};
+    }
+  return {{"wanted", d.wanted},
+          {"gap", d.gap},
+          {"why", textOrNull(d.why)},
+          {"band", d.band > 0 ? Json(d.band) : Json(nullptr)},
+          {"cpu", d.cpu},
+          {"outputs", outputs}};
+}
+
+/// Of the times of distributions alone.
+Json sensitivityObject(const Results& results) {
+  const SensitivityResult& s = results.sensitivity;
+  if (!s.present) return nullptr;
+  Json outputs = Json::object();
+  const std::size_t quantities = results.uncertain.size();
+  for (std::size_t k = 0; k < results.outputs.size(); ++k)
+    for (std::size_t at = 0; at < s.time.size(); ++at) {
+      const std::size_t cell = at * results.outputs.size() + k;
+      if (std::ranges::find(results.distribution.time, s.time[at]) == results.distribution.time.end() ||
+          std::isnan(s.meanLower[cell]))
+        continue;
+      Json shares = Json::object();
+      for (std::size_t q = 0; q < quantities; ++q) {
+        const std::size_t i = cell * quantities + q;
+        shares[results.uncertain[q].name] = {
+            {"first", Json::array({number(s.firstLower[i]), number(s.firstUpper[i])})},
+            {"total", Json::array({number(s.totalLower[i]), number(s.totalUpper[i])})}};
+      }
+      outputs[results.outputs[k].name][fmt::format("{}", s.time[at])] = {
+          {"mean", Json::array({number(s.meanLower[cell]), number(s.meanUpper[cell])})},
+          {"deviation", Json::array({number(s.deviationLower[cell]), number(s.deviationUpper[cell])})},
+          {"indices", shares}};
+    }
+  return outputs;
+}
+
 Json textOrNull(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
 
 /// "[1.2345, 1.3456]", bounds rounded outward, with three decimals more than their width needs, 15 at most.
@@ -202,6 +261,8 @@ std::string jsonSummary(const Results& results, const std::string& verdict, cons
   json["tightness"] = number(results.interval.tightness);
   json["shortfall"] = textOrNull(results.interval.shortfall);
   json["requirements"] = requirementsArray(results);
+  json["distribution"] = distributionObject(results);
+  json["sensitivity"] = sensitivityObject(results);
   json["enclosure"] = boundsObject(results.interval.at, results);
   json["envelope"] = boundsObject(results.stochastic.envelope, results);
   Json& cost = json["cost"];
@@ -237,6 +298,13 @@ std::string textSummary(const Results& results) {
   std::vector<std::string> costs;
   for (const Answer* answer : results.answers())
     if (answer->present) costs.push_back(fmt::format("{} {:.2f} s", answer->title(), answer->cpu));
+  if (const DistributionResult& d = results.distribution; d.present) {
+    if (!d.time.empty() && !d.gaps.empty())
+      text += fmt::format("  probabilities: bounds {} apart at most, at {}{}\n", atMostText(d.gap, 2),
+                          countText(static_cast<long long>(d.time.size()), "time"),
+                          d.why.empty() ? "" : fmt::format(" ({} was asked for: {})", numberText(d.wanted, 3), d.why));
+    costs.push_back(fmt::format("probabilities {:.2f} s", d.cpu));
+  }
   if (costs.empty()) return text;
   return text + fmt::format("  CPU: {}{}\n", fmt::join(costs, ", "), spentText(results));
 }

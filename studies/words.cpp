@@ -58,4 +58,12 @@ std::string rangeText(double lower, double upper, int digits) {
   return fmt::format("[{}, {}]", least.empty() ? below : least, greatest.empty() ? above : greatest);
 }
 
+std::string csvHeading(const std::string& name, const std::string& unit) {
+  const std::string text = unit.empty() || unit == "1" ? name : fmt::format("{} ({})", name, unit);
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
+  return quoted + '"';
+}
+
 }  // namespace gamut

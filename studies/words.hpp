@@ -30,4 +30,7 @@ std::string countText(long long count, std::string_view singular);
 /// away at most, if that has no more than twelve digits; otherwise rounded outward to `digits`.
 std::string rangeText(double lower, double upper, int digits);
 
+/// "angle (rad)", or the name alone of what has no unit, quoted where CSV asks for it.
+std::string csvHeading(const std::string& name, const std::string& unit);
+
 }  // namespace gamut

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <iterator>
 #include <map>
 #include <numeric>
 #include <tuple>
@@ -19,13 +21,16 @@ using detail::at;
 
 namespace {
 
-/// A polynomial on a part, what matters of it.
+/// Powers of some symbols, each above 0; symbols rising.
+using Powers = std::vector<std::pair<int, int>>;
+
+/// A polynomial on a part, what matters of it; the first term is the constant.
 struct Piece {
   const FlowPart* part;
-  std::vector<double> c;
-  std::vector<std::vector<int>> exponents;  // of each term, [symbol]
+  std::vector<std::pair<Powers, double>> terms;
   double radius;
-  Interval mass;
+  std::vector<Interval> masses;                // [symbol]: probability of its values in the part
+  std::vector<std::vector<Interval>> moments;  // [symbol][n - 1]: mean of η^n there
 };
 
 class Variances {
@@ -33,19 +38,11 @@ class Variances {
   Variances(const Surrogate& surrogate, const std::vector<SurrogatePart>& parts, std::size_t output,
             const QuantityMasses& masses)
       : symbols_(surrogate.symbols), masses_(masses) {
-    double sum = 0;  // about the mean: of numbers near it little cancels
-    for (const SurrogatePart& part : parts) {
-      add(part, part.outputs[output]);
-      const Piece& piece = pieces_.back();
-      for (std::size_t t = 0; t < piece.c.size(); ++t) {
-        double term = piece.c[t];
-        for (int l = 0; l < symbols_; ++l) term *= midpoint(moment(l, *piece.part, piece.exponents[t][at(l)]));
-        sum += term;
-      }
-    }
-    about_ = std::isfinite(sum) ? sum : 0;
+    for (const SurrogatePart& part : parts) add(part, part.outputs[output]);
+    const double middle = midpoint(mean());
+    about_ = std::isfinite(middle) ? middle : 0;  // of numbers near the mean little cancels
     for (Piece& piece : pieces_) {
-      double& constant = piece.c.front();
+      double& constant = piece.terms.front().second;
       const Interval moved = Interval(constant) - Interval(about_);
       constant = midpoint(moved);
       piece.radius = (piece.radius + width(moved)) * bounds::up;
@@ -55,117 +52,213 @@ class Variances {
   int symbols() const { return symbols_; }
   double about() const { return about_; }
 
-  /// Of the polynomials, less `about`: E[E[y|u]²] with u given by `isIn`.
-  Interval meanSquare(const std::vector<char>& isIn) const {
-    std::map<Box, std::pair<const FlowPart*, Terms>> groups;  // by what a part covers in u
-    for (const Piece& piece : pieces_) {
-      Box box;
-      for (int l = 0; l < symbols_; ++l)
-        if (isIn[at(l)] != 0) box.push_back({piece.part->centre[at(l)], piece.part->half[at(l)]});
-      auto& [part, terms] = groups[box];
-      part = piece.part;
-      for (std::size_t t = 0; t < piece.c.size(); ++t) {
-        Interval c(piece.c[t]);
-        std::vector<int> own = piece.exponents[t];
-        for (int l = 0; l < symbols_; ++l)
-          if (isIn[at(l)] == 0) {
-            c = c * moment(l, *piece.part, own[at(l)]);
-            own[at(l)] = 0;
-          }
-        const auto [place, isNew] = terms.try_emplace(own, c);
-        if (!isNew) place->second = place->second + c;
-      }
-    }
-    Interval sum(0.0);
-    for (auto one = groups.begin(); one != groups.end(); ++one)
-      for (auto other = one; other != groups.end(); ++other) {
-        const Interval product = meanProduct(isIn, one->second, other->second, one == other);
-        sum = sum + (one == other ? product : 2.0 * product);
-      }
-    return sum;
-  }
+  // Of the polynomials, less `about`:
 
   Interval mean() const {
     Interval sum(0.0);
-    for (const Piece& piece : pieces_)
-      for (std::size_t t = 0; t < piece.c.size(); ++t) {
-        Interval c(piece.c[t]);
-        for (int l = 0; l < symbols_; ++l) c = c * moment(l, *piece.part, piece.exponents[t][at(l)]);
-        sum = sum + c;
+    for (const Piece& piece : pieces_) {
+      Interval own(0.0);
+      for (const auto& [powers, c] : piece.terms) own = own + Interval(c) * meanOf(piece, powers);
+      sum = sum + massOf(piece) * own;
+    }
+    return sum;
+  }
+
+  /// E[E[y|u]²] with u given by `isIn`.
+  Interval meanSquare(const std::vector<char>& isIn) const {
+    std::map<Box, Group> groups;  // by what a part covers in u
+    for (const Piece& piece : pieces_) {
+      Box box;
+      Interval beside(1.0);  // probability of the part's values of all other symbols
+      for (int l = 0; l < symbols_; ++l) {
+        if (isIn[at(l)] != 0)
+          box.push_back({piece.part->centre[at(l)], piece.part->half[at(l)]});
+        else
+          beside = beside * piece.masses[at(l)];
       }
+      Group& group = groups[box];
+      group.piece = &piece;
+      for (const auto& [powers, c] : piece.terms) {
+        Interval own = Interval(c) * beside;
+        Powers left;
+        for (const auto& [l, n] : powers) {
+          if (isIn[at(l)] != 0)
+            left.emplace_back(l, n);
+          else
+            own = own * moment(piece, l, n);
+        }
+        const auto [place, isNew] = group.terms.try_emplace(std::move(left), own);
+        if (!isNew) place->second = place->second + own;
+      }
+    }
+    Interval sum(0.0);
+    for (auto one = groups.begin(); one != groups.end(); ++one) {
+      sum = sum + meanSquareOf(isIn, one->second);
+      for (auto other = std::next(one); other != groups.end(); ++other)
+        sum = sum + 2.0 * meanProduct(isIn, one->second, other->second);
+    }
+    return sum;
+  }
+
+  /// E[Var(y | all but symbol l)]. Where no part is cut in l, only terms that hold it matter.
+  Interval left(int l, const Interval& second) const {
+    const auto isCut = [&](const Piece& piece) { return piece.part->half[at(l)] < 1; };
+    if (std::ranges::any_of(pieces_, isCut)) {
+      std::vector<char> others(at(symbols_), 1);
+      others[at(l)] = 0;
+      return second - meanSquare(others);
+    }
+    Interval sum(0.0);
+    for (const Piece& piece : pieces_) {
+      // Σ c_g c_h E[Π others] (E[η^(n+m)] - E[η^n] E[η^m])
+      std::vector<std::tuple<Powers, int, double>> own;
+      for (const auto& [powers, c] : piece.terms)
+        if (const auto place = std::ranges::find(powers, l, &std::pair<int, int>::first); place != powers.end()) {
+          Powers others = powers;
+          others.erase(others.begin() + (place - powers.begin()));
+          own.emplace_back(std::move(others), place->second, c);
+        }
+      Interval of(0.0);
+      for (std::size_t i = 0; i < own.size(); ++i)
+        for (std::size_t j = i; j < own.size(); ++j) {
+          const auto& [e, n, c] = own[i];
+          const auto& [f, m, d] = own[j];
+          const Interval both = moment(piece, l, n + m) - moment(piece, l, n) * moment(piece, l, m);
+          const Interval product = Interval(c) * Interval(d) * both * meanOf(piece, productOf(e, f));
+          of = of + (i == j ? product : 2.0 * product);
+        }
+      sum = sum + massOf(piece) * of;
+    }
     return sum;
   }
 
   /// The root of the mean square of what the polynomials are off by, at most.
   double radius() const {
     Interval sum(0.0);
-    for (const Piece& piece : pieces_) sum = sum + piece.mass * sqr(Interval(piece.radius));
+    for (const Piece& piece : pieces_) sum = sum + massOf(piece) * sqr(Interval(piece.radius));
     return sqrt(max(sum, Interval(0.0))).upper();
   }
 
  private:
   using Box = std::vector<std::pair<double, double>>;
-  using Terms = std::map<std::vector<int>, Interval>;
+  struct Group {
+    const Piece* piece = nullptr;  // one that covers it
+    std::map<Powers, Interval> terms;
+  };
 
   void add(const SurrogatePart& part, const OutputModel& model) {
-    Piece piece{&part.part, {}, {}, model.radius, Interval(1.0)};
-    for (int l = 0; l < symbols_; ++l) piece.mass = piece.mass * moment(l, part.part, 0);
-    const std::vector<int> none(at(symbols_), 0);
+    Piece piece{&part.part, {{{}, 0.0}}, model.radius, {}, {}};
+    int degree = 0;
     if (model.c.empty()) {
-      piece.c = {midpoint(model.bound)};
-      piece.exponents = {none};
+      piece.terms.front().second = midpoint(model.bound);
       piece.radius = subUp(model.bound.upper(), model.bound.lower());
-      pieces_.push_back(std::move(piece));
-      return;
+    } else {
+      piece.terms.front().second = model.c[0];
+      // Terms that are next to nothing together, and the least of very many, count as error: |η^e| <= 1.
+      constexpr double next = 1e-6;
+      constexpr std::size_t most = 1200;
+      std::vector<std::size_t> order(model.c.size() - 1);
+      std::iota(order.begin(), order.end(), std::size_t{1});
+      std::ranges::sort(order, std::greater<>(), [&](std::size_t g) { return std::fabs(model.c[g]); });
+      double all = 0, kept = 0, dropped = 0;
+      for (const std::size_t g : order) all += std::fabs(model.c[g]);
+      for (std::size_t i = 0; i < order.size(); ++i) {
+        const double c = model.c[order[i]];
+        if (i >= most || all - kept <= next * all) {
+          dropped += std::fabs(c);
+          continue;
+        }
+        kept += std::fabs(c);
+        Powers powers;
+        for (int l = 0; l < symbols_; ++l)
+          if (const int n = part.monomials->exponent(static_cast<int>(order[i]), l); n > 0) {
+            powers.emplace_back(l, n);
+            degree = std::max(degree, n);
+          }
+        piece.terms.emplace_back(std::move(powers), c);
+      }
+      piece.radius = (piece.radius + dropped * bounds::up) * bounds::up;
     }
-    // Terms that are next to nothing together count as error: |η^e| <= 1.
-    std::vector<std::size_t> order(model.c.size() - 1);
-    std::iota(order.begin(), order.end(), std::size_t{1});
-    std::ranges::sort(order, {}, [&](std::size_t g) { return std::fabs(model.c[g]); });
-    double all = 0, dropped = 0;
-    for (const std::size_t g : order) all += std::fabs(model.c[g]);
-    constexpr double next = 1e-6;
-    std::vector<char> isDropped(model.c.size(), 0);
-    for (const std::size_t g : order) {
-      if (dropped + std::fabs(model.c[g]) > next * all) break;
-      dropped += std::fabs(model.c[g]);
-      isDropped[g] = 1;
-    }
-    piece.radius = (piece.radius + dropped * bounds::up) * bounds::up;
-    for (std::size_t g = 0; g < model.c.size(); ++g) {
-      if (isDropped[g] != 0) continue;
-      piece.c.push_back(model.c[g]);
-      std::vector<int>& e = piece.exponents.emplace_back();
-      for (int l = 0; l < symbols_; ++l) e.push_back(part.monomials->exponent(static_cast<int>(g), l));
+    for (int l = 0; l < symbols_; ++l) {
+      piece.masses.push_back(masses_.moment(l, part.part, 0, part.part, 0));
+      std::vector<Interval>& moments = piece.moments.emplace_back();
+      for (int n = 1; n <= 2 * degree; ++n)  // |η^n| <= 1, also where the probability is not known from zero
+        moments.push_back(intersection(masses_.moment(l, part.part, n, part.part, 0) / piece.masses.back(),
+                                       Interval(n % 2 == 0 ? 0.0 : -1.0, 1.0)));
     }
     pieces_.push_back(std::move(piece));
   }
 
-  const Interval& moment(int symbol, const FlowPart& part, int n) const { return moment(symbol, part, n, part, 0); }
-  const Interval& moment(int symbol, const FlowPart& a, int n, const FlowPart& b, int m) const {
-    const std::size_t l = at(symbol);
-    const auto key = std::tuple(symbol, a.centre[l], a.half[l], n, b.centre[l], b.half[l], m);
-    const auto found = moments_.find(key);
-    return found != moments_.end() ? found->second
-                                   : moments_.try_emplace(key, masses_.moment(symbol, a, n, b, m)).first->second;
+  static Interval moment(const Piece& piece, int l, int n) {
+    return n == 0 ? Interval(1.0) : piece.moments[at(l)][at(n - 1)];
   }
 
-  Interval meanProduct(const std::vector<char>& isIn, const std::pair<const FlowPart*, Terms>& one,
-                       const std::pair<const FlowPart*, Terms>& other, bool isSame) const {
-    const FlowPart &a = *one.first, &b = *other.first;
+  static Interval massOf(const Piece& piece) {
+    Interval mass(1.0);
+    for (const Interval& of : piece.masses) mass = mass * of;
+    return mass;
+  }
+
+  static Interval meanOf(const Piece& piece, const Powers& powers) {
+    Interval mean(1.0);
+    for (const auto& [l, n] : powers) mean = mean * moment(piece, l, n);
+    return mean;
+  }
+
+  static Powers productOf(const Powers& a, const Powers& b) {
+    Powers product;
+    auto i = a.begin(), j = b.begin();
+    while (i != a.end() || j != b.end()) {
+      if (j == b.end() || (i != a.end() && i->first < j->first)) {
+        product.push_back(*i++);
+      } else if (i == a.end() || j->first < i->first) {
+        product.push_back(*j++);
+      } else {
+        product.emplace_back(i->first, i->second + j->second);
+        ++i, ++j;
+      }
+    }
+    return product;
+  }
+
+  Interval meanSquareOf(const std::vector<char>& isIn, const Group& group) const {
+    Interval mass(1.0), sum(0.0);
+    for (int l = 0; l < symbols_; ++l)
+      if (isIn[at(l)] != 0) mass = mass * group.piece->masses[at(l)];
+    for (auto one = group.terms.begin(); one != group.terms.end(); ++one)
+      for (auto other = one; other != group.terms.end(); ++other) {
+        const Interval product =
+            one->second * other->second * meanOf(*group.piece, productOf(one->first, other->first));
+        sum = sum + (one == other ? product : 2.0 * product);
+      }
+    return mass * sum;
+  }
+
+  /// Over what both cover.
+  Interval meanProduct(const std::vector<char>& isIn, const Group& one, const Group& other) const {
+    const FlowPart &a = *one.piece->part, &b = *other.piece->part;
     std::vector<int> in;
     for (int l = 0; l < symbols_; ++l) {
       if (isIn[at(l)] == 0) continue;
-      if (!isSame && !(std::fabs(a.centre[at(l)] - b.centre[at(l)]) < std::max(a.half[at(l)], b.half[at(l)])))
+      if (!(std::fabs(a.centre[at(l)] - b.centre[at(l)]) < std::max(a.half[at(l)], b.half[at(l)])))
         return Interval(0.0);
       in.push_back(l);
     }
+    std::map<std::tuple<int, int, int>, Interval> known;
+    const auto moment = [&](int l, int n, int m) -> const Interval& {
+      const auto [place, isNew] = known.try_emplace({l, n, m}, 0.0);
+      if (isNew) place->second = masses_.moment(l, a, n, b, m);
+      return place->second;
+    };
+    const auto powerOf = [](const Powers& powers, int l) {
+      const auto place = std::ranges::find(powers, l, &std::pair<int, int>::first);
+      return place == powers.end() ? 0 : place->second;
+    };
     Interval sum(0.0);
-    for (const auto& [e, c] : one.second)
-      for (const auto& [f, d] : other.second) {
+    for (const auto& [e, c] : one.terms)
+      for (const auto& [f, d] : other.terms) {
         Interval product = c * d;
-        for (const int l : in)
-          product = product * (isSame ? moment(l, a, e[at(l)] + f[at(l)]) : moment(l, a, e[at(l)], b, f[at(l)]));
+        for (const int l : in) product = product * moment(l, powerOf(e, l), powerOf(f, l));
         sum = sum + product;
       }
     return sum;
@@ -175,7 +268,6 @@ class Variances {
   const QuantityMasses& masses_;
   std::vector<Piece> pieces_;
   double about_ = 0;
-  mutable std::map<std::tuple<int, double, double, int, double, double, int>, Interval> moments_;
 };
 
 Interval root(const Interval& square) { return sqrt(max(square, Interval(0.0))); }
@@ -219,11 +311,10 @@ SobolIndices sobolIndices(const Surrogate& surrogate, const std::vector<Surrogat
       indices.first[q] = indices.total[q] = shareOf(Interval(0.0), variance, r);
       continue;
     }
-    std::vector<char> alone(at(of.symbols()), 0), others = all;
+    std::vector<char> alone(at(of.symbols()), 0);
     alone[at(l)] = 1;
-    others[at(l)] = 0;
     indices.first[q] = shareOf(of.meanSquare(alone) - meanSquare, variance, r);
-    indices.total[q] = shareOf(second - of.meanSquare(others), variance, r);
+    indices.total[q] = shareOf(of.left(l, second), variance, r);
   }
   return indices;
 }

@@ -28,11 +28,18 @@ struct OutputPlots {
 };
 OutputPlots outputPlots(const Results& results);
 
+/// Distribution functions and shares of the variance, and the CSS of their layers; empty where there are none.
+struct PlotSection {
+  std::string html, style;
+};
+PlotSection probabilityPlots(const Results& results);
+
 /// What sections are made of.
 struct Report {
   const Results& results;
   Verdict verdict;
   OutputPlots outputs;
+  PlotSection probabilities;
 };
 
 /// The uncertain quantities and the study word for word.
@@ -46,6 +53,9 @@ std::string figuresSection(const Report& report);
 
 /// The plots of every output.
 std::string outputsSection(const Report& report);
+
+/// How probable their values are, and whose doing their spread is.
+std::string probabilitySection(const Report& report);
 
 /// Version, machine, date, seed, study file, libraries.
 std::string provenanceSection(const Report& report);

@@ -353,6 +353,16 @@ class StudyReader {
     flow.maxPieces = static_cast<int>(section.integer("max_pieces", flow.maxPieces, 1, 1000000));
   }
 
+  /// What may be kept of something in the results, bytes.
+  double storage(const TomlSection& section, double otherwise) const {
+    const toml::node* node = section.find("storage");
+    if (node == nullptr) return otherwise;
+    const double bytes = gigabyte * nearest(source_.asAmount(*node, section.nameOf("storage"), gigabytes));
+    if (!(bytes >= 0 && bytes <= gigabyte))
+      source_.fail(*node, section.nameOf("storage") + " is not between 0 and 1 GB", "a size such as \"64 MB\"");
+    return bytes;
+  }
+
   void readStochastic(const toml::table& table) {
     const TomlSection section(source_, table, "stochastic",
                               {"samples", "plan", "seed", "tolerance", "method", "storage"});
@@ -367,11 +377,7 @@ class StudyReader {
     if (const toml::node* node = section.find("method"))
       ensemble.method =
           source_.asChoice(*node, "stochastic.method", {"adams", "bdf"}) == "bdf" ? Method::bdf : Method::adams;
-    if (const toml::node* node = section.find("storage")) {
-      study_.storage = gigabyte * nearest(source_.asAmount(*node, "stochastic.storage", gigabytes));
-      if (!(study_.storage >= 0 && study_.storage <= gigabyte))
-        source_.fail(*node, "stochastic.storage is not between 0 and 1 GB", "a size such as \"64 MB\"");
-    }
+    study_.storage = storage(section, study_.storage);
     const toml::node* node = section.find("tolerance");
     if (node == nullptr) return;
     const TomlSection tolerance(source_, source_.asTable(*node, "stochastic.tolerance"), "stochastic.tolerance",
@@ -391,8 +397,9 @@ class StudyReader {
   }
 
   void readDistribution(const toml::table& table) {
-    const TomlSection section(source_, table, "distribution", {"times", "gap"});
+    const TomlSection section(source_, table, "distribution", {"times", "gap", "storage"});
     DistributionPlan& plan = study_.distribution;
+    plan.storage = storage(section, plan.storage);
     if (const toml::node* node = section.find("gap")) {
       plan.gap = nearest(source_.asAmount(*node, "distribution.gap", Dimension{}));
       if (!(plan.gap >= 0.001 && plan.gap <= 1))

@@ -42,23 +42,25 @@ std::vector<Field> fieldsOf(DistributionResult& d) {
 
 std::vector<Field> fieldsOf(SensitivityResult& s) {
   using namespace dimension;
-  return {{"mean_lower", &s.meanLower, unit::ofOutput, "proved bound of the mean", {times, output}},
-          {"mean_upper", &s.meanUpper, unit::ofOutput, "upper bound", {times, output}},
-          {"deviation_lower", &s.deviationLower, unit::ofOutput, "of the standard deviation", {times, output}},
-          {"deviation_upper", &s.deviationUpper, unit::ofOutput, "upper bound", {times, output}},
+  constexpr std::string_view when = "/sensitivity/time";
+  return {{"time", &s.time, unit::second, "output times of which sensitivities are bounded", {when}},
+          {"mean_lower", &s.meanLower, unit::ofOutput, "proved bound of the mean", {when, output}},
+          {"mean_upper", &s.meanUpper, unit::ofOutput, "upper bound", {when, output}},
+          {"deviation_lower", &s.deviationLower, unit::ofOutput, "of the standard deviation", {when, output}},
+          {"deviation_upper", &s.deviationUpper, unit::ofOutput, "upper bound", {when, output}},
           {"first_lower",
            &s.firstLower,
            unit::one,
            "proved bound of the Sobol' index: the share of the variance that would vanish on average if the quantity "
            "were known",
-           {times, output, quantity}},
-          {"first_upper", &s.firstUpper, unit::one, "upper bound", {times, output, quantity}},
+           {when, output, quantity}},
+          {"first_upper", &s.firstUpper, unit::one, "upper bound", {when, output, quantity}},
           {"total_lower",
            &s.totalLower,
            unit::one,
            "of the total Sobol' index: the share that would stay on average if all other quantities were known",
-           {times, output, quantity}},
-          {"total_upper", &s.totalUpper, unit::one, "upper bound", {times, output, quantity}}};
+           {when, output, quantity}},
+          {"total_upper", &s.totalUpper, unit::one, "upper bound", {when, output, quantity}}};
 }
 
 /// Bounds of a share, or nothing is known.

@@ -31,9 +31,11 @@ struct DistributionResult {
   }
 };
 
-/// Bounds of Sobol' indices, at the same times; those of a quantity that varies in time are not known.
+/// Bounds of Sobol' indices, at more times, those of the distributions among them; those of a quantity that varies in
+/// time are not known.
 struct SensitivityResult {
   bool present = false;
+  std::vector<double> time;                                                  ///< s: output times
   std::vector<double> meanLower, meanUpper, deviationLower, deviationUpper;  ///< [time][output]
   std::vector<double> firstLower, firstUpper, totalLower, totalUpper;        ///< [time][output][quantity]
 };

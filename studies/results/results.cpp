@@ -16,6 +16,7 @@ std::vector<Group> describe(Results& results) {
   describe(results.requirements, groups);
   describe(results.distribution, groups);
   describe(results.sensitivity, groups);
+  describe(results.surrogate, groups);
   describe(results.machine, groups);
   return groups;
 }

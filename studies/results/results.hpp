@@ -14,6 +14,7 @@
 #include "studies/results/probability.hpp"
 #include "studies/results/requirements.hpp"
 #include "studies/results/stochastic.hpp"
+#include "studies/results/surrogate.hpp"
 
 namespace gamut {
 
@@ -29,6 +30,7 @@ struct Results : Origin {
   std::vector<RequirementResult> requirements;
   DistributionResult distribution;
   SensitivityResult sensitivity;
+  SurrogateResult surrogate;
   MachineResult machine;
 
   std::array<Answer*, 3> answers() { return {&interval, &stochastic, &fuzzy}; }

@@ -30,6 +30,7 @@ class Finder {
     compareCuts();
     findUnbounded();
     readDisputes();
+    compareShares();
     finding_.reached = comparesAnything() ? reached_ : reachedTime(results_);
     finding_.endsEarly = endsEarly();
     if (finding_.comparesEnclosure && !endedAtStart()) findOverestimation();
@@ -155,6 +156,30 @@ class Finder {
         isUndecided_ = true;
       }
     }
+  }
+
+  /// The shares of n independent samples are off by more than √(ln(2/α)/(2n)) with a probability of α at most (P.
+  /// Massart, Annals of Probability 18, 1990), one of m by more than that for α/m. A correct program must not fail by
+  /// bad luck: for the verdict α = 1e-9.
+  void compareShares() {
+    const DistributionResult& distribution = results_.distribution;
+    const std::size_t outputs = results_.outputs.size();
+    if (!distribution.present || !(distribution.band > 0) || distribution.excess.empty()) return;
+    const auto known = [](double x) { return !std::isnan(x); };
+    const double m = static_cast<double>(std::ranges::count_if(distribution.excess, known));
+    const double n = static_cast<double>(results_.stochastic.samples);
+    const auto band = [&](double alpha) { return std::sqrt(std::log(2 * m / alpha) / (2 * n)); };
+    bool isRefuted = false;
+    for (std::size_t i = 0; i < distribution.excess.size(); ++i) {
+      const double excess = distribution.excess[i];
+      if (!(excess > finding_.unlikely.distance) || !(excess > band(0.05))) continue;
+      const auto time = std::ranges::lower_bound(results_.time, distribution.time[i / outputs]);
+      finding_.unlikely = {excess, static_cast<std::size_t>(time - results_.time.begin()), i % outputs,
+                           Bound::probability};
+      isRefuted = isRefuted || excess > band(1e-9);
+    }
+    if (isRefuted && outside_.distance == 0) outside_ = finding_.unlikely;
+    isRefuted_ = isRefuted_ || isRefuted;
   }
 
   // ---- What is missing ----------------------------------------------------------------------------------------------

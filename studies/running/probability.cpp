@@ -7,6 +7,7 @@
 
 #include "analyses/probability/output_distribution.hpp"
 #include "analyses/probability/sobol_indices.hpp"
+#include "analyses/surrogate/surrogate_evaluator.hpp"
 #include "analyses/workers.hpp"
 #include "studies/running/flow_of_study.hpp"
 #include "studies/running/units.hpp"
@@ -90,6 +91,7 @@ class Probabilities {
     if (result.gap > result.wanted) result.why = why();
     describeBand(result);
     describeIndices();
+    keepSurrogate();
   }
 
  private:
@@ -195,21 +197,41 @@ class Probabilities {
     result.band = std::sqrt(std::log(2 / 0.05) / (2.0 * static_cast<double>(stochastic.samples)));
   }
 
+  /// Of many output times, since shares change quickly; of fewer where polynomials are long.
+  std::vector<std::size_t> rowsOfIndices() const {
+    constexpr double work = 1e8, most = 64, mostTerms = 1200;
+    double perRow = 1;
+    for (const SurrogatePart& part : surrogate_.at.back())
+      for (const OutputModel& model : part.outputs) {
+        const double terms = std::min(mostTerms, static_cast<double>(model.c.size()));
+        perRow += terms * (terms + static_cast<double>(components_.size()));
+      }
+    const auto count = static_cast<std::size_t>(std::clamp(work / perRow, 1.0, most));
+    std::vector<std::size_t> rows;
+    for (const std::size_t row : rows_)
+      if (partsAt(surrogate_, row) != nullptr) rows.push_back(row);
+    const std::size_t last = surrogate_.rows.size() - 1;
+    for (std::size_t i = 0; i <= count && last > 0; ++i) rows.push_back(surrogate_.rows[i * last / count]);
+    std::ranges::sort(rows);
+    rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+    return rows;
+  }
+
   void describeIndices() {
+    if (!masses_) return;
     SensitivityResult& result = run_.results.sensitivity;
     const std::size_t all = run_.study.uncertain.size();
+    const std::vector<std::size_t> rows = rowsOfIndices();
     result.present = true;
+    for (const std::size_t row : rows) result.time.push_back(run_.study.motion.times[row]);
     for (auto* numbers : {&result.meanLower, &result.meanUpper, &result.deviationLower, &result.deviationUpper})
-      numbers->assign(rows_.size() * count_, unknown);
+      numbers->assign(rows.size() * count_, unknown);
     for (auto* numbers : {&result.firstLower, &result.firstUpper, &result.totalLower, &result.totalUpper})
-      numbers->assign(rows_.size() * count_ * all, unknown);
-    if (!masses_) return;
-    forEachIndex(run_.options.jobs, rows_.size() * outputs_.size(), run_.watch.stop(), [&] {
+      numbers->assign(rows.size() * count_ * all, unknown);
+    forEachIndex(run_.options.jobs, rows.size() * outputs_.size(), run_.watch.stop(), [&] {
       return [&](std::size_t i) {
         const std::size_t at = i / outputs_.size(), k = i % outputs_.size();
-        const auto parts = partsAt(surrogate_, rows_[at]);
-        if (!parts) return;
-        const SobolIndices indices = sobolIndices(surrogate_, *parts, k, *masses_);
+        const SobolIndices indices = sobolIndices(surrogate_, *partsAt(surrogate_, rows[at]), k, *masses_);
         const std::size_t cell = at * count_ + static_cast<std::size_t>(outputs_[k]);
         const auto put = [](const Interval& bounds, double& lower, double& upper) {
           if (isBounded(bounds)) lower = bounds.lower(), upper = bounds.upper();
@@ -223,6 +245,32 @@ class Probabilities {
         }
       };
     });
+  }
+
+  /// Of as many output times as there is room for: all, or every so manyth, the last and those of distributions among
+  /// them.
+  void keepSurrogate() {
+    SurrogateResult& result = run_.results.surrogate;
+    if (surrogate_.rows.empty() || components_.size() < run_.study.uncertain.size()) return;
+    std::vector<std::size_t> rows;
+    for (std::size_t every = 1; every < 2 * surrogate_.rows.size(); every *= 2) {
+      rows.clear();
+      for (const std::size_t row : surrogate_.rows)
+        if ((surrogate_.rows.back() - row) % every == 0 || std::ranges::binary_search(rows_, row)) rows.push_back(row);
+      if (bytesOf(surrogate_, rows) <= run_.study.distribution.storage) {
+        static_cast<PackedSurrogate&>(result) = pack(surrogate_, rows, outputs_, count_);
+        result.present = true;
+        const auto numbers = [](std::size_t count) {
+          std::vector<double> all(count);
+          for (std::size_t i = 0; i < count; ++i) all[i] = static_cast<double>(i);
+          return all;
+        };
+        result.part = numbers(result.row.size());
+        result.term = numbers(result.exponent.size() / std::max<std::size_t>(components_.size(), 1));
+        result.number = numbers(result.coefficient.size());
+        return;
+      }
+    }
   }
 
   std::string why() const {

@@ -78,9 +78,9 @@ void boundProbabilities(Run& run);
 void showSamples(Run& run);
 
 /// All units, in the order in which they run.
-inline constexpr void (*units[])(Run&) = {stateRequirements, lookAtMachine,      takeFirstSamples, enclose,
-                                          guarantee,         findPossibilities,  takeOtherSamples, compareAnswers,
-                                          checkRequirements, boundProbabilities, showSamples};
+inline constexpr void (*units[])(Run&) = {stateRequirements,  lookAtMachine,     takeFirstSamples, enclose,
+                                          guarantee,          findPossibilities, takeOtherSamples, checkRequirements,
+                                          boundProbabilities, compareAnswers,    showSamples};
 
 /// Where points certainly are, by the flow's tube, or, where nothing moves, by the image of the box.
 void enclosePlaces(Run& run, const Tube& tube);

@@ -69,7 +69,7 @@ TEST_F(Program, RefusesWrongUsageInOneLine) {
   EXPECT_EQ(gamut("rum s.toml").error, "gamut: unknown command 'rum'; expected 'run'\n");
   EXPECT_EQ(gamut("walk").error,
             "gamut: unknown command 'walk'; expected one of: new, quantities, run, validate, check, tolerance, report, "
-            "info, replay\n");
+            "info, replay, sample\n");
   EXPECT_EQ(gamut("run s.toml --seed -1").error,
             "gamut: --seed: '-1' is no whole number from 0 to 9223372036854775807; see gamut run --help\n");
 }
@@ -406,6 +406,33 @@ TEST_F(Program, ChecksRequirements) {
   const Json requirement = Json::parse(gamut("run partly.toml --json --force").out)["requirements"][0];
   EXPECT_EQ(requirement["guaranteed"], "partly");
   EXPECT_GT(requirement["violation"]["start"], 0.525);
+}
+
+TEST_F(Program, SamplesWithoutIntegrating) {
+  folder_.write("s.toml", sampleStudy);
+  ASSERT_EQ(gamut("run s.toml --quiet").exitCode, 0);
+  const Outcome csv = gamut("sample s.h5 --samples 2 --at 0.5 --outputs angle");
+  EXPECT_EQ(csv.exitCode, 0);
+  EXPECT_THAT(csv.out, StartsWith("sample,uncertain start (rad),time (s),angle (rad),error of angle (rad)\n0,0.5"));
+  EXPECT_EQ(std::ranges::count(csv.out, '\n'), 3);
+  EXPECT_EQ(gamut("sample s.h5 --samples 2 --at 0.5 --outputs angle").out, csv.out);
+  EXPECT_NE(gamut("sample s.h5 --samples 2 --at 0.5 --outputs angle --seed 2").out, csv.out);
+  EXPECT_EQ(gamut("sample s.h5 --samples 100 -o all.h5").exitCode, 0);
+  EXPECT_TRUE(folder_.has("all.h5"));
+  EXPECT_EQ(gamut("sample s.h5 --samples 100 -o all.h5").exitCode, 2);
+  const auto refusal = [&](const std::string& arguments) {
+    const Outcome outcome = gamut("sample s.h5 --samples 2 " + arguments);
+    EXPECT_EQ(outcome.exitCode, 2) << arguments;
+    return outcome.error;
+  };
+  EXPECT_THAT(refusal("--at 0.45"), HasSubstr("s.h5: holds no polynomials of 0.45 s; expected an output time"));
+  EXPECT_THAT(refusal("--outputs speed"), HasSubstr("no polynomials of an output 'speed'; expected 'angle'"));
+  EXPECT_THAT(refusal("--plan any"), HasSubstr("no sampling plan is called 'any'"));
+  EXPECT_THAT(gamut("sample s.h5 --samples 100000000").error, HasSubstr("more than 2e+08 numbers"));
+  folder_.write("alone.toml", sampleStudyWith("\"interval\", \"stochastic\", \"fuzzy\"", "\"stochastic\""));
+  gamut("run alone.toml --quiet");
+  EXPECT_THAT(gamut("sample alone.h5 --samples 2").error,
+              HasSubstr("holds no polynomials of outputs; expected results"));
 }
 
 TEST_F(Program, TellsTolerances) {

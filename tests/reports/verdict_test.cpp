@@ -239,6 +239,36 @@ TEST(Verdict, SaysHowManyMotionsStayedInsideHowLongAndHowTight) {
   EXPECT_EQ(verdict.reached, 3);
 }
 
+/// Shares of 4096 independent samples beside proved bounds of their probability.
+Results withShares(double excess) {
+  Results results = example::pendulum();
+  results.stochastic.samples = 4096;
+  DistributionResult& d = results.distribution;
+  d.present = true;
+  d.band = 0.0212;
+  d.time = {results.time[20]};
+  d.point = {0, 1};
+  d.value = {0, 1, 0, 1};
+  d.lower = d.sampled = d.upper = {0, 1, 0, 1};
+  d.gaps = {0, 0};
+  d.excess = {0, excess};
+  return results;
+}
+
+TEST(Verdict, CountsSharesOfSamplesWhereBadLuckCannotBe) {
+  EXPECT_EQ(judge(withShares(0.02)).word, "inside");
+  EXPECT_THAT(judge(withShares(0.02)).notes, Not(Contains(HasSubstr("shares"))));
+  const Verdict lucky = judge(withShares(0.03));  // √(ln(4/0.05)/8192) = 0.023
+  EXPECT_EQ(lucky.word, "inside");
+  EXPECT_THAT(lucky.notes, Contains(HasSubstr("leave the proved bounds of probability by up to 0.03 in")));
+  const Verdict wrong = judge(withShares(0.06));  // √(ln(4e9)/8192) = 0.052
+  EXPECT_EQ(wrong.word, "outside");
+  EXPECT_THAT(wrong.sentence, HasSubstr("up to 0.06 outside the proved bounds of its probability in"));
+  Results dependent = withShares(0.06);
+  dependent.distribution.band = 0;
+  EXPECT_EQ(judge(dependent).word, "inside");
+}
+
 TEST(Verdict, SaysWhereAGuaranteeSaysLittle) {
   Results results = example::pendulum();
   results.comparison.overestimation.data.back() = 1234.5;

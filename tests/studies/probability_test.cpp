@@ -76,14 +76,15 @@ TEST(Probabilities, HoldTheSharesOfSamples) {
       }
     // The motion does not depend on the mass; all of the variance is the others'.
     const SensitivityResult& sensitivity = results.sensitivity;
+    EXPECT_THAT(sensitivity.time, ElementsAre(0, 0.1, 0.2, 0.3, 0.4, 0.5));
     const std::size_t mass = isAngleLast ? 1 : 2;
-    for (std::size_t cell = 0; cell < 6; ++cell) {
+    for (std::size_t cell = 0; cell < 12; ++cell) {
+      if (cell == 0) continue;  // the angle at the start is the uncertain one itself
       EXPECT_LT(sensitivity.totalUpper[cell * 3 + mass], 1e-4);
       double least = 0;
       for (std::size_t q = 0; q < 3; ++q) least += sensitivity.totalLower[cell * 3 + q];
       EXPECT_GT(least, 0.999);
-      const double mean = results.stochastic.mean.data[(cell / 2 == 0 ? 1 : cell / 2 == 1 ? 3 : 5) * 2 + cell % 2];
-      EXPECT_NEAR(mean, 0.5 * (sensitivity.meanLower[cell] + sensitivity.meanUpper[cell]),
+      EXPECT_NEAR(results.stochastic.mean.data[cell], 0.5 * (sensitivity.meanLower[cell] + sensitivity.meanUpper[cell]),
                   6 * sensitivity.deviationUpper[cell] / 64);
     }
   }

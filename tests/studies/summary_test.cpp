@@ -29,9 +29,10 @@ TEST(JsonSummary, HasTheDocumentedKeys) {
   const std::string text = jsonSummary(sampleResults(), "incomplete", {"run.h5", "run.html"});
   EXPECT_EQ(text.find('\n'), std::string::npos);
   const Json json = Json::parse(text);
-  EXPECT_THAT(keysOf(json), ElementsAre("cost", "enclosure", "envelope", "excursion", "files", "horizon", "integrated",
-                                        "limits", "overestimation", "reached", "requirements", "samples", "shortfall",
-                                        "tightness", "verdict", "version", "why"));
+  EXPECT_THAT(keysOf(json),
+              ElementsAre("cost", "distribution", "enclosure", "envelope", "excursion", "files", "horizon",
+                          "integrated", "limits", "overestimation", "reached", "requirements", "samples", "sensitivity",
+                          "shortfall", "tightness", "verdict", "version", "why"));
   EXPECT_THAT(keysOf(json["overestimation"]), ElementsAre("max", "median", "outputs"));
   EXPECT_THAT(keysOf(json["cost"]), ElementsAre("fuzzy", "interval", "memory", "report", "stochastic", "total"));
   EXPECT_THAT(keysOf(json["limits"]),

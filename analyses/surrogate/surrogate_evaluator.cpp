@@ -1,0 +1,271 @@
+// Output times whose parts are the same are evaluated together: for the samples in a part, all monomials, then the
+// product of the matrix of all coefficients with theirs.
+#include "analyses/surrogate/surrogate_evaluator.hpp"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <stdexcept>
+
+#include "analyses/flow/error_bounds.hpp"
+
+namespace gamut {
+
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+/// Values of a monomial: those of an earlier one times a symbol.
+struct Step {
+  std::size_t from, quantity;
+};
+
+}  // namespace
+
+double bytesOf(const Surrogate& surrogate, const std::vector<std::size_t>& rows) {
+  double bytes = 0;
+  for (std::size_t r = 0; r < surrogate.rows.size(); ++r)
+    if (std::ranges::binary_search(rows, surrogate.rows[r]))
+      for (const SurrogatePart& part : surrogate.at[r]) {
+        bytes += 16.0 * static_cast<double>(part.part.half.size() + 1);
+        for (const OutputModel& model : part.outputs) bytes += 8.0 * static_cast<double>(model.c.size() + 3);
+      }
+  return bytes;
+}
+
+PackedSurrogate pack(const Surrogate& surrogate, const std::vector<std::size_t>& rows, const std::vector<int>& outputs,
+                     std::size_t all) {
+  PackedSurrogate packed;
+  const std::size_t quantities = surrogate.quantities.size();
+  for (const FlowSymbol& of : surrogate.quantities) {
+    packed.centre.push_back(of.symbol < 0 ? 0 : of.centre);
+    packed.half.push_back(of.symbol < 0 ? 0 : of.half);
+  }
+  const auto own = [&](const std::vector<double>& of, double otherwise, std::vector<double>& to) {
+    for (const FlowSymbol& quantity : surrogate.quantities)
+      to.push_back(quantity.symbol < 0 ? otherwise : of[static_cast<std::size_t>(quantity.symbol)]);
+  };
+  std::map<const Monomials*, std::size_t> firstTerm;
+  for (std::size_t r = 0; r < surrogate.rows.size(); ++r) {
+    if (!std::ranges::binary_search(rows, surrogate.rows[r])) continue;
+    for (const SurrogatePart& part : surrogate.at[r]) {
+      const Monomials& m = *part.monomials;
+      const auto [place, isNew] =
+          firstTerm.try_emplace(&m, packed.exponent.size() / std::max<std::size_t>(quantities, 1));
+      for (int g = 0; isNew && g < m.count(); ++g)
+        for (const FlowSymbol& quantity : surrogate.quantities)
+          packed.exponent.push_back(quantity.symbol < 0 ? 0 : m.exponent(g, quantity.symbol));
+      packed.row.push_back(static_cast<double>(surrogate.rows[r]));
+      packed.firstTerm.push_back(static_cast<double>(place->second));
+      own(part.part.centre, 0, packed.partCentre);
+      own(part.part.half, 1, packed.partHalf);
+      const std::size_t begin = packed.first.size();
+      for (std::vector<double>* numbers : {&packed.first, &packed.count}) numbers->resize(begin + all, 0.0);
+      packed.radius.resize(begin + all, std::numeric_limits<double>::quiet_NaN());
+      for (std::size_t k = 0; k < outputs.size(); ++k) {
+        const OutputModel& model = part.outputs[k];
+        const std::size_t at = begin + static_cast<std::size_t>(outputs[k]);
+        packed.first[at] = static_cast<double>(packed.coefficient.size());
+        if (model.c.empty() || !std::isfinite(model.radius)) continue;
+        packed.count[at] = static_cast<double>(model.c.size());
+        packed.radius[at] = model.radius;
+        packed.coefficient.insert(packed.coefficient.end(), model.c.begin(), model.c.end());
+      }
+    }
+  }
+  return packed;
+}
+
+/// Output times with the same parts, one behind the other.
+struct SurrogateEvaluator::Group {
+  struct Part {
+    std::vector<double> centre, half;
+    std::vector<Step> steps;    // of all monomials but the first, the constant
+    Eigen::MatrixXd c;          // [time · output][monomial]
+    std::vector<double> error;  // [time · output]
+  };
+  std::size_t firstRow, rows;
+  std::vector<Part> parts;
+};
+
+SurrogateEvaluator::~SurrogateEvaluator() = default;
+SurrogateEvaluator::SurrogateEvaluator(SurrogateEvaluator&&) noexcept = default;
+
+SurrogateEvaluator::SurrogateEvaluator(const PackedSurrogate& surrogate, const std::vector<std::size_t>& rows,
+                                       const std::vector<std::size_t>& outputs)
+    : quantities_(surrogate.centre.size()),
+      rows_(rows.size()),
+      outputs_(outputs.size()),
+      centre_(surrogate.centre),
+      half_(surrogate.half),
+      borders_(quantities_) {
+  const auto require = [](bool holds) {
+    if (!holds) throw std::invalid_argument("the polynomials of its outputs make no sense");
+  };
+  const std::size_t n = quantities_, parts = surrogate.row.size();
+  require(parts > 0 && surrogate.first.size() % parts == 0);
+  const std::size_t all = surrogate.first.size() / parts;
+  const std::size_t terms = n == 0 ? 1 : surrogate.exponent.size() / n;
+  std::map<std::size_t, std::map<std::vector<double>, std::size_t>> known;  // monomials by first term
+  /// How monomials follow from each other: `count` of them from the first on.
+  const auto stepsFrom = [&](std::size_t first, std::size_t count) {
+    require(first + count <= terms);
+    auto& numbers = known[first];
+    std::vector<Step> steps;
+    const auto exponentsOf = [&](std::size_t t) {
+      const auto begin = surrogate.exponent.begin() + static_cast<std::ptrdiff_t>((first + t) * n);
+      return std::vector<double>(begin, begin + static_cast<std::ptrdiff_t>(n));
+    };
+    for (std::size_t t = 0; t < count; ++t) {
+      std::vector<double> e = exponentsOf(t);
+      numbers.try_emplace(e, t);
+      const std::size_t q =
+          static_cast<std::size_t>(std::ranges::find_if(e, [](double x) { return x > 0; }) - e.begin());
+      if (t == 0) {
+        require(q == n);
+        continue;
+      }
+      require(q < n);
+      e[q] -= 1;
+      const auto found = numbers.find(e);
+      require(found != numbers.end() && found->second < t);
+      steps.push_back({found->second, q});
+    }
+    return steps;
+  };
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    const auto [begin, end] = std::ranges::equal_range(surrogate.row, static_cast<double>(rows[r]));
+    if (begin == end) throw std::invalid_argument("no polynomials of that time are kept");
+    const std::size_t from = static_cast<std::size_t>(begin - surrogate.row.begin()),
+                      until = static_cast<std::size_t>(end - surrogate.row.begin());
+    const auto slice = [&](const std::vector<double>& numbers, std::size_t part) {
+      const auto first = numbers.begin() + static_cast<std::ptrdiff_t>(part * n);
+      return std::vector<double>(first, first + static_cast<std::ptrdiff_t>(n));
+    };
+    // The same parts in the same order, and not so many times that the matrices outgrow the caches?
+    constexpr std::size_t mostTogether = 512;
+    bool isAsBefore = !groups_.empty() && groups_.back().parts.size() == until - from &&
+                      groups_.back().rows * outputs_ < mostTogether;
+    for (std::size_t p = from; isAsBefore && p < until; ++p)
+      isAsBefore = groups_.back().parts[p - from].centre == slice(surrogate.partCentre, p) &&
+                   groups_.back().parts[p - from].half == slice(surrogate.partHalf, p) &&
+                   surrogate.firstTerm[p] == surrogate.firstTerm[from];
+    if (!isAsBefore) {
+      groups_.push_back({r, 0, {}});
+      for (std::size_t p = from; p < until; ++p)
+        groups_.back().parts.push_back({slice(surrogate.partCentre, p), slice(surrogate.partHalf, p), {}, {}, {}});
+    }
+    Group& group = groups_.back();
+    ++group.rows;
+    for (std::size_t p = from; p < until; ++p) {
+      Group::Part& part = group.parts[p - from];
+      std::size_t count = 1;
+      for (const std::size_t o : outputs) {
+        require(o < all);
+        count = std::max(count, static_cast<std::size_t>(surrogate.count[p * all + o]));
+      }
+      if (count > part.steps.size() + 1)
+        part.steps = stepsFrom(static_cast<std::size_t>(surrogate.firstTerm[p]), count);
+      const Eigen::Index columns = static_cast<Eigen::Index>(part.steps.size() + 1), before = part.c.rows();
+      part.c.conservativeResizeLike(Eigen::MatrixXd::Zero(before + static_cast<Eigen::Index>(outputs_), columns));
+      double finest = 1, degree = 0;
+      for (const double half : part.half) finest = std::min(finest, half);
+      for (std::size_t t = 0; t < count; ++t) {
+        double sum = 0;
+        for (std::size_t q = 0; q < n; ++q)
+          sum += surrogate.exponent[(static_cast<std::size_t>(surrogate.firstTerm[p]) + t) * n + q];
+        degree = std::max(degree, sum);
+      }
+      for (std::size_t k = 0; k < outputs_; ++k) {
+        const std::size_t at = p * all + outputs[k];
+        const auto first = static_cast<std::size_t>(surrogate.first[at]),
+                   own = static_cast<std::size_t>(surrogate.count[at]);
+        require(first + own <= surrogate.coefficient.size());
+        double norm = 0;
+        for (std::size_t t = 0; t < own; ++t) {
+          const double c = surrogate.coefficient[first + t];
+          part.c(before + static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(t)) = c;
+          norm += std::fabs(c);
+        }
+        // η is off by 4 u (1 + 1/half): its quotient by 2 u, the difference from the part's middle and its quotient by
+        // 1 u each; a monomial by `degree` times that and as many roundings, the sum of n products by (n + 1) u.
+        const double roundings = (degree * (5 + 4 / finest) + static_cast<double>(own) + 2) * bounds::unit;
+        const double error =
+            own == 0 ? infinite : (surrogate.radius[at] + roundings * norm) * bounds::up + bounds::tiny;
+        part.error.push_back(std::isnan(error) ? infinite : error);
+      }
+      for (std::size_t q = 0; q < n; ++q)
+        for (const double border : {part.centre[q] - part.half[q], part.centre[q] + part.half[q]})
+          if (std::fabs(border) < 1) borders_[q].push_back(border);
+    }
+  }
+  for (std::vector<double>& borders : borders_) {
+    std::ranges::sort(borders);
+    borders.erase(std::unique(borders.begin(), borders.end()), borders.end());
+  }
+}
+
+void SurrogateEvaluator::settle(std::span<double> values) const {
+  constexpr double near = 16 * bounds::unit;  // ξ is off by 2 u
+  for (std::size_t q = 0; q < quantities_; ++q) {
+    const auto xi = [&] { return (values[q] - centre_[q]) / half_[q]; };
+    for (const double border : borders_[q])
+      while (std::fabs(xi() - border) <= near) values[q] = std::nextafter(values[q], infinite);
+  }
+}
+
+void SurrogateEvaluator::evaluate(std::span<const double> values, std::span<double> outputs,
+                                  std::span<double> errors) const {
+  constexpr std::size_t block = 256;
+  const std::size_t n = quantities_, samples = outputs.size() / std::max<std::size_t>(rows_ * outputs_, 1);
+  std::vector<double> xi(block * n);
+  std::vector<std::vector<std::size_t>> members;
+  Eigen::MatrixXd monomials, results;
+  for (std::size_t first = 0; first < samples; first += block) {
+    const std::size_t count = std::min(block, samples - first);
+    for (std::size_t i = 0; i < count; ++i)
+      for (std::size_t q = 0; q < n; ++q)
+        xi[i * n + q] = half_[q] == 0 ? 0.0 : (values[(first + i) * n + q] - centre_[q]) / half_[q];
+    for (const Group& group : groups_) {
+      members.assign(group.parts.size(), {});
+      for (std::size_t i = 0; i < count; ++i) {
+        std::size_t p = 0;
+        const auto isIn = [&](const Group::Part& part) {
+          for (std::size_t q = 0; q < n; ++q)
+            if (std::fabs(xi[i * n + q] - part.centre[q]) > part.half[q] && part.half[q] < 1) return false;
+          return true;
+        };
+        while (p + 1 < group.parts.size() && !isIn(group.parts[p])) ++p;
+        members[p].push_back(i);
+      }
+      for (std::size_t p = 0; p < group.parts.size(); ++p) {
+        const Group::Part& part = group.parts[p];
+        const std::vector<std::size_t>& own = members[p];
+        if (own.empty()) continue;
+        const auto m = static_cast<Eigen::Index>(own.size());
+        Eigen::MatrixXd eta(m, static_cast<Eigen::Index>(n));
+        for (Eigen::Index i = 0; i < m; ++i)
+          for (std::size_t q = 0; q < n; ++q)
+            eta(i, static_cast<Eigen::Index>(q)) =
+                std::clamp((xi[own[static_cast<std::size_t>(i)] * n + q] - part.centre[q]) / part.half[q], -1.0, 1.0);
+        monomials.resize(m, part.c.cols());
+        monomials.col(0).setOnes();
+        for (std::size_t t = 0; t < part.steps.size(); ++t)
+          monomials.col(static_cast<Eigen::Index>(t + 1)) =
+              monomials.col(static_cast<Eigen::Index>(part.steps[t].from))
+                  .cwiseProduct(eta.col(static_cast<Eigen::Index>(part.steps[t].quantity)));
+        results.noalias() = part.c * monomials.transpose();
+        const std::size_t cells = group.rows * outputs_;
+        for (Eigen::Index i = 0; i < m; ++i) {
+          const std::size_t at = ((first + own[static_cast<std::size_t>(i)]) * rows_ + group.firstRow) * outputs_;
+          std::copy_n(results.col(i).data(), cells, outputs.begin() + static_cast<std::ptrdiff_t>(at));
+          std::ranges::copy(part.error, errors.begin() + static_cast<std::ptrdiff_t>(at));
+        }
+      }
+    }
+  }
+}
+
+}  // namespace gamut

@@ -1,0 +1,85 @@
+// Bounds are stairs: from one value to the next the lower bound of the one and the upper bound of the other. Fewer
+// values make stairs that lie outside.
+#include "reports/drawing/distribution.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <vector>
+
+#include "reports/drawing/axes.hpp"
+
+namespace gamut {
+namespace {
+
+constexpr std::size_t drawnValues = 120;
+
+struct Stairs {
+  std::vector<double> value, lower, upper, sampled;
+};
+
+Stairs stairsOf(const Results& results, std::size_t at, std::size_t output) {
+  const DistributionResult& d = results.distribution;
+  const std::size_t begin = d.begin(at, output, results.outputs.size());
+  std::size_t count = 0;
+  while (count < d.point.size() && !std::isnan(d.value[begin + count])) ++count;
+  Stairs stairs;
+  const std::size_t stride = std::max<std::size_t>(1, count / drawnValues);
+  for (std::size_t i = 0; i < count; i = i + stride < count || i + 1 == count ? i + stride : count - 1) {
+    stairs.value.push_back(d.value[begin + i]);
+    stairs.lower.push_back(d.lower[begin + i]);
+    stairs.upper.push_back(d.upper[begin + i]);
+    stairs.sampled.push_back(d.sampled[begin + i]);
+  }
+  return stairs;
+}
+
+}  // namespace
+
+std::string drawDistribution(const Results& results, std::size_t at, std::size_t output, const std::string& label) {
+  const Stairs stairs = stairsOf(results, at, output);
+  const std::size_t count = stairs.value.size();
+  if (count < 2) return {};
+  Range values;
+  values.hold(stairs.value);
+  const Frame frame{values.padded(0.02), {0, 1}, 230};
+  std::string svg = openedDrawing(frame.height, label), path;
+  const std::string& unit = results.outputs[output].unit;
+  drawHorizontalAxis(frame, results.outputs[output].name + (unit.empty() || unit == "1" ? "" : " (" + unit + ")"), 6,
+                     svg);
+  drawVerticalAxis(frame, "probability of no more", 5, svg);
+  const auto go = [&](const char* how, double value, double probability) {
+    fmt::format_to(std::back_inserter(path), "{}{:.1f} {:.1f}", how, frame.across(value),
+                   frame.down(std::clamp(probability, 0.0, 1.0)));
+  };
+  const auto finish = [&](const char* kind, const char* end) {
+    fmt::format_to(std::back_inserter(svg), "<path class=\"{}\" d=\"{}{}\"/>\n", kind, path, end);
+    path.clear();
+  };
+  for (std::size_t i = 0; i + 1 < count; ++i) {
+    go(i == 0 ? "M" : "L", stairs.value[i], stairs.upper[i + 1]);
+    go("L", stairs.value[i + 1], stairs.upper[i + 1]);
+  }
+  for (std::size_t i = count - 1; i-- > 0;) {
+    go("L", stairs.value[i + 1], stairs.lower[i]);
+    go("L", stairs.value[i], stairs.lower[i]);
+  }
+  finish("bounds", "Z");
+  if (!std::isnan(stairs.sampled.front())) {
+    const auto line = [&](double beside) {
+      for (std::size_t i = 0; i < count; ++i) go(i == 0 ? "M" : "L", stairs.value[i], stairs.sampled[i] + beside);
+    };
+    line(0);
+    finish("share", "");
+    if (const double band = results.distribution.band; band > 0)
+      for (const double side : {-band, band}) {
+        line(side);
+        finish("band", "");
+      }
+  }
+  return svg + "</svg>\n";
+}
+
+}  // namespace gamut
