@@ -4,33 +4,21 @@
 // though their cost and that of the statistics is in the time.
 #include <benchmark/benchmark.h>
 
-#include "analyses/samples/ensemble.hpp"
-#include "benchmarks/double_pendulum.hpp"
+#include "benchmarks/sampled_pendulum.hpp"
 
 namespace gamut::benchmarks {
 namespace {
 
-constexpr double horizon = 3;
-
 void plainRungeKutta(benchmark::State& state) {
   for (auto _ : state)
-    for (int sample = 0; sample < state.range(0); ++sample) benchmark::DoNotOptimize(plainTrajectory(horizon));
+    for (int sample = 0; sample < state.range(0); ++sample) benchmark::DoNotOptimize(plainTrajectory(sampledHorizon));
   state.SetItemsProcessed(state.iterations() * state.range(0));
 }
 BENCHMARK(plainRungeKutta)->Arg(1024)->Unit(benchmark::kMillisecond);
 
 void ensemble(benchmark::State& state) {
-  const Box start = doublePendulumStart(0.01);
-  UncertainMotion pendulum;
-  pendulum.motion.f = doublePendulumProgram();
-  pendulum.motion.g = record(4, 0, 1, [](auto, const auto& x, const auto&, auto& y) { y[0] = x[0]; });
-  for (int i = 1; i <= 300; ++i) pendulum.motion.times.push_back(horizon * i / 300);
-  for (const Interval& value : start) pendulum.nominal.push_back(midpoint(value));
-  const double nominal = pendulum.nominal[0];
-  pendulum.uncertain.push_back({"first angle", start[0], nominal, Distribution::uniform(start[0]),
-                                Membership::triangular(start[0].lower(), nominal, start[0].upper())});
-  pendulum.slot = {0};
-
+  const UncertainMotion pendulum =
+      sampledPendulum(record(4, 0, 1, [](auto, const auto& x, const auto&, auto& y) { y[0] = x[0]; }));
   EnsembleOptions options;
   options.samples = static_cast<std::size_t>(state.range(0));
   for (auto _ : state) {

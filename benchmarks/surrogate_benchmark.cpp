@@ -6,21 +6,13 @@
 #include <numeric>
 
 #include "analyses/flow/flow.hpp"
-#include "analyses/samples/ensemble.hpp"
 #include "analyses/surrogate/surrogate_evaluator.hpp"
-#include "benchmarks/double_pendulum.hpp"
+#include "benchmarks/sampled_pendulum.hpp"
 
 namespace gamut::benchmarks {
 namespace {
 
-constexpr double horizon = 3;
 constexpr int outputs = 4;
-
-std::vector<double> outputTimes() {
-  std::vector<double> times;
-  for (int i = 1; i <= 300; ++i) times.push_back(horizon * i / 300);
-  return times;
-}
 
 Program states() {
   return record(4, 0, outputs, [](auto, const auto& x, const auto&, auto& y) {
@@ -33,8 +25,8 @@ PackedSurrogate surrogate() {
   std::vector<int> all(outputs);
   std::iota(all.begin(), all.end(), 0);
   options.modelledAt = all;
-  const Tube tube =
-      Flow(doublePendulumProgram(), states(), options).enclose(doublePendulumStart(0.01), horizon, outputTimes());
+  const Tube tube = Flow(doublePendulumProgram(), states(), options)
+                        .enclose(doublePendulumStart(0.01), sampledHorizon, outputTimes());
   std::vector<std::size_t> rows(tube.reachedTimes());
   std::iota(rows.begin(), rows.end(), std::size_t{0});
   return pack(surrogateOf(*tube.models(), {0}, 0, outputs), rows, all, outputs);
@@ -60,16 +52,7 @@ void evaluated(benchmark::State& state) {
 BENCHMARK(evaluated)->Arg(4096)->Unit(benchmark::kMillisecond);
 
 void integrated(benchmark::State& state) {
-  const Box start = doublePendulumStart(0.01);
-  UncertainMotion pendulum;
-  pendulum.motion.f = doublePendulumProgram();
-  pendulum.motion.g = states();
-  pendulum.motion.times = outputTimes();
-  for (const Interval& value : start) pendulum.nominal.push_back(midpoint(value));
-  const double nominal = pendulum.nominal[0];
-  pendulum.uncertain.push_back({"first angle", start[0], nominal, Distribution::uniform(start[0]),
-                                Membership::triangular(start[0].lower(), nominal, start[0].upper())});
-  pendulum.slot = {0};
+  const UncertainMotion pendulum = sampledPendulum(states());
   EnsembleOptions options;
   options.samples = static_cast<std::size_t>(state.range(0));
   for (auto _ : state) {
@@ -78,7 +61,7 @@ void integrated(benchmark::State& state) {
     run.integrateOthers();
     benchmark::DoNotOptimize(run.integrated());
   }
-  state.SetItemsProcessed(state.iterations() * state.range(0) * 300 * outputs);
+  state.SetItemsProcessed(state.iterations() * state.range(0) * sampledTimes * outputs);
 }
 BENCHMARK(integrated)->Arg(4096)->Unit(benchmark::kMillisecond);
 

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -151,6 +152,39 @@ TEST_F(Browser, PrintsTheMachineAtItsStart) {
       numbersOf(attributeOf(printed, "link", "d")),
       testing::Pointwise(testing::DoubleNear(0.15), numbersOf(attributeOf(renderReport(results), "link", "d"))));
   EXPECT_THAT(printed, HasSubstr("Side view, at the start."));
+}
+
+/// Two outputs at three times, of which the slider shows one; nothing is known of the second output at the second.
+TEST_F(Browser, ChoosesTheTimeOfDistributions) {
+  Results results = example::pendulum(61, 2);
+  DistributionResult& d = results.distribution;
+  d.present = true;
+  d.time = {results.time[20], results.time[40], results.time[60]};
+  d.point = {0, 1, 2};
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (int i = 0; i < 6; ++i) {
+    const bool isKnown = i != 3;
+    d.value.insert(d.value.end(), {isKnown ? 1.0 * i : nan, isKnown ? 1.5 * i + 1 : nan, isKnown ? 2.0 * i + 2 : nan});
+    d.lower.insert(d.lower.end(), {isKnown ? 0.0 : nan, isKnown ? 0.5 : nan, isKnown ? 1.0 : nan});
+    d.upper.insert(d.upper.end(), {isKnown ? 0.0 : nan, isKnown ? 0.75 : nan, isKnown ? 1.0 : nan});
+  }
+  d.sampled = d.lower;
+  d.gaps = {0.75, 0.75, 0.75, nan, 0.75, 0.75};
+  d.excess = {0, 0, 0, nan, 0, 0};
+  const std::string last = opened(results);
+  EXPECT_THAT(rootOf(last), Not(HasSubstr("data-error")));
+  EXPECT_EQ(count(last, "class=\"distribution\""), 6u);
+  EXPECT_EQ(count(last, "data-at=\"2\" hidden"), 0u);
+  EXPECT_EQ(count(last, "data-at=\"1\" hidden"), 2u);
+  EXPECT_THAT(last, HasSubstr("<output>3 s</output>"));
+  const std::string middle =
+      opened(results,
+             "{ const slider = document.querySelector('.moments input'); slider.value = 1; slider.dispatchEvent(new "
+             "Event('input')); }");
+  EXPECT_EQ(count(middle, "data-at=\"2\" hidden"), 2u);
+  EXPECT_EQ(count(middle, "data-at=\"1\" hidden"), 0u);
+  EXPECT_THAT(middle, HasSubstr("<output>2 s</output>"));
+  EXPECT_THAT(middle, HasSubstr("nothing is known at 2 s"));
 }
 
 TEST_F(Browser, OpensAPageOfKinematicsWithoutPlots) {

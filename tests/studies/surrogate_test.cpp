@@ -83,8 +83,8 @@ TEST(Surrogates, AreAsGoodAsTheySay) {
   EXPECT_LT(greatest, 1e-3);
 }
 
-/// Four quantities: the shares of 200000 samples leave the bounds by no more than their band.
-TEST(Surrogates, AgreeWithBoundsOfProbabilities) {
+/// The pendulum of sampleStudy with four quantities, at its last output time.
+Study fourQuantities() {
   std::string text = sampleStudyWith("[[output]]\nname = \"angle\"", R"([[uncertain]]
 name = "length"
 quantity = "rod.length"
@@ -101,8 +101,12 @@ interval = "± 10 %"
 distribution = { type = "normal", deviation = "0.02 rad/s" }
 [[output]]
 name = "angle")");
-  text += "[distribution]\ntimes = [0.5]\n";
-  const Study study = readStudyText(text, "s.toml");
+  return readStudyText(text + "[distribution]\ntimes = [0.5]\n", "s.toml");
+}
+
+/// The shares of 200000 samples leave the bounds by no more than their band.
+TEST(Surrogates, AgreeWithBoundsOfProbabilities) {
+  const Study study = fourQuantities();
   const Results results = run(study);
   ASSERT_TRUE(results.surrogate.present);
   EXPECT_LE(results.distribution.gap, 0.005);
@@ -121,6 +125,55 @@ name = "angle")");
       EXPECT_LE(d.lower[i], share(d.value[i] + error) + band) << d.value[i];
       EXPECT_GE(d.upper[i], share(d.value[i] - error) - band) << d.value[i];
     }
+  }
+}
+
+/// Estimates by samples that have one quantity of others (Saltelli et al., Computer Physics Communications 181, 2010;
+/// Jansen, ibid. 117, 1999), in 20 batches whose scatter tells their standard errors, lie within six of these.
+TEST(Surrogates, AgreeWithBoundsOfSobolIndices) {
+  const Study study = fourQuantities();
+  const Results results = run(study);
+  constexpr std::size_t batches = 20, count = 5000, n = 4;
+  const SurrogateEvaluator evaluator(results.surrogate, {5}, {1});
+  const Sampled a = sampled(study, results, batches * count, {5}, {1});
+  std::vector<double> b = a.values;  // those of other samples, independent of `a` one by one
+  std::rotate(b.begin(), b.begin() + n * 17, b.end());
+  const auto outputsOf = [&](const std::vector<double>& values) {
+    std::vector<double> outputs(batches * count), errors(outputs.size());
+    evaluator.evaluate(values, outputs, errors);
+    return outputs;
+  };
+  const std::vector<double> ofB = outputsOf(b);
+  const SensitivityResult& s = results.sensitivity;
+  const std::size_t cell = (s.time.size() - 1) * 2 + 1;
+  const double mean = 0.5 * (s.meanLower[cell] + s.meanUpper[cell]);
+  for (std::size_t q = 0; q < n; ++q) {
+    std::vector<double> mixed = a.values;
+    for (std::size_t i = q; i < mixed.size(); i += n) mixed[i] = b[i];
+    const std::vector<double> ofMixed = outputsOf(mixed);
+    std::vector<double> first, total;
+    for (std::size_t batch = 0; batch < batches; ++batch) {
+      double all = 0, firstSum = 0, totalSum = 0;
+      for (std::size_t i = batch * count; i < (batch + 1) * count; ++i) {
+        const double x = a.outputs[i] - mean, y = ofB[i] - mean, z = ofMixed[i] - mean;
+        all += 0.5 * (x * x + y * y);
+        firstSum += y * (z - x);
+        totalSum += 0.5 * (x - z) * (x - z);
+      }
+      first.push_back(firstSum / all);
+      total.push_back(totalSum / all);
+    }
+    const auto expectMeets = [&](double lower, double upper, const std::vector<double>& estimates) {
+      double middle = 0, square = 0;
+      for (const double x : estimates) middle += x / batches;
+      for (const double x : estimates) square += (x - middle) * (x - middle) / (batches - 1);
+      const double error = 6 * std::sqrt(square / batches);
+      EXPECT_LE(lower, middle + error) << q;
+      EXPECT_GE(upper, middle - error) << q;
+      EXPECT_LE(upper - lower, 0.01) << q;
+    };
+    expectMeets(s.firstLower[cell * n + q], s.firstUpper[cell * n + q], first);
+    expectMeets(s.totalLower[cell * n + q], s.totalUpper[cell * n + q], total);
   }
 }
 
