@@ -122,6 +122,10 @@ Json sensitivityObject(const Results& results) {
         shares[results.uncertain[q].name] = {
             {"first", Json::array({number(s.firstLower[i]), number(s.firstUpper[i])})},
             {"total", Json::array({number(s.totalLower[i]), number(s.totalUpper[i])})}};
+        if (s.firstSampled.empty()) continue;
+        Json& of = shares[results.uncertain[q].name];
+        of["first_sampled"] = Json::array({number(s.firstSampled[i]), number(s.firstError[i])});
+        of["total_sampled"] = Json::array({number(s.totalSampled[i]), number(s.totalError[i])});
       }
       outputs[results.outputs[k].name][fmt::format("{}", s.time[at])] = {
           {"mean", Json::array({number(s.meanLower[cell]), number(s.meanUpper[cell])})},

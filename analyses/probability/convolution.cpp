@@ -17,7 +17,7 @@ struct Numbers {
   std::vector<double> re, im;
 };
 
-/// Cooley and Tukey's transform of 2^t numbers, whose roots of unity are off by less than 3 u.
+/// Cooley and Tukey's transform of 2^t numbers, whose roots of unity are off by less than 4 u.
 class Transform {
  public:
   explicit Transform(std::size_t size) : size_(size) {
@@ -75,7 +75,7 @@ void multiply(Numbers& into, std::size_t i, double re, double im) {
 
 }  // namespace
 
-/// A transform is off by no more than ε = t η / (1 - t η) of its 2-norm, η <= 3 u + γ4 (√2 + 3 u) < 10 u (N. J. Higham,
+/// A transform is off by no more than ε = t η / (1 - t η) of its 2-norm, η <= 4 u + γ4 (√2 + 4 u) < 10 u (N. J. Higham,
 /// Accuracy and Stability of Numerical Algorithms, theorem 24.2). Spectra of masses are at most 1, those of both sides
 /// together have a 2-norm of √(2n) at most; so the product of k is off by k √(2n) (ε + 3 u), for both sides twice that,
 /// and the sum, by the inverse transform, by (3 k + 2) (ε + 3 u) in the 2-norm, and √n times that in the 1-norm.

@@ -14,7 +14,7 @@ namespace gamut {
 struct DistributionOptions {
   double gap = 0.005;           ///< between the bounds, aimed at
   int points = 512;             ///< values, at most
-  double negligible = 0;        ///< of an output that is known to no more than that, its ends are all that is told
+  double negligible = 0;        ///< of an output that is known to no more than that, its ends are told and a gap of 0
   std::size_t mostCells = 256;  ///< into which the box is bisected
   const std::atomic<bool>* cancelled = nullptr;
 };

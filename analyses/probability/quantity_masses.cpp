@@ -78,7 +78,8 @@ Interval QuantityMasses::moment(int symbol, const FlowPart& eta, int n, const Fl
   }
   const double slope = n / eta.half[at(symbol)] + m / zeta.half[at(symbol)], reach = 1.0 / bins;
   // The lean is of masses that are off by `error` in all; |f| <= 1.
-  const double leanError = n + m > 0 ? slope * (lean + s.error / bins) + 0.5 * slope * slope * reach * reach * mass : 0;
+  const double leanError =
+      n + m > 0 ? slope * (lean + s.error / bins) + 0.5 * slope * slope * reach * reach * (mass + s.error) : 0;
   const double roundings = static_cast<double>(until - from + 4 * (n + m) + 8) * bounds::unit;
   const double error = (leanError + s.error + roundings * (mass + bounds::tiny)) * bounds::up;
   return until > from ? Interval(subDown(sum, error), addUp(sum, error)) : Interval(0.0);

@@ -39,6 +39,7 @@ class Variances {
             const QuantityMasses& masses)
       : symbols_(surrogate.symbols), masses_(masses) {
     for (const SurrogatePart& part : parts) add(part, part.outputs[output]);
+    for (Piece& piece : pieces_) tabulate(piece);
     const double middle = midpoint(mean());
     about_ = std::isfinite(middle) ? middle : 0;  // of numbers near the mean little cancels
     for (Piece& piece : pieces_) {
@@ -148,8 +149,7 @@ class Variances {
 
   void add(const SurrogatePart& part, const OutputModel& model) {
     Piece piece{&part.part, {{{}, 0.0}}, model.radius, {}, {}};
-    int degree = 0;
-    if (model.c.empty()) {
+    if (model.c.empty() || !std::isfinite(model.radius)) {
       piece.terms.front().second = midpoint(model.bound);
       piece.radius = subUp(model.bound.upper(), model.bound.lower());
     } else {
@@ -173,20 +173,24 @@ class Variances {
         for (int l = 0; l < symbols_; ++l)
           if (const int n = part.monomials->exponent(static_cast<int>(order[i]), l); n > 0) {
             powers.emplace_back(l, n);
-            degree = std::max(degree, n);
+            degree_ = std::max(degree_, n);
           }
         piece.terms.emplace_back(std::move(powers), c);
       }
       piece.radius = (piece.radius + dropped * bounds::up) * bounds::up;
     }
+    pieces_.push_back(std::move(piece));
+  }
+
+  /// As far as products of terms of any pieces ask for.
+  void tabulate(Piece& piece) const {
     for (int l = 0; l < symbols_; ++l) {
-      piece.masses.push_back(masses_.moment(l, part.part, 0, part.part, 0));
+      piece.masses.push_back(masses_.moment(l, *piece.part, 0, *piece.part, 0));
       std::vector<Interval>& moments = piece.moments.emplace_back();
-      for (int n = 1; n <= 2 * degree; ++n)  // |η^n| <= 1, also where the probability is not known from zero
-        moments.push_back(intersection(masses_.moment(l, part.part, n, part.part, 0) / piece.masses.back(),
+      for (int n = 1; n <= 2 * degree_; ++n)  // |η^n| <= 1, also where the probability is not known from zero
+        moments.push_back(intersection(masses_.moment(l, *piece.part, n, *piece.part, 0) / piece.masses.back(),
                                        Interval(n % 2 == 0 ? 0.0 : -1.0, 1.0)));
     }
-    pieces_.push_back(std::move(piece));
   }
 
   static Interval moment(const Piece& piece, int l, int n) {
@@ -267,6 +271,7 @@ class Variances {
   int symbols_;
   const QuantityMasses& masses_;
   std::vector<Piece> pieces_;
+  int degree_ = 0;  // the greatest power of a symbol
   double about_ = 0;
 };
 

@@ -212,7 +212,8 @@ void SurrogateEvaluator::settle(std::span<double> values) const {
   for (std::size_t q = 0; q < quantities_; ++q) {
     const auto xi = [&] { return (values[q] - centre_[q]) / half_[q]; };
     for (const double border : borders_[q])
-      while (std::fabs(xi() - border) <= near) values[q] = std::nextafter(values[q], infinite);
+      while (std::fabs(xi() - border) <= near)  // at least to the next number, which beside 0 is no step at all
+        values[q] = std::max(std::nextafter(values[q], infinite), values[q] + near * half_[q]);
   }
 }
 

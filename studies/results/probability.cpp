@@ -43,24 +43,48 @@ std::vector<Field> fieldsOf(DistributionResult& d) {
 std::vector<Field> fieldsOf(SensitivityResult& s) {
   using namespace dimension;
   constexpr std::string_view when = "/sensitivity/time";
-  return {{"time", &s.time, unit::second, "output times of which sensitivities are bounded", {when}},
-          {"mean_lower", &s.meanLower, unit::ofOutput, "proved bound of the mean", {when, output}},
-          {"mean_upper", &s.meanUpper, unit::ofOutput, "upper bound", {when, output}},
-          {"deviation_lower", &s.deviationLower, unit::ofOutput, "of the standard deviation", {when, output}},
-          {"deviation_upper", &s.deviationUpper, unit::ofOutput, "upper bound", {when, output}},
-          {"first_lower",
-           &s.firstLower,
-           unit::one,
-           "proved bound of the Sobol' index: the share of the variance that would vanish on average if the quantity "
-           "were known",
-           {when, output, quantity}},
-          {"first_upper", &s.firstUpper, unit::one, "upper bound", {when, output, quantity}},
-          {"total_lower",
-           &s.totalLower,
-           unit::one,
-           "of the total Sobol' index: the share that would stay on average if all other quantities were known",
-           {when, output, quantity}},
-          {"total_upper", &s.totalUpper, unit::one, "upper bound", {when, output, quantity}}};
+  return {
+      {"time", &s.time, unit::second, "output times of which sensitivities are bounded", {when}},
+      {"mean_lower", &s.meanLower, unit::ofOutput, "proved bound of the mean", {when, output}},
+      {"mean_upper", &s.meanUpper, unit::ofOutput, "upper bound", {when, output}},
+      {"deviation_lower", &s.deviationLower, unit::ofOutput, "of the standard deviation", {when, output}},
+      {"deviation_upper", &s.deviationUpper, unit::ofOutput, "upper bound", {when, output}},
+      {"first_lower",
+       &s.firstLower,
+       unit::one,
+       "proved bound of the Sobol' index: the share of the variance that would vanish on average if the quantity "
+       "were known",
+       {when, output, quantity}},
+      {"first_upper", &s.firstUpper, unit::one, "upper bound", {when, output, quantity}},
+      {"total_lower",
+       &s.totalLower,
+       unit::one,
+       "of the total Sobol' index: the share that would stay on average if all other quantities were known",
+       {when, output, quantity}},
+      {"total_upper", &s.totalUpper, unit::one, "upper bound", {when, output, quantity}},
+      {"samples",
+       &s.samples,
+       unit::none,
+       "independent samples of the polynomials, in each of two sets and one more a quantity, that estimate the "
+       "indices besides",
+       {},
+       allowed::count},
+      {"first_sampled",
+       &s.firstSampled,
+       unit::one,
+       "estimate of the Sobol' index (Saltelli)",
+       {when, output, quantity}},
+      {"first_error",
+       &s.firstError,
+       unit::one,
+       "half the width of its 95 % confidence interval",
+       {when, output, quantity}},
+      {"total_sampled", &s.totalSampled, unit::one, "estimate of the total index (Jansen)", {when, output, quantity}},
+      {"total_error",
+       &s.totalError,
+       unit::one,
+       "half the width of its 95 % confidence interval",
+       {when, output, quantity}}};
 }
 
 /// Bounds of a share, or nothing is known.

@@ -1,6 +1,7 @@
 // What is proved about the probability of the outputs' values, and whose doing their spread is.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -38,6 +39,8 @@ struct SensitivityResult {
   std::vector<double> time;                                                  ///< s: output times
   std::vector<double> meanLower, meanUpper, deviationLower, deviationUpper;  ///< [time][output]
   std::vector<double> firstLower, firstUpper, totalLower, totalUpper;        ///< [time][output][quantity]
+  std::int64_t samples = 0;  ///< of the polynomials, from which indices are estimated besides
+  std::vector<double> firstSampled, firstError, totalSampled, totalError;  ///< [time][output][quantity]
 };
 
 void describe(DistributionResult& distribution, std::vector<Group>& groups);

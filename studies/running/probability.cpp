@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "analyses/probability/output_distribution.hpp"
+#include "analyses/probability/sobol_estimates.hpp"
 #include "analyses/probability/sobol_indices.hpp"
 #include "analyses/surrogate/surrogate_evaluator.hpp"
 #include "analyses/workers.hpp"
@@ -245,6 +246,32 @@ class Probabilities {
         }
       };
     });
+    estimateIndices(rows);
+  }
+
+  void estimateIndices(const std::vector<std::size_t>& rows) {
+    SensitivityResult& result = run_.results.sensitivity;
+    const std::size_t all = run_.study.uncertain.size(), n = components_.size();
+    for (auto* numbers : {&result.firstSampled, &result.firstError, &result.totalSampled, &result.totalError})
+      numbers->assign(rows.size() * count_ * all, unknown);
+    if (n == 0 || *run_.watch.stop()) return;
+    constexpr double work = 3e7, least = 256, most = 8192;
+    const double values = static_cast<double>((n + 2) * rows.size() * outputs_.size());
+    result.samples = static_cast<std::int64_t>(std::clamp(work / values, least, most));
+    std::vector<std::size_t> outputs;
+    for (const int output : outputs_) outputs.push_back(static_cast<std::size_t>(output));
+    const SurrogateEvaluator evaluator(pack(surrogate_, rows, outputs_, count_), rows, outputs);
+    const SobolEstimates estimates = estimateSobolIndices(evaluator, rows.size(), outputs.size(), uncertain_,
+                                                          static_cast<std::size_t>(result.samples), run_.results.seed);
+    for (std::size_t cell = 0; cell < rows.size() * outputs.size(); ++cell)
+      for (std::size_t q = 0; q < n; ++q) {
+        const std::size_t from = cell * n + q;
+        const std::size_t to = (cell / outputs.size() * count_ + outputs[cell % outputs.size()]) * all + quantities_[q];
+        result.firstSampled[to] = estimates.first[from];
+        result.firstError[to] = estimates.firstError[from];
+        result.totalSampled[to] = estimates.total[from];
+        result.totalError[to] = estimates.totalError[from];
+      }
   }
 
   /// Of as many output times as there is room for: all, or every so manyth, the last and those of distributions among

@@ -174,6 +174,13 @@ TEST(Surrogates, AgreeWithBoundsOfSobolIndices) {
     };
     expectMeets(s.firstLower[cell * n + q], s.firstUpper[cell * n + q], first);
     expectMeets(s.totalLower[cell * n + q], s.totalUpper[cell * n + q], total);
+    // And the estimates that the results hold, within three times their intervals.
+    const std::size_t i = cell * n + q;
+    EXPECT_LE(s.firstLower[i], s.firstSampled[i] + 3 * s.firstError[i]) << q;
+    EXPECT_GE(s.firstUpper[i], s.firstSampled[i] - 3 * s.firstError[i]) << q;
+    EXPECT_LE(s.totalLower[i], s.totalSampled[i] + 3 * s.totalError[i]) << q;
+    EXPECT_GE(s.totalUpper[i], s.totalSampled[i] - 3 * s.totalError[i]) << q;
+    EXPECT_LT(s.firstError[i] + s.totalError[i], 0.1) << q;
   }
 }
 

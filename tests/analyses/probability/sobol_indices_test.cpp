@@ -52,6 +52,29 @@ TEST(SobolIndices, AreThoseOfClosedForms) {
   expectIs(common.total[0], 1);
 }
 
+/// Pieces whose polynomials have other degrees: y is 1 on one half of the box, 1 + 2 η on the other.
+TEST(SobolIndices, AreOfPiecesThatDifferInDegree) {
+  const auto linear = std::make_shared<Monomials>(std::vector<int>{1, 1}, 1);
+  for (const bool isConstantLast : {false, true}) {
+    Surrogate surrogate{{{0, 1, 0}, {0, 1, 1}}, 2, {0}, {{}}};
+    for (const double side : {-0.5, 0.5}) {
+      const bool isConstant = (side > 0) == isConstantLast;
+      OutputModel model{{1}, 0, {-1.0, 3.0}};
+      if (!isConstant) model.c = {1, 0, 0};
+      if (!isConstant) model.c[static_cast<std::size_t>(linear->linear(1))] = 2;
+      surrogate.at[0].push_back({{{side, 0}, {0.5, 1}}, linear, {model}});
+    }
+    const std::vector<Uncertain> quantities{uniform(-1, 1), uniform(-1, 1)};
+    const QuantityMasses masses(surrogate, {&quantities[0], &quantities[1]});
+    const SobolIndices indices = sobolIndices(surrogate, surrogate.at[0], 0, masses);
+    expectIs(indices.deviation, std::sqrt(2.0 / 3));
+    expectIs(indices.first[0], 0);
+    expectIs(indices.first[1], 0.5);
+    expectIs(indices.total[0], 0.5);
+    expectIs(indices.total[1], 1);
+  }
+}
+
 TEST(SobolIndices, AreNextToNothingOfWhatDoesNotMatter) {
   Function function({uniform(0, 1), uniform(2, 3)}, [](const auto& x, auto& y) { y[0] = exp(x[0]) + 0.0 * x[1]; });
   function.surrogate.quantities.push_back({0, 0, -1});

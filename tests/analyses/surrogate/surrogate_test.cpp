@@ -8,6 +8,7 @@
 #include <random>
 
 #include "analyses/flow/flow.hpp"
+#include "analyses/surrogate/surrogate_evaluator.hpp"
 #include "tests/analyses/reference.hpp"
 
 namespace gamut::testing {
@@ -97,6 +98,31 @@ TEST(Surrogate, IsOfAllPartsInAnyOrderOfQuantities) {
   FlowModels doubtful = *tube.models();
   doubtful.areAlternatives = true;
   expectHolds(decay, tube.times(), surrogateOf(doubtful, {3, 0, 2, 1}, 0, 3), {3, 0, 2, 1}, {2, 0, 1});
+}
+
+/// Parts that meet where the value is 0: |x|, of x that is 0 too.
+TEST(SurrogateEvaluator, SettlesValuesWherePartsMeet) {
+  PackedSurrogate packed;
+  packed.centre = {0};
+  packed.half = {1};
+  packed.row = packed.firstTerm = {0, 0};
+  packed.partCentre = {-0.5, 0.5};
+  packed.partHalf = {0.5, 0.5};
+  packed.exponent = {0, 1};
+  packed.first = {0, 2};
+  packed.count = {2, 2};
+  packed.radius = {0, 0};
+  packed.coefficient = {0.5, -0.5, 0.5, 0.5};
+  const SurrogateEvaluator evaluator(packed, {0}, {0});
+  for (double value : {0.0, -0.0, 1e-300, -1e-17, 0.25, -1.0, 1.0}) {
+    const double before = value;
+    evaluator.settle({&value, 1});
+    EXPECT_NEAR(value, before, 1e-14);
+    double output = 0, error = 0;
+    evaluator.evaluate({&value, 1}, {&output, 1}, {&error, 1});
+    EXPECT_LE(std::fabs(output - std::fabs(value)), error);
+    EXPECT_LT(error, 1e-13);
+  }
 }
 
 TEST(Surrogate, IsEmptyWhereModelsFoundNoRoom) {

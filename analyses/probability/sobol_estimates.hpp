@@ -1,0 +1,26 @@
+// Sobol' indices as samples tell them, beside their proved bounds.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "analyses/surrogate/surrogate_evaluator.hpp"
+#include "analyses/uncertainty.hpp"
+
+namespace gamut {
+
+/// [time][output][quantity]: estimates, and half the width of their 95 % confidence intervals; NaN where the output
+/// does not vary.
+struct SobolEstimates {
+  std::vector<double> first, firstError, total, totalError;
+};
+
+/// From so many independent samples of each of two sets, and as many a quantity that have it of the second set and all
+/// else of the first (A. Saltelli et al., Computer Physics Communications 181, 2010, for the first index; M. Jansen,
+/// ibid. 117, 1999, for the total one). `times`, `outputs`: how many the evaluator has.
+SobolEstimates estimateSobolIndices(const SurrogateEvaluator& evaluator, std::size_t times, std::size_t outputs,
+                                    const std::vector<const Uncertain*>& uncertain, std::size_t samples,
+                                    std::uint64_t seed);
+
+}  // namespace gamut
