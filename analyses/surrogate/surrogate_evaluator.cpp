@@ -82,6 +82,7 @@ PackedSurrogate pack(const Surrogate& surrogate, const std::vector<std::size_t>&
 struct SurrogateEvaluator::Group {
   struct Part {
     std::vector<double> centre, half;
+    double firstTerm;
     std::vector<Step> steps;    // of all monomials but the first, the constant
     Eigen::MatrixXd c;          // [time · output][monomial]
     std::vector<double> error;  // [time · output]
@@ -151,11 +152,12 @@ SurrogateEvaluator::SurrogateEvaluator(const PackedSurrogate& surrogate, const s
     for (std::size_t p = from; isAsBefore && p < until; ++p)
       isAsBefore = groups_.back().parts[p - from].centre == slice(surrogate.partCentre, p) &&
                    groups_.back().parts[p - from].half == slice(surrogate.partHalf, p) &&
-                   surrogate.firstTerm[p] == surrogate.firstTerm[from];
+                   groups_.back().parts[p - from].firstTerm == surrogate.firstTerm[p];
     if (!isAsBefore) {
       groups_.push_back({r, 0, {}});
       for (std::size_t p = from; p < until; ++p)
-        groups_.back().parts.push_back({slice(surrogate.partCentre, p), slice(surrogate.partHalf, p), {}, {}, {}});
+        groups_.back().parts.push_back(
+            {slice(surrogate.partCentre, p), slice(surrogate.partHalf, p), surrogate.firstTerm[p], {}, {}, {}});
     }
     Group& group = groups_.back();
     ++group.rows;

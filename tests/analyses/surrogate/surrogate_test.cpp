@@ -125,6 +125,28 @@ TEST(SurrogateEvaluator, SettlesValuesWherePartsMeet) {
   }
 }
 
+/// The same part at two times, with terms in another order: x + 2 y, then x + 2 y again.
+TEST(SurrogateEvaluator, KnowsTheTermsOfEachTime) {
+  PackedSurrogate packed;
+  packed.centre = {0, 0};
+  packed.half = {1, 1};
+  packed.row = {0, 1};
+  packed.firstTerm = {0, 3};
+  packed.partCentre = {0, 0, 0, 0};
+  packed.partHalf = {1, 1, 1, 1};
+  packed.exponent = {0, 0, 1, 0, 0, 1, 0, 0, 0, 1, 1, 0};
+  packed.first = {0, 3};
+  packed.count = {3, 3};
+  packed.radius = {0, 0};
+  packed.coefficient = {0, 1, 2, 0, 2, 1};
+  const SurrogateEvaluator evaluator(packed, {0, 1}, {0});
+  const std::vector<double> values{0.25, 0.5};
+  std::vector<double> outputs(2), errors(2);
+  evaluator.evaluate(values, outputs, errors);
+  EXPECT_NEAR(outputs[0], 1.25, 1e-14);
+  EXPECT_NEAR(outputs[1], 1.25, 1e-14);
+}
+
 TEST(Surrogate, IsEmptyWhereModelsFoundNoRoom) {
   const Decay decay;
   FlowOptions options;
