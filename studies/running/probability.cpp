@@ -51,8 +51,8 @@ class Probabilities {
     double excess = (run_.enclosed.modelTightness > 0 ? run_.enclosed.modelTightness : tightness) - 1;
     constexpr double budget = 1, finest = 1.0 / 1024;
     take(*run_.enclosed.models);
-    while (run_.study.analysis != Study::Analysis::kinematics && isVague() && !*run_.watch.stop() &&
-           excess > finest * (tightness - 1)) {
+    while (run_.study.analysis != Study::Analysis::kinematics && !surrogate_.rows.empty() && isVague() &&
+           !*run_.watch.stop() && excess > finest * (tightness - 1)) {
       if (!tightenModels(run_, 1 + (excess /= 8), budget, run_.study.horizon, "probabilities")) break;
       take(*run_.enclosed.models);
     }
@@ -223,6 +223,7 @@ class Probabilities {
     SensitivityResult& result = run_.results.sensitivity;
     const std::size_t all = run_.study.uncertain.size();
     const std::vector<std::size_t> rows = rowsOfIndices();
+    if (rows.empty()) return;  // the enclosure ended at once
     result.present = true;
     for (const std::size_t row : rows) result.time.push_back(run_.study.motion.times[row]);
     for (auto* numbers : {&result.meanLower, &result.meanUpper, &result.deviationLower, &result.deviationUpper})

@@ -94,6 +94,21 @@ TEST(Probabilities, AreNotBoundedWhereNobodyAsks) {
   EXPECT_FALSE(run(asked("[distribution]\ntimes = 0\n")).distribution.present);
 }
 
+TEST(Probabilities, AreNotKnownWhereTheEnclosureEndsAtOnce) {
+  TemporaryFolder folder;
+  Study study = asked("[distribution]\ntimes = 2\n");
+  study.flow.split = false;
+  study.flow.maxWidth = 1e-3;
+  const Results results = run(study);
+  EXPECT_LT(results.interval.reached, 0.1);
+  EXPECT_TRUE(results.distribution.present);
+  EXPECT_EQ(results.distribution.gap, 1);
+  EXPECT_THAT(results.distribution.why, HasSubstr("wider than the limit"));
+  EXPECT_FALSE(results.sensitivity.present);
+  writeResults(results, folder.path("r.h5"));
+  EXPECT_THAT(differences(results, readResults(folder.path("r.h5"))), IsEmpty());
+}
+
 TEST(Probabilities, AreKeptInTheFile) {
   TemporaryFolder folder;
   Results results = run(asked("[distribution]\ntimes = 2\n"));
