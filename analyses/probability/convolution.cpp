@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <utility>
 
 #include "analyses/flow/error_bounds.hpp"
+#include "scalars/interval.hpp"
 
 namespace gamut {
 namespace {
@@ -17,15 +17,18 @@ struct Numbers {
   std::vector<double> re, im;
 };
 
-/// Cooley and Tukey's transform of 2^t numbers, whose roots of unity are off by less than 4 u.
+/// Cooley and Tukey's transform of 2^t numbers. Roots of unity are the middles of enclosures, off by `rootError` at
+/// most.
 class Transform {
  public:
   explicit Transform(std::size_t size) : size_(size) {
     for (std::size_t half = 1; half < size; half *= 2)
       for (std::size_t i = 0; i < half; ++i) {
-        const double angle = -std::numbers::pi * static_cast<double>(i) / static_cast<double>(half);
-        root_.re.push_back(std::cos(angle));
-        root_.im.push_back(std::sin(angle));
+        const Interval angle = -pi() * Interval(static_cast<double>(i) / static_cast<double>(half));
+        const Interval c = cos(angle), sine = sin(angle);
+        root_.re.push_back(midpoint(c));
+        root_.im.push_back(midpoint(sine));
+        rootError_ = std::max(rootError_, width(c) + width(sine));  // twice what halves of the widths allow
       }
     for (std::size_t i = 1, j = 0; i < size; ++i) {
       std::size_t bit = size >> 1;
@@ -34,6 +37,8 @@ class Transform {
       if (i < j) swapped_.emplace_back(i, j);
     }
   }
+
+  double rootError() const { return rootError_; }
 
   void operator()(Numbers& x) const {
     for (const auto& [i, j] : swapped_) std::swap(x.re[i], x.re[j]), std::swap(x.im[i], x.im[j]);
@@ -58,6 +63,7 @@ class Transform {
   }
 
   std::size_t size_;
+  double rootError_ = 0;
   Numbers root_;  // of every level, one behind the other
   std::vector<std::pair<std::size_t, std::size_t>> swapped_;
 };
@@ -75,10 +81,11 @@ void multiply(Numbers& into, std::size_t i, double re, double im) {
 
 }  // namespace
 
-/// A transform is off by no more than ε = t η / (1 - t η) of its 2-norm, η <= 4 u + γ4 (√2 + 4 u) < 10 u (N. J. Higham,
-/// Accuracy and Stability of Numerical Algorithms, theorem 24.2). Spectra of masses are at most 1, those of both sides
-/// together have a 2-norm of √(2n) at most; so the product of k is off by k √(2n) (ε + 3 u), for both sides twice that,
-/// and the sum, by the inverse transform, by (3 k + 2) (ε + 3 u) in the 2-norm, and √n times that in the 1-norm.
+/// A transform is off by no more than ε = t η / (1 - t η) of its 2-norm, η <= μ + γ4 (√2 + μ) < μ + 6 u with roots off
+/// by μ (N. J. Higham, Accuracy and Stability of Numerical Algorithms, theorem 24.2). Spectra of masses are at most 1,
+/// those of both sides together have a 2-norm of √(2n) at most; so the product of k is off by k √(2n) (ε + 3 u), for
+/// both sides twice that, and the sum, by the inverse transform, by (3 k + 2) (ε + 3 u) in the 2-norm, and √n times
+/// that in the 1-norm.
 GridSum sumOf(const std::vector<GridBounds>& parts) {
   GridSum result;
   std::size_t length = 1;
@@ -119,7 +126,8 @@ GridSum sumOf(const std::vector<GridBounds>& parts) {
     result.sum.above.mass.push_back(-scale * x.im[i]);
   }
   const double k = static_cast<double>(parts.size());
-  result.error = std::sqrt(static_cast<double>(size)) * (3 * k + 2) * (10 * t + 6) * bounds::unit * (1 + 1e-3);
+  result.error = std::sqrt(static_cast<double>(size)) * (3 * k + 2) *
+                 (t * (transform.rootError() + 6 * bounds::unit) + 6 * bounds::unit) * (1 + 1e-3);
   return result;
 }
 

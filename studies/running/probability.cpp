@@ -307,7 +307,8 @@ class Probabilities {
     if (surrogate_.rows.empty()) return "models of outputs found no room";
     if (run_.study.motion.times[surrogate_.rows.back()] < run_.results.distribution.time.back())
       return run_.enclosed.why;
-    return "the enclosure is not tight enough, or the outputs depend on too many quantities together";
+    return "the enclosure is not tight enough, an output depends on too many quantities together, or is extreme inside "
+           "the box";
   }
 
   Run& run_;
