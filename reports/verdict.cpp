@@ -57,6 +57,7 @@ class Wording {
     if (const std::string& shortfall = results_.interval.shortfall; !shortfall.empty())
       note("The enclosure is looser than was asked for: " + shortfall + ".");
     noteMissing();
+    noteProbabilities();
     noteUnlikely();
     noteCoincidences();
     verdict_.sentence = sentence();
@@ -89,6 +90,12 @@ class Wording {
   }
 
   // ---- Notes --------------------------------------------------------------------------------------------------------
+
+  void noteProbabilities() {
+    const DistributionResult& distribution = results_.distribution;
+    if (distribution.present && !distribution.stopped.empty())
+      note(fmt::format("Probabilities were not bounded to the end: {}.", distribution.stopped));
+  }
 
   void noteUnlikely() {
     const Excursion& unlikely = verdict_.unlikely;
@@ -278,6 +285,7 @@ class Wording {
         return nothing + "an analysis ended before the first output time." + horizonText();
       case Gap::unbounded:
       case Gap::end:
+      case Gap::probability:
       case Gap::none:
         break;
     }
@@ -322,6 +330,7 @@ class Wording {
     text += ".";
     if (verdict_.endsEarly) return text + (moves() ? horizonText() : " An analysis ended early.");
     if (verdict_.unbounded > 0) text += " Not every output is bounded.";
+    if (verdict_.gap == Gap::probability) text += " Their probabilities were not bounded to the end.";
     return text + (verdict_.missing > 0 ? " Not every number was there to compare." : "");
   }
 

@@ -14,6 +14,7 @@ std::vector<Field> fieldsOf(DistributionResult& d) {
       {"wanted", &d.wanted, unit::one, "gap between the bounds that was aimed at", {}, allowed::share},
       {"gap", &d.gap, unit::one, "the greatest that was left; NaN if nothing is known of some", {}, allowed::share},
       {"why", &d.why, unit::none, "why it is more than was aimed at; empty if it is not", {}},
+      {"stopped", &d.stopped, unit::none, "why the run ended before all was done; empty if it did not", {}},
       {"cpu", &d.cpu, unit::second, "CPU time, that of sensitivities and of flows for both included", {}},
       {"band",
        &d.band,

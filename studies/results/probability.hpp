@@ -16,6 +16,7 @@ struct DistributionResult {
   double wanted = 0;                 ///< gap that was aimed at
   double gap = 0;                    ///< the greatest; 1 if some are not known at all
   std::string why;                   ///< why that is more than was wanted; empty if it is not
+  std::string stopped;               ///< why the run ended before all was done; empty if it did not
   double cpu = 0;                    ///< s, sensitivities and all flows for both included
   double band = 0;                   ///< half, of Dvoretzky, Kiefer and Wolfowitz at 95 %; 0: none holds
   std::vector<double> time;          ///< s: output times

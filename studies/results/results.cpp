@@ -59,6 +59,7 @@ std::string whyEnded(const Results& results) {
   };
   for (const Answer* answer : results.answers()) add(answer->why);
   add(results.stochastic.stopped);
+  add(results.distribution.stopped);
   add(results.comparison.why);
   return fmt::format("{}", fmt::join(reasons, "; "));
 }

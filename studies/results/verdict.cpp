@@ -202,7 +202,8 @@ class Finder {
     if (endedAtStart()) return Gap::start;
     const bool isUnfinished = results_.stochastic.present && !results_.stochastic.stopped.empty();
     if (finding_.endsEarly || isUnfinished || finding_.missing > 0) return Gap::end;
-    return finding_.unbounded > 0 ? Gap::unbounded : Gap::none;
+    if (finding_.unbounded > 0) return Gap::unbounded;
+    return results_.distribution.present && !results_.distribution.stopped.empty() ? Gap::probability : Gap::none;
   }
 
   void findOverestimation() {

@@ -34,7 +34,8 @@ struct Finding {
     undecided,   ///< a disputed sample was left when the run was interrupted
     start,       ///< an analysis ended before the first output time
     unbounded,   ///< what is guaranteed of an output is, somewhere, no finite interval
-    end          ///< the horizon was not reached, not all samples were followed, or numbers are missing
+    end,         ///< the horizon was not reached, not all samples were followed, or numbers are missing
+    probability  ///< the bounds of probabilities were not found to the end
   };
 
   /// "inside"      every sample lies in the enclosure, over the whole horizon;

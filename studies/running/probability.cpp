@@ -93,6 +93,7 @@ class Probabilities {
     describeBand(result);
     describeIndices();
     keepSurrogate();
+    if (*run_.watch.stop()) result.stopped = run_.watch.why();
   }
 
  private:

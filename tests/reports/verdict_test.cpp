@@ -20,6 +20,7 @@ namespace {
 using testing::AllOf;
 using testing::Contains;
 using testing::ElementsAre;
+using testing::EndsWith;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
@@ -371,6 +372,19 @@ TEST(Verdict, OfAFirstBlockOfSamplesIsIncompleteThoughTheyAllReachTheHorizon) {
   EXPECT_EQ(verdict.word, "incomplete");
   EXPECT_THAT(verdict.sentence, StartsWith("All 259 motions that were sampled stay inside the guaranteed enclosure"));
   EXPECT_THAT(verdict.notes, ElementsAre("259 of 4099 samples were taken: interrupted."));
+}
+
+TEST(Verdict, OfARunThatEndedWhileItBoundedProbabilitiesIsIncomplete) {
+  Results results = example::pendulum();
+  results.distribution.present = true;
+  results.distribution.stopped = "the run was interrupted";
+  results.comparison.verdict = "incomplete";
+  const Verdict verdict = judge(results);
+  EXPECT_EQ(verdict.word, "incomplete");
+  EXPECT_THAT(verdict.sentence, EndsWith("Their probabilities were not bounded to the end."));
+  EXPECT_THAT(verdict.notes, ElementsAre("Probabilities were not bounded to the end: the run was interrupted."));
+  results.distribution.present = false;
+  EXPECT_EQ(judge(results).word, "inside");
 }
 
 TEST(Verdict, CountsTheSettledSamplesUnlessThereIsOneAlone) {
