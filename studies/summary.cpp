@@ -104,6 +104,61 @@ Json distributionObject(const Results& results) {
           {"outputs", outputs}};
 }
 
+/// What the samples say at the last time that all reached, with 95 % confidence intervals: [lower, upper].
+Json statisticsObject(const Results& results) {
+  const StochasticResult& s = results.stochastic;
+  if (!s.present || s.mean.empty()) return nullptr;
+  const auto reached = std::ranges::upper_bound(results.time, s.reached) - results.time.begin();
+  const auto row = static_cast<std::size_t>(std::max<std::ptrdiff_t>(reached, 1) - 1);
+  const auto at = [&](const Table& table, std::size_t output) {
+    return table.empty() ? std::numeric_limits<double>::quiet_NaN() : table(row, output);
+  };
+  const auto atLevel = [&](const std::vector<Table>& tables, std::size_t q, std::size_t output) {
+    return at(tables.empty() ? Table() : tables[q], output);
+  };
+  Json outputs = Json::object();
+  for (std::size_t k = 0; k < results.outputs.size(); ++k) {
+    const auto put = [&](Json& object, const char* name, const Table& values, const Table& errors) {
+      const double value = at(values, k), error = at(errors, k);
+      object[name] = number(value);
+      object[fmt::format("{}_interval", name)] = Json::array({number(value - error), number(value + error)});
+    };
+    Json& of = outputs[results.outputs[k].name];
+    put(of, "mean", s.mean, s.meanError);
+    put(of, "deviation", s.deviation, s.deviationError);
+    of["quantiles"] = Json::object();
+    for (std::size_t q = 0; q < s.probabilities.size(); ++q)
+      of["quantiles"][fmt::format("{}", s.probabilities[q])] = {
+          {"value", number(atLevel(s.quantiles, q, k))},
+          {"interval",
+           Json::array({number(atLevel(s.quantileLower, q, k)), number(atLevel(s.quantileUpper, q, k))})}};
+  }
+  Json failed = Json::array();
+  for (const FailedSampleResult& f : s.failed)
+    failed.push_back({{"number", f.number}, {"reached", f.reached}, {"why", f.why}});
+  return {{"time", results.time[row]},
+          {"covered", s.covered > 0 ? Json(s.covered) : Json(nullptr)},
+          {"failures", s.failures},
+          {"failed", failed},
+          {"outputs", outputs}};
+}
+
+/// How far off the samples' statistics are, the worst of all outputs at all times.
+std::string statisticsText(const Results& results) {
+  const StochasticResult& s = results.stochastic;
+  std::vector<std::string> parts;
+  double worst = 0;
+  for (std::size_t i = 0; i < std::min(s.meanError.data.size(), s.deviation.data.size()); ++i)
+    if (s.deviation.data[i] > 0) worst = std::fmax(worst, s.meanError.data[i] / s.deviation.data[i]);
+  if (worst > 0) parts.push_back(fmt::format("means are known to {} standard deviations (95 %)", atMostText(worst, 2)));
+  if (s.covered > 0)
+    parts.push_back(fmt::format("{} % of all motions lie in the envelope of each output at each time (95 %)",
+                                outwardText(100 * s.covered, 100 * s.covered, 4).first));
+  if (s.failures > 0)
+    parts.push_back(fmt::format("{} did not arrive", countText(static_cast<long long>(s.failures), "sample")));
+  return parts.empty() ? "" : fmt::format("  samples: {}\n", fmt::join(parts, "; "));
+}
+
 /// Of the times of distributions alone.
 Json sensitivityObject(const Results& results) {
   const SensitivityResult& s = results.sensitivity;
@@ -265,6 +320,7 @@ std::string jsonSummary(const Results& results, const std::string& verdict, cons
   json["tightness"] = number(results.interval.tightness);
   json["shortfall"] = textOrNull(results.interval.shortfall);
   json["requirements"] = requirementsArray(results);
+  json["statistics"] = statisticsObject(results);
   json["distribution"] = distributionObject(results);
   json["sensitivity"] = sensitivityObject(results);
   json["enclosure"] = boundsObject(results.interval.at, results);
@@ -302,6 +358,7 @@ std::string textSummary(const Results& results) {
   std::vector<std::string> costs;
   for (const Answer* answer : results.answers())
     if (answer->present) costs.push_back(fmt::format("{} {:.2f} s", answer->title(), answer->cpu));
+  text += statisticsText(results);
   if (const DistributionResult& d = results.distribution; d.present) {
     if (!d.time.empty() && !d.gaps.empty())
       text += fmt::format("  probabilities: bounds {} apart at most, at {}{}\n", atMostText(d.gap, 2),

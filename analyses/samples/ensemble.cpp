@@ -25,7 +25,7 @@ constexpr double errorTightening = 100;
 // and a double pendulum): with as many times a sample's time, no pack is given up whose samples all keep theirs. The
 // number must not depend on the machine: the samples' last bits depend on it.
 constexpr std::size_t leastTogether = packWidth / 4;
-constexpr std::size_t firstSamples = 256, namedFailures = 10;
+constexpr std::size_t firstSamples = 256, namedFailures = 1000;
 // A block's rows take so many bytes, or as many packs: work for many threads between two looks, and no more packs than
 // gain something (studies/examples/tip_position).
 constexpr std::size_t blockBytes = std::size_t{1} << 26, leastPacks = 8, mostPacks = 128;
@@ -365,8 +365,10 @@ double ensembleBytes(std::size_t times, std::size_t outputs, std::size_t quantit
   const std::size_t cells = times * outputs, corners = std::size_t{1} << std::min<std::size_t>(quantities, 10);
   const std::size_t first = firstSamples + corners + (levels > 0 ? 1024 : 0);
   const std::size_t others = packWidth * packsOfBlock(cells);
+  const double batches = sizeof(std::uint32_t) * batchCount * (BatchStatistics::parts + 2) +
+                         sizeof(double) * (3 * batchCount + 2 * 32);  // with what the first samples said
   const double statistics = sizeof(std::uint32_t) * static_cast<double>(EnsembleStatistics::binsFor(cells)) +
-                            sizeof(double) * static_cast<double>(2 * levels + 16);
+                            sizeof(double) * static_cast<double>(2 * levels + 16) + batches;
   return static_cast<double>(cells) * (sizeof(double) * static_cast<double>(std::max(first, others)) + statistics);
 }
 
@@ -390,7 +392,10 @@ SampledShares EnsembleRun::shares(std::size_t time, std::size_t output) const {
 Envelope EnsembleRun::envelope() const { return statistics_->envelope(reachedTimes_); }
 std::vector<Envelope> EnsembleRun::innerCuts() const { return statistics_->innerCuts(reachedTimes_); }
 Statistics EnsembleRun::statistics(const std::vector<double>& probabilities) const {
-  return statistics_->statistics(reachedTimes_, probabilities);
+  const Dependence dependence = options_.plan == Plan::random ? Dependence::none
+                                : options_.plan == Plan::grid ? Dependence::all
+                                                              : Dependence::batches;
+  return statistics_->statistics(reachedTimes_, dependence, probabilities);
 }
 
 SampleBlock integrateValues(const UncertainMotion& system, const EnsembleOptions& options,

@@ -100,7 +100,7 @@ class EnsembleRun {
   double reached() const;  ///< s
   /// Why that is not all times, naming the first sample that failed; or empty.
   std::string why() const;
-  /// The first ten of the samples that failed, by rising number, and how many did.
+  /// The first thousand of the samples that failed, by rising number, and how many did.
   const std::vector<FailedSample>& failed() const { return failed_; }
   std::size_t failures() const { return failures_; }
   /// Witness error: greatest change of a re-integrated sample at a hundred times tighter tolerance. Measured on every
@@ -112,6 +112,8 @@ class EnsembleRun {
   SampledShares shares(std::size_t time, std::size_t output) const;
   std::vector<Envelope> innerCuts() const;
   Statistics statistics(const std::vector<double>& probabilities = {0.01, 0.05, 0.5, 0.95, 0.99}) const;
+  /// What the first of them said already.
+  const std::vector<Convergence>& convergence() const { return statistics_->convergence(); }
 
  private:
   std::size_t placeInPack(std::size_t number) const;

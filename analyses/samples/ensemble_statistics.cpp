@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <stdexcept>
 
 #include "analyses/workers.hpp"
@@ -15,6 +17,7 @@ namespace {
 
 constexpr std::size_t mostBins = 4096, leastBins = 64, wantedCounts = std::size_t{1} << 25;
 constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double confidence = 0.95;
 
 double ulpOf(double x) { return std::nextafter(std::abs(x), infinity) - std::abs(x); }
 
@@ -56,7 +59,8 @@ EnsembleStatistics::EnsembleStatistics(const Envelope& expected, std::size_t lev
       cells_(expected.lower.data.size()),
       least_(cells_.size() * (levels + 1), infinity),
       greatest_(cells_.size() * (levels + 1), -infinity),
-      counts_(cells_.size() * (bins_ + 2), 0) {
+      counts_(cells_.size() * (bins_ + 2), 0),
+      batches_(expected) {
   for (std::size_t i = 0; i < cells_.size(); ++i) {
     Cell& cell = cells_[i];
     cell.least = infinity;
@@ -71,6 +75,12 @@ EnsembleStatistics::EnsembleStatistics(const Envelope& expected, std::size_t lev
 }
 
 void EnsembleStatistics::include(const SampleBlock& block, int jobs) {
+  std::vector<Convergence*> growth(block.packs(), nullptr);
+  first_.reserve(first_.size() + block.packs());
+  for (std::size_t p = 0; p < block.packs() && block.hasWeight(); ++p)
+    if (const std::size_t count = block.first() + (p + 1) * packWidth;
+        (p + 1) * packWidth <= block.size() && std::has_single_bit(count))
+      growth[p] = &first_.emplace_back(count, Table(times_, outputs_), Table(times_, outputs_));
   forEachIndex(jobs, times_, nullptr, [&] {
     return [&](std::size_t time) {
       for (std::size_t index = time * outputs_; index < (time + 1) * outputs_; ++index)
@@ -79,7 +89,12 @@ void EnsembleStatistics::include(const SampleBlock& block, int jobs) {
           const std::size_t first = p * packWidth;
           includeInLevels(index, row, block.levels.data() + first,
                           std::min<std::size_t>(packWidth, block.size() - first));
-          if (block.hasWeight()) includePack(cells_[index], index, row);
+          if (!block.hasWeight()) continue;
+          includePack(cells_[index], index, row);
+          batches_.include(index, block.first() + first, row, std::min<std::size_t>(packWidth, block.size() - first));
+          if (growth[p] == nullptr) continue;
+          growth[p]->width.data[index] = cells_[index].greatest - cells_[index].least;
+          growth[p]->meanError.data[index] = batches_.meanError(index);
         }
     };
   });
@@ -176,59 +191,136 @@ std::vector<Envelope> EnsembleStatistics::innerCuts(std::size_t times) const {
   return cuts;
 }
 
-/// Quantiles by linear interpolation between order statistics (Hyndman & Fan, Am. Stat. 50, 1996, definition 7). An
-/// order statistic is taken from where its rank stands in its bin: it is as far off as the bin is wide at most, and so
-/// is what lies between two of them. Bins and their ends are themselves rounded: (value - lower) * scale is off by
-/// 3 * 2^-53 of at most 4096 bins, an end by an ulp of the greatest magnitude.
+/// The samples of one output at one time, in the order of their values, as far as a histogram knows it.
+class EnsembleStatistics::SortedSamples {
+ public:
+  SortedSamples(std::span<const std::uint32_t> counts, double lower, double width, double least, double greatest)
+      : counts_(counts), before_(counts.size() + 1), lower_(lower), width_(width), least_(least), greatest_(greatest) {
+    for (std::size_t bin = 0; bin < counts.size(); ++bin) before_[bin + 1] = before_[bin] + counts[bin];
+  }
+
+  double size() const { return before_.back(); }
+
+  /// Where the order statistic of a rank, from 0, lies.
+  Interval around(double rank) const {
+    if (rank <= 0) return Interval(least_);
+    if (rank >= size() - 1) return Interval(greatest_);
+    return endsOf(binOf(rank));
+  }
+
+  /// By linear interpolation between order statistics (Hyndman & Fan, Am. Stat. 50, 1996, definition 7). One is taken
+  /// from where its rank stands in its bin: it is as far off as the bin is wide at most, and so is what lies between
+  /// two of them.
+  double quantile(double probability, double& resolution) const {
+    const double position = probability * (size() - 1), rank = std::floor(position);
+    const double low = orderStatistic(rank, resolution);
+    if (rank + 1 >= size()) return low;
+    const double high = orderStatistic(rank + 1, resolution);
+    return std::clamp(low + (position - rank) * (high - low), low, high);
+  }
+
+ private:
+  std::size_t binOf(double rank) const {
+    return static_cast<std::size_t>(std::ranges::upper_bound(before_, rank) - before_.begin()) - 1;
+  }
+  Interval endsOf(std::size_t bin) const {
+    if (bin == 0) return {least_, std::max(least_, lower_)};
+    const double low = lower_ + static_cast<double>(bin - 1) * width_;
+    return bin + 1 == counts_.size() ? Interval(std::min(low, greatest_), greatest_) : Interval(low, low + width_);
+  }
+  double orderStatistic(double rank, double& resolution) const {
+    if (rank == 0) return least_;
+    if (rank == size() - 1) return greatest_;
+    const std::size_t bin = binOf(rank);
+    const Interval ends = endsOf(bin);
+    resolution = std::max(resolution, ends.upper() - ends.lower());
+    const double within = (rank - before_[bin] + 0.5) / counts_[bin];
+    return std::clamp(ends.lower() + within * (ends.upper() - ends.lower()), least_, greatest_);
+  }
+
+  std::span<const std::uint32_t> counts_;
+  std::vector<double> before_;
+  double lower_, width_, least_, greatest_;
+};
+
+EnsembleStatistics::SortedSamples EnsembleStatistics::sorted(std::size_t index) const {
+  const Cell& cell = cells_[index];
+  const double width = (cell.upper - cell.lower) / (cell.scale > 0 ? static_cast<double>(bins_) : 1);
+  return {std::span(counts_).subspan(index * (bins_ + 2), bins_ + 2), cell.lower, width, cell.least, cell.greatest};
+}
+
+/// Bins and their ends are themselves rounded: (value - lower) * scale is off by 3 * 2^-53 of at most 4096 bins, an end
+/// by an ulp of the greatest magnitude.
 void EnsembleStatistics::quantilesOf(std::size_t index, Statistics& result) const {
   const Cell& cell = cells_[index];
-  if (cell.count == 0) return;
-  const std::uint32_t* counts = counts_.data() + index * (bins_ + 2);
-  const double width =
-      cell.scale > 0 ? (cell.upper - cell.lower) / static_cast<double>(bins_) : cell.upper - cell.lower;
-  double resolution = 0, before = counts[0];
-  std::size_t bin = 0;  // the ranks below `before` are in bins 0 … bin
-  const auto orderStatistic = [&](double rank) {
-    if (rank == 0) return cell.least;
-    if (rank == cell.count - 1) return cell.greatest;
-    while (before <= rank && bin <= bins_) before += counts[++bin];
-    const double low = bin == 0 ? cell.least : cell.lower + static_cast<double>(bin - 1) * width;
-    const double high = bin == 0 ? cell.lower : bin > bins_ ? cell.greatest : low + width;
-    resolution = std::max(resolution, high - low);
-    const double within = (rank - (before - counts[bin]) + 0.5) / counts[bin];
-    return std::clamp(low + within * (high - low), cell.least, cell.greatest);
-  };
-  for (std::size_t q = 0; q < result.probabilities.size(); ++q) {
-    const double position = result.probabilities[q] * (cell.count - 1), rank = std::floor(position);
-    const double low = orderStatistic(rank);
-    double& quantile = result.quantiles[q].data[index];
-    quantile = low;
-    if (rank + 1 >= cell.count) continue;
-    const std::size_t binOfRank = bin;
-    const double beforeOfRank = before, high = orderStatistic(rank + 1);
-    quantile = std::clamp(low + (position - rank) * (high - low), low, high);
-    bin = binOfRank;  // the next probability may have the same rank
-    before = beforeOfRank;
-  }
+  const SortedSamples samples = sorted(index);
+  double resolution = 0;
+  for (std::size_t q = 0; q < result.probabilities.size(); ++q)
+    result.quantiles[q].data[index] = samples.quantile(result.probabilities[q], resolution);
   const double magnitude =
       std::max({std::abs(cell.lower), std::abs(cell.upper), std::abs(cell.least), std::abs(cell.greatest)});
   result.resolution.data[index] = resolution * (1 + 0x1p-32) + 2 * ulpOf(magnitude);
 }
 
-Statistics EnsembleStatistics::statistics(std::size_t times, const std::vector<double>& probabilities) const {
+void EnsembleStatistics::boundQuantiles(std::size_t index, const std::vector<std::optional<Ranks>>& ranks,
+                                        Statistics& result) const {
+  const SortedSamples samples = sorted(index);
+  for (std::size_t q = 0; q < ranks.size(); ++q) {
+    if (!ranks[q]) continue;
+    result.lower[q].data[index] = samples.around(static_cast<double>(ranks[q]->lower - 1)).lower();
+    result.upper[q].data[index] = samples.around(static_cast<double>(ranks[q]->upper - 1)).upper();
+  }
+}
+
+/// The share below a quantile is off by no more than where it is counted next to it.
+void EnsembleStatistics::boundQuantiles(std::size_t index, Statistics& result) const {
+  const Cell& cell = cells_[index];
+  const SortedSamples samples = sorted(index);
+  const std::vector<double> errors = batches_.shareErrors(index);
+  for (std::size_t q = 0; q < result.probabilities.size(); ++q) {
+    const double part = (result.quantiles[q].data[index] - cell.lower) / (cell.upper - cell.lower) *
+                        static_cast<double>(BatchStatistics::parts);
+    if (!(part >= 0 && part <= BatchStatistics::parts)) continue;
+    const auto below = static_cast<std::size_t>(part);
+    const double error = std::fmax(errors[below], errors[std::min(below + 1, BatchStatistics::parts)]);
+    const double least = result.probabilities[q] - error, greatest = result.probabilities[q] + error;
+    if (!(least >= 0 && greatest <= 1)) continue;
+    double unused = 0;
+    result.lower[q].data[index] = samples.quantile(least, unused);
+    result.upper[q].data[index] = samples.quantile(greatest, unused);
+  }
+}
+
+Statistics EnsembleStatistics::statistics(std::size_t times, Dependence dependence,
+                                          const std::vector<double>& probabilities) const {
   checkRising(probabilities);
   Statistics result;
-  result.mean = Table(times_, outputs_);
-  result.deviation = result.mean;
-  result.resolution = result.mean;
+  for (Table* table : {&result.mean, &result.meanError, &result.deviation, &result.deviationError, &result.resolution})
+    *table = Table(times_, outputs_);
   result.probabilities = probabilities;
-  result.quantiles.assign(probabilities.size(), result.mean);
+  for (auto* tables : {&result.quantiles, &result.lower, &result.upper})
+    tables->assign(probabilities.size(), result.mean);
+  double ranked = 0;
+  std::vector<std::optional<Ranks>> ranks(probabilities.size());
   for (std::size_t i = 0; i < times * outputs_; ++i) {
     const Cell& cell = cells_[i];
     if (cell.count == 0) continue;
     result.mean.data[i] = cell.lower + cell.mean;
     if (cell.count > 1) result.deviation.data[i] = std::sqrt(cell.squares / (cell.count - 1));
+    if (dependence != Dependence::all) {
+      result.meanError.data[i] = batches_.meanError(i);
+      result.deviationError.data[i] = batches_.deviationError(i);
+    }
     quantilesOf(i, result);
+    if (dependence == Dependence::batches) boundQuantiles(i, result);
+    if (dependence == Dependence::none) {
+      if (cell.count != ranked) {  // mostly that of the cell before
+        ranked = cell.count;
+        for (std::size_t q = 0; q < probabilities.size(); ++q)
+          ranks[q] = ranksAround(probabilities[q], static_cast<std::size_t>(ranked), confidence);
+      }
+      boundQuantiles(i, ranks, result);
+    }
   }
   return result;
 }

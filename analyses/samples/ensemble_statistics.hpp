@@ -5,25 +5,44 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
+#include "analyses/samples/batch_statistics.hpp"
+#include "analyses/samples/order_statistics.hpp"
 #include "analyses/samples/sample_block.hpp"
 #include "analyses/table.hpp"
 
 namespace gamut {
 
-/// What the samples (without corners and centre) say.
+/// How samples of different numbers hang together.
+enum class Dependence {
+  none,     ///< not at all
+  batches,  ///< those of one batch do, batches do not
+  all       ///< they are not random
+};
+
+/// What the samples (without corners and centre) say. Errors and bounds are of 95 % confidence, of each number by
+/// itself: NaN where none holds.
 struct Statistics {
-  Table mean;
-  Table deviation;                    ///< with N-1; NaN for a single sample
+  Table mean, meanError;              ///< half the width of its interval
+  Table deviation, deviationError;    ///< with N-1; NaN for a single sample
   std::vector<double> probabilities;  ///< of the quantiles
   std::vector<Table> quantiles;       ///< one a probability; between samples by linear interpolation
+  std::vector<Table> lower, upper;    ///< likewise: between which quantiles of all motions lie
   Table resolution;                   ///< no quantile there is farther than this from that of the samples themselves
 };
 
 /// The share of the samples below some values, which rise.
 struct SampledShares {
   std::vector<double> value, below;
+};
+
+/// What the first samples said already, powers of two and at least 64 of them: [time][output] each.
+struct Convergence {
+  std::size_t samples = 0;
+  Table width;      ///< between the least and the greatest
+  Table meanError;  ///< as in Statistics
 };
 
 class EnsembleStatistics {
@@ -42,8 +61,9 @@ class EnsembleStatistics {
   /// Of the samples, corners and centre that lie in the cuts of each level. NaN where none does.
   std::vector<Envelope> innerCuts(std::size_t times) const;
   /// Throws std::invalid_argument unless the probabilities rise from 0 to 1.
-  Statistics statistics(std::size_t times,
+  Statistics statistics(std::size_t times, Dependence dependence,
                         const std::vector<double>& probabilities = {0.01, 0.05, 0.5, 0.95, 0.99}) const;
+  const std::vector<Convergence>& convergence() const { return first_; }
 
   /// Of one output at one time, at the bins' ends; nothing without samples that arrived.
   SampledShares shares(std::size_t time, std::size_t output) const;
@@ -60,16 +80,22 @@ class EnsembleStatistics {
     double least, greatest;                   // of the samples with weight
   };
 
+  class SortedSamples;
+  SortedSamples sorted(std::size_t index) const;
   void includePack(Cell& cell, std::size_t index, const double* row);
   void includeInLevels(std::size_t index, const double* row, const std::size_t* levels, std::size_t count);
   void includeMoments(Cell& cell, const double* row);
   Envelope envelopeOf(std::size_t level, std::size_t times) const;
   void quantilesOf(std::size_t index, Statistics& result) const;
+  void boundQuantiles(std::size_t index, const std::vector<std::optional<Ranks>>& ranks, Statistics& result) const;
+  void boundQuantiles(std::size_t index, Statistics& result) const;
 
   std::size_t times_, outputs_, levels_, bins_;
   std::vector<Cell> cells_;               // [time][output]
   std::vector<double> least_, greatest_;  // [time][output][levels that hold the sample]: of all samples
   std::vector<std::uint32_t> counts_;     // [time][output][bin]: below, the bins, above
+  BatchStatistics batches_;
+  std::vector<Convergence> first_;
 };
 
 }  // namespace gamut

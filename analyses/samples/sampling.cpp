@@ -21,41 +21,12 @@ constexpr std::size_t mostBoxCorners = 1024;
 constexpr std::size_t largestGrid = std::size_t{1} << 24;  // points: more than anybody asks for
 
 using Random = std::unique_ptr<gsl_rng, decltype(&gsl_rng_free)>;
-using QuasiRandom = std::unique_ptr<gsl_qrng, decltype(&gsl_qrng_free)>;
 
 Random seeded(std::uint64_t seed) {
   Random random(gsl_rng_alloc(gsl_rng_mt19937), &gsl_rng_free);
   gsl_rng_set(random.get(), static_cast<unsigned long>((seed ^ (seed >> 32)) & 0xffffffffu));  // it takes 32 bits
   return random;
 }
-
-/// Rotation by a random vector keeps the points evenly spread and makes them depend on the seed
-/// (Cranley & Patterson, SIAM J. Numer. Anal. 13, 1976).
-class QuasiRandomPoints : public PointSequence {
- public:
-  QuasiRandomPoints(const gsl_qrng_type* type, Plan plan, std::size_t k, std::uint64_t seed)
-      : sequence_(nullptr, &gsl_qrng_free), shift_(k) {
-    if (k > type->max_dimension)
-      throw std::invalid_argument("the plan '" + std::string(nameOf(plan)) + "' serves at most " +
-                                  std::to_string(type->max_dimension) + " uncertain quantities, not " +
-                                  std::to_string(k));
-    sequence_.reset(gsl_qrng_alloc(type, static_cast<unsigned>(k)));
-    const Random random = seeded(seed);
-    for (double& s : shift_) s = gsl_rng_uniform(random.get());
-  }
-
-  void next(std::span<double> point) override {
-    gsl_qrng_get(sequence_.get(), point.data());
-    for (std::size_t j = 0; j < shift_.size(); ++j) {
-      point[j] += shift_[j];
-      if (point[j] >= 1) point[j] -= 1;
-    }
-  }
-
- private:
-  QuasiRandom sequence_;
-  std::vector<double> shift_;
-};
 
 class RandomPoints : public PointSequence {
  public:
@@ -110,6 +81,82 @@ class Permutation {
   unsigned half_ = 1;
 };
 
+/// In [0, 1).
+double uniform(std::uint64_t hash) { return static_cast<double>(hash >> 11) * 0x1p-53; }
+
+void checkQuantities(Plan plan, std::size_t k, std::size_t most) {
+  if (k > most)
+    throw std::invalid_argument("the plan '" + std::string(nameOf(plan)) + "' serves at most " + std::to_string(most) +
+                                " uncertain quantities, not " + std::to_string(k));
+}
+
+/// Every digit is permuted at random, each as those before it say: points stay as evenly spread as they were, and each
+/// is uniformly distributed (A. B. Owen, "Scrambling Sobol' and Niederreiter-Xing points", J. Complexity 14, 1998).
+class SobolPoints : public PointSequence {
+ public:
+  SobolPoints(std::size_t k, std::uint64_t seed) : keys_(k) {
+    checkQuantities(Plan::sobol, k, gsl_qrng_sobol->max_dimension);
+    sequence_.reset(gsl_qrng_alloc(gsl_qrng_sobol, static_cast<unsigned>(k)));
+    for (std::uint64_t j = 0; j < k; ++j) keys_[j] = hashed(hashed(seed) + j);
+  }
+
+  void next(std::span<double> point) override {
+    gsl_qrng_get(sequence_.get(), point.data());
+    for (std::size_t j = 0; j < keys_.size(); ++j) {
+      const auto digits = static_cast<std::uint64_t>(point[j] * 0x1p32);  // exact: there are 30
+      std::uint64_t scrambled = 0;
+      for (std::uint64_t k = 0; k < 32; ++k) {
+        const std::uint64_t before = digits >> (32 - k), digit = digits >> (31 - k) & 1;
+        scrambled = 2 * scrambled + (digit ^ (hashed(keys_[j] + (k << 32) + before) & 1));
+      }
+      point[j] = (static_cast<double>(scrambled) + uniform(hashed(~keys_[j] + number_))) * 0x1p-32;
+    }
+    ++number_;
+  }
+
+ private:
+  std::unique_ptr<gsl_qrng, decltype(&gsl_qrng_free)> sequence_{nullptr, &gsl_qrng_free};
+  std::vector<std::uint64_t> keys_;
+  std::uint64_t number_ = 0;
+};
+
+/// Radical inverses in the first primes, scrambled likewise (J. H. Halton, Numerische Mathematik 2, 1960).
+class HaltonPoints : public PointSequence {
+ public:
+  HaltonPoints(std::size_t k, std::uint64_t seed) {
+    checkQuantities(Plan::halton, k, mostAxes);
+    const auto isPrime = [&](std::uint64_t x) {
+      return std::ranges::none_of(primes_, [&](std::uint64_t prime) { return x % prime == 0; });
+    };
+    for (std::uint64_t x = 2; primes_.size() < k; ++x)
+      if (isPrime(x)) primes_.push_back(x);
+    for (std::uint64_t j = 0; j < k; ++j) keys_.push_back(hashed(hashed(seed) + j));
+  }
+
+  void next(std::span<double> point) override {
+    for (std::size_t j = 0; j < primes_.size(); ++j) {
+      const std::uint64_t prime = primes_[j];
+      double unit = 1, sum = 0;
+      std::uint64_t rest = number_, before = 0, power = 1;
+      for (std::uint64_t k = 0; unit > 0x1p-48; ++k, power *= prime) {
+        const Permutation permuted(prime, hashed(hashed(keys_[j] + k) + before));
+        unit /= static_cast<double>(prime);
+        sum += unit * static_cast<double>(permuted(rest % prime));
+        before += rest % prime * power;
+        rest /= prime;
+      }
+      point[j] = std::min(sum + unit * uniform(hashed(~keys_[j] + number_)), 1 - 0x1p-53);
+    }
+    ++number_;
+  }
+
+  static constexpr std::size_t mostAxes = 1229;
+
+ private:
+  std::vector<std::uint64_t> primes_, keys_;
+  std::uint64_t number_ = 0;
+};
+
 class LatinHypercube : public PointSequence {
  public:
   LatinHypercube(std::size_t k, std::size_t n, std::uint64_t seed) : n_(n) {
@@ -121,7 +168,7 @@ class LatinHypercube : public PointSequence {
 
   void next(std::span<double> point) override {
     for (std::size_t j = 0; j < strata_.size(); ++j) {
-      const double within = static_cast<double>(hashed(~keys_[j] + number_) >> 11) * 0x1p-53;
+      const double within = uniform(hashed(~keys_[j] + number_));
       point[j] = (static_cast<double>(strata_[j](number_)) + within) / static_cast<double>(n_);
     }
     ++number_;
@@ -162,12 +209,12 @@ std::size_t gridCount(std::size_t k, std::size_t samples) {
   return count;
 }
 
-std::unique_ptr<PointSequence> sequenceOf(Plan plan, std::size_t k, std::size_t n, std::uint64_t seed) {
+std::unique_ptr<PointSequence> oneSequence(Plan plan, std::size_t k, std::size_t n, std::uint64_t seed) {
   switch (plan) {
     case Plan::sobol:
-      return std::make_unique<QuasiRandomPoints>(gsl_qrng_sobol, plan, k, seed);
+      return std::make_unique<SobolPoints>(k, seed);
     case Plan::halton:
-      return std::make_unique<QuasiRandomPoints>(gsl_qrng_halton, plan, k, seed);
+      return std::make_unique<HaltonPoints>(k, seed);
     case Plan::latinHypercube:
       return std::make_unique<LatinHypercube>(k, n, seed);
     case Plan::random:
@@ -176,6 +223,25 @@ std::unique_ptr<PointSequence> sequenceOf(Plan plan, std::size_t k, std::size_t 
       return std::make_unique<GridPoints>(gridCount(k, n));
   }
   throw std::invalid_argument("there is no such sampling plan");
+}
+
+/// Sequences that take turns.
+class Batches : public PointSequence {
+ public:
+  explicit Batches(std::vector<std::unique_ptr<PointSequence>> batches) : batches_(std::move(batches)) {}
+  void next(std::span<double> point) override { batches_[number_++ % batches_.size()]->next(point); }
+
+ private:
+  std::vector<std::unique_ptr<PointSequence>> batches_;
+  std::size_t number_ = 0;
+};
+
+std::unique_ptr<PointSequence> sequenceOf(Plan plan, std::size_t k, std::size_t n, std::size_t count,
+                                          std::uint64_t seed) {
+  if (count == 1) return oneSequence(plan, k, n, seed);
+  std::vector<std::unique_ptr<PointSequence>> batches;
+  for (std::size_t i = 0; i < count; ++i) batches.push_back(oneSequence(plan, k, n / count, hashed(hashed(seed) + i)));
+  return std::make_unique<Batches>(std::move(batches));
 }
 
 }  // namespace
@@ -222,7 +288,11 @@ Sampling::Sampling(Plan plan, std::size_t quantities, std::size_t samples, std::
       throw std::invalid_argument("a grid with both ends of " + std::to_string(quantities) +
                                   " uncertain quantities has too many points; choose another plan");
   }
-  sequence_ = sequenceOf(plan_, quantities_, samples_, seed_);
+  const bool hasBatches = plan != Plan::grid && plan != Plan::random, isLarge = samples >= 2 * batchCount;
+  if (hasBatches && isLarge) samples_ = (samples + batchCount - 1) / batchCount * batchCount;
+  // The points of a sequence do not depend on how many there are.
+  if (hasBatches && (isLarge || plan != Plan::latinHypercube)) batches_ = batchCount;
+  sequence_ = sequenceOf(plan_, quantities_, samples_, batches_, seed_);
   ends_ = Ends(std::min(quantities, cornerBits));
   std::size_t bits = 1;
   while (bits < std::min(quantities, cornerBits) && boxes_.size() << (bits + 1) <= mostBoxCorners) ++bits;
@@ -239,7 +309,7 @@ void Sampling::unitPoint(std::size_t number, std::span<double> point) {
   }
   if (quantities_ == 0) return;
   if (number < position_) {
-    sequence_ = sequenceOf(plan_, quantities_, samples_, seed_);
+    sequence_ = sequenceOf(plan_, quantities_, samples_, batches_, seed_);
     position_ = 0;
   }
   for (; position_ <= number; ++position_) sequence_->next(point);

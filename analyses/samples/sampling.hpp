@@ -15,10 +15,10 @@
 namespace gamut {
 
 enum class Plan {
-  sobol,           ///< low-discrepancy sequence of Sobol', randomly shifted; at most 40 quantities
+  sobol,           ///< low-discrepancy sequences of Sobol', scrambled; at most 40 quantities
   random,          ///< independent uniform points
-  latinHypercube,  ///< one point in each of N strata of every axis
-  halton,          ///< low-discrepancy sequence of Halton, randomly shifted; at most 1229 quantities
+  latinHypercube,  ///< one point of each batch in each of its strata of every axis
+  halton,          ///< low-discrepancy sequences of Halton, scrambled; at most 1229 quantities
   grid,            ///< every combination of equally spaced values, both ends included
 };
 
@@ -35,15 +35,20 @@ class PointSequence {
   virtual void next(std::span<double> point) = 0;
 };
 
+/// Samples whose numbers leave the same rest are a batch, independent of the others: how these differ says how far off
+/// they are together (A. B. Owen, Monte Carlo theory, methods and examples, section 17.3).
+inline constexpr std::size_t batchCount = 16;
+
 /// The points of one plan; none is kept. Numbers 0 … samples()-1 are the samples, then follow the corners, then the
 /// corners of the inner boxes, the centre is last. Which point a number has follows from the seed and the number (for a
 /// Latin hypercube and a grid also from the number of samples), never from the number of jobs.
 class Sampling {
  public:
   /// At least `samples` points (> 0) for so many quantities: exactly so many, except that a grid has c^quantities
-  /// points, c >= 2 the least count an axis that gives enough, and that without quantities there is one sample and no
-  /// corner. `boxes`: one interval a quantity each. Throws std::invalid_argument where the plan cannot serve so many
-  /// quantities.
+  /// points, c >= 2 the least count an axis that gives enough, that of the other plans but the random one 32 points or
+  /// more are a multiple of 16, in batches of equal size that are randomised each by itself, and that without
+  /// quantities there is one sample and no corner. `boxes`: one interval a quantity each. Throws std::invalid_argument
+  /// where the plan cannot serve so many quantities.
   Sampling(Plan plan, std::size_t quantities, std::size_t samples, std::uint64_t seed, std::vector<Box> boxes = {});
 
   std::size_t quantities() const { return quantities_; }
@@ -80,7 +85,7 @@ class Sampling {
   };
 
   Plan plan_;
-  std::size_t quantities_, samples_;
+  std::size_t quantities_, samples_, batches_ = 1;
   std::uint64_t seed_;
   std::vector<Box> boxes_;
   Ends ends_, boxEnds_;

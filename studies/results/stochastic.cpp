@@ -21,6 +21,7 @@ std::vector<Field> fieldsOf(StochasticResult& r) {
         "how many of samples, corners and centre were followed",
         {},
         allowed::count},
+       {"failures", &r.failures, unit::none, "how many of these did not arrive at the horizon", {}, allowed::count},
        {"stopped", &r.stopped, unit::none, "why not all were followed; empty if they were", {}},
        {"relative_tolerance", &r.relativeTolerance, unit::one, "of the integration", {}},
        {"absolute_tolerance", &r.absoluteTolerance, unit::none, "of the integration, in the unit of each state", {}},
@@ -37,7 +38,14 @@ std::vector<Field> fieldsOf(StochasticResult& r) {
         "least and greatest of all samples, corners and centre; like all that samples say, NaN beyond `reached`",
         {time, output}},
        {"mean", &r.mean, unit::ofOutput, "mean of the samples", {time, output}},
+       {"mean_error",
+        &r.meanError,
+        unit::ofOutput,
+        "half the 95 % confidence interval of the mean of all motions, from 16 independent batches of samples; NaN "
+        "where none holds",
+        {time, output}},
        {"deviation", &r.deviation, unit::ofOutput, "standard deviation of the samples", {time, output}},
+       {"deviation_error", &r.deviationError, unit::ofOutput, "likewise, of the standard deviation", {time, output}},
        {"error", &r.error, unit::ofOutput, "measured error of the integration of samples", {time, output}},
        {"probability", &r.probabilities, unit::one, "probabilities of the quantiles", {probability}, allowed::share},
        {"quantiles",
@@ -45,11 +53,48 @@ std::vector<Field> fieldsOf(StochasticResult& r) {
         unit::ofOutput,
         "quantiles of the samples, from a histogram",
         {probability, time, output}},
+       {"quantile_lower",
+        &r.quantileLower,
+        unit::ofOutput,
+        "lower end of the 95 % confidence interval of the quantile of all motions: for the plan random from the order "
+        "of the samples, otherwise from 16 independent batches; NaN where none holds",
+        {probability, time, output}},
+       {"quantile_upper", &r.quantileUpper, unit::ofOutput, "upper end", {probability, time, output}},
+       {"covered",
+        &r.covered,
+        unit::one,
+        "share of all motions that lies, in each output at each time, between the least and the greatest sample with a "
+        "confidence of 95 % (Wilks); 0 unless all samples arrived and are independent",
+        {},
+        allowed::share},
        {"resolution",
         &r.resolution,
         unit::ofOutput,
         "no quantile is farther than this from that of the samples themselves",
         {time, output}}});
+}
+
+std::vector<Field> fieldsOfFailed(FailedSampleResult& f) {
+  return {{"number", &f.number, unit::none, "number of the sample, as of disputed ones", {}, allowed::count},
+          {"reached", &f.reached, unit::second, "how far it came", {}},
+          {"why", &f.why, unit::none, "why no farther", {}}};
+}
+
+std::vector<Field> fieldsOfConvergence(ConvergenceResult& c) {
+  constexpr std::string_view samples = "/stochastic/convergence/samples";
+  return {{"samples", &c.samples, unit::none, "so many of the first samples of the plan", {samples}, allowed::count},
+          {"spanned",
+           &c.spanned,
+           unit::one,
+           "share of the envelope of all that these span, averaged over time",
+           {samples, dimension::output},
+           allowed::share},
+          {"mean_error",
+           &c.meanError,
+           unit::one,
+           "half the 95 % confidence interval of the mean, in standard deviations, averaged over time; NaN where none "
+           "holds",
+           {samples, dimension::output}}};
 }
 
 std::vector<Field> fieldsOfKept(KeptSamples& k) {
@@ -118,6 +163,10 @@ std::string StochasticResult::amount() const {
 
 void StochasticResult::describe(std::vector<Group>& groups) {
   groups.push_back(groupOf("/stochastic", "what is probable: samples of every output", *this, fieldsOf));
+  groups.push_back(listOf("/stochastic/failed", "samples that did not arrive, the first thousand of them",
+                          "/stochastic/failed/number", failed, fieldsOfFailed));
+  groups.push_back(
+      groupOf("/stochastic/convergence", "what fewer samples would have said", convergence, fieldsOfConvergence));
   groups.push_back(groupOf("/stochastic/kept", "samples one by one, as far as they are kept", kept, fieldsOfKept));
 }
 

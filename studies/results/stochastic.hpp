@@ -25,6 +25,21 @@ struct KeptSamples {
   std::string text() const;
 };
 
+/// One that could not be followed to the horizon.
+struct FailedSampleResult {
+  std::int64_t number = 0;  ///< as in DisputedSample
+  double reached = 0;       ///< s
+  std::string why;
+};
+
+/// What the first of the plan's samples said already, by how many they are; of every output averages over time.
+struct ConvergenceResult {
+  bool present = false;
+  std::vector<std::int64_t> samples;  ///< rising
+  std::vector<double> spanned;        ///< [samples][output]: share of the envelope of all
+  std::vector<double> meanError;      ///< [samples][output]: half the 95 % interval, in standard deviations
+};
+
 /// Its `reached`: all samples that were followed arrived there; envelope and statistics end there.
 struct StochasticResult final : Answer {
   static constexpr std::string_view name = "stochastic";
@@ -41,14 +56,20 @@ struct StochasticResult final : Answer {
   std::int64_t alphaCorners = 0;  ///< of the alpha-cuts' boxes, likewise
   std::int64_t integrated = 0;    ///< how many of samples, corners and centre were followed before the analysis ended
   double relativeTolerance = 0, absoluteTolerance = 0;
-  std::int64_t packWidth = 1;  ///< samples of one number / packWidth were integrated together
-  std::string stopped;         ///< why not all were followed; empty if they were
-  Envelope envelope;           ///< of all samples, corners and centre
-  Table mean, deviation;
-  std::vector<double> probabilities;  ///< of the quantiles
-  std::vector<Table> quantiles;       ///< one table a probability
-  Table resolution;                   ///< no quantile is farther than this from that of the samples themselves
-  Table error;                        ///< the witness's own error, measured at tighter tolerance
+  std::int64_t packWidth = 1;              ///< samples of one number / packWidth were integrated together
+  std::int64_t failures = 0;               ///< samples, corners and centre that were not followed to the horizon
+  std::vector<FailedSampleResult> failed;  ///< the first thousand of them
+  std::string stopped;                     ///< why not all were followed; empty if they were
+  Envelope envelope;                       ///< of all samples, corners and centre
+  // Errors and bounds of 95 % confidence, each number by itself; NaN where none holds.
+  Table mean, meanError, deviation, deviationError;  ///< errors: half the width of the interval
+  std::vector<double> probabilities;                 ///< of the quantiles
+  std::vector<Table> quantiles;                      ///< one table a probability
+  std::vector<Table> quantileLower, quantileUpper;   ///< likewise: between which the quantiles of all motions lie
+  double covered = 0;  ///< share of all motions that lies in the envelope, with 95 % confidence; 0: none holds
+  ConvergenceResult convergence;
+  Table resolution;  ///< no quantile is farther than this from that of the samples themselves
+  Table error;       ///< the witness's own error, measured at tighter tolerance
   KeptSamples kept;
 
   std::string_view word() const override { return name; }

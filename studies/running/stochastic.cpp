@@ -1,8 +1,11 @@
 // What is probable: samples, a first block of them before all that is proved, the others after it.
+#include <algorithm>
+#include <cmath>
 #include <new>
 #include <utility>
 
 #include "analyses/comparison/settlement.hpp"
+#include "analyses/samples/order_statistics.hpp"
 #include "studies/running/sample_keeper.hpp"
 #include "studies/running/sampled_study.hpp"
 #include "studies/running/units.hpp"
@@ -44,6 +47,35 @@ ComparisonOptions comparisonOptions(const Run& run) {
   return options;
 }
 
+/// Averages over the times that all samples reached.
+void describeConvergence(Run& run) {
+  const std::vector<Convergence>& found = run.ensemble->convergence();
+  const StochasticResult& stochastic = run.results.stochastic;
+  ConvergenceResult& result = run.results.stochastic.convergence;
+  const std::size_t outputs = run.study.outputs.size(), times = run.ensemble->reachedTimes();
+  if (found.empty() || run.ensemble->options().plan == Plan::grid) return;  // the first of a grid lie on one side
+  result.present = true;
+  const auto average = [&](std::size_t output, const auto& ratio) {
+    double sum = 0, count = 0;
+    for (std::size_t t = 0; t < times; ++t)
+      if (const double each = ratio(t, output); std::isfinite(each)) sum += each, ++count;
+    return sum / count;
+  };
+  for (const Convergence& first : found) {
+    result.samples.push_back(static_cast<std::int64_t>(first.samples));
+    for (std::size_t k = 0; k < outputs; ++k) {
+      const Envelope& all = stochastic.envelope;
+      result.spanned.push_back(average(k, [&](std::size_t t, std::size_t o) {
+        return std::min(first.width(t, o) / (all.upper(t, o) - all.lower(t, o)), 1.0);
+      }));
+      result.meanError.push_back(average(k, [&](std::size_t t, std::size_t o) {
+        const double error = stochastic.meanError(t, o);  // NaN where none holds of these samples
+        return std::isnan(error) ? error : first.meanError(t, o) / stochastic.deviation(t, o);
+      }));
+    }
+  }
+}
+
 void describeSamples(Run& run) {
   StochasticResult& stochastic = run.results.stochastic;
   const EnsembleRun& ensemble = *run.ensemble;
@@ -51,13 +83,24 @@ void describeSamples(Run& run) {
   stochastic.mean = std::move(numbers.mean);
   stochastic.deviation = std::move(numbers.deviation);
   stochastic.probabilities = std::move(numbers.probabilities);
+  stochastic.meanError = std::move(numbers.meanError);
+  stochastic.deviationError = std::move(numbers.deviationError);
   stochastic.quantiles = std::move(numbers.quantiles);
+  stochastic.quantileLower = std::move(numbers.lower);
+  stochastic.quantileUpper = std::move(numbers.upper);
   stochastic.resolution = std::move(numbers.resolution);
   stochastic.error = ensemble.error();
   stochastic.why = ensemble.why();
   stochastic.envelope = ensemble.envelope();
   stochastic.reached = ensemble.reached();
   stochastic.integrated = static_cast<std::int64_t>(ensemble.integrated());
+  stochastic.failures = static_cast<std::int64_t>(ensemble.failures());
+  for (const FailedSample& sample : ensemble.failed())
+    stochastic.failed.push_back({static_cast<std::int64_t>(sample.number), sample.reached, sample.why});
+  if (ensemble.options().plan == Plan::random && ensemble.isComplete() && stochastic.why.empty() &&
+      ensemble.sampling().quantities() > 0)
+    stochastic.covered = coveredShare(ensemble.counted(), 0.95);
+  describeConvergence(run);
   if (run.study.asksFor<FuzzyResult>()) run.results.fuzzy.inner = ensemble.innerCuts();
   if (ensemble.isComplete()) {
     stochastic.stopped.clear();

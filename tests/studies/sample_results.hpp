@@ -70,6 +70,15 @@ inline Results sampleResults() {
   r.stochastic.quantiles = {sampleGrid(3, 2, 0.4), sampleGrid(3, 2, 0.8)};
   r.stochastic.error = sampleGrid(3, 2, 1e-12);
   r.stochastic.resolution = sampleGrid(3, 2, 1e-4);
+  r.stochastic.meanError = sampleGrid(3, 2, 0.002);
+  r.stochastic.meanError(1, 1) = nan;
+  r.stochastic.deviationError = sampleGrid(3, 2, 0.001);
+  r.stochastic.quantileLower = {sampleGrid(3, 2, 0.39), sampleGrid(3, 2, 0.79)};
+  r.stochastic.quantileUpper = {sampleGrid(3, 2, 0.41), sampleGrid(3, 2, 0.81)};
+  r.stochastic.covered = 0.99;
+  r.stochastic.failures = 2;
+  r.stochastic.failed = {{17, 0.01, "its steps became too short"}, {4098, 0, "it took too long"}};
+  r.stochastic.convergence = {true, {64, 128}, {0.5, 0.6, 0.75, 1}, {0.2, nan, 0.1, 0.05}};
   r.stochastic.cpu = 1.5;
   r.stochastic.kept = {true, 4e6, 64, 2048, {0, 64, 4117}, {0.9, 0.95, 1.0}, {0, 4117}, {}};
   for (int i = 0; i < 12; ++i) r.stochastic.kept.motions.push_back(0.35 + i);

@@ -10,6 +10,9 @@
 #include <stdexcept>
 #include <vector>
 
+#include "analyses/samples/order_statistics.hpp"
+#include "analyses/samples/sampling.hpp"
+
 namespace gamut {
 namespace {
 
@@ -41,7 +44,7 @@ EnsembleStatistics gathered(const std::vector<double>& values, double lower, dou
 
 /// That every quantile is as near as is said. Returns the resolution.
 double expectWithinResolution(std::vector<double> values, double lower, double upper) {
-  const Statistics found = gathered(values, lower, upper).statistics(1, probabilities);
+  const Statistics found = gathered(values, lower, upper).statistics(1, Dependence::none, probabilities);
   std::ranges::sort(values);
   for (std::size_t q = 0; q < probabilities.size(); ++q)
     EXPECT_LE(std::abs(found.quantiles[q](0, 0) - exactQuantile(values, probabilities[q])), found.resolution(0, 0))
@@ -96,7 +99,7 @@ TEST(EnsembleStatistics, MomentsAreThoseOfTwoPassesFarFromZeroToo) {
     for (const double value : values) sum += value;
     const long double exact = sum / 100000;
     for (const double value : values) squares += (value - exact) * (value - exact);
-    const Statistics found = gathered(values, mean - 1, mean + 1).statistics(1, probabilities);
+    const Statistics found = gathered(values, mean - 1, mean + 1).statistics(1, Dependence::none, probabilities);
     EXPECT_NEAR(found.mean(0, 0), static_cast<double>(exact), 1e-16 + mean * 2e-16);
     EXPECT_NEAR(found.deviation(0, 0), std::sqrt(static_cast<double>(squares) / 99999), 1e-3 * 1e-12 + mean * 1e-18);
   }
@@ -104,7 +107,8 @@ TEST(EnsembleStatistics, MomentsAreThoseOfTwoPassesFarFromZeroToo) {
 
 TEST(EnsembleStatistics, DoNotDependOnTheSizeOfTheBlocks) {
   const std::vector<double> values = normal(5000, 3, 0.1);
-  const Statistics one = gathered(values, 2, 4, 5000).statistics(1), many = gathered(values, 2, 4, 128).statistics(1);
+  const Statistics one = gathered(values, 2, 4, 5000).statistics(1, Dependence::none),
+                   many = gathered(values, 2, 4, 128).statistics(1, Dependence::none);
   EXPECT_EQ(one.mean.data, many.mean.data);
   EXPECT_EQ(one.deviation.data, many.deviation.data);
   for (std::size_t q = 0; q < 5; ++q) EXPECT_EQ(one.quantiles[q].data, many.quantiles[q].data);
@@ -117,13 +121,14 @@ TEST(EnsembleStatistics, ValuesThatAreMissingDoNotCount) {
     if (i % 3 == 1) present.push_back(values[i]);
     if (i % 3 == 2) values[i] = std::numeric_limits<double>::infinity();
   }
-  const Statistics found = gathered(values, 2, 4).statistics(1), alone = gathered(present, 2, 4).statistics(1);
+  const Statistics found = gathered(values, 2, 4).statistics(1, Dependence::none),
+                   alone = gathered(present, 2, 4).statistics(1, Dependence::none);
   EXPECT_THAT(found.mean(0, 0), DoubleNear(alone.mean(0, 0), 1e-15));
   EXPECT_EQ(found.quantiles[2].data, alone.quantiles[2].data);
 }
 
 TEST(EnsembleStatistics, ASingleSampleHasNoDeviation) {
-  const Statistics found = gathered({2.5}, 2, 4).statistics(1);
+  const Statistics found = gathered({2.5}, 2, 4).statistics(1, Dependence::none);
   EXPECT_EQ(found.mean(0, 0), 2.5);
   EXPECT_TRUE(std::isnan(found.deviation(0, 0)));
 }
@@ -136,8 +141,86 @@ TEST(EnsembleStatistics, HaveFewerBinsTheMoreHistogramsThereAre) {
 
 TEST(EnsembleStatistics, RefuseProbabilitiesThatDoNotRise) {
   const EnsembleStatistics statistics = gathered({2.5}, 2, 4);
-  EXPECT_THROW(statistics.statistics(1, {0.5, 0.1}), std::invalid_argument);
-  EXPECT_THROW(statistics.statistics(1, {0.5, 1.1}), std::invalid_argument);
+  EXPECT_THROW(statistics.statistics(1, Dependence::none, {0.5, 0.1}), std::invalid_argument);
+  EXPECT_THROW(statistics.statistics(1, Dependence::none, {0.5, 1.1}), std::invalid_argument);
+}
+
+/// How many of 400 repetitions hold the truth in their interval.
+struct Hits {
+  int mean = 0, deviation = 0, quantile = 0;
+};
+
+Hits hits(Plan plan, Dependence dependence) {
+  const double meanOfAll = 1.0 / 3, deviationOfAll = std::sqrt(4.0 / 45), probability = 0.9;  // of u²
+  Hits found;
+  for (std::uint64_t seed = 1; seed <= 400; ++seed) {
+    Sampling sampling(plan, 2, 512, seed);
+    std::vector<double> values(512);
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = std::pow(sampling.unitPoint(i)[0], 2);
+    const Statistics s = gathered(values, 0, 1, 256).statistics(1, dependence, {probability});
+    found.mean += std::abs(s.mean(0, 0) - meanOfAll) <= s.meanError(0, 0);
+    found.deviation += std::abs(s.deviation(0, 0) - deviationOfAll) <= s.deviationError(0, 0);
+    const double quantile = probability * probability;
+    found.quantile += s.lower[0](0, 0) <= quantile && quantile <= s.upper[0](0, 0);
+  }
+  return found;
+}
+
+/// 95 % of 400 are 380, with a standard deviation of 4.4.
+TEST(EnsembleStatistics, IntervalsHoldTheTruthInNinetyFiveOfAHundredCases) {
+  const Hits random = hits(Plan::random, Dependence::none), sobol = hits(Plan::sobol, Dependence::batches),
+             latin = hits(Plan::latinHypercube, Dependence::batches);
+  for (const Hits& found : {random, sobol, latin}) {
+    EXPECT_THAT(found.mean, testing::AllOf(testing::Ge(360), testing::Le(398)));
+    EXPECT_THAT(found.deviation, testing::AllOf(testing::Ge(356), testing::Le(398)));
+    EXPECT_GE(found.quantile, 364);  // conservative: by whole ranks, and by the wider of two parts
+  }
+  EXPECT_LE(random.quantile, 396);
+}
+
+TEST(EnsembleStatistics, IntervalsOfSequencesAreNarrowerAndThoseOfAGridAreNot) {
+  const auto errorOf = [](Plan plan, Dependence dependence) {
+    Sampling sampling(plan, 2, 1024, 1);
+    std::vector<double> values(1024);
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = sampling.unitPoint(i)[0];
+    return gathered(values, 0, 1).statistics(1, dependence).meanError(0, 0);
+  };
+  EXPECT_LT(errorOf(Plan::sobol, Dependence::batches), 0.2 * errorOf(Plan::random, Dependence::none));
+  EXPECT_TRUE(std::isnan(errorOf(Plan::grid, Dependence::all)));
+}
+
+TEST(EnsembleStatistics, FewSamplesSayNothingOfTheirErrors) {
+  const Statistics found = gathered(normal(31, 3, 0.1), 2, 4).statistics(1, Dependence::none, {0.5, 0.99});
+  EXPECT_TRUE(std::isnan(found.meanError(0, 0)));
+  EXPECT_LT(found.lower[0](0, 0), found.upper[0](0, 0));
+  EXPECT_TRUE(std::isnan(found.upper[1](0, 0)));  // 31 samples are too few for one to be above it so surely
+}
+
+TEST(EnsembleStatistics, KnowWhatTheFirstSamplesSaid) {
+  const std::vector<double> values = normal(1000, 3, 0.1);
+  const EnsembleStatistics statistics = gathered(values, 2, 4, 256);
+  ASSERT_EQ(statistics.convergence().size(), 4u);
+  for (const Convergence& first : statistics.convergence()) {
+    const auto [least, greatest] =
+        std::minmax_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(first.samples));
+    EXPECT_EQ(first.width(0, 0), *greatest - *least);
+    EXPECT_NEAR(first.meanError(0, 0), 2.13 * 0.1 / std::sqrt(static_cast<double>(first.samples)), 0.02);
+  }
+  EXPECT_EQ(statistics.convergence().back().samples, 512u);
+}
+
+TEST(OrderStatistics, AreThoseOfTheTables) {
+  const auto median = ranksAround(0.5, 10, 0.95);  // David and Nagaraja: 97.9 %
+  ASSERT_TRUE(median);
+  EXPECT_EQ(median->lower, 2u);
+  EXPECT_EQ(median->upper, 9u);
+  EXPECT_FALSE(ranksAround(0.5, 5, 0.95));
+  EXPECT_TRUE(ranksAround(0.5, 6, 0.95));
+  EXPECT_GE(coveredShare(93, 0.95), 0.95);  // Wilks: 93 samples for 95 % of all with 95 %
+  EXPECT_LT(coveredShare(92, 0.95), 0.95);
+  EXPECT_GE(coveredShare(473, 0.95), 0.99);
+  EXPECT_LT(coveredShare(472, 0.95), 0.99);
+  EXPECT_LT(coveredShare(1, 0.95), 1e-9);
 }
 
 }  // namespace

@@ -1,0 +1,48 @@
+// How far off mean, deviation and shares of samples are: their batches are independent and of the same size, so that
+// what they say scatters about what all motions together would say.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "analyses/samples/sampling.hpp"
+#include "analyses/table.hpp"
+
+namespace gamut {
+
+/// Half the widths of 95 % confidence intervals, NaN where a batch has fewer than two samples: Student's t with 15
+/// degrees of freedom, for which what the batches say is taken as normally distributed.
+class BatchStatistics {
+ public:
+  /// `expected`: between which values shares are counted.
+  explicit BatchStatistics(const Envelope& expected);
+
+  /// The values of one row, of consecutive samples from `number` on; those that are not finite do not count.
+  void include(std::size_t cell, std::size_t number, const double* row, std::size_t count);
+
+  double meanError(std::size_t cell) const;
+  double deviationError(std::size_t cell) const;
+  /// Of the share of values below some value: at the ends of equal parts of what was expected, 0 and 1 among them.
+  std::vector<double> shareErrors(std::size_t cell) const;
+
+  /// Parts of what is expected.
+  static constexpr std::size_t parts = 64;
+
+ private:
+  /// One output at one time: sums of differences from the first value.
+  struct Cell {
+    double lower, scale;  // parts per unit
+    double shift = std::numeric_limits<double>::quiet_NaN();
+    double counts[batchCount] = {}, sums[batchCount] = {}, squares[batchCount] = {};
+  };
+
+  std::vector<Cell> cells_;
+  std::vector<std::uint32_t> shares_;  // [cell][part, with what lies below and above][batch]
+};
+
+/// Half the 95 % confidence interval of the mean of these independent values; NaN unless all are numbers.
+double halfWidth(const double (&values)[batchCount]);
+
+}  // namespace gamut
