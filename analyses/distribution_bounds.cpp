@@ -100,9 +100,25 @@ Interval Distribution::boundBelow(const Interval& value) const {
   }
 }
 
+/// The piece that begins at or before a value inside the support, the last of them.
+std::size_t Distribution::pieceAt(double value) const {
+  return static_cast<std::size_t>(std::ranges::upper_bound(pieces_, value, {}, &Piece::end) - pieces_.begin());
+}
+
+/// Of pieces: F rises linearly from one end to the next.
+Interval Distribution::belowOf(double value) const {
+  if (value < support_.lower()) return Interval(0.0);
+  const std::size_t i = pieceAt(value);
+  if (i == pieces_.size()) return Interval(1.0);
+  const Interval before = i == 0 ? Interval(0.0) : pieces_[i - 1].below;
+  const Interval from(i == 0 ? support_.lower() : pieces_[i - 1].end), end(pieces_[i].end);
+  const Interval found = before + (pieces_[i].below - before) * ((Interval(value) - from) / (end - from));
+  return intersection(found, hull(before, pieces_[i].below));
+}
+
 Interval Distribution::enclosedBelow(const Interval& value) const {
   if (value.lower() >= support_.upper()) return Interval(1.0);
-  if (value.upper() <= support_.lower()) return Interval(0.0);
+  if (value.upper() < support_.lower() || (value.upper() == support_.lower() && !hasPieces())) return Interval(0.0);
   const Interval lower(support_.lower()), upper(support_.upper()), span = upper - lower,
                                                                    v = intersection(value, support_);
   switch (shape_) {
@@ -118,6 +134,9 @@ Interval Distribution::enclosedBelow(const Interval& value) const {
       };
       return intersection(rising(at, v), share);
     }
+    case Shape::histogram:
+    case Shape::empirical:
+      return rising([&](double x) { return belowOf(x); }, v);
     case Shape::beta:
       return rising([&](double x) { return betaBelow(first_, second_, x); }, (v - lower) / span);
     default: {
@@ -135,6 +154,10 @@ bool Distribution::isMonotone(const Interval& values) const {
   const auto isBeside = [&](const Interval& mode) { return mode.upper() <= v.lower() || mode.lower() >= v.upper(); };
   const Interval first(first_), one(1.0);
   switch (shape_) {
+    case Shape::histogram:
+    case Shape::empirical:
+      return !isThin(v) && pieceAt(v.lower()) == pieceAt(std::nextafter(v.upper(), v.lower())) &&
+             pieceAt(v.lower()) < pieces_.size();  // even inside a piece
     case Shape::uniform:
     case Shape::exponential:
       return true;

@@ -89,8 +89,39 @@ Distribution Distribution::exponential(const Interval& support, double mean) {
   return {Shape::exponential, support, 1, mean};  // Weibull's of shape 1
 }
 
+Distribution Distribution::histogram(const std::vector<double>& values, const std::vector<double>& weights) {
+  require(values.size() >= 2 && weights.size() + 1 == values.size(),
+          "a histogram needs at least two values and one weight fewer");
+  Distribution found(Shape::histogram, Interval(values.front(), std::max(values.front(), values.back())), 0, 0);
+  Interval all(0.0);
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    require(values[i] <= values[i + 1],
+            "the values of a histogram fall from " + toString(values[i]) + " to " + toString(values[i + 1]));
+    require(weights[i] >= 0 && std::isfinite(weights[i]),
+            "a weight of a histogram is not negative, unlike " + toString(weights[i]));
+    all = all + Interval(weights[i]);
+  }
+  require(all.lower() > 0, "a histogram needs a positive weight");
+  Interval sum(0.0);
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    sum = sum + Interval(weights[i]);
+    found.pieces_.push_back({values[i + 1], weights[i], intersection(sum / all, Interval(0.0, 1.0))});
+  }
+  found.pieces_.back().below = Interval(1.0);
+  return found;
+}
+
+Distribution Distribution::empirical(std::vector<double> values) {
+  require(values.size() >= 2, "measurements are at least two values");
+  std::ranges::sort(values);
+  Distribution found = histogram(values, std::vector<double>(values.size() - 1, 1.0));
+  found.shape_ = Shape::empirical;
+  return found;
+}
+
 std::string_view Distribution::name() const {
-  constexpr std::array names{"uniform", "triangular", "normal", "beta", "lognormal", "weibull", "gamma", "exponential"};
+  constexpr std::array names{"uniform", "triangular", "normal",      "beta",      "lognormal",
+                             "weibull", "gamma",      "exponential", "histogram", "empirical"};
   return names[static_cast<std::size_t>(shape_)];
 }
 
@@ -117,9 +148,23 @@ std::vector<ShapeNumber> Distribution::numbers() const {
       break;
     case Shape::exponential:
       numbers.push_back({"mean", second_});
+      break;
+    case Shape::histogram:
+      for (std::size_t i = 0; i < pieces_.size(); ++i) {
+        const std::string of = std::to_string(i + 1);
+        numbers.push_back({"value " + of, i == 0 ? support_.lower() : pieces_[i - 1].end});
+        numbers.push_back({"weight " + of, pieces_[i].weight, false});
+      }
+      break;
+    case Shape::empirical:
+      numbers.push_back({"count", static_cast<double>(pieces_.size() + 1), false});
   }
   if (isTruncated()) numbers.push_back({"cut_off", cutOff(), false});
   return numbers;
+}
+
+bool Distribution::isTruncated() const {
+  return shape_ != Shape::uniform && shape_ != Shape::triangular && shape_ != Shape::beta && !hasPieces();
 }
 
 double Distribution::below(double value) const {
@@ -180,6 +225,15 @@ double Distribution::quantile(double u) const {
   if (u == 0 || lower == upper) return lower;
   if (u == 1) return upper;
   switch (shape_) {
+    case Shape::histogram:
+    case Shape::empirical: {
+      const auto piece = std::ranges::lower_bound(pieces_, u, {}, [](const Piece& p) { return midpoint(p.below); });
+      if (piece == pieces_.end()) return upper;
+      const bool isFirst = piece == pieces_.begin();
+      const double from = isFirst ? lower : std::prev(piece)->end,
+                   before = isFirst ? 0 : midpoint(std::prev(piece)->below), all = midpoint(piece->below) - before;
+      return std::clamp(from + (all > 0 ? (u - before) / all : 1) * (piece->end - from), from, piece->end);
+    }
     case Shape::uniform:
       return clamp(lower + u * span, support_);
     case Shape::triangular:

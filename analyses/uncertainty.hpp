@@ -35,6 +35,13 @@ class Distribution {
   /// Density proportional to exp(-v/mean).
   static Distribution exponential(const Interval& support, double mean);
 
+  /// As of a histogram: evenly distributed between neighbours among these values (at least two, which do not fall),
+  /// with probabilities proportional to the weights (one fewer, not negative, some positive). Between equal values a
+  /// weight is the probability of that value itself.
+  static Distribution histogram(const std::vector<double>& values, const std::vector<double>& weights);
+  /// As of measurements: equally probable between neighbours among these values (at least two, in any order).
+  static Distribution empirical(std::vector<double> values);
+
   /// The value below which the quantity lies with probability u (0 … 1): 0 and 1 give the support's ends exactly, and
   /// every result lies in the support. Throws std::invalid_argument for another u.
   double quantile(double u) const;
@@ -49,16 +56,21 @@ class Distribution {
   const Interval& support() const { return support_; }
   /// The probability that truncation to the support cut off; 0 of what is bounded by itself.
   double cutOff() const;
-  /// "uniform", "triangular", "normal", "beta", "lognormal", "weibull", "gamma" or "exponential".
+  /// "uniform", "triangular", "normal", "beta", "lognormal", "weibull", "gamma", "exponential", "histogram" or
+  /// "empirical".
   std::string_view name() const;
   /// "lower" and "upper", the support; then "mode", "mean" and "deviation", "a" and "b", "log_mean" and
-  /// "log_deviation", "shape" and "scale", or "mean"; and "cut_off" of what is truncated.
+  /// "log_deviation", "shape" and "scale", or "mean"; and "cut_off" of what is truncated. Of a histogram "value 1",
+  /// "weight 1", "value 2", ...; of measurements how many there are, "count".
   std::vector<ShapeNumber> numbers() const;
 
  private:
-  enum class Shape { uniform, triangular, normal, beta, lognormal, weibull, gamma, exponential };
+  enum class Shape { uniform, triangular, normal, beta, lognormal, weibull, gamma, exponential, histogram, empirical };
   Distribution(Shape shape, const Interval& support, double first, double second);
-  bool isTruncated() const { return shape_ != Shape::uniform && shape_ != Shape::triangular && shape_ != Shape::beta; }
+  bool isTruncated() const;
+  bool hasPieces() const { return shape_ == Shape::histogram || shape_ == Shape::empirical; }
+  Interval belowOf(double value) const;
+  std::size_t pieceAt(double value) const;
   // Of what is truncated, before it is: the probability below a value and above it, and the values of these.
   double below(double value) const;
   double above(double value) const;
@@ -70,6 +82,12 @@ class Distribution {
   Interval support_;
   double first_ = 0;   // mode, mean, a or shape; of the logarithm if that is normal
   double second_ = 0;  // deviation, b or scale, likewise
+  /// Of a histogram and of measurements: its end and weight, and the probability not above the end.
+  struct Piece {
+    double end, weight;
+    Interval below;
+  };
+  std::vector<Piece> pieces_;  // behind the support's lower end
 };
 
 /// An uncertain quantity.

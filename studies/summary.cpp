@@ -298,13 +298,18 @@ std::string shapeText(const Results& results, const UncertainInfo& uncertain, co
       lower = number.value;
     } else if (number.name == "upper") {
       upper = number.value;
-    } else if (name != "table") {
+    } else if (name != "table" && name != "histogram") {
       numbers.push_back(fmt::format("{} {:.6g}", number.name, number.value));
     }
   }
   if (lower != uncertain.lower || upper != uncertain.upper)
     numbers.insert(numbers.begin(), "on " + rangeText(lower, upper, 6));
-  return numbers.empty() ? name : fmt::format("{} ({})", name, fmt::join(numbers, ", "));
+  constexpr double least = 1.0 / 256;  // of what was looked at
+  const std::string doubt =
+      shape == "membership" && uncertain.inconsistency > least
+          ? fmt::format("; events are more probable than possible by up to {}", atMostText(uncertain.inconsistency, 2))
+          : "";
+  return (numbers.empty() ? name : fmt::format("{} ({})", name, fmt::join(numbers, ", "))) + doubt;
 }
 
 std::string jsonSummary(const Results& results, const std::string& verdict, const ResultFiles& files) {

@@ -56,11 +56,8 @@ class MechanismReader {
 
   /// A column of a table of this name.
   TimeTable tableOf(const std::string& name, const std::string& column, const std::string& unit) {
-    const std::string path = atHand_ ? name + " in " + source_.name() : (source_.folder() / name).string();
-    if (atHand_ && !atHand_->tables.contains(name)) throw std::invalid_argument("there is no table " + printable(name));
-    std::string& text = files_.tables[name];
-    if (text.empty()) text = atHand_ ? atHand_->tables.at(name) : textOfTable(path);
-    return readTable(text, path, column, unit);
+    const TableFiles files(source_, files_.tables, atHand_);
+    return readTable(files.textOf(name), files.pathOf(name), column, unit);
   }
 
   // ---- A robot ------------------------------------------------------------------------------------------------------

@@ -51,7 +51,7 @@ class StudyReader {
     study_.notes = std::move(read.notes);
     places_ = std::move(read.places);
     if (study_.analysis == Study::Analysis::inverseDynamics) checkDrives(*file.find("mechanism"));
-    readUncertain(source_, tables(file, "uncertain"), study_);
+    readUncertain(source_, tables(file, "uncertain"), TableFiles(source_, study_.tables, files), study_);
     file.require("output", "a table [[output]] for each output that is wanted");
     for (const toml::table* table : tables(file, "output")) readOutput(*table);
     readRequirements(source_, tables(file, "requirement"), study_, outputNodes_);

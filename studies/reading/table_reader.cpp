@@ -42,27 +42,57 @@ std::vector<Cell> cellsOf(const std::string& line) {
   throw std::invalid_argument(fmt::format("the table '{}' cannot be read: {}", printable(path), why));
 }
 
+std::string textOfTable(const std::string& path) {
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  if (error) refuse(path, error.message());
+  if (size > maxTableBytes) refuse(path, fmt::format("it has {} bytes; the most are {}", size, maxTableBytes));
+  std::ifstream file(path, std::ios::binary);
+  if (!file) refuse(path, "it cannot be opened");
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
 class TableReader {
  public:
   TableReader(const std::string& text, const std::string& path) : path_(path), text_(text) {}
 
+  std::vector<std::vector<Amount>> columns(const std::vector<WantedColumn>& wanted) {
+    if (!next()) refuse("it is empty");
+    const std::size_t width = cells_.size();
+    std::vector<std::size_t> places;
+    std::vector<Amount> scales(wanted.size());
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+      places.push_back(find(wanted[i].name, 0));
+      nameOf(cells_[places[i]], wanted[i].unit, scales[i]);
+    }
+    std::vector<std::vector<Amount>> found(wanted.size());
+    while (next()) {
+      checkWidth(width);
+      if (found[0].size() == maxTableRows) failForRows();
+      for (std::size_t i = 0; i < wanted.size(); ++i) {
+        Amount value = scales[i];
+        value.value *= number(cells_[places[i]]);
+        found[i].push_back(value);
+      }
+    }
+    if (found[0].empty()) refuse("it has no row of numbers");
+    return found;
+  }
+
   TimeTable read(const std::string& column, const std::string& unit) {
     if (!next()) refuse("it is empty");
-    const std::size_t width = cells_.size(), wanted = find(column);
+    const std::size_t width = cells_.size(), wanted = find(column, 1);
     Amount time, scale;
     nameOf(cells_[0], "s", time);
     nameOf(cells_[wanted], unit, scale);
     TimeTable table{path_, column, {}, {}, scale.piPower};
     while (next()) {
-      if (cells_.size() != width)
-        fail(cells_.back(), fmt::format("the row has {} cells", cells_.size()),
-             fmt::format("{} as in the first row", width));
+      checkWidth(width);
       const mpq_class at = number(cells_[0]) * time.value;
       if (!table.times.empty() && at <= table.times.back())
         fail(cells_[0], fmt::format("the time {} does not follow the one before", printable(cells_[0].text)),
              "times that rise");
-      if (table.times.size() == maxTableRows)
-        fail(cells_[0], fmt::format("the table has more than {} rows", maxTableRows), "fewer rows");
+      if (table.times.size() == maxTableRows) failForRows();
       table.times.push_back(at);
       table.values.push_back(number(cells_[wanted]) * scale.value);
     }
@@ -74,6 +104,15 @@ class TableReader {
   [[noreturn]] void refuse(const std::string& why) const { gamut::refuse(path_, why); }
   [[noreturn]] void fail(const Cell& cell, const std::string& what, const std::string& expected) const {
     throw StudyError(fmt::format("{}:{}:{}: {}; expected {}", printable(path_), line_, cell.column, what, expected));
+  }
+
+  void checkWidth(std::size_t width) const {
+    if (cells_.size() != width)
+      fail(cells_.back(), fmt::format("the row has {} cells", cells_.size()),
+           fmt::format("{} as in the first row", width));
+  }
+  [[noreturn]] void failForRows() const {
+    fail(cells_[0], fmt::format("the table has more than {} rows", maxTableRows), "fewer rows");
   }
 
   /// The next row that says something.
@@ -103,9 +142,10 @@ class TableReader {
     return hasUnit ? trimmed(cell.text.substr(0, open)) : cell.text;
   }
 
-  std::size_t find(const std::string& column) const {
+  /// Among the columns from `first` on.
+  std::size_t find(const std::string& column, std::size_t first) const {
     std::vector<std::string> names;
-    for (std::size_t i = 1; i < cells_.size(); ++i) {
+    for (std::size_t i = first; i < cells_.size(); ++i) {
       names.push_back(trimmed(cells_[i].text.substr(0, cells_[i].text.find('['))));
       if (names.back() == column) return i;
     }
@@ -134,14 +174,27 @@ TimeTable readTable(const std::string& text, const std::string& path, const std:
   return TableReader(text, path).read(column, unit);
 }
 
-std::string textOfTable(const std::string& path) {
-  std::error_code error;
-  const std::uintmax_t size = std::filesystem::file_size(path, error);
-  if (error) refuse(path, error.message());
-  if (size > maxTableBytes) refuse(path, fmt::format("it has {} bytes; the most are {}", size, maxTableBytes));
-  std::ifstream file(path, std::ios::binary);
-  if (!file) refuse(path, "it cannot be opened");
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+std::string TableFiles::pathOf(const std::string& name) const {
+  return atHand_ ? name + " in " + source_.name() : (source_.folder() / name).string();
+}
+
+const std::string& TableFiles::textOf(const std::string& name) const {
+  if (atHand_ && !atHand_->tables.contains(name)) throw std::invalid_argument("there is no table " + printable(name));
+  std::string& text = texts_[name];
+  if (text.empty()) text = atHand_ ? atHand_->tables.at(name) : textOfTable(pathOf(name));
+  return text;
+}
+
+std::vector<std::vector<Amount>> TableFiles::columns(const toml::node& node, const std::string& what,
+                                                     const std::vector<WantedColumn>& wanted) const {
+  const std::string name = source_.asText(node, what);
+  try {
+    return TableReader(textOf(name), pathOf(name)).columns(wanted);
+  } catch (const UnknownName& error) {
+    source_.fail(node, error.problem(), error.expected());
+  } catch (const std::invalid_argument& error) {
+    source_.failWith(node, error.what(), "a CSV file with a row of names");
+  }
 }
 
 }  // namespace gamut

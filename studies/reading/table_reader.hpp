@@ -1,9 +1,14 @@
-// Tables in CSV files: a row of names, then rows of numbers over time.
+// Tables in CSV files: a row of names, then rows of numbers.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "mechanics/description/time_table.hpp"
+#include "mechanics/description/units.hpp"
+#include "studies/reading/toml_source.hpp"
+#include "studies/study.hpp"
 
 namespace gamut {
 
@@ -14,7 +19,30 @@ namespace gamut {
 TimeTable readTable(const std::string& text, const std::string& path, const std::string& column,
                     const std::string& unit);
 
-/// Throws std::invalid_argument, with a sentence, for a file that cannot be read.
-std::string textOfTable(const std::string& path);
+/// A column that is looked for.
+struct WantedColumn {
+  std::string name, unit;
+};
+
+/// The CSV files that a study names: where they lie, or at hand.
+class TableFiles {
+ public:
+  /// Of what is read the words are put into `texts`. All of them must outlive this.
+  TableFiles(const TomlSource& source, NamedTexts& texts, const std::optional<FilesAtHand>& atHand)
+      : source_(source), texts_(texts), atHand_(atHand) {}
+
+  /// What messages call the file.
+  std::string pathOf(const std::string& name) const;
+  /// Throws std::invalid_argument, with a sentence, for a file that cannot be read.
+  const std::string& textOf(const std::string& name) const;
+  /// These columns, row by row, of the file that is named at a node, which messages call `what`. Throws StudyError.
+  std::vector<std::vector<Amount>> columns(const toml::node& node, const std::string& what,
+                                           const std::vector<WantedColumn>& wanted) const;
+
+ private:
+  const TomlSource& source_;
+  NamedTexts& texts_;
+  const std::optional<FilesAtHand>& atHand_;
+};
 
 }  // namespace gamut

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "mechanics/description/names.hpp"
+#include "studies/reading/shape_reader.hpp"
 
 namespace gamut {
 namespace {
@@ -18,7 +19,8 @@ constexpr Dimension plain{};
 
 class UncertainReader {
  public:
-  UncertainReader(const TomlSource& source, Study& study) : source_(source), study_(study) {}
+  UncertainReader(const TomlSource& source, const TableFiles& files, Study& study)
+      : source_(source), files_(files), study_(study) {}
 
   void read(const toml::table& table) {
     const TomlSection section(source_, table, "uncertain",
@@ -94,8 +96,7 @@ class UncertainReader {
     else
       takeSupports(section, result);
     const toml::node& interval = stated != nullptr ? *stated : static_cast<const toml::node&>(section.table());
-    readDistribution(section, result);
-    readMembership(section, result);
+    readShapes(source_, section, files_, result);
     readCourse(section, node, result);
     try {
       result.uncertain.check();
@@ -142,20 +143,7 @@ class UncertainReader {
 
   /// Without an interval: what distribution and membership are stated on.
   void takeSupports(const TomlSection& section, UncertainQuantity& result) {
-    const Dimension dimension = dimensionOf(result.unit);
-    Interval range = Interval::empty();
-    for (const char* key : {"distribution", "membership"}) {
-      const toml::node* node = section.find(key);
-      if (node == nullptr || !node->is_table()) continue;
-      const std::string name = section.nameOf(key);
-      if (const toml::node* support = node->as_table()->get("support"))
-        range = hull(range, pair(*support, name + ".support", dimension));
-      const toml::node* points = node->as_table()->get("points");
-      if (points == nullptr || !points->is_array()) continue;
-      for (const toml::node& point : *points->as_array())
-        if (point.is_array() && !point.as_array()->empty())
-          range = hull(range, enclose(source_.asAmount((*point.as_array())[0], name + ".points", dimension)));
-    }
+    const Interval range = supportsOf(source_, section, files_, result);
     if (isEmpty(range))
       section.require("interval", fmt::format("{}, or a distribution or membership with a support", waysToSayIt));
     result.uncertain.nominal = midpoint(study_.mechanism.nominal(result.quantity));
@@ -177,7 +165,7 @@ class UncertainReader {
     result.uncertain.nominal = midpoint(nominal);
     result.uncertain.blur = width(nominal);
     if (node.is_array()) {
-      result.uncertain.range = pair(node, what, dimension);
+      result.uncertain.range = readPair(source_, node, what, dimension);
     } else {
       const auto [below, above] = deviations(node, what, source_.asText(node, what));
       const Reach down = reachOf(node, what, below, result, nominal), up = reachOf(node, what, above, result, nominal);
@@ -243,178 +231,6 @@ class UncertainReader {
     return {enclose(deviation), true};
   }
 
-  /// [lower, upper] as the hull of both enclosures.
-  Interval pair(const toml::node& node, const std::string& what, const Dimension& dimension) const {
-    const toml::array& list = source_.asArray(node, what);
-    if (list.size() != 2)
-      source_.fail(node, fmt::format("{} has {} numbers", what, list.size()), "two, [lower, upper]");
-    const Interval lower = enclose(source_.asAmount(list[0], what, dimension));
-    const Interval upper = enclose(source_.asAmount(list[1], what, dimension));
-    if (!(lower.lower() <= upper.upper()))
-      source_.fail(node, what + " has its lower bound above its upper one", "[lower, upper]");
-    return {lower.lower(), upper.upper()};
-  }
-
-  Interval support(const TomlSection& section, const UncertainQuantity& quantity) const {
-    const toml::node* node = section.find("support");
-    const Interval range = quantity.uncertain.range;
-    if (node == nullptr) return range;
-    const Interval found = pair(*node, section.nameOf("support"), dimensionOf(quantity.unit));
-    if (!isSubset(found, range)) {
-      const auto [inner, outer] = writtenApart(found, range);
-      source_.fail(*node, fmt::format("{} {} leaves the interval", section.nameOf("support"), inner),
-                   fmt::format("a support inside {}", outer));
-    }
-    return found;
-  }
-
-  /// Throws StudyError at the key's place unless `found` lies inside the support.
-  void requireInside(const TomlSection& section, std::string_view key, const Interval& found,
-                     const Interval& support) const {
-    if (isSubset(found, support)) return;
-    const auto [inner, outer] = writtenApart(found, support);
-    const toml::node* node = section.find(key);  // missing where the nominal value stands in
-    source_.fail(node == nullptr ? section.table() : *node,
-                 fmt::format("{}{} {} leaves the support", section.nameOf(key),
-                             node == nullptr ? ", the nominal value" : "", inner),
-                 "values inside " + outer);
-  }
-
-  static double nearTo(double x, int digits) { return std::stod(fmt::format("{:.{}g}", x, digits)); }
-  static Interval nearTo(const Interval& x, int digits) {
-    return {nearTo(x.lower(), digits), nearTo(x.upper(), digits)};
-  }
-
-  /// To the nearest. 15 digits give a number of the file back that was rounded to either side; one number if both ends
-  /// do.
-  static std::string written(const Interval& x, int digits = 15) {
-    const std::string lower = fmt::format("{:.{}g}", x.lower(), digits);
-    const std::string upper = fmt::format("{:.{}g}", x.upper(), digits);
-    return lower == upper ? lower : fmt::format("[{}, {}]", lower, upper);
-  }
-
-  /// What leaves an interval and that interval, each with digits enough, and no more, to see it.
-  static std::pair<std::string, std::string> writtenApart(const Interval& found, const Interval& around) {
-    const int own = isSubset(nearTo(found, 15), around) ? 17 : 15;
-    int digits = 6;
-    while (digits < 17 && isSubset(nearTo(found, own), nearTo(around, digits))) ++digits;
-    return {written(found, own), written(around, digits)};
-  }
-
-  /// The nearest double; `otherwise` without the key.
-  double number(const TomlSection& section, std::string_view key, const UncertainQuantity& quantity,
-                double otherwise) const {
-    const toml::node* node = section.find(key);
-    if (node == nullptr) return otherwise;
-    return nearest(source_.asAmount(*node, section.nameOf(key), dimensionOf(quantity.unit)));
-  }
-
-  double requiredNumber(const TomlSection& section, std::string_view key, const Dimension& dimension) const {
-    const toml::node& node = section.require(key, fmt::format("a number in {}", unitOf(dimension)));
-    return nearest(source_.asAmount(node, section.nameOf(key), dimension));
-  }
-
-  /// The keys of one kind of distribution or membership function.
-  TomlSection kind(const TomlSection& parent, const toml::node& node, const std::string& key,
-                   const std::vector<std::pair<std::string, std::vector<std::string>>>& kinds,
-                   std::string& type) const {
-    const std::string name = parent.nameOf(key);
-    const toml::table& table = source_.asTable(node, name);
-    std::vector<std::string> types;
-    for (const auto& entry : kinds) types.push_back(entry.first);
-    const toml::node* found = table.get("type");
-    if (found == nullptr)
-      source_.fail(node, fmt::format("'{}.type' is missing", name), fmt::format("{{ type = \"{}\" }}", types.front()));
-    type = source_.asChoice(*found, name + ".type", types);
-    std::vector<std::string> keys{"type"};
-    for (const auto& entry : kinds)
-      if (entry.first == type) keys.insert(keys.end(), entry.second.begin(), entry.second.end());
-    return {source_, table, name, keys};
-  }
-
-  void readDistribution(const TomlSection& section, UncertainQuantity& result) const {
-    Uncertain& uncertain = result.uncertain;
-    uncertain.distribution = Distribution::uniform(uncertain.range);
-    const toml::node* node = section.find("distribution");
-    if (node == nullptr) return;
-    std::string type;
-    const TomlSection table = kind(section, *node, "distribution",
-                                   {{"uniform", {"support"}},
-                                    {"triangular", {"support", "mode"}},
-                                    {"normal", {"support", "mean", "deviation"}},
-                                    {"beta", {"support", "a", "b"}},
-                                    {"lognormal", {"support", "log_mean", "log_deviation"}},
-                                    {"weibull", {"support", "shape", "scale"}},
-                                    {"gamma", {"support", "shape", "scale"}},
-                                    {"exponential", {"support", "mean"}}},
-                                   type);
-    const Dimension dimension = dimensionOf(result.unit);
-    const Interval on = support(table, result);
-    try {
-      if (type == "uniform") uncertain.distribution = Distribution::uniform(on);
-      if (type == "triangular")
-        uncertain.distribution = Distribution::triangular(on, number(table, "mode", result, uncertain.nominal));
-      if (type == "normal")
-        uncertain.distribution = Distribution::normal(on, number(table, "mean", result, uncertain.nominal),
-                                                      requiredNumber(table, "deviation", dimension));
-      if (type == "beta")
-        uncertain.distribution =
-            Distribution::beta(on, requiredNumber(table, "a", plain), requiredNumber(table, "b", plain));
-      if (type == "lognormal")
-        uncertain.distribution = Distribution::lognormal(on, requiredNumber(table, "log_mean", plain),
-                                                         requiredNumber(table, "log_deviation", plain));
-      if (type == "weibull")
-        uncertain.distribution =
-            Distribution::weibull(on, requiredNumber(table, "shape", plain), requiredNumber(table, "scale", dimension));
-      if (type == "gamma")
-        uncertain.distribution =
-            Distribution::gamma(on, requiredNumber(table, "shape", plain), requiredNumber(table, "scale", dimension));
-      if (type == "exponential")
-        uncertain.distribution = Distribution::exponential(on, number(table, "mean", result, uncertain.nominal));
-    } catch (const std::invalid_argument& error) {
-      source_.failWith(*node, error.what(), "a distribution inside the interval");
-    }
-  }
-
-  void readMembership(const TomlSection& section, UncertainQuantity& result) const {
-    Uncertain& uncertain = result.uncertain;
-    uncertain.membership = Membership::triangular(uncertain.range.lower(), uncertain.nominal, uncertain.range.upper());
-    const toml::node* node = section.find("membership");
-    if (node == nullptr) return;
-    std::string type;
-    const TomlSection table = kind(section, *node, "membership",
-                                   {{"triangular", {"support", "apex"}},
-                                    {"trapezoidal", {"support", "core"}},
-                                    {"gaussian", {"support", "centre", "deviation"}},
-                                    {"table", {"points"}}},
-                                   type);
-    const Dimension dimension = dimensionOf(result.unit);
-    const Interval on = support(table, result);
-    try {
-      if (type == "triangular") {
-        const double apex = number(table, "apex", result, uncertain.nominal);
-        requireInside(table, "apex", apex, on);
-        uncertain.membership = Membership::triangular(on.lower(), apex, on.upper());
-      }
-      if (type == "trapezoidal") {
-        const Interval core = pair(table.require("core", "[left, right]"), table.nameOf("core"), dimension);
-        requireInside(table, "core", core, on);
-        uncertain.membership = Membership::trapezoidal(on.lower(), core.lower(), core.upper(), on.upper());
-      }
-      if (type == "gaussian") {
-        const double centre = number(table, "centre", result, uncertain.nominal);
-        requireInside(table, "centre", centre, on);
-        const double deviation = requiredNumber(table, "deviation", dimension);
-        if (!(deviation > 0))
-          source_.fail(*table.find("deviation"), table.nameOf("deviation") + " is not positive", "a deviation above 0");
-        uncertain.membership = Membership::gaussian(on, centre, deviation);
-      }
-      if (type == "table") uncertain.membership = tableOf(table, result);
-    } catch (const std::invalid_argument& error) {
-      source_.failWith(*node, error.what(), "a membership function inside the interval");
-    }
-  }
-
   /// `varies = "freely"`, or a `rate` that is the most it changes by in a second.
   void readCourse(const TomlSection& section, const toml::node& quantity, UncertainQuantity& result) const {
     const toml::node *varies = section.find("varies"), *rate = section.find("rate");
@@ -447,63 +263,20 @@ class UncertainReader {
     if (!(result.rate > 0)) source_.fail(*rate, "uncertain.rate is not positive", "the most it changes by in a second");
   }
 
-  Membership tableOf(const TomlSection& section, const UncertainQuantity& quantity) const {
-    const toml::array& list = source_.asArray(
-        section.require("points", "[[value, membership], ...] with memberships from 0 to 1"), section.nameOf("points"));
-    try {
-      return Membership::table(points(list, section.nameOf("points"), quantity));
-    } catch (const Membership::BadPoint& error) {
-      const toml::array& point = *list[error.index].as_array();
-      const auto number = [&](std::size_t i) { return toString(nearest(source_.asAnyAmount(point[i], ""))); };
-      source_.fail(point,
-                   fmt::format("point {}, ({}, {}), of {} {}", error.index + 1, number(0), number(1),
-                               section.nameOf("points"), error.problem),
-                   "memberships from 0 to 1 that rise to 1, stay, and fall");
-    }
-  }
-
-  /// points = [[value, membership], ...]: nearest doubles, but the ends, which are the support, rounded outward.
-  std::vector<Membership::Point> points(const toml::array& list, const std::string& what,
-                                        const UncertainQuantity& quantity) const {
-    const Interval range = quantity.uncertain.range;
-    if (list.empty()) source_.fail(list, what + " is empty", "at least one point [value, membership]");
-    std::vector<Membership::Point> result;
-    for (const toml::node& entry : list) {
-      const toml::array& point = source_.asArray(entry, what);
-      if (point.size() != 2) source_.fail(entry, what + " has a point that is no pair", "[value, membership]");
-      const Amount amount = source_.asAmount(point[0], what, dimensionOf(quantity.unit));
-      const bool isFirst = &entry == list.get(0), isLast = &entry == list.get(list.size() - 1);
-      const double value = isFirst ? enclose(amount).lower() : isLast ? enclose(amount).upper() : nearest(amount);
-      if (!contains(range, value)) {
-        const auto [inner, outer] = writtenApart(value, range);
-        source_.fail(point[0], fmt::format("{} has the value {} outside the interval", what, inner),
-                     fmt::format("values inside {}", outer));
-      }
-      if (!result.empty() && value < result.back().value)
-        source_.fail(point[0],
-                     fmt::format("{} has the value {} after {}", what, written(value), written(result.back().value)),
-                     "values that do not fall");
-      const double degree = nearest(source_.asAmount(point[1], what, plain));
-      if (!(degree >= 0 && degree <= 1))
-        source_.fail(point[1], fmt::format("{} has the membership {}", what, toString(degree)),
-                     "a membership from 0 to 1");
-      result.push_back({value, degree});
-    }
-    return result;
-  }
-
   static constexpr std::array<std::string_view, 3> signs{"±", "+-", "+/-"};
   static constexpr const char* waysToSayIt = "\"± 1 %\", \"± 2 deg\", \"+2 / -1 mm\" or [lower, upper]";
 
   const TomlSource& source_;
+  const TableFiles& files_;
   Study& study_;
   std::vector<const toml::table*> tables_;  // of each uncertain quantity
 };
 
 }  // namespace
 
-void readUncertain(const TomlSource& source, const std::vector<const toml::table*>& tables, Study& study) {
-  UncertainReader reader(source, study);
+void readUncertain(const TomlSource& source, const std::vector<const toml::table*>& tables, const TableFiles& files,
+                   Study& study) {
+  UncertainReader reader(source, files, study);
   for (const toml::table* table : tables) reader.read(*table);
   reader.noteFaults();
 }

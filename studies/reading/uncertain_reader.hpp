@@ -4,13 +4,15 @@
 #include <string>
 #include <vector>
 
+#include "studies/reading/table_reader.hpp"
 #include "studies/reading/toml_source.hpp"
 
 namespace gamut {
 
 /// Reads uncertain quantities of the study's mechanism into the study, and notes what may be a mistake in them. Throws
 /// StudyError.
-void readUncertain(const TomlSource& source, const std::vector<const toml::table*>& tables, Study& study);
+void readUncertain(const TomlSource& source, const std::vector<const toml::table*>& tables, const TableFiles& files,
+                   Study& study);
 
 /// What would do instead of a quantity that the mechanism does not have.
 std::string quantityExpected(const std::string& word, const std::vector<std::string>& known);

@@ -54,7 +54,14 @@ std::vector<Field> fieldsOfUncertain(UncertainInfo& u) {
           {"nominal", &u.nominal, unit::ofQuantity, "nominal value", {}, allowed::finite},
           {"upper", &u.upper, unit::ofQuantity, "upper bound of the interval", {}, allowed::finite},
           {"distribution", &u.distribution, unit::none, "name of the distribution", {}},
-          {"membership", &u.membership, unit::none, "name of the membership function", {}}};
+          {"membership", &u.membership, unit::none, "name of the membership function", {}},
+          {"inconsistency",
+           &u.inconsistency,
+           unit::one,
+           "by how much the probability of an event exceeds its possibility at most; 1/256 or less: probability and "
+           "possibility agree as far as was looked; NaN where not both are asked for",
+           {},
+           allowed::share}};
 }
 
 std::vector<Field> fieldsOfShape(ShapeInfo& s) {

@@ -68,6 +68,44 @@ TEST(DistributionBounds, HoldTheDistributionFunction) {
     }
 }
 
+/// Sums of the weights before, exactly.
+TEST(DistributionBounds, HoldThoseOfHistogramsWithValuesOfTheirOwn) {
+  std::mt19937_64 engine(11);
+  for (int round = 0; round < 200; ++round) {
+    const auto number = [&](double least, double most) { return std::uniform_real_distribution(least, most)(engine); };
+    std::vector<double> values{number(-2, 1)}, weights;
+    for (int i = 0; i < 12; ++i) {
+      values.push_back(values.back() + (i % 4 == 3 ? 0 : std::exp(number(-20, 0))));
+      weights.push_back(i % 5 == 4 ? 0 : number(0, 1));
+    }
+    const Distribution d = Distribution::histogram(values, weights);
+    Number all = 0;
+    for (const double weight : weights) all += weight;
+    for (int i = 0; i < 60; ++i) {
+      const double v = i < 13 ? values[static_cast<std::size_t>(i)] : number(values.front(), values.back());
+      Number below = 0;
+      for (std::size_t piece = 0; piece < weights.size(); ++piece) {
+        const Number from = values[piece], end = values[piece + 1];
+        if (v >= values[piece + 1])
+          below += weights[piece];
+        else if (v > values[piece])
+          below += weights[piece] * ((v - from) / (end - from));
+      }
+      const Interval bound = d.enclosedBelow(v);
+      EXPECT_THAT(bound, EnclosesExactly(Number(below / all))) << v;
+      EXPECT_LT(width(bound), 1e-7) << v;  // pieces are 1e-9 long and more
+      const double u = static_cast<double>(below / all);
+      EXPECT_NEAR(d.quantile(u) >= v ? u : static_cast<double>(midpoint(d.enclosedBelow(d.quantile(u)))), u, 1e-6);
+    }
+    for (int i = 0; i < 20; ++i) {
+      const double from = number(values.front(), values.back()), to = std::min(from + number(0, 0.3), values.back());
+      if (from < to && d.isMonotone(Interval(from, to))) {
+        for (const double v : values) EXPECT_FALSE(from < v && v < to);
+      }
+    }
+  }
+}
+
 TEST(DistributionBounds, HoldOverIntervals) {
   std::mt19937_64 engine(8);
   for (int round = 0; round < 20; ++round)

@@ -24,7 +24,9 @@ std::vector<Distribution> oneOfEach() {
           Distribution::lognormal(support, -0.2, 0.6),
           Distribution::weibull(support, 1.5, 0.8),
           Distribution::gamma(support, 2.5, 0.5),
-          Distribution::exponential(support, 0.75)};
+          Distribution::exponential(support, 0.75),
+          Distribution::histogram({0.3, 0.5, 0.9, 1.4, 2.1}, {1, 4, 0.5, 2}),
+          Distribution::empirical({1.1, 0.3, 2.1, 0.4, 0.9, 1.0})};
 }
 
 /// "lower 0.3, upper 2.1, mode 0.7": the numbers as they are called; those without unit in parentheses.
@@ -51,7 +53,10 @@ TEST(Distribution, SaysOfWhichNumbersItIsMade) {
                          "lower 0.3, upper 2.1, mean 1, deviation 0.4", "lower 0.3, upper 2.1, a (2.5), b (0.7)",
                          "lower 0.3, upper 2.1, log_mean (-0.2), log_deviation (0.6)",
                          "lower 0.3, upper 2.1, shape (1.5), scale 0.8", "lower 0.3, upper 2.1, shape (2.5), scale 0.5",
-                         "lower 0.3, upper 2.1, mean 0.75"));
+                         "lower 0.3, upper 2.1, mean 0.75",
+                         "lower 0.3, upper 2.1, value 1 0.3, weight 1 (1), value 2 0.5, weight 2 (4), value 3 0.9, "
+                         "weight 3 (0.5), value 4 1.4, weight 4 (2)",
+                         "lower 0.3, upper 2.1, count (6)"));
 }
 
 /// P(X > v) of the standard normal distribution.
@@ -120,6 +125,23 @@ TEST(Distribution, WeibullGammaAndExponentialMatchTheirClosedForms) {
   // Gamma of shape 2: P(v) = 1 - (1 + v) e^(-v).
   const double v = Distribution::gamma({0.0, 100.0}, 2.0, 1.0).quantile(0.25);
   EXPECT_THAT(1 - (1 + v) * std::exp(-v), DoubleNear(0.25, 1e-14));
+}
+
+TEST(Distribution, PiecesAreEvenlyFilledAndEqualValuesHaveTheirWeight) {
+  const Distribution d = Distribution::histogram({1, 2, 2, 4}, {1, 1, 2});
+  EXPECT_EQ(d.quantile(0.125), 1.5);
+  for (const double u : {0.25, 0.3, 0.5}) EXPECT_EQ(d.quantile(u), 2) << u;
+  EXPECT_EQ(d.quantile(0.75), 3);
+  EXPECT_TRUE(contains(d.enclosedBelow(1.5), 0.125));
+  EXPECT_TRUE(contains(d.enclosedBelow(2), 0.5));
+  EXPECT_LT(d.enclosedBelow(std::nextafter(2, 1)).upper(), 0.251);
+  EXPECT_TRUE(contains(d.enclosedBelow(3), 0.75));
+  const Distribution e = Distribution::empirical({3, 1, 2, 7});
+  EXPECT_DOUBLE_EQ(e.quantile(0.5), 2.5);
+  EXPECT_DOUBLE_EQ(e.quantile(5.0 / 6), 5);
+  const Distribution all = Distribution::empirical({2, 2, 2});
+  EXPECT_EQ(all.quantile(0.4), 2);
+  EXPECT_TRUE(isEqual(all.enclosedBelow(2), Interval(1.0)));
 }
 
 TEST(Distribution, SaysHowMuchTruncationCutsOff) {

@@ -36,6 +36,7 @@ inline Results sampleResults() {
   r.date = "2024-02-29T12:00:00Z";
   r.libraries = {{"HDF5", "1.10"}, {"SUNDIALS", "6.4"}};
   r.uncertain = {{"first angle", "shoulder.angle", "rad", 0.9, 1.0, 1.1, "uniform", "triangular"}};
+  r.uncertain[0].inconsistency = 0.25;
   r.shapes = {{"first angle", "distribution", "lower", 0.9, "rad"}, {"first angle", "membership", "apex", 1.0, "rad"}};
   r.outputs = {{"tip height", "tip.position.z", "m"}, {"energy", "energy", "J"}};
   r.horizon = 0.02;

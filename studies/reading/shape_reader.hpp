@@ -1,0 +1,27 @@
+// How probable and how possible the values of an uncertain quantity are: the keys `distribution` and `membership`.
+#pragma once
+
+#include <string>
+
+#include "studies/reading/table_reader.hpp"
+#include "studies/reading/toml_source.hpp"
+#include "studies/study.hpp"
+
+namespace gamut {
+
+// `section`: of the quantity. Each throws StudyError.
+
+/// What its distribution and membership are stated on; empty if neither says so.
+Interval supportsOf(const TomlSource& source, const TomlSection& section, const TableFiles& files,
+                    const UncertainQuantity& quantity);
+
+/// Reads both into the quantity, whose range and nominal value are known: of what is not stated, uniform and
+/// triangular.
+void readShapes(const TomlSource& source, const TomlSection& section, const TableFiles& files,
+                UncertainQuantity& quantity);
+
+/// [lower, upper] as the hull of both enclosures.
+Interval readPair(const TomlSource& source, const toml::node& node, const std::string& what,
+                  const Dimension& dimension);
+
+}  // namespace gamut
