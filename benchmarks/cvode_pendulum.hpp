@@ -1,6 +1,7 @@
 // The double pendulum as one CVODE problem a sample, as somebody would write it who has this one machine: equations by
-// hand, in doubles; one memory, begun anew for every sample; Adams's method with functional iteration, which of Adams's
-// and BDF, functional, Anderson's and dense Newton iteration takes the least time here for the same accuracy.
+// hand, in doubles; one memory, begun anew for every sample; Adams's method with functional iteration. For the same
+// accuracy dense Newton iteration takes as long or up to a tenth longer, Anderson's a tenth longer, BDF twice as
+// long.
 #pragma once
 
 #include <cvode/cvode.h>

@@ -19,6 +19,10 @@
 // items_per_second: trajectories a second of real time, not counting corners and the measurement of the witness's
 // error, though their cost and that of the statistics is in the time of the whole. `cpu`: the least CPU time of an
 // iteration, all threads together, s. `faster`: the same of the equally accurate baseline on as many threads over this.
+//
+// Of 4096 samples on one thread of an EPYC with AVX-512, which others used too: at equal accuracy packs are 11 times as
+// fast as the baseline, the whole ensemble 6 times; 23 and 13 times as fast as with the library's vectors as Debian 12
+// compiles them. Where all of SUNDIALS is compiled for the machine (-O3 -march=native) both gain: 6 and 4 times.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>

@@ -42,22 +42,18 @@ bool allFinite(std::span<const double> values) {
   return finite;
 }
 
-/// z = a x + b y. CVODE's prediction adds some eighty short vectors a step; without the library's dispatch on special
-/// coefficients a double pendulum's motion costs 30 % less.
-void addVectors(realtype a, N_Vector x, realtype b, N_Vector y, N_Vector z) {
-  const sunindextype n = NV_LENGTH_S(x);
-  const realtype* left = NV_DATA_S(x);
-  const realtype* right = NV_DATA_S(y);
-  realtype* sum = NV_DATA_S(z);
-  if (a == 1 && b == 1)
-    for (sunindextype i = 0; i < n; ++i) sum[i] = left[i] + right[i];
-  else
-    for (sunindextype i = 0; i < n; ++i) sum[i] = a * left[i] + b * right[i];
-}
+using detail::load, detail::store;
+GAMUT_INLINE void load(double& to, const double* from) { to = *from; }
+GAMUT_INLINE void store(double* to, double from) { *to = from; }
 
-/// The same for rows.
+// The vector operations that CVODE spends its time in: its prediction alone adds some eighty vectors a step. They give
+// the bits of the library's own, whose dispatch on special coefficients costs short vectors more than the sums, and
+// which a distribution may have compiled without optimising (Debian 12). V: as many values as a vector unit takes, or
+// one.
+
+/// z = a x + b y.
 template <class V>
-GAMUT_INLINE void addRows(double a, N_Vector x, double b, N_Vector y, N_Vector z) {
+GAMUT_INLINE void addVectors(double a, N_Vector x, double b, N_Vector y, N_Vector z) {
   const sunindextype n = NV_LENGTH_S(x);
   const double* left = NV_DATA_S(x);
   const double* right = NV_DATA_S(y);
@@ -76,6 +72,70 @@ GAMUT_INLINE void addRows(double a, N_Vector x, double b, N_Vector y, N_Vector z
       store(sum + i, a * l + b * r);
     }
   }
+}
+
+/// z = a x.
+template <class V>
+GAMUT_INLINE void scaleVector(double a, N_Vector x, N_Vector z) {
+  const sunindextype n = NV_LENGTH_S(x);
+  const double* values = NV_DATA_S(x);
+  double* result = NV_DATA_S(z);
+  V value;
+  for (sunindextype i = 0; i < n; i += lanes<V>) {
+    load(value, values + i);
+    store(result + i, a * value);
+  }
+}
+
+/// z = a[0] x[0] + … , from the left.
+template <class V>
+GAMUT_INLINE void combineVectors(int count, const double* a, N_Vector* x, N_Vector z) {
+  const sunindextype n = NV_LENGTH_S(z);
+  double* result = NV_DATA_S(z);
+  V sum, value;
+  for (sunindextype i = 0; i < n; i += lanes<V>) {
+    load(value, NV_DATA_S(x[0]) + i);
+    sum = a[0] * value;
+    for (int k = 1; k < count; ++k) {
+      load(value, NV_DATA_S(x[k]) + i);
+      sum = a[k] * value + sum;
+    }
+    store(result + i, sum);
+  }
+}
+
+/// z[k] = a[k] x + y[k].
+template <class V>
+GAMUT_INLINE void addMultiples(int count, const double* a, N_Vector x, N_Vector* y, N_Vector* z) {
+  for (int k = 0; k < count; ++k) addVectors<V>(a[k], x, 1, y[k], z[k]);
+}
+
+/// What differences in each state are multiplied by: 1 for one as great as the tolerance.
+template <class V>
+GAMUT_INLINE void weighStates(N_Vector x, N_Vector weights, const Tolerance& tolerance) {
+  const sunindextype n = NV_LENGTH_S(x);
+  const double* values = NV_DATA_S(x);
+  double* weight = NV_DATA_S(weights);
+  BitsOf<V> bits;
+  V value;
+  for (sunindextype i = 0; i < n; i += lanes<V>) {
+    load(value, values + i);
+    reinterpret(bits, value);
+    bits &= ~(std::uint64_t{1} << 63);  // |value|
+    reinterpret(value, bits);
+    store(weight + i, 1.0 / (tolerance.relative * value + tolerance.absolute));
+  }
+}
+
+/// The weighted root mean square of one sample.
+double normOfOne(N_Vector x, N_Vector weights) {
+  const sunindextype n = NV_LENGTH_S(x);
+  double sum = 0;
+  for (sunindextype i = 0; i < n; ++i) {
+    const double product = NV_Ith_S(x, i) * NV_Ith_S(weights, i);
+    sum += product * product;
+  }
+  return std::sqrt(sum / static_cast<double>(n));
 }
 
 /// The greatest of the samples' weighted root mean squares; infinite if one of them is no number, so that CVODE turns
@@ -102,14 +162,44 @@ GAMUT_INLINE double greatestNorm(N_Vector x, N_Vector weights) {
   return std::sqrt(greatest / static_cast<double>(n / packWidth));
 }
 
-void addOnBaseline(double a, N_Vector x, double b, N_Vector y, N_Vector z) { addRows<Vector2>(a, x, b, y, z); }
-GAMUT_AVX2 void addOnAvx2(double a, N_Vector x, double b, N_Vector y, N_Vector z) { addRows<Vector4>(a, x, b, y, z); }
-GAMUT_AVX512 void addOnAvx512(double a, N_Vector x, double b, N_Vector y, N_Vector z) {
-  addRows<Vector8>(a, x, b, y, z);
-}
-double normOnBaseline(N_Vector x, N_Vector weights) { return greatestNorm<Vector2>(x, weights); }
-GAMUT_AVX2 double normOnAvx2(N_Vector x, N_Vector weights) { return greatestNorm<Vector4>(x, weights); }
-GAMUT_AVX512 double normOnAvx512(N_Vector x, N_Vector weights) { return greatestNorm<Vector8>(x, weights); }
+/// All of them, for one sample or for the packs of one vector unit.
+struct Operations {
+  void (*add)(double, N_Vector, double, N_Vector, N_Vector);
+  void (*scale)(double, N_Vector, N_Vector);
+  int (*combine)(int, double*, N_Vector*, N_Vector);
+  int (*addMultiples)(int, double*, N_Vector, N_Vector*, N_Vector*);
+  double (*norm)(N_Vector, N_Vector);
+  void (*weigh)(N_Vector, N_Vector, const Tolerance&);
+
+  void setIn(_generic_N_Vector_Ops& vector) const {
+    vector.nvlinearsum = add;
+    vector.nvscale = scale;
+    vector.nvconst = [](double value, N_Vector z) { std::fill_n(NV_DATA_S(z), NV_LENGTH_S(z), value); };
+    vector.nvlinearcombination = combine;
+    vector.nvscaleaddmulti = addMultiples;
+    vector.nvwrmsnorm = norm;
+  }
+};
+
+// What is inlined into a function may use the unit that the function names.
+#define GAMUT_OPERATIONS(name, unit, V, normOf)                                                          \
+  constexpr Operations name = {                                                                          \
+      [](double a, N_Vector x, double b, N_Vector y, N_Vector z) unit { addVectors<V>(a, x, b, y, z); }, \
+      [](double a, N_Vector x, N_Vector z) unit { scaleVector<V>(a, x, z); },                            \
+      [](int count, double* a, N_Vector* x, N_Vector z) unit {                                           \
+        combineVectors<V>(count, a, x, z);                                                               \
+        return 0;                                                                                        \
+      },                                                                                                 \
+      [](int count, double* a, N_Vector x, N_Vector* y, N_Vector* z) unit {                              \
+        addMultiples<V>(count, a, x, y, z);                                                              \
+        return 0;                                                                                        \
+      },                                                                                                 \
+      [](N_Vector x, N_Vector weights) unit { return normOf(x, weights); },                              \
+      [](N_Vector x, N_Vector weights, const Tolerance& t) unit { weighStates<V>(x, weights, t); }}
+GAMUT_OPERATIONS(ofOne, , double, normOfOne);
+GAMUT_OPERATIONS(ofPackOnBaseline, , Vector2, greatestNorm<Vector2>);
+GAMUT_OPERATIONS(ofPackOnAvx2, GAMUT_AVX2, Vector4, greatestNorm<Vector4>);
+GAMUT_OPERATIONS(ofPackOnAvx512, GAMUT_AVX512, Vector8, greatestNorm<Vector8>);
 
 /// What CVODE's return means for a motion.
 std::string meaningOf(int flag, const std::string& message) {
@@ -139,11 +229,13 @@ Tolerance Tolerance::tightened(double factor) const {
 
 /// In the order in which it is made (and unmade backwards).
 struct Cvode::Memory {
-  Memory(std::size_t size, const std::vector<double>& outputTimes, const std::atomic<bool>* stop)
-      : times(outputTimes), cancelled(stop), state(size) {
+  Memory(std::size_t size, const std::vector<double>& outputTimes, const std::atomic<bool>* stop,
+         const Operations& vectorOperations)
+      : times(outputTimes), cancelled(stop), operations(vectorOperations), state(size) {
     if (size == 0) return;
     if (SUNContext_Create(nullptr, &context) != 0) throw std::runtime_error("SUNDIALS could not make its context");
     x = required(N_VMake_Serial(static_cast<sunindextype>(size), state.data(), context), "state vector");
+    operations.setIn(*x->ops);  // clones, CVODE's work vectors, inherit them
   }
   ~Memory() {
     if (cvode != nullptr) CVodeFree(&cvode);
@@ -156,13 +248,12 @@ struct Cvode::Memory {
   Memory(const Memory&) = delete;
   Memory& operator=(const Memory&) = delete;
 
-  /// Once x has its operations: clones, CVODE's work vectors, inherit them.
   void start(Method method) {
     if (state.empty()) return;
     cvode = required(CVodeCreate(method == Method::adams ? CV_ADAMS : CV_BDF, context), "integrator");
     CVodeSetErrHandlerFn(cvode, &remember, this);
     bool good = CVodeInit(cvode, &derivative, 0, x) == CV_SUCCESS;
-    good = good && CVodeSetUserData(cvode, this) == CV_SUCCESS && CVodeSStolerances(cvode, 1e-10, 1e-12) == CV_SUCCESS;
+    good = good && CVodeSetUserData(cvode, this) == CV_SUCCESS && CVodeWFtolerances(cvode, &weights) == CV_SUCCESS;
     good = good && CVodeSetMaxNumSteps(cvode, maximumSteps) == CV_SUCCESS;
     good = good && CVodeSetMaxHnilWarns(cvode, -1) == CV_SUCCESS;
     if (!times.empty()) good = good && CVodeSetMinStep(cvode, shortestStep * times.back()) == CV_SUCCESS;
@@ -178,9 +269,9 @@ struct Cvode::Memory {
     if (!good) throw std::runtime_error("SUNDIALS refused its settings: " + message);
   }
 
-  bool restart(const Tolerance& tolerance) {
-    return CVodeReInit(cvode, 0, x) == CV_SUCCESS &&
-           CVodeSStolerances(cvode, tolerance.relative, tolerance.absolute) == CV_SUCCESS &&
+  bool restart(const Tolerance& wanted) {
+    tolerance = wanted;
+    return tolerance.relative >= 0 && tolerance.absolute > 0 && CVodeReInit(cvode, 0, x) == CV_SUCCESS &&
            CVodeSetStopTime(cvode, times.back()) == CV_SUCCESS;
   }
 
@@ -288,6 +379,12 @@ struct Cvode::Memory {
     return allFinite(rates) ? 0 : 1;
   }
 
+  static int weights(N_Vector x, N_Vector w, void* self) {
+    const Memory& memory = *static_cast<Memory*>(self);
+    memory.operations.weigh(x, w, memory.tolerance);
+    return 0;
+  }
+
   static int watchedFunctions(realtype t, N_Vector x, realtype* values, void* self) {
     Memory& memory = *static_cast<Memory*>(self);
     memory.problem->watch(t, std::span<const double>(NV_DATA_S(x), memory.state.size()),
@@ -301,6 +398,8 @@ struct Cvode::Memory {
 
   const std::vector<double> times;
   const std::atomic<bool>* cancelled;
+  const Operations& operations;
+  Tolerance tolerance;
   std::vector<double> state;
   CvodeProblem* problem = nullptr;  // while it is integrated
   std::string message;
@@ -328,22 +427,15 @@ struct Cvode::Memory {
 };
 
 Cvode::Cvode(std::size_t states, const std::vector<double>& times, Method method, const std::atomic<bool>* cancelled)
-    : memory_(std::make_unique<Memory>(states, times, cancelled)) {
-  if (memory_->x != nullptr) memory_->x->ops->nvlinearsum = addVectors;
+    : memory_(std::make_unique<Memory>(states, times, cancelled, ofOne)) {
   memory_->start(method);
 }
 
 Cvode::Cvode(std::size_t states, const std::vector<double>& times, VectorUnit unit, const std::atomic<bool>* cancelled)
-    : memory_(std::make_unique<Memory>(states * packWidth, times, cancelled)) {
-  if (memory_->x != nullptr) {
-    const auto operations = memory_->x->ops;
-    operations->nvlinearsum = unit == VectorUnit::avx512 ? addOnAvx512
-                              : unit == VectorUnit::avx2 ? addOnAvx2
-                                                         : addOnBaseline;
-    operations->nvwrmsnorm = unit == VectorUnit::avx512 ? normOnAvx512
-                             : unit == VectorUnit::avx2 ? normOnAvx2
-                                                        : normOnBaseline;
-  }
+    : memory_(std::make_unique<Memory>(states * packWidth, times, cancelled,
+                                       unit == VectorUnit::avx512 ? ofPackOnAvx512
+                                       : unit == VectorUnit::avx2 ? ofPackOnAvx2
+                                                                  : ofPackOnBaseline)) {
   memory_->start(Method::adams);
 }
 
