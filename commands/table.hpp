@@ -28,6 +28,7 @@ namespace commands {
 Action run(CLI::App& command);
 Action validate(CLI::App& command);
 Action check(CLI::App& command);
+Action compare(CLI::App& command);
 Action report(CLI::App& command);
 Action info(CLI::App& command);
 Action replay(CLI::App& command);
@@ -42,6 +43,7 @@ inline constexpr Command table[] = {
     {"run", "Run a study; write results and a report", run, Command::looksAtInterrupts},
     {"validate", "Read and check a study file, no more", validate},
     {"check", "The verdict, from the stored numbers: do all samples stay inside?", check},
+    {"compare", "Two results: do they contradict each other, and what became wider or narrower?", compare},
     {"tolerance", "How far the uncertain quantities may deviate so that all requirements are met", tolerance,
      Command::looksAtInterrupts},
     {"report", "Write the report page of a results file", report},

@@ -48,9 +48,9 @@ std::string suggestion(const std::string& word, const std::vector<std::string>& 
 
 }  // namespace
 
-TomlSource::TomlSource(std::string text, std::string name)
+TomlSource::TomlSource(std::string text, std::string name, const std::string& kind)
     : text_(std::move(text)), name_(std::move(name)), lineStarts_{0} {
-  if (text_.find('\0') != std::string::npos) throw StudyError(name_ + ": is no text; expected a study file (TOML)");
+  if (text_.find('\0') != std::string::npos) throw StudyError(fmt::format("{}: is no text; expected {}", name_, kind));
   for (std::size_t i = 0; i < text_.size(); ++i)
     if (text_[i] == '\n') lineStarts_.push_back(i + 1);
   checkKeys();

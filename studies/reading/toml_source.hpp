@@ -18,8 +18,8 @@ namespace gamut {
 /// The text of one TOML file and its parsed tree.
 class TomlSource {
  public:
-  /// `name` is what messages call the file. Throws StudyError for text that is not TOML.
-  TomlSource(std::string text, std::string name);
+  /// `name` is what messages call the file, `kind` what it should be. Throws StudyError for text that is not TOML.
+  TomlSource(std::string text, std::string name, const std::string& kind = "a study file (TOML)");
 
   const toml::table& root() const { return root_; }
   const std::string& name() const { return name_; }

@@ -1,0 +1,161 @@
+// Ratios of widths, and what stands beside them. Nothing here is a proof: widths that are no more than rounding, or
+// than what a point of the widest cut is known to, are not told apart.
+#include "studies/comparing/changes.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+#include <string_view>
+
+#include "studies/comparing/demands.hpp"
+#include "studies/results/verdict.hpp"
+
+namespace gamut {
+namespace {
+
+constexpr double negligible = 1e-9;  // of an output's magnitude: what is narrower is known to some roundings
+constexpr double narrowCut = 0.01;   // of the widest cut: one of hardly any value is as wide as its rounding
+
+double widthOf(const Bounds& bounds, std::size_t time, std::size_t output) {
+  return bounds.upper(time, output) - bounds.lower(time, output);
+}
+
+double greatestMagnitude(const Bounds& bounds, std::size_t output) {
+  double greatest = 0;
+  for (const Table* table : {&bounds.lower, &bounds.upper})
+    for (std::size_t i = 0; i < table->times; ++i)
+      if (const double value = (*table)(i, output); std::isfinite(value))
+        greatest = std::max(greatest, std::fabs(value));
+  return greatest;
+}
+
+/// Takes the ratio at a time into account. Two infinite widths say nothing.
+void take(WidthRatio& ratio, double width, double otherWidth, double least, double time) {
+  if (std::isnan(width) || std::isnan(otherWidth) || (std::isinf(width) && std::isinf(otherWidth))) return;
+  const double of = std::max(width, least), ofOther = std::max(otherWidth, least);
+  const double found = of == ofOther ? 1 : ofOther / of;
+  if (!(ratio.least <= found)) ratio.least = found, ratio.leastTime = time;
+  if (!(ratio.greatest >= found)) ratio.greatest = found, ratio.greatestTime = time;
+}
+
+class Finder {
+ public:
+  Finder(const Results& first, const Results& second, const Shared& shared) : a_(first), b_(second), shared_(shared) {}
+
+  OutputChange ofOutput(const Match& output) const {
+    OutputChange change{a_.outputs[output.first].name,
+                        a_.outputs[output.first].unit,
+                        isMargin(a_, output.first) || isMargin(b_, output.second),
+                        {},
+                        {}};
+    change.enclosure = ofEnclosure(output);
+    change.alphaCuts = ofCuts(output);
+    change.overestimation = {overestimation(a_, output.first), overestimation(b_, output.second)};
+    change.gap = gaps(output);
+    return change;
+  }
+
+ private:
+  WidthRatio ofEnclosure(const Match& output) const {
+    WidthRatio ratio;
+    const Bounds &one = a_.interval.at, &other = b_.interval.at;
+    if (one.empty() || other.empty()) return ratio;
+    const double least =
+        negligible * std::max(greatestMagnitude(one, output.first), greatestMagnitude(other, output.second));
+    for (const auto& [i, j] : shared_.times)
+      take(ratio, widthOf(one, i, output.first), widthOf(other, j, output.second), least, a_.time[i]);
+    return ratio;
+  }
+
+  WidthRatio ofCuts(const Match& output) const {
+    WidthRatio ratio;
+    const std::vector<Envelope>&cuts = a_.fuzzy.outer, &others = b_.fuzzy.outer;
+    if (cuts.empty() || others.empty()) return ratio;
+    const double rounding = negligible * std::max(greatestMagnitude(cuts.front(), output.first),
+                                                  greatestMagnitude(others.front(), output.second));
+    for (const auto& [level, otherLevel] : sharedNumbers(a_.fuzzy.alpha, b_.fuzzy.alpha))
+      for (const auto& [i, j] : shared_.times) {
+        const double widest = widthOf(cuts.front(), i, output.first);
+        take(ratio, widthOf(cuts[level], i, output.first), widthOf(others[otherLevel], j, output.second),
+             std::isfinite(widest) ? std::max(rounding, narrowCut * widest) : rounding, a_.time[i]);
+      }
+    return ratio;
+  }
+
+  static double overestimation(const Results& results, std::size_t output) {
+    const std::vector<double>& greatest = results.comparison.maximumOf;
+    return output < greatest.size() ? greatest[output] : WidthRatio::unknown;
+  }
+
+  /// The greatest at times at which both are known.
+  Both<double> gaps(const Match& output) const {
+    Both<double> greatest{WidthRatio::unknown, WidthRatio::unknown};
+    const DistributionResult &one = a_.distribution, &other = b_.distribution;
+    if (one.gaps.empty() || other.gaps.empty()) return greatest;
+    for (const auto& [i, j] : sharedNumbers(one.time, other.time)) {
+      const double gap = one.gaps[i * a_.outputs.size() + output.first],
+                   otherGap = other.gaps[j * b_.outputs.size() + output.second];
+      if (std::isnan(gap)) continue;
+      greatest.first = std::fmax(greatest.first, gap);
+      greatest.second = std::fmax(greatest.second, std::isnan(otherGap) ? 1 : otherGap);  // nothing is known any more
+    }
+    return greatest;
+  }
+
+  const Results &a_, &b_;
+  const Shared& shared_;
+};
+
+std::size_t rankOf(const std::string& word, std::span<const std::string_view> fromBest) {
+  return static_cast<std::size_t>(std::ranges::find(fromBest, word) - fromBest.begin());
+}
+
+bool isLost(const RequirementChange& change, bool isSameQuestion) {
+  constexpr std::array<std::string_view, 4> fromBest{"met", "open", "partly", "violated"};
+  const bool isUnknownNow = change.word.second == "open" && change.word.first != "open";
+  return rankOf(change.word.second, fromBest) > rankOf(change.word.first, fromBest) || (isSameQuestion && isUnknownNow);
+}
+
+bool isWorse(const Both<std::string>& verdict) {
+  constexpr std::array<std::string_view, 4> fromBest{"inside", "incomplete", "unresolved", "outside"};
+  return !verdict.first.empty() && !verdict.second.empty() &&
+         rankOf(verdict.second, fromBest) > rankOf(verdict.first, fromBest);
+}
+
+std::string verdictOf(const Results& results) {
+  const Finding found = findVerdict(results);
+  return results.comparison.present ? found.word : "";
+}
+
+}  // namespace
+
+Changes changesOf(const Results& first, const Results& second, const Shared& shared, bool isSameQuestion) {
+  Changes changes;
+  const Finder finder(first, second, shared);
+  for (const Match& output : shared.outputs) changes.outputs.push_back(finder.ofOutput(output));
+  constexpr std::array<const char*, 3> names{"enclosure", "samples", "alpha-cuts"};
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (const Answer& one = *first.answers()[i], &other = *second.answers()[i]; one.present && other.present)
+      changes.answers.push_back({names[i],
+                                 {one.reached, other.reached},
+                                 {endsEarly(first, one), endsEarly(second, other)},
+                                 {one.why, other.why}});
+  for (const auto& [i, j] : shared.requirements) {
+    const RequirementResult &one = first.requirements[i], &other = second.requirements[j];
+    RequirementChange change{
+        one.name, isSameDemand(one, other), {one.word, other.word}, {one.met, other.met}, {one.factor, other.factor}};
+    change.isLost = isLost(change, isSameQuestion && change.isSameDemand);
+    changes.requirements.push_back(std::move(change));
+  }
+  changes.verdict = {verdictOf(first), verdictOf(second)};
+  changes.isVerdictWorse = isWorse(changes.verdict);
+  if (first.distribution.present && second.distribution.present)
+    changes.gap = {first.distribution.gap, second.distribution.gap};
+  changes.samples = {first.stochastic.integrated, second.stochastic.integrated};
+  changes.cpu = {first.cpu, second.cpu};
+  changes.memory = {first.memory, second.memory};
+  return changes;
+}
+
+}  // namespace gamut

@@ -1,0 +1,108 @@
+// gamut compare from outside: what it says of two runs, by what exit code, and what it refuses.
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "studies/results/results_file.hpp"
+#include "tests/commands/program.hpp"
+#include "tests/studies/sample_results.hpp"
+#include "tests/studies/sample_study.hpp"
+
+namespace gamut {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+using Json = nlohmann::json;
+
+class CompareCommand : public FromOutside {
+ protected:
+  /// Runs a study into NAME.h5.
+  void run(const std::string& name, const std::string& study, const std::string& options = "") const {
+    folder_.write(name + ".toml", study);
+    EXPECT_EQ(gamut("run " + name + ".toml --quiet --force " + options).exitCode, 0);
+  }
+};
+
+TEST_F(CompareCommand, FindsNothingBetweenARunAndItselfOrAnotherSeed) {
+  run("a", sampleStudy);
+  run("b", sampleStudy, "--seed 3 --samples 64");
+  for (const char* files : {"a.h5 a.h5", "a.h5 b.h5"}) {
+    const Outcome compared = gamut("compare " + std::string(files));
+    EXPECT_EQ(compared.exitCode, 0) << compared.out;
+    EXPECT_THAT(compared.out, HasSubstr("The same question: the studies are the same, word for word.\nNothing"));
+  }
+}
+
+TEST_F(CompareCommand, SaysWhatBecameWiderAndWhatIsTolerated) {
+  run("a", sampleStudy);
+  run("b", sampleStudyWith("± 1 %", "± 2 %"));
+  const Outcome wider = gamut("compare a.h5 b.h5");
+  EXPECT_EQ(wider.exitCode, 1);
+  EXPECT_THAT(wider.out,
+              HasSubstr("wider intervals in B, which hold those of A.\nNothing contradicts, but B is worse"));
+  EXPECT_THAT(wider.out, HasSubstr("  worse: angle: the enclosure is "));
+  EXPECT_EQ(gamut("compare b.h5 a.h5").exitCode, 0);
+  folder_.write("t.toml", "wider = 2\n[output.angle]\nwider = \"300 %\"\n");
+  EXPECT_EQ(gamut("compare a.h5 b.h5 --tolerances t.toml").exitCode, 0);
+}
+
+TEST_F(CompareCommand, TellsAProofOfAnErrorFromModelsThatDiffer) {
+  run("a", sampleStudy);
+  Results results = readResults(folder_.path("a.h5"));
+  results.interval.at.lower(3, 0) = results.interval.at.upper(3, 0) += 1;
+  writeResults(results, folder_.path("b.h5"));
+  const Outcome proof = gamut("compare a.h5 b.h5");
+  EXPECT_EQ(proof.exitCode, 1);
+  EXPECT_THAT(proof.out, HasSubstr("\nOne of both is wrong: "));
+  EXPECT_THAT(proof.out, HasSubstr("\n  angle: the enclosures have no value in common at 0.3 s: ["));
+  run("c", sampleStudyWith("-9.81", "-8.5"));
+  const Outcome models = gamut("compare a.h5 c.h5");
+  EXPECT_EQ(models.exitCode, 1);
+  EXPECT_THAT(models.out, HasSubstr("of another motion: gravity.z is -9.81 m/s^2 in A, -8.5 m/s^2 in B.\nThe models"));
+}
+
+TEST_F(CompareCommand, PrintsOneJsonObject) {
+  run("a", sampleStudy);
+  run("b", sampleStudyWith("± 1 %", "± 2 %"));
+  const Outcome compared = gamut("compare a.h5 b.h5 --json");
+  EXPECT_EQ(compared.exitCode, 1);
+  EXPECT_EQ(compared.out.find('\n'), compared.out.size() - 1);
+  const Json json = Json::parse(compared.out);
+  EXPECT_EQ(json["verdict"], "worse");
+  EXPECT_EQ(json["question"]["first_in_second"], true);
+  EXPECT_EQ(json["question"]["same"], false);
+  EXPECT_GT(json["outputs"]["angle"]["enclosure"]["greatest"], 1.9);
+  EXPECT_EQ(json["worse"][0]["of"], "wider");
+  EXPECT_TRUE(json["contradictions"].empty());
+}
+
+TEST_F(CompareCommand, RefusesInOneLine) {
+  run("a", sampleStudy);
+  run("b",
+      sampleStudyWith("name = \"angle\"\nquantity = \"hinge.angle\"", "name = \"angle\"\nquantity = \"hinge.rate\""));
+  writeResults(sampleResults(), folder_.path("c.h5"));
+  folder_.write("t.toml", "widr = 1\n");
+  const auto refuses = [&](const std::string& arguments, const std::string& line) {
+    const Outcome compared = gamut("compare " + arguments);
+    EXPECT_EQ(compared.exitCode, 2) << arguments;
+    EXPECT_EQ(compared.out, "");
+    EXPECT_EQ(compared.error, line + "\n");
+  };
+  refuses("a.h5 none.h5", "none.h5: does not exist; expected a results file written by gamut run");
+  refuses("a.toml a.h5", "a.toml: not a Gamut results file; expected a results file written by gamut run");
+  refuses("a.h5", "gamut: second is required; see gamut compare --help");
+  refuses("a.h5 b.h5",
+          "gamut: a.h5 and b.h5: the output 'angle' is in rad in the first and in rad/s in the second; expected one "
+          "unit");
+  refuses("a.h5 c.h5",
+          "gamut: a.h5 and c.h5: no output is in both; expected results of studies with outputs of the same name");
+  refuses("a.h5 a.h5 --tolerances t.toml",
+          "t.toml:1:1: unknown key 'widr'; expected 'wider'? (one of: wider, gap, overestimation, shorter, cpu, "
+          "output)");
+}
+
+}  // namespace
+}  // namespace gamut

@@ -1,0 +1,283 @@
+// Two results: what contradicts and is a proof of an error, what only says that the models differ, and what is worse.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <ostream>
+#include <string>
+
+#include "studies/comparing/difference.hpp"
+#include "studies/study.hpp"
+#include "tests/studies/sample_results.hpp"
+#include "tests/studies/sample_study.hpp"
+
+namespace gamut {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+// ---- The same question ----------------------------------------------------------------------------------------------
+
+/// sampleResults(), in which nothing is in doubt, and the first output is no margin of a requirement.
+Results sound() {
+  Results results = sampleResults();
+  results.comparison.disputed.clear();
+  results.requirements[1].margin = 1;
+  results.distribution.gaps[0] = 0.5;
+  for (double& error : results.stochastic.error.data) error = 1e-12;
+  return results;
+}
+
+struct Case {
+  std::string name;
+  std::function<void(Results&)> change;  // of the second
+  std::string word;
+};
+
+void PrintTo(const Case& c, std::ostream* stream) { *stream << c.name; }
+
+class DifferenceOf : public testing::TestWithParam<Case> {};
+
+TEST_P(DifferenceOf, IsTheWordExpectedInBothOrders) {
+  const Results first = sound();
+  Results second = first;
+  GetParam().change(second);
+  EXPECT_EQ(compareResults(first, second).word, GetParam().word);
+  if (GetParam().word != "worse") {
+    EXPECT_EQ(compareResults(second, first).word, GetParam().word);
+  }
+}
+
+/// The distribution function of output 1 at the only time: its last value's bounds.
+void bound(Results& results, double lower, double upper) {
+  results.distribution.lower[5] = lower;
+  results.distribution.upper[5] = upper;
+}
+
+void move(Envelope& bounds, double by) {
+  for (Table* table : {&bounds.lower, &bounds.upper})
+    for (double& x : table->data) x += by;
+}
+
+/// Samples alone, one of which lies so far above the enclosure of the other results.
+void leave(Results& results, double distance) {
+  results.stochastic.envelope.upper(1, 0) = results.interval.at.upper(1, 0) + distance;
+  results.interval = {};
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Results, DifferenceOf,
+    testing::Values(
+        Case{"same", [](Results&) {}, "agree"},
+        Case{"alpha-cuts that touch", [](Results& r) { r.fuzzy.outer[2].upper(1, 0) += 0.005; }, "agree"},
+        Case{"alpha-cuts apart by one rounding",
+             [](Results& r) {
+               double& upper = r.fuzzy.outer[2].upper(1, 0);
+               r.fuzzy.outer[2].lower(1, 0) = upper = std::nextafter(upper, 12.0);
+             },
+             "error"},
+        Case{"enclosures apart", [](Results& r) { r.stochastic = {}, move(r.interval.at, 1.5); }, "error"},
+        Case{"enclosures over time apart", [](Results& r) { move(r.interval.over, 1000); }, "error"},
+        Case{"one enclosure is not known",
+             [](Results& r) { r.interval.at.lower(1, 0) = r.interval.at.upper(1, 0) = none; }, "agree"},
+        Case{"samples outside the other's enclosure", [](Results& r) { leave(r, 0.1); }, "error"},
+        Case{"samples outside by less than ten errors", [](Results& r) { leave(r, 5e-12); }, "agree"},
+        Case{"samples outside whose error is not known", [](Results& r) { leave(r, 0.1), r.stochastic.error = {}; },
+             "agree"},
+        Case{"distributions apart", [](Results& r) { bound(r, 0.9, 1); }, "error"},
+        Case{"distributions that touch", [](Results& r) { bound(r, 0.875, 0.875); }, "agree"},
+        Case{"means apart", [](Results& r) { r.sensitivity.meanLower[0] = r.sensitivity.meanUpper[0] = 1.75; },
+             "error"},
+        Case{"indices apart", [](Results& r) { r.sensitivity.firstLower[0] = r.sensitivity.firstUpper[0] = 0.25; },
+             "error"},
+        Case{"total indices apart", [](Results& r) { r.sensitivity.totalLower[0] = r.sensitivity.totalUpper[0] = 1; },
+             "error"},
+        Case{"a requirement met and violated",
+             [](Results& r) { r.requirements[0].word = "violated", r.requirements[0].met = 0; }, "error"},
+        Case{"a requirement met and violated for some",
+             [](Results& r) { r.requirements[0].word = "partly", r.requirements[0].met = 0; }, "error"},
+        Case{"parts that are all of the box", [](Results& r) { r.requirements[1].met = 0.75; }, "agree"},
+        Case{"parts that are more than the box by a rounding",
+             [](Results& r) { r.requirements[1].met = std::nextafter(0.75, 1.0); }, "error"},
+        Case{"probabilities of a requirement apart",
+             [](Results& r) { r.requirements[1].probabilityLower = r.requirements[1].probabilityUpper = 0.75; },
+             "error"},
+        Case{"possibilities of a requirement apart",
+             [](Results& r) { r.requirements[1].violationLeast = r.requirements[1].violationMost = 0.75; }, "error"},
+        Case{"another demand", [](Results& r) { r.requirements[0].word = "violated", r.requirements[0].until = 0.01; },
+             "agree"},
+        Case{"wider", [](Results& r) { r.interval.at.upper(1, 0) += 0.02; }, "worse"},
+        Case{"a wider alpha-cut", [](Results& r) { r.fuzzy.outer[1].upper(1, 0) += 0.02; }, "worse"},
+        Case{"an alpha-cut of nearly no width", [](Results& r) { r.fuzzy.outer[2].upper(1, 0) += 1e-3; }, "agree"},
+        Case{"without bounds", [](Results& r) { r.interval.at.upper(1, 0) = std::numeric_limits<double>::infinity(); },
+             "worse"},
+        Case{"a wider gap", [](Results& r) { r.distribution.gaps[0] = 0.8; }, "worse"},
+        Case{"shorter", [](Results& r) { r.interval.reached = 0.005; }, "worse"},
+        Case{"a requirement not met any more",
+             [](Results& r) {
+               r.requirements[0].word = "open";
+               r.requirements[0].met = r.requirements[0].factor = r.requirements[0].probabilityLower = 0;
+             },
+             "worse"},
+        Case{"a violation not known any more",
+             [](Results& r) {
+               r.requirements[1].word = "open";
+               r.requirements[1].met = r.requirements[1].violated = 0;
+             },
+             "worse"}));
+
+TEST(Difference, NamesTheFarthestOfAllTimes) {
+  const Results first = sound();
+  Results second = first;
+  second.stochastic = {};
+  move(second.interval.at, 1.5);
+  second.interval.at.lower(1, 1) += 1;
+  second.interval.at.upper(1, 1) += 1;
+  const Difference difference = compareResults(first, second);
+  ASSERT_EQ(difference.contradictions.found.size(), 4U);  // enclosures of both outputs, and samples of the first
+  const Contradiction& c = difference.contradictions.found[1];
+  EXPECT_EQ(c.of, Contradiction::Of::enclosure);
+  EXPECT_EQ(c.name, "energy");
+  EXPECT_EQ(c.time, 0.01);
+  EXPECT_THAT(c.times, ElementsAre(0, 0.01));
+  EXPECT_DOUBLE_EQ(c.distance, 1.5);
+  EXPECT_TRUE(c.isProof);
+}
+
+TEST(Difference, KeepsSamplesThatTheirOwnRunDoubtsFromBeingAProof) {
+  const Results first = sound();
+  Results second = first;
+  leave(second, 0.1);
+  second.comparison.disputed = {{17, 1, 0, 11.2, 10.1, 11.1, 0.1, 1e-9, "unresolved", false, -1, {0.2, 0}}};
+  const Difference difference = compareResults(first, second);
+  EXPECT_THAT(difference.contradictions.found, IsEmpty());
+  EXPECT_EQ(difference.contradictions.undecided.size(), 1U);
+}
+
+TEST(Difference, TellsWhatOnlyOneHas) {
+  const Results first = sound();
+  Results second = first;
+  second.outputs[1].name = "work";
+  second.time = {0, 0.01, 0.03};
+  second.fuzzy = {};
+  const Shared shared = sharedOf(first, second);
+  EXPECT_EQ(shared.outputs.size(), 1U);
+  EXPECT_THAT(shared.otherOutputs.first, ElementsAre("energy"));
+  EXPECT_THAT(shared.otherOutputs.second, ElementsAre("work"));
+  EXPECT_EQ(shared.times.size(), 2U);
+  EXPECT_EQ(shared.otherTimes.second, 1U);
+  EXPECT_THAT(shared.otherAnswers.first, ElementsAre("alpha-cuts"));
+}
+
+TEST(Difference, IsRefusedWhereNothingIsInBoth) {
+  const auto refuses = [](const std::function<void(Results&)>& change) {
+    Results second = sound();
+    change(second);
+    EXPECT_THROW(compareResults(sound(), second), NotComparable);
+  };
+  refuses([](Results& r) { r.outputs[0].name = "a", r.outputs[1].name = "b"; });
+  refuses([](Results& r) { r.outputs[0].unit = "mm"; });
+  refuses([](Results& r) { r.time = {0.001, 0.002, 0.003}; });
+}
+
+TEST(Difference, CountsWhatTheTolerancesSay) {
+  const Results first = sound();
+  Results second = first;
+  second.cpu = 5;
+  second.comparison.maximumOf[0] = 13;
+  second.interval.at.upper(1, 0) += 0.02;
+  Tolerances tolerances;
+  EXPECT_EQ(compareResults(first, second, tolerances).excesses.size(), 1U);
+  tolerances.cpu = 2;
+  tolerances.overestimation = 0.05;
+  EXPECT_EQ(compareResults(first, second, tolerances).excesses.size(), 3U);
+  tolerances.of["tip height"].wider = 0.05;
+  EXPECT_EQ(compareResults(first, second, tolerances).excesses.size(), 1U);
+}
+
+// ---- Whether it is the same question --------------------------------------------------------------------------------
+
+Results resultsOf(const std::string& text) {
+  const Study study = readStudyText(text, "s.toml");
+  Results results;
+  results.studyText = text;
+  results.studyFile = "s.toml";
+  results.outputs = study.outputs;
+  results.time = study.motion.times;
+  for (const UncertainQuantity& of : study.uncertain)
+    results.uncertain.push_back({of.uncertain.name, of.quantity, of.unit, of.uncertain.range.lower(),
+                                 of.uncertain.nominal, of.uncertain.range.upper(), "uniform", "triangular"});
+  return results;
+}
+
+Relation relationWith(const std::string& old, const std::string& replacement) {
+  const Results first = resultsOf(sampleStudy), second = resultsOf(sampleStudyWith(old, replacement));
+  return relationOf(first, second, sharedOf(first, second));
+}
+
+TEST(RelationOfStudies, IsTheSameQuestionWhateverTheWordsAndSettings) {
+  for (const auto& [old, replacement] :
+       {std::pair("samples = 16", "samples = 32"), std::pair("250 g", "0.25 kg"),
+        std::pair("\"30 deg\"", "\"1/6 pi rad\""), std::pair("output_step = 0.1", "output_step = 0.05"),
+        std::pair("name = \"start\"", "name = \"begin\"")}) {
+    SCOPED_TRACE(replacement);
+    const Relation relation = relationWith(old, replacement);
+    EXPECT_FALSE(relation.isSameText);
+    EXPECT_TRUE(relation.isSameQuestion()) << relation.why;
+    EXPECT_TRUE(relation.hasSameMemberships);
+    EXPECT_THAT(relation.isSameOutput, ElementsAre(1, 1));
+  }
+}
+
+TEST(RelationOfStudies, KnowsWhichIntervalsHoldTheOthers) {
+  const Relation wider = relationWith("± 1 %", "± 2 %");
+  EXPECT_TRUE(wider.isSameMotion && wider.isFirstInSecond && wider.areShared);
+  EXPECT_FALSE(wider.isSecondInFirst || wider.hasSameDistributions || wider.isSameQuestion());
+  const Relation overlap = relationWith("± 1 %", "+2 / -0.5 %");
+  EXPECT_TRUE(overlap.areShared);
+  EXPECT_FALSE(overlap.isFirstInSecond || overlap.isSecondInFirst);
+  const Relation apart = relationWith("angle = \"30 deg\"", "angle = \"40 deg\"");
+  EXPECT_TRUE(apart.isSameMotion);
+  EXPECT_FALSE(apart.areShared);
+}
+
+TEST(RelationOfStudies, KnowsAQuantityThatIsUncertainInOneAlone) {
+  const Relation relation = relationWith(
+      "[[output]]", "[[uncertain]]\nquantity = \"bob.mass\"\ninterval = [\"240 g\", \"260 g\"]\n[[output]]");
+  EXPECT_TRUE(relation.isSameMotion && relation.isFirstInSecond && relation.areShared);
+  EXPECT_FALSE(relation.isSecondInFirst || relation.hasSameDistributions);
+}
+
+TEST(RelationOfStudies, SaysInWhichNumbersMotionsDiffer) {
+  const Relation relation = relationWith("-9.81", "-9.8");
+  EXPECT_FALSE(relation.isSameMotion);
+  EXPECT_THAT(relation.differences, ElementsAre("gravity.z is -9.81 m/s^2 in A, -9.8 m/s^2 in B"));
+  const Relation start = relationWith("rate = 0.5", "rate = 0.25");
+  EXPECT_FALSE(start.isSameMotion);
+  EXPECT_THAT(start.differences, ElementsAre("hinge.rate is 0.5 rad/s in A, 0.25 rad/s in B"));
+}
+
+TEST(RelationOfStudies, TellsAnOutputThatIsAnotherFunctionOfTheSameMotion) {
+  const Relation relation =
+      relationWith("name = \"angle\"\nquantity = \"hinge.angle\"", "name = \"angle\"\nquantity = \"2*hinge.angle\"");
+  EXPECT_TRUE(relation.isSameMotion);
+  EXPECT_THAT(relation.isSameOutput, ElementsAre(0, 1));
+}
+
+TEST(RelationOfStudies, IsNotAssumedOfAStudyThatCannotBeRead) {
+  const Results first = sound();
+  Results second = first;
+  second.studyText = "[study";
+  const Relation relation = relationOf(first, second, sharedOf(first, second));
+  EXPECT_FALSE(relation.isSameMotion || relation.areShared);
+  EXPECT_NE(relation.why, "");
+  move(second.interval.at, 100);
+  EXPECT_EQ(compareResults(first, second).word, "incompatible");
+}
+
+}  // namespace
+}  // namespace gamut
