@@ -80,7 +80,8 @@ std::string excessText(const Excess& e, bool moves) {
     case Of::enclosure:
       return ofWidth("the enclosure");
     case Of::alphaCuts:
-      return ofWidth("an alpha-cut");
+      return fmt::format("an alpha-cut is wider by {} of the widest{} ({} is tolerated)", atMostText(e.is - 1, 3),
+                         moves ? " at " + timeText(e.time) : "", numberText(e.allowed - 1, 6));
     case Of::overestimation:
       return fmt::format("the overestimation is {} times as great ({} is tolerated)", atMostText(e.is, 5),
                          numberText(e.allowed, 6));
@@ -145,7 +146,8 @@ Rows withoutEmptyColumns(const Rows& rows) {
 }
 
 std::string outputsTable(const Changes& changes, bool moves) {
-  Rows rows{{"widths, B over A", "least", "at", "greatest", "at", "alpha-cuts", "overestimation A / B", "gap A / B"}};
+  Rows rows{{"widths, B over A", "least", "at", "greatest", "at", "alpha-cuts (greatest)", "overestimation A / B",
+             "gap A / B"}};
   for (const OutputChange& output : changes.outputs) {
     if (output.isMargin) continue;
     const WidthRatio& ratio = output.enclosure;

@@ -90,11 +90,13 @@ std::string contradictionText(const Contradiction& c, bool moves) {
 
 std::string contradictionsText(const std::vector<Contradiction>& found, bool moves) {
   std::vector<std::string> lines, names;
+  const bool isProved = std::ranges::any_of(found, &Contradiction::isProof);
   for (const Contradiction& c : found) {
     const auto known = std::ranges::find(names, c.name);
     if (known == names.end()) {
       names.push_back(c.name);
-      lines.push_back(fmt::format("  {}: {}", c.name, contradictionText(c, moves)));
+      lines.push_back(fmt::format("  {}: {}{}", c.name, contradictionText(c, moves),
+                                  isProved && !c.isProof ? " (of another question: no error)" : ""));
     } else if (std::string& line = lines[static_cast<std::size_t>(known - names.begin())];
                line.find(nameOf(c)) == std::string::npos && c.of != Contradiction::Of::tube) {
       line += (line.find("; likewise ") == std::string::npos ? "; likewise " : ", ") + nameOf(c);

@@ -1,5 +1,5 @@
-// Ratios of widths, and what stands beside them. Nothing here is a proof: widths that are no more than rounding, or
-// than what a point of the widest cut is known to, are not told apart.
+// Ratios of widths, and what stands beside them. Nothing here is a proof: widths that are no more than rounding are not
+// told apart.
 #include "studies/comparing/changes.hpp"
 
 #include <algorithm>
@@ -15,7 +15,6 @@ namespace gamut {
 namespace {
 
 constexpr double negligible = 1e-9;  // of an output's magnitude: what is narrower is known to some roundings
-constexpr double narrowCut = 0.01;   // of the widest cut: one of hardly any value is as wide as its rounding
 
 double widthOf(const Bounds& bounds, std::size_t time, std::size_t output) {
   return bounds.upper(time, output) - bounds.lower(time, output);
@@ -30,13 +29,18 @@ double greatestMagnitude(const Bounds& bounds, std::size_t output) {
   return greatest;
 }
 
-/// Takes the ratio at a time into account. Two infinite widths say nothing.
-void take(WidthRatio& ratio, double width, double otherWidth, double least, double time) {
-  if (std::isnan(width) || std::isnan(otherWidth) || (std::isinf(width) && std::isinf(otherWidth))) return;
-  const double of = std::max(width, least), ofOther = std::max(otherWidth, least);
-  const double found = of == ofOther ? 1 : ofOther / of;
+/// Takes a ratio into account; NaN says nothing.
+void take(WidthRatio& ratio, double found, double time) {
+  if (std::isnan(found)) return;
   if (!(ratio.least <= found)) ratio.least = found, ratio.leastTime = time;
   if (!(ratio.greatest >= found)) ratio.greatest = found, ratio.greatestTime = time;
+}
+
+/// Of widths that are not below the least; NaN of two that are infinite.
+double ratioOf(double width, double otherWidth, double least) {
+  const double of = std::isnan(width) ? width : std::max(width, least),
+               ofOther = std::isnan(otherWidth) ? otherWidth : std::max(otherWidth, least);
+  return of == ofOther && std::isfinite(of) ? 1 : ofOther / of;
 }
 
 class Finder {
@@ -64,7 +68,7 @@ class Finder {
     const double least =
         negligible * std::max(greatestMagnitude(one, output.first), greatestMagnitude(other, output.second));
     for (const auto& [i, j] : shared_.times)
-      take(ratio, widthOf(one, i, output.first), widthOf(other, j, output.second), least, a_.time[i]);
+      take(ratio, ratioOf(widthOf(one, i, output.first), widthOf(other, j, output.second), least), a_.time[i]);
     return ratio;
   }
 
@@ -76,9 +80,10 @@ class Finder {
                                                   greatestMagnitude(others.front(), output.second));
     for (const auto& [level, otherLevel] : sharedNumbers(a_.fuzzy.alpha, b_.fuzzy.alpha))
       for (const auto& [i, j] : shared_.times) {
-        const double widest = widthOf(cuts.front(), i, output.first);
-        take(ratio, widthOf(cuts[level], i, output.first), widthOf(others[otherLevel], j, output.second),
-             std::isfinite(widest) ? std::max(rounding, narrowCut * widest) : rounding, a_.time[i]);
+        const double widest = std::max(rounding, widthOf(cuts.front(), i, output.first));
+        const double more =
+            widthOf(others[otherLevel], j, output.second) - widthOf(cuts[level], i, output.first);  // NaN of infinite
+        take(ratio, widest > 0 ? 1 + more / widest : ratioOf(0, more, 0), a_.time[i]);
       }
     return ratio;
   }

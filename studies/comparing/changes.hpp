@@ -22,8 +22,11 @@ struct WidthRatio {
 
 struct OutputChange {
   std::string name, unit;
-  bool isMargin = false;            ///< of a requirement, whose own answer says what its width is good for
-  WidthRatio enclosure, alphaCuts;  ///< of the cuts of all levels that both have
+  bool isMargin = false;  ///< of a requirement, whose own answer says what its width is good for
+  WidthRatio enclosure;
+  /// 1 and what a cut is wider by, of all levels that both have, as a part of the first's widest cut at that time:
+  /// narrow cuts are of hardly any value, and as wide as what steps leave over.
+  WidthRatio alphaCuts;
   Both<double> overestimation{WidthRatio::unknown, WidthRatio::unknown};  ///< the greatest; NaN where unknown
   Both<double> gap{WidthRatio::unknown, WidthRatio::unknown};  ///< of the bounds of probabilities, likewise, at times
                                                                ///< that both have
