@@ -130,8 +130,7 @@ Json statisticsObject(const Results& results) {
     for (std::size_t q = 0; q < s.probabilities.size(); ++q)
       of["quantiles"][fmt::format("{}", s.probabilities[q])] = {
           {"value", number(atLevel(s.quantiles, q, k))},
-          {"interval",
-           Json::array({number(atLevel(s.quantileLower, q, k)), number(atLevel(s.quantileUpper, q, k))})}};
+          {"interval", Json::array({number(atLevel(s.quantileLower, q, k)), number(atLevel(s.quantileUpper, q, k))})}};
   }
   Json failed = Json::array();
   for (const FailedSampleResult& f : s.failed)
@@ -174,9 +173,9 @@ Json sensitivityObject(const Results& results) {
       Json shares = Json::object();
       for (std::size_t q = 0; q < quantities; ++q) {
         const std::size_t i = cell * quantities + q;
-        shares[results.uncertain[q].name] = {
-            {"first", Json::array({number(s.firstLower[i]), number(s.firstUpper[i])})},
-            {"total", Json::array({number(s.totalLower[i]), number(s.totalUpper[i])})}};
+        shares[results.uncertain[q].name] = {{"first", Json::array({number(s.firstLower[i]), number(s.firstUpper[i])})},
+                                             {"total", Json::array({number(s.totalLower[i]), number(s.totalUpper[i])})},
+                                             {"pinched", s.pinched.empty() ? Json(nullptr) : number(s.pinched[i])}};
         if (s.firstSampled.empty()) continue;
         Json& of = shares[results.uncertain[q].name];
         of["first_sampled"] = Json::array({number(s.firstSampled[i]), number(s.firstError[i])});

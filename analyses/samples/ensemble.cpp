@@ -132,20 +132,24 @@ std::vector<Box> cutsOf(const std::vector<Uncertain>& uncertain, const std::vect
 }
 
 /// The sampling, after a look at what it shall be of. The cuts whose corners are corners of the ranges, or the centre,
-/// are left out.
-Sampling plannedSampling(const UncertainMotion& system, const EnsembleOptions& options) {
+/// are left out; the levels of the others become `levels`.
+Sampling plannedSampling(const UncertainMotion& system, const EnsembleOptions& options, std::vector<double>& levels) {
   system.check();
   if (!(options.tolerance.relative > 0) || !(options.tolerance.absolute > 0))
     throw std::invalid_argument("the tolerances of an ensemble must be positive");
-  std::vector<Box> boxes = cutsOf(system.uncertain, options.alpha);
-  std::erase_if(boxes, [&](const Box& box) {
+  std::vector<Box> boxes;
+  levels.clear();
+  for (const double level : options.alpha) {
+    Box box = cutsOf(system.uncertain, {level}).front();
     bool isRange = true, isCentre = true;
     for (std::size_t j = 0; j < box.size(); ++j) {
       isRange = isRange && isEqual(box[j], system.uncertain[j].range);
       isCentre = isCentre && isEqual(box[j], Interval(system.uncertain[j].nominal));
     }
-    return isRange || isCentre;
-  });
+    if (isRange || isCentre) continue;
+    boxes.push_back(std::move(box));
+    levels.push_back(level);
+  }
   return Sampling(options.plan, system.uncertain.size(), options.samples, options.seed, std::move(boxes));
 }
 
@@ -193,7 +197,7 @@ void UncertainMotion::check() const {
 EnsembleRun::EnsembleRun(const UncertainMotion& system, EnsembleOptions options)
     : system_(system),
       options_(std::move(options)),
-      sampling_(plannedSampling(system, options_)),
+      sampling_(plannedSampling(system, options_, cornerLevels_)),
       cuts_(cutsOf(system.uncertain, options_.alpha)),
       reachedTimes_(system.motion.times.size()),
       error_(system.motion.times.size(), system.motion.outputs()),
@@ -407,7 +411,8 @@ SampleBlock integrateValues(const UncertainMotion& system, const EnsembleOptions
 }
 
 SampleBlock replaySample(const UncertainMotion& system, const EnsembleOptions& options, std::size_t number) {
-  Sampling sampling = plannedSampling(system, options);
+  std::vector<double> levels;
+  Sampling sampling = plannedSampling(system, options, levels);
   if (number >= sampling.size()) throw std::invalid_argument("no sample has the number " + std::to_string(number));
   const bool hasWeight = number < sampling.samples();
   const std::size_t zone = hasWeight ? 0 : sampling.samples(), end = hasWeight ? sampling.samples() : sampling.size();

@@ -86,6 +86,8 @@ class EnsembleRun {
 
   const EnsembleOptions& options() const { return options_; }
   const Sampling& sampling() const { return sampling_; }
+  /// At which levels the cuts are that the sampling has corners of.
+  const std::vector<double>& cornerLevels() const { return cornerLevels_; }
   /// 64, or 1 where samples are integrated one by one.
   std::size_t packWidth() const;
   /// Samples that count in the statistics: those of the plan, unless cancelled.
@@ -129,6 +131,7 @@ class EnsembleRun {
 
   const UncertainMotion& system_;
   EnsembleOptions options_;
+  std::vector<double> cornerLevels_;
   Sampling sampling_;
   std::vector<Box> cuts_;  // of each level of alpha
   std::vector<SampleBlock> first_;

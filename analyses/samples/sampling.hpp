@@ -59,6 +59,7 @@ class Sampling {
   /// Of all inner boxes together. Of each as many, 2^bits, as make no more than 1024 of all, but at least two: all of
   /// them for six quantities and sixteen boxes; for more an orthogonal array as above (up to 2^bits - 1 quantities).
   std::size_t boxCorners() const { return boxes_.size() * boxEnds_.count(); }
+  const std::vector<Box>& boxes() const { return boxes_; }
   std::size_t centre() const { return samples_ + corners() + boxCorners(); }
   std::size_t size() const { return centre() + 1; }
 

@@ -18,6 +18,19 @@ std::vector<Field> fieldsOf(FuzzyResult& r) {
         {alpha, time, output}}});
 }
 
+std::vector<Field> fieldsOfInfluence(InfluenceResult& r) {
+  constexpr std::string_view when = "/fuzzy/influence/time";
+  return {
+      {"time", &r.time, unit::second, "some output times", {when}},
+      {"share",
+       &r.share,
+       unit::one,
+       "share of a quantity in what deviations by equal shares of the quantities' values do to the output (measures "
+       "of influence after Hanss, from the corners of the cuts); NaN where none does anything",
+       {when, dimension::output, dimension::quantity},
+       allowed::share}};
+}
+
 }  // namespace
 
 std::string FuzzyResult::title() const { return "alpha-cuts"; }
@@ -26,6 +39,7 @@ std::string FuzzyResult::amount() const { return countText(static_cast<long long
 
 void FuzzyResult::describe(std::vector<Group>& groups) {
   groups.push_back(groupOf("/fuzzy", "what is possible: alpha-cuts of every output", *this, fieldsOf));
+  groups.push_back(groupOf("/fuzzy/influence", "how much each quantity matters", influence, fieldsOfInfluence));
 }
 
 }  // namespace gamut

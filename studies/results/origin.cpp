@@ -59,7 +59,7 @@ std::vector<Field> fieldsOfUncertain(UncertainInfo& u) {
            &u.inconsistency,
            unit::one,
            "by how much the probability of an event exceeds its possibility at most; 1/256 or less: probability and "
-           "possibility agree as far as was looked; NaN where not both are asked for",
+           "possibility agree as far as was looked",
            {},
            allowed::share}};
 }

@@ -16,8 +16,8 @@ struct UncertainInfo {
   double lower = 0, nominal = 0, upper = 0;
   std::string distribution, membership;  ///< by name: "uniform", "triangular", …
   /// By how much the probability of an event exceeds its possibility, at most, as a bound that is up to 1/256 too
-  /// great; NaN of what varies in time, and where not both are asked for.
-  double inconsistency = std::numeric_limits<double>::quiet_NaN();
+  /// great; 0 of what varies in time, which has neither.
+  double inconsistency = 0;
 };
 
 /// One of the numbers that a distribution or a membership function is made of.

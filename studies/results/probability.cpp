@@ -63,6 +63,13 @@ std::vector<Field> fieldsOf(SensitivityResult& s) {
        "of the total Sobol' index: the share that would stay on average if all other quantities were known",
        {when, output, quantity}},
       {"total_upper", &s.totalUpper, unit::one, "upper bound", {when, output, quantity}},
+      {"pinched",
+       &s.pinched,
+       unit::one,
+       "share by which the enclosure of the output narrows where the quantity has its nominal value alone; NaN but at "
+       "the times of distributions",
+       {when, output, quantity},
+       allowed::share},
       {"samples",
        &s.samples,
        unit::none,

@@ -40,7 +40,8 @@ struct SensitivityResult {
   std::vector<double> time;                                                  ///< s: output times
   std::vector<double> meanLower, meanUpper, deviationLower, deviationUpper;  ///< [time][output]
   std::vector<double> firstLower, firstUpper, totalLower, totalUpper;        ///< [time][output][quantity]
-  std::int64_t samples = 0;  ///< of the polynomials, from which indices are estimated besides
+  std::vector<double> pinched;  ///< [time][output][quantity], at the times of distributions alone
+  std::int64_t samples = 0;     ///< of the polynomials, from which indices are estimated besides
   std::vector<double> firstSampled, firstError, totalSampled, totalError;  ///< [time][output][quantity]
 };
 

@@ -8,6 +8,7 @@
 #include "analyses/probability/output_distribution.hpp"
 #include "analyses/probability/sobol_estimates.hpp"
 #include "analyses/probability/sobol_indices.hpp"
+#include "analyses/surrogate/pinching.hpp"
 #include "analyses/surrogate/surrogate_evaluator.hpp"
 #include "analyses/workers.hpp"
 #include "studies/running/flow_of_study.hpp"
@@ -248,7 +249,25 @@ class Probabilities {
         }
       };
     });
+    pinch(rows);
     estimateIndices(rows);
+  }
+
+  void pinch(const std::vector<std::size_t>& rows) {
+    const std::size_t all = run_.study.uncertain.size();
+    std::vector<double>& pinched = run_.results.sensitivity.pinched;
+    pinched.assign(rows.size() * count_ * all, unknown);
+    std::vector<double> nominal;
+    for (const std::size_t q : quantities_) nominal.push_back(run_.study.uncertain[q].uncertain.nominal);
+    forEachIndex(run_.options.jobs, rows.size() * outputs_.size(), run_.watch.stop(), [&] {
+      return [&](std::size_t i) {
+        const std::size_t row = i / outputs_.size(), k = i % outputs_.size();
+        if (!std::ranges::binary_search(rows_, rows[row])) return;
+        const std::vector<double> shares = pinchedShares(surrogate_, *partsAt(surrogate_, rows[row]), k, nominal);
+        for (std::size_t q = 0; q < quantities_.size(); ++q)
+          pinched[(row * count_ + static_cast<std::size_t>(outputs_[k])) * all + quantities_[q]] = shares[q];
+      };
+    });
   }
 
   void estimateIndices(const std::vector<std::size_t>& rows) {

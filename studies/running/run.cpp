@@ -1,6 +1,6 @@
 // The units of a run one after the other.
-#include "analyses/consistency.hpp"
 #include "studies/running/run.hpp"
+#include "analyses/consistency.hpp"
 
 #include <fmt/format.h>
 
@@ -52,8 +52,7 @@ void describeOrigin(Run& run) {
     };
     add("distribution", u.distribution.numbers());
     add("membership", u.membership.numbers());
-    if (study.asksFor<StochasticResult>() && study.asksFor<FuzzyResult>())
-      origin.uncertain.back().inconsistency = inconsistency(u.distribution, u.membership);
+    origin.uncertain.back().inconsistency = inconsistency(u.distribution, u.membership);
   }
 }
 

@@ -1,10 +1,13 @@
 // What is probable: samples, a first block of them before all that is proved, the others after it.
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <new>
+#include <optional>
 #include <utility>
 
 #include "analyses/comparison/settlement.hpp"
+#include "analyses/samples/influence.hpp"
 #include "analyses/samples/order_statistics.hpp"
 #include "studies/running/sample_keeper.hpp"
 #include "studies/running/sampled_study.hpp"
@@ -109,6 +112,35 @@ void describeSamples(Run& run) {
   }
 }
 
+/// Some output times.
+std::vector<std::size_t> rowsOfInfluence(const Run& run) {
+  constexpr std::size_t most = 64;
+  const std::size_t last = run.study.motion.times.size() - 1, count = std::clamp<std::size_t>(last, 1, most);
+  std::vector<std::size_t> rows;
+  for (std::size_t i = 0; i <= count; ++i)
+    if (const std::size_t row = i * last / count; rows.empty() || row > rows.back()) rows.push_back(row);
+  return rows;
+}
+
+/// Where there are alpha-cuts with corners.
+std::optional<InfluenceMeasures> measureInfluence(const Run& run) {
+  if (!run.study.asksFor<FuzzyResult>() || run.ensemble->sampling().boxes().empty()) return {};
+  return std::optional<InfluenceMeasures>(std::in_place, run.ensemble->sampling(), run.ensemble->cornerLevels(),
+                                          rowsOfInfluence(run), run.study.outputs.size());
+}
+
+/// At the times that all samples reached.
+void describeInfluence(Run& run, const InfluenceMeasures& measures) {
+  InfluenceResult& result = run.results.fuzzy.influence;
+  const std::vector<std::size_t> rows = rowsOfInfluence(run);
+  for (std::size_t at = 0; at < rows.size() && rows[at] < run.ensemble->reachedTimes(); ++at) {
+    result.time.push_back(run.study.motion.times[rows[at]]);
+    for (std::size_t output = 0; output < run.study.outputs.size(); ++output)
+      std::ranges::copy(measures.shares(at, output), std::back_inserter(result.share));
+  }
+  result.present = !result.time.empty();
+}
+
 }  // namespace
 
 void takeFirstSamples(Run& run) {
@@ -139,13 +171,16 @@ void takeOtherSamples(Run& run) {
     Settlement settlement(proved, run.problem.motion, comparisonOptions(run));
     SampleKeeper keeper(run.ensemble->sampling().size(), run.study.uncertain.size(),
                         run.study.motion.times.size() * run.study.outputs.size(), run.study.storage);
+    std::optional<InfluenceMeasures> influence = measureInfluence(run);
     run.ensemble->integrateOthers(settlement.boundsOf(0), [&](SampleBlock& block) {
       if (run.study.analysis == Study::Analysis::kinematics) moveSamples(run.study, run.problem, block);
       settlement.settle(block, [&](const Comparison& found, int level) { takeDisputes(run, found, level); });
       noteRequirements(run, block);
+      if (influence) influence->include(block);
       keeper.keep(block);
     });
     describeSamples(run);
+    if (influence) describeInfluence(run, *influence);
     run.results.stochastic.kept = keeper.take();
   });
 }

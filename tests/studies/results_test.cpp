@@ -104,9 +104,15 @@ TEST(Description, LeavesOutNoMember) {
   std::map<std::string_view, std::vector<Field>> fields;
   for (const Group& group : describe(r)) fields[group.path] = group.fields(0);
   EXPECT_LE(longestGap(r.interval, fields["/interval"], r.interval.present), padding);
-  EXPECT_LE(longestGap(r.stochastic, fields["/stochastic"], r.stochastic.present, r.stochastic.kept), padding);
+  EXPECT_LE(longestGap(r.stochastic, fields["/stochastic"], r.stochastic.present, r.stochastic.kept,
+                       r.stochastic.failed, r.stochastic.convergence),
+            padding);
+  EXPECT_LE(longestGap(r.stochastic.failed[0], fields["/stochastic/failed"]), padding);
+  EXPECT_LE(longestGap(r.stochastic.convergence, fields["/stochastic/convergence"], r.stochastic.convergence.present),
+            padding);
   EXPECT_LE(longestGap(r.stochastic.kept, fields["/stochastic/kept"], r.stochastic.kept.present), padding);
-  EXPECT_LE(longestGap(r.fuzzy, fields["/fuzzy"], r.fuzzy.present), padding);
+  EXPECT_LE(longestGap(r.fuzzy, fields["/fuzzy"], r.fuzzy.present, r.fuzzy.influence), padding);
+  EXPECT_LE(longestGap(r.fuzzy.influence, fields["/fuzzy/influence"], r.fuzzy.influence.present), padding);
   EXPECT_LE(longestGap(r.comparison, fields["/comparison"], r.comparison.present, r.comparison.disputed), padding);
   EXPECT_LE(longestGap(r.comparison.disputed[0], fields["/comparison/disputed"]), padding);
   EXPECT_LE(longestGap(r.requirements[0], fields["/requirements"]), padding);

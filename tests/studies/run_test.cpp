@@ -93,13 +93,13 @@ TEST(Run, ComparesAFirstBlockOfSamplesWithAnEnclosureThatIsInterrupted) {
 TEST(Run, QuantilesAreWithinTheirResolutionOfThoseOfTheSamplesThemselves) {
   const Study study = readStudyText(sampleStudy, "s.toml");
   RunOptions options;
-  options.samples = 700;
+  options.samples = 704;
   const StochasticResult found = run(study, options).stochastic;
   const Problem problem = makeProblem(study);
   EnsembleOptions ensemble = study.ensemble;
-  ensemble.samples = 700;
+  ensemble.samples = 704;
   std::vector<std::vector<double>> trajectories;
-  for (std::size_t i = 0; i < 700; ++i) trajectories.push_back(replaySample(problem.motion, ensemble, i).trajectory(0));
+  for (std::size_t i = 0; i < 704; ++i) trajectories.push_back(replaySample(problem.motion, ensemble, i).trajectory(0));
   for (std::size_t cell = 0; cell < trajectories[0].size(); ++cell) {
     std::vector<double> column;
     for (const std::vector<double>& trajectory : trajectories) column.push_back(trajectory[cell]);
@@ -107,7 +107,7 @@ TEST(Run, QuantilesAreWithinTheirResolutionOfThoseOfTheSamplesThemselves) {
     const double resolution = found.resolution.data[cell];
     EXPECT_LE(resolution, 1.01 * (column.back() - column.front()) / 4096 + 1e-9);
     for (std::size_t q = 0; q < found.probabilities.size(); ++q) {
-      const double position = found.probabilities[q] * 699, below = std::floor(position);
+      const double position = found.probabilities[q] * 703, below = std::floor(position);
       const auto k = static_cast<std::size_t>(below);
       const double exact = column[k] + (position - below) * (column[k + 1] - column[k]);
       EXPECT_LE(std::abs(found.quantiles[q].data[cell] - exact), resolution) << cell << ' ' << q;

@@ -36,7 +36,7 @@ inline Results sampleResults() {
   r.date = "2024-02-29T12:00:00Z";
   r.libraries = {{"HDF5", "1.10"}, {"SUNDIALS", "6.4"}};
   r.uncertain = {{"first angle", "shoulder.angle", "rad", 0.9, 1.0, 1.1, "uniform", "triangular"}};
-  r.uncertain[0].inconsistency = 0.25;
+  r.uncertain[0].inconsistency = 0.001;
   r.shapes = {{"first angle", "distribution", "lower", 0.9, "rad"}, {"first angle", "membership", "apex", 1.0, "rad"}};
   r.outputs = {{"tip height", "tip.position.z", "m"}, {"energy", "energy", "J"}};
   r.horizon = 0.02;
@@ -90,6 +90,7 @@ inline Results sampleResults() {
   r.fuzzy.outer = {sampleBounds(3, 2, 0.1, 1), sampleBounds(3, 2, 0.3, 0.6), sampleBounds(3, 2, 0.6, 0)};
   r.fuzzy.inner = {sampleBounds(3, 2, 0.2, 0.8), sampleBounds(3, 2, 0.4, 0.4), sampleBounds(3, 2, 0.6, 0)};
   r.fuzzy.cpu = 0.125;
+  r.fuzzy.influence = {true, {0, 0.02}, {0.5, nan, 1, 0.25}};
   r.comparison.present = true;
   r.comparison.verdict = "incomplete";
   r.comparison.why = "the run was interrupted";
@@ -163,6 +164,7 @@ inline Results sampleResults() {
   s.deviationUpper = {0.25, 0.5, nan, 0.125};
   s.firstLower = s.totalLower = {0.5, 0, nan, 0.25};
   s.firstUpper = s.totalUpper = {0.75, 1, nan, 0.5};
+  s.pinched = {0.5, nan, 0.125, 1};
   s.samples = 256;
   s.firstSampled = s.totalSampled = {0.625, nan, nan, 0.5};
   s.firstError = s.totalError = {0.03125, nan, nan, 0.25};

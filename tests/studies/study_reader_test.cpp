@@ -959,7 +959,7 @@ constexpr BadStudy badStudies[] = {
      "a distribution or membership with a support"},
     {"distribution = { type = \"uniform\" }", "distribution = { type = \"unifrom\" }",
      "s.toml:32:25: uncertain.distribution.type is \"unifrom\"; expected 'uniform'? (one of: uniform, triangular, "
-     "normal, beta, lognormal, weibull, gamma, exponential)"},
+     "normal, beta, lognormal, weibull, gamma, exponential, histogram, empirical, induced)"},
     {"distribution = { type = \"uniform\" }", "distribution = { }",
      "s.toml:32:16: 'uncertain.distribution.type' is missing; expected { type = \"uniform\" }"},
     {"distribution = { type = \"uniform\" }", "distribution = \"uniform\"",

@@ -32,7 +32,7 @@ TEST(JsonSummary, HasTheDocumentedKeys) {
   EXPECT_THAT(keysOf(json),
               ElementsAre("cost", "distribution", "enclosure", "envelope", "excursion", "files", "horizon",
                           "integrated", "limits", "overestimation", "reached", "requirements", "samples", "sensitivity",
-                          "shortfall", "tightness", "verdict", "version", "why"));
+                          "shortfall", "statistics", "tightness", "verdict", "version", "why"));
   EXPECT_THAT(keysOf(json["overestimation"]), ElementsAre("max", "median", "outputs"));
   EXPECT_THAT(keysOf(json["cost"]), ElementsAre("fuzzy", "interval", "memory", "report", "stochastic", "total"));
   EXPECT_THAT(keysOf(json["limits"]),
