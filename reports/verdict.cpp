@@ -47,7 +47,7 @@ std::string_view withoutTime(std::string_view why) {
 
 class Wording {
  public:
-  explicit Wording(const Results& results) : results_(results), verdict_{findVerdict(results), {}, {}} {}
+  explicit Wording(const Results& results) : results_(results), verdict_{findVerdict(results), {}, {}, {}} {}
 
   Verdict word() {
     noteDisputes();
@@ -106,7 +106,7 @@ class Wording {
                     atMostText(unlikely.distance, 3), results_.outputs[unlikely.output].name, when(unlikely.time)));
   }
 
-  /// Grave findings first. Of each kind the worst are named; of settled ones the one that came nearest to its bound.
+  /// Grave findings first. Of each kind the worst are named; settled ones are one line, and details of their own.
   void noteDisputes() {
     std::vector<const DisputedSample*> outside, doubtful, undecided, settled;
     std::set<std::int64_t> open, inside, rounding;
@@ -139,10 +139,7 @@ class Wording {
     noteSome(undecided, "seemed outside and were not decided", [&](const DisputedSample& /*sample*/) {
       return fmt::format("seemed outside and was not decided: {}.", whyUndecided());
     });
-    if (!settled.empty()) noteSettled(**std::ranges::min_element(settled, {}, relativeMargin), inside.size());
-    if (!rounding.empty())
-      note(fmt::format("{} more lie outside by no more than the rounding of their numbers, as these did.",
-                       rounding.size()));
+    noteSettled(std::move(settled), inside.size(), rounding.size());
   }
 
   /// Where samples coincide there is no ratio: what is guaranteed there may be wide all the same.
@@ -176,14 +173,27 @@ class Wording {
     return fmt::format("{} ({}{})", sampleName(sample.number), results_.outputs[sample.output].name, when(sample.time));
   }
 
-  void noteSettled(const DisputedSample& nearest, std::size_t count) {
-    if (count == 1)
-      return note(
-          fmt::format("{} seemed outside and was found inside, decided by {}.", whoIs(nearest), nearest.decided));
-    note(
-        fmt::format("{} samples seemed outside and were found inside when they were integrated more accurately, the "
-                    "nearest to its bound by {}: {}. The results name them all, in /comparison/disputed.",
-                    count, withUnit(margin(nearest), nearest.output), whoIs(nearest)));
+  void noteSettled(std::vector<const DisputedSample*> settled, std::size_t inside, std::size_t rounding) {
+    if (inside == 0 && rounding == 0) return;
+    const auto samples = [](std::size_t count) { return countText(static_cast<long long>(count), "sample"); };
+    std::string text =
+        inside == 0 ? samples(rounding) + " outside by no more than rounding"
+                    : fmt::format("{} on the boundary {} decided by higher precision: {}", samples(inside),
+                                  inside == 1 ? "was" : "were", inside == 1 ? "it lies inside" : "all lie inside");
+    if (inside > 0 && rounding > 0) text += fmt::format("; {} more outside by no more than rounding", rounding);
+    note(text + ".");
+    verdict_.settledNote = static_cast<std::int64_t>(verdict_.notes.size()) - 1;
+    std::ranges::stable_sort(settled, {}, relativeMargin);
+    std::set<std::int64_t> named;  // a sample is disputed once for each bound that it leaves
+    std::erase_if(settled, [&](const DisputedSample* sample) { return !named.insert(sample->number).second; });
+    constexpr std::size_t most = 20;
+    for (const DisputedSample* sample : settled) {
+      if (verdict_.settled.size() == most) break;
+      verdict_.settled.push_back(fmt::format("{}: inside by {}, decided by {}.", whoIs(*sample),
+                                             withUnit(margin(*sample), sample->output), sample->decided));
+    }
+    if (verdict_.settled.size() < settled.size() || rounding > 0)
+      verdict_.settled.emplace_back("The results name them all, in /comparison/disputed.");
   }
 
   /// How far it lies inside.

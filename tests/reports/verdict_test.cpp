@@ -387,7 +387,7 @@ TEST(Verdict, OfARunThatEndedWhileItBoundedProbabilitiesIsIncomplete) {
   EXPECT_EQ(judge(results).word, "inside");
 }
 
-TEST(Verdict, CountsTheSettledSamplesUnlessThereIsOneAlone) {
+TEST(Verdict, CountsTheSettledSamplesInOneLineAndNamesTheNearestBesides) {
   Results results = example::pendulum();
   for (int i = 0; i < 200; ++i) {  // of two bounds each
     DisputedSample& sample = dispute(results, 0, "Taylor 53 bits");
@@ -395,14 +395,21 @@ TEST(Verdict, CountsTheSettledSamplesUnlessThereIsOneAlone) {
     sample.value = sample.upper - (i == 187 ? 1e-6 : 2e-6);
   }
   dispute(results, 1e-6, "unresolved");
-  const std::vector<std::string> notes = judge(results).notes;
-  ASSERT_EQ(notes.size(), 2U);
-  EXPECT_THAT(notes.front(), HasSubstr("could not be decided"));
-  EXPECT_THAT(notes.back(), StartsWith("100 samples seemed outside and were found inside when"));
-  EXPECT_THAT(notes.back(), HasSubstr("the nearest to its bound by 1e-06 rad: Sample 93 (elbow angle at 2 s). The"));
+  const Verdict verdict = judge(results);
+  ASSERT_EQ(verdict.notes.size(), 2U);
+  EXPECT_THAT(verdict.notes.front(), HasSubstr("could not be decided"));
+  EXPECT_EQ(verdict.notes.back(), "100 samples on the boundary were decided by higher precision: all lie inside.");
+  EXPECT_EQ(verdict.settledNote, 1);
+  ASSERT_EQ(verdict.settled.size(), 21U);
+  EXPECT_EQ(verdict.settled.front(), "Sample 93 (elbow angle at 2 s): inside by 1e-06 rad, decided by Taylor 53 bits.");
+  EXPECT_EQ(verdict.settled.back(), "The results name them all, in /comparison/disputed.");
   Results other = example::pendulum();
   dispute(other, 1e-6, "Taylor 53 bits");
-  EXPECT_THAT(judge(other).notes, ElementsAre(HasSubstr("seemed outside and was found inside, decided by Tay")));
+  EXPECT_THAT(judge(other).notes,
+              ElementsAre("1 sample on the boundary was decided by higher precision: it lies inside."));
+  EXPECT_EQ(judge(other).settled.size(), 1U);
+  dispute(other, 1e-9, "rounding").number = 18;
+  EXPECT_THAT(judge(other).notes, ElementsAre(HasSubstr("it lies inside; 1 more outside by no more than rounding.")));
 }
 
 TEST(Verdict, NamesTheWorstOfManyThatLieOutsideOrCouldNotBeDecidedAndCountsTheOthers) {
