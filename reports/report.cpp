@@ -35,19 +35,24 @@ std::string filled(std::string_view skeleton, const Places& places) {
 
 /// What has a section of its own has its row here; one without content is left out.
 struct Section {
-  std::string_view title;
+  std::string_view title, name;  ///< the name in the style sheet
   std::string (*html)(const Report& report);
 };
 
-constexpr Section sections[] = {{"What was asked", askedSection},      {"The machine", machineSection},
-                                {"Figures", figuresSection},           {"Outputs", outputsSection},
-                                {"Probabilities", probabilitySection}, {"Provenance", provenanceSection}};
+constexpr Section sections[] = {{"Requirements", "demands", requirementsSection},
+                                {"What was asked", "asked", askedSection},
+                                {"The machine", "moving", machineSection},
+                                {"Figures", "numbers", figuresSection},
+                                {"Outputs", "outputs", outputsSection},
+                                {"Membership", "memberships", membershipSection},
+                                {"Probabilities", "probabilities", probabilitySection},
+                                {"Provenance", "origin", provenanceSection}};
 
 std::string sectionsOf(const Report& report) {
   std::string text;
-  for (const auto& [title, html] : sections)
+  for (const auto& [title, name, html] : sections)
     if (const std::string content = html(report); !content.empty())
-      text += fmt::format("<section>\n<h2>{}</h2>\n{}</section>\n", title, content);
+      text += fmt::format("<section class=\"{}\">\n<h2>{}</h2>\n{}</section>\n", name, title, content);
   return text;
 }
 
@@ -55,35 +60,32 @@ std::string sectionsOf(const Report& report) {
 std::string plottingPart(const std::string& data) {
   if (data.empty()) return {};
   return fmt::format(
-      "<script type=\"application/json\" id=\"numbers\">{}</script>\n<!--\n{}\n-->\n<script>{}</script>\n", data,
-      page::plottingLicence, page::plottingScript);
+      "<script type=\"application/json\" id=\"times\">{}</script>\n<!--\n{}\n-->\n<script>{}</script>\n"
+      "<script>{}</script>\n",
+      data, page::plottingLicence, page::plottingScript, page::script);
 }
 
-/// What moves the picture of the machine, and chooses times.
+/// What moves the picture of the machine, chooses times and copies figures.
 std::string movingPart(const Results& results) {
   std::string scripts;
   if (results.machine.present) scripts += fmt::format("<script>{}</script>\n", page::machineScript);
-  if (results.distribution.present) scripts += fmt::format("<script>{}</script>\n", page::probabilityScript);
-  return scripts;
+  return scripts + fmt::format("<script>{}</script>\n<script>{}</script>\n", page::momentsScript, page::keepScript);
 }
 
 }  // namespace
 
 std::string renderReport(const Results& results) {
-  const Report report{results, judge(results), outputPlots(results), probabilityPlots(results)};
+  const Report report{results, judge(results), outputPlots(results), membershipFigures(results),
+                      probabilityPlots(results)};
   return filled(page::skeleton, {{"title", escapeHtml(titleOf(results))},
                                  {"summary", escapeHtml(summaryLine(results))},
                                  {"style", std::string(page::style)},
                                  {"layers", report.outputs.style + report.probabilities.style},
                                  {"plottingStyle", report.outputs.data.empty() ? "" : std::string(page::plottingStyle)},
-                                 {"requirements", requirementsSection(results)},
-                                 {"word", report.verdict.word},
-                                 {"sentence", escapeHtml(report.verdict.sentence)},
-                                 {"notes", notesList(report.verdict)},
+                                 {"first", firstSection(report)},
                                  {"sections", sectionsOf(report)},
-                                 {"plotting", plottingPart(report.outputs.data)},
-                                 {"machine", movingPart(results)},
-                                 {"script", std::string(page::script)}});
+                                 {"scripts", fmt::format("<script>{}</script>\n", page::axesScript) +
+                                                 plottingPart(report.outputs.data) + movingPart(results)}});
 }
 
 void writeReport(const Results& results, const std::string& path) { replaceFile(path, renderReport(results)); }

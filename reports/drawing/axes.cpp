@@ -6,31 +6,42 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <vector>
+#include <utility>
 
 #include "reports/words.hpp"
 
 namespace gamut {
 namespace {
 
-/// Round numbers in a range, about `wanted` of them.
-std::vector<double> roundTicks(const Range& range, int wanted) {
-  const double raw = (range.high - range.low) / wanted;
-  const double power = std::pow(10.0, std::floor(std::log10(raw)));
-  const double step = power * (raw / power <= 1 ? 1 : raw / power <= 2 ? 2 : raw / power <= 5 ? 5 : 10);
-  std::vector<double> ticks;
-  if (!(step > 0) || !std::isfinite(step)) return ticks;
-  const double first = std::ceil(range.low / step);
-  for (int i = 0; i <= 3 * wanted && (first + i) * step <= range.high; ++i) ticks.push_back((first + i) * step + 0.0);
-  return ticks;
+/// "-12.3", ".4": tenths as a path takes them.
+void append(std::string& path, long long tenths, bool isFirst) {
+  if (tenths < 0) {
+    path += '-';
+  } else if (!isFirst) {
+    path += ' ';
+  }
+  const long long size = tenths < 0 ? -tenths : tenths;
+  if (size >= 10 || size == 0) path += std::to_string(size / 10);
+  if (size % 10 != 0) path += "." + std::to_string(size % 10);
 }
 
-/// Enough digits to tell neighbouring ticks apart.
-std::string tickText(double tick, const std::vector<double>& ticks) {
-  const double step = ticks.size() > 1 ? ticks[1] - ticks[0] : std::abs(tick);
-  if (std::abs(tick) < 1e-9 * step) return "0";
-  const double magnitude = std::max(std::abs(ticks.front()), std::abs(ticks.back()));
-  return numberText(tick, digitsFor(magnitude, step, 2));
+int orderOf(double x) { return static_cast<int>(std::floor(std::log10(x) + 1e-9)); }
+
+double roundStep(double raw) {
+  const double power = std::pow(10.0, std::floor(std::log10(raw)));
+  return power * (raw / power <= 1 ? 1 : raw / power <= 2 ? 2 : raw / power <= 5 ? 5 : 10);
+}
+
+std::string powerOfTen(int exponent) {
+  constexpr const char* raised[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  std::string text = exponent < 0 ? "10⁻" : "10";
+  for (const char digit : std::to_string(std::abs(exponent))) text += raised[digit - '0'];
+  return text;
+}
+
+/// "rad", "rad, × 10⁻⁹".
+std::string axisName(const std::string& name, const Ticks& ticks) {
+  return ticks.aside.empty() ? name : name.empty() ? ticks.aside : name + ", " + ticks.aside;
 }
 
 }  // namespace
@@ -52,40 +63,94 @@ void Range::hold(const Band& band) {
 
 Range Range::padded(double share) const {
   if (!(low <= high)) return {0, 1};
-  const double width = high - low;
-  const double pad = width > 0 ? share * width : std::max(0.5 * std::abs(low), 1e-12);
+  const double width = high - low, size = std::max(std::abs(low), std::abs(high));
+  constexpr double rounding = 1e-12;  // what is narrower is a constant
+  const double pad = width > rounding * size ? share * width : size > 0 ? 0.5 * size : 1;
   return {low - pad, high + pad};
+}
+
+/// The same as ticksOf in reports/page/axes.js.
+Ticks ticksOf(const Range& range, int wanted) {
+  Ticks ticks;
+  const double step = roundStep((range.high - range.low) / wanted),
+               size = std::max(std::abs(range.low), std::abs(range.high));
+  if (!(step > 0) || !std::isfinite(step) || !std::isfinite(size)) return ticks;
+  constexpr int mostDigits = 6;
+  double from = 0;
+  if (orderOf(size) - orderOf(step) >= mostDigits) {  // counted from a number with as few digits as the range allows
+    const double power = std::pow(10.0, orderOf(range.high - range.low) + 1);
+    from = std::round(0.5 * (range.low + range.high) / power) * power;
+    ticks.aside = numberText(from, std::min(17, orderOf(size) - orderOf(power) + 1)) + " + …";
+  }
+  const double first = std::ceil((range.low - from) / step), last = std::floor((range.high - from) / step);
+  const double greatest = step * std::max(std::abs(first), std::abs(last));
+  int exponent = greatest > 0 ? orderOf(greatest) : 0;
+  exponent = exponent >= 5 || exponent < -3 ? 3 * static_cast<int>(std::floor(exponent / 3.0)) : 0;
+  if (exponent != 0) ticks.aside += (ticks.aside.empty() ? "× " : " × ") + powerOfTen(exponent);
+  const int decimals = std::clamp(exponent - orderOf(step), 0, 12);
+  for (double k = first; k <= last && k <= first + 4 * wanted; ++k) {
+    ticks.at.push_back(from + k * step);
+    ticks.text.push_back(k == 0 ? "0" : fmt::format("{:.{}f}", k * step / std::pow(10.0, exponent), decimals));
+  }
+  return ticks;
+}
+
+void Pen::go(double x, double y) {
+  const long long toX = std::llround(10 * x), toY = std::llround(10 * y);
+  path_ += isDown_ ? 'l' : 'M';
+  append(path_, isDown_ ? toX - x_ : toX, true);
+  append(path_, isDown_ ? toY - y_ : toY, false);
+  isDown_ = true;
+  x_ = toX;
+  y_ = toY;
+}
+
+void Pen::close() {
+  path_ += 'Z';
+  isDown_ = false;
+}
+
+std::string Pen::take() {
+  isDown_ = false;
+  return std::exchange(path_, {});
 }
 
 double clipped(double value, const Range& range) {
   return std::isnan(value) ? value : std::clamp(value, range.low, range.high);
 }
 
-std::string openedDrawing(double height, const std::string& label) {
-  return fmt::format("<svg class=\"drawing\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">\n", paperWidth,
-                     height, escapeHtml(label));
+std::string openedDrawing(double height, const std::string& label, double width) {
+  return fmt::format("<svg class=\"drawing\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">\n", width, height,
+                     escapeHtml(label));
 }
 
 void drawHorizontalAxis(const Frame& frame, const std::string& name, int wanted, std::string& svg) {
   const double end = frame.height - marginBottom;
-  const auto ticks = roundTicks(frame.x, wanted);
-  for (const double tick : ticks) {
-    const double x = frame.across(tick);
-    fmt::format_to(std::back_inserter(svg), "<path class=\"grid\" d=\"M{:.1f} {:.1f}V{:.1f}\"/>", x, marginTop, end);
-    drawText("tick middle", x, end + 14, tickText(tick, ticks), svg);
+  const Ticks ticks = ticksOf(frame.x, wanted);
+  Pen grid;
+  for (std::size_t i = 0; i < ticks.at.size(); ++i) {
+    const double x = frame.across(ticks.at[i]);
+    grid.lift();
+    grid.go(x, marginTop);
+    grid.go(x, end);
+    drawText("tick middle", x, end + 14, ticks.text[i], svg);
   }
-  drawText("axis end", paperWidth - marginRight, frame.height - 5, name, svg);
+  fmt::format_to(std::back_inserter(svg), "<path class=\"grid\" d=\"{}\"/>", grid.take());
+  drawText("axis end", frame.width - marginRight, frame.height - 5, axisName(name, ticks), svg);
 }
 
 void drawVerticalAxis(const Frame& frame, const std::string& name, int wanted, std::string& svg) {
-  const auto ticks = roundTicks(frame.y, wanted);
-  for (const double tick : ticks) {
-    const double y = frame.down(tick);
-    fmt::format_to(std::back_inserter(svg), "<path class=\"grid\" d=\"M{:.1f} {:.1f}H{:.1f}\"/>", marginLeft, y,
-                   paperWidth - marginRight);
-    drawText("tick end", marginLeft - 6, y + 3.5, tickText(tick, ticks), svg);
+  const Ticks ticks = ticksOf(frame.y, wanted);
+  Pen grid;
+  for (std::size_t i = 0; i < ticks.at.size(); ++i) {
+    const double y = frame.down(ticks.at[i]);
+    grid.lift();
+    grid.go(marginLeft, y);
+    grid.go(frame.width - marginRight, y);
+    drawText("tick end", marginLeft - 6, y + 3.5, ticks.text[i], svg);
   }
-  drawText("axis", 4, 12, name, svg);
+  fmt::format_to(std::back_inserter(svg), "<path class=\"grid\" d=\"{}\"/>", grid.take());
+  drawText("axis", 4, 12, axisName(name, ticks), svg);
 }
 
 void drawText(std::string_view kind, double x, double y, const std::string& text, std::string& svg) {

@@ -23,6 +23,10 @@ class BarChart {
     Range values;
     double height = marginTop + marginBottom + 6;
     for (const Layer& layer : plot.layers) {
+      if (!layer.labels.empty()) {
+        for (const Band& band : layer.bands) values.hold(band);
+        height += rowHeight / 2;
+      }
       if (layer.kind == Layer::Kind::line) continue;
       if (layer.kind == Layer::Kind::stack) height += stackHead;
       for (const Band& band : layer.bands) {
@@ -42,6 +46,8 @@ class BarChart {
       if (plot_.layers[i].kind == Layer::Kind::band && isThere(plot_.layers[i].bands.front())) drawBar(i);
     for (const Layer& layer : plot_.layers)
       if (layer.kind == Layer::Kind::stack) drawStack(layer);
+    for (const Layer& layer : plot_.layers)
+      if (!layer.labels.empty()) drawAcross(layer);
     return svg_ + "</svg>\n";
   }
 
@@ -67,10 +73,24 @@ class BarChart {
     drawText("bar", marginLeft, y_ + 8, text, svg_);
     drawRectangle(layer, layer.bands.front(), y_ + 13, barHeight, text);
     for (++i; i < plot_.layers.size() && plot_.layers[i].kind == Layer::Kind::line; ++i)
-      if (const double value = plot_.layers[i].bands.front().lower[0]; std::isfinite(value))
+      if (const double value = plot_.layers[i].bands.front().lower[0];
+          std::isfinite(value) && plot_.layers[i].labels.empty())
         fmt::format_to(std::back_inserter(svg_), "<path class=\"{}\" d=\"M{:.1f} {:.1f}v{}\"/>\n", plot_.layers[i].name,
                        frame_.across(value), y_ + 11, barHeight + 4);
     y_ += rowHeight;
+  }
+
+  /// Numbers that all bars are held against, and what they are called.
+  void drawAcross(const Layer& layer) {
+    for (std::size_t i = 0; i < layer.bands.size(); ++i) {
+      const double x = frame_.across(layer.bands[i].lower[0]);
+      if (!std::isfinite(x)) continue;
+      fmt::format_to(std::back_inserter(svg_), "<path class=\"{}\" d=\"M{:.1f} {:.1f}V{:.1f}\"/>\n", layer.name, x,
+                     marginTop, frame_.height - marginBottom);
+      const bool isRight = x > 0.6 * paperWidth;
+      drawText(isRight ? "end label" : "label", x + (isRight ? -5 : 5), frame_.height - marginBottom - 5,
+               layer.labels[i], svg_);
+    }
   }
 
   void drawStack(const Layer& layer) {

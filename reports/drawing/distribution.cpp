@@ -14,11 +14,9 @@
 namespace gamut {
 namespace {
 
-constexpr std::size_t drawnValues = 120;
+constexpr std::size_t drawnValues = 100;
 
-struct Stairs {
-  std::vector<double> value, lower, upper, sampled;
-};
+}  // namespace
 
 Stairs stairsOf(const Results& results, std::size_t at, std::size_t output) {
   const DistributionResult& d = results.distribution;
@@ -36,48 +34,47 @@ Stairs stairsOf(const Results& results, std::size_t at, std::size_t output) {
   return stairs;
 }
 
-}  // namespace
-
 std::string drawDistribution(const Results& results, std::size_t at, std::size_t output, const std::string& label) {
   const Stairs stairs = stairsOf(results, at, output);
   const std::size_t count = stairs.value.size();
   if (count < 2) return {};
   Range values;
   values.hold(stairs.value);
-  const Frame frame{values.padded(0.02), {0, 1}, 230};
-  std::string svg = openedDrawing(frame.height, label), path;
+  const Frame frame{values.padded(0.02), {0, 1}, smallHeight, smallWidth};
+  std::string svg = openedDrawing(frame.height, label, frame.width);
+  Pen pen;
   const std::string& unit = results.outputs[output].unit;
-  drawHorizontalAxis(frame, results.outputs[output].name + (unit.empty() || unit == "1" ? "" : " (" + unit + ")"), 6,
+  drawHorizontalAxis(frame, results.outputs[output].name + (unit.empty() || unit == "1" ? "" : " (" + unit + ")"), 4,
                      svg);
   drawVerticalAxis(frame, "probability of no more", 5, svg);
-  const auto go = [&](const char* how, double value, double probability) {
-    fmt::format_to(std::back_inserter(path), "{}{:.1f} {:.1f}", how, frame.across(value),
-                   frame.down(std::clamp(probability, 0.0, 1.0)));
+  const auto go = [&](double value, double probability) {
+    pen.go(frame.across(value), frame.down(std::clamp(probability, 0.0, 1.0)));
   };
-  const auto finish = [&](const char* kind, const char* end) {
-    fmt::format_to(std::back_inserter(svg), "<path class=\"{}\" d=\"{}{}\"/>\n", kind, path, end);
-    path.clear();
+  const auto finish = [&](const char* kind) {
+    fmt::format_to(std::back_inserter(svg), "<path class=\"{}\" d=\"{}\"/>\n", kind, pen.take());
   };
   for (std::size_t i = 0; i + 1 < count; ++i) {
-    go(i == 0 ? "M" : "L", stairs.value[i], stairs.upper[i + 1]);
-    go("L", stairs.value[i + 1], stairs.upper[i + 1]);
+    go(stairs.value[i], stairs.upper[i + 1]);
+    go(stairs.value[i + 1], stairs.upper[i + 1]);
   }
   for (std::size_t i = count - 1; i-- > 0;) {
-    go("L", stairs.value[i + 1], stairs.lower[i]);
-    go("L", stairs.value[i], stairs.lower[i]);
+    go(stairs.value[i + 1], stairs.lower[i]);
+    go(stairs.value[i], stairs.lower[i]);
   }
-  finish("bounds", "Z");
+  pen.close();
+  finish("bounds");
   if (!std::isnan(stairs.sampled.front())) {
     const auto line = [&](double beside) {
-      for (std::size_t i = 0; i < count; ++i) go(i == 0 ? "M" : "L", stairs.value[i], stairs.sampled[i] + beside);
+      pen.lift();
+      for (std::size_t i = 0; i < count; ++i) go(stairs.value[i], stairs.sampled[i] + beside);
     };
     line(0);
-    finish("share", "");
-    if (const double band = results.distribution.band; band > 0)
-      for (const double side : {-band, band}) {
-        line(side);
-        finish("band", "");
-      }
+    finish("share");
+    if (const double band = results.distribution.band; band > 0) {
+      line(-band);
+      line(band);
+      finish("band");
+    }
   }
   return svg + "</svg>\n";
 }

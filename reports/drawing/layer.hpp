@@ -25,7 +25,7 @@ struct Colour {
 
 namespace colour {
 inline constexpr Colour blue{"#1f5f99", "#6fb1ec"}, violet{"#7a4fa3", "#c09be6"}, orange{"#c46a00", "#f0a03c"},
-    black{"#37424e", "#ccd5de"}, grey{"#8a97a5", "#7d8b99"};
+    black{"#37424e", "#ccd5de"}, grey{"#8a97a5", "#7d8b99"}, red{"#b3261e", "#ff8a80"}, green{"#1a7f4b", "#5cc98f"};
 }
 
 struct Style {
@@ -51,6 +51,11 @@ struct Layer {
   bool isInSpread = true;  ///< has a meaning around the middle
   std::vector<Band> bands = {};
   std::vector<double> levels = {};
+  std::vector<std::string> labels = {};  ///< at the end of each band, none or one
+
+  /// Numbers of the bands that are drawn over time: of a stack a few tell its shape, the widest and the narrowest among
+  /// them.
+  std::vector<std::size_t> shown() const;
 };
 
 /// One output of results as a line; empty if there are none.

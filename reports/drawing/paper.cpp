@@ -14,21 +14,22 @@
 namespace gamut {
 namespace {
 
-void drawPath(const std::string& path, const Layer& layer, std::string& svg) {
-  if (!path.empty()) fmt::format_to(std::back_inserter(svg), "<path class=\"{}\" d=\"{}\"/>\n", layer.name, path);
+void drawPath(Pen& pen, const Layer& layer, std::string& svg) {
+  if (!pen.isEmpty())
+    fmt::format_to(std::back_inserter(svg), "<path class=\"{}\" d=\"{}\"/>\n", layer.name, pen.take());
 }
 
 void drawLine(const std::vector<double>& time, const Line& line, const Frame& frame, const Layer& layer,
               std::string& svg) {
-  std::string path;
-  bool isDown = false;
+  Pen pen;
   for (std::size_t i = 0; i < line.size(); ++i) {
-    if (std::isfinite(line[i]))
-      fmt::format_to(std::back_inserter(path), "{}{:.1f} {:.1f}", isDown ? "L" : "M", frame.across(time[i]),
-                     frame.down(line[i]));
-    isDown = std::isfinite(line[i]);
+    if (std::isfinite(line[i])) {
+      pen.go(frame.across(time[i]), frame.down(line[i]));
+    } else {
+      pen.lift();
+    }
   }
-  drawPath(path, layer, svg);
+  drawPath(pen, layer, svg);
 }
 
 /// One closed outline for each stretch without gaps.
@@ -36,27 +37,24 @@ void drawBand(const std::vector<double>& time, const Band& band, const Frame& fr
               std::string& svg) {
   const auto missing = [&](std::size_t i) { return std::isnan(band.lower[i]) || std::isnan(band.upper[i]); };
   const std::size_t count = band.lower.size();
-  std::string path;
-  const auto add = [&](std::string_view move, std::size_t i, double value) {
-    fmt::format_to(std::back_inserter(path), "{}{:.1f} {:.1f}", move, frame.across(time[i]),
-                   frame.down(clipped(value, frame.y)));
+  Pen pen;
+  const auto add = [&](std::size_t i, double value) {
+    pen.go(frame.across(time[i]), frame.down(clipped(value, frame.y)));
   };
   for (std::size_t from = 0; from < count; ++from) {
     if (missing(from)) continue;
     std::size_t to = from;
     while (to + 1 < count && !missing(to + 1)) ++to;
-    for (std::size_t i = from; i <= to; ++i) add(i == from ? "M" : "L", i, band.upper[i]);
-    for (std::size_t i = to + 1; i-- > from;) add("L", i, band.lower[i]);
-    path += "Z";
+    for (std::size_t i = from; i <= to; ++i) add(i, band.upper[i]);
+    for (std::size_t i = to + 1; i-- > from;) add(i, band.lower[i]);
+    pen.close();
     from = to;
   }
-  drawPath(path, layer, svg);
+  drawPath(pen, layer, svg);
 }
 
-/// Of a stack a few bands tell the shape on paper: drawing more would only make the page heavier.
 void drawLayer(const std::vector<double>& time, const Layer& layer, const Frame& frame, std::string& svg) {
-  const std::size_t stride = std::max<std::size_t>(1, (layer.bands.size() + 3) / 5);
-  for (std::size_t i = 0; i < layer.bands.size(); i += stride) {
+  for (const std::size_t i : layer.shown()) {
     const Band& band = layer.bands[i];
     if (layer.style.fill > 0) {
       drawBand(time, band, frame, layer, svg);
@@ -64,6 +62,10 @@ void drawLayer(const std::vector<double>& time, const Layer& layer, const Frame&
       drawLine(time, band.lower, frame, layer, svg);
       drawLine(time, band.upper, frame, layer, svg);
     }
+    if (i < layer.labels.size() && !time.empty() && std::isfinite(band.lower.back()))
+      drawText("end label", paperWidth - marginRight - 4,
+               frame.down(band.lower.back()) + (frame.down(band.lower.back()) < marginTop + 16 ? 13 : -4),
+               layer.labels[i], svg);
   }
 }
 
@@ -82,8 +84,8 @@ Range valuesOf(const std::vector<Layer>& layers) {
 
 std::string drawLayers(const Plot& plot, const std::vector<Layer>& layers, const Frame& frame,
                        const std::string& axisName, int ticks, const std::string& label) {
-  std::string svg = openedDrawing(frame.height, label);
-  drawHorizontalAxis(frame, "time (s)", 8, svg);
+  std::string svg = openedDrawing(frame.height, label, frame.width);
+  drawHorizontalAxis(frame, "time (s)", frame.width < paperWidth ? 5 : 8, svg);
   drawVerticalAxis(frame, axisName, ticks, svg);
   for (const Layer& layer : layers) drawLayer(plot.time, layer, frame, svg);
   return svg + "</svg>\n";
@@ -96,17 +98,22 @@ std::string drawPlot(const Plot& plot, const std::string& label) {
   return drawLayers(plot, plot.layers, frame, plot.unit, 5, label);
 }
 
+std::string drawShares(const Plot& plot, const std::string& label) {
+  const Frame frame{timesOf(plot), {0, 1}, smallHeight, smallWidth};
+  return drawLayers(plot, plot.layers, frame, plot.unit, 5, label);
+}
+
 std::string drawRatios(const Plot& plot, const std::string& label) {
   if (plot.ratios.empty()) return {};
   Range values = valuesOf(plot.ratios);
   values.hold(1.0);
-  const Frame frame{timesOf(plot), values.padded(0.08), 130};
-  return drawLayers(plot, plot.ratios, frame, plot.ratios.front().words, 3, label);
+  const Frame frame{timesOf(plot), values.padded(0.08), 280};
+  return drawLayers(plot, plot.ratios, frame, plot.ratios.front().words, 5, label);
 }
 
-std::string drawKey(const Plot& plot) {
-  std::string key = "<ul class=\"keys\" aria-label=\"Key to the plot\">\n";
-  for (const Layer& layer : plot.layers)
+std::string drawKey(const std::vector<Layer>& layers, const std::string& label) {
+  std::string key = fmt::format("<ul class=\"keys\" aria-label=\"{}\">\n", escapeHtml(label));
+  for (const Layer& layer : layers)
     key += fmt::format("<li data-layer=\"{0}\"><span class=\"swatch {0}\"></span>{1}</li>\n", layer.name,
                        escapeHtml(layer.words));
   return key + "</ul>\n";

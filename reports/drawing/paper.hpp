@@ -11,13 +11,16 @@ namespace gamut {
 /// The layers over time, 720 x 280 units. `label` says for those who cannot see it what is drawn.
 std::string drawPlot(const Plot& plot, const std::string& label);
 
-/// The ratios over time, 720 x 130 units; empty where there are none.
+/// The same of shares, from 0 to 1.
+std::string drawShares(const Plot& plot, const std::string& label);
+
+/// The ratios over time, 720 x 280 units; empty where there are none.
 std::string drawRatios(const Plot& plot, const std::string& label);
 
 /// Kinematics: one bar a layer, stacks level by level; at the first time.
 std::string drawBars(const Plot& plot, const std::string& label);
 
-/// One entry a layer, on paper the key to the drawing. The script makes each a switch.
-std::string drawKey(const Plot& plot);
+/// One entry a layer, on paper the key to the drawings. The script makes each a switch.
+std::string drawKey(const std::vector<Layer>& layers, const std::string& label);
 
 }  // namespace gamut

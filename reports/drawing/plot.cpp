@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "reports/words.hpp"
 
@@ -46,6 +47,23 @@ Band outerHull(const Band& band, const std::vector<std::size_t>& kept) {
     }
   }
   return hull;
+}
+
+/// The least and the greatest of each two windows stand at their two kept times, in the order in which they came. The
+/// first and the last number stay.
+Line extremesOf(const Line& line, const std::vector<std::size_t>& kept) {
+  Line result = picked(line, kept);
+  for (std::size_t j = 1; j + 2 < result.size(); j += 2) {
+    std::size_t least = kept[j], greatest = kept[j];
+    for (std::size_t i = kept[j - 1] + 1; i < kept[j + 2]; ++i) {
+      if (line[i] < line[least]) least = i;
+      if (line[i] > line[greatest]) greatest = i;
+    }
+    if (std::isnan(result[j]) || std::isnan(result[j + 1])) continue;
+    result[j] = line[std::min(least, greatest)];
+    result[j + 1] = line[std::max(least, greatest)];
+  }
+  return result;
 }
 
 const Layer* frontMost(const std::vector<Layer>& layers, bool isLine) {
@@ -96,6 +114,35 @@ int Plot::digits() const {
   return std::max(8, digitsFor(magnitude, width, 5));
 }
 
+bool Plot::isThin() const {
+  constexpr double hairline = 0.1;    // of the height
+  constexpr double rounding = 1e-12;  // of the numbers
+  const Line centre = middle();
+  const auto [low, high] = [&] {
+    double least = INFINITY, greatest = -INFINITY;
+    for (const double x : centre)
+      if (std::isfinite(x)) least = std::min(least, x), greatest = std::max(greatest, x);
+    return std::pair(least, greatest);
+  }();
+  double width = 0;
+  for (const Layer& layer : layers) {
+    if (!layer.isInSpread || layer.kind == Layer::Kind::line || width > 0) continue;
+    const Band& band = layer.bands.front();
+    for (std::size_t i = 0; i < band.lower.size(); ++i)
+      if (std::isfinite(band.upper[i] - band.lower[i])) width = std::max(width, band.upper[i] - band.lower[i]);
+  }
+  return low <= high && width > rounding * std::max(std::abs(low), std::abs(high)) && width < hairline * (high - low);
+}
+
+std::vector<std::size_t> Layer::shown() const {
+  constexpr std::size_t most = 6;
+  std::vector<std::size_t> numbers;
+  const std::size_t count = std::min(bands.size(), most);
+  for (std::size_t i = 0; i < count; ++i)
+    numbers.push_back(count == 1 ? 0 : (i * (bands.size() - 1) + (count - 1) / 2) / (count - 1));
+  return numbers;
+}
+
 Plot aroundMiddle(const Plot& plot) {
   Plot around = plot;
   const Line middle = plot.middle();
@@ -116,7 +163,10 @@ Plot thinned(const Plot& plot, std::size_t points) {
   result.time = picked(plot.time, kept);
   for (auto* layers : {&result.layers, &result.ratios})
     for (Layer& layer : *layers)
-      for (Band& band : layer.bands) band = layer.isProved ? outerHull(band, kept) : picked(band, kept);
+      for (Band& band : layer.bands) {
+        const bool isBand = layer.kind != Layer::Kind::line && !band.upper.empty();
+        band = isBand ? outerHull(band, kept) : Band{extremesOf(band.lower, kept), {}};
+      }
   return result;
 }
 

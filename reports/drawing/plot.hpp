@@ -25,6 +25,8 @@ struct Plot {
   Line middle() const;
   /// What that is: the line's words, or "the middle".
   std::string middleName() const;
+  /// What is guaranteed, or else known best, is a hairline in the plot of the motion: its spread says more.
+  bool isThin() const;
   /// Significant digits that show the widths of what stands in the spread.
   int digits() const;
 };
@@ -33,7 +35,8 @@ struct Plot {
 Plot aroundMiddle(const Plot& plot);
 
 /// At most `points` times (at least 2). Drawn as straight lines between them, proved bands hold the full-resolution
-/// ones: each kept bound is the outermost from the kept time before to the kept time after.
+/// ones: each kept bound is the outermost from the kept time before to the kept time after. Other bands keep their
+/// extremes, and so do lines, at a time that is kept nearby.
 Plot thinned(const Plot& plot, std::size_t points);
 
 }  // namespace gamut

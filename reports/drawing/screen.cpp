@@ -1,78 +1,163 @@
-// Written number by number, since each bound is rounded in its own direction and to no more digits than a plot shows.
+// Each bound is rounded in its own direction and to no more digits than a plot shows.
 #include "reports/drawing/screen.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include "reports/words.hpp"
 
 namespace gamut {
 namespace {
 
+std::string join(const std::vector<std::string>& texts) {
+  std::string joined;
+  for (const std::string& text : texts) joined += (joined.empty() ? "" : ",") + text;
+  return "[" + joined + "]";
+}
+
 /// JSON knows no infinity, so what is not finite is null.
-void append(std::string& array, double number, const std::string& text) {
-  array += array.empty() ? "" : ",";
-  array += std::isfinite(number) ? text : "null";
+std::string plainLine(const Line& line, int digits) {
+  std::vector<std::string> texts;
+  for (const double x : line) texts.push_back(std::isfinite(x) ? numberText(x, digits) : "null");
+  return join(texts);
 }
 
-std::string lineText(const Line& line, int digits) {
-  std::string array;
-  for (const double number : line) append(array, number, numberText(number, digits));
-  return "[" + array + "]";
-}
+class Writer {
+ public:
+  explicit Writer(const Plot& plot) : scale_(scaleOf(plot)), decimals_(scale_) {}
 
-std::string bandText(const Band& band, int digits) {
-  std::string lower, upper;
-  for (std::size_t i = 0; i < band.lower.size(); ++i) {
-    const double least = band.lower[i], greatest = band.upper[i];
-    if (std::isfinite(least) && std::isfinite(greatest) && least <= greatest) {
-      const auto [below, above] = outwardText(least, greatest, digits);
-      append(lower, least, below);
-      append(upper, greatest, above);
-    } else {
-      append(lower, least, outwardText(least, least, digits).first);
-      append(upper, greatest, outwardText(greatest, greatest, digits).second);
+  int scale() const { return scale_; }
+  std::vector<double> wholes(const Line& line) const {
+    std::vector<double> numbers;
+    for (const double x : line) numbers.push_back(decimals_.nearest(x));
+    return numbers;
+  }
+
+  /// Counted from these whole numbers, of which none may be there.
+  std::string layers(const std::vector<Layer>& layers, const std::vector<double>& middle) const {
+    std::vector<std::string> texts;
+    for (const Layer& layer : layers) {
+      std::vector<std::string> bands;
+      for (const std::size_t i : layer.shown()) {
+        const Band& band = layer.bands[i];
+        const bool isLine = layer.kind == Layer::Kind::line;
+        bands.push_back(isLine ? "[" + from(band.lower, middle, &Decimals::nearest) + "]"
+                               : "[" + from(band.lower, middle, &Decimals::below) + "," +
+                                     from(band.upper, middle, &Decimals::above) + "]");
+      }
+      texts.push_back("\n" + layerText(layer, join(bands)));
     }
+    return join(texts);
   }
-  return "[[" + lower + "],[" + upper + "]]";
-}
 
-std::string layerText(const Layer& layer, int digits) {
-  using enum Layer::Kind;
-  const std::string_view kind = layer.kind == band ? "band" : layer.kind == line ? "line" : "stack";
-  std::string bands;
-  for (const Band& one : layer.bands) {
-    bands += bands.empty() ? "" : ",";
-    bands += layer.kind == line ? "[" + lineText(one.lower, digits) + "]" : bandText(one, digits);
+  static std::string ratios(const std::vector<Layer>& layers) {
+    std::vector<std::string> texts;
+    for (const Layer& layer : layers)
+      texts.push_back("\n" + layerText(layer, "[[" + plainLine(layer.bands.front().lower, 6) + "]]"));
+    return join(texts);
   }
-  return fmt::format(
-      R"({{"name":{},"kind":"{}","readout":{},"filled":{},"width":{},"dashed":{},"spread":{},"bands":[{}]}})",
-      jsonText(layer.name), kind, jsonText(layer.readout), layer.style.fill > 0, layer.style.width,
-      layer.style.isDashed, layer.isInSpread, bands);
-}
 
-std::string layersText(const std::vector<Layer>& layers, int digits) {
-  std::string text;
-  for (const Layer& layer : layers) text += (text.empty() ? "\n" : ",\n") + layerText(layer, digits);
-  return "[" + text + "]";
-}
+ private:
+  static int scaleOf(const Plot& plot) {
+    double size = 0;
+    for (const Layer& layer : plot.layers)
+      for (const Band& band : layer.bands)
+        for (const Line* line : {&band.lower, &band.upper})
+          for (const double x : *line)
+            if (std::isfinite(x)) size = std::max(size, std::abs(x));
+    constexpr int mostDigits = 15, least = -300;  // so that whole numbers are exact, and powers of ten finite
+    return size > 0 ? std::max(least,
+                               static_cast<int>(std::floor(std::log10(size))) + 1 - std::min(plot.digits(), mostDigits))
+                    : 0;
+  }
 
-std::string outputText(const Plot& plot) {
-  const int digits = plot.digits();
-  return fmt::format(R"({{"name":{},"unit":{},"middleName":{},"middle":{},"layers":{},"ratios":{}}})",
-                     jsonText(plot.name), jsonText(plot.unit), jsonText(plot.middleName()),
-                     lineText(plot.middle(), digits), layersText(plot.layers, digits), layersText(plot.ratios, 6));
-}
+  std::string from(const Line& line, const std::vector<double>& middle,
+                   double (Decimals::*rounded)(double) const) const {
+    std::vector<double> wholes;
+    for (std::size_t i = 0; i < line.size(); ++i)
+      wholes.push_back((decimals_.*rounded)(line[i]) - (i < middle.size() && std::isfinite(middle[i]) ? middle[i] : 0));
+    return secondDifferences(wholes);
+  }
+
+  static std::string layerText(const Layer& layer, const std::string& bands) {
+    using enum Layer::Kind;
+    std::vector<std::string> labels, levels;
+    for (const std::string& label : layer.labels) labels.push_back(jsonText(label));
+    for (const std::size_t i : layer.shown())
+      if (i < layer.levels.size()) levels.push_back(numberText(layer.levels[i], 6));
+    return fmt::format(
+        R"({{"name":{},"words":{},"kind":"{}","readout":{},"filled":{},"width":{},"dashed":{},"spread":{},)"
+        R"("labels":{},"levels":{},"bands":{}}})",
+        jsonText(layer.name), jsonText(layer.words),
+        layer.kind == band   ? "band"
+        : layer.kind == line ? "line"
+                             : "stack",
+        jsonText(layer.readout), layer.style.fill > 0, layer.style.width, layer.style.isDashed, layer.isInSpread,
+        join(labels), join(levels), bands);
+  }
+
+  int scale_;
+  Decimals decimals_;
+};
 
 }  // namespace
 
-void PlotData::add(const Plot& whole) {
-  const Plot plot = thinned(whole, plottedTimes);
-  time_ = lineText(plot.time, 17);
-  outputs_ += (outputs_.empty() ? "\n" : ",\n") + outputText(plot);
+Decimals::Decimals(int scale)
+    : scale_(scale), power_(std::strtod(fmt::format("1e{}", std::abs(scale)).c_str(), nullptr)) {}
+
+double Decimals::value(double whole) const { return scale_ < 0 ? whole / power_ : whole * power_; }
+
+double Decimals::nearest(double x) const {
+  return std::isfinite(x) ? std::round(scale_ < 0 ? x * power_ : x / power_) : NAN;
 }
 
-std::string PlotData::json() const { return "{\"time\":" + time_ + ",\"outputs\":[" + outputs_ + "]}"; }
+double Decimals::below(double x) const {
+  double whole = nearest(x);
+  while (value(whole) > x) --whole;
+  return whole;
+}
+
+double Decimals::above(double x) const {
+  double whole = nearest(x);
+  while (value(whole) < x) ++whole;
+  return whole;
+}
+
+std::string secondDifferences(const std::vector<double>& wholes) {
+  std::string text;
+  bool isFirst = true;
+  double value = 0, slope = 0;
+  for (const double whole : wholes) {
+    text += text.empty() ? "" : ",";
+    if (!std::isfinite(whole)) {
+      text += "null";
+      continue;
+    }
+    const double change = isFirst ? whole : whole - value - slope;
+    slope = isFirst ? 0 : whole - value;
+    value = whole;
+    isFirst = false;
+    text += fmt::format("{:.0f}", change + 0.0);
+  }
+  return "[" + text + "]";
+}
+
+std::string timeData(const Plot& plot) { return "{\"time\":" + plainLine(thinned(plot, plottedTimes).time, 17) + "}"; }
+
+std::string plotData(const Plot& whole) {
+  const Plot plot = thinned(whole, plottedTimes);
+  const Writer writer(whole);
+  const std::vector<double> middle = writer.wholes(plot.middle());
+  const bool isThinned = plot.time.size() < whole.time.size();
+  return fmt::format(
+      R"({{"name":{},"unit":{},"middleName":{},"thin":{},"scale":{},"middle":{},"layers":{},"around":{},"ratios":{}}})",
+      jsonText(plot.name), jsonText(plot.unit), jsonText(plot.middleName()), whole.isThin(), writer.scale(),
+      secondDifferences(middle), writer.layers(plot.layers, middle),
+      isThinned ? writer.layers(thinned(aroundMiddle(whole), plottedTimes).layers, {}) : "null",
+      Writer::ratios(plot.ratios));
+}
 
 }  // namespace gamut

@@ -41,8 +41,8 @@ void StyleSheet::add(const Plot& plot) {
 }
 
 std::string StyleSheet::css() const {
-  return fmt::format(":root{{{}}}\n@media screen and (prefers-color-scheme: dark){{:root{{{}}}}}\n{}", light_, dark_,
-                     rules_);
+  return fmt::format(":root{{{}}}\n@media screen and (prefers-color-scheme: dark){{:root:not([data-paper]){{{}}}}}\n{}",
+                     light_, dark_, rules_);
 }
 
 }  // namespace gamut

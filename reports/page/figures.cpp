@@ -7,6 +7,7 @@
 #include "reports/page/page.hpp"
 #include "reports/page/table.hpp"
 #include "reports/sections/contribution.hpp"
+#include "reports/sections/limits.hpp"
 #include "reports/words.hpp"
 
 namespace gamut {
@@ -51,7 +52,8 @@ std::string figuresTable(const Results& results, const Verdict& verdict) {
     const int digits = rowDigits(columns, time, k);
     std::vector<std::string> cells;
     for (const Column& column : columns) cells.push_back(cellOf(column, time, k, digits));
-    table.row(withUnit(results.outputs[k].name, results.outputs[k].unit), cells);
+    const std::string& name = results.outputs[k].name;
+    table.row(withUnit(isMargin(results, k) ? "margin of " + name : name, results.outputs[k].unit), cells);
   }
   return table.html();
 }

@@ -1,20 +1,23 @@
-// A section an output: its key, the place of its interactive plot, and the drawings for paper.
+// A section an output: its numbers, the place of its interactive plot, and the drawings for paper. One key for all.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "reports/drawing/paper.hpp"
 #include "reports/drawing/screen.hpp"
 #include "reports/drawing/style.hpp"
 #include "reports/page/page.hpp"
+#include "reports/page/table.hpp"
 #include "reports/sections/contribution.hpp"
+#include "reports/sections/limits.hpp"
 #include "reports/words.hpp"
 
 namespace gamut {
 namespace {
 
 /// Paper shows no more points than this.
-constexpr std::size_t drawnTimes = 240;
+constexpr std::size_t drawnTimes = 200;
 
 /// "angle, guaranteed within [-2.5, 2.4] rad, sampled within .." for those who cannot see the drawing.
 std::string description(const Plot& plot) {
@@ -31,50 +34,91 @@ std::string description(const Plot& plot) {
   return words;
 }
 
-std::string figure(const std::string& drawing, const std::string& caption) {
-  return "<figure>" + drawing + (caption.empty() ? "" : "<figcaption>" + escapeHtml(caption) + "</figcaption>") +
-         "</figure>\n";
+/// The view that is seen first is a figure, the others wait behind their names; with the script all are one figure.
+std::string figure(const char* view, const std::string& name, const std::string& drawing, bool isFirst) {
+  const std::string shown =
+      fmt::format("<figure data-view=\"{}\">{}<figcaption>{}</figcaption></figure>\n", view, drawing, escapeHtml(name));
+  return isFirst ? shown : fmt::format("<details><summary>{}</summary>{}</details>\n", escapeHtml(name), shown);
+}
+
+Plot spreadOf(const Plot& plot) {
+  Plot around = thinned(aroundMiddle(plot), drawnTimes);
+  around.unit = plot.unit.empty() ? "deviation" : fmt::format("deviation ({})", plot.unit);
+  return around;
 }
 
 std::string motionSection(const Plot& plot, std::size_t output) {
   const std::string words = description(plot);
   const Plot thin = thinned(plot, drawnTimes);
-  std::string html =
-      fmt::format("<section class=\"output\" data-output=\"{}\">\n<h3>{}</h3>\n", output, escapeHtml(plot.name));
-  html += drawKey(plot);
-  html += fmt::format("<div class=\"live\" role=\"group\" aria-label=\"{}\"></div>\n<div class=\"static\">\n",
-                      escapeHtml("Interactive plot of " + words));
-  html += figure(drawPlot(thin, "Plot over time of " + words), "Over time");
-  html += figure(drawPlot(thinned(aroundMiddle(plot), drawnTimes), "Plot of the spread around the middle of " + words),
-                 "Spread around " + plot.middleName());
-  const std::string ratios = drawRatios(thin, "Plot of the overestimation of " + plot.name);
-  return html + (ratios.empty() ? "" : figure(ratios, "")) + "</div>\n</section>\n";
+  const bool isSpread = plot.isThin();
+  const std::string absolute = figure("absolute", "Absolute", drawPlot(thin, "Plot over time of " + words), !isSpread),
+                    spread =
+                        figure("spread", "Spread around " + plot.middleName(),
+                               drawPlot(spreadOf(plot), "Plot of the spread around the middle of " + words), isSpread),
+                    ratios = drawRatios(thin, "Plot of the overestimation of " + plot.name);
+  return fmt::format(
+      "<section class=\"output\" data-output=\"{}\" data-view=\"{}\">\n<h3>{}</h3>\n"
+      "<script type=\"application/json\">{}</script>\n"
+      "<div class=\"live\" role=\"group\" aria-label=\"{}\"></div>\n<div class=\"static\">\n{}{}{}</div>\n</section>\n",
+      output, isSpread ? "spread" : "absolute", escapeHtml(plot.name), plotData(plot),
+      escapeHtml("Interactive plot of " + words), isSpread ? spread : absolute, isSpread ? absolute : spread,
+      ratios.empty() ? "" : figure("ratio", "Overestimation", ratios, false));
+}
+
+/// The numbers of the bars, as they can be copied.
+std::string barNumbers(const Plot& plot) {
+  NumbersText numbers;
+  std::vector<std::string> names;
+  std::vector<double> lower, upper;
+  for (const Layer& layer : plot.layers)
+    for (std::size_t i = 0; i < layer.bands.size(); ++i) {
+      const Band& band = layer.bands[i];
+      if (band.lower.empty()) continue;
+      names.push_back(layer.kind == Layer::Kind::stack ? fmt::format("{}, level {:g}", layer.name, layer.levels[i])
+                                                       : layer.words);
+      lower.push_back(band.lower[0]);
+      upper.push_back(band.upper.empty() ? band.lower[0] : band.upper[0]);
+    }
+  numbers.words("", names);
+  numbers.column("from", plot.unit, lower, NumbersText::Rounded::down);
+  numbers.column("to", plot.unit, upper, NumbersText::Rounded::up);
+  return numbers.html();
 }
 
 std::string positionSection(const Plot& plot) {
-  return fmt::format("<section class=\"output\">\n<h3>{}</h3>\n{}</section>\n", escapeHtml(plot.name),
-                     figure(drawBars(plot, "Bars of " + description(plot)), ""));
+  return fmt::format("<section class=\"output\">\n<h3>{}</h3>\n<figure class=\"kept\">{}{}</figure>\n</section>\n",
+                     escapeHtml(plot.name), drawBars(plot, "Bars of " + description(plot)), barNumbers(plot));
+}
+
+/// The layers of all plots, each once.
+void gather(std::vector<Layer>& key, const Plot& plot) {
+  for (const Layer& layer : plot.layers)
+    if (std::ranges::find(key, layer.name, &Layer::name) == key.end())
+      key.push_back({.name = layer.name, .words = layer.words});
 }
 
 }  // namespace
 
+/// A margin of which a plot of its output shows the limit needs none of its own.
 OutputPlots outputPlots(const Results& results) {
   OutputPlots outputs;
   if (results.time.empty()) return outputs;
+  const std::vector<Limit> limits = limitsOf(results);
   StyleSheet style;
-  PlotData data;
+  std::vector<Layer> key;
+  std::string plots;
   for (std::size_t k = 0; k < results.outputs.size(); ++k) {
+    if (std::ranges::any_of(limits, [&](const Limit& limit) { return limit.margin == k && limit.output != k; }))
+      continue;
     const Plot plot = plotOf(results, k);
     style.add(plot);
-    if (plot.isOverTime()) {
-      outputs.html += motionSection(plot, k);
-      data.add(plot);
-    } else {
-      outputs.html += positionSection(plot);
-    }
+    gather(key, plot);
+    plots += plot.isOverTime() ? motionSection(plot, k) : positionSection(plot);
+    if (plot.isOverTime() && outputs.data.empty()) outputs.data = timeData(plot);
   }
+  if (!outputs.data.empty()) outputs.html = drawKey(key, "Key to all plots over time");
+  outputs.html += plots;
   outputs.style = style.css();
-  if (results.time.size() > 1) outputs.data = data.json();
   return outputs;
 }
 

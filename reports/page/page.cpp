@@ -25,6 +25,13 @@ std::string uncertainTable(const Results& results) {
   return table.html();
 }
 
+std::string settledList(const Verdict& verdict) {
+  if (verdict.settled.empty()) return {};
+  std::string list = "<details><summary>Which</summary><ul>\n";
+  for (const std::string& sentence : verdict.settled) list += "<li>" + escapeHtml(sentence) + "</li>\n";
+  return list + "</ul></details>";
+}
+
 }  // namespace
 
 std::string titleOf(const Results& results) {
@@ -37,7 +44,11 @@ std::string summaryLine(const Results& results) {
   if (results.horizon > 0) line += fmt::format(", 0 s to {} s", numberText(results.horizon, 6));
   line += ", " + (results.uncertain.size() == 1 ? std::string("1 uncertain quantity")
                                                 : fmt::format("{} uncertain quantities", results.uncertain.size()));
-  line += ", " + countText(static_cast<long long>(results.outputs.size()), "output");
+  std::size_t margins = 0;
+  for (const RequirementResult& requirement : results.requirements)
+    margins += static_cast<std::size_t>(requirement.margins);
+  line += ", " + countText(static_cast<long long>(results.outputs.size() - std::min(margins, results.outputs.size())),
+                           "output");
   if (!results.date.empty()) line += ", " + results.date;
   return line;
 }
@@ -45,7 +56,9 @@ std::string summaryLine(const Results& results) {
 std::string notesList(const Verdict& verdict) {
   if (verdict.notes.empty()) return {};
   std::string list = "<ul class=\"notes\">\n";
-  for (const std::string& note : verdict.notes) list += "<li>" + escapeHtml(note) + "</li>\n";
+  for (std::size_t i = 0; i < verdict.notes.size(); ++i)
+    list += "<li>" + escapeHtml(verdict.notes[i]) +
+            (static_cast<std::int64_t>(i) == verdict.settledNote ? settledList(verdict) : "") + "</li>\n";
   return list + "</ul>\n";
 }
 
@@ -55,6 +68,8 @@ std::string askedSection(const Report& report) {
 }
 
 std::string outputsSection(const Report& report) { return report.outputs.html; }
+
+std::string membershipSection(const Report& report) { return report.memberships; }
 
 std::string provenanceSection(const Report& report) {
   const Results& results = report.results;

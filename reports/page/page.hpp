@@ -14,17 +14,14 @@ std::string titleOf(const Results& results);
 /// What was asked, in one line.
 std::string summaryLine(const Results& results);
 
-/// The requirements with their three answers; empty without requirements.
-std::string requirementsSection(const Results& results);
-
 /// The verdict's notes as a list; empty without notes.
 std::string notesList(const Verdict& verdict);
 
 /// The plots of all outputs, with what they need elsewhere in the page.
 struct OutputPlots {
-  std::string html;   ///< a section an output
+  std::string html;   ///< a key and a section an output
   std::string style;  ///< CSS of the plots' layers
-  std::string data;   ///< JSON for the interactive plots; empty where nothing moves
+  std::string data;   ///< JSON: the times of the interactive plots; empty where nothing moves
 };
 OutputPlots outputPlots(const Results& results);
 
@@ -34,13 +31,23 @@ struct PlotSection {
 };
 PlotSection probabilityPlots(const Results& results);
 
+/// Membership functions of all outputs at some times; empty where there are none.
+std::string membershipFigures(const Results& results);
+
 /// What sections are made of.
 struct Report {
   const Results& results;
   Verdict verdict;
   OutputPlots outputs;
+  std::string memberships;
   PlotSection probabilities;
 };
+
+/// What holds in every case, whether the answers agree, and the one plot that matters.
+std::string firstSection(const Report& report);
+
+/// The requirements with their three answers; empty without requirements.
+std::string requirementsSection(const Report& report);
 
 /// The uncertain quantities and the study word for word.
 std::string askedSection(const Report& report);
@@ -53,6 +60,9 @@ std::string figuresSection(const Report& report);
 
 /// The plots of every output.
 std::string outputsSection(const Report& report);
+
+/// How possible their values are.
+std::string membershipSection(const Report& report);
 
 /// How probable their values are, and whose doing their spread is.
 std::string probabilitySection(const Report& report);

@@ -1,20 +1,14 @@
-// Puts an interactive plot in the place of each drawing: layers that switch on and off, the motion or the spread around
-// its middle, one zoom and one cursor for all outputs. Without this script the drawings stay.
-// <html data-page="ready"> says that it is done, <html data-error="..."> what went wrong.
+// Puts an interactive plot in the place of each drawing, first where the reader is, then one by one: layers that switch on and
+// off, the motion or the spread around its middle, one zoom and one cursor for all outputs. Without this script the
+// drawings stay.
 "use strict";
 
-window.addEventListener("error", event => { document.documentElement.dataset.error = event.message; });
-
-(() => {
+gamut.plots = (() => {
   const root = document.documentElement;
-  const numbers = document.getElementById("numbers");
-  if (!numbers || typeof uPlot === "undefined") {
-    root.dataset.page = "ready";
-    return;
-  }
-  const page = JSON.parse(numbers.textContent);
+  const time = JSON.parse(document.getElementById("times").textContent).time;
   const color = name => getComputedStyle(root).getPropertyValue("--" + name).trim();
-  const plots = new Set();
+  const drawn = new Set(), hidden = new Set();
+  let shown = null;  // the times that all plots show, where somebody chose them
 
   // ---- Numbers ------------------------------------------------------------------------------------------------------
 
@@ -29,60 +23,108 @@ window.addEventListener("error", event => { document.documentElement.dataset.err
     return Number((nearest + side * unit).toPrecision(digits)).toString();
   };
 
-  const minus = (line, middle) => middle ? line.map((x, i) => x == null || middle[i] == null ? null : x - middle[i]) : line;
+  // An output of the page with its lines as numbers: of each layer the motion, and the spread around the middle.
+  const known = new Map();
+  const outputOf = number => {
+    if (known.has(number)) return known.get(number);
+    const output = JSON.parse(document.querySelector("section.output[data-output='" + number + "'] > script").textContent);
+    const value = gamut.decimal(output.scale), middle = gamut.wholes(output.middle);
+    const lineOf = list => {
+      const around = gamut.wholes(list);
+      return { around: around.map(value), motion: around.map((whole, i) => whole == null ? null : value(whole + (middle[i] ?? 0))) };
+    };
+    for (const layer of output.layers) {
+      const bands = layer.bands.map(band => band.map(lineOf));
+      layer.bands = bands.map(band => band.map(line => line.motion));
+      layer.around = bands.map(band => band.map(line => line.around.map((x, i) => middle[i] == null ? null : x)));
+    }
+    for (const layer of output.around ?? []) {
+      output.layers.find(other => other.name === layer.name).around = layer.bands.map(band => band.map(list => gamut.wholes(list).map(value)));
+    }
+    known.set(number, output);
+    return output;
+  };
 
   // ---- Layers -------------------------------------------------------------------------------------------------------
 
-  // What is drawn, from back to front: {layer, line, stroke, dash, width}, and bands that fill between two of them.
-  const linesOf = (layers, middle) => {
+  // What is drawn, from back to front: {layer, line, label, stroke, dash, width}, and bands that fill between two of them.
+  const linesOf = (layers, isSpread) => {
     const lines = [], bands = [];
     for (const layer of layers) {
-      if (middle && !layer.spread) continue;
+      if (isSpread && !layer.spread) continue;
       const style = layer.width > 0 ? { stroke: color(layer.name), width: layer.width, dash: layer.dashed ? [6, 4] : undefined } : { width: 0 };
-      for (const band of layer.bands) {
+      (isSpread ? layer.around : layer.bands).forEach((band, i) => {
         if (layer.filled) bands.push({ series: [lines.length + 2, lines.length + 1], fill: color(layer.name + "-fill") });
-        for (const line of band) lines.push({ layer: layer.name, line: minus(line, middle), ...style });
-      }
+        for (const line of band) lines.push({ layer: layer.name, label: layer.labels[i], line, ...style });
+      });
     }
     return { lines, bands };
   };
 
   // ---- Plots --------------------------------------------------------------------------------------------------------
 
-  const axis = (label, size) => ({
-    label, size, stroke: color("soft"), font: "11px system-ui, sans-serif", labelFont: "11px system-ui, sans-serif", labelSize: 18,
-    grid: { stroke: color("grid"), width: 1 }, ticks: { stroke: color("grid"), width: 1, size: 4 },
-  });
+  const axis = (name, size, room) => {
+    let found = { text: [], aside: "" };
+    return {
+      label: () => gamut.axisName(name, found.aside), size, stroke: color("soft"), font: "11px system-ui, sans-serif",
+      labelFont: "11px system-ui, sans-serif", labelSize: 18,
+      splits: (plot, axisNumber, low, high) => {
+        const length = (axisNumber === 0 ? plot.bbox.width : plot.bbox.height) / devicePixelRatio;
+        found = gamut.ticks(low, high, Math.max(2, Math.floor(length / room)));
+        return found.at;
+      },
+      values: () => found.text,
+      grid: { stroke: color("grid"), width: 1 }, ticks: { stroke: color("grid"), width: 1, size: 4 },
+    };
+  };
 
   // One zoom for all: a plot whose times change hands them on to those that show others.
   const shareTimes = (plot, key) => {
-    if (key !== "x") return;
+    if (key !== "x" || !plot.isReady) return;
     const { min, max } = plot.scales.x;
-    for (const other of plots) {
-      const shown = other.scales.x;
-      if (other !== plot && (shown.min !== min || shown.max !== max)) other.setScale("x", { min, max });
+    shown = { min, max };
+    for (const other of drawn) {
+      const its = other.plot.scales.x;
+      if (other.plot !== plot && (its.min !== min || its.max !== max)) other.plot.setScale("x", { min, max });
     }
   };
 
-  const makePlot = (place, height, label, data, lines, bands, onCursor) => {
+  const drawLabels = (plot, lines) => {
+    const { ctx, bbox } = plot;
+    ctx.save();
+    ctx.font = 11 * devicePixelRatio + "px system-ui, sans-serif";
+    ctx.textAlign = "right";
+    lines.forEach((line, i) => {
+      const last = line.label && plot.series[i + 1].show ? line.line.findLast(x => x != null) : null;
+      if (last == null) return;
+      const y = plot.valToPos(last, "y", true), isHigh = y < bbox.top + 16 * devicePixelRatio;
+      if (y < bbox.top || y > bbox.top + bbox.height) return;
+      ctx.fillStyle = line.stroke;
+      ctx.fillText(line.label, bbox.left + bbox.width - 4, y + (isHigh ? 13 : -4) * devicePixelRatio);
+    });
+    ctx.restore();
+  };
+
+  const makePlot = (place, name, lines, bands, onCursor) => {
     const plot = new uPlot({
-      width: Math.max(place.clientWidth, 200), height, bands,
-      scales: { x: { time: false } },
+      width: Math.max(place.clientWidth, 200), height: place.clientWidth < 480 ? 240 : 300, bands,
+      scales: { x: { time: false }, y: { range: (_, low, high) => gamut.padded(low, high) } },
       legend: { show: false },
       cursor: { y: false, sync: { key: "gamut", scales: ["x", null] }, points: { show: false }, drag: { x: true, y: false } },
-      axes: [axis("time (s)", 32), axis(label, 62)],
+      axes: [axis("time (s)", 32, 80), axis(name, 58, 45)],
       series: [{}, ...lines.map(line => ({
-        stroke: line.stroke || "transparent", width: line.width, dash: line.dash, show: line.show !== false,
+        stroke: line.stroke || "transparent", width: line.width, dash: line.dash, show: !hidden.has(line.layer),
         points: { show: false }, spanGaps: false,
       }))],
-      hooks: { setScale: [shareTimes], setCursor: onCursor ? [plot => onCursor(plot.cursor.idx)] : [] },
-    }, data, place);
-    plots.add(plot);
+      hooks: { setScale: [shareTimes], setCursor: [plot => onCursor(plot.cursor.idx)], draw: [plot => drawLabels(plot, lines)] },
+    }, [time, ...lines.map(line => line.line)], place);
+    if (shown) plot.setScale("x", shown);
+    plot.isReady = true;
     return plot;
   };
 
   const readoutOf = (output, i) => {
-    if (i == null) return "Drag to zoom, double-click to see all; point at the plot to read it.";
+    if (i == null) return "Point at the plot to read it; drag to zoom, double-click to see all.";
     const said = output.layers.filter(layer => layer.readout);
     const widths = said.map(layer => layer.kind === "band" && layer.bands[0][1][i] != null ? layer.bands[0][1][i] - layer.bands[0][0][i] : 0);
     const width = Math.max(0, ...widths);
@@ -90,7 +132,7 @@ window.addEventListener("error", event => { document.documentElement.dataset.err
       const [lower, upper] = layer.bands[0];
       return layer.kind === "line" ? text(lower[i], width) : "[" + text(lower[i], width, -1) + ", " + text(upper[i], width, 1) + "]";
     };
-    const parts = ["t = " + text(page.time[i]) + " s", ...said.map(layer => layer.readout + " " + numbers(layer))];
+    const parts = ["t = " + text(time[i]) + " s", ...said.map(layer => layer.readout + " " + numbers(layer))];
     for (const ratio of output.ratios) {
       if (ratio.bands[0][0][i] != null) parts.push(ratio.readout + " " + text(ratio.bands[0][0][i]));
     }
@@ -106,82 +148,87 @@ window.addEventListener("error", event => { document.documentElement.dataset.err
     return made;
   };
 
-  // One output: its switches, its plot and its overestimation.
+  // One output: its views and its plot. The first of the page shows some layers in one view.
   class OutputPlot {
     constructor(section) {
       this.section = section;
-      this.output = page.outputs[Number(section.dataset.output)];
-      this.hidden = new Set();
-      this.spread = false;
       this.place = section.querySelector(".live");
-      this.addViews();
+      this.only = section.dataset.layers?.split(" ");
+      section.querySelectorAll(".static details").forEach(details => details.replaceWith(details.querySelector("figure")));
+      if (!this.only) this.addViews();
       this.main = this.place.appendChild(document.createElement("div"));
+      this.main.className = "canvas";
       this.readout = this.place.appendChild(document.createElement("p"));
       this.readout.className = "readout";
-      this.ratio = this.place.appendChild(document.createElement("div"));
-      this.addSwitches();
       section.classList.add("plotted");
-      this.draw();
     }
 
     addViews() {
       const views = this.place.appendChild(document.createElement("div"));
       views.className = "views";
-      const names = ["Motion", "Spread around " + this.output.middleName];
-      names.forEach((name, i) => views.append(button([name], i === 0, event => {
-        this.spread = i === 1;
-        for (const other of views.children) other.setAttribute("aria-pressed", other === event.currentTarget);
-        this.draw();
-      })));
-    }
-
-    addSwitches() {
-      for (const item of this.section.querySelectorAll(".keys li")) {
-        const layer = item.dataset.layer;
-        item.append(button([...item.childNodes], true, event => {
-          const shown = this.hidden.delete(layer);
-          if (!shown) this.hidden.add(layer);
-          event.currentTarget.setAttribute("aria-pressed", shown);
-          this.plot.batch(() => this.lines.forEach((line, i) => {
-            if (line.layer === layer) this.plot.setSeries(i + 1, { show: shown });
-          }));
+      for (const figure of this.section.querySelectorAll(".static figure")) {
+        const view = figure.dataset.view;
+        views.append(button([figure.querySelector("figcaption").textContent], view === this.section.dataset.view, event => {
+          this.section.dataset.view = view;
+          for (const other of views.children) other.setAttribute("aria-pressed", other === event.currentTarget);
+          this.draw();
         }));
       }
     }
 
     draw() {
-      const shown = this.plot && { min: this.plot.scales.x.min, max: this.plot.scales.x.max };
-      for (const plot of [this.plot, this.ratioPlot]) {
-        if (plot) {
-          plots.delete(plot);
-          plot.destroy();
-        }
-      }
-      const { lines, bands } = linesOf(this.output.layers, this.spread ? this.output.middle : null);
-      for (const line of lines) line.show = !this.hidden.has(line.layer);
+      this.plot?.destroy();
+      this.output = outputOf(this.section.dataset.output);
+      const view = this.section.dataset.view, unit = this.output.unit;
+      const layers = (view === "ratio" ? this.output.ratios : this.output.layers).filter(layer => !this.only || this.only.includes(layer.name));
+      const { lines, bands } = linesOf(layers, view === "spread");
+      const name = view === "ratio" ? this.output.ratios[0].words : view === "spread" ? "deviation" + (unit ? " (" + unit + ")" : "") : unit;
       this.lines = lines;
-      const read = i => { this.readout.textContent = readoutOf(this.output, i); };
-      this.plot = makePlot(this.main, 320, this.output.unit, [page.time, ...lines.map(line => line.line)], lines, bands, read);
-      read(null);
-      const ratios = linesOf(this.output.ratios, null);
-      this.ratioPlot = ratios.lines.length > 0
-        ? makePlot(this.ratio, 130, this.output.ratios[0].name, [page.time, ...ratios.lines.map(line => line.line)], ratios.lines, ratios.bands)
-        : null;
-      if (shown) this.plot.setScale("x", shown);
+      this.plot = makePlot(this.main, name, lines, bands, i => { this.readout.textContent = readoutOf(this.output, i); });
+      this.readout.textContent = readoutOf(this.output, null);
+      drawn.add(this);
+    }
+
+    show(layer, isShown) {
+      this.plot.batch(() => this.lines.forEach((line, i) => {
+        if (line.layer === layer) this.plot.setSeries(i + 1, { show: isShown });
+      }));
     }
 
     resize() {
-      const width = this.place.clientWidth;
-      if (width === 0) return;  // not shown: printed
-      for (const plot of [this.plot, this.ratioPlot]) {
-        if (plot && plot.width !== width) plot.setSize({ width, height: plot.height });
-      }
+      const width = this.main.clientWidth;
+      if (width > 0 && this.plot.width !== width) this.plot.setSize({ width, height: width < 480 ? 240 : 300 });  // 0: printed
     }
   }
 
-  const drawn = [...document.querySelectorAll("section.output[data-output]")].map(section => new OutputPlot(section));
-  new ResizeObserver(() => drawn.forEach(output => output.resize())).observe(document.body);
-  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => drawn.forEach(output => output.draw()));
-  window.addEventListener("beforeprint", () => document.querySelectorAll("details").forEach(part => { part.open = true; }));
-  root.dataset.page = "ready";
+  // The one key of the page: each entry a switch of its layer in all plots.
+  for (const item of document.querySelectorAll(".outputs > .keys li")) {
+    const layer = item.dataset.layer;
+    item.append(button([...item.childNodes], true, event => {
+      const isShown = hidden.delete(layer);
+      if (!isShown) hidden.add(layer);
+      event.currentTarget.setAttribute("aria-pressed", isShown);
+      drawn.forEach(plot => plot.show(layer, isShown));
+    }));
+  }
+
+  const plots = new Map([...document.querySelectorAll("section.output[data-output]")].map(section => [section, new OutputPlot(section)]));
+  const drawOnce = section => {
+    near.unobserve(section);
+    if (!plots.get(section).plot) plots.get(section).draw();
+  };
+  const near = new IntersectionObserver(entries => entries.forEach(({ target, isIntersecting }) => isIntersecting && drawOnce(target)), { rootMargin: "600px" });
+  plots.forEach((_, section) => near.observe(section));
+  // The others one by one, whenever there is nothing else to do.
+  const later = then => window.requestIdleCallback ? requestIdleCallback(then, { timeout: 300 }) : setTimeout(then, 50);
+  const rest = [...plots.keys()];
+  const drawNext = () => {
+    if (rest.length === 0) return;
+    drawOnce(rest.shift());
+    later(drawNext);
+  };
+  later(drawNext);
+  new ResizeObserver(() => drawn.forEach(plot => plot.resize())).observe(document.body);
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => drawn.forEach(plot => plot.draw()));
+  return { time, outputOf, hidden };
 })();

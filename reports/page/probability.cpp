@@ -9,7 +9,10 @@
 #include "reports/drawing/distribution.hpp"
 #include "reports/drawing/paper.hpp"
 #include "reports/drawing/style.hpp"
+#include "reports/page/moments.hpp"
 #include "reports/page/page.hpp"
+#include "reports/page/table.hpp"
+#include "reports/sections/limits.hpp"
 #include "reports/words.hpp"
 
 namespace gamut {
@@ -44,35 +47,54 @@ Plot sharesOf(const Results& results, std::size_t output) {
   plot.name = results.outputs[output].name;
   plot.unit = "share of the variance";
   plot.time = s.time;
-  constexpr std::array colours{colour::blue, colour::orange, colour::violet, colour::black, colour::grey, colour::blue};
+  constexpr std::array colours{colour::blue, colour::orange, colour::violet, colour::green, colour::red, colour::black};
   for (const Share& share : shares)
     plot.layers.push_back({.name = fmt::format("cause{}", share.quantity),
                            .words = results.uncertain[share.quantity].name,
-                           .style = {colours[share.quantity % colours.size()], 0, 1.8,
-                                     share.quantity % colours.size() == colours.size() - 1},
+                           .style = {colours[share.quantity % colours.size()], 0.35, 1.4,
+                                     share.quantity % (2 * colours.size()) >= colours.size()},
                            .isProved = true,
                            .bands = {share.band}});
   return plot;
 }
 
-std::string timeText(double time) { return numberText(time, 6) + " s"; }
+std::string numbersOf(const Results& results, std::size_t at, std::size_t output) {
+  const Stairs stairs = stairsOf(results, at, output);
+  NumbersText numbers;
+  numbers.column(results.outputs[output].name, results.outputs[output].unit, stairs.value);
+  numbers.column("probability of no more, at least", "", stairs.lower, NumbersText::Rounded::down, 5);
+  numbers.column("at most", "", stairs.upper, NumbersText::Rounded::up, 5);
+  numbers.column("share of the samples", "", stairs.sampled, NumbersText::Rounded::nearest, 5);
+  return numbers.html();
+}
 
-/// Of all times but the last hidden, until somebody moves the slider.
 std::string distributionsOf(const Results& results, std::size_t output) {
   const std::vector<double>& times = results.distribution.time;
-  std::string html;
+  std::vector<std::string> drawings, captions, numbers;
   for (std::size_t at = 0; at < times.size(); ++at) {
     const std::string when = results.horizon > 0 ? " at " + timeText(times[at]) : std::string();
-    const std::string drawing = drawDistribution(
-        results, at, output, fmt::format("Distribution function of {}{}", results.outputs[output].name, when));
+    drawings.push_back(
+        drawDistribution(results, at, output,
+                         fmt::format("Plot of the distribution function of {}{}", results.outputs[output].name, when)));
     const double gap = results.distribution.gaps[at * results.outputs.size() + output];
-    const std::string caption = drawing.empty() ? "nothing is known" + when
-                                : gap == 0      ? "known to some roundings" + when
-                                                : fmt::format("bounds {} apart at most{}", atMostText(gap, 2), when);
-    html += fmt::format("<figure class=\"distribution\" data-at=\"{}\"{}>{}<figcaption>{}</figcaption></figure>\n", at,
-                        at + 1 == times.size() ? "" : " hidden", drawing, escapeHtml(caption));
+    captions.push_back(drawings.back().empty() ? "nothing is known" + when
+                       : gap == 0              ? "known to some roundings" + when
+                                               : fmt::format("bounds {} apart at most{}", atMostText(gap, 2), when));
+    numbers.push_back(numbersOf(results, at, output));
   }
-  return html;
+  return momentFigures("distribution", drawings, captions, numbers);
+}
+
+std::string sharesFigure(const Plot& plot) {
+  NumbersText numbers;
+  numbers.column("time", "s", plot.time);
+  for (const Layer& layer : plot.layers) {
+    numbers.column(layer.words + ", total Sobol' index from", "", layer.bands[0].lower, NumbersText::Rounded::down, 5);
+    numbers.column("to", "", layer.bands[0].upper, NumbersText::Rounded::up, 5);
+  }
+  return fmt::format("<figure class=\"kept\">{}<figcaption>total Sobol' indices over time</figcaption>{}</figure>\n",
+                     drawShares(plot, "Plot of the shares of the variance of " + plot.name + " over time"),
+                     numbers.html());
 }
 
 }  // namespace
@@ -90,35 +112,38 @@ PlotSection probabilityPlots(const Results& results) {
   if (!d.why.empty())
     section.html += fmt::format("<p class=\"hint\">Not as close everywhere as asked for ({}): {}.</p>\n",
                                 numberText(d.wanted, 3), escapeHtml(d.why));
-  if (d.time.size() > 1) {
-    std::string times;
-    for (const double time : d.time) times += (times.empty() ? "" : ",") + jsonText(timeText(time));
-    section.html +=
-        fmt::format("<div class=\"controls moments\" data-times=\"{}\"></div>\n", escapeHtml("[" + times + "]"));
-  }
+  std::string cards;
+  std::vector<Layer> key;
   for (std::size_t output = 0; output < results.outputs.size(); ++output) {
-    const bool isThere = std::ranges::any_of(results.requirements, [&](const RequirementResult& r) {
-      return output >= r.margin && output < r.margin + static_cast<std::uint64_t>(r.margins);
-    });
-    if (isThere) continue;  // a margin
-    section.html += fmt::format("<section class=\"probability\">\n<h3>{}</h3>\n{}",
-                                escapeHtml(results.outputs[output].name), distributionsOf(results, output));
-    if (const Plot plot = sharesOf(results, output); !plot.layers.empty() && plot.isOverTime()) {
+    if (isMargin(results, output)) continue;
+    cards +=
+        fmt::format("<section class=\"probability\">\n<h3>{}</h3>\n<div class=\"cards\"><div class=\"card\">{}</div>\n",
+                    escapeHtml(results.outputs[output].name), distributionsOf(results, output));
+    const Plot plot = sharesOf(results, output);
+    if (!plot.layers.empty() && plot.isOverTime()) {
       style.add(plot);
-      section.html += fmt::format(
-          "{}<figure>{}<figcaption>Total Sobol' indices: the share of the variance that would stay if all other "
-          "quantities were known, proved</figcaption></figure>\n",
-          drawKey(plot), drawPlot(plot, "Shares of the variance of " + plot.name + " over time"));
-    } else if (!plot.layers.empty()) {
-      section.html += "<p class=\"hint\">Share of the variance that would stay if all other quantities were known:";
       for (const Layer& layer : plot.layers)
-        section.html += fmt::format(" {} {};", escapeHtml(layer.words),
-                                    escapeHtml(intervalText(layer.bands[0].lower[0], layer.bands[0].upper[0], 3)));
-      section.html.back() = '.';
-      section.html += "</p>\n";
+        if (std::ranges::find(key, layer.name, &Layer::name) == key.end()) key.push_back(layer);
+      cards += "<div class=\"card\">" + sharesFigure(plot) + "</div>\n";
+    } else if (!plot.layers.empty()) {
+      cards += "<p class=\"hint\">Share of the variance that would stay if all other quantities were known:";
+      for (const Layer& layer : plot.layers)
+        cards += fmt::format(" {} {};", escapeHtml(layer.words),
+                             escapeHtml(intervalText(layer.bands[0].lower[0], layer.bands[0].upper[0], 3)));
+      cards.back() = '.';
+      cards += "</p>\n";
     }
-    section.html += "</section>\n";
+    cards += "</div>\n</section>\n";
   }
+  if (!key.empty()) {
+    std::ranges::sort(key, {}, &Layer::name);
+    section.html +=
+        "<p class=\"hint\">Total Sobol' indices: the share of an output's variance that would stay if all other "
+        "quantities were known. It is proved to lie in the band of each quantity. The greatest is what to measure "
+        "better first.</p>\n" +
+        drawKey(key, "Key to the shares of the variance");
+  }
+  section.html += momentsControl("distribution", "Time of the distribution functions", d.time) + cards;
   section.style = style.css();
   return section;
 }

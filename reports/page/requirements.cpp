@@ -1,8 +1,7 @@
-// The requirements, each with its three answers side by side: the first that a reader sees.
+// The requirements, each with its three answers side by side.
 #include <fmt/format.h>
 
 #include "reports/page/page.hpp"
-#include "reports/page/table.hpp"
 #include "reports/requirements.hpp"
 #include "reports/words.hpp"
 
@@ -15,19 +14,18 @@ std::string answer(const char* title, const std::string& text) {
 
 }  // namespace
 
-std::string requirementsSection(const Results& results) {
+std::string requirementsSection(const Report& report) {
+  const Results& results = report.results;
   if (results.requirements.empty()) return {};
-  std::string html =
-      fmt::format("<section class=\"requirements\" aria-label=\"Requirements\">\n<p class=\"lead\">{}</p>\n",
-                  escapeHtml(sentenceOfRequirements(results)));
+  std::string html = fmt::format("<p>{}</p>\n", escapeHtml(sentenceOfRequirements(results)));
   for (const RequirementWords& words : wordsOfRequirements(results))
     html += fmt::format(
-        "<article class=\"requirement {}\">\n<h2><span>{}</span> <b>{}</b></h2>\n<p "
+        "<article class=\"requirement {}\">\n<h3><span>{}</span> <b>{}</b></h3>\n<p "
         "class=\"demand\">{}</p>\n<dl>\n{}{}{}</dl>\n"
         "</article>\n",
         words.word, escapeHtml(words.name), escapeHtml(words.verdict), escapeHtml(words.demand),
         answer("guaranteed", words.guaranteed), answer("probable", words.probable), answer("possible", words.possible));
-  return html + "</section>\n";
+  return html;
 }
 
 }  // namespace gamut

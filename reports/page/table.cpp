@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "reports/words.hpp"
 
 namespace gamut {
@@ -18,6 +20,30 @@ void TableText::row(std::string_view name, const std::vector<std::string>& cells
   html_ += fmt::format("<tr><th scope=\"row\">{}</th>", escapeHtml(name));
   for (const std::string& cell : cells) html_ += fmt::format("<td>{}</td>", escapeHtml(cell));
   html_ += "</tr>\n";
+}
+
+void NumbersText::words(const std::string& head, const std::vector<std::string>& texts) {
+  columns_ += (columns_.empty() ? "[" : ",[") + jsonText(head);
+  for (const std::string& text : texts) columns_ += "," + jsonText(text);
+  columns_ += "]";
+}
+
+void NumbersText::column(const std::string& head, const std::string& unit, const std::vector<double>& numbers,
+                         Rounded rounded, int digits) {
+  columns_ += (columns_.empty() ? "[" : ",[") + jsonText(withUnit(head, unit));
+  for (const double x : numbers) {
+    const auto text = [&] {
+      if (rounded == Rounded::nearest) return numberText(x, digits);
+      const auto [below, above] = outwardText(x, x, digits);
+      return rounded == Rounded::down ? below : above;
+    };
+    columns_ += "," + (std::isfinite(x) ? text() : "null");
+  }
+  columns_ += "]";
+}
+
+std::string NumbersText::html() const {
+  return "<script type=\"application/json\" class=\"numbers\">[" + columns_ + "]</script>";
 }
 
 std::string withUnit(const std::string& name, const std::string& unit) {

@@ -18,6 +18,21 @@ class TableText {
   std::string html_;
 };
 
+/// The numbers of a figure, inside the page for those who want to copy them: columns with headings and units, as JSON
+/// that no reader sees.
+class NumbersText {
+ public:
+  enum class Rounded { nearest, down, up };
+
+  void words(const std::string& head, const std::vector<std::string>& texts);
+  void column(const std::string& head, const std::string& unit, const std::vector<double>& numbers,
+              Rounded rounded = Rounded::nearest, int digits = 8);
+  std::string html() const;
+
+ private:
+  std::string columns_;
+};
+
 /// "angle (rad)", or the name alone.
 std::string withUnit(const std::string& name, const std::string& unit);
 

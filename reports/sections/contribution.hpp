@@ -26,10 +26,10 @@ struct Contribution {
   void (*draw)(const Results& results, std::size_t output, Plot& plot);
 };
 
-extern const Contribution guaranteed, possible, probable, compared;
+extern const Contribution guaranteed, possible, probable, compared, required;
 
 /// Of which the page consists, from the back of the plots to the front.
-inline const std::array analyses{&guaranteed, &possible, &probable, &compared};
+inline const std::array analyses{&guaranteed, &possible, &probable, &compared, &required};
 
 /// All layers of one output.
 Plot plotOf(const Results& results, std::size_t output);

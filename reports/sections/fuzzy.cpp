@@ -17,7 +17,7 @@ void draw(const Results& results, std::size_t output, Plot& plot) {
   Layer layer{.name = "possible",
               .words = plot.isOverTime() ? "possible: alpha-cuts, the darker the more possible"
                                          : "possible: alpha-cuts, the narrowest the most possible",
-              .style = {colour::violet, 0.11},
+              .style = {colour::violet, 0.11, 0.5},
               .kind = Layer::Kind::stack,
               .isProved = true,
               .levels = fuzzy.alpha};

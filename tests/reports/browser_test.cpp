@@ -67,17 +67,76 @@ std::string rootOf(const std::string& page) {
   return from == std::string::npos ? "" : page.substr(from, to - from);
 }
 
-TEST_F(Browser, DrawsTheMotionAndTheOverestimationOfEveryOutput) {
+TEST_F(Browser, DrawsTheForemostOutputAndEveryOutput) {
   const std::string page = opened(example::pendulum(301, 3));
   EXPECT_THAT(rootOf(page), AllOf(HasSubstr("data-page=\"ready\""), Not(HasSubstr("data-error"))));
-  EXPECT_EQ(count(page, "<canvas"), 6u);
+  EXPECT_EQ(count(page, "<canvas"), 4u);
   EXPECT_EQ(count(page, "class=\"output plotted\""), 3u);
+  EXPECT_EQ(count(page, "class=\"output foremost plotted\""), 1u);
 }
 
 TEST_F(Browser, MakesASwitchOfEveryKeyAndView) {
-  const std::string page = opened(example::pendulum(61, 1));
-  EXPECT_EQ(count(page, "<button type=\"button\" aria-pressed="), 8u);  // six layers, two views
+  const std::string page = opened(example::pendulum(61, 2));
+  EXPECT_EQ(count(page, "<button type=\"button\" aria-pressed="), 6u + 2u * 3u);  // layers once, three views an output
   EXPECT_THAT(page, HasSubstr("Spread around the median"));
+}
+
+/// Text that a reader's script leaves in the page.
+std::string noted(const std::string& page) {
+  const std::string begin = "<pre id=\"noted\">";
+  const auto from = page.find(begin);
+  return from == std::string::npos ? ""
+                                   : page.substr(from + begin.size(), page.find("</pre>", from) - from - begin.size());
+}
+
+constexpr const char* noting =
+    "const note = text => { const place = document.createElement('pre'); place.id = 'noted'; place.textContent = text;"
+    "document.body.append(place); };";
+
+/// Beside a hairline of a curve its spread says more, and is seen first; wide bands are seen as they are.
+TEST_F(Browser, ShowsTheSpreadFirstWhereTheBandIsThin) {
+  Results results = example::pendulum(61, 2);
+  for (Bounds* bounds :
+       {&results.interval.at, &results.interval.over, &results.stochastic.envelope, &results.fuzzy.outer[0]})
+    for (std::size_t i = 0; i < 61; ++i) {
+      bounds->lower(i, 1) -= 3;
+      bounds->upper(i, 1) += 3;
+    }
+  const std::string page = opened(results);
+  EXPECT_THAT(page, HasSubstr("<section class=\"output plotted\" data-output=\"0\" data-view=\"spread\""));
+  EXPECT_THAT(page, HasSubstr("<section class=\"output plotted\" data-output=\"1\" data-view=\"absolute\""));
+  const std::string other = opened(results, "document.querySelectorAll('.views')[0].children[1].click();");
+  EXPECT_THAT(other, HasSubstr("data-output=\"0\" data-view=\"absolute\""));
+}
+
+TEST_F(Browser, CopiesTheNumbersOfAFigure) {
+  const std::string page =
+      opened(example::pendulum(61, 1),
+             std::string(noting) +
+                 "Object.defineProperty(navigator, 'clipboard', { value: { writeText: async text => note(text) } });"
+                 "[...document.querySelectorAll('.outputs .keep button')][0].click();");
+  const std::string csv = noted(page);
+  EXPECT_EQ(count(csv, "\n"), 62u);
+  EXPECT_THAT(csv, testing::StartsWith("time (s),\"shoulder angle, guaranteed at every instant, from (rad)\","));
+  EXPECT_THAT(csv, HasSubstr("\"shoulder angle, median (rad)\""));
+}
+
+/// The file that would be saved: colours of paper, also of a page in the dark, and nothing that it would have to load.
+TEST_F(Browser, SavesAFigureThatNeedsNothingBesideIt) {
+  for (const char* place : {".outputs .keep", ".memberships .keep", ".picture .keep"}) {
+    const std::string page =
+        opened(example::machine(), std::string(noting) +
+                                       "URL.createObjectURL = blob => { blob.text().then(note); return 'blob:none'; };"
+                                       "HTMLAnchorElement.prototype.click = () => {};"
+                                       "document.querySelector('" +
+                                       place + " button:last-child').click();");
+    const std::string svg = noted(page);
+    EXPECT_THAT(rootOf(page), Not(HasSubstr("data-error")));
+    EXPECT_THAT(svg, testing::StartsWith("&lt;svg xmlns=\"http://www.w3.org/2000/svg\"")) << place;
+    EXPECT_THAT(svg, AllOf(HasSubstr("fill=\"#ffffff\""), HasSubstr("stroke:"), Not(HasSubstr("class=")),
+                           Not(HasSubstr("var("))));
+    EXPECT_THAT(svg, testing::EndsWith("&lt;/svg&gt;"));
+  }
 }
 
 TEST_F(Browser, DrawsWhatThereIsWhereAnalysesAreMissing) {
@@ -87,7 +146,7 @@ TEST_F(Browser, DrawsWhatThereIsWhereAnalysesAreMissing) {
   results.comparison = {};
   const std::string page = opened(results);
   EXPECT_THAT(rootOf(page), AllOf(HasSubstr("data-page=\"ready\""), Not(HasSubstr("data-error"))));
-  EXPECT_EQ(count(page, "<canvas"), 1u);
+  EXPECT_EQ(count(page, "<canvas"), 2u);
 }
 
 TEST_F(Browser, ShowsTextFromAStudyAsText) {
@@ -173,16 +232,17 @@ TEST_F(Browser, ChoosesTheTimeOfDistributions) {
   d.excess = {0, 0, 0, nan, 0, 0};
   const std::string last = opened(results);
   EXPECT_THAT(rootOf(last), Not(HasSubstr("data-error")));
-  EXPECT_EQ(count(last, "class=\"distribution\""), 6u);
-  EXPECT_EQ(count(last, "data-at=\"2\" hidden"), 0u);
-  EXPECT_EQ(count(last, "data-at=\"1\" hidden"), 2u);
+  const std::string kind = "<figure class=\"distribution kept\"";
+  EXPECT_EQ(count(last, "<figure class=\"distribution"), 6u);
+  EXPECT_EQ(count(last, kind + " data-at=\"2\" hidden"), 0u);
+  EXPECT_EQ(count(last, kind + " data-at=\"1\" hidden"), 1u);
   EXPECT_THAT(last, HasSubstr("<output>3 s</output>"));
-  const std::string middle =
-      opened(results,
-             "{ const slider = document.querySelector('.moments input'); slider.value = 1; slider.dispatchEvent(new "
-             "Event('input')); }");
-  EXPECT_EQ(count(middle, "data-at=\"2\" hidden"), 2u);
-  EXPECT_EQ(count(middle, "data-at=\"1\" hidden"), 0u);
+  const std::string middle = opened(results,
+                                    "{ const slider = document.querySelector('.probabilities .moments input'); "
+                                    "slider.value = 1; slider.dispatchEvent(new "
+                                    "Event('input')); }");
+  EXPECT_EQ(count(middle, kind + " data-at=\"2\" hidden"), 2u);
+  EXPECT_EQ(count(middle, kind + " data-at=\"1\" hidden"), 0u);
   EXPECT_THAT(middle, HasSubstr("<output>2 s</output>"));
   EXPECT_THAT(middle, HasSubstr("nothing is known at 2 s"));
 }

@@ -106,14 +106,14 @@ TEST(Layer, OnceStatedIsInTheDrawingTheKeyTheStyleSheetAndTheInteractivePlot) {
                     .bands = {{plot.middle(), {}}}};
   plot.layers.push_back(layer);
   EXPECT_THAT(drawPlot(plot, "plot"), HasSubstr("<path class=\"typical\" d=\"M"));
-  EXPECT_THAT(drawKey(plot), HasSubstr("<li data-layer=\"typical\"><span class=\"swatch typical\"></span>a typical"));
+  EXPECT_THAT(drawKey(plot.layers, "key"),
+              HasSubstr("<li data-layer=\"typical\"><span class=\"swatch typical\"></span>a typical"));
   StyleSheet style;
   style.add(plot);
   EXPECT_THAT(style.css(), HasSubstr(".drawing .typical{stroke:var(--typical);stroke-width:0.7}"));
   EXPECT_THAT(style.css(), HasSubstr("--typical:#37424e;"));
-  PlotData data;
-  data.add(plot);
-  EXPECT_THAT(data.json(), HasSubstr(R"({"name":"typical","kind":"line","readout":"typical",)"));
+  EXPECT_THAT(plotData(plot),
+              HasSubstr(R"({"name":"typical","words":"a typical sample","kind":"line","readout":"typical",)"));
 }
 
 TEST(Layer, OrderIsFromBackToFront) {

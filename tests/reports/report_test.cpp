@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "reports/drawing/screen.hpp"
 #include "reports/report.hpp"
@@ -100,31 +101,60 @@ TEST(Report, PrintsGuaranteedBoundsOutwardInItsTable) {
   EXPECT_THAT(renderReport(results), HasSubstr("<td>[-1.235, 7.655]</td>"));
 }
 
-json plotData(const Results& results) {
-  PlotData data;
-  for (std::size_t k = 0; k < results.outputs.size(); ++k) data.add(plotOf(results, k));
-  return json::parse(data.json());
+json plotNumbers(const Results& results) { return json::parse(plotData(plotOf(results, 0))); }
+
+/// Whole numbers of a line, NaN where there is none.
+std::vector<double> wholes(const json& line) {
+  std::vector<double> numbers;
+  double value = 0, slope = 0;
+  bool isFirst = true;
+  for (const json& change : line) {
+    if (!change.is_null()) {
+      if (!isFirst) slope += change.get<double>();
+      value = isFirst ? change.get<double>() : value + slope;
+      isFirst = false;
+    }
+    numbers.push_back(change.is_null() ? NAN : value);
+  }
+  return numbers;
 }
 
-/// The bands of one layer of one output.
-json bandsOf(const json& output, const std::string& layer) {
-  for (const json& one : output.at("layers"))
-    if (one.at("name") == layer) return one.at("bands");
+/// The lines of one band of a layer, as the page shows them.
+std::vector<std::vector<double>> linesOf(const json& output, const std::string& layer, std::size_t band = 0) {
+  const Decimals decimals(output.at("scale").get<int>());
+  const std::vector<double> middle = wholes(output.at("middle"));
+  for (const json& one : output.at("layers")) {
+    if (one.at("name") != layer) continue;
+    std::vector<std::vector<double>> lines;
+    for (const json& line : one.at("bands").at(band)) {
+      std::vector<double>& numbers = lines.emplace_back(wholes(line));
+      for (std::size_t i = 0; i < numbers.size(); ++i)
+        numbers[i] = decimals.value(numbers[i] + (std::isnan(middle[i]) ? 0 : middle[i]));
+    }
+    return lines;
+  }
   throw std::logic_error("no layer " + layer);
 }
 
 TEST(PlotData, HoldsEveryBoundItRounds) {
-  const Results results = example::pendulum(301, 1);
-  const json data = plotData(results);
-  const json& output = data.at("outputs").at(0);
-  const json guaranteed = bandsOf(output, "guaranteed").at(0), possible = bandsOf(output, "possible");
-  for (std::size_t i = 0; i < 301; ++i) {
-    EXPECT_EQ(data.at("time").at(i), results.time[i]);
-    EXPECT_LE(guaranteed.at(0).at(i), results.interval.at.lower(i, 0));
-    EXPECT_GE(guaranteed.at(1).at(i), results.interval.at.upper(i, 0));
-    for (std::size_t level = 0; level < 11; ++level) {
-      EXPECT_LE(possible.at(level).at(0).at(i), results.fuzzy.outer[level].lower(i, 0));
-      EXPECT_GE(possible.at(level).at(1).at(i), results.fuzzy.outer[level].upper(i, 0));
+  for (const double unit : {1e-9, 1.0, 1e9, 1e-280, 1e280}) {
+    Results results = example::pendulum(301, 1);
+    std::vector<Bounds*> all{&results.interval.at, &results.interval.over, &results.stochastic.envelope};
+    for (Bounds& cut : results.fuzzy.outer) all.push_back(&cut);
+    for (Bounds* bounds : all)
+      for (Table* table : {&bounds->lower, &bounds->upper})
+        for (double& number : table->data) number *= unit;
+    for (Table& quantile : results.stochastic.quantiles)
+      for (double& number : quantile.data) number *= unit;
+    const json output = plotNumbers(results);
+    const auto guaranteed = linesOf(output, "guaranteed"), widest = linesOf(output, "possible"),
+               narrowest = linesOf(output, "possible", 5);
+    for (std::size_t i = 0; i < 301; ++i) {
+      EXPECT_LE(guaranteed[0][i], results.interval.at.lower(i, 0));
+      EXPECT_GE(guaranteed[1][i], results.interval.at.upper(i, 0));
+      EXPECT_NEAR(guaranteed[0][i] / unit, results.interval.at.lower(i, 0) / unit, 1e-5);
+      EXPECT_LE(widest[0][i], results.fuzzy.outer[0].lower(i, 0));
+      EXPECT_GE(narrowest[1][i], results.fuzzy.outer[10].upper(i, 0));
     }
   }
 }
@@ -133,16 +163,19 @@ TEST(PlotData, HasNullWhereThereIsNoFiniteNumber) {
   Results results = example::pendulum(3, 1);
   results.interval.at.lower(1, 0) = std::numeric_limits<double>::quiet_NaN();
   results.interval.at.upper(2, 0) = std::numeric_limits<double>::infinity();
-  const json guaranteed = bandsOf(plotData(results).at("outputs").at(0), "guaranteed").at(0);
-  EXPECT_TRUE(guaranteed.at(0).at(1).is_null());
-  EXPECT_TRUE(guaranteed.at(1).at(2).is_null());
-  EXPECT_LE(guaranteed.at(0).at(2), results.interval.at.lower(2, 0));
+  const auto guaranteed = linesOf(plotNumbers(results), "guaranteed");
+  EXPECT_TRUE(std::isnan(guaranteed[0][1]));
+  EXPECT_TRUE(std::isnan(guaranteed[1][2]));
+  EXPECT_LE(guaranteed[0][2], results.interval.at.lower(2, 0));
 }
 
 TEST(PlotData, IsThinnedWhereThereAreTooManyTimes) {
-  const json data = plotData(example::pendulum(5001, 1, 2));
-  EXPECT_LE(data.at("time").size(), plottedTimes);
-  EXPECT_EQ(data.at("time").size(), bandsOf(data.at("outputs").at(0), "guaranteed").at(0).at(0).size());
+  const Plot plot = plotOf(example::pendulum(5001, 1, 2), 0);
+  const json times = json::parse(timeData(plot)), output = json::parse(plotData(plot));
+  EXPECT_LE(times.at("time").size(), plottedTimes);
+  EXPECT_EQ(times.at("time").size(), linesOf(output, "guaranteed")[0].size());
+  EXPECT_TRUE(output.at("around").is_array());
+  EXPECT_TRUE(plotNumbers(example::pendulum(301, 1)).at("around").is_null());
 }
 
 TEST(Report, StaysUnderThreeMegabytesForSevenOutputs) {
@@ -250,6 +283,7 @@ TEST(Report, BeginsWithRequirements) {
                           HasSubstr("up to 98.7 % of what is stated"), HasSubstr("a probability of 0.968"),
                           HasSubstr("(short by 0.002")));
   EXPECT_THAT(page, HasSubstr("Of 1 requirement, 1 is violated, for some values at least."));
+  EXPECT_THAT(page, HasSubstr("<p class=\"lead\">The requirement can be violated within the stated tolerances.</p>"));
   requirement.word = "met";
   EXPECT_THAT(renderReport(results), HasSubstr("The requirement is met, whatever the uncertain quantities are."));
 }

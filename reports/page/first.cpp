@@ -1,0 +1,218 @@
+// What a reader sees first: what holds in every case, whether the answers agree, the one plot that matters and whose
+// doing its spread is.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "reports/drawing/paper.hpp"
+#include "reports/page/page.hpp"
+#include "reports/plain.hpp"
+#include "reports/requirements.hpp"
+#include "reports/sections/contribution.hpp"
+#include "reports/sections/limits.hpp"
+#include "reports/words.hpp"
+
+namespace gamut {
+namespace {
+
+struct Foremost {
+  std::size_t output = 0;
+  std::optional<Limit> limit;
+};
+
+/// The output with the widest bounds in shares of how far it varies.
+std::size_t widestOutput(const Results& results) {
+  const Bounds* bounds = bestKnown(results);
+  std::size_t widest = 0;
+  double greatest = -1;
+  for (std::size_t o = 0; bounds != nullptr && o < results.outputs.size(); ++o) {
+    double low = INFINITY, high = -INFINITY, width = 0;
+    for (std::size_t i = 0; i < results.time.size(); ++i) {
+      const double lower = bounds->lower(i, o), upper = bounds->upper(i, o);
+      if (!std::isfinite(lower) || !std::isfinite(upper)) continue;
+      low = std::min(low, lower);
+      high = std::max(high, upper);
+      width = std::max(width, upper - lower);
+    }
+    const double size = results.time.size() > 1 ? high - low : std::max(std::abs(low), std::abs(high));
+    const double share = size > 0 ? width / size : 0;
+    if (!isMargin(results, o) && share > greatest) greatest = share, widest = o;
+  }
+  return widest;
+}
+
+Foremost foremostOf(const Results& results) {
+  if (std::optional<Limit> limit = nearestLimit(results)) return {limit->output, limit};
+  return {widestOutput(results), {}};
+}
+
+// ---- Words ----------------------------------------------------------------------------------------------------------
+
+std::string requirementList(const Results& results, const Verdict& verdict) {
+  if (results.requirements.empty()) return {};
+  const std::vector<RequirementWords> words = wordsOfRequirements(results);
+  const std::vector<std::string> sentences = plainRequirements(results);
+  std::string html = "<ul class=\"requirements\" aria-label=\"Requirements\">\n";
+  for (std::size_t r = 0; r < words.size(); ++r)
+    html +=
+        verdict.word == "outside"
+            ? fmt::format("<li class=\"open\"><b>contradicted</b> <span>{}</span></li>\n", escapeHtml(words[r].name))
+            : fmt::format("<li class=\"{}\"><b>{}</b> <span>{}</span> {}</li>\n", words[r].word,
+                          words[r].word == "partly" ? "violated" : words[r].word, escapeHtml(words[r].name),
+                          escapeHtml(sentences[r]));
+  return html + "</ul>\n";
+}
+
+std::string verdictCard(const Verdict& verdict) {
+  const std::string word = verdict.gap == Finding::Gap::noAnswers ? "not compared" : verdict.word;
+  return fmt::format(
+      "<section class=\"verdict {}\" aria-label=\"Verdict\">\n<p class=\"sentence\"><b class=\"word\">{}</b> {}</p>\n"
+      "{}</section>\n",
+      verdict.word, word, escapeHtml(verdict.sentence), notesList(verdict));
+}
+
+// ---- The plot -------------------------------------------------------------------------------------------------------
+
+/// Of what is known the best, a middle, and limits.
+Plot essentials(Plot plot) {
+  const auto has = [&](std::string_view name) {
+    return std::ranges::find(plot.layers, name, &Layer::name) != plot.layers.end();
+  };
+  const bool isProved = has("guaranteed"), isSampled = has("sampled");
+  std::erase_if(plot.layers, [&](const Layer& layer) {
+    if (layer.name == "tube" || layer.name == "guaranteed") return !isProved;
+    if (layer.name == "sampled" || layer.name == "probable") return isProved;
+    if (layer.name == "possible") return isProved || isSampled;
+    return layer.name != "median" && layer.name != "limit";
+  });
+  return plot;
+}
+
+/// What is seen, in words: it needs no key.
+std::string captionOf(const Plot& plot) {
+  std::string words;
+  const auto add = [&](std::string_view name, const char* said) {
+    if (std::ranges::find(plot.layers, name, &Layer::name) == plot.layers.end()) return;
+    words += words.empty() ? "" : "; ";
+    words += said;
+  };
+  add("guaranteed", "blue: where it lies in every case that the stated tolerances allow");
+  add("sampled", "dashed: the least and the greatest of all simulated cases");
+  add("probable", "orange band: nine of ten of them");
+  add("possible", "violet: where it can lie, the darker the more possible");
+  add("median", "orange line: half of the simulated cases lie below");
+  add("limit", "red, dashed: the limit");
+  if (!words.empty()) words[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(words[0])));
+  return words + (words.empty() ? "" : ".");
+}
+
+std::string titleOfPlot(const Results& results, const Foremost& foremost) {
+  const std::string& name = results.outputs[foremost.output].name;
+  if (!foremost.limit) return name;
+  const std::string& requirement = results.requirements[foremost.limit->requirement].name;
+  return foremost.limit->output == foremost.limit->margin
+             ? fmt::format("{}: above zero the requirement \u201c{}\u201d is met", name, requirement)
+             : fmt::format("{}, and the limit of \u201c{}\u201d", name, requirement);
+}
+
+std::string plotOfForemost(const Results& results, const Foremost& foremost) {
+  const Plot plot = essentials(plotOf(results, foremost.output));
+  if (plot.layers.empty()) return {};
+  const std::string title = titleOfPlot(results, foremost), label = "Plot of " + title;
+  const std::string caption = fmt::format("<figcaption>{}</figcaption>", escapeHtml(captionOf(plot)));
+  if (!plot.isOverTime())
+    return fmt::format("<section class=\"foremost\">\n<h3>{}</h3>\n<figure>{}</figure>\n</section>\n",
+                       escapeHtml(title), drawBars(plot, label));
+  constexpr std::size_t drawnTimes = 200;
+  const bool isSpread = !foremost.limit && plot.isThin();
+  Plot shown = thinned(isSpread ? aroundMiddle(plot) : plot, drawnTimes);
+  if (isSpread) shown.unit = plot.unit.empty() ? "deviation" : fmt::format("deviation ({})", plot.unit);
+  std::string layers;
+  for (const Layer& layer : plot.layers) layers += (layers.empty() ? "" : " ") + layer.name;
+  const char* view = isSpread ? "spread" : "absolute";
+  return fmt::format(
+      "<section class=\"output foremost\" data-output=\"{0}\" data-view=\"{1}\" data-layers=\"{2}\">\n<h3>{3}{4}</h3>\n"
+      "<div class=\"live\" role=\"group\" aria-label=\"{5}\"></div>\n<div class=\"static\">\n"
+      "<figure data-view=\"{1}\">{6}</figure>\n</div>\n<p class=\"hint\">{7}</p>\n</section>\n",
+      foremost.output, view, layers, escapeHtml(title),
+      isSpread ? escapeHtml(": spread around " + plot.middleName()) : std::string(),
+      escapeHtml("Interactive plot of " + title), drawPlot(shown, label), escapeHtml(captionOf(plot)));
+}
+
+// ---- Whose doing it is ----------------------------------------------------------------------------------------------
+
+struct Cause {
+  std::string name, share;
+  double size = 0;
+};
+
+/// The greatest first; empty where too little is known.
+std::vector<Cause> causesOf(const Results& results, std::size_t output, std::size_t at) {
+  const SensitivityResult& s = results.sensitivity;
+  const std::size_t quantities = results.uncertain.size();
+  std::vector<Cause> causes;
+  for (std::size_t q = 0; q < quantities; ++q) {
+    const std::size_t i = (at * results.outputs.size() + output) * quantities + q;
+    const double low = s.totalLower[i], high = s.totalUpper[i];
+    constexpr double tight = 0.02, telling = 0.2;
+    Cause cause{results.uncertain[q].name, "", 0.5 * (low + high)};
+    const auto percent = [](double x) { return fmt::format("{:.0f}", 100 * std::clamp(x, 0.0, 1.0)); };
+    if (high - low <= tight) {
+      cause.share = percent(cause.size) + " %";
+    } else if (i < s.totalSampled.size() && std::isfinite(s.totalSampled[i])) {
+      cause.size = s.totalSampled[i];
+      cause.share = "about " + percent(cause.size) + " %";
+    } else if (high - low <= telling) {
+      cause.share = fmt::format("{} to {} %", percent(low), percent(high));
+    } else {
+      continue;
+    }
+    causes.push_back(std::move(cause));
+  }
+  std::ranges::stable_sort(causes, std::greater<>(), &Cause::size);
+  return causes;
+}
+
+std::string ranking(const Results& results, std::size_t output) {
+  const SensitivityResult& s = results.sensitivity;
+  if (!s.present || results.uncertain.size() < 2 || s.totalLower.empty()) return {};
+  std::vector<Cause> causes;
+  std::size_t at = s.time.size();
+  while (causes.empty() && at > 0) causes = causesOf(results, output, --at);
+  constexpr std::size_t most = 5;
+  constexpr double least = 0.005;
+  std::erase_if(causes, [](const Cause& cause) { return cause.size < least; });
+  if (causes.empty()) return {};
+  if (causes.size() > most) causes.resize(most);
+  std::string html = fmt::format(
+      "<section class=\"ranking\">\n<h3>What to measure better first</h3>\n<p class=\"hint\">How much of the spread of "
+      "\u201c{}\u201d{} each quantity takes part in.</p>\n<ol>\n",
+      escapeHtml(results.outputs[output].name),
+      results.horizon > 0 ? fmt::format(" at {} s", numberText(s.time[at], 6)) : "");
+  for (const Cause& cause : causes)
+    html += fmt::format("<li><span>{}</span><i style=\"--share:{:.3f}\"></i><b>{}</b></li>\n", escapeHtml(cause.name),
+                        std::clamp(cause.size, 0.0, 1.0), cause.share);
+  return html + "</ol>\n</section>\n";
+}
+
+std::string tone(const Results& results, const Verdict& verdict) {
+  if (verdict.word == "outside" || verdict.word == "unresolved") return verdict.word;
+  return results.requirements.empty() ? "plain" : wordOfRequirements(results);
+}
+
+}  // namespace
+
+std::string firstSection(const Report& report) {
+  const Results& results = report.results;
+  const Foremost foremost = foremostOf(results);
+  const bool isThere = foremost.output < results.outputs.size() && !results.time.empty();
+  return fmt::format("<section class=\"first {}\" aria-label=\"What was found\">\n<p class=\"lead\">{}</p>\n",
+                     tone(results, report.verdict),
+                     escapeHtml(plainSummary(results, report.verdict, foremost.output))) +
+         requirementList(results, report.verdict) + verdictCard(report.verdict) +
+         (isThere ? plotOfForemost(results, foremost) + ranking(results, foremost.output) : "") + "</section>\n";
+}
+
+}  // namespace gamut

@@ -1,0 +1,256 @@
+// A requirement's statement is read again, far enough to say what stays above or below what.
+#include "reports/plain.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include "reports/requirements.hpp"
+#include "studies/words.hpp"
+
+namespace gamut {
+namespace {
+
+std::string trimmed(const std::string& text) {
+  const auto first = text.find_first_not_of(" \t\n"), last = text.find_last_not_of(" \t\n");
+  return first == std::string::npos ? "" : text.substr(first, last - first + 1);
+}
+
+/// What is compared, in turn, and the first sign between: '<' or '>'.
+struct Comparison {
+  std::vector<std::string> sides;
+  char sign = 0;
+};
+
+Comparison compared(const std::string& text) {
+  Comparison comparison{{""}, 0};
+  int depth = 0;
+  bool isQuoted = false;
+  for (const char c : text) {
+    if (c == '\'') isQuoted = !isQuoted;
+    if (!isQuoted) depth += c == '(' ? 1 : c == ')' ? -1 : 0;
+    if (!isQuoted && depth == 0 && (c == '<' || c == '>')) {
+      if (comparison.sign == 0) comparison.sign = c;
+      comparison.sides.emplace_back();
+    } else if (isQuoted || c != '=') {
+      comparison.sides.back() += c;
+    }
+  }
+  for (std::string& side : comparison.sides) side = trimmed(side);
+  return comparison;
+}
+
+bool isNumber(const std::string& side) {
+  const std::size_t first = side.find_first_not_of("+-");
+  return first != std::string::npos &&
+         (std::isdigit(static_cast<unsigned char>(side[first])) != 0 || side[first] == '.');
+}
+
+/// “tip height” of 'tip height'; formulas as they are.
+std::string nameOf(const std::string& side) {
+  const bool isQuoted = side.size() > 2 && side.front() == '\'' && side.find('\'', 1) == side.size() - 1;
+  return "\u201c" + (isQuoted ? side.substr(1, side.size() - 2) : side) + "\u201d";
+}
+
+/// x of "abs(x)"; empty for anything else.
+std::string insideOfAbs(const std::string& side) {
+  if (!side.starts_with("abs(") || !side.ends_with(')')) return {};
+  int depth = 0;
+  for (std::size_t i = 3; i + 1 < side.size(); ++i)
+    if ((depth += side[i] == '(' ? 1 : side[i] == ')' ? -1 : 0) == 0) return {};
+  return side.substr(4, side.size() - 5);
+}
+
+/// Who is where: "“height”", "above 0.2 m"; without a place where a statement says more than that.
+struct Demand {
+  std::string who, where;
+};
+
+Demand demandOf(const RequirementResult& requirement) {
+  const std::size_t blank = requirement.statement.find(' ');
+  const std::string text = blank == std::string::npos ? requirement.statement : requirement.statement.substr(blank + 1);
+  const Comparison c = compared(text);
+  const std::string whole = "\u201c" + requirement.name + "\u201d";
+  if (c.sides.size() == 3 && isNumber(c.sides[0]) && !isNumber(c.sides[1]) && isNumber(c.sides[2])) {
+    const bool rises = c.sign == '<';
+    return {nameOf(c.sides[1]), fmt::format("between {} and {}", c.sides[rises ? 0 : 2], c.sides[rises ? 2 : 0])};
+  }
+  if (c.sides.size() != 2 || isNumber(c.sides[0]) == isNumber(c.sides[1])) return {whole, ""};
+  const bool isNameFirst = isNumber(c.sides[1]);
+  const std::string &name = c.sides[isNameFirst ? 0 : 1], &number = c.sides[isNameFirst ? 1 : 0];
+  const bool isAbove = (c.sign == '>') == isNameFirst;
+  const std::string inside = insideOfAbs(name);
+  if (!inside.empty() && !isAbove) return {nameOf(inside), fmt::format("between -{0} and {0}", number)};
+  return {inside.empty() ? nameOf(name) : "the size of " + nameOf(inside), (isAbove ? "above " : "below ") + number};
+}
+
+class Sentence {
+ public:
+  Sentence(const Results& results, const RequirementResult& requirement)
+      : results_(results), r_(requirement), demand_(demandOf(requirement)) {}
+
+  std::string text() const {
+    const std::string words = said();
+    if (!words.starts_with("the ")) return words;
+    return "T" + words.substr(1);
+  }
+
+ private:
+  std::string said() const {
+    if (r_.word == "met")
+      return does(true) + (r_.isAlways ? "" : ", at least once,") + " in every case" + window() + ".";
+    if (r_.word == "violated") return does(true) + " in no case" + window() + "." + violation() + share();
+    if (r_.word == "partly") return does(false) + " in every case" + window() + "." + violation() + share();
+    return fmt::format("It is not decided whether {} in every case{}{}.{}", does(true), window(),
+                       r_.why.empty() ? "" : ": " + r_.why, share());
+  }
+
+  /// "“height” stays above 0.2 m", "“height” does not stay above 0.2 m".
+  std::string does(bool is) const {
+    if (demand_.where.empty()) return demand_.who + (is ? " is kept" : " is not kept");
+    const bool isRise = demand_.where.starts_with("above"), isFall = demand_.where.starts_with("below");
+    if (r_.isAlways) return fmt::format("{} {} {}", demand_.who, is ? "stays" : "does not stay", demand_.where);
+    return fmt::format("{} {} {}", demand_.who,
+                       isRise   ? (is ? "rises" : "does not rise")
+                       : isFall ? (is ? "falls" : "does not fall")
+                                : (is ? "comes" : "does not come"),
+                       demand_.where);
+  }
+
+  std::string window() const {
+    if (results_.horizon == 0 || (r_.from == 0 && r_.until == results_.horizon)) return {};
+    return r_.from == r_.until ? fmt::format(" at {} s", numberText(r_.from, 6))
+                               : fmt::format(" from {} s to {} s", numberText(r_.from, 6), numberText(r_.until, 6));
+  }
+
+  std::string violation() const {
+    const bool isKnown = std::ranges::any_of(r_.violation, [](double x) { return !std::isnan(x); });
+    if (!isKnown) return {};
+    const std::string name = r_.violationSample < 0 ? "" : results_.stochastic.nameOf(r_.violationSample);
+    std::string text = r_.word == "violated" ? " For example, in " : " In ";
+    text += name.empty() ? "one case that was found"
+            : name.find("corner") != std::string::npos
+                ? fmt::format("an extreme combination of the tolerances ({})", name)
+                : name;
+    const std::string_view what = demand_.where.empty() ? "that" : "the limit";
+    if (r_.isViolatedBetween) return text + fmt::format(" it misses {} for an instant.", what);
+    if (std::isnan(r_.violationUpper) || r_.violationUpper > 0) return text + fmt::format(" it misses {}.", what);
+    const std::string& unit = results_.outputs[r_.margin].unit;
+    return text + fmt::format(" it misses {} by {}{}{}.", what,
+                              numberText(-0.5 * (r_.violationLower + r_.violationUpper), 3),
+                              unit.empty() || unit == "1" ? "" : " " + unit,
+                              std::isnan(r_.violationTime) || results_.horizon == 0
+                                  ? ""
+                                  : fmt::format(" at {} s", numberText(r_.violationTime, 6)));
+  }
+
+  std::string share() const {
+    if (r_.samples == 0) return {};
+    if (r_.violating == 0) return fmt::format(" None of {} simulated cases was seen to miss it.", r_.samples);
+    return fmt::format(" {} of {} simulated cases {}.", r_.violating, r_.samples,
+                       r_.isAlways ? "miss it" : "were not seen to meet it");
+  }
+
+  const Results& results_;
+  const RequirementResult& r_;
+  Demand demand_;
+};
+
+constexpr const char* everyCase = "in every case that the stated tolerances allow";
+
+/// Where an output lies at the last time of which something is known.
+std::string whereIs(const Results& results, std::size_t output) {
+  struct Known {
+    const Bounds* bounds;
+    std::string begin, end;
+  };
+  std::vector<Known> all;
+  if (results.interval.present) all.push_back({&results.interval.at, "", fmt::format(" {}", everyCase)});
+  if (results.stochastic.present)
+    all.push_back({&results.stochastic.envelope,
+                   fmt::format("In all {}, ", countText(results.stochastic.integrated, "simulated case")),
+                   "; nothing is proved of other cases"});
+  if (results.fuzzy.present && !results.fuzzy.outer.empty())
+    all.push_back({&results.fuzzy.outer.front(), "", " in every case that is held possible"});
+  for (const Known& known : all) {
+    if (known.bounds->empty()) continue;
+    for (std::size_t i = results.time.size(); i-- > 0;) {
+      const double low = known.bounds->lower(i, output), high = known.bounds->upper(i, output);
+      if (!std::isfinite(low) || !std::isfinite(high)) continue;
+      const OutputInfo& info = results.outputs[output];
+      const auto [from, to] = outwardText(low, high, digitsFor(std::max(std::abs(low), std::abs(high)), high - low, 3));
+      const std::string unit = info.unit.empty() || info.unit == "1" ? "" : " " + info.unit;
+      return fmt::format("{}\u201c{}\u201d lies between {} and {}{}{}{}.", known.begin, info.name, from, to, unit,
+                         results.horizon > 0 ? fmt::format(" at {} s", numberText(results.time[i], 6)) : "", known.end);
+    }
+  }
+  return "Nothing certain is known of its outputs.";
+}
+
+std::string ofRequirements(const Results& results) {
+  const std::vector<RequirementResult>& all = results.requirements;
+  const auto count = [&](std::initializer_list<std::string_view> words) {
+    return std::ranges::count_if(
+        all, [&](const RequirementResult& r) { return std::ranges::find(words, r.word) != words.end(); });
+  };
+  const auto met = count({"met"}), violated = count({"violated"}), partly = count({"partly"});
+  const auto number = static_cast<std::ptrdiff_t>(all.size());
+  const auto open = number - met - violated - partly;
+  if (met == number)
+    return number == 1 ? fmt::format("The requirement is met {}.", everyCase)
+                       : fmt::format("All {} requirements are met {}.", number, everyCase);
+  if (number == 1)
+    return violated > 0 ? "The requirement is violated in every case that the stated tolerances allow."
+           : partly > 0 ? "The requirement can be violated within the stated tolerances."
+                        : "It is not decided whether the requirement is met in every case.";
+  std::vector<std::string> parts;
+  const auto add = [&](std::ptrdiff_t some, const char* one, const char* many) {
+    if (some > 0)
+      parts.push_back(fmt::format("{}{} {}", some, parts.empty() ? fmt::format(" of {} requirements", number) : "",
+                                  some == 1 ? one : many));
+  };
+  add(violated, "is violated in every case", "are violated in every case");
+  add(partly, "can be violated within the stated tolerances", "can be violated within the stated tolerances");
+  add(open, "is not decided", "are not decided");
+  add(met, "is met in every case", "are met in every case");
+  return fmt::format("{}.", fmt::join(parts, "; "));
+}
+
+/// How far a run came that did not come to its end.
+std::string ofEnd(const Results& results, const Verdict& verdict) {
+  const std::string why = whyEnded(results);
+  if (why.empty() && !verdict.endsEarly) return {};
+  const double reached = reachedTime(results);
+  const bool isShort = results.horizon > 0 && reached < results.horizon;
+  return fmt::format(" The computation is incomplete: it ended early{}{}.",
+                     isShort ? fmt::format(", and what it says of all cases ends at {} s of {} s",
+                                           numberText(reached, 6), numberText(results.horizon, 6))
+                             : "",
+                     why.empty() ? "" : " (" + why + ")");
+}
+
+}  // namespace
+
+std::vector<std::string> plainRequirements(const Results& results) {
+  std::vector<std::string> sentences;
+  for (const RequirementResult& requirement : results.requirements)
+    sentences.push_back(Sentence(results, requirement).text());
+  return sentences;
+}
+
+std::string plainSummary(const Results& results, const Verdict& verdict, std::size_t output) {
+  if (verdict.word == "outside")
+    return "These results contradict each other: simulated cases leave what was computed as certain. Do not rely on "
+           "them.";
+  std::string text = !results.requirements.empty()     ? ofRequirements(results)
+                     : output < results.outputs.size() ? whereIs(results, output)
+                                                       : "Nothing was computed.";
+  if (verdict.word == "unresolved")
+    text += " Whether all simulated cases agree with this could not be decided: treat it with caution.";
+  return text + ofEnd(results, verdict);
+}
+
+}  // namespace gamut

@@ -1,0 +1,148 @@
+// A margin belongs to an output if its formula names what the output is, and their numbers differ by one number.
+#include "reports/sections/limits.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "reports/sections/contribution.hpp"
+#include "reports/words.hpp"
+
+namespace gamut {
+namespace {
+
+/// The number c with margin = output - c (sign 1) or c - output (sign -1) in all bounds; NaN if there is none.
+double limitBetween(const Bounds& bounds, std::size_t margin, std::size_t output, int sign) {
+  double least = INFINITY, greatest = -INFINITY, size = 0;
+  for (std::size_t i = 0; i < bounds.lower.times; ++i) {
+    const double low = bounds.lower(i, output), high = bounds.upper(i, output);
+    const double below = bounds.lower(i, margin), above = bounds.upper(i, margin);
+    for (const double c : {(sign > 0 ? low : high) - sign * below, (sign > 0 ? high : low) - sign * above}) {
+      if (!std::isfinite(c)) continue;
+      least = std::min(least, c);
+      greatest = std::max(greatest, c);
+    }
+    if (std::isfinite(low) && std::isfinite(high)) size = std::max({size, std::abs(low), std::abs(high)});
+  }
+  constexpr double alike = 1e-6;  // enclosures of both differ by roundings and by what is cut off
+  return least <= greatest && greatest - least <= alike * std::max(size, std::abs(least)) ? 0.5 * (least + greatest)
+                                                                                          : std::nan("");
+}
+
+/// As a limit is stated: few decimals, if they say the same.
+double rounded(double value, double size) {
+  for (int digits = 1; digits < 8; ++digits)
+    if (const double near = std::stod(numberText(value, digits)); std::abs(near - value) <= 1e-7 * size) return near;
+  return value;
+}
+
+void draw(const Results& results, std::size_t output, Plot& plot) {
+  Layer layer{.name = "limit",
+              .words = "limit of a requirement",
+              .style = {colour::red, 0, 1.8, true},
+              .kind = Layer::Kind::line,
+              .isInSpread = false};
+  for (const Limit& limit : limitsOf(results)) {
+    if (limit.output != output) continue;
+    const RequirementResult& requirement = results.requirements[limit.requirement];
+    Line line(results.time.size(), std::nan(""));
+    for (std::size_t i = 0; i < line.size(); ++i)
+      if (results.horizon == 0 || (results.time[i] >= requirement.from && results.time[i] <= requirement.until))
+        line[i] = limit.value;
+    layer.bands.push_back({std::move(line), {}});
+    layer.labels.push_back("limit " + numberText(limit.value, 6) + (plot.unit.empty() ? "" : " " + plot.unit));
+  }
+  if (!layer.bands.empty()) plot.layers.push_back(std::move(layer));
+}
+
+std::vector<Column> columns(const Results&, const Finding&) { return {}; }
+
+}  // namespace
+
+const Contribution required{columns, draw};
+
+const Bounds* bestKnown(const Results& results) {
+  const auto isKnown = [](const Bounds& bounds) {
+    return std::ranges::any_of(bounds.lower.data, [](double x) { return std::isfinite(x); });
+  };
+  if (results.interval.present && isKnown(results.interval.at)) return &results.interval.at;
+  if (results.stochastic.present && isKnown(results.stochastic.envelope)) return &results.stochastic.envelope;
+  if (results.fuzzy.present && !results.fuzzy.outer.empty() && isKnown(results.fuzzy.outer.front()))
+    return &results.fuzzy.outer.front();
+  return nullptr;
+}
+
+bool isMargin(const Results& results, std::size_t output) {
+  return std::ranges::any_of(results.requirements, [&](const RequirementResult& r) {
+    return output >= r.margin && output < r.margin + static_cast<std::uint64_t>(r.margins);
+  });
+}
+
+std::vector<Limit> limitsOf(const Results& results) {
+  std::vector<Limit> limits;
+  const Bounds* bounds = bestKnown(results);
+  for (std::size_t r = 0; r < results.requirements.size(); ++r) {
+    const RequirementResult& requirement = results.requirements[r];
+    for (std::size_t m = requirement.margin; m < requirement.margin + static_cast<std::uint64_t>(requirement.margins);
+         ++m) {
+      if (m >= results.outputs.size()) continue;
+      Limit limit{r, m, m, 0};
+      std::size_t longest = 0;
+      for (std::size_t o = 0; bounds != nullptr && o < results.outputs.size(); ++o) {
+        const std::string& quantity = results.outputs[o].quantity;
+        if (isMargin(results, o) || quantity.size() <= longest ||
+            results.outputs[m].quantity.find(quantity) == std::string::npos)
+          continue;
+        for (const int sign : {1, -1}) {
+          const double value = limitBetween(*bounds, m, o, sign);
+          if (std::isnan(value)) continue;
+          limit.output = o;
+          limit.value = rounded(value, std::abs(value));
+          longest = quantity.size();
+          break;
+        }
+      }
+      limits.push_back(limit);
+    }
+  }
+  return limits;
+}
+
+std::optional<Limit> nearestLimit(const Results& results) {
+  const std::vector<Limit> limits = limitsOf(results);
+  const Bounds* bounds = bestKnown(results);
+  std::optional<Limit> nearest;
+  double least = INFINITY;
+  for (std::size_t r = 0; bounds != nullptr && r < results.requirements.size(); ++r) {
+    const RequirementResult& requirement = results.requirements[r];
+    double slack = requirement.isAlways ? INFINITY : -INFINITY;
+    const Limit* decisive = nullptr;
+    for (std::size_t i = 0; i < results.time.size(); ++i) {
+      if (results.horizon > 0 && (results.time[i] < requirement.from || results.time[i] > requirement.until)) continue;
+      const Limit* tightest = nullptr;
+      for (const Limit& limit : limits)
+        if (limit.requirement == r && std::isfinite(bounds->lower(i, limit.margin)) &&
+            (tightest == nullptr || bounds->lower(i, limit.margin) < bounds->lower(i, tightest->margin)))
+          tightest = &limit;
+      if (tightest == nullptr) continue;
+      const double margin = bounds->lower(i, tightest->margin);
+      if (decisive != nullptr && !(requirement.isAlways ? margin < slack : margin > slack)) continue;
+      slack = margin;
+      decisive = tightest;
+    }
+    if (decisive == nullptr) continue;
+    double low = INFINITY, high = -INFINITY;
+    for (std::size_t i = 0; i < results.time.size(); ++i) {
+      low = std::fmin(low, bounds->lower(i, decisive->margin));
+      high = std::fmax(high, bounds->upper(i, decisive->margin));
+    }
+    const double share = slack / std::max(high - low, std::numeric_limits<double>::min());
+    if (nearest && share >= least) continue;
+    least = share;
+    nearest = *decisive;
+  }
+  if (!nearest && !limits.empty()) nearest = limits.front();
+  return nearest;
+}
+
+}  // namespace gamut

@@ -1,0 +1,31 @@
+// Limits that requirements set to outputs: known where a margin is an output's distance from a number.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "studies/results/results.hpp"
+
+namespace gamut {
+
+/// margin = value of the output - limit, or limit - value.
+struct Limit {
+  std::size_t requirement = 0, margin = 0;  ///< numbers of the requirement, and of the output that is its margin
+  std::size_t output = 0;                   ///< that the limit is of: the margin itself, above zero, if no other fits
+  double value = 0;
+};
+
+/// One for each margin of each requirement.
+std::vector<Limit> limitsOf(const Results& results);
+
+/// The output is a requirement's margin.
+bool isMargin(const Results& results, std::size_t output);
+
+/// An output whose limit is nearest, in shares of how far its margin varies: the first that somebody has to look at.
+std::optional<Limit> nearestLimit(const Results& results);
+
+/// What is known best of all outputs: guaranteed, or else sampled, or else possible at all; null if nothing is.
+const Bounds* bestKnown(const Results& results);
+
+}  // namespace gamut
