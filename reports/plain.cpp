@@ -161,7 +161,26 @@ class Sentence {
 
 constexpr const char* everyCase = "in every case that the stated tolerances allow";
 
-/// Where an output lies at the last time of which something is known.
+/// Least and greatest of an output over all times at which something is known, and how wide that is at most at one.
+struct Extent {
+  double low = INFINITY, high = -INFINITY, width = 0;
+  std::size_t known = 0, last = 0;
+
+  void hold(const Bounds& bounds, std::size_t output, bool isWidth) {
+    for (std::size_t i = 0; i < bounds.lower.times; ++i) {
+      const double lower = bounds.lower(i, output), upper = bounds.upper(i, output);
+      if (!std::isfinite(lower) || !std::isfinite(upper)) continue;
+      low = std::min(low, lower);
+      high = std::max(high, upper);
+      if (!isWidth) continue;
+      width = std::max(width, upper - lower);
+      last = i;
+      ++known;
+    }
+  }
+};
+
+/// Between which numbers an output stays, and how far apart cases are at one time.
 std::string whereIs(const Results& results, std::size_t output) {
   struct Known {
     const Bounds* bounds;
@@ -171,21 +190,29 @@ std::string whereIs(const Results& results, std::size_t output) {
   if (results.interval.present) all.push_back({&results.interval.at, "", fmt::format(" {}", everyCase)});
   if (results.stochastic.present)
     all.push_back({&results.stochastic.envelope,
-                   fmt::format("In all {}, ", countText(results.stochastic.integrated, "simulated case")),
+                   fmt::format("In {}, ", countText(results.stochastic.integrated, "simulated case")),
                    "; nothing is proved of other cases"});
   if (results.fuzzy.present && !results.fuzzy.outer.empty())
     all.push_back({&results.fuzzy.outer.front(), "", " in every case that is held possible"});
   for (const Known& known : all) {
-    if (known.bounds->empty()) continue;
-    for (std::size_t i = results.time.size(); i-- > 0;) {
-      const double low = known.bounds->lower(i, output), high = known.bounds->upper(i, output);
-      if (!std::isfinite(low) || !std::isfinite(high)) continue;
-      const OutputInfo& info = results.outputs[output];
-      const auto [from, to] = outwardText(low, high, digitsFor(std::max(std::abs(low), std::abs(high)), high - low, 3));
-      const std::string unit = info.unit.empty() || info.unit == "1" ? "" : " " + info.unit;
-      return fmt::format("{}\u201c{}\u201d lies between {} and {}{}{}{}.", known.begin, info.name, from, to, unit,
-                         results.horizon > 0 ? fmt::format(" at {} s", numberText(results.time[i], 6)) : "", known.end);
-    }
+    Extent extent;
+    extent.hold(*known.bounds, output, true);
+    if (extent.known == 0) continue;
+    const bool isProvedBetween = known.bounds == &results.interval.at && !results.interval.over.empty();
+    if (isProvedBetween) extent.hold(results.interval.over, output, false);
+    const OutputInfo& info = results.outputs[output];
+    const double size = std::max(std::abs(extent.low), std::abs(extent.high));
+    const auto [from, to] = outwardText(extent.low, extent.high, digitsFor(size, extent.high - extent.low, 2));
+    const std::string unit = info.unit.empty() || info.unit == "1" ? "" : " " + info.unit;
+    if (results.horizon == 0)
+      return fmt::format("{}\u201c{}\u201d lies between {} and {}{}{}.", known.begin, info.name, from, to, unit,
+                         known.end);
+    return fmt::format(
+        "{}\u201c{}\u201d stays between {} and {}{} from {} s to {} s{}{}. At {}, cases differ by {}{} at most.",
+        known.begin, info.name, from, to, unit, numberText(results.time.front(), 6),
+        numberText(results.time[extent.last], 6), isProvedBetween ? "" : " (looked at the output times)", known.end,
+        extent.known == results.time.size() ? "any output time" : "the times that are known",
+        atMostText(extent.width, 2), unit);
   }
   return "Nothing certain is known of its outputs.";
 }

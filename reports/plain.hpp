@@ -9,7 +9,7 @@
 
 namespace gamut {
 
-/// One or two sentences that lead the page. Without requirements: where this output lies at the end.
+/// One or two sentences that lead the page. Without requirements: where this output stays.
 std::string plainSummary(const Results& results, const Verdict& verdict, std::size_t output);
 
 /// One sentence a requirement: "“height” stays above 0.2 m in every case."

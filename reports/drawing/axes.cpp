@@ -27,9 +27,17 @@ void append(std::string& path, long long tenths, bool isFirst) {
 
 int orderOf(double x) { return static_cast<int>(std::floor(std::log10(x) + 1e-9)); }
 
-double roundStep(double raw) {
-  const double power = std::pow(10.0, std::floor(std::log10(raw)));
-  return power * (raw / power <= 1 ? 1 : raw / power <= 2 ? 2 : raw / power <= 5 ? 5 : 10);
+/// Round, so that about `wanted` fit into the width, and two at least.
+double roundStep(double width, int wanted) {
+  const double raw = width / wanted, power = std::pow(10.0, std::floor(std::log10(raw)));
+  constexpr double least = 2.5;
+  double fitting = power;
+  for (const double step : {1.0, 2.0, 5.0, 10.0}) {
+    if (step > 1 && width < least * step * power) break;
+    fitting = step * power;
+    if (raw <= fitting) break;
+  }
+  return fitting;
 }
 
 std::string powerOfTen(int exponent) {
@@ -72,7 +80,7 @@ Range Range::padded(double share) const {
 /// The same as ticksOf in reports/page/axes.js.
 Ticks ticksOf(const Range& range, int wanted) {
   Ticks ticks;
-  const double step = roundStep((range.high - range.low) / wanted),
+  const double step = roundStep(range.high - range.low, wanted),
                size = std::max(std::abs(range.low), std::abs(range.high));
   if (!(step > 0) || !std::isfinite(step) || !std::isfinite(size)) return ticks;
   constexpr int mostDigits = 6;
@@ -85,7 +93,8 @@ Ticks ticksOf(const Range& range, int wanted) {
   const double first = std::ceil((range.low - from) / step), last = std::floor((range.high - from) / step);
   const double greatest = step * std::max(std::abs(first), std::abs(last));
   int exponent = greatest > 0 ? orderOf(greatest) : 0;
-  exponent = exponent >= 5 || exponent < -3 ? 3 * static_cast<int>(std::floor(exponent / 3.0)) : 0;
+  const bool isLong = exponent >= 5 || exponent < -3 || (exponent < 0 && orderOf(step) < -5);
+  exponent = isLong ? 3 * static_cast<int>(std::floor(exponent / 3.0)) : 0;
   if (exponent != 0) ticks.aside += (ticks.aside.empty() ? "× " : " × ") + powerOfTen(exponent);
   const int decimals = std::clamp(exponent - orderOf(step), 0, 12);
   for (double k = first; k <= last && k <= first + 4 * wanted; ++k) {

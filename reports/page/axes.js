@@ -3,15 +3,21 @@
 
 const gamut = (() => {
   const orderOf = x => Math.floor(Math.log10(x) + 1e-9);
-  const roundStep = raw => {
-    const power = Math.pow(10, Math.floor(Math.log10(raw))), share = raw / power;
-    return power * (share <= 1 ? 1 : share <= 2 ? 2 : share <= 5 ? 5 : 10);
+  const roundStep = (width, wanted) => {
+    const raw = width / wanted, power = Math.pow(10, Math.floor(Math.log10(raw)));
+    let fitting = power;
+    for (const step of [1, 2, 5, 10]) {
+      if (step > 1 && width < 2.5 * step * power) break;
+      fitting = step * power;
+      if (raw <= fitting) break;
+    }
+    return fitting;
   };
   const raised = n => [...String(n)].map(c => c === "-" ? "\u207b" : "\u2070\u00b9\u00b2\u00b3\u2074\u2075\u2076\u2077\u2078\u2079"[c]).join("");
 
   // {at, text, aside}: about `wanted` ticks; what they are counted from, or in, where their texts are not the numbers.
   const ticks = (low, high, wanted) => {
-    const step = roundStep((high - low) / wanted), size = Math.max(Math.abs(low), Math.abs(high)), found = { at: [], text: [], aside: "" };
+    const step = roundStep(high - low, wanted), size = Math.max(Math.abs(low), Math.abs(high)), found = { at: [], text: [], aside: "" };
     if (!(step > 0) || !isFinite(step) || !isFinite(size)) return found;
     let from = 0;
     if (orderOf(size) - orderOf(step) >= 6) {
@@ -22,7 +28,8 @@ const gamut = (() => {
     const first = Math.ceil((low - from) / step), last = Math.floor((high - from) / step);
     const greatest = step * Math.max(Math.abs(first), Math.abs(last));
     let exponent = greatest > 0 ? orderOf(greatest) : 0;
-    exponent = exponent >= 5 || exponent < -3 ? 3 * Math.floor(exponent / 3) : 0;
+    const isLong = exponent >= 5 || exponent < -3 || exponent < 0 && orderOf(step) < -5;
+    exponent = isLong ? 3 * Math.floor(exponent / 3) : 0;
     if (exponent !== 0) found.aside += (found.aside ? " " : "") + "\u00d7 10" + raised(exponent);
     const decimals = Math.min(12, Math.max(0, exponent - orderOf(step)));
     for (let k = first; k <= last && k <= first + 4 * wanted; ++k) {

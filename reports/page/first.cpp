@@ -100,7 +100,7 @@ std::string captionOf(const Plot& plot) {
   };
   add("guaranteed", "blue: where it lies in every case that the stated tolerances allow");
   add("sampled", "dashed: the least and the greatest of all simulated cases");
-  add("probable", "orange band: nine of ten of them");
+  add("probable", "orange band: where most of them lie");
   add("possible", "violet: where it can lie, the darker the more possible");
   add("median", "orange line: half of the simulated cases lie below");
   add("limit", "red, dashed: the limit");
@@ -123,7 +123,7 @@ std::string plotOfForemost(const Results& results, const Foremost& foremost) {
   const std::string title = titleOfPlot(results, foremost), label = "Plot of " + title;
   const std::string caption = fmt::format("<figcaption>{}</figcaption>", escapeHtml(captionOf(plot)));
   if (!plot.isOverTime())
-    return fmt::format("<section class=\"foremost\">\n<h3>{}</h3>\n<figure>{}</figure>\n</section>\n",
+    return fmt::format("<section class=\"foremost\">\n<h3>{}</h3>\n<figure class=\"kept\">{}</figure>\n</section>\n",
                        escapeHtml(title), drawBars(plot, label));
   constexpr std::size_t drawnTimes = 200;
   const bool isSpread = !foremost.limit && plot.isThin();

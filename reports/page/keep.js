@@ -82,7 +82,7 @@
         x = 10;
         y += 18;
       }
-      const swatch = key.querySelector(".swatch"), style = getComputedStyle(swatch), isLine = style.height === "0px";
+      const swatch = key.querySelector(".swatch"), style = getComputedStyle(swatch), isLine = style.borderTopWidth !== "0px" && style.borderBottomWidth === "0px";
       const edge = style.borderTopWidth !== "0px" ? { stroke: style.borderTopColor, "stroke-width": style.borderTopWidth,
         ...(style.borderTopStyle === "dashed" && { "stroke-dasharray": "5 3" }) } : {};
       const name = key.dataset.layer, fill = getComputedStyle(root).getPropertyValue("--" + name + "-fill") || style.backgroundColor;
@@ -127,7 +127,7 @@
     };
     if (columns) button("Copy CSV", "Copy the numbers", async () => await copied(csv(columns())) ? "Copied" : "Not allowed");
     button("Save SVG", "Save the drawing", () => save(drawing(figure().querySelector("svg"), title(), keys(), gamut.plots?.hidden ?? new Set()), title()));
-    place.append(bar);
+    place.prepend(bar);
   };
 
   const headingOf = element => element.closest("section").querySelector("h3, h2").textContent;
@@ -140,21 +140,22 @@
   if (gamut.plots) {
     for (const section of document.querySelectorAll("section.output[data-output]")) {
       const figure = () => section.querySelector(".static figure[data-view='" + section.dataset.view + "']");
-      addButtons(section.querySelector(".live"), {
+      addButtons(section.querySelector(".live .about"), {
         columns: () => columnsOf(section), figure, title: () => headingOf(section),
         keys: () => keysOf(figure().querySelector("svg")),
       });
     }
   }
+  const captions = new Map([...document.querySelectorAll("figure.kept > figcaption")].map(caption => [caption.parentNode, caption.textContent]));
   for (const figure of document.querySelectorAll("figure.kept")) {
     const numbers = figure.querySelector("script.numbers"), caption = figure.querySelector("figcaption");
-    addButtons(figure, {
+    addButtons(caption ?? figure, {
       columns: numbers && (() => JSON.parse(numbers.textContent)), figure: () => figure,
-      title: () => headingOf(figure) + (caption ? ", " + caption.textContent : ""), keys: () => keysOf(figure.querySelector("svg")),
+      title: () => headingOf(figure) + (caption ? ", " + captions.get(figure) : ""), keys: () => keysOf(figure.querySelector("svg")),
     });
   }
   const picture = document.querySelector(".picture figure");
-  if (picture) addButtons(picture, { figure: () => picture, title: () => headingOf(picture), keys: () => [...document.querySelectorAll(".picture .keys li")] });
+  if (picture) addButtons(picture.closest(".picture"), { figure: () => picture, title: () => headingOf(picture), keys: () => [...document.querySelectorAll(".picture .keys li")] });
 
   window.addEventListener("beforeprint", () => document.querySelectorAll("section > details").forEach(part => { part.open = true; }));
   root.dataset.page = "ready";

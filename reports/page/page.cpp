@@ -62,10 +62,7 @@ std::string notesList(const Verdict& verdict) {
   return list + "</ul>\n";
 }
 
-std::string askedSection(const Report& report) {
-  return uncertainTable(report.results) + "<details><summary>The study as it was written</summary><pre>" +
-         escapeHtml(report.results.studyText) + "</pre></details>\n";
-}
+std::string askedSection(const Report& report) { return uncertainTable(report.results); }
 
 std::string outputsSection(const Report& report) { return report.outputs.html; }
 
@@ -83,7 +80,8 @@ std::string provenanceSection(const Report& report) {
   for (const auto& [name, version] : results.libraries)
     libraries += fmt::format("{}{} {}", libraries.empty() ? "" : ", ", name, version);
   table.row("libraries", {libraries});
-  return table.html();
+  return table.html() + "<details><summary>The study as it was written</summary><pre>" + escapeHtml(results.studyText) +
+         "</pre></details>\n";
 }
 
 }  // namespace gamut

@@ -49,7 +49,7 @@ std::string firstSection(const Report& report);
 /// The requirements with their three answers; empty without requirements.
 std::string requirementsSection(const Report& report);
 
-/// The uncertain quantities and the study word for word.
+/// The uncertain quantities.
 std::string askedSection(const Report& report);
 
 /// The machine, drawn, with the numbers that make it move; empty where there is none.
@@ -67,7 +67,7 @@ std::string membershipSection(const Report& report);
 /// How probable their values are, and whose doing their spread is.
 std::string probabilitySection(const Report& report);
 
-/// Version, machine, date, seed, study file, libraries.
+/// Version, machine, date, seed, study file, libraries; the study word for word.
 std::string provenanceSection(const Report& report);
 
 }  // namespace gamut

@@ -158,7 +158,9 @@ gamut.plots = (() => {
       if (!this.only) this.addViews();
       this.main = this.place.appendChild(document.createElement("div"));
       this.main.className = "canvas";
-      this.readout = this.place.appendChild(document.createElement("p"));
+      const about = this.place.appendChild(document.createElement("div"));
+      about.className = "about";
+      this.readout = about.appendChild(document.createElement("p"));
       this.readout.className = "readout";
       section.classList.add("plotted");
     }

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <stdexcept>
 
+#include "reports/drawing/axes.hpp"
 #include "reports/drawing/paper.hpp"
 #include "reports/drawing/screen.hpp"
 #include "reports/drawing/style.hpp"
@@ -93,6 +94,55 @@ TEST(PlotAroundItsMiddle, TakesTheMiddleOfTheFrontMostBandWhereThereIsNoLine) {
   EXPECT_EQ(plot.middleName(), "the middle");
   EXPECT_NEAR(plot.middle()[3],
               0.5 * (results.stochastic.envelope.lower(3, 0) + results.stochastic.envelope.upper(3, 0)), 1e-15);
+}
+
+TEST(ThinnedPlot, KeepsExtremesOfLines) {
+  Plot plot = plotOf(example::pendulum(3001, 1), 0);
+  Layer& median = plot.layers[4];
+  ASSERT_EQ(median.name, "median");
+  for (const std::size_t peak : {7u, 1234u, 2999u}) median.bands[0].lower[peak] = 10.0 + static_cast<double>(peak);
+  median.bands[0].lower[500] = -99;
+  const Line thin = layerNamed(thinned(plot, 200), "median").bands[0].lower;
+  for (const double extreme : {17.0, 1244.0, -99.0}) EXPECT_THAT(thin, testing::Contains(extreme));
+}
+
+TEST(Plot, IsThinWhereItsBandIsAHairline) {
+  Results results = example::pendulum();
+  EXPECT_TRUE(plotOf(results, 0).isThin());
+  for (std::size_t i = 0; i < results.time.size(); ++i) results.interval.over.upper(i, 0) += 100;  // not in the spread
+  EXPECT_TRUE(plotOf(results, 0).isThin());
+  results.interval.at.upper(30, 0) += 1;
+  EXPECT_FALSE(plotOf(results, 0).isThin());
+  Results constant = example::pendulum();
+  for (Bounds* bounds : {&constant.interval.at, &constant.stochastic.envelope, &constant.fuzzy.outer[0]})
+    for (Table* table : {&bounds->lower, &bounds->upper})
+      for (double& number : table->data) number = 2;
+  for (Table& quantile : constant.stochastic.quantiles)
+    for (double& number : quantile.data) number = 2;
+  EXPECT_FALSE(plotOf(constant, 0).isThin());
+}
+
+/// Whatever the size of the numbers, their offset and their width.
+TEST(Ticks, DifferAsTheyAreWritten) {
+  for (const double size : {1e-9, 1e-3, 1.0, 1e4, 1e9, 1e150})
+    for (const double offset : {0.0, 1.0, -3.25, 1e4, 123456.789, -1e6})
+      for (const double width : {1e-5, 0.3, 1.0, 17.0})
+        for (const int wanted : {2, 3, 5, 8}) {
+          const Ticks ticks = ticksOf({size * (offset - width / 3), size * (offset + width)}, wanted);
+          ASSERT_GE(ticks.at.size(), 2u);
+          EXPECT_LE(ticks.at.size(), static_cast<std::size_t>(3 * wanted + 1));
+          for (std::size_t i = 0; i + 1 < ticks.at.size(); ++i) EXPECT_NE(ticks.text[i], ticks.text[i + 1]);
+          for (const std::string& text : ticks.text) EXPECT_LE(text.size(), 9u) << text;
+        }
+  EXPECT_THAT(ticksOf({0, 1}, 5).text, ElementsAre("0", "0.2", "0.4", "0.6", "0.8", "1.0"));
+  EXPECT_EQ(ticksOf({0, 4e-9}, 4).aside, "× 10⁻⁹");
+  EXPECT_EQ(ticksOf({1234.56781, 1234.56788}, 4).aside, "1234.5678 + … × 10⁻⁶");
+  EXPECT_EQ(ticksOf({-0.5, 0.5}, 5).aside, "");
+  for (const double constant : {0.0, 1e-9, -5.0, 1e9}) {
+    Range range;
+    range.hold(constant);
+    EXPECT_GE(ticksOf(range.padded(0.04), 5).at.size(), 3u);
+  }
 }
 
 /// What adding a layer takes: one row in the analysis that it belongs to.

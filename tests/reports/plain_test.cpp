@@ -1,0 +1,139 @@
+// What leads the page is true in every state of the results, and says no more than is known.
+#include "reports/plain.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <string>
+
+#include "reports/verdict.hpp"
+#include "tests/reports/example_results.hpp"
+
+namespace gamut {
+namespace {
+
+using testing::ElementsAre;
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
+
+Results withRequirement(const std::string& statement, const std::string& word) {
+  Results results = example::pendulum();
+  RequirementResult& requirement = results.requirements.emplace_back();
+  requirement.name = "clearance";
+  requirement.statement = statement;
+  requirement.isAlways = statement.starts_with("always");
+  requirement.until = results.horizon;
+  requirement.word = word;
+  requirement.violation.assign(results.uncertain.size(), std::nan(""));
+  return results;
+}
+
+std::string sentenceOf(const Results& results) { return plainRequirements(results).front(); }
+
+std::string summaryOf(const Results& results) { return plainSummary(results, judge(results), 0); }
+
+TEST(PlainRequirement, SaysWhatStaysWhere) {
+  EXPECT_EQ(sentenceOf(withRequirement("always tip.z > 0.2 m", "met")),
+            "\u201ctip.z\u201d stays above 0.2 m in every case.");
+  EXPECT_EQ(sentenceOf(withRequirement("always 0.2 m >= 'tip height'", "met")),
+            "\u201ctip height\u201d stays below 0.2 m in every case.");
+  EXPECT_EQ(sentenceOf(withRequirement("always -5 deg < a < 6 deg", "met")),
+            "\u201ca\u201d stays between -5 deg and 6 deg in every case.");
+  EXPECT_EQ(sentenceOf(withRequirement("always 6 deg > a > -5 deg", "met")),
+            "\u201ca\u201d stays between -5 deg and 6 deg in every case.");
+  EXPECT_EQ(sentenceOf(withRequirement("always abs('a b') < 6 deg", "met")),
+            "\u201ca b\u201d stays between -6 deg and 6 deg in every case.");
+  EXPECT_EQ(sentenceOf(withRequirement("always abs(a) > 6 deg", "met")),
+            "The size of \u201ca\u201d stays above 6 deg in every case.");
+  EXPECT_EQ(sentenceOf(withRequirement("eventually a < 1", "met")),
+            "\u201ca\u201d falls below 1, at least once, in every case.");
+}
+
+TEST(PlainRequirement, IsNamedWhereItsFormulaSaysMore) {
+  EXPECT_EQ(sentenceOf(withRequirement("always a > b", "met")), "\u201cclearance\u201d is kept in every case.");
+  EXPECT_EQ(sentenceOf(withRequirement("always", "met")), "\u201cclearance\u201d is kept in every case.");
+  EXPECT_EQ(sentenceOf(withRequirement("always 'a > 1' > 2", "met")), "\u201ca > 1\u201d stays above 2 in every case.");
+}
+
+TEST(PlainRequirement, NamesTheCaseThatViolatesIt) {
+  Results results = withRequirement("always a > 1 m", "partly");
+  EXPECT_EQ(sentenceOf(results), "\u201ca\u201d does not stay above 1 m in every case.");
+  RequirementResult& requirement = results.requirements.front();
+  requirement.violation.front() = 2.3;
+  EXPECT_THAT(sentenceOf(results), EndsWith(" In one case that was found it misses the limit."));
+  requirement.violationSample = 17;
+  requirement.violationTime = 0.5;
+  requirement.violationLower = requirement.violationUpper = -0.25;
+  requirement.samples = 4096;
+  requirement.violating = 3;
+  EXPECT_THAT(sentenceOf(results),
+              EndsWith(" In sample 17 it misses the limit by 0.25 rad at 0.5 s. 3 of 4096 simulated cases miss it."));
+  requirement.violationSample = 4096;
+  requirement.isViolatedBetween = true;
+  EXPECT_THAT(sentenceOf(results),
+              HasSubstr("In an extreme combination of the tolerances (corner 0) it misses the limit "
+                        "for an instant."));
+}
+
+TEST(PlainRequirement, ClaimsNothingThatIsOpen) {
+  Results results = withRequirement("always a > 1 m", "open");
+  results.requirements.front().why = "the run was interrupted";
+  results.requirements.front().samples = 10;
+  EXPECT_EQ(
+      sentenceOf(results),
+      "It is not decided whether \u201ca\u201d stays above 1 m in every case: the run was interrupted. None of 10 "
+      "simulated cases was seen to miss it.");
+}
+
+TEST(PlainSummary, CountsRequirements) {
+  Results results = withRequirement("always a > 1 m", "met");
+  EXPECT_EQ(summaryOf(results), "The requirement is met in every case that the stated tolerances allow.");
+  results.requirements.push_back(results.requirements.front());
+  EXPECT_EQ(summaryOf(results), "All 2 requirements are met in every case that the stated tolerances allow.");
+  results.requirements.back().word = "partly";
+  EXPECT_EQ(summaryOf(results),
+            "1 of 2 requirements can be violated within the stated tolerances; 1 is met in every case.");
+  results.requirements.front().word = "open";
+  EXPECT_EQ(summaryOf(results), "1 of 2 requirements can be violated within the stated tolerances; 1 is not decided.");
+}
+
+TEST(PlainSummary, WithoutRequirementsSaysWhereAnOutputStays) {
+  Results results = example::pendulum();
+  EXPECT_THAT(summaryOf(results), StartsWith("\u201cshoulder angle\u201d stays between -"));
+  EXPECT_THAT(summaryOf(results), HasSubstr("from 0 s to 3 s in every case that the stated tolerances allow. At any"));
+  results.interval = {};
+  EXPECT_THAT(summaryOf(results), StartsWith("In 4099 simulated cases, \u201cshoulder"));
+  EXPECT_THAT(summaryOf(results), HasSubstr("; nothing is proved of other cases."));
+  results.stochastic = {};
+  EXPECT_THAT(summaryOf(results), HasSubstr("in every case that is held possible"));
+  results.fuzzy = {};
+  EXPECT_THAT(summaryOf(results), StartsWith("Nothing certain is known"));
+  EXPECT_THAT(plainSummary(Results{}, judge(Results{}), 0), StartsWith("Nothing was computed."));
+  EXPECT_THAT(plainSummary(example::kinematics(), judge(example::kinematics()), 0), HasSubstr("lies between"));
+}
+
+TEST(PlainSummary, SaysThatARunEndedEarly) {
+  Results results = example::pendulum();
+  results.interval.reached = 1.5;
+  results.interval.why = "the run was interrupted";
+  for (std::size_t i = 31; i < 61; ++i)
+    for (std::size_t k = 0; k < results.outputs.size(); ++k)
+      for (Bounds* bounds : {&results.interval.at, &results.interval.over})
+        bounds->lower(i, k) = bounds->upper(i, k) = std::nan("");
+  EXPECT_THAT(summaryOf(results), HasSubstr("from 0 s to 1.5 s in every case"));
+  EXPECT_THAT(summaryOf(results),
+              EndsWith("The computation is incomplete: it ended early, and what it says of all cases "
+                       "ends at 1.5 s of 3 s (the run was interrupted)."));
+}
+
+TEST(PlainSummary, TellsNobodyToRelyOnWhatWasRefuted) {
+  Results results = withRequirement("always a > 1 m", "met");
+  results.stochastic.envelope.upper(40, 1) = results.interval.at.upper(40, 1) + 1;
+  EXPECT_THAT(summaryOf(results), EndsWith("Do not rely on them."));
+  EXPECT_THAT(summaryOf(results), Not(HasSubstr("is met")));
+}
+
+}  // namespace
+}  // namespace gamut
