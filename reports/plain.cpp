@@ -103,7 +103,7 @@ class Sentence {
     if (r_.word == "met")
       return does(true) + (r_.isAlways ? "" : ", at least once,") + " in every case" + window() + ".";
     if (r_.word == "violated") return does(true) + " in no case" + window() + "." + violation() + share();
-    if (r_.word == "partly") return does(false) + " in every case" + window() + "." + violation() + share();
+    if (r_.word == "partly") return "In some cases, " + does(false) + window() + "." + violation() + share();
     return fmt::format("It is not decided whether {} in every case{}{}.{}", does(true), window(),
                        r_.why.empty() ? "" : ": " + r_.why, share());
   }

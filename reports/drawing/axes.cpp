@@ -47,6 +47,15 @@ std::string powerOfTen(int exponent) {
   return text;
 }
 
+/// A number in whole multiples of a power of ten: "1234.5678", "1.00000002 \u00d7 10\u2079".
+std::string offsetText(double from, double size, double power) {
+  const int order = orderOf(size);
+  constexpr int small = -4, large = 7;
+  if (order >= small && order < large) return fmt::format("{:.{}f}", from, std::clamp(-orderOf(power), 0, 17));
+  return fmt::format("{:.{}f} \u00d7 {}", from / std::pow(10.0, order), std::clamp(order - orderOf(power), 0, 17),
+                     powerOfTen(order));
+}
+
 /// "rad", "rad, × 10⁻⁹".
 std::string axisName(const std::string& name, const Ticks& ticks) {
   return ticks.aside.empty() ? name : name.empty() ? ticks.aside : name + ", " + ticks.aside;
@@ -88,7 +97,7 @@ Ticks ticksOf(const Range& range, int wanted) {
   if (orderOf(size) - orderOf(step) >= mostDigits) {  // counted from a number with as few digits as the range allows
     const double power = std::pow(10.0, orderOf(range.high - range.low) + 1);
     from = std::round(0.5 * (range.low + range.high) / power) * power;
-    ticks.aside = numberText(from, std::min(17, orderOf(size) - orderOf(power) + 1)) + " + …";
+    ticks.aside = offsetText(from, size, power) + " + \u2026";
   }
   const double first = std::ceil((range.low - from) / step), last = std::floor((range.high - from) / step);
   const double greatest = step * std::max(std::abs(first), std::abs(last));

@@ -53,6 +53,18 @@ void drawBand(const std::vector<double>& time, const Band& band, const Frame& fr
   drawPath(pen, layer, svg);
 }
 
+/// At the last number of the band; of several every other one below it.
+void drawLabel(const std::vector<double>& time, const Layer& layer, std::size_t i, const Frame& frame,
+               std::string& svg) {
+  const Line& line = layer.bands[i].lower;
+  std::size_t last = line.size();
+  while (last > 0 && !std::isfinite(line[last - 1])) --last;
+  if (last == 0) return;
+  const double y = frame.down(line[last - 1]);
+  drawText("end label", frame.across(time[last - 1]) - 4, y + (i % 2 != 0 || y < marginTop + 16 ? 13 : -4),
+           layer.labels[i], svg);
+}
+
 void drawLayer(const std::vector<double>& time, const Layer& layer, const Frame& frame, std::string& svg) {
   for (const std::size_t i : layer.shown()) {
     const Band& band = layer.bands[i];
@@ -62,10 +74,7 @@ void drawLayer(const std::vector<double>& time, const Layer& layer, const Frame&
       drawLine(time, band.lower, frame, layer, svg);
       drawLine(time, band.upper, frame, layer, svg);
     }
-    if (i < layer.labels.size() && !time.empty() && std::isfinite(band.lower.back()))
-      drawText("end label", paperWidth - marginRight - 4,
-               frame.down(band.lower.back()) + (frame.down(band.lower.back()) < marginTop + 16 ? 13 : -4),
-               layer.labels[i], svg);
+    if (i < layer.labels.size()) drawLabel(time, layer, i, frame, svg);
   }
 }
 

@@ -15,6 +15,13 @@ const gamut = (() => {
   };
   const raised = n => [...String(n)].map(c => c === "-" ? "\u207b" : "\u2070\u00b9\u00b2\u00b3\u2074\u2075\u2076\u2077\u2078\u2079"[c]).join("");
 
+  const clamped = n => Math.min(17, Math.max(0, n));
+  const offsetText = (from, size, power) => {
+    const order = orderOf(size);
+    if (order >= -4 && order < 7) return from.toFixed(clamped(-orderOf(power)));
+    return (from / Math.pow(10, order)).toFixed(clamped(order - orderOf(power))) + " \u00d7 10" + raised(order);
+  };
+
   // {at, text, aside}: about `wanted` ticks; what they are counted from, or in, where their texts are not the numbers.
   const ticks = (low, high, wanted) => {
     const step = roundStep(high - low, wanted), size = Math.max(Math.abs(low), Math.abs(high)), found = { at: [], text: [], aside: "" };
@@ -23,7 +30,7 @@ const gamut = (() => {
     if (orderOf(size) - orderOf(step) >= 6) {
       const power = Math.pow(10, orderOf(high - low) + 1);
       from = Math.round((low + high) / 2 / power) * power;
-      found.aside = Number(from.toPrecision(Math.min(17, Math.max(1, orderOf(size) - orderOf(power) + 1)))) + " + \u2026";
+      found.aside = offsetText(from, size, power) + " + \u2026";
     }
     const first = Math.ceil((low - from) / step), last = Math.floor((high - from) / step);
     const greatest = step * Math.max(Math.abs(first), Math.abs(last));

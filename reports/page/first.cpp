@@ -1,6 +1,7 @@
 // What a reader sees first: what holds in every case, whether the answers agree, the one plot that matters and whose
 // doing its spread is.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -75,8 +76,20 @@ std::string verdictCard(const Verdict& verdict) {
 
 // ---- The plot -------------------------------------------------------------------------------------------------------
 
-/// Of what is known the best, a middle, and limits.
-Plot essentials(Plot plot) {
+/// Numbers of the limits in the plot of an output that are those of one requirement.
+std::vector<std::size_t> limitsShown(const Results& results, const Foremost& foremost) {
+  std::vector<std::size_t> numbers;
+  std::size_t number = 0;
+  for (const Limit& limit : limitsOf(results)) {
+    if (limit.output != foremost.output) continue;
+    if (foremost.limit && limit.requirement == foremost.limit->requirement) numbers.push_back(number);
+    ++number;
+  }
+  return numbers;
+}
+
+/// Of what is known the best, a middle, and these limits.
+Plot essentials(Plot plot, const std::vector<std::size_t>& limits) {
   const auto has = [&](std::string_view name) {
     return std::ranges::find(plot.layers, name, &Layer::name) != plot.layers.end();
   };
@@ -87,6 +100,16 @@ Plot essentials(Plot plot) {
     if (layer.name == "possible") return isProved || isSampled;
     return layer.name != "median" && layer.name != "limit";
   });
+  for (Layer& layer : plot.layers) {
+    if (layer.name != "limit") continue;
+    Layer all = layer;
+    layer.bands.clear();
+    layer.labels.clear();
+    for (const std::size_t i : limits) {
+      layer.bands.push_back(std::move(all.bands[i]));
+      layer.labels.push_back(std::move(all.labels[i]));
+    }
+  }
   return plot;
 }
 
@@ -118,7 +141,8 @@ std::string titleOfPlot(const Results& results, const Foremost& foremost) {
 }
 
 std::string plotOfForemost(const Results& results, const Foremost& foremost) {
-  const Plot plot = essentials(plotOf(results, foremost.output));
+  const std::vector<std::size_t> limits = limitsShown(results, foremost);
+  const Plot plot = essentials(plotOf(results, foremost.output), limits);
   if (plot.layers.empty()) return {};
   const std::string title = titleOfPlot(results, foremost), label = "Plot of " + title;
   const std::string caption = fmt::format("<figcaption>{}</figcaption>", escapeHtml(captionOf(plot)));
@@ -133,12 +157,14 @@ std::string plotOfForemost(const Results& results, const Foremost& foremost) {
   for (const Layer& layer : plot.layers) layers += (layers.empty() ? "" : " ") + layer.name;
   const char* view = isSpread ? "spread" : "absolute";
   return fmt::format(
-      "<section class=\"output foremost\" data-output=\"{0}\" data-view=\"{1}\" data-layers=\"{2}\">\n<h3>{3}{4}</h3>\n"
+      "<section class=\"output foremost\" data-output=\"{0}\" data-view=\"{1}\" data-layers=\"{2}\" "
+      "data-limits=\"{8}\">\n<h3>{3}{4}</h3>\n"
       "<div class=\"live\" role=\"group\" aria-label=\"{5}\"></div>\n<div class=\"static\">\n"
       "<figure data-view=\"{1}\">{6}</figure>\n</div>\n<p class=\"hint\">{7}</p>\n</section>\n",
       foremost.output, view, layers, escapeHtml(title),
       isSpread ? escapeHtml(": spread around " + plot.middleName()) : std::string(),
-      escapeHtml("Interactive plot of " + title), drawPlot(shown, label), escapeHtml(captionOf(plot)));
+      escapeHtml("Interactive plot of " + title), drawPlot(shown, label), escapeHtml(captionOf(plot)),
+      fmt::join(limits, " "));
 }
 
 // ---- Whose doing it is ----------------------------------------------------------------------------------------------

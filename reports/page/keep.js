@@ -16,19 +16,18 @@
 
   // Columns of a plot over time: all its layers, whichever are shown.
   const columnsOf = section => {
-    const output = gamut.plots.outputOf(section.dataset.output), only = section.dataset.layers?.split(" ");
+    const output = gamut.plots.outputOf(section.dataset.output);
     const named = words => words + (output.unit ? " (" + output.unit + ")" : "");
     const columns = [["time (s)", ...gamut.plots.time]];
     const first = output.name + ", ";
-    for (const layer of output.layers) {
-      if (only && !only.includes(layer.name)) continue;
+    for (const layer of gamut.plots.shownOf(output, section)) {
       layer.bands.forEach((band, i) => {
         const words = first + (layer.kind === "stack" ? "level " + layer.levels[i] + " of " + layer.name : layer.labels[i] ?? layer.words);
         if (layer.kind === "line") columns.push([named(words), ...band[0]]);
         else columns.push([named(words + ", from"), ...band[0]], [named(words + ", to"), ...band[1]]);
       });
     }
-    for (const ratio of only ? [] : output.ratios) columns.push([first + ratio.words, ...ratio.bands[0][0]]);
+    for (const ratio of section.dataset.layers == null ? output.ratios : []) columns.push([first + ratio.words, ...ratio.bands[0][0]]);
     return columns;
   };
 

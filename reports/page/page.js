@@ -47,6 +47,14 @@ gamut.plots = (() => {
 
   // ---- Layers -------------------------------------------------------------------------------------------------------
 
+  // Of the first plot of the page only some layers, and of the limits those of one requirement.
+  const shownOf = (output, { dataset: { layers: only, limits } }) => {
+    if (only == null) return output.layers;
+    const isShown = i => limits.split(" ").includes(String(i)), some = list => list.filter((_, i) => isShown(i));
+    return output.layers.filter(layer => only.split(" ").includes(layer.name)).map(layer => layer.name !== "limit" ? layer :
+      { ...layer, bands: some(layer.bands), around: some(layer.around), labels: some(layer.labels) });
+  };
+
   // What is drawn, from back to front: {layer, line, label, stroke, dash, width}, and bands that fill between two of them.
   const linesOf = (layers, isSpread) => {
     const lines = [], bands = [];
@@ -55,7 +63,7 @@ gamut.plots = (() => {
       const style = layer.width > 0 ? { stroke: color(layer.name), width: layer.width, dash: layer.dashed ? [6, 4] : undefined } : { width: 0 };
       (isSpread ? layer.around : layer.bands).forEach((band, i) => {
         if (layer.filled) bands.push({ series: [lines.length + 2, lines.length + 1], fill: color(layer.name + "-fill") });
-        for (const line of band) lines.push({ layer: layer.name, label: layer.labels[i], line, ...style });
+        for (const line of band) lines.push({ layer: layer.name, label: layer.labels[i], isBelow: i % 2 === 1, line, ...style });
       });
     }
     return { lines, bands };
@@ -95,12 +103,13 @@ gamut.plots = (() => {
     ctx.font = 11 * devicePixelRatio + "px system-ui, sans-serif";
     ctx.textAlign = "right";
     lines.forEach((line, i) => {
-      const last = line.label && plot.series[i + 1].show ? line.line.findLast(x => x != null) : null;
-      if (last == null) return;
-      const y = plot.valToPos(last, "y", true), isHigh = y < bbox.top + 16 * devicePixelRatio;
-      if (y < bbox.top || y > bbox.top + bbox.height) return;
+      const last = line.label && plot.series[i + 1].show ? line.line.findLastIndex(x => x != null) : -1;
+      if (last < 0) return;
+      const x = Math.min(plot.valToPos(time[last], "x", true), bbox.left + bbox.width) - 4, y = plot.valToPos(line.line[last], "y", true);
+      const isHigh = line.isBelow || y < bbox.top + 16 * devicePixelRatio;
+      if (x < bbox.left || y < bbox.top || y > bbox.top + bbox.height) return;
       ctx.fillStyle = line.stroke;
-      ctx.fillText(line.label, bbox.left + bbox.width - 4, y + (isHigh ? 13 : -4) * devicePixelRatio);
+      ctx.fillText(line.label, x, y + (isHigh ? 13 : -4) * devicePixelRatio);
     });
     ctx.restore();
   };
@@ -153,9 +162,8 @@ gamut.plots = (() => {
     constructor(section) {
       this.section = section;
       this.place = section.querySelector(".live");
-      this.only = section.dataset.layers?.split(" ");
       section.querySelectorAll(".static details").forEach(details => details.replaceWith(details.querySelector("figure")));
-      if (!this.only) this.addViews();
+      if (section.dataset.layers == null) this.addViews();
       this.main = this.place.appendChild(document.createElement("div"));
       this.main.className = "canvas";
       const about = this.place.appendChild(document.createElement("div"));
@@ -182,7 +190,7 @@ gamut.plots = (() => {
       this.plot?.destroy();
       this.output = outputOf(this.section.dataset.output);
       const view = this.section.dataset.view, unit = this.output.unit;
-      const layers = (view === "ratio" ? this.output.ratios : this.output.layers).filter(layer => !this.only || this.only.includes(layer.name));
+      const layers = view === "ratio" ? this.output.ratios : shownOf(this.output, this.section);
       const { lines, bands } = linesOf(layers, view === "spread");
       const name = view === "ratio" ? this.output.ratios[0].words : view === "spread" ? "deviation" + (unit ? " (" + unit + ")" : "") : unit;
       this.lines = lines;
@@ -232,5 +240,5 @@ gamut.plots = (() => {
   later(drawNext);
   new ResizeObserver(() => drawn.forEach(plot => plot.resize())).observe(document.body);
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => drawn.forEach(plot => plot.draw()));
-  return { time, outputOf, hidden };
+  return { time, outputOf, shownOf, hidden };
 })();

@@ -1,4 +1,6 @@
 // The page in a real browser: every plot is drawn, nothing goes wrong, and without a script the drawings are there.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gmock/gmock.h>
 
 #include <array>
@@ -11,8 +13,10 @@
 #include <limits>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "reports/drawing/axes.hpp"
 #include "reports/report.hpp"
 #include "tests/reports/example_results.hpp"
 #include "tests/reports/page_text.hpp"
@@ -107,6 +111,45 @@ TEST_F(Browser, ShowsTheSpreadFirstWhereTheBandIsThin) {
   EXPECT_THAT(page, HasSubstr("<section class=\"output plotted\" data-output=\"1\" data-view=\"absolute\""));
   const std::string other = opened(results, "document.querySelectorAll('.views')[0].children[1].click();");
   EXPECT_THAT(other, HasSubstr("data-output=\"0\" data-view=\"absolute\""));
+}
+
+TEST_F(Browser, HasTheTicksOfPaper) {
+  std::string ranges, wanted;
+  for (const auto& [low, high] : std::vector<std::pair<double, double>>{{0, 1},
+                                                                        {-0.43, 0.43},
+                                                                        {1e-9, 3.7e-9},
+                                                                        {-2e9, 5e9},
+                                                                        {1234.56781, 1234.56788},
+                                                                        {-1e9, -1e9 + 2},
+                                                                        {0.0009999, 0.0010001}}) {
+    ranges += fmt::format("{}[{}, {}]", ranges.empty() ? "" : ", ", low, high);
+    const Ticks ticks = ticksOf({low, high}, 4);
+    wanted += fmt::format("{} | {}\n", fmt::join(ticks.text, " "), ticks.aside);
+  }
+  const std::string page =
+      opened(example::pendulum(5, 1), std::string(noting) + "note([" + ranges +
+                                          "].map(([low, high]) => { const t = gamut.ticks(low, high, 4); return "
+                                          "t.text.join(' ') + ' | ' + t.aside + '\\n'; }).join(''));");
+  EXPECT_EQ(noted(page), wanted);
+}
+
+/// Numbers of any size, some of them constant: nothing goes wrong, and every output is drawn.
+TEST_F(Browser, DrawsNumbersOfAllSizes) {
+  Results results = example::pendulum(61, 5);
+  const double factor[] = {1e-9, 1e9, 0, 1e-300, 1e300};
+  std::vector<Table*> tables{&results.interval.at.lower,         &results.interval.at.upper,
+                             &results.interval.over.lower,       &results.interval.over.upper,
+                             &results.stochastic.envelope.lower, &results.stochastic.envelope.upper,
+                             &results.stochastic.mean,           &results.stochastic.deviation};
+  for (Table& quantile : results.stochastic.quantiles) tables.push_back(&quantile);
+  for (std::vector<Bounds>* cuts : {&results.fuzzy.outer, &results.fuzzy.inner})
+    for (Bounds& cut : *cuts) tables.insert(tables.end(), {&cut.lower, &cut.upper});
+  for (Table* table : tables)
+    for (std::size_t i = 0; i < table->times; ++i)
+      for (std::size_t k = 0; k < 5; ++k) (*table)(i, k) *= factor[k];
+  const std::string page = opened(results);
+  EXPECT_THAT(rootOf(page), AllOf(HasSubstr("data-page=\"ready\""), Not(HasSubstr("data-error"))));
+  EXPECT_EQ(count(page, "<canvas"), 6u);
 }
 
 TEST_F(Browser, CopiesTheNumbersOfAFigure) {

@@ -59,7 +59,7 @@ TEST(PlainRequirement, IsNamedWhereItsFormulaSaysMore) {
 
 TEST(PlainRequirement, NamesTheCaseThatViolatesIt) {
   Results results = withRequirement("always a > 1 m", "partly");
-  EXPECT_EQ(sentenceOf(results), "\u201ca\u201d does not stay above 1 m in every case.");
+  EXPECT_EQ(sentenceOf(results), "In some cases, \u201ca\u201d does not stay above 1 m.");
   RequirementResult& requirement = results.requirements.front();
   requirement.violation.front() = 2.3;
   EXPECT_THAT(sentenceOf(results), EndsWith(" In one case that was found it misses the limit."));
