@@ -290,6 +290,31 @@ TEST_F(Browser, ChoosesTheTimeOfDistributions) {
   EXPECT_THAT(middle, HasSubstr("nothing is known at 2 s"));
 }
 
+TEST_F(Browser, ChoosesTheTimeOfMembershipFunctions) {
+  const std::string page = opened(example::pendulum(61, 2),
+                                  "{ const slider = document.querySelector('.memberships .moments input'); slider.value = "
+                                  "4; slider.dispatchEvent(new Event('input')); }");
+  EXPECT_THAT(rootOf(page), Not(HasSubstr("data-error")));
+  EXPECT_EQ(count(page, "<figure class=\"membership kept\""), 26u);
+  EXPECT_EQ(count(page, "<figure class=\"membership kept\" data-at=\"4\">"), 2u);
+  EXPECT_EQ(count(page, "<figure class=\"membership kept\" data-at=\"12\" hidden"), 2u);
+  EXPECT_THAT(page, HasSubstr("<output>1 s</output>"));
+  EXPECT_EQ(count(page, "class=\"outer\""), 26u);
+  EXPECT_EQ(count(page, "class=\"inner\""), 26u);
+}
+
+/// Keys, sliders and buttons are made for hands; on paper they would be noise.
+TEST_F(Browser, HidesOnPaperWhatOnlyHandsCanUse) {
+  const std::string page = opened(
+      example::pendulum(61, 1),
+      std::string(noting) +
+          "let rules = []; for (const sheet of document.styleSheets) for (const rule of sheet.cssRules)"
+          "  if (rule.media?.mediaText === 'print') rules.push(...[...rule.cssRules].map(inner => inner.cssText));"
+          "const none = rules.filter(rule => rule.includes('display: none')).join(' ');"
+          "note(['.live', '.views', '.controls', '.keep'].every(name => none.includes(name)));");
+  EXPECT_EQ(noted(page), "true");
+}
+
 TEST_F(Browser, OpensAPageOfKinematicsWithoutPlots) {
   const std::string page = opened(example::kinematics());
   EXPECT_THAT(rootOf(page), AllOf(HasSubstr("data-page=\"ready\""), Not(HasSubstr("data-error"))));

@@ -1,0 +1,115 @@
+// Limits are found from the margins of requirements, and the first plot is of the output that is nearest to its limit.
+#include "reports/sections/limits.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "reports/report.hpp"
+#include "tests/reports/example_results.hpp"
+#include "tests/reports/page_text.hpp"
+
+namespace gamut {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+/// Adds a requirement with one margin: sign * (output - limit).
+void require(Results& results, const std::string& name, std::size_t output, int sign, double limit) {
+  RequirementResult& requirement = results.requirements.emplace_back();
+  requirement.name = name;
+  requirement.statement = "always something";
+  requirement.margin = results.outputs.size();
+  requirement.until = results.horizon;
+  requirement.violation.assign(results.uncertain.size(), std::nan(""));
+  results.outputs.push_back({name, "1 - " + results.outputs[output].quantity, results.outputs[output].unit});
+  const std::size_t was = results.outputs.size() - 1;
+  const auto widen = [&](Table& table) {
+    if (table.empty()) return;
+    Table wider(table.times, was + 1);
+    for (std::size_t i = 0; i < table.times; ++i)
+      for (std::size_t k = 0; k < was; ++k) wider(i, k) = table(i, k);
+    table = wider;
+  };
+  const auto addMargin = [&](Bounds& bounds) {
+    widen(bounds.lower);
+    widen(bounds.upper);
+    for (std::size_t i = 0; i < bounds.lower.times; ++i) {
+      const double low = bounds.lower(i, output), high = bounds.upper(i, output);
+      bounds.lower(i, was) = sign > 0 ? low - limit : limit - high;
+      bounds.upper(i, was) = sign > 0 ? high - limit : limit - low;
+    }
+  };
+  for (Bounds* bounds : {&results.interval.at, &results.interval.over, &results.stochastic.envelope}) addMargin(*bounds);
+  for (auto* cuts : {&results.fuzzy.outer, &results.fuzzy.inner})
+    for (Bounds& cut : *cuts) addMargin(cut);
+  for (Table* table : {&results.stochastic.mean, &results.stochastic.deviation, &results.stochastic.error,
+                       &results.comparison.overestimation})
+    widen(*table);
+  for (Table& quantile : results.stochastic.quantiles) {
+    widen(quantile);
+    for (std::size_t i = 0; i < quantile.times; ++i) quantile(i, was) = sign * (quantile(i, output) - limit);
+  }
+  results.comparison.maximumOf.push_back(1.004);
+}
+
+TEST(Limits, AreThoseOfTheOutputsWhoseMarginsTheyMake) {
+  Results results = example::pendulum(61, 2);
+  require(results, "low", 0, 1, -2.5);
+  require(results, "high", 1, -1, 4.25);
+  const std::vector<Limit> limits = limitsOf(results);
+  ASSERT_EQ(limits.size(), 2u);
+  EXPECT_EQ(limits[0].output, 0u);
+  EXPECT_EQ(limits[0].value, -2.5);
+  EXPECT_EQ(limits[1].output, 1u);
+  EXPECT_EQ(limits[1].value, 4.25);
+  EXPECT_TRUE(isMargin(results, 2));
+  EXPECT_FALSE(isMargin(results, 1));
+  results.outputs[3].quantity = "of something else";
+  EXPECT_EQ(limitsOf(results)[1].output, 3u);
+  EXPECT_EQ(limitsOf(results)[1].value, 0);
+}
+
+TEST(Limits, NearestIsThatWithTheLeastRoomInSharesOfItsVariation) {
+  Results results = example::pendulum(61, 2);
+  EXPECT_FALSE(nearestLimit(results));
+  require(results, "far", 0, 1, -20);
+  require(results, "near", 1, 1, -2.5);
+  ASSERT_TRUE(nearestLimit(results));
+  EXPECT_EQ(nearestLimit(results)->requirement, 1u);
+  require(results, "violated", 0, -1, 1);
+  EXPECT_EQ(nearestLimit(results)->requirement, 2u);
+  results.requirements[2].isAlways = false;  // met sooner or later, with much room
+  EXPECT_EQ(nearestLimit(results)->requirement, 1u);
+}
+
+TEST(Limits, AreDrawnInTheFirstPlotAndReplaceTheMarginsPlots) {
+  Results results = example::pendulum(61, 2);
+  require(results, "near", 1, 1, -2.5);
+  const std::string page = renderReport(results);
+  EXPECT_THAT(page, HasSubstr("elbow angle, and the limit of \u201cnear\u201d"));
+  EXPECT_THAT(page, HasSubstr("limit -2.5 rad</text>"));
+  EXPECT_EQ(count(page, "<section class=\"output\" data-output="), 2u);
+  EXPECT_THAT(page, HasSubstr("margin of near (rad)"));
+  EXPECT_THAT(page, HasSubstr("2 outputs"));
+}
+
+TEST(Report, RanksWhatToMeasureBetterFirst) {
+  Results results = example::pendulum(61, 1);
+  EXPECT_THAT(renderReport(results), Not(HasSubstr("What to measure better first")));
+  results.uncertain.push_back(results.uncertain.front());
+  results.uncertain.back().name = "mass";
+  SensitivityResult& s = results.sensitivity;
+  s.present = true;
+  s.time = {1, 3};
+  s.totalLower = {0.9, 0.1, 0.2, 0.79};
+  s.totalUpper = {0.9, 0.1, 0.21, 0.8};
+  const std::string page = renderReport(results);
+  EXPECT_THAT(page, HasSubstr("\u201cshoulder angle\u201d at 3 s"));
+  EXPECT_LT(page.find("<span>mass</span>"), page.find("<span>first angle</span>"));
+  EXPECT_THAT(page, HasSubstr("<b>80 %</b>"));
+}
+
+}  // namespace
+}  // namespace gamut
