@@ -151,7 +151,9 @@ class Sentence {
     if (r_.samples == 0) return {};
     if (r_.violating == 0) return fmt::format(" None of {} simulated cases was seen to miss it.", r_.samples);
     return fmt::format(" {} of {} simulated cases {}.", r_.violating, r_.samples,
-                       r_.isAlways ? "miss it" : "were not seen to meet it");
+                       !r_.isAlways        ? "were not seen to meet it"
+                       : r_.word == "open" ? "seem to miss it"
+                                           : "miss it");
   }
 
   const Results& results_;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "reports/drawing/distribution.hpp"
 #include "reports/drawing/paper.hpp"
@@ -136,7 +137,7 @@ PlotSection probabilityPlots(const Results& results) {
     cards += "</div>\n</section>\n";
   }
   if (!key.empty()) {
-    std::ranges::sort(key, {}, &Layer::name);
+    std::ranges::sort(key, {}, [](const Layer& layer) { return std::pair(layer.name.size(), layer.name); });
     section.html +=
         "<p class=\"hint\">Total Sobol' indices: the share of an output's variance that would stay if all other "
         "quantities were known. It is proved to lie in the band of each quantity. The greatest is what to measure "

@@ -291,9 +291,10 @@ TEST_F(Browser, ChoosesTheTimeOfDistributions) {
 }
 
 TEST_F(Browser, ChoosesTheTimeOfMembershipFunctions) {
-  const std::string page = opened(example::pendulum(61, 2),
-                                  "{ const slider = document.querySelector('.memberships .moments input'); slider.value = "
-                                  "4; slider.dispatchEvent(new Event('input')); }");
+  const std::string page =
+      opened(example::pendulum(61, 2),
+             "{ const slider = document.querySelector('.memberships .moments input'); slider.value = "
+             "4; slider.dispatchEvent(new Event('input')); }");
   EXPECT_THAT(rootOf(page), Not(HasSubstr("data-error")));
   EXPECT_EQ(count(page, "<figure class=\"membership kept\""), 26u);
   EXPECT_EQ(count(page, "<figure class=\"membership kept\" data-at=\"4\">"), 2u);

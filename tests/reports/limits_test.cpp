@@ -41,7 +41,8 @@ void require(Results& results, const std::string& name, std::size_t output, int 
       bounds.upper(i, was) = sign > 0 ? high - limit : limit - low;
     }
   };
-  for (Bounds* bounds : {&results.interval.at, &results.interval.over, &results.stochastic.envelope}) addMargin(*bounds);
+  for (Bounds* bounds : {&results.interval.at, &results.interval.over, &results.stochastic.envelope})
+    addMargin(*bounds);
   for (auto* cuts : {&results.fuzzy.outer, &results.fuzzy.inner})
     for (Bounds& cut : *cuts) addMargin(cut);
   for (Table* table : {&results.stochastic.mean, &results.stochastic.deviation, &results.stochastic.error,
