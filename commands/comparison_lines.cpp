@@ -74,14 +74,14 @@ std::string excessText(const Excess& e, bool moves) {
   using Of = Excess::Of;
   const auto ofWidth = [&](const char* what) {
     return fmt::format("{} is {} times as wide{} ({} is tolerated)", what, atMostText(e.is, 5),
-                       moves ? " at " + timeText(e.time) : "", numberText(e.allowed, 6));
+                       moves ? " at " + timeText(e.time, 10) : "", numberText(e.allowed, 6));
   };
   switch (e.of) {
     case Of::enclosure:
       return ofWidth("the enclosure");
     case Of::alphaCuts:
       return fmt::format("an alpha-cut is wider by {} of the widest{} ({} is tolerated)", atMostText(e.is - 1, 3),
-                         moves ? " at " + timeText(e.time) : "", numberText(e.allowed - 1, 6));
+                         moves ? " at " + timeText(e.time, 10) : "", numberText(e.allowed - 1, 6));
     case Of::overestimation:
       return fmt::format("the overestimation is {} times as great ({} is tolerated)", atMostText(e.is, 5),
                          numberText(e.allowed, 6));
@@ -153,7 +153,7 @@ std::string outputsTable(const Changes& changes, bool moves) {
     const WidthRatio& ratio = output.enclosure;
     const std::string least = ratioText(ratio.least, false), greatest = ratioText(ratio.greatest, true);
     const auto at = [&](const std::string& found, double time) {
-      return moves && found != "-" && found != "1" ? timeText(time) : "-";
+      return moves && found != "-" && found != "1" ? timeText(time, 10) : "-";
     };
     rows.push_back({output.name + (output.unit == "1" ? "" : fmt::format(" ({})", output.unit)), least,
                     at(least, ratio.leastTime), greatest, at(greatest, ratio.greatestTime),

@@ -28,8 +28,8 @@ Both<std::string> boundsText(const Contradiction& c) {
 
 std::string timesText(const Contradiction& c, bool moves) {
   if (!moves) return "";
-  return c.times.size() == 1 ? fmt::format(" at {}", timeText(c.time))
-                             : fmt::format(" at {} times, farthest at {}", c.times.size(), timeText(c.time));
+  return c.times.size() == 1 ? fmt::format(" at {}", timeText(c.time, 10))
+                             : fmt::format(" at {} times, farthest at {}", c.times.size(), timeText(c.time, 10));
 }
 
 /// What is compared: "the enclosures".
@@ -104,7 +104,5 @@ std::string contradictionsText(const std::vector<Contradiction>& found, bool mov
   }
   return lines.empty() ? "" : fmt::format("{}\n", fmt::join(lines, "\n"));
 }
-
-std::string timeText(double time) { return numberText(time, 10) + " s"; }
 
 }  // namespace gamut

@@ -8,9 +8,6 @@
 
 namespace gamut {
 
-/// "0.29 s".
-std::string timeText(double time);
-
 /// A line for each output or requirement, indented by two blanks: of what comes first all, of the rest its name.
 /// `moves`: there is time.
 std::string contradictionsText(const std::vector<Contradiction>& found, bool moves);

@@ -73,6 +73,7 @@ struct Study {
   std::vector<OutputInfo> outputs;  ///< those of the requirements behind all others
   std::vector<Requirement> requirements;
   DistributionPlan distribution;
+  bool derivatives = false;  ///< whether derivatives of outputs by the uncertain quantities are enclosed
   FlowOptions flow;          ///< without jobs, progress and cancelled, which belong to a run
   EnsembleOptions ensemble;  ///< likewise
   double storage = 4e6;      ///< bytes that the samples' values and motions may take in the results

@@ -104,6 +104,25 @@ Json distributionObject(const Results& results) {
           {"outputs", outputs}};
 }
 
+/// At the last time of which they are known.
+Json derivativesObject(const Results& results) {
+  const DerivativeResult& d = results.derivatives;
+  if (!d.present) return nullptr;
+  Json outputs = Json::object();
+  const std::size_t quantities = results.uncertain.size();
+  for (std::size_t k = 0; k < results.outputs.size() && !d.time.empty(); ++k)
+    for (std::size_t q = 0; q < quantities; ++q) {
+      const std::size_t i = ((d.time.size() - 1) * results.outputs.size() + k) * quantities + q;
+      outputs[results.outputs[k].name][results.uncertain[q].name] =
+          Json::array({number(d.lower[i]), number(d.upper[i])});
+    }
+  return {{"reached", d.reached},
+          {"why", textOrNull(d.why)},
+          {"time", d.time.empty() ? Json(nullptr) : Json(d.time.back())},
+          {"cpu", d.cpu},
+          {"outputs", outputs}};
+}
+
 /// What the samples say at the last time that all reached, with 95 % confidence intervals: [lower, upper].
 Json statisticsObject(const Results& results) {
   const StochasticResult& s = results.stochastic;
@@ -327,6 +346,7 @@ std::string jsonSummary(const Results& results, const std::string& verdict, cons
   json["statistics"] = statisticsObject(results);
   json["distribution"] = distributionObject(results);
   json["sensitivity"] = sensitivityObject(results);
+  json["derivatives"] = derivativesObject(results);
   json["enclosure"] = boundsObject(results.interval.at, results);
   json["envelope"] = boundsObject(results.stochastic.envelope, results);
   Json& cost = json["cost"];
@@ -369,6 +389,11 @@ std::string textSummary(const Results& results) {
                           countText(static_cast<long long>(d.time.size()), "time"),
                           d.why.empty() ? "" : fmt::format(" ({} was asked for: {})", numberText(d.wanted, 3), d.why));
     costs.push_back(fmt::format("probabilities {:.2f} s", d.cpu));
+  }
+  if (const DerivativeResult& d = results.derivatives; d.present) {
+    text += fmt::format("  derivatives: enclosed up to {} s{}\n", numberText(d.reached, 6),
+                        d.why.empty() ? "" : ": " + d.why);
+    costs.push_back(fmt::format("derivatives {:.2f} s", d.cpu));
   }
   if (costs.empty()) return text;
   return text + fmt::format("  CPU: {}{}\n", fmt::join(costs, ", "), spentText(results));

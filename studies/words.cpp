@@ -13,6 +13,8 @@ namespace gamut {
 
 std::string numberText(double x, int digits) { return std::isnan(x) ? "none" : fmt::format("{:.{}g}", x, digits); }
 
+std::string timeText(double time, int digits) { return numberText(time, digits) + " s"; }
+
 std::string atMostText(double x, int digits) {
   if (std::isnan(x)) return "none";
   return std::isinf(x) ? numberText(x) : outwardText(x, x, digits).second;

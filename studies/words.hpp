@@ -10,6 +10,9 @@ namespace gamut {
 /// x rounded to nearest, to so many significant digits, without trailing zeros: "1.004", "-2.5e-07", "none" for NaN.
 std::string numberText(double x, int digits = 4);
 
+/// "0.29 s".
+std::string timeText(double time, int digits = 6);
+
 /// x rounded up, never below x: for figures that promise "at most".
 std::string atMostText(double x, int digits = 4);
 

@@ -7,8 +7,6 @@
 
 namespace gamut {
 
-std::string timeText(double time) { return numberText(time, 6) + " s"; }
-
 std::string momentsControl(const std::string& kind, const std::string& label, const std::vector<double>& times) {
   if (times.size() < 2) return {};
   std::string list;

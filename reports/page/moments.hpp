@@ -6,9 +6,6 @@
 
 namespace gamut {
 
-/// "0.3 s".
-std::string timeText(double time);
-
 /// Where the script puts the slider of all figures of this kind; nothing where there is one time.
 std::string momentsControl(const std::string& kind, const std::string& label, const std::vector<double>& times);
 

@@ -72,12 +72,6 @@ const Bounds* bestKnown(const Results& results) {
   return nullptr;
 }
 
-bool isMargin(const Results& results, std::size_t output) {
-  return std::ranges::any_of(results.requirements, [&](const RequirementResult& r) {
-    return output >= r.margin && output < r.margin + static_cast<std::uint64_t>(r.margins);
-  });
-}
-
 std::vector<Limit> limitsOf(const Results& results) {
   std::vector<Limit> limits;
   const Bounds* bounds = bestKnown(results);

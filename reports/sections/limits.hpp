@@ -19,9 +19,6 @@ struct Limit {
 /// One for each margin of each requirement.
 std::vector<Limit> limitsOf(const Results& results);
 
-/// The output is a requirement's margin.
-bool isMargin(const Results& results, std::size_t output);
-
 /// An output whose limit is nearest, in shares of how far its margin varies: the first that somebody has to look at.
 std::optional<Limit> nearestLimit(const Results& results);
 

@@ -52,12 +52,6 @@ std::vector<Match> sharedNumbers(const std::vector<double>& first, const std::ve
   return places;
 }
 
-bool isMargin(const Results& results, std::size_t output) {
-  return std::ranges::any_of(results.requirements, [&](const RequirementResult& r) {
-    return output >= r.margin && output < r.margin + static_cast<std::size_t>(r.margins);
-  });
-}
-
 Shared sharedOf(const Results& first, const Results& second) {
   Shared shared;
   shared.outputs = sharedNames(first.outputs, second.outputs, shared.otherOutputs);

@@ -31,9 +31,6 @@ struct Shared {
 /// The places of equal numbers in two lists that rise.
 std::vector<Match> sharedNumbers(const std::vector<double>& first, const std::vector<double>& second);
 
-/// Whether an output is there as the margin of a requirement.
-bool isMargin(const Results& results, std::size_t output);
-
 /// Throws NotComparable where there is no such output or time, or an output has two units.
 Shared sharedOf(const Results& first, const Results& second);
 

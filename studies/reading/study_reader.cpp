@@ -41,7 +41,7 @@ class StudyReader {
   Study read(const std::vector<Described>& types, const std::optional<FilesAtHand>& files) {
     const TomlSection file(source_, source_.root(), "",
                            {"study", "mechanism", "uncertain", "output", "requirement", "interval", "stochastic",
-                            "distribution", "fuzzy", "limits"});
+                            "distribution", "sensitivity", "fuzzy", "limits"});
     readStudyTable(source_.asTable(file.require("study", "a table [study]"), "study"));
     ReadMechanism read = readMechanism(
         source_, source_.asTable(file.require("mechanism", "a table [mechanism]"), "mechanism"), types, files);
@@ -56,6 +56,7 @@ class StudyReader {
     for (const toml::table* table : tables(file, "output")) readOutput(*table);
     readRequirements(source_, tables(file, "requirement"), study_, outputNodes_);
     if (const toml::node* node = file.find("distribution")) readDistribution(source_.asTable(*node, "distribution"));
+    if (const toml::node* node = file.find("sensitivity")) readSensitivity(source_.asTable(*node, "sensitivity"));
     checkInitialValues();
     recordMotion(*file.find("mechanism"));
     if (const toml::node* node = file.find("interval")) readInterval(source_.asTable(*node, "interval"));
@@ -394,6 +395,13 @@ class StudyReader {
     } catch (const std::invalid_argument& error) {
       source_.failWith(stochastic == nullptr ? source_.root() : *stochastic, error.what(), "another plan");
     }
+  }
+
+  void readSensitivity(const toml::table& table) {
+    const TomlSection section(source_, table, "sensitivity", {"derivatives"});
+    study_.derivatives = section.flag("derivatives", false);
+    if (study_.derivatives && study_.analysis != Study::Analysis::dynamics)
+      source_.fail(*section.find("derivatives"), "derivatives are enclosed in dynamics alone", "no such key");
   }
 
   void readDistribution(const toml::table& table) {

@@ -1,6 +1,8 @@
 // What the file says of the alpha-cuts.
 #include "studies/results/fuzzy.hpp"
 
+#include <algorithm>
+
 #include "studies/words.hpp"
 
 namespace gamut {
@@ -27,8 +29,11 @@ std::vector<Field> fieldsOfInfluence(InfluenceResult& r) {
        unit::one,
        "share of a quantity in what deviations by equal shares of the quantities' values do to the output (measures "
        "of influence after Hanss, from the corners of the cuts); NaN where none does anything",
-       {when, dimension::output, dimension::quantity},
-       allowed::share}};
+       {when, dimension::output, dimension::quantity}}};
+}
+
+bool areShares(const std::vector<double>& numbers) {
+  return std::ranges::none_of(numbers, [](double x) { return x < 0 || x > 1; });
 }
 
 }  // namespace
@@ -40,6 +45,7 @@ std::string FuzzyResult::amount() const { return countText(static_cast<long long
 void FuzzyResult::describe(std::vector<Group>& groups) {
   groups.push_back(groupOf("/fuzzy", "what is possible: alpha-cuts of every output", *this, fieldsOf));
   groups.push_back(groupOf("/fuzzy/influence", "how much each quantity matters", influence, fieldsOfInfluence));
+  groups.back().makesSense = [this](std::size_t) { return areShares(influence.share); };
 }
 
 }  // namespace gamut

@@ -68,8 +68,7 @@ std::vector<Field> fieldsOf(SensitivityResult& s) {
        unit::one,
        "share by which the enclosure of the output narrows where the quantity has its nominal value alone; NaN but at "
        "the times of distributions",
-       {when, output, quantity},
-       allowed::share},
+       {when, output, quantity}},
       {"samples",
        &s.samples,
        unit::none,
@@ -95,6 +94,22 @@ std::vector<Field> fieldsOf(SensitivityResult& s) {
        {when, output, quantity}}};
 }
 
+std::vector<Field> fieldsOf(DerivativeResult& d) {
+  using namespace dimension;
+  constexpr std::string_view when = "/derivatives/time";
+  return {{"reached", &d.reached, unit::second, "how far they are known", {}},
+          {"why", &d.why, unit::none, "why no farther; empty if at the horizon", {}},
+          {"cpu", &d.cpu, unit::second, "CPU time", {}},
+          {"time", &d.time, unit::second, "some output times", {when}},
+          {"lower",
+           &d.lower,
+           unit::none,
+           "proved bound of the output's derivative by the quantity, for all values in the intervals, in the output's "
+           "unit by the quantity's; NaN by what varies in time",
+           {when, output, quantity}},
+          {"upper", &d.upper, unit::none, "upper bound", {when, output, quantity}}};
+}
+
 /// Bounds of a share, or nothing is known.
 bool areShares(const std::vector<double>& lower, const std::vector<double>& upper) {
   for (std::size_t i = 0; i < lower.size(); ++i) {
@@ -117,7 +132,18 @@ void describe(SensitivityResult& sensitivity, std::vector<Group>& groups) {
   groups.push_back(groupOf("/sensitivity", "whose doing the outputs' variance is, proved", sensitivity, fieldsOf));
   groups.back().makesSense = [&sensitivity](std::size_t) {
     return areShares(sensitivity.firstLower, sensitivity.firstUpper) &&
-           areShares(sensitivity.totalLower, sensitivity.totalUpper);
+           areShares(sensitivity.totalLower, sensitivity.totalUpper) &&
+           areShares(sensitivity.pinched, sensitivity.pinched);
+  };
+}
+
+void describe(DerivativeResult& derivatives, std::vector<Group>& groups) {
+  groups.push_back(
+      groupOf("/derivatives", "how outputs change with the uncertain quantities, proved", derivatives, fieldsOf));
+  groups.back().makesSense = [&derivatives](std::size_t) {
+    for (std::size_t i = 0; i < derivatives.lower.size(); ++i)
+      if (derivatives.lower[i] > derivatives.upper[i]) return false;
+    return true;
   };
 }
 

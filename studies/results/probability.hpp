@@ -45,7 +45,19 @@ struct SensitivityResult {
   std::vector<double> firstSampled, firstError, totalSampled, totalError;  ///< [time][output][quantity]
 };
 
+/// Enclosures of the derivatives of outputs by uncertain quantities, over all values of these.
+struct DerivativeResult {
+  bool present = false;
+  double reached = 0;                ///< s
+  std::string why;                   ///< why no farther; empty if at the horizon
+  double cpu = 0;                    ///< s
+  std::vector<double> time;          ///< s: some output times, up to `reached`
+  std::vector<double> lower, upper;  ///< [time][output][quantity], in the output's unit by the quantity's; NaN by what
+                                     ///< varies in time
+};
+
 void describe(DistributionResult& distribution, std::vector<Group>& groups);
 void describe(SensitivityResult& sensitivity, std::vector<Group>& groups);
+void describe(DerivativeResult& derivatives, std::vector<Group>& groups);
 
 }  // namespace gamut

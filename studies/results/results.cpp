@@ -16,6 +16,7 @@ std::vector<Group> describe(Results& results) {
   describe(results.requirements, groups);
   describe(results.distribution, groups);
   describe(results.sensitivity, groups);
+  describe(results.derivatives, groups);
   describe(results.surrogate, groups);
   describe(results.machine, groups);
   return groups;
@@ -43,6 +44,12 @@ std::vector<std::string> differences(const Results& one, const Results& other) {
     paths.insert(paths.end(), found.begin(), std::unique(found.begin(), found.end()));
   }
   return paths;
+}
+
+bool isMargin(const Results& results, std::size_t output) {
+  return std::ranges::any_of(results.requirements, [&](const RequirementResult& r) {
+    return output >= r.margin && output < r.margin + static_cast<std::uint64_t>(r.margins);
+  });
 }
 
 double reachedTime(const Results& results) {

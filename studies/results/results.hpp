@@ -30,12 +30,16 @@ struct Results : Origin {
   std::vector<RequirementResult> requirements;
   DistributionResult distribution;
   SensitivityResult sensitivity;
+  DerivativeResult derivatives;
   SurrogateResult surrogate;
   MachineResult machine;
 
   std::array<Answer*, 3> answers() { return {&interval, &stochastic, &fuzzy}; }
   std::array<const Answer*, 3> answers() const { return {&interval, &stochastic, &fuzzy}; }
 };
+
+/// Whether an output is there as the margin of a requirement.
+bool isMargin(const Results& results, std::size_t output);
 
 /// All groups of the file, in its order. They point into the results; what is const stays as it is.
 std::vector<Group> describe(Results& results);

@@ -74,13 +74,15 @@ void stateRequirements(Run& run);
 void checkRequirements(Run& run);
 /// How probable values of the outputs are, and whose doing their variance is.
 void boundProbabilities(Run& run);
+/// How outputs change with the uncertain quantities, where that is asked for.
+void encloseDerivatives(Run& run);
 /// A few of them, for the picture.
 void showSamples(Run& run);
 
 /// All units, in the order in which they run.
-inline constexpr void (*units[])(Run&) = {stateRequirements,  lookAtMachine,     takeFirstSamples, enclose,
-                                          guarantee,          findPossibilities, takeOtherSamples, checkRequirements,
-                                          boundProbabilities, compareAnswers,    showSamples};
+inline constexpr void (*units[])(Run&) = {stateRequirements,  lookAtMachine,      takeFirstSamples, enclose,
+                                          guarantee,          findPossibilities,  takeOtherSamples, checkRequirements,
+                                          boundProbabilities, encloseDerivatives, compareAnswers,   showSamples};
 
 /// Where points certainly are, by the flow's tube, or, where nothing moves, by the image of the box.
 void enclosePlaces(Run& run, const Tube& tube);

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "analyses/samples/ensemble.hpp"
+#include "studies/problem.hpp"
 #include "studies/results/results_file.hpp"
 #include "studies/running/run.hpp"
 #include "tests/studies/sample_study.hpp"
@@ -117,6 +119,66 @@ TEST(Probabilities, AreKeptInTheFile) {
   results.distribution.lower[1] = 2;
   writeResults(results, folder.path("wrong.h5"));
   EXPECT_ANY_THROW(readResults(folder.path("wrong.h5")));
+}
+
+TEST(Derivatives, AreAskedForInDynamicsAlone) {
+  EXPECT_FALSE(asked("").derivatives);
+  EXPECT_TRUE(asked("[sensitivity]\nderivatives = true\n").derivatives);
+  EXPECT_THAT([] { asked("[sensitivity]\nderivative = true\n"); },
+              ThrowsMessage<StudyError>(HasSubstr("expected 'derivatives'?")));
+}
+
+/// The mean value theorem: between two values of one quantity an output changes by one of the derivatives in between
+/// times their distance.
+TEST(Derivatives, HoldWhatOutputsChangeBy) {
+  const Study study = asked("[sensitivity]\nderivatives = true\n[distribution]\ntimes = 0\n");
+  const Results results = run(study);
+  const DerivativeResult& derivatives = results.derivatives;
+  ASSERT_TRUE(derivatives.present);
+  EXPECT_EQ(derivatives.why, "");
+  EXPECT_EQ(derivatives.reached, 0.5);
+  ASSERT_EQ(derivatives.time, study.motion.times);
+  const Problem problem = makeProblem(study);
+  std::vector<double> nominal;
+  for (const UncertainQuantity& q : study.uncertain) nominal.push_back(q.uncertain.nominal);
+  for (std::size_t q = 0; q < nominal.size(); ++q) {
+    const auto outputsAt = [&](double value) {
+      std::vector<double> values = nominal;
+      values[q] = value;
+      return integrateValues(problem.motion, study.ensemble, values).trajectory(0);
+    };
+    const Interval& range = study.uncertain[q].uncertain.range;
+    const std::vector<double> below = outputsAt(range.lower()), above = outputsAt(range.upper());
+    for (std::size_t row = 0; row < derivatives.time.size(); ++row)
+      for (std::size_t k = 0; k < 2; ++k) {
+        const double change = (above[row * 2 + k] - below[row * 2 + k]) / width(range), error = 1e-8 / width(range);
+        const std::size_t i = (row * 2 + k) * nominal.size() + q;
+        EXPECT_LE(derivatives.lower[i], change + error) << row << ' ' << k << ' ' << q;
+        EXPECT_GE(derivatives.upper[i], change - error) << row << ' ' << k << ' ' << q;
+        EXPECT_LE(derivatives.upper[i] - derivatives.lower[i], 0.2 * (1 + std::fabs(change)));
+      }
+  }
+}
+
+/// The angle's start drives the angle; a pendulum does not depend on its mass.
+TEST(Sensitivities, RankByPinchingAndByInfluence) {
+  const Results results = run(asked("[distribution]\ntimes = [0.5]\n"));
+  const SensitivityResult& s = results.sensitivity;
+  const std::size_t at = s.time.size() - 1, quantities = results.uncertain.size();
+  ASSERT_EQ(s.time.back(), 0.5);
+  const auto pinched = [&](std::size_t q) { return s.pinched[(at * 2 + 0) * quantities + q]; };
+  std::vector<std::size_t> of(3);
+  for (std::size_t q = 0; q < 3; ++q)
+    of[results.uncertain[q].name == "start" ? 0 : results.uncertain[q].name == "length" ? 1 : 2] = q;
+  EXPECT_GT(pinched(of[0]), 0.05);
+  EXPECT_GT(pinched(of[1]), 0.05);
+  EXPECT_NEAR(pinched(of[2]), 0, 1e-6);
+  EXPECT_NEAR(pinched(of[0]) + pinched(of[1]), 1, 0.1);  // nearly a sum
+  const InfluenceResult& influence = results.fuzzy.influence;
+  ASSERT_TRUE(influence.present);
+  const std::size_t last = (influence.time.size() - 1) * 2 * quantities;
+  EXPECT_NEAR(influence.share[last + of[0]] + influence.share[last + of[1]], 1, 1e-6);
+  EXPECT_NEAR(influence.share[last + of[2]], 0, 1e-6);
 }
 
 }  // namespace

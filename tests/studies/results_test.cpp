@@ -74,7 +74,7 @@ TEST(Description, TellsWhichListsDiffer) {
   Results after = sampleResults();
   after.comparison.disputed.pop_back();
   after.fuzzy = {};
-  EXPECT_THAT(differences(sampleResults(), after), ElementsAre("/fuzzy", "/comparison/disputed"));
+  EXPECT_THAT(differences(sampleResults(), after), ElementsAre("/fuzzy", "/fuzzy/influence", "/comparison/disputed"));
 }
 
 /// The longest run of bytes of an object that none of the fields holds, nor any of the members that are groups of their
