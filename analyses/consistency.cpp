@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace gamut {
@@ -46,8 +47,8 @@ Membership membershipOf(const Distribution& distribution, double centre) {
   return Membership::table(rising);
 }
 
-/// The greatest levels are ever closer to each other: a cut that is one value has no even distribution, and what is
-/// left for it is 2^-40.
+/// The greatest levels are ever closer to each other, since a cut that is one value gives its share to that value
+/// alone; of a share below 2^-38 the next wider one takes it instead.
 Distribution distributionOf(const Membership& membership) {
   const Interval& support = membership.support();
   if (isThin(support)) return Distribution::uniform(support);
@@ -57,24 +58,31 @@ Distribution distributionOf(const Membership& membership) {
   ends.push_back(1);
   std::vector<Interval> cuts;
   std::vector<double> shares, values{support.lower(), support.upper()};
-  for (std::size_t k = 0; k < ends.size(); ++k) {
-    const double share = ends[k] - (k == 0 ? 0 : ends[k - 1]);
-    const Interval cut = membership.cut(ends[k]);
+  double before = 0, alone = 0;  // `alone`: the share of a single value
+  for (const double end : ends) {
+    const double share = end - std::exchange(before, end);
+    const Interval cut = membership.cut(end);
     if (isThin(cut)) {
-      shares.back() += share;
+      alone += share;
       continue;
     }
     cuts.push_back(cut);
     shares.push_back(share);
     values.insert(values.end(), {cut.lower(), cut.upper()});
   }
+  if (alone < 0x1p-38 && !shares.empty()) shares.back() += std::exchange(alone, 0.0);
+  if (alone > 0) values.push_back(membership.core().lower());
   std::ranges::sort(values);
   values.erase(std::unique(values.begin(), values.end()), values.end());
+  if (alone > 0) values.insert(std::ranges::find(values, membership.core().lower()), membership.core().lower());
   std::vector<double> weights(values.size() - 1, 0.0);
-  for (std::size_t k = 0; k < cuts.size(); ++k)
-    for (std::size_t i = 0; i < weights.size(); ++i)
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    const double length = values[i + 1] - values[i];
+    if (length == 0) weights[i] = alone;
+    for (std::size_t k = 0; k < cuts.size(); ++k)
       if (cuts[k].lower() <= values[i] && values[i + 1] <= cuts[k].upper())
-        weights[i] += shares[k] * (values[i + 1] - values[i]) / (cuts[k].upper() - cuts[k].lower());
+        weights[i] += shares[k] * length / (cuts[k].upper() - cuts[k].lower());
+  }
   return Distribution::histogram(values, weights);
 }
 

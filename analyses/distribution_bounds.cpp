@@ -1,7 +1,9 @@
 // Distribution functions with bounds: every one is a formula of interval functions, or a series of positive terms, of
 // which what is left is at most geometric.
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <utility>
 
 #include "analyses/uncertainty.hpp"
 #include "scalars/elementary/special_functions.hpp"
@@ -105,6 +107,14 @@ std::size_t Distribution::pieceAt(double value) const {
   return static_cast<std::size_t>(std::ranges::upper_bound(pieces_, value, {}, &Piece::end) - pieces_.begin());
 }
 
+/// Whether some value has a probability of its own: F jumps there.
+bool Distribution::hasSingleValues() const {
+  double from = support_.lower();
+  for (const Piece& piece : pieces_)
+    if (std::exchange(from, piece.end) == piece.end && piece.weight > 0) return true;
+  return false;
+}
+
 /// Of pieces: F rises linearly from one end to the next.
 Interval Distribution::belowOf(double value) const {
   if (value < support_.lower()) return Interval(0.0);
@@ -117,8 +127,9 @@ Interval Distribution::belowOf(double value) const {
 }
 
 Interval Distribution::enclosedBelow(const Interval& value) const {
+  if (hasPieces()) return rising([&](double x) { return belowOf(x); }, value);
   if (value.lower() >= support_.upper()) return Interval(1.0);
-  if (value.upper() < support_.lower() || (value.upper() == support_.lower() && !hasPieces())) return Interval(0.0);
+  if (value.upper() <= support_.lower()) return Interval(0.0);
   const Interval lower(support_.lower()), upper(support_.upper()), span = upper - lower,
                                                                    v = intersection(value, support_);
   switch (shape_) {
@@ -134,9 +145,6 @@ Interval Distribution::enclosedBelow(const Interval& value) const {
       };
       return intersection(rising(at, v), share);
     }
-    case Shape::histogram:
-    case Shape::empirical:
-      return rising([&](double x) { return belowOf(x); }, v);
     case Shape::beta:
       return rising([&](double x) { return betaBelow(first_, second_, x); }, (v - lower) / span);
     default: {
@@ -155,9 +163,8 @@ bool Distribution::isMonotone(const Interval& values) const {
   const Interval first(first_), one(1.0);
   switch (shape_) {
     case Shape::histogram:
-    case Shape::empirical:
-      return !isThin(v) && pieceAt(v.lower()) == pieceAt(std::nextafter(v.upper(), v.lower())) &&
-             pieceAt(v.lower()) < pieces_.size();  // even inside a piece
+    case Shape::empirical:  // even inside a piece
+      return !hasSingleValues() && !isThin(v) && pieceAt(v.lower()) == pieceAt(std::nextafter(v.upper(), v.lower()));
     case Shape::uniform:
     case Shape::exponential:
       return true;

@@ -158,6 +158,8 @@ std::vector<ShapeNumber> Distribution::numbers() const {
       break;
     case Shape::empirical:
       numbers.push_back({"count", static_cast<double>(pieces_.size() + 1), false});
+      for (std::size_t i = 0; i + 1 < pieces_.size(); ++i)
+        numbers.push_back({"value " + std::to_string(i + 2), pieces_[i].end});
   }
   if (isTruncated()) numbers.push_back({"cut_off", cutOff(), false});
   return numbers;

@@ -61,7 +61,8 @@ class Distribution {
   std::string_view name() const;
   /// "lower" and "upper", the support; then "mode", "mean" and "deviation", "a" and "b", "log_mean" and
   /// "log_deviation", "shape" and "scale", or "mean"; and "cut_off" of what is truncated. Of a histogram "value 1",
-  /// "weight 1", "value 2", ...; of measurements how many there are, "count".
+  /// "weight 1", "value 2", ...; of measurements how many there are, "count", and those between the ends, "value 2",
+  /// ...
   std::vector<ShapeNumber> numbers() const;
 
  private:
@@ -71,6 +72,7 @@ class Distribution {
   bool hasPieces() const { return shape_ == Shape::histogram || shape_ == Shape::empirical; }
   Interval belowOf(double value) const;
   std::size_t pieceAt(double value) const;
+  bool hasSingleValues() const;
   // Of what is truncated, before it is: the probability below a value and above it, and the values of these.
   double below(double value) const;
   double above(double value) const;

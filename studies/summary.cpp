@@ -316,13 +316,13 @@ std::string shapeText(const Results& results, const UncertainInfo& uncertain, co
       lower = number.value;
     } else if (number.name == "upper") {
       upper = number.value;
-    } else if (name != "table" && name != "histogram") {
+    } else if (name != "table" && name != "histogram" && !number.name.starts_with("value ")) {
       numbers.push_back(fmt::format("{} {:.6g}", number.name, number.value));
     }
   }
   if (lower != uncertain.lower || upper != uncertain.upper)
     numbers.insert(numbers.begin(), "on " + rangeText(lower, upper, 6));
-  constexpr double least = 1.0 / 256;  // of what was looked at
+  constexpr double least = 1.001 / 256;  // of what was looked at
   const std::string doubt =
       shape == "membership" && uncertain.inconsistency > least
           ? fmt::format("; events are more probable than possible by up to {}", atMostText(uncertain.inconsistency, 2))

@@ -3,21 +3,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <numeric>
 
 namespace gamut {
 namespace {
 
+constexpr double studentQuantile = 2.1314495455597742;  // 0.975, 15 degrees of freedom
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
 double halfWidth(const double (&values)[batchCount]) {
-  constexpr double quantile = 2.1314495455597742;  // Student's t, 0.975, 15 degrees of freedom
   double mean = 0, squares = 0;
   for (const double value : values) mean += value / batchCount;
   for (const double value : values) squares += (value - mean) * (value - mean);
-  return quantile * std::sqrt(squares / (batchCount * (batchCount - 1.0)));
+  return studentQuantile * std::sqrt(squares / (batchCount * (batchCount - 1.0)));
 }
 
 BatchStatistics::BatchStatistics(const Envelope& expected)
@@ -54,25 +56,42 @@ double BatchStatistics::meanError(std::size_t index) const {
   return halfWidth(means);
 }
 
+/// Of the mean squares about the mean of all, which have no bias as deviations of batches have: s² is their mean, so
+/// that s is off by half their error over s; and by s/(2N), by which N-1 corrects what is no error of evenly spread
+/// samples.
 double BatchStatistics::deviationError(std::size_t index) const {
   const Cell& cell = cells_[index];
-  double deviations[batchCount];
+  double count = 0, sum = 0, all = 0;
+  for (std::size_t b = 0; b < batchCount; ++b) count += cell.counts[b], sum += cell.sums[b];
+  const double mean = sum / count;
+  double squares[batchCount];
   for (std::size_t b = 0; b < batchCount; ++b) {
-    const double n = cell.counts[b], squares = cell.squares[b] - cell.sums[b] * (cell.sums[b] / n);
-    deviations[b] = n < 2 ? unknown : std::sqrt(std::max(squares, 0.0) / (n - 1));
+    const double n = cell.counts[b];
+    squares[b] = n < 2 ? unknown : std::max((cell.squares[b] - 2 * mean * cell.sums[b]) / n + mean * mean, 0.0);
+    all += squares[b] / batchCount;
   }
-  return halfWidth(deviations);
+  return all == 0 ? 0.0 : halfWidth(squares) / (2 * std::sqrt(all)) + std::sqrt(all) / (2 * count);
 }
 
+/// At the ends of a part batches are compared. In between one that has a sample in each stratum, and is equal to the
+/// others at the ends, has it anywhere: as if samples of a part were independent there, of n √n/2 at most lie below.
 std::vector<double> BatchStatistics::shareErrors(std::size_t index) const {
   const Cell& cell = cells_[index];
   const std::uint32_t* shares = shares_.data() + index * (parts + 2) * batchCount;
-  std::vector<double> errors(parts + 1, unknown);
+  std::vector<double> errors(parts, unknown);
   if (cell.scale == 0 || std::ranges::any_of(cell.counts, [](double count) { return count < 2; })) return errors;
-  double below[batchCount] = {};
+  const double all = std::accumulate(std::begin(cell.counts), std::end(cell.counts), 0.0);
+  double below[batchCount] = {}, before = 0;
   for (std::size_t part = 0; part <= parts; ++part) {
-    for (std::size_t b = 0; b < batchCount; ++b) below[b] += shares[part * batchCount + b] / cell.counts[b];
-    errors[part] = halfWidth(below);
+    double inside = 0;
+    for (std::size_t b = 0; b < batchCount; ++b) {
+      inside += shares[part * batchCount + b];
+      below[b] += shares[part * batchCount + b] / cell.counts[b];
+    }
+    const double error = halfWidth(below);
+    if (part > 0)
+      errors[part - 1] = std::hypot(std::max(before, error), studentQuantile * 0.5 * std::sqrt(inside) / all);
+    before = error;
   }
   return errors;
 }

@@ -24,7 +24,7 @@ class BatchStatistics {
 
   double meanError(std::size_t cell) const;
   double deviationError(std::size_t cell) const;
-  /// Of the share of values below some value: at the ends of equal parts of what was expected, 0 and 1 among them.
+  /// Of the share of values below some value: one for each of the equal parts of what was expected.
   std::vector<double> shareErrors(std::size_t cell) const;
 
   /// Parts of what is expected.

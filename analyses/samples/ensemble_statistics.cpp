@@ -272,17 +272,15 @@ void EnsembleStatistics::boundQuantiles(std::size_t index, const std::vector<std
   }
 }
 
-/// The share below a quantile is off by no more than where it is counted next to it.
 void EnsembleStatistics::boundQuantiles(std::size_t index, Statistics& result) const {
   const Cell& cell = cells_[index];
   const SortedSamples samples = sorted(index);
   const std::vector<double> errors = batches_.shareErrors(index);
   for (std::size_t q = 0; q < result.probabilities.size(); ++q) {
-    const double part = (result.quantiles[q].data[index] - cell.lower) / (cell.upper - cell.lower) *
-                        static_cast<double>(BatchStatistics::parts);
-    if (!(part >= 0 && part <= BatchStatistics::parts)) continue;
-    const auto below = static_cast<std::size_t>(part);
-    const double error = std::fmax(errors[below], errors[std::min(below + 1, BatchStatistics::parts)]);
+    constexpr auto parts = static_cast<double>(BatchStatistics::parts);
+    const double part = (result.quantiles[q].data[index] - cell.lower) / (cell.upper - cell.lower) * parts;
+    if (!(part >= 0 && part <= parts)) continue;
+    const double error = errors[static_cast<std::size_t>(std::min(part, parts - 1))];
     const double least = result.probabilities[q] - error, greatest = result.probabilities[q] + error;
     if (!(least >= 0 && greatest <= 1)) continue;
     double unused = 0;

@@ -139,9 +139,10 @@ class HaltonPoints : public PointSequence {
       double unit = 1, sum = 0;
       std::uint64_t rest = number_, before = 0, power = 1;
       for (std::uint64_t k = 0; unit > 0x1p-48; ++k, power *= prime) {
-        const Permutation permuted(prime, hashed(hashed(keys_[j] + k) + before));
+        const std::uint64_t key = hashed(hashed(keys_[j] + k) + before);
+        const std::uint64_t digit = (Permutation(prime, key)(rest % prime) + hashed(~key)) % prime;  // each as probable
         unit /= static_cast<double>(prime);
-        sum += unit * static_cast<double>(permuted(rest % prime));
+        sum += unit * static_cast<double>(digit);
         before += rest % prime * power;
         rest /= prime;
       }

@@ -37,6 +37,13 @@ std::vector<std::string> answersOf(const Results& results) {
   return answers;
 }
 
+/// What the requirement says whose margin an output is; empty of all others.
+std::string demandOf(const Results& results, std::size_t output) {
+  for (const RequirementResult& r : results.requirements)
+    if (output >= r.margin && output < r.margin + static_cast<std::uint64_t>(r.margins)) return r.statement;
+  return {};
+}
+
 }  // namespace
 
 std::vector<Match> sharedNumbers(const std::vector<double>& first, const std::vector<double>& second) {
@@ -55,6 +62,9 @@ std::vector<Match> sharedNumbers(const std::vector<double>& first, const std::ve
 Shared sharedOf(const Results& first, const Results& second) {
   Shared shared;
   shared.outputs = sharedNames(first.outputs, second.outputs, shared.otherOutputs);
+  std::erase_if(shared.outputs, [&](const Match& output) {  // margins of another demand are other outputs
+    return demandOf(first, output.first) != demandOf(second, output.second);
+  });
   for (const auto& [one, other] : shared.outputs)
     if (const std::string& unit = first.outputs[one].unit, &otherUnit = second.outputs[other].unit; unit != otherUnit)
       throw NotComparable(

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <initializer_list>
 #include <utility>
 
 #include "analyses/consistency.hpp"
@@ -143,6 +144,7 @@ class ShapeReader {
                      "one weight between each two edges");
       return {edges, weights};
     }
+    refuseBeside(section, {"edges", "weights"});
     const auto columns =
         files_.columns(*file, section.nameOf("file"),
                        {{"lower", quantity.unit}, {"upper", quantity.unit}, {"weight", std::string(unit::one)}});
@@ -156,11 +158,18 @@ class ShapeReader {
     return {edges, weights};
   }
 
+  void refuseBeside(const TomlSection& section, std::initializer_list<const char*> keys) const {
+    for (const char* key : keys)
+      if (const toml::node* node = section.find(key))
+        source_.fail(*node, fmt::format("there is a file beside {}", section.nameOf(key)), "one of the two");
+  }
+
   std::vector<Amount> valuesOf(const TomlSection& section, const UncertainQuantity& quantity) const {
     const toml::node* file = section.find("file");
     if (file == nullptr)
       return amounts(section.require("values", "[value, ...], or a file and its column"), section.nameOf("values"),
                      dimensionOf(quantity.unit));
+    refuseBeside(section, {"values"});
     return files_.columns(*file, section.nameOf("file"), {{section.text("column"), quantity.unit}})[0];
   }
 
@@ -226,6 +235,12 @@ class ShapeReader {
           source_.fail(*table.find("deviation"), table.nameOf("deviation") + " is not positive", "a deviation above 0");
         uncertain.membership = Membership::gaussian(on, centre, deviation);
       }
+      if (const Interval& from = uncertain.distribution.support();
+          type == "induced" && !contains(from, uncertain.nominal))
+        source_.fail(*node,
+                     fmt::format("the nominal value {} lies outside the distribution's support {}",
+                                 written(uncertain.nominal), written(from)),
+                     "a distribution that holds it, or another membership");
       if (type == "induced") uncertain.membership = membershipOf(uncertain.distribution, uncertain.nominal);
       if (type == "table") uncertain.membership = tableOf(table, result);
     } catch (const std::invalid_argument& error) {

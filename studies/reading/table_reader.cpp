@@ -16,6 +16,7 @@ namespace gamut {
 namespace {
 
 constexpr std::uintmax_t maxTableBytes = 10'000'000;
+constexpr std::size_t maxRows = 100'000;  // of what is no course in time
 
 struct Cell {
   std::string text;
@@ -68,7 +69,7 @@ class TableReader {
     std::vector<std::vector<Amount>> found(wanted.size());
     while (next()) {
       checkWidth(width);
-      if (found[0].size() == maxTableRows) failForRows();
+      if (found[0].size() == maxRows) failForRows(maxRows);
       for (std::size_t i = 0; i < wanted.size(); ++i) {
         Amount value = scales[i];
         value.value *= number(cells_[places[i]]);
@@ -92,7 +93,7 @@ class TableReader {
       if (!table.times.empty() && at <= table.times.back())
         fail(cells_[0], fmt::format("the time {} does not follow the one before", printable(cells_[0].text)),
              "times that rise");
-      if (table.times.size() == maxTableRows) failForRows();
+      if (table.times.size() == maxTableRows) failForRows(maxTableRows);
       table.times.push_back(at);
       table.values.push_back(number(cells_[wanted]) * scale.value);
     }
@@ -111,8 +112,8 @@ class TableReader {
       fail(cells_.back(), fmt::format("the row has {} cells", cells_.size()),
            fmt::format("{} as in the first row", width));
   }
-  [[noreturn]] void failForRows() const {
-    fail(cells_[0], fmt::format("the table has more than {} rows", maxTableRows), "fewer rows");
+  [[noreturn]] void failForRows(std::size_t most) const {
+    fail(cells_[0], fmt::format("the table has more than {} rows", most), "fewer rows");
   }
 
   /// The next row that says something.
@@ -133,7 +134,7 @@ class TableReader {
     const bool hasUnit = open != std::string::npos && cell.text.back() == ']';
     const std::string stated = hasUnit ? cell.text.substr(open + 1, cell.text.size() - open - 2) : unit;
     try {
-      one = parseAmount("1 " + stated);
+      one = parseAmount(stated == "1" ? stated : "1 " + stated);
     } catch (const UnitError&) {
       fail(cell, fmt::format("'{}' is no unit", printable(stated)), "a unit such as " + unit);
     }

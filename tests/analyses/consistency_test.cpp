@@ -21,9 +21,13 @@ std::vector<Distribution> distributions() {
 }
 
 std::vector<Membership> memberships() {
-  return {Membership::triangular(0.3, 0.7, 2.1), Membership::triangular(0.3, 0.3, 2.1),
-          Membership::trapezoidal(0.3, 0.5, 1.5, 2.1), Membership::gaussian({0.3, 2.1}, 0.9, 0.3),
-          Membership::table({{0.3, 0}, {0.5, 0.2}, {0.5, 0.9}, {1.1, 1}, {2.0, 0.4}, {2.1, 0}})};
+  return {Membership::triangular(0.3, 0.7, 2.1),
+          Membership::triangular(0.3, 0.3, 2.1),
+          Membership::trapezoidal(0.3, 0.5, 1.5, 2.1),
+          Membership::gaussian({0.3, 2.1}, 0.9, 0.3),
+          Membership::table({{0.3, 0}, {0.5, 0.2}, {0.5, 0.9}, {1.1, 1}, {2.0, 0.4}, {2.1, 0}}),
+          Membership::table({{0, 0}, {1, 0.001}, {1, 1}}),
+          Membership::table({{0, 0}, {0.5, 0.5}, {0.5, 1}, {0.5, 0.5}, {1, 0}})};
 }
 
 /// The probability of a cut, at least.
@@ -66,7 +70,9 @@ TEST(Consistency, ADistributionFromAMembershipIsNoMoreProbableThanPossible) {
       const double alpha = level(engine);
       EXPECT_GE(probabilityOf(d, m.cut(alpha)), 1 - alpha - 0x1p-38) << m.name() << ' ' << alpha;
     }
-    EXPECT_LE(inconsistency(d, m), 1.0 / 256 + 1e-9) << m.name();
+    if (m.core().lower() < m.core().upper() || m(std::nextafter(m.core().lower(), 0)) > 0.99) {
+      EXPECT_LE(inconsistency(d, m), 1.0 / 256 + 1e-9) << m.name();
+    }
   }
 }
 

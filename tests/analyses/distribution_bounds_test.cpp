@@ -106,6 +106,17 @@ TEST(DistributionBounds, HoldThoseOfHistogramsWithValuesOfTheirOwn) {
   }
 }
 
+TEST(DistributionBounds, HoldWhereAValueHasAProbabilityOfItsOwn) {
+  const Distribution d = Distribution::histogram({0, 0, 1, 1}, {1, 1, 1});
+  EXPECT_TRUE(contains(d.enclosedBelow({-1, 0}), 0));
+  EXPECT_TRUE(contains(d.enclosedBelow({-1, 0.5}), 0));
+  EXPECT_TRUE(contains(d.enclosedBelow({-1, 2}), 1));
+  EXPECT_TRUE(isEqual(d.enclosedBelow({-2, -1}), Interval(0.0)));
+  EXPECT_FALSE(d.isMonotone({0, 1}));  // P jumps at both ends
+  EXPECT_FALSE(d.isMonotone({0, 0.5}));
+  EXPECT_TRUE(Distribution::histogram({0, 0, 1}, {0, 1}).isMonotone({0, 1}));
+}
+
 TEST(DistributionBounds, HoldOverIntervals) {
   std::mt19937_64 engine(8);
   for (int round = 0; round < 20; ++round)

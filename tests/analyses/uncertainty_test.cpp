@@ -56,7 +56,7 @@ TEST(Distribution, SaysOfWhichNumbersItIsMade) {
                          "lower 0.3, upper 2.1, mean 0.75",
                          "lower 0.3, upper 2.1, value 1 0.3, weight 1 (1), value 2 0.5, weight 2 (4), value 3 0.9, "
                          "weight 3 (0.5), value 4 1.4, weight 4 (2)",
-                         "lower 0.3, upper 2.1, count (6)"));
+                         "lower 0.3, upper 2.1, count (6), value 2 0.4, value 3 0.9, value 4 1, value 5 1.1"));
 }
 
 /// P(X > v) of the standard normal distribution.

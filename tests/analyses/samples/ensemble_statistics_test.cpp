@@ -178,6 +178,24 @@ TEST(EnsembleStatistics, IntervalsHoldTheTruthInNinetyFiveOfAHundredCases) {
   EXPECT_LE(random.quantile, 396);
 }
 
+/// Strata end where shares are counted, and batches agree there.
+TEST(EnsembleStatistics, QuantilesOfTheQuantityItselfAreHeldToo) {
+  for (const Plan plan : {Plan::latinHypercube, Plan::sobol, Plan::halton}) {
+    int held = 0, deviations = 0;
+    for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+      Sampling sampling(plan, 1, 1024, seed);
+      std::vector<double> values(1024);
+      for (std::size_t i = 0; i < values.size(); ++i) values[i] = sampling.unitPoint(i)[0];
+      const Statistics s = gathered(values, 0, 1, 256).statistics(1, Dependence::batches, {0.01, 0.33, 0.5});
+      for (std::size_t q = 0; q < 3; ++q)
+        held += s.lower[q](0, 0) <= s.probabilities[q] && s.probabilities[q] <= s.upper[q](0, 0);
+      deviations += std::abs(s.deviation(0, 0) - std::sqrt(1.0 / 12)) <= s.deviationError(0, 0);
+    }
+    EXPECT_GE(held, 3 * 184) << nameOf(plan);
+    EXPECT_GE(deviations, 178) << nameOf(plan);
+  }
+}
+
 TEST(EnsembleStatistics, IntervalsOfSequencesAreNarrowerAndThoseOfAGridAreNot) {
   const auto errorOf = [](Plan plan, Dependence dependence) {
     Sampling sampling(plan, 2, 1024, 1);

@@ -107,6 +107,15 @@ TEST(Sampling, BatchesAreOfEqualSizeAndNoneIsAnotherShifted) {
   EXPECT_EQ(Sampling(Plan::random, 2, 1000, 5).samples(), 1000u);
 }
 
+TEST(Sampling, EveryDigitOfHaltonsSequenceIsAsProbable) {
+  int below = 0, all = 0;
+  for (std::uint64_t seed = 1; seed <= 20000; ++seed) {
+    Sampling s(Plan::halton, 2, 16, seed);
+    for (std::size_t i = 0; i < 16; ++i, ++all) below += s.unitPoint(i)[1] < 1.0 / 3;  // of base 3
+  }
+  EXPECT_NEAR(static_cast<double>(below) / all, 1.0 / 3, 0.0033);  // four deviations
+}
+
 TEST(Sampling, AGridHasBothEndsOfEveryAxisAndEveryCombination) {
   Sampling s(Plan::grid, 2, 10, 0);
   EXPECT_EQ(s.samples(), 16u);  // 4² is the least square of at least 10
