@@ -67,9 +67,9 @@ class Probabilities {
     for (const DistributionBounds& bounds : found_) most = std::max(most, bounds.value.size());
     for (const std::size_t row : rows_) result.time.push_back(run_.study.motion.times[row]);
     for (std::size_t i = 0; i < most; ++i) result.point.push_back(static_cast<double>(i));
-    for (std::vector<double>* numbers : {&result.value, &result.lower, &result.upper, &result.sampled})
+    for (std::vector<double>* numbers : {&result.value, &result.lower, &result.upper})
       numbers->assign(rows_.size() * count_ * most, unknown);
-    for (std::vector<double>* numbers : {&result.gaps, &result.excess}) numbers->assign(rows_.size() * count_, unknown);
+    result.gaps.assign(rows_.size() * count_, unknown);
     bool areAllKnown = true;
     for (std::size_t at = 0; at < rows_.size(); ++at)
       for (std::size_t k = 0; k < outputs_.size(); ++k) {
@@ -86,12 +86,9 @@ class Probabilities {
         put(bounds.upper, result.upper);
         result.gaps[cell] = bounds.gap;
         result.gap = std::max(result.gap, bounds.gap);
-        compare(bounds, rows_[at], output, result.sampled.begin() + static_cast<std::ptrdiff_t>(begin),
-                result.excess[cell]);
       }
     if (!areAllKnown) result.gap = 1;
     if (result.gap > result.wanted) result.why = why();
-    describeBand(result);
     describeIndices();
     keepSurrogate();
     if (*run_.watch.stop()) result.stopped = run_.watch.why();
@@ -160,44 +157,6 @@ class Probabilities {
     const auto place = std::ranges::lower_bound(surrogate.rows, row);
     if (place == surrogate.rows.end() || *place != row) return nullptr;
     return &surrogate.at[static_cast<std::size_t>(place - surrogate.rows.begin())];
-  }
-
-  /// Samples beside the bounds; those of a value are off by the measured error of their integration.
-  void compare(const DistributionBounds& bounds, std::size_t row, std::size_t output, std::vector<double>::iterator at,
-               double& excess) const {
-    if (!run_.ensemble) return;
-    const SampledShares shares = run_.ensemble->shares(row, output);
-    if (shares.value.empty()) return;
-    const Table& errors = run_.results.stochastic.error;
-    const double error = errors.empty() || !(errors(row, output) >= 0) ? 0 : errors(row, output);
-    std::size_t next = 0;
-    for (const double value : bounds.value) {  // between two ends of bins about as if evenly spread
-      while (next < shares.value.size() && shares.value[next] < value) ++next;
-      double share = next == 0 ? 0 : 1;
-      if (next > 0 && next < shares.value.size()) {
-        const double part = (value - shares.value[next - 1]) / (shares.value[next] - shares.value[next - 1]);
-        share = shares.below[next - 1] + part * (shares.below[next] - shares.below[next - 1]);
-      }
-      *at++ = value == bounds.value.back() ? 1 : share;
-    }
-    // At the ends of bins shares are exact: those below v are not fewer than lower(v') of v' < v, nor more than
-    // upper(v).
-    excess = 0;
-    for (std::size_t i = 0; i < shares.value.size(); ++i) {
-      const auto below = std::ranges::lower_bound(bounds.value, shares.value[i] - error) - bounds.value.begin();
-      const auto above = std::ranges::lower_bound(bounds.value, shares.value[i] + error) - bounds.value.begin();
-      const double least = below == 0 ? 0 : bounds.lower[static_cast<std::size_t>(below - 1)];
-      const double most = above == std::ssize(bounds.value) ? 1 : bounds.upper[static_cast<std::size_t>(above)];
-      excess = std::max({excess, least - shares.below[i], shares.below[i] - most});
-    }
-  }
-
-  void describeBand(DistributionResult& result) const {
-    const StochasticResult& stochastic = run_.results.stochastic;
-    if (run_.study.ensemble.plan != Plan::random || stochastic.samples == 0 ||
-        stochastic.integrated < stochastic.planned() || !stochastic.why.empty())
-      return;
-    result.band = std::sqrt(std::log(2 / 0.05) / (2.0 * static_cast<double>(stochastic.samples)));
   }
 
   /// Of many output times, since shares change quickly; of fewer where polynomials are long.

@@ -1,52 +1,16 @@
-// Each requirement three ways: by the models of its margins, by the samples, and, where neither decides, by a flow of
-// the values for which it most likely is violated.
+// What is proved of each requirement: by the models of its margins, and, where these do not decide, by a flow of the
+// values for which it most likely is violated.
 #include <algorithm>
 #include <cmath>
 #include <new>
 #include <optional>
 
 #include "analyses/requirements/requirement.hpp"
-#include "analyses/samples/binomial.hpp"
 #include "studies/running/flow_of_study.hpp"
 #include "studies/running/units.hpp"
 
 namespace gamut {
 namespace {
-
-/// The margin that counts at one time: the least of all.
-double marginOf(const SampleBlock& block, std::size_t i, std::size_t row, const Requirement& requirement) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const std::size_t output : requirement.margins) {
-    const double margin = block(i, row, output);
-    if (std::isnan(margin)) return margin;
-    least = std::min(least, margin);
-  }
-  return least;
-}
-
-bool isMet(const SampleBlock& block, std::size_t i, std::size_t row, const Requirement& requirement) {
-  for (std::size_t k = 0; k < requirement.margins.size(); ++k) {
-    const double margin = block(i, row, requirement.margins[k]);
-    if (!(requirement.isMetAtZero[k] != 0 ? margin >= 0 : margin > 0)) return false;
-  }
-  return true;
-}
-
-struct Margin {
-  double value;
-  std::size_t row;
-};
-
-/// The worst over the window of what must be always met, the best of what must be once.
-Margin worstOf(const SampleBlock& block, std::size_t i, std::size_t from, std::size_t until,
-               const Requirement& requirement) {
-  Margin worst{marginOf(block, i, from, requirement), from};
-  for (std::size_t row = from + 1; row <= until; ++row) {
-    const double margin = marginOf(block, i, row, requirement);
-    if (requirement.isAlways ? margin < worst.value : margin > worst.value) worst = {margin, row};
-  }
-  return worst;
-}
 
 /// What holds of the whole window, of what was found up to where the models reach.
 void forgetWhatIsNotKnown(RequirementFinding& finding, bool isAlways) {
@@ -186,12 +150,30 @@ void findViolation(Run& run, std::size_t number, std::vector<std::vector<double>
   }
 }
 
+constexpr const char* tooLoose = "the enclosure is not tight enough to tell";
+
 std::string whyOpen(const Run& run, const RequirementResult& result) {
   if (*run.watch.stop()) return run.watch.why();
   if (!run.study.asksFor<IntervalResult>() && !run.study.asksFor<FuzzyResult>()) return "no enclosure was asked for";
   if (!run.enclosed.models) return run.enclosed.why.empty() ? "models of its margins found no room" : run.enclosed.why;
   if (run.study.motion.times[run.enclosed.models->at.size() - 1] < result.until) return run.enclosed.why;
-  return result.word == "open" ? "the enclosure is not tight enough to tell" : "";
+  return result.word == "open" ? tooLoose : "";
+}
+
+/// Does it while there is room, and takes the time of it.
+template <class Prove>
+void proveWhileThereIsRoom(Run& run, const Prove& prove) {
+  if (run.study.requirements.empty()) return;
+  run.watch.begin(Watch::Stage::rest);
+  const double start = processCpuSeconds();
+  try {
+    prove();
+  } catch (const std::bad_alloc&) {
+    run.watch.memoryFailed();
+    for (RequirementResult& result : run.results.requirements)
+      if (result.word == "open") result.why = run.watch.why();
+  }
+  run.results.interval.cpu += processCpuSeconds() - start;
 }
 
 void proveAll(Run& run) {
@@ -224,13 +206,6 @@ void proveAll(Run& run) {
   }
 }
 
-void countShares(RequirementResult& result, Plan plan, std::int64_t planned) {
-  if (plan != Plan::random || result.samples == 0 || result.samples < planned) return;
-  const Interval share = confidenceOfShare(result.samples - result.violating, result.samples);
-  result.shareLower = share.lower();
-  result.shareUpper = share.upper();
-}
-
 }  // namespace
 
 void stateRequirements(Run& run) {
@@ -250,50 +225,8 @@ void stateRequirements(Run& run) {
   run.worst.resize(run.study.requirements.size());
 }
 
-void noteRequirements(Run& run, const SampleBlock& block) {
-  for (std::size_t r = 0; r < run.study.requirements.size(); ++r) {
-    const Requirement& requirement = run.study.requirements[r];
-    RequirementResult& result = run.results.requirements[r];
-    const std::size_t from = rowOf(run.study.motion.times, requirement.from),
-                      until = rowOf(run.study.motion.times, requirement.until);
-    for (std::size_t i = 0; i < block.size(); ++i) {
-      if (std::isnan(block(i, until, requirement.margins.front()))) continue;  // it did not arrive
-      bool always = true, once = false;
-      for (std::size_t row = from; row <= until; ++row) {
-        const bool isMetNow = isMet(block, i, row, requirement);
-        always = always && isMetNow;
-        once = once || isMetNow;
-      }
-      if (block.hasWeight()) {
-        ++result.samples;
-        if (!(requirement.isAlways ? always : once)) ++result.violating;
-      }
-      const Margin worst = worstOf(block, i, from, until, requirement);
-      if (std::isnan(worst.value) || (result.worstSample >= 0 && worst.value >= result.worstMargin)) continue;
-      result.worstSample = static_cast<std::int64_t>(block.first() + i);
-      result.worstMargin = worst.value;
-      result.worstTime = run.study.motion.times[worst.row];
-      run.worst[r].assign(block.values(i).begin(), block.values(i).end());
-      for (std::size_t q = 0; q < run.study.uncertain.size(); ++q)
-        if (run.study.uncertain[q].varies) run.worst[r][q] = RequirementResult::unknown;
-    }
-  }
-}
-
 void checkRequirements(Run& run) {
-  if (run.study.requirements.empty()) return;
-  run.watch.begin(Watch::Stage::rest);
-  const double start = processCpuSeconds();
-  try {
-    proveAll(run);
-  } catch (const std::bad_alloc&) {
-    run.watch.memoryFailed();
-    for (RequirementResult& result : run.results.requirements)
-      if (result.word == "open") result.why = run.watch.why();
-  }
-  for (RequirementResult& result : run.results.requirements)
-    countShares(result, run.study.ensemble.plan, run.results.stochastic.samples);
-  run.results.interval.cpu += processCpuSeconds() - start;
+  proveWhileThereIsRoom(run, [&] { proveAll(run); });
 }
 
 }  // namespace gamut

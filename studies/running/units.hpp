@@ -69,20 +69,23 @@ void findPossibilities(Run& run);
 /// Settles what leaves the proved bounds, then counts it.
 void takeOtherSamples(Run& run);
 void compareAnswers(Run& run);
-/// What is asked of the motion; then, of each requirement, what is guaranteed, probable and possible.
+/// What is asked of the motion; then, of each requirement, how many samples meet it, and what is proved.
 void stateRequirements(Run& run);
+void countRequirements(Run& run);
 void checkRequirements(Run& run);
-/// How probable values of the outputs are, and whose doing their variance is.
+/// How probable values of the outputs are, and whose doing their variance is; then the samples' shares beside that.
 void boundProbabilities(Run& run);
+void compareShares(Run& run);
 /// How outputs change with the uncertain quantities, where that is asked for.
 void encloseDerivatives(Run& run);
 /// A few of them, for the picture.
 void showSamples(Run& run);
 
 /// All units, in the order in which they run.
-inline constexpr void (*units[])(Run&) = {stateRequirements,  lookAtMachine,      takeFirstSamples, enclose,
-                                          guarantee,          findPossibilities,  takeOtherSamples, checkRequirements,
-                                          boundProbabilities, encloseDerivatives, compareAnswers,   showSamples};
+inline constexpr void (*units[])(Run&) = {stateRequirements, lookAtMachine,      takeFirstSamples, enclose,
+                                          guarantee,         findPossibilities,  takeOtherSamples, countRequirements,
+                                          checkRequirements, boundProbabilities, compareShares,    encloseDerivatives,
+                                          compareAnswers,    showSamples};
 
 /// Where points certainly are, by the flow's tube, or, where nothing moves, by the image of the box.
 void enclosePlaces(Run& run, const Tube& tube);
