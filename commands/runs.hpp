@@ -1,0 +1,33 @@
+// What the commands that run a study, or go on with one, have in common: their options, what they write, what they say.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+
+#include "commands/exit_codes.hpp"
+#include "studies/atomic_file.hpp"
+#include "studies/running/run.hpp"
+#include "studies/study.hpp"
+
+namespace gamut {
+
+struct RunArguments {
+  RunArguments();
+
+  int jobs;                                      ///< as many as the machine has
+  std::optional<double> timeLimit, memoryLimit;  ///< s of CPU; GB
+  bool json = false, quiet = false, force = false;
+};
+
+void addRunOptions(CLI::App& command, RunArguments& arguments);
+
+/// With interrupts noted, without seed, samples and progress.
+RunOptions runOptions(const RunArguments& arguments);
+
+/// Throws UsageError if samples need more memory than there may be: a block's motions are kept until it was compared.
+void checkMemory(const Study& study, const RunOptions& options);
+
+/// Writes results and page, and says what was found, as was asked for.
+ExitCode keepAndSay(Results& results, OutputFile& resultsFile, OutputFile& reportFile, const RunArguments& arguments);
+
+}  // namespace gamut
