@@ -102,8 +102,8 @@ void say(std::size_t number, const ReplayedSample& sample, const Results& result
     fmt::print(
         stderr,
         "note: sample {} lies outside the envelope of the run, so it is not the same bit for bit; the run was by "
-        "Gamut {} on {}, this is Gamut {} on {}\n",
-        number, results.version, results.host, version(), hostName());
+        "{}, this is Gamut {} on {}\n",
+        number, takerOfSamples(results), version(), hostName());
 }
 
 /// The requirement that "violation NAME" names; null for a sample.

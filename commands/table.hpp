@@ -26,6 +26,7 @@ struct Command {
 namespace commands {
 
 Action run(CLI::App& command);
+Action extend(CLI::App& command);
 Action validate(CLI::App& command);
 Action check(CLI::App& command);
 Action compare(CLI::App& command);
@@ -41,6 +42,7 @@ inline constexpr Command table[] = {
     {"new", "Write a study to start from, which explains itself", newStudy},
     {"quantities", "What of a study can be uncertain, and what can be an output", quantities},
     {"run", "Run a study; write results and a report", run, Command::looksAtInterrupts},
+    {"extend", "More samples for results, which keep all that was proved", extend, Command::looksAtInterrupts},
     {"validate", "Read and check a study file, no more", validate},
     {"check", "The verdict, from the stored numbers: do all samples stay inside?", check},
     {"compare", "Two results: do they contradict each other, and what became wider or narrower?", compare},

@@ -403,6 +403,9 @@ std::string infoText(const Results& results) {
   std::string text =
       fmt::format("{}\n  {}, from {}\n  by Gamut {} on {}, {}, seed {}\n", results.title, results.analysis,
                   results.studyFile, results.version, results.host, results.date, results.seed);
+  for (const ExtensionInfo& e : results.extensions)
+    text += fmt::format("  extended from {} by Gamut {} on {}, {}\n", countText(e.before, "sample"), e.version, e.host,
+                        e.date);
   if (results.horizon > 0)
     text += fmt::format("  {} output times from {} s to {} s\n", results.time.size(), results.time.front(),
                         results.time.back());

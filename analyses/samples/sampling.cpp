@@ -258,6 +258,8 @@ Plan planNamed(std::string_view name) {
   throw std::invalid_argument("no sampling plan is called '" + std::string(name) + "'; there are " + choices);
 }
 
+bool keepsFirstPoints(Plan plan) { return plan != Plan::latinHypercube && plan != Plan::grid; }
+
 /// Column j of the corners' array has bit parity(corner & mask): masks of one bit first (all combinations of the first
 /// quantities), then the others with an odd number of bits, then those with an even number.
 Sampling::Ends::Ends(std::size_t bits) : masks_((std::size_t{1} << bits) - 1) {

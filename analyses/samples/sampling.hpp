@@ -27,6 +27,9 @@ std::string_view nameOf(Plan plan);
 /// Throws std::invalid_argument, naming the choices, for another name.
 Plan planNamed(std::string_view name);
 
+/// Whether the first of more samples are where those of fewer are.
+bool keepsFirstPoints(Plan plan);
+
 /// The points of a plan's samples, one after the other.
 class PointSequence {
  public:

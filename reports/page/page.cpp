@@ -80,6 +80,9 @@ std::string provenanceSection(const Report& report) {
   for (const auto& [name, version] : results.libraries)
     libraries += fmt::format("{}{} {}", libraries.empty() ? "" : ", ", name, version);
   table.row("libraries", {libraries});
+  for (const ExtensionInfo& e : results.extensions)
+    table.row("extended", {fmt::format("from {}, by Gamut {} on {}, {}", countText(e.before, "sample"), e.version,
+                                       e.host, e.date)});
   return table.html() + "<details><summary>The study as it was written</summary><pre>" + escapeHtml(results.studyText) +
          "</pre></details>\n";
 }

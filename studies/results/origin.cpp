@@ -40,6 +40,16 @@ std::vector<Field> fieldsOfLibrary(LibraryInfo& l) {
           {"version", &l.version, unit::none, "its version", {}}};
 }
 
+std::vector<Field> fieldsOfExtension(ExtensionInfo& e) {
+  return {{"before", &e.before, unit::none, "samples of the plan that there had been", {}, allowed::count},
+          {"version", &e.version, unit::none, "of Gamut", {}},
+          {"host", &e.host, unit::none, "machine on which all samples were taken anew", {}},
+          {"date", &e.date, unit::none, "when that began, UTC", {}},
+          {"cpu", &e.cpu, unit::second, "CPU time", {}},
+          {"time_limit", &e.timeLimit, unit::second, "CPU time that was allowed", {}},
+          {"memory_limit", &e.memoryLimit, unit::byte, "memory that was allowed", {}}};
+}
+
 std::vector<Field> fieldsOfOutput(OutputInfo& o) {
   return {{dimension::output, &o.name, unit::none, "name of the output", {}},
           {"quantity", &o.quantity, unit::none, "quantity of the mechanism", {}},
@@ -75,11 +85,18 @@ std::vector<Field> fieldsOfShape(ShapeInfo& s) {
 
 }  // namespace
 
+std::string takerOfSamples(const Origin& o) {
+  return o.extensions.empty() ? "Gamut " + o.version + " on " + o.host
+                              : "Gamut " + o.extensions.back().version + " on " + o.extensions.back().host;
+}
+
 void describe(Origin& o, std::vector<Group>& groups) {
   groups.push_back(groupOf("/", "", o, fieldsOfRoot));
   groups.push_back(groupOf("/study", "what was asked, and where the numbers come from", o, fieldsOfStudy));
   groups.push_back(
       listOf("/study/libraries", "with what it was computed", "/study/libraries/name", o.libraries, fieldsOfLibrary));
+  groups.push_back(listOf("/study/extensions", "samples that `gamut extend` added", "/study/extensions/before",
+                          o.extensions, fieldsOfExtension));
   groups.push_back(listOf("/study/outputs", "what was to be looked at", dimension::output, o.outputs, fieldsOfOutput));
   groups.push_back(
       listOf("/study/uncertain", "what is uncertain", dimension::quantity, o.uncertain, fieldsOfUncertain));

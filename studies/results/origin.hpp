@@ -44,11 +44,20 @@ struct Limits {
   double sampleTime = std::numeric_limits<double>::infinity();                             ///< of each sample
 };
 
+/// Samples that were added later. All were taken then, those that there had been once more.
+struct ExtensionInfo {
+  std::int64_t before = 0;  ///< samples of the plan that there had been
+  std::string version, host, date;
+  double cpu = 0;                         ///< s
+  double timeLimit = 0, memoryLimit = 0;  ///< of the extension: s of CPU, bytes
+};
+
 struct Origin {
   std::string studyText, robotText, tablesText, studyFile, title, analysis;  ///< tablesText: NamedTexts in one
   std::uint64_t seed = 0;
   std::string version, host, date;
   std::vector<LibraryInfo> libraries;
+  std::vector<ExtensionInfo> extensions;  ///< one after the other
   std::vector<UncertainInfo> uncertain;
   std::vector<ShapeInfo> shapes;  ///< of all of them
   std::vector<OutputInfo> outputs;
@@ -59,6 +68,9 @@ struct Origin {
   double cpu = 0;     ///< s, of all analyses
   double memory = 0;  ///< bytes: the most that the process had at a time
 };
+
+/// By what the samples were taken: "Gamut 1.2.3 on hostname".
+std::string takerOfSamples(const Origin& origin);
 
 /// Adds the groups of this part.
 void describe(Origin& origin, std::vector<Group>& groups);

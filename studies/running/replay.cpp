@@ -11,20 +11,6 @@
 namespace gamut {
 namespace {
 
-/// Rows from the first on that hold bounds.
-std::size_t rowsOf(const Bounds& bounds) {
-  std::size_t rows = 0;
-  while (rows < bounds.lower.times && !std::isnan(bounds.lower(rows, 0))) ++rows;
-  return rows;
-}
-
-Proved provedBy(const Results& results) {
-  const Bounds& enclosure = results.interval.at;
-  const std::vector<Bounds>& cuts = results.fuzzy.outer;
-  const std::size_t reached = !enclosure.empty() ? rowsOf(enclosure) : !cuts.empty() ? rowsOf(cuts.front()) : 0;
-  return {enclosure, cuts, reached};
-}
-
 /// Of a block of one.
 void take(const SampleBlock& block, const Study& study, ReplayedSample& sample) {
   sample.values.assign(block.values(0).begin(), block.values(0).end());
@@ -45,7 +31,7 @@ ReplayedSample replay(const Study& study, const Results& results, std::size_t nu
   if (study.analysis == Study::Analysis::kinematics) moveSamples(study, problem, block);
 
   ReplayedSample sample;
-  const Proved proved = provedBy(results);
+  const Proved proved{results.interval.at, results.fuzzy.outer, enclosedTimes(results)};
   Settlement(proved, problem.motion, {}).settle(block, [&](const Comparison& found, int) {
     for (const Dispute& dispute : found.disputes) sample.decided = dispute.decided;
   });

@@ -229,4 +229,15 @@ void checkRequirements(Run& run) {
   proveWhileThereIsRoom(run, [&] { proveAll(run); });
 }
 
+void refuteRequirements(Run& run) {
+  proveWhileThereIsRoom(run, [&] {
+    for (std::size_t r = 0; r < run.results.requirements.size(); ++r) {
+      RequirementResult& result = run.results.requirements[r];
+      if (result.word != "open") continue;
+      findViolation(run, r, {});
+      if (result.word != "open" && result.why == tooLoose) result.why.clear();
+    }
+  });
+}
+
 }  // namespace gamut

@@ -1,6 +1,5 @@
 // The units of a run one after the other.
 #include "studies/running/run.hpp"
-#include "analyses/consistency.hpp"
 
 #include <fmt/format.h>
 
@@ -9,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "analyses/consistency.hpp"
 #include "studies/printable.hpp"
 #include "studies/running/units.hpp"
 #include "studies/version.hpp"
@@ -63,6 +63,13 @@ Run::Run(const Study& whatIsAsked, const RunOptions& howToRun)
   describeOrigin(*this);
   problem = makeProblem(study);
 }
+
+Run::Run(const Study& whatIsAsked, const RunOptions& howToRun, Results found)
+    : study(whatIsAsked),
+      options(howToRun),
+      watch(limitsOf(study, options), options.cancelled, {options.overdue}),
+      problem(makeProblem(study)),
+      results(std::move(found)) {}
 
 std::function<void(double)> Run::progressOf(const std::string& task) const {
   if (!options.progress) return {};

@@ -1,6 +1,7 @@
 // A number that is not uncertain is a constant of all samples.
 #include "studies/running/sampled_study.hpp"
 
+#include <cmath>
 #include <utility>
 
 #include "scalars/samples.hpp"
@@ -13,6 +14,14 @@ EnsembleOptions ensembleOptions(const Study& study, const Problem& problem, std:
   options.samples = samples;
   options.alpha = problem.alpha;
   return options;
+}
+
+std::size_t enclosedTimes(const Results& results) {
+  const std::vector<Bounds>& cuts = results.fuzzy.outer;
+  const Bounds none, &bounds = !results.interval.at.empty() ? results.interval.at : !cuts.empty() ? cuts.front() : none;
+  std::size_t rows = 0;
+  while (rows < bounds.lower.times && !std::isnan(bounds.lower(rows, 0))) ++rows;
+  return rows;
 }
 
 void moveSamples(const Study& study, const Problem& problem, SampleBlock& block) {

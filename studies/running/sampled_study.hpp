@@ -26,6 +26,9 @@ std::vector<S> assembledOutputs(const Study& study, const Problem& problem, cons
   return outputs;
 }
 
+/// Output times, from the first on, of which results hold proved bounds.
+std::size_t enclosedTimes(const Results& results);
+
 /// Kinematics: the same samples once more, all at once, by the assembly itself.
 void moveSamples(const Study& study, const Problem& problem, SampleBlock& block);
 

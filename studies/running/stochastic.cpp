@@ -152,7 +152,7 @@ void takeFirstSamples(Run& run) {
   stochastic.samples = static_cast<std::int64_t>(options.samples);
   stochastic.relativeTolerance = options.tolerance.relative;
   stochastic.absoluteTolerance = options.tolerance.absolute;
-  const bool isAllThereIs = !run.study.asksFor<IntervalResult>() && !run.study.asksFor<FuzzyResult>();
+  const bool isAllThereIs = run.former || (!run.study.asksFor<IntervalResult>() && !run.study.asksFor<FuzzyResult>());
   sampleWhileThereIsRoom(run, isAllThereIs ? Watch::Stage::rest : Watch::Stage::firstSamples, [&] {
     EnsembleRun& ensemble = run.ensemble.emplace(run.problem.motion, options);
     stochastic.samples = static_cast<std::int64_t>(ensemble.sampling().samples());
@@ -175,6 +175,7 @@ void takeOtherSamples(Run& run) {
     run.ensemble->integrateOthers(settlement.boundsOf(0), [&](SampleBlock& block) {
       if (run.study.analysis == Study::Analysis::kinematics) moveSamples(run.study, run.problem, block);
       settlement.settle(block, [&](const Comparison& found, int level) { takeDisputes(run, found, level); });
+      if (run.former) run.former->meet(block, run.results.comparison.disputed);
       noteRequirements(run, block);
       if (influence) influence->include(block);
       keeper.keep(block);

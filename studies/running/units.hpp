@@ -14,6 +14,7 @@
 #include "analyses/samples/ensemble.hpp"
 #include "studies/problem.hpp"
 #include "studies/results/results.hpp"
+#include "studies/running/former_samples.hpp"
 #include "studies/running/run.hpp"
 #include "studies/running/seen.hpp"
 #include "studies/study.hpp"
@@ -40,6 +41,8 @@ struct Enclosed {
 /// One run on its way.
 struct Run {
   Run(const Study& whatIsAsked, const RunOptions& howToRun);
+  /// One that goes on from what is there.
+  Run(const Study& whatIsAsked, const RunOptions& howToRun, Results found);
 
   Bounds emptyBounds() const { return {study.motion.times.size(), study.outputs.size()}; }
   /// What tells the user how far a task is.
@@ -53,6 +56,7 @@ struct Run {
   Seen seen;                               ///< filled by `lookAtMachine`
   Enclosed enclosed;                       ///< filled by `enclose`
   std::vector<std::vector<double>> worst;  ///< of each requirement: values of the worst sample
+  std::optional<FormerSamples> former;     ///< that are to come again; none unless the run goes on from others
   std::optional<EnsembleRun> ensemble;     ///< there from `takeFirstSamples` on, unless it found no room
 };
 
@@ -73,6 +77,8 @@ void compareAnswers(Run& run);
 void stateRequirements(Run& run);
 void countRequirements(Run& run);
 void checkRequirements(Run& run);
+/// Where nothing was proved, but a sample violates a requirement: proves that it does.
+void refuteRequirements(Run& run);
 /// How probable values of the outputs are, and whose doing their variance is; then the samples' shares beside that.
 void boundProbabilities(Run& run);
 void compareShares(Run& run);
@@ -86,6 +92,10 @@ inline constexpr void (*units[])(Run&) = {stateRequirements, lookAtMachine,     
                                           guarantee,         findPossibilities,  takeOtherSamples, countRequirements,
                                           checkRequirements, boundProbabilities, compareShares,    encloseDerivatives,
                                           compareAnswers,    showSamples};
+
+/// Those that samples ask for, where all else is there.
+inline constexpr void (*unitsOfSamples[])(Run&) = {takeFirstSamples,   takeOtherSamples, countRequirements,
+                                                   refuteRequirements, compareShares,    compareAnswers};
 
 /// Where points certainly are, by the flow's tube, or, where nothing moves, by the image of the box.
 void enclosePlaces(Run& run, const Tube& tube);

@@ -67,10 +67,10 @@ TEST_F(Program, RefusesWrongUsageInOneLine) {
   EXPECT_EQ(folder_.count(), 1U);
   EXPECT_EQ(folder_.read("s.toml"), sampleStudy);
   EXPECT_EQ(gamut("rum s.toml").error, "gamut: unknown command 'rum'; expected 'run'\n");
-  EXPECT_EQ(
-      gamut("walk").error,
-      "gamut: unknown command 'walk'; expected one of: new, quantities, run, validate, check, compare, tolerance, "
-      "report, info, replay, sample\n");
+  EXPECT_EQ(gamut("walk").error,
+            "gamut: unknown command 'walk'; expected one of: new, quantities, run, extend, validate, check, compare, "
+            "tolerance, "
+            "report, info, replay, sample\n");
   EXPECT_EQ(gamut("run s.toml --seed -1").error,
             "gamut: --seed: '-1' is no whole number from 0 to 9223372036854775807; see gamut run --help\n");
 }

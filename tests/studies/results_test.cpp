@@ -117,6 +117,7 @@ TEST(Description, LeavesOutNoMember) {
   EXPECT_LE(longestGap(r.comparison.disputed[0], fields["/comparison/disputed"]), padding);
   EXPECT_LE(longestGap(r.requirements[0], fields["/requirements"]), padding);
   EXPECT_LE(longestGap(r.libraries[0], fields["/study/libraries"]), padding);
+  EXPECT_LE(longestGap(r.extensions[0], fields["/study/extensions"]), padding);
   EXPECT_LE(longestGap(r.outputs[0], fields["/study/outputs"]), padding);
   EXPECT_LE(longestGap(r.uncertain[0], fields["/study/uncertain"]), padding);
   EXPECT_LE(longestGap(r.shapes[0], fields["/study/shapes"]), padding);
@@ -129,7 +130,7 @@ TEST(Description, LeavesOutNoMember) {
   EXPECT_LE(longestGap(m.places, fields["/machine/places"], m.places.present), padding);
   std::vector<Field> origin = fields["/"];
   origin.insert(origin.end(), fields["/study"].begin(), fields["/study"].end());
-  EXPECT_LE(longestGap<Origin>(r, origin, r.libraries, r.outputs, r.uncertain, r.shapes), padding);
+  EXPECT_LE(longestGap<Origin>(r, origin, r.libraries, r.extensions, r.outputs, r.uncertain, r.shapes), padding);
 }
 
 /// "time × output" for what lies at "/time" and "/output".

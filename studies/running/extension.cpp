@@ -1,0 +1,136 @@
+// The units of a run that samples ask for, on results that hold all else.
+#include "studies/running/extension.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include "analyses/samples/sampling.hpp"
+#include "studies/printable.hpp"
+#include "studies/running/sampled_study.hpp"
+#include "studies/running/units.hpp"
+#include "studies/version.hpp"
+
+namespace gamut {
+namespace {
+
+/// So many samples does the plan have then.
+Sampling samplingOf(const Study& study, const Results& results, std::size_t samples) {
+  return {study.ensemble.plan, study.uncertain.size(), samples, results.seed};
+}
+
+/// The text of the study may have another meaning for another version.
+void checkStudy(const Study& study, const Results& results) {
+  bool isSame = results.time == study.motion.times && results.outputs.size() == study.outputs.size() &&
+                results.uncertain.size() == study.uncertain.size() &&
+                results.stochastic.plan == nameOf(study.ensemble.plan);
+  for (std::size_t i = 0; isSame && i < study.outputs.size(); ++i)
+    isSame = results.outputs[i].name == study.outputs[i].name && results.outputs[i].unit == study.outputs[i].unit;
+  for (std::size_t i = 0; isSame && i < study.uncertain.size(); ++i) {
+    const Uncertain& uncertain = study.uncertain[i].uncertain;
+    isSame = results.uncertain[i].name == uncertain.name && results.uncertain[i].lower == uncertain.range.lower() &&
+             results.uncertain[i].upper == uncertain.range.upper();
+  }
+  if (isSame) return;
+  throw std::invalid_argument(
+      fmt::format("{} had read another study from the same text; expected results by this "
+                  "version of Gamut, or run the study again",
+                  takerOfSamples(results)));
+}
+
+/// Whether samples of these numbers have the values that they had.
+void checkValues(const Study& study, const Results& results, Sampling sampling) {
+  const KeptSamples& kept = results.stochastic.kept;
+  std::vector<Uncertain> uncertain;
+  for (const UncertainQuantity& quantity : study.uncertain) uncertain.push_back(quantity.uncertain);
+  const std::size_t n = uncertain.size();
+  for (std::size_t row = 0; row < kept.number.size() && kept.number[row] < results.stochastic.samples; ++row) {
+    const std::vector<double> values = sampling.values(static_cast<std::size_t>(kept.number[row]), uncertain);
+    for (std::size_t q = 0; q < n; ++q)
+      if (std::bit_cast<std::uint64_t>(values[q]) != std::bit_cast<std::uint64_t>(kept.values[row * n + q]))
+        throw std::invalid_argument(
+            fmt::format("sample {} would have {} = {} and had {}; expected results by this version of Gamut, or run "
+                        "the study again",
+                        kept.number[row], uncertain[q].name, values[q], kept.values[row * n + q]));
+  }
+}
+
+/// Throws std::invalid_argument unless more samples can come to those that there are. How many there are then.
+std::size_t checkedSamples(const Study& study, const Results& results, const RunOptions& options) {
+  const StochasticResult& stochastic = results.stochastic;
+  if (!stochastic.present)
+    throw std::invalid_argument("holds no samples; expected results of a study that compares \"stochastic\"");
+  checkStudy(study, results);
+  if (!keepsFirstPoints(study.ensemble.plan))
+    throw std::invalid_argument(
+        fmt::format("its samples are of the plan {}, by which more samples lie elsewhere, all of them; expected sobol, "
+                    "halton or random, or run the study again",
+                    stochastic.plan));
+  const Sampling sampling = samplingOf(study, results, options.samples.value_or(0));
+  const auto samples = static_cast<std::int64_t>(sampling.samples());
+  const bool isIncomplete = stochastic.integrated < stochastic.planned();
+  if (samples < stochastic.samples || (samples == stochastic.samples && !isIncomplete))
+    throw std::invalid_argument(fmt::format("holds {} samples, and would hold {}; expected {}{}", stochastic.samples,
+                                            samples, isIncomplete ? "at least as many" : "more",
+                                            study.uncertain.empty() ? ", but nothing is uncertain" : ""));
+  return sampling.samples();
+}
+
+/// All that samples said.
+void forgetSamples(Results& results, std::size_t samples) {
+  constexpr double unknown = RequirementResult::unknown;
+  const std::int64_t before = results.stochastic.samples;
+  StochasticResult none;
+  none.cpu = results.stochastic.cpu;
+  results.stochastic = std::move(none);
+  results.fuzzy.inner.clear();
+  results.fuzzy.influence = {};
+  results.comparison = {};
+  for (RequirementResult& result : results.requirements) {
+    result.samples = result.violating = 0;
+    result.shareLower = result.shareUpper = result.worstTime = result.worstMargin = unknown;
+    result.worstSample = -1;
+    if (result.violationSample >= before)  // a corner, or the centre
+      result.violationSample += static_cast<std::int64_t>(samples) - before;
+  }
+}
+
+void noteExtension(Run& run, std::int64_t before) {
+  ExtensionInfo& extension = run.results.extensions.emplace_back();
+  const Limits limits = limitsOf(run.study, run.options);
+  extension.before = before;
+  extension.version = version();
+  extension.host = printable(hostName());
+  extension.date = dateTime();
+  extension.timeLimit = limits.time;
+  extension.memoryLimit = limits.memory;
+}
+
+}  // namespace
+
+Extension extend(const Study& study, const Results& results, const RunOptions& options) {
+  const std::size_t samples = checkedSamples(study, results, options);
+  checkValues(study, results, samplingOf(study, results, samples));
+  Run run(study, options, results);
+  noteExtension(run, results.stochastic.samples);
+  run.former.emplace(results, samples);
+  run.enclosed.reachedTimes = enclosedTimes(results);
+  run.worst.resize(study.requirements.size());
+  forgetSamples(run.results, samples);
+  for (const auto& unit : unitsOfSamples) unit(run);
+  run.results.extensions.back().cpu = run.watch.spent();
+  run.results.cpu += run.watch.spent();
+  run.results.memory = std::max(run.results.memory, peakMemory());
+  Extension extension;
+  extension.isMore = run.results.stochastic.integrated >= results.stochastic.integrated;
+  extension.met = run.former->met();
+  extension.changed = run.former->changed();
+  extension.results = std::move(run.results);
+  return extension;
+}
+
+}  // namespace gamut
