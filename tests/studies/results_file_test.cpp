@@ -69,6 +69,7 @@ TEST_F(ResultsFile, KeepsAbsentPartsAbsent) {
   results.requirements.clear();
   results.distribution = {};
   results.sensitivity = {};
+  results.derivatives = {};
   results.surrogate = {};
   writeResults(results, path_);
   const Results found = readResults(path_);
@@ -106,6 +107,7 @@ TEST_F(ResultsFile, CompressesLargeGrids) {
   results.comparison = {};
   results.distribution = {};
   results.sensitivity = {};
+  results.derivatives = {};
   results.surrogate = {};
   writeResults(results, path_);
   EXPECT_LT(std::filesystem::file_size(path_), 5000U * 2 * 8);

@@ -735,7 +735,7 @@ constexpr BadStudy badStudies[] = {
      "output_times, compare)"},
     {"[uncertain]]\nname", "[uncertan]]\nname",
      "s.toml:28:3: unknown key 'uncertan'; expected 'uncertain'? (one of: study, mechanism, uncertain, output, "
-     "requirement, interval, stochastic, distribution, fuzzy, limits)"},
+     "requirement, interval, stochastic, distribution, sensitivity, fuzzy, limits)"},
     {"\"hinge.angle\"\ninterval", "\"hinges.*\"\ninterval",
      "s.toml:30:12: no quantity fits 'hinges.*'; expected a pattern that `gamut quantities` shows a quantity of"},
     {"\"hinge.angle\"\ninterval", "[\"hinge.angle\", \"hinge.rate\"]\ninterval",
