@@ -31,7 +31,7 @@ struct Separated {
   double norm = 0;                     // Σ|c| of all
 };
 
-struct Cell {
+struct BoxCell {
   FlowPart part;
   std::shared_ptr<const Monomials> monomials;
   OutputModel model;
@@ -52,16 +52,16 @@ class Distributor {
   DistributionBounds find() {
     DistributionBounds found;
     Interval range = Interval::empty();
-    for (const Cell& cell : cells_) range = hull(range, cell.model.bound);
+    for (const BoxCell& cell : cells_) range = hull(range, cell.model.bound);
     if (!isBounded(range) || isCancelled()) return found;
     constexpr double largest = 1e290, share = 0.4;
     if (magnitude(range) > largest ||
-        !std::ranges::all_of(cells_, [](const Cell& cell) { return QuantityMasses::hold(cell.part); }))
+        !std::ranges::all_of(cells_, [](const BoxCell& cell) { return QuantityMasses::hold(cell.part); }))
       return found;
     lower_ = range.lower(), upper_ = range.upper();
     if (upper_ - lower_ <= options_.negligible) return {{std::nextafter(lower_, -infinite), upper_}, {0, 1}, {0, 1}, 0};
     constexpr double useful = 16;  // beyond, a polynomial says nothing that its bound does not
-    for (Cell& cell : cells_)
+    for (BoxCell& cell : cells_)
       if (!(cell.separated.norm - std::fabs(cell.separated.constant) + cell.model.radius <= useful * (upper_ - lower_)))
         cell.model.c.clear();
     // Of an even density at first, then of the one that was found: the bounds of the output may be so far apart.
@@ -95,13 +95,13 @@ class Distributor {
 
   std::size_t mostSymbols() const {
     std::size_t most = 0;
-    for (const Cell& cell : cells_) most = std::max(most, cell.separated.c.size());
+    for (const BoxCell& cell : cells_) most = std::max(most, cell.separated.c.size());
     return most;
   }
 
   // ---- Cells --------------------------------------------------------------------------------------------------------
 
-  void add(Cell cell) {
+  void add(BoxCell cell) {
     const Monomials& m = *cell.monomials;
     Separated& s = cell.separated;
     s.c.assign(at(m.symbols()), {});
@@ -134,15 +134,15 @@ class Distributor {
   /// radii, part the bounds of the output, on average.
   double refine(double allowed, std::size_t mostCells) {
     constexpr double finest = 0x1p-9;
-    const auto weight = [](const Cell& cell) { return 2 * cell.separated.mixed * cell.mass; };
+    const auto weight = [](const BoxCell& cell) { return 2 * cell.separated.mixed * cell.mass; };
     double all = 0;
-    for (const Cell& cell : cells_) all += weight(cell);
+    for (const BoxCell& cell : cells_) all += weight(cell);
     while (all > allowed && cells_.size() < mostCells && !isCancelled()) {
       const auto widest = std::ranges::max_element(cells_, {}, weight);
       const std::vector<double>& mixedOf = widest->separated.mixedOf;
       const int symbol = static_cast<int>(std::ranges::max_element(mixedOf) - mixedOf.begin());
       if (mixedOf.empty() || weight(*widest) == 0 || widest->part.half[at(symbol)] <= finest) break;
-      const Cell cell = std::move(*widest);
+      const BoxCell cell = std::move(*widest);
       cells_.erase(widest);
       all -= weight(cell);
       for (const double side : {-0.5, 0.5}) {
@@ -151,14 +151,14 @@ class Distributor {
       }
     }
     double apart = 0;
-    for (const Cell& cell : cells_) apart += 2 * (cell.separated.mixed + cell.model.radius) * cell.mass;
+    for (const BoxCell& cell : cells_) apart += 2 * (cell.separated.mixed + cell.model.radius) * cell.mass;
     return std::isfinite(apart) ? apart : 0;
   }
 
-  Cell halfOf(const Cell& cell, int symbol, double side) {
+  BoxCell halfOf(const BoxCell& cell, int symbol, double side) {
     std::unique_ptr<PolynomialRange>& tables = tables_[cell.monomials.get()];
     if (!tables) tables = std::make_unique<PolynomialRange>(cell.monomials);
-    Cell half{cell.part, cell.monomials, cell.model, {}, 1};
+    BoxCell half{cell.part, cell.monomials, cell.model, {}, 1};
     half.part.centre[at(symbol)] += side * cell.part.half[at(symbol)];
     half.part.half[at(symbol)] *= 0.5;
     tables->substitute(symbol, side, 0.5, cell.model.c.data(), half.model.c.data(),
@@ -169,14 +169,14 @@ class Distributor {
 
   // ---- Sums ---------------------------------------------------------------------------------------------------------
 
-  double massOf(const Cell& cell, int symbol) const {
+  double massOf(const BoxCell& cell, int symbol) const {
     const auto [first, count] = QuantityMasses::of(cell.part, symbol);
     const auto begin = masses_.mass(symbol).begin() + first;
     return std::accumulate(begin, begin + count, 0.0);
   }
 
   /// f(η_l) + [down, up] as multiples of a step.
-  GridBounds sidesOf(const Cell& cell, int symbol, double down, double up, double step) const {
+  GridBounds sidesOf(const BoxCell& cell, int symbol, double down, double up, double step) const {
     const std::vector<double>& f = cell.separated.c[at(symbol)];
     const auto [first, count] = QuantityMasses::of(cell.part, symbol);
     double size = 0, bend = 0;  // Σ|c|; |f''| at most
@@ -214,7 +214,7 @@ class Distributor {
 
   /// Of the output on a cell. Probabilities of the symbols that are off by e_l in all make those of sums be off by no
   /// more than Σ e_l.
-  GridSum sumOn(const Cell& cell, double step) const {
+  GridSum sumOn(const BoxCell& cell, double step) const {
     const int symbols = cell.monomials->symbols();
     // What hardly varies counts as error.
     double beside = cell.separated.mixed, scale = 1;
@@ -258,7 +258,7 @@ class Distributor {
     const long first = stepBelow(lower_) - 1, last = stepAbove(upper_);
     std::vector<double> low(static_cast<std::size_t>(last - first + 1), 0.0), high = low;
     double error = 0;
-    for (const Cell& cell : cells_) {
+    for (const BoxCell& cell : cells_) {
       if (isCancelled()) return {};
       const GridSum own = sumOn(cell, step);
       error += own.error;
@@ -323,7 +323,7 @@ class Distributor {
 
   const QuantityMasses& masses_;
   const DistributionOptions& options_;
-  std::vector<Cell> cells_;
+  std::vector<BoxCell> cells_;
   double lower_ = 0, upper_ = 0;
   std::map<const Monomials*, std::unique_ptr<PolynomialRange>> tables_;
 };
