@@ -39,7 +39,7 @@ struct BoxCell {
   double mass = 1;  // about
 };
 
-constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr double unlimited = std::numeric_limits<double>::infinity();
 
 class Distributor {
  public:
@@ -59,13 +59,14 @@ class Distributor {
         !std::ranges::all_of(cells_, [](const BoxCell& cell) { return QuantityMasses::hold(cell.part); }))
       return found;
     lower_ = range.lower(), upper_ = range.upper();
-    if (upper_ - lower_ <= options_.negligible) return {{std::nextafter(lower_, -infinite), upper_}, {0, 1}, {0, 1}, 0};
+    if (upper_ - lower_ <= options_.negligible)
+      return {{std::nextafter(lower_, -unlimited), upper_}, {0, 1}, {0, 1}, 0};
     constexpr double useful = 16;  // beyond, a polynomial says nothing that its bound does not
     for (BoxCell& cell : cells_)
       if (!(cell.separated.norm - std::fabs(cell.separated.constant) + cell.model.radius <= useful * (upper_ - lower_)))
         cell.model.c.clear();
     // Of an even density at first, then of the one that was found: the bounds of the output may be so far apart.
-    double allowed = 2 * options_.gap * (upper_ - lower_), before = infinite;
+    double allowed = 2 * options_.gap * (upper_ - lower_), before = unlimited;
     for (int round = 0; round < 4; ++round) {
       // Where terms in several symbols, or radii, are not less, small steps are of no use.
       const double apart = refine(0.5 * allowed, round == 0 ? options_.mostCells / 4 : options_.mostCells);
@@ -73,7 +74,7 @@ class Distributor {
       if (round > 1 && !(allowed < 0.6 * before)) break;
       before = allowed;
       const double steps = static_cast<double>(mostSymbols()) + 1;
-      const double finest = mostSymbols() > 1 ? 0x1p16 : 0x1p18;  // where an output is extreme its density is infinite
+      const double finest = mostSymbols() > 1 ? 0x1p16 : 0x1p18;  // where an output is extreme its density is unlimited
       DistributionBounds now = bound(stepOf(std::max((upper_ - lower_) / finest, allowed / steps)));
       if (isCancelled()) return {};
       if (round > 1 && !(now.gap < found.gap)) break;

@@ -15,9 +15,9 @@ constexpr double decisive = 10;  // errors: a sample farther outside is, as in a
 constexpr double leastUlps = 4;  // of an output's magnitude: a sample in doubles is no more certain
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-class Finder {
+class ContradictionFinder {
  public:
-  Finder(const Results& first, const Results& second, const Shared& shared, const Relation& relation)
+  ContradictionFinder(const Results& first, const Results& second, const Shared& shared, const Relation& relation)
       : a_(first), b_(second), shared_(shared), relation_(relation) {}
 
   Contradictions find() {
@@ -269,7 +269,7 @@ class Finder {
 
 Contradictions contradictionsOf(const Results& first, const Results& second, const Shared& shared,
                                 const Relation& relation) {
-  return Finder(first, second, shared, relation).find();
+  return ContradictionFinder(first, second, shared, relation).find();
 }
 
 }  // namespace gamut

@@ -7,37 +7,35 @@
 namespace gamut {
 namespace {
 
-using Of = Excess::Of;
-
 std::vector<Excess> excessesOf(const Changes& changes, const Tolerances& tolerances) {
   std::vector<Excess> found;
   for (const OutputChange& output : changes.outputs) {
     if (output.isMargin) continue;
     const OutputTolerances& allowed = tolerances.ofOutput(output.name);
-    const auto compareWidths = [&](Of of, const WidthRatio& ratio) {
+    const auto compareWidths = [&](Excess::Of of, const WidthRatio& ratio) {
       if (ratio.greatest > 1 + allowed.wider)
         found.push_back({of, output.name, ratio.greatest, 1 + allowed.wider, ratio.greatestTime});
     };
-    compareWidths(Of::enclosure, output.enclosure);
-    compareWidths(Of::alphaCuts, output.alphaCuts);
+    compareWidths(Excess::Of::enclosure, output.enclosure);
+    compareWidths(Excess::Of::alphaCuts, output.alphaCuts);
     if (const double ratio = output.overestimation.second / output.overestimation.first;
         allowed.overestimation && ratio > 1 + *allowed.overestimation)
-      found.push_back({Of::overestimation, output.name, ratio, 1 + *allowed.overestimation});
+      found.push_back({Excess::Of::overestimation, output.name, ratio, 1 + *allowed.overestimation});
     if (const double more = output.gap.second - output.gap.first; more > allowed.gap)
-      found.push_back({Of::gap, output.name, more, allowed.gap});
+      found.push_back({Excess::Of::gap, output.name, more, allowed.gap});
   }
   for (const AnswerChange& answer : changes.answers) {
     const double missing = answer.reached.first > 0 ? 1 - answer.reached.second / answer.reached.first : 0;
     const bool isNewlyEnded = answer.reached.first == 0 && answer.reached.second == 0 && !answer.endsEarly.first;
     if (answer.endsEarly.second && (missing > tolerances.shorter || isNewlyEnded))
-      found.push_back({Of::reached, answer.name, missing, tolerances.shorter, answer.reached.second});
+      found.push_back({Excess::Of::reached, answer.name, missing, tolerances.shorter, answer.reached.second});
   }
   for (const RequirementChange& requirement : changes.requirements)
     if (requirement.isLost && requirement.isSameDemand)
-      found.push_back({Of::requirement, requirement.name, 0, 0, 0, requirement.word});
-  if (changes.isVerdictWorse) found.push_back({Of::verdict, "", 0, 0, 0, changes.verdict});
+      found.push_back({Excess::Of::requirement, requirement.name, 0, 0, 0, requirement.word});
+  if (changes.isVerdictWorse) found.push_back({Excess::Of::verdict, "", 0, 0, 0, changes.verdict});
   if (const double ratio = changes.cpu.second / changes.cpu.first; tolerances.cpu && ratio > *tolerances.cpu)
-    found.push_back({Of::cpu, "", ratio, *tolerances.cpu});
+    found.push_back({Excess::Of::cpu, "", ratio, *tolerances.cpu});
   return found;
 }
 
