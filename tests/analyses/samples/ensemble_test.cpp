@@ -585,11 +585,11 @@ TEST(InnerCuts, OfManyQuantitiesReachTheCornersOfTheAlphaCuts) {
 }
 
 TEST(InnerCuts, CornersOfAlphaCutsAreReplayedBitByBit) {
-  EnsembleOptions options = samples(70);
+  EnsembleOptions options = samples(80);
   for (int level = 0; level < 11; ++level) options.alpha.push_back(level / 10.0);
   const WholeEnsemble e = sampleEnsemble(oscillator(), options);
-  ASSERT_EQ(e.size(), 70u + 4u + 36u + 1u);
-  for (std::size_t i : {68u, 70u, 74u, 90u, 109u, 110u})
+  ASSERT_EQ(e.size(), 80u + 4u + 36u + 1u);
+  for (std::size_t i : {78u, 80u, 84u, 100u, 119u, 120u})
     EXPECT_TRUE(sameBits(replaySample(oscillator(), options, i).trajectory(0), e.trajectory(i))) << i;
 }
 
