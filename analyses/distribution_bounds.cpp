@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "analyses/normal_distribution.hpp"
 #include "analyses/uncertainty.hpp"
 #include "scalars/elementary/special_functions.hpp"
 
@@ -46,49 +47,42 @@ Interval sumOf(const Ratio& ratio, const AtMost& atMost) {
   return {sum.lower(), std::numeric_limits<double>::infinity()};
 }
 
-/// ½ erfc(-z/√2).
-Interval normalBelow(const Interval& z) {
-  const Interval x = -z / sqrt(Interval(2.0));
-  return 0.5 * hull(between(detail::boundErfc(x.upper())), between(detail::boundErfc(x.lower())));
-}
-
 /// P(a, x) = x^a e^-x / Γ(a+1) Σ xⁿ/((a+1)…(a+n)) (Abramowitz and Stegun 6.5.29).
-Interval gammaBelow(double a, double value) {
+Interval gammaBelow(double a, double value, const Interval& logGamma) {
   if (value <= 0) return Interval(0.0);
   const Interval x(value), shape(a);
   const auto ratio = [&](int n) { return x / (shape + Interval(n + 1.0)); };
   const Interval sum = sumOf(ratio, [&](int n) { return ratio(n).upper(); });  // they fall
-  return intersection(exp(shape * log(x) - x - logGamma(shape)) / shape * sum, share);
+  return intersection(exp(shape * log(x) - x - logGamma) / shape * sum, share);
 }
 
 /// x^a (1-x)^b / (a B(a, b)) Σ Π (a+b+i)/(a+1+i) xⁿ, n ≥ 0 and i < n (Abramowitz and Stegun 26.5.4).
-Interval betaSeries(const Interval& a, const Interval& b, const Interval& x) {
+Interval betaSeries(const Interval& a, const Interval& b, const Interval& x, const Interval& logBeta) {
   const Interval both = a + b;
   const auto ratio = [&](int n) { return (both + Interval(static_cast<double>(n))) / (a + Interval(n + 1.0)) * x; };
   // They run from r_n to x, rising or falling.
   const Interval sum = sumOf(ratio, [&](int n) { return std::max(ratio(n).upper(), x.upper()); });
-  const Interval logBeta = logGamma(a) + logGamma(b) - logGamma(both);
   return exp(a * log(x) + b * log(Interval(1.0) - x) - logBeta) / a * sum;
 }
 
 /// I_x(a, b), from the side where its series converges sooner.
-Interval betaBelow(double a, double b, double value) {
+Interval betaBelow(double a, double b, double value, const Interval& logBeta) {
   if (value <= 0) return Interval(0.0);
   if (value >= 1) return Interval(1.0);
   const Interval x(value), first(a), second(b);
-  const Interval found = value <= (a + 1) / (a + b + 2) ? betaSeries(first, second, x)
-                                                        : Interval(1.0) - betaSeries(second, first, Interval(1.0) - x);
+  const Interval found = value <= (a + 1) / (a + b + 2)
+                             ? betaSeries(first, second, x, logBeta)
+                             : Interval(1.0) - betaSeries(second, first, Interval(1.0) - x, logBeta);
   return intersection(found, share);
 }
 
 }  // namespace
 
-/// Before truncation.
-Interval Distribution::boundBelow(const Interval& value) const {
-  const Interval first(first_), second(second_);
+Interval Distribution::boundBelow(const Interval& value, const Member& member) const {
+  const Interval &first = member.first, &second = member.second;
   switch (shape_) {
     case Shape::gamma:
-      return rising([&](double v) { return gammaBelow(first_, v); }, value / second);
+      return rising([&](double v) { return gammaBelow(midpoint(first), v, member.logFactor); }, value / second);
     case Shape::weibull:
     case Shape::exponential: {
       const Interval v = intersection(value / second, Interval(0.0, std::numeric_limits<double>::infinity()));
@@ -126,39 +120,104 @@ Interval Distribution::belowOf(double value) const {
   return intersection(found, hull(before, pieces_[i].below));
 }
 
-Interval Distribution::enclosedBelow(const Interval& value) const {
-  if (hasPieces()) return rising([&](double x) { return belowOf(x); }, value);
-  if (value.lower() >= support_.upper()) return Interval(1.0);
-  if (value.upper() <= support_.lower()) return Interval(0.0);
+/// With parameters of which those of gamma and beta distributions are single numbers.
+Interval Distribution::boundOf(const Interval& value, const Member& member) const {
   const Interval lower(support_.lower()), upper(support_.upper()), span = upper - lower,
                                                                    v = intersection(value, support_);
   switch (shape_) {
     case Shape::uniform:
       return intersection((v - lower) / span, share);
     case Shape::triangular: {
-      const Interval mode(first_);
+      const double mode = midpoint(member.first);
       const auto at = [&](double x) {
-        if (x <= first_)
-          return x <= support_.lower() ? Interval(0.0) : sqr(Interval(x) - lower) / (span * (mode - lower));
+        if (x <= mode)
+          return x <= support_.lower() ? Interval(0.0) : sqr(Interval(x) - lower) / (span * (Interval(mode) - lower));
         return x >= support_.upper() ? Interval(1.0)
-                                     : Interval(1.0) - sqr(upper - Interval(x)) / (span * (upper - mode));
+                                     : Interval(1.0) - sqr(upper - Interval(x)) / (span * (upper - Interval(mode)));
       };
       return intersection(rising(at, v), share);
     }
     case Shape::beta:
-      return rising([&](double x) { return betaBelow(first_, second_, x); }, (v - lower) / span);
+      return rising(
+          [&](double x) { return betaBelow(midpoint(member.first), midpoint(member.second), x, member.logFactor); },
+          (v - lower) / span);
     default: {
-      const Interval cut = boundBelow(lower), all = boundBelow(upper) - cut;
-      const Interval found = (boundBelow(v) - cut) / all;
+      const Interval found = (boundBelow(v, member) - member.cut) / member.all;
       return isEmpty(found) ? share : intersection(found, share);
     }
   }
+}
+
+/// Those whose distribution functions are, together, above those of all others (`low`: values are low) or below them.
+/// By parameters on which the likelihood ratio depends monotonously: the quantity grows, as they do, with mode, mean,
+/// scale, a and gamma's shape, and falls with b, truncated or not, since densities are h(x) exp(θ T(x)), T monotone in
+/// x (E. L. Lehmann, J. P. Romano, Testing Statistical Hypotheses, lemma 3.4.2). In deviations and Weibull's shape
+/// nothing is monotone: parts of these.
+std::vector<Distribution::Member> Distribution::members(bool low) const {
+  const auto end = [](const Interval& range, bool lower) { return Interval(lower ? range.lower() : range.upper()); };
+  const bool isNormal = shape_ == Shape::normal || shape_ == Shape::lognormal, isWeibull = shape_ == Shape::weibull;
+  const Interval first = isWeibull ? firstRange_ : end(firstRange_, low);
+  const Interval second = isNormal ? secondRange_ : end(secondRange_, shape_ == Shape::beta ? !low : low);
+  const Interval& divided = isWeibull ? first : second;
+  // Of F what is cut off alone keeps parameters that are not single numbers from being as good.
+  constexpr int count = 16;
+  const auto hidden = [&] {
+    const Member all{isWeibull ? firstRange_ : first, isWeibull ? second : secondRange_};
+    const Interval below = boundBelow(Interval(support_.lower()), all);
+    return below.upper() + 1 - boundBelow(Interval(support_.upper()), all).lower();
+  };
+  const int parts = isThin(divided) || (isTruncated() && hidden() < 1e-4) ? 1 : count;
+  std::vector<Member> found;
+  for (int i = 0; i < parts; ++i) {
+    const auto cutAt = [&](int k) {
+      return k == 0       ? divided.lower()
+             : k == parts ? divided.upper()
+                          : std::clamp(divided.lower() + (divided.upper() - divided.lower()) * k / parts,
+                                       divided.lower(), divided.upper());
+    };
+    const Interval part(cutAt(i), cutAt(i + 1));
+    Member member{isWeibull ? part : first, isWeibull ? second : part};
+    if (shape_ == Shape::gamma) member.logFactor = logGamma(member.first);
+    if (shape_ == Shape::beta)
+      member.logFactor = logGamma(member.first) + logGamma(member.second) - logGamma(member.first + member.second);
+    if (isTruncated()) {
+      member.cut = boundBelow(Interval(support_.lower()), member);
+      member.all = boundBelow(Interval(support_.upper()), member) - member.cut;
+    }
+    found.push_back(member);
+  }
+  return found;
+}
+
+/// Of evidence: at least what lies below for certain, at most what may.
+Interval Distribution::believedBelow(const Interval& value) const {
+  Interval all(0.0), least(0.0), most(0.0);
+  for (const FocalInterval& focal : focal_) {
+    all = all + focal.mass;
+    if (focal.values.upper() <= value.lower()) least = least + focal.mass;
+    if (focal.values.lower() <= value.upper()) most = most + focal.mass;
+  }
+  return intersection(Interval((least / all).lower(), (most / all).upper()), share);
+}
+
+Interval Distribution::enclosedBelow(const Interval& value) const {
+  if (shape_ != Shape::evidence && hasPieces()) return rising([&](double x) { return belowOf(x); }, value);
+  if (value.lower() >= support_.upper()) return Interval(1.0);
+  if (value.upper() < support_.lower() || (shape_ != Shape::evidence && value.upper() == support_.lower()))
+    return Interval(0.0);
+  if (shape_ == Shape::evidence) return believedBelow(value);
+  double lower = 1, upper = 0;
+  for (const Member& member : least_) upper = std::max(upper, boundOf(value, member).upper());
+  if (isPrecise()) return {boundOf(value, least_.front()).lower(), upper};
+  for (const Member& member : greatest_) lower = std::min(lower, boundOf(value, member).lower());
+  return {lower, upper};
 }
 
 bool Distribution::isMonotone(const Interval& values) const {
   const Interval v = intersection(values, support_);
   if (isEmpty(v)) return true;
   if (values.lower() < support_.lower() || values.upper() > support_.upper()) return false;  // it jumps from zero
+  if (!isPrecise()) return false;
   const auto isBeside = [&](const Interval& mode) { return mode.upper() <= v.lower() || mode.lower() >= v.upper(); };
   const Interval first(first_), one(1.0);
   switch (shape_) {
@@ -183,6 +242,8 @@ bool Distribution::isMonotone(const Interval& values) const {
       return first_ <= 1 || isBeside(Interval(second_) * pow((first - one) / first, one / first));
     case Shape::gamma:
       return first_ <= 1 || isBeside(Interval(second_) * (first - one));
+    case Shape::evidence:
+      break;
   }
   return false;
 }

@@ -19,8 +19,10 @@ void require(bool good, const std::string& what) {
   if (!good) throw std::invalid_argument(what);
 }
 
-void requirePositive(double value, const char* what) {
-  require(value > 0 && std::isfinite(value), std::string(what) + " must be positive, not " + toString(value));
+std::string shown(const Interval& value) { return isThin(value) ? toString(value.lower()) : toString(value); }
+
+void requirePositive(const Interval& value, const char* what) {
+  require(value.lower() > 0 && isBounded(value), std::string(what) + " must be positive, not " + shown(value));
 }
 
 void requireNotNegative(const Interval& support, const char* what) {
@@ -34,56 +36,72 @@ double clamp(double value, const Interval& range) { return std::clamp(value, ran
 
 // ---- Distribution ---------------------------------------------------------------------------------------------------
 
-Distribution::Distribution(Shape shape, const Interval& support, double first, double second)
-    : shape_(shape), support_(support), first_(first), second_(second) {
+Distribution::Distribution(Shape shape, const Interval& support, const Interval& first, const Interval& second)
+    : shape_(shape),
+      support_(support),
+      firstRange_(first),
+      secondRange_(second),
+      first_(midpoint(first)),
+      second_(midpoint(second)) {
   require(!isEmpty(support) && isBounded(support), "a distribution needs a bounded support, not " + toString(support));
+  if (hasPieces()) return;
+  least_ = members(true);
+  greatest_ = isPrecise() ? std::vector<Member>{} : members(false);
   if (!isTruncated() || isThin(support)) return;
-  require(below(support.upper()) - below(support.lower()) > 0 || above(support.lower()) - above(support.upper()) > 0,
+  const auto hasMass = [&](const Member& member) {
+    Distribution one = *this;
+    one.first_ = midpoint(member.first), one.second_ = midpoint(member.second);
+    return one.below(support.upper()) - one.below(support.lower()) > 0 ||
+           one.above(support.lower()) - one.above(support.upper()) > 0;
+  };
+  require(std::ranges::all_of(least_, hasMass) && std::ranges::all_of(greatest_, hasMass),
           "the " + std::string(this->name()) + " distribution has no mass on its support " + toString(support));
 }
 
+Distribution::Distribution() : Distribution(Shape::uniform, Interval(0.0), 0.0, 0.0) {}
+
 Distribution Distribution::uniform(const Interval& support) { return {Shape::uniform, support, 0, 0}; }
 
-Distribution Distribution::triangular(const Interval& support, double mode) {
-  require(contains(support, mode),
-          "the mode " + toString(mode) + " of a triangular distribution lies outside its support " + toString(support));
+Distribution Distribution::triangular(const Interval& support, const Interval& mode) {
+  require(isSubset(mode, support),
+          "the mode " + shown(mode) + " of a triangular distribution lies outside its support " + toString(support));
   return {Shape::triangular, support, mode, 0};
 }
 
-Distribution Distribution::normal(const Interval& support, double mean, double deviation) {
-  require(std::isfinite(mean), "the mean of a normal distribution must be finite");
+Distribution Distribution::normal(const Interval& support, const Interval& mean, const Interval& deviation) {
+  require(isBounded(mean), "the mean of a normal distribution must be finite");
   requirePositive(deviation, "the deviation of a normal distribution");
   return {Shape::normal, support, mean, deviation};
 }
 
-Distribution Distribution::beta(const Interval& support, double a, double b) {
+Distribution Distribution::beta(const Interval& support, const Interval& a, const Interval& b) {
   requirePositive(a, "the first parameter of a beta distribution");
   requirePositive(b, "the second parameter of a beta distribution");
   return {Shape::beta, support, a, b};
 }
 
-Distribution Distribution::lognormal(const Interval& support, double logMean, double logDeviation) {
-  require(std::isfinite(logMean), "the logarithmic mean of a lognormal distribution must be finite");
+Distribution Distribution::lognormal(const Interval& support, const Interval& logMean, const Interval& logDeviation) {
+  require(isBounded(logMean), "the logarithmic mean of a lognormal distribution must be finite");
   requirePositive(logDeviation, "the logarithmic deviation of a lognormal distribution");
   requireNotNegative(support, "a lognormal");
   return {Shape::lognormal, support, logMean, logDeviation};
 }
 
-Distribution Distribution::weibull(const Interval& support, double shape, double scale) {
+Distribution Distribution::weibull(const Interval& support, const Interval& shape, const Interval& scale) {
   requirePositive(shape, "the shape of a Weibull distribution");
   requirePositive(scale, "the scale of a Weibull distribution");
   requireNotNegative(support, "a Weibull");
   return {Shape::weibull, support, shape, scale};
 }
 
-Distribution Distribution::gamma(const Interval& support, double shape, double scale) {
+Distribution Distribution::gamma(const Interval& support, const Interval& shape, const Interval& scale) {
   requirePositive(shape, "the shape of a gamma distribution");
   requirePositive(scale, "the scale of a gamma distribution");
   requireNotNegative(support, "a gamma");
   return {Shape::gamma, support, shape, scale};
 }
 
-Distribution Distribution::exponential(const Interval& support, double mean) {
+Distribution Distribution::exponential(const Interval& support, const Interval& mean) {
   requirePositive(mean, "the mean of an exponential distribution");
   requireNotNegative(support, "an exponential");
   return {Shape::exponential, support, 1, mean};  // Weibull's of shape 1
@@ -119,35 +137,91 @@ Distribution Distribution::empirical(std::vector<double> values) {
   return found;
 }
 
+/// Where samples are: evenly in every interval, between all the ends as a histogram.
+Distribution Distribution::evidence(std::vector<FocalInterval> focal) {
+  require(!focal.empty(), "evidence needs an interval");
+  std::vector<double> ends;
+  double all = 0;
+  for (const FocalInterval& each : focal) {
+    require(!isEmpty(each.values) && isBounded(each.values),
+            "evidence is about bounded intervals, unlike " + toString(each.values));
+    require(each.mass.lower() >= 0 && isBounded(each.mass), "a mass is not negative, unlike " + shown(each.mass));
+    all += midpoint(each.mass);
+    ends.insert(ends.end(), {each.values.lower(), each.values.upper()});
+    if (isThin(each.values)) ends.push_back(each.values.lower());
+  }
+  require(all > 0 && std::isfinite(all), "evidence needs a positive mass");
+  std::erase_if(focal, [](const FocalInterval& each) { return each.mass.upper() == 0; });
+  std::ranges::sort(ends);
+  std::vector<double> edges;  // a value twice where an interval is but that value
+  for (const double end : ends) {
+    const auto same = std::ranges::count(edges, end);
+    const bool isSingle = std::ranges::any_of(
+        focal, [&](const FocalInterval& each) { return isThin(each.values) && each.values.lower() == end; });
+    if (same < (isSingle ? 2 : 1)) edges.push_back(end);
+  }
+  std::vector<double> weights(edges.size() - 1, 0.0);
+  for (const FocalInterval& each : focal)
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+      if (isThin(each.values)) {
+        if (edges[i] == edges[i + 1] && edges[i] == each.values.lower()) weights[i] += midpoint(each.mass);
+      } else if (edges[i] >= each.values.lower() && edges[i + 1] <= each.values.upper()) {
+        weights[i] += midpoint(each.mass) * ((edges[i + 1] - edges[i]) / (each.values.upper() - each.values.lower()));
+      }
+    }
+  Distribution found = histogram(edges, weights);
+  found.shape_ = Shape::evidence;
+  found.focal_ = std::move(focal);
+  return found;
+}
+
+bool Distribution::isPrecise() const {
+  if (shape_ == Shape::evidence)
+    return std::ranges::all_of(focal_, [](const FocalInterval& each) { return isThin(each.values); });
+  return isThin(firstRange_) && isThin(secondRange_);
+}
+
 std::string_view Distribution::name() const {
-  constexpr std::array names{"uniform", "triangular", "normal",      "beta",      "lognormal",
-                             "weibull", "gamma",      "exponential", "histogram", "empirical"};
+  constexpr std::array names{"uniform", "triangular",  "normal",    "beta",      "lognormal", "weibull",
+                             "gamma",   "exponential", "histogram", "empirical", "evidence"};
   return names[static_cast<std::size_t>(shape_)];
 }
 
 std::vector<ShapeNumber> Distribution::numbers() const {
   std::vector<ShapeNumber> numbers{{"lower", support_.lower()}, {"upper", support_.upper()}};
+  const auto put = [&](const char* name, const Interval& value, bool hasUnit = true) {
+    numbers.push_back({name, value.lower(), hasUnit});
+    if (!isThin(value)) numbers.push_back({std::string(name) + ", at most", value.upper(), hasUnit});
+  };
   switch (shape_) {
     case Shape::uniform:
       break;
     case Shape::triangular:
-      numbers.push_back({"mode", first_});
+      put("mode", firstRange_);
       break;
     case Shape::normal:
-      numbers.insert(numbers.end(), {{"mean", first_}, {"deviation", second_}});
+      put("mean", firstRange_), put("deviation", secondRange_);
       break;
     case Shape::beta:
-      numbers.insert(numbers.end(), {{"a", first_, false}, {"b", second_, false}});
+      put("a", firstRange_, false), put("b", secondRange_, false);
       break;
     case Shape::lognormal:
-      numbers.insert(numbers.end(), {{"log_mean", first_, false}, {"log_deviation", second_, false}});
+      put("log_mean", firstRange_, false), put("log_deviation", secondRange_, false);
       break;
     case Shape::weibull:
     case Shape::gamma:
-      numbers.insert(numbers.end(), {{"shape", first_, false}, {"scale", second_}});
+      put("shape", firstRange_, false), put("scale", secondRange_);
       break;
     case Shape::exponential:
-      numbers.push_back({"mean", second_});
+      put("mean", secondRange_);
+      break;
+    case Shape::evidence:
+      for (std::size_t i = 0; i < focal_.size(); ++i) {
+        const std::string of = std::to_string(i + 1);
+        numbers.push_back({"lower " + of, focal_[i].values.lower()});
+        numbers.push_back({"upper " + of, focal_[i].values.upper()});
+        numbers.push_back({"mass " + of, midpoint(focal_[i].mass), false});
+      }
       break;
     case Shape::histogram:
       for (std::size_t i = 0; i < pieces_.size(); ++i) {
@@ -228,7 +302,8 @@ double Distribution::quantile(double u) const {
   if (u == 1) return upper;
   switch (shape_) {
     case Shape::histogram:
-    case Shape::empirical: {
+    case Shape::empirical:
+    case Shape::evidence: {
       const auto piece = std::ranges::lower_bound(pieces_, u, {}, [](const Piece& p) { return midpoint(p.below); });
       if (piece == pieces_.end()) return upper;
       const bool isFirst = piece == pieces_.begin();

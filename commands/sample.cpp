@@ -99,6 +99,7 @@ SampleTable tableOf(const Arguments& arguments, const Results& results, const St
   for (const UncertainQuantity& quantity : study.uncertain) uncertain.push_back(quantity.uncertain);
   const std::size_t n = uncertain.size(), cells = rows.size() * outputs.size();
   Sampling sampling(planNamed(arguments.plan), n, arguments.samples, arguments.seed);
+  sampling.correlate(study.dependence.copulas);
   const std::size_t samples = sampling.samples();
   constexpr double most = 2e8;  // numbers: 1.6 GB
   if (static_cast<double>(samples) * static_cast<double>(n + 2 * cells) > most)

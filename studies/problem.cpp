@@ -125,6 +125,7 @@ Problem makeProblem(const Study& study) {
       problem.box.push_back(mechanism.nominal(uncertain.quantity));
     }
   }
+  problem.motion.dependence = study.dependence;
   for (const Interval& value : problem.box) problem.motion.nominal.push_back(midpoint(value));
   for (std::size_t i = 0; i < study.uncertain.size(); ++i) {
     const auto slot = static_cast<std::size_t>(problem.motion.slot[i]);

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "analyses/dependence.hpp"
 #include "analyses/flow/flow.hpp"
 #include "analyses/samples/ensemble.hpp"
 #include "analyses/uncertainty.hpp"
@@ -70,6 +71,7 @@ struct Study {
   std::set<std::string, std::less<>> compare{"fuzzy", "interval", "stochastic"};  ///< words of the answers asked for
   Mechanism mechanism;
   std::vector<UncertainQuantity> uncertain;
+  QuantityDependence dependence;    ///< of these
   std::vector<OutputInfo> outputs;  ///< those of the requirements behind all others
   std::vector<Requirement> requirements;
   DistributionPlan distribution;

@@ -187,7 +187,7 @@ Json sensitivityObject(const Results& results) {
     for (std::size_t at = 0; at < s.time.size(); ++at) {
       const std::size_t cell = at * results.outputs.size() + k;
       if (std::ranges::find(results.distribution.time, s.time[at]) == results.distribution.time.end() ||
-          std::isnan(s.meanLower[cell]))
+          (std::isnan(s.meanLower[cell]) && s.why.empty()))
         continue;
       Json shares = Json::object();
       for (std::size_t q = 0; q < quantities; ++q) {
@@ -340,6 +340,7 @@ std::string jsonSummary(const Results& results, const std::string& verdict, cons
   json["integrated"] = results.stochastic.integrated;
   json["excursion"] = number(results.comparison.excursion);
   json["overestimation"] = overestimationObject(results);
+  json["dependence"] = textOrNull(results.dependence);
   json["tightness"] = number(results.interval.tightness);
   json["shortfall"] = textOrNull(results.interval.shortfall);
   json["requirements"] = requirementsArray(results);
@@ -382,6 +383,7 @@ std::string textSummary(const Results& results) {
   std::vector<std::string> costs;
   for (const Answer* answer : results.answers())
     if (answer->present) costs.push_back(fmt::format("{} {:.2f} s", answer->title(), answer->cpu));
+  if (!results.dependence.empty()) text += fmt::format("  dependence: {}\n", results.dependence);
   text += statisticsText(results);
   if (const DistributionResult& d = results.distribution; d.present) {
     if (!d.time.empty() && !d.gaps.empty())

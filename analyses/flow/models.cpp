@@ -23,13 +23,13 @@ bool isOf(const Monomials& m, int g, int symbols) {
 
 bool meet(const FlowPart& a, const FlowPart& b) {
   for (std::size_t l = 0; l < a.centre.size(); ++l)
-    if (!(std::fabs(a.centre[l] - b.centre[l]) < std::max(a.half[l], b.half[l]))) return false;
+    if (!(std::fabs(a.centre[l] - b.centre[l]) < a.half[l] + b.half[l])) return false;
   return true;
 }
 
 bool isInside(const FlowPart& inner, const FlowPart& outer) {
   for (std::size_t l = 0; l < inner.half.size(); ++l)
-    if (inner.half[l] > outer.half[l]) return false;
+    if (std::fabs(inner.centre[l] - outer.centre[l]) > outer.half[l] - inner.half[l]) return false;
   return meet(inner, outer);
 }
 

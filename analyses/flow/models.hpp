@@ -10,13 +10,13 @@
 
 namespace gamut {
 
-/// A part of the box: ξ = centre + half·η, η in [-1,1]^k; exact, since it comes from bisections of [-1,1].
+/// A part of the box: ξ = centre + half·η, η in [-1,1]^k; exact, since its ends are multiples of some 2^-n.
 struct FlowPart {
   std::vector<double> centre, half;  ///< one a symbol
 };
 
-/// Whether two parts have more than a face in common. Of two intervals of one symbol one holds the other, or they have
-/// a point in common at most.
+/// Whether two parts have more than a face in common. (Their ends are multiples of some 2^-n, so that it is decided
+/// exactly.)
 bool meet(const FlowPart& a, const FlowPart& b);
 bool isInside(const FlowPart& inner, const FlowPart& outer);
 

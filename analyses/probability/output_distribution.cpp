@@ -13,7 +13,7 @@
 
 #include "analyses/flow/error_bounds.hpp"
 #include "analyses/flow/polynomial_range.hpp"
-#include "analyses/probability/convolution.hpp"
+#include "analyses/probability/quantity_masses.hpp"
 #include "scalars/elementary/rounding.hpp"
 #include "scalars/index.hpp"
 
@@ -32,32 +32,32 @@ struct Separated {
 };
 
 struct BoxCell {
-  FlowPart part;
+  JointMasses::Part part;
   std::shared_ptr<const Monomials> monomials;
   OutputModel model;
-  Separated separated;
-  double mass = 1;  // about
+  Separated separated{};
+  double mass = 1;       // about
+  bool isFinal = false;  // nothing more is gained by bisection
 };
 
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 
 class Distributor {
  public:
-  Distributor(const std::vector<SurrogatePart>& parts, std::size_t output, const QuantityMasses& masses,
+  Distributor(const std::vector<SurrogatePart>& parts, std::size_t output, const JointMasses& masses,
               const DistributionOptions& options)
-      : masses_(masses), options_(options) {
-    for (const SurrogatePart& part : parts) add({part.part, part.monomials, part.outputs[output], {}, 1});
-  }
+      : masses_(masses), options_(options), parts_(parts), output_(output) {}
 
   DistributionBounds find() {
     DistributionBounds found;
     Interval range = Interval::empty();
-    for (const BoxCell& cell : cells_) range = hull(range, cell.model.bound);
+    for (const SurrogatePart& part : parts_) range = hull(range, part.outputs[output_].bound);
     if (!isBounded(range) || isCancelled()) return found;
     constexpr double largest = 1e290, share = 0.4;
     if (magnitude(range) > largest ||
-        !std::ranges::all_of(cells_, [](const BoxCell& cell) { return QuantityMasses::hold(cell.part); }))
+        !std::ranges::all_of(parts_, [](const SurrogatePart& part) { return QuantityMasses::hold(part.part); }))
       return found;
+    cover(masses_.whole());
     lower_ = range.lower(), upper_ = range.upper();
     if (upper_ - lower_ <= options_.negligible)
       return {{std::nextafter(lower_, -unlimited), upper_}, {0, 1}, {0, 1}, 0};
@@ -78,8 +78,9 @@ class Distributor {
       DistributionBounds now = bound(stepOf(std::max((upper_ - lower_) / finest, allowed / steps)));
       if (isCancelled()) return {};
       if (round > 1 && !(now.gap < found.gap)) break;
+      const bool isAllThereIs = round > 0 && !masses_.isPlain() && now.gap > 0.8 * found.gap;
       found = std::move(now);
-      if (found.gap <= options_.gap) break;
+      if (found.gap <= options_.gap || isAllThereIs) break;
       allowed = round == 0 ? share * options_.gap / densityOf(found) : allowed / 4;
     }
     return found;
@@ -126,28 +127,73 @@ class Distributor {
           if (m.exponent(static_cast<int>(g), l) > 0) s.mixedOf[at(l)] += size;
       }
     }
-    cell.mass = 1;
-    for (int l = 0; l < m.symbols(); ++l) cell.mass *= massOf(cell, l);
+    cell.mass = masses_.massOf(cell.part);
     cells_.push_back(std::move(cell));
+  }
+
+  /// What of the joint distribution lies in one part of the box has its polynomial. What lies in several, and cannot be
+  /// cut, has their bounds.
+  void cover(const JointMasses::Part& joint) {
+    std::vector<const SurrogatePart*> met;
+    Interval bound = Interval::empty();
+    for (const SurrogatePart& part : parts_) {
+      bool isMet = true;
+      for (int l = 0; l < part.monomials->symbols() && isMet; ++l) {
+        const auto [first, count] = QuantityMasses::of(part.part, l);
+        const long from = joint.first[at(l)], until = from + joint.count[at(l)];
+        isMet = from < first + count && first < until;
+      }
+      if (!isMet) continue;
+      met.push_back(&part);
+      bound = hull(bound, part.outputs[output_].bound);
+    }
+    bool isInside = met.size() == 1;
+    for (const SurrogatePart* part : met)
+      for (int l = 0; l < part->monomials->symbols(); ++l) {
+        const auto [first, count] = QuantityMasses::of(part->part, l);
+        for (const long edge : {first, first + count}) {
+          if (edge <= joint.first[at(l)] || edge >= joint.first[at(l)] + joint.count[at(l)]) continue;
+          isInside = false;
+          const std::vector<JointMasses::Part> pieces = masses_.cut(joint, l, edge);
+          if (pieces.size() == 1) continue;
+          for (const JointMasses::Part& piece : pieces) cover(piece);
+          return;
+        }
+      }
+    if (isInside)
+      add(within({joint, met[0]->monomials, met[0]->outputs[output_], {}}, met[0]->part, joint));
+    else
+      add({joint, parts_.front().monomials, {{}, 0, bound}});
   }
 
   /// Bisects where the terms in several symbols are greatest, until they matter no more; returns by how much these, and
   /// radii, part the bounds of the output, on average.
   double refine(double allowed, std::size_t mostCells) {
-    constexpr double finest = 0x1p-9;
-    const auto weight = [](const BoxCell& cell) { return 2 * cell.separated.mixed * cell.mass; };
+    constexpr long finest = 16;  // bins
+    const auto weight = [](const BoxCell& cell) { return cell.isFinal ? 0.0 : 2 * cell.separated.mixed * cell.mass; };
     double all = 0;
-    for (const BoxCell& cell : cells_) all += weight(cell);
+    for (const BoxCell& cell : cells_) all += 2 * cell.separated.mixed * cell.mass;
     while (all > allowed && cells_.size() < mostCells && !isCancelled()) {
       const auto widest = std::ranges::max_element(cells_, {}, weight);
-      const std::vector<double>& mixedOf = widest->separated.mixedOf;
-      const int symbol = static_cast<int>(std::ranges::max_element(mixedOf) - mixedOf.begin());
-      if (mixedOf.empty() || weight(*widest) == 0 || widest->part.half[at(symbol)] <= finest) break;
+      if (!(weight(*widest) > 0)) break;
+      std::vector<double> mixedOf = widest->separated.mixedOf;
+      std::vector<JointMasses::Part> halves;
+      while (halves.size() < 2) {
+        const auto most = std::ranges::max_element(mixedOf);
+        const int symbol = static_cast<int>(most - mixedOf.begin());
+        if (*most == 0) break;
+        *most = 0;
+        if (widest->part.count[at(symbol)] >= finest) halves = masses_.halves(widest->part, symbol);
+      }
+      if (halves.size() < 2) {
+        widest->isFinal = true;
+        continue;
+      }
       const BoxCell cell = std::move(*widest);
       cells_.erase(widest);
       all -= weight(cell);
-      for (const double side : {-0.5, 0.5}) {
-        add(halfOf(cell, symbol, side));
+      for (const JointMasses::Part& half : halves) {
+        add(within(cell, JointMasses::boxOf(cell.part), half));
         all += weight(cells_.back());
       }
     }
@@ -156,101 +202,35 @@ class Distributor {
     return std::isfinite(apart) ? apart : 0;
   }
 
-  BoxCell halfOf(const BoxCell& cell, int symbol, double side) {
+  /// The polynomial of a part on what a piece of the joint distribution lies in.
+  BoxCell within(const BoxCell& cell, const FlowPart& part, const JointMasses::Part& piece) {
+    BoxCell found{piece, cell.monomials, cell.model};
+    if (cell.model.c.empty()) return found;
     std::unique_ptr<PolynomialRange>& tables = tables_[cell.monomials.get()];
     if (!tables) tables = std::make_unique<PolynomialRange>(cell.monomials);
-    BoxCell half{cell.part, cell.monomials, cell.model, {}, 1};
-    half.part.centre[at(symbol)] += side * cell.part.half[at(symbol)];
-    half.part.half[at(symbol)] *= 0.5;
-    tables->substitute(symbol, side, 0.5, cell.model.c.data(), half.model.c.data(),
-                       static_cast<int>(cell.model.c.size()));
-    half.model.radius = (cell.model.radius + tables->shiftError() * cell.separated.norm) * bounds::up + bounds::tiny;
-    return half;
+    const FlowPart box = JointMasses::boxOf(piece);
+    for (std::size_t l = 0; l < box.half.size(); ++l) {
+      if (box.half[l] == part.half[l]) continue;  // it is the same
+      const std::vector<double> before = found.model.c;
+      double norm = 0;
+      for (const double c : before) norm += std::fabs(c);
+      tables->substitute(static_cast<int>(l), (box.centre[l] - part.centre[l]) / part.half[l],
+                         box.half[l] / part.half[l], before.data(), found.model.c.data(),
+                         static_cast<int>(before.size()));
+      found.model.radius = (found.model.radius + tables->shiftError() * norm * bounds::up) * bounds::up + bounds::tiny;
+    }
+    return found;
   }
 
   // ---- Sums ---------------------------------------------------------------------------------------------------------
 
-  double massOf(const BoxCell& cell, int symbol) const {
-    const auto [first, count] = QuantityMasses::of(cell.part, symbol);
-    const auto begin = masses_.mass(symbol).begin() + first;
-    return std::accumulate(begin, begin + count, 0.0);
-  }
-
-  /// f(η_l) + [down, up] as multiples of a step.
-  GridBounds sidesOf(const BoxCell& cell, int symbol, double down, double up, double step) const {
-    const std::vector<double>& f = cell.separated.c[at(symbol)];
-    const auto [first, count] = QuantityMasses::of(cell.part, symbol);
-    double size = 0, bend = 0;  // Σ|c|; |f''| at most
-    for (std::size_t n = 1; n < f.size(); ++n) {
-      size += std::fabs(f[n]);
-      bend += static_cast<double>(n * (n - 1)) * std::fabs(f[n]);
-    }
-    // Horner's scheme is off by 2 n u Σ|c|, an η of the grid is exact; between its values f leaves its chord by
-    // (2/count)²/8 |f''|.
-    const double rounding = 2 * static_cast<double>(f.size() + 2) * bounds::unit * size * bounds::up;
-    const double sag = 0.5 * bend / (static_cast<double>(count) * static_cast<double>(count)) * bounds::up;
-    down = subDown(down, (rounding + sag) * bounds::up);
-    up = addUp(up, (rounding + sag) * bounds::up);
-    std::vector<double> value;
-    for (long i = 0; i <= count; ++i) {
-      const double eta = -1 + 2 * (static_cast<double>(i) / static_cast<double>(count));
-      double sum = 0;
-      for (std::size_t n = f.size(); n-- > 1;) sum = (sum + f[n]) * eta;
-      value.push_back(sum);
-    }
-    const auto floorOf = [&](double x) { return static_cast<long>(std::floor(addDown(x, down) / step)); };
-    const auto ceilOf = [&](double x) { return static_cast<long>(std::ceil(addUp(x, up) / step)); };
-    const auto [least, greatest] = std::ranges::minmax(value);
-    GridMasses below{floorOf(least), {}}, above{ceilOf(least), {}};
-    below.mass.assign(static_cast<std::size_t>(floorOf(greatest) - below.first + 1), 0.0);
-    above.mass.assign(static_cast<std::size_t>(ceilOf(greatest) - above.first + 1), 0.0);
-    for (long i = 0; i < count; ++i) {
-      const double mass = masses_.mass(symbol)[static_cast<std::size_t>(first + i)];
-      const auto [low, high] = std::minmax(value[static_cast<std::size_t>(i)], value[static_cast<std::size_t>(i + 1)]);
-      below.mass[static_cast<std::size_t>(floorOf(low) - below.first)] += mass;
-      above.mass[static_cast<std::size_t>(ceilOf(high) - above.first)] += mass;
-    }
-    return {std::move(below), std::move(above)};
-  }
-
-  /// Of the output on a cell. Probabilities of the symbols that are off by e_l in all make those of sums be off by no
-  /// more than Σ e_l.
+  /// Of the output on a cell.
   GridSum sumOn(const BoxCell& cell, double step) const {
-    const int symbols = cell.monomials->symbols();
-    // What hardly varies counts as error.
-    double beside = cell.separated.mixed, scale = 1;
-    std::vector<int> varying;
-    for (int l = 0; l < symbols; ++l) {
-      double size = 0;
-      for (const double c : cell.separated.c[at(l)]) size += std::fabs(c);
-      if (size > 0.05 * step && !cell.model.c.empty()) {
-        varying.push_back(l);
-      } else {
-        beside += size;
-        scale *= massOf(cell, l);
-      }
-    }
-    Interval rest = cell.model.bound;
-    if (!cell.model.c.empty()) {
-      const double radius =
-          (cell.model.radius + beside + 4 * bounds::unit * cell.separated.norm) * bounds::up + bounds::tiny;
-      rest = Interval(subDown(cell.separated.constant, radius), addUp(cell.separated.constant, radius));
-    }
-    std::vector<GridBounds> parts;
-    for (const int l : varying) {
-      parts.push_back(sidesOf(cell, l, rest.lower(), rest.upper(), step));
-      rest = Interval(0.0);
-    }
-    if (parts.empty())
-      parts.push_back({{static_cast<long>(std::floor(rest.lower() / step)), {1.0}},
-                       {static_cast<long>(std::ceil(rest.upper() / step)), {1.0}}});
-    GridSum result = sumOf(parts);
-    for (GridMasses* side : {&result.sum.below, &result.sum.above})
-      for (double& mass : side->mass) mass *= scale;
-    constexpr double roundings = 2 * QuantityMasses::bins + 64;  // of sums of masses
-    result.error += roundings * bounds::unit;
-    for (int l = 0; l < symbols; ++l) result.error += masses_.error(l);
-    return result;
+    const Separated& s = cell.separated;
+    if (cell.model.c.empty())
+      return masses_.sumOf(cell.part, std::vector<std::vector<double>>(s.c.size()), cell.model.bound, step);
+    const double radius = (cell.model.radius + s.mixed + 4 * bounds::unit * s.norm) * bounds::up + bounds::tiny;
+    return masses_.sumOf(cell.part, s.c, Interval(subDown(s.constant, radius), addUp(s.constant, radius)), step);
   }
 
   DistributionBounds bound(double step) {
@@ -322,8 +302,10 @@ class Distributor {
     return most;
   }
 
-  const QuantityMasses& masses_;
+  const JointMasses& masses_;
   const DistributionOptions& options_;
+  const std::vector<SurrogatePart>& parts_;
+  const std::size_t output_;
   std::vector<BoxCell> cells_;
   double lower_ = 0, upper_ = 0;
   std::map<const Monomials*, std::unique_ptr<PolynomialRange>> tables_;
@@ -332,7 +314,7 @@ class Distributor {
 }  // namespace
 
 DistributionBounds boundDistribution(const std::vector<SurrogatePart>& parts, std::size_t output,
-                                     const QuantityMasses& masses, const DistributionOptions& options) {
+                                     const JointMasses& masses, const DistributionOptions& options) {
   return Distributor(parts, output, masses, options).find();
 }
 

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "analyses/probability/quantity_masses.hpp"
+#include "analyses/probability/joint_masses.hpp"
 #include "analyses/surrogate/surrogate.hpp"
 
 namespace gamut {
@@ -19,8 +19,8 @@ struct DistributionOptions {
   const std::atomic<bool>* cancelled = nullptr;
 };
 
-/// lower[i] <= P(y <= value[i]) <= upper[i], values rising. Between them P is between lower[i] and upper[i+1]; before
-/// the first it is 0, from the last on 1.
+/// lower[i] <= P(y <= value[i]) <= upper[i], values rising, of all distributions that the quantities may have together.
+/// Between them P is between lower[i] and upper[i+1]; before the first it is 0, from the last on 1.
 struct DistributionBounds {
   std::vector<double> value, lower, upper;
   double gap = 1;  ///< the greatest upper[i+1] - lower[i]: nowhere are the bounds farther apart
@@ -29,6 +29,6 @@ struct DistributionBounds {
 /// Of one output, at the time that the parts are of. Empty where no bounds of the output are known, or if it was
 /// cancelled.
 DistributionBounds boundDistribution(const std::vector<SurrogatePart>& parts, std::size_t output,
-                                     const QuantityMasses& masses, const DistributionOptions& options = {});
+                                     const JointMasses& masses, const DistributionOptions& options = {});
 
 }  // namespace gamut

@@ -21,6 +21,38 @@ std::pair<long, long> QuantityMasses::of(const FlowPart& part, int symbol) {
   return {static_cast<long>((centre - half + 1) * bins / 2), static_cast<long>(half * bins)};
 }
 
+std::vector<Interval> edgesOf(const FlowSymbol& symbol, const Distribution& distribution) {
+  constexpr int bins = QuantityMasses::bins;
+  std::vector<double> lower, upper;
+  for (int i = 0; i <= bins; ++i) {
+    const Interval value = Interval(symbol.centre) + Interval(symbol.half) * Interval(-1 + i * (2.0 / bins));
+    const Interval below = i == 0      ? Interval(0.0)  // what has the value there counts in the first bin
+                           : i == bins ? Interval(1.0)
+                                       : distribution.enclosedBelow(value);
+    lower.push_back(i == 0 ? 0 : std::max(lower.back(), below.lower()));
+    upper.push_back(below.upper());
+  }
+  for (std::size_t i = upper.size() - 1; i-- > 0;) upper[i] = std::min(upper[i], upper[i + 1]);
+  std::vector<Interval> edges;
+  for (std::size_t i = 0; i < lower.size(); ++i) edges.emplace_back(lower[i], upper[i]);
+  return edges;
+}
+
+BinMasses massesBetween(const std::vector<Interval>& edges) {
+  BinMasses found;
+  double middle = 0, off = 0;  // `middle` is off by that at most
+  for (std::size_t i = 1; i < edges.size(); ++i) {
+    // Bounds of what rises: their middles rise.
+    const double next = midpoint(edges[i]), nextOff = width(edges[i]);
+    found.mass.push_back(next - middle);
+    found.error += off + nextOff + 2 * bounds::unit;
+    middle = next;
+    off = nextOff;
+  }
+  found.error *= bounds::up;
+  return found;
+}
+
 QuantityMasses::QuantityMasses(const Surrogate& surrogate, const std::vector<const Uncertain*>& uncertain)
     : symbols_(at(surrogate.symbols)) {
   constexpr double width = 2.0 / bins;
@@ -30,19 +62,9 @@ QuantityMasses::QuantityMasses(const Surrogate& surrogate, const std::vector<con
     const Distribution& distribution = uncertain[q]->distribution;
     const auto valueAt = [&](double xi) { return Interval(of.centre) + Interval(of.half) * Interval(xi); };
     Symbol& symbol = symbols_[at(of.symbol)];
-    double middle = 0, off = 0, error = 0;  // `middle` is off by that at most
-    for (int i = 1; i <= bins; ++i) {
-      const Interval next = i == bins ? Interval(1.0) : distribution.enclosedBelow(valueAt(-1 + i * width));
-      // A value raised to one before, which is above F there by `off` at most, is above F here by no more.
-      const bool isRaised = middle > midpoint(next);
-      const double nextMiddle = isRaised ? middle : midpoint(next);
-      const double nextOff = isRaised ? std::max(off, gamut::width(next)) : gamut::width(next);
-      symbol.mass.push_back(nextMiddle - middle);
-      error += off + nextOff + 2 * bounds::unit;
-      middle = nextMiddle;
-      off = nextOff;
-    }
-    symbol.error = error * bounds::up;
+    BinMasses known = massesBetween(edgesOf(of, distribution));
+    symbol.mass = std::move(known.mass);
+    symbol.error = known.error;
     // Any density: half the bin's width off its middle. One that rises (or falls) over the bin and its neighbours: it
     // lies between the means of these, a and b, so that |∫ (ξ - middle) (d - (a+b)/2) dξ| <= (width²/4) |b - a|/2.
     for (int i = 0; i < bins; ++i) {

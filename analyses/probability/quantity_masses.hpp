@@ -10,6 +10,15 @@
 
 namespace gamut {
 
+/// Probabilities of bins; Σ|error| is at most `error`.
+struct BinMasses {
+  std::vector<double> mass;
+  double error = 0;
+};
+/// F at the edges between bins, enclosed: it rises.
+std::vector<Interval> edgesOf(const FlowSymbol& symbol, const Distribution& distribution);
+BinMasses massesBetween(const std::vector<Interval>& edges);
+
 class QuantityMasses {
  public:
   static constexpr int bins = 4096;  ///< of [-1,1] in a symbol, a power of two

@@ -190,7 +190,7 @@ void Cells::dropUnused(Cell& cell) const {
   cell.locals_ = std::move(used);
 }
 
-std::vector<std::unique_ptr<Cell>> Cells::halves(const Cell& cell) {
+std::vector<int> Cells::symbolsOf(const Cell& cell) const {
   std::vector<double> weight(at(models_.symbols), 0.0);
   // What no bisection makes less: radii, and how far outputs leave their chords.
   std::vector<double> sag(cell.locals_.size() * question_.margins.size(), 0.0);
@@ -220,44 +220,56 @@ std::vector<std::unique_ptr<Cell>> Cells::halves(const Cell& cell) {
     for (std::size_t l = 0; l < weight.size(); ++l)
       if (local.part.half[l] < cell.part_.half[l]) weight[l] += 1;
   constexpr double hardly = 0.1, finest = 0x1p-40;
-  int symbol = -1;
-  double most = hardly;
   for (const int l : question_.besides) weight[at(l)] = 0;
+  std::vector<int> symbols;
   for (int l = 0; l < models_.symbols; ++l)
-    if (weight[at(l)] > most && cell.part_.half[at(l)] > finest) most = weight[at(l)], symbol = l;
+    if (weight[at(l)] > hardly && cell.part_.half[at(l)] > finest) symbols.push_back(l);
+  std::ranges::stable_sort(symbols, [&](int a, int b) { return weight[at(a)] > weight[at(b)]; });
+  return symbols;
+}
+
+std::vector<std::unique_ptr<Cell>> Cells::halves(const Cell& cell) {
+  const std::vector<int> symbols = symbolsOf(cell);
   std::vector<std::unique_ptr<Cell>> both;
-  if (symbol < 0) return both;
-  for (const double side : {-0.5, 0.5}) both.push_back(half(cell, symbol, side));
+  if (symbols.empty()) return both;
+  const std::size_t l = at(symbols.front());
+  for (const double side : {-0.5, 0.5}) {
+    FlowPart half = cell.part_;
+    half.centre[l] += side * half.half[l];
+    half.half[l] *= 0.5;
+    both.push_back(within(cell, half));
+  }
   return both;
 }
 
-std::unique_ptr<Cell> Cells::half(const Cell& cell, int symbol, double side) {
-  const std::size_t l = at(symbol);
+std::unique_ptr<Cell> Cells::within(const Cell& cell, const FlowPart& part) {
   auto half = std::make_unique<Cell>();
-  half->part_ = cell.part_;
-  half->part_.centre[l] += side * cell.part_.half[l];
-  half->part_.half[l] *= 0.5;
+  half->part_ = part;
   constexpr std::size_t none = static_cast<std::size_t>(-1);
   std::vector<std::size_t> place;
   for (const Cell::Local& local : cell.locals_) {
-    if (!meet(local.part, half->part_)) {
+    if (!meet(local.part, part)) {
       place.push_back(none);
       continue;
     }
     place.push_back(half->locals_.size());
     half->locals_.push_back(local);
     Cell::Local& own = half->locals_.back();
-    if (own.part.half[l] <= half->part_.half[l]) continue;
-    own.part.centre[l] = half->part_.centre[l];
-    own.part.half[l] = half->part_.half[l];
     const PolynomialRange& tables = tablesOf(*own.of).range;
-    for (std::size_t i = 0; i < own.c.size(); ++i) {
-      std::vector<double> moved(own.c[i].size());
-      double norm = 0;
-      for (const double c : own.c[i]) norm += std::fabs(c);
-      tables.substitute(symbol, side, 0.5, own.c[i].data(), moved.data(), static_cast<int>(moved.size()));
-      own.c[i] = std::move(moved);
-      own.radius[i] = (own.radius[i] + tables.shiftError() * norm) * bounds::up + bounds::tiny;
+    for (std::size_t l = 0; l < part.half.size(); ++l) {
+      const double apart = part.centre[l] - own.part.centre[l];
+      if (own.part.half[l] <= part.half[l] || std::fabs(apart) > own.part.half[l] - part.half[l]) continue;
+      for (std::size_t i = 0; i < own.c.size(); ++i) {
+        std::vector<double> moved(own.c[i].size());
+        double norm = 0;
+        for (const double c : own.c[i]) norm += std::fabs(c);
+        tables.substitute(static_cast<int>(l), apart / own.part.half[l], part.half[l] / own.part.half[l],
+                          own.c[i].data(), moved.data(), static_cast<int>(moved.size()));
+        own.c[i] = std::move(moved);
+        own.radius[i] = (own.radius[i] + tables.shiftError() * norm * bounds::up) * bounds::up + bounds::tiny;
+      }
+      own.part.centre[l] = part.centre[l];
+      own.part.half[l] = part.half[l];
     }
   }
   for (const Cell::Chord& chord : cell.chords_)

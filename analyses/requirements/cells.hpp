@@ -79,8 +79,12 @@ class Cells {
 
   /// The whole box.
   std::unique_ptr<Cell> whole();
-  /// Both halves in the symbol that most depends on; nothing where no bisection would help.
+  /// The symbols on which most depends, the first most of all; none where no bisection would help.
+  std::vector<int> symbolsOf(const Cell& cell) const;
+  /// Both halves in the first of these; nothing where there is none.
   std::vector<std::unique_ptr<Cell>> halves(const Cell& cell);
+  /// What is known of a part of the cell.
+  std::unique_ptr<Cell> within(const Cell& cell, const FlowPart& part);
   /// Of an open cell.
   CellPlanes planes(const Cell& cell) const;
   /// Of one point of the box, in its symbols.
@@ -96,7 +100,6 @@ class Cells {
   };
   void decide(Cell& cell);
   std::optional<Form> formOf(const Cell& cell, std::size_t local, std::size_t margin) const;
-  std::unique_ptr<Cell> half(const Cell& cell, int symbol, double side);
   Outcome outcomeOf(const std::vector<Interval>& margins) const;
   Outcome outcomeOf(const Cell& cell, const Cell::Chord& chord) const;
   void dropUnused(Cell& cell) const;

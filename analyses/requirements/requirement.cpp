@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "analyses/requirements/cube.hpp"
+#include "analyses/requirements/joint_probability.hpp"
 #include "scalars/elementary/rounding.hpp"
 #include "scalars/index.hpp"
 
@@ -30,6 +31,7 @@ class Examiner {
         quantities_(quantities),
         options_(options) {
     below_.resize(quantities.size());
+    isPlain_ = options.masses == nullptr;
     deviate_.assign(quantities.size(), 1);
   }
 
@@ -42,6 +44,8 @@ class Examiner {
       return std::move(finding_);
     }
     weigh();
+    // Cells that are bisections of the box do not add up.
+    if (!isPlain_) finding_.probability = probabilityOf(cells_, *options_.masses, options_.gap, options_.cancelled);
     if (finding_.met == 0) lookForWhatIsMet();
     measureDeviations();
     measurePossibility();
@@ -118,8 +122,9 @@ class Examiner {
     return Interval(of.centre) + Interval(of.half) * Interval(xi);
   }
 
-  /// Its probability: between the distribution functions of its ends.
+  /// Its probability: between the distribution functions of its ends. Where cells' do not add up, the volume.
   Interval massOf(const Cell& cell) {
+    if (!isPlain_) return volumeOf(cell);
     Interval mass(1.0);
     for (std::size_t q = 0; q < quantities_.size(); ++q) {
       const FlowSymbol& of = models_.components[at(quantities_[q].component)];
@@ -223,6 +228,10 @@ class Examiner {
     constexpr double mostly = 0.85;
     decided.metVolume = metBeyond(0);
     decided.violatedVolume = violatedBeyond(0);
+    if (!isPlain_) {
+      decided.met = decided.metVolume, decided.violated = decided.violatedVolume;
+      return decided;
+    }
     std::vector<double> bend(at(models_.symbols), 0.0);
     for (std::size_t q = 0; q < quantities_.size(); ++q) {
       const FlowSymbol& of = models_.components[at(quantities_[q].component)];
@@ -431,6 +440,7 @@ class Examiner {
   Cells cells_;
   const std::vector<CellQuantity>& quantities_;
   const RequirementOptions& options_;
+  bool isPlain_ = true;                            // all independent, of known distributions
   std::vector<char> deviate_;                      // of the quantities: those that count in a factor
   std::vector<std::map<double, Interval>> below_;  // of each quantity: its distribution function by ξ
   std::function<bool(const Cell&)> isFineEnough_;

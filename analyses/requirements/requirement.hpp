@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "analyses/probability/joint_masses.hpp"
 #include "analyses/requirements/cells.hpp"
 #include "analyses/uncertainty.hpp"
 #include "scalars/interval.hpp"
@@ -24,6 +25,8 @@ struct RequirementOptions {
   double factorGap = 0.002;       ///< of the factor
   std::size_t mostCells = 40000;  ///< in each search
   double mostBytes = 3e8;
+  /// By the models' symbols, where quantities depend on each other or more than one distribution is possible.
+  const JointMasses* masses = nullptr;
   const std::atomic<bool>* cancelled = nullptr;  ///< set from outside: what was found until then holds
 };
 
@@ -31,7 +34,7 @@ struct RequirementOptions {
 struct RequirementFinding {
   bool isAlwaysMet = false, isNeverMet = false;
   double met = 0, violated = 0;    ///< at least these parts of the box's volume
-  Interval probability{0.0, 1.0};  ///< that it is met; the quantities are independent
+  Interval probability{0.0, 1.0};  ///< that it is met, whichever distributions the quantities have together
   Interval violationPossibility{0.0, 1.0};
   /// It is met for all values whose deviations from nominal are up to so many times those of their intervals; 1: all.
   double factor = 0;

@@ -150,7 +150,9 @@ Sampling plannedSampling(const UncertainMotion& system, const EnsembleOptions& o
     boxes.push_back(std::move(box));
     levels.push_back(level);
   }
-  return Sampling(options.plan, system.uncertain.size(), options.samples, options.seed, std::move(boxes));
+  Sampling sampling(options.plan, system.uncertain.size(), options.samples, options.seed, std::move(boxes));
+  sampling.correlate(system.dependence.copulas);
+  return sampling;
 }
 
 /// Of how many levels the cuts hold these values: they are nested.

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "analyses/dependence.hpp"
 #include "analyses/samples/ensemble_statistics.hpp"
 #include "analyses/samples/sample_block.hpp"
 #include "analyses/samples/sampling.hpp"
@@ -28,6 +29,7 @@ struct UncertainMotion {
   std::vector<double> nominal;       ///< initial values, then parameters
   std::vector<Uncertain> uncertain;  ///< the uncertain quantities
   std::vector<int> slot;             ///< of each uncertain quantity: its place in `nominal`
+  QuantityDependence dependence;     ///< of them; those of which it is unknown are sampled as if independent
 
   /// The start values for these values of the uncertain quantities.
   std::vector<double> start(std::span<const double> values) const;

@@ -328,6 +328,8 @@ void Sampling::toValues(std::size_t number, const std::vector<Uncertain>& uncert
   if (uncertain.size() != quantities_ || point.size() != quantities_)
     throw std::invalid_argument("the sampling plan is for another number of quantities");
   if (number >= size()) throw std::out_of_range("the sampling plan has no such number");
+  if (number < samples_)
+    for (const GaussianCopula& copula : copulas_) copula.correlate(point);
   const std::size_t firstInner = samples_ + corners();
   for (std::size_t j = 0; j < quantities_; ++j) {
     const Uncertain& q = uncertain[j];

@@ -8,8 +8,10 @@
 #include <memory>
 #include <span>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "analyses/dependence.hpp"
 #include "analyses/uncertainty.hpp"
 
 namespace gamut {
@@ -54,6 +56,9 @@ class Sampling {
   /// where the plan cannot serve so many quantities.
   Sampling(Plan plan, std::size_t quantities, std::size_t samples, std::uint64_t seed, std::vector<Box> boxes = {});
 
+  /// The samples' values, not those of corners, depend on each other so. The points in the unit cube do not.
+  void correlate(std::vector<GaussianCopula> copulas) { copulas_ = std::move(copulas); }
+
   std::size_t quantities() const { return quantities_; }
   std::size_t samples() const { return samples_; }
   /// All 2^quantities for at most ten quantities, otherwise 1024: an orthogonal array, in which any two quantities
@@ -92,6 +97,7 @@ class Sampling {
   std::size_t quantities_, samples_, batches_ = 1;
   std::uint64_t seed_;
   std::vector<Box> boxes_;
+  std::vector<GaussianCopula> copulas_;
   Ends ends_, boxEnds_;
   std::unique_ptr<PointSequence> sequence_;
   std::size_t position_ = 0;  // number of the sequence's next point

@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <initializer_list>
+#include <limits>
 #include <utility>
 
 #include "analyses/consistency.hpp"
@@ -38,6 +40,8 @@ class ShapeReader {
       if (std::string_view(key) != "distribution") continue;
       std::string type;
       const TomlSection keys = kind(section_, *node, key, kindsOfDistribution(), type);
+      if (type == "evidence")
+        for (const FocalInterval& focal : evidenceOf(keys, quantity)) range = hull(range, focal.values);
       if (type != "histogram" && type != "empirical") continue;
       for (const Amount& value : type == "histogram" ? histogramOf(keys, quantity).first : valuesOf(keys, quantity))
         range = hull(range, enclose(value));
@@ -79,6 +83,7 @@ class ShapeReader {
                              {"exponential", {"support", "mean"}},
                              {"histogram", {"edges", "weights", "file"}},
                              {"empirical", {"values", "file", "column"}},
+                             {"evidence", {"intervals", "masses", "file"}},
                              {"induced", {}}};
     return kinds;
   }
@@ -99,30 +104,76 @@ class ShapeReader {
       }
       if (type == "empirical")
         uncertain.distribution = Distribution::empirical(doublesOf(table, valuesOf(table, result), result));
+      if (type == "evidence") uncertain.distribution = Distribution::evidence(evidenceInside(table, result));
       if (type == "induced") uncertain.distribution = distributionOf(uncertain.membership);
       if (type == "uniform") uncertain.distribution = Distribution::uniform(on);
       if (type == "triangular")
-        uncertain.distribution = Distribution::triangular(on, number(table, "mode", result, uncertain.nominal));
+        uncertain.distribution = Distribution::triangular(on, parameter(table, "mode", dimension, uncertain.nominal));
       if (type == "normal")
-        uncertain.distribution = Distribution::normal(on, number(table, "mean", result, uncertain.nominal),
-                                                      requiredNumber(table, "deviation", dimension));
+        uncertain.distribution = Distribution::normal(on, parameter(table, "mean", dimension, uncertain.nominal),
+                                                      parameter(table, "deviation", dimension));
       if (type == "beta")
-        uncertain.distribution =
-            Distribution::beta(on, requiredNumber(table, "a", plain), requiredNumber(table, "b", plain));
+        uncertain.distribution = Distribution::beta(on, parameter(table, "a", plain), parameter(table, "b", plain));
       if (type == "lognormal")
-        uncertain.distribution = Distribution::lognormal(on, requiredNumber(table, "log_mean", plain),
-                                                         requiredNumber(table, "log_deviation", plain));
+        uncertain.distribution =
+            Distribution::lognormal(on, parameter(table, "log_mean", plain), parameter(table, "log_deviation", plain));
       if (type == "weibull")
         uncertain.distribution =
-            Distribution::weibull(on, requiredNumber(table, "shape", plain), requiredNumber(table, "scale", dimension));
+            Distribution::weibull(on, parameter(table, "shape", plain), parameter(table, "scale", dimension));
       if (type == "gamma")
         uncertain.distribution =
-            Distribution::gamma(on, requiredNumber(table, "shape", plain), requiredNumber(table, "scale", dimension));
+            Distribution::gamma(on, parameter(table, "shape", plain), parameter(table, "scale", dimension));
       if (type == "exponential")
-        uncertain.distribution = Distribution::exponential(on, number(table, "mean", result, uncertain.nominal));
+        uncertain.distribution = Distribution::exponential(on, parameter(table, "mean", dimension, uncertain.nominal));
     } catch (const std::invalid_argument& error) {
       source_.failWith(*node, error.what(), "a distribution inside the interval");
     }
+  }
+
+  // ---- Evidence -----------------------------------------------------------------------------------------------------
+
+  /// Of lists in the study, or of a file's columns lower, upper and mass.
+  std::vector<FocalInterval> evidenceOf(const TomlSection& section, const UncertainQuantity& quantity) const {
+    std::vector<FocalInterval> focal;
+    if (const toml::node* file = section.find("file")) {
+      refuseBeside(section, {"intervals", "masses"});
+      const auto columns =
+          files_.columns(*file, section.nameOf("file"),
+                         {{"lower", quantity.unit}, {"upper", quantity.unit}, {"mass", std::string(unit::one)}});
+      for (std::size_t row = 0; row < columns[0].size(); ++row) {
+        const Interval lower = enclose(columns[0][row]), upper = enclose(columns[1][row]);
+        if (lower.lower() > upper.upper())
+          source_.fail(
+              *file,
+              fmt::format("row {} of {} has its lower bound above its upper one", row + 1, section.nameOf("file")),
+              "intervals from lower to upper");
+        focal.push_back({hull(lower, upper), enclose(columns[2][row])});
+      }
+      return focal;
+    }
+    const toml::node& intervals = section.require("intervals", "[[lower, upper], ...], or a file");
+    const toml::node& masses = section.require("masses", "one mass an interval");
+    for (const toml::node& entry : source_.asArray(intervals, section.nameOf("intervals")))
+      focal.push_back({readPair(source_, entry, section.nameOf("intervals"), dimensionOf(quantity.unit))});
+    const toml::array& all = source_.asArray(masses, section.nameOf("masses"));
+    if (all.size() != focal.size())
+      source_.fail(masses, fmt::format("{} masses stand beside {} intervals", all.size(), focal.size()),
+                   "one mass an interval");
+    for (std::size_t i = 0; i < focal.size(); ++i)
+      focal[i].mass = enclose(source_.asAmount(all[i], section.nameOf("masses"), plain));
+    return focal;
+  }
+
+  std::vector<FocalInterval> evidenceInside(const TomlSection& section, const UncertainQuantity& quantity) const {
+    std::vector<FocalInterval> focal = evidenceOf(section, quantity);
+    for (const FocalInterval& each : focal)
+      if (!isSubset(each.values, quantity.uncertain.range)) {
+        const auto [inner, outer] = writtenApart(each.values, quantity.uncertain.range);
+        source_.fail(section.table(),
+                     fmt::format("{} has {}, which leaves the interval", section.nameOf("intervals"), inner),
+                     "intervals inside " + outer);
+      }
+    return focal;
   }
 
   // ---- Histograms and measurements ----------------------------------------------------------------------------------
@@ -235,6 +286,9 @@ class ShapeReader {
           source_.fail(*table.find("deviation"), table.nameOf("deviation") + " is not positive", "a deviation above 0");
         uncertain.membership = Membership::gaussian(on, centre, deviation);
       }
+      if (type == "induced" && !uncertain.distribution.isPrecise())
+        source_.fail(*node, "a membership follows from one distribution, and there are several",
+                     "a membership of its own, or a distribution whose parameters are numbers");
       if (const Interval& from = uncertain.distribution.support();
           type == "induced" && !contains(from, uncertain.nominal))
         source_.fail(*node,
@@ -352,6 +406,18 @@ class ShapeReader {
   double requiredNumber(const TomlSection& section, std::string_view key, const Dimension& dimension) const {
     const toml::node& node = section.require(key, fmt::format("a number in {}", unitOf(dimension)));
     return nearest(source_.asAmount(node, section.nameOf(key), dimension));
+  }
+
+  /// Of a distribution: the nearest double, or an interval [least, greatest] of what it may be; `otherwise` without the
+  /// key, unless that is NaN.
+  Interval parameter(const TomlSection& section, std::string_view key, const Dimension& dimension,
+                     double otherwise = std::numeric_limits<double>::quiet_NaN()) const {
+    const toml::node* node = section.find(key);
+    if (node == nullptr && !std::isnan(otherwise)) return otherwise;
+    const toml::node& found =
+        section.require(key, fmt::format("a number in {}, or an interval of such numbers", unitOf(dimension)));
+    if (found.is_array()) return readPair(source_, found, section.nameOf(key), dimension);
+    return nearest(source_.asAmount(found, section.nameOf(key), dimension));
   }
 
   /// The keys of one kind of distribution or membership function.

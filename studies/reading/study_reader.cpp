@@ -19,6 +19,7 @@
 #include "studies/printable.hpp"
 #include "studies/problem.hpp"
 #include "studies/readable.hpp"
+#include "studies/reading/dependence_reader.hpp"
 #include "studies/reading/mechanism_reader.hpp"
 #include "studies/reading/requirement_reader.hpp"
 #include "studies/reading/toml_source.hpp"
@@ -40,8 +41,8 @@ class StudyReader {
 
   Study read(const std::vector<Described>& types, const std::optional<FilesAtHand>& files) {
     const TomlSection file(source_, source_.root(), "",
-                           {"study", "mechanism", "uncertain", "output", "requirement", "interval", "stochastic",
-                            "distribution", "sensitivity", "fuzzy", "limits"});
+                           {"study", "mechanism", "uncertain", "dependence", "output", "requirement", "interval",
+                            "stochastic", "distribution", "sensitivity", "fuzzy", "limits"});
     readStudyTable(source_.asTable(file.require("study", "a table [study]"), "study"));
     ReadMechanism read = readMechanism(
         source_, source_.asTable(file.require("mechanism", "a table [mechanism]"), "mechanism"), types, files);
@@ -52,6 +53,7 @@ class StudyReader {
     places_ = std::move(read.places);
     if (study_.analysis == Study::Analysis::inverseDynamics) checkDrives(*file.find("mechanism"));
     readUncertain(source_, tables(file, "uncertain"), TableFiles(source_, study_.tables, files), study_);
+    readDependence(source_, tables(file, "dependence"), study_);
     file.require("output", "a table [[output]] for each output that is wanted");
     for (const toml::table* table : tables(file, "output")) readOutput(*table);
     readRequirements(source_, tables(file, "requirement"), study_, outputNodes_);

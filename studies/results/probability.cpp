@@ -45,6 +45,7 @@ std::vector<Field> fieldsOf(SensitivityResult& s) {
   using namespace dimension;
   constexpr std::string_view when = "/sensitivity/time";
   return {
+      {"why", &s.why, unit::none, "why there are no Sobol' indices; empty if there are", {}},
       {"time", &s.time, unit::second, "output times of which sensitivities are bounded", {when}},
       {"mean_lower", &s.meanLower, unit::ofOutput, "proved bound of the mean", {when, output}},
       {"mean_upper", &s.meanUpper, unit::ofOutput, "upper bound", {when, output}},

@@ -9,8 +9,8 @@
 
 namespace gamut {
 
-/// Bounds of distribution functions, of all outputs but the requirements' margins, at some output times. Independent
-/// quantities.
+/// Bounds of distribution functions, of all outputs but the requirements' margins, at some output times; of all joint
+/// distributions that the quantities may have.
 struct DistributionResult {
   bool present = false;
   double wanted = 0;                 ///< gap that was aimed at
@@ -37,7 +37,8 @@ struct DistributionResult {
 /// time are not known.
 struct SensitivityResult {
   bool present = false;
-  std::vector<double> time;                                                  ///< s: output times
+  std::string why;           ///< why there are no Sobol' indices; empty if there are
+  std::vector<double> time;  ///< s: output times
   std::vector<double> meanLower, meanUpper, deviationLower, deviationUpper;  ///< [time][output]
   std::vector<double> firstLower, firstUpper, totalLower, totalUpper;        ///< [time][output][quantity]
   std::vector<double> pinched;  ///< [time][output][quantity], at the times of distributions alone

@@ -20,7 +20,9 @@ namespace {
 
 /// So many samples does the plan have then.
 Sampling samplingOf(const Study& study, const Results& results, std::size_t samples) {
-  return {study.ensemble.plan, study.uncertain.size(), samples, results.seed};
+  Sampling sampling(study.ensemble.plan, study.uncertain.size(), samples, results.seed);
+  sampling.correlate(study.dependence.copulas);
+  return sampling;
 }
 
 /// The text of the study may have another meaning for another version.

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "analyses/probability/output_distribution.hpp"
+#include "analyses/probability/quantity_masses.hpp"
 #include "analyses/probability/sobol_estimates.hpp"
 #include "analyses/probability/sobol_indices.hpp"
 #include "analyses/surrogate/pinching.hpp"
@@ -121,7 +122,7 @@ class Probabilities {
 
   void bound() {
     if (surrogate_.rows.empty()) return;
-    masses_.emplace(surrogate_, uncertain_);
+    const JointMasses& masses = jointMasses(run_, surrogate_.symbols, surrogate_.quantities);
     DistributionOptions options;
     options.gap = run_.study.distribution.gap;
     options.cancelled = run_.watch.stop();
@@ -136,7 +137,7 @@ class Probabilities {
         if (!parts) return;
         DistributionOptions own = options;
         own.negligible = negligible_[output];
-        found_[i] = boundDistribution(*parts, output, *masses_, own);
+        found_[i] = boundDistribution(*parts, output, masses, own);
         if (progress) progress(static_cast<double>(++done) / static_cast<double>(found_.size()));
       };
     });
@@ -180,7 +181,7 @@ class Probabilities {
   }
 
   void describeIndices() {
-    if (!masses_) return;
+    if (surrogate_.rows.empty()) return;
     SensitivityResult& result = run_.results.sensitivity;
     const std::size_t all = run_.study.uncertain.size();
     const std::vector<std::size_t> rows = rowsOfIndices();
@@ -189,12 +190,19 @@ class Probabilities {
     for (const std::size_t row : rows) result.time.push_back(run_.study.motion.times[row]);
     for (auto* numbers : {&result.meanLower, &result.meanUpper, &result.deviationLower, &result.deviationUpper})
       numbers->assign(rows.size() * count_, unknown);
-    for (auto* numbers : {&result.firstLower, &result.firstUpper, &result.totalLower, &result.totalUpper})
+    for (auto* numbers : {&result.firstLower, &result.firstUpper, &result.totalLower, &result.totalUpper,
+                          &result.firstSampled, &result.firstError, &result.totalSampled, &result.totalError})
       numbers->assign(rows.size() * count_ * all, unknown);
+    pinch(rows);
+    if (!isPlain(run_.study)) {
+      result.why = "they are of independent quantities whose distributions are known";
+      return;
+    }
+    const QuantityMasses masses(surrogate_, uncertain_);
     forEachIndex(run_.options.jobs, rows.size() * outputs_.size(), run_.watch.stop(), [&] {
       return [&](std::size_t i) {
         const std::size_t at = i / outputs_.size(), k = i % outputs_.size();
-        const SobolIndices indices = sobolIndices(surrogate_, *partsAt(surrogate_, rows[at]), k, *masses_);
+        const SobolIndices indices = sobolIndices(surrogate_, *partsAt(surrogate_, rows[at]), k, masses);
         const std::size_t cell = at * count_ + static_cast<std::size_t>(outputs_[k]);
         const auto put = [](const Interval& bounds, double& lower, double& upper) {
           if (isBounded(bounds)) lower = bounds.lower(), upper = bounds.upper();
@@ -208,7 +216,6 @@ class Probabilities {
         }
       };
     });
-    pinch(rows);
     estimateIndices(rows);
   }
 
@@ -232,8 +239,6 @@ class Probabilities {
   void estimateIndices(const std::vector<std::size_t>& rows) {
     SensitivityResult& result = run_.results.sensitivity;
     const std::size_t all = run_.study.uncertain.size(), n = components_.size();
-    for (auto* numbers : {&result.firstSampled, &result.firstError, &result.totalSampled, &result.totalError})
-      numbers->assign(rows.size() * count_ * all, unknown);
     if (n == 0 || *run_.watch.stop()) return;
     constexpr double work = 3e7, least = 256, most = 8192;
     const double values = static_cast<double>((n + 2) * rows.size() * outputs_.size());
@@ -286,6 +291,8 @@ class Probabilities {
     if (surrogate_.rows.empty()) return "models of outputs found no room";
     if (run_.study.motion.times[surrogate_.rows.back()] < run_.results.distribution.time.back())
       return run_.enclosed.why;
+    if (!isPlain(run_.study))
+      return "more than one joint distribution is possible, or the enclosure is not tight enough";
     return "the enclosure is not tight enough, an output depends on too many quantities together, or is extreme inside "
            "the box";
   }
@@ -299,7 +306,6 @@ class Probabilities {
   std::vector<const Uncertain*> uncertain_;
   std::vector<DistributionBounds> found_;  // [row][output]
   Surrogate surrogate_;
-  std::optional<QuantityMasses> masses_;
   std::vector<double> negligible_;  // width of each output
 };
 

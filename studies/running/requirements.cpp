@@ -95,10 +95,11 @@ void noteMembership(const Study& study, RequirementResult& result) {
 }
 
 /// Whether bounds are so far apart that tighter models are worth their while.
-bool isVague(const RequirementResult& result) {
+bool isVague(const Run& run, const RequirementResult& result) {
   constexpr double gap = 0.008;
+  const bool isOneProbability = isPlain(run.study);
   return result.word != "met" && result.word != "violated" &&
-         (result.word == "open" || result.probabilityUpper - result.probabilityLower > gap ||
+         (result.word == "open" || (isOneProbability && result.probabilityUpper - result.probabilityLower > gap) ||
           result.violationMost - result.violationLeast > 6 * gap);
 }
 
@@ -113,6 +114,12 @@ void examineModels(Run& run, const FlowModels& models, std::size_t number, std::
   for (std::size_t q = 0; q < study.uncertain.size(); ++q)
     if (!study.uncertain[q].varies) quantities.push_back({run.problem.motion.slot[q], &study.uncertain[q].uncertain});
   RequirementOptions options;
+  if (!isPlain(study)) {
+    std::vector<FlowSymbol> symbols;
+    for (const CellQuantity& quantity : quantities)
+      symbols.push_back(models.components[static_cast<std::size_t>(quantity.component)]);
+    options.masses = &jointMasses(run, models.symbols, symbols);
+  }
   options.cancelled = run.watch.stop();
   RequirementFinding finding = gamut::examine(models, question, quantities, options);
   if (question.until < whole.until) forgetWhatIsNotKnown(finding, requirement.isAlways);
@@ -181,7 +188,7 @@ void proveAll(Run& run) {
   std::vector<std::vector<std::vector<double>>> suspects(count);
   const auto examineAll = [&](const FlowModels& models) {
     for (std::size_t r = 0; r < count; ++r)
-      if (isVague(run.results.requirements[r])) {
+      if (isVague(run, run.results.requirements[r])) {
         std::vector<std::vector<double>> found;
         examineModels(run, models, r, found);
         suspects[r].insert(suspects[r].begin(), found.begin(), found.end());
@@ -191,7 +198,7 @@ void proveAll(Run& run) {
   double excess = run.study.flow.tightness - 1;
   for (int round = 0; round < 2 && run.enclosed.models; ++round) {
     if (run.study.analysis == Study::Analysis::kinematics || *run.watch.stop() ||
-        std::ranges::none_of(run.results.requirements, isVague))
+        std::ranges::none_of(run.results.requirements, [&](const auto& result) { return isVague(run, result); }))
       break;
     constexpr double parts = 128;  // of the horizon: outputs leave the chords of long steps
     constexpr double budget = 4;

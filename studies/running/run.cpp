@@ -16,6 +16,28 @@
 namespace gamut {
 namespace {
 
+/// "a, b: Gaussian copula, rank correlation 0.5; c, d: unknown".
+std::string dependenceText(const Study& study) {
+  std::vector<std::string> texts;
+  const auto namesOf = [&](const std::vector<std::size_t>& quantities) {
+    std::vector<std::string> names;
+    for (const std::size_t q : quantities) names.push_back(study.uncertain[q].uncertain.name);
+    return fmt::format("{}", fmt::join(names, ", "));
+  };
+  for (const GaussianCopula& copula : study.dependence.copulas) {
+    std::vector<std::string> rows;
+    for (std::size_t i = 1; i < copula.rank().size(); ++i) {
+      std::vector<std::string> row;
+      for (std::size_t j = 0; j < i; ++j) row.push_back(fmt::format("{:.6g}", midpoint(copula.rank()[i][j])));
+      rows.push_back(fmt::format("{}", fmt::join(row, ", ")));
+    }
+    texts.push_back(fmt::format("{}: Gaussian copula, rank correlation{} {}", namesOf(copula.quantities()),
+                                rows.size() > 1 ? "s, row by row," : "", fmt::join(rows, " | ")));
+  }
+  for (const std::vector<std::size_t>& group : study.dependence.unknown) texts.push_back(namesOf(group) + ": unknown");
+  return fmt::format("{}", fmt::join(texts, "; "));
+}
+
 /// The part of the results that is known before anything runs. Words as they are read back from a file.
 void describeOrigin(Run& run) {
   const Study& study = run.study;
@@ -35,6 +57,7 @@ void describeOrigin(Run& run) {
   origin.outputs = study.outputs;
   origin.horizon = study.horizon;
   origin.time = study.motion.times;
+  origin.dependence = dependenceText(study);
   for (const UncertainQuantity& q : study.uncertain) {
     const Uncertain& u = q.uncertain;
     origin.uncertain.push_back({u.name, q.quantity, q.unit, u.range.lower(), u.nominal, u.range.upper(),
@@ -52,7 +75,7 @@ void describeOrigin(Run& run) {
     };
     add("distribution", u.distribution.numbers());
     add("membership", u.membership.numbers());
-    origin.uncertain.back().inconsistency = inconsistency(u.distribution, u.membership);
+    if (u.distribution.isPrecise()) origin.uncertain.back().inconsistency = inconsistency(u.distribution, u.membership);
   }
 }
 

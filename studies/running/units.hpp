@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "analyses/comparison/comparison.hpp"
+#include "analyses/probability/joint_masses.hpp"
 #include "analyses/samples/ensemble.hpp"
 #include "studies/problem.hpp"
 #include "studies/results/results.hpp"
@@ -56,6 +57,8 @@ struct Run {
   Seen seen;                               ///< filled by `lookAtMachine`
   Enclosed enclosed;                       ///< filled by `enclose`
   std::vector<std::vector<double>> worst;  ///< of each requirement: values of the worst sample
+  std::optional<JointMasses> masses;       ///< of the quantities in the symbols of models; by `jointMasses`
+  std::vector<FlowSymbol> symbols;         ///< those symbols
   std::optional<FormerSamples> former;     ///< that are to come again; none unless the run goes on from others
   std::optional<EnsembleRun> ensemble;     ///< there from `takeFirstSamples` on, unless it found no room
 };
@@ -100,6 +103,12 @@ inline constexpr void (*unitsOfSamples[])(Run&) = {takeFirstSamples,   takeOther
 /// Where points certainly are, by the flow's tube, or, where nothing moves, by the image of the box.
 void enclosePlaces(Run& run, const Tube& tube);
 void enclosePlaces(Run& run);
+
+/// The joint distribution of the quantities that are constant, in these symbols of theirs.
+const JointMasses& jointMasses(Run& run, int symbols, const std::vector<FlowSymbol>& quantities);
+
+/// Whether all that is constant is independent, and of known distributions.
+bool isPlain(const Study& study);
 
 /// Whether probabilities of the outputs' values are to be bounded.
 bool asksForDistributions(const Study& study);

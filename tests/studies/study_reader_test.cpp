@@ -621,6 +621,45 @@ TEST(StudyReader, RefusesInOneLineWhatFuzzingMade) {
   EXPECT_GT(messages.size(), 70U);
 }
 
+/// Two quantities of the sample study, and how they depend on each other.
+std::string dependentStudy(const std::string& dependence) {
+  return sampleStudyWith("[[output]]", R"([[uncertain]]
+quantity = "rod.length"
+interval = "± 1 mm"
+[[uncertain]]
+quantity = "bob.mass"
+interval = "± 1 g"
+[[dependence]]
+)" + dependence + "\n[[output]]");
+}
+
+TEST(StudyReader, KnowsDependences) {
+  const Study one =
+      readStudyText(dependentStudy("quantities = [\"start\", \"rod.length\"]\nrank_correlation = 0.5"), "s.toml");
+  ASSERT_EQ(one.dependence.copulas.size(), 1U);
+  EXPECT_THAT(one.dependence.copulas[0].quantities(), ElementsAre(0U, 1U));
+  // r = 2 sin(π/12)
+  EXPECT_TRUE(contains(one.dependence.copulas[0].root()[1][0], 0.51763809020504152));
+  EXPECT_LT(width(one.dependence.copulas[0].root()[1][0]), 1e-14);
+  const Study unknown =
+      readStudyText(dependentStudy("quantities = [\"rod.length\", \"bob.mass\"]\nunknown = true"), "s.toml");
+  EXPECT_THAT(unknown.dependence.unknown, ElementsAre(ElementsAre(1U, 2U)));
+  EXPECT_EQ(messageOf(dependentStudy("quantities = [\"start\", \"rod.length\"]")),
+            "s.toml:40:1: a dependence has either dependence.rank_correlation or dependence.unknown; expected "
+            "rank_correlation = 0.5, a matrix [[1, 0.5], [0.5, 1]], or unknown = true");
+  EXPECT_EQ(messageOf(dependentStudy("quantities = [\"start\", \"rod.length\"]\nrank_correlation = 1.5")),
+            "s.toml:42:20: rank correlations lie between -1 and 1, unlike 1.5 (row 2, column 1); expected a symmetric "
+            "positive definite matrix with ones in its diagonal");
+  EXPECT_EQ(
+      messageOf(dependentStudy("quantities = [\"start\", \"rod.length\"]\nrank_correlation = 1")),
+      "s.toml:42:20: the rank correlations, as those of normal numbers, are not positive definite: the first 2 "
+      "quantities cannot be correlated so; expected a symmetric positive definite matrix with ones in its diagonal");
+  EXPECT_EQ(
+      messageOf(dependentStudy("quantities = [\"start\", \"rod.length\", \"bob.mass\"]\nrank_correlation = 0.5")),
+      "s.toml:42:20: one dependence.rank_correlation is given for 3 quantities; expected a matrix [[1, 0.5, ...], "
+      "...]");
+}
+
 struct BadStudy {
   const char* old;
   const char* replacement;
@@ -734,7 +773,8 @@ constexpr BadStudy badStudies[] = {
      "s.toml:2:1: unknown key 'titel' in [study]; expected 'title'? (one of: title, analysis, horizon, output_step, "
      "output_times, compare)"},
     {"[uncertain]]\nname", "[uncertan]]\nname",
-     "s.toml:28:3: unknown key 'uncertan'; expected 'uncertain'? (one of: study, mechanism, uncertain, output, "
+     "s.toml:28:3: unknown key 'uncertan'; expected 'uncertain'? (one of: study, mechanism, uncertain, dependence, "
+     "output, "
      "requirement, interval, stochastic, distribution, sensitivity, fuzzy, limits)"},
     {"\"hinge.angle\"\ninterval", "\"hinges.*\"\ninterval",
      "s.toml:30:12: no quantity fits 'hinges.*'; expected a pattern that `gamut quantities` shows a quantity of"},
@@ -959,7 +999,7 @@ constexpr BadStudy badStudies[] = {
      "a distribution or membership with a support"},
     {"distribution = { type = \"uniform\" }", "distribution = { type = \"unifrom\" }",
      "s.toml:32:25: uncertain.distribution.type is \"unifrom\"; expected 'uniform'? (one of: uniform, triangular, "
-     "normal, beta, lognormal, weibull, gamma, exponential, histogram, empirical, induced)"},
+     "normal, beta, lognormal, weibull, gamma, exponential, histogram, empirical, evidence, induced)"},
     {"distribution = { type = \"uniform\" }", "distribution = { }",
      "s.toml:32:16: 'uncertain.distribution.type' is missing; expected { type = \"uniform\" }"},
     {"distribution = { type = \"uniform\" }", "distribution = \"uniform\"",
@@ -970,7 +1010,34 @@ constexpr BadStudy badStudies[] = {
     {"distribution = { type = \"uniform\" }", "distribution = { type = \"uniform\", mode = 1 }",
      "s.toml:32:36: unknown key 'mode' in [uncertain.distribution]; expected one of: type, support"},
     {"distribution = { type = \"uniform\" }", "distribution = { type = \"normal\" }",
-     "s.toml:32:16: 'uncertain.distribution.deviation' is missing; expected a number in rad"},
+     "s.toml:32:16: 'uncertain.distribution.deviation' is missing; expected a number in rad, or an interval of such "
+     "numbers"},
+    {"distribution = { type = \"uniform\" }", "distribution = { type = \"normal\", deviation = [2, 1] }",
+     "s.toml:32:47: uncertain.distribution.deviation has its lower bound above its upper one; expected [lower, upper]"},
+    {"distribution = { type = \"uniform\" }", "distribution = { type = \"normal\", deviation = [0, 1] }",
+     "s.toml:32:16: the deviation of a normal distribution must be positive, not [0, 1]; expected a distribution "
+     "inside the interval"},
+    {"distribution = { type = \"uniform\" }", "distribution = { type = \"evidence\" }",
+     "s.toml:32:16: 'uncertain.distribution.intervals' is missing; expected [[lower, upper], ...], or a file"},
+    {"distribution = { type = \"uniform\" }",
+     "distribution = { type = \"evidence\", intervals = [[\"29.9 deg\", \"30 deg\"]], masses = [1, 2] }",
+     "s.toml:32:84: 2 masses stand beside 1 intervals; expected one mass an interval"},
+    {"distribution = { type = \"uniform\" }",
+     "distribution = { type = \"evidence\", intervals = [[0, 1]], masses = [1] }",
+     "s.toml:32:16: uncertain.distribution.intervals has [0, 1], which leaves the interval; expected intervals inside "
+     "[0.518363, 0.528835]"},
+    {"distribution = { type = \"uniform\" }",
+     "distribution = { type = \"evidence\", intervals = [[\"29.9 deg\", \"30 deg\"]], masses = [0] }",
+     "s.toml:32:16: evidence needs a positive mass; expected a distribution inside the interval"},
+    {"membership = { type = \"triangular\" }",
+     "membership = { type = \"induced\" }\n[[dependence]]\nquantities = [\"start\"]\nunknown = true",
+     "s.toml:35:14: dependence.quantities names one quantity; expected two quantities at least"},
+    {"membership = { type = \"triangular\" }",
+     "membership = { type = \"triangular\" }\n[[dependence]]\nquantities = [\"start\", \"stat\"]\nunknown = true",
+     "s.toml:35:24: no uncertain quantity is called 'stat'; expected 'start'"},
+    {"membership = { type = \"triangular\" }",
+     "membership = { type = \"triangular\" }\n[[dependence]]\nquantities = [\"start\", \"start\"]\nunknown = true",
+     "s.toml:35:24: 'start' is in a dependence already; expected every quantity once"},
     {"distribution = { type = \"uniform\" }", "distribution = { type = \"normal\", deviation = -1 }",
      "s.toml:32:16: the deviation of a normal distribution must be positive, not -1; expected a distribution "
      "inside the interval"},

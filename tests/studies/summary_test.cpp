@@ -29,10 +29,10 @@ TEST(JsonSummary, HasTheDocumentedKeys) {
   const std::string text = jsonSummary(sampleResults(), "incomplete", {"run.h5", "run.html"});
   EXPECT_EQ(text.find('\n'), std::string::npos);
   const Json json = Json::parse(text);
-  EXPECT_THAT(keysOf(json),
-              ElementsAre("cost", "derivatives", "distribution", "enclosure", "envelope", "excursion", "files",
-                          "horizon", "integrated", "limits", "overestimation", "reached", "requirements", "samples",
-                          "sensitivity", "shortfall", "statistics", "tightness", "verdict", "version", "why"));
+  EXPECT_THAT(keysOf(json), ElementsAre("cost", "dependence", "derivatives", "distribution", "enclosure", "envelope",
+                                        "excursion", "files", "horizon", "integrated", "limits", "overestimation",
+                                        "reached", "requirements", "samples", "sensitivity", "shortfall", "statistics",
+                                        "tightness", "verdict", "version", "why"));
   EXPECT_THAT(keysOf(json["overestimation"]), ElementsAre("max", "median", "outputs"));
   EXPECT_THAT(keysOf(json["cost"]), ElementsAre("fuzzy", "interval", "memory", "report", "stochastic", "total"));
   EXPECT_THAT(keysOf(json["limits"]),

@@ -3,10 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
 #include "analyses/flow/flow.hpp"
+#include "analyses/probability/output_distribution.hpp"
 #include "analyses/surrogate/surrogate.hpp"
 #include "analyses/uncertainty.hpp"
 #include "tests/analyses/reference.hpp"
@@ -58,5 +61,19 @@ struct Function {
     return all;
   }
 };
+
+/// Independent samples leave the bounds by no more than their band at one in 1e9 (Dvoretzky, Kiefer, Wolfowitz,
+/// Massart).
+inline void expectHoldsSamples(const DistributionBounds& bounds, std::vector<double> samples, int round) {
+  std::ranges::sort(samples);
+  const auto count = static_cast<double>(samples.size());
+  const double band = std::sqrt(std::log(2 / 1e-9) / (2.0 * count));
+  for (std::size_t i = 0; i < bounds.value.size(); ++i) {
+    const double share =
+        static_cast<double>(std::ranges::upper_bound(samples, bounds.value[i]) - samples.begin()) / count;
+    EXPECT_LE(bounds.lower[i], share + band) << round;
+    EXPECT_GE(bounds.upper[i], share - band) << round;
+  }
+}
 
 }  // namespace gamut::testing

@@ -1,0 +1,66 @@
+// With P(X < x_a) <= a and P(Y < y_b) <= b, P(X + Y < x_a + y_b) <= a + b, for all a + b = u: the greatest of these
+// sums is a quantile that the sum's u-quantile is not below. Upper ones follow likewise from P(X > x_a) <= 1 - a.
+#include "analyses/probability/dependent_sum.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <span>
+
+#include "analyses/flow/error_bounds.hpp"
+
+namespace gamut {
+namespace {
+
+constexpr std::size_t levels = 2048;
+
+/// [i]: the least value at which the distribution function is i/levels or more; the last where rounding hides it.
+std::vector<long> quantilesOf(const GridMasses& variable) {
+  std::vector<long> quantiles;
+  double sum = variable.mass.front();
+  std::size_t at = 0;
+  for (std::size_t i = 0; i <= levels; ++i) {
+    const double level = static_cast<double>(i) / levels;
+    while (sum < level && at + 1 < variable.mass.size()) sum += variable.mass[++at];
+    quantiles.push_back(variable.first + static_cast<long>(at));
+  }
+  return quantiles;
+}
+
+std::vector<long> leastOf(const std::vector<long>& x, const std::vector<long>& y) {
+  std::vector<long> sum(levels + 1, std::numeric_limits<long>::min());
+  for (std::size_t i = 0; i <= levels; ++i)
+    for (std::size_t j = 0; j <= i; ++j) sum[i] = std::max(sum[i], x[j] + y[i - j]);
+  return sum;
+}
+
+std::vector<long> greatestOf(const std::vector<long>& x, const std::vector<long>& y) {
+  std::vector<long> sum(levels + 1, std::numeric_limits<long>::max());
+  for (std::size_t i = 0; i <= levels; ++i)
+    for (std::size_t j = i; j <= levels; ++j) sum[i] = std::min(sum[i], x[j] + y[levels + i - j]);
+  return sum;
+}
+
+/// Each as probable as the others.
+GridMasses massesOf(std::vector<long>::const_iterator begin) {
+  const auto [least, greatest] = std::ranges::minmax(std::span(begin, levels));
+  GridMasses masses{least, std::vector<double>(static_cast<std::size_t>(greatest - least + 1), 0.0)};
+  for (std::size_t i = 0; i < levels; ++i)
+    masses.mass[static_cast<std::size_t>(begin[static_cast<long>(i)] - least)] += 1.0 / levels;
+  return masses;
+}
+
+}  // namespace
+
+GridSum dependentSumOf(const std::vector<GridBounds>& parts) {
+  std::vector<long> low = quantilesOf(parts.front().below), high = quantilesOf(parts.front().above);
+  double roundings = static_cast<double>(parts.front().below.mass.size() + parts.front().above.mass.size());
+  for (std::size_t i = 1; i < parts.size(); ++i) {
+    low = leastOf(low, quantilesOf(parts[i].below));
+    high = greatestOf(high, quantilesOf(parts[i].above));
+    roundings += static_cast<double>(parts[i].below.mass.size() + parts[i].above.mass.size());
+  }
+  // The values of a level begin at its lower end, and end at its upper one.
+  return {{massesOf(low.begin()), massesOf(high.begin() + 1)}, roundings * bounds::unit * bounds::up};
+}
+
+}  // namespace gamut

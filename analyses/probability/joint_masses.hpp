@@ -1,0 +1,76 @@
+// The joint distribution of the quantities, or what is known of it, cut into bins that every part of the box is made
+// of: groups of quantities, each group with focal elements (bins of its symbols, and the probability that the values
+// are in these). Of a known distribution these are single bins; of p-boxes and evidence they overlap; those of a copula
+// are of several symbols. Groups are independent, or nothing is known of how they depend on each other.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "analyses/dependence.hpp"
+#include "analyses/flow/models.hpp"
+#include "analyses/probability/convolution.hpp"
+#include "analyses/uncertainty.hpp"
+
+namespace gamut {
+
+class JointMasses {
+ public:
+  /// A part of the joint distribution: which elements, and the bins in which they lie.
+  struct Part {
+    std::vector<long> first, count;  ///< [symbol]
+    /// [group] elements; null: all that lie there.
+    std::vector<std::shared_ptr<const std::vector<std::uint32_t>>> elements;
+  };
+
+  /// `quantities` tells the symbols of the uncertain ones, one by one; others are symbols of which nothing is known.
+  JointMasses(int symbols, const std::vector<FlowSymbol>& quantities, const std::vector<const Uncertain*>& uncertain,
+              const QuantityDependence& dependence = {});
+
+  int symbols() const { return symbols_; }
+  /// Whether all are independent, and every distribution is one: bounds can come as near to each other as is wanted.
+  bool isPlain() const { return isPlain_; }
+
+  Part whole() const;
+  static FlowPart boxOf(const Part& part);
+  /// Which together are the part: on either side of an edge between bins, and what lies on both sides. The part alone
+  /// where it cannot be cut so.
+  std::vector<Part> cut(const Part& part, int symbol, long edge) const;
+  /// Of elements on either side of the middle, and of those that are wide; or the part alone.
+  std::vector<Part> halves(const Part& part, int symbol) const;
+
+  double massOf(const Part& part) const;
+  /// Of all masses of a part, Σ|error| is at most that.
+  double error() const { return error_; }
+
+  /// Of Σ f_l(η_l) + rest, as multiples of a step: `f` [symbol][power], powers above 0, of the part's own η.
+  GridSum sumOf(const Part& part, const std::vector<std::vector<double>>& f, Interval rest, double step) const;
+
+ private:
+  struct Group {
+    std::vector<int> symbols;
+    std::vector<double> mass;                // of the bins, or of elements
+    std::vector<std::uint16_t> from, until;  // [element][symbol]: of bins; none: elements are the bins
+  };
+  void addBox(Group& group, const std::vector<Interval>& below);
+  void addEvidence(Group& group, const FlowSymbol& symbol, const Distribution& distribution);
+  void addCopula(Group& group, const GaussianCopula& copula, const std::vector<std::size_t>& rows,
+                 const std::vector<std::vector<Interval>>& below);
+  bool isAlone(int symbol) const;
+  Part with(const Part& part, std::size_t group, std::vector<std::uint32_t> elements) const;
+  template <class Take>
+  void forEach(const Part& part, std::size_t group, const Take& take) const;
+  double massOf(const Part& part, std::size_t group) const;
+  GridBounds boundsOf(const Part& part, std::size_t group, const std::vector<std::vector<double>>& f,
+                      const Interval& rest, double step) const;
+
+  int symbols_;
+  std::vector<Group> groups_;
+  std::vector<int> groupOf_;                      // [symbol]; -1: none
+  std::vector<std::vector<std::size_t>> blocks_;  // of groups of which nothing is known together; mostly of one
+  double error_ = 0;
+  bool isPlain_ = true;
+};
+
+}  // namespace gamut
