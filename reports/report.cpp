@@ -46,6 +46,8 @@ constexpr Section sections[] = {{"Requirements", "demands", requirementsSection}
                                 {"Outputs", "outputs", outputsSection},
                                 {"Membership", "memberships", membershipSection},
                                 {"Probabilities", "probabilities", probabilitySection},
+                                {"Sensitivity", "sensitivities", sensitivitySection},
+                                {"Samples", "samples", samplesSection},
                                 {"Provenance", "origin", provenanceSection}};
 
 std::string sectionsOf(const Report& report) {
@@ -75,17 +77,22 @@ std::string movingPart(const Results& results) {
 }  // namespace
 
 std::string renderReport(const Results& results) {
-  const Report report{results, judge(results), outputPlots(results), membershipFigures(results),
-                      probabilityPlots(results)};
-  return filled(page::skeleton, {{"title", escapeHtml(titleOf(results))},
-                                 {"summary", escapeHtml(summaryLine(results))},
-                                 {"style", std::string(page::style)},
-                                 {"layers", report.outputs.style + report.probabilities.style},
-                                 {"plottingStyle", report.outputs.data.empty() ? "" : std::string(page::plottingStyle)},
-                                 {"first", firstSection(report)},
-                                 {"sections", sectionsOf(report)},
-                                 {"scripts", fmt::format("<script>{}</script>\n", page::axesScript) +
-                                                 plottingPart(report.outputs.data) + movingPart(results)}});
+  const Report report{results,
+                      judge(results),
+                      outputPlots(results),
+                      membershipFigures(results),
+                      probabilityPlots(results),
+                      sensitivityPlots(results)};
+  return filled(page::skeleton,
+                {{"title", escapeHtml(titleOf(results))},
+                 {"summary", escapeHtml(summaryLine(results))},
+                 {"style", std::string(page::style)},
+                 {"layers", report.outputs.style + report.probabilities.style + report.sensitivities.style},
+                 {"plottingStyle", report.outputs.data.empty() ? "" : std::string(page::plottingStyle)},
+                 {"first", firstSection(report)},
+                 {"sections", sectionsOf(report)},
+                 {"scripts", fmt::format("<script>{}</script>\n", page::axesScript) +
+                                 plottingPart(report.outputs.data) + movingPart(results)}});
 }
 
 void writeReport(const Results& results, const std::string& path) { replaceFile(path, renderReport(results)); }

@@ -38,8 +38,9 @@ struct Style {
 struct Layer {
   enum class Kind {
     band,
-    line,  ///< of the band the lower line
-    stack  ///< several bands, from the widest to the narrowest; the levels say which
+    line,    ///< of the band the lower line, unfilled also where bands of that name are filled
+    stack,   ///< several bands, from the widest to the narrowest; the levels say which
+    whisker  ///< of the band an upright stroke a time, across it one in its middle: an estimate and its interval
   };
 
   std::string name = {};     ///< one word, in the page's style sheet and for its switches

@@ -14,9 +14,10 @@
 namespace gamut {
 namespace {
 
-void drawPath(Pen& pen, const Layer& layer, std::string& svg) {
+/// `kind`: a second class, after a blank.
+void drawPath(Pen& pen, const Layer& layer, std::string& svg, const char* kind = "") {
   if (!pen.isEmpty())
-    fmt::format_to(std::back_inserter(svg), "<path class=\"{}\" d=\"{}\"/>\n", layer.name, pen.take());
+    fmt::format_to(std::back_inserter(svg), "<path class=\"{}{}\" d=\"{}\"/>\n", layer.name, kind, pen.take());
 }
 
 void drawLine(const std::vector<double>& time, const Line& line, const Frame& frame, const Layer& layer,
@@ -29,7 +30,7 @@ void drawLine(const std::vector<double>& time, const Line& line, const Frame& fr
       pen.lift();
     }
   }
-  drawPath(pen, layer, svg);
+  drawPath(pen, layer, svg, layer.style.fill > 0 ? " alone" : "");
 }
 
 /// One closed outline for each stretch without gaps.
@@ -53,6 +54,24 @@ void drawBand(const std::vector<double>& time, const Band& band, const Frame& fr
   drawPath(pen, layer, svg);
 }
 
+/// Where the interval is too short to be seen, its middle is.
+void drawWhiskers(const std::vector<double>& time, const Band& band, const Frame& frame, const Layer& layer,
+                  std::string& svg) {
+  constexpr double half = 3;
+  Pen pen;
+  for (std::size_t i = 0; i < band.lower.size(); ++i) {
+    if (!std::isfinite(band.lower[i]) || !std::isfinite(band.upper[i])) continue;
+    const double x = frame.across(time[i]), y = frame.down(clipped(0.5 * band.lower[i] + 0.5 * band.upper[i], frame.y));
+    pen.go(x, frame.down(clipped(band.lower[i], frame.y)));
+    pen.go(x, frame.down(clipped(band.upper[i], frame.y)));
+    pen.lift();
+    pen.go(x - half, y);
+    pen.go(x + half, y);
+    pen.lift();
+  }
+  drawPath(pen, layer, svg, " estimate");
+}
+
 /// At the last number of the band; of several every other one below it.
 void drawLabel(const std::vector<double>& time, const Layer& layer, std::size_t i, const Frame& frame,
                std::string& svg) {
@@ -68,7 +87,9 @@ void drawLabel(const std::vector<double>& time, const Layer& layer, std::size_t 
 void drawLayer(const std::vector<double>& time, const Layer& layer, const Frame& frame, std::string& svg) {
   for (const std::size_t i : layer.shown()) {
     const Band& band = layer.bands[i];
-    if (layer.style.fill > 0) {
+    if (layer.kind == Layer::Kind::whisker) {
+      drawWhiskers(time, band, frame, layer, svg);
+    } else if (layer.style.fill > 0 && layer.kind != Layer::Kind::line) {
       drawBand(time, band, frame, layer, svg);
     } else {
       drawLine(time, band.lower, frame, layer, svg);
@@ -109,6 +130,11 @@ std::string drawPlot(const Plot& plot, const std::string& label) {
 
 std::string drawShares(const Plot& plot, const std::string& label) {
   const Frame frame{timesOf(plot), {0, 1}, smallHeight, smallWidth};
+  return drawLayers(plot, plot.layers, frame, plot.unit, 5, label);
+}
+
+std::string drawSmall(const Plot& plot, const std::string& label) {
+  const Frame frame{timesOf(plot), valuesOf(plot.layers).padded(0.04), smallHeight, smallWidth};
   return drawLayers(plot, plot.layers, frame, plot.unit, 5, label);
 }
 

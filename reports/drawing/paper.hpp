@@ -14,6 +14,9 @@ std::string drawPlot(const Plot& plot, const std::string& label);
 /// The same of shares, from 0 to 1.
 std::string drawShares(const Plot& plot, const std::string& label);
 
+/// The same of any numbers.
+std::string drawSmall(const Plot& plot, const std::string& label);
+
 /// The ratios over time, 720 x 280 units; empty where there are none.
 std::string drawRatios(const Plot& plot, const std::string& label);
 

@@ -156,6 +156,6 @@
   const picture = document.querySelector(".picture figure");
   if (picture) addButtons(picture.closest(".picture"), { figure: () => picture, title: () => headingOf(picture), keys: () => [...document.querySelectorAll(".picture .keys li")] });
 
-  window.addEventListener("beforeprint", () => document.querySelectorAll("section > details").forEach(part => { part.open = true; }));
+  window.addEventListener("beforeprint", () => document.querySelectorAll("section > details:not(.more)").forEach(part => { part.open = true; }));
   root.dataset.page = "ready";
 })();

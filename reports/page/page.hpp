@@ -25,11 +25,14 @@ struct OutputPlots {
 };
 OutputPlots outputPlots(const Results& results);
 
-/// Distribution functions and shares of the variance, and the CSS of their layers; empty where there are none.
+/// Cards with figures, and the CSS of their layers; empty where there are none.
 struct PlotSection {
   std::string html, style;
 };
+/// Distribution functions, mean and quantiles.
 PlotSection probabilityPlots(const Results& results);
+/// Shares of the variance, derivatives and their like.
+PlotSection sensitivityPlots(const Results& results);
 
 /// Membership functions of all outputs at some times; empty where there are none.
 std::string membershipFigures(const Results& results);
@@ -40,7 +43,7 @@ struct Report {
   Verdict verdict;
   OutputPlots outputs;
   std::string memberships;
-  PlotSection probabilities;
+  PlotSection probabilities, sensitivities;
 };
 
 /// What holds in every case, whether the answers agree, and the one plot that matters.
@@ -64,8 +67,14 @@ std::string outputsSection(const Report& report);
 /// How possible their values are.
 std::string membershipSection(const Report& report);
 
-/// How probable their values are, and whose doing their spread is.
+/// How probable their values are.
 std::string probabilitySection(const Report& report);
+
+/// Whose doing their spread is.
+std::string sensitivitySection(const Report& report);
+
+/// What the samples can tell, and what not.
+std::string samplesSection(const Report& report);
 
 /// Version, machine, date, seed, study file, libraries; the study word for word.
 std::string provenanceSection(const Report& report);

@@ -304,6 +304,43 @@ TEST_F(Browser, ChoosesTheTimeOfMembershipFunctions) {
   EXPECT_EQ(count(page, "class=\"inner\""), 26u);
 }
 
+/// What is folded away has its numbers and its drawing for those who unfold it.
+TEST_F(Browser, KeepsFiguresThatAreFoldedAway) {
+  const std::string copy =
+      "Object.defineProperty(navigator, 'clipboard', { value: { writeText: async text => note(text) } });";
+  const auto copied = [&](const std::string& figure) {
+    const std::string page =
+        opened(example::sensitive(), noting + copy + "document.querySelector('" + figure + " .keep button').click();");
+    EXPECT_THAT(rootOf(page), AllOf(HasSubstr("data-page=\"ready\""), Not(HasSubstr("data-error"))));
+    return noted(page);
+  };
+  EXPECT_THAT(copied(".derivative"),
+              testing::StartsWith("time (s),\"derivative by &lt;mass&gt; (rad per kg), from\",to,"));
+  EXPECT_THAT(copied(".statistics"), testing::StartsWith("time (s),mean of the samples (rad),\u00b1 (rad),"));
+  EXPECT_THAT(copied(".convergence"), testing::StartsWith("samples,shoulder angle,elbow angle\n1024,0.04,0.05\n"));
+  const std::string saved = noted(
+      opened(example::sensitive(), std::string(noting) +
+                                       "URL.createObjectURL = blob => { blob.text().then(note); return 'blob:none'; };"
+                                       "HTMLAnchorElement.prototype.click = () => {};"
+                                       "document.querySelector('.sensitivities .keep button:last-child').click();"));
+  EXPECT_THAT(saved, AllOf(HasSubstr("mass"), HasSubstr("first angle"), Not(HasSubstr("var("))));
+}
+
+/// Lines and strokes of a quantity whose bands are filled are not; nothing is wider than a phone; and on paper there is
+/// what a reader unfolded.
+TEST_F(Browser, DrawsQuantitiesOnceFilledAndOnceNot) {
+  const std::string page = opened(
+      example::sensitive(),
+      std::string(noting) +
+          "const fillOf = name => getComputedStyle(document.querySelector('.sensitivities ' + name)).fill;"
+          "window.dispatchEvent(new Event('beforeprint'));"
+          "note([fillOf('.total path.cause0') !== 'none', fillOf('path.estimate'), fillOf('.influence path.cause0'),"
+          "document.querySelectorAll('.more[open]').length, document.querySelectorAll('.origin > "
+          "details[open]').length,"
+          "document.body.scrollWidth <= innerWidth].join(' '));");
+  EXPECT_EQ(noted(page), "true none none 0 1 true");
+}
+
 /// Keys, sliders and buttons are made for hands; on paper they would be noise.
 TEST_F(Browser, HidesOnPaperWhatOnlyHandsCanUse) {
   const std::string page = opened(

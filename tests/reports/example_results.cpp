@@ -161,4 +161,54 @@ Results machine(bool isSpatial, std::size_t seen) {
   return results;
 }
 
+Results sensitive() {
+  constexpr std::size_t outputs = 2, quantities = 2;
+  Results results = pendulum(61, outputs);
+  results.uncertain.push_back({"<mass>", "tip.mass", "kg", 0.9, 1, 1.1, "uniform", "triangular"});
+  StochasticResult& s = results.stochastic;
+  s.plan = "random";
+  s.covered = 0.99537;
+  s.meanError = s.deviationError = Table(61, outputs);
+  s.quantileLower = s.quantileUpper = s.quantiles;
+  for (std::size_t i = 0; i < 61; ++i)
+    for (std::size_t k = 0; k < outputs; ++k) {
+      s.meanError(i, k) = s.deviationError(i, k) = 0.001 + 0.0001 * static_cast<double>(i);
+      for (std::size_t q = 0; q < s.quantiles.size(); ++q) {
+        s.quantileLower[q](i, k) -= 0.002;
+        s.quantileUpper[q](i, k) += 0.003;
+      }
+    }
+  s.convergence = {true, {1024, 2048, 4096}, {0.7, 0.8, 0.8, 0.9, 0.95, 0.99}, {0.04, 0.05, 0.02, 0.03, 0.01, 0.02}};
+  SensitivityResult& sensitivity = results.sensitivity;
+  DerivativeResult& derivatives = results.derivatives;
+  InfluenceResult& influence = results.fuzzy.influence;
+  sensitivity.present = derivatives.present = influence.present = true;
+  sensitivity.samples = 8192;
+  derivatives.reached = 2;
+  derivatives.why = "the budget of CPU time is spent";
+  for (std::size_t i = 0; i < 61; i += 10) {
+    const double t = results.time[i], share = t < 1.5 ? 0.2 : 0.7;  // of the mass
+    sensitivity.time.push_back(t);
+    influence.time.push_back(t);
+    if (t <= derivatives.reached) derivatives.time.push_back(t);
+    for (std::size_t k = 0; k < outputs * quantities; ++k) {
+      const double own = k % quantities == 0 ? 1 - share : share;
+      sensitivity.firstLower.push_back(own - 0.02);
+      sensitivity.firstUpper.push_back(own - 0.01);
+      sensitivity.totalLower.push_back(own - 0.001);
+      sensitivity.totalUpper.push_back(own + 0.001);
+      sensitivity.firstSampled.push_back(own - 0.015);
+      sensitivity.totalSampled.push_back(own + 0.004);
+      sensitivity.firstError.push_back(0.03);
+      sensitivity.totalError.push_back(0.02);
+      sensitivity.pinched.push_back(i % 20 == 0 ? 0.9 * own : std::nan(""));
+      influence.share.push_back(own);
+      if (t > derivatives.reached) continue;
+      derivatives.lower.push_back(3 * own);
+      derivatives.upper.push_back(4 * own);
+    }
+  }
+  return results;
+}
+
 }  // namespace gamut::example

@@ -16,4 +16,8 @@ Results kinematics();
 /// plane of y and z, or, `isSpatial`, leave it; seen at so many times.
 Results machine(bool isSpatial = false, std::size_t seen = 7);
 
+/// pendulum() of two quantities, "first angle" and "<mass>", with all that is known of its statistics' confidence and
+/// of whose doing its spread is: the first angle's at the start, the mass's from 1.5 s on.
+Results sensitive();
+
 }  // namespace gamut::example

@@ -1,0 +1,190 @@
+// What the page says of whose doing the spread is: what is proved, with estimates beside it, and what is folded away.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "reports/report.hpp"
+#include "tests/reports/example_results.hpp"
+#include "tests/reports/page_text.hpp"
+
+namespace gamut {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+/// The section of this name; empty if the page has none.
+std::string sectionOf(const Results& results, const std::string& name) {
+  const std::string page = renderReport(results), begin = "<section class=\"", card = begin + "card\">";
+  const auto from = page.find("\n" + begin + name + "\">");
+  if (from == std::string::npos) return "";
+  auto to = from;
+  do to = page.find("\n" + begin, to + 1);
+  while (to != std::string::npos && page.compare(to + 1, card.size(), card) == 0);
+  return page.substr(from, to - from);
+}
+
+std::string sensitivities(const Results& results) { return sectionOf(results, "sensitivities"); }
+
+TEST(SensitivitySection, ShowsOneFigureAnOutputAndFoldsTheOthers) {
+  std::string text = sensitivities(example::sensitive());
+  EXPECT_EQ(count(text, "<section class=\"card\">"), 2u);
+  for (const char* kind : {"total", "first", "derivative", "pinching", "influence"})
+    EXPECT_EQ(count(text, "<figure class=\"kept " + std::string(kind) + "\">"), 2u) << kind;
+  for (auto from = text.find("<details"); from != std::string::npos; from = text.find("<details"))
+    text.erase(from, text.find("</details>", from) - from);
+  EXPECT_EQ(count(text, "<figure"), 2u);
+  EXPECT_EQ(count(text, "<figure class=\"kept total\">"), 2u);
+  EXPECT_EQ(count(text, "class=\"keys\""), 1u);
+}
+
+TEST(SensitivitySection, HasEstimatesWithTheirIntervalsBesideWhatIsProved) {
+  const std::string text = sensitivities(example::sensitive());
+  EXPECT_EQ(count(text, "class=\"cause0 estimate\""), 4u);  // total and first-order index, two outputs
+  EXPECT_THAT(text, AllOf(HasSubstr("0.698 to 0.701 (0.7 ± 0.02)"), HasSubstr("0.679 to 0.69 (0.68 ± 0.03)"),
+                          HasSubstr("from 8192 independent samples")));
+  Results results = example::sensitive();
+  results.sensitivity.totalSampled.clear();
+  results.sensitivity.firstSampled.clear();
+  EXPECT_THAT(sensitivities(results), AllOf(Not(HasSubstr("estimate\"")), Not(HasSubstr("independent samples"))));
+}
+
+TEST(SensitivitySection, RanksTheQuantitiesOverTime) {
+  const std::string text = sensitivities(example::sensitive());
+  EXPECT_THAT(text, HasSubstr("the greatest: &lt;mass&gt; at 57 %, first angle at 43 % of the times"));
+  EXPECT_LT(text.find("<th scope=\"row\">&lt;mass&gt;"), text.find("<th scope=\"row\">first angle"));
+}
+
+/// Drawn as changes of the output, copied as they are; and how far they are known is told where it is not to the end.
+TEST(SensitivitySection, DrawsDerivativesInTheOutputsUnit) {
+  const std::string text = sensitivities(example::sensitive());
+  EXPECT_THAT(text, AllOf(HasSubstr(">change (rad)<"), HasSubstr("derivative by first angle (rad per rad), from"),
+                          HasSubstr("derivative by \\u003cmass> (rad per kg), from")));
+  EXPECT_THAT(text, AllOf(HasSubstr("derivative (at 2 s)"), HasSubstr("2.09 to 2.8"), HasSubstr("rad per kg"),
+                          HasSubstr("They are known up to 2 s: the budget of CPU time is spent.")));
+}
+
+TEST(SensitivitySection, ShowsWhatIsKnownWhereTheOthersAreNot) {
+  Results results = example::sensitive();
+  results.sensitivity = {};
+  results.derivatives = {};
+  const std::string text = sensitivities(results);
+  EXPECT_EQ(count(text, "<figure class=\"kept influence\">"), 2u);
+  EXPECT_THAT(text, AllOf(HasSubstr("<p class=\"hint\">Measure of influence"), Not(HasSubstr("Sobol"))));
+  results.fuzzy.influence = {};
+  EXPECT_EQ(sensitivities(results), "");
+}
+
+/// Bounds that say nothing are not drawn; what is estimated still is.
+TEST(SensitivitySection, DrawsEstimatesWhereNothingIsProved) {
+  Results results = example::sensitive();
+  for (double& x : results.sensitivity.totalLower) x = 0;
+  for (double& x : results.sensitivity.totalUpper) x = 1;
+  const std::string text = sensitivities(results);
+  EXPECT_THAT(text, HasSubstr("about 0.7 ± 0.02"));
+  EXPECT_EQ(count(text, "<path class=\"cause0\""), 4u);  // first-order index and derivative, two outputs
+}
+
+TEST(SensitivitySection, IsATableWhereNothingMoves) {
+  Results results = example::kinematics();
+  SensitivityResult& s = results.sensitivity;
+  s.present = true;
+  s.time = {0};
+  results.uncertain.push_back(results.uncertain[0]);
+  s.totalLower = {0.5, 0.7, 0.5, 0.7};
+  s.totalUpper = {0.5, 0.8, 0.5, 0.8};
+  s.firstLower = s.totalLower;
+  s.firstUpper = s.totalUpper;
+  const std::string text = sensitivities(results);
+  EXPECT_THAT(text, AllOf(HasSubstr("<caption>All that is known</caption>"), HasSubstr("<td>0.699 to 0.801</td>"),
+                          Not(HasSubstr("<svg")), Not(HasSubstr("<details class=\"more wide\""))));
+}
+
+/// Of one quantity there is nothing to rank, and of an output that varies by roundings nothing to say.
+TEST(SensitivitySection, LeavesOutWhatSaysNothing) {
+  Results results = example::sensitive();
+  for (Bounds* bounds : {&results.interval.at, &results.interval.over})
+    for (std::size_t i = 0; i < 61; ++i) bounds->upper(i, 1) = bounds->lower(i, 1);
+  EXPECT_EQ(count(sensitivities(results), "<section class=\"card\">"), 1u);
+  results = example::sensitive();
+  results.uncertain.pop_back();
+  SensitivityResult& s = results.sensitivity;
+  for (std::vector<double>* numbers :
+       {&s.firstLower, &s.firstUpper, &s.totalLower, &s.totalUpper, &s.firstSampled, &s.firstError, &s.totalSampled,
+        &s.totalError, &s.pinched, &results.derivatives.lower, &results.derivatives.upper,
+        &results.fuzzy.influence.share})
+    numbers->resize(numbers->size() / 2);
+  const std::string text = sensitivities(results);
+  EXPECT_EQ(count(text, "<figure class=\"kept derivative\">"), 2u);
+  EXPECT_EQ(count(text, "<figure"), 2u);
+}
+
+// ---- Samples --------------------------------------------------------------------------------------------------------
+
+TEST(SamplesSection, SaysWhatShareOfAllMotionsTheSamplesSpan) {
+  EXPECT_THAT(sectionOf(example::sensitive(), "samples"), HasSubstr("at least 99.53 % of all motions lie between"));
+  Results results = example::sensitive();
+  results.stochastic.covered = 0;
+  EXPECT_THAT(sectionOf(results, "samples"), Not(HasSubstr("Wilks")));
+}
+
+TEST(SamplesSection, NamesAndCountsFailedSamples) {
+  EXPECT_THAT(sectionOf(example::sensitive(), "samples"), Not(HasSubstr("did not arrive")));
+  Results results = example::sensitive();
+  results.stochastic.failures = 25;
+  for (int i = 0; i < 25; ++i) results.stochastic.failed.push_back({i == 0 ? 4096 : i, 1.25, "<step> too small"});
+  const std::string text = sectionOf(results, "samples");
+  EXPECT_THAT(text, AllOf(HasSubstr("25 of 4099 sampled motions did not arrive at 3 s"),
+                          HasSubstr("<li>corner 0, up to 1.25 s: &lt;step&gt; too small</li>"),
+                          HasSubstr("<li>sample 19, up to"), Not(HasSubstr("<li>sample 20, up to")),
+                          HasSubstr("and 5 more; the results name them all")));
+}
+
+TEST(SamplesSection, ShowsConvergenceOfTheWorstOutput) {
+  const std::string text = sectionOf(example::sensitive(), "samples");
+  EXPECT_EQ(count(text, "<figure class=\"kept convergence\">"), 2u);
+  EXPECT_THAT(text, AllOf(HasSubstr("0.02 with 4096 samples for \u201celbow angle\u201d"),
+                          HasSubstr("0.95 with 4096 samples for \u201cshoulder angle\u201d")));
+  EXPECT_EQ(count(text, "class=\"others\""), 2u);
+  Results results = example::sensitive();
+  for (double& x : results.stochastic.convergence.meanError) x = std::nan("");
+  EXPECT_EQ(count(sectionOf(results, "samples"), "<figure class=\"kept convergence\">"), 1u);
+}
+
+TEST(SamplesSection, HasEveryStatisticWithItsInterval) {
+  const std::string text = sectionOf(example::sensitive(), "samples");
+  EXPECT_THAT(text, AllOf(HasSubstr("At 3 s, with 95 % confidence"), HasSubstr(" ± 0.007</td>"),
+                          HasSubstr(">95 % quantile</th>")));
+}
+
+/// One figure more an output, folded beside its distribution function, or alone.
+TEST(ProbabilitySection, DrawsMeanAndQuantilesWithTheirConfidence) {
+  const std::string text = sectionOf(example::sensitive(), "probabilities");
+  EXPECT_EQ(count(text, "<figure class=\"kept statistics\">"), 2u);
+  EXPECT_THAT(text, AllOf(HasSubstr("quantiles from the samples&#39; order"), Not(HasSubstr("<details")),
+                          HasSubstr("[\"95 % quantile (rad)\""), HasSubstr("[\"to (rad)\"")));
+  Results results = example::sensitive();
+  results.stochastic.plan = "sobol";
+  DistributionResult& d = results.distribution;
+  d.present = true;
+  d.time = {3};
+  d.point = {0, 1};
+  d.value = {0, 1, 0, 1};
+  d.lower = d.upper = d.sampled = {0, 1, 0, 1};
+  d.gaps = d.excess = {0, 0};
+  const std::string folded = sectionOf(results, "probabilities");
+  EXPECT_THAT(folded, Not(HasSubstr("order")));
+  EXPECT_EQ(count(folded, "<details class=\"more\"><summary>Mean and quantiles over time"), 2u);
+}
+
+TEST(ProbabilitySection, SaysWhereNoIntervalHolds) {
+  EXPECT_THAT(sectionOf(example::pendulum(), "probabilities"), HasSubstr("is not known."));
+  EXPECT_THAT(sectionOf(example::sensitive(), "probabilities"), Not(HasSubstr("is not known.")));
+}
+
+}  // namespace
+}  // namespace gamut
