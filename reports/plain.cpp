@@ -87,6 +87,20 @@ Demand demandOf(const RequirementResult& requirement) {
   return {inside.empty() ? nameOf(name) : "the size of " + nameOf(inside), (isAbove ? "above " : "below ") + number};
 }
 
+bool isProbabilityProved(const Results& results) { return results.interval.present || results.fuzzy.present; }
+
+/// It is violated for some values and met for some, but for these with hardly any probability.
+bool isRarelyMet(const Results& results, const RequirementResult& requirement) {
+  constexpr double rare = 0.01;
+  return requirement.word == "partly" && isProbabilityProved(results) && requirement.probabilityUpper <= rare;
+}
+
+std::string rareText(const RequirementResult& requirement) {
+  return requirement.probabilityUpper > 0
+             ? fmt::format("a probability of {} at most", atMostText(requirement.probabilityUpper, 2))
+             : "single values without any probability";
+}
+
 class Sentence {
  public:
   Sentence(const Results& results, const RequirementResult& requirement)
@@ -103,7 +117,12 @@ class Sentence {
     if (r_.word == "met")
       return does(true) + (r_.isAlways ? "" : ", at least once,") + " in every case" + window() + ".";
     if (r_.word == "violated") return does(true) + " in no case" + window() + "." + violation() + share();
-    if (r_.word == "partly") return "In some cases, " + does(false) + window() + "." + violation() + share();
+    if (r_.word == "partly") {
+      const std::string what = does(false) + window() + ".";
+      return (isRarelyMet(results_, r_) ? fmt::format("But for {}, {}", rareText(r_), what)
+                                        : "In some cases, " + what + probability()) +
+             violation() + share();
+    }
     return fmt::format("It is not decided whether {} in every case{}{}.{}", does(true), window(),
                        r_.why.empty() ? "" : ": " + r_.why, share());
   }
@@ -124,6 +143,18 @@ class Sentence {
     if (results_.horizon == 0 || (r_.from == 0 && r_.until == results_.horizon)) return {};
     return r_.from == r_.until ? fmt::format(" at {} s", numberText(r_.from, 6))
                                : fmt::format(" from {} s to {} s", numberText(r_.from, 6), numberText(r_.until, 6));
+  }
+
+  /// That it is violated, as far as that is proved.
+  std::string probability() const {
+    constexpr double telling = 0.5;
+    const double least = 1 - r_.probabilityUpper, most = 1 - r_.probabilityLower;
+    if (!isProbabilityProved(results_) || !(most - least < telling)) return {};
+    const auto [from, to] = outwardText(least, most, std::max(3, digitsFor(1, most - least, 1)));
+    return from == to ? fmt::format(" The proved probability of that is {}.", from)
+           : least <= 0
+               ? fmt::format(" The proved probability of that is {} at most.", to)
+               : fmt::format(" The proved probability of that is {} to {}.", from, std::stod(to) > 1 ? "1" : to);
   }
 
   std::string violation() const {
@@ -225,14 +256,17 @@ std::string ofRequirements(const Results& results) {
     return std::ranges::count_if(
         all, [&](const RequirementResult& r) { return std::ranges::find(words, r.word) != words.end(); });
   };
-  const auto met = count({"met"}), violated = count({"violated"}), partly = count({"partly"});
+  const auto met = count({"met"}), violated = count({"violated"}),
+             rarely = std::ranges::count_if(all, [&](const RequirementResult&r) { return isRarelyMet(results, r); }),
+             partly = count({"partly"}) - rarely;
   const auto number = static_cast<std::ptrdiff_t>(all.size());
-  const auto open = number - met - violated - partly;
+  const auto open = number - met - violated - rarely - partly;
   if (met == number)
     return number == 1 ? fmt::format("The requirement is met {}.", everyCase)
                        : fmt::format("All {} requirements are met {}.", number, everyCase);
   if (number == 1)
     return violated > 0 ? "The requirement is violated in every case that the stated tolerances allow."
+           : rarely > 0 ? fmt::format("The requirement is violated, but for {}.", rareText(all.front()))
            : partly > 0 ? "The requirement can be violated within the stated tolerances."
                         : "It is not decided whether the requirement is met in every case.";
   std::vector<std::string> parts;
@@ -242,6 +276,7 @@ std::string ofRequirements(const Results& results) {
                                   some == 1 ? one : many));
   };
   add(violated, "is violated in every case", "are violated in every case");
+  add(rarely, "is violated but for a tiny probability", "are violated but for a tiny probability");
   add(partly, "can be violated within the stated tolerances", "can be violated within the stated tolerances");
   add(open, "is not decided", "are not decided");
   add(met, "is met in every case", "are met in every case");

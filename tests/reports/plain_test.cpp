@@ -77,6 +77,34 @@ TEST(PlainRequirement, NamesTheCaseThatViolatesIt) {
                         "for an instant."));
 }
 
+/// What is violated nearly always must not sound as if that were an exception.
+TEST(PlainRequirement, SaysHowProbableAViolationIsWhereThatIsProved) {
+  Results results = withRequirement("always a > 1 m", "partly");
+  RequirementResult& requirement = results.requirements.front();
+  requirement.probabilityLower = 0.59371;
+  requirement.probabilityUpper = 0.59789;
+  EXPECT_EQ(
+      sentenceOf(results),
+      "In some cases, \u201ca\u201d does not stay above 1 m. The proved probability of that is 0.4021 to 0.4063.");
+  EXPECT_EQ(summaryOf(results), "The requirement can be violated within the stated tolerances.");
+  requirement.probabilityUpper = 1;
+  EXPECT_THAT(sentenceOf(results), EndsWith("The proved probability of that is 0.4063 at most."));
+  requirement.probabilityLower = 0;
+  EXPECT_THAT(sentenceOf(results), EndsWith("does not stay above 1 m."));
+  requirement.probabilityUpper = 9.9e-7;
+  EXPECT_EQ(sentenceOf(results), "But for a probability of 1e-06 at most, \u201ca\u201d does not stay above 1 m.");
+  EXPECT_EQ(summaryOf(results), "The requirement is violated, but for a probability of 1e-06 at most.");
+  requirement.probabilityUpper = 0;
+  EXPECT_EQ(summaryOf(results), "The requirement is violated, but for single values without any probability.");
+  results.requirements.push_back(requirement);
+  results.requirements.back().word = "met";
+  EXPECT_EQ(summaryOf(results), "1 of 2 requirements is violated but for a tiny probability; 1 is met in every case.");
+  results.interval = {};  // then nothing is proved
+  results.fuzzy = {};
+  results.comparison = {};
+  EXPECT_THAT(sentenceOf(results), StartsWith("In some cases, "));
+}
+
 TEST(PlainRequirement, ClaimsNothingThatIsOpen) {
   Results results = withRequirement("always a > 1 m", "open");
   results.requirements.front().why = "the run was interrupted";
