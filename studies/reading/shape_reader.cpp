@@ -43,7 +43,8 @@ class ShapeReader {
       if (type == "evidence")
         for (const FocalInterval& focal : evidenceOf(keys, quantity)) range = hull(range, focal.values);
       if (type != "histogram" && type != "empirical") continue;
-      for (const Amount& value : type == "histogram" ? histogramOf(keys, quantity).first : valuesOf(keys, quantity))
+      for (const Amount& value :
+           type == "histogram" ? histogramOf(keys, quantity).edges : valuesOf(keys, quantity).values)
         range = hull(range, enclose(value));
     }
     return range;
@@ -99,11 +100,12 @@ class ShapeReader {
     const Interval on = support(table, result);
     try {
       if (type == "histogram") {
-        const auto [edges, weights] = histogramOf(table, result);
-        uncertain.distribution = Distribution::histogram(doublesOf(table, edges, result), weights);
+        const Histogram read = histogramOf(table, result);
+        uncertain.distribution =
+            Distribution::histogram(doublesOf(table, "edges", {read.edges, read.lines}, result), read.weights);
       }
       if (type == "empirical")
-        uncertain.distribution = Distribution::empirical(doublesOf(table, valuesOf(table, result), result));
+        uncertain.distribution = Distribution::empirical(doublesOf(table, "values", valuesOf(table, result), result));
       if (type == "evidence") uncertain.distribution = Distribution::evidence(evidenceInside(table, result));
       if (type == "induced") uncertain.distribution = distributionOf(uncertain.membership);
       if (type == "uniform") uncertain.distribution = Distribution::uniform(on);
@@ -137,16 +139,14 @@ class ShapeReader {
     std::vector<FocalInterval> focal;
     if (const toml::node* file = section.find("file")) {
       refuseBeside(section, {"intervals", "masses"});
-      const auto columns =
+      const auto [columns, lines] =
           files_.columns(*file, section.nameOf("file"),
                          {{"lower", quantity.unit}, {"upper", quantity.unit}, {"mass", std::string(unit::one)}});
       for (std::size_t row = 0; row < columns[0].size(); ++row) {
         const Interval lower = enclose(columns[0][row]), upper = enclose(columns[1][row]);
         if (lower.lower() > upper.upper())
-          source_.fail(
-              *file,
-              fmt::format("row {} of {} has its lower bound above its upper one", row + 1, section.nameOf("file")),
-              "intervals from lower to upper");
+          files_.fail(*file, lines[row], "upper lies below lower", "intervals from lower to upper");
+        if (columns[2][row].value < 0) files_.fail(*file, lines[row], "the mass is negative", "a mass of 0 or more");
         focal.push_back({hull(lower, upper), enclose(columns[2][row])});
       }
       return focal;
@@ -178,12 +178,21 @@ class ShapeReader {
 
   // ---- Histograms and measurements ----------------------------------------------------------------------------------
 
-  /// Of lists in the study, or of a file's columns lower, upper and weight, row by row from below; where one row ends
-  /// before the next begins, there is nothing between.
-  std::pair<std::vector<Amount>, std::vector<double>> histogramOf(const TomlSection& section,
-                                                                  const UncertainQuantity& quantity) const {
+  struct Histogram {
     std::vector<Amount> edges;
     std::vector<double> weights;
+    std::vector<std::size_t> lines;  ///< of the edges, where a file has them
+  };
+  struct Values {
+    std::vector<Amount> values;
+    std::vector<std::size_t> lines;  ///< where a file has them
+  };
+
+  /// Of lists in the study, or of a file's columns lower, upper and weight, row by row from below; where one row ends
+  /// before the next begins, there is nothing between.
+  Histogram histogramOf(const TomlSection& section, const UncertainQuantity& quantity) const {
+    Histogram read;
+    auto& [edges, weights, lines] = read;
     const toml::node* file = section.find("file");
     if (file == nullptr) {
       edges = amounts(section.require("edges", "[lower, ..., upper], or a file"), section.nameOf("edges"),
@@ -193,20 +202,31 @@ class ShapeReader {
       if (weights.size() + 1 != edges.size())
         source_.fail(node, fmt::format("{} weights lie between {} edges", weights.size(), edges.size()),
                      "one weight between each two edges");
-      return {edges, weights};
+      return read;
     }
     refuseBeside(section, {"edges", "weights"});
-    const auto columns =
+    const auto [columns, rows] =
         files_.columns(*file, section.nameOf("file"),
                        {{"lower", quantity.unit}, {"upper", quantity.unit}, {"weight", std::string(unit::one)}});
     for (std::size_t row = 0; row < columns[0].size(); ++row) {
+      if (columns[2][row].value < 0) files_.fail(*file, rows[row], "the weight is negative", "a weight of 0 or more");
+      if (columns[1][row].value < columns[0][row].value)
+        files_.fail(*file, rows[row], "upper lies below lower", "lower, then what is not below it");
+      if (!edges.empty() && columns[0][row].value < edges.back().value)
+        files_.fail(*file, rows[row], "lower lies below the upper of the row before", "rows from below");
       const bool isGap = !edges.empty() && edges.back().value != columns[0][row].value;
-      if (edges.empty() || isGap) edges.push_back(columns[0][row]);
+      if (edges.empty() || isGap) {
+        edges.push_back(columns[0][row]);
+        lines.push_back(rows[row]);
+      }
       if (isGap) weights.push_back(0);
       edges.push_back(columns[1][row]);
+      lines.push_back(rows[row]);
       weights.push_back(nearest(columns[2][row]));
     }
-    return {edges, weights};
+    if (std::ranges::none_of(weights, [](double weight) { return weight > 0; }))
+      files_.fail(*file, rows.front(), "no weight is above 0", "one at least");
+    return read;
   }
 
   void refuseBeside(const TomlSection& section, std::initializer_list<const char*> keys) const {
@@ -215,34 +235,39 @@ class ShapeReader {
         source_.fail(*node, fmt::format("there is a file beside {}", section.nameOf(key)), "one of the two");
   }
 
-  std::vector<Amount> valuesOf(const TomlSection& section, const UncertainQuantity& quantity) const {
+  Values valuesOf(const TomlSection& section, const UncertainQuantity& quantity) const {
     const toml::node* file = section.find("file");
     if (file == nullptr)
-      return amounts(section.require("values", "[value, ...], or a file and its column"), section.nameOf("values"),
-                     dimensionOf(quantity.unit));
+      return {amounts(section.require("values", "[value, ...], or a file and its column"), section.nameOf("values"),
+                      dimensionOf(quantity.unit)),
+              {}};
     refuseBeside(section, {"values"});
-    return files_.columns(*file, section.nameOf("file"), {{section.text("column"), quantity.unit}})[0];
+    auto [columns, rows] = files_.columns(*file, section.nameOf("file"), {{section.text("column"), quantity.unit}});
+    return {std::move(columns[0]), std::move(rows)};
   }
 
   std::vector<Amount> amounts(const toml::node& node, const std::string& what, const Dimension& dimension) const {
     std::vector<Amount> found;
+    if (source_.asArray(node, what).empty()) source_.fail(node, what + " is empty", "one value at least");
     for (const toml::node& entry : source_.asArray(node, what))
       found.push_back(source_.asAmount(entry, what, dimension));
     return found;
   }
 
   /// Nearest doubles, but the least and the greatest, which are the support, rounded outward; in the interval, all.
-  std::vector<double> doublesOf(const TomlSection& section, const std::vector<Amount>& values,
+  std::vector<double> doublesOf(const TomlSection& section, const std::string& key, const Values& read,
                                 const UncertainQuantity& quantity) const {
+    const std::vector<Amount>& values = read.values;
     std::vector<double> found;
-    for (const Amount& value : values) {
-      if (!isSubset(enclose(value), quantity.uncertain.range)) {
-        const auto [inner, outer] = writtenApart(enclose(value), quantity.uncertain.range);
-        source_.fail(section.table(),
-                     fmt::format("{} has the value {} outside the interval", section.nameOf("values"), inner),
-                     "values inside " + outer);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (!isSubset(enclose(values[i]), quantity.uncertain.range)) {
+        const auto [inner, outer] = writtenApart(enclose(values[i]), quantity.uncertain.range);
+        const std::string problem = fmt::format("{} has the value {} outside the interval", section.nameOf(key), inner),
+                          expected = "values inside " + outer;
+        if (i < read.lines.size()) files_.fail(*section.find("file"), read.lines[i], problem, expected);
+        source_.fail((*section.find(key)->as_array())[i], problem, expected);
       }
-      found.push_back(nearest(value));
+      found.push_back(nearest(values[i]));
     }
     if (found.empty()) return found;
     const auto [least, greatest] = std::ranges::minmax_element(found);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <sstream>
 
 #include "mechanics/description/names.hpp"
@@ -57,8 +58,9 @@ class TableReader {
  public:
   TableReader(const std::string& text, const std::string& path) : path_(path), text_(text) {}
 
-  std::vector<std::vector<Amount>> columns(const std::vector<WantedColumn>& wanted) {
+  TableFiles::Columns columns(const std::vector<WantedColumn>& wanted) {
     if (!next()) refuse("it is empty");
+    checkSeparators();
     const std::size_t width = cells_.size();
     std::vector<std::size_t> places;
     std::vector<Amount> scales(wanted.size());
@@ -66,9 +68,12 @@ class TableReader {
       places.push_back(find(wanted[i].name, 0));
       nameOf(cells_[places[i]], wanted[i].unit, scales[i]);
     }
-    std::vector<std::vector<Amount>> found(wanted.size());
+    TableFiles::Columns table;
+    std::vector<std::vector<Amount>>& found = table.values;
+    found.resize(wanted.size());
     while (next()) {
       checkWidth(width);
+      table.lines.push_back(line_);
       if (found[0].size() == maxRows) failForRows(maxRows);
       for (std::size_t i = 0; i < wanted.size(); ++i) {
         Amount value = scales[i];
@@ -77,11 +82,12 @@ class TableReader {
       }
     }
     if (found[0].empty()) refuse("it has no row of numbers");
-    return found;
+    return table;
   }
 
   TimeTable read(const std::string& column, const std::string& unit) {
     if (!next()) refuse("it is empty");
+    checkSeparators();
     const std::size_t width = cells_.size(), wanted = find(column, 1);
     Amount time, scale;
     nameOf(cells_[0], "s", time);
@@ -105,6 +111,14 @@ class TableReader {
   [[noreturn]] void refuse(const std::string& why) const { gamut::refuse(path_, why); }
   [[noreturn]] void fail(const Cell& cell, const std::string& what, const std::string& expected) const {
     throw StudyError(fmt::format("{}:{}:{}: {}; expected {}", printable(path_), line_, cell.column, what, expected));
+  }
+
+  /// Spreadsheets write semicolons where the decimal sign is a comma.
+  void checkSeparators() const {
+    for (const char* other : {";", "\t"})
+      if (cells_.size() == 1 && cells_[0].text.find(other) != std::string::npos)
+        fail(cells_[0], fmt::format("the cells are separated by {}", *other == ';' ? "semicolons" : "tabulators"),
+             "commas between the cells, and points in decimals");
   }
 
   void checkWidth(std::size_t width) const {
@@ -146,10 +160,19 @@ class TableReader {
   /// Among the columns from `first` on.
   std::size_t find(const std::string& column, std::size_t first) const {
     std::vector<std::string> names;
+    std::optional<std::size_t> found;
     for (std::size_t i = first; i < cells_.size(); ++i) {
-      names.push_back(trimmed(cells_[i].text.substr(0, cells_[i].text.find('['))));
-      if (names.back() == column) return i;
+      const std::string& heading = cells_[i].text;
+      names.push_back(trimmed(heading.substr(0, heading.find('['))));
+      if (names.back() != column && heading != column) continue;
+      if (found)
+        fail(cells_[i], fmt::format("a second column is named '{}'", printable(column)), "columns of different names");
+      found = i;
     }
+    if (found) return *found;
+    for (const Cell& cell : cells_)
+      if (!cell.text.empty() && (cell.text.front() == '"' || cell.text.front() == '\''))
+        fail(cell, fmt::format("the name {} is in quotation marks", printable(cell.text)), "names without them");
     throw UnknownName("column", column, names, "in " + path_);
   }
 
@@ -186,8 +209,14 @@ const std::string& TableFiles::textOf(const std::string& name) const {
   return text;
 }
 
-std::vector<std::vector<Amount>> TableFiles::columns(const toml::node& node, const std::string& what,
-                                                     const std::vector<WantedColumn>& wanted) const {
+void TableFiles::fail(const toml::node& node, std::size_t line, const std::string& problem,
+                      const std::string& expected) const {
+  const std::string path = pathOf(node.value_or(std::string()));
+  throw StudyError(fmt::format("{}:{}:1: {}; expected {}", printable(path), line, problem, expected));
+}
+
+TableFiles::Columns TableFiles::columns(const toml::node& node, const std::string& what,
+                                        const std::vector<WantedColumn>& wanted) const {
   const std::string name = source_.asText(node, what);
   try {
     return TableReader(textOf(name), pathOf(name)).columns(wanted);

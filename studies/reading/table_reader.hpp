@@ -35,9 +35,15 @@ class TableFiles {
   std::string pathOf(const std::string& name) const;
   /// Throws std::invalid_argument, with a sentence, for a file that cannot be read.
   const std::string& textOf(const std::string& name) const;
+  struct Columns {
+    std::vector<std::vector<Amount>> values;  ///< [column][row]
+    std::vector<std::size_t> lines;           ///< of the rows in the file, from 1
+  };
   /// These columns, row by row, of the file that is named at a node, which messages call `what`. Throws StudyError.
-  std::vector<std::vector<Amount>> columns(const toml::node& node, const std::string& what,
-                                           const std::vector<WantedColumn>& wanted) const;
+  Columns columns(const toml::node& node, const std::string& what, const std::vector<WantedColumn>& wanted) const;
+  /// Throws the StudyError that says what is wrong in a line of the file that is named at a node.
+  [[noreturn]] void fail(const toml::node& node, std::size_t line, const std::string& problem,
+                         const std::string& expected) const;
 
  private:
   const TomlSource& source_;

@@ -95,7 +95,7 @@ class UncertainReader {
       readRange(*stated, result);
     else
       takeSupports(section, result);
-    const toml::node& interval = stated != nullptr ? *stated : static_cast<const toml::node&>(section.table());
+    const toml::node& interval = stated != nullptr ? *stated : supportOf(section);
     readShapes(source_, section, files_, result);
     readCourse(section, node, result);
     try {
@@ -104,6 +104,15 @@ class UncertainReader {
       source_.failWith(interval, error.what(), "an interval that holds the nominal value and both supports");
     }
     study_.uncertain.push_back(std::move(result));
+  }
+
+  /// What an interval follows from that is not stated: values or a file of them, or all that is said of the quantity.
+  static const toml::node& supportOf(const TomlSection& section) {
+    if (const toml::node* distribution = section.find("distribution"); distribution != nullptr)
+      if (const toml::table* table = distribution->as_table())
+        for (const char* key : {"values", "edges", "file"})
+          if (const toml::node* node = table->get(key)) return *node;
+    return section.table();
   }
 
   /// Text, with * for any characters, or a list of such texts.
@@ -148,7 +157,7 @@ class UncertainReader {
       section.require("interval", fmt::format("{}, or a distribution or membership with a support", waysToSayIt));
     result.uncertain.nominal = midpoint(study_.mechanism.nominal(result.quantity));
     result.uncertain.range = range;
-    checkRange(section.table(), "the support of '" + result.quantity + "'", result);
+    checkRange(supportOf(section), "the support of '" + result.quantity + "'", result);
   }
 
   std::map<std::string, Interval> ranges() const {
