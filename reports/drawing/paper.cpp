@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <iterator>
+#include <limits>
 
 #include "reports/drawing/axes.hpp"
 #include "reports/words.hpp"
@@ -72,19 +73,61 @@ void drawWhiskers(const std::vector<double>& time, const Band& band, const Frame
   drawPath(pen, layer, svg, " estimate");
 }
 
-/// At the last number of the band; of several every other one below it.
-void drawLabel(const std::vector<double>& time, const Layer& layer, std::size_t i, const Frame& frame,
-               std::string& svg) {
-  const Line& line = layer.bands[i].lower;
-  std::size_t last = line.size();
-  while (last > 0 && !std::isfinite(line[last - 1])) --last;
-  if (last == 0) return;
-  const double y = frame.down(line[last - 1]);
-  drawText("end label", frame.across(time[last - 1]) - 4, y + (i % 2 != 0 || y < marginTop + 16 ? 13 : -4),
-           layer.labels[i], svg);
+/// How many pieces of lines go through a rectangle of the paper; limits themselves do not count.
+std::size_t crossings(const std::vector<double>& time, const std::vector<Layer>& layers, const Layer& own,
+                      const Frame& frame, double left, double right, double top, double bottom) {
+  std::size_t found = 0;
+  for (const Layer& layer : layers) {
+    if (layer.name == own.name) continue;
+    for (const std::size_t i : layer.shown())
+      for (const Line* line : {&layer.bands[i].lower, &layer.bands[i].upper})
+        for (std::size_t t = 1; t < line->size(); ++t) {
+          const double from = (*line)[t - 1], to = (*line)[t];
+          if (!std::isfinite(from) || !std::isfinite(to)) continue;
+          if (frame.across(time[t]) < left || frame.across(time[t - 1]) > right) continue;
+          const double above = frame.down(std::max(from, to)), below = frame.down(std::min(from, to));
+          if (below >= top && above <= bottom) ++found;
+        }
+  }
+  return found;
 }
 
-void drawLayer(const std::vector<double>& time, const Layer& layer, const Frame& frame, std::string& svg) {
+/// At the last or at the first number of the band, above or below it, where the fewest lines are: the first of these
+/// places if all are alike; of several the others begin below.
+void drawLabel(const std::vector<double>& time, const std::vector<Layer>& layers, const Layer& layer, std::size_t i,
+               const Frame& frame, std::string& svg) {
+  const Line& line = layer.bands[i].lower;
+  const auto isThere = [](double x) { return std::isfinite(x); };
+  const auto first = std::ranges::find_if(line, isThere);
+  if (first == line.end()) return;
+  std::size_t last = line.size();
+  while (!isThere(line[last - 1])) --last;
+  constexpr double letter = 6.2, size = 11, beside = 4;
+  const double wide = letter * static_cast<double>(layer.labels[i].size());
+  std::size_t least = std::numeric_limits<std::size_t>::max();
+  bool isEnd = true;
+  double x = 0, y = 0;
+  for (const bool atEnd : {true, false}) {
+    const std::size_t at = atEnd ? last - 1 : static_cast<std::size_t>(first - line.begin());
+    const double on = frame.down(line[at]), edge = frame.across(time[at]) + (atEnd ? -beside : beside);
+    const bool isBelowFirst = i % 2 != 0 || on < marginTop + 16;
+    for (const bool isBelow : {isBelowFirst, !isBelowFirst}) {
+      const double base = on + (isBelow ? 13 : -4), left = atEnd ? edge - wide : edge;
+      if (base - size < 0 || base > frame.height - marginBottom) continue;
+      const std::size_t lines = crossings(time, layers, layer, frame, left, left + wide, base - size, base + 2);
+      if (lines >= least) continue;
+      least = lines;
+      isEnd = atEnd;
+      x = edge;
+      y = base;
+    }
+  }
+  if (least < std::numeric_limits<std::size_t>::max())
+    drawText(isEnd ? "end label" : "label", x, y, layer.labels[i], svg);
+}
+
+void drawLayer(const std::vector<double>& time, const std::vector<Layer>& layers, const Layer& layer,
+               const Frame& frame, std::string& svg) {
   for (const std::size_t i : layer.shown()) {
     const Band& band = layer.bands[i];
     if (layer.kind == Layer::Kind::whisker) {
@@ -95,7 +138,7 @@ void drawLayer(const std::vector<double>& time, const Layer& layer, const Frame&
       drawLine(time, band.lower, frame, layer, svg);
       drawLine(time, band.upper, frame, layer, svg);
     }
-    if (i < layer.labels.size()) drawLabel(time, layer, i, frame, svg);
+    if (i < layer.labels.size()) drawLabel(time, layers, layer, i, frame, svg);
   }
 }
 
@@ -117,7 +160,7 @@ std::string drawLayers(const Plot& plot, const std::vector<Layer>& layers, const
   std::string svg = openedDrawing(frame.height, label, frame.width);
   drawHorizontalAxis(frame, "time (s)", frame.width < paperWidth ? 5 : 8, svg);
   drawVerticalAxis(frame, axisName, ticks, svg);
-  for (const Layer& layer : layers) drawLayer(plot.time, layer, frame, svg);
+  for (const Layer& layer : layers) drawLayer(plot.time, layers, layer, frame, svg);
   return svg + "</svg>\n";
 }
 

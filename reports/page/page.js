@@ -97,19 +97,51 @@ gamut.plots = (() => {
     }
   };
 
+  // How many pieces of lines go through a rectangle of the canvas; those of the layer itself do not count.
+  const crossings = (plot, lines, own, left, right, top, bottom) => {
+    const from = Math.max(0, time.findIndex(t => plot.valToPos(t, "x", true) >= left) - 1);
+    let found = 0;
+    lines.forEach((other, k) => {
+      if (other.layer === own || !plot.series[k + 1].show) return;
+      for (let t = from + 1; t < time.length && plot.valToPos(time[t - 1], "x", true) <= right; ++t) {
+        if (other.line[t - 1] == null || other.line[t] == null) continue;
+        const a = plot.valToPos(other.line[t - 1], "y", true), b = plot.valToPos(other.line[t], "y", true);
+        if (Math.max(a, b) >= top && Math.min(a, b) <= bottom) ++found;
+      }
+    });
+    return found;
+  };
+
+  // At the end or at the begin of what is seen, above or below the line, where the fewest lines are: as on paper.
   const drawLabels = (plot, lines) => {
-    const { ctx, bbox } = plot;
+    const { ctx, bbox } = plot, px = devicePixelRatio;
     ctx.save();
-    ctx.font = 11 * devicePixelRatio + "px system-ui, sans-serif";
-    ctx.textAlign = "right";
+    ctx.font = 11 * px + "px system-ui, sans-serif";
+    ctx.textAlign = "left";
+    ctx.lineWidth = 3 * px;
+    ctx.lineJoin = "round";
+    ctx.strokeStyle = color("paper");
     lines.forEach((line, i) => {
       const last = line.label && plot.series[i + 1].show ? line.line.findLastIndex(x => x != null) : -1;
       if (last < 0) return;
-      const x = Math.min(plot.valToPos(time[last], "x", true), bbox.left + bbox.width) - 4, y = plot.valToPos(line.line[last], "y", true);
-      const isHigh = line.isBelow || y < bbox.top + 16 * devicePixelRatio;
-      if (x < bbox.left || y < bbox.top || y > bbox.top + bbox.height) return;
+      const end = Math.min(plot.valToPos(time[last], "x", true), bbox.left + bbox.width) - 4 * px;
+      const begin = Math.max(plot.valToPos(time[line.line.findIndex(x => x != null)], "x", true), bbox.left) + 4 * px;
+      const y = plot.valToPos(line.line[last], "y", true), wide = ctx.measureText(line.label).width;
+      if (end < bbox.left || y < bbox.top || y > bbox.top + bbox.height) return;
+      const isBelowFirst = line.isBelow || y < bbox.top + 16 * px;
+      let best = null;
+      for (const left of [end - wide, begin]) {
+        for (const isBelow of [isBelowFirst, !isBelowFirst]) {
+          const base = y + (isBelow ? 13 : -4) * px;
+          if (base - 11 * px < bbox.top || base > bbox.top + bbox.height) continue;
+          const found = crossings(plot, lines, line.layer, left, left + wide, base - 11 * px, base + 2 * px);
+          if (best == null || found < best.found) best = { found, left, base };
+        }
+      }
+      if (best == null) return;
+      ctx.strokeText(line.label, best.left, best.base);
       ctx.fillStyle = line.stroke;
-      ctx.fillText(line.label, x, y + (isHigh ? 13 : -4) * devicePixelRatio);
+      ctx.fillText(line.label, best.left, best.base);
     });
     ctx.restore();
   };

@@ -1,9 +1,14 @@
 // A margin belongs to an output if its formula names what the output is, and their numbers differ by one number.
 #include "reports/sections/limits.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <limits>
+#include <numbers>
+#include <string>
 
 #include "reports/sections/contribution.hpp"
 #include "reports/words.hpp"
@@ -11,12 +16,15 @@
 namespace gamut {
 namespace {
 
-/// The number c with margin = output - c (sign 1) or c - output (sign -1) in all bounds; NaN if there is none.
-double limitBetween(const Bounds& bounds, std::size_t margin, std::size_t output, int sign) {
+constexpr double degree = std::numbers::pi / 180;
+
+/// The number c with margin = scale (output - c) (sign 1) or scale (c - output) (sign -1) in all bounds; NaN if there
+/// is none.
+double limitBetween(const Bounds& bounds, std::size_t margin, std::size_t output, int sign, double scale) {
   double least = INFINITY, greatest = -INFINITY, size = 0;
   for (std::size_t i = 0; i < bounds.lower.times; ++i) {
     const double low = bounds.lower(i, output), high = bounds.upper(i, output);
-    const double below = bounds.lower(i, margin), above = bounds.upper(i, margin);
+    const double below = bounds.lower(i, margin) / scale, above = bounds.upper(i, margin) / scale;
     for (const double c : {(sign > 0 ? low : high) - sign * below, (sign > 0 ? high : low) - sign * above}) {
       if (!std::isfinite(c)) continue;
       least = std::min(least, c);
@@ -29,11 +37,42 @@ double limitBetween(const Bounds& bounds, std::size_t margin, std::size_t output
                                                                                           : std::nan("");
 }
 
+/// Whether the output is an angle in degrees, as far as units tell: its numbers do.
+double scaleOf(const Results& results, std::size_t margin, std::size_t output) {
+  const std::string &of = results.outputs[margin].unit, &in = results.outputs[output].unit;
+  return of == "rad" && (in.empty() || in == "1") ? degree : 1;
+}
+
+/// It varies, so that another limit would be seen.
+bool varies(const Bounds& bounds, std::size_t output) {
+  double least = INFINITY, greatest = -INFINITY;
+  for (std::size_t i = 0; i < bounds.lower.times; ++i) {
+    least = std::fmin(least, bounds.lower(i, output));
+    greatest = std::fmax(greatest, bounds.upper(i, output));
+  }
+  return greatest - least > 1e-3 * std::max(std::abs(least), std::abs(greatest));
+}
+
 /// As a limit is stated: few decimals, if they say the same.
 double rounded(double value, double size) {
   for (int digits = 1; digits < 8; ++digits)
     if (const double near = std::stod(numberText(value, digits)); std::abs(near - value) <= 1e-7 * size) return near;
   return value;
+}
+
+/// "40 deg" of what is stated so and drawn in rad, or as a number.
+std::string labelOf(const Results& results, const Limit& limit, const std::string& unit) {
+  const std::string& statement = results.requirements[limit.requirement].statement;
+  const bool isDegrees = scaleOf(results, limit.margin, limit.output) != 1;
+  if (isDegrees) return "limit " + numberText(limit.value, 6) + " deg";
+  const std::string number = numberText(limit.value, 6) + (unit.empty() ? "" : " " + unit);
+  const std::size_t at = statement.find(" deg");
+  const bool isStatedInDegrees =
+      unit == "rad" && at != std::string::npos &&
+      (at + 4 == statement.size() || std::isalnum(static_cast<unsigned char>(statement[at + 4])) == 0);
+  if (!isStatedInDegrees) return "limit " + number;
+  return fmt::format("limit {} deg ({})", numberText(rounded(limit.value / degree, std::abs(limit.value / degree)), 6),
+                     number);
 }
 
 void draw(const Results& results, std::size_t output, Plot& plot) {
@@ -50,7 +89,7 @@ void draw(const Results& results, std::size_t output, Plot& plot) {
       if (results.horizon == 0 || (results.time[i] >= requirement.from && results.time[i] <= requirement.until))
         line[i] = limit.value;
     layer.bands.push_back({std::move(line), {}});
-    layer.labels.push_back("limit " + numberText(limit.value, 6) + (plot.unit.empty() ? "" : " " + plot.unit));
+    layer.labels.push_back(labelOf(results, limit, plot.unit));
   }
   if (!layer.bands.empty()) plot.layers.push_back(std::move(layer));
 }
@@ -84,15 +123,16 @@ std::vector<Limit> limitsOf(const Results& results) {
       std::size_t longest = 0;
       for (std::size_t o = 0; bounds != nullptr && o < results.outputs.size(); ++o) {
         const std::string& quantity = results.outputs[o].quantity;
-        if (isMargin(results, o) || quantity.size() <= longest ||
-            results.outputs[m].quantity.find(quantity) == std::string::npos)
+        const double scale = scaleOf(results, m, o);
+        const bool isNamed = results.outputs[m].quantity.find(quantity) != std::string::npos;
+        if (isMargin(results, o) || quantity.size() <= longest || !(isNamed || (scale != 1 && varies(*bounds, o))))
           continue;
         for (const int sign : {1, -1}) {
-          const double value = limitBetween(*bounds, m, o, sign);
+          const double value = limitBetween(*bounds, m, o, sign, scale);
           if (std::isnan(value)) continue;
           limit.output = o;
           limit.value = rounded(value, std::abs(value));
-          longest = quantity.size();
+          longest = isNamed ? quantity.size() : 0;
           break;
         }
       }

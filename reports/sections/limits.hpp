@@ -9,7 +9,8 @@
 
 namespace gamut {
 
-/// margin = value of the output - limit, or limit - value.
+/// margin = value of the output - limit, or limit - value; where the margin is in rad and the output a number of
+/// degrees, the margin is so many rad.
 struct Limit {
   std::size_t requirement = 0, margin = 0;  ///< numbers of the requirement, and of the output that is its margin
   std::size_t output = 0;                   ///< that the limit is of: the margin itself, above zero, if no other fits

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "reports/drawing/paper.hpp"
 #include "reports/report.hpp"
 #include "tests/reports/example_results.hpp"
 #include "tests/reports/page_text.hpp"
@@ -53,6 +54,40 @@ void require(Results& results, const std::string& name, std::size_t output, int 
     for (std::size_t i = 0; i < quantile.times; ++i) quantile(i, was) = sign * (quantile(i, output) - limit);
   }
   results.comparison.maximumOf.push_back(1.004);
+}
+
+/// A limit that is stated in degrees is said so beside an output in rad, and lies where it belongs in one of degrees.
+TEST(Limits, AreDrawnInDegreesWhereTheyAreStatedOrShownSo) {
+  Results results = example::pendulum(61, 2);
+  require(results, "flat", 0, -1, 0.7853981633974483);
+  results.requirements[0].statement = "always 'shoulder angle' < 45 deg";
+  std::string page = renderReport(results);
+  EXPECT_THAT(page, HasSubstr("limit 45 deg (0.785398 rad)"));
+  results.requirements[0].statement = "always 'shoulder angle' < 0.785398 rad";
+  EXPECT_THAT(renderReport(results), testing::AllOf(HasSubstr("limit 0.785398 rad"), Not(HasSubstr(" deg"))));
+  for (Bounds* bounds : {&results.interval.at, &results.interval.over, &results.stochastic.envelope})
+    for (Table* table : {&bounds->lower, &bounds->upper})
+      for (std::size_t i = 0; i < table->times; ++i) (*table)(i, 0) *= 180 / 3.141592653589793;
+  results.outputs[0].unit = "1";
+  results.outputs[0].quantity = "shoulder.angle / (1 deg)";
+  results.requirements[0].statement = "always shoulder.angle < 45 deg";
+  const std::vector<Limit> limits = limitsOf(results);
+  ASSERT_EQ(limits.size(), 1u);
+  EXPECT_EQ(limits[0].output, 0u);
+  EXPECT_NEAR(limits[0].value, 45, 1e-6);
+  page = renderReport(results);
+  EXPECT_THAT(page, testing::AllOf(HasSubstr(">limit 45 deg<"), Not(HasSubstr("0.785398"))));
+}
+
+/// The name of a limit stands at its end, unless a curve goes through there.
+TEST(Limits, AreNamedWhereNoCurveIs) {
+  Plot plot{"angle", "rad", {0, 1, 2, 3}, {}, {}};
+  plot.layers.push_back({.name = "median", .kind = Layer::Kind::line, .bands = {{{0, 0, 0, 0}, {}}}});
+  plot.layers.push_back(
+      {.name = "limit", .kind = Layer::Kind::line, .bands = {{{9, 9, 9, 9}, {}}}, .labels = {"limit 9 rad"}});
+  EXPECT_THAT(drawPlot(plot, ""), HasSubstr("class=\"end label\""));
+  plot.layers[0].bands[0].lower = {0, 0, 4, 18};
+  EXPECT_THAT(drawPlot(plot, ""), testing::AllOf(HasSubstr("class=\"label\""), Not(HasSubstr("end label"))));
 }
 
 TEST(Limits, AreThoseOfTheOutputsWhoseMarginsTheyMake) {
