@@ -59,6 +59,20 @@ std::string questionText(const Relation& r) {
   return fmt::format("Another question, of another motion: {}.", someOf(r.differences));
 }
 
+/// In what their samples were asked for differently; empty if in nothing.
+std::string samplesText(const Results& first, const Results& second) {
+  const StochasticResult &a = first.stochastic, &b = second.stochastic;
+  if (!a.present || !b.present) return {};
+  std::vector<std::string> parts;
+  const auto add = [&](const char* what, const auto& one, const auto& other) {
+    if (one != other) parts.push_back(fmt::format("{} {} in A, {} in B", what, one, other));
+  };
+  add("seed", first.seed, second.seed);
+  add("plan", a.plan, b.plan);
+  add("number", a.samples, b.samples);
+  return parts.empty() ? "" : fmt::format("Other samples: {}.\n", fmt::join(parts, "; "));
+}
+
 std::string sentence(const Difference& d) {
   if (d.word == "error") return "One of both is wrong: what A proves contradicts what B proves of the same motion.";
   if (d.word == "incompatible")
@@ -210,8 +224,8 @@ std::string comparisonText(const Difference& difference, const Results& first, c
                            const Both<std::string>& files) {
   const auto& [shared, relation, contradictions, changes, excesses, word] = difference;
   const bool moves = first.horizon > 0 || second.horizon > 0;
-  std::string text = fmt::format("A is {}, B is {}. {}\n{}\n", files.first, files.second, questionText(relation),
-                                 sentence(difference));
+  std::string text = fmt::format("A is {}, B is {}. {}\n{}{}\n", files.first, files.second, questionText(relation),
+                                 samplesText(first, second), sentence(difference));
   text += contradictionsText(contradictions.found, moves) + excessesText(excesses, moves);
   double distance = 0;
   for (const Contradiction& c : contradictions.undecided) distance = std::max(distance, c.distance);

@@ -12,7 +12,7 @@ inline constexpr const char* exitCodesText =
     "Exit codes:\n"
     "  0  done, and every sample lies inside its enclosure\n"
     "  1  a sample left its enclosure, or stayed unresolved; with `gamut check --requirements` also: a requirement\n"
-    "     is violated\n"
+    "     is violated; `gamut compare`: the results contradict each other, or the second is worse\n"
     "  2  bad input or usage\n"
     "  3  an analysis ended before its horizon, was interrupted or reached a limit of time or memory, a bound "
     "is\n"
