@@ -95,6 +95,9 @@ class Wording {
     const DistributionResult& distribution = results_.distribution;
     if (distribution.present && !distribution.stopped.empty())
       note(fmt::format("Probabilities were not bounded to the end: {}.", distribution.stopped));
+    const DerivativeResult& derivatives = results_.derivatives;
+    if (derivatives.present && !derivatives.stopped.empty())
+      note(fmt::format("Derivatives were not enclosed to the end: {}.", derivatives.stopped));
   }
 
   void noteUnlikely() {
@@ -136,6 +139,7 @@ class Wording {
                  : fmt::format("could not be decided: it lies outside by {}, its own error is {}.", distance,
                                withUnit(sample.error, sample.output));
     });
+    if (verdict_.gap == Gap::start) undecided.clear();  // nothing was computed that they would be left of
     noteSome(undecided, "seemed outside and were not decided", [&](const DisputedSample& /*sample*/) {
       return fmt::format("seemed outside and was not decided: {}.", whyUndecided());
     });
@@ -238,7 +242,8 @@ class Wording {
 
   /// One analysis that ended before the horizon, or, where nothing moves, before it had all that it could have.
   void noteEnd(const Answer& answer) {
-    if (!endsEarly(results_, answer)) return;
+    const bool isNoSample = &answer == &results_.stochastic && results_.stochastic.integrated == 0;  // said already
+    if (!endsEarly(results_, answer) || isNoSample) return;
     const std::string reason = answer.why.empty() ? "" : ": " + std::string(withoutTime(answer.why));
     note(moves() ? fmt::format("The {} ended at {} s of the {} s asked for{}.", answer.title(),
                                numberText(answer.reached, 6), numberText(results_.horizon, 6), reason)
@@ -296,6 +301,7 @@ class Wording {
       case Gap::unbounded:
       case Gap::end:
       case Gap::probability:
+      case Gap::derivative:
       case Gap::none:
         break;
     }
@@ -341,6 +347,7 @@ class Wording {
     if (verdict_.endsEarly) return text + (moves() ? horizonText() : " An analysis ended early.");
     if (verdict_.unbounded > 0) text += " Not every output is bounded.";
     if (verdict_.gap == Gap::probability) text += " Their probabilities were not bounded to the end.";
+    if (verdict_.gap == Gap::derivative) text += " Their derivatives were not enclosed to the end.";
     return text + (verdict_.missing > 0 ? " Not every number was there to compare." : "");
   }
 

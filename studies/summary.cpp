@@ -386,7 +386,18 @@ std::string textSummary(const Results& results) {
   if (!results.dependence.empty()) text += fmt::format("  dependence: {}\n", results.dependence);
   text += statisticsText(results);
   if (const DistributionResult& d = results.distribution; d.present) {
-    if (!d.time.empty() && !d.gaps.empty())
+    std::size_t known = 0, wanted = 0;
+    for (std::size_t i = 0; i < d.gaps.size(); ++i) {
+      if (isMargin(results, i % results.outputs.size())) continue;
+      ++wanted;
+      if (!std::isnan(d.gaps[i])) ++known;
+    }
+    const std::string& why = d.stopped.empty() ? d.why : d.stopped;
+    if (known == 0 && !why.empty())
+      text += fmt::format("  probabilities: not bounded: {}\n", why);
+    else if (known < wanted && !d.stopped.empty())
+      text += fmt::format("  probabilities: not all bounded: {}\n", why);
+    else if (known > 0)
       text += fmt::format("  probabilities: bounds {} apart at most, at {}{}\n", atMostText(d.gap, 2),
                           countText(static_cast<long long>(d.time.size()), "time"),
                           d.why.empty() ? "" : fmt::format(" ({} was asked for: {})", numberText(d.wanted, 3), d.why));

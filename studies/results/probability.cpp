@@ -100,6 +100,7 @@ std::vector<Field> fieldsOf(DerivativeResult& d) {
   constexpr std::string_view when = "/derivatives/time";
   return {{"reached", &d.reached, unit::second, "how far they are known", {}},
           {"why", &d.why, unit::none, "why no farther; empty if at the horizon", {}},
+          {"stopped", &d.stopped, unit::none, "why the run ended before that; empty if it did not", {}},
           {"cpu", &d.cpu, unit::second, "CPU time", {}},
           {"time", &d.time, unit::second, "some output times", {when}},
           {"lower",

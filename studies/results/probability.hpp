@@ -51,6 +51,7 @@ struct DerivativeResult {
   bool present = false;
   double reached = 0;                ///< s
   std::string why;                   ///< why no farther; empty if at the horizon
+  std::string stopped;               ///< why the run ended before that; empty if it did not
   double cpu = 0;                    ///< s
   std::vector<double> time;          ///< s: some output times, up to `reached`
   std::vector<double> lower, upper;  ///< [time][output][quantity], in the output's unit by the quantity's; NaN by what

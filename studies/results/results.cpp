@@ -67,6 +67,7 @@ std::string whyEnded(const Results& results) {
   for (const Answer* answer : results.answers()) add(answer->why);
   add(results.stochastic.stopped);
   add(results.distribution.stopped);
+  add(results.derivatives.stopped);
   add(results.comparison.why);
   return fmt::format("{}", fmt::join(reasons, "; "));
 }

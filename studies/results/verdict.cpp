@@ -198,12 +198,13 @@ class Finder {
     if (!comparesAnything()) return Gap::noAnswers;
     if (results_.stochastic.present && results_.stochastic.integrated == 0) return Gap::noSample;
     if (finding_.compared == 0 && !moves()) return Gap::noPosition;
-    if (isUndecided_) return Gap::undecided;
     if (endedAtStart()) return Gap::start;
+    if (isUndecided_) return Gap::undecided;
     const bool isUnfinished = results_.stochastic.present && !results_.stochastic.stopped.empty();
     if (finding_.endsEarly || isUnfinished || finding_.missing > 0) return Gap::end;
     if (finding_.unbounded > 0) return Gap::unbounded;
-    return results_.distribution.present && !results_.distribution.stopped.empty() ? Gap::probability : Gap::none;
+    if (results_.distribution.present && !results_.distribution.stopped.empty()) return Gap::probability;
+    return results_.derivatives.present && !results_.derivatives.stopped.empty() ? Gap::derivative : Gap::none;
   }
 
   void findOverestimation() {

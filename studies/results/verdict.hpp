@@ -28,14 +28,15 @@ struct Finding {
   /// Why nothing more can be said than how far the samples were inside, or not even that.
   enum class Gap {
     none,
-    noAnswers,   ///< samples, or what they could be compared with, were not asked for
-    noSample,    ///< none was followed
-    noPosition,  ///< kinematics: an analysis ended before it had anything
-    undecided,   ///< a disputed sample was left when the run was interrupted
-    start,       ///< an analysis ended before the first output time
-    unbounded,   ///< what is guaranteed of an output is, somewhere, no finite interval
-    end,         ///< the horizon was not reached, not all samples were followed, or numbers are missing
-    probability  ///< the bounds of probabilities were not found to the end
+    noAnswers,    ///< samples, or what they could be compared with, were not asked for
+    noSample,     ///< none was followed
+    noPosition,   ///< kinematics: an analysis ended before it had anything
+    undecided,    ///< a disputed sample was left when the run was interrupted
+    start,        ///< an analysis ended before the first output time
+    unbounded,    ///< what is guaranteed of an output is, somewhere, no finite interval
+    end,          ///< the horizon was not reached, not all samples were followed, or numbers are missing
+    probability,  ///< the bounds of probabilities were not found to the end
+    derivative    ///< neither were those of derivatives
   };
 
   /// "inside"      every sample lies in the enclosure, over the whole horizon;

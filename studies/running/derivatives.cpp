@@ -67,6 +67,7 @@ void encloseDerivatives(Run& run) {
     run.watch.memoryFailed();
     result.why = run.watch.why();
   }
+  if (*run.watch.stop()) result.stopped = run.watch.why();
   result.cpu = processCpuSeconds() - start;
 }
 

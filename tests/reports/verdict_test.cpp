@@ -387,6 +387,43 @@ TEST(Verdict, OfARunThatEndedWhileItBoundedProbabilitiesIsIncomplete) {
   EXPECT_EQ(judge(results).word, "inside");
 }
 
+TEST(Verdict, OfARunThatEndedWhileItEnclosedDerivativesIsIncomplete) {
+  Results results = example::pendulum();
+  results.derivatives.present = true;
+  results.derivatives.why = "the budget of CPU time is spent";  // their own: that is no early end of the run
+  EXPECT_EQ(judge(results).word, "inside");
+  results.derivatives.why = results.derivatives.stopped = "the run was interrupted";
+  results.comparison.verdict = "incomplete";
+  const Verdict verdict = judge(results);
+  EXPECT_EQ(verdict.word, "incomplete");
+  EXPECT_THAT(verdict.sentence, EndsWith("Their derivatives were not enclosed to the end."));
+  EXPECT_THAT(verdict.notes, ElementsAre("Derivatives were not enclosed to the end: the run was interrupted."));
+}
+
+/// Where nothing was enclosed but the start, no sample seemed outside of anything.
+TEST(Verdict, OfARunThatEndedAtTheStartNamesNoSamples) {
+  Results results = example::pendulum();
+  results.interval.reached = 0;
+  results.interval.why = "the run was interrupted";
+  dispute(results, 1e-6, "interrupted");
+  results.comparison.verdict = "incomplete";
+  const Verdict verdict = judge(results);
+  EXPECT_THAT(verdict.sentence,
+              StartsWith("Nothing could be compared: an analysis ended before the first output time"));
+  EXPECT_THAT(verdict.notes, testing::Not(testing::Contains(HasSubstr("seemed outside"))));
+  results.interval.reached = 1.5;
+  EXPECT_THAT(judge(results).notes, testing::Contains(HasSubstr("seemed outside")));
+}
+
+TEST(Verdict, SaysOnceThatNoSampleWasTaken) {
+  Results results = example::pendulum();
+  results.stochastic.integrated = 0;
+  results.stochastic.reached = 0;
+  results.stochastic.stopped = "the run was interrupted";
+  results.comparison.verdict = "incomplete";
+  EXPECT_THAT(judge(results).notes, ElementsAre("0 of 4099 samples were taken: the run was interrupted."));
+}
+
 TEST(Verdict, CountsTheSettledSamplesInOneLineAndNamesTheNearestBesides) {
   Results results = example::pendulum();
   for (int i = 0; i < 200; ++i) {  // of two bounds each

@@ -169,7 +169,8 @@ inline Results sampleResults() {
   s.samples = 256;
   s.firstSampled = s.totalSampled = {0.625, nan, nan, 0.5};
   s.firstError = s.totalError = {0.03125, nan, nan, 0.25};
-  r.derivatives = {true, 0.01, "the run was interrupted", 0.75, {0, 0.01}, {1, nan, -2, 0.25}, {1.5, nan, -1, 0.5}};
+  r.derivatives = {true, 0.01,      "the run was interrupted", "the run was interrupted",
+                   0.75, {0, 0.01}, {1, nan, -2, 0.25},        {1.5, nan, -1, 0.5}};
   SurrogateResult& polynomials = r.surrogate;
   polynomials.present = true;
   polynomials.centre = {1};
