@@ -70,7 +70,7 @@ TEST_F(Measurements, InHistogramsAreToldByTheLineOfTheTable) {
   };
   EXPECT_EQ(said("29,30,1\n30,31,2\n"), "");
   EXPECT_THAT(said("29,30,1\n30,31,-2\n"), HasSubstr("m.csv:3:1: the weight is negative"));
-  EXPECT_THAT(said("29,30,1\n\n31,30,2\n"), HasSubstr("m.csv:4:1: upper does not lie above lower"));
+  EXPECT_THAT(said("29,30,1\n\n31,30,2\n"), HasSubstr("m.csv:4:1: upper lies below lower"));
   EXPECT_THAT(said("29,30,1\n29.5,31,2\n"), HasSubstr("m.csv:3:1: lower lies below the upper"));
   EXPECT_THAT(said("29,30,0\n30,31,0\n"), HasSubstr("m.csv:2:1: no weight is above 0"));
 }
