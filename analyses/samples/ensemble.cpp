@@ -155,6 +155,35 @@ Sampling plannedSampling(const UncertainMotion& system, const EnsembleOptions& o
   return sampling;
 }
 
+/// Where there is something to look for.
+TurnScan scanOf(const UncertainMotion& system, const EnsembleOptions& options, const std::vector<Box>& cuts) {
+  if (options.transformation != Transformation::extended || cuts.empty()) return {};
+  std::vector<double> nominal;
+  for (const Uncertain& q : system.uncertain) nominal.push_back(q.nominal);
+  return {cuts, nominal};
+}
+
+/// Those of the extended method, but for those that look for turns.
+TransformationPoints insidePoints(const Sampling& sampling, const std::vector<Box>& cuts, const TurnScan& scan,
+                                  const std::vector<std::size_t>& turning) {
+  const std::size_t boxes = sampling.boxes().size(), all = std::min<std::size_t>(sampling.quantities(), 32);
+  const bool areCornersMissing = boxes > 0 && sampling.boxCorners() < boxes << all;
+  return extendedPoints(cuts, turning, mostExtendedPoints - scan.points().size(), areCornersMissing);
+}
+
+/// The points of the transformation, as far as they are known. Throws std::invalid_argument if they are too many.
+void addPoints(Sampling& sampling, const EnsembleOptions& options, const std::vector<Box>& cuts, const TurnScan& scan) {
+  if (cuts.empty() || sampling.quantities() == 0) return;
+  if (options.transformation == Transformation::general) {
+    if (generalCount(cuts) > static_cast<double>(mostGeneralPoints))
+      throw std::invalid_argument("the general transformation method has too many points here");
+    sampling.add(generalPoints(cuts));
+  }
+  if (options.transformation != Transformation::extended) return;
+  sampling.add(scan.points());
+  if (options.turning) sampling.add(insidePoints(sampling, cuts, scan, *options.turning));
+}
+
 /// Of how many levels the cuts hold these values: they are nested.
 std::size_t levelsHolding(const std::vector<Box>& cuts, std::span<const double> values) {
   std::size_t levels = 0;
@@ -201,11 +230,21 @@ EnsembleRun::EnsembleRun(const UncertainMotion& system, EnsembleOptions options)
       options_(std::move(options)),
       sampling_(plannedSampling(system, options_, cornerLevels_)),
       cuts_(cutsOf(system.uncertain, options_.alpha)),
+      scan_(scanOf(system, options_, cuts_)),
+      turning_(options_.turning),
       reachedTimes_(system.motion.times.size()),
       error_(system.motion.times.size(), system.motion.outputs()),
       errorStride_(errorStrideFor(sampling_.samples())),
       nextBeside_(sampling_.samples()),
-      total_(sampling_.size() + (sampling_.samples() + errorStride_ - 1) / errorStride_) {}
+      nextPoint_(sampling_.centre() + 1),
+      total_((sampling_.samples() + errorStride_ - 1) / errorStride_) {
+  addPoints(sampling_, options_, cuts_, scan_);
+  total_ += mostSamples();
+}
+
+std::size_t EnsembleRun::mostSamples() const {
+  return scan_.points().size() > 0 && !turning_ ? sampling_.centre() + 1 + mostExtendedPoints : sampling_.size();
+}
 
 std::size_t EnsembleRun::packWidth() const { return widthOf(system_.motion, options_.method); }
 
@@ -219,7 +258,7 @@ void EnsembleRun::completeOne() {
 }
 
 std::size_t EnsembleRun::placeInPack(std::size_t number) const {
-  return (number < sampling_.samples() ? number : number - sampling_.samples()) % gamut::packWidth;
+  return (number - sampling_.zoneOf(number).begin) % gamut::packWidth;
 }
 
 /// The samples from `next` on, before `end`, that make a block. A pack that was cut off inside was being integrated one
@@ -317,7 +356,7 @@ void EnsembleRun::integrateFirst(std::size_t& next, std::size_t end) {
 
 void EnsembleRun::integrateFirst() {
   integrateFirst(nextSample_, std::min(sampling_.samples(), firstSamples));
-  integrateFirst(nextBeside_, sampling_.size());
+  integrateFirst(nextBeside_, sampling_.centre() + 1);
   for (const SampleBlock& block : first_) measureError(block);
 }
 
@@ -354,6 +393,7 @@ void EnsembleRun::take(SampleBlock& block, const Look& look) {
 void EnsembleRun::integrateOthers(const Envelope& expected, const Look& look) {
   integrateFirst();
   statistics_.emplace(expectedRange(expected), cuts_.size());
+  beginScan();
   for (SampleBlock& block : first_) take(block, look);
   first_.clear();
   const std::size_t size = gamut::packWidth * packsOfBlock(error_.data.size());
@@ -364,6 +404,40 @@ void EnsembleRun::integrateOthers(const Envelope& expected, const Look& look) {
     nextSample_ += block.size();
     measureError(block);
     take(block, look);
+  }
+  integratePoints(look);
+}
+
+/// With what corners and centre say, whatever the number of samples: so the same quantities are found with more.
+void EnsembleRun::beginScan() {
+  if (scan_.points().size() == 0) return;
+  Envelope range(system_.motion.times.size(), system_.motion.outputs());
+  for (const SampleBlock& block : first_)
+    for (std::size_t i = 0; !block.hasWeight() && i < block.size(); ++i)
+      for (std::size_t t = 0; t < range.lower.times; ++t)
+        for (std::size_t o = 0; o < range.lower.outputs; ++o) range.include(t, o, block(i, t, o));
+  constexpr double margin = 1000;  // how far off trajectories may be, in tolerances
+  scan_.begin(range, margin * options_.tolerance.absolute, margin * options_.tolerance.relative);
+}
+
+void EnsembleRun::integratePoints(const Look& look) {
+  const std::size_t size = gamut::packWidth * packsOfBlock(error_.data.size());
+  while (nextPoint_ < sampling_.size() && !isCancelled()) {
+    const Sampling::Zone zone = sampling_.zoneOf(nextPoint_);
+    const bool isScan = zone.begin == sampling_.centre() + 1 && scan_.points().size() > 0;
+    SampleBlock block = nextBlock(nextPoint_, std::min(zone.end, nextPoint_ + size));
+    integrate(block);
+    if (block.size() == 0) return;
+    nextPoint_ += block.size();
+    take(block, look);
+    if (!isScan) continue;
+    scan_.include(block);
+    if (nextPoint_ < zone.end || turning_) continue;
+    total_ -= mostSamples();
+    turning_ = scan_.turning(cuts_);
+    sampling_.add(insidePoints(sampling_, cuts_, scan_, *turning_));
+    total_ += mostSamples();
+    if (options_.progress && done_ == total_) options_.progress(1);
   }
 }
 
@@ -415,11 +489,13 @@ SampleBlock integrateValues(const UncertainMotion& system, const EnsembleOptions
 SampleBlock replaySample(const UncertainMotion& system, const EnsembleOptions& options, std::size_t number) {
   std::vector<double> levels;
   Sampling sampling = plannedSampling(system, options, levels);
+  const std::vector<Box> cuts = cutsOf(system.uncertain, options.alpha);
+  addPoints(sampling, options, cuts, scanOf(system, options, cuts));
   if (number >= sampling.size()) throw std::invalid_argument("no sample has the number " + std::to_string(number));
   const bool hasWeight = number < sampling.samples();
-  const std::size_t zone = hasWeight ? 0 : sampling.samples(), end = hasWeight ? sampling.samples() : sampling.size();
-  const std::size_t first = zone + (number - zone) / packWidth * packWidth;
-  SampleBlock block(first, std::min<std::size_t>(packWidth, end - first), hasWeight, sampling.quantities(),
+  const Sampling::Zone zone = sampling.zoneOf(number);
+  const std::size_t first = zone.begin + (number - zone.begin) / packWidth * packWidth;
+  SampleBlock block(first, std::min<std::size_t>(packWidth, zone.end - first), hasWeight, sampling.quantities(),
                     system.motion.times.size(), system.motion.outputs());
   for (std::size_t i = 0; i < block.size(); ++i)
     std::ranges::copy(sampling.values(first + i, system.uncertain), block.values(i).begin());
@@ -432,7 +508,7 @@ SampleBlock replaySample(const UncertainMotion& system, const EnsembleOptions& o
   std::ranges::copy(block.values(number - first), replayed.values(0).begin());
   replayed.setTrajectory(0, block.trajectory(number - first));
   replayed.runs[0] = block.runs[number - first];
-  replayed.levels[0] = levelsHolding(cutsOf(system.uncertain, options.alpha), replayed.values(0));
+  replayed.levels[0] = levelsHolding(cuts, replayed.values(0));
   return replayed;
 }
 

@@ -46,7 +46,10 @@ struct EnsembleOptions {
   /// CPU time after which a sample fails; a pack that takes longer than sixteen samples may is given up, and its
   /// samples are integrated one by one
   double secondsPerSample = std::numeric_limits<double>::infinity();
-  std::vector<double> alpha;                     ///< rising membership levels, of which inner cuts are wanted
+  std::vector<double> alpha;  ///< rising membership levels, of which inner cuts are wanted
+  Transformation transformation = Transformation::reduced;  ///< where points are put for these
+  /// By the extended method, in which quantities outputs turn, rising, where that is known already
+  std::optional<std::vector<std::size_t>> turning;
   int jobs = 1;                                  ///< threads
   std::function<void(double)> progress;          ///< called with the fraction done (0 … 1), from any thread
   const std::atomic<bool>* cancelled = nullptr;  ///< set from outside to end early; what has ended is kept
@@ -61,12 +64,13 @@ struct FailedSample {
 };
 
 /// The samples of `system` on their way into the statistics: all samples of the plan, the corners, the corners of the
-/// alpha-cuts and the centre. Every number depends on the options' plan, samples, seed, tolerance, method and alpha
-/// alone, but which samples took too long. By Adams's method the samples of one number / packWidth are integrated
-/// together (corners and centre, which follow the samples, counted from the first corner), in the steps of the one that
-/// needs the shortest: a sample's trajectory is what its pack gave. Packs of so few samples that they would cost more
-/// than the samples alone, packs of which a sample fails, all samples by Method::bdf and those of a motion whose
-/// equations jump are integrated one by one. Samples that fail are named.
+/// alpha-cuts, the centre, and the points of the transformation. Every number depends on the options' plan, samples,
+/// seed, tolerance, method and alpha alone, but which samples took too long. By Adams's method the samples of one
+/// number / packWidth are integrated together (corners and centre, which follow the samples, counted from the first
+/// corner; points of the transformation from the first that looks for turns, and from the first behind these), in the
+/// steps of the one that needs the shortest: a sample's trajectory is what its pack gave. Packs of so few samples that
+/// they would cost more than the samples alone, packs of which a sample fails, all samples by Method::bdf and those of
+/// a motion whose equations jump are integrated one by one. Samples that fail are named.
 class EnsembleRun {
  public:
   /// Looks at samples before they count, and may put better trajectories in their place. Called from one thread, block
@@ -81,20 +85,27 @@ class EnsembleRun {
   /// Integrates the first samples, at most 256, then the corners and the centre, and keeps them. If that is cancelled,
   /// those before the first that has not come to its end are kept, and a second call goes on behind them.
   void integrateFirst();
-  /// Takes the first samples into the statistics, with what was still missing of them, then integrates all others and
-  /// takes them. `expected`: where outputs are expected besides what the first samples say, such as an enclosure; NaN
-  /// where nothing is known, or empty.
+  /// Takes the first samples into the statistics, with what was still missing of them, then integrates all others, the
+  /// points of the transformation last, and takes them. `expected`: where outputs are expected besides what the first
+  /// samples say, such as an enclosure; NaN where nothing is known, or empty.
   void integrateOthers(const Envelope& expected = {}, const Look& look = {});
 
   const EnsembleOptions& options() const { return options_; }
   const Sampling& sampling() const { return sampling_; }
   /// At which levels the cuts are that the sampling has corners of.
   const std::vector<double>& cornerLevels() const { return cornerLevels_; }
+  /// So many samples, corners and points at most, known before all are.
+  std::size_t mostSamples() const;
+  /// The quantities that the extended method gives values between the ends of their cuts; nothing until its points have
+  /// looked for turns, unless they were an option.
+  const std::optional<std::vector<std::size_t>>& turning() const { return turning_; }
+  /// What these points found of each quantity (TurnScan::turns); empty by other methods.
+  const std::vector<double>& turns() const { return scan_.turns(); }
   /// 64, or 1 where samples are integrated one by one.
   std::size_t packWidth() const;
   /// Samples that count in the statistics: those of the plan, unless cancelled.
   std::size_t counted() const { return counted_; }
-  /// The same and corners and centre.
+  /// The same and corners, centre and points.
   std::size_t integrated() const { return counted_ + beside_; }
   /// All of them, and their error measured to the end.
   bool isComplete() const { return integrated() == sampling_.size() && measured_ == sampling_.samples(); }
@@ -124,6 +135,8 @@ class EnsembleRun {
   SampleBlock nextBlock(std::size_t next, std::size_t end) const;
   void integrate(SampleBlock& block);
   void integrateFirst(std::size_t& next, std::size_t end);
+  void beginScan();
+  void integratePoints(const Look& look);
   void measureError(const SampleBlock& block);
   void noteFailures(const SampleBlock& block);
   void take(SampleBlock& block, const Look& look);
@@ -136,14 +149,17 @@ class EnsembleRun {
   std::vector<double> cornerLevels_;
   Sampling sampling_;
   std::vector<Box> cuts_;  // of each level of alpha
+  TurnScan scan_;
+  std::optional<std::vector<std::size_t>> turning_;
   std::vector<SampleBlock> first_;
   std::optional<EnsembleStatistics> statistics_;
   std::vector<FailedSample> failed_;
   std::size_t failures_ = 0, counted_ = 0, beside_ = 0, reachedTimes_;
   Table error_;
   std::size_t errorStride_;
-  std::size_t nextSample_ = 0, nextBeside_;  // to be integrated: of the plan, and of the corners with the centre
-  std::size_t measured_ = 0;                 // so many of the plan's samples have had their share in the error
+  std::size_t nextSample_ = 0, nextBeside_,
+              nextPoint_;     // to be integrated: of the plan, of the corners with the centre, of the points
+  std::size_t measured_ = 0;  // so many of the plan's samples have had their share in the error
   std::size_t total_;
   std::atomic<std::size_t> done_{0};
 };

@@ -14,7 +14,8 @@ namespace gamut {
 
 class SampleBlock {
  public:
-  /// Numbers first … first + count - 1. Without weight: corners and the centre, which count in envelopes alone.
+  /// Numbers first … first + count - 1. Without weight: corners, the centre and points of a transformation, which
+  /// count in envelopes alone.
   SampleBlock(std::size_t first, std::size_t count, bool hasWeight, std::size_t quantities, std::size_t times,
               std::size_t outputs)
       : runs(count),

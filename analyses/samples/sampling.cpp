@@ -1,4 +1,4 @@
-// Plans by GSL's generators and by hashes, and the corners' orthogonal array. Points are made when they are asked for.
+// Plans by GSL's generators and by hashes. Points are made when they are asked for.
 #include "analyses/samples/sampling.hpp"
 
 #include <gsl/gsl_qrng.h>
@@ -6,11 +6,11 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
+#include <iterator>
 #include <memory>
-#include <numeric>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace gamut {
 namespace {
@@ -260,21 +260,6 @@ Plan planNamed(std::string_view name) {
 
 bool keepsFirstPoints(Plan plan) { return plan != Plan::latinHypercube && plan != Plan::grid; }
 
-/// Column j of the corners' array has bit parity(corner & mask): masks of one bit first (all combinations of the first
-/// quantities), then the others with an odd number of bits, then those with an even number.
-Sampling::Ends::Ends(std::size_t bits) : masks_((std::size_t{1} << bits) - 1) {
-  std::iota(masks_.begin(), masks_.end(), std::size_t{1});
-  const auto rank = [&](std::size_t mask) {
-    const int ones = std::popcount(mask);
-    return ones % 2 == 1 ? ones : static_cast<int>(bits) + ones;
-  };
-  std::stable_sort(masks_.begin(), masks_.end(), [&](std::size_t a, std::size_t b) { return rank(a) < rank(b); });
-}
-
-bool Sampling::Ends::isUpper(std::size_t corner, std::size_t quantity) const {
-  return std::popcount(corner & masks_[quantity % masks_.size()]) % 2 == 1;
-}
-
 Sampling::Sampling(Plan plan, std::size_t quantities, std::size_t samples, std::uint64_t seed, std::vector<Box> boxes)
     : plan_(plan),
       quantities_(quantities),
@@ -284,7 +269,10 @@ Sampling::Sampling(Plan plan, std::size_t quantities, std::size_t samples, std::
   if (samples == 0) throw std::invalid_argument("a sampling plan needs at least one sample");
   for (const Box& box : boxes_)
     if (box.size() != quantities) throw std::invalid_argument("a box needs one interval for each quantity");
-  if (quantities == 0) return;
+  if (quantities == 0) {
+    zones_ = {1, 2};
+    return;
+  }
   if (plan == Plan::grid) {
     samples_ = cappedPower(gridCount(quantities, samples), quantities, largestGrid + 1);
     if (samples_ > largestGrid)
@@ -300,6 +288,19 @@ Sampling::Sampling(Plan plan, std::size_t quantities, std::size_t samples, std::
   std::size_t bits = 1;
   while (bits < std::min(quantities, cornerBits) && boxes_.size() << (bits + 1) <= mostBoxCorners) ++bits;
   boxEnds_ = Ends(bits);
+  zones_ = {samples_, centre() + 1};
+}
+
+void Sampling::add(TransformationPoints points) {
+  if (points.size() == 0) return;
+  zones_.push_back(zones_.back() + points.size());
+  added_.push_back(std::move(points));
+}
+
+Sampling::Zone Sampling::zoneOf(std::size_t number) const {
+  const auto end = std::ranges::upper_bound(zones_, number);
+  if (end == zones_.end()) throw std::out_of_range("the sampling plan has no such number");
+  return {end == zones_.begin() ? 0 : *std::prev(end), *end};
 }
 
 void Sampling::unitPoint(std::size_t number, std::span<double> point) {
@@ -330,6 +331,12 @@ void Sampling::toValues(std::size_t number, const std::vector<Uncertain>& uncert
   if (number >= size()) throw std::out_of_range("the sampling plan has no such number");
   if (number < samples_)
     for (const GaussianCopula& copula : copulas_) copula.correlate(point);
+  if (number > centre()) {
+    constexpr std::size_t others = 2;  // zones before
+    const auto zone = static_cast<std::size_t>(std::ranges::upper_bound(zones_, number) - zones_.begin());
+    added_[zone - others].point(number - zones_[zone - 1], point);
+    return;
+  }
   const std::size_t firstInner = samples_ + corners();
   for (std::size_t j = 0; j < quantities_; ++j) {
     const Uncertain& q = uncertain[j];

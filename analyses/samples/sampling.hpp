@@ -1,6 +1,7 @@
 // Where samples are put: plans of points in the unit cube (one axis an uncertain quantity), which the distributions'
 // quantiles map to values. Beside the samples, which alone count in statistics, every plan has the corners of the box,
-// the corners of boxes inside it and the nominal centre: there extremes are often found.
+// the corners of boxes inside it and the nominal centre, and it may have points of a transformation: there extremes are
+// often found.
 #pragma once
 
 #include <cstddef>
@@ -12,6 +13,7 @@
 #include <vector>
 
 #include "analyses/dependence.hpp"
+#include "analyses/samples/transformation.hpp"
 #include "analyses/uncertainty.hpp"
 
 namespace gamut {
@@ -45,8 +47,8 @@ class PointSequence {
 inline constexpr std::size_t batchCount = 16;
 
 /// The points of one plan; none is kept. Numbers 0 … samples()-1 are the samples, then follow the corners, then the
-/// corners of the inner boxes, the centre is last. Which point a number has follows from the seed and the number (for a
-/// Latin hypercube and a grid also from the number of samples), never from the number of jobs.
+/// corners of the inner boxes, the centre, and what is added besides. Which point a number has follows from the seed
+/// and the number (for a Latin hypercube and a grid also from the number of samples), never from the number of jobs.
 class Sampling {
  public:
   /// At least `samples` points (> 0) for so many quantities: exactly so many, except that a grid has c^quantities
@@ -69,36 +71,38 @@ class Sampling {
   std::size_t boxCorners() const { return boxes_.size() * boxEnds_.count(); }
   const std::vector<Box>& boxes() const { return boxes_; }
   std::size_t centre() const { return samples_ + corners() + boxCorners(); }
-  std::size_t size() const { return centre() + 1; }
+  /// Of all transformations that were added.
+  std::size_t points() const { return size() - centre() - 1; }
+  std::size_t size() const { return zones_.back(); }
+
+  /// Points that follow all others.
+  void add(TransformationPoints points);
+
+  /// Numbers begin … end - 1 of one kind.
+  struct Zone {
+    std::size_t begin, end;
+  };
+  /// The samples, the corners with the centre, or points that were added together: that which `number` is of.
+  Zone zoneOf(std::size_t number) const;
 
   /// Coordinates (0 … 1) of a sample or corner (of its box), one a quantity. Quick where the numbers rise; to go back
   /// takes as long as to come from 0.
   void unitPoint(std::size_t number, std::span<double> point);
   std::vector<double> unitPoint(std::size_t number);
-  /// Makes coordinates into values of the quantities: quantiles for samples, ends of the ranges or boxes for corners,
-  /// nominal values for the centre, whatever its coordinates.
+  /// Makes coordinates into values of the quantities: quantiles for samples, ends of the ranges or boxes for corners;
+  /// whatever the coordinates, nominal values for the centre, and values of their own for points that were added.
   void toValues(std::size_t number, const std::vector<Uncertain>& uncertain, std::span<double> point) const;
   std::vector<double> values(std::size_t number, const std::vector<Uncertain>& uncertain);
 
  private:
-  /// Which end each quantity has in so many corners.
-  class Ends {
-   public:
-    Ends() = default;
-    explicit Ends(std::size_t bits);
-    std::size_t count() const { return masks_.empty() ? 0 : masks_.size() + 1; }
-    bool isUpper(std::size_t corner, std::size_t quantity) const;
-
-   private:
-    std::vector<std::size_t> masks_;
-  };
-
   Plan plan_;
   std::size_t quantities_, samples_, batches_ = 1;
   std::uint64_t seed_;
   std::vector<Box> boxes_;
   std::vector<GaussianCopula> copulas_;
   Ends ends_, boxEnds_;
+  std::vector<TransformationPoints> added_;
+  std::vector<std::size_t> zones_;  // ends
   std::unique_ptr<PointSequence> sequence_;
   std::size_t position_ = 0;  // number of the sequence's next point
 };
