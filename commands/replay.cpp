@@ -41,14 +41,15 @@ std::int64_t wholeNumberIn(std::string_view text) {
 
 std::size_t numberOf(const Arguments& arguments, const StochasticResult& samples) {
   const std::string name = fmt::format("{}", fmt::join(arguments.sample, " "));
-  if (name == "centre") return static_cast<std::size_t>(samples.planned() - 1);
+  if (name == "centre") return static_cast<std::size_t>(samples.centre());
   struct Kind {
     std::string_view name;
     std::int64_t first, count;
   };
   const Kind kinds[] = {{"", 0, samples.planned()},
                         {"corner ", samples.samples, samples.corners},
-                        {"alpha-corner ", samples.samples + samples.corners, samples.alphaCorners}};
+                        {"alpha-corner ", samples.samples + samples.corners, samples.alphaCorners},
+                        {"alpha-point ", samples.centre() + 1, samples.alphaPoints}};
   std::string expected;
   for (const auto& [kind, first, count] : kinds) {
     if (count == 0) continue;
@@ -153,8 +154,9 @@ Action replay(CLI::App& command) {
   addResults(command, arguments->results);
   command
       .add_option("sample", arguments->sample,
-                  "Which: a number from 0 (the plan's samples, the corners, those of the alpha-cuts, the centre), or "
-                  "corner K, alpha-corner K (from 0), centre; or violation NAME, of a requirement")
+                  "Which: a number from 0 (the plan's samples, the corners, those of the alpha-cuts, the centre, "
+                  "points inside the cuts), or corner K, alpha-corner K, alpha-point K (from 0), centre; or violation "
+                  "NAME, of a requirement")
       ->required()
       ->expected(1, 2)
       ->type_name("SAMPLE");

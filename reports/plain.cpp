@@ -165,7 +165,8 @@ class Sentence {
     text += name.empty() ? "one case that was found"
             : name.find("corner") != std::string::npos
                 ? fmt::format("an extreme combination of the tolerances ({})", name)
-                : name;
+            : name.find("point") != std::string::npos ? fmt::format("a combination within the tolerances ({})", name)
+                                                      : name;
     const std::string_view what = demand_.where.empty() ? "that" : "the limit";
     if (r_.isViolatedBetween) return text + fmt::format(" it misses {} for an instant.", what);
     if (std::isnan(r_.violationUpper) || r_.violationUpper > 0) return text + fmt::format(" it misses {}.", what);

@@ -134,7 +134,7 @@ Problem makeProblem(const Study& study) {
   }
   takeCourses(study, problem);
   for (int j = 0; study.asksFor<FuzzyResult>() && j < study.levels; ++j) {
-    problem.alpha.push_back(static_cast<double>(j) / (study.levels - 1));
+    problem.alpha.push_back(levelOf(j, study.levels));
     Box level = problem.box;
     for (std::size_t i = 0; i < study.uncertain.size(); ++i)
       level[static_cast<std::size_t>(problem.motion.slot[i])] =

@@ -79,7 +79,7 @@ struct Study {
   FlowOptions flow;          ///< without jobs, progress and cancelled, which belong to a run
   EnsembleOptions ensemble;  ///< likewise
   double storage = 4e6;      ///< bytes that the samples' values and motions may take in the results
-  int levels = 11;           ///< of alpha, from 0 to 1
+  int levels = 11;           ///< of alpha, from 0 to 1: levelOf(0, levels) …
   StatedLimits limits;
   std::vector<std::string> notes;  ///< what may be a mistake: lines "file:line:column: note: what"
 
@@ -98,6 +98,9 @@ struct Study {
   /// Time passes, but the motion is given: it has no states.
   bool isMotionGiven() const { return analysis != Analysis::kinematics && mechanism.stateNames().empty(); }
 };
+
+/// The membership of one of so many levels.
+constexpr double levelOf(int level, int levels) { return static_cast<double>(level) / (levels - 1); }
 
 /// The greatest number of output times of a study.
 inline constexpr std::size_t maxOutputTimes = 100000;

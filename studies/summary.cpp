@@ -208,6 +208,42 @@ Json sensitivityObject(const Results& results) {
   return outputs;
 }
 
+/// How much of the proved alpha-cuts samples leave.
+Json transformationObject(const Results& results) {
+  const TransformationResult& t = results.fuzzy.transformation;
+  if (!t.present) return nullptr;
+  Json stepped = t.stepped.empty() ? Json(nullptr) : Json::array(), gaps = Json::object();
+  for (std::size_t q = 0; q < t.stepped.size(); ++q)
+    if (t.stepped[q] != 0) stepped.push_back(results.uncertain[q].name);
+  for (std::size_t k = 0; k < results.outputs.size(); ++k)
+    for (std::size_t level = 0; level < results.fuzzy.alpha.size() && !t.gap.empty(); ++level)
+      if (const std::size_t i = level * results.outputs.size() + k; !std::isnan(t.gap[i]))
+        gaps[results.outputs[k].name][fmt::format("{}", results.fuzzy.alpha[level])] = {{"gap", t.gap[i]},
+                                                                                        {"time", t.gapTime[i]}};
+  return {{"method", t.method},
+          {"points", results.stochastic.alphaPoints},
+          {"stepped", std::move(stepped)},
+          {"gaps", std::move(gaps)}};
+}
+
+/// The method, and the greatest gap of all outputs at all levels.
+std::string transformationText(const Results& results) {
+  const TransformationResult& t = results.fuzzy.transformation;
+  if (!t.present) return {};
+  std::size_t worst = t.gap.size();
+  for (std::size_t i = 0; i < t.gap.size(); ++i)
+    if (!std::isnan(t.gap[i]) && (worst == t.gap.size() || t.gap[i] > t.gap[worst])) worst = i;
+  std::string text = fmt::format(
+      "  alpha-cuts: samples by the {} transformation method{}", t.method,
+      results.stochastic.alphaPoints > 0 ? ", " + countText(results.stochastic.alphaPoints, "point") + " inside" : "");
+  if (worst == t.gap.size()) return text + "\n";
+  const std::size_t outputs = results.outputs.size();
+  const std::string when = results.horizon > 0 ? fmt::format(", at {}", timeText(t.gapTime[worst])) : std::string();
+  return text + fmt::format("; they leave {} % of the widest proved cut at most ({}, membership {}{})\n",
+                            atMostText(100 * t.gap[worst], 2), results.outputs[worst % outputs].name,
+                            numberText(results.fuzzy.alpha[worst / outputs], 3), when);
+}
+
 Json textOrNull(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
 
 /// "[1.2345, 1.3456]", bounds rounded outward, with three decimals more than their width needs, 15 at most.
@@ -345,6 +381,7 @@ std::string jsonSummary(const Results& results, const std::string& verdict, cons
   json["shortfall"] = textOrNull(results.interval.shortfall);
   json["requirements"] = requirementsArray(results);
   json["statistics"] = statisticsObject(results);
+  json["alpha_cuts"] = transformationObject(results);
   json["distribution"] = distributionObject(results);
   json["sensitivity"] = sensitivityObject(results);
   json["derivatives"] = derivativesObject(results);
@@ -385,6 +422,7 @@ std::string textSummary(const Results& results) {
     if (answer->present) costs.push_back(fmt::format("{} {:.2f} s", answer->title(), answer->cpu));
   if (!results.dependence.empty()) text += fmt::format("  dependence: {}\n", results.dependence);
   text += statisticsText(results);
+  text += transformationText(results);
   if (const DistributionResult& d = results.distribution; d.present) {
     std::size_t known = 0, wanted = 0;
     for (std::size_t i = 0; i < d.gaps.size(); ++i) {

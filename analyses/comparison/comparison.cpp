@@ -308,4 +308,33 @@ Comparison compare(const EnclosureBounds& enclosure, Ensemble& ensemble, const U
   return Comparer(enclosure, ensemble, system, options).run();
 }
 
+CutGaps measureGaps(const std::vector<Envelope>& outer, const std::vector<Envelope>& inner, const Table& error,
+                    std::size_t times) {
+  CutGaps gaps;
+  if (outer.empty()) return gaps;
+  const std::size_t outputs = error.outputs;
+  std::vector<double> magnitude(outputs, 0.0);
+  const auto widthOf = [&](const Envelope& cut, std::size_t i) { return cut.upper.data[i] - cut.lower.data[i]; };
+  for (std::size_t i = 0; i < times * outputs; ++i)
+    for (const double bound : {outer[0].lower.data[i], outer[0].upper.data[i]})
+      if (std::isfinite(bound)) magnitude[i % outputs] = std::max(magnitude[i % outputs], std::abs(bound));
+  for (std::size_t level = 0; level < std::min(outer.size(), inner.size()); ++level)
+    for (std::size_t output = 0; output < outputs; ++output) {
+      gaps.gap.push_back(std::numeric_limits<double>::quiet_NaN());
+      gaps.row.push_back(std::numeric_limits<std::size_t>::max());
+      for (std::size_t row = 0; row < times; ++row) {
+        const std::size_t i = row * outputs + output;
+        const double widest = widthOf(outer[0], i);
+        if (!std::isfinite(widest) ||
+            !(widest > tellingErrors * std::max(error.data[i], leastError(magnitude[output]))))
+          continue;
+        const double gap = (widthOf(outer[level], i) - widthOf(inner[level], i)) / widest;
+        if (!(gap > gaps.gap.back()) && !(std::isnan(gaps.gap.back()) && !std::isnan(gap))) continue;
+        gaps.gap.back() = std::clamp(gap, 0.0, 1.0);
+        gaps.row.back() = row;
+      }
+    }
+  return gaps;
+}
+
 }  // namespace gamut

@@ -87,6 +87,18 @@ struct Overestimation {
 /// narrower than a hundred errors says nothing.
 Overestimation measureOverestimation(const EnclosureBounds& enclosure, const Envelope& envelope, const Table& error);
 
+/// How much of alpha-cuts samples leave, [level][output]: the widths' difference over the widest proved cut's width, at
+/// the time at which that is greatest, and the index of that time. NaN (and an index beyond all) where no sample is so
+/// possible, or the widest cut no wider than a hundred errors.
+struct CutGaps {
+  std::vector<double> gap;
+  std::vector<std::size_t> row;
+};
+
+/// At the first `times` output times; the widest cut first.
+CutGaps measureGaps(const std::vector<Envelope>& outer, const std::vector<Envelope>& inner, const Table& error,
+                    std::size_t times);
+
 /// Compares at all output times that the enclosure reached. Samples found outside get their refined trajectories in
 /// `ensemble`. Throws std::invalid_argument where the shapes do not fit or a bound is NaN.
 Comparison compare(const EnclosureBounds& enclosure, Ensemble& ensemble, const UncertainMotion& system,

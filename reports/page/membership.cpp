@@ -53,6 +53,20 @@ std::string numbersOf(const Results& results, std::size_t time, std::size_t outp
   return numbers.html();
 }
 
+/// ", at corners of ..., by the extended transformation method".
+std::string methodText(const Results& results) {
+  const TransformationResult& t = results.fuzzy.transformation;
+  if (!t.present) return {};
+  const std::int64_t points = results.stochastic.alphaPoints;
+  std::string text = fmt::format(", placed by the {} transformation method after Hanss ({}{})", t.method,
+                                 countText(results.stochastic.corners + results.stochastic.alphaCorners, "corner"),
+                                 points > 0 ? " and " + countText(points, "point") + " inside the cuts" : "");
+  double gap = -1;
+  for (const double each : t.gap) gap = std::fmax(gap, each);
+  if (gap >= 0) text += fmt::format("; they leave {} % of the widest proved cut at most", atMostText(100 * gap, 2));
+  return text;
+}
+
 }  // namespace
 
 std::string membershipFigures(const Results& results) {
@@ -65,7 +79,11 @@ std::string membershipFigures(const Results& results) {
   std::string html =
       "<p class=\"hint\">How possible a value is. Violet: proved, the ends of the alpha-cuts joined by lines; the pale "
       "stairs above them hold between the levels, too.";
-  if (!fuzzy.inner.empty()) html += " Dashed: what samples of at least that membership reached.";
+  if (!fuzzy.inner.empty())
+    html += " Dashed: what samples of at least that membership reached" + methodText(results) + ".";
+  html +=
+      " The membership of several values together is the least of theirs (minimum t-norm), and no quantity restricts "
+      "another.";
   html +=
       "</p>\n" + momentsControl("membership", "Time of the membership functions", times) + "<div class=\"cards\">\n";
   for (std::size_t output = 0; output < results.outputs.size(); ++output) {

@@ -64,6 +64,7 @@ class StudyReader {
     if (const toml::node* node = file.find("interval")) readInterval(source_.asTable(*node, "interval"));
     if (const toml::node* node = file.find("stochastic")) readStochastic(source_.asTable(*node, "stochastic"));
     checkPlan(file.find("stochastic"));
+    study_.ensemble.transformation = Transformation::extended;
     if (const toml::node* node = file.find("fuzzy")) readFuzzy(source_.asTable(*node, "fuzzy"));
     if (const toml::node* node = file.find("limits")) readLimits(source_.asTable(*node, "limits"));
     return std::move(study_);
@@ -437,8 +438,38 @@ class StudyReader {
   }
 
   void readFuzzy(const toml::table& table) {
-    const TomlSection section(source_, table, "fuzzy", {"levels"});
+    const TomlSection section(source_, table, "fuzzy", {"levels", "method"});
     study_.levels = static_cast<int>(section.integer("levels", study_.levels, 2, 101));
+    const toml::node* node = section.find("method");
+    if (node == nullptr) return;
+    study_.ensemble.transformation =
+        transformationNamed(source_.asChoice(*node, "fuzzy.method", {"reduced", "general", "extended"}));
+    if (study_.ensemble.transformation == Transformation::general) checkGeneralMethod(*node);
+  }
+
+  /// Its points are all combinations of values.
+  void checkGeneralMethod(const toml::node& at) const {
+    if (!study_.asksFor<FuzzyResult>() || !study_.asksFor<StochasticResult>()) return;
+    const auto countOf = [&](int levels) {
+      std::vector<Box> cuts;
+      for (int level = 0; level < levels; ++level) {
+        cuts.emplace_back();
+        for (const UncertainQuantity& q : study_.uncertain)
+          cuts.back().push_back(q.uncertain.membership.cut(levelOf(level, levels)));
+      }
+      return generalCount(cuts);
+    };
+    constexpr auto most = static_cast<double>(mostGeneralPoints);
+    const double points = countOf(study_.levels);
+    if (points <= most) return;
+    int levels = study_.levels - 1;
+    while (levels >= 3 && countOf(levels) > most) --levels;  // of two levels there is nothing inside
+    source_.fail(
+        at,
+        fmt::format("fuzzy.method \"general\" takes {:.6g} points of {} quantities at {} levels, and {} are the most",
+                    points, study_.uncertain.size(), study_.levels, mostGeneralPoints),
+        levels >= 3 ? fmt::format("\"extended\", \"reduced\", or fuzzy.levels of {} at most", levels)
+                    : "\"extended\" or \"reduced\"");
   }
 
   void readLimits(const toml::table& table) {

@@ -30,7 +30,7 @@ std::vector<Field> fieldsOfDispute(DisputedSample& d) {
            &d.number,
            unit::none,
            "number of the sample, from 0: the plan's samples, then the corners of the uncertain box, then those of the "
-           "alpha-cuts from the widest on, the centre last",
+           "alpha-cuts from the widest on, the centre, and the points of the transformation",
            {},
            allowed::count},
           {"time", &d.time, unit::none, "index of the output time", {}, allowed::count, dimension::time},

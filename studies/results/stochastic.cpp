@@ -15,10 +15,16 @@ std::vector<Field> fieldsOf(StochasticResult& r) {
        {"samples", &r.samples, unit::none, "samples of the plan, which count in the statistics", {}, allowed::count},
        {"corners", &r.corners, unit::none, "corners of the uncertain box, sampled besides", {}, allowed::count},
        {"alpha_corners", &r.alphaCorners, unit::none, "corners of the alpha-cuts, sampled besides", {}, allowed::count},
+       {"alpha_points",
+        &r.alphaPoints,
+        unit::none,
+        "points of the transformation inside the alpha-cuts, sampled besides",
+        {},
+        allowed::count},
        {"integrated",
         &r.integrated,
         unit::none,
-        "how many of samples, corners and centre were followed",
+        "how many of samples, corners, centre and points were followed",
         {},
         allowed::count},
        {"failures", &r.failures, unit::none, "how many of these did not arrive at the horizon", {}, allowed::count},
@@ -29,13 +35,15 @@ std::vector<Field> fieldsOf(StochasticResult& r) {
         &r.packWidth,
         unit::none,
         "samples of one number / `pack_width`, rounded down, were integrated together, in common steps; corners and "
-        "centre, counted from the first corner, likewise",
+        "centre, counted from the first corner, likewise; points from the first that looks for turns, and from the "
+        "first behind these",
         {},
         {1, allowed::count.greatest}},
        {"envelope",
         &r.envelope,
         unit::ofOutput,
-        "least and greatest of all samples, corners and centre; like all that samples say, NaN beyond `reached`",
+        "least and greatest of all samples, corners, centre and points; like all that samples say, NaN beyond "
+        "`reached`",
         {time, output}},
        {"mean", &r.mean, unit::ofOutput, "mean of the samples", {time, output}},
        {"mean_error",
@@ -143,8 +151,9 @@ std::string KeptSamples::text() const {
 
 std::string StochasticResult::nameOf(std::int64_t number) const {
   const std::int64_t corner = number - samples;
-  if (!present || corner < 0 || corner > corners + alphaCorners) return fmt::format("sample {}", number);
-  if (corner == corners + alphaCorners) return "the centre";
+  if (!present || corner < 0 || number >= planned()) return fmt::format("sample {}", number);
+  if (number == centre()) return "the centre";
+  if (number > centre()) return fmt::format("alpha-point {}", number - centre() - 1);
   return corner < corners ? fmt::format("corner {}", corner) : fmt::format("alpha-corner {}", corner - corners);
 }
 
@@ -155,8 +164,10 @@ std::string StochasticResult::title() const {
 
 std::string StochasticResult::amount() const {
   return fmt::format("plan {}, {}, tolerances {} relative, {} absolute{}{}", plan,
-                     countText(corners + alphaCorners, "corner"), numberText(relativeTolerance),
-                     numberText(absoluteTolerance), stopped.empty() ? "" : "; not all were taken: " + stopped,
+                     countText(corners + alphaCorners, "corner") +
+                         (alphaPoints > 0 ? ", " + countText(alphaPoints, "alpha-point") : ""),
+                     numberText(relativeTolerance), numberText(absoluteTolerance),
+                     stopped.empty() ? "" : "; not all were taken: " + stopped,
                      kept.present ? "; in the results: " + kept.text() : "");
 }
 

@@ -43,17 +43,20 @@ struct ConvergenceResult {
 /// Its `reached`: all samples that were followed arrived there; envelope and statistics end there.
 struct StochasticResult final : Answer {
   static constexpr std::string_view name = "stochastic";
-  /// The plan's samples, the corners and the centre.
-  std::int64_t planned() const { return samples + corners + alphaCorners + 1; }
+  /// The plan's samples, the corners, the centre and the points of the transformation.
+  std::int64_t planned() const { return centre() + 1 + alphaPoints; }
+  std::int64_t centre() const { return samples + corners + alphaCorners; }
 
-  /// "sample 17", "corner 3", "alpha-corner 3", "the centre", as `gamut replay` knows it: the plan's samples come
-  /// first, then the corners of the box, then those of the alpha-cuts, the centre is last.
+  /// "sample 17", "corner 3", "alpha-corner 3", "the centre", "alpha-point 3", as `gamut replay` knows it: the plan's
+  /// samples come first, then the corners of the box, those of the alpha-cuts, the centre, and the points of the
+  /// transformation.
   std::string nameOf(std::int64_t number) const;
 
   std::string plan;
   std::int64_t samples = 0;       ///< that count in the statistics
   std::int64_t corners = 0;       ///< of the uncertain box, integrated besides, without weight
   std::int64_t alphaCorners = 0;  ///< of the alpha-cuts' boxes, likewise
+  std::int64_t alphaPoints = 0;   ///< of the transformation, likewise
   std::int64_t integrated = 0;    ///< how many of samples, corners and centre were followed before the analysis ended
   double relativeTolerance = 0, absoluteTolerance = 0;
   std::int64_t packWidth = 1;              ///< samples of one number / packWidth were integrated together

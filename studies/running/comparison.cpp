@@ -2,6 +2,7 @@
 #include "analyses/comparison/comparison.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "studies/results/verdict.hpp"
@@ -36,6 +37,15 @@ void compareAnswers(Run& run) {
     comparison.maximum = found.maximum;
     comparison.median = found.median;
     comparison.maximumOf = std::move(found.maximumOf);
+  }
+  TransformationResult& transformation = results.fuzzy.transformation;
+  if (transformation.present && !results.fuzzy.inner.empty()) {
+    const CutGaps gaps = measureGaps(results.fuzzy.outer, results.fuzzy.inner, results.stochastic.error, compared);
+    transformation.gap = gaps.gap;
+    transformation.gapTime.clear();
+    for (const std::size_t row : gaps.row)
+      transformation.gapTime.push_back(row < results.time.size() ? results.time[row]
+                                                                 : std::numeric_limits<double>::quiet_NaN());
   }
   comparison.verdict = findVerdict(results).word;
 }

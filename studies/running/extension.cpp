@@ -91,12 +91,14 @@ void forgetSamples(Results& results, std::size_t samples) {
   results.stochastic = std::move(none);
   results.fuzzy.inner.clear();
   results.fuzzy.influence = {};
+  results.fuzzy.transformation.gap.clear();
+  results.fuzzy.transformation.gapTime.clear();
   results.comparison = {};
   for (RequirementResult& result : results.requirements) {
     result.samples = result.violating = 0;
     result.shareLower = result.shareUpper = result.worstTime = result.worstMargin = unknown;
     result.worstSample = -1;
-    if (result.violationSample >= before)  // a corner, or the centre
+    if (result.violationSample >= before)  // a corner, the centre, or a point
       result.violationSample += static_cast<std::int64_t>(samples) - before;
   }
 }

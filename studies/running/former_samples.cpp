@@ -1,4 +1,4 @@
-// Corners and centre follow the plan's samples: with more of these, they have other numbers.
+// Corners, centre and points follow the plan's samples: with more of these, they have other numbers.
 #include "studies/running/former_samples.hpp"
 
 #include <fmt/format.h>

@@ -237,8 +237,8 @@ void showSamples(Run& run) try {
                       : "of more than " + std::to_string(mostEnclosedPoints) + " moving points no places are enclosed";
   if (!run.study.asksFor<StochasticResult>() || *run.watch.stop()) return;
   run.watch.begin(Watch::Stage::rest);
-  const EnsembleOptions options = ensembleOptions(run.study, run.problem, run.results.seed,
-                                                  run.options.samples.value_or(run.study.ensemble.samples));
+  const EnsembleOptions options =
+      ensembleOptions(run.study, run.problem, run.results, run.options.samples.value_or(run.study.ensemble.samples));
   Sampling sampling(options.plan, run.study.uncertain.size(), options.samples, options.seed);
   Follower follower(run);
   const UncertainMotion& motion = run.problem.motion;

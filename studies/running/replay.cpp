@@ -27,7 +27,7 @@ ReplayedSample replay(const Study& study, const Results& results, std::size_t nu
   if (!results.stochastic.present) throw std::invalid_argument("the results hold no samples");
   const Problem problem = makeProblem(study);
   const auto samples = static_cast<std::size_t>(results.stochastic.samples);
-  SampleBlock block = replaySample(problem.motion, ensembleOptions(study, problem, results.seed, samples), number);
+  SampleBlock block = replaySample(problem.motion, ensembleOptions(study, problem, results, samples), number);
   if (study.analysis == Study::Analysis::kinematics) moveSamples(study, problem, block);
 
   ReplayedSample sample;
@@ -47,7 +47,7 @@ ReplayedSample replayViolation(const Study& study, const Results& results, const
       throw std::invalid_argument("no values are known that violate '" + requirement.name + "'");
     values.push_back(study.uncertain[q].varies ? study.uncertain[q].uncertain.nominal : requirement.violation[q]);
   }
-  SampleBlock block = integrateValues(problem.motion, ensembleOptions(study, problem, results.seed, 1), values);
+  SampleBlock block = integrateValues(problem.motion, ensembleOptions(study, problem, results, 1), values);
   if (study.analysis == Study::Analysis::kinematics) moveSamples(study, problem, block);
   ReplayedSample sample;
   take(block, study, sample);

@@ -8,11 +8,17 @@
 
 namespace gamut {
 
-EnsembleOptions ensembleOptions(const Study& study, const Problem& problem, std::uint64_t seed, std::size_t samples) {
+EnsembleOptions ensembleOptions(const Study& study, const Problem& problem, const Results& results,
+                                std::size_t samples) {
   EnsembleOptions options = study.ensemble;
-  options.seed = seed;
+  options.seed = results.seed;
   options.samples = samples;
   options.alpha = problem.alpha;
+  const std::vector<std::int64_t>& stepped = results.fuzzy.transformation.stepped;
+  if (options.transformation != Transformation::extended || stepped.empty()) return options;
+  options.turning.emplace();
+  for (std::size_t q = 0; q < stepped.size(); ++q)
+    if (stepped[q] != 0) options.turning->push_back(q);
   return options;
 }
 

@@ -1,7 +1,6 @@
 // How the samples of a study are taken, by its run and by a replay of one of them alike.
 #pragma once
 
-#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -12,8 +11,10 @@
 
 namespace gamut {
 
-/// What says which values the samples have and how they are integrated; neither limits nor threads.
-EnsembleOptions ensembleOptions(const Study& study, const Problem& problem, std::uint64_t seed, std::size_t samples);
+/// What says which values the samples have and how they are integrated; neither limits nor threads. `results`: their
+/// seed, and in which quantities outputs turn, where they hold that already.
+EnsembleOptions ensembleOptions(const Study& study, const Problem& problem, const Results& results,
+                                std::size_t samples);
 
 /// Kinematics: the study's outputs by the assembly itself instead of its recording. `numbers` as Problem::box.
 template <class S>

@@ -33,8 +33,8 @@ void sampleWhileThereIsRoom(Run& run, Watch::Stage stage, const Sample& sample) 
 }
 
 EnsembleOptions ensembleOptions(const Run& run) {
-  EnsembleOptions options = ensembleOptions(run.study, run.problem, run.results.seed,
-                                            run.options.samples.value_or(run.study.ensemble.samples));
+  EnsembleOptions options =
+      ensembleOptions(run.study, run.problem, run.results, run.options.samples.value_or(run.study.ensemble.samples));
   options.jobs = run.options.jobs;
   options.secondsPerSample = run.results.limits.sampleTime;
   options.progress = run.progressOf("samples");
@@ -112,6 +112,27 @@ void describeSamples(Run& run) {
   }
 }
 
+/// Where the transformation put its points.
+void describeTransformation(Run& run) {
+  const EnsembleRun& ensemble = *run.ensemble;
+  const Transformation method = ensemble.options().transformation;
+  TransformationResult& result = run.results.fuzzy.transformation;
+  const std::size_t quantities = run.study.uncertain.size();
+  run.results.stochastic.alphaPoints = static_cast<std::int64_t>(ensemble.sampling().points());
+  if (!run.study.asksFor<FuzzyResult>()) return;
+  result.present = true;
+  result.method = std::string(nameOf(method));
+  result.turns = ensemble.turns();
+  if (method != Transformation::extended) {
+    result.stepped.assign(quantities, method == Transformation::general ? 1 : 0);
+  } else if (ensemble.turning()) {
+    result.stepped.assign(quantities, 0);
+    for (const std::size_t q : *ensemble.turning()) result.stepped[q] = 1;
+  } else {
+    result.turns.clear();
+  }
+}
+
 /// Some output times.
 std::vector<std::size_t> rowsOfInfluence(const Run& run) {
   constexpr std::size_t most = 64;
@@ -159,6 +180,7 @@ void takeFirstSamples(Run& run) {
     stochastic.corners = static_cast<std::int64_t>(ensemble.sampling().corners());
     stochastic.alphaCorners = static_cast<std::int64_t>(ensemble.sampling().boxCorners());
     stochastic.packWidth = static_cast<std::int64_t>(ensemble.packWidth());
+    describeTransformation(run);
     ensemble.integrateFirst();
     if (*run.watch.stop()) stochastic.stopped = run.watch.why();
   });
@@ -169,8 +191,9 @@ void takeOtherSamples(Run& run) {
   sampleWhileThereIsRoom(run, Watch::Stage::rest, [&] {
     const Proved proved{run.results.interval.at, run.results.fuzzy.outer, run.enclosed.reachedTimes};
     Settlement settlement(proved, run.problem.motion, comparisonOptions(run));
-    SampleKeeper keeper(run.ensemble->sampling().size(), run.study.uncertain.size(),
-                        run.study.motion.times.size() * run.study.outputs.size(), run.study.storage);
+    const std::size_t last = run.ensemble->sampling().centre();
+    SampleKeeper keeper(last + 1, run.study.uncertain.size(), run.study.motion.times.size() * run.study.outputs.size(),
+                        run.study.storage);
     std::optional<InfluenceMeasures> influence = measureInfluence(run);
     run.ensemble->integrateOthers(settlement.boundsOf(0), [&](SampleBlock& block) {
       if (run.study.analysis == Study::Analysis::kinematics) moveSamples(run.study, run.problem, block);
@@ -178,8 +201,9 @@ void takeOtherSamples(Run& run) {
       if (run.former) run.former->meet(block, run.results.comparison.disputed);
       noteRequirements(run, block);
       if (influence) influence->include(block);
-      keeper.keep(block);
+      if (block.first() <= last) keeper.keep(block);
     });
+    describeTransformation(run);
     describeSamples(run);
     if (influence) describeInfluence(run, *influence);
     run.results.stochastic.kept = keeper.take();

@@ -42,7 +42,7 @@ TEST_F(ExtendCommand, ReplacesResultsAndReport) {
   const Outcome extended = gamut("extend s.h5 --samples 100");
   EXPECT_EQ(extended.exitCode, 0) << extended.error;
   EXPECT_EQ(extended.error, "");
-  EXPECT_THAT(extended.out, HasSubstr("All 133 sampled motions stay inside"));
+  EXPECT_THAT(extended.out, HasSubstr("All 144 sampled motions stay inside"));
   EXPECT_THAT(extended.out, EndsWith("  results: s.h5\n  report:  s.html\n"));
   EXPECT_EQ(results().stochastic.samples, 112);  // in batches of 16
   EXPECT_NE(folder_.read("s.html"), page);
@@ -91,7 +91,7 @@ TEST_F(ExtendCommand, WritesNothingWhenItEndsBeforeTheSamplesCameAgain) {
   const std::string before = folder_.read("s.h5");
   const Outcome ended = gamut("extend s.h5 --samples 1000000 --time-limit 1e-6");
   EXPECT_EQ(ended.exitCode, 3);
-  EXPECT_THAT(ended.error, HasSubstr("before the 37 samples that it holds had come again; nothing was written\n"));
+  EXPECT_THAT(ended.error, HasSubstr("before the 48 samples that it holds had come again; nothing was written\n"));
   EXPECT_EQ(folder_.read("s.h5"), before);
 }
 

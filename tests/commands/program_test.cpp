@@ -126,7 +126,7 @@ TEST_F(Program, TakesNoMoreMemoryForMoreSamples) {
   const int status = std::system(command.c_str());
   ASSERT_TRUE(WIFEXITED(status));
   EXPECT_EQ(WEXITSTATUS(status), 0);
-  EXPECT_EQ(readResults(folder_.path("tip.h5")).stochastic.integrated, 3000000 + 2 + 18 + 1);
+  EXPECT_EQ(readResults(folder_.path("tip.h5")).stochastic.integrated, 3000000 + 2 + 18 + 1 + 11);
 }
 
 TEST_F(Program, RefusesABadStudyWithoutTouchingAnyFile) {

@@ -72,12 +72,15 @@ TEST_F(ReplayCommand, PrintsEveryBitOfWhatTheRunHad) {
 TEST_F(ReplayCommand, KnowsCornersAndTheCentreByName) {
   const Results results = run();
   const std::int64_t corners = results.stochastic.samples, alphaCorners = corners + results.stochastic.corners,
-                     centre = results.stochastic.planned() - 1;
+                     centre = results.stochastic.centre();
   const auto byNumber = [&](std::int64_t number) { return gamut("replay s.h5 " + std::to_string(number)).out; };
   EXPECT_EQ(gamut("replay s.h5 corner 1").out, byNumber(corners + 1));
   EXPECT_EQ(gamut("replay s.h5 'corner 1'").out, byNumber(corners + 1));
   EXPECT_EQ(gamut("replay s.h5 alpha-corner 4").out, byNumber(alphaCorners + 4));
   EXPECT_EQ(gamut("replay s.h5 centre").out, byNumber(centre));
+  EXPECT_EQ(results.stochastic.alphaPoints, 11);  // that looked for turns
+  EXPECT_EQ(gamut("replay s.h5 alpha-point 10").out, byNumber(centre + 11));
+  EXPECT_NE(byNumber(centre + 11), byNumber(centre + 10));
   EXPECT_NE(byNumber(corners), byNumber(corners + 1));
 }
 
@@ -105,8 +108,9 @@ TEST_F(ReplayCommand, QuotesNamesThatHoldCommas) {
 
 TEST_F(ReplayCommand, RefusesInOneLineWhatIsNoSample) {
   run();
-  constexpr const char* expected = "; expected 0 to 36, corner 0 to 1, alpha-corner 0 to 17, or centre\n";
-  for (const char* sample : {"37", "-1", "1.5", "corner", "corner 2", "corner -1", "alpha-corner 18", "center", "1 2",
+  constexpr const char* expected =
+      "; expected 0 to 47, corner 0 to 1, alpha-corner 0 to 17, alpha-point 0 to 10, or centre\n";
+  for (const char* sample : {"48", "-1", "1.5", "corner", "corner 2", "corner -1", "alpha-corner 18", "center", "1 2",
                              "99999999999999999999", "'corner  1'", "''"}) {
     SCOPED_TRACE(sample);
     const Outcome replay = gamut("replay s.h5 " + std::string(sample));

@@ -63,6 +63,8 @@ Results pendulum(std::size_t times, std::size_t outputs, std::size_t levels) {
   stochastic.quantiles.assign(5, Table(times, outputs));
   stochastic.mean = stochastic.deviation = stochastic.error = Table(times, outputs);
   fuzzy.cpu = 2.02;
+  fuzzy.transformation.present = true;
+  fuzzy.transformation.method = "extended";
   interval.at = interval.over = stochastic.envelope = Bounds(times, outputs);
   results.comparison.verdict = "inside";
   results.comparison.overestimation = Table(times, outputs);

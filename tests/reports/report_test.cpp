@@ -225,6 +225,17 @@ INSTANTIATE_TEST_SUITE_P(
                             ""}),
     [](const auto& tested) { return tested.param.name; });
 
+TEST(Report, SaysHowAlphaCutsAreMeantAndWhereSamplesLieInThem) {
+  Results results = example::pendulum();
+  results.fuzzy.transformation.gap.assign(results.fuzzy.alpha.size() * results.outputs.size(), 0.0123);
+  results.stochastic.alphaPoints = 77;
+  EXPECT_THAT(
+      renderReport(results),
+      AllOf(HasSubstr("placed by the extended transformation method after Hanss (2 corners and 77 points inside "
+                      "the cuts); they leave 1.3 % of the widest proved cut at most."),
+            HasSubstr("is the least of theirs (minimum t-norm), and no quantity restricts another.")));
+}
+
 TEST(Report, OfResultsWithoutAnythingIsStillAPage) {
   EXPECT_THAT(renderReport(Results{}), AllOf(HasSubstr("incomplete"), HasSubstr("</html>")));
 }

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -23,6 +24,32 @@ std::vector<std::string> exampleNames() {
   return names;
 }
 
+/// Every bound holds those of higher levels, and the proved cut that of the samples: without any tolerance.
+void expectNestedCuts(const FuzzyResult& fuzzy) {
+  ASSERT_EQ(fuzzy.outer.size(), fuzzy.alpha.size());
+  ASSERT_EQ(fuzzy.inner.size(), fuzzy.alpha.size());
+  const auto escapes = [](const Envelope& within, const Envelope& wider) {
+    int count = 0;
+    for (std::size_t i = 0; i < within.lower.data.size(); ++i)
+      count += within.lower.data[i] < wider.lower.data[i] || within.upper.data[i] > wider.upper.data[i] ? 1 : 0;
+    return count;
+  };
+  for (std::size_t level = 0; level < fuzzy.alpha.size(); ++level) {
+    EXPECT_EQ(escapes(fuzzy.inner[level], fuzzy.outer[level]), 0) << fuzzy.alpha[level];
+    if (level == 0) continue;
+    EXPECT_EQ(escapes(fuzzy.outer[level], fuzzy.outer[level - 1]), 0) << fuzzy.alpha[level];
+    EXPECT_EQ(escapes(fuzzy.inner[level], fuzzy.inner[level - 1]), 0) << fuzzy.alpha[level];
+  }
+}
+
+/// Of all outputs at all levels and times.
+double greatestGap(const FuzzyResult& fuzzy) {
+  double greatest = -1;
+  for (const double gap : fuzzy.transformation.gap) greatest = std::fmax(greatest, gap);
+  EXPECT_GE(greatest, 0);
+  return greatest;
+}
+
 class Examples : public ::testing::TestWithParam<std::string> {
  protected:
   std::string file() const { return (examples / GetParam() / "study.toml").string(); }
@@ -39,6 +66,8 @@ TEST_P(Examples, ArriveTightlyWithAllSamplesInside) {
   EXPECT_EQ(results.comparison.verdict, "inside");
   EXPECT_EQ(results.interval.shortfall, "");
   EXPECT_FALSE(results.uncertain.empty());
+  expectNestedCuts(results.fuzzy);
+  EXPECT_LE(greatestGap(results.fuzzy), 0.05);
   // Corners and samples span hardly less than all motions do.
   constexpr double unspanned = 0.03;
   EXPECT_LE(results.comparison.maximum, study.flow.tightness + unspanned);
@@ -46,6 +75,31 @@ TEST_P(Examples, ArriveTightlyWithAllSamplesInside) {
   EXPECT_EQ(results.interval.reached, results.horizon) << results.interval.why;
   EXPECT_EQ(results.stochastic.reached, results.horizon) << results.stochastic.why;
   EXPECT_EQ(results.fuzzy.reached, results.horizon) << results.fuzzy.why;
+}
+
+/// Of the smallest ones.
+TEST(AlphaCuts, AreNestedByAllMethods) {
+  for (const std::string name : {"tip_position", "double_pendulum", "simple_pendulum", "predator_and_prey"}) {
+    double gap = 1;
+    for (const Transformation method : {Transformation::reduced, Transformation::extended, Transformation::general}) {
+      SCOPED_TRACE(name + " " + std::string(nameOf(method)));
+      Study study = readStudy((examples / name / "study.toml").string());
+      if (method == Transformation::general && study.uncertain.size() > 4) continue;
+      study.ensemble.transformation = method;
+      study.distribution.count = 0;
+      study.requirements.clear();
+      RunOptions options;
+      options.jobs = 2;
+      options.samples = 64;
+      const Results results = run(study, options);
+      EXPECT_EQ(results.comparison.verdict, "inside");
+      EXPECT_EQ(results.fuzzy.transformation.method, nameOf(method));
+      expectNestedCuts(results.fuzzy);
+      const double greatest = greatestGap(results.fuzzy);
+      EXPECT_LE(greatest, gap + 1e-9) << "than with fewer points";
+      gap = greatest;
+    }
+  }
 }
 
 TEST_P(Examples, SayFirstWhatTheyTeach) {

@@ -187,7 +187,7 @@ TEST(Replay, OfCornersAndCentreHasTheValuesOfTheirPlaces) {
   const auto first = static_cast<std::size_t>(results.stochastic.samples);
   EXPECT_EQ(replay(study, results, first).values.front(), angle.lower);
   EXPECT_EQ(replay(study, results, first + 1).values.front(), angle.upper);
-  const auto centre = static_cast<std::size_t>(results.stochastic.planned()) - 1;
+  const auto centre = static_cast<std::size_t>(results.stochastic.centre());
   EXPECT_EQ(replay(study, results, centre).values.front(), angle.nominal);
 }
 

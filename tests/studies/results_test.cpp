@@ -74,7 +74,8 @@ TEST(Description, TellsWhichListsDiffer) {
   Results after = sampleResults();
   after.comparison.disputed.pop_back();
   after.fuzzy = {};
-  EXPECT_THAT(differences(sampleResults(), after), ElementsAre("/fuzzy", "/fuzzy/influence", "/comparison/disputed"));
+  EXPECT_THAT(differences(sampleResults(), after),
+              ElementsAre("/fuzzy", "/fuzzy/transformation", "/fuzzy/influence", "/comparison/disputed"));
 }
 
 /// The longest run of bytes of an object that none of the fields holds, nor any of the members that are groups of their
@@ -111,7 +112,9 @@ TEST(Description, LeavesOutNoMember) {
   EXPECT_LE(longestGap(r.stochastic.convergence, fields["/stochastic/convergence"], r.stochastic.convergence.present),
             padding);
   EXPECT_LE(longestGap(r.stochastic.kept, fields["/stochastic/kept"], r.stochastic.kept.present), padding);
-  EXPECT_LE(longestGap(r.fuzzy, fields["/fuzzy"], r.fuzzy.present, r.fuzzy.influence), padding);
+  EXPECT_LE(longestGap(r.fuzzy, fields["/fuzzy"], r.fuzzy.present, r.fuzzy.influence, r.fuzzy.transformation), padding);
+  EXPECT_LE(longestGap(r.fuzzy.transformation, fields["/fuzzy/transformation"], r.fuzzy.transformation.present),
+            padding);
   EXPECT_LE(longestGap(r.fuzzy.influence, fields["/fuzzy/influence"], r.fuzzy.influence.present), padding);
   EXPECT_LE(longestGap(r.comparison, fields["/comparison"], r.comparison.present, r.comparison.disputed), padding);
   EXPECT_LE(longestGap(r.comparison.disputed[0], fields["/comparison/disputed"]), padding);

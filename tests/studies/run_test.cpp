@@ -127,7 +127,7 @@ TEST(Run, KeepsValuesAndMotionsOfTheSamplesThemselves) {
   EnsembleOptions ensemble = study.ensemble;
   ensemble.alpha = problem.alpha;
   Sampling sampling(ensemble.plan, 1, 700, ensemble.seed);
-  EXPECT_EQ(kept.number.back() + 1, results.stochastic.planned());
+  EXPECT_EQ(kept.number.back(), results.stochastic.centre());
   EXPECT_EQ(kept.values.back(), study.uncertain[0].uncertain.nominal);
   for (std::size_t i = 0; kept.number[i] < 700; ++i)
     EXPECT_EQ(kept.values[i], sampling.values(static_cast<std::size_t>(kept.number[i]), problem.motion.uncertain)[0]);
@@ -183,6 +183,32 @@ interval = "± 1 %"
     const double sampled = inner.upper(last, 0) - inner.lower(last, 0);
     EXPECT_GT(sampled, 0.95 * (outer.upper(last, 0) - outer.lower(last, 0))) << level;
   }
+}
+
+/// The height of a pendulum is lowest where it hangs, farthest down with the longest rod: no corner has both.
+TEST(Run, ReachesExtremesInsideAlphaCutsByTheTransformationMethod) {
+  std::vector<Results> found;
+  for (const char* method : {"reduced", "extended", "general"}) {
+    std::string text = sampleStudyWith("interval = \"± 1 %\"", "interval = [\"-20 deg\", \"30 deg\"]");
+    text.replace(text.find("\"30 deg\", rate"), 8, "\"2 deg\"");
+    text.insert(text.find("[[uncertain]]"), "[[uncertain]]\nquantity = \"rod.length\"\ninterval = \"± 5 %\"\n");
+    found.push_back(run(readStudyText(text + "[fuzzy]\nmethod = \"" + method + "\"\n", "s.toml")));
+    const Results& results = found.back();
+    EXPECT_EQ(results.comparison.verdict, "inside");
+    EXPECT_EQ(results.fuzzy.transformation.method, method);
+    EXPECT_EQ(results.stochastic.integrated, results.stochastic.planned());
+  }
+  const auto lowest = [&](std::size_t of) { return found[of].fuzzy.inner[2].lower(0, 1); };
+  const auto gap = [&](std::size_t of) { return found[of].fuzzy.transformation.gap[2 * 2 + 1]; };
+  EXPECT_GT(lowest(0), lowest(2) + 1e-3);
+  EXPECT_LE(lowest(1), lowest(2));  // with the lines that look for turns
+  EXPECT_GT(gap(0), gap(1) + 0.05);
+  EXPECT_EQ(found[0].stochastic.alphaPoints, 0);
+  EXPECT_EQ(found[2].stochastic.alphaPoints, 506);
+  EXPECT_EQ(found[1].stochastic.nameOf(found[1].stochastic.centre() + 3), "alpha-point 2");
+  for (const double turn : found[1].fuzzy.transformation.turns) EXPECT_GE(turn, 0);
+  // No envelope of a statistic changes with them.
+  EXPECT_EQ(found[0].stochastic.mean.data, found[2].stochastic.mean.data);
 }
 
 TEST(Run, KeepsSamplesInsideWithUncertainParametersAndInitialValues) {
@@ -279,7 +305,7 @@ TEST(Run, EndsAnEnclosureThatTakesTooLongAndSamplesAllTheSame) {
   EXPECT_LT(results.interval.reached, 20);
   EXPECT_LT(results.interval.cpu + results.fuzzy.cpu, 1);
   EXPECT_EQ(results.stochastic.stopped, "");
-  EXPECT_EQ(results.stochastic.integrated, 16 + 2 + 18 + 1);
+  EXPECT_EQ(results.stochastic.integrated, 16 + 2 + 18 + 1 + 77);
   EXPECT_EQ(results.comparison.verdict, "incomplete");
 }
 

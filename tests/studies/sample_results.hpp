@@ -59,6 +59,7 @@ inline Results sampleResults() {
   r.stochastic.samples = 4096;
   r.stochastic.corners = 3;
   r.stochastic.alphaCorners = 18;
+  r.stochastic.alphaPoints = 12;
   r.stochastic.integrated = 1000;
   r.stochastic.stopped = "the run was interrupted";
   r.stochastic.relativeTolerance = 1e-10;
@@ -91,6 +92,7 @@ inline Results sampleResults() {
   r.fuzzy.outer = {sampleBounds(3, 2, 0.1, 1), sampleBounds(3, 2, 0.3, 0.6), sampleBounds(3, 2, 0.6, 0)};
   r.fuzzy.inner = {sampleBounds(3, 2, 0.2, 0.8), sampleBounds(3, 2, 0.4, 0.4), sampleBounds(3, 2, 0.6, 0)};
   r.fuzzy.cpu = 0.125;
+  r.fuzzy.transformation = {true, "extended", {0}, {0.25}, {0, 0.1, 0.2, 0.3, nan, 0.5}, {0, 0.01, 0.02, 0, nan, 0.01}};
   r.fuzzy.influence = {true, {0, 0.02}, {0.5, nan, 1, 0.25}};
   r.comparison.present = true;
   r.comparison.verdict = "incomplete";

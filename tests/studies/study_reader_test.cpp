@@ -1106,6 +1106,8 @@ constexpr BadStudy badStudies[] = {
      "s.toml:43:26: stochastic.tolerance.relative is not positive; expected a number above 0"},
     {"seed = 7", "seed = 7\n[fuzzy]\nlevels = 1",
      "s.toml:44:10: fuzzy.levels is 1; expected a whole number between 2 and 101"},
+    {"seed = 7", "seed = 7\n[fuzzy]\nmethod = \"generall\"",
+     "s.toml:44:10: fuzzy.method is \"generall\"; expected 'general'? (one of: reduced, general, extended)"},
     {"seed = 7", "seed = 7\n[interval]\norder = \"best\"",
      "s.toml:44:9: interval.order is neither a whole number nor \"auto\"; expected \"auto\" or a whole number between "
      "4 and 30"},
@@ -1133,6 +1135,34 @@ constexpr BadStudy badStudies[] = {
      "or a greater limits.memory"},
     {"[stochastic]", "[[stochastic]]", "s.toml:39:1: stochastic is a list; expected a table"},
 };
+
+/// Combinations grow with the power of the quantities.
+TEST(StudyReader, RefusesMorePointsThanTheGeneralMethodMayHave) {
+  const auto messageOf = [](int quantities, const std::string& fuzzy) {
+    std::string text = sampleStudy, names;
+    for (int i = 0; i < quantities; ++i) names += "gain" + std::to_string(i) + " = 1, ";
+    text.insert(text.find("[[mechanism.element]]"), "parameters = { " + names + "none = 0 }\n");
+    text.insert(text.find("[[uncertain]]"), "[[uncertain]]\nquantity = \"gain*\"\ninterval = \"± 1 %\"\n");
+    text += "[fuzzy]\n" + fuzzy;
+    try {
+      EXPECT_NE(readStudyText(text, "s.toml").ensemble.transformation, Transformation::reduced);
+      return std::string();
+    } catch (const StudyError& error) {
+      return std::string(error.what());
+    }
+  };
+  EXPECT_EQ(messageOf(3, "method = \"general\""), "");
+  EXPECT_EQ(messageOf(9, ""), "");
+  EXPECT_THAT(
+      messageOf(9, "method = \"general\""),
+      ::testing::HasSubstr("fuzzy.method \"general\" takes 4.08518e+10 points of 10 quantities at 11 levels, and "
+                           "65536 are the most; expected \"extended\", \"reduced\", or fuzzy.levels of 3 at "
+                           "most"));
+  EXPECT_THAT(
+      messageOf(29, "method = \"general\""),
+      ::testing::HasSubstr("points of 30 quantities at 11 levels, and 65536 are the most; expected \"extended\" "
+                           "or \"reduced\""));
+}
 
 TEST(StudyReader, RefusesInKinematicsWhatOnlyAMotionHas) {
   std::string text = sampleStudyWith("dynamics", "kinematics");

@@ -29,10 +29,10 @@ TEST(JsonSummary, HasTheDocumentedKeys) {
   const std::string text = jsonSummary(sampleResults(), "incomplete", {"run.h5", "run.html"});
   EXPECT_EQ(text.find('\n'), std::string::npos);
   const Json json = Json::parse(text);
-  EXPECT_THAT(keysOf(json), ElementsAre("cost", "dependence", "derivatives", "distribution", "enclosure", "envelope",
-                                        "excursion", "files", "horizon", "integrated", "limits", "overestimation",
-                                        "reached", "requirements", "samples", "sensitivity", "shortfall", "statistics",
-                                        "tightness", "verdict", "version", "why"));
+  EXPECT_THAT(keysOf(json), ElementsAre("alpha_cuts", "cost", "dependence", "derivatives", "distribution", "enclosure",
+                                        "envelope", "excursion", "files", "horizon", "integrated", "limits",
+                                        "overestimation", "reached", "requirements", "samples", "sensitivity",
+                                        "shortfall", "statistics", "tightness", "verdict", "version", "why"));
   EXPECT_THAT(keysOf(json["overestimation"]), ElementsAre("max", "median", "outputs"));
   EXPECT_THAT(keysOf(json["cost"]), ElementsAre("fuzzy", "interval", "memory", "report", "stochastic", "total"));
   EXPECT_THAT(keysOf(json["limits"]),
@@ -48,6 +48,11 @@ TEST(JsonSummary, HasTheDocumentedKeys) {
   EXPECT_EQ(json["cost"]["total"], 2.25);
   EXPECT_EQ(json["cost"]["memory"], 1.5e9);
   EXPECT_EQ(json["limits"]["sample_time"], 18);
+  EXPECT_EQ(json["alpha_cuts"]["method"], "extended");
+  EXPECT_EQ(json["alpha_cuts"]["points"], 12);
+  EXPECT_EQ(json["alpha_cuts"]["stepped"], Json::array());
+  EXPECT_EQ(json["alpha_cuts"]["gaps"]["energy"]["0.5"], Json({{"gap", 0.3}, {"time", 0}}));
+  EXPECT_FALSE(json["alpha_cuts"]["gaps"]["tip height"].contains("1"));
   EXPECT_EQ(json["version"], "9.8.7");
   EXPECT_EQ(json["files"]["results"], "run.h5");
   EXPECT_EQ(json["files"]["report"], "run.html");
@@ -84,7 +89,7 @@ TEST(TextSummary, ShowsTheLastRowReachedRoundedOutward) {
   EXPECT_THAT(text, HasSubstr("at 0.01 s"));
   EXPECT_THAT(text, HasSubstr("tip height (m)"));
   EXPECT_THAT(text, HasSubstr("[1.000, 3.000]"));
-  EXPECT_THAT(text, HasSubstr("1000 of 4118 samples 1.50 s"));
+  EXPECT_THAT(text, HasSubstr("1000 of 4130 samples 1.50 s"));
   EXPECT_THAT(text, HasSubstr("; in all 2.25 of 1800 s, 1.50 of 8 GB\n"));
   results.stochastic.integrated = results.stochastic.planned();
   EXPECT_THAT(textSummary(results), HasSubstr(" 4096 samples 1.50 s"));
