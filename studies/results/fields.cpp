@@ -140,6 +140,16 @@ bool isInterval(double lower, double upper) {
   return !(lower > upper || lower == infinity || upper == -infinity);
 }
 
+bool areShares(const std::vector<double>& lower, const std::vector<double>& upper) {
+  for (std::size_t i = 0; i < lower.size(); ++i) {
+    const bool isNothing = std::isnan(lower[i]) && std::isnan(upper[i]);
+    if (!isNothing && !(0 <= lower[i] && lower[i] <= upper[i] && upper[i] <= 1)) return false;
+  }
+  return true;
+}
+
+bool areShares(const std::vector<double>& numbers) { return areShares(numbers, numbers); }
+
 std::string misshapen(const std::vector<Group>& groups) {
   const Extents extents = extentsOf(groups);
   for (const Group& group : groups)

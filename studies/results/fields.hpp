@@ -117,6 +117,10 @@ std::vector<std::size_t> shapeOf(const std::vector<std::string_view>& dimensions
 /// Whether the bounds are those of an interval that is not empty, or one is NaN.
 bool isInterval(double lower, double upper);
 
+/// Whether the bounds (or the numbers themselves) are those of shares, from 0 to 1, or both are NaN: nothing is known.
+bool areShares(const std::vector<double>& lower, const std::vector<double>& upper);
+bool areShares(const std::vector<double>& numbers);
+
 /// The path of the first field whose value has not the shape that its dimensions give it; empty if there is none.
 std::string misshapen(const std::vector<Group>& groups);
 

@@ -1,8 +1,6 @@
 // What the file says of the alpha-cuts.
 #include "studies/results/fuzzy.hpp"
 
-#include <algorithm>
-
 #include "studies/words.hpp"
 
 namespace gamut {
@@ -63,10 +61,6 @@ std::vector<Field> fieldsOfInfluence(InfluenceResult& r) {
        "share of a quantity in what deviations by equal shares of the quantities' values do to the output (measures "
        "of influence after Hanss, from the corners of the cuts); NaN where none does anything",
        {when, dimension::output, dimension::quantity}}};
-}
-
-bool areShares(const std::vector<double>& numbers) {
-  return std::ranges::none_of(numbers, [](double x) { return x < 0 || x > 1; });
 }
 
 }  // namespace

@@ -1,8 +1,6 @@
 // What the file says of probabilities.
 #include "studies/results/probability.hpp"
 
-#include <cmath>
-
 namespace gamut {
 namespace {
 
@@ -112,21 +110,12 @@ std::vector<Field> fieldsOf(DerivativeResult& d) {
           {"upper", &d.upper, unit::none, "upper bound", {when, output, quantity}}};
 }
 
-/// Bounds of a share, or nothing is known.
-bool areShares(const std::vector<double>& lower, const std::vector<double>& upper) {
-  for (std::size_t i = 0; i < lower.size(); ++i) {
-    const bool isNothing = std::isnan(lower[i]) && std::isnan(upper[i]);
-    if (!isNothing && !(0 <= lower[i] && lower[i] <= upper[i] && upper[i] <= 1)) return false;
-  }
-  return true;
-}
-
 }  // namespace
 
 void describe(DistributionResult& distribution, std::vector<Group>& groups) {
   groups.push_back(groupOf("/distribution", "how probable values of the outputs are, proved", distribution, fieldsOf));
   groups.back().makesSense = [&distribution](std::size_t) {
-    return areShares(distribution.lower, distribution.upper) && areShares(distribution.sampled, distribution.sampled);
+    return areShares(distribution.lower, distribution.upper) && areShares(distribution.sampled);
   };
 }
 
@@ -134,8 +123,7 @@ void describe(SensitivityResult& sensitivity, std::vector<Group>& groups) {
   groups.push_back(groupOf("/sensitivity", "whose doing the outputs' variance is, proved", sensitivity, fieldsOf));
   groups.back().makesSense = [&sensitivity](std::size_t) {
     return areShares(sensitivity.firstLower, sensitivity.firstUpper) &&
-           areShares(sensitivity.totalLower, sensitivity.totalUpper) &&
-           areShares(sensitivity.pinched, sensitivity.pinched);
+           areShares(sensitivity.totalLower, sensitivity.totalUpper) && areShares(sensitivity.pinched);
   };
 }
 
