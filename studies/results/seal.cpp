@@ -11,7 +11,7 @@ namespace gamut {
 namespace {
 
 /// 1 was without user block, with texts by reference; 2 without the samples' values and motions; 4 without tables.
-constexpr int formatVersion = 7;
+constexpr int formatVersion = 8;
 constexpr std::string_view title = "Gamut results, format ";
 
 std::string digestOf(std::string_view content) {
