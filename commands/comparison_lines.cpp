@@ -52,9 +52,9 @@ std::string questionText(const Relation& r) {
   if (r.isSameQuestion())
     return fmt::format("The same question: the same motion with the same intervals{}.",
                        r.hasSameDistributions && r.hasSameMemberships ? ""
-                       : r.hasSameMemberships                         ? ", but other distributions"
+                       : r.hasSameMemberships                         ? ", but other distributions or dependences"
                        : r.hasSameDistributions                       ? ", but other memberships"
-                                                                      : ", but other distributions and memberships");
+                                                : ", but other distributions or dependences, and other memberships");
   if (r.isSameMotion) return fmt::format("Another question: the same motion, but {}.", valuesText(r));
   return fmt::format("Another question, of another motion: {}.", someOf(r.differences));
 }

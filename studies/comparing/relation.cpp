@@ -7,8 +7,12 @@
 
 #include <algorithm>
 #include <exception>
+#include <map>
 #include <optional>
+#include <set>
 #include <stdexcept>
+#include <string>
+#include <utility>
 
 #include "scalars/interval.hpp"
 #include "studies/problem.hpp"
@@ -203,6 +207,27 @@ bool haveSameShapes(const Results& first, const Results& second, const std::stri
   });
 }
 
+/// Whether quantities depend on each other in the same way, in whatever order that is said.
+bool haveSameDependence(const Study& first, const Study& second) {
+  const auto of = [](const Study& study) {
+    std::map<std::pair<std::string, std::string>, std::pair<double, double>> rank;
+    std::set<std::set<std::string>> unknown;
+    const auto name = [&](std::size_t q) { return study.uncertain[q].quantity; };
+    for (const GaussianCopula& copula : study.dependence.copulas)
+      for (std::size_t i = 0; i < copula.rank().size(); ++i)
+        for (std::size_t j = 0; j < copula.rank().size(); ++j)
+          rank[{name(copula.quantities()[i]), name(copula.quantities()[j])}] = {copula.rank()[i][j].lower(),
+                                                                                copula.rank()[i][j].upper()};
+    for (const std::vector<std::size_t>& group : study.dependence.unknown) {
+      std::set<std::string> names;
+      for (const std::size_t q : group) names.insert(name(q));
+      unknown.insert(std::move(names));
+    }
+    return std::pair(rank, unknown);
+  };
+  return of(first) == of(second);
+}
+
 }  // namespace
 
 Relation relationOf(const Results& first, const Results& second, const Shared& shared) {
@@ -215,10 +240,12 @@ Relation relationOf(const Results& first, const Results& second, const Shared& s
     return relation;
   }
   relation.isSameOutput.assign(shared.outputs.size(), 0);
+  bool dependAlike = false;
   try {
     const Study one = studyIn(first), other = studyIn(second);
     Motions(one, other, shared).compare(relation);
     compareValues(one, other, relation);
+    dependAlike = haveSameDependence(one, other);
   } catch (const std::exception& error) {
     relation = {};
     relation.isSameOutput.assign(shared.outputs.size(), 0);
@@ -226,7 +253,7 @@ Relation relationOf(const Results& first, const Results& second, const Shared& s
     return relation;
   }
   const bool haveSameValues = relation.isFirstInSecond && relation.isSecondInFirst;
-  relation.hasSameDistributions = haveSameValues && haveSameShapes(first, second, "distribution");
+  relation.hasSameDistributions = haveSameValues && dependAlike && haveSameShapes(first, second, "distribution");
   relation.hasSameMemberships = haveSameValues && haveSameShapes(first, second, "membership");
   return relation;
 }

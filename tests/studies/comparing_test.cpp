@@ -245,6 +245,26 @@ TEST(RelationOfStudies, KnowsWhichIntervalsHoldTheOthers) {
   EXPECT_FALSE(apart.areShared);
 }
 
+TEST(RelationOfStudies, KnowsHowQuantitiesDependOnEachOther) {
+  const auto with = [](const std::string& dependence) {
+    return resultsOf(sampleStudyWith(
+        "[[output]]", "[[uncertain]]\nquantity = \"bob.mass\"\ninterval = \"± 1 g\"\n" + dependence + "[[output]]"));
+  };
+  const auto areAlike = [&](const std::string& one, const std::string& other) {
+    const Results first = with(one), second = with(other);
+    const Relation relation = relationOf(first, second, sharedOf(first, second));
+    EXPECT_TRUE(relation.isSameQuestion()) << relation.why;
+    return relation.hasSameDistributions;
+  };
+  const std::string head = "[[dependence]]\nquantities = [\"start\", \"bob.mass\"]\n",
+                    turned = "[[dependence]]\nquantities = [\"bob.mass\", \"hinge.angle\"]\n";
+  EXPECT_TRUE(areAlike(head + "rank_correlation = 0.5\n", turned + "rank_correlation = \"50 %\"\n"));
+  EXPECT_TRUE(areAlike(head + "unknown = true\n", turned + "unknown = true\n"));
+  EXPECT_FALSE(areAlike(head + "rank_correlation = 0.5\n", turned + "rank_correlation = 0.4\n"));
+  EXPECT_FALSE(areAlike(head + "rank_correlation = 0.5\n", ""));
+  EXPECT_FALSE(areAlike(head + "unknown = true\n", ""));
+}
+
 TEST(RelationOfStudies, KnowsAQuantityThatIsUncertainInOneAlone) {
   const Relation relation = relationWith(
       "[[output]]", "[[uncertain]]\nquantity = \"bob.mass\"\ninterval = [\"240 g\", \"260 g\"]\n[[output]]");
