@@ -43,6 +43,25 @@ double scaleOf(const Results& results, std::size_t margin, std::size_t output) {
   return of == "rad" && (in.empty() || in == "1") ? degree : 1;
 }
 
+/// 1 where the quantity stands as a term of a margin's formula, "q - 3" or "3 - (-(q))", -1 where it is taken away,
+/// "3 - (q)"; 0 where it is no term, or one more than once.
+int sideOf(const std::string& formula, const std::string& quantity) {
+  int side = 0;
+  for (auto at = formula.find(quantity); at != std::string::npos; at = formula.find(quantity, at + 1)) {
+    const auto last = formula.find_last_not_of("(-+ ", at == 0 ? std::string::npos : at - 1);
+    const std::size_t begin = at == 0 || last == std::string::npos ? 0 : last + 1;
+    const auto end = formula.find_first_not_of(") ", at + quantity.size());
+    const bool isTerm =
+        (begin < at || at == 0) && (end == std::string::npos || formula[end] == '-' || formula[end] == '+');
+    if (!isTerm) continue;
+    if (side != 0) return 0;
+    side = std::count(formula.begin() + static_cast<long>(begin), formula.begin() + static_cast<long>(at), '-') % 2 == 0
+               ? 1
+               : -1;
+  }
+  return side;
+}
+
 /// It varies, so that another limit would be seen.
 bool varies(const Bounds& bounds, std::size_t output) {
   double least = INFINITY, greatest = -INFINITY;
@@ -127,14 +146,15 @@ std::vector<Limit> limitsOf(const Results& results) {
         const bool isNamed = results.outputs[m].quantity.find(quantity) != std::string::npos;
         if (isMargin(results, o) || quantity.size() <= longest || !(isNamed || (scale != 1 && varies(*bounds, o))))
           continue;
-        for (const int sign : {1, -1}) {
-          const double value = limitBetween(*bounds, m, o, sign, scale);
-          if (std::isnan(value)) continue;
-          limit.output = o;
-          limit.value = rounded(value, std::abs(value));
-          longest = isNamed ? quantity.size() : 0;
-          break;
-        }
+        const int side = sideOf(results.outputs[m].quantity, quantity);
+        const double above = side < 0 ? std::nan("") : limitBetween(*bounds, m, o, 1, scale),
+                     below = side > 0 ? std::nan("") : limitBetween(*bounds, m, o, -1, scale);
+        // Of what is symmetric about zero numbers do not tell the side.
+        if (std::isnan(above) == std::isnan(below)) continue;
+        const double value = std::isnan(above) ? below : above;
+        limit.output = o;
+        limit.value = rounded(value, std::abs(value));
+        longest = isNamed ? quantity.size() : 0;
       }
       limits.push_back(limit);
     }

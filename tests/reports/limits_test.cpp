@@ -24,7 +24,8 @@ void require(Results& results, const std::string& name, std::size_t output, int 
   requirement.margin = results.outputs.size();
   requirement.until = results.horizon;
   requirement.violation.assign(results.uncertain.size(), std::nan(""));
-  results.outputs.push_back({name, "1 - " + results.outputs[output].quantity, results.outputs[output].unit});
+  const std::string quantity = results.outputs[output].quantity;
+  results.outputs.push_back({name, sign > 0 ? quantity + " - 1" : "1 - " + quantity, results.outputs[output].unit});
   const std::size_t was = results.outputs.size() - 1;
   const auto widen = [&](Table& table) {
     if (table.empty()) return;
@@ -105,6 +106,23 @@ TEST(Limits, AreThoseOfTheOutputsWhoseMarginsTheyMake) {
   results.outputs[3].quantity = "of something else";
   EXPECT_EQ(limitsOf(results)[1].output, 3u);
   EXPECT_EQ(limitsOf(results)[1].value, 0);
+}
+
+/// Where an output is symmetric about zero, its numbers do not tell an upper limit from a lower one.
+TEST(Limits, LieOnTheirSideOfWhatIsSymmetric) {
+  Results results = example::pendulum(61, 2);
+  Bounds& at = results.interval.at;
+  for (std::size_t i = 0; i < at.lower.times; ++i) at.lower(i, 0) = -at.upper(i, 0);
+  require(results, "below", 0, -1, 30);
+  require(results, "above", 0, 1, -20);
+  const std::vector<Limit> limits = limitsOf(results);
+  ASSERT_EQ(limits.size(), 2U);
+  EXPECT_EQ(limits[0].output, 0U);
+  EXPECT_EQ(limits[0].value, 30);
+  EXPECT_EQ(limits[1].value, -20);
+  // As margins of |x| < 20 are written.
+  results.outputs.back().quantity = "20 rad - (-((" + results.outputs[0].quantity + ")))";
+  EXPECT_EQ(limitsOf(results)[1].value, -20);
 }
 
 TEST(Limits, NearestIsThatWithTheLeastRoomInSharesOfItsVariation) {
