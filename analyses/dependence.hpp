@@ -18,6 +18,7 @@ class GaussianCopula {
   GaussianCopula(std::vector<std::size_t> quantities, std::vector<std::vector<Interval>> rankCorrelation);
 
   const std::vector<std::size_t>& quantities() const { return quantities_; }
+  /// ρ, as it was given.
   const std::vector<std::vector<Interval>>& rank() const { return rank_; }
   /// Quantity q is the place[q]th from now on.
   void renumber(const std::vector<std::size_t>& place) {
@@ -26,7 +27,8 @@ class GaussianCopula {
   /// z = root·w, w independent: of Cholesky's decomposition, a lower triangle.
   const std::vector<std::vector<Interval>>& root() const { return root_; }
 
-  /// Of independent numbers in [0,1], one an uncertain quantity, makes those of its own dependent.
+  /// Of independent numbers in [0,1], one an uncertain quantity, makes those of its own dependent, in doubles: for
+  /// samples. What is nearer to an end than 2^-60 or 2^-53 is taken for that far.
   void correlate(std::span<double> point) const;
 
  private:

@@ -69,7 +69,7 @@ class Distribution {
   Interval enclosedBelow(const Interval& value) const;
 
   /// Whether the density certainly rises or falls all over `values`, where it is positive: then the distribution
-  /// function bends to one side there. Of what is not precise: no.
+  /// function bends to one side there. Of what is not precise: not inside its support.
   bool isMonotone(const Interval& values) const;
 
   const Interval& support() const { return support_; }

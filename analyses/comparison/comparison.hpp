@@ -54,7 +54,7 @@ struct ComparisonOptions {
 
 /// A sample that was found outside and looked at again.
 struct Dispute {
-  std::size_t number = 0;  ///< of the sample; corners and centre follow the samples
+  std::size_t number = 0;  ///< of the sample; those without weight follow the others
   std::size_t time = 0;    ///< index of the output time of its greatest excursion (at first, if none remained)
   std::size_t output = 0;  ///< index of the output
   double value = 0, lower = 0, upper = 0;

@@ -54,7 +54,7 @@ class Course {
   }
 
   double error() const { return error_; }
-  /// From edge to edge; behind each other without tables.
+  /// From edge to edge; without tables only to the next.
   std::pair<double, double> over(long from, long until) const {
     const auto a = static_cast<std::size_t>(from), b = static_cast<std::size_t>(until);
     if (b == a + 1) return std::minmax(value_[a], value_[b]);
@@ -221,10 +221,13 @@ JointMasses::JointMasses(int symbols, const std::vector<FlowSymbol>& quantities,
     groupOf_[at(quantities[q].symbol)] = static_cast<int>(groups_.size());
     if (!distribution.focal().empty())
       addEvidence(group, quantities[q], distribution);
-    else if (!distribution.isPrecise())
-      addBox(group, belowOf(q));
+    else if (const std::vector<Interval> below = belowOf(q);
+             !distribution.isPrecise() ||
+             // A value of its own probability is, as far as is known, on either side of an edge.
+             std::ranges::any_of(below, [](const Interval& f) { return width(f) > 1e-9; }))
+      addBox(group, below);
     else {
-      BinMasses known = massesBetween(belowOf(q));
+      BinMasses known = massesBetween(below);
       group.mass = std::move(known.mass);
       error_ += known.error;
     }
@@ -293,47 +296,45 @@ JointMasses::Part JointMasses::with(const Part& part, std::size_t group, std::ve
   return found;
 }
 
-std::vector<JointMasses::Part> JointMasses::cut(const Part& part, int symbol, long edge) const {
-  const long first = part.first[at(symbol)], until = first + part.count[at(symbol)];
-  if (!isAlone(symbol) || edge <= first || edge >= until) return {part};
+/// Elements apart by the side, 0 to 2, that their first bin and the one behind their last are on.
+template <class Side>
+std::vector<JointMasses::Part> JointMasses::apart(const Part& part, int symbol, const Side& sideOf) const {
   const std::size_t number = at(groupOf_[at(symbol)]);
   const Group& group = groups_[number];
-  if (group.from.empty()) {
-    std::vector<Part> both(2, part);
-    both[0].count[at(symbol)] = edge - first;
-    both[1].first[at(symbol)] = edge;
-    both[1].count[at(symbol)] = until - edge;
-    return both;
-  }
   const std::size_t symbols = group.symbols.size();
   const auto s = static_cast<std::size_t>(std::ranges::find(group.symbols, symbol) - group.symbols.begin());
   std::vector<std::uint32_t> sides[3];
   forEach(part, number, [&](std::uint32_t i) {
-    sides[group.until[i * symbols + s] <= edge ? 0 : group.from[i * symbols + s] >= edge ? 1 : 2].push_back(i);
-  });
-  std::vector<Part> parts;
-  for (std::vector<std::uint32_t>& side : sides)
-    if (!side.empty()) parts.push_back(with(part, number, std::move(side)));
-  return parts;
-}
-
-std::vector<JointMasses::Part> JointMasses::halves(const Part& part, int symbol) const {
-  const long first = part.first[at(symbol)], count = part.count[at(symbol)];
-  if (!isAlone(symbol) || count < 2) return {part};
-  const std::size_t number = at(groupOf_[at(symbol)]);
-  const Group& group = groups_[number];
-  if (group.from.empty()) return cut(part, symbol, first + count / 2);
-  const std::size_t symbols = group.symbols.size();
-  const auto s = static_cast<std::size_t>(std::ranges::find(group.symbols, symbol) - group.symbols.begin());
-  std::vector<std::uint32_t> sides[3];
-  forEach(part, number, [&](std::uint32_t i) {
-    const long from = group.from[i * symbols + s], until = group.until[i * symbols + s];
-    sides[2 * (until - from) > count ? 2 : from + until > 2 * first + count ? 1 : 0].push_back(i);
+    sides[sideOf(long{group.from[i * symbols + s]}, long{group.until[i * symbols + s]})].push_back(i);
   });
   std::vector<Part> parts;
   for (std::vector<std::uint32_t>& side : sides)
     if (!side.empty()) parts.push_back(with(part, number, std::move(side)));
   return parts.size() > 1 ? parts : std::vector<Part>{part};
+}
+
+std::vector<JointMasses::Part> JointMasses::cut(const Part& part, int symbol, long edge) const {
+  const long first = part.first[at(symbol)], until = first + part.count[at(symbol)];
+  if (!isAlone(symbol) || edge <= first || edge >= until) return {part};
+  if (!groups_[at(groupOf_[at(symbol)])].from.empty())
+    return apart(part, symbol, [&](long from, long end) { return end <= edge ? 0 : from >= edge ? 1 : 2; });
+  std::vector<Part> both(2, part);
+  both[0].count[at(symbol)] = edge - first;
+  both[1].first[at(symbol)] = edge;
+  both[1].count[at(symbol)] = until - edge;
+  return both;
+}
+
+std::vector<JointMasses::Part> JointMasses::halves(const Part& part, int symbol) const {
+  const long first = part.first[at(symbol)], count = part.count[at(symbol)];
+  if (!isAlone(symbol) || count < 2) return {part};
+  if (groups_[at(groupOf_[at(symbol)])].from.empty()) return cut(part, symbol, first + count / 2);
+  const std::vector<Part> halves = apart(part, symbol, [&](long from, long until) {
+    return 2 * (until - from) > count ? 2 : from + until > 2 * first + count ? 1 : 0;
+  });
+  if (halves.size() > 1) return halves;
+  // All are wide, or on one side: those that begin first, and the others.
+  return apart(part, symbol, [&](long from, long) { return from == first ? 0 : 1; });
 }
 
 double JointMasses::massOf(const Part& part, std::size_t group) const {
@@ -351,6 +352,13 @@ double JointMasses::massOf(const Part& part) const {
   double mass = 1;
   for (std::size_t g = 0; g < groups_.size(); ++g) mass *= massOf(part, g);
   return mass;
+}
+
+/// Of each group's masses, which are 1 in all, a sum is off by no more than their number; twice, for products of sums.
+double JointMasses::roundings() const {
+  double count = 64;
+  for (const Group& group : groups_) count += 2 * static_cast<double>(group.mass.size());
+  return count * bounds::unit;
 }
 
 // ---- Sums -----------------------------------------------------------------------------------------------------------
@@ -447,10 +455,7 @@ GridSum JointMasses::sumOf(const Part& part, const std::vector<std::vector<doubl
   GridSum result = gamut::sumOf(parts);
   for (GridMasses* side : {&result.sum.below, &result.sum.above})
     for (double& mass : side->mass) mass *= scale;
-  std::size_t most = 0;
-  for (const Group& group : groups_) most = std::max(most, group.mass.size());
-  const double roundings = 2 * static_cast<double>(most) + 64;  // of sums of masses
-  result.error += roundings * bounds::unit + error;
+  result.error += roundings() + error;
   return result;
 }
 

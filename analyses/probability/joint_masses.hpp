@@ -15,6 +15,7 @@
 
 namespace gamut {
 
+/// What is known of the distribution of all quantities together.
 class JointMasses {
  public:
   /// A part of the joint distribution: which elements, and the bins in which they lie.
@@ -24,7 +25,9 @@ class JointMasses {
     std::vector<std::shared_ptr<const std::vector<std::uint32_t>>> elements;
   };
 
-  /// `quantities` tells the symbols of the uncertain ones, one by one; others are symbols of which nothing is known.
+  /// `quantities` tells the symbols of the uncertain ones, one by one; others are symbols of which nothing is known. Of
+  /// a copula of more than nine quantities it is taken for unknown how they depend on each other; one of fewer has up
+  /// to 2^18 elements.
   JointMasses(int symbols, const std::vector<FlowSymbol>& quantities, const std::vector<const Uncertain*>& uncertain,
               const QuantityDependence& dependence = {});
 
@@ -43,8 +46,11 @@ class JointMasses {
   double massOf(const Part& part) const;
   /// Of all masses of a part, Σ|error| is at most that.
   double error() const { return error_; }
+  /// By so much is a sum of probabilities of parts off by its roundings.
+  double roundings() const;
 
-  /// Of Σ f_l(η_l) + rest, as multiples of a step: `f` [symbol][power], powers above 0, of the part's own η.
+  /// Of Σ f_l(η_l) + rest, as multiples of a step, `error()` included in its error: `f` [symbol][power], powers above
+  /// 0, of the part's own η.
   GridSum sumOf(const Part& part, const std::vector<std::vector<double>>& f, Interval rest, double step) const;
 
  private:
@@ -58,6 +64,8 @@ class JointMasses {
   void addCopula(Group& group, const GaussianCopula& copula, const std::vector<std::size_t>& rows,
                  const std::vector<std::vector<Interval>>& below);
   bool isAlone(int symbol) const;
+  template <class Side>
+  std::vector<Part> apart(const Part& part, int symbol, const Side& sideOf) const;
   Part with(const Part& part, std::size_t group, std::vector<std::uint32_t> elements) const;
   template <class Take>
   void forEach(const Part& part, std::size_t group, const Take& take) const;

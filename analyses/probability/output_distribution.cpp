@@ -66,10 +66,11 @@ class Distributor {
       if (!(cell.separated.norm - std::fabs(cell.separated.constant) + cell.model.radius <= useful * (upper_ - lower_)))
         cell.model.c.clear();
     // Of an even density at first, then of the one that was found: the bounds of the output may be so far apart.
+    const std::size_t mostCells = masses_.isPlain() ? options_.mostCells : options_.mostCells / 4;
     double allowed = 2 * options_.gap * (upper_ - lower_), before = unlimited;
     for (int round = 0; round < 4; ++round) {
       // Where terms in several symbols, or radii, are not less, small steps are of no use.
-      const double apart = refine(0.5 * allowed, round == 0 ? options_.mostCells / 4 : options_.mostCells);
+      const double apart = refine(0.5 * allowed, round == 0 ? mostCells / 4 : mostCells);
       allowed = std::max(allowed, 0.5 * apart);
       if (round > 1 && !(allowed < 0.6 * before)) break;
       before = allowed;

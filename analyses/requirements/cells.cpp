@@ -1,5 +1,5 @@
-// All parts come from bisections of [-1,1] in their middles: of two intervals of one symbol, one holds the other, or
-// they have a point in common at most.
+// Parts come from bisections of [-1,1], or are hulls of bins of a joint distribution: these may overlap a model's part
+// without being nested; then its polynomial stays that of its own part.
 #include "analyses/requirements/cells.hpp"
 
 #include <algorithm>
@@ -242,9 +242,23 @@ std::vector<std::unique_ptr<Cell>> Cells::halves(const Cell& cell) {
   return both;
 }
 
+/// η_l = middle + half·η from now on.
+void Cells::narrow(Cell::Local& local, int l, double middle, double half) const {
+  const PolynomialRange& tables = tablesOf(*local.of).range;
+  for (std::size_t i = 0; i < local.c.size(); ++i) {
+    if (local.c[i].empty()) continue;
+    std::vector<double> moved(local.c[i].size());
+    double norm = 0;
+    for (const double c : local.c[i]) norm += std::fabs(c);
+    tables.substitute(l, middle, half, local.c[i].data(), moved.data(), static_cast<int>(moved.size()));
+    local.c[i] = std::move(moved);
+    local.radius[i] = (local.radius[i] + tables.shiftError() * norm * bounds::up) * bounds::up + bounds::tiny;
+  }
+}
+
 std::unique_ptr<Cell> Cells::within(const Cell& cell, const FlowPart& part) {
-  auto half = std::make_unique<Cell>();
-  half->part_ = part;
+  auto found = std::make_unique<Cell>();
+  found->part_ = part;
   constexpr std::size_t none = static_cast<std::size_t>(-1);
   std::vector<std::size_t> place;
   for (const Cell::Local& local : cell.locals_) {
@@ -252,37 +266,28 @@ std::unique_ptr<Cell> Cells::within(const Cell& cell, const FlowPart& part) {
       place.push_back(none);
       continue;
     }
-    place.push_back(half->locals_.size());
-    half->locals_.push_back(local);
-    Cell::Local& own = half->locals_.back();
-    const PolynomialRange& tables = tablesOf(*own.of).range;
+    place.push_back(found->locals_.size());
+    found->locals_.push_back(local);
+    Cell::Local& own = found->locals_.back();
     for (std::size_t l = 0; l < part.half.size(); ++l) {
       const double apart = part.centre[l] - own.part.centre[l];
       if (own.part.half[l] <= part.half[l] || std::fabs(apart) > own.part.half[l] - part.half[l]) continue;
-      for (std::size_t i = 0; i < own.c.size(); ++i) {
-        std::vector<double> moved(own.c[i].size());
-        double norm = 0;
-        for (const double c : own.c[i]) norm += std::fabs(c);
-        tables.substitute(static_cast<int>(l), apart / own.part.half[l], part.half[l] / own.part.half[l],
-                          own.c[i].data(), moved.data(), static_cast<int>(moved.size()));
-        own.c[i] = std::move(moved);
-        own.radius[i] = (own.radius[i] + tables.shiftError() * norm * bounds::up) * bounds::up + bounds::tiny;
-      }
+      narrow(own, static_cast<int>(l), apart / own.part.half[l], part.half[l] / own.part.half[l]);
       own.part.centre[l] = part.centre[l];
       own.part.half[l] = part.half[l];
     }
   }
   for (const Cell::Chord& chord : cell.chords_)
-    if (meet(chord.of->part, half->part_))
-      half->chords_.push_back({chord.of, place[chord.before], place[chord.behind]});
+    if (meet(chord.of->part, found->part_))
+      found->chords_.push_back({chord.of, place[chord.before], place[chord.behind]});
   for (const Cell::Moment& moment : cell.moments_) {
     Cell::Moment own;
     for (const std::size_t local : moment.snapshots)
       if (place[local] != none) own.snapshots.push_back(place[local]);
-    half->moments_.push_back(std::move(own));
+    found->moments_.push_back(std::move(own));
   }
-  decide(*half);
-  return half;
+  decide(*found);
+  return found;
 }
 
 /// Nothing where the polynomial does not cover the cell, or there is none.
@@ -413,19 +418,12 @@ Cell::Verdict Cells::verdictAt(const std::vector<double>& xi) {
   };
   for (Cell::Local& local : cell->locals_) {
     if (!covers(local.part)) continue;
-    const PolynomialRange& tables = tablesOf(*local.of).range;
-    for (std::size_t i = 0; i < local.c.size(); ++i)
-      for (int l = 0; l < models_.symbols && !local.c[i].empty(); ++l) {
-        if (isBeside(at(l))) continue;
-        std::vector<double> moved(local.c[i].size());
-        double norm = 0;
-        for (const double c : local.c[i]) norm += std::fabs(c);
-        // The middle is off by its roundings, which the half-width covers.
-        const double middle = (xi[at(l)] - local.part.centre[at(l)]) / local.part.half[at(l)];
-        tables.substitute(l, middle, 8 * bounds::unit, local.c[i].data(), moved.data(), static_cast<int>(moved.size()));
-        local.c[i] = std::move(moved);
-        local.radius[i] = (local.radius[i] + tables.shiftError() * norm) * bounds::up + bounds::tiny;
-      }
+    for (int l = 0; l < models_.symbols; ++l) {
+      if (isBeside(at(l))) continue;
+      // The middle is off by its roundings, which the half-width covers.
+      const double middle = (xi[at(l)] - local.part.centre[at(l)]) / local.part.half[at(l)];
+      narrow(local, l, middle, 8 * bounds::unit);
+    }
   }
   std::erase_if(cell->chords_, [&](const Cell::Chord& chord) { return !covers(chord.of->part); });
   for (Cell::Moment& moment : cell->moments_)

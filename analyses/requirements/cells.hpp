@@ -100,6 +100,7 @@ class Cells {
   };
   void decide(Cell& cell);
   std::optional<Form> formOf(const Cell& cell, std::size_t local, std::size_t margin) const;
+  void narrow(Cell::Local& local, int l, double middle, double half) const;
   Outcome outcomeOf(const std::vector<Interval>& margins) const;
   Outcome outcomeOf(const Cell& cell, const Cell::Chord& chord) const;
   void dropUnused(Cell& cell) const;

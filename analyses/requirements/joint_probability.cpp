@@ -24,15 +24,13 @@ struct Piece {
   bool operator<(const Piece& other) const { return open() < other.open(); }
 };
 
-/// Roundings of a sum of 2^18 probabilities, 1 in all.
-constexpr double ofSums = 0x1p-34;
-
 class Weighing {
  public:
   Weighing(Cells& cells, const JointMasses& masses) : cells_(cells), masses_(masses) {}
 
   Interval operator()(double gap, const std::atomic<bool>* cancelled) {
     constexpr std::size_t most = 2500;
+    constexpr double mostWork = 1e9;  // bytes of cells, all in all
     std::vector<Piece> waiting;
     const auto push = [&](JointMasses::Part part, const Cell& from) {
       Piece piece = weighed(std::move(part), from);
@@ -46,7 +44,8 @@ class Weighing {
       const Piece piece = std::move(waiting.back());
       waiting.pop_back();
       std::vector<JointMasses::Part> halves;
-      const bool isEnough = open_ <= gap || waiting.size() >= most || (cancelled != nullptr && *cancelled);
+      const bool isEnough =
+          open_ <= gap || waiting.size() >= most || work_ > mostWork || (cancelled != nullptr && *cancelled);
       if (piece.cell->verdict() == Cell::Verdict::open && !isEnough)
         for (const int symbol : cells_.symbolsOf(*piece.cell))
           if (halves = masses_.halves(piece.part, symbol); halves.size() > 1) break;
@@ -66,8 +65,9 @@ class Weighing {
   Piece weighed(JointMasses::Part part, const Cell& from) {
     Piece piece{std::move(part), nullptr};
     piece.cell = cells_.within(from, JointMasses::boxOf(piece.part));
+    work_ += piece.cell->bytes();
     piece.mass = masses_.massOf(piece.part);
-    const double certain = std::max(0.0, subDown(piece.mass, addUp(masses_.error(), ofSums)));
+    const double certain = std::max(0.0, subDown(piece.mass, addUp(masses_.error(), masses_.roundings())));
     switch (piece.cell->verdict()) {
       case Cell::Verdict::met:
         piece.met = certain;
@@ -100,13 +100,13 @@ class Weighing {
       const long value = side.first + static_cast<long>(i);
       if (isAbove ? value > 0 : value < 0) probability += std::max(0.0, side.mass[i]);
     }
-    return std::max(0.0, subDown(probability, addUp(sum.error, ofSums)));
+    return std::max(0.0, subDown(probability, addUp(sum.error, masses_.roundings())));
   }
 
   Cells& cells_;
   const JointMasses& masses_;
   double met_ = 0, violated_ = 0;  // rounded down
-  double open_ = 0;
+  double open_ = 0, work_ = 0;
 };
 
 }  // namespace

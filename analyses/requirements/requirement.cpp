@@ -27,7 +27,8 @@ class Examiner {
   Examiner(const FlowModels& models, const CellQuestion& question, const std::vector<CellQuantity>& quantities,
            const RequirementOptions& options)
       : models_(models),
-        cells_(models, withBesides(models, question, quantities)),
+        question_(withBesides(models, question, quantities)),
+        cells_(models, question_),
         quantities_(quantities),
         options_(options) {
     below_.resize(quantities.size());
@@ -45,7 +46,7 @@ class Examiner {
     }
     weigh();
     // Cells that are bisections of the box do not add up.
-    if (!isPlain_) finding_.probability = probabilityOf(cells_, *options_.masses, options_.gap, options_.cancelled);
+    if (!isPlain_) weighJoint();
     if (finding_.met == 0) lookForWhatIsMet();
     measureDeviations();
     measurePossibility();
@@ -205,7 +206,7 @@ class Examiner {
 
   // ---- Probability --------------------------------------------------------------------------------------------------
 
-  /// What of an open cell's probability planes decide. Its quantities are independent, and so are
+  /// What of an open cell's probability planes decide. Where its quantities are independent, so are
   /// w_i = 2 (F(q_i) - F(a_i)) / (F(b_i) - F(a_i)) - 1, uniform on [-1,1], with a_i and b_i its ends. Where the density
   /// is monotone, w - η is concave or convex in η and zero at both ends, hence nowhere more than twice what it is in
   /// the middle: |w_i - η_i| ≤ δ_i = 2 |w_i(0)|. So Σ s_i η_i > c where Σ s_i w_i > c + Σ |s_i| δ_i.
@@ -306,6 +307,27 @@ class Examiner {
           return true;
         });
     finding_.probability = Interval(met, std::max(met, subUp(1.0, violated)));
+  }
+
+  /// All margins together; and each by itself: all are above zero at a time with a probability of 1 - Σ (1 - P_i) at
+  /// least (always), and with no more than the least P_i (Bonferroni, Frechet).
+  void weighJoint() {
+    finding_.probability = probabilityOf(cells_, *options_.masses, options_.gap, options_.cancelled);
+    if (question_.margins.size() < 2) return;
+    double least = 1, most = 1;  // rounded outward
+    for (std::size_t i = 0; i < question_.margins.size(); ++i) {
+      CellQuestion one = question_;
+      one.margins = {question_.margins[i]};
+      one.isMetAtZero = {question_.isMetAtZero[i]};
+      Cells cells(models_, one);
+      const Interval alone = probabilityOf(cells, *options_.masses, options_.gap, options_.cancelled);
+      least = subDown(least, subUp(1.0, alone.lower()));
+      most = std::min(most, alone.upper());
+    }
+    if (question_.when == CellQuestion::When::eventually) least = 0;
+    const Interval other(std::max(0.0, std::min(least, most)), most);
+    const Interval both = intersection(finding_.probability, other);
+    if (!isEmpty(both)) finding_.probability = both;
   }
 
   // ---- Deviations ---------------------------------------------------------------------------------------------------
@@ -437,6 +459,7 @@ class Examiner {
   }
 
   const FlowModels& models_;
+  const CellQuestion question_;
   Cells cells_;
   const std::vector<CellQuantity>& quantities_;
   const RequirementOptions& options_;

@@ -22,7 +22,7 @@ enum class Dependence {
   all       ///< they are not random
 };
 
-/// What the samples (without corners and centre) say. Errors and bounds are of 95 % confidence, of each number by
+/// What the samples of the plan say. Errors and bounds are of 95 % confidence, of each number by
 /// itself: NaN where none holds.
 struct Statistics {
   Table mean, meanError;              ///< half the width of its interval
@@ -56,9 +56,9 @@ class EnsembleStatistics {
 
   // Each of the first `times` output times, NaN for the others.
 
-  /// Of samples, corners and centre.
+  /// Of all samples, weight or none.
   Envelope envelope(std::size_t times) const;
-  /// Of the samples, corners and centre that lie in the cuts of each level. NaN where none does.
+  /// Of those that lie in the cuts of each level. NaN where none does.
   std::vector<Envelope> innerCuts(std::size_t times) const;
   /// Throws std::invalid_argument unless the probabilities rise from 0 to 1.
   Statistics statistics(std::size_t times, Dependence dependence,
