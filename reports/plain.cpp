@@ -89,7 +89,7 @@ Demand demandOf(const RequirementResult& requirement) {
 
 bool isProbabilityProved(const Results& results) { return results.interval.present || results.fuzzy.present; }
 
-/// It is violated for some values and met for some, but for these with hardly any probability.
+/// Violated for some values, and met with hardly any probability, proved.
 bool isRarelyMet(const Results& results, const RequirementResult& requirement) {
   constexpr double rare = 0.01;
   return requirement.word == "partly" && isProbabilityProved(results) && requirement.probabilityUpper <= rare;

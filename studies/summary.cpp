@@ -420,7 +420,7 @@ std::string textSummary(const Results& results) {
   std::vector<std::string> costs;
   for (const Answer* answer : results.answers())
     if (answer->present) costs.push_back(fmt::format("{} {:.2f} s", answer->title(), answer->cpu));
-  if (!results.dependence.empty()) text += fmt::format("  dependence: {}\n", results.dependence);
+  if (!results.dependence.empty()) text += fmt::format("  quantities: {}\n", results.dependence);
   text += statisticsText(results);
   text += transformationText(results);
   if (const DistributionResult& d = results.distribution; d.present) {

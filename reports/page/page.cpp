@@ -62,7 +62,13 @@ std::string notesList(const Verdict& verdict) {
   return list + "</ul>\n";
 }
 
-std::string askedSection(const Report& report) { return uncertainTable(report.results); }
+/// The quantities, and how they hang together.
+std::string askedSection(const Report& report) {
+  std::string html = uncertainTable(report.results);
+  if (const std::string& dependence = report.results.dependence; !dependence.empty())
+    html += fmt::format("<p class=\"hint\">The quantities: {}.</p>\n", escapeHtml(dependence));
+  return html;
+}
 
 std::string outputsSection(const Report& report) { return report.outputs.html; }
 

@@ -112,7 +112,7 @@ gamut.plots = (() => {
     return found;
   };
 
-  // At the end or at the begin of what is seen, above or below the line, where the fewest lines are: as on paper.
+  // At the end or the beginning of what is seen, above or below the line, where the fewest lines are: as on paper.
   const drawLabels = (plot, lines) => {
     const { ctx, bbox } = plot, px = devicePixelRatio;
     ctx.save();

@@ -477,6 +477,8 @@ PlotSection sensitivityPlots(const Results& results) {
   }
   if (cards.empty()) return section;
   section.html = hintsOf(kinds, results);
+  if (const std::string& why = results.sensitivity.why; !why.empty())
+    section.html += fmt::format("<p class=\"hint\">There are no Sobol’ indices: {}.</p>\n", escapeHtml(why));
   if (!key.empty()) {
     std::ranges::sort(key, {}, [](const Layer& layer) { return std::pair(layer.name.size(), layer.name); });
     section.html += drawKey(key, "Key to the quantities");

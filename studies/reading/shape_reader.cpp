@@ -41,7 +41,7 @@ class ShapeReader {
       std::string type;
       const TomlSection keys = kind(section_, *node, key, kindsOfDistribution(), type);
       if (type == "evidence")
-        for (const FocalInterval& focal : evidenceOf(keys, quantity)) range = hull(range, focal.values);
+        for (const FocalInterval& focal : evidenceOf(keys, quantity).focal) range = hull(range, focal.values);
       if (type != "histogram" && type != "empirical") continue;
       for (const Amount& value :
            type == "histogram" ? histogramOf(keys, quantity).edges : valuesOf(keys, quantity).values)
@@ -134,46 +134,56 @@ class ShapeReader {
 
   // ---- Evidence -----------------------------------------------------------------------------------------------------
 
-  /// Of lists in the study, or of a file's columns lower, upper and mass.
-  std::vector<FocalInterval> evidenceOf(const TomlSection& section, const UncertainQuantity& quantity) const {
+  struct Evidence {
     std::vector<FocalInterval> focal;
+    std::vector<std::size_t> lines;  ///< where a file has them
+  };
+
+  /// Of lists in the study, or of a file's columns lower, upper and mass.
+  Evidence evidenceOf(const TomlSection& section, const UncertainQuantity& quantity) const {
+    constexpr const char *negative = "the mass is negative", *instead = "a mass of 0 or more";
+    Evidence read;
     if (const toml::node* file = section.find("file")) {
       refuseBeside(section, {"intervals", "masses"});
-      const auto [columns, lines] =
+      auto [columns, lines] =
           files_.columns(*file, section.nameOf("file"),
                          {{"lower", quantity.unit}, {"upper", quantity.unit}, {"mass", std::string(unit::one)}});
       for (std::size_t row = 0; row < columns[0].size(); ++row) {
         const Interval lower = enclose(columns[0][row]), upper = enclose(columns[1][row]);
         if (lower.lower() > upper.upper())
           files_.fail(*file, lines[row], "upper lies below lower", "intervals from lower to upper");
-        if (columns[2][row].value < 0) files_.fail(*file, lines[row], "the mass is negative", "a mass of 0 or more");
-        focal.push_back({hull(lower, upper), enclose(columns[2][row])});
+        if (columns[2][row].value < 0) files_.fail(*file, lines[row], negative, instead);
+        read.focal.push_back({hull(lower, upper), enclose(columns[2][row])});
       }
-      return focal;
+      read.lines = std::move(lines);
+      return read;
     }
     const toml::node& intervals = section.require("intervals", "[[lower, upper], ...], or a file");
     const toml::node& masses = section.require("masses", "one mass an interval");
     for (const toml::node& entry : source_.asArray(intervals, section.nameOf("intervals")))
-      focal.push_back({readPair(source_, entry, section.nameOf("intervals"), dimensionOf(quantity.unit))});
+      read.focal.push_back({readPair(source_, entry, section.nameOf("intervals"), dimensionOf(quantity.unit))});
     const toml::array& all = source_.asArray(masses, section.nameOf("masses"));
-    if (all.size() != focal.size())
-      source_.fail(masses, fmt::format("{} masses stand beside {} intervals", all.size(), focal.size()),
+    if (all.size() != read.focal.size())
+      source_.fail(masses, fmt::format("{} masses stand beside {} intervals", all.size(), read.focal.size()),
                    "one mass an interval");
-    for (std::size_t i = 0; i < focal.size(); ++i)
-      focal[i].mass = enclose(source_.asAmount(all[i], section.nameOf("masses"), plain));
-    return focal;
+    for (std::size_t i = 0; i < read.focal.size(); ++i) {
+      const Amount mass = source_.asAmount(all[i], section.nameOf("masses"), plain);
+      if (mass.value < 0) source_.fail(all[i], negative, instead);
+      read.focal[i].mass = enclose(mass);
+    }
+    return read;
   }
 
   std::vector<FocalInterval> evidenceInside(const TomlSection& section, const UncertainQuantity& quantity) const {
-    std::vector<FocalInterval> focal = evidenceOf(section, quantity);
-    for (const FocalInterval& each : focal)
-      if (!isSubset(each.values, quantity.uncertain.range)) {
-        const auto [inner, outer] = writtenApart(each.values, quantity.uncertain.range);
-        source_.fail(section.table(),
-                     fmt::format("{} has {}, which leaves the interval", section.nameOf("intervals"), inner),
-                     "intervals inside " + outer);
-      }
-    return focal;
+    const Evidence read = evidenceOf(section, quantity);
+    for (std::size_t i = 0; i < read.focal.size(); ++i) {
+      if (isSubset(read.focal[i].values, quantity.uncertain.range)) continue;
+      const auto [inner, outer] = writtenApart(read.focal[i].values, quantity.uncertain.range);
+      const std::string problem = inner + " leaves the interval", expected = "intervals inside " + outer;
+      if (!read.lines.empty()) files_.fail(*section.find("file"), read.lines[i], problem, expected);
+      source_.fail((*section.find("intervals")->as_array())[i], section.nameOf("intervals") + ": " + problem, expected);
+    }
+    return read.focal;
   }
 
   // ---- Histograms and measurements ----------------------------------------------------------------------------------

@@ -13,7 +13,7 @@ namespace gamut {
 
 /// A sample that was found outside and looked at again.
 struct DisputedSample {
-  std::int64_t number = 0;   ///< of the sample; corners and centre follow the samples
+  std::int64_t number = 0;   ///< of the sample; those without weight follow the others
   std::uint64_t time = 0;    ///< index of the output time of its greatest excursion
   std::uint64_t output = 0;  ///< index of the output
   double value = 0, lower = 0, upper = 0;

@@ -23,7 +23,9 @@ std::vector<Field> fieldsOfStudy(Origin& o) {
       {"dependence",
        &o.dependence,
        unit::none,
-       "how uncertain quantities depend on each other, in words; empty where they are independent",
+       "how uncertain quantities depend on each other, in words, and whether several distributions are possible; empty "
+       "where "
+       "they are independent",
        {}},
       {"seed", &o.seed, unit::none, "of the samples", {}},
       {"horizon", &o.horizon, unit::second, "time asked for; 0 in kinematics", {}, allowed::finite},

@@ -61,7 +61,8 @@ struct Origin {
   std::vector<UncertainInfo> uncertain;
   std::vector<ShapeInfo> shapes;  ///< of all of them
   std::vector<OutputInfo> outputs;
-  std::string dependence;    ///< of the uncertain quantities, in words; empty where they are independent
+  std::string dependence;    ///< of the uncertain quantities, in words, and whether several distributions are
+                             ///< possible; empty where they are independent
   double horizon = 0;        ///< s
   std::vector<double> time;  ///< output times, s
   double reportCpu = 0;      ///< s

@@ -34,7 +34,7 @@ struct RequirementResult {
   double probabilityLower = 0, probabilityUpper = 1;  ///< that it is met, proved
   std::int64_t samples = 0, violating = 0;            ///< that arrived; of these, violate it at an output time
   double shareLower = unknown, shareUpper = unknown;  ///< 95 % confidence of the share that is met; NaN: none holds
-  std::int64_t worstSample = -1;                      ///< with the least margin, corners and centre among them
+  std::int64_t worstSample = -1;                      ///< with the least margin, those without weight among them
   double worstTime = unknown, worstMargin = unknown;  ///< of it: s, and the margin there
   // What is possible.
   double violationLeast = 0, violationMost = 1;  ///< bounds of the possibility that it is violated; 1 - that: necessity

@@ -57,13 +57,13 @@ struct StochasticResult final : Answer {
   std::int64_t corners = 0;       ///< of the uncertain box, integrated besides, without weight
   std::int64_t alphaCorners = 0;  ///< of the alpha-cuts' boxes, likewise
   std::int64_t alphaPoints = 0;   ///< of the transformation, likewise
-  std::int64_t integrated = 0;    ///< how many of samples, corners and centre were followed before the analysis ended
+  std::int64_t integrated = 0;    ///< how many of all these and the centre were followed before the analysis ended
   double relativeTolerance = 0, absoluteTolerance = 0;
   std::int64_t packWidth = 1;              ///< samples of one number / packWidth were integrated together
-  std::int64_t failures = 0;               ///< samples, corners and centre that were not followed to the horizon
+  std::int64_t failures = 0;               ///< of all these and the centre that were not followed to the horizon
   std::vector<FailedSampleResult> failed;  ///< the first thousand of them
   std::string stopped;                     ///< why not all were followed; empty if they were
-  Envelope envelope;                       ///< of all samples, corners and centre
+  Envelope envelope;                       ///< of all samples, weight or none
   // Errors and bounds of 95 % confidence, each number by itself; NaN where none holds.
   Table mean, meanError, deviation, deviationError;  ///< errors: half the width of the interval
   std::vector<double> probabilities;                 ///< of the quantiles

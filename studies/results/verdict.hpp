@@ -36,7 +36,7 @@ struct Finding {
     unbounded,    ///< what is guaranteed of an output is, somewhere, no finite interval
     end,          ///< the horizon was not reached, not all samples were followed, or numbers are missing
     probability,  ///< the bounds of probabilities were not found to the end
-    derivative    ///< neither were those of derivatives
+    derivative    ///< those of derivatives were not
   };
 
   /// "inside"      every sample lies in the enclosure, over the whole horizon;

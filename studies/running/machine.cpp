@@ -240,6 +240,7 @@ void showSamples(Run& run) try {
   const EnsembleOptions options =
       ensembleOptions(run.study, run.problem, run.results, run.options.samples.value_or(run.study.ensemble.samples));
   Sampling sampling(options.plan, run.study.uncertain.size(), options.samples, options.seed);
+  sampling.correlate(run.problem.motion.dependence.copulas);
   Follower follower(run);
   const UncertainMotion& motion = run.problem.motion;
   for (const std::size_t number : shownSamples(sampling, options.plan)) {

@@ -195,7 +195,7 @@ class Probabilities {
       numbers->assign(rows.size() * count_ * all, unknown);
     pinch(rows);
     if (!isPlain(run_.study)) {
-      result.why = "they are of independent quantities whose distributions are known";
+      result.why = "quantities depend on each other, or their distributions are not known exactly";
       return;
     }
     const QuantityMasses masses(surrogate_, uncertain_);
@@ -291,8 +291,11 @@ class Probabilities {
     if (surrogate_.rows.empty()) return "models of outputs found no room";
     if (run_.study.motion.times[surrogate_.rows.back()] < run_.results.distribution.time.back())
       return run_.enclosed.why;
+    const bool isOne = run_.study.dependence.unknown.empty() &&
+                       std::ranges::all_of(uncertain_, [](const Uncertain* u) { return u->distribution.isPrecise(); });
+    if (!isOne) return "more than one joint distribution is possible, or the enclosure is not tight enough";
     if (!isPlain(run_.study))
-      return "more than one joint distribution is possible, or the enclosure is not tight enough";
+      return "bounds of correlated quantities are coarser, or the enclosure is not tight enough";
     return "the enclosure is not tight enough, an output depends on too many quantities together, or is extreme inside "
            "the box";
   }

@@ -21,10 +21,10 @@ struct ReplayedSample {
   std::string decided;
 };
 
-/// Sample `number`, from 0: the plan's samples, then the corners, those of the alpha-cuts, the centre last. `study` is
-/// what results.studyText says. Limits and threads of the run play no part: a sample that a limit of time ended comes
-/// to its end here. One that seemed to leave what is proved is settled as in the run. Throws std::invalid_argument for
-/// results without samples and for a number that no sample has.
+/// Sample `number`, from 0: the plan's samples, then the corners, those of the alpha-cuts, the centre, the points
+/// inside the cuts. `study` is what results.studyText says. Limits and threads of the run play no part: a sample that a
+/// limit of time ended comes to its end here. One that seemed to leave what is proved is settled as in the run. Throws
+/// std::invalid_argument for results without samples and for a number that no sample has.
 ReplayedSample replay(const Study& study, const Results& results, std::size_t number);
 
 /// Values for which a requirement is violated, as the results state them; what varies in time keeps to the course of

@@ -16,7 +16,8 @@
 namespace gamut {
 namespace {
 
-/// "a, b: Gaussian copula, rank correlation 0.5; c, d: unknown".
+/// "a, b: Gaussian copula, rank correlation 0.5; c, d: unknown; samples are of one of the joint distributions that are
+/// possible".
 std::string dependenceText(const Study& study) {
   std::vector<std::string> texts;
   const auto namesOf = [&](const std::vector<std::size_t>& quantities) {
@@ -35,6 +36,11 @@ std::string dependenceText(const Study& study) {
                                 rows.size() > 1 ? "s, row by row," : "", fmt::join(rows, " | ")));
   }
   for (const std::vector<std::size_t>& group : study.dependence.unknown) texts.push_back(namesOf(group) + ": unknown");
+  const bool areSeveral =
+      !study.dependence.unknown.empty() || std::ranges::any_of(study.uncertain, [](const UncertainQuantity& q) {
+        return !q.varies && !q.uncertain.distribution.isPrecise();
+      });
+  if (areSeveral) texts.emplace_back("samples are of one of the joint distributions that are possible");
   return fmt::format("{}", fmt::join(texts, "; "));
 }
 

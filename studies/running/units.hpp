@@ -104,7 +104,8 @@ inline constexpr void (*unitsOfSamples[])(Run&) = {takeFirstSamples,   takeOther
 void enclosePlaces(Run& run, const Tube& tube);
 void enclosePlaces(Run& run);
 
-/// The joint distribution of the quantities that are constant, in these symbols of theirs.
+/// The joint distribution of the quantities that are constant, in these symbols of theirs: until it is asked for with
+/// others.
 const JointMasses& jointMasses(Run& run, int symbols, const std::vector<FlowSymbol>& quantities);
 
 /// Whether all that is constant is independent, and of known distributions.

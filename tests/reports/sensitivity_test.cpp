@@ -80,6 +80,13 @@ TEST(SensitivitySection, ShowsWhatIsKnownWhereTheOthersAreNot) {
 }
 
 /// Bounds that say nothing are not drawn; what is estimated still is.
+TEST(SensitivitySection, SaysWhyThereAreNoIndices) {
+  Results results = example::sensitive();
+  EXPECT_THAT(sensitivities(results), Not(HasSubstr("There are no")));
+  results.sensitivity.why = "quantities depend on each other";
+  EXPECT_THAT(sensitivities(results), HasSubstr("There are no Sobol’ indices: quantities depend on each other."));
+}
+
 TEST(SensitivitySection, DrawsEstimatesWhereNothingIsProved) {
   Results results = example::sensitive();
   for (double& x : results.sensitivity.totalLower) x = 0;

@@ -1,6 +1,7 @@
 // Probabilities and sensitivities of a study: what is asked, what the samples say of it, what the file keeps.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "analyses/samples/ensemble.hpp"
@@ -90,6 +91,42 @@ TEST(Probabilities, HoldTheSharesOfSamples) {
                   6 * sensitivity.deviationUpper[cell] / 64);
     }
   }
+}
+
+/// Samples are of one of the joint distributions that bounds hold for: of a copula, or independent where nothing is
+/// known.
+TEST(Probabilities, HoldForDependentQuantities) {
+  double gap = 0;
+  for (const char* how : {"rank_correlation = -0.8", "unknown = true"}) {
+    const Results results = run(asked("[[dependence]]\nquantities = [\"start\", \"length\"]\n" + std::string(how) +
+                                      "\n[distribution]\ntimes = [0.3, 0.5]\n"));
+    EXPECT_EQ(results.comparison.verdict, "inside");
+    const DistributionResult& distribution = results.distribution;
+    ASSERT_TRUE(distribution.present);
+    EXPECT_GT(distribution.gap, gap);  // less is known of them
+    gap = distribution.gap;
+    const double surely = std::sqrt(std::log(2 / 1e-9) / (2.0 * 4096));
+    for (const double excess : distribution.excess) EXPECT_LE(excess, surely);
+    EXPECT_NE(results.sensitivity.why, "");
+    EXPECT_THAT(results.sensitivity.firstLower, Each(::testing::IsNan()));
+    EXPECT_GT(
+        *std::ranges::max_element(results.sensitivity.pinched, {}, [](double x) { return std::isnan(x) ? 0 : x; }),
+        0.5);
+    const KeptSamples& kept = results.stochastic.kept;
+    ASSERT_GE(kept.number.size(), 4096U);
+    double both = 0, one = 0, other = 0;
+    for (std::size_t i = 0; i < 4096; ++i) {
+      const double x = kept.values[3 * i] - results.uncertain[0].nominal,
+                   y = kept.values[3 * i + 1] - results.uncertain[1].nominal;
+      both += x * y, one += x * x, other += y * y;
+    }
+    const bool isKnown = std::string(how) != "unknown = true";
+    EXPECT_NEAR(both / std::sqrt(one * other), isKnown ? -0.8 : 0.0, 0.05);
+    EXPECT_EQ(results.dependence,
+              isKnown ? "start, length: Gaussian copula, rank correlation -0.8"
+                      : "start, length: unknown; samples are of one of the joint distributions that are possible");
+  }
+  EXPECT_GT(gap, 0.1);
 }
 
 TEST(Probabilities, AreNotBoundedWhereNobodyAsks) {

@@ -1024,7 +1024,7 @@ constexpr BadStudy badStudies[] = {
      "s.toml:32:84: 2 masses stand beside 1 intervals; expected one mass an interval"},
     {"distribution = { type = \"uniform\" }",
      "distribution = { type = \"evidence\", intervals = [[0, 1]], masses = [1] }",
-     "s.toml:32:16: uncertain.distribution.intervals has [0, 1], which leaves the interval; expected intervals inside "
+     "s.toml:32:50: uncertain.distribution.intervals: [0, 1] leaves the interval; expected intervals inside "
      "[0.518363, 0.528835]"},
     {"distribution = { type = \"uniform\" }",
      "distribution = { type = \"evidence\", intervals = [[\"29.9 deg\", \"30 deg\"]], masses = [0] }",
