@@ -9,7 +9,7 @@
 namespace gamut {
 namespace {
 
-std::string shown(const Interval& value) { return toString(midpoint(value)); }
+std::string middleText(const Interval& value) { return toString(midpoint(value)); }
 
 }  // namespace
 
@@ -26,13 +26,13 @@ GaussianCopula::GaussianCopula(std::vector<std::size_t> quantities, std::vector<
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = 0; j <= i; ++j) {
       if (i == j && !isEqual(rank[i][j], Interval(1.0)))
-        throw std::invalid_argument("a rank correlation matrix has ones in its diagonal, not " + shown(rank[i][j]) +
-                                    " (" + at(i, j) + ")");
+        throw std::invalid_argument("a rank correlation matrix has ones in its diagonal, not " +
+                                    middleText(rank[i][j]) + " (" + at(i, j) + ")");
       if (!isEqual(rank[i][j], rank[j][i]))
         throw std::invalid_argument("a rank correlation matrix is symmetric, but " + at(i, j) + " is " +
-                                    shown(rank[i][j]) + " and " + at(j, i) + " is " + shown(rank[j][i]));
+                                    middleText(rank[i][j]) + " and " + at(j, i) + " is " + middleText(rank[j][i]));
       if (magnitude(rank[i][j]) > 1)
-        throw std::invalid_argument("rank correlations lie between -1 and 1, unlike " + shown(rank[i][j]) + " (" +
+        throw std::invalid_argument("rank correlations lie between -1 and 1, unlike " + middleText(rank[i][j]) + " (" +
                                     at(i, j) + ")");
     }
   root_.assign(n, std::vector<Interval>(n, Interval(0.0)));

@@ -11,15 +11,15 @@
 namespace gamut {
 namespace {
 
-constexpr std::size_t levels = 2048;
+constexpr std::size_t levelCount = 2048;
 
-/// [i]: the least value at which the distribution function is i/levels or more; the last where rounding hides it.
+/// [i]: the least value at which the distribution function is i/levelCount or more; the last where rounding hides it.
 std::vector<long> quantilesOf(const GridMasses& variable) {
   std::vector<long> quantiles;
   double sum = variable.mass.front();
   std::size_t at = 0;
-  for (std::size_t i = 0; i <= levels; ++i) {
-    const double level = static_cast<double>(i) / levels;
+  for (std::size_t i = 0; i <= levelCount; ++i) {
+    const double level = static_cast<double>(i) / levelCount;
     while (sum < level && at + 1 < variable.mass.size()) sum += variable.mass[++at];
     quantiles.push_back(variable.first + static_cast<long>(at));
   }
@@ -27,25 +27,25 @@ std::vector<long> quantilesOf(const GridMasses& variable) {
 }
 
 std::vector<long> leastOf(const std::vector<long>& x, const std::vector<long>& y) {
-  std::vector<long> sum(levels + 1, std::numeric_limits<long>::min());
-  for (std::size_t i = 0; i <= levels; ++i)
+  std::vector<long> sum(levelCount + 1, std::numeric_limits<long>::min());
+  for (std::size_t i = 0; i <= levelCount; ++i)
     for (std::size_t j = 0; j <= i; ++j) sum[i] = std::max(sum[i], x[j] + y[i - j]);
   return sum;
 }
 
 std::vector<long> greatestOf(const std::vector<long>& x, const std::vector<long>& y) {
-  std::vector<long> sum(levels + 1, std::numeric_limits<long>::max());
-  for (std::size_t i = 0; i <= levels; ++i)
-    for (std::size_t j = i; j <= levels; ++j) sum[i] = std::min(sum[i], x[j] + y[levels + i - j]);
+  std::vector<long> sum(levelCount + 1, std::numeric_limits<long>::max());
+  for (std::size_t i = 0; i <= levelCount; ++i)
+    for (std::size_t j = i; j <= levelCount; ++j) sum[i] = std::min(sum[i], x[j] + y[levelCount + i - j]);
   return sum;
 }
 
 /// Each as probable as the others.
 GridMasses massesOf(std::vector<long>::const_iterator begin) {
-  const auto [least, greatest] = std::ranges::minmax(std::span(begin, levels));
+  const auto [least, greatest] = std::ranges::minmax(std::span(begin, levelCount));
   GridMasses masses{least, std::vector<double>(static_cast<std::size_t>(greatest - least + 1), 0.0)};
-  for (std::size_t i = 0; i < levels; ++i)
-    masses.mass[static_cast<std::size_t>(begin[static_cast<long>(i)] - least)] += 1.0 / levels;
+  for (std::size_t i = 0; i < levelCount; ++i)
+    masses.mass[static_cast<std::size_t>(begin[static_cast<long>(i)] - least)] += 1.0 / levelCount;
   return masses;
 }
 

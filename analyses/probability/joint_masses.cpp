@@ -18,7 +18,7 @@ using detail::at;
 
 namespace {
 
-constexpr double unlimited = std::numeric_limits<double>::infinity();
+constexpr double boundless = std::numeric_limits<double>::infinity();
 
 /// A polynomial at the edges of a part's bins, and bounds of it between any two of these.
 class Course {
@@ -131,10 +131,10 @@ void JointMasses::addCopula(Group& group, const GaussianCopula& copula, const st
   const auto cells = static_cast<std::size_t>(std::floor(std::pow(most, 1.0 / static_cast<double>(axes)) + 1e-9));
   std::vector<Interval> w;
   std::vector<double> mass;
-  double error = 0, end = -unlimited;
+  double error = 0, end = -boundless;
   for (std::size_t i = 0; i < cells; ++i) {
     const double next =
-        i + 1 == cells ? unlimited
+        i + 1 == cells ? boundless
                        : std::sqrt(2.0) * aboutNormalQuantile(static_cast<double>(i + 1) / static_cast<double>(cells));
     const Interval share = (i + 1 == cells ? Interval(1.0) : normalBelow(Interval(next))) -
                            (i == 0 ? Interval(0.0) : normalBelow(Interval(end)));
@@ -150,14 +150,14 @@ void JointMasses::addCopula(Group& group, const GaussianCopula& copula, const st
   for (const std::vector<Interval>& f : below) {
     std::vector<double>&a = above.emplace_back(), &b = notAbove.emplace_back();
     const auto place = [](double p, int side) {
-      if (p <= 0) return -unlimited;
-      if (p >= 1) return unlimited;
+      if (p <= 0) return -boundless;
+      if (p >= 1) return boundless;
       const double z = aboutNormalQuantile(p);
       for (double by = 1e-14 * (1 + std::fabs(z)); by < 100; by *= 4) {
         const Interval at = normalBelow(Interval(z + side * by));
         if (side > 0 ? at.lower() >= p : at.upper() <= p) return z + side * by;
       }
-      return side * unlimited;
+      return side * boundless;
     };
     for (const Interval& p : f) a.push_back(place(p.upper(), 1)), b.push_back(place(p.lower(), -1));
     // Rising, as those of which they are bounds.
