@@ -15,8 +15,6 @@
 namespace gamut {
 namespace {
 
-constexpr Dimension plain{};
-
 class UncertainReader {
  public:
   UncertainReader(const TomlSource& source, const TableFiles& files, Study& study)
