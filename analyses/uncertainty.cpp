@@ -55,7 +55,8 @@ Distribution::Distribution(Shape shape, const Interval& support, const Interval&
            one.above(support.lower()) - one.above(support.upper()) > 0;
   };
   require(std::ranges::all_of(least_, hasMass) && std::ranges::all_of(greatest_, hasMass),
-          "the " + std::string(this->name()) + " distribution has no mass on its support " + toString(support));
+          "the " + std::string(this->name()) + " distribution has no mass on its support " + toString(support) +
+              (isPrecise() ? "" : " for some of its parameters"));
 }
 
 Distribution::Distribution() : Distribution(Shape::uniform, Interval(0.0), 0.0, 0.0) {}

@@ -3,6 +3,8 @@
 // rests, for flow and samples to follow.
 #include "studies/problem.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <numbers>
 #include <span>
@@ -26,7 +28,16 @@ std::vector<std::string> freeParameters(const Study& study) {
 
 std::vector<std::string> outputQuantities(const Study& study) {
   std::vector<std::string> quantities;
-  for (const OutputInfo& output : study.outputs) quantities.push_back(output.quantity);
+  const std::vector<std::string> known = study.mechanism.outputQuantities();
+  for (const OutputInfo& output : study.outputs) {
+    const bool isQuantity = std::ranges::find(known, output.quantity) != known.end();
+    const std::string own = isQuantity ? study.mechanism.unitOf(output.quantity)
+                                       : unitOf(study.mechanism.dimensionOf(Expression::parse(output.quantity)));
+    // In the unit that the study states.
+    quantities.push_back(output.unit == own ? output.quantity
+                         : isQuantity       ? fmt::format("'{}'/(1 {})", output.quantity, output.unit)
+                                            : fmt::format("({})/(1 {})", output.quantity, output.unit));
+  }
   return quantities;
 }
 

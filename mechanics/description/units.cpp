@@ -48,6 +48,8 @@ constexpr std::array units{
     Unit{"us", "1/1000000", 0, {0, 0, 1, 0}},
     Unit{"min", "60", 0, {0, 0, 1, 0}},
     Unit{"h", "3600", 0, {0, 0, 1, 0}},
+    Unit{"Hz", "1", 0, {0, 0, -1, 0}},
+    Unit{"kHz", "1000", 0, {0, 0, -1, 0}},
     Unit{"N", "1", 0, newton},
     Unit{"mN", "1/1000", 0, newton},
     Unit{"kN", "1000", 0, newton},

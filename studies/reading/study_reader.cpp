@@ -307,11 +307,25 @@ class StudyReader {
     }
   }
 
+  /// The unit in which it is wanted, if that is stated.
+  std::string statedUnit(const TomlSection& section, const std::string& own) const {
+    const toml::node* node = section.find("unit");
+    if (node == nullptr) return own;
+    const std::string unit = source_.asText(*node, "output.unit");
+    try {
+      if (dimensionOf(unit) == dimensionOf(own)) return unit == "1" || unit.empty() ? own : unit;
+    } catch (const UnitError& error) {
+      source_.fail(*node, error);
+    }
+    source_.fail(*node, fmt::format("output.unit is {}, which does not measure what is wanted", unit),
+                 fmt::format("{}, or another unit of that kind", own));
+  }
+
   void readOutput(const toml::table& table) {
-    const TomlSection section(source_, table, "output", {"name", "quantity"});
+    const TomlSection section(source_, table, "output", {"name", "quantity", "unit"});
     const toml::node& node = section.require("quantity", "what is wanted, such as \"tip.position.z\" or \"energy\"");
     const std::string quantity = source_.asText(node, "output.quantity");
-    const std::string unit = unitOfOutput(node, quantity);
+    const std::string own = unitOfOutput(node, quantity), unit = statedUnit(section, own);
     const std::string name = section.text("name", quantity);
     for (const OutputInfo& other : study_.outputs)
       if (other.name == name) {

@@ -60,7 +60,7 @@ std::vector<Field> fieldsOfExtension(ExtensionInfo& e) {
 std::vector<Field> fieldsOfOutput(OutputInfo& o) {
   return {{dimension::output, &o.name, unit::none, "name of the output", {}},
           {"quantity", &o.quantity, unit::none, "quantity of the mechanism", {}},
-          {"unit", &o.unit, unit::none, "its SI unit", {}}};
+          {"unit", &o.unit, unit::none, "its unit: SI, unless the study states another", {}}};
 }
 
 std::vector<Field> fieldsOfUncertain(UncertainInfo& u) {

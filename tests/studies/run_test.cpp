@@ -58,6 +58,28 @@ TEST(Problem, NestsTheLevelsFromTheSupportsToTheCores) {
   EXPECT_TRUE(isThin(problem.levels[10][2]));
 }
 
+/// The same motion in other units: requirements are none of its business.
+TEST(Run, TellsOutputsInTheUnitsThatAreWanted) {
+  const std::string requirement = "[[requirement]]\nname = \"r\"\nalways = \"angle < 45 deg\"\n[stochastic]";
+  std::string text = sampleStudyWith("[stochastic]", requirement);
+  const Results si = run(readStudyText(text, "s.toml"));
+  text.replace(text.find("quantity = \"hinge.angle\"\n[[output]]"), 24, "quantity = \"hinge.angle\"\nunit = \"deg\"");
+  text.replace(text.find("quantity = \"tip.position.z\""), 27, "quantity = \"tip.position.z\"\nunit = \"mm\"");
+  const Results told = run(readStudyText(text, "s.toml"));
+  EXPECT_EQ(told.comparison.verdict, "inside");
+  EXPECT_EQ(told.outputs[0].unit, "deg");
+  EXPECT_EQ(told.outputs[1].unit, "mm");
+  EXPECT_EQ(told.outputs[2].unit, "rad");  // of the margin
+  const std::size_t last = si.time.size() - 1;
+  const double degree = 0.017453292519943295;
+  EXPECT_NEAR(told.interval.at.upper(last, 0) * degree, si.interval.at.upper(last, 0), 1e-9);
+  EXPECT_NEAR(told.interval.at.lower(last, 1) * 1e-3, si.interval.at.lower(last, 1), 1e-9);
+  EXPECT_NEAR(told.interval.at.lower(last, 2), si.interval.at.lower(last, 2), 1e-9);
+  EXPECT_EQ(told.requirements[0].word, si.requirements[0].word);
+  EXPECT_THROW(sampleWith("quantity = \"tip.position.z\"", "quantity = \"tip.position.z\"\nunit = \"deg\""),
+               StudyError);
+}
+
 TEST(Run, LeavesOpenWhatAnInterruptKeepsFromBeingDecided) {
   std::atomic<bool> cancelled{false};
   RunOptions options;
