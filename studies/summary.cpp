@@ -352,9 +352,23 @@ std::string shapeText(const Results& results, const UncertainInfo& uncertain, co
       lower = number.value;
     } else if (number.name == "upper") {
       upper = number.value;
+    } else if (number.name.ends_with(", at most") && !numbers.empty()) {
+      numbers.back() += fmt::format(" to {:.6g}", number.value);
+    } else if (name == "evidence") {
+      if (number.name.starts_with("lower"))
+        numbers.push_back(fmt::format("[{:.6g}", number.value));
+      else if (!numbers.empty())
+        numbers.back() += number.name.starts_with("upper") ? fmt::format(", {:.6g}]", number.value)
+                                                           : fmt::format(" mass {:.6g}", number.value);
     } else if (name != "table" && name != "histogram" && !number.name.starts_with("value ")) {
       numbers.push_back(fmt::format("{} {:.6g}", number.name, number.value));
     }
+  }
+  constexpr std::size_t most = 6;  // of evidence
+  if (name == "evidence" && numbers.size() > most) {
+    const std::string others = countText(static_cast<long long>(numbers.size() - most), "more interval");
+    numbers.resize(most);
+    numbers.push_back(others);
   }
   if (lower != uncertain.lower || upper != uncertain.upper)
     numbers.insert(numbers.begin(), "on " + rangeText(lower, upper, 6));

@@ -151,7 +151,9 @@ void drawHorizontalAxis(const Frame& frame, const std::string& name, int wanted,
     grid.lift();
     grid.go(x, marginTop);
     grid.go(x, end);
-    drawText("tick middle", x, end + 14, ticks.text[i], svg);
+    // Whole, at the drawing's end too.
+    const double half = 3.2 * static_cast<double>(ticks.text[i].size());
+    drawText("tick middle", std::min(x, frame.width - half), end + 14, ticks.text[i], svg);
   }
   fmt::format_to(std::back_inserter(svg), "<path class=\"grid\" d=\"{}\"/>", grid.take());
   drawText("axis end", frame.width - marginRight, frame.height - 5, axisName(name, ticks), svg);

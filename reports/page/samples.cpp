@@ -247,8 +247,9 @@ std::string statisticsHint(const Results& results) {
     return "Mean (black) and quantiles (orange) of the samples, as deviations from the mean; how far those of all "
            "motions lie from them is not known.";
   return fmt::format(
-      "Mean (black) and quantiles (orange), as deviations from the mean of the samples: those of all motions lie in "
-      "the bands with 95 % confidence, each number by itself (from 16 independent batches{}).",
+      "Mean (black) and quantiles (orange), as deviations from the mean of the samples: those of all motions, "
+      "distributed as the samples are, lie in the bands with 95 % confidence, each number by itself (from 16 "
+      "independent batches{}).",
       s.plan == "random" ? "; quantiles from the samples' order" : "");
 }
 

@@ -424,7 +424,7 @@ std::string hintsOf(const std::vector<std::string>& kinds, const Results& result
       {"influence",
        "Measure of influence (Hanss): the quantity\u2019s share in what deviations by equal shares of the "
        "quantities\u2019 "
-       "values do to the output."}};
+       "values do to the output. Of one whose values lie about zero it says nothing."}};
   std::string first, others;
   for (const Meaning& meaning : meanings) {
     if (std::ranges::find(kinds, meaning.kind) == kinds.end()) continue;

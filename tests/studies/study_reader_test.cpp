@@ -861,7 +861,8 @@ constexpr BadStudy badStudies[] = {
     {"to = \"tip\"", "to = \"K1\"", "s.toml:16:1: the frame 'K1' is defined twice; expected a new frame for 'rod'"},
     {"angle = \"30 deg\"", "angle = \"30 grad\"",
      "s.toml:15:21: mechanism.element.initial.angle: unknown unit 'grad' in '30 grad'; expected one of rad, deg, °, "
-     "mrad, rpm, m, km, cm, mm, um, in, ft, kg, g, mg, t, lb, s, ms, us, min, h, Hz, kHz, N, mN, kN, MN, lbf, J, kJ, MJ, mW, W, "
+     "mrad, rpm, m, km, cm, mm, um, in, ft, kg, g, mg, t, lb, s, ms, us, min, h, Hz, kHz, N, mN, kN, MN, lbf, J, kJ, "
+     "MJ, mW, W, "
      "kW, MW, Pa, kPa, MPa, GPa, bar, GB, MB, GiB, MiB, %"},
     {"angle = \"30 deg\"", "angle = \"30 mm\"",
      "s.toml:15:21: mechanism.element.initial.angle is written in a unit of the kind m; expected a number in rad, or "
@@ -890,7 +891,8 @@ constexpr BadStudy badStudies[] = {
      "s.toml:21:17: mechanism.element.vector: no operator before 'rod.length' at column 6; expected *, /, + or -"},
     {"mass = \"250 g\"", "mass = \"250 x\"",
      "s.toml:27:8: mechanism.element.mass: unknown unit 'x' in '250 x'; expected one of rad, deg, °, "
-     "mrad, rpm, m, km, cm, mm, um, in, ft, kg, g, mg, t, lb, s, ms, us, min, h, Hz, kHz, N, mN, kN, MN, lbf, J, kJ, MJ, mW, W, "
+     "mrad, rpm, m, km, cm, mm, um, in, ft, kg, g, mg, t, lb, s, ms, us, min, h, Hz, kHz, N, mN, kN, MN, lbf, J, kJ, "
+     "MJ, mW, W, "
      "kW, MW, Pa, kPa, MPa, GPa, bar, GB, MB, GiB, MiB, %"},
     {"mass = \"250 g\"", "mass = [1]",
      "s.toml:27:8: mechanism.element.mass is a list; expected a number, or text with a unit such as \"135 deg\""},

@@ -25,6 +25,21 @@ std::vector<std::string> keysOf(const Json& object) {
   return keys;
 }
 
+TEST(Summary, WritesIntervalsOfParametersAndEvidence) {
+  Results results;
+  results.uncertain = {{"q", "q", "m", 0, 1, 2, "normal", "triangular"},
+                       {"e", "e", "m", 0, 1, 2, "evidence", "triangular"}};
+  for (const auto& [name, value] : {std::pair("lower", 0.0), std::pair("upper", 2.0), std::pair("mean", 0.9),
+                                    std::pair("mean, at most", 1.1), std::pair("deviation", 0.1)})
+    results.shapes.push_back({"q", "distribution", name, value, "m"});
+  for (const auto& [name, value] :
+       {std::pair("lower", 0.0), std::pair("upper", 2.0), std::pair("lower 1", 0.0), std::pair("upper 1", 1.5),
+        std::pair("mass 1", 2.0), std::pair("lower 2", 0.5), std::pair("upper 2", 2.0), std::pair("mass 2", 1.0)})
+    results.shapes.push_back({"e", "distribution", name, value, "m"});
+  EXPECT_EQ(shapeText(results, results.uncertain[0], "distribution"), "normal (mean 0.9 to 1.1, deviation 0.1)");
+  EXPECT_EQ(shapeText(results, results.uncertain[1], "distribution"), "evidence ([0, 1.5] mass 2, [0.5, 2] mass 1)");
+}
+
 TEST(JsonSummary, HasTheDocumentedKeys) {
   const std::string text = jsonSummary(sampleResults(), "incomplete", {"run.h5", "run.html"});
   EXPECT_EQ(text.find('\n'), std::string::npos);
