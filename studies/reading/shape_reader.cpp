@@ -435,12 +435,25 @@ class ShapeReader {
                 double otherwise) const {
     const toml::node* node = section.find(key);
     if (node == nullptr) return otherwise;
-    return nearest(source_.asAmount(*node, section.nameOf(key), dimensionOf(quantity.unit)));
+    return nearest(value(*node, section.nameOf(key), dimensionOf(quantity.unit)));
   }
 
   double requiredNumber(const TomlSection& section, std::string_view key, const Dimension& dimension) const {
     const toml::node& node = section.require(key, fmt::format("a number in {}", unitOf(dimension)));
-    return nearest(source_.asAmount(node, section.nameOf(key), dimension));
+    return nearest(value(node, section.nameOf(key), dimension));
+  }
+
+  /// Of a parameter, which is no deviation from something; `otherwise` is what may stand in its place.
+  Amount value(const toml::node& node, const std::string& what, const Dimension& dimension,
+               const std::string& otherwise = "") const {
+    const std::string text = node.value_or(std::string());
+    for (const std::string_view sign : deviationSigns)
+      if (text.starts_with(sign)) {
+        const std::size_t begin = std::min(text.find_first_not_of(' ', sign.size()), text.size());
+        source_.fail(node, fmt::format("{} is the deviation \"{}\"", what, text),
+                     fmt::format("a value, such as \"{}\"{}", text.substr(begin), otherwise));
+      }
+    return source_.asAmount(node, what, dimension);
   }
 
   /// Of a distribution: the nearest double, or an interval [least, greatest] of what it may be; `otherwise` without the
@@ -452,7 +465,7 @@ class ShapeReader {
     const toml::node& found =
         section.require(key, fmt::format("a number in {}, or an interval of such numbers", unitOf(dimension)));
     if (found.is_array()) return readPair(source_, found, section.nameOf(key), dimension);
-    return nearest(source_.asAmount(found, section.nameOf(key), dimension));
+    return nearest(value(found, section.nameOf(key), dimension, ", or an interval of values [lower, upper]"));
   }
 
   /// The keys of one kind of distribution or membership function.

@@ -1,13 +1,18 @@
 // How probable and how possible the values of an uncertain quantity are: the keys `distribution` and `membership`.
 #pragma once
 
+#include <array>
 #include <string>
+#include <string_view>
 
 #include "studies/reading/table_reader.hpp"
 #include "studies/reading/toml_source.hpp"
 #include "studies/study.hpp"
 
 namespace gamut {
+
+/// How a deviation to both sides begins.
+constexpr std::array<std::string_view, 3> deviationSigns{"±", "+-", "+/-"};
 
 // `section`: of the quantity. Each throws StudyError.
 

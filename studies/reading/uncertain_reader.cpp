@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <regex>
 #include <utility>
@@ -204,8 +203,8 @@ class UncertainReader {
   /// "± 1 mm": twice "1 mm"; "+2 / -1 mm": "1 mm", "2 mm". The unit of the second is that of both unless each has one.
   std::pair<std::string, std::string> deviations(const toml::node& node, const std::string& what,
                                                  const std::string& text) const {
-    const auto sign = std::find_if(signs.begin(), signs.end(), [&](auto s) { return text.starts_with(s); });
-    if (sign != signs.end()) return {text.substr(sign->size()), text.substr(sign->size())};
+    const auto sign = std::ranges::find_if(deviationSigns, [&](auto s) { return text.starts_with(s); });
+    if (sign != deviationSigns.end()) return {text.substr(sign->size()), text.substr(sign->size())};
     static const std::regex bothSides(
         R"(\s*([+-])\s*([0-9.eE]+(?:[eE][+-]?[0-9]+)?)([^/]*)/\s*([+-])\s*([0-9.]+(?:[eE][+-]?[0-9]+)?)(.*))");
     std::string plainText = text;
@@ -262,7 +261,7 @@ class UncertainReader {
     const std::string unit = rateUnitOf(result.unit);
     const Dimension dimension = dimensionOf(unit);
     std::string text = rate->is_string() ? source_.asText(*rate, "uncertain.rate") : "";
-    for (const std::string_view sign : signs)
+    for (const std::string_view sign : deviationSigns)
       if (text.starts_with(sign)) text.erase(0, sign.size());
     result.rate = enclose(text.empty() ? source_.asAmount(*rate, "uncertain.rate", dimension, unit)
                                        : source_.readAmount(*rate, "uncertain.rate", text, dimension, unit))
@@ -270,7 +269,6 @@ class UncertainReader {
     if (!(result.rate > 0)) source_.fail(*rate, "uncertain.rate is not positive", "the most it changes by in a second");
   }
 
-  static constexpr std::array<std::string_view, 3> signs{"±", "+-", "+/-"};
   static constexpr const char* waysToSayIt = "\"± 1 %\", \"± 2 deg\", \"+2 / -1 mm\" or [lower, upper]";
 
   const TomlSource& source_;

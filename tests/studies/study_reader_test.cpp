@@ -1014,6 +1014,12 @@ constexpr BadStudy badStudies[] = {
     {"distribution = { type = \"uniform\" }", "distribution = { type = \"normal\" }",
      "s.toml:32:16: 'uncertain.distribution.deviation' is missing; expected a number in rad, or an interval of such "
      "numbers"},
+    {"distribution = { type = \"uniform\" }", "distribution = { type = \"normal\", deviation = \"± 0.2 deg\" }",
+     "s.toml:32:47: uncertain.distribution.deviation is the deviation \"± 0.2 deg\"; expected a value, such as "
+     "\"0.2 deg\", or an interval of values [lower, upper]"},
+    {"membership = { type = \"triangular\" }", "membership = { type = \"gaussian\", deviation = \"+/-0.2 deg\" }",
+     "s.toml:33:47: uncertain.membership.deviation is the deviation \"+/-0.2 deg\"; expected a value, such as "
+     "\"0.2 deg\""},
     {"distribution = { type = \"uniform\" }", "distribution = { type = \"normal\", deviation = [2, 1] }",
      "s.toml:32:47: uncertain.distribution.deviation has its lower bound above its upper one; expected [lower, upper]"},
     {"distribution = { type = \"uniform\" }", "distribution = { type = \"normal\", deviation = [0, 1] }",
