@@ -66,7 +66,7 @@ class TableReader {
     std::vector<Amount> scales(wanted.size());
     for (std::size_t i = 0; i < wanted.size(); ++i) {
       places.push_back(find(wanted[i].name, 0));
-      nameOf(cells_[places[i]], wanted[i].unit, scales[i]);
+      scales[i] = scaleOf(cells_[places[i]], wanted[i].unit);
     }
     TableFiles::Columns table;
     std::vector<std::vector<Amount>>& found = table.values;
@@ -89,9 +89,7 @@ class TableReader {
     if (!next()) refuse("it is empty");
     checkSeparators();
     const std::size_t width = cells_.size(), wanted = find(column, 1);
-    Amount time, scale;
-    nameOf(cells_[0], "s", time);
-    nameOf(cells_[wanted], unit, scale);
+    const Amount time = scaleOf(cells_[0], "s"), scale = scaleOf(cells_[wanted], unit);
     TimeTable table{path_, column, {}, {}, scale.piPower};
     while (next()) {
       checkWidth(width);
@@ -118,13 +116,14 @@ class TableReader {
     for (const char* other : {";", "\t"})
       if (cells_.size() == 1 && cells_[0].text.find(other) != std::string::npos)
         fail(cells_[0], fmt::format("the cells are separated by {}", *other == ';' ? "semicolons" : "tabulators"),
-             "commas between the cells, and points in decimals");
+             fmt::format("commas between the cells, and a {}", decimalPoint));
   }
 
   void checkWidth(std::size_t width) const {
     if (cells_.size() != width)
       fail(cells_.back(), fmt::format("the row has {} cells", cells_.size()),
-           fmt::format("{} as in the first row", width));
+           fmt::format("{} as in the first row{}{}", width, cells_.size() > width ? ", and a " : "",
+                       cells_.size() > width ? decimalPoint : ""));
   }
   [[noreturn]] void failForRows(std::size_t most) const {
     fail(cells_[0], fmt::format("the table has more than {} rows", most), "fewer rows");
@@ -142,11 +141,29 @@ class TableReader {
     return false;
   }
 
-  /// The name in a cell of the first row, and one of its unit.
-  std::string nameOf(const Cell& cell, const std::string& unit, Amount& one) const {
-    const std::size_t open = cell.text.find('[');
-    const bool hasUnit = open != std::string::npos && cell.text.back() == ']';
+  /// Where the unit of a heading begins, "[mm]", or "(mm)" behind a blank where that is a unit; npos without one.
+  static std::size_t placeOfUnit(const std::string& heading) {
+    if (heading.ends_with(']')) return heading.find('[');
+    const std::size_t open = heading.find(" (");
+    if (open == std::string::npos || !heading.ends_with(')')) return std::string::npos;
+    try {
+      const Amount one = parseAmount("1 " + heading.substr(open + 2, heading.size() - open - 3));
+      return one.hasUnit || one.isRelative ? open + 1 : std::string::npos;
+    } catch (const UnitError&) {
+      return std::string::npos;
+    }
+  }
+
+  static std::string nameIn(const std::string& heading) {
+    return trimmed(heading.substr(0, std::min(heading.find('['), placeOfUnit(heading))));
+  }
+
+  /// One of the unit of a cell of the first row.
+  Amount scaleOf(const Cell& cell, const std::string& unit) const {
+    const std::size_t open = placeOfUnit(cell.text);
+    const bool hasUnit = open != std::string::npos;
     const std::string stated = hasUnit ? cell.text.substr(open + 1, cell.text.size() - open - 2) : unit;
+    Amount one;
     try {
       one = parseAmount(stated == "1" ? stated : "1 " + stated);
     } catch (const UnitError&) {
@@ -154,7 +171,7 @@ class TableReader {
     }
     if (!(one.dimension == dimensionOf(unit)))
       fail(cell, fmt::format("the column is in {}", printable(stated)), "a column in " + unit);
-    return hasUnit ? trimmed(cell.text.substr(0, open)) : cell.text;
+    return one;
   }
 
   /// Among the columns from `first` on.
@@ -163,7 +180,7 @@ class TableReader {
     std::optional<std::size_t> found;
     for (std::size_t i = first; i < cells_.size(); ++i) {
       const std::string& heading = cells_[i].text;
-      names.push_back(trimmed(heading.substr(0, heading.find('['))));
+      names.push_back(nameIn(heading));
       if (names.back() != column && heading != column) continue;
       if (found)
         fail(cells_[i], fmt::format("a second column is named '{}'", printable(column)), "columns of different names");
@@ -173,7 +190,9 @@ class TableReader {
     for (const Cell& cell : cells_)
       if (!cell.text.empty() && (cell.text.front() == '"' || cell.text.front() == '\''))
         fail(cell, fmt::format("the name {} is in quotation marks", printable(cell.text)), "names without them");
-    throw UnknownName("column", column, names, "in " + path_);
+    const bool hasOther = std::ranges::any_of(names, [&](const auto& name) { return name.starts_with(column + " ("); });
+    throw UnknownName("column", column, names,
+                      "in " + path_ + (hasOther ? ", whose headings name units as in \"length [mm]\"" : ""));
   }
 
   mpq_class number(const Cell& cell) const {
@@ -182,8 +201,13 @@ class TableReader {
       if (!amount.hasUnit && amount.piPower == 0 && !amount.isRelative) return amount.value;
     } catch (const UnitError&) {
     }
-    fail(cell, fmt::format("'{}' is no number", printable(cell.text)), "a decimal such as -1.5 or 2e-3");
+    const bool isSeparated = cell.text.find(';') != std::string::npos;
+    fail(cell, fmt::format("'{}' is no number", printable(cell.text)),
+         isSeparated ? fmt::format("commas between the cells, and a {}", decimalPoint)
+                     : "a decimal such as -1.5 or 2e-3");
   }
+
+  static constexpr const char* decimalPoint = "decimal point, not a comma, in numbers";
 
   std::string path_;
   std::istringstream text_;

@@ -64,6 +64,24 @@ TEST_F(Measurements, OfSpreadsheetsGetAHint) {
   EXPECT_THAT(ofTable("angle [deg];b\n29,5;1\n"), HasSubstr("m.csv:1:1: the cells are separated by semicolons"));
 }
 
+TEST_F(Measurements, WithDecimalCommasGetAHint) {
+  const auto hint = HasSubstr("a decimal point, not a comma, in numbers");
+  EXPECT_THAT(ofTable("angle [deg]\n29.5\n30,5\n"), AllOf(HasSubstr("m.csv:3:4: the row has 2 cells"), hint));
+  EXPECT_THAT(ofTable("angle [deg],b\n\"29,5\",1\n"), AllOf(HasSubstr("m.csv:2:8: the row has 3 cells"), hint));
+  EXPECT_THAT(ofTable("angle [deg];b\n29,5;1\n"), AllOf(HasSubstr("m.csv:1:1: "), hint));
+  EXPECT_THAT(ofTable("angle [deg],b\n29;1,5\n"), AllOf(HasSubstr("m.csv:2:1: '29;1' is no number"), hint));
+}
+
+TEST_F(Measurements, MayNameTheirUnitInParentheses) {
+  EXPECT_EQ(ofTable("no,angle (deg)\n1,29\n2,31\n"), "");
+  EXPECT_EQ(ofTable("angle (deg)\n29\n31\n", "angle (deg)"), "");
+  EXPECT_EQ(ofTable("angle (left)\n0.5\n0.6\n", "angle (left)"), "");
+  EXPECT_THAT(ofTable("angle (kg)\n29\n31\n"), HasSubstr("m.csv:1:1: the column is in kg"));
+  EXPECT_THAT(ofTable("angle (degrees)\n29\n31\n"),
+              AllOf(HasSubstr("unknown column 'angle'; expected one of: angle (degrees)"),
+                    HasSubstr("whose headings name units as in \"length [mm]\"")));
+}
+
 TEST_F(Measurements, InHistogramsAreToldByTheLineOfTheTable) {
   const auto said = [&](const std::string& rows) {
     return messageOf("type = \"histogram\"\nfile = \"m.csv\"", "lower [deg],upper [deg],weight\n" + rows);
