@@ -18,6 +18,23 @@ void addInput(CLI::App& command, std::string& path, const std::string& name, con
   command.add_option(name, path, help)->required()->check({refuseEmpty, "", "name"})->type_name(type);
 }
 
+/// A number that is not negative, or text with a unit; in its place the number of the dimension's own unit.
+CLI::Validator amount(const Dimension& dimension, const std::string& what, bool mayBeZero) {
+  const auto replace = [=](std::string& text) {
+    const std::string problem = fmt::format("'{}' is no {}", text, what);
+    try {
+      const Amount found = parseAmount(text);
+      const bool fits = !found.isRelative && (!found.hasUnit || found.dimension == dimension);
+      if (!fits || !(nearest(found) > 0 || (mayBeZero && found.value == 0))) return problem;
+      text = fmt::format("{}", nearest(found));
+      return std::string();
+    } catch (const UnitError&) {
+      return problem;
+    }
+  };
+  return {replace, "", "amount"};
+}
+
 }  // namespace
 
 void addStudy(CLI::App& command, std::string& path) {
@@ -44,19 +61,9 @@ CLI::Validator wholeNumber(std::uint64_t least, std::uint64_t most) {
 }
 
 CLI::Validator positiveAmount(const Dimension& dimension, const std::string& what, const std::string& examples) {
-  const auto replace = [=](std::string& text) {
-    const std::string problem = fmt::format("'{}' is no {} above 0, such as {}", text, what, examples);
-    try {
-      const Amount amount = parseAmount(text);
-      const bool fits = !amount.isRelative && (!amount.hasUnit || amount.dimension == dimension);
-      if (!fits || !(nearest(amount) > 0)) return problem;
-      text = fmt::format("{}", nearest(amount));
-      return std::string();
-    } catch (const UnitError&) {
-      return problem;
-    }
-  };
-  return {replace, "", "amount"};
+  return amount(dimension, fmt::format("{} above 0, such as {}", what, examples), false);
 }
+
+CLI::Validator outputTime() { return amount({0, 0, 1, 0, 0}, "time such as 0.5 or \"500 ms\"", true); }
 
 }  // namespace gamut

@@ -163,7 +163,10 @@ Action sample(CLI::App& command) {
   command.add_option("--seed", arguments->seed, "Of the random numbers")
       ->check(wholeNumber(0, INT64_MAX))
       ->type_name("N");
-  command.add_option("--at", arguments->times, "Output times in s; otherwise all of which there are polynomials")
+  command
+      .add_option("--at", arguments->times,
+                  "Output times, s or \"500 ms\"; otherwise all of which there are polynomials")
+      ->transform(outputTime())
       ->type_name("TIME");
   command.add_option("--outputs", arguments->outputs, "Names of outputs; otherwise all")->type_name("NAME");
   command.add_option("-j,--jobs", arguments->jobs, "Threads")->check(wholeNumber(1, 1024))->type_name("N");

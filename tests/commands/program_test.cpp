@@ -418,6 +418,7 @@ TEST_F(Program, SamplesWithoutIntegrating) {
   EXPECT_EQ(std::ranges::count(csv.out, '\n'), 3);
   EXPECT_EQ(gamut("sample s.h5 --samples 2 --at 0.5 --outputs angle").out, csv.out);
   EXPECT_NE(gamut("sample s.h5 --samples 2 --at 0.5 --outputs angle --seed 2").out, csv.out);
+  EXPECT_EQ(gamut("sample s.h5 --samples 2 --at '500 ms' --outputs angle").out, csv.out);
   EXPECT_EQ(gamut("sample s.h5 --samples 100 -o all.h5").exitCode, 0);
   EXPECT_TRUE(folder_.has("all.h5"));
   EXPECT_EQ(gamut("sample s.h5 --samples 100 -o all.h5").exitCode, 2);
@@ -427,6 +428,7 @@ TEST_F(Program, SamplesWithoutIntegrating) {
     return outcome.error;
   };
   EXPECT_THAT(refusal("--at 0.45"), HasSubstr("s.h5: holds no polynomials of 0.45 s; expected an output time"));
+  EXPECT_THAT(refusal("--at 5kg"), HasSubstr("--at: '5kg' is no time such as 0.5 or \"500 ms\""));
   EXPECT_THAT(refusal("--outputs speed"), HasSubstr("no polynomials of an output 'speed'; expected 'angle'"));
   EXPECT_THAT(refusal("--plan any"), HasSubstr("no sampling plan is called 'any'"));
   EXPECT_THAT(gamut("sample s.h5 --samples 100000000").error, HasSubstr("more than 2e+08 numbers"));
