@@ -120,6 +120,7 @@ class RequirementReader {
       sides.push_back(readSide(node, text, begin, end));
     }
     takeUnits(node, text, sides);
+    if (signs.size() == 2) refuseContradiction(node, text, signs, sides.front(), sides.back());
     for (std::size_t i = 0; i < signs.size(); ++i) {
       const Side &greater = sides[signs[i].isGreater ? i : i + 1], &less = sides[signs[i].isGreater ? i + 1 : i];
       const std::string which = signs.size() == 1                ? ""
@@ -192,6 +193,18 @@ class RequirementReader {
       side.quantity = isOneNumber ? fmt::format("{} {}", side.quantity, unitOf(dimension))
                                   : fmt::format("({})*(1 {})", side.quantity, unitOf(dimension));
     }
+  }
+
+  /// Nothing lies between limits that have changed places.
+  void refuseContradiction(const toml::node& node, const std::string& text, const std::vector<Sign>& signs,
+                           const Side& first, const Side& last) const {
+    const std::optional<Amount> a = first.expression.amount(), b = last.expression.amount();
+    if (!a || !b) return;
+    const bool isGreater = signs[0].isGreater, isMetByOne = signs[0].isMetAtZero && signs[1].isMetAtZero;
+    const double below = nearest(isGreater ? *b : *a), above = nearest(isGreater ? *a : *b);
+    if (below > above || (below == above && !isMetByOne))
+      source_.fail(node, fmt::format("'{}' is met by nothing: its limits leave nothing between them", text),
+                   fmt::format("the {} limit first", isGreater ? "greater" : "lesser"));
   }
 
   void addMargin(const toml::node& node, const std::string& name, const Side& greater, const Side& less) {

@@ -78,6 +78,11 @@ TEST(Requirements, ThatMakeNoSenseAreRefusedInOneLine) {
   EXPECT_THAT(refusal("always = \"angle == 0\""), says("no comparison that a margin could be found of"));
   EXPECT_THAT(refusal("always = \"angle > \""), says("nothing on one side"));
   EXPECT_THAT(refusal("always = \"0 < angle > 1\""), says("comparisons that do not belong together"));
+  for (const char* limits : {"0.3 m < tip.position.z < 200 mm", "0.2 m < tip.position.z <= 0.2 m", "1 < angle < -1"})
+    EXPECT_THAT(refusal("always = \"" + std::string(limits) + "\""),
+                says("' is met by nothing: its limits leave nothing between them; expected the lesser limit first"));
+  EXPECT_THAT(refusal("always = \"0.2 m > tip.position.z > 0.3 m\""), says("expected the greater limit first"));
+  EXPECT_NO_THROW(refusal("always = \"0.2 m <= tip.position.z <= 0.2 m\"")());
   EXPECT_THAT(refusal("always = \"angel > 0\""), says("unknown quantity 'angel'; expected"));
   EXPECT_THAT(refusal("always = \"tip.position.z > 2 s\""), says("s.toml:"));
   EXPECT_THAT(refusal("always = \"angle > 0\"\nfrom = 0.6"),
