@@ -31,8 +31,17 @@ class DependenceReader {
       study_.dependence.unknown.push_back(quantities);
       return;
     }
+    const std::vector<std::vector<Interval>> matrix = matrixOf(*rank, quantities.size());
+    for (std::size_t i = 0; i < matrix.size(); ++i)
+      for (std::size_t j = 0; j < matrix[i].size(); ++j)
+        if (i != j && isEqual(abs(matrix[i][j]), Interval(1.0)))
+          source_.fail(*rank,
+                       fmt::format("with a dependence.rank_correlation of {} two quantities are one and the same "
+                                   "uncertain number",
+                                   midpoint(matrix[i][j])),
+                       "one uncertain quantity and a formula of it for the other, or a correlation such as 0.999");
     try {
-      study_.dependence.copulas.emplace_back(quantities, matrixOf(*rank, quantities.size()));
+      study_.dependence.copulas.emplace_back(quantities, matrix);
     } catch (const std::invalid_argument& error) {
       source_.failWith(*rank, error.what(), "a symmetric positive definite matrix with ones in its diagonal");
     }
