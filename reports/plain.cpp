@@ -170,10 +170,7 @@ class Sentence {
     const std::string_view what = demand_.where.empty() ? "that" : "the limit";
     if (r_.isViolatedBetween) return text + fmt::format(" it misses {} for an instant.", what);
     if (std::isnan(r_.violationUpper) || r_.violationUpper > 0) return text + fmt::format(" it misses {}.", what);
-    const std::string& unit = results_.outputs[r_.margin].unit;
-    return text + fmt::format(" it misses {} by {}{}{}.", what,
-                              numberText(-0.5 * (r_.violationLower + r_.violationUpper), 3),
-                              unit.empty() || unit == "1" ? "" : " " + unit,
+    return text + fmt::format(" it misses {} by {}{}.", what, missOf(results_, r_),
                               std::isnan(r_.violationTime) || results_.horizon == 0
                                   ? ""
                                   : fmt::format(" at {} s", numberText(r_.violationTime, 6)));

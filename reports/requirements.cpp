@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <regex>
 
+#include "mechanics/description/units.hpp"
 #include "studies/words.hpp"
 
 namespace gamut {
@@ -13,6 +15,21 @@ namespace {
 
 std::string withUnit(const std::string& number, const std::string& unit) {
   return unit.empty() || unit == "1" ? number : number + " " + unit;
+}
+
+/// The unit of the first number with a unit, "deg" of "always -5 deg < angle < 5 deg", if its dimension is that of
+/// `unit`; else `unit`.
+std::string statedUnit(const std::string& statement, const std::string& unit) {
+  static const std::regex limit(R"((?:^always|^eventually|[<>]=?)\s*[-+]?[0-9.]{1,30}(?:[eE][-+]?[0-9]{1,3})?)"
+                                R"(\s*([^\s0-9<>+-](?:[^0-9<>+-]|\^[0-9]){0,30}?)\s*(?=[<>]|$))");
+  for (std::sregex_iterator found(statement.begin(), statement.end(), limit), none; found != none; ++found) {
+    try {
+      const Amount one = parseAmount("1 " + (*found)[1].str());
+      if (one.hasUnit && one.dimension == dimensionOf(unit)) return (*found)[1];
+    } catch (const UnitError&) {  // a formula
+    }
+  }
+  return unit;
 }
 
 /// "0.9684 to 0.9702", outward; "1" of a number that is exactly known.
@@ -52,8 +69,6 @@ class Wording {
                                : fmt::format(", from {} s to {} s", numberText(r_.from, 6), numberText(r_.until, 6));
   }
 
-  const std::string& unit() const { return results_.outputs[r_.margin].unit; }
-
   std::string guaranteed() const {
     if (r_.word == "met")
       return "met for every value, at every instant" + std::string(r_.isAlways ? "" : " that counts");
@@ -83,8 +98,7 @@ class Wording {
     if (r_.isViolatedBetween)
       text += " (between output times)";
     else if (!std::isnan(r_.violationUpper) && r_.violationUpper <= 0)
-      text += fmt::format(" (short by {}{})",
-                          withUnit(numberText(-0.5 * (r_.violationLower + r_.violationUpper), 3), unit()),
+      text += fmt::format(" (short by {}{})", missOf(results_, r_),
                           results_.horizon > 0 ? fmt::format(" at {} s", numberText(r_.violationTime, 6)) : "");
     return text;
   }
@@ -119,6 +133,13 @@ bool isViolated(const RequirementResult& requirement) {
 }
 
 }  // namespace
+
+std::string missOf(const Results& results, const RequirementResult& requirement) {
+  const std::string& unit = results.outputs[requirement.margin].unit;
+  const std::string stated = statedUnit(requirement.statement, unit);
+  const double miss = -0.5 * (requirement.violationLower + requirement.violationUpper);
+  return withUnit(numberText(stated == unit ? miss : miss / nearest(parseAmount("1 " + stated)), 3), stated);
+}
 
 std::vector<RequirementWords> wordsOfRequirements(const Results& results) {
   std::vector<RequirementWords> words;

@@ -19,6 +19,9 @@ struct RequirementWords {
 /// One a requirement.
 std::vector<RequirementWords> wordsOfRequirements(const Results& results);
 
+/// By how much the violation that is known misses the limit, in the unit in which that is stated: "0.273 mm".
+std::string missOf(const Results& results, const RequirementResult& requirement);
+
 /// What they are together: "met" if all are, "violated" if one is, for some values at least, otherwise "open".
 std::string wordOfRequirements(const Results& results);
 
