@@ -13,7 +13,7 @@
 namespace gamut {
 namespace {
 
-constexpr double barHeight = 14, rowHeight = 40, stackHeight = 12, stackHead = 24;
+constexpr double barHeight = 14, rowHeight = 40, stackHeight = 12, stackHead = 24, labelHeight = 20;
 
 bool isThere(const Band& band) { return !band.lower.empty() && band.lower[0] <= band.upper[0]; }
 
@@ -25,7 +25,7 @@ class BarChart {
     for (const Layer& layer : plot.layers) {
       if (!layer.labels.empty()) {
         for (const Band& band : layer.bands) values.hold(band);
-        height += rowHeight / 2;
+        height += labelHeight * static_cast<double>(layer.bands.size());
       }
       if (layer.kind == Layer::Kind::line) continue;
       if (layer.kind == Layer::Kind::stack) height += stackHead;
@@ -48,7 +48,7 @@ class BarChart {
       if (layer.kind == Layer::Kind::stack) drawStack(layer);
     for (const Layer& layer : plot_.layers)
       if (!layer.labels.empty()) drawAcross(layer);
-    return svg_ + "</svg>\n";
+    return svg_ + texts_ + "</svg>\n";
   }
 
  private:
@@ -70,7 +70,7 @@ class BarChart {
   void drawBar(std::size_t i) {
     const Layer& layer = plot_.layers[i];
     const std::string text = layer.words + "  " + numbersOf(layer.bands.front());
-    drawText("bar", marginLeft, y_ + 8, text, svg_);
+    drawText("bar", marginLeft, y_ + 8, text, texts_);
     drawRectangle(layer, layer.bands.front(), y_ + 13, barHeight, text);
     for (++i; i < plot_.layers.size() && plot_.layers[i].kind == Layer::Kind::line; ++i)
       if (const double value = plot_.layers[i].bands.front().lower[0];
@@ -80,7 +80,7 @@ class BarChart {
     y_ += rowHeight;
   }
 
-  /// Numbers that all bars are held against, and what they are called.
+  /// Numbers that all bars are held against, and what they are called, below each other.
   void drawAcross(const Layer& layer) {
     for (std::size_t i = 0; i < layer.bands.size(); ++i) {
       const double x = frame_.across(layer.bands[i].lower[0]);
@@ -88,13 +88,14 @@ class BarChart {
       fmt::format_to(std::back_inserter(svg_), "<path class=\"{}\" d=\"M{:.1f} {:.1f}V{:.1f}\"/>\n", layer.name, x,
                      marginTop, frame_.height - marginBottom);
       const bool isRight = x > 0.6 * paperWidth;
-      drawText(isRight ? "end label" : "label", x + (isRight ? -5 : 5), frame_.height - marginBottom - 5,
-               layer.labels[i], svg_);
+      drawText(isRight ? "end label" : "label", x + (isRight ? -5 : 5),
+               frame_.height - marginBottom - 5 - labelHeight * static_cast<double>(labelled_++), layer.labels[i],
+               texts_);
     }
   }
 
   void drawStack(const Layer& layer) {
-    drawText("bar", marginLeft, y_ + 8, layer.words, svg_);
+    drawText("bar", marginLeft, y_ + 8, layer.words, texts_);
     y_ += 13;
     for (std::size_t i = layer.bands.size(); i-- > 0;) {
       if (!isThere(layer.bands[i])) continue;
@@ -110,7 +111,8 @@ class BarChart {
   int digits_;
   Frame frame_{};
   double y_ = marginTop + 6;
-  std::string svg_;
+  std::size_t labelled_ = 0;
+  std::string svg_, texts_;  // what is said stands in front of all lines
 };
 
 }  // namespace

@@ -222,8 +222,8 @@ class Drawing {
       const auto before = std::ranges::count(named, part.to);
       named.push_back(part.to);
       const Sight at = seen(part.to);
-      add(svg_, "<text class=\"name\" data-part=\"{}\" data-line=\"{}\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", i,
-          before, at.x + 15, at.y - 9 - 13.0 * static_cast<double>(before), escapeHtml(part.name));
+      add(svg_, "<text class=\"name\" data-part=\"{}\" x=\"{:.1f}\" y=\"{:.1f}\" dy=\"{:.1f}em\">{}</text>\n", i,
+          at.x + 15, at.y - 9, 0 - 1.1 * static_cast<double>(before), escapeHtml(part.name));
     }
   }
 

@@ -92,8 +92,10 @@
         element.setAttribute("cx", text(b[0]));
         element.setAttribute("cy", text(b[1]));
       } else if (element.tagName === "text") {
-        element.setAttribute("x", text(b[0] + 15));
-        element.setAttribute("y", text(b[1] - 9 - 13 * Number(element.dataset.line)));
+        const isTight = b[0] + 15 + element.getComputedTextLength() > m.width;
+        element.style.textAnchor = isTight ? "end" : "start";
+        element.setAttribute("x", text(b[0] + (isTight ? -15 : 15)));
+        element.setAttribute("y", text(b[1] - 9));
       } else {
         element.setAttribute("d", element.classList.contains("spring") ? zigzag(a, b) : line(a, b));
       }

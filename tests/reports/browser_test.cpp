@@ -51,14 +51,15 @@ class Browser : public testing::Test {
 
   /// What becomes of the page of these results once its script has run.
   /// `doing`: what a reader does then, as a script.
-  std::string opened(const Results& results, const std::string& doing = "") {
+  std::string opened(const Results& results, const std::string& doing = "", const std::string& size = "800,600") {
     const std::string page = folder_.path("report.html");
     writeReport(results, page);
     if (!doing.empty()) std::ofstream(page, std::ios::app) << "<script>" << doing << "</script>";
     return outputOf(
         "chromium --headless --no-sandbox --disable-gpu --disable-quic --no-first-run --disable-background-networking "
-        "--disable-component-update --disable-sync --virtual-time-budget=5000 --user-data-dir='" +
-        folder_.path("profile") + "' --dump-dom 'file://" + page + "' 2>'" + folder_.path("log") + "'");
+        "--disable-component-update --disable-sync --virtual-time-budget=5000 --window-size=" +
+        size + " --user-data-dir='" + folder_.path("profile") + "' --dump-dom 'file://" + page + "' 2>'" +
+        folder_.path("log") + "'");
   }
 
  private:
@@ -339,6 +340,25 @@ TEST_F(Browser, DrawsQuantitiesOnceFilledAndOnceNot) {
           "details[open]').length,"
           "document.body.scrollWidth <= innerWidth].join(' '));");
   EXPECT_EQ(noted(page), "true none none 0 1 true");
+}
+
+/// On a phone text of drawings is 9 pixels high at least, and names at the picture's edge stay in it.
+TEST_F(Browser, KeepsTextReadableOnAPhone) {
+  Results machine = example::machine();
+  for (PartInfo& part : machine.machine.parts) part.name += " of a machine with long names";
+  for (const Results& results : {machine, example::kinematics(), example::sensitive()}) {
+    const std::string page = opened(
+        results,
+        std::string(noting) +
+            "document.documentElement.style.width = '375px';"  // no window is narrower than 500
+            "const seen = [...document.querySelectorAll('svg text')].filter(text => text.getClientRects().length > 0);"
+            "const small = seen.filter(text => parseFloat(getComputedStyle(text).fontSize)*text.getScreenCTM().a < 9);"
+            "const outside = [...document.querySelectorAll('.machine .name')].filter("
+            "  text => text.getBBox().x + text.getBBox().width > 720);"
+            "note([seen.length > 0, small.length, outside.length, document.body.scrollWidth <= 375].join(' '));",
+        "500,3000");
+    EXPECT_EQ(noted(page), "true 0 0 true") << results.title;
+  }
 }
 
 /// Keys, sliders and buttons are made for hands; on paper they would be noise.

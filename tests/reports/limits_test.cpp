@@ -91,6 +91,24 @@ TEST(Limits, AreNamedWhereNoCurveIs) {
   EXPECT_THAT(drawPlot(plot, ""), testing::AllOf(HasSubstr("class=\"label\""), Not(HasSubstr("end label"))));
 }
 
+/// However near each other limits are, their names in bars do not stand on one line.
+TEST(Limits, OfBarsAreNamedBelowEachOther) {
+  Plot plot{"length", "m", {0}, {}, {}};
+  plot.layers.push_back({.name = "guaranteed", .bands = {{{2}, {3}}}});
+  plot.layers.push_back({.name = "limit",
+                         .kind = Layer::Kind::line,
+                         .bands = {{{1}, {}}, {{1.01}, {}}},
+                         .labels = {"limit 1 m", "limit 1.01 m"}});
+  const std::string svg = drawBars(plot, "");
+  const auto rowOf = [&](const std::string& name) {
+    const std::size_t begin = svg.rfind("y=\"", svg.find(">" + name + "<"));
+    return std::stod(svg.substr(begin + 3));
+  };
+  EXPECT_GE(rowOf("limit 1 m") - rowOf("limit 1.01 m"), 12);
+  EXPECT_GE(rowOf("limit 1.01 m"), 20 + 6 + 13 + 14 + 11);                         // below the bar
+  EXPECT_LT(svg.rfind("<path class=\"limit\""), svg.find("<text class=\"bar\""));  // which they do not strike through
+}
+
 TEST(Limits, AreThoseOfTheOutputsWhoseMarginsTheyMake) {
   Results results = example::pendulum(61, 2);
   require(results, "low", 0, 1, -2.5);
