@@ -493,8 +493,8 @@ bool Mechanism::isWithoutUnits(const Expression& rate) const {
 }
 
 void Mechanism::check() const {
-  if (positions_.empty() && speeds_.empty() && own_.empty() && coordinates_.empty())
-    refuse("the mechanism has no joint and no state: nothing can move");
+  if (positions_.empty() && speeds_.empty() && own_.empty() && coordinates_.empty() && parameters_.empty())
+    refuse("the mechanism has no joint, no state and no parameter: there is nothing to ask for");
   checkSignals(baseAccelerationName);
   for (const Described& element : elements_) {
     checkSignals(element.name());

@@ -72,8 +72,8 @@ class Mechanism {
   /// without a unit count as plain numbers; a single one may also be what makes it so, and what it then is, is
   /// returned.
   Dimension check(const Expression& number, const std::string& name, const std::string& unit) const;
-  /// Throws if nothing can move, if an expression of motion names what there is not or has another unit, or if an
-  /// element has a fault.
+  /// Throws if there is nothing that could move or be uncertain, if an expression of motion names what there is not or
+  /// has another unit, or if an element has a fault.
   void check() const;
   /// The part of it that concerns the expressions of motion of one element.
   void checkSignals(const std::string& element) const;

@@ -36,14 +36,16 @@ class MechanismReader {
     const toml::node* robot = section_.find("urdf");
     if (robot != nullptr) addRobot(*robot);
     const std::size_t ofRobot = mechanism_.elements().size();
-    if (robot == nullptr || section_.find("element") != nullptr) {
-      const toml::node& list = section_.require("element", "a table [[mechanism.element]] for each element");
+    const toml::node* element = section_.find("element");
+    if (element != nullptr || (robot == nullptr && section_.find("parameters") == nullptr)) {
+      const toml::node& list = section_.require(
+          "element", "a table [[mechanism.element]] for each element, or in kinematics parameters alone");
       const toml::array& elements = source_.asArray(list, "mechanism.element");
       for (const toml::node& node : elements) readElement(source_.asTable(node, "mechanism.element"));
       for (std::size_t i = 0; i < elements.size(); ++i)
         guarded(elements[i], [&] { mechanism_.checkSignals(mechanism_.elements()[ofRobot + i].name()); });
     }
-    guarded(robot != nullptr ? *robot : *section_.find("element"), [&] { mechanism_.check(); });
+    guarded(robot != nullptr ? *robot : element != nullptr ? *element : section_.table(), [&] { mechanism_.check(); });
     return {std::move(mechanism_), std::move(places_), std::move(files_), std::move(notes_)};
   }
 

@@ -51,6 +51,7 @@ class StudyReader {
     study_.tables = std::move(read.files.tables);
     study_.notes = std::move(read.notes);
     places_ = std::move(read.places);
+    checkMotion(*file.find("mechanism"));
     if (study_.analysis == Study::Analysis::inverseDynamics) checkDrives(*file.find("mechanism"));
     readUncertain(source_, tables(file, "uncertain"), TableFiles(source_, study_.tables, files), study_);
     readDependence(source_, tables(file, "dependence"), study_);
@@ -251,6 +252,14 @@ class StudyReader {
         source_.failWith(*node, fmt::format("'{}' has no value: {}", name, error.what()), "a formula that has a value");
       }
     }
+  }
+
+  /// Throws if nothing can move where time passes.
+  void checkMotion(const toml::node& mechanism) const {
+    const Mechanism& m = study_.mechanism;
+    if (study_.analysis != Study::Analysis::kinematics && m.stateNames().empty() && m.coordinates().empty())
+      source_.fail(mechanism, "the mechanism has no joint and no state, so that nothing can move",
+                   "a joint or a state in [[mechanism.element]], or analysis = \"kinematics\", which needs none");
   }
 
   /// Throws if some joint moves by itself.

@@ -19,8 +19,10 @@ namespace {
 
 using ::testing::Each;
 using ::testing::Field;
+using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
+using ::testing::ThrowsMessage;
 
 constexpr const char* threeUncertain = R"([[uncertain]]
 quantity = "rod.length"
@@ -78,6 +80,46 @@ TEST(Run, TellsOutputsInTheUnitsThatAreWanted) {
   EXPECT_EQ(told.requirements[0].word, si.requirements[0].word);
   EXPECT_THROW(sampleWith("quantity = \"tip.position.z\"", "quantity = \"tip.position.z\"\nunit = \"deg\""),
                StudyError);
+}
+
+/// Parameters and formulas alone: a gap that is left between parts, by worst case, by probability and by membership.
+TEST(Run, TakesAToleranceChainWithoutAnyElement) {
+  const std::string chain = R"([study]
+analysis = "kinematics"
+[mechanism]
+parameters = { housing = "50 mm", shaft = "30 mm", ring = "19.8 mm", room = "housing - shaft" }
+[[uncertain]]
+quantity = "housing"
+interval = "± 0.1 mm"
+[[uncertain]]
+quantity = ["shaft", "ring"]
+interval = "± 0.05 mm"
+[[output]]
+name = "gap"
+quantity = "room - ring"
+unit = "mm"
+[[requirement]]
+always = "gap > 0.05 mm"
+)";
+  const Results results = run(readStudyText(chain, "s.toml"));
+  EXPECT_EQ(results.comparison.verdict, "inside");
+  EXPECT_NEAR(results.interval.at.lower(0, 0), 0, 1e-12);
+  EXPECT_NEAR(results.interval.at.upper(0, 0), 0.4, 1e-12);
+  EXPECT_NEAR(results.stochastic.mean(0, 0), 0.2, 1e-3);
+  EXPECT_EQ(results.requirements[0].word, "partly");
+  constexpr double probability = 1 - 0.05 * 0.05 * 0.05 / 6 / (0.2 * 0.1 * 0.1);  // without a corner of the box
+  EXPECT_LE(results.requirements[0].probabilityLower, probability);
+  EXPECT_GE(results.requirements[0].probabilityUpper, probability);
+  EXPECT_GT(results.requirements[0].probabilityLower, 0.97);
+  std::string moving = chain;
+  moving.replace(moving.find("\"kinematics\""), 12, "\"dynamics\"\nhorizon = 1\noutput_step = 1");
+  EXPECT_THAT([&] { readStudyText(moving, "s.toml"); },
+              ThrowsMessage<StudyError>(HasSubstr(
+                  "s.toml:5:1: the mechanism has no joint and no state, so that nothing can move; expected a joint")));
+  std::string empty = chain;
+  empty.replace(empty.find("parameters = "), empty.find("[[uncertain]]") - empty.find("parameters = "), "");
+  EXPECT_THAT([&] { readStudyText(empty, "s.toml"); },
+              ThrowsMessage<StudyError>(HasSubstr("or in kinematics parameters alone")));
 }
 
 TEST(Run, LeavesOpenWhatAnInterruptKeepsFromBeingDecided) {
