@@ -650,10 +650,10 @@ TEST(StudyReader, KnowsDependences) {
   EXPECT_EQ(messageOf(dependentStudy("quantities = [\"start\", \"rod.length\"]\nrank_correlation = 1.5")),
             "s.toml:42:20: rank correlations lie between -1 and 1, unlike 1.5 (row 2, column 1); expected a symmetric "
             "positive definite matrix with ones in its diagonal");
-  for (const char* one : {"1", "-1"})
+  for (const char* whole : {"1", "-1"})
     EXPECT_EQ(
-        messageOf(dependentStudy(std::string("quantities = [\"start\", \"rod.length\"]\nrank_correlation = ") + one)),
-        std::string("s.toml:42:20: with a dependence.rank_correlation of ") + one +
+        messageOf(dependentStudy(std::string("quantities = [\"start\", \"rod.length\"]\nrank_correlation = ") + whole)),
+        std::string("s.toml:42:20: with a dependence.rank_correlation of ") + whole +
             " two quantities are one and the same uncertain number; expected one uncertain quantity and a "
             "formula of it for the other, or a correlation such as 0.999");
   EXPECT_EQ(
