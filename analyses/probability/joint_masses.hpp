@@ -1,16 +1,18 @@
 // The joint distribution of the quantities, or what is known of it, cut into bins that every part of the box is made
 // of: groups of quantities, each group with focal elements (bins of its symbols, and the probability that the values
 // are in these). Of a known distribution these are single bins; of p-boxes and evidence they overlap; those of a copula
-// are of several symbols. Groups are independent, or nothing is known of how they depend on each other.
+// are boxes of several symbols. Groups are independent, or nothing is known of how they depend on each other.
 #pragma once
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "analyses/dependence.hpp"
 #include "analyses/flow/models.hpp"
 #include "analyses/probability/convolution.hpp"
+#include "analyses/probability/copula_masses.hpp"
 #include "analyses/uncertainty.hpp"
 
 namespace gamut {
@@ -23,11 +25,10 @@ class JointMasses {
     std::vector<long> first, count;  ///< [symbol]
     /// [group] elements; null: all that lie there.
     std::vector<std::shared_ptr<const std::vector<std::uint32_t>>> elements;
+    std::vector<std::shared_ptr<const std::vector<CopulaMasses::Box>>> boxes;  ///< [group] likewise, of a copula
   };
 
-  /// `quantities` tells the symbols of the uncertain ones, one by one; others are symbols of which nothing is known. Of
-  /// a copula of more than nine quantities it is taken for unknown how they depend on each other; one of fewer has up
-  /// to 2^18 elements.
+  /// `quantities` tells the symbols of the uncertain ones, one by one; others are symbols of which nothing is known.
   JointMasses(int symbols, const std::vector<FlowSymbol>& quantities, const std::vector<const Uncertain*>& uncertain,
               const QuantityDependence& dependence = {});
 
@@ -49,29 +50,36 @@ class JointMasses {
   /// By so much is a sum of probabilities of parts off by its roundings.
   double roundings() const;
 
-  /// Of Σ f_l(η_l) + rest, as multiples of a step, `error()` included in its error: `f` [symbol][power], powers above
-  /// 0, of the part's own η.
-  GridSum sumOf(const Part& part, const std::vector<std::vector<double>>& f, Interval rest, double step) const;
+  /// Which copula tells of the symbol; -1: none.
+  int copulaOf(int symbol) const;
+
+  /// Of Σ f_l(η_l) + terms + rest, as multiples of a step, `error()` included in its error: `f` [symbol][power], powers
+  /// above 0, of the part's own η; every term of symbols of one copula alone.
+  GridSum sumOf(const Part& part, const std::vector<std::vector<double>>& f, const std::vector<MixedTerm>& terms,
+                Interval rest, double step) const;
 
  private:
   struct Group {
     std::vector<int> symbols;
     std::vector<double> mass;                // of the bins, or of elements
-    std::vector<std::uint16_t> from, until;  // [element][symbol]: of bins; none: elements are the bins
+    std::vector<std::uint16_t> from, until;  // [element]: of bins; none: elements are the bins
+    std::optional<CopulaMasses> copula{};    // instead
   };
   void addBox(Group& group, const std::vector<Interval>& below);
   void addEvidence(Group& group, const FlowSymbol& symbol, const Distribution& distribution);
-  void addCopula(Group& group, const GaussianCopula& copula, const std::vector<std::size_t>& rows,
-                 const std::vector<std::vector<Interval>>& below);
+  const Group& groupOf(int symbol) const;
+  static bool isOfBins(const Group& group) { return group.from.empty() && !group.copula; }
   bool isAlone(int symbol) const;
   template <class Side>
   std::vector<Part> apart(const Part& part, int symbol, const Side& sideOf) const;
   Part with(const Part& part, std::size_t group, std::vector<std::uint32_t> elements) const;
+  Part with(const Part& part, std::size_t group, std::vector<CopulaMasses::Box> boxes) const;
   template <class Take>
   void forEach(const Part& part, std::size_t group, const Take& take) const;
+  std::vector<CopulaMasses::Box> boxesOf(const Part& part, std::size_t group) const;
   double massOf(const Part& part, std::size_t group) const;
-  GridBounds boundsOf(const Part& part, std::size_t group, const std::vector<std::vector<double>>& f,
-                      const Interval& rest, double step) const;
+  GridSum boundsOf(const Part& part, std::size_t group, const std::vector<std::vector<double>>& f,
+                   const std::vector<MixedTerm>& terms, const Interval& rest, double step) const;
 
   int symbols_;
   std::vector<Group> groups_;

@@ -23,10 +23,11 @@ using detail::at;
 
 namespace {
 
-/// Polynomials of degree above 0 in one symbol, and what is left.
+/// Polynomials of degree above 0 in one symbol, or in those of one copula, and what is left.
 struct Separated {
   std::vector<std::vector<double>> c;  // [symbol][power]
-  double constant = 0, mixed = 0;      // the latter: Σ|c| of the terms in several symbols
+  std::vector<MixedTerm> together;     // terms in several symbols of one copula
+  double constant = 0, mixed = 0;      // the latter: Σ|c| of the other terms in several symbols
   std::vector<double> mixedOf;         // [symbol]: of those that hold it
   double norm = 0;                     // Σ|c| of all
 };
@@ -72,7 +73,7 @@ class Distributor {
       // Where terms in several symbols, or radii, are not less, small steps are of no use.
       const double apart = refine(0.5 * allowed, round == 0 ? mostCells / 4 : mostCells);
       allowed = std::max(allowed, 0.5 * apart);
-      if (round > 1 && !(allowed < 0.6 * before)) break;
+      if (round > 1 && !(allowed < 0.9 * before)) break;
       before = allowed;
       const double steps = static_cast<double>(mostSymbols()) + 1;
       const double finest = mostSymbols() > 1 ? 0x1p16 : 0x1p18;  // where an output is extreme its density is unlimited
@@ -82,7 +83,9 @@ class Distributor {
       const bool isAllThereIs = round > 0 && !masses_.isPlain() && now.gap > 0.8 * found.gap;
       found = std::move(now);
       if (found.gap <= options_.gap || isAllThereIs) break;
-      allowed = round == 0 ? share * options_.gap / densityOf(found) : allowed / 4;
+      // Boxes of copulas grow many: no smaller steps than it takes.
+      allowed = round == 0 ? share * options_.gap / densityOf(found)
+                           : allowed * (masses_.isPlain() ? 0.25 : std::max(0.25, 0.6 * options_.gap / found.gap));
     }
     return found;
   }
@@ -113,8 +116,12 @@ class Distributor {
       const double c = cell.model.c[g], size = std::fabs(c);
       s.norm += size;
       int count = 0, symbol = 0;
-      for (int l = 0; l < m.symbols(); ++l)
-        if (m.exponent(static_cast<int>(g), l) > 0) ++count, symbol = l;
+      bool isTogether = true;
+      for (int l = 0; l < m.symbols(); ++l) {
+        if (m.exponent(static_cast<int>(g), l) == 0) continue;
+        if (count > 0) isTogether = isTogether && masses_.copulaOf(l) == masses_.copulaOf(symbol);
+        ++count, symbol = l;
+      }
       if (count == 0) {
         s.constant = c;
       } else if (count == 1) {
@@ -122,6 +129,11 @@ class Distributor {
         std::vector<double>& own = s.c[at(symbol)];
         own.resize(std::max(own.size(), power + 1), 0.0);
         own[power] = c;
+      } else if (isTogether && masses_.copulaOf(symbol) >= 0) {
+        MixedTerm& term = s.together.emplace_back(MixedTerm{c, {}});
+        for (int l = 0; l < m.symbols(); ++l)
+          if (const int power = m.exponent(static_cast<int>(g), l); power > 0)
+            term.powers.emplace_back(at(l), at(power));
       } else {
         s.mixed += size;
         for (int l = 0; l < m.symbols(); ++l)
@@ -229,9 +241,17 @@ class Distributor {
   GridSum sumOn(const BoxCell& cell, double step) const {
     const Separated& s = cell.separated;
     if (cell.model.c.empty())
-      return masses_.sumOf(cell.part, std::vector<std::vector<double>>(s.c.size()), cell.model.bound, step);
-    const double radius = (cell.model.radius + s.mixed + 4 * bounds::unit * s.norm) * bounds::up + bounds::tiny;
-    return masses_.sumOf(cell.part, s.c, Interval(subDown(s.constant, radius), addUp(s.constant, radius)), step);
+      return masses_.sumOf(cell.part, std::vector<std::vector<double>>(s.c.size()), {}, cell.model.bound, step);
+    // Terms that hardly matter count as errors.
+    std::vector<MixedTerm> terms;
+    double small = 0;
+    for (const MixedTerm& term : s.together)
+      if (std::fabs(term.c) * static_cast<double>(s.together.size()) > 0.1 * step)
+        terms.push_back(term);
+      else
+        small += std::fabs(term.c);
+    const double radius = (cell.model.radius + s.mixed + small + 4 * bounds::unit * s.norm) * bounds::up + bounds::tiny;
+    return masses_.sumOf(cell.part, s.c, terms, Interval(subDown(s.constant, radius), addUp(s.constant, radius)), step);
   }
 
   DistributionBounds bound(double step) {

@@ -93,7 +93,7 @@ class Weighing {
       return 0;
     constexpr double steps = 2048;
     const double step = std::ldexp(1.0, std::ilogb(2 * size / steps));
-    const GridSum sum = masses_.sumOf(part, f, Interval(constant), step);
+    const GridSum sum = masses_.sumOf(part, f, {}, Interval(constant), step);
     const GridMasses& side = isAbove ? sum.sum.below : sum.sum.above;
     double probability = 0;
     for (std::size_t i = 0; i < side.mass.size(); ++i) {
