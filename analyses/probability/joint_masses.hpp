@@ -45,6 +45,12 @@ class JointMasses {
   std::vector<Part> halves(const Part& part, int symbol) const;
 
   double massOf(const Part& part) const;
+  /// How many boxes of copulas it has.
+  static std::size_t boxesIn(const Part& part) {
+    std::size_t count = 0;
+    for (const auto& boxes : part.boxes) count += boxes ? boxes->size() : 0;
+    return count;
+  }
   /// Of all masses of a part, Σ|error| is at most that.
   double error() const { return error_; }
   /// By so much is a sum of probabilities of parts off by its roundings.

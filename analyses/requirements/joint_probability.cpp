@@ -30,7 +30,7 @@ class Weighing {
 
   Interval operator()(double gap, const std::atomic<bool>* cancelled) {
     constexpr std::size_t most = 2500;
-    constexpr double mostWork = 1e9;  // bytes of cells, all in all
+    constexpr double mostWork = 1e9;  // bytes of cells, all in all, and what takes as long
     std::vector<Piece> waiting;
     const auto push = [&](JointMasses::Part part, const Cell& from) {
       Piece piece = weighed(std::move(part), from);
@@ -65,7 +65,7 @@ class Weighing {
   Piece weighed(JointMasses::Part part, const Cell& from) {
     Piece piece{std::move(part), nullptr};
     piece.cell = cells_.within(from, JointMasses::boxOf(piece.part));
-    work_ += piece.cell->bytes();
+    work_ += piece.cell->bytes() + 1e3 * static_cast<double>(masses_.boxesIn(piece.part));
     piece.mass = masses_.massOf(piece.part);
     const double certain = std::max(0.0, subDown(piece.mass, addUp(masses_.error(), masses_.roundings())));
     switch (piece.cell->verdict()) {
@@ -91,7 +91,7 @@ class Weighing {
     for (const double s : slope) f.push_back({0, s}), size += std::fabs(s);
     if (!(size > 0) || !std::isfinite(size) || !std::isfinite(constant) || std::fabs(constant) > 0x1p40 * size)
       return 0;
-    constexpr double steps = 2048;
+    constexpr double steps = 256;
     const double step = std::ldexp(1.0, std::ilogb(2 * size / steps));
     const GridSum sum = masses_.sumOf(part, f, {}, Interval(constant), step);
     const GridMasses& side = isAbove ? sum.sum.below : sum.sum.above;
