@@ -15,7 +15,7 @@ namespace {
 constexpr double endless = std::numeric_limits<double>::infinity();
 
 /// f(η) + derivative·η of a quantity, by its bins and by z.
-struct Course {
+struct QuantityCourse {
   const BinnedPolynomial& f;
   const std::vector<double>&above, &notAbove;
   long first;  // bin
@@ -88,8 +88,8 @@ class CopulaSum {
     // Of sums of values; of terms, their derivatives, of which rows times degree are as large, and what is left.
     const auto degree = static_cast<double>(degree_);
     error_ += 2 * (rows + 2) * bounds::unit * (size + norm);
-    error_ += 4 * (static_cast<double>(function.mixed.size()) + 4 * rows * (degree + 2)) * (1 + rows * degree) *
-              bounds::unit * norm;
+    error_ += (4 + rows) * (static_cast<double>(function.mixed.size()) + 4 * rows * (degree + 2)) *
+              (1 + rows * degree) * bounds::unit * norm;
     error_ *= bounds::up;
     down_ = subDown(rest.lower(), error_), up_ = addUp(rest.upper(), error_);
     below_.first = static_cast<long>(std::floor(addDown(least, down_) / step));
@@ -211,7 +211,7 @@ class CopulaSum {
     for (std::size_t r = 0; r < places.size(); ++r) {
       const CopulaMasses::Row& row = masses_.rows_[r];
       const auto& [low, high, from, until, middle, half, derivative, remainder] = places[r];
-      const Course course{function_.f[r], row.above, row.notAbove, function_.first[r], derivative};
+      const QuantityCourse course{function_.f[r], row.above, row.notAbove, function_.first[r], derivative};
       const auto [least, greatest] = course.over(from, until);
       piece.least += least, piece.greatest += greatest;
       const auto binsAt = [&](double z) {

@@ -198,9 +198,10 @@ JointMasses::Part JointMasses::with(const Part& part, std::size_t group, std::ve
 }
 
 /// Elements, or boxes, apart by the side, 0 to 2, of their first bin and the one behind their last; -1: of halves, but
-/// where the third argument says that there are none.
+/// where the third argument says that there are none, since a box is no more probable than `least`.
 template <class Side>
-std::vector<JointMasses::Part> JointMasses::apart(const Part& part, int symbol, const Side& sideOf) const {
+std::vector<JointMasses::Part> JointMasses::apart(const Part& part, int symbol, double least,
+                                                  const Side& sideOf) const {
   const std::size_t number = at(groupOf_[at(symbol)]);
   const Group& group = groups_[number];
   std::vector<Part> parts;
@@ -215,7 +216,6 @@ std::vector<JointMasses::Part> JointMasses::apart(const Part& part, int symbol, 
     return collect(sides);
   }
   const auto row = static_cast<std::size_t>(std::ranges::find(group.symbols, symbol) - group.symbols.begin());
-  const double least = massOf(part, number) * 0x1p-14;
   std::vector<CopulaMasses::Box> sides[3], waiting = boxesOf(part, number);
   std::size_t count = waiting.size();
   CopulaMasses::Box lower, upper;
@@ -239,7 +239,7 @@ std::vector<JointMasses::Part> JointMasses::cut(const Part& part, int symbol, lo
   const long first = part.first[at(symbol)], until = first + part.count[at(symbol)];
   if (!isAlone(symbol) || edge <= first || edge >= until) return {part};
   if (!isOfBins(groupOf(symbol)))
-    return apart(part, symbol, [&](long from, long end, bool isSmall) {
+    return apart(part, symbol, 0x1p-18, [&](long from, long end, bool isSmall) {
       return end <= edge ? 0 : from >= edge ? 1 : isSmall ? 2 : -1;
     });
   std::vector<Part> both(2, part);
@@ -253,13 +253,14 @@ std::vector<JointMasses::Part> JointMasses::halves(const Part& part, int symbol)
   const long first = part.first[at(symbol)], count = part.count[at(symbol)];
   if (!isAlone(symbol) || count < 2) return {part};
   if (isOfBins(groupOf(symbol))) return cut(part, symbol, first + count / 2);
-  const std::vector<Part> halves = apart(part, symbol, [&](long from, long until, bool isSmall) {
+  const double least = massOf(part, at(groupOf_[at(symbol)])) * 0x1p-14;
+  const std::vector<Part> halves = apart(part, symbol, least, [&](long from, long until, bool isSmall) {
     if (!isSmall && 4 * (until - from) > count) return -1;
     return 2 * (until - from) > count ? 2 : from + until > 2 * first + count ? 1 : 0;
   });
   if (halves.size() > 1) return halves;
   // All are wide, or on one side: those that begin first, and the others.
-  return apart(part, symbol, [&](long from, long, bool) { return from == first ? 0 : 1; });
+  return apart(part, symbol, 1, [&](long from, long, bool) { return from == first ? 0 : 1; });
 }
 
 double JointMasses::massOf(const Part& part, std::size_t group) const {

@@ -77,7 +77,7 @@ class JointMasses {
   static bool isOfBins(const Group& group) { return group.from.empty() && !group.copula; }
   bool isAlone(int symbol) const;
   template <class Side>
-  std::vector<Part> apart(const Part& part, int symbol, const Side& sideOf) const;
+  std::vector<Part> apart(const Part& part, int symbol, double least, const Side& sideOf) const;
   Part with(const Part& part, std::size_t group, std::vector<std::uint32_t> elements) const;
   Part with(const Part& part, std::size_t group, std::vector<CopulaMasses::Box> boxes) const;
   template <class Take>

@@ -145,38 +145,42 @@ class Distributor {
   }
 
   /// What of the joint distribution lies in one part of the box has its polynomial. What lies in several, and cannot be
-  /// cut, has their bounds.
-  void cover(const JointMasses::Part& joint) {
+  /// cut, has their bounds. Edges between parts, by symbol, are cut at once, those up to `last` have been.
+  void cover(const JointMasses::Part& joint, std::pair<int, long> last = {-1, 0}) {
+    const auto isAcross = [&](int l, long edge) {
+      return joint.first[at(l)] < edge && edge < joint.first[at(l)] + joint.count[at(l)];
+    };
     std::vector<const SurrogatePart*> met;
+    std::vector<std::pair<int, long>> edges;
     Interval bound = Interval::empty();
     for (const SurrogatePart& part : parts_) {
       bool isMet = true;
+      std::vector<std::pair<int, long>> own;
       for (int l = 0; l < part.monomials->symbols() && isMet; ++l) {
         const auto [first, count] = QuantityMasses::of(part.part, l);
         const long from = joint.first[at(l)], until = from + joint.count[at(l)];
         isMet = from < first + count && first < until;
+        for (const long edge : {first, first + count})
+          if (isAcross(l, edge)) own.emplace_back(l, edge);
       }
       if (!isMet) continue;
       met.push_back(&part);
+      edges.insert(edges.end(), own.begin(), own.end());
       bound = hull(bound, part.outputs[output_].bound);
     }
-    bool isInside = met.size() == 1;
-    for (const SurrogatePart* part : met)
-      for (int l = 0; l < part->monomials->symbols(); ++l) {
-        const auto [first, count] = QuantityMasses::of(part->part, l);
-        for (const long edge : {first, first + count}) {
-          if (edge <= joint.first[at(l)] || edge >= joint.first[at(l)] + joint.count[at(l)]) continue;
-          isInside = false;
-          const std::vector<JointMasses::Part> pieces = masses_.cut(joint, l, edge);
-          if (pieces.size() == 1) continue;
-          for (const JointMasses::Part& piece : pieces) cover(piece);
-          return;
-        }
-      }
-    if (isInside)
+    if (edges.empty() && met.size() == 1) {
       add(within({joint, met[0]->monomials, met[0]->outputs[output_], {}}, met[0]->part, joint));
-    else
-      add({joint, parts_.front().monomials, {{}, 0, bound}});
+      return;
+    }
+    std::ranges::sort(edges);
+    for (const std::pair<int, long>& edge : edges) {
+      if (edge <= last || isCancelled()) continue;
+      const std::vector<JointMasses::Part> pieces = masses_.cut(joint, edge.first, edge.second);
+      if (pieces.size() == 1) continue;
+      for (const JointMasses::Part& piece : pieces) cover(piece, edge);
+      return;
+    }
+    add({joint, parts_.front().monomials, {{}, 0, bound}});
   }
 
   /// Bisects where the terms in several symbols are greatest, until they matter no more; returns by how much these, and

@@ -16,12 +16,12 @@ using detail::at;
 
 /// A part of the joint distribution, what is known of where it lies, and of its probability: so much is met, and so
 /// much violated, at least.
-struct Piece {
+struct Weighed {
   JointMasses::Part part;
   std::unique_ptr<Cell> cell;
   double mass = 0, met = 0, violated = 0;
   double open() const { return mass - met - violated; }
-  bool operator<(const Piece& other) const { return open() < other.open(); }
+  bool operator<(const Weighed& other) const { return open() < other.open(); }
 };
 
 class Weighing {
@@ -31,9 +31,9 @@ class Weighing {
   Interval operator()(double gap, const std::atomic<bool>* cancelled) {
     constexpr std::size_t most = 2500;
     constexpr double mostWork = 1e9;  // bytes of cells, all in all, and what takes as long
-    std::vector<Piece> waiting;
+    std::vector<Weighed> waiting;
     const auto push = [&](JointMasses::Part part, const Cell& from) {
-      Piece piece = weighed(std::move(part), from);
+      Weighed piece = weighed(std::move(part), from);
       open_ += piece.open();
       waiting.push_back(std::move(piece));
       std::push_heap(waiting.begin(), waiting.end());
@@ -41,7 +41,7 @@ class Weighing {
     push(masses_.whole(), *cells_.whole());
     while (!waiting.empty()) {
       std::pop_heap(waiting.begin(), waiting.end());
-      const Piece piece = std::move(waiting.back());
+      const Weighed piece = std::move(waiting.back());
       waiting.pop_back();
       std::vector<JointMasses::Part> halves;
       const bool isEnough =
@@ -62,8 +62,8 @@ class Weighing {
   }
 
  private:
-  Piece weighed(JointMasses::Part part, const Cell& from) {
-    Piece piece{std::move(part), nullptr};
+  Weighed weighed(JointMasses::Part part, const Cell& from) {
+    Weighed piece{std::move(part), nullptr};
     piece.cell = cells_.within(from, JointMasses::boxOf(piece.part));
     work_ += piece.cell->bytes() + 1e3 * static_cast<double>(masses_.boxesIn(piece.part));
     piece.mass = masses_.massOf(piece.part);
