@@ -120,6 +120,21 @@ TEST(Probabilities, HoldForDependentQuantities) {
                    y = kept.values[3 * i + 1] - results.uncertain[1].nominal;
       both += x * y, one += x * x, other += y * y;
     }
+    // The picture's samples are among these: the bob hangs as far from the hinge, at the angle, that theirs say.
+    const Places& places = results.machine.places;
+    ASSERT_GE(places.sample.size(), 2U);
+    const std::size_t points = results.machine.points.size(), times = places.time.size();
+    for (std::size_t i = 0; i < places.sample.size(); ++i) {
+      const auto of = std::ranges::find(kept.number, places.sample[i]) - kept.number.begin();
+      const double* values = &kept.values[3 * static_cast<std::size_t>(of)];
+      double nearest = 1;
+      for (std::size_t p = 0; p < points; ++p) {
+        const double* at = &places.samples[(i * times * points + p) * 3];
+        nearest = std::min(
+            nearest, std::hypot(at[1] - values[1] * std::sin(values[0]), at[2] + values[1] * std::cos(values[0])));
+      }
+      EXPECT_LT(nearest, 1e-9) << how << ", sample " << places.sample[i];
+    }
     const bool isKnown = std::string(how) != "unknown = true";
     EXPECT_NEAR(both / std::sqrt(one * other), isKnown ? -0.8 : 0.0, 0.05);
     EXPECT_EQ(results.dependence,
