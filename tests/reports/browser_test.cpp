@@ -351,11 +351,13 @@ TEST_F(Browser, KeepsTextReadableOnAPhone) {
         results,
         std::string(noting) +
             "document.documentElement.style.width = '375px';"  // no window is narrower than 500
+            "setTimeout(() => {"                               // plots follow when they are told of it
             "const seen = [...document.querySelectorAll('svg text')].filter(text => text.getClientRects().length > 0);"
             "const small = seen.filter(text => parseFloat(getComputedStyle(text).fontSize)*text.getScreenCTM().a < 9);"
             "const outside = [...document.querySelectorAll('.machine .name')].filter("
             "  text => text.getBBox().x + text.getBBox().width > 720);"
-            "note([seen.length > 0, small.length, outside.length, document.body.scrollWidth <= 375].join(' '));",
+            "note([seen.length > 0, small.length, outside.length, document.body.scrollWidth <= 375].join(' '));"
+            "}, 1000);",
         "500,3000");
     EXPECT_EQ(noted(page), "true 0 0 true") << results.title;
   }
