@@ -52,6 +52,7 @@ CopulaMasses::CopulaMasses(const GaussianCopula& copula, std::vector<std::size_t
     for (std::size_t i = row.notAbove.size() - 1; i-- > 0;)
       row.notAbove[i] = std::min(row.notAbove[i], row.notAbove[i + 1]);
   }
+  // Of products of distributions Σ|error| is at most the sum of theirs; each z is beyond with that probability.
   const double unlikely = 2 * normalBelow(Interval(-likely)).upper();
   error_ =
       (static_cast<double>(axes_) * NormalGrid::error() + static_cast<double>(rows.size()) * unlikely) * bounds::up;
@@ -67,6 +68,7 @@ std::pair<double, double> CopulaMasses::numbersOf(const Box& box, const Row& row
     const double a = row.root[j] * NormalGrid::at(box.from[j]), b = row.root[j] * NormalGrid::at(box.until[j]);
     low += std::min(a, b), high += std::max(a, b);
   }
+  // Of what is wholly beyond, and counted as error, anything may be said.
   return {std::clamp(low, -likely, likely - some), std::clamp(high, some - likely, likely)};
 }
 

@@ -269,6 +269,7 @@ class CopulaSum {
         mass *= below[piece.box.until[j]] - below[piece.box.from[j]];
       }
     }
+    // Roundings: of sums of no more terms than axes + 1, of nodes times slopes; those of slopes are in row.error.
     error *= bounds::up * static_cast<double>(axes + 1);
     low -= error, high += error;
     const auto floorOf = [&](double x) { return static_cast<long>(std::floor(x / step)); };

@@ -9,7 +9,7 @@ namespace gamut {
 namespace {
 
 /// Φ at the nodes, to multiples of 2^-52, so that differences are exact; the first is 0, the last 1. Two cells share a
-/// node's error, and two nodes are alike.
+/// node's error, and two nodes are alike; what is beyond the ends is theirs.
 struct NormalNodes {
   std::vector<double> below = std::vector<double>(NormalGrid::count + std::size_t{1}, 0.0);
   double error = 0;
