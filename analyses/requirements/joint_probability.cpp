@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "analyses/flow/error_bounds.hpp"
 #include "scalars/elementary/rounding.hpp"
 #include "scalars/index.hpp"
 
@@ -89,7 +90,8 @@ class Weighing {
     double size = 0;
     std::vector<std::vector<double>> f;
     for (const double s : slope) f.push_back({0, s}), size += std::fabs(s);
-    if (!(size > 0) || !std::isfinite(size) || !std::isfinite(constant) || std::fabs(constant) > 0x1p40 * size)
+    if (!(size > bounds::tiny) || !std::isfinite(size) || !std::isfinite(constant) ||
+        std::fabs(constant) > 0x1p40 * size)
       return 0;
     constexpr double steps = 256;
     const double step = std::ldexp(1.0, std::ilogb(2 * size / steps));
