@@ -130,7 +130,7 @@ std::unique_ptr<FlowFollower::Tools> FlowFollower::toolsFor(const FlowPiece& pie
                                                             const std::vector<char>& held) const {
   const FlowLayout& layout = task_.layouts[piece.layout];
   const FlowOptions& options = task_.options;
-  Program motion = task_.differentiated, outputs = task_.outputs;
+  Program motion = task_.differentiated, outputs = task_.outputs, besides = task_.options.aside.values;
   std::unique_ptr<FlowJumps> jumps;
   std::vector<int> left;
   std::vector<double> factor;
@@ -138,11 +138,14 @@ std::unique_ptr<FlowFollower::Tools> FlowFollower::toolsFor(const FlowPiece& pie
     if (!held.empty()) {
       FlowJumps::Held found = task_.jumps.heldProgram(held);
       motion = differentiatedFor(found.f, options.varying);
-      if (outputs.outputs() > 0) outputs = task_.jumps.heldOutputs(outputs, held);
       jumps = std::make_unique<FlowJumps>(motion, task_.varying);
       if (jumps->count() != jumpsOf(found.f).size()) std::ranges::fill(found.left, -1);
       left = std::move(found.left);
       factor = std::move(found.factor);
+    }
+    if (signs_ > 0) {
+      outputs = task_.jumps.outputsGiven(outputs, held);
+      besides = task_.jumps.outputsGiven(besides, held);
     }
   } catch (const std::logic_error&) {
     return nullptr;
@@ -152,7 +155,7 @@ std::unique_ptr<FlowFollower::Tools> FlowFollower::toolsFor(const FlowPiece& pie
             FlowStepper(motion, layout.monomials, layout.frameDegree, task_.order, task_.tolerance,
                         FlowInputs(task_.motion.states(), task_.order, task_.varying, 0.4 * (options.tightness - 1)),
                         options.cancelled),
-            PolynomialRange(layout.monomials), nullptr, nullptr, nullptr, nullptr});
+            PolynomialRange(layout.monomials), nullptr, nullptr, nullptr, nullptr, std::move(besides)});
   if (layout.monomials->symbols() == 0 && task_.fineOrders > 0) tools->stepper.setFineOrders(task_.fineOrders);
   tools->stepper.setStateNames(options.stateNames);
   tools->stepper.setTimeKinks(held.empty() ? task_.timeKinks : TimeKinks(motion, task_.horizon, task_.quantum));
@@ -160,7 +163,8 @@ std::unique_ptr<FlowFollower::Tools> FlowFollower::toolsFor(const FlowPiece& pie
     tools->stepper.setJumps(tools->jumps ? *tools->jumps : task_.jumps, task_.jumps, held, left, factor);
   if (task_.outputs.outputs() > 0) {
     const std::shared_ptr<const Monomials> own = task_.layouts[task_.outputLayout(piece.layout)].monomials;
-    tools->outputs = std::make_unique<FlowOutputs>(outputs, own, layout.monomials, task_.varying, options.cancelled);
+    tools->outputs =
+        std::make_unique<FlowOutputs>(outputs, own, layout.monomials, task_.varying, options.cancelled, signs_);
     tools->outputRange = std::make_unique<PolynomialRange>(own);
     tools->chords = std::make_unique<FlowOutputChords>(outputs, layout.monomials, task_.order, task_.horizon,
                                                        task_.quantum, options.cancelled);
@@ -229,6 +233,7 @@ void FlowFollower::lowerDegree(FlowPiece& piece) {
 void FlowFollower::enclose(const FlowPiece& piece, double tau, std::vector<Interval>& states,
                            std::vector<Interval>& outputs, bool narrowed) {
   tool_->stepper.evaluate(piece.set, tau, point_, narrowed);
+  giveSigns(piece, narrowed ? tool_->stepper.signsAfter(tau, signs_) : tool_->stepper.signsOver(signs_));
   const int N = monomialCount_;
   states.resize(at(task_.motion.states()));
   stateCore_.clear();
@@ -242,27 +247,75 @@ void FlowFollower::enclose(const FlowPiece& piece, double tau, std::vector<Inter
   outputLimits_.clear();
   if (!outputs_) return;
   at_ = piece.set.t + tau;
-  outputs_->evaluate(at_, point_, piece.set.R, piece.set.parameters);
+  outputs_->evaluate(at_, point_, piece.set.R, parameters_);
   outputCore_.clear();
   appendOutputs(piece, states, whole_, outputs);
+}
+
+/// For outputs, until the next call.
+void FlowFollower::giveSigns(const FlowPiece& piece, std::vector<SignCases> signs) {
+  given_ = std::move(signs);
+  parameters_ = piece.set.parameters;
+  parameterBox_.clear();
+  for (const Embedded& parameter : parameters_) parameterBox_.push_back(rangeOf(parameter));
+  for (const SignCases& sign : given_) {
+    const Interval range = sign.hull();
+    parameters_.push_back({midpoint(range), 0, isThin(range) ? 0.0 : radius(range)});
+  }
+}
+
+/// Than polynomials do: at kinks, and where a sign may be this or that.
+bool FlowFollower::knowsMoreByBoxes() const {
+  return outputs_->hasKinks() || std::ranges::any_of(given_, &SignCases::isOpen);
+}
+
+/// What of states and signs there is together while states are in these intervals.
+void FlowFollower::findBoxes(double began, const Interval& t, const std::vector<Interval>& states) {
+  if (signsWithin_)
+    boxes_ = signsWithin_->boxes(began, t, states, parameterBox_, given_);
+  else
+    boxes_ = {{t, states, {}}};
+}
+
+/// When, in seconds into the step, the first comes to a surface, and when the last one has.
+std::vector<double> FlowFollower::turns(double h) const {
+  std::vector<double> result;
+  for (const SignCases& sign : given_)
+    for (const Interval& when : {sign.whileAbove, sign.whileBelow, sign.whileBetween})
+      for (const double end : {when.lower(), when.upper()})
+        if (sign.isOpen() && end > 0 && end < h) result.push_back(end);
+  std::ranges::sort(result);
+  return result;
+}
+
+Interval FlowFollower::overBoxes(int output) {
+  Interval result = Interval::empty();
+  for (const SignBox& box : boxes_) {
+    Box all = parameterBox_;
+    all.insert(all.end(), box.signs.begin(), box.signs.end());
+    result = hull(result, outputs_->overBox(output, box.time, box.states, all));
+  }
+  return result;
 }
 
 /// Over the part `xi` of the piece, where the states are in these boxes, at the time of `point_`.
 void FlowFollower::appendOutputs(const FlowPiece& piece, const std::vector<Interval>& states, const Box& xi,
                                  std::vector<Interval>& outputs) {
+  const bool knowsMore = knowsMoreByBoxes();
+  findBoxes(piece.set.t, Interval(at_), states);
   for (int o = 0; o < outputs_->count(); ++o) {
     const double radius = outputs_->radius(o);
     PolynomialRange& range = *tool_->outputRange;
     if (!std::isfinite(radius)) {
-      outputs.push_back(outputs_->overBox(o, Interval(at_), states, piece.set.parameters));
+      outputs.push_back(overBoxes(o));
       outputCore_.push_back(outputs.back());  // not known
       outputLimits_.push_back(outputs_->hasJumps() ? Interval::entire() : outputs.back());
       continue;
     }
     const Interval bound = inflated(range(outputs_->polynomial(o), xi, task_.rangeTolerance()), radius);
     outputs.push_back(bound);
-    if (outputs_->hasKinks())  // of |y| through 0 the one knows what the other does not
-      outputs.back() = intersection(bound, outputs_->overBox(o, Interval(at_), states, piece.set.parameters));
+    if (knowsMore)  // of |y| through 0 the one knows what the other does not
+      outputs.back() = intersection(bound, overBoxes(o));
     outputLimits_.push_back(outputs_->hasJumps() ? bound : outputs.back());
     const double known = 0.5 * (width(bound) - width(outputs.back()));
     outputCore_.push_back(without(outputs.back(), std::max(0.0, radius - outputs_->driven(o) + range.gap() - known)));
@@ -314,17 +367,18 @@ std::shared_ptr<const FlowSnapshot> FlowFollower::modelOutputs(const FlowPiece& 
 void FlowFollower::lookAside(const FlowPiece& piece, std::size_t row, const std::vector<Interval>& states) {
   if (task_.looksAside[row] == 0) return;
   if (!tool_->asides)
-    tool_->asides = std::make_unique<FlowAsides>(
-        task_.options.aside.values, task_.layouts[task_.outputLayout(piece.layout)].monomials,
-        task_.layouts[piece.layout].monomials, task_.varying, task_.options.cancelled);
-  joinHulls(collected_.asides[row], tool_->asides->enclose(task_.times[row], point_, states, piece.set.parameters));
+    tool_->asides =
+        std::make_unique<FlowAsides>(tool_->besides, task_.layouts[task_.outputLayout(piece.layout)].monomials,
+                                     task_.layouts[piece.layout].monomials, task_.varying, task_.options.cancelled);
+  joinHulls(collected_.asides[row], tool_->asides->enclose(task_.times[row], point_, states, parameters_));
 }
 
 /// Into how many chords a part of a step is cut, so that modelled outputs leave them by little of what is uncertain
-/// about them. What does not become less with the square of their length counts for nothing. Times in seconds from the
-/// step's start.
+/// about them. What does not become less with the square of their length counts for nothing, but at kinks, where boxes
+/// become smaller with the length. Times in seconds from the step's start.
 int FlowFollower::chordsFor(FlowPiece& piece, const std::vector<Interval>& before, double from, double to) {
-  constexpr double little = 2e-3, hardly = 0.02, most = 32, square = 0.3;
+  constexpr double little = 2e-3, hardly = 0.02, most = 32, square = 0.3, acrossKinks = 16;
+  const bool knowsMore = knowsMoreByBoxes();
   double parts = 1;
   std::vector<Interval> half;
   tool_->chords->sag(from, from + 0.5 * (to - from), half);
@@ -336,6 +390,8 @@ int FlowFollower::chordsFor(FlowPiece& piece, const std::vector<Interval>& befor
     const double extent = std::max(width(before[o]), hardly * width(piece.modelled[k] + sag_[o]));
     if (isBounded(sag_[o]) && extent > 0 && width(half[o]) < square * width(sag_[o]))
       parts = std::max(parts, std::sqrt(width(sag_[o]) / (little * extent)));
+    else if (knowsMore && width(sag_[o]) > little * extent)
+      parts = std::max(parts, acrossKinks);
   }
   return static_cast<int>(std::ceil(std::min(parts, most)));
 }
@@ -368,6 +424,16 @@ bool FlowFollower::record(FlowPiece& piece) {
   std::shared_ptr<const FlowSnapshot> endModel, beforeModel = piece.lastModel, behindModel;
   double from = t0;
   bool chordsKnown = false;
+  const auto loadChords = [&] {
+    giveSigns(piece, stepper.signsOver(signs_));
+    if (!chordsKnown) tool_->chords->load(stepper, t0, parameters_);
+    chordsKnown = true;
+  };
+  if (outputs_ && signs_ > 0 && stepper.narrows()) {  // a sign may be another from here on than it was until now
+    enclose(piece, 0.0, behind, behindOutputs, false);
+    beforeLimits = outputLimits_;
+    beforeModel = modelOutputs(piece, beforeLimits, false);
+  }
   const auto segment = [&](double to) {  // from `from` to `to`: the chord's hull and how far a motion leaves a chord
     if (stepper.narrows()) {
       enclose(piece, to - t0, behind, behindOutputs, false);
@@ -384,15 +450,15 @@ bool FlowFollower::record(FlowPiece& piece) {
     if (stepper.narrows()) stepper.narrowOver(between);
     for (std::size_t i = 0; i < between.size(); ++i) piece.over[i] = hull(piece.over[i], between[i]);
     if (outputs_) {
-      if (!chordsKnown) tool_->chords->load(stepper, piece.set);
-      chordsKnown = true;
+      loadChords();
       tool_->chords->sag(from - t0, to - t0, sag_);
+      const bool knowsMore = knowsMoreByBoxes();
+      findBoxes(t0, Interval(from, to), between);
       std::vector<Interval> overs;
       for (std::size_t i = 0; i < behindLimits.size(); ++i) {
         Interval over = hull(beforeLimits[i], behindLimits[i]) + sag_[i];
-        if (outputs_->hasKinks() || !isBounded(over)) {
-          const Interval wherever =
-              outputs_->overBox(static_cast<int>(i), Interval(from, to), between, piece.set.parameters);
+        if (knowsMore || !isBounded(over)) {
+          const Interval wherever = overBoxes(static_cast<int>(i));
           over = isBounded(over) ? intersection(over, wherever) : wherever;
         }
         piece.overOutputs[i] = hull(piece.overOutputs[i], over);
@@ -416,23 +482,35 @@ bool FlowFollower::record(FlowPiece& piece) {
     piece.lastModel = endModel;
     from = to;
   };
+  const auto endPart = [&](double until) {
+    enclose(piece, until - t0, end, endOutputs);
+    endLimits = outputLimits_;
+    endModel = modelOutputs(piece, endLimits, false);
+    segment(until);
+  };
   const auto modelUntil = [&](double to) {  // further chords before `to`, where models are wanted
     if (!outputs_ || !run_.keepsModels() || !beforeModel || task_.options.modelled.empty()) return;
-    if (!chordsKnown) tool_->chords->load(stepper, piece.set);
-    chordsKnown = true;
+    loadChords();
     const double begin = from;
     const int parts = chordsFor(piece, beforeLimits, from - t0, to - t0);
     for (int part = 1; part < parts; ++part) {
       const double until = begin + (to - begin) * part / parts;  // any double is exact enough: docs/flow.md, "Time"
-      if (!(until > from && until < to)) continue;
-      enclose(piece, until - t0, end, endOutputs);
-      endLimits = outputLimits_;
-      endModel = modelOutputs(piece, endLimits, false);
-      segment(until);
+      if (until > from && until < to) endPart(until);
     }
   };
+  std::vector<double> turning;
+  if (outputs_ && signs_ > 0 && stepper.narrows()) turning = turns(t1 - t0);
+  const auto partUntil = [&](double to) {  // a part for each way that signs are
+    for (const double turn : turning) {
+      const double until = t0 + turn;
+      if (!(until > from && until < to)) continue;
+      modelUntil(until);
+      endPart(until);
+    }
+    modelUntil(to);
+  };
   for (; piece.next < times.size() && times[piece.next] <= t1; ++piece.next) {
-    modelUntil(times[piece.next]);
+    partUntil(times[piece.next]);
     enclose(piece, times[piece.next] - t0, end, endOutputs);  // an exact difference: docs/flow.md, "Time"
     endLimits = outputLimits_;
     endModel = modelOutputs(piece, endLimits, true);
@@ -447,17 +525,15 @@ bool FlowFollower::record(FlowPiece& piece) {
         measureInfluence(outputs_->polynomial(o), outputs_->monomials(), collected_.influence);
     joinHulls(collected_.outputs[piece.next], endOutputs);
     segment(times[piece.next]);
+    if (signs_ > 0) joinHulls(piece.overOutputs, endOutputs);  // what a sign is at one moment alone
     joinHulls(collected_.statesOver[piece.next], piece.over);
     joinHulls(collected_.outputsOver[piece.next], piece.overOutputs);
     piece.over = end;
     piece.overOutputs = endOutputs;
   }
   if (from < t1) {
-    modelUntil(t1);
-    enclose(piece, t1 - t0, end, endOutputs);
-    endLimits = outputLimits_;
-    endModel = modelOutputs(piece, endLimits, false);
-    segment(t1);
+    partUntil(t1);
+    endPart(t1);
   }
   for (std::size_t i = 0; i < piece.last.size(); ++i)
     if (!(width(piece.last[i]) <= task_.options.maxWidth)) {

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "analyses/flow/step.hpp"
 #include "analyses/flow/task.hpp"
 #include "analyses/workers.hpp"
+#include "scalars/program/sides.hpp"
 
 namespace gamut {
 
@@ -64,6 +66,7 @@ class FlowFollower {
   FlowFollower(FlowRun& run, const FlowTask& task, FlowCollected& collected)
       : run_(run), task_(task), collected_(collected) {
     collected_.influence.resize(static_cast<std::size_t>(task.embedding.symbols));
+    if (signs_ > 0) signsWithin_.emplace(task.jumps);
   }
 
   /// Advances `piece` to `end` or to its failure. What ends within a step leaves the piece at the step's start; what
@@ -80,11 +83,17 @@ class FlowFollower {
     std::unique_ptr<PolynomialRange> outputRange;
     std::unique_ptr<FlowOutputChords> chords;
     std::unique_ptr<FlowAsides> asides;  // once needed
+    Program besides;                     // the values that these are of
   };
 
   FlowJourney follow(FlowPiece& piece, double end);
   bool isOverBudget();
   StepOutcome certify(const FlowPiece& piece);
+  void giveSigns(const FlowPiece& piece, std::vector<SignCases> signs);
+  bool knowsMoreByBoxes() const;
+  void findBoxes(double began, const Interval& t, const std::vector<Interval>& states);
+  std::vector<double> turns(double h) const;
+  Interval overBoxes(int output);
   std::unique_ptr<Tools> toolsFor(const FlowPiece& piece, const std::vector<char>& held) const;
   bool use(const FlowPiece& piece, const std::vector<char>& held);
   bool isDegreeWorthwhile(const FlowPiece& piece, StepOutcome outcome) const;
@@ -113,6 +122,12 @@ class FlowFollower {
   FlowPoint point_;
   double at_ = 0;                        // its time
   double counted_ = threadCpuSeconds();  // of this thread, in the budget
+  std::size_t signs_ = jumpsOf(task_.jumps.f).size();
+  std::optional<SignsWithin> signsWithin_;
+  std::vector<SignCases> given_;      // signs of the motion, as outputs take them at present
+  std::vector<Embedded> parameters_;  // those of the piece at hand, and these
+  Box parameterBox_;                  // ranges of those of the piece
+  std::vector<SignBox> boxes_;
   Box whole_;
   std::vector<Interval> sag_;
   std::vector<Interval> outputLimits_;            // of `enclose` too: the outputs, and their limits where they jump

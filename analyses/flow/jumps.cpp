@@ -42,8 +42,8 @@ std::vector<Side> sidesOf(const std::vector<char>& held) {
 
 }  // namespace
 
-Program FlowJumps::heldOutputs(const Program& g, const std::vector<char>& held) const {
-  return outputsOnSides(f, g, sidesOf(held));
+Program FlowJumps::outputsGiven(const Program& g, const std::vector<char>& held) const {
+  return held.empty() ? withSignsGiven(f, g) : outputsWithOpenSignsGiven(f, g, sidesOf(held));
 }
 
 FlowJumps::Held FlowJumps::heldProgram(const std::vector<char>& held) const {
@@ -166,6 +166,152 @@ JumpBound::Reach JumpBound::after(double seconds) const {
   return {between(leastEver, -mirrored), between(leastEnd, -mirroredAtEnd)};
 }
 
+Interval SignCases::hull() const {
+  Interval result = between;
+  if (above) result = gamut::hull(result, Interval(1.0));
+  if (below) result = gamut::hull(result, Interval(-1.0));
+  return result;
+}
+
+SignCases SignCases::during(const Interval& seconds) const {
+  SignCases left = *this;
+  left.above = above && !isEmpty(intersection(whileAbove, seconds));
+  left.below = below && !isEmpty(intersection(whileBelow, seconds));
+  if (isEmpty(intersection(whileBetween, seconds))) left.between = Interval::empty();
+  return left.above || left.below || !isEmpty(left.between) ? left : *this;
+}
+
+/// Of those at zero at first none stays: their sign then is that of the step before.
+bool JumpBound::leaves() const {
+  return (start.lower() >= 0 && up.lower() > 0 && down.lower() > 0) ||
+         (start.upper() <= 0 && up.upper() < 0 && down.upper() < 0);
+}
+
+/// Only what `sign` allows, if anything.
+SignCases JumpBound::within(SignCases cases) const {
+  cases.above = cases.above && sign.upper() >= 1;
+  cases.below = cases.below && sign.lower() <= -1;
+  cases.between = intersection(cases.between, sign);
+  return cases.above || cases.below || !isEmpty(cases.between) ? cases : SignCases{};
+}
+
+/// What has not been at zero by then has its first sign; it may have where u(0) + t sup U₊ >= 0, which is not cut at
+/// zero as `after` is: the moment of arriving counts for both. What leaves at once has no sign at that moment.
+SignCases JumpBound::signAfter(double seconds) const {
+  if (!isKnown()) return within({});
+  const auto [ever, then] = after(seconds);
+  const auto reach = [&](double from, const Interval& own) {
+    return (Interval(from) + Interval(seconds) * own).upper();
+  };
+  const bool mayBeZero = contains(then, 0.0);
+  SignCases cases;
+  cases.above = then.upper() > 0 || (mayBeZero && ever.upper() > 0 && reach(start.upper(), up) >= 0);
+  cases.below = then.lower() < 0 || (mayBeZero && ever.lower() < 0 && reach(-start.lower(), -down) >= 0);
+  const bool slides = maySlide && (holds || seconds > 0);
+  cases.between = !mayBeZero ? Interval::empty() : slides ? slid : Interval(-1.0, 1.0);
+  return mayBeZero && !slides ? cases : within(cases);
+}
+
+SignCases JumpBound::signOver() const {
+  if (!isKnown()) return within({});
+  SignCases cases;
+  cases.above = over.upper() > 0;
+  cases.below = over.lower() < 0;
+  const bool passes = contains(over, 0.0) && !leaves();
+  cases.between = maySlide ? slid : passes ? Interval(-1.0, 1.0) : Interval::empty();
+  if (!(passes && !maySlide)) cases = within(cases);
+  // None is on a side any longer once all have left it and none comes to it; nor at zero or beyond before one is there.
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  if (up.upper() < 0) cases.whileAbove = Interval(0.0, std::max(0.0, (Interval(start.upper()) / -up).upper()));
+  if (down.lower() > 0) cases.whileBelow = Interval(0.0, std::max(0.0, (Interval(-start.lower()) / down).upper()));
+  const auto onlyFrom = [&](double away, const Interval& rate, Interval& beyond) {
+    const double first = rate.lower() < 0 ? (Interval(away) / Interval(-rate.lower())).lower() : infinite;
+    if (!(away > 0) || !(first < infinite)) return;
+    cases.whileBetween = Interval(first, infinite);
+    beyond = intersection(beyond, cases.whileBetween);
+    if (isEmpty(beyond)) beyond = cases.whileBetween;
+  };
+  onlyFrom(start.lower(), up, cases.whileBelow);
+  onlyFrom(-start.upper(), -down, cases.whileAbove);
+  return cases;
+}
+
+SignsWithin::SignsWithin(const FlowJumps& jumps)
+    : jumps_(jumps), evaluator_(argumentsOfSigns(jumps.f)), arguments_(jumpsOf(jumps.f).size()) {}
+
+void SignsWithin::narrow(const Interval& time, std::span<const Interval> states, std::span<const Interval> parameters,
+                         std::vector<SignCases>& signs) {
+  std::vector<Interval> all(parameters.begin(), parameters.end());
+  for (const SignCases& sign : signs) all.push_back(sign.hull());
+  evaluator_.setParameters(all);
+  evaluator_(time, states, arguments_);
+  for (std::size_t k = 0; k < signs.size(); ++k) {
+    SignCases left = signs[k];
+    left.above = left.above && arguments_[k].upper() > 0;
+    left.below = left.below && arguments_[k].lower() < 0;
+    if (!contains(arguments_[k], 0.0)) left.between = Interval::empty();
+    if (left.above || left.below || !isEmpty(left.between)) signs[k] = left;
+  }
+}
+
+namespace {
+
+/// Every state of the form by what the form is; false if there is none.
+bool narrowAll(const LinearForm& form, const Interval& argument, const Box& parameters, Box& states) {
+  Interval rest = form.constant;
+  for (std::size_t k = 0; k < parameters.size(); ++k)
+    if (form.parameters[k] != 0) rest += Interval(form.parameters[k]) * parameters[k];
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    if (form.states[i] == 0) continue;
+    Interval others = rest;
+    for (std::size_t j = 0; j < states.size(); ++j)
+      if (j != i && form.states[j] != 0) others += Interval(form.states[j]) * states[j];
+    states[i] = intersection(states[i], (argument - others) / Interval(form.states[i]));
+    if (isEmpty(states[i])) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::vector<SignBox> SignsWithin::boxes(double began, const Interval& time, const Box& states, const Box& parameters,
+                                        std::vector<SignCases> signs) {
+  constexpr int mostApart = 2;  // nine cases
+  for (SignCases& sign : signs) sign = sign.during(time - Interval(began));
+  narrow(time, states, parameters, signs);
+  std::vector<SignBox> result{{time, states, {}}};
+  int apart = 0;
+  for (std::size_t k = 0; k < signs.size(); ++k) {
+    const bool isApart = signs[k].isOpen() && apart < mostApart;
+    if (!isApart) {
+      for (SignBox& box : result) box.signs.push_back(signs[k].hull());
+      continue;
+    }
+    ++apart;
+    std::vector<SignBox> next;
+    const auto add = [&](const Interval& sign, const Interval& argument, const Interval& when) {
+      for (const SignBox& box : result) {
+        SignBox own = box;
+        own.signs.push_back(sign);
+        own.time = intersection(own.time, Interval(began) + when);
+        if (isEmpty(own.time)) continue;
+        const bool isLinear = k < jumps_.forms.size() && jumps_.forms[k];
+        if (!isLinear || narrowAll(*jumps_.forms[k], argument, parameters, own.states)) next.push_back(std::move(own));
+      }
+    };
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+    if (signs[k].above) add(Interval(1.0), Interval(0.0, infinite), signs[k].whileAbove);
+    if (signs[k].below) add(Interval(-1.0), Interval(-infinite, 0.0), signs[k].whileBelow);
+    if (!isEmpty(signs[k].between)) add(signs[k].between, Interval(0.0), signs[k].whileBetween);
+    if (next.empty()) {
+      for (SignBox& box : result) box.signs.push_back(signs[k].hull());
+      continue;
+    }
+    result = std::move(next);
+  }
+  return result;
+}
+
 /// While u > 0 it moves by a mean of rates in `up`: it is zero after -u(0)/rate, and goes on where `down` points the
 /// same way.
 std::optional<JumpBound::Crossing> JumpBound::crossing() const {
@@ -175,6 +321,26 @@ std::optional<JumpBound::Crossing> JumpBound::crossing() const {
   const Interval moment = -start / (falls ? up : down);
   if (!isCommon(moment)) return std::nullopt;
   return Crossing{falls ? 1.0 : -1.0, Interval(std::max(0.0, moment.lower()), moment.upper())};
+}
+
+/// Of those that stay at u = 0, by rates there: s = (up + down)/(down - up) rises with both, as long as up ≤ 0 ≤ down.
+Interval JumpBounder::slidingSign(std::size_t jump, const Interval& time, const Box& box,
+                                  const std::vector<JumpBound>& bounds, double& turned) {
+  Box there = box;
+  if (jumps_.forms[jump]) narrow(*jumps_.forms[jump], Interval(0.0), there);
+  const Interval up = rate(jump, 1.0, time, there, bounds), down = rate(jump, -1.0, time, there, bounds);
+  if (!isCommon(up) || !isCommon(down)) return {-1.0, 1.0};
+  const double most = down.upper() - up.upper(), least = down.lower() - up.lower();
+  turned = most > 0 && least > 0 ? (up.upper() + down.upper()) / most - (up.lower() + down.lower()) / least
+                                 : std::numeric_limits<double>::infinity();
+  const auto sliding = [](double u, double d) {
+    const Interval sum = Interval(u) + Interval(d), difference = Interval(d) - Interval(u);
+    return difference.lower() > 0 ? sum / difference : Interval(-1.0, 1.0);
+  };
+  const bool mayRepel = up.upper() >= 0 && down.lower() <= 0;
+  if (mayRepel || up.lower() > 0 || down.upper() < 0) return {-1.0, 1.0};
+  return {sliding(up.lower(), std::max(down.lower(), 0.0)).lower(),
+          sliding(std::min(up.upper(), 0.0), down.upper()).upper()};
 }
 
 void JumpBounder::boundOne(std::size_t jump, const Interval& time, const Box& box, const Interval& start, double h,
@@ -193,24 +359,13 @@ void JumpBounder::boundOne(std::size_t jump, const Interval& time, const Box& bo
   const bool passes = (up.lower() > 0 && down.lower() > 0) || (up.upper() < 0 && down.upper() < 0);
   bound.maySlide = leastEver <= 0 && greatestEver >= 0 && !passes;
   bound.turned = 0;
+  bound.slid = Interval(-1.0, 1.0);
   Interval sign = Interval::empty();
   if (greatestEver > 0) sign = hull(sign, Interval(1.0));
   if (leastEver < 0) sign = hull(sign, Interval(-1.0));
   if (bound.maySlide) {
-    // s = (up + down)/(down - up) rises with both, as long as up ≤ 0 ≤ down.
-    const auto sliding = [](double u, double d) {
-      const Interval sum = Interval(u) + Interval(d), difference = Interval(d) - Interval(u);
-      return difference.lower() > 0 ? sum / difference : Interval(-1.0, 1.0);
-    };
-    const bool mayRepel = up.upper() >= 0 && down.lower() <= 0;
-    const Interval slid = mayRepel || up.lower() > 0 || down.upper() < 0
-                              ? Interval(-1.0, 1.0)
-                              : Interval(sliding(up.lower(), std::max(down.lower(), 0.0)).lower(),
-                                         sliding(std::min(up.upper(), 0.0), down.upper()).upper());
-    const double most = down.upper() - up.upper(), least = down.lower() - up.lower();
-    bound.turned = most > 0 && least > 0 ? (up.upper() + down.upper()) / most - (up.lower() + down.lower()) / least
-                                         : std::numeric_limits<double>::infinity();
-    sign = hull(sign, slid);
+    bound.slid = slidingSign(jump, time, box, bounds, bound.turned);
+    sign = hull(sign, bound.slid);
   }
   sign = intersection(sign, bound.sign);
   if (!isEmpty(sign)) bound.sign = sign;

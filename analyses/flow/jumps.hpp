@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -27,12 +28,28 @@ struct FlowJumps {
   };
   /// Throws std::logic_error where these do not decide about themselves, or others become one or zero where they are.
   Held heldProgram(const std::vector<char>& held) const;
-  /// Outputs g there: what holds a jump is in them. Throws as heldProgram.
-  Program heldOutputs(const Program& g, const std::vector<char>& held) const;
+  /// g with the signs of states in it that are signs of f's surfaces as parameters behind its own, one a sign of f; of
+  /// those held (none: empty) what holds them. Throws as heldProgram.
+  Program outputsGiven(const Program& g, const std::vector<char>& held) const;
 
   Program f;                                     ///< without derivatives
   Program given;                                 ///< withSignsGiven(f), where f is affine in its signs
   std::vector<std::optional<LinearForm>> forms;  ///< of each argument that is one; none if f is not affine
+};
+
+/// What a sign may be, by where its argument is.
+struct SignCases {
+  bool above = true, below = true;  ///< 1, -1
+  Interval between{-1.0, 1.0};      ///< where it is zero; empty: nowhere
+  /// When that may be so, in seconds from where a step begins.
+  Interval whileAbove = Interval::entire(), whileBelow = Interval::entire(), whileBetween = Interval::entire();
+
+  Interval hull() const;
+  /// Of the negative argument.
+  SignCases mirrored() const { return {below, above, -between, whileBelow, whileAbove, whileBetween}; }
+  bool isOpen() const { return above + below + !isEmpty(between) > 1 || !(above || below || isThin(between)); }
+  /// What of it may be so in this time; all of it if nothing may.
+  SignCases during(const Interval& seconds) const;
 };
 
 /// Of one jump, over a step.
@@ -42,6 +59,7 @@ struct JumpBound {
   Interval over = Interval::entire();                           ///< the argument, at all times
   Interval sign{-1.0, 1.0};                                     ///< or a mean of signs
   bool maySlide = true;                                         ///< solutions may stay where the argument is zero
+  Interval slid{-1.0, 1.0};                                     ///< the sign of those that stay
   bool holds = false;                                           ///< those there stay there, all of them
   double turned = 0;                                            ///< how much the sign that would hold them varies
 
@@ -57,6 +75,42 @@ struct JumpBound {
     Interval ever, then;
   };
   Reach after(double seconds) const;
+  /// The sign then, and at all times of the step with its limits from within; where the argument passes through zero,
+  /// anything between -1 and 1 there.
+  SignCases signAfter(double seconds) const;
+  SignCases signOver() const;  ///< and when
+
+ private:
+  bool leaves() const;
+  SignCases within(SignCases cases) const;
+};
+
+/// What time, states and signs are together.
+struct SignBox {
+  Interval time;
+  Box states;
+  std::vector<Interval> signs;
+};
+
+/// The signs of a motion where its states are known better than over a step.
+class SignsWithin {
+ public:
+  explicit SignsWithin(const FlowJumps& jumps);
+  /// Narrows `signs`, one a sign of f, to the sides on which arguments may be wherever time, states and parameters are
+  /// in these intervals.
+  void narrow(const Interval& time, std::span<const Interval> states, std::span<const Interval> parameters,
+              std::vector<SignCases>& signs);
+  /// All cases of a few signs, with what they leave of time and states, and of the others what they may be. `began`:
+  /// when the step did.
+  std::vector<SignBox> boxes(double began, const Interval& time, const Box& states, const Box& parameters,
+                             std::vector<SignCases> signs);
+  /// The arguments that were found last.
+  const std::vector<Interval>& arguments() const { return arguments_; }
+
+ private:
+  const FlowJumps& jumps_;
+  Evaluator<Interval> evaluator_;
+  std::vector<Interval> arguments_;
 };
 
 /// What a step finds about jumps; one a stepper.
@@ -75,6 +129,8 @@ class JumpBounder {
   void narrow(const LinearForm& form, const Interval& argument, Box& box) const;
 
  private:
+  Interval slidingSign(std::size_t jump, const Interval& time, const Box& box, const std::vector<JumpBound>& bounds,
+                       double& turned);
   void boundOne(std::size_t jump, const Interval& time, const Box& box, const Interval& start, double h,
                 std::vector<JumpBound>& bounds);
   Interval rate(std::size_t jump, double sign, const Interval& time, const Box& box,

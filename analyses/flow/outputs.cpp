@@ -29,12 +29,13 @@ bool dependsOnTime(const Program& g) {
 
 FlowOutputs::FlowOutputs(const Program& g, std::shared_ptr<const Monomials> monomials,
                          std::shared_ptr<const Monomials> ofStates, const std::vector<int>& varying,
-                         const std::atomic<bool>* cancelled)
+                         const std::atomic<bool>* cancelled, std::size_t signs)
     : g_(g),
       differentiated_(g.differentiated()),
       n_(g.states()),
       outputs_(g.outputs()),
       monomials_(monomials->count()),
+      signs_(signs),
       layout_(std::move(monomials)),
       ofStates_(std::move(ofStates)),
       cancelled_(cancelled),
@@ -52,7 +53,8 @@ void FlowOutputs::evaluate(double t, const FlowPoint& point, const std::vector<d
                            const std::vector<Embedded>& parameters) {
   if (evaluateTogether(t, point, R, parameters) || outputs_ == 1) return;
   if (apart_.empty())
-    for (int o = 0; o < outputs_; ++o) apart_.emplace_back(alone(g_, o), layout_, ofStates_, varying_, cancelled_);
+    for (int o = 0; o < outputs_; ++o)
+      apart_.emplace_back(alone(g_, o), layout_, ofStates_, varying_, cancelled_, signs_);
   for (int o = 0; o < outputs_; ++o) {
     FlowOutputs& own = apart_[at(o)];
     own.evaluate(t, point, R, parameters);
@@ -93,12 +95,27 @@ bool FlowOutputs::evaluateTogether(double t, const FlowPoint& point, const std::
     along[at(o)] = series_.rho0(node) + series_.rho1(node);
     driven_[at(o)] = 0;
   }
+  const auto firstSign = parameters.end() - static_cast<std::ptrdiff_t>(signs_);
+  if (std::any_of(firstSign, parameters.end(), [](const Embedded& sign) { return sign.radius > 0; })) {
+    const auto give = [&](bool withRadius) {
+      for (auto sign = firstSign; sign != parameters.end(); ++sign)
+        series_.setParameter(static_cast<int>(sign - parameters.begin()),
+                             {sign->centre, 0, withRadius ? sign->radius : 0.0});
+    };
+    give(false);
+    const bool isBounded = series_.bound(nullptr, true);
+    for (int o = 0; o < outputs_ && isBounded; ++o) {
+      const int node = series_.outputNode(o);
+      driven_[at(o)] = std::max(0.0, along[at(o)] - series_.rho0(node) - series_.rho1(node));
+    }
+    give(true);
+  }
   if (!varying_.empty()) {  // inputs enter outputs themselves: |g(p, w) - g(p, centre)|
     const std::vector<double> none(at(n_), 0.0);
     if (!series_.bound(none.data(), true)) return false;
     for (int o = 0; o < outputs_; ++o) {
       const double withInputs = series_.rho0(series_.outputNode(o)) + series_.rho1(series_.outputNode(o));
-      driven_[at(o)] = std::max(0.0, withInputs - along[at(o)]);
+      driven_[at(o)] += std::max(0.0, withInputs - along[at(o)]);
       along[at(o)] = std::max(along[at(o)], withInputs);
     }
   }
@@ -153,13 +170,6 @@ bool FlowOutputs::evaluateTogether(double t, const FlowPoint& point, const std::
   return true;
 }
 
-Interval FlowOutputs::overBox(int output, const Interval& t, const std::vector<Interval>& states,
-                              const std::vector<Embedded>& parameters) {
-  std::vector<Interval> box;
-  for (const Embedded& p : parameters) box.push_back(rangeOf(p));
-  return plain_.over(output, t, states, box);
-}
-
 FlowOutputChords::FlowOutputChords(const Program& g, std::shared_ptr<const Monomials> monomials, int order,
                                    double length, double resolution, const std::atomic<bool>* cancelled)
     : g_(g),
@@ -208,16 +218,16 @@ int FlowOutputChords::orderFor(const FlowStepper& stepper, std::vector<double>& 
 /// g̃, G̃ the polynomials in σ that are kept of g(p) and, without ξ, of G:  y = z + ε,  z = g̃ + G̃ Ψ v, |ε| ≤ |g(p) - g̃| +
 /// |G - G̃| |x - p| + |G̃| |loose|. z leaves its chord as far as its second derivative allows; the chord of z is within
 /// |ε| of that of y, as z is of y: together 2 |ε|.
-void FlowOutputChords::load(const FlowStepper& stepper, const FlowSet& set) {
-  isApart_ = !loadTogether(stepper, set) && outputs_ > 1;
+void FlowOutputChords::load(const FlowStepper& stepper, double t0, const std::vector<Embedded>& parameters) {
+  isApart_ = !loadTogether(stepper, t0, parameters) && outputs_ > 1;
   if (!isApart_) return;
   if (apart_.empty())
     for (int o = 0; o < outputs_; ++o)
       apart_.emplace_back(alone(g_, o), layout_, order_ - 1, length_, resolution_, cancelled_);
-  for (FlowOutputChords& own : apart_) own.load(stepper, set);
+  for (FlowOutputChords& own : apart_) own.load(stepper, t0, parameters);
 }
 
-bool FlowOutputChords::loadTogether(const FlowStepper& stepper, const FlowSet& set) {
+bool FlowOutputChords::loadTogether(const FlowStepper& stepper, double t0, const std::vector<Embedded>& parameters) {
   const PolynomialSeries& states = stepper.series();
   const double theta = stepper.theta(), infinite = std::numeric_limits<double>::infinity();
   scale_ = stepper.scale();
@@ -225,10 +235,10 @@ bool FlowOutputChords::loadTogether(const FlowStepper& stepper, const FlowSet& s
   std::vector<double> dropped;
   series_.setOrder(orderFor(stepper, dropped));
   for (int i = 0; i < n_; ++i) series_.setStateSeries(i, states.series(i), states.stride());
-  for (std::size_t i = 0; i < set.parameters.size(); ++i) series_.setParameter(static_cast<int>(i), set.parameters[i]);
+  for (std::size_t i = 0; i < parameters.size(); ++i) series_.setParameter(static_cast<int>(i), parameters[i]);
   series_.forgetCrossings();
-  timeKinks_.giveSides(set.parameters, set.t, set.t + stepper.h(), series_);
-  series_.compute(set.t, scale_);
+  timeKinks_.giveSides(parameters, t0, t0 + stepper.h(), series_);
+  series_.compute(t0, scale_);
   std::vector<double> own(at(outputs_)), tube(at(n_));
   for (int i = 0; i < n_; ++i) tube[at(i)] = (stepper.tubeBound(i) + dropped[at(i)]) * bounds::up;
   series_.forgetJumps();

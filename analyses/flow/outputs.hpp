@@ -14,10 +14,11 @@ namespace gamut {
 /// Evaluates g and ∂g/∂x on the polynomials of a FlowPoint. Holds the workspace: one a thread.
 class FlowOutputs {
  public:
-  /// `g`: the outputs; its states and parameters are those of the flow. `monomials`: of the outputs, among them all of
-  /// `ofStates`, the states' polynomials. `varying`: parameters that are inputs.
+  /// `g`: the outputs; its states and parameters are those of the flow, and behind them signs that are given.
+  /// `monomials`: of the outputs, among them all of `ofStates`, the states' polynomials. `varying`: parameters that are
+  /// inputs.
   FlowOutputs(const Program& g, std::shared_ptr<const Monomials> monomials, std::shared_ptr<const Monomials> ofStates,
-              const std::vector<int>& varying, const std::atomic<bool>* cancelled = nullptr);
+              const std::vector<int>& varying, const std::atomic<bool>* cancelled = nullptr, std::size_t signs = 0);
 
   /// polynomial(o) ± radius(o) contains output o for every ξ. A radius is infinite where nothing could be proved of
   /// that output; the others do not suffer from it.
@@ -31,13 +32,16 @@ class FlowOutputs {
   const Monomials& monomials() const { return *layout_; }
   const double* polynomial(int output) const { return &polynomial_[static_cast<std::size_t>(output * monomials_)]; }
   double radius(int output) const { return radius_[static_cast<std::size_t>(output)]; }
-  /// What of the radius is not overestimation: what inputs did, before and at this moment; what is known of jumps.
+  /// What of the radius is not overestimation: what inputs did, before and at this moment; what is known of jumps, and
+  /// what signs that are given may be.
   double driven(int output) const { return driven_[static_cast<std::size_t>(output)]; }
 
   /// Output o wherever the states are in these boxes, by plain intervals, for one that has an infinite radius:
   /// where it is not defined for every ξ; and for what has kinks, of which it may know more.
   Interval overBox(int output, const Interval& t, const std::vector<Interval>& states,
-                   const std::vector<Embedded>& parameters);
+                   const std::vector<Interval>& parameters) {
+    return plain_.over(output, t, states, parameters);
+  }
 
  private:
   bool evaluateTogether(double t, const FlowPoint& point, const std::vector<double>& R,
@@ -45,6 +49,7 @@ class FlowOutputs {
 
   Program g_, differentiated_;
   int n_, outputs_, monomials_;
+  std::size_t signs_;
   std::shared_ptr<const Monomials> layout_, ofStates_;
   const std::atomic<bool>* cancelled_;
   PolynomialSeries series_;
@@ -62,14 +67,14 @@ class FlowOutputChords {
   FlowOutputChords(const Program& g, std::shared_ptr<const Monomials> monomials, int order, double length,
                    double resolution, const std::atomic<bool>* cancelled = nullptr);
 
-  /// Composes g with the step that `stepper` certified last from `set`.
-  void load(const FlowStepper& stepper, const FlowSet& set);
+  /// Composes g with the step that `stepper` certified last from t0.
+  void load(const FlowStepper& stepper, double t0, const std::vector<Embedded>& parameters);
   /// How far every output leaves the hull of its enclosures at two moments of the step, in seconds from its start,
   /// between them; the whole line where nothing could be proved.
   void sag(double from, double to, std::vector<Interval>& bound) const;
 
  private:
-  bool loadTogether(const FlowStepper& stepper, const FlowSet& set);
+  bool loadTogether(const FlowStepper& stepper, double t0, const std::vector<Embedded>& parameters);
   int orderFor(const FlowStepper& stepper, std::vector<double>& dropped) const;
 
   Program g_, differentiated_;

@@ -197,10 +197,11 @@ Tube FlowRun::gather(std::vector<FlowCollected>& collected) {
     tube.models_ = modelsOf(collected, rows);
   }
   // g over start values in plain intervals: exactly what is known exactly.
-  StartOutputs atStart(task_);
+  StartOutputs atStart(task_, task_.outputs);
   narrow(tube.outputs_[0], atStart.over(task_.box));
   tube.outputsOver_[0] = tube.outputs_[0];
-  if (!tube.asides_[0].empty()) narrow(tube.asides_[0], PlainOutputs(task_.options.aside.values).over(0.0, task_.box));
+  if (!tube.asides_[0].empty())
+    narrow(tube.asides_[0], StartOutputs(task_, task_.options.aside.values).over(task_.box));
   tube.cuts_.assign(task_.levels.size(), std::vector<std::vector<Interval>>(rows));
   for (std::size_t level = 0; level < task_.levels.size(); ++level)
     for (std::size_t row = 0; row < rows; ++row) {

@@ -298,6 +298,34 @@ void FlowStepper::narrowOver(std::vector<Interval>& states) const {
   });
 }
 
+template <class Of>
+std::vector<SignCases> FlowStepper::signs(std::size_t count, Of of) const {
+  const std::vector<int>& jumps = series_.jumps();
+  const auto own = [&](std::size_t j) -> SignCases {
+    if (!ownBounds_.empty()) return of(ownBounds_[j]);
+    const double value = series_.series(jumps[j])[0];
+    if (series_.mayTurn(jumps[j]) || std::fabs(value) != 1) return {};
+    return {.above = value > 0, .below = value < 0, .between = Interval::empty()};
+  };
+  std::vector<SignCases> result(count);
+  if (held_.empty() && jumps.size() == count)
+    for (std::size_t j = 0; j < count; ++j) result[j] = own(j);
+  for (std::size_t k = 0; k < held_.size(); ++k) {
+    if (left_[k] < 0 || at(left_[k]) >= jumps.size()) continue;
+    result[k] = own(at(left_[k]));
+    if (factor_[k] < 0) result[k] = result[k].mirrored();
+  }
+  return result;
+}
+
+std::vector<SignCases> FlowStepper::signsAfter(double seconds, std::size_t count) const {
+  return signs(count, [&](const JumpBound& bound) { return bound.signAfter(seconds); });
+}
+
+std::vector<SignCases> FlowStepper::signsOver(std::size_t count) const {
+  return signs(count, [](const JumpBound& bound) { return bound.signOver(); });
+}
+
 /// x_i = (u - Σ_{j≠i} c_j x_j - Σ_k d_k p_k - constant)/c_i, where u is known better so than by the set.
 void FlowStepper::narrowArguments(const FlowSet& set, double tau, FlowPoint& point) const {
   const int N = series_.count(), NJ = series_.frameCount();

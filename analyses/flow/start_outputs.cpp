@@ -3,28 +3,37 @@
 
 #include <stdexcept>
 
-#include "scalars/index.hpp"
+#include "analyses/flow/journey.hpp"
 #include "scalars/program/sides.hpp"
 
 namespace gamut {
 
-using detail::at;
-
-StartOutputs::StartOutputs(const FlowTask& task) : task_(task), outputs_(withSignsGiven(task.jumps.f, task.outputs)) {
-  if (!jumpsOf(task.jumps.f).empty()) arguments_.emplace(withSignsGiven(task.jumps.f));
+StartOutputs::StartOutputs(const FlowTask& task, const Program& g)
+    : task_(task), g_(g), outputs_(withSignsGiven(task.jumps.f, g)) {
+  if (!jumpsOf(task.jumps.f).empty()) signsWithin_.emplace(task.jumps);
 }
 
 std::vector<Interval> StartOutputs::over(const Box& box) {
-  if (!arguments_) return outputs_.over(0.0, box);
+  if (!signsWithin_) return outputs_.over(0.0, box);
   const auto middle = box.begin() + task_.motion.states();
   const Box states(box.begin(), middle), parameters(middle, box.end());
+  const auto overBoxes = [&](PlainOutputs& outputs) {
+    std::vector<Interval> result;
+    const std::vector<SignCases> any(jumpsOf(task_.jumps.f).size());
+    for (const SignBox& part : signsWithin_->boxes(0.0, Interval(0.0), states, parameters, any)) {
+      Box all = part.states;
+      all.insert(all.end(), parameters.begin(), parameters.end());
+      all.insert(all.end(), part.signs.begin(), part.signs.end());
+      joinHulls(result, outputs.over(0.0, all));
+    }
+    return result;
+  };
+  std::vector<Interval> result = overBoxes(outputs_);
   const std::vector<char> holds = held(states, parameters);
-  Box all = box;
-  all.insert(all.end(), signs_.begin(), signs_.end());
-  std::vector<Interval> result = outputs_.over(0.0, all);
   if (holds.empty()) return result;
   try {
-    const std::vector<Interval> there = PlainOutputs(task_.jumps.heldOutputs(task_.outputs, holds)).over(0.0, box);
+    PlainOutputs whileHeld(task_.jumps.outputsGiven(g_, holds));
+    const std::vector<Interval> there = overBoxes(whileHeld);
     for (std::size_t o = 0; o < result.size(); ++o) result[o] = intersection(result[o], there[o]);
   } catch (const std::logic_error&) {  // these jumps do not decide about themselves
   }
@@ -32,30 +41,19 @@ std::vector<Interval> StartOutputs::over(const Box& box) {
 }
 
 std::vector<char> StartOutputs::held(const Box& states, const Box& parameters) {
-  const std::size_t count = jumpsOf(task_.jumps.f).size();
-  Box given = parameters;
-  given.resize(given.size() + count, Interval(-1.0, 1.0));
-  arguments_->setParameters(given);
-  const std::vector<Interval> found = (*arguments_)(Interval(0.0), states);
-  signs_.clear();
-  std::vector<Interval> start;
+  std::vector<SignCases> signs(jumpsOf(task_.jumps.f).size());
+  signsWithin_->narrow(Interval(0.0), states, parameters, signs);
+  const std::vector<Interval>& start = signsWithin_->arguments();
   std::vector<JumpBound> bounds(task_.jumps.count());
-  for (std::size_t k = 0; k < count; ++k) {
-    const Interval& u = found[states.size() + k];
-    signs_.push_back(u.lower() > 0 ? Interval(1.0) : u.upper() < 0 ? Interval(-1.0) : Interval(-1.0, 1.0));
-    start.push_back(u);
-  }
   if (bounds.empty()) return {};
   JumpBounder bounder(task_.jumps);
   bounder.setParameters(parameters);
   bounder.bound(Interval(0.0), states, start, 0.0, bounds);
   std::vector<char> result;
   bool any = false;
-  for (std::size_t k = 0; k < count; ++k) {
+  for (std::size_t k = 0; k < signs.size(); ++k) {
     result.push_back(static_cast<char>(bounds[k].holds && isEqual(start[k], Interval(0.0))));
     any = any || result.back() != 0;
-    // What holds one depends on the signs of others: one that leaves has not that of its argument at this moment.
-    if (result.back() == 0 && !isThin(signs_[k])) return {};
   }
   return any ? result : std::vector<char>{};
 }

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "analyses/flow/jumps.hpp"
 #include "analyses/flow/plain_outputs.hpp"
 #include "analyses/flow/task.hpp"
 
@@ -11,8 +12,8 @@ namespace gamut {
 
 class StartOutputs {
  public:
-  /// Of the task's outputs.
-  explicit StartOutputs(const FlowTask& task);
+  /// Of g(t, x, p). Both are referred to.
+  StartOutputs(const FlowTask& task, const Program& g);
 
   /// Over start values and parameters. A sign of the motion whose argument may be zero is anything from -1 to 1; where
   /// jumps hold the motion from the start on, what holds it.
@@ -23,9 +24,9 @@ class StartOutputs {
   std::vector<char> held(const Box& states, const Box& parameters);
 
   const FlowTask& task_;
-  PlainOutputs outputs_;                          // with the signs of jumps as further parameters
-  std::optional<Evaluator<Interval>> arguments_;  // rates, arguments of jumps, and their rates, by signs as well
-  std::vector<Interval> signs_;                   // of jumps, over the box looked at
+  const Program& g_;
+  PlainOutputs outputs_;                    // with the signs of jumps as further parameters
+  std::optional<SignsWithin> signsWithin_;  // none: f has none
 };
 
 }  // namespace gamut

@@ -111,6 +111,10 @@ class FlowStepper {
   bool narrows() const { return !ownBounds_.empty() || !heldBounds_.empty() || !crossings_.empty(); }
   /// Narrows what the states are during the whole step by what is known of these.
   void narrowOver(std::vector<Interval>& states) const;
+  /// Of each sign of the motion in which none is held (`count` of them) what it may be: so many seconds into the step,
+  /// and over all of it (JumpBound). Nothing is told of those held.
+  std::vector<SignCases> signsAfter(double seconds, std::size_t count) const;
+  std::vector<SignCases> signsOver(std::size_t count) const;
   /// How far p + Ψ (r + Γs) leaves its chord between two moments of the step, in seconds from its start, for each
   /// state.
   void sag(double from, double to, std::vector<Interval>& bound) const;
@@ -191,6 +195,8 @@ class FlowStepper {
   std::vector<Interval> argumentsBehind() const;
   template <class Visit>
   void forEachKnown(Visit visit) const;
+  template <class Of>
+  std::vector<SignCases> signs(std::size_t count, Of of) const;
   void narrowArguments(const FlowSet& set, double tau, FlowPoint& point) const;
   std::vector<double> symbolMass(std::vector<double>& byGrade) const;
 

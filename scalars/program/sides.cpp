@@ -270,6 +270,32 @@ Program outputsOnSides(const Program& f, const Program& g, std::span<const Side>
   return withSigns(recorder, {signs, sided.outputNodes().end()}, f, g);
 }
 
+Program outputsWithOpenSignsGiven(const Program& f, const Program& g, std::span<const Side> sides) {
+  const Program sided = onSides(f, sides);
+  const int k = f.parameters(), jumps = static_cast<int>(sides.size());
+  Recorder recorder(f.states(), k + jumps);
+  std::vector<int> parameters, instead(sided.nodes().size(), -1), signs;
+  for (int i = 0; i < k; ++i) parameters.push_back(recorder.parameter(i));
+  const auto first = sided.outputNodes().end() - jumps;
+  for (int j = 0; j < jumps; ++j) {  // an open sign is one of the sided program's, or the negative
+    if (sides[at(j)] != Side::open) continue;
+    const int node = first[j], given = recorder.parameter(k + j);
+    const Node& sign = sided.nodes()[at(node)];
+    if (sign.op == Op::neg && instead[at(sign.a)] < 0) instead[at(sign.a)] = recorder.neg(given);
+    if (sign.op == Op::sign && instead[at(node)] < 0) instead[at(node)] = given;
+  }
+  const std::vector<int> here = recorder.append(sided, parameters, instead);
+  for (int j = 0; j < jumps; ++j)
+    signs.push_back(sides[at(j)] == Side::open ? recorder.parameter(k + j) : here[at(first[j])]);
+  return withSigns(recorder, signs, f, g);
+}
+
+Program argumentsOfSigns(const Program& f) {
+  const Program given = withSignsGiven(f);
+  const auto first = given.outputNodes().begin() + f.states();
+  return Recorder(given).finish({first, first + static_cast<std::ptrdiff_t>(jumpsOf(f).size())});
+}
+
 Program withSignsGiven(const Program& f, const Program& g) {
   const int k = g.parameters(), jumps = static_cast<int>(jumpsOf(f).size());
   Recorder recorder(g.states(), k + jumps);

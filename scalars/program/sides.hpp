@@ -48,7 +48,13 @@ Program onSides(const Program& f, std::span<const Side> sides);
 /// still); other signs stay. Throws as onSides.
 Program outputsOnSides(const Program& f, const Program& g, std::span<const Side> sides);
 
+/// Likewise, with the signs that are open as parameters behind those of g, one a jump of f.
+Program outputsWithOpenSignsGiven(const Program& f, const Program& g, std::span<const Side> sides);
+
 /// g with those signs as parameters behind its own, one a jump of f.
 Program withSignsGiven(const Program& f, const Program& g);
+
+/// The arguments of f's signs, with all signs of f as parameters behind its own.
+Program argumentsOfSigns(const Program& f);
 
 }  // namespace gamut

@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -21,6 +22,11 @@ class SlidingReference {
   using Rest = std::function<void(const std::vector<Side>&, const Vector& parameters, Vector& states)>;
   SlidingReference(Program f, Rest rest) : f_(std::move(f)), given_(withSignsGiven(f_)), rest_(std::move(rest)) {}
 
+  /// And values of g: signs in it that are signs of f's surfaces are as they are on the sides that the motion is on.
+  SlidingReference(Program f, Program g, Rest rest) : SlidingReference(std::move(f), std::move(rest)) {
+    g_ = std::move(g);
+  }
+
   std::vector<Vector> operator()(const Vector& start, const std::vector<double>& times) {
     const auto n = static_cast<std::ptrdiff_t>(f_.states());
     p_.assign(start.begin() + n, start.end());
@@ -28,34 +34,46 @@ class SlidingReference {
     Vector x(start.begin(), start.begin() + n);
     Precise t(0.0);
     sides_.assign(jumpsOf(f_).size(), Side::between);
-    for (std::size_t k = 0; k < sides_.size(); ++k) {
-      const Precise u = rates(t, x)[at(k, 0)];
-      sides_[k] = u > 0 ? Side::above : u < 0 ? Side::below : sideFrom(k, t, x);
-    }
+    for (int pass = 0; pass < 3; ++pass)  // where one goes may depend on where others do
+      for (std::size_t k = 0; k < sides_.size(); ++k) {
+        const Precise u = rates(t, x)[at(k, 0)];
+        if (u != 0)
+          sides_[k] = u > 0 ? Side::above : Side::below;
+        else if (pass > 0)
+          sides_[k] = sideFrom(k, t, x);
+      }
     std::vector<Vector> result;
+    outputs.clear();
+    limits.clear();
     while (result.size() < times.size()) {
       Phase& phase = phaseOf(sides_);
       phase.series.solve(t, x);
       Precise h = reach(phase);
       const Precise event = firstEvent(phase, t, h);
       if (event < h) h = event + Precise(0x1p-108);
-      while (result.size() < times.size() && Precise(times[result.size()]) <= t + h)
-        result.push_back(after(phase, Precise(times[result.size()]) - t));
+      while (result.size() < times.size() && Precise(times[result.size()]) <= t + h) {
+        const Precise time(times[result.size()]);
+        result.push_back(after(phase, time - t));
+        if (g_) outputs.push_back((*phase.outputs)(time, result.back()));
+      }
       x = after(phase, h);
       t += h;
       if (event >= h) continue;
       ++events;
+      if (g_) limits.push_back((*phase.outputs)(t, x));
       for (std::size_t k = 0; k < sides_.size(); ++k)
         if (watched(phase, k, t, x) < -tiny()) {
           const Precise s = phase.all(t, x)[at(k, 1)];
           sides_[k] = sides_[k] == Side::held ? (s > 0 ? Side::above : Side::below) : sideFrom(k, t, x);
         }
       rest_(sides_, p_, x);
+      if (g_) limits.push_back((*phaseOf(sides_).outputs)(t, x));
     }
     return result;
   }
 
   int events = 0;
+  std::vector<Vector> outputs, limits;  ///< of the last motion, at its times; just before and behind its events
 
  private:
   static constexpr int order = 30, parts = 32;
@@ -68,6 +86,7 @@ class SlidingReference {
       series.setParameters(p);
     }
     Evaluator<Precise> all;
+    std::optional<Evaluator<Precise>> outputs;
     Program f;
     Series<Precise> series;
   };
@@ -78,7 +97,9 @@ class SlidingReference {
   }
   Phase& phaseOf(const std::vector<Side>& sides) {
     std::unique_ptr<Phase>& phase = phases_[sides];
-    if (!phase) phase = std::make_unique<Phase>(onSides(f_, sides), f_.states(), p_);
+    if (phase) return *phase;
+    phase = std::make_unique<Phase>(onSides(f_, sides), f_.states(), p_);
+    if (g_) phase->outputs.emplace(outputsOnSides(f_, *g_, sides)).setParameters(p_);
     return *phase;
   }
   /// f, arguments and their rates, with signs as they are, but for one.
@@ -141,6 +162,7 @@ class SlidingReference {
   }
 
   Program f_, given_;
+  std::optional<Program> g_;
   Rest rest_;
   Vector p_;
   std::vector<Side> sides_;

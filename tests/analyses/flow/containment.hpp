@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <optional>
 #include <utility>
 
@@ -22,6 +23,11 @@ struct Containment {
   FlowOptions options = {};
   std::optional<Program> g = {};
   std::vector<Box> levels = {};
+  /// States and outputs at so many times of the solution that starts there, where they are not those of `Reference`.
+  struct Motion {
+    std::vector<Vector> states, outputs;
+  };
+  std::function<Motion(const Vector& start, const std::vector<double>& times)> motion = {};
   /// The truth where it is not f itself: f with decimals as further parameters, and their values in 128 bits.
   std::optional<Program> truth = {};
   Vector decimals = {};
@@ -79,7 +85,12 @@ class Judge {
     given.insert(given.end(), c_.decimals.begin(), c_.decimals.end());
     std::vector<double> times;
     for (const Moment& moment : moments_) times.push_back(moment.time);
-    const std::vector<Vector> states = reference_(given, times);
+    Containment::Motion motion;
+    if (c_.motion)
+      motion = c_.motion(given, times);
+    else
+      motion.states = reference_(given, times);
+    const std::vector<Vector>& states = motion.states;
     std::optional<Evaluator<Precise>> outputs, asides;
     const auto take = [&](std::optional<Evaluator<Precise>>& evaluator, const Program& program) {
       evaluator.emplace(program);
@@ -94,7 +105,7 @@ class Judge {
       if (isOutputTime) within(tube_.states(row), states[m], "states");
       Vector y = states[m];
       if (outputs) {
-        y = (*outputs)(Precise(time), states[m]);
+        y = c_.motion ? motion.outputs[m] : (*outputs)(Precise(time), states[m]);
         within(tube_.outputsOver(row), y, "outputs over");
         if (isOutputTime) within(tube_.outputs(row), y, "outputs");
         judgeModels(start, time, row, isOutputTime, y);

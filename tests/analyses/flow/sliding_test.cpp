@@ -217,6 +217,74 @@ TEST(FlowSlidingExactly, OutputsHoldWhatHolds) {
   }
 }
 
+/// Where some rest already and others still come, by 1 - c or so a second: an acceleration is that of either, at output
+/// times and between, in alpha-cuts and in models; what rests has c for a sign, whatever it is written as.
+TEST(FlowSlidingExactly, OutputsHoldThoseThatRestAndThoseThatCome) {
+  for (const double c : {-0.75, -0.125, 0.25, 0.875})
+    for (const double shift : {0.0, 0.5})
+      for (const double side : {-1.0, 1.0}) {
+        SCOPED_TRACE(::testing::Message() << c << ' ' << shift << ' ' << side);
+        const Program f =
+            record(1, 1, [&](auto, const auto& x, const auto& p, auto& dx) { dx[0] = c - sign(x[0] - shift * p[0]); });
+        const Program g = record(1, 1, 4, [&](auto, const auto& x, const auto& p, auto& y) {
+          const auto u = x[0] - shift * p[0];
+          y[0] = c - sign(u);
+          y[1] = sign(2.0 * u);
+          y[2] = 1.5 - 0.5 * sign(-u);  // where(u < 0, 1, 2)
+          y[3] = sqr(sign(u));
+        });
+        const Box box{shift + side * Interval(0.25, 0.75), 1.0}, level{shift + side * Interval(0.25, 0.5), 1.0};
+        FlowOptions options;
+        options.modelled = {0, 1, 2, 3};
+        const double first = 0.25 / (1 - side * c);  // comes to rest
+        const Tube tube =
+            Flow(f, g, options).enclose(box, 4 * first, {1.5 * first, 1.75 * first, 2.5 * first}, {level});
+        ASSERT_EQ(tube.why(), "");
+        for (std::size_t row = 1; row < tube.reachedTimes(); ++row) {
+          const bool allRest = tube.times()[row] > 3 * first, oneComes = tube.times()[row] < 3 * first;
+          std::vector<std::vector<double>> truths{{0.0, c, 1.5 + 0.5 * c, c * c}};
+          if (oneComes) truths.push_back({c - side, side, 1.5 + 0.5 * side, 1.0});
+          for (std::size_t o = 0; o < 4; ++o) {
+            for (const std::vector<double>& truth : truths) {
+              EXPECT_TRUE(contains(tube.outputs(row)[o], truth[o])) << row << ' ' << o;
+              EXPECT_TRUE(contains(tube.outputsOver(row)[o], truth[o])) << row << ' ' << o;
+            }
+            EXPECT_TRUE(contains(tube.cut(0, row)[o], truths[0][o])) << row << ' ' << o;
+            Interval model = Interval::empty(), chords = Interval::empty();
+            for (const auto& snapshot : tube.models()->at[row]) model = hull(model, snapshot->outputs[o].bound);
+            for (const FlowChord& chord : tube.models()->over[row]) chords = hull(chords, chord.bound[o]);
+            EXPECT_TRUE(contains(model, truths[0][o])) << row << ' ' << o;
+            EXPECT_TRUE(contains(chords, truths[0][o])) << row << ' ' << o;
+            const Interval truth = oneComes ? hull(Interval(truths[0][o]), Interval(truths[1][o])) : truths[0][o];
+            EXPECT_LT(width(tube.outputs(row)[o]), 1.01 * width(truth) + 1e-9) << row << ' ' << o;
+            if (allRest) {
+              EXPECT_LT(width(tube.outputs(row)[o]), 1e-12) << row << ' ' << o;
+            }
+          }
+        }
+      }
+}
+
+/// A sign that jumps as another surface is reached begins anew with the step: what holds x is -¼ until y has come to
+/// rest, then ¼.
+TEST(FlowSlidingExactly, WhatHoldsMayJump) {
+  const Program f = record(2, 0, [](auto, const auto& x, const auto&, auto& dx) {
+    dx[0] = 0.25 - 0.5 * sign(x[1]) - sign(x[0]);
+    dx[1] = 0.0 - sign(x[1]);
+  });
+  const Program g = record(2, 0, 1, [](auto, const auto& x, const auto&, auto& y) { y[0] = sign(x[0]); });
+  for (const Interval& start : {Interval(0.5), Interval(0.4375, 0.5625)}) {
+    const Tube tube = Flow(f, g).enclose({0.0, start}, 1, {0.25, 0.75});
+    ASSERT_EQ(tube.why(), "");
+    EXPECT_TRUE(contains(tube.outputs(1)[0], -0.25));
+    EXPECT_TRUE(contains(tube.outputs(2)[0], 0.25));
+    EXPECT_TRUE(isSubset(Interval(-0.25, 0.25), tube.outputsOver(2)[0]));
+    EXPECT_LT(width(tube.outputs(1)[0]), 1e-9);
+    EXPECT_LT(width(tube.outputs(2)[0]), 1e-9);
+    EXPECT_TRUE(contains(tube.outputsOver(3)[0], 0.25));
+  }
+}
+
 /// At the start a motion may leave at once, and the sign is anything.
 TEST(FlowSlidingExactly, OutputsAtTheStartAllowForEverySign) {
   const Program f = record(1, 1, [](auto, const auto& x, const auto& p, auto& dx) { dx[0] = p[0] - sign(x[0]); });

@@ -70,6 +70,28 @@ TEST(Sides, OutputsAreThoseOfTheSide) {
   EXPECT_EQ(evaluate<double>(withSignsGiven(rubbing(), g), x, {2.0, 0.5}, 0.0), (std::vector{-1.5, -2.5, -0.5, 1.0}));
 }
 
+/// Of two, one is held: what holds it depends on the other's sign, which is a parameter.
+TEST(Sides, OpenSignsMayBeGiven) {
+  const Program f = record(2, 1, [](auto, const auto& x, const auto& p, auto& dx) {
+    const auto first = sign(x[0]);
+    dx[1] = -sign(x[1]);
+    dx[0] = p[0] - 2.0 * first - 0.5 * dx[1];
+  });
+  const Program g = record(2, 1, 3, [](auto, const auto& x, const auto&, auto& y) {
+    y[0] = sign(3.0 * x[0]);
+    y[1] = sign(-x[1]);
+    y[2] = sign(x[0] + x[1]);  // of none
+  });
+  const Program given = outputsWithOpenSignsGiven(f, g, std::vector{Side::held, Side::open});
+  EXPECT_EQ(given.parameters(), 3);
+  const std::vector<double> x{0.0, 7.0}, p{0.25, 99.0, -0.5};  // the held one's is not looked at
+  const std::vector<double> y = evaluate<double>(given, x, p, 0.0);
+  EXPECT_NEAR(y[0], 0.0, 1e-15);  // (0.25 - 0.25)/2
+  EXPECT_EQ(y[1], 0.5);
+  EXPECT_EQ(y[2], 1.0);
+  EXPECT_EQ(evaluate<double>(argumentsOfSigns(f), x, p, 0.0), x);
+}
+
 /// Two rubbing masses that one matrix couples: M v' = F - μ sign(v).
 TEST(Sides, SeveralAreHeldAtOnce) {
   const Program f = record(2, 2, [](auto, const auto& v, const auto& p, auto& dv) {
