@@ -43,7 +43,8 @@ std::vector<Side> sidesOf(const std::vector<char>& held) {
 }  // namespace
 
 Program FlowJumps::outputsGiven(const Program& g, const std::vector<char>& held) const {
-  return held.empty() ? withSignsGiven(f, g) : outputsWithOpenSignsGiven(f, g, sidesOf(held));
+  const Program bare = withBareKinks(g);  // as f is, so that its surfaces are found again
+  return held.empty() ? withSignsGiven(f, bare) : outputsWithOpenSignsGiven(f, bare, sidesOf(held));
 }
 
 FlowJumps::Held FlowJumps::heldProgram(const std::vector<char>& held) const {

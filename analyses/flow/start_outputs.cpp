@@ -9,7 +9,7 @@
 namespace gamut {
 
 StartOutputs::StartOutputs(const FlowTask& task, const Program& g)
-    : task_(task), g_(g), outputs_(withSignsGiven(task.jumps.f, g)) {
+    : task_(task), g_(g), outputs_(task.jumps.outputsGiven(g, {})) {
   if (!jumpsOf(task.jumps.f).empty()) signsWithin_.emplace(task.jumps);
 }
 

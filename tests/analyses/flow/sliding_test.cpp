@@ -285,6 +285,19 @@ TEST(FlowSlidingExactly, WhatHoldsMayJump) {
   }
 }
 
+/// A surface is known again whatever factors it has, in kinks too: at |2 x| = 1 the sign is -¼ from the start on.
+TEST(FlowSlidingExactly, OutputsKnowSurfacesWithKinks) {
+  const Program f =
+      record(1, 0, [](auto, const auto& x, const auto&, auto& dx) { dx[0] = -0.25 - sign(abs(2.0 * x[0]) - 1.0); });
+  const Program g =
+      record(1, 0, 1, [](auto, const auto& x, const auto&, auto& y) { y[0] = sign(abs(2.0 * x[0]) - 1.0); });
+  const Tube tube = Flow(f, g).enclose({0.5}, 0.125, {0.0625});
+  for (std::size_t row = 0; row < tube.reachedTimes(); ++row) {
+    EXPECT_TRUE(contains(tube.outputs(row)[0], -0.25)) << row;
+    EXPECT_TRUE(contains(tube.outputsOver(row)[0], -0.25)) << row;
+  }
+}
+
 /// At the start a motion may leave at once, and the sign is anything.
 TEST(FlowSlidingExactly, OutputsAtTheStartAllowForEverySign) {
   const Program f = record(1, 1, [](auto, const auto& x, const auto& p, auto& dx) { dx[0] = p[0] - sign(x[0]); });
