@@ -6,6 +6,7 @@
 
 #include "scalars/evaluation/evaluator.hpp"
 #include "scalars/interval.hpp"
+#include "scalars/program/extremes.hpp"
 #include "scalars/program/program.hpp"
 
 namespace gamut {
@@ -26,8 +27,14 @@ class PlainOutputs {
   bool hasAngles() const { return hasAngles_; }
 
  private:
+  /// A greater or lesser of two numbers, given as a further parameter to all that comes behind it.
+  struct Given {
+    Evaluator<Interval> ofBoth;  // and all that they take a root or logarithm of
+    Extreme extreme;
+  };
   struct Output {
     explicit Output(const Program& whole) : value(whole) {}
+    std::vector<Given> extremes;
     Evaluator<Interval> value;                 // and all that it takes a root or logarithm of
     std::vector<Evaluator<Interval>> atWorst;  // likewise, with halves of angles as further parameters; or none
     std::size_t angles = 0;

@@ -72,6 +72,9 @@ class SlidingReference {
     return result;
   }
 
+  /// Of the first jump, at the end of the last motion.
+  bool isHeld() const { return !sides_.empty() && sides_[0] == Side::held; }
+
   int events = 0;
   std::vector<Vector> outputs, limits;  ///< of the last motion, at its times; just before and behind its events
 
