@@ -1,10 +1,14 @@
 // fork(): the child has all that the parent has, and what it does to itself stays with it. The result comes through a
-// pipe; that it is whole is said by a last byte, which also tells where exit statuses are ignored.
+// pipe; that it is whole is said by a last byte, which also tells where exit statuses are ignored. Of what the parent
+// has open the child keeps the pipe's writing end alone: whoever waits for the parent's output, or for its locks, does
+// not wait for the child, which ends when nobody reads any more.
 #include "studies/results/detail/apart.hpp"
 
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -13,6 +17,8 @@
 #include <string_view>
 #include <system_error>
 #include <vector>
+
+#include "studies/held_interrupts.hpp"
 
 namespace gamut {
 namespace {
@@ -46,12 +52,29 @@ void setLimits(std::size_t memory, unsigned seconds) {
   limit(RLIMIT_CORE, 0);
 }
 
-/// The parent's handlers are not the child's: it ends at once.
-void endOnSignals() {
-  for (const int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGXCPU, SIGINT, SIGTERM, SIGHUP})
-    ::signal(number, SIG_DFL);
-  const int nowhere = ::open("/dev/null", O_WRONLY);
-  if (nowhere >= 0) ::dup2(nowhere, STDERR_FILENO);
+/// The child goes with its parent, however that ends: also one that ended before the child asked for it.
+void endWithParent(pid_t parent) {
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != parent) ::_exit(1);
+}
+
+/// The parent's handlers are not the child's: faults end it at once. Interrupts are left to the parent, which knows
+/// what they mean: half a transcript would look like a damaged file.
+void forgetHandlers() {
+  for (const int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGXCPU, SIGPIPE}) ::signal(number, SIG_DFL);
+  for (const int number : {SIGINT, SIGTERM, SIGHUP}) ::signal(number, SIG_IGN);
+}
+
+/// All but the standard streams, which lead nowhere, and the pipe, whose number is told.
+int keepOnly(int pipe) {
+  constexpr int kept = STDERR_FILENO + 1;
+  if (pipe != kept) ::dup2(pipe, kept);
+  const int nowhere = ::open("/dev/null", O_RDWR);
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (nowhere < 0 || ::dup2(nowhere, stream) < 0) ::close(stream);
+  if (::syscall(SYS_close_range, kept + 1, ~0U, 0) != 0)  // kernels before 5.9 cannot
+    for (int file = kept + 1, end = static_cast<int>(::sysconf(_SC_OPEN_MAX)); file < end; ++file) ::close(file);
+  return kept;
 }
 
 bool writeAll(int pipe, std::string_view bytes) {
@@ -67,7 +90,7 @@ bool writeAll(int pipe, std::string_view bytes) {
                                  int pipe) {
   bool isDone = false;
   try {
-    endOnSignals();
+    pipe = keepOnly(pipe);
     setLimits(memory, seconds);
     isDone = writeAll(pipe, compute()) && writeAll(pipe, "!");
   } catch (...) {  // then it is not done
@@ -93,7 +116,16 @@ std::optional<std::string> resultApart(const std::function<std::string()>& compu
                                        unsigned seconds) {
   int ends[2];
   if (::pipe2(ends, O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "no pipe to a child");
-  const pid_t child = ::fork();
+  const pid_t parent = ::getpid();
+  const pid_t child = [&] {
+    const HeldInterrupts held;  // the child must not act as its parent on one
+    const pid_t forked = ::fork();
+    if (forked == 0) {
+      forgetHandlers();
+      endWithParent(parent);
+    }
+    return forked;
+  }();
   if (child < 0) {
     const int error = errno;
     ::close(ends[0]);
