@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <cstdlib>
 
 #include "reports/requirements.hpp"
 #include "studies/words.hpp"
@@ -151,10 +152,10 @@ class Sentence {
     const double least = 1 - r_.probabilityUpper, most = 1 - r_.probabilityLower;
     if (!isProbabilityProved(results_) || !(most - least < telling)) return {};
     const auto [from, to] = outwardText(least, most, std::max(3, digitsFor(1, most - least, 1)));
-    return from == to ? fmt::format(" The proved probability of that is {}.", from)
-           : least <= 0
-               ? fmt::format(" The proved probability of that is {} at most.", to)
-               : fmt::format(" The proved probability of that is {} to {}.", from, std::stod(to) > 1 ? "1" : to);
+    return from == to   ? fmt::format(" The proved probability of that is {}.", from)
+           : least <= 0 ? fmt::format(" The proved probability of that is {} at most.", to)
+                        : fmt::format(" The proved probability of that is {} to {}.", from,
+                                      std::strtod(to.c_str(), nullptr) > 1 ? "1" : to);
   }
 
   std::string violation() const {

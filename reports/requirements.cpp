@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <regex>
 
 #include "mechanics/description/units.hpp"
@@ -32,11 +33,14 @@ std::string statedUnit(const std::string& statement, const std::string& unit) {
   return unit;
 }
 
+/// Of a text without a number 0, of one too small for a double what is left of it.
+double numberIn(const std::string& text) { return std::strtod(text.c_str(), nullptr); }
+
 /// "0.9684 to 0.9702", outward; "1" of a number that is exactly known.
 std::string rangeOfShare(double lower, double upper) {
   if (lower == upper) return numberText(lower, 6);
   const auto [low, high] = outwardText(lower, upper, std::max(3, digitsFor(1, upper - lower, 2)));
-  return fmt::format("{} to {}", std::stod(low) < 0 ? "0" : low, std::stod(high) > 1 ? "1" : high);
+  return fmt::format("{} to {}", numberIn(low) < 0 ? "0" : low, numberIn(high) > 1 ? "1" : high);
 }
 
 /// Rounded down, in per cent.

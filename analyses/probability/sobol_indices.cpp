@@ -280,6 +280,7 @@ Interval root(const Interval& square) { return sqrt(max(square, Interval(0.0)));
 /// Of a vector of length b, a part of length a: y and its polynomial are apart by r at most, so that the angle whose
 /// sine is a/b is off by no more than arcsin(r/b).
 Interval shareOf(const Interval& partSquare, const Interval& square, double r) {
+  if (!isBounded(partSquare) || !isBounded(square)) return {0.0, 1.0};  // squares overflow before their numbers do
   const Interval b = root(square), a = min(root(partSquare), Interval(b.upper()));
   const Interval rest = root(square - partSquare);
   if (!(b.lower() > 0) || !(r < b.lower())) return {0.0, 1.0};

@@ -64,7 +64,7 @@ std::string axisName(const std::string& name, const Ticks& ticks) {
 }  // namespace
 
 void Range::hold(double x) {
-  if (!std::isfinite(x)) return;
+  if (!isDrawn(x)) return;
   low = std::min(low, x);
   high = std::max(high, x);
 }
@@ -82,7 +82,8 @@ Range Range::padded(double share) const {
   if (!(low <= high)) return {0, 1};
   const double width = high - low, size = std::max(std::abs(low), std::abs(high));
   constexpr double rounding = 1e-12;  // what is narrower is a constant
-  const double pad = width > rounding * size ? share * width : size > 0 ? 0.5 * size : 1;
+  constexpr double least = 1e-300;    // what is smaller is 0
+  const double pad = width > std::max(rounding * size, least) ? share * width : size > least ? 0.5 * size : 1;
   return {low - pad, high + pad};
 }
 
@@ -113,8 +114,12 @@ Ticks ticksOf(const Range& range, int wanted) {
   return ticks;
 }
 
+/// Far outside no paper is so large that anybody could tell.
 void Pen::go(double x, double y) {
-  const long long toX = std::llround(10 * x), toY = std::llround(10 * y);
+  if (std::isnan(x) || std::isnan(y)) return lift();
+  constexpr double farthest = 1e6;
+  const long long toX = std::llround(10 * std::clamp(x, -farthest, farthest)),
+                  toY = std::llround(10 * std::clamp(y, -farthest, farthest));
   path_ += isDown_ ? 'l' : 'M';
   append(path_, isDown_ ? toX - x_ : toX, true);
   append(path_, isDown_ ? toY - y_ : toY, false);
@@ -124,6 +129,7 @@ void Pen::go(double x, double y) {
 }
 
 void Pen::close() {
+  if (!isDown_) return;
   path_ += 'Z';
   isDown_ = false;
 }
@@ -174,6 +180,7 @@ void drawVerticalAxis(const Frame& frame, const std::string& name, int wanted, s
 }
 
 void drawText(std::string_view kind, double x, double y, const std::string& text, std::string& svg) {
+  if (!std::isfinite(x) || !std::isfinite(y)) return;
   fmt::format_to(std::back_inserter(svg), "<text class=\"{}\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", kind, x, y,
                  escapeHtml(text));
 }

@@ -14,14 +14,14 @@ constexpr double paperWidth = 720, marginLeft = 66, marginRight = 10, marginTop 
 /// The paper of drawings that stand side by side.
 constexpr double smallWidth = 440, smallHeight = 230;
 
-/// Least and greatest finite number seen.
+/// Least and greatest number seen that has a place in a drawing.
 struct Range {
   double low = std::numeric_limits<double>::infinity(), high = -low;
 
   void hold(double x);
   void hold(const Line& line);
   void hold(const Band& band);
-  /// With room around it, and never without width.
+  /// With room around it, finite, and never without width.
   Range padded(double share) const;
 };
 
@@ -64,11 +64,11 @@ void drawVerticalAxis(const Frame& frame, const std::string& name, int wanted, s
 /// stay small.
 class Pen {
  public:
-  /// A line to this point, or the beginning of a line.
+  /// A line to this point, or the beginning of a line. Where a coordinate is NaN the line ends.
   void go(double x, double y);
   /// The next point begins a line of its own.
   void lift() { isDown_ = false; }
-  /// Closes what was begun.
+  /// Closes what was begun, if anything was.
   void close();
   bool isEmpty() const { return path_.empty(); }
   std::string take();

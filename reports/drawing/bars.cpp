@@ -73,18 +73,17 @@ class BarChart {
     drawText("bar", marginLeft, y_ + 8, text, texts_);
     drawRectangle(layer, layer.bands.front(), y_ + 13, barHeight, text);
     for (++i; i < plot_.layers.size() && plot_.layers[i].kind == Layer::Kind::line; ++i)
-      if (const double value = plot_.layers[i].bands.front().lower[0];
-          std::isfinite(value) && plot_.layers[i].labels.empty())
+      if (const double value = plot_.layers[i].bands.front().lower[0]; isDrawn(value) && plot_.layers[i].labels.empty())
         fmt::format_to(std::back_inserter(svg_), "<path class=\"{}\" d=\"M{:.1f} {:.1f}v{}\"/>\n", plot_.layers[i].name,
-                       frame_.across(value), y_ + 11, barHeight + 4);
+                       frame_.across(clipped(value, frame_.x)), y_ + 11, barHeight + 4);
     y_ += rowHeight;
   }
 
   /// Numbers that all bars are held against, and what they are called, below each other.
   void drawAcross(const Layer& layer) {
     for (std::size_t i = 0; i < layer.bands.size(); ++i) {
+      if (!isDrawn(layer.bands[i].lower[0])) continue;
       const double x = frame_.across(layer.bands[i].lower[0]);
-      if (!std::isfinite(x)) continue;
       fmt::format_to(std::back_inserter(svg_), "<path class=\"{}\" d=\"M{:.1f} {:.1f}V{:.1f}\"/>\n", layer.name, x,
                      marginTop, frame_.height - marginBottom);
       const bool isRight = x > 0.6 * paperWidth;

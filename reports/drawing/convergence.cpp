@@ -51,7 +51,7 @@ std::string drawConvergence(const std::vector<double>& counts, const std::vector
   const auto draw = [&](const Line& line, const char* kind) {
     pen.lift();
     for (std::size_t i = 0; i < line.size(); ++i) {
-      if (std::isfinite(line[i]))
+      if (isDrawn(line[i]))
         pen.go(frame.across(std::log2(counts[i])), frame.down(line[i]));
       else
         pen.lift();

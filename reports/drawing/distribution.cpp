@@ -48,7 +48,7 @@ std::string drawDistribution(const Results& results, std::size_t at, std::size_t
                      svg);
   drawVerticalAxis(frame, "probability of no more", 5, svg);
   const auto go = [&](double value, double probability) {
-    pen.go(frame.across(value), frame.down(std::clamp(probability, 0.0, 1.0)));
+    pen.go(frame.across(clipped(value, frame.x)), frame.down(std::clamp(probability, 0.0, 1.0)));
   };
   const auto finish = [&](const char* kind) {
     fmt::format_to(std::back_inserter(svg), "<path class=\"{}\" d=\"{}\"/>\n", kind, pen.take());

@@ -13,6 +13,13 @@ namespace gamut {
 /// A number a time; NaN where there is none.
 using Line = std::vector<double>;
 
+/// Whether a number has a place in a drawing: those that have not, NaN and what no differences, squares or decimals can
+/// be taken of, are drawn as infinite ones, which end at the edge.
+inline bool isDrawn(double x) {
+  constexpr double greatest = 1e300;
+  return x >= -greatest && x <= greatest;
+}
+
 /// Lower and upper line of one band.
 struct Band {
   Line lower, upper;

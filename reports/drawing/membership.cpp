@@ -47,7 +47,7 @@ std::string drawMembership(const Results& results, std::size_t time, std::size_t
                      svg);
   drawVerticalAxis(frame, "membership", 5, svg);
   Pen pen;
-  const auto go = [&](double value, double alpha) { pen.go(frame.across(value), frame.down(alpha)); };
+  const auto go = [&](double value, double alpha) { pen.go(frame.across(clipped(value, frame.x)), frame.down(alpha)); };
   const auto finish = [&](const char* kind) {
     fmt::format_to(std::back_inserter(svg), "<path class=\"{}\" d=\"{}\"/>\n", kind, pen.take());
   };

@@ -25,7 +25,7 @@ void drawLine(const std::vector<double>& time, const Line& line, const Frame& fr
               std::string& svg) {
   Pen pen;
   for (std::size_t i = 0; i < line.size(); ++i) {
-    if (std::isfinite(line[i])) {
+    if (isDrawn(line[i])) {
       pen.go(frame.across(time[i]), frame.down(line[i]));
     } else {
       pen.lift();
@@ -83,7 +83,7 @@ std::size_t crossings(const std::vector<double>& time, const std::vector<Layer>&
       for (const Line* line : {&layer.bands[i].lower, &layer.bands[i].upper})
         for (std::size_t t = 1; t < line->size(); ++t) {
           const double from = (*line)[t - 1], to = (*line)[t];
-          if (!std::isfinite(from) || !std::isfinite(to)) continue;
+          if (!isDrawn(from) || !isDrawn(to)) continue;
           if (frame.across(time[t]) < left || frame.across(time[t - 1]) > right) continue;
           const double above = frame.down(std::max(from, to)), below = frame.down(std::min(from, to));
           if (below >= top && above <= bottom) ++found;
@@ -97,7 +97,7 @@ std::size_t crossings(const std::vector<double>& time, const std::vector<Layer>&
 void drawLabel(const std::vector<double>& time, const std::vector<Layer>& layers, const Layer& layer, std::size_t i,
                const Frame& frame, std::string& svg) {
   const Line& line = layer.bands[i].lower;
-  const auto isThere = [](double x) { return std::isfinite(x); };
+  const auto isThere = [](double x) { return isDrawn(x); };
   const auto first = std::ranges::find_if(line, isThere);
   if (first == line.end()) return;
   std::size_t last = line.size();

@@ -67,7 +67,7 @@ class Writer {
       for (const Band& band : layer.bands)
         for (const Line* line : {&band.lower, &band.upper})
           for (const double x : *line)
-            if (std::isfinite(x)) size = std::max(size, std::abs(x));
+            if (isDrawn(x)) size = std::max(size, std::abs(x));
     constexpr int mostDigits = 15, least = -300;  // so that whole numbers are exact, and powers of ten finite
     return size > 0 ? std::max(least,
                                static_cast<int>(std::floor(std::log10(size))) + 1 - std::min(plot.digits(), mostDigits))
@@ -110,9 +110,7 @@ Decimals::Decimals(int scale)
 
 double Decimals::value(double whole) const { return scale_ < 0 ? whole / power_ : whole * power_; }
 
-double Decimals::nearest(double x) const {
-  return std::isfinite(x) ? std::round(scale_ < 0 ? x * power_ : x / power_) : NAN;
-}
+double Decimals::nearest(double x) const { return isDrawn(x) ? std::round(scale_ < 0 ? x * power_ : x / power_) : NAN; }
 
 double Decimals::below(double x) const {
   double whole = nearest(x);

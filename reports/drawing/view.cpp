@@ -121,7 +121,8 @@ Place placeOf(const std::vector<double>& places, std::size_t row, std::size_t po
 }
 
 bool isKnown(const Place& place) {
-  return std::isfinite(place[0]) && std::isfinite(place[1]) && std::isfinite(place[2]);
+  constexpr double farthest = 1e30;  // m; from far away squares are not finite, nor is paper
+  return std::ranges::all_of(place, [](double x) { return std::fabs(x) <= farthest; });
 }
 
 Sight View::operator()(const Place& place) const {
@@ -169,8 +170,8 @@ View viewOf(const MachineResult& machine) {
   }
   double farthest = 0;
   for (const Place& place : motions) farthest = std::max(farthest, norm(place));
-  constexpr double rounding = 1e-12;
-  if (std::max(wide, high) <= rounding * farthest) wide = high = 0;
+  constexpr double rounding = 1e-12, least = 1e-30;  // m
+  if (std::max(wide, high) <= std::max(rounding * farthest, least)) wide = high = 0;
   view.size = std::max(wide, high);
   const double room = view.width - 2 * margin;
   view.height = mostHeight;

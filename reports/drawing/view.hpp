@@ -14,6 +14,7 @@ using Place = std::array<double, 3>;
 
 /// The place of point k in row i of [time][point][direction]; NaN where it is unknown.
 Place placeOf(const std::vector<double>& places, std::size_t row, std::size_t points, std::size_t k);
+/// Whether it is there, and as near as a machine can be.
 bool isKnown(const Place& place);
 
 struct Sight {

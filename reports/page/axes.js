@@ -52,7 +52,7 @@ const gamut = (() => {
   const padded = (low, high) => {
     if (low == null || high == null || !(low <= high)) return [0, 1];
     const width = high - low, size = Math.max(Math.abs(low), Math.abs(high));
-    const room = width > 1e-12 * size ? 0.04 * width : size > 0 ? 0.5 * size : 1;
+    const room = width > Math.max(1e-12 * size, 1e-300) ? 0.04 * width : size > 1e-300 ? 0.5 * size : 1;
     return [low - room, high + room];
   };
 

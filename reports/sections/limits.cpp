@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <map>
 #include <numbers>
@@ -84,7 +85,9 @@ bool varies(const Bounds& bounds, std::size_t output) {
 /// As a limit is stated: few decimals, if they say the same.
 double rounded(double value, double size) {
   for (int digits = 1; digits < 8; ++digits)
-    if (const double near = std::stod(numberText(value, digits)); std::abs(near - value) <= 1e-7 * size) return near;
+    if (const double near = std::strtod(numberText(value, digits).c_str(), nullptr);
+        std::abs(near - value) <= 1e-7 * size)
+      return near;
   return value;
 }
 
