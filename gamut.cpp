@@ -58,14 +58,10 @@ ExitCode parseAndRun(int argc, char** argv) {
   app.set_version_flag("--version", "gamut " + version());
   app.require_subcommand(1);
   app.footer(exitCodesText);
-  const Command* command = nullptr;
   Action action;
   for (const Command& row : commands::table) {
     CLI::App& options = *app.add_subcommand(row.name, row.help);
-    options.callback([&, act = row.declare(options)] {
-      command = &row;
-      action = act;
-    });
+    options.callback([&, act = row.declare(options)] { action = act; });
   }
   try {
     app.parse(argc, argv);
@@ -79,7 +75,6 @@ ExitCode parseAndRun(int argc, char** argv) {
     throw UsageError(
         fmt::format("{}; see gamut {}--help", error.what(), asked.empty() ? "" : asked.front()->get_name() + " "));
   }
-  if (command->onInterrupt == Command::isEnded) endOnInterrupt();
   return action();
 }
 
@@ -91,7 +86,7 @@ ExitCode complain(ExitCode code, const std::string& line) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  noteInterrupts();
+  endOnInterrupt();
   occupyStandardStreams();
   ::signal(SIGXFSZ, SIG_IGN);  // a limit on the size of files is an error of writing, not the end
   const std::string name = "gamut: ";

@@ -17,8 +17,8 @@ inline constexpr const char* exitCodesText =
     "  3  an analysis ended before its horizon, was interrupted or reached a limit of time or memory, a bound "
     "is\n"
     "     infinite, or `gamut check` found nothing to compare; with --requirements also: one is neither proved nor\n"
-    "     refuted; what was proved is kept and reported\n"
-    "  4  an internal failure, or something could not be written";
+    "     refuted; what was proved is kept and reported. Any command that was interrupted\n"
+    "  4  an internal failure, or something could not be written; results whose page could not be drawn are kept";
 
 /// Throws std::invalid_argument for a verdict whose word has no exit code.
 ExitCode exitCode(const Verdict& verdict);

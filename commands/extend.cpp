@@ -9,6 +9,7 @@
 #include <string>
 
 #include "commands/files.hpp"
+#include "commands/interrupts.hpp"
 #include "commands/options.hpp"
 #include "commands/runs.hpp"
 #include "commands/table.hpp"
@@ -58,6 +59,7 @@ ExitCode extend(const Arguments& arguments) {
   checkMemory(study, options);
   OutputFile resultsFile = reserveResults(arguments);
   OutputFile reportFile = reserveReport(arguments);
+  noteInterrupts();
   ProgressBar bar(!arguments.quiet);
   options.progress = [&](const std::string& task, double fraction) { bar.update(task, fraction); };
   Extension extension;
@@ -72,8 +74,9 @@ ExitCode extend(const Arguments& arguments) {
                arguments.input, whyEnded(extension.results), before.stochastic.integrated);
     return endedEarly;
   }
+  const ExitCode code = keepAndSay(extension.results, resultsFile, reportFile, arguments);
   noteChanges(arguments, before, extension);
-  return keepAndSay(extension.results, resultsFile, reportFile, arguments);
+  return code;
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <string_view>
 #include <system_error>
 
 #include "commands/options.hpp"
@@ -38,6 +39,14 @@ Study studyOf(const Results& results, const std::string& path) {
     throw UsageError(path + ": " + error.what());
   }
   return readStudyText(results.studyText, results.studyFile + " in " + path, elementTypes(), files);
+}
+
+std::string shellQuoted(const std::string& path) {
+  constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-+/,:@%";
+  if (path.find_first_not_of(plain) == std::string::npos) return path;
+  std::string result = "'";
+  for (const char c : path) result += c == '\'' ? "'\\''" : std::string(1, c);
+  return result + "'";
 }
 
 OutputFile reserve(const std::string& path, const std::string& input, bool force) {

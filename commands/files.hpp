@@ -23,6 +23,9 @@ Study readStudyNoting(const std::string& path, bool isQuiet);
 /// UsageError if they make no sense.
 Study studyOf(const Results& results, const std::string& path);
 
+/// As a shell takes it.
+std::string shellQuoted(const std::string& path);
+
 /// Before any work is done: the file may be written, overwrites nothing that it must not, and is ours from now on.
 /// Throws UsageError if it is the input, OutputRefused or WriteError as OutputFile does.
 OutputFile reserve(const std::string& path, const std::string& input, bool force);

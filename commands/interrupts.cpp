@@ -1,43 +1,81 @@
-// POSIX: a handler may touch nothing but lock-free atomics.
+// POSIX: a handler may touch nothing but lock-free atomics, and call little but system calls.
 #include "commands/interrupts.hpp"
 
 #include <signal.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstring>
+
+#include "commands/exit_codes.hpp"
+#include "studies/atomic_file.hpp"
 
 namespace gamut {
 namespace {
 
-constexpr int kinds[] = {SIGINT, SIGTERM, SIGHUP};
+constexpr std::array kinds{SIGINT, SIGTERM, SIGHUP};
 
-std::atomic<bool> isNoted{false};
-std::atomic<int> lastKind{0};
-static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
+std::atomic<bool> isNoted{false}, isTerminal{false};
+std::array<std::atomic<bool>, kinds.size()> isEnd{};  // of each kind: the next one ends the program
+/// What is said then. A text is not written over by the next one: a handler may be reading it.
+std::array<std::array<char, 2048>, 4> texts{};
+std::atomic<std::size_t> lastText{0};
+static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<std::size_t>::is_always_lock_free);
 
-void note(int kind) {
-  lastKind = kind;
-  isNoted = true;
+void say(const char* text) {
+  // Nothing can be done where nobody reads it.
+  if (::write(STDERR_FILENO, text, std::strlen(text)) < 0) return;
 }
 
-void handle(int kind, const struct sigaction& action) {
-  struct sigaction before {};
-  if (::sigaction(kind, nullptr, &before) == 0 && before.sa_handler != SIG_IGN) ::sigaction(kind, &action, nullptr);
+void handle(int kind) {
+  for (std::size_t i = 0; i < kinds.size(); ++i) {
+    if (kinds[i] != kind) continue;
+    if (!isEnd[i].exchange(true)) {
+      isNoted = true;
+      continue;
+    }
+    if (isTerminal) say("\r\033[K");  // where a progress bar may stand
+    say(texts[lastText].data());
+    endNow(endedEarly);
+  }
+}
+
+void handleAll(bool endsAtOnce, const std::string& how) {
+  const std::size_t next = (lastText + 1) % texts.size();
+  const std::string line = "gamut: " + how;
+  const std::size_t size = std::min(line.size(), texts[next].size() - 2);
+  std::copy_n(line.begin(), size, texts[next].begin());
+  texts[next][size] = '\n';
+  texts[next][size + 1] = '\0';
+  lastText = next;
+  isTerminal = ::isatty(STDERR_FILENO) == 1;
+  for (std::size_t i = 0; i < kinds.size(); ++i) {
+    isEnd[i] = endsAtOnce;
+    struct sigaction action {
+    }, before{};
+    action.sa_handler = handle;
+    action.sa_flags = SA_RESTART;
+    if (::sigaction(kinds[i], nullptr, &before) == 0 && before.sa_handler != SIG_IGN)
+      ::sigaction(kinds[i], &action, nullptr);
+  }
 }
 
 }  // namespace
 
+void endOnInterrupt(const std::string& how) { handleAll(true, how); }
+
 void noteInterrupts() {
-  struct sigaction action {};
-  action.sa_handler = note;
-  action.sa_flags = SA_RESETHAND;
-  for (const int kind : kinds) handle(kind, action);
+  ::signal(SIGPIPE, SIG_IGN);  // what nobody reads any more must not cost what was computed
+  handleAll(false, "interrupted again; nothing was written");
 }
 
 const std::atomic<bool>& interrupted() { return isNoted; }
 
-void endOnInterrupt() {
-  struct sigaction action {};
-  action.sa_handler = SIG_DFL;
-  for (const int kind : kinds) handle(kind, action);
-  if (isNoted) ::raise(lastKind);
+void endNow(int exitCode) noexcept {
+  removeUnfinished();
+  ::_exit(exitCode);
 }
 
 }  // namespace gamut

@@ -1,9 +1,15 @@
-// Interrupts from outside: SIGINT (Ctrl-C), SIGTERM and SIGHUP. What was to be ignored, as by nohup, stays so.
+// Interrupts from outside: SIGINT (Ctrl-C), SIGTERM and SIGHUP. What was to be ignored, as by nohup, stays so. None
+// leaves a file behind that is not whole.
 #pragma once
 
 #include <atomic>
+#include <string>
 
 namespace gamut {
+
+/// From now on an interrupt ends the program at once, with the exit code that says so, and says `how`; one that was
+/// noted before does not.
+void endOnInterrupt(const std::string& how = "interrupted");
 
 /// From now on an interrupt is only noted, so that what was computed can be kept; a second one of its kind ends the
 /// program.
@@ -12,7 +18,7 @@ void noteInterrupts();
 /// Set by the first interrupt that is noted.
 const std::atomic<bool>& interrupted();
 
-/// From now on an interrupt ends the program; so does, at once, one that was noted before.
-void endOnInterrupt();
+/// Ends the program at once with this exit code: no file that is not whole is left.
+[[noreturn]] void endNow(int exitCode) noexcept;
 
 }  // namespace gamut

@@ -35,15 +35,6 @@ std::string fileNamed(const std::string& name) {
   return last.ends_with(".toml") ? name : name + ".toml";
 }
 
-/// As a shell takes it.
-std::string quoted(const std::string& path) {
-  constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-+/,:@%";
-  if (path.find_first_not_of(plain) == std::string::npos) return path;
-  std::string result = "'";
-  for (const char c : path) result += c == '\'' ? "'\\''" : std::string(1, c);
-  return result + "'";
-}
-
 /// The robot's file as a study of this path finds it.
 std::string pathFrom(const std::string& study, const std::string& file) {
   const auto absolute = [](const std::string& path) { return std::filesystem::absolute(path).lexically_normal(); };
@@ -80,7 +71,7 @@ ExitCode write(const Arguments& arguments) {
       "  gamut run {1}         runs it, and writes results and a report to look at\n"
       "  gamut quantities {1}  lists what in it can be uncertain, and what can be looked at\n"
       "  gamut validate {1}    says what is wrong after a change\n",
-      printable(path), printable(quoted(path)));
+      printable(path), printable(shellQuoted(path)));
   return done;
 }
 

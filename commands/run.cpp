@@ -8,6 +8,7 @@
 #include <string>
 
 #include "commands/files.hpp"
+#include "commands/interrupts.hpp"
 #include "commands/options.hpp"
 #include "commands/runs.hpp"
 #include "commands/table.hpp"
@@ -50,6 +51,7 @@ ExitCode run(Arguments arguments) {
   checkMemory(study, options);
   OutputFile resultsFile = reserve(arguments.results, arguments.study, arguments.force);
   OutputFile reportFile = reserve(arguments.report, arguments.study, arguments.force);
+  noteInterrupts();
   ProgressBar bar(!arguments.quiet);
   options.progress = [&](const std::string& task, double fraction) { bar.update(task, fraction); };
   Results results;

@@ -1,4 +1,4 @@
-// Interrupts are noted: what was found until then is written.
+// Interrupts are noted: what was found until then is written, the results first.
 #include "commands/runs.hpp"
 
 #include <fmt/format.h>
@@ -6,15 +6,19 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
+#include <exception>
+#include <new>
 #include <string>
 #include <thread>
 
+#include "commands/files.hpp"
 #include "commands/interrupts.hpp"
+#include "commands/keeping.hpp"
 #include "commands/options.hpp"
 #include "commands/verdict_lines.hpp"
 #include "reports/report.hpp"
 #include "reports/words.hpp"
+#include "studies/printable.hpp"
 #include "studies/results/results_file.hpp"
 #include "studies/summary.hpp"
 #include "studies/watch.hpp"
@@ -26,14 +30,17 @@ namespace {
 [[noreturn]] void endAtOnce(const std::string& why) {
   fmt::print(stderr, "gamut: {}, and the preparation of the enclosure could not be ended; nothing was written\n", why);
   std::fflush(stderr);
-  std::_Exit(endedEarly);
+  endNow(endedEarly);
 }
 
 /// Without a comparison there is no verdict: what counts is that every analysis came to its end, with finite bounds.
 ExitCode exitCodeOf(const Results& results, const Verdict& verdict) {
+  if (results.stopped.starts_with(internalFailure)) return failed;
   if (results.comparison.present) return exitCode(verdict);
   return whyEnded(results).empty() && verdict.unbounded == 0 ? done : endedEarly;
 }
+
+std::string nameOrNone(const std::string& file) { return file.empty() ? "none was written" : file; }
 
 void say(const Results& results, const Verdict& verdict, const ResultFiles& files, const RunArguments& arguments) {
   std::FILE* stream = arguments.json ? stderr : stdout;
@@ -41,9 +48,34 @@ void say(const Results& results, const Verdict& verdict, const ResultFiles& file
     printRequirements(stream, results);
     printVerdict(stream, verdict);
     fmt::print(stream, "{}", textSummary(results));
-    fmt::print(stream, "  results: {}\n  report:  {}\n", files.results, files.report);
+    fmt::print(stream, "  results: {}\n  report:  {}\n", nameOrNone(files.results), nameOrNone(files.report));
   }
   if (arguments.json) fmt::print("{}\n", jsonSummary(results, results.comparison.present ? verdict.word : "", files));
+}
+
+/// For people who may not read it any more.
+void sayAside(const std::string& line) { std::fputs((printable(line) + "\n").c_str(), stderr); }
+
+std::string inWords(const std::exception& error) {
+  return dynamic_cast<const std::bad_alloc*>(&error) != nullptr ? "out of memory" : error.what();
+}
+
+/// The results are safe: an interrupt, or whatever keeps the page from being drawn, costs no more than the page.
+void drawPage(const Results& results, OutputFile& page, ResultFiles& files) {
+  const std::string again = fmt::format("{} is written; draw its page by: gamut report {} -o {} --force", files.results,
+                                        shellQuoted(files.results), shellQuoted(page.path()));
+  endOnInterrupt("interrupted before the page was drawn; " + again);
+  const double start = processCpuSeconds();
+  try {
+    page.write(renderReport(results));
+  } catch (const WriteError& error) {
+    throw WriteError(fmt::format("{}; {}", error.what(), again));
+  } catch (const std::exception& error) {
+    throw WriteError(fmt::format("{}: cannot be drawn ({}); {}", page.path(), inWords(error), again));
+  }
+  endOnInterrupt();
+  files.report = page.path();
+  files.reportCpu = processCpuSeconds() - start;
 }
 
 }  // namespace
@@ -92,14 +124,24 @@ void checkMemory(const Study& study, const RunOptions& options) {
                     std::ceil(needed / 1e6) / 1e3));
 }
 
-ExitCode keepAndSay(Results& results, OutputFile& resultsFile, OutputFile& reportFile, const RunArguments& arguments) {
-  const double start = processCpuSeconds();
-  const std::string page = renderReport(results);
-  results.reportCpu = processCpuSeconds() - start;
-  writeResults(results, resultsFile);
-  reportFile.write(page);
+ExitCode keepAndSay(const Results& results, OutputFile& resultsFile, OutputFile& reportFile,
+                    const RunArguments& arguments) {
   const Verdict verdict = judge(results);
-  say(results, verdict, {resultsFile.path(), reportFile.path()}, arguments);
+  ResultFiles files;
+  std::string problem;
+  try {
+    Keeping keeping(results, resultsFile, reportFile);
+    if (!keeping.note().empty()) sayAside("note: " + keeping.note());
+    if (keeping.results() != nullptr) {
+      writeResults(results, *keeping.results());
+      files.results = keeping.results()->path();
+      if (keeping.report() != nullptr) drawPage(results, *keeping.report(), files);
+    }
+  } catch (const std::exception& error) {
+    problem = inWords(error);
+  }
+  say(results, verdict, files, arguments);
+  if (!problem.empty()) throw WriteError(problem);
   return exitCodeOf(results, verdict);
 }
 

@@ -27,7 +27,9 @@ RunOptions runOptions(const RunArguments& arguments);
 /// Throws UsageError if samples need more memory than there may be: a block's motions are kept until it was compared.
 void checkMemory(const Study& study, const RunOptions& options);
 
-/// Writes results and page, and says what was found, as was asked for.
-ExitCode keepAndSay(Results& results, OutputFile& resultsFile, OutputFile& reportFile, const RunArguments& arguments);
+/// Writes the results, then draws the page, and says what was found, as was asked for, and where it is. Throws
+/// WriteError if one of both could not be written; what was found has been told then.
+ExitCode keepAndSay(const Results& results, OutputFile& resultsFile, OutputFile& reportFile,
+                    const RunArguments& arguments);
 
 }  // namespace gamut

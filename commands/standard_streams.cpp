@@ -10,7 +10,6 @@
 #include <cstring>
 #include <string>
 
-#include "commands/interrupts.hpp"
 #include "studies/atomic_file.hpp"
 
 namespace gamut {
@@ -35,7 +34,6 @@ std::string readIn() {
     const ssize_t count = ::read(STDIN_FILENO, block.data(), block.size());
     if (count == 0) return text;
     if (count > 0) text.append(block, 0, static_cast<std::size_t>(count));
-    if (interrupted()) endOnInterrupt();
     if (count < 0 && errno != EINTR) throw ReadError(std::strerror(errno));
   }
 }

@@ -16,7 +16,7 @@ class ReadError : public std::runtime_error {
 /// Puts the empty device in the place of a standard stream that is closed, so that no file takes its place.
 void occupyStandardStreams();
 
-/// All that standard input gives until its end. An interrupt meanwhile ends the program. Throws ReadError.
+/// All that standard input gives until its end. Throws ReadError.
 std::string readIn();
 
 /// Writes to standard output. Throws WriteError if it cannot be written to.

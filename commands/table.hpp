@@ -19,8 +19,6 @@ struct Command {
   const char* help;  ///< one line
   /// Declares options and arguments. The action is for when they have been read.
   Action (*declare)(CLI::App& command);
-  /// What an interrupt does: ends the program, or is left to the action to look at.
-  enum { isEnded, looksAtInterrupts } onInterrupt = isEnded;
 };
 
 namespace commands {
@@ -41,13 +39,12 @@ Action quantities(CLI::App& command);
 inline constexpr Command table[] = {
     {"new", "Write a study to start from, which explains itself", newStudy},
     {"quantities", "What of a study can be uncertain, and what can be an output", quantities},
-    {"run", "Run a study; write results and a report", run, Command::looksAtInterrupts},
-    {"extend", "More samples for results, which keep all that was proved", extend, Command::looksAtInterrupts},
+    {"run", "Run a study; write results and a report", run},
+    {"extend", "More samples for results, which keep all that was proved", extend},
     {"validate", "Read and check a study file, no more", validate},
     {"check", "The verdict, from the stored numbers: do all samples stay inside?", check},
     {"compare", "Two results: do they contradict each other, and what became wider or narrower?", compare},
-    {"tolerance", "How far the uncertain quantities may deviate so that all requirements are met", tolerance,
-     Command::looksAtInterrupts},
+    {"tolerance", "How far the uncertain quantities may deviate so that all requirements are met", tolerance},
     {"report", "Write the report page of a results file", report},
     {"info", "What a results file holds and where it comes from; or the tree of a robot (URDF)", info},
     {"replay", "One sample of a run again, bit for bit, as CSV", replay},

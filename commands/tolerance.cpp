@@ -102,6 +102,7 @@ ExitCode tolerance(const Arguments& arguments) {
   options.jobs = arguments.jobs;
   options.cancelled = &interrupted();
   options.budget = arguments.timeLimit.value_or(study.limits.resolved().time);
+  noteInterrupts();
   ProgressBar bar(!arguments.quiet);
   options.progress = [&](double fraction) { bar.update("tolerances", fraction); };
   AllowedDeviations found;

@@ -84,7 +84,8 @@ std::string renderReport(const Results& results) {
                       probabilityPlots(results),
                       sensitivityPlots(results)};
   return filled(page::skeleton,
-                {{"title", escapeHtml(titleOf(results))},
+                {{"run", results.stopped.empty() ? "whole" : "partial"},
+                 {"title", escapeHtml(titleOf(results))},
                  {"summary", escapeHtml(summaryLine(results))},
                  {"style", std::string(page::style)},
                  {"layers", report.outputs.style + report.probabilities.style + report.sensitivities.style},

@@ -302,6 +302,7 @@ class Wording {
       case Gap::end:
       case Gap::probability:
       case Gap::derivative:
+      case Gap::stopped:
       case Gap::none:
         break;
     }
@@ -348,6 +349,7 @@ class Wording {
     if (verdict_.unbounded > 0) text += " Not every output is bounded.";
     if (verdict_.gap == Gap::probability) text += " Their probabilities were not bounded to the end.";
     if (verdict_.gap == Gap::derivative) text += " Their derivatives were not enclosed to the end.";
+    if (verdict_.gap == Gap::stopped) text += fmt::format(" Not all was done: {}.", results_.stopped);
     return text + (verdict_.missing > 0 ? " Not every number was there to compare." : "");
   }
 

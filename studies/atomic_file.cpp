@@ -8,10 +8,16 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
+#include <atomic>
 #include <cerrno>
+#include <climits>
 #include <cstring>
 #include <filesystem>
 #include <system_error>
+
+#include "studies/held_interrupts.hpp"
 
 namespace gamut {
 namespace {
@@ -66,10 +72,10 @@ void checkTarget(const std::string& path, const std::string& target, OutputFile:
 }
 
 /// Whether `file` is what `path` names: it may have been renamed or removed before it was locked.
-bool isStill(int file, const std::string& path) {
+bool isStill(int file, const char* path) {
   struct stat opened {
   }, named{};
-  return ::fstat(file, &opened) == 0 && ::lstat(path.c_str(), &named) == 0 && opened.st_dev == named.st_dev &&
+  return ::fstat(file, &opened) == 0 && ::lstat(path, &named) == 0 && opened.st_dev == named.st_dev &&
          opened.st_ino == named.st_ino;
 }
 
@@ -91,7 +97,7 @@ void removeIfAbandoned(const std::string& part) {
   if (file < 0) return;
   struct stat found {};
   const bool isRegular = ::fstat(file, &found) == 0 && S_ISREG(found.st_mode);
-  if (isRegular && lock(file, 1) == Lock::taken && isStill(file, part)) ::unlink(part.c_str());
+  if (isRegular && lock(file, 1) == Lock::taken && isStill(file, part.c_str())) ::unlink(part.c_str());
   ::close(file);
 }
 
@@ -103,7 +109,44 @@ void removeAbandoned(const fs::path& folder) {
   }
 }
 
+/// Files that are being written, in memory that is never given back: a handler of signals may look at it at any moment.
+struct Unfinished {
+  enum State { isFree, isFilled, isListed };
+  std::atomic<int> state{isFree};
+  std::array<char, PATH_MAX> part{};
+  int file = -1;
+  pid_t writer = 0;  // a child of the process has the same list
+};
+static_assert(std::atomic<int>::is_always_lock_free);
+constexpr std::size_t mostUnfinished = 8;
+std::array<Unfinished, mostUnfinished> unfinished;
+
+/// Where; -1 if there is no room. What a killed run leaves is removed by the next one all the same.
+int list(const std::string& part, int file) {
+  if (part.size() >= PATH_MAX) return -1;
+  for (std::size_t i = 0; i < mostUnfinished; ++i) {
+    int expected = Unfinished::isFree;
+    if (!unfinished[i].state.compare_exchange_strong(expected, Unfinished::isFilled)) continue;
+    std::copy_n(part.c_str(), part.size() + 1, unfinished[i].part.begin());
+    unfinished[i].file = file;
+    unfinished[i].writer = ::getpid();
+    unfinished[i].state = Unfinished::isListed;
+    return static_cast<int>(i);
+  }
+  return -1;
+}
+
+void unlist(int number) {
+  if (number >= 0) unfinished[static_cast<std::size_t>(number)].state = Unfinished::isFree;
+}
+
 }  // namespace
+
+void removeUnfinished() noexcept {
+  for (Unfinished& one : unfinished)
+    if (one.state == Unfinished::isListed && one.writer == ::getpid() && isStill(one.file, one.part.data()))
+      ::unlink(one.part.data());
+}
 
 OutputFile::OutputFile(const std::string& path, Existing existing) : path_(path), existing_(existing) {
   const fs::path end = endOfLinks(path), folder = folderOf(end);
@@ -112,6 +155,7 @@ OutputFile::OutputFile(const std::string& path, Existing existing) : path_(path)
   if (!fs::is_directory(folder, error)) refuse(path, "the folder " + folder.string() + " does not exist");
   checkTarget(path, target_, existing);
   removeAbandoned(folder);
+  const HeldInterrupts held;  // a file that is there is listed
   part_ = (folder / ("." + end.filename().string() + std::string(suffix))).string();
   // Once more where the writer before ended between the two steps: its file is then no longer called so.
   for (bool isMine = false; !isMine;) {
@@ -126,14 +170,16 @@ OutputFile::OutputFile(const std::string& path, Existing existing) : path_(path)
       ::close(file_);
       refuse(path, "another run is about to write it");
     }
-    isMine = isStill(file_, part_);
+    isMine = isStill(file_, part_.c_str());
     if (!isMine) ::close(file_);
   }
+  listed_ = list(part_, file_);
   // That writer may have put its file at the target since.
   try {
     checkTarget(path, target_, existing);
   } catch (...) {
     ::unlink(part_.c_str());
+    unlist(listed_);
     ::close(file_);
     throw;
   }
@@ -141,7 +187,8 @@ OutputFile::OutputFile(const std::string& path, Existing existing) : path_(path)
 
 OutputFile::~OutputFile() {
   if (file_ < 0) return;
-  if (isStill(file_, part_)) ::unlink(part_.c_str());
+  if (isStill(file_, part_.c_str())) ::unlink(part_.c_str());
+  unlist(listed_);
   ::close(file_);
 }
 
@@ -159,7 +206,7 @@ void OutputFile::fill(std::string_view content) const {
 }
 
 void OutputFile::moveToTarget() const {
-  if (!isStill(file_, part_)) throw WriteError(sentence(path_, "another program removed what was written"));
+  if (!isStill(file_, part_.c_str())) throw WriteError(sentence(path_, "another program removed what was written"));
   if (existing_ == Existing::isKept) {
     // A name that appeared meanwhile is not ours to replace. File systems without this way of renaming say EINVAL.
     if (::renameat2(AT_FDCWD, part_.c_str(), AT_FDCWD, target_.c_str(), RENAME_NOREPLACE) == 0) return;
@@ -172,6 +219,7 @@ void OutputFile::moveToTarget() const {
 void OutputFile::write(std::string_view content) {
   fill(content);
   moveToTarget();
+  unlist(listed_);
   ::close(file_);
   file_ = -1;
 }

@@ -38,6 +38,8 @@ class OutputFile {
 
   /// As given.
   const std::string& path() const { return path_; }
+  /// Where the symbolic links of path() lead.
+  const std::string& target() const { return target_; }
 
   /// Writes all of `content` and puts it at `path`; once. If it throws WriteError, or the process is killed, an older
   /// file there is untouched.
@@ -51,7 +53,12 @@ class OutputFile {
   std::string path_, target_, part_;
   Existing existing_;
   int file_ = -1;
+  int listed_ = -1;  // where removeUnfinished() finds it
 };
+
+/// Removes what OutputFiles of this process have not finished; they write nothing any more. For the end of the process
+/// alone. Safe in a handler of signals.
+void removeUnfinished() noexcept;
 
 /// An older file at `path` is replaced in one step. Throws WriteError.
 void replaceFile(const std::string& path, std::string_view content);

@@ -386,6 +386,7 @@ std::string jsonSummary(const Results& results, const std::string& verdict, cons
   json["horizon"] = number(results.horizon);
   json["reached"] = number(reachedTime(results));
   json["why"] = textOrNull(whyEnded(results));
+  json["stopped"] = textOrNull(results.stopped);
   json["samples"] = results.stochastic.samples;
   json["integrated"] = results.stochastic.integrated;
   json["excursion"] = number(results.comparison.excursion);
@@ -403,7 +404,7 @@ std::string jsonSummary(const Results& results, const std::string& verdict, cons
   json["envelope"] = boundsObject(results.stochastic.envelope, results);
   Json& cost = json["cost"];
   for (const Answer* answer : results.answers()) cost[std::string(answer->word())] = number(answer->cpu);
-  cost["report"] = number(results.reportCpu);
+  cost["report"] = number(files.reportCpu);
   cost["total"] = number(results.cpu);
   cost["memory"] = number(results.memory);
   const Limits& limits = results.limits;

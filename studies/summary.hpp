@@ -1,6 +1,7 @@
 // What commands say of results on standard output: one JSON object for programs, or lines and tables for people.
 #pragma once
 
+#include <limits>
 #include <string>
 
 #include "studies/results/results.hpp"
@@ -10,6 +11,7 @@ namespace gamut {
 /// Where the run's files lie; empty if there is none.
 struct ResultFiles {
   std::string results, report;
+  double reportCpu = std::numeric_limits<double>::quiet_NaN();  ///< s: of drawing the page and writing it
 };
 
 /// One JSON object on one line; keys: docs/json.md. Numbers are the shortest decimals that give the same double back;

@@ -142,6 +142,11 @@ std::string Watch::why() const {
   return stop_ && why_.empty() ? "no memory was left" : why_;
 }
 
+std::string Watch::firstStop() const {
+  const std::lock_guard lock(mutex_);
+  return hasStopped_ && first_.empty() ? "no memory was left" : first_;
+}
+
 double Watch::spent() const { return processCpuSeconds() - began_; }
 
 void Watch::memoryFailed() {
@@ -150,9 +155,10 @@ void Watch::memoryFailed() {
 }
 
 void Watch::endForMemory() {
-  end(fmt::format("the memory limit of {:.3g} GB for {} was reached", memoryLimit() / 1e9,
-                  stage_ == Stage::enclosure ? "the enclosure" : "the whole run"),
-      false);
+  const std::string why = fmt::format("the memory limit of {:.3g} GB for {} was reached", memoryLimit() / 1e9,
+                                      stage_ == Stage::enclosure ? "the enclosure" : "the whole run");
+  end(why, false);
+  noteStop(why);
 }
 
 void Watch::run(const std::stop_token& token) {
@@ -161,7 +167,7 @@ void Watch::run(const std::stop_token& token) {
     try {
       look();
     } catch (const std::bad_alloc&) {  // not even a sentence found room
-      stop_ = true;
+      stop_ = hasStopped_ = true;
     }
     const std::chrono::duration<double> since = std::chrono::steady_clock::now() - stopped_;
     if (stop_ && stage_ == Stage::enclosure && overdue_.act && since.count() > overdue_.seconds) overdue_.act(why_);
@@ -174,6 +180,12 @@ void Watch::end(const std::string& why, bool all) {
   if (!stop_) stopped_ = std::chrono::steady_clock::now();
   stop_ = true;
   why_ = why;
+  if (all || stage_ == Stage::enclosure) noteStop(why);
+}
+
+void Watch::noteStop(const std::string& why) {
+  if (first_.empty()) first_ = why;
+  hasStopped_ = true;
 }
 
 void Watch::look() {

@@ -59,6 +59,9 @@ class Watch {
   const std::atomic<bool>* stop() const { return &stop_; }
   /// Why it must: "the run was interrupted", or which limit was reached. Empty if it must not.
   std::string why() const;
+  /// Why a stage had to end for the first time; of the first samples only where others cannot come later. Empty if none
+  /// had to.
+  std::string firstStop() const;
   /// A request for memory failed: the stage ends for want of it.
   void memoryFailed();
   /// CPU time since the watch began, s.
@@ -68,6 +71,7 @@ class Watch {
   void run(const std::stop_token& token);
   void look();                                 // with the lock
   void end(const std::string& why, bool all);  // likewise
+  void noteStop(const std::string& why);       // likewise
   void endForMemory();                         // likewise
   double memoryLimit() const;
   double timeLimit() const;  // of the stage
@@ -79,7 +83,8 @@ class Watch {
   Stage stage_ = Stage::rest;
   std::atomic<bool> stop_{false};
   bool forAll_ = false;  // what stopped the stage stops all that follow
-  std::string why_;
+  std::string why_, first_;
+  bool hasStopped_ = false;
   const Overdue overdue_;
   std::chrono::steady_clock::time_point stopped_;
   unsigned long oldDataLimit_ = 0;

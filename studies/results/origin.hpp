@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "studies/results/fields.hpp"
@@ -52,6 +53,9 @@ struct ExtensionInfo {
   double timeLimit = 0, memoryLimit = 0;  ///< of the extension: s of CPU, bytes
 };
 
+/// How `stopped` begins where the program itself is to blame.
+inline constexpr std::string_view internalFailure = "an internal failure: ";
+
 struct Origin {
   std::string studyText, robotText, tablesText, studyFile, title, analysis;  ///< tablesText: NamedTexts in one
   std::uint64_t seed = 0;
@@ -65,10 +69,12 @@ struct Origin {
                              ///< possible; empty where they are independent
   double horizon = 0;        ///< s
   std::vector<double> time;  ///< output times, s
-  double reportCpu = 0;      ///< s
   Limits limits;
   double cpu = 0;     ///< s, of all analyses
   double memory = 0;  ///< bytes: the most that the process had at a time
+  /// What kept the run from doing all that it could: an interrupt, the first limit of time or memory that it reached,
+  /// or an internal failure; empty if nothing did.
+  std::string stopped;
 };
 
 /// By what the samples were taken: "Gamut 1.2.3 on hostname".

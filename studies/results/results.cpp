@@ -69,6 +69,7 @@ std::string whyEnded(const Results& results) {
   add(results.distribution.stopped);
   add(results.derivatives.stopped);
   add(results.comparison.why);
+  add(results.stopped);
   return fmt::format("{}", fmt::join(reasons, "; "));
 }
 

@@ -204,7 +204,8 @@ class Finder {
     if (finding_.endsEarly || isUnfinished || finding_.missing > 0) return Gap::end;
     if (finding_.unbounded > 0) return Gap::unbounded;
     if (results_.distribution.present && !results_.distribution.stopped.empty()) return Gap::probability;
-    return results_.derivatives.present && !results_.derivatives.stopped.empty() ? Gap::derivative : Gap::none;
+    if (results_.derivatives.present && !results_.derivatives.stopped.empty()) return Gap::derivative;
+    return results_.stopped.empty() ? Gap::none : Gap::stopped;
   }
 
   void findOverestimation() {

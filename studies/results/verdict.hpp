@@ -36,7 +36,8 @@ struct Finding {
     unbounded,    ///< what is guaranteed of an output is, somewhere, no finite interval
     end,          ///< the horizon was not reached, not all samples were followed, or numbers are missing
     probability,  ///< the bounds of probabilities were not found to the end
-    derivative    ///< those of derivatives were not
+    derivative,   ///< those of derivatives were not
+    stopped       ///< a limit or an interrupt kept the run from something else
   };
 
   /// "inside"      every sample lies in the enclosure, over the whole horizon;

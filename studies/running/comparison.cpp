@@ -9,6 +9,17 @@
 #include "studies/running/units.hpp"
 
 namespace gamut {
+namespace {
+
+/// What was proved may be less than could be, if the run was stopped.
+bool isProvedInPart(const Results& results) {
+  return !results.interval.why.empty() || !results.interval.shortfall.empty() || !results.fuzzy.why.empty() ||
+         !results.distribution.stopped.empty() || !results.derivatives.stopped.empty() ||
+         std::ranges::any_of(results.requirements,
+                             [](const RequirementResult& r) { return r.word == "open" && !r.why.empty(); });
+}
+
+}  // namespace
 
 void takeDisputes(Run& run, const Comparison& found, int level) {
   ComparisonResult& comparison = run.results.comparison;
@@ -18,6 +29,14 @@ void takeDisputes(Run& run, const Comparison& found, int level) {
     if (isInterrupted(comparison.disputed.back())) comparison.why = run.watch.why();
   }
   comparison.excursion = std::max(comparison.excursion, found.excursion);
+}
+
+/// A run that goes on from one that was stopped brings the samples to their end, and proves nothing anew.
+void noteStop(Run& run) {
+  std::string stop = run.failure.empty() ? run.watch.firstStop() : std::string(internalFailure) + run.failure;
+  for (const FailedSampleResult& sample : run.results.stochastic.failed)
+    if (stop.empty() && sample.why.ends_with("CPU for a sample was reached")) stop = sample.why;
+  if (!stop.empty() || !isProvedInPart(run.results)) run.results.stopped = std::move(stop);
 }
 
 void compareAnswers(Run& run) {

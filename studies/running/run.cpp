@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <string>
 #include <utility>
 
@@ -126,7 +127,17 @@ double memoryNeeded(const Study& study, const RunOptions& options) {
 
 Results run(const Study& study, const RunOptions& options) {
   Run run(study, options);
-  for (const auto& unit : units) unit(run);
+  bool isProved = false;
+  for (const auto& unit : units) {
+    if (!run.failure.empty() && unit != noteStop && unit != compareAnswers) continue;
+    try {
+      unit(run);
+    } catch (const std::exception& error) {  // must not cost what was proved
+      if (!isProved || !run.failure.empty()) throw;
+      run.failure = printable(error.what());
+    }
+    isProved = isProved || unit == findPossibilities;
+  }
   run.results.cpu = run.watch.spent();
   run.results.memory = peakMemory();
   return std::move(run.results);

@@ -59,6 +59,7 @@ struct Run {
   std::vector<std::vector<double>> worst;  ///< of each requirement: values of the worst sample
   std::optional<JointMasses> masses;       ///< of the quantities in the symbols of models; by `jointMasses`
   std::vector<FlowSymbol> symbols;         ///< those symbols
+  std::string failure;                     ///< of the program itself, behind what was proved; empty if there was none
   std::optional<FormerSamples> former;     ///< that are to come again; none unless the run goes on from others
   std::optional<EnsembleRun> ensemble;     ///< there from `takeFirstSamples` on, unless it found no room
 };
@@ -75,6 +76,8 @@ void guarantee(Run& run);
 void findPossibilities(Run& run);
 /// Settles what leaves the proved bounds, then counts it.
 void takeOtherSamples(Run& run);
+/// What kept all units before from doing what they could.
+void noteStop(Run& run);
 void compareAnswers(Run& run);
 /// What is asked of the motion; then, of each requirement, how many samples meet it, and what is proved.
 void stateRequirements(Run& run);
@@ -94,11 +97,11 @@ void showSamples(Run& run);
 inline constexpr void (*units[])(Run&) = {stateRequirements, lookAtMachine,      takeFirstSamples, enclose,
                                           guarantee,         findPossibilities,  takeOtherSamples, countRequirements,
                                           checkRequirements, boundProbabilities, compareShares,    encloseDerivatives,
-                                          compareAnswers,    showSamples};
+                                          noteStop,          compareAnswers,     showSamples};
 
 /// Those that samples ask for, where all else is there.
-inline constexpr void (*unitsOfSamples[])(Run&) = {takeFirstSamples,   takeOtherSamples, countRequirements,
-                                                   refuteRequirements, compareShares,    compareAnswers};
+inline constexpr void (*unitsOfSamples[])(Run&) = {
+    takeFirstSamples, takeOtherSamples, countRequirements, refuteRequirements, compareShares, noteStop, compareAnswers};
 
 /// Where points certainly are, by the flow's tube, or, where nothing moves, by the image of the box.
 void enclosePlaces(Run& run, const Tube& tube);

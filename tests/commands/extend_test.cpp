@@ -95,11 +95,36 @@ TEST_F(ExtendCommand, WritesNothingWhenItEndsBeforeTheSamplesCameAgain) {
   EXPECT_EQ(folder_.read("s.h5"), before);
 }
 
-TEST_F(ExtendCommand, KeepsWhatWasFoundBeforeALimit) {
-  const Outcome ended = gamut("extend s.h5 --samples 10000000 --time-limit 1.5 --quiet");
+TEST_F(ExtendCommand, KeepsWhatWasFoundBeforeALimitBesideWholeResults) {
+  const std::string before = folder_.read("s.h5"), page = folder_.read("s.html");
+  const Outcome ended = gamut("extend s.h5 --samples 10000000 --time-limit 1.5 --json");
   EXPECT_EQ(ended.exitCode, 3);
-  EXPECT_GT(results().stochastic.integrated, 256);
+  EXPECT_THAT(ended.error,
+              HasSubstr("note: the time limit of 1.5 s CPU for the whole run was reached: s.h5 stays, which "
+                        "is of a run that was not stopped; what was found is in s.partial.h5\n"));
+  EXPECT_TRUE(folder_.read("s.h5") == before && folder_.read("s.html") == page);
+  EXPECT_GT(results("s.partial.h5").stochastic.integrated, 256);
+  EXPECT_EQ(gamut("check s.partial.h5").exitCode, 3);
+  const Json json = Json::parse(ended.out);
+  EXPECT_EQ(json["stopped"], "the time limit of 1.5 s CPU for the whole run was reached");
+  EXPECT_EQ(json["files"]["results"], "s.partial.h5");
+  EXPECT_EQ(json["files"]["report"], "s.partial.html");
+}
+
+TEST_F(ExtendCommand, BringsStoppedResultsToTheirEnd) {
+  const std::int64_t whole = results().stochastic.integrated;
+  gamut("extend s.h5 --samples 10000000 --time-limit 1.5 --quiet");
+  Results part = results("s.partial.h5");
+  EXPECT_EQ(gamut("extend s.partial.h5 --samples 10000000 --time-limit 1 --quiet").exitCode, 3);
+  EXPECT_GE(results("s.partial.h5").stochastic.integrated, part.stochastic.integrated);
+  Results stopped = results();
+  stopped.stopped = stopped.stochastic.stopped = "the run was interrupted";
+  stopped.stochastic.integrated = whole - 1;
+  writeResults(stopped, folder_.path("s.h5"));
   EXPECT_EQ(gamut("check s.h5").exitCode, 3);
+  EXPECT_EQ(gamut("extend s.h5 --samples 16 --quiet").exitCode, 0);
+  EXPECT_EQ(results().stopped, "");
+  EXPECT_EQ(results().stochastic.integrated, whole);
 }
 
 TEST_F(ExtendCommand, SaysThatABoundIsLeft) {

@@ -1,16 +1,22 @@
-// Interrupts are noted, or end the program: each in a process of its own.
+// Interrupts are noted, or end the program with its exit code, and nothing half is left: each in a process of its own.
 #include "commands/interrupts.hpp"
 
 #include <gmock/gmock.h>
 #include <signal.h>
 
 #include <cstdlib>
+#include <filesystem>
+#include <string>
+
+#include "studies/atomic_file.hpp"
+#include "tests/studies/temporary_folder.hpp"
 
 namespace gamut {
 namespace {
 
 using ::testing::ExitedWithCode;
-using ::testing::KilledBySignal;
+
+constexpr int ended = 3;
 
 /// As below a shell, whatever this test was started by.
 void startFresh() {
@@ -36,7 +42,7 @@ TEST(Interrupts, AreNotedOnceAndEndTheProgramTheSecondTime) {
           ::raise(kind);
           std::_Exit(0);
         },
-        KilledBySignal(kind), "");
+        ExitedWithCode(ended), "gamut: interrupted again; nothing was written\n");
   }
 }
 
@@ -44,24 +50,36 @@ TEST(Interrupts, EndTheProgramWhereNothingWouldBeKept) {
   EXPECT_EXIT(
       {
         startFresh();
-        noteInterrupts();
         endOnInterrupt();
         ::raise(SIGTERM);
         std::_Exit(0);
       },
-      KilledBySignal(SIGTERM), "");
+      ExitedWithCode(ended), "^gamut: interrupted\n$");
 }
 
-TEST(Interrupts, ThatCameBeforeAreNotForgotten) {
+TEST(Interrupts, ThatWereNotedDoNotEndWhatComesLater) {
   EXPECT_EXIT(
       {
         startFresh();
         noteInterrupts();
         ::raise(SIGHUP);
-        endOnInterrupt();
+        endOnInterrupt("interrupted late");
+        if (!interrupted()) std::_Exit(1);
+        ::raise(SIGHUP);
         std::_Exit(0);
       },
-      KilledBySignal(SIGHUP), "");
+      ExitedWithCode(ended), "^gamut: interrupted late\n$");
+}
+
+TEST(Interrupts, SayOneLineHoweverLong) {
+  EXPECT_EXIT(
+      {
+        startFresh();
+        for (const char letter : std::string("abcdefgh")) endOnInterrupt(std::string(100000, letter));
+        ::raise(SIGINT);
+        std::_Exit(0);
+      },
+      ExitedWithCode(ended), "^gamut: h+\n$");
 }
 
 TEST(Interrupts, StayIgnoredBelowNohup) {
@@ -77,6 +95,38 @@ TEST(Interrupts, StayIgnoredBelowNohup) {
         std::_Exit(0);
       },
       ExitedWithCode(0), "");
+}
+
+TEST(Interrupts, LeaveNoPartOfAnyFile) {
+  const TemporaryFolder folder;
+  folder.write("a.h5", "older");
+  const auto writeAndEnd = [&] {
+    startFresh();
+    endOnInterrupt();
+    OutputFile done(folder.path("done.h5"), OutputFile::Existing::isReplaced);
+    done.write("whole");
+    const OutputFile first(folder.path("a.h5"), OutputFile::Existing::isReplaced),
+        second(folder.path("b.h5"), OutputFile::Existing::isReplaced);
+    ::raise(SIGINT);
+  };
+  EXPECT_EXIT(writeAndEnd(), ExitedWithCode(ended), "");
+  EXPECT_EQ(folder.count(), 2U);
+  EXPECT_EQ(folder.read("a.h5"), "older");
+  EXPECT_EQ(folder.read("done.h5"), "whole");
+}
+
+TEST(Interrupts, LeaveWhatAnotherProcessWrites) {
+  const TemporaryFolder folder;
+  const OutputFile ours(folder.path("a.h5"), OutputFile::Existing::isReplaced);
+  const auto endAtOnce = [&] {
+    const OutputFile own(folder.path("b.h5"), OutputFile::Existing::isReplaced);
+    std::filesystem::remove(folder.path(".b.h5.gamut-part"));
+    folder.write(".b.h5.gamut-part", "somebody else's");
+    endNow(5);
+  };
+  EXPECT_EXIT(endAtOnce(), ExitedWithCode(5), "");
+  EXPECT_EQ(folder.read(".b.h5.gamut-part"), "somebody else's");
+  EXPECT_TRUE(folder.has(".a.h5.gamut-part"));
 }
 
 }  // namespace

@@ -286,6 +286,21 @@ TEST_F(Program, SaysThatItsFilesDoNotFit) {
   EXPECT_EQ(folder_.count(), 1U);
 }
 
+/// What no number can hold is told as infinite: squares of it, on the way to indices, are no reason to give up either.
+TEST_F(Program, RunsAndDrawsWhatIsInfiniteOrHuge) {
+  for (const char* quantity : {"exp(800)*hinge.angle", "exp(exp(11*hinge.angle))", "1e200*hinge.angle",
+                               "exp(700*hinge.angle)", "1e-300*hinge.angle"}) {
+    SCOPED_TRACE(quantity);
+    folder_.write("s.toml", sampleStudyWith("\"tip.position.z\"", "\"" + std::string(quantity) + "\""));
+    const Outcome run = gamut("run s.toml --force");
+    EXPECT_THAT(run.exitCode, ::testing::AnyOf(0, 3)) << run.error;
+    EXPECT_EQ(run.error, "");
+    EXPECT_THAT(folder_.read("s.html"), ::testing::EndsWith("</html>\n"));
+    EXPECT_EQ(gamut("check s.h5").exitCode, run.exitCode);
+    EXPECT_EQ(gamut("report s.h5 --force").exitCode, 0);
+  }
+}
+
 TEST_F(Program, SaysWhatItFoundOnStandardOutput) {
   folder_.write("s.toml", sampleStudy);
   const Outcome run = gamut("run s.toml -o a.h5 --report b.html");

@@ -400,6 +400,15 @@ TEST(Verdict, OfARunThatEndedWhileItEnclosedDerivativesIsIncomplete) {
   EXPECT_THAT(verdict.notes, ElementsAre("Derivatives were not enclosed to the end: the run was interrupted."));
 }
 
+TEST(Verdict, OfARunThatWasStoppedIsIncompleteWhateverIsMissing) {
+  Results results = example::pendulum();
+  results.stopped = "the run was interrupted";
+  results.comparison.verdict = "incomplete";
+  const Verdict verdict = judge(results);
+  EXPECT_EQ(verdict.word, "incomplete");
+  EXPECT_THAT(verdict.sentence, EndsWith("Not all was done: the run was interrupted."));
+}
+
 /// Where nothing was enclosed but the start, no sample seemed outside of anything.
 TEST(Verdict, OfARunThatEndedAtTheStartNamesNoSamples) {
   Results results = example::pendulum();

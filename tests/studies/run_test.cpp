@@ -428,6 +428,37 @@ TEST(Run, GoesOnWithTheFirstSamplesAfterAnEnclosureThatLeavesThemTime) {
   EXPECT_LT(sampledBefore, 0.9);
 }
 
+TEST(Run, SaysWhatStoppedIt) {
+  std::atomic<bool> cancelled{true};
+  RunOptions options;
+  options.cancelled = &cancelled;
+  const Study study = readStudyText(sampleStudy, "s.toml");
+  EXPECT_EQ(run(study, options).stopped, "the run was interrupted");
+  EXPECT_EQ(run(study).stopped, "");
+  Study limited = study;
+  limited.limits.enclosureTime = 1e-9;
+  EXPECT_EQ(run(limited).stopped, "the time limit of 1e-09 s CPU for the enclosure was reached");
+  limited = study;
+  limited.limits.sampleTime = 1e-9;
+  EXPECT_EQ(run(limited).stopped, "the time limit of 1e-09 s CPU for a sample was reached");
+}
+
+TEST(Run, AFailureBehindWhatWasProvedCostsNothingOfIt) {
+  const Study study = readStudyText(sampleStudy, "s.toml");
+  RunOptions options;
+  options.progress = [](const std::string& task, double) {
+    if (task == "probabilities") throw std::runtime_error("no\nmore");
+  };
+  const Results results = run(study, options);
+  EXPECT_EQ(results.stopped, "an internal failure: no\\nmore");
+  EXPECT_EQ(results.comparison.verdict, "incomplete");
+  EXPECT_EQ(results.interval.reached, study.horizon);
+  options.progress = [](const std::string& task, double) {
+    if (task == "enclosure") throw std::runtime_error("nothing");
+  };
+  EXPECT_THROW(run(study, options), std::runtime_error);
+}
+
 TEST(Run, EndsSamplesThatTakeTooLongAndNamesThem) {
   Study study = readStudyText(sampleStudy, "s.toml");
   study.limits.sampleTime = 1e-9;

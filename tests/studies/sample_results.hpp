@@ -206,10 +206,10 @@ inline Results sampleResults() {
                       {0, 0, 0, 0, 0.2, -0.5, 0, 0, 0, nan, nan, nan},
                       {0, 0, 0, 0, 0.4, -0.3, 0, 0, 0, nan, nan, nan},
                       std::vector<double>(12, 0.01)};
-  r.reportCpu = 0.0625;
   r.limits = {1800, 8e9, 1200, 5e9, 18};
   r.cpu = 2.25;
   r.memory = 1.5e9;
+  r.stopped = "the run was interrupted";
   return r;
 }
 

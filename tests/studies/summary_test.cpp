@@ -41,13 +41,14 @@ TEST(Summary, WritesIntervalsOfParametersAndEvidence) {
 }
 
 TEST(JsonSummary, HasTheDocumentedKeys) {
-  const std::string text = jsonSummary(sampleResults(), "incomplete", {"run.h5", "run.html"});
+  const std::string text = jsonSummary(sampleResults(), "incomplete", {"run.h5", "run.html", 0.0625});
   EXPECT_EQ(text.find('\n'), std::string::npos);
   const Json json = Json::parse(text);
-  EXPECT_THAT(keysOf(json), ElementsAre("alpha_cuts", "cost", "dependence", "derivatives", "distribution", "enclosure",
-                                        "envelope", "excursion", "files", "horizon", "integrated", "limits",
-                                        "overestimation", "reached", "requirements", "samples", "sensitivity",
-                                        "shortfall", "statistics", "tightness", "verdict", "version", "why"));
+  EXPECT_THAT(keysOf(json),
+              ElementsAre("alpha_cuts", "cost", "dependence", "derivatives", "distribution", "enclosure", "envelope",
+                          "excursion", "files", "horizon", "integrated", "limits", "overestimation", "reached",
+                          "requirements", "samples", "sensitivity", "shortfall", "statistics", "stopped", "tightness",
+                          "verdict", "version", "why"));
   EXPECT_THAT(keysOf(json["overestimation"]), ElementsAre("max", "median", "outputs"));
   EXPECT_THAT(keysOf(json["cost"]), ElementsAre("fuzzy", "interval", "memory", "report", "stochastic", "total"));
   EXPECT_THAT(keysOf(json["limits"]),
@@ -60,6 +61,7 @@ TEST(JsonSummary, HasTheDocumentedKeys) {
   EXPECT_EQ(json["shortfall"], "at 0.01 s tip may be 1.25 times as wide as necessary: bisection is switched off");
   EXPECT_EQ(json["integrated"], 1000);
   EXPECT_EQ(json["why"], "the enclosure became wider than 1e6; the run was interrupted");
+  EXPECT_EQ(json["stopped"], "the run was interrupted");
   EXPECT_EQ(json["cost"]["total"], 2.25);
   EXPECT_EQ(json["cost"]["memory"], 1.5e9);
   EXPECT_EQ(json["limits"]["sample_time"], 18);

@@ -70,6 +70,24 @@ TEST(Watch, EndsAllStagesAtTheLimitOfTheRun) {
   EXPECT_EQ(watch.why(), "the time limit of 0.05 s CPU for the whole run was reached");
 }
 
+TEST(Watch, RemembersWhatStoppedTheRunFirst) {
+  Watch watch({0.4, 1e12, 0.1, 1e12, 1}, nullptr);
+  EXPECT_EQ(watch.firstStop(), "");
+  watch.begin(Stage::firstSamples);
+  spend(0.11);
+  EXPECT_TRUE(waitForStop(watch));
+  EXPECT_EQ(watch.firstStop(), "");  // others come later
+  watch.begin(Stage::enclosure);
+  spend(0.11);
+  EXPECT_TRUE(waitForStop(watch));
+  watch.begin(Stage::rest);
+  EXPECT_EQ(watch.firstStop(), "the time limit of 0.1 s CPU for the enclosure was reached");
+  spend(0.2);
+  EXPECT_TRUE(waitForStop(watch));
+  EXPECT_EQ(watch.why(), "the time limit of 0.4 s CPU for the whole run was reached");
+  EXPECT_EQ(watch.firstStop(), "the time limit of 0.1 s CPU for the enclosure was reached");
+}
+
 TEST(Watch, TellsWhenAnEnclosureDoesNotEnd) {
   std::atomic<int> calls{0};
   Watch watch(
