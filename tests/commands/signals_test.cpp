@@ -1,179 +1,225 @@
-// Runs that are interrupted or killed at any moment: what is stored is never a false alarm, and never half a file.
+// Programs that are interrupted or killed at any moment: what was whole before stays whole, what is stored is never a
+// false alarm, and nothing half is left. Runs that are interrupted have so many samples that none comes to its end.
 #include <gmock/gmock.h>
+#include <poll.h>
 #include <signal.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <chrono>
-#include <cstdio>
+#include <array>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <string>
-#include <thread>
 #include <vector>
 
+#include "reports/verdict.hpp"
 #include "studies/results/results_file.hpp"
-#include "tests/studies/temporary_folder.hpp"
+#include "tests/commands/program.hpp"
+#include "tests/commands/started_program.hpp"
+#include "tests/studies/sample_study.hpp"
 
 namespace gamut {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-using Seconds = std::chrono::duration<double>;
+using Words = std::vector<std::string>;
 
-std::string replaced(std::string text, const std::string& old, const std::string& replacement) {
-  const auto place = text.find(old);
-  if (place == std::string::npos) throw std::logic_error("not in the study: " + old);
-  return text.replace(place, old.size(), replacement);
-}
+constexpr int kinds[] = {SIGINT, SIGTERM, SIGHUP};
+constexpr double delays[] = {0, 0.001, 0.003, 0.01, 0.03, 0.1, 0.3};  // s
 
-/// The shipped double pendulum, shorter: samples and alpha-cuts are disputed in several outputs at once.
-std::string shortPendulum() {
-  std::ifstream file(GAMUT_SOURCE_DIR "/studies/examples/double_pendulum/study.toml");
-  std::ostringstream text;
-  text << file.rdbuf();
-  return replaced(replaced(text.str(), "horizon = 3.0", "horizon = 1.0"), "samples = 4096", "samples = 1024");
-}
-
-/// A run of the program in a folder.
-class StartedRun {
- public:
-  StartedRun(const TemporaryFolder& folder, std::vector<const char*> arguments) {
-    arguments.insert(arguments.begin(), GAMUT_PROGRAM);
-    arguments.push_back(nullptr);
-    process_ = ::fork();
-    if (process_ == 0) {
-      for (const int signal : {SIGINT, SIGTERM, SIGHUP}) ::signal(signal, SIG_DFL);  // else ignored below nohup
-      if (::chdir(folder.path("").c_str()) != 0 || ::freopen("/dev/null", "w", stdout) == nullptr) ::_exit(99);
-      ::execv(GAMUT_PROGRAM, const_cast<char* const*>(arguments.data()));
-      ::_exit(98);
-    }
-  }
-  ~StartedRun() {
-    if (process_ <= 0) return;
-    ::kill(process_, SIGKILL);
-    ::waitpid(process_, nullptr, 0);
-  }
-  StartedRun(const StartedRun&) = delete;
-  StartedRun& operator=(const StartedRun&) = delete;
-
-  /// Waits until the program has begun: before that, a signal ends whatever the system is loading.
-  void awaitBegin() const {
-    while (!catchesInterrupts() && !hasEnded()) std::this_thread::sleep_for(Seconds(0.0005));
-  }
-  void signalAfter(double seconds, int signal) const {
-    std::this_thread::sleep_for(Seconds(seconds));
-    ::kill(process_, signal);
-  }
-  /// The exit code, or minus the signal that ended it.
-  int wait() {
-    int status = 0;
-    ::waitpid(process_, &status, 0);
-    process_ = 0;
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
-  }
-
- private:
-  bool catchesInterrupts() const {
-    std::ifstream file("/proc/" + std::to_string(process_) + "/status");
-    for (std::string line; std::getline(file, line);)
-      if (line.starts_with("SigCgt:")) return (std::stoull(line.substr(7), nullptr, 16) >> (SIGHUP - 1) & 1) != 0;
-    return false;
-  }
-  bool hasEnded() const {
-    siginfo_t info{};
-    return ::waitid(P_PID, static_cast<id_t>(process_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 && info.si_pid != 0;
-  }
-
-  pid_t process_ = 0;
-};
-
-class Signals : public ::testing::Test {
+class Signals : public FromOutside {
  protected:
-  Signals() { folder_.write("s.toml", shortPendulum()); }
-
-  /// The shortest of three whole runs from its begin, s.
-  double measureRun() {
-    double shortest = 1e9;
-    for (int i = 0; i < 3; ++i) {
-      StartedRun run(folder_, arguments_);
-      run.awaitBegin();
-      const auto begin = Clock::now();
-      EXPECT_EQ(run.wait(), 0);
-      shortest = std::min(shortest, Seconds(Clock::now() - begin).count());
-    }
-    return shortest;
+  /// Whole results of a study that is done at once, and the same study with samples for hours.
+  Signals() {
+    folder_.write("s.toml", sampleStudy);
+    EXPECT_EQ(gamut("run s.toml --quiet").exitCode, 0);
+    results_ = folder_.read("s.h5");
+    page_ = folder_.read("s.html");
+    before_ = folder_.count();
   }
 
-  int check() { return StartedRun(folder_, {"check", "s.h5"}).wait(); }
+  void expectUntouched() const {
+    EXPECT_TRUE(folder_.read("s.h5") == results_);
+    EXPECT_TRUE(folder_.read("s.html") == page_);
+  }
 
-  TemporaryFolder folder_;
-  std::vector<const char*> arguments_{"run", "s.toml", "--force", "--quiet", "--jobs", "2"};
+  void expectNoParts() const {
+    for (const auto& entry : std::filesystem::directory_iterator(folder_.path("")))
+      EXPECT_FALSE(entry.path().filename().string().ends_with(".gamut-part")) << entry.path();
+  }
+
+  /// Partial results that a reader can rely on.
+  void expectPart(const std::string& name) const {
+    const Results results = readResults(folder_.path(name));
+    EXPECT_EQ(results.stopped, "the run was interrupted");
+    EXPECT_EQ(judge(results).word, "incomplete");
+    for (const DisputedSample& sample : results.comparison.disputed) EXPECT_FALSE(sample.outside);
+    EXPECT_EQ(gamut("check " + name).exitCode, 3);
+  }
+
+  TemporaryFolder& folder() { return folder_; }
+
+  const Words run_{"run", "s.toml", "--samples", "10000000", "--force", "--quiet", "--jobs", "2"},
+      extend_{"extend", "s.h5", "--samples", "10000000", "--quiet", "--jobs", "2"};
+  std::string results_, page_;
+  std::size_t before_ = 0;
 };
 
-TEST_F(Signals, AnInterruptAtAnyMomentKeepsWhatWasFoundAndAlarmsNobody) {
-  const double whole = measureRun();
-  constexpr int moments = 50;
-  int interrupted = 0;
-  for (int i = 0; i < moments; ++i) {
-    constexpr int signals[] = {SIGINT, SIGTERM, SIGINT, SIGHUP};
-    SCOPED_TRACE(i);
-    StartedRun run(folder_, arguments_);
-    run.awaitBegin();
-    run.signalAfter(whole * i / moments, signals[i % 4]);
-    const int exitCode = run.wait();
-    EXPECT_TRUE(exitCode == 3 || exitCode == 0) << exitCode;
-    interrupted += exitCode == 3;
-    const Results results = readResults(folder_.path("s.h5"));
-    EXPECT_EQ(results.comparison.verdict, exitCode == 3 ? "incomplete" : "inside");
-    for (const DisputedSample& sample : results.comparison.disputed) EXPECT_FALSE(sample.outside);
-    EXPECT_EQ(check(), exitCode);
+TEST_F(Signals, AnInterruptedRunLeavesWholeResultsAsTheyAre) {
+  std::size_t number = 0;
+  for (const double delay : delays) {
+    SCOPED_TRACE(delay);
+    StartedProgram run(folder_, run_);
+    run.awaitWork();
+    run.signalAfter(delay, kinds[number++ % 3]);
+    EXPECT_EQ(run.wait(), 3);
+    expectUntouched();
+    expectNoParts();
+    expectPart("s.partial.h5");
+    EXPECT_THAT(folder_.read("s.partial.html"), ::testing::EndsWith("</html>\n"));
+    EXPECT_EQ(folder_.count(), before_ + 2);
   }
-  EXPECT_GT(interrupted, moments / 4);
 }
 
-TEST_F(Signals, ARunThatIsKilledLeavesTheOldFileOrAWholeOneOrNone) {
-  const double whole = measureRun();
-  const std::string oldResults = folder_.read("s.h5"), oldReport = folder_.read("s.html");
-  constexpr int moments = 100;
-  int killed = 0;
-  for (int i = 0; i < moments; ++i) {
-    SCOPED_TRACE(i);
-    const bool isThere = i % 2 == 0;
-    for (const char* name : {"s.h5", "s.html"}) std::filesystem::remove(folder_.path(name));
-    if (isThere) {
-      folder_.write("s.h5", oldResults);
-      folder_.write("s.html", oldReport);
-    }
-    StartedRun run(folder_, arguments_);
-    run.awaitBegin();
-    run.signalAfter(whole * (i + 0.5) / moments, SIGKILL);
-    killed += run.wait() == -SIGKILL;
-    EXPECT_TRUE(folder_.has("s.h5") || !isThere);
-    if (folder_.has("s.h5") && folder_.read("s.h5") != oldResults) {
-      EXPECT_EQ(check(), 0);
-    }
-    EXPECT_TRUE(folder_.has("s.html") || !isThere);
-    if (folder_.has("s.html")) {
-      EXPECT_THAT(folder_.read("s.html"), ::testing::EndsWith("</html>\n"));
-    }
+TEST_F(Signals, AnInterruptedExtensionLeavesWholeResultsAsTheyAre) {
+  for (const double delay : delays) {
+    SCOPED_TRACE(delay);
+    StartedProgram run(folder_, extend_);
+    run.awaitWork();
+    run.signalAfter(delay, SIGINT);
+    EXPECT_EQ(run.wait(), 3);
+    expectUntouched();
+    expectNoParts();
+    if (folder_.has("s.partial.h5")) expectPart("s.partial.h5");  // else not even the first samples came again
   }
-  EXPECT_GT(killed, moments / 4);
 }
 
-TEST_F(Signals, WhatAKilledRunLeavesIsGoneAfterTheNext) {
-  {
-    StartedRun run(folder_, arguments_);
-    for (int i = 0; i < 20000 && !folder_.has(".s.html.gamut-part"); ++i)
-      std::this_thread::sleep_for(Seconds(0.0005));  // before the analysis begins
-    run.signalAfter(0, SIGKILL);
+TEST_F(Signals, InterruptedSamplesLeaveAnOlderTableAsItIs) {
+  folder_.write("t.csv", "older");
+  for (const int kind : kinds) {
+    StartedProgram sample(folder_, {"sample", "s.h5", "--samples", "6000000", "-o", "t.csv", "--force"});
+    sample.await([&] { return folder_.has(".t.csv.gamut-part"); });
+    sample.signalAfter(0.01, kind);
+    EXPECT_EQ(sample.wait(), 3);
+    EXPECT_EQ(folder_.read("t.csv"), "older");
+    expectNoParts();
+  }
+}
+
+TEST_F(Signals, AnyCommandEndsWithItsExitCodeAndLeavesNoParts) {
+  folder_.write("limited.toml", sampleStudyWith("[stochastic]",
+                                                "[[requirement]]\nname = \"limit\"\nalways = \"angle < 31 deg\"\n"
+                                                "[stochastic]"));
+  for (const Words& words :
+       {Words{"report", "s.h5", "-o", "r.html", "--force"}, Words{"check", "s.h5"}, Words{"info", "s.h5"},
+        Words{"compare", "s.h5", "s.h5"}, Words{"replay", "s.h5", "3", "-o", "r.csv", "--force"},
+        Words{"validate", "s.toml"}, Words{"quantities", "s.toml"}, Words{"new", "n", "--force"},
+        Words{"tolerance", "limited.toml", "--quiet"}, Words{"run", "s.toml", "--force", "--quiet", "-o", "o.h5"},
+        Words{"extend", "s.h5", "--samples", "64", "-o", "e.h5", "--force", "--quiet"}})
+    for (const double delay : delays) {
+      SCOPED_TRACE(words[0] + " after " + std::to_string(delay));
+      StartedProgram program(folder_, words);
+      program.awaitBegin();
+      program.signalAfter(delay, SIGTERM);
+      EXPECT_THAT(program.wait(), ::testing::AnyOf(0, words[0] == "tolerance" ? 1 : 0, 3));
+      expectUntouched();
+      expectNoParts();
+    }
+}
+
+TEST_F(Signals, ASecondInterruptEndsAtOnceAndLeavesNoParts) {
+  for (const double delay : delays) {
+    SCOPED_TRACE(delay);
+    StartedProgram run(folder_, run_);
+    run.awaitWork();
+    run.signalAfter(0, SIGINT);
+    run.signalAfter(delay / 10, SIGINT);
+    EXPECT_EQ(run.wait(), 3);
+    expectUntouched();
+    expectNoParts();
+    if (folder_.has("s.partial.h5")) expectPart("s.partial.h5");
+  }
+}
+
+TEST_F(Signals, WithoutOlderResultsThoseOfAnInterruptedRunHaveItsName) {
+  for (const char* name : {"s.h5", "s.html"}) std::filesystem::remove(folder_.path(name));
+  StartedProgram run(folder_, run_);
+  run.awaitWork();
+  run.signalAfter(0.1, SIGINT);
+  EXPECT_EQ(run.wait(), 3);
+  expectPart("s.h5");
+  EXPECT_TRUE(folder_.has("s.html"));
+  EXPECT_EQ(folder_.count(), before_);
+}
+
+TEST_F(Signals, ARunThatIsKilledLeavesTheOldFilesAndTheNextRemovesWhatItLeft) {
+  for (const double delay : delays) {
+    SCOPED_TRACE(delay);
+    StartedProgram run(folder_, run_);
+    run.awaitWork();
+    run.signalAfter(delay, SIGKILL);
     EXPECT_EQ(run.wait(), -SIGKILL);
+    expectUntouched();
+    EXPECT_EQ(folder_.count(), before_ + 2);  // both parts
   }
-  EXPECT_EQ(folder_.count(), 3U);  // the study and both parts
-  EXPECT_EQ(StartedRun(folder_, {"run", "s.toml", "--quiet", "-o", "other.h5"}).wait(), 0);
-  EXPECT_EQ(folder_.count(), 3U);  // the study and what the other run wrote
+  EXPECT_EQ(StartedProgram(folder_, {"run", "s.toml", "--quiet", "-o", "other.h5"}).wait(), 0);
+  EXPECT_EQ(folder_.count(), before_ + 2);  // what the other run wrote
+}
+
+TEST_F(Signals, ARunThatIsKilledWhileItWritesLeavesOldFilesOrWholeNewOnes) {
+  for (const double delay : {0.0, 0.01, 0.02, 0.04, 0.08, 0.12, 0.16, 0.2, 0.3, 0.4}) {
+    SCOPED_TRACE(delay);
+    StartedProgram run(folder_, {"run", "s.toml", "--force", "--quiet"});
+    run.awaitWork();
+    run.signalAfter(delay, SIGKILL);
+    run.wait();
+    EXPECT_EQ(gamut("check s.h5").exitCode, 0);
+    EXPECT_THAT(folder_.read("s.html"), ::testing::EndsWith("</html>\n"));
+  }
+}
+
+TEST_F(Signals, ResultsWhosePageCannotBeWrittenAreKept) {
+  StartedProgram run(folder_, {"run", "s.toml", "--samples", "10000000", "-o", "o.h5"}, "out", "error");
+  run.awaitWork();
+  std::filesystem::remove(folder_.path(".o.html.gamut-part"));
+  run.signalAfter(0.1, SIGINT);
+  EXPECT_EQ(run.wait(), 4);
+  expectPart("o.h5");
+  EXPECT_FALSE(folder_.has("o.html"));
+  EXPECT_THAT(folder_.read("out"), ::testing::EndsWith("  results: o.h5\n  report:  none was written\n"));
+  EXPECT_EQ(
+      folder_.read("error"),
+      "gamut: o.html: cannot be written; another program removed what was written; o.h5 is written; draw its page "
+      "by: gamut report o.h5 -o o.html --force\n");
+  EXPECT_EQ(gamut("report o.h5 -o o.html --force").exitCode, 0);
+}
+
+TEST_F(Signals, WhatWasFoundIsToldThoughItCannotBeWritten) {
+  StartedProgram run(folder_, {"run", "s.toml", "--samples", "10000000", "-o", "o.h5"}, "out", "error");
+  run.awaitWork();
+  std::filesystem::remove(folder_.path(".o.h5.gamut-part"));
+  run.signalAfter(0.1, SIGINT);
+  EXPECT_EQ(run.wait(), 4);
+  EXPECT_THAT(folder_.read("out"), ::testing::EndsWith("  results: none was written\n  report:  none was written\n"));
+  EXPECT_THAT(folder_.read("error"), ::testing::StartsWith("gamut: o.h5: cannot be written; "));
+  EXPECT_FALSE(folder_.has("o.html"));
+  expectNoParts();
+}
+
+/// Whoever reads what the program says must not wait for its child, which reads results files for it.
+TEST_F(Signals, NobodyKeepsTheOutputOfAProgramThatWasKilled) {
+  for (const double delay : delays) {
+    SCOPED_TRACE(delay);
+    std::array<int, 2> ends{};
+    ASSERT_EQ(::pipe(ends.data()), 0);
+    StartedProgram info(folder_, {"info", "s.h5"}, "/proc/self/fd/" + std::to_string(ends[1]));
+    ::close(ends[1]);
+    info.awaitBegin();
+    info.signalAfter(delay / 10, SIGKILL);
+    info.wait();
+    pollfd reading{ends[0], POLLIN, 0};
+    std::array<char, 4096> text{};
+    do ASSERT_EQ(::poll(&reading, 1, 60000), 1) << "somebody keeps it";
+    while (::read(ends[0], text.data(), text.size()) > 0);
+    ::close(ends[0]);
+  }
 }
 
 }  // namespace
