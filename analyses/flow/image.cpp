@@ -1,10 +1,18 @@
-// The image of a box: outputs without motion, by the flow's polynomials.
+// The box is bisected where most is unknown of an output that is not known well enough. docs/flow.md, section 4.
+#include "analyses/flow/image.hpp"
+
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <memory>
+#include <numeric>
+#include <utility>
 
 #include "analyses/flow/embedding.hpp"
+#include "analyses/flow/error_bounds.hpp"
 #include "analyses/flow/flow.hpp"
 #include "analyses/flow/outputs.hpp"
+#include "scalars/elementary/rounding.hpp"
 #include "scalars/index.hpp"
 
 namespace gamut {
@@ -13,73 +21,282 @@ using detail::at;
 
 namespace {
 
-/// Outputs of a box as polynomials in its symbols.
-struct Image {
-  /// Throws Cancelled.
-  Image(const Program& g, double t, const Box& box, int degree, const std::atomic<bool>* cancelled)
-      : embedding(box),
-        weights(at(embedding.symbols), 1),
-        monomials(std::make_shared<const Monomials>(
-            weights, degree >= 1 && embedding.symbols > 0 ? degree : degreeLadder(weights).back())),
-        outputs(g, monomials, monomials, {}, cancelled) {
-    const int n = g.states(), N = monomials->count();
+// What bisection is for, and what it may cost.
+constexpr double enough = 5e-4;        // of an output's width: twice the radius, on average over the box
+constexpr double enoughAtEnds = 2e-3;  // likewise, where it is extreme
+constexpr std::size_t mostImageParts = 256;
+constexpr double mostImageNumbers = 1e7;  // coefficients that are kept
+constexpr std::size_t mostTried = 4;      // symbols
+constexpr double inVain = 0.95;           // of what was not known, is left after a bisection
+
+/// Outputs on a part of the box, in its own η.
+struct ImagePart {
+  FlowPart part;
+  Box box;
+  std::vector<std::vector<double>> polynomial;  // [output]; empty where nothing is known but the range
+  std::vector<double> radius;
+  std::vector<Interval> range;
+  double volume = 1;
+  bool isFinal = false;
+};
+
+/// Throws Cancelled.
+class ImageFinder {
+ public:
+  ImageFinder(const Program& g, double t, const Box& box, int degree, const std::atomic<bool>* cancelled)
+      : t_(t),
+        box_(box),
+        embedding_(box),
+        monomials_(monomialsOf(embedding_.symbols, degree)),
+        outputs_(g, monomials_, monomials_, {}, cancelled),
+        plain_(g),
+        ranges_(monomials_),
+        cancelled_(cancelled),
+        states_(g.states()),
+        workOfPart_(static_cast<double>(monomials_->pairs().size() + 64) * static_cast<double>(g.nodes().size() + 1)) {
+    parts_.push_back(
+        on({std::vector<double>(at(embedding_.symbols), 0.0), std::vector<double>(at(embedding_.symbols), 1.0)}));
+  }
+
+  const Embedding& embedding() const { return embedding_; }
+  const std::shared_ptr<const Monomials>& monomials() const { return monomials_; }
+  const std::vector<ImagePart>& parts() const { return parts_; }
+
+  /// Of the output of which most is unknown, as bisection measures it.
+  double unknown(const std::vector<int>& counted) {
+    measureWidths(counted);
+    double most = 0;
+    for (const int o : counted) {
+      double all = 0;
+      for (const ImagePart& part : parts_) all += part.volume * unknownOf(part, o);
+      most = std::max(most, all);
+    }
+    return most;
+  }
+
+  /// Until these outputs are known well enough, or it costs so much.
+  void bisect(const std::vector<int>& counted, double work) {
+    if (embedding_.symbols == 0 || counted.empty()) return;
+    const double numbers = static_cast<double>(outputs_.count()) * monomials_->count();
+    const auto most = std::min(mostImageParts, static_cast<std::size_t>(mostImageNumbers / numbers));
+    while (parts_.size() < most && work_ < work) {
+      measureWidths(counted);
+      const std::size_t worst = worstOf(counted);
+      if (worst == parts_.size()) break;
+      std::vector<ImagePart> halves = bestHalves(parts_[worst], counted, work);
+      if (halves.empty()) {
+        parts_[worst].isFinal = true;
+        continue;
+      }
+      parts_[worst] = std::move(halves[0]);
+      parts_.push_back(std::move(halves[1]));
+    }
+    std::ranges::sort(parts_, {}, [](const ImagePart& part) { return part.part.centre; });
+  }
+
+  /// Over the box, then over each level.
+  std::vector<std::vector<Interval>> ranges(const std::vector<Box>& levels) {
+    std::vector<std::vector<Interval>> result(1, std::vector<Interval>(at(outputs_.count()), Interval::empty()));
+    for (const ImagePart& part : parts_) join(result[0], part.range);
+    for (const Box& level : levels) {
+      std::vector<Interval> row(at(outputs_.count()), Interval::empty());
+      for (const ImagePart& part : parts_) {
+        Box xi(at(embedding_.symbols), Interval(-1.0, 1.0)), own = part.box;
+        if (!restrictTo(level, embedding_, part.part.centre, part.part.half, xi)) continue;
+        for (std::size_t i = 0; i < own.size(); ++i)
+          if (const Interval both = intersection(own[i], level[i]); !isEmpty(both)) own[i] = both;
+        join(row, rangesOf(part, xi, parts_.size() == 1 ? level : own));
+      }
+      for (std::size_t o = 0; o < row.size(); ++o) row[o] = intersection(row[o], result.back()[o]);
+      result.push_back(std::move(row));
+    }
+    return result;
+  }
+
+ private:
+  static std::shared_ptr<const Monomials> monomialsOf(int symbols, int degree) {
+    std::vector<int> weights(at(symbols), 1);
+    const int chosen = degree >= 1 && symbols > 0 ? degree : degreeLadder(weights).back();
+    return std::make_shared<const Monomials>(std::move(weights), chosen);
+  }
+
+  static void join(std::vector<Interval>& into, const std::vector<Interval>& other) {
+    for (std::size_t o = 0; o < into.size(); ++o) into[o] = hull(into[o], other[o]);
+  }
+
+  /// centre + half ξ with ξ = c + h η is centre + half c + (half h) η, of which the first is rounded twice; h is a
+  /// power of two.
+  Embedded embeddedOn(const Embedded& e, const FlowPart& part) const {
+    if (e.symbol < 0 || part.half[at(e.symbol)] == 1) return e;
+    Embedded own = e;
+    const double moved = e.half * part.centre[at(e.symbol)];
+    own.centre = e.centre + moved;
+    own.half = e.half * part.half[at(e.symbol)];
+    own.radius = (e.radius + bounds::unit * (std::fabs(moved) + std::fabs(own.centre))) * bounds::up + bounds::tiny;
+    return own;
+  }
+
+  ImagePart on(FlowPart where) {
+    if (cancelled_ != nullptr && *cancelled_) throw Cancelled();
+    work_ += workOfPart_;
+    ImagePart found{std::move(where), box_, {}, {}, {}};
+    for (const double half : found.part.half) found.volume *= half;
+    const int n = states_, N = monomials_->count();
     FlowPoint point;
     point.p.assign(at(n * N), 0.0);
     point.low.assign(at(n), 0.0);
     point.psi.assign(at(n * n), 0.0);
     point.psiSum = point.psi;
     point.total.assign(at(n), 0.0);
-    for (int i = 0; i < n; ++i) {
-      const Embedded& e = embedding.components[at(i)];
-      point.p[at(i * N)] = e.centre;
-      if (e.symbol >= 0) point.p[at(i * N + monomials->linear(e.symbol))] = e.half;
+    std::vector<Embedded> parameters;
+    for (std::size_t i = 0; i < box_.size(); ++i) {
+      const Embedded e = embeddedOn(embedding_.components[i], found.part);
+      if (e.symbol >= 0 && found.part.half[at(e.symbol)] < 1) found.box[i] = intersection(rangeOf(e), box_[i]);
+      if (i >= at(n)) {
+        parameters.push_back(e);
+        continue;
+      }
+      point.p[i * at(N)] = e.centre;
+      if (e.symbol >= 0) point.p[i * at(N) + at(monomials_->linear(e.symbol))] = e.half;
       point.loose.push_back(e.radius);
     }
     point.radius = point.loose;
     point.ofR = point.total;
     point.beyond = point.known = point.total;
-    outputs.evaluate(t, point, std::vector<double>(at(n), 0.0),
-                     {embedding.components.begin() + n, embedding.components.end()});
-  }
-  FlowPart whole() const {
-    return {std::vector<double>(at(embedding.symbols), 0.0), std::vector<double>(at(embedding.symbols), 1.0)};
-  }
-
-  Embedding embedding;
-  std::vector<int> weights;
-  std::shared_ptr<const Monomials> monomials;
-  FlowOutputs outputs;
-};
-
-/// Throws Cancelled.
-std::vector<std::vector<Interval>> image(const Program& g, double t, const Box& box, const std::vector<Box>& levels,
-                                         int degree, const std::atomic<bool>* cancelled) {
-  Image of(g, t, box, degree, cancelled);
-  FlowOutputs& outputs = of.outputs;
-  PlainOutputs plain(g);
-  PolynomialRange range(of.monomials);
-  std::vector<std::vector<Interval>> result;
-  std::vector<Box> boxes = levels;
-  boxes.insert(boxes.begin(), box);
-  for (const Box& level : boxes) {
-    Box xi(at(of.embedding.symbols), Interval(-1.0, 1.0));
-    restrictTo(level, of.embedding, of.whole().centre, of.whole().half, xi);
-    const std::vector<Interval> direct = plain.over(t, level);
-    std::vector<Interval> row;
-    for (int o = 0; o < outputs.count(); ++o) {
-      if (cancelled != nullptr && *cancelled) throw Cancelled();
-      Interval value = direct[at(o)];
-      if (std::isfinite(outputs.radius(o))) {
-        const Interval byPolynomial = inflated(range(outputs.polynomial(o), xi), outputs.radius(o));
-        value = outputs.hasKinks() ? intersection(byPolynomial, value) : byPolynomial;
-      }
-      if (!result.empty()) value = intersection(value, result.back()[at(o)]);
-      row.push_back(value);
+    outputs_.evaluate(t_, point, std::vector<double>(at(n), 0.0), parameters);
+    for (int o = 0; o < outputs_.count(); ++o) {
+      found.radius.push_back(outputs_.radius(o));
+      found.polynomial.emplace_back();
+      if (std::isfinite(outputs_.radius(o)))
+        found.polynomial.back().assign(outputs_.polynomial(o), outputs_.polynomial(o) + N);
     }
-    result.push_back(std::move(row));
+    found.range = rangesOf(found, Box(at(embedding_.symbols), Interval(-1.0, 1.0)), found.box);
+    return found;
   }
-  return result;
-}
+
+  /// By polynomials over a part of η, and by plain intervals over a box that holds it: these know more of what has
+  /// kinks, and of small parts.
+  std::vector<Interval> rangesOf(const ImagePart& part, const Box& eta, const Box& box) {
+    std::vector<Interval> found = plain_.over(t_, box);
+    const bool isWhole = part.volume == 1;
+    for (std::size_t o = 0; o < found.size(); ++o) {
+      if (cancelled_ != nullptr && *cancelled_) throw Cancelled();
+      if (part.polynomial[o].empty()) continue;
+      const Interval byPolynomial = inflated(ranges_(part.polynomial[o].data(), eta), part.radius[o]);
+      found[o] = outputs_.hasKinks() || !isWhole ? intersection(byPolynomial, found[o]) : byPolynomial;
+    }
+    return found;
+  }
+
+  // ---- Bisection ----------------------------------------------------------------------------------------------------
+
+  void measureWidths(const std::vector<int>& counted) {
+    whole_.assign(at(outputs_.count()), Interval::empty());
+    for (const ImagePart& part : parts_)
+      for (const int o : counted) whole_[at(o)] = hull(whole_[at(o)], part.range[at(o)]);
+  }
+
+  /// Of an output on a part: twice what the polynomial may be off by, beside the width of the output over the box; 1 at
+  /// most.
+  double unknownOf(const ImagePart& part, int output) const {
+    const Interval& whole = whole_[at(output)];
+    const double own = part.polynomial[at(output)].empty()
+                           ? width(part.range[at(output)])
+                           : std::min(2 * part.radius[at(output)], width(part.range[at(output)]));
+    if (!(own > rounding * magnitude(whole))) return 0;
+    return isBounded(whole) ? std::min(1.0, own / width(whole)) : 1;
+  }
+  static constexpr double rounding = 1e-12;
+
+  bool isExtreme(const ImagePart& part, int output) const {
+    const Interval &whole = whole_[at(output)], &own = part.range[at(output)];
+    return own.lower() <= whole.lower() || own.upper() >= whole.upper();
+  }
+
+  /// Where most is unknown of an output that is not known well enough; the number of parts if all are.
+  std::size_t worstOf(const std::vector<int>& counted) const {
+    std::size_t worst = parts_.size();
+    double most = 0;
+    for (const int o : counted) {
+      double all = 0;
+      for (const ImagePart& part : parts_) all += part.volume * unknownOf(part, o);
+      for (std::size_t i = 0; i < parts_.size(); ++i) {
+        if (parts_[i].isFinal) continue;
+        const double unknown = unknownOf(parts_[i], o);
+        double key = all > enough ? parts_[i].volume * unknown / enough : 0;
+        if (unknown > enoughAtEnds && isExtreme(parts_[i], o)) key = std::max(key, 0.01 * unknown / enoughAtEnds);
+        if (key > most) most = key, worst = i;
+      }
+    }
+    return worst;
+  }
+
+  double unknownOfAll(const ImagePart& part, const std::vector<int>& counted) const {
+    double sum = 0;
+    for (const int o : counted) sum += unknownOf(part, o);
+    return sum;
+  }
+
+  /// Symbols with most in nonlinear terms, then in any.
+  std::vector<std::size_t> likelySymbols(const ImagePart& part, const std::vector<int>& counted) const {
+    constexpr double linear = 1e-3;
+    std::vector<double> weight(at(embedding_.symbols), 0.0);
+    for (const int o : counted) {
+      const double unknown = unknownOf(part, o), size = width(whole_[at(o)]);
+      const std::vector<double>& c = part.polynomial[at(o)];
+      for (std::size_t l = 0; l < weight.size(); ++l) weight[l] += 1e-6 * unknown * part.part.half[l];
+      for (int g = 1; g < static_cast<int>(c.size()) && unknown > 0 && size > 0; ++g)
+        for (std::size_t l = 0; l < weight.size(); ++l)
+          if (const int power = monomials_->exponent(g, static_cast<int>(l)); power > 0)
+            weight[l] += unknown * power * (monomials_->grade(g) > 1 ? 1.0 : linear) * std::fabs(c[at(g)]) / size;
+    }
+    std::vector<std::size_t> order(weight.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::stable_sort(order, std::greater<>(), [&](std::size_t l) { return weight[l]; });
+    while (!order.empty() && !(weight[order.back()] > 0)) order.pop_back();
+    return order;
+  }
+
+  /// In the symbol whose halves leave least unknown; none where that is as much as before.
+  std::vector<ImagePart> bestHalves(const ImagePart& part, const std::vector<int>& counted, double work) {
+    constexpr double finest = 1.0 / 1024;  // of the box: distributions are cut into 4096 bins
+    std::vector<ImagePart> best;
+    const double before = 2 * unknownOfAll(part, counted);
+    double least = inVain * before;
+    std::size_t tried = 0;
+    for (const std::size_t l : likelySymbols(part, counted)) {
+      if (part.part.half[l] <= finest) continue;
+      if (++tried > mostTried || work_ > work) break;
+      std::vector<ImagePart> halves;
+      double left = 0;
+      for (const double side : {-0.5, 0.5}) {
+        FlowPart half = part.part;
+        half.centre[l] += side * half.half[l];
+        half.half[l] *= 0.5;
+        halves.push_back(on(std::move(half)));
+        left += unknownOfAll(halves.back(), counted);
+      }
+      if (!(left < least)) continue;
+      least = left;
+      best = std::move(halves);
+    }
+    return best;
+  }
+
+  const double t_;
+  const Box& box_;
+  const Embedding embedding_;
+  const std::shared_ptr<const Monomials> monomials_;
+  FlowOutputs outputs_;
+  PlainOutputs plain_;
+  PolynomialRange ranges_;
+  const std::atomic<bool>* cancelled_;
+  const int states_;
+  const double workOfPart_;
+  double work_ = 0;
+  std::vector<ImagePart> parts_;
+  std::vector<Interval> whole_;  // [output]
+};
 
 void requireImage(const Program& g, const Box& box, int degree) {
   requireThat(box.size() == at(g.states() + g.parameters()), "the box needs one interval a state and a parameter");
@@ -87,45 +304,73 @@ void requireImage(const Program& g, const Box& box, int degree) {
   requireNearest();
 }
 
+/// The next degree, for many symbols, which are hardly bisected: nothing is integrated, so that terms are cheap. 0:
+/// there are too many.
+int richerDegree(const Monomials& monomials) {
+  constexpr double most = 6000;
+  constexpr int fewSymbols = 3;
+  double count = 1;
+  for (int i = 1; i <= monomials.degree() + 1; ++i) count *= static_cast<double>(monomials.symbols() + i) / i;
+  return monomials.symbols() > fewSymbols && count <= most ? monomials.degree() + 1 : 0;
+}
+
+std::shared_ptr<const FlowModels> modelsOf(const ImageFinder& image, double t, const std::vector<int>& modelled) {
+  auto models = std::make_shared<FlowModels>();
+  models->at.resize(1);
+  models->over.resize(1);
+  for (const Embedded& e : image.embedding().components) models->components.push_back({e.centre, e.half, e.symbol});
+  models->symbols = image.embedding().symbols;
+  models->modelled = modelled.size();
+  for (const ImagePart& part : image.parts()) {
+    auto snapshot = std::make_shared<FlowSnapshot>();
+    snapshot->time = t;
+    snapshot->part = part.part;
+    snapshot->monomials = image.monomials();
+    for (const int o : modelled)
+      snapshot->outputs.push_back(part.polynomial[at(o)].empty()
+                                      ? OutputModel{{}, part.radius[at(o)], part.range[at(o)]}
+                                      : modelOf(part.polynomial[at(o)].data(), part.radius[at(o)], *image.monomials(),
+                                                models->symbols, part.range[at(o)]));
+    models->at[0].push_back(std::move(snapshot));
+  }
+  return models;
+}
+
 }  // namespace
 
-std::vector<std::vector<Interval>> encloseImage(const Program& g, double t, const Box& box,
-                                                const std::vector<Box>& levels, int degree,
-                                                const std::atomic<bool>* cancelled) {
+Image findImage(const Program& g, double t, const Box& box, const std::vector<Box>& levels,
+                const std::vector<int>& modelled, int degree, const std::atomic<bool>* cancelled, double work) {
   requireImage(g, box, degree);
   requireNested(box, levels);
   try {
-    return image(g, t, box, levels, degree, cancelled);
+    std::vector<int> counted = modelled;
+    for (int o = 0; o < g.outputs(); ++o)
+      if (modelled.empty()) counted.push_back(o);
+    auto found = std::make_unique<ImageFinder>(g, t, box, degree, cancelled);
+    const double unknown = found->unknown(counted);
+    if (const int richer = richerDegree(*found->monomials()); degree < 0 && work > 0 && richer > 0 && unknown > enough)
+      if (auto other = std::make_unique<ImageFinder>(g, t, box, richer, cancelled); other->unknown(counted) < unknown)
+        found = std::move(other);
+    ImageFinder& finder = *found;
+    finder.bisect(counted, work);
+    Image image{finder.ranges(levels), nullptr, finder.parts().size()};
+    if (!modelled.empty()) image.models = modelsOf(finder, t, modelled);
+    return image;
   } catch (const Cancelled&) {
     return {};
   }
 }
 
+std::vector<std::vector<Interval>> encloseImage(const Program& g, double t, const Box& box,
+                                                const std::vector<Box>& levels, int degree,
+                                                const std::atomic<bool>* cancelled) {
+  return findImage(g, t, box, levels, {}, degree, cancelled, 0).ranges;
+}
+
 std::shared_ptr<const FlowModels> modelImage(const Program& g, double t, const Box& box,
                                              const std::vector<int>& modelled, int degree,
                                              const std::atomic<bool>* cancelled) {
-  requireImage(g, box, degree);
-  requireNested(box, {});
-  try {
-    Image of(g, t, box, degree, cancelled);
-    const std::vector<Interval> direct = PlainOutputs(g).over(t, box);
-    auto snapshot = std::make_shared<FlowSnapshot>();
-    snapshot->time = t;
-    snapshot->part = of.whole();
-    snapshot->monomials = of.monomials;
-    for (const int o : modelled)
-      snapshot->outputs.push_back(
-          modelOf(of.outputs.polynomial(o), of.outputs.radius(o), *of.monomials, of.embedding.symbols, direct[at(o)]));
-    auto models = std::make_shared<FlowModels>();
-    for (const Embedded& e : of.embedding.components) models->components.push_back({e.centre, e.half, e.symbol});
-    models->symbols = of.embedding.symbols;
-    models->modelled = modelled.size();
-    models->at = {{snapshot}};
-    models->over.resize(1);
-    return models;
-  } catch (const Cancelled&) {
-    return nullptr;
-  }
+  return findImage(g, t, box, {}, modelled, degree, cancelled).models;
 }
 
 }  // namespace gamut

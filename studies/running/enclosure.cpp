@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "analyses/flow/flow.hpp"
+#include "analyses/flow/image.hpp"
 #include "studies/running/flow_of_study.hpp"
 #include "studies/running/sampled_study.hpp"
 #include "studies/running/units.hpp"
@@ -60,8 +61,11 @@ void encloseMotion(Run& run) {
 void encloseConfiguration(Run& run) {
   Enclosed& enclosed = run.enclosed;
   const std::vector<Interval> direct = assembledOutputs(run.study, run.problem, run.problem.box);
-  const auto images = encloseImage(run.problem.motion.motion.g, 0.0, run.problem.box, run.problem.levels,
-                                   run.study.flow.degree, run.watch.stop());
+  std::vector<int> modelled = marginOutputs(run.study);
+  std::ranges::copy(plainOutputs(run.study), std::back_inserter(modelled));
+  const Image found = findImage(run.problem.motion.motion.g, 0.0, run.problem.box, run.problem.levels, modelled,
+                                run.study.flow.degree, run.watch.stop());
+  const auto& images = found.ranges;
   std::vector<Interval> enclosure = direct;
   const auto narrow = [&](std::size_t image, Bounds& bounds) {
     for (std::size_t j = 0; j < enclosure.size() && !images.empty(); ++j)
@@ -73,14 +77,9 @@ void encloseConfiguration(Run& run) {
   setRow(enclosed.direct, 0, direct);
   for (std::size_t level = 0; level < enclosed.cuts.size(); ++level) narrow(level + 1, enclosed.cuts[level]);
   if (images.empty()) enclosed.why = run.watch.why();
-  if (!images.empty() && (!run.study.requirements.empty() || asksForDistributions(run.study))) {
-    std::vector<int> modelled = marginOutputs(run.study);
-    std::ranges::copy(plainOutputs(run.study), std::back_inserter(modelled));
-    enclosed.models = modelImage(run.problem.motion.motion.g, 0.0, run.problem.box, modelled, run.study.flow.degree,
-                                 run.watch.stop());
-  }
+  if (!run.study.requirements.empty() || asksForDistributions(run.study)) enclosed.models = found.models;
   enclosePlaces(run);
-  enclosed.pieces = 1;
+  enclosed.pieces = static_cast<std::int64_t>(std::max<std::size_t>(found.parts, 1));
   enclosed.reachedTimes = 1;
 }
 

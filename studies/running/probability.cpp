@@ -117,7 +117,22 @@ class Probabilities {
   void take(const FlowModels& models) {
     const std::size_t margins = marginOutputs(run_.study).size();
     surrogate_ = surrogateOf(models, components_, margins, margins + outputs_.size());
+    meetEnclosure();
     measureNegligible(surrogate_);
+  }
+
+  /// Outputs lie in their enclosure, whatever part of the box they are of.
+  void meetEnclosure() {
+    const Bounds& at = run_.results.interval.at;
+    for (std::size_t i = 0; i < surrogate_.rows.size() && surrogate_.rows[i] < at.lower.times; ++i)
+      for (SurrogatePart& part : surrogate_.at[i])
+        for (std::size_t k = 0; k < outputs_.size(); ++k) {
+          const auto output = static_cast<std::size_t>(outputs_[k]);
+          const double lower = at.lower(surrogate_.rows[i], output), upper = at.upper(surrogate_.rows[i], output);
+          if (!(lower <= upper)) continue;  // nothing is known of it
+          Interval& bound = part.outputs[k].bound;
+          if (const Interval both = intersection(bound, Interval(lower, upper)); !isEmpty(both)) bound = both;
+        }
   }
 
   void bound() {
