@@ -9,10 +9,12 @@
 #include <map>
 #include <memory>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "analyses/flow/error_bounds.hpp"
 #include "analyses/flow/polynomial_range.hpp"
+#include "analyses/probability/curved_sum.hpp"
 #include "analyses/probability/quantity_masses.hpp"
 #include "scalars/elementary/rounding.hpp"
 #include "scalars/index.hpp"
@@ -30,6 +32,7 @@ struct Separated {
   double constant = 0, mixed = 0;      // the latter: Σ|c| of the other terms in several symbols
   std::vector<double> mixedOf;         // [symbol]: of those that hold it
   double norm = 0;                     // Σ|c| of all
+  std::optional<CurvedSum> curved;     // of what `c` adds up to
 };
 
 struct BoxCell {
@@ -140,8 +143,23 @@ class Distributor {
           if (m.exponent(static_cast<int>(g), l) > 0) s.mixedOf[at(l)] += size;
       }
     }
+    if (s.mixed > 0 && s.together.empty()) curve(cell);
     cell.mass = masses_.massOf(cell.part);
     cells_.push_back(std::move(cell));
+  }
+
+  /// If less is left of the terms in several symbols so.
+  static void curve(BoxCell& cell) {
+    Separated& s = cell.separated;
+    CurvedSum sum = curvedSumOf(cell.model.c, *cell.monomials, std::vector<char>(s.c.size(), 1));
+    const double mixed = 0.5 * (sum.down + sum.up);
+    if (!(mixed < s.mixed)) return;
+    s.c = sum.f;
+    s.mixed = mixed * bounds::up;
+    s.constant = sum.constant + 0.5 * (sum.up - sum.down);
+    s.mixedOf = sum.mixedOf;
+    s.norm += sum.reach;
+    s.curved = std::move(sum);
   }
 
   /// What of the joint distribution lies in one part of the box has its polynomial. What lies in several, and cannot be
@@ -254,8 +272,34 @@ class Distributor {
         terms.push_back(term);
       else
         small += std::fabs(term.c);
-    const double radius = (cell.model.radius + s.mixed + small + 4 * bounds::unit * s.norm) * bounds::up + bounds::tiny;
+    const double radius = (cell.model.radius + s.mixed + small + 8 * bounds::unit * s.norm) * bounds::up + bounds::tiny;
+    if (s.curved && !s.curved->curve.empty()) return curvedSumOn(cell, radius, step);
     return masses_.sumOf(cell.part, s.c, terms, Interval(subDown(s.constant, radius), addUp(s.constant, radius)), step);
+  }
+
+  /// φ rises: of the sum's bounds come those of φ and what is added to it.
+  GridSum curvedSumOn(const BoxCell& cell, double radius, double step) const {
+    const CurvedSum& curved = *cell.separated.curved;
+    GridSum sum = masses_.sumOf(cell.part, cell.separated.c, {}, Interval(0.0), step);
+    const double off = (radius + curved.rounding()) * bounds::up;
+    const auto map = [&](GridMasses& side, const auto& valueOf) {
+      GridMasses mapped;
+      for (std::size_t i = 0; i < side.mass.size(); ++i) {  // numbers of steps rise
+        const double s = static_cast<double>(side.first + static_cast<long>(i)) * step;
+        const long value = valueOf(curved.at(std::clamp(s, -curved.reach, curved.reach)));
+        if (i == 0) mapped.first = value;
+        const auto place = static_cast<std::size_t>(std::max(value - mapped.first, 0L));
+        if (mapped.mass.size() <= place) mapped.mass.resize(place + 1, 0.0);
+        mapped.mass[place] += side.mass[i];
+      }
+      side = std::move(mapped);
+    };
+    map(sum.sum.below, [&](double y) {
+      return static_cast<long>(std::floor(addDown(y, subDown(cell.separated.constant, off)) / step));
+    });
+    map(sum.sum.above,
+        [&](double y) { return static_cast<long>(std::ceil(addUp(y, addUp(cell.separated.constant, off)) / step)); });
+    return sum;
   }
 
   DistributionBounds bound(double step) {
@@ -305,7 +349,10 @@ class Distributor {
       // The next one would be too far: this one.
       if (i > 0 && i < end && middle(i + 1) - last < rise) continue;
       if (i > 0 && i < end && middle(i) == last) continue;
-      bounds.value.push_back(static_cast<double>(first + static_cast<long>(i)) * step);
+      // None is less than the enclosure's least value, or greater than its greatest.
+      const double value = static_cast<double>(first + static_cast<long>(i)) * step;
+      if (i > 0 && i < end && (value <= lower_ || value >= upper_)) continue;
+      bounds.value.push_back(i == 0 ? std::nextafter(lower_, -unlimited) : i == end ? upper_ : value);
       bounds.lower.push_back(low[i]);
       bounds.upper.push_back(high[i]);
       last = middle(i);

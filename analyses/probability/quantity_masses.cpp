@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <string>
+#include <utility>
 
 #include "analyses/flow/error_bounds.hpp"
 #include "scalars/elementary/rounding.hpp"
@@ -21,7 +24,9 @@ std::pair<long, long> QuantityMasses::of(const FlowPart& part, int symbol) {
   return {static_cast<long>((centre - half + 1) * bins / 2), static_cast<long>(half * bins)};
 }
 
-std::vector<Interval> edgesOf(const FlowSymbol& symbol, const Distribution& distribution) {
+namespace {
+
+std::vector<Interval> foundEdgesOf(const FlowSymbol& symbol, const Distribution& distribution) {
   constexpr int bins = QuantityMasses::bins;
   std::vector<double> lower, upper;
   for (int i = 0; i <= bins; ++i) {
@@ -36,6 +41,21 @@ std::vector<Interval> edgesOf(const FlowSymbol& symbol, const Distribution& dist
   std::vector<Interval> edges;
   for (std::size_t i = 0; i < lower.size(); ++i) edges.emplace_back(lower[i], upper[i]);
   return edges;
+}
+
+}  // namespace
+
+/// Those of the last distributions are kept: requirements, probabilities and indices ask for the same, and many
+/// quantities may be alike.
+const std::vector<Interval>& edgesOf(const FlowSymbol& symbol, const Distribution& distribution) {
+  constexpr std::size_t most = 128;
+  using Key = std::pair<std::string, std::vector<double>>;
+  thread_local std::map<Key, std::vector<Interval>> known;
+  Key key(distribution.name(), std::vector<double>{symbol.centre, symbol.half});
+  for (const ShapeNumber& number : distribution.numbers()) key.second.push_back(number.value);
+  if (const auto found = known.find(key); found != known.end()) return found->second;
+  if (known.size() >= most) known.clear();
+  return known.emplace(std::move(key), foundEdgesOf(symbol, distribution)).first->second;
 }
 
 BinMasses massesBetween(const std::vector<Interval>& edges) {

@@ -16,7 +16,8 @@ struct BinMasses {
   double error = 0;
 };
 /// F at the edges between bins, enclosed: it rises, from 0 at the first (a value there counts in the first bin) to 1.
-std::vector<Interval> edgesOf(const FlowSymbol& symbol, const Distribution& distribution);
+/// Holds until this thread asks for another's.
+const std::vector<Interval>& edgesOf(const FlowSymbol& symbol, const Distribution& distribution);
 /// Of one distribution, by the middles of what is known at edges.
 BinMasses massesBetween(const std::vector<Interval>& edges);
 

@@ -127,7 +127,10 @@ Cells::Outcome Cells::outcomeOf(const Cell& cell, const Cell::Chord& chord) cons
 void Cells::decide(Cell& cell) {
   for (Cell::Local& local : cell.locals_) {
     local.range.clear();
-    for (std::size_t i = 0; i < question_.margins.size(); ++i) local.range.push_back(rangeOf(local, i));
+    for (std::size_t i = 0; i < question_.margins.size(); ++i) {
+      const Interval range = rangeOf(local, i);
+      local.range.push_back(isTight_ ? tightRangeOf(local, i, range) : range);
+    }
   }
   const bool isAlways = question_.when == CellQuestion::When::always;
   const Outcome throughout = isAlways ? Outcome::met : Outcome::violated;
@@ -270,11 +273,17 @@ std::unique_ptr<Cell> Cells::within(const Cell& cell, const FlowPart& part) {
     found->locals_.push_back(local);
     Cell::Local& own = found->locals_.back();
     for (std::size_t l = 0; l < part.half.size(); ++l) {
-      const double apart = part.centre[l] - own.part.centre[l];
-      if (own.part.half[l] <= part.half[l] || std::fabs(apart) > own.part.half[l] - part.half[l]) continue;
-      narrow(own, static_cast<int>(l), apart / own.part.half[l], part.half[l] / own.part.half[l]);
-      own.part.centre[l] = part.centre[l];
-      own.part.half[l] = part.half[l];
+      double centre = part.centre[l], half = part.half[l];
+      if (isTight_) {  // what both have in common: multiples of 2^-n as their ends are
+        const double lower = std::max(centre - half, own.part.centre[l] - own.part.half[l]);
+        const double upper = std::min(centre + half, own.part.centre[l] + own.part.half[l]);
+        centre = 0.5 * (lower + upper), half = 0.5 * (upper - lower);
+      }
+      const double apart = centre - own.part.centre[l];
+      if (own.part.half[l] <= half || std::fabs(apart) > own.part.half[l] - half) continue;
+      narrow(own, static_cast<int>(l), apart / own.part.half[l], half / own.part.half[l]);
+      own.part.centre[l] = centre;
+      own.part.half[l] = half;
     }
   }
   for (const Cell::Chord& chord : cell.chords_)
@@ -288,6 +297,92 @@ std::unique_ptr<Cell> Cells::within(const Cell& cell, const FlowPart& part) {
   }
   decide(*found);
   return found;
+}
+
+std::unique_ptr<Cell> Cells::tightlyWithin(const Cell& cell, const FlowPart& part) {
+  isTight_ = true;
+  std::unique_ptr<Cell> found = within(cell, part);
+  isTight_ = false;
+  return found;
+}
+
+/// Only where that may decide more.
+Interval Cells::tightRangeOf(const Cell::Local& local, std::size_t margin, const Interval& known) const {
+  constexpr double tolerance = 1e-3;
+  if (local.c[margin].empty() || known.lower() > 0 || known.upper() < 0) return known;
+  const Tables& tables = tablesOf(*local.of);
+  std::vector<double> c = local.c[margin];
+  c.resize(at(local.of->monomials->count()), 0.0);
+  const Box whole(at(local.of->monomials->symbols()), Interval(-1.0, 1.0));
+  const double radius = local.radius[margin];
+  return intersection(tables.range(c.data(), whole, tolerance) + Interval(-radius, radius), known);
+}
+
+/// Along each axis at its ends and some places between them, until nothing becomes less.
+std::vector<double> Cells::lowestPoint(const Cell::Local& local, std::size_t margin) const {
+  constexpr int sweeps = 6, places = 8;
+  const std::vector<double>& c = local.c[margin];
+  const Monomials& m = *local.of->monomials;
+  const Tables& tables = tablesOf(*local.of);
+  std::vector<double> eta(at(models_.symbols), 0.0);
+  bool isChanged = true;
+  for (int sweep = 0; sweep < sweeps && isChanged; ++sweep) {
+    isChanged = false;
+    for (int l = 0; l < models_.symbols; ++l) {
+      std::vector<double> f(at(m.degree()) + 1, 0.0);  // in this symbol, all others as they are
+      for (std::size_t g = 1; g < c.size(); ++g) {
+        const int power = m.exponent(static_cast<int>(g), l);
+        if (power == 0 || c[g] == 0) continue;
+        double term = c[g];
+        for (const int other : tables.symbols[g])
+          for (int n = m.exponent(static_cast<int>(g), other); other != l && n > 0; --n) term *= eta[at(other)];
+        f[at(power)] += term;
+      }
+      const auto valueAt = [&](double x) {
+        double value = 0;
+        for (std::size_t n = f.size(); n-- > 0;) value = value * x + f[n];
+        return value;
+      };
+      double least = valueAt(eta[at(l)]);
+      for (int i = 0; i <= places; ++i) {
+        const double x = -1 + 2.0 * i / places, value = valueAt(x);
+        if (!(value < least)) continue;
+        least = value, eta[at(l)] = x, isChanged = true;
+      }
+    }
+  }
+  std::vector<double> xi(eta.size());
+  for (std::size_t l = 0; l < xi.size(); ++l) xi[l] = local.part.centre[l] + local.part.half[l] * eta[l];
+  return xi;
+}
+
+std::vector<std::vector<double>> Cells::lowestPoints(const Cell& cell) {
+  constexpr std::size_t most = 3;
+  struct Place {
+    double least;
+    std::size_t local, margin;
+  };
+  std::vector<Place> places;
+  const bool isAlways = question_.when == CellQuestion::When::always;
+  for (std::size_t i = 0; i < question_.margins.size(); ++i) {
+    std::optional<Place> lowest;  // of the margin: at all times it must be, or at the one where it is highest
+    const auto include = [&](std::size_t place) {
+      const Cell::Local& local = cell.locals_[place];
+      const double least = local.range[i].lower();
+      if (!local.c[i].empty() && (!lowest || (isAlways ? least < lowest->least : least > lowest->least)))
+        lowest = Place{least, place, i};
+    };
+    for (const Cell::Moment& moment : cell.moments_)
+      for (const std::size_t place : moment.snapshots) include(place);
+    if (!lowest)
+      for (const Cell::Chord& chord : cell.chords_) include(chord.before);
+    if (lowest) places.push_back(*lowest);
+  }
+  std::ranges::stable_sort(places, {}, &Place::least);
+  std::vector<std::vector<double>> points;
+  for (std::size_t i = 0; i < std::min(most, places.size()); ++i)
+    points.push_back(lowestPoint(cell.locals_[places[i].local], places[i].margin));
+  return points;
 }
 
 /// Nothing where the polynomial does not cover the cell, or there is none.

@@ -34,6 +34,22 @@ struct CellPlanes {
   double rest = 0;  ///< so much of what lies between both no bisection would take away
 };
 
+/// constant + Σ f_l(η_l), of a cell's own η in [-1,1]^k.
+struct CellSum {
+  std::vector<std::vector<double>> f;  ///< [symbol][power], powers above 0; none: nothing is known
+  double constant = 0;
+};
+/// Σ|coefficients| of the functions.
+double sizeOf(const CellSum& sum);
+
+/// Where some margins of an open cell are decided: all met where `met` is above zero, one violated where `violated` is
+/// below zero.
+struct CellSums {
+  CellSum met, violated;
+  std::vector<double> mixedOf;  ///< [symbol]: what of the distance between both bisections of it take away, about
+  double rest = 0;              ///< what none takes away
+};
+
 /// A part of the box and what is left to be known of it.
 class Cell {
  public:
@@ -77,6 +93,7 @@ class Cells {
   /// The models must outlive it. Throws std::invalid_argument for a window that they do not reach.
   Cells(const FlowModels& models, CellQuestion question);
 
+  const CellQuestion& question() const { return question_; }
   /// The whole box.
   std::unique_ptr<Cell> whole();
   /// The symbols on which most depends, the first most of all; none where no bisection would help.
@@ -87,8 +104,15 @@ class Cells {
   std::unique_ptr<Cell> within(const Cell& cell, const FlowPart& part);
   /// Of an open cell.
   CellPlanes planes(const Cell& cell) const;
+  /// Of an open cell and those of the question's margins with these places (cell_sums.cpp).
+  CellSums sums(const Cell& cell, const std::vector<std::size_t>& margins) const;
   /// Of one point of the box, in its symbols.
   Cell::Verdict verdictAt(const std::vector<double>& xi);
+  /// The same as `within`, but ranges of polynomials are found to the end, and parts need not be nested.
+  std::unique_ptr<Cell> tightlyWithin(const Cell& cell, const FlowPart& part);
+  /// Points of an open cell, in the symbols of the box, where a margin is least, as far as one goes from the middle
+  /// along one axis after the other; of the margins and times that are lowest.
+  std::vector<std::vector<double>> lowestPoints(const Cell& cell);
 
  private:
   enum class Outcome { met, violated, open };
@@ -98,16 +122,26 @@ class Cells {
     double radius = 0;  // in `down` and `up`
     std::vector<double> slope;
   };
+  /// A margin at a moment, or along a chord: above zero where Σ f_l(η_l) + from is, below where Σ f_l(η_l) + to is.
+  struct Separated {
+    std::vector<std::vector<double>> f;
+    std::vector<double> mixedOf;        // of the terms that hold a symbol and others
+    double from = 0, to = 0, rest = 0;  // the latter: no bisection takes it away
+  };
   void decide(Cell& cell);
+  std::optional<Separated> separated(const Cell& cell, std::size_t local, std::size_t margin,
+                                     const Interval& sag) const;
   std::optional<Form> formOf(const Cell& cell, std::size_t local, std::size_t margin) const;
   void narrow(Cell::Local& local, int l, double middle, double half) const;
   Outcome outcomeOf(const std::vector<Interval>& margins) const;
   Outcome outcomeOf(const Cell& cell, const Cell::Chord& chord) const;
   void dropUnused(Cell& cell) const;
   Interval rangeOf(const Cell::Local& local, std::size_t margin) const;
+  Interval tightRangeOf(const Cell::Local& local, std::size_t margin, const Interval& known) const;
+  std::vector<double> lowestPoint(const Cell::Local& local, std::size_t margin) const;
   /// What is asked of a layout's monomials again and again.
   struct Tables {
-    PolynomialRange range;
+    mutable PolynomialRange range;          // a workspace too
     std::vector<char> isEven;               // in all symbols
     std::vector<int> linear;                // the symbol that it is; -1: none
     std::vector<std::vector<int>> symbols;  // that it holds
@@ -117,6 +151,7 @@ class Cells {
   const FlowModels& models_;
   CellQuestion question_;
   mutable std::map<const Monomials*, std::unique_ptr<Tables>> tables_;
+  bool isTight_ = false;  // at present
 };
 
 }  // namespace gamut

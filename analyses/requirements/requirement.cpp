@@ -1,4 +1,5 @@
-// Three searches over the same cells: where most probability is undecided, where the deviations are least, where the
+// What boxes about the nominal values and the distributions of the margins say, whatever the number of quantities; and
+// three searches over the same cells: where most probability is undecided, where the deviations are least, where the
 // values are most possible. Each takes the cell that matters most, and bisects it unless it is decided.
 #include "analyses/requirements/requirement.hpp"
 
@@ -7,10 +8,12 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "analyses/requirements/cube.hpp"
 #include "analyses/requirements/joint_probability.hpp"
+#include "analyses/requirements/nominal_boxes.hpp"
 #include "scalars/elementary/rounding.hpp"
 #include "scalars/index.hpp"
 
@@ -30,9 +33,10 @@ class Examiner {
         question_(withBesides(models, question, quantities)),
         cells_(models, question_),
         quantities_(quantities),
-        options_(options) {
+        options_(options),
+        boxes_(models, cells_, quantities) {
     below_.resize(quantities.size());
-    isPlain_ = options.masses == nullptr;
+    isPlain_ = options.masses == nullptr || options.masses->isPlain();
     deviate_.assign(quantities.size(), 1);
   }
 
@@ -44,9 +48,7 @@ class Examiner {
       finding_.violationPossibility = Interval(0.0);
       return std::move(finding_);
     }
-    weigh();
-    // Cells that are bisections of the box do not add up.
-    if (!isPlain_) weighJoint();
+    findShares();
     if (finding_.met == 0) lookForWhatIsMet();
     measureDeviations();
     measurePossibility();
@@ -67,6 +69,8 @@ class Examiner {
       if (const int symbol = models.components[at(quantity.component)].symbol; symbol >= 0) isOwned[at(symbol)] = 1;
     for (int l = 0; l < models.symbols; ++l)
       if (isOwned[at(l)] == 0) question.besides.push_back(l);
+    // At one moment both ask for the same.
+    if (question.from == question.until) question.when = CellQuestion::When::always;
     return question;
   }
 
@@ -153,10 +157,27 @@ class Examiner {
     return volume;
   }
 
+  /// Of every quantity.
+  template <class Values>
+  std::vector<Interval> valuesOfAll(const Values& of) const {
+    std::vector<Interval> values;
+    for (std::size_t q = 0; q < quantities_.size(); ++q) values.push_back(of(q, *quantities_[q].uncertain));
+    return values;
+  }
+
   // ---- Violation ----------------------------------------------------------------------------------------------------
 
   /// Where margins are least first; if none of the cells is left open, the requirement is met everywhere.
   void lookForViolation() {
+    const std::vector<Interval> all = valuesOfAll([](std::size_t, const Uncertain& u) { return u.range; });
+    if (boxes_.isMet(all)) {
+      finding_.isAlwaysMet = true;
+      return;
+    }
+    if (std::optional<std::vector<double>> violation = boxes_.violationIn(all)) {
+      finding_.violating = std::move(*violation);
+      return;
+    }
     bool isMet = true;
     isFineEnough_ = [](const Cell&) { return false; };
     search([](const Cell& cell) { return cell.verdict() == Cell::Verdict::violated ? infinite : -cell.least(); },
@@ -265,6 +286,49 @@ class Examiner {
     return decided;
   }
 
+  /// By the distributions of the margins, which say most of many quantities; by planes through cells, which say most of
+  /// few that matter together. The shares of the box's volume are probabilities of evenly distributed values.
+  void findShares() {
+    const auto& masses = [&]() -> const JointMasses& {
+      if (options_.masses != nullptr) return *options_.masses;
+      return ownMasses_.emplace(massesOf([](const Uncertain& u) { return u.distribution; }));
+    }();
+    const Interval byMargins = marginsProbability(masses);
+    const bool areEven = isPlain_ && std::ranges::all_of(quantities_, [](const CellQuantity& quantity) {
+                           const Uncertain& u = *quantity.uncertain;
+                           return u.distribution.name() == "uniform" && isEqual(u.distribution.support(), u.range);
+                         });
+    Interval volume = byMargins;
+    if (!areEven)
+      volume = marginsProbability(massesOf([](const Uncertain& u) { return Distribution::uniform(u.range); }));
+    const double widest = std::max(width(volume), isPlain_ ? width(byMargins) : 0.0);
+    if (widest > options_.gap) weigh();
+    finding_.met = std::max(finding_.met, volume.lower());
+    finding_.violated = std::max(finding_.violated, std::max(0.0, subDown(1.0, volume.upper())));
+    // Cells that are bisections of the box do not add up where the quantities are not independent.
+    if (!isPlain_) finding_.probability = Interval(0.0, 1.0);
+    if (const Interval both = intersection(finding_.probability, byMargins); !isEmpty(both))
+      finding_.probability = both;
+  }
+
+  template <class DistributionOf>
+  JointMasses massesOf(const DistributionOf& of) const {
+    std::vector<FlowSymbol> symbols;
+    std::vector<Uncertain> all;
+    std::vector<const Uncertain*> uncertain;
+    for (const CellQuantity& quantity : quantities_) {
+      symbols.push_back(models_.components[at(quantity.component)]);
+      all.push_back(*quantity.uncertain);
+      all.back().distribution = of(all.back());
+    }
+    for (const Uncertain& u : all) uncertain.push_back(&u);
+    return {models_.symbols, symbols, uncertain};
+  }
+
+  Interval marginsProbability(const JointMasses& masses) {
+    return probabilityOf(cells_, masses, options_.gap, options_.cancelled);
+  }
+
   /// P(met) ≥ Σ lower masses of what is met, ≤ 1 - Σ lower masses of what is violated.
   void weigh() {
     double met = 0, violated = 0;  // rounded down
@@ -309,27 +373,6 @@ class Examiner {
     finding_.probability = Interval(met, std::max(met, subUp(1.0, violated)));
   }
 
-  /// All margins together; and each by itself: all are above zero at a time with a probability of 1 - Σ (1 - P_i) at
-  /// least (always), and with no more than the least P_i (Bonferroni, Frechet).
-  void weighJoint() {
-    finding_.probability = probabilityOf(cells_, *options_.masses, options_.gap, options_.cancelled);
-    if (question_.margins.size() < 2) return;
-    double least = 1, most = 1;  // rounded outward
-    for (std::size_t i = 0; i < question_.margins.size(); ++i) {
-      CellQuestion one = question_;
-      one.margins = {question_.margins[i]};
-      one.isMetAtZero = {question_.isMetAtZero[i]};
-      Cells cells(models_, one);
-      const Interval alone = probabilityOf(cells, *options_.masses, options_.gap, options_.cancelled);
-      least = subDown(least, subUp(1.0, alone.lower()));
-      most = std::min(most, alone.upper());
-    }
-    if (question_.when == CellQuestion::When::eventually) least = 0;
-    const Interval other(std::max(0.0, std::min(least, most)), most);
-    const Interval both = intersection(finding_.probability, other);
-    if (!isEmpty(both)) finding_.probability = both;
-  }
-
   // ---- Deviations ---------------------------------------------------------------------------------------------------
 
   /// The least factor of a box about the nominal values that has a point in common with these: rounded down.
@@ -360,7 +403,32 @@ class Examiner {
     return factor;
   }
 
+  /// Of the boxes about the nominal values; if cells may say more, of these besides.
   void measureDeviations() {
+    const auto within = [&](double factor) {
+      return valuesOfAll([&](std::size_t q, const Uncertain& u) {
+        const Interval nominal(u.nominal);
+        return deviate_[q] == 0 || factor == 1
+                   ? u.range
+                   : intersection(nominal + Interval(factor) * (u.range - nominal), u.range);
+      });
+    };
+    if (boxes_.isMet(within(1))) {
+      finding_.factor = 1;
+      return;
+    }
+    double met = 0, open = 1;
+    for (int i = 0; i < boxes_.patience() && open - met > 0.25 * options_.factorGap; ++i)
+      (boxes_.isMet(within(0.5 * (met + open))) ? met : open) = 0.5 * (met + open);
+    if (open - met <= options_.factorGap && boxes_.violationIn(within(open))) {
+      finding_.factor = met;
+      return;
+    }
+    searchDeviations();
+    finding_.factor = std::max(finding_.factor, met);
+  }
+
+  void searchDeviations() {
     finding_.factor = 1;
     isFineEnough_ = [&](const Cell& cell) { return farthestOf(cell) - factorOf(cell) < options_.factorGap; };
     search([&](const Cell& cell) { return -factorOf(cell); },
@@ -433,8 +501,49 @@ class Examiner {
   }
 
   /// min t-norm over quantities that do not interact (Zadeh 1978): the possibility of a violation is that of the most
-  /// possible values for which it is violated.
+  /// possible values for which it is violated. No more than a level of which all values meet it; if cells may say more,
+  /// by these besides.
   void measurePossibility() {
+    constexpr double fine = 0.002;
+    const auto cut = [&](double level) {
+      return valuesOfAll([&](std::size_t, const Uncertain& u) { return u.membership.cut(level); });
+    };
+    if (boxes_.isMet(cut(0))) {
+      finding_.violationPossibility = Interval(0.0);
+      return;
+    }
+    double violated = 0, met = 1, open = 0;  // degrees: violated, met, neither is known
+    const auto look = [&](double level) {
+      const std::optional<std::vector<double>> violation = boxes_.violationIn(cut(level));
+      if (violation) violated = std::max(violated, degreeOf(*violation));
+    };
+    if (boxes_.isMet(cut(1))) {
+      for (int i = 0; i < boxes_.patience() && met - open > 0.25 * fine; ++i)
+        (boxes_.isMet(cut(0.5 * (met + open))) ? met : open) = 0.5 * (met + open);
+    } else {
+      open = 1;
+    }
+    // Next to the least that is not met margins are next to zero.
+    for (double back = 0; back < 1 && open - back >= 0 && violated == 0; back = back > 0 ? 4 * back : 0.125 * fine)
+      look(open - back);
+    if (met - violated > fine) {
+      searchPossibility();
+      met = std::min(met, finding_.violationPossibility.upper());
+      violated = std::max(violated, finding_.violationPossibility.lower());
+    }
+    finding_.violationPossibility = Interval(std::min(violated, met), met);
+  }
+
+  /// Of values, at least.
+  double degreeOf(const std::vector<double>& values) const {
+    double degree = 1;
+    for (std::size_t q = 0; q < quantities_.size(); ++q)
+      if (models_.components[at(quantities_[q].component)].symbol >= 0)
+        degree = std::min(degree, quantities_[q].uncertain->membership(values[q]));
+    return degree;
+  }
+
+  void searchPossibility() {
     constexpr double fine = 0.002;
     double least = 0, most = 0;
     int patience = 20;  // for one near which it is certainly violated
@@ -463,6 +572,8 @@ class Examiner {
   Cells cells_;
   const std::vector<CellQuantity>& quantities_;
   const RequirementOptions& options_;
+  NominalBoxes boxes_;
+  std::optional<JointMasses> ownMasses_;
   bool isPlain_ = true;                            // all independent, of known distributions
   std::vector<char> deviate_;                      // of the quantities: those that count in a factor
   std::vector<std::map<double, Interval>> below_;  // of each quantity: its distribution function by ξ

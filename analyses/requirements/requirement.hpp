@@ -25,7 +25,7 @@ struct RequirementOptions {
   double factorGap = 0.002;       ///< of the factor
   std::size_t mostCells = 40000;  ///< in each search
   double mostBytes = 3e8;
-  /// By the models' symbols, where quantities depend on each other or more than one distribution is possible.
+  /// By the models' symbols; needed where quantities depend on each other or more than one distribution is possible.
   const JointMasses* masses = nullptr;
   const std::atomic<bool>* cancelled = nullptr;  ///< set from outside: what was found until then holds
 };

@@ -114,12 +114,10 @@ void examineModels(Run& run, const FlowModels& models, std::size_t number, std::
   for (std::size_t q = 0; q < study.uncertain.size(); ++q)
     if (!study.uncertain[q].varies) quantities.push_back({run.problem.motion.slot[q], &study.uncertain[q].uncertain});
   RequirementOptions options;
-  if (!isPlain(study)) {
-    std::vector<FlowSymbol> symbols;
-    for (const CellQuantity& quantity : quantities)
-      symbols.push_back(models.components[static_cast<std::size_t>(quantity.component)]);
-    options.masses = &jointMasses(run, models.symbols, symbols);
-  }
+  std::vector<FlowSymbol> symbols;
+  for (const CellQuantity& quantity : quantities)
+    symbols.push_back(models.components[static_cast<std::size_t>(quantity.component)]);
+  options.masses = &jointMasses(run, models.symbols, symbols);
   options.cancelled = run.watch.stop();
   RequirementFinding finding = gamut::examine(models, question, quantities, options);
   if (question.until < whole.until) forgetWhatIsNotKnown(finding, requirement.isAlways);
