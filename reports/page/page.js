@@ -261,14 +261,16 @@ gamut.plots = (() => {
   };
   const near = new IntersectionObserver(entries => entries.forEach(({ target, isIntersecting }) => isIntersecting && drawOnce(target)), { rootMargin: "600px" });
   plots.forEach((_, section) => near.observe(section));
-  // The others one by one, whenever there is nothing else to do.
+  // The others one by one, whenever there is nothing else to do. <html data-plots> says whether some are waiting.
   const later = then => window.requestIdleCallback ? requestIdleCallback(then, { timeout: 300 }) : setTimeout(then, 50);
   const rest = [...plots.keys()];
   const drawNext = () => {
+    root.dataset.plots = rest.length === 0 ? "drawn" : "waiting";
     if (rest.length === 0) return;
     drawOnce(rest.shift());
     later(drawNext);
   };
+  root.dataset.plots = "waiting";
   later(drawNext);
   new ResizeObserver(() => drawn.forEach(plot => plot.resize())).observe(document.body);
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => drawn.forEach(plot => plot.draw()));

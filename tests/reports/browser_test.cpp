@@ -3,12 +3,9 @@
 #include <fmt/ranges.h>
 #include <gmock/gmock.h>
 
-#include <array>
 #include <cctype>
 #include <cstddef>
-#include <cstdio>
 #include <cstdlib>
-#include <fstream>
 #include <iterator>
 #include <limits>
 #include <sstream>
@@ -18,6 +15,7 @@
 
 #include "reports/drawing/axes.hpp"
 #include "reports/report.hpp"
+#include "tests/reports/chromium.hpp"
 #include "tests/reports/example_results.hpp"
 #include "tests/reports/page_text.hpp"
 #include "tests/studies/temporary_folder.hpp"
@@ -29,37 +27,35 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-std::string outputOf(const std::string& command) {
-  std::string output;
-  FILE* pipe = popen(command.c_str(), "r");
-  if (pipe == nullptr) return output;
-  std::array<char, 65536> part{};
-  for (std::size_t n; (n = std::fread(part.data(), 1, part.size(), pipe)) > 0;) output.append(part.data(), n);
-  pclose(pipe);
-  return output;
-}
-
 class Browser : public testing::Test {
  protected:
   void SetUp() override {
-    if (outputOf("command -v chromium").empty()) {
-      const char* ci = std::getenv("CI");
-      ASSERT_FALSE(ci != nullptr && std::string(ci) == "true") << "chromium is not installed";
-      GTEST_SKIP() << "chromium is not installed";
-    }
+    if (Chromium::isInstalled()) return;
+    const char* ci = std::getenv("CI");
+    ASSERT_FALSE(ci != nullptr && std::string(ci) == "true") << "chromium is not installed";
+    GTEST_SKIP() << "chromium is not installed";
   }
 
-  /// What becomes of the page of these results once its script has run.
-  /// `doing`: what a reader does then, as a script.
-  std::string opened(const Results& results, const std::string& doing = "", const std::string& size = "800,600") {
+  /// What becomes of the page of these results once its scripts have run and its plots are drawn.
+  /// `doing`: what a reader does then, as the body of an asynchronous function. What it notes is waited for; after
+  /// `await laidOut()` plots have followed what it changed.
+  std::string opened(const Results& results, const std::string& doing = "", const Chromium::Size& size = {}) {
     const std::string page = folder_.path("report.html");
     writeReport(results, page);
-    if (!doing.empty()) std::ofstream(page, std::ios::app) << "<script>" << doing << "</script>";
-    return outputOf(
-        "chromium --headless --no-sandbox --disable-gpu --disable-quic --no-first-run --disable-background-networking "
-        "--disable-component-update --disable-sync --virtual-time-budget=5000 --window-size=" +
-        size + " --user-data-dir='" + folder_.path("profile") + "' --dump-dom 'file://" + page + "' 2>'" +
-        folder_.path("log") + "'");
+    // Frames are drawn after callbacks, and observers of sizes are told before the next one begins.
+    return Chromium(size).found(
+        page,
+        "const root = document.documentElement, frame = () => new Promise(then => requestAnimationFrame(then));"
+        "const laidOut = async () => { await frame(); await frame(); };"
+        "const isDone = () => root.dataset.page === 'ready' && root.dataset.plots !== 'waiting';"
+        "while (!isDone() && root.dataset.error == null) await frame();"
+        "let isNoted = false; const note = text => { const place = document.createElement('pre');"
+        "  place.id = 'noted'; place.textContent = text; document.body.append(place); isNoted = true; };" +
+            doing + ";await laidOut();" +
+            (doing.find("note") == std::string::npos
+                 ? ""
+                 : "while (!isNoted && root.dataset.error == null) await frame();") +
+            "return root.outerHTML;");
   }
 
  private:
@@ -94,10 +90,6 @@ std::string noted(const std::string& page) {
                                    : page.substr(from + begin.size(), page.find("</pre>", from) - from - begin.size());
 }
 
-constexpr const char* noting =
-    "const note = text => { const place = document.createElement('pre'); place.id = 'noted'; place.textContent = text;"
-    "document.body.append(place); };";
-
 /// Beside a hairline of a curve its spread says more, and is seen first; wide bands are seen as they are.
 TEST_F(Browser, ShowsTheSpreadFirstWhereTheBandIsThin) {
   Results results = example::pendulum(61, 2);
@@ -128,7 +120,7 @@ TEST_F(Browser, HasTheTicksOfPaper) {
     wanted += fmt::format("{} | {}\n", fmt::join(ticks.text, " "), ticks.aside);
   }
   const std::string page =
-      opened(example::pendulum(5, 1), std::string(noting) + "note([" + ranges +
+      opened(example::pendulum(5, 1), "note([" + ranges +
                                           "].map(([low, high]) => { const t = gamut.ticks(low, high, 4); return "
                                           "t.text.join(' ') + ' | ' + t.aside + '\\n'; }).join(''));");
   EXPECT_EQ(noted(page), wanted);
@@ -156,9 +148,8 @@ TEST_F(Browser, DrawsNumbersOfAllSizes) {
 TEST_F(Browser, CopiesTheNumbersOfAFigure) {
   const std::string page =
       opened(example::pendulum(61, 1),
-             std::string(noting) +
-                 "Object.defineProperty(navigator, 'clipboard', { value: { writeText: async text => note(text) } });"
-                 "[...document.querySelectorAll('.outputs .keep button')][0].click();");
+             "Object.defineProperty(navigator, 'clipboard', { value: { writeText: async text => note(text) } });"
+             "[...document.querySelectorAll('.outputs .keep button')][0].click();");
   const std::string csv = noted(page);
   EXPECT_EQ(count(csv, "\n"), 62u);
   EXPECT_THAT(csv, testing::StartsWith("time (s),\"shoulder angle, guaranteed at every instant, from (rad)\","));
@@ -169,7 +160,7 @@ TEST_F(Browser, CopiesTheNumbersOfAFigure) {
 TEST_F(Browser, SavesAFigureThatNeedsNothingBesideIt) {
   for (const char* place : {".outputs .keep", ".memberships .keep", ".picture .keep"}) {
     const std::string page =
-        opened(example::machine(), std::string(noting) +
+        opened(example::machine(), std::string() +
                                        "URL.createObjectURL = blob => { blob.text().then(note); return 'blob:none'; };"
                                        "HTMLAnchorElement.prototype.click = () => {};"
                                        "document.querySelector('" +
@@ -311,7 +302,7 @@ TEST_F(Browser, KeepsFiguresThatAreFoldedAway) {
       "Object.defineProperty(navigator, 'clipboard', { value: { writeText: async text => note(text) } });";
   const auto copied = [&](const std::string& figure) {
     const std::string page =
-        opened(example::sensitive(), noting + copy + "document.querySelector('" + figure + " .keep button').click();");
+        opened(example::sensitive(), copy + "document.querySelector('" + figure + " .keep button').click();");
     EXPECT_THAT(rootOf(page), AllOf(HasSubstr("data-page=\"ready\""), Not(HasSubstr("data-error"))));
     return noted(page);
   };
@@ -319,26 +310,25 @@ TEST_F(Browser, KeepsFiguresThatAreFoldedAway) {
               testing::StartsWith("time (s),\"derivative by &lt;mass&gt; (rad per kg), from\",to,"));
   EXPECT_THAT(copied(".statistics"), testing::StartsWith("time (s),mean of the samples (rad),\u00b1 (rad),"));
   EXPECT_THAT(copied(".convergence"), testing::StartsWith("samples,shoulder angle,elbow angle\n1024,0.04,0.05\n"));
-  const std::string saved = noted(
-      opened(example::sensitive(), std::string(noting) +
-                                       "URL.createObjectURL = blob => { blob.text().then(note); return 'blob:none'; };"
-                                       "HTMLAnchorElement.prototype.click = () => {};"
-                                       "document.querySelector('.sensitivities .keep button:last-child').click();"));
+  const std::string saved =
+      noted(opened(example::sensitive(),
+                   "URL.createObjectURL = blob => { blob.text().then(note); return 'blob:none'; };"
+                   "HTMLAnchorElement.prototype.click = () => {};"
+                   "document.querySelector('.sensitivities .keep button:last-child').click();"));
   EXPECT_THAT(saved, AllOf(HasSubstr("mass"), HasSubstr("first angle"), Not(HasSubstr("var("))));
 }
 
 /// Lines and strokes of a quantity whose bands are filled are not; nothing is wider than a phone; and on paper there is
 /// what a reader unfolded.
 TEST_F(Browser, DrawsQuantitiesOnceFilledAndOnceNot) {
-  const std::string page = opened(
-      example::sensitive(),
-      std::string(noting) +
-          "const fillOf = name => getComputedStyle(document.querySelector('.sensitivities ' + name)).fill;"
-          "window.dispatchEvent(new Event('beforeprint'));"
-          "note([fillOf('.total path.cause0') !== 'none', fillOf('path.estimate'), fillOf('.influence path.cause0'),"
-          "document.querySelectorAll('.more[open]').length, document.querySelectorAll('.origin > "
-          "details[open]').length,"
-          "document.body.scrollWidth <= innerWidth].join(' '));");
+  const std::string page =
+      opened(example::sensitive(),
+             "const fillOf = name => getComputedStyle(document.querySelector('.sensitivities ' + name)).fill;"
+             "window.dispatchEvent(new Event('beforeprint'));"
+             "note([fillOf('.total path.cause0') !== 'none', fillOf('path.estimate'), fillOf('.influence path.cause0'),"
+             "document.querySelectorAll('.more[open]').length, document.querySelectorAll('.origin > "
+             "details[open]').length,"
+             "document.body.scrollWidth <= innerWidth].join(' '));");
   EXPECT_EQ(noted(page), "true none none 0 1 true");
 }
 
@@ -349,29 +339,26 @@ TEST_F(Browser, KeepsTextReadableOnAPhone) {
   for (const Results& results : {machine, example::kinematics(), example::sensitive()}) {
     const std::string page = opened(
         results,
-        std::string(noting) +
-            "document.documentElement.style.width = '375px';"  // no window is narrower than 500
-            "setTimeout(() => {"                               // plots follow when they are told of it
-            "const seen = [...document.querySelectorAll('svg text')].filter(text => text.getClientRects().length > 0);"
-            "const small = seen.filter(text => parseFloat(getComputedStyle(text).fontSize)*text.getScreenCTM().a < 9);"
-            "const outside = [...document.querySelectorAll('.machine .name')].filter("
-            "  text => text.getBBox().x + text.getBBox().width > 720);"
-            "note([seen.length > 0, small.length, outside.length, document.body.scrollWidth <= 375].join(' '));"
-            "}, 1000);",
-        "500,3000");
-    EXPECT_EQ(noted(page), "true 0 0 true") << results.title;
+        "await laidOut();"
+        "const seen = [...document.querySelectorAll('svg text')].filter(text => text.getClientRects().length > 0);"
+        "const small = seen.filter(text => parseFloat(getComputedStyle(text).fontSize)*text.getScreenCTM().a < 9);"
+        "const outside = [...document.querySelectorAll('.machine .name')].filter("
+        "  text => text.getBBox().x + text.getBBox().width > 720);"
+        "note([seen.length > 0, small.length, outside.length, document.body.scrollWidth <= 375, innerWidth].join(' "
+        "'));",
+        {375, 3000});
+    EXPECT_EQ(noted(page), "true 0 0 true 375") << results.title;
   }
 }
 
 /// Keys, sliders and buttons are made for hands; on paper they would be noise.
 TEST_F(Browser, HidesOnPaperWhatOnlyHandsCanUse) {
-  const std::string page = opened(
-      example::pendulum(61, 1),
-      std::string(noting) +
-          "let rules = []; for (const sheet of document.styleSheets) for (const rule of sheet.cssRules)"
-          "  if (rule.media?.mediaText === 'print') rules.push(...[...rule.cssRules].map(inner => inner.cssText));"
-          "const none = rules.filter(rule => rule.includes('display: none')).join(' ');"
-          "note(['.live', '.views', '.controls', '.keep'].every(name => none.includes(name)));");
+  const std::string page =
+      opened(example::pendulum(61, 1),
+             "let rules = []; for (const sheet of document.styleSheets) for (const rule of sheet.cssRules)"
+             "  if (rule.media?.mediaText === 'print') rules.push(...[...rule.cssRules].map(inner => inner.cssText));"
+             "const none = rules.filter(rule => rule.includes('display: none')).join(' ');"
+             "note(['.live', '.views', '.controls', '.keep'].every(name => none.includes(name)));");
   EXPECT_EQ(noted(page), "true");
 }
 
