@@ -115,6 +115,7 @@ class Comparer {
   void findDisputes() {
     std::map<std::vector<double>, std::size_t> caseOf;  // by the values of the uncertain quantities
     for (std::size_t number = 0; number < ensemble_.size(); ++number) {
+      putKnown(ensemble_.trajectory(number));
       if (isInside(std::as_const(ensemble_).trajectory(number))) continue;
       const std::span<const double> values = ensemble_.valuesOf(number);
       const auto [known, isNew] = caseOf.try_emplace({values.begin(), values.end()}, cases_.size());
@@ -157,6 +158,18 @@ class Comparer {
     return part;
   }
 
+  /// What is known of outputs, where the sample has values.
+  void putKnown(std::span<double> trajectory) const {
+    for (std::size_t i = 0; options_.known != nullptr && i < trajectory.size(); ++i)
+      if (options_.known->holds(i) && !std::isnan(trajectory[i])) trajectory[i] = options_.known->values[i];
+  }
+
+  /// How far it may be off: that is no matter of this sample's integrations.
+  void putKnownErrors(std::vector<double>& error) const {
+    for (std::size_t i = 0; options_.known != nullptr && i < error.size(); ++i)
+      if (options_.known->holds(i)) error[i] = options_.known->error[i];
+  }
+
   /// Takes over a better trajectory of the disputed part, unless it ends before that does where the old one did not.
   bool replace(Case& c, std::span<const double> better) {
     const std::span<double> trajectory = ensemble_.trajectory(c.dispute.number);
@@ -165,7 +178,9 @@ class Comparer {
     c.error.assign(trajectory.size(), 0);
     for (std::size_t i = 0; i < better.size(); ++i) c.error[i] = std::abs(better[i] - trajectory[i]);
     accumulate(c.error);
+    putKnownErrors(c.error);
     std::ranges::copy(better, trajectory.begin());
+    putKnown(trajectory);
     c.times = timesOutside(trajectory);
     return true;
   }
@@ -232,6 +247,7 @@ class Comparer {
     if (!replace(c, roundedToDoubles(precise, c.times * ensemble_.outputs))) return;
     std::ranges::copy(precise.error, c.error.begin());  // the arbiter's last two integrations are both its own
     accumulate(c.error);
+    putKnownErrors(c.error);
     locate(c);
     c.settled = c.dispute.distance == 0;
     c.lookedAt = true;

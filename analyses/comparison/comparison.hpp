@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "analyses/comparison/unmoved.hpp"
 #include "analyses/samples/ensemble.hpp"
 
 namespace gamut {
@@ -46,7 +47,8 @@ struct EnclosureBounds {
 struct ComparisonOptions {
   double decisive = 10;     ///< a sample further outside than so many times its measured error refutes the enclosure
   bool asksArbiter = true;  ///< where it is already known that the enclosure is refuted, that can be saved
-  int jobs = 1;             ///< threads
+  const KnownOutputs* known = nullptr;  ///< what outputs are, whatever the sample
+  int jobs = 1;                         ///< threads
   std::function<void(double)>
       progress;  ///< called with the fraction of the arbiter's work that is done, from any thread
   const std::atomic<bool>* cancelled = nullptr;  ///< set from outside to end early; disputes left are "interrupted"

@@ -84,6 +84,7 @@ void Settlement::compareSome(const Envelope& bounds, int level, SampleBlock& blo
   ComparisonOptions options = options_;
   char& refuted = refuted_[static_cast<std::size_t>(level + 1)];
   options.asksArbiter = options.asksArbiter && refuted == 0;
+  options.known = &known_;
   Comparison found = compare({bounds, proved_.reachedTimes}, some, system_, options);
   for (Dispute& d : found.disputes) {
     refuted |= static_cast<char>(d.outside);
@@ -93,9 +94,58 @@ void Settlement::compareSome(const Envelope& bounds, int level, SampleBlock& blo
   take(found, level);
 }
 
+bool Settlement::leaves(const SampleBlock& block, std::size_t sample, std::size_t cell, const Envelope& bounds) const {
+  const double value = block(sample, 0, cell);
+  return value < bounds.lower.data[cell] || value > bounds.upper.data[cell];
+}
+
+/// One dispute stands for all: of the first sample that left its bounds by an output that is the same of all.
+void Settlement::tellOf(const SampleBlock& block, std::size_t sample, std::size_t cell, const Take& take) const {
+  const std::size_t outputs = known_.outputs;
+  int level = proved_.enclosure.empty() ? 0 : -1;
+  const auto boundsOf = [&] {
+    return &(level < 0 ? proved_.enclosure : proved_.cuts[static_cast<std::size_t>(level)]);
+  };
+  while (level + 1 < static_cast<int>(block.levels[sample]) && !leaves(block, sample, cell, *boundsOf())) ++level;
+  const Envelope& bounds = *boundsOf();
+  Dispute d;
+  d.number = block.first() + sample;
+  d.time = cell / outputs;
+  d.output = cell % outputs;
+  d.value = known_.values[cell];
+  d.lower = bounds.lower.data[cell];
+  d.upper = bounds.upper.data[cell];
+  d.error = known_.error[cell];
+  d.decided = "Taylor 128 bits";
+  d.farthest.assign(outputs, 0.0);
+  take({0, {std::move(d)}}, level);
+}
+
+/// Where an output leaves its bounds that is the same of all samples, it is settled for all that follow; what refutes
+/// the bounds stays a matter of every sample.
+void Settlement::settleOnce(SampleBlock& block, const std::vector<std::size_t>& disputed, const Take& take) {
+  if (moved_.empty()) moved_ = movedOutputs(system_);
+  const std::size_t outputs = moved_.size(), cells = proved_.reachedTimes * outputs;
+  if (std::ranges::find(moved_, 0) == moved_.end()) return;
+  for (std::size_t i = 0; i < disputed.size() && known_.values.empty(); ++i)
+    for (std::size_t cell = 0; cell < cells && known_.values.empty(); ++cell) {
+      const Envelope& bounds = tightest_[block.levels[disputed[i]]];
+      if (moved_[cell % outputs] != 0 || !leaves(block, disputed[i], cell, bounds)) continue;
+      known_ = settleUnmoved(system_, moved_, proved_.reachedTimes, options_.cancelled);
+      if (known_.values.empty()) return;  // it was cancelled
+      const double settled = known_.values[cell];
+      if (settled >= bounds.lower.data[cell] && settled <= bounds.upper.data[cell])
+        tellOf(block, disputed[i], cell, take);
+    }
+  for (const std::size_t i : disputed)
+    for (std::size_t cell = 0; cell < known_.values.size(); ++cell)
+      if (known_.holds(cell) && !std::isnan(block(i, 0, cell))) block(i, 0, cell) = known_.values[cell];
+}
+
 void Settlement::settle(SampleBlock& block, const Take& take) {
   const std::vector<std::size_t> disputed = leavers(block);
   if (disputed.empty()) return;
+  settleOnce(block, disputed, take);
   if (!proved_.enclosure.empty()) compareSome(proved_.enclosure, -1, block, disputed, take);
   for (std::size_t level = proved_.cuts.size(); level-- > 0;)
     compareSome(proved_.cuts[level], static_cast<int>(level), block, disputed, take);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "analyses/comparison/comparison.hpp"
+#include "analyses/comparison/unmoved.hpp"
 #include "analyses/samples/ensemble.hpp"
 
 namespace gamut {
@@ -25,8 +26,9 @@ class Settlement {
   /// Gets what one comparison found, with the numbers of the samples, and the level of its cut; -1: the enclosure.
   using Take = std::function<void(const Comparison&, int level)>;
 
-  /// Settles what is disputed of a block, against the enclosure, then from the narrowest cut to the widest. Once a
-  /// block has refuted one of them, no more samples go to the arbiter for its sake.
+  /// Settles what is disputed of a block, outputs that nothing uncertain moves once for all blocks, the rest against
+  /// the enclosure, then from the narrowest cut to the widest. Once a block has refuted one of them, no more samples go
+  /// to the arbiter for its sake.
   void settle(SampleBlock& block, const Take& take);
 
   /// The tightest bounds of a sample that lies in so many cuts; NaN beyond what is reached.
@@ -34,6 +36,9 @@ class Settlement {
 
  private:
   std::vector<std::size_t> leavers(const SampleBlock& block) const;
+  bool leaves(const SampleBlock& block, std::size_t sample, std::size_t cell, const Envelope& bounds) const;
+  void settleOnce(SampleBlock& block, const std::vector<std::size_t>& disputed, const Take& take);
+  void tellOf(const SampleBlock& block, std::size_t sample, std::size_t cell, const Take& take) const;
   void compareSome(const Envelope& bounds, int level, SampleBlock& block, const std::vector<std::size_t>& disputed,
                    const Take& take);
 
@@ -42,6 +47,8 @@ class Settlement {
   ComparisonOptions options_;
   std::vector<Envelope> tightest_;  // of the samples in so many cuts
   std::vector<char> refuted_;       // the enclosure, then each cut
+  std::vector<char> moved_;         // of the outputs; empty until that is asked
+  KnownOutputs known_;              // of those that are not, once one of them was disputed
 };
 
 }  // namespace gamut
