@@ -38,9 +38,11 @@ inline std::array<Interval, 11> arcSineCoefficients() {
 /// θ u [rad] of a rotation by the angle θ, from 0 to π, about the unit vector u. Singular at θ = π. With w = 2 sin θ u,
 /// which R - Rᵀ holds, it is w (θ/sin θ)/2, and
 ///   θ/sin θ = asin(x)/x / (cos(θ/2) cos(θ/4) cos(θ/8) cos(θ/16)),   x = sin(θ/16)   (F. Viète, 1593).
+/// Half of each component is from -π/2 to π/2, so that it is the arc sine of its sine, which says no more than that of
+/// what is not known.
 template <class S>
 Vector3<S> rotationVector(const Matrix3<S>& r) {
-  using std::sqrt;
+  using std::asin, std::sin, std::sqrt;
   const S half(0.5);
   const Vector3<S> w(r(2, 1) - r(1, 2), r(0, 2) - r(2, 0), r(1, 0) - r(0, 1));
   // cos²(θ/2) = A = A² + A (1 - A), of which near θ = π the second keeps its digits.
@@ -54,7 +56,10 @@ Vector3<S> rotationVector(const Matrix3<S>& r) {
   const S xx = S(1.0) - cosine * cosine;
   S series = constant<S>(c.back());
   for (std::size_t k = c.size() - 1; k-- > 0;) series = constant<S>(c[k]) + xx * series;
-  return w * S(half * series / product);
+  const S quarter = half * half * series / product;
+  Vector3<S> turn;
+  for (int i = 0; i < 3; ++i) turn[i] = S(2.0) * S(asin(S(sin(S(w[i] * quarter)))));
+  return turn;
 }
 
 /// The acceleration of a point fixed in the frame, in its axes.

@@ -422,13 +422,7 @@ bool FlowFollower::record(FlowPiece& piece) {
   std::vector<Interval> end, endOutputs, endLimits, before = piece.last, beforeLimits = piece.lastOutputs, behind;
   std::vector<Interval> behindOutputs, behindLimits;
   std::shared_ptr<const FlowSnapshot> endModel, beforeModel = piece.lastModel, behindModel;
-  double from = t0;
-  bool chordsKnown = false;
-  const auto loadChords = [&] {
-    giveSigns(piece, stepper.signsOver(signs_));
-    if (!chordsKnown) tool_->chords->load(stepper, t0, parameters_);
-    chordsKnown = true;
-  };
+  double from = t0, loadedTo = t0;                    // chords are known from before `from` up to `loadedTo`
   if (outputs_ && signs_ > 0 && stepper.narrows()) {  // a sign may be another from here on than it was until now
     enclose(piece, 0.0, behind, behindOutputs, false);
     beforeLimits = outputLimits_;
@@ -450,7 +444,7 @@ bool FlowFollower::record(FlowPiece& piece) {
     if (stepper.narrows()) stepper.narrowOver(between);
     for (std::size_t i = 0; i < between.size(); ++i) piece.over[i] = hull(piece.over[i], between[i]);
     if (outputs_) {
-      loadChords();
+      giveSigns(piece, stepper.signsOver(signs_));
       tool_->chords->sag(from - t0, to - t0, sag_);
       const bool knowsMore = knowsMoreByBoxes();
       findBoxes(t0, Interval(from, to), between);
@@ -490,7 +484,6 @@ bool FlowFollower::record(FlowPiece& piece) {
   };
   const auto modelUntil = [&](double to) {  // further chords before `to`, where models are wanted
     if (!outputs_ || !run_.keepsModels() || !beforeModel || task_.options.modelled.empty()) return;
-    loadChords();
     const double begin = from;
     const int parts = chordsFor(piece, beforeLimits, from - t0, to - t0);
     for (int part = 1; part < parts; ++part) {
@@ -498,16 +491,56 @@ bool FlowFollower::record(FlowPiece& piece) {
       if (until > from && until < to) endPart(until);
     }
   };
+  // Chords of the rest of the step, or of as much of it as they can be proved for: what is bounded at a moment may be
+  // so over a short time alone. What is not even then is left to plain intervals.
+  double length = 0.5 * (t1 - t0);
+  int inVain = 0;
+  const auto loadChords = [&] {
+    constexpr int enoughInVain = 12;
+    const double least = (t1 - t0) / 64;
+    std::vector<char> isKnown(at(outputs_->count()));
+    for (int o = 0; o < outputs_->count(); ++o) isKnown[at(o)] = std::isfinite(outputs_->radius(o)) ? 1 : 0;
+    const auto isLacking = [&] {  // an output that is known at one end
+      std::vector<int> open;
+      for (int o = 0; o < outputs_->count(); ++o)
+        if (!tool_->chords->isBounded(o)) open.push_back(o);
+      if (open.empty()) return false;
+      enclose(piece, loadedTo - t0, end, endOutputs);
+      return std::ranges::any_of(open,
+                                 [&](int o) { return isKnown[at(o)] != 0 || std::isfinite(outputs_->radius(o)); });
+    };
+    for (length = std::max(2 * length, least);; length *= 0.5) {
+      const double until = from + length;
+      loadedTo = inVain < enoughInVain && from < until && until < t1 ? until : t1;
+      giveSigns(piece, stepper.signsOver(signs_));
+      tool_->chords->load(stepper, t0, parameters_, from - t0, loadedTo - t0);
+      if (inVain == enoughInVain || !isLacking()) return;
+      if (!(length > least)) {
+        ++inVain;
+        return;
+      }
+    }
+  };
+  const auto prepare = [&](double to) {
+    while (outputs_) {
+      if (!(loadedTo > from)) loadChords();
+      if (to <= loadedTo) break;
+      const double until = loadedTo;
+      modelUntil(until);
+      endPart(until);
+    }
+    modelUntil(to);
+  };
   std::vector<double> turning;
   if (outputs_ && signs_ > 0 && stepper.narrows()) turning = turns(t1 - t0);
   const auto partUntil = [&](double to) {  // a part for each way that signs are
     for (const double turn : turning) {
       const double until = t0 + turn;
       if (!(until > from && until < to)) continue;
-      modelUntil(until);
+      prepare(until);
       endPart(until);
     }
-    modelUntil(to);
+    prepare(to);
   };
   for (; piece.next < times.size() && times[piece.next] <= t1; ++piece.next) {
     partUntil(times[piece.next]);

@@ -189,14 +189,49 @@ FlowOutputChords::FlowOutputChords(const Program& g, std::shared_ptr<const Monom
       turn_(at(outputs_)),
       rest_(at(outputs_)) {}
 
-/// As few orders in time as do: what is dropped of every state is small against what is uncertain about it.
-int FlowOutputChords::orderFor(const FlowStepper& stepper, std::vector<double>& dropped) const {
+/// The states' polynomials from the step's start, or moved: p(a + σ) by synthetic division, m times. Its coefficient k
+/// is the sum of C(j, k) a^(j-k) p_j with 2m + 1 roundings a term at most, so all are off by no more than (2m + 2) u
+/// Σ_j |p_j| (a + θ)^j together, σ in [0, θ].
+FlowOutputChords::Part FlowOutputChords::partOf(const FlowStepper& stepper, double from, double to) const {
   const PolynomialSeries& states = stepper.series();
-  const int stride = states.stride();
+  constexpr double mostOfStep = 0.75;  // θ of a part stays below 1
+  Part part;
+  part.rounding.assign(at(n_), 0.0);
+  if (!(to - from <= mostOfStep * stepper.h())) {
+    part.to = stepper.h();
+    part.theta = stepper.theta();
+    for (int i = 0; i < n_; ++i) part.states.push_back(states.series(i));
+    return part;
+  }
+  part.from = from;
+  part.to = to;
+  part.theta = (to - from) / stepper.scale() * bounds::up;
+  const double a = from / stepper.scale(), end = a + part.theta;
+  const int stride = states.stride(), count = states.count();
+  for (int i = 0; i < n_; ++i) {
+    part.moved.insert(part.moved.end(), states.series(i), states.series(i) + at(count * stride));
+    double size = 0;
+    for (int g = 0; g < count; ++g) {
+      double* c = &part.moved[at((i * count + g) * stride)];
+      double sum = 0;
+      for (int j = order_; j-- > 0;) sum = sum * end + std::fabs(c[j]);
+      size += sum;
+      for (int k = 0; k + 1 < order_; ++k)
+        for (int j = order_ - 1; j-- > k;) c[j] += a * c[j + 1];
+    }
+    part.rounding[at(i)] = ((2 * order_ + 2) * bounds::unit * size + bounds::tiny) * bounds::up;
+  }
+  for (int i = 0; i < n_; ++i) part.states.push_back(&part.moved[at(i * count * stride)]);
+  return part;
+}
+
+/// As few orders in time as do: what is dropped of every state is small against what is uncertain about it.
+int FlowOutputChords::orderFor(const FlowStepper& stepper, const Part& part, std::vector<double>& dropped) const {
+  const int stride = stepper.series().stride(), count = stepper.series().count();
   const auto norm = [&](int i, int order, int from) {
     double sum = 0;
-    for (int g = from; g < states.count(); ++g) sum += std::fabs(states.series(i)[g * stride + order]);
-    return sum * std::pow(stepper.theta(), order);
+    for (int g = from; g < count; ++g) sum += std::fabs(part.states[at(i)][g * stride + order]);
+    return sum * std::pow(part.theta, order);
   };
   // What time itself moves is followed further than the states tell.
   constexpr int ofTime = 14;
@@ -208,7 +243,7 @@ int FlowOutputChords::orderFor(const FlowStepper& stepper, std::vector<double>& 
     while (needed > order && (tail += norm(i, needed - 1, 0)) <= allowed) --needed;
     order = std::max(order, needed);
   }
-  dropped.assign(at(n_), 0.0);
+  dropped = part.rounding;
   for (int i = 0; i < n_; ++i)
     for (int k = order; k < order_; ++k) dropped[at(i)] += norm(i, k, 0) * bounds::up;
   return order;
@@ -218,27 +253,35 @@ int FlowOutputChords::orderFor(const FlowStepper& stepper, std::vector<double>& 
 /// g̃, G̃ the polynomials in σ that are kept of g(p) and, without ξ, of G:  y = z + ε,  z = g̃ + G̃ Ψ v, |ε| ≤ |g(p) - g̃| +
 /// |G - G̃| |x - p| + |G̃| |loose|. z leaves its chord as far as its second derivative allows; the chord of z is within
 /// |ε| of that of y, as z is of y: together 2 |ε|.
-void FlowOutputChords::load(const FlowStepper& stepper, double t0, const std::vector<Embedded>& parameters) {
-  isApart_ = !loadTogether(stepper, t0, parameters) && outputs_ > 1;
+void FlowOutputChords::load(const FlowStepper& stepper, double t0, const std::vector<Embedded>& parameters, double from,
+                            double to) {
+  loadPart(stepper, t0, parameters, partOf(stepper, from, to));
+}
+
+void FlowOutputChords::loadPart(const FlowStepper& stepper, double t0, const std::vector<Embedded>& parameters,
+                                const Part& part) {
+  isApart_ = !loadTogether(stepper, t0, parameters, part) && outputs_ > 1;
   if (!isApart_) return;
   if (apart_.empty())
     for (int o = 0; o < outputs_; ++o)
       apart_.emplace_back(alone(g_, o), layout_, order_ - 1, length_, resolution_, cancelled_);
-  for (FlowOutputChords& own : apart_) own.load(stepper, t0, parameters);
+  for (FlowOutputChords& own : apart_) own.loadPart(stepper, t0, parameters, part);
 }
 
-bool FlowOutputChords::loadTogether(const FlowStepper& stepper, double t0, const std::vector<Embedded>& parameters) {
+bool FlowOutputChords::loadTogether(const FlowStepper& stepper, double t0, const std::vector<Embedded>& parameters,
+                                    const Part& part) {
   const PolynomialSeries& states = stepper.series();
-  const double theta = stepper.theta(), infinite = std::numeric_limits<double>::infinity();
+  const double theta = part.theta, infinite = std::numeric_limits<double>::infinity();
   scale_ = stepper.scale();
+  from_ = part.from;
   std::fill(rest_.begin(), rest_.end(), infinite);
   std::vector<double> dropped;
-  series_.setOrder(orderFor(stepper, dropped));
-  for (int i = 0; i < n_; ++i) series_.setStateSeries(i, states.series(i), states.stride());
+  series_.setOrder(orderFor(stepper, part, dropped));
+  for (int i = 0; i < n_; ++i) series_.setStateSeries(i, part.states[at(i)], states.stride());
   for (std::size_t i = 0; i < parameters.size(); ++i) series_.setParameter(static_cast<int>(i), parameters[i]);
   series_.forgetCrossings();
-  timeKinks_.giveSides(parameters, t0, t0 + stepper.h(), series_);
-  series_.compute(t0, scale_);
+  timeKinks_.giveSides(parameters, t0 + part.from, t0 + part.to, series_);
+  series_.compute(t0 + part.from, scale_);  // exact: docs/flow.md, "Time"
   std::vector<double> own(at(outputs_)), tube(at(n_));
   for (int i = 0; i < n_; ++i) tube[at(i)] = (stepper.tubeBound(i) + dropped[at(i)]) * bounds::up;
   series_.forgetJumps();
@@ -254,13 +297,14 @@ bool FlowOutputChords::loadTogether(const FlowStepper& stepper, double t0, const
     third_[at(o)] = series_.derivativeNorm(node, 3, theta);
   }
   if (!series_.bound(tube.data(), false)) return false;
-  // Σ_j |Ψ^{(k)}| total_j and all of |x - p|, for every state.
+  // Σ_j |Ψ^{(k)}| total_j and all of |x - p|, for every state, over the whole step.
   std::vector<double> moved(at(3 * n_), 0.0), loose(at(n_));
   for (int i = 0; i < n_; ++i) {
     loose[at(i)] = stepper.looseBound(i);
     for (int j = 0; j < n_; ++j)
       if (const double total = stepper.totalBound(j); total > 0)
-        for (int k = 0; k < 3; ++k) moved[at(3 * i + k)] += states.frameDerivativeNorm(i, j, k, theta) * total;
+        for (int k = 0; k < 3; ++k)
+          moved[at(3 * i + k)] += states.frameDerivativeNorm(i, j, k, stepper.theta()) * total;
   }
   for (int o = 0; o < outputs_; ++o) {
     double rest = own[at(o)], turn = 0;
@@ -277,6 +321,10 @@ bool FlowOutputChords::loadTogether(const FlowStepper& stepper, double t0, const
   return true;
 }
 
+bool FlowOutputChords::isBounded(int output) const {
+  return isApart_ ? apart_[at(output)].isBounded(0) : rest_[at(output)] < std::numeric_limits<double>::infinity();
+}
+
 void FlowOutputChords::sag(double from, double to, std::vector<Interval>& bound) const {
   bound.clear();
   if (isApart_) {
@@ -287,12 +335,12 @@ void FlowOutputChords::sag(double from, double to, std::vector<Interval>& bound)
     }
     return;
   }
+  const double begin = (from - from_) / scale_, end = (to - from_) / scale_;
   for (int o = 0; o < outputs_; ++o)
-    bound.push_back(rest_[at(o)] < std::numeric_limits<double>::infinity()
-                        ? inflated(series_.sag(series_.outputNode(o), from / scale_, to / scale_, second_[at(o)],
-                                               third_[at(o)], turn_[at(o)]),
-                                   rest_[at(o)])
-                        : Interval::entire());
+    bound.push_back(isBounded(o) ? inflated(series_.sag(series_.outputNode(o), begin, end, second_[at(o)],
+                                                        third_[at(o)], turn_[at(o)]),
+                                            rest_[at(o)])
+                                 : Interval::entire());
 }
 
 }  // namespace gamut

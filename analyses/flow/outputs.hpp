@@ -67,15 +67,25 @@ class FlowOutputChords {
   FlowOutputChords(const Program& g, std::shared_ptr<const Monomials> monomials, int order, double length,
                    double resolution, const std::atomic<bool>* cancelled = nullptr);
 
-  /// Composes g with the step that `stepper` certified last from t0.
-  void load(const FlowStepper& stepper, double t0, const std::vector<Embedded>& parameters);
-  /// How far every output leaves the hull of its enclosures at two moments of the step, in seconds from its start,
-  /// between them; the whole line where nothing could be proved.
+  /// Composes g with a part, in seconds from its start, of the step that `stepper` certified last from t0: what cannot
+  /// be proved of a polynomial over all of the step may be over a part.
+  void load(const FlowStepper& stepper, double t0, const std::vector<Embedded>& parameters, double from, double to);
+  /// How far every output leaves the hull of its enclosures at two moments of what was loaded, in seconds from the
+  /// step's start, between them; the whole line where nothing could be proved.
   void sag(double from, double to, std::vector<Interval>& bound) const;
+  bool isBounded(int output) const;
 
  private:
-  bool loadTogether(const FlowStepper& stepper, double t0, const std::vector<Embedded>& parameters);
-  int orderFor(const FlowStepper& stepper, std::vector<double>& dropped) const;
+  /// States as polynomials in time from `from` on, up to θ.
+  struct Part {
+    double from = 0, to = 0, theta = 1;  // s, from the step's start; in units of its scale
+    std::vector<const double*> states;
+    std::vector<double> rounding, moved;  // of every state; where they had to be moved, their coefficients
+  };
+  Part partOf(const FlowStepper& stepper, double from, double to) const;
+  void loadPart(const FlowStepper& stepper, double t0, const std::vector<Embedded>& parameters, const Part& part);
+  bool loadTogether(const FlowStepper& stepper, double t0, const std::vector<Embedded>& parameters, const Part& part);
+  int orderFor(const FlowStepper& stepper, const Part& part, std::vector<double>& dropped) const;
 
   Program g_, differentiated_;
   int n_, outputs_, order_;
@@ -85,7 +95,7 @@ class FlowOutputChords {
   double length_, resolution_;
   TimeKinks timeKinks_;
   bool dependsOnTime_;
-  double scale_ = 1;
+  double scale_ = 1, from_ = 0;
   std::vector<double> second_, third_, turn_, rest_;  // of g̃: derivatives by σ; of what is not g̃: z'', 2 |ε|
   std::vector<FlowOutputChords> apart_;               // as above
   bool isApart_ = false;                              // at present

@@ -23,7 +23,8 @@ void RelativeMotion::describe(Fields& f) {
   vector("acceleration", "m/s^2", "of `to_point`, as `from` sees it", true);
   vector("angular_velocity", "rad/s", "of `to`, as `from` sees it");
   vector("angular_acceleration", "rad/s^2", "of `to`, as `from` sees it", true);
-  vector("rotation_vector", "rad", "of `to` against `from`: axis times angle; singular at the angle π");
+  vector("rotation_vector", "rad",
+         "of `to` against `from`: axis times angle, each from -π to π; singular at the angle π");
   f.measure({"orientation.roll", "rad", "of `to` against `from`: first, about x of `from`"});
   f.measure({"orientation.pitch", "rad", "then about y of `from`; at ± π/2 all three are singular"});
   f.measure({"orientation.yaw", "rad", "then about z of `from`"});

@@ -139,9 +139,13 @@ class ContentReader {
     std::size_t size = 0;
     for (const Field& field : group.fields(0)) {
       Hdf5Shape shape;
+      std::vector<std::size_t> expected = shapeOf(field.dimensions, extents_);
+      if (std::ranges::find(expected, 0U) != expected.end()) {  // nothing is written of no numbers
+        columns.emplace_back(std::vector<double>());
+        continue;
+      }
       columns.push_back(columnOf(field, in, shape));
       if (columns.size() == 1 && shape.size() == 1) size = shape.front();
-      std::vector<std::size_t> expected = shapeOf(field.dimensions, extents_);
       expected.insert(expected.begin(), size);
       if (size == 0 || !std::ranges::equal(shape, expected)) throw Hdf5Error(pathOf(group, field));
     }

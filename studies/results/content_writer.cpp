@@ -160,7 +160,7 @@ class ContentWriter {
                   std::vector<double> numbers;
                   for (const auto& some : column<std::vector<double>, std::vector<double>>(records, f))
                     numbers.insert(numbers.end(), some.begin(), some.end());
-                  writeNumberColumn(numbers);
+                  if (!numbers.empty()) writeNumberColumn(numbers);  // none where nothing is uncertain, say
                 },
                 [&](const auto&) { throw std::logic_error(pathOf(group, field) + ": no record has such a field"); }},
         field.value);

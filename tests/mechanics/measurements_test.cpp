@@ -231,6 +231,20 @@ TEST(Orientation, TheRotationVectorIsTheAngle) {
   }
 }
 
+/// However little is known of an orientation, its rotation vector is no longer than π in any direction.
+TEST(Orientation, TheRotationVectorIsNowhereBeyondHalfATurn) {
+  Mechanism m;
+  m.add(Revolute{"a", "inertial", "A", axisY});
+  m.add(Mass{"body", "A", 1.0, {0.0, 0.0, 0.0}, {1.0, 1.0, 1.0, 0.0, 0.0, 0.0}});
+  Assembly<Interval> turned(m);
+  for (const Interval& angle : {Interval(3.0, 3.3), Interval(-4.0, 4.0), halfPi() + halfPi()}) {
+    turned.setState(std::vector<Interval>{angle, 0.0});
+    const Interval found = turned.output("A.rotation_vector.y");
+    EXPECT_LE(magnitude(found), 3.1415926535897940) << angle;
+    EXPECT_TRUE(contains(found, angle.lower())) << found << " " << angle;
+  }
+}
+
 /// Without forces from outside, momentum and the angular momentum about the origin stay; with gravity they change by
 /// it.
 TEST(Momentum, ChangesByForcesFromOutside) {

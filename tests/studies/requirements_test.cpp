@@ -239,6 +239,70 @@ TEST(Requirements, AreSampledWithoutAGuarantee) {
   EXPECT_EQ(named(results, "met").violating, 0);
 }
 
+/// A hinge that is driven at 2 rad/s beside one that turns at 1 rad/s: in one step, of angles that are kinks at first.
+TEST(Requirements, AreProvedOfAnglesBetweenOutputTimes) {
+  const std::string study = R"([study]
+analysis = "dynamics"
+horizon = 3.6
+output_times = [0.5, 1, 2, 3]
+compare = ["interval", "stochastic"]
+[mechanism]
+[[mechanism.element]]
+type = "revolute"
+name = "driven"
+from = "inertial"
+to = "P"
+axis = "z"
+[[mechanism.element]]
+type = "drive"
+name = "drive"
+joint = "driven"
+position = "2 rad/s*t"
+[[mechanism.element]]
+type = "revolute"
+name = "free"
+from = "inertial"
+to = "B"
+axis = "z"
+initial = { rate = 1.0 }
+[[mechanism.element]]
+type = "mass"
+name = "body"
+at = "B"
+mass = 1
+inertia = [1, 1, 1]
+[[mechanism.element]]
+type = "relative-motion"
+name = "seen"
+from = "P"
+to = "B"
+axis = "x"
+[[output]]
+quantity = "seen.rotation_vector.z"
+[[requirement]]
+name = "turned"
+always = "abs(seen.rotation_vector.z) < 2.05 rad"
+until = 2
+[[requirement]]
+name = "apart"
+always = "seen.angle < 2.05 rad"
+until = 2
+[[requirement]]
+name = "no farther than that"
+always = "abs(seen.rotation_vector.z) < 3.1416 rad"
+[stochastic]
+samples = 16
+[distribution]
+times = 0
+)";
+  const Results results = run(read(study), {});
+  EXPECT_EQ(results.comparison.verdict, "inside");
+  for (const RequirementResult& requirement : results.requirements) EXPECT_EQ(requirement.word, "met");
+  TemporaryFolder folder;  // of nothing that is uncertain there are no values that violate it
+  writeResults(results, folder.path("r.h5"));
+  EXPECT_EQ(differences(readResults(folder.path("r.h5")), results), std::vector<std::string>{});
+}
+
 TEST(Requirements, HoldWithoutMotion) {
   const Results results = run(read(R"([study]
 analysis = "kinematics"

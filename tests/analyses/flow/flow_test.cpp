@@ -707,6 +707,31 @@ TEST(Flow, OutputsBetweenFarTimesHoldFastMotion) {
     }
 }
 
+/// The motion is linear in time, so that one step is all of it; what is a number at each moment has no polynomial over
+/// so long a time, and at the start √(x²) has a kink.
+TEST(Flow, OutputsThatNoStepBoundsAreBoundedOverPartsOfIt) {
+  for (const double radius : {0.0, 1e-6, 1e-3}) {
+    SCOPED_TRACE(radius);
+    Containment c;
+    c.f = oneState([](const Recorded&, const Recorded&) { return Recorded(1.0); });
+    c.g = record(1, 0, 3, [](auto t, const auto& x, const auto&, auto& y) {
+      y[0] = sqrt(0.5 + 0.5 * cos(x[0]));
+      y[1] = atan2(sin(x[0]), cos(x[0]));
+      y[2] = sqrt(sqr(sin(2.0 * t)) + sqr(sin(x[0] - t)));
+    });
+    c.box = {Interval(-radius, radius)};
+    c.horizon = 2.5;
+    c.times = {0.5, 1};
+    const Tube tube = expectContainment(c, 4);
+    for (std::size_t row = 1; row < tube.reachedTimes(); ++row)
+      for (const std::size_t output : {0U, 1U, 2U}) {
+        const Interval over = tube.outputsOver(row)[output];
+        const double most = output == 2 ? 1 : width(hull(tube.outputs(row - 1)[output], tube.outputs(row)[output]));
+        EXPECT_LE(width(over), 1.02 * most + 0.01) << "output " << output << " until " << tube.times()[row];
+      }
+  }
+}
+
 /// Steps of different lengths keep different orders of the outputs' series; the certificate of a system reads beyond.
 TEST(Flow, OutputsOfLinearSystemsBetweenTimesHoldTheirTrajectories) {
   for (double radius : {1e-10, 1e-4, 0.05}) {
