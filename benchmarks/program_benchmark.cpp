@@ -1,12 +1,15 @@
 // One evaluation of the double pendulum's right-hand side: the same formula in plain C++ (the baseline), then the
-// recorded program with doubles and with intervals.
+// recorded program with doubles and with intervals. Then the time that a
+// saved program of that many nodes takes to load, which is to grow as they do.
 #include <benchmark/benchmark.h>
 
 #include <array>
 #include <span>
+#include <sstream>
 
 #include "benchmarks/double_pendulum.hpp"
 #include "scalars/evaluation/evaluator.hpp"
+#include "scalars/program/program_text.hpp"
 
 namespace gamut::benchmarks {
 namespace {
@@ -54,6 +57,24 @@ void recorded(benchmark::State& state) {
 }
 BENCHMARK(recorded<double>)->Name("recordedDoubles");
 BENCHMARK(recorded<Interval>)->Name("recordedIntervals");
+
+/// A chain of signs, and functions that all divide by its square.
+void loaded(benchmark::State& state) {
+  const auto signs = static_cast<int>(state.range(0));
+  Recorder recorder(1, 0, RuleSet::none());
+  int x = 0;
+  for (int i = 0; i < signs; ++i) x = recorder.neg(x);
+  const int square = recorder.sqr(x), denominator = recorder.add(recorder.constant(1.0), square);
+  for (int i = 0; i < signs; ++i) recorder.emit(Op::atan, x, denominator);
+  std::ostringstream text;
+  saveProgram(text, recorder.program({recorder.size() - 1}));
+  for (auto _ : state) {
+    std::istringstream in(text.str());
+    benchmark::DoNotOptimize(loadProgram(in));
+  }
+  state.SetComplexityN(signs);
+}
+BENCHMARK(loaded)->RangeMultiplier(4)->Range(1000, 64000)->Unit(benchmark::kMillisecond)->Complexity();
 
 }  // namespace
 }  // namespace gamut::benchmarks

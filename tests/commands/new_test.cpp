@@ -33,7 +33,7 @@ TEST_F(NewCommand, WritesAStudyThatRunsAtOnceAndSaysWhatToDoNext) {
   for (const char* next : {"gamut run arm.toml", "gamut validate arm.toml"}) EXPECT_THAT(written.out, HasSubstr(next));
   EXPECT_EQ(folder_.read("arm.toml"), shippedStudy());
   EXPECT_EQ(gamut("validate arm.toml").exitCode, 0);
-  const Outcome run = gamut("run arm.toml --time-limit 10 --jobs 2");
+  const Outcome run = gamut("run arm.toml --jobs 2");
   EXPECT_EQ(run.exitCode, 0) << run.error;
   EXPECT_THAT(run.out, HasSubstr("All 1476 sampled motions stay inside the guaranteed enclosure from 0 s to 2 s"));
 }

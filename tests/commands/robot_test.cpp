@@ -57,7 +57,7 @@ TEST_F(RobotCommands, NewWritesAStudyThatRunsAndRefersToTheFile) {
        {"urdf = \"../robots/r.urdf\"", "friction = false", "hinge.angle = \"0.2 rad\"", "slider.displacement = \"0 m\"",
         "left-finger.angle = \"0.2 rad\"", "quantity = \"upper.mass\"\ninterval = \"± 1 %\""})
     EXPECT_THAT(study, HasSubstr(line));
-  const Outcome run = gamut("run studies/arm.toml --samples 64 --time-limit 20 --jobs 2 -o arm.h5 --report arm.html");
+  const Outcome run = gamut("run studies/arm.toml --samples 64 --jobs 2 -o arm.h5 --report arm.html");
   EXPECT_EQ(run.exitCode, 0) << run.error;
   EXPECT_THAT(run.out, StartsWith("All "));
   std::filesystem::remove(folder_.path("robots/r.urdf"));

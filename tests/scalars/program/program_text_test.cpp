@@ -6,7 +6,6 @@
 
 #include <sys/resource.h>
 
-#include <chrono>
 #include <iomanip>
 #include <locale>
 #include <regex>
@@ -347,7 +346,8 @@ TEST(SavedProgram, WithSystemsLooksAsDocumentedAndIsRefusedWithOneLine) {
   for (const auto& [from, to, message] : cases) EXPECT_THAT(refusal(text, from, to), HasSubstr(message));
 }
 
-TEST(SavedProgram, TakesTheTimeOfItsLengthToLoad) {
+/// (How long that takes is measured in benchmarks/program_benchmark.cpp.)
+TEST(SavedProgram, IsLoadedHoweverLongItsChains) {
   constexpr int signs = 60000;
   Recorder r(1, 0, RuleSet::none());
   int x = 0;
@@ -355,9 +355,7 @@ TEST(SavedProgram, TakesTheTimeOfItsLengthToLoad) {
   const int square = r.sqr(x), denominator = r.add(r.constant(1.0), square);
   for (int i = 0; i < signs; ++i) r.emit(Op::atan, x, denominator);
   const std::string text = saved(r.program({r.size() - 1}));
-  const auto start = std::chrono::steady_clock::now();
   EXPECT_EQ(loaded(text).nodes().size(), static_cast<std::size_t>(r.size()));
-  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
 }
 
 TEST(SavedProgram, TakesTheMemoryOfALineToRefuseIt) {
