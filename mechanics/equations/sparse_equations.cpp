@@ -7,7 +7,7 @@
 
 #include "scalars/algebra/linear_reduction.hpp"
 #include "scalars/algebra/linear_system.hpp"
-#include "scalars/program/differentiation.hpp"
+#include "scalars/program/directions.hpp"
 
 namespace gamut {
 namespace {
@@ -53,15 +53,17 @@ std::vector<Recorded> constantParts(System<Recorded>& system, const Cuts& cuts) 
 }
 
 /// Row by row: unknown − ∂value/∂unknowns for each cut, −∂Q/∂unknowns for each generalised force.
-std::vector<Recorded> matrixOf(const Cuts& cuts, std::size_t degrees) {
-  Recorder& recorder = *Recorder::current();
+LinearReduction::Rows matrixOf(const Cuts& cuts, std::size_t degrees) {
   const std::size_t n = cuts.unknowns.size();
-  std::vector<Recorded> matrix(n * n);
+  Directions directions(*Recorder::current(), cuts.values);
+  LinearReduction::Rows matrix(n);
   for (std::size_t j = 0; j < n; ++j) {
-    const std::vector<int> derivatives = tangents(recorder, cuts.values, {{cuts.unknowns[j], recorder.constant(1.0)}});
-    for (std::size_t i = 0; i < n; ++i) {
-      const Recorded derivative = Recorded::node(derivatives[i]);
-      matrix[i * n + j] = i + degrees == j ? 1.0 - derivative : -derivative;
+    const auto column = static_cast<int>(j);
+    if (j >= degrees) matrix[j - degrees][column] = 1.0;
+    for (const auto& [i, node] : directions.along(cuts.unknowns[j])) {
+      const Recorded derivative = Recorded::node(node);
+      Recorded& entry = matrix[at(i)][column];
+      entry = at(i) + degrees == j ? 1.0 - derivative : -derivative;
     }
   }
   return matrix;
@@ -72,15 +74,18 @@ std::vector<Recorded> matrixOf(const Cuts& cuts, std::size_t degrees) {
 std::vector<Recorded> sparseAccelerations(System<Recorded>& system) {
   const std::size_t degrees = at(system.degreesOfFreedom());
   const Cuts cuts = cutEverywhere(system);
-  std::vector<Recorded> right = constantParts(system, cuts), matrix = matrixOf(cuts, degrees);
-  const std::size_t n = cuts.unknowns.size();
+  std::vector<Recorded> right = constantParts(system, cuts);
+  LinearReduction::Rows matrix = matrixOf(cuts, degrees);
 
-  const LinearReduction reduction(static_cast<int>(n), matrix);
+  const LinearReduction reduction(matrix);
   reduction.reduce(right);
-  std::vector<Recorded> rest, restRight, x(n);
+  std::vector<Recorded> rest, restRight, x(cuts.unknowns.size());
   for (int i : reduction.rows()) {
     restRight.push_back(right[at(i)]);
-    for (int j : reduction.columns()) rest.push_back(matrix[at(i) * n + at(j)]);
+    for (int j : reduction.columns()) {
+      const auto entry = matrix[at(i)].find(j);
+      rest.push_back(entry == matrix[at(i)].end() ? Recorded(0.0) : entry->second);
+    }
   }
   if (!restRight.empty())
     LinearSystem<Recorded>(MatrixKind::general, static_cast<int>(restRight.size()), std::move(rest)).solve(restRight);

@@ -22,6 +22,8 @@ class System;
 
 /// Throws std::logic_error if a load depends on accelerations.
 void checkLoads(System<Recorded>& system);
+/// Throws std::domain_error if a speed moves no inertia.
+void checkMoved(System<Recorded>& system);
 /// sparse_equations.hpp
 std::vector<Recorded> sparseAccelerations(System<Recorded>& system);
 
@@ -95,6 +97,10 @@ class System {
   S energy() const { return kineticEnergy() + potentialEnergy(); }
 
   void setAccelerations(const std::vector<S>& values);
+  const Speeds& speeds() const { return speeds_; }
+
+  /// Of the bodies, for these u̇ and without velocities, all components that an inertia resists.
+  std::vector<S> resisted(const std::vector<S>& accelerations);
 
  private:
   Vector3<S> baseAtRest() const { return shaking_ ? Vector3<S>(shaking_() - gravity_) : Vector3<S>(-gravity_); }

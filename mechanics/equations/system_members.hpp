@@ -140,6 +140,18 @@ std::vector<InertiaWeight<S>> System<S>::inertiaWeights() const {
 }
 
 template <class S>
+std::vector<S> System<S>::resisted(const std::vector<S>& accelerations) {
+  const std::vector<InertiaWeight<S>> weights = inertiaWeights();
+  setAccelerations(accelerations);
+  doMotion(MotionLevel::acceleration);
+  const std::vector<S> rows = bodyAccelerations();
+  std::vector<S> found;
+  for (const InertiaWeight<S>& weight : weights)
+    for (const int row : {weight.k, weight.l}) found.push_back(rows[static_cast<std::size_t>(row)]);
+  return found;
+}
+
+template <class S>
 std::vector<std::vector<S>> System<S>::unitColumns() {
   std::vector<std::vector<S>> columns;
   const std::vector<InertiaWeight<S>> weights = inertiaWeights();
@@ -194,7 +206,7 @@ std::vector<S> System<S>::start(const std::vector<std::vector<S>>& columns,
 template <class S>
 std::vector<S> System<S>::solved() {
   if constexpr (std::is_same_v<S, Recorded>) {
-    unitColumns();
+    checkMoved(*this);
     return sparseAccelerations(*this);
   } else {
     return solvedByInertia();

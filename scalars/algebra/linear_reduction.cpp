@@ -2,8 +2,9 @@
 #include "scalars/algebra/linear_reduction.hpp"
 
 #include <algorithm>
-#include <limits>
-#include <numeric>
+#include <compare>
+#include <optional>
+#include <set>
 #include <utility>
 
 namespace gamut {
@@ -21,52 +22,112 @@ double sizeOfNumber(const Recorded& x) {
 
 }  // namespace
 
-LinearReduction::LinearReduction(int size, std::vector<Recorded>& entries) : rows_(at(size)), columns_(at(size)) {
-  std::iota(rows_.begin(), rows_.end(), 0);
-  std::iota(columns_.begin(), columns_.end(), 0);
-  const auto entry = [&](int i, int j) -> Recorded& { return entries[at(i * size + j)]; };
-  std::vector<char> isThere(entries.size());
-  std::vector<double> number(entries.size());
-  const auto look = [&](int i, int j) {
-    isThere[at(i * size + j)] = !isKnownZero(entry(i, j));
-    number[at(i * size + j)] = sizeOfNumber(entry(i, j));
-  };
-  for (int i = 0; i < size; ++i)
-    for (int j = 0; j < size; ++j) look(i, j);
-  while (!rows_.empty()) {
-    std::vector<int> inRow(at(size), 0), inColumn(at(size), 0);
-    for (int i : rows_)
-      for (int j : columns_)
-        if (isThere[at(i * size + j)] != 0) ++inRow[at(i)], ++inColumn[at(j)];
-    Step step{-1, -1, {}, {}, {}};
-    int least = std::numeric_limits<int>::max();
-    for (int i : rows_) {
-      double greatest = 0;
-      for (int j : columns_) greatest = std::max(greatest, number[at(i * size + j)]);
-      for (int j : columns_) {
-        const double own = number[at(i * size + j)];
-        const int cost = (inRow[at(i)] - 1) * (inColumn[at(j)] - 1);
-        if (own > 0 && own >= smallest * greatest && cost < least) least = cost, step.row = i, step.column = j;
-      }
+namespace {
+
+/// The entries that are left, and the cheapest pivot of each row.
+class Markowitz {
+ public:
+  explicit Markowitz(LinearReduction::Rows& matrix) : matrix_(matrix), columns_(matrix.size()), best_(matrix.size()) {
+    for (std::size_t i = 0; i < matrix.size(); ++i) {
+      std::erase_if(matrix[i], [](const auto& entry) { return isKnownZero(entry.second); });
+      for (const auto& [j, entry] : matrix[i]) columns_[at(j)].insert(static_cast<int>(i));
     }
-    // At most `least` entries come, those of the pivot's row and column go.
-    if (step.row < 0 || least > inRow[at(step.row)] + inColumn[at(step.column)] - 1) break;
-    std::erase(rows_, step.row);
-    std::erase(columns_, step.column);
-    step.inverse = 1.0 / entry(step.row, step.column);
-    for (int j : columns_)
-      if (isThere[at(step.row * size + j)] != 0) step.upper.push_back({j, entry(step.row, j)});
-    for (int i : rows_) {
-      if (isThere[at(i * size + step.column)] == 0) continue;
-      const Recorded factor = entry(i, step.column) * step.inverse;
+    for (std::size_t i = 0; i < matrix.size(); ++i) look(static_cast<int>(i));
+  }
+
+  struct Pivot {
+    int cost, row, column;
+    auto operator<=>(const Pivot&) const = default;
+  };
+  /// That may fill in the fewest entries, by row and column where several do; null if no entry is fit for one.
+  const Pivot* cheapest() const { return pivots_.empty() ? nullptr : &*pivots_.begin(); }
+
+  int inRow(int i) const { return static_cast<int>(matrix_[at(i)].size()); }
+  int inColumn(int j) const { return static_cast<int>(columns_[at(j)].size()); }
+  const std::set<int>& rowsOf(int column) const { return columns_[at(column)]; }
+
+  /// The row and the column are no longer there, for pivots.
+  void take(int row, int column) {
+    for (const auto& [j, entry] : matrix_[at(row)]) touch(j), columns_[at(j)].erase(row);
+    for (const int i : columns_[at(column)]) changed_.insert(i);
+    forget(row);
+    changed_.erase(row);
+  }
+  void set(int i, int j, const Recorded& value) {
+    touch(j);
+    changed_.insert(i);
+    if (isKnownZero(value)) {
+      matrix_[at(i)].erase(j);
+      columns_[at(j)].erase(i);
+    } else {
+      matrix_[at(i)][j] = value;
+      columns_[at(j)].insert(i);
+    }
+  }
+  /// After all that a step changes.
+  void update(int column) {
+    for (const int i : columns_[at(column)]) matrix_[at(i)].erase(column);
+    columns_[at(column)].clear();
+    for (const int j : touched_) changed_.insert(columns_[at(j)].begin(), columns_[at(j)].end());
+    for (const int i : changed_) look(i);
+    touched_.clear();
+    changed_.clear();
+  }
+
+ private:
+  void touch(int column) { touched_.insert(column); }
+  void forget(int i) {
+    if (best_[at(i)]) pivots_.erase(*best_[at(i)]);
+    best_[at(i)].reset();
+  }
+  void look(int i) {
+    forget(i);
+    double greatest = 0;
+    for (const auto& [j, entry] : matrix_[at(i)]) greatest = std::max(greatest, sizeOfNumber(entry));
+    for (const auto& [j, entry] : matrix_[at(i)]) {
+      const double own = sizeOfNumber(entry);
+      if (!(own > 0 && own >= smallest * greatest)) continue;
+      const Pivot pivot{(inRow(i) - 1) * (inColumn(j) - 1), i, j};
+      if (!best_[at(i)] || pivot < *best_[at(i)]) best_[at(i)] = pivot;
+    }
+    if (best_[at(i)]) pivots_.insert(*best_[at(i)]);
+  }
+
+  LinearReduction::Rows& matrix_;
+  std::vector<std::set<int>> columns_;  // rows with an entry there
+  std::vector<std::optional<Pivot>> best_;
+  std::set<Pivot> pivots_;
+  std::set<int> touched_, changed_;  // columns, rows
+};
+
+}  // namespace
+
+LinearReduction::LinearReduction(Rows& matrix) {
+  Markowitz left(matrix);
+  std::vector<char> isRowGone(matrix.size(), 0), isColumnGone(matrix.size(), 0);
+  while (const Markowitz::Pivot* pivot = left.cheapest()) {
+    const auto [cost, row, column] = *pivot;
+    // At most `cost` entries come, those of the pivot's row and column go.
+    if (cost > left.inRow(row) + left.inColumn(column) - 1) break;
+    isRowGone[at(row)] = isColumnGone[at(column)] = 1;
+    Step step{row, column, 1.0 / matrix[at(row)].at(column), {}, {}};
+    for (const auto& [j, entry] : matrix[at(row)])
+      if (j != column) step.upper.push_back({j, entry});
+    left.take(row, column);
+    for (const int i : left.rowsOf(column)) {
+      const Recorded factor = matrix[at(i)].at(column) * step.inverse;
       for (const Term& term : step.upper) {
-        Recorded& changed = entry(i, term.index);
-        changed = changed - factor * term.value;
-        look(i, term.index);
+        const auto old = matrix[at(i)].find(term.index);
+        left.set(i, term.index, (old == matrix[at(i)].end() ? Recorded(0.0) : old->second) - factor * term.value);
       }
       step.lower.push_back({i, factor});
     }
+    left.update(column);
     steps_.push_back(std::move(step));
+  }
+  for (std::size_t i = 0; i < matrix.size(); ++i) {
+    if (isRowGone[i] == 0) rows_.push_back(static_cast<int>(i));
+    if (isColumnGone[i] == 0) columns_.push_back(static_cast<int>(i));
   }
 }
 

@@ -2,6 +2,7 @@
 // zero whatever the inputs are. Sparse systems lose what merely copies or adds.
 #pragma once
 
+#include <map>
 #include <span>
 #include <vector>
 
@@ -11,9 +12,13 @@ namespace gamut {
 
 class LinearReduction {
  public:
-  /// Eliminates from the matrix `entries` (row by row) as long as a pivot that is a number leaves no more entries than
-  /// there were; afterwards it holds the rest in rows() and columns(), of as many elements.
-  LinearReduction(int size, std::vector<Recorded>& entries);
+  /// A square matrix: of each row the entries by their columns; others are zero.
+  using Rows = std::vector<std::map<int, Recorded>>;
+
+  /// Eliminates from the matrix as long as a pivot that is a number leaves no more entries than there were; afterwards
+  /// it holds the rest in rows() and columns(), of as many elements. The time that this takes grows with the entries
+  /// that there are, not with all that there could be.
+  explicit LinearReduction(Rows& matrix);
 
   const std::vector<int>& rows() const { return rows_; }
   const std::vector<int>& columns() const { return columns_; }

@@ -2,7 +2,10 @@
 #include "scalars/program/differentiation.hpp"
 
 #include <algorithm>
+#include <set>
 #include <stdexcept>
+
+#include "scalars/program/directions.hpp"
 
 namespace gamut {
 namespace {
@@ -149,6 +152,17 @@ Program withJacobian(const Recorder& recorder, const Program& program, int colum
   return recorder.finish(outputs);
 }
 
+/// Of node i, which is no solution, from those of its operands.
+int tangent(Recorder& r, int i, const std::vector<int>& d) {
+  const Node n = r.node(i);
+  if (operandsOf(n.op) == 0) return zero;
+  const int da = d[at(n.a)], db = operandsOf(n.op) == 2 ? d[at(n.b)] : zero;
+  if (da < 0 && db < 0) return zero;
+  if (n.op == Op::sub && da >= 0 && db >= 0) return orZero(r, r.sub(da, db));
+  const int left = da < 0 ? zero : chained(r, i, false, da);
+  return orZero(r, sum(r, left, db < 0 ? zero : chained(r, i, true, db)));
+}
+
 std::vector<int> outputsOf(const Program& program, const std::vector<int>& here) {
   std::vector<int> result;
   for (int output : program.outputNodes()) result.push_back(here[at(output)]);
@@ -163,19 +177,61 @@ std::vector<int> tangents(Recorder& r, const std::vector<int>& of, const std::ve
   for (const auto& [input, value] : seeds)
     if (input <= last) d[at(input)] = orZero(r, value);
   for (int i = 0; i <= last; ++i) {
-    const Node n = r.node(i);
+    const Node& n = r.node(i);
     if (n.op == Op::solution && n.b == 0) solutionTangents(r, i, d);
-    if (operandsOf(n.op) == 0) continue;
-    const int da = d[at(n.a)], db = operandsOf(n.op) == 2 ? d[at(n.b)] : zero;
-    if (da < 0 && db < 0) continue;
-    const int derivative = n.op == Op::sub && da >= 0 && db >= 0 ? r.sub(da, db) : [&] {
-      const int left = da < 0 ? zero : chained(r, i, false, da);
-      return sum(r, left, db < 0 ? zero : chained(r, i, true, db));
-    }();
-    d[at(i)] = orZero(r, derivative);
+    if (operandsOf(r.node(i).op) > 0) d[at(i)] = tangent(r, i, d);
   }
   std::vector<int> result;
   for (int node : of) result.push_back(asNode(r, d[at(node)]));
+  return result;
+}
+
+Directions::Directions(Recorder& recorder, const std::vector<int>& of) : recorder_(recorder) {
+  const int last = lastOf(recorder, of);
+  users_.resize(at(last + 1));
+  places_.resize(at(last + 1));
+  derivatives_.assign(at(last + 1), zero);
+  for (int i = 0; i <= last; ++i) {
+    const Node& n = recorder.node(i);
+    if (n.op == Op::solution && n.b == 0)
+      detail::forEachOperand(recorder.table(), i, [&](int operand) { users_[at(operand)].push_back(i); });
+    if (operandsOf(n.op) > 0) users_[at(n.a)].push_back(i);
+    if (operandsOf(n.op) > 1) users_[at(n.b)].push_back(i);
+  }
+  for (std::size_t place = 0; place < of.size(); ++place) places_[at(of[place])].push_back(static_cast<int>(place));
+}
+
+/// Nodes in their order, as there.
+std::vector<std::pair<int, int>> Directions::along(int input) {
+  if (input >= static_cast<int>(users_.size())) return {};
+  Recorder& r = recorder_;
+  std::vector<int>& d = derivatives_;
+  std::vector<int> known;
+  std::set<int> open;
+  const auto take = [&](int node) {
+    if (d[at(node)] < 0) return;
+    known.push_back(node);
+    open.insert(users_[at(node)].begin(), users_[at(node)].end());
+  };
+  d[at(input)] = r.constant(1.0);
+  take(input);
+  while (!open.empty()) {
+    const int i = *open.begin();
+    open.erase(open.begin());
+    if (r.node(i).op != Op::solution) {
+      d[at(i)] = tangent(r, i, d);
+      take(i);
+      continue;
+    }
+    const std::size_t size = r.table().solutions[at(r.node(i).a)].rightSide.size();
+    solutionTangents(r, i, d);
+    for (std::size_t k = 0; k < size; ++k) take(i + static_cast<int>(k));
+  }
+  std::vector<std::pair<int, int>> result;
+  for (const int node : known)
+    for (const int place : places_[at(node)]) result.emplace_back(place, d[at(node)]);
+  for (const int node : known) d[at(node)] = zero;
+  std::ranges::sort(result);
   return result;
 }
 

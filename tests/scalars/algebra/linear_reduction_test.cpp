@@ -33,7 +33,10 @@ Reduced reduced(int n, const Fill& fill) {
   result.solution = record(3, [&](const auto& x) {
     Entries entries = filled(x), r, solution(detail::at(n), Recorded(0.0));
     for (int i = 0; i < n; ++i) r.emplace_back(i + 1.0);
-    const LinearReduction reduction(n, entries);
+    LinearReduction::Rows rows(detail::at(n));
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j) rows[detail::at(i)][j] = entries[detail::at(i * n + j)];
+    const LinearReduction reduction(rows);
     EXPECT_EQ(reduction.rows().size(), reduction.columns().size());
     result.left = static_cast<int>(reduction.rows().size());
     reduction.reduce(r);
@@ -41,7 +44,10 @@ Reduced reduced(int n, const Fill& fill) {
       Entries rest, known;
       for (int i : reduction.rows()) {
         known.push_back(r[detail::at(i)]);
-        for (int j : reduction.columns()) rest.push_back(entries[detail::at(i * n + j)]);
+        for (int j : reduction.columns()) {
+          const auto entry = rows[detail::at(i)].find(j);
+          rest.push_back(entry == rows[detail::at(i)].end() ? Recorded(0.0) : entry->second);
+        }
       }
       LinearSystem<Recorded>(MatrixKind::general, result.left, rest).solve(known);
       for (std::size_t k = 0; k < known.size(); ++k) solution[detail::at(reduction.columns()[k])] = known[k];

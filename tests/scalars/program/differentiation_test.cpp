@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "scalars/program/directions.hpp"
 #include "scalars/program/passes.hpp"
 #include "scalars/recorded.hpp"
 #include "tests/scalars/program/random_program.hpp"
@@ -19,6 +20,22 @@ TEST(Differentiation, ForwardAndReverseGiveTheSameJacobian) {
       expectSameMeaning(forward, reverseDifferentiated(program, withParameters), "seed " + std::to_string(seed));
       if (HasFatalFailure()) return;
     }
+  }
+}
+
+/// Node by node: whoever records by one or the other has the same program.
+TEST(Differentiation, AlongOneInputAfterAnotherItIsThatOfTangents) {
+  for (unsigned seed = 1; seed <= 200; ++seed) {
+    const Program program = RandomProgram(seed).withSolutions()(40, 5);
+    Recorder one(program), other(program);
+    Directions directions(one, program.outputNodes());
+    for (int input = 0; input < 5; ++input) {
+      std::vector<int> found(program.outputNodes().size(), one.constant(0.0));
+      for (const auto& [place, node] : directions.along(input)) found[detail::at(place)] = node;
+      other.constant(0.0);
+      ASSERT_EQ(found, tangents(other, program.outputNodes(), {{input, other.constant(1.0)}})) << seed;
+    }
+    EXPECT_EQ(one.size(), other.size()) << seed;
   }
 }
 
