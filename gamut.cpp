@@ -79,7 +79,8 @@ ExitCode parseAndRun(int argc, char** argv) {
 }
 
 ExitCode complain(ExitCode code, const std::string& line) {
-  fmt::print(stderr, "{}\n", printable(line));
+  constexpr std::size_t most = 8000;  // characters: more than any line that quotes what it complains of in part
+  fmt::print(stderr, "{}\n", printable(shortened(line, most)));
   return code;
 }
 

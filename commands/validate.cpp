@@ -8,6 +8,7 @@
 #include "commands/options.hpp"
 #include "commands/table.hpp"
 #include "reports/words.hpp"
+#include "studies/printable.hpp"
 
 namespace gamut::commands {
 namespace {
@@ -20,7 +21,7 @@ struct Arguments {
 ExitCode validate(const Arguments& arguments) {
   const Study study = readStudyNoting(arguments.study, arguments.quiet);
   if (!arguments.quiet)
-    fmt::print("{}: valid; {} with {}, {} uncertain {}, {}{}\n", study.file, study.analysisName(),
+    fmt::print("{}: valid; {} with {}, {} uncertain {}, {}{}\n", printable(study.file), study.analysisName(),
                countText(static_cast<long long>(study.mechanism.elements().size()), "element"), study.uncertain.size(),
                study.uncertain.size() == 1 ? "quantity" : "quantities",
                countText(static_cast<long long>(study.outputs.size()), "output"),

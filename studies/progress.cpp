@@ -6,8 +6,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <cstring>
 
 namespace gamut {
+namespace {
+
+/// A terminal that knows of no escapes would show them.
+bool drawsOverItself() {
+  const char* kind = std::getenv("TERM");
+  return kind != nullptr && *kind != '\0' && std::strcmp(kind, "dumb") != 0;
+}
+
+}  // namespace
 
 std::string duration(double seconds) {
   const auto whole = static_cast<long>(std::ceil(std::clamp(seconds, 0.0, 1e9)));
@@ -28,7 +39,7 @@ std::string progressLine(const std::string& task, double fraction, double elapse
 }
 
 ProgressBar::ProgressBar(bool enabled, std::FILE* stream)
-    : stream_(stream), enabled_(enabled && ::isatty(::fileno(stream)) == 1) {}
+    : stream_(stream), enabled_(enabled && ::isatty(::fileno(stream)) == 1 && drawsOverItself()) {}
 
 ProgressBar::~ProgressBar() { wipe(); }
 

@@ -78,11 +78,11 @@ const XmlSource::Element& XmlSource::root(const std::string& name) const {
 }
 
 void XmlSource::fail(int line, const std::string& what, const std::string& expected) const {
-  throw StudyError(printable(fmt::format("{}:{}: {}; expected {}", name_, std::max(line, 1), what, expected)));
+  throw StudyError(complaintAt(fmt::format("{}:{}", name_, std::max(line, 1)), what, expected));
 }
 
 std::string XmlSource::note(int line, const std::string& text) const {
-  return printable(fmt::format("{}:{}: note: {}", name_, std::max(line, 1), text));
+  return printable(fmt::format("{}:{}: note: {}", name_, std::max(line, 1), shortened(text, 1000)));
 }
 
 const XmlSource::Element* XmlSource::child(const Element& parent, const char* name) const {
