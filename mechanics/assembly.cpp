@@ -2,6 +2,7 @@
 #include "mechanics/assembly.hpp"
 
 #include <algorithm>
+#include <set>
 #include <stdexcept>
 
 #include "mechanics/description/names.hpp"
@@ -80,10 +81,11 @@ void Assembly<S>::takeNumbers(const Mechanism& mechanism, const std::vector<std:
   }
   for (const Mechanism::NamedValue& initial : mechanism.initialValues())
     parts_.initials_.emplace(initial.name, constant<S>(initial.nominal));
+  std::set<std::string> named;
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (!mechanism.isParameter(freeParameters[i]))
       throw std::invalid_argument(unknownName("parameter", freeParameters[i], parameters));
-    if (std::count(freeParameters.begin(), freeParameters.end(), freeParameters[i]) > 1)
+    if (!named.insert(freeParameters[i]).second)
       throw std::invalid_argument("the free parameter '" + freeParameters[i] + "' is named twice");
     parts_.parameters_.at(freeParameters[i]) = values[i];
   }
@@ -252,7 +254,11 @@ template <class S>
 S Assembly<S>::output(const std::string& quantity) const {
   if (const auto measured = parts_.measured_.find(quantity); measured != parts_.measured_.end())
     return measured->second();
-  return parts_.signal(Expression::parse(quantity))();
+  const auto isName = [this](std::string_view word) {
+    const std::string name(word);
+    return parts_.measured_.contains(name) || parts_.parameters_.contains(name);
+  };
+  return parts_.signal(Expression::parse(quantity, isName))();
 }
 
 GAMUT_COMPILED_HERE(Assembly)

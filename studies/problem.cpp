@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <numbers>
 #include <span>
+#include <unordered_map>
+#include <unordered_set>
 
 #include "mechanics/assembly.hpp"
 #include "mechanics/model.hpp"
@@ -20,19 +22,19 @@ namespace {
 /// Those of the uncertain quantities that no state starts with.
 std::vector<std::string> freeParameters(const Study& study) {
   const std::vector<std::string> states = study.mechanism.stateNames();
+  const std::unordered_set<std::string> isState(states.begin(), states.end());
   std::vector<std::string> names;
   for (const UncertainQuantity& uncertain : study.uncertain)
-    if (std::ranges::find(states, uncertain.quantity) == states.end()) names.push_back(uncertain.quantity);
+    if (!isState.contains(uncertain.quantity)) names.push_back(uncertain.quantity);
   return names;
 }
 
 std::vector<std::string> outputQuantities(const Study& study) {
   std::vector<std::string> quantities;
-  const std::vector<std::string> known = study.mechanism.outputQuantities();
   for (const OutputInfo& output : study.outputs) {
-    const bool isQuantity = std::ranges::find(known, output.quantity) != known.end();
+    const bool isQuantity = study.mechanism.isOutputQuantity(output.quantity);
     const std::string own = isQuantity ? study.mechanism.unitOf(output.quantity)
-                                       : unitOf(study.mechanism.dimensionOf(Expression::parse(output.quantity)));
+                                       : unitOf(study.mechanism.dimensionOf(study.mechanism.parse(output.quantity)));
     // In the unit that the study states.
     quantities.push_back(output.unit == own ? output.quantity
                          : isQuantity       ? fmt::format("'{}'/(1 {})", output.quantity, output.unit)
@@ -126,11 +128,13 @@ Problem makeProblem(const Study& study) {
     problem.states = 1;
     problem.box.emplace_back(0.0);
   }
+  std::unordered_map<std::string, int> slotOf;
+  for (std::size_t i = 0; i < names.size(); ++i) slotOf[names[i]] = static_cast<int>(i);
   for (const UncertainQuantity& uncertain : study.uncertain) {
-    const auto state = std::find(names.begin(), names.end(), uncertain.quantity);
+    const auto state = slotOf.find(uncertain.quantity);
     problem.motion.uncertain.push_back(uncertain.uncertain);
-    if (state != names.end()) {
-      problem.motion.slot.push_back(static_cast<int>(state - names.begin()));
+    if (state != slotOf.end()) {
+      problem.motion.slot.push_back(state->second);
     } else {
       problem.motion.slot.push_back(static_cast<int>(problem.box.size()));
       problem.box.push_back(mechanism.nominal(uncertain.quantity));

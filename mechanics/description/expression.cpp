@@ -75,9 +75,12 @@ namespace {
   throw UnitError(fmt::format("{} at column {}; expected {}", what, column, expected));
 }
 
+/// As what is added to something: a 1 would be taken for the number.
+std::string inWords(const Dimension& d) { return d == Dimension{} ? "a number without unit" : unitOf(d); }
+
 Dimension scaled(const Dimension& d, int times) {
-  return {d.mass * times,  d.length * times, d.time * times,
-          d.angle * times, d.memory * times, d.isOfMoment && times > 0};
+  return {d.mass * times,   d.length * times,  d.time * times,        d.angle * times,
+          d.memory * times, d.current * times, d.temperature * times, d.isOfMoment && times > 0};
 }
 
 }  // namespace
@@ -109,7 +112,7 @@ Dimension Expression::dimension(const DimensionOf& dimensionOf) const {
       if (isFirstNothing)
         a = b;
       else if (!isAlike(a, b))
-        refuse(fmt::format("{} {} {} {}", does, unitOf(b), joins, unitOf(a)), term.column, "quantities of one kind");
+        refuse(fmt::format("{} {} {} {}", does, inWords(b), joins, inWords(a)), term.column, "quantities of one kind");
       if (a.mass != 0)
         a.angle = std::min(a.angle, b.angle);  // N m + N m rad is N m, N m/rad + N m is N m/rad
       else if (a.angle == 0)
@@ -146,9 +149,11 @@ Dimension Expression::dimension(const DimensionOf& dimensionOf) const {
         a = scaled(b, term.index);
         break;
       case Operation::sqrt:
-        if (b.mass % 2 != 0 || b.length % 2 != 0 || b.time % 2 != 0 || b.memory % 2 != 0)
+        if (b.mass % 2 != 0 || b.length % 2 != 0 || b.time % 2 != 0 || b.memory % 2 != 0 || b.current % 2 != 0 ||
+            b.temperature % 2 != 0)
           refuse(fmt::format("the square root of {}", unitOf(b)), term.column, "a unit that is a square, such as m^2");
-        a = {b.mass / 2, b.length / 2, b.time / 2, b.angle / 2, b.memory / 2, b.isOfMoment};
+        a = {b.mass / 2,   b.length / 2,  b.time / 2,        b.angle / 2,
+             b.memory / 2, b.current / 2, b.temperature / 2, b.isOfMoment};
         break;
       case Operation::pow:
         mustBePlain(a, "a power of");
@@ -204,7 +209,7 @@ std::optional<Amount> Expression::amount() const {
 }
 
 Amount parseAmount(std::string_view text) {
-  const Expression expression = Expression::parse(text);
+  const Expression expression = Expression::parse(text, [](std::string_view) { return false; });
   if (!expression.isConstant())
     throw UnitError(fmt::format("unknown unit '{}' in '{}'; expected {}", expression.names().front(), text,
                                 unitInsteadOf(expression.names().front())));

@@ -11,7 +11,8 @@
 //
 // A blank (or nothing, as in 90° and 0.75pi) joins a number to a unit, to pi or to a name, never two names. What is
 // written without names is computed exactly as far as it is rational · πᵏ. A name is a word of letters, digits, "_" and
-// "."; any other is put in single quotes. "t" is the time; right behind a number and a blank it is a tonne.
+// "."; any other is put in single quotes. "t" is the time; right behind a number and a blank it is a tonne. Some units,
+// as A and T, are what has that name where something has.
 #pragma once
 
 #include <cmath>
@@ -35,8 +36,10 @@ class Expression {
   Expression(const Interval& value);                         // NOLINT: implicit, as numbers are
   /// `factor` times what has this name.
   static Expression named(const std::string& name, const Interval& factor = 1.0);
+  /// Whether a word is a name where it could be a unit as well (mayBeName); all such are if nothing is said.
+  using IsName = std::function<bool(std::string_view word)>;
   /// Throws UnitError: what is wrong, at which column (from 1, in characters), and what was expected.
-  static Expression parse(std::string_view text);
+  static Expression parse(std::string_view text, const IsName& isName = nullptr);
 
   // Formulas of formulas; what is known to be zero or one is left out.
   friend Expression operator+(const Expression& a, const Expression& b);

@@ -28,7 +28,7 @@ enum class Piece { number, unit, other };
 
 class ExpressionParser {
  public:
-  explicit ExpressionParser(std::string_view text) : text_(text) {}
+  ExpressionParser(std::string_view text, const Expression::IsName& isName) : text_(text), isName_(isName) {}
 
   Expression read() {
     if (text_.size() > longest)
@@ -227,7 +227,10 @@ class ExpressionParser {
     const char c = here();
     return isWordBegin(c) || c == '\'' || c == '%' || isOther(position_);
   }
-  bool isUnitHere() const { return unitNamed(text_.substr(position_, wordLength())) != nullptr; }
+  const Amount* unitOf(std::string_view word) const {
+    return mayBeName(word) && (!isName_ || isName_(word)) ? nullptr : unitNamed(word);
+  }
+  bool isUnitHere() const { return unitOf(text_.substr(position_, wordLength())) != nullptr; }
   /// A character beyond ASCII that units or pi may begin with.
   bool isOther(std::size_t position) const {
     const std::string_view rest = text_.substr(position);
@@ -275,7 +278,7 @@ class ExpressionParser {
     const int at = column();
     const std::string word(text_.substr(position_, wordLength()));
     position_ += word.size();
-    const Amount* unit = unitNamed(word);
+    const Amount* unit = unitOf(word);
     const auto* function = std::ranges::find(functions, word, &Function::name);
     if (word == "pi" || word == "π") {
       hasNumber_ = true;
@@ -392,6 +395,7 @@ class ExpressionParser {
   }
 
   std::string_view text_;
+  const Expression::IsName& isName_;
   std::size_t position_ = 0;
   Expression expression_;
   std::vector<std::optional<Amount>> exact_;  // of the terms that stand for a constant
@@ -400,6 +404,8 @@ class ExpressionParser {
   int depth_ = 0;
 };
 
-Expression Expression::parse(std::string_view text) { return ExpressionParser(text).read(); }
+Expression Expression::parse(std::string_view text, const IsName& isName) {
+  return ExpressionParser(text, isName).read();
+}
 
 }  // namespace gamut

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <functional>
 #include <map>
+#include <set>
 #include <stdexcept>
 #include <type_traits>
 #include <utility>
@@ -36,10 +37,14 @@ bool isNumber(const std::string& name) {
   }
 }
 
+bool isReserved(const std::string& name) { return unitNamed(name) != nullptr && !mayBeName(name); }
+
 /// What an unknown name was for; of two units written together, as they should be.
 std::string remarkOn(const std::string& name, const std::string& use) {
   if (const std::string apart = unitsApart(name); !apart.empty())
     return "for " + inQuotes(use) + ", or " + inQuotes(apart) + " with a blank between units";
+  if (const std::string unit = nearestUnit(name); !unit.empty())
+    return "for " + inQuotes(use) + ", or the unit " + inQuotes(unit);
   return "for " + inQuotes(use);
 }
 
@@ -47,7 +52,7 @@ bool has(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-std::vector<std::string> namesOf(const std::vector<Mechanism::NamedValue>& values) {
+std::vector<std::string> namesOf(const Named<Mechanism::NamedValue>& values) {
   std::vector<std::string> names;
   for (const auto& value : values) names.push_back(value.name);
   return names;
@@ -55,27 +60,21 @@ std::vector<std::string> namesOf(const std::vector<Mechanism::NamedValue>& value
 
 }  // namespace
 
-Mechanism::Mechanism() : frames_{inertialFrame} {}
-
-const Mechanism::NamedValue* Mechanism::find(const std::vector<NamedValue>& values, const std::string& name) {
-  const auto found = std::find_if(values.begin(), values.end(), [&](const auto& value) { return value.name == name; });
-  return found == values.end() ? nullptr : &*found;
-}
+Mechanism::Mechanism() : isFrame_{inertialFrame}, frames_{inertialFrame} {}
 
 void Mechanism::addParameter(const std::string& name, const Interval& nominal, const std::string& unit) {
   checkParameterName(name);
   if (isEmpty(nominal) || !isBounded(nominal))
     refuse("the quantity " + inQuotes(name) + " needs a finite value, not " + toString(nominal));
-  parameters_.push_back({name, unit, nominal});
+  parameters_.add({name, unit, nominal});
 }
 
 void Mechanism::addDerived(const std::string& name, const Expression& formula) {
   checkParameterName(name);
   checkNames(formula, name);
-  for (const std::string& open : withoutUnit(formula))
-    std::ranges::find(parameters_, open, &NamedValue::name)->unit = "1";
+  for (const std::string& open : withoutUnit(formula)) parameters_.find(open)->unit = "1";
   try {
-    derived_.push_back({name, gamut::unitOf(dimensionOf(formula)), formula});
+    derived_.add({name, gamut::unitOf(dimensionOf(formula)), formula});
   } catch (const UnitError& error) {
     throw WrongNumber(name, error.what());
   }
@@ -83,9 +82,9 @@ void Mechanism::addDerived(const std::string& name, const Expression& formula) {
 
 void Mechanism::checkParameterName(const std::string& name) const {
   if (name.empty()) refuse("a parameter needs a name");
-  if (knows(name) || find(initials_, name) != nullptr)
+  if (knows(name) || initials_.find(name) != nullptr)
     refuse("the quantity " + inQuotes(name) + " is defined twice; expected another name");
-  if (unitNamed(name) != nullptr || isQuantity(name) || name == "pi")
+  if (isReserved(name) || isQuantity(name) || name == "pi")
     refuse("a parameter cannot be named " + inQuotes(name) + ": that is a " +
            (isQuantity(name) ? "quantity"
             : name == "pi"   ? "number"
@@ -93,15 +92,10 @@ void Mechanism::checkParameterName(const std::string& name) const {
            "; expected another name");
 }
 
-const Mechanism::Derived* Mechanism::findDerived(const std::string& name) const {
-  const auto found = std::ranges::find(derived_, name, &Derived::name);
-  return found == derived_.end() ? nullptr : &*found;
-}
-
 std::vector<std::string> Mechanism::withoutUnit(const Expression& number) const {
   std::vector<std::string> open = number.names();
   std::erase_if(open, [&](const std::string& name) {
-    const NamedValue* parameter = find(parameters_, name);
+    const NamedValue* parameter = parameters_.find(name);
     return parameter == nullptr || !parameter->unit.empty();
   });
   return open;
@@ -109,33 +103,48 @@ std::vector<std::string> Mechanism::withoutUnit(const Expression& number) const 
 
 bool Mechanism::dependsOn(const Expression& number, const std::string& parameter) const {
   return std::ranges::any_of(number.names(), [&](const std::string& name) {
-    const Derived* derived = findDerived(name);
+    const Derived* derived = derived_.find(name);
     return name == parameter || (derived != nullptr && dependsOn(derived->formula, parameter));
   });
 }
 
+std::unordered_set<std::string> Mechanism::needsOf(const Expression& number) const {
+  std::unordered_set<std::string> needed;
+  std::vector<std::string> open = number.names();
+  while (!open.empty()) {
+    const std::string name = std::move(open.back());
+    open.pop_back();
+    if (!needed.insert(name).second) continue;
+    if (const Derived* derived = derived_.find(name))
+      open.insert(open.end(), derived->formula.names().begin(), derived->formula.names().end());
+  }
+  return needed;
+}
+
 void Mechanism::checkNewName(const std::string& kind, const std::string& name) const {
   if (name.empty()) refuse("a " + kind + " needs a name");
-  if (has(names_, name)) refuse("two elements are named " + inQuotes(name) + "; expected a name of its own");
+  if (names_.contains(name)) refuse("two elements are named " + inQuotes(name) + "; expected a name of its own");
   if (isQuantity(name))
     refuse("an element cannot be named " + inQuotes(name) + ": that is a quantity; expected another name");
 }
 
 void Mechanism::checkFrame(const std::string& frame, const std::string& of) const {
-  if (!has(frames_, frame))
+  if (!isFrame_.contains(frame))
     throw UnknownName("frame", frame, frames_, inQuotes(of) + " must come after the element that defines its frame");
 }
 
 void Mechanism::addFrame(const std::string& from, const std::string& to, const std::string& of) {
   checkFrame(from, of);
   if (to.empty()) refuse("the element " + inQuotes(of) + " needs the name of the frame that it moves");
-  if (has(frames_, to))
-    refuse("the frame " + inQuotes(to) + " is defined twice; expected a new frame for " + inQuotes(of));
+  if (isFrame_.contains(to))
+    refuse("the frame " + inQuotes(to) + " is defined twice; expected a new frame for " + inQuotes(of) +
+           " (closed loops are not there yet: frames form a tree, which springs and bushings alone can close)");
   if (unitOfMeasured(to + ".position.x") != nullptr)
     refuse("the frame " + inQuotes(to) +
            " has the name of an element whose position is measured; expected another name");
   if (isQuantity(to)) refuse("a frame cannot be named " + inQuotes(to) + ": that is a quantity; expected another name");
   frames_.push_back(to);
+  isFrame_.insert(to);
 }
 
 void Mechanism::use(Expression& number, const std::string& name, const std::string& unit) {
@@ -148,8 +157,7 @@ void Mechanism::use(Expression& number, const std::string& name, const std::stri
   checkNames(number, name);
   const Dimension assumed = check(number, name, unit);
   if (const std::vector<std::string> open = withoutUnit(number); open.size() == 1)
-    std::ranges::find(parameters_, open[0], &NamedValue::name)->unit =
-        assumed == gamut::dimensionOf(unit) ? unit : gamut::unitOf(assumed);
+    parameters_.find(open[0])->unit = assumed == gamut::dimensionOf(unit) ? unit : gamut::unitOf(assumed);
 }
 
 void Mechanism::checkNames(const Expression& number, const std::string& name) const {
@@ -195,7 +203,7 @@ Dimension Mechanism::check(const Expression& number, const std::string& name, co
   return {};
 }
 
-void Mechanism::addState(std::vector<State>& states, const std::string& name, const std::string& unit,
+void Mechanism::addState(Named<State>& states, const std::string& name, const std::string& unit,
                          const Expression& initial) {
   State state{name, unit, initial};
   if (unitOfMeasured(name) != nullptr)
@@ -206,18 +214,18 @@ void Mechanism::addState(std::vector<State>& states, const std::string& name, co
     const Interval value = initial.evaluate<Interval>([](const std::string&) { return Interval::entire(); });
     if (isEmpty(value) || !isBounded(value))
       refuse("the initial value " + inQuotes(name) + " needs a finite value, not " + toString(value));
-    initials_.push_back({name, unit, value});
+    initials_.add({name, unit, value});
     state.initial = Expression::named(name);
   } else {
     use(state.initial, name, unit);
   }
-  states.push_back(state);
+  states.add(std::move(state));
 }
 
 void Mechanism::addMeasured(const std::string& name, const std::string& unit, const std::string& of, bool isSolved) {
   if (unitOfMeasured(name) != nullptr || knows(name))
     refuse("the quantity " + inQuotes(name) + " of " + inQuotes(of) + " is defined twice");
-  measured_.push_back({name, unit, of, isSolved});
+  measured_.add({name, unit, of, isSolved});
 }
 
 std::string Mechanism::accelerationOf(const std::string& speed) {
@@ -228,32 +236,32 @@ std::string Mechanism::accelerationOf(const std::string& speed) {
 }
 
 std::string Mechanism::reactionOf(const std::string& frame) const {
-  const auto moved = std::ranges::find(moved_, frame, &Moved::frame);
-  const auto first = std::ranges::find(moved_, moved->element, &Moved::element);
-  return moved->element + (first == moved ? "" : "." + frame) + ".reaction";
+  const std::string& element = moved_.find(frame)->element;
+  return element + (firstFrames_.at(element) == frame ? "" : "." + frame) + ".reaction";
 }
 
 void Mechanism::addSignal(Signal signal, Expression& expression) {
   if (std::ranges::all_of(expression.names(), [&](const std::string& used) { return knows(used); }))
     use(expression, signal.name, signal.unit);
   else
-    signals_.push_back(std::move(signal));
+    signals_[signal.element].push_back(std::move(signal));
 }
 
 void Mechanism::drive(const std::string& coordinate, const std::string& by) {
-  const auto driven = std::ranges::find(coordinates_, coordinate, &JointCoordinate::name);
+  JointCoordinate* const driven = coordinates_.find(coordinate);
   if (driven->isDriven)
     refuse("the joint " + inQuotes(coordinate) + " is driven twice, the second time by " + inQuotes(by) +
            "; expected one drive, coupling or motion a joint");
   for (const std::string& name : {driven->name, driven->rate}) {
-    const NamedValue* initial = find(initials_, name);
+    const NamedValue* initial = initials_.find(name);
     if (initial == nullptr || !isEqual(initial->nominal, Interval(0.0)))
       refuse("the joint " + inQuotes(driven->element) + " has initial values, but is driven by " + inQuotes(by) +
              "; expected no initial values: it starts where it is driven");
   }
-  std::erase_if(initials_, [&](const auto& value) { return value.name == driven->name || value.name == driven->rate; });
-  std::erase_if(positions_, [&](const State& state) { return state.name == driven->name; });
-  std::erase_if(speeds_, [&](const State& state) { return state.name == driven->rate; });
+  initials_.erase(driven->name);
+  initials_.erase(driven->rate);
+  positions_.erase(driven->name);
+  speeds_.erase(driven->rate);
   driven->isDriven = true;
 }
 
@@ -269,13 +277,14 @@ class Mechanism::Checker final : public Fields {
       refuse("the element " + inQuotes(element_) + " joins a frame to itself; expected two different frames");
   }
   void carriesMass(const std::string& frame) override {
-    if (has(m_.frames_, element_))
+    if (m_.isFrame_.contains(element_))
       refuse("the element " + inQuotes(element_) + " has the name of a frame; expected another name");
     m_.massFrames_.push_back(frame);
   }
   void movedFrame(const Word& /*word*/, std::string& name, const std::string& from) override {
     m_.addFrame(from, name, element_);
-    m_.moved_.push_back({name, from, element_, false});
+    m_.moved_.add({name, from, element_, false});
+    m_.firstFrames_.emplace(element_, name);
     for (const FrameQuantity& quantity : frameQuantities())
       m_.addMeasured(name + "." + quantity.name, quantity.unit, element_, quantity.isSolved);
     const std::string reaction = m_.reactionOf(name);
@@ -312,7 +321,9 @@ class Mechanism::Checker final : public Fields {
                   Expression& initialRate) override {
     m_.addState(m_.positions_, named(position), gamut::unitOf(kind), initial);
     m_.addState(m_.speeds_, named(rate), std::string(gamut::unitOf(kind)) + "/s", initialRate);
-    m_.coordinates_.push_back({element_, named(position), named(rate), kind});
+    m_.coordinates_.add({element_, named(position), named(rate), kind});
+    m_.coordinateOfRate_.emplace(named(rate), named(position));
+    m_.coordinatesOf_[element_].push_back(named(position));
     m_.addMeasured(accelerationOf(named(rate)), std::string(gamut::unitOf(kind)) + "/s^2", element_, true);
     movesByJoint();
   }
@@ -325,7 +336,7 @@ class Mechanism::Checker final : public Fields {
     movesByJoint();
   }
   std::string state(const Word& word, Expression& initial) override {
-    if (unitNamed(element_) != nullptr || element_ == "pi" || isNumber(element_))
+    if (isReserved(element_) || element_ == "pi" || isNumber(element_))
       refuse("a state cannot be named " + inQuotes(element_) + ": that is a unit or a number; expected another name");
     std::string unit = word.unit;
     if (unit.empty()) unit = gamut::unitOf(m_.dimensionOf(initial));
@@ -381,7 +392,9 @@ class Mechanism::Checker final : public Fields {
  private:
   std::string named(const Word& word) const { return element_ + "." + word.key; }
   void movesByJoint() {
-    for (Moved& moved : m_.moved_) moved.isByJoint = moved.isByJoint || moved.element == element_;
+    // Those of the element that is being added are the last.
+    for (auto moved = m_.moved_.rbegin(); moved != m_.moved_.rend() && moved->element == element_; ++moved)
+      moved->isByJoint = true;
   }
   /// The coordinate's full name replaces that of a joint with one.
   const JointCoordinate& found(std::string& name) const {
@@ -398,22 +411,26 @@ void Mechanism::add(Described element) {
   checkNewName(element.type(), element.name());
   Checker checker(*this, element.name());
   element.describe(checker);
-  names_.push_back(element.name());
+  names_.insert(element.name());
   elements_.push_back(std::move(element));
 }
 
 const Mechanism::JointCoordinate& Mechanism::coordinate(const std::string& name, const std::string& of) const {
-  const auto isOnly = [&](const JointCoordinate& coordinate) {
-    return std::ranges::count(coordinates_, coordinate.element, &JointCoordinate::element) == 1;
-  };
-  std::vector<std::string> names, own;
-  for (const JointCoordinate& coordinate : coordinates_) {
-    if (coordinate.element == name) own.push_back(coordinate.name);
-    if (coordinate.name == name || (coordinate.element == name && isOnly(coordinate))) return coordinate;
-    names.push_back(isOnly(coordinate) ? coordinate.element : coordinate.name);
-  }
-  if (!own.empty()) throw UnknownName("joint with one coordinate", name, own, "for " + inQuotes(of));
+  if (const JointCoordinate* found = coordinates_.find(name)) return *found;
+  const auto own = coordinatesOf_.find(name);
+  if (own != coordinatesOf_.end() && own->second.size() == 1) return *coordinates_.find(own->second.front());
+  if (own != coordinatesOf_.end())
+    throw UnknownName("joint with one coordinate", name, own->second, "for " + inQuotes(of));
+  std::vector<std::string> names;
+  for (const JointCoordinate& coordinate : coordinates_)
+    names.push_back(coordinatesOf_.at(coordinate.element).size() == 1 ? coordinate.element : coordinate.name);
   throw UnknownName("joint", name, names, "for " + inQuotes(of));
+}
+
+const Mechanism::JointCoordinate* Mechanism::coordinateWith(const std::string& name) const {
+  if (const JointCoordinate* found = coordinates_.find(name)) return found;
+  const auto position = coordinateOfRate_.find(name);
+  return position == coordinateOfRate_.end() ? nullptr : coordinates_.find(position->second);
 }
 
 void Mechanism::setGravity(ExpressionVector gravity) {
@@ -433,22 +450,22 @@ void Mechanism::setBaseAcceleration(ExpressionVector acceleration) {
 
 const std::string* Mechanism::unitOfMeasured(const std::string& name) const {
   for (const auto* states : {&positions_, &speeds_, &own_})
-    for (const State& state : *states)
-      if (state.name == name) return &state.unit;
+    if (const State* state = states->find(name)) return &state->unit;
   static const std::string radian = "rad", metre = "m", radianRate = "rad/s", metreRate = "m/s";
-  for (const JointCoordinate& coordinate : coordinates_) {
-    const bool turns = coordinate.kind == Coordinate::angle;
-    if (coordinate.isDriven && coordinate.name == name) return turns ? &radian : &metre;
-    if (coordinate.isDriven && coordinate.rate == name) return turns ? &radianRate : &metreRate;
+  if (const JointCoordinate* coordinate = coordinateWith(name); coordinate != nullptr && coordinate->isDriven) {
+    const bool turns = coordinate->kind == Coordinate::angle, isRate = coordinate->rate == name;
+    return turns ? (isRate ? &radianRate : &radian) : isRate ? &metreRate : &metre;
   }
-  if (const Measured* measured = findMeasured(name)) return &measured->unit;
+  if (const Measured* measured = measured_.find(name)) return &measured->unit;
   const auto whole = std::ranges::find(wholeQuantities(), name, &WholeQuantity::name);
   return whole == wholeQuantities().end() ? nullptr : &whole->unit;
 }
 
-const Mechanism::Measured* Mechanism::findMeasured(const std::string& name) const {
-  const auto found = std::ranges::find(measured_, name, &Measured::name);
-  return found == measured_.end() ? nullptr : &*found;
+Expression Mechanism::parse(std::string_view text) const {
+  return Expression::parse(text, [this](std::string_view word) {
+    const std::string name(word);
+    return knows(name) || unitOfMeasured(name) != nullptr;
+  });
 }
 
 Dimension Mechanism::dimensionOf(const Expression& signal) const {
@@ -460,7 +477,7 @@ Dimension Mechanism::dimensionOf(const Expression& signal) const {
 void Mechanism::checkSignal(const Signal& signal) const {
   for (const std::string& used : signal.expression.names()) {
     if (signal.reach == Reach::motion) {
-      const Measured* measured = findMeasured(used);
+      const Measured* measured = measured_.find(used);
       const auto whole = std::ranges::find(wholeQuantities(), used, &WholeQuantity::name);
       if ((measured != nullptr && measured->isSolved) || (whole != wholeQuantities().end() && whole->isSolved))
         throw WrongNumber(signal.name, inQuotes(used) +
@@ -479,7 +496,29 @@ void Mechanism::checkSignal(const Signal& signal) const {
     throw UnknownName("quantity", used, known, remarkOn(used, signal.name));
   }
   if (gamut::dimensionOf(signal.unit) == Dimension{.time = -1} && isWithoutUnits(signal.expression)) return;
+  const State* state = signal.reach == Reach::solution ? own_.find(signal.element) : nullptr;
+  if (state != nullptr && gamut::dimensionOf(state->unit) == Dimension{}) refuseRateWithUnit(signal);
   check(signal.expression, signal.name, signal.unit);
+}
+
+/// The rate of a state without unit: who gave it none may have meant to.
+void Mechanism::refuseRateWithUnit(const Signal& signal) const {
+  const std::string remark = "the state " + inQuotes(signal.element) +
+                             " has no unit; its unit is that of its initial value, such as initial = \"";
+  try {
+    Dimension found = dimensionOf(signal.expression);
+    if (isAlike(found, {.time = -1})) return;
+    const std::string unitOfRate = gamut::unitOf(found);
+    ++found.time;
+    throw WrongNumber(signal.name, "a quantity in " + unitOfRate + ", but " + remark + "0 " + gamut::unitOf(found) +
+                                       "\"; expected a rate in 1/s, or a state with that unit");
+  } catch (const WrongNumber&) {
+    throw;
+  } catch (const UnitError& error) {
+    const std::string what = error.what();
+    const std::size_t end = std::min(what.find(';'), what.size());
+    throw WrongNumber(signal.name, what.substr(0, end) + ", and " + remark + "0 rad\"" + what.substr(end));
+  }
 }
 
 bool Mechanism::isWithoutUnits(const Expression& rate) const {
@@ -503,8 +542,9 @@ void Mechanism::check() const {
 }
 
 void Mechanism::checkSignals(const std::string& element) const {
-  for (const Signal& signal : signals_) {
-    if (signal.element != element) continue;
+  const auto own = signals_.find(element);
+  if (own == signals_.end()) return;
+  for (const Signal& signal : own->second) {
     checkSignal(signal);
     checkCycle(signal);
   }
@@ -512,19 +552,22 @@ void Mechanism::checkSignals(const std::string& element) const {
 
 /// What an element measures may depend on all of its expressions.
 void Mechanism::checkCycle(const Signal& signal) const {
-  std::vector<std::string> reached, open = signal.expression.names();
+  std::unordered_set<std::string> reached;
+  std::vector<std::string> open = signal.expression.names();
   for (; signal.reach == Reach::motion && !open.empty();) {
     const std::string name = open.back();
     open.pop_back();
-    const Measured* measured = findMeasured(name);
-    if (measured == nullptr || has(reached, measured->element)) continue;
+    const Measured* measured = measured_.find(name);
+    if (measured == nullptr || reached.contains(measured->element)) continue;
     if (measured->element == signal.element)
       throw WrongNumber(signal.name, "it depends on " + inQuotes(name) +
                                          ", which depends on it; expected a formula of "
                                          "what is known without it");
-    reached.push_back(measured->element);
-    for (const Signal& other : signals_)
-      if (other.element == measured->element && other.reach == Reach::motion)
+    reached.insert(measured->element);
+    const auto others = signals_.find(measured->element);
+    if (others == signals_.end()) continue;
+    for (const Signal& other : others->second)
+      if (other.reach == Reach::motion)
         open.insert(open.end(), other.expression.names().begin(), other.expression.names().end());
   }
 }
@@ -535,10 +578,12 @@ std::vector<Fault> Mechanism::faults(const Described& element, const std::map<st
     asked.push_back(number);
     return rangeOf(number);
   });
-  std::vector<std::string> varied;
-  for (const auto& [name, range] : ranges)
-    if (varied.size() < 12 && std::ranges::any_of(asked, [&](const auto& number) { return dependsOn(number, name); }))
-      varied.push_back(name);
+  std::set<std::string> needed;
+  for (const Expression& number : asked)
+    for (const std::string& name : needsOf(number))
+      if (ranges.contains(name)) needed.insert(name);
+  std::vector<std::string> varied(needed.begin(), needed.end());
+  if (varied.size() > 12) varied.resize(12);
   // Where what makes sense is convex and each number affine in one parameter, what holds at the corners of the box
   // holds in all of it.
   for (unsigned corner = 0; found.empty() && !varied.empty() && corner < (1U << varied.size()); ++corner) {
@@ -554,22 +599,21 @@ std::vector<Fault> Mechanism::faults(const Described& element, const std::map<st
 
 std::map<std::string, bool> Mechanism::framesThatMoveMass() const {
   std::map<std::string, bool> moves;
-  const auto elementOf = [&](const std::string& coordinate) {
-    return std::ranges::find(coordinates_, coordinate, &JointCoordinate::name)->element;
-  };
-  const auto moverOf = [&](const std::string& frame) { return std::ranges::find(moved_, frame, &Moved::frame); };
+  const auto elementOf = [&](const std::string& coordinate) { return coordinates_.find(coordinate)->element; };
+  std::unordered_map<std::string, std::vector<std::string>> leaders, movedBy;  // of elements: elements, frames
+  for (const Following& following : followings_)
+    leaders[elementOf(following.follower)].push_back(elementOf(following.leader));
+  for (const Moved& moved : moved_) movedBy[moved.element].push_back(moved.frame);
   std::vector<std::string> open = massFrames_;
   while (!open.empty()) {
     const std::string frame = open.back();
     open.pop_back();
     if (std::exchange(moves[frame], true)) continue;
-    const auto mover = moverOf(frame);
-    if (mover == moved_.end()) continue;
+    const Moved* mover = moved_.find(frame);
+    if (mover == nullptr) continue;
     open.push_back(mover->from);
-    for (const Following& following : followings_)
-      if (elementOf(following.follower) == mover->element)
-        for (const Moved& led : moved_)
-          if (led.element == elementOf(following.leader)) open.push_back(led.frame);
+    for (const std::string& leader : leaders[mover->element])
+      for (const std::string& led : movedBy[leader]) open.push_back(led);
   }
   return moves;
 }
@@ -577,9 +621,10 @@ std::map<std::string, bool> Mechanism::framesThatMoveMass() const {
 void Mechanism::checkMasses() const {
   std::map<std::string, bool> carries = framesThatMoveMass();
   for (const Moved& moved : moved_) {
-    const auto isFree = [&](const JointCoordinate& c) { return c.element == moved.element && !c.isDriven; };
-    const auto isOf = [&](const JointCoordinate& c) { return c.element == moved.element; };
-    const bool isDriven = std::ranges::any_of(coordinates_, isOf) && std::ranges::none_of(coordinates_, isFree);
+    const auto own = coordinatesOf_.find(moved.element);
+    const bool isDriven = own != coordinatesOf_.end() && std::ranges::all_of(own->second, [&](const std::string& name) {
+                            return coordinates_.find(name)->isDriven;
+                          });
     if (moved.isByJoint && !isDriven && !carries[moved.frame])
       refuse("the joint " + inQuotes(moved.element) + " moves no mass; add a mass at the frame " +
              inQuotes(moved.frame) + " or at one that it carries");
@@ -594,15 +639,15 @@ std::vector<std::string> Mechanism::quantities() const {
 
 Interval Mechanism::nominal(const std::string& quantity) const {
   for (const auto* values : {&initials_, &parameters_})
-    if (const NamedValue* value = find(*values, quantity)) return value->nominal;
-  if (const Derived* derived = findDerived(quantity)) return rangeOf(derived->formula);
+    if (const NamedValue* value = values->find(quantity)) return value->nominal;
+  if (const Derived* derived = derived_.find(quantity)) return rangeOf(derived->formula);
   refuse(unknownName("quantity", quantity, quantities()));
 }
 
 Interval Mechanism::rangeOf(const Expression& number, const std::map<std::string, Interval>& ranges) const {
   return number.evaluate<Interval>([&](const std::string& name) {
     if (const auto range = ranges.find(name); range != ranges.end()) return range->second;
-    const Derived* derived = findDerived(name);
+    const Derived* derived = derived_.find(name);
     return derived == nullptr ? nominal(name) : rangeOf(derived->formula, ranges);
   });
 }
@@ -614,10 +659,6 @@ std::vector<std::string> Mechanism::stateNames() const {
   return names;
 }
 
-bool Mechanism::isSpeed(const std::string& state) const {
-  return std::ranges::find(speeds_, state, &State::name) != speeds_.end();
-}
-
 std::vector<Expression> Mechanism::initialState() const {
   std::vector<Expression> initial;
   for (const auto* states : {&positions_, &speeds_, &own_})
@@ -626,10 +667,11 @@ std::vector<Expression> Mechanism::initialState() const {
 }
 
 std::vector<bool> Mechanism::startsWith(const std::vector<std::string>& freeParameters) const {
+  const std::unordered_set<std::string> isFree(freeParameters.begin(), freeParameters.end());
   std::vector<bool> follows;
   for (const Expression& initial : initialState())
     follows.push_back(
-        std::ranges::any_of(freeParameters, [&](const std::string& name) { return dependsOn(initial, name); }));
+        std::ranges::any_of(needsOf(initial), [&](const std::string& name) { return isFree.contains(name); }));
   return follows;
 }
 
@@ -644,8 +686,8 @@ std::vector<std::string> Mechanism::outputQuantities() const {
 
 std::string Mechanism::unitOf(const std::string& quantity) const {
   if (const std::string* unit = unitOfMeasured(quantity)) return *unit;
-  if (const NamedValue* parameter = find(parameters_, quantity)) return parameter->unit;
-  if (const Derived* derived = findDerived(quantity)) return derived->unit;
+  if (const NamedValue* parameter = parameters_.find(quantity)) return parameter->unit;
+  if (const Derived* derived = derived_.find(quantity)) return derived->unit;
   std::vector<std::string> known = quantities();
   for (const std::string& output : outputQuantities()) known.push_back(output);
   throw UnknownName("quantity", quantity, known);

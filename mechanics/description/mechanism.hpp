@@ -16,10 +16,14 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "mechanics/description/described.hpp"
 #include "mechanics/description/expression.hpp"
+#include "mechanics/description/named.hpp"
 #include "scalars/interval.hpp"
 
 namespace gamut {
@@ -81,6 +85,8 @@ class Mechanism {
   std::vector<Fault> faults(const Described& element, const std::map<std::string, Interval>& ranges) const;
   /// Throws if there is a joint that no mass hangs on: its motion would not be determined.
   void checkMasses() const;
+  /// An expression in which what has a name here is meant by it. Throws UnitError.
+  Expression parse(std::string_view text) const;
   /// The dimension of an expression of time, parameters and whatever can be measured. Throws UnknownName or UnitError.
   Dimension dimensionOf(const Expression& signal) const;
 
@@ -92,18 +98,21 @@ class Mechanism {
   const std::vector<std::string>& frames() const { return frames_; }
 
   /// Numbers on which motion depends, in the order of their declaration.
-  const std::vector<NamedValue>& parameters() const { return parameters_; }
-  bool isParameter(const std::string& name) const { return find(parameters_, name) != nullptr; }
+  const Named<NamedValue>& parameters() const { return parameters_; }
+  bool isParameter(const std::string& name) const { return parameters_.find(name) != nullptr; }
   /// Whether it is a parameter, derived or not.
-  bool knows(const std::string& name) const { return isParameter(name) || findDerived(name) != nullptr; }
+  bool knows(const std::string& name) const { return isParameter(name) || derived_.find(name) != nullptr; }
   /// Those that follow from others, in the order of their declaration.
-  const std::vector<Derived>& derived() const { return derived_; }
+  const Named<Derived>& derived() const { return derived_; }
   /// Whether a number depends on this parameter, directly or by derived ones.
   bool dependsOn(const Expression& number, const std::string& parameter) const;
+  /// All parameters that a number depends on, directly or by derived ones, which are among them.
+  std::unordered_set<std::string> needsOf(const Expression& number) const;
   /// Initial values given as numbers (not by a parameter).
-  const std::vector<NamedValue>& initialValues() const { return initials_; }
+  const Named<NamedValue>& initialValues() const { return initials_; }
   /// Names of all numbers that may be uncertain: initial values, then parameters.
   std::vector<std::string> quantities() const;
+  bool mayBeUncertain(const std::string& name) const { return initials_.find(name) != nullptr || isParameter(name); }
   /// The value of such a number, or of a derived parameter.
   Interval nominal(const std::string& quantity) const;
   /// A number where parameters have these ranges; those without a range are nominal.
@@ -115,7 +124,9 @@ class Mechanism {
     Coordinate kind;
     bool isDriven = false;
   };
-  const std::vector<JointCoordinate>& coordinates() const { return coordinates_; }
+  const Named<JointCoordinate>& coordinates() const { return coordinates_; }
+  /// The coordinate of this name, or with a rate of this name; null if there is none.
+  const JointCoordinate* coordinateWith(const std::string& name) const;
   /// By the joint's name if it has just one, or by the coordinate's own. Throws UnknownName, saying that `of` asks.
   const JointCoordinate& coordinate(const std::string& name, const std::string& of) const;
 
@@ -129,14 +140,14 @@ class Mechanism {
     bool isByJoint;
   };
   /// Frames that elements move, in the order of assembly.
-  const std::vector<Moved>& moved() const { return moved_; }
+  const Named<Moved, &Moved::frame>& moved() const { return moved_; }
   /// What stands before ".force.x" and ".moment.x" in the names of the reaction that moves a frame: ELEMENT.reaction,
   /// or, of a further frame that the element moves, ELEMENT.FRAME.reaction.
   std::string reactionOf(const std::string& frame) const;
 
   /// How many positions there are.
   std::size_t positions() const { return positions_.size(); }
-  bool isSpeed(const std::string& state) const;
+  bool isSpeed(const std::string& state) const { return speeds_.find(state) != nullptr; }
   /// How many speeds there are.
   int degreesOfFreedom() const { return static_cast<int>(speeds_.size()); }
   /// Positions, then speeds, in the order of the joints, then own states of elements: x = [q; u; z].
@@ -149,6 +160,7 @@ class Mechanism {
   /// Everything that can be looked at: states; motion of frames and quantities of the whole
   /// (description/quantities.hpp); accelerations of speeds; reactions; what elements measure.
   std::vector<std::string> outputQuantities() const;
+  bool isOutputQuantity(const std::string& name) const { return unitOfMeasured(name) != nullptr; }
   /// The unit of any quantity, number or output.
   std::string unitOf(const std::string& quantity) const;
 
@@ -174,13 +186,11 @@ class Mechanism {
     Expression expression;
   };
 
-  static const NamedValue* find(const std::vector<NamedValue>& values, const std::string& name);
   void checkParameterName(const std::string& name) const;
   void checkNewName(const std::string& kind, const std::string& name) const;
   void checkFrame(const std::string& frame, const std::string& of) const;
   void addFrame(const std::string& from, const std::string& to, const std::string& of);
-  void addState(std::vector<State>& states, const std::string& name, const std::string& unit,
-                const Expression& initial);
+  void addState(Named<State>& states, const std::string& name, const std::string& unit, const Expression& initial);
   void addMeasured(const std::string& name, const std::string& unit, const std::string& of, bool isSolved = false);
   void addSignal(Signal signal, Expression& expression);
   void drive(const std::string& coordinate, const std::string& by);
@@ -192,27 +202,30 @@ class Mechanism {
   /// Throws if one of its names is no parameter.
   void checkNames(const Expression& number, const std::string& name) const;
   void checkSignal(const Signal& signal) const;
+  void refuseRateWithUnit(const Signal& signal) const;
   /// Throws if what the expression says is needed to compute what it names.
   void checkCycle(const Signal& signal) const;
-  const Measured* findMeasured(const std::string& name) const;
   /// Where no units are used at all, time is a plain number as well.
   bool isWithoutUnits(const Expression& rate) const;
   std::vector<std::string> withoutUnit(const Expression& number) const;
-  const Derived* findDerived(const std::string& name) const;
   /// Of states and of what is measured; null for any other.
   const std::string* unitOfMeasured(const std::string& name) const;
 
   std::vector<Described> elements_;
   std::optional<ExpressionVector> gravity_, baseAcceleration_;
-  std::vector<std::string> names_, frames_, massFrames_;
-  std::vector<Moved> moved_;
-  std::vector<NamedValue> parameters_, initials_;
-  std::vector<Derived> derived_;
-  std::vector<State> positions_, speeds_, own_;
-  std::vector<JointCoordinate> coordinates_;
+  std::unordered_set<std::string> names_, isFrame_;
+  std::vector<std::string> frames_, massFrames_;
+  Named<Moved, &Moved::frame> moved_;
+  std::unordered_map<std::string, std::string> firstFrames_;  // that elements move
+  Named<NamedValue> parameters_, initials_;
+  Named<Derived> derived_;
+  Named<State> positions_, speeds_, own_;
+  Named<JointCoordinate> coordinates_;
+  std::unordered_map<std::string, std::string> coordinateOfRate_;
+  std::unordered_map<std::string, std::vector<std::string>> coordinatesOf_;  // elements
   std::vector<Following> followings_;
-  std::vector<Measured> measured_;
-  std::vector<Signal> signals_;
+  Named<Measured> measured_;
+  std::unordered_map<std::string, std::vector<Signal>> signals_;  // of elements
 };
 
 }  // namespace gamut

@@ -5,7 +5,10 @@
 #include <fmt/format.h>
 #include <mpfr.h>
 
+#include <algorithm>
 #include <array>
+#include <cctype>
+#include <functional>
 #include <map>
 #include <utility>
 #include <vector>
@@ -13,65 +16,88 @@
 namespace gamut {
 namespace {
 
-/// value * pi^piPower SI units make one of these.
+/// value * pi^piPower SI units make one of these; and so many thousandths, thousands, … of them, by prefixes.
 struct Unit {
   std::string_view symbol;
   const char* value;
   int piPower;
   Dimension dimension;
+  std::string_view prefixes = "";
 };
 
 constexpr Dimension none{};
 constexpr Dimension angle{0, 0, 0, 1}, perSecond{0, 0, -1, 1}, newton{1, 1, -2, 0}, joule{1, 2, -2, 0},
-    watt{1, 2, -3, 0}, pascal{1, -1, -2, 0}, metre{0, 1, 0, 0}, memory{0, 0, 0, 0, 1};
+    watt{1, 2, -3, 0}, pascal{1, -1, -2, 0}, metre{0, 1, 0, 0}, memory{0, 0, 0, 0, 1}, ampere{.current = 1},
+    volt{.mass = 1, .length = 2, .time = -3, .current = -1}, ohm{.mass = 1, .length = 2, .time = -3, .current = -2},
+    henry{.mass = 1, .length = 2, .time = -2, .current = -2}, farad{.mass = -1, .length = -2, .time = 4, .current = 2},
+    weber{.mass = 1, .length = 2, .time = -2, .current = -1}, tesla{.mass = 1, .time = -2, .current = -1};
 
+/// The letter u stands for the micro sign and the Greek letter as well.
 constexpr std::array units{
-    Unit{"rad", "1", 0, angle},
+    Unit{"rad", "1", 0, angle, "mu"},
     Unit{"deg", "1/180", 1, angle},
     Unit{"°", "1/180", 1, angle},
-    Unit{"mrad", "1/1000", 0, angle},
     Unit{"rpm", "1/30", 1, perSecond},
-    Unit{"m", "1", 0, {0, 1, 0, 0}},
-    Unit{"km", "1000", 0, {0, 1, 0, 0}},
-    Unit{"cm", "1/100", 0, {0, 1, 0, 0}},
-    Unit{"mm", "1/1000", 0, {0, 1, 0, 0}},
-    Unit{"um", "1/1000000", 0, {0, 1, 0, 0}},
-    Unit{"in", "127/5000", 0, {0, 1, 0, 0}},
-    Unit{"ft", "381/1250", 0, {0, 1, 0, 0}},
+    Unit{"m", "1", 0, metre, "kcmunp"},
+    Unit{"in", "127/5000", 0, metre},
+    Unit{"ft", "381/1250", 0, metre},
     Unit{"kg", "1", 0, {1, 0, 0, 0}},
-    Unit{"g", "1/1000", 0, {1, 0, 0, 0}},
-    Unit{"mg", "1/1000000", 0, {1, 0, 0, 0}},
+    Unit{"g", "1/1000", 0, {1, 0, 0, 0}, "munpfa"},
     Unit{"t", "1000", 0, {1, 0, 0, 0}},
     Unit{"lb", "45359237/100000000", 0, {1, 0, 0, 0}},
-    Unit{"s", "1", 0, {0, 0, 1, 0}},
-    Unit{"ms", "1/1000", 0, {0, 0, 1, 0}},
-    Unit{"us", "1/1000000", 0, {0, 0, 1, 0}},
+    Unit{"s", "1", 0, {0, 0, 1, 0}, "mun"},
     Unit{"min", "60", 0, {0, 0, 1, 0}},
     Unit{"h", "3600", 0, {0, 0, 1, 0}},
-    Unit{"Hz", "1", 0, {0, 0, -1, 0}},
-    Unit{"kHz", "1000", 0, {0, 0, -1, 0}},
-    Unit{"N", "1", 0, newton},
-    Unit{"mN", "1/1000", 0, newton},
-    Unit{"kN", "1000", 0, newton},
-    Unit{"MN", "1000000", 0, newton},
+    Unit{"Hz", "1", 0, {0, 0, -1, 0}, "kMG"},
+    Unit{"N", "1", 0, newton, "kMmunp"},
     Unit{"lbf", "8896443230521/2000000000000", 0, newton},  // lb times 9.80665 m/s^2
-    Unit{"J", "1", 0, joule},
-    Unit{"kJ", "1000", 0, joule},
-    Unit{"MJ", "1000000", 0, joule},
-    Unit{"mW", "1/1000", 0, watt},
-    Unit{"W", "1", 0, watt},
-    Unit{"kW", "1000", 0, watt},
-    Unit{"MW", "1000000", 0, watt},
-    Unit{"Pa", "1", 0, pascal},
-    Unit{"kPa", "1000", 0, pascal},
-    Unit{"MPa", "1000000", 0, pascal},
-    Unit{"GPa", "1000000000", 0, pascal},
-    Unit{"bar", "100000", 0, pascal},
+    Unit{"J", "1", 0, joule, "kMGmun"},
+    Unit{"W", "1", 0, watt, "kMGmun"},
+    Unit{"Pa", "1", 0, pascal, "kMGm"},
+    Unit{"bar", "100000", 0, pascal, "m"},
+    Unit{"V", "1", 0, volt, "kmu"},
+    Unit{"A", "1", 0, ampere, "kmun"},
+    Unit{"ampere", "1", 0, ampere},
+    Unit{"Ohm", "1", 0, ohm, "kMm"},
+    Unit{"Ω", "1", 0, ohm, "kMm"},       // Greek capital letter omega
+    Unit{"\u2126", "1", 0, ohm, "kMm"},  // ohm sign
+    Unit{"H", "1", 0, henry, "mun"},
+    Unit{"F", "1", 0, farad, "munp"},
+    Unit{"C", "1", 0, {.time = 1, .current = 1}, "munp"},
+    Unit{"Wb", "1", 0, weber, "m"},
+    Unit{"T", "1", 0, tesla, "mu"},
+    Unit{"K", "1", 0, {.temperature = 1}, "m"},
+    Unit{"kelvin", "1", 0, {.temperature = 1}},
     Unit{"GB", "1", 0, memory},
     Unit{"MB", "1/1000", 0, memory},
     Unit{"GiB", "2097152/1953125", 0, memory},  // 2^30 / 10^9
     Unit{"MiB", "2048/1953125", 0, memory},     // 2^20 / 10^9
     Unit{"%", "1/100", 0, none},
+};
+
+/// What nothing else is named by. (Letters as A, C, K and T, and parts as mA and nm, are names of numbers too, and
+/// which of both is meant is for a study to say.)
+constexpr std::array reservedUnits = std::to_array<std::string_view>(
+    {"rad", "mrad", "deg", "°",  "rpm", "m",   "km", "cm",  "mm", "um",     "in",    "ft",  "kg",
+     "g",   "mg",   "t",   "lb", "s",   "ms",  "us", "min", "h",  "Hz",     "kHz",   "N",   "mN",
+     "kN",  "MN",   "lbf", "J",  "kJ",  "MJ",  "mW", "W",   "kW", "MW",     "Pa",    "kPa", "MPa",
+     "GPa", "bar",  "GB",  "MB", "GiB", "MiB", "%",  "Ohm", "Ω",  "ampere", "kelvin"});
+
+struct Prefix {
+  char letter;
+  const char* value;
+};
+constexpr std::array prefixes{
+    Prefix{'G', "1000000000"},
+    Prefix{'M', "1000000"},
+    Prefix{'k', "1000"},
+    Prefix{'c', "1/100"},
+    Prefix{'m', "1/1000"},
+    Prefix{'u', "1/1000000"},
+    Prefix{'n', "1/1000000000"},
+    Prefix{'p', "1/1000000000000"},
+    Prefix{'f', "1/1000000000000000"},
+    Prefix{'a', "1/1000000000000000000"},
 };
 
 /// SI units with a name that people know better than their product of base units.
@@ -84,6 +110,7 @@ constexpr std::array namedUnitsOfMoments{
     NamedUnit{"N m/s", {1, 2, -3, 0}},
     NamedUnit{"N m rad", {1, 2, -2, 1}},
     NamedUnit{"N m rad/s", {1, 2, -3, 1}},
+    NamedUnit{"N m/A", weber},
 };
 constexpr std::array namedUnits{
     NamedUnit{"N", newton},
@@ -95,6 +122,15 @@ constexpr std::array namedUnits{
     NamedUnit{"N s/m", {1, 0, -1, 0}},
     NamedUnit{"N m/rad", {1, 2, -2, -1}},
     NamedUnit{"N m s/rad", {1, 2, -1, -1}},
+    NamedUnit{"V", volt},
+    NamedUnit{"V/s", {.mass = 1, .length = 2, .time = -4, .current = -1}},
+    NamedUnit{"V s", weber},
+    NamedUnit{"V s/rad", {.mass = 1, .length = 2, .time = -2, .angle = -1, .current = -1}},
+    NamedUnit{"Ω", ohm},
+    NamedUnit{"H", henry},
+    NamedUnit{"F", farad},
+    NamedUnit{"C", {.time = 1, .current = 1}},
+    NamedUnit{"T", tesla},
 };
 
 Amount checked(Amount amount) {
@@ -158,8 +194,13 @@ std::string productOf(const std::vector<std::pair<std::string, int>>& powers) {
 }  // namespace
 
 Dimension joined(const Dimension& a, const Dimension& b, int sign) {
-  Dimension result{a.mass + sign * b.mass, a.length + sign * b.length, a.time + sign * b.time, a.angle + sign * b.angle,
-                   a.memory + sign * b.memory};
+  Dimension result{a.mass + sign * b.mass,
+                   a.length + sign * b.length,
+                   a.time + sign * b.time,
+                   a.angle + sign * b.angle,
+                   a.memory + sign * b.memory,
+                   a.current + sign * b.current,
+                   a.temperature + sign * b.temperature};
   result.isOfMoment = (a.isOfMoment || b.isOfMoment) && result.mass != 0 && result.length == 2 * result.mass;
   return result;
 }
@@ -173,6 +214,19 @@ std::string unitOf(const Dimension& dimension) {
                     {"m", dimension.length},
                     {"rad", dimension.angle},
                     {"s", dimension.time},
+                    {"A", dimension.current},
+                    {"K", dimension.temperature},
+                    {"GB", dimension.memory}});
+}
+
+std::string unitInFormulas(const Dimension& dimension) {
+  if (dimension.current == 0 && dimension.temperature == 0) return unitOf(dimension);
+  return productOf({{"kg", dimension.mass},
+                    {"m", dimension.length},
+                    {"rad", dimension.angle},
+                    {"s", dimension.time},
+                    {"ampere", dimension.current},
+                    {"kelvin", dimension.temperature},
                     {"GB", dimension.memory}});
 }
 
@@ -194,30 +248,74 @@ bool isCompatible(const Dimension& found, const Dimension& expected) {
   return expected.mass != 0 && withoutAngle == expected;
 }
 
-const Amount* unitNamed(std::string_view symbol) {
-  static const std::map<std::string_view, Amount> amounts = [] {
-    std::map<std::string_view, Amount> result;
-    for (const Unit& unit : units)
-      result[unit.symbol] = {mpq_class(unit.value), unit.piPower, unit.dimension, unit.symbol != "%",
-                             unit.symbol == "%"};
+namespace {
+
+/// All symbols, prefixes in front of them included.
+const std::map<std::string, Amount, std::less<>>& amountsOfUnits() {
+  static const std::map<std::string, Amount, std::less<>> amounts = [] {
+    std::map<std::string, Amount, std::less<>> result;
+    for (const Unit& unit : units) {
+      Amount one{mpq_class(unit.value), unit.piPower, unit.dimension, unit.symbol != "%", unit.symbol == "%"};
+      const std::string symbol(unit.symbol);
+      result[symbol] = one;
+      const mpq_class value = one.value;
+      for (const char letter : unit.prefixes) {
+        const auto prefix = std::ranges::find(prefixes, letter, &Prefix::letter);
+        one.value = mpq_class(prefix->value) * value;
+        result[letter + symbol] = one;
+        if (letter == 'u')
+          for (const char* micro : {"\u00b5", "\u03bc"}) result[micro + symbol] = one;
+      }
+    }
     return result;
   }();
-  const auto found = amounts.find(symbol);
-  return found == amounts.end() ? nullptr : &found->second;
+  return amounts;
 }
 
+}  // namespace
+
+const Amount* unitNamed(std::string_view symbol) {
+  const auto found = amountsOfUnits().find(symbol);
+  return found == amountsOfUnits().end() ? nullptr : &found->second;
+}
+
+bool mayBeName(std::string_view unit) { return std::ranges::find(reservedUnits, unit) == reservedUnits.end(); }
+
 std::string unitsApart(const std::string& word) {
-  for (const std::string first : {"N", "kN", "mN", "MN", "lbf", "W", "kW", "kg"})
+  for (const std::string first : {"N", "kN", "mN", "MN", "lbf", "W", "kW", "kg", "V", "mV", "A", "mA"})
     if (word.starts_with(first) && unitNamed(word.substr(first.size())) != nullptr)
       return first + " " + word.substr(first.size());
+  return "";
+}
+
+/// By its name in words, or written with other capitals. (What is only spelt alike is another unit.)
+std::string nearestUnit(const std::string& word) {
+  static const std::map<std::string_view, const char*> words = {
+      {"meter", "m"},    {"metre", "m"},  {"inch", "in"},    {"foot", "ft"},   {"gram", "g"},    {"kilogram", "kg"},
+      {"sec", "s"},      {"second", "s"}, {"minute", "min"}, {"hour", "h"},    {"hertz", "Hz"},  {"radian", "rad"},
+      {"degree", "deg"}, {"newton", "N"}, {"joule", "J"},    {"watt", "W"},    {"pascal", "Pa"}, {"volt", "V"},
+      {"amp", "A"},      {"henry", "H"},  {"farad", "F"},    {"coulomb", "C"}, {"weber", "Wb"},  {"tesla", "T"}};
+  std::string small = word;
+  std::ranges::transform(small, small.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  for (const std::string& one : {small, small.ends_with('s') ? small.substr(0, small.size() - 1) : small})
+    if (const auto found = words.find(one); found != words.end()) return found->second;
+  for (const auto& [symbol, amount] : amountsOfUnits())
+    if (symbol.size() > 1 && std::ranges::equal(
+                                 symbol, word, {}, [](unsigned char c) { return std::tolower(c); },
+                                 [](unsigned char c) { return std::tolower(c); }))
+      return symbol;
   return "";
 }
 
 std::string unitInsteadOf(const std::string& word) {
   if (const std::string apart = unitsApart(word); !apart.empty()) return "'" + apart + "', with a blank between units";
   std::string list;
-  for (const Unit& unit : units) list += (list.empty() ? "" : ", ") + std::string(unit.symbol);
-  return "one of " + list;
+  for (const Unit& unit : units)
+    if (unit.symbol != "\u2126" && unit.symbol != "ampere" && unit.symbol != "kelvin")
+      list += (list.empty() ? "" : ", ") + std::string(unit.symbol);
+  const std::string nearest = nearestUnit(word);
+  return (nearest.empty() ? "" : "'" + nearest + "'? (") + "one of " + list +
+         ", or a part or multiple such as mm, kN, mA" + (nearest.empty() ? "" : ")");
 }
 
 Amount product(const Amount& a, const Amount& b) {

@@ -14,12 +14,13 @@
 
 namespace gamut {
 
-/// Powers of kilogram, metre, second, radian and gigabyte.
+/// Powers of kilogram, metre, second, radian, gigabyte, ampere and kelvin.
 struct Dimension {
-  int mass = 0, length = 0, time = 0, angle = 0, memory = 0;
+  int mass = 0, length = 0, time = 0, angle = 0, memory = 0, current = 0, temperature = 0;
   bool isOfMoment = false;  ///< N m is meant and not J, as far as it is known; for display, no part of the kind
   friend constexpr bool operator==(const Dimension& a, const Dimension& b) {
-    return a.mass == b.mass && a.length == b.length && a.time == b.time && a.angle == b.angle && a.memory == b.memory;
+    return a.mass == b.mass && a.length == b.length && a.time == b.time && a.angle == b.angle && a.memory == b.memory &&
+           a.current == b.current && a.temperature == b.temperature;
   }
 };
 
@@ -29,6 +30,9 @@ Dimension joined(const Dimension& a, const Dimension& b, int sign);
 /// The dimension's SI unit in words, e.g. "kg m^2", "rad/s", "N/m" where it has a name of its own; "1" without one.
 /// "N m" of what is known to be a moment, else "J".
 std::string unitOf(const Dimension& dimension);
+
+/// The same in symbols that nothing else can be named by, for texts that are read as formulas.
+std::string unitInFormulas(const Dimension& dimension);
 
 /// The dimension of a unit: "kg m^2", "N/m", "rad/s"; "" and "1" have none. Throws UnitError.
 Dimension dimensionOf(std::string_view unit);
@@ -63,12 +67,17 @@ Amount parseAmount(std::string_view text);
 
 /// One of the unit with this symbol: "mm", "deg", "%". Null if there is none.
 const Amount* unitNamed(std::string_view symbol);
+/// Whether a parameter or a state may have the name all the same, which then is meant: T, mA, ns; but not s, kg, mm.
+bool mayBeName(std::string_view unit);
 
-/// What would do instead of a word that is no unit: "'N m', with a blank between units" for "Nm"; else "one of rad,
-/// deg, …".
+/// What would do instead of a word that is no unit: "'N m', with a blank between units" for "Nm"; else the unit
+/// that is named so in words, or with other capitals, if there is one, and "one of rad, deg, …".
 std::string unitInsteadOf(const std::string& word);
+/// Empty if there is none.
+std::string nearestUnit(const std::string& word);
 
-/// "N m" of "Nm": a unit of force, power or mass and one written to it, apart; empty of anything else.
+/// "N m" of "Nm": a unit of force, power, mass, voltage or current and one written to it, apart; empty of anything
+/// else.
 std::string unitsApart(const std::string& word);
 
 /// a * b, a / b and a^power. Units and percent carry over. Throw UnitError for 0 as a divisor and beyond 1e±300.

@@ -114,8 +114,7 @@ class MechanismReader {
 
   [[noreturn]] static void refuseRobot(const Robot& robot, int line, std::string what) {
     std::ranges::replace(what, ';', ',');
-    throw StudyError(
-        printable(fmt::format("{}:{}: {}; expected a robot whose parts fit together", robot.file, line, what)));
+    throw StudyError(complaintAt(fmt::format("{}:{}", robot.file, line), what, "a robot whose parts fit together"));
   }
 
   /// Every value in tables within tables, by the names of all of them.
@@ -576,7 +575,7 @@ class MechanismReader {
   Expression signal(const toml::node& node, const std::string& name, const std::string& what, const Word& word) {
     places_[name] = &node;
     if (!node.is_string()) return enclose(source_.asAmount(node, what, dimensionOf(word.unit)));
-    const Expression expression = source_.asExpression(node, what);
+    const Expression expression = source_.asExpression(node, what, true);
     if (expression.amount()) source_.asAmount(node, what, dimensionOf(word.unit));  // refuses another unit
     return expression;
   }
@@ -613,6 +612,18 @@ class MechanismReader {
 };
 
 }  // namespace
+
+TomlSource::Names namesStatedIn(const TomlSource& source) {
+  TomlSource::Names names;
+  const auto mechanism = source.root()["mechanism"];
+  if (const toml::table* parameters = mechanism["parameters"].as_table())
+    for (const auto& [key, value] : *parameters) names.parameters.emplace(key.str());
+  if (const toml::array* elements = mechanism["element"].as_array())
+    for (const toml::node& element : *elements)
+      if (const toml::table* table = element.as_table(); table != nullptr && (*table)["type"] == "state")
+        if (const auto name = (*table)["name"].value<std::string>()) names.states.insert(*name);
+  return names;
+}
 
 ReadMechanism readMechanism(const TomlSource& source, const toml::table& table, const std::vector<Described>& types,
                             const std::optional<FilesAtHand>& files) {

@@ -19,6 +19,9 @@ struct ReadMechanism {
   std::vector<std::string> notes;  ///< what of it is left out
 };
 
+/// What parameters and states of the mechanism are named in the file, whatever else is wrong with them.
+TomlSource::Names namesStatedIn(const TomlSource& source);
+
 /// Reads gravity, parameters, a robot and elements of these types, in the order of the file. Throws StudyError.
 ReadMechanism readMechanism(const TomlSource& source, const toml::table& table, const std::vector<Described>& types,
                             const std::optional<FilesAtHand>& files = {});

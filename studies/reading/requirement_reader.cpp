@@ -26,7 +26,7 @@ struct Sign {
 class RequirementReader {
  public:
   RequirementReader(const TomlSource& source, Study& study, std::vector<const toml::node*>& nodes)
-      : source_(source), study_(study), nodes_(nodes), known_(study.mechanism.outputQuantities()) {
+      : source_(source), study_(study), nodes_(nodes) {
     for (const OutputInfo& output : study.outputs) outputs_.push_back(output);
   }
 
@@ -159,7 +159,10 @@ class RequirementReader {
       source_.fail(node, fmt::format("'{}' has nothing on one side of a comparison", text), comparisonExpected);
     Side side;
     try {
-      side.expression = Expression::parse(alone);
+      side.expression = Expression::parse(alone, [this](std::string_view word) {
+        const std::string name(word);
+        return isQuantity(name) || outputNamed(name) != nullptr;
+      });
       for (const std::string& name : side.expression.names())
         if (name != "t" && outputNamed(name) == nullptr && !isQuantity(name))
           source_.fail(node, fmt::format("unknown quantity '{}'", name), quantityExpected(name, namesForMessages()));
@@ -190,8 +193,8 @@ class RequirementReader {
             fmt::format("'{}' compares {} with {}", text, unitOf(dimension), unitOf(dimensionOf(side.expression))),
             "quantities of one kind");
       const bool isOneNumber = side.quantity.find_first_of("+*/^( ") == std::string::npos;
-      side.quantity = isOneNumber ? fmt::format("{} {}", side.quantity, unitOf(dimension))
-                                  : fmt::format("({})*(1 {})", side.quantity, unitOf(dimension));
+      side.quantity = isOneNumber ? fmt::format("{} {}", side.quantity, unitInFormulas(dimension))
+                                  : fmt::format("({})*(1 {})", side.quantity, unitInFormulas(dimension));
     }
   }
 
@@ -214,7 +217,7 @@ class RequirementReader {
                  : greater.isZero
                      ? fmt::format("-({})", less.quantity)
                      : fmt::format("{} - {}", inParentheses(greater.quantity), inParentheses(less.quantity));
-      unit = unitOf(study_.mechanism.dimensionOf(Expression::parse(quantity)));
+      unit = unitOf(study_.mechanism.dimensionOf(study_.mechanism.parse(quantity)));
     } catch (const UnitError& error) {
       source_.fail(node, error);
     }
@@ -237,7 +240,7 @@ class RequirementReader {
   }
 
   bool isQuantity(const std::string& name) const {
-    return study_.mechanism.knows(name) || std::ranges::find(known_, name) != known_.end();
+    return study_.mechanism.knows(name) || study_.mechanism.isOutputQuantity(name);
   }
 
   /// What is a quantity is that, also where an output has its name.
@@ -248,7 +251,7 @@ class RequirementReader {
   }
 
   std::vector<std::string> namesForMessages() const {
-    std::vector<std::string> names = known_;
+    std::vector<std::string> names = study_.mechanism.outputQuantities();
     for (const OutputInfo& output : outputs_) names.push_back(output.name);
     return names;
   }
@@ -256,7 +259,7 @@ class RequirementReader {
   Dimension dimensionOf(const Expression& expression) const {
     return expression.dimension([&](const std::string& name) {
       const OutputInfo* output = outputNamed(name);
-      return study_.mechanism.dimensionOf(output != nullptr ? Expression::parse(quantityOf(*output))
+      return study_.mechanism.dimensionOf(output != nullptr ? study_.mechanism.parse(quantityOf(*output))
                                                             : Expression::named(name));
     });
   }
@@ -307,7 +310,6 @@ class RequirementReader {
   const TomlSource& source_;
   Study& study_;
   std::vector<const toml::node*>& nodes_;
-  std::vector<std::string> known_;
   std::vector<OutputInfo> outputs_;  // of the study, without margins
 };
 

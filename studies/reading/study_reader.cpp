@@ -11,6 +11,7 @@
 #include <map>
 #include <optional>
 #include <string_view>
+#include <unordered_set>
 #include <utility>
 
 #include "mechanics/assembly.hpp"
@@ -44,6 +45,7 @@ class StudyReader {
                            {"study", "mechanism", "uncertain", "dependence", "output", "requirement", "interval",
                             "stochastic", "distribution", "sensitivity", "fuzzy", "limits"});
     readStudyTable(source_.asTable(file.require("study", "a table [study]"), "study"));
+    source_.setNames(namesStatedIn(source_));
     ReadMechanism read = readMechanism(
         source_, source_.asTable(file.require("mechanism", "a table [mechanism]"), "mechanism"), types, files);
     study_.mechanism = std::move(read.mechanism);
@@ -196,9 +198,11 @@ class StudyReader {
   void checkInitialValues() const {
     const std::vector<std::string> names = study_.mechanism.stateNames();
     const std::vector<Expression> initial = study_.mechanism.initialState();
+    std::vector<UncertainQuantity> varying;
+    std::ranges::copy_if(study_.uncertain, std::back_inserter(varying), &UncertainQuantity::varies);
     for (std::size_t i = 0; i < names.size(); ++i)
-      for (const UncertainQuantity& uncertain : study_.uncertain)
-        if (uncertain.varies && study_.mechanism.dependsOn(initial[i], uncertain.quantity))
+      for (const UncertainQuantity& uncertain : varying)
+        if (study_.mechanism.dependsOn(initial[i], uncertain.quantity))
           source_.fail(placeOf(names[i]),
                        fmt::format("the initial value '{}' follows from '{}', which varies in time", names[i],
                                    uncertain.quantity),
@@ -208,10 +212,9 @@ class StudyReader {
   /// Points between which a length is measured lie apart at the start, or its direction is not determined.
   void checkLengths() const {
     const Assembly<double> assembly(study_.mechanism);
-    const std::vector<std::string> known = study_.mechanism.outputQuantities();
     for (const Described& element : study_.mechanism.elements()) {
       const std::string length = element.name() + ".length";
-      if (std::ranges::find(known, length) != known.end() && assembly.output(length) == 0)
+      if (study_.mechanism.isOutputQuantity(length) && assembly.output(length) == 0)
         source_.fail(*places_.at(element.name()),
                      fmt::format("the {} '{}' has no length at the start", element.type(), element.name()),
                      "points that lie apart");
@@ -224,10 +227,9 @@ class StudyReader {
     return number.evaluate<Recorded>([&](const std::string& name) -> Recorded {
       const auto found = std::ranges::find(open, name);
       if (found != open.end()) return values[static_cast<std::size_t>(found - open.begin())];
-      const std::vector<Mechanism::Derived>& derived = study_.mechanism.derived();
-      const auto formula = std::ranges::find(derived, name, &Mechanism::Derived::name);
-      return formula != derived.end() ? valueOf(formula->formula, open, values)
-                                      : constant<Recorded>(study_.mechanism.nominal(name));
+      const Mechanism::Derived* derived = study_.mechanism.derived().find(name);
+      return derived != nullptr ? valueOf(derived->formula, open, values)
+                                : constant<Recorded>(study_.mechanism.nominal(name));
     });
   }
 
@@ -244,7 +246,7 @@ class StudyReader {
       return std::pair(at.line, at.column);
     });
     for (const auto& [node, name] : numbers) {
-      const Expression number = source_.asExpression(*node, name);
+      const Expression number = source_.asExpression(*node, name, true);
       try {
         record(0, static_cast<int>(open.size()), 1,
                [&](auto, const auto&, const auto& p, auto& y) { y[0] = valueOf(number, open, p); });
@@ -300,15 +302,17 @@ class StudyReader {
 
   /// Of a quantity, or of an expression of quantities.
   std::string unitOfOutput(const toml::node& node, const std::string& quantity) const {
-    const std::vector<std::string> known = study_.mechanism.outputQuantities();
-    if (std::find(known.begin(), known.end(), quantity) != known.end()) return study_.mechanism.unitOf(quantity);
-    const bool isNumber = quantity == "t" || study_.mechanism.knows(quantity);
-    if (!isNumber && quantity.find_first_of(" +-*/^()") == std::string::npos)
-      source_.fail(node, fmt::format("unknown quantity '{}'", quantity), quantityExpected(quantity, known));
-    const Expression expression = source_.asExpression(node, "output.quantity");
+    const Mechanism& mechanism = study_.mechanism;
+    const auto refuse = [&](const std::string& name) {
+      source_.fail(node, fmt::format("unknown quantity '{}'", name),
+                   quantityExpected(name, mechanism.outputQuantities()));
+    };
+    if (mechanism.isOutputQuantity(quantity)) return mechanism.unitOf(quantity);
+    const bool isNumber = quantity == "t" || mechanism.knows(quantity);
+    if (!isNumber && quantity.find_first_of(" +-*/^()'") == std::string::npos) refuse(quantity);
+    const Expression expression = source_.asExpression(node, "output.quantity", true);
     for (const std::string& name : expression.names())
-      if (name != "t" && !study_.mechanism.knows(name) && std::find(known.begin(), known.end(), name) == known.end())
-        source_.fail(node, fmt::format("unknown quantity '{}'", name), quantityExpected(name, known));
+      if (name != "t" && !mechanism.knows(name) && !mechanism.isOutputQuantity(name)) refuse(name);
     try {
       return unitOf(study_.mechanism.dimensionOf(expression));
     } catch (const UnitError& error) {
@@ -322,6 +326,10 @@ class StudyReader {
     if (node == nullptr) return own;
     const std::string unit = source_.asText(*node, "output.unit");
     try {
+      if (const std::string name = source_.nameIn("1 " + unit); !name.empty())
+        source_.fail(*node,
+                     fmt::format("output.unit is {}, and the study has a number of its own named '{}'", unit, name),
+                     "another unit of that kind, or another name for that number");
       if (dimensionOf(unit) == dimensionOf(own)) return unit == "1" || unit.empty() ? own : unit;
     } catch (const UnitError& error) {
       source_.fail(*node, error);
@@ -336,11 +344,10 @@ class StudyReader {
     const std::string quantity = source_.asText(node, "output.quantity");
     const std::string own = unitOfOutput(node, quantity), unit = statedUnit(section, own);
     const std::string name = section.text("name", quantity);
-    for (const OutputInfo& other : study_.outputs)
-      if (other.name == name) {
-        const toml::node* at = section.find("name");
-        source_.fail(at == nullptr ? node : *at, fmt::format("two outputs are named '{}'", name), "different names");
-      }
+    if (!outputNames_.insert(name).second) {
+      const toml::node* at = section.find("name");
+      source_.fail(at == nullptr ? node : *at, fmt::format("two outputs are named '{}'", name), "different names");
+    }
     study_.outputs.push_back({name, quantity, unit});
     outputNodes_.push_back(&node);
   }
@@ -529,6 +536,7 @@ class StudyReader {
   TomlSource source_;
   Study study_;
   std::vector<const toml::node*> outputNodes_;
+  std::unordered_set<std::string> outputNames_;
   std::map<std::string, const toml::node*> places_;  // of the mechanism's numbers and elements
 };
 
@@ -540,7 +548,8 @@ Study readStudyText(const std::string& text, const std::string& name, const std:
 }
 
 Mechanism readMechanismText(const std::string& text, const std::string& name, const std::vector<Described>& types) {
-  const TomlSource source(text, name);
+  TomlSource source(text, name);
+  source.setNames(namesStatedIn(source));
   const toml::node* mechanism = source.root().get("mechanism");
   if (mechanism == nullptr) source.fail(source.root(), "'mechanism' is missing", "a table [mechanism]");
   return readMechanism(source, source.asTable(*mechanism, "mechanism"), types).mechanism;

@@ -102,17 +102,16 @@ std::size_t TomlSource::lineOf(std::size_t place) const {
          1;
 }
 
-std::string TomlSource::placed(const toml::source_position& at, const std::string& text) const {
-  return printable(
-      fmt::format("{}:{}:{}: {}", name_, std::max<unsigned>(at.line, 1), std::max<unsigned>(at.column, 1), text));
+std::string TomlSource::placeOf(const toml::source_position& at) const {
+  return fmt::format("{}:{}:{}", name_, std::max<unsigned>(at.line, 1), std::max<unsigned>(at.column, 1));
 }
 
 void TomlSource::fail(const toml::source_position& at, const std::string& what, const std::string& expected) const {
-  throw StudyError(placed(at, fmt::format("{}; expected {}", what, expected)));
+  throw StudyError(complaintAt(placeOf(at), what, expected));
 }
 
 std::string TomlSource::note(const toml::node& at, const std::string& text) const {
-  return placed(at.source().begin, "note: " + text);
+  return printable(fmt::format("{}: note: {}", placeOf(at.source().begin), shortened(text, 1000)));
 }
 
 void TomlSource::failWith(const toml::node& at, const std::string& sentence, const std::string& expected) const {
@@ -175,12 +174,25 @@ Amount TomlSource::readAnyAmount(const toml::node& node, const std::string& what
 }
 
 void TomlSource::fail(const toml::node& at, const UnitError& error) const {
-  throw StudyError(placed(at.source().begin, error.what()));
+  const std::string_view what = error.what(), joint = "; expected ";
+  const std::size_t end = std::min(what.find(joint), what.size());
+  fail(at.source().begin, std::string(what.substr(0, end)),
+       std::string(what.substr(std::min(end + joint.size(), what.size()))));
 }
 
-Expression TomlSource::asExpression(const toml::node& node, const std::string& what) const {
+std::string TomlSource::nameIn(std::string_view formula) const {
+  const auto isName = [this](std::string_view word) {
+    return names_.parameters.contains(word) || names_.states.contains(word);
+  };
+  const Expression found = Expression::parse(formula, isName);
+  return found.isConstant() || !isName(found.names().front()) ? "" : found.names().front();
+}
+
+Expression TomlSource::asExpression(const toml::node& node, const std::string& what, bool isOfMotion) const {
   try {
-    return Expression::parse(asText(node, what));
+    return Expression::parse(asText(node, what), [&](std::string_view word) {
+      return names_.parameters.contains(word) || (isOfMotion && names_.states.contains(word));
+    });
   } catch (const UnitError& error) {
     fail(node, UnitError(fmt::format("{}: {}", what, error.what())));
   }

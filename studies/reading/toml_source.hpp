@@ -5,7 +5,9 @@
 #include <toml++/toml.h>
 
 #include <filesystem>
+#include <functional>
 #include <initializer_list>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,6 +27,15 @@ class TomlSource {
   const std::string& name() const { return name_; }
   /// In which files lie that it names.
   std::filesystem::path folder() const { return std::filesystem::path(name_).parent_path(); }
+
+  /// What is named in the file, and meant where it is written in a formula also where a unit is written so (mayBeName):
+  /// parameters anywhere, states in expressions of motion.
+  struct Names {
+    std::set<std::string, std::less<>> parameters, states;
+  };
+  void setNames(Names names) { names_ = std::move(names); }
+  /// The first of these names in an expression of motion; empty if there is none. Throws UnitError.
+  std::string nameIn(std::string_view formula) const;
 
   /// Throws StudyError "file:line:column: what; expected …".
   [[noreturn]] void fail(const toml::source_position& at, const std::string& what, const std::string& expected) const;
@@ -55,7 +66,7 @@ class TomlSource {
   /// As asAmount and asAnyAmount, for `text` that was found at `node`.
   Amount readAmount(const toml::node& node, const std::string& what, const std::string& text,
                     const Dimension& dimension, const std::string& unit = "") const;
-  Expression asExpression(const toml::node& node, const std::string& what) const;
+  Expression asExpression(const toml::node& node, const std::string& what, bool isOfMotion = false) const;
   Amount readAnyAmount(const toml::node& node, const std::string& what, const std::string& text) const;
   /// One of the words; a near miss is named.
   std::string asChoice(const toml::node& node, const std::string& what, const std::vector<std::string>& choices) const;
@@ -67,13 +78,15 @@ class TomlSource {
   std::size_t endOfText(std::size_t begin) const;
   /// From 0.
   std::size_t lineOf(std::size_t place) const;
-  std::string placed(const toml::source_position& at, const std::string& text) const;
+  /// "file:line:column"
+  std::string placeOf(const toml::source_position& at) const;
   std::string tokenAt(const toml::source_position& at) const;
   Amount checked(const toml::node& node, const std::string& what, Amount amount, const Dimension& dimension,
                  const std::string& unit) const;
 
   std::string text_, name_;
   std::vector<std::size_t> lineStarts_;
+  Names names_;
   toml::table root_;
 };
 

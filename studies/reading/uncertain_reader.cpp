@@ -6,13 +6,47 @@
 #include <algorithm>
 #include <map>
 #include <regex>
+#include <unordered_set>
 #include <utility>
 
 #include "mechanics/description/names.hpp"
+#include "studies/printable.hpp"
 #include "studies/reading/shape_reader.hpp"
 
 namespace gamut {
 namespace {
+
+/// Text with any characters in the place of each *: what stands before the first, between two, and after the last.
+class Pattern {
+ public:
+  /// With one * at least.
+  explicit Pattern(std::string_view text) {
+    const std::size_t first = text.find('*'), last = text.rfind('*');
+    begin_ = text.substr(0, first);
+    end_ = text.substr(last + 1);
+    for (std::size_t at = first; at < last;) {
+      const std::size_t next = text.find('*', at + 1);
+      if (next > at + 1) between_.push_back(text.substr(at + 1, next - at - 1));
+      at = next;
+    }
+  }
+
+  /// Each part where it comes first leaves the most for those behind it.
+  bool fits(std::string_view text) const {
+    if (text.size() < begin_.size() + end_.size() || !text.starts_with(begin_) || !text.ends_with(end_)) return false;
+    text = text.substr(begin_.size(), text.size() - begin_.size() - end_.size());
+    for (const std::string_view part : between_) {
+      const std::size_t at = text.find(part);
+      if (at == text.npos) return false;
+      text.remove_prefix(at + part.size());
+    }
+    return true;
+  }
+
+ private:
+  std::string_view begin_, end_;
+  std::vector<std::string_view> between_;
+};
 
 class UncertainReader {
  public:
@@ -29,7 +63,11 @@ class UncertainReader {
         source_.fail(*name, fmt::format("one name is given to {} quantities", quantities.size()),
                      "no name: each has that of its quantity");
     for (const auto& [place, quantity] : quantities) {
-      readOne(section, *place, quantity);
+      const auto read = [&, &place = place, &quantity = quantity] { readOne(section, *place, quantity); };
+      if (quantities.size() > 1)
+        naming(quantity, read);
+      else
+        read();
       tables_.push_back(&table);
     }
   }
@@ -38,17 +76,19 @@ class UncertainReader {
   /// still be meant: of a body that only turns about one axis, the other moments do not matter.
   void noteFaults() {
     const Mechanism& mechanism = study_.mechanism;
+    std::map<std::string, Interval> ranges;
+    for (const UncertainQuantity& q : study_.uncertain) ranges[q.quantity] = q.uncertain.range;
     for (const Described& element : mechanism.elements()) {
       std::vector<Expression> asked;
       const auto range = [&](const Expression& number) {
         asked.push_back(number);
-        return mechanism.rangeOf(number, ranges());
+        return mechanism.rangeOf(number, ranges);
       };
       element.faults(range);
       std::vector<std::string> sentences;
       for (const Fault& doubt : element.doubts([&](const Expression& n) { return mechanism.rangeOf(n); }, range))
         sentences.push_back(doubt.sentence);
-      for (const Fault& fault : mechanism.faults(element, ranges()))
+      for (const Fault& fault : mechanism.faults(element, ranges))
         sentences.push_back("for some values in the intervals " + fault.sentence);
       if (sentences.empty()) continue;
       const auto varies = [&](const UncertainQuantity& uncertain) {
@@ -64,29 +104,42 @@ class UncertainReader {
   }
 
  private:
+  /// What is wrong with one of several quantities of a table is said with its name.
+  template <class Action>
+  static void naming(const std::string& quantity, const Action& action) {
+    try {
+      action();
+    } catch (const StudyError& error) {
+      std::string what = error.what();
+      const std::string name = printable("'" + quantity + "'");
+      const std::size_t end = what.rfind("; expected ");
+      if (what.find(name) != std::string::npos || end == std::string::npos) throw;
+      throw StudyError(what.insert(end, fmt::format(", for {}", name)));
+    }
+  }
+
   /// One quantity of a table that may name several.
   void readOne(const TomlSection& section, const toml::node& node, const std::string& quantity) {
-    const std::vector<std::string> known = study_.mechanism.quantities();
-    for (const Mechanism::Derived& derived : study_.mechanism.derived())
-      if (derived.name == quantity)
-        source_.fail(node, fmt::format("'{}' follows from a formula", quantity),
-                     fmt::format("one of the quantities in it: {}", fmt::join(derived.formula.names(), ", ")));
-    for (const Mechanism::JointCoordinate& coordinate : study_.mechanism.coordinates())
-      if (coordinate.isDriven && (coordinate.name == quantity || coordinate.rate == quantity))
+    const Mechanism& mechanism = study_.mechanism;
+    if (const Mechanism::Derived* derived = mechanism.derived().find(quantity))
+      source_.fail(node, fmt::format("'{}' follows from a formula", quantity),
+                   fmt::format("one of the quantities in it: {}", fmt::join(derived->formula.names(), ", ")));
+    if (const Mechanism::JointCoordinate* coordinate = mechanism.coordinateWith(quantity))
+      if (coordinate->isDriven)
         source_.fail(
-            node, fmt::format("the joint '{}' is driven, so that '{}' follows from time", coordinate.element, quantity),
+            node,
+            fmt::format("the joint '{}' is driven, so that '{}' follows from time", coordinate->element, quantity),
             "a parameter in the drive's position");
-    if (std::find(known.begin(), known.end(), quantity) == known.end())
-      source_.fail(node, fmt::format("unknown quantity '{}'", quantity), quantityExpected(quantity, known));
+    if (!mechanism.mayBeUncertain(quantity))
+      source_.fail(node, fmt::format("unknown quantity '{}'", quantity),
+                   quantityExpected(quantity, mechanism.quantities()));
     UncertainQuantity result{quantity, study_.mechanism.unitOf(quantity), {}};
     result.uncertain.name = section.text("name", quantity);
-    for (const UncertainQuantity& other : study_.uncertain) {
-      if (other.quantity == quantity)
-        source_.fail(node, fmt::format("'{}' is made uncertain twice", quantity), "every quantity once");
-      if (other.uncertain.name == result.uncertain.name)
-        source_.fail(section.table(), fmt::format("two uncertain quantities are named '{}'", other.uncertain.name),
-                     "different names");
-    }
+    if (!quantities_.insert(quantity).second)
+      source_.fail(node, fmt::format("'{}' is made uncertain twice", quantity), "every quantity once");
+    if (!names_.insert(result.uncertain.name).second)
+      source_.fail(section.table(), fmt::format("two uncertain quantities are named '{}'", result.uncertain.name),
+                   "different names");
     const toml::node* stated = section.find("interval");
     if (stated != nullptr)
       readRange(*stated, result);
@@ -112,18 +165,25 @@ class UncertainReader {
     return section.table();
   }
 
+  /// As names are quoted in messages and in formulas.
+  static std::string withoutQuotes(const std::string& text) {
+    const bool isQuoted = text.size() > 2 && text.front() == '\'' && text.find('\'', 1) == text.size() - 1;
+    return isQuoted ? text.substr(1, text.size() - 2) : text;
+  }
+
   /// Text, with * for any characters, or a list of such texts.
   std::vector<std::pair<const toml::node*, std::string>> quantitiesAt(const toml::node& node) const {
     std::vector<std::pair<const toml::node*, std::string>> found;
     const auto add = [&](const toml::node& entry) {
       const std::string text = source_.asText(entry, "uncertain.quantity");
       if (text.find('*') == std::string::npos) {
-        found.emplace_back(&entry, text);
+        found.emplace_back(&entry, withoutQuotes(text));
         return;
       }
       const std::size_t before = found.size();
+      const Pattern pattern(text);
       for (const std::string& quantity : study_.mechanism.quantities())
-        if (fits(quantity, text)) found.emplace_back(&entry, quantity);
+        if (pattern.fits(quantity)) found.emplace_back(&entry, quantity);
       if (found.size() == before)
         source_.fail(entry, fmt::format("no quantity fits '{}'", text),
                      "a pattern that `gamut quantities` shows a quantity of");
@@ -137,16 +197,6 @@ class UncertainReader {
     return found;
   }
 
-  /// Whether the text is the pattern, with any characters in the place of each *.
-  static bool fits(std::string_view text, std::string_view pattern) {
-    const std::size_t star = pattern.find('*');
-    if (star == pattern.npos) return text == pattern;
-    if (!text.starts_with(pattern.substr(0, star))) return false;
-    for (std::size_t skipped = star; skipped <= text.size(); ++skipped)
-      if (fits(text.substr(skipped), pattern.substr(star + 1))) return true;
-    return false;
-  }
-
   /// Without an interval: what distribution and membership are stated on.
   void takeSupports(const TomlSection& section, UncertainQuantity& result) {
     const Interval range = supportsOf(source_, section, files_, result);
@@ -155,12 +205,6 @@ class UncertainReader {
     result.uncertain.nominal = midpoint(study_.mechanism.nominal(result.quantity));
     result.uncertain.range = range;
     checkRange(supportOf(section), "the support of '" + result.quantity + "'", result);
-  }
-
-  std::map<std::string, Interval> ranges() const {
-    std::map<std::string, Interval> result;
-    for (const UncertainQuantity& q : study_.uncertain) result[q.quantity] = q.uncertain.range;
-    return result;
   }
 
   /// [lower, upper], or deviations from the nominal value, to both sides alike or not.
@@ -274,7 +318,8 @@ class UncertainReader {
   const TomlSource& source_;
   const TableFiles& files_;
   Study& study_;
-  std::vector<const toml::table*> tables_;  // of each uncertain quantity
+  std::vector<const toml::table*> tables_;              // of each uncertain quantity
+  std::unordered_set<std::string> quantities_, names_;  // that are uncertain so far
 };
 
 }  // namespace

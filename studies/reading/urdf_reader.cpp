@@ -188,7 +188,7 @@ class UrdfReader {
         source_.fail(joint.line,
                      fmt::format("the link {} is the child of two joints, {} and {}", inQuotes(joint.child),
                                  inQuotes(other.name), inQuotes(joint.name)),
-                     "a tree, in which each link has one parent (elements of a study may close loops)");
+                     "a tree, in which each link has one parent (closed loops are not there yet)");
     joint.origin = readPlace(element);
     if (const Element* axis = source_.child(element, "axis")) readAxis(*axis, joint);
     if (const Element* limit = source_.child(element, "limit")) joint.limits = readLimits(*limit);
@@ -328,7 +328,7 @@ class UrdfReader {
         source_.fail(joint.line,
                      fmt::format("the links {} and {} carry one another in a circle, with joints such as {}",
                                  inQuotes(joint.parent), inQuotes(joint.child), inQuotes(joint.name)),
-                     "a tree (elements of a study may close loops)");
+                     "a tree (closed loops are not there yet)");
     robot_.links = std::move(links);
     robot_.joints = std::move(joints);
   }

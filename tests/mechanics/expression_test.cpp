@@ -162,7 +162,7 @@ TEST(Expression, WhatDoesNotFitTogetherIsRefusedWithItsPlace) {
     const char *text, *message;
   } cases[] = {
       {"rod.length + mass", "adds kg to m at column 12; expected quantities of one kind"},
-      {"rod.length - 3", "subtracts 1 from m at column 12"},
+      {"rod.length - 3", "subtracts a number without unit from m at column 12"},
       {"rod.length - 0 s", "subtracts s from m at column 12"},
       {"max(rod.length, 0 + 0 mass)", "compares kg with m"},
       {"where(0, mass, mass) + rod.length", "adds m to kg"},
@@ -173,7 +173,7 @@ TEST(Expression, WhatDoesNotFitTogetherIsRefusedWithItsPlace) {
       {"where(mass > t, 1, 2)", "compares s with kg at column 12"},
       {"max(mass, t)", "compares s with kg at column 1"},
       {"3 m + 2 kg", "adds kg to m at column 5"},
-      {"2 π + mass", "adds kg to 1 at column 5"},
+      {"2 π + mass", "adds kg to a number without unit at column 5"},
   };
   for (const auto& c : cases) {
     try {
@@ -183,6 +183,15 @@ TEST(Expression, WhatDoesNotFitTogetherIsRefusedWithItsPlace) {
       EXPECT_THAT(error.what(), HasSubstr(c.message)) << c.text;
     }
   }
+}
+
+TEST(Expression, AWordIsANameWhereItIsKnownAsOneAndAUnitElsewhere) {
+  const auto isName = [](std::string_view word) { return word == "T" || word == "mA" || word == "kg"; };
+  EXPECT_EQ(unitOf(Expression::parse("3 V", isName).amount()->dimension), "V");
+  EXPECT_EQ(unitOf(Expression::parse("0.05 N m/A", isName).amount()->dimension), "N m/A");
+  EXPECT_THAT(Expression::parse("1 - exp(-t/T)", isName).names(), testing::ElementsAre("t", "T"));
+  EXPECT_THAT(Expression::parse("2 mA + 3 A*T", isName).names(), testing::ElementsAre("mA", "T"));
+  EXPECT_TRUE(Expression::parse("2 kg", isName).isConstant()) << "nothing else can be named so";
 }
 
 TEST(Expression, TheWholeMustBeOfTheKindThatIsExpected) {

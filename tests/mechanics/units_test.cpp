@@ -73,6 +73,29 @@ TEST(Amount, UnitsAreConvertedExactly) {
       {"1 bar * 2 cm^2", "20", "N"},
       {"3 MJ", "3000000", "J"},
       {"7 MPa mm", "7000", "N/m"},
+      {"12 V", "12", "V"},
+      {"3 mV", "0.003", "V"},
+      {"250 mA", "0.25", "A"},
+      {"4.7 kΩ", "4700", "Ω"},
+      {"4.7 kOhm", "4700", "Ω"},
+      {"2 \u2126", "2", "Ω"},
+      {"10 V/(2 A)", "5", "Ω"},
+      {"3 mH", "0.003", "H"},
+      {"3 Ohm s", "3", "H"},
+      {"470 uF", "0.00047", "F"},
+      {"22 pF", "22e-12", "F"},
+      {"2 A s", "2", "C"},
+      {"0.3 T", "0.3", "T"},
+      {"300 K", "300", "K"},
+      {"0.05 N m/A", "0.05", "N m/A"},
+      {"0.05 V s/rad", "0.05", "V s/rad"},
+      {"2 V A", "2", "W"},
+      {"3 J/K", "3", "kg m^2/s^2/K"},
+      {"100 nm", "100e-9", "m"},
+      {"5 µm", "0.000005", "m"},
+      {"5 μs", "0.000005", "s"},
+      {"7 fg", "7e-18", "kg"},
+      {"40 pN", "40e-12", "N"},
   };
   for (const auto& c : cases) {
     SCOPED_TRACE(c.text);
@@ -109,6 +132,19 @@ TEST(Amount, ARateIsShownInTheUnitPerSecond) {
   EXPECT_EQ(unitOf(parseAmount("2 N/s").dimension), "N/s");
 }
 
+TEST(Amount, UnitsOfElectricityAreThoseOfMechanics) {
+  EXPECT_TRUE(dimensionOf("V A") == dimensionOf("W"));
+  EXPECT_TRUE(dimensionOf("N m/A") == dimensionOf("V s"));
+  EXPECT_TRUE(dimensionOf("Ohm s") == dimensionOf("H"));
+  EXPECT_TRUE(dimensionOf("T m^2") == dimensionOf("Wb"));
+  EXPECT_TRUE(isCompatible(dimensionOf("V s/rad"), dimensionOf("V s")));
+  EXPECT_FALSE(isCompatible(dimensionOf("A"), dimensionOf("1")));
+  EXPECT_FALSE(dimensionOf("K") == dimensionOf("1"));
+  for (const char* unit : {"V", "V s/rad", "N m/A", "H", "F", "A/s", "J/K", "kg", "N m"})
+    EXPECT_TRUE(dimensionOf(unitInFormulas(dimensionOf(unit))) == dimensionOf(unit)) << unit;
+  EXPECT_EQ(unitInFormulas(dimensionOf("N m/A")), "kg m^2/s^2/ampere");  // whatever is named A
+}
+
 TEST(Amount, ADivisionIsByTheNextFactorAlone) {
   EXPECT_TRUE(parseAmount("1/2 m").value == mpq_class(1, 2));
   EXPECT_EQ(unitOf(parseAmount("1 m/s s").dimension), "m");
@@ -132,6 +168,11 @@ TEST(Amount, WhatCannotBeReadIsNamed) {
       {"", "holds no number at column 1; expected a number with an optional unit"},
       {"deg", "'deg' holds a unit but no number"},
       {"3 parsec", "unknown unit 'parsec' in '3 parsec'; expected one of rad, deg"},
+      {"3 Volt", "unknown unit 'Volt' in '3 Volt'; expected 'V'? (one of rad, deg"},
+      {"3 meters", "unknown unit 'meters' in '3 meters'; expected 'm'? (one of rad, deg"},
+      {"3 HZ", "unknown unit 'HZ' in '3 HZ'; expected 'Hz'? (one of rad, deg"},
+      {"3 grad", "unknown unit 'grad' in '3 grad'; expected one of rad, deg"},
+      {"3 Vs", "unknown unit 'Vs' in '3 Vs'; expected 'V s', with a blank between units"},
       {"1/0 m", "a division by zero at column 2"},
       {"3 *", "the end after an operator at column 4"},
       {"sqrt(2)", "'sqrt(2)' is no rational number times a power of pi"},

@@ -121,6 +121,96 @@ TEST(StudyReader, MakesManyQuantitiesUncertainAtOnce) {
   EXPECT_LT(width(study.uncertain[1].uncertain.range), 0.0100001);
 }
 
+/// By backtracking over twelve stars this would not end.
+TEST(StudyReader, TakesAnyNumberOfStars) {
+  const auto messageOfPattern = [](const std::string& pattern) {
+    return messageOf(sampleStudyWith("name = \"start\"\nquantity = \"hinge.angle\"", "quantity = \"" + pattern + "\""));
+  };
+  const std::string stars(3000, '*');
+  for (const std::string& pattern :
+       std::vector<std::string>{stars + "q", "*h*i*n*g*e*q*", "hinge*hinge*", "*.angle.*.angle", "a*e"})
+    EXPECT_THAT(messageOfPattern(pattern), HasSubstr("no quantity fits '")) << pattern;
+  for (const std::string& pattern : std::vector<std::string>{stars + "angle", "hinge.*a*n*g*l*e*", "*ge.ang*", "h*e"})
+    EXPECT_THAT(messageOfPattern(pattern), Not(HasSubstr("no quantity fits"))) << pattern;
+}
+
+TEST(StudyReader, NamesTheQuantityOfAPatternThatIsAtFault) {
+  const auto messageOfPattern = [](const std::string& angle, const std::string& interval) {
+    std::string text = sampleStudyWith("name = \"start\"\nquantity = \"hinge.angle\"", "quantity = \"hinge.*\"");
+    text.replace(text.find("angle = \"30 deg\""), 16, "angle = " + angle);
+    return messageOf(text.replace(text.find("\"± 1 %\""), std::string("\"± 1 %\"").size(), interval));
+  };
+  EXPECT_EQ(messageOfPattern("0", "\"± 5 %\""),
+            "s.toml:30:12: uncertain.interval is a share of the nominal value, which is 0, for 'hinge.angle'; expected "
+            "an absolute deviation, such as \"± 0.01 rad\"");
+  EXPECT_EQ(
+      messageOfPattern("0.5", "\"± 1 deg\""),
+      "s.toml:30:12: uncertain.interval is written in a unit of the kind rad, for 'hinge.rate'; expected a number "
+      "in rad/s, or with a unit of that kind");
+  EXPECT_THAT(messageOfPattern("0.5", "[0.6, 0.7]"), HasSubstr("nominal value 0.5, for 'hinge.angle'; expected "));
+}
+
+TEST(StudyReader, TakesNamesAsMessagesQuoteThem) {
+  std::string text = sampleStudyWith("quantity = \"hinge.angle\"", "quantity = \"'hinge.angle'\"");
+  text.replace(text.find("quantity = \"tip.position.z\""), 27, "quantity = \"'hinge.acceleration'\"");
+  const Study study = readStudyText(text, "s.toml");
+  EXPECT_EQ(study.uncertain[0].quantity, "hinge.angle");
+  EXPECT_EQ(study.outputs[1].unit, "rad/s^2");
+}
+
+/// Letters are units only where the study names nothing so.
+TEST(StudyReader, TakesParametersStatesAndOutputsNamedLikeSomeUnits) {
+  const std::string text =
+      "[study]\nanalysis = \"dynamics\"\nhorizon = 1\noutput_step = 0.5\n[mechanism]\n"
+      "parameters = { T = \"0.4 s\", R = \"2 Ohm\", L = \"3 mH\" }\n"
+      "[[mechanism.element]]\ntype = \"state\"\nname = \"A\"\ninitial = \"0 A\"\n"
+      "rate = \"(12 V*(1 - exp(-t/T)) - R*A)/L\"\n"
+      "[[output]]\nquantity = \"A\"\n[[output]]\nname = \"K\"\nquantity = \"2 A\"\nunit = \"mA\"\n"
+      "[[requirement]]\nalways = \"K < 20\"\n";
+  const Study study = readStudyText(text, "s.toml");
+  EXPECT_EQ(study.mechanism.unitOf("A"), "A");
+  EXPECT_EQ(study.outputs[1].unit, "mA");
+  EXPECT_EQ(study.outputs[2].unit, "A");
+  EXPECT_EQ(study.outputs[2].quantity, "20 ampere - 2 A") << "the unit, and what is named like it";
+  EXPECT_THAT(messageOf(std::string(text).replace(text.find("unit = \"mA\""), 11, "unit = \"A\"")),
+              HasSubstr("output.unit is A, and the study has a number of its own named 'A'; expected "));
+}
+
+TEST(StudyReader, SaysHowAStateGetsTheUnitOfItsRate) {
+  const auto messageOfRate = [](const std::string& rate) {
+    return messageOf(sampleStudyWith(
+        "[[uncertain]]",
+        "[[mechanism.element]]\ntype = \"state\"\nname = \"z\"\ninitial = 0\nrate = \"" + rate + "\"\n[[uncertain]]"));
+  };
+  const std::string stated = "the state 'z' has no unit; its unit is that of its initial value, such as initial = ";
+  for (const char* rate : {"hinge.angle", "hinge.angle - z", "2 hinge.angle"})
+    EXPECT_EQ(messageOfRate(rate), "s.toml:32:8: 'z.rate': a quantity in rad, but " + std::string(stated) +
+                                       "\"0 rad s\"; expected a rate in 1/s, or a state with that unit")
+        << rate;
+  EXPECT_EQ(messageOfRate("hinge.rate - z"),
+            "s.toml:32:8: 'z.rate': subtracts a number without unit from rad/s at column 12, and " + stated +
+                "\"0 rad\"; expected quantities of one kind");
+  EXPECT_EQ(messageOfRate("hinge.rate"), "it was read");
+}
+
+TEST(StudyReader, QuotesPartsOfWhatIsEndless) {
+  const std::string endless(3000000, 'x');
+  for (const auto& [old, replacement] : std::vector<std::pair<std::string, std::string>>{
+           {"quantity = \"hinge.angle\"", "quantity = \"" + endless + "\""},
+           {"axis = \"x\"", "axis = \"" + endless + "\""},
+           {"at = \"tip\"", "at = \"" + endless + "\""},
+           {"[stochastic]", "[" + endless + "]"},
+           {"samples = 16", endless + " = 16"},
+           {"horizon = 0.5", "horizon = \"" + endless + "\""},
+           {"angle = \"30 deg\"", "angle = \"" + std::string(9000, 'x') + "\""},
+           {"\"± 1 %\"", "\"" + endless + "\""},
+           {"to = \"tip\"", "to = \"tip\"\n" + endless}}) {
+    const std::string message = messageOf(sampleStudyWith(old, replacement));
+    EXPECT_LT(message.size(), 3000u) << old;
+    EXPECT_THAT(message, HasSubstr("; expected ")) << old;
+  }
+}
+
 TEST(StudyReader, TakesTheIntervalFromSupports) {
   const auto rangeOf = [](const std::string& shapes) {
     return readStudyText(sampleStudyWith("interval = \"± 1 %\"\ndistribution = { type = \"uniform\" }\n"
@@ -865,12 +955,14 @@ constexpr BadStudy badStudies[] = {
     {"from = \"inertial\"", "from = \"elsewhere\"",
      "s.toml:12:8: unknown frame 'elsewhere'; expected one of: inertial ('hinge' must come after the element that "
      "defines its frame)"},
-    {"to = \"tip\"", "to = \"K1\"", "s.toml:16:1: the frame 'K1' is defined twice; expected a new frame for 'rod'"},
+    {"to = \"tip\"", "to = \"K1\"",
+     "s.toml:16:1: the frame 'K1' is defined twice; expected a new frame for 'rod' (closed loops are not there yet: "
+     "frames form a tree, which springs and bushings alone can close)"},
     {"angle = \"30 deg\"", "angle = \"30 grad\"",
-     "s.toml:15:21: mechanism.element.initial.angle: unknown unit 'grad' in '30 grad'; expected one of rad, deg, °, "
-     "mrad, rpm, m, km, cm, mm, um, in, ft, kg, g, mg, t, lb, s, ms, us, min, h, Hz, kHz, N, mN, kN, MN, lbf, J, kJ, "
-     "MJ, mW, W, "
-     "kW, MW, Pa, kPa, MPa, GPa, bar, GB, MB, GiB, MiB, %"},
+     "s.toml:15:21: mechanism.element.initial.angle: unknown unit 'grad' in '30 grad'; "
+     "expected one of rad, deg, °, rpm, m, in, ft, kg, g, t, lb, s, min, h, Hz, N, lbf, J, W, Pa, bar, V, A, Ohm, Ω, "
+     "H, "
+     "F, C, Wb, T, K, GB, MB, GiB, MiB, %, or a part or multiple such as mm, kN, mA"},
     {"angle = \"30 deg\"", "angle = \"30 mm\"",
      "s.toml:15:21: mechanism.element.initial.angle is written in a unit of the kind m; expected a number in rad, or "
      "with a unit of that kind"},
@@ -897,10 +989,9 @@ constexpr BadStudy badStudies[] = {
     {"\"-rod.length\"", "\"-2 m rod.length\"",
      "s.toml:21:17: mechanism.element.vector: no operator before 'rod.length' at column 6; expected *, /, + or -"},
     {"mass = \"250 g\"", "mass = \"250 x\"",
-     "s.toml:27:8: mechanism.element.mass: unknown unit 'x' in '250 x'; expected one of rad, deg, °, "
-     "mrad, rpm, m, km, cm, mm, um, in, ft, kg, g, mg, t, lb, s, ms, us, min, h, Hz, kHz, N, mN, kN, MN, lbf, J, kJ, "
-     "MJ, mW, W, "
-     "kW, MW, Pa, kPa, MPa, GPa, bar, GB, MB, GiB, MiB, %"},
+     "s.toml:27:8: mechanism.element.mass: unknown unit 'x' in '250 x'; expected "
+     "one of rad, deg, °, rpm, m, in, ft, kg, g, t, lb, s, min, h, Hz, N, lbf, J, W, Pa, bar, V, A, Ohm, Ω, H, "
+     "F, C, Wb, T, K, GB, MB, GiB, MiB, %, or a part or multiple such as mm, kN, mA"},
     {"mass = \"250 g\"", "mass = [1]",
      "s.toml:27:8: mechanism.element.mass is a list; expected a number, or text with a unit such as \"135 deg\""},
     {"mass = \"250 g\"", "",
