@@ -74,15 +74,15 @@ std::string movingPart(const Results& results) {
   return scripts + fmt::format("<script>{}</script>\n<script>{}</script>\n", page::momentsScript, page::keepScript);
 }
 
-}  // namespace
-
-std::string renderReport(const Results& results) {
+/// With so much detail.
+std::string rendered(const Results& results, const Verdict& verdict, const Detail& detail) {
   const Report report{results,
-                      judge(results),
-                      outputPlots(results),
-                      membershipFigures(results),
-                      probabilityPlots(results),
-                      sensitivityPlots(results)};
+                      detail,
+                      verdict,
+                      outputPlots(results, detail),
+                      membershipFigures(results, detail),
+                      probabilityPlots(results, detail),
+                      sensitivityPlots(results, detail)};
   return filled(page::skeleton,
                 {{"run", results.stopped.empty() ? "whole" : "partial"},
                  {"title", escapeHtml(titleOf(results))},
@@ -94,6 +94,17 @@ std::string renderReport(const Results& results) {
                  {"sections", sectionsOf(report)},
                  {"scripts", fmt::format("<script>{}</script>\n", page::axesScript) +
                                  plottingPart(report.outputs.data) + movingPart(results)}});
+}
+
+}  // namespace
+
+std::string renderReport(const Results& results) {
+  constexpr int levels = 8;
+  const Verdict verdict = judge(results);
+  for (int level = 0;; ++level) {
+    std::string page = rendered(results, verdict, detailOf(results, level));
+    if (page.size() < largestPage || level == levels) return page;
+  }
 }
 
 void writeReport(const Results& results, const std::string& path) { replaceFile(path, renderReport(results)); }

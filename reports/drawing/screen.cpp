@@ -143,10 +143,12 @@ std::string secondDifferences(const std::vector<double>& wholes) {
   return "[" + text + "]";
 }
 
-std::string timeData(const Plot& plot) { return "{\"time\":" + plainLine(thinned(plot, plottedTimes).time, 17) + "}"; }
+std::string timeData(const Plot& plot, std::size_t times) {
+  return "{\"time\":" + plainLine(thinned(plot, times).time, 17) + "}";
+}
 
-std::string plotData(const Plot& whole) {
-  const Plot plot = thinned(whole, plottedTimes);
+std::string plotData(const Plot& whole, std::size_t times) {
+  const Plot plot = thinned(whole, times);
   const Writer writer(whole);
   const std::vector<double> middle = writer.wholes(plot.middle());
   const bool isThinned = plot.time.size() < whole.time.size();
@@ -154,8 +156,7 @@ std::string plotData(const Plot& whole) {
       R"({{"name":{},"unit":{},"middleName":{},"thin":{},"scale":{},"middle":{},"layers":{},"around":{},"ratios":{}}})",
       jsonText(plot.name), jsonText(plot.unit), jsonText(plot.middleName()), whole.isThin(), writer.scale(),
       secondDifferences(middle), writer.layers(plot.layers, middle),
-      isThinned ? writer.layers(thinned(aroundMiddle(whole), plottedTimes).layers, {}) : "null",
-      Writer::ratios(plot.ratios));
+      isThinned ? writer.layers(thinned(aroundMiddle(whole), times).layers, {}) : "null", Writer::ratios(plot.ratios));
 }
 
 }  // namespace gamut

@@ -10,7 +10,7 @@
 
 namespace gamut {
 
-/// More times than this are thinned, see `thinned`.
+/// More times than this are thinned, see `thinned`, unless somebody asks for fewer.
 inline constexpr std::size_t plottedTimes = 2000;
 
 /// Decimal fractions as whole numbers: a number is whole * 10^scale, rounded once.
@@ -32,7 +32,7 @@ class Decimals {
 std::string secondDifferences(const std::vector<double>& wholes);
 
 /// {"time": [..]}: of all plots with the same times.
-std::string timeData(const Plot& plot);
+std::string timeData(const Plot& plot, std::size_t times = plottedTimes);
 
 /// {"name", "unit", "middleName", "thin", "scale", "middle": line, "layers": [layer, ..], "around": [layer, ..],
 /// "ratios": [layer, ..]}, a layer {"name", "words", "kind": "band" | "line" | "stack", "readout", "filled", "width",
@@ -40,6 +40,6 @@ std::string timeData(const Plot& plot);
 /// differences of whole numbers * 10^scale; those of layers are counted from the middle. Bounds are rounded outward;
 /// null where there is no number. "around", counted from the middle itself, is there where times were left out: the
 /// spread is then more than the difference of lines. Ratios are plain numbers. Safe inside a <script> element.
-std::string plotData(const Plot& plot);
+std::string plotData(const Plot& plot, std::size_t times = plottedTimes);
 
 }  // namespace gamut

@@ -38,7 +38,7 @@ std::string cellOf(const Column& column, std::size_t time, std::size_t output, i
   return intervalText(column.bounds->lower(time, output), column.bounds->upper(time, output), digits);
 }
 
-std::string figuresTable(const Results& results, const Verdict& verdict) {
+std::string figuresTable(const Results& results, const Verdict& verdict, std::size_t rows) {
   if (results.time.empty()) return {};
   const std::size_t time = lastCommonTime(results);
   std::vector<Column> columns;
@@ -48,14 +48,14 @@ std::string figuresTable(const Results& results, const Verdict& verdict) {
   for (const Column& column : columns) heads.push_back(column.head);
   TableText table(results.horizon > 0 ? fmt::format("Outputs at {} s", numberText(results.time[time], 6)) : "Outputs",
                   heads);
-  for (std::size_t k = 0; k < results.outputs.size(); ++k) {
+  for (std::size_t k = 0; k < std::min(rows, results.outputs.size()); ++k) {
     const int digits = rowDigits(columns, time, k);
     std::vector<std::string> cells;
     for (const Column& column : columns) cells.push_back(cellOf(column, time, k, digits));
     const std::string& name = results.outputs[k].name;
     table.row(withUnit(isMargin(results, k) ? "margin of " + name : name, results.outputs[k].unit), cells);
   }
-  return table.html();
+  return table.html() + hintOfRows(results.outputs.size(), rows);
 }
 
 std::string secondsText(double seconds) { return numberText(seconds, seconds < 1000 ? 3 : 6) + " s"; }
@@ -81,7 +81,7 @@ std::string costTable(const Results& results) {
 
 std::string figuresSection(const Report& report) {
   return "<p class=\"hint\">Guaranteed bounds are printed outward: lower bounds rounded down, upper bounds up.</p>\n" +
-         figuresTable(report.results, report.verdict) + costTable(report.results);
+         figuresTable(report.results, report.verdict, report.detail.rows) + costTable(report.results);
 }
 
 }  // namespace gamut

@@ -230,6 +230,8 @@ std::string tone(const Results& results, const Verdict& verdict) {
 
 }  // namespace
 
+std::size_t foremostOutput(const Results& results) { return foremostOf(results).output; }
+
 std::string firstSection(const Report& report) {
   const Results& results = report.results;
   const Foremost foremost = foremostOf(results);

@@ -44,6 +44,13 @@ std::string caption(const MachineResult& machine, const View& view) {
 std::string machineSection(const Report& report) {
   const MachineResult& machine = report.results.machine;
   if (!machine.present || machine.points.empty() || machine.places.nominal.empty()) return {};
+  const Places& places = machine.places;
+  const std::size_t numbers = places.nominal.size() + places.samples.size() + places.lower.size() + places.upper.size();
+  if (numbers > report.detail.machineNumbers)
+    return fmt::format(
+        "<p class=\"hint\">The machine of {} is not drawn here, so that the page stays small; the "
+        "results hold its places.</p>\n",
+        countText(static_cast<long long>(machine.points.size()), "point"));
   const View view = viewOf(machine);
   const std::string label = fmt::format("The machine at the start: {} and {} in between",
                                         countText(static_cast<long long>(machine.points.size()), "point"),

@@ -70,7 +70,7 @@ std::string methodText(const Results& results) {
 
 }  // namespace
 
-std::string membershipFigures(const Results& results) {
+std::string membershipFigures(const Results& results, const Detail& detail) {
   const FuzzyResult& fuzzy = results.fuzzy;
   if (!fuzzy.present || fuzzy.outer.empty() || fuzzy.outer.front().empty()) return {};
   const std::vector<std::size_t> rows = shownTimes(results);
@@ -88,7 +88,7 @@ std::string membershipFigures(const Results& results) {
   html +=
       "</p>\n" + momentsControl("membership", "Time of the membership functions", times) + "<div class=\"cards\">\n";
   for (std::size_t output = 0; output < results.outputs.size(); ++output) {
-    if (isMargin(results, output)) continue;
+    if (!detail.cards(output)) continue;
     std::vector<std::string> drawings, numbers, captions;
     for (const std::size_t row : rows) {
       const std::string when = results.horizon > 0 ? " at " + timeText(results.time[row]) : std::string();

@@ -16,9 +16,6 @@
 namespace gamut {
 namespace {
 
-/// Paper shows no more points than this.
-constexpr std::size_t drawnTimes = 200;
-
 /// "angle, guaranteed within [-2.5, 2.4] rad, sampled within .." for those who cannot see the drawing.
 std::string description(const Plot& plot) {
   std::string words = plot.name;
@@ -41,26 +38,27 @@ std::string figure(const char* view, const std::string& name, const std::string&
   return isFirst ? shown : fmt::format("<details><summary>{}</summary>{}</details>\n", escapeHtml(name), shown);
 }
 
-Plot spreadOf(const Plot& plot) {
-  Plot around = thinned(aroundMiddle(plot), drawnTimes);
+Plot spreadOf(const Plot& plot, std::size_t times) {
+  Plot around = thinned(aroundMiddle(plot), times);
   around.unit = plot.unit.empty() ? "deviation" : fmt::format("deviation ({})", plot.unit);
   return around;
 }
 
-std::string motionSection(const Plot& plot, std::size_t output) {
+std::string motionSection(const Plot& plot, std::size_t output, const Detail& detail) {
   const std::string words = description(plot);
-  const Plot thin = thinned(plot, drawnTimes);
+  const Plot thin = thinned(plot, detail.paperTimes);
   const bool isSpread = plot.isThin();
   const std::string absolute = figure("absolute", "Absolute", drawPlot(thin, "Plot over time of " + words), !isSpread),
-                    spread =
-                        figure("spread", "Spread around " + plot.middleName(),
-                               drawPlot(spreadOf(plot), "Plot of the spread around the middle of " + words), isSpread),
+                    spread = figure(
+                        "spread", "Spread around " + plot.middleName(),
+                        drawPlot(spreadOf(plot, detail.paperTimes), "Plot of the spread around the middle of " + words),
+                        isSpread),
                     ratios = drawRatios(thin, "Plot of the overestimation of " + plot.name);
   return fmt::format(
       "<section class=\"output\" data-output=\"{}\" data-view=\"{}\">\n<h3>{}</h3>\n"
       "<script type=\"application/json\">{}</script>\n"
       "<div class=\"live\" role=\"group\" aria-label=\"{}\"></div>\n<div class=\"static\">\n{}{}{}</div>\n</section>\n",
-      output, isSpread ? "spread" : "absolute", escapeHtml(plot.name), plotData(plot),
+      output, isSpread ? "spread" : "absolute", escapeHtml(plot.name), plotData(plot, detail.times),
       escapeHtml("Interactive plot of " + words), isSpread ? spread : absolute, isSpread ? absolute : spread,
       ratios.empty() ? "" : figure("ratio", "Overestimation", ratios, false));
 }
@@ -97,27 +95,57 @@ void gather(std::vector<Layer>& key, const Plot& plot) {
       key.push_back({.name = layer.name, .words = layer.words});
 }
 
+/// What there is no room to draw, in numbers: of each output how far it goes.
+std::string furtherOutputs(const Results& results, const Detail& detail) {
+  if (detail.leftOut == 0) return {};
+  const std::vector<std::pair<const char*, const Bounds*>> known{{"guaranteed", &results.interval.at},
+                                                                 {"sampled", &results.stochastic.envelope}};
+  std::vector<std::string> heads{"output"};
+  for (const auto& [head, bounds] : known)
+    if (!bounds->empty()) heads.emplace_back(head);
+  TableText table("Further outputs: the least and the greatest at all output times", heads);
+  std::size_t rows = 0;
+  for (std::size_t k = 0; k < results.outputs.size(); ++k) {
+    if (detail.plots(k) || isMargin(results, k)) continue;
+    if (++rows > detail.rows) break;
+    std::vector<std::string> cells;
+    for (const auto& [head, bounds] : known) {
+      if (bounds->empty()) continue;
+      double low = INFINITY, high = -INFINITY;
+      for (std::size_t i = 0; i < bounds->lower.times; ++i) {
+        low = std::fmin(low, bounds->lower(i, k));
+        high = std::fmax(high, bounds->upper(i, k));
+      }
+      cells.push_back(low <= high ? intervalText(low, high, 4) : "none");
+    }
+    table.row(withUnit(results.outputs[k].name, results.outputs[k].unit), cells);
+  }
+  return fmt::format(
+      "<p class=\"hint\">{} more {} not drawn here, so that the page stays small; the results hold {} at all "
+      "times.</p>\n"
+      "<details class=\"more\"><summary>What is known of {}</summary>\n{}</details>\n",
+      detail.leftOut, detail.leftOut == 1 ? "output is" : "outputs are", detail.leftOut == 1 ? "it" : "them",
+      detail.leftOut == 1 ? "it" : "them", table.html());
+}
+
 }  // namespace
 
-/// A margin of which a plot of its output shows the limit needs none of its own.
-OutputPlots outputPlots(const Results& results) {
+OutputPlots outputPlots(const Results& results, const Detail& detail) {
   OutputPlots outputs;
   if (results.time.empty()) return outputs;
-  const std::vector<Limit> limits = limitsOf(results);
   StyleSheet style;
   std::vector<Layer> key;
   std::string plots;
   for (std::size_t k = 0; k < results.outputs.size(); ++k) {
-    if (std::ranges::any_of(limits, [&](const Limit& limit) { return limit.margin == k && limit.output != k; }))
-      continue;
+    if (!detail.plots(k)) continue;
     const Plot plot = plotOf(results, k);
     style.add(plot);
     gather(key, plot);
-    plots += plot.isOverTime() ? motionSection(plot, k) : positionSection(plot);
-    if (plot.isOverTime() && outputs.data.empty()) outputs.data = timeData(plot);
+    plots += plot.isOverTime() ? motionSection(plot, k, detail) : positionSection(plot);
+    if (plot.isOverTime() && outputs.data.empty()) outputs.data = timeData(plot, detail.times);
   }
   if (!outputs.data.empty()) outputs.html = drawKey(key, "Key to all plots over time");
-  outputs.html += plots;
+  outputs.html += plots + furtherOutputs(results, detail);
   outputs.style = style.css();
   return outputs;
 }

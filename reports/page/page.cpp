@@ -5,24 +5,26 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 
 #include "reports/page/table.hpp"
 #include "reports/words.hpp"
+#include "studies/printable.hpp"
 #include "studies/summary.hpp"
 
 namespace gamut {
 namespace {
 
-std::string uncertainTable(const Results& results) {
+std::string uncertainTable(const Results& results, std::size_t rows) {
   TableText table("Uncertain quantities", {"name", "quantity", "interval", "nominal", "probable", "possible"});
-  for (const UncertainInfo& info : results.uncertain) {
+  for (const UncertainInfo& info : results.uncertain | std::views::take(rows)) {
     const int digits =
         std::max(6, digitsFor(std::max(std::abs(info.lower), std::abs(info.upper)), info.upper - info.lower, 4));
     table.row(info.name, {withUnit(info.quantity, info.unit), rangeText(info.lower, info.upper, digits),
                           numberText(info.nominal, digits), shapeText(results, info, "distribution"),
                           shapeText(results, info, "membership")});
   }
-  return table.html();
+  return table.html() + hintOfRows(results.uncertain.size(), rows);
 }
 
 std::string settledList(const Verdict& verdict) {
@@ -64,7 +66,7 @@ std::string notesList(const Verdict& verdict) {
 
 /// The quantities, and how they hang together.
 std::string askedSection(const Report& report) {
-  std::string html = uncertainTable(report.results);
+  std::string html = uncertainTable(report.results, report.detail.rows);
   if (const std::string& dependence = report.results.dependence; !dependence.empty())
     html += fmt::format("<p class=\"hint\">The quantities: {}.</p>\n", escapeHtml(dependence));
   return html;
@@ -89,8 +91,8 @@ std::string provenanceSection(const Report& report) {
   for (const ExtensionInfo& e : results.extensions)
     table.row("extended", {fmt::format("from {}, by Gamut {} on {}, {}", countText(e.before, "sample"), e.version,
                                        e.host, e.date)});
-  return table.html() + "<details><summary>The study as it was written</summary><pre>" + escapeHtml(results.studyText) +
-         "</pre></details>\n";
+  return table.html() + "<details><summary>The study as it was written</summary><pre>" +
+         escapeHtml(printableLines(shortened(results.studyText, report.detail.textBytes))) + "</pre></details>\n";
 }
 
 }  // namespace gamut

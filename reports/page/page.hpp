@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "reports/page/detail.hpp"
 #include "reports/verdict.hpp"
 #include "studies/results/results.hpp"
 
@@ -23,23 +24,27 @@ struct OutputPlots {
   std::string style;  ///< CSS of the plots' layers
   std::string data;   ///< JSON: the times of the interactive plots; empty where nothing moves
 };
-OutputPlots outputPlots(const Results& results);
+OutputPlots outputPlots(const Results& results, const Detail& detail);
 
 /// Cards with figures, and the CSS of their layers; empty where there are none.
 struct PlotSection {
   std::string html, style;
 };
 /// Distribution functions, mean and quantiles.
-PlotSection probabilityPlots(const Results& results);
+PlotSection probabilityPlots(const Results& results, const Detail& detail);
 /// Shares of the variance, derivatives and their like.
-PlotSection sensitivityPlots(const Results& results);
+PlotSection sensitivityPlots(const Results& results, const Detail& detail);
 
 /// Membership functions of all outputs at some times; empty where there are none.
-std::string membershipFigures(const Results& results);
+std::string membershipFigures(const Results& results, const Detail& detail);
+
+/// The output that is drawn first.
+std::size_t foremostOutput(const Results& results);
 
 /// What sections are made of.
 struct Report {
   const Results& results;
+  Detail detail;
   Verdict verdict;
   OutputPlots outputs;
   std::string memberships;

@@ -43,7 +43,7 @@ std::string distributionsOf(const Results& results, std::size_t output) {
 
 }  // namespace
 
-PlotSection probabilityPlots(const Results& results) {
+PlotSection probabilityPlots(const Results& results, const Detail& detail) {
   PlotSection section;
   const DistributionResult& d = results.distribution;
   const bool isBounded = d.present && !d.time.empty();
@@ -51,7 +51,7 @@ PlotSection probabilityPlots(const Results& results) {
   std::string cards;
   bool isSampled = false;
   for (std::size_t output = 0; output < results.outputs.size(); ++output) {
-    if (isMargin(results, output)) continue;
+    if (!detail.cards(output)) continue;
     const std::string statistics = statisticsFigure(results, output, style);
     isSampled = isSampled || !statistics.empty();
     if (!isBounded && statistics.empty()) continue;

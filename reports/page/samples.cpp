@@ -114,7 +114,7 @@ struct Convergence {
 };
 
 /// A line an output, the worst in front.
-std::string convergenceFigure(const Results& results, const Convergence& shown) {
+std::string convergenceFigure(const Results& results, const Detail& detail, const Convergence& shown) {
   const ConvergenceResult& c = results.stochastic.convergence;
   const std::size_t outputs = results.outputs.size();
   const std::vector<double> samples(c.samples.begin(), c.samples.end());
@@ -124,7 +124,7 @@ std::string convergenceFigure(const Results& results, const Convergence& shown) 
   std::size_t worst = 0, worstOutput = outputs;
   double greatest = -INFINITY;
   for (std::size_t o = 0; o < outputs; ++o) {
-    if (isMargin(results, o)) continue;
+    if (!detail.cards(o)) continue;
     Line& line = lines.emplace_back();
     for (std::size_t i = 0; i < samples.size(); ++i)
       line.push_back(i * outputs + o < shown.numbers.size() ? shown.numbers[i * outputs + o] : std::nan(""));
@@ -147,19 +147,20 @@ std::string convergenceFigure(const Results& results, const Convergence& shown) 
       lines.size() > 1 ? ", the worst of all outputs (others: thin lines)" : "", columns.html());
 }
 
-std::string convergenceText(const Results& results) {
+std::string convergenceText(const Results& results, const Detail& detail) {
   const ConvergenceResult& c = results.stochastic.convergence;
   if (!c.present || c.samples.size() < 2) return {};
   const std::string figures =
-      convergenceFigure(results, {c.meanError, "± standard deviations", "how well the mean is known (95 %)", true}) +
-      convergenceFigure(results,
+      convergenceFigure(results, detail,
+                        {c.meanError, "± standard deviations", "how well the mean is known (95 %)", true}) +
+      convergenceFigure(results, detail,
                         {c.spanned, "share", "share of the whole envelope that the first samples span", false});
   if (figures.empty()) return {};
   return "<h3>Would fewer samples do?</h3>\n<div class=\"cards\">\n" + figures + "</div>\n";
 }
 
 /// One row an output: what the samples say at the last time that they reached.
-std::string statisticsTable(const Results& results) {
+std::string statisticsTable(const Results& results, std::size_t rows) {
   const StochasticResult& s = results.stochastic;
   std::vector<std::string> heads{"output", "mean", "standard deviation"};
   for (const double probability : s.probabilities) heads.push_back(percent(probability) + " quantile");
@@ -174,8 +175,10 @@ std::string statisticsTable(const Results& results) {
   TableText table(results.horizon > 0 ? fmt::format("At {}, with 95 % confidence", timeText(results.time[row]))
                                       : "With 95 % confidence",
                   heads);
+  std::size_t outputs = 0;
   for (std::size_t o = 0; o < results.outputs.size(); ++o) {
     if (isMargin(results, o)) continue;
+    if (++outputs > rows) continue;
     const auto with = [&](double value, const Table& errors) {
       const double error = errors.empty() ? std::nan("") : errors(row, o);
       const int digits = digitsFor(std::abs(value), std::isfinite(error) ? error : s.deviation(row, o), 2);
@@ -194,7 +197,7 @@ std::string statisticsTable(const Results& results) {
   }
   return "<details class=\"more\"><summary>Mean, deviation and quantiles of every output, with their "
          "confidence</summary>\n" +
-         table.html() + "</details>\n";
+         table.html() + hintOfRows(outputs, rows) + "</details>\n";
 }
 
 }  // namespace
@@ -256,7 +259,8 @@ std::string statisticsHint(const Results& results) {
 std::string samplesSection(const Report& report) {
   const Results& results = report.results;
   if (!hasStatistics(results.stochastic)) return {};
-  return failedText(results) + coveredText(results) + convergenceText(results) + statisticsTable(results);
+  return failedText(results) + coveredText(results) + convergenceText(results, report.detail) +
+         statisticsTable(results, report.detail.rows);
 }
 
 }  // namespace gamut

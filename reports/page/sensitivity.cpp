@@ -446,7 +446,7 @@ std::string hintsOf(const std::vector<std::string>& kinds, const Results& result
 
 }  // namespace
 
-PlotSection sensitivityPlots(const Results& results) {
+PlotSection sensitivityPlots(const Results& results, const Detail& detail) {
   PlotSection section;
   constexpr std::size_t shownTimes = 1001, foldedTimes = 25;
   StyleSheet style;
@@ -454,7 +454,7 @@ PlotSection sensitivityPlots(const Results& results) {
   std::vector<std::string> kinds;
   std::string cards;
   for (std::size_t output = 0; output < results.outputs.size(); ++output) {
-    if (isMargin(results, output)) continue;
+    if (!detail.cards(output)) continue;
     const std::vector<Answered> answers = answersOf(results, output);
     const auto leading = std::ranges::find_if(answers, [](const Answered& answer) { return !answer.causes.empty(); });
     if (leading == answers.end()) continue;

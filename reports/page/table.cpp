@@ -50,4 +50,8 @@ std::string withUnit(const std::string& name, const std::string& unit) {
   return unit.empty() || unit == "1" ? name : name + " (" + unit + ")";
 }
 
+std::string hintOfRows(std::size_t all, std::size_t shown) {
+  return all <= shown ? "" : fmt::format("<p class=\"hint\">And {} more; the results hold them.</p>\n", all - shown);
+}
+
 }  // namespace gamut

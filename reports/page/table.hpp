@@ -1,6 +1,7 @@
 // A table of a page, as HTML, that is built row by row; every cell is escaped. On narrow screens it scrolls by itself.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,6 +18,9 @@ class TableText {
  private:
   std::string html_;
 };
+
+/// What a table leaves out, below it; empty if that is nothing.
+std::string hintOfRows(std::size_t all, std::size_t shown);
 
 /// The numbers of a figure, inside the page for those who want to copy them: columns with headings and units, as JSON
 /// that no reader sees.

@@ -42,6 +42,34 @@ TEST(Report, RefersToNothingOutsideItself) {
   EXPECT_THAT(page, HasSubstr("default-src 'none'"));
 }
 
+/// However many outputs, times, quantities and words there are.
+TEST(Report, StaysSmall) {
+  struct Size {
+    std::size_t times, outputs, levels, quantities;
+  };
+  for (const Size& size : {Size{301, 310, 11, 1}, {5, 20000, 3, 1}, {20001, 20, 11, 1}, {11, 3, 11, 30000}}) {
+    SCOPED_TRACE(size.outputs);
+    Results results = example::pendulum(size.times, size.outputs, size.levels);
+    results.uncertain.resize(size.quantities, results.uncertain[0]);
+    results.studyText.assign(30000000, '=');
+    const std::string page = renderReport(results);
+    EXPECT_LT(page.size(), 10000000u);
+    EXPECT_EQ(count(page, " are not drawn here, so that the page stays small"), size.outputs > 40 ? 1u : 0u);
+    EXPECT_LE(count(page, "<section class=\"output\""), 40u);
+    EXPECT_EQ(count(page, "<section class=\"output foremost\""), 1u);
+    const auto foremost = page.find("data-output=\"") + 13;
+    const std::string output = page.substr(foremost, page.find('"', foremost) - foremost);
+    EXPECT_EQ(count(page, "data-output=\"" + output + "\""), 2u) << "the foremost plot needs its output's numbers";
+  }
+}
+
+TEST(Report, ShowsEverythingOfFewOutputs) {
+  const std::string page = renderReport(example::pendulum(301, 8));
+  EXPECT_EQ(count(page, "<section class=\"output\""), 8u);
+  EXPECT_EQ(count(page, "<figure class=\"membership kept\""), 8u * 13u);
+  EXPECT_THAT(page, Not(HasSubstr("so that the page stays small")));
+}
+
 TEST(Report, CarriesThePlottingLibraryAndItsLicence) {
   EXPECT_THAT(renderReport(example::pendulum()),
               AllOf(HasSubstr("var uPlot="), HasSubstr("Permission is hereby granted, free of charge")));
