@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <initializer_list>
@@ -276,6 +277,49 @@ class StudyReader {
                  "a drive for every coordinate, or analysis = \"dynamics\", which tells what drives need as well");
   }
 
+  /// Throws StudyError if at the start a speed moves all inertia as others do together: by Cholesky's factors of the
+  /// inertia matrix. (Where a motion is not determined, this is why.)
+  void refuseJointsAlike() const {
+    constexpr double nothing = 1e-10, some = 1e-6;  // of an entry of the diagonal, and of a factor
+    const Mechanism& m = study_.mechanism;
+    if (study_.analysis != Study::Analysis::dynamics) return;
+    Assembly<double> assembly(m);
+    const auto inertia = assembly.system().inertiaMatrix();
+    const auto n = static_cast<std::size_t>(inertia.rows());
+    std::vector<std::vector<double>> factor(n, std::vector<double>(n, 0.0));
+    const auto entry = [&](std::size_t i, std::size_t j) {
+      return inertia(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+    };
+    for (std::size_t j = 0; j < n; ++j) {
+      for (std::size_t i = 0; i <= j; ++i) {
+        double rest = entry(j, i);
+        for (std::size_t k = 0; k < i; ++k) rest -= factor[i][k] * factor[j][k];
+        factor[j][i] = i < j ? rest / factor[i][i] : rest;
+      }
+      if (factor[j][j] > nothing * entry(j, j)) {
+        factor[j][j] = std::sqrt(factor[j][j]);
+        continue;
+      }
+      std::vector<double> share(j);  // of each speed before it in what it moves
+      for (std::size_t i = j; i-- > 0;) {
+        share[i] = factor[j][i];
+        for (std::size_t k = i + 1; k < j; ++k) share[i] -= factor[k][i] * share[k];
+        share[i] /= factor[i][i];
+      }
+      const auto name = [&](std::size_t i) { return m.stateNames()[m.positions() + i]; };
+      std::string others;
+      for (std::size_t i = 0; i < j; ++i)
+        if (std::abs(share[i]) > some) others += fmt::format("{}'{}'", others.empty() ? "" : ", ", name(i));
+      if (others.empty()) return;
+      const Mechanism::JointCoordinate* coordinate = m.coordinateWith(name(j));
+      source_.fail(placeOf(coordinate == nullptr ? name(j) : coordinate->element),
+                   fmt::format("'{}' moves all masses as {} {}, so that the motion is not determined", name(j), others,
+                               others.find(',') == std::string::npos ? "does" : "do together"),
+                   "joints that move masses in different ways (hinges on one axis turn what is between them, which "
+                   "needs inertia)");
+    }
+  }
+
   /// The equations of motion exist, or the mechanism is at fault.
   void recordMotion(const toml::node& mechanism) {
     if (study_.analysis == Study::Analysis::dynamics) {
@@ -293,6 +337,7 @@ class StudyReader {
       source_.failWith(mechanism, error.what(), "a mechanism in which all that is measured has a value");
     } catch (const std::invalid_argument& error) {
       refuseNumberWithoutValue();
+      refuseJointsAlike();
       source_.failWith(mechanism, error.what(),
                        "a mass that every joint moves, and joints that move it in different ways");
     }

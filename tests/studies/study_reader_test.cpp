@@ -193,6 +193,22 @@ TEST(StudyReader, SaysHowAStateGetsTheUnitOfItsRate) {
   EXPECT_EQ(messageOfRate("hinge.rate"), "it was read");
 }
 
+TEST(StudyReader, NamesJointsThatMoveAlike) {
+  const auto messageOfHinge = [](const std::string& axis) {
+    return messageOf(sampleStudyWith("[[mechanism.element]]\ntype = \"link\"\nname = \"rod\"\nfrom = \"K1\"",
+                                     "[[mechanism.element]]\ntype = \"revolute\"\nname = \"second\"\nfrom = \"K1\"\nto "
+                                     "= \"K2\"\naxis = \"" +
+                                         axis +
+                                         "\"\n[[mechanism.element]]\ntype = \"link\"\nname = \"rod\"\nfrom = \"K2\""));
+  };
+  for (const char* axis : {"x", "-x"})
+    EXPECT_EQ(messageOfHinge(axis),
+              "s.toml:16:1: 'second.rate' moves all masses as 'hinge.rate' does, so that the motion is not determined; "
+              "expected joints that move masses in different ways (hinges on one axis turn what is between them, which "
+              "needs inertia)");
+  EXPECT_EQ(messageOfHinge("y"), "it was read");
+}
+
 TEST(StudyReader, QuotesPartsOfWhatIsEndless) {
   const std::string endless(3000000, 'x');
   for (const auto& [old, replacement] : std::vector<std::pair<std::string, std::string>>{
