@@ -168,7 +168,7 @@ Tube Flow::enclose(const Box& box, double horizon, const std::vector<double>& ou
   options.modelledAt.clear();
   Tube ofRates = answer(*parts_->ofRates, options, budget, box, early.back(), early, levels);
   FlowRun::dropStates(ofRates, motion.states());
-  const std::string limit = ofRates.limit().empty() ? tube.limit() : ofRates.limit();
+  const FlowCause limit = ofRates.limitCause().isNone() ? tube.limitCause() : ofRates.limitCause();
   const std::shared_ptr<const FlowModels> models = tube.models();
   tube = FlowRun::meet(std::move(tube), std::move(ofRates));
   FlowRun::setModels(tube, models);

@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "analyses/flow/cause.hpp"
 #include "analyses/flow/models.hpp"
 #include "scalars/interval.hpp"
 #include "scalars/program/program.hpp"
@@ -94,7 +95,9 @@ class Tube {
   static constexpr const char* outOfMemory = "out of memory";
   static constexpr const char* overBudget = "the budget of CPU time is spent";
   /// Whether it ended early for one of these three, not for the motion's sake.
-  bool wasStopped() const { return why_ == interrupted || why_ == outOfMemory || why_ == overBudget; }
+  bool wasStopped() const { return cause_.isStop(); }
+  /// The cause of an early end, of which why() is the sentence.
+  const FlowCause& cause() const { return cause_; }
   /// Overestimation at the output times that were reached: 1 + the greatest part that remainders (and ranges not found
   /// to the end) add to the width of an output (without outputs: of a state). Of what plain intervals bound, of what
   /// comes to a jump's surface or leaves it, of what is known far better than the box or than at other times
@@ -103,7 +106,8 @@ class Tube {
   /// Where that is more than was asked for: "at 2 s state 1 may be 1.13 times as wide as necessary". Empty otherwise.
   const std::string& shortfall() const { return shortfall_; }
   /// Why no run became tighter then: which limit it met, `interrupted` and its like among them.
-  const std::string& limit() const { return limit_; }
+  std::string limit() const { return limit_.sentence(); }
+  const FlowCause& limitCause() const { return limit_; }
 
   /// Output times, rising, the start 0 first.
   const std::vector<double>& times() const { return times_; }
@@ -139,7 +143,8 @@ class Tube {
   std::vector<std::vector<double>> excess_;  // tightness() - 1 of each, [time][output or state]
   std::shared_ptr<const FlowModels> models_;
   double reached_ = 0;
-  std::string why_, shortfall_, limit_;
+  std::string why_, shortfall_;
+  FlowCause cause_, limit_;
   int pieces_ = 0;
   long steps_ = 0;
   double cpu_ = 0, cutCpu_ = 0;

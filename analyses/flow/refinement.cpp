@@ -2,6 +2,8 @@
 #include "analyses/flow/refinement.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstdio>
 #include <memory>
 #include <new>
 #include <utility>
@@ -105,7 +107,7 @@ class Weighing {
 
 Tube refine(const FlowQuestion& question, const Box& box, const std::vector<Box>& levels, double& looseness) {
   Tube best;
-  std::string limit;
+  FlowCause limit;
   Weighing weighing(question, box);
   FlowRound round;
   round.isLast = false;
@@ -126,6 +128,10 @@ Tube refine(const FlowQuestion& question, const Box& box, const std::vector<Box>
     reached = tube.reached();
     looseBefore = looseness;
     limit = run.limit(tube);
+    // Where smaller thresholds do not help, terms of higher degree may.
+    if (limit.isNone() && factor > 1)
+      limit = {isInVain ? FlowCause::Kind::vain : FlowCause::Kind::rounds, "",
+               question.options.degree < 0 ? run.degree() + 2 : question.options.degree + 2};
     best = count == 1 ? std::move(tube) : FlowRun::meet(std::move(best), std::move(tube));
     if (round.isLast) break;
     isAlike = !isMisjudged;
@@ -143,8 +149,15 @@ Tube refine(const FlowQuestion& question, const Box& box, const std::vector<Box>
       break;
     }
   }
+  const bool isSingle = Embedding(box, question.motion.states(), question.options.varying).symbols == 0;
+  if (limit.isNone() && isSingle) {  // of what varies in time alone one run is made, by the tightness that is asked for
+    std::array<char, 48> smaller{};
+    std::snprintf(smaller.data(), smaller.size(), "interval.tightness = %.6g",
+                  1 + 0.5 * (question.options.tightness - 1));
+    limit = {FlowCause::Kind::rounds, smaller.data()};
+  }
   FlowRun::charge(best, weighing.cpuSeconds());
-  FlowRun::explain(best, question.options, limit.empty() ? "tighter runs win nothing more" : limit);
+  FlowRun::explain(best, question.options, limit);
   return best;
 }
 

@@ -72,6 +72,7 @@ void FlowRun::work(FlowCollected& collected) {
       {
         const std::lock_guard lock(mutex_);
         --busy_;
+        degree_ = std::max(degree_, task_.layouts[piece.layout].monomials->degree());
         if (journey == FlowJourney::cancelled) {
           unfinished_ = std::min(unfinished_, piece.set.t);
           stop_ = true;
@@ -94,16 +95,21 @@ void FlowRun::report(double earliest) {  // the queue's order makes `earliest` t
   if (task_.options.progress) task_.options.progress(earliest / task_.horizon);
 }
 
-void FlowRun::fail(double t, const std::string& why) {
+void FlowRun::fail(double t, FlowCause cause) {
   const std::lock_guard lock(mutex_);
-  if (t < failedAt_) {
-    failedAt_ = t;
-    why_ = why;
-  }
+  if (t >= failedAt_) return;
+  failedAt_ = t;
+  cause_ = std::move(cause);
+  using enum FlowCause::Kind;
+  const bool mayBeCured = cause_.kind == wide || cause_.kind == step || cause_.kind == edge;
+  if (refusedAt_ != t || !mayBeCured) return;  // by bisection
+  if (!task_.options.split) cause_ = {unsplit, cause_.what};
+  // What so many pieces do not keep away from an edge comes to it.
+  if (task_.options.split && cause_.kind != edge) cause_ = {pieces, cause_.what, task_.options.maxPieces};
 }
 
 void FlowRun::abandon(double t) {
-  fail(t, "what steps have added has become as large as the set");
+  fail(t, FlowCause{FlowCause::Kind::remainder, "what is left over has become as large as the set"});
   isAbandoned_ = true;
 }
 
@@ -111,9 +117,12 @@ bool FlowRun::mayBisect(const FlowPiece& piece) {
   bool isTimeToProbe = false;
   {
     const std::lock_guard lock(mutex_);
-    if (!task_.options.split || pieces_ >= mostPieces_) return false;
+    if (!task_.options.split || pieces_ >= mostPieces_) {
+      refusedAt_ = piece.set.t;
+      return false;
+    }
     ++pieces_;
-    isTimeToProbe = task_.embedding.symbols > 0 && pieces_ >= nextProbe_ && ended_.empty();
+    isTimeToProbe = task_.embedding.symbols > 0 && pieces_ >= nextProbe_ && ended_.isNone();
     if (isTimeToProbe) nextProbe_ = 2 * pieces_;
   }
   if (isTimeToProbe) probe(piece);
@@ -148,7 +157,9 @@ void FlowRun::probe(const FlowPiece& piece) {
   const Tube alone = FlowRun(task).run();
   if (alone.reached() >= horizon || alone.wasStopped()) return;
   const std::lock_guard lock(mutex_);
-  ended_ = "one start of the box by itself: " + alone.why();
+  endedAt_ = alone.reached();
+  ended_ = {FlowCause::Kind::start, "one start of the box by itself comes to " + toString(alone.reached()) +
+                                        " s only, where " + alone.cause().sentence()};
   mostPieces_ = std::min(mostPieces_, 2 * pieces_);
 }
 
@@ -164,12 +175,23 @@ Tube FlowRun::gather(std::vector<FlowCollected>& collected) {
   Tube tube;
   tube.times_ = task_.times;
   tube.reached_ = std::min(task_.horizon, failedAt_);
-  if (!why_.empty()) tube.why_ = "at " + toString(failedAt_) + " s " + why_ + (ended_.empty() ? "" : "; " + ended_);
+  if (!cause_.isNone()) {
+    // Where not even one start comes much farther, it is no matter of what the set has become.
+    constexpr double nearly = 0.9;
+    const bool isOfMotion = cause_.kind == FlowCause::Kind::escape || cause_.kind == FlowCause::Kind::edge;
+    const bool isOfStart = !ended_.isNone() && !isOfMotion && failedAt_ >= nearly * endedAt_;
+    tube.cause_ = isOfStart ? ended_ : cause_;
+    if (tube.cause_.kind == FlowCause::Kind::remainder && task_.embedding.symbols > 0)
+      tube.cause_.number = !task_.options.split ? -1 : task_.options.degree >= 0 ? task_.options.degree + 2 : 0;
+    tube.why_ = "at " + toString(failedAt_) + " s " + tube.cause_.sentence();
+  }
   double earliest = unfinished_;
   if (!queue_.empty()) earliest = std::min(earliest, queue_.top().set.t);
   if (stop_ && earliest < tube.reached_) {
     tube.reached_ = earliest;
-    tube.why_ = outOfMemory_ ? Tube::outOfMemory : overBudget_ ? Tube::overBudget : Tube::interrupted;
+    using enum FlowCause::Kind;
+    tube.cause_ = {outOfMemory_ ? outOfMemory : overBudget_ ? overBudget : interrupted};
+    tube.why_ = tube.cause_.sentence();
   }
   std::size_t rows = 0;
   while (rows < task_.times.size() && task_.times[rows] <= tube.reached_ && (rows > 0 || tube.reached_ > 0)) ++rows;
@@ -296,21 +318,21 @@ std::shared_ptr<const FlowModels> FlowRun::modelsOf(std::vector<FlowCollected>& 
   return models;
 }
 
-std::string FlowRun::limit(const Tube& tube) const {
-  if (tube.wasStopped()) return tube.why();
-  if (!ended_.empty()) return ended_;
-  if (!task_.options.split) return "bisection is switched off";
+FlowCause FlowRun::limit(const Tube& tube) const {
+  using enum FlowCause::Kind;
+  if (tube.wasStopped()) return tube.cause();
+  if (!ended_.isNone()) return ended_;
+  if (!task_.options.split) return {unsplit};
   constexpr double mostlyTime = 0.8;  // then smaller tolerances help
-  if (!task_.bisectsForWidth() && timeShare_ < mostlyTime)
-    return "more than 8 quantities of like influence are not bisected for tightness";
-  if (pieces_ >= task_.options.maxPieces) return "all " + std::to_string(pieces_) + " pieces that are allowed are used";
-  if (task_.splitDefect < 1e-16 * task_.embedding.widest) return "what remains is rounding";
+  if (!task_.bisectsForWidth() && timeShare_ < mostlyTime) return {many};
+  if (pieces_ >= task_.options.maxPieces) return {pieces, "", task_.options.maxPieces};
+  if (task_.splitDefect < 1e-16 * task_.embedding.widest) return {rounding};
   return {};
 }
 
 double FlowRun::tighterBy(const Tube& tube) const {
   constexpr double blindly = 30, least = 2, most = 1000;
-  if (task_.embedding.symbols == 0 || !limit(tube).empty()) return 1;
+  if (task_.embedding.symbols == 0 || !limit(tube).isNone()) return 1;
   if (tube.reached() < task_.horizon) return blindly;
   const double aim = task_.aim();  // the remainder is about proportional to the threshold
   return looseness_ > aim ? std::clamp(2 * looseness_ / aim, least, most) : 1;
@@ -331,7 +353,7 @@ Tube FlowRun::meet(Tube a, Tube b) {
   for (std::size_t row = 0; row < std::min(a.excess_.size(), b.excess_.size()); ++row)
     for (std::size_t i = 0; i < a.excess_[row].size(); ++i)
       b.excess_[row][i] = std::min(b.excess_[row][i], a.excess_[row][i]);
-  if (a.wasStopped() && !b.why_.empty()) b.why_ = a.why_;
+  if (a.wasStopped() && !b.why_.empty()) b.why_ = a.why_, b.cause_ = a.cause_;
   b.steps_ += a.steps_;
   b.cpu_ += a.cpu_;
   b.cutCpu_ += a.cutCpu_;
@@ -350,9 +372,9 @@ void FlowRun::dropStates(Tube& tube, int n) {
   for (std::vector<double>& row : tube.excess_) row.resize(at(n));
 }
 
-void FlowRun::explain(Tube& tube, const FlowOptions& options, const std::string& limit) {
+void FlowRun::explain(Tube& tube, const FlowOptions& options, const FlowCause& limit) {
   tube.shortfall_.clear();
-  tube.limit_.clear();
+  tube.limit_ = {};
   double loosest = options.tightness - 1;
   const bool ofOutputs = !tube.outputs_[0].empty();
   const std::vector<std::string>& names = ofOutputs ? options.outputNames : options.stateNames;

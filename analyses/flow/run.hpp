@@ -27,8 +27,10 @@ class FlowRun {
   /// tighter the threshold should be for that, or an early end; 1: as it is, or nothing would be won.
   double looseness() const { return looseness_; }
   double tighterBy(const Tube& tube) const;
-  /// Why no tighter run would be tighter; empty if it might.
-  std::string limit(const Tube& tube) const;
+  /// Why no tighter run would be tighter; none if it might.
+  FlowCause limit(const Tube& tube) const;
+  /// The highest degree of the states' polynomials, of all pieces.
+  int degree() const { return degree_; }
   bool isAbandoned() const { return isAbandoned_; }
   /// Outputs are loose where states are not: what they add is truncation of their own.
   bool needsDegree() const { return needsDegree_; }
@@ -45,14 +47,16 @@ class FlowRun {
   /// Forgets all states but the first n.
   static void dropStates(Tube& tube, int n);
   /// Says in `tube` what is looser than was asked for, met by `limit`.
-  static void explain(Tube& tube, const FlowOptions& options, const std::string& limit);
+  static void explain(Tube& tube, const FlowOptions& options, const FlowCause& limit);
   /// Intersects the cuts of this level, and of all inside it, with a flow over the level's own box.
   static void tighten(Tube& tube, std::size_t level, const Tube& own);
 
   // For those who follow pieces, from any thread.
 
   /// A piece cannot be followed beyond t, nor the whole box then.
-  void fail(double t, const std::string& why);
+  void fail(double t, FlowCause cause);
+  /// It has become wider than was stated.
+  void fail(double t, const std::string& why) { fail(t, FlowCause{FlowCause::Kind::stated, why}); }
   /// Whether models of outputs are wanted, and have found room so far.
   bool keepsModels() const {
     return (!task_.options.modelled.empty() || !task_.options.modelledAt.empty()) &&
@@ -89,7 +93,10 @@ class FlowRun {
   std::condition_variable wake_;
   std::priority_queue<FlowPiece, std::vector<FlowPiece>, Later> queue_;
   int busy_ = 0, pieces_ = 1, mostPieces_, nextProbe_ = 16;
-  std::string ended_;  // what a probe found
+  FlowCause ended_;        // what a probe found
+  double refusedAt_ = -1;  // where a piece was not bisected, last
+  double endedAt_ = 0;     // how far that start came
+  int degree_ = 0;
   double looseness_ = 0, timeShare_ = 0;
   std::vector<Influence> influence_;
   bool stop_ = false, needsDegree_ = false;
@@ -97,7 +104,7 @@ class FlowRun {
   std::atomic<double> modelBytes_{0}, modelAtBytes_{0};
   std::atomic<bool> areAlternatives_{false};
   double failedAt_ = 0, unfinished_ = std::numeric_limits<double>::infinity();
-  std::string why_;
+  FlowCause cause_;
   std::exception_ptr error_;
 };
 

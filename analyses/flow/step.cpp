@@ -258,37 +258,46 @@ int FlowStepper::escaping(const FlowSet& set) const {
   return -1;
 }
 
-/// A state that escapes is on its way to infinity. Else a state that is hardly known to one part in ten makes the set
-/// too wide. Else it is the step itself.
-std::string FlowStepper::reason(const FlowSet& set) const {
+/// A state that escapes is on its way to infinity; an operation whose argument soon is at the edge of where it is
+/// defined gets there. Else it is what the set has become: of a state that is least known, the greatest of what steps
+/// have added, what varies in time has, and what is uncertain. Bounds that meet an edge say less than that of the
+/// first two. Else it is the step itself.
+FlowCause FlowStepper::reason(const FlowSet& set) const {
+  using enum FlowCause::Kind;
   const int N = series_.count();
-  std::string wide;
-  double widest = 0.1;
   const auto text = [](double value) {
     std::array<char, 32> digits{};
     std::snprintf(digits.data(), digits.size(), "%.3g", value);
     return std::string(digits.data());
   };
-  const auto remainder = [&](int i) { return remainderOf(set, i, total_); };
-  if (const int i = escaping(set); i >= 0 && remainder(i) < std::fabs(set.p[at(i * N)]))
-    return nameOf(i) + " grows without bound: it is about " + text(set.p[at(i * N)]) + " and doubles within " +
-           text(doubling(set, i)) + " s";
+  const auto spread = [&](int i) { return remainderOf(set, i, total_); };
+  if (const int i = escaping(set); i >= 0 && spread(i) < std::fabs(set.p[at(i * N)]))
+    return {escape, nameOf(i) + " grows without bound: it is about " + text(set.p[at(i * N)]) + " and doubles within " +
+                        text(doubling(set, i)) + " s"};
+  if (const std::string near = series_.nearestEdge(1e-6 * set.t / h0_); !near.empty()) return {edge, near};
+  constexpr double tooWide = 0.1, hardlyKnown = 0.01;
+  double widest = 0;
+  FlowCause found;
   for (int i = 0; i < n_; ++i) {
     const double* p = &set.p[at(i * N)];
-    const double centre = p[0];
     double half = 0;
     for (int g = 1; g < N; ++g) half += std::fabs(p[g]);
-    const double left = remainder(i), size = std::max(std::fabs(centre), floor_[at(i)] / vanished);
-    if (const double share = (half + left) / size; share > widest) {
-      widest = share;
-      wide = "the set has grown too wide: " + nameOf(i) + " is " + text(centre) + " ± " + text(half + left) +
-             (left > half ? ", most of it what steps have added" : "");
-    }
+    const double all = spread(i), left = remainderOf(set, i, errors_), driven = std::max(0.0, all - left);
+    // One that has hardly moved yet is little if it is little beside the others.
+    const double before = set.largest.empty() ? 0 : set.largest[at(i)];
+    const double size = std::max({std::fabs(p[0]), before, hardlyMoving * floor_[at(i)] / unheard});
+    const double share = (half + all) / size;
+    if (!(share > widest)) continue;
+    widest = share;
+    const bool isLeft = left > std::max(half, driven) || (half >= driven && isRemainderDominant(set));
+    std::string what = nameOf(i) + " is " + text(p[0]) + " ± " + text(half + all);
+    if (isLeft) what += ", of which steps have added " + text(left);
+    found = {isLeft ? FlowCause::Kind::remainder : driven > half ? inputs : wide, std::move(what)};
   }
-  const std::string step = "no step could be certified";
-  const std::string edge = obstacle_.empty() ? series_.nearestEdge(1e-6 * set.t / h0_) : obstacle_;
-  if (!edge.empty()) return step + ": " + edge + (wide.empty() ? "" : "; " + wide);
-  return wide.empty() ? step + ": its errors would outgrow it" : wide;
+  if (found.kind != wide && widest > (obstacle_.empty() ? tooWide : hardlyKnown)) return found;
+  if (!obstacle_.empty()) return {edge, obstacle_};
+  if (widest > tooWide) return found;
+  return {step};
 }
 
 /// Bisection shortens the time that a piece is on both sides as well as what a kink adds: to a quarter; a jump, to
@@ -382,7 +391,7 @@ StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum,
   const double smallest = 1024 * quantum;  // below this, time itself is too coarse
   double h = expand(set, left, smallest);
   if (!(h > 0)) {
-    obstacle_ = h == 0 ? "" : "a number that is not defined or too large";
+    obstacle_ = h == 0 ? "" : "a number that is not finite";
     why_ = reason(set);
     return StepOutcome::failed;
   }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "analyses/flow/bounded_polynomial.hpp"
+#include "analyses/flow/cause.hpp"
 #include "analyses/flow/growth.hpp"
 #include "analyses/flow/inputs.hpp"
 #include "analyses/flow/jumps.hpp"
@@ -84,8 +85,8 @@ class FlowStepper {
   bool drift(FlowSet& set, double end);
   /// How many jumps and kinks all solutions pass in the step, or come to before the horizon.
   std::size_t crossings() const { return crossings_.size(); }
-  /// After a failure: what could not be proved, of which state, in one line.
-  const std::string& why() const { return why_; }
+  /// After a failure: what could not be proved, of which state.
+  const FlowCause& why() const { return why_; }
   /// A state that has grown a thousandfold and would double long before the time it took; -1 if none has.
   int escaping(const FlowSet& set) const;
   /// `own`: of the stepper's motion. That is the one of the jumps `of`, or, if `held` is not empty, the one in which
@@ -148,7 +149,7 @@ class FlowStepper {
   double expand(const FlowSet& set, double left, double smallest);
   void boundDerivatives();
   double suggestion(double theta) const;
-  std::string reason(const FlowSet& set) const;
+  FlowCause reason(const FlowSet& set) const;
   double doubling(const FlowSet& set, int state) const;
   bool isTruncationTooLarge(double splitDefect);
   bool isLooserThanDriven() const;
@@ -223,11 +224,12 @@ class FlowStepper {
   std::vector<Crossing> crossings_;
   std::vector<double> crossed_;  // like e1_, if what these do is known
   bool isSliding_ = false, isShortened_ = false;
-  bool isCut_ = false;          // by the end that was given
-  int lengthened_ = 0;          // so often, for all solutions to pass a jump in one step
-  double signsAt_ = 0;          // the step when signs were given; 0: none were
-  double givenAt_ = 0;          // the longest step that what was given holds for: signs, sides
-  std::string why_, obstacle_;  // obstacle_: of the last attempt
+  bool isCut_ = false;  // by the end that was given
+  int lengthened_ = 0;  // so often, for all solutions to pass a jump in one step
+  double signsAt_ = 0;  // the step when signs were given; 0: none were
+  double givenAt_ = 0;  // the longest step that what was given holds for: signs, sides
+  FlowCause why_;
+  std::string obstacle_;  // of the last attempt
   std::vector<double> delta0_, delta1_, start_, E_, y_, e1_, epsilon_, nu0_, nu1_, scale_, floor_;
   std::vector<double> total_, errors_;         // R + Σ_j |Γ_j| of the set being stepped; without inputs
   std::vector<double> driven_;                 // what inputs do to a state within the step, at most

@@ -1,0 +1,72 @@
+// A flow that ends, or is loose, names one cause: the one that is to blame.
+#include <gmock/gmock.h>
+
+#include "analyses/flow/flow.hpp"
+
+namespace gamut {
+namespace {
+
+using Kind = FlowCause::Kind;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// A pendulum, and a state whose rate divides by what the angle never makes zero.
+Program dividing() {
+  return record(3, 0, [](auto, const auto& x, const auto&, auto& dx) {
+    dx[0] = x[1];
+    dx[1] = -sin(x[0]);
+    dx[2] = 1.0 / (9.0 + x[0]);
+  });
+}
+
+FlowOptions named() {
+  FlowOptions options;
+  options.stateNames = {"angle", "rate", "sum"};
+  return options;
+}
+
+/// All solutions stay above an angle of -4, but what a linear remainder has grown to does not.
+TEST(FlowCause, IsTheRemainderWhereThatMeetsAnEdge) {
+  FlowOptions options = named();
+  options.split = false;
+  options.degree = 2;
+  options.frameDegree = 0;
+  const Tube tube = Flow(dividing(), options).enclose({Interval(2.6, 2.9), 0.0, 0.0}, 40);
+  ASSERT_LT(tube.reached(), 40);
+  EXPECT_EQ(tube.cause().kind, Kind::remainder) << tube.why();
+  EXPECT_THAT(tube.why(), HasSubstr("of which steps have added"));
+  EXPECT_THAT(tube.why(), Not(HasSubstr("a division")));
+  EXPECT_EQ(tube.cause().advice(), "interval.split = true");
+}
+
+TEST(FlowCause, IsWhatKeepsTheBoxFromBisection) {
+  FlowOptions options = named();
+  options.maxPieces = 2;
+  options.tightness = 1.0001;
+  options.degree = 2;
+  const Tube few = Flow(dividing(), options).enclose({Interval(2.0, 2.9), 0.0, 0.0}, 4, {2, 4});
+  EXPECT_EQ(few.limitCause().kind, Kind::pieces) << few.limit();
+  EXPECT_EQ(few.limit(), "all 2 pieces that are allowed are used");
+  EXPECT_EQ(few.limitCause().advice(), "interval.max_pieces = 8");
+  options.split = false;
+  const Tube none = Flow(dividing(), options).enclose({Interval(2.0, 2.9), 0.0, 0.0}, 4, {2, 4});
+  EXPECT_EQ(none.limitCause().kind, Kind::unsplit) << none.limit();
+  EXPECT_EQ(none.limitCause().advice(), "interval.split = true");
+}
+
+TEST(FlowCause, IsAnEdgeWhereTheMotionComesToIt) {
+  const Program f = record(1, 0, [](auto t, const auto& x, const auto&, auto& dx) { dx[0] = -1.0 - 1e-9 * t / x[0]; });
+  const Tube tube = Flow(f).enclose({Interval(0.99, 1.01)}, 3);
+  EXPECT_EQ(tube.cause().kind, Kind::edge) << tube.why();
+  EXPECT_EQ(tube.cause().advice(), "");
+}
+
+TEST(FlowCause, HasASentenceOfEachKind) {
+  for (int kind = 1; kind <= static_cast<int>(Kind::rounds); ++kind)
+    EXPECT_NE((FlowCause{static_cast<Kind>(kind), "x", 1}).sentence(), "") << kind;
+  EXPECT_EQ(FlowCause{}.sentence(), "");
+  EXPECT_EQ(FlowCause{}.advice(), "");
+}
+
+}  // namespace
+}  // namespace gamut
