@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include <charconv>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <iterator>
@@ -121,6 +122,16 @@ const RequirementResult* requirementOf(const Arguments& arguments, const Results
       names.empty() ? "results of a study with [[requirement]]" : fmt::format("one of {}", fmt::join(names, ", "))));
 }
 
+/// Where what is printed does not show by itself that it violates the requirement.
+void sayOfViolation(const RequirementResult& requirement, const Results& results) {
+  if (requirement.isViolatedInSimulation)
+    fmt::print(stderr, "note: this is {}: it violates '{}' in simulation, which is not proved\n",
+               results.stochastic.nameOf(requirement.worstSample), requirement.name);
+  if (requirement.isViolatedBetween)
+    fmt::print(stderr, "note: it violates '{}' between output times{}\n", requirement.name,
+               std::isnan(requirement.violationTime) ? "" : fmt::format(", at {} s", requirement.violationTime));
+}
+
 ExitCode replay(const Arguments& arguments) {
   const Results results = readResults(arguments.results);
   const RequirementResult* const requirement = requirementOf(arguments, results);
@@ -143,7 +154,10 @@ ExitCode replay(const Arguments& arguments) {
     sayOut(table());
   else
     reserve(arguments.output, arguments.results, arguments.force).write(table());
-  if (requirement == nullptr) say(number, sample, results);
+  if (requirement == nullptr)
+    say(number, sample, results);
+  else
+    sayOfViolation(*requirement, results);
   return sample.why.empty() ? done : endedEarly;
 }
 

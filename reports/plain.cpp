@@ -109,8 +109,8 @@ class Sentence {
 
   std::string text() const {
     const std::string words = said();
-    if (!words.starts_with("the ")) return words;
-    return "T" + words.substr(1);
+    if (words.starts_with("the ")) return "T" + words.substr(1);
+    return words.starts_with("in ") ? "I" + words.substr(1) : words;
   }
 
  private:
@@ -124,8 +124,23 @@ class Sentence {
                                         : "In some cases, " + what + probability()) +
              violation() + share();
     }
-    return fmt::format("It is not decided whether {} in every case{}{}.{}", does(true), window(),
-                       r_.why.empty() ? "" : ": " + r_.why, share());
+    if (r_.isViolatedInSimulation)
+      return fmt::format("in simulation, {}{}: {} misses {} by {}{}. That is not proved{}.{}", does(false), window(),
+                         results_.stochastic.nameOf(r_.worstSample), demand_.where.empty() ? "it" : "the limit",
+                         sampledMissOf(results_, r_),
+                         results_.horizon > 0 ? fmt::format(" at {} s", numberText(r_.worstTime, 6)) : "",
+                         r_.why.empty() ? "" : ": " + r_.why, share());
+    return fmt::format("It is not decided whether {} in every case{}{}.{}{}", does(true), window(),
+                       r_.why.empty() ? "" : ": " + r_.why, reach(), share());
+  }
+
+  /// How far it is decided, and what may help.
+  std::string reach() const {
+    std::string text;
+    if (r_.metUntil > r_.from && r_.metUntil < r_.until)
+      text += fmt::format(" It is until {} s.", numberText(r_.metUntil, 6));
+    if (!r_.advice.empty()) text += fmt::format(" What may help: {}.", r_.advice);
+    return text;
   }
 
   /// "“height” stays above 0.2 m", "“height” does not stay above 0.2 m".
@@ -181,9 +196,9 @@ class Sentence {
     if (r_.samples == 0) return {};
     if (r_.violating == 0) return fmt::format(" None of {} simulated cases was seen to miss it.", r_.samples);
     return fmt::format(" {} of {} simulated cases {}.", r_.violating, r_.samples,
-                       !r_.isAlways        ? "were not seen to meet it"
-                       : r_.word == "open" ? "seem to miss it"
-                                           : "miss it");
+                       !r_.isAlways                                      ? "were not seen to meet it"
+                       : r_.word == "open" && !r_.isViolatedInSimulation ? "seem to miss it"
+                                                                         : "miss it");
   }
 
   const Results& results_;
@@ -259,15 +274,18 @@ std::string ofRequirements(const Results& results) {
              rarely = std::ranges::count_if(all, [&](const RequirementResult&r) { return isRarelyMet(results, r); }),
              partly = count({"partly"}) - rarely;
   const auto number = static_cast<std::ptrdiff_t>(all.size());
-  const auto open = number - met - violated - rarely - partly;
+  const auto simulated =
+      std::ranges::count_if(all, [](const RequirementResult& r) { return r.isViolatedInSimulation; });
+  const auto open = number - met - violated - rarely - partly - simulated;
   if (met == number)
     return number == 1 ? fmt::format("The requirement is met {}.", everyCase)
                        : fmt::format("All {} requirements are met {}.", number, everyCase);
   if (number == 1)
-    return violated > 0 ? "The requirement is violated in every case that the stated tolerances allow."
-           : rarely > 0 ? fmt::format("The requirement is violated, but for {}.", rareText(all.front()))
-           : partly > 0 ? "The requirement can be violated within the stated tolerances."
-                        : "It is not decided whether the requirement is met in every case.";
+    return violated > 0    ? "The requirement is violated in every case that the stated tolerances allow."
+           : rarely > 0    ? fmt::format("The requirement is violated, but for {}.", rareText(all.front()))
+           : partly > 0    ? "The requirement can be violated within the stated tolerances."
+           : simulated > 0 ? "The requirement is violated in simulated cases, which is not proved."
+                           : "It is not decided whether the requirement is met in every case.";
   std::vector<std::string> parts;
   const auto add = [&](std::ptrdiff_t some, const char* one, const char* many) {
     if (some > 0)
@@ -277,6 +295,7 @@ std::string ofRequirements(const Results& results) {
   add(violated, "is violated in every case", "are violated in every case");
   add(rarely, "is violated but for a tiny probability", "are violated but for a tiny probability");
   add(partly, "can be violated within the stated tolerances", "can be violated within the stated tolerances");
+  add(simulated, "is violated in simulation, not proved", "are violated in simulation, not proved");
   add(open, "is not decided", "are not decided");
   add(met, "is met in every case", "are met in every case");
   return fmt::format("{}.", fmt::join(parts, "; "));

@@ -43,6 +43,9 @@ std::string rangeOfShare(double lower, double upper) {
   return fmt::format("{} to {}", numberIn(low) < 0 ? "0" : low, numberIn(high) > 1 ? "1" : high);
 }
 
+/// Of such a quantity a violation holds the number that chooses its course.
+bool variesInTime(const UncertainInfo& quantity) { return quantity.distribution.starts_with("varies"); }
+
 /// Rounded down, in per cent.
 std::string percentText(double share) {
   const double percent = std::floor(1000 * share) / 10;
@@ -56,11 +59,12 @@ class Wording {
   RequirementWords words() const {
     return {r_.name,
             r_.statement + window(),
-            r_.word,
-            r_.word == "met"        ? "met"
-            : r_.word == "violated" ? "violated"
-            : r_.word == "partly"   ? "violated for some values"
-                                    : "open",
+            r_.isViolatedInSimulation ? "simulated" : r_.word,
+            r_.isViolatedInSimulation ? "violated in simulation, not proved"
+            : r_.word == "met"        ? "met"
+            : r_.word == "violated"   ? "violated"
+            : r_.word == "partly"     ? "violated for some values"
+                                      : "open",
             guaranteed(),
             probable(),
             results_.fuzzy.present ? possible() : ""};
@@ -77,19 +81,35 @@ class Wording {
     if (r_.word == "met")
       return "met for every value, at every instant" + std::string(r_.isAlways ? "" : " that counts");
     if (r_.word == "violated") return "violated for every value" + violation();
-    std::string text = r_.word == "partly" ? "violated for some values" + violation() : "neither proved nor refuted";
-    if (!r_.why.empty()) text += ": " + r_.why;
+    std::string text = r_.word == "partly"         ? "violated for some values" + violation()
+                       : r_.isViolatedInSimulation ? "not proved, but violated in simulation" + simulation()
+                                                   : "neither proved nor refuted";
+    if (r_.word == "open" && !r_.why.empty()) text += ": " + r_.why;
+    if (r_.word == "open" && !r_.advice.empty()) text += fmt::format(" (what may help: {})", r_.advice);
+    if (r_.word == "open" && r_.metUntil > r_.from && r_.metUntil < r_.until)
+      text += fmt::format("; met until {} s of {} s", numberText(r_.metUntil, 6), numberText(r_.until, 6));
     if (r_.factor > 0)
       text += fmt::format("; met where all deviate by up to {} of what is stated", percentText(r_.factor));
     if (r_.met > 0) text += fmt::format("; met for {} of the box", percentText(r_.met));
     return text;
   }
 
+  /// ", by sample 17 (short by 0.27 mm at 3.2 s)".
+  std::string simulation() const {
+    return fmt::format(", by {} (short by {}{})", results_.stochastic.nameOf(r_.worstSample),
+                       sampledMissOf(results_, r_),
+                       results_.horizon > 0 ? fmt::format(" at {} s", numberText(r_.worstTime, 6)) : "");
+  }
+
   /// "angle 0.51 rad, … (short by 0.0012 m at 0.8 s)".
   std::string violation() const {
     std::vector<std::string> values;
     for (std::size_t q = 0; q < r_.violation.size(); ++q)
-      if (!std::isnan(r_.violation[q]))
+      if (std::isnan(r_.violation[q]))
+        continue;
+      else if (variesInTime(results_.uncertain[q]))
+        values.push_back(fmt::format("{} as it varies there", results_.uncertain[q].name));
+      else
         values.push_back(withUnit(fmt::format("{} {}", results_.uncertain[q].name, numberText(r_.violation[q], 8)),
                                   results_.uncertain[q].unit));
     if (values.empty()) return {};
@@ -99,7 +119,7 @@ class Wording {
     std::string text = fmt::format(
         ", as by {}{}{}", r_.violationSample < 0 ? "" : results_.stochastic.nameOf(r_.violationSample) + ": ",
         fmt::join(values, ", "), others > 0 ? fmt::format(" and {} more", others) : std::string());
-    if (r_.isViolatedBetween)
+    if (r_.isViolatedBetween && (std::isnan(r_.violationUpper) || std::isnan(r_.violationTime)))
       text += " (between output times)";
     else if (!std::isnan(r_.violationUpper) && r_.violationUpper <= 0)
       text += fmt::format(" (short by {}{})", missOf(results_, r_),
@@ -109,7 +129,11 @@ class Wording {
 
   std::string probable() const {
     std::vector<std::string> parts;
-    if (results_.interval.present || results_.fuzzy.present)
+    const bool isProved = results_.interval.present || results_.fuzzy.present;
+    if (isProved && r_.probabilityLower == 0 && r_.probabilityUpper == 1)
+      parts.push_back("nothing is proved of the probability" +
+                      (r_.word == "partly" && !r_.why.empty() ? ": " + r_.why : ""));
+    else if (isProved)
       parts.push_back(
           fmt::format("met with a probability of {}, proved", rangeOfShare(r_.probabilityLower, r_.probabilityUpper)));
     if (r_.samples > 0) {
@@ -123,6 +147,7 @@ class Wording {
   }
 
   std::string possible() const {
+    if (r_.violationLeast == 0 && r_.violationMost == 1) return "nothing is proved of the possibility";
     return fmt::format("violated with a possibility of {}, met with a necessity of {}",
                        rangeOfShare(r_.violationLeast, r_.violationMost),
                        rangeOfShare(1 - r_.violationMost, 1 - r_.violationLeast));
@@ -132,6 +157,13 @@ class Wording {
   const RequirementResult& r_;
 };
 
+/// Of the margin, in the unit in which the limit is stated.
+std::string missText(const Results& results, const RequirementResult& requirement, double miss) {
+  const std::string& unit = results.outputs[requirement.margin].unit;
+  const std::string stated = statedUnit(requirement.statement, unit);
+  return withUnit(numberText(stated == unit ? miss : miss / nearest(parseAmount("1 " + stated)), 3), stated);
+}
+
 bool isViolated(const RequirementResult& requirement) {
   return requirement.word == "violated" || requirement.word == "partly";
 }
@@ -139,10 +171,11 @@ bool isViolated(const RequirementResult& requirement) {
 }  // namespace
 
 std::string missOf(const Results& results, const RequirementResult& requirement) {
-  const std::string& unit = results.outputs[requirement.margin].unit;
-  const std::string stated = statedUnit(requirement.statement, unit);
-  const double miss = -0.5 * (requirement.violationLower + requirement.violationUpper);
-  return withUnit(numberText(stated == unit ? miss : miss / nearest(parseAmount("1 " + stated)), 3), stated);
+  return missText(results, requirement, -0.5 * (requirement.violationLower + requirement.violationUpper));
+}
+
+std::string sampledMissOf(const Results& results, const RequirementResult& requirement) {
+  return missText(results, requirement, -requirement.worstMargin);
 }
 
 std::vector<RequirementWords> wordsOfRequirements(const Results& results) {
@@ -165,7 +198,8 @@ std::string sentenceOfRequirements(const Results& results) {
     return static_cast<std::size_t>(std::ranges::count_if(results.requirements, is));
   };
   const std::size_t met = number([](const RequirementResult&r) { return r.word == "met"; }),
-                    violated = number(isViolated);
+                    violated = number(isViolated),
+                    simulated = number([](const RequirementResult&r) { return r.isViolatedInSimulation; });
   if (met == count)
     return count == 1 ? "The requirement is met, whatever the uncertain quantities are."
                       : fmt::format("All {} requirements are met, whatever the uncertain quantities are.", count);
@@ -174,7 +208,8 @@ std::string sentenceOfRequirements(const Results& results) {
     if (some > 0) parts.push_back(fmt::format("{} {}", some, some == 1 ? what : others));
   };
   add(violated, "is violated, for some values at least", "are violated, for some values at least");
-  add(count - met - violated, "is neither proved nor refuted", "are neither proved nor refuted");
+  add(simulated, "is violated in simulation, not proved", "are violated in simulation, not proved");
+  add(count - met - violated - simulated, "is neither proved nor refuted", "are neither proved nor refuted");
   add(met, "is met for all values", "are met for all values");
   return fmt::format("Of {}, {}.", countText(static_cast<long long>(count), "requirement"), fmt::join(parts, ", "));
 }

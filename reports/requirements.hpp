@@ -10,9 +10,9 @@
 namespace gamut {
 
 struct RequirementWords {
-  std::string name, demand;                    ///< "clearance", "always tip.position.z > 0.2 m, from 0 s to 1 s"
-  std::string word;                            ///< "met", "violated", "partly", "open", as RequirementResult
-  std::string verdict;                         ///< one or two words: "met", "violated for some"
+  std::string name, demand;  ///< "clearance", "always tip.position.z > 0.2 m, from 0 s to 1 s"
+  std::string word;          ///< "met", "violated", "partly", "open", as RequirementResult; "simulated": violated so
+  std::string verdict;       ///< in words: "met", "violated for some values", "violated in simulation, not proved"
   std::string guaranteed, probable, possible;  ///< a sentence each, without markup; empty where not asked for
 };
 
@@ -21,6 +21,9 @@ std::vector<RequirementWords> wordsOfRequirements(const Results& results);
 
 /// By how much the violation that is known misses the limit, in the unit in which that is stated: "0.273 mm".
 std::string missOf(const Results& results, const RequirementResult& requirement);
+
+/// By how much the worst sample does.
+std::string sampledMissOf(const Results& results, const RequirementResult& requirement);
 
 /// What they are together: "met" if all are, "violated" if one is, for some values at least, otherwise "open".
 std::string wordOfRequirements(const Results& results);

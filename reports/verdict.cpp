@@ -56,6 +56,8 @@ class Wording {
     noteUnbounded();
     if (const std::string& shortfall = results_.interval.shortfall; !shortfall.empty())
       note("The enclosure is looser than was asked for: " + shortfall + ".");
+    if (const IntervalResult& interval = results_.interval; !interval.advice.empty())
+      note("What may help: " + interval.advice + ".");
     noteMissing();
     noteProbabilities();
     noteUnlikely();
@@ -253,7 +255,7 @@ class Wording {
   void noteUnbounded() {
     if (verdict_.unbounded == 0) return;
     const Excursion& first = verdict_.firstUnbounded;
-    note(fmt::format("Nothing finite is guaranteed of {}{}{}: it may be infinite or undefined for some values.",
+    note(fmt::format("Nothing finite is guaranteed of {}{}{}: its bounds are infinite.",
                      results_.outputs[first.output].name, when(first.time),
                      verdict_.unbounded > 1 ? fmt::format(" (and {} more bounds)", verdict_.unbounded - 1) : ""));
   }

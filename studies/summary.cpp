@@ -51,6 +51,9 @@ Json requirementsArray(const Results& results) {
     Json violation = nullptr;
     for (std::size_t q = 0; q < r.violation.size(); ++q)
       if (!std::isnan(r.violation[q])) violation[results.uncertain[q].name] = r.violation[q];
+    Json simulated = nullptr;
+    if (r.isViolatedInSimulation)
+      simulated = {{"sample", r.worstSample}, {"margin", r.worstMargin}, {"time", number(r.worstTime)}};
     array.push_back(
         {{"name", r.name},
          {"statement", r.statement},
@@ -58,6 +61,8 @@ Json requirementsArray(const Results& results) {
          {"until", r.until},
          {"guaranteed", r.word},
          {"why", textOrNull(r.why)},
+         {"advice", textOrNull(r.advice)},
+         {"met_until", number(r.metUntil)},
          {"met", r.met},
          {"violated", r.violated},
          {"factor", r.factor},
@@ -66,6 +71,7 @@ Json requirementsArray(const Results& results) {
          {"samples", r.samples},
          {"violating", r.violating},
          {"confidence", std::isnan(r.shareLower) ? Json(nullptr) : Json::array({r.shareLower, r.shareUpper})},
+         {"simulated_violation", simulated},
          {"worst_sample", r.worstSample < 0 ? Json(nullptr) : Json(r.worstSample)},
          {"violation_possibility", Json::array({r.violationLeast, r.violationMost})}});
   }
@@ -394,6 +400,7 @@ std::string jsonSummary(const Results& results, const std::string& verdict, cons
   json["dependence"] = textOrNull(results.dependence);
   json["tightness"] = number(results.interval.tightness);
   json["shortfall"] = textOrNull(results.interval.shortfall);
+  json["advice"] = textOrNull(results.interval.advice);
   json["requirements"] = requirementsArray(results);
   json["statistics"] = statisticsObject(results);
   json["alpha_cuts"] = transformationObject(results);

@@ -124,6 +124,7 @@ void Watch::begin(Stage stage) {
   if (stop_ && !forAll_) {
     ::malloc_trim(0);  // what the stage before held is no longer in use
     why_.clear();
+    key_.clear();
     stop_ = false;
   }
   // What is touched is watched; a single request that goes far beyond must fail before the machine runs out.
@@ -147,6 +148,11 @@ std::string Watch::firstStop() const {
   return hasStopped_ && first_.empty() ? "no memory was left" : first_;
 }
 
+std::string Watch::key() const {
+  const std::lock_guard lock(mutex_);
+  return stop_ ? key_ : "";
+}
+
 double Watch::spent() const { return processCpuSeconds() - began_; }
 
 void Watch::memoryFailed() {
@@ -157,7 +163,7 @@ void Watch::memoryFailed() {
 void Watch::endForMemory() {
   const std::string why = fmt::format("the memory limit of {:.3g} GB for {} was reached", memoryLimit() / 1e9,
                                       stage_ == Stage::enclosure ? "the enclosure" : "the whole run");
-  end(why, false);
+  end(why, stage_ == Stage::enclosure ? "limits.enclosure_memory" : "limits.memory", false);
   noteStop(why);
 }
 
@@ -175,11 +181,12 @@ void Watch::run(const std::stop_token& token) {
   }
 }
 
-void Watch::end(const std::string& why, bool all) {
+void Watch::end(const std::string& why, const char* key, bool all) {
   forAll_ = all;
   if (!stop_) stopped_ = std::chrono::steady_clock::now();
   stop_ = true;
   why_ = why;
+  key_ = key;
   if (all || stage_ == Stage::enclosure) noteStop(why);
 }
 
@@ -190,15 +197,16 @@ void Watch::noteStop(const std::string& why) {
 
 void Watch::look() {
   if (forAll_) return;
-  if (interrupted_ != nullptr && *interrupted_) return end("the run was interrupted", true);
+  if (interrupted_ != nullptr && *interrupted_) return end("the run was interrupted", "", true);
   const double now = processCpuSeconds();
   if (now - began_ >= limits_.time)
-    return end(fmt::format("the time limit of {:.6g} s CPU for the whole run was reached", limits_.time), true);
+    return end(fmt::format("the time limit of {:.6g} s CPU for the whole run was reached", limits_.time), "limits.time",
+               true);
   if (stop_) return;
   if (now - stageBegan_ >= timeLimit())
     return end(fmt::format("the time limit of {:.6g} s CPU for {} was reached", timeLimit(),
                            stage_ == Stage::enclosure ? "the enclosure" : "the first samples"),
-               false);
+               stage_ == Stage::enclosure ? "limits.enclosure_time" : "limits.time", false);
   if (pagesInUse().resident >= memoryLimit()) endForMemory();
 }
 

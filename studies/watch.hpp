@@ -62,6 +62,8 @@ class Watch {
   /// Why a stage had to end for the first time; of the first samples only where others cannot come later. Empty if none
   /// had to.
   std::string firstStop() const;
+  /// The key of a study that states this limit: "limits.time"; empty where none was reached.
+  std::string key() const;
   /// A request for memory failed: the stage ends for want of it.
   void memoryFailed();
   /// CPU time since the watch began, s.
@@ -69,10 +71,10 @@ class Watch {
 
  private:
   void run(const std::stop_token& token);
-  void look();                                 // with the lock
-  void end(const std::string& why, bool all);  // likewise
-  void noteStop(const std::string& why);       // likewise
-  void endForMemory();                         // likewise
+  void look();                                                  // with the lock
+  void end(const std::string& why, const char* key, bool all);  // likewise
+  void noteStop(const std::string& why);                        // likewise
+  void endForMemory();                                          // likewise
   double memoryLimit() const;
   double timeLimit() const;  // of the stage
 
@@ -83,7 +85,7 @@ class Watch {
   Stage stage_ = Stage::rest;
   std::atomic<bool> stop_{false};
   bool forAll_ = false;  // what stopped the stage stops all that follow
-  std::string why_, first_;
+  std::string why_, key_, first_;
   bool hasStopped_ = false;
   const Overdue overdue_;
   std::chrono::steady_clock::time_point stopped_;

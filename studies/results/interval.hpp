@@ -18,6 +18,7 @@ struct IntervalResult final : Answer {
   Envelope direct;  ///< kinematics only: the assembly moved by plain intervals, without polynomials
   double tightness = std::numeric_limits<double>::quiet_NaN();  ///< of dynamics: proved overestimation of `at`, at most
   std::string shortfall;    ///< what is looser than was asked for, and why; empty if nothing is
+  std::string advice;       ///< what may help against that, or an early end: "interval.max_pieces = 8000"
   std::int64_t pieces = 0;  ///< sub-boxes at the end
   std::int64_t steps = 0;
 

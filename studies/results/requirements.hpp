@@ -20,15 +20,19 @@ struct RequirementResult {
   std::int64_t margins = 1;     ///< so many outputs from there on are above zero where it is met
   std::int64_t metAtZero = 0;   ///< bit i: zero is enough of margin i
   // What is guaranteed.
-  std::string word = "open";      ///< "met", "violated": of all values; "partly": it is violated for some; "open"
-  std::string why;                ///< why no more is known; empty if all is
-  double met = 0, violated = 0;   ///< of at least so much of the uncertain box, by volume
-  double factor = 0;              ///< met for deviations from nominal up to so many times those stated
-  std::vector<double> violation;  ///< values for which it is violated, one a quantity; NaN: none are known
+  std::string word = "open";     ///< "met", "violated": of all values; "partly": it is violated for some; "open"
+  std::string why;               ///< why no more is known, one cause; empty if all is
+  std::string advice;            ///< what may help: "interval.tightness = 1.005"; empty if nothing is known to
+  double metUntil = unknown;     ///< s: of what is always to be, met for every value so long; NaN: not even at first
+  double met = 0, violated = 0;  ///< of at least so much of the uncertain box, by volume
+  double factor = 0;             ///< met for deviations from nominal up to so many times those stated
+  /// Values for which it is violated, one a quantity; of what varies in time, the number that chooses its course. NaN:
+  /// none are known, or it is violated whatever that one is.
+  std::vector<double> violation;
   /// These are of a sample, or some roundings from it where that lies at an interval's end: its number; -1: of none.
   std::int64_t violationSample = -1;
   bool isViolatedBetween = false;  ///< these violate it between output times alone, as far as that is proved
-  double violationTime = unknown;  ///< s; NaN where it is no output time
+  double violationTime = unknown;  ///< s; NaN: it is not known at which instant
   double violationLower = unknown, violationUpper = unknown;  ///< the margin there, proved
   // What is probable.
   double probabilityLower = 0, probabilityUpper = 1;  ///< that it is met, proved
@@ -36,6 +40,8 @@ struct RequirementResult {
   double shareLower = unknown, shareUpper = unknown;  ///< 95 % confidence of the share that is met; NaN: none holds
   std::int64_t worstSample = -1;                      ///< with the least margin, those without weight among them
   double worstTime = unknown, worstMargin = unknown;  ///< of it: s, and the margin there
+  /// Nothing is proved, but it misses the requirement by more than the error of its integration.
+  bool isViolatedInSimulation = false;
   // What is possible.
   double violationLeast = 0, violationMost = 1;  ///< bounds of the possibility that it is violated; 1 - that: necessity
 };

@@ -48,8 +48,13 @@ void encloseMotion(Run& run) {
   if (tube.why() == Tube::outOfMemory) run.watch.memoryFailed();
   enclosed.why = tube.wasStopped() ? run.watch.why() : tube.why();
   enclosed.tightness = tube.tightness();
-  if (!tube.shortfall().empty())
-    enclosed.shortfall = tube.shortfall() + ": " + (tube.limit() == Tube::interrupted ? run.watch.why() : tube.limit());
+  enclosed.advice = tube.wasStopped() ? run.watch.key() : tube.cause().advice();
+  if (const FlowCause& limit = tube.limitCause(); !tube.shortfall().empty()) {
+    const bool isWatch = limit.kind == FlowCause::Kind::interrupted || limit.kind == FlowCause::Kind::outOfMemory;
+    const std::string why = isWatch ? run.watch.why() : limit.sentence();
+    enclosed.shortfall = tube.shortfall() + (why.empty() ? "" : ": " + why);
+    if (enclosed.why.empty()) enclosed.advice = isWatch ? run.watch.key() : limit.advice();
+  }
   enclosed.pieces = tube.pieces();
   enclosed.steps = tube.steps();
   enclosed.cutCpu = tube.cutCpuSeconds();

@@ -98,6 +98,7 @@ void forgetSamples(Results& results, std::size_t samples) {
     result.samples = result.violating = 0;
     result.shareLower = result.shareUpper = result.worstTime = result.worstMargin = unknown;
     result.worstSample = -1;
+    result.isViolatedInSimulation = false;
     if (result.violationSample >= before)  // a corner, the centre, or a point
       result.violationSample += static_cast<std::int64_t>(samples) - before;
   }
@@ -123,7 +124,7 @@ Extension extend(const Study& study, const Results& results, const RunOptions& o
   noteExtension(run, results.stochastic.samples);
   run.former.emplace(results, samples);
   run.enclosed.reachedTimes = enclosedTimes(results);
-  run.worst.resize(study.requirements.size());
+  run.suspects.resize(study.requirements.size());
   forgetSamples(run.results, samples);
   for (const auto& unit : unitsOfSamples) unit(run);
   run.results.extensions.back().cpu = run.watch.spent();

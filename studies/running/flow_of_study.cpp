@@ -20,14 +20,14 @@ double longestStepOf(const Study& study) {
 }
 
 /// These outputs alone; `numbers` becomes their new numbers, 0, 1, ...
-Program programOf(const Study& study, const std::vector<int>& outputs, std::vector<int>& numbers) {
+Program programOf(const Program& g, const std::vector<int>& outputs, std::vector<int>& numbers) {
   numbers.clear();
   std::vector<int> nodes;
   for (const int output : outputs) {
     numbers.push_back(static_cast<int>(nodes.size()));
-    nodes.push_back(study.motion.g.outputNodes()[static_cast<std::size_t>(output)]);
+    nodes.push_back(g.outputNodes()[static_cast<std::size_t>(output)]);
   }
-  return Recorder(study.motion.g).finish(nodes);
+  return Recorder(g).finish(nodes);
 }
 
 }  // namespace
@@ -65,26 +65,36 @@ std::size_t rowOf(const std::vector<double>& times, double time) {
 }
 
 CellQuestion questionOf(const Study& study, const Requirement& requirement, std::size_t rows) {
+  return questionOf(study, requirement, study.motion.times, rows);
+}
+
+CellQuestion questionOf(const Study& study, const Requirement& requirement, const std::vector<double>& times,
+                        std::size_t rows) {
   CellQuestion question;
   question.when = requirement.isAlways ? CellQuestion::When::always : CellQuestion::When::eventually;
   const std::size_t first = study.requirements.front().margins.front();  // models are of margins alone
   for (const std::size_t output : requirement.margins) question.margins.push_back(static_cast<int>(output - first));
   question.isMetAtZero = requirement.isMetAtZero;
-  question.from = rowOf(study.motion.times, requirement.from);
-  question.until = std::min(rowOf(study.motion.times, requirement.until), rows - 1);
+  question.from = rowOf(times, requirement.from);
+  question.until = std::min(rowOf(times, requirement.until), rows - 1);
   return question;
 }
 
 Tube modelMargins(const Study& study, FlowOptions options, const Box& box) {
-  Program g = programOf(study, marginOutputs(study), options.modelled);
-  return Flow(study.motion.f, std::move(g), std::move(options)).enclose(box, study.horizon, study.motion.times);
+  return modelMarginsOf(study, study.motion, std::move(options), box, study.motion.times);
+}
+
+Tube modelMarginsOf(const Study& study, const Motion& motion, FlowOptions options, const Box& box,
+                    const std::vector<double>& times) {
+  Program g = programOf(motion.g, marginOutputs(study), options.modelled);
+  return Flow(motion.f, std::move(g), std::move(options)).enclose(box, study.horizon, times);
 }
 
 Tube modelAll(const Study& study, FlowOptions options, const Box& box) {
   std::vector<int> all = marginOutputs(study);
   const std::size_t margins = all.size();
   std::ranges::copy(plainOutputs(study), std::back_inserter(all));
-  Program g = programOf(study, all, options.modelled);
+  Program g = programOf(study.motion.g, all, options.modelled);
   options.modelledAt.assign(options.modelled.begin() + static_cast<std::ptrdiff_t>(margins), options.modelled.end());
   options.modelled.resize(margins);
   return Flow(study.motion.f, std::move(g), std::move(options)).enclose(box, study.horizon, study.motion.times);

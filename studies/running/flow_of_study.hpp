@@ -23,12 +23,17 @@ std::vector<int> plainOutputs(const Study& study);
 /// The index of an output time.
 std::size_t rowOf(const std::vector<double>& times, double time);
 
-/// What is asked of models of all margins, which reach so many output times.
+/// What is asked of models of all margins, which reach so many output times, or so many of `times`.
 CellQuestion questionOf(const Study& study, const Requirement& requirement, std::size_t rows);
+CellQuestion questionOf(const Study& study, const Requirement& requirement, const std::vector<double>& times,
+                        std::size_t rows);
 
 /// A flow whose outputs are the margins alone, with models of them, over a box like that of the study's problem; or
 /// the margins, and then all others with models at output times.
 Tube modelMargins(const Study& study, FlowOptions options, const Box& box);
+/// By programs of the same states and parameters as the study's, at these times.
+Tube modelMarginsOf(const Study& study, const Motion& motion, FlowOptions options, const Box& box,
+                    const std::vector<double>& times);
 Tube modelAll(const Study& study, FlowOptions options, const Box& box);
 
 }  // namespace gamut

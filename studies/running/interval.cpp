@@ -17,6 +17,7 @@ void guarantee(Run& run) {
   interval.why = enclosed.why;
   interval.tightness = enclosed.tightness;
   interval.shortfall = enclosed.shortfall;
+  interval.advice = enclosed.advice;
   interval.pieces = enclosed.pieces;
   interval.steps = enclosed.steps;
   interval.cpu = enclosed.cpu - enclosed.cutCpu;

@@ -40,12 +40,20 @@ ReplayedSample replay(const Study& study, const Results& results, std::size_t nu
 }
 
 ReplayedSample replayViolation(const Study& study, const Results& results, const RequirementResult& requirement) {
+  if (requirement.word == "met")
+    throw std::invalid_argument("no motion violates '" + requirement.name + "': it is met for every value");
+  if (requirement.isViolatedInSimulation)
+    return replay(study, results, static_cast<std::size_t>(requirement.worstSample));
+  const bool isForAll = requirement.word == "violated";
+  if (!isForAll && requirement.word != "partly")
+    throw std::invalid_argument("no motion is known that violates '" + requirement.name + "'");
   const Problem problem = makeProblem(study);
   std::vector<double> values;
   for (std::size_t q = 0; q < study.uncertain.size(); ++q) {
-    if (std::isnan(requirement.violation[q]) && !study.uncertain[q].varies)
+    const bool isAny = std::isnan(requirement.violation[q]);
+    if (isAny && !isForAll && !study.uncertain[q].varies)
       throw std::invalid_argument("no values are known that violate '" + requirement.name + "'");
-    values.push_back(study.uncertain[q].varies ? study.uncertain[q].uncertain.nominal : requirement.violation[q]);
+    values.push_back(isAny ? study.uncertain[q].uncertain.nominal : requirement.violation[q]);
   }
   SampleBlock block = integrateValues(problem.motion, ensembleOptions(study, problem, results, 1), values);
   if (study.analysis == Study::Analysis::kinematics) moveSamples(study, problem, block);

@@ -27,8 +27,9 @@ struct ReplayedSample {
 /// std::invalid_argument for results without samples and for a number that no sample has.
 ReplayedSample replay(const Study& study, const Results& results, std::size_t number);
 
-/// Values for which a requirement is violated, as the results state them; what varies in time keeps to the course of
-/// its nominal value. Throws std::invalid_argument where no such values are known.
+/// A motion that violates a requirement: of the values for which that is proved, or of the sample that violates it in
+/// simulation. What varies in time keeps to the course of its nominal value where any will do. Throws
+/// std::invalid_argument where no such motion is known.
 ReplayedSample replayViolation(const Study& study, const Results& results, const RequirementResult& requirement);
 
 }  // namespace gamut

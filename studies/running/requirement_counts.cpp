@@ -61,18 +61,21 @@ void noteRequirements(Run& run, const SampleBlock& block) {
         always = always && isMetNow;
         once = once || isMetNow;
       }
+      const bool violates = !(requirement.isAlways ? always : once);
       if (block.hasWeight()) {
         ++result.samples;
-        if (!(requirement.isAlways ? always : once)) ++result.violating;
+        if (violates) ++result.violating;
       }
       const Margin worst = worstOf(block, i, from, until, requirement);
-      if (std::isnan(worst.value) || (result.worstSample >= 0 && worst.value >= result.worstMargin)) continue;
-      result.worstSample = static_cast<std::int64_t>(block.first() + i);
+      if (std::isnan(worst.value)) continue;
+      const auto sample = static_cast<std::int64_t>(block.first() + i);
+      const bool isWorst = result.worstSample < 0 || worst.value < result.worstMargin;
+      if (isWorst || violates)
+        run.suspects[r].add({{block.values(i).begin(), block.values(i).end()}, sample, worst.value, violates});
+      if (!isWorst) continue;
+      result.worstSample = sample;
       result.worstMargin = worst.value;
       result.worstTime = run.study.motion.times[worst.row];
-      run.worst[r].assign(block.values(i).begin(), block.values(i).end());
-      for (std::size_t q = 0; q < run.study.uncertain.size(); ++q)
-        if (run.study.uncertain[q].varies) run.worst[r][q] = RequirementResult::unknown;
     }
   }
 }

@@ -1,13 +1,19 @@
 // What is proved of each requirement: by the models of its margins, and, where these do not decide, by a flow of the
 // values for which it most likely is violated.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <memory>
 #include <new>
-#include <optional>
+#include <utility>
 
 #include "analyses/requirements/requirement.hpp"
+#include "analyses/requirements/start.hpp"
 #include "studies/running/flow_of_study.hpp"
 #include "studies/running/units.hpp"
+#include "studies/words.hpp"
 
 namespace gamut {
 namespace {
@@ -28,50 +34,6 @@ void forgetWhatIsNotKnown(RequirementFinding& finding, bool isAlways) {
   }
 }
 
-/// The box with these values of what is uncertain.
-Box boxAt(const Problem& problem, const std::vector<double>& values) {
-  Box box = problem.box;
-  for (std::size_t q = 0; q < values.size(); ++q)
-    if (const auto slot = static_cast<std::size_t>(problem.motion.slot[q]); !std::isnan(values[q]))
-      box[slot] = values[q];
-  return box;
-}
-
-/// Models of the margins for these values alone; null where they do not reach the window.
-std::shared_ptr<const FlowModels> modelsAt(Run& run, const std::vector<double>& values, const CellQuestion& question) {
-  const Box box = boxAt(run.problem, values);
-  if (run.study.analysis == Study::Analysis::kinematics)
-    return modelImage(run.study.motion.g, 0.0, box, marginOutputs(run.study), run.study.flow.degree, run.watch.stop());
-  const Tube tube =
-      modelMargins(run.study, flowOptions(run.study, run.problem, run.options.jobs, run.watch.stop()), box);
-  return tube.reachedTimes() > question.until ? tube.models() : nullptr;
-}
-
-/// Whether all that is known of these values is that they violate it; then when, and by how much, where that is told.
-bool isViolatedAt(Run& run, const std::vector<double>& values, const CellQuestion& question,
-                  RequirementResult& result) {
-  const auto models = modelsAt(run, values, question);
-  if (!models || Cells(*models, question).whole()->verdict() != Cell::Verdict::violated) return false;
-  result.violation = values;
-  const bool isAlways = question.when == CellQuestion::When::always;
-  std::optional<Interval> found;
-  for (std::size_t row = question.from; row <= question.until; ++row)
-    for (std::size_t k = 0; k < question.margins.size(); ++k) {
-      Interval bound = Interval::empty();
-      for (const auto& snapshot : models->at[row])
-        bound = hull(bound, snapshot->outputs[static_cast<std::size_t>(question.margins[k])].bound);
-      if (question.isMetAtZero[k] != 0 ? !(bound.upper() < 0) : !(bound.upper() <= 0)) continue;
-      if (found && (isAlways ? bound.upper() >= found->upper() : bound.upper() <= found->upper())) continue;
-      found = bound;
-      result.violationTime = run.study.motion.times[row];
-    }
-  result.isViolatedBetween = isAlways && !found;
-  if (!found) return true;
-  result.violationLower = found->lower();
-  result.violationUpper = found->upper();
-  return true;
-}
-
 /// Besides what is known already: all of it holds.
 void take(RequirementResult& result, const RequirementFinding& finding) {
   if (result.word != "partly" || finding.isNeverMet)
@@ -85,15 +47,6 @@ void take(RequirementResult& result, const RequirementFinding& finding) {
   result.violationMost = std::min(result.violationMost, finding.violationPossibility.upper());
 }
 
-/// By the degree of possibility of values that violate it.
-void noteMembership(const Study& study, RequirementResult& result) {
-  double degree = 1;
-  for (std::size_t q = 0; q < study.uncertain.size(); ++q)
-    if (!std::isnan(result.violation[q]))
-      degree = std::min(degree, study.uncertain[q].uncertain.membership(result.violation[q]));
-  result.violationLeast = std::max(result.violationLeast, std::min(degree, result.violationMost));
-}
-
 /// Whether bounds are so far apart that tighter models are worth their while.
 bool isVague(const Run& run, const RequirementResult& result) {
   constexpr double gap = 0.008;
@@ -104,7 +57,7 @@ bool isVague(const Run& run, const RequirementResult& result) {
 }
 
 /// What models of the margins say of one requirement; no less than what is known of it already.
-void examineModels(Run& run, const FlowModels& models, std::size_t number, std::vector<std::vector<double>>& suspects) {
+void examineModels(Run& run, const FlowModels& models, std::size_t number, std::vector<Suspect>& suspects) {
   const Study& study = run.study;
   const Requirement& requirement = study.requirements[number];
   const CellQuestion whole = questionOf(study, requirement, study.motion.times.size());
@@ -125,44 +78,118 @@ void examineModels(Run& run, const FlowModels& models, std::size_t number, std::
   take(result, finding);
   for (const std::vector<double>& values : {finding.violating, finding.doubtful}) {
     if (values.empty()) continue;
-    std::vector<double>& all = suspects.emplace_back();
+    std::vector<double>& all = suspects.emplace_back().values;
     for (std::size_t q = 0, next = 0; q < study.uncertain.size(); ++q)
       all.push_back(study.uncertain[q].varies ? RequirementResult::unknown : values[next++]);
   }
   if (finding.violating.empty()) return;  // else the models prove it; a flow of its own will tell when and by how much
   if (result.word == "open") result.word = "partly";
-  result.violation = suspects.front();
+  result.violation = suspects.front().values;
 }
 
-/// Values that violate it, by a flow of their own: of the worst sample, or where the models leave most doubt.
-void findViolation(Run& run, std::size_t number, std::vector<std::vector<double>> suspects) {
-  RequirementResult& result = run.results.requirements[number];
-  const CellQuestion whole = questionOf(run.study, run.study.requirements[number], run.study.motion.times.size());
-  const bool isOfSample = result.worstSample >= 0 && result.worstMargin < 0;
-  if (isOfSample) {  // a corner's values are those of the rounded intervals: what is meant lies some roundings inside
-    std::vector<double> values = run.worst[number];
-    for (std::size_t q = 0; q < values.size(); ++q)
-      if (const Interval inside = run.study.uncertain[q].uncertain.inside(); !std::isnan(values[q]) && !isEmpty(inside))
-        values[q] = std::clamp(values[q], inside.lower(), inside.upper());
-    suspects.insert(suspects.begin(), std::move(values));
-  }
-  for (std::size_t i = 0; i < suspects.size(); ++i) {
-    if (*run.watch.stop() || !isViolatedAt(run, suspects[i], whole, result)) continue;
-    if (isOfSample && i == 0) result.violationSample = result.worstSample;
-    if (result.word == "open") result.word = "partly";
-    noteMembership(run.study, result);
-    return;
-  }
+/// Why no more is known, and what may help.
+struct Reason {
+  std::string why, advice;
+};
+
+/// What the enclosure says of a margin that is left open: where it reaches how far below zero.
+Reason ofMargin(const Run& run, const Requirement& requirement) {
+  const Reason loose{"the enclosure is not tight enough to tell",
+                     fmt::format("interval.tightness = {:.6g}", 1 + (run.study.flow.tightness - 1) / 4)};
+  const std::vector<double>& times = run.study.motion.times;
+  const IntervalResult& interval = run.results.interval;
+  if (!requirement.isAlways || interval.at.empty()) return loose;
+  struct Least {
+    double margin = std::numeric_limits<double>::infinity(), time = 0;
+    std::size_t output = 0;
+  } at, over;
+  const std::size_t from = rowOf(times, requirement.from), until = rowOf(times, requirement.until);
+  for (const std::size_t output : requirement.margins)
+    for (std::size_t row = from; row <= until; ++row) {
+      const double lower = interval.at.lower(row, output);
+      if (lower < at.margin) at = {lower, times[row], output};
+      if (row == from || interval.over.empty()) continue;
+      if (const double since = interval.over.lower(row, output); since < over.margin)
+        over = {since, times[row], output};
+    }
+  const Least& least = at.margin > 0 ? over : at;
+  if (!std::isfinite(least.margin) || !(least.margin < 0)) return loose;
+  const OutputInfo& output = run.study.outputs[least.output];
+  const std::string unit = output.unit == "1" || output.unit.empty() ? "" : " " + output.unit;
+  const std::string below = atMostText(-least.margin, 3) + unit;
+  if (run.study.horizon == 0) return {fmt::format("its margin is proved to be above -{} only", below), ""};
+  if (at.margin > 0)
+    return {fmt::format("between output times, before {} s, its margin is proved to be above -{} only",
+                        numberText(least.time, 6), below),
+            "more output times (study.output_step)"};
+  return {fmt::format("its margin is proved to be above -{} only at {} s", below, numberText(least.time, 6)),
+          loose.advice};
 }
 
-constexpr const char* tooLoose = "the enclosure is not tight enough to tell";
+/// One cause, the first that holds.
+Reason whyOpen(const Run& run, std::size_t number, const std::string& unsettled) {
+  const RequirementResult& result = run.results.requirements[number];
+  if (*run.watch.stop()) return {run.watch.why(), run.watch.key()};
+  if (result.isViolatedInSimulation && !unsettled.empty()) return {unsettled, ""};
+  if (!run.study.asksFor<IntervalResult>() && !run.study.asksFor<FuzzyResult>())
+    return {"no enclosure was asked for", "study.compare with \"interval\""};
+  if (!run.enclosed.why.empty() &&
+      (!run.enclosed.models || run.study.motion.times[run.enclosed.models->at.size() - 1] < result.until))
+    return {run.enclosed.why, run.enclosed.advice};
+  if (!run.enclosed.models) return {"models of its margins found no room", "limits.enclosure_memory"};
+  if (result.word != "open") return {};
+  if (isJustMet(run, number))
+    return {"its limit is met exactly, as far as samples can tell: rounded numbers prove neither", "another limit"};
+  return ofMargin(run, run.study.requirements[number]);
+}
 
-std::string whyOpen(const Run& run, const RequirementResult& result) {
-  if (*run.watch.stop()) return run.watch.why();
-  if (!run.study.asksFor<IntervalResult>() && !run.study.asksFor<FuzzyResult>()) return "no enclosure was asked for";
-  if (!run.enclosed.models) return run.enclosed.why.empty() ? "models of its margins found no room" : run.enclosed.why;
-  if (run.study.motion.times[run.enclosed.models->at.size() - 1] < result.until) return run.enclosed.why;
-  return result.word == "open" ? tooLoose : "";
+void noteReason(Run& run, std::size_t number, const std::string& unsettled) {
+  Reason reason = whyOpen(run, number, unsettled);
+  run.results.requirements[number].why = std::move(reason.why);
+  run.results.requirements[number].advice = std::move(reason.advice);
+}
+
+/// Whether all of the box is met, as far as so many cells tell.
+bool isMetThroughout(const FlowModels& models, const CellQuestion& question) {
+  constexpr int most = 256;
+  Cells cells(models, question);
+  std::vector<std::unique_ptr<Cell>> open;
+  open.push_back(cells.whole());
+  for (int count = 0; !open.empty(); ++count) {
+    const std::unique_ptr<Cell> cell = std::move(open.back());
+    open.pop_back();
+    if (cell->verdict() == Cell::Verdict::met) continue;
+    if (cell->verdict() == Cell::Verdict::violated || count >= most) return false;
+    std::vector<std::unique_ptr<Cell>> halves = cells.halves(*cell);
+    if (halves.empty()) return false;
+    for (std::unique_ptr<Cell>& half : halves) open.push_back(std::move(half));
+  }
+  return true;
+}
+
+/// The last output time of the window up to which it is always met, for every value; NaN if there is none.
+double metUntil(const Run& run, const FlowModels& models, std::size_t number) {
+  const Requirement& requirement = run.study.requirements[number];
+  CellQuestion question = questionOf(run.study, requirement, models.at.size());
+  if (!requirement.isAlways || models.at.size() <= question.from) return RequirementResult::unknown;
+  std::vector<char> isOwned(static_cast<std::size_t>(models.symbols), 0);
+  for (std::size_t q = 0; q < run.study.uncertain.size(); ++q)
+    if (const int symbol = models.components[static_cast<std::size_t>(run.problem.motion.slot[q])].symbol; symbol >= 0)
+      isOwned[static_cast<std::size_t>(symbol)] = 1;
+  for (int l = 0; l < models.symbols; ++l)
+    if (isOwned[static_cast<std::size_t>(l)] == 0) question.besides.push_back(l);
+  std::size_t met = question.from,
+              open = question.until + 1;  // it is met before the one, and not known up to the other
+  const auto isMetUntil = [&](std::size_t row) {
+    question.until = row;
+    return isMetThroughout(models, question);
+  };
+  if (!isMetUntil(met)) return RequirementResult::unknown;
+  while (open - met > 1) {
+    const std::size_t middle = met + (open - met) / 2;
+    (isMetUntil(middle) ? met : open) = middle;
+  }
+  return run.study.motion.times[met];
 }
 
 /// Does it while there is room, and takes the time of it.
@@ -181,18 +208,56 @@ void proveWhileThereIsRoom(Run& run, const Prove& prove) {
   run.results.interval.cpu += processCpuSeconds() - start;
 }
 
+/// At the very moment of a jump an output has a value of its own, which the enclosure knows; models hold what it comes
+/// to on both sides.
+std::shared_ptr<const FlowModels> sharpenedAtMoments(const Run& run, std::shared_ptr<const FlowModels> models) {
+  const IntervalResult& interval = run.results.interval;
+  const std::vector<int> margins = marginOutputs(run.study);
+  std::shared_ptr<FlowModels> sharpened;
+  for (std::size_t row = 0; row < models->at.size() && row < interval.at.lower.times; ++row)
+    for (std::size_t part = 0; part < models->at[row].size(); ++part) {
+      std::shared_ptr<FlowSnapshot> own;
+      for (std::size_t k = 0; k < margins.size(); ++k) {
+        const auto output = static_cast<std::size_t>(margins[k]);
+        const double lower = interval.at.lower(row, output), upper = interval.at.upper(row, output);
+        const Interval& bound = models->at[row][part]->outputs[k].bound;
+        if (!(upper - lower < 0.5 * width(bound))) continue;
+        const Interval both = intersection(bound, Interval(lower, upper));
+        if (isEmpty(both)) continue;
+        if (!own) own = std::make_shared<FlowSnapshot>(*models->at[row][part]);
+        own->outputs[k].bound = both;
+      }
+      if (!own) continue;
+      if (!sharpened) sharpened = std::make_shared<FlowModels>(*models);
+      sharpened->at[row][part] = std::move(own);
+    }
+  if (sharpened) return sharpened;
+  return models;
+}
+
+/// Where zero is enough of a margin, it may begin there.
+std::shared_ptr<const FlowModels> sharpenedModels(const Run& run) {
+  const bool isAtZero = std::ranges::any_of(run.study.requirements, [](const Requirement& requirement) {
+    return std::ranges::find(requirement.isMetAtZero, 1) != requirement.isMetAtZero.end();
+  });
+  const std::shared_ptr<const FlowModels> models = sharpenedAtMoments(run, run.enclosed.models);
+  if (!isAtZero || !run.problem.varying.empty() || run.study.horizon == 0) return models;
+  return sharpenedAtStart(models, run.study.motion.f, run.study.motion.g, marginOutputs(run.study), run.problem.box);
+}
+
 void proveAll(Run& run) {
   const std::size_t count = run.study.requirements.size();
-  std::vector<std::vector<std::vector<double>>> suspects(count);
-  const auto examineAll = [&](const FlowModels& models) {
+  std::vector<std::vector<Suspect>> suspects(count);
+  const auto examineAll = [&] {
+    const std::shared_ptr<const FlowModels> known = sharpenedModels(run);
     for (std::size_t r = 0; r < count; ++r)
       if (isVague(run, run.results.requirements[r])) {
-        std::vector<std::vector<double>> found;
-        examineModels(run, models, r, found);
+        std::vector<Suspect> found;
+        examineModels(run, *known, r, found);
         suspects[r].insert(suspects[r].begin(), found.begin(), found.end());
       }
   };
-  if (run.enclosed.models) examineAll(*run.enclosed.models);
+  if (run.enclosed.models) examineAll();
   double excess = run.study.flow.tightness - 1;
   for (int round = 0; round < 2 && run.enclosed.models; ++round) {
     if (run.study.analysis == Study::Analysis::kinematics || *run.watch.stop() ||
@@ -202,12 +267,15 @@ void proveAll(Run& run) {
     constexpr double budget = 4;
     const double longest = round == 0 ? run.study.horizon : run.study.horizon / parts;
     if (!tightenModels(run, 1 + (excess /= 4), budget, longest, "requirements")) break;
-    examineAll(*run.enclosed.models);
+    examineAll();
   }
   for (std::size_t r = 0; r < count; ++r) {
     RequirementResult& result = run.results.requirements[r];
-    if (result.word != "met") findViolation(run, r, std::move(suspects[r]));
-    if (result.word == "open" || result.word == "partly") result.why = whyOpen(run, result);
+    if (result.word == "met") continue;
+    const std::string unsettled = findViolation(run, r, std::move(suspects[r]));
+    result.isViolatedInSimulation = result.word == "open" && isViolatedInSimulation(run, r);
+    if (result.word != "violated") noteReason(run, r, unsettled);
+    if (result.word == "open" && run.enclosed.models) result.metUntil = metUntil(run, *sharpenedModels(run), r);
   }
 }
 
@@ -227,7 +295,7 @@ void stateRequirements(Run& run) {
       result.metAtZero |= static_cast<std::int64_t>(requirement.isMetAtZero[k] != 0 ? 1 : 0) << k;
     result.violation.assign(run.study.uncertain.size(), RequirementResult::unknown);
   }
-  run.worst.resize(run.study.requirements.size());
+  run.suspects.resize(run.study.requirements.size());
 }
 
 void checkRequirements(Run& run) {
@@ -239,8 +307,12 @@ void refuteRequirements(Run& run) {
     for (std::size_t r = 0; r < run.results.requirements.size(); ++r) {
       RequirementResult& result = run.results.requirements[r];
       if (result.word != "open") continue;
-      findViolation(run, r, {});
-      if (result.word != "open" && result.why == tooLoose) result.why.clear();
+      const std::string unsettled = findViolation(run, r, {});
+      result.isViolatedInSimulation = result.word == "open" && isViolatedInSimulation(run, r);
+      if (result.word != "open")
+        result.why.clear(), result.advice.clear();
+      else if (result.isViolatedInSimulation && !unsettled.empty())
+        result.why = unsettled, result.advice.clear();
     }
   });
 }

@@ -18,6 +18,7 @@
 #include "studies/running/former_samples.hpp"
 #include "studies/running/run.hpp"
 #include "studies/running/seen.hpp"
+#include "studies/running/violations.hpp"
 #include "studies/study.hpp"
 #include "studies/watch.hpp"
 
@@ -31,7 +32,7 @@ struct Enclosed {
   double reached = 0;  ///< s
   std::string why;     ///< why it ended before the horizon; empty if it did not
   double tightness = std::numeric_limits<double>::quiet_NaN();  ///< as in IntervalResult
-  std::string shortfall;
+  std::string shortfall, advice;
   std::int64_t pieces = 0, steps = 0;
   double cpu = 0, cutCpu = 0;  ///< s: of all, and of the alpha-cuts
   /// Of the requirements' margins, and, where distributions are asked for, of all other outputs behind them.
@@ -54,14 +55,14 @@ struct Run {
   Watch watch;
   Problem problem;
   Results results;
-  Seen seen;                               ///< filled by `lookAtMachine`
-  Enclosed enclosed;                       ///< filled by `enclose`
-  std::vector<std::vector<double>> worst;  ///< of each requirement: values of the worst sample
-  std::optional<JointMasses> masses;       ///< of the quantities in the symbols of models; by `jointMasses`
-  std::vector<FlowSymbol> symbols;         ///< those symbols
-  std::string failure;                     ///< of the program itself, behind what was proved; empty if there was none
-  std::optional<FormerSamples> former;     ///< that are to come again; none unless the run goes on from others
-  std::optional<EnsembleRun> ensemble;     ///< there from `takeFirstSamples` on, unless it found no room
+  Seen seen;                            ///< filled by `lookAtMachine`
+  Enclosed enclosed;                    ///< filled by `enclose`
+  std::vector<Suspects> suspects;       ///< of each requirement
+  std::optional<JointMasses> masses;    ///< of the quantities in the symbols of models; by `jointMasses`
+  std::vector<FlowSymbol> symbols;      ///< those symbols
+  std::string failure;                  ///< of the program itself, behind what was proved; empty if there was none
+  std::optional<FormerSamples> former;  ///< that are to come again; none unless the run goes on from others
+  std::optional<EnsembleRun> ensemble;  ///< there from `takeFirstSamples` on, unless it found no room
 };
 
 // An analysis has its unit, declared here and in the list below, behind what it needs.

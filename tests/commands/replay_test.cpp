@@ -1,6 +1,7 @@
 // gamut replay from outside: the table, what it is called by, and what is refused.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <sstream>
@@ -120,6 +121,49 @@ TEST_F(ReplayCommand, RefusesInOneLineWhatIsNoSample) {
     EXPECT_THAT(replay.error, EndsWith(expected));
   }
   EXPECT_EQ(gamut("replay s.h5").error, "gamut: sample is required; see gamut replay --help\n");
+}
+
+/// Of what varies in time a course that violates it, not the nominal one that does not.
+TEST_F(ReplayCommand, PrintsOnlyMotionsThatViolate) {
+  folder_.write("s.toml", R"([study]
+analysis = "dynamics"
+horizon = 4
+output_step = 0.5
+compare = ["interval", "stochastic"]
+[mechanism.parameters]
+u = 0
+[[mechanism.element]]
+type = "state"
+name = "x"
+initial = 0
+rate = "u - x"
+[[uncertain]]
+quantity = "u"
+interval = [-1, 1]
+varies = "freely"
+[[output]]
+quantity = "x"
+[[requirement]]
+name = "small"
+always = "x < 0.5"
+[[requirement]]
+name = "held"
+always = "x < 1.5"
+[stochastic]
+samples = 16
+[distribution]
+times = 0
+)");
+  run();
+  const Outcome small = gamut("replay s.h5 violation small");
+  ASSERT_EQ(small.exitCode, 0) << small.error;
+  double greatest = 0;
+  for (const std::vector<double>& row : numbersOf(small.out)) greatest = std::max(greatest, row[1]);
+  EXPECT_GT(greatest, 0.5);
+  const Outcome held = gamut("replay s.h5 violation held");
+  EXPECT_EQ(held.exitCode, 2);
+  EXPECT_EQ(held.out, "");
+  EXPECT_EQ(held.error, "gamut: s.h5: no motion violates 'held': it is met for every value\n");
 }
 
 TEST_F(ReplayCommand, RefusesResultsWithoutSamples) {

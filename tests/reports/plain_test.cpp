@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "reports/requirements.hpp"
 #include "reports/verdict.hpp"
 #include "tests/reports/example_results.hpp"
 
@@ -129,6 +130,57 @@ TEST(PlainRequirement, ClaimsNothingThatIsOpen) {
       sentenceOf(results),
       "It is not decided whether \u201ca\u201d stays above 1 m in every case: the run was interrupted. None of 10 "
       "simulated cases was seen to miss it.");
+}
+
+TEST(PlainRequirement, SaysWhatIsSimulatedAndNotProved) {
+  Results results = withRequirement("always a > 1 m", "open");
+  RequirementResult& requirement = results.requirements.front();
+  requirement.margin = 0;
+  requirement.isViolatedInSimulation = true;
+  requirement.worstSample = 17;
+  requirement.worstMargin = -0.25;
+  requirement.worstTime = 1.5;
+  requirement.samples = 4096;
+  requirement.violating = 1400;
+  EXPECT_EQ(
+      sentenceOf(results),
+      "In simulation, \u201ca\u201d does not stay above 1 m: sample 17 misses the limit by 0.25 rad at 1.5 s. That is "
+      "not proved. 1400 of 4096 simulated cases miss it.");
+  EXPECT_EQ(summaryOf(results), "The requirement is violated in simulated cases, which is not proved.");
+  results.requirements.push_back(requirement);
+  results.requirements.back().isViolatedInSimulation = false;
+  EXPECT_EQ(summaryOf(results), "1 of 2 requirements is violated in simulation, not proved; 1 is not decided.");
+  const RequirementWords words = wordsOfRequirements(results).front();
+  EXPECT_EQ(words.verdict, "violated in simulation, not proved");
+  EXPECT_EQ(wordOfRequirements(results), "open");
+}
+
+TEST(PlainRequirement, SaysHowFarItIsDecidedAndWhatMayHelp) {
+  Results results = withRequirement("always a > 1 m", "open");
+  RequirementResult& requirement = results.requirements.front();
+  requirement.why = "all 2000 pieces that are allowed are used";
+  requirement.advice = "interval.max_pieces = 8000";
+  requirement.metUntil = 2.25;
+  EXPECT_EQ(
+      sentenceOf(results),
+      "It is not decided whether \u201ca\u201d stays above 1 m in every case: all 2000 pieces that are allowed are "
+      "used. It is until 2.25 s. What may help: interval.max_pieces = 8000.");
+  const RequirementWords words = wordsOfRequirements(results).front();
+  EXPECT_EQ(
+      words.guaranteed,
+      "neither proved nor refuted: all 2000 pieces that are allowed are used (what may help: interval.max_pieces = "
+      "8000); met until 2.25 s of 3 s");
+  EXPECT_EQ(words.probable, "nothing is proved of the probability");
+  EXPECT_EQ(words.possible, "nothing is proved of the possibility");
+}
+
+/// What ended the run says nothing against what is proved.
+TEST(PlainRequirement, GluesNoReasonToAViolationThatIsProved) {
+  Results results = withRequirement("always a > 1 m", "partly");
+  results.requirements.front().why = "the time limit of 1 s CPU for the whole run was reached";
+  EXPECT_EQ(wordsOfRequirements(results).front().guaranteed, "violated for some values");
+  EXPECT_EQ(wordsOfRequirements(results).front().probable,
+            "nothing is proved of the probability: the time limit of 1 s CPU for the whole run was reached");
 }
 
 TEST(PlainSummary, CountsRequirements) {

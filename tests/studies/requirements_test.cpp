@@ -352,6 +352,193 @@ TEST(Requirements, ThatAreViolatedCanBeReplayed) {
   EXPECT_THROW(replayViolation(study, results, named(results, "met")), std::invalid_argument);
 }
 
+// ---- What varies in time --------------------------------------------------------------------------------------------
+
+/// A lag that follows an input of no known course: x may come to 1 - e^-4 at most.
+std::string lagWith(const std::string& requirements, const std::string& varies = "varies = \"freely\"") {
+  return R"([study]
+analysis = "dynamics"
+horizon = 4
+output_step = 0.5
+compare = ["interval", "stochastic"]
+[mechanism.parameters]
+u = 0
+[[mechanism.element]]
+type = "state"
+name = "x"
+initial = 0
+rate = "u - x"
+[[uncertain]]
+quantity = "u"
+interval = [-1, 1]
+)" + varies +
+         R"(
+[[output]]
+quantity = "x"
+)" + requirements +
+         R"(
+[stochastic]
+samples = 64
+[distribution]
+times = 0
+)";
+}
+
+/// What is printed as a violation must be one.
+void expectViolation(const Study& study, const Results& results, const RequirementResult& requirement) {
+  const ReplayedSample sample = replayViolation(study, results, requirement);
+  double least = 1;
+  for (std::size_t i = 0; i < sample.times; ++i) least = std::min(least, sample.trajectory(i, requirement.margin));
+  EXPECT_LT(least, 0) << requirement.name;
+}
+
+TEST(Requirements, AreRefutedByACourse) {
+  const Study study = read(lagWith(R"(
+[[requirement]]
+name = "small"
+always = "x < 0.5"
+[[requirement]]
+name = "smallest"
+always = "x < 0.9815"
+[[requirement]]
+name = "held"
+always = "x < 1.5"
+)"));
+  const Results results = run(study);
+  for (const char* name : {"small", "smallest"}) {
+    const RequirementResult violated = named(results, name);
+    EXPECT_EQ(violated.word, "partly") << name;
+    EXPECT_GE(violated.violationSample, 0) << name;
+    EXPECT_LT(violated.violationUpper, 0) << name;
+    EXPECT_EQ(violated.probabilityLower, 0) << name;  // of some courses it is met
+    EXPECT_EQ(violated.probabilityUpper, 1) << name;
+    expectViolation(study, results, violated);
+  }
+  EXPECT_EQ(named(results, "held").word, "met");
+  EXPECT_THROW(replayViolation(study, results, named(results, "held")), std::invalid_argument);
+}
+
+/// With a bounded rate no course may jump; what swings is a counterexample all the same.
+TEST(Requirements, AreRefutedByACourseOfBoundedRate) {
+  const Study study =
+      read(lagWith("[[requirement]]\nname = \"still\"\nalways = \"x - 0.9*u > -0.3\"\n", "rate = \"± 2/s\""));
+  const Results results = run(study);
+  const RequirementResult still = named(results, "still");
+  EXPECT_EQ(still.word, "partly");
+  expectViolation(study, results, still);
+}
+
+/// Where no flow comes far enough to prove it, the sample is told, and is what is printed.
+TEST(Requirements, AreViolatedInSimulationWhereNothingIsProved) {
+  Study study = read(lagWith("[[requirement]]\nname = \"small\"\nalways = \"x < 0.5\"\n"));
+  study.flow.maxWidth = 1e-300;  // flows end at once
+  const Results results = run(study);
+  const RequirementResult small = named(results, "small");
+  EXPECT_EQ(small.word, "open");
+  EXPECT_TRUE(small.isViolatedInSimulation);
+  EXPECT_THAT(small.why, HasSubstr("a flow of its values alone ends"));
+  expectViolation(study, results, small);
+  EXPECT_THAT(jsonSummary(results, "inside", {"a", "b"}),
+              HasSubstr("\"simulated_violation\":{\"sample\":" + std::to_string(small.worstSample) + ",\"margin\":-"));
+  const TemporaryFolder folder;
+  writeResults(results, folder.path("r.h5"));
+  EXPECT_THAT(differences(results, readResults(folder.path("r.h5"))), ::testing::IsEmpty());
+}
+
+// ---- Decided though hard to see -------------------------------------------------------------------------------------
+
+/// A state with this rate and output, from 0 s to 1 s.
+std::string stateWith(const std::string& rate, const std::string& interval, const std::string& requirements) {
+  return R"([study]
+analysis = "dynamics"
+horizon = 1
+output_step = 0.1
+compare = ["interval", "stochastic"]
+[mechanism.parameters]
+v = 1
+[[mechanism.element]]
+type = "state"
+name = "x"
+initial = 0
+rate = ")" +
+         rate + R"("
+[[uncertain]]
+quantity = "v"
+interval = )" +
+         interval + R"(
+[[output]]
+quantity = "x"
+)" + requirements +
+         R"(
+[stochastic]
+samples = 32
+[distribution]
+times = 0
+)";
+}
+
+/// x passes 0.53 for sure, between two output times and in some 5 ms.
+TEST(Requirements, AreRefutedByAPeakBetweenOutputTimes) {
+  const Results results = run(read(stateWith(
+      "v", "[0.99, 1.01]", "[[requirement]]\nname = \"peak\"\nalways = \"exp(-((x - 0.53)/0.002)^2) < 0.9\"\n")));
+  const RequirementResult peak = named(results, "peak");
+  EXPECT_EQ(peak.violating, 0);
+  EXPECT_THAT(peak.word, ::testing::AnyOf("partly", "violated"));
+  EXPECT_TRUE(peak.isViolatedBetween);
+  EXPECT_NEAR(peak.violationTime * peak.violation[0], 0.53, 1e-3);
+  EXPECT_LT(peak.violationUpper, 0);
+}
+
+/// At rest on the limit, and away from it with the time, its square, its third power.
+TEST(Requirements, ThatStartAtTheirLimitAreMet) {
+  for (const char* rate : {"v", "v*t/(1 s)", "v*(t/(1 s))^2", "v*cos(x)", "v - x"}) {
+    const Results results =
+        run(read(stateWith(rate, "\"± 10 %\"", "[[requirement]]\nname = \"above\"\nalways = \"x >= 0\"\n")));
+    EXPECT_EQ(named(results, "above").word, "met") << rate;
+  }
+  for (const char* rate : {"-v", "v*(t/(1 s) - 0.001)", "v*sin(6.2832*t/(1 s) - 0.0001)"}) {
+    const Results results =
+        run(read(stateWith(rate, "\"± 10 %\"", "[[requirement]]\nname = \"above\"\nalways = \"x >= 0\"\n")));
+    EXPECT_NE(named(results, "above").word, "met") << rate;
+  }
+}
+
+/// At the moment itself where() is the mean of both sides.
+TEST(Requirements, AreMetAtTheMomentOfAJump) {
+  for (const char* moment : {"0.5 s", "0.55 s"}) {
+    const std::string at = moment;
+    const std::string text = "[[requirement]]\nname = \"once\"\neventually = \"where(t > " + at +
+                             ", 1, 0) > 0.4\"\nuntil = \"" + at +
+                             "\"\n[[requirement]]\nname = \"more\"\neventually = \"where(t > " + at +
+                             ", 1, 0) > 0.6\"\nuntil = \"" + at + "\"\n";
+    const Results results = run(read(stateWith("v", "\"± 10 %\"", text)));
+    EXPECT_EQ(named(results, "once").word, "met") << moment;
+    EXPECT_NE(named(results, "more").word, "met") << moment;
+  }
+}
+
+// ---- Reasons --------------------------------------------------------------------------------------------------------
+
+TEST(Requirements, SayHowFarTheyAreProved) {
+  std::string text = withRequirements("[[requirement]]\nname = \"most\"\nalways = \"tip.position.z < 10 m\"\n");
+  Study study = read(text);
+  study.flow.maxWidth = 0.0118;  // of the angle, which is 0.0105 wide at first and grows
+  const Results results = run(study);
+  const RequirementResult most = named(results, "most");
+  ASSERT_LT(results.interval.reached, 0.5);
+  EXPECT_EQ(most.word, "open");
+  EXPECT_EQ(most.why, results.interval.why);
+  EXPECT_LE(most.metUntil, results.interval.reached);
+  EXPECT_GE(most.metUntil, results.interval.reached - 0.1);
+}
+
+TEST(Requirements, NameOneCauseAndWhatMayHelp) {
+  std::string text = withRequirements(four);
+  text.replace(text.find("[\"interval\", \"stochastic\", \"fuzzy\"]"), 35, "[\"stochastic\"]");
+  const Results results = run(read(text));
+  EXPECT_EQ(named(results, "met").advice, "study.compare with \"interval\"");
+}
+
 // ---- Tolerances -----------------------------------------------------------------------------------------------------
 
 TEST(Tolerances, AreAsLargeAsRequirementsAllow) {

@@ -51,6 +51,7 @@ inline Results sampleResults() {
   r.interval.over = sampleBounds(3, 2, -19.95, 60);
   r.interval.tightness = 1.25;
   r.interval.shortfall = "at 0.01 s tip may be 1.25 times as wide as necessary: bisection is switched off";
+  r.interval.advice = "interval.split = true";
   r.interval.pieces = 4;
   r.interval.steps = 123456789012;
   r.interval.cpu = 0.25;
@@ -141,6 +142,8 @@ inline Results sampleResults() {
   partly.worstSample = 17;
   partly.worstTime = 0.01;
   partly.worstMargin = -0.2;
+  partly.advice = "interval.tightness = 1.005";
+  partly.metUntil = 0.0075;
   partly.violationLeast = 0.25;
   partly.violationMost = 0.5;
   DistributionResult& d = r.distribution;
