@@ -61,8 +61,10 @@ std::string requirementList(const Results& results, const Verdict& verdict) {
         verdict.word == "outside"
             ? fmt::format("<li class=\"open\"><b>contradicted</b> <span>{}</span></li>\n", escapeHtml(words[r].name))
             : fmt::format("<li class=\"{}\"><b>{}</b> <span>{}</span> {}</li>\n", words[r].word,
-                          words[r].word == "partly" ? "violated" : words[r].word, escapeHtml(words[r].name),
-                          escapeHtml(sentences[r]));
+                          words[r].word == "partly"      ? "violated"
+                          : words[r].word == "simulated" ? "violated in simulation"
+                                                         : words[r].word,
+                          escapeHtml(words[r].name), escapeHtml(sentences[r]));
   return html + "</ul>\n";
 }
 
@@ -204,9 +206,13 @@ std::vector<Cause> causesOf(const Results& results, std::size_t output, std::siz
 std::string ranking(const Results& results, std::size_t output) {
   const SensitivityResult& s = results.sensitivity;
   if (!s.present || results.uncertain.size() < 2 || s.totalLower.empty()) return {};
+  const double instant = instantOf(results, output);
   std::vector<Cause> causes;
-  std::size_t at = s.time.size();
-  while (causes.empty() && at > 0) causes = causesOf(results, output, --at);
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < s.time.size(); ++i) {  // the nearest at which something is known
+    if (!causes.empty() && !(std::abs(s.time[i] - instant) <= std::abs(s.time[at] - instant))) continue;
+    if (std::vector<Cause> found = causesOf(results, output, i); !found.empty()) causes = std::move(found), at = i;
+  }
   constexpr std::size_t most = 5;
   constexpr double least = 0.005;
   std::erase_if(causes, [](const Cause& cause) { return cause.size < least; });

@@ -304,19 +304,15 @@ std::string figureOf(const Results& results, std::size_t output, const Answered&
 
 // ---- The table ------------------------------------------------------------------------------------------------------
 
-/// The last time at which something is known of the quantity; as many as there are times if nothing is.
-std::size_t lastOf(const Cause& cause, std::size_t times) {
-  for (std::size_t i = times; i-- > 0;)
-    if (std::isfinite(cause.size(i))) return i;
-  return times;
-}
-
-/// The last time at which something is known of any quantity.
-double lastTime(const Answered& answer) {
-  std::size_t last = 0;
-  for (const Cause& cause : answer.causes)
-    if (const std::size_t i = lastOf(cause, answer.time.size()); i < answer.time.size()) last = std::max(last, i);
-  return answer.time[last];
+/// Of the times at which something is known of any quantity, the nearest to an instant.
+std::size_t nearestRow(const Answered& answer, double instant) {
+  std::size_t nearest = answer.time.size();
+  for (std::size_t i = 0; i < answer.time.size(); ++i) {
+    if (nearest < i && !(std::abs(answer.time[i] - instant) <= std::abs(answer.time[nearest] - instant))) continue;
+    if (std::ranges::any_of(answer.causes, [&](const Cause& cause) { return std::isfinite(cause.size(i)); }))
+      nearest = i;
+  }
+  return nearest;
 }
 
 /// "0.694 to 0.695 (0.70 ± 0.02)": what is proved, and what is estimated.
@@ -333,31 +329,30 @@ std::string cellOf(const Cause& cause, std::size_t i) {
   return estimate.empty() ? text : text.empty() ? "about " + estimate : fmt::format("{} ({})", text, estimate);
 }
 
-/// One row a quantity, the greatest first; a column for each that is known.
+/// One row a quantity, the greatest first; a column for each that is known, at the instant that matters, or next to it.
 std::string tableOf(const Results& results, std::size_t output, const std::vector<Answered>& answers,
                     const Answered& leading) {
   std::vector<std::string> heads{"quantity"};
   std::vector<const Answered*> columns;
+  const double instant = instantOf(results, output);
+  const std::size_t row = nearestRow(leading, instant);
   for (const Answered& answer : answers) {
     if (answer.causes.empty()) continue;
     columns.push_back(&answer);
-    const double last = lastTime(answer);
-    heads.push_back(answer.head + (last < lastTime(leading) ? " (at " + timeText(last) + ")" : ""));
+    const double time = answer.time[nearestRow(answer, instant)];
+    heads.push_back(answer.head + (time != leading.time[row] ? " (at " + timeText(time) + ")" : ""));
   }
   std::vector<const Cause*> order;
   for (const Cause& cause : leading.causes) order.push_back(&cause);
-  const auto lastSize = [&](const Cause* cause) {
-    const std::size_t i = lastOf(*cause, leading.time.size());
-    return i < leading.time.size() ? cause->size(i) : 0;
-  };
-  std::ranges::stable_sort(order, std::greater<>(), lastSize);
-  TableText table(results.horizon > 0 ? "At " + timeText(lastTime(leading)) : "All that is known", heads);
+  const auto size = [&](const Cause* cause) { return std::fmax(cause->size(row), 0.0); };
+  std::ranges::stable_sort(order, std::greater<>(), size);
+  TableText table(results.horizon > 0 ? "At " + timeText(leading.time[row]) : "All that is known", heads);
   for (const Cause* ranked : order) {
     std::vector<std::string> cells;
     for (const Answered* answer : columns) {
       const auto cause = std::ranges::find(answer->causes, ranked->quantity, &Cause::quantity);
-      const std::size_t i = cause == answer->causes.end() ? answer->time.size() : lastOf(*cause, answer->time.size());
-      cells.push_back(i == answer->time.size() ? "" : cellOf(*cause, i));
+      const std::size_t i = nearestRow(*answer, instant);
+      cells.push_back(cause == answer->causes.end() || std::isnan(cause->size(i)) ? "" : cellOf(*cause, i));
       if (!answer->isShare && !cells.back().empty())
         cells.back() += " " + derivativeUnit(results, output, ranked->quantity);
     }

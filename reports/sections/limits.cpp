@@ -132,17 +132,6 @@ std::vector<Column> columns(const Results&, const Finding&) { return {}; }
 
 const Contribution required{columns, draw};
 
-const Bounds* bestKnown(const Results& results) {
-  const auto isKnown = [](const Bounds& bounds) {
-    return std::ranges::any_of(bounds.lower.data, [](double x) { return std::isfinite(x); });
-  };
-  if (results.interval.present && isKnown(results.interval.at)) return &results.interval.at;
-  if (results.stochastic.present && isKnown(results.stochastic.envelope)) return &results.stochastic.envelope;
-  if (results.fuzzy.present && !results.fuzzy.outer.empty() && isKnown(results.fuzzy.outer.front()))
-    return &results.fuzzy.outer.front();
-  return nullptr;
-}
-
 std::vector<Limit> limitsOf(const Results& results) {
   std::vector<Limit> limits;
   const Bounds* bounds = bestKnown(results);
@@ -210,6 +199,17 @@ std::optional<Limit> nearestLimit(const Results& results) {
   }
   if (!nearest && !limits.empty()) nearest = limits.front();
   return nearest;
+}
+
+double instantOf(const Results& results, std::size_t output) {
+  std::optional<Limit> found = nearestLimit(results);
+  if (!found || found->output != output) {
+    const std::vector<Limit> limits = limitsOf(results);
+    const auto first = std::ranges::find(limits, output, &Limit::output);
+    found = first == limits.end() ? std::nullopt : std::optional<Limit>(*first);
+  }
+  const double time = found ? decisiveTime(results, results.requirements[found->requirement]) : std::nan("");
+  return std::isnan(time) ? widestTime(results, output) : time;
 }
 
 }  // namespace gamut

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "studies/results/instants.hpp"
 #include "studies/results/results.hpp"
 
 namespace gamut {
@@ -23,7 +24,8 @@ std::vector<Limit> limitsOf(const Results& results);
 /// An output whose limit is nearest, in shares of how far its margin varies: the first that somebody has to look at.
 std::optional<Limit> nearestLimit(const Results& results);
 
-/// What is known best of all outputs: guaranteed, or else sampled, or else possible at all; null if nothing is.
-const Bounds* bestKnown(const Results& results);
+/// The instant at which an output is looked at first: of the requirement that sets it a limit (of several the nearest),
+/// or where it varies most, s. NaN where nothing is known.
+double instantOf(const Results& results, std::size_t output);
 
 }  // namespace gamut

@@ -12,6 +12,7 @@
 #include "analyses/surrogate/pinching.hpp"
 #include "analyses/surrogate/surrogate_evaluator.hpp"
 #include "analyses/workers.hpp"
+#include "studies/results/instants.hpp"
 #include "studies/running/flow_of_study.hpp"
 #include "studies/running/units.hpp"
 
@@ -188,10 +189,26 @@ class Probabilities {
     std::vector<std::size_t> rows;
     for (const std::size_t row : rows_)
       if (partsAt(surrogate_, row) != nullptr) rows.push_back(row);
+    for (const std::size_t row : decisiveRows())
+      if (partsAt(surrogate_, row) != nullptr) rows.push_back(row);
     const std::size_t last = surrogate_.rows.size() - 1;
     for (std::size_t i = 0; i <= count && last > 0; ++i) rows.push_back(surrogate_.rows[i * last / count]);
     std::ranges::sort(rows);
     rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+    return rows;
+  }
+
+  /// The output times at which requirements come nearest to their limits, and outputs vary most: there shares are told.
+  std::vector<std::size_t> decisiveRows() const {
+    constexpr std::size_t most = 16;
+    std::vector<double> times;
+    for (const RequirementResult& requirement : run_.results.requirements)
+      times.push_back(decisiveTime(run_.results, requirement));
+    for (const int output : outputs_) times.push_back(widestTime(run_.results, static_cast<std::size_t>(output)));
+    std::vector<std::size_t> rows;
+    const std::vector<double>& all = run_.study.motion.times;
+    for (const double time : times)
+      if (!std::isnan(time) && rows.size() < most) rows.push_back(std::min(rowOf(all, time), all.size() - 1));
     return rows;
   }
 
@@ -210,7 +227,8 @@ class Probabilities {
       numbers->assign(rows.size() * count_ * all, unknown);
     pinch(rows);
     if (!isPlain(run_.study)) {
-      result.why = "quantities depend on each other, or their distributions are not known exactly";
+      const bool areDependent = !run_.study.dependence.copulas.empty() || !run_.study.dependence.unknown.empty();
+      result.why = areDependent ? "quantities depend on each other" : "a distribution is not known exactly";
       return;
     }
     const QuantityMasses masses(surrogate_, uncertain_);
@@ -308,11 +326,10 @@ class Probabilities {
       return run_.enclosed.why;
     const bool isOne = run_.study.dependence.unknown.empty() &&
                        std::ranges::all_of(uncertain_, [](const Uncertain* u) { return u->distribution.isPrecise(); });
-    if (!isOne) return "more than one joint distribution is possible, or the enclosure is not tight enough";
-    if (!isPlain(run_.study))
-      return "bounds of correlated quantities are coarser, or the enclosure is not tight enough";
-    return "the enclosure is not tight enough, an output depends on too many quantities together, or is extreme inside "
-           "the box";
+    if (isVague()) return "the enclosure is not tight enough";
+    if (!isOne) return "more than one joint distribution is possible";
+    if (!isPlain(run_.study)) return "bounds of correlated quantities are coarser";
+    return "the parts of the box that are allowed are used";
   }
 
   Run& run_;

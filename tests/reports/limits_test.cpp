@@ -183,5 +183,37 @@ TEST(Report, RanksWhatToMeasureBetterFirst) {
   EXPECT_THAT(page, HasSubstr("<b>80 %</b>"));
 }
 
+/// Beside a headline of one instant stand the shares of that instant.
+TEST(Report, RanksWhereTheMarginIsLeast) {
+  Results results = example::pendulum(61, 1);
+  require(results, "near", 0, 1, -10);
+  results.uncertain.push_back(results.uncertain.front());
+  results.uncertain.back().name = "mass";
+  for (RequirementResult& requirement : results.requirements) requirement.violation.resize(2, std::nan(""));
+  SensitivityResult& s = results.sensitivity;
+  s.present = true;
+  s.time = {1, 3};
+  const std::size_t outputs = results.outputs.size();
+  s.totalLower.assign(2 * outputs * 2, std::nan(""));
+  s.totalUpper = s.totalLower;
+  for (std::size_t at = 0; at < 2; ++at)
+    for (std::size_t q = 0; q < 2; ++q) {
+      const double share = at == q ? 0.8 : 0.2;  // the one at 1 s, the other at 3 s
+      s.totalLower[(at * outputs) * 2 + q] = share;
+      s.totalUpper[(at * outputs) * 2 + q] = share;
+    }
+  for (const double time : {1.0, 3.0}) {
+    results.requirements[0].word = "partly";
+    results.requirements[0].violationTime = time;
+    const std::string page = renderReport(results);
+    EXPECT_THAT(page, HasSubstr("\u201cshoulder angle\u201d at " + std::string(time == 1 ? "1 s" : "3 s")));
+    EXPECT_EQ(page.find("<span>mass</span>") < page.find("<span>first angle</span>"), time == 3) << time;
+  }
+  results.requirements[0].violationTime = std::nan("");
+  for (std::size_t i = 0; i < results.time.size(); ++i)
+    results.interval.at.lower(i, results.requirements[0].margin) = std::abs(results.time[i] - 1.1);
+  EXPECT_EQ(decisiveTime(results, results.requirements[0]), 1.1);
+}
+
 }  // namespace
 }  // namespace gamut

@@ -1,0 +1,21 @@
+// At which instants results are looked at first: where a requirement comes nearest to its limit, where an output varies
+// most.
+#pragma once
+
+#include <cstddef>
+
+#include "studies/results/results.hpp"
+
+namespace gamut {
+
+/// What is known best of all outputs: guaranteed, or else sampled, or else possible at all; null if nothing is.
+const Bounds* bestKnown(const Results& results);
+
+/// The instant of the violation that is told; else the output time of the window at which a margin is least (of what is
+/// to be once: at which the least margin is greatest), s. NaN where nothing is known.
+double decisiveTime(const Results& results, const RequirementResult& requirement);
+
+/// The output time at which an output's bounds are farthest apart, s; the first of several. NaN where nothing is known.
+double widestTime(const Results& results, std::size_t output);
+
+}  // namespace gamut
