@@ -287,7 +287,8 @@ class Comparer {
 
 }  // namespace
 
-Overestimation measureOverestimation(const EnclosureBounds& enclosure, const Envelope& envelope, const Table& error) {
+Overestimation measureOverestimation(const EnclosureBounds& enclosure, const Envelope& envelope, const Table& error,
+                                     const std::vector<double>& floors) {
   const std::size_t outputs = error.outputs;
   Overestimation result;
   result.ratio = Table(error.times, outputs);
@@ -302,7 +303,10 @@ Overestimation measureOverestimation(const EnclosureBounds& enclosure, const Env
     const double enclosed = enclosure.bounds.upper.data[i] - enclosure.bounds.lower.data[i];
     const double sampled = envelope.upper.data[i] - envelope.lower.data[i];
     result.excess.data[i] = enclosed - sampled;
-    if (std::isinf(enclosed) ||
+    constexpr double much = 100;  // beside this a floor matters to no ratio
+    const double floor = floors.empty() ? 0 : floors[i % outputs];
+    const bool isLittle = floor > 0 && enclosed - sampled <= floor && !(sampled > much * floor);
+    if (std::isinf(enclosed) || isLittle ||
         !(sampled > tellingErrors * std::max(error.data[i], leastError(magnitude[i % outputs]))))
       continue;
     const double ratio = enclosed / sampled;

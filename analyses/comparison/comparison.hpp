@@ -86,8 +86,10 @@ struct Overestimation {
 };
 
 /// Against the envelope of samples whose integration has this error, and 4 ulp of an output's magnitude at least: one
-/// narrower than a hundred errors says nothing.
-Overestimation measureOverestimation(const EnclosureBounds& enclosure, const Envelope& envelope, const Table& error);
+/// narrower than a hundred errors says nothing. `floors`, one an output or none: where both widths differ by no more
+/// than that, nothing is told.
+Overestimation measureOverestimation(const EnclosureBounds& enclosure, const Envelope& envelope, const Table& error,
+                                     const std::vector<double>& floors = {});
 
 /// How much of alpha-cuts samples leave, [level][output]: the widths' difference over the widest proved cut's width, at
 /// the time at which that is greatest, and the index of that time. NaN (and an index beyond all) where no sample is so

@@ -61,6 +61,11 @@ Flow::Flow(Program f, Program g, FlowOptions options) {
   requireThat(options.maxPieces >= 1, "a flow needs at least one piece");
   requireThat(options.tolerance >= 0 && options.splitDefect >= 0, "tolerances must not be negative");
   requireThat(options.tightness > 1, "a flow's tightness must be above 1");
+  for (const double tightness : options.tightnessOf)
+    requireThat(tightness > 1, "the tightness of a flow's output must be above 1");
+  for (const std::vector<double>* ofOutputs : {&options.tightnessOf, &options.floors, &options.mostWidth})
+    requireThat(ofOutputs->empty() || ofOutputs->size() == at(g.outputs()),
+                "what is said of each output must be said of all");
   requireThat(options.budget > 0, "a flow's budget must be positive");
   for (const int output : options.modelledAt)
     requireThat(output >= 0 && output < g.outputs(), "models are kept of outputs that there are");

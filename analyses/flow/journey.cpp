@@ -574,7 +574,36 @@ bool FlowFollower::record(FlowPiece& piece) {
                         toString(task_.options.maxWidth));
       return false;
     }
+  if (const int i = tooWide(piece, end, endOutputs); i >= 0) {
+    const std::vector<std::string>& names = task_.options.outputNames;
+    const std::string name = !outputs_              ? tool_->stepper.nameOf(i)
+                             : at(i) < names.size() ? names[at(i)]
+                                                    : "output " + std::to_string(i);
+    run_.fail(t1, name + " is too wide: its enclosure is more than a million times its size");
+    return false;
+  }
   return true;
+}
+
+/// The output (without outputs: the state) whose bounds, those that were enclosed last, say nothing any more; -1 if
+/// none does. What is undefined or infinite at a moment (a plain interval's bounds) is another matter.
+int FlowFollower::tooWide(FlowPiece& piece, const std::vector<Interval>& states,
+                          const std::vector<Interval>& outputs) const {
+  constexpr double times = 1e6;
+  const bool ofOutputs = outputs_ != nullptr;
+  const std::vector<Interval>&bounds = ofOutputs ? outputs : states, &cores = ofOutputs ? outputCore_ : stateCore_;
+  const std::vector<double>& most = task_.options.mostWidth;
+  piece.size.resize(bounds.size(), 0.0);
+  piece.wasKnown.resize(bounds.size(), 0);
+  for (std::size_t i = 0; i < bounds.size(); ++i) {
+    if (!isBounded(bounds[i]) || (ofOutputs && !std::isfinite(outputs_->radius(static_cast<int>(i))))) continue;
+    piece.size[i] = std::max(piece.size[i], magnitude(cores[i]));
+    const double wide = width(bounds[i]);
+    if (wide <= piece.size[i]) piece.wasKnown[i] = 1;
+    if (most.empty() ? piece.wasKnown[i] != 0 && wide > times * piece.size[i] : wide > most[i])
+      return static_cast<int>(i);
+  }
+  return -1;
 }
 
 }  // namespace gamut

@@ -28,6 +28,8 @@ struct FlowPiece {
   std::vector<Interval> lastOutputs, overOutputs;  // likewise for the outputs; lastOutputs: outputLimits_
   std::shared_ptr<const FlowSnapshot> lastModel;   // of these
   std::vector<Interval> modelled;                  // of modelled outputs: all that they were so far
+  std::vector<double> size;                        // the greatest that each output (or state) was, as far as is known
+  std::vector<char> wasKnown;                      // and whether it was once known to within that
 };
 
 enum class FlowJourney { goesOn, ended, cancelled };
@@ -110,6 +112,7 @@ class FlowFollower {
   void lookAside(const FlowPiece& piece, std::size_t row, const std::vector<Interval>& states);
   int chordsFor(FlowPiece& piece, const std::vector<Interval>& before, double from, double to);
   bool record(FlowPiece& piece);
+  int tooWide(FlowPiece& piece, const std::vector<Interval>& states, const std::vector<Interval>& outputs) const;
 
   FlowRun& run_;
   const FlowTask& task_;

@@ -237,7 +237,7 @@ Tube FlowRun::gather(std::vector<FlowCollected>& collected) {
       for (std::size_t i = 0; i < cut.size(); ++i) cut[i] = intersection(cut[i], outside[i]);
       if (row == 0) narrow(cut, task_.outputs.outputs() > 0 ? atStart.over(task_.levels[level]) : task_.levels[level]);
     }
-  constexpr double unheard = 1e-9;                               // of what it will be
+  constexpr double unheard = 1e-6;                               // of what it will be
   const double widest = std::max(task_.embedding.widest, 1e-8);  // inputs apart
   constexpr double infinite = std::numeric_limits<double>::infinity();
   const double aim = task_.aim(),
@@ -245,7 +245,8 @@ Tube FlowRun::gather(std::vector<FlowCollected>& collected) {
   const double rounding = std::min(0x1p-44, wellKnown * widest);  // of its greatest size: where it passes through zero
   const double hardlyVaries =
       3 * aim * aim;  // what hardly varies at all, but for what is left over, is no width to keep
-  const auto excess = [&](const std::vector<std::vector<Interval>>& bounds, auto cores) {
+  const auto excess = [&](const std::vector<std::vector<Interval>>& bounds, auto cores,
+                          const std::vector<double>& floors) {
     std::vector<std::vector<double>> shares(rows);
     std::vector<std::vector<Interval>> core(rows);
     std::vector<double> greatest(bounds[0].size(), 0.0);  // width over all times
@@ -268,20 +269,22 @@ Tube FlowRun::gather(std::vector<FlowCollected>& collected) {
         const double rest = width(core[row][i]), remainder = width(bound) - rest;
         const bool isInvariant = rest < 0.5 * remainder && remainder < hardlyVaries * widest * magnitude(bound);
         if (isZero[i] == 0 && !isInvariant && remainder > wellKnown * widest * magnitude(bound) &&
-            remainder > unheard * greatest[i] && remainder > rounding * largest[i])
+            remainder > unheard * greatest[i] && remainder > rounding * largest[i] &&
+            (floors.empty() || remainder > floors[i]))
           shares[row][i] = rest > 0 ? remainder / rest : infinite;
       }
     }
     return shares;
   };
-  tube.excess_ = excess(tube.states_, &FlowCollected::stateCore);
+  tube.excess_ = excess(tube.states_, &FlowCollected::stateCore, {});
   const double ofStates = tube.tightness() - 1;
-  if (task_.outputs.outputs() > 0) tube.excess_ = excess(tube.outputs_, &FlowCollected::outputCore);
+  if (task_.outputs.outputs() > 0)
+    tube.excess_ = excess(tube.outputs_, &FlowCollected::outputCore, task_.options.floors);
   for (const int output : task_.options.uncounted)
     for (std::vector<double>& row : tube.excess_) row[at(output)] = 0;
   const auto isWide = [&](int input) { return !isThin(task_.box[at(task_.motion.states() + input)]); };
   if (task_.embedding.symbols == 0 && std::ranges::none_of(task_.varying, isWide)) tube.excess_.clear();
-  looseness_ = tube.tightness() - 1;
+  looseness_ = loosenessOf(tube, task_.options);
   needsDegree_ = looseness_ > aim && ofStates <= aim;
   double time = 0, all = 0;
   for (const FlowCollected& part : collected) time += part.timeError, all += part.timeError + part.truncation;
@@ -372,16 +375,28 @@ void FlowRun::dropStates(Tube& tube, int n) {
   for (std::vector<double>& row : tube.excess_) row.resize(at(n));
 }
 
+/// Of outputs that need not be as tight as others the part that counts.
+double FlowRun::loosenessOf(const Tube& tube, const FlowOptions& options) {
+  if (options.tightnessOf.empty() || tube.outputs_[0].empty()) return tube.tightness() - 1;
+  double greatest = 0;
+  for (const std::vector<double>& row : tube.excess_)
+    for (std::size_t i = 0; i < row.size(); ++i)
+      greatest = std::max(greatest, row[i] * (options.tightness - 1) / (options.tightnessOf[i] - 1));
+  return greatest;
+}
+
 void FlowRun::explain(Tube& tube, const FlowOptions& options, const FlowCause& limit) {
   tube.shortfall_.clear();
   tube.limit_ = {};
-  double loosest = options.tightness - 1;
+  double worst = 1;  // of what was asked for
   const bool ofOutputs = !tube.outputs_[0].empty();
   const std::vector<std::string>& names = ofOutputs ? options.outputNames : options.stateNames;
   for (std::size_t row = 0; row < tube.excess_.size(); ++row)
     for (std::size_t i = 0; i < tube.excess_[row].size(); ++i) {
-      if (!(tube.excess_[row][i] > loosest)) continue;
-      loosest = tube.excess_[row][i];
+      const double loosest = tube.excess_[row][i],
+                   wanted = ofOutputs && !options.tightnessOf.empty() ? options.tightnessOf[i] : options.tightness;
+      if (!(loosest > worst * (wanted - 1))) continue;
+      worst = loosest / (wanted - 1);
       const std::string number = std::to_string(i);
       const std::string name = i < names.size() ? names[i] : (ofOutputs ? "output " : "state ") + number;
       std::array<char, 32> times{};

@@ -48,6 +48,7 @@ class FlowRun {
   static void dropStates(Tube& tube, int n);
   /// Says in `tube` what is looser than was asked for, met by `limit`.
   static void explain(Tube& tube, const FlowOptions& options, const FlowCause& limit);
+  static double loosenessOf(const Tube& tube, const FlowOptions& options);
   /// Intersects the cuts of this level, and of all inside it, with a flow over the level's own box.
   static void tighten(Tube& tube, std::size_t level, const Tube& own);
 

@@ -360,14 +360,19 @@ void EnsembleRun::integrateFirst() {
   for (const SampleBlock& block : first_) measureError(block);
 }
 
-/// Where the first samples lie and a quarter of that to both sides, cut off where nothing is expected.
-Envelope EnsembleRun::expectedRange(const Envelope& expected) const {
-  constexpr double margin = 0.25;
+Envelope EnsembleRun::firstEnvelope() const {
   Envelope range(system_.motion.times.size(), system_.motion.outputs());
   for (const SampleBlock& block : first_)
     for (std::size_t i = 0; i < block.size(); ++i)
       for (std::size_t t = 0; t < range.lower.times; ++t)
         for (std::size_t o = 0; o < range.lower.outputs; ++o) range.include(t, o, block(i, t, o));
+  return range;
+}
+
+/// Where the first samples lie and a quarter of that to both sides, cut off where nothing is expected.
+Envelope EnsembleRun::expectedRange(const Envelope& expected) const {
+  constexpr double margin = 0.25;
+  Envelope range = firstEnvelope();
   for (std::size_t i = 0; i < range.lower.data.size(); ++i) {
     double& lower = range.lower.data[i];
     double& upper = range.upper.data[i];

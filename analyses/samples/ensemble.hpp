@@ -85,6 +85,8 @@ class EnsembleRun {
   /// Integrates the first samples, at most 256, then the corners and the centre, and keeps them. If that is cancelled,
   /// those before the first that has not come to its end are kept, and a second call goes on behind them.
   void integrateFirst();
+  /// What they span, corners and centre too, as far as they came; until they are taken into the statistics.
+  Envelope firstEnvelope() const;
   /// Takes the first samples into the statistics, with what was still missing of them, then integrates all others, the
   /// points of the transformation last, and takes them. `expected`: where outputs are expected besides what the first
   /// samples say, such as an enclosure; NaN where nothing is known, or empty.

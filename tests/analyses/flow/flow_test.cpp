@@ -732,6 +732,65 @@ TEST(Flow, OutputsThatNoStepBoundsAreBoundedOverPartsOfIt) {
   }
 }
 
+/// An oscillator that is followed too roughly: every step can be proved, but bounds grow without end.
+Tube roughOscillator(const FlowOptions& more) {
+  FlowOptions options = more;
+  options.degree = 1;
+  options.split = false;
+  options.outputNames = {"place", "nothing"};
+  const Program f = record(2, 1, [](auto, const auto& x, const auto& p, auto& dx) {
+    dx[0] = x[1];
+    dx[1] = -p[0] * x[0];
+  });
+  const Program g = record(2, 1, 2, [](auto, const auto& x, const auto&, auto& y) {
+    y[0] = x[0];
+    y[1] = x[1] * 1e-3;
+  });
+  std::vector<double> times;
+  for (int i = 1; i < 400; ++i) times.push_back(i);
+  return Flow(f, g, options).enclose({1.0, 0.0, Interval(6.0, 12.0)}, 400, times);
+}
+
+TEST(Flow, EndsWhereItsBoundsSayNothingAnyMore) {
+  const Tube tube = roughOscillator({});
+  EXPECT_LT(tube.reached(), 400);
+  EXPECT_FALSE(tube.wasStopped());
+  EXPECT_THAT(tube.why(), HasSubstr("is too wide"));
+  ASSERT_GT(tube.reachedTimes(), 3U);
+  for (std::size_t row = 0; row < tube.reachedTimes(); ++row)
+    EXPECT_LE(width(tube.outputs(row)[0]), 1e7) << "at " << tube.times()[row];
+}
+
+TEST(Flow, EndsWhereAnOutputIsWiderThanWasAllowed) {
+  FlowOptions options;
+  options.mostWidth = {50, std::numeric_limits<double>::infinity()};
+  const Tube tube = roughOscillator(options);
+  EXPECT_LT(tube.reached(), roughOscillator({}).reached());
+  EXPECT_THAT(tube.why(), HasSubstr("place is too wide"));
+  EXPECT_THROW(Flow(pendulum(), pendulumOutputs(), options), std::invalid_argument);
+}
+
+/// What is left over of an output counts for nothing up to its floor, and as its own tightness says.
+TEST(Flow, LeavesOutputsAsTheyAreOfWhichLittleIsAskedFor) {
+  const double infinite = std::numeric_limits<double>::infinity();
+  const Tube asked = roughOscillator({});
+  EXPECT_GT(asked.tightness(), 2);
+  EXPECT_FALSE(asked.shortfall().empty());
+  FlowOptions ofOne;
+  ofOne.floors = {infinite, 0};
+  EXPECT_THAT(roughOscillator(ofOne).shortfall(), HasSubstr("nothing may be"));
+  FlowOptions ofBoth;
+  ofBoth.floors = {infinite, infinite};
+  EXPECT_EQ(roughOscillator(ofBoth).tightness(), 1);
+  EXPECT_TRUE(roughOscillator(ofBoth).shortfall().empty());
+  FlowOptions own;
+  own.tightnessOf = {1e12, 1e12};
+  EXPECT_EQ(roughOscillator(own).tightness(), asked.tightness());
+  EXPECT_TRUE(roughOscillator(own).shortfall().empty());
+  own.tightnessOf = {1e12, 1.02};
+  EXPECT_THAT(roughOscillator(own).shortfall(), HasSubstr("nothing may be"));
+}
+
 /// Steps of different lengths keep different orders of the outputs' series; the certificate of a system reads beyond.
 TEST(Flow, OutputsOfLinearSystemsBetweenTimesHoldTheirTrajectories) {
   for (double radius : {1e-10, 1e-4, 0.05}) {
