@@ -8,8 +8,10 @@
 #include <cctype>
 #include <cmath>
 #include <cstdlib>
+#include <optional>
 
 #include "reports/requirements.hpp"
+#include "studies/results/extremes.hpp"
 #include "studies/words.hpp"
 
 namespace gamut {
@@ -208,60 +210,31 @@ class Sentence {
 
 constexpr const char* everyCase = "in every case that the stated tolerances allow";
 
-/// Least and greatest of an output over all times at which something is known, and how wide that is at most at one.
-struct Extent {
-  double low = INFINITY, high = -INFINITY, width = 0;
-  std::size_t known = 0, last = 0;
-
-  void hold(const Bounds& bounds, std::size_t output, bool isWidth) {
-    for (std::size_t i = 0; i < bounds.lower.times; ++i) {
-      const double lower = bounds.lower(i, output), upper = bounds.upper(i, output);
-      if (!std::isfinite(lower) || !std::isfinite(upper)) continue;
-      low = std::min(low, lower);
-      high = std::max(high, upper);
-      if (!isWidth) continue;
-      width = std::max(width, upper - lower);
-      last = i;
-      ++known;
-    }
-  }
-};
-
-/// Between which numbers an output stays, and how far apart cases are at one time.
+/// Between which numbers an output stays, when it comes there, and how far apart cases are at one time.
 std::string whereIs(const Results& results, std::size_t output) {
-  struct Known {
-    const Bounds* bounds;
-    std::string begin, end;
-  };
-  std::vector<Known> all;
-  if (results.interval.present) all.push_back({&results.interval.at, "", fmt::format(" {}", everyCase)});
-  if (results.stochastic.present)
-    all.push_back({&results.stochastic.envelope,
-                   fmt::format("In {}, ", countText(results.stochastic.integrated, "simulated case")),
-                   "; nothing is proved of other cases"});
-  if (results.fuzzy.present && !results.fuzzy.outer.empty())
-    all.push_back({&results.fuzzy.outer.front(), "", " in every case that is held possible"});
-  for (const Known& known : all) {
-    Extent extent;
-    extent.hold(*known.bounds, output, true);
-    if (extent.known == 0) continue;
-    const bool isProvedBetween = known.bounds == &results.interval.at && !results.interval.over.empty();
-    if (isProvedBetween) extent.hold(results.interval.over, output, false);
-    const OutputInfo& info = results.outputs[output];
-    const double size = std::max(std::abs(extent.low), std::abs(extent.high));
-    const auto [from, to] = outwardText(extent.low, extent.high, digitsFor(size, extent.high - extent.low, 2));
-    const std::string unit = info.unit.empty() || info.unit == "1" ? "" : " " + info.unit;
-    if (results.horizon == 0)
-      return fmt::format("{}\u201c{}\u201d lies between {} and {}{}{}.", known.begin, info.name, from, to, unit,
-                         known.end);
-    return fmt::format(
-        "{}\u201c{}\u201d stays between {} and {}{} from {} s to {} s{}{}. At {}, cases differ by {}{} at most.",
-        known.begin, info.name, from, to, unit, numberText(results.time.front(), 6),
-        numberText(results.time[extent.last], 6), isProvedBetween ? "" : " (looked at the output times)", known.end,
-        extent.known == results.time.size() ? "any output time" : "the times that are known",
-        atMostText(extent.width, 2), unit);
-  }
-  return "Nothing certain is known of its outputs.";
+  const std::optional<MotionRange> range = bestMotionRange(results, output);
+  if (!range) return "Nothing certain is known of its outputs.";
+  const bool isProved = range->source == MotionRange::Source::ofProof,
+             isSampled = range->source == MotionRange::Source::ofSamples;
+  const std::string begin =
+      isSampled ? fmt::format("In {}, ", countText(results.stochastic.integrated, "simulated case")) : "";
+  const std::string end = isProved    ? fmt::format(" {}", everyCase)
+                          : isSampled ? "; nothing is proved of other cases"
+                                      : " in every case that is held possible";
+  const OutputInfo& info = results.outputs[output];
+  const auto [from, to] = boundsText(range->least.value, range->greatest.value);
+  const std::string unit = info.unit.empty() || info.unit == "1" ? "" : " " + info.unit;
+  if (results.horizon == 0)
+    return fmt::format("{}\u201c{}\u201d lies between {} and {}{}{}.", begin, info.name, from, to, unit, end);
+  const double size = motionSize(results, output);
+  return fmt::format(
+      "{}\u201c{}\u201d stays between {} and {}{} from {} to {}{}{}. It is least {}, greatest {}. At {}, cases differ "
+      "by "
+      "{}{} at most.",
+      begin, info.name, from, to, unit, timeText(results.time.front()), timeText(range->until),
+      range->isBetween ? "" : " (looked at the output times)", end, whenText(results, range->least),
+      whenText(results, range->greatest), range->isAtAllTimes ? "any output time" : "the times that are known",
+      atMostText(range->width, 2, size), unit);
 }
 
 std::string ofRequirements(const Results& results) {

@@ -9,6 +9,7 @@
 #include <regex>
 
 #include "mechanics/description/units.hpp"
+#include "studies/results/extremes.hpp"
 #include "studies/words.hpp"
 
 namespace gamut {
@@ -19,8 +20,9 @@ std::string withUnit(const std::string& number, const std::string& unit) {
 }
 
 /// The unit of the first number with a unit, "deg" of "always -5 deg < angle < 5 deg", if its dimension is that of
-/// `unit`; else `unit`.
+/// `unit`, one of SI; else `unit`.
 std::string statedUnit(const std::string& statement, const std::string& unit) {
+  if (unitOf(dimensionOf(unit)) != unit) return unit;
   static const std::regex limit(R"((?:^always|^eventually|[<>]=?)\s*[-+]?[0-9.]{1,30}(?:[eE][-+]?[0-9]{1,3})?)"
                                 R"(\s*([^\s0-9<>+-](?:[^0-9<>+-]|\^[0-9]){0,30}?)\s*(?=[<>]|$))");
   for (std::sregex_iterator found(statement.begin(), statement.end(), limit), none; found != none; ++found) {
@@ -161,7 +163,9 @@ class Wording {
 std::string missText(const Results& results, const RequirementResult& requirement, double miss) {
   const std::string& unit = results.outputs[requirement.margin].unit;
   const std::string stated = statedUnit(requirement.statement, unit);
-  return withUnit(numberText(stated == unit ? miss : miss / nearest(parseAmount("1 " + stated)), 3), stated);
+  const double scale = stated == unit ? 1 : nearest(parseAmount("1 " + stated));
+  const double size = motionSize(results, requirement.margin) / scale;
+  return withUnit(tellingText(miss / scale, size, 3), stated);
 }
 
 bool isViolated(const RequirementResult& requirement) {

@@ -10,10 +10,12 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <map>
 #include <set>
 #include <stdexcept>
 #include <string_view>
 
+#include "studies/results/extremes.hpp"
 #include "studies/words.hpp"
 
 namespace gamut {
@@ -157,16 +159,19 @@ class Wording {
     if (ratio.empty() || proved.empty() || sampled.empty()) return;
     double widest = telling;
     std::string who;
-    for (std::size_t o = 0; o < ratio.outputs; ++o) {
-      double size = 0;
+    std::map<std::string, double> sizes;  // of each unit: what is zero beside others of its kind is small
+    for (std::size_t o = 0; o < ratio.outputs; ++o)
       for (std::size_t t = 0; t < ratio.times; ++t)
         for (const Table* bound : {&sampled.lower, &sampled.upper})
-          if (std::isfinite((*bound)(t, o))) size = std::max(size, std::fabs((*bound)(t, o)));
+          if (double& size = sizes[results_.outputs[o].unit]; std::isfinite((*bound)(t, o)))
+            size = std::max(size, std::fabs((*bound)(t, o)));
+    for (std::size_t o = 0; o < ratio.outputs; ++o) {
+      const double size = sizes[results_.outputs[o].unit];
       for (std::size_t t = 0; t < ratio.times; ++t) {
         const double width = proved.upper(t, o) - proved.lower(t, o);
         const bool isSampled = std::isfinite(sampled.upper(t, o) - sampled.lower(t, o));
         if (!std::isnan(ratio(t, o)) || !isSampled || !std::isfinite(width) ||
-            !(width > std::max(least, widest * size)))
+            !(width > std::max({least, widest * size, results_.outputs[o].resolution})))
           continue;
         widest = size > 0 ? width / size : std::numeric_limits<double>::infinity();
         who = fmt::format("{}{} its guarantee is {} wide", results_.outputs[o].name, when(t), withUnit(width, o));
@@ -195,11 +200,18 @@ class Wording {
     constexpr std::size_t most = 20;
     for (const DisputedSample* sample : settled) {
       if (verdict_.settled.size() == most) break;
-      verdict_.settled.push_back(fmt::format("{}: inside by {}, decided by {}.", whoIs(*sample),
-                                             withUnit(margin(*sample), sample->output), sample->decided));
+      verdict_.settled.push_back(
+          fmt::format("{}: inside by {}, decided by {}.", whoIs(*sample), depthText(*sample), sample->decided));
     }
     if (verdict_.settled.size() < settled.size() || rounding > 0)
       verdict_.settled.emplace_back("The results name them all, in /comparison/disputed.");
+  }
+
+  /// "by 0.002 m"; what is hardly anything beside the output's own size says no digits of its own.
+  std::string depthText(const DisputedSample& sample) const {
+    const std::string& unit = results_.outputs[sample.output].unit;
+    return tellingText(margin(sample), motionSize(results_, sample.output)) +
+           (unit.empty() || unit == "1" ? "" : " " + unit);
   }
 
   /// How far it lies inside.
@@ -254,10 +266,9 @@ class Wording {
 
   void noteUnbounded() {
     if (verdict_.unbounded == 0) return;
-    const Excursion& first = verdict_.firstUnbounded;
-    note(fmt::format("Nothing finite is guaranteed of {}{}{}: its bounds are infinite.",
-                     results_.outputs[first.output].name, when(first.time),
-                     verdict_.unbounded > 1 ? fmt::format(" (and {} more bounds)", verdict_.unbounded - 1) : ""));
+    std::string text = unboundedText(results_, verdict_);
+    text[0] = 'N';
+    note(text + ".");
   }
 
   void noteMissing() {

@@ -9,6 +9,8 @@
 #include <nlohmann/json.hpp>
 
 #include "scalars/interval.hpp"
+#include "studies/results/extremes.hpp"
+#include "studies/results/verdict.hpp"
 #include "studies/text_table.hpp"
 #include "studies/words.hpp"
 
@@ -252,17 +254,47 @@ std::string transformationText(const Results& results) {
 
 Json textOrNull(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
 
-/// "[1.2345, 1.3456]", bounds rounded outward, with three decimals more than their width needs, 15 at most.
-std::string shortBounds(const Bounds& bounds, std::size_t time, std::size_t output) {
+/// "[1.2345, 1.3456]", bounds rounded outward, with the digits that they justify.
+std::string shortBounds(const Results& results, const Bounds& bounds, std::size_t time, std::size_t output) {
   if (bounds.empty()) return "-";
   const double lower = bounds.lower(time, output), upper = bounds.upper(time, output);
   if (std::isnan(lower) || std::isnan(upper)) return "-";
-  constexpr double legible = 1e12;  // beyond, with an exponent
-  if (std::max(std::abs(lower), std::abs(upper)) >= legible) return intervalText(lower, upper, 6);
-  const double size = upper - lower;
-  const int decimals =
-      size > 0 && std::isfinite(size) ? std::clamp(3 - static_cast<int>(std::floor(std::log10(size))), 0, 15) : 15;
-  return toFixedString(Interval(lower, upper), decimals);
+  const auto [below, above] = boundsText(lower, upper, motionSize(results, output));
+  return fmt::format("[{}, {}]", below, above);
+}
+
+/// Every output's least and greatest over the whole motion, and when; empty where no time passes.
+std::string rangesText(const Results& results) {
+  if (results.horizon == 0) return {};
+  std::vector<std::vector<std::string>> rows{{rangesCaption(results), "least", "", "greatest", ""}};
+  for (std::size_t j = 0; j < results.outputs.size(); ++j) {
+    const std::optional<MotionRange> range = bestMotionRange(results, j);
+    if (isMargin(results, j) || !range) continue;
+    const auto [least, greatest] = boundsText(range->least.value, range->greatest.value);
+    const std::string unit = results.outputs[j].unit == "1" ? "" : fmt::format(" ({})", results.outputs[j].unit);
+    rows.push_back({results.outputs[j].name + unit, least, whenText(results, range->least), greatest,
+                    whenText(results, range->greatest)});
+  }
+  return rows.size() > 1 ? textTable(rows) : "";
+}
+
+/// {output name → its unit, least and greatest, and when}.
+Json rangesObject(const Results& results) {
+  Json object = Json::object();
+  for (std::size_t j = 0; j < results.outputs.size(); ++j) {
+    Json& of = object[results.outputs[j].name] = {{"unit", results.outputs[j].unit}};
+    for (const auto& [word, source] : {std::pair("guaranteed", MotionRange::Source::ofProof),
+                                       std::pair("sampled", MotionRange::Source::ofSamples)}) {
+      const std::optional<MotionRange> range = motionRange(results, j, source);
+      of[word] = nullptr;
+      if (!range) continue;
+      const auto extreme = [](const Extreme& e) {
+        return Json{{"value", number(e.value)}, {"from", e.from}, {"until", e.until}};
+      };
+      of[word] = {{"least", extreme(range->least)}, {"greatest", extreme(range->greatest)}, {"until", range->until}};
+    }
+  }
+  return object;
 }
 
 /// Three decimals, rounded up.
@@ -391,7 +423,7 @@ std::string jsonSummary(const Results& results, const std::string& verdict, cons
   json["verdict"] = textOrNull(verdict);
   json["horizon"] = number(results.horizon);
   json["reached"] = number(reachedTime(results));
-  json["why"] = textOrNull(whyEnded(results));
+  json["why"] = textOrNull(whyIncomplete(results, findVerdict(results)));
   json["stopped"] = textOrNull(results.stopped);
   json["samples"] = results.stochastic.samples;
   json["integrated"] = results.stochastic.integrated;
@@ -401,6 +433,7 @@ std::string jsonSummary(const Results& results, const std::string& verdict, cons
   json["tightness"] = number(results.interval.tightness);
   json["shortfall"] = textOrNull(results.interval.shortfall);
   json["advice"] = textOrNull(results.interval.advice);
+  json["outputs"] = rangesObject(results);
   json["requirements"] = requirementsArray(results);
   json["statistics"] = statisticsObject(results);
   json["alpha_cuts"] = transformationObject(results);
@@ -434,11 +467,11 @@ std::string textSummary(const Results& results) {
   for (std::size_t j = 0; j < results.outputs.size(); ++j) {
     const std::string unit = results.outputs[j].unit == "1" ? "" : fmt::format(" ({})", results.outputs[j].unit);
     const bool known = j < results.comparison.maximumOf.size() && std::isfinite(results.comparison.maximumOf[j]);
-    rows.push_back({results.outputs[j].name + unit, shortBounds(provedBounds(results), row, j),
-                    shortBounds(results.stochastic.envelope, row, j),
+    rows.push_back({results.outputs[j].name + unit, shortBounds(results, provedBounds(results), row, j),
+                    shortBounds(results, results.stochastic.envelope, row, j),
                     known ? ratioText(results.comparison.maximumOf[j]) : "-"});
   }
-  std::string text = textTable(rows);
+  std::string text = rangesText(results) + textTable(rows);
   std::vector<std::string> costs;
   for (const Answer* answer : results.answers())
     if (answer->present) costs.push_back(fmt::format("{} {:.2f} s", answer->title(), answer->cpu));

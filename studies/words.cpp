@@ -11,7 +11,45 @@
 
 namespace gamut {
 
-std::string numberText(double x, int digits) { return std::isnan(x) ? "none" : fmt::format("{:.{}g}", x, digits); }
+namespace {
+
+constexpr double leastTold = 1e-24;  ///< of any unit: its least prefix
+constexpr double billionth = 1e-9;
+
+/// "19600" of "1.96e+04": up to ten million without powers of ten.
+std::string inFull(const std::string& text) {
+  constexpr int most = 6;
+  const auto e = text.find("e+");
+  if (e == text.npos || text.size() > e + 4) return text;
+  const int exponent = std::stoi(text.substr(e + 2));
+  const auto point = text.find('.');
+  std::string digits = text.substr(0, e);
+  if (exponent > most) return text;
+  std::size_t decimals = 0;
+  if (point != text.npos) {
+    decimals = e - point - 1;
+    digits.erase(point, 1);
+  }
+  if (decimals > static_cast<std::size_t>(exponent)) return text;  // never of %g
+  return digits.append(static_cast<std::size_t>(exponent) - decimals, '0');
+}
+
+/// The least power of ten that is not below x > 0.
+std::string powerAbove(double x) {
+  for (int exponent = static_cast<int>(std::floor(std::log10(x)));; ++exponent)
+    if (std::string text = fmt::format("{:g}", std::pow(10, exponent)); Interval(text).lower() >= x) return text;
+}
+
+}  // namespace
+
+std::string numberText(double x, int digits) {
+  return std::isnan(x) ? "none" : inFull(fmt::format("{:.{}g}", x, digits));
+}
+
+std::string tellingText(double x, double size, int digits) {
+  const double least = std::max(billionth * size, leastTold);
+  return std::abs(x) < least ? "less than " + powerAbove(least) : numberText(x, digits);
+}
 
 std::string timeText(double time, int digits) { return numberText(time, digits) + " s"; }
 
@@ -20,12 +58,39 @@ std::string atMostText(double x, int digits) {
   return std::isinf(x) ? numberText(x) : outwardText(x, x, digits).second;
 }
 
+std::string atMostText(double x, int digits, double size) {
+  const double least = std::max(billionth * size, leastTold);
+  return x < least && x != 0 ? powerAbove(least) : atMostText(x, digits);
+}
+
 std::pair<std::string, std::string> outwardText(double lower, double upper, int digits) {
   if (!(lower <= upper)) return {"none", "none"};
   if (std::isinf(lower) && std::isinf(upper)) return {numberText(lower), numberText(upper)};
   const std::string text = toString(Interval(lower, upper), digits);  // "[lower, upper]"
   const auto comma = text.find(',');
-  return {text.substr(1, comma - 1), text.substr(comma + 2, text.size() - comma - 3)};
+  return {inFull(text.substr(1, comma - 1)), inFull(text.substr(comma + 2, text.size() - comma - 3))};
+}
+
+std::pair<std::string, std::string> boundsText(double lower, double upper, double size, int resolved) {
+  const double greatest = std::max(std::abs(lower), std::abs(upper)), width = upper - lower;
+  if (!(lower <= upper) || std::isinf(greatest)) return outwardText(lower, upper, resolved);
+  if (greatest == 0) return {"0", "0"};
+  const double least = std::max(billionth * std::max(size, greatest), leastTold), shown = std::max(width, least);
+  if (greatest <= least) {
+    const std::string little = powerAbove(least);
+    return {lower < 0 ? "-" + little : "0", upper > 0 ? little : "0"};
+  }
+  constexpr double legible = 1e7, small = 1e-4;
+  const int leading = static_cast<int>(std::floor(std::log10(shown)));
+  if (greatest >= legible || greatest < small)
+    return outwardText(lower, upper, std::clamp(digitsFor(greatest, shown, resolved), 1, 17));
+  const std::string text = toFixedString(Interval(lower, upper), std::clamp(resolved - 1 - leading, 0, 15));
+  const auto comma = text.find(',');
+  const auto end = [&](double bound, std::string decimals) {  // -1e-19 is no -0.01, where the rest has two decimals
+    const bool isLittle = bound != 0 && std::abs(bound) <= least && (bound < 0) == (bound == lower);
+    return isLittle ? (bound < 0 ? "-" : "") + powerAbove(least) : decimals;
+  };
+  return {end(lower, text.substr(1, comma - 1)), end(upper, text.substr(comma + 2, text.size() - comma - 3))};
 }
 
 std::string intervalText(double lower, double upper, int digits) {

@@ -7,18 +7,28 @@
 
 namespace gamut {
 
-/// x rounded to nearest, to so many significant digits, without trailing zeros: "1.004", "-2.5e-07", "none" for NaN.
+/// x rounded to nearest, to so many significant digits, without trailing zeros: "1.004", "19600", "-2.5e-07", "none"
+/// for NaN. As all that follows, in powers of ten below 0.0001 and from ten million on only.
 std::string numberText(double x, int digits = 4);
+
+/// The same beside numbers of this size: "less than 1e-09" of what is hardly anything there.
+std::string tellingText(double x, double size, int digits = 3);
 
 /// "0.29 s".
 std::string timeText(double time, int digits = 6);
 
-/// x rounded up, never below x: for figures that promise "at most".
+/// x rounded up, never below x: for figures that promise "at most". Beside numbers of a `size` no less than a billionth
+/// of that, nor than any unit's least prefix makes of it.
 std::string atMostText(double x, int digits = 4);
+std::string atMostText(double x, int digits, double size);
 
 /// Decimals of lower rounded down and of upper rounded up: the printed pair holds the interval.
 /// Infinite ends give "-inf", "inf"; both are "none" where there is no interval (a NaN, or lower > upper).
 std::pair<std::string, std::string> outwardText(double lower, double upper, int digits);
+
+/// Bounds of one quantity, rounded outward, with the digits that their width justifies (`resolved` of it), and no more
+/// than show a billionth of `size`: "[-114.38, 51.46]".
+std::pair<std::string, std::string> boundsText(double lower, double upper, double size = 0, int resolved = 4);
 
 /// "[lower, upper]" rounded outward, or "none".
 std::string intervalText(double lower, double upper, int digits);

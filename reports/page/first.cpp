@@ -9,11 +9,13 @@
 
 #include "reports/drawing/paper.hpp"
 #include "reports/page/page.hpp"
+#include "reports/page/table.hpp"
 #include "reports/plain.hpp"
 #include "reports/requirements.hpp"
 #include "reports/sections/contribution.hpp"
 #include "reports/sections/limits.hpp"
 #include "reports/words.hpp"
+#include "studies/results/extremes.hpp"
 
 namespace gamut {
 namespace {
@@ -74,6 +76,41 @@ std::string verdictCard(const Verdict& verdict) {
       "<section class=\"verdict {}\" aria-label=\"Verdict\">\n<p class=\"sentence\"><b class=\"word\">{}</b> {}</p>\n"
       "{}</section>\n",
       verdict.word, word, escapeHtml(verdict.sentence), notesList(verdict));
+}
+
+/// What every output does over the whole motion: the limits that it keeps, and when it comes there.
+std::string rangesTable(const Results& results) {
+  constexpr std::size_t most = 12;  // that are seen at once
+  std::size_t shown = 0;
+  const auto rows = [&](TableText& table, std::size_t& output, std::size_t count) {
+    for (; output < results.outputs.size() && count > 0; ++output) {
+      const std::optional<MotionRange> range = bestMotionRange(results, output);
+      if (isMargin(results, output) || !range) continue;
+      const auto [least, greatest] = boundsText(range->least.value, range->greatest.value);
+      std::vector<std::string> cells{least, greatest};
+      if (results.horizon > 0) {
+        cells.insert(cells.begin() + 1, whenText(results, range->least));
+        cells.push_back(whenText(results, range->greatest));
+      }
+      table.row(withUnit(results.outputs[output].name, results.outputs[output].unit), cells);
+      ++shown;
+      --count;
+    }
+  };
+  const std::string caption = rangesCaption(results);
+  const std::vector<std::string> heads = results.horizon > 0
+                                             ? std::vector<std::string>{"output", "least", "when", "greatest", "when"}
+                                             : std::vector<std::string>{"output", "least", "greatest"};
+  std::size_t output = 0;
+  TableText first(caption, heads), others(caption, heads);
+  rows(first, output, most);
+  if (shown == 0) return {};
+  rows(others, output, results.outputs.size());
+  return "<section class=\"ranges\">\n" + first.html() +
+         (shown > most
+              ? "<details class=\"more\"><summary>All other outputs</summary>\n" + others.html() + "</details>\n"
+              : "") +
+         "</section>\n";
 }
 
 // ---- The plot -------------------------------------------------------------------------------------------------------
@@ -246,6 +283,7 @@ std::string firstSection(const Report& report) {
                      tone(results, report.verdict),
                      escapeHtml(plainSummary(results, report.verdict, foremost.output))) +
          requirementList(results, report.verdict) + verdictCard(report.verdict) +
+         (report.verdict.word == "outside" ? "" : rangesTable(results)) +
          (isThere ? plotOfForemost(results, foremost) + ranking(results, foremost.output) : "") + "</section>\n";
 }
 

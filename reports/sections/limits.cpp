@@ -39,18 +39,28 @@ double limitBetween(const Bounds& bounds, std::size_t margin, std::size_t output
                                                                                           : std::nan("");
 }
 
-/// How much one of the output's unit is in the margin's, SI. Of an angle without unit numbers tell whether it is in
-/// degrees.
-double scaleOf(const Results& results, std::size_t margin, std::size_t output) {
+/// How much one of the unit is in SI units.
+double factorOf(const std::string& unit) {
   static const std::map<std::string, double> units{
       {"deg", degree}, {"°", degree},  {"mrad", 1e-3}, {"rpm", std::numbers::pi / 30},
       {"km", 1e3},     {"cm", 1e-2},   {"mm", 1e-3},   {"um", 1e-6},
       {"in", 0.0254},  {"ft", 0.3048}, {"g", 1e-3},    {"t", 1e3},
       {"ms", 1e-3},    {"kN", 1e3},    {"kW", 1e3},    {"kJ", 1e3}};
+  const auto found = units.find(unit);
+  return found == units.end() ? 1 : found->second;
+}
+
+/// An angle without unit beside a margin that is one: numbers tell that it is in degrees.
+bool isBareAngle(const Results& results, std::size_t margin, std::size_t output) {
   const std::string &of = results.outputs[margin].unit, &in = results.outputs[output].unit;
-  if (of == "rad" && (in.empty() || in == "1")) return degree;
-  const auto found = units.find(in);
-  return of == in || found == units.end() ? 1 : found->second;
+  return (of == "rad" || of == "deg") && (in.empty() || in == "1");
+}
+
+/// How much one of the output's unit is in the margin's.
+double scaleOf(const Results& results, std::size_t margin, std::size_t output) {
+  const std::string &of = results.outputs[margin].unit, &in = results.outputs[output].unit;
+  if (isBareAngle(results, margin, output)) return degree / factorOf(of);
+  return of == in ? 1 : factorOf(in) / factorOf(of);
 }
 
 /// 1 where the quantity stands as a term of a margin's formula, "q - 3" or "3 - (-(q))", -1 where it is taken away,
@@ -94,9 +104,7 @@ double rounded(double value, double size) {
 /// "40 deg" of what is stated so and drawn in rad, or as a number.
 std::string labelOf(const Results& results, const Limit& limit, const std::string& unit) {
   const std::string& statement = results.requirements[limit.requirement].statement;
-  const std::string& in = results.outputs[limit.output].unit;
-  const bool isDegrees = scaleOf(results, limit.margin, limit.output) == degree && (in.empty() || in == "1");
-  if (isDegrees) return "limit " + numberText(limit.value, 6) + " deg";
+  if (isBareAngle(results, limit.margin, limit.output)) return "limit " + numberText(limit.value, 6) + " deg";
   const std::string number = numberText(limit.value, 6) + (unit.empty() ? "" : " " + unit);
   const std::size_t at = statement.find(" deg");
   const bool isStatedInDegrees =

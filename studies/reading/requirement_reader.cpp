@@ -126,8 +126,9 @@ class RequirementReader {
       const std::string which = signs.size() == 1                ? ""
                                 : signs[i].isGreater == (i == 0) ? ", from above"
                                                                  : ", from below";
+      const std::string wanted = wantedUnit(sides);
       const auto add = [&](const std::string& side, const Side& below) {
-        addMargin(node, requirement.name + side, greater, below);
+        addMargin(node, requirement.name + side, greater, below, wanted);
         requirement.margins.push_back(study_.outputs.size() - 1);
         requirement.isMetAtZero.push_back(signs[i].isMetAtZero ? 1 : 0);
       };
@@ -136,8 +137,8 @@ class RequirementReader {
       if (inside.empty()) {
         add(which, less);
       } else {
-        add(", from above", {inside, less.expression});
-        add(", from below", {fmt::format("-({})", inside), less.expression});
+        add(", from above", {inside, less.expression, false, ""});
+        add(", from below", {fmt::format("-({})", inside), less.expression, false, ""});
       }
     }
   }
@@ -147,6 +148,7 @@ class RequirementReader {
     std::string quantity;  ///< with outputs' names replaced by what they are
     Expression expression = 0.0;
     bool isZero = false;
+    std::string unit;  ///< of an output that it names, if one was stated; else of a number with one
   };
 
   /// Blanks stand for the rest of the text, so that columns are the text's.
@@ -173,8 +175,30 @@ class RequirementReader {
     const std::optional<Amount> amount = side.expression.amount();
     side.isZero = amount && amount->value == 0;
     side.quantity = withoutOutputs(trimmed, side.expression.names());
+    for (const std::string& name : side.expression.names())
+      if (const OutputInfo* output = outputNamed(name); output != nullptr && side.unit.empty())
+        side.unit = output->unit;
+    if (amount && amount->hasUnit && !amount->isRelative) side.unit = unitOfNumber(trimmed);
     return side;
   }
+
+  /// "mm" of "-3.5 mm"; empty for what is no number with a unit behind it.
+  static std::string unitOfNumber(const std::string& text) {
+    const std::size_t end = text.find_first_not_of("+-0123456789. ");
+    const std::string unit = end == std::string::npos ? "" : text.substr(end);
+    return unit.find_first_of("0123456789*/(+-") == std::string::npos && unitNamed(unit) != nullptr ? unit : "";
+  }
+
+  /// A margin is told in the unit of the output that is compared, or in that of its limit; empty: neither says one.
+  static std::string wantedUnit(const std::vector<Side>& sides) {
+    for (const bool isNumber : {false, true})
+      for (const Side& side : sides)
+        if (!side.unit.empty() && side.expression.amount().has_value() == isNumber && !isOfSi(side.unit))
+          return side.unit;
+    return {};
+  }
+
+  static bool isOfSi(const std::string& unit) { return unit == "1" || unitOf(gamut::dimensionOf(unit)) == unit; }
 
   /// A plain number is one in the SI unit of what it is compared with, as everywhere in a study.
   void takeUnits(const toml::node& node, const std::string& text, std::vector<Side>& sides) const {
@@ -210,14 +234,16 @@ class RequirementReader {
                    fmt::format("the {} limit first", isGreater ? "greater" : "lesser"));
   }
 
-  void addMargin(const toml::node& node, const std::string& name, const Side& greater, const Side& less) {
+  void addMargin(const toml::node& node, const std::string& name, const Side& greater, const Side& less,
+                 const std::string& wanted) {
     std::string quantity, unit;
     try {
       quantity = less.isZero ? greater.quantity
                  : greater.isZero
                      ? fmt::format("-({})", less.quantity)
                      : fmt::format("{} - {}", inParentheses(greater.quantity), inParentheses(less.quantity));
-      unit = unitOf(study_.mechanism.dimensionOf(study_.mechanism.parse(quantity)));
+      const Dimension dimension = study_.mechanism.dimensionOf(study_.mechanism.parse(quantity));
+      unit = !wanted.empty() && gamut::dimensionOf(wanted) == dimension ? wanted : unitOf(dimension);
     } catch (const UnitError& error) {
       source_.fail(node, error);
     }
@@ -225,7 +251,7 @@ class RequirementReader {
       if (other.name == name)
         source_.fail(node, fmt::format("an output and a requirement's margin are both named '{}'", name),
                      "a name of its own for the requirement");
-    study_.outputs.push_back({name, quantity, unit});
+    study_.outputs.push_back(OutputInfo{name, quantity, unit});
     nodes_.push_back(&node);
   }
 
@@ -288,16 +314,17 @@ class RequirementReader {
     for (const std::string& name : names) {
       const OutputInfo* output = outputNamed(name);
       if (output == nullptr) continue;
-      const std::string word = quoted(name), instead = inParentheses(quantityOf(*output));
-      for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at)) {
-        const bool isQuoted = word.front() != '\'' &&
-                              std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\'') % 2 != 0;
-        const bool isWhole =
-            !isQuoted && (at == 0 || !isOfWord(static_cast<unsigned char>(text[at - 1]))) &&
-            (at + word.size() == text.size() || !isOfWord(static_cast<unsigned char>(text[at + word.size()])));
-        if (isWhole) text.replace(at, word.size(), instead);
-        at += isWhole ? instead.size() : word.size();
-      }
+      const std::string instead = inParentheses(quantityOf(*output));
+      for (const std::string& word : {"'" + name + "'", quoted(name)})  // quotes are well where none are needed
+        for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at)) {
+          const bool isQuoted = word.front() != '\'' &&
+                                std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\'') % 2 != 0;
+          const bool isWhole =
+              !isQuoted && (at == 0 || !isOfWord(static_cast<unsigned char>(text[at - 1]))) &&
+              (at + word.size() == text.size() || !isOfWord(static_cast<unsigned char>(text[at + word.size()])));
+          if (isWhole) text.replace(at, word.size(), instead);
+          at += isWhole ? instead.size() : word.size();
+        }
     }
     return text;
   }

@@ -384,7 +384,7 @@ class StudyReader {
   }
 
   void readOutput(const toml::table& table) {
-    const TomlSection section(source_, table, "output", {"name", "quantity", "unit"});
+    const TomlSection section(source_, table, "output", {"name", "quantity", "unit", "resolution", "tightness"});
     const toml::node& node = section.require("quantity", "what is wanted, such as \"tip.position.z\" or \"energy\"");
     const std::string quantity = source_.asText(node, "output.quantity");
     const std::string own = unitOfOutput(node, quantity), unit = statedUnit(section, own);
@@ -393,8 +393,28 @@ class StudyReader {
       const toml::node* at = section.find("name");
       source_.fail(at == nullptr ? node : *at, fmt::format("two outputs are named '{}'", name), "different names");
     }
-    study_.outputs.push_back({name, quantity, unit});
+    OutputInfo output{name, quantity, unit};
+    if (const toml::node* stated = section.find("resolution")) output.resolution = resolutionOf(*stated, unit);
+    if (const toml::node* stated = section.find("tightness")) {
+      if (study_.analysis == Study::Analysis::kinematics)
+        source_.fail(*stated, "output.tightness has no meaning in kinematics", "no such key");
+      output.tightness = nearest(source_.asAmount(*stated, "output.tightness", {}));
+      if (!(output.tightness > 1 && std::isfinite(output.tightness)))
+        source_.fail(*stated, fmt::format("output.tightness is {}", output.tightness),
+                     "a number above 1: how many times wider than necessary its enclosure may be");
+    }
+    study_.outputs.push_back(std::move(output));
     outputNodes_.push_back(&node);
+  }
+
+  /// In the output's unit; as there, a number without unit is in the SI unit.
+  double resolutionOf(const toml::node& node, const std::string& unit) const {
+    const Amount one = parseAmount("1 " + (unit.empty() || unit == "1" ? std::string() : unit));
+    const double resolution = nearest(source_.asAmount(node, "output.resolution", one.dimension)) / nearest(one);
+    if (!(resolution >= 0 && std::isfinite(resolution)))
+      source_.fail(node, fmt::format("output.resolution is {}", resolution),
+                   "a number that is not negative: differences up to it count for nothing");
+    return resolution;
   }
 
   // ---- [interval], [stochastic], [distribution], [fuzzy], [limits]

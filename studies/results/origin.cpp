@@ -65,7 +65,14 @@ std::vector<Field> fieldsOfExtension(ExtensionInfo& e) {
 std::vector<Field> fieldsOfOutput(OutputInfo& o) {
   return {{dimension::output, &o.name, unit::none, "name of the output", {}},
           {"quantity", &o.quantity, unit::none, "quantity of the mechanism", {}},
-          {"unit", &o.unit, unit::none, "its unit: SI, unless the study states another", {}}};
+          {"unit", &o.unit, unit::none, "its unit: SI, unless the study states another", {}},
+          {"resolution",
+           &o.resolution,
+           unit::none,
+           "in its unit: differences up to this count for nothing; 0: none was stated",
+           {},
+           {0, allowed::finite.greatest}},
+          {"tightness", &o.tightness, unit::none, "asked for of it alone; NaN: as of all others", {}}};
 }
 
 std::vector<Field> fieldsOfUncertain(UncertainInfo& u) {

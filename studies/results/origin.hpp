@@ -32,6 +32,8 @@ struct ShapeInfo {
 
 struct OutputInfo {
   std::string name, quantity, unit;
+  double resolution = 0;  ///< in its unit: differences up to this count for nothing
+  double tightness = std::numeric_limits<double>::quiet_NaN();  ///< that was asked for; NaN: as of all others
 };
 
 struct LibraryInfo {

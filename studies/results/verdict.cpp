@@ -1,9 +1,13 @@
 // Every comparison of samples with what is proved, from the stored numbers.
 #include "studies/results/verdict.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+
+#include "studies/words.hpp"
 
 namespace gamut {
 namespace {
@@ -225,6 +229,28 @@ class Finder {
 };
 
 }  // namespace
+
+std::string unboundedText(const Results& results, const Finding& finding) {
+  if (finding.unbounded == 0) return {};
+  const Excursion& first = finding.firstUnbounded;
+  const std::string until = timeText(results.time[first.time]);
+  const bool isBetween = first.bound == Bound::tube && first.time > 0;
+  return fmt::format("nothing finite is guaranteed of {}{}{}: it may be infinite or undefined for some values",
+                     results.outputs[first.output].name,
+                     isBetween ? fmt::format(" between {} and {}", timeText(results.time[first.time - 1]), until)
+                     : results.horizon > 0 ? " at " + until
+                                           : "",
+                     finding.unbounded > 1 ? fmt::format(" (and {} more bounds)", finding.unbounded - 1) : "");
+}
+
+std::string whyIncomplete(const Results& results, const Finding& finding) {
+  std::string why = whyEnded(results);
+  if (!why.empty()) return why;
+  if (finding.unbounded > 0) return unboundedText(results, finding);
+  if (finding.word != "incomplete" || finding.gap == Gap::noAnswers) return {};
+  return finding.missing > 0 ? fmt::format("{} of the numbers to compare are missing", finding.missing)
+                             : "an analysis ended before all was done";
+}
 
 bool endsEarly(const Results& results, const Answer& answer) {
   return answer.present && (results.horizon > 0 ? answer.reached < results.horizon : !answer.why.empty());

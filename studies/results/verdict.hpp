@@ -65,6 +65,14 @@ struct Finding {
 /// disputed sample, does not fit.
 Finding findVerdict(const Results& results);
 
+/// Of which output nothing finite is guaranteed, and when: "nothing finite is guaranteed of x between 1 s and 2 s: …".
+/// Empty if there is none.
+std::string unboundedText(const Results& results, const Finding& finding);
+
+/// Why not all that was asked for is known: why the run ended, or else what of its answers is missing. Empty if
+/// everything is.
+std::string whyIncomplete(const Results& results, const Finding& finding);
+
 /// It neither arrived at the horizon nor, where nothing moves, had all that it could have.
 bool endsEarly(const Results& results, const Answer& answer);
 

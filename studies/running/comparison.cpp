@@ -50,7 +50,7 @@ void compareAnswers(Run& run) {
   const bool isOfTheStartAlone = study.motion.times.size() > 1 && compared <= 1;
   if (study.asksFor<IntervalResult>() && sampled > 0 && !isOfTheStartAlone) {
     Overestimation found = measureOverestimation({results.interval.at, run.enclosed.reachedTimes},
-                                                 results.stochastic.envelope, results.stochastic.error);
+                                                 results.stochastic.envelope, results.stochastic.error, floorsOf(run));
     comparison.overestimation = std::move(found.ratio);
     comparison.excess = std::move(found.excess);
     comparison.maximum = found.maximum;

@@ -1,7 +1,9 @@
 // What is guaranteed and what is possible come from one flow over nested boxes, or, where nothing moves, from one
 // image.
 #include <algorithm>
+#include <cmath>
 #include <iterator>
+#include <limits>
 #include <new>
 #include <stdexcept>
 
@@ -26,6 +28,15 @@ void encloseMotion(Run& run) {
   flow.progress = run.progressOf("enclosure");
   for (const OutputInfo& output : run.study.outputs) flow.outputNames.push_back(output.name);
   if (run.seen.isEnclosed) flow.aside = {run.seen.positions, run.seen.at};
+  flow.floors = floorsOf(run);
+  for (const OutputInfo& output : run.study.outputs)
+    flow.tightnessOf.push_back(std::isnan(output.tightness) ? flow.tightness : output.tightness);
+  constexpr double saysNothing = 1e6;
+  for (std::size_t o = 0; o < run.scales.size(); ++o) {
+    const OutputScale& scale = run.scales[o];
+    flow.mostWidth.push_back(scale.vanishes ? std::numeric_limits<double>::infinity()
+                                            : saysNothing * std::max({scale.size, scale.span, flow.floors[o]}));
+  }
   flow.uncounted = marginOutputs(run.study);  // a flow of their own comes where these are too loose
   flow.modelled = flow.uncounted;
   if (asksForDistributions(run.study)) flow.modelledAt = plainOutputs(run.study);

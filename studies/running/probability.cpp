@@ -76,6 +76,7 @@ class Probabilities {
     for (std::size_t at = 0; at < rows_.size(); ++at)
       for (std::size_t k = 0; k < outputs_.size(); ++k) {
         const auto output = static_cast<std::size_t>(outputs_[k]);
+        if (isNothing(output)) continue;  // one value, with all of the probability
         const DistributionBounds& bounds = found_[at * outputs_.size() + k];
         const std::size_t begin = result.begin(at, output, count_), cell = at * count_ + output;
         areAllKnown = areAllKnown && !bounds.value.empty();
@@ -97,6 +98,8 @@ class Probabilities {
   }
 
  private:
+  bool isNothing(std::size_t output) const { return !run_.scales.empty() && run_.scales[output].isNothing(); }
+
   /// Whether errors of the polynomials, beside what they vary by, keep bounds apart that are asked for.
   bool isVague() const {
     constexpr double part = 0.05;
@@ -105,6 +108,7 @@ class Probabilities {
       if (!parts) return true;
       for (std::size_t k = 0; k < outputs_.size(); ++k)
         for (const SurrogatePart& each : *parts) {
+          if (isNothing(static_cast<std::size_t>(outputs_[k]))) break;
           const OutputModel& model = each.outputs[k];
           double varies = model.c.empty() ? width(model.bound) : 0;
           for (std::size_t g = 1; g < model.c.size(); ++g) varies += std::fabs(model.c[g]);

@@ -183,6 +183,7 @@ void takeFirstSamples(Run& run) {
     describeTransformation(run);
     ensemble.integrateFirst();
     if (*run.watch.stop()) stochastic.stopped = run.watch.why();
+    if (run.study.asksFor<IntervalResult>()) run.scales = scalesOf(run);
   });
 }
 

@@ -40,6 +40,16 @@ struct Enclosed {
   double modelTightness = 0;  ///< that the models' flow was to have; 0: that of the study
 };
 
+/// An output as the first samples show it.
+struct OutputScale {
+  double size = 0, span = 0;  ///< the greatest that it is; the farthest that samples are apart at one time
+  bool vanishes = false;      ///< it is zero but for roundings and the samples' errors
+  bool isSteady = false;      ///< nothing that is uncertain moves it by more than these
+
+  /// Nothing is to be compared.
+  bool isNothing() const { return vanishes || isSteady; }
+};
+
 /// One run on its way.
 struct Run {
   Run(const Study& whatIsAsked, const RunOptions& howToRun);
@@ -57,6 +67,7 @@ struct Run {
   Results results;
   Seen seen;                            ///< filled by `lookAtMachine`
   Enclosed enclosed;                    ///< filled by `enclose`
+  std::vector<OutputScale> scales;      ///< filled by `takeFirstSamples`; empty where samples do not show them
   std::vector<Suspects> suspects;       ///< of each requirement
   std::optional<JointMasses> masses;    ///< of the quantities in the symbols of models; by `jointMasses`
   std::vector<FlowSymbol> symbols;      ///< those symbols
@@ -103,6 +114,12 @@ inline constexpr void (*units[])(Run&) = {stateRequirements, lookAtMachine,     
 /// Those that samples ask for, where all else is there.
 inline constexpr void (*unitsOfSamples[])(Run&) = {
     takeFirstSamples, takeOtherSamples, countRequirements, refuteRequirements, compareShares, noteStop, compareAnswers};
+
+/// What the first samples show of the outputs: sizes that are to be compared with; up to the horizon or not at all.
+std::vector<OutputScale> scalesOf(const Run& run);
+
+/// Differences of an output up to this count for nothing: what was stated, and a millionth of what samples span.
+std::vector<double> floorsOf(const Run& run);
 
 /// Where points certainly are, by the flow's tube, or, where nothing moves, by the image of the box.
 void enclosePlaces(Run& run, const Tube& tube);

@@ -241,7 +241,7 @@ TEST(Orientation, TheRotationVectorIsNowhereBeyondHalfATurn) {
     turned.setState(std::vector<Interval>{angle, 0.0});
     const Interval found = turned.output("A.rotation_vector.y");
     EXPECT_LE(magnitude(found), 3.1415926535897940) << angle;
-    EXPECT_TRUE(contains(found, angle.lower())) << found << " " << angle;
+    EXPECT_TRUE(contains(found, std::max(angle.lower(), -3.0))) << found << " " << angle;  // -4 is 2.3
   }
 }
 

@@ -12,6 +12,8 @@
 
 #include "reports/report.hpp"
 #include "reports/verdict.hpp"
+#include "studies/summary.hpp"
+#include "studies/words.hpp"
 #include "tests/reports/example_results.hpp"
 
 namespace gamut {
@@ -301,6 +303,15 @@ TEST(Verdict, NamesTheOutputOfWhichNothingFiniteIsGuaranteed) {
   EXPECT_THAT(verdict.sentence, HasSubstr("Not every output is bounded."));
   EXPECT_THAT(verdict.notes, Contains(AllOf(HasSubstr("Nothing finite is guaranteed of " + results.outputs[1].name),
                                             HasSubstr("infinite or undefined for some values"))));
+  EXPECT_EQ(whyIncomplete(results, verdict), unboundedText(results, verdict));
+  EXPECT_THAT(jsonSummary(results, verdict.word, {}), HasSubstr("\"why\":\"nothing finite is guaranteed of "));
+}
+
+TEST(Verdict, SaysBetweenWhichTimesNothingFiniteIsGuaranteed) {
+  Results results = example::pendulum(61, 2);
+  results.interval.over.lower(40, 1) = -std::numeric_limits<double>::infinity();
+  EXPECT_THAT(whyIncomplete(results, judge(results)), HasSubstr(" between " + timeText(results.time[39]) + " and " +
+                                                                timeText(results.time[40]) + ": it may be"));
 }
 
 TEST(Verdict, OfPositionsWhoseEnclosureWasEndedIsIncompleteAndSaysWhy) {

@@ -36,6 +36,40 @@ TEST(PrintedBounds, KeepInfinitiesAndHaveNoNumberForNaN) {
   EXPECT_EQ(intervalText(std::numeric_limits<double>::quiet_NaN(), 1, 4), "none");
 }
 
+TEST(Numbers, AreWrittenInFullUpToTenMillion) {
+  EXPECT_EQ(numberText(19632, 3), "19600");
+  EXPECT_EQ(numberText(-2e6, 1), "-2000000");
+  EXPECT_EQ(numberText(1.96e7, 3), "1.96e+07");
+  EXPECT_EQ(numberText(0.000196, 2), "0.0002");
+  EXPECT_EQ(outwardText(19632, 19633, 3), Ends("19600", "19700"));
+  EXPECT_EQ(atMostText(123456, 2), "130000");
+}
+
+TEST(Numbers, OfHardlyAnythingHaveNoDigits) {
+  EXPECT_EQ(tellingText(3.8e-87, 2), "less than 1e-08");
+  EXPECT_EQ(tellingText(0.0123, 2), "0.0123");
+  EXPECT_EQ(atMostText(3.8e-87, 2, 2.0), "1e-08");
+  EXPECT_EQ(boundsText(-3.8e-87, 1e-90), Ends("-1e-24", "1e-24"));
+  EXPECT_EQ(boundsText(-3.8e-12, 0, 0.9), Ends("-1e-09", "0"));
+}
+
+TEST(PrintedBounds, HaveTheDigitsThatTheirWidthJustifies) {
+  EXPECT_EQ(boundsText(-114.3812, 51.4621), Ends("-114.4", "51.5"));
+  EXPECT_EQ(boundsText(19999.75, 20000.25), Ends("19999.7500", "20000.2500"));
+  EXPECT_EQ(boundsText(0, 0), Ends("0", "0"));
+  EXPECT_EQ(boundsText(-1e-19, 20.125), Ends("-1e-07", "20.13"));
+  EXPECT_EQ(boundsText(-20.125, 1e-19), Ends("-20.13", "1e-07"));
+  EXPECT_EQ(boundsText(2e8, 2.5e8), Ends("2e+08", "2.5e+08"));
+  EXPECT_EQ(boundsText(1, std::numeric_limits<double>::infinity()), Ends("1", "inf"));
+  for (const double size : {1e-30, 1e-6, 1.0, 3e5, 1e12})
+    for (double low = -2; low < 2; low += 0.37)
+      for (const double width : {0.0, 1e-15, 1e-9, 0.1, 5.0}) {
+        const auto [lower, upper] = boundsText(size * low, size * (low + width), size);
+        EXPECT_LE(Interval::parse(lower).upper(), size * low) << lower;
+        EXPECT_GE(Interval::parse(upper).lower(), size * (low + width)) << upper;
+      }
+}
+
 TEST(AtMost, IsNeverLessThanTheNumber) {
   EXPECT_EQ(atMostText(1.00401, 4), "1.005");
   EXPECT_EQ(atMostText(1.5, 4), "1.5");

@@ -239,6 +239,37 @@ TEST(Requirements, AreSampledWithoutAGuarantee) {
   EXPECT_EQ(named(results, "met").violating, 0);
 }
 
+TEST(Requirements, AreToldInTheUnitOfTheOutputOrOfTheLimit) {
+  const std::string outputs = "[[output]]\nname = \"height\"\nquantity = \"tip.position.z\"\nunit = \"mm\"\n";
+  const Study study = read(withRequirements(outputs + R"(
+[[requirement]]
+name = "a"
+always = "'height' < 0.2 m"
+[[requirement]]
+name = "b"
+always = "hinge.angle < 40 deg"
+[[requirement]]
+name = "c"
+always = "abs(hinge.angle) < 1"
+[[requirement]]
+name = "d"
+always = "hinge.rate > -400 rpm"
+[[requirement]]
+name = "e"
+always = "tip.position.z - 1 mm < tip.position.y + 2 m"
+)"));
+  std::vector<std::string> units;
+  for (const Requirement& requirement : study.requirements)
+    units.push_back(study.outputs[requirement.margins.front()].unit);
+  EXPECT_THAT(units, ::testing::ElementsAre("mm", "deg", "rad", "rpm", "m"));
+  const Results results = run(study, {});
+  const std::size_t height = 2, margin = study.requirements[0].margins.front();
+  for (std::size_t i = 0; i < results.time.size(); ++i)
+    EXPECT_NEAR(results.interval.at.lower(i, margin), 200 - results.interval.at.upper(i, height), 1e-9);
+  EXPECT_EQ(named(results, "a").word, "met");
+  EXPECT_EQ(named(results, "d").word, "met");
+}
+
 /// A hinge that is driven at 2 rad/s beside one that turns at 1 rad/s: in one step, of angles that are kinks at first.
 TEST(Requirements, AreProvedOfAnglesBetweenOutputTimes) {
   const std::string study = R"([study]

@@ -45,10 +45,10 @@ TEST(JsonSummary, HasTheDocumentedKeys) {
   EXPECT_EQ(text.find('\n'), std::string::npos);
   const Json json = Json::parse(text);
   EXPECT_THAT(keysOf(json),
-              ElementsAre("alpha_cuts", "cost", "dependence", "derivatives", "distribution", "enclosure", "envelope",
-                          "excursion", "files", "horizon", "integrated", "limits", "overestimation", "reached",
-                          "requirements", "samples", "sensitivity", "shortfall", "statistics", "stopped", "tightness",
-                          "verdict", "version", "why"));
+              ElementsAre("advice", "alpha_cuts", "cost", "dependence", "derivatives", "distribution", "enclosure",
+                          "envelope", "excursion", "files", "horizon", "integrated", "limits", "outputs",
+                          "overestimation", "reached", "requirements", "samples", "sensitivity", "shortfall",
+                          "statistics", "stopped", "tightness", "verdict", "version", "why"));
   EXPECT_THAT(keysOf(json["overestimation"]), ElementsAre("max", "median", "outputs"));
   EXPECT_THAT(keysOf(json["cost"]), ElementsAre("fuzzy", "interval", "memory", "report", "stochastic", "total"));
   EXPECT_THAT(keysOf(json["limits"]),
@@ -110,6 +110,27 @@ TEST(TextSummary, ShowsTheLastRowReachedRoundedOutward) {
   EXPECT_THAT(text, HasSubstr("; in all 2.25 of 1800 s, 1.50 of 8 GB\n"));
   results.stochastic.integrated = results.stochastic.planned();
   EXPECT_THAT(textSummary(results), HasSubstr(" 4096 samples 1.50 s"));
+}
+
+TEST(TextSummary, LeadsWithTheLeastAndTheGreatestOfTheWholeMotion) {
+  Results results = sampleResults();
+  results.requirements.clear();  // whose margins they are
+  results.interval.over = results.interval.at;
+  for (std::size_t i = 0; i < 2; ++i) {
+    results.interval.at.lower(i, 0) = results.interval.over.lower(i, 0) = 1;
+    results.interval.at.upper(i, 0) = results.interval.over.upper(i, 0) = 2;
+  }
+  results.interval.over.upper(1, 0) = 3.5;  // between both times
+  const std::string text = textSummary(results);
+  EXPECT_THAT(text, HasSubstr("guaranteed from 0 s to 0.01 s"));
+  EXPECT_THAT(text, HasSubstr("1.000"));
+  EXPECT_THAT(text, HasSubstr("3.500  between 0 s and 0.01 s"));
+  EXPECT_LT(text.find("guaranteed from"), text.find("at 0.01 s  "));
+  const Json json = Json::parse(jsonSummary(results, ""))["outputs"]["tip height"];
+  EXPECT_EQ(json["unit"], "m");
+  EXPECT_EQ(json["guaranteed"]["greatest"], Json({{"value", 3.5}, {"from", 0}, {"until", 0.01}}));
+  EXPECT_EQ(json["guaranteed"]["least"], Json({{"value", 1}, {"from", 0}, {"until", 0}}));
+  EXPECT_EQ(json["guaranteed"]["until"], 0.01);
 }
 
 /// Whether the decimals that the table shows for the first output lie outside these bounds, or on them, exactly.

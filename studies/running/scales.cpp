@@ -1,0 +1,83 @@
+// Numbers are great or small beside others of their kind: an output's own, over the whole motion.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "analyses/samples/witness.hpp"
+#include "scalars/evaluation/evaluator.hpp"
+#include "scalars/recorded.hpp"
+#include "studies/running/units.hpp"
+
+namespace gamut {
+namespace {
+
+/// What the last digit of states makes of each output, along the nominal motion: where terms cancel, all that is left.
+std::vector<double> grainsOf(const Run& run) {
+  constexpr std::size_t looks = 8;
+  constexpr double digit = 0x1p-50;
+  Motion motion = run.problem.motion.motion;
+  Evaluator<Interval> outputs(motion.g);
+  const int n = motion.f.states();
+  motion.g = record(n, motion.g.parameters(), n,
+                    [](const auto&, const auto& x, const auto&, auto& y) { std::ranges::copy(x, y.begin()); });
+  motion.outputNames.clear();
+  const std::vector<double>& start = run.problem.motion.nominal;
+  Table states(motion.times.size(), static_cast<std::size_t>(n));
+  if (n > 0)
+    Witness(motion, run.study.ensemble.method, run.watch.stop())
+        .integrate(start, run.study.ensemble.tolerance, states.data, run.results.limits.sampleTime);
+  const std::vector<Interval> parameters(start.begin() + n, start.end());
+  outputs.setParameters(parameters);
+  std::vector<double> grains(run.study.outputs.size(), 0.0);
+  const std::size_t last = motion.times.size() - 1;
+  for (std::size_t look = 0; look <= std::min(looks, last); ++look) {
+    const std::size_t row = look * last / std::max<std::size_t>(std::min(looks, last), 1);
+    std::vector<Interval> x;
+    for (int i = 0; i < n; ++i) {
+      const double value = states(row, static_cast<std::size_t>(i)), off = digit * std::abs(value);
+      if (std::isfinite(value)) x.emplace_back(value - off, value + off);
+    }
+    if (x.size() < static_cast<std::size_t>(n)) continue;
+    const std::vector<Interval> values = outputs(Interval(motion.times[row]), x);
+    for (std::size_t o = 0; o < grains.size(); ++o)
+      if (isCommon(values[o])) grains[o] = std::max(grains[o], width(values[o]));
+  }
+  return grains;
+}
+
+}  // namespace
+
+std::vector<OutputScale> scalesOf(const Run& run) {
+  if (!run.ensemble || run.study.uncertain.empty()) return {};
+  const Envelope first = run.ensemble->firstEnvelope();
+  const Table& error = run.ensemble->error();
+  std::vector<OutputScale> scales(run.study.outputs.size());
+  const std::vector<double> grains = grainsOf(run);
+  constexpr double telling = 100, hardly = 1000;
+  for (std::size_t o = 0; o < scales.size(); ++o) {
+    OutputScale& scale = scales[o];
+    scale.isSteady = scale.vanishes = true;
+    for (std::size_t t = 0; t < first.lower.times; ++t) {
+      const double low = first.lower(t, o), high = first.upper(t, o), size = std::max(std::abs(low), std::abs(high));
+      if (std::isnan(low) || std::isnan(high)) return {};
+      const double off = !error.empty() && std::isfinite(error(t, o)) ? telling * error(t, o) : 0;
+      scale.size = std::max(scale.size, size);
+      scale.span = std::max(scale.span, high - low);
+      if (high - low > std::max(off, telling * grains[o])) scale.isSteady = false;
+      if (size > std::max(off, hardly * grains[o])) scale.vanishes = false;
+    }
+  }
+  return scales;
+}
+
+std::vector<double> floorsOf(const Run& run) {
+  constexpr double millionth = 1e-6;
+  std::vector<double> floors;
+  for (const OutputInfo& output : run.study.outputs) floors.push_back(output.resolution);
+  for (std::size_t o = 0; o < run.scales.size(); ++o)
+    floors[o] = run.scales[o].isNothing() ? std::numeric_limits<double>::infinity()
+                                          : std::max(floors[o], millionth * run.scales[o].span);
+  return floors;
+}
+
+}  // namespace gamut
