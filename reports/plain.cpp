@@ -210,6 +210,15 @@ class Sentence {
 
 constexpr const char* everyCase = "in every case that the stated tolerances allow";
 
+/// When an output comes to its least and greatest, unless it is about there all the time.
+std::string extremesText(const Results& results, const MotionRange& range) {
+  const std::string least = whenText(results, range.least), greatest = whenText(results, range.greatest);
+  std::vector<std::string> parts;
+  if (least != "throughout") parts.push_back("least " + least);
+  if (greatest != "throughout") parts.push_back("greatest " + greatest);
+  return parts.empty() ? "" : fmt::format(" It is {}.", fmt::join(parts, ", "));
+}
+
 /// Between which numbers an output stays, when it comes there, and how far apart cases are at one time.
 std::string whereIs(const Results& results, std::size_t output) {
   const std::optional<MotionRange> range = bestMotionRange(results, output);
@@ -228,13 +237,10 @@ std::string whereIs(const Results& results, std::size_t output) {
     return fmt::format("{}\u201c{}\u201d lies between {} and {}{}{}.", begin, info.name, from, to, unit, end);
   const double size = motionSize(results, output);
   return fmt::format(
-      "{}\u201c{}\u201d stays between {} and {}{} from {} to {}{}{}. It is least {}, greatest {}. At {}, cases differ "
-      "by "
-      "{}{} at most.",
-      begin, info.name, from, to, unit, timeText(results.time.front()), timeText(range->until),
-      range->isBetween ? "" : " (looked at the output times)", end, whenText(results, range->least),
-      whenText(results, range->greatest), range->isAtAllTimes ? "any output time" : "the times that are known",
-      atMostText(range->width, 2, size), unit);
+      "{}\u201c{}\u201d stays between {} and {}{} from {} to {}{}{}.{} At {}, cases differ by {}{} at most.", begin,
+      info.name, from, to, unit, timeText(results.time.front()), timeText(range->until),
+      range->isBetween ? "" : " (looked at the output times)", end, extremesText(results, *range),
+      range->isAtAllTimes ? "any output time" : "the times that are known", atMostText(range->width, 2, size), unit);
 }
 
 std::string ofRequirements(const Results& results) {
