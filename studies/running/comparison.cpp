@@ -60,11 +60,15 @@ void compareAnswers(Run& run) {
   TransformationResult& transformation = results.fuzzy.transformation;
   if (transformation.present && !results.fuzzy.inner.empty()) {
     const CutGaps gaps = measureGaps(results.fuzzy.outer, results.fuzzy.inner, results.stochastic.error, compared);
+    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
     transformation.gap = gaps.gap;
     transformation.gapTime.clear();
-    for (const std::size_t row : gaps.row)
-      transformation.gapTime.push_back(row < results.time.size() ? results.time[row]
-                                                                 : std::numeric_limits<double>::quiet_NaN());
+    for (std::size_t i = 0; i < gaps.row.size(); ++i) {
+      const bool isNothing = !run.scales.empty() && run.scales[i % run.scales.size()].isNothing();
+      if (isNothing) transformation.gap[i] = unknown;  // there is nothing that could be filled
+      transformation.gapTime.push_back(gaps.row[i] < results.time.size() && !isNothing ? results.time[gaps.row[i]]
+                                                                                       : unknown);
+    }
   }
   comparison.verdict = findVerdict(results).word;
 }
