@@ -59,6 +59,7 @@ TEST(JsonSummary, HasTheDocumentedKeys) {
   EXPECT_EQ(json["samples"], 4096);
   EXPECT_EQ(json["tightness"], 1.25);
   EXPECT_EQ(json["shortfall"], "at 0.01 s tip may be 1.25 times as wide as necessary: bisection is switched off");
+  EXPECT_EQ(json["advice"], "interval.split = true");
   EXPECT_EQ(json["integrated"], 1000);
   EXPECT_EQ(json["why"], "the enclosure became wider than 1e6; the run was interrupted");
   EXPECT_EQ(json["stopped"], "the run was interrupted");
