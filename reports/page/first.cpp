@@ -39,7 +39,9 @@ std::size_t widestOutput(const Results& results) {
       high = std::max(high, upper);
       width = std::max(width, upper - lower);
     }
-    const double size = results.time.size() > 1 ? high - low : std::max(std::abs(low), std::abs(high));
+    constexpr double hardly = 0.1;  // of its greatest: what moves by less than that varies little
+    const double most = std::max(std::abs(low), std::abs(high)),
+                 size = results.time.size() > 1 ? std::max(high - low, hardly * most) : most;
     const double share = size > 0 ? width / size : 0;
     if (!isMargin(results, o) && share > greatest) greatest = share, widest = o;
   }

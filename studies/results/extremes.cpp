@@ -63,17 +63,17 @@ std::optional<MotionRange> motionRange(const Results& results, std::size_t outpu
     take(range.least, i, of.lower(i, output), at->lower(i, output), i > 0 ? at->lower(i - 1, output) : 0, true);
     take(range.greatest, i, of.upper(i, output), at->upper(i, output), i > 0 ? at->upper(i - 1, output) : 0, false);
   }
-  const auto spread = [&](Extreme& extreme, const Table& bounds) {  // over nearly all of the time, as what is conserved
-    constexpr double alike = 0.01, nearlyAll = 0.9;
+  const auto spread = [&](Extreme& extreme, const Table& bounds, double farthest) {  // as far nearly all of the time
+    constexpr double alike = 0.05, nearlyAll = 0.9;
     std::size_t near = 0;
     for (std::size_t i = 0; i < bounds.times; ++i)
-      if (std::abs(bounds(i, output) - extreme.value) <= alike * (high - low)) ++near;
+      if (std::abs(bounds(i, output) - farthest) <= alike * (high - low)) ++near;
     if (known < 3 || static_cast<double>(near) < nearlyAll * static_cast<double>(known)) return;
     extreme.from = results.time.front();
     extreme.until = range.until;
   };
-  spread(range.least, at->lower);
-  spread(range.greatest, at->upper);
+  spread(range.least, at->lower, low);
+  spread(range.greatest, at->upper, high);
   range.isAtAllTimes = known == results.time.size();
   return range;
 }
