@@ -12,6 +12,7 @@
 #include <stdexcept>
 
 #include "analyses/samples/arbiter.hpp"
+#include "analyses/samples/named_corners.hpp"
 #include "analyses/samples/pack_witness.hpp"
 #include "analyses/workers.hpp"
 #include "scalars/program/sides.hpp"
@@ -171,16 +172,50 @@ TransformationPoints insidePoints(const Sampling& sampling, const std::vector<Bo
   return extendedPoints(cuts, turning, mostExtendedPoints - scan.points().size(), areCornersMissing);
 }
 
+/// Samples come to a jump each at its own time: they cannot share steps.
+std::size_t widthOf(const Motion& motion, Method method) {
+  return method == Method::adams && jumpsOf(motion.forSamples()).empty() ? packWidth : 1;
+}
+
+/// Of the boxes of which not all corners are sampled otherwise; the ranges are one of them.
+TransformationPoints namedCornersOf(const UncertainMotion& system, const EnsembleOptions& options,
+                                    const Sampling& sampling) {
+  const std::size_t quantities = system.uncertain.size(), all = std::min<std::size_t>(quantities, 32);
+  std::vector<Box> boxes;
+  Box range;
+  std::vector<double> nominal;
+  for (const Uncertain& q : system.uncertain) range.push_back(q.range), nominal.push_back(q.nominal);
+  if (sampling.corners() < std::size_t{1} << all) boxes.push_back(range);
+  const std::size_t inner = sampling.boxes().size();
+  constexpr std::size_t fewQuantities = 8;  // corners of inner boxes are among the points of the transformation
+  if (quantities > fewQuantities && sampling.boxCorners() < inner << all)
+    boxes.insert(boxes.end(), sampling.boxes().begin(), sampling.boxes().end());
+  if (boxes.empty()) return {};
+  const std::vector<std::vector<double>> points = axisPoints(range, nominal);
+  const std::size_t times = system.motion.times.size(), outputs = system.motion.outputs();
+  SampleBlock block(0, points.size(), false, quantities, times, outputs);
+  for (std::size_t i = 0; i < points.size(); ++i) std::ranges::copy(points[i], block.values(i).begin());
+  const std::size_t width = widthOf(system.motion, options.method);
+  PieceIntegrator integrator(system, options, width);
+  for (const Piece& piece : piecesOf(block.size(), width)) integrator.integrate(block, piece, [](std::size_t) {});
+  for (std::size_t i = 0; i < block.size(); ++i)
+    if (block.runs[i].times < times) return {};
+  return namedCorners(block, boxes, times, outputs);
+}
+
 /// The points of the transformation, as far as they are known. Throws std::invalid_argument if they are too many.
-void addPoints(Sampling& sampling, const EnsembleOptions& options, const std::vector<Box>& cuts, const TurnScan& scan) {
-  if (cuts.empty() || sampling.quantities() == 0) return;
+void addPoints(const UncertainMotion& system, Sampling& sampling, const EnsembleOptions& options,
+               const std::vector<Box>& cuts, const TurnScan& scan) {
+  if (sampling.quantities() == 0) return;
+  if (cuts.empty()) return sampling.add(namedCornersOf(system, options, sampling));
   if (options.transformation == Transformation::general) {
     if (generalCount(cuts) > static_cast<double>(mostGeneralPoints))
       throw std::invalid_argument("the general transformation method has too many points here");
     sampling.add(generalPoints(cuts));
   }
+  if (options.transformation == Transformation::extended) sampling.add(scan.points());
+  sampling.add(namedCornersOf(system, options, sampling));
   if (options.transformation != Transformation::extended) return;
-  sampling.add(scan.points());
   if (options.turning) sampling.add(insidePoints(sampling, cuts, scan, *options.turning));
 }
 
@@ -193,11 +228,6 @@ std::size_t levelsHolding(const std::vector<Box>& cuts, std::span<const double> 
     ++levels;
   }
   return levels;
-}
-
-/// Samples come to a jump each at its own time: they cannot share steps.
-std::size_t widthOf(const Motion& motion, Method method) {
-  return method == Method::adams && jumpsOf(motion.forSamples()).empty() ? packWidth : 1;
 }
 
 }  // namespace
@@ -238,12 +268,14 @@ EnsembleRun::EnsembleRun(const UncertainMotion& system, EnsembleOptions options)
       nextBeside_(sampling_.samples()),
       nextPoint_(sampling_.centre() + 1),
       total_((sampling_.samples() + errorStride_ - 1) / errorStride_) {
-  addPoints(sampling_, options_, cuts_, scan_);
+  addPoints(system, sampling_, options_, cuts_, scan_);
   total_ += mostSamples();
 }
 
 std::size_t EnsembleRun::mostSamples() const {
-  return scan_.points().size() > 0 && !turning_ ? sampling_.centre() + 1 + mostExtendedPoints : sampling_.size();
+  return scan_.points().size() > 0 && !turning_
+             ? std::max(sampling_.size(), sampling_.centre() + 1 + mostExtendedPoints + mostNamedCorners)
+             : sampling_.size();
 }
 
 std::size_t EnsembleRun::packWidth() const { return widthOf(system_.motion, options_.method); }
@@ -495,7 +527,7 @@ SampleBlock replaySample(const UncertainMotion& system, const EnsembleOptions& o
   std::vector<double> levels;
   Sampling sampling = plannedSampling(system, options, levels);
   const std::vector<Box> cuts = cutsOf(system.uncertain, options.alpha);
-  addPoints(sampling, options, cuts, scanOf(system, options, cuts));
+  addPoints(system, sampling, options, cuts, scanOf(system, options, cuts));
   if (number >= sampling.size()) throw std::invalid_argument("no sample has the number " + std::to_string(number));
   const bool hasWeight = number < sampling.samples();
   const Sampling::Zone zone = sampling.zoneOf(number);
