@@ -78,9 +78,10 @@ ExitCode parseAndRun(int argc, char** argv) {
   return action();
 }
 
+/// Whether anybody reads it changes nothing.
 ExitCode complain(ExitCode code, const std::string& line) {
   constexpr std::size_t most = 8000;  // characters: more than any line that quotes what it complains of in part
-  fmt::print(stderr, "{}\n", printable(shortened(line, most)));
+  std::fputs((printable(shortened(line, most)) + "\n").c_str(), stderr);
   return code;
 }
 

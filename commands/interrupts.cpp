@@ -42,14 +42,7 @@ void handle(int kind) {
   }
 }
 
-void handleAll(bool endsAtOnce, const std::string& how) {
-  const std::size_t next = (lastText + 1) % texts.size();
-  const std::string line = "gamut: " + how;
-  const std::size_t size = std::min(line.size(), texts[next].size() - 2);
-  std::copy_n(line.begin(), size, texts[next].begin());
-  texts[next][size] = '\n';
-  texts[next][size + 1] = '\0';
-  lastText = next;
+void handleAll(bool endsAtOnce) {
   isTerminal = ::isatty(STDERR_FILENO) == 1;
   for (std::size_t i = 0; i < kinds.size(); ++i) {
     isEnd[i] = endsAtOnce;
@@ -64,11 +57,25 @@ void handleAll(bool endsAtOnce, const std::string& how) {
 
 }  // namespace
 
-void endOnInterrupt(const std::string& how) { handleAll(true, how); }
+void endOnInterrupt() {
+  sayOnInterrupt("interrupted");
+  handleAll(true);
+}
 
 void noteInterrupts() {
   ::signal(SIGPIPE, SIG_IGN);  // what nobody reads any more must not cost what was computed
-  handleAll(false, "interrupted again; nothing was written");
+  sayOnInterrupt("interrupted again; nothing was written");
+  handleAll(false);
+}
+
+void sayOnInterrupt(const std::string& line) {
+  const std::string words = "gamut: " + line;
+  const std::size_t next = (lastText + 1) % texts.size();
+  const std::size_t size = std::min(words.size(), texts[next].size() - 2);
+  std::copy_n(words.begin(), size, texts[next].begin());
+  texts[next][size] = '\n';
+  texts[next][size + 1] = '\0';
+  lastText = next;
 }
 
 const std::atomic<bool>& interrupted() { return isNoted; }

@@ -7,13 +7,15 @@
 
 namespace gamut {
 
-/// From now on an interrupt ends the program at once, with the exit code that says so, and says `how`; one that was
-/// noted before does not.
-void endOnInterrupt(const std::string& how = "interrupted");
+/// From now on an interrupt ends the program at once, with the exit code that says so.
+void endOnInterrupt();
 
 /// From now on an interrupt is only noted, so that what was computed can be kept; a second one of its kind ends the
 /// program.
 void noteInterrupts();
+
+/// What is said from now on where an interrupt ends the program: one line.
+void sayOnInterrupt(const std::string& line);
 
 /// Set by the first interrupt that is noted.
 const std::atomic<bool>& interrupted();

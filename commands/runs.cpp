@@ -26,10 +26,12 @@
 namespace gamut {
 namespace {
 
+/// For people who may not read it any more.
+void sayAside(const std::string& line) { std::fputs((printable(line) + "\n").c_str(), stderr); }
+
 /// The last resort against a run without end: no file is touched.
 [[noreturn]] void endAtOnce(const std::string& why) {
-  fmt::print(stderr, "gamut: {}, and the preparation of the enclosure could not be ended; nothing was written\n", why);
-  std::fflush(stderr);
+  sayAside(fmt::format("gamut: {}, and the preparation of the enclosure could not be ended; nothing was written", why));
   endNow(endedEarly);
 }
 
@@ -53,18 +55,15 @@ void say(const Results& results, const Verdict& verdict, const ResultFiles& file
   if (arguments.json) fmt::print("{}\n", jsonSummary(results, results.comparison.present ? verdict.word : "", files));
 }
 
-/// For people who may not read it any more.
-void sayAside(const std::string& line) { std::fputs((printable(line) + "\n").c_str(), stderr); }
-
 std::string inWords(const std::exception& error) {
   return dynamic_cast<const std::bad_alloc*>(&error) != nullptr ? "out of memory" : error.what();
 }
 
-/// The results are safe: an interrupt, or whatever keeps the page from being drawn, costs no more than the page.
+/// The results are safe: whatever keeps the page from being drawn costs no more than the page.
 void drawPage(const Results& results, OutputFile& page, ResultFiles& files) {
   const std::string again = fmt::format("{} is written; draw its page by: gamut report {} -o {} --force", files.results,
                                         shellQuoted(files.results), shellQuoted(page.path()));
-  endOnInterrupt("interrupted before the page was drawn; " + again);
+  sayOnInterrupt("interrupted before the page was drawn; " + again);
   const double start = processCpuSeconds();
   try {
     page.write(renderReport(results));
@@ -73,7 +72,7 @@ void drawPage(const Results& results, OutputFile& page, ResultFiles& files) {
   } catch (const std::exception& error) {
     throw WriteError(fmt::format("{}: cannot be drawn ({}); {}", page.path(), inWords(error), again));
   }
-  endOnInterrupt();
+  sayOnInterrupt("interrupted");
   files.report = page.path();
   files.reportCpu = processCpuSeconds() - start;
 }

@@ -55,7 +55,13 @@ void ProgressBar::update(const std::string& task, double fraction) {
   if (now - drawn_ < std::chrono::milliseconds(100)) return;
   drawn_ = now;
   visible_ = true;
-  fmt::print(stream_, "\r{}\033[K", progressLine(task, fraction, std::chrono::duration<double>(now - begun_).count()));
+  const double elapsed = std::chrono::duration<double>(now - begun_).count();
+  show(fmt::format("\r{}\033[K", progressLine(task, fraction, elapsed)));
+}
+
+/// A terminal that was closed is no reason for a run to fail.
+void ProgressBar::show(const std::string& text) {
+  std::fputs(text.c_str(), stream_);
   std::fflush(stream_);
 }
 
@@ -66,8 +72,7 @@ void ProgressBar::wipe() {
 
 void ProgressBar::wipeLocked() {
   if (!visible_) return;
-  fmt::print(stream_, "\r\033[K");
-  std::fflush(stream_);
+  show("\r\033[K");
   visible_ = false;
 }
 

@@ -25,6 +25,7 @@ class ProgressBar {
  private:
   using Clock = std::chrono::steady_clock;
   void wipeLocked();
+  void show(const std::string& text);
 
   std::FILE* stream_;
   bool enabled_;

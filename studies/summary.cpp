@@ -258,7 +258,7 @@ Json textOrNull(const std::string& text) { return text.empty() ? Json(nullptr) :
 std::string shortBounds(const Results& results, const Bounds& bounds, std::size_t time, std::size_t output) {
   if (bounds.empty()) return "-";
   const double lower = bounds.lower(time, output), upper = bounds.upper(time, output);
-  if (std::isnan(lower) || std::isnan(upper)) return "-";
+  if (!(lower <= upper)) return "-";
   const auto [below, above] = boundsText(lower, upper, motionSize(results, output));
   return fmt::format("[{}, {}]", below, above);
 }

@@ -75,7 +75,11 @@ class Drawing {
   std::size_t numberOf(std::string_view kind) const {
     return static_cast<std::size_t>(std::ranges::count(m_.parts, kind, &PartInfo::kind));
   }
-  Sight seen(std::size_t point) const { return view_(at(point)); }
+  /// Of what is not known a place that is hidden.
+  Sight seen(std::size_t point) const { return isKnown(at(point)) ? view_(at(point)) : Sight(); }
+  const char* visibility(const PartInfo& part) const {
+    return isKnown(at(part.from)) && isKnown(at(part.to)) ? "" : " visibility=\"hidden\"";
+  }
   /// Between two times a point is within the hull of its boxes at both, each wider by what it may leave the straight
   /// line between them.
   void drawEnclosures() {
@@ -147,7 +151,7 @@ class Drawing {
         for (const std::uint64_t point : {part.from, part.to})
           if (m_.points[point].isGround) isHeld[footOf(point)] = 1;
     for (std::size_t k = 0; k < m_.points.size(); ++k) {
-      if (isHeld[k] == 0) continue;
+      if (isHeld[k] == 0 || !isKnown(at(k))) continue;
       const Sight at = seen(k);
       add(svg_,
           "<g class=\"ground\" data-point=\"{}\" transform=\"translate({:.1f} {:.1f})\"><title>{}: fixed</title>"
@@ -167,7 +171,7 @@ class Drawing {
                                                           : "loose";
     if (part.from == part.to) return;
     const Sight from = seen(part.from), to = seen(part.to);
-    add(svg_, "<path class=\"{}\" data-part=\"{}\" d=\"{}\"><title>{}</title></path>\n", kind, i,
+    add(svg_, "<path class=\"{}\" data-part=\"{}\"{} d=\"{}\"><title>{}</title></path>\n", kind, i, visibility(part),
         part.kind == "spring" ? zigzag(from, to) : line(from, to), titleOf(part));
   }
 
@@ -181,8 +185,9 @@ class Drawing {
     const double radius = most > 0 ? std::max(least, largest * std::cbrt(std::max(part.mass, 0.0) / most)) : least;
     const Sight at = seen(part.to);
     add(svg_,
-        "<circle class=\"mass\" data-part=\"{}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{:.1f}\"><title>{}</title></circle>\n",
-        i, at.x, at.y, radius, titleOf(part));
+        "<circle class=\"mass\" data-part=\"{}\"{} cx=\"{:.1f}\" cy=\"{:.1f}\" "
+        "r=\"{:.1f}\"><title>{}</title></circle>\n",
+        i, visibility(part), at.x, at.y, radius, titleOf(part));
   }
 
   /// A hinge is a pin along its axis, round at its ends, so that it is a circle where it points at the beholder; a
@@ -191,8 +196,8 @@ class Drawing {
     const PartInfo& part = m_.parts[i];
     const Sight at = seen(part.to);
     if (part.kind == "rigid" && part.from == part.to && part.type == "weld") {
-      add(svg_, "<path class=\"weld\" data-part=\"{}\" d=\"{}\"><title>{}</title></path>\n", i, line(at, at),
-          titleOf(part));
+      add(svg_, "<path class=\"weld\" data-part=\"{}\"{} d=\"{}\"><title>{}</title></path>\n", i, visibility(part),
+          line(at, at), titleOf(part));
     }
     if (part.kind != "joint" || part.turns + part.slides > 3) return;
     bool hasPin = false;
@@ -201,16 +206,18 @@ class Drawing {
         if (m_.axes[a].part != i) continue;
         hasPin = true;
         const Sight along = view_.direction(placeOf(m_.places.axes, 0, m_.axes.size(), a));
-        const double length = std::isfinite(along.x) && std::isfinite(along.y) ? jointLength : 0;
+        constexpr double most = 1.1;  // of a unit vector
+        const double length = std::hypot(along.x, along.y) <= most ? jointLength : 0;
         const Sight ahead{at.x + length * along.x, at.y + length * along.y},
             behind{at.x - length * along.x, at.y - length * along.y};
-        add(svg_, "<path class=\"pin {} {}\" data-axis=\"{}\" d=\"{}\"><title>{}</title></path>\n", layer,
-            part.slides > 0 ? "slider" : "hinge", a, length > 0 ? line(behind, ahead) : line(at, at), titleOf(part));
+        add(svg_, "<path class=\"pin {} {}\" data-axis=\"{}\"{} d=\"{}\"><title>{}</title></path>\n", layer,
+            part.slides > 0 ? "slider" : "hinge", a, visibility(part), length > 0 ? line(behind, ahead) : line(at, at),
+            titleOf(part));
       }
     if (!hasPin || part.turns + part.slides > 1 || part.turns == 3)
       add(svg_,
-          "<circle class=\"ball\" data-part=\"{}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\"><title>{}</title></circle>\n",
-          i, at.x, at.y, hasPin ? 2 : 6, titleOf(part));
+          "<circle class=\"ball\" data-part=\"{}\"{} cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\"><title>{}</title></circle>\n",
+          i, visibility(part), at.x, at.y, hasPin ? 2 : 6, titleOf(part));
   }
 
   void drawNames() {
@@ -222,8 +229,8 @@ class Drawing {
       const auto before = std::ranges::count(named, part.to);
       named.push_back(part.to);
       const Sight at = seen(part.to);
-      add(svg_, "<text class=\"name\" data-part=\"{}\" x=\"{:.1f}\" y=\"{:.1f}\" dy=\"{:.1f}em\">{}</text>\n", i,
-          at.x + 15, at.y - 9, 0 - 1.1 * static_cast<double>(before), escapeHtml(part.name));
+      add(svg_, "<text class=\"name\" data-part=\"{}\"{} x=\"{:.1f}\" y=\"{:.1f}\" dy=\"{:.1f}em\">{}</text>\n", i,
+          visibility(part), at.x + 15, at.y - 9, 0 - 1.1 * static_cast<double>(before), escapeHtml(part.name));
     }
   }
 
@@ -322,7 +329,7 @@ std::string machineData(const MachineResult& machine, const View& view) {
   const Places& p = machine.places;
   std::string axes;
   for (const double x : p.axes)
-    axes += (axes.empty() ? "" : ",") + (std::isfinite(x) ? fmt::format("{:.4g}", x) : std::string("null"));
+    axes += (axes.empty() ? "" : ",") + (std::fabs(x) <= 1.1 ? fmt::format("{:.4g}", x) : std::string("null"));
   return fmt::format(
       R"({{"unit":{:.9g},"scale":{:.9g},"width":{:g},"height":{:g},"right":{},"up":{},"vertical":{},"isSide":{},"pin":{:g},)"
       R"("time":{},"fixed":{},"parts":{},"axisOf":{},"nominal":{},"axes":[{}],"samples":{},"lower":{},"upper":{},"sag":{}}})",

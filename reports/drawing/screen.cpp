@@ -87,7 +87,8 @@ class Writer {
     std::vector<std::string> labels, levels;
     for (const std::string& label : layer.labels) labels.push_back(jsonText(label));
     for (const std::size_t i : layer.shown())
-      if (i < layer.levels.size()) levels.push_back(numberText(layer.levels[i], 6));
+      if (i < layer.levels.size())
+        levels.push_back(std::isfinite(layer.levels[i]) ? numberText(layer.levels[i], 6) : "null");
     return fmt::format(
         R"({{"name":{},"words":{},"kind":"{}","readout":{},"filled":{},"width":{},"dashed":{},"spread":{},)"
         R"("labels":{},"levels":{},"bands":{}}})",

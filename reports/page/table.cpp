@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstdlib>
 
 #include "reports/words.hpp"
 
@@ -37,7 +38,8 @@ void NumbersText::column(const std::string& head, const std::string& unit, const
       const auto [below, above] = outwardText(x, x, digits);
       return rounded == Rounded::down ? below : above;
     };
-    columns_ += "," + (std::isfinite(x) ? text() : "null");
+    const std::string number = std::isfinite(x) ? text() : "null";
+    columns_ += "," + (std::isinf(std::strtod(number.c_str(), nullptr)) ? "null" : number);  // rounded beyond all
   }
   columns_ += "]";
 }

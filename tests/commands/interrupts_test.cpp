@@ -57,13 +57,14 @@ TEST(Interrupts, EndTheProgramWhereNothingWouldBeKept) {
       ExitedWithCode(ended), "^gamut: interrupted\n$");
 }
 
-TEST(Interrupts, ThatWereNotedDoNotEndWhatComesLater) {
+TEST(Interrupts, SayWhatTheyCostWhereTheyEndTheProgram) {
   EXPECT_EXIT(
       {
         startFresh();
         noteInterrupts();
+        sayOnInterrupt("interrupted early");
         ::raise(SIGHUP);
-        endOnInterrupt("interrupted late");
+        sayOnInterrupt("interrupted late");
         if (!interrupted()) std::_Exit(1);
         ::raise(SIGHUP);
         std::_Exit(0);
@@ -75,7 +76,8 @@ TEST(Interrupts, SayOneLineHoweverLong) {
   EXPECT_EXIT(
       {
         startFresh();
-        for (const char letter : std::string("abcdefgh")) endOnInterrupt(std::string(100000, letter));
+        endOnInterrupt();
+        for (const char letter : std::string("abcdefgh")) sayOnInterrupt(std::string(100000, letter));
         ::raise(SIGINT);
         std::_Exit(0);
       },

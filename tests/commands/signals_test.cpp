@@ -1,8 +1,10 @@
 // Programs that are interrupted or killed at any moment: what was whole before stays whole, what is stored is never a
 // false alarm, and nothing half is left. Runs that are interrupted have so many samples that none comes to its end.
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <poll.h>
 #include <signal.h>
+#include <stdlib.h>
 #include <unistd.h>
 
 #include <array>
@@ -203,12 +205,37 @@ TEST_F(Signals, WhatWasFoundIsToldThoughItCannotBeWritten) {
   expectNoParts();
 }
 
+TEST_F(Signals, ATerminalThatIsClosedCostsNoResults) {
+  const int terminal = ::posix_openpt(O_RDWR | O_NOCTTY);
+  ASSERT_TRUE(terminal >= 0 && ::grantpt(terminal) == 0 && ::unlockpt(terminal) == 0);
+  StartedProgram run(folder_, {"run", "s.toml", "--samples", "10000000", "-o", "o.h5"}, "out", ::ptsname(terminal));
+  run.awaitWork();
+  ::close(terminal);
+  run.signalAfter(0.5, SIGINT);  // the bar is drawn anew every 0.1 s
+  EXPECT_EQ(run.wait(), 3);
+  expectPart("o.h5");
+}
+
+TEST_F(Signals, ReadersThatGoAwayCostNoResults) {
+  std::array<int, 2> ends{};
+  ASSERT_EQ(::pipe2(ends.data(), O_CLOEXEC), 0);
+  const std::string pipe = "/proc/self/fd/" + std::to_string(ends[1]);
+  StartedProgram run(folder_, {"run", "s.toml", "--samples", "10000000", "-o", "o.h5"}, pipe, pipe);
+  ::close(ends[1]);
+  run.awaitWork();
+  ::close(ends[0]);
+  run.signalAfter(0.1, SIGINT);
+  EXPECT_EQ(run.wait(), 4);
+  expectPart("o.h5");
+  EXPECT_TRUE(folder_.has("o.html"));
+}
+
 /// Whoever reads what the program says must not wait for its child, which reads results files for it.
 TEST_F(Signals, NobodyKeepsTheOutputOfAProgramThatWasKilled) {
   for (const double delay : delays) {
     SCOPED_TRACE(delay);
     std::array<int, 2> ends{};
-    ASSERT_EQ(::pipe(ends.data()), 0);
+    ASSERT_EQ(::pipe2(ends.data(), O_CLOEXEC), 0);
     StartedProgram info(folder_, {"info", "s.h5"}, "/proc/self/fd/" + std::to_string(ends[1]));
     ::close(ends[1]);
     info.awaitBegin();

@@ -46,8 +46,7 @@ std::string wrongScript(const std::string& page) {
   const std::string open = "<script type=\"application/json\"";
   for (std::size_t at = page.find(open); at != std::string::npos; at = page.find(open, at + 1)) {
     const std::size_t begin = page.find('>', at) + 1, end = page.find("</script>", begin);
-    if (!nlohmann::json::accept(page.substr(begin, end - begin)))
-      return page.substr(begin, std::min<std::size_t>(end - begin, 300));
+    if (!nlohmann::json::accept(page.substr(begin, end - begin))) return page.substr(begin, end - begin);
   }
   return "";
 }
