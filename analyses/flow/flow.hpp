@@ -76,7 +76,7 @@ struct FlowOptions {
   std::vector<double> tightnessOf;  ///< one an output, in place of `tightness`; or none
   std::vector<double> floors;       ///< one an output: what is left over of it up to this counts for nothing; or none
   /// One an output: wider than this its enclosure says nothing, and the flow ends; without, a million times the size
-  /// that the output (without outputs: a state) has had, of one that was once known to within that size.
+  /// that a state has had, of one that was once known to within that size.
   std::vector<double> mostWidth;
   std::vector<std::string> stateNames;   ///< for Tube::why() and shortfall(); without them "state 0", "state 1", ...
   std::vector<std::string> outputNames;  ///< likewise

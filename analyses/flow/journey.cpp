@@ -576,21 +576,21 @@ bool FlowFollower::record(FlowPiece& piece) {
     }
   if (const int i = tooWide(piece, end, endOutputs); i >= 0) {
     const std::vector<std::string>& names = task_.options.outputNames;
-    const std::string name = !outputs_              ? tool_->stepper.nameOf(i)
-                             : at(i) < names.size() ? names[at(i)]
-                                                    : "output " + std::to_string(i);
+    const std::string name = task_.options.mostWidth.empty() ? tool_->stepper.nameOf(i)
+                             : at(i) < names.size()          ? names[at(i)]
+                                                             : "output " + std::to_string(i);
     run_.fail(t1, name + " is too wide: its enclosure is more than a million times its size");
     return false;
   }
   return true;
 }
 
-/// The output (without outputs: the state) whose bounds, those that were enclosed last, say nothing any more; -1 if
-/// none does. What is undefined or infinite at a moment (a plain interval's bounds) is another matter.
+/// The output (where nothing was stated of outputs: the state) whose bounds, those that were enclosed last, say nothing
+/// any more; -1 if none does. What is undefined or infinite at a moment (a plain interval's bounds) is another matter.
 int FlowFollower::tooWide(FlowPiece& piece, const std::vector<Interval>& states,
                           const std::vector<Interval>& outputs) const {
   constexpr double times = 1e6;
-  const bool ofOutputs = outputs_ != nullptr;
+  const bool ofOutputs = outputs_ != nullptr && !task_.options.mostWidth.empty();
   const std::vector<Interval>&bounds = ofOutputs ? outputs : states, &cores = ofOutputs ? outputCore_ : stateCore_;
   const std::vector<double>& most = task_.options.mostWidth;
   piece.size.resize(bounds.size(), 0.0);

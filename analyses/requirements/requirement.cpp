@@ -302,7 +302,8 @@ class Examiner {
     if (!areEven)
       volume = marginsProbability(massesOf([](const Uncertain& u) { return Distribution::uniform(u.range); }));
     const double widest = std::max(width(volume), isPlain_ ? width(byMargins) : 0.0);
-    if (widest > options_.gap) weigh();
+    constexpr int few = 3;  // symbols: of these cells are cheap, and planes through them all but exact
+    if (widest > options_.gap || models_.symbols <= few) weigh();
     finding_.met = std::max(finding_.met, volume.lower());
     finding_.violated = std::max(finding_.violated, std::max(0.0, subDown(1.0, volume.upper())));
     // Cells that are bisections of the box do not add up where the quantities are not independent.

@@ -497,8 +497,12 @@ void Mechanism::checkSignal(const Signal& signal) const {
   }
   if (gamut::dimensionOf(signal.unit) == Dimension{.time = -1} && isWithoutUnits(signal.expression)) return;
   const State* state = signal.reach == Reach::solution ? own_.find(signal.element) : nullptr;
-  if (state != nullptr && gamut::dimensionOf(state->unit) == Dimension{}) refuseRateWithUnit(signal);
-  check(signal.expression, signal.name, signal.unit);
+  try {
+    check(signal.expression, signal.name, signal.unit);
+  } catch (const UnitError&) {
+    if (state != nullptr && gamut::dimensionOf(state->unit) == Dimension{}) refuseRateWithUnit(signal);
+    throw;
+  }
 }
 
 /// The rate of a state without unit: who gave it none may have meant to.

@@ -15,7 +15,7 @@ title = "Comes to rest"
 analysis = "dynamics"
 horizon = 0.5
 output_times = )" + times +
-                           R"(
+                           R"toml(
 [mechanism]
 [[mechanism.element]]
 type = "state"
@@ -30,7 +30,7 @@ interval = [0.5, 1.0]
 samples = 512
 [[output]]
 quantity = "x"
-)" + besides,
+)toml" + besides,
                        "s.toml");
 }
 

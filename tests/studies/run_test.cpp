@@ -72,11 +72,12 @@ TEST(Run, TellsOutputsInTheUnitsThatAreWanted) {
   EXPECT_EQ(told.comparison.verdict, "inside");
   EXPECT_EQ(told.outputs[0].unit, "deg");
   EXPECT_EQ(told.outputs[1].unit, "mm");
-  EXPECT_EQ(told.outputs[2].unit, "rad");  // of the margin
+  EXPECT_EQ(told.outputs[2].unit, "deg");  // of the margin: what it compares is told in these
   const std::size_t last = si.time.size() - 1;
   const double degree = 0.017453292519943295;
   EXPECT_NEAR(told.interval.at.upper(last, 0) * degree, si.interval.at.upper(last, 0), 1e-9);
   EXPECT_NEAR(told.interval.at.lower(last, 1) * 1e-3, si.interval.at.lower(last, 1), 1e-9);
+  EXPECT_EQ(si.outputs[2].unit, "deg");  // as its limit is
   EXPECT_NEAR(told.interval.at.lower(last, 2), si.interval.at.lower(last, 2), 1e-9);
   EXPECT_EQ(told.requirements[0].word, si.requirements[0].word);
   EXPECT_THROW(sampleWith("quantity = \"tip.position.z\"", "quantity = \"tip.position.z\"\nunit = \"deg\""),
