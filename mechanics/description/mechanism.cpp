@@ -499,7 +499,7 @@ void Mechanism::checkSignal(const Signal& signal) const {
   const State* state = signal.reach == Reach::solution ? own_.find(signal.element) : nullptr;
   try {
     check(signal.expression, signal.name, signal.unit);
-  } catch (const UnitError&) {
+  } catch (const std::invalid_argument&) {  // a unit that does not fit
     if (state != nullptr && gamut::dimensionOf(state->unit) == Dimension{}) refuseRateWithUnit(signal);
     throw;
   }

@@ -142,8 +142,8 @@ Program outputsOf(const System& s, Dice& dice) {
           y[o] = sqr(held) * (other + d[o]);
           break;
         case 5:
-          y[o] =
-              max(p[1] * held + exp(-1.0 - t), d[o] * other);  // no double, to which bounds come closer than 128 bits
+          y[o] = max(p[1] * held + exp(-1.0 - t),
+                     d[o] * exp(0.3 + other));  // no double, to which bounds come closer than 128 bits
           break;
         case 6:
           y[o] = held * u + abs(other);
