@@ -3,6 +3,8 @@
 
 #include <signal.h>
 
+#include <initializer_list>
+
 namespace gamut {
 
 /// SIGINT, SIGTERM and SIGHUP come when this ends; of several of a kind one. Of the calling thread alone: another may
