@@ -250,8 +250,41 @@ std::vector<SharedSign> sharedSigns(const Program& f, const Program& g) {
   return shared;
 }
 
+/// g with sign k sign u for sign (k u) where no state is in k: a surface is known whatever scales it.
+Program withBareSigns(const Program& g) {
+  const std::vector<char> moves = ofStates(g);
+  Recorder result(g.states(), g.parameters());
+  std::vector<int> instead(g.nodes().size(), -1), outputs;
+  const std::vector<int> plain = result.append(g);
+  bool isNew = false;
+  for (const int jump : jumpsOf(g)) {
+    int u = g.nodes()[at(jump)].a, factor = -1;
+    double by = 1;
+    for (;;) {
+      const Node& node = g.nodes()[at(u)];
+      const bool isProduct = node.op == Op::mul && moves[at(node.a)] != moves[at(node.b)];
+      if (node.op != Op::neg && !isProduct) break;
+      if (node.op == Op::neg) by = -by;
+      if (isProduct) {
+        const int sign = result.sign(plain[at(moves[at(node.a)] == 0 ? node.a : node.b)]);
+        factor = factor < 0 ? sign : result.mul(factor, sign);
+      }
+      u = isProduct && moves[at(node.a)] == 0 ? node.b : node.a;
+    }
+    if (factor < 0 || moves[at(jump)] == 0) continue;
+    const int bare = result.mul(factor, result.sign(plain[at(u)]));
+    instead[at(jump)] = by > 0 ? bare : result.neg(bare);
+    isNew = true;
+  }
+  if (!isNew) return g;
+  const std::vector<int> here = result.append(g, {}, instead);
+  for (const int output : g.outputNodes()) outputs.push_back(here[at(output)]);
+  return result.finish(outputs);
+}
+
 /// g's outputs with nodes of `recorder` for the signs of f.
-Program withSigns(Recorder& recorder, const std::vector<int>& signs, const Program& f, const Program& g) {
+Program withSigns(Recorder& recorder, const std::vector<int>& signs, const Program& f, const Program& asWritten) {
+  const Program g = withBareSigns(asWritten);
   std::vector<int> parameters, instead(g.nodes().size(), -1), outputs;
   for (int i = 0; i < g.parameters(); ++i) parameters.push_back(recorder.parameter(i));
   for (const auto& [jump, which, by] : sharedSigns(f, g))

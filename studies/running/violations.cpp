@@ -90,7 +90,10 @@ class ThinFlows {
       const UncertainQuantity& quantity = run_.study.uncertain[q];
       const std::size_t course = quantity.varies ? next++ : 0;
       if (std::isnan(values[q])) continue;
-      problem.box[static_cast<std::size_t>(problem.motion.slot[q])] = values[q];
+      // Where an interval is no wider than roundings, nobody knows which numbers are meant: all that may be.
+      const bool isNarrow = !quantity.varies && isEmpty(quantity.uncertain.inside());
+      problem.box[static_cast<std::size_t>(problem.motion.slot[q])] =
+          isNarrow ? quantity.uncertain.range : Interval(values[q]);
       if (!quantity.varies) continue;
       // Ends are rounded outward from decimals: the course keeps to what lies inside.
       VaryingQuantity& of = courses.emplace_back(run_.problem.courses[course]);

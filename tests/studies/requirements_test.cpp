@@ -609,5 +609,33 @@ TEST(Tolerances, NeedSomethingToBeRequired) {
               ThrowsMessage<std::invalid_argument>("the study has no [[requirement]]"));
 }
 
+/// An interval no wider than roundings has no number that is surely meant: its rounded ends are none.
+TEST(Requirements, AreNotViolatedByRoundedEndsAlone) {
+  const Results results = run(read(R"([study]
+analysis = "kinematics"
+[mechanism]
+parameters = { a = "0.1", b = "1" }
+[[uncertain]]
+quantity = "a"
+interval = "± 1e-19"
+[[uncertain]]
+quantity = "b"
+interval = "± 0.1"
+[[output]]
+name = "out"
+quantity = "1e17*(10*a-1)+b"
+[[requirement]]
+name = "fits"
+always = "out > -5"
+[[requirement]]
+name = "not so"
+always = "b < 1.05"
+[stochastic]
+samples = 64
+)"));
+  EXPECT_EQ(named(results, "fits").word, "open");
+  EXPECT_EQ(named(results, "not so").word, "partly");
+}
+
 }  // namespace
 }  // namespace gamut

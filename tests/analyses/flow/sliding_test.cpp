@@ -285,6 +285,29 @@ TEST(FlowSlidingExactly, WhatHoldsMayJump) {
   }
 }
 
+/// A surface is known again whatever scales it: ω in the motion, r ω or ω/r in what is asked for.
+TEST(FlowSlidingExactly, OutputsKnowSurfacesWithFactors) {
+  const Program f = record(1, 1, [](auto, const auto& x, const auto&, auto& dx) { dx[0] = 0.3125 - sign(x[0]); });
+  const Program g = record(1, 1, 5, [](auto t, const auto& x, const auto& p, auto& y) {
+    y[0] = sign(p[0] * x[0]);
+    y[1] = sign(x[0] / p[0]);
+    y[2] = sign(x[0] * exp(t));
+    y[3] = -sign(-x[0] * p[0] * 3.0);
+    y[4] = sign(p[0]) * sign(t + 1.0);  // of none
+  });
+  for (const Interval& start : {Interval(0.0), Interval(0.125, 0.25)}) {
+    const Tube tube = Flow(f, g).enclose({start, Interval(1.0, 2.0)}, 1, {0.5});
+    ASSERT_EQ(tube.why(), "");
+    for (std::size_t row = 1; row < tube.reachedTimes(); ++row)
+      for (std::size_t o = 0; o < 4; ++o) {
+        EXPECT_TRUE(contains(tube.outputs(row)[o], 0.3125)) << row << ' ' << o;
+        EXPECT_TRUE(contains(tube.outputsOver(row)[o], 0.3125)) << row << ' ' << o;
+        EXPECT_LT(width(tube.outputs(row)[o]), 1e-9) << row << ' ' << o;
+      }
+    EXPECT_TRUE(isEqual(tube.outputs(1)[4], Interval(1.0)));
+  }
+}
+
 /// A surface is known again whatever factors it has, in kinks too: at |2 x| = 1 the sign is -¼ from the start on.
 TEST(FlowSlidingExactly, OutputsKnowSurfacesWithKinks) {
   const Program f =
