@@ -12,6 +12,20 @@ namespace gamut {
 
 using detail::at;
 
+namespace {
+
+/// W += |C| size.
+void addFramed(FlowSet& set, const std::vector<double>& size) {
+  const std::size_t n = size.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    double sum = 0;
+    for (std::size_t j = 0; j < n; ++j) sum += std::fabs(set.C[i * n + j]) * size[j];
+    set.W[i] = (set.W[i] + sum) * bounds::up;
+  }
+}
+
+}  // namespace
+
 double FlowStepper::relativeRemainder(const FlowSet& set) const {
   std::vector<double> total;
   errorRadius(set, total);
@@ -62,11 +76,9 @@ GradeDecay FlowStepper::decay() const {
 }
 
 FlowSet FlowStepper::bisect(FlowSet& set, int symbol, const PolynomialRange& shift) const {
-  const int N = series_.count(), NJ = series_.frameCount();
+  const int N = series_.count();
+  const std::size_t block = set.generators.size() / set.powers;
   FlowSet halves[2] = {set, set};
-  std::vector<double> total;
-  totalRadius(set, total);
-  std::vector<double> from(at(N)), to(at(N));
   for (int side : {0, 1}) {
     FlowSet& s = halves[side];
     const double middle = side == 0 ? -0.5 : 0.5;
@@ -74,20 +86,14 @@ FlowSet FlowStepper::bisect(FlowSet& set, int symbol, const PolynomialRange& shi
       double norm = 0;
       for (int g = 0; g < N; ++g) norm += std::fabs(set.p[at(i * N + g)]);
       shift.substitute(symbol, middle, 0.5, &set.p[at(i * N)], &s.p[at(i * N)]);
-      double rounding = shift.shiftError() * norm;
-      for (int j = 0; j < n_; ++j) {
-        std::fill(from.begin(), from.end(), 0.0);
-        norm = 0;
-        for (int g = 0; g < NJ; ++g) {
-          from[at(g)] = set.C[at((g * n_ + i) * n_ + j)];
-          norm += std::fabs(from[at(g)]);
-        }
-        shift.substitute(symbol, middle, 0.5, from.data(), to.data());
-        for (int g = 0; g < NJ; ++g) s.C[at((g * n_ + i) * n_ + j)] = to[at(g)];
-        if (NJ > 1) rounding += shift.shiftError() * norm * total[at(j)];
-      }
-      s.W[at(i)] = (set.W[at(i)] + rounding) * bounds::up + bounds::tiny;
+      s.W[at(i)] = (s.W[at(i)] + shift.shiftError() * norm) * bounds::up + bounds::tiny;
     }
+    std::vector<double> rounding(at(n_), 0.0);
+    shift.substitute(symbol, middle, 0.5, set.generators.data(), s.generators.data(), static_cast<int>(set.powers),
+                     block);
+    addColumns(set.generators, rounding);
+    for (double& size : rounding) size *= shift.shiftError();
+    addFramed(s, rounding);
     if (at(symbol) < s.inputsOfXi.size()) {  // Γ + ξ Γ_l, one rounding an entry: |C| times that
       std::vector<double>& ofXi = s.inputsOfXi[at(symbol)];
       std::vector<double> moved(at(n_), 0.0);
@@ -96,12 +102,7 @@ FlowSet FlowStepper::bisect(FlowSet& set, int symbol, const PolynomialRange& shi
         moved[c % at(n_)] += bounds::unit * std::fabs(s.inputs[c]);
         ofXi[c] *= 0.5;
       }
-      for (int i = 0; i < n_; ++i) {
-        double rounding = 0;
-        for (int g = 0; g < NJ; ++g)
-          for (int j = 0; j < n_; ++j) rounding += std::fabs(s.C[at((g * n_ + i) * n_ + j)]) * moved[at(j)];
-        s.W[at(i)] = (s.W[at(i)] + rounding) * bounds::up;
-      }
+      addFramed(s, moved);
     }
     for (Embedded& p : s.parameters)
       if (p.symbol == symbol) {

@@ -220,12 +220,11 @@ bool FlowStepper::boundMoment(const FlowSet& set, Crossing& crossing) const {
     others += 2 * since * (std::fabs(leads) + 2 * static_cast<double>(n) * bounds::unit * most + bent);
   }
   crossing.remainder = 0;
-  for (int g = 0; g < series_.frameCount(); ++g)
-    for (std::size_t j = 0; j < n; ++j) {
-      double sum = 0;
-      for (std::size_t i = 0; i < n; ++i) sum += std::fabs(form.states[i] * set.C[(at(g) * n + i) * n + j]);
-      crossing.remainder += sum * total_[j];
-    }
+  for (std::size_t j = 0; j < n; ++j) {
+    double sum = 0;
+    for (std::size_t i = 0; i < n; ++i) sum += std::fabs(form.states[i] * set.C[i * n + j]);
+    crossing.remainder += sum * total_[j];
+  }
   crossing.remainder *= bounds::up;
   crossing.off = (crossing.remainder * magnitude(perUnit - Interval(1.0) / Interval(crossing.rate)) +
                   others * bounds::up * magnitude(perUnit)) *
@@ -334,7 +333,7 @@ void FlowStepper::boundCrossings(const FlowSet& set) {
 
 /// ℓ at τ: min(moment, τ) is the chord over what the moments may be, and as much as the corner rises above that.
 void FlowStepper::addCrossings(const FlowSet& set, double tau, FlowPoint& point) const {
-  const std::size_t n = at(n_), frames = at(series_.frameCount());
+  const std::size_t n = at(n_);
   for (const Crossing& crossing : crossings_) {
     const LinearForm& form = *crossing.form;
     const double first = crossing.moments.lower(), last = crossing.moments.upper();
@@ -367,15 +366,11 @@ void FlowStepper::addCrossings(const FlowSet& set, double tau, FlowPoint& point)
                     series_.frameDerivativeNorm(static_cast<int>(i), static_cast<int>(j), 1, theta_) * total_[j];
       second.error = (second.error + (tau - first) * turned) * bounds::up;
     }
-    // c·C(ξ): n roundings of two; as many again for what is made of it.
+    // c·C: n roundings of two; as many again for what is made of it.
     const double roundings = (4.0 * static_cast<double>(n) + 12) * bounds::unit;
-    std::vector<double> ofFrame(frames * n, 0.0), sum(n, 0.0);
-    for (std::size_t g = 0; g < frames; ++g)
-      for (std::size_t j = 0; j < n; ++j) {
-        double& entry = ofFrame[g * n + j];
-        for (std::size_t i = 0; i < n; ++i) entry += form.states[i] * set.C[(g * n + i) * n + j];
-        sum[j] += std::fabs(entry);
-      }
+    std::vector<double> ofFrame(n, 0.0);
+    for (std::size_t j = 0; j < n; ++j)
+      for (std::size_t i = 0; i < n; ++i) ofFrame[j] += form.states[i] * set.C[i * n + j];
     for (std::size_t i = 0; i < n; ++i) {
       const int push = crossing.jump >= 0 ? pushNode(static_cast<int>(i), crossing.jump) : -1;
       std::vector<BoundedPolynomial> orders;
@@ -405,12 +400,10 @@ void FlowStepper::addCrossings(const FlowSet& set, double tau, FlowPoint& point)
       }
       for (std::size_t j = 0; j < n; ++j) {
         // What inputs do in the step itself is no part of the set at its start.
-        loose += std::fabs(by) * sum[j] * inputs_.total(static_cast<int>(j));
-        for (std::size_t g = 0; g < frames; ++g) {
-          double& psi = point.psi[(g * n + i) * n + j];
-          psi += by * ofFrame[g * n + j];
-          loose += bounds::unit * std::fabs(psi) * point.total[j];
-        }
+        loose += std::fabs(by * ofFrame[j]) * inputs_.total(static_cast<int>(j));
+        double& psi = point.psi[i * n + j];
+        psi += by * ofFrame[j];
+        loose += bounds::unit * std::fabs(psi) * point.total[j];
       }
       point.loose[i] += loose * bounds::up + bounds::tiny;
     }

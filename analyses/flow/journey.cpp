@@ -187,8 +187,7 @@ bool FlowFollower::use(const FlowPiece& piece, const std::vector<char>& held) {
 
 void FlowFollower::changeLayout(FlowPiece& piece, std::size_t to) {
   const FlowLayout& from = task_.layouts[piece.layout];
-  changeDegree(piece.set, *from.monomials, from.frameDegree, *task_.layouts[to].monomials,
-               task_.layouts[to].frameDegree);
+  changeDegree(piece.set, *from.monomials, *task_.layouts[to].monomials, task_.layouts[to].frameDegree);
   piece.layout = to;
 }
 
@@ -213,7 +212,7 @@ bool FlowFollower::expand(FlowPiece& piece) {
   if (task_.embedding.symbols > 0 && task_.options.split) return false;
   const FlowLayout& from = task_.layouts[piece.layout];
   if (!(tool_->stepper.relativeRemainder(piece.set) > expandedAt)) return false;
-  if (!expandRemainder(piece.set, *from.monomials, from.frameDegree, *task_.layouts[expanded].monomials,
+  if (!expandRemainder(piece.set, *from.monomials, *task_.layouts[expanded].monomials,
                        task_.layouts[expanded].frameDegree))
     return false;
   piece.layout = expanded;

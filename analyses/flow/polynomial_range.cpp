@@ -31,11 +31,11 @@ PolynomialRange::PolynomialRange(std::shared_ptr<const Monomials> monomials) : m
   shiftError_ = (4 * m.degree() + 8) * bounds::unit * bounds::up;
 }
 
-void PolynomialRange::substitute(int symbol, double middle, double half, const double* c, double* out,
-                                 int count) const {
+void PolynomialRange::substitute(int symbol, double middle, double half, const double* c, double* out, int count,
+                                 std::size_t width) const {
   const Monomials& m = *monomials_;
   if (count < 0) count = m.count();
-  std::fill(out, out + count, 0.0);
+  std::fill(out, out + at(count) * width, 0.0);
   std::vector<double> middlePower(at(m.degree() + 1), 1.0), halfPower = middlePower;
   for (int i = 1; i <= m.degree(); ++i) {
     middlePower[at(i)] = middlePower[at(i - 1)] * middle;
@@ -45,7 +45,8 @@ void PolynomialRange::substitute(int symbol, double middle, double half, const d
     const int power = m.exponent(g, symbol);
     int target = g;
     for (int b = power; b >= 0; --b) {
-      out[target] += c[g] * (binomial_[at(power)][at(b)] * (middlePower[at(power - b)] * halfPower[at(b)]));
+      const double by = binomial_[at(power)][at(b)] * (middlePower[at(power - b)] * halfPower[at(b)]);
+      for (std::size_t k = 0; k < width; ++k) out[at(target) * width + k] += c[at(g) * width + k] * by;
       target = down_[at(symbol)][at(target)];
     }
   }

@@ -22,8 +22,9 @@ class PolynomialRange {
 
   /// Writes the coefficients of the polynomial in η, where ξ_l = middle + half·η, |middle| + half ≤ 1. Each coefficient
   /// is a sum of exact terms; all rounding together is at most `shiftError` times Σ|c|. With a `count`, c and out have
-  /// so many coefficients: all up to some grade.
-  void substitute(int symbol, double middle, double half, const double* c, double* out, int count = -1) const;
+  /// so many coefficients: all up to some grade. Of `width` polynomials at once, [monomial][polynomial].
+  void substitute(int symbol, double middle, double half, const double* c, double* out, int count = -1,
+                  std::size_t width = 1) const;
   double shiftError() const { return shiftError_; }
 
  private:

@@ -16,9 +16,10 @@ using detail::at;
 
 FlowSet startOf(const Embedding& embedding, int n, const Monomials& monomials, int frameDegree) {
   FlowSet s;
-  const int N = monomials.count(), NJ = monomials.countUpTo(frameDegree);
+  const int N = monomials.count();
+  s.powers = at(monomials.countUpTo(frameDegree));
   s.p.assign(at(n * N), 0.0);
-  s.C.assign(at(NJ * n * n), 0.0);
+  s.C.assign(at(n * n), 0.0);
   s.R.assign(at(n), 0.0);
   s.W.assign(at(n), 0.0);
   for (int i = 0; i < n; ++i) {
@@ -32,6 +33,54 @@ FlowSet startOf(const Embedding& embedding, int n, const Monomials& monomials, i
   s.centre.assign(at(embedding.symbols), 0.0);
   s.half.assign(at(embedding.symbols), 1.0);
   return s;
+}
+
+void appendBox(FlowSet& set, const std::vector<double>& size) {
+  const std::size_t n = size.size(), before = set.generators.size() / set.powers;
+  std::vector<double> columns;
+  columns.reserve(set.powers * (before + n * n));
+  for (std::size_t g = 0; g < set.powers; ++g) {
+    const auto block = set.generators.begin() + static_cast<std::ptrdiff_t>(g * before);
+    columns.insert(columns.end(), block, block + static_cast<std::ptrdiff_t>(before));
+    const std::size_t begin = columns.size();
+    columns.resize(begin + n * n, 0.0);
+    for (std::size_t i = 0; i < n && g == 0; ++i) columns[begin + i * n + i] = size[i];
+  }
+  set.generators = std::move(columns);
+}
+
+/// Of a generator, what a box around it is larger by in balanced units (Girard 2005): Σ_i |Γ_i| - max_i |Γ_i|.
+void mergeGenerators(FlowSet& set, std::size_t most) {
+  const std::size_t n = set.R.size(), block = set.generators.size() / set.powers, count = block / n;
+  if (count <= most || most < n) return;
+  std::vector<double> extent(block, 0.0);  // Σ_α |Γ_α|
+  for (std::size_t g = 0; g < set.powers; ++g)
+    for (std::size_t c = 0; c < block; ++c) extent[c] += std::fabs(set.generators[g * block + c]);
+  std::vector<std::pair<double, std::size_t>> loss;
+  for (std::size_t j = 0; j < count; ++j) {
+    double sum = 0, greatest = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      const double size = std::ldexp(extent[j * n + i], set.units.empty() ? 0 : -set.units[i]);
+      sum += size;
+      greatest = std::max(greatest, size);
+    }
+    loss.emplace_back(sum - greatest, j);
+  }
+  const std::size_t merged = count - most + n;
+  std::ranges::nth_element(loss, loss.begin() + static_cast<std::ptrdiff_t>(merged));
+  std::vector<char> isMerged(count, 0);
+  for (std::size_t k = 0; k < merged; ++k) isMerged[loss[k].second] = 1;
+  std::vector<double> box(n, 0.0), kept;
+  kept.reserve(set.powers * most * n);
+  for (std::size_t j = 0; j < count; ++j)
+    for (std::size_t i = 0; i < n && isMerged[j] != 0; ++i) box[i] += extent[j * n + i];
+  for (double& size : box) size *= bounds::up;
+  for (std::size_t g = 0; g < set.powers; ++g)
+    for (std::size_t j = 0; j < count; ++j)
+      if (isMerged[j] == 0)
+        for (std::size_t i = 0; i < n; ++i) kept.push_back(set.generators[g * block + j * n + i]);
+  set.generators = std::move(kept);
+  appendBox(set, box);
 }
 
 void addColumns(const std::vector<double>& columns, std::vector<double>& total) {
@@ -72,8 +121,8 @@ void mergeInputs(FlowSet& set, std::size_t count, std::size_t most) {
   };
   merge(set.inputs);
   for (std::vector<double>& columns : set.inputsOfXi) merge(columns);
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t j = 0; j < n; ++j) set.generators.push_back(i == j ? apart[i] * bounds::up : 0.0);
+  for (double& size : apart) size *= bounds::up;
+  appendBox(set, apart);
 }
 
 double remainderOf(const FlowSet& set, int state, const std::vector<double>& total) {
@@ -108,11 +157,10 @@ double relativeMass(const FlowSet& set, const Monomials& monomials, int above, i
   return largest;
 }
 
-void changeDegree(FlowSet& set, const Monomials& from, int fromFrameDegree, const Monomials& to, int toFrameDegree) {
+void changeDegree(FlowSet& set, const Monomials& from, const Monomials& to, int frameDegree) {
   const std::size_t n = set.R.size(), N = at(from.count()), newN = at(to.count());
-  const std::size_t NJ = at(from.countUpTo(fromFrameDegree)), newNJ = at(to.countUpTo(toFrameDegree));
-  std::vector<double> p(n * newN, 0.0), C(newNJ * n * n, 0.0), dropped(n, 0.0), total;
-  totalRadius(set, total);
+  const std::size_t powers = at(to.countUpTo(frameDegree)), block = set.generators.size() / set.powers;
+  std::vector<double> p(n * newN, 0.0), generators(powers * block, 0.0), dropped(n, 0.0), lost(n, 0.0);
   for (std::size_t g = 0; g < N; ++g) {
     const int number = to.find(from, static_cast<int>(g));  // weights may differ as well, so that grades do
     for (std::size_t i = 0; i < n; ++i) {
@@ -121,31 +169,32 @@ void changeDegree(FlowSet& set, const Monomials& from, int fromFrameDegree, cons
         p[i * newN + at(number)] = coefficient;
       else
         dropped[i] += std::fabs(coefficient);
-      if (g >= NJ) continue;
-      for (std::size_t j = 0; j < n; ++j) {
-        const double entry = set.C[(g * n + i) * n + j];
-        if (number >= 0 && at(number) < newNJ)
-          C[(at(number) * n + i) * n + j] = entry;
-        else
-          dropped[i] += std::fabs(entry) * total[j];
-      }
     }
+    if (g >= set.powers) continue;
+    const auto columns = set.generators.begin() + static_cast<std::ptrdiff_t>(g * block);
+    if (number >= 0 && at(number) < powers)
+      std::copy_n(columns, block, generators.begin() + static_cast<std::ptrdiff_t>(at(number) * block));
+    else
+      addColumns({columns, columns + static_cast<std::ptrdiff_t>(block)}, lost);
   }
-  for (std::size_t i = 0; i < set.low.size(); ++i) dropped[i] += std::fabs(set.low[i]);
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = 0; j < n; ++j) dropped[i] += std::fabs(set.C[i * n + j]) * lost[j];
+    if (!set.low.empty()) dropped[i] += std::fabs(set.low[i]);
+  }
   set.low.clear();
   for (std::size_t i = 0; i < n; ++i)
     if (!(dropped[i] == 0)) set.W[i] = (set.W[i] + dropped[i]) * bounds::up + bounds::tiny;
   set.p = std::move(p);
-  set.C = std::move(C);
+  set.powers = powers;
+  set.generators = std::move(generators);
 }
 
-bool expandRemainder(FlowSet& set, const Monomials& from, int fromFrameDegree, const Monomials& to, int toFrameDegree) {
+bool expandRemainder(FlowSet& set, const Monomials& from, const Monomials& to, int frameDegree) {
   using Matrix = Eigen::MatrixXd;
   const int n = static_cast<int>(set.R.size()), N = from.count(), newN = to.count();
-  const int NJ = from.countUpTo(fromFrameDegree), newNJ = to.countUpTo(toFrameDegree);
   std::vector<double> total, p(at(n * newN), 0.0);
   totalRadius(set, total);
-  // H: the directions of C_0 (r + Γs); its entries are off by n roundings, at most n u |C_0| Σ|Γ|.
+  // H: the directions of C (r + Γs), of every power of ξ by themselves; its entries are off by n roundings, at most n u |C_0| Σ|Γ|.
   const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> C(set.C.data(), n, n);
   const Eigen::Map<const Eigen::VectorXd> R(set.R.data(), n), radius(total.data(), n);
   const Eigen::Map<const Matrix> generators(set.generators.data(), n, static_cast<int>(set.generators.size()) / n);
@@ -174,8 +223,6 @@ bool expandRemainder(FlowSet& set, const Monomials& from, int fromFrameDegree, c
         p[at(i * newN + number)] = set.p[at(i * N + g)];
       else
         dropped += std::fabs(set.p[at(i * N + g)]);
-    for (int g = 1; g < NJ; ++g)  // the frame's own dependence on ξ
-      for (int j = 0; j < n; ++j) dropped += std::fabs(set.C[at((g * n + i) * n + j)]) * total[at(j)];
     if (!set.low.empty()) dropped += std::fabs(set.low[at(i)]);
     set.W[at(i)] += dropped;
   }
@@ -191,11 +238,12 @@ bool expandRemainder(FlowSet& set, const Monomials& from, int fromFrameDegree, c
   }
   set.p = std::move(p);
   const Matrix oldFrame = C;
-  set.C.assign(at(newNJ * n * n), 0.0);
+  set.C.assign(at(n * n), 0.0);
   for (int i = 0; i < n; ++i) set.C[at(i * n + i)] = 1;
   set.R.assign(at(n), 0.0);
   set.generators.clear();
-  // Inputs are as they were, in the new frame: C_0 Γ, n roundings an entry. (C_α Γ, α ≠ 0, is in W by now.)
+  set.powers = at(to.countUpTo(frameDegree));
+  // Inputs are as they were, in the new frame: C Γ, n roundings an entry.
   const auto reframe = [&](std::vector<double>& columns) {
     const Eigen::Map<const Matrix> before(columns.data(), n, static_cast<int>(columns.size()) / n);
     const Matrix driven = oldFrame * before;

@@ -11,16 +11,17 @@
 
 namespace gamut {
 
-/// For every ξ in [-1,1]^k there are |r| ≤ R, |s_j| ≤ 1, |w| ≤ W with x(t; ξ) = p(ξ) + C(ξ) (r + Σ_j Γ_j(ξ) s_j) + w.
+/// For every ξ in [-1,1]^k there are |r| ≤ R, |s_j| ≤ 1, |w| ≤ W with x(t; ξ) = p(ξ) + C (r + Σ_j Γ_j(ξ) s_j) + w.
 /// Every step's local error becomes generators Γ_j of its own: boxes would wrap, zonotopes do not. So does what inputs
 /// do.
 struct FlowSet {
   double t = 0;
   std::vector<double> p;    // [state][monomial]
   std::vector<double> low;  // second doubles of p, of sets without symbols; empty: all are 0
-  std::vector<double> C;    // [monomial ≤ frameDegree][row][column]
+  std::vector<double> C;    // [row][column]
   std::vector<double> R, W;
-  std::vector<double> generators;               // [generator][row], oldest first
+  std::size_t powers = 1;                       // monomials of generators, the first ones
+  std::vector<double> generators;               // [monomial][generator][row], oldest first
   std::vector<double> inputs;                   // likewise, of what varies in time: [part of a step][input][row]
   std::vector<std::vector<double>> inputsOfXi;  // what of them is linear in each symbol, likewise; none: nothing is
   std::vector<Embedded> parameters;
@@ -36,7 +37,12 @@ struct FlowSet {
 /// The set of n states at the start, without second doubles.
 FlowSet startOf(const Embedding& embedding, int n, const Monomials& monomials, int frameDegree);
 
-/// R + Σ_j |Γ_j|, rounded up; of errors alone, without what inputs did.
+/// Generators diag(size), constant in ξ, the newest.
+void appendBox(FlowSet& set, const std::vector<double>& size);
+/// Boxes in place of generators, of those that lose least by it, until `most` are left.
+void mergeGenerators(FlowSet& set, std::size_t most);
+
+/// R + Σ_j |Γ_j| for all ξ, rounded up; of errors alone, without what inputs did.
 void totalRadius(const FlowSet& set, std::vector<double>& total);
 void errorRadius(const FlowSet& set, std::vector<double>& total);
 /// += Σ |columns|, in round-to-nearest.
@@ -55,12 +61,13 @@ double orthogonalityDefect(const Eigen::MatrixXd& Q);
 /// Σ over grades in (above, below] of |p|, for each state, relative to Σ|p|; the largest of the states.
 double relativeMass(const FlowSet& set, const Monomials& monomials, int above, int below);
 
-/// Rewrites a set for monomials of another degree in the same symbols; what does not fit goes into W.
-void changeDegree(FlowSet& set, const Monomials& from, int fromFrameDegree, const Monomials& to, int toFrameDegree);
+/// Rewrites a set for monomials of another degree in the same symbols; what does not fit goes into W. Generators are of
+/// degree `frameDegree` from then on.
+void changeDegree(FlowSet& set, const Monomials& from, const Monomials& to, int frameDegree);
 
 /// Turns the remainder into n fresh symbols, one a principal axis of the zonotope: `to` has the symbols of `from` and n
 /// more behind them. From then on it is kept to higher order than the first.
 /// False, and nothing changed, if no axes are found.
-bool expandRemainder(FlowSet& set, const Monomials& from, int fromFrameDegree, const Monomials& to, int toFrameDegree);
+bool expandRemainder(FlowSet& set, const Monomials& from, const Monomials& to, int frameDegree);
 
 }  // namespace gamut

@@ -52,7 +52,7 @@ std::vector<char> FlowStepper::resting(const FlowSet& set, const FlowJumps& jump
 }
 
 Interval argumentOf(const FlowSet& set, const LinearForm& form, const std::vector<double>& total) {
-  const std::size_t n = form.states.size(), N = set.p.size() / n, frames = set.C.size() / (n * n);
+  const std::size_t n = form.states.size(), N = set.p.size() / n;
   double centre = 0, half = 0, rest = 0, size = 0, roundings = 0;
   std::size_t terms = 0;
   bool isExact = true, isZero = true;
@@ -62,8 +62,7 @@ Interval argumentOf(const FlowSet& set, const LinearForm& form, const std::vecto
     ++terms;
     isExact = isExact && by == 1;
     double own = set.W[i];
-    for (std::size_t g = 0; g < frames; ++g)
-      for (std::size_t j = 0; j < n; ++j) own += std::fabs(set.C[(g * n + i) * n + j]) * total[j];
+    for (std::size_t j = 0; j < n; ++j) own += std::fabs(set.C[i * n + j]) * total[j];
     rest += by * own;
     isZero = isZero && own == 0;
     for (std::size_t g = 0; g < N; ++g) isZero = isZero && set.p[i * N + g] == 0;

@@ -63,8 +63,12 @@ void FlowStepper::load(const FlowSet& set) {
   for (int i = 0; i < n_; ++i) series_.setState(i, &set.p[at(i * N)]);
   for (std::size_t i = 0; i < set.low.size(); ++i) series_.setStateLow(static_cast<int>(i), set.low[i]);
   for (std::size_t i = 0; i < set.parameters.size(); ++i) series_.setParameter(static_cast<int>(i), set.parameters[i]);
+  std::vector<double> entry(at(series_.frameCount()), 0.0);  // constant at the start
   for (int i = 0; i < n_; ++i)
-    for (int j = 0; j < n_; ++j) series_.setFrame(i, j, &set.C[at(i * n_ + j)], n_ * n_);
+    for (int j = 0; j < n_; ++j) {
+      entry[0] = set.C[at(i * n_ + j)];
+      series_.setFrame(i, j, entry.data(), 1);
+    }
 }
 
 /// The step, in units of h0, at which the last two orders reach the tolerance.
@@ -119,8 +123,7 @@ bool FlowStepper::tryStep(const FlowSet& set, double theta) {
   for (int i = 0; i < n_; ++i) {
     scale_[at(i)] = std::max(series_.norm(i), floor_[at(i)]);
     double start = set.W[at(i)];
-    for (int g = 0; g < series_.frameCount(); ++g)
-      for (int j = 0; j < n_; ++j) start += std::fabs(set.C[at((g * n_ + i) * n_ + j)]) * total_[at(j)];
+    for (int j = 0; j < n_; ++j) start += std::fabs(set.C[at(i * n_ + j)]) * total_[at(j)];
     start_[at(i)] = start * bounds::up;
   }
   const auto tube = [&] {  // prop(δ + |∂f/∂w| |w|) + e^{Ah} (|C|R + W)

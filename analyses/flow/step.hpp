@@ -142,6 +142,10 @@ class FlowStepper {
   int frameCount() const { return series_.frameCount(); }
 
  private:
+  void evaluateMotion(const FlowSet& set, double tau, FlowPoint& point, bool narrowed);
+  void evaluateRemainder(const FlowSet& set, double tau, FlowPoint& point) const;
+  void turnFrame(FlowSet& set);
+  void carryGenerators(FlowSet& set);
   void evaluateInputs(const FlowSet& set, const std::vector<double>& columns, FlowPoint& point) const;
   bool boundGrowth(double h);
   bool tryStep(const FlowSet& set, double theta);

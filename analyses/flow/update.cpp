@@ -21,7 +21,10 @@ using detail::at;
 
 namespace {
 
-constexpr double dumpedAt = 0.2;  // a frame column with more ξ-dependence than this goes back to a constant one
+/// Of generators with symbols so many a state are kept apart. What of their products is little beside what a step
+/// leaves over is not carried out.
+constexpr std::size_t keptAState = 16, leastKept = 100;
+constexpr double littleOfRest = 0.1;
 /// Steps whose errors are kept apart; older ones merge into the box R. What it costs grows as the rest of a step does,
 /// so that long motions of many states, which lose most by merging, keep more.
 int stepsKept(int n) { return std::clamp(40 * n, 60, 300); }
@@ -51,6 +54,13 @@ auto frameOf(const FlowPoint& point, int g) {
 }  // namespace
 
 void FlowStepper::evaluate(const FlowSet& set, double tau, FlowPoint& point, bool narrowed) {
+  evaluateMotion(set, tau, point, narrowed);
+  evaluateRemainder(set, tau, point);
+  if (tau != 0 && narrowed) narrowArguments(set, tau, point);
+}
+
+/// p, Ψ and what is loose.
+void FlowStepper::evaluateMotion(const FlowSet& set, double tau, FlowPoint& point, bool narrowed) {
   const int N = series_.count(), NJ = series_.frameCount(), stride = series_.stride();
   const double sigma = tau / h0_;
   const bool crosses = tau != 0 && narrowed && !crossings_.empty();
@@ -58,7 +68,6 @@ void FlowStepper::evaluate(const FlowSet& set, double tau, FlowPoint& point, boo
   point.psi.assign(at(NJ * n_ * n_), 0.0);
   point.psiSum.assign(at(n_ * n_), 0.0);
   point.loose.assign(at(n_), 0.0);
-  point.radius.assign(at(n_), 0.0);
   // Horner's scheme with its running error: fl(fl(sσ) + c) is off by u|fl(sσ)| + u|result|, times the σ's that follow.
   const auto horner = [&](const double* c, double& error) {
     double s = c[m_], e = 0;
@@ -106,19 +115,31 @@ void FlowStepper::evaluate(const FlowSet& set, double tau, FlowPoint& point, boo
       if (tau != 0) point.loose[at(i)] += (error + epsilon_[at(i * n_ + j)]) * point.total[at(j)];
     }
   if (crosses) addCrossings(set, tau, point);
-  for (int i = 0; i < n_; ++i)
+  // Ψ_0 Γ: n roundings an entry, together at most n u |Ψ_0| Σ|Γ_j|. Of inputs n + 1 in what is linear in ξ, and one
+  // more for each symbol in drivenRadius, which sums with signs: n + 1 + mostCorners ≤ 2n + 8.
+  for (int i = 0; i < n_; ++i) {
+    double size = 0;
     for (int j = 0; j < n_; ++j) {
       double sum = 0;
       for (int g = 0; g < NJ; ++g) sum += std::fabs(point.psi[at((g * n_ + i) * n_ + j)]);
       point.psiSum[at(i * n_ + j)] = sum * bounds::up;
-      // Ψ_0 r by the box R; Ψ_0 Γ s below; the higher Ψ_α by the whole radius.
-      const double leading = std::fabs(point.psi[at(i * n_ + j)]);
-      point.radius[at(i)] +=
-          leading * set.R[at(j)] + (sum * bounds::up - leading * bounds::down) * (NJ > 1 ? errors_[at(j)] : 0.0);
+      size += sum * bounds::up * point.total[at(j)];
     }
-  // Ψ_0 Γ: n roundings an entry, together at most n u |Ψ_0| Σ|Γ_j|. Of inputs n + 1 in what is linear in ξ, and one
-  // more for each symbol in drivenRadius, which sums with signs: n + 1 + mostCorners ≤ 2n + 8.
+    point.loose[at(i)] = (point.loose[at(i)] + (2 * n_ + 8) * bounds::unit * size) * bounds::up;
+  }
+}
+
+/// What the generators are by then, and the radius: Ψ_0 r by the box R, Ψ_0 Γ s power by power of ξ, the higher Ψ_α by
+/// the whole radius.
+void FlowStepper::evaluateRemainder(const FlowSet& set, double tau, FlowPoint& point) const {
   const std::size_t n = set.R.size();
+  point.radius.assign(n, 0.0);
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < n; ++j) {
+      const double leading = std::fabs(point.psi[i * n + j]);
+      point.radius[i] += leading * set.R[j];
+      if (series_.frameCount() > 1) point.radius[i] += (point.psiSum[i * n + j] - leading * bounds::down) * errors_[j];
+    }
   const std::vector<double>& fresh = inputs_.generators();
   const auto begun = static_cast<std::ptrdiff_t>(tau == 0 ? 0 : inputs_.begunBefore(tau / h_));
   std::vector<double> columns = set.generators;
@@ -132,14 +153,9 @@ void FlowStepper::evaluate(const FlowSet& set, double tau, FlowPoint& point, boo
   Eigen::Map<Eigen::VectorXd>(point.radius.data(), n_) +=
       zonotope.leftCols(static_cast<Eigen::Index>(point.ofErrors / n)).cwiseAbs().rowwise().sum();
   evaluateInputs(set, columns, point);
-  for (std::size_t i = 0; i < n; ++i) {
-    double size = 0;
-    for (std::size_t k = 0; k < n; ++k) size += point.psiSum[i * n + k] * point.total[k];
-    point.loose[i] = (point.loose[i] + (2 * n_ + 8) * bounds::unit * size) * bounds::up;
+  for (std::size_t i = 0; i < n; ++i)
     point.radius[i] =
         (point.radius[i] + point.driven[i] + point.beyond[i] + point.loose[i]) * bounds::up + bounds::tiny;
-  }
-  if (tau != 0 && narrowed) narrowArguments(set, tau, point);
 }
 
 /// What inputs did: (Ψ_0 + Σ_l Ψ_l ξ_l) (Γ + Σ_l Γ_l ξ_l) to the first order in ξ; the rest goes `beyond`.
@@ -223,172 +239,167 @@ void FlowStepper::sag(double from, double to, std::vector<Interval>& bound) cons
                              (driven_[at(i)] + inputs_.rest(i)) * bounds::up));
 }
 
-void FlowStepper::advance(FlowSet& set) {
+/// Without symbols: QR of the frame, so that the oldest errors' box turns with the motion.
+void FlowStepper::turnFrame(FlowSet& set) {
   using Matrix = Eigen::MatrixXd;
-  evaluate(set, h_, end_);
-  const int NJ = series_.frameCount();
   // All of it in balanced units z = D⁻¹x, D a diagonal of powers of two: lengths and angles mean something there.
-  std::vector<double> unit(at(n_));
-  for (int i = 0; i < n_; ++i) {
-    unit[at(i)] = std::ldexp(1.0, growth_.units()[at(i)]);
-    end_.loose[at(i)] /= unit[at(i)];
-    for (int g = 0; g < NJ; ++g)
-      for (int j = 0; j < n_; ++j) end_.psi[at((g * n_ + i) * n_ + j)] /= unit[at(i)];
-  }
-  const auto psi = [&](int g, int i, int j) { return end_.psi[at((g * n_ + i) * n_ + j)]; };
+  Eigen::VectorXd unit(n_);
+  for (int i = 0; i < n_; ++i) unit(i) = std::ldexp(1.0, growth_.units()[at(i)]);
+  const Matrix psi = unit.cwiseInverse().asDiagonal() * frameOf(end_, 0);
 
-  // Q, T: QR of the constant part, columns sorted by length × R, so that the longest keeps its direction.
+  // Q, T: QR of Ψ, columns sorted by length × R, so that the longest keeps its direction.
   std::vector<int> order(at(n_));
   std::iota(order.begin(), order.end(), 0);
   const std::vector<double>& all = end_.total;
   const double largestR = *std::max_element(all.begin(), all.end());
   std::vector<double> length(at(n_));
-  for (int j = 0; j < n_; ++j) {
-    double sum = 0;
-    for (int i = 0; i < n_; ++i) sum += psi(0, i, j) * psi(0, i, j);
-    length[at(j)] = std::sqrt(sum) * (largestR > 0 ? std::max(all[at(j)], 1e-20 * largestR) : 1.0);
-  }
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return length[at(a)] > length[at(b)]; });
-  Matrix psi0(n_, n_);
   for (int j = 0; j < n_; ++j)
-    for (int i = 0; i < n_; ++i) psi0(i, j) = psi(0, i, order[at(j)]);
-  const Matrix Q = Eigen::HouseholderQR<Matrix>(psi0).householderQ();
-  Matrix T = Q.transpose() * psi0;
+    length[at(j)] = psi.col(j).norm() * (largestR > 0 ? std::max(all[at(j)], 1e-20 * largestR) : 1.0);
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return length[at(a)] > length[at(b)]; });
+  Matrix sorted(n_, n_);
+  Eigen::VectorXd R(n_), total(n_), w(n_);
+  for (int j = 0; j < n_; ++j) {
+    sorted.col(j) = psi.col(order[at(j)]);
+    R(j) = set.R[at(order[at(j)])];
+    total(j) = all[at(order[at(j)])];
+    w(j) = end_.loose[at(j)] / unit(j);
+  }
+  const Matrix Q = Eigen::HouseholderQR<Matrix>(sorted).householderQ();
+  Matrix T = Q.transpose() * sorted;
   for (int i = 0; i < n_; ++i)
     for (int j = 0; j < i; ++j) T(i, j) = 0;
   const double phi = orthogonalityDefect(Q);
   const double slack =
       phi < 0.5 ? phi / (1 - phi) * bounds::up : std::numeric_limits<double>::infinity();  // then the next step fails
 
-  // C'_α = Ψ_α T⁻¹ for α ≠ 0, in floating point; what it misses is measured below.
-  std::vector<Matrix> C(at(NJ), Matrix::Zero(n_, n_));
-  C[0] = Q;
-  bool invertible = true;
-  for (int i = 0; i < n_; ++i) invertible = invertible && std::fabs(T(i, i)) > 1e-14 * std::fabs(T(0, 0));
-  std::vector<char> constant(at(n_), static_cast<char>(!invertible));
-  std::vector<Matrix> sorted(at(NJ), Matrix(n_, n_));
-  for (int g = 0; g < NJ; ++g)
-    for (int j = 0; j < n_; ++j)
-      for (int i = 0; i < n_; ++i) sorted[at(g)](i, j) = psi(g, i, order[at(j)]);
-  Matrix N = Matrix::Zero(n_, n_);
-  if (invertible && NJ > 1) {
-    Matrix inverse = Matrix::Identity(n_, n_);
-    T.triangularView<Eigen::Upper>().solveInPlace(inverse);
-    for (int g = 1; g < NJ; ++g) {
-      C[at(g)] = sorted[at(g)] * inverse;
-      // N = Σ_{α≠0} |Q⁻¹C'_α|; each product has n roundings.
-      N += (Q.transpose() * C[at(g)]).cwiseAbs() +
-           (n_ + 1) * bounds::unit * Q.cwiseAbs().transpose() * C[at(g)].cwiseAbs();
-    }
-    for (int j = 0; j < n_; ++j) {
-      const double largest = N.col(j).maxCoeff();
-      N.col(j).array() += slack * largest;
-      if (!(largest < dumpedAt) || !inputs_.empty()) constant[at(j)] = 1;
-    }
-    N *= bounds::up;
-  }
-  const auto makeConstant = [&](int j) {
-    for (int g = 1; g < NJ; ++g) C[at(g)].col(j).setZero();
-    N.col(j).setZero();
-  };
-  for (int j = 0; j < n_; ++j)
-    if (constant[at(j)]) makeConstant(j);
-  // (I - N)⁻¹ exists and is nonnegative when every row sum of N is below one.
-  while (!(N.rowwise().sum().maxCoeff() < 0.9)) {
-    int worst = 0;
-    N.colwise().sum().maxCoeff(&worst);
-    if (N.col(worst).maxCoeff() == 0) break;
-    makeConstant(worst);
-  }
-
-  // C'⁻¹v with v = D(ξ)(r + Γs) + w, D = Σ_α ξ^α (Ψ_α - C'_α T). The part of D goes into the box, with |QᵀD| as the
-  // absolute value of the product; w becomes generators Qᵀ diag(|w|), and what ξ adds to them goes into the box.
-  // Of inputs what is linear in ξ is kept, so that frames are constant there.
-  Eigen::VectorXd w(n_), box = Eigen::VectorXd::Zero(n_), R(n_), total(n_), plain(n_), kept = box;
-  std::vector<double> ofInputs(at(n_), 0.0);
-  addColumns(set.inputs, ofInputs);
-  addColumns(inputs_.generators(), ofInputs);
-  std::vector<Matrix> turnOfXi(inputs_.empty() ? 0 : set.half.size());
-  for (int i = 0; i < n_; ++i) w(i) = end_.loose[at(i)];
-  for (int j = 0; j < n_; ++j) {
-    R(j) = set.R[at(order[at(j)])];
-    total(j) = all[at(order[at(j)])];
-    plain(j) = ofInputs[at(order[at(j)])] * bounds::down;  // no more than its part of the total
-  }
-  const auto symbolOf = [&](int g) {  // whose first power the monomial is, of those kept
-    for (std::size_t l = 0; l < turnOfXi.size() && g > 0; ++l)
-      if (monomials().linear(static_cast<int>(l)) == g) return l;
-    return turnOfXi.size();
-  };
-  for (int g = 0; g < NJ; ++g) {
-    const Matrix D = sorted[at(g)] - C[at(g)] * T;
-    // n products, n sums and the difference: n + 2 roundings at most.
-    const Matrix size = sorted[at(g)].cwiseAbs() + C[at(g)].cwiseAbs() * T.cwiseAbs();
-    w += (n_ + 2) * bounds::unit * (size * total);
-    const Matrix turnedD = Q.transpose() * D;
-    if (const std::size_t l = symbolOf(g); l < turnOfXi.size()) {
-      box += turnedD.cwiseAbs() * (total - plain);
-      kept += turnedD.cwiseAbs() * total;
-      turnOfXi[l].resize(n_, n_);
-      for (int k = 0; k < n_; ++k) turnOfXi[l].col(order[at(k)]) = turnedD.col(k);
-    } else {
-      box += turnedD.cwiseAbs() * total;
-    }
-    // n products in QᵀD; where it is kept, as many again in the product with Γ.
-    box += (2 * n_ + 3) * bounds::unit * (Q.cwiseAbs().transpose() * (D.cwiseAbs() * total));
-  }
+  // Q⁻¹v with v = D(r + Γs) + w, D = Ψ - Q T. The part of D goes into the box, with |QᵀD| as the absolute value of the
+  // product; w becomes generators Qᵀ diag(|w|).
+  const Matrix D = sorted - Q * T;
+  // n products, n sums and the difference: n + 2 roundings at most.
+  w += (n_ + 2) * bounds::unit * ((sorted.cwiseAbs() + Q.cwiseAbs() * T.cwiseAbs()) * total);
   w *= bounds::up;
+  // n products in QᵀD.
+  Eigen::VectorXd box = (Q.transpose() * D).cwiseAbs() * total +
+                        (n_ + 2) * bounds::unit * (Q.cwiseAbs().transpose() * (D.cwiseAbs() * total));
   const Eigen::VectorXd turned = Q.cwiseAbs().transpose() * w;
-  box.array() += slack * (box.maxCoeff() + turned.maxCoeff() + kept.maxCoeff()) + bounds::tiny;
-  if (N.maxCoeff() > 0) {
-    // y ≥ b + N y, checked, gives y ≥ (I - N)⁻¹ b: once for the box, once for N (I - N)⁻¹ |Qᵀ| w.
-    const auto solve = [&](const Eigen::VectorXd& b) {
-      Eigen::VectorXd y = b;
-      for (int i = 0; i < 12; ++i) y = b + N * y;
-      // Row sums of N are below 0.9, so adding c·1 with c large enough passes; what is not finite fails in the next
-      // step.
-      for (double c = 1e-8 * y.maxCoeff(); std::isfinite(c); c *= 8) {
-        const Eigen::VectorXd z = y.array() + c;
-        if ((((b + N * z) * bounds::up).array() <= z.array()).all()) return z;
-      }
-      return Eigen::VectorXd(Eigen::VectorXd::Constant(n_, std::numeric_limits<double>::infinity()));
-    };
-    box = solve(box) + N * solve(turned);
-  }
+  box.array() += slack * (box.maxCoeff() + turned.maxCoeff()) + bounds::tiny;
   // Γ' = fl(T Γ), n roundings an entry, and fl(Qᵀ diag w), one: together (n+1) u (|T| Σ|Γ| + |Qᵀ| w) into the box.
   box += (n_ + 1) * bounds::unit * (T.cwiseAbs() * total + turned);
   Matrix turn(n_, n_);  // T, its columns where the generators' components stand
   for (int k = 0; k < n_; ++k) turn.col(order[at(k)]) = T.col(k);
-  // What ξ leaves in the box is kept apart as well, in n further columns: in the box it would wrap.
   const auto before = columnsOf(set.generators, n_);
-  const int own = NJ > 1 ? 2 * n_ : n_;
-  Matrix moved(n_, before.cols() + own);
+  Matrix moved(n_, before.cols() + n_);
   moved.leftCols(before.cols()).noalias() = turn * before;
-  moved.middleCols(before.cols(), n_) = (w.asDiagonal() * Q).transpose();
-  if (NJ > 1) {
-    moved.rightCols(n_) = (bounds::up * box).asDiagonal();
-    box.setZero();
-  }
-  const Eigen::Index held = (inputs_.empty() ? stepsKept(n_) : stepsBesideInputs(n_ * own)) * own;
+  moved.rightCols(n_) = (w.asDiagonal() * Q).transpose();
+  const Eigen::Index held = (inputs_.empty() ? stepsKept(n_) : stepsBesideInputs(n_ * n_)) * n_;
   const Eigen::Index oldest = std::max<Eigen::Index>(0, moved.cols() - held);
   const Eigen::VectorXd merged = moved.leftCols(oldest).cwiseAbs().rowwise().sum();
-  const Eigen::VectorXd newR = (T.cwiseAbs() * R + merged + box) * bounds::up;
+  Eigen::Map<Eigen::VectorXd>(set.R.data(), n_) = (T.cwiseAbs() * R + merged + box) * bounds::up;
   set.generators.assign(moved.data() + oldest * n_, moved.data() + moved.size());
   if (!inputs_.empty()) {
     set.inputs.insert(set.inputs.end(), inputs_.generators().begin(), inputs_.generators().end());
-    set.inputsOfXi.resize(turnOfXi.size());
-    const auto inputs = columnsOf(std::as_const(set.inputs), n_);
-    for (std::size_t l = 0; l < turnOfXi.size(); ++l) {
-      set.inputsOfXi[l].resize(set.inputs.size(), 0.0);
-      Matrix driven = turn * columnsOf(std::as_const(set.inputsOfXi[l]), n_);
-      if (turnOfXi[l].size() > 0) driven += turnOfXi[l] * inputs;
-      set.inputsOfXi[l].assign(driven.data(), driven.data() + driven.size());
-    }
-    const Matrix driven = turn * inputs;
+    const Matrix driven = turn * columnsOf(std::as_const(set.inputs), n_);
     set.inputs.assign(driven.data(), driven.data() + driven.size());
     mergeInputs(set, at(inputs_.count()), mostInputNumbers);
   }
+  for (int i = 0; i < n_; ++i) {
+    set.W[at(i)] = 0;
+    for (int j = 0; j < n_; ++j) {
+      double& entry = set.C[at(i * n_ + j)];
+      entry = Q(i, j) * unit(i);
+      if (entry / unit(i) != Q(i, j)) set.W[at(i)] = bounds::tiny;  // underflow
+    }
+  }
+}
 
+/// With symbols: generators Γ_j(ξ) become Ψ(ξ) Γ_j(ξ), up to their degree; nothing is inverted, whatever Ψ has of ξ. C
+/// is the identity from then on. What is cut off and w enter as generators of their own.
+void FlowStepper::carryGenerators(FlowSet& set) {
+  using Matrix = Eigen::MatrixXd;
+  const Monomials& m = monomials();
+  const int powers = series_.frameCount();
+  if (std::ranges::any_of(set.R, [](double r) { return r > 0; })) appendBox(set, set.R);
+  set.R.assign(at(n_), 0.0);
+  const auto block = static_cast<Eigen::Index>(set.generators.size() / set.powers), count = block / n_;
+  const auto before = [&](int g) { return Eigen::Map<const Matrix>(set.generators.data() + g * block, n_, count); };
+  // What is beyond the degree, and products that are little beside what the step leaves over: |Ψ_α| Σ_j |Γ_j|_β.
+  const int degree = m.grade(powers - 1);
+  std::vector<Matrix> frames, high(at(degree) + 1, Matrix::Zero(n_, n_));            // Σ |Ψ_α| of grades ≥ q
+  std::vector<Eigen::VectorXd> sizes, size(high.size(), Eigen::VectorXd::Zero(n_));  // of a monomial, of a grade
+  Eigen::VectorXd all = Eigen::VectorXd::Zero(n_);
+  for (int g = 0; g < powers; ++g) {
+    frames.push_back(frameOf(end_, g).cwiseAbs());
+    for (int q = 0; q <= m.grade(g); ++q) high[at(q)] += frames.back();
+    sizes.push_back(before(g).cwiseAbs().rowwise().sum());
+    size[at(m.grade(g))] += sizes.back();
+    all += sizes.back();
+  }
+  Eigen::VectorXd rest = Eigen::Map<const Eigen::VectorXd>(end_.loose.data(), n_), little = littleOfRest * rest;
+  for (int q = 1; q <= degree; ++q) rest += high[at(degree - q + 1)] * size[at(q)];
+  std::vector<double> moved(set.generators.size(), 0.0);
+  int most = 1;
+  for (int g = powers; g-- > 0;) {
+    Eigen::Map<Matrix> sum(moved.data() + g * block, n_, count);
+    const int begin = m.first()[at(g)], end = m.first()[at(g) + 1];
+    for (int pair = begin; pair < end; ++pair) {
+      const auto [a, b] = m.pairs()[at(pair)];
+      const Eigen::VectorXd product = frames[at(a)] * sizes[at(b)];
+      if ((product.array() <= little.array()).all()) {
+        little -= product;
+        rest += product;
+      } else {
+        sum.noalias() += frameOf(end_, a) * before(b);
+      }
+    }
+    most = std::max(most, end - begin);
+  }
+  // Entries are sums of n products for each pair, at most; those of inputs of n for their own and one symbol.
+  rest += (n_ * most + 2) * bounds::unit * (high[0] * all);
+  if (!inputs_.empty()) {
+    std::vector<double> own(at(n_), 0.0), ofXi(at(n_), 0.0);
+    set.inputs.insert(set.inputs.end(), inputs_.generators().begin(), inputs_.generators().end());
+    set.inputsOfXi.resize(set.half.size());
+    addColumns(set.inputs, own);
+    const auto inputs = columnsOf(std::as_const(set.inputs), n_);
+    Matrix higher = high[0] - frameOf(end_, 0).cwiseAbs() * bounds::down, any = higher;
+    for (std::size_t l = 0; l < set.inputsOfXi.size(); ++l) {
+      set.inputsOfXi[l].resize(set.inputs.size(), 0.0);
+      addColumns(set.inputsOfXi[l], ofXi);
+      Matrix driven = frameOf(end_, 0) * columnsOf(std::as_const(set.inputsOfXi[l]), n_);
+      if (const int g = m.linear(static_cast<int>(l)); g >= 0 && g < powers) {
+        driven += frameOf(end_, g) * inputs;
+        higher -= frameOf(end_, g).cwiseAbs() * bounds::down;
+      }
+      set.inputsOfXi[l].assign(driven.data(), driven.data() + driven.size());
+    }
+    const Eigen::Map<const Eigen::VectorXd> ownSize(own.data(), n_), ofXiSize(ofXi.data(), n_);
+    rest += higher.cwiseMax(0.0) * ownSize + any * ofXiSize +
+            (2 * n_ + 3) * bounds::unit * (high[0] * (ownSize + ofXiSize));
+    const Matrix driven = frameOf(end_, 0) * inputs;
+    set.inputs.assign(driven.data(), driven.data() + driven.size());
+  }
+  set.generators = std::move(moved);
+  std::vector<double> fresh(at(n_));
+  for (int i = 0; i < n_; ++i) fresh[at(i)] = rest(i) * bounds::up + bounds::tiny;
+  appendBox(set, fresh);
+  mergeInputs(set, at(inputs_.count()), mostInputNumbers);
+  const std::size_t kept = std::max(keptAState * at(n_), leastKept);
+  if (set.generators.size() / (set.powers * at(n_)) > kept) mergeGenerators(set, kept * 3 / 4);
+  set.C.assign(at(n_ * n_), 0.0);
+  for (int i = 0; i < n_; ++i) set.C[at(i * n_ + i)] = 1;
+  set.W.assign(at(n_), 0.0);
+}
+
+void FlowStepper::advance(FlowSet& set) {
+  evaluateMotion(set, h_, end_, true);
+  if (narrows()) {
+    evaluateRemainder(set, h_, end_);
+    narrowArguments(set, h_, end_);
+  }
+  if (monomials().symbols() > 0)
+    carryGenerators(set);
+  else
+    turnFrame(set);
   set.t += h_;  // exact: both are multiples of the quantum
   set.arguments = argumentsBehind();
   set.slideStep = isSliding_ ? h_ : 0;
@@ -408,17 +419,6 @@ void FlowStepper::advance(FlowSet& set) {
     for (int i = 0; i < n_; ++i) set.first.push_back(series_.norm(i));
   set.largest.resize(at(n_), 0.0);
   for (int i = 0; i < n_; ++i) set.largest[at(i)] = std::max(set.largest[at(i)], series_.norm(i));
-  for (int i = 0; i < n_; ++i) {
-    set.R[at(i)] = newR(i);
-    set.W[at(i)] = 0;
-  }
-  for (int g = 0; g < NJ; ++g)
-    for (int i = 0; i < n_; ++i)
-      for (int j = 0; j < n_; ++j) {
-        double& entry = set.C[at((g * n_ + i) * n_ + j)];
-        entry = C[at(g)](i, j) * unit[at(i)];
-        if (entry / unit[at(i)] != C[at(g)](i, j)) set.W[at(i)] = bounds::tiny;  // underflow
-      }
 }
 
 }  // namespace gamut

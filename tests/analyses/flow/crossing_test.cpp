@@ -178,7 +178,8 @@ TEST(FlowCrossingExactly, InputsMoveIt) {
             const Precise a = acceleration(t, Precise(side));
             Precise end = t < change ? Precise(change) : Precise(3);
             const Precise root = (-v - side * sqrt(Precise(v * v - 2 * a * x))) / a;
-            const bool passes = side * v < 0 && v * v > 2 * a * x && root > 0 && t + root < end;
+            const bool approaches = side * v < 0 || (v == 0 && side * a < 0);
+            const bool passes = approaches && v * v > 2 * a * x && root > 0 && t + root < end;
             if (passes) end = t + root;
             for (int row = 1; row <= 3; ++row)
               if (t < row && row <= end) {
