@@ -200,7 +200,7 @@ bool FlowFollower::isDegreeWorthwhile(const FlowPiece& piece, StepOutcome outcom
   const GradeDecay decay = tool_->stepper.decay();
   const double gain = (next.degree() - now.degree()) * -std::log(std::min(decay.ratio, 1.0));
   const double cost = std::log(static_cast<double>(next.pairs().size()) / static_cast<double>(now.pairs().size()));
-  const double preference = task_.active <= 3 ? 1.0 : 1.4;  // measured; of long polynomials more than products grows
+  const double preference = task_.active <= 3 ? 1.0 : 0.7;  // measured
   return gain * decay.symbols > preference * cost * (now.degree() + 1);
 }
 
