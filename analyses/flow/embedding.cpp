@@ -108,6 +108,8 @@ Emphasis emphasisOf(const std::vector<Influence>& influence, double negligible, 
   std::ranges::sort(order, {}, [&](int l) { return influence[at(l)].any; });
   const double ratio = std::log(std::clamp(greatest, 0.02, 0.1));
   double carried = 0, squares = 0;
+  if (!std::ranges::any_of(influence, [](const Influence& of) { return of.any > 0; }))
+    order.clear();  // nothing is known
   for (const int l : order) {
     const Influence& of = influence[at(l)];
     squares += of.any * of.any;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <new>
@@ -24,16 +25,17 @@ namespace {
 
 constexpr int mostRounds = 6;
 
-/// The weights of the uncertain quantities' symbols, as far as they are known.
+/// The weights of the uncertain quantities' symbols, as far as they are known, and how large states become.
 class Weighing {
  public:
   Weighing(const FlowQuestion& question, const Box& box) : share_(question.options.tightness - 1) {
     const int symbols = Embedding(box, question.motion.states(), question.options.varying).symbols;
     emphasis_ = {std::vector<int>(at(symbols), 1), static_cast<double>(symbols)};
-    if (symbols < leastLookedAt || question.options.degree >= 0) return;
+    if (symbols == 0) return;
+    const bool weighs = symbols >= leastLookedAt && question.options.degree < 0;
     const double began = threadCpuSeconds();
     try {
-      look(question, box);
+      look(question, box, weighs);
     } catch (const Cancelled&) {  // the run that follows says so
     } catch (const std::bad_alloc&) {
     }
@@ -42,6 +44,7 @@ class Weighing {
   }
 
   const Emphasis& emphasis() const { return emphasis_; }
+  const std::vector<double>& sizes() const { return sizes_; }
   double cpuSeconds() const { return cpu_; }
 
   /// Fewer of them are taken for negligible.
@@ -61,13 +64,13 @@ class Weighing {
   }
 
  private:
-  static constexpr int leastLookedAt = 4, mostOfSecondDegree = 8, roughOrder = 6, mostSteps = 2000;
+  static constexpr int leastLookedAt = 4, mostOfSecondDegree = 8, roughOrder = 6, mostSteps = 2000, stepsForSize = 500;
   static constexpr double roughTolerance = 1e-5;
 
   /// One piece of low degree and order, of which nothing is proved.
-  void look(const FlowQuestion& question, const Box& box) {
+  void look(const FlowQuestion& question, const Box& box, bool weighs) {
     const Embedding embedding(box, question.motion.states(), question.options.varying);
-    const int n = question.motion.states(), degree = embedding.symbols <= mostOfSecondDegree ? 2 : 1;
+    const int n = question.motion.states(), degree = weighs && embedding.symbols <= mostOfSecondDegree ? 2 : 1;
     const auto monomials = std::make_shared<const Monomials>(std::vector<int>(at(embedding.symbols), 1), degree);
     std::vector<int> inputs;
     for (const VaryingParameter& input : question.options.varying) inputs.push_back(input.parameter);
@@ -75,13 +78,26 @@ class Weighing {
                         FlowInputs(n, roughOrder, inputs, 1), question.options.cancelled);
     PolynomialSeries outputs(question.outputs, question.outputs.outputs(), monomials, 0, 1, false);
     influence_.assign(at(embedding.symbols), {});
+    sizes_.assign(at(n), 0.0);
     FlowSet set = startOf(embedding, n, *monomials, 0);
+    bool isWhole = true;  // else sizes may be those of a state that grows without bound
     for (int part = 1, steps = 0; part <= 8; ++part) {
       const double end = question.horizon * part / 8;
       while (set.t < end) {
-        if (++steps > mostSteps || !stepper.drift(set, end)) part = 8, set.t = end;
-        for (int i = 0; i < n; ++i) measureInfluence(&set.p[at(i * monomials->count())], *monomials, influence_);
+        if (++steps > (weighs ? mostSteps : stepsForSize) || !stepper.drift(set, end)) {
+          part = 8;
+          set.t = end;
+          isWhole = false;
+        }
+        for (int i = 0; i < n; ++i) {
+          const double* p = &set.p[at(i * monomials->count())];
+          double size = 0;
+          for (int g = 0; g < monomials->count(); ++g) size += std::fabs(p[g]);
+          if (std::isfinite(size)) sizes_[at(i)] = std::max(sizes_[at(i)], size);
+          if (weighs) measureInfluence(p, *monomials, influence_);
+        }
       }
+      if (!weighs) continue;
       for (int i = 0; i < n; ++i) outputs.setState(i, &set.p[at(i * monomials->count())]);
       for (std::size_t i = 0; i < set.parameters.size(); ++i)
         outputs.setParameter(static_cast<int>(i), set.parameters[i]);
@@ -93,6 +109,8 @@ class Weighing {
         measureInfluence(polynomial.data(), *monomials, influence_);
       }
     }
+    if (!isWhole) sizes_.clear();
+    if (!weighs) return;
     if (degree == 1)  // what is nonlinear is not known: at most as much, in proportion
       for (Influence& of : influence_) of.nonlinear = of.any;
     emphasis_ = emphasisOf(influence_, negligible_, share_);
@@ -101,6 +119,7 @@ class Weighing {
   double share_, negligible_ = 0.01, cpu_ = 0;
   Emphasis emphasis_;
   std::vector<Influence> influence_;
+  std::vector<double> sizes_;
 };
 
 }  // namespace
@@ -111,18 +130,22 @@ Tube refine(const FlowQuestion& question, const Box& box, const std::vector<Box>
   Weighing weighing(question, box);
   FlowRound round;
   round.isLast = false;
-  double reached = 0, looseBefore = 0;
-  bool isAlike = true;  // to the round before, but tighter
+  double reached = 0, looseBefore = 0, tightened = 1;  // by the factor before
+  bool isAlike = true;                                 // to the round before, but tighter
   for (int count = 1;; ++count) {
     round.isLast = round.isLast || count == mostRounds;
     round.emphasis = weighing.emphasis();
+    round.sizes = weighing.sizes();
     const FlowTask task(question, box, levels, round);
     FlowRun run(task);
     Tube tube = run.run();
     looseness = run.looseness();
-    const double factor = run.tighterBy(tube);
-    const bool isInVain =
+    constexpr double decidedly = 10;
+    const bool isNoBetter =
         isAlike && reached == question.horizon && tube.reached() == reached && looseness > 0.5 * looseBefore;
+    const bool isInVain = isNoBetter && tightened >= decidedly;
+    double factor = run.tighterBy(tube);
+    if (isNoBetter && factor > 1) factor = std::max(factor, decidedly);  // what was allowed before was nowhere reached
     const bool isMisjudged = factor > 1 && !round.emphasis.isUniform();
     const bool mayRaise = factor > 1 && run.needsDegree() && task.hasRicherOutputs();
     reached = tube.reached();
@@ -135,6 +158,7 @@ Tube refine(const FlowQuestion& question, const Box& box, const std::vector<Box>
     best = count == 1 ? std::move(tube) : FlowRun::meet(std::move(best), std::move(tube));
     if (round.isLast) break;
     isAlike = !isMisjudged;
+    tightened = factor;
     if (isMisjudged) {
       weighing.raise(run.influence());
     } else if (mayRaise && !isInVain) {

@@ -23,6 +23,8 @@ constexpr double mostGrowthOfInputs = 0.08;
 // symmetry keeps at zero: to what the others are in balanced units; and never below what bounds can tell from
 // underflow, bounds::tiny over a tolerance.
 constexpr double vanished = 0x1p-120, unheard = 0x1p-80, leastSize = 0x1p-530;
+constexpr double mostOfFrame = 1e-4;      // of the remainder, that a step's orders in time may add
+constexpr double heard = 1e-3;            // of what a state becomes: a machine at rest, to which a push is yet to come
 constexpr double hardlyMoving = 0x1p-20;  // of what is left over, a polynomial that says nothing of the state
 
 }  // namespace
@@ -40,8 +42,8 @@ FlowStepper::FlowStepper(const Program& motion, std::shared_ptr<const Monomials>
   kinks_ = std::make_unique<FlowKinks>(motion, inputs_.parameters());
   if (kinks_->count() == 0) kinks_.reset();
   epsilon_.assign(at(n_ * n_), 0.0);
-  for (auto* v : {&delta0_, &delta1_, &start_, &E_, &y_, &e1_, &nu0_, &nu1_, &scale_, &floor_, &second_, &third_,
-                  &turn_, &driven_})
+  for (auto* v : {&delta0_, &delta1_, &start_, &E_, &y_, &e1_, &nu0_, &nu1_, &scale_, &floor_, &least_, &second_,
+                  &third_, &turn_, &driven_})
     v->assign(at(n_), 0.0);
 }
 
@@ -58,6 +60,7 @@ void FlowStepper::load(const FlowSet& set) {
   for (std::size_t i = 0; i < at(n_); ++i) {
     floor_[i] = std::max(leastSize, std::ldexp(unheard * greatest, unit(i)));
     if (!set.largest.empty()) floor_[i] = std::max(floor_[i], vanished * set.largest[i]);
+    least_[i] = i < sizes_.size() ? std::max(floor_[i], heard * sizes_[i]) : floor_[i];
   }
   const int N = series_.count();
   for (int i = 0; i < n_; ++i) series_.setState(i, &set.p[at(i * N)]);
@@ -71,22 +74,27 @@ void FlowStepper::load(const FlowSet& set) {
     }
 }
 
-/// The step, in units of h0, at which the last two orders reach the tolerance.
-double FlowStepper::suggestion(double theta) const {
+/// The step, in units of h0, at which the last two orders reach the tolerance. A state is no less than `share` of the
+/// greatest.
+double FlowStepper::suggestion(double theta, double share) const {
+  const auto norm = [&](int i, int order) {
+    double sum = 0;
+    for (int g = 0; g < series_.count(); ++g) sum += std::fabs(series_.series(i)[g * series_.stride() + order]);
+    return sum;
+  };
+  std::vector<double> sizes(at(n_), 0.0);  // over the step; one that starts from rest moves by a later order
+  for (int i = 0; i < n_; ++i) {
+    double& size = sizes[at(i)];
+    for (int order = 3; order >= 0; --order) size = size * std::min(theta, 1.0) + norm(i, order);
+    for (int order = 4; size == 0 && order <= m_; ++order)
+      size = norm(i, order) * std::pow(std::min(theta, 1.0), order);
+  }
+  const double least = share * *std::ranges::max_element(sizes);
   double best = 1e9;
   for (int i = 0; i < n_; ++i) {
-    const double* x = series_.series(i);
-    const auto norm = [&](int order) {
-      double sum = 0;
-      for (int g = 0; g < series_.count(); ++g) sum += std::fabs(x[g * series_.stride() + order]);
-      return sum;
-    };
-    double size = 0;  // over the step; one that starts from rest moves by a later order
-    for (int order = 3; order >= 0; --order) size = size * std::min(theta, 1.0) + norm(order);
-    for (int order = 4; size == 0 && order <= m_; ++order) size = norm(order) * std::pow(std::min(theta, 1.0), order);
-    size = std::max(size, floor_[at(i)]);
+    const double size = std::max({sizes[at(i)], least_[at(i)], least});
     for (int order : {m_ - 1, m_}) {
-      const double last = norm(order);
+      const double last = norm(i, order);
       if (!std::isfinite(last)) return std::nan("");
       if (last > 0) best = std::min(best, std::pow(tolerance_ * size / last, 1.0 / order));
     }
@@ -121,7 +129,7 @@ bool FlowStepper::tryStep(const FlowSet& set, double theta) {
   };
   if (!series_.tabulate(theta) || !boundAlong()) return refuse();
   for (int i = 0; i < n_; ++i) {
-    scale_[at(i)] = std::max(series_.norm(i), floor_[at(i)]);
+    scale_[at(i)] = std::max(series_.norm(i), least_[at(i)]);
     double start = set.W[at(i)];
     for (int j = 0; j < n_; ++j) start += std::fabs(set.C[at(i * n_ + j)]) * total_[at(j)];
     start_[at(i)] = start * bounds::up;
@@ -173,14 +181,26 @@ bool FlowStepper::tryStep(const FlowSet& set, double theta) {
     timeError_ = std::max(timeError_, time / scale_[at(i)]);
     truncation_ = std::max(truncation_, truncation / scale_[at(i)]);
   }
+  std::vector<double> left(at(n_), 0.0);  // of |Ψ| total, out of time
   for (int j = 0; j < n_; ++j) {
     for (int i = 0; i < n_; ++i) series_.frameDefect(i, j, nu0_[at(i)], nu1_[at(i)]);
     for (int i = 0; i < n_; ++i) {
-      double s = 0;
-      for (int l = 0; l < n_; ++l) s += growth_.M1(i, l) * nu0_[at(l)] + growth_.M2(i, l) * nu1_[at(l)];
-      epsilon_[at(i * n_ + j)] = s * bounds::up;
+      double s = 0, time = 0;
+      for (int l = 0; l < n_; ++l) {
+        s += growth_.M1(i, l) * nu0_[at(l)];
+        time += growth_.M2(i, l) * nu1_[at(l)];
+      }
+      epsilon_[at(i * n_ + j)] = (s + time) * bounds::up;
+      left[at(i)] += time * total_[at(j)];
     }
   }
+  double most = 0, all = 0;
+  for (int i = 0; i < n_; ++i) {
+    const double unit = std::ldexp(1.0, -growth_.units()[at(i)]);
+    most = std::max(most, unit * left[at(i)]);
+    all = std::max(all, unit * start_[at(i)]);
+  }
+  frameError_ = all > 0 ? most / all : 0;
   return true;
 }
 
@@ -327,7 +347,7 @@ bool FlowStepper::isKinkTooWide(const FlowSet& set, double kinkShare) {
 
 /// Computes the series in a scale h0 about as long as a step, which is returned; 0 if that would be below `smallest`,
 /// NaN if numbers are not finite whatever the scale.
-double FlowStepper::expand(const FlowSet& set, double left, double smallest) {
+double FlowStepper::expand(const FlowSet& set, double left, double smallest, double share) {
   const auto powerOfTwoAbove = [](double x) {
     int exponent = 0;
     std::frexp(x, &exponent);
@@ -338,7 +358,7 @@ double FlowStepper::expand(const FlowSet& set, double left, double smallest) {
     h0_ = powerOfTwoAbove(std::min(guess, left));
     load(set);
     series_.compute(set.t, h0_);
-    const double theta = suggestion(guess / h0_) * caution_;
+    const double theta = suggestion(guess / h0_, share) * caution_;
     if (std::isfinite(theta)) {
       const double h = theta * h0_;
       // A scale far from the step loses digits to overflow and underflow: once more with a better one.
@@ -355,11 +375,12 @@ double FlowStepper::expand(const FlowSet& set, double left, double smallest) {
 }
 
 bool FlowStepper::drift(FlowSet& set, double end) {
+  constexpr double little = 1e-9;  // of another state: what rests until that moves it sets no pace
   caution_ = set.caution;
   growth_.setUnits(set.units);
   series_.forgetCrossings();
   timeKinks_.giveSides(set.parameters, set.t, end, series_);
-  const double left = end - set.t, h = std::min({expand(set, left, 1e-9 * left), h0_, left});
+  const double left = end - set.t, h = std::min({expand(set, left, 1e-9 * left, little), h0_, left});
   if (!(h > 0)) return false;
   const int N = series_.count();
   for (int i = 0; i < n_; ++i)
@@ -419,6 +440,11 @@ StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum,
         const double factor = std::pow(tolerance_ / timeError_, 1.0 / (m_ + 1));
         caution_ *= factor;
         h *= factor;
+        continue;
+      }
+      // Of a machine at rest it is errors that move, faster than it does itself.
+      if (series_.count() > 1 && frameError_ > mostOfFrame && attempt < 3) {
+        h *= std::max(0.25, 0.9 * std::pow(mostOfFrame / frameError_, 1.0 / (m_ + 1)));
         continue;
       }
       // Stiff, or so much is left over: the comparison with |Df| would lose a factor e^{growth} a step.

@@ -100,6 +100,8 @@ class FlowStepper {
   /// Of the stepper's motion.
   void setTimeKinks(TimeKinks kinks) { timeKinks_ = std::move(kinks); }
   void setStateNames(const std::vector<std::string>& names) { names_ = names; }
+  /// How large each state becomes, about: steps are relative to no less than a share of that. None: that is not known.
+  void setSizes(const std::vector<double>& sizes) { sizes_ = sizes; }
   std::string nameOf(int state) const;
   /// After a failure: the remainder, not ξ, makes the set too wide; bisecting ξ cannot help.
   bool isRemainderDominant(const FlowSet& set) const;
@@ -150,9 +152,9 @@ class FlowStepper {
   bool boundGrowth(double h);
   bool tryStep(const FlowSet& set, double theta);
   void load(const FlowSet& set);
-  double expand(const FlowSet& set, double left, double smallest);
+  double expand(const FlowSet& set, double left, double smallest, double share = 0);
   void boundDerivatives();
-  double suggestion(double theta) const;
+  double suggestion(double theta, double share) const;
   FlowCause reason(const FlowSet& set) const;
   double doubling(const FlowSet& set, int state) const;
   bool isTruncationTooLarge(double splitDefect);
@@ -212,9 +214,10 @@ class FlowStepper {
   FlowGrowth growth_;
   FlowInputs inputs_;
   double h0_ = 0, h_ = 0, theta_ = 0;
-  double timeError_ = 0, truncation_ = 0;
+  double timeError_ = 0, truncation_ = 0, frameError_ = 0;
   double caution_ = 1;
   std::vector<std::string> names_;
+  std::vector<double> sizes_;
   int symbolAcross_ = -1;                          // of kinks, for worstSymbol
   const FlowJumps* of_ = nullptr;                  // without any held
   std::optional<JumpBounder> own_, holding_;       // of the stepper's own jumps; of those of which some are held
@@ -235,6 +238,7 @@ class FlowStepper {
   FlowCause why_;
   std::string obstacle_;  // of the last attempt
   std::vector<double> delta0_, delta1_, start_, E_, y_, e1_, epsilon_, nu0_, nu1_, scale_, floor_;
+  std::vector<double> least_;  // the floor, or what counts of the state's size over the motion, if that is more
   std::vector<double> total_, errors_;         // R + Σ_j |Γ_j| of the set being stepped; without inputs
   std::vector<double> driven_;                 // what inputs do to a state within the step, at most
   std::vector<double> second_, third_, turn_;  // bounds of derivatives by σ: p'' and the next, Ψ''(r + Γs)

@@ -58,7 +58,8 @@ FlowTask::FlowTask(const FlowQuestion& question, const Box& startBox, const std:
       horizon(question.horizon),
       effective(round.emphasis.weights.empty() ? embedding.symbols : round.emphasis.effective),
       isLast(round.isLast),
-      richer(round.richer) {
+      richer(round.richer),
+      sizes(round.sizes) {
   varying = parametersOf(options.varying);
   times.push_back(0.0);
   for (double time : question.outputTimes)

@@ -39,11 +39,12 @@ struct FlowLayout {
 
 /// What a repeated run does otherwise than the first.
 struct FlowRound {
-  double tighter = 1;      ///< splitDefect is so many times less than at first
-  double finer = 1;        ///< so is the tolerance
-  std::size_t richer = 0;  ///< the outputs' layout is so many further on
-  bool isLast = true;      ///< no tighter run comes
-  Emphasis emphasis;       ///< none: every symbol alike
+  double tighter = 1;              ///< splitDefect is so many times less than at first
+  double finer = 1;                ///< so is the tolerance
+  std::size_t richer = 0;          ///< the outputs' layout is so many further on
+  bool isLast = true;              ///< no tighter run comes
+  Emphasis emphasis;               ///< none: every symbol alike
+  std::vector<double> sizes = {};  ///< of states over the motion, about; none: not known
 };
 
 struct FlowTask {
@@ -87,6 +88,7 @@ struct FlowTask {
   std::vector<double> times;        // 0, those asked for, the horizon
   std::vector<char> looksAside;     // at each of them
   TimeKinks timeKinks;              // of `differentiated`
+  std::vector<double> sizes;        // FlowRound
   std::vector<double> ends;         // of steps besides: next to kinks in time, of outputs too; rising
 };
 
