@@ -495,29 +495,35 @@ CellPlanes Cells::planes(const Cell& cell) const {
   return planes;
 }
 
+/// The place is known to 8 roundings, about a number up to 1: a distance from a centre and its quotient by a half-width
+/// make three. In a part of half-width h these are 8 u/h of its own η, and the way there, (ξ - centre)/h, adds two of a
+/// number up to 1; so what holds within 16 u/h of it, as far as the part goes, holds at the place itself, in whichever
+/// of two parts that meet there it lies.
 Cell::Verdict Cells::verdictAt(const std::vector<double>& xi) {
+  constexpr double off = 8 * bounds::unit;
   const auto cell = whole();
   const auto isBeside = [&](std::size_t l) {
     return std::ranges::find(question_.besides, static_cast<int>(l)) != question_.besides.end();
   };
   for (std::size_t l = 0; l < xi.size() && cell->verdict_ == Cell::Verdict::open; ++l) {
     if (isBeside(l)) continue;
-    cell->part_.centre[l] = xi[l];
-    cell->part_.half[l] = 0;
+    const double lower = std::max(xi[l] - off, -1.0), upper = std::min(xi[l] + off, 1.0);
+    cell->part_.centre[l] = 0.5 * (lower + upper);
+    cell->part_.half[l] = 0.5 * (upper - lower);
   }
   if (cell->verdict_ != Cell::Verdict::open) return cell->verdict_;
   const auto covers = [&](const FlowPart& part) {
     for (std::size_t l = 0; l < xi.size(); ++l)
-      if (!isBeside(l) && std::fabs(xi[l] - part.centre[l]) > part.half[l]) return false;
+      if (!isBeside(l) && std::fabs(xi[l] - part.centre[l]) > part.half[l] + off) return false;
     return true;
   };
   for (Cell::Local& local : cell->locals_) {
     if (!covers(local.part)) continue;
     for (int l = 0; l < models_.symbols; ++l) {
       if (isBeside(at(l))) continue;
-      // The middle is off by its roundings, which the half-width covers.
-      const double middle = (xi[at(l)] - local.part.centre[at(l)]) / local.part.half[at(l)];
-      narrow(local, l, middle, 8 * bounds::unit);
+      const double half = local.part.half[at(l)], middle = (xi[at(l)] - local.part.centre[at(l)]) / half;
+      const double lower = std::max(middle - 2 * off / half, -1.0), upper = std::min(middle + 2 * off / half, 1.0);
+      narrow(local, l, 0.5 * (lower + upper), 0.5 * (upper - lower) + off);
     }
   }
   std::erase_if(cell->chords_, [&](const Cell::Chord& chord) { return !covers(chord.of->part); });
