@@ -62,7 +62,7 @@ class SlidingReference {
       ++events;
       if (g_) limits.push_back((*phase.outputs)(t, x));
       for (std::size_t k = 0; k < sides_.size(); ++k)
-        if (watched(phase, k, t, x) < -tiny()) {
+        if (watched(phase, k, t, x) < -tiny) {
           const Precise s = phase.all(t, x)[at(k, 1)];
           sides_[k] = sides_[k] == Side::held ? (s > 0 ? Side::above : Side::below) : sideFrom(k, t, x);
         }
@@ -74,6 +74,10 @@ class SlidingReference {
 
   /// Of the first jump, at the end of the last motion.
   bool isHeld() const { return !sides_.empty() && sides_[0] == Side::held; }
+
+  /// How far arguments are beyond zero, or signs beyond 1, where that is an event: what makes the motion differ from
+  /// the truth, besides steps, whose length is this part of what it may be.
+  Precise tiny = Precise(1e-30), share = Precise(1.0);
 
   int events = 0;
   std::vector<Vector> outputs, limits;  ///< of the last motion, at its times; just before and behind its events
@@ -94,7 +98,6 @@ class SlidingReference {
     Series<Precise> series;
   };
 
-  static Precise tiny() { return Precise(1e-30); }
   std::size_t at(std::size_t k, std::size_t group) const {
     return static_cast<std::size_t>(f_.states()) + group * sides_.size() + k;
   }
@@ -122,13 +125,13 @@ class SlidingReference {
   }
   /// Where the last orders are 1e-34 of the states.
   Precise reach(Phase& phase) const {
-    Precise largest(0x1p-20), h(0.125);
+    Precise largest(0x1p-20), h = Precise(0.125) * share;
     for (int s = 0; s < f_.states(); ++s)
       largest = std::max({largest, Precise(abs(phase.series.at(s, 0))), Precise(abs(phase.series.at(s, 1)))});
     for (int s = 0; s < f_.states(); ++s)
       for (int i = order / 2; i <= order; ++i)
         if (const Precise c = abs(phase.series.at(s, i)); c > 0)
-          h = std::min(h, Precise(exp(log(Precise(1e-34) * largest / c) / i)));
+          h = std::min(h, Precise(share * exp(log(Precise(1e-34) * largest / c) / i)));
     return h;
   }
   Vector after(Phase& phase, const Precise& tau) {
@@ -149,7 +152,7 @@ class SlidingReference {
     const auto isOver = [&](const Precise& tau) {
       const Vector x = after(phase, tau);
       for (std::size_t k = 0; k < sides_.size(); ++k)
-        if (watched(phase, k, Precise(t + tau), x) < -tiny()) return true;
+        if (watched(phase, k, Precise(t + tau), x) < -tiny) return true;
       return false;
     };
     for (int part = 1; part <= parts; ++part) {

@@ -1,11 +1,14 @@
 // Random motions that come to surfaces of their jumps, are held there and leave, with outputs, alpha-cuts, models and
 // requirements that hold signs of these surfaces, accelerations and friction forces among them; trajectories whose
 // events are located in 128 bits, corners first, must lie in all of them, at output times and between, compared
-// exactly; none may violate a requirement that is told to be met. Usage:
+// exactly, but for what these trajectories are off themselves; none may violate a requirement that is told to be met.
+// Usage:
 //     held_signs_campaign [systems = 10000] [first = 0]
 // Prints what was judged, how wide the outputs are where motions are held, and how many of the requirements that are
-// met by a hundredth of the output's range are told to be. The exit status is 1 if something does not hold.
+// met by a hundredth of the output's range are told to be; where HELD_SIGNS_MISSES is set, those that are not, and what
+// ended early. The exit status is 1 if something does not hold.
 #include <fmt/format.h>
+#include <gtest/gtest-spi.h>
 
 #include <algorithm>
 #include <array>
@@ -172,7 +175,8 @@ Uncertain quantityOf(const Interval& range) {
 }
 
 struct Count {
-  long systems = 0, ended = 0, trajectories = 0, asked = 0, truly = 0, told = 0, falselyMet = 0, widths = 0, loose = 0;
+  long systems = 0, ended = 0, trajectories = 0, outside = 0, asked = 0, truly = 0, told = 0, falselyMet = 0,
+       widths = 0, loose = 0;
   double ratios = 0;
 };
 
@@ -193,6 +197,26 @@ class Seen {
     for (std::size_t o = 0; o < values.size(); ++o) range[o] = hull(range[o], Interval(values[o].convert_to<double>()));
   }
 };
+
+/// The references' own errors: how far one is from another whose events come a hundred times later and whose steps are
+/// shorter, and some units of the last place that series keep, relative to the greatest number beside it.
+std::vector<Vector> errorsOf(const std::vector<Vector>& fine, const std::vector<Vector>& coarse) {
+  std::vector<Vector> errors;
+  for (std::size_t m = 0; m < fine.size(); ++m) {
+    Precise size(1.0);
+    for (const Precise& value : fine[m]) size = std::max(size, Precise(abs(value)));
+    Vector& row = errors.emplace_back();
+    for (std::size_t i = 0; i < fine[m].size(); ++i)
+      row.push_back(abs(fine[m][i] - coarse[m][i]) + Precise(1e-32) * size);
+  }
+  return errors;
+}
+
+/// "31 of 32 (97 %)".
+std::string shareText(long part, long all) {
+  return fmt::format("{} of {} ({:.1f} %)", part, all,
+                     all > 0 ? 100.0 * static_cast<double>(part) / static_cast<double>(all) : 0.0);
+}
 
 /// One requirement on an output: its margin is another output, limit - y. Whether it is told to be met.
 bool isToldMet(const System& s, const Program& f, const Program& g, std::size_t output, double limit) {
@@ -218,7 +242,9 @@ void judgeSystem(unsigned number, Count& count) {
   Dice dice(number);
   const System s = systemOf(dice);
   const Program f = s.motion(), g = outputsOf(s, dice);
-  SlidingReference reference(f, g, s.rest());
+  SlidingReference reference(f, g, s.rest()), coarser(f, g, s.rest());
+  coarser.tiny = Precise(1e-28);
+  coarser.share = Precise(0.8125);
   Containment c;
   c.f = f;
   c.g = g;
@@ -234,18 +260,31 @@ void judgeSystem(unsigned number, Count& count) {
   c.motion = [&](const Vector& start, const std::vector<double>& times) {
     Containment::Motion motion{reference(start, times), {}};
     motion.outputs = reference.outputs;
+    motion.stateErrors = errorsOf(motion.states, coarser(start, times));
+    motion.outputErrors = errorsOf(motion.outputs, coarser.outputs);
     ++count.trajectories;
     return motion;
   };
   Judge judge(c, number + 1);
   ++count.systems;
+  const bool isTelling = std::getenv("HELD_SIGNS_MISSES") != nullptr;
   if (!judge.tube().why().empty()) {
     ++count.ended;
+    if (isTelling) fmt::print("system {}: ended at {} s: {}\n", number, judge.tube().reached(), judge.tube().why());
     return;
   }
   SCOPED_TRACE(fmt::format("system {}", number));
-  judge.judge(6);
-  if (::testing::Test::HasFailure()) return;
+  ::testing::TestPartResultArray failures;  // of this system alone
+  {
+    const ::testing::ScopedFakeTestPartResultReporter reporter(
+        ::testing::ScopedFakeTestPartResultReporter::INTERCEPT_ONLY_CURRENT_THREAD, &failures);
+    judge.judge(6);
+  }
+  if (failures.size() > 0) {
+    ++count.outside;
+    ADD_FAILURE() << failures.GetTestPartResult(0).message();
+    return;
+  }
   constexpr int most = 16, inside = 8, moments = 64;
   const auto wide = std::ranges::count_if(s.box, [](const Interval& value) { return !isThin(value); });
   const int corners = static_cast<int>(std::min<long>(most, 1L << wide));
@@ -270,6 +309,8 @@ void judgeSystem(unsigned number, Count& count) {
   ++count.asked;
   count.truly += isTruly;
   count.told += isTold && isTruly;
+  if (isTruly && !isTold && isTelling)
+    fmt::print("system {}: output {} is not told to be below {}\n", number, output, limit);
   if (isTold && !isTruly) {
     ++count.falselyMet;
     ADD_FAILURE() << "system " << number << ": output " << output << " < " << limit << " is told to be met";
@@ -293,12 +334,15 @@ int main(int argc, char** argv) {
   const int first = argc > 2 ? std::atoi(argv[2]) : 0;
   Count count;
   for (int i = first; i < first + systems; ++i) judgeSystem(static_cast<unsigned>(i), count);
-  fmt::print("{} systems ({} ended early), {} trajectories; {} requirements, {} of {} that are met by 1 % told to be\n",
-             count.systems, count.ended, count.trajectories, count.asked, count.told, count.truly);
+  fmt::print("{} systems ({} ended early), {} trajectories; {} outside\n", count.systems, count.ended,
+             count.trajectories, count.outside);
+  fmt::print("{} requirements: {} that are met by 1 % told to be, {} falsely\n", count.asked,
+             shareText(count.told, count.truly), count.falselyMet);
   fmt::print(
-      "where all are held at the horizon, {} outputs, {} of them more than 1.05 times as wide as trajectories tell, in "
-      "the mean {:.4f}\n",
-      count.widths, count.loose, std::exp(count.ratios / static_cast<double>(std::max(1L, count.widths))));
+      "where all are held at the horizon, {} outputs at most 1.05 times as wide as trajectories tell, in the mean "
+      "{:.4f}\n",
+      shareText(count.widths - count.loose, count.widths),
+      std::exp(count.ratios / static_cast<double>(std::max(1L, count.widths))));
   const bool isBad = ::testing::Test::HasFailure() || count.ended == count.systems;
   return isBad ? 1 : 0;
 }

@@ -23,9 +23,11 @@ struct Containment {
   FlowOptions options = {};
   std::optional<Program> g = {};
   std::vector<Box> levels = {};
-  /// States and outputs at so many times of the solution that starts there, where they are not those of `Reference`.
+  /// States and outputs at so many times of the solution that starts there, where they are not those of `Reference`;
+  /// and how far they may be from the truth, where that is more than their last digit: what may be inside is.
   struct Motion {
     std::vector<Vector> states, outputs;
+    std::vector<Vector> stateErrors = {}, outputErrors = {};
   };
   std::function<Motion(const Vector& start, const std::vector<double>& times)> motion = {};
   /// The truth where it is not f itself: f with decimals as further parameters, and their values in 128 bits.
@@ -50,6 +52,11 @@ inline Program standardOutputs(int n, int k) {
     y[1] = sin(x[0]) / (3.0 + sqr(x.back()));
     y[2] = sqrt(100.0 + sum) - x.back();
   });
+}
+
+/// Of a value that is known to so much.
+MATCHER_P2(MayEnclose, value, off, "encloses " + value.str(40) + " to " + off.str(5)) {
+  return !isEmpty(arg) && Precise(arg.lower()) <= value + off && value - off <= Precise(arg.upper());
 }
 
 class Judge {
@@ -101,19 +108,24 @@ class Judge {
     for (std::size_t m = 0; m < moments_.size(); ++m) {
       const auto [time, row, isOutputTime] = moments_[m];
       SCOPED_TRACE("t = " + std::to_string(time) + ", start " + describe(start));
-      within(tube_.statesOver(row), states[m], "over");
-      if (isOutputTime) within(tube_.states(row), states[m], "states");
+      const Vector none(std::max(states[m].size(), at(c_.g ? c_.g->outputs() : 0)), Precise(0.0));
+      const Vector& off = motion.stateErrors.empty() ? none : motion.stateErrors[m];
+      const Vector& offOutputs = motion.outputErrors.empty() ? none : motion.outputErrors[m];
+      within(tube_.statesOver(row), states[m], off, "over");
+      if (isOutputTime) within(tube_.states(row), states[m], off, "states");
       Vector y = states[m];
       if (outputs) {
         y = c_.motion ? motion.outputs[m] : (*outputs)(Precise(time), states[m]);
-        within(tube_.outputsOver(row), y, "outputs over");
-        if (isOutputTime) within(tube_.outputs(row), y, "outputs");
-        judgeModels(start, time, row, isOutputTime, y);
+        within(tube_.outputsOver(row), y, offOutputs, "outputs over");
+        if (isOutputTime) within(tube_.outputs(row), y, offOutputs, "outputs");
+        judgeModels(start, time, row, isOutputTime, y, offOutputs);
       }
-      if (isOutputTime && asides && !tube_.asides(row).empty())
-        within(tube_.asides(row), (*asides)(Precise(time), states[m]), "asides");
+      if (isOutputTime && asides && !tube_.asides(row).empty()) {
+        const Vector values = (*asides)(Precise(time), states[m]);
+        within(tube_.asides(row), values, Vector(values.size(), Precise(0.0)), "asides");
+      }
       if (isOutputTime)
-        for (std::size_t l = 0; l < level; ++l) within(tube_.cut(l, row), y, "cut");
+        for (std::size_t l = 0; l < level; ++l) within(tube_.cut(l, row), y, outputs ? offOutputs : off, "cut");
       if (::testing::Test::HasFatalFailure()) return;
     }
   }
@@ -157,7 +169,8 @@ class Judge {
     return std::pair(value - Precise(model.radius), value + Precise(model.radius));
   }
 
-  void judgeModels(const Vector& start, double time, std::size_t row, bool isOutputTime, const Vector& y) {
+  void judgeModels(const Vector& start, double time, std::size_t row, bool isOutputTime, const Vector& y,
+                   const Vector& off) {
     if (!tube_.models() || tube_.models()->areAlternatives) return;
     const FlowModels& models = *tube_.models();
     std::size_t covering = 0;
@@ -165,11 +178,11 @@ class Judge {
       if (isOutputTime && placeIn(snapshot->part, start)) {
         ++covering;
         for (std::size_t o = 0; o < y.size(); ++o) {
-          ASSERT_THAT(snapshot->outputs[o].bound, Encloses(y[o])) << "model's bound of " << o;
+          ASSERT_THAT(snapshot->outputs[o].bound, MayEnclose(y[o], off[o])) << "model's bound of " << o;
           const auto range = rangeAt(*snapshot, o, start);
           if (!range) continue;
-          ASSERT_LE(range->first, y[o]) << "model of " << o;
-          ASSERT_GE(range->second, y[o]) << "model of " << o;
+          ASSERT_LE(range->first, y[o] + off[o]) << "model of " << o;
+          ASSERT_GE(range->second, y[o] - off[o]) << "model of " << o;
         }
       }
     ASSERT_TRUE(covering > 0 || !isOutputTime);
@@ -179,11 +192,13 @@ class Judge {
       if (!(chord.before->time <= time && time <= chord.behind->time) || !placeIn(chord.part, start)) continue;
       ++covering;
       for (std::size_t o = 0; o < y.size(); ++o) {
-        ASSERT_THAT(chord.bound[o], Encloses(y[o])) << "chord's bound of " << o;
+        ASSERT_THAT(chord.bound[o], MayEnclose(y[o], off[o])) << "chord's bound of " << o;
         const auto before = rangeAt(*chord.before, o, start), behind = rangeAt(*chord.behind, o, start);
         if (!before || !behind || !isBounded(chord.sag[o])) continue;
-        ASSERT_LE(std::min(before->first, behind->first) + Precise(chord.sag[o].lower()), y[o]) << "chord of " << o;
-        ASSERT_GE(std::max(before->second, behind->second) + Precise(chord.sag[o].upper()), y[o]) << "chord of " << o;
+        ASSERT_LE(std::min(before->first, behind->first) + Precise(chord.sag[o].lower()), y[o] + off[o])
+            << "chord of " << o;
+        ASSERT_GE(std::max(before->second, behind->second) + Precise(chord.sag[o].upper()), y[o] - off[o])
+            << "chord of " << o;
       }
     }
     ASSERT_GT(covering, 0U);
@@ -200,9 +215,12 @@ class Judge {
     for (const Precise& value : start) text += value.str(17) + " ";
     return text;
   }
-  static void within(const std::vector<Interval>& intervals, const Vector& values, const char* what) {
+  static std::size_t at(int number) { return static_cast<std::size_t>(number); }
+  static void within(const std::vector<Interval>& intervals, const Vector& values, const Vector& off,
+                     const char* what) {
     ASSERT_EQ(intervals.size(), values.size());
-    for (std::size_t i = 0; i < values.size(); ++i) ASSERT_THAT(intervals[i], Encloses(values[i])) << what << ' ' << i;
+    for (std::size_t i = 0; i < values.size(); ++i)
+      ASSERT_THAT(intervals[i], MayEnclose(values[i], off[i])) << what << ' ' << i;
   }
 
   const Containment& c_;
