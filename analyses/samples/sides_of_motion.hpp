@@ -58,7 +58,7 @@ class SidesOfMotion {
 
   /// `g` must outlive it.
   SidesOfMotion(const Program& f, const Program& g, double horizon)
-      : f_(withOneSignASurface(f)), g_(g), horizon_(horizon), count_(jumpsOf(f_).size()) {
+      : f_(withOneSignASurface(withBareSigns(f))), g_(g), horizon_(horizon), count_(jumpsOf(f_).size()) {
     if (count_ > 0) influence_.emplace(f_);
     for (const int jump : jumpsOf(f_)) forms_.push_back(linearFormOf(f_, f_.nodes()[detail::at(jump)].a));
   }

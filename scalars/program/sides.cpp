@@ -64,29 +64,35 @@ Argument bareArgumentOf(const Program& f, int jump) {
   }
 }
 
-}  // namespace
-
-Program withBareKinks(const Program& f) {
+/// f with factors in which no state is taken off the arguments of all its nodes of this kind that move: |k u| = |k||u|,
+/// or sign(k u) = sign k sign u.
+Program withBareArguments(const Program& f, Op kind) {
   const std::vector<char> moves = ofStates(f);
   Recorder result(f.states(), f.parameters());
   std::vector<int> instead(f.nodes().size(), -1), outputs;
   const std::vector<int> plain = result.append(f);
+  const auto of = [&](int node) {
+    return kind == Op::abs ? result.abs(plain[at(node)]) : result.sign(plain[at(node)]);
+  };
   bool isNew = false;
   for (std::size_t i = 0; i < instead.size(); ++i) {
-    if (f.nodes()[i].op != Op::abs || moves[i] == 0) continue;
+    if (f.nodes()[i].op != kind || moves[i] == 0) continue;
     int u = f.nodes()[i].a, factor = -1;
+    bool isNegative = false;
     for (;;) {
       const Node& node = f.nodes()[at(u)];
       const bool isProduct = node.op == Op::mul && (moves[at(node.a)] == 0 || moves[at(node.b)] == 0);
       if (node.op != Op::neg && !isProduct) break;
+      isNegative = isNegative != (node.op == Op::neg);
       if (isProduct) {
-        const int size = result.abs(plain[at(moves[at(node.a)] == 0 ? node.a : node.b)]);
-        factor = factor < 0 ? size : result.mul(factor, size);
+        const int more = of(moves[at(node.a)] == 0 ? node.a : node.b);
+        factor = factor < 0 ? more : result.mul(factor, more);
       }
       u = isProduct && moves[at(node.a)] == 0 ? node.b : node.a;
     }
     if (factor < 0) continue;
-    instead[i] = result.mul(factor, result.abs(plain[at(u)]));
+    const int bare = result.mul(factor, of(u));
+    instead[i] = kind == Op::sign && isNegative ? result.neg(bare) : bare;
     isNew = true;
   }
   if (!isNew) return f;
@@ -94,6 +100,12 @@ Program withBareKinks(const Program& f) {
   for (const int output : f.outputNodes()) outputs.push_back(here[at(output)]);
   return result.finish(outputs);
 }
+
+}  // namespace
+
+Program withBareKinks(const Program& f) { return withBareArguments(f, Op::abs); }
+
+Program withBareSigns(const Program& f) { return withBareArguments(f, Op::sign); }
 
 Program withOneSignASurface(const Program& f) {
   struct Surface {
@@ -248,38 +260,6 @@ std::vector<SharedSign> sharedSigns(const Program& f, const Program& g) {
     }
   }
   return shared;
-}
-
-/// g with sign k sign u for sign (k u) where no state is in k: a surface is known whatever scales it.
-Program withBareSigns(const Program& g) {
-  const std::vector<char> moves = ofStates(g);
-  Recorder result(g.states(), g.parameters());
-  std::vector<int> instead(g.nodes().size(), -1), outputs;
-  const std::vector<int> plain = result.append(g);
-  bool isNew = false;
-  for (const int jump : jumpsOf(g)) {
-    int u = g.nodes()[at(jump)].a, factor = -1;
-    double by = 1;
-    for (;;) {
-      const Node& node = g.nodes()[at(u)];
-      const bool isProduct = node.op == Op::mul && moves[at(node.a)] != moves[at(node.b)];
-      if (node.op != Op::neg && !isProduct) break;
-      if (node.op == Op::neg) by = -by;
-      if (isProduct) {
-        const int sign = result.sign(plain[at(moves[at(node.a)] == 0 ? node.a : node.b)]);
-        factor = factor < 0 ? sign : result.mul(factor, sign);
-      }
-      u = isProduct && moves[at(node.a)] == 0 ? node.b : node.a;
-    }
-    if (factor < 0 || moves[at(jump)] == 0) continue;
-    const int bare = result.mul(factor, result.sign(plain[at(u)]));
-    instead[at(jump)] = by > 0 ? bare : result.neg(bare);
-    isNew = true;
-  }
-  if (!isNew) return g;
-  const std::vector<int> here = result.append(g, {}, instead);
-  for (const int output : g.outputNodes()) outputs.push_back(here[at(output)]);
-  return result.finish(outputs);
 }
 
 /// g's outputs with nodes of `recorder` for the signs of f.

@@ -18,6 +18,8 @@ std::vector<int> jumpsOf(const Program& program);
 
 /// f with |a||u| for |a u| where no state is in a: where u is zero, a has no part in it.
 Program withBareKinks(const Program& f);
+/// f with sign a sign u for sign (a u) where no state is in a: a surface is known, and held, whatever scales it.
+Program withBareSigns(const Program& f);
 
 /// f with one sign for all arguments that are multiples of each other: at a surface they are one. Constant factors are
 /// taken off arguments: 0.1 v is as positive as v.

@@ -259,5 +259,22 @@ TEST(Sides, FactorsWithoutStatesAreTakenOffKinks) {
   EXPECT_TRUE(isIdentical(withBareKinks(bare), bare));
 }
 
+TEST(Sides, FactorsWithoutStatesAreTakenOffSigns) {
+  const Program f = record(2, 2, [](auto t, const auto& x, const auto& p, auto& dx) {
+    dx[0] = sign(-p[0] * x[0]) + sign(-(x[0] - p[1]) / p[0]);
+    dx[1] = sign(0.1 * sin(t) * (x[0] * x[1])) + sign(p[0] * p[1]) + sign(x[0] + p[0]);
+  });
+  const Program bare = withBareSigns(f);
+  int linear = 0;
+  for (const int jump : jumpsOf(bare))
+    if (const auto form = linearFormOf(bare, bare.nodes()[static_cast<std::size_t>(jump)].a))
+      linear += form->states[0] != 0 || form->states[1] != 0;
+  EXPECT_EQ(linear, 3);
+  for (const double a : {-0.25, 0.0, 0.5, 1.5})
+    for (const double k : {-2.0, 3.0})
+      EXPECT_EQ(evaluate<double>(bare, {a, 0.75}, {k, 0.5}), evaluate<double>(f, {a, 0.75}, {k, 0.5})) << a << " " << k;
+  EXPECT_TRUE(isIdentical(withBareSigns(bare), bare));
+}
+
 }  // namespace
 }  // namespace gamut::testing
