@@ -262,13 +262,34 @@ std::vector<SharedSign> sharedSigns(const Program& f, const Program& g) {
   return shared;
 }
 
+/// What the sign at zero of an argument is that is no surface of f as far as its formula tells.
+enum class Unknown {
+  number,   ///< 0, that of a number
+  anything  ///< and all from -1 to 1: it may be a surface of f that is written otherwise, at which f holds solutions
+};
+
 /// g's outputs with nodes of `recorder` for the signs of f.
-Program withSigns(Recorder& recorder, const std::vector<int>& signs, const Program& f, const Program& asWritten) {
+Program withSigns(Recorder& recorder, const std::vector<int>& signs, const Program& f, const Program& asWritten,
+                  Unknown unknown) {
   const Program g = withBareSigns(asWritten);
   std::vector<int> parameters, instead(g.nodes().size(), -1), outputs;
   for (int i = 0; i < g.parameters(); ++i) parameters.push_back(recorder.parameter(i));
   for (const auto& [jump, which, by] : sharedSigns(f, g))
     instead[at(jump)] = by > 0 ? signs[which] : recorder.neg(signs[which]);
+  const std::vector<char> moves = ofStates(g), jumps = ofStates(f);
+  const bool mayHold = std::ranges::any_of(jumpsOf(f), [&](int jump) { return jumps[at(jump)] != 0; });
+  std::vector<int> others;
+  for (const int jump : jumpsOf(g))
+    if (unknown == Unknown::anything && mayHold && moves[at(jump)] != 0 && instead[at(jump)] < 0)
+      others.push_back(jump);
+  // With what may be on either side added to it; once more, for signs within arguments.
+  for (int pass = 0; pass < 2 && !others.empty(); ++pass) {
+    constexpr double tiny = 0x1p-1000;
+    const int eitherSide = recorder.constant(Interval(-tiny, tiny));
+    const std::vector<int> here = recorder.append(g, parameters, instead);
+    for (const int jump : others)
+      instead[at(jump)] = recorder.sign(recorder.add(here[at(g.nodes()[at(jump)].a)], eitherSide));
+  }
   const std::vector<int> here = recorder.append(g, parameters, instead);
   for (const int output : g.outputNodes()) outputs.push_back(here[at(output)]);
   return recorder.finish(outputs);
@@ -280,7 +301,7 @@ Program outputsOnSides(const Program& f, const Program& g, std::span<const Side>
   const Program sided = onSides(f, sides);
   Recorder recorder(sided);
   const auto signs = sided.outputNodes().end() - static_cast<std::ptrdiff_t>(sides.size());
-  return withSigns(recorder, {signs, sided.outputNodes().end()}, f, g);
+  return withSigns(recorder, {signs, sided.outputNodes().end()}, f, g, Unknown::number);
 }
 
 Program outputsWithOpenSignsGiven(const Program& f, const Program& g, std::span<const Side> sides) {
@@ -300,7 +321,7 @@ Program outputsWithOpenSignsGiven(const Program& f, const Program& g, std::span<
   const std::vector<int> here = recorder.append(sided, parameters, instead);
   for (int j = 0; j < jumps; ++j)
     signs.push_back(sides[at(j)] == Side::open ? recorder.parameter(k + j) : here[at(first[j])]);
-  return withSigns(recorder, signs, f, g);
+  return withSigns(recorder, signs, f, g, Unknown::anything);
 }
 
 Program argumentsOfSigns(const Program& f) {
@@ -314,7 +335,7 @@ Program withSignsGiven(const Program& f, const Program& g) {
   Recorder recorder(g.states(), k + jumps);
   std::vector<int> signs;
   for (int j = 0; j < jumps; ++j) signs.push_back(recorder.parameter(k + j));
-  return withSigns(recorder, signs, f, g);
+  return withSigns(recorder, signs, f, g, Unknown::anything);
 }
 
 Program onSides(const Program& f, std::span<const Side> sides) {

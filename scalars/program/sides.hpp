@@ -50,10 +50,12 @@ Program onSides(const Program& f, std::span<const Side> sides);
 /// still); other signs stay. Throws as onSides.
 Program outputsOnSides(const Program& f, const Program& g, std::span<const Side> sides);
 
-/// Likewise, with the signs that are open as parameters behind those of g, one a jump of f.
+/// Likewise, with the signs that are open as parameters behind those of g, one a jump of f. Where f jumps in states,
+/// the other signs of states are, in intervals, anything from -1 to 1 where their arguments may be zero: these may be
+/// surfaces of f that are written otherwise.
 Program outputsWithOpenSignsGiven(const Program& f, const Program& g, std::span<const Side> sides);
 
-/// g with those signs as parameters behind its own, one a jump of f.
+/// g with those signs as parameters behind its own, one a jump of f; other signs as in outputsWithOpenSignsGiven.
 Program withSignsGiven(const Program& f, const Program& g);
 
 /// The arguments of f's signs, with all signs of f as parameters behind its own.
