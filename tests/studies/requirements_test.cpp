@@ -198,6 +198,26 @@ TEST(Requirements, AreNotRefutedByRoundings) {
   }
 }
 
+/// Both ends of [0.25, 0.75], and of what is compared with them, are doubles.
+TEST(Requirements, AreMetWhereALimitIsReachedExactly) {
+  for (const char* analysis : {"\"dynamics\"", "\"kinematics\""})
+    for (const auto& [statement, isMet] : {std::pair("angle <= 0.75", true),
+                                           {"angle >= 0.25", true},
+                                           {"0.25 <= angle <= 0.75", true},
+                                           {"angle < 0.75", false},
+                                           {"angle > 0.25", false},
+                                           {"angle <= 0.7499999999999999", false}}) {
+      std::string text = withRequirements("[[requirement]]\nname = \"end\"\nalways = \"" + std::string(statement) +
+                                          "\"\n" + (analysis[1] == 'd' ? "until = 0\n" : ""));
+      text.replace(text.find("\"30 deg\""), 8, "0.5");
+      text.replace(text.find("\"± 1 %\""), 8, "[0.25, 0.75]");
+      text.replace(text.find("\"dynamics\""), 10, analysis);
+      if (analysis[1] == 'k') text.replace(text.find("horizon"), text.find("compare") - text.find("horizon"), "");
+      const RequirementResult end = named(run(read(text)), "end");
+      EXPECT_EQ(end.word == "met", isMet) << analysis << " " << statement << ": " << end.word;
+    }
+}
+
 TEST(Requirements, ComparePlainNumbersInSiUnits) {
   const Study study =
       read(withRequirements("[[requirement]]\nname = \"plain\"\nalways = \"-3 < tip.position.z < 4\"\n"));
