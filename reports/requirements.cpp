@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <numeric>
 #include <regex>
 
 #include "mechanics/description/units.hpp"
@@ -14,6 +15,8 @@
 
 namespace gamut {
 namespace {
+
+constexpr std::size_t mostShown = 200;  // on a page; some 300 kB
 
 std::string withUnit(const std::string& number, const std::string& unit) {
   return unit.empty() || unit == "1" ? number : number + " " + unit;
@@ -187,6 +190,25 @@ std::vector<RequirementWords> wordsOfRequirements(const Results& results) {
   for (const RequirementResult& requirement : results.requirements)
     words.push_back(Wording(results, requirement).words());
   return words;
+}
+
+std::vector<std::size_t> shownRequirements(const Results& results) {
+  const auto rank = [&](std::size_t r) {
+    const RequirementResult& requirement = results.requirements[r];
+    return isViolated(requirement) ? 0 : requirement.isViolatedInSimulation ? 1 : requirement.word == "met" ? 3 : 2;
+  };
+  std::vector<std::size_t> shown(results.requirements.size());
+  std::iota(shown.begin(), shown.end(), std::size_t{0});
+  if (shown.size() <= mostShown) return shown;
+  std::ranges::stable_sort(shown, {}, rank);
+  shown.resize(mostShown);
+  std::ranges::sort(shown);
+  return shown;
+}
+
+std::string unshownRequirements(const Results& results) {
+  const std::size_t count = results.requirements.size();
+  return count > mostShown ? fmt::format("and {} more in the results file", count - mostShown) : "";
 }
 
 std::string wordOfRequirements(const Results& results) {

@@ -19,6 +19,13 @@ struct RequirementWords {
 /// One a requirement.
 std::vector<RequirementWords> wordsOfRequirements(const Results& results);
 
+/// Which of them a page shows, rising: all, or, where they are more than 200, the worst: violated ones, then those
+/// violated in simulation, open ones, met ones; of equals the first.
+std::vector<std::size_t> shownRequirements(const Results& results);
+
+/// "and 35 more in the results file"; empty where all are shown.
+std::string unshownRequirements(const Results& results);
+
 /// By how much the violation that is known misses the limit, in the unit in which that is stated: "0.273 mm".
 std::string missOf(const Results& results, const RequirementResult& requirement);
 

@@ -60,7 +60,7 @@ std::string requirementList(const Results& results, const Verdict& verdict) {
   const std::vector<RequirementWords> words = wordsOfRequirements(results);
   const std::vector<std::string> sentences = plainRequirements(results);
   std::string html = "<ul class=\"requirements\" aria-label=\"Requirements\">\n";
-  for (std::size_t r = 0; r < words.size(); ++r)
+  for (const std::size_t r : shownRequirements(results))
     html +=
         verdict.word == "outside"
             ? fmt::format("<li class=\"open\"><b>contradicted</b> <span>{}</span></li>\n", escapeHtml(words[r].name))
@@ -69,7 +69,8 @@ std::string requirementList(const Results& results, const Verdict& verdict) {
                           : words[r].word == "simulated" ? "violated in simulation"
                                                          : words[r].word,
                           escapeHtml(words[r].name), escapeHtml(sentences[r]));
-  return html + "</ul>\n";
+  const std::string more = unshownRequirements(results);
+  return html + "</ul>\n" + (more.empty() ? "" : fmt::format("<p class=\"hint\">{}</p>\n", more));
 }
 
 std::string verdictCard(const Verdict& verdict) {

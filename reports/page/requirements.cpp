@@ -18,13 +18,18 @@ std::string requirementsSection(const Report& report) {
   const Results& results = report.results;
   if (results.requirements.empty()) return {};
   std::string html = fmt::format("<p>{}</p>\n", escapeHtml(sentenceOfRequirements(results)));
-  for (const RequirementWords& words : wordsOfRequirements(results))
+  const std::vector<RequirementWords> all = wordsOfRequirements(results);
+  for (const std::size_t r : shownRequirements(results)) {
+    const RequirementWords& words = all[r];
     html += fmt::format(
         "<article class=\"requirement {}\">\n<h3><span>{}</span> <b>{}</b></h3>\n<p "
         "class=\"demand\">{}</p>\n<dl>\n{}{}{}</dl>\n"
         "</article>\n",
         words.word, escapeHtml(words.name), escapeHtml(words.verdict), escapeHtml(words.demand),
         answer("guaranteed", words.guaranteed), answer("probable", words.probable), answer("possible", words.possible));
+  }
+  if (const std::string more = unshownRequirements(results); !more.empty())
+    html += fmt::format("<p class=\"hint\">{}</p>\n", more);
   return html;
 }
 

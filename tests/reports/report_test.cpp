@@ -70,6 +70,25 @@ TEST(Report, ShowsEverythingOfFewOutputs) {
   EXPECT_THAT(page, Not(HasSubstr("so that the page stays small")));
 }
 
+TEST(Report, ShowsTheWorstOfManyRequirements) {
+  Results results = example::pendulum();
+  for (int i = 0; i < 5000; ++i) {
+    RequirementResult& requirement = results.requirements.emplace_back();
+    requirement.name = "requirement " + std::to_string(i) + ".";
+    requirement.statement = "always a > 1 m";
+    requirement.word = i == 4321 ? "partly" : i % 1000 == 999 ? "open" : "met";
+    requirement.violation.assign(results.uncertain.size(), std::nan(""));
+  }
+  const std::string page = renderReport(results);
+  EXPECT_EQ(count(page, "<article class=\"requirement "), 200u);
+  EXPECT_EQ(count(page, "and 4800 more in the results file"), 2u);
+  for (const char* shown : {"requirement 4321.", "requirement 999.", "requirement 4999.", "requirement 0."})
+    EXPECT_THAT(page, HasSubstr(shown));
+  EXPECT_THAT(page, Not(HasSubstr("requirement 3000.")));
+  results.requirements.resize(200);
+  EXPECT_EQ(count(renderReport(results), "more in the results file"), 0u);
+}
+
 TEST(Report, CarriesThePlottingLibraryAndItsLicence) {
   EXPECT_THAT(renderReport(example::pendulum()),
               AllOf(HasSubstr("var uPlot="), HasSubstr("Permission is hereby granted, free of charge")));
