@@ -121,8 +121,8 @@ void Watch::begin(Stage stage) {
   const std::lock_guard lock(mutex_);
   stage_ = stage;
   stageBegan_ = processCpuSeconds();
+  ::malloc_trim(0);  // what the stage before held in many small pieces is no longer in use
   if (stop_ && !forAll_) {
-    ::malloc_trim(0);  // what the stage before held is no longer in use
     why_.clear();
     key_.clear();
     stop_ = false;

@@ -11,24 +11,31 @@
 namespace gamut {
 
 Settlement::Settlement(const Proved& proved, const UncertainMotion& system, const ComparisonOptions& options)
-    : proved_(proved), system_(system), options_(options), refuted_(1 + proved.cuts.size(), 0) {
-  const std::size_t times = system.motion.times.size(), outputs = system.motion.outputs();
-  const std::size_t size = proved.reachedTimes * outputs;
-  Envelope bounds(times, outputs);
-  const auto narrow = [&](const Envelope& by) {
-    if (by.lower.data.size() != bounds.lower.data.size() || by.upper.data.size() != bounds.upper.data.size() ||
-        proved.reachedTimes > times)
+    : proved_(proved),
+      system_(system),
+      options_(options),
+      bounds_(system.motion.times.size(), system.motion.outputs()),
+      refuted_(1 + proved.cuts.size(), 0) {
+  const std::size_t times = system.motion.times.size(), all = bounds_.lower.data.size();
+  const auto check = [&](const Envelope& bounds) {
+    if (bounds.lower.data.size() != all || bounds.upper.data.size() != all || proved.reachedTimes > times)
       throw std::invalid_argument("proved bounds do not have the motion's times and outputs");
-    for (std::size_t i = 0; i < size; ++i) {
-      bounds.lower.data[i] = std::fmax(bounds.lower.data[i], by.lower.data[i]);  // fmax, fmin: NaN is no bound
-      bounds.upper.data[i] = std::fmin(bounds.upper.data[i], by.upper.data[i]);
-    }
   };
-  if (!proved.enclosure.empty()) narrow(proved.enclosure);
-  tightest_.push_back(bounds);
-  for (const Envelope& cut : proved.cuts) {
-    narrow(cut);
-    tightest_.push_back(bounds);
+  std::ranges::for_each(proved.cuts, check);
+  if (proved.enclosure.empty()) return;
+  check(proved.enclosure);
+  const std::size_t size = proved.reachedTimes * system.motion.outputs();
+  std::copy_n(proved.enclosure.lower.data.begin(), size, bounds_.lower.data.begin());
+  std::copy_n(proved.enclosure.upper.data.begin(), size, bounds_.upper.data.begin());
+}
+
+/// Of samples in no cut, in the first, in the first two … at one output and time. fmax, fmin: NaN is no bound.
+void Settlement::boundLevels(std::size_t cell, std::vector<double>& lower, std::vector<double>& upper) const {
+  lower[0] = bounds_.lower.data[cell];
+  upper[0] = bounds_.upper.data[cell];
+  for (std::size_t level = 0; level < proved_.cuts.size(); ++level) {
+    lower[level + 1] = std::fmax(lower[level], proved_.cuts[level].lower.data[cell]);
+    upper[level + 1] = std::fmin(upper[level], proved_.cuts[level].upper.data[cell]);
   }
 }
 
@@ -40,12 +47,9 @@ std::vector<std::size_t> Settlement::leavers(const SampleBlock& block) const {
     return [&](std::size_t pack) {
       const std::size_t first = pack * packWidth, count = std::min<std::size_t>(packWidth, block.size() - first);
       const double* row = block.pack(pack).data();
-      std::vector<double> lower(tightest_.size()), upper(tightest_.size());
+      std::vector<double> lower(1 + proved_.cuts.size()), upper(lower.size());
       for (std::size_t i = 0; i < size; ++i, row += packWidth) {
-        for (std::size_t level = 0; level < tightest_.size(); ++level) {
-          lower[level] = tightest_[level].lower.data[i];
-          upper[level] = tightest_[level].upper.data[i];
-        }
+        boundLevels(i, lower, upper);
         for (std::size_t lane = 0; lane < count; ++lane) {
           const std::size_t level = block.levels[first + lane];
           leaves[first + lane] |= static_cast<char>((row[lane] < lower[level]) | (row[lane] > upper[level]));
@@ -127,15 +131,18 @@ void Settlement::settleOnce(SampleBlock& block, const std::vector<std::size_t>& 
   if (moved_.empty()) moved_ = movedOutputs(system_);
   const std::size_t outputs = moved_.size(), cells = proved_.reachedTimes * outputs;
   if (std::ranges::find(moved_, 0) == moved_.end()) return;
+  std::vector<double> lower(1 + proved_.cuts.size()), upper(lower.size());
   for (std::size_t i = 0; i < disputed.size() && known_.values.empty(); ++i)
     for (std::size_t cell = 0; cell < cells && known_.values.empty(); ++cell) {
-      const Envelope& bounds = tightest_[block.levels[disputed[i]]];
-      if (moved_[cell % outputs] != 0 || !leaves(block, disputed[i], cell, bounds)) continue;
+      if (moved_[cell % outputs] != 0) continue;
+      boundLevels(cell, lower, upper);
+      const std::size_t level = block.levels[disputed[i]];
+      const double value = block(disputed[i], 0, cell);
+      if (!(value < lower[level] || value > upper[level])) continue;
       known_ = settleUnmoved(system_, moved_, proved_.reachedTimes, options_.cancelled);
       if (known_.values.empty()) return;  // it was cancelled
       const double settled = known_.values[cell];
-      if (settled >= bounds.lower.data[cell] && settled <= bounds.upper.data[cell])
-        tellOf(block, disputed[i], cell, take);
+      if (settled >= lower[level] && settled <= upper[level]) tellOf(block, disputed[i], cell, take);
     }
   for (const std::size_t i : disputed)
     for (std::size_t cell = 0; cell < known_.values.size(); ++cell)

@@ -11,16 +11,16 @@
 
 namespace gamut {
 
-/// What is proved at the first `reachedTimes` output times.
+/// What is proved at the first `reachedTimes` output times; what it is made of must outlive it.
 struct Proved {
-  Envelope enclosure;          ///< for all samples; empty if there is none
-  std::vector<Envelope> cuts;  ///< one a level of alpha, rising
+  const Envelope& enclosure;          ///< for all samples; empty if there is none
+  const std::vector<Envelope>& cuts;  ///< one a level of alpha, rising
   std::size_t reachedTimes = 0;
 };
 
 class Settlement {
  public:
-  /// All that is referred to must outlive it.
+  /// All that is referred to must outlive it, and what is proved must stay.
   Settlement(const Proved& proved, const UncertainMotion& system, const ComparisonOptions& options);
 
   /// Gets what one comparison found, with the numbers of the samples, and the level of its cut; -1: the enclosure.
@@ -31,10 +31,11 @@ class Settlement {
   /// to the arbiter for its sake.
   void settle(SampleBlock& block, const Take& take);
 
-  /// The tightest bounds of a sample that lies in so many cuts; NaN beyond what is reached.
-  const Envelope& boundsOf(std::size_t levels) const { return tightest_[levels]; }
+  /// Those of all samples; NaN beyond what is reached, and where there are none.
+  const Envelope& bounds() const { return bounds_; }
 
  private:
+  void boundLevels(std::size_t cell, std::vector<double>& lower, std::vector<double>& upper) const;
   std::vector<std::size_t> leavers(const SampleBlock& block) const;
   bool leaves(const SampleBlock& block, std::size_t sample, std::size_t cell, const Envelope& bounds) const;
   void settleOnce(SampleBlock& block, const std::vector<std::size_t>& disputed, const Take& take);
@@ -42,13 +43,13 @@ class Settlement {
   void compareSome(const Envelope& bounds, int level, SampleBlock& block, const std::vector<std::size_t>& disputed,
                    const Take& take);
 
-  const Proved& proved_;
+  Proved proved_;
   const UncertainMotion& system_;
   ComparisonOptions options_;
-  std::vector<Envelope> tightest_;  // of the samples in so many cuts
-  std::vector<char> refuted_;       // the enclosure, then each cut
-  std::vector<char> moved_;         // of the outputs; empty until that is asked
-  KnownOutputs known_;              // of those that are not, once one of them was disputed
+  Envelope bounds_;
+  std::vector<char> refuted_;  // the enclosure, then each cut
+  std::vector<char> moved_;    // of the outputs; empty until that is asked
+  KnownOutputs known_;         // of those that are not, once one of them was disputed
 };
 
 }  // namespace gamut

@@ -12,6 +12,10 @@ namespace {
 
 constexpr double studentQuantile = 2.1314495455597742;  // 0.975, 15 degrees of freedom
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t mostParts = 64, leastParts = 8, wantedParts = std::size_t{1} << 21;
+
+/// Batches take turns.
+bool areFew(std::size_t samples) { return samples / batchCount < std::numeric_limits<std::uint16_t>::max(); }
 
 }  // namespace
 
@@ -22,10 +26,20 @@ double halfWidth(const double (&values)[batchCount]) {
   return studentQuantile * std::sqrt(squares / (batchCount * (batchCount - 1.0)));
 }
 
-BatchStatistics::BatchStatistics(const Envelope& expected)
-    : cells_(expected.lower.data.size()), shares_(cells_.size() * (parts + 2) * batchCount, 0) {
+std::size_t BatchStatistics::partsFor(std::size_t cells) {
+  return std::clamp(wantedParts / std::max<std::size_t>(cells, 1), leastParts, mostParts);
+}
+
+double BatchStatistics::cellBytes(std::size_t samples, std::size_t parts) {
+  const std::size_t each = areFew(samples) ? sizeof(std::uint16_t) : sizeof(std::uint32_t);
+  return static_cast<double>(sizeof(Cell) + (parts + 2) * batchCount * each);
+}
+
+BatchStatistics::BatchStatistics(const Envelope& expected, std::size_t samples, std::size_t parts)
+    : parts_(parts), cells_(expected.lower.data.size()) {
+  areFew(samples) ? few_.resize(placeOf(cells_.size())) : many_.resize(placeOf(cells_.size()));
   for (std::size_t i = 0; i < cells_.size(); ++i) {
-    const double lower = expected.lower.data[i], scale = parts / (expected.upper.data[i] - lower);
+    const double lower = expected.lower.data[i], scale = static_cast<double>(parts) / (expected.upper.data[i] - lower);
     cells_[i].lower = lower;
     cells_[i].scale = std::isfinite(scale) && scale > 0 ? scale : 0;
   }
@@ -33,8 +47,7 @@ BatchStatistics::BatchStatistics(const Envelope& expected)
 
 void BatchStatistics::include(std::size_t index, std::size_t number, const double* row, std::size_t count) {
   Cell& cell = cells_[index];
-  std::uint32_t* shares = shares_.data() + index * (parts + 2) * batchCount;
-  constexpr double last = parts + 1;
+  const double last = static_cast<double>(parts_ + 1);
   for (std::size_t i = 0; i < count; ++i) {
     if (!std::isfinite(row[i])) continue;
     const std::size_t batch = (number + i) % batchCount;
@@ -45,7 +58,8 @@ void BatchStatistics::include(std::size_t index, std::size_t number, const doubl
     cell.squares[batch] += difference * difference;
     if (cell.scale == 0) continue;
     const double part = std::clamp(1 + std::floor((row[i] - cell.lower) * cell.scale), 0.0, last);
-    ++shares[static_cast<std::size_t>(part) * batchCount + batch];
+    const std::size_t place = placeOf(index) + static_cast<std::size_t>(part) * batchCount + batch;
+    few_.empty() ? static_cast<void>(++many_[place]) : static_cast<void>(++few_[place]);
   }
 }
 
@@ -77,16 +91,16 @@ double BatchStatistics::deviationError(std::size_t index) const {
 /// others at the ends, has it anywhere: as if samples of a part were independent there, of n √n/2 at most lie below.
 std::vector<double> BatchStatistics::shareErrors(std::size_t index) const {
   const Cell& cell = cells_[index];
-  const std::uint32_t* shares = shares_.data() + index * (parts + 2) * batchCount;
-  std::vector<double> errors(parts, unknown);
-  if (cell.scale == 0 || std::ranges::any_of(cell.counts, [](double count) { return count < 2; })) return errors;
+  std::vector<double> errors(parts_, unknown);
+  if (cell.scale == 0 || std::ranges::any_of(cell.counts, [](std::uint32_t count) { return count < 2; })) return errors;
   const double all = std::accumulate(std::begin(cell.counts), std::end(cell.counts), 0.0);
   double below[batchCount] = {}, before = 0;
-  for (std::size_t part = 0; part <= parts; ++part) {
+  for (std::size_t part = 0; part <= parts_; ++part) {
     double inside = 0;
     for (std::size_t b = 0; b < batchCount; ++b) {
-      inside += shares[part * batchCount + b];
-      below[b] += shares[part * batchCount + b] / cell.counts[b];
+      const double share = shareAt(placeOf(index) + part * batchCount + b);
+      inside += share;
+      below[b] += share / cell.counts[b];
     }
     const double error = halfWidth(below);
     if (part > 0)

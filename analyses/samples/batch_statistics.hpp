@@ -16,8 +16,8 @@ namespace gamut {
 /// degrees of freedom, for which what the batches say is taken as normally distributed.
 class BatchStatistics {
  public:
-  /// `expected`: between which values shares are counted.
-  explicit BatchStatistics(const Envelope& expected);
+  /// `expected`: between which values shares are counted, in so many equal parts. `samples`: no more than these come.
+  BatchStatistics(const Envelope& expected, std::size_t samples, std::size_t parts);
 
   /// The values of one row, of consecutive samples from `number` on; those that are not finite do not count.
   void include(std::size_t cell, std::size_t number, const double* row, std::size_t count);
@@ -27,19 +27,31 @@ class BatchStatistics {
   /// Of the share of values below some value: one for each of the equal parts of what was expected.
   std::vector<double> shareErrors(std::size_t cell) const;
 
-  /// Parts of what is expected.
-  static constexpr std::size_t parts = 64;
+  std::size_t parts() const { return parts_; }
+
+  /// Parts where so many outputs at so many times are counted: 64, or fewer, so that all together have some 2^21, but
+  /// at least 8.
+  static std::size_t partsFor(std::size_t cells);
+  /// So many bytes each of these takes.
+  static double cellBytes(std::size_t samples, std::size_t parts);
 
  private:
   /// One output at one time: sums of differences from the first value.
   struct Cell {
     double lower, scale;  // parts per unit
     double shift = std::numeric_limits<double>::quiet_NaN();
-    double counts[batchCount] = {}, sums[batchCount] = {}, squares[batchCount] = {};
+    double sums[batchCount] = {}, squares[batchCount] = {};
+    std::uint32_t counts[batchCount] = {};
   };
 
+  std::size_t placeOf(std::size_t cell) const { return cell * (parts_ + 2) * batchCount; }
+  double shareAt(std::size_t place) const { return few_.empty() ? many_[place] : few_[place]; }
+
+  std::size_t parts_;
   std::vector<Cell> cells_;
-  std::vector<std::uint32_t> shares_;  // [cell][part, with what lies below and above][batch]
+  // [cell][part, with what lies below and above][batch]: the one where no batch can have more than it counts.
+  std::vector<std::uint16_t> few_;
+  std::vector<std::uint32_t> many_;
 };
 
 /// Half the 95 % confidence interval of the mean of these independent values; NaN unless all are numbers.

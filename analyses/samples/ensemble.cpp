@@ -28,11 +28,41 @@ constexpr double errorTightening = 100;
 constexpr std::size_t leastTogether = packWidth / 4;
 constexpr std::size_t firstSamples = 256, namedFailures = 1000;
 // A block's rows take so many bytes, or as many packs: work for many threads between two looks, and no more packs than
-// gain something (studies/examples/tip_position).
+// gain something (studies/examples/tip_position). Where even so few would take more than most, it is as many as do not,
+// or a single one; so it is of what is kept of the first samples.
 constexpr std::size_t blockBytes = std::size_t{1} << 26, leastPacks = 8, mostPacks = 128;
+constexpr std::size_t mostBlockBytes = std::size_t{1} << 29;
 
+std::size_t packBytes(std::size_t cells) { return sizeof(double) * packWidth * std::max<std::size_t>(cells, 1); }
+std::size_t packsWithin(std::size_t bytes, std::size_t cells) {
+  return std::max<std::size_t>(bytes / packBytes(cells), 1);
+}
 std::size_t packsOfBlock(std::size_t cells) {
-  return std::clamp(blockBytes / (sizeof(double) * packWidth * std::max<std::size_t>(cells, 1)), leastPacks, mostPacks);
+  return std::clamp(blockBytes / packBytes(cells), std::min(leastPacks, packsWithin(mostBlockBytes, cells)), mostPacks);
+}
+
+std::size_t packsOf(std::size_t samples) { return (samples + packWidth - 1) / packWidth; }
+
+/// How many of the plan's samples, and of corners and centre, are kept from before the enclosure until behind it.
+struct FirstSamples {
+  std::size_t samples, beside;
+};
+
+FirstSamples firstSamplesOf(std::size_t samples, std::size_t beside, std::size_t cells) {
+  const std::size_t first = std::min(samples, firstSamples), packs = packsWithin(mostBlockBytes, cells);
+  if (packsOf(first) + packsOf(beside) <= packs) return {first, beside};
+  const std::size_t mostOfPlan = packs - std::min(packsOf(beside), packs / 2);
+  const std::size_t ofPlan = std::min(packsOf(first), std::max<std::size_t>(mostOfPlan, 1));
+  return {std::min(first, ofPlan * packWidth), std::min(beside, (packs - std::min(packs, ofPlan)) * packWidth)};
+}
+
+/// Widens a range by a block's samples.
+void includeIn(Envelope& range, const SampleBlock& block) {
+  for (std::size_t pack = 0; pack < block.packs(); ++pack) {
+    const double* row = block.pack(pack).data();
+    for (std::size_t cell = 0; cell < range.lower.data.size(); ++cell, row += packWidth)
+      for (int i = 0; i < packWidth; ++i) range.include(0, cell, row[i]);  // NaN where there is no sample
+  }
 }
 
 /// Samples that are integrated at once.
@@ -387,17 +417,16 @@ void EnsembleRun::integrateFirst(std::size_t& next, std::size_t end) {
 }
 
 void EnsembleRun::integrateFirst() {
-  integrateFirst(nextSample_, std::min(sampling_.samples(), firstSamples));
-  integrateFirst(nextBeside_, sampling_.centre() + 1);
+  const std::size_t samples = sampling_.samples();
+  const FirstSamples first = firstSamplesOf(samples, sampling_.centre() + 1 - samples, error_.data.size());
+  integrateFirst(nextSample_, first.samples);
+  integrateFirst(nextBeside_, samples + first.beside);
   for (const SampleBlock& block : first_) measureError(block);
 }
 
 Envelope EnsembleRun::firstEnvelope() const {
   Envelope range(system_.motion.times.size(), system_.motion.outputs());
-  for (const SampleBlock& block : first_)
-    for (std::size_t i = 0; i < block.size(); ++i)
-      for (std::size_t t = 0; t < range.lower.times; ++t)
-        for (std::size_t o = 0; o < range.lower.outputs; ++o) range.include(t, o, block(i, t, o));
+  for (const SampleBlock& block : first_) includeIn(range, block);
   return range;
 }
 
@@ -421,6 +450,7 @@ Envelope EnsembleRun::expectedRange(const Envelope& expected) const {
 }
 
 void EnsembleRun::take(SampleBlock& block, const Look& look) {
+  if (!block.hasWeight() && !scanRange_.empty()) includeIn(scanRange_, block);
   noteFailures(block);
   if (look) look(block);
   statistics_->include(block, options_.jobs);
@@ -429,32 +459,38 @@ void EnsembleRun::take(SampleBlock& block, const Look& look) {
 
 void EnsembleRun::integrateOthers(const Envelope& expected, const Look& look) {
   integrateFirst();
-  statistics_.emplace(expectedRange(expected), cuts_.size());
-  beginScan();
-  for (SampleBlock& block : first_) take(block, look);
+  statistics_.emplace(expectedRange(expected), cuts_.size(), sampling_.samples());
+  if (scan_.points().size() > 0) scanRange_ = Envelope(system_.motion.times.size(), system_.motion.outputs());
+  for (SampleBlock& kept : first_) {
+    SampleBlock block = std::move(kept);  // its memory goes with it
+    take(block, look);
+  }
   first_.clear();
+  integrateRest(nextSample_, sampling_.samples(), look);
+  integrateRest(nextBeside_, sampling_.centre() + 1, look);
+  if (!isCancelled()) beginScan();
+  integratePoints(look);
+}
+
+/// The samples `next` … end - 1, block by block, into the statistics.
+void EnsembleRun::integrateRest(std::size_t& next, std::size_t end, const Look& look) {
   const std::size_t size = gamut::packWidth * packsOfBlock(error_.data.size());
-  while (nextSample_ < sampling_.samples() && !isCancelled()) {
-    SampleBlock block = nextBlock(nextSample_, std::min(sampling_.samples(), nextSample_ + size));
+  while (next < end && !isCancelled()) {
+    SampleBlock block = nextBlock(next, std::min(end, next + size));
     integrate(block);
     if (block.size() == 0) return;
-    nextSample_ += block.size();
+    next += block.size();
     measureError(block);
     take(block, look);
   }
-  integratePoints(look);
 }
 
 /// With what corners and centre say, whatever the number of samples: so the same quantities are found with more.
 void EnsembleRun::beginScan() {
   if (scan_.points().size() == 0) return;
-  Envelope range(system_.motion.times.size(), system_.motion.outputs());
-  for (const SampleBlock& block : first_)
-    for (std::size_t i = 0; !block.hasWeight() && i < block.size(); ++i)
-      for (std::size_t t = 0; t < range.lower.times; ++t)
-        for (std::size_t o = 0; o < range.lower.outputs; ++o) range.include(t, o, block(i, t, o));
   constexpr double margin = 1000;  // how far off trajectories may be, in tolerances
-  scan_.begin(range, margin * options_.tolerance.absolute, margin * options_.tolerance.relative);
+  scan_.begin(scanRange_, margin * options_.tolerance.absolute, margin * options_.tolerance.relative);
+  scanRange_ = {};
 }
 
 void EnsembleRun::integratePoints(const Look& look) {
@@ -478,15 +514,17 @@ void EnsembleRun::integratePoints(const Look& look) {
   }
 }
 
-double ensembleBytes(std::size_t times, std::size_t outputs, std::size_t quantities, std::size_t levels) {
-  const std::size_t cells = times * outputs, corners = std::size_t{1} << std::min<std::size_t>(quantities, 10);
-  const std::size_t first = firstSamples + corners + (levels > 0 ? 1024 : 0);
-  const std::size_t others = packWidth * packsOfBlock(cells);
-  const double batches = sizeof(std::uint32_t) * batchCount * (BatchStatistics::parts + 2) +
-                         sizeof(double) * (3 * batchCount + 2 * 32);  // with what the first samples said
-  const double statistics = sizeof(std::uint32_t) * static_cast<double>(EnsembleStatistics::binsFor(cells)) +
-                            sizeof(double) * static_cast<double>(2 * levels + 16) + batches;
-  return static_cast<double>(cells) * (sizeof(double) * static_cast<double>(std::max(first, others)) + statistics);
+/// Packs that are there at a time: the first, while the statistics take them, or a block of others.
+double ensembleBytes(const EnsembleSize& size) {
+  const std::size_t cells = size.times * size.outputs, bits = std::min<std::size_t>(size.quantities, 10);
+  const std::size_t inner = std::min(size.levels << bits, mostBoxCorners);  // of the alpha-cuts, about
+  const FirstSamples first = firstSamplesOf(size.samples, (std::size_t{1} << bits) + inner + 1, cells);
+  const std::size_t all = std::max(size.samples, inner + (size.levels > 0 ? mostExtendedPoints : 0));
+  const std::size_t packs =
+      std::max(packsOf(first.samples) + packsOf(first.beside), std::min(packsOf(all), packsOfBlock(cells)));
+  constexpr std::size_t tables = 4;  // errors, expected and first ranges, what is looked for in lines
+  return static_cast<double>(packs * packBytes(cells) + tables * 2 * sizeof(double) * cells) +
+         EnsembleStatistics::bytesFor(cells, size.levels, size.samples);
 }
 
 double EnsembleRun::reached() const {
@@ -505,6 +543,9 @@ std::string EnsembleRun::why() const {
 
 SampledShares EnsembleRun::shares(std::size_t time, std::size_t output) const {
   return statistics_ ? statistics_->shares(time, output) : SampledShares();
+}
+void EnsembleRun::keepShares(const std::vector<std::size_t>& times) {
+  if (statistics_) statistics_->keepShares(times);
 }
 Envelope EnsembleRun::envelope() const { return statistics_->envelope(reachedTimes_); }
 std::vector<Envelope> EnsembleRun::innerCuts() const { return statistics_->innerCuts(reachedTimes_); }

@@ -82,14 +82,17 @@ class EnsembleRun {
   EnsembleRun(const UncertainMotion& system, EnsembleOptions options);
   EnsembleRun(UncertainMotion&& system, EnsembleOptions options) = delete;
 
-  /// Integrates the first samples, at most 256, then the corners and the centre, and keeps them. If that is cancelled,
-  /// those before the first that has not come to its end are kept, and a second call goes on behind them.
+  /// Integrates the first samples, at most 256, then the corners and the centre, and keeps them; of outputs at so many
+  /// times that these would take more than 512 MiB, as many packs as do not, of the plan's samples one at least. If
+  /// that is cancelled, those before the first that has not come to its end are kept, and a second call goes on behind
+  /// them.
   void integrateFirst();
   /// What they span, corners and centre too, as far as they came; until they are taken into the statistics.
   Envelope firstEnvelope() const;
-  /// Takes the first samples into the statistics, with what was still missing of them, then integrates all others, the
-  /// points of the transformation last, and takes them. `expected`: where outputs are expected besides what the first
-  /// samples say, such as an enclosure; NaN where nothing is known, or empty.
+  /// Takes the first samples into the statistics, with what was still missing of them, then integrates all others,
+  /// corners and centre behind the plan's samples, the points of the transformation last, and takes them. `expected`:
+  /// where outputs are expected besides what the first samples say, such as an enclosure; NaN where nothing is known,
+  /// or empty.
   void integrateOthers(const Envelope& expected = {}, const Look& look = {});
 
   const EnsembleOptions& options() const { return options_; }
@@ -127,6 +130,8 @@ class EnsembleRun {
 
   Envelope envelope() const;
   SampledShares shares(std::size_t time, std::size_t output) const;
+  /// All numbers but the shares at these times, which rise, are forgotten, with most of the memory that they take.
+  void keepShares(const std::vector<std::size_t>& times);
   std::vector<Envelope> innerCuts() const;
   Statistics statistics(const std::vector<double>& probabilities = {0.01, 0.05, 0.5, 0.95, 0.99}) const;
   /// What the first of them said already.
@@ -137,6 +142,7 @@ class EnsembleRun {
   SampleBlock nextBlock(std::size_t next, std::size_t end) const;
   void integrate(SampleBlock& block);
   void integrateFirst(std::size_t& next, std::size_t end);
+  void integrateRest(std::size_t& next, std::size_t end, const Look& look);
   void beginScan();
   void integratePoints(const Look& look);
   void measureError(const SampleBlock& block);
@@ -152,6 +158,7 @@ class EnsembleRun {
   Sampling sampling_;
   std::vector<Box> cuts_;  // of each level of alpha
   TurnScan scan_;
+  Envelope scanRange_;  // what the scan is to know of outputs, while it is gathered
   std::optional<std::vector<std::size_t>> turning_;
   std::vector<SampleBlock> first_;
   std::optional<EnsembleStatistics> statistics_;
@@ -166,8 +173,14 @@ class EnsembleRun {
   std::atomic<std::size_t> done_{0};
 };
 
-/// About as many bytes as an EnsembleRun takes, whatever the number of its samples.
-double ensembleBytes(std::size_t times, std::size_t outputs, std::size_t quantities, std::size_t levels);
+/// How large an EnsembleRun is.
+struct EnsembleSize {
+  std::size_t times = 1, outputs = 1, quantities = 0, samples = 4096;
+  std::size_t levels = 0;  ///< of alpha
+};
+
+/// About as many bytes as an EnsembleRun takes at most; beyond some thousands of samples their number hardly matters.
+double ensembleBytes(const EnsembleSize& size);
 
 /// These values of the uncertain quantities, integrated alone: a block of one sample. Throws as EnsembleRun does.
 SampleBlock integrateValues(const UncertainMotion& system, const EnsembleOptions& options,

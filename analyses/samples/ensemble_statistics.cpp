@@ -9,6 +9,7 @@
 #include <limits>
 #include <span>
 #include <stdexcept>
+#include <utility>
 
 #include "analyses/workers.hpp"
 
@@ -51,7 +52,16 @@ std::size_t EnsembleStatistics::binsFor(std::size_t histograms) {
   return std::clamp(wantedCounts / std::max<std::size_t>(histograms, 1), leastBins, mostBins);
 }
 
-EnsembleStatistics::EnsembleStatistics(const Envelope& expected, std::size_t levels)
+/// Convergence has two numbers for each power of two from a pack on.
+double EnsembleStatistics::bytesFor(std::size_t histograms, std::size_t levels, std::size_t samples) {
+  const std::size_t growth = std::bit_width(samples / packWidth);
+  const double bins = static_cast<double>(sizeof(std::uint32_t) * (binsFor(histograms) + 2));
+  const auto numbers = static_cast<double>(sizeof(Cell) + sizeof(double) * 2 * (levels + 1 + growth));
+  return static_cast<double>(histograms) *
+         (bins + numbers + BatchStatistics::cellBytes(samples, BatchStatistics::partsFor(histograms)));
+}
+
+EnsembleStatistics::EnsembleStatistics(const Envelope& expected, std::size_t levels, std::size_t samples)
     : times_(expected.lower.times),
       outputs_(expected.lower.outputs),
       levels_(levels),
@@ -60,7 +70,7 @@ EnsembleStatistics::EnsembleStatistics(const Envelope& expected, std::size_t lev
       least_(cells_.size() * (levels + 1), infinity),
       greatest_(cells_.size() * (levels + 1), -infinity),
       counts_(cells_.size() * (bins_ + 2), 0),
-      batches_(expected) {
+      batches_(expected, samples, BatchStatistics::partsFor(cells_.size())) {
   for (std::size_t i = 0; i < cells_.size(); ++i) {
     Cell& cell = cells_[i];
     cell.least = infinity;
@@ -148,9 +158,15 @@ void EnsembleStatistics::includePack(Cell& cell, std::size_t index, const double
 }
 
 SampledShares EnsembleStatistics::shares(std::size_t time, std::size_t output) const {
-  const std::size_t index = time * outputs_ + output;
-  const Cell& cell = cells_[index];
   SampledShares shares;
+  std::size_t row = time;
+  if (kept_) {
+    const auto place = std::ranges::lower_bound(*kept_, time);
+    if (place == kept_->end() || *place != time) return shares;
+    row = static_cast<std::size_t>(place - kept_->begin());
+  }
+  const std::size_t index = row * outputs_ + output;
+  const Cell& cell = cells_[index];
   if (cell.count == 0) return shares;
   const std::uint32_t* counts = counts_.data() + index * (bins_ + 2);
   const auto add = [&](double value, double below) {
@@ -168,6 +184,23 @@ SampledShares EnsembleStatistics::shares(std::size_t time, std::size_t output) c
     add(bin == bins_ ? cell.upper : cell.lower + static_cast<double>(bin) / cell.scale, below);
   }
   return shares;
+}
+
+void EnsembleStatistics::keepShares(const std::vector<std::size_t>& times) {
+  std::vector<Cell> cells;
+  std::vector<std::uint32_t> counts;
+  for (const std::size_t time : times) {
+    const auto begin = static_cast<std::ptrdiff_t>(time * outputs_),
+               end = begin + static_cast<std::ptrdiff_t>(outputs_), width = static_cast<std::ptrdiff_t>(bins_ + 2);
+    cells.insert(cells.end(), cells_.begin() + begin, cells_.begin() + end);
+    counts.insert(counts.end(), counts_.begin() + begin * width, counts_.begin() + end * width);
+  }
+  cells_ = std::move(cells);
+  counts_ = std::move(counts);
+  least_ = greatest_ = {};
+  batches_ = BatchStatistics({}, 0, 1);
+  first_ = {};
+  kept_ = times;
 }
 
 Envelope EnsembleStatistics::envelopeOf(std::size_t level, std::size_t times) const {
@@ -276,8 +309,8 @@ void EnsembleStatistics::boundQuantiles(std::size_t index, Statistics& result) c
   const Cell& cell = cells_[index];
   const SortedSamples samples = sorted(index);
   const std::vector<double> errors = batches_.shareErrors(index);
+  const auto parts = static_cast<double>(batches_.parts());
   for (std::size_t q = 0; q < result.probabilities.size(); ++q) {
-    constexpr auto parts = static_cast<double>(BatchStatistics::parts);
     const double part = (result.quantiles[q].data[index] - cell.lower) / (cell.upper - cell.lower) * parts;
     if (!(part >= 0 && part <= parts)) continue;
     const double error = errors[static_cast<std::size_t>(std::min(part, parts - 1))];

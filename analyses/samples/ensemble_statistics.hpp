@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -48,8 +49,9 @@ struct Convergence {
 class EnsembleStatistics {
  public:
   /// `expected`: between which values the histograms' bins lie; what lies beyond is counted in two open ends. `levels`:
-  /// of alpha.
-  EnsembleStatistics(const Envelope& expected, std::size_t levels);
+  /// of alpha. `samples`: no more than these come with weight.
+  EnsembleStatistics(const Envelope& expected, std::size_t levels,
+                     std::size_t samples = std::numeric_limits<std::size_t>::max());
 
   /// Includes a block. What comes out depends on the blocks and their order alone, not on the number of jobs.
   void include(const SampleBlock& block, int jobs);
@@ -67,10 +69,14 @@ class EnsembleStatistics {
 
   /// Of one output at one time, at the bins' ends; nothing without samples that arrived.
   SampledShares shares(std::size_t time, std::size_t output) const;
+  /// Forgets all but the shares at these times, which rise. To be called once, when all else has been asked.
+  void keepShares(const std::vector<std::size_t>& times);
 
   /// Bins of each histogram where there are so many: 4096, or fewer, so that all together have some 2^25, but at
   /// least 64.
   static std::size_t binsFor(std::size_t histograms);
+  /// So many bytes all of these take, with what the first samples said.
+  static double bytesFor(std::size_t histograms, std::size_t levels, std::size_t samples);
 
  private:
   /// One output at one time.
@@ -96,6 +102,7 @@ class EnsembleStatistics {
   std::vector<std::uint32_t> counts_;     // [time][output][bin]: below, the bins, above
   BatchStatistics batches_;
   std::vector<Convergence> first_;
+  std::optional<std::vector<std::size_t>> kept_;  // times, where only their shares are left
 };
 
 }  // namespace gamut

@@ -17,7 +17,6 @@ namespace {
 
 constexpr std::array<std::string_view, 5> planNames = {"sobol", "random", "latin-hypercube", "halton", "grid"};
 constexpr std::size_t cornerBits = 10;
-constexpr std::size_t mostBoxCorners = 1024;
 constexpr std::size_t largestGrid = std::size_t{1} << 24;  // points: more than anybody asks for
 
 using Random = std::unique_ptr<gsl_rng, decltype(&gsl_rng_free)>;

@@ -46,6 +46,9 @@ class PointSequence {
 /// they are together (A. B. Owen, Monte Carlo theory, methods and examples, section 17.3).
 inline constexpr std::size_t batchCount = 16;
 
+/// Corners of all inner boxes together, at most.
+inline constexpr std::size_t mostBoxCorners = 1024;
+
 /// The points of one plan; none is kept. Numbers 0 … samples()-1 are the samples, then follow the corners, then the
 /// corners of the inner boxes, the centre, and what is added besides. Which point a number has follows from the seed
 /// and the number (for a Latin hypercube and a grid also from the number of samples), never from the number of jobs.

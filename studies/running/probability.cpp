@@ -21,24 +21,13 @@ namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-/// The output times of which distributions are wanted.
-std::vector<std::size_t> rowsOf(const Study& study) {
-  const std::vector<double>& times = study.motion.times;
-  std::vector<std::size_t> rows;
-  for (const double time : study.distribution.times) rows.push_back(rowOf(times, time));
-  if (!rows.empty()) return rows;
-  const std::size_t count = study.distribution.count, last = times.size() - 1;
-  if (last == 0) return {0};
-  for (std::size_t i = 1; i <= count; ++i)
-    if (const std::size_t row = (i * last + count / 2) / count; row > 0 && (rows.empty() || row > rows.back()))
-      rows.push_back(row);
-  return rows;
-}
-
 class Probabilities {
  public:
   explicit Probabilities(Run& run)
-      : run_(run), rows_(rowsOf(run.study)), outputs_(plainOutputs(run.study)), count_(run.study.outputs.size()) {
+      : run_(run),
+        rows_(distributionRows(run.study)),
+        outputs_(plainOutputs(run.study)),
+        count_(run.study.outputs.size()) {
     for (std::size_t q = 0; q < run.study.uncertain.size(); ++q) {
       if (run.study.uncertain[q].varies) continue;
       quantities_.push_back(q);
@@ -349,6 +338,19 @@ class Probabilities {
 };
 
 }  // namespace
+
+std::vector<std::size_t> distributionRows(const Study& study) {
+  const std::vector<double>& times = study.motion.times;
+  std::vector<std::size_t> rows;
+  for (const double time : study.distribution.times) rows.push_back(rowOf(times, time));
+  if (!rows.empty()) return rows;
+  const std::size_t count = study.distribution.count, last = times.size() - 1;
+  if (last == 0) return {0};
+  for (std::size_t i = 1; i <= count; ++i)
+    if (const std::size_t row = (i * last + count / 2) / count; row > 0 && (rows.empty() || row > rows.back()))
+      rows.push_back(row);
+  return rows;
+}
 
 void boundProbabilities(Run& run) {
   if (!asksForDistributions(run.study)) return;

@@ -113,16 +113,24 @@ Limits limitsOf(const Study& study, const RunOptions& options) {
   return limits.resolved();
 }
 
+/// The samples' share, with what was proved before them and the tables of what is kept of them: when a file is written
+/// or a page drawn, the samples' are gone.
 double memoryNeeded(const Study& study, const RunOptions& options) {
   if (!study.asksFor<StochasticResult>()) return 0;
   const std::size_t levels = study.asksFor<FuzzyResult>() ? static_cast<std::size_t>(study.levels) : 0;
   const std::size_t times = study.motion.times.size(), outputs = study.outputs.size(),
                     quantities = study.uncertain.size();
   constexpr double beside = 2049;  // corners and centre at most
-  const double samples = static_cast<double>(options.samples.value_or(study.ensemble.samples)) + beside;
+  const std::size_t counted = options.samples.value_or(study.ensemble.samples);
+  const double samples = static_cast<double>(counted) + beside;
   const double all = samples * static_cast<double>(sizeof(double) * (2 + quantities + times * outputs));
   constexpr double copies = 3;  // the samples, the file in HDF5's hands and in ours
-  return ensembleBytes(times, outputs, quantities, levels) + copies * std::min(study.storage, all);
+  const bool isEnclosed = study.asksFor<IntervalResult>() || levels > 0;
+  // Twice: what the flow holds is taken over, in pages that hardly come back.
+  const double proved = isEnclosed ? static_cast<double>(sizeof(double) * 4 * (2 + levels) * times * outputs) : 0;
+  constexpr double program = 6e7;
+  return program + proved + ensembleBytes({times, outputs, quantities, counted, levels}) +
+         copies * std::min(study.storage, all);
 }
 
 Results run(const Study& study, const RunOptions& options) {

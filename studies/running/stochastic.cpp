@@ -196,7 +196,7 @@ void takeOtherSamples(Run& run) {
     SampleKeeper keeper(last + 1, run.study.uncertain.size(), run.study.motion.times.size() * run.study.outputs.size(),
                         run.study.storage);
     std::optional<InfluenceMeasures> influence = measureInfluence(run);
-    run.ensemble->integrateOthers(settlement.boundsOf(0), [&](SampleBlock& block) {
+    run.ensemble->integrateOthers(settlement.bounds(), [&](SampleBlock& block) {
       if (run.study.analysis == Study::Analysis::kinematics) moveSamples(run.study, run.problem, block);
       settlement.settle(block, [&](const Comparison& found, int level) { takeDisputes(run, found, level); });
       if (run.former) run.former->meet(block, run.results.comparison.disputed);
@@ -208,6 +208,7 @@ void takeOtherSamples(Run& run) {
     describeSamples(run);
     if (influence) describeInfluence(run, *influence);
     run.results.stochastic.kept = keeper.take();
+    run.ensemble->keepShares(distributionRows(run.study));
   });
 }
 

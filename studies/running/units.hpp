@@ -132,6 +132,9 @@ const JointMasses& jointMasses(Run& run, int symbols, const std::vector<FlowSymb
 /// Whether all that is constant is independent, and of known distributions.
 bool isPlain(const Study& study);
 
+/// The output times, rising, at which these are bounded.
+std::vector<std::size_t> distributionRows(const Study& study);
+
 /// Whether probabilities of the outputs' values are to be bounded.
 bool asksForDistributions(const Study& study);
 

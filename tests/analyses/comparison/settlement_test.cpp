@@ -21,6 +21,14 @@ using testing::Field;
 using testing::IsEmpty;
 using testing::Not;
 
+struct KnownBounds {
+  Envelope enclosure;
+  std::vector<Envelope> cuts;
+  std::size_t reachedTimes = 0;
+
+  Proved view() const { return {enclosure, cuts, reachedTimes}; }
+};
+
 class DecaySettled : public testing::Test {
  protected:
   DecaySettled() {
@@ -44,9 +52,9 @@ class DecaySettled : public testing::Test {
 
   void run() {
     EnsembleRun ensemble(system, sampled);
-    Settlement settlement(proved, system, {});
+    Settlement settlement(proved.view(), system, {});
     ensemble.integrateFirst();
-    ensemble.integrateOthers(settlement.boundsOf(0), [&](SampleBlock& block) {
+    ensemble.integrateOthers(settlement.bounds(), [&](SampleBlock& block) {
       settlement.settle(block, [&](const Comparison& found, int level) {
         disputes.insert(disputes.end(), found.disputes.begin(), found.disputes.end());
         for (const Dispute& d : found.disputes) {
@@ -68,7 +76,7 @@ class DecaySettled : public testing::Test {
 
   UncertainMotion system = decay();
   EnsembleOptions sampled;
-  Proved proved;
+  KnownBounds proved;
   std::vector<Dispute> disputes;
   std::map<int, int> arbitrated;  // how many, by level
   bool outside = false;
@@ -127,7 +135,7 @@ TEST_F(DecaySettled, NothingIsDisputedBeyondWhatIsReached) {
 
 TEST_F(DecaySettled, BoundsOfAnotherShapeAreRefused) {
   proved.enclosure = Envelope(3, 1);
-  EXPECT_THROW(Settlement(proved, system, {}), std::invalid_argument);
+  EXPECT_THROW(Settlement(proved.view(), system, {}), std::invalid_argument);
 }
 
 /// x' = -p x beside what nothing uncertain moves: u' = -u, and a constant; of the outputs 1 to 3 hold only these.
@@ -194,7 +202,7 @@ TEST(MovedOutputs, AreReachedThroughStatesAndBlocksOfSystems) {
 /// Of bounds as narrow as they can be, the outputs of doubles that nothing moves leave theirs in every sample.
 TEST(Settlement, SettlesOnceWhatIsTheSameOfAllSamples) {
   const UncertainMotion system = decayBesideOthers();
-  Proved proved;
+  KnownBounds proved;
   proved.reachedTimes = system.motion.times.size();
   proved.enclosure = Envelope(proved.reachedTimes, 5);
   for (std::size_t t = 0; t < proved.reachedTimes; ++t) {
@@ -209,10 +217,10 @@ TEST(Settlement, SettlesOnceWhatIsTheSameOfAllSamples) {
   EnsembleOptions options;
   options.samples = 512;
   EnsembleRun ensemble(system, options);
-  Settlement settlement(proved, system, {});
+  Settlement settlement(proved.view(), system, {});
   std::vector<Dispute> disputes;
   ensemble.integrateFirst();
-  ensemble.integrateOthers(settlement.boundsOf(0), [&](SampleBlock& block) {
+  ensemble.integrateOthers(settlement.bounds(), [&](SampleBlock& block) {
     settlement.settle(block, [&](const Comparison& found, int level) {
       EXPECT_EQ(level, -1);
       disputes.insert(disputes.end(), found.disputes.begin(), found.disputes.end());
@@ -232,7 +240,7 @@ TEST(Settlement, SettlesOnceWhatIsTheSameOfAllSamples) {
 /// A wrong enclosure of such an output is refuted all the same.
 TEST(Settlement, RefutesAWrongEnclosureOfWhatIsTheSameOfAllSamples) {
   const UncertainMotion system = decayBesideOthers();
-  Proved proved;
+  KnownBounds proved;
   proved.reachedTimes = system.motion.times.size();
   proved.enclosure = Envelope(proved.reachedTimes, 5);
   for (std::size_t t = 0; t < proved.reachedTimes; ++t)
@@ -243,10 +251,10 @@ TEST(Settlement, RefutesAWrongEnclosureOfWhatIsTheSameOfAllSamples) {
   EnsembleOptions options;
   options.samples = 64;
   EnsembleRun ensemble(system, options);
-  Settlement settlement(proved, system, {});
+  Settlement settlement(proved.view(), system, {});
   bool isOutside = false;
   ensemble.integrateFirst();
-  ensemble.integrateOthers(settlement.boundsOf(0), [&](SampleBlock& block) {
+  ensemble.integrateOthers(settlement.bounds(), [&](SampleBlock& block) {
     settlement.settle(block, [&](const Comparison& found, int) {
       for (const Dispute& dispute : found.disputes) isOutside = isOutside || dispute.outside;
     });

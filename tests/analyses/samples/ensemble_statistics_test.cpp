@@ -139,6 +139,26 @@ TEST(EnsembleStatistics, HaveFewerBinsTheMoreHistogramsThereAre) {
   EXPECT_EQ(EnsembleStatistics::binsFor(1u << 22), 64u);
 }
 
+TEST(EnsembleStatistics, KeepTheSharesOfSomeTimesAlone) {
+  Envelope expected(3, 2);
+  for (std::size_t i = 0; i < 6; ++i) expected.lower.data[i] = 0, expected.upper.data[i] = 1.0 + static_cast<double>(i);
+  EnsembleStatistics statistics(expected, 2);
+  SampleBlock block(0, 100, true, 0, 3, 2);
+  for (std::size_t i = 0; i < 100; ++i)
+    for (std::size_t t = 0; t < 3; ++t)
+      for (std::size_t o = 0; o < 2; ++o) block(i, t, o) = 0.01 * static_cast<double>((i + 1) * (1 + 2 * t + o));
+  statistics.include(block, 1);
+  const EnsembleStatistics all = statistics;
+  statistics.keepShares({0, 2});
+  for (const std::size_t time : {0u, 2u})
+    for (const std::size_t output : {0u, 1u}) {
+      EXPECT_EQ(statistics.shares(time, output).value, all.shares(time, output).value);
+      EXPECT_EQ(statistics.shares(time, output).below, all.shares(time, output).below);
+      EXPECT_GT(statistics.shares(time, output).value.size(), 1000u);
+    }
+  EXPECT_TRUE(statistics.shares(1, 0).value.empty());
+}
+
 TEST(EnsembleStatistics, RefuseProbabilitiesThatDoNotRise) {
   const EnsembleStatistics statistics = gathered({2.5}, 2, 4);
   EXPECT_THROW(statistics.statistics(1, Dependence::none, {0.5, 0.1}), std::invalid_argument);

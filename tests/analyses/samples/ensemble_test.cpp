@@ -121,10 +121,12 @@ TEST(ReplaySample, RefusesANumberThatNoSampleHas) {
 }
 
 TEST(Ensemble, TakesAsManyBytesAsTheFirstSamplesOrABlockAndTheStatistics) {
-  EXPECT_LT(ensembleBytes(1, 2, 1, 0), 1e6);       // 8192 samples of two numbers
-  EXPECT_LT(ensembleBytes(301, 7, 1, 11), 1.2e8);  // 64 MiB of samples
-  EXPECT_GT(ensembleBytes(301, 7, 1, 11), 6.7e7);
-  EXPECT_GT(ensembleBytes(50001, 2000, 1, 0), 4e11);  // 512 samples
+  EXPECT_LT(ensembleBytes({1, 2, 1}), 1e7);                // 8192 samples of two numbers
+  EXPECT_LT(ensembleBytes({301, 7, 1, 4096, 11}), 1.2e8);  // 64 MiB of samples
+  EXPECT_GT(ensembleBytes({301, 7, 1, 4096, 11}), 6.7e7);
+  EXPECT_LT(ensembleBytes({2001, 310, 2, 4096, 11}), 1.3e9);
+  EXPECT_LT(ensembleBytes({2001, 310, 12, 4096, 11}), 1.3e9);  // 2049 corners make no difference
+  EXPECT_GT(ensembleBytes({50001, 2000, 1}), 5e10);            // a pack alone
 }
 
 TEST(Ensemble, SaysHowManySamplesAreIntegratedTogether) {
