@@ -22,6 +22,8 @@ namespace gamut::testing {
 
 using Vector = std::vector<Precise>;
 
+inline std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
 /// 128-bit value in interval, without any tolerance.
 inline bool encloses(const Interval& interval, const Precise& value) {
   return !isEmpty(interval) && Precise(interval.lower()) <= value && value <= Precise(interval.upper());

@@ -11,9 +11,9 @@
 namespace gamut {
 namespace {
 
-using testing::DoubleNear;
-using testing::HasSubstr;
-using testing::ThrowsMessage;
+using ::testing::DoubleNear;
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
 
 std::vector<Distribution> oneOfEach() {
   const Interval support(0.3, 2.1);
@@ -48,7 +48,7 @@ TEST(Distribution, SaysOfWhichNumbersItIsMade) {
     }
     found.push_back(written(numbers));
   }
-  EXPECT_THAT(found, testing::ElementsAre(
+  EXPECT_THAT(found, ::testing::ElementsAre(
                          "lower 0.3, upper 2.1", "lower 0.3, upper 2.1, mode 0.7",
                          "lower 0.3, upper 2.1, mean 1, deviation 0.4", "lower 0.3, upper 2.1, a (2.5), b (0.7)",
                          "lower 0.3, upper 2.1, log_mean (-0.2), log_deviation (0.6)",

@@ -18,7 +18,7 @@ using testing::RandomStates;
 using Vector = Vector3<double>;
 
 /// dy/dt = ∂y/∂x f(x) of an output along the motion.
-double rateOf(const std::string& output, const Mechanism& mechanism, const std::vector<double>& x) {
+double rateAlong(const std::string& output, const Mechanism& mechanism, const std::vector<double>& x) {
   const Program f = recordMotion(mechanism), y = recordOutputs(mechanism, {}, {output}).differentiated();
   const std::vector<double> dx = Evaluator<double>(f)(0.0, x), dy = Evaluator<double>(y)(0.0, x);
   double rate = 0;
@@ -35,12 +35,12 @@ std::vector<double> armState(RandomStates& states) {
 
 TEST(Energy, IsKeptByTheDoublePendulum) {
   RandomStates states;
-  for (int i = 0; i < 20; ++i) EXPECT_NEAR(rateOf("energy", testing::doublePendulum(axisY), states(4)), 0, 1e-11);
+  for (int i = 0; i < 20; ++i) EXPECT_NEAR(rateAlong("energy", testing::doublePendulum(axisY), states(4)), 0, 1e-11);
 }
 
 TEST(Energy, IsKeptByASpatialArmOnSprings) {
   RandomStates states;
-  for (int i = 0; i < 20; ++i) EXPECT_NEAR(rateOf("energy", testing::spatialArm(), armState(states)), 0, 1e-10);
+  for (int i = 0; i < 20; ++i) EXPECT_NEAR(rateAlong("energy", testing::spatialArm(), armState(states)), 0, 1e-10);
 }
 
 TEST(Energy, IsTakenByDampersAtTheRateTheyDissipate) {
@@ -55,7 +55,7 @@ TEST(Energy, IsTakenByDampersAtTheRateTheyDissipate) {
     const Vector chord = end.position - Vector(1.0, 1.5, -0.5);
     const double lengthRate = chord.dot(end.velocity) / chord.norm();
     const double dissipated = 0.8 * (lengthRate * lengthRate + x[5] * x[5] + x[6] * x[6]);
-    EXPECT_NEAR(rateOf("energy", damped, x), -dissipated, 1e-10);
+    EXPECT_NEAR(rateAlong("energy", damped, x), -dissipated, 1e-10);
   }
 }
 
@@ -69,7 +69,7 @@ TEST(Velocity, IsTheRateOfPosition) {
     for (const char* place : {"C", "E", "hand"})
       for (const char* component : {".x", ".y", ".z"}) {
         const std::string name = place;
-        EXPECT_NEAR(rateOf(name + ".position" + component, mechanism, x), arm.output(name + ".velocity" + component),
+        EXPECT_NEAR(rateAlong(name + ".position" + component, mechanism, x), arm.output(name + ".velocity" + component),
                     1e-13);
       }
     const Frame<double>& hand = arm.frame("F");
@@ -79,7 +79,7 @@ TEST(Velocity, IsTheRateOfPosition) {
 }
 
 /// Two hinges in skew directions with bodies off their axes, springs on a joint and to the ground.
-Mechanism skewPair() {
+Mechanism sprungPair() {
   Mechanism m;
   m.add(Revolute{"first", "inertial", "A", Axis(1, 2, -1)});
   m.add(Mass{"near", "A", 2.0, {0.1, -0.2, 0.3}, {0.4, 0.5, 0.3, 0.02, -0.03, 0.05}});
@@ -95,7 +95,7 @@ Mechanism skewPair() {
 /// Up to two variables are eliminated on rows, more are solved with the inertia matrix: both are M q̈ = Q.
 TEST(EquationsOfMotion, AreSolvedByTheKinetostaticInertiaMatrix) {
   RandomStates states;
-  Assembly<double> pair(skewPair()), arm(testing::spatialArm(0.3));
+  Assembly<double> pair(sprungPair()), arm(testing::spatialArm(0.3));
   for (int i = 0; i < 100; ++i)
     for (Assembly<double>* machine : {&pair, &arm}) {
       const bool isArm = machine == &arm;

@@ -189,8 +189,8 @@ TEST(Expression, AWordIsANameWhereItIsKnownAsOneAndAUnitElsewhere) {
   const auto isName = [](std::string_view word) { return word == "T" || word == "mA" || word == "kg"; };
   EXPECT_EQ(unitOf(Expression::parse("3 V", isName).amount()->dimension), "V");
   EXPECT_EQ(unitOf(Expression::parse("0.05 N m/A", isName).amount()->dimension), "N m/A");
-  EXPECT_THAT(Expression::parse("1 - exp(-t/T)", isName).names(), testing::ElementsAre("t", "T"));
-  EXPECT_THAT(Expression::parse("2 mA + 3 A*T", isName).names(), testing::ElementsAre("mA", "T"));
+  EXPECT_THAT(Expression::parse("1 - exp(-t/T)", isName).names(), ::testing::ElementsAre("t", "T"));
+  EXPECT_THAT(Expression::parse("2 mA + 3 A*T", isName).names(), ::testing::ElementsAre("mA", "T"));
   EXPECT_TRUE(Expression::parse("2 kg", isName).isConstant()) << "nothing else can be named so";
 }
 

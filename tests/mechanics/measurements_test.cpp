@@ -21,7 +21,7 @@ V vectorOf(const Assembly<double>& assembly, const std::string& name) {
 }
 
 /// dy/dt along the motion.
-double rateOf(const std::string& output, const Mechanism& mechanism, const std::vector<double>& x, double t = 0) {
+double rateInTime(const std::string& output, const Mechanism& mechanism, const std::vector<double>& x, double t = 0) {
   const Program f = recordMotion(mechanism), y = recordOutputs(mechanism, {}, {output});
   // time as a further state
   const Program alone = record(y.states() + 1, 0, 1, [&](auto, const auto& s, const auto&, auto& out) {
@@ -179,10 +179,10 @@ TEST(Measurements, AreEachOthersDerivatives) {
                {"seen.angular_velocity", "seen.angular_acceleration"},
                {"centre_of_mass.position", "centre_of_mass.velocity"},
                {"centre_of_mass.velocity", "centre_of_mass.acceleration"}}) {
-        const double expected = rateOf(value + component, m, x);
+        const double expected = rateInTime(value + component, m, x);
         EXPECT_NEAR(arm.output(rate + component), expected, 1e-11 * (10 + std::abs(expected))) << rate << component;
       }
-    EXPECT_NEAR(arm.output("wrist.acceleration"), rateOf("wrist.rate", m, x), 1e-10);
+    EXPECT_NEAR(arm.output("wrist.acceleration"), rateInTime("wrist.rate", m, x), 1e-10);
     EXPECT_NEAR(arm.output("energy.gravity") + arm.output("energy.springs"), arm.output("energy.potential"), 1e-12);
     EXPECT_NEAR(arm.output("energy.kinetic") + arm.output("energy.potential"), arm.output("energy"), 1e-12);
   }
@@ -264,8 +264,8 @@ TEST(Momentum, ChangesByForcesFromOutside) {
                      vectorOf(arm, "centre_of_mass.position").cross(mass * V(0.5, -1.0, -9.0));
     for (int i = 0; i < 3; ++i) {
       const std::string component = std::string(".") + components[static_cast<std::size_t>(i)];
-      EXPECT_NEAR(rateOf("momentum" + component, m, x), force[i], 1e-11 * (10 + force.norm()));
-      EXPECT_NEAR(rateOf("angular_momentum" + component, m, x), moment[i], 1e-11 * (10 + moment.norm()));
+      EXPECT_NEAR(rateInTime("momentum" + component, m, x), force[i], 1e-11 * (10 + force.norm()));
+      EXPECT_NEAR(rateInTime("angular_momentum" + component, m, x), moment[i], 1e-11 * (10 + moment.norm()));
       EXPECT_NEAR(arm.output("momentum" + component), mass * arm.output("centre_of_mass.velocity" + component), 1e-12);
     }
   }
@@ -287,7 +287,7 @@ TEST(DriveForce, BringsInThePowerThatTheEnergyGrowsBy) {
     const std::vector<double> x = {0.4, -1.2};
     Assembly<double> arm(m);
     arm.setState(x, t);
-    EXPECT_NEAR(rateOf("energy", m, x, t),
+    EXPECT_NEAR(rateInTime("energy", m, x, t),
                 arm.output("servo.power") + arm.output("motor.power") + arm.output("push.power"), 1e-11);
     EXPECT_NEAR(arm.output("servo.power"), arm.output("servo.force") * arm.output("shoulder.rate"), 1e-12);
     EXPECT_NEAR(arm.output("servo.force"), arm.output("shoulder.reaction.moment.y"), 1e-12);

@@ -23,11 +23,11 @@
 namespace gamut {
 namespace {
 
-using testing::AllOf;
-using testing::HasSubstr;
-using testing::Not;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
-class Browser : public testing::Test {
+class Browser : public ::testing::Test {
  protected:
   void SetUp() override {
     if (Chromium::isInstalled()) return;
@@ -152,7 +152,7 @@ TEST_F(Browser, CopiesTheNumbersOfAFigure) {
              "[...document.querySelectorAll('.outputs .keep button')][0].click();");
   const std::string csv = noted(page);
   EXPECT_EQ(count(csv, "\n"), 62u);
-  EXPECT_THAT(csv, testing::StartsWith("time (s),\"shoulder angle, guaranteed at every instant, from (rad)\","));
+  EXPECT_THAT(csv, ::testing::StartsWith("time (s),\"shoulder angle, guaranteed at every instant, from (rad)\","));
   EXPECT_THAT(csv, HasSubstr("\"shoulder angle, median (rad)\""));
 }
 
@@ -167,7 +167,7 @@ TEST_F(Browser, SavesAFigureThatNeedsNothingBesideIt) {
                                        place + " button:last-child').click();");
     const std::string svg = noted(page);
     EXPECT_THAT(rootOf(page), Not(HasSubstr("data-error")));
-    EXPECT_THAT(svg, testing::StartsWith("&lt;svg xmlns=\"http://www.w3.org/2000/svg\"")) << place;
+    EXPECT_THAT(svg, ::testing::StartsWith("&lt;svg xmlns=\"http://www.w3.org/2000/svg\"")) << place;
     EXPECT_THAT(svg, AllOf(HasSubstr("fill=\"#ffffff\""), HasSubstr("stroke:"), Not(HasSubstr("class=")),
                            Not(HasSubstr("var("))));
     EXPECT_THAT(svg, testing::EndsWith("&lt;/svg&gt;"));
@@ -227,7 +227,7 @@ TEST_F(Browser, MovesTheMachineThroughTime) {
   EXPECT_NE(attributeOf(later, "mass", "cx"), attributeOf(start, "mass", "cx"));
   for (const char* element : {"link", "sample", "spring", "pin edge"})  // the script draws what was drawn without it
     EXPECT_THAT(numbersOf(attributeOf(start, element, "d")),
-                testing::Pointwise(testing::DoubleNear(0.15), numbersOf(attributeOf(still, element, "d"))))
+                testing::Pointwise(::testing::DoubleNear(0.15), numbersOf(attributeOf(still, element, "d"))))
         << element;
 }
 
@@ -244,7 +244,7 @@ TEST_F(Browser, PrintsTheMachineAtItsStart) {
   const std::string printed = opened(results, std::string(slide) + "window.dispatchEvent(new Event('beforeprint'));");
   EXPECT_THAT(
       numbersOf(attributeOf(printed, "link", "d")),
-      testing::Pointwise(testing::DoubleNear(0.15), numbersOf(attributeOf(renderReport(results), "link", "d"))));
+      testing::Pointwise(::testing::DoubleNear(0.15), numbersOf(attributeOf(renderReport(results), "link", "d"))));
   EXPECT_THAT(printed, HasSubstr("Side view, at the start."));
 }
 
@@ -307,9 +307,9 @@ TEST_F(Browser, KeepsFiguresThatAreFoldedAway) {
     return noted(page);
   };
   EXPECT_THAT(copied(".derivative"),
-              testing::StartsWith("time (s),\"derivative by &lt;mass&gt; (rad per kg), from\",to,"));
-  EXPECT_THAT(copied(".statistics"), testing::StartsWith("time (s),mean of the samples (rad),\u00b1 (rad),"));
-  EXPECT_THAT(copied(".convergence"), testing::StartsWith("samples,shoulder angle,elbow angle\n1024,0.04,0.05\n"));
+              ::testing::StartsWith("time (s),\"derivative by &lt;mass&gt; (rad per kg), from\",to,"));
+  EXPECT_THAT(copied(".statistics"), ::testing::StartsWith("time (s),mean of the samples (rad),\u00b1 (rad),"));
+  EXPECT_THAT(copied(".convergence"), ::testing::StartsWith("samples,shoulder angle,elbow angle\n1024,0.04,0.05\n"));
   const std::string saved =
       noted(opened(example::sensitive(),
                    "URL.createObjectURL = blob => { blob.text().then(note); return 'blob:none'; };"

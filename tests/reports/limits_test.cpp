@@ -13,8 +13,8 @@
 namespace gamut {
 namespace {
 
-using testing::HasSubstr;
-using testing::Not;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 /// Adds a requirement with one margin: sign * (output - limit).
 void require(Results& results, const std::string& name, std::size_t output, int sign, double limit) {
@@ -65,7 +65,7 @@ TEST(Limits, AreDrawnInDegreesWhereTheyAreStatedOrShownSo) {
   std::string page = renderReport(results);
   EXPECT_THAT(page, HasSubstr("limit 45 deg (0.785398 rad)"));
   results.requirements[0].statement = "always 'shoulder angle' < 0.785398 rad";
-  EXPECT_THAT(renderReport(results), testing::AllOf(HasSubstr("limit 0.785398 rad"), Not(HasSubstr(" deg"))));
+  EXPECT_THAT(renderReport(results), ::testing::AllOf(HasSubstr("limit 0.785398 rad"), Not(HasSubstr(" deg"))));
   for (Bounds* bounds : {&results.interval.at, &results.interval.over, &results.stochastic.envelope})
     for (Table* table : {&bounds->lower, &bounds->upper})
       for (std::size_t i = 0; i < table->times; ++i) (*table)(i, 0) *= 180 / 3.141592653589793;
@@ -77,7 +77,7 @@ TEST(Limits, AreDrawnInDegreesWhereTheyAreStatedOrShownSo) {
   EXPECT_EQ(limits[0].output, 0u);
   EXPECT_NEAR(limits[0].value, 45, 1e-6);
   page = renderReport(results);
-  EXPECT_THAT(page, testing::AllOf(HasSubstr(">limit 45 deg<"), Not(HasSubstr("0.785398"))));
+  EXPECT_THAT(page, ::testing::AllOf(HasSubstr(">limit 45 deg<"), Not(HasSubstr("0.785398"))));
 }
 
 /// The name of a limit stands at its end, unless a curve goes through there.
@@ -88,7 +88,7 @@ TEST(Limits, AreNamedWhereNoCurveIs) {
       {.name = "limit", .kind = Layer::Kind::line, .bands = {{{9, 9, 9, 9}, {}}}, .labels = {"limit 9 rad"}});
   EXPECT_THAT(drawPlot(plot, ""), HasSubstr("class=\"end label\""));
   plot.layers[0].bands[0].lower = {0, 0, 4, 18};
-  EXPECT_THAT(drawPlot(plot, ""), testing::AllOf(HasSubstr("class=\"label\""), Not(HasSubstr("end label"))));
+  EXPECT_THAT(drawPlot(plot, ""), ::testing::AllOf(HasSubstr("class=\"label\""), Not(HasSubstr("end label"))));
 }
 
 /// However near each other limits are, their names in bars do not stand on one line.

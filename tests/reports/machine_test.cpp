@@ -15,9 +15,9 @@ namespace gamut {
 namespace {
 
 using nlohmann::json;
-using testing::AllOf;
-using testing::HasSubstr;
-using testing::Not;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 

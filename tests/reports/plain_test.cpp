@@ -13,11 +13,11 @@
 namespace gamut {
 namespace {
 
-using testing::ElementsAre;
+using ::testing::ElementsAre;
 using testing::EndsWith;
-using testing::HasSubstr;
-using testing::Not;
-using testing::StartsWith;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
 
 Results withRequirement(const std::string& statement, const std::string& word) {
   Results results = example::pendulum();

@@ -103,7 +103,7 @@ TEST(ThinnedPlot, KeepsExtremesOfLines) {
   for (const std::size_t peak : {7u, 1234u, 2999u}) median.bands[0].lower[peak] = 10.0 + static_cast<double>(peak);
   median.bands[0].lower[500] = -99;
   const Line thin = layerNamed(thinned(plot, 200), "median").bands[0].lower;
-  for (const double extreme : {17.0, 1244.0, -99.0}) EXPECT_THAT(thin, testing::Contains(extreme));
+  for (const double extreme : {17.0, 1244.0, -99.0}) EXPECT_THAT(thin, ::testing::Contains(extreme));
 }
 
 TEST(Plot, IsThinWhereItsBandIsAHairline) {

@@ -24,9 +24,9 @@ namespace gamut {
 namespace {
 
 using nlohmann::json;
-using testing::AllOf;
-using testing::HasSubstr;
-using testing::Not;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 /// The page without the library's banner, which names its home in a comment.
 std::string withoutBanner(std::string page) {
@@ -237,7 +237,7 @@ struct Absence {
 
 void PrintTo(const Absence& absence, std::ostream* stream) { *stream << absence.name; }
 
-class ReportWithout : public testing::TestWithParam<Absence> {};
+class ReportWithout : public ::testing::TestWithParam<Absence> {};
 
 TEST_P(ReportWithout, IsStillAPageThatDrawsTheRest) {
   Results results = example::pendulum();
@@ -256,20 +256,20 @@ TEST_P(ReportWithout, IsStillAPageThatDrawsTheRest) {
 
 INSTANTIATE_TEST_SUITE_P(
     Report, ReportWithout,
-    testing::Values(Absence{"Interval", [](Results& r) { r.interval = {}, r.comparison = {}; }, "guaranteed"},
-                    Absence{"Stochastic", [](Results& r) { r.stochastic = {}, r.comparison = {}; }, "sampled"},
-                    Absence{"Fuzzy", [](Results& r) { r.fuzzy = {}; }, "possible"},
-                    Absence{"Median",
-                            [](Results& r) { r.stochastic.probabilities.clear(), r.stochastic.quantiles.clear(); },
-                            "median"},
-                    Absence{"TheLastHalfOfTheEnclosure",
-                            [](Results& r) {
-                              for (std::size_t i = 30; i < 61; ++i) {
-                                r.interval.at.lower(i, 0) = r.interval.at.upper(i, 0) = NAN;
-                              }
-                              r.interval.reached = 1.4;
-                            },
-                            ""}),
+    ::testing::Values(Absence{"Interval", [](Results& r) { r.interval = {}, r.comparison = {}; }, "guaranteed"},
+                      Absence{"Stochastic", [](Results& r) { r.stochastic = {}, r.comparison = {}; }, "sampled"},
+                      Absence{"Fuzzy", [](Results& r) { r.fuzzy = {}; }, "possible"},
+                      Absence{"Median",
+                              [](Results& r) { r.stochastic.probabilities.clear(), r.stochastic.quantiles.clear(); },
+                              "median"},
+                      Absence{"TheLastHalfOfTheEnclosure",
+                              [](Results& r) {
+                                for (std::size_t i = 30; i < 61; ++i) {
+                                  r.interval.at.lower(i, 0) = r.interval.at.upper(i, 0) = NAN;
+                                }
+                                r.interval.reached = 1.4;
+                              },
+                              ""}),
     [](const auto& tested) { return tested.param.name; });
 
 TEST(Report, SaysHowAlphaCutsAreMeantAndWhereSamplesLieInThem) {

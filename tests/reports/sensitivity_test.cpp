@@ -13,9 +13,9 @@
 namespace gamut {
 namespace {
 
-using testing::AllOf;
-using testing::HasSubstr;
-using testing::Not;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 /// The section of this name; empty if the page has none.
 std::string sectionOf(const Results& results, const std::string& name) {

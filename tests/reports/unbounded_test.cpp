@@ -104,7 +104,7 @@ TEST(Unbounded, BoundsAreDrawnWhateverTheyAre) {
   for (const double lower : {-inf, -greatest, -1e300, 0.0, 1e300, greatest})
     for (const double upper : {least, 1e300, greatest, inf}) {
       if (lower > upper) continue;
-      SCOPED_TRACE(testing::Message() << lower << " to " << upper);
+      SCOPED_TRACE(::testing::Message() << lower << " to " << upper);
       for (auto& [name, results] : examples()) {
         SCOPED_TRACE(name);
         for (Bounds* bounds : {&results.interval.at, &results.interval.over, &results.interval.direct}) {
@@ -125,7 +125,7 @@ TEST(Unbounded, AnyFieldOfAnyPartMayHoldAnything) {
   std::mt19937_64 random(1);
   for (auto& [name, whole] : examples())
     for (int round = 0; round < 60; ++round) {
-      SCOPED_TRACE(testing::Message() << name << ", round " << round);
+      SCOPED_TRACE(::testing::Message() << name << ", round " << round);
       Results results = whole;
       const std::uint64_t share = 1 + random() % 8;
       forEachNumber(results, [&](const Field& field, std::vector<double>& numbers) {
@@ -158,7 +158,7 @@ TEST(Unbounded, AxesHaveFiniteEnds) {
     EXPECT_TRUE(std::isfinite(room.high - room.low));
     const Ticks ticks = ticksOf(room, 5);
     EXPECT_GE(ticks.at.size(), 2U) << low << " to " << high;
-    for (const std::string& text : ticks.text) EXPECT_THAT(text, testing::Not(testing::ContainsRegex("nan|inf")));
+    for (const std::string& text : ticks.text) EXPECT_THAT(text, ::testing::Not(testing::ContainsRegex("nan|inf")));
   }
 }
 

@@ -19,14 +19,14 @@
 namespace gamut {
 namespace {
 
-using testing::AllOf;
-using testing::Contains;
-using testing::ElementsAre;
+using ::testing::AllOf;
+using ::testing::Contains;
+using ::testing::ElementsAre;
 using testing::EndsWith;
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::Not;
-using testing::StartsWith;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using ::testing::StartsWith;
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
@@ -38,7 +38,7 @@ struct Case {
 
 void PrintTo(const Case& c, std::ostream* stream) { *stream << c.name; }
 
-class VerdictOf : public testing::TestWithParam<Case> {};
+class VerdictOf : public ::testing::TestWithParam<Case> {};
 
 TEST_P(VerdictOf, IsTheWordExpected) {
   Results results = example::pendulum();
@@ -230,7 +230,7 @@ const Case cases[] = {
      "outside"},
 };
 
-INSTANTIATE_TEST_SUITE_P(Verdict, VerdictOf, testing::ValuesIn(cases),
+INSTANTIATE_TEST_SUITE_P(Verdict, VerdictOf, ::testing::ValuesIn(cases),
                          [](const auto& tested) { return tested.param.name; });
 
 TEST(Verdict, SaysHowManyMotionsStayedInsideHowLongAndHowTight) {
@@ -430,9 +430,9 @@ TEST(Verdict, OfARunThatEndedAtTheStartNamesNoSamples) {
   const Verdict verdict = judge(results);
   EXPECT_THAT(verdict.sentence,
               StartsWith("Nothing could be compared: an analysis ended before the first output time"));
-  EXPECT_THAT(verdict.notes, testing::Not(testing::Contains(HasSubstr("seemed outside"))));
+  EXPECT_THAT(verdict.notes, ::testing::Not(::testing::Contains(HasSubstr("seemed outside"))));
   results.interval.reached = 1.5;
-  EXPECT_THAT(judge(results).notes, testing::Contains(HasSubstr("seemed outside")));
+  EXPECT_THAT(judge(results).notes, ::testing::Contains(HasSubstr("seemed outside")));
 }
 
 TEST(Verdict, SaysOnceThatNoSampleWasTaken) {

@@ -32,15 +32,15 @@ Results sound() {
   return results;
 }
 
-struct Case {
+struct Change {
   std::string name;
   std::function<void(Results&)> change;  // of the second
   std::string word;
 };
 
-void PrintTo(const Case& c, std::ostream* stream) { *stream << c.name; }
+void PrintTo(const Change& c, std::ostream* stream) { *stream << c.name; }
 
-class DifferenceOf : public testing::TestWithParam<Case> {};
+class DifferenceOf : public ::testing::TestWithParam<Change> {};
 
 TEST_P(DifferenceOf, IsTheWordExpectedInBothOrders) {
   const Results first = sound();
@@ -71,64 +71,64 @@ void leave(Results& results, double distance) {
 
 INSTANTIATE_TEST_SUITE_P(
     Results, DifferenceOf,
-    testing::Values(
-        Case{"same", [](Results&) {}, "agree"},
-        Case{"alpha-cuts that touch", [](Results& r) { r.fuzzy.outer[2].upper(1, 0) += 0.005; }, "agree"},
-        Case{"alpha-cuts apart by one rounding",
-             [](Results& r) {
-               double& upper = r.fuzzy.outer[2].upper(1, 0);
-               r.fuzzy.outer[2].lower(1, 0) = upper = std::nextafter(upper, 12.0);
-             },
-             "error"},
-        Case{"enclosures apart", [](Results& r) { r.stochastic = {}, move(r.interval.at, 1.5); }, "error"},
-        Case{"enclosures over time apart", [](Results& r) { move(r.interval.over, 1000); }, "error"},
-        Case{"one enclosure is not known",
-             [](Results& r) { r.interval.at.lower(1, 0) = r.interval.at.upper(1, 0) = none; }, "agree"},
-        Case{"samples outside the other's enclosure", [](Results& r) { leave(r, 0.1); }, "error"},
-        Case{"samples outside by less than ten errors", [](Results& r) { leave(r, 5e-12); }, "agree"},
-        Case{"samples outside whose error is not known", [](Results& r) { leave(r, 0.1), r.stochastic.error = {}; },
-             "agree"},
-        Case{"distributions apart", [](Results& r) { bound(r, 0.9, 1); }, "error"},
-        Case{"distributions that touch", [](Results& r) { bound(r, 0.875, 0.875); }, "agree"},
-        Case{"means apart", [](Results& r) { r.sensitivity.meanLower[0] = r.sensitivity.meanUpper[0] = 1.75; },
-             "error"},
-        Case{"indices apart", [](Results& r) { r.sensitivity.firstLower[0] = r.sensitivity.firstUpper[0] = 0.25; },
-             "error"},
-        Case{"total indices apart", [](Results& r) { r.sensitivity.totalLower[0] = r.sensitivity.totalUpper[0] = 1; },
-             "error"},
-        Case{"a requirement met and violated",
-             [](Results& r) { r.requirements[0].word = "violated", r.requirements[0].met = 0; }, "error"},
-        Case{"a requirement met and violated for some",
-             [](Results& r) { r.requirements[0].word = "partly", r.requirements[0].met = 0; }, "error"},
-        Case{"parts that are all of the box", [](Results& r) { r.requirements[1].met = 0.75; }, "agree"},
-        Case{"parts that are more than the box by a rounding",
-             [](Results& r) { r.requirements[1].met = std::nextafter(0.75, 1.0); }, "error"},
-        Case{"probabilities of a requirement apart",
-             [](Results& r) { r.requirements[1].probabilityLower = r.requirements[1].probabilityUpper = 0.75; },
-             "error"},
-        Case{"possibilities of a requirement apart",
-             [](Results& r) { r.requirements[1].violationLeast = r.requirements[1].violationMost = 0.75; }, "error"},
-        Case{"another demand", [](Results& r) { r.requirements[0].word = "violated", r.requirements[0].until = 0.01; },
-             "agree"},
-        Case{"wider", [](Results& r) { r.interval.at.upper(1, 0) += 0.02; }, "worse"},
-        Case{"a wider alpha-cut", [](Results& r) { r.fuzzy.outer[1].upper(1, 0) += 0.02; }, "worse"},
-        Case{"an alpha-cut of nearly no width", [](Results& r) { r.fuzzy.outer[2].upper(1, 0) += 1e-3; }, "agree"},
-        Case{"without bounds", [](Results& r) { r.interval.at.upper(1, 0) = std::numeric_limits<double>::infinity(); },
-             "worse"},
-        Case{"a wider gap", [](Results& r) { r.distribution.gaps[0] = 0.8; }, "worse"},
-        Case{"shorter", [](Results& r) { r.interval.reached = 0.005; }, "worse"},
-        Case{"a requirement not met any more",
-             [](Results& r) {
-               r.requirements[0].word = "open";
-               r.requirements[0].met = r.requirements[0].factor = r.requirements[0].probabilityLower = 0;
-             },
-             "worse"},
-        Case{"a violation not known any more",
-             [](Results& r) {
-               r.requirements[1].word = "open";
-               r.requirements[1].met = r.requirements[1].violated = 0;
-             },
-             "worse"}));
+    ::testing::Values(
+        Change{"same", [](Results&) {}, "agree"},
+        Change{"alpha-cuts that touch", [](Results& r) { r.fuzzy.outer[2].upper(1, 0) += 0.005; }, "agree"},
+        Change{"alpha-cuts apart by one rounding",
+               [](Results& r) {
+                 double& upper = r.fuzzy.outer[2].upper(1, 0);
+                 r.fuzzy.outer[2].lower(1, 0) = upper = std::nextafter(upper, 12.0);
+               },
+               "error"},
+        Change{"enclosures apart", [](Results& r) { r.stochastic = {}, move(r.interval.at, 1.5); }, "error"},
+        Change{"enclosures over time apart", [](Results& r) { move(r.interval.over, 1000); }, "error"},
+        Change{"one enclosure is not known",
+               [](Results& r) { r.interval.at.lower(1, 0) = r.interval.at.upper(1, 0) = none; }, "agree"},
+        Change{"samples outside the other's enclosure", [](Results& r) { leave(r, 0.1); }, "error"},
+        Change{"samples outside by less than ten errors", [](Results& r) { leave(r, 5e-12); }, "agree"},
+        Change{"samples outside whose error is not known", [](Results& r) { leave(r, 0.1), r.stochastic.error = {}; },
+               "agree"},
+        Change{"distributions apart", [](Results& r) { bound(r, 0.9, 1); }, "error"},
+        Change{"distributions that touch", [](Results& r) { bound(r, 0.875, 0.875); }, "agree"},
+        Change{"means apart", [](Results& r) { r.sensitivity.meanLower[0] = r.sensitivity.meanUpper[0] = 1.75; },
+               "error"},
+        Change{"indices apart", [](Results& r) { r.sensitivity.firstLower[0] = r.sensitivity.firstUpper[0] = 0.25; },
+               "error"},
+        Change{"total indices apart", [](Results& r) { r.sensitivity.totalLower[0] = r.sensitivity.totalUpper[0] = 1; },
+               "error"},
+        Change{"a requirement met and violated",
+               [](Results& r) { r.requirements[0].word = "violated", r.requirements[0].met = 0; }, "error"},
+        Change{"a requirement met and violated for some",
+               [](Results& r) { r.requirements[0].word = "partly", r.requirements[0].met = 0; }, "error"},
+        Change{"parts that are all of the box", [](Results& r) { r.requirements[1].met = 0.75; }, "agree"},
+        Change{"parts that are more than the box by a rounding",
+               [](Results& r) { r.requirements[1].met = std::nextafter(0.75, 1.0); }, "error"},
+        Change{"probabilities of a requirement apart",
+               [](Results& r) { r.requirements[1].probabilityLower = r.requirements[1].probabilityUpper = 0.75; },
+               "error"},
+        Change{"possibilities of a requirement apart",
+               [](Results& r) { r.requirements[1].violationLeast = r.requirements[1].violationMost = 0.75; }, "error"},
+        Change{"another demand",
+               [](Results& r) { r.requirements[0].word = "violated", r.requirements[0].until = 0.01; }, "agree"},
+        Change{"wider", [](Results& r) { r.interval.at.upper(1, 0) += 0.02; }, "worse"},
+        Change{"a wider alpha-cut", [](Results& r) { r.fuzzy.outer[1].upper(1, 0) += 0.02; }, "worse"},
+        Change{"an alpha-cut of nearly no width", [](Results& r) { r.fuzzy.outer[2].upper(1, 0) += 1e-3; }, "agree"},
+        Change{"without bounds",
+               [](Results& r) { r.interval.at.upper(1, 0) = std::numeric_limits<double>::infinity(); }, "worse"},
+        Change{"a wider gap", [](Results& r) { r.distribution.gaps[0] = 0.8; }, "worse"},
+        Change{"shorter", [](Results& r) { r.interval.reached = 0.005; }, "worse"},
+        Change{"a requirement not met any more",
+               [](Results& r) {
+                 r.requirements[0].word = "open";
+                 r.requirements[0].met = r.requirements[0].factor = r.requirements[0].probabilityLower = 0;
+               },
+               "worse"},
+        Change{"a violation not known any more",
+               [](Results& r) {
+                 r.requirements[1].word = "open";
+                 r.requirements[1].met = r.requirements[1].violated = 0;
+               },
+               "worse"}));
 
 TEST(Difference, NamesTheFarthestOfAllTimes) {
   const Results first = sound();
@@ -201,7 +201,7 @@ TEST(Difference, CountsWhatTheTolerancesSay) {
 
 // ---- Whether it is the same question --------------------------------------------------------------------------------
 
-Results resultsOf(const std::string& text) {
+Results comparedResults(const std::string& text) {
   const Study study = readStudyText(text, "s.toml");
   Results results;
   results.studyText = text;
@@ -215,7 +215,7 @@ Results resultsOf(const std::string& text) {
 }
 
 Relation relationWith(const std::string& old, const std::string& replacement) {
-  const Results first = resultsOf(sampleStudy), second = resultsOf(sampleStudyWith(old, replacement));
+  const Results first = comparedResults(sampleStudy), second = comparedResults(sampleStudyWith(old, replacement));
   return relationOf(first, second, sharedOf(first, second));
 }
 
@@ -247,7 +247,7 @@ TEST(RelationOfStudies, KnowsWhichIntervalsHoldTheOthers) {
 
 TEST(RelationOfStudies, KnowsHowQuantitiesDependOnEachOther) {
   const auto with = [](const std::string& dependence) {
-    return resultsOf(sampleStudyWith(
+    return comparedResults(sampleStudyWith(
         "[[output]]", "[[uncertain]]\nquantity = \"bob.mass\"\ninterval = \"± 1 g\"\n" + dependence + "[[output]]"));
   };
   const auto areAlike = [&](const std::string& one, const std::string& other) {

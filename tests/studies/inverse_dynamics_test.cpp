@@ -9,6 +9,7 @@
 #include "mechanics/assembly.hpp"
 #include "studies/running/run.hpp"
 #include "studies/study.hpp"
+#include "tests/studies/sample_study.hpp"
 #include "tests/studies/temporary_folder.hpp"
 
 namespace gamut {
@@ -62,15 +63,6 @@ type = "drive"
 name = "servo"
 joint = "hinge"
 position = "0.4 rad * sin(3*t/(1 s))")toml";
-
-std::string messageOf(const std::string& text, const std::string& name = "s.toml") {
-  try {
-    readStudyText(text, name);
-  } catch (const StudyError& error) {
-    return error.what();
-  }
-  return "it was read";
-}
 
 /// m l² q̈ + m g l sin q; m (g cos q + l q̇²).
 TEST(InverseDynamics, OfAPendulumIsItsEquation) {

@@ -17,7 +17,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-Results resultsOf(const std::string& text) { return run(readStudyText(text, "sample.toml")); }
+Results seenResults(const std::string& text) { return run(readStudyText(text, "sample.toml")); }
 
 std::string fine(const std::string& step) { return sampleStudyWith("output_step = 0.1", "output_step = " + step); }
 
@@ -28,7 +28,7 @@ std::size_t pointNamed(const MachineResult& machine, const std::string& name) {
 }
 
 TEST(SeenMachine, NamesPointsAndParts) {
-  const MachineResult machine = resultsOf(sampleStudy).machine;
+  const MachineResult machine = seenResults(sampleStudy).machine;
   ASSERT_TRUE(machine.present);
   ASSERT_EQ(machine.points.size(), 2u);
   EXPECT_EQ(machine.points[0].name, "inertial");
@@ -101,7 +101,7 @@ std::string withTip(std::string text) {
 }
 
 TEST(SeenMachine, HoldsSamplesAtShownTimesAndBetween) {
-  const Results results = resultsOf(withTip(fine("0.0005")));
+  const Results results = seenResults(withTip(fine("0.0005")));
   ASSERT_EQ(results.outputs[0].quantity, "tip.position.y");
   ASSERT_EQ(results.outputs[1].quantity, "tip.position.z");
   EXPECT_LE(results.machine.places.time.size(), mostSeenTimes);
@@ -114,11 +114,11 @@ TEST(SeenMachine, HoldsSamplesAtShownTimesAndBetween) {
 TEST(SeenMachine, HoldsSamplesOfARodWhoseLengthVariesInTime) {
   std::string text = withTip(fine("0.001"));
   text += "[[uncertain]]\nquantity = \"rod.length\"\ninterval = \"± 1 %\"\nvaries = \"freely\"\n";
-  expectSamplesInside(resultsOf(text));
+  expectSamplesInside(seenResults(text));
 }
 
 TEST(SeenMachine, IsTightlyEnclosed) {
-  const Results results = resultsOf(sampleStudy);
+  const Results results = seenResults(sampleStudy);
   const Places& places = results.machine.places;
   const std::size_t tip = pointNamed(results.machine, "tip"), points = results.machine.points.size();
   for (std::size_t i = 0; i < results.time.size(); ++i) {
@@ -130,7 +130,7 @@ TEST(SeenMachine, IsTightlyEnclosed) {
 
 TEST(SeenMachine, ShowsWhatWasAskedForAlone) {
   const auto compared = [](const std::string& words) {
-    return resultsOf(sampleStudyWith("\"interval\", \"stochastic\", \"fuzzy\"", words)).machine;
+    return seenResults(sampleStudyWith("\"interval\", \"stochastic\", \"fuzzy\"", words)).machine;
   };
   const MachineResult samples = compared("\"stochastic\"");
   EXPECT_TRUE(samples.places.lower.empty());
@@ -155,7 +155,7 @@ TEST(SeenMachine, StandsAtItsStartWhereTheRunWasInterrupted) {
 TEST(SeenMachine, OfKinematicsIsEnclosedWhereItStands) {
   std::string text = sampleStudyWith("\"dynamics\"", "\"kinematics\"");
   for (const std::string line : {"horizon = 0.5\n", "output_step = 0.1\n"}) text.erase(text.find(line), line.size());
-  const MachineResult machine = resultsOf(text).machine;
+  const MachineResult machine = seenResults(text).machine;
   ASSERT_EQ(machine.places.time, std::vector<double>{0});
   const std::size_t y = 3 * pointNamed(machine, "tip") + 1;
   for (std::size_t s = 0; s < machine.places.sample.size(); ++s) {
@@ -166,7 +166,7 @@ TEST(SeenMachine, OfKinematicsIsEnclosedWhereItStands) {
 }
 
 TEST(SeenMachine, OfPlainDifferentialEquationsIsNotThere) {
-  const MachineResult machine = resultsOf(R"([study]
+  const MachineResult machine = seenResults(R"([study]
 analysis = "dynamics"
 horizon = 0.5
 output_step = 0.1
@@ -196,7 +196,7 @@ TEST(SeenMachine, OfManyPointsShowsFewerTimesAndEnclosesNone) {
     more += "[[mechanism.element]]\ntype = \"link\"\nname = \"l" + std::to_string(i) + "\"\nfrom = \"tip\"\nto = \"e" +
             std::to_string(i) + "\"\nvector = [0, 0.01, " + std::to_string(0.001 * static_cast<double>(i)) + "]\n";
   text.insert(text.find("[[uncertain]]"), more);
-  const MachineResult machine = resultsOf(text).machine;
+  const MachineResult machine = seenResults(text).machine;
   EXPECT_EQ(machine.places.time.size(), leastSeenTimes - 5u);
   EXPECT_TRUE(machine.places.lower.empty());
   EXPECT_NE(machine.why.find("moving points"), std::string::npos);

@@ -33,13 +33,13 @@ std::string complaintAbout(const std::string& urdf) {
   return "it was read";
 }
 
-std::string with(std::string text, const std::string& what, const std::string& other) {
+std::string replaced(std::string text, const std::string& what, const std::string& other) {
   const std::size_t at = text.find(what);
   EXPECT_NE(at, std::string::npos) << what;
   return text.replace(at, what.size(), other);
 }
 
-std::string robotWith(const std::string& what, const std::string& other) { return with(sampleRobot, what, other); }
+std::string robotWith(const std::string& what, const std::string& other) { return replaced(sampleRobot, what, other); }
 
 // ---- What is read ---------------------------------------------------------------------------------------------------
 
@@ -202,10 +202,10 @@ TEST(RobotMechanism, HasTheInertiaMatrixOfTheTextbook) {
 TEST(RobotMechanism, WithoutTurnsRecordsNoRotations) {
   const auto nodes = [](const std::string& rpy) {
     TemporaryFolder folder;
-    folder.write("r.urdf", with(R"(<robot name="r"><link name="a"/><link name="b"><inertial><mass value="1"/>
+    folder.write("r.urdf", replaced(R"(<robot name="r"><link name="a"/><link name="b"><inertial><mass value="1"/>
       <inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link><joint name="j" type="continuous">
       <parent link="a"/><child link="b"/><origin xyz="0 0 1" RPY/></joint></robot>)",
-                                "RPY", rpy));
+                                    "RPY", rpy));
     return recordMotion(readMechanismText("[mechanism]\nurdf = \"r.urdf\"\n", folder.path("s.toml"))).nodes().size();
   };
   EXPECT_EQ(nodes(""), nodes("rpy=\"0 0 0\""));

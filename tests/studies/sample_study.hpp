@@ -1,8 +1,10 @@
-// A small study file to start from, and what replaces one piece of it.
+// A small study file to start from, what replaces one piece of it, and what is said of one that is wrong.
 #pragma once
 
 #include <stdexcept>
 #include <string>
+
+#include "studies/study.hpp"
 
 namespace gamut {
 
@@ -57,6 +59,16 @@ inline std::string sampleStudyWith(const std::string& old, const std::string& re
   const auto place = text.find(old);
   if (place == std::string::npos) throw std::logic_error("not in the sample study: " + old);
   return text.replace(place, old.size(), replacement);
+}
+
+/// What the reader says of a text called `name`; "it was read" if nothing.
+inline std::string messageOf(const std::string& text, const std::string& name = "s.toml") {
+  try {
+    readStudyText(text, name);
+  } catch (const StudyError& error) {
+    return error.what();
+  }
+  return "it was read";
 }
 
 }  // namespace gamut

@@ -16,7 +16,7 @@ Study withOutputs(const std::string& text) {
   return readStudyText(sampleStudyWith("[stochastic]", text + "\n[stochastic]"), "s.toml");
 }
 
-std::string complaintAbout(const std::string& keys) {
+std::string complaintAboutScale(const std::string& keys) {
   try {
     withOutputs("[[output]]\nname = \"own\"\nquantity = \"tip.position.y\"\nunit = \"mm\"\n" + keys + "\n");
   } catch (const StudyError& error) {
@@ -44,11 +44,11 @@ resolution = 0.5
 }
 
 TEST(Scales, ThatMakeNoSenseAreRefused) {
-  EXPECT_THAT(complaintAbout("resolution = \"1 kg\""), HasSubstr("output.resolution"));
-  EXPECT_THAT(complaintAbout("resolution = -1"), HasSubstr("not negative"));
-  EXPECT_THAT(complaintAbout("tightness = 1"), HasSubstr("above 1"));
-  EXPECT_THAT(complaintAbout("tightness = \"2 m\""), HasSubstr("output.tightness"));
-  EXPECT_EQ(complaintAbout("resolution = 0\ntightness = 1.001"), "");
+  EXPECT_THAT(complaintAboutScale("resolution = \"1 kg\""), HasSubstr("output.resolution"));
+  EXPECT_THAT(complaintAboutScale("resolution = -1"), HasSubstr("not negative"));
+  EXPECT_THAT(complaintAboutScale("tightness = 1"), HasSubstr("above 1"));
+  EXPECT_THAT(complaintAboutScale("tightness = \"2 m\""), HasSubstr("output.tightness"));
+  EXPECT_EQ(complaintAboutScale("resolution = 0\ntightness = 1.001"), "");
 }
 
 /// sin² + cos² is one but for rounding, and 1 - that nothing at all.

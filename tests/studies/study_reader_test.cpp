@@ -19,15 +19,6 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-std::string messageOf(const std::string& text) {
-  try {
-    readStudyText(text, "s.toml");
-  } catch (const StudyError& error) {
-    return error.what();
-  }
-  return "it was read";
-}
-
 TEST(StudyReader, ReadsWhatTheFileSays) {
   const Study study = readStudyText(sampleStudy, "s.toml");
   EXPECT_EQ(study.text, sampleStudy);

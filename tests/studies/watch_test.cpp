@@ -23,7 +23,7 @@ bool waitForStop(const Watch& watch) {
   return true;
 }
 
-void spend(double seconds) {
+void spendCpu(double seconds) {
   for (const double end = processCpuSeconds() + seconds; processCpuSeconds() < end;) continue;
 }
 
@@ -36,7 +36,7 @@ rlim_t dataLimit() {
 TEST(Watch, LetsARunBeThatSpendsLittle) {
   Watch watch({10, 1e12, 5, 1e12, 1}, nullptr);
   watch.begin(Stage::enclosure);
-  spend(0.05);
+  spendCpu(0.05);
   EXPECT_FALSE(*watch.stop());
   EXPECT_EQ(watch.why(), "");
   EXPECT_GE(watch.spent(), 0.05);
@@ -57,7 +57,7 @@ TEST(Watch, PassesAnInterruptOnToEveryStage) {
 TEST(Watch, EndsTheEnclosureAloneAtItsOwnLimit) {
   Watch watch({10, 1e12, 0.05, 1e12, 1}, nullptr);
   watch.begin(Stage::enclosure);
-  spend(0.06);
+  spendCpu(0.06);
   EXPECT_TRUE(waitForStop(watch));
   EXPECT_EQ(watch.why(), "the time limit of 0.05 s CPU for the enclosure was reached");
   watch.begin(Stage::rest);
@@ -67,7 +67,7 @@ TEST(Watch, EndsTheEnclosureAloneAtItsOwnLimit) {
 
 TEST(Watch, EndsAllStagesAtTheLimitOfTheRun) {
   Watch watch({0.05, 1e12, 0.05, 1e12, 0.05}, nullptr);
-  spend(0.06);
+  spendCpu(0.06);
   EXPECT_TRUE(waitForStop(watch));
   watch.begin(Stage::enclosure);
   EXPECT_TRUE(*watch.stop());
@@ -78,15 +78,15 @@ TEST(Watch, RemembersWhatStoppedTheRunFirst) {
   Watch watch({0.4, 1e12, 0.1, 1e12, 1}, nullptr);
   EXPECT_EQ(watch.firstStop(), "");
   watch.begin(Stage::firstSamples);
-  spend(0.11);
+  spendCpu(0.11);
   EXPECT_TRUE(waitForStop(watch));
   EXPECT_EQ(watch.firstStop(), "");  // others come later
   watch.begin(Stage::enclosure);
-  spend(0.11);
+  spendCpu(0.11);
   EXPECT_TRUE(waitForStop(watch));
   watch.begin(Stage::rest);
   EXPECT_EQ(watch.firstStop(), "the time limit of 0.1 s CPU for the enclosure was reached");
-  spend(0.2);
+  spendCpu(0.2);
   EXPECT_TRUE(waitForStop(watch));
   EXPECT_EQ(watch.why(), "the time limit of 0.4 s CPU for the whole run was reached");
   EXPECT_EQ(watch.firstStop(), "the time limit of 0.1 s CPU for the enclosure was reached");
@@ -100,7 +100,7 @@ TEST(Watch, TellsWhenAnEnclosureDoesNotEnd) {
       {[&](const std::string& why) { calls += why == "the time limit of 0.01 s CPU for the enclosure was reached"; },
        0.05});
   watch.begin(Stage::enclosure);
-  spend(0.02);
+  spendCpu(0.02);
   ASSERT_TRUE(waitForStop(watch));
   waitFor([&] { return calls > 0; });
   watch.begin(Stage::rest);

@@ -18,13 +18,13 @@ namespace gamut {
 namespace {
 
 using namespace testing_motions;
-using testing::AllOf;
-using testing::AnyOf;
-using testing::Contains;
-using testing::DoubleNear;
+using ::testing::AllOf;
+using ::testing::AnyOf;
+using ::testing::Contains;
+using ::testing::DoubleNear;
 using testing::Field;
-using testing::Gt;
-using testing::Lt;
+using ::testing::Gt;
+using ::testing::Lt;
 
 constexpr std::size_t sampleCount = 64;
 
@@ -36,7 +36,7 @@ std::string gravest(const Comparison& c) {
   return "inside";
 }
 
-class DecayCompared : public testing::Test {
+class DecayCompared : public ::testing::Test {
  protected:
   DecayCompared() {
     EnsembleOptions options;

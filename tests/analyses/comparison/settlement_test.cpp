@@ -16,10 +16,10 @@ namespace gamut {
 namespace {
 
 using namespace testing_motions;
-using testing::Each;
+using ::testing::Each;
 using testing::Field;
-using testing::IsEmpty;
-using testing::Not;
+using ::testing::IsEmpty;
+using ::testing::Not;
 
 struct KnownBounds {
   Envelope enclosure;
@@ -29,7 +29,7 @@ struct KnownBounds {
   Proved view() const { return {enclosure, cuts, reachedTimes}; }
 };
 
-class DecaySettled : public testing::Test {
+class DecaySettled : public ::testing::Test {
  protected:
   DecaySettled() {
     sampled.samples = 1008;
@@ -101,7 +101,7 @@ TEST_F(DecaySettled, AWrongCutIsRefutedByTheSamplesOfItsLevelAlone) {
   std::vector<std::size_t> numbers;
   for (const Dispute& d : disputes)
     if (d.outside) numbers.push_back(d.number);
-  EXPECT_THAT(numbers, testing::ElementsAre(1010));  // the corner at which alpha is 0.5 first
+  EXPECT_THAT(numbers, ::testing::ElementsAre(1010));  // the corner at which alpha is 0.5 first
 }
 
 TEST_F(DecaySettled, AWrongEnclosureIsRefutedBySamplesInTheirBlocks) {
@@ -158,13 +158,13 @@ UncertainMotion decayBesideOthers() {
 }
 
 TEST(MovedOutputs, AreThoseThatSomethingUncertainReaches) {
-  EXPECT_THAT(movedOutputs(decayBesideOthers()), testing::ElementsAre(1, 0, 0, 0, 1));
-  EXPECT_THAT(movedOutputs(oscillator()), testing::ElementsAre(1, 1));
-  EXPECT_THAT(movedOutputs(line()), testing::ElementsAre(1));
+  EXPECT_THAT(movedOutputs(decayBesideOthers()), ::testing::ElementsAre(1, 0, 0, 0, 1));
+  EXPECT_THAT(movedOutputs(oscillator()), ::testing::ElementsAre(1, 1));
+  EXPECT_THAT(movedOutputs(line()), ::testing::ElementsAre(1));
   UncertainMotion still = oscillator();
   still.slot = {};
   still.uncertain = {};
-  EXPECT_THAT(movedOutputs(still), testing::ElementsAre(0, 0));
+  EXPECT_THAT(movedOutputs(still), ::testing::ElementsAre(0, 0));
 }
 
 /// Through a state: x'' = -p, of which the output sees x alone. Through a linear system, by its blocks.
@@ -183,7 +183,7 @@ TEST(MovedOutputs, AreReachedThroughStatesAndBlocksOfSystems) {
   system.nominal = {0.0, 0.0, 1.0, 1.0};
   system.uncertain = {uniformly("p", 0, 0.5, 1)};
   system.slot = {3};
-  EXPECT_THAT(movedOutputs(system), testing::ElementsAre(1, 0));
+  EXPECT_THAT(movedOutputs(system), ::testing::ElementsAre(1, 0));
 
   Recorder recorder(0, 2);
   const int zero = recorder.constant(0.0), one = recorder.constant(1.0), p = recorder.parameter(0),
@@ -196,7 +196,7 @@ TEST(MovedOutputs, AreReachedThroughStatesAndBlocksOfSystems) {
   system.motion.g = recorder.finish({apart[0], apart[1], together[0], together[1]});
   system.nominal = {2.0, 2.0};
   system.slot = {0};
-  EXPECT_THAT(movedOutputs(system), testing::ElementsAre(1, 0, 1, 1));
+  EXPECT_THAT(movedOutputs(system), ::testing::ElementsAre(1, 0, 1, 1));
 }
 
 /// Of bounds as narrow as they can be, the outputs of doubles that nothing moves leave theirs in every sample.

@@ -24,7 +24,7 @@ Program places() {
 }
 
 /// A double pendulum of unit masses with an uncertain length.
-Containment pendulum() {
+Containment pendulumOfLength() {
   Containment c;
   c.f = record(4, 1, [](auto, const auto& x, const auto& p, auto& dx) {
     const Recorded cosine = cos(x[1]), sine = sin(x[1]), sum = x[2] + x[3];
@@ -44,7 +44,7 @@ Containment pendulum() {
 }
 
 TEST(FlowAsides, HoldWhatTheyMay) {
-  Containment c = pendulum();
+  Containment c = pendulumOfLength();
   c.options.aside = {places(), {0.0, 0.5, 1.0, 1.3, 1.5, 2.0}};
   const Tube tube = expectContainment(c, 12);
   EXPECT_THAT(tube.asides(0), SizeIs(6));
@@ -54,7 +54,7 @@ TEST(FlowAsides, HoldWhatTheyMay) {
 }
 
 TEST(FlowAsides, AreAboutAsTightAsOutputs) {
-  Containment c = pendulum();
+  Containment c = pendulumOfLength();
   c.g = places();
   c.options.aside = {places(), c.times};
   const Tube tube = c.tube();
@@ -65,7 +65,7 @@ TEST(FlowAsides, AreAboutAsTightAsOutputs) {
 }
 
 TEST(FlowAsides, ChangeNothingElse) {
-  Containment c = pendulum();
+  Containment c = pendulumOfLength();
   c.g = standardOutputs(4, 1);
   c.levels = {{Interval(0.905, 0.91), -0.4, 0.5, 0.0, Interval(0.995, 1.0)}};
   const Tube without = c.tube();
@@ -83,7 +83,7 @@ TEST(FlowAsides, ChangeNothingElse) {
 
 TEST(FlowAsides, FollowInputsOfAnyCourseAndOfBoundedRate) {
   for (const double rate : {std::numeric_limits<double>::infinity(), 0.05}) {
-    Containment c = pendulum();
+    Containment c = pendulumOfLength();
     c.options.varying = {{0, rate}};
     c.options.aside = {places(), {0.0, 0.1, 0.3}};
     c.options.tightness = 1.5;
@@ -95,7 +95,7 @@ TEST(FlowAsides, FollowInputsOfAnyCourseAndOfBoundedRate) {
 }
 
 TEST(FlowAsides, AreKnownAtTheStartOfWhatEndsThere) {
-  Containment c = pendulum();
+  Containment c = pendulumOfLength();
   c.options.aside = {places(), {0.0}};
   const std::atomic<bool> cancelled{true};
   c.options.cancelled = &cancelled;
@@ -106,7 +106,7 @@ TEST(FlowAsides, AreKnownAtTheStartOfWhatEndsThere) {
 }
 
 TEST(FlowAsides, NeedTheProgramsStatesAndParameters) {
-  Containment c = pendulum();
+  Containment c = pendulumOfLength();
   c.options.aside = {standardOutputs(3, 1), {0.0}};
   EXPECT_THROW(c.tube(), std::invalid_argument);
 }

@@ -12,7 +12,7 @@ void keep(const std::vector<Side>&, const Vector&, Vector&) {}
 
 const Interval all(-1, 1);
 
-const std::vector<JumpingMachine>& machines() {
+const std::vector<JumpingMachine>& crossers() {
   static const std::vector<JumpingMachine> machines{
       {"bangBang",
        record(2, 1,
@@ -106,7 +106,7 @@ class FlowCrossing : public ::testing::TestWithParam<JumpingMachine> {};
 
 TEST_P(FlowCrossing, HoldsTrajectories) { holdsTrajectories(GetParam(), {0.0, 1e-6, 0.02}, 6); }
 
-INSTANTIATE_TEST_SUITE_P(Flow, FlowCrossing, ::testing::ValuesIn(machines()),
+INSTANTIATE_TEST_SUITE_P(Flow, FlowCrossing, ::testing::ValuesIn(crossers()),
                          [](const auto& machine) { return machine.param.name; });
 
 /// ẍ = -sign x from x = a at rest is a parabola from end to end, each √(2a) long to the middle.
@@ -142,7 +142,7 @@ TEST(FlowCrossingExactly, ParabolasStayParabolas) {
 
 /// A stop that is hit and left twice: a piece or two are enough.
 TEST(FlowCrossingExactly, KinksCostNoPieces) {
-  const JumpingMachine& stop = *std::ranges::find(machines(), "stopOnOneSide", &JumpingMachine::name);
+  const JumpingMachine& stop = *std::ranges::find(crossers(), "stopOnOneSide", &JumpingMachine::name);
   for (const double width : {1e-6, 1e-3}) {
     Box box = stop.centre;
     for (std::size_t i = 0; i < box.size(); ++i) box[i] += Interval(width) * stop.spread[i];

@@ -8,7 +8,7 @@ namespace gamut::testing {
 namespace {
 
 /// A driven, damped pendulum: angle, rate; length, damping, drive.
-Program pendulum() {
+Program drivenPendulum() {
   return record(2, 3, [](auto t, const auto& x, const auto& p, auto& dx) {
     dx[0] = x[1];
     dx[1] = p[2] * cos(3.0 * t) - 9.81 * sin(x[0]) / p[0] - p[1] * x[1] * abs(2.0 + x[1]);
@@ -24,10 +24,10 @@ TEST(DerivativeFlow, HoldsDifferenceQuotients) {
   const Box box{Interval(0.4, 0.45), Interval(-0.1, 0.1), Interval(0.9, 1), 0.25, Interval(0.5, 0.52)};
   const std::vector<double> times{0.5, 1};
   const std::vector<int> by{4, 0, 2, 1};
-  const DerivativeFlow flow(pendulum(), outputs, by);
+  const DerivativeFlow flow(drivenPendulum(), outputs, by);
   const Tube tube = flow.enclose(box, 1, times);
   ASSERT_EQ(tube.why(), "");
-  Reference reference(pendulum());
+  Reference reference(drivenPendulum());
   Evaluator<Precise> g(outputs);
   Points points(5);
   const auto outputsOf = [&](const Vector& start, double time, const Vector& x) {
@@ -97,13 +97,13 @@ TEST(DerivativeFlow, RefusesJumpsOfWhatItIsBy) {
 }
 
 TEST(DerivativeFlow, RefusesWhatTheBoxDoesNotHave) {
-  EXPECT_THROW(DerivativeFlow(pendulum(), {5}), std::invalid_argument);
-  EXPECT_THROW(DerivativeFlow(pendulum(), {-1}), std::invalid_argument);
+  EXPECT_THROW(DerivativeFlow(drivenPendulum(), {5}), std::invalid_argument);
+  EXPECT_THROW(DerivativeFlow(drivenPendulum(), {-1}), std::invalid_argument);
   FlowOptions options;
   options.varying = {{1}};
-  EXPECT_THROW(DerivativeFlow(pendulum(), {3}, options), std::invalid_argument);
-  EXPECT_THROW(DerivativeFlow(pendulum(), {0}).enclose({0.0, 0.0}, 1), std::invalid_argument);
-  EXPECT_EQ(DerivativeFlow(pendulum(), {}).enclose({0.1, 0.0, 1.0, 0.25, 0.5}, 1).at(1).size(), 2U);
+  EXPECT_THROW(DerivativeFlow(drivenPendulum(), {3}, options), std::invalid_argument);
+  EXPECT_THROW(DerivativeFlow(drivenPendulum(), {0}).enclose({0.0, 0.0}, 1), std::invalid_argument);
+  EXPECT_EQ(DerivativeFlow(drivenPendulum(), {}).enclose({0.1, 0.0, 1.0, 0.25, 0.5}, 1).at(1).size(), 2U);
 }
 
 }  // namespace

@@ -20,13 +20,11 @@ Program ishigami() {
   });
 }
 
-const double pi = std::numbers::pi;
-
 TEST(Image, IsBisectedUntilItIsKnown) {
-  const Box box(3, Interval(-pi, pi)), inner(3, Interval(-1.0, 1.0));
+  const Box box(3, Interval(-std::numbers::pi, std::numbers::pi)), inner(3, Interval(-1.0, 1.0));
   const Image image = findImage(ishigami(), 0, box, {inner}, {0}, -1, nullptr);
   EXPECT_GT(image.parts, 1U);
-  const double greatest = 1 + 7 + 0.1 * std::pow(pi, 4), least = -1 - 0.1 * std::pow(pi, 4);
+  const double greatest = 1 + 7 + 0.1 * std::pow(std::numbers::pi, 4), least = -1 - 0.1 * std::pow(std::numbers::pi, 4);
   EXPECT_GE(image.ranges[0][0].upper(), greatest - 1e-9);
   EXPECT_LE(image.ranges[0][0].upper(), greatest + 0.05);
   EXPECT_LE(image.ranges[0][0].lower(), least + 1e-9);
@@ -104,7 +102,7 @@ TEST(Image, HoldsWhatIsAtEveryPoint) {
 }
 
 TEST(Image, CostsNoMoreThanItMay) {
-  const Box box(3, Interval(-pi, pi));
+  const Box box(3, Interval(-std::numbers::pi, std::numbers::pi));
   EXPECT_EQ(findImage(ishigami(), 0, box, {}, {0}, -1, nullptr, 0).parts, 1U);
   const Program linear = record(3, 0, 1, [](auto, const auto& x, const auto&, auto& y) { y[0] = x[0] - x[1] + x[2]; });
   EXPECT_EQ(findImage(linear, 0, box, {}, {0}, -1, nullptr).parts, 1U);  // nothing is unknown

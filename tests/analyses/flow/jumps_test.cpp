@@ -9,14 +9,14 @@
 namespace gamut::testing {
 namespace {
 
-struct Case {
+struct Jump {
   Interval start, up, down;
   double seconds;
   Interval ever, then;
 };
 
 TEST(JumpBound, ArgumentsGoNoFurtherThanTheirRatesTakeThem) {
-  const Case cases[] = {
+  const Jump cases[] = {
       {{1, 2}, {-1, -0.5}, {0.5, 1}, 1, {0, 2}, {0, 1.5}},     // comes down, some arrive
       {{1, 2}, {-1, -0.5}, {0.5, 1}, 8, {0, 2}, {0, 0}},       // all have arrived, and are held
       {{-2, -1}, {-1, -0.5}, {0.5, 1}, 8, {-2, 0}, {0, 0}},    // from below
@@ -30,7 +30,7 @@ TEST(JumpBound, ArgumentsGoNoFurtherThanTheirRatesTakeThem) {
       {{1, 1}, {-1, -1}, {-2, -2}, 3, {-6, 1}, {-6, 0}},       // passes
       {{-1, 1}, {-3, 3}, {-3, 3}, 0, {-1, 1}, {-1, 1}},        // no time
   };
-  for (const Case& c : cases) {
+  for (const Jump& c : cases) {
     JumpBound bound;
     bound.start = c.start;
     bound.up = c.up;

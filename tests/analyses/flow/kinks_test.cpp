@@ -43,7 +43,7 @@ Tube expectEvents(const Containment& c, int trajectories, bool hasEvents = true)
   return tube;
 }
 
-struct Machine {
+struct Kinked {
   std::string name;
   Program f;
   Box centre;  // with zeros where `spread` says how wide
@@ -51,8 +51,8 @@ struct Machine {
   double horizon;
 };
 
-const std::vector<Machine>& machines() {
-  static const std::vector<Machine> all{
+const std::vector<Kinked>& kinked() {
+  static const std::vector<Kinked> all{
       {"bouncesOnASpring",
        record(2, 1,
               [](auto, const auto& x, const auto& p, auto& dx) {
@@ -108,10 +108,10 @@ const std::vector<Machine>& machines() {
   return all;
 }
 
-class FlowKinks : public ::testing::TestWithParam<Machine> {};
+class FlowKinks : public ::testing::TestWithParam<Kinked> {};
 
 TEST_P(FlowKinks, HoldTrajectoriesAcrossEvents) {
-  const Machine& machine = GetParam();
+  const Kinked& machine = GetParam();
   for (double width : {0.0, 1e-6, 0.003}) {
     SCOPED_TRACE(width);
     Containment c;
@@ -126,7 +126,7 @@ TEST_P(FlowKinks, HoldTrajectoriesAcrossEvents) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Flow, FlowKinks, ::testing::ValuesIn(machines()),
+INSTANTIATE_TEST_SUITE_P(Flow, FlowKinks, ::testing::ValuesIn(kinked()),
                          [](const auto& machine) { return machine.param.name; });
 
 /// Loads of time on a mass at rest, whose kinks and jumps are between doubles (⅓ s, ⅔ s) or depend on what is

@@ -13,15 +13,15 @@ namespace {
 
 using detail::at;
 
-struct System {
+struct CoupledSystem {
   int n;
   std::vector<double> a, b;
   double& entry(int i, int j) { return a[at(i * n + j)]; }
 };
 
 /// A diagonal that is not small, `extra` more entries a row, rows and columns permuted, rows of any binary scale.
-System randomSystem(Points& points, int n, int extra, int scales) {
-  System s{n, std::vector<double>(at(n * n)), std::vector<double>(at(n))};
+CoupledSystem randomSystem(Points& points, int n, int extra, int scales) {
+  CoupledSystem s{n, std::vector<double>(at(n * n)), std::vector<double>(at(n))};
   std::vector<int> column(at(n));
   std::iota(column.begin(), column.end(), 0);
   for (int i = n - 1; i > 0; --i) std::swap(column[at(i)], column[at(points.integer(0, i))]);
@@ -39,7 +39,7 @@ struct Left {
   Precise residual, size;
   int terms = 0;
 };
-Left left(System& s, const std::vector<double>& x, int row) {
+Left left(CoupledSystem& s, const std::vector<double>& x, int row) {
   Left result{Precise(s.b[at(row)]), Precise(std::fabs(s.b[at(row)]))};
   for (int j = 0; j < s.n; ++j) {
     const Precise product = Precise(s.entry(row, j)) * Precise(x[at(j)]);
@@ -55,7 +55,7 @@ TEST(LinearFactors, SolveUpToTheRoundingOfTheirResidualAndMeasureIt) {
   Points points(3);
   for (int round = 0; round < 300; ++round) {
     const int n = std::vector{1, 2, 3, 7, 10, 30, 60}[at(round % 7)], scales = round % 3 == 0 ? 0 : 300;
-    System s = randomSystem(points, n, points.integer(0, 5), scales);
+    CoupledSystem s = randomSystem(points, n, points.integer(0, 5), scales);
     LinearFactors factors(n);
     factors.factorise(s.a.data());
     std::vector<double> x = s.b, residual(at(n), 0.0), norms;
@@ -89,7 +89,7 @@ TEST(LinearFactors, MeasureWhatIllConditionedSystemsMiss) {
   Points points(4);
   for (int round = 0; round < 100; ++round) {
     const int n = points.integer(2, 8);
-    System s = randomSystem(points, n, n, 0);
+    CoupledSystem s = randomSystem(points, n, n, 0);
     for (int j = 0; j < n; ++j) {
       s.entry(0, j) = points.uniform(1, 2);
       s.entry(1, j) = s.entry(0, j) * (1 + std::ldexp(points.uniform(-1, 1), -45));
@@ -109,7 +109,7 @@ TEST(LinearFactors, MeasureWhatIllConditionedSystemsMiss) {
 TEST(LinearFactors, InverseHoldsColumnByColumn) {
   Points points(5);
   for (int n : {1, 3, 10, 30}) {
-    System s = randomSystem(points, n, 3, 0);
+    CoupledSystem s = randomSystem(points, n, 3, 0);
     LinearFactors factors(n);
     factors.factorise(s.a.data());
     const std::vector<double>& c = factors.inverse();
@@ -126,7 +126,7 @@ TEST(LinearFactors, FactoriseAnewWithoutTraceOfTheMatrixBefore) {
   Points points(6);
   LinearFactors used(10);
   for (int round = 0; round < 10; ++round) {
-    System s = randomSystem(points, 10, round, 5);
+    CoupledSystem s = randomSystem(points, 10, round, 5);
     LinearFactors fresh(10);
     fresh.factorise(s.a.data());
     used.factorise(s.a.data());
@@ -143,7 +143,7 @@ TEST(LinearFactors, ArrowsAreSolvedFromTheirTip) {
   // An arrow whose dense row and column come first fills in wholly unless they are eliminated last; then nothing rounds
   // here: powers of two all the way, and a last pivot of 1.
   const int n = 17;
-  System s{n, std::vector<double>(at(n * n)), std::vector<double>(at(n), 0.0)};
+  CoupledSystem s{n, std::vector<double>(at(n * n)), std::vector<double>(at(n), 0.0)};
   for (int i = 0; i < n; ++i) s.entry(i, i) = 1, s.entry(0, i) = s.entry(i, 0) = 0x1p-10;
   s.entry(0, 0) = 16 * 0x1p-20 + 1;
   s.b[0] = 1;

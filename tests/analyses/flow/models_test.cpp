@@ -7,7 +7,7 @@ namespace gamut::testing {
 namespace {
 
 /// A pendulum with uncertain angle, rate and stiffness; outputs of it, one with a kink, one that jumps.
-Containment pendulum() {
+Containment pendulumOfStiffness() {
   Containment c;
   c.f = record(2, 1, [](auto, const auto& x, const auto& p, auto& dx) {
     dx[0] = x[1];
@@ -26,7 +26,7 @@ Containment pendulum() {
 }
 
 TEST(FlowModels, HoldEverySolutionAtItsPlace) {
-  const Containment c = pendulum();
+  const Containment c = pendulumOfStiffness();
   Judge judge(c);
   ASSERT_TRUE(judge.tube().models());
   EXPECT_GT(judge.tube().pieces(), 1);
@@ -35,7 +35,7 @@ TEST(FlowModels, HoldEverySolutionAtItsPlace) {
 }
 
 TEST(FlowModels, HoldWithInputsAndWithRemaindersInSymbols) {
-  Containment c = pendulum();
+  Containment c = pendulumOfStiffness();
   c.g = standardOutputs(2, 1);
   c.box[2] = Interval(9.7, 9.9);
   c.options.split = false;
@@ -51,7 +51,7 @@ TEST(FlowModels, HoldWithInputsAndWithRemaindersInSymbols) {
 
 /// They are about as tight as the enclosures themselves: the hull over the parts of the box.
 TEST(FlowModels, AreAsTightAsEnclosures) {
-  const Containment c = pendulum();
+  const Containment c = pendulumOfStiffness();
   const Tube tube = c.tube();
   for (std::size_t row = 1; row < tube.reachedTimes(); ++row)
     for (std::size_t o = 0; o < 2; ++o) {
@@ -64,7 +64,7 @@ TEST(FlowModels, AreAsTightAsEnclosures) {
 }
 
 TEST(FlowModels, AreKeptOnlyWhereAskedForAndWhereThereIsRoom) {
-  Containment c = pendulum();
+  Containment c = pendulumOfStiffness();
   EXPECT_FALSE(Flow(c.f, *c.g).enclose(c.box, c.horizon, c.times).models());
   c.options.modelled = {3, 0};
   const Tube some = c.tube();

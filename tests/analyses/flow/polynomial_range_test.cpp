@@ -8,8 +8,6 @@
 namespace gamut::testing {
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 struct Polynomial {
   std::shared_ptr<const Monomials> monomials;
   std::vector<double> c;

@@ -11,7 +11,7 @@ namespace {
 
 Recorded stribeck(const Recorded& u) { return sign(u) / (1.0 + 2.0 * abs(u)); }
 
-const std::vector<JumpingMachine>& machines() {
+const std::vector<JumpingMachine>& sliders() {
   static const std::vector<JumpingMachine> all{
       {"comesToRest",
        record(2, 1,
@@ -100,7 +100,7 @@ class FlowSliding : public ::testing::TestWithParam<JumpingMachine> {};
 
 TEST_P(FlowSliding, HoldsTrajectories) { holdsTrajectories(GetParam(), {0.0, 1e-6, 0.01}, 4); }
 
-INSTANTIATE_TEST_SUITE_P(Flow, FlowSliding, ::testing::ValuesIn(machines()),
+INSTANTIATE_TEST_SUITE_P(Flow, FlowSliding, ::testing::ValuesIn(sliders()),
                          [](const auto& machine) { return machine.param.name; });
 
 /// Half-periods of π, each 2μ less: from x(0) the mass rests at x(0) - 4μ after two of them, whatever the units.
@@ -161,7 +161,7 @@ TEST(FlowSlidingExactly, HoldsWhatInputsMove) {
 
 /// Outputs between their times, where the set's own bounds and what is known of the argument meet.
 TEST(FlowSlidingExactly, OutputsHoldTrajectories) {
-  const JumpingMachine& machine = machines()[1];
+  const JumpingMachine& machine = sliders()[1];
   const Program g = record(2, 2, 2, [](auto, const auto& x, const auto& p, auto& y) {
     y[0] = sqr(x[1]) + x[0];
     y[1] = sin(10.0 * x[1]) * p[0];

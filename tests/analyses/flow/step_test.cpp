@@ -12,8 +12,6 @@
 namespace gamut::testing {
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 /// A stepper with a random set.
 struct Scene {
   int n, symbols;
@@ -387,7 +385,7 @@ constexpr double horizon = 4;
 constexpr double quantum = 0x1p-50;  // of a horizon of 4 s
 
 /// Autonomous systems of one to three states with one parameter (sets are at any time, the reference starts at t = 0).
-std::vector<std::pair<Program, std::vector<double>>> systems() {
+std::vector<std::pair<Program, std::vector<double>>> motionsOfManyKinds() {
   return {{record(2, 1,
                   [](auto, const auto& x, const auto& p, auto& dx) {
                     dx[0] = x[1];
@@ -415,7 +413,7 @@ TEST(FlowStep, HoldsEveryTrajectoryThatStartsInTheSet) {
   Points points(5);
   int steps = 0;
   for (int round = 0; round < 25; ++round)
-    for (const auto& [f, nominal] : systems()) {
+    for (const auto& [f, nominal] : motionsOfManyKinds()) {
       const int symbols = points.integer(0, 2), degree = symbols == 0 ? 0 : points.integer(1, 4);
       Scene scene(f, symbols, degree, points.integer(0, 3), points.integer(4, 14),
                   std::pow(10.0, -points.integer(3, 14)), points);
@@ -588,7 +586,7 @@ TEST(FlowStep, UpdateHoldsTheSetAtItsEnd) {
   Points points(6);
   int steps = 0;
   for (int round = 0; round < 40; ++round)
-    for (const auto& [f, nominal] : systems()) {
+    for (const auto& [f, nominal] : motionsOfManyKinds()) {
       const int symbols = points.integer(0, 2), degree = symbols == 0 ? 0 : points.integer(1, 4);
       Scene scene(f, symbols, degree, points.integer(0, 3), points.integer(6, 14),
                   std::pow(10.0, -points.integer(5, 14)), points);
@@ -606,7 +604,7 @@ TEST(FlowStep, UpdateHoldsTheSetAtItsEnd) {
 TEST(FlowStep, UpdateHoldsASetOfGeneratorsAlone) {
   Points points(13);
   for (int round = 0; round < 40; ++round)
-    for (const auto& [f, nominal] : systems()) {
+    for (const auto& [f, nominal] : motionsOfManyKinds()) {
       const int symbols = points.integer(0, 1), degree = symbols == 0 ? 0 : points.integer(1, 4);
       Scene scene(f, symbols, degree, points.integer(0, 1), 16, 1e-14, points);
       scene.fill(nominal, 1e-4, 0, points.integer(1, 6), 0, 0, std::pow(10.0, -points.integer(4, 8)));
@@ -692,7 +690,7 @@ TEST(FlowStep, UpdateHoldsGeneratorsThatTurnWithTheSymbols) {
 
 TEST(FlowStep, UpdateHoldsTheSetWhenOldGeneratorsMerge) {
   Points points(7);
-  const auto [f, nominal] = systems()[0];
+  const auto [f, nominal] = motionsOfManyKinds()[0];
   for (const int symbols : {0, 1}) {
     Scene scene(f, symbols, 3 * symbols, 2 * symbols, 10, 1e-11, points);
     scene.fill(nominal, 1e-3 * symbols, 1e-12, 0, 0, 0);
@@ -707,7 +705,7 @@ TEST(FlowStep, UpdateHoldsTheSetWhenOldGeneratorsMerge) {
 TEST(FlowStep, BoxesHoldTheGeneratorsThatTheyReplace) {
   Points points(18);
   for (int round = 0; round < 40; ++round)
-    for (const auto& [f, nominal] : systems()) {
+    for (const auto& [f, nominal] : motionsOfManyKinds()) {
       const int symbols = points.integer(0, 2);
       Scene scene(f, symbols, symbols == 0 ? 0 : points.integer(1, 4), points.integer(0, 3), 8, 1e-12, points);
       scene.fill(nominal, 0.1, 1e-3, 20, 0, 0);
@@ -720,7 +718,7 @@ TEST(FlowStep, BoxesHoldTheGeneratorsThatTheyReplace) {
 TEST(FlowStep, HalvesOfABisectedSetHoldIt) {
   Points points(8);
   for (int round = 0; round < 40; ++round)
-    for (const auto& [f, nominal] : systems()) {
+    for (const auto& [f, nominal] : motionsOfManyKinds()) {
       const int symbols = points.integer(1, 3);
       Scene scene(f, symbols, points.integer(1, 6), points.integer(0, 3), 8, 1e-12, points);
       scene.fill(nominal, 0.3, 1e-3, points.integer(0, 3), round % 2 * 1e-16, round % 3 * 1e-15);
@@ -738,7 +736,7 @@ TEST(FlowStep, OutputsHoldThoseOfEveryMemberOfTheSet) {
   Points points(15);
   int steps = 0;
   for (int round = 0; round < 60; ++round)
-    for (const auto& [f, nominal] : systems()) {
+    for (const auto& [f, nominal] : motionsOfManyKinds()) {
       const int symbols = points.integer(0, 2), degree = symbols == 0 ? 0 : points.integer(1, 4);
       Scene scene(f, symbols, degree, points.integer(0, 2), 12, 1e-12, points);
       // From remainders so wide that g bends over them to such that only rounding is left; box, generators or both.
@@ -761,7 +759,7 @@ TEST(FlowStep, OutputsHoldThoseOfEveryMemberOfTheSet) {
 TEST(FlowStep, SetsOfAnotherDegreeHoldWhatTheyWere) {
   Points points(10);
   for (int round = 0; round < 40; ++round)
-    for (const auto& [f, nominal] : systems()) {
+    for (const auto& [f, nominal] : motionsOfManyKinds()) {
       const int symbols = points.integer(1, 3);
       Scene scene(f, symbols, points.integer(1, 5), points.integer(0, 3), 8, 1e-12, points);
       scene.fill(nominal, 0.3, 1e-3, points.integer(0, 3), round % 2 * 1e-16, 0);
@@ -774,7 +772,7 @@ TEST(FlowStep, SetsOfAnotherDegreeHoldWhatTheyWere) {
 TEST(FlowStep, FreshSymbolsHoldTheRemainder) {
   Points points(11);
   for (int round = 0; round < 40; ++round)
-    for (const auto& [f, nominal] : systems()) {
+    for (const auto& [f, nominal] : motionsOfManyKinds()) {
       const int symbols = points.integer(0, 2), weight = symbols == 0 ? 1 : points.integer(1, 2);
       Scene scene(f, symbols, symbols == 0 ? 0 : points.integer(1, 4), points.integer(0, 2), 8, 1e-12, points);
       scene.fill(nominal, 0.1, std::pow(10.0, -points.integer(1, 9)), points.integer(0, 5), round % 2 * 1e-14, 0);
@@ -787,7 +785,7 @@ TEST(FlowStep, FreshSymbolsHoldTheRemainder) {
 
 TEST(FlowStep, StaysWithinTheTimeLeftAndOnTheGrid) {
   Points points(9);
-  const auto [f, nominal] = systems()[0];
+  const auto [f, nominal] = motionsOfManyKinds()[0];
   Scene scene(f, 0, 0, 0, 12, 1e-15, points);
   scene.fill(nominal, 0, 0, 0, 0, 0);
   while (scene.set.t < horizon) {

@@ -173,7 +173,7 @@ void doublePendulum(const S& g, const States& x, Rates& dx) {
   dx[3] = (m11 * b2 - m12 * b1) / d;
 }
 
-Containment pendulum(double relative) {
+Containment doublePendulumWithin(double relative) {
   Containment c;
   c.f = record(4, 0, [](auto, const auto& x, const auto&, auto& dx) {
     doublePendulum(constant<Recorded>(Interval("9.81")), x, dx);
@@ -185,7 +185,7 @@ Containment pendulum(double relative) {
 }
 
 TEST(PublishedPendulum, ThinStartStaysAsThinAsPromised) {
-  Containment c = pendulum(0);
+  Containment c = doublePendulumWithin(0);
   c.horizon = 10;
   c.times = {1, 5};
   Judge judge(c);
@@ -206,7 +206,7 @@ PreciseValue preciseValue(int component, const Precise& value) {
 }
 
 TEST(PublishedPendulum, IsKnownToItsLastDigitsWhereItsNumbersAre) {
-  Containment c = pendulum(0);
+  Containment c = doublePendulumWithin(0);
   c.f = *c.truth;  // gravity is a parameter
   c.truth = {};
   c.decimals = {};
@@ -269,7 +269,7 @@ TEST(PreciseValues, DoNotCountWhereTheBoxIsWide) {
 }
 
 TEST(PublishedPendulum, PreciseValuesMustBeOfTheBoxAndInOrder) {
-  const Containment c = pendulum(0);
+  const Containment c = doublePendulumWithin(0);
   for (const PreciseValue& wrong : {PreciseValue{4, 1, 0, 0}, PreciseValue{-1, 1, 0, 0}, PreciseValue{0, 1, 1e-10, 0},
                                     PreciseValue{0, 1, 0, -1}, PreciseValue{0, std::nan(""), 0, 0}}) {
     FlowOptions options;
@@ -284,7 +284,7 @@ TEST(PublishedPendulum, PreciseValuesMustBeOfTheBoxAndInOrder) {
 }
 
 TEST(PublishedPendulum, OnePercentBoxIsAsTightAsDenseSampling) {
-  Containment c = pendulum(0.01);
+  Containment c = doublePendulumWithin(0.01);
   c.horizon = 2.29;
   c.times = {0.4, 1.0, 2.0};
   const Tube tube = expectContainment(c, 3);

@@ -10,8 +10,6 @@ namespace {
 
 using Matrix = std::vector<std::vector<Precise>>;
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 /// factor Σ_{k<200} (Ah)^k m!/(m+k+1)! (m = -1: (Ah)^k/k!).
 Matrix series(const Matrix& Ah, int m, const Precise& factor) {
   const int n = static_cast<int>(Ah.size());

@@ -17,14 +17,14 @@
 namespace gamut::testing {
 namespace {
 
-DistributionBounds boundsOf(const Function& function, const QuantityDependence& dependence = {}) {
+DistributionBounds jointBoundsOf(const Function& function, const QuantityDependence& dependence = {}) {
   const JointMasses masses(function.surrogate.symbols, function.surrogate.quantities, function.uncertain(), dependence);
   return boundDistribution(function.surrogate.at.back(), 0, masses);
 }
 
 /// Nowhere do the bounds leave what is true of one of the distributions.
 template <class Truth>
-void expectHolds(const DistributionBounds& bounds, const Truth& truth) {
+void expectJointHolds(const DistributionBounds& bounds, const Truth& truth) {
   ASSERT_GE(bounds.value.size(), 2U);
   for (std::size_t i = 0; i < bounds.value.size(); ++i) {
     EXPECT_LE(bounds.lower[i], truth(bounds.value[i])) << bounds.value[i];
@@ -65,21 +65,21 @@ double clamped(double p) { return std::clamp(p, 0.0, 1.0); }
 /// Related Fields 74, 1987): attained, so that no others would be better.
 TEST(JointMasses, BoundSumsOfUnknownDependence) {
   const Function sum({uniform(0, 1), uniform(0, 1)}, sumOfAll);
-  const DistributionBounds bounds = boundsOf(sum, unknown({0, 1}));
+  const DistributionBounds bounds = jointBoundsOf(sum, unknown({0, 1}));
   const auto least = [](double z) { return clamped(z - 1); };
   const auto most = [](double z) { return clamped(z); };
-  expectHolds(bounds, least);
-  expectHolds(bounds, most);
+  expectJointHolds(bounds, least);
+  expectJointHolds(bounds, most);
   expectWithin(bounds, least, most, 0.003);
   // Against each other their sum is but 1, together it is that of one twice.
-  expectHolds(bounds, [](double z) { return z >= 1 ? 1.0 : 0.0; });
-  expectHolds(bounds, [](double z) { return clamped(z / 2); });
+  expectJointHolds(bounds, [](double z) { return z >= 1 ? 1.0 : 0.0; });
+  expectJointHolds(bounds, [](double z) { return clamped(z / 2); });
 }
 
 TEST(JointMasses, BoundSumsOfSeveralOfUnknownDependence) {
   const Function sum({uniform(0, 1), uniform(0, 2), uniform(-1, 0), uniform(0, 1)}, sumOfAll);
   QuantityDependence dependence = unknown({0, 1, 2});
-  const DistributionBounds bounds = boundsOf(sum, dependence);
+  const DistributionBounds bounds = jointBoundsOf(sum, dependence);
   std::mt19937_64 engine(3);
   std::uniform_real_distribution<double> unit(0, 1);
   // Each of these is one of the possible joint distributions; the last quantity is independent.
@@ -100,7 +100,7 @@ TEST(JointMasses, BoundSumsOfEvidence) {
   const Function sum(
       {evidence({{{0, 2}, 0.25}, {{1, 3}, 0.5}, {{2, 4}, 0.25}}), evidence({{{10, 11}, 0.5}, {{11, 13}, 0.5}})},
       sumOfAll);
-  const DistributionBounds bounds = boundsOf(sum);
+  const DistributionBounds bounds = jointBoundsOf(sum);
   const double lowerEnds[6] = {10, 11, 12, 11, 12, 13}, upperEnds[6] = {13, 14, 15, 15, 16, 17};
   const double masses[6] = {0.125, 0.25, 0.125, 0.125, 0.25, 0.125};
   const auto sumOf = [&](const double* ends, double z) {
@@ -110,8 +110,8 @@ TEST(JointMasses, BoundSumsOfEvidence) {
   };
   const auto least = [&](double z) { return sumOf(upperEnds, z); };
   const auto most = [&](double z) { return sumOf(lowerEnds, z); };
-  expectHolds(bounds, least);
-  expectHolds(bounds, most);
+  expectJointHolds(bounds, least);
+  expectJointHolds(bounds, most);
   constexpr double step = 0.02;
   expectWithin(
       bounds, [&](double z) { return least(z - step); }, [&](double z) { return most(z + step); }, 1e-9);
@@ -121,11 +121,11 @@ TEST(JointMasses, BoundSumsOfEvidence) {
 TEST(JointMasses, KeepIntervalsOfEvidence) {
   const Function square({uncertain(Distribution::evidence({{{-1, 1}, 0.5}, {{0.5, 0.6}, 0.5}}))},
                         [](const auto& x, auto& y) { y[0] = sqr(x[0]); });
-  const DistributionBounds bounds = boundsOf(square);
+  const DistributionBounds bounds = jointBoundsOf(square);
   const auto least = [](double z) { return (z >= 1 ? 0.5 : 0) + (z >= 0.36 ? 0.5 : 0); };
   const auto most = [](double z) { return (z >= 0 ? 0.5 : 0) + (z >= 0.25 ? 0.5 : 0); };
-  expectHolds(bounds, least);
-  expectHolds(bounds, most);
+  expectJointHolds(bounds, least);
+  expectJointHolds(bounds, most);
   expectWithin(
       bounds, [&](double z) { return least(z - 0.01); }, [&](double z) { return most(z + 0.01); }, 1e-9);
 }
@@ -136,8 +136,8 @@ TEST(JointMasses, KnowValuesOfTheirOwnAtEdges) {
     const double span = 0.37, alone = lower + span / 8, upper = lower + span;
     const Function twice({uncertain(Distribution::histogram({lower, alone, alone, upper}, {0.3, 0.4, 0.3}))},
                          [](const auto& x, auto& y) { y[0] = 2.0 * x[0]; });
-    const DistributionBounds bounds = boundsOf(twice);
-    expectHolds(bounds, [&](double v) {
+    const DistributionBounds bounds = jointBoundsOf(twice);
+    expectJointHolds(bounds, [&](double v) {
       const double q = v / 2;
       return q < lower   ? 0
              : q < alone ? 0.3 * (q - lower) / (alone - lower)
@@ -151,7 +151,7 @@ TEST(JointMasses, KnowValuesOfTheirOwnAtEdges) {
 TEST(JointMasses, BoundWhatParametersAllow) {
   const Distribution normal = Distribution::normal({-5, 5}, {-0.5, 0.5}, {0.5, 1});
   const Function twice({uncertain(normal)}, [](const auto& x, auto& y) { y[0] = 2.0 * x[0]; });
-  const DistributionBounds bounds = boundsOf(twice);
+  const DistributionBounds bounds = jointBoundsOf(twice);
   const auto member = [](double mean, double deviation, double v) {
     const auto below = [&](double x) { return gsl_cdf_ugaussian_P((x - mean) / deviation); };
     return clamped((below(std::clamp(v / 2, -5.0, 5.0)) - below(-5)) / (below(5) - below(-5)));
@@ -159,7 +159,7 @@ TEST(JointMasses, BoundWhatParametersAllow) {
   double apart = 0;
   for (const double mean : {-0.5, 0.0, 0.5})
     for (const double deviation : {0.5, 0.7, 1.0})
-      expectHolds(bounds, [&](double v) {
+      expectJointHolds(bounds, [&](double v) {
         const double p = member(mean, deviation, v);
         return v >= 10 ? 1.0 : v <= -10 ? 0.0 : p;
       });
@@ -180,7 +180,7 @@ TEST(JointMasses, KnowGaussianCopulas) {
   for (const double rank : {-0.9, -0.3, 0.0, 0.5, 0.95}) {
     const auto normal = uncertain(Distribution::normal({-8, 8}, 0, 1));
     const Function sum({normal, normal}, sumOfAll);
-    const DistributionBounds bounds = boundsOf(sum, correlated(rank));
+    const DistributionBounds bounds = jointBoundsOf(sum, correlated(rank));
     const double r = 2 * std::sin(3.14159265358979324 * rank / 6), deviation = std::sqrt(2 + 2 * r);
     const auto truth = [&](double z) { return z < -16 ? 0 : z >= 16 ? 1 : gsl_cdf_ugaussian_P(z / deviation); };
     constexpr double cut = 1e-14;  // what truncation changes
@@ -201,7 +201,7 @@ TEST(JointMasses, KnowGaussianCopulasOfMany) {
     std::vector<std::vector<Interval>> rank(count, std::vector<Interval>(count, Interval(0.3)));
     for (std::size_t i = 0; i < count; ++i) all.push_back(i), rank[i][i] = 1.0;
     dependence.copulas.emplace_back(all, rank);
-    const DistributionBounds bounds = boundsOf(sum, dependence);
+    const DistributionBounds bounds = jointBoundsOf(sum, dependence);
     const double r = 2 * std::sin(3.14159265358979324 * 0.3 / 6), n = static_cast<double>(count);
     const double deviation = std::sqrt(n + n * (n - 1) * r);
     constexpr double cut = 1e-13;  // what truncation changes
@@ -218,7 +218,7 @@ TEST(JointMasses, KnowGaussianCopulasOfMany) {
 TEST(JointMasses, KnowProductsOfCorrelated) {
   for (const double rank : {-0.8, 0.4, 0.9}) {
     const Function product({uniform(0, 1), uniform(0, 1)}, [](const auto& x, auto& y) { y[0] = x[0] * x[1]; });
-    const DistributionBounds bounds = boundsOf(product, correlated(rank));
+    const DistributionBounds bounds = jointBoundsOf(product, correlated(rank));
     const double r = 2 * std::sin(3.14159265358979324 * rank / 6);
     const auto integral = [&](double value, double step) {
       constexpr double most = 9;
@@ -315,9 +315,9 @@ TEST(JointMasses, HoldSamplesOfWhateverIsPossible) {
     });
     const int kind = round % 3;  // independent, correlated, unknown
     const double rank = between(-0.95, 0.95);
-    const DistributionBounds bounds = boundsOf(function, kind == 0   ? QuantityDependence{}
-                                                         : kind == 1 ? correlated(rank)
-                                                                     : unknown({0, 1}));
+    const DistributionBounds bounds = jointBoundsOf(function, kind == 0   ? QuantityDependence{}
+                                                              : kind == 1 ? correlated(rank)
+                                                                          : unknown({0, 1}));
     ASSERT_GE(bounds.value.size(), 2U) << round;
     std::vector<double> samples;
     Evaluator<double> evaluator(function.g);

@@ -15,7 +15,7 @@ namespace gamut {
 namespace {
 
 using namespace testing_motions;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 using Wide = boost::multiprecision::cpp_bin_float_50;  // 168 bits, none of MPFR's code
 
 Wide widened(const Precise& value) { return Wide(value.str(0, std::ios_base::scientific)); }

@@ -16,7 +16,7 @@
 namespace gamut {
 namespace {
 
-using testing::DoubleNear;
+using ::testing::DoubleNear;
 
 const std::vector<double> probabilities = {0, 0.01, 0.05, 0.5, 0.5, 0.95, 0.99, 1};
 
@@ -191,8 +191,8 @@ TEST(EnsembleStatistics, IntervalsHoldTheTruthInNinetyFiveOfAHundredCases) {
   const Hits random = hits(Plan::random, Dependence::none), sobol = hits(Plan::sobol, Dependence::batches),
              latin = hits(Plan::latinHypercube, Dependence::batches);
   for (const Hits& found : {random, sobol, latin}) {
-    EXPECT_THAT(found.mean, testing::AllOf(testing::Ge(360), testing::Le(398)));
-    EXPECT_THAT(found.deviation, testing::AllOf(testing::Ge(356), testing::Le(398)));
+    EXPECT_THAT(found.mean, ::testing::AllOf(::testing::Ge(360), ::testing::Le(398)));
+    EXPECT_THAT(found.deviation, ::testing::AllOf(::testing::Ge(356), ::testing::Le(398)));
     EXPECT_GE(found.quantile, 364);  // conservative: by whole ranks, and by the wider of two parts
   }
   EXPECT_LE(random.quantile, 396);

@@ -20,9 +20,9 @@ namespace gamut {
 namespace {
 
 using namespace testing_motions;
-using testing::DoubleNear;
-using testing::HasSubstr;
-using testing::ThrowsMessage;
+using ::testing::DoubleNear;
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
 
 EnsembleOptions samples(std::size_t count, int jobs = 1) {
   EnsembleOptions options;
@@ -500,7 +500,7 @@ TEST(Ensemble, ReportsProgressUpToOne) {
     reports.push_back(done);
   };
   sampleEnsemble(decay(), options);
-  EXPECT_THAT(reports, testing::Contains(1.0));
+  EXPECT_THAT(reports, ::testing::Contains(1.0));
   EXPECT_GT(reports.size(), 20u);
 }
 

@@ -18,7 +18,7 @@ namespace {
 
 using namespace testing_motions;
 using std::numbers::pi;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 /// All states are outputs.
 template <class Formula>

@@ -11,10 +11,10 @@
 namespace gamut {
 namespace {
 
-using testing::Each;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::ThrowsMessage;
+using ::testing::Each;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
 
 constexpr Plan allPlans[] = {Plan::sobol, Plan::random, Plan::latinHypercube, Plan::halton, Plan::grid};
 
@@ -28,7 +28,7 @@ TEST(Sampling, EveryPlanStaysInTheUnitCube) {
     Sampling s(plan, 3, 512, 7);
     EXPECT_EQ(s.samples(), 512u) << nameOf(plan);  // 8³: the grid too
     for (std::size_t i = 0; i < s.samples(); ++i)
-      EXPECT_THAT(s.unitPoint(i), Each(testing::AllOf(testing::Ge(0), testing::Le(1)))) << nameOf(plan);
+      EXPECT_THAT(s.unitPoint(i), Each(::testing::AllOf(::testing::Ge(0), ::testing::Le(1)))) << nameOf(plan);
   }
 }
 
@@ -40,7 +40,7 @@ TEST(Sampling, EveryPlanSpreadsItsPointsOverAllEighths) {
       const std::vector<double> u = s.unitPoint(i);
       ++count[static_cast<std::size_t>((u[0] > 0.5) + 2 * (u[1] > 0.5) + 4 * (u[2] > 0.5))];
     }
-    EXPECT_THAT(count, Each(testing::AllOf(testing::Gt(35), testing::Lt(95)))) << nameOf(plan);  // 64 expected
+    EXPECT_THAT(count, Each(::testing::AllOf(::testing::Gt(35), ::testing::Lt(95)))) << nameOf(plan);  // 64 expected
   }
 }
 
@@ -138,7 +138,7 @@ TEST(Sampling, UpToTenQuantitiesHaveAllCornersOfTheBox) {
   EXPECT_EQ(s.corners(), 1024u);
   std::set<std::vector<double>> corners;
   for (std::size_t i = s.samples(); i < s.centre(); ++i) {
-    EXPECT_THAT(s.unitPoint(i), Each(testing::AnyOf(0, 1)));
+    EXPECT_THAT(s.unitPoint(i), Each(::testing::AnyOf(0, 1)));
     corners.insert(s.unitPoint(i));
   }
   EXPECT_EQ(corners.size(), 1024u);

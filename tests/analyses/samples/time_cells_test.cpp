@@ -13,7 +13,7 @@
 namespace gamut {
 namespace {
 
-using testing::IsEmpty;
+using ::testing::IsEmpty;
 
 /// x' = sech²(k (t - p)): x(2) - x(0) = (tanh k (2 - p) + tanh k p) / k.
 Motion pulse(double steepness) {

@@ -18,8 +18,8 @@ namespace gamut {
 namespace {
 
 using namespace testing_motions;
-using testing::ElementsAre;
-using testing::IsEmpty;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
 
 std::vector<double> levelsOf(int count) {
   std::vector<double> alpha;
@@ -134,7 +134,7 @@ TEST(Transformation, IsKnownByName) {
   for (const Transformation each : {Transformation::reduced, Transformation::general, Transformation::extended})
     EXPECT_EQ(transformationNamed(nameOf(each)), each);
   EXPECT_THAT([] { transformationNamed("full"); },
-              testing::ThrowsMessage<std::invalid_argument>(testing::HasSubstr("reduced, general, extended")));
+              ::testing::ThrowsMessage<std::invalid_argument>(::testing::HasSubstr("reduced, general, extended")));
 }
 
 /// y = f(p) without states, p_i in [lower, upper].
@@ -253,7 +253,7 @@ TEST(Transformation, ServesManyQuantitiesWithinItsLimit) {
   }
   const UncertainMotion thirty = function(30, -1, 0, 1, [](const auto& p) { return p[0]; });
   EXPECT_THAT([&] { EnsembleRun(thirty, optionsOf(Transformation::general)); },
-              testing::ThrowsMessage<std::invalid_argument>(testing::HasSubstr("too many points")));
+              ::testing::ThrowsMessage<std::invalid_argument>(::testing::HasSubstr("too many points")));
 }
 
 /// Trajectories of all numbers, and in which quantities outputs turn.
