@@ -50,7 +50,28 @@ Older olderAt(const std::string& path, const Results& results) {
 
 Keeping::Keeping(const Results& results, OutputFile& resultsFile, OutputFile& reportFile)
     : resultsFile_(&resultsFile), reportFile_(&reportFile) {
-  if (!results.stopped.empty()) placeResults(results);
+  if (resultsFile_->isTaken() || reportFile_->isTaken())
+    placeBeside();
+  else if (!results.stopped.empty())
+    placeResults(results);
+}
+
+/// Under the first number by which neither file is called; whatever is free of the names asked for stays free.
+void Keeping::placeBeside() {
+  const OutputFile& taken = resultsFile_->isTaken() ? *resultsFile_ : *reportFile_;
+  for (std::size_t number = 2; number <= mostParts; ++number) {
+    const std::string results = numberedName(resultsFile_->target(), number),
+                      report = numberedName(reportFile_->target(), number);
+    if (!take(otherResults_, results, OutputFile::Existing::isKept) ||
+        !take(otherReport_, report, OutputFile::Existing::isKept))
+      continue;
+    note_ = fmt::format("{} stays: another program has put it there during the run; the results are in {}",
+                        taken.path(), results);
+    resultsFile_ = &*otherResults_;
+    reportFile_ = &*otherReport_;
+    return;
+  }
+  throw WriteError(refusal_);
 }
 
 void Keeping::placeResults(const Results& results) {
@@ -92,9 +113,9 @@ void Keeping::placeReport(std::size_t number) {
   reportFile_ = nullptr;
 }
 
-bool Keeping::take(std::optional<OutputFile>& file, const std::string& path) {
+bool Keeping::take(std::optional<OutputFile>& file, const std::string& path, OutputFile::Existing existing) {
   try {
-    file.emplace(path, OutputFile::Existing::isReplaced);
+    file.emplace(path, existing);
     return true;
   } catch (const OutputRefused& error) {  // a folder, or somebody else's
     refusal_ = error.what();
@@ -108,6 +129,14 @@ bool isPageOfPart(const std::string& path) {
   file.read(begin.data(), begin.size());
   return std::string_view(begin.data(), static_cast<std::size_t>(file.gcount())).find("data-run=\"partial\"") !=
          std::string_view::npos;
+}
+
+std::string numberedName(const std::string& path, std::size_t number) {
+  const fs::path whole(path);
+  fs::path name = whole.stem();
+  name += "." + std::to_string(number);
+  name += whole.extension();
+  return (whole.parent_path() / name).string();
 }
 
 std::string partialName(const std::string& path, std::size_t number) {

@@ -192,6 +192,11 @@ OutputFile::~OutputFile() {
   ::close(file_);
 }
 
+bool OutputFile::isTaken() const {
+  struct stat found {};
+  return existing_ == Existing::isKept && file_ >= 0 && ::lstat(target_.c_str(), &found) == 0;
+}
+
 void OutputFile::fail(int error) const { throw WriteError(sentence(path_, inWords(error))); }
 
 void OutputFile::fill(std::string_view content) const {

@@ -41,6 +41,9 @@ class OutputFile {
   /// Where the symbolic links of path() lead.
   const std::string& target() const { return target_; }
 
+  /// Whether something is there that is to be kept: another program put it there since this object was made.
+  bool isTaken() const;
+
   /// Writes all of `content` and puts it at `path`; once. If it throws WriteError, or the process is killed, an older
   /// file there is untouched.
   void write(std::string_view content);

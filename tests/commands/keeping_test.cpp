@@ -98,6 +98,45 @@ TEST_F(Kept, AreWholeResultsBesidePartialOnes) {
   EXPECT_TRUE(folder_.read("s.h5") == results && folder_.read("s.html") == page);
 }
 
+/// Without --force nothing is replaced, nor lost: not what came during the run, nor what the run found.
+TEST_F(Kept, IsWhatAppearedDuringTheRunAndWhatTheRunFound) {
+  for (const Results& found : {whole, partial()}) {
+    for (const char* appearing : {"s.h5", "s.html"}) {
+      SCOPED_TRACE(appearing + found.stopped);
+      TemporaryFolder folder;
+      OutputFile results(folder.path("s.h5"), OutputFile::Existing::isKept),
+          report(folder.path("s.html"), OutputFile::Existing::isKept);
+      EXPECT_FALSE(results.isTaken() || report.isTaken());
+      folder.write(appearing, "another's");
+      folder.write("s.2.html", "older");
+      Keeping keeping(found, results, report);
+      ASSERT_NE(keeping.results(), nullptr);
+      ASSERT_NE(keeping.report(), nullptr);
+      EXPECT_EQ(keeping.results()->path(), folder.path("s.3.h5"));
+      EXPECT_EQ(keeping.report()->path(), folder.path("s.3.html"));
+      EXPECT_EQ(keeping.note(), folder.path(appearing) +
+                                    " stays: another program has put it there during the run; the results are in " +
+                                    folder.path("s.3.h5"));
+      writeResults(found, *keeping.results());
+      keeping.report()->write("page");
+      EXPECT_EQ(folder.read(appearing), "another's");
+      EXPECT_EQ(folder.read("s.2.html"), "older");
+      EXPECT_EQ(readResults(folder.path("s.3.h5")).stopped, found.stopped);
+    }
+  }
+}
+
+/// With --force it goes where it was to go, whatever came there.
+TEST_F(Kept, IsNothingThatMayBeReplaced) {
+  OutputFile results(folder_.path("s.h5"), OutputFile::Existing::isReplaced),
+      report(folder_.path("s.html"), OutputFile::Existing::isReplaced);
+  folder_.write("s.h5", "another's");
+  EXPECT_FALSE(results.isTaken());
+  Keeping keeping(whole, results, report);
+  EXPECT_EQ(keeping.results(), &results);
+  EXPECT_EQ(keeping.note(), "");
+}
+
 TEST_F(Kept, AreWholeResultsOfAnotherStudy) {
   write("s", run(readStudyText(sampleStudyWith("samples = 16", "samples = 32"), "t.toml")));
   expectAt(keep(partial()), "s.partial.h5", "s.partial.html");
