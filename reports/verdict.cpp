@@ -60,6 +60,7 @@ class Wording {
       note("The enclosure is looser than was asked for: " + shortfall + ".");
     if (const IntervalResult& interval = results_.interval; !interval.advice.empty())
       note("What may help: " + interval.advice + ".");
+    noteHorizon();
     noteMissing();
     noteProbabilities();
     noteUnlikely();
@@ -133,7 +134,7 @@ class Wording {
     }
     noteSome(worstFirst(outside), "are outside", [&](const DisputedSample& sample) {
       return fmt::format("lies outside by {}, decided by {}.", withUnit(sample.distance, sample.output),
-                         sample.decided);
+                         judgeText(sample));
     });
     noteSome(worstFirst(doubtful), "could not be decided", [&](const DisputedSample& sample) {
       const std::string distance = withUnit(sample.distance, sample.output);
@@ -184,12 +185,23 @@ class Wording {
     return fmt::format("{} ({}{})", sampleName(sample.number), results_.outputs[sample.output].name, when(sample.time));
   }
 
+  /// Of an oscillator in nm nobody has a second's motion: what a limit ended so early is a matter of units.
+  void noteHorizon() {
+    constexpr double hardly = 1e-2;
+    const IntervalResult& interval = results_.interval;
+    if (!interval.present || !interval.advice.starts_with("limits.") || !(interval.reached < hardly * results_.horizon))
+      return;
+    note(fmt::format(
+        "The enclosure came through {} % of the horizon: is that meant to be {}, and are the units meant as they are?",
+        numberText(100 * interval.reached / results_.horizon, 2), timeText(results_.horizon)));
+  }
+
   void noteSettled(std::vector<const DisputedSample*> settled, std::size_t inside, std::size_t rounding) {
     if (inside == 0 && rounding == 0) return;
     const auto samples = [](std::size_t count) { return countText(static_cast<long long>(count), "sample"); };
     std::string text =
         inside == 0 ? samples(rounding) + " outside by no more than rounding"
-                    : fmt::format("{} on the boundary {} decided by higher precision: {}", samples(inside),
+                    : fmt::format("{} on the boundary {} integrated again, more accurately: {}", samples(inside),
                                   inside == 1 ? "was" : "were", inside == 1 ? "it lies inside" : "all lie inside");
     if (inside > 0 && rounding > 0) text += fmt::format("; {} more outside by no more than rounding", rounding);
     note(text + ".");
@@ -201,7 +213,7 @@ class Wording {
     for (const DisputedSample* sample : settled) {
       if (verdict_.settled.size() == most) break;
       verdict_.settled.push_back(
-          fmt::format("{}: inside by {}, decided by {}.", whoIs(*sample), depthText(*sample), sample->decided));
+          fmt::format("{}: inside by {}, decided by {}.", whoIs(*sample), depthText(*sample), judgeText(*sample)));
     }
     if (verdict_.settled.size() < settled.size() || rounding > 0)
       verdict_.settled.emplace_back("The results name them all, in /comparison/disputed.");
@@ -212,6 +224,13 @@ class Wording {
     const std::string& unit = results_.outputs[sample.output].unit;
     return tellingText(margin(sample), motionSize(results_, sample.output)) +
            (unit.empty() || unit == "1" ? "" : " " + unit);
+  }
+
+  /// By what it was decided, in words.
+  static std::string judgeText(const DisputedSample& sample) {
+    return sample.decided == "Taylor 53 bits"    ? "a Taylor series in double precision"
+           : sample.decided == "Taylor 128 bits" ? "Taylor series in 128 bits"
+                                                 : sample.decided;
   }
 
   /// How far it lies inside.
@@ -356,7 +375,7 @@ class Wording {
           fmt::format("{} at most {} times as wide as what was sampled",
                       verdict_.overestimation < saysLittle ? "; the guarantee is"
                                                            : ", but the guarantee says little: for some output it is",
-                      atMostText(verdict_.overestimation, 4));
+                      timesText(verdict_.overestimation));
     text += ".";
     if (verdict_.endsEarly) return text + (moves() ? horizonText() : " An analysis ended early.");
     if (verdict_.unbounded > 0) text += " Not every output is bounded.";

@@ -297,11 +297,6 @@ Json rangesObject(const Results& results) {
   return object;
 }
 
-/// Three decimals, rounded up.
-std::string ratioText(double ratio) {
-  return ratio < 1e6 ? fmt::format("{:.3f}", std::ceil(ratio * 1000) / 1000) : fmt::format("{:.4g}", ratio);
-}
-
 /// What is proved: the enclosure, or, in a study without, the alpha-cut that holds all others.
 const Bounds& provedBounds(const Results& results) {
   return results.interval.at.empty() && !results.fuzzy.outer.empty() ? results.fuzzy.outer.front()
@@ -469,7 +464,7 @@ std::string textSummary(const Results& results) {
     const bool known = j < results.comparison.maximumOf.size() && std::isfinite(results.comparison.maximumOf[j]);
     rows.push_back({results.outputs[j].name + unit, shortBounds(results, provedBounds(results), row, j),
                     shortBounds(results, results.stochastic.envelope, row, j),
-                    known ? ratioText(results.comparison.maximumOf[j]) : "-"});
+                    known ? timesText(results.comparison.maximumOf[j]) : "-"});
   }
   std::string text = rangesText(results) + textTable(rows);
   std::vector<std::string> costs;

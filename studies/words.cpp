@@ -63,6 +63,15 @@ std::string atMostText(double x, int digits, double size) {
   return x < least && x != 0 ? powerAbove(least) : atMostText(x, digits);
 }
 
+bool isLittle(double x, double size) { return std::abs(x) <= billionth * size; }
+
+std::string timesText(double ratio) {
+  constexpr double hardly = 1e-3;
+  const double more = ratio - 1;
+  if (more > 0 && more <= billionth) return "1";
+  return atMostText(ratio, more > 0 && more < hardly ? 5 : 4);
+}
+
 std::pair<std::string, std::string> outwardText(double lower, double upper, int digits) {
   if (!(lower <= upper)) return {"none", "none"};
   if (std::isinf(lower) && std::isinf(upper)) return {numberText(lower), numberText(upper)};

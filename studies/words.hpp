@@ -22,6 +22,13 @@ std::string timeText(double time, int digits = 6);
 std::string atMostText(double x, int digits = 4);
 std::string atMostText(double x, int digits, double size);
 
+/// Whether x is hardly anything beside numbers of this size: no more than a billionth of it.
+bool isLittle(double x, double size);
+
+/// How many times as wide an enclosure is, rounded up: "1.013"; "1.0001" of what is hardly more than 1, and "1" of what
+/// is more by no more than a billionth.
+std::string timesText(double ratio);
+
 /// Decimals of lower rounded down and of upper rounded up: the printed pair holds the interval.
 /// Infinite ends give "-inf", "inf"; both are "none" where there is no interval (a NaN, or lower > upper).
 std::pair<std::string, std::string> outwardText(double lower, double upper, int digits);

@@ -9,6 +9,7 @@
 #include "reports/sections/contribution.hpp"
 #include "reports/sections/limits.hpp"
 #include "reports/words.hpp"
+#include "studies/results/extremes.hpp"
 
 namespace gamut {
 namespace {
@@ -32,10 +33,16 @@ int rowDigits(const std::vector<Column>& columns, std::size_t time, std::size_t 
   return digitsFor(magnitude, width, 4);
 }
 
-std::string cellOf(const Column& column, std::size_t time, std::size_t output, int digits) {
+/// Of an output of this size over the whole motion, a billionth of which has no digits of its own.
+std::string cellOf(const Column& column, std::size_t time, std::size_t output, int digits, double size) {
   if (column.bounds == nullptr) return column.texts[output];
   if (column.bounds->empty()) return "none";
-  return intervalText(column.bounds->lower(time, output), column.bounds->upper(time, output), digits);
+  const double lower = column.bounds->lower(time, output), upper = column.bounds->upper(time, output);
+  if (const double most = std::max(std::abs(lower), std::abs(upper)); most != 0 && isLittle(most, size)) {
+    const auto [least, greatest] = boundsText(lower, upper, size);
+    return fmt::format("[{}, {}]", least, greatest);
+  }
+  return intervalText(lower, upper, digits);
 }
 
 std::string figuresTable(const Results& results, const Verdict& verdict, std::size_t rows) {
@@ -50,8 +57,9 @@ std::string figuresTable(const Results& results, const Verdict& verdict, std::si
                   heads);
   for (std::size_t k = 0; k < std::min(rows, results.outputs.size()); ++k) {
     const int digits = rowDigits(columns, time, k);
+    const double size = motionSize(results, k);
     std::vector<std::string> cells;
-    for (const Column& column : columns) cells.push_back(cellOf(column, time, k, digits));
+    for (const Column& column : columns) cells.push_back(cellOf(column, time, k, digits, size));
     const std::string& name = results.outputs[k].name;
     table.row(withUnit(isMargin(results, k) ? "margin of " + name : name, results.outputs[k].unit), cells);
   }

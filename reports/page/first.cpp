@@ -25,11 +25,13 @@ struct Foremost {
   std::optional<Limit> limit;
 };
 
-/// The output with the widest bounds in shares of how far it varies.
+/// The output with the widest bounds in shares of how far it varies; what comes as far throughout the motion, as what
+/// is conserved does, only where all do.
 std::size_t widestOutput(const Results& results) {
   const Bounds* bounds = bestKnown(results);
   std::size_t widest = 0;
   double greatest = -1;
+  bool isOneThroughout = true;  // of the widest
   for (std::size_t o = 0; bounds != nullptr && o < results.outputs.size(); ++o) {
     double low = INFINITY, high = -INFINITY, width = 0;
     for (std::size_t i = 0; i < results.time.size(); ++i) {
@@ -43,7 +45,14 @@ std::size_t widestOutput(const Results& results) {
     const double most = std::max(std::abs(low), std::abs(high)),
                  size = results.time.size() > 1 ? std::max(high - low, hardly * most) : most;
     const double share = size > 0 ? width / size : 0;
-    if (!isMargin(results, o) && share > greatest) greatest = share, widest = o;
+    const std::optional<MotionRange> range = bestMotionRange(results, o);
+    const bool isThroughout =
+        range && whenText(results, range->least) == "throughout" && whenText(results, range->greatest) == "throughout";
+    constexpr double telling = 1e-3;  // what varies by less than that leads before nothing
+    if (isMargin(results, o) || (isThroughout && !isOneThroughout)) continue;
+    const bool displaces = isOneThroughout && !isThroughout && share > telling;
+    if (!displaces && share <= greatest) continue;
+    greatest = share, widest = o, isOneThroughout = isThroughout || share <= telling;
   }
   return widest;
 }

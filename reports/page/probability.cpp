@@ -2,6 +2,8 @@
 // samples say of it over time.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "reports/drawing/distribution.hpp"
 #include "reports/drawing/style.hpp"
 #include "reports/page/moments.hpp"
@@ -10,6 +12,7 @@
 #include "reports/page/table.hpp"
 #include "reports/sections/limits.hpp"
 #include "reports/words.hpp"
+#include "studies/results/extremes.hpp"
 
 namespace gamut {
 namespace {
@@ -24,6 +27,14 @@ std::string numbersOf(const Results& results, std::size_t at, std::size_t output
   return numbers.html();
 }
 
+/// Whether the enclosure of an output is at this time as good as a number, which nothing uncertain moves.
+bool isOneValue(const Results& results, double time, std::size_t output) {
+  const Bounds& bounds = results.interval.at;
+  const auto row = static_cast<std::size_t>(std::ranges::lower_bound(results.time, time) - results.time.begin());
+  return results.interval.present && row < bounds.lower.times &&
+         isLittle(bounds.upper(row, output) - bounds.lower(row, output), motionSize(results, output));
+}
+
 std::string distributionsOf(const Results& results, std::size_t output) {
   const std::vector<double>& times = results.distribution.time;
   std::vector<std::string> drawings, captions, numbers;
@@ -33,9 +44,10 @@ std::string distributionsOf(const Results& results, std::size_t output) {
         drawDistribution(results, at, output,
                          fmt::format("Plot of the distribution function of {}{}", results.outputs[output].name, when)));
     const double gap = results.distribution.gaps[at * results.outputs.size() + output];
-    captions.push_back(drawings.back().empty() ? "nothing is known" + when
-                       : gap == 0              ? "known to some roundings" + when
-                                               : fmt::format("bounds {} apart at most{}", atMostText(gap, 2), when));
+    captions.push_back(drawings.back().empty()
+                           ? (isOneValue(results, times[at], output) ? "one value" : "nothing is known") + when
+                       : gap == 0 ? "known to some roundings" + when
+                                  : fmt::format("bounds {} apart at most{}", atMostText(gap, 2), when));
     numbers.push_back(numbersOf(results, at, output));
   }
   return momentFigures("distribution", drawings, captions, numbers);

@@ -16,6 +16,7 @@
 #include "reports/page/table.hpp"
 #include "reports/sections/limits.hpp"
 #include "reports/words.hpp"
+#include "studies/results/extremes.hpp"
 
 namespace gamut {
 namespace {
@@ -179,8 +180,11 @@ std::string statisticsTable(const Results& results, std::size_t rows) {
   for (std::size_t o = 0; o < results.outputs.size(); ++o) {
     if (isMargin(results, o)) continue;
     if (++outputs > rows) continue;
+    const double size = motionSize(results, o);
+    const bool isOneValue = isLittle(s.deviation(row, o), size);  // but for rounding
     const auto with = [&](double value, const Table& errors) {
       const double error = errors.empty() ? std::nan("") : errors(row, o);
+      if (isOneValue) return value != 0 && isLittle(value, size) ? tellingText(value, size) : numberText(value, 6);
       const int digits = digitsFor(std::abs(value), std::isfinite(error) ? error : s.deviation(row, o), 2);
       return numberText(value, digits) + (std::isfinite(error) ? " ± " + numberText(error, 2) : "");
     };
@@ -188,10 +192,10 @@ std::string statisticsTable(const Results& results, std::size_t rows) {
     for (std::size_t q = 0; q < s.quantiles.size(); ++q) {
       const double lower = hasIntervals(s) ? s.quantileLower[q](row, o) : std::nan(""),
                    upper = hasIntervals(s) ? s.quantileUpper[q](row, o) : std::nan("");
-      const double size = std::max(std::abs(lower), std::abs(upper));
-      cells.push_back(std::isnan(lower) || std::isnan(upper)
+      const double most = std::max(std::abs(lower), std::abs(upper));
+      cells.push_back(std::isnan(lower) || std::isnan(upper) || isOneValue
                           ? with(s.quantiles[q](row, o), Table())
-                          : intervalText(lower, upper, digitsFor(size, upper - lower, 2)));
+                          : intervalText(lower, upper, digitsFor(most, upper - lower, 2)));
     }
     table.row(withUnit(results.outputs[o].name, results.outputs[o].unit), cells);
   }

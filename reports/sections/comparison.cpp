@@ -21,7 +21,7 @@ std::vector<Column> columns(const Results& results, const Finding& finding) {
   if (std::isnan(finding.overestimation)) return {};
   Column column{"overestimation, at most", nullptr, {}};
   for (std::size_t k = 0; k < results.outputs.size(); ++k)
-    column.texts.push_back(atMostText(greatestOverestimation(results.comparison, k), 4));
+    column.texts.push_back(timesText(greatestOverestimation(results.comparison, k)));
   return {column};
 }
 

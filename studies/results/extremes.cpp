@@ -1,4 +1,4 @@
-// Bounds over an output interval are those of one of its ends where that comes as far.
+// Bounds over an output interval are those of one of its ends where that comes as far: of the one that comes nearer.
 #include "studies/results/extremes.hpp"
 
 #include <fmt/format.h>
@@ -53,10 +53,11 @@ std::optional<MotionRange> motionRange(const Results& results, std::size_t outpu
     if (std::isnan(bound) || (isLower ? bound >= extreme.value : bound <= extreme.value)) return;
     constexpr double alike = 1e-3;
     const double near = alike * (high - low);
-    const bool isHere = std::abs(here - bound) <= near, isBefore = i > 0 && std::abs(before - bound) <= near;
+    const double fromHere = std::abs(here - bound), fromBefore = i > 0 ? std::abs(before - bound) : INFINITY;
+    const bool isBefore = fromBefore <= near && fromBefore <= fromHere, isHere = !isBefore && fromHere <= near;
     extreme.value = bound;
     extreme.from = results.time[isHere || i == 0 ? i : i - 1];
-    extreme.until = results.time[isBefore && !isHere ? i - 1 : i];
+    extreme.until = results.time[isBefore ? i - 1 : i];
   };
   for (std::size_t i = 0; i < at->lower.times; ++i) {
     const Bounds& of = over != nullptr ? *over : *at;

@@ -43,6 +43,32 @@ TEST(Report, RefersToNothingOutsideItself) {
 }
 
 /// However many outputs, times, quantities and words there are.
+/// What is conserved has wide bounds and tells little: what moves leads, where anything does.
+TEST(Report, LeadsWithWhatMoves) {
+  Results results = example::pendulum();
+  results.stochastic = {};
+  results.fuzzy = {};
+  results.comparison = {};
+  const auto hold = [&](std::size_t output) {
+    for (Bounds* bounds : {&results.interval.at, &results.interval.over})
+      for (std::size_t i = 0; i < bounds->lower.times; ++i) bounds->lower(i, output) = 1, bounds->upper(i, output) = 2;
+  };
+  hold(0);
+  EXPECT_THAT(renderReport(results), HasSubstr("\u201c" + results.outputs[1].name + "\u201d stays between"));
+  for (std::size_t output = 1; output < results.outputs.size(); ++output) hold(output);
+  EXPECT_THAT(renderReport(results), HasSubstr("\u201d stays between 1.000 and 2.000 rad"));
+}
+
+/// Of what nothing uncertain moves the page has no digits that rounding made.
+TEST(Report, HasNoDigitsOfRounding) {
+  Results results = example::pendulum();
+  const std::size_t last = results.time.size() - 1;
+  for (Bounds* bounds : {&results.interval.at, &results.stochastic.envelope})
+    bounds->lower(last, 1) = -3.662e-16, bounds->upper(last, 1) = 2.682e-16;
+  for (Bounds& bounds : results.fuzzy.outer) bounds.lower(last, 1) = -3.662e-16, bounds.upper(last, 1) = 2.682e-16;
+  EXPECT_THAT(renderReport(results), AllOf(HasSubstr("[-1e-08, 1e-08]"), Not(HasSubstr("[-3.662e-16"))));
+}
+
 TEST(Report, StaysSmall) {
   struct Size {
     std::size_t times, outputs, levels, quantities;

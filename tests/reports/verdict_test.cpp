@@ -444,6 +444,17 @@ TEST(Verdict, SaysOnceThatNoSampleWasTaken) {
   EXPECT_THAT(judge(results).notes, ElementsAre("0 of 4099 samples were taken: the run was interrupted."));
 }
 
+TEST(Verdict, AsksForUnitsWhereALimitLetHardlyAnyMotionThrough) {
+  Results results = example::pendulum();
+  results.interval.reached = 1e-5;
+  results.interval.why = "the time limit of 10 s CPU for the enclosure was reached";
+  results.interval.advice = "limits.enclosure_time";
+  EXPECT_THAT(judge(results).notes, ::testing::Contains("The enclosure came through 0.00033 % of the horizon: is that "
+                                                        "meant to be 3 s, and are the units meant as they are?"));
+  results.interval.reached = 1.5;
+  EXPECT_THAT(judge(results).notes, ::testing::Not(::testing::Contains(HasSubstr("% of the horizon"))));
+}
+
 TEST(Verdict, CountsTheSettledSamplesInOneLineAndNamesTheNearestBesides) {
   Results results = example::pendulum();
   for (int i = 0; i < 200; ++i) {  // of two bounds each
@@ -455,15 +466,17 @@ TEST(Verdict, CountsTheSettledSamplesInOneLineAndNamesTheNearestBesides) {
   const Verdict verdict = judge(results);
   ASSERT_EQ(verdict.notes.size(), 2U);
   EXPECT_THAT(verdict.notes.front(), HasSubstr("could not be decided"));
-  EXPECT_EQ(verdict.notes.back(), "100 samples on the boundary were decided by higher precision: all lie inside.");
+  EXPECT_EQ(verdict.notes.back(),
+            "100 samples on the boundary were integrated again, more accurately: all lie inside.");
   EXPECT_EQ(verdict.settledNote, 1);
   ASSERT_EQ(verdict.settled.size(), 21U);
-  EXPECT_EQ(verdict.settled.front(), "Sample 93 (elbow angle at 2 s): inside by 1e-06 rad, decided by Taylor 53 bits.");
+  EXPECT_EQ(verdict.settled.front(),
+            "Sample 93 (elbow angle at 2 s): inside by 1e-06 rad, decided by a Taylor series in double precision.");
   EXPECT_EQ(verdict.settled.back(), "The results name them all, in /comparison/disputed.");
   Results other = example::pendulum();
   dispute(other, 1e-6, "Taylor 53 bits");
   EXPECT_THAT(judge(other).notes,
-              ElementsAre("1 sample on the boundary was decided by higher precision: it lies inside."));
+              ElementsAre("1 sample on the boundary was integrated again, more accurately: it lies inside."));
   EXPECT_EQ(judge(other).settled.size(), 1U);
   dispute(other, 1e-9, "rounding").number = 18;
   EXPECT_THAT(judge(other).notes, ElementsAre(HasSubstr("it lies inside; 1 more outside by no more than rounding.")));

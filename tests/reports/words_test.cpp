@@ -70,6 +70,16 @@ TEST(PrintedBounds, HaveTheDigitsThatTheirWidthJustifies) {
       }
 }
 
+TEST(TimesAsWide, HaveNoDigitsOfRounding) {
+  EXPECT_EQ(timesText(1), "1");
+  EXPECT_EQ(timesText(1 + 4e-16), "1");
+  EXPECT_EQ(timesText(1 + 2e-9), "1.0001");
+  EXPECT_EQ(timesText(1.00012), "1.0002");
+  EXPECT_EQ(timesText(1.0121), "1.013");
+  EXPECT_EQ(timesText(1234.1), "1235");
+  EXPECT_EQ(timesText(std::numeric_limits<double>::infinity()), "inf");
+}
+
 TEST(AtMost, IsNeverLessThanTheNumber) {
   EXPECT_EQ(atMostText(1.00401, 4), "1.005");
   EXPECT_EQ(atMostText(1.5, 4), "1.5");
