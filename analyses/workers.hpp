@@ -12,6 +12,8 @@
 #include <thread>
 #include <vector>
 
+#include "analyses/work.hpp"
+
 namespace gamut {
 
 /// CPU time of the calling thread, s.
@@ -22,10 +24,12 @@ inline double threadCpuSeconds() {
 }
 
 /// Calls worker(i) for i = 0 … count-1, where `worker = makeWorker()` is made once on each of at most `jobs` threads.
-/// Ends early when `cancelled` is set. The first exception ends all and is thrown again here.
+/// Ends early when `cancelled` is set. The first exception ends all and is thrown again here. What all threads counted
+/// as work, the calling one has counted in the end.
 template <class MakeWorker>
 void forEachIndex(int jobs, std::size_t count, const std::atomic<bool>* cancelled, const MakeWorker& makeWorker) {
   std::atomic<std::size_t> next{0};
+  std::atomic<std::uint64_t> work{0};
   std::exception_ptr failure;
   std::mutex mutex;
   const auto run = [&] {
@@ -40,9 +44,14 @@ void forEachIndex(int jobs, std::size_t count, const std::atomic<bool>* cancelle
   };
   std::vector<std::jthread> threads;
   const std::size_t wanted = std::min(count, static_cast<std::size_t>(std::max(jobs, 1)));
-  for (std::size_t i = 1; i < wanted; ++i) threads.emplace_back(run);
+  for (std::size_t i = 1; i < wanted; ++i)
+    threads.emplace_back([&] {
+      run();
+      work += Work::counted();  // a thread's clock begins at zero
+    });
   if (count > 0) run();
   threads.clear();  // joins
+  Work::add(work);
   if (failure) std::rethrow_exception(failure);
 }
 

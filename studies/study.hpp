@@ -55,6 +55,17 @@ struct DistributionPlan {
   double storage = 8e6;       ///< bytes that the outputs' polynomials may take in the results
 };
 
+/// What is found out of enclosure and samples may cost so many times what these cost, in work (analyses/work.hpp), or
+/// what they would have cost in `least` seconds on the machine on which work was measured. What one leaves, the next
+/// has.
+struct Shares {
+  static constexpr double least = 2.5;
+  double cuts = 0.5;           ///< own flows of alpha-cuts
+  double requirements = 0.8;   ///< but for single violations
+  double probabilities = 0.7;  ///< bounds of distributions, Sobol' indices, polynomials of outputs
+  double derivatives = 20;     ///< apart from the others; of the enclosure alone, or of a second
+};
+
 struct Study {
   enum class Analysis { kinematics, dynamics, inverseDynamics };
 
@@ -81,6 +92,7 @@ struct Study {
   double storage = 4e6;      ///< bytes that the samples' values and motions may take in the results
   int levels = 11;           ///< of alpha, from 0 to 1: levelOf(0, levels) …
   StatedLimits limits;
+  Shares shares;
   std::vector<std::string> notes;  ///< what may be a mistake: lines "file:line:column: note: what"
 
   /// Whether it asks for this answer: `asksFor<IntervalResult>()`.

@@ -66,7 +66,7 @@ Flow::Flow(Program f, Program g, FlowOptions options) {
   for (const std::vector<double>* ofOutputs : {&options.tightnessOf, &options.floors, &options.mostWidth})
     requireThat(ofOutputs->empty() || ofOutputs->size() == at(g.outputs()),
                 "what is said of each output must be said of all");
-  requireThat(options.budget > 0, "a flow's budget must be positive");
+  requireThat(options.budget > 0 && options.levelBudget >= 0, "a flow's budget must be positive");
   for (const int output : options.modelledAt)
     requireThat(output >= 0 && output < g.outputs(), "models are kept of outputs that there are");
   for (const int output : options.modelled)
@@ -114,11 +114,12 @@ Tube answer(const FlowFormulation& formulation, const FlowOptions& options, Flow
   ofLevels.modelled.clear();
   ofLevels.modelledAt.clear();
   own.aside.values = formulation.asides;
-  const auto questionWith = [&](const FlowOptions& with) {
+  FlowBudget levelBudget{0};
+  const auto questionWith = [&](const FlowOptions& with, FlowBudget& of) {
     return FlowQuestion{
-        formulation.motion, formulation.differentiated, formulation.outputs, with, horizon, outputTimes, budget};
+        formulation.motion, formulation.differentiated, formulation.outputs, with, horizon, outputTimes, of};
   };
-  const FlowQuestion question = questionWith(own), levelQuestion = questionWith(ofLevels);
+  const FlowQuestion question = questionWith(own, budget), levelQuestion = questionWith(ofLevels, levelBudget);
   const auto narrowsInput = [&](const Box& level) {
     return std::ranges::any_of(options.varying, [&](const VaryingParameter& input) {
       return width(level[at(n + input.parameter)]) < width(box[at(n + input.parameter)]);
@@ -126,14 +127,18 @@ Tube answer(const FlowFormulation& formulation, const FlowOptions& options, Flow
   };
   double looseness = 0, unused = 0;
   Tube tube = refine(question, box, levels, looseness);
-  // A remainder that is small for the whole box is not for a much smaller level: that one gets a flow of its own.
-  for (std::size_t level = 0; level < levels.size() && !tube.wasStopped(); ++level) {
+  levelBudget.limit = std::min(budget.left(), std::max(options.levelBudget, options.levelShare * budget.spent));
+  // A remainder that is small for the whole box is not for a much smaller level: that one gets a flow of its own, the
+  // smallest, which need it most and are the cheapest, first.
+  for (std::size_t level = levels.size(); level-- > 0 && !tube.wasStopped() && levelBudget.left() > 0;) {
     double share = 0;
     for (std::size_t i = 0; i < box.size(); ++i)
       if (uncertain.components[i].symbol >= 0) share = std::max(share, width(levels[level][i]) / width(box[i]));
     if (looseness > 0.01 * share || narrowsInput(levels[level]))
       FlowRun::tighten(tube, level, refine(levelQuestion, levels[level], {}, unused));
   }
+  budget.spent += levelBudget.spent;
+  FlowRun::setLevelWork(tube, levelBudget.spent);
   return tube;
 }
 

@@ -59,9 +59,11 @@ struct FlowOptions {
                            ///< fraction of the box's relative width, at first: it is adapted to `tightness`;
                            ///< 0: by the number of uncertain quantities
   int maxPieces = 2000;    ///< give up beyond this many pieces
-  double maxWidth = std::numeric_limits<double>::infinity();  ///< end when an enclosure of a state becomes wider
-  double budget = std::numeric_limits<double>::infinity();  ///< CPU time of all threads, s; when it is spent, what was
-                                                            ///< proved until then is the result
+  double maxWidth = std::numeric_limits<double>::infinity();     ///< end when an enclosure of a state becomes wider
+  double budget = std::numeric_limits<double>::infinity();       ///< work (work.hpp); when it is spent, what was proved
+                                                                 ///< until then is the result, whatever threads do
+  double levelBudget = std::numeric_limits<double>::infinity();  ///< the same, of all sub-boxes' own flows; or, if that
+  double levelShare = 0;                                         ///< is more, this part of the whole box's work
   double longestStep = std::numeric_limits<double>::infinity();  ///< s; between output times, outputs that depend on
                                                                  ///< time itself are followed as far as a step
   int jobs = 1;                                                  ///< threads that follow pieces
@@ -98,7 +100,7 @@ class Tube {
   const std::string& why() const { return why_; }
   static constexpr const char* interrupted = "interrupted";
   static constexpr const char* outOfMemory = "out of memory";
-  static constexpr const char* overBudget = "the budget of CPU time is spent";
+  static constexpr const char* overBudget = "the work that may be done is done";
   /// Whether it ended early for one of these three, not for the motion's sake.
   bool wasStopped() const { return cause_.isStop(); }
   /// The cause of an early end, of which why() is the sentence.
@@ -139,6 +141,7 @@ class Tube {
   long steps() const { return steps_; }             ///< steps of all pieces
   double cpuSeconds() const { return cpu_; }        ///< s, all threads, without the sub-boxes' ranges
   double cutCpuSeconds() const { return cutCpu_; }  ///< s, for the ranges over sub-boxes
+  double levelWork() const { return levelWork_; }   ///< of their own flows (work.hpp)
 
  private:
   friend class FlowRun;
@@ -152,7 +155,7 @@ class Tube {
   FlowCause cause_, limit_;
   int pieces_ = 0;
   long steps_ = 0;
-  double cpu_ = 0, cutCpu_ = 0;
+  double cpu_ = 0, cutCpu_ = 0, levelWork_ = 0;
 };
 
 /// The flow of ẋ = f(t, x, p).

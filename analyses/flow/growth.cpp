@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "analyses/flow/error_bounds.hpp"
+#include "analyses/work.hpp"
 
 namespace gamut {
 
@@ -103,6 +104,7 @@ bool FlowGrowth::compute(double h) {
         for (int j = 0; j < n_; ++j) next_[at(i, j)] += x * power_[at(l, j)];
       }
     power_.swap(next_);
+    Work::count(Work::matrixTerm, static_cast<double>(n_) * n_ * (n_ + 4));
     bool small = true;
     for (std::size_t e = 0; e < power_.size(); ++e) {
       M0_[e] += (k + 1) * power_[e];

@@ -9,6 +9,7 @@
 
 #include "analyses/flow/formulation.hpp"
 #include "analyses/flow/run.hpp"
+#include "analyses/work.hpp"
 #include "analyses/workers.hpp"
 #include "scalars/index.hpp"
 #include "scalars/program/sides.hpp"
@@ -37,9 +38,9 @@ void joinHulls(std::vector<Interval>& into, const std::vector<Interval>& from) {
   for (std::size_t i = 0; i < into.size(); ++i) into[i] = hull(into[i], from[i]);
 }
 
-FlowJourney FlowFollower::followWhilePossible(FlowPiece& piece, double end) {
+FlowJourney FlowFollower::followWhilePossible(FlowPiece& piece, double end, double allowed) {
   try {
-    return follow(piece, end);
+    return follow(piece, end, allowed);
   } catch (const Cancelled&) {
   } catch (const std::bad_alloc&) {
     run_.ranOutOfMemory();
@@ -47,14 +48,11 @@ FlowJourney FlowFollower::followWhilePossible(FlowPiece& piece, double end) {
   return FlowJourney::cancelled;
 }
 
-FlowJourney FlowFollower::follow(FlowPiece& piece, double end) {
-  while (piece.set.t < end) {
+FlowJourney FlowFollower::follow(FlowPiece& piece, double end, double allowed) {
+  const std::uint64_t began = Work::counted();
+  while (piece.set.t < end && static_cast<double>(Work::counted() - began) <= allowed) {
     if (task_.options.cancelled != nullptr && task_.options.cancelled->load(std::memory_order_relaxed))
       return FlowJourney::cancelled;
-    if (isOverBudget()) {
-      run_.ranOutOfBudget();
-      return FlowJourney::cancelled;
-    }
     StepOutcome outcome = certify(piece);
     const bool uncertain = symbols_ > 0;
     if (outcome != StepOutcome::stepped && uncertain) {
@@ -67,40 +65,33 @@ FlowJourney FlowFollower::follow(FlowPiece& piece, double end) {
       const int symbol = tool_->stepper.worstSymbol();
       // Centres of pieces are exact: fifty bisections of one symbol is as far as that goes.
       const bool tooFine = symbol < task_.embedding.symbols && piece.set.half[at(symbol)] < 0x1p-50;
-      if (!futile && !tooFine && run_.mayBisect(piece)) {
-        FlowPiece other = piece;
-        other.set = tool_->stepper.bisect(piece.set, symbol, tool_->range);
-        if (symbol >= task_.embedding.symbols) run_.makeAlternatives();
-        run_.add(std::move(other));
-        continue;
+      if (!futile && !tooFine && run_.mayBisect()) {
+        halves_.first = piece.set;
+        halves_.second = tool_->stepper.bisect(halves_.first, symbol, tool_->range);
+        halves_.areAlternatives = symbol >= task_.embedding.symbols;
+        return FlowJourney::bisected;
       }
+      if (!futile && !tooFine) piece.refusedAt = piece.set.t;
       if (outcome == StepOutcome::splitWanted) outcome = StepOutcome::stepped;  // certified all the same
     }
     if (outcome == StepOutcome::failed) {
-      run_.fail(piece.set.t, tool_->stepper.why());
+      run_.fail(piece, piece.set.t, tool_->stepper.why());
       return FlowJourney::ended;
     }
     if (!record(piece)) return FlowJourney::ended;
     tool_->stepper.advance(piece.set);
     ++collected_.steps;
-    collected_.timeError += tool_->stepper.timeError();
-    collected_.truncation += tool_->stepper.truncation();
+    piece.timeError += tool_->stepper.timeError();
+    piece.truncation += tool_->stepper.truncation();
     for (std::size_t i = 0; symbols_ > 1 && i < piece.set.R.size(); ++i)
       measureInfluence(&piece.set.p[i * at(monomialCount_)], tool_->stepper.monomials(), collected_.influence);
     if (task_.mayTighten() && tool_->stepper.isRemainderTooLarge(piece.set)) {
-      run_.abandon(piece.set.t);
+      run_.abandon(piece);
       return FlowJourney::ended;
     }
     if (!expand(piece)) lowerDegree(piece);
   }
   return FlowJourney::goesOn;
-}
-
-bool FlowFollower::isOverBudget() {
-  if (std::isinf(task_.budget.limit)) return false;
-  const double now = threadCpuSeconds(), since = now - counted_;
-  counted_ = now;
-  return task_.budget.spent.fetch_add(since) + since > task_.budget.limit;
 }
 
 /// One step, with the jumps held at which all of the piece is; of those that may be left, without.
@@ -350,6 +341,7 @@ std::shared_ptr<const FlowSnapshot> FlowFollower::modelOutputs(const FlowPiece& 
   auto snapshot = std::make_shared<FlowSnapshot>();
   snapshot->time = at_;
   snapshot->part = {piece.set.centre, piece.set.half};
+  snapshot->path = piece.path;
   snapshot->monomials = task_.layouts[task_.outputLayout(piece.layout)].monomials;
   const auto include = [&](int o) {
     snapshot->outputs.push_back(modelOf(outputs_->polynomial(o), outputs_->radius(o), *snapshot->monomials,
@@ -570,8 +562,9 @@ bool FlowFollower::record(FlowPiece& piece) {
   }
   for (std::size_t i = 0; i < piece.last.size(); ++i)
     if (!(width(piece.last[i]) <= task_.options.maxWidth)) {
-      run_.fail(t1, tool_->stepper.nameOf(static_cast<int>(i)) + " has become wider than the limit of " +
-                        toString(task_.options.maxWidth));
+      run_.fail(piece, t1,
+                tool_->stepper.nameOf(static_cast<int>(i)) + " has become wider than the limit of " +
+                    toString(task_.options.maxWidth));
       return false;
     }
   if (const int i = tooWide(piece, end, endOutputs); i >= 0) {
@@ -579,7 +572,7 @@ bool FlowFollower::record(FlowPiece& piece) {
     const std::string name = task_.options.mostWidth.empty() ? tool_->stepper.nameOf(i)
                              : at(i) < names.size()          ? names[at(i)]
                                                              : "output " + std::to_string(i);
-    run_.fail(t1, name + " is too wide: its enclosure is more than a million times its size");
+    run_.fail(piece, t1, name + " is too wide: its enclosure is more than a million times its size");
     return false;
   }
   return true;

@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -30,9 +31,18 @@ struct FlowPiece {
   std::vector<Interval> modelled;                  // of modelled outputs: all that they were so far
   std::vector<double> size;                        // the greatest that each output (or state) was, as far as is known
   std::vector<char> wasKnown;                      // and whether it was once known to within that
+  std::string path;                                // which halves it is of: what pieces leave is in this order
+  double timeError = 0, truncation = 0;            // of its steps
+  double refusedAt = -1;                           // when it was not bisected, last
 };
 
-enum class FlowJourney { goesOn, ended, cancelled };
+/// A piece that goes on as two, if it may.
+struct FlowHalves {
+  FlowSet first, second;
+  bool areAlternatives = false;  // of a remainder's own symbol
+};
+
+enum class FlowJourney { goesOn, bisected, ended, cancelled };
 
 /// Everything that pieces contributed at the output times.
 struct FlowCollected {
@@ -41,8 +51,7 @@ struct FlowCollected {
   std::vector<std::vector<Interval>> stateCore, outputCore;              // see FlowFollower; their hulls
   std::vector<std::vector<std::shared_ptr<const FlowSnapshot>>> models;  // FlowModels
   std::vector<std::vector<FlowChord>> chords;
-  std::vector<Influence> influence;      // of every symbol
-  double timeError = 0, truncation = 0;  // of all steps
+  std::vector<Influence> influence;  // of every symbol
   long steps = 0;
   double cpu = 0, cutCpu = 0;
   FlowCollected(std::size_t times, std::size_t levels)
@@ -71,9 +80,11 @@ class FlowFollower {
     if (signs_ > 0) signsWithin_.emplace(task.jumps);
   }
 
-  /// Advances `piece` to `end` or to its failure. What ends within a step leaves the piece at the step's start; what
-  /// the step had given already is proved.
-  FlowJourney followWhilePossible(FlowPiece& piece, double end);
+  /// Advances `piece` to `end`, until it has done so much work, until it would rather be two (`halves`, which begin
+  /// where it is), or to its failure. What ends within a step leaves the piece at the step's start; what the step had
+  /// given already is proved. All of that depends on the piece alone.
+  FlowJourney followWhilePossible(FlowPiece& piece, double end, double allowed);
+  FlowHalves& halves() { return halves_; }
 
  private:
   /// The workspace of one layout, and of the motion or of that in which some of its jumps are held.
@@ -88,8 +99,7 @@ class FlowFollower {
     Program besides;                     // the values that these are of
   };
 
-  FlowJourney follow(FlowPiece& piece, double end);
-  bool isOverBudget();
+  FlowJourney follow(FlowPiece& piece, double end, double allowed);
   StepOutcome certify(const FlowPiece& piece);
   void giveSigns(const FlowPiece& piece, std::vector<SignCases> signs);
   bool knowsMoreByBoxes() const;
@@ -123,8 +133,8 @@ class FlowFollower {
   FlowOutputs* outputs_ = nullptr;
   int monomialCount_ = 0, symbols_ = 0;
   FlowPoint point_;
-  double at_ = 0;                        // its time
-  double counted_ = threadCpuSeconds();  // of this thread, in the budget
+  double at_ = 0;  // its time
+  FlowHalves halves_;
   std::size_t signs_ = jumpsOf(task_.jumps.f).size();
   std::optional<SignsWithin> signsWithin_;
   std::vector<SignCases> given_;      // signs of the motion, as outputs take them at present

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "analyses/work.hpp"
+
 // One clone for AVX-512, one for FMA3, one for the baseline, chosen when the program starts.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
 #define GAMUT_CLONES __attribute__((target_clones("avx512f", "fma", "default")))
@@ -53,6 +55,7 @@ GAMUT_INLINE void convolveChunks(const Monomials::Pair* pairs, const std::int32_
 GAMUT_CLONES void convolve(const Monomials::Pair* pairs, const std::int32_t* first, int count, const double* a,
                            const double* bReversed, int stride, int i, double* out) {
   const double* b = bReversed + stride - 1 - i;
+  Work::count(Work::convolvedRow, static_cast<double>(first[count]) * (i / 8 + 1));
   switch (i / 8) {
     case 0:
       convolveChunks<1>(pairs, first, count, a, b, stride, out);
@@ -72,12 +75,15 @@ GAMUT_CLONES void convolve(const Monomials::Pair* pairs, const std::int32_t* fir
 void multiply(const Monomials& monomials, int count, const double* c, const double* x, int stride, double* out) {
   const Monomials::Pair* multiples = monomials.multiples().data();
   const std::int32_t* first = monomials.firstMultiple().data();
+  double pairs = 0;
   for (int a = 0; a < count; ++a) {
     const double factor = c[a * stride];
     if (factor == 0) continue;
+    pairs += first[a + 1] - first[a];
     for (int q = first[a]; q < first[a + 1] && multiples[q].b < count; ++q)
       out[multiples[q].b] += factor * x[multiples[q].a * stride];
   }
+  Work::count(Work::multipliedPair, pairs + count);
 }
 
 GAMUT_CLONES void tabulate(const Monomials& monomials, int count, const double* f, const double* power,
@@ -143,6 +149,7 @@ GAMUT_CLONES void thinRecursion(const std::vector<ThinNode>& nodes, const std::v
   const int count = static_cast<int>(nodes.size());
   const ThinNode* v = nodes.data();
   double* cur = current.data();
+  Work::count(Work::coefficient, 2.0 * count * order * (order / 16 + 1));
   for (int i = 0; i < order; ++i) {
     if (i == 1)  // what does not change in time has order 0 only
       for (int x = 0; x < count; ++x)

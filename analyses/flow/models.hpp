@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "analyses/flow/monomials.hpp"
@@ -34,6 +35,7 @@ struct FlowSnapshot {
   FlowPart part;
   std::shared_ptr<const Monomials> monomials;
   std::vector<OutputModel> outputs;  ///< FlowOptions::modelled; at output times, those of `modelledAt` behind them
+  std::string path;                  ///< of the flow's piece: snapshots and chords of a time are in this order
 };
 
 /// Outputs on a part from one time to another: each in the hull of the two snapshots, whose parts hold this one, plus

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "analyses/flow/error_bounds.hpp"
+#include "analyses/work.hpp"
 #include "scalars/elementary/rounding.hpp"
 #include "scalars/index.hpp"
 
@@ -96,6 +97,7 @@ double PolynomialRange::maximum(std::vector<double> c, double rounding, double t
   double best = -std::numeric_limits<double>::infinity();
   int deepest = 0;
   const auto add = [&](std::vector<double>&& part, int depth) {
+    Work::count(Work::rangeTerm, static_cast<double>(part.size()) * (monomials_->symbols() + 1));
     best = std::max(best, greatestValue(part));
     const double bound = upperBound(part);
     deepest = std::max(deepest, depth);

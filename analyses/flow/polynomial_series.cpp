@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "analyses/flow/kernels.hpp"
+#include "analyses/work.hpp"
 
 namespace gamut {
 
@@ -20,6 +21,7 @@ void PolynomialSeries::compute(double t0, double h0) {
     kernels::thinRecursion(thin_, thinSolutions_, thinStates_, thinFrame_, leading_, time_, m_, h0, current_);
     return;
   }
+  Work::count(Work::coefficient, static_cast<double>(f_.size()));
   for (int i = 0; i < m_; ++i) {
     for (int node = time_ + 1; node < nodes_; ++node) {
       goOnUnlessCancelled();

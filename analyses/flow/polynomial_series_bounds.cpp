@@ -6,6 +6,7 @@
 
 #include "analyses/flow/error_bounds.hpp"
 #include "analyses/flow/polynomial_series.hpp"
+#include "analyses/work.hpp"
 
 namespace gamut {
 
@@ -257,6 +258,7 @@ bool PolynomialSeries::bound(const double* E, bool primaryOnly) {
   for (System& system : systems_) system.isBounded = false;
   isAlong_ = E == nullptr;
   haste_ = 0;
+  Work::count(Work::boundedNode, 0.5 * nodes_);
   for (int i = 0; i < time_; ++i) {
     const bool state = i < n_;
     rho0_[at(i)] = !state ? radius_[at(i)] : E != nullptr ? E[i] : 0.0;

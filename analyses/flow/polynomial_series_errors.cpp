@@ -8,6 +8,7 @@
 #include "analyses/flow/error_bounds.hpp"
 #include "analyses/flow/kernels.hpp"
 #include "analyses/flow/polynomial_series.hpp"
+#include "analyses/work.hpp"
 
 namespace gamut {
 
@@ -16,6 +17,8 @@ bool PolynomialSeries::tabulate(double theta) {
   for (int i = 1; i < stride_; ++i) power_[at(i)] = i < m_ ? power_[at(i - 1)] * theta : 0.0;
   for (int i = 0; i < stride_; ++i) weights_[at(i)] = (i + 1) * power_[at(i)];
   const double last = power_[at(m_ - 1)] * theta;  // θ^m
+  Work::count(Work::coefficient, static_cast<double>(f_.size() + t_.size() + s2_.size()));
+  Work::count(Work::boundedNode, static_cast<double>(plan_.size()));
   for (std::size_t x = 0; x < plan_.size(); ++x) {
     const Plan& v = plan_[x];
     double* table = &t_[v.t];

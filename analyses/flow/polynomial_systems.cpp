@@ -10,6 +10,7 @@
 
 #include "analyses/flow/error_bounds.hpp"
 #include "analyses/flow/polynomial_series.hpp"
+#include "analyses/work.hpp"
 
 namespace gamut {
 
@@ -87,6 +88,9 @@ void PolynomialSeries::computeSolution(int first, int i) {
     }
   }
   double* values = scratch2_.data();
+  const double square = static_cast<double>(n) * n;
+  Work::count(Work::multipliedPair, square * (start[N] - N));
+  Work::count(Work::matrixTerm, 4 * square * N);
   for (int g = 0; g < N; ++g) {  // grades from below: Σ_{β≠0} A_{0β} x_{i,α-β} is known
     for (int k = 0; k < n; ++k) {
       double s = right[k * count() + g];
@@ -151,6 +155,7 @@ void PolynomialSeries::tabulateSystem(System& system) {
       system.norms[i] += std::fabs(system.inverse[at(t)][i]) * power_[at(inverseTerms_[at(t)].first)];
   for (double& entry : system.norms) entry *= bounds::up;
   std::vector<double>& product = combination_;
+  Work::count(Work::matrixTerm, 0.4 * n * n * n * terms * count() * m_);
   const double theta = power_[1] > 0 ? power_[1] : 1.0;
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j) {

@@ -14,6 +14,7 @@
 #include "analyses/flow/run.hpp"
 #include "analyses/flow/set.hpp"
 #include "analyses/flow/step.hpp"
+#include "analyses/work.hpp"
 #include "analyses/workers.hpp"
 #include "scalars/index.hpp"
 
@@ -34,13 +35,14 @@ class Weighing {
     if (symbols == 0) return;
     const bool weighs = symbols >= leastLookedAt && question.options.degree < 0;
     const double began = threadCpuSeconds();
+    const std::uint64_t counted = Work::counted();
     try {
       look(question, box, weighs);
     } catch (const Cancelled&) {  // the run that follows says so
     } catch (const std::bad_alloc&) {
     }
     cpu_ = threadCpuSeconds() - began;
-    question.budget.spent += cpu_;
+    question.budget.spent += static_cast<double>(Work::counted() - counted);
   }
 
   const Emphasis& emphasis() const { return emphasis_; }

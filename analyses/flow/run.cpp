@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "analyses/flow/start_outputs.hpp"
+#include "analyses/work.hpp"
 #include "analyses/workers.hpp"
 #include "scalars/index.hpp"
 
@@ -26,14 +27,21 @@ void narrow(std::vector<Interval>& into, const std::vector<Interval>& other) {
 }  // namespace
 
 Tube FlowRun::run() {
-  queue_.push(start());
+  all_.push_back({start()});
   failedAt_ = std::numeric_limits<double>::infinity();
+  beginTurn();
   const int jobs = std::max(1, task_.options.jobs);
   std::vector<FlowCollected> collected(at(jobs), FlowCollected(task_.times.size(), task_.levels.size()));
   std::vector<std::jthread> threads;
-  for (int i = 1; i < jobs; ++i) threads.emplace_back([this, &collected, i] { work(collected[at(i)]); });
+  std::atomic<std::uint64_t> counted{0};
+  for (int i = 1; i < jobs; ++i)
+    threads.emplace_back([this, &collected, &counted, i] {
+      work(collected[at(i)]);
+      counted += Work::counted();  // a thread's clock begins at zero
+    });
   work(collected[0]);
   threads.clear();  // joins
+  Work::add(counted);
   if (error_) std::rethrow_exception(error_);
   return gather(collected);
 }
@@ -49,38 +57,29 @@ FlowPiece FlowRun::start() const {
   return piece;
 }
 
-/// A thread: takes the earliest piece, follows it for a slice of time, puts it back.
+/// A thread: takes the next piece of the turn and follows it. The last to end decides what comes next.
 void FlowRun::work(FlowCollected& collected) {
   const double began = threadCpuSeconds();
   try {
     FlowFollower follower(*this, task_, collected);
+    std::unique_lock lock(mutex_);
     for (;;) {
-      FlowPiece piece;
-      double sliceEnd = 0;
-      {
-        std::unique_lock lock(mutex_);
-        wake_.wait(lock, [&] { return stop_ || !queue_.empty() || busy_ == 0; });
-        if (stop_ || queue_.empty()) break;
-        piece = queue_.top();
-        queue_.pop();
-        if (piece.set.t >= failedAt_) continue;  // beyond what can be proved for the whole box
-        ++busy_;
-        sliceEnd = std::min(task_.horizon, piece.set.t + task_.horizon / 64);
-        report(piece.set.t);
+      wake_.wait(lock, [&] { return stop_ || hasEnded_ || next_ < turn_.size(); });
+      if (stop_ || hasEnded_) break;
+      Traveller& traveller = all_[turn_[next_++]];
+      lock.unlock();
+      const std::uint64_t counted = Work::counted();
+      traveller.journey = follower.followWhilePossible(traveller.piece, sliceEnd_, allowed_);
+      if (traveller.journey == FlowJourney::bisected) traveller.halves = std::move(follower.halves());
+      lock.lock();
+      counted_ += Work::counted() - counted;
+      degree_ = std::max(degree_, task_.layouts[traveller.piece.layout].monomials->degree());
+      if (traveller.journey == FlowJourney::cancelled) {
+        unfinished_ = std::min(unfinished_, traveller.piece.set.t);
+        stop_ = true;
       }
-      const FlowJourney journey = follower.followWhilePossible(piece, sliceEnd);
-      {
-        const std::lock_guard lock(mutex_);
-        --busy_;
-        degree_ = std::max(degree_, task_.layouts[piece.layout].monomials->degree());
-        if (journey == FlowJourney::cancelled) {
-          unfinished_ = std::min(unfinished_, piece.set.t);
-          stop_ = true;
-        } else if (journey == FlowJourney::goesOn && piece.set.t < task_.horizon) {
-          queue_.push(std::move(piece));
-        }
-      }
-      wake_.notify_all();
+      if (++done_ == turn_.size() && !stop_) turnOver();
+      if (stop_ || done_ == 0) wake_.notify_all();
     }
   } catch (...) {
     const std::lock_guard lock(mutex_);
@@ -91,42 +90,95 @@ void FlowRun::work(FlowCollected& collected) {
   collected.cpu += threadCpuSeconds() - began - collected.cutCpu;
 }
 
+void FlowRun::turnOver() {
+  double earliest = std::numeric_limits<double>::infinity();
+  for (const Traveller& traveller : all_) earliest = std::min(earliest, traveller.piece.set.t);
+  try {
+    endTurn();
+    if (!stop_) beginTurn();
+  } catch (const std::bad_alloc&) {  // what was proved until then is
+    outOfMemory_ = stop_ = true;
+    unfinished_ = std::min(unfinished_, earliest);
+    all_.clear();
+  }
+}
+
+/// All pieces that are in the slice of time of the earliest. Each may do so little work that all of them together do
+/// not go far beyond what is left.
+void FlowRun::beginTurn() {
+  double earliest = std::numeric_limits<double>::infinity();
+  for (const Traveller& traveller : all_) earliest = std::min(earliest, traveller.piece.set.t);
+  if (!(earliest < sliceEnd_)) {
+    sliceEnd_ = std::min(task_.horizon, earliest + task_.horizon / 64);
+    if (!all_.empty()) report(earliest);
+  }
+  turn_.clear();
+  for (std::size_t i = 0; i < all_.size(); ++i)
+    if (all_[i].piece.set.t < sliceEnd_) turn_.push_back(i);
+  next_ = done_ = 0;
+  hasEnded_ = turn_.empty();
+  allowed_ = task_.budget.left() / (4 * static_cast<double>(std::max<std::size_t>(turn_.size(), 1)));
+}
+
+/// What the pieces have become, in their order.
+void FlowRun::endTurn() {
+  task_.budget.spent += static_cast<double>(std::exchange(counted_, 0));
+  std::vector<Traveller> left;
+  for (Traveller& traveller : all_) {
+    const bool isOver = traveller.journey == FlowJourney::ended || !(traveller.piece.set.t < task_.horizon) ||
+                        !(traveller.piece.set.t < failedAt_);  // beyond what can be proved for the whole box
+    if (isOver) {
+      timeError_ += traveller.piece.timeError, truncation_ += traveller.piece.truncation;
+    } else if (std::exchange(traveller.journey, FlowJourney::goesOn) == FlowJourney::bisected && mayBisect()) {
+      bisect(traveller, left);
+    } else {
+      left.push_back(std::move(traveller));
+    }
+  }
+  all_ = std::move(left);
+  if (all_.empty() || task_.budget.left() > 0) return;
+  overBudget_ = stop_ = true;
+  for (const Traveller& traveller : all_) unfinished_ = std::min(unfinished_, traveller.piece.set.t);
+}
+
+void FlowRun::bisect(Traveller& traveller, std::vector<Traveller>& into) {
+  ++pieces_;
+  areAlternatives_ = areAlternatives_ || traveller.halves.areAlternatives;
+  if (task_.embedding.symbols > 0 && pieces_ >= nextProbe_ && ended_.isNone()) {
+    nextProbe_ = 2 * pieces_;
+    probe(traveller.piece);
+  }
+  FlowPiece other = traveller.piece;
+  traveller.piece.set = std::move(traveller.halves.first);
+  other.set = std::move(traveller.halves.second);
+  other.timeError = other.truncation = 0;
+  traveller.piece.path += '0';
+  other.path += '1';
+  into.push_back({std::move(traveller.piece)});
+  into.push_back({std::move(other)});
+}
+
 void FlowRun::report(double earliest) {  // the queue's order makes `earliest` the earliest of all waiting pieces
   if (task_.options.progress) task_.options.progress(earliest / task_.horizon);
 }
 
-void FlowRun::fail(double t, FlowCause cause) {
+void FlowRun::fail(const FlowPiece& piece, double t, FlowCause cause) {
   const std::lock_guard lock(mutex_);
-  if (t >= failedAt_) return;
+  if (t > failedAt_ || (t == failedAt_ && !(piece.path < failed_))) return;
   failedAt_ = t;
+  failed_ = piece.path;
   cause_ = std::move(cause);
   using enum FlowCause::Kind;
   const bool mayBeCured = cause_.kind == wide || cause_.kind == step || cause_.kind == edge;
-  if (refusedAt_ != t || !mayBeCured) return;  // by bisection
+  if (piece.refusedAt != t || !mayBeCured) return;  // by bisection
   if (!task_.options.split) cause_ = {unsplit, cause_.what};
   // What so many pieces do not keep away from an edge comes to it.
   if (task_.options.split && cause_.kind != edge) cause_ = {pieces, cause_.what, task_.options.maxPieces};
 }
 
-void FlowRun::abandon(double t) {
-  fail(t, FlowCause{FlowCause::Kind::remainder, "what is left over has become as large as the set"});
+void FlowRun::abandon(const FlowPiece& piece) {
+  fail(piece, piece.set.t, FlowCause{FlowCause::Kind::remainder, "what is left over has become as large as the set"});
   isAbandoned_ = true;
-}
-
-bool FlowRun::mayBisect(const FlowPiece& piece) {
-  bool isTimeToProbe = false;
-  {
-    const std::lock_guard lock(mutex_);
-    if (!task_.options.split || pieces_ >= mostPieces_) {
-      refusedAt_ = piece.set.t;
-      return false;
-    }
-    ++pieces_;
-    isTimeToProbe = task_.embedding.symbols > 0 && pieces_ >= nextProbe_ && ended_.isNone();
-    if (isTimeToProbe) nextProbe_ = 2 * pieces_;
-  }
-  if (isTimeToProbe) probe(piece);
-  return true;
 }
 
 /// Where bisection goes on and on: one start of the piece, followed alone. If not even that gets far beyond the
@@ -151,24 +203,16 @@ void FlowRun::probe(const FlowPiece& piece) {
   if (!(horizon > 0)) return;
   const std::vector<Box> noLevels;
   const std::vector<double> noTimes;
-  FlowBudget rest{task_.budget.limit - task_.budget.spent};  // who follows the piece counts this too
+  FlowBudget rest{task_.budget.left()};
   const FlowQuestion question{task_.motion, task_.differentiated, none, options, horizon, noTimes, rest};
   const FlowTask task(question, start, noLevels, {});
   const Tube alone = FlowRun(task).run();
+  task_.budget.spent += rest.spent;
   if (alone.reached() >= horizon || alone.wasStopped()) return;
-  const std::lock_guard lock(mutex_);
   endedAt_ = alone.reached();
   ended_ = {FlowCause::Kind::start, "one start of the box by itself comes to " + toString(alone.reached()) +
                                         " s only, where " + alone.cause().sentence()};
   mostPieces_ = std::min(mostPieces_, 2 * pieces_);
-}
-
-void FlowRun::add(FlowPiece piece) {
-  {
-    const std::lock_guard lock(mutex_);
-    queue_.push(std::move(piece));
-  }
-  wake_.notify_one();
 }
 
 Tube FlowRun::gather(std::vector<FlowCollected>& collected) {
@@ -186,7 +230,7 @@ Tube FlowRun::gather(std::vector<FlowCollected>& collected) {
     tube.why_ = "at " + toString(failedAt_) + " s " + tube.cause_.sentence();
   }
   double earliest = unfinished_;
-  if (!queue_.empty()) earliest = std::min(earliest, queue_.top().set.t);
+  for (const Traveller& traveller : all_) earliest = std::min(earliest, traveller.piece.set.t);
   if (stop_ && earliest < tube.reached_) {
     tube.reached_ = earliest;
     using enum FlowCause::Kind;
@@ -286,9 +330,9 @@ Tube FlowRun::gather(std::vector<FlowCollected>& collected) {
   if (task_.embedding.symbols == 0 && std::ranges::none_of(task_.varying, isWide)) tube.excess_.clear();
   looseness_ = loosenessOf(tube, task_.options);
   needsDegree_ = looseness_ > aim && ofStates <= aim;
-  double time = 0, all = 0;
-  for (const FlowCollected& part : collected) time += part.timeError, all += part.timeError + part.truncation;
-  timeShare_ = all > 0 ? time / all : 0;
+  for (const Traveller& traveller : all_)
+    timeError_ += traveller.piece.timeError, truncation_ += traveller.piece.truncation;
+  timeShare_ = timeError_ > 0 ? timeError_ / (timeError_ + truncation_) : 0;
   for (const FlowCollected& part : collected)
     for (std::size_t l = 0; l < part.influence.size(); ++l) {
       influence_[l].any = std::max(influence_[l].any, part.influence[l].any);
@@ -318,6 +362,13 @@ std::shared_ptr<const FlowModels> FlowRun::modelsOf(std::vector<FlowCollected>& 
       std::ranges::move(part.models[row], std::back_inserter(models->at[row]));
       std::ranges::move(part.chords[row], std::back_inserter(models->over[row]));
     }
+  // In the order of pieces and of time, whichever threads they come from.
+  for (std::size_t row = 0; row < rows; ++row) {
+    std::ranges::sort(models->at[row], {}, [](const auto& snapshot) -> const std::string& { return snapshot->path; });
+    std::ranges::stable_sort(models->over[row], {}, [](const FlowChord& chord) {
+      return std::pair<const std::string&, double>(chord.behind->path, chord.behind->time);
+    });
+  }
   return models;
 }
 
@@ -360,6 +411,7 @@ Tube FlowRun::meet(Tube a, Tube b) {
   b.steps_ += a.steps_;
   b.cpu_ += a.cpu_;
   b.cutCpu_ += a.cutCpu_;
+  b.levelWork_ += a.levelWork_;
   return b;
 }
 

@@ -1,5 +1,7 @@
-// One run of the flow over a box: pieces wait in a queue, earliest first, so that at any moment the earliest says how
-// far the whole box is proved. Threads share the queue; every thread collects hulls of its own, joined at the end.
+// One run of the flow over a box: all pieces go through a slice of time before any goes beyond, so that at any moment
+// the earliest says how far the whole box is proved. Threads take the pieces of a turn one by one; what follows from a
+// turn, bisections and ends, is decided when all of it is done, so that it does not depend on the threads. Every thread
+// collects hulls of its own, joined at the end.
 #pragma once
 
 #include <atomic>
@@ -7,7 +9,7 @@
 #include <exception>
 #include <limits>
 #include <mutex>
-#include <queue>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,6 +45,7 @@ class FlowRun {
   static Tube meet(Tube a, Tube b);
   /// Adds CPU time that no run has counted.
   static void charge(Tube& tube, double cpuSeconds) { tube.cpu_ += cpuSeconds; }
+  static void setLevelWork(Tube& tube, double work) { tube.levelWork_ = work; }
   static void setModels(Tube& tube, std::shared_ptr<const FlowModels> models) { tube.models_ = std::move(models); }
   /// Forgets all states but the first n.
   static void dropStates(Tube& tube, int n);
@@ -54,36 +57,43 @@ class FlowRun {
 
   // For those who follow pieces, from any thread.
 
-  /// A piece cannot be followed beyond t, nor the whole box then.
-  void fail(double t, FlowCause cause);
+  /// A piece cannot be followed beyond t, nor the whole box then. Of several at one time the first in order tells.
+  void fail(const FlowPiece& piece, double t, FlowCause cause);
   /// It has become wider than was stated.
-  void fail(double t, const std::string& why) { fail(t, FlowCause{FlowCause::Kind::stated, why}); }
+  void fail(const FlowPiece& piece, double t, const std::string& why) {
+    fail(piece, t, FlowCause{FlowCause::Kind::stated, why});
+  }
   /// Whether models of outputs are wanted, and have found room so far.
   bool keepsModels() const {
     return (!task_.options.modelled.empty() || !task_.options.modelledAt.empty()) &&
-           modelBytes_ <= task_.options.modelBytes;
+           static_cast<double>(modelBytes_) <= task_.options.modelBytes;
   }
   /// Likewise, of FlowOptions::modelledAt.
-  bool keepsModelsAt() const { return modelAtBytes_ <= task_.options.modelAtBytes; }
-  void countModel(double bytes, double bytesAt) { modelBytes_ += bytes, modelAtBytes_ += bytesAt; }
+  bool keepsModelsAt() const { return static_cast<double>(modelAtBytes_) <= task_.options.modelAtBytes; }
+  void countModel(double bytes, double bytesAt) {
+    modelBytes_ += static_cast<std::uint64_t>(bytes), modelAtBytes_ += static_cast<std::uint64_t>(bytesAt);
+  }
   void countChord() { modelBytes_ += 400; }  // about
-  /// A remainder's own symbol was bisected.
-  void makeAlternatives() { areAlternatives_ = true; }
   void ranOutOfMemory() { outOfMemory_ = true; }
-  void ranOutOfBudget() { overBudget_ = true; }
-  /// What is left over at t is so much that this run cannot become tight: a tighter one comes.
-  void abandon(double t);
-  /// Whether one piece more is allowed; it counts from then on.
-  bool mayBisect(const FlowPiece& piece);
-  void add(FlowPiece piece);
+  /// What is left over of a piece is so much that this run cannot become tight: a tighter one comes.
+  void abandon(const FlowPiece& piece);
+  /// Whether more pieces were allowed when the turn began.
+  bool mayBisect() const { return task_.options.split && pieces_ < mostPieces_; }
 
  private:
-  struct Later {
-    bool operator()(const FlowPiece& a, const FlowPiece& b) const { return a.set.t > b.set.t; }
+  /// A piece, and how it went in this turn.
+  struct Traveller {
+    FlowPiece piece;
+    FlowJourney journey = FlowJourney::goesOn;
+    FlowHalves halves{};
   };
 
   FlowPiece start() const;
   void work(FlowCollected& collected);
+  void turnOver();
+  void beginTurn();
+  void endTurn();
+  void bisect(Traveller& traveller, std::vector<Traveller>& into);
   void report(double earliest);
   void probe(const FlowPiece& piece);
   Tube gather(std::vector<FlowCollected>& collected);
@@ -92,20 +102,25 @@ class FlowRun {
   const FlowTask& task_;
   std::mutex mutex_;
   std::condition_variable wake_;
-  std::priority_queue<FlowPiece, std::vector<FlowPiece>, Later> queue_;
-  int busy_ = 0, pieces_ = 1, mostPieces_, nextProbe_ = 16;
-  FlowCause ended_;        // what a probe found
-  double refusedAt_ = -1;  // where a piece was not bisected, last
-  double endedAt_ = 0;     // how far that start came
+  std::vector<Traveller> all_;     // in the order of their paths
+  std::vector<std::size_t> turn_;  // those that are followed in this turn
+  std::size_t next_ = 0, done_ = 0;
+  double sliceEnd_ = 0, allowed_ = 0;  // for every piece in it: until when, how much work
+  std::uint64_t counted_ = 0;          // by the threads in it
+  bool hasEnded_ = false;
+  int pieces_ = 1, mostPieces_, nextProbe_ = 16;
+  FlowCause ended_;     // what a probe found
+  double endedAt_ = 0;  // how far that start came
   int degree_ = 0;
   double looseness_ = 0, timeShare_ = 0;
+  double timeError_ = 0, truncation_ = 0;  // of pieces that have ended
   std::vector<Influence> influence_;
-  bool stop_ = false, needsDegree_ = false;
-  std::atomic<bool> outOfMemory_{false}, overBudget_{false}, isAbandoned_{false};
-  std::atomic<double> modelBytes_{0}, modelAtBytes_{0};
-  std::atomic<bool> areAlternatives_{false};
+  bool stop_ = false, needsDegree_ = false, overBudget_ = false, areAlternatives_ = false;
+  std::atomic<bool> outOfMemory_{false}, isAbandoned_{false};
+  std::atomic<std::uint64_t> modelBytes_{0}, modelAtBytes_{0};
   double failedAt_ = 0, unfinished_ = std::numeric_limits<double>::infinity();
   FlowCause cause_;
+  std::string failed_;  // the path of the piece that did
   std::exception_ptr error_;
 };
 

@@ -15,10 +15,12 @@
 
 namespace gamut {
 
-/// CPU time that all runs of one flow may spend, s; every thread adds its own.
+/// Work (work.hpp) that all runs of one flow may do.
 struct FlowBudget {
   double limit;
-  std::atomic<double> spent{0};
+  double spent = 0;
+
+  double left() const { return limit - spent; }
 };
 
 /// What every run is of; all is referred to.

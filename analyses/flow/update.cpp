@@ -12,6 +12,7 @@
 #include "analyses/flow/embedding.hpp"
 #include "analyses/flow/error_bounds.hpp"
 #include "analyses/flow/step.hpp"
+#include "analyses/work.hpp"
 #include "scalars/elementary/double_double.hpp"
 #include "scalars/index.hpp"
 
@@ -127,6 +128,7 @@ void FlowStepper::evaluateMotion(const FlowSet& set, double tau, FlowPoint& poin
     }
     point.loose[at(i)] = (point.loose[at(i)] + (2 * n_ + 8) * bounds::unit * size) * bounds::up;
   }
+  Work::count(Work::coefficient, static_cast<double>(m_) * n_ * (N + n_ * NJ));
 }
 
 /// What the generators are by then, and the radius: Ψ_0 r by the box R, Ψ_0 Γ s power by power of ξ, the higher Ψ_α by
@@ -149,6 +151,7 @@ void FlowStepper::evaluateRemainder(const FlowSet& set, double tau, FlowPoint& p
   point.ofErrors = set.generators.size();
   point.ofR = errors_;
   Eigen::Map<Eigen::MatrixXd> zonotope = columnsOf(point.zonotope, n_);
+  Work::count(Work::matrixTerm, static_cast<double>(columns.size()) * n_);
   zonotope.noalias() = frameOf(point, 0) * columnsOf(columns, n_);
   Eigen::Map<Eigen::VectorXd>(point.radius.data(), n_) +=
       zonotope.leftCols(static_cast<Eigen::Index>(point.ofErrors / n)).cwiseAbs().rowwise().sum();
@@ -242,6 +245,9 @@ void FlowStepper::sag(double from, double to, std::vector<Interval>& bound) cons
 /// Without symbols: QR of the frame, so that the oldest errors' box turns with the motion.
 void FlowStepper::turnFrame(FlowSet& set) {
   using Matrix = Eigen::MatrixXd;
+  Work::count(Work::matrixTerm,
+              static_cast<double>(n_) * n_ *
+                  (24.0 * n_ + static_cast<double>(set.generators.size() + set.inputs.size()) / n_));
   // All of it in balanced units z = D⁻¹x, D a diagonal of powers of two: lengths and angles mean something there.
   Eigen::VectorXd unit(n_);
   for (int i = 0; i < n_; ++i) unit(i) = std::ldexp(1.0, growth_.units()[at(i)]);
@@ -348,6 +354,7 @@ void FlowStepper::carryGenerators(FlowSet& set) {
         little -= product;
         rest += product;
       } else {
+        Work::count(Work::matrixTerm, static_cast<double>(block) * n_);
         sum.noalias() += frameOf(end_, a) * before(b);
       }
     }

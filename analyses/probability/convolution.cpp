@@ -2,11 +2,13 @@
 #include "analyses/probability/convolution.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <map>
 #include <utility>
 
 #include "analyses/flow/error_bounds.hpp"
+#include "analyses/work.hpp"
 #include "scalars/interval.hpp"
 
 namespace gamut {
@@ -41,6 +43,7 @@ class Transform {
   double rootError() const { return rootError_; }
 
   void operator()(Numbers& x) const {
+    Work::count(Work::transformed, static_cast<double>(size_) * (std::bit_width(size_) + 1));
     for (const auto& [i, j] : swapped_) std::swap(x.re[i], x.re[j]), std::swap(x.im[i], x.im[j]);
     for (std::size_t half = 1; half < size_; half *= 2)
       for (std::size_t block = 0; block < size_; block += 2 * half)

@@ -7,6 +7,7 @@
 #include "analyses/flow/error_bounds.hpp"
 #include "analyses/probability/copula_masses.hpp"
 #include "analyses/probability/normal_grid.hpp"
+#include "analyses/work.hpp"
 #include "scalars/elementary/rounding.hpp"
 
 namespace gamut {
@@ -123,6 +124,8 @@ class CopulaSum {
       masses_.halve(piece.box, piece.axis, {lower, upper});
       push(lower), push(upper);
     }
+    Work::count(Work::bin, 0.1 * static_cast<double>(looked_));
+    Work::count(Work::focalElement, 4 * axes * static_cast<double>(pieces.size()));
     for (const Piece& piece : pieces) add(piece);
     // Products of masses, and sums of these for each value.
     const double roundings = added_ + longest_ + 64 * static_cast<double>(masses_.axes_ + 1);
@@ -311,6 +314,7 @@ class CopulaSum {
       length += own;
     }
     longest_ = std::max(longest_, length);
+    Work::count(Work::bin, 0.1 * length + 0.02 * std::min(products, large));
     if (products > large) {
       GridSum sum = gamut::sumOf(parts);
       transformed_ += sum.error;

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "analyses/flow/error_bounds.hpp"
+#include "analyses/work.hpp"
 #include "scalars/index.hpp"
 #include "scalars/interval.hpp"
 
@@ -186,6 +187,7 @@ double CurvedSum::below(double value) const {
 }
 
 CurvedSum curvedSumOf(const std::vector<double>& c, const Monomials& monomials, const std::vector<char>& isOwn) {
+  Work::count(Work::cellTerm, 60.0 * static_cast<double>(c.size()));  // rewritten some times, piece by piece
   return Curving(c, monomials, isOwn).find();
 }
 

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "analyses/flow/error_bounds.hpp"
+#include "analyses/work.hpp"
 
 namespace gamut {
 namespace {
@@ -55,6 +56,7 @@ GridSum dependentSumOf(const std::vector<GridBounds>& parts) {
   std::vector<long> low = quantilesOf(parts.front().below), high = quantilesOf(parts.front().above);
   double roundings = static_cast<double>(parts.front().below.mass.size() + parts.front().above.mass.size());
   for (std::size_t i = 1; i < parts.size(); ++i) {
+    Work::count(Work::transformed, 0.5 * levelCount * levelCount);
     low = leastOf(low, quantilesOf(parts[i].below));
     high = greatestOf(high, quantilesOf(parts[i].above));
     roundings += static_cast<double>(parts[i].below.mass.size() + parts[i].above.mass.size());

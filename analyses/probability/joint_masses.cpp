@@ -8,6 +8,7 @@
 #include "analyses/probability/binned_polynomial.hpp"
 #include "analyses/probability/dependent_sum.hpp"
 #include "analyses/probability/quantity_masses.hpp"
+#include "analyses/work.hpp"
 #include "scalars/elementary/rounding.hpp"
 #include "scalars/index.hpp"
 
@@ -212,6 +213,7 @@ std::vector<JointMasses::Part> JointMasses::apart(const Part& part, int symbol, 
   };
   if (!group.copula) {
     std::vector<std::uint32_t> sides[3];
+    Work::count(Work::focalElement, 0.2 * static_cast<double>(group.mass.size()));
     forEach(part, number, [&](std::uint32_t i) { sides[sideOf(group.from[i], group.until[i], true)].push_back(i); });
     return collect(sides);
   }
@@ -220,6 +222,7 @@ std::vector<JointMasses::Part> JointMasses::apart(const Part& part, int symbol, 
   std::size_t count = waiting.size();
   CopulaMasses::Box lower, upper;
   while (!waiting.empty()) {
+    Work::count(Work::focalElement, 2);
     CopulaMasses::Box box = std::move(waiting.back());
     waiting.pop_back();
     const auto [from, until] = group.copula->binsOf(box, row);
@@ -272,10 +275,12 @@ double JointMasses::massOf(const Part& part, std::size_t group) const {
     return mass;
   }
   if (isOfBins(g)) {
+    Work::count(Work::bin, 0.07 * static_cast<double>(part.count[at(g.symbols[0])]));
     const auto begin = g.mass.begin() + part.first[at(g.symbols[0])];
     return std::accumulate(begin, begin + part.count[at(g.symbols[0])], 0.0);
   }
   double mass = 0;
+  Work::count(Work::focalElement, 0.1 * static_cast<double>(g.mass.size()));
   forEach(part, group, [&](std::uint32_t i) { mass += g.mass[i]; });
   return mass;
 }
@@ -284,6 +289,12 @@ double JointMasses::massOf(const Part& part) const {
   double mass = 1;
   for (std::size_t g = 0; g < groups_.size(); ++g) mass *= massOf(part, g);
   return mass;
+}
+
+std::size_t JointMasses::elements() const {
+  std::size_t most = static_cast<std::size_t>(bins);
+  for (const Group& group : groups_) most = std::max(most, group.mass.size());
+  return most;
 }
 
 /// Of each group's masses, which are 1 in all, a sum is off by no more than their number; twice, for products of sums.
@@ -326,6 +337,8 @@ GridSum JointMasses::boundsOf(const Part& part, std::size_t group, const std::ve
     above.mass[static_cast<std::size_t>(ceilOf(bound.second) - above.first)] += mass;
   };
   const long first = function.first.front(), count = part.count[at(g.symbols[0])];
+  Work::count(Work::bin, static_cast<double>(isOfBins(g) ? static_cast<std::size_t>(count) : g.mass.size()) +
+                             0.1 * static_cast<double>(below.mass.size() + above.mass.size()));
   if (isOfBins(g))
     for (long i = 0; i < count; ++i) put(own.over(i), g.mass[static_cast<std::size_t>(first + i)]);
   else

@@ -45,6 +45,8 @@ class JointMasses {
   std::vector<Part> halves(const Part& part, int symbol) const;
 
   double massOf(const Part& part) const;
+  /// About how many bins or elements a quantity has.
+  std::size_t elements() const;
   /// How many boxes of copulas it has.
   static std::size_t boxesIn(const Part& part) {
     std::size_t count = 0;

@@ -16,6 +16,7 @@
 #include "analyses/flow/polynomial_range.hpp"
 #include "analyses/probability/curved_sum.hpp"
 #include "analyses/probability/quantity_masses.hpp"
+#include "analyses/work.hpp"
 #include "scalars/elementary/rounding.hpp"
 #include "scalars/index.hpp"
 
@@ -64,14 +65,14 @@ class Distributor {
     cover(masses_.whole());
     lower_ = range.lower(), upper_ = range.upper();
     if (upper_ - lower_ <= options_.negligible)
-      return {{std::nextafter(lower_, -unlimited), upper_}, {0, 1}, {0, 1}, 0};
+      return {{std::nextafter(lower_, -unlimited), upper_}, {0, 1}, {0, 1}, 0, false};
     constexpr double useful = 16;  // beyond, a polynomial says nothing that its bound does not
     for (BoxCell& cell : cells_)
       if (!(cell.separated.norm - std::fabs(cell.separated.constant) + cell.model.radius <= useful * (upper_ - lower_)))
         cell.model.c.clear();
     // Of an even density at first, then of the one that was found: the bounds of the output may be so far apart.
     const std::size_t mostCells = masses_.isPlain() ? options_.mostCells : options_.mostCells / 4;
-    double allowed = 2 * options_.gap * (upper_ - lower_), before = unlimited;
+    double allowed = 2 * options_.gap * (upper_ - lower_), before = unlimited, stepBefore = 0, workBefore = 0;
     for (int round = 0; round < 4; ++round) {
       // Where terms in several symbols, or radii, are not less, small steps are of no use.
       const double apart = refine(0.5 * allowed, round == 0 ? mostCells / 4 : mostCells);
@@ -80,7 +81,15 @@ class Distributor {
       before = allowed;
       const double steps = static_cast<double>(mostSymbols()) + 1;
       const double finest = mostSymbols() > 1 ? 0x1p16 : 0x1p18;  // where an output is extreme its density is unlimited
-      DistributionBounds now = bound(stepOf(std::max((upper_ - lower_) / finest, allowed / steps)));
+      double step = stepOf(std::max((upper_ - lower_) / finest, allowed / steps));
+      const double affordable = affordableStep(step);
+      isLimited_ = isLimited_ || affordable > step;
+      const std::uint64_t counted = Work::counted();
+      if (round > 0 && affordable > step && (affordable > 0.9 * stepBefore || workLeft() < workBefore)) break;
+      stepBefore = step = affordable;
+      DistributionBounds now = bound(step);
+      workBefore = static_cast<double>(Work::counted() - counted);
+      ofEstimate_ = std::clamp(1.2 * workBefore / estimatedWork(step), 0.1, 1.0);
       if (isCancelled()) return {};
       if (round > 1 && !(now.gap < found.gap)) break;
       const bool isAllThereIs = round > 0 && !masses_.isPlain() && now.gap > 0.8 * found.gap;
@@ -90,6 +99,7 @@ class Distributor {
       allowed = round == 0 ? share * options_.gap / densityOf(found)
                            : allowed * (masses_.isPlain() ? 0.25 : std::max(0.25, 0.6 * options_.gap / found.gap));
     }
+    found.isLimited = isLimited_;
     return found;
   }
 
@@ -100,6 +110,28 @@ class Distributor {
   double stepOf(double wanted) const {
     const double size = std::max({std::fabs(lower_), std::fabs(upper_), 1e-280});
     return std::ldexp(1.0, std::ilogb(std::max(wanted, size * 0x1p-48)));
+  }
+
+  double workLeft() const { return options_.mostWork - static_cast<double>(Work::counted() - began_); }
+
+  /// Of sums: of every cell and symbol a transform, of all numbers between the bounds of its output, at most.
+  double estimatedWork(double step) const {
+    double work = 0;
+    for (const BoxCell& cell : cells_) {
+      const double range = 2 * (cell.separated.norm - std::fabs(cell.separated.constant));
+      const double numbers = std::min(range, upper_ - lower_) / step + 2;
+      const double symbols = static_cast<double>(cell.separated.c.size());
+      work += Work::of(Work::transformed, (symbols + 1) * 1.5 * numbers * (std::log2(numbers) + 2)) +
+              Work::of(Work::bin, symbols * (static_cast<double>(masses_.elements()) + 0.4 * numbers));
+    }
+    return work;
+  }
+
+  /// No smaller than the work that is left allows, as far as the last sums tell; but such that bounds say something.
+  double affordableStep(double step) const {
+    constexpr double least = 64;
+    while ((upper_ - lower_) / step > least && ofEstimate_ * estimatedWork(step) > workLeft()) step *= 2;
+    return step;
   }
 
   std::size_t mostSymbols() const {
@@ -145,6 +177,8 @@ class Distributor {
     }
     if (s.mixed > 0 && s.together.empty()) curve(cell);
     cell.mass = masses_.massOf(cell.part);
+    const double looked = static_cast<double>(cell.model.c.size()) * (m.symbols() + 2) + 40;
+    Work::count(Work::cellTerm, looked + 0.3 * static_cast<double>(cells_.size()));  // the widest is looked for in all
     cells_.push_back(std::move(cell));
   }
 
@@ -207,8 +241,16 @@ class Distributor {
     constexpr long finest = 16;  // bins
     const auto weight = [](const BoxCell& cell) { return cell.isFinal ? 0.0 : 2 * cell.separated.mixed * cell.mass; };
     double all = 0;
-    for (const BoxCell& cell : cells_) all += 2 * cell.separated.mixed * cell.mass;
-    while (all > allowed && cells_.size() < mostCells && !isCancelled()) {
+    double off = 0;  // by radii: less of the terms in several symbols would not bring bounds much closer
+    for (const BoxCell& cell : cells_) {
+      all += 2 * cell.separated.mixed * cell.mass;
+      off += 2 * cell.model.radius * cell.mass;
+    }
+    constexpr double ofRadii = 0.3;
+    if (std::isfinite(off)) allowed = std::max(allowed, ofRadii * off);
+    // Half of the work is left for sums.
+    const double least = 0.5 * workLeft();
+    while (all > allowed && cells_.size() < mostCells && workLeft() >= least && !isCancelled()) {
       const auto widest = std::ranges::max_element(cells_, {}, weight);
       if (!(weight(*widest) > 0)) break;
       std::vector<double> mixedOf = widest->separated.mixedOf;
@@ -232,6 +274,7 @@ class Distributor {
         all += weight(cells_.back());
       }
     }
+    isLimited_ = isLimited_ || (all > allowed && cells_.size() < mostCells && workLeft() < least);
     double apart = 0;
     for (const BoxCell& cell : cells_) apart += 2 * (cell.separated.mixed + cell.model.radius) * cell.mass;
     return std::isfinite(apart) ? apart : 0;
@@ -311,6 +354,7 @@ class Distributor {
     for (const BoxCell& cell : cells_) {
       if (isCancelled()) return {};
       const GridSum own = sumOn(cell, step);
+      Work::count(Work::bin, 0.1 * static_cast<double>(own.sum.below.mass.size() + own.sum.above.mass.size()));
       error += own.error;
       // The output lies in its bound besides.
       const auto include = [&](const GridMasses& side, std::vector<double>& all) {
@@ -379,7 +423,9 @@ class Distributor {
   const std::vector<SurrogatePart>& parts_;
   const std::size_t output_;
   std::vector<BoxCell> cells_;
-  double lower_ = 0, upper_ = 0;
+  const std::uint64_t began_ = Work::counted();
+  double lower_ = 0, upper_ = 0, ofEstimate_ = 1;
+  bool isLimited_ = false;
   std::map<const Monomials*, std::unique_ptr<PolynomialRange>> tables_;
 };
 

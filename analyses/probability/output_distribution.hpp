@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "analyses/probability/joint_masses.hpp"
@@ -16,6 +17,7 @@ struct DistributionOptions {
   int points = 512;             ///< values, at most
   double negligible = 0;        ///< of an output that is known to no more than that, its ends are told and a gap of 0
   std::size_t mostCells = 256;  ///< into which the box is bisected
+  double mostWork = std::numeric_limits<double>::infinity();  ///< about (work.hpp): what is found with less is told
   const std::atomic<bool>* cancelled = nullptr;
 };
 
@@ -23,7 +25,8 @@ struct DistributionOptions {
 /// Between them P is between lower[i] and upper[i+1]; before the first it is 0, from the last on 1.
 struct DistributionBounds {
   std::vector<double> value, lower, upper;
-  double gap = 1;  ///< the greatest upper[i+1] - lower[i]: nowhere are the bounds farther apart
+  double gap = 1;          ///< the greatest upper[i+1] - lower[i]: nowhere are the bounds farther apart
+  bool isLimited = false;  ///< more work would bring them closer
 };
 
 /// Of one output, at the time that the parts are of. Empty where no bounds of the output are known, or if it was

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "analyses/flow/error_bounds.hpp"
+#include "analyses/work.hpp"
 #include "scalars/elementary/rounding.hpp"
 #include "scalars/index.hpp"
 
@@ -26,36 +27,86 @@ std::pair<long, long> QuantityMasses::of(const FlowPart& part, int symbol) {
 
 namespace {
 
-std::vector<Interval> foundEdgesOf(const FlowSymbol& symbol, const Distribution& distribution) {
-  constexpr int bins = QuantityMasses::bins;
-  std::vector<double> lower, upper;
-  for (int i = 0; i <= bins; ++i) {
-    const Interval value = Interval(symbol.centre) + Interval(symbol.half) * Interval(-1 + i * (2.0 / bins));
-    const Interval below = i == 0      ? Interval(0.0)  // what has the value there counts in the first bin
-                           : i == bins ? Interval(1.0)
-                                       : distribution.enclosedBelow(value);
-    lower.push_back(i == 0 ? 0 : std::max(lower.back(), below.lower()));
-    upper.push_back(below.upper());
+/// F at the edges, as far as it matters. Of a distribution that is one, at all of them. Of several F lies, between two
+/// edges, above the lower bound at the first and below the upper bound at the second: where these are hardly farther
+/// apart than the bounds at an edge are anyway, that is enough.
+class Edges {
+ public:
+  Edges(const FlowSymbol& symbol, const Distribution& distribution) : symbol_(symbol), distribution_(distribution) {
+    below_.assign(at(bins + 1), Interval(0.0, 1.0));
+    below_.front() = Interval(0.0);  // what has the value there counts in the first bin
+    below_.back() = Interval(1.0);
+    if (distribution.isPrecise())
+      for (int i = 1; i < bins; ++i) find(i);
+    else
+      fill(0, bins);
   }
-  for (std::size_t i = upper.size() - 1; i-- > 0;) upper[i] = std::min(upper[i], upper[i + 1]);
-  std::vector<Interval> edges;
-  for (std::size_t i = 0; i < lower.size(); ++i) edges.emplace_back(lower[i], upper[i]);
-  return edges;
-}
+
+  /// Both bounds rise with F.
+  std::vector<Interval> rising() const {
+    std::vector<Interval> edges = below_;
+    for (std::size_t i = 1; i < edges.size(); ++i)
+      edges[i] = Interval(std::max(edges[i].lower(), edges[i - 1].lower()), edges[i].upper());
+    for (std::size_t i = edges.size() - 1; i-- > 0;)
+      edges[i] = Interval(edges[i].lower(), std::min(edges[i].upper(), edges[i + 1].upper()));
+    return edges;
+  }
+
+  int found() const { return found_; }
+
+ private:
+  static constexpr int bins = QuantityMasses::bins;
+
+  void find(int i) {
+    const Interval value = Interval(symbol_.centre) + Interval(symbol_.half) * Interval(-1 + i * (2.0 / bins));
+    below_[at(i)] = distribution_.enclosedBelow(value);
+    ++found_;
+  }
+
+  void fill(int from, int until) {
+    constexpr double hardly = 1.05, nothing = 0x1p-12;
+    const Interval &first = below_[at(from)], &second = below_[at(until)];
+    if (until - from < 2) return;
+    if (second.upper() - first.lower() <= std::max(hardly * std::min(width(first), width(second)), nothing)) {
+      const Interval between(first.lower(), second.upper());
+      std::fill(below_.begin() + from + 1, below_.begin() + until, between);
+      return;
+    }
+    const int middle = from + (until - from) / 2;
+    find(middle);
+    fill(from, middle);
+    fill(middle, until);
+  }
+
+  const FlowSymbol& symbol_;
+  const Distribution& distribution_;
+  std::vector<Interval> below_;
+  int found_ = 0;
+};
 
 }  // namespace
 
 /// Those of the last distributions are kept: requirements, probabilities and indices ask for the same, and many
-/// quantities may be alike.
+/// quantities may be alike. What is kept, by this thread, counts as work once more, so that no thread counts otherwise.
 const std::vector<Interval>& edgesOf(const FlowSymbol& symbol, const Distribution& distribution) {
   constexpr std::size_t most = 128;
   using Key = std::pair<std::string, std::vector<double>>;
-  thread_local std::map<Key, std::vector<Interval>> known;
+  struct Known {
+    std::vector<Interval> edges;
+    int found;
+  };
+  thread_local std::map<Key, Known> known;
   Key key(distribution.name(), std::vector<double>{symbol.centre, symbol.half});
   for (const ShapeNumber& number : distribution.numbers()) key.second.push_back(number.value);
-  if (const auto found = known.find(key); found != known.end()) return found->second;
-  if (known.size() >= most) known.clear();
-  return known.emplace(std::move(key), foundEdgesOf(symbol, distribution)).first->second;
+  auto place = known.find(key);
+  if (place == known.end()) {
+    if (known.size() >= most) known.clear();
+    const Edges edges(symbol, distribution);
+    place = known.emplace(std::move(key), Known{edges.rising(), edges.found()}).first;
+  }
+  if (distribution.name() != "uniform")
+    Work::count(distribution.isPrecise() ? Work::preciseEdge : Work::vagueEdge, place->second.found);
+  return place->second.edges;
 }
 
 BinMasses massesBetween(const std::vector<Interval>& edges) {

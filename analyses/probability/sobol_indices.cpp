@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "analyses/flow/error_bounds.hpp"
+#include "analyses/work.hpp"
 #include "scalars/elementary/rounding.hpp"
 #include "scalars/index.hpp"
 
@@ -120,6 +121,8 @@ class Variances {
           own.emplace_back(std::move(others), place->second, c);
         }
       Interval of(0.0);
+      Work::count(Work::momentTerm,
+                  0.5 * static_cast<double>(own.size()) * static_cast<double>(own.size()) * (symbols_ + 2));
       for (std::size_t i = 0; i < own.size(); ++i)
         for (std::size_t j = i; j < own.size(); ++j) {
           const auto& [e, n, c] = own[i];
@@ -186,6 +189,7 @@ class Variances {
   void tabulate(Piece& piece) const {
     for (int l = 0; l < symbols_; ++l) {
       piece.masses.push_back(masses_.moment(l, *piece.part, 0, *piece.part, 0));
+      Work::count(Work::momentTerm, 150.0 * (2 * degree_ + 1));
       std::vector<Interval>& moments = piece.moments.emplace_back();
       for (int n = 1; n <= 2 * degree_; ++n)  // |η^n| <= 1, also where the probability is not known from zero
         moments.push_back(intersection(masses_.moment(l, *piece.part, n, *piece.part, 0) / piece.masses.back(),
@@ -227,6 +231,8 @@ class Variances {
 
   Interval meanSquareOf(const std::vector<char>& isIn, const Group& group) const {
     Interval mass(1.0), sum(0.0);
+    const auto terms = static_cast<double>(group.terms.size());
+    Work::count(Work::momentTerm, 0.5 * terms * terms * symbols_);
     for (int l = 0; l < symbols_; ++l)
       if (isIn[at(l)] != 0) mass = mass * group.piece->masses[at(l)];
     for (auto one = group.terms.begin(); one != group.terms.end(); ++one)
@@ -259,6 +265,8 @@ class Variances {
       return place == powers.end() ? 0 : place->second;
     };
     Interval sum(0.0);
+    Work::count(Work::momentTerm, static_cast<double>(one.terms.size()) * static_cast<double>(other.terms.size()) *
+                                      static_cast<double>(in.size() + 1));
     for (const auto& [e, c] : one.terms)
       for (const auto& [f, d] : other.terms) {
         Interval product = c * d;

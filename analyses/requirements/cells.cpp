@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "analyses/flow/error_bounds.hpp"
+#include "analyses/work.hpp"
 #include "scalars/elementary/rounding.hpp"
 #include "scalars/index.hpp"
 
@@ -89,6 +90,7 @@ Interval Cells::rangeOf(const Cell::Local& local, std::size_t margin) const {
   if (c.empty()) return bound;
   const Tables& tables = tablesOf(*local.of);
   double down = 0, up = 0, norm = std::fabs(c[0]);
+  Work::count(Work::cellTerm, static_cast<double>(c.size()) + 40);
   for (std::size_t g = 1; g < c.size(); ++g) {
     const bool isEven = tables.isEven[g] != 0;
     const double size = std::fabs(c[g]);
@@ -209,6 +211,7 @@ std::vector<int> Cells::symbolsOf(const Cell& cell) const {
       const Cell::Local& local = cell.locals_[place];
       const Tables& tables = tablesOf(*local.of);
       std::vector<double> mass(weight.size(), 0.0);
+      Work::count(Work::cellTerm, static_cast<double>(local.c[i].size()) + 40);
       double all = local.radius[i] + sag[place * question_.margins.size() + i];
       for (std::size_t g = 1; g < local.c[i].size(); ++g) {
         const double size = std::fabs(local.c[i][g]);
@@ -250,6 +253,7 @@ void Cells::narrow(Cell::Local& local, int l, double middle, double half) const 
   const PolynomialRange& tables = tablesOf(*local.of).range;
   for (std::size_t i = 0; i < local.c.size(); ++i) {
     if (local.c[i].empty()) continue;
+    Work::count(Work::cellTerm, static_cast<double>(local.c[i].size()));
     std::vector<double> moved(local.c[i].size());
     double norm = 0;
     for (const double c : local.c[i]) norm += std::fabs(c);
@@ -390,6 +394,7 @@ std::optional<Cells::Form> Cells::formOf(const Cell& cell, std::size_t place, st
   const Cell::Local& local = cell.locals_[place];
   const std::vector<double>& c = local.c[margin];
   if (c.empty() || !isInside(cell.part_, local.part)) return std::nullopt;
+  Work::count(Work::cellTerm, static_cast<double>(c.size()) + 40);
   const Tables& tables = tablesOf(*local.of);
   Form form{c[0], 0, 0, local.radius[margin], std::vector<double>(at(models_.symbols), 0.0)};
   double norm = std::fabs(c[0]);

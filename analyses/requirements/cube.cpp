@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 
+#include "analyses/work.hpp"
 #include "scalars/elementary/rounding.hpp"
 
 namespace gamut {
@@ -32,6 +33,7 @@ Interval partOfCube(const std::vector<double>& slope, double limit) {
     if (to <= -sum) return Interval(0.0);
     Interval total(0.0), scale(1.0);
     const std::size_t k = b.size();
+    Work::count(Work::cellTerm, 6.0 * static_cast<double>((k + 1) << k));
     for (std::size_t i = 0; i < k; ++i) scale = scale * Interval(2.0 * static_cast<double>(i + 1)) * Interval(b[i]);
     for (std::size_t signs = 0; signs < (std::size_t{1} << k); ++signs) {
       Interval at(to);

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "analyses/flow/error_bounds.hpp"
+#include "analyses/work.hpp"
 #include "scalars/elementary/rounding.hpp"
 #include "scalars/index.hpp"
 
@@ -19,8 +20,6 @@ namespace {
 
 using detail::at;
 
-/// What is done at most; in numbers that are read and written.
-constexpr double mostWork = 6e8;
 constexpr std::size_t mostWaiting = 2500;
 constexpr double finest = 0x1p18, coarsest = 0x1p8;  // steps from the least to the greatest of a sum
 
@@ -43,7 +42,8 @@ struct Sides {
 
 class Weighing {
  public:
-  Weighing(Cells& cells, const JointMasses& masses, double gap) : cells_(cells), masses_(masses), gap_(gap) {
+  Weighing(Cells& cells, const JointMasses& masses, double gap, double mostWork)
+      : cells_(cells), masses_(masses), gap_(gap), mostWork_(mostWork) {
     for (std::size_t i = 0; i < cells.question().margins.size(); ++i) all_.push_back(i);
   }
 
@@ -61,8 +61,8 @@ class Weighing {
       const Weighed piece = std::move(waiting.back());
       waiting.pop_back();
       std::vector<JointMasses::Part> halves;
-      const bool isEnough =
-          open_ <= gap_ || waiting.size() >= mostWaiting || work_ > mostWork || (cancelled != nullptr && *cancelled);
+      const bool isEnough = open_ <= gap_ || waiting.size() >= mostWaiting || worked() > mostWork_ ||
+                            (cancelled != nullptr && *cancelled);
       if (piece.cell->verdict() == Cell::Verdict::open && !isEnough)
         for (const int symbol : piece.symbols)
           if (halves = masses_.halves(piece.part, symbol); halves.size() > 1) break;
@@ -79,10 +79,13 @@ class Weighing {
   }
 
  private:
+  double worked() const { return static_cast<double>(Work::counted() - began_); }
+
   Weighed weighed(JointMasses::Part part, const Cell& from) {
     Weighed piece{std::move(part), nullptr};
     piece.cell = cells_.within(from, JointMasses::boxOf(piece.part));
-    work_ += 0.1 * piece.cell->bytes() + 1e3 * static_cast<double>(masses_.boxesIn(piece.part));
+    Work::count(Work::cellTerm, 0.1 * piece.cell->bytes());
+    Work::count(Work::focalElement, 20 * static_cast<double>(masses_.boxesIn(piece.part)));
     piece.mass = masses_.massOf(piece.part);
     const double certain = std::max(0.0, subDown(piece.mass, addUp(masses_.error(), masses_.roundings())));
     switch (piece.cell->verdict()) {
@@ -196,7 +199,7 @@ class Weighing {
   }
 
   /// Steps so small that they matter less than what is asked for, and than what is not known anyway.
-  double stepOf(const JointMasses::Part& part, const CellSum& sum, double band) {
+  double stepOf(const CellSum& sum, double band) const {
     const double size = sizeOf(sum);
     double square = 0, count = 1;
     for (const std::vector<double>& f : sum.f) {
@@ -208,10 +211,7 @@ class Weighing {
     constexpr double share = 0.2, ofBand = 0.25;
     const double wanted = std::max(share * gap_ * 2.5 * std::sqrt(square), ofBand * band) / count;
     const double steps = std::clamp(2 * size / wanted, coarsest, finest);
-    const double step = std::ldexp(1.0, std::ilogb(2 * size / steps));
-    const double values = std::exp2(std::ceil(std::log2(2 * size / step + 2 * count)));
-    work_ += count * values * (std::log2(values) + 4) + static_cast<double>(masses_.boxesIn(part));
-    return step;
+    return std::ldexp(1.0, std::ilogb(2 * size / steps));
   }
 
   Sides sidesOf(const JointMasses::Part& part, const CellSum& met, const CellSum& violated, double rest) {
@@ -235,7 +235,7 @@ class Weighing {
     const double far = std::max(std::fabs(from), std::fabs(to));
     if (!(size > bounds::tiny) || far > 0x1p40 * size)
       return {from > size ? certain : 0, to < -size ? certain : 0, to > size ? 0.0 : 1.0};
-    const double step = stepOf(part, sum, std::max(rest, to - from));
+    const double step = stepOf(sum, std::max(rest, to - from));
     const GridSum found = masses_.sumOf(part, sum.f, {}, Interval(std::min(from, to), std::max(from, to)), step);
     Sides sides{0, 0, 0};
     for (std::size_t i = 0; i < found.sum.below.mass.size(); ++i) {
@@ -251,16 +251,18 @@ class Weighing {
 
   Cells& cells_;
   const JointMasses& masses_;
-  const double gap_;
+  const double gap_, mostWork_;
+  const std::uint64_t began_ = Work::counted();
   std::vector<std::size_t> all_;   // margins
   double met_ = 0, violated_ = 0;  // rounded down
-  double open_ = 0, work_ = 0;
+  double open_ = 0;
 };
 
 }  // namespace
 
-Interval probabilityOf(Cells& cells, const JointMasses& masses, double gap, const std::atomic<bool>* cancelled) {
-  return Weighing(cells, masses, gap)(cancelled);
+Interval probabilityOf(Cells& cells, const JointMasses& masses, double gap, double mostWork,
+                       const std::atomic<bool>* cancelled) {
+  return Weighing(cells, masses, gap, mostWork)(cancelled);
 }
 
 }  // namespace gamut

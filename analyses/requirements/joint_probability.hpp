@@ -11,7 +11,8 @@
 namespace gamut {
 
 /// Encloses the probabilities that all joint distributions give; from cells with less than `gap` left to be decided, or
-/// some thousand.
-Interval probabilityOf(Cells& cells, const JointMasses& masses, double gap, const std::atomic<bool>* cancelled);
+/// some thousand, or as many as so much work (work.hpp) allows.
+Interval probabilityOf(Cells& cells, const JointMasses& masses, double gap, double mostWork,
+                       const std::atomic<bool>* cancelled);
 
 }  // namespace gamut

@@ -14,6 +14,7 @@
 #include "analyses/requirements/cube.hpp"
 #include "analyses/requirements/joint_probability.hpp"
 #include "analyses/requirements/nominal_boxes.hpp"
+#include "analyses/work.hpp"
 #include "scalars/elementary/rounding.hpp"
 #include "scalars/index.hpp"
 
@@ -88,6 +89,7 @@ class Examiner {
     std::vector<Entry> heap;
     std::size_t number = 0, count = 0;
     double bytes = 0;
+    const double least = workLeft() - workLeft() / std::max(searchesLeft_--, 1);
     const auto push = [&](std::unique_ptr<Cell> cell) {
       bytes += cell->bytes();
       const double key = keyOf(*cell);
@@ -103,7 +105,8 @@ class Examiner {
       ++count;
       const bool isCancelled = options_.cancelled != nullptr && *options_.cancelled;
       std::vector<std::unique_ptr<Cell>> halves;
-      const bool mayGoOn = !isCancelled && count < options_.mostCells && bytes < options_.mostBytes;
+      const bool mayGoOn =
+          !isCancelled && count < options_.mostCells && bytes < options_.mostBytes && !(workLeft() < least);
       if (cell->verdict() == Cell::Verdict::open && mayGoOn && !isFineEnough_(*cell)) halves = cells_.halves(*cell);
       if (!halves.empty()) {
         for (std::unique_ptr<Cell>& half : halves) push(std::move(half));
@@ -113,6 +116,8 @@ class Examiner {
     }
     finding_.cells += count;
   }
+
+  double workLeft() const { return options_.mostWork - static_cast<double>(Work::counted() - began_); }
 
   /// The values of a quantity in a cell.
   Interval valuesOf(std::size_t quantity, const Cell& cell) const {
@@ -327,7 +332,9 @@ class Examiner {
   }
 
   Interval marginsProbability(const JointMasses& masses) {
-    return probabilityOf(cells_, masses, options_.gap, options_.cancelled);
+    constexpr double share = 0.4, unlimited = 1.2e9;  // of the work
+    const double work = std::isinf(options_.mostWork) ? unlimited : share * workLeft();
+    return probabilityOf(cells_, masses, options_.gap, work, options_.cancelled);
   }
 
   /// P(met) ≥ Σ lower masses of what is met, ≤ 1 - Σ lower masses of what is violated.
@@ -579,6 +586,8 @@ class Examiner {
   std::vector<char> deviate_;                      // of the quantities: those that count in a factor
   std::vector<std::map<double, Interval>> below_;  // of each quantity: its distribution function by ξ
   std::function<bool(const Cell&)> isFineEnough_;
+  const std::uint64_t began_ = Work::counted();
+  int searchesLeft_ = 4;
   RequirementFinding finding_;
 };
 

@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "analyses/probability/joint_masses.hpp"
@@ -25,6 +26,7 @@ struct RequirementOptions {
   double factorGap = 0.002;       ///< of the factor
   std::size_t mostCells = 40000;  ///< in each search
   double mostBytes = 3e8;
+  double mostWork = std::numeric_limits<double>::infinity();  ///< of all searches, about (work.hpp)
   /// By the models' symbols; needed where quantities depend on each other or more than one distribution is possible.
   const JointMasses* masses = nullptr;
   const std::atomic<bool>* cancelled = nullptr;  ///< set from outside: what was found until then holds

@@ -366,7 +366,7 @@ struct Cvode::Memory {
   bool isCancelled() const { return cancelled != nullptr && *cancelled; }
 
   bool tookTooLong() {
-    if (++evaluations % evaluationsBetweenLooks == 0) isLate = threadCpuSeconds() - began >= allowed;
+    if (++evaluations % evaluationsBetweenLooks == 0) isLate = static_cast<double>(Work::counted() - began) >= allowed;
     return isLate;
   }
 
@@ -403,7 +403,8 @@ struct Cvode::Memory {
   std::vector<double> state;
   CvodeProblem* problem = nullptr;  // while it is integrated
   std::string message;
-  double began = 0, allowed = 0;  // s of the thread's CPU time
+  std::uint64_t began = 0;  // by the clock of work
+  double allowed = 0;
   long evaluations = 0;
   realtype reached = 0;  // by steps; the first cell that does not end before it
   std::size_t cell = 0;
@@ -451,8 +452,8 @@ Integration Cvode::integrate(CvodeProblem& problem, std::span<const double> x, c
   std::ranges::copy(x, m.state.begin());
   m.message.clear();
   m.problem = &problem;
-  m.began = threadCpuSeconds();
-  m.allowed = seconds;
+  m.began = Work::counted();
+  m.allowed = seconds * Work::perSecond;
   m.evaluations = 0;
   m.isLate = false;
   m.reached = 0;

@@ -8,6 +8,7 @@
 
 #include "analyses/samples/cvode.hpp"
 #include "analyses/samples/time_cells.hpp"
+#include "analyses/work.hpp"
 #include "scalars/index.hpp"
 
 namespace gamut {
@@ -24,6 +25,8 @@ struct PackWitness::Solver : CvodeProblem {
   void differentiate(double t, std::span<const double> x, std::span<double> rates) override {
     std::ranges::fill(time, t);
     f(time, x, rates);
+    Work::count(Work::sampledOperation, ofRates);
+    Work::count(Work::sampledState, motion.f.states());
   }
 
   bool observe(std::size_t i, double t, std::span<const double> x) override {
@@ -31,10 +34,13 @@ struct PackWitness::Solver : CvodeProblem {
     const std::span<double> outputs = trajectories.subspan(i * size, size);
     std::ranges::fill(time, t);
     g(time, x, outputs);
+    Work::count(Work::sampledOperation, ofOutputs);
     return std::ranges::all_of(outputs, [](double value) { return std::isfinite(value); });
   }
 
   const Motion& motion;
+  const double ofRates = motion.forSamples().operations();  // in an evaluation
+  const double ofOutputs = motion.g.operations() + 2.0 * motion.g.outputs();
   PackEvaluator f, g;
   std::vector<double> time;
   TimeCells cells;

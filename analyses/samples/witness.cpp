@@ -8,6 +8,7 @@
 
 #include "analyses/samples/sides_of_motion.hpp"
 #include "analyses/samples/time_cells.hpp"
+#include "analyses/work.hpp"
 #include "scalars/evaluation/evaluator.hpp"
 #include "scalars/program/angles.hpp"
 
@@ -49,6 +50,8 @@ struct Witness::Solver : CvodeProblem {
       sides.piece().rates(t, x, rates);
     else
       f(t, x, rates);
+    Work::count(Work::aloneOperation, ofRates);
+    Work::count(Work::aloneState, motion.f.states());
   }
 
   std::size_t watched() const override { return sides.count(); }
@@ -62,6 +65,7 @@ struct Witness::Solver : CvodeProblem {
 
   bool observe(std::size_t i, double t, std::span<const double> x) override {
     const std::span<double> outputs = trajectory.subspan(i * motion.outputs(), motion.outputs());
+    Work::count(Work::aloneOperation, ofOutputs);
     (sides.count() > 0 ? sides.piece().outputs : g)(t, x, outputs);
     if (std::ranges::all_of(outputs, [](double value) { return std::isfinite(value); })) return true;
     notFinite = motion.whatIsNotFinite(outputs);
@@ -72,6 +76,8 @@ struct Witness::Solver : CvodeProblem {
   std::string whatIsNotFinite() const override { return notFinite; }
 
   const Motion& motion;
+  const double ofRates = motion.forSamples().operations();  // in an evaluation
+  const double ofOutputs = motion.g.operations() + 2.0 * motion.g.outputs();
   std::string notFinite;
   const Program seen;
   Evaluator<double> f, g;

@@ -569,7 +569,8 @@ class StudyReader {
 
   void readLimits(const toml::table& table) {
     const TomlSection section(source_, table, "limits",
-                              {"time", "memory", "enclosure_time", "enclosure_memory", "sample_time"});
+                              {"time", "memory", "enclosure_time", "enclosure_memory", "sample_time", "cuts",
+                               "requirements", "probabilities", "derivatives"});
     const auto limit = [&](std::string_view key, const Dimension& dimension, double scale) -> std::optional<double> {
       const toml::node* node = section.find(key);
       if (node == nullptr) return std::nullopt;
@@ -580,6 +581,18 @@ class StudyReader {
     study_.limits = {limit("time", seconds, 1), limit("memory", gigabytes, gigabyte),
                      limit("enclosure_time", seconds, 1), limit("enclosure_memory", gigabytes, gigabyte),
                      limit("sample_time", seconds, 1)};
+    const auto share = [&](std::string_view key, double& of) {
+      const toml::node* node = section.find(key);
+      if (node == nullptr) return;
+      of = nearest(source_.asAmount(*node, section.nameOf(key), Dimension{}));
+      if (!(of >= 0) || !std::isfinite(of))
+        source_.fail(*node, section.nameOf(key) + " is negative, or no number",
+                     "how many times what enclosure and samples cost, such as 2");
+    };
+    share("cuts", study_.shares.cuts);
+    share("requirements", study_.shares.requirements);
+    share("probabilities", study_.shares.probabilities);
+    share("derivatives", study_.shares.derivatives);
     const StatedLimits& limits = study_.limits;
     if (limits.enclosureTime.value_or(0) > limits.resolved().time)
       refusePart(section, "enclosure_time", "time", fmt::format("{:.12g} s", *limits.enclosureTime),

@@ -52,14 +52,16 @@ void encloseDerivatives(Run& run) {
     }
   FlowOptions options = flowOptions(run.study, run.problem, run.options.jobs, run.watch.stop());
   options.progress = run.progressOf("derivatives");
-  constexpr double leastBudget = 20, budget = 20;  // s; times the enclosure's
-  options.budget = std::max(leastBudget, budget * run.enclosed.cpu);
+  options.budget = run.study.shares.derivatives * std::max(run.spent.enclosure, Work::perSecond);
   try {
+    if (!(options.budget > 0)) throw std::invalid_argument("limits.derivatives leaves them nothing");
     const DerivativeFlow flow(run.study.motion.f, run.study.motion.g, by, std::move(options));
     const Tube tube = flow.enclose(run.problem.box, run.study.horizon, run.study.motion.times);
     result.reached = tube.reached();
     if (tube.why() == Tube::outOfMemory) run.watch.memoryFailed();
-    result.why = tube.wasStopped() && tube.why() != Tube::overBudget ? run.watch.why() : tube.why();
+    result.why = tube.why() == Tube::overBudget ? "the work that limits.derivatives allows is done"
+                 : tube.wasStopped()            ? run.watch.why()
+                                                : tube.why();
     describe(run.study, flow, quantities, tube, result);
   } catch (const std::invalid_argument& error) {  // of what jumps there is none
     result.why = error.what();

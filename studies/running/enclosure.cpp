@@ -41,6 +41,10 @@ void encloseMotion(Run& run) {
   flow.modelled = flow.uncounted;
   if (asksForDistributions(run.study)) flow.modelledAt = plainOutputs(run.study);
   flow.modelAtBytes = flow.modelBytes = std::min(flow.modelBytes, 0.25 * run.results.limits.enclosureMemory);
+  const Shares& shares = run.study.shares;
+  const bool areAlone = run.study.requirements.empty() && !asksForDistributions(run.study);  // no other answers follow
+  flow.levelShare = shares.cuts + (areAlone ? shares.requirements + shares.probabilities : 0);
+  flow.levelBudget = flow.levelShare * std::max(run.spent.samples, Shares::least * Work::perSecond);
   const Motion& motion = run.study.motion;  // of the samples', what varies in time has a course
   const Tube tube = Flow(motion.f, motion.g, flow)
                         .enclose(run.problem.box, run.study.horizon, run.study.motion.times, run.problem.levels);
@@ -69,6 +73,8 @@ void encloseMotion(Run& run) {
   enclosed.pieces = tube.pieces();
   enclosed.steps = tube.steps();
   enclosed.cutCpu = tube.cutCpuSeconds();
+  run.spent.cuts += tube.levelWork();
+  run.spent.enclosure -= tube.levelWork();  // that of all is added there
   enclosePlaces(run, tube);
 }
 
@@ -113,6 +119,7 @@ void clear(Run& run) {
 void enclose(Run& run) {
   if (!run.study.asksFor<IntervalResult>() && !run.study.asksFor<FuzzyResult>()) return;
   const double start = processCpuSeconds();
+  const Spending spending(run.spent.enclosure);
   run.watch.begin(Watch::Stage::enclosure);
   clear(run);
   try {

@@ -13,16 +13,41 @@ bool asksForDistributions(const Study& study) {
          study.outputs.size() > marginOutputs(study).size();
 }
 
-bool tightenModels(Run& run, double tightness, double budget, double longestStep, const char* task) {
-  constexpr double leastBudget = 2;  // s
+namespace {
+
+/// What enclosure and samples took.
+double basis(const Run& run) {
+  return std::max(run.spent.enclosure + run.spent.samples, Shares::least * Work::perSecond);
+}
+
+}  // namespace
+
+double workForRequirements(const Run& run) {
+  const Shares& shares = run.study.shares;
+  const double all = shares.cuts + shares.requirements + (asksForDistributions(run.study) ? 0 : shares.probabilities);
+  return std::max(0.0, all * basis(run) - run.spent.cuts - run.spent.requirements);
+}
+
+double workForProbabilities(const Run& run) {
+  const Shares& shares = run.study.shares;
+  return std::max(0.0, (shares.cuts + shares.requirements + shares.probabilities) * basis(run) - run.spent.cuts -
+                           run.spent.requirements - run.spent.probabilities);
+}
+
+bool tightenModels(Run& run, double tightness, double work, double longestStep, const char* task) {
+  constexpr double hardly = 0.5;  // of the enclosure's: a tighter flow takes more
+  run.spent.isAll = !(work > hardly * run.spent.enclosure);
+  if (run.spent.isAll) return false;
   FlowOptions options = flowOptions(run.study, run.problem, run.options.jobs, run.watch.stop());
   options.tightness = tightness;
   options.longestStep = std::min(options.longestStep, longestStep);
-  options.budget = std::max(leastBudget, budget * run.enclosed.cpu);
+  options.budget = work;
   options.progress = run.progressOf(task);
   options.modelAtBytes = options.modelBytes = std::min(options.modelBytes, 0.25 * run.results.limits.enclosureMemory);
   const bool all = asksForDistributions(run.study);
-  const auto models = (all ? modelAll : modelMargins)(run.study, std::move(options), run.problem.box).models();
+  const Tube tube = (all ? modelAll : modelMargins)(run.study, std::move(options), run.problem.box);
+  run.spent.isAll = tube.why() == Tube::overBudget;
+  const std::shared_ptr<const FlowModels> models = tube.models();
   if (!models || models->at.size() < run.enclosed.models->at.size() || models->modelled < run.enclosed.models->modelled)
     return false;
   run.enclosed.models = models;

@@ -1,9 +1,11 @@
 // Distributions and sensitivities come from the outputs' polynomials in the uncertain quantities; where their errors
 // are too great, from those of a tighter flow.
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <new>
 #include <optional>
+#include <span>
 
 #include "analyses/probability/output_distribution.hpp"
 #include "analyses/probability/quantity_masses.hpp"
@@ -35,20 +37,21 @@ class Probabilities {
       uncertain_.push_back(&run.study.uncertain[q].uncertain);
     }
     found_.resize(rows_.size() * outputs_.size());
+    tried_.resize(found_.size());
   }
 
+  /// Coarsely of all first, which tells what the polynomials are good for; then as closely as can be.
   void find() {
     if (!run_.enclosed.models) return;
-    const double tightness = run_.study.flow.tightness;
-    double excess = (run_.enclosed.modelTightness > 0 ? run_.enclosed.modelTightness : tightness) - 1;
-    constexpr double budget = 1, finest = 1.0 / 1024;
     take(*run_.enclosed.models);
-    while (run_.study.analysis != Study::Analysis::kinematics && !surrogate_.rows.empty() && isVague() &&
-           !*run_.watch.stop() && excess > finest * (tightness - 1)) {
-      if (!tightenModels(run_, 1 + (excess /= 8), budget, run_.study.horizon, "probabilities")) break;
-      take(*run_.enclosed.models);
-    }
-    bound();
+    const double wanted = run_.study.distribution.gap, coarse = 16 * wanted;
+    constexpr double first = 1.0 / 8;
+    boundAll(first, coarse, coarse);
+    tighten();
+    do boundAll(1, coarse, wanted);
+    while (tighten());
+    for (std::size_t i = 0; i < found_.size(); ++i)
+      isLimited_ = isLimited_ || (found_[i].gap > wanted && tried_[i].isLimited);
   }
 
   void describe() {
@@ -89,23 +92,53 @@ class Probabilities {
  private:
   bool isNothing(std::size_t output) const { return !run_.scales.empty() && run_.scales[output].isNothing(); }
 
-  /// Whether errors of the polynomials, beside what they vary by, keep bounds apart that are asked for.
+  /// Whether errors of the polynomials keep bounds apart: more than is asked for, and not less than all else does.
   bool isVague() const {
-    constexpr double part = 0.05;
-    for (const std::size_t row : rows_) {
-      const auto parts = partsAt(surrogate_, row);
+    constexpr double part = 0.05, mostly = 0.3, density = 2.5;  // about, of an output that is 1 wide
+    const double wanted = run_.study.distribution.gap;
+    for (std::size_t at = 0; at < rows_.size(); ++at) {
+      const auto parts = partsAt(surrogate_, rows_[at]);
       if (!parts) return true;
-      for (std::size_t k = 0; k < outputs_.size(); ++k)
+      for (std::size_t k = 0; k < outputs_.size(); ++k) {
+        if (isNothing(static_cast<std::size_t>(outputs_[k]))) continue;
+        const DistributionBounds& bounds = found_[at * outputs_.size() + k];
+        Interval all = Interval::empty();
+        double off = 0;
         for (const SurrogatePart& each : *parts) {
-          if (isNothing(static_cast<std::size_t>(outputs_[k]))) break;
           const OutputModel& model = each.outputs[k];
           double varies = model.c.empty() ? width(model.bound) : 0;
           for (std::size_t g = 1; g < model.c.size(); ++g) varies += std::fabs(model.c[g]);
           const double radius = model.c.empty() ? varies : model.radius;
-          if (radius > negligible_[k] && radius > part * run_.study.distribution.gap * varies) return true;
+          if (radius <= negligible_[k] || radius <= part * wanted * varies) continue;
+          off = std::max(off, radius);
+          all = hull(all, model.bound);
         }
+        if (off == 0) continue;
+        for (const SurrogatePart& each : *parts) all = hull(all, each.outputs[k].bound);
+        const bool isMost = bounds.value.empty() || density * 2 * off > mostly * bounds.gap * width(all);
+        if (isMost && (bounds.value.empty() || bounds.gap > wanted)) return true;
+      }
     }
     return false;
+  }
+
+  /// By tighter flows, as long as they cost no more than half of what may still be done. Bounds are to be found again.
+  bool tighten() {
+    const double tightness = run_.study.flow.tightness;
+    double excess = (run_.enclosed.modelTightness > 0 ? run_.enclosed.modelTightness : tightness) - 1;
+    constexpr double finest = 1.0 / 1024;
+    double forFlows = 0.5 * workLeft();
+    bool isTighter = false;
+    while (run_.study.analysis != Study::Analysis::kinematics && !surrogate_.rows.empty() && isVague() &&
+           !*run_.watch.stop() && excess > finest * (tightness - 1)) {
+      const std::uint64_t counted = Work::counted();
+      if (!tightenModels(run_, 1 + (excess /= 8), forFlows, run_.study.horizon, "probabilities")) break;
+      forFlows -= static_cast<double>(Work::counted() - counted);
+      take(*run_.enclosed.models);
+      isTighter = true;
+    }
+    if (isTighter) std::ranges::fill(tried_, Tried{});
+    return isTighter;
   }
 
   void take(const FlowModels& models) {
@@ -129,27 +162,69 @@ class Probabilities {
         }
   }
 
-  void bound() {
+  /// Those that are wider than the coarsest of these gaps to it, then those that are wider than half of it to that, and
+  /// so on, the widest first, until so much of the work that is left for bounds is done.
+  void boundAll(double share, double coarsest, double finest) {
     if (surrogate_.rows.empty()) return;
     const JointMasses& masses = jointMasses(run_, surrogate_.symbols, surrogate_.quantities);
+    constexpr double forIndices = 0.2, hardly = 1e-3;
+    const double all = share * (1 - forIndices) * workLeft(), least = workLeft() - all;
+    for (double gap = coarsest; !*run_.watch.stop(); gap = std::max(0.5 * gap, finest)) {
+      std::vector<std::size_t> open;
+      for (std::size_t i = 0; i < found_.size(); ++i)
+        if (found_[i].gap > gap && tried_[i].mayHelp) open.push_back(i);
+      std::ranges::stable_sort(open, std::greater<>(), [&](std::size_t i) { return found_[i].gap; });
+      // Some together, as many however many threads there are; what they leave, those behind them have.
+      constexpr std::size_t together = 8;
+      constexpr double more = 4;  // than each would have of what is left: most take less
+      double left = workLeft() - least;
+      for (std::size_t done = 0; done < open.size() && left > hardly * all; left = workLeft() - least) {
+        const std::size_t count = std::min(together, open.size() - done);
+        const double each =
+            std::min(left / static_cast<double>(count), more * left / static_cast<double>(open.size() - done));
+        boundThese(std::span(open).subspan(done, count), masses, gap, each);
+        done += count;
+      }
+      if (gap <= finest && (open.empty() || gap > run_.study.distribution.gap || !(left > hardly * all))) break;
+    }
+  }
+
+  /// To that gap, each with so much work at most.
+  void boundThese(std::span<const std::size_t> these, const JointMasses& masses, double gap, double work) {
+    constexpr std::size_t cells = 10240, fewest = 64, most = 4096;  // of all together
     DistributionOptions options;
-    options.gap = run_.study.distribution.gap;
+    options.gap = gap;
     options.cancelled = run_.watch.stop();
-    constexpr std::size_t cells = 10240, least = 64, most = 4096;  // of all together
-    options.mostCells = std::clamp(cells / found_.size(), least, most);
+    options.mostWork = work;
+    options.mostCells = std::clamp(cells / found_.size(), fewest, most);
     std::atomic<std::size_t> done{0};
     const auto progress = run_.progressOf("probabilities");
-    forEachIndex(run_.options.jobs, found_.size(), run_.watch.stop(), [&] {
-      return [&](std::size_t i) {
-        const std::size_t output = i % outputs_.size();
+    forEachIndex(run_.options.jobs, these.size(), run_.watch.stop(), [&] {
+      return [&](std::size_t number) {
+        const std::size_t i = these[number], output = i % outputs_.size();
+        Tried& tried = tried_[i];
         const auto parts = partsAt(surrogate_, rows_[i / outputs_.size()]);
-        if (!parts) return;
+        if (!parts) {
+          tried.mayHelp = false;
+          return;
+        }
         DistributionOptions own = options;
         own.negligible = negligible_[output];
-        found_[i] = boundDistribution(*parts, output, masses, own);
-        if (progress) progress(static_cast<double>(++done) / static_cast<double>(found_.size()));
+        DistributionBounds bounds = boundDistribution(*parts, output, masses, own);
+        constexpr double hardlyMore = 1.5;
+        const bool isFinest = gap <= run_.study.distribution.gap;
+        tried.isLimited = bounds.isLimited;
+        tried.mayHelp = !isFinest || (bounds.isLimited && work > hardlyMore * tried.work);
+        tried.work = isFinest ? work : 0;
+        if (!bounds.value.empty() && (found_[i].value.empty() || bounds.gap < found_[i].gap))
+          found_[i] = std::move(bounds);
+        if (progress) progress(static_cast<double>(++done) / static_cast<double>(these.size()));
       };
     });
+  }
+
+  double workLeft() const {
+    return workForProbabilities(run_) - static_cast<double>(Work::counted() - began_);  // not yet counted as spent
   }
 
   /// What does not depend on anything uncertain is known to some roundings.
@@ -171,7 +246,8 @@ class Probabilities {
 
   /// Of many output times, since shares change quickly; of fewer where polynomials are long.
   std::vector<std::size_t> rowsOfIndices() const {
-    constexpr double work = 1e8, most = 64, mostTerms = 1200;
+    constexpr double most = 64, mostTerms = 1200, pair = 12, share = 0.4;
+    const double work = std::max(0.0, share * workLeft() / Work::of(Work::momentTerm, pair));
     double perRow = 1;
     for (const SurrogatePart& part : surrogate_.at.back())
       for (const OutputModel& model : part.outputs) {
@@ -266,11 +342,16 @@ class Probabilities {
     SensitivityResult& result = run_.results.sensitivity;
     const std::size_t all = run_.study.uncertain.size(), n = components_.size();
     if (n == 0 || *run_.watch.stop()) return;
-    constexpr double work = 3e7, least = 256, most = 8192;
-    const double values = static_cast<double>((n + 2) * rows.size() * outputs_.size());
-    result.samples = static_cast<std::int64_t>(std::clamp(work / values, least, most));
+    constexpr double least = 256, most = 8192, beside = 30;
+    double terms = 0;  // of all outputs at all these times, in all
+    for (const std::size_t row : rows)
+      for (const OutputModel& model : partsAt(surrogate_, row)->front().outputs)
+        terms += static_cast<double>(model.c.size()) + beside;
+    const double work = Work::of(Work::evaluatedTerm, terms * static_cast<double>(n + 2));
+    result.samples = static_cast<std::int64_t>(std::clamp(workLeft() / work, least, most));
     std::vector<std::size_t> outputs;
     for (const int output : outputs_) outputs.push_back(static_cast<std::size_t>(output));
+    Work::count(Work::evaluatedTerm, terms * static_cast<double>(n + 2) * static_cast<double>(result.samples));
     const SurrogateEvaluator evaluator(pack(surrogate_, rows, outputs_, count_), rows, outputs);
     const SobolEstimates estimates = estimateSobolIndices(evaluator, rows.size(), outputs.size(), uncertain_,
                                                           static_cast<std::size_t>(result.samples), run_.results.seed);
@@ -317,6 +398,7 @@ class Probabilities {
     if (surrogate_.rows.empty()) return "models of outputs found no room";
     if (run_.study.motion.times[surrogate_.rows.back()] < run_.results.distribution.time.back())
       return run_.enclosed.why;
+    if (isLimited_) return "the work that limits.probabilities allows is done";
     const bool isOne = run_.study.dependence.unknown.empty() &&
                        std::ranges::all_of(uncertain_, [](const Uncertain* u) { return u->distribution.isPrecise(); });
     if (isVague()) return "the enclosure is not tight enough";
@@ -326,14 +408,22 @@ class Probabilities {
   }
 
   Run& run_;
+  const std::uint64_t began_ = Work::counted();
   const std::vector<std::size_t> rows_;
   const std::vector<int> outputs_;
   const std::size_t count_;              // of outputs, margins among them
   std::vector<std::size_t> quantities_;  // of the study that are constant
   std::vector<int> components_;          // of these
   std::vector<const Uncertain*> uncertain_;
+  struct Tried {
+    double work = 0;         // that might be done, the last time for the gap that is asked for
+    bool isLimited = false;  // by that
+    bool mayHelp = true;     // to do it with more, or for a smaller gap
+  };
   std::vector<DistributionBounds> found_;  // [row][output]
+  std::vector<Tried> tried_;
   Surrogate surrogate_;
+  bool isLimited_ = false;          // by work
   std::vector<double> negligible_;  // width of each output
 };
 
@@ -356,6 +446,7 @@ void boundProbabilities(Run& run) {
   if (!asksForDistributions(run.study)) return;
   run.watch.begin(Watch::Stage::rest);
   const double start = processCpuSeconds();
+  const Spending spending(run.spent.probabilities);
   run.results.distribution.present = true;
   Probabilities probabilities(run);
   try {

@@ -57,7 +57,9 @@ bool isVague(const Run& run, const RequirementResult& result) {
 }
 
 /// What models of the margins say of one requirement; no less than what is known of it already.
-void examineModels(Run& run, const FlowModels& models, std::size_t number, std::vector<Suspect>& suspects) {
+void examineModels(Run& run, const FlowModels& models, std::size_t number, double work,
+                   std::vector<Suspect>& suspects) {
+  const Spending spending(run.spent.requirements);
   const Study& study = run.study;
   const Requirement& requirement = study.requirements[number];
   const CellQuestion whole = questionOf(study, requirement, study.motion.times.size());
@@ -71,6 +73,7 @@ void examineModels(Run& run, const FlowModels& models, std::size_t number, std::
   for (const CellQuantity& quantity : quantities)
     symbols.push_back(models.components[static_cast<std::size_t>(quantity.component)]);
   options.masses = &jointMasses(run, models.symbols, symbols);
+  options.mostWork = work;
   options.cancelled = run.watch.stop();
   RequirementFinding finding = gamut::examine(models, question, quantities, options);
   if (question.until < whole.until) forgetWhatIsNotKnown(finding, requirement.isAlways);
@@ -140,6 +143,9 @@ Reason whyOpen(const Run& run, std::size_t number, const std::string& unsettled)
   if (result.word != "open") return {};
   if (isJustMet(run, number))
     return {"its limit is met exactly, as far as samples can tell: rounded numbers prove neither", "another limit"};
+  if (run.spent.isAll)
+    return {"the work that limits.requirements allows is done",
+            fmt::format("limits.requirements = {:.6g}", 4 * std::max(run.study.shares.requirements, 0.25))};
   return ofMargin(run, run.study.requirements[number]);
 }
 
@@ -276,26 +282,34 @@ std::shared_ptr<const FlowModels> sharpenedModels(const Run& run) {
 void proveAll(Run& run) {
   const std::size_t count = run.study.requirements.size();
   std::vector<std::vector<Suspect>> suspects(count);
-  const auto examineAll = [&] {
+  // Each gets as much of what is left; a third of that is for what the enclosure's own models say, and half of what
+  // then is left for a tighter flow.
+  const auto examineAll = [&](double part) {
     const std::shared_ptr<const FlowModels> known = sharpenedModels(run);
+    std::size_t open = 0;
+    for (const RequirementResult& result : run.results.requirements) open += isVague(run, result) ? 1 : 0;
+    const double work = part * workForRequirements(run) / static_cast<double>(std::max<std::size_t>(open, 1));
     for (std::size_t r = 0; r < count; ++r)
       if (isVague(run, run.results.requirements[r])) {
         std::vector<Suspect> found;
-        examineModels(run, *known, r, found);
+        examineModels(run, *known, r, work, found);
         suspects[r].insert(suspects[r].begin(), found.begin(), found.end());
       }
   };
-  if (run.enclosed.models) examineAll();
+  if (run.enclosed.models) examineAll(1.0 / 3);
   double excess = run.study.flow.tightness - 1;
   for (int round = 0; round < 2 && run.enclosed.models; ++round) {
     if (run.study.analysis == Study::Analysis::kinematics || *run.watch.stop() ||
         std::ranges::none_of(run.results.requirements, [&](const auto& result) { return isVague(run, result); }))
       break;
     constexpr double parts = 128;  // of the horizon: outputs leave the chords of long steps
-    constexpr double budget = 4;
     const double longest = round == 0 ? run.study.horizon : run.study.horizon / parts;
-    if (!tightenModels(run, 1 + (excess /= 4), budget, longest, "requirements")) break;
-    examineAll();
+    {
+      const Spending spending(run.spent.requirements);
+      const double work = 0.5 * workForRequirements(run);
+      if (!tightenModels(run, 1 + (excess /= 4), work, longest, "requirements")) break;
+    }
+    examineAll(round == 0 ? 0.5 : 1);
   }
   for (std::size_t r = 0; r < count; ++r) {
     RequirementResult& result = run.results.requirements[r];

@@ -20,6 +20,7 @@ namespace {
 template <class Sample>
 void sampleWhileThereIsRoom(Run& run, Watch::Stage stage, const Sample& sample) {
   const double start = processCpuSeconds();
+  const Spending spending(run.spent.samples);
   run.watch.begin(stage);
   try {
     sample();

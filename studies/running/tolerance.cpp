@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "analyses/requirements/requirement.hpp"
+#include "analyses/work.hpp"
 #include "scalars/elementary/rounding.hpp"
 #include "studies/running/flow_of_study.hpp"
 #include "studies/watch.hpp"
@@ -62,6 +63,8 @@ class Finder {
     return lower <= upper ? Interval(lower, upper) : Interval(u.nominal);
   }
 
+  double worked() const { return static_cast<double>(Work::counted() - began_); }
+
   struct Trial {
     double proved = 0;  ///< this factor
     std::string limit;  ///< why it is less than what was tried; empty if it is not
@@ -69,7 +72,7 @@ class Finder {
 
   FlowOptions ownOptions() const {
     FlowOptions options = flowOptions(study_, problem_, options_.jobs, options_.cancelled);
-    options.budget = std::max(0.1, options_.budget - (processCpuSeconds() - began_));
+    options.budget = std::max(0.1 * Work::perSecond, options_.budget * Work::perSecond - worked());
     return options;
   }
 
@@ -141,7 +144,7 @@ class Finder {
     AllowedDeviation found;
     double tried = 1;
     const auto isCancelled = [&] {
-      return (options_.cancelled != nullptr && *options_.cancelled) || processCpuSeconds() - began_ > options_.budget;
+      return (options_.cancelled != nullptr && *options_.cancelled) || worked() > options_.budget * Work::perSecond;
     };
     double least = 0, failed = 2 * options_.most;  // `least` is proved
     constexpr int mostTrials = 12;
@@ -173,7 +176,7 @@ class Finder {
   const Study& study_;
   const ToleranceOptions& options_;
   const Problem problem_;
-  const double began_ = processCpuSeconds();
+  const std::uint64_t began_ = Work::counted();
   double done_ = 0;
 };
 

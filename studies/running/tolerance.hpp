@@ -15,7 +15,7 @@ struct ToleranceOptions {
   int jobs = 1;
   double most = 16;        ///< greater factors are not looked for
   double accuracy = 0.01;  ///< of a factor, relative
-  double budget = 1800;    ///< CPU time of all, s
+  double budget = 1800;    ///< work of all (analyses/work.hpp), in what is worth a second of CPU time
   std::function<void(double)> progress;
   const std::atomic<bool>* cancelled = nullptr;  ///< set from outside: what was found until then holds
 };

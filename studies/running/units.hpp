@@ -13,6 +13,7 @@
 #include "analyses/comparison/comparison.hpp"
 #include "analyses/probability/joint_masses.hpp"
 #include "analyses/samples/ensemble.hpp"
+#include "analyses/work.hpp"
 #include "studies/problem.hpp"
 #include "studies/results/results.hpp"
 #include "studies/running/former_samples.hpp"
@@ -50,6 +51,12 @@ struct OutputScale {
   bool isNothing() const { return vanishes || isSteady; }
 };
 
+/// Work (analyses/work.hpp) that was done for each.
+struct Spent {
+  double enclosure = 0, samples = 0, cuts = 0, requirements = 0, probabilities = 0;
+  bool isAll = false;  ///< a tighter flow found too little left
+};
+
 /// One run on its way.
 struct Run {
   Run(const Study& whatIsAsked, const RunOptions& howToRun);
@@ -65,6 +72,7 @@ struct Run {
   Watch watch;
   Problem problem;
   Results results;
+  Spent spent;                          ///< by the units, as they end
   Seen seen;                            ///< filled by `lookAtMachine`
   Enclosed enclosed;                    ///< filled by `enclose`
   std::vector<OutputScale> scales;      ///< filled by `takeFirstSamples`; empty where samples do not show them
@@ -139,9 +147,27 @@ std::vector<std::size_t> distributionRows(const Study& study);
 bool asksForDistributions(const Study& study);
 
 /// Other models of margins and, where distributions are asked for, of all outputs, by a flow that is to be so tight,
-/// with at most so many times the CPU time of the enclosure, in steps no longer than that (s). They take the place of
-/// those that there are. False if it comes less far than these.
-bool tightenModels(Run& run, double tightness, double budget, double longestStep, const char* task);
+/// with at most so much work, in steps no longer than that (s). They take the place of those that there are. False if
+/// it comes less far than these, or that is not worth the try.
+bool tightenModels(Run& run, double tightness, double work, double longestStep, const char* task);
+
+/// So much work may still be done for requirements, or for probabilities: their share of what enclosure and samples
+/// took, and what answers before them have left. Counted, so that it is the same in every run.
+double workForRequirements(const Run& run);
+double workForProbabilities(const Run& run);
+
+/// While it lives, the work of this thread, and of those that it waits for, counts as spent there.
+class Spending {
+ public:
+  explicit Spending(double& on) : on_(on) {}
+  ~Spending() { on_ += static_cast<double>(Work::counted() - began_); }
+  Spending(const Spending&) = delete;
+  Spending& operator=(const Spending&) = delete;
+
+ private:
+  double& on_;
+  const std::uint64_t began_ = Work::counted();
+};
 
 /// Counts a block of samples that are settled.
 void noteRequirements(Run& run, const SampleBlock& block);

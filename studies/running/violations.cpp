@@ -39,8 +39,8 @@ class ThinFlows {
         requirement_(run.study.requirements[number]),
         result_(run.results.requirements[number]),
         options_(flowOptions(run.study, run.problem, run.options.jobs, run.watch.stop())) {
-    constexpr double leastBudget = 2, budget = 4;  // s; of the enclosure's
-    options_.budget = std::max(leastBudget, budget * run.enclosed.cpu);
+    constexpr double least = 2, times = 4;  // s; the enclosure's
+    options_.budget = std::max(least * Work::perSecond, times * run.spent.enclosure);
   }
 
   /// Whether all that is known of these values is that they violate it; then when, and by how much, as far as that is

@@ -187,7 +187,7 @@ Results sensitive() {
   sensitivity.present = derivatives.present = influence.present = true;
   sensitivity.samples = 8192;
   derivatives.reached = 2;
-  derivatives.why = "the budget of CPU time is spent";
+  derivatives.why = "the work that limits.derivatives allows is done";
   for (std::size_t i = 0; i < 61; i += 10) {
     const double t = results.time[i], share = t < 1.5 ? 0.2 : 0.7;  // of the mass
     sensitivity.time.push_back(t);

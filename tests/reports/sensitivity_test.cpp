@@ -65,7 +65,7 @@ TEST(SensitivitySection, DrawsDerivativesInTheOutputsUnit) {
   EXPECT_THAT(text, AllOf(HasSubstr(">change (rad)<"), HasSubstr("derivative by first angle (rad per rad), from"),
                           HasSubstr("derivative by \\u003cmass> (rad per kg), from")));
   EXPECT_THAT(text, AllOf(HasSubstr("derivative (at 2 s)"), HasSubstr("2.09 to 2.8"), HasSubstr("rad per kg"),
-                          HasSubstr("They are known up to 2 s: the budget of CPU time is spent.")));
+                          HasSubstr("They are known up to 2 s: the work that limits.derivatives allows is done.")));
 }
 
 TEST(SensitivitySection, ShowsWhatIsKnownWhereTheOthersAreNot) {

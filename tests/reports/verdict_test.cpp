@@ -401,7 +401,8 @@ TEST(Verdict, OfARunThatEndedWhileItBoundedProbabilitiesIsIncomplete) {
 TEST(Verdict, OfARunThatEndedWhileItEnclosedDerivativesIsIncomplete) {
   Results results = example::pendulum();
   results.derivatives.present = true;
-  results.derivatives.why = "the budget of CPU time is spent";  // their own: that is no early end of the run
+  results.derivatives.why =
+      "the work that limits.derivatives allows is done";  // their own: that is no early end of the run
   EXPECT_EQ(judge(results).word, "inside");
   results.derivatives.why = results.derivatives.stopped = "the run was interrupted";
   results.comparison.verdict = "incomplete";

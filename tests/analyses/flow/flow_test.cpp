@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "analyses/work.hpp"
 #include "scalars/algebra/linear_system.hpp"
 #include "tests/analyses/flow/containment.hpp"
 
@@ -120,6 +121,51 @@ TEST(Flow, GivesTheSameTubeWithOneAndWithTwoThreads) {
   const Tube two = Flow(pendulum(), options).enclose(box, 1.5, {0.3, 0.9});
   EXPECT_GT(one.pieces(), 4);
   expectEqual(one, two);
+}
+
+/// How far it comes, and what it keeps, is a matter of the work that is counted, and of how many pieces there may be.
+TEST(Flow, EndsAtTheSamePlaceOnAnyNumberOfThreads) {
+  FlowOptions options;
+  options.splitDefect = 1e-11;
+  options.degree = 5;
+  const Box box{Interval(0.8, 1.2), Interval(-0.1, 0.1)};
+  const Program y = record(2, 0, 1, [](auto, const auto& x, const auto&, auto& out) { out[0] = x[0] * x[1]; });
+  options.modelled = {0};
+  const std::uint64_t began = Work::counted();
+  const Tube whole = Flow(pendulum(), y, options).enclose(box, 1.5, {0.3, 0.9});
+  const auto work = static_cast<double>(Work::counted() - began);
+  EXPECT_EQ(whole.reached(), 1.5);
+  for (const double share : {0.02, 0.2, 0.6})
+    for (const int maxPieces : {5, 2000}) {
+      SCOPED_TRACE(share);
+      options.budget = share * work;
+      options.maxPieces = maxPieces;
+      options.jobs = 1;
+      const std::uint64_t start = Work::counted();
+      const Tube one = Flow(pendulum(), y, options).enclose(box, 1.5, {0.3, 0.9});
+      EXPECT_LT(static_cast<double>(Work::counted() - start), 1.3 * options.budget + 2e6);
+      if (share == 0.02) {
+        EXPECT_EQ(one.why(), Tube::overBudget);
+      }
+      options.jobs = 3;
+      const Tube three = Flow(pendulum(), y, options).enclose(box, 1.5, {0.3, 0.9});
+      EXPECT_EQ(one.reached(), three.reached());
+      EXPECT_EQ(one.steps(), three.steps());
+      EXPECT_EQ(one.pieces(), three.pieces());
+      expectEqual(one, three);
+      ASSERT_EQ(one.models() == nullptr, three.models() == nullptr);
+      if (!one.models()) continue;
+      for (std::size_t row = 0; row < one.models()->at.size(); ++row) {
+        ASSERT_EQ(one.models()->at[row].size(), three.models()->at[row].size());
+        for (std::size_t i = 0; i < one.models()->at[row].size(); ++i) {
+          EXPECT_EQ(one.models()->at[row][i]->part.centre, three.models()->at[row][i]->part.centre);
+          EXPECT_EQ(one.models()->at[row][i]->outputs[0].c, three.models()->at[row][i]->outputs[0].c);
+        }
+        ASSERT_EQ(one.models()->over[row].size(), three.models()->over[row].size());
+        for (std::size_t i = 0; i < one.models()->over[row].size(); ++i)
+          EXPECT_EQ(one.models()->over[row][i].behind->time, three.models()->over[row][i].behind->time);
+      }
+    }
 }
 
 TEST(Flow, TellsItsProgress) {

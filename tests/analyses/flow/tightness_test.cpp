@@ -169,17 +169,17 @@ TEST(FlowTightness, ThatIsNotReachedIsExplained) {
   EXPECT_EQ(tube.limit(), "bisection is switched off");
 }
 
-/// A microsecond is not enough for the first run; some budget is enough for that, not for those after it.
+/// A unit of work is not enough for the first run; some budget is enough for that, not for those after it.
 TEST(FlowTightness, EndsWithItsBudget) {
   Containment c = springPendulum(0, 0.05, 0);
   c.options.tightness = 1.00001;
-  c.options.budget = 1e-6;
+  c.options.budget = 1;
   const Tube none = expectContainment(c, 2, false);
   EXPECT_EQ(none.why(), Tube::overBudget);
   EXPECT_TRUE(none.wasStopped());
   EXPECT_LT(none.reached(), 2);
-  double budget = 1e-3;
-  for (bool isFar = false; !isFar && budget < 100; budget *= 1.5) {
+  double budget = 1e6;
+  for (bool isFar = false; !isFar && budget < 1e11; budget *= 1.5) {
     c.options.budget = budget;
     const Tube tube = c.tube();
     isFar = tube.why().empty() && tube.limit() == Tube::overBudget;
@@ -187,7 +187,7 @@ TEST(FlowTightness, EndsWithItsBudget) {
       EXPECT_GT(tube.tightness(), c.options.tightness);
     }
   }
-  EXPECT_LT(budget, 100);
+  EXPECT_LT(budget, 1e11);
   c.options.budget = 0;
   EXPECT_THROW(Flow(c.f, c.options), std::invalid_argument);
 }
