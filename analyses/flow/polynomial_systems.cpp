@@ -88,9 +88,11 @@ void PolynomialSeries::computeSolution(int first, int i) {
     }
   }
   double* values = scratch2_.data();
-  const double square = static_cast<double>(n) * n;
-  Work::count(Work::multipliedPair, square * (start[N] - N));
-  Work::count(Work::matrixTerm, 4 * square * N);
+  double varying = 0;  // entries of the matrix
+  for (int k = 0; k < n; ++k)
+    for (int j = 0; j < n; ++j) varying += plan_[at(system.entry(k, j))].constant ? 0 : 1;
+  Work::count(Work::multipliedPair, varying * (start[N] - N));
+  Work::count(Work::matrixTerm, 4.0 * n * n * N);
   for (int g = 0; g < N; ++g) {  // grades from below: Σ_{β≠0} A_{0β} x_{i,α-β} is known
     for (int k = 0; k < n; ++k) {
       double s = right[k * count() + g];
@@ -155,7 +157,7 @@ void PolynomialSeries::tabulateSystem(System& system) {
       system.norms[i] += std::fabs(system.inverse[at(t)][i]) * power_[at(inverseTerms_[at(t)].first)];
   for (double& entry : system.norms) entry *= bounds::up;
   std::vector<double>& product = combination_;
-  Work::count(Work::matrixTerm, 0.4 * n * n * n * terms * count() * m_);
+  double multiplied = 0;
   const double theta = power_[1] > 0 ? power_[1] : 1.0;
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j) {
@@ -171,6 +173,7 @@ void PolynomialSeries::tabulateSystem(System& system) {
           const double c = system.inverse[at(t)][at(i * n + k)];
           if (c == 0) continue;
           const auto [order, symbol] = inverseTerms_[at(t)];
+          multiplied += static_cast<double>(orders) * (a.constant ? 1 : a.count);
           for (int g = 0; g < (a.constant ? 1 : a.count); ++g) {
             const double* from = &f_[a.f + at(g * stride_)];
             const int target = symbol < 0 ? g : shift_[at(symbol * count() + g)];
@@ -192,6 +195,7 @@ void PolynomialSeries::tabulateSystem(System& system) {
       }
       system.own[at(i * n + j)] = (sum + (n * terms + 2) * bounds::unit * size) * bounds::up + bounds::tiny;
     }
+  Work::count(Work::matrixTerm, 0.4 * multiplied);
 }
 
 /// An upper bound of (I - H)⁻¹ ‖C‖, H = own + ‖C‖ ρ_A. False unless some v > 0 with H v < v proves that I - H is an
