@@ -94,6 +94,24 @@ TEST(CountedWork, MakesResultsTheSameOnAnyNumberOfThreadsUnderAnyLoad) {
   }
 }
 
+/// With so little work that it ends what is computed.
+TEST(CountedWork, MakesShippedStudiesTheSameOnAnyNumberOfThreads) {
+  for (const char* name : {"tumbling_body", "spring_pendulum", "drive_train"}) {
+    SCOPED_TRACE(name);
+    Study study = readStudy(std::string(GAMUT_SOURCE_DIR "/studies/examples/") + name + "/study.toml");
+    study.shares = {0.05, 0.05, 0.1};
+    study.ensemble.samples = 64;
+    const auto resultsOn = [&](int jobs) {
+      RunOptions options;
+      options.jobs = jobs;
+      const TemporaryFolder folder;
+      writeResults(run(study, options), folder.path("r.h5"));
+      return readResults(folder.path("r.h5"));
+    };
+    EXPECT_THAT(differing(resultsOn(1), resultsOn(3)), IsEmpty());
+  }
+}
+
 TEST(CountedWork, IsStatedInTimesOfEnclosureAndSamples) {
   const Shares shares =
       readStudyText(pendulums("cuts = 0.25\nrequirements = 3\nprobabilities = 0\nderivatives = 7"), "s.toml").shares;
