@@ -245,9 +245,8 @@ void FlowStepper::sag(double from, double to, std::vector<Interval>& bound) cons
 /// Without symbols: QR of the frame, so that the oldest errors' box turns with the motion.
 void FlowStepper::turnFrame(FlowSet& set) {
   using Matrix = Eigen::MatrixXd;
-  Work::count(Work::matrixTerm,
-              static_cast<double>(n_) * n_ *
-                  (24.0 * n_ + static_cast<double>(set.generators.size() + set.inputs.size()) / n_));
+  Work::count(Work::matrixTerm, static_cast<double>(n_) * n_ *
+                                    (24.0 * n_ + static_cast<double>(set.generators.size() + set.inputs.size()) / n_));
   // All of it in balanced units z = D⁻¹x, D a diagonal of powers of two: lengths and angles mean something there.
   Eigen::VectorXd unit(n_);
   for (int i = 0; i < n_; ++i) unit(i) = std::ldexp(1.0, growth_.units()[at(i)]);
