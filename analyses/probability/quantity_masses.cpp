@@ -64,7 +64,7 @@ class Edges {
   }
 
   void fill(int from, int until) {
-    constexpr double hardly = 1.05, nothing = 0x1p-12;
+    constexpr double hardly = 1.01, nothing = 0x1p-12;
     const Interval &first = below_[at(from)], &second = below_[at(until)];
     if (until - from < 2) return;
     if (second.upper() - first.lower() <= std::max(hardly * std::min(width(first), width(second)), nothing)) {
