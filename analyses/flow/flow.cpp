@@ -11,6 +11,7 @@
 #include "analyses/flow/formulation.hpp"
 #include "analyses/flow/refinement.hpp"
 #include "analyses/flow/run.hpp"
+#include "analyses/work.hpp"
 #include "scalars/index.hpp"
 
 namespace gamut {
@@ -127,7 +128,8 @@ Tube answer(const FlowFormulation& formulation, const FlowOptions& options, Flow
   };
   double looseness = 0, unused = 0;
   Tube tube = refine(question, box, levels, looseness);
-  levelBudget.limit = std::min(budget.left(), std::max(options.levelBudget, options.levelShare * budget.spent));
+  levelBudget.limit =
+      std::min(budget.left(), std::max(options.levelBudget * Work::perSecond, options.levelShare * budget.spent));
   // A remainder that is small for the whole box is not for a much smaller level: that one gets a flow of its own, the
   // smallest, which need it most and are the cheapest, first.
   for (std::size_t level = levels.size(); level-- > 0 && !tube.wasStopped() && levelBudget.left() > 0;) {
@@ -165,7 +167,7 @@ Tube Flow::enclose(const Box& box, double horizon, const std::vector<double>& ou
   double furthest = 0;  // runs and threads report one at a time; what they report must not go back
   if (parts_->options.progress)
     options.progress = [&](double fraction) { parts_->options.progress(furthest = std::max(furthest, fraction)); };
-  FlowBudget budget{options.budget};
+  FlowBudget budget{options.budget * Work::perSecond};
   Tube tube = answer(formulation, options, budget, box, horizon, outputTimes, levels);
   if (!parts_->ofRates || tube.wasStopped()) return tube;
   // Up to an output time, so that both have the same rows.

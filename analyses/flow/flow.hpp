@@ -59,9 +59,9 @@ struct FlowOptions {
                            ///< fraction of the box's relative width, at first: it is adapted to `tightness`;
                            ///< 0: by the number of uncertain quantities
   int maxPieces = 2000;    ///< give up beyond this many pieces
-  double maxWidth = std::numeric_limits<double>::infinity();     ///< end when an enclosure of a state becomes wider
-  double budget = std::numeric_limits<double>::infinity();       ///< work (work.hpp); when it is spent, what was proved
-                                                                 ///< until then is the result, whatever threads do
+  double maxWidth = std::numeric_limits<double>::infinity();  ///< end when an enclosure of a state becomes wider
+  double budget = std::numeric_limits<double>::infinity();    ///< s of counted work (work.hpp); when it is spent, what
+                                                              ///< was proved until then is the result, on any machine
   double levelBudget = std::numeric_limits<double>::infinity();  ///< the same, of all sub-boxes' own flows; or, if that
   double levelShare = 0;                                         ///< is more, this part of the whole box's work
   double longestStep = std::numeric_limits<double>::infinity();  ///< s; between output times, outputs that depend on

@@ -149,7 +149,7 @@ std::unique_ptr<FlowFollower::Tools> FlowFollower::toolsFor(const FlowPiece& pie
             PolynomialRange(layout.monomials), nullptr, nullptr, nullptr, nullptr, std::move(besides)});
   if (layout.monomials->symbols() == 0 && task_.fineOrders > 0) tools->stepper.setFineOrders(task_.fineOrders);
   tools->stepper.setStateNames(options.stateNames);
-  tools->stepper.setSizes(task_.sizes);
+  tools->stepper.setScales(task_.scales);
   tools->stepper.setTimeKinks(held.empty() ? task_.timeKinks : TimeKinks(motion, task_.horizon, task_.quantum));
   if (task_.jumps.count() > 0)
     tools->stepper.setJumps(tools->jumps ? *tools->jumps : task_.jumps, task_.jumps, held, left, factor);

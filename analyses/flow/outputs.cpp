@@ -7,6 +7,7 @@
 
 #include "analyses/flow/embedding.hpp"
 #include "analyses/flow/error_bounds.hpp"
+#include "analyses/work.hpp"
 #include "scalars/index.hpp"
 #include "scalars/program/recorder.hpp"
 
@@ -150,6 +151,7 @@ bool FlowOutputs::evaluateTogether(double t, const FlowPoint& point, const std::
     // most (drivenRadius): both are counted with `size` above.
     const auto alongColumns = [&](const std::vector<double>& columns, std::size_t from, std::size_t to) {
       std::vector<double> result;
+      Work::count(Work::matrixTerm, static_cast<double>(to - from));
       for (std::size_t column = from; column < to; column += at(n_)) {
         double along0 = 0;
         for (int k = 0; k < n_; ++k) along0 += centre[at(k)] * columns[column + at(k)];

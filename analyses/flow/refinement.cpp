@@ -12,6 +12,7 @@
 
 #include "analyses/flow/polynomial_series.hpp"
 #include "analyses/flow/run.hpp"
+#include "analyses/flow/scales.hpp"
 #include "analyses/flow/set.hpp"
 #include "analyses/flow/step.hpp"
 #include "analyses/work.hpp"
@@ -46,7 +47,7 @@ class Weighing {
   }
 
   const Emphasis& emphasis() const { return emphasis_; }
-  const std::vector<double>& sizes() const { return sizes_; }
+  const std::shared_ptr<const FlowScales>& scales() const { return scales_; }
   double cpuSeconds() const { return cpu_; }
 
   /// Fewer of them are taken for negligible.
@@ -80,24 +81,30 @@ class Weighing {
                         FlowInputs(n, roughOrder, inputs, 1), question.options.cancelled);
     PolynomialSeries outputs(question.outputs, question.outputs.outputs(), monomials, 0, 1, false);
     influence_.assign(at(embedding.symbols), {});
-    sizes_.assign(at(n), 0.0);
     FlowSet set = startOf(embedding, n, *monomials, 0);
-    bool isWhole = true;  // else sizes may be those of a state that grows without bound
+    FlowScales scales;
+    bool isWhole = true;  // else they may be those of a state that grows without bound
+    std::vector<double> turned(at(n * n), 0.0), sizes(at(n));
+    const auto keep = [&] {
+      for (int i = 0; i < n; ++i) {
+        const double* p = &set.p[at(i * monomials->count())];
+        sizes[at(i)] = 0;
+        for (int g = 0; g < monomials->count(); ++g) sizes[at(i)] += std::fabs(p[g]);
+        isWhole = isWhole && std::isfinite(sizes[at(i)]);
+        if (weighs) measureInfluence(p, *monomials, influence_);
+      }
+      scales.add(set.t, sizes, turned);
+    };
+    keep();
     for (int part = 1, steps = 0; part <= 8; ++part) {
       const double end = question.horizon * part / 8;
       while (set.t < end) {
-        if (++steps > (weighs ? mostSteps : stepsForSize) || !stepper.drift(set, end)) {
+        if (++steps > (weighs ? mostSteps : stepsForSize) || !stepper.drift(set, end, turned)) {
           part = 8;
           set.t = end;
           isWhole = false;
         }
-        for (int i = 0; i < n; ++i) {
-          const double* p = &set.p[at(i * monomials->count())];
-          double size = 0;
-          for (int g = 0; g < monomials->count(); ++g) size += std::fabs(p[g]);
-          if (std::isfinite(size)) sizes_[at(i)] = std::max(sizes_[at(i)], size);
-          if (weighs) measureInfluence(p, *monomials, influence_);
-        }
+        keep();
       }
       if (!weighs) continue;
       for (int i = 0; i < n; ++i) outputs.setState(i, &set.p[at(i * monomials->count())]);
@@ -111,7 +118,10 @@ class Weighing {
         measureInfluence(polynomial.data(), *monomials, influence_);
       }
     }
-    if (!isWhole) sizes_.clear();
+    if (isWhole) {
+      scales.finish();
+      scales_ = std::make_shared<const FlowScales>(std::move(scales));
+    }
     if (!weighs) return;
     if (degree == 1)  // what is nonlinear is not known: at most as much, in proportion
       for (Influence& of : influence_) of.nonlinear = of.any;
@@ -121,7 +131,7 @@ class Weighing {
   double share_, negligible_ = 0.01, cpu_ = 0;
   Emphasis emphasis_;
   std::vector<Influence> influence_;
-  std::vector<double> sizes_;
+  std::shared_ptr<const FlowScales> scales_;
 };
 
 }  // namespace
@@ -137,7 +147,7 @@ Tube refine(const FlowQuestion& question, const Box& box, const std::vector<Box>
   for (int count = 1;; ++count) {
     round.isLast = round.isLast || count == mostRounds;
     round.emphasis = weighing.emphasis();
-    round.sizes = weighing.sizes();
+    round.scales = weighing.scales();
     const FlowTask task(question, box, levels, round);
     FlowRun run(task);
     Tube tube = run.run();

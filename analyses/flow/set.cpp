@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "analyses/flow/error_bounds.hpp"
+#include "analyses/work.hpp"
 #include "scalars/index.hpp"
 
 namespace gamut {
@@ -64,6 +65,7 @@ void mergeGenerators(FlowSet& set, std::size_t most) {
       sum += size;
       greatest = std::max(greatest, size);
     }
+    if (!std::isfinite(sum)) return;  // the next step fails
     loss.emplace_back(sum - greatest, j);
   }
   const std::size_t merged = count - most + n;
@@ -89,6 +91,7 @@ void addColumns(const std::vector<double>& columns, std::vector<double>& total) 
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(n);
   for (Eigen::Index j = 0; j < matrix.cols(); ++j) sum += matrix.col(j).cwiseAbs();
   Eigen::Map<Eigen::VectorXd>(total.data(), n) += sum;
+  Work::count(Work::matrixTerm, static_cast<double>(columns.size()));
 }
 
 void errorRadius(const FlowSet& set, std::vector<double>& total) {

@@ -60,7 +60,7 @@ void FlowStepper::load(const FlowSet& set) {
   for (std::size_t i = 0; i < at(n_); ++i) {
     floor_[i] = std::max(leastSize, std::ldexp(unheard * greatest, unit(i)));
     if (!set.largest.empty()) floor_[i] = std::max(floor_[i], vanished * set.largest[i]);
-    least_[i] = i < sizes_.size() ? std::max(floor_[i], heard * sizes_[i]) : floor_[i];
+    least_[i] = scales_ ? std::max(floor_[i], heard * scales_->of(i, set.t)) : floor_[i];
   }
   const int N = series_.count();
   for (int i = 0; i < n_; ++i) series_.setState(i, &set.p[at(i * N)]);
@@ -374,7 +374,7 @@ double FlowStepper::expand(const FlowSet& set, double left, double smallest, dou
   }
 }
 
-bool FlowStepper::drift(FlowSet& set, double end) {
+bool FlowStepper::drift(FlowSet& set, double end, std::vector<double>& turned) {
   constexpr double little = 1e-9;  // of another state: what rests until that moves it sets no pace
   caution_ = set.caution;
   growth_.setUnits(set.units);
@@ -383,13 +383,16 @@ bool FlowStepper::drift(FlowSet& set, double end) {
   const double left = end - set.t, h = std::min({expand(set, left, 1e-9 * left, little), h0_, left});
   if (!(h > 0)) return false;
   const int N = series_.count();
+  const auto behind = [&](const double* c) {
+    double s = c[m_];
+    for (int k = m_ - 1; k >= 0; --k) s = s * (h / h0_) + c[k];
+    return s;
+  };
   for (int i = 0; i < n_; ++i)
-    for (int g = 0; g < N; ++g) {
-      const double* c = series_.series(i) + g * series_.stride();
-      double s = c[m_];
-      for (int k = m_ - 1; k >= 0; --k) s = s * (h / h0_) + c[k];
-      set.p[at(i * N + g)] = s;
-    }
+    for (int g = 0; g < N; ++g) set.p[at(i * N + g)] = behind(series_.series(i) + g * series_.stride());
+  turned.clear();
+  for (int i = 0; i < n_; ++i)
+    for (int j = 0; j < n_; ++j) turned.push_back(behind(series_.frame(i, j)));
   set.t = h == left ? end : set.t + h;
   set.nextStep = 1.1 * h;
   return true;

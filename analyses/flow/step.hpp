@@ -16,6 +16,7 @@
 #include "analyses/flow/kinks.hpp"
 #include "analyses/flow/polynomial_range.hpp"
 #include "analyses/flow/polynomial_series.hpp"
+#include "analyses/flow/scales.hpp"
 #include "analyses/flow/set.hpp"
 #include "analyses/flow/time_kinks.hpp"
 #include "scalars/interval.hpp"
@@ -81,8 +82,9 @@ class FlowStepper {
   /// What the step left out: orders in time; grades in ξ, and roundings. Of the states, relative to their size.
   double timeError() const { return timeError_; }
   double truncation() const { return truncation_; }
-  /// Moves the polynomials of `set` on by a step that nothing is proved of; false if there is none.
-  bool drift(FlowSet& set, double end);
+  /// Moves the polynomials of `set` on by a step that nothing is proved of; false if there is none. `turned`: what
+  /// becomes in it of errors, about, [row][column].
+  bool drift(FlowSet& set, double end, std::vector<double>& turned);
   /// How many jumps and kinks all solutions pass in the step, or come to before the horizon.
   std::size_t crossings() const { return crossings_.size(); }
   /// After a failure: what could not be proved, of which state.
@@ -100,8 +102,8 @@ class FlowStepper {
   /// Of the stepper's motion.
   void setTimeKinks(TimeKinks kinks) { timeKinks_ = std::move(kinks); }
   void setStateNames(const std::vector<std::string>& names) { names_ = names; }
-  /// How large each state becomes, about: steps are relative to no less than a share of that. None: that is not known.
-  void setSizes(const std::vector<double>& sizes) { sizes_ = sizes; }
+  /// Steps are relative to no less than a share of these. Null: they are not known.
+  void setScales(std::shared_ptr<const FlowScales> scales) { scales_ = std::move(scales); }
   std::string nameOf(int state) const;
   /// After a failure: the remainder, not ξ, makes the set too wide; bisecting ξ cannot help.
   bool isRemainderDominant(const FlowSet& set) const;
@@ -217,7 +219,7 @@ class FlowStepper {
   double timeError_ = 0, truncation_ = 0, frameError_ = 0;
   double caution_ = 1;
   std::vector<std::string> names_;
-  std::vector<double> sizes_;
+  std::shared_ptr<const FlowScales> scales_;
   int symbolAcross_ = -1;                          // of kinks, for worstSymbol
   const FlowJumps* of_ = nullptr;                  // without any held
   std::optional<JumpBounder> own_, holding_;       // of the stepper's own jumps; of those of which some are held

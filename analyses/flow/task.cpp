@@ -59,7 +59,7 @@ FlowTask::FlowTask(const FlowQuestion& question, const Box& startBox, const std:
       effective(round.emphasis.weights.empty() ? embedding.symbols : round.emphasis.effective),
       isLast(round.isLast),
       richer(round.richer),
-      sizes(round.sizes) {
+      scales(round.scales) {
   varying = parametersOf(options.varying);
   times.push_back(0.0);
   for (double time : question.outputTimes)

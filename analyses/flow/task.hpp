@@ -11,6 +11,7 @@
 #include "analyses/flow/flow.hpp"
 #include "analyses/flow/jumps.hpp"
 #include "analyses/flow/monomials.hpp"
+#include "analyses/flow/scales.hpp"
 #include "analyses/flow/time_kinks.hpp"
 
 namespace gamut {
@@ -41,12 +42,12 @@ struct FlowLayout {
 
 /// What a repeated run does otherwise than the first.
 struct FlowRound {
-  double tighter = 1;              ///< splitDefect is so many times less than at first
-  double finer = 1;                ///< so is the tolerance
-  std::size_t richer = 0;          ///< the outputs' layout is so many further on
-  bool isLast = true;              ///< no tighter run comes
-  Emphasis emphasis;               ///< none: every symbol alike
-  std::vector<double> sizes = {};  ///< of states over the motion, about; none: not known
+  double tighter = 1;                             ///< splitDefect is so many times less than at first
+  double finer = 1;                               ///< so is the tolerance
+  std::size_t richer = 0;                         ///< the outputs' layout is so many further on
+  bool isLast = true;                             ///< no tighter run comes
+  Emphasis emphasis;                              ///< none: every symbol alike
+  std::shared_ptr<const FlowScales> scales = {};  ///< null: they are not known
 };
 
 struct FlowTask {
@@ -83,15 +84,15 @@ struct FlowTask {
   int fineOrders = 0;         // in double-double, without symbols: where rounding would limit the width
   double effective;           // Emphasis
   bool isLast;
-  std::vector<int> varying;         // parameters that are inputs
-  std::vector<FlowLayout> layouts;  // degrees rising, then the expanded one
-  std::size_t degrees = 0;          // how many are not expanded
-  std::size_t richer = 0;           // FlowRound
-  std::vector<double> times;        // 0, those asked for, the horizon
-  std::vector<char> looksAside;     // at each of them
-  TimeKinks timeKinks;              // of `differentiated`
-  std::vector<double> sizes;        // FlowRound
-  std::vector<double> ends;         // of steps besides: next to kinks in time, of outputs too; rising
+  std::vector<int> varying;                  // parameters that are inputs
+  std::vector<FlowLayout> layouts;           // degrees rising, then the expanded one
+  std::size_t degrees = 0;                   // how many are not expanded
+  std::size_t richer = 0;                    // FlowRound
+  std::vector<double> times;                 // 0, those asked for, the horizon
+  std::vector<char> looksAside;              // at each of them
+  TimeKinks timeKinks;                       // of `differentiated`
+  std::shared_ptr<const FlowScales> scales;  // FlowRound
+  std::vector<double> ends;                  // of steps besides: next to kinks in time, of outputs too; rising
 };
 
 }  // namespace gamut

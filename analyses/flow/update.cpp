@@ -151,7 +151,7 @@ void FlowStepper::evaluateRemainder(const FlowSet& set, double tau, FlowPoint& p
   point.ofErrors = set.generators.size();
   point.ofR = errors_;
   Eigen::Map<Eigen::MatrixXd> zonotope = columnsOf(point.zonotope, n_);
-  Work::count(Work::matrixTerm, static_cast<double>(columns.size()) * n_);
+  Work::count(Work::matrixTerm, static_cast<double>(columns.size()) * (n_ + 4));  // and copied
   zonotope.noalias() = frameOf(point, 0) * columnsOf(columns, n_);
   Eigen::Map<Eigen::VectorXd>(point.radius.data(), n_) +=
       zonotope.leftCols(static_cast<Eigen::Index>(point.ofErrors / n)).cwiseAbs().rowwise().sum();
@@ -201,6 +201,8 @@ double drivenRadius(const std::vector<double>& a, const std::vector<std::vector<
                     std::size_t stride) {
   const bool byCorners = b.size() <= mostCorners;
   double most = 0;
+  const double sums = static_cast<double>(byCorners ? std::size_t{1} << b.size() : 1);
+  Work::count(Work::matrixTerm, sums * static_cast<double>((a.size() - first) / stride * (1 + b.size())));
   for (std::size_t corner = 0; corner < (byCorners ? std::size_t{1} << b.size() : 1); ++corner) {
     double sum = 0;
     for (std::size_t c = first, k = first % stride; c < a.size(); c += stride, k += stride) {
@@ -362,12 +364,14 @@ void FlowStepper::carryGenerators(FlowSet& set) {
   // Entries are sums of n products for each pair, at most; those of inputs of n for their own and one symbol.
   rest += (n_ * most + 2) * bounds::unit * (high[0] * all);
   if (!inputs_.empty()) {
+    Work::count(Work::matrixTerm,
+                static_cast<double>(set.inputs.size()) * (n_ + 4) * static_cast<double>(1 + 2 * set.half.size()));
     std::vector<double> own(at(n_), 0.0), ofXi(at(n_), 0.0);
     set.inputs.insert(set.inputs.end(), inputs_.generators().begin(), inputs_.generators().end());
     set.inputsOfXi.resize(set.half.size());
     addColumns(set.inputs, own);
     const auto inputs = columnsOf(std::as_const(set.inputs), n_);
-    Matrix higher = high[0] - frameOf(end_, 0).cwiseAbs() * bounds::down, any = higher;
+    Matrix higher = high[0] * bounds::up - frameOf(end_, 0).cwiseAbs() * bounds::down, any = higher;
     for (std::size_t l = 0; l < set.inputsOfXi.size(); ++l) {
       set.inputsOfXi[l].resize(set.inputs.size(), 0.0);
       addColumns(set.inputsOfXi[l], ofXi);

@@ -52,7 +52,7 @@ void encloseDerivatives(Run& run) {
     }
   FlowOptions options = flowOptions(run.study, run.problem, run.options.jobs, run.watch.stop());
   options.progress = run.progressOf("derivatives");
-  options.budget = run.study.shares.derivatives * std::max(run.spent.enclosure, Work::perSecond);
+  options.budget = run.study.shares.derivatives * std::max(run.spent.enclosure / Work::perSecond, 1.0);
   try {
     if (!(options.budget > 0)) throw std::invalid_argument("limits.derivatives leaves them nothing");
     const DerivativeFlow flow(run.study.motion.f, run.study.motion.g, by, std::move(options));

@@ -44,7 +44,7 @@ void encloseMotion(Run& run) {
   const Shares& shares = run.study.shares;
   const bool areAlone = run.study.requirements.empty() && !asksForDistributions(run.study);  // no other answers follow
   flow.levelShare = shares.cuts + (areAlone ? shares.requirements + shares.probabilities : 0);
-  flow.levelBudget = flow.levelShare * std::max(run.spent.samples, Shares::least * Work::perSecond);
+  flow.levelBudget = flow.levelShare * std::max(run.spent.samples / Work::perSecond, Shares::least);
   const Motion& motion = run.study.motion;  // of the samples', what varies in time has a course
   const Tube tube = Flow(motion.f, motion.g, flow)
                         .enclose(run.problem.box, run.study.horizon, run.study.motion.times, run.problem.levels);

@@ -41,7 +41,7 @@ bool tightenModels(Run& run, double tightness, double work, double longestStep, 
   FlowOptions options = flowOptions(run.study, run.problem, run.options.jobs, run.watch.stop());
   options.tightness = tightness;
   options.longestStep = std::min(options.longestStep, longestStep);
-  options.budget = work;
+  options.budget = work / Work::perSecond;
   options.progress = run.progressOf(task);
   options.modelAtBytes = options.modelBytes = std::min(options.modelBytes, 0.25 * run.results.limits.enclosureMemory);
   const bool all = asksForDistributions(run.study);

@@ -72,7 +72,7 @@ class Finder {
 
   FlowOptions ownOptions() const {
     FlowOptions options = flowOptions(study_, problem_, options_.jobs, options_.cancelled);
-    options.budget = std::max(0.1 * Work::perSecond, options_.budget * Work::perSecond - worked());
+    options.budget = std::max(0.1, options_.budget - worked() / Work::perSecond);
     return options;
   }
 

@@ -40,7 +40,7 @@ class ThinFlows {
         result_(run.results.requirements[number]),
         options_(flowOptions(run.study, run.problem, run.options.jobs, run.watch.stop())) {
     constexpr double least = 2, times = 4;  // s; the enclosure's
-    options_.budget = std::max(least * Work::perSecond, times * run.spent.enclosure);
+    options_.budget = std::max(least, times * run.spent.enclosure / Work::perSecond);
   }
 
   /// Whether all that is known of these values is that they violate it; then when, and by how much, as far as that is

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "analyses/flow/flow.hpp"
-#include "analyses/work.hpp"
 #include "tests/analyses/event_reference.hpp"
 #include "tests/analyses/sliding_reference.hpp"
 #include "tests/analyses/switching_courses.hpp"
@@ -346,7 +345,7 @@ int run(int trajectories) {
       }
       FlowOptions options;
       options.varying = equation.varying;
-      options.budget = 20 * Work::perSecond;
+      options.budget = 20;
       std::vector<double> times;
       for (int i = 1; i <= 8; ++i) times.push_back(equation.horizon * i / 8);
       const Tube tube = Flow(equation.f, options).enclose(box, equation.horizon, times);

@@ -19,7 +19,6 @@
 #include <vector>
 
 #include "analyses/requirements/requirement.hpp"
-#include "analyses/work.hpp"
 #include "tests/analyses/flow/containment.hpp"
 #include "tests/analyses/flow/jumping_machine.hpp"
 #include "tests/analyses/sliding_reference.hpp"
@@ -225,7 +224,7 @@ bool isToldMet(const System& s, const Program& f, const Program& g, std::size_t 
   const Program only = recorder.finish({recorder.sub(recorder.constant(limit), g.outputNodes()[output])});
   FlowOptions options;
   options.modelled = {0};
-  options.budget = 0.2 * Work::perSecond;
+  options.budget = 0.2;
   const Tube tube = Flow(f, only, options).enclose(s.box, s.horizon, s.times);
   if (!tube.why().empty() || !tube.models()) return false;
   std::vector<Uncertain> uncertain;
@@ -252,7 +251,7 @@ void judgeSystem(unsigned number, Count& count) {
   c.box = s.box;
   c.horizon = s.horizon;
   c.times = s.times;
-  c.options.budget = 0.2 * Work::perSecond;
+  c.options.budget = 0.2;
   Box level = s.box;
   for (Interval& value : level)
     if (!isThin(value) && dice.happens(0.7))

@@ -138,12 +138,12 @@ TEST(Flow, EndsAtTheSamePlaceOnAnyNumberOfThreads) {
   for (const double share : {0.02, 0.2, 0.6})
     for (const int maxPieces : {5, 2000}) {
       SCOPED_TRACE(share);
-      options.budget = share * work;
+      options.budget = share * work / Work::perSecond;
       options.maxPieces = maxPieces;
       options.jobs = 1;
       const std::uint64_t start = Work::counted();
       const Tube one = Flow(pendulum(), y, options).enclose(box, 1.5, {0.3, 0.9});
-      EXPECT_LT(static_cast<double>(Work::counted() - start), 1.3 * options.budget + 2e6);
+      EXPECT_LT(static_cast<double>(Work::counted() - start), 1.3 * share * work + 2e6);
       if (share == 0.02) {
         EXPECT_EQ(one.why(), Tube::overBudget);
       }
