@@ -126,8 +126,9 @@ Action tolerance(CLI::App& command) {
       ->check(wholeNumber(1, 1024))
       ->type_name("N");
   command
-      .add_option("--time-limit", arguments->timeLimit,
-                  "CPU time, s or \"2 h\", instead of the study's (otherwise 1800); what was found until then is told")
+      .add_option(
+          "--time-limit", arguments->timeLimit,
+          "about so much CPU time, counted in what is computed; s or \"2 h\", instead of the study's (otherwise 1800)")
       ->transform(positiveAmount({0, 0, 1, 0, 0}, "time", "90, \"5 min\" or \"2 h\""))
       ->type_name("SECONDS");
   command.add_flag("--json", arguments->json, "One JSON object on standard output");

@@ -4,8 +4,8 @@
 //     Tube tube = Flow(f).enclose({Interval(0.9, 1.1), 0.0}, 10.0, {1.0, 5.0, 10.0});
 //     tube.at(5.0)[0];    // an Interval that contains x[0](5 s) for every start in the box
 //
-// The set is kept as polynomials in the uncertain quantities plus a remainder in a moving frame; every step is computed
-// in floating point and certified afterwards. Method, theorems and bounds: docs/flow.md.
+// The set is kept as polynomials in the uncertain quantities plus a remainder whose directions depend on them; every
+// step is computed in floating point and certified afterwards. Method, theorems and bounds: docs/flow.md.
 #pragma once
 
 #include <atomic>
@@ -51,7 +51,7 @@ struct FlowOptions {
                             ///< outputs: of a state) at the output times is the part above 1
   int order = 0;            ///< in time: Taylor coefficients kept a step (4 … 30); 0: by the tolerance
   int degree = -1;          ///< of the polynomials in the uncertain quantities; -1: adapted on the way
-  int frameDegree = -1;     ///< of the remainder's frame; -1: by the number of uncertain quantities
+  int frameDegree = -1;     ///< of the remainder's directions; -1: by the number of uncertain quantities
   double tolerance = 0;    ///< truncation error in time aimed at in a step, relative to the state; 0: by tightness, box
                            ///< and number of uncertain quantities
   bool split = true;       ///< bisect the box where one piece cannot be followed tightly

@@ -1,3 +1,4 @@
+// Errors carried back through the linearised motion, in parts of it.
 #include "analyses/flow/scales.hpp"
 
 #include <Eigen/Core>

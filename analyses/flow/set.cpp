@@ -198,7 +198,7 @@ bool expandRemainder(FlowSet& set, const Monomials& from, const Monomials& to, i
   std::vector<double> total, p(at(n * newN), 0.0);
   totalRadius(set, total);
   // H: the directions of C (r + Γs), of every power of ξ by themselves; its entries are off by n roundings, at most n u
-  // |C_0| Σ|Γ|.
+  // |C| Σ|Γ|.
   const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> C(set.C.data(), n, n);
   const Eigen::Map<const Eigen::VectorXd> R(set.R.data(), n), radius(total.data(), n);
   const Eigen::Map<const Matrix> generators(set.generators.data(), n, static_cast<int>(set.generators.size()) / n);

@@ -24,7 +24,7 @@ constexpr double mostGrowthOfInputs = 0.08;
 // underflow, bounds::tiny over a tolerance.
 constexpr double vanished = 0x1p-120, unheard = 0x1p-80, leastSize = 0x1p-530;
 constexpr double mostOfFrame = 1e-4;      // of the remainder, that a step's orders in time may add
-constexpr double heard = 1e-3;            // of what a state becomes: a machine at rest, to which a push is yet to come
+constexpr double heard = 1e-3;            // of FlowScales: a machine at rest, to which a push is yet to come
 constexpr double hardlyMoving = 0x1p-20;  // of what is left over, a polynomial that says nothing of the state
 
 }  // namespace

@@ -168,7 +168,7 @@ class FlowStepper {
   static double longestToCross(const std::vector<JumpBound>& bounds, const std::vector<JumpBound>& atStart, double h,
                                double smallest);
   Box boxAtStart(const FlowSet& set) const;
-  /// In this step all solutions go from one side of a jump or kink to the other: at moment(ξ) - c·C(ξ)(r + Γs)/rate ±
+  /// In this step all solutions go from one side of a jump or kink to the other: at moment(ξ) - c·C(r + Γs)/rate ±
   /// off.
   struct Crossing {
     const LinearForm* form;
@@ -179,7 +179,7 @@ class FlowStepper {
     double off = 0;
     Interval moments;               // of all solutions
     double rate = 0;                // of the argument, about
-    double remainder = 0;           // |c·C(ξ)(r + Γs)|
+    double remainder = 0;           // |c·C(r + Γs)|
     std::vector<double> curvature;  // K of docs/flow.md; of a kink, |B u̇| at most
     // Of a kink: ∂f/∂|u|, about; the integral of ũ from the moment on, by orders of σ; how fast ũ moves at most, and
     // how far moments are from those of ξ.

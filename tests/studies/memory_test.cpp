@@ -55,8 +55,10 @@ TEST(Memory, IsToldBeforehandToAQuarter) {
   }
 }
 
-/// 310 outputs at 2001 times were told to need 10 GB, and took 5.7.
-TEST(Memory, OfManyOutputsAtManyTimesIsBelowTwoGigabytes) { EXPECT_LT(memoryNeeded(wideStudy(310, 2001), {}), 1.5e9); }
+/// 310 outputs at 2001 times were told to need 10 GB, and took 5.7; they take 1.65 with results and page.
+TEST(Memory, ManyOutputsAtManyTimesAreToldToNeedLessThanAGigabyteAndAHalf) {
+  EXPECT_LT(memoryNeeded(wideStudy(310, 2001), {}), 1.5e9);
+}
 
 }  // namespace
 }  // namespace gamut
