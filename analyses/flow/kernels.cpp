@@ -18,7 +18,10 @@ namespace {
 
 typedef double Vector __attribute__((vector_size(64), aligned(8), may_alias));
 
+typedef double Half __attribute__((vector_size(32), aligned(8), may_alias));
+
 GAMUT_INLINE const Vector& load(const double* p) { return *reinterpret_cast<const Vector*>(p); }
+GAMUT_INLINE const Half& loadHalf(const double* p) { return *reinterpret_cast<const Half*>(p); }
 
 GAMUT_INLINE double sum(const Vector& v) { return ((v[0] + v[4]) + (v[2] + v[6])) + ((v[1] + v[5]) + (v[3] + v[7])); }
 
@@ -50,12 +53,31 @@ GAMUT_INLINE void convolveChunks(const Monomials::Pair* pairs, const std::int32_
   }
 }
 
+/// The first four orders alone.
+GAMUT_INLINE void convolveHalf(const Monomials::Pair* pairs, const std::int32_t* first, int count, const double* a,
+                               const double* b, int stride, double* out) {
+  const int strideR = reversedStride(stride);
+  for (int g = 0; g < count; ++g) {
+    Half even = {}, odd = {};
+    int q = first[g];
+    const int end = first[g + 1];
+    for (; q + 1 < end; q += 2) {
+      even += loadHalf(a + pairs[q].a * stride) * loadHalf(b + pairs[q].b * strideR);
+      odd += loadHalf(a + pairs[q + 1].a * stride) * loadHalf(b + pairs[q + 1].b * strideR);
+    }
+    if (q < end) even += loadHalf(a + pairs[q].a * stride) * loadHalf(b + pairs[q].b * strideR);
+    even += odd;
+    out[g] += (even[0] + even[2]) + (even[1] + even[3]);
+  }
+}
+
 }  // namespace
 
 GAMUT_CLONES void convolve(const Monomials::Pair* pairs, const std::int32_t* first, int count, const double* a,
                            const double* bReversed, int stride, int i, double* out) {
   const double* b = bReversed + stride - 1 - i;
   Work::count(Work::convolvedRow, static_cast<double>(first[count]) * (i / 8 + 1));
+  if (i < 4) return convolveHalf(pairs, first, count, a, b, stride, out);
   switch (i / 8) {
     case 0:
       convolveChunks<1>(pairs, first, count, a, b, stride, out);

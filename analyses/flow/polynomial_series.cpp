@@ -31,7 +31,8 @@ void PolynomialSeries::compute(double t0, double h0) {
     for (int s = 0; s < n_; ++s) {
       const Plan& from = plan_[at(outputs_[at(s)])];
       const double* f = &f_[from.f];
-      for (int g = 0; g < count(); ++g) put(plan_[at(s)], g, i + 1, f[g * stride_ + i] * h0 / (i + 1));
+      const int kept = from.op == Op::state ? from.count : countOf(from, i);  // x' = v: all that v has
+      for (int g = 0; g < kept; ++g) put(plan_[at(s)], g, i + 1, f[g * stride_ + i] * h0 / (i + 1));
     }
     computeFrameOrder(i, h0);
   }
@@ -92,7 +93,7 @@ void PolynomialSeries::computeOrder(int node, int i) {
   }
   const Plan& a = plan_[at(v.a)];
   const double* fa = &f_[a.f];
-  const int N = v.count;
+  const int N = countOf(v, i), before = i > 0 ? countOf(a, i - 1) : a.count;
   const auto* pairs = monomials_->pairs().data();
   const auto* first = monomials_->first().data();
   double* out = scratch_.data();
@@ -150,7 +151,7 @@ void PolynomialSeries::computeOrder(int node, int i) {
       return;
     }
     case Op::exp: {  // e_i = Σ_{j≥1} j u_j e_{i-j} / i
-      for (int g = 0; g < a.count; ++g) d_[a.d + at(g * stride_ + i)] = i * fa[g * stride_ + i];
+      for (int g = 0; g < before; ++g) d_[a.d + at(g * stride_ + i)] = i * fa[g * stride_ + i];
       kernels::convolve(pairs, first, N, &d_[a.d], &r_[v.r], stride_, i, out);
       for (int g = 0; g < N; ++g) put(v, g, i, out[g] / i);
       return;
@@ -172,7 +173,7 @@ void PolynomialSeries::computeOrder(int node, int i) {
     case Op::sin: {  // s_i = Σ_{j≥1} j u_j c_{i-j} / i, c_i = -Σ_{j≥1} j u_j s_{i-j} / i
       const Plan& c = plan_[at(node + 1)];
       for (int g = 0; g < N; ++g) put(c, g, i, 0.0);
-      for (int g = 0; g < a.count; ++g) d_[a.d + at(g * stride_ + i)] = i * fa[g * stride_ + i];
+      for (int g = 0; g < before; ++g) d_[a.d + at(g * stride_ + i)] = i * fa[g * stride_ + i];
       double* cosine = scratch2_.data();
       std::fill(cosine, cosine + N, 0.0);
       kernels::convolve(pairs, first, N, &d_[a.d], &r_[c.r], stride_, i, out);
@@ -186,7 +187,7 @@ void PolynomialSeries::computeOrder(int node, int i) {
     case Op::tanh: {  // t_i = Σ_{j≥1} j u_j s_{i-j} / i, s_i = -Σ t_j t_{i-j}
       const Plan& s = plan_[at(node + 1)];
       for (int g = 0; g < N; ++g) put(s, g, i, 0.0);
-      for (int g = 0; g < a.count; ++g) d_[a.d + at(g * stride_ + i)] = i * fa[g * stride_ + i];
+      for (int g = 0; g < before; ++g) d_[a.d + at(g * stride_ + i)] = i * fa[g * stride_ + i];
       kernels::convolve(pairs, first, N, &d_[a.d], &r_[s.r], stride_, i, out);
       for (int g = 0; g < N; ++g) put(v, g, i, out[g] / i);
       std::fill(out, out + N, 0.0);

@@ -49,7 +49,7 @@ class PolynomialSeries {
   int stride() const { return stride_; }
   const Monomials& monomials() const { return *monomials_; }
   int count() const { return monomials_->count(); }
-  /// So many monomials a node keeps, the first ones.
+  /// So many monomials a node keeps, the first ones; of later orders fewer.
   int count(int node) const { return plan_[at(node)].count; }
   int frameCount() const { return frameCount_; }
 
@@ -186,10 +186,15 @@ class PolynomialSeries {
     int a, b;
     int degree, count;
     bool primary, invariant, constant;
-    std::size_t f = 0, r = none, d = none, t = 0, s2 = none;
+    std::size_t f = 0, r = none, d = none, t = 0, s2 = none, beyond = none;
     bool needsTails = false;
   };
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
+
+  /// Of an order in time, no higher grades than these are computed; states have those of an order before, of x' = v of
+  /// one before that.
+  int gradeOf(int order) const { return grades_[at(order)]; }
+  int countOf(const Plan& v, int order) const { return std::min(v.count, counts_[at(order)]); }
 
   /// The systems of one matrix A.
   struct System {
@@ -275,8 +280,12 @@ class PolynomialSeries {
   bool refuse(int node);
   std::string edgeOf(int node) const;
 
+  void planOrders(int order);
+
   int n_, time_, m_, stride_, nodes_, frameCount_, frameDegree_;
-  int obstacle_ = 0;  // the node that failed
+  std::vector<int> grades_, counts_;  // of orders
+  bool isCut_ = false;                // not all of them the same
+  int obstacle_ = 0;                  // the node that failed
   double haste_ = 0;
   bool withFrame_, isConvex_ = true;
   const std::atomic<bool>* cancelled_;
@@ -296,7 +305,7 @@ class PolynomialSeries {
   std::vector<double> side_;                          // of each argument, if known for all solutions: 1, -1
   std::vector<double> atStart_, crossing_, reached_;  // of each argument: uncertain; what a chord spans; may have to
   bool hasKinks_ = false, hasJumped_ = false, isAlong_ = false, knowsParameters_ = false;
-  std::vector<double> f_, r_, d_, t_, total_, s1_, s2_, scratch_, scratch2_;
+  std::vector<double> f_, r_, d_, t_, total_, s1_, s2_, beyond_, from_, scratch_, scratch2_;
   std::vector<double> inverse_;  // per recip/sqrt/log/atan node: 1/leading polynomial
   std::vector<std::size_t> inverseAt_;
   std::vector<double> norm_, weighted_, own0_, own1_, rho0_, rho1_, along0_, along1_, top_;

@@ -56,6 +56,18 @@ bool PolynomialSeries::tabulate(double theta) {
       for (int i = m_ - 1; i >= 0; --i) row[i] = (sum += table[q * stride_ + m_ - 1 - i]);
       for (int i = 0; i < m_; ++i) row[i] += row[stride_ + i];
     }
+    if (v.beyond == none) continue;
+    // from[q][j] = Σ_{p ≥ q} T[p][j];  beyond[p][i] = Σ_{j ≤ m-1-i} from[G_{i+j} + 1 - p][j].
+    std::vector<double>& from = from_;
+    from.assign(at((v.degree + 2) * stride_), 0.0);
+    for (int q = v.degree; q >= 0; --q)
+      for (int j = 0; j < m_; ++j) from[at(q * stride_ + j)] = from[at((q + 1) * stride_ + j)] + table[q * stride_ + j];
+    for (int p = 0; p <= v.degree; ++p)
+      for (int i = 0; i < m_; ++i) {
+        double sum = 0;
+        for (int j = 0; i + j < m_; ++j) sum += from[at(std::max(0, gradeOf(i + j) + 1 - p) * stride_ + j)];
+        beyond_[v.beyond + at(p * stride_ + i)] = sum;
+      }
   }
   for (System& system : systems_) {
     goOnUnlessCancelled();
@@ -85,11 +97,18 @@ double PolynomialSeries::tailTime(int a, int b) const {
   return kernels::dot(&total_[at(a) * at(stride_)], &s1_[at(b) * at(stride_)], stride_);
 }
 
-/// Σ_{i ≥ fromOrder, i+j < m, p+q > degree} T_a[p][i] T_b[q][j]: grades of a product that are not kept.
+/// Σ_{i ≥ fromOrder, i+j < m, p+q > degree} T_a[p][i] T_b[q][j]: grades of a product that are not kept; G_{i+j} in
+/// place of the degree where that is less.
 double PolynomialSeries::tailDegree(int a, int b, int degree, int fromOrder) const {
   const Plan& pa = plan_[at(a)];
   const Plan& pb = plan_[at(b)];
   double sum = 0;
+  if (isCut_ && degree == monomials_->degree()) {
+    for (int p = 0; p <= pa.degree; ++p)
+      for (int i = fromOrder; i < m_; ++i)
+        sum += t_[pa.t + at(p * stride_ + i)] * beyond_[pb.beyond + at(p * stride_ + i)];
+    return sum;
+  }
   for (int p = 0; p <= pa.degree; ++p) {
     const int q = std::max(0, degree + 1 - p);
     if (q > pb.degree) continue;
@@ -116,11 +135,12 @@ double PolynomialSeries::tailRow(int a, int b, int degree) const {
   return sum;
 }
 
-/// Σ_{grade > degree} of a: what a node of lower degree drops.
+/// Σ_{grade > degree} of a: what a node of lower degree drops; and of a state, what others do not have of that order.
 double PolynomialSeries::dropped(int a, int degree) const {
   double sum = 0;
-  for (int q = degree + 1; q <= plan_[at(a)].degree; ++q)
-    for (int i = 0; i < m_; ++i) sum += t_[plan_[at(a)].t + at(q * stride_ + i)];
+  for (int q = 0; q <= plan_[at(a)].degree; ++q)
+    for (int i = 0; i < m_; ++i)
+      if (q > degree || q > gradeOf(i)) sum += t_[plan_[at(a)].t + at(q * stride_ + i)];
   return sum;
 }
 
@@ -223,11 +243,11 @@ double PolynomialSeries::productResidual(int left, int right, int target) {
            (target >= 0 ? 2 * bounds::fine * norm_[at(target)] + 4 * bounds::unit * coarseNorm(target, fine_.orders())
                         : 0.0);
   const Plan& l = plan_[at(left)];
-  const int N = l.count;
   double* out = scratch_.data();
   double sum = 0;
   const int orders = l.invariant ? 1 : m_;
   for (int i = 0; i < orders; ++i) {
+    const int N = countOf(l, i);
     std::fill(out, out + N, 0.0);
     kernels::convolve(monomials_->pairs().data(), monomials_->first().data(), N, &f_[l.f], &r_[plan_[at(right)].r],
                       stride_, i, out);
@@ -254,9 +274,11 @@ double PolynomialSeries::quotientResidual(int node) {
   double* out = scratch_.data();
   double sum = 0;
   for (int i = 1; i < (l.invariant ? 1 : m_); ++i) {
-    std::fill(out, out + N, 0.0);
-    kernels::convolve(monomials_->pairs().data(), monomials_->first().data(), N, &d_[l.d], &r_[w.r], stride_, i, out);
-    for (int g = 0; g < N; ++g) sum += std::fabs(i * f_[u.f + at(g * stride_ + i)] - out[g]) / i * power_[at(i)];
+    const int kept = countOf(l, i);
+    std::fill(out, out + kept, 0.0);
+    kernels::convolve(monomials_->pairs().data(), monomials_->first().data(), kept, &d_[l.d], &r_[w.r], stride_, i,
+                      out);
+    for (int g = 0; g < kept; ++g) sum += std::fabs(i * f_[u.f + at(g * stride_ + i)] - out[g]) / i * power_[at(i)];
   }
   for (int g = 1; g < N; ++g) {
     double s = 0;

@@ -1,5 +1,6 @@
 // Before the recursion: which degree each node keeps, where its coefficients and tables lie, and what goes in.
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "analyses/flow/kernels.hpp"
@@ -22,6 +23,7 @@ PolynomialSeries::PolynomialSeries(const Program& program, int primaryOutputs,
       outputs_(program.outputNodes()) {
   if (order < 1 || order > 31) throw std::invalid_argument("the order of a polynomial series must be 1 to 31");
   frameCount_ = monomials_->countUpTo(frameDegree_);
+  planOrders(order);
   const auto& nodes = program.nodes();
   std::vector<char> primary(nodes.size(), 0);
   for (int i = 0; i < primaryOutputs; ++i) primary[at(outputs_[at(i)])] = 1;
@@ -47,7 +49,7 @@ PolynomialSeries::PolynomialSeries(const Program& program, int primaryOutputs,
   radius_.assign(nodes.size(), 0.0);
   pointError_.assign(nodes.size(), 0.0);
   inverseAt_.assign(nodes.size(), none);
-  std::size_t sizeF = 0, sizeR = 0, sizeD = 0, sizeT = 0, sizeS2 = 0, sizeInverse = 0;
+  std::size_t sizeF = 0, sizeR = 0, sizeD = 0, sizeT = 0, sizeS2 = 0, sizeBeyond = 0, sizeInverse = 0;
   const auto place = [&](Plan& v) {
     v.count = monomials_->countUpTo(v.degree);
     v.f = sizeF;
@@ -143,12 +145,16 @@ PolynomialSeries::PolynomialSeries(const Program& program, int primaryOutputs,
     if (v.needsTails) {
       v.s2 = sizeS2;
       sizeS2 += at(v.degree + 2) * at(stride_);
+      if (!isCut_ || v.degree < monomials_->degree()) continue;  // of a lower degree nothing is cut
+      v.beyond = sizeBeyond;
+      sizeBeyond += at(monomials_->degree() + 1) * at(stride_);
     }
   f_.assign(sizeF, 0.0);
   r_.assign(sizeR, 0.0);
   d_.assign(sizeD, 0.0);
   t_.assign(sizeT, 0.0);
   s2_.assign(sizeS2, 0.0);
+  beyond_.assign(sizeBeyond, 0.0);
   inverse_.assign(sizeInverse, 0.0);
   total_.assign(plan_.size() * at(stride_), 0.0);
   s1_.assign(plan_.size() * at(stride_), 0.0);
@@ -163,6 +169,26 @@ PolynomialSeries::PolynomialSeries(const Program& program, int primaryOutputs,
   weights_.assign(at(stride_), 0.0);
   clear();
   if (count() == 1 && withFrame_) prepareThin();
+}
+
+/// Where a step of order m is as long as its last order allows, order i is about ρ^i/i! of a series, and grade q s^q;
+/// what both together make less than what lies beyond the degree is left to the certificate.
+void PolynomialSeries::planOrders(int order) {
+  const int degree = monomials_->degree();
+  grades_.assign(at(order + 1), degree);
+  counts_.assign(at(order + 1), monomials_->count());
+  constexpr std::size_t leastPairs = 500;  // with fewer there is little to win
+  if (!withFrame_ || monomials_->pairs().size() < leastPairs) return;
+  constexpr double s = 0.05, share = 0.02;
+  const double rho = std::pow(std::tgamma(order + 1.0) * std::pow(10, -0.5 * (order + 8)), 1.0 / order);
+  double size = 1;  // of order i
+  for (int i = 0; i <= order; size *= rho / ++i) {
+    int grade = degree;
+    while (grade > std::max(frameDegree_, 1) && size * std::pow(s, grade - degree - 1) < share) --grade;
+    grades_[at(i)] = grade;
+    counts_[at(i)] = monomials_->countUpTo(grade);
+    isCut_ = isCut_ || grade < degree;
+  }
 }
 
 void PolynomialSeries::prepareThin() {

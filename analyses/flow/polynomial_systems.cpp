@@ -66,7 +66,7 @@ void PolynomialSeries::computeSolution(int first, int i) {
   Solution& solution = solutions_[at(v.a)];
   System& system = systems_[at(solution.system)];
   if (!system.isFactorised) factorise(system);
-  const int n = system.size, N = v.count;
+  const int n = system.size, N = countOf(v, i);
   std::fill_n(&solution.residual[at(i * n)], n, 0.0);
   const auto* pairs = monomials_->pairs().data();
   const auto* start = monomials_->first().data();

@@ -16,7 +16,11 @@ using detail::at;
 
 namespace {
 
-/// ρ(A)h at most, where steps leave over more than their share of what inputs do.
+/// ρ(A)h at most. What is cut off beyond the degree grows so in the comparison too: of many symbols, whose degrees are
+/// dear, in shorter steps.
+constexpr double mostGrowth = 4, mostGrowthOfMany = 2;
+constexpr int many = 4;
+/// Likewise where steps leave over more than their share of what inputs do.
 constexpr double mostGrowthOfInputs = 0.08;
 
 // A state is followed relative to its size, but a body at rest need not be: to what it was, or its box; nor one that
@@ -451,7 +455,9 @@ StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum,
         continue;
       }
       // Stiff, or so much is left over: the comparison with |Df| would lose a factor e^{growth} a step.
-      const double most = inputs_.empty() || !isLooserThanDriven() ? 4 : mostGrowthOfInputs;
+      const double most = inputs_.empty() || !isLooserThanDriven()
+                              ? (monomials().symbols() < many ? mostGrowth : mostGrowthOfMany)
+                              : mostGrowthOfInputs;
       if (growth_.growth() > most && attempt < 3) {
         h *= 0.75 * most / growth_.growth();
         continue;

@@ -116,6 +116,7 @@ class Certificate {
         const Precise bound = Precise(series_.rho0(node)) + Precise(series_.rho1(node)) * fraction;
         ASSERT_LE(error, bound) << "node " << node << " at " << sigma << " of\n" << program_;
       }
+      if (E.empty()) checkSlopes(truth, sigma, fraction, powers);
       checkFrame(truth, sigma, fraction, powers);
     }
   }
@@ -124,6 +125,24 @@ class Certificate {
   /// |difference| without what 128 bits themselves may have rounded.
   Precise beyondRounding(const Precise& difference, const Precise& size) const {
     return abs(difference) - (abs(size) + s_.rounded) * Precise(1e-34);
+  }
+
+  /// The polynomials of states move as f says, but for the bound of f's node and a rounding.
+  void checkSlopes(const Vector& truth, double sigma, const Precise& fraction, const std::vector<Precise>& powers) {
+    for (int s = 0; s < s_.states; ++s) {
+      const int f = program_.outputNodes()[static_cast<std::size_t>(s)];
+      Precise slope(0.0);
+      for (std::size_t g = 0; g < powers.size(); ++g) {
+        Precise rate(0.0);
+        for (int i = s_.order; i >= 1; --i)
+          rate = rate * sigma + Precise(i) * (series_.series(s)[static_cast<int>(g) * series_.stride() + i] +
+                                              (g == 0 ? Precise(series_.low(s, i)) : Precise(0.0)));
+        slope += rate * powers[g];
+      }
+      const Precise& wanted = truth[static_cast<std::size_t>(f)];
+      const Precise bound = Precise(series_.rho0(f)) + series_.slopeRounding(s) + Precise(series_.rho1(f)) * fraction;
+      ASSERT_LE(beyondRounding(slope - wanted, wanted), bound) << "slope of state " << s << " of\n" << program_;
+    }
   }
 
   void checkFrame(const Vector& truth, double sigma, const Precise& fraction, const std::vector<Precise>& powers) {

@@ -863,6 +863,29 @@ TEST(Flow, OutputsOfLinearSystemsBetweenTimesHoldTheirTrajectories) {
   }
 }
 
+/// ẋ = v, v̇ = p⁴ t⁴, beside five more quantities: x = p⁴ t⁶/30. All of x is in late orders of high grades.
+TEST(Flow, HoldsHighPowersThatComeLateThroughAState) {
+  const Program f = record(3, 6, [](auto t, const auto& x, const auto& p, auto& dx) {
+    dx[0] = x[1];
+    dx[1] = sqr(sqr(p[0])) * sqr(sqr(t));
+    dx[2] = p[1] * p[2] * p[3] * p[4] * p[5];
+  });
+  Box box{0.0, 0.0, 0.0, Interval(0.0, 2.0)};
+  box.resize(9, Interval(0.5, 1.5));
+  const std::vector<double> times{0.25, 0.5, 1.0};
+  for (const int degree : {-1, 4, 5, 6}) {
+    FlowOptions options;
+    options.degree = degree;
+    const Tube tube = Flow(f, options).enclose(box, 1.0, times);
+    ASSERT_EQ(tube.reached(), 1.0) << tube.why();
+    for (std::size_t i = 1; i < tube.reachedTimes(); ++i) {
+      const Precise greatest = Precise(16) * pow(Precise(tube.times()[i]), 6) / 30;
+      EXPECT_GE(Precise(tube.states(i)[0].upper()), greatest) << "degree " << degree << " at " << tube.times()[i];
+      EXPECT_LE(tube.states(i)[0].lower(), 0);
+    }
+  }
+}
+
 TEST(Flow, ShowsExactlyWhatIsExactlyKnownAtTheStart) {
   Containment c = withLevels();
   c.box[1] = 0.0;

@@ -25,6 +25,33 @@ TEST_P(OfFunction, EveryNodeLiesWithinItsBounds) {
   }
 }
 
+/// So many monomials that later orders keep fewer grades than the first ones.
+Setting settingOfMany(Points& points) {
+  Setting s;
+  s.weights = {1, 1, points.integer(1, 2), 1};
+  s.degree = 5;
+  s.frameDegree = points.integer(0, 2);
+  s.order = points.integer(7, 12);
+  s.size = std::ldexp(0.04, -points.integer(0, 2) * 6);
+  s.theta = std::ldexp(1.0, -points.integer(1, 2));
+  return s;
+}
+
+TEST_P(OfFunction, ManySymbolsOfWhichLaterOrdersKeepFewerGradesAreBounded) {
+  Points points(8);
+  for (int round = 0; round < 2; ++round) {
+    const Setting s = settingOfMany(points);
+    const std::vector<double> nominal{points.uniform(-1, 1), points.uniform(-1, 1), points.uniform(-1, 1)};
+    const Program f = record(2, 1, [&](auto t, const auto& x, const auto& p, auto& dx) {
+      const Guarded first{x[0], nominal[0]}, second{x[1] + t, nominal[1]};
+      dx[0] = 0.5 * apply(GetParam(), first, second).value + p[0];
+      dx[1] = x[0] * x[1] + 0.25 * apply(GetParam(), second, {p[0], nominal[2]}).value - x[0];
+    });
+    expectCertified(f.differentiated(), s, points, nominal, 3);
+    if (HasFatalFailure()) return;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(PolynomialSeries, OfFunction, ::testing::ValuesIn(elementaryNames()),
                          [](const auto& name) { return name.param; });
 
@@ -178,6 +205,66 @@ TEST(PolynomialSeries, RandomProgramsLieWithinTheirBounds) {
     expectCertified(f.differentiated(), s, points, nominal, 3);
     if (HasFatalFailure()) return;
   }
+}
+
+TEST(PolynomialSeries, RandomProgramsInManySymbolsLieWithinTheirBounds) {
+  Points points(13);
+  for (int round = 0; round < 12; ++round) {
+    const Setting s = settingOfMany(points);
+    const std::vector<double> nominal{points.uniform(-1, 1), points.uniform(-1, 1), points.uniform(-1, 1)};
+    RandomExpressions expression(points, nominal);
+    const Program f = record(2, 1, [&](auto t, const auto& x, const auto& p, auto& dx) { expression(t, x, p, dx, 6); });
+    expectCertified(f.differentiated(), s, points, nominal, 3);
+    if (HasFatalFailure()) return;
+  }
+}
+
+/// What drives v in late orders and high grades reaches x by x' = v alone.
+TEST(PolynomialSeries, StatesThatAreSlopesOfStatesKeepAllThatTheseHave) {
+  Points points(14);
+  for (int round = 0; round < 20; ++round) {
+    const Setting s = settingOfMany(points);
+    const std::vector<double> nominal{points.uniform(-1, 1), points.uniform(-1, 1), points.uniform(-1, 1)};
+    const int power = points.integer(1, 5);
+    const Program f = record(2, 1, [&](auto t, const auto& x, const auto& p, auto& dx) {
+      auto force = p[0] + 0.5;
+      for (int i = 1; i < power; ++i) force = force * p[0];
+      dx[0] = x[1];
+      dx[1] = force * sqr(t * t);
+    });
+    expectCertified(f.differentiated(), s, points, nominal, 6);
+    if (HasFatalFailure()) return;
+  }
+}
+
+/// What later orders leave out of high grades is all that is left out here: it is bounded, not overlooked.
+TEST(PolynomialSeries, GradesThatLaterOrdersLeaveOutAreBoundedSharply) {
+  const Program f = record(1, 0, [](auto, const auto& x, const auto&, auto& dx) { dx[0] = sqr(x[0]); });
+  const auto monomials = std::make_shared<const Monomials>(std::vector<int>(6, 1), 5);
+  PolynomialSeries series(f.differentiated(), 1, monomials, 1, 10, true);
+  std::vector<double> c(static_cast<std::size_t>(monomials->count()), 0.0);
+  c[0] = c[1] = 0.5;  // 1/(1/x0 - σ), of which every order has every power of ξ0
+  series.setState(0, c.data());
+  std::vector<double> frame(static_cast<std::size_t>(series.frameCount()), 0.0);
+  frame[0] = 1;
+  series.setFrame(0, 0, frame.data(), 1);
+  series.compute(0, 1);
+  ASSERT_TRUE(series.tabulate(0.5) && series.bound(nullptr, false));
+  const int node = series.outputNode(0);
+  int left = 0;
+  Precise x(0.0), kept(0.0);
+  for (int m = 0; m < monomials->count(); ++m)
+    for (int i = 0; i <= 10; ++i) {
+      if (monomials->exponent(m, 0) < monomials->grade(m)) continue;  // at ξ = (1, 0, …)
+      x += Precise(series.series(0)[m * series.stride() + i]) * pow(Precise(0.5), i);
+      if (i == 10) continue;
+      kept += Precise(series.series(node)[m * series.stride() + i]) * pow(Precise(0.5), i);
+      left += series.series(node)[m * series.stride() + i] == 0 && monomials->grade(m) <= i + 2 ? 1 : 0;
+    }
+  EXPECT_GT(left, 0);
+  const Precise error = x * x - kept, bound = Precise(series.rho0(node)) + series.rho1(node);
+  EXPECT_LE(error, bound);
+  EXPECT_LT(bound, error * (1 + 1e-6));
 }
 
 TEST(PolynomialSeries, RandomProgramsInDoubleDoubleLieWithinTheirBounds) {
