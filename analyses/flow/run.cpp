@@ -385,7 +385,8 @@ FlowCause FlowRun::limit(const Tube& tube) const {
 }
 
 double FlowRun::tighterBy(const Tube& tube) const {
-  constexpr double blindly = 30, least = 2, most = 1000;
+  constexpr double least = 2, most = 1000;
+  const double blindly = task_.embedding.symbols <= 4 ? 30 : 8;  // of many, a run that is too tight is dear
   if (task_.embedding.symbols == 0 || !limit(tube).isNone()) return 1;
   if (tube.reached() < task_.horizon) return blindly;
   const double aim = task_.aim();  // the remainder is about proportional to the threshold

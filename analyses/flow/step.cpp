@@ -249,6 +249,9 @@ bool FlowStepper::isRemainderTooLarge(const FlowSet& set) const {
     const double unit = std::ldexp(1.0, -set.units[at(i)]), *p = &set.p[at(i * N)];
     remainder += unit * remainderOf(set, i, total);
     for (int g = 1; g < N; ++g) width += unit * std::fabs(p[g]);
+    for (std::size_t l = 0; l < set.half.size(); ++l)  // of the whole box, not of the piece
+      if (const int g = monomials().linear(static_cast<int>(l)); g >= 0)
+        width += unit * std::fabs(p[g]) * (1 / set.half[l] - 1);
     size += unit * std::fabs(p[0]);
   }
   // What does not vary with ξ is no matter of truncation.
