@@ -89,10 +89,20 @@ std::vector<S> valuesOf(const Program& program, const S& t, const std::vector<S>
 
 template <class S>
 S Assembler<S>::number(const Expression& number) const {
-  return number.evaluate<S>([this](const std::string& name) {
-    const auto parameter = parameters_.find(name);
-    return parameter != parameters_.end() ? parameter->second : initials_.at(name);
-  });
+  return number.evaluate<S>(
+      [this](const std::string& name) {
+        const auto parameter = parameters_.find(name);
+        return parameter != parameters_.end() ? parameter->second : initials_.at(name);
+      },
+      [this](const auto& enclosure, const auto& exact) { return constantOf(enclosure, exact); });
+}
+
+template <class S>
+S Assembler<S>::constantOf(const Interval& enclosure, const std::optional<Amount>& exact) const {
+  if (!exact) return constant<S>(enclosure);
+  const auto known = exact_.find({exact->value, exact->piPower});
+  if (known != exact_.end()) return known->second;
+  return exact_.emplace(std::pair{exact->value, exact->piPower}, constant<S>(enclosure)).first->second;
 }
 
 template <class S>

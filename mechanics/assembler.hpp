@@ -11,6 +11,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -107,11 +108,14 @@ class Assembler {
   }
   /// Of anything that an expression may name. Throws UnknownName.
   S valueOf(const std::string& name) const;
+  /// A number: the same one wherever it is known to be, so that what is recorded knows it too.
+  S constantOf(const Interval& enclosure, const std::optional<Amount>& exact) const;
 
   std::function<void()> solve_;  // makes all that measureSolved may ask for the present motion's
   std::string element_;          // that is being assembled
   S time_ = S(0.0);
   std::map<std::string, S> parameters_, initials_;
+  mutable std::map<std::pair<mpq_class, int>, S> exact_;  // numbers met: rationals times powers of pi
   std::map<std::string, std::unique_ptr<Frame<S>>> frames_;
   std::deque<Frame<S>> hidden_;
   std::deque<Variable<S>> storedVariables_;

@@ -77,7 +77,7 @@ void Assembly<S>::takeNumbers(const Mechanism& mechanism, const std::vector<std:
   std::vector<std::string> parameters;
   for (const Mechanism::NamedValue& parameter : mechanism.parameters()) {
     parameters.push_back(parameter.name);
-    parts_.parameters_.emplace(parameter.name, constant<S>(parameter.nominal));
+    parts_.parameters_.emplace(parameter.name, parts_.constantOf(parameter.nominal, parameter.exact));
   }
   for (const Mechanism::NamedValue& initial : mechanism.initialValues())
     parts_.initials_.emplace(initial.name, constant<S>(initial.nominal));

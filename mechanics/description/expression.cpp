@@ -13,6 +13,8 @@ namespace gamut {
 
 Expression::Expression(const Interval& value) : terms_{{Operation::constant}}, constants_{{value}} {}
 
+Expression::Expression(const Amount& value) : terms_{{Operation::constant}}, constants_{{enclose(value), value}} {}
+
 Expression Expression::named(const std::string& name, const Interval& factor) {
   Expression result(factor);
   result.names_.push_back(name);

@@ -34,6 +34,7 @@ class Expression {
   /// A number in the SI unit that is expected where it stands.
   Expression(double value) : Expression(Interval(value)) {}  // NOLINT: implicit, as numbers are
   Expression(const Interval& value);                         // NOLINT: implicit, as numbers are
+  explicit Expression(const Amount& value);
   /// `factor` times what has this name.
   static Expression named(const std::string& name, const Interval& factor = 1.0);
   /// Whether a word is a name where it could be a unit as well (mayBeName); all such are if nothing is said.
@@ -66,9 +67,16 @@ class Expression {
   /// Throws UnitError too if the whole is not of the kind of this unit; without names and units it always is.
   void check(const DimensionOf& dimensionOf, const std::string& unit) const;
 
-  /// In SI units; `valueOf(name)` gives an S.
+  /// In SI units; `valueOf(name)` gives an S, and so does `constantOf(enclosure, exact)`: of a number, with the number
+  /// itself where it is known.
+  template <class S, class ValueOf, class ConstantOf>
+  S evaluate(const ValueOf& valueOf, const ConstantOf& constantOf) const;
   template <class S, class ValueOf>
-  S evaluate(const ValueOf& valueOf) const;
+  S evaluate(const ValueOf& valueOf) const {
+    return evaluate<S>(valueOf, [](const Interval& enclosure, const std::optional<Amount>& /*exact*/) {
+      return constant<S>(enclosure);
+    });
+  }
 
  private:
   friend class ExpressionParser;
@@ -127,14 +135,15 @@ class Expression {
   std::vector<std::string> names_;
 };
 
-template <class S, class ValueOf>
-S Expression::evaluate(const ValueOf& valueOf) const {
+template <class S, class ValueOf, class ConstantOf>
+S Expression::evaluate(const ValueOf& valueOf, const ConstantOf& constantOf) const {
   using std::abs, std::acos, std::asin, std::atan, std::atan2, std::cos, std::cosh, std::exp, std::hypot, std::log,
       std::max, std::min, std::pow, std::sin, std::sinh, std::sqrt, std::tan, std::tanh;
   std::vector<S> values;
   for (const Term& term : terms_) {
     if (term.operation == Operation::constant) {
-      values.push_back(constant<S>(constants_[static_cast<std::size_t>(term.index)].enclosure));
+      const Constant& number = constants_[static_cast<std::size_t>(term.index)];
+      values.push_back(constantOf(number.enclosure, number.exact));
       continue;
     }
     if (term.operation == Operation::name) {

@@ -69,6 +69,11 @@ void Mechanism::addParameter(const std::string& name, const Interval& nominal, c
   parameters_.add({name, unit, nominal});
 }
 
+void Mechanism::addParameter(const std::string& name, const Amount& nominal, const std::string& unit) {
+  addParameter(name, enclose(nominal), unit);
+  parameters_.find(name)->exact = nominal;
+}
+
 void Mechanism::addDerived(const std::string& name, const Expression& formula) {
   checkParameterName(name);
   checkNames(formula, name);
@@ -150,7 +155,10 @@ void Mechanism::addFrame(const std::string& from, const std::string& to, const s
 void Mechanism::use(Expression& number, const std::string& name, const std::string& unit) {
   if (number.isConstant()) {
     check(number, name, unit);
-    addParameter(name, number.evaluate<Interval>([](const std::string&) { return Interval::entire(); }), unit);
+    if (const std::optional<Amount> exact = number.amount())
+      addParameter(name, *exact, unit);
+    else
+      addParameter(name, number.evaluate<Interval>([](const std::string&) { return Interval::entire(); }), unit);
     number = Expression::named(name);
     return;
   }

@@ -48,6 +48,7 @@ class Mechanism {
   struct NamedValue {
     std::string name, unit;
     Interval nominal;
+    std::optional<Amount> exact = std::nullopt;  ///< the number itself, where it is known
   };
   /// A parameter that follows from others.
   struct Derived {
@@ -61,6 +62,8 @@ class Mechanism {
 
   /// Declares a parameter before its first use. Without a unit it takes that of its first use.
   void addParameter(const std::string& name, const Interval& nominal, const std::string& unit = "");
+  /// The same of a number that is known exactly: parameters that are equal then are one number wherever they stand.
+  void addParameter(const std::string& name, const Amount& nominal, const std::string& unit = "");
   /// Declares a parameter that follows from others; those that were declared without a unit are plain numbers. Throws
   /// UnitError where its terms do not fit together.
   void addDerived(const std::string& name, const Expression& formula);

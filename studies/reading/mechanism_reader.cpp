@@ -295,7 +295,7 @@ class MechanismReader {
       }
       const Amount amount = source_.asAnyAmount(value, what);
       const std::string unit = amount.hasUnit ? unitOf(amount.dimension) : "";
-      guarded(value, [&] { mechanism_.addParameter(name, enclose(amount), unit); });
+      guarded(value, [&] { mechanism_.addParameter(name, amount, unit); });
       if (amount.hasUnit) statedWithUnit_[name] = &value;
     }
     addFormulas(section, table, prefix, formulas);
@@ -584,7 +584,7 @@ class MechanismReader {
   Expression number(const toml::node& node, const std::string& name, const std::string& what, const std::string& unit) {
     const Dimension dimension = dimensionOf(unit);
     places_[name] = &node;
-    if (!node.is_string()) return enclose(source_.asAmount(node, what, dimension));
+    if (!node.is_string()) return Expression(source_.asAmount(node, what, dimension));
     Expression formula = source_.asExpression(node, what);
     const std::vector<std::string>& names = formula.names();
     const bool isUnit =

@@ -260,6 +260,24 @@ TEST(Outputs, OfTheRecordedProgramAreThoseOfTheAssembly) {
     EXPECT_NEAR(y[i], arm.output(names[i]), 1e-12 * (1 + std::abs(y[i]))) << names[i];
 }
 
+/// Decimals are known as such: those that are equal are one number, those that share an enclosure may be two.
+TEST(Outputs, KnowWhichNumbersAreEqual) {
+  const auto isZero = [](const char* first, const char* second) {
+    Mechanism m;
+    m.add(Revolute{"hinge", "inertial", "K", axisX});
+    m.add(Mass{"a", "K", Expression::parse(first), {0.0, 0.0, 1.0}});
+    m.add(Mass{"b", "K", Expression::parse(second), {0.0, 0.0, 2.0}});
+    const Program y = recordOutputs(m, {}, {"a.mass - b.mass"});
+    const Node& node = y.nodes()[static_cast<std::size_t>(y.outputNodes()[0])];
+    return node.op == Op::constant && isEqual(y.constants()[static_cast<std::size_t>(node.a)], Interval(0.0));
+  };
+  EXPECT_TRUE(isZero("0.1 kg", "100 g"));
+  EXPECT_TRUE(isZero("1/3 kg", "1000/3 g"));
+  EXPECT_TRUE(isZero("2*pi/7", "4*pi/14"));
+  EXPECT_FALSE(isZero("0.1 kg", "0.1000000000000000000001 kg"));
+  EXPECT_FALSE(isZero("pi/7", "pi/7 + 1e-30"));
+}
+
 TEST(Rotation, ByQuarterTurnsHasExactZeros) {
   for (const Axis& axis : {axisX, Axis(0, -1, 0), axisZ}) {
     const Matrix3<double> a = Rotation<double>(axis, 0.0, 1).matrix(), b = Rotation<double>(axis, 0.0, -3).matrix();
