@@ -30,6 +30,7 @@ Assembly<S>::Assembly(const Mechanism& mechanism, const std::vector<std::string>
     parts_.element_ = element.name();
     element.assemble(parts_);
   }
+  if constexpr (std::is_same_v<S, Recorded>) unturned_ = stateAheadOfSpin(parts_.parts_, parts_.hidden_);
   for (const auto* parts : {&parts_.given_, &parts_.first_, &parts_.parts_})
     for (const auto& part : *parts) chain_ << *part;
 
@@ -158,8 +159,14 @@ void Assembly<S>::measureReactions(const Mechanism& mechanism) {
   for (const Mechanism::Moved& moved : mechanism.moved()) {
     const Frame<S>* k = parts_.frames_.at(moved.frame).get();
     const std::string reaction = mechanism.reactionOf(moved.frame);
-    measureVector(reaction + ".force", true, [k] { return Vector3<S>(-k->f); });
-    measureVector(reaction + ".moment", true, [k] { return Vector3<S>(-k->tau); });
+    const auto ahead = unturned_.find(k);
+    const Unturned<S>* unturned = ahead == unturned_.end() ? nullptr : &ahead->second;
+    const auto held = [k, unturned](Vector3<S> Frame<S>::*load) {
+      return unturned == nullptr ? Vector3<S>(-(k->*load))
+                                 : Vector3<S>(-(k->*load + unturned->turned(unturned->frame->*load)));
+    };
+    measureVector(reaction + ".force", true, [held] { return held(&Frame<S>::f); });
+    measureVector(reaction + ".moment", true, [held] { return held(&Frame<S>::tau); });
   }
 }
 

@@ -8,11 +8,13 @@
 
 #include <span>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "mechanics/assembler.hpp"
 #include "mechanics/equations/system.hpp"
 #include "mechanics/measurements.hpp"
+#include "mechanics/spin.hpp"
 
 namespace gamut {
 
@@ -71,6 +73,7 @@ class Assembly {
   enum class Known { state, solving, accelerations, forces };
 
   Assembler<S> parts_;
+  std::unordered_map<const Frame<S>*, Unturned<S>> unturned_;  // of frames whose bodies are stated ahead of their spin
   Chain<S> chain_;
   std::unique_ptr<System<S>> system_;
   std::vector<S*> states_;  // in the order of Mechanism::stateNames()

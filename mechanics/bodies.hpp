@@ -26,6 +26,9 @@ class RigidLink final : public Transmission<S> {
   MovingPoint<S> inFrom(const MovingPoint<S>& point) const override;
   SpatialInertia<S> inFrom(const SpatialInertia<S>& inertia) override;
 
+  const Vector3<S>& offset() const { return offset_; }
+  const Rotation<S>& rotation() const { return rotation_; }
+
  private:
   Vector3<S> offset_;
   Rotation<S> rotation_;
@@ -42,7 +45,7 @@ class MassElement final : public Inertia<S> {
       : MassElement(at, std::move(mass), std::move(centre), zeroMatrix<S>()) {}
   /// A body; `inertia` is symmetric.
   MassElement(Frame<S>& at, S mass, Vector3<S> centre, Matrix3<S> inertia)
-      : at_(at), mass_(std::move(mass)), centre_(std::move(centre)), inertia_(std::move(inertia)) {}
+      : at_(&at), mass_(std::move(mass)), centre_(std::move(centre)), inertia_(std::move(inertia)) {}
 
   void doMotion(MotionLevel level = MotionLevel::all) override;
 
@@ -63,8 +66,14 @@ class MassElement final : public Inertia<S> {
   Frame<S>& frame() const override;
   SpatialInertia<S> spatial() const override;
 
+  /// Whether it is known to be the same body however it is turned about this axis of `frame()`, through the origin:
+  /// as formulas, whatever the values of uncertain quantities are.
+  bool isKnownSymmetric(const Axis& axis) const;
+  /// Fixes it to another frame instead, with the same numbers.
+  void moveTo(Frame<S>& frame) { at_ = &frame; }
+
  private:
-  Frame<S>& at_;
+  Frame<S>* at_;
   S mass_;
   Vector3<S> centre_;
   Matrix3<S> inertia_;

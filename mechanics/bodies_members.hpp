@@ -44,27 +44,28 @@ SpatialInertia<S> RigidLink<S>::inFrom(const SpatialInertia<S>& inertia) {
 template <class S>
 void MassElement<S>::doMotion(MotionLevel level) {
   if (level == MotionLevel::position) return;
-  a_ = level == MotionLevel::acceleration ? Vector3<S>(at_.a + at_.omegaDot.cross(centre_))
-                                          : Vector3<S>(at_.a + offsetAcceleration(at_.omega, at_.omegaDot) * centre_);
+  a_ = level == MotionLevel::acceleration
+           ? Vector3<S>(at_->a + at_->omegaDot.cross(centre_))
+           : Vector3<S>(at_->a + offsetAcceleration(at_->omega, at_->omegaDot) * centre_);
 }
 
 template <class S>
 void MassElement<S>::doForce(ForceKind kind) {
   if (kind != ForceKind::applied) {
     const Vector3<S> force = mass_ * a_;
-    at_.f -= force;
-    at_.tau -= inertia_ * at_.omegaDot + centre_.cross(force);
+    at_->f -= force;
+    at_->tau -= inertia_ * at_->omegaDot + centre_.cross(force);
   }
-  if (kind != ForceKind::inertia) at_.tau -= at_.omega.cross(inertia_ * at_.omega);
+  if (kind != ForceKind::inertia) at_->tau -= at_->omega.cross(inertia_ * at_->omega);
 }
 
 template <class S>
 S MassElement<S>::kineticEnergy() const {
-  const Vector3<S> v = at_.v + at_.omega.cross(centre_);
+  const Vector3<S> v = at_->v + at_->omega.cross(centre_);
   S energy = mass_ * (square(v[0]) + square(v[1]) + square(v[2]));
   for (int i = 0; i < 3; ++i) {
-    energy = energy + inertia_(i, i) * square(at_.omega[i]);
-    for (int j = i + 1; j < 3; ++j) energy = energy + S(2.0) * (inertia_(i, j) * (at_.omega[i] * at_.omega[j]));
+    energy = energy + inertia_(i, i) * square(at_->omega[i]);
+    for (int j = i + 1; j < 3; ++j) energy = energy + S(2.0) * (inertia_(i, j) * (at_->omega[i] * at_->omega[j]));
   }
   return S(0.5) * energy;
 }
@@ -76,12 +77,12 @@ S MassElement<S>::potentialEnergy(const Vector3<S>& gravity) const {
 
 template <class S>
 MovingPoint<S> MassElement<S>::position() const {
-  return at_.inInertial({centre_, zeroVector<S>()});
+  return at_->inInertial({centre_, zeroVector<S>()});
 }
 
 template <class S>
 Vector3<S> MassElement<S>::acceleration() const {
-  return at_.R * a_;
+  return at_->R * a_;
 }
 
 template <class S>
@@ -92,14 +93,28 @@ void MassElement<S>::collectRows(std::vector<S>& accelerations, std::vector<Iner
     weights.push_back({first + i, first + i, mass_});
   }
   for (int i = 0; i < 3; ++i) {
-    accelerations.push_back(at_.omegaDot[i]);
+    accelerations.push_back(at_->omegaDot[i]);
     for (int j = i; j < 3; ++j) weights.push_back({first + 3 + i, first + 3 + j, inertia_(i, j)});
   }
 }
 
 template <class S>
 Frame<S>& MassElement<S>::frame() const {
-  return at_;
+  return *at_;
+}
+
+template <class S>
+bool MassElement<S>::isKnownSymmetric(const Axis& axis) const {
+  const auto areZero = [](const S& x, const S& y, const S& z) {
+    return isKnownZero(x) && isKnownZero(y) && isKnownZero(z);
+  };
+  const bool isDiagonal = areZero(inertia_(0, 1), inertia_(1, 2), inertia_(0, 2));
+  if (!axis.isAligned())  // of any axis: a ball at the origin
+    return isDiagonal && areZero(centre_[0], centre_[1], centre_[2]) && isKnownSame(inertia_(0, 0), inertia_(1, 1)) &&
+           isKnownSame(inertia_(1, 1), inertia_(2, 2));
+  const int i = (axis.index() + 1) % 3, j = (axis.index() + 2) % 3;
+  return isDiagonal && isKnownZero(centre_[i]) && isKnownZero(centre_[j]) &&
+         isKnownSame(inertia_(i, i), inertia_(j, j));
 }
 
 template <class S>

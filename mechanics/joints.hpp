@@ -35,10 +35,16 @@ class RevoluteJoint final : public Transmission<S> {
   MovingPoint<S> inFrom(const MovingPoint<S>& point) const override;
   SpatialInertia<S> inFrom(const SpatialInertia<S>& inertia) override;
 
+  Variable<S>& angle() const { return angle_; }
+  const Axis& axis() const { return axis_; }
+  /// From now on the speed is that of another element, which moves all inertia that there was behind (spin.hpp).
+  void handOverSpeed() { hasSpeed_ = false; }
+
  private:
   Variable<S>& angle_;
   Axis axis_;
   Rotation<S> rotation_;
+  bool hasSpeed_ = true;
 };
 
 /// Slides frame `to` along an axis: prismatic joint, slider.

@@ -34,6 +34,7 @@ void RevoluteJoint<S>::doForce(ForceKind) {
 
 template <class S>
 std::vector<Speed<S>*> RevoluteJoint<S>::speeds() const {
+  if (!hasSpeed_) return {};
   return {&angle_};
 }
 

@@ -59,6 +59,9 @@ class Rotation {
 
   Matrix3<S> matrix() const;
 
+  /// Whether it was made as no rotation.
+  bool isNone() const { return !plane_ && !dense_; }
+
  private:
   /// Rotation of the components i and j, which follow the axis cyclically.
   struct Plane {

@@ -88,7 +88,7 @@ Matrix3<S> Rotation<S>::symmetricToParent(const Matrix3<S>& m) const {
   const S u = c * m(i, i) - s * m(i, j), v = c * m(i, j) - s * m(j, j), first = c * u - s * v;
   Matrix3<S> turned = m;
   turned(i, i) = first;
-  turned(j, j) = m(i, i) + m(j, j) - first;
+  turned(j, j) = isKnownZero(c) ? m(i, i) : S(m(i, i) + m(j, j) - first);  // a right angle swaps both
   turned(i, j) = turned(j, i) = s * u + c * v;
   turned(i, k) = turned(k, i) = c * m(i, k) - s * m(j, k);
   turned(j, k) = turned(k, j) = s * m(i, k) + c * m(j, k);

@@ -180,6 +180,13 @@ bool isKnownZero(const S&) {
 }
 inline bool isKnownZero(const Recorded& x) { return Recorder::current()->isExactly(x.node(), 0.0); }
 
+/// True only if x and y are the same number whatever the inputs are.
+template <class S>
+bool isKnownSame(const S&, const S&) {
+  return false;
+}
+inline bool isKnownSame(const Recorded& x, const Recorded& y) { return x.node() == y.node(); }
+
 /// True only if x is a number other than 0 whatever the inputs are.
 template <class S>
 bool isKnownNonzero(const S&) {

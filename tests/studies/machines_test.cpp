@@ -1,6 +1,8 @@
 // Studies of machines that anyone may write, run to the end: the samples arrive and lie inside a tight guarantee.
 #include <gmock/gmock.h>
 
+#include <array>
+
 #include "studies/running/run.hpp"
 #include "studies/study.hpp"
 
@@ -98,6 +100,58 @@ std::string startsAtALength() {
          uncertain("slide.length") + output("slide.displacement") + output("slide.rate");
 }
 
+std::string coupling(const std::string& joint, const std::string& to, const std::string& ratio) {
+  return "[[mechanism.element]]\ntype = \"coupling\"\nname = \"" + joint + "Gear\"\njoint = \"" + joint +
+         "\"\nto = \"" + to + "\"\nratio = " + ratio + "\n";
+}
+
+std::string headWithCorners(const std::string& horizon, const std::string& step) {
+  return "[study]\nanalysis = \"dynamics\"\nhorizon = " + horizon + "\noutput_step = " + step +
+         "\ncompare = [\"interval\", \"stochastic\"]\n[stochastic]\nsamples = 256\n[distribution]\ntimes = 0\n";
+}
+
+/// Five masses, of which three go round as planets: the inertia is constant.
+std::string planetaryGear() {
+  const std::string ball = "inertia = [0.0002, 0.0002, 0.0002]";
+  std::string text = headWithCorners("2", "0.5") + "[mechanism]\ngravity = [0, 0, -9.81]\n" +
+                     hinge("carrier", "inertial", "C", "z", "rate = 0") + mass("plate", "C", "mass = 1\n" + ball) +
+                     hinge("sun", "inertial", "S", "z", "rate = 0") + mass("centre", "S", "mass = 0.2\n" + ball) +
+                     coupling("sun", "carrier", "4");
+  const std::array<const char*, 3> arms = {"[0.08, 0, 0]", "[-0.04, 0.0693, 0]", "[-0.04, -0.0693, 0]"};
+  for (std::size_t i = 0; i < arms.size(); ++i) {
+    const std::string n = std::to_string(i);
+    text += link("arm" + n, "C", "A" + n, arms[i]) + hinge("planet" + n, "A" + n, "P" + n, "z", "rate = 0") +
+            mass("disc" + n, "P" + n, "mass = 0.3\n" + ball) + coupling("planet" + n, "carrier", "-3");
+  }
+  return text +
+         "[[mechanism.element]]\ntype = \"joint-force\"\nname = \"drive\"\njoint = \"sun\"\nforce = \"0.05 N m\"\n" +
+         "[[uncertain]]\nquantity = \"*.mass\"\ninterval = \"± 2 %\"\n" + output("carrier.angle") +
+         output("carrier.acceleration") + output("energy.kinetic");
+}
+
+/// A body turned by three wheels that spin at 200 rad/s.
+std::string reactionWheels() {
+  std::string text = headWithCorners("60", "10") +
+                     "[mechanism]\n[mechanism.parameters]\nkd = \"0.45 N m s\"\nspin = \"5e-4 kg m^2\"\n"
+                     "[[mechanism.element]]\ntype = \"spherical\"\nname = \"orbit\"\nfrom = \"inertial\"\nto = \"B\"\n"
+                     "initial = { orientation = { roll = \"8 deg\", yaw = \"10 deg\" }, rate = [0.02, 0.01, 0.01] }\n" +
+                     mass("bus", "B", "mass = 25\ninertia = [1.2, 1.4, 0.9]");
+  const std::array<std::string, 3> axes = {"x", "y", "z"};
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    std::array<std::string, 3> inertia;
+    inertia.fill("\"0.55*spin\"");
+    inertia[i] = "\"spin\"";
+    text += hinge("wheel" + axes[i], "B", "W" + axes[i], axes[i], "rate = 200") +
+            mass("rotor" + axes[i], "W" + axes[i],
+                 "mass = 0.5\ninertia = [" + inertia[0] + ", " + inertia[1] + ", " + inertia[2] + "]") +
+            "[[mechanism.element]]\ntype = \"motor\"\nname = \"motor" + axes[i] + "\"\njoint = \"wheel" + axes[i] +
+            "\"\nmoment = \"0.16 N m * orbit.quaternion." + axes[i] + " + kd*orbit.rate." + axes[i] + "\"\n";
+  }
+  return text + "[[uncertain]]\nquantity = \"spin\"\ninterval = \"± 5 %\"\n" +
+         "[[uncertain]]\nquantity = \"kd\"\ninterval = \"± 5 %\"\n" + output("wheelx.rate") + output("wheely.rate") +
+         output("wheelz.rate");
+}
+
 class Machines : public ::testing::TestWithParam<Machine> {};
 
 TEST_P(Machines, ArriveInsideATightGuarantee) {
@@ -114,6 +168,8 @@ INSTANTIATE_TEST_SUITE_P(Study, Machines,
                                            Machine{"sixPerpendicularHinges", perpendicular(6), 1.01},
                                            Machine{"freeBody", tumbling("free", 5), 1.01},
                                            Machine{"top", tumbling("spherical", 3), 1.01},
+                                           Machine{"planetaryGear", planetaryGear(), 1.02},
+                                           Machine{"reactionWheels", reactionWheels(), 1.02},
                                            Machine{"startsAtALength", startsAtALength(), 1.01},
                                            Machine{"chainOfThree", planarChain(3, 2), 1.01},
                                            Machine{"chainOfFive", planarChain(5, 2), 1.01},
