@@ -4,6 +4,7 @@
 // so that rules seldom nest deeply; the Recorder sees to it that they never do.
 #include "scalars/program/rules.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <iterator>
@@ -74,6 +75,43 @@ int product(Recorder& r, int a, int b) {
   return foldedOf(r, a, b, [](const Interval& x, const Interval& y) { return x * y; });
 }
 
+/// The factors of a product of products, in rising order; of constants those that are not negative, whose signs are the
+/// whole's.
+struct Factors {
+  static constexpr std::size_t most = 8;
+  std::array<int, most> nodes{};
+  std::size_t count = 0;
+  bool isNegative = false;
+
+  /// False if there are more.
+  bool multiply(Recorder& r, int node) {
+    const auto [x, negated] = r.signless(node);
+    isNegative = isNegative != negated;
+    if (isOf(r, x, Op::mul)) return multiply(r, r.node(x).a) && multiply(r, r.node(x).b);
+    if (isOf(r, x, Op::sqr)) return multiply(r, r.node(x).a) && multiply(r, r.node(x).a);
+    if (count == most) return false;
+    const bool isBelow = r.isConstant(x) && r.value(x).upper() < 0;
+    isNegative = isNegative != isBelow;
+    nodes[count++] = isBelow ? r.negated(x) : x;
+    return true;
+  }
+};
+
+/// 1 or -1 if a and b are products of the same factors, with the same or the other sign; else 0.
+int sameProduct(Recorder& r, int a, int b) {
+  const auto isProduct = [&](int node) {
+    const Op op = r.node(r.signless(node).node).op;
+    return op == Op::mul || op == Op::sqr;
+  };
+  Factors x, y;
+  if (!isProduct(a) || !isProduct(b) || !x.multiply(r, a) || !y.multiply(r, b) || x.count != y.count) return 0;
+  std::sort(x.nodes.begin(), x.nodes.begin() + x.count);
+  std::sort(y.nodes.begin(), y.nodes.begin() + y.count);
+  return x.nodes != y.nodes ? 0 : x.isNegative == y.isNegative ? 1 : -1;
+}
+
+constexpr std::string_view withoutOverflow = "where the products are defined; doubles where none of them overflows";
+
 constexpr Rule table[] = {
     {Op::add, simplify, "x + 0 = x", everywhere,
      [](Recorder& r, int a, int b) { return r.isExactly(a, 0)   ? b
@@ -93,6 +131,8 @@ constexpr Rule table[] = {
      }},
     {Op::add, simplify, "x + x = 2·x", everywhere,
      [](Recorder& r, int a, int b) { return a == b ? r.mul(r.constant(2.0), a) : none; }},
+    {Op::add, simplify, "x·(y·z) + (-y)·(x·z) = 0, however many factors are in whichever order", withoutOverflow,
+     [](Recorder& r, int a, int b) { return sameProduct(r, a, b) < 0 ? r.constant(0.0) : none; }},
 
     {Op::sub, simplify, "x - x = 0", everywhere,
      [](Recorder& r, int a, int b) { return a == b ? r.constant(0.0) : none; }},
@@ -104,6 +144,8 @@ constexpr Rule table[] = {
      [](Recorder& r, int a, int b) {
        return foldedOf(r, a, b, [](const Interval& x, const Interval& y) { return x - y; });
      }},
+    {Op::sub, simplify, "x·(y·z) - y·(x·z) = 0, however many factors are in whichever order", withoutOverflow,
+     [](Recorder& r, int a, int b) { return sameProduct(r, a, b) > 0 ? r.constant(0.0) : none; }},
     {Op::sub, moveSigns, "x - (-y) = x + y", everywhere,
      [](Recorder& r, int a, int b) {
        if (!isOf(r, b, Op::neg)) return none;

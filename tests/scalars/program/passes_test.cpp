@@ -22,7 +22,7 @@ int count(const Program& program, Op op) {
 TEST(Rules, EachKeepsTheValueOfWhatItReplacesAndFindsWork) {
   std::map<std::string_view, int> applied;
   for (unsigned seed = 1; seed <= 400; ++seed) {
-    const Program program = RandomProgram(seed).withSolutions()(40, 1);
+    const Program program = RandomProgram(seed).withSolutions().withProducts()(40, 1);
     Recorder recorder(program, RuleSet::none());
     std::vector<int> outputs;
     std::vector<std::string_view> laws;
@@ -54,6 +54,24 @@ TEST(Rules, AreEachNamedByTheirLawAndServeAPass) {
     EXPECT_FALSE(RuleSet::none().has(rule.group)) << rule.law;
     EXPECT_GE(static_cast<int>(rule.op), inOrder) << "rules of one operation stand together";
     inOrder = static_cast<int>(rule.op);
+  }
+}
+
+/// A force along an arm has no moment about its end, in whichever order its factors were multiplied.
+TEST(Rules, LetProductsOfTheSameFactorsCancel) {
+  const Program f = record(3, 1, 6, [](auto, const auto& x, const auto& p, auto& y) {
+    const Recorded a = constant<Recorded>(Interval("0.3")), b = constant<Recorded>(Interval("0.7"));
+    const Recorded minusA = -a, square = sqr(x[0]);
+    y[0] = a * (p[0] * (b * square)) - b * (p[0] * (a * (x[0] * x[0])));
+    y[1] = minusA * square * (b * p[0]) + b * square * (a * p[0]);
+    y[2] = x[0] * x[1] * (x[2] * x[1]) - sqr(x[1]) * (x[0] * x[2]);
+    y[3] = a * (b * x[0]) + b * (a * x[0]);
+    y[4] = x[0] * sqr(x[1]) - x[1] * sqr(x[0]);
+    y[5] = x[0] * x[1] - x[0] * x[2];
+  });
+  for (std::size_t i = 0; i < 6; ++i) {
+    const Node& node = f.nodes()[static_cast<std::size_t>(f.outputNodes()[i])];
+    EXPECT_EQ(node.op == Op::constant, i < 3) << i;
   }
 }
 

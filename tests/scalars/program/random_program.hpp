@@ -45,6 +45,12 @@ class RandomProgram {
     return std::move(*this);
   }
 
+  /// Products of the same factors are subtracted from each other, or added.
+  RandomProgram withProducts() && {
+    withProducts_ = true;
+    return std::move(*this);
+  }
+
   /// The last nodes of so many operations as outputs, or all nodes.
   Program operator()(int operations, int outputs) {
     for (const Interval& c : {Interval(0.0), Interval(1.0), Interval(-1.0), Interval(2.0), Interval(-0.25),
@@ -79,7 +85,9 @@ class RandomProgram {
       case 1:
         return keepIfModerate(u - v, [&] { return recorder_.sub(a, b); });
       case 2:
+        return keepIfModerate(-u, [&] { return recorder_.neg(a); });
       case 3:
+        if (withProducts_ && engine_() % 2 == 0) return keepProducts(a, b, pick());
         return keepIfModerate(-u, [&] { return recorder_.neg(a); });
       case 4:
       case 5:
@@ -126,6 +134,31 @@ class RandomProgram {
         return keep(sine + 1, std::cos(u));
       }
     }
+  }
+
+  /// The same factors in two orders, with the same sign or not, and what they leave.
+  void keepProducts(int a, int b, int c) {
+    const double u = value_[static_cast<std::size_t>(a)], v = value_[static_cast<std::size_t>(b)],
+                 w = value_[static_cast<std::size_t>(c)];
+    if (std::abs(u * v * w) > 50 || std::abs(v * w) > 50 || std::abs(u * w) > 50) return;
+    const auto product = [&](int x, int y, double value) {
+      const int node = recorder_.mul(x, y);
+      keep(node, value);
+      return node;
+    };
+    const int first = product(a, product(b, c, v * w), u * v * w);
+    const bool isNegative = engine_() % 2 == 0;
+    int factor = b;
+    if (isNegative) {
+      factor = recorder_.neg(b);
+      keep(factor, -v);
+    }
+    const double value = isNegative ? -(u * v * w) : u * v * w;
+    const int second = product(product(c, a, u * w), factor, value);
+    if (isNegative)
+      keep(recorder_.add(first, second), 0);
+    else
+      keep(recorder_.sub(first, second), 0);
   }
 
   template <class Operation>
@@ -184,7 +217,7 @@ class RandomProgram {
     return values;
   }
 
-  bool withSolutions_ = false;
+  bool withSolutions_ = false, withProducts_ = false;
   std::mt19937_64 engine_;
   Point point_;
   Recorder recorder_;
