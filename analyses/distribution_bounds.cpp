@@ -20,6 +20,7 @@ Interval rising(const F& f, const Interval& x) {
 }
 
 const Interval share(0.0, 1.0);
+constexpr double unlimited = std::numeric_limits<double>::infinity();
 
 /// |d/dx log Γ(x)| ≤ |log x| + 1/x (Abramowitz and Stegun 6.3.21: log x - 1/x < ψ(x) < log x), which counts where x is
 /// no single number.
@@ -246,6 +247,62 @@ bool Distribution::isMonotone(const Interval& values) const {
       break;
   }
   return false;
+}
+
+/// Of what has no pieces, at its mode: what is truncated has it by as much more as `all` is less than 1.
+Interval Distribution::densest(const Member& member) const {
+  const Interval &first = member.first, &second = member.second, one(1.0), anything(0.0, unlimited);
+  const Interval span = Interval(support_.upper()) - Interval(support_.lower());
+  const Interval ofNormal = one / (second * sqrt(2.0 * pi()));
+  switch (shape_) {
+    case Shape::uniform:
+      return one / span;
+    case Shape::triangular:
+      return 2.0 / span;
+    case Shape::normal:
+      return ofNormal / member.all;
+    case Shape::lognormal:  // of exp(z): φ(z) exp(-z), most at z = mean - deviation²
+      return ofNormal * exp(0.5 * sqr(second) - first) / member.all;
+    case Shape::exponential:
+      return one / second / member.all;
+    case Shape::weibull:  // v^(k-1) exp(-v^k) <= 1: below v = 1 both are, beyond it v^k exp(-v^k) <= 1/e
+      return first.lower() >= 1 ? first / second / member.all : anything;
+    case Shape::gamma:
+    case Shape::beta: {
+      const Interval a = first - one, b = second - one, both = a + b;
+      const bool isBeta = shape_ == Shape::beta;
+      if (a.lower() < 0 || (isBeta && b.lower() < 0)) return anything;
+      const Interval scale = isBeta ? span : second * member.all;
+      if (a.lower() == 0 || (isBeta && b.lower() == 0)) return exp(-member.logFactor) / scale;  // all powers are <= 1
+      const Interval power = isBeta ? a * log(a / both) + b * log(b / both) : a * log(a) - a;
+      return exp(power - member.logFactor) / scale;
+    }
+    case Shape::histogram:
+    case Shape::empirical:
+    case Shape::evidence:
+      break;
+  }
+  return anything;
+}
+
+Distribution::DensityBound Distribution::densityBound() const {
+  if (!isPrecise() || !focal_.empty()) return {unlimited, unlimited};
+  if (!hasPieces()) {  // it rises to its mode and falls from there
+    const double most = densest(least_.front()).upper();
+    return {most, 2 * most};
+  }
+  if (hasSingleValues()) return {unlimited, unlimited};
+  double most = 0;
+  Interval variation(0.0), density(0.0), before(0.0), from(support_.lower());
+  for (const Piece& piece : pieces_) {
+    const Interval end(piece.end);
+    if (piece.end == from.lower()) continue;  // without a weight
+    const Interval next = abs(piece.below - before) / (end - from);
+    variation = variation + abs(next - density);
+    most = std::max(most, next.upper());
+    before = piece.below, from = end, density = next;
+  }
+  return {most, (variation + density).upper()};
 }
 
 }  // namespace gamut

@@ -72,6 +72,13 @@ class Distribution {
   /// function bends to one side there. Of what is not precise: not inside its support.
   bool isMonotone(const Interval& values) const;
 
+  /// Of its density: an upper bound, and one of how much it rises and falls in all, from zero and back to zero.
+  /// Infinite where there is none, or where more than one distribution is possible.
+  struct DensityBound {
+    double most, variation;
+  };
+  DensityBound densityBound() const;
+
   const Interval& support() const { return support_; }
   /// The probability that truncation to the support cut off; 0 of what is bounded by itself.
   double cutOff() const;
@@ -117,6 +124,7 @@ class Distribution {
   };
   Interval boundBelow(const Interval& value, const Member& member) const;
   Interval boundOf(const Interval& value, const Member& member) const;
+  Interval densest(const Member& member) const;
   std::vector<Member> members(bool low) const;
   Interval believedBelow(const Interval& value) const;
 

@@ -16,8 +16,9 @@ const double Work::unitsOf[kinds] = {
     1.0,    // transformed
     10.0,   // bin
     40.0,   // focalElement
-    4e4,    // preciseEdge
-    4.8e5,  // vagueEdge
+    450,    // quickEdge
+    2e4,    // preciseEdge
+    2.4e5,  // vagueEdge
     6.0,    // momentTerm
     0.35,   // evaluatedTerm
     20.0,   // sampledOperation

@@ -24,8 +24,9 @@ class Work {
     transformed,       ///< of distributions: a number in each level of a transform
     bin,               ///< of distributions: a bin of a quantity, or ten steps of the output
     focalElement,      ///< of distributions that are not known exactly: an element, or a box of a copula
-    preciseEdge,       ///< of a distribution: its function at an edge of a bin
-    vagueEdge,         ///< the same where the distribution is not known exactly
+    quickEdge,         ///< of a distribution whose function is a short formula: that at an edge of a bin
+    preciseEdge,       ///< of any other one, or of the first kind where it is not known exactly
+    vagueEdge,         ///< of any other one that is not known exactly
     momentTerm,        ///< of Sobol' indices: a pair of terms and a symbol
     evaluatedTerm,     ///< of a surrogate: a term at a sample
     sampledOperation,  ///< of samples: an operation of the equations or outputs, of a pack

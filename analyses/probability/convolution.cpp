@@ -1,4 +1,4 @@
-// Both sides of a part are transformed at once, as real and imaginary part.
+// Two are transformed at once, as real and imaginary part: both sides of a part, or two parts whose sides are one.
 #include "analyses/probability/convolution.hpp"
 
 #include <algorithm>
@@ -76,7 +76,8 @@ const Transform& transformOf(std::size_t size) {
   return known.try_emplace(size, size).first->second;
 }
 
-void multiply(Numbers& into, std::size_t i, double re, double im) {
+void multiply(Numbers& into, std::size_t i, const std::pair<double, double>& by) {
+  const auto [re, im] = by;
   const double real = into.re[i] * re - into.im[i] * im;
   into.im[i] = into.re[i] * im + into.im[i] * re;
   into.re[i] = real;
@@ -89,7 +90,7 @@ void multiply(Numbers& into, std::size_t i, double re, double im) {
 /// those of both sides together have a 2-norm of √(2n) at most; so the product of k is off by k √(2n) (ε + 3 u), for
 /// both sides twice that, and the sum, by the inverse transform, by (3 k + 2) (ε + 3 u) in the 2-norm, and √n times
 /// that in the 1-norm.
-GridSum sumOf(const std::vector<GridBounds>& parts) {
+GridSum sumOf(const std::vector<GridBounds>& parts, const std::vector<GridMasses>& exact) {
   GridSum result;
   std::size_t length = 1;
   for (const GridBounds& part : parts) {
@@ -97,7 +98,12 @@ GridSum sumOf(const std::vector<GridBounds>& parts) {
     result.sum.above.first += part.above.first;
     length += std::max(part.below.mass.size(), part.above.mass.size()) - 1;
   }
-  if (parts.size() == 1) return {parts.front(), 0};
+  for (const GridMasses& part : exact) {
+    result.sum.below.first += part.first;
+    result.sum.above.first += part.first;
+    length += part.mass.size() - 1;
+  }
+  if (parts.size() == 1 && exact.empty()) return {parts.front(), 0};
   std::size_t size = 1;
   int t = 0;
   while (size < length) size *= 2, ++t;
@@ -106,16 +112,33 @@ GridSum sumOf(const std::vector<GridBounds>& parts) {
     return Numbers{std::vector<double>(size, value), std::vector<double>(size, 0.0)};
   };
   Numbers below = ofSize(1.0), above = ofSize(1.0), x = ofSize(0.0);
-  for (const GridBounds& part : parts) {
+  const auto transformed = [&](const std::vector<double>& re, const std::vector<double>& im) {
     x = ofSize(0.0);
-    std::ranges::copy(part.below.mass, x.re.begin());
-    std::ranges::copy(part.above.mass, x.im.begin());
+    std::ranges::copy(re, x.re.begin());
+    std::ranges::copy(im, x.im.begin());
     transform(x);
+  };
+  const auto realAt = [&](std::size_t i, std::size_t j) {
+    return std::pair(0.5 * (x.re[i] + x.re[j]), 0.5 * (x.im[i] - x.im[j]));
+  };
+  const auto imaginaryAt = [&](std::size_t i, std::size_t j) {
+    return std::pair(0.5 * (x.im[i] + x.im[j]), 0.5 * (x.re[j] - x.re[i]));
+  };
+  for (const GridBounds& part : parts) {
+    transformed(part.below.mass, part.above.mass);
     for (std::size_t i = 0; i < size; ++i) {
-      const std::size_t j = (size - i) % size;
-      multiply(below, i, 0.5 * (x.re[i] + x.re[j]), 0.5 * (x.im[i] - x.im[j]));
-      multiply(above, i, 0.5 * (x.im[i] + x.im[j]), 0.5 * (x.re[j] - x.re[i]));
+      multiply(below, i, realAt(i, (size - i) % size));
+      multiply(above, i, imaginaryAt(i, (size - i) % size));
     }
+  }
+  static const std::vector<double> one{1.0};  // the number zero, for certain
+  for (std::size_t k = 0; k < exact.size(); k += 2) {
+    transformed(exact[k].mass, k + 1 < exact.size() ? exact[k + 1].mass : one);
+    for (std::size_t i = 0; i < size; ++i)
+      for (Numbers* side : {&below, &above}) {
+        multiply(*side, i, realAt(i, (size - i) % size));
+        multiply(*side, i, imaginaryAt(i, (size - i) % size));
+      }
   }
   // The inverse transform of z is the conjugate of that of z's, divided by n.
   for (std::size_t i = 0; i < size; ++i) {
@@ -128,7 +151,7 @@ GridSum sumOf(const std::vector<GridBounds>& parts) {
     result.sum.below.mass.push_back(scale * x.re[i]);
     result.sum.above.mass.push_back(-scale * x.im[i]);
   }
-  const double k = static_cast<double>(parts.size());
+  const double k = static_cast<double>(parts.size() + exact.size() + exact.size() % 2);
   result.error = std::sqrt(static_cast<double>(size)) * (3 * k + 2) *
                  (t * (transform.rootError() + 6 * bounds::unit) + 6 * bounds::unit) * (1 + 1e-3);
   return result;

@@ -16,11 +16,13 @@ struct GridBounds {
   GridMasses below, above;
 };
 
-/// Of the sum, both sides; masses of every part are at most 1 in all. By Σ|error| <= `error` on each side.
+/// Of the sum, both sides. The probability that it is above (below) a number is off by `error` at most on each side, of
+/// which `shift` is not rounding.
 struct GridSum {
   GridBounds sum;
-  double error = 0;
+  double error = 0, shift = 0;
 };
-GridSum sumOf(const std::vector<GridBounds>& parts);
+/// Masses of every part are at most 1 in all; those of `exact` are of both sides. By Σ|error| <= `error` on each side.
+GridSum sumOf(const std::vector<GridBounds>& parts, const std::vector<GridMasses>& exact = {});
 
 }  // namespace gamut

@@ -8,6 +8,7 @@
 #include "analyses/probability/binned_polynomial.hpp"
 #include "analyses/probability/dependent_sum.hpp"
 #include "analyses/probability/quantity_masses.hpp"
+#include "analyses/probability/swapped.hpp"
 #include "analyses/work.hpp"
 #include "scalars/elementary/rounding.hpp"
 #include "scalars/index.hpp"
@@ -105,6 +106,10 @@ JointMasses::JointMasses(int symbols, const std::vector<FlowSymbol>& quantities,
     else {
       BinMasses known = massesBetween(below);
       group.mass = std::move(known.mass);
+      group.error = known.error;
+      group.lean = leansOf(quantities[q], distribution, group.mass);
+      const auto [most, variation] = distribution.densityBound();
+      group.density = {most * quantities[q].half * bounds::up, variation * quantities[q].half * bounds::up};
       error_ += known.error;
     }
     groups_.push_back(std::move(group));
@@ -306,14 +311,57 @@ double JointMasses::roundings() const {
 
 // ---- Sums -----------------------------------------------------------------------------------------------------------
 
+/// Numbers below and above those of a polynomial on sets of bins.
+class JointMasses::Sides {
+ public:
+  Sides(const BinnedPolynomial& own, const Interval& rest, double step)
+      : down_(subDown(rest.lower(), own.error())), up_(addUp(rest.upper(), own.error())), step_(step) {
+    const auto [least, greatest] = own.all();
+    below_.first = floorOf(least), above_.first = ceilOf(least);
+    below_.mass.assign(static_cast<std::size_t>(floorOf(greatest) - below_.first + 1), 0.0);
+    above_.mass.assign(static_cast<std::size_t>(ceilOf(greatest) - above_.first + 1), 0.0);
+  }
+
+  void put(const std::pair<double, double>& bound, double mass) {
+    below_.mass[static_cast<std::size_t>(floorOf(bound.first) - below_.first)] += mass;
+    above_.mass[static_cast<std::size_t>(ceilOf(bound.second) - above_.first)] += mass;
+  }
+
+  GridBounds found(double elements) {
+    Work::count(Work::bin, elements + 0.1 * static_cast<double>(below_.mass.size() + above_.mass.size()));
+    return {std::move(below_), std::move(above_)};
+  }
+
+ private:
+  long floorOf(double x) const { return static_cast<long>(std::floor(addDown(x, down_) / step_)); }
+  long ceilOf(double x) const { return static_cast<long>(std::ceil(addUp(x, up_) / step_)); }
+
+  double down_, up_, step_;
+  GridMasses below_, above_;
+};
+
+/// Of a group of bins, each cut into so many of even density.
+GridBounds JointMasses::boundsOfBins(const Part& part, std::size_t group, const std::vector<std::vector<double>>& f,
+                                     const Interval& rest, double step, long finer) const {
+  const Group& g = groups_[group];
+  const std::size_t symbol = at(g.symbols[0]);
+  const long first = part.first[symbol], count = part.count[symbol];
+  const BinnedPolynomial own(f[symbol], count * finer);
+  Sides sides(own, rest, step);
+  for (long i = 0; i < count * finer; ++i)
+    sides.put(own.over(i), g.mass[static_cast<std::size_t>(first + i / finer)] / static_cast<double>(finer));
+  return sides.found(static_cast<double>(count * finer));
+}
+
 GridSum JointMasses::boundsOf(const Part& part, std::size_t group, const std::vector<std::vector<double>>& f,
                               const std::vector<MixedTerm>& terms, const Interval& rest, double step) const {
   const Group& g = groups_[group];
+  if (isOfBins(g)) return {boundsOfBins(part, group, f, rest, step, 1), 0};
   CopulaMasses::Function function;
   for (const int l : g.symbols) {
     function.f.emplace_back(f[at(l)], part.count[at(l)]);
     function.first.push_back(part.first[at(l)]);
-    if (!isOfBins(g)) function.f.back().makeTables();
+    function.f.back().makeTables();
   }
   if (g.copula) {
     for (MixedTerm term : terms) {
@@ -325,30 +373,79 @@ GridSum JointMasses::boundsOf(const Part& part, std::size_t group, const std::ve
     return g.copula->sumOf(boxesOf(part, group), function, rest, step);
   }
   const BinnedPolynomial& own = function.f.front();
-  const double down = subDown(rest.lower(), own.error()), up = addUp(rest.upper(), own.error());
-  const auto [least, greatest] = own.all();
-  const auto floorOf = [&](double x) { return static_cast<long>(std::floor(addDown(x, down) / step)); };
-  const auto ceilOf = [&](double x) { return static_cast<long>(std::ceil(addUp(x, up) / step)); };
-  GridMasses below{floorOf(least), {}}, above{ceilOf(least), {}};
-  below.mass.assign(static_cast<std::size_t>(floorOf(greatest) - below.first + 1), 0.0);
-  above.mass.assign(static_cast<std::size_t>(ceilOf(greatest) - above.first + 1), 0.0);
-  const auto put = [&](const std::pair<double, double>& bound, double mass) {
-    below.mass[static_cast<std::size_t>(floorOf(bound.first) - below.first)] += mass;
-    above.mass[static_cast<std::size_t>(ceilOf(bound.second) - above.first)] += mass;
-  };
-  const long first = function.first.front(), count = part.count[at(g.symbols[0])];
-  Work::count(Work::bin, static_cast<double>(isOfBins(g) ? static_cast<std::size_t>(count) : g.mass.size()) +
-                             0.1 * static_cast<double>(below.mass.size() + above.mass.size()));
-  if (isOfBins(g))
-    for (long i = 0; i < count; ++i) put(own.over(i), g.mass[static_cast<std::size_t>(first + i)]);
-  else
-    forEach(part, group, [&](std::uint32_t i) { put(own.over(g.from[i] - first, g.until[i] - first), g.mass[i]); });
-  return {{std::move(below), std::move(above)}, 0};
+  const long first = function.first.front();
+  Sides sides(own, rest, step);
+  forEach(part, group, [&](std::uint32_t i) { sides.put(own.over(g.from[i] - first, g.until[i] - first), g.mass[i]); });
+  return {sides.found(static_cast<double>(g.mass.size())), 0};
+}
+
+double JointMasses::stepsApart(const std::vector<std::vector<double>>& f) const {
+  constexpr double kept = 2;
+  double bounded = 0, swappable = 0, smooth = 0;
+  for (std::size_t l = 0; l < f.size(); ++l) {
+    const auto varies = [](double c) { return c != 0; };
+    if (groupOf_[l] < 0 || std::ranges::none_of(f[l], varies)) continue;
+    const Group& group = groupOf(static_cast<int>(l));
+    if (!isOfBins(group) || !isAlone(static_cast<int>(l))) {
+      ++bounded;
+      continue;
+    }
+    ++swappable;
+    if (isSteep(f[l]) && std::isfinite(group.density.variation)) ++smooth;
+  }
+  return bounded + (smooth < kept ? swappable : kept) + 1;
+}
+
+/// Takes known distributions of one symbol each from the blocks that vary, if that brings the sides closer; `rest` goes
+/// to one that is kept. Probabilities of parts count as they are: what is said of a sum on a part is said of it over
+/// its probability, times that of all.
+void JointMasses::swap(const Part& part, const std::vector<std::vector<double>>& f, Interval& rest, double step,
+                       std::vector<const std::vector<std::size_t>*>& varying, std::vector<GridBounds>& kept,
+                       std::vector<GridMasses>& swapped, double& shift) const {
+  std::vector<std::size_t> own;  // among those that vary
+  std::vector<Summand> summands;
+  std::vector<Swapped> found;
+  for (std::size_t i = 0; i < varying.size(); ++i) {
+    if (varying[i]->size() > 1 || !isOfBins(groups_[varying[i]->front()])) continue;
+    const Group& group = groups_[varying[i]->front()];
+    const std::size_t symbol = at(group.symbols[0]);
+    const long first = part.first[symbol], count = part.count[symbol];
+    const double half = static_cast<double>(count) / bins;
+    own.push_back(i);
+    summands.push_back({f[symbol],
+                        group.mass.data() + first,
+                        group.lean.data() + first,
+                        count,
+                        group.error,
+                        {group.density.most * half, group.density.variation * half}});
+    found.emplace_back(summands.back(), step);
+    Work::count(Work::bin, static_cast<double>(count));
+  }
+  double all = 1;
+  for (std::size_t g = 0; g < groups_.size(); ++g) all *= std::min(1.0, massOf(part, g) + error_ + roundings());
+  const std::optional<Unswapped> best = unswapped(found, step, all * bounds::up);
+  if (!best) return;
+  shift = best->off;
+  std::vector<char> isTaken(varying.size(), 0);
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    isTaken[own[i]] = 1;
+    if (i != best->first && i != best->second) {
+      swapped.push_back(onGrid(summands[i], step));
+      continue;
+    }
+    constexpr long most = 64;
+    long finer = 1;
+    while (finer < most && 4 * found[i].bin() > step * static_cast<double>(finer)) finer *= 2;
+    kept.push_back(boundsOfBins(part, varying[own[i]]->front(), f, rest, step, finer));
+    rest = Interval(0.0);
+  }
+  std::size_t i = 0;
+  std::erase_if(varying, [&](const auto&) { return isTaken[i++] != 0; });
 }
 
 /// Probabilities of the groups that are off by e in all make those of sums be off by no more than Σ e.
 GridSum JointMasses::sumOf(const Part& part, const std::vector<std::vector<double>>& f,
-                           const std::vector<MixedTerm>& terms, Interval rest, double step) const {
+                           const std::vector<MixedTerm>& terms, Interval rest, double step, bool maySwap) const {
   const auto sizeOf = [&](int symbol) {
     double size = 0;
     for (const double c : f[at(symbol)]) size += std::fabs(c);
@@ -376,6 +473,9 @@ GridSum JointMasses::sumOf(const Part& part, const std::vector<std::vector<doubl
   rest = Interval(subDown(rest.lower(), beside), addUp(rest.upper(), beside));
   double error = error_;
   std::vector<GridBounds> parts;
+  std::vector<GridMasses> swapped;
+  double shift = 0;
+  if (maySwap) swap(part, f, rest, step, varying, parts, swapped, shift);
   for (const std::vector<std::size_t>* block : varying) {
     std::vector<GridBounds> together;
     for (const std::size_t g : *block) {
@@ -395,10 +495,11 @@ GridSum JointMasses::sumOf(const Part& part, const std::vector<std::vector<doubl
   if (parts.empty())
     parts.push_back({{static_cast<long>(std::floor(rest.lower() / step)), {1.0}},
                      {static_cast<long>(std::ceil(rest.upper() / step)), {1.0}}});
-  GridSum result = gamut::sumOf(parts);
+  GridSum result = gamut::sumOf(parts, swapped);
   for (GridMasses* side : {&result.sum.below, &result.sum.above})
     for (double& mass : side->mass) mass *= scale;
-  result.error += roundings() + error;
+  result.error += roundings() + error + shift;
+  result.shift = shift;
   return result;
 }
 

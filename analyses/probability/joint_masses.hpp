@@ -62,9 +62,13 @@ class JointMasses {
   int copulaOf(int symbol) const;
 
   /// Of Σ f_l(η_l) + terms + rest, as multiples of a step, `error()` included in its error: `f` [symbol][power], powers
-  /// above 0, of the part's own η; every term of symbols of one copula alone.
+  /// above 0, of the part's own η; every term of symbols of one copula alone. Of independent symbols all
+  /// but two are replaced by numbers that are neither below nor above them (swapped.hpp), if that brings both sides
+  /// closer and is allowed: it says nothing of probabilities as small as what it shifts them by.
   GridSum sumOf(const Part& part, const std::vector<std::vector<double>>& f, const std::vector<MixedTerm>& terms,
-                Interval rest, double step) const;
+                Interval rest, double step, bool maySwap = true) const;
+  /// By how many steps both sides will be apart.
+  double stepsApart(const std::vector<std::vector<double>>& f) const;
 
  private:
   struct Group {
@@ -72,6 +76,10 @@ class JointMasses {
     std::vector<double> mass;                // of the bins, or of elements
     std::vector<std::uint16_t> from, until;  // [element]: of bins; none: elements are the bins
     std::optional<CopulaMasses> copula{};    // instead
+    // Of bins: Σ|error| of their masses, how far ξ leans from their middles (leansOf), and the density of ξ.
+    double error = 0;
+    std::vector<double> lean{};
+    Distribution::DensityBound density{};
   };
   void addBox(Group& group, const std::vector<Interval>& below);
   void addEvidence(Group& group, const FlowSymbol& symbol, const Distribution& distribution);
@@ -86,8 +94,15 @@ class JointMasses {
   void forEach(const Part& part, std::size_t group, const Take& take) const;
   std::vector<CopulaMasses::Box> boxesOf(const Part& part, std::size_t group) const;
   double massOf(const Part& part, std::size_t group) const;
+  class Sides;
+  GridBounds boundsOfBins(const Part& part, std::size_t group, const std::vector<std::vector<double>>& f,
+                          const Interval& rest, double step, long finer) const;
   GridSum boundsOf(const Part& part, std::size_t group, const std::vector<std::vector<double>>& f,
                    const std::vector<MixedTerm>& terms, const Interval& rest, double step) const;
+
+  void swap(const Part& part, const std::vector<std::vector<double>>& f, Interval& rest, double step,
+            std::vector<const std::vector<std::size_t>*>& varying, std::vector<GridBounds>& kept,
+            std::vector<GridMasses>& swapped, double& shift) const;
 
   int symbols_;
   std::vector<Group> groups_;

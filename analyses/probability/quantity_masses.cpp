@@ -1,10 +1,12 @@
 #include "analyses/probability/quantity_masses.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "analyses/flow/error_bounds.hpp"
@@ -86,6 +88,18 @@ class Edges {
 
 }  // namespace
 
+namespace {
+
+/// Exponentials and powers take MPFR, series take many terms; of what is not known exactly there are up to 16 of each.
+Work::Kind kindOf(const Distribution& distribution) {
+  const bool isSlow = std::ranges::any_of(std::array<std::string_view, 4>{"beta", "weibull", "gamma", "exponential"},
+                                          [&](std::string_view name) { return distribution.name() == name; });
+  if (distribution.isPrecise()) return isSlow ? Work::preciseEdge : Work::quickEdge;
+  return isSlow ? Work::vagueEdge : Work::preciseEdge;
+}
+
+}  // namespace
+
 /// Those of the last distributions are kept: requirements, probabilities and indices ask for the same, and many
 /// quantities may be alike. What is kept, by this thread, counts as work once more, so that no thread counts otherwise.
 const std::vector<Interval>& edgesOf(const FlowSymbol& symbol, const Distribution& distribution) {
@@ -104,8 +118,7 @@ const std::vector<Interval>& edgesOf(const FlowSymbol& symbol, const Distributio
     const Edges edges(symbol, distribution);
     place = known.emplace(std::move(key), Known{edges.rising(), edges.found()}).first;
   }
-  if (distribution.name() != "uniform")
-    Work::count(distribution.isPrecise() ? Work::preciseEdge : Work::vagueEdge, place->second.found);
+  Work::count(kindOf(distribution), place->second.found);
   return place->second.edges;
 }
 
@@ -124,27 +137,36 @@ BinMasses massesBetween(const std::vector<Interval>& edges) {
   return found;
 }
 
+/// Any density: half the bin's width off its middle. One that rises (or falls) over the bin and its neighbours: it lies
+/// between the means of these, a and b, so that |∫ (ξ - middle) (d - (a+b)/2) dξ| <= (width²/4) |b - a|/2.
+std::vector<double> leansOf(const FlowSymbol& symbol, const Distribution& distribution,
+                            const std::vector<double>& mass) {
+  const auto count = static_cast<int>(mass.size());
+  const double width = 2.0 / count;
+  const auto valueAt = [&](double xi) { return Interval(symbol.centre) + Interval(symbol.half) * Interval(xi); };
+  std::vector<double> leans;
+  for (int i = 0; i < count; ++i) {
+    double lean = mass[at(i)];
+    if (i > 0 && i + 1 < count &&
+        distribution.isMonotone(hull(valueAt(-1 + (i - 1) * width), valueAt(-1 + (i + 2) * width))))
+      lean = std::min(lean, 0.25 * std::fabs(mass[at(i + 1)] - mass[at(i - 1)]));
+    leans.push_back(lean);
+  }
+  return leans;
+}
+
 QuantityMasses::QuantityMasses(const Surrogate& surrogate, const std::vector<const Uncertain*>& uncertain)
     : symbols_(at(surrogate.symbols)) {
-  constexpr double width = 2.0 / bins;
   for (std::size_t q = 0; q < uncertain.size(); ++q) {
     const FlowSymbol& of = surrogate.quantities[q];
     if (of.symbol < 0) continue;
     const Distribution& distribution = uncertain[q]->distribution;
-    const auto valueAt = [&](double xi) { return Interval(of.centre) + Interval(of.half) * Interval(xi); };
     Symbol& symbol = symbols_[at(of.symbol)];
     BinMasses known = massesBetween(edgesOf(of, distribution));
     symbol.mass = std::move(known.mass);
     symbol.error = known.error;
-    // Any density: half the bin's width off its middle. One that rises (or falls) over the bin and its neighbours: it
-    // lies between the means of these, a and b, so that |∫ (ξ - middle) (d - (a+b)/2) dξ| <= (width²/4) |b - a|/2.
-    for (int i = 0; i < bins; ++i) {
-      double lean = 0.5 * width * symbol.mass[at(i)];
-      if (i > 0 && i + 1 < bins &&
-          distribution.isMonotone(hull(valueAt(-1 + (i - 1) * width), valueAt(-1 + (i + 2) * width))))
-        lean = std::min(lean, width / 8 * std::fabs(symbol.mass[at(i + 1)] - symbol.mass[at(i - 1)]));
-      symbol.lean.push_back(lean);
-    }
+    symbol.lean = leansOf(of, distribution, symbol.mass);
+    for (double& lean : symbol.lean) lean /= bins;
   }
 }
 

@@ -21,7 +21,7 @@ namespace {
 using detail::at;
 
 constexpr std::size_t mostWaiting = 2500;
-constexpr double finest = 0x1p18, coarsest = 0x1p8;  // steps from the least to the greatest of a sum
+constexpr double finest = 0x1p19, coarsest = 0x1p8;  // steps from the least to the greatest of a sum
 
 /// A part of the joint distribution, what is known of where it lies, and of its probability: so much is met, and so
 /// much violated, at least.
@@ -201,15 +201,11 @@ class Weighing {
   /// Steps so small that they matter less than what is asked for, and than what is not known anyway.
   double stepOf(const CellSum& sum, double band) const {
     const double size = sizeOf(sum);
-    double square = 0, count = 1;
-    for (const std::vector<double>& f : sum.f) {
-      double own = 0;
-      for (std::size_t n = 1; n < f.size(); ++n) own += f[n] * f[n] / static_cast<double>(2 * n + 1);
-      square += own;
-      if (own > 0) ++count;
-    }
-    constexpr double share = 0.2, ofBand = 0.25;
-    const double wanted = std::max(share * gap_ * 2.5 * std::sqrt(square), ofBand * band) / count;
+    double square = 0;
+    for (const std::vector<double>& f : sum.f)
+      for (std::size_t n = 1; n < f.size(); ++n) square += f[n] * f[n] / static_cast<double>(2 * n + 1);
+    constexpr double share = 0.1, ofBand = 0.25;
+    const double wanted = std::max(share * gap_ * 2.5 * std::sqrt(square), ofBand * band) / masses_.stepsApart(sum.f);
     const double steps = std::clamp(2 * size / wanted, coarsest, finest);
     return std::ldexp(1.0, std::ilogb(2 * size / steps));
   }
@@ -236,7 +232,19 @@ class Weighing {
     if (!(size > bounds::tiny) || far > 0x1p40 * size)
       return {from > size ? certain : 0, to < -size ? certain : 0, to > size ? 0.0 : 1.0};
     const double step = stepOf(sum, std::max(rest, to - from));
-    const GridSum found = masses_.sumOf(part, sum.f, {}, Interval(std::min(from, to), std::max(from, to)), step);
+    const Interval constant(std::min(from, to), std::max(from, to));
+    const GridSum found = masses_.sumOf(part, sum.f, {}, constant, step);
+    Sides sides = sidesOf(found);
+    constexpr double little = 100;  // shifts from what is certain
+    if (found.shift > 0 && std::min(sides.mostBelow, certain - sides.below) < little * found.shift) {
+      const Sides other = sidesOf(masses_.sumOf(part, sum.f, {}, constant, step, false));
+      sides = {std::max(sides.above, other.above), std::max(sides.below, other.below),
+               std::min(sides.mostBelow, other.mostBelow)};
+    }
+    return sides;
+  }
+
+  Sides sidesOf(const GridSum& found) const {
     Sides sides{0, 0, 0};
     for (std::size_t i = 0; i < found.sum.below.mass.size(); ++i) {
       const long value = found.sum.below.first + static_cast<long>(i);

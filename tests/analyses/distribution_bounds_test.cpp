@@ -4,6 +4,8 @@
 #include <boost/math/special_functions/beta.hpp>
 #include <boost/math/special_functions/erf.hpp>
 #include <boost/math/special_functions/gamma.hpp>
+#include <cmath>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -115,6 +117,42 @@ TEST(DistributionBounds, HoldWhereAValueHasAProbabilityOfItsOwn) {
   EXPECT_FALSE(d.isMonotone({0, 1}));  // P jumps at both ends
   EXPECT_FALSE(d.isMonotone({0, 0.5}));
   EXPECT_TRUE(Distribution::histogram({0, 0, 1}, {0, 1}).isMonotone({0, 1}));
+}
+
+TEST(DistributionBounds, KnowHowDenseAndHowUnevenItIs) {
+  std::mt19937_64 engine(11);
+  for (int round = 0; round < 40; ++round) {
+    std::vector<Distribution> all;
+    for (const Case& one : drawn(engine)) all.push_back(one.distribution);
+    all.push_back(Distribution::histogram({0, 0.3, 0.4, 0.4, 1}, {0.2, 0.5, 0, 0.3}));
+    for (const Distribution& distribution : all) {
+      constexpr int parts = 500;
+      const double lower = distribution.support().lower(), span = distribution.support().upper() - lower;
+      // Means of the density over parts are no more, and vary by no more, than itself; the errors are those of F.
+      double most = 0, varies = 0, before = 0, last = 0, error = 0;
+      for (int i = 1; i <= parts; ++i) {
+        const Interval below = distribution.enclosedBelow(lower + i * (span / parts));
+        const double density = (midpoint(below) - last) / (span / parts);
+        error = std::max(error, 2 * width(below) / (span / parts));
+        most = std::max(most, density);
+        varies += std::fabs(density - before);
+        before = density, last = midpoint(below);
+      }
+      varies += before;
+      const Distribution::DensityBound known = distribution.densityBound();
+      EXPECT_GE(known.most, most - error - 1e-9 / span) << distribution.name();
+      EXPECT_GE(known.variation, varies - parts * (error + 1e-9 / span)) << distribution.name();
+      if (distribution.name() == "uniform" || distribution.name() == "triangular" ||
+          distribution.name() == "histogram") {
+        EXPECT_LT(known.most, 1.1 * most);
+        EXPECT_LT(known.variation, 1.1 * varies);
+      }
+    }
+  }
+  constexpr double unlimited = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(Distribution::beta({0, 1}, 0.5, 2.0).densityBound().most, unlimited);
+  EXPECT_EQ(Distribution::histogram({0, 0.5, 0.5, 1}, {1, 1, 1}).densityBound().variation, unlimited);
+  EXPECT_EQ(Distribution::normal({0, 1}, Interval(0.4, 0.6), 0.2).densityBound().most, unlimited);
 }
 
 TEST(DistributionBounds, HoldOverIntervals) {

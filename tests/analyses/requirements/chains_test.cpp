@@ -72,7 +72,7 @@ double sumOfUniform(int n, double x) {
 }
 
 TEST(ToleranceChain, IsThatOfClosedFormsWhateverTheNumberOfQuantities) {
-  for (const int n : {1, 3, 10, 30})
+  for (const int n : {1, 3, 10, 12, 30})
     for (const double place : {-3.5, -1.0, 0.0, 2.0, 3.5})  // standard deviations from the middle
       for (const double unit : {1e-9, 1.0, 1e6}) {
         const double half = 0.1 * unit, middle = 10 * unit * n;
@@ -87,7 +87,7 @@ TEST(ToleranceChain, IsThatOfClosedFormsWhateverTheNumberOfQuantities) {
         const double exact = sumOfUniform(n, 0.5 * n + (limit - middle) / (2 * half));
         EXPECT_LE(found.probability.lower(), exact + 1e-12) << n << ' ' << place;  // the reference's own rounding
         EXPECT_GE(found.probability.upper(), exact - 1e-12) << n << ' ' << place;
-        EXPECT_LT(width(found.probability), n < 30 ? 0.002 : 0.004) << n << ' ' << place;
+        EXPECT_LT(width(found.probability), n < 30 ? 0.002 : 0.001) << n << ' ' << place;
         const double possible = place >= 0 ? 1 - (limit - middle) / (n * half) : 1.0;
         EXPECT_LE(found.violationPossibility.lower(), possible + 1e-9) << n << ' ' << place;
         EXPECT_GE(found.violationPossibility.upper(), possible - 1e-9) << n << ' ' << place;
@@ -109,8 +109,30 @@ TEST(ToleranceChain, IsOfNormalQuantities) {
     const Interval found = chain.examine().probability;
     EXPECT_LE(found.lower(), exact + cut);
     EXPECT_GE(found.upper(), exact - cut);
-    EXPECT_LT(width(found), 0.01);
+    EXPECT_LT(width(found), 0.001);
   }
+}
+
+TEST(ToleranceChain, IsHalfAtTheMiddleOfWhatIsSymmetric) {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  for (const int n : {3, 5, 10, 12, 20, 30, 50})
+    for (const double dominating : {1.0, 30.0}) {  // one that is so much wider than the others
+      std::vector<Uncertain> quantities;
+      std::vector<double> factors;
+      for (int q = 0; q < n; ++q) {
+        const double half = (0.5 + uniform(random)) * (q == 1 ? dominating : 1.0);
+        const Interval range(-half, half);
+        quantities.push_back(quantityOf(q % 3 == 0   ? Distribution::uniform(range)
+                                        : q % 3 == 1 ? Distribution::normal(range, 0.0, half / 4)
+                                                     : Distribution::triangular(range, 0.0)));
+        factors.push_back(uniform(random) < 0.5 ? 1.0 : -1.0);
+      }
+      const Chain chain(quantities, 1, [&](const auto& x, auto& y) { y[0] = sumOf(x, factors); });
+      const Interval found = chain.examine().probability;
+      EXPECT_TRUE(contains(found, 0.5)) << n << ' ' << dominating;
+      EXPECT_LT(width(found), 0.001) << n << ' ' << dominating;
+    }
 }
 
 TEST(ToleranceChain, BendsAsASineDoes) {
@@ -126,7 +148,7 @@ TEST(ToleranceChain, BendsAsASineDoes) {
     const double exact = sumOfUniform(n, 0.5 * n + limit / 0.2);  // the sine rises there
     EXPECT_LE(found.probability.lower(), exact + 1e-9);
     EXPECT_GE(found.probability.upper(), exact - 1e-9);
-    EXPECT_LT(width(found.probability), 0.003);
+    EXPECT_LT(width(found.probability), 0.001);
     EXPECT_NEAR(found.violationPossibility.upper(), 1 - limit / (0.1 * n), 1e-3);
     EXPECT_LT(width(found.violationPossibility), 0.003);
   }
