@@ -210,12 +210,17 @@ class RequirementReader {
     if (first == sides.end()) return;
     const Dimension dimension = dimensionOf(first->expression);
     for (Side& side : sides) {
-      if (dimensionOf(side.expression) == dimension || side.isZero) continue;
+      const Dimension own = dimensionOf(side.expression);
+      if (own == dimension || side.isZero) continue;
+      if (isAlikeButForRadians(own, dimension)) {
+        side.quantity = inParentheses(side.quantity);
+        for (int n = own.angle; n != dimension.angle; n += n < dimension.angle ? 1 : -1)
+          side.quantity += n < dimension.angle ? "*(1 rad)" : "/(1 rad)";
+        continue;
+      }
       if (!isPlainNumber(side))
-        source_.fail(
-            node,
-            fmt::format("'{}' compares {} with {}", text, unitOf(dimension), unitOf(dimensionOf(side.expression))),
-            "quantities of one kind");
+        source_.fail(node, fmt::format("'{}' compares {} with {}", text, unitOf(dimension), unitOf(own)),
+                     "quantities of one kind");
       const bool isOneNumber = side.quantity.find_first_of("+*/^( ") == std::string::npos;
       side.quantity = isOneNumber ? fmt::format("{} {}", side.quantity, unitInFormulas(dimension))
                                   : fmt::format("({})*(1 {})", side.quantity, unitInFormulas(dimension));
@@ -243,7 +248,9 @@ class RequirementReader {
                      ? fmt::format("-({})", less.quantity)
                      : fmt::format("{} - {}", inParentheses(greater.quantity), inParentheses(less.quantity));
       const Dimension dimension = study_.mechanism.dimensionOf(study_.mechanism.parse(quantity));
-      unit = !wanted.empty() && gamut::dimensionOf(wanted) == dimension ? wanted : unitOf(dimension);
+      const Dimension ofWanted = gamut::dimensionOf(wanted);
+      const bool isWanted = ofWanted == dimension || isAlikeButForRadians(ofWanted, dimension);
+      unit = !wanted.empty() && isWanted ? wanted : unitOf(dimension);
     } catch (const UnitError& error) {
       source_.fail(node, error);
     }
@@ -341,6 +348,12 @@ class RequirementReader {
 };
 
 }  // namespace
+
+bool isAlikeButForRadians(const Dimension& a, const Dimension& b) {
+  Dimension turned = b;
+  turned.angle = a.angle;
+  return a == turned && (a.mass != 0 || a.length != 0);
+}
 
 void readRequirements(const TomlSource& source, const std::vector<const toml::table*>& tables, Study& study,
                       std::vector<const toml::node*>& nodes) {

@@ -8,6 +8,10 @@
 
 namespace gamut {
 
+/// Whether they are of one kind where radians are taken for numbers, as in m r ω², which is a force; of masses and
+/// lengths alone, since rad/s is not Hz.
+bool isAlikeButForRadians(const Dimension& a, const Dimension& b);
+
 /// Adds requirements, their margins and the ends of their windows to a study whose mechanism, outputs and times are
 /// known. `nodes`: where each output stands, added to. Throws StudyError.
 void readRequirements(const TomlSource& source, const std::vector<const toml::table*>& tables, Study& study,

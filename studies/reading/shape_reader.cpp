@@ -473,9 +473,15 @@ class ShapeReader {
                    const std::vector<std::pair<std::string, std::vector<std::string>>>& kinds,
                    std::string& type) const {
     const std::string name = parent.nameOf(key);
-    const toml::table& table = source_.asTable(node, name);
     std::vector<std::string> types;
     for (const auto& entry : kinds) types.push_back(entry.first);
+    if (node.is_string()) {
+      const std::string& word = node.as_string()->get();
+      const std::string nearest = meantName(word, types);
+      source_.fail(node, fmt::format("{} is \"{}\"", name, word),
+                   fmt::format("a table, such as {{ type = \"{}\" }}", nearest.empty() ? types.front() : nearest));
+    }
+    const toml::table& table = source_.asTable(node, name);
     const toml::node* found = table.get("type");
     if (found == nullptr)
       source_.fail(node, fmt::format("'{}.type' is missing", name), fmt::format("{{ type = \"{}\" }}", types.front()));

@@ -376,6 +376,7 @@ class StudyReader {
                      fmt::format("output.unit is {}, and the study has a number of its own named '{}'", unit, name),
                      "another unit of that kind, or another name for that number");
       if (dimensionOf(unit) == dimensionOf(own)) return unit == "1" || unit.empty() ? own : unit;
+      if (isAlikeButForRadians(dimensionOf(unit), dimensionOf(own))) return unit;
     } catch (const UnitError& error) {
       source_.fail(*node, error);
     }

@@ -40,13 +40,51 @@ std::string oneLine(std::string_view text) {
   return line;
 }
 
+/// What others call things, and what they are called here.
+constexpr std::pair<std::string_view, std::string_view> otherWords[] = {{"tolerance", "interval"},
+                                                                        {"range", "interval"},
+                                                                        {"duration", "horizon"},
+                                                                        {"end", "horizon"},
+                                                                        {"sigma", "deviation"},
+                                                                        {"std", "deviation"},
+                                                                        {"stddev", "deviation"},
+                                                                        {"standard_deviation", "deviation"},
+                                                                        {"mu", "mean"},
+                                                                        {"gauss", "normal"},
+                                                                        {"gauss", "gaussian"},
+                                                                        {"gaussian", "normal"},
+                                                                        {"rectangular", "uniform"},
+                                                                        {"triangle", "triangular"},
+                                                                        {"limit", "always"},
+                                                                        {"max", "always"},
+                                                                        {"slider", "prismatic"},
+                                                                        {"hinge", "revolute"},
+                                                                        {"pin", "revolute"},
+                                                                        {"ball", "spherical"},
+                                                                        {"spring", "spring-damper"},
+                                                                        {"damper", "spring-damper"},
+                                                                        {"rod", "link"},
+                                                                        {"body", "mass"},
+                                                                        {"k", "stiffness"},
+                                                                        {"c", "damping"},
+                                                                        {"d", "damping"},
+                                                                        {"position", "displacement"},
+                                                                        {"velocity", "rate"},
+                                                                        {"speed", "rate"}};
+
 std::string suggestion(const std::string& word, const std::vector<std::string>& known) {
-  const std::string nearest = nearestName(word, known);
+  const std::string nearest = meantName(word, known);
   return nearest.empty() ? fmt::format("one of: {}", fmt::join(known, ", "))
                          : fmt::format("'{}'? (one of: {})", nearest, fmt::join(known, ", "));
 }
 
 }  // namespace
+
+std::string meantName(const std::string& word, const std::vector<std::string>& known) {
+  for (const auto& [other, own] : otherWords)
+    if (other == word && std::ranges::find(known, own) != known.end()) return std::string(own);
+  return nearestName(word, known);
+}
 
 TomlSource::TomlSource(std::string text, std::string name, const std::string& kind)
     : text_(std::move(text)), name_(std::move(name)), lineStarts_{0} {
@@ -58,7 +96,7 @@ TomlSource::TomlSource(std::string text, std::string name, const std::string& ki
     root_ = toml::parse(std::string_view(text_));
   } catch (const toml::parse_error& error) {
     fail(error.source().begin, "not valid TOML: " + oneLine(error.description()),
-         "a file that follows https://toml.io");
+         "a file that follows https://toml.io, texts and numbers with units in quotes");
   }
 }
 

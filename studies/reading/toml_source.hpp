@@ -17,6 +17,9 @@
 
 namespace gamut {
 
+/// The known name that is meant by a word that is none: what others call so, or the nearest; empty: none.
+std::string meantName(const std::string& word, const std::vector<std::string>& known);
+
 /// The text of one TOML file and its parsed tree.
 class TomlSource {
  public:

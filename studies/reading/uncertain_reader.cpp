@@ -217,6 +217,7 @@ class UncertainReader {
     if (node.is_array()) {
       result.uncertain.range = readPair(source_, node, what, dimension);
     } else {
+      if (!node.is_string()) source_.fail(node, what + " is neither text nor a list", waysToSayIt);
       const auto [below, above] = deviations(node, what, source_.asText(node, what));
       const Reach down = reachOf(node, what, below, result, nominal), up = reachOf(node, what, above, result, nominal);
       if (isEqual(down.size, Interval(0.0)) && isEqual(up.size, Interval(0.0)))

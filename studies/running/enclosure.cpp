@@ -63,12 +63,12 @@ void encloseMotion(Run& run) {
   if (tube.why() == Tube::outOfMemory) run.watch.memoryFailed();
   enclosed.why = tube.wasStopped() ? run.watch.why() : tube.why();
   enclosed.tightness = tube.tightness();
-  enclosed.advice = tube.wasStopped() ? run.watch.key() : tube.cause().advice();
+  enclosed.advice = tube.wasStopped() ? adviceOf(run.watch) : tube.cause().advice();
   if (const FlowCause& limit = tube.limitCause(); !tube.shortfall().empty()) {
     const bool isWatch = limit.kind == FlowCause::Kind::interrupted || limit.kind == FlowCause::Kind::outOfMemory;
     const std::string why = isWatch ? run.watch.why() : limit.sentence();
     enclosed.shortfall = tube.shortfall() + (why.empty() ? "" : ": " + why);
-    if (enclosed.why.empty()) enclosed.advice = isWatch ? run.watch.key() : limit.advice();
+    if (enclosed.why.empty()) enclosed.advice = isWatch ? adviceOf(run.watch) : limit.advice();
   }
   enclosed.pieces = tube.pieces();
   enclosed.steps = tube.steps();

@@ -60,6 +60,11 @@ std::vector<int> plainOutputs(const Study& study) {
   return outputs;
 }
 
+std::string adviceOf(const Watch& watch) {
+  const std::string key = watch.key();
+  return key.empty() ? key : "a greater " + key;
+}
+
 std::size_t rowOf(const std::vector<double>& times, double time) {
   return static_cast<std::size_t>(std::ranges::lower_bound(times, time) - times.begin());
 }

@@ -20,6 +20,9 @@ std::vector<int> marginOutputs(const Study& study);
 /// All others.
 std::vector<int> plainOutputs(const Study& study);
 
+/// What lets go on what the watch stopped: "a greater limits.time"; empty where no limit was reached.
+std::string adviceOf(const Watch& watch);
+
 /// The index of an output time.
 std::size_t rowOf(const std::vector<double>& times, double time);
 

@@ -132,14 +132,14 @@ Reason ofMargin(const Run& run, const Requirement& requirement) {
 /// One cause, the first that holds.
 Reason whyOpen(const Run& run, std::size_t number, const std::string& unsettled) {
   const RequirementResult& result = run.results.requirements[number];
-  if (*run.watch.stop()) return {run.watch.why(), run.watch.key()};
+  if (*run.watch.stop()) return {run.watch.why(), adviceOf(run.watch)};
   if (result.isViolatedInSimulation && !unsettled.empty()) return {unsettled, ""};
   if (!run.study.asksFor<IntervalResult>() && !run.study.asksFor<FuzzyResult>())
     return {"no enclosure was asked for", "study.compare with \"interval\""};
   if (!run.enclosed.why.empty() &&
       (!run.enclosed.models || run.study.motion.times[run.enclosed.models->at.size() - 1] < result.until))
     return {run.enclosed.why, run.enclosed.advice};
-  if (!run.enclosed.models) return {"models of its margins found no room", "limits.enclosure_memory"};
+  if (!run.enclosed.models) return {"models of its margins found no room", "a greater limits.enclosure_memory"};
   if (result.word != "open") return {};
   if (isJustMet(run, number))
     return {"its limit is met exactly, as far as samples can tell: rounded numbers prove neither", "another limit"};

@@ -273,6 +273,23 @@ TEST(StudyReader, TakesTimeParametersAndExpressionsForOutputs) {
     EXPECT_EQ(readStudyText(predatorAndPrey("prey", "2", output), "s.toml").outputs[0].unit, unit) << output;
 }
 
+TEST(StudyReader, TakesMassTimesRadiusTimesSquaredRateForAForce) {
+  const auto with = [](const std::string& unit, const std::string& limit) {
+    return readStudyText(
+        sampleStudy + ("[[output]]\nname = \"pull\"\nquantity = \"bob.mass*rod.length*hinge.rate^2\"\n"
+                       "unit = \"" +
+                       unit + "\"\n[[requirement]]\nname = \"holds\"\nalways = \"pull < " + limit + "\"\n"),
+        "s.toml");
+  };
+  const Study study = with("N", "5 kN");
+  EXPECT_EQ(study.outputs[2].unit, "N");
+  EXPECT_EQ(study.outputs[3].unit, "kN");
+  EXPECT_THROW(with("J", "5 kN"), StudyError);
+  EXPECT_THROW(with("N", "5 m"), StudyError);
+  EXPECT_THROW(readStudyText(sampleStudy + "[[output]]\nquantity = \"hinge.rate\"\nunit = \"Hz\"\n", "s.toml"),
+               StudyError);  // rad/s is not turns a second
+}
+
 TEST(StudyReader, TakesConstantsThatAreNoRationalNumbers) {
   const Mechanism mechanism =
       readStudyText(sampleStudyWith("length = 0.5", "length = \"sqrt(2)*30 cm\", force = \"sqrt((3 N)^2 + (4 N)^2)\""),
@@ -869,10 +886,10 @@ constexpr BadStudy badStudies[] = {
     {"± 1 %", "± 1 %%", "s.toml:31:12: uncertain.interval: there is more than one '%' at column 5; expected one '%'"},
     {"horizon = 0.5", "horizon = ",
      "s.toml:4:11: not valid TOML: Error while parsing key-value pair: expected value, saw '\\n'; expected a file that "
-     "follows https://toml.io"},
+     "follows https://toml.io, texts and numbers with units in quotes"},
     {"horizon = 0.5", "horizon = 0.5\nhorizon = 1",
      "s.toml:5:11: not valid TOML: Error while parsing key-value pair: cannot redefine existing floating-point "
-     "'horizon'; expected a file that follows https://toml.io"},
+     "'horizon'; expected a file that follows https://toml.io, texts and numbers with units in quotes"},
     {"title = ", "titel = ",
      "s.toml:2:1: unknown key 'titel' in [study]; expected 'title'? (one of: title, analysis, horizon, output_step, "
      "output_times, compare)"},
@@ -1093,6 +1110,12 @@ constexpr BadStudy badStudies[] = {
     {"interval = \"± 1 %\"", "interval = [0.6, 0.7]",
      "s.toml:31:12: uncertain.interval does not hold the nominal value 0.523599; expected an interval around the "
      "nominal value"},
+    {"interval = \"± 1 %\"", "interval = 0.5",
+     "s.toml:31:12: uncertain.interval is neither text nor a list; expected \"± 1 %\", \"± 2 deg\", \"+2 / -1 mm\" or "
+     "[lower, upper]"},
+    {"interval = \"± 1 %\"", "tolerance = \"± 1 %\"",
+     "s.toml:31:1: unknown key 'tolerance' in [uncertain]; expected 'interval'? (one of: name, quantity, interval, "
+     "distribution, membership, varies, rate)"},
     {"interval = \"± 1 %\"", "interval = [0.4, 0.6, 0.7]",
      "s.toml:31:12: uncertain.interval has 3 numbers; expected two, [lower, upper]"},
     {"interval = \"± 1 %\"", "interval = \"+1 / +2 mm\"",
@@ -1110,7 +1133,11 @@ constexpr BadStudy badStudies[] = {
     {"distribution = { type = \"uniform\" }", "distribution = { }",
      "s.toml:32:16: 'uncertain.distribution.type' is missing; expected { type = \"uniform\" }"},
     {"distribution = { type = \"uniform\" }", "distribution = \"uniform\"",
-     "s.toml:32:16: uncertain.distribution is \"uniform\"; expected a table"},
+     "s.toml:32:16: uncertain.distribution is \"uniform\"; expected a table, such as { type = \"uniform\" }"},
+    {"distribution = { type = \"uniform\" }", "distribution = \"gauss\"",
+     "s.toml:32:16: uncertain.distribution is \"gauss\"; expected a table, such as { type = \"normal\" }"},
+    {"membership = { type = \"triangular\" }", "membership = \"triangle\"",
+     "s.toml:33:14: uncertain.membership is \"triangle\"; expected a table, such as { type = \"triangular\" }"},
     {"distribution = { type = \"uniform\" }", "distribution = { type = \"uniform\", support = [0, 1] }",
      "s.toml:32:46: uncertain.distribution.support [0, 1] leaves the interval; expected a support inside [0.518363, "
      "0.528835]"},
