@@ -58,7 +58,8 @@ class SlidingReference {
       }
       x = after(phase, h);
       t += h;
-      if (event >= h) continue;
+      if (event >= h || result.size() == times.size())
+        continue;  // what comes after the last time is not of this motion
       ++events;
       if (g_) limits.push_back((*phase.outputs)(t, x));
       for (std::size_t k = 0; k < sides_.size(); ++k)
