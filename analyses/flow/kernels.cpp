@@ -53,7 +53,7 @@ GAMUT_INLINE void convolveChunks(const Monomials::Pair* pairs, const std::int32_
   }
 }
 
-/// The first four orders alone.
+/// The first four orders alone. (No template: one forgets that its vectors need not be aligned.)
 GAMUT_INLINE void convolveHalf(const Monomials::Pair* pairs, const std::int32_t* first, int count, const double* a,
                                const double* b, int stride, double* out) {
   const int strideR = reversedStride(stride);

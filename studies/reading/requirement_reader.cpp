@@ -352,7 +352,7 @@ class RequirementReader {
 bool isAlikeButForRadians(const Dimension& a, const Dimension& b) {
   Dimension turned = b;
   turned.angle = a.angle;
-  return a == turned && (a.mass != 0 || a.length != 0);
+  return a == turned && std::min(a.angle, b.angle) >= 0 && (a.mass != 0 || a.length != 0);
 }
 
 void readRequirements(const TomlSource& source, const std::vector<const toml::table*>& tables, Study& study,

@@ -9,7 +9,7 @@
 namespace gamut {
 
 /// Whether they are of one kind where radians are taken for numbers, as in m r ω², which is a force; of masses and
-/// lengths alone, since rad/s is not Hz.
+/// lengths alone, since rad/s is not Hz, and not of what is by the radian: a stiffness is no moment.
 bool isAlikeButForRadians(const Dimension& a, const Dimension& b);
 
 /// Adds requirements, their margins and the ends of their windows to a study whose mechanism, outputs and times are

@@ -290,6 +290,19 @@ TEST(StudyReader, TakesMassTimesRadiusTimesSquaredRateForAForce) {
                StudyError);  // rad/s is not turns a second
 }
 
+TEST(StudyReader, TakesNoStiffnessForAMoment) {
+  const auto with = [](const std::string& limit) {
+    return readStudyText(sampleStudy + ("[[output]]\nname = \"weight\"\n"
+                                        "quantity = \"bob.mass*(9.81 m/s^2)*rod.length\"\nunit = \"N m\"\n"
+                                        "[[requirement]]\nname = \"holds\"\nalways = \"weight < " +
+                                        limit + "\"\n"),
+                         "s.toml");
+  };
+  EXPECT_EQ(with("5 N m").outputs[3].unit, "N m");
+  EXPECT_THROW(with("5 N m/rad"), StudyError);
+  EXPECT_THROW(with("5 N m/deg"), StudyError);
+}
+
 TEST(StudyReader, TakesConstantsThatAreNoRationalNumbers) {
   const Mechanism mechanism =
       readStudyText(sampleStudyWith("length = 0.5", "length = \"sqrt(2)*30 cm\", force = \"sqrt((3 N)^2 + (4 N)^2)\""),

@@ -195,28 +195,24 @@ TEST(PolynomialSeries, NodesOfTheFramesDegreeLieWithinTheirBoundsWhateverTheySta
   }
 }
 
-TEST(PolynomialSeries, RandomProgramsLieWithinTheirBounds) {
-  Points points(11);
-  for (int round = 0; round < 60; ++round) {
-    const Setting s = randomSetting(points);
+/// Random programs, each with a setting that `settingFor(points)` gives.
+template <class SettingFor>
+void expectRandomProgramsCertified(unsigned seed, int rounds, SettingFor settingFor) {
+  Points points(seed);
+  for (int round = 0; round < rounds; ++round) {
+    const Setting s = settingFor(points);
     const std::vector<double> nominal{points.uniform(-1, 1), points.uniform(-1, 1), points.uniform(-1, 1)};
     RandomExpressions expression(points, nominal);
     const Program f = record(2, 1, [&](auto t, const auto& x, const auto& p, auto& dx) { expression(t, x, p, dx, 6); });
     expectCertified(f.differentiated(), s, points, nominal, 3);
-    if (HasFatalFailure()) return;
+    if (::testing::Test::HasFatalFailure()) return;
   }
 }
 
+TEST(PolynomialSeries, RandomProgramsLieWithinTheirBounds) { expectRandomProgramsCertified(11, 60, randomSetting); }
+
 TEST(PolynomialSeries, RandomProgramsInManySymbolsLieWithinTheirBounds) {
-  Points points(13);
-  for (int round = 0; round < 12; ++round) {
-    const Setting s = settingOfMany(points);
-    const std::vector<double> nominal{points.uniform(-1, 1), points.uniform(-1, 1), points.uniform(-1, 1)};
-    RandomExpressions expression(points, nominal);
-    const Program f = record(2, 1, [&](auto t, const auto& x, const auto& p, auto& dx) { expression(t, x, p, dx, 6); });
-    expectCertified(f.differentiated(), s, points, nominal, 3);
-    if (HasFatalFailure()) return;
-  }
+  expectRandomProgramsCertified(13, 12, settingOfMany);
 }
 
 /// What drives v in late orders and high grades reaches x by x' = v alone.
@@ -268,15 +264,7 @@ TEST(PolynomialSeries, GradesThatLaterOrdersLeaveOutAreBoundedSharply) {
 }
 
 TEST(PolynomialSeries, RandomProgramsInDoubleDoubleLieWithinTheirBounds) {
-  Points points(12);
-  for (int round = 0; round < 60; ++round) {
-    const Setting s = settingOf(Regime::fine, points);
-    const std::vector<double> nominal{points.uniform(-1, 1), points.uniform(-1, 1), points.uniform(-1, 1)};
-    RandomExpressions expression(points, nominal);
-    const Program f = record(2, 1, [&](auto t, const auto& x, const auto& p, auto& dx) { expression(t, x, p, dx, 6); });
-    expectCertified(f.differentiated(), s, points, nominal, 3);
-    if (HasFatalFailure()) return;
-  }
+  expectRandomProgramsCertified(12, 60, [](Points& points) { return settingOf(Regime::fine, points); });
 }
 
 // With all coefficients positive, at ξ = 1 and σ = θ, what a product drops is exactly what its bound adds up.
