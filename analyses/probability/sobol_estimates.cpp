@@ -24,12 +24,59 @@ struct Ratio {
   }
 };
 
+struct Estimated {
+  Ratio first, total;
+};
+
+/// [cell][quantity], of the so many cells of a slice. Samples are evaluated block by block, those of both sets twice,
+/// since their mean comes first: all outputs of all samples at once would be gigabytes of many outputs.
+std::vector<Estimated> estimated(const SurrogateEvaluator& evaluator, std::size_t slice, std::size_t cells,
+                                 const std::vector<double>& a, const std::vector<double>& b, std::size_t n) {
+  const std::size_t samples = a.size() / n;
+  std::vector<double> ofA, ofB, ofMixed, mixed;
+  const auto forBlocks = [&](const auto& use) {
+    for (std::size_t begin = 0; begin < samples; begin += SurrogateEvaluator::together) {
+      const std::size_t count = std::min(SurrogateEvaluator::together, samples - begin);
+      const auto own = [&](const std::vector<double>& values) {
+        return std::span(values).subspan(begin * n, count * n);
+      };
+      for (std::vector<double>* numbers : {&ofA, &ofB}) numbers->resize(count * cells);
+      evaluator.evaluate(slice, own(a), ofA);
+      evaluator.evaluate(slice, own(b), ofB);
+      use(own(a), own(b), count);
+    }
+  };
+  std::vector<double> mean(cells, 0.0);
+  forBlocks([&](auto, auto, std::size_t count) {
+    for (std::size_t i = 0; i < count * cells; ++i)
+      mean[i % cells] += (ofA[i] + ofB[i]) / (2 * static_cast<double>(samples));
+  });
+  std::vector<Estimated> found(cells * n);
+  forBlocks([&](auto ownA, auto ownB, std::size_t count) {
+    ofMixed.resize(count * cells);
+    for (std::size_t q = 0; q < n; ++q) {
+      mixed.assign(ownA.begin(), ownA.end());
+      for (std::size_t i = 0; i < count; ++i) mixed[i * n + q] = ownB[i * n + q];
+      evaluator.evaluate(slice, mixed, ofMixed);
+      for (std::size_t i = 0; i < count * cells; ++i) {
+        const std::size_t cell = i % cells;
+        const double x = ofA[i] - mean[cell], y = ofB[i] - mean[cell], z = ofMixed[i] - mean[cell];
+        const double square = 0.5 * (x * x + y * y);
+        auto& [first, total] = found[cell * n + q];
+        first.include(y * (z - x), square);
+        total.include(0.5 * (x - z) * (x - z), square);
+      }
+    }
+  });
+  return found;
+}
+
 }  // namespace
 
 SobolEstimates estimateSobolIndices(const SurrogateEvaluator& evaluator, std::size_t times, std::size_t outputs,
                                     const std::vector<const Uncertain*>& uncertain, std::size_t samples,
                                     std::uint64_t seed) {
-  const std::size_t n = uncertain.size(), cells = times * outputs;
+  const std::size_t n = uncertain.size();
   std::mt19937_64 engine(seed);
   std::uniform_real_distribution<double> share(0, 1);
   const auto drawn = [&] {
@@ -39,38 +86,22 @@ SobolEstimates estimateSobolIndices(const SurrogateEvaluator& evaluator, std::si
     for (std::size_t i = 0; i < samples; ++i) evaluator.settle(std::span(values).subspan(i * n, n));
     return values;
   };
-  std::vector<double> errors(samples * cells);
-  const auto outputsOf = [&](const std::vector<double>& values) {
-    std::vector<double> numbers(samples * cells);
-    evaluator.evaluate(values, numbers, errors);
-    return numbers;
-  };
   const std::vector<double> a = drawn(), b = drawn();
-  const std::vector<double> ofA = outputsOf(a), ofB = outputsOf(b);
-  std::vector<double> mean(cells, 0.0);
-  for (std::size_t i = 0; i < samples * cells; ++i)
-    mean[i % cells] += (ofA[i] + ofB[i]) / (2 * static_cast<double>(samples));
   SobolEstimates estimates;
   for (auto* numbers : {&estimates.first, &estimates.firstError, &estimates.total, &estimates.totalError})
-    numbers->assign(cells * n, std::numeric_limits<double>::quiet_NaN());
-  for (std::size_t q = 0; q < n; ++q) {
-    std::vector<double> mixed = a;
-    for (std::size_t i = 0; i < samples; ++i) mixed[i * n + q] = b[i * n + q];
-    const std::vector<double> ofMixed = outputsOf(mixed);
-    for (std::size_t cell = 0; cell < cells; ++cell) {
-      Ratio first, total;
-      for (std::size_t i = cell; i < samples * cells; i += cells) {
-        const double x = ofA[i] - mean[cell], y = ofB[i] - mean[cell], z = ofMixed[i] - mean[cell];
-        const double square = 0.5 * (x * x + y * y);
-        first.include(y * (z - x), square);
-        total.include(0.5 * (x - z) * (x - z), square);
-      }
+    numbers->assign(times * outputs * n, std::numeric_limits<double>::quiet_NaN());
+  const std::vector<SurrogateEvaluator::Slice> slices = evaluator.slices();
+  for (std::size_t s = 0; s < slices.size() && n > 0; ++s) {
+    const std::size_t from = slices[s].first * outputs * n;
+    const std::vector<Estimated> found = estimated(evaluator, s, slices[s].count * outputs, a, b, n);
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      const auto& [first, total] = found[i];
       if (!(first.v > 0) || !std::isfinite(first.v)) continue;
       const double count = static_cast<double>(samples);
-      estimates.first[cell * n + q] = first.value();
-      estimates.firstError[cell * n + q] = first.error(count);
-      estimates.total[cell * n + q] = total.value();
-      estimates.totalError[cell * n + q] = total.error(count);
+      estimates.first[from + i] = first.value();
+      estimates.firstError[from + i] = first.error(count);
+      estimates.total[from + i] = total.value();
+      estimates.totalError[from + i] = total.error(count);
     }
   }
   return estimates;

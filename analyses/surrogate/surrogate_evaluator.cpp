@@ -219,55 +219,93 @@ void SurrogateEvaluator::settle(std::span<double> values) const {
   }
 }
 
-void SurrogateEvaluator::evaluate(std::span<const double> values, std::span<double> outputs,
-                                  std::span<double> errors) const {
-  constexpr std::size_t block = 256;
-  const std::size_t n = quantities_, samples = outputs.size() / std::max<std::size_t>(rows_ * outputs_, 1);
-  std::vector<double> xi(block * n);
-  std::vector<std::vector<std::size_t>> members;
-  Eigen::MatrixXd monomials, results;
-  for (std::size_t first = 0; first < samples; first += block) {
-    const std::size_t count = std::min(block, samples - first);
+/// At most `together` samples, and how they are evaluated.
+class SurrogateEvaluator::Block {
+ public:
+  explicit Block(const SurrogateEvaluator& of) : of_(of), xi_(together * of.quantities_) {}
+
+  void take(std::span<const double> values, std::size_t count) {
+    const std::size_t n = of_.quantities_;
+    count_ = count;
     for (std::size_t i = 0; i < count; ++i)
       for (std::size_t q = 0; q < n; ++q)
-        xi[i * n + q] = half_[q] == 0 ? 0.0 : (values[(first + i) * n + q] - centre_[q]) / half_[q];
-    for (const Group& group : groups_) {
-      members.assign(group.parts.size(), {});
-      for (std::size_t i = 0; i < count; ++i) {
-        std::size_t p = 0;
-        const auto isIn = [&](const Group::Part& part) {
-          for (std::size_t q = 0; q < n; ++q)
-            if (std::fabs(xi[i * n + q] - part.centre[q]) > part.half[q] && part.half[q] < 1) return false;
-          return true;
-        };
-        while (p + 1 < group.parts.size() && !isIn(group.parts[p])) ++p;
-        members[p].push_back(i);
-      }
-      for (std::size_t p = 0; p < group.parts.size(); ++p) {
-        const Group::Part& part = group.parts[p];
-        const std::vector<std::size_t>& own = members[p];
-        if (own.empty()) continue;
-        const auto m = static_cast<Eigen::Index>(own.size());
-        Eigen::MatrixXd eta(m, static_cast<Eigen::Index>(n));
-        for (Eigen::Index i = 0; i < m; ++i)
-          for (std::size_t q = 0; q < n; ++q)
-            eta(i, static_cast<Eigen::Index>(q)) =
-                std::clamp((xi[own[static_cast<std::size_t>(i)] * n + q] - part.centre[q]) / part.half[q], -1.0, 1.0);
-        monomials.resize(m, part.c.cols());
-        monomials.col(0).setOnes();
-        for (std::size_t t = 0; t < part.steps.size(); ++t)
-          monomials.col(static_cast<Eigen::Index>(t + 1)) =
-              monomials.col(static_cast<Eigen::Index>(part.steps[t].from))
-                  .cwiseProduct(eta.col(static_cast<Eigen::Index>(part.steps[t].quantity)));
-        results.noalias() = part.c * monomials.transpose();
-        const std::size_t cells = group.rows * outputs_;
-        for (Eigen::Index i = 0; i < m; ++i) {
-          const std::size_t at = ((first + own[static_cast<std::size_t>(i)]) * rows_ + group.firstRow) * outputs_;
-          std::copy_n(results.col(i).data(), cells, outputs.begin() + static_cast<std::ptrdiff_t>(at));
-          std::ranges::copy(part.error, errors.begin() + static_cast<std::ptrdiff_t>(at));
-        }
+        xi_[i * n + q] = of_.half_[q] == 0 ? 0.0 : (values[i * n + q] - of_.centre_[q]) / of_.half_[q];
+  }
+
+  /// A group's outputs of each sample to where it begins, `stride` behind those of the sample before, and, unless there
+  /// is no room for them, their errors.
+  void evaluate(const Group& group, double* outputs, double* errors, std::size_t stride) {
+    const std::size_t n = of_.quantities_, cells = group.rows * of_.outputs_;
+    members_.assign(group.parts.size(), {});
+    for (std::size_t i = 0; i < count_; ++i) {
+      std::size_t p = 0;
+      const auto isIn = [&](const Group::Part& part) {
+        for (std::size_t q = 0; q < n; ++q)
+          if (std::fabs(xi_[i * n + q] - part.centre[q]) > part.half[q] && part.half[q] < 1) return false;
+        return true;
+      };
+      while (p + 1 < group.parts.size() && !isIn(group.parts[p])) ++p;
+      members_[p].push_back(i);
+    }
+    for (std::size_t p = 0; p < group.parts.size(); ++p) {
+      const Group::Part& part = group.parts[p];
+      const std::vector<std::size_t>& own = members_[p];
+      if (own.empty()) continue;
+      const auto m = static_cast<Eigen::Index>(own.size());
+      Eigen::MatrixXd eta(m, static_cast<Eigen::Index>(n));
+      for (Eigen::Index i = 0; i < m; ++i)
+        for (std::size_t q = 0; q < n; ++q)
+          eta(i, static_cast<Eigen::Index>(q)) =
+              std::clamp((xi_[own[static_cast<std::size_t>(i)] * n + q] - part.centre[q]) / part.half[q], -1.0, 1.0);
+      monomials_.resize(m, part.c.cols());
+      monomials_.col(0).setOnes();
+      for (std::size_t t = 0; t < part.steps.size(); ++t)
+        monomials_.col(static_cast<Eigen::Index>(t + 1)) =
+            monomials_.col(static_cast<Eigen::Index>(part.steps[t].from))
+                .cwiseProduct(eta.col(static_cast<Eigen::Index>(part.steps[t].quantity)));
+      results_.noalias() = part.c * monomials_.transpose();
+      for (Eigen::Index i = 0; i < m; ++i) {
+        const std::size_t at = own[static_cast<std::size_t>(i)] * stride;
+        std::copy_n(results_.col(i).data(), cells, outputs + at);
+        if (errors != nullptr) std::ranges::copy(part.error, errors + at);
       }
     }
+  }
+
+ private:
+  const SurrogateEvaluator& of_;
+  std::size_t count_ = 0;
+  std::vector<double> xi_;
+  std::vector<std::vector<std::size_t>> members_;
+  Eigen::MatrixXd monomials_, results_;
+};
+
+void SurrogateEvaluator::evaluate(std::span<const double> values, std::span<double> outputs,
+                                  std::span<double> errors) const {
+  const std::size_t stride = rows_ * outputs_, samples = outputs.size() / std::max<std::size_t>(stride, 1);
+  Block block(*this);
+  for (std::size_t first = 0; first < samples; first += together) {
+    block.take(values.subspan(first * quantities_), std::min(together, samples - first));
+    for (const Group& group : groups_) {
+      const std::size_t at = first * stride + group.firstRow * outputs_;
+      block.evaluate(group, outputs.data() + at, errors.data() + at, stride);
+    }
+  }
+}
+
+std::vector<SurrogateEvaluator::Slice> SurrogateEvaluator::slices() const {
+  std::vector<Slice> slices;
+  for (const Group& group : groups_) slices.push_back({group.firstRow, group.rows});
+  return slices;
+}
+
+void SurrogateEvaluator::evaluate(std::size_t slice, std::span<const double> values, std::span<double> outputs) const {
+  const Group& group = groups_[slice];
+  const std::size_t stride = group.rows * outputs_, samples = outputs.size() / std::max<std::size_t>(stride, 1);
+  Block block(*this);
+  for (std::size_t first = 0; first < samples; first += together) {
+    block.take(values.subspan(first * quantities_), std::min(together, samples - first));
+    block.evaluate(group, outputs.data() + first * stride, nullptr, stride);
   }
 }
 

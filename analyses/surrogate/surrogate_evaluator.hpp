@@ -35,8 +35,20 @@ class SurrogateEvaluator {
   /// is not farther from that than its error; infinite where nothing is known.
   void evaluate(std::span<const double> values, std::span<double> outputs, std::span<double> errors) const;
 
+  /// Output times that are evaluated together: so many from `first` on. Slices follow one another.
+  struct Slice {
+    std::size_t first, count;
+  };
+  std::vector<Slice> slices() const;
+  /// The outputs of one slice, by its number, without their errors, [sample][time of the slice][output]: bit for bit
+  /// what `evaluate` gives, also of blocks of samples one by one, so long as all but the last hold a multiple of
+  /// `together`.
+  void evaluate(std::size_t slice, std::span<const double> values, std::span<double> outputs) const;
+  static constexpr std::size_t together = 256;
+
  private:
   struct Group;
+  class Block;
   std::size_t quantities_, rows_, outputs_;
   std::vector<double> centre_, half_;
   std::vector<std::vector<double>> borders_;  // [quantity]: ξ inside [-1,1] where parts meet, rising
