@@ -7,6 +7,7 @@
 #include <iterator>
 #include <map>
 #include <stdexcept>
+#include <utility>
 
 #include "analyses/samples/arbiter.hpp"
 #include "analyses/workers.hpp"
@@ -23,25 +24,46 @@ double leastError(double magnitude) {
   return leastUlps * (std::nextafter(magnitude, std::numeric_limits<double>::infinity()) - magnitude);
 }
 
-/// A dispute and what its last two integrations gave.
+/// [time][output]: the greatest change until then, which crossing trajectories do not hide; empty before the second
+/// integration. As long as a trajectory, so that no case keeps its own.
+using Errors = std::vector<double>;
+
+/// A dispute and how far it has come.
 struct Case {
   Dispute dispute;
-  std::vector<double> error;  // [time][output]: the greatest change until then, which crossing trajectories do not hide
-  bool settled = false;       // found inside
-  bool lookedAt = false;      // by every instance, to the end
-  std::size_t times = 0;      // output times up to the last one at which it is outside: beyond, nothing is disputed
+  bool isMeasured = false;  // it was integrated again
+  bool settled = false;     // found inside
+  bool lookedAt = false;    // by every instance, to the end
+  std::size_t times = 0;    // output times up to the last one at which it is outside: beyond, nothing is disputed
+};
+
+class WholeEnsemble final : public ComparedSamples {
+ public:
+  explicit WholeEnsemble(Ensemble& ensemble) : ensemble_(ensemble) {}
+  std::size_t size() const override { return ensemble_.size(); }
+  std::span<const double> valuesOf(std::size_t sample) const override { return ensemble_.valuesOf(sample); }
+  std::vector<double> trajectory(std::size_t sample) const override {
+    const std::span<const double> own = std::as_const(ensemble_).trajectory(sample);
+    return {own.begin(), own.end()};
+  }
+  void setTrajectory(std::size_t sample, std::span<const double> trajectory) override {
+    std::ranges::copy(trajectory, ensemble_.trajectory(sample).begin());
+  }
+
+ private:
+  Ensemble& ensemble_;
 };
 
 class Comparer {
  public:
-  Comparer(const EnclosureBounds& enclosure, Ensemble& ensemble, const UncertainMotion& system,
-           const ComparisonOptions& options)
-      : enclosure_(enclosure), ensemble_(ensemble), system_(system), options_(options) {
+  Comparer(const EnclosureBounds& enclosure, ComparedSamples& samples, std::size_t times, std::size_t outputs,
+           const UncertainMotion& system, const ComparisonOptions& options)
+      : enclosure_(enclosure), samples_(samples), outputs_(outputs), system_(system), options_(options) {
     const Table& lower = enclosure.bounds.lower;
     const Table& upper = enclosure.bounds.upper;
-    const std::size_t size = enclosure.reachedTimes * ensemble.outputs;
-    if (enclosure.reachedTimes > ensemble.times.size() || lower.outputs != ensemble.outputs ||
-        upper.outputs != ensemble.outputs || lower.data.size() < size || upper.data.size() < size)
+    const std::size_t size = enclosure.reachedTimes * outputs;
+    if (enclosure.reachedTimes > times || lower.outputs != outputs || upper.outputs != outputs ||
+        lower.data.size() < size || upper.data.size() < size)
       throw std::invalid_argument("the enclosure's bounds do not have the ensemble's times and outputs");
     for (std::size_t i = 0; i < size; ++i)
       if (!(lower.data[i] <= upper.data[i]))
@@ -64,32 +86,30 @@ class Comparer {
   }
 
   bool isInside(std::span<const double> trajectory) const {
-    for (std::size_t i = 0; i < enclosure_.reachedTimes * ensemble_.outputs; ++i)
+    for (std::size_t i = 0; i < enclosure_.reachedTimes * outputs_; ++i)
       if (distanceOutside(i, trajectory[i]) > 0) return false;
     return true;
   }
 
   /// Greatest magnitude of each output along the sample.
   std::vector<double> magnitudes(std::span<const double> trajectory) const {
-    std::vector<double> result(ensemble_.outputs, 0);
-    for (std::size_t i = 0; i < enclosure_.reachedTimes * ensemble_.outputs; ++i)
-      if (std::isfinite(trajectory[i]))
-        result[i % ensemble_.outputs] = std::max(result[i % ensemble_.outputs], std::abs(trajectory[i]));
+    std::vector<double> result(outputs_, 0);
+    for (std::size_t i = 0; i < enclosure_.reachedTimes * outputs_; ++i)
+      if (std::isfinite(trajectory[i])) result[i % outputs_] = std::max(result[i % outputs_], std::abs(trajectory[i]));
     return result;
   }
 
   /// Fills in where the sample lies outside by most of its errors; an inside sample keeps the place it was disputed at.
-  void locate(Case& c) const {
-    const std::span<const double> trajectory = std::as_const(ensemble_).trajectory(c.dispute.number);
+  void locate(Case& c, std::span<const double> trajectory, const Errors& error) const {
     const std::vector<double> magnitude = magnitudes(trajectory);
     const auto errorAt = [&](std::size_t i) {
-      const double size = magnitude[i % ensemble_.outputs];
+      const double size = magnitude[i % outputs_];
       const double floor = leastError(size);
-      return c.error.empty() || !(c.error[i] > floor) ? floor : c.error[i];
+      return error.empty() || !(error[i] > floor) ? floor : error[i];
     };
-    std::size_t place = c.dispute.time * ensemble_.outputs + c.dispute.output;
+    std::size_t place = c.dispute.time * outputs_ + c.dispute.output;
     double greatest = 0;
-    for (std::size_t i = 0; i < enclosure_.reachedTimes * ensemble_.outputs; ++i) {
+    for (std::size_t i = 0; i < enclosure_.reachedTimes * outputs_; ++i) {
       const double excursion = distanceOutside(i, trajectory[i]) / errorAt(i);
       if (excursion > greatest) {
         greatest = excursion;
@@ -97,34 +117,38 @@ class Comparer {
       }
     }
     Dispute& d = c.dispute;
-    d.time = place / ensemble_.outputs;
-    d.output = place % ensemble_.outputs;
+    d.time = place / outputs_;
+    d.output = place % outputs_;
     d.value = trajectory[place];
     d.lower = enclosure_.bounds.lower.data[place];
     d.upper = enclosure_.bounds.upper.data[place];
     d.distance = distanceOutside(place, d.value);
     d.error = errorAt(place);
     d.excursion = greatest;
-    d.farthest.assign(ensemble_.outputs, 0.0);
-    for (std::size_t i = 0; i < enclosure_.reachedTimes * ensemble_.outputs; ++i) {
-      double& farthest = d.farthest[i % ensemble_.outputs];
+    d.farthest.assign(outputs_, 0.0);
+    for (std::size_t i = 0; i < enclosure_.reachedTimes * outputs_; ++i) {
+      double& farthest = d.farthest[i % outputs_];
       farthest = std::max(farthest, distanceOutside(i, trajectory[i]));
     }
   }
 
   void findDisputes() {
     std::map<std::vector<double>, std::size_t> caseOf;  // by the values of the uncertain quantities
-    for (std::size_t number = 0; number < ensemble_.size(); ++number) {
-      putKnown(ensemble_.trajectory(number));
-      if (isInside(std::as_const(ensemble_).trajectory(number))) continue;
-      const std::span<const double> values = ensemble_.valuesOf(number);
+    for (std::size_t number = 0; number < samples_.size(); ++number) {
+      std::vector<double> trajectory = samples_.trajectory(number);
+      if (options_.known != nullptr) {
+        putKnown(trajectory);
+        samples_.setTrajectory(number, trajectory);
+      }
+      if (isInside(trajectory)) continue;
+      const std::span<const double> values = samples_.valuesOf(number);
       const auto [known, isNew] = caseOf.try_emplace({values.begin(), values.end()}, cases_.size());
       Case& c = (isNew ? cases_ : twins_).emplace_back();
       if (!isNew) originals_.push_back(known->second);
       c.dispute.number = number;
       c.dispute.decided = "unresolved";
-      c.times = timesOutside(std::as_const(ensemble_).trajectory(number));
-      locate(c);
+      c.times = timesOutside(trajectory);
+      locate(c, trajectory, {});
     }
   }
 
@@ -133,10 +157,9 @@ class Comparer {
     for (std::size_t i = 0; i < twins_.size(); ++i) {
       const Case& original = cases_[originals_[i]];
       Case& twin = twins_[i];
-      if (!original.error.empty()) {  // it has a better trajectory
+      if (original.isMeasured) {  // it has a better trajectory
         const std::size_t number = twin.dispute.number;
-        std::ranges::copy(std::as_const(ensemble_).trajectory(original.dispute.number),
-                          ensemble_.trajectory(number).begin());
+        samples_.setTrajectory(number, samples_.trajectory(original.dispute.number));
         twin = original;
         twin.dispute.number = number;
       }
@@ -147,9 +170,9 @@ class Comparer {
   }
 
   std::size_t timesOutside(std::span<const double> trajectory) const {
-    std::size_t i = enclosure_.reachedTimes * ensemble_.outputs;
+    std::size_t i = enclosure_.reachedTimes * outputs_;
     while (i > 0 && !(distanceOutside(i - 1, trajectory[i - 1]) > 0)) --i;
-    return (i + ensemble_.outputs - 1) / ensemble_.outputs;
+    return (i + outputs_ - 1) / outputs_;
   }
 
   Motion disputedPart(const Case& c) const {
@@ -171,24 +194,34 @@ class Comparer {
   }
 
   /// Takes over a better trajectory of the disputed part, unless it ends before that does where the old one did not.
-  bool replace(Case& c, std::span<const double> better) {
-    const std::span<double> trajectory = ensemble_.trajectory(c.dispute.number);
+  /// `error`, where it is there: of the better one, as that itself tells it, instead of the change.
+  bool replace(Case& c, std::span<const double> better, std::span<const double> error = {}) {
+    std::vector<double> trajectory = samples_.trajectory(c.dispute.number);
     for (std::size_t i = 0; i < better.size(); ++i)
       if (std::isnan(better[i]) && !std::isnan(trajectory[i])) return false;
-    c.error.assign(trajectory.size(), 0);
-    for (std::size_t i = 0; i < better.size(); ++i) c.error[i] = std::abs(better[i] - trajectory[i]);
-    accumulate(c.error);
-    putKnownErrors(c.error);
+    Errors errors(trajectory.size(), 0);
+    for (std::size_t i = 0; i < better.size(); ++i) errors[i] = std::abs(better[i] - trajectory[i]);
+    accumulate(errors);
+    putKnownErrors(errors);
+    if (!error.empty()) {
+      std::ranges::copy(error, errors.begin());
+      accumulate(errors);
+      putKnownErrors(errors);
+    }
     std::ranges::copy(better, trajectory.begin());
     putKnown(trajectory);
+    samples_.setTrajectory(c.dispute.number, trajectory);
     c.times = timesOutside(trajectory);
+    c.isMeasured = true;
+    locate(c, trajectory, errors);
+    c.settled = c.dispute.distance == 0;
     return true;
   }
 
   /// Each output's greatest value until then.
   void accumulate(std::vector<double>& rows) const {
-    for (std::size_t i = ensemble_.outputs; i < rows.size(); ++i)
-      if (!(rows[i] >= rows[i - ensemble_.outputs])) rows[i] = rows[i - ensemble_.outputs];
+    for (std::size_t i = outputs_; i < rows.size(); ++i)
+      if (!(rows[i] >= rows[i - outputs_])) rows[i] = rows[i - outputs_];
   }
 
   void refine() {
@@ -196,10 +229,8 @@ class Comparer {
     forEachIndex(options_.jobs, cases_.size(), options_.cancelled, [&] {
       return [&](std::size_t i) {
         Case& c = cases_[i];
-        const std::vector<double> start = system_.start(ensemble_.valuesOf(c.dispute.number));
+        const std::vector<double> start = system_.start(samples_.valuesOf(c.dispute.number));
         if (!replace(c, integrateByTaylor(disputedPart(c), start, options_.cancelled))) return;
-        locate(c);
-        c.settled = c.dispute.distance == 0;
         c.dispute.decided = "Taylor 53 bits";
       };
     });
@@ -228,8 +259,8 @@ class Comparer {
   void leaveRounding(std::vector<Case*>& open, std::size_t from) {
     for (std::size_t i = from; i < open.size(); ++i) {
       Dispute& d = open[i]->dispute;
-      const std::vector<double> size = magnitudes(std::as_const(ensemble_).trajectory(d.number));
-      bool isRounding = !open[i]->error.empty();
+      const std::vector<double> size = magnitudes(samples_.trajectory(d.number));
+      bool isRounding = open[i]->isMeasured;
       for (std::size_t k = 0; k < size.size(); ++k) isRounding = isRounding && d.farthest[k] <= leastError(size[k]);
       if (!isRounding) continue;
       open[i]->settled = true;
@@ -242,22 +273,16 @@ class Comparer {
 
   void arbitrateOne(Case& c) {
     const PreciseTrajectory precise =
-        arbitrate(disputedPart(c), system_.start(ensemble_.valuesOf(c.dispute.number)), {}, options_.cancelled);
+        arbitrate(disputedPart(c), system_.start(samples_.valuesOf(c.dispute.number)), {}, options_.cancelled);
     c.lookedAt = !isCancelled();
-    if (!replace(c, roundedToDoubles(precise, c.times * ensemble_.outputs))) return;
-    std::ranges::copy(precise.error, c.error.begin());  // the arbiter's last two integrations are both its own
-    accumulate(c.error);
-    putKnownErrors(c.error);
-    locate(c);
-    c.settled = c.dispute.distance == 0;
+    // The arbiter's last two integrations are both its own.
+    if (!replace(c, roundedToDoubles(precise, c.times * outputs_), precise.error)) return;
     c.lookedAt = true;
     c.dispute.decided = "Taylor 128 bits";
   }
 
   /// Before any second integration the error is unknown, and nothing can be decided.
-  bool refutes(const Case& c) const {
-    return !c.settled && !c.error.empty() && c.dispute.excursion > options_.decisive;
-  }
+  bool refutes(const Case& c) const { return !c.settled && c.isMeasured && c.dispute.excursion > options_.decisive; }
 
   /// What an interrupt kept from the last instance is neither outside nor past deciding.
   Comparison findings() {
@@ -269,7 +294,7 @@ class Comparer {
       } else {
         d.outside = refutes(c);
         if (!c.settled && !d.outside) d.decided = "unresolved";
-        if (c.error.empty()) d.error = std::numeric_limits<double>::infinity();
+        if (!c.isMeasured) d.error = std::numeric_limits<double>::infinity();
         result.excursion = std::max(result.excursion, d.excursion);
       }
       result.disputes.push_back(d);
@@ -278,7 +303,8 @@ class Comparer {
   }
 
   const EnclosureBounds& enclosure_;
-  Ensemble& ensemble_;
+  ComparedSamples& samples_;
+  std::size_t outputs_;
   const UncertainMotion& system_;
   const ComparisonOptions& options_;
   std::vector<Case> cases_, twins_;     // twins: of the values of a case before them
@@ -325,7 +351,13 @@ Overestimation measureOverestimation(const EnclosureBounds& enclosure, const Env
 
 Comparison compare(const EnclosureBounds& enclosure, Ensemble& ensemble, const UncertainMotion& system,
                    const ComparisonOptions& options) {
-  return Comparer(enclosure, ensemble, system, options).run();
+  WholeEnsemble samples(ensemble);
+  return Comparer(enclosure, samples, ensemble.times.size(), ensemble.outputs, system, options).run();
+}
+
+Comparison compare(const EnclosureBounds& enclosure, ComparedSamples& samples, const UncertainMotion& system,
+                   const ComparisonOptions& options) {
+  return Comparer(enclosure, samples, system.motion.times.size(), system.motion.outputs(), system, options).run();
 }
 
 CutGaps measureGaps(const std::vector<Envelope>& outer, const std::vector<Envelope>& inner, const Table& error,

@@ -38,6 +38,20 @@ struct Ensemble {
   }
 };
 
+/// Samples that are compared, wherever they are kept. Several threads may ask for different ones at once.
+class ComparedSamples {
+ public:
+  ComparedSamples() = default;
+  ComparedSamples(const ComparedSamples&) = delete;
+  ComparedSamples& operator=(const ComparedSamples&) = delete;
+  virtual ~ComparedSamples() = default;
+  virtual std::size_t size() const = 0;
+  virtual std::span<const double> valuesOf(std::size_t sample) const = 0;
+  /// Copies: of many outputs those of all samples at once would be as much as the samples themselves.
+  virtual std::vector<double> trajectory(std::size_t sample) const = 0;
+  virtual void setTrajectory(std::size_t sample, std::span<const double> trajectory) = 0;
+};
+
 /// What an enclosure claims at the ensemble's output times.
 struct EnclosureBounds {
   Envelope bounds;               ///< lower and upper bounds; the rows of the reached times count
@@ -106,6 +120,9 @@ CutGaps measureGaps(const std::vector<Envelope>& outer, const std::vector<Envelo
 /// Compares at all output times that the enclosure reached. Samples found outside get their refined trajectories in
 /// `ensemble`. Throws std::invalid_argument where the shapes do not fit or a bound is NaN.
 Comparison compare(const EnclosureBounds& enclosure, Ensemble& ensemble, const UncertainMotion& system,
+                   const ComparisonOptions& options = {});
+/// Likewise, of samples of the system's times and outputs.
+Comparison compare(const EnclosureBounds& enclosure, ComparedSamples& samples, const UncertainMotion& system,
                    const ComparisonOptions& options = {});
 
 }  // namespace gamut

@@ -5,10 +5,31 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include "analyses/workers.hpp"
 
 namespace gamut {
+namespace {
+
+class SomeOfBlock final : public ComparedSamples {
+ public:
+  SomeOfBlock(SampleBlock& block, const std::vector<std::size_t>& places) : block_(block), places_(places) {}
+  std::size_t size() const override { return places_.size(); }
+  std::span<const double> valuesOf(std::size_t sample) const override {
+    return std::as_const(block_).values(places_[sample]);
+  }
+  std::vector<double> trajectory(std::size_t sample) const override { return block_.trajectory(places_[sample]); }
+  void setTrajectory(std::size_t sample, std::span<const double> trajectory) override {
+    block_.setTrajectory(places_[sample], trajectory);
+  }
+
+ private:
+  SampleBlock& block_;
+  const std::vector<std::size_t>& places_;
+};
+
+}  // namespace
 
 Settlement::Settlement(const Proved& proved, const UncertainMotion& system, const ComparisonOptions& options)
     : proved_(proved),
@@ -63,38 +84,28 @@ std::vector<std::size_t> Settlement::leavers(const SampleBlock& block) const {
   return numbers;
 }
 
-/// Of the disputed samples those that lie in the cut of this level, or, level -1, all, and leave the bounds, as a small
-/// ensemble.
+/// Of the disputed samples those that lie in the cut of this level, or, level -1, all, and leave the bounds.
 void Settlement::compareSome(const Envelope& bounds, int level, SampleBlock& block,
                              const std::vector<std::size_t>& disputed, const Take& take) {
-  Ensemble some;
-  some.times = system_.motion.times;
-  some.outputs = system_.motion.outputs();
-  some.quantities = system_.uncertain.size();
+  const std::size_t cells = proved_.reachedTimes * system_.motion.outputs();
   std::vector<std::size_t> places;
   for (const std::size_t i : disputed) {
     if (static_cast<int>(block.levels[i]) <= level) continue;
-    const std::vector<double> trajectory = block.trajectory(i);
-    bool leaves = false;
-    for (std::size_t cell = 0; cell < proved_.reachedTimes * some.outputs; ++cell)
-      leaves = leaves || trajectory[cell] < bounds.lower.data[cell] || trajectory[cell] > bounds.upper.data[cell];
-    if (!leaves) continue;
-    places.push_back(i);
-    const std::span<const double> values = std::as_const(block).values(i);
-    some.values.insert(some.values.end(), values.begin(), values.end());
-    some.data.insert(some.data.end(), trajectory.begin(), trajectory.end());
+    bool isOutside = false;
+    for (std::size_t cell = 0; cell < cells && !isOutside; ++cell) isOutside = leaves(block, i, cell, bounds);
+    if (isOutside) places.push_back(i);
   }
   if (places.empty()) return;
   ComparisonOptions options = options_;
   char& refuted = refuted_[static_cast<std::size_t>(level + 1)];
   options.asksArbiter = options.asksArbiter && refuted == 0;
   options.known = &known_;
+  SomeOfBlock some(block, places);
   Comparison found = compare({bounds, proved_.reachedTimes}, some, system_, options);
   for (Dispute& d : found.disputes) {
     refuted |= static_cast<char>(d.outside);
     d.number = block.first() + places[d.number];
   }
-  for (std::size_t i = 0; i < places.size(); ++i) block.setTrajectory(places[i], std::as_const(some).trajectory(i));
   take(found, level);
 }
 
