@@ -15,7 +15,7 @@ constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t mostParts = 64, leastParts = 8, wantedParts = std::size_t{1} << 21;
 
 /// Batches take turns.
-bool areFew(std::size_t samples) { return samples / batchCount < std::numeric_limits<std::uint16_t>::max(); }
+std::size_t mostInBatch(std::size_t samples) { return samples / batchCount + 1; }
 
 }  // namespace
 
@@ -31,13 +31,12 @@ std::size_t BatchStatistics::partsFor(std::size_t cells) {
 }
 
 double BatchStatistics::cellBytes(std::size_t samples, std::size_t parts) {
-  const std::size_t each = areFew(samples) ? sizeof(std::uint16_t) : sizeof(std::uint32_t);
+  const std::size_t each = Counts::bytesOf(mostInBatch(samples));
   return static_cast<double>(sizeof(Cell) + (parts + 2) * batchCount * each);
 }
 
 BatchStatistics::BatchStatistics(const Envelope& expected, std::size_t samples, std::size_t parts)
-    : parts_(parts), cells_(expected.lower.data.size()) {
-  areFew(samples) ? few_.resize(placeOf(cells_.size())) : many_.resize(placeOf(cells_.size()));
+    : parts_(parts), cells_(expected.lower.data.size()), shares_(placeOf(cells_.size()), mostInBatch(samples)) {
   for (std::size_t i = 0; i < cells_.size(); ++i) {
     const double lower = expected.lower.data[i], scale = static_cast<double>(parts) / (expected.upper.data[i] - lower);
     cells_[i].lower = lower;
@@ -58,8 +57,7 @@ void BatchStatistics::include(std::size_t index, std::size_t number, const doubl
     cell.squares[batch] += difference * difference;
     if (cell.scale == 0) continue;
     const double part = std::clamp(1 + std::floor((row[i] - cell.lower) * cell.scale), 0.0, last);
-    const std::size_t place = placeOf(index) + static_cast<std::size_t>(part) * batchCount + batch;
-    few_.empty() ? static_cast<void>(++many_[place]) : static_cast<void>(++few_[place]);
+    shares_.increment(placeOf(index) + static_cast<std::size_t>(part) * batchCount + batch);
   }
 }
 
@@ -98,7 +96,7 @@ std::vector<double> BatchStatistics::shareErrors(std::size_t index) const {
   for (std::size_t part = 0; part <= parts_; ++part) {
     double inside = 0;
     for (std::size_t b = 0; b < batchCount; ++b) {
-      const double share = shareAt(placeOf(index) + part * batchCount + b);
+      const double share = shares_[placeOf(index) + part * batchCount + b];
       inside += share;
       below[b] += share / cell.counts[b];
     }

@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "analyses/samples/counts.hpp"
 #include "analyses/samples/sampling.hpp"
 #include "analyses/table.hpp"
 
@@ -45,13 +46,10 @@ class BatchStatistics {
   };
 
   std::size_t placeOf(std::size_t cell) const { return cell * (parts_ + 2) * batchCount; }
-  double shareAt(std::size_t place) const { return few_.empty() ? many_[place] : few_[place]; }
 
   std::size_t parts_;
   std::vector<Cell> cells_;
-  // [cell][part, with what lies below and above][batch]: the one where no batch can have more than it counts.
-  std::vector<std::uint16_t> few_;
-  std::vector<std::uint32_t> many_;
+  Counts shares_;  // [cell][part, with what lies below and above][batch]
 };
 
 /// Half the 95 % confidence interval of the mean of these independent values; NaN unless all are numbers.

@@ -7,7 +7,6 @@
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <span>
 #include <stdexcept>
 #include <utility>
 
@@ -55,7 +54,7 @@ std::size_t EnsembleStatistics::binsFor(std::size_t histograms) {
 /// Convergence has two numbers for each power of two from a pack on.
 double EnsembleStatistics::bytesFor(std::size_t histograms, std::size_t levels, std::size_t samples) {
   const std::size_t growth = std::bit_width(samples / packWidth);
-  const double bins = static_cast<double>(sizeof(std::uint32_t) * (binsFor(histograms) + 2));
+  const double bins = static_cast<double>(Counts::bytesOf(samples) * (binsFor(histograms) + 2));
   const auto numbers = static_cast<double>(sizeof(Cell) + sizeof(double) * 2 * (levels + 1 + growth));
   return static_cast<double>(histograms) *
          (bins + numbers + BatchStatistics::cellBytes(samples, BatchStatistics::partsFor(histograms)));
@@ -69,7 +68,7 @@ EnsembleStatistics::EnsembleStatistics(const Envelope& expected, std::size_t lev
       cells_(expected.lower.data.size()),
       least_(cells_.size() * (levels + 1), infinity),
       greatest_(cells_.size() * (levels + 1), -infinity),
-      counts_(cells_.size() * (bins_ + 2), 0),
+      counts_(cells_.size() * (bins_ + 2), samples),
       batches_(expected, samples, BatchStatistics::partsFor(cells_.size())) {
   for (std::size_t i = 0; i < cells_.size(); ++i) {
     Cell& cell = cells_[i];
@@ -141,7 +140,7 @@ void EnsembleStatistics::includeMoments(Cell& cell, const double* row) {
 
 void EnsembleStatistics::includePack(Cell& cell, std::size_t index, const double* row) {
   includeMoments(cell, row);
-  std::uint32_t* counts = counts_.data() + index * (bins_ + 2);
+  const std::size_t counts = index * (bins_ + 2);
   const double last = static_cast<double>(bins_ - 1);
   for (int i = 0; i < packWidth; ++i) {
     const double value = row[i];
@@ -149,11 +148,11 @@ void EnsembleStatistics::includePack(Cell& cell, std::size_t index, const double
     cell.least = std::min(cell.least, value);
     cell.greatest = std::max(cell.greatest, value);
     if (value < cell.lower)
-      ++counts[0];
+      counts_.increment(counts);
     else if (value > cell.upper)
-      ++counts[bins_ + 1];
+      counts_.increment(counts + bins_ + 1);
     else
-      ++counts[1 + static_cast<std::size_t>(std::min((value - cell.lower) * cell.scale, last))];
+      counts_.increment(counts + 1 + static_cast<std::size_t>(std::min((value - cell.lower) * cell.scale, last)));
   }
 }
 
@@ -168,19 +167,19 @@ SampledShares EnsembleStatistics::shares(std::size_t time, std::size_t output) c
   const std::size_t index = row * outputs_ + output;
   const Cell& cell = cells_[index];
   if (cell.count == 0) return shares;
-  const std::uint32_t* counts = counts_.data() + index * (bins_ + 2);
+  const std::size_t counts = index * (bins_ + 2);
   const auto add = [&](double value, double below) {
     shares.value.push_back(value);
     shares.below.push_back(below / cell.count);
   };
   if (cell.scale == 0) {
-    add(cell.lower, counts[0]);
-    if (cell.upper > cell.lower) add(cell.upper, cell.count - counts[bins_ + 1]);
+    add(cell.lower, counts_[counts]);
+    if (cell.upper > cell.lower) add(cell.upper, cell.count - counts_[counts + bins_ + 1]);
     return shares;
   }
   double below = 0;
   for (std::size_t bin = 0; bin <= bins_; ++bin) {
-    below += counts[bin];
+    below += counts_[counts + bin];
     add(bin == bins_ ? cell.upper : cell.lower + static_cast<double>(bin) / cell.scale, below);
   }
   return shares;
@@ -188,12 +187,12 @@ SampledShares EnsembleStatistics::shares(std::size_t time, std::size_t output) c
 
 void EnsembleStatistics::keepShares(const std::vector<std::size_t>& times) {
   std::vector<Cell> cells;
-  std::vector<std::uint32_t> counts;
+  Counts counts;
   for (const std::size_t time : times) {
     const auto begin = static_cast<std::ptrdiff_t>(time * outputs_),
-               end = begin + static_cast<std::ptrdiff_t>(outputs_), width = static_cast<std::ptrdiff_t>(bins_ + 2);
+               end = begin + static_cast<std::ptrdiff_t>(outputs_);
     cells.insert(cells.end(), cells_.begin() + begin, cells_.begin() + end);
-    counts.insert(counts.end(), counts_.begin() + begin * width, counts_.begin() + end * width);
+    counts.append(counts_, time * outputs_ * (bins_ + 2), outputs_ * (bins_ + 2));
   }
   cells_ = std::move(cells);
   counts_ = std::move(counts);
@@ -227,9 +226,17 @@ std::vector<Envelope> EnsembleStatistics::innerCuts(std::size_t times) const {
 /// The samples of one output at one time, in the order of their values, as far as a histogram knows it.
 class EnsembleStatistics::SortedSamples {
  public:
-  SortedSamples(std::span<const std::uint32_t> counts, double lower, double width, double least, double greatest)
-      : counts_(counts), before_(counts.size() + 1), lower_(lower), width_(width), least_(least), greatest_(greatest) {
-    for (std::size_t bin = 0; bin < counts.size(); ++bin) before_[bin + 1] = before_[bin] + counts[bin];
+  SortedSamples(const Counts& counts, std::size_t first, std::size_t bins, double lower, double width, double least,
+                double greatest)
+      : counts_(counts),
+        first_(first),
+        bins_(bins),
+        before_(bins + 1),
+        lower_(lower),
+        width_(width),
+        least_(least),
+        greatest_(greatest) {
+    for (std::size_t bin = 0; bin < bins; ++bin) before_[bin + 1] = before_[bin] + counts[first + bin];
   }
 
   double size() const { return before_.back(); }
@@ -259,7 +266,7 @@ class EnsembleStatistics::SortedSamples {
   Interval endsOf(std::size_t bin) const {
     if (bin == 0) return {least_, std::max(least_, lower_)};
     const double low = lower_ + static_cast<double>(bin - 1) * width_;
-    return bin + 1 == counts_.size() ? Interval(std::min(low, greatest_), greatest_) : Interval(low, low + width_);
+    return bin + 1 == bins_ ? Interval(std::min(low, greatest_), greatest_) : Interval(low, low + width_);
   }
   double orderStatistic(double rank, double& resolution) const {
     if (rank == 0) return least_;
@@ -267,11 +274,12 @@ class EnsembleStatistics::SortedSamples {
     const std::size_t bin = binOf(rank);
     const Interval ends = endsOf(bin);
     resolution = std::max(resolution, ends.upper() - ends.lower());
-    const double within = (rank - before_[bin] + 0.5) / counts_[bin];
+    const double within = (rank - before_[bin] + 0.5) / counts_[first_ + bin];
     return std::clamp(ends.lower() + within * (ends.upper() - ends.lower()), least_, greatest_);
   }
 
-  std::span<const std::uint32_t> counts_;
+  const Counts& counts_;
+  std::size_t first_, bins_;  // of the histogram among them, both open ends counted
   std::vector<double> before_;
   double lower_, width_, least_, greatest_;
 };
@@ -279,7 +287,7 @@ class EnsembleStatistics::SortedSamples {
 EnsembleStatistics::SortedSamples EnsembleStatistics::sorted(std::size_t index) const {
   const Cell& cell = cells_[index];
   const double width = (cell.upper - cell.lower) / (cell.scale > 0 ? static_cast<double>(bins_) : 1);
-  return {std::span(counts_).subspan(index * (bins_ + 2), bins_ + 2), cell.lower, width, cell.least, cell.greatest};
+  return {counts_, index * (bins_ + 2), bins_ + 2, cell.lower, width, cell.least, cell.greatest};
 }
 
 /// Bins and their ends are themselves rounded: (value - lower) * scale is off by 3 * 2^-53 of at most 4096 bins, an end

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "analyses/samples/batch_statistics.hpp"
+#include "analyses/samples/counts.hpp"
 #include "analyses/samples/order_statistics.hpp"
 #include "analyses/samples/sample_block.hpp"
 #include "analyses/table.hpp"
@@ -99,7 +100,7 @@ class EnsembleStatistics {
   std::size_t times_, outputs_, levels_, bins_;
   std::vector<Cell> cells_;               // [time][output]
   std::vector<double> least_, greatest_;  // [time][output][levels that hold the sample]: of all samples
-  std::vector<std::uint32_t> counts_;     // [time][output][bin]: below, the bins, above
+  Counts counts_;                         // [time][output][bin]: below, the bins, above; of samples with weight
   BatchStatistics batches_;
   std::vector<Convergence> first_;
   std::optional<std::vector<std::size_t>> kept_;  // times, where only their shares are left
