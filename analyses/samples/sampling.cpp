@@ -276,7 +276,7 @@ Sampling::Sampling(Plan plan, std::size_t quantities, std::size_t samples, std::
     samples_ = cappedPower(gridCount(quantities, samples), quantities, largestGrid + 1);
     if (samples_ > largestGrid)
       throw std::invalid_argument("a grid with both ends of " + std::to_string(quantities) +
-                                  " uncertain quantities has too many points; choose another plan");
+                                  " uncertain quantities has too many points");
   }
   const bool hasBatches = plan != Plan::grid && plan != Plan::random, isLarge = samples >= 2 * batchCount;
   if (hasBatches && isLarge) samples_ = (samples + batchCount - 1) / batchCount * batchCount;

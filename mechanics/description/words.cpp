@@ -26,21 +26,21 @@ class Listener final : public Fields {
   }
   void coordinate(const Word& position, Expression& /*initial*/, Coordinate /*kind*/, const Word& rate,
                   Expression& /*initialRate*/) override {
-    initial(position);
-    initial(rate);
+    initial(position, "0");
+    initial(rate, "0");
   }
   void coordinates(const Word& position, ExpressionVector& /*initial*/, Coordinate /*kind*/, const Word& rate,
                    ExpressionVector& /*initialRates*/) override {
-    initial(position);
-    initial(rate);
+    initial(position, "[0, 0, 0]");
+    initial(rate, "[0, 0, 0]");
   }
   void orientation(const Word& word, std::vector<FixedRotation>& /*initial*/, const Word& rate,
                    ExpressionVector& /*initialRates*/) override {
-    initial(word);
-    initial(rate);
+    initial(word, "{ axis = \"x\", angle = \"0 deg\" }");
+    initial(rate, "[0, 0, 0]");
   }
-  void position(const Word& word, Expression& /*initial*/) override { initial(word); }
-  void speed(const Word& word, Expression& /*initial*/) override { initial(word); }
+  void position(const Word& word, Expression& /*initial*/) override { initial(word, "0"); }
+  void speed(const Word& word, Expression& /*initial*/) override { initial(word, "0"); }
   std::string state(const Word& word, Expression& /*initial*/) override {
     key(word);
     return "unit";
@@ -64,7 +64,7 @@ class Listener final : public Fields {
     word.isRequired = true;
     key(word);
   }
-  void initial(const Word& word) { words_.keys.push_back({word, true}); }
+  void initial(const Word& word, const char* example) { words_.keys.push_back({word, true, example}); }
 
   ElementWords& words_;
   Coordinate kind_;
@@ -90,7 +90,7 @@ std::string elementPage(const std::vector<Described>& types) {
     const ElementWords turning = wordsOf(type), sliding = wordsOf(type, Coordinate::displacement);
     page += fmt::format("### `{}`\n\n{}.\n\n| key | unit | meaning |\n|---|---|---|\n", type.type(), type.summary());
     for (std::size_t i = 0; i < turning.keys.size(); ++i) {
-      const auto& [word, isInitial] = turning.keys[i];
+      const auto& [word, isInitial, example] = turning.keys[i];
       const std::string meaning =
           word.isRequired ? fmt::format("{}{}required", word.meaning, word.meaning.empty() ? "" : "; ") : word.meaning;
       page += fmt::format("| `{}{}` | {} | {} |\n", isInitial ? "initial." : "", word.key,

@@ -11,7 +11,8 @@ namespace gamut {
 struct ElementWords {
   struct Key {
     Word word;
-    bool isInitial = false;  ///< within the table `initial`
+    bool isInitial = false;    ///< within the table `initial`
+    std::string example = {};  ///< a value of such
   };
   std::vector<Key> keys;
   std::vector<Word> measured;

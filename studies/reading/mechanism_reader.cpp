@@ -80,7 +80,10 @@ class MechanismReader {
 
     const toml::node* initial = section_.find("initial");
     std::map<std::string, const toml::node*> given;
-    if (initial != nullptr) collect(source_.asTable(*initial, "mechanism.initial"), "", given);
+    if (initial != nullptr)
+      collect(source_.asTable(*initial, "mechanism.initial",
+                              "a table of values by their names, such as { shoulder.angle = \"30 deg\" }"),
+              "", given);
     std::vector<RobotElement> elements;
     guarded(node, [&] { elements = robotElements(robot, choices, mechanism_); });
     std::vector<std::string> known;
@@ -345,8 +348,11 @@ class MechanismReader {
     const std::string word = source_.asChoice(*type, "mechanism.element.type", words);
     Described element = *std::ranges::find(types_, word, &Described::type);
 
-    std::vector<std::string> keys = {"type", "name", "parameters"}, initialKeys;
-    for (const auto& [key, isInitial] : wordsOf(element).keys) (isInitial ? initialKeys : keys).push_back(key.key);
+    std::vector<std::string> keys = {"type", "name", "parameters"}, initialKeys, examples;
+    for (const auto& [key, isInitial, example] : wordsOf(element).keys) {
+      (isInitial ? initialKeys : keys).push_back(key.key);
+      if (isInitial) examples.push_back(fmt::format("{} = {}", key.key, example));
+    }
     if (!initialKeys.empty()) keys.emplace_back("initial");
     const TomlSection section(source_, table, "mechanism.element", keys);
     element.setName(section.text("name"));
@@ -354,7 +360,9 @@ class MechanismReader {
     readParameters(section, element.name() + ".");
     static const toml::table none;
     const toml::node* node = initialKeys.empty() ? nullptr : section.find("initial");
-    const TomlSection initial(source_, node == nullptr ? none : source_.asTable(*node, section.nameOf("initial")),
+    const std::string expected = fmt::format("a table, such as {{ {} }}", fmt::join(examples, ", "));
+    const TomlSection initial(source_,
+                              node == nullptr ? none : source_.asTable(*node, section.nameOf("initial"), expected),
                               "mechanism.element.initial", initialKeys);
     Filler filler(*this, section, initial);
     element.describe(filler);

@@ -350,7 +350,7 @@ class StudyReader {
     const Mechanism& mechanism = study_.mechanism;
     const auto refuse = [&](const std::string& name) {
       source_.fail(node, fmt::format("unknown quantity '{}'", name),
-                   quantityExpected(name, mechanism.outputQuantities()));
+                   outputExpected(name, mechanism.outputQuantities(), mechanism));
     };
     if (mechanism.isOutputQuantity(quantity)) return mechanism.unitOf(quantity);
     const bool isNumber = quantity == "t" || mechanism.knows(quantity);
@@ -492,7 +492,8 @@ class StudyReader {
     try {
       Sampling(study_.ensemble.plan, study_.uncertain.size(), 1, study_.ensemble.seed);
     } catch (const std::invalid_argument& error) {
-      source_.failWith(stochastic == nullptr ? source_.root() : *stochastic, error.what(), "another plan");
+      source_.failWith(stochastic == nullptr ? source_.root() : *stochastic, error.what(),
+                       "stochastic.plan = \"latin-hypercube\", which serves any number of them");
     }
   }
 

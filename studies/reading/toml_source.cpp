@@ -184,8 +184,9 @@ std::int64_t TomlSource::asInteger(const toml::node& node, const std::string& wh
   return value;
 }
 
-const toml::table& TomlSource::asTable(const toml::node& node, const std::string& what) const {
-  if (!node.is_table()) fail(node, fmt::format("{} is {}", what, describe(node)), "a table");
+const toml::table& TomlSource::asTable(const toml::node& node, const std::string& what,
+                                       const std::string& expected) const {
+  if (!node.is_table()) fail(node, fmt::format("{} is {}", what, describe(node)), expected);
   return *node.as_table();
 }
 

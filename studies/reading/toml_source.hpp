@@ -59,7 +59,8 @@ class TomlSource {
   std::string asText(const toml::node& node, const std::string& what) const;
   bool asBool(const toml::node& node, const std::string& what) const;
   std::int64_t asInteger(const toml::node& node, const std::string& what, std::int64_t least, std::int64_t most) const;
-  const toml::table& asTable(const toml::node& node, const std::string& what) const;
+  const toml::table& asTable(const toml::node& node, const std::string& what,
+                             const std::string& expected = "a table") const;
   const toml::array& asArray(const toml::node& node, const std::string& what) const;
   /// A number in SI units or a string with a unit of the dimension, which messages call `unit` if that is not empty.
   Amount asAmount(const toml::node& node, const std::string& what, const Dimension& dimension,

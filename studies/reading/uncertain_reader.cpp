@@ -337,4 +337,24 @@ std::string quantityExpected(const std::string& word, const std::vector<std::str
   return fmt::format("a quantity of the mechanism, {}{}", names.starts_with('\'') ? "such as " : "", names);
 }
 
+std::string outputExpected(const std::string& word, const std::vector<std::string>& known, const Mechanism& mechanism) {
+  for (const Described& element : mechanism.elements()) {
+    const std::string prefix = element.name() + ".";
+    if (!word.starts_with(prefix)) continue;
+    std::vector<std::string> own;
+    for (const std::string& name : known)
+      if (name.starts_with(prefix)) own.push_back(name);
+    if (own.empty())
+      return fmt::format("a quantity that another element gives, or a formula of such: the {} '{}' gives none",
+                         element.type(), element.name());
+    if (!nearestName(word, known).empty()) break;  // a typo of that
+    constexpr std::size_t most = 12;
+    const std::size_t beyond = own.size() > most ? own.size() - most : 0;
+    own.resize(own.size() - beyond);
+    return fmt::format("what '{}' gives, {}{}{}", element.name(), own.size() > 1 ? "one of: " : "",
+                       fmt::join(own, ", "), beyond > 0 ? fmt::format(" and {} more", beyond) : "");
+  }
+  return quantityExpected(word, known);
+}
+
 }  // namespace gamut

@@ -16,5 +16,7 @@ void readUncertain(const TomlSource& source, const std::vector<const toml::table
 
 /// What would do instead of a quantity that the mechanism does not have.
 std::string quantityExpected(const std::string& word, const std::vector<std::string>& known);
+/// What would do instead of an output that it does not have; of "spring.force" what the element named spring gives.
+std::string outputExpected(const std::string& word, const std::vector<std::string>& known, const Mechanism& mechanism);
 
 }  // namespace gamut

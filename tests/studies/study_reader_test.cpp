@@ -16,6 +16,7 @@ namespace gamut {
 namespace {
 
 using ::testing::ElementsAre;
+using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -1288,6 +1289,62 @@ constexpr BadStudy badStudies[] = {
      "or a greater limits.memory"},
     {"[stochastic]", "[[stochastic]]", "s.toml:39:1: stochastic is a list; expected a table"},
 };
+
+/// Of an element whose name it has, what that gives.
+TEST(StudyReader, SuggestsOutputsOfTheElementThatIsNamed) {
+  const std::string spring =
+                        "[[mechanism.element]]\ntype = \"joint-spring\"\nname = \"coil\"\njoint = \"hinge\"\nstiffness "
+                        "= \"1 N m/rad\"\n",
+                    damper =
+                        "[[mechanism.element]]\ntype = \"spring-damper\"\nname = \"strut\"\nfrom = \"inertial\"\n"
+                        "from_point = [0, 5, 0]\nto = \"tip\"\nstiffness = \"1 N/m\"\n";
+  const auto wrong = [&](const std::string& quantity, const std::string& elements) {
+    std::string text = sampleStudyWith("[[uncertain]]", elements + "[[uncertain]]");
+    return messageOf(text + "[[output]]\nname = \"wrong\"\nquantity = \"" + quantity + "\"\n");
+  };
+  EXPECT_THAT(wrong("coil.force", spring),
+              EndsWith("unknown quantity 'coil.force'; expected a quantity that another element gives, or a formula of "
+                       "such: the joint-spring 'coil' gives none"));
+  EXPECT_THAT(
+      wrong("strut.load", damper),
+      EndsWith("unknown quantity 'strut.load'; expected what 'strut' gives, one of: strut.length, strut.force"));
+  EXPECT_THAT(wrong("strut.forces", damper),
+              EndsWith("unknown quantity 'strut.forces'; expected a quantity of the mechanism, such as 'strut.force'"));
+  EXPECT_THAT(wrong("hinge.speed", ""), HasSubstr("; expected what 'hinge' gives, one of: hinge.angle, hinge.rate, "));
+  EXPECT_EQ(wrong("strut.force", damper), "it was read");
+}
+
+TEST(StudyReader, ShowsHowInitialValuesAreWritten) {
+  const std::string given = "initial = { angle = \"30 deg\", rate = 0.5 }";
+  for (const char* wrong : {"[1, 0]", "1", "\"30 deg\""})
+    EXPECT_THAT(messageOf(sampleStudyWith(given, std::string("initial = ") + wrong)),
+                HasSubstr("; expected a table, such as { angle = 0, rate = 0 }"));
+  // Examples of other joints can be copied too.
+  for (const char* type : {"spherical", "free", "planar", "prismatic"}) {
+    const std::string axis = type == std::string("prismatic") ? "\naxis = \"x\"\n" : "\n";
+    std::string text = sampleStudyWith("[[uncertain]]", std::string("[[mechanism.element]]\ntype = \"") + type +
+                                                            "\"\nname = \"joint\"\nfrom = \"tip\"\nto = \"K2\"" + axis +
+                                                            "initial = 1\n[[mechanism.element]]\ntype = \"mass\"\nname "
+                                                            "= \"end\"\nat = \"K2\"\nmass = 1\ninertia = [1, 1, 1]\n"
+                                                            "[[uncertain]]");
+    const std::string message = messageOf(text), before = "expected a table, such as ";
+    ASSERT_THAT(message, HasSubstr(before)) << type;
+    const std::string example = message.substr(message.find(before) + before.size());
+    EXPECT_EQ(messageOf(text.replace(text.find("initial = 1"), 11, "initial = " + example)), "it was read") << example;
+  }
+}
+
+/// Sobol' sequences serve forty quantities.
+TEST(StudyReader, NamesAPlanThatServesManyQuantities) {
+  std::string text = sampleStudy, names;
+  for (int i = 0; i < 50; ++i) names += "gain" + std::to_string(i) + " = 1, ";
+  text.insert(text.find("[[mechanism.element]]"), "parameters = { " + names + "none = 0 }\n");
+  text.insert(text.find("[[uncertain]]"), "[[uncertain]]\nquantity = \"gain*\"\ninterval = \"± 1 %\"\n");
+  EXPECT_THAT(messageOf(text), HasSubstr("the plan 'sobol' serves at most 40 uncertain quantities, not 51; expected "
+                                         "stochastic.plan = \"latin-hypercube\", which serves any number of them"));
+  text.replace(text.find("\"sobol\""), 7, "\"latin-hypercube\"");
+  EXPECT_EQ(messageOf(text), "it was read");
+}
 
 /// Combinations grow with the power of the quantities.
 TEST(StudyReader, RefusesMorePointsThanTheGeneralMethodMayHave) {
