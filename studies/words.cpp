@@ -68,7 +68,9 @@ bool isLittle(double x, double size) { return std::abs(x) <= billionth * size; }
 std::string timesText(double ratio) {
   constexpr double hardly = 1e-3;
   const double more = ratio - 1;
-  if (more > 0 && more <= billionth) return "1";
+  constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();  // of two differences and their quotient
+  if (more > 0 && more <= rounding) return "1";
+  if (more > 0 && more <= billionth) return "1.000000001";
   return atMostText(ratio, more > 0 && more < hardly ? 5 : 4);
 }
 

@@ -25,8 +25,8 @@ std::string atMostText(double x, int digits, double size);
 /// Whether x is hardly anything beside numbers of this size: no more than a billionth of it.
 bool isLittle(double x, double size);
 
-/// How many times as wide an enclosure is, rounded up: "1.013"; "1.0001" of what is hardly more than 1, and "1" of what
-/// is more by no more than a billionth.
+/// How many times as wide an enclosure is, rounded up: "1.013"; "1.0001" of what is hardly more than 1,
+/// "1.000000001" of what is more by no more than a billionth, and "1" where only rounding made it more.
 std::string timesText(double ratio);
 
 /// Decimals of lower rounded down and of upper rounded up: the printed pair holds the interval.

@@ -73,6 +73,8 @@ TEST(PrintedBounds, HaveTheDigitsThatTheirWidthJustifies) {
 TEST(TimesAsWide, HaveNoDigitsOfRounding) {
   EXPECT_EQ(timesText(1), "1");
   EXPECT_EQ(timesText(1 + 4e-16), "1");
+  EXPECT_EQ(timesText(1 + 2e-15), "1.000000001");
+  EXPECT_EQ(timesText(1 + 9e-10), "1.000000001");
   EXPECT_EQ(timesText(1 + 2e-9), "1.0001");
   EXPECT_EQ(timesText(1.00012), "1.0002");
   EXPECT_EQ(timesText(1.0121), "1.013");
