@@ -343,13 +343,15 @@ std::shared_ptr<const FlowSnapshot> FlowFollower::modelOutputs(const FlowPiece& 
   snapshot->part = {piece.set.centre, piece.set.half};
   snapshot->path = piece.path;
   snapshot->monomials = task_.layouts[task_.outputLayout(piece.layout)].monomials;
+  const bool isOfAll = isOutputTime && run_.keepsModelsAt();
+  snapshot->outputs.reserve(task_.options.modelled.size() + (isOfAll ? task_.options.modelledAt.size() : 0));
   const auto include = [&](int o) {
     snapshot->outputs.push_back(modelOf(outputs_->polynomial(o), outputs_->radius(o), *snapshot->monomials,
                                         task_.embedding.symbols, outputs[at(o)]));
   };
   for (const int o : task_.options.modelled) include(o);
   const double bytes = bytesOf(*snapshot);
-  if (isOutputTime && run_.keepsModelsAt())
+  if (isOfAll)
     for (const int o : task_.options.modelledAt) include(o);
   run_.countModel(bytes, bytesOf(*snapshot) - bytes);
   return snapshot;

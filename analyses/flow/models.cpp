@@ -55,6 +55,7 @@ OutputModel modelOf(const double* polynomial, double radius, const Monomials& mo
   }
   for (std::size_t g = at(monomials.countUpTo(grade)); g < model.c.size(); ++g) beside += std::fabs(model.c[g]);
   model.c.resize(at(monomials.countUpTo(grade)));
+  model.c.shrink_to_fit();  // there may be one of each output at each time, on each of many parts
   model.radius = (radius + beside) * bounds::up;
   return model;
 }
