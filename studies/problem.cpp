@@ -4,10 +4,13 @@
 #include "studies/problem.hpp"
 
 #include <fmt/format.h>
+#include <sys/resource.h>
 
 #include <algorithm>
+#include <new>
 #include <numbers>
 #include <span>
+#include <stdexcept>
 #include <unordered_map>
 #include <unordered_set>
 
@@ -85,15 +88,24 @@ Program recordGivenMotion(const Study& study, const std::vector<std::string>& pa
                 });
 }
 
-}  // namespace
+/// While it lives, requests fail that would take the process beyond so many bytes, before the machine has none left.
+class MemoryBound {
+ public:
+  explicit MemoryBound(double bytes) {
+    ::getrlimit(RLIMIT_DATA, &before_);
+    rlimit bound = before_;
+    if (bytes < static_cast<double>(before_.rlim_cur)) bound.rlim_cur = static_cast<rlim_t>(bytes);
+    ::setrlimit(RLIMIT_DATA, &bound);
+  }
+  ~MemoryBound() { ::setrlimit(RLIMIT_DATA, &before_); }
+  MemoryBound(const MemoryBound&) = delete;
+  MemoryBound& operator=(const MemoryBound&) = delete;
 
-Program alongCourses(const Problem& problem, const Program& program) {
-  return problem.courses.empty() ? program : withCourses(program, problem.courses, problem.slowest, problem.fastest);
-}
+ private:
+  rlimit before_{};
+};
 
-void recordPrograms(Study& study) {
-  const double start = processCpuSeconds();
-  const std::vector<std::string> parameters = freeParameters(study);
+void recordAnalysis(Study& study, const std::vector<std::string>& parameters) {
   Motion& motion = study.motion;
   if (study.isMotionGiven()) {
     motion.f =
@@ -109,6 +121,28 @@ void recordPrograms(Study& study) {
     motion.f = record(0, numbers, [](auto, const auto&, const auto&, auto&) {});
     motion.g = recordConfiguration(study, states, numbers);
   }
+}
+
+}  // namespace
+
+Program alongCourses(const Problem& problem, const Program& program) {
+  return problem.courses.empty() ? program : withCourses(program, problem.courses, problem.slowest, problem.fastest);
+}
+
+void recordPrograms(Study& study) {
+  const double start = processCpuSeconds();
+  const std::vector<std::string> parameters = freeParameters(study);
+  const double most = study.limits.resolved().memory;
+  try {
+    const MemoryBound bound(most);
+    recordAnalysis(study, parameters);
+  } catch (const std::bad_alloc&) {
+    study.motion = {};
+    throw std::length_error(fmt::format(
+        "the equations of {} {} do not fit into the {:.3g} GB that a run may have", study.mechanism.stateNames().size(),
+        study.analysis == Study::Analysis::dynamics ? "states" : "coordinates", most / 1e9));
+  }
+  Motion& motion = study.motion;
   motion.outputNames = outputQuantities(study);
   study.recordingCpu = processCpuSeconds() - start;
 }

@@ -28,7 +28,8 @@ struct Problem {
                            ///< parameters alone. What varies in time takes the course that its number chooses.
 };
 
-/// Fills `study.motion` but for its times. Throws std::invalid_argument for a mechanism whose motion is not determined.
+/// Fills `study.motion` but for its times. Throws std::invalid_argument for a mechanism whose motion is not determined,
+/// and std::length_error for one whose equations find no room: those of n joints in a chain have some 1100 n² bytes.
 void recordPrograms(Study& study);
 
 Problem makeProblem(const Study& study);

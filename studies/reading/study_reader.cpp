@@ -335,6 +335,10 @@ class StudyReader {
     } catch (const std::domain_error& error) {
       refuseNumberWithoutValue();
       source_.failWith(mechanism, error.what(), "a mechanism in which all that is measured has a value");
+    } catch (const std::length_error& error) {
+      source_.failWith(
+          mechanism, error.what(),
+          "fewer joints one behind the other: what they do to each other grows with the square of their number");
     } catch (const std::invalid_argument& error) {
       refuseNumberWithoutValue();
       refuseJointsAlike();

@@ -1,8 +1,10 @@
 // What a run is said to need is about what it takes, in a process of its own.
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <fstream>
 #include <string>
 #include <utility>
 
@@ -53,6 +55,42 @@ TEST(Memory, IsToldBeforehandToAQuarter) {
     EXPECT_LT(needed, 1.25 * taken) << outputs << " x " << times;
     EXPECT_GT(needed, 0.75 * taken) << outputs << " x " << times;
   }
+}
+
+/// In a chain every joint moves all masses behind it.
+TEST(Memory, IsToldToBeTooLittleForEquationsOfManyJoints) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "a sanitizer takes memory of its own";
+#endif
+  constexpr int joints = 400;  // some 170 MB
+  std::string chain;
+  for (int i = 0; i < joints; ++i) {
+    const std::string number = std::to_string(i), from = i == 0 ? "tip" : "E" + std::to_string(i - 1);
+    chain += "[[mechanism.element]]\ntype = \"revolute\"\nname = \"h" + number + "\"\nfrom = \"" + from +
+             "\"\nto = \"F" + number + "\"\naxis = \"x\"\n[[mechanism.element]]\ntype = \"link\"\nname = \"l" + number +
+             "\"\nfrom = \"F" + number + "\"\nto = \"E" + number +
+             "\"\nvector = [0, 0, -0.1]\n[[mechanism.element]]\ntype = \"mass\"\nname = \"m" + number + "\"\nat = \"E" +
+             number + "\"\nmass = 1\n";
+  }
+  const std::string text = sampleStudyWith("[[uncertain]]", chain + "[[uncertain]]");
+  const pid_t child = ::fork();  // what is freed here does not count there
+  if (child == 0) {
+    double pages[6] = {};  // the last: data
+    std::ifstream file("/proc/self/statm");
+    for (double& number : pages) file >> number;
+    rlimit data{};
+    ::getrlimit(RLIMIT_DATA, &data);
+    data.rlim_cur = static_cast<rlim_t>(pages[5] * static_cast<double>(::sysconf(_SC_PAGESIZE)) + 8e7);
+    ::setrlimit(RLIMIT_DATA, &data);
+    const std::string message = messageOf(text);
+    const bool isTold = message.find("s.toml:7:1: the equations of 802 states do not fit into the") == 0;
+    rlimit after{};
+    ::getrlimit(RLIMIT_DATA, &after);
+    ::_exit(isTold && after.rlim_cur == data.rlim_cur ? 0 : 1);
+  }
+  int status = 1;
+  ::waitpid(child, &status, 0);
+  EXPECT_EQ(status, 0);
 }
 
 /// 310 outputs at 2001 times were told to need 10 GB, and took 5.7; they take 1.65 with results and page.
