@@ -24,6 +24,17 @@ Study wideStudy(int outputs, int times) {
   return readStudyText(text + "[distribution]\ntimes = 0\n", "s.toml");
 }
 
+/// Likewise, of two quantities, with all answers: distributions and sensitivities come from models of all outputs.
+Study wideStudyOfTwo(int outputs, int times) {
+  std::string text = sampleStudyWith("output_step = 0.1", "output_step = " + std::to_string(0.5 / (times - 1)));
+  text.replace(text.find("samples = 16"), 12, "samples = 1024");
+  text.insert(text.find("[[output]]"),
+              "[[uncertain]]\nname = \"length\"\nquantity = \"rod.length\"\ninterval = \"± 1 %\"\n");
+  for (int i = 2; i < outputs; ++i)
+    text += "[[output]]\nname = \"o" + std::to_string(i) + "\"\nquantity = \"" + std::to_string(i) + "*hinge.angle\"\n";
+  return readStudyText(text, "s.toml");
+}
+
 /// Bytes that a run takes beyond what the process has already.
 double bytesTaken(const Study& study) {
   int ends[2];
@@ -55,6 +66,18 @@ TEST(Memory, IsToldBeforehandToAQuarter) {
     EXPECT_LT(needed, 1.25 * taken) << outputs << " x " << times;
     EXPECT_GT(needed, 0.75 * taken) << outputs << " x " << times;
   }
+}
+
+/// Samples of sensitivities alone took 0.6 GB of these when outputs of all of them were there at once.
+TEST(Memory, IsToldOfStudiesWithSensitivities) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "a sanitizer takes memory of its own";
+#endif
+  const Study study = wideStudyOfTwo(40, 301);
+  constexpr double program = 6e7;  // whatever it does
+  const double needed = memoryNeeded(study, {}), taken = program + bytesTaken(study);
+  EXPECT_LT(needed, 1.25 * taken);
+  EXPECT_GT(needed, 0.75 * taken);
 }
 
 /// In a chain every joint moves all masses behind it.
