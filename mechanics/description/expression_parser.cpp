@@ -39,7 +39,8 @@ class ExpressionParser {
     refuseComparison();
     if (!atEnd())
       fail(fmt::format("unexpected '{}'", character()),
-           std::string("an operator or the end") + (isDigit(text_[position_]) ? " (5/s, not 5 1/s)" : ""));
+           here() == ',' ? "a point before decimals, and no mark between thousands"
+                         : std::string("an operator or the end") + (isDigit(here()) ? " (5/s, not 5 1/s)" : ""));
     if (expression_.isConstant() && !hasNumber_) fail(fmt::format("'{}' holds a unit but no number", text_));
     return std::move(expression_);
   }
@@ -56,6 +57,11 @@ class ExpressionParser {
       {"atan", Operation::atan},   {"sinh", Operation::sinh}, {"cosh", Operation::cosh},   {"tanh", Operation::tanh},
       {"abs", Operation::abs},     {"sign", Operation::sign}, {"where", Operation::where}, {"atan2", Operation::atan2},
       {"hypot", Operation::hypot}, {"min", Operation::min},   {"max", Operation::max}};
+  /// As other languages call them.
+  using OtherFunction = std::pair<std::string_view, std::string_view>;
+  static constexpr OtherFunction otherFunctions[] = {{"if", "where"},    {"ln", "log"},      {"sgn", "sign"},
+                                                     {"signum", "sign"}, {"fabs", "abs"},    {"arcsin", "asin"},
+                                                     {"arccos", "acos"}, {"arctan", "atan"}, {"arctan2", "atan2"}};
   static constexpr const char* example =
       "a number with an optional unit, such as 0.5, \"135 deg\" or \"3/4 pi\", or a formula such as \"2 rod.length + 3 "
       "mm\"";
@@ -172,12 +178,14 @@ class ExpressionParser {
       const int at = column();
       const bool divides = take("/");
       if (divides || take("*") || take("·")) {
+        if (here() == '*') fail("a second '*'", "'^' for a power");
         skipBlanks();
         if (atEnd()) fail("the end after an operator");
         readSigned(false);
       } else if (isWordHere()) {
         if (last_ == Piece::other || (last_ == Piece::unit && !isUnitHere()))
-          fail(fmt::format("no operator before '{}'", text_.substr(position_, wordLength())), "*, /, + or -");
+          fail(fmt::format("no operator before '{}'", text_.substr(position_, wordLength())),
+               "*, /, + or -, or single quotes about a name with blanks");
         readPower(last_ == Piece::number);
       } else {
         break;
@@ -306,7 +314,9 @@ class ExpressionParser {
   [[noreturn]] static void refuseFunction(const std::string& word, int at) {
     std::vector<std::string> known;
     for (const Function& f : functions) known.emplace_back(f.name);
-    const std::string nearest = word == "if" ? "where" : nearestName(word, known);
+    const auto other = std::ranges::find(otherFunctions, word, &OtherFunction::first);
+    const std::string nearest =
+        other != std::end(otherFunctions) ? std::string(other->second) : nearestName(word, known);
     throw UnitError(fmt::format("unknown function '{}' at column {}; expected {}one of: {}", word, at,
                                 nearest.empty() ? "" : fmt::format("'{}'? (", nearest), fmt::join(known, ", ")) +
                     (nearest.empty() ? "" : ")"));

@@ -295,10 +295,17 @@ std::string nearestUnit(const std::string& word) {
       {"sec", "s"},      {"second", "s"}, {"minute", "min"}, {"hour", "h"},    {"hertz", "Hz"},  {"radian", "rad"},
       {"degree", "deg"}, {"newton", "N"}, {"joule", "J"},    {"watt", "W"},    {"pascal", "Pa"}, {"volt", "V"},
       {"amp", "A"},      {"henry", "H"},  {"farad", "F"},    {"coulomb", "C"}, {"weber", "Wb"},  {"tesla", "T"}};
+  static const std::map<std::string_view, const char*> prefixesInWords = {
+      {"milli", "m"}, {"micro", "u"}, {"nano", "n"}, {"centi", "c"}, {"kilo", "k"}, {"mega", "M"}, {"giga", "G"}};
   std::string small = word;
   std::ranges::transform(small, small.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  for (const std::string& one : {small, small.ends_with('s') ? small.substr(0, small.size() - 1) : small})
+  for (const std::string& one : {small, small.ends_with('s') ? small.substr(0, small.size() - 1) : small}) {
     if (const auto found = words.find(one); found != words.end()) return found->second;
+    for (const auto& [prefix, letter] : prefixesInWords)
+      if (const auto found = words.find(one.substr(std::min(prefix.size(), one.size())));
+          one.starts_with(prefix) && found != words.end() && unitNamed(std::string(letter) + found->second) != nullptr)
+        return std::string(letter) + found->second;
+  }
   for (const auto& [symbol, amount] : amountsOfUnits())
     if (symbol.size() > 1 && std::ranges::equal(
                                  symbol, word, {}, [](unsigned char c) { return std::tolower(c); },

@@ -174,20 +174,18 @@ int Recorder::emit(Op op, int a, int b) {
 }
 
 int Recorder::recip(int a) {
-  if (isConstant(a) && contains(value(a), 0.0))
-    throw std::domain_error("recorded division by a constant that may be zero");
+  if (isConstant(a) && contains(value(a), 0.0)) throw std::domain_error("division by a constant that may be zero");
   return emit(Op::recip, a);
 }
 
 int Recorder::sqrt(int a) {
-  if (isConstant(a) && value(a).lower() < 0)
-    throw std::domain_error("recorded square root of a constant that may be negative");
+  if (isConstant(a) && value(a).lower() < 0) throw std::domain_error("square root of a constant that may be negative");
   return emit(Op::sqrt, a);
 }
 
 int Recorder::log(int a) {
   if (isConstant(a) && value(a).lower() <= 0)
-    throw std::domain_error("recorded logarithm of a constant that may not be positive");
+    throw std::domain_error("logarithm of a constant that may not be positive");
   return emit(Op::log, a, a);
 }
 

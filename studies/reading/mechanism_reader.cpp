@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -592,7 +593,11 @@ class MechanismReader {
   Expression number(const toml::node& node, const std::string& name, const std::string& what, const std::string& unit) {
     const Dimension dimension = dimensionOf(unit);
     places_[name] = &node;
-    if (!node.is_string()) return Expression(source_.asAmount(node, what, dimension));
+    if (!node.is_string()) {
+      const Amount plain = source_.asAmount(node, what, dimension);
+      noteTurns(node, name, unit, nearest(plain));
+      return Expression(plain);
+    }
     Expression formula = source_.asExpression(node, what);
     const std::vector<std::string>& names = formula.names();
     const bool isUnit =
@@ -606,6 +611,15 @@ class MechanismReader {
     } catch (const WrongUnit&) {  // whose place is where the parameter got its unit: the mechanism will say it
     }
     return formula;
+  }
+
+  /// What has no unit is in radians: degrees may be meant where it is more than a turn.
+  void noteTurns(const toml::node& node, const std::string& name, const std::string& unit, double value) {
+    constexpr double turn = 6.2832;  // hardly more than 2 pi
+    if (unit == "rad" && std::abs(value) > turn)
+      notes_.push_back(source_.note(
+          node,
+          fmt::format("'{}' is {:.6g} rad, more than a turn; degrees would be \"{:.6g} deg\"", name, value, value)));
   }
 
   const TomlSource& source_;

@@ -76,7 +76,7 @@ class RequirementReader {
     }
     if (requirement.from > requirement.until)
       source_.fail(section.table(),
-                   fmt::format("the requirement's time begins at {} s and ends at {} s before", requirement.from,
+                   fmt::format("the requirement's time begins at {} s, after its end at {} s", requirement.from,
                                requirement.until),
                    "from before until");
     if (study_.motion.times.size() > maxOutputTimes)
@@ -220,7 +220,7 @@ class RequirementReader {
       }
       if (!isPlainNumber(side))
         source_.fail(node, fmt::format("'{}' compares {} with {}", text, unitOf(dimension), unitOf(own)),
-                     "quantities of one kind");
+                     "quantities of one kind" + std::max(perRadian(dimension, own), perRadian(own, dimension)));
       const bool isOneNumber = side.quantity.find_first_of("+*/^( ") == std::string::npos;
       side.quantity = isOneNumber ? fmt::format("{} {}", side.quantity, unitInFormulas(dimension))
                                   : fmt::format("({})*(1 {})", side.quantity, unitInFormulas(dimension));
@@ -353,6 +353,12 @@ bool isAlikeButForRadians(const Dimension& a, const Dimension& b) {
   Dimension turned = b;
   turned.angle = a.angle;
   return a == turned && std::min(a.angle, b.angle) >= 0 && (a.mass != 0 || a.length != 0);
+}
+
+std::string perRadian(const Dimension& quantity, const Dimension& wanted) {
+  Dimension turned = quantity;
+  turned.angle = wanted.angle;
+  return quantity.angle == -1 && wanted.angle == 0 && turned == wanted ? " (or \"(1 rad)\" times the quantity)" : "";
 }
 
 void readRequirements(const TomlSource& source, const std::vector<const toml::table*>& tables, Study& study,

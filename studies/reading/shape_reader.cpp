@@ -109,8 +109,11 @@ class ShapeReader {
       if (type == "evidence") uncertain.distribution = Distribution::evidence(evidenceInside(table, result));
       if (type == "induced") uncertain.distribution = distributionOf(uncertain.membership);
       if (type == "uniform") uncertain.distribution = Distribution::uniform(on);
-      if (type == "triangular")
-        uncertain.distribution = Distribution::triangular(on, parameter(table, "mode", dimension, uncertain.nominal));
+      if (type == "triangular") {
+        const Interval mode = parameter(table, "mode", dimension, uncertain.nominal);
+        requireInside(table, "mode", mode, on);
+        uncertain.distribution = Distribution::triangular(on, mode);
+      }
       if (type == "normal")
         uncertain.distribution = Distribution::normal(on, parameter(table, "mean", dimension, uncertain.nominal),
                                                       parameter(table, "deviation", dimension));

@@ -52,11 +52,11 @@ class StudyReader {
     study_.mechanism = std::move(read.mechanism);
     study_.robot = std::move(read.files.robot);
     study_.tables = std::move(read.files.tables);
-    study_.notes = std::move(read.notes);
+    std::ranges::move(read.notes, std::back_inserter(study_.notes));
     places_ = std::move(read.places);
     checkMotion(*file.find("mechanism"));
     if (study_.analysis == Study::Analysis::inverseDynamics) checkDrives(*file.find("mechanism"));
-    readUncertain(source_, tables(file, "uncertain"), TableFiles(source_, study_.tables, files), study_);
+    readUncertain(source_, tables(file, "uncertain"), TableFiles(source_, study_.tables, files), places_, study_);
     readDependence(source_, tables(file, "dependence"), study_);
     file.require("output", "a table [[output]] for each output that is wanted");
     for (const toml::table* table : tables(file, "output")) readOutput(*table);
@@ -162,6 +162,11 @@ class StudyReader {
       study_.motion.times.push_back(nearest(time));
     }
     if (study_.motion.times.back() < study_.horizon) study_.motion.times.push_back(study_.horizon);
+    if (step.value > horizon.value)
+      study_.notes.push_back(source_.note(
+          node,
+          fmt::format("study.output_step is longer than the horizon of {} s, so that outputs are those at its ends",
+                      study_.horizon)));
     if (study_.motion.times.size() > 1 && study_.motion.times[1] == 0)
       source_.fail(node, "study.output_step is too small", "a longer step");
   }
@@ -384,8 +389,9 @@ class StudyReader {
     } catch (const UnitError& error) {
       source_.fail(*node, error);
     }
-    source_.fail(*node, fmt::format("output.unit is {}, which does not measure what is wanted", unit),
-                 fmt::format("{}, or another unit of that kind", own));
+    source_.fail(
+        *node, fmt::format("output.unit is {}, which does not measure what is wanted", unit),
+        fmt::format("{}, or another unit of that kind{}", own, perRadian(dimensionOf(own), dimensionOf(unit))));
   }
 
   void readOutput(const toml::table& table) {
@@ -497,7 +503,7 @@ class StudyReader {
       Sampling(study_.ensemble.plan, study_.uncertain.size(), 1, study_.ensemble.seed);
     } catch (const std::invalid_argument& error) {
       source_.failWith(stochastic == nullptr ? source_.root() : *stochastic, error.what(),
-                       "stochastic.plan = \"latin-hypercube\", which serves any number of them");
+                       "plan = \"random\" or \"latin-hypercube\" in [stochastic], of any number of quantities");
     }
   }
 

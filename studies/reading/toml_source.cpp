@@ -40,6 +40,18 @@ std::string oneLine(std::string_view text) {
   return line;
 }
 
+/// What a file may be meant to hold of which the parser says this, with this text from there on.
+std::string validInstead(const std::string& what, std::string_view rest) {
+  const auto says = [&](std::string_view words) { return what.find(words) != std::string::npos; };
+  if (says("cannot redefine existing") && says("as array-of-tables"))
+    return "double brackets, as in [[output]], of every such table, the first too";
+  if (says("cannot redefine existing array")) return "double brackets, as in [[output]], of every such table";
+  if (says("unescaped control characters") && (rest.starts_with('\n') || rest.starts_with("\r\n")))
+    return "texts that end in a quote on their line";
+  if (says("saw ','")) return "a point before decimals, and commas in lists alone";
+  return "a file that follows https://toml.io, texts and numbers with units in quotes";
+}
+
 /// What others call things, and what they are called here.
 constexpr std::pair<std::string_view, std::string_view> otherWords[] = {{"tolerance", "interval"},
                                                                         {"range", "interval"},
@@ -95,8 +107,10 @@ TomlSource::TomlSource(std::string text, std::string name, const std::string& ki
   try {
     root_ = toml::parse(std::string_view(text_));
   } catch (const toml::parse_error& error) {
-    fail(error.source().begin, "not valid TOML: " + oneLine(error.description()),
-         "a file that follows https://toml.io, texts and numbers with units in quotes");
+    const std::string what = oneLine(error.description());
+    const toml::source_position at = error.source().begin;
+    const std::string rest = at.line > 0 && at.line <= lineStarts_.size() ? text_.substr(placeAt(at)) : "";
+    fail(at, "not valid TOML: " + what, validInstead(what, rest));
   }
 }
 
@@ -267,13 +281,19 @@ std::string TomlSource::asChoice(const toml::node& node, const std::string& what
   return word;
 }
 
-/// The number's characters; columns count code points, so continuation bytes (10xxxxxx) are skipped.
-std::string TomlSource::tokenAt(const toml::source_position& at) const {
+/// Columns count code points, so continuation bytes (10xxxxxx) are skipped.
+std::size_t TomlSource::placeAt(const toml::source_position& at) const {
   std::size_t i = lineStarts_.at(at.line - 1);
   for (unsigned column = 1; i < text_.size(); ++i) {
     if ((static_cast<unsigned char>(text_[i]) & 0xC0U) == 0x80U) continue;
     if (column++ == at.column) break;
   }
+  return i;
+}
+
+/// The number's characters.
+std::string TomlSource::tokenAt(const toml::source_position& at) const {
+  const std::size_t i = placeAt(at);
   const std::size_t end = text_.find_first_not_of("0123456789+-._eE", i);
   return text_.substr(i, end == std::string::npos ? end : end - i);
 }

@@ -84,6 +84,7 @@ class TomlSource {
   std::size_t lineOf(std::size_t place) const;
   /// "file:line:column"
   std::string placeOf(const toml::source_position& at) const;
+  std::size_t placeAt(const toml::source_position& at) const;
   std::string tokenAt(const toml::source_position& at) const;
   Amount checked(const toml::node& node, const std::string& what, Amount amount, const Dimension& dimension,
                  const std::string& unit) const;

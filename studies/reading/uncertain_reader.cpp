@@ -50,8 +50,9 @@ class Pattern {
 
 class UncertainReader {
  public:
-  UncertainReader(const TomlSource& source, const TableFiles& files, Study& study)
-      : source_(source), files_(files), study_(study) {}
+  UncertainReader(const TomlSource& source, const TableFiles& files,
+                  const std::map<std::string, const toml::node*>& places, Study& study)
+      : source_(source), files_(files), places_(places), study_(study) {}
 
   void read(const toml::table& table) {
     const TomlSection section(source_, table, "uncertain",
@@ -118,12 +119,21 @@ class UncertainReader {
     }
   }
 
+  /// What a number follows from; empty of one that follows from nothing, or that there is not.
+  std::vector<std::string> namesInFormulaOf(const std::string& quantity) const {
+    if (const Mechanism::Derived* derived = study_.mechanism.derived().find(quantity)) return derived->formula.names();
+    const auto place = places_.find(quantity);
+    return place == places_.end() || !place->second->is_string() || study_.mechanism.mayBeUncertain(quantity)
+               ? std::vector<std::string>()
+               : source_.asExpression(*place->second, quantity, true).names();
+  }
+
   /// One quantity of a table that may name several.
   void readOne(const TomlSection& section, const toml::node& node, const std::string& quantity) {
     const Mechanism& mechanism = study_.mechanism;
-    if (const Mechanism::Derived* derived = mechanism.derived().find(quantity))
+    if (const std::vector<std::string> names = namesInFormulaOf(quantity); !names.empty())
       source_.fail(node, fmt::format("'{}' follows from a formula", quantity),
-                   fmt::format("one of the quantities in it: {}", fmt::join(derived->formula.names(), ", ")));
+                   fmt::format("one of the quantities in it: {}", fmt::join(names, ", ")));
     if (const Mechanism::JointCoordinate* coordinate = mechanism.coordinateWith(quantity))
       if (coordinate->isDriven)
         source_.fail(
@@ -241,7 +251,9 @@ class UncertainReader {
     if (dimensionOf(result.unit) == Dimension{1, 0, 0, 0} && range.lower() < 0)
       source_.fail(node, fmt::format("{} reaches down to a negative mass", what), "a lower bound of at least 0 kg");
     if (!contains(range, result.uncertain.nominal))
-      source_.fail(node, fmt::format("{} does not hold the nominal value {:.6g}", what, result.uncertain.nominal),
+      source_.fail(node,
+                   fmt::format("{} does not hold the nominal value {:.6g}{}", what, result.uncertain.nominal,
+                               result.unit == "1" ? "" : " " + result.unit),
                    "an interval around the nominal value");
   }
 
@@ -318,6 +330,7 @@ class UncertainReader {
 
   const TomlSource& source_;
   const TableFiles& files_;
+  const std::map<std::string, const toml::node*>& places_;
   Study& study_;
   std::vector<const toml::table*> tables_;              // of each uncertain quantity
   std::unordered_set<std::string> quantities_, names_;  // that are uncertain so far
@@ -326,8 +339,8 @@ class UncertainReader {
 }  // namespace
 
 void readUncertain(const TomlSource& source, const std::vector<const toml::table*>& tables, const TableFiles& files,
-                   Study& study) {
-  UncertainReader reader(source, files, study);
+                   const std::map<std::string, const toml::node*>& places, Study& study) {
+  UncertainReader reader(source, files, places, study);
   for (const toml::table* table : tables) reader.read(*table);
   reader.noteFaults();
 }

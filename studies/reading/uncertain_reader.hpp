@@ -1,6 +1,7 @@
 // The [[uncertain]] part of a study file.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -9,10 +10,10 @@
 
 namespace gamut {
 
-/// Reads uncertain quantities of the study's mechanism into the study, and notes what may be a mistake in them. Throws
-/// StudyError.
+/// Reads uncertain quantities of the study's mechanism into the study, and notes what may be a mistake in them. The
+/// mechanism's numbers stand at `places`. Throws StudyError.
 void readUncertain(const TomlSource& source, const std::vector<const toml::table*>& tables, const TableFiles& files,
-                   Study& study);
+                   const std::map<std::string, const toml::node*>& places, Study& study);
 
 /// What would do instead of a quantity that the mechanism does not have.
 std::string quantityExpected(const std::string& word, const std::vector<std::string>& known);

@@ -139,7 +139,7 @@ TEST(StudyReader, NamesTheQuantityOfAPatternThatIsAtFault) {
       messageOfPattern("0.5", "\"± 1 deg\""),
       "s.toml:30:12: uncertain.interval is written in a unit of the kind rad, for 'hinge.rate'; expected a number "
       "in rad/s, or with a unit of that kind");
-  EXPECT_THAT(messageOfPattern("0.5", "[0.6, 0.7]"), HasSubstr("nominal value 0.5, for 'hinge.angle'; expected "));
+  EXPECT_THAT(messageOfPattern("0.5", "[0.6, 0.7]"), HasSubstr("nominal value 0.5 rad, for 'hinge.angle'; expected "));
 }
 
 TEST(StudyReader, TakesNamesAsMessagesQuoteThem) {
@@ -829,7 +829,7 @@ constexpr BadStudy badStudies[] = {
     {"parameters = { length = 0.5 }", "parameters = { length = 0.5 }\nrotation = { quaternion = [1, 0, 0] }",
      "s.toml:23:27: mechanism.element.rotation.quaternion has 3 numbers; expected [w, x, y, z]"},
     {"quantity = \"tip.position.z\"", "quantity = \"sqrt(-1)\"",
-     "s.toml:38:12: 'sqrt(-1)' has no value: recorded square root of a constant that may be negative; expected a "
+     "s.toml:38:12: 'sqrt(-1)' has no value: square root of a constant that may be negative; expected a "
      "formula "
      "that has a value"},
     {"[[uncertain]]",
@@ -917,7 +917,8 @@ constexpr BadStudy badStudies[] = {
      "s.toml:29:8: one name is given to 2 quantities; expected no name: each has that of its quantity"},
     {"interval = \"± 1 %\"\ndistribution = { type = \"uniform\" }",
      "distribution = { type = \"uniform\", support = [0.6, 0.7] }",
-     "s.toml:28:1: the support of 'hinge.angle' does not hold the nominal value 0.523599; expected an interval around "
+     "s.toml:28:1: the support of 'hinge.angle' does not hold the nominal value 0.523599 rad; expected an interval "
+     "around "
      "the "
      "nominal value"},
     {"title = \"Pendulum\"", "title = 3", "s.toml:2:9: study.title is the number 3; expected text in quotes"},
@@ -1025,7 +1026,8 @@ constexpr BadStudy badStudies[] = {
     {"\"-rod.length\"", "\"1/2 beam.length\"",
      "s.toml:21:17: unknown parameter 'beam.length'; expected 'rod.length' (for 'rod.vector.z')"},
     {"\"-rod.length\"", "\"-2 m rod.length\"",
-     "s.toml:21:17: mechanism.element.vector: no operator before 'rod.length' at column 6; expected *, /, + or -"},
+     "s.toml:21:17: mechanism.element.vector: no operator before 'rod.length' at column 6; expected *, /, + or -, or "
+     "single quotes about a name with blanks"},
     {"mass = \"250 g\"", "mass = \"250 x\"",
      "s.toml:27:8: mechanism.element.mass: unknown unit 'x' in '250 x'; expected "
      "one of rad, deg, °, rpm, m, in, ft, kg, g, t, lb, s, min, h, Hz, N, lbf, J, W, Pa, bar, V, A, Ohm, Ω, H, "
@@ -1107,22 +1109,22 @@ constexpr BadStudy badStudies[] = {
     {"[[uncertain]]",
      "[[mechanism.element]]\ntype = \"force\"\nname = \"gust\"\nat = \"tip\"\nparameters = { wind = \"1 N\" }\n"
      "force = [0, \"gust.wind/0\", 0]\n[[uncertain]]\nquantity = \"gust.wind\"\ninterval = \"± 1 N\"\n[[uncertain]]",
-     "s.toml:33:13: 'gust.force.y' has no value: recorded division by a constant that may be zero; expected a formula "
+     "s.toml:33:13: 'gust.force.y' has no value: division by a constant that may be zero; expected a formula "
      "that has a value"},
     {"[[uncertain]]",
      "[[mechanism.element]]\ntype = \"joint-force\"\nname = \"motor\"\njoint = \"hinge\"\nparameters = { none = \"1 "
      "rad - 1 rad\", gain = \"3 N m\" }\nforce = \"motor.gain*hinge.angle/motor.none\"\n[[uncertain]]",
-     "s.toml:33:9: 'motor.force' has no value: recorded division by a constant that may be zero; expected a formula "
+     "s.toml:33:9: 'motor.force' has no value: division by a constant that may be zero; expected a formula "
      "that has a value"},
     {"\"-rod.length\"", "\"-rod.length/0\"",
-     "s.toml:21:17: 'rod.vector.z' has no value: recorded division by a constant that may be zero; expected a formula "
+     "s.toml:21:17: 'rod.vector.z' has no value: division by a constant that may be zero; expected a formula "
      "that has a value"},
     {"interval = \"± 1 %\"", "interval = \"± 0 %\"",
      "s.toml:31:12: uncertain.interval has no positive deviation; expected a deviation above 0"},
     {"interval = \"± 1 %\"", "interval = [0.6, 0.4]",
      "s.toml:31:12: uncertain.interval has its lower bound above its upper one; expected [lower, upper]"},
     {"interval = \"± 1 %\"", "interval = [0.6, 0.7]",
-     "s.toml:31:12: uncertain.interval does not hold the nominal value 0.523599; expected an interval around the "
+     "s.toml:31:12: uncertain.interval does not hold the nominal value 0.523599 rad; expected an interval around the "
      "nominal value"},
     {"interval = \"± 1 %\"", "interval = 0.5",
      "s.toml:31:12: uncertain.interval is neither text nor a list; expected \"± 1 %\", \"± 2 deg\", \"+2 / -1 mm\" or "
@@ -1288,6 +1290,37 @@ constexpr BadStudy badStudies[] = {
      "GB, "
      "or a greater limits.memory"},
     {"[stochastic]", "[[stochastic]]", "s.toml:39:1: stochastic is a list; expected a table"},
+    {"[[output]]", "[output]",
+     "s.toml:37:1: not valid TOML: Error while parsing table header: cannot redefine existing table 'output' as "
+     "array-of-tables; expected double brackets, as in [[output]], of every such table, the first too"},
+    {"\"tip.position.z\"\n", "\"tip.position.z\"\n[output]\n",
+     "s.toml:39:1: not valid TOML: Error while parsing table header: cannot redefine existing array 'output' as table; "
+     "expected double brackets, as in [[output]], of every such table"},
+    {"horizon = 0.5", "horizon = 0,5",
+     "s.toml:4:12: not valid TOML: Error while parsing key-value pair: expected a comment or whitespace, saw ','; "
+     "expected a point before decimals, and commas in lists alone"},
+    {"title = \"Pendulum\"", "title = \"Pendulum",
+     "s.toml:2:18: not valid TOML: Error while parsing string: unescaped control characters other than TAB (U+0009) "
+     "are "
+     "explicitly prohibited; expected texts that end in a quote on their line"},
+    {"title = \"Pendulum\"", "title = \"Pen\x01 dulum\"",
+     "s.toml:2:13: not valid TOML: Error while parsing string: unescaped control characters other than TAB (U+0009) "
+     "are "
+     "explicitly prohibited; expected a file that follows https://toml.io, texts and numbers with units in quotes"},
+    {"{ angle = \"30 deg\", rate = 0.5 }", "[\"30 deg\", 0.5]",
+     "s.toml:15:11: mechanism.element.initial is a list; expected a table, such as { angle = 0, rate = 0 }"},
+    {"length = 0.5", "length = \"5 millimetres\"",
+     "s.toml:22:25: unknown parameter 'millimetres'; expected one of: gravity.x, gravity.y, gravity.z (for "
+     "'rod.length', or the unit 'mm')"},
+    {"\"± 1 %\"", "[0, 0.5]",
+     "s.toml:31:12: uncertain.interval does not hold the nominal value 0.523599 rad; expected an interval around the "
+     "nominal value"},
+    {"{ type = \"uniform\" }", "{ type = \"triangular\", mode = 0.6 }",
+     "s.toml:32:46: uncertain.distribution.mode 0.6 leaves the support; expected values inside [0.518363, 0.528835]"},
+    {"quantity = \"hinge.angle\"\ninterval", "quantity = \"rod.vector.z\"\ninterval",
+     "s.toml:30:12: 'rod.vector.z' follows from a formula; expected one of the quantities in it: rod.length"},
+    {"[stochastic]", "[[requirement]]\nalways = \"angle > 0\"\nfrom = 0.3\nuntil = 0.2\n[stochastic]",
+     "s.toml:39:1: the requirement's time begins at 0.3 s, after its end at 0.2 s; expected from before until"},
 };
 
 /// Of an element whose name it has, what that gives.
@@ -1334,16 +1367,57 @@ TEST(StudyReader, ShowsHowInitialValuesAreWritten) {
   }
 }
 
-/// Sobol' sequences serve forty quantities.
-TEST(StudyReader, NamesAPlanThatServesManyQuantities) {
-  std::string text = sampleStudy, names;
-  for (int i = 0; i < 50; ++i) names += "gain" + std::to_string(i) + " = 1, ";
-  text.insert(text.find("[[mechanism.element]]"), "parameters = { " + names + "none = 0 }\n");
+TEST(StudyReader, SaysHowPowerByRateIsAMoment) {
+  const std::string drive =
+      "[[mechanism.element]]\ntype = \"joint-force\"\nname = \"motor\"\njoint = \"hinge\"\nforce = \"1 N m\"\n"
+      "[[uncertain]]";
+  const auto with = [&](const std::string& quantity, const std::string& rest) {
+    std::string text = sampleStudyWith("[[uncertain]]", drive);
+    const std::string old = "quantity = \"tip.position.z\"\n";
+    return messageOf(
+        text.replace(text.find(old), old.size(), "name = \"moment\"\nquantity = \"" + quantity + "\"\n" + rest));
+  };
+  const std::string unit = "unit = \"N m\"\n", limit = "[[requirement]]\nalways = \"moment < 3 N m\"\n";
+  EXPECT_EQ(with("motor.power/hinge.rate", unit),
+            "s.toml:45:8: output.unit is N m, which does not measure what is wanted; expected N m/rad, or another unit "
+            "of that kind (or \"(1 rad)\" times the quantity)");
+  EXPECT_EQ(with("motor.power/hinge.rate", limit),
+            "s.toml:46:10: 'moment < 3 N m' compares N m/rad with N m; expected quantities of one kind (or \"(1 rad)\" "
+            "times the quantity)");
+  for (const std::string& rest : {unit, limit}) EXPECT_EQ(with("motor.power/hinge.rate*(1 rad)", rest), "it was read");
+  EXPECT_THAT(with("motor.power*hinge.rate", unit), Not(HasSubstr("(1 rad)")));
+}
+
+TEST(StudyReader, NotesDegreesWithoutAUnitAndStepsBeyondTheHorizon) {
+  const auto notes = [](const std::string& old, const std::string& replacement) {
+    return readStudyText(sampleStudyWith(old, replacement), "s.toml").notes;
+  };
+  EXPECT_THAT(
+      notes("angle = \"30 deg\"", "angle = 30"),
+      ElementsAre("s.toml:15:21: note: 'hinge.angle' is 30 rad, more than a turn; degrees would be \"30 deg\""));
+  EXPECT_THAT(notes("angle = \"30 deg\"", "angle = -6.29"), ::testing::SizeIs(1));
+  for (const char* meant : {"angle = 6.28", "angle = \"30 rad\"", "angle = -3"})
+    EXPECT_THAT(notes("angle = \"30 deg\"", meant), ::testing::IsEmpty()) << meant;
+  EXPECT_THAT(notes("output_step = 0.1", "output_step = 1"),
+              ElementsAre("s.toml:5:15: note: study.output_step is longer than the horizon of 0.5 s, so that outputs "
+                          "are those at its ends"));
+  EXPECT_THAT(notes("output_step = 0.1", "output_step = 0.5"), ::testing::IsEmpty());
+}
+
+TEST(StudyReader, NamesAPlanForAnyNumberOfQuantities) {
+  std::string names;
+  for (int i = 0; i < 41; ++i) names += "gain" + std::to_string(i) + " = 1, ";
+  std::string text =
+      sampleStudyWith("[[mechanism.element]]", "parameters = { " + names + "none = 0 }\n[[mechanism.element]]");
   text.insert(text.find("[[uncertain]]"), "[[uncertain]]\nquantity = \"gain*\"\ninterval = \"± 1 %\"\n");
-  EXPECT_THAT(messageOf(text), HasSubstr("the plan 'sobol' serves at most 40 uncertain quantities, not 51; expected "
-                                         "stochastic.plan = \"latin-hypercube\", which serves any number of them"));
-  text.replace(text.find("\"sobol\""), 7, "\"latin-hypercube\"");
-  EXPECT_EQ(messageOf(text), "it was read");
+  EXPECT_EQ(
+      messageOf(text),
+      "s.toml:43:1: the plan 'sobol' serves at most 40 uncertain quantities, not 42; expected plan = \"random\" or "
+      "\"latin-hypercube\" in [stochastic], of any number of quantities");
+  for (const std::string plan : {"random", "latin-hypercube"}) {
+    std::string other = text;
+    EXPECT_EQ(messageOf(other.replace(other.find("\"sobol\""), 7, "\"" + plan + "\"")), "it was read") << plan;
+  }
 }
 
 /// Combinations grow with the power of the quantities.
