@@ -11,7 +11,10 @@ void printRequirements(std::FILE* stream, const Results& results) {
   if (results.requirements.empty()) return;
   fmt::print(stream, "{}\n", sentenceOfRequirements(results));
   for (const RequirementWords& words : wordsOfRequirements(results)) {
-    fmt::print(stream, "  {}: {} ({})\n", words.name, words.verdict, words.demand);
+    if (words.demand.ends_with(" " + words.name))  // named by itself
+      fmt::print(stream, "  {}: {}\n", words.demand, words.verdict);
+    else
+      fmt::print(stream, "  {}: {} ({})\n", words.name, words.verdict, words.demand);
     const auto print = [&](const char* title, const std::string& text) {
       if (!text.empty()) fmt::print(stream, "    {:<11} {}\n", title, text);
     };

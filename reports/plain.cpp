@@ -257,8 +257,9 @@ std::string ofRequirements(const Results& results) {
       std::ranges::count_if(all, [](const RequirementResult& r) { return r.isViolatedInSimulation; });
   const auto open = number - met - violated - rarely - partly - simulated;
   if (met == number)
-    return number == 1 ? fmt::format("The requirement is met {}.", everyCase)
-                       : fmt::format("All {} requirements are met {}.", number, everyCase);
+    return number == 1   ? fmt::format("The requirement is met {}.", everyCase)
+           : number == 2 ? fmt::format("Both requirements are met {}.", everyCase)
+                         : fmt::format("All {} requirements are met {}.", number, everyCase);
   if (number == 1)
     return violated > 0    ? "The requirement is violated in every case that the stated tolerances allow."
            : rarely > 0    ? fmt::format("The requirement is violated, but for {}.", rareText(all.front()))

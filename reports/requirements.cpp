@@ -84,7 +84,9 @@ class Wording {
 
   std::string guaranteed() const {
     if (r_.word == "met")
-      return "met for every value, at every instant" + std::string(r_.isAlways ? "" : " that counts");
+      return "met for every value" + std::string(results_.horizon == 0 ? ""
+                                                 : r_.isAlways         ? ", at every instant"
+                                                                       : ", at every instant that counts");
     if (r_.word == "violated") return "violated for every value" + violation();
     std::string text = r_.word == "partly"         ? "violated for some values" + violation()
                        : r_.isViolatedInSimulation ? "not proved, but violated in simulation" + simulation()
@@ -171,6 +173,13 @@ std::string missText(const Results& results, const RequirementResult& requiremen
   return withUnit(tellingText(miss / scale, size, 3), stated);
 }
 
+/// "All 3 requirements are", "The requirement is".
+std::string allOf(std::size_t count) {
+  return count == 1   ? "The requirement is"
+         : count == 2 ? "Both requirements are"
+                      : fmt::format("All {} requirements are", count);
+}
+
 bool isViolated(const RequirementResult& requirement) {
   return requirement.word == "violated" || requirement.word == "partly";
 }
@@ -225,19 +234,24 @@ std::string sentenceOfRequirements(const Results& results) {
   };
   const std::size_t met = number([](const RequirementResult&r) { return r.word == "met"; }),
                     violated = number(isViolated),
+                    certainly = number([](const RequirementResult&r) { return r.word == "violated"; }),
                     simulated = number([](const RequirementResult&r) { return r.isViolatedInSimulation; });
-  if (met == count)
-    return count == 1 ? "The requirement is met, whatever the uncertain quantities are."
-                      : fmt::format("All {} requirements are met, whatever the uncertain quantities are.", count);
+  if (met == count) return allOf(count) + " met, whatever the uncertain quantities are.";
   std::vector<std::string> parts;
-  const auto add = [&](std::size_t some, const char* what, const char* others) {
-    if (some > 0) parts.push_back(fmt::format("{} {}", some, some == 1 ? what : others));
+  const auto add = [&](std::size_t some, const char* what) {
+    if (some == 0) return;
+    parts.push_back(some == count ? allOf(count) + what : fmt::format("{} {}{}", some, some == 1 ? "is" : "are", what));
   };
-  add(violated, "is violated, for some values at least", "are violated, for some values at least");
-  add(simulated, "is violated in simulation, not proved", "are violated in simulation, not proved");
-  add(count - met - violated - simulated, "is neither proved nor refuted", "are neither proved nor refuted");
-  add(met, "is met for all values", "are met for all values");
-  return fmt::format("Of {}, {}.", countText(static_cast<long long>(count), "requirement"), fmt::join(parts, ", "));
+  add(certainly, " violated for all values");
+  add(violated - certainly, " violated for some values at least");
+  add(simulated, " violated in simulation, not proved");
+  add(count - met - violated - simulated, " neither proved nor refuted");
+  add(met, " met for all values");
+  if (parts.size() == 1) return parts.front() + ".";
+  const std::string last = std::move(parts.back());
+  parts.pop_back();
+  return fmt::format("Of {} requirements, {}{} and {}.", count, fmt::join(parts, ", "), parts.size() > 1 ? "," : "",
+                     last);
 }
 
 }  // namespace gamut

@@ -370,12 +370,14 @@ class Wording {
             ? fmt::format("All {} stay inside the guaranteed enclosure{}", samplesText(), span)
             : fmt::format("At every level of possibility the samples stay inside the proved alpha-cut{}", span);
     constexpr double saysLittle = 100;
-    if (!std::isnan(verdict_.overestimation))
+    if (const std::string times = timesText(verdict_.overestimation); times == "1")
+      text += "; the guarantee is as wide as what was sampled";
+    else if (!std::isnan(verdict_.overestimation))
       text +=
           fmt::format("{} at most {} times as wide as what was sampled",
                       verdict_.overestimation < saysLittle ? "; the guarantee is"
                                                            : ", but the guarantee says little: for some output it is",
-                      timesText(verdict_.overestimation));
+                      times);
     text += ".";
     if (verdict_.endsEarly) return text + (moves() ? horizonText() : " An analysis ended early.");
     if (verdict_.unbounded > 0) text += " Not every output is bounded.";

@@ -143,7 +143,8 @@ void recordPrograms(Study& study) {
         study.analysis == Study::Analysis::dynamics ? "states" : "coordinates", most / 1e9));
   }
   Motion& motion = study.motion;
-  motion.outputNames = outputQuantities(study);
+  motion.outputNames.clear();
+  for (const OutputInfo& output : study.outputs) motion.outputNames.push_back(output.name);
   study.recordingCpu = processCpuSeconds() - start;
 }
 

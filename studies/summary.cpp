@@ -176,7 +176,7 @@ std::string statisticsText(const Results& results) {
   double worst = 0;
   for (std::size_t i = 0; i < std::min(s.meanError.data.size(), s.deviation.data.size()); ++i)
     if (s.deviation.data[i] > 0) worst = std::fmax(worst, s.meanError.data[i] / s.deviation.data[i]);
-  if (worst > 0) parts.push_back(fmt::format("means are known to {} standard deviations (95 %)", atMostText(worst, 2)));
+  if (worst > 0) parts.push_back(fmt::format("means are known to {} standard deviations (95 %)", numberText(worst, 2)));
   if (s.covered > 0)
     parts.push_back(fmt::format("{} % of all motions lie in the envelope of each output at each time (95 %)",
                                 outwardText(100 * s.covered, 100 * s.covered, 4).first));
@@ -246,6 +246,7 @@ std::string transformationText(const Results& results) {
       results.stochastic.alphaPoints > 0 ? ", " + countText(results.stochastic.alphaPoints, "point") + " inside" : "");
   if (worst == t.gap.size()) return text + "\n";
   const std::size_t outputs = results.outputs.size();
+  if (isLittle(t.gap[worst], 1)) return text + "; they reach the ends of every proved cut\n";
   const std::string when = results.horizon > 0 ? fmt::format(", at {}", timeText(t.gapTime[worst])) : std::string();
   return text + fmt::format("; they leave {} % of the widest proved cut at most ({}, membership {}{})\n",
                             atMostText(100 * t.gap[worst], 2), results.outputs[worst % outputs].name,
@@ -386,15 +387,17 @@ std::string shapeText(const Results& results, const UncertainInfo& uncertain, co
     } else if (number.name == "upper") {
       upper = number.value;
     } else if (number.name.ends_with(", at most") && !numbers.empty()) {
-      numbers.back() += fmt::format(" to {:.6g}", number.value);
+      numbers.back() += " to " + numberText(number.value, 6);
     } else if (name == "evidence") {
       if (number.name.starts_with("lower"))
-        numbers.push_back(fmt::format("[{:.6g}", number.value));
+        numbers.push_back("[" + numberText(number.value, 6));
       else if (!numbers.empty())
-        numbers.back() += number.name.starts_with("upper") ? fmt::format(", {:.6g}]", number.value)
-                                                           : fmt::format(" mass {:.6g}", number.value);
+        numbers.back() += number.name.starts_with("upper") ? fmt::format(", {}]", numberText(number.value, 6))
+                                                           : " mass " + numberText(number.value, 6);
+    } else if (number.name == "cut_off") {
+      numbers.push_back(numberText(100 * number.value, 3) + " % cut off");
     } else if (name != "table" && name != "histogram" && !number.name.starts_with("value ")) {
-      numbers.push_back(fmt::format("{} {:.6g}", number.name, number.value));
+      numbers.push_back(fmt::format("{} {}", number.name, numberText(number.value, 6)));
     }
   }
   constexpr std::size_t most = 6;  // of evidence

@@ -128,7 +128,7 @@ std::string rangeText(double lower, double upper, int digits) {
       const std::string text = fmt::format("{:.{}g}", bound, n);
       const Interval decimal(text);
       const double ulp = std::nextafter(std::abs(bound), std::numeric_limits<double>::infinity()) - std::abs(bound);
-      if (std::abs(midpoint(decimal) - bound) <= roundings * ulp) return text;
+      if (std::abs(midpoint(decimal) - bound) <= roundings * ulp) return inFull(text);
     }
     return "";
   };

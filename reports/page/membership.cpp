@@ -64,7 +64,10 @@ std::string methodText(const Results& results) {
                                  points > 0 ? " and " + countText(points, "point") + " inside the cuts" : "");
   double gap = -1;
   for (const double each : t.gap) gap = std::fmax(gap, each);
-  if (gap >= 0) text += fmt::format("; they leave {} % of the widest proved cut at most", atMostText(100 * gap, 2));
+  if (gap >= 0)
+    text += isLittle(gap, 1)
+                ? std::string("; they reach the ends of every proved cut")
+                : fmt::format("; they leave {} % of the widest proved cut at most", atMostText(100 * gap, 2));
   return text;
 }
 

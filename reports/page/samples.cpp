@@ -143,8 +143,9 @@ std::string convergenceFigure(const Results& results, const Detail& detail, cons
   return fmt::format(
       "<div class=\"card\"><figure class=\"kept convergence\">{}<figcaption>{}{}: {} with {:.0f} samples for "
       "\u201c{}\u201d{}</figcaption>{}</figure></div>\n",
-      drawing, shown.what, results.horizon > 0 ? ", averaged over time" : "", numberText(lines[worst].back(), 2),
-      samples.back(), escapeHtml(results.outputs[worstOutput].name),
+      drawing, shown.what, results.horizon > 0 ? ", averaged over time" : "",
+      numberText(lines[worst].back(), 2) + (shown.isWorstGreatest ? " standard deviations" : ""), samples.back(),
+      escapeHtml(results.outputs[worstOutput].name),
       lines.size() > 1 ? ", the worst of all outputs (others: thin lines)" : "", columns.html());
 }
 

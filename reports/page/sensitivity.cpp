@@ -315,14 +315,14 @@ std::size_t nearestRow(const Answered& answer, double instant) {
   return nearest;
 }
 
-/// "0.694 to 0.695 (0.70 ± 0.02)": what is proved, and what is estimated.
-std::string cellOf(const Cause& cause, std::size_t i) {
+/// "0.694 to 0.695 (0.70 ± 0.02)": what is proved, and what is estimated; no digits of hardly any share.
+std::string cellOf(const Cause& cause, std::size_t i, bool isShare) {
   constexpr int digits = 3;
-  if (i < cause.number.size()) return numberText(cause.number[i], digits);
+  if (i < cause.number.size()) return isShare && isLittle(cause.number[i], 1) ? "0" : numberText(cause.number[i], digits);
   std::string text, estimate;
   if (i < cause.proved.lower.size() && std::isfinite(cause.proved.lower[i])) {
     const auto [from, to] = outwardText(cause.proved.lower[i], cause.proved.upper[i], digits);
-    text = from + " to " + to;
+    text = isShare && isLittle(cause.proved.upper[i], 1) ? "less than 1e-09" : from + " to " + to;
   }
   if (i < cause.estimate.size() && std::isfinite(cause.estimate[i]))
     estimate = fmt::format("{} ± {}", numberText(cause.estimate[i], 2), numberText(cause.error[i], 1));
@@ -352,7 +352,7 @@ std::string tableOf(const Results& results, std::size_t output, const std::vecto
     for (const Answered* answer : columns) {
       const auto cause = std::ranges::find(answer->causes, ranked->quantity, &Cause::quantity);
       const std::size_t i = nearestRow(*answer, instant);
-      cells.push_back(cause == answer->causes.end() || std::isnan(cause->size(i)) ? "" : cellOf(*cause, i));
+      cells.push_back(cause == answer->causes.end() || std::isnan(cause->size(i)) ? "" : cellOf(*cause, i, answer->isShare));
       if (!answer->isShare && !cells.back().empty())
         cells.back() += " " + derivativeUnit(results, output, ranked->quantity);
     }

@@ -410,6 +410,9 @@ TEST_F(Program, ChecksRequirements) {
   const Outcome partly = gamut("check partly.h5 --requirements");
   EXPECT_EQ(partly.exitCode, 1);
   EXPECT_THAT(partly.out, HasSubstr("limit: violated for some values (always angle < 30.1 deg, at 0 s)"));
+  folder_.write("unnamed.toml",
+                sampleStudyWith("[stochastic]", "[[requirement]]\nalways = \"angle < 1\"\n[stochastic]"));
+  EXPECT_THAT(gamut("run unnamed.toml").out, HasSubstr("are.\n  always angle < 1: met\n    guaranteed  met"));
   const Outcome none = gamut("check none.h5 --requirements");
   EXPECT_EQ(none.exitCode, 2);
   EXPECT_THAT(none.error, HasSubstr("holds no requirements; expected results of a study with [[requirement]]"));

@@ -183,11 +183,38 @@ TEST(PlainRequirement, GluesNoReasonToAViolationThatIsProved) {
             "nothing is proved of the probability: the time limit of 1 s CPU for the whole run was reached");
 }
 
+TEST(RequirementWords, SpeakOfInstantsWhereTimePasses) {
+  Results results = withRequirement("always a > 1 m", "met");
+  EXPECT_EQ(wordsOfRequirements(results).front().guaranteed, "met for every value, at every instant");
+  results.horizon = 0;
+  EXPECT_EQ(wordsOfRequirements(results).front().guaranteed, "met for every value");
+}
+
+TEST(RequirementWords, CountThem) {
+  const auto sentenceOf = [](const std::vector<const char*>& words) {
+    Results results = withRequirement("always a > 1 m", "open");
+    results.requirements.resize(words.size(), results.requirements.front());
+    for (std::size_t i = 0; i < words.size(); ++i) results.requirements[i].word = words[i];
+    return sentenceOfRequirements(results);
+  };
+  EXPECT_EQ(sentenceOf({"open"}), "The requirement is neither proved nor refuted.");
+  EXPECT_EQ(sentenceOf({"partly"}), "The requirement is violated for some values at least.");
+  EXPECT_EQ(sentenceOf({"violated", "violated"}), "Both requirements are violated for all values.");
+  EXPECT_EQ(sentenceOf({"open", "open", "open"}), "All 3 requirements are neither proved nor refuted.");
+  EXPECT_EQ(sentenceOf({"met", "partly"}),
+            "Of 2 requirements, 1 is violated for some values at least and 1 is met for all values.");
+  EXPECT_EQ(
+      sentenceOf({"met", "partly", "violated", "met"}),
+      "Of 4 requirements, 1 is violated for all values, 1 is violated for some values at least, and 2 are met for "
+      "all values.");
+}
+
 TEST(PlainSummary, CountsRequirements) {
   Results results = withRequirement("always a > 1 m", "met");
   EXPECT_EQ(summaryOf(results), "The requirement is met in every case that the stated tolerances allow.");
   results.requirements.push_back(results.requirements.front());
-  EXPECT_EQ(summaryOf(results), "All 2 requirements are met in every case that the stated tolerances allow.");
+  EXPECT_EQ(summaryOf(results), "Both requirements are met in every case that the stated tolerances allow.");
+  EXPECT_EQ(sentenceOfRequirements(results), "Both requirements are met, whatever the uncertain quantities are.");
   results.requirements.back().word = "partly";
   EXPECT_EQ(summaryOf(results),
             "1 of 2 requirements can be violated within the stated tolerances; 1 is met in every case.");

@@ -111,6 +111,18 @@ TEST(SensitivitySection, IsATableWhereNothingMoves) {
                           Not(HasSubstr("<svg")), Not(HasSubstr("<details class=\"more wide\""))));
 }
 
+TEST(SensitivitySection, HasNoDigitsOfHardlyAnyShare) {
+  Results results = example::sensitive();
+  SensitivityResult& s = results.sensitivity;
+  const std::size_t quantities = results.uncertain.size(), behindStart = results.outputs.size() * quantities;
+  for (std::size_t i = behindStart; i < s.totalLower.size(); i += quantities) {  // of the first quantity
+    s.totalLower[i] = 0;
+    s.totalUpper[i] = 6.6e-30;
+  }
+  const std::string text = sensitivities(results);
+  EXPECT_THAT(text, AllOf(HasSubstr("<td>less than 1e-09 ("), Not(HasSubstr("to 6.6"))));
+}
+
 /// Of one quantity there is nothing to rank, and of an output that varies by roundings nothing to say.
 TEST(SensitivitySection, LeavesOutWhatSaysNothing) {
   Results results = example::sensitive();
@@ -154,7 +166,7 @@ TEST(SamplesSection, NamesAndCountsFailedSamples) {
 TEST(SamplesSection, ShowsConvergenceOfTheWorstOutput) {
   const std::string text = sectionOf(example::sensitive(), "samples");
   EXPECT_EQ(count(text, "<figure class=\"kept convergence\">"), 2u);
-  EXPECT_THAT(text, AllOf(HasSubstr("0.02 with 4096 samples for \u201celbow angle\u201d"),
+  EXPECT_THAT(text, AllOf(HasSubstr("0.02 standard deviations with 4096 samples for \u201celbow angle\u201d"),
                           HasSubstr("0.95 with 4096 samples for \u201cshoulder angle\u201d")));
   EXPECT_EQ(count(text, "class=\"others\""), 2u);
   Results results = example::sensitive();

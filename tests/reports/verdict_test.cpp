@@ -240,6 +240,9 @@ TEST(Verdict, SaysHowManyMotionsStayedInsideHowLongAndHowTight) {
             "1.004 times as wide as what was sampled.");
   EXPECT_THAT(verdict.notes, IsEmpty());
   EXPECT_EQ(verdict.reached, 3);
+  Results tight = example::pendulum();
+  for (double& ratio : tight.comparison.overestimation.data) ratio = 1 + 2e-12;
+  EXPECT_THAT(judge(tight).sentence, ::testing::EndsWith("; the guarantee is as wide as what was sampled."));
 }
 
 /// Shares of 4096 independent samples beside proved bounds of their probability.

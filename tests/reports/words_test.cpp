@@ -87,6 +87,13 @@ TEST(AtMost, IsNeverLessThanTheNumber) {
   EXPECT_EQ(atMostText(1.5, 4), "1.5");
 }
 
+TEST(Range, IsWrittenAsAStudyStatesIt) {
+  EXPECT_EQ(rangeText(0.795, 0.805, 6), "[0.795, 0.805]");
+  EXPECT_EQ(rangeText(19600, 20400, 6), "[19600, 20400]");
+  EXPECT_EQ(rangeText(-2e6, 2.1e6, 6), "[-2000000, 2100000]");
+  EXPECT_EQ(rangeText(2e8, 2.1e8, 6), "[2e+08, 2.1e+08]");
+}
+
 TEST(Digits, ShowANarrowIntervalFarFromZero) {
   EXPECT_EQ(digitsFor(1000, 0.001, 4), 10);
   EXPECT_EQ(digitsFor(1, 1, 4), 4);

@@ -113,6 +113,18 @@ TEST(TextSummary, ShowsTheLastRowReachedRoundedOutward) {
   EXPECT_THAT(textSummary(results), HasSubstr(" 4096 samples 1.50 s"));
 }
 
+TEST(TextSummary, SaysHowFarSamplesFillTheCuts) {
+  Results results = sampleResults();
+  TransformationResult& t = results.fuzzy.transformation;
+  t.present = true;
+  t.method = "reduced";
+  t.gap.assign(results.fuzzy.alpha.size() * results.outputs.size(), 0.0123);
+  t.gapTime.assign(t.gap.size(), 0.01);
+  EXPECT_THAT(textSummary(results), HasSubstr("; they leave 1.3 % of the widest proved cut at most (tip height, "));
+  t.gap.assign(t.gap.size(), 2.8e-14);
+  EXPECT_THAT(textSummary(results), HasSubstr("; they reach the ends of every proved cut\n"));
+}
+
 TEST(TextSummary, LeadsWithTheLeastAndTheGreatestOfTheWholeMotion) {
   Results results = sampleResults();
   results.requirements.clear();  // whose margins they are
@@ -207,9 +219,11 @@ TEST(InfoText, TellsTheNumbersOfDistributionsAndMembershipFunctions) {
                     {"first angle", "distribution", "upper", results.uncertain[0].upper, "rad"},
                     {"first angle", "distribution", "mean", 1.0, "rad"},
                     {"first angle", "distribution", "deviation", 0.05, "rad"},
+                    {"first angle", "distribution", "cut_off", 0.00766076, "1"},
                     {"first angle", "membership", "lower", 0.95, "rad"},
                     {"first angle", "membership", "apex", 1.0, "rad"}};
-  EXPECT_THAT(infoText(results), HasSubstr(", normal (mean 1, deviation 0.05), triangular (on [0.95, 1.1], apex 1)\n"));
+  EXPECT_THAT(infoText(results),
+              HasSubstr(", normal (mean 1, deviation 0.05, 0.766 % cut off), triangular (on [0.95, 1.1], apex 1)\n"));
 }
 
 TEST(InfoText, SaysOnceHowAQuantityVaries) {
