@@ -53,6 +53,15 @@ void refuseUnknownOption(const CLI::App& command, int argc, char** argv) {
   }
 }
 
+/// What the parser complains of, in the words of the help.
+std::string complaintOf(const CLI::ParseError& error, const CLI::App& command) {
+  if (error.get_name() == "RequiredError")
+    for (const CLI::Option* option : command.get_options())
+      if (option->get_required() && option->count() == 0)
+        return fmt::format("{} is missing", option->get_positional() ? option->get_type_name() : option->get_name());
+  return error.what();
+}
+
 ExitCode parseAndRun(int argc, char** argv) {
   CLI::App app("Gamut: guaranteed, probable and possible motion of uncertain mechanisms.");
   app.set_version_flag("--version", "gamut " + version());
@@ -72,8 +81,10 @@ ExitCode parseAndRun(int argc, char** argv) {
       refuseUnknownCommand(argc, argv);
     else
       refuseUnknownOption(*asked.front(), argc, argv);
-    throw UsageError(
-        fmt::format("{}; see gamut {}--help", error.what(), asked.empty() ? "" : asked.front()->get_name() + " "));
+    const std::string what = !asked.empty() ? complaintOf(error, *asked.front())
+                             : argc < 2     ? "a command is missing"
+                                            : error.what();
+    throw UsageError(fmt::format("{}; see gamut {}--help", what, asked.empty() ? "" : asked.front()->get_name() + " "));
   }
   return action();
 }

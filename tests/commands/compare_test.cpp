@@ -94,7 +94,7 @@ TEST_F(CompareCommand, RefusesInOneLine) {
   };
   refuses("a.h5 none.h5", "none.h5: does not exist; expected a results file written by gamut run");
   refuses("a.toml a.h5", "a.toml: not a Gamut results file; expected a results file written by gamut run");
-  refuses("a.h5", "gamut: second is required; see gamut compare --help");
+  refuses("a.h5", "gamut: B.h5 is missing; see gamut compare --help");
   refuses("a.h5 b.h5",
           "gamut: a.h5 and b.h5: the output 'angle' is in rad in the first and in rad/s in the second; expected one "
           "unit");

@@ -70,7 +70,7 @@ TEST_F(ExtendCommand, WritesElsewhereAndOverwritesOnlyWhenForced) {
 }
 
 TEST_F(ExtendCommand, RefusesInOneLine) {
-  refuses("s.h5", "gamut: --samples is required; see gamut extend --help");
+  refuses("s.h5", "gamut: --samples is missing; see gamut extend --help");
   refuses("none.h5 --samples 64", "none.h5: does not exist; expected a results file written by gamut run");
   refuses("s.h5 --samples 16", "gamut: s.h5: holds 16 samples, and would hold 16; expected more");
   refuses("s.h5 --samples 8", "gamut: s.h5: holds 16 samples, and would hold 8; expected more");

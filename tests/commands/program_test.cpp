@@ -66,6 +66,8 @@ TEST_F(Program, RefusesWrongUsageInOneLine) {
   }
   EXPECT_EQ(folder_.count(), 1U);
   EXPECT_EQ(folder_.read("s.toml"), sampleStudy);
+  EXPECT_EQ(gamut("").error, "gamut: a command is missing; see gamut --help\n");
+  EXPECT_EQ(gamut("run").error, "gamut: STUDY.toml is missing; see gamut run --help\n");
   EXPECT_EQ(gamut("rum s.toml").error, "gamut: unknown command 'rum'; expected 'run'\n");
   EXPECT_EQ(gamut("walk").error,
             "gamut: unknown command 'walk'; expected one of: new, quantities, run, extend, validate, check, compare, "

@@ -120,7 +120,7 @@ TEST_F(ReplayCommand, RefusesInOneLineWhatIsNoSample) {
     EXPECT_THAT(replay.error, StartsWith("gamut: s.h5: no sample is '"));
     EXPECT_THAT(replay.error, EndsWith(expected));
   }
-  EXPECT_EQ(gamut("replay s.h5").error, "gamut: sample is required; see gamut replay --help\n");
+  EXPECT_EQ(gamut("replay s.h5").error, "gamut: SAMPLE is missing; see gamut replay --help\n");
 }
 
 /// Of what varies in time a course that violates it, not the nominal one that does not.
