@@ -16,7 +16,7 @@ struct ReadMechanism {
   Mechanism mechanism;
   std::map<std::string, const toml::node*> places;
   FilesAtHand files;               ///< those that it names
-  std::vector<std::string> notes;  ///< what of it is left out
+  std::vector<std::string> notes;  ///< what of it is left out, or may be meant otherwise
 };
 
 /// What parameters and states of the mechanism are named in the file, whatever else is wrong with them.

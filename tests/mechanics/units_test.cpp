@@ -116,6 +116,8 @@ TEST(Amount, AMomentIsShownInNewtonMetresAndAnEnergyInJoules) {
   EXPECT_EQ(unit("4 N m/s"), "N m/s");
   EXPECT_EQ(unit("4 J/s"), "W");
   EXPECT_EQ(unit("30 N m * 1 rad"), "N m rad");
+  for (const char* gain : {"N/rad", "N s/rad", "N rad"}) EXPECT_EQ(unit(("4 " + std::string(gain)).c_str()), gain);
+  EXPECT_EQ(unit("4 N/deg"), "N/rad");
   EXPECT_TRUE(dimensionOf("N m") == dimensionOf("J"));
 }
 

@@ -848,7 +848,7 @@ constexpr BadStudy badStudies[] = {
     {"[[uncertain]]",
      "[[mechanism.element]]\ntype = \"joint-force\"\nname = \"f\"\njoint = \"hinge\"\nforce = \"-3 "
      "N*hinge.angle\"\n[[uncertain]]",
-     "s.toml:32:9: 'f.force': a quantity in kg m rad/s^2; expected one in N m"},
+     "s.toml:32:9: 'f.force': a quantity in N rad; expected one in N m"},
     {"[[uncertain]]",
      "[[mechanism.element]]\ntype = \"joint-force\"\nname = \"f\"\njoint = \"hinge\"\nforce = "
      "\"hinge.rate\"\n[[uncertain]]",
