@@ -169,9 +169,9 @@ std::string outputsTable(const Changes& changes, bool moves) {
     const auto at = [&](const std::string& found, double time) {
       return moves && found != "-" && found != "1" ? timeText(time, 10) : "-";
     };
-    rows.push_back({output.name + (output.unit == "1" ? "" : fmt::format(" ({})", output.unit)), least,
-                    at(least, ratio.leastTime), greatest, at(greatest, ratio.greatestTime),
-                    ratioText(output.alphaCuts.greatest, true), bothText(output.overestimation), bothText(output.gap)});
+    rows.push_back({headingOf(output.name, output.unit), least, at(least, ratio.leastTime), greatest,
+                    at(greatest, ratio.greatestTime), ratioText(output.alphaCuts.greatest, true),
+                    bothText(output.overestimation), bothText(output.gap)});
   }
   if (rows.size() == 1) return "";
   const Rows kept = withoutEmptyColumns(rows);

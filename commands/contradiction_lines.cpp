@@ -13,10 +13,6 @@
 namespace gamut {
 namespace {
 
-std::string withUnit(const std::string& number, const std::string& unit) {
-  return unit.empty() || unit == "1" ? number : number + " " + unit;
-}
-
 /// Both, with digits enough to show how far they are apart.
 Both<std::string> boundsText(const Contradiction& c) {
   double magnitude = 0;
@@ -74,16 +70,16 @@ std::string contradictionText(const Contradiction& c, bool moves) {
     const std::string least = outwardText(isMoreInFirst ? c.lower : c.otherLower, 1, digits).first,
                       most = outwardText(0, isMoreInFirst ? c.otherUpper : c.upper, digits).second;
     return fmt::format("{} of at most {} have no value in common{}: at {} {} in A, at {} {} in B", name,
-                       withUnit(numberText(c.at, 6), unit), times, isMoreInFirst ? "least" : "most",
+                       inUnit(numberText(c.at, 6), unit), times, isMoreInFirst ? "least" : "most",
                        isMoreInFirst ? least : most, isMoreInFirst ? "most" : "least", isMoreInFirst ? most : least);
   }
   const auto [first, second] = boundsText(c);
   if (c.of == Of::sample)
     return fmt::format("samples of {} lie outside the enclosure of {}{}, by {}: {} in A, {} in B",
                        c.isSampleOfFirst ? "A" : "B", c.isSampleOfFirst ? "B" : "A", times,
-                       withUnit(numberText(c.distance, 3), unit), withUnit(first, unit), withUnit(second, unit));
-  return fmt::format("{} have no value in common{}: {} in A, {} in B", name, times, withUnit(first, unit),
-                     withUnit(second, unit));
+                       inUnit(numberText(c.distance, 3), unit), inUnit(first, unit), inUnit(second, unit));
+  return fmt::format("{} have no value in common{}: {} in A, {} in B", name, times, inUnit(first, unit),
+                     inUnit(second, unit));
 }
 
 }  // namespace

@@ -19,6 +19,7 @@
 #include "mechanics/assembly.hpp"
 #include "studies/study.hpp"
 #include "studies/text_table.hpp"
+#include "studies/words.hpp"
 
 namespace gamut::commands {
 namespace {
@@ -71,8 +72,8 @@ std::vector<Quantity> outputsOf(const Mechanism& mechanism, const std::string& s
 std::string text(std::string_view title, const std::vector<Quantity>& quantities) {
   std::vector<std::vector<std::string>> rows;
   for (const auto& [name, unit, nominal] : quantities)
-    rows.push_back({name, std::isfinite(nominal) ? fmt::format("{:.12g}{}", nominal, unit == "1" ? "" : " " + unit)
-                                                 : "has no value at the start"});
+    rows.push_back(
+        {name, std::isfinite(nominal) ? inUnit(fmt::format("{:.12g}", nominal), unit) : "has no value at the start"});
   return fmt::format("{}\n{}", title, rows.empty() ? "  none\n" : textTable(rows, 2));
 }
 

@@ -232,15 +232,15 @@ std::string whereIs(const Results& results, std::size_t output) {
                                       : " in every case that is held possible";
   const OutputInfo& info = results.outputs[output];
   const auto [from, to] = boundsText(range->least.value, range->greatest.value);
-  const std::string unit = info.unit.empty() || info.unit == "1" ? "" : " " + info.unit;
+  const std::string greatest = inUnit(to, info.unit);
   if (results.horizon == 0)
-    return fmt::format("{}\u201c{}\u201d lies between {} and {}{}{}.", begin, info.name, from, to, unit, end);
+    return fmt::format("{}\u201c{}\u201d lies between {} and {}{}.", begin, info.name, from, greatest, end);
   const double size = motionSize(results, output);
-  return fmt::format(
-      "{}\u201c{}\u201d stays between {} and {}{} from {} to {}{}{}.{} At {}, cases differ by {}{} at most.", begin,
-      info.name, from, to, unit, timeText(results.time.front()), timeText(range->until),
-      range->isBetween ? "" : " (looked at the output times)", end, extremesText(results, *range),
-      range->isAtAllTimes ? "any output time" : "the times that are known", atMostText(range->width, 2, size), unit);
+  return fmt::format("{}\u201c{}\u201d stays between {} and {} from {} to {}{}{}.{} At {}, cases differ by {} at most.",
+                     begin, info.name, from, greatest, timeText(results.time.front()), timeText(range->until),
+                     range->isBetween ? "" : " (looked at the output times)", end, extremesText(results, *range),
+                     range->isAtAllTimes ? "any output time" : "the times that are known",
+                     inUnit(atMostText(range->width, 2, size), info.unit));
 }
 
 std::string ofRequirements(const Results& results) {

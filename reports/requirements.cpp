@@ -18,10 +18,6 @@ namespace {
 
 constexpr std::size_t mostShown = 200;  // on a page; some 300 kB
 
-std::string withUnit(const std::string& number, const std::string& unit) {
-  return unit.empty() || unit == "1" ? number : number + " " + unit;
-}
-
 /// The unit of the first number with a unit, "deg" of "always -5 deg < angle < 5 deg", if its dimension is that of
 /// `unit`, one of SI; else `unit`.
 std::string statedUnit(const std::string& statement, const std::string& unit) {
@@ -117,8 +113,8 @@ class Wording {
       else if (variesInTime(results_.uncertain[q]))
         values.push_back(fmt::format("{} as it varies there", results_.uncertain[q].name));
       else
-        values.push_back(withUnit(fmt::format("{} {}", results_.uncertain[q].name, numberText(r_.violation[q], 8)),
-                                  results_.uncertain[q].unit));
+        values.push_back(inUnit(fmt::format("{} {}", results_.uncertain[q].name, numberText(r_.violation[q], 8)),
+                                results_.uncertain[q].unit));
     if (values.empty()) return {};
     constexpr std::size_t most = 6;
     const std::size_t others = values.size() > most ? values.size() - most : 0;
@@ -170,7 +166,7 @@ std::string missText(const Results& results, const RequirementResult& requiremen
   const std::string stated = statedUnit(requirement.statement, unit);
   const double scale = stated == unit ? 1 : nearest(parseAmount("1 " + stated));
   const double size = motionSize(results, requirement.margin) / scale;
-  return withUnit(tellingText(miss / scale, size, 3), stated);
+  return inUnit(tellingText(miss / scale, size, 3), stated);
 }
 
 /// "All 3 requirements are", "The requirement is".

@@ -79,8 +79,7 @@ class Wording {
   // ---- Names --------------------------------------------------------------------------------------------------------
 
   std::string withUnit(double x, std::size_t output) const {
-    const std::string& unit = results_.outputs[output].unit;
-    return atMostText(x, 3) + (unit.empty() || unit == "1" ? "" : " " + unit);
+    return inUnit(atMostText(x, 3), results_.outputs[output].unit);
   }
 
   std::string when(std::size_t time) const {
@@ -221,9 +220,8 @@ class Wording {
 
   /// "by 0.002 m"; what is hardly anything beside the output's own size says no digits of its own.
   std::string depthText(const DisputedSample& sample) const {
-    const std::string& unit = results_.outputs[sample.output].unit;
-    return tellingText(margin(sample), motionSize(results_, sample.output)) +
-           (unit.empty() || unit == "1" ? "" : " " + unit);
+    return inUnit(tellingText(margin(sample), motionSize(results_, sample.output)),
+                  results_.outputs[sample.output].unit);
   }
 
   /// By what it was decided, in words.

@@ -272,9 +272,8 @@ std::string rangesText(const Results& results) {
     const std::optional<MotionRange> range = bestMotionRange(results, j);
     if (isMargin(results, j) || !range) continue;
     const auto [least, greatest] = boundsText(range->least.value, range->greatest.value);
-    const std::string unit = results.outputs[j].unit == "1" ? "" : fmt::format(" ({})", results.outputs[j].unit);
-    rows.push_back({results.outputs[j].name + unit, least, whenText(results, range->least), greatest,
-                    whenText(results, range->greatest)});
+    rows.push_back({headingOf(results.outputs[j].name, results.outputs[j].unit), least, whenText(results, range->least),
+                    greatest, whenText(results, range->greatest)});
   }
   return rows.size() > 1 ? textTable(rows) : "";
 }
@@ -463,9 +462,9 @@ std::string textSummary(const Results& results) {
        results.interval.at.empty() && !results.fuzzy.outer.empty() ? "widest alpha-cut" : "enclosure", "envelope",
        "overestimation (max)"}};
   for (std::size_t j = 0; j < results.outputs.size(); ++j) {
-    const std::string unit = results.outputs[j].unit == "1" ? "" : fmt::format(" ({})", results.outputs[j].unit);
     const bool known = j < results.comparison.maximumOf.size() && std::isfinite(results.comparison.maximumOf[j]);
-    rows.push_back({results.outputs[j].name + unit, shortBounds(results, provedBounds(results), row, j),
+    rows.push_back({headingOf(results.outputs[j].name, results.outputs[j].unit),
+                    shortBounds(results, provedBounds(results), row, j),
                     shortBounds(results, results.stochastic.envelope, row, j),
                     known ? timesText(results.comparison.maximumOf[j]) : "-"});
   }

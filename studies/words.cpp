@@ -136,8 +136,16 @@ std::string rangeText(double lower, double upper, int digits) {
   return fmt::format("[{}, {}]", least.empty() ? below : least, greatest.empty() ? above : greatest);
 }
 
+std::string inUnit(const std::string& number, const std::string& unit) {
+  return unit.empty() || unit == "1" ? number : number + " " + unit;
+}
+
+std::string headingOf(const std::string& name, const std::string& unit) {
+  return unit.empty() || unit == "1" ? name : fmt::format("{} ({})", name, unit);
+}
+
 std::string csvHeading(const std::string& name, const std::string& unit) {
-  const std::string text = unit.empty() || unit == "1" ? name : fmt::format("{} ({})", name, unit);
+  const std::string text = headingOf(name, unit);
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string quoted = "\"";
   for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);

@@ -50,7 +50,13 @@ std::string countText(long long count, std::string_view singular);
 /// away at most, if that has no more than twelve digits; otherwise rounded outward to `digits`.
 std::string rangeText(double lower, double upper, int digits);
 
-/// "angle (rad)", or the name alone of what has no unit, quoted where CSV asks for it.
+/// "0.29 m", or the number alone of what has no unit: an empty one, or "1".
+std::string inUnit(const std::string& number, const std::string& unit);
+
+/// "angle (rad)", or the name alone.
+std::string headingOf(const std::string& name, const std::string& unit);
+
+/// The same, quoted where CSV asks for it.
 std::string csvHeading(const std::string& name, const std::string& unit);
 
 }  // namespace gamut

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "reports/drawing/axes.hpp"
+#include "reports/words.hpp"
 
 namespace gamut {
 namespace {
@@ -43,9 +44,7 @@ std::string drawDistribution(const Results& results, std::size_t at, std::size_t
   const Frame frame{values.padded(0.02), {0, 1}, smallHeight, smallWidth};
   std::string svg = openedDrawing(frame.height, label, frame.width);
   Pen pen;
-  const std::string& unit = results.outputs[output].unit;
-  drawHorizontalAxis(frame, results.outputs[output].name + (unit.empty() || unit == "1" ? "" : " (" + unit + ")"), 4,
-                     svg);
+  drawHorizontalAxis(frame, headingOf(results.outputs[output].name, results.outputs[output].unit), 4, svg);
   drawVerticalAxis(frame, "probability of no more", 5, svg);
   const auto go = [&](double value, double probability) {
     pen.go(frame.across(clipped(value, frame.x)), frame.down(std::clamp(probability, 0.0, 1.0)));

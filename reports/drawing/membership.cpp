@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "reports/drawing/axes.hpp"
+#include "reports/words.hpp"
 
 namespace gamut {
 namespace {
@@ -42,9 +43,7 @@ std::string drawMembership(const Results& results, std::size_t time, std::size_t
   }
   const Frame frame{values.padded(0.04), {0, 1.04}, smallHeight, smallWidth};
   std::string svg = openedDrawing(frame.height, label, frame.width);
-  const std::string& unit = results.outputs[output].unit;
-  drawHorizontalAxis(frame, results.outputs[output].name + (unit.empty() || unit == "1" ? "" : " (" + unit + ")"), 4,
-                     svg);
+  drawHorizontalAxis(frame, headingOf(results.outputs[output].name, results.outputs[output].unit), 4, svg);
   drawVerticalAxis(frame, "membership", 5, svg);
   Pen pen;
   const auto go = [&](double value, double alpha) { pen.go(frame.across(clipped(value, frame.x)), frame.down(alpha)); };

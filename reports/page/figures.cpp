@@ -61,7 +61,7 @@ std::string figuresTable(const Results& results, const Verdict& verdict, std::si
     std::vector<std::string> cells;
     for (const Column& column : columns) cells.push_back(cellOf(column, time, k, digits, size));
     const std::string& name = results.outputs[k].name;
-    table.row(withUnit(isMargin(results, k) ? "margin of " + name : name, results.outputs[k].unit), cells);
+    table.row(headingOf(isMargin(results, k) ? "margin of " + name : name, results.outputs[k].unit), cells);
   }
   return table.html() + hintOfRows(results.outputs.size(), rows);
 }

@@ -104,7 +104,7 @@ std::string rangesTable(const Results& results) {
         cells.insert(cells.begin() + 1, whenText(results, range->least));
         cells.push_back(whenText(results, range->greatest));
       }
-      table.row(withUnit(results.outputs[output].name, results.outputs[output].unit), cells);
+      table.row(headingOf(results.outputs[output].name, results.outputs[output].unit), cells);
       ++shown;
       --count;
     }

@@ -118,7 +118,7 @@ std::string furtherOutputs(const Results& results, const Detail& detail) {
       }
       cells.push_back(low <= high ? intervalText(low, high, 4) : "none");
     }
-    table.row(withUnit(results.outputs[k].name, results.outputs[k].unit), cells);
+    table.row(headingOf(results.outputs[k].name, results.outputs[k].unit), cells);
   }
   return fmt::format(
       "<p class=\"hint\">{} more {} not drawn here, so that the page stays small; the results hold {} at all "

@@ -20,7 +20,7 @@ std::string uncertainTable(const Results& results, std::size_t rows) {
   for (const UncertainInfo& info : results.uncertain | std::views::take(rows)) {
     const int digits =
         std::max(6, digitsFor(std::max(std::abs(info.lower), std::abs(info.upper)), info.upper - info.lower, 4));
-    table.row(info.name, {withUnit(info.quantity, info.unit), rangeText(info.lower, info.upper, digits),
+    table.row(info.name, {headingOf(info.quantity, info.unit), rangeText(info.lower, info.upper, digits),
                           numberText(info.nominal, digits), shapeText(results, info, "distribution"),
                           shapeText(results, info, "membership")});
   }

@@ -198,7 +198,7 @@ std::string statisticsTable(const Results& results, std::size_t rows) {
                           ? with(s.quantiles[q](row, o), Table())
                           : intervalText(lower, upper, digitsFor(most, upper - lower, 2)));
     }
-    table.row(withUnit(results.outputs[o].name, results.outputs[o].unit), cells);
+    table.row(headingOf(results.outputs[o].name, results.outputs[o].unit), cells);
   }
   return "<details class=\"more\"><summary>Mean, deviation and quantiles of every output, with their "
          "confidence</summary>\n" +
@@ -215,7 +215,7 @@ std::string statisticsFigure(const Results& results, std::size_t output, StyleSh
   const std::string& unit = results.outputs[output].unit;
   Plot plot;
   plot.name = results.outputs[output].name;
-  plot.unit = withUnit("from the mean", unit);
+  plot.unit = headingOf("from the mean", unit);
   for (const std::size_t row : rows) plot.time.push_back(results.time[row]);
   Layer quantiles{.name = "quantiles", .words = "quantiles", .style = {colour::orange, 0.5, 0.7}},
       mean{.name = "mean", .words = "mean", .style = {colour::black, 0.45, 0.7}};

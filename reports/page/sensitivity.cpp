@@ -140,7 +140,7 @@ Answered derivatives(const Results& results, std::size_t output) {
   const DerivativeResult& d = results.derivatives;
   Answered answer{.kind = "derivative",
                   .head = "derivative",
-                  .axis = withUnit("change", results.outputs[output].unit),
+                  .axis = headingOf("change", results.outputs[output].unit),
                   .what = "derivatives times half the width of each interval",
                   .time = d.time,
                   .bounds = "derivative",
@@ -318,7 +318,8 @@ std::size_t nearestRow(const Answered& answer, double instant) {
 /// "0.694 to 0.695 (0.70 ± 0.02)": what is proved, and what is estimated; no digits of hardly any share.
 std::string cellOf(const Cause& cause, std::size_t i, bool isShare) {
   constexpr int digits = 3;
-  if (i < cause.number.size()) return isShare && isLittle(cause.number[i], 1) ? "0" : numberText(cause.number[i], digits);
+  if (i < cause.number.size())
+    return isShare && isLittle(cause.number[i], 1) ? "0" : numberText(cause.number[i], digits);
   std::string text, estimate;
   if (i < cause.proved.lower.size() && std::isfinite(cause.proved.lower[i])) {
     const auto [from, to] = outwardText(cause.proved.lower[i], cause.proved.upper[i], digits);
@@ -352,7 +353,8 @@ std::string tableOf(const Results& results, std::size_t output, const std::vecto
     for (const Answered* answer : columns) {
       const auto cause = std::ranges::find(answer->causes, ranked->quantity, &Cause::quantity);
       const std::size_t i = nearestRow(*answer, instant);
-      cells.push_back(cause == answer->causes.end() || std::isnan(cause->size(i)) ? "" : cellOf(*cause, i, answer->isShare));
+      cells.push_back(cause == answer->causes.end() || std::isnan(cause->size(i)) ? ""
+                                                                                  : cellOf(*cause, i, answer->isShare));
       if (!answer->isShare && !cells.back().empty())
         cells.back() += " " + derivativeUnit(results, output, ranked->quantity);
     }

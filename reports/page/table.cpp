@@ -31,7 +31,7 @@ void NumbersText::words(const std::string& head, const std::vector<std::string>&
 
 void NumbersText::column(const std::string& head, const std::string& unit, const std::vector<double>& numbers,
                          Rounded rounded, int digits) {
-  columns_ += (columns_.empty() ? "[" : ",[") + jsonText(withUnit(head, unit));
+  columns_ += (columns_.empty() ? "[" : ",[") + jsonText(headingOf(head, unit));
   for (const double x : numbers) {
     const auto text = [&] {
       if (rounded == Rounded::nearest) return numberText(x, digits);
@@ -46,10 +46,6 @@ void NumbersText::column(const std::string& head, const std::string& unit, const
 
 std::string NumbersText::html() const {
   return "<script type=\"application/json\" class=\"numbers\">[" + columns_ + "]</script>";
-}
-
-std::string withUnit(const std::string& name, const std::string& unit) {
-  return unit.empty() || unit == "1" ? name : name + " (" + unit + ")";
 }
 
 std::string hintOfRows(std::size_t all, std::size_t shown) {

@@ -37,7 +37,4 @@ class NumbersText {
   std::string columns_;
 };
 
-/// "angle (rad)", or the name alone.
-std::string withUnit(const std::string& name, const std::string& unit);
-
 }  // namespace gamut

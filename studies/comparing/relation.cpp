@@ -130,9 +130,9 @@ class Motions {
         found.push_back(fmt::format("'{}' is no number of B", name));
       } else if (const Interval value = one.mechanism.nominal(name), otherValue = other.mechanism.nominal(name);
                  !isUncertain(name) && !isEqual(value, otherValue)) {
-        const std::string unit = one.mechanism.unitOf(name) == "1" ? "" : " " + one.mechanism.unitOf(name);
-        found.push_back(fmt::format("{} is {}{} in A, {}{} in B", name, numberText(midpoint(value), 12), unit,
-                                    numberText(midpoint(otherValue), 12), unit));
+        const std::string unit = one.mechanism.unitOf(name);
+        found.push_back(fmt::format("{} is {} in A, {} in B", name, inUnit(numberText(midpoint(value), 12), unit),
+                                    inUnit(numberText(midpoint(otherValue), 12), unit)));
       }
     }
     for (const std::string& name : other.mechanism.quantities())

@@ -12,6 +12,7 @@
 #include "mechanics/description/names.hpp"
 #include "studies/printable.hpp"
 #include "studies/reading/shape_reader.hpp"
+#include "studies/words.hpp"
 
 namespace gamut {
 namespace {
@@ -252,8 +253,8 @@ class UncertainReader {
       source_.fail(node, fmt::format("{} reaches down to a negative mass", what), "a lower bound of at least 0 kg");
     if (!contains(range, result.uncertain.nominal))
       source_.fail(node,
-                   fmt::format("{} does not hold the nominal value {:.6g}{}", what, result.uncertain.nominal,
-                               result.unit == "1" ? "" : " " + result.unit),
+                   fmt::format("{} does not hold the nominal value {}", what,
+                               inUnit(numberText(result.uncertain.nominal, 6), result.unit)),
                    "an interval around the nominal value");
   }
 

@@ -28,8 +28,6 @@ class FormerSamples {
 
  private:
   bool hasSamePack(std::size_t number) const;
-  bool isSettled(std::size_t number) const;
-  void checkDistance(const SampleBlock& block, std::size_t i, std::size_t former) const;
 
   std::size_t before_, samples_, packWidth_;  // of the plan, then and now
   KeptSamples kept_;

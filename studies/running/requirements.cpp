@@ -117,9 +117,7 @@ Reason ofMargin(const Run& run, const Requirement& requirement) {
     }
   const Least& least = at.margin > 0 ? over : at;
   if (!std::isfinite(least.margin) || !(least.margin < 0)) return loose;
-  const OutputInfo& output = run.study.outputs[least.output];
-  const std::string unit = output.unit == "1" || output.unit.empty() ? "" : " " + output.unit;
-  const std::string below = atMostText(-least.margin, 3) + unit;
+  const std::string below = inUnit(atMostText(-least.margin, 3), run.study.outputs[least.output].unit);
   if (run.study.horizon == 0) return {fmt::format("its margin is proved to be above -{} only", below), ""};
   if (at.margin > 0)
     return {fmt::format("between output times, before {} s, its margin is proved to be above -{} only",

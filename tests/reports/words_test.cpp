@@ -94,6 +94,15 @@ TEST(Range, IsWrittenAsAStudyStatesIt) {
   EXPECT_EQ(rangeText(2e8, 2.1e8, 6), "[2e+08, 2.1e+08]");
 }
 
+TEST(Units, StandBehindNumbersAndNamesThatHaveOne) {
+  EXPECT_EQ(inUnit("0.29", "mm"), "0.29 mm");
+  EXPECT_EQ(headingOf("angle", "rad"), "angle (rad)");
+  for (const char* none : {"", "1"}) {
+    EXPECT_EQ(inUnit("0.29", none), "0.29");
+    EXPECT_EQ(headingOf("angle", none), "angle");
+  }
+}
+
 TEST(Digits, ShowANarrowIntervalFarFromZero) {
   EXPECT_EQ(digitsFor(1000, 0.001, 4), 10);
   EXPECT_EQ(digitsFor(1, 1, 4), 4);
