@@ -183,15 +183,21 @@ class ExpressionParser {
         if (atEnd()) fail("the end after an operator");
         readSigned(false);
       } else if (isWordHere()) {
-        if (last_ == Piece::other || (last_ == Piece::unit && !isUnitHere()))
-          fail(fmt::format("no operator before '{}'", text_.substr(position_, wordLength())),
-               "*, /, + or -, or single quotes about a name with blanks");
+        if (last_ == Piece::other || (last_ == Piece::unit && !isUnitHere())) failBeforeWord();
         readPower(last_ == Piece::number);
       } else {
         break;
       }
       apply(divides ? Operation::divide : Operation::multiply, at);
     }
+  }
+
+  /// Behind a unit a unit is meant, m^2 by m2; behind a name it may be the rest of it.
+  [[noreturn]] void failBeforeWord() const {
+    const std::string word(text_.substr(position_, wordLength()));
+    const std::string unit = last_ == Piece::unit && (!isName_ || !isName_(word)) ? unitsApart(word) : "";
+    fail(fmt::format("no operator before '{}'", word),
+         unit.empty() ? "*, /, + or -, or single quotes about a name with blanks" : "'" + unit + "'");
   }
 
   void readSigned(bool followsNumber) {

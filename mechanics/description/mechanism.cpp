@@ -42,7 +42,8 @@ bool isReserved(const std::string& name) { return unitNamed(name) != nullptr && 
 /// What an unknown name was for; of two units written together, as they should be.
 std::string remarkOn(const std::string& name, const std::string& use) {
   if (const std::string apart = unitsApart(name); !apart.empty())
-    return "for " + inQuotes(use) + ", or " + inQuotes(apart) + " with a blank between units";
+    return "for " + inQuotes(use) + ", or " + inQuotes(apart) +
+           (apart.find(' ') == std::string::npos ? "" : " with a blank between units");
   if (const std::string unit = nearestUnit(name); !unit.empty())
     return "for " + inQuotes(use) + ", or the unit " + inQuotes(unit);
   return "for " + inQuotes(use);
@@ -372,8 +373,9 @@ class Mechanism::Checker final : public Fields {
   }
   void timeFunction(const Word& word, Expression& number) override {
     if (!number.isSmooth())
-      refuse("the " + word.key + " of " + inQuotes(element_) +
-             " has a kink or a jump (abs, sign, min, max, where), where its rate would jump");
+      refuse(
+          "the " + word.key + " of " + inQuotes(element_) +
+          " has a kink or a jump (abs, sign, min, max, where), where its rate would jump; expected a smooth formula");
     m_.addSignal({element_, named(word), word.unit, Reach::time, number}, number);
   }
   void table(const Word& /*file*/, const Word& /*column*/, Coordinate /*kind*/, TimeTable& table) override {

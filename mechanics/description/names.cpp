@@ -81,6 +81,10 @@ std::string expectedName(std::string_view word, const std::vector<std::string>& 
   if (names.empty())
     std::copy_if(candidates.begin(), candidates.end(), std::back_inserter(names),
                  [&](const std::string& candidate) { return shareAPart(word, candidate); });
+  if (const std::size_t end = word.find('.'); end != std::string_view::npos)  // of what is named first, before others
+    std::stable_partition(names.begin(), names.end(),
+                          [&](const std::string& candidate) { return candidate.starts_with(word.substr(0, end + 1)); });
+  if (candidates.size() == 1) names = candidates;
   if (!names.empty()) return alternatives(names);
   constexpr std::size_t most = 12;
   std::string text = "one of: " + candidates[0];

@@ -285,6 +285,11 @@ const Amount* unitNamed(std::string_view symbol) {
 bool mayBeName(std::string_view unit) { return std::ranges::find(reservedUnits, unit) == reservedUnits.end(); }
 
 std::string unitsApart(const std::string& word) {
+  if (word.size() > 1 && (word.back() == '2' || word.back() == '3')) {  // m2, kgm2
+    const std::string unit = word.substr(0, word.size() - 1), power = std::string("^") + word.back();
+    const std::string apart = unitsApart(unit);
+    return unitNamed(unit) != nullptr ? unit + power : apart.empty() ? "" : apart + power;
+  }
   for (const std::string first : {"N", "kN", "mN", "MN", "lbf", "W", "kW", "kg", "V", "mV", "A", "mA"})
     if (word.starts_with(first) && unitNamed(word.substr(first.size())) != nullptr)
       return first + " " + word.substr(first.size());
@@ -294,10 +299,11 @@ std::string unitsApart(const std::string& word) {
 /// By its name in words, or written with other capitals. (What is only spelt alike is another unit.)
 std::string nearestUnit(const std::string& word) {
   static const std::map<std::string_view, const char*> words = {
-      {"meter", "m"},    {"metre", "m"},  {"inch", "in"},    {"foot", "ft"},   {"gram", "g"},    {"kilogram", "kg"},
-      {"sec", "s"},      {"second", "s"}, {"minute", "min"}, {"hour", "h"},    {"hertz", "Hz"},  {"radian", "rad"},
-      {"degree", "deg"}, {"newton", "N"}, {"joule", "J"},    {"watt", "W"},    {"pascal", "Pa"}, {"volt", "V"},
-      {"amp", "A"},      {"henry", "H"},  {"farad", "F"},    {"coulomb", "C"}, {"weber", "Wb"},  {"tesla", "T"}};
+      {"meter", "m"},     {"metre", "m"},    {"inch", "in"},    {"foot", "ft"},    {"gram", "g"},
+      {"kilogram", "kg"}, {"sec", "s"},      {"second", "s"},   {"minute", "min"}, {"hour", "h"},
+      {"hertz", "Hz"},    {"radian", "rad"}, {"degree", "deg"}, {"newton", "N"},   {"joule", "J"},
+      {"watt", "W"},      {"pascal", "Pa"},  {"volt", "V"},     {"amp", "A"},      {"henry", "H"},
+      {"farad", "F"},     {"coulomb", "C"},  {"weber", "Wb"},   {"tesla", "T"},    {"percent", "%"}};
   static const std::map<std::string_view, const char*> prefixesInWords = {
       {"milli", "m"}, {"micro", "u"}, {"nano", "n"}, {"centi", "c"}, {"kilo", "k"}, {"mega", "M"}, {"giga", "G"}};
   std::string small = word;
@@ -318,7 +324,8 @@ std::string nearestUnit(const std::string& word) {
 }
 
 std::string unitInsteadOf(const std::string& word) {
-  if (const std::string apart = unitsApart(word); !apart.empty()) return "'" + apart + "', with a blank between units";
+  if (const std::string apart = unitsApart(word); !apart.empty())
+    return "'" + apart + (apart.find(' ') == std::string::npos ? "'" : "', with a blank between units");
   std::string list;
   for (const Unit& unit : units)
     if (unit.symbol != "\u2126" && unit.symbol != "ampere" && unit.symbol != "kelvin")

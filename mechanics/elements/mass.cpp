@@ -42,7 +42,8 @@ std::vector<Fault> Mass::faults(const RangeOf& rangeOf) const {
   std::ranges::transform(inertia, tensor.begin(), rangeOf);
   const std::string fault = impossibilityOf(tensor);
   if (fault.empty()) return {};
-  return {{"inertia", "the inertia of '" + name + "' " + fault, "an inertia that a body can have"}};
+  return {{"inertia", "the inertia of '" + name + "' " + fault,
+           "an inertia that a body can have, each moment no greater than the other two together"}};
 }
 
 GAMUT_ASSEMBLE(Mass)

@@ -17,6 +17,7 @@
 #include "studies/reading/robot_elements.hpp"
 #include "studies/reading/table_reader.hpp"
 #include "studies/robot.hpp"
+#include "studies/words.hpp"
 
 namespace gamut {
 namespace {
@@ -380,7 +381,10 @@ class MechanismReader {
     Filler(MechanismReader& reader, const TomlSection& section, const TomlSection& initial)
         : reader_(reader), section_(section), initial_(initial) {}
 
-    void frame(const Word& word, std::string& name) override { name = section_.text(word.key); }
+    void frame(const Word& word, std::string& name) override {
+      section_.require(word.key, fmt::format("{}, by its name in quotes", word.meaning));
+      name = section_.text(word.key);
+    }
     void movedFrame(const Word& word, std::string& name, const std::string& /*from*/) override { frame(word, name); }
     void choice(const Word& word, std::string& value, const std::vector<std::string>& choices) override {
       if (const toml::node* node = section_.find(word.key))
@@ -500,7 +504,8 @@ class MechanismReader {
     }
     const toml::array& list = *node.as_array();
     if (list.size() != 3)
-      source_.fail(node, fmt::format("{} has {} numbers", what, list.size()), "three numbers [x, y, z]");
+      source_.fail(node, fmt::format("{} has {}", what, countText(static_cast<long long>(list.size()), "number")),
+                   "three numbers [x, y, z]");
     double direction[3];
     for (std::size_t i = 0; i < 3; ++i) direction[i] = nearest(source_.asAmount(list[i], what, Dimension{}));
     if (direction[0] == 0 && direction[1] == 0 && direction[2] == 0)
@@ -569,7 +574,8 @@ class MechanismReader {
     if (!node.is_array()) source_.fail(node, what + " is no list of numbers", expected);
     const toml::array& list = *node.as_array();
     if (list.size() != least && list.size() != most)
-      source_.fail(node, fmt::format("{} has {} numbers", what, list.size()), expected);
+      source_.fail(node, fmt::format("{} has {}", what, countText(static_cast<long long>(list.size()), "number")),
+                   expected);
     return list;
   }
 

@@ -11,6 +11,7 @@
 
 #include "analyses/consistency.hpp"
 #include "studies/reading/table_reader.hpp"
+#include "studies/words.hpp"
 
 namespace gamut {
 namespace {
@@ -505,7 +506,9 @@ class ShapeReader {
 Interval readPair(const TomlSource& source, const toml::node& node, const std::string& what,
                   const Dimension& dimension) {
   const toml::array& list = source.asArray(node, what);
-  if (list.size() != 2) source.fail(node, fmt::format("{} has {} numbers", what, list.size()), "two, [lower, upper]");
+  if (list.size() != 2)
+    source.fail(node, fmt::format("{} has {}", what, countText(static_cast<long long>(list.size()), "number")),
+                "two, [lower, upper]");
   const Interval lower = enclose(source.asAmount(list[0], what, dimension));
   const Interval upper = enclose(source.asAmount(list[1], what, dimension));
   if (!(lower.lower() <= upper.upper()))

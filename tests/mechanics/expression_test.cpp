@@ -221,6 +221,7 @@ TEST(Expression, WhatIsNoFormulaIsRefusedWithItsPlace) {
       {"1,5", "unexpected ',' at column 2; expected a point before decimals, and no mark between thousands"},
       {"a**2", "a second '*' at column 3; expected '^' for a power"},
       {"2 m k", "no operator before 'k' at column 5"},
+      {"2 kg m2", "no operator before 'm2' at column 6; expected 'm^2'"},
       {"2 m(3)", "unexpected '(' at column 4"},
       {"(a) b", "no operator before 'b'"},
       {"sine(2)",

@@ -59,6 +59,9 @@ TEST(Names, WhatIsExpectedAreNearNamesOrSomeOfAll) {
   EXPECT_EQ(expectedName("something", known), "one of: tip.x, tip.y, tip.z, rod.length, base");
   EXPECT_EQ(expectedName("something", std::vector<std::string>(14, "k")),
             "one of: k, k, k, k, k, k, k, k, k, k, k, k and 2 more");
+  EXPECT_EQ(expectedName("f1.moment", {"j1.reaction.moment.x", "f1.force", "f1.power"}),
+            "'f1.force', 'f1.power' or 'j1.reaction.moment.x'");
+  EXPECT_EQ(expectedName("something", {"base"}), "'base'");
   EXPECT_EQ(expectedName("something", {}), "one that was defined before; there is none yet");
 }
 

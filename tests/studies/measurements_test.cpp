@@ -78,7 +78,7 @@ TEST_F(Measurements, MayNameTheirUnitInParentheses) {
   EXPECT_EQ(ofTable("angle (left)\n0.5\n0.6\n", "angle (left)"), "");
   EXPECT_THAT(ofTable("angle (kg)\n29\n31\n"), HasSubstr("m.csv:1:1: the column is in kg"));
   EXPECT_THAT(ofTable("angle (degrees)\n29\n31\n"),
-              AllOf(HasSubstr("unknown column 'angle'; expected one of: angle (degrees)"),
+              AllOf(HasSubstr("unknown column 'angle'; expected 'angle (degrees)'"),
                     HasSubstr("whose headings name units as in \"length [mm]\"")));
 }
 

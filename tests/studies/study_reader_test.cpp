@@ -992,7 +992,7 @@ constexpr BadStudy badStudies[] = {
      "s.toml:12:8: unknown frame 'inertal'; expected 'inertial' ('hinge' must come after the element that defines its "
      "frame)"},
     {"from = \"inertial\"", "from = \"elsewhere\"",
-     "s.toml:12:8: unknown frame 'elsewhere'; expected one of: inertial ('hinge' must come after the element that "
+     "s.toml:12:8: unknown frame 'elsewhere'; expected 'inertial' ('hinge' must come after the element that "
      "defines its frame)"},
     {"to = \"tip\"", "to = \"K1\"",
      "s.toml:16:1: the frame 'K1' is defined twice; expected a new frame for 'rod' (closed loops are not there yet: "
@@ -1040,13 +1040,16 @@ constexpr BadStudy badStudies[] = {
      "s.toml:28:11: mechanism.element.inertia has 2 numbers; expected [xx, yy, zz] or [xx, yy, zz, xy, yz, zx] in kg "
      "m^2"},
     {"mass = \"250 g\"", "mass = 1\ninertia = [-1, 1, 1]",
-     "s.toml:28:11: the inertia of 'bob' has a negative principal moment; expected an inertia that a body can have"},
+     "s.toml:28:11: the inertia of 'bob' has a negative principal moment; expected an inertia that a body can have, "
+     "each "
+     "moment no greater than the other two together"},
     {"mass = \"250 g\"", "mass = 1\ninertia = [1, 1, 1, 0, 2, 0]",
-     "s.toml:28:11: the inertia of 'bob' has a negative principal moment; expected an inertia that a body can have"},
+     "s.toml:28:11: the inertia of 'bob' has a negative principal moment; expected an inertia that a body can have, "
+     "each "
+     "moment no greater than the other two together"},
     {"mass = \"250 g\"", "mass = 1\ninertia = [1, 1, 2.1]",
      "s.toml:28:11: the inertia of 'bob' has a principal moment above the sum of the other two; expected an inertia "
-     "that "
-     "a body can have"},
+     "that a body can have, each moment no greater than the other two together"},
     {"title = \"Pendulum\"", "title = \"a\\u001b[31mb\"",
      "s.toml:2:9: study.title is \"a\\u001b[31mb\"; expected text without control characters"},
     {"name = \"bob\"", "name = \"b\\u009bob\"",
@@ -1307,6 +1310,16 @@ constexpr BadStudy badStudies[] = {
      "s.toml:2:13: not valid TOML: Error while parsing string: unescaped control characters other than TAB (U+0009) "
      "are "
      "explicitly prohibited; expected a file that follows https://toml.io, texts and numbers with units in quotes"},
+    {"mass = \"250 g\"", "mass = 1\ninertia = [0, \"4e-4 kgm2\", 0]",
+     "s.toml:28:15: mechanism.element.inertia: unknown unit 'kgm2' in '4e-4 kgm2'; expected 'kg m^2', with a blank "
+     "between units"},
+    {"from = \"inertial\"\n", "",
+     "s.toml:9:1: 'mechanism.element.from' is missing; expected the frame that carries the joint, by its name in "
+     "quotes"},
+    {"\"± 1 %\"", "[1]", "s.toml:31:12: uncertain.interval has 1 number; expected two, [lower, upper]"},
+    {"quantity = \"tip.position.z\"", "quantity = \"bob.speed.x\"",
+     "s.toml:38:12: unknown quantity 'bob.speed.x'; expected a quantity of the mechanism, such as 'bob.position.x', "
+     "'bob.velocity.x' or 'bob.acceleration.x'"},
     {"{ angle = \"30 deg\", rate = 0.5 }", "[\"30 deg\", 0.5]",
      "s.toml:15:11: mechanism.element.initial is a list; expected a table, such as { angle = 0, rate = 0 }"},
     {"length = 0.5", "length = \"5 millimetres\"",
