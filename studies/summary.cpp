@@ -490,7 +490,7 @@ std::string textSummary(const Results& results) {
     else if (known > 0)
       text += fmt::format("  probabilities: bounds {} apart at most, at {}{}\n", atMostText(d.gap, 2),
                           countText(static_cast<long long>(d.time.size()), "time"),
-                          d.why.empty() ? "" : fmt::format(" ({} was asked for: {})", numberText(d.wanted, 3), d.why));
+                          d.why.empty() ? "" : fmt::format(" ({} is aimed at: {})", numberText(d.wanted, 3), d.why));
     costs.push_back(fmt::format("probabilities {:.2f} s", d.cpu));
   }
   if (const DerivativeResult& d = results.derivatives; d.present) {

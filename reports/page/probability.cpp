@@ -84,7 +84,7 @@ PlotSection probabilityPlots(const Results& results, const Detail& detail) {
     if (d.band > 0) section.html += fmt::format(", the dashed lines their 95 % band (± {})", atMostText(d.band, 2));
     section.html += ".</p>\n";
     if (!d.why.empty())
-      section.html += fmt::format("<p class=\"hint\">Not as close everywhere as asked for ({}): {}.</p>\n",
+      section.html += fmt::format("<p class=\"hint\">Not as close everywhere as aimed at ({}): {}.</p>\n",
                                   numberText(d.wanted, 3), escapeHtml(d.why));
   }
   if (isSampled) {

@@ -125,6 +125,23 @@ TEST(TextSummary, SaysHowFarSamplesFillTheCuts) {
   EXPECT_THAT(textSummary(results), HasSubstr("; they reach the ends of every proved cut\n"));
 }
 
+TEST(TextSummary, SaysHowCloseBoundsOfProbabilitiesAre) {
+  Results results = sampleResults();
+  results.requirements.clear();  // whose margins they are
+  DistributionResult& d = results.distribution;
+  d = {};
+  d.present = true;
+  d.wanted = 0.005;
+  d.gap = 0.0389;
+  d.time = {0.01};
+  d.gaps.assign(results.outputs.size(), d.gap);
+  EXPECT_THAT(textSummary(results), HasSubstr("  probabilities: bounds 0.039 apart at most, at 1 time\n"));
+  d.why = "the work that limits.probabilities allows is done";
+  EXPECT_THAT(textSummary(results),
+              HasSubstr(" at 1 time (0.005 is aimed at: the work that limits.probabilities allows "
+                        "is done)\n"));
+}
+
 TEST(TextSummary, LeadsWithTheLeastAndTheGreatestOfTheWholeMotion) {
   Results results = sampleResults();
   results.requirements.clear();  // whose margins they are
