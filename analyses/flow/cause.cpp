@@ -41,9 +41,9 @@ std::string FlowCause::sentence() const {
     case Kind::rounding:
       return "what remains is rounding";
     case Kind::vain:
-      return "a run with a smaller threshold left as much over";
+      return "a stricter run was no tighter";
     case Kind::rounds:
-      return "the tightest of its runs still left too much over";
+      return "the strictest of its runs was not tight enough";
   }
   return {};
 }

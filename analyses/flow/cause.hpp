@@ -27,7 +27,7 @@ struct FlowCause {
     pieces,
     many,  ///< quantities
     rounding,
-    vain,  ///< a tighter run left as much over
+    vain,  ///< a stricter run left as much over
     rounds
   };
   Kind kind = Kind::none;
