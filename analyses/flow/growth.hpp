@@ -1,5 +1,6 @@
-// The comparison system ẏ = A y + δ of a step, A ≥ |∂f/∂x|: how far errors of the states can grow and reach into each
-// other in h seconds, whatever the units of the states. docs/flow.md, section 2.
+// The comparison system ẏ = A y + δ of a step, A ≥ |∂f/∂x|, or, of what is damped, with what is known of the sign of
+// its diagonal: how far errors of the states can grow and reach into each other in h seconds, whatever the units of the
+// states. docs/flow.md, section 2.
 #pragma once
 
 #include <vector>
@@ -13,13 +14,17 @@ class FlowGrowth {
 
   /// |∂f_i/∂x_j|, to be set before `compute`.
   double& A(int i, int j) { return A_[at(i, j)]; }
-  /// The matrices below for h seconds; false if the system grows by more than e^60.
+  /// ∂f_i/∂x_i at most, below zero where a state is damped; for the next `compute` alone, no more than A(i, i).
+  double& diagonal(int i) { return diagonal_[static_cast<std::size_t>(i)]; }
+  /// The matrices below for h seconds; false if the system grows by more than e^60. B is A, or, if damping decides
+  /// (isDamped), A with that diagonal.
   bool compute(double h);
+  bool isDamped() const { return isDamped_; }
 
-  double M0(int i, int j) const { return M0_[at(i, j)]; }  ///< ≥ e^{Ah}
-  double M1(int i, int j) const { return M1_[at(i, j)]; }  ///< ≥ h Σ (Ah)^k/(k+1)!
-  double M2(int i, int j) const { return M2_[at(i, j)]; }  ///< ≥ h Σ (Ah)^k m!/(m+k+1)!
-  /// About the spectral radius of Ah: how fast the system grows.
+  double M0(int i, int j) const { return M0_[at(i, j)]; }  ///< ≥ e^{Bt} at every time t of the h seconds
+  double M1(int i, int j) const { return M1_[at(i, j)]; }  ///< ≥ ∫ e^{Bt} over them, h Σ (Bh)^k/(k+1)!
+  double M2(int i, int j) const { return M2_[at(i, j)]; }  ///< ≥ ∫ e^{B(h-t)} (t/h)^m, h Σ (Bh)^k m!/(m+k+1)!
+  /// About the spectral radius of Ah, or how fast e^{Bt} grows in the h seconds: its exponent.
   double growth() const { return growth_; }
   /// The binary exponents of units in which A is balanced: x_i = 2^{units()[i]} z_i.
   const std::vector<int>& units() const { return unit_; }
@@ -29,11 +34,17 @@ class FlowGrowth {
  private:
   std::size_t at(int i, int j) const { return static_cast<std::size_t>(i * n_ + j); }
   double balance(double h);
+  void estimateGrowth();
+  bool sumSeries(double h);
+  bool computeDamped(double h);
+  void integrate(double rate, std::vector<double>& exponential, std::vector<double>& integral);
+  void multiply(const std::vector<double>& a, const std::vector<double>& b, std::vector<double>& product) const;
 
   int n_, m_;
   double growth_ = 0;
+  bool isDamped_ = false;
   std::vector<int> unit_;
-  std::vector<double> A_, M0_, M1_, M2_, X_, power_, next_, v_, w_;
+  std::vector<double> A_, diagonal_, M0_, M1_, M2_, X_, power_, next_, v_, w_;
 };
 
 }  // namespace gamut

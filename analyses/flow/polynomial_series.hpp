@@ -164,6 +164,8 @@ class PolynomialSeries {
   double top(int state) const { return top_[at(state)]; }
   /// |∂f_i/∂x_j| on the set that was bounded last.
   double jacobianBound(int i, int j) const;
+  /// ∂f_i/∂x_i there at most.
+  double dampingBound(int i) const;
   /// |Ψ̃' - (∂f/∂x)Ψ̃|_{ij} ≤ ν0 + ν1 (σ/θ)^m on the set that was bounded last.
   void frameDefect(int i, int j, double& nu0, double& nu1) const;
   /// ‖Ψ̃_ij‖, and of what depends on ξ: ‖ṽ‖ and ‖Ψ̃_ij‖ without the grade 0.

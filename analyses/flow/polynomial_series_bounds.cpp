@@ -360,6 +360,12 @@ double PolynomialSeries::jacobianBound(int i, int j) const {
   return bound > 0 ? bound + bounds::tiny : 0.0;  // never so small that balancing it would underflow
 }
 
+/// c + (‖ṽ‖ - |c|) + ρ of the constant coefficient c: of a negative one ‖ṽ‖ + ρ - 2|c|, one rounding of the difference.
+double PolynomialSeries::dampingBound(int i) const {
+  const double c = f_[plan_[at(outputs_[at(n_ + i * n_ + i)])].f], bound = jacobianBound(i, i);
+  return c < 0 ? bound * (1 + 0x1p-50) - 2 * std::fabs(c) * bounds::down : bound;
+}
+
 void PolynomialSeries::frameDefect(int i, int j, double& nu0, double& nu1) const {
   double z0 = 0, z1 = 0, rounding = 0;
   int terms = 0;

@@ -28,6 +28,7 @@ constexpr double mostGrowthOfInputs = 0.08;
 // underflow, bounds::tiny over a tolerance.
 constexpr double vanished = 0x1p-120, unheard = 0x1p-80, leastSize = 0x1p-530;
 constexpr double mostOfFrame = 1e-4;      // of the remainder, that a step's orders in time may add
+constexpr double mostOfColumn = 1e-3;     // of each of its columns, where that decays
 constexpr double heard = 1e-3;            // of FlowScales: a machine at rest, to which a push is yet to come
 constexpr double hardlyMoving = 0x1p-20;  // of what is left over, a polynomial that says nothing of the state
 
@@ -45,7 +46,7 @@ FlowStepper::FlowStepper(const Program& motion, std::shared_ptr<const Monomials>
   series_.setVarying(inputs_.parameters());
   kinks_ = std::make_unique<FlowKinks>(motion, inputs_.parameters());
   if (kinks_->count() == 0) kinks_.reset();
-  epsilon_.assign(at(n_ * n_), 0.0);
+  for (auto* v : {&epsilon_, &inTime_}) v->assign(at(n_ * n_), 0.0);
   for (auto* v : {&delta0_, &delta1_, &start_, &E_, &y_, &e1_, &nu0_, &nu1_, &scale_, &floor_, &least_, &second_,
                   &third_, &turn_, &driven_})
     v->assign(at(n_), 0.0);
@@ -109,7 +110,15 @@ double FlowStepper::suggestion(double theta, double share) const {
 bool FlowStepper::boundGrowth(double h) {
   for (int i = 0; i < n_; ++i)
     for (int j = 0; j < n_; ++j) growth_.A(i, j) = series_.jacobianBound(i, j);
+  if (mayDamp())
+    for (int i = 0; i < n_; ++i) growth_.diagonal(i) = series_.dampingBound(i);
   return growth_.compute(h);
+}
+
+/// What kinks, jumps and inputs add is bounded beside a comparison that grows with time (crossing.cpp, inputs.cpp). Of
+/// many symbols short steps keep truncation low that is not of time (measured: half a car at rest before a bump).
+bool FlowStepper::mayDamp() const {
+  return !own_ && !holding_ && !kinks_ && inputs_.empty() && monomials().symbols() < many;
 }
 
 bool FlowStepper::tryStep(const FlowSet& set, double theta) {
@@ -165,7 +174,7 @@ bool FlowStepper::tryStep(const FlowSet& set, double theta) {
     if (!boundGrowth(h)) return false;
     tube();
     proved = true;
-    for (int i = 0; i < n_; ++i) proved = proved && y_[at(i)] <= E_[at(i)];
+    for (int i = 0; i < n_; ++i) proved = proved && y_[at(i)] < E_[at(i)];
   }
   if (!proved) return false;
   // One that is at rest, driven by what others leave over, is relative to that.
@@ -196,6 +205,7 @@ bool FlowStepper::tryStep(const FlowSet& set, double theta) {
       }
       epsilon_[at(i * n_ + j)] = (s + time) * bounds::up;
       left[at(i)] += time * total_[at(j)];
+      inTime_[at(i * n_ + j)] = time;
     }
   }
   double most = 0, all = 0;
@@ -205,7 +215,24 @@ bool FlowStepper::tryStep(const FlowSet& set, double theta) {
     all = std::max(all, unit * start_[at(i)]);
   }
   frameError_ = all > 0 ? most / all : 0;
+  if (growth_.isDamped()) frameError_ = std::max(frameError_, mostOfFrame / mostOfColumn * worstColumn(set));
   return true;
+}
+
+/// What Ψ̃'s orders in time leave out of a column, relative to the column as it was, in balanced units: of what decays,
+/// however little it has become beside the others.
+double FlowStepper::worstColumn(const FlowSet& set) const {
+  double worst = 0;
+  for (int j = 0; j < n_; ++j) {
+    double left = 0, size = 0;
+    for (int i = 0; i < n_; ++i) {
+      const double unit = std::ldexp(1.0, -growth_.units()[at(i)]);
+      left = std::max(left, unit * inTime_[at(i * n_ + j)]);
+      size = std::max(size, unit * std::fabs(set.C[at(i * n_ + j)]));
+    }
+    if (total_[at(j)] > 0) worst = std::max(worst, left / size);
+  }
+  return worst;
 }
 
 /// The defect bound holds parameters' radii and rounding too, which splitting does not cure: without radii it is
@@ -381,6 +408,14 @@ double FlowStepper::expand(const FlowSet& set, double left, double smallest, dou
   }
 }
 
+/// About as long as the comparison and Ψ allow the next step to be; 0 if damping has no part in it.
+double FlowStepper::dampedStep() const {
+  if (!growth_.isDamped()) return 0;
+  constexpr double shorter = 0.85;
+  const double byFrame = std::pow(mostOfFrame / std::max(frameError_, 1e-30), 1.0 / (m_ + 1));
+  return h_ * std::min({shorter * byFrame, shorter * mostGrowth / std::max(growth_.growth(), 1e-3), 2.0});
+}
+
 bool FlowStepper::drift(FlowSet& set, double end, std::vector<double>& turned) {
   constexpr double little = 1e-9;  // of another state: what rests until that moves it sets no pace
   caution_ = set.caution;
@@ -431,6 +466,7 @@ StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum,
   }
   const double suggested = h;
   h = std::min({h, h0_, left});
+  if (set.dampedStep > 0) h = std::min(h, set.dampedStep);
   bool isAdapted = false;
   const auto compute = [&] {
     load(set);
@@ -452,8 +488,9 @@ StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum,
         h *= factor;
         continue;
       }
-      // Of a machine at rest it is errors that move, faster than it does itself.
-      if (series_.count() > 1 && frameError_ > mostOfFrame && attempt < 3) {
+      // Of a machine at rest it is errors that move, faster than it does itself; of a damped one as well.
+      const bool asksForFrame = growth_.isDamped() ? attempt < 12 : series_.count() > 1 && attempt < 3;
+      if (asksForFrame && frameError_ > mostOfFrame) {
         h *= std::max(0.25, 0.9 * std::pow(mostOfFrame / frameError_, 1.0 / (m_ + 1)));
         continue;
       }

@@ -85,6 +85,8 @@ class FlowStepper {
   /// Moves the polynomials of `set` on by a step that nothing is proved of; false if there is none. `turned`: what
   /// becomes in it of errors, about, [row][column].
   bool drift(FlowSet& set, double end, std::vector<double>& turned);
+  /// Whether the step's comparison knew the sign of what damps the motion (FlowGrowth).
+  bool isDamped() const { return growth_.isDamped(); }
   /// How many jumps and kinks all solutions pass in the step, or come to before the horizon.
   std::size_t crossings() const { return crossings_.size(); }
   /// After a failure: what could not be proved, of which state.
@@ -152,6 +154,9 @@ class FlowStepper {
   void carryGenerators(FlowSet& set);
   void evaluateInputs(const FlowSet& set, const std::vector<double>& columns, FlowPoint& point) const;
   bool boundGrowth(double h);
+  bool mayDamp() const;
+  double dampedStep() const;
+  double worstColumn(const FlowSet& set) const;
   bool tryStep(const FlowSet& set, double theta);
   void load(const FlowSet& set);
   double expand(const FlowSet& set, double left, double smallest, double share = 0);
@@ -239,7 +244,7 @@ class FlowStepper {
   double givenAt_ = 0;  // the longest step that what was given holds for: signs, sides
   FlowCause why_;
   std::string obstacle_;  // of the last attempt
-  std::vector<double> delta0_, delta1_, start_, E_, y_, e1_, epsilon_, nu0_, nu1_, scale_, floor_;
+  std::vector<double> delta0_, delta1_, start_, E_, y_, e1_, epsilon_, inTime_, nu0_, nu1_, scale_, floor_;
   std::vector<double> least_;  // the floor, or what counts of the state's size over the motion, if that is more
   std::vector<double> total_, errors_;         // R + Σ_j |Γ_j| of the set being stepped; without inputs
   std::vector<double> driven_;                 // what inputs do to a state within the step, at most

@@ -239,9 +239,11 @@ void FlowStepper::boundDerivatives() {
 
 void FlowStepper::sag(double from, double to, std::vector<Interval>& bound) const {
   bound.clear();
-  for (int i = 0; i < n_; ++i)  // in σ, exactly
-    bound.push_back(inflated(series_.sag(i, from / h0_, to / h0_, second_[at(i)], third_[at(i)], turn_[at(i)]),
-                             (driven_[at(i)] + inputs_.rest(i)) * bounds::up));
+  for (int i = 0; i < n_; ++i) {  // in σ, exactly; what is damped is no convex function of time
+    const double besides = growth_.isDamped() ? looseBound(i) : (driven_[at(i)] + inputs_.rest(i)) * bounds::up;
+    bound.push_back(
+        inflated(series_.sag(i, from / h0_, to / h0_, second_[at(i)], third_[at(i)], turn_[at(i)]), besides));
+  }
 }
 
 /// Without symbols: QR of the frame, so that the oldest errors' box turns with the motion.
@@ -423,6 +425,7 @@ void FlowStepper::advance(FlowSet& set) {
   else
     set.nextStep = isSliding_ ? 2 * h_ : std::max(h_ * 1.1, set.freeStep);
   if (!isShortened_ && !isCut_) set.freeStep = 0;
+  if (!isCut_) set.dampedStep = dampedStep();
   set.caution = caution_;
   set.units = growth_.units();
   if (set.first.empty())

@@ -652,6 +652,83 @@ TEST(FlowStep, NothingLeavesItsChordByMoreThanTheSag) {
 
 // A chain at rest in which each state feels the next one only once that has moved: every attempt at a tube reaches one
 // link further, so that a step must be refused although the tubes of the links before it hold.
+/// Damped motions whose steps are longer than |∂f/∂x| would allow: coupled rates, a reaction that keeps a sum, a slow
+/// state that a fast one drives, and a spring that is damped by far too much.
+std::vector<std::pair<Program, std::vector<double>>> dampedMotions() {
+  return {{record(2, 1,
+                  [](auto, const auto& x, const auto& p, auto& dx) {
+                    dx[0] = x[1];
+                    dx[1] = -200.0 * p[0] * x[1] - 300.0 * sin(x[0]);
+                  }),
+           {0.5, -0.6, 1.0}},
+          {record(3, 1,
+                  [](auto, const auto& x, const auto& p, auto& dx) {
+                    const auto first = 0.5 * x[0], second = 400.0 * sqr(x[1]), third = p[0] * x[1] * x[2];
+                    dx[0] = third - first;
+                    dx[1] = first - third - second;
+                    dx[2] = second;
+                  }),
+           {1.0, 0.004, 0.5, 200.0}},
+          {record(3, 1,
+                  [](auto, const auto& x, const auto& p, auto& dx) {
+                    dx[0] = 0.5 * x[1] - 0.2 * x[0] * x[2];
+                    dx[1] = -150.0 * x[1] + 60.0 * x[2] + 100.0 * cos(x[0]);
+                    dx[2] = 40.0 * x[1] - 180.0 * x[2] + p[0];
+                  }),
+           {0.5, 0.7, 0.3, 20.0}}};
+}
+
+/// Random members of a set that a step starts from have no greater ∂f_i/∂x_i than it counts with.
+void expectDampingBounded(Scene& scene, int members) {
+  Evaluator<Precise> derivatives(scene.differentiated);
+  for (int member = 0; member < members; ++member) {
+    const Vector xi = scene.randomSymbols();
+    const std::vector<Precise> values = scene.monomialsAt(xi);
+    Vector x = scene.times(scene.matrix(scene.set.C, values), scene.randomRemainder(values)), p;
+    for (int i = 0; i < scene.n; ++i)
+      x[at(i)] += scene.polynomial(&scene.set.p[at(i * scene.monomials->count())], scene.monomials->count(), values) +
+                  Precise(scene.set.W[at(i)]) * scene.points.signedUnit();
+    for (const Embedded& q : scene.set.parameters)
+      p.push_back(Precise(q.centre) + Precise(q.radius) * scene.points.signedUnit() +
+                  (q.symbol >= 0 ? Precise(q.half) * xi[at(q.symbol)] : Precise(0.0)));
+    derivatives.setParameters(p);
+    const Vector all = derivatives(Precise(0.0), x);
+    for (int i = 0; i < scene.n; ++i)
+      ASSERT_LE(all[at(scene.n + i * scene.n + i)], Precise(scene.stepper.series().dampingBound(i))) << "state " << i;
+  }
+}
+
+/// At many times of a step, of sets whose W decays; and beside chords there is room for all that is loose at any time.
+TEST(FlowStep, HoldsEveryTrajectoryOfDampedMotionsAtEveryTime) {
+  Points points(29);
+  int steps = 0, longSteps = 0;
+  for (int round = 0; round < 8; ++round)
+    for (const auto& [f, nominal] : dampedMotions()) {
+      const int symbols = points.integer(0, 2), degree = symbols == 0 ? 0 : points.integer(1, 4);
+      Scene scene(f, symbols, degree, points.integer(0, 2), points.integer(12, 30),
+                  std::pow(10.0, -points.integer(3, 14)), points);
+      const double R = std::pow(10.0, -points.integer(3, 14)) * points.integer(0, 1);
+      scene.fill(nominal, std::pow(10.0, -points.integer(3, 6)), R, points.integer(0, 3),
+                 std::pow(10.0, -points.integer(4, 14)), R * 0.1);
+      if (scene.stepper.certify(scene.set, horizon, quantum, 0, 0) != StepOutcome::stepped) continue;
+      ++steps;
+      longSteps += scene.stepper.h() * 200 > 4.5 ? 1 : 0;  // of no comparison with |∂f/∂x|
+      Reference reference(f);
+      scene.expectTrajectoriesInside(3, reference, {0.0, 1e-3, 0.02, 0.1, 0.3, 0.7, 1.0});
+      if (HasFatalFailure()) return;
+      expectDampingBounded(scene, 8);
+      std::vector<Interval> sag;
+      scene.stepper.sag(0, std::ldexp(scene.stepper.h(), -40), sag);  // so short that nothing curves
+      for (int i = 0; i < scene.n && scene.stepper.isDamped(); ++i) {
+        const double loose = scene.stepper.looseBound(i);
+        ASSERT_TRUE(isSubset(Interval(-loose, loose), sag[at(i)])) << "state " << i;
+      }
+      if (HasFatalFailure()) return;
+    }
+  EXPECT_GT(steps, 15);
+  EXPECT_GT(longSteps, 5);
+}
+
 TEST(FlowStep, RefusesAStepWhoseTubeIsNotProved) {
   constexpr int links = 6;
   const Program f = record(links, 0, [](auto, const auto& x, const auto&, auto& dx) {
