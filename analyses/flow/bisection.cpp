@@ -42,7 +42,7 @@ std::vector<double> FlowStepper::symbolMass(std::vector<double>& byGrade) const 
   for (int from : {m.degree() - 1, 1}) {
     for (int i = 0; i < n_; ++i)
       for (int g = 1; g < m.count(); ++g) {
-        if (from > 1 && m.grade(g) < from - 2) continue;
+        if (from > 1 && m.grade(g) < from - 2 && m.grade(g) > 1) continue;
         double size = 0, power = 1;
         for (int order = 0; order <= m_; ++order, power *= theta_)
           size += std::fabs(series_.series(i)[g * series_.stride() + order]) * power;
@@ -69,10 +69,11 @@ GradeDecay FlowStepper::decay() const {
   double sum = 0, squares = 0;
   for (const double part : mass) sum += part, squares += part * part;
   const int d = monomials().degree();
-  if (d < 2) return {1.0, 1.0};
+  if (d < 2) return {1.0, 1.0, 1.0};
   // Over two grades: odd or even ones may be empty.
   const double high = byGrade[at(d)] + byGrade[at(d - 1)], low = byGrade[at(d - 1)] + byGrade[at(d - 2)];
-  return {low > 0 ? high / low : 1.0, squares > 0 ? sum * sum / squares : 1.0};
+  return {low > 0 ? high / low : 1.0, squares > 0 ? sum * sum / squares : 1.0,
+          byGrade[1] > 0 ? high / byGrade[1] : 1.0};
 }
 
 FlowSet FlowStepper::bisect(FlowSet& set, int symbol, const PolynomialRange& shift) const {

@@ -62,7 +62,7 @@ std::vector<int> degreeLadder(const std::vector<int>& weights) {
   constexpr double mostMonomials = 2000;
   const auto active = std::ranges::count(weights, 1);
   std::vector<int> ladder;
-  for (int degree : {2, 3, 4, 5, 6, 7, 8, 10, 12, 16}) {
+  for (int degree : {2, 3, 4, 5, 6, 7, 8, 9, 10, 12, 16}) {
     std::vector<double> count(at(degree + 1), 0.0);  // of monomials of each grade
     count[0] = 1;
     for (const int weight : weights)

@@ -55,6 +55,10 @@ FlowJourney FlowFollower::follow(FlowPiece& piece, double end, double allowed) {
       return FlowJourney::cancelled;
     StepOutcome outcome = certify(piece);
     const bool uncertain = symbols_ > 0;
+    if (outcome == StepOutcome::splitWanted && !tool_->stepper.isAcrossKink()) {
+      collected_.metThreshold = true;
+      if (isOfDroppedTerms()) outcome = StepOutcome::stepped;
+    }
     if (outcome != StepOutcome::stepped && uncertain) {
       if (!tool_->stepper.isAcrossKink() && piece.layout + 1 < task_.degrees && isDegreeWorthwhile(piece, outcome)) {
         changeLayout(piece, piece.layout + 1);
@@ -194,6 +198,15 @@ bool FlowFollower::isDegreeWorthwhile(const FlowPiece& piece, StepOutcome outcom
   const double cost = std::log(static_cast<double>(next.pairs().size()) / static_cast<double>(now.pairs().size()));
   const double preference = task_.active <= 3 ? 1.0 : 0.7;  // measured
   return gain * decay.symbols > preference * cost * (now.degree() + 1);
+}
+
+/// Whether the highest grades hold nothing but what steps have left out before: little, and no less from one grade to
+/// the next. Neither degree nor bisection cures that.
+bool FlowFollower::isOfDroppedTerms() const {
+  constexpr double flat = 0.1, little = 1e-4;
+  if (task_.active <= 3) return false;  // bisection is cheap
+  const GradeDecay decay = tool_->stepper.decay();
+  return decay.ratio > flat && decay.highest < little * task_.aim();
 }
 
 /// Gives the remainder symbols of its own once it has grown to what a linear term cannot carry.

@@ -52,6 +52,7 @@ struct FlowCollected {
   std::vector<std::vector<std::shared_ptr<const FlowSnapshot>>> models;  // FlowModels
   std::vector<std::vector<FlowChord>> chords;
   std::vector<Influence> influence;  // of every symbol
+  bool metThreshold = false;         // a degree or bisection was wanted
   long steps = 0;
   double cpu = 0, cutCpu = 0;
   FlowCollected(std::size_t times, std::size_t levels)
@@ -109,6 +110,7 @@ class FlowFollower {
   std::unique_ptr<Tools> toolsFor(const FlowPiece& piece, const std::vector<char>& held) const;
   bool use(const FlowPiece& piece, const std::vector<char>& held);
   bool isDegreeWorthwhile(const FlowPiece& piece, StepOutcome outcome) const;
+  bool isOfDroppedTerms() const;
   void changeLayout(FlowPiece& piece, std::size_t to);
   bool expand(FlowPiece& piece);
   void lowerDegree(FlowPiece& piece);

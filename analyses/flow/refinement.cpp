@@ -25,7 +25,10 @@ using detail::at;
 
 namespace {
 
-constexpr int mostRounds = 6;
+/// Further rounds where each came farther than the one before, not to the end, and all have cost next to nothing, in
+/// units of work (work.hpp).
+constexpr int mostRounds = 6, mostCheapRounds = 14;
+constexpr double cheap = 5 * Work::perSecond;
 
 /// The weights of the uncertain quantities' symbols, as far as they are known, and how large states become.
 class Weighing {
@@ -142,10 +145,13 @@ Tube refine(const FlowQuestion& question, const Box& box, const std::vector<Box>
   Weighing weighing(question, box);
   FlowRound round;
   round.isLast = false;
+  const double spentBefore = question.budget.spent;
   double reached = 0, looseBefore = 0, tightened = 1;  // by the factor before
   bool isAlike = true;                                 // to the round before, but tighter
+  bool isFarther = true;                               // than that came
   for (int count = 1;; ++count) {
-    round.isLast = round.isLast || count == mostRounds;
+    const bool isCheap = isFarther && reached < question.horizon && question.budget.spent - spentBefore < cheap;
+    round.isLast = round.isLast || count == mostCheapRounds || (count >= mostRounds && !isCheap);
     round.emphasis = weighing.emphasis();
     round.scales = weighing.scales();
     const FlowTask task(question, box, levels, round);
@@ -160,6 +166,7 @@ Tube refine(const FlowQuestion& question, const Box& box, const std::vector<Box>
     if (isNoBetter && factor > 1) factor = std::max(factor, decidedly);  // what was allowed before was nowhere reached
     const bool isMisjudged = factor > 1 && !round.emphasis.isUniform();
     const bool mayRaise = factor > 1 && run.needsDegree() && task.hasRicherOutputs();
+    isFarther = tube.reached() > reached;
     reached = tube.reached();
     looseBefore = looseness;
     limit = run.limit(tube);
@@ -176,8 +183,12 @@ Tube refine(const FlowQuestion& question, const Box& box, const std::vector<Box>
     } else if (mayRaise && !isInVain) {
       ++round.richer;
     } else if (factor > 1 && !isInVain) {
-      const double hardly = reached < question.horizon ? 0.05 : 0.2;  // an early end says less of what was to blame
-      if (run.timeShare() < 1 - hardly) round.tighter *= factor;
+      const double hardly = reached < question.horizon ? 0.001 : 0.2;  // an early end says less of what was to blame
+      if (run.timeShare() < 1 - hardly) {
+        // Below a threshold that was nowhere met lies what there was.
+        const double hidden = run.hiddenDefect(reached);
+        round.tighter *= factor * (hidden > 0 ? std::max(1.0, task.splitDefect / hidden) : 1.0);
+      }
       if (run.timeShare() > hardly) round.finer *= factor;
     } else if (run.isAbandoned()) {
       round.isLast = true;  // the same once more, as far as it comes

@@ -332,6 +332,7 @@ Tube FlowRun::gather(std::vector<FlowCollected>& collected) {
   needsDegree_ = looseness_ > aim && ofStates <= aim;
   for (const Traveller& traveller : all_)
     timeError_ += traveller.piece.timeError, truncation_ += traveller.piece.truncation;
+  for (const FlowCollected& part : collected) metThreshold_ = metThreshold_ || part.metThreshold;
   timeShare_ = timeError_ > 0 ? timeError_ / (timeError_ + truncation_) : 0;
   for (const FlowCollected& part : collected)
     for (std::size_t l = 0; l < part.influence.size(); ++l) {
@@ -386,7 +387,9 @@ FlowCause FlowRun::limit(const Tube& tube) const {
 
 double FlowRun::tighterBy(const Tube& tube) const {
   constexpr double least = 2, most = 1000;
-  const double blindly = task_.embedding.symbols <= 4 ? 30 : 8;  // of many, a run that is too tight is dear
+  constexpr double nearly = 0.8;
+  const bool isDear = task_.embedding.symbols > 4 || tube.reached() > nearly * task_.horizon;
+  const double blindly = isDear ? 8 : 30;  // of many, and of all of a long motion, a run that is too tight is dear
   if (task_.embedding.symbols == 0 || !limit(tube).isNone()) return 1;
   if (tube.reached() < task_.horizon) return blindly;
   const double aim = task_.aim();  // the remainder is about proportional to the threshold

@@ -38,6 +38,8 @@ class FlowRun {
   bool needsDegree() const { return needsDegree_; }
   /// The share of time, not of ξ, in what all steps left out.
   double timeShare() const { return timeShare_; }
+  /// Of truncation in ξ, 1/s, on average; 0 where it was anywhere too large for the threshold.
+  double hiddenDefect(double reached) const { return metThreshold_ || !(reached > 0) ? 0 : truncation_ / reached; }
   /// Of every symbol on the states' polynomials, at all steps.
   const std::vector<Influence>& influence() const { return influence_; }
 
@@ -113,6 +115,7 @@ class FlowRun {
   double endedAt_ = 0;  // how far that start came
   int degree_ = 0;
   double looseness_ = 0, timeShare_ = 0;
+  bool metThreshold_ = false;
   double timeError_ = 0, truncation_ = 0;  // of pieces that have ended
   std::vector<Influence> influence_;
   bool stop_ = false, needsDegree_ = false, overBudget_ = false, areAlternatives_ = false;

@@ -50,41 +50,6 @@ void appendBox(FlowSet& set, const std::vector<double>& size) {
   set.generators = std::move(columns);
 }
 
-/// Of a generator, what a box around it is larger by in balanced units (Girard 2005): Σ_i |Γ_i| - max_i |Γ_i|.
-void mergeGenerators(FlowSet& set, std::size_t most) {
-  const std::size_t n = set.R.size(), block = set.generators.size() / set.powers, count = block / n;
-  if (count <= most || most < n) return;
-  std::vector<double> extent(block, 0.0);  // Σ_α |Γ_α|
-  for (std::size_t g = 0; g < set.powers; ++g)
-    for (std::size_t c = 0; c < block; ++c) extent[c] += std::fabs(set.generators[g * block + c]);
-  std::vector<std::pair<double, std::size_t>> loss;
-  for (std::size_t j = 0; j < count; ++j) {
-    double sum = 0, greatest = 0;
-    for (std::size_t i = 0; i < n; ++i) {
-      const double size = std::ldexp(extent[j * n + i], set.units.empty() ? 0 : -set.units[i]);
-      sum += size;
-      greatest = std::max(greatest, size);
-    }
-    if (!std::isfinite(sum)) return;  // the next step fails
-    loss.emplace_back(sum - greatest, j);
-  }
-  const std::size_t merged = count - most + n;
-  std::ranges::nth_element(loss, loss.begin() + static_cast<std::ptrdiff_t>(merged));
-  std::vector<char> isMerged(count, 0);
-  for (std::size_t k = 0; k < merged; ++k) isMerged[loss[k].second] = 1;
-  std::vector<double> box(n, 0.0), kept;
-  kept.reserve(set.powers * most * n);
-  for (std::size_t j = 0; j < count; ++j)
-    for (std::size_t i = 0; i < n && isMerged[j] != 0; ++i) box[i] += extent[j * n + i];
-  for (double& size : box) size *= bounds::up;
-  for (std::size_t g = 0; g < set.powers; ++g)
-    for (std::size_t j = 0; j < count; ++j)
-      if (isMerged[j] == 0)
-        for (std::size_t i = 0; i < n; ++i) kept.push_back(set.generators[g * block + j * n + i]);
-  set.generators = std::move(kept);
-  appendBox(set, box);
-}
-
 void addColumns(const std::vector<double>& columns, std::vector<double>& total) {
   const auto n = static_cast<Eigen::Index>(total.size());
   const Eigen::Map<const Eigen::MatrixXd> matrix(columns.data(), n, static_cast<Eigen::Index>(columns.size()) / n);

@@ -41,7 +41,7 @@ FlowSet startOf(const Embedding& embedding, int n, const Monomials& monomials, i
 /// Generators diag(size), constant in ξ, the newest.
 void appendBox(FlowSet& set, const std::vector<double>& size);
 /// Boxes in place of generators, of those that lose least by it, until `most` are left.
-void mergeGenerators(FlowSet& set, std::size_t most);
+void mergeGenerators(FlowSet& set, const Monomials& monomials, std::size_t most);
 
 /// R + Σ_j |Γ_j| for all ξ, rounded up; of errors alone, without what inputs did.
 void totalRadius(const FlowSet& set, std::vector<double>& total);

@@ -45,6 +45,7 @@ struct FlowPoint {
 struct GradeDecay {
   double ratio;    // of what one grade holds to what the grade before holds, among the highest
   double symbols;  // how many symbols share in the highest grades
+  double highest;  // what the two highest grades hold of what is linear
 };
 
 /// Of a number that inputs drive, Σ_c |a_c + Σ_l ξ_l b_lc| at most, c every `stride`: convex in ξ, so greatest at a

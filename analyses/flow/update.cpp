@@ -22,10 +22,12 @@ using detail::at;
 
 namespace {
 
-/// Of generators with symbols so many a state are kept apart. What of their products is little beside what a step
-/// leaves over is not carried out.
+/// Of generators with symbols so many a state are kept apart.
 constexpr std::size_t keptAState = 16, leastKept = 100;
-constexpr double littleOfRest = 0.1;
+/// What of their products is so little beside what a step leaves over is not carried out. Of long motions that is too
+/// much: what is left out is missing where higher powers of ξ cancel, step after step.
+constexpr double littleOfMany = 0.1, littleOfFew = 1e-3;
+constexpr int few = 4;  // symbols, whose products are cheap
 /// Steps whose errors are kept apart; older ones merge into the box R. What it costs grows as the rest of a step does,
 /// so that long motions of many states, which lose most by merging, keep more.
 int stepsKept(int n) { return std::clamp(40 * n, 60, 300); }
@@ -343,7 +345,8 @@ void FlowStepper::carryGenerators(FlowSet& set) {
     size[at(m.grade(g))] += sizes.back();
     all += sizes.back();
   }
-  Eigen::VectorXd rest = Eigen::Map<const Eigen::VectorXd>(end_.loose.data(), n_), little = littleOfRest * rest;
+  Eigen::VectorXd rest = Eigen::Map<const Eigen::VectorXd>(end_.loose.data(), n_),
+                  little = (m.symbols() > few ? littleOfMany : littleOfFew) * rest;
   for (int q = 1; q <= degree; ++q) rest += high[at(degree - q + 1)] * size[at(q)];
   std::vector<double> moved(set.generators.size(), 0.0);
   int most = 1;
@@ -396,7 +399,7 @@ void FlowStepper::carryGenerators(FlowSet& set) {
   appendBox(set, fresh);
   mergeInputs(set, at(inputs_.count()), mostInputNumbers);
   const std::size_t kept = std::max(keptAState * at(n_), leastKept);
-  if (set.generators.size() / (set.powers * at(n_)) > kept) mergeGenerators(set, kept * 3 / 4);
+  if (set.generators.size() / (set.powers * at(n_)) > kept) mergeGenerators(set, m, kept / 2);
   set.C.assign(at(n_ * n_), 0.0);
   for (int i = 0; i < n_; ++i) set.C[at(i * n_ + i)] = 1;
   set.W.assign(at(n_), 0.0);

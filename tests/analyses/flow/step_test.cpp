@@ -202,10 +202,19 @@ struct Scene {
     }
   }
 
-  /// Boxes hold what they replace, and no more generators are left than may be.
+  /// What is older is longer, along state `along` most of all, as where a motion shears.
+  void stretchOlder(int along) {
+    const std::size_t block = set.generators.size() / set.powers;
+    for (std::size_t c = 0; c < set.generators.size(); ++c) {
+      const double age = static_cast<double>((block - c % block) / at(n));
+      set.generators[c] *= c % at(n) == at(along) ? 1 + 100 * age : 1 + age;
+    }
+  }
+
+  /// Boxes and directions hold what they replace, and no more generators are left than may be.
   void expectMergedInside(std::size_t most, int directions) {
     const FlowSet before = set;
-    mergeGenerators(set, most);
+    mergeGenerators(set, *monomials, most);
     ASSERT_EQ(set.generators.size(), most * at(n) * set.powers);
     for (int direction = 0; direction < directions; ++direction) {
       const std::vector<Precise> values = monomialsAt(randomSymbols());
@@ -779,6 +788,36 @@ TEST(FlowStep, UpdateHoldsTheSetWhenOldGeneratorsMerge) {
   }
 }
 
+/// Errors (1, -1)/100 and (1, 1)/100 at each step of x' = v, h = 1, the velocity's scale 1e-3 and 1e3: how far the set
+/// reaches a hundred steps on, merged on the way or not.
+TEST(FlowStep, MergedErrorsShearAsTheyDid) {
+  for (const double scale : {1e-3, 1.0, 1e3}) {
+    FlowSet kept, merged;
+    const Monomials none({}, 0);
+    for (FlowSet* set : {&kept, &merged}) {
+      set->R.assign(2, 0.0);
+      set->units = {0, std::ilogb(scale)};
+      for (int step = 0; step < 200; ++step) {
+        for (std::size_t c = 0; c < set->generators.size(); c += 2)
+          set->generators[c] += set->generators[c + 1] / scale;
+        for (const double sign : {-1.0, 1.0}) {
+          set->generators.push_back(0.01);
+          set->generators.push_back(sign * 0.01 * scale);
+        }
+        if (set == &merged && set->generators.size() > 80) mergeGenerators(*set, none, 20);
+      }
+    }
+    EXPECT_LE(merged.generators.size(), 80U);
+    std::vector<double> before(2, 0.0), now(2, 0.0);
+    addColumns(kept.generators, before);
+    addColumns(merged.generators, now);
+    for (std::size_t i = 0; i < 2; ++i) {
+      EXPECT_GE(now[i], before[i] * (1 - 1e-12)) << i;
+      EXPECT_LE(now[i], 1.5 * before[i]) << i << ", boxes alone: a thousandfold";
+    }
+  }
+}
+
 TEST(FlowStep, BoxesHoldTheGeneratorsThatTheyReplace) {
   Points points(18);
   for (int round = 0; round < 40; ++round)
@@ -787,6 +826,7 @@ TEST(FlowStep, BoxesHoldTheGeneratorsThatTheyReplace) {
       Scene scene(f, symbols, symbols == 0 ? 0 : points.integer(1, 4), points.integer(0, 3), 8, 1e-12, points);
       scene.fill(nominal, 0.1, 1e-3, 20, 0, 0);
       if (round % 2 == 0) scene.set.units.assign(nominal.size() - 1, -3);
+      if (round % 4 >= 2) scene.stretchOlder(round % 3 == 0 ? 0 : scene.n - 1);
       scene.expectMergedInside(at(points.integer(scene.n, 19)), 12);
       if (HasFatalFailure()) return;
     }
