@@ -22,6 +22,9 @@ using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 using Matrices = std::vector<Matrix>;  // one a power of ξ
 
+/// So many times as large as before all generators together may be for directions, in balanced units.
+constexpr double mostGrown = 1.25;
+
 /// Γ_j(ξ) = Σ_k c_kj(ξ) P_k(ξ) + ρ_j(ξ) for all generators: n directions P_k, of which the first is the longest
 /// generator, each further one what the longest has across those before.
 struct Directions {
@@ -147,20 +150,28 @@ void mergeGenerators(FlowSet& set, const Monomials& monomials, std::size_t most)
     const double rest = (directions.inverse * directions.rest.col(j)).cwiseQuotient(whole).sum();
     losses.emplace_back(own.sum() - own.maxCoeff() + rest, at(j));
   }
-  isMerged = least(std::move(losses), count - most + 2 * at(n));
-  Vector along = box = Vector::Zero(n);
-  for (Eigen::Index j = 0; j < columns; ++j)
-    if (isMerged[at(j)] != 0) {
-      along += directions.most.col(j);
-      box += directions.rest.col(j);
+  const std::vector<char> isAlong = least(std::move(losses), count - most + 2 * at(n));
+  Vector along = Vector::Zero(n), rest = along, apart = along;
+  for (Eigen::Index j = 0; j < columns; ++j) {
+    if (isAlong[at(j)] == 0) {
+      apart += extent.col(j);
+      continue;
     }
+    along += directions.most.col(j);
+    rest += directions.rest.col(j);
+  }
   // Σ_j c_kj(ξ) P_k s_j = Σ_jα |c_kjα| P_k s with |s| ≤ 1; the rounding of that product goes into the box.
   Matrices sums;
   for (const Matrix& power : directions.p) {
     sums.emplace_back(power * (along * bounds::up).asDiagonal());
-    box += bounds::unit * sums.back().cwiseAbs().rowwise().sum();
+    apart += sums.back().cwiseAbs().rowwise().sum();
+    rest += bounds::unit * sums.back().cwiseAbs().rowwise().sum();
   }
-  replace(set, generators, isMerged, sums, box);
+  // Where what depends on ξ is more than what does not, a quotient of the two is no short series: then it is boxes.
+  const auto size = [&](const Vector& of) { return of.cwiseQuotient(unit).sum(); };
+  if (!(size(apart + rest) <= mostGrown * size(extent.rowwise().sum())))
+    return replace(set, generators, isMerged, {}, box);
+  replace(set, generators, isAlong, sums, rest);
 }
 
 }  // namespace gamut

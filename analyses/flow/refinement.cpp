@@ -29,6 +29,7 @@ namespace {
 /// units of work (work.hpp).
 constexpr int mostRounds = 6, mostCheapRounds = 14;
 constexpr double cheap = 5 * Work::perSecond;
+constexpr double mostHidden = 1e9;  // times below the threshold: less is rounding
 
 /// The weights of the uncertain quantities' symbols, as far as they are known, and how large states become.
 class Weighing {
@@ -187,7 +188,7 @@ Tube refine(const FlowQuestion& question, const Box& box, const std::vector<Box>
       if (run.timeShare() < 1 - hardly) {
         // Below a threshold that was nowhere met lies what there was.
         const double hidden = run.hiddenDefect(reached);
-        round.tighter *= factor * (hidden > 0 ? std::max(1.0, task.splitDefect / hidden) : 1.0);
+        round.tighter *= factor * (hidden > 0 ? std::clamp(task.splitDefect / hidden, 1.0, mostHidden) : 1.0);
       }
       if (run.timeShare() > hardly) round.finer *= factor;
     } else if (run.isAbandoned()) {

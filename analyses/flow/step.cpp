@@ -118,7 +118,7 @@ bool FlowStepper::boundGrowth(double h) {
 /// What kinks, jumps and inputs add is bounded beside a comparison that grows with time (crossing.cpp, inputs.cpp). Of
 /// many symbols short steps keep truncation low that is not of time (measured: half a car at rest before a bump).
 bool FlowStepper::mayDamp() const {
-  return !own_ && !holding_ && !kinks_ && inputs_.empty() && monomials().symbols() < many;
+  return !own_ && !holding_ && !kinks_ && !series_.hasKinks() && inputs_.empty() && monomials().symbols() < many;
 }
 
 bool FlowStepper::tryStep(const FlowSet& set, double theta) {
