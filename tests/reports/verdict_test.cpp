@@ -242,6 +242,9 @@ TEST(Verdict, SaysHowManyMotionsStayedInsideHowLongAndHowTight) {
   EXPECT_EQ(verdict.reached, 3);
   Results tight = example::pendulum();
   for (double& ratio : tight.comparison.overestimation.data) ratio = 1 + 2e-12;
+  EXPECT_THAT(judge(tight).sentence,
+              ::testing::EndsWith("; the guarantee is as wide as what was sampled, to a billionth."));
+  for (double& ratio : tight.comparison.overestimation.data) ratio = 1;
   EXPECT_THAT(judge(tight).sentence, ::testing::EndsWith("; the guarantee is as wide as what was sampled."));
 }
 

@@ -1318,8 +1318,9 @@ constexpr BadStudy badStudies[] = {
      "quotes"},
     {"\"± 1 %\"", "[1]", "s.toml:31:12: uncertain.interval has 1 number; expected two, [lower, upper]"},
     {"quantity = \"tip.position.z\"", "quantity = \"bob.speed.x\"",
-     "s.toml:38:12: unknown quantity 'bob.speed.x'; expected a quantity of the mechanism, such as 'bob.position.x', "
-     "'bob.velocity.x' or 'bob.acceleration.x'"},
+     "s.toml:38:12: unknown quantity 'bob.speed.x'; expected what 'bob' gives, one of: bob.position.x, "
+     "bob.velocity.x, bob.acceleration.x, bob.position.y, bob.velocity.y, bob.acceleration.y, bob.position.z, "
+     "bob.velocity.z, bob.acceleration.z"},
     {"{ angle = \"30 deg\", rate = 0.5 }", "[\"30 deg\", 0.5]",
      "s.toml:15:11: mechanism.element.initial is a list; expected a table, such as { angle = 0, rate = 0 }"},
     {"length = 0.5", "length = \"5 millimetres\"",
