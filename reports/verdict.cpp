@@ -370,7 +370,7 @@ class Wording {
     constexpr double saysLittle = 100;
     if (const std::string times = timesText(verdict_.overestimation); times == "1")
       text += "; the guarantee is as wide as what was sampled";
-    else if (verdict_.overestimation > 1 && verdict_.overestimation <= 1 + 1e-9)
+    else if (verdict_.overestimation > 1 && isLittle(verdict_.overestimation - 1, 1))
       text += "; the guarantee is as wide as what was sampled, to a billionth";
     else if (!std::isnan(verdict_.overestimation))
       text +=

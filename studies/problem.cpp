@@ -132,7 +132,8 @@ Program alongCourses(const Problem& problem, const Program& program) {
 void recordPrograms(Study& study) {
   const double start = processCpuSeconds();
   const std::vector<std::string> parameters = freeParameters(study);
-  const double most = study.limits.resolved().memory;
+  const double most =
+      StatedLimits{}.resolved().memory;  // what a study states is of its runs: it may be read for others
   try {
     const MemoryBound bound(most);
     recordAnalysis(study, parameters);
