@@ -324,6 +324,16 @@ std::optional<JumpBound::Crossing> JumpBound::crossing() const {
   return Crossing{falls ? 1.0 : -1.0, Interval(std::max(0.0, moment.lower()), moment.upper())};
 }
 
+/// From above u comes down to zero by rates of `up`, and does not leave it any more; from below likewise. What has not
+/// been at zero at first is no farther than its own rates take it.
+Interval JumpBound::whileArriving(double seconds) const {
+  const auto reached = [&](double from, double rate) { return Interval(from) + Interval(seconds) * Interval(rate); };
+  const double a = start.lower(), b = start.upper();
+  const double most = b < 0 ? reached(b, down.upper()).upper() : std::max(0.0, reached(b, up.upper()).upper());
+  const double least = a > 0 ? reached(a, up.lower()).lower() : std::min(0.0, reached(a, down.lower()).lower());
+  return least <= most ? Interval(least, most) : Interval::entire();
+}
+
 /// Of those that stay at u = 0, by rates there: s = (up + down)/(down - up) rises with both, as long as up ≤ 0 ≤ down.
 Interval JumpBounder::slidingSign(std::size_t jump, const Interval& time, const Box& box,
                                   const std::vector<JumpBound>& bounds, double& turned) {
@@ -347,7 +357,14 @@ Interval JumpBounder::slidingSign(std::size_t jump, const Interval& time, const 
 void JumpBounder::boundOne(std::size_t jump, const Interval& time, const Box& box, const Interval& start, double h,
                            std::vector<JumpBound>& bounds) {
   JumpBound& bound = bounds[jump];
-  const Interval up = rate(jump, 1.0, time, box, bounds), down = rate(jump, -1.0, time, box, bounds);
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  const auto onSide = [&](double sign) {  // its argument is on that side, or zero
+    Box there = box;
+    const Interval side = sign > 0 ? Interval(0.0, infinite) : Interval(-infinite, 0.0);
+    if (jumps_.forms[jump]) narrow(*jumps_.forms[jump], side, there);
+    return rate(jump, sign, time, there, bounds);
+  };
+  const Interval up = onSide(1.0), down = onSide(-1.0);
   if (!isCommon(up) || !isCommon(down)) return;
   bound.start = start;
   bound.up = up;

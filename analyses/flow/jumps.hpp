@@ -70,6 +70,8 @@ struct JumpBound {
     Interval moment;
   };
   std::optional<Crossing> crossing() const;
+  /// Where it holds: bounds, of the argument at any moment t of the step, that bend upwards and downwards with t.
+  Interval whileArriving(double seconds) const;
   /// The argument until `seconds` into the step, and then.
   struct Reach {
     Interval ever, then;

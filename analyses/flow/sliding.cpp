@@ -88,12 +88,19 @@ Interval argumentOf(const FlowSet& set, const LinearForm& form, const std::vecto
 /// moment; `last`: the step before, if it was one of these.
 double FlowStepper::longestWhileSliding(const JumpBound& bound, const JumpBound& atStart, double h, double last) const {
   const Interval& start = bound.start;
-  // Measured on machines that stick and slip: more parts cost more than they win; thin sets need the last.
-  constexpr double ahead = 0.9, parts = 8, turnedMore = 1.2, turnedBesides = 1e-6;
+  // Measured on machines that stick and slip: more parts cost more than they win; thin sets need the last. Of what
+  // comes from both sides a hull is all that is known behind the first step, and within it not even that: it is short.
+  constexpr double ahead = 0.9, parts = 8, partsAtFirst = 64, turnedMore = 1.2, turnedBesides = 1e-6;
+  constexpr double leastPart = 0.25, mostPart = 1.25, beyondAll = 1 + 0x1p-20;
   if (bound.holds) {  // the last come after, the first before
-    const double latest = std::max(start.upper() / -bound.up.upper(), -start.lower() / bound.down.lower());
+    const double fromAbove = start.upper() / -bound.up.upper(), fromBelow = -start.lower() / bound.down.lower();
+    const double latest = std::max(fromAbove, fromBelow);
     const double first = std::max(start.lower() / -bound.up.lower(), -start.upper() / bound.down.upper());
-    return std::max({last, latest > 0 ? latest / parts : h, ahead * first});
+    const bool isFirst = last == 0 && start.lower() < 0 && start.upper() > 0;
+    const double one = std::max({last, latest > 0 ? latest / (isFirst ? partsAtFirst : parts) : h, ahead * first});
+    for (const double all : {std::min(fromAbove, fromBelow), latest})  // of one side: the sign is another then
+      if (contains(start, 0.0) && all > leastPart * one && all < mostPart * one) return beyondAll * all;
+    return one;
   }
   return bound.turned <= turnedMore * atStart.turned + turnedBesides ? h : 0.5 * h;
 }
@@ -263,6 +270,127 @@ FlowStepper::Look FlowStepper::lookAtJumps(const FlowSet& set, double& h, double
     series_.giveSign(series_.jumps()[j], ownBounds_[j].sign, ownBounds_[j].over, about);
   }
   return Look::again;
+}
+
+/// How far u, between the bounds that rates give, is from ũ at most, at both ends of the step. Bounds of u bend away
+/// from ũ(t) = u_0 + u_1 t, the rest of which counts as what varies, so that |u - ũ| lies below its chord.
+std::optional<FlowStepper::Arrival> FlowStepper::arrivalOf(const FlowSet& set, const LinearForm& form,
+                                                           const JumpBound& bound) const {
+  const std::size_t n = at(n_), N = at(series_.count()), orders = at(m_) + 1;
+  double size = 0, varies = radius(form.constant), power = 1, begin = 0, slope = 0;
+  for (std::size_t order = 0; order < orders; ++order, power *= theta_)
+    for (std::size_t g = 0; g < N; ++g) {
+      double sum = order == 0 && g == 0 ? midpoint(form.constant) : 0;
+      size += std::fabs(sum);
+      const auto add = [&](double part) {
+        sum += part;
+        size += std::fabs(part) * power;
+      };
+      for (std::size_t i = 0; i < n; ++i)
+        if (form.states[i] != 0)
+          add(form.states[i] * series_.series(static_cast<int>(i))[g * at(series_.stride()) + order]);
+      for (std::size_t q = 0; q < form.parameters.size() && order == 0; ++q) {
+        const Embedded& e = set.parameters[q];
+        if (form.parameters[q] == 0) continue;
+        if (g == 0) add(form.parameters[q] * e.centre);
+        if (e.symbol >= 0 && g == at(monomials().linear(e.symbol))) add(form.parameters[q] * e.half);
+      }
+      if (g == 0 && order == 0)
+        begin = sum;
+      else if (g == 0 && order == 1)
+        slope = sum;
+      else
+        varies += std::fabs(sum) * power;
+    }
+  for (std::size_t q = 0; q < form.parameters.size(); ++q)
+    varies += std::fabs(form.parameters[q]) * set.parameters[q].coarseRadius();
+  // c·Ψ̃ (r + Γs): at the start what is left of c·C Γ, and what Ψ̃ turns away from C in the step.
+  std::vector<double> ofFrame(n, 0.0);
+  for (std::size_t j = 0; j < n; ++j) {
+    double most = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      const double c = std::fabs(form.states[i]);
+      ofFrame[j] += form.states[i] * set.C[i * n + j];
+      most += c * std::fabs(set.C[i * n + j]);
+      if (c != 0)
+        varies +=
+            c * theta_ * series_.frameDerivativeNorm(static_cast<int>(i), static_cast<int>(j), 1, theta_) * total_[j];
+    }
+    varies += std::fabs(ofFrame[j]) * set.R[j];
+    size += most * total_[j];
+  }
+  for (std::size_t column = 0; column < set.generators.size(); column += n) {
+    double sum = 0;
+    for (std::size_t j = 0; j < n; ++j) sum += ofFrame[j] * set.generators[column + j];
+    varies += std::fabs(sum);
+  }
+  // No sum has more than 2n + 2 parameters + 4 terms, of two roundings each.
+  varies += (4.0 * static_cast<double>(n + form.parameters.size()) + 16) * bounds::unit * size + bounds::tiny;
+  varies *= bounds::up;
+  const auto off = [&](double seconds) {
+    const Interval middle = Interval(begin) + Interval(seconds / h0_) * Interval(slope);
+    return magnitude(bound.whileArriving(seconds) - inflated(middle, varies));
+  };
+  const Arrival result{&form, off(0.0), off(h_)};
+  if (!std::isfinite(result.begin) || !std::isfinite(result.end)) return std::nullopt;
+  return result;
+}
+
+/// While solutions come to be held, y = x - x̃ - Ψ̃(r + Γs) is known of the states that arguments u decide: |c·y| ≤ g(t),
+/// g on a chord. For the others, with A' = A + Σ A_i |c_j/c_i| and b = Σ A_i g/|c_i|,
+///     |y| ≤ ∫ e^{A'(h-t)} (δ + b(t)) dt + e^{A'h} W ,   ∫ e^{A'(h-t)} b ≤ h (b(0) + b(h))/2 + (M1 - h) max b ;
+/// the first of these bends downwards with h, by no more than h (b(0) - b(h))/8 above its chord.
+void FlowStepper::boundArrivals(const FlowSet& set) {
+  arrives_.clear();
+  bent_.clear();
+  if (!isSliding_ || !own_ || !crossings_.empty() || !inputs_.empty() || monomials().symbols() == 0) return;
+  std::vector<Arrival> arrivals;
+  std::vector<char> decided(at(n_), 0);
+  for (std::size_t k = 0; k < ownBounds_.size(); ++k) {
+    const JumpBound& bound = ownBounds_[k];
+    if (!bound.isKnown() || !bound.maySlide || !bound.holds || !own_->jumps().forms[k]) continue;
+    const LinearForm& form = *own_->jumps().forms[k];
+    const bool isApart = std::ranges::none_of(arrivals, [&](const Arrival& other) {  // one does not hold the other's
+      return form.states[at(other.form->pivot)] != 0 || other.form->states[at(form.pivot)] != 0;
+    });
+    const std::optional<Arrival> arrival = isApart ? arrivalOf(set, form, bound) : std::nullopt;
+    if (!arrival) continue;
+    arrivals.push_back(*arrival);
+    decided[at(form.pivot)] = 1;
+  }
+  if (arrivals.empty()) return;
+  arrives_ = decided;
+  std::vector<double> begin(at(n_), 0.0), end = begin;
+  for (int i = 0; i < n_; ++i)
+    for (int j = 0; j < n_; ++j) following_.A(i, j) = decided[at(i)] + decided[at(j)] > 0 ? 0.0 : growth_.A(i, j);
+  for (const Arrival& arrival : arrivals) {
+    const LinearForm& form = *arrival.form;
+    for (int i = 0; i < n_; ++i) {
+      if (decided[at(i)] != 0) continue;
+      const double by = growth_.A(i, form.pivot) / std::fabs(form.states[at(form.pivot)]) * bounds::up;
+      for (int j = 0; j < n_; ++j)
+        if (decided[at(j)] == 0) following_.A(i, j) += by * std::fabs(form.states[at(j)]) * bounds::up;
+      begin[at(i)] += by * arrival.begin * bounds::up;
+      end[at(i)] += by * arrival.end * bounds::up;
+    }
+  }
+  following_.setUnits(growth_.units());
+  if (!following_.compute(h_)) return;
+  bent_.assign(at(n_), 0.0);
+  for (int i = 0; i < n_; ++i) {
+    if (decided[at(i)] != 0) continue;
+    double sum = 0.5 * h_ * (begin[at(i)] + end[at(i)]);
+    for (int j = 0; j < n_; ++j) {
+      if (decided[at(j)] != 0) continue;
+      const double carried = std::max(0.0, following_.M1(i, j) - (i == j ? h_ * bounds::down : 0.0));
+      sum += following_.M1(i, j) * delta0_[at(j)] + following_.M2(i, j) * delta1_[at(j)] +
+             following_.M0(i, j) * set.W[at(j)] + carried * std::max(begin[at(j)], end[at(j)]);
+    }
+    sum = sum * bounds::up + bounds::tiny;
+    if (!(sum < e1_[at(i)])) continue;
+    e1_[at(i)] = sum;
+    bent_[at(i)] = std::max(0.0, begin[at(i)] - end[at(i)]) * h_ / 8 * bounds::up;
+  }
 }
 
 /// For the next step, of all jumps of the motion in which none is held.

@@ -42,7 +42,8 @@ FlowStepper::FlowStepper(const Program& motion, std::shared_ptr<const Monomials>
       tolerance_(tolerance),
       series_(motion, motion.states(), std::move(monomials), frameDegree, order, true, cancelled),
       growth_(motion.states(), order),
-      inputs_(std::move(inputs)) {
+      inputs_(std::move(inputs)),
+      following_(motion.states(), order) {
   series_.setVarying(inputs_.parameters());
   kinks_ = std::make_unique<FlowKinks>(motion, inputs_.parameters());
   if (kinks_->count() == 0) kinks_.reset();
@@ -540,6 +541,7 @@ StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum,
       isCut_ = h == left && suggested > left;
       boundDerivatives();
       boundCrossings(set);
+      boundArrivals(set);
       if (h < left)
         caution_ *= std::clamp(std::pow(tolerance_ / std::max(timeError_, 1e-40), 1.0 / (m_ + 1)), 0.7, 1.15);
       caution_ = std::clamp(caution_, 0x1p-6, 2.0);

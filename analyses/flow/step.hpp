@@ -207,6 +207,13 @@ class FlowStepper {
                      std::vector<JumpBound>& bounds);
   void boundHeldJumps(const FlowSet& set, const Interval& time, const Box& box, double h,
                       const std::vector<JumpBound>& own, std::vector<JumpBound>& bounds);
+  /// What comes to be held, |u - ũ| ≤ g on a chord from its first to its last number, with the state that it decides.
+  struct Arrival {
+    const LinearForm* form;
+    double begin, end;
+  };
+  std::optional<Arrival> arrivalOf(const FlowSet& set, const LinearForm& form, const JumpBound& bound) const;
+  void boundArrivals(const FlowSet& set);
   std::vector<Interval> argumentsBehind() const;
   template <class Visit>
   void forEachKnown(Visit visit) const;
@@ -238,6 +245,9 @@ class FlowStepper {
   std::vector<Interval> kinkRates_;  // over the step
   std::vector<Crossing> crossings_;
   std::vector<double> crossed_;  // like e1_, if what these do is known
+  FlowGrowth following_;         // of the states but those that arrivals decide
+  std::vector<char> arrives_;    // of each state, whether one decides it; none: there are none
+  std::vector<double> bent_;     // of each state, how far what arrivals do rises above its chord
   bool isSliding_ = false, isShortened_ = false;
   bool isCut_ = false;  // by the end that was given
   int lengthened_ = 0;  // so often, for all solutions to pass a jump in one step

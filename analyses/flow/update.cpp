@@ -242,7 +242,8 @@ void FlowStepper::boundDerivatives() {
 void FlowStepper::sag(double from, double to, std::vector<Interval>& bound) const {
   bound.clear();
   for (int i = 0; i < n_; ++i) {  // in σ, exactly; what is damped is no convex function of time
-    const double besides = growth_.isDamped() ? looseBound(i) : (driven_[at(i)] + inputs_.rest(i)) * bounds::up;
+    double besides = growth_.isDamped() ? looseBound(i) : (driven_[at(i)] + inputs_.rest(i)) * bounds::up;
+    if (!bent_.empty()) besides = (besides + bent_[at(i)]) * bounds::up;
     bound.push_back(
         inflated(series_.sag(i, from / h0_, to / h0_, second_[at(i)], third_[at(i)], turn_[at(i)]), besides));
   }
@@ -396,13 +397,15 @@ void FlowStepper::carryGenerators(FlowSet& set) {
   set.generators = std::move(moved);
   std::vector<double> fresh(at(n_));
   for (int i = 0; i < n_; ++i) fresh[at(i)] = rest(i) * bounds::up + bounds::tiny;
+  set.W.assign(at(n_), 0.0);
+  for (std::size_t i = 0; i < arrives_.size(); ++i)  // of what arrives a hull alone is known: boundArrivals
+    if (arrives_[i] != 0 && end_.known[i] > 0) std::swap(set.W[i], fresh[i]);
   appendBox(set, fresh);
   mergeInputs(set, at(inputs_.count()), mostInputNumbers);
   const std::size_t kept = std::max(keptAState * at(n_), leastKept);
   if (set.generators.size() / (set.powers * at(n_)) > kept) mergeGenerators(set, m, kept / 2);
   set.C.assign(at(n_ * n_), 0.0);
   for (int i = 0; i < n_; ++i) set.C[at(i * n_ + i)] = 1;
-  set.W.assign(at(n_), 0.0);
 }
 
 void FlowStepper::advance(FlowSet& set) {

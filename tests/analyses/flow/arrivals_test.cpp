@@ -1,0 +1,121 @@
+// Sets that come to be held from both sides of a jump, and states that follow them meanwhile: closed forms and
+// trajectories whose events are located in 128 bits must lie inside, exactly; and enclosures are hardly wider than
+// they.
+#include "analyses/flow/jumps.hpp"
+#include "tests/analyses/flow/containment.hpp"
+#include "tests/analyses/sliding_reference.hpp"
+
+namespace gamut::testing {
+namespace {
+
+/// ẋ = -1/4 - 3/4 sign x comes down at 1 and up at 1/2, so x from c leaves c²/2 or -c² in the integral of x.
+TEST(FlowArrivals, WhatFollowsIsAsWideAsTheyMakeIt) {
+  for (const double unit : {1.0, 0x1p-20, 0x1p20}) {
+    SCOPED_TRACE(unit);
+    const Program f = record(2, 1, [](auto, const auto& x, const auto& p, auto& dx) {
+      dx[0] = p[0] * (-0.25 - 0.75 * sign(x[0]));
+      dx[1] = -0.5 * x[0];
+    });
+    const Tube tube = Flow(f).enclose({unit * Interval(-0.125, 0.25), 0.0, Interval(unit)}, 2, {0.125, 2});
+    ASSERT_EQ(tube.why(), "");
+    const Interval truth = unit * Interval(-0.5 * 0.03125, 0.5 * 0.015625), now = tube.states(2)[1];
+    EXPECT_TRUE(isSubset(truth, now)) << now;
+    EXPECT_LT(width(now), 1.03 * width(truth));
+    EXPECT_TRUE(isSubset(truth, tube.statesOver(2)[1]));
+    EXPECT_LT(magnitude(tube.states(2)[0]), unit * 1e-9);
+  }
+}
+
+/// Of u = x - z, z moving at 1/4; m from 15/16 to 17/16, so the slowest come at m ∓ 1/4.
+TEST(FlowArrivals, AnArgumentMayBeADifferenceAndItsRateUncertain) {
+  const Program f = record(3, 1, [](auto, const auto& x, const auto& p, auto& dx) {
+    dx[0] = -p[0] * sign(2.0 * (x[0] - x[1]));
+    dx[1] = 0.25;
+    dx[2] = x[0] - x[1];
+  });
+  const Tube tube = Flow(f).enclose({Interval(0.25, 0.75), 0.5, 1.0, Interval(0.9375, 1.0625)}, 1);
+  ASSERT_EQ(tube.why(), "");
+  EXPECT_THAT(tube.at(1)[2], Encloses(1 + Precise(0.03125) / Precise(1.1875)));
+  EXPECT_THAT(tube.at(1)[2], Encloses(1 - Precise(0.03125) / Precise(0.6875)));
+  EXPECT_LT(width(tube.at(1)[2]), 1.05 * (0.03125 / 1.1875 + 0.03125 / 0.6875));
+}
+
+struct Arriving {
+  Program f;
+  Box box;
+  SlidingReference::Rest rest;
+};
+
+/// What follows drives what arrives; two arrive, one of them the other's load; a sign itself pushes a second state.
+std::vector<Arriving> arriving() {
+  const Interval wide(-0.25, 0.25);
+  return {{record(2, 1,
+                  [](auto t, const auto& x, const auto& p, auto& dx) {
+                    dx[0] = x[1];
+                    dx[1] = -0.5 * x[0] + 0.25 * sin(2.0 * t) - p[0] * sign(x[1]);
+                  }),
+           {0.125, wide, Interval(0.875, 1.125)},
+           [](const auto& sides, const Vector&, Vector& x) {
+             if (sides[0] == Side::held) x[1] = 0;
+           }},
+          {record(3, 1,
+                  [](auto, const auto& x, const auto& p, auto& dx) {
+                    dx[0] = 0.25 * x[1] - p[0] * sign(x[0]);
+                    dx[1] = -0.125 + 0.75 * sign(-2.0 * x[1]);
+                    dx[2] = 0.5 * x[0] - x[1] - 0.25 * x[2];
+                  }),
+           {wide, Interval(-0.125, 0.1875), 0.5, 1.0},
+           [](const auto& sides, const Vector&, Vector& x) {
+             for (std::size_t i = 0; i < 2; ++i)
+               if (sides[i] == Side::held) x[i] = 0;
+           }},
+          {record(3, 1,
+                  [](auto, const auto& x, const auto& p, auto& dx) {
+                    const auto force = p[0] * sign(x[0] - x[1]);
+                    dx[0] = 0.125 - force;
+                    dx[1] = 0.5 * force;
+                    dx[2] = x[0];
+                  }),
+           {wide, 0.0625, 0.0, Interval(0.9375, 1.0625)},
+           [](const auto& sides, const Vector&, Vector& x) {
+             if (sides[0] == Side::held) x[0] = x[1];
+           }}};
+}
+
+TEST(FlowArrivals, HoldTrajectories) {
+  for (const Arriving& machine : arriving()) {
+    SlidingReference reference(machine.f, machine.f, machine.rest);
+    Containment c;
+    c.f = machine.f;
+    c.box = machine.box;
+    c.horizon = 1;
+    c.times = {0.03125, 0.0625, 0.125, 0.25, 0.3125, 1};
+    c.motion = [&](const Vector& start, const std::vector<double>& times) {
+      return Containment::Motion{reference(start, times), {}};
+    };
+    Judge judge(c, 5);
+    ASSERT_EQ(judge.tube().why(), "");
+    judge.judge(12);
+    EXPECT_GT(reference.events, 10);
+  }
+}
+
+/// Bounds of an argument that comes to zero, by hand.
+TEST(FlowArrivals, ArgumentsAreBoundedWhileTheyCome) {
+  const auto after = [](const Interval& start, double seconds) {
+    JumpBound bound;
+    bound.start = start;
+    bound.up = Interval(-2, -1);
+    bound.down = Interval(0.5, 4);
+    return bound.whileArriving(seconds);
+  };
+  EXPECT_EQ(toString(after({-1, 1}, 0), 4), toString(Interval(-1, 1), 4));
+  EXPECT_TRUE(isSubset(Interval(-0.5, 0), after({-1, 1}, 1)));
+  EXPECT_LT(width(after({-1, 1}, 1)), 0.5 + 1e-12);
+  EXPECT_TRUE(isSubset(Interval(0, 0.5), after({1, 1.5}, 1)));
+  EXPECT_TRUE(isSubset(Interval(-1, 0), after({-1.5, -1}, 1)));
+  EXPECT_LT(width(after({3, 4}, 1)), 2 + 1e-12);  // none has come
+}
+
+}  // namespace
+}  // namespace gamut::testing
