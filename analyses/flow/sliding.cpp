@@ -98,8 +98,11 @@ double FlowStepper::longestWhileSliding(const JumpBound& bound, const JumpBound&
     const double first = std::max(start.lower() / -bound.up.lower(), -start.upper() / bound.down.upper());
     const bool isFirst = last == 0 && start.lower() < 0 && start.upper() > 0;
     const double one = std::max({last, latest > 0 ? latest / (isFirst ? partsAtFirst : parts) : h, ahead * first});
-    for (const double all : {std::min(fromAbove, fromBelow), latest})  // of one side: the sign is another then
-      if (contains(start, 0.0) && all > leastPart * one && all < mostPart * one) return beyondAll * all;
+    if (contains(start, 0.0)) {  // of one side: the sign is another then
+      const double sooner = std::min(fromAbove, fromBelow);
+      if (sooner > leastPart * one && sooner < mostPart * one) return beyondAll * sooner;
+      if (latest > 0 && latest < mostPart * one) return beyondAll * latest;
+    }
     return one;
   }
   return bound.turned <= turnedMore * atStart.turned + turnedBesides ? h : 0.5 * h;
@@ -469,7 +472,8 @@ void FlowStepper::narrowArguments(const FlowSet& set, double tau, FlowPoint& poi
       now += std::fabs(sum);
     }
     for (std::size_t j = 0; j < n; ++j) now += std::fabs(form.states[j]) * point.radius[j];
-    if (width(u) > 0 && !(width(u) < clearlyLess * now)) return;
+    const bool isFromBoth = bound.holds && bound.start.lower() < 0 && bound.start.upper() > 0;  // its ξ is lost anyway
+    if (width(u) > 0 && !(width(u) < (isFromBoth ? 2 : clearlyLess) * now)) return;
     constexpr double leastRatio = 0x1p-500;  // below, products might underflow
     bool isZero = isEqual(u, Interval(0.0)) && isEqual(form.constant, Interval(0.0)), isSafe = true;
     std::vector<double> ratio(n, 0.0);

@@ -1,6 +1,8 @@
 // Sets that come to be held from both sides of a jump, and states that follow them meanwhile: closed forms and
 // trajectories whose events are located in 128 bits must lie inside, exactly; and enclosures are hardly wider than
 // they.
+#include <cmath>
+
 #include "analyses/flow/jumps.hpp"
 #include "tests/analyses/flow/containment.hpp"
 #include "tests/analyses/sliding_reference.hpp"
@@ -38,6 +40,27 @@ TEST(FlowArrivals, AnArgumentMayBeADifferenceAndItsRateUncertain) {
   EXPECT_THAT(tube.at(1)[2], Encloses(1 + Precise(0.03125) / Precise(1.1875)));
   EXPECT_THAT(tube.at(1)[2], Encloses(1 - Precise(0.03125) / Precise(0.6875)));
   EXPECT_LT(width(tube.at(1)[2]), 1.05 * (0.03125 / 1.1875 + 0.03125 / 0.6875));
+}
+
+/// What holds x at z is known as soon as all have come, early in the last step: they come at rates that are known
+/// better over a short one.
+TEST(FlowArrivals, WhatHoldsIsKnownOnceAllHaveCome) {
+  constexpr double a = 0.556640625, w = 2.68408203125, by = 0.1259765625, at = 0.3701171875, horizon = 1.872802734375;
+  const Program f = record(2, 2, [&](auto t, const auto& x, const auto& p, auto& dx) {
+    dx[0] = by * x[1] + a * sin(w * t) - p[1] * sign(x[0] - x[1]);
+    dx[1] = -0.4658203125 - 0.2578125 * x[1] - 1.4375 * sign(2.0 * (x[1] - at * p[0]));
+  });
+  const Program held = record(2, 2, 1, [](auto, const auto& x, const auto&, auto& y) { y[0] = sign(x[0] - x[1]); });
+  const Interval friction(0.64453125, 0.87109375);
+  const Box box{Interval(0.29736328125, 0.59326171875), 0.015625, -0.4931640625, friction};
+  const Tube tube = Flow(f, held).enclose(box, horizon, {horizon});
+  ASSERT_EQ(tube.why(), "");
+  const Interval now = tube.outputs(1)[0];
+  const Precise force = Precise(by) * Precise(at) * Precise(-0.4931640625) + Precise(a) * sin(Precise(w) * horizon);
+  EXPECT_THAT(now, Encloses(Precise(force / friction.lower())));
+  EXPECT_THAT(now, Encloses(Precise(force / friction.upper())));
+  const double truth = std::fabs((force / friction.lower() - force / friction.upper()).convert_to<double>());
+  EXPECT_LT(width(now), 1.01 * truth);
 }
 
 struct Arriving {
