@@ -5,8 +5,8 @@
 // Usage:
 //     held_signs_campaign [systems = 10000] [first = 0]
 // Prints what was judged, how wide the outputs are where motions are held, and how many of the requirements that are
-// met by a hundredth of the output's range are told to be; where HELD_SIGNS_MISSES is set, those that are not, and what
-// ended early. The exit status is 1 if something does not hold.
+// met by a hundredth of the output's range are told to be; where HELD_SIGNS_MISSES is set, those that are not, what is
+// wide, and what ended early. The exit status is 1 if something does not hold.
 #include <fmt/format.h>
 #include <gtest/gtest-spi.h>
 
@@ -16,6 +16,7 @@
 #include <cstdlib>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "analyses/requirements/requirement.hpp"
@@ -285,7 +286,7 @@ void judgeSystem(unsigned number, Count& count) {
     ADD_FAILURE() << failures.GetTestPartResult(0).message();
     return;
   }
-  constexpr int most = 16, inside = 8, moments = 64;
+  constexpr int most = 16, inside = 8, moments = 64, further = 600;
   const auto wide = std::ranges::count_if(s.box, [](const Interval& value) { return !isThin(value); });
   const int corners = static_cast<int>(std::min<long>(most, 1L << wide));
   std::vector<double> times;
@@ -315,13 +316,22 @@ void judgeSystem(unsigned number, Count& count) {
     ++count.falselyMet;
     ADD_FAILURE() << "system " << number << ": output " << output << " < " << limit << " is told to be met";
   }
+  bool isLookedAt = false;
   for (std::size_t o = 0; areHeld && o < seen.at.size(); ++o) {
+    const auto ratio = [&] { return gamut::width(judge.tube().outputs(last)[o]) / gamut::width(seen.at[o]); };
     const double width = gamut::width(seen.at[o]);
     if (!(width > 1e-3 * gamut::width(seen.over[o])) || !(width > 1e-9)) continue;
-    const double ratio = gamut::width(judge.tube().outputs(last)[o]) / width;
+    constexpr double loose = 1.05;
+    if (ratio() > loose && !std::exchange(isLookedAt, true))  // what is extreme need not be at a corner
+      for (int i = 0; i < further; ++i) {
+        reference(points.inside(s.box), {s.horizon});
+        seen.add(reference.outputs, reference.limits);
+      }
     ++count.widths;
-    count.loose += ratio > 1.05;
-    count.ratios += std::log(ratio);
+    count.loose += ratio() > loose;
+    count.ratios += std::log(ratio());
+    if (ratio() > loose && isTelling)
+      fmt::print("system {}: output {} is {:.4f} times as wide as {}\n", number, o, ratio(), toString(seen.at[o]));
   }
 }
 
