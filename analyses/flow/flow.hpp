@@ -70,13 +70,16 @@ struct FlowOptions {
   std::vector<VaryingParameter> varying;                         ///< all other parameters are constant in time
   std::vector<PreciseValue> precise;                             ///< each within its component of the box
   FlowAside aside;                                               ///< for Tube::asides
-  std::vector<int> modelled;        ///< outputs of which models are kept, at output times and between, for Tube::models
-  std::vector<int> modelledAt;      ///< behind these in the snapshots of output times: models at these times alone
-  double modelAtBytes = 1e9;        ///< that the latter may take; of more, none are kept
-  double modelBytes = 1e9;          ///< that these may take; of more, none are kept
-  std::vector<int> uncounted;       ///< outputs that need not be as tight as `tightness` says
-  std::vector<double> tightnessOf;  ///< one an output, in place of `tightness`; or none
-  std::vector<double> floors;       ///< one an output: what is left over of it up to this counts for nothing; or none
+  std::vector<int> modelled;    ///< outputs of which models are kept, at output times and between, for Tube::models
+  std::vector<int> modelledAt;  ///< behind these in the snapshots of output times: models at these times alone
+  std::vector<std::size_t> firstAt;  ///< rows of Tube::times() at which the latter are kept first of all, rising
+  double thinAtBytes = 1e9;          ///< where the latter take more, they are kept at every second, fourth, ... output
+                                     ///< time alone, counted from the last, and at those
+  double modelAtBytes = 1e9;         ///< that they may take at last; of more, none are kept
+  double modelBytes = 1e9;           ///< that the former may take; of more, none are kept
+  std::vector<int> uncounted;        ///< outputs that need not be as tight as `tightness` says
+  std::vector<double> tightnessOf;   ///< one an output, in place of `tightness`; or none
+  std::vector<double> floors;        ///< one an output: what is left over of it up to this counts for nothing; or none
   /// One an output: wider than this its enclosure says nothing, and the flow ends; without, a million times the size
   /// that a state has had, of one that was once known to within that size.
   std::vector<double> mostWidth;

@@ -346,17 +346,17 @@ void FlowFollower::encloseLevels(const FlowPiece& piece, std::size_t row) {
   collected_.cutCpu += threadCpuSeconds() - began;
 }
 
-/// Of what was enclosed last, whose outputs lie in these bounds; null if none are to be kept.
-std::shared_ptr<const FlowSnapshot> FlowFollower::modelOutputs(const FlowPiece& piece,
-                                                               const std::vector<Interval>& outputs,
-                                                               bool isOutputTime) {
-  if (!outputs_ || !run_.keepsModels() || (!isOutputTime && task_.options.modelled.empty())) return nullptr;
+/// Of what was enclosed last, whose outputs lie in these bounds; null if none are to be kept. The row is that of an
+/// output time.
+std::shared_ptr<FlowSnapshot> FlowFollower::modelOutputs(const FlowPiece& piece, const std::vector<Interval>& outputs,
+                                                         std::optional<std::size_t> row) {
+  const bool isOfAll = row && run_.keepsModelsAt(*row);
+  if (!outputs_ || !run_.keepsModels() || (!isOfAll && task_.options.modelled.empty())) return nullptr;
   auto snapshot = std::make_shared<FlowSnapshot>();
   snapshot->time = at_;
   snapshot->part = {piece.set.centre, piece.set.half};
   snapshot->path = piece.path;
   snapshot->monomials = task_.layouts[task_.outputLayout(piece.layout)].monomials;
-  const bool isOfAll = isOutputTime && run_.keepsModelsAt();
   snapshot->outputs.reserve(task_.options.modelled.size() + (isOfAll ? task_.options.modelledAt.size() : 0));
   const auto include = [&](int o) {
     snapshot->outputs.push_back(modelOf(outputs_->polynomial(o), outputs_->radius(o), *snapshot->monomials,
@@ -411,7 +411,7 @@ bool FlowFollower::record(FlowPiece& piece) {
     std::vector<Interval> outputs;
     enclose(piece, 0.0, piece.last, outputs);
     piece.lastOutputs = outputLimits_;
-    piece.lastModel = modelOutputs(piece, outputLimits_, true);
+    piece.lastModel = modelOutputs(piece, outputLimits_, 0);
     if (piece.lastModel) collected_.models[0].push_back(piece.lastModel);
     for (std::size_t i = 0; i < piece.last.size(); ++i) piece.last[i] = intersection(piece.last[i], task_.box[i]);
     joinHulls(collected_.states[0], piece.last);
@@ -428,18 +428,18 @@ bool FlowFollower::record(FlowPiece& piece) {
   const FlowStepper& stepper = tool_->stepper;
   std::vector<Interval> end, endOutputs, endLimits, before = piece.last, beforeLimits = piece.lastOutputs, behind;
   std::vector<Interval> behindOutputs, behindLimits;
-  std::shared_ptr<const FlowSnapshot> endModel, beforeModel = piece.lastModel, behindModel;
+  std::shared_ptr<FlowSnapshot> endModel, beforeModel = piece.lastModel, behindModel;
   double from = t0, loadedTo = t0;                    // chords are known from before `from` up to `loadedTo`
   if (outputs_ && signs_ > 0 && stepper.narrows()) {  // a sign may be another from here on than it was until now
     enclose(piece, 0.0, behind, behindOutputs, false);
     beforeLimits = outputLimits_;
-    beforeModel = modelOutputs(piece, beforeLimits, false);
+    beforeModel = modelOutputs(piece, beforeLimits);
   }
   const auto segment = [&](double to) {  // from `from` to `to`: the chord's hull and how far a motion leaves a chord
     if (stepper.narrows()) {
       enclose(piece, to - t0, behind, behindOutputs, false);
       behindLimits = outputLimits_;
-      behindModel = modelOutputs(piece, behindLimits, false);
+      behindModel = modelOutputs(piece, behindLimits);
     } else {
       behind = end;
       behindLimits = endLimits;
@@ -486,7 +486,7 @@ bool FlowFollower::record(FlowPiece& piece) {
   const auto endPart = [&](double until) {
     enclose(piece, until - t0, end, endOutputs);
     endLimits = outputLimits_;
-    endModel = modelOutputs(piece, endLimits, false);
+    endModel = modelOutputs(piece, endLimits);
     segment(until);
   };
   const auto modelUntil = [&](double to) {  // further chords before `to`, where models are wanted
@@ -553,7 +553,7 @@ bool FlowFollower::record(FlowPiece& piece) {
     partUntil(times[piece.next]);
     enclose(piece, times[piece.next] - t0, end, endOutputs);  // an exact difference: docs/flow.md, "Time"
     endLimits = outputLimits_;
-    endModel = modelOutputs(piece, endLimits, true);
+    endModel = modelOutputs(piece, endLimits, piece.next);
     if (endModel) collected_.models[piece.next].push_back(endModel);
     joinHulls(collected_.stateCore[piece.next], stateCore_);
     joinHulls(collected_.outputCore[piece.next], outputCore_);

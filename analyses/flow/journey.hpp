@@ -27,7 +27,7 @@ struct FlowPiece {
   std::size_t next = 0;                            // index of its next output time
   std::vector<Interval> last, over;                // states at set.t; states since the last output time
   std::vector<Interval> lastOutputs, overOutputs;  // likewise for the outputs; lastOutputs: outputLimits_
-  std::shared_ptr<const FlowSnapshot> lastModel;   // of these
+  std::shared_ptr<FlowSnapshot> lastModel;         // of these
   std::vector<Interval> modelled;                  // of modelled outputs: all that they were so far
   std::vector<double> size;                        // the greatest that each output (or state) was, as far as is known
   std::vector<char> wasKnown;                      // and whether it was once known to within that
@@ -48,8 +48,8 @@ enum class FlowJourney { goesOn, bisected, ended, cancelled };
 struct FlowCollected {
   std::vector<std::vector<Interval>> states, statesOver, outputs, outputsOver, asides;
   std::vector<std::vector<std::vector<Interval>>> cuts;
-  std::vector<std::vector<Interval>> stateCore, outputCore;              // see FlowFollower; their hulls
-  std::vector<std::vector<std::shared_ptr<const FlowSnapshot>>> models;  // FlowModels
+  std::vector<std::vector<Interval>> stateCore, outputCore;        // see FlowFollower; their hulls
+  std::vector<std::vector<std::shared_ptr<FlowSnapshot>>> models;  // FlowModels
   std::vector<std::vector<FlowChord>> chords;
   std::vector<Influence> influence;  // of every symbol
   bool metThreshold = false;         // a degree or bisection was wanted
@@ -119,8 +119,8 @@ class FlowFollower {
   void appendOutputs(const FlowPiece& piece, const std::vector<Interval>& states, const Box& xi,
                      std::vector<Interval>& outputs);
   void encloseLevels(const FlowPiece& piece, std::size_t row);
-  std::shared_ptr<const FlowSnapshot> modelOutputs(const FlowPiece& piece, const std::vector<Interval>& outputs,
-                                                   bool isOutputTime);
+  std::shared_ptr<FlowSnapshot> modelOutputs(const FlowPiece& piece, const std::vector<Interval>& outputs,
+                                             std::optional<std::size_t> row = {});
   void lookAside(const FlowPiece& piece, std::size_t row, const std::vector<Interval>& states);
   int chordsFor(FlowPiece& piece, const std::vector<Interval>& before, double from, double to);
   bool record(FlowPiece& piece);

@@ -34,7 +34,7 @@ struct FlowSnapshot {
   double time = 0;  ///< s
   FlowPart part;
   std::shared_ptr<const Monomials> monomials;
-  std::vector<OutputModel> outputs;  ///< FlowOptions::modelled; at output times, those of `modelledAt` behind them
+  std::vector<OutputModel> outputs;  ///< FlowOptions::modelled; at output times that are kept, `modelledAt` behind them
   std::string path;                  ///< of the flow's piece: snapshots and chords of a time are in this order
 };
 
@@ -57,7 +57,8 @@ struct FlowSymbol {
 struct FlowModels {
   std::vector<FlowSymbol> components;  ///< of the box
   int symbols = 0;
-  std::size_t modelled = 0;  ///< so many outputs of each snapshot of an output time count; there may be others behind
+  std::size_t modelled = 0;  ///< so many outputs of each snapshot of an output time count, or, where there was no room,
+                             ///< the first of them alone; there may be others behind
   /// Several of a time and part: the motion is in one of them, nobody knows in which. So it is where a remainder was
   /// bisected. Else what one says of its part is so.
   bool areAlternatives = false;

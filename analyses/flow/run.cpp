@@ -31,19 +31,21 @@ Tube FlowRun::run() {
   failedAt_ = std::numeric_limits<double>::infinity();
   beginTurn();
   const int jobs = std::max(1, task_.options.jobs);
-  std::vector<FlowCollected> collected(at(jobs), FlowCollected(task_.times.size(), task_.levels.size()));
+  collected_.assign(at(jobs), FlowCollected(task_.times.size(), task_.levels.size()));
   std::vector<std::jthread> threads;
   std::atomic<std::uint64_t> counted{0};
   for (int i = 1; i < jobs; ++i)
-    threads.emplace_back([this, &collected, &counted, i] {
-      work(collected[at(i)]);
+    threads.emplace_back([this, &counted, i] {
+      work(collected_[at(i)]);
       counted += Work::counted();  // a thread's clock begins at zero
     });
-  work(collected[0]);
+  work(collected_[0]);
   threads.clear();  // joins
   Work::add(counted);
   if (error_) std::rethrow_exception(error_);
-  return gather(collected);
+  Tube tube = gather();
+  collected_ = {};
+  return tube;
 }
 
 FlowPiece FlowRun::start() const {
@@ -136,9 +138,40 @@ void FlowRun::endTurn() {
     }
   }
   all_ = std::move(left);
+  thinModels();
   if (all_.empty() || task_.budget.left() > 0) return;
   overBudget_ = stop_ = true;
   for (const Traveller& traveller : all_) unfinished_ = std::min(unfinished_, traveller.piece.set.t);
+}
+
+/// What the outputs of output times alone take becomes less: those of fewer times, of the first alone, of none. Decided
+/// between turns, so that it depends on what all pieces have become, not on the threads.
+void FlowRun::thinModels() {
+  while (static_cast<double>(modelAtBytes_) > task_.options.thinAtBytes && everyModelAt_ < task_.times.size()) {
+    everyModelAt_ *= 2;
+    dropModels();
+  }
+  if (!keepsModelsAt_ || static_cast<double>(modelAtBytes_) <= task_.options.modelAtBytes) return;
+  keepsModelsAt_ = false;
+  dropModels();
+}
+
+/// Those that are not to be kept any longer.
+void FlowRun::dropModels() {
+  const std::size_t margins = task_.options.modelled.size();
+  double dropped = 0;
+  for (FlowCollected& part : collected_)
+    for (std::size_t row = 0; row < part.models.size(); ++row) {
+      if (keepsModelsAt(row)) continue;
+      for (const std::shared_ptr<FlowSnapshot>& snapshot : part.models[row]) {
+        dropped += bytesOf(*snapshot);
+        snapshot->outputs.resize(margins);
+        snapshot->outputs.shrink_to_fit();
+        dropped -= bytesOf(*snapshot);
+      }
+      if (margins == 0) part.models[row] = {};
+    }
+  modelAtBytes_ -= static_cast<std::uint64_t>(dropped);
 }
 
 void FlowRun::bisect(Traveller& traveller, std::vector<Traveller>& into) {
@@ -215,7 +248,7 @@ void FlowRun::probe(const FlowPiece& piece) {
   mostPieces_ = std::min(mostPieces_, 2 * pieces_);
 }
 
-Tube FlowRun::gather(std::vector<FlowCollected>& collected) {
+Tube FlowRun::gather() {
   Tube tube;
   tube.times_ = task_.times;
   tube.reached_ = std::min(task_.horizon, failedAt_);
@@ -242,7 +275,7 @@ Tube FlowRun::gather(std::vector<FlowCollected>& collected) {
   const auto merge = [&](auto member, std::vector<std::vector<Interval>>& into) {
     into.resize(rows);
     for (std::size_t row = 0; row < rows; ++row)
-      for (FlowCollected& part : collected)
+      for (FlowCollected& part : collected_)
         if (!(part.*member)[row].empty()) joinHulls(into[row], (part.*member)[row]);
   };
   merge(&FlowCollected::states, tube.states_);
@@ -257,10 +290,10 @@ Tube FlowRun::gather(std::vector<FlowCollected>& collected) {
     tube.asides_ = {std::vector<Interval>(task_.looksAside[0] == 0 ? 0 : at(task_.options.aside.values.outputs()),
                                           Interval::entire())};
     rows = 1;
-    for (auto& part : collected)
+    for (auto& part : collected_)
       for (auto& level : part.cuts) level[0] = tube.outputs_[0].empty() ? tube.states_[0] : tube.outputs_[0];
   } else {
-    tube.models_ = modelsOf(collected, rows);
+    tube.models_ = modelsOf(rows);
   }
   // g over start values in plain intervals: exactly what is known exactly.
   StartOutputs atStart(task_, task_.outputs);
@@ -272,7 +305,7 @@ Tube FlowRun::gather(std::vector<FlowCollected>& collected) {
   for (std::size_t level = 0; level < task_.levels.size(); ++level)
     for (std::size_t row = 0; row < rows; ++row) {
       std::vector<Interval>& cut = tube.cuts_[level][row];
-      for (FlowCollected& part : collected)
+      for (FlowCollected& part : collected_)
         if (!part.cuts[level][row].empty()) joinHulls(cut, part.cuts[level][row]);
       // Nested boxes have nested ranges, so the bound of the level outside holds here too.
       const std::vector<Interval>& outside = level > 0                     ? tube.cuts_[level - 1][row]
@@ -297,7 +330,7 @@ Tube FlowRun::gather(std::vector<FlowCollected>& collected) {
     std::vector<double> largest(bounds[0].size(), 0.0);   // magnitude
     std::vector<char> isZero(bounds[0].size(), 1);        // at all times, as symmetry keeps it
     for (std::size_t row = 0; row < rows; ++row) {
-      for (const FlowCollected& part : collected)
+      for (const FlowCollected& part : collected_)
         if (!(part.*cores)[row].empty()) joinHulls(core[row], (part.*cores)[row]);
       for (std::size_t i = 0; i < core[row].size(); ++i) {
         const Interval& bound = bounds[row][i];
@@ -332,15 +365,15 @@ Tube FlowRun::gather(std::vector<FlowCollected>& collected) {
   needsDegree_ = looseness_ > aim && ofStates <= aim;
   for (const Traveller& traveller : all_)
     timeError_ += traveller.piece.timeError, truncation_ += traveller.piece.truncation;
-  for (const FlowCollected& part : collected) metThreshold_ = metThreshold_ || part.metThreshold;
+  for (const FlowCollected& part : collected_) metThreshold_ = metThreshold_ || part.metThreshold;
   timeShare_ = timeError_ > 0 ? timeError_ / (timeError_ + truncation_) : 0;
-  for (const FlowCollected& part : collected)
+  for (const FlowCollected& part : collected_)
     for (std::size_t l = 0; l < part.influence.size(); ++l) {
       influence_[l].any = std::max(influence_[l].any, part.influence[l].any);
       influence_[l].nonlinear = std::max(influence_[l].nonlinear, part.influence[l].nonlinear);
     }
   tube.pieces_ = pieces_;
-  for (const FlowCollected& part : collected) {
+  for (const FlowCollected& part : collected_) {
     tube.steps_ += part.steps;
     tube.cpu_ += part.cpu;
     tube.cutCpu_ += part.cutCpu;
@@ -348,18 +381,18 @@ Tube FlowRun::gather(std::vector<FlowCollected>& collected) {
   return tube;
 }
 
-std::shared_ptr<const FlowModels> FlowRun::modelsOf(std::vector<FlowCollected>& collected, std::size_t rows) const {
+std::shared_ptr<const FlowModels> FlowRun::modelsOf(std::size_t rows) {
   if (!keepsModels()) return nullptr;
   auto models = std::make_shared<FlowModels>();
   for (const Embedded& e : task_.embedding.components) models->components.push_back({e.centre, e.half, e.symbol});
   models->symbols = task_.embedding.symbols;
   models->areAlternatives = areAlternatives_;
   models->modelled = task_.options.modelled.size();
-  if (keepsModelsAt()) models->modelled += task_.options.modelledAt.size();
+  if (keepsModelsAt_) models->modelled += task_.options.modelledAt.size();
   models->at.resize(rows);
   models->over.resize(rows);
   for (std::size_t row = 0; row < rows; ++row)
-    for (FlowCollected& part : collected) {
+    for (FlowCollected& part : collected_) {
       std::ranges::move(part.models[row], std::back_inserter(models->at[row]));
       std::ranges::move(part.chords[row], std::back_inserter(models->over[row]));
     }

@@ -4,6 +4,7 @@
 // collects hulls of its own, joined at the end.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <condition_variable>
 #include <exception>
@@ -70,8 +71,11 @@ class FlowRun {
     return (!task_.options.modelled.empty() || !task_.options.modelledAt.empty()) &&
            static_cast<double>(modelBytes_) <= task_.options.modelBytes;
   }
-  /// Likewise, of FlowOptions::modelledAt.
-  bool keepsModelsAt() const { return static_cast<double>(modelAtBytes_) <= task_.options.modelAtBytes; }
+  /// Likewise, of FlowOptions::modelledAt at this output time. The same in all of a turn.
+  bool keepsModelsAt(std::size_t row) const {
+    return keepsModelsAt_ && ((task_.times.size() - 1 - row) % everyModelAt_ == 0 ||
+                              std::ranges::binary_search(task_.options.firstAt, row));
+  }
   void countModel(double bytes, double bytesAt) {
     modelBytes_ += static_cast<std::uint64_t>(bytes), modelAtBytes_ += static_cast<std::uint64_t>(bytesAt);
   }
@@ -96,10 +100,12 @@ class FlowRun {
   void beginTurn();
   void endTurn();
   void bisect(Traveller& traveller, std::vector<Traveller>& into);
+  void thinModels();
+  void dropModels();
   void report(double earliest);
   void probe(const FlowPiece& piece);
-  Tube gather(std::vector<FlowCollected>& collected);
-  std::shared_ptr<const FlowModels> modelsOf(std::vector<FlowCollected>& collected, std::size_t rows) const;
+  Tube gather();
+  std::shared_ptr<const FlowModels> modelsOf(std::size_t rows);
 
   const FlowTask& task_;
   std::mutex mutex_;
@@ -120,6 +126,9 @@ class FlowRun {
   std::vector<Influence> influence_;
   bool stop_ = false, needsDegree_ = false, overBudget_ = false, areAlternatives_ = false;
   std::atomic<bool> outOfMemory_{false}, isAbandoned_{false};
+  std::vector<FlowCollected> collected_;  // one a thread
+  std::size_t everyModelAt_ = 1;          // output times, counted from the last
+  bool keepsModelsAt_ = true;
   std::atomic<std::uint64_t> modelBytes_{0}, modelAtBytes_{0};
   double failedAt_ = 0, unfinished_ = std::numeric_limits<double>::infinity();
   FlowCause cause_;

@@ -40,7 +40,7 @@ void encloseMotion(Run& run) {
   flow.uncounted = marginOutputs(run.study);  // a flow of their own comes where these are too loose
   flow.modelled = flow.uncounted;
   if (asksForDistributions(run.study)) flow.modelledAt = plainOutputs(run.study);
-  flow.modelAtBytes = flow.modelBytes = std::min(flow.modelBytes, 0.25 * run.results.limits.enclosureMemory);
+  boundModels(run, flow);
   const Shares& shares = run.study.shares;
   const bool areAlone = run.study.requirements.empty() && !asksForDistributions(run.study);  // no other answers follow
   flow.levelShare = shares.cuts + (areAlone ? shares.requirements + shares.probabilities : 0);

@@ -34,6 +34,12 @@ double workForProbabilities(const Run& run) {
                            run.spent.requirements - run.spent.probabilities);
 }
 
+void boundModels(const Run& run, FlowOptions& options) {
+  options.modelAtBytes = options.modelBytes = std::min(options.modelBytes, 0.25 * run.results.limits.enclosureMemory);
+  options.thinAtBytes = std::min(mostModelBytes, options.modelAtBytes);
+  options.firstAt = distributionRows(run.study);
+}
+
 bool tightenModels(Run& run, double tightness, double work, double longestStep, const char* task) {
   constexpr double hardly = 0.5;  // of the enclosure's: a tighter flow takes more
   run.spent.isAll = !(work > hardly * run.spent.enclosure);
@@ -43,7 +49,7 @@ bool tightenModels(Run& run, double tightness, double work, double longestStep, 
   options.longestStep = std::min(options.longestStep, longestStep);
   options.budget = work / Work::perSecond;
   options.progress = run.progressOf(task);
-  options.modelAtBytes = options.modelBytes = std::min(options.modelBytes, 0.25 * run.results.limits.enclosureMemory);
+  boundModels(run, options);
   const bool all = asksForDistributions(run.study);
   const Tube tube = (all ? modelAll : modelMargins)(run.study, std::move(options), run.problem.box);
   run.spent.isAll = tube.why() == Tube::overBudget;

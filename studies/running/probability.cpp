@@ -244,6 +244,13 @@ class Probabilities {
     return &surrogate.at[static_cast<std::size_t>(place - surrogate.rows.begin())];
   }
 
+  /// Where there were too many output times, not all have polynomials.
+  std::size_t nearestRow(std::size_t row) const {
+    const auto behind = std::ranges::lower_bound(surrogate_.rows, row);
+    if (behind == surrogate_.rows.end()) return surrogate_.rows.back();
+    return behind > surrogate_.rows.begin() && row - behind[-1] < *behind - row ? behind[-1] : *behind;
+  }
+
   /// Of many output times, since shares change quickly; of fewer where polynomials are long.
   std::vector<std::size_t> rowsOfIndices() const {
     constexpr double most = 64, mostTerms = 1200, pair = 12, share = 0.4;
@@ -258,8 +265,7 @@ class Probabilities {
     std::vector<std::size_t> rows;
     for (const std::size_t row : rows_)
       if (partsAt(surrogate_, row) != nullptr) rows.push_back(row);
-    for (const std::size_t row : decisiveRows())
-      if (partsAt(surrogate_, row) != nullptr) rows.push_back(row);
+    for (const std::size_t row : decisiveRows()) rows.push_back(nearestRow(row));
     const std::size_t last = surrogate_.rows.size() - 1;
     for (std::size_t i = 0; i <= count && last > 0; ++i) rows.push_back(surrogate_.rows[i * last / count]);
     std::ranges::sort(rows);

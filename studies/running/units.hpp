@@ -146,6 +146,12 @@ std::vector<std::size_t> distributionRows(const Study& study);
 /// Whether probabilities of the outputs' values are to be bounded.
 bool asksForDistributions(const Study& study);
 
+/// Bytes that models of outputs may take, but at the times of distributions: of more output times there are fewer.
+inline constexpr double mostModelBytes = 1.28e8;
+
+/// What a flow may keep of the outputs, and when first of all.
+void boundModels(const Run& run, FlowOptions& options);
+
 /// Other models of margins and, where distributions are asked for, of all outputs, by a flow that is to be so tight,
 /// with at most so much work, in steps no longer than that (s). They take the place of those that there are. False if
 /// it comes less far than these, or that is not worth the try.

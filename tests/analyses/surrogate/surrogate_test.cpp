@@ -147,6 +147,48 @@ TEST(SurrogateEvaluator, KnowsTheTermsOfEachTime) {
   EXPECT_NEAR(outputs[1], 1.25, 1e-14);
 }
 
+/// With margins beside them, which are wanted at all times, and without; on one thread and on three.
+TEST(Surrogate, IsOfFewerTimesWhereModelsOfAllFindNoRoom) {
+  Decay decay;
+  decay.times.clear();
+  for (int i = 0; i <= 64; ++i) decay.times.push_back(i / 32.0);
+  for (const bool hasMargins : {true, false}) {
+    FlowOptions options;
+    if (hasMargins) options.modelled = {2};
+    options.modelledAt = {0, 1};
+    const std::size_t from = hasMargins ? 1 : 0;
+    const Surrogate whole = surrogateOf(*decay.tube(options).models(), {0, 1, 2, 3}, from, from + 2);
+    ASSERT_EQ(whole.rows.size(), decay.times.size());
+    double bytes = 0;
+    for (const std::vector<SurrogatePart>& parts : whole.at)
+      for (const SurrogatePart& part : parts)
+        for (const OutputModel& model : part.outputs)
+          bytes += static_cast<double>(sizeof(OutputModel) + sizeof(double) * model.c.size());
+    options.thinAtBytes = bytes / 6;  // every eighth
+    options.firstAt = {3, 5};
+    for (const int jobs : {1, 3}) {
+      options.jobs = jobs;
+      const Tube tube = decay.tube(options);
+      EXPECT_EQ(tube.models()->modelled, from + 2);
+      const Surrogate thin = surrogateOf(*tube.models(), {0, 1, 2, 3}, from, from + 2);
+      EXPECT_EQ(thin.rows, (std::vector<std::size_t>{0, 3, 5, 8, 16, 24, 32, 40, 48, 56, 64}));
+      for (std::size_t r = 0; r < thin.rows.size(); ++r) {
+        const std::vector<SurrogatePart>& parts = whole.at[thin.rows[r]];
+        ASSERT_EQ(thin.at[r].size(), parts.size());
+        for (std::size_t i = 0; i < parts.size(); ++i)
+          for (std::size_t o = 0; o < 2; ++o) EXPECT_EQ(thin.at[r][i].outputs[o].c, parts[i].outputs[o].c);
+      }
+      if (hasMargins) {
+        EXPECT_EQ(surrogateOf(*tube.models(), {0, 1, 2, 3}, 0, 1).rows.size(), decay.times.size());
+      }
+    }
+    options.thinAtBytes = options.modelAtBytes = 100;  // not even those
+    const Tube none = decay.tube(options);
+    EXPECT_EQ(none.models()->modelled, from);
+    EXPECT_TRUE(surrogateOf(*none.models(), {0, 1, 2, 3}, from, from + 2).rows.empty());
+  }
+}
+
 TEST(Surrogate, IsEmptyWhereModelsFoundNoRoom) {
   const Decay decay;
   FlowOptions options;
