@@ -9,8 +9,8 @@
 namespace gamut {
 namespace {
 
-constexpr std::size_t mostPlotted = 40, mostCarded = 20, mostTimes = 2000, mostPaperTimes = 200, fullPlots = 8,
-                      mostRows = 2000, mostMachineNumbers = 400'000, mostText = 2'000'000;
+constexpr std::size_t mostPlotted = 40, mostFolded = 320, mostCarded = 20, mostTimes = 2000, mostPaperTimes = 200,
+                      fullPlots = 8, mostRows = 2000, mostMachineNumbers = 400'000, mostText = 2'000'000;
 
 /// Outputs whose plots may be shown, the most telling first.
 std::vector<std::size_t> byInterest(const Results& results) {
@@ -50,6 +50,7 @@ Detail detailOf(const Results& results, int level) {
   detail.machineNumbers = mostMachineNumbers >> level;
   detail.textBytes = share(mostText, 1000);
   detail.leftOut = order.size() - plotted;
+  detail.folded = std::min(detail.leftOut, share(mostFolded, 0));
   return detail;
 }
 

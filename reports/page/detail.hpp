@@ -21,6 +21,7 @@ struct Detail {
   std::size_t machineNumbers = 0;
   std::size_t textBytes = 0;  ///< of the study
   std::size_t leftOut = 0;    ///< outputs without plots
+  std::size_t folded = 0;     ///< of these have drawings that are folded away
 
   bool plots(std::size_t output) const { return isPlotted[output] != 0; }
   bool cards(std::size_t output) const { return hasCards[output] != 0; }

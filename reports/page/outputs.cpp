@@ -95,8 +95,22 @@ void gather(std::vector<Layer>& key, const Plot& plot) {
       key.push_back({.name = layer.name, .words = layer.words});
 }
 
-/// What there is no room to draw, in numbers: of each output how far it goes.
-std::string furtherOutputs(const Results& results, const Detail& detail) {
+/// A drawing that a browser makes when it is unfolded.
+std::string foldedFigure(const Plot& plot, const Detail& detail) {
+  if (!plot.isOverTime()) return {};
+  const std::string heading = escapeHtml(headingOf(plot.name, plot.unit)), words = description(plot);
+  const bool isSpread = plot.isThin();
+  const std::string drawing =
+      isSpread ? drawPlot(spreadOf(plot, detail.paperTimes), "Plot of the spread around the middle of " + words)
+               : drawPlot(thinned(plot, detail.paperTimes), "Plot over time of " + words);
+  return fmt::format(
+      "<details class=\"more folded\"><summary>{0}</summary><figure class=\"kept\">{1}<figcaption>{0}{2}</figcaption>"
+      "</figure></details>\n",
+      heading, drawing, isSpread ? escapeHtml(", spread around " + plot.middleName()) : "");
+}
+
+/// What there is no room to show at once: of each output how far it goes, in numbers, and the drawings of some.
+std::string furtherOutputs(const Results& results, const Detail& detail, StyleSheet& style) {
   if (detail.leftOut == 0) return {};
   const std::vector<std::pair<const char*, const Bounds*>> known{{"guaranteed", &results.interval.at},
                                                                  {"sampled", &results.stochastic.envelope}};
@@ -104,7 +118,8 @@ std::string furtherOutputs(const Results& results, const Detail& detail) {
   for (const auto& [head, bounds] : known)
     if (!bounds->empty()) heads.emplace_back(head);
   TableText table("Further outputs: the least and the greatest at all output times", heads);
-  std::size_t rows = 0;
+  std::string figures;
+  std::size_t rows = 0, folded = 0;
   for (std::size_t k = 0; k < results.outputs.size(); ++k) {
     if (detail.plots(k) || isMargin(results, k)) continue;
     if (++rows > detail.rows) break;
@@ -119,13 +134,17 @@ std::string furtherOutputs(const Results& results, const Detail& detail) {
       cells.push_back(low <= high ? intervalText(low, high, 4) : "none");
     }
     table.row(headingOf(results.outputs[k].name, results.outputs[k].unit), cells);
+    if (++folded > detail.folded) continue;
+    const Plot plot = plotOf(results, k);
+    style.add(plot);
+    figures += foldedFigure(plot, detail);
   }
   return fmt::format(
-      "<p class=\"hint\">{} more {} not drawn here, so that the page stays small; the results hold {} at all "
+      "<p class=\"hint\">{} more {} not shown here, so that the page stays small; the results hold {} at all "
       "times.</p>\n"
-      "<details class=\"more\"><summary>What is known of {}</summary>\n{}</details>\n",
+      "<details class=\"more\"><summary>What is known of {}</summary>\n{}{}</details>\n",
       detail.leftOut, detail.leftOut == 1 ? "output is" : "outputs are", detail.leftOut == 1 ? "it" : "them",
-      detail.leftOut == 1 ? "it" : "them", table.html());
+      detail.leftOut == 1 ? "it" : "them", table.html(), figures);
 }
 
 }  // namespace
@@ -145,7 +164,7 @@ OutputPlots outputPlots(const Results& results, const Detail& detail) {
     if (plot.isOverTime() && outputs.data.empty()) outputs.data = timeData(plot, detail.times);
   }
   if (!outputs.data.empty()) outputs.html = drawKey(key, "Key to all plots over time");
-  outputs.html += plots + furtherOutputs(results, detail);
+  outputs.html += plots + furtherOutputs(results, detail, style);
   outputs.style = style.css();
   return outputs;
 }

@@ -80,13 +80,26 @@ TEST(Report, StaysSmall) {
     results.studyText.assign(30000000, '=');
     const std::string page = renderReport(results);
     EXPECT_LT(page.size(), 10000000u);
-    EXPECT_EQ(count(page, " are not drawn here, so that the page stays small"), size.outputs > 40 ? 1u : 0u);
+    EXPECT_EQ(count(page, " are not shown here, so that the page stays small"), size.outputs > 40 ? 1u : 0u);
     EXPECT_LE(count(page, "<section class=\"output\""), 40u);
     EXPECT_EQ(count(page, "<section class=\"output foremost\""), 1u);
     const auto foremost = page.find("data-output=\"") + 13;
     const std::string output = page.substr(foremost, page.find('"', foremost) - foremost);
     EXPECT_EQ(count(page, "data-output=\"" + output + "\""), 2u) << "the foremost plot needs its output's numbers";
   }
+}
+
+/// Of outputs that find no room in sight there are drawings, which a browser makes when they are unfolded.
+TEST(Report, FoldsDrawingsOfFurtherOutputs) {
+  const Results results = example::pendulum(2001, 310, 11);
+  const std::string page = renderReport(results);
+  EXPECT_LT(page.size(), 10000000u);
+  EXPECT_EQ(count(page, "<details class=\"more folded\">"), 270u);
+  EXPECT_EQ(count(page, "<section class=\"output\""), 40u);
+  EXPECT_EQ(count(renderReport(example::pendulum(301, 8)), "<details class=\"more folded\">"), 0u);
+  const std::string many = renderReport(example::pendulum(11, 3000, 3));  // no more than find room
+  EXPECT_LT(many.size(), 10000000u);
+  EXPECT_EQ(count(many, "<details class=\"more folded\">"), 320u);
 }
 
 TEST(Report, ShowsEverythingOfFewOutputs) {
