@@ -29,13 +29,16 @@ struct Estimated {
 };
 
 /// [cell][quantity], of the so many cells of a slice. Samples are evaluated block by block, those of both sets twice,
-/// since their mean comes first: all outputs of all samples at once would be gigabytes of many outputs.
+/// since their mean comes first: all outputs of all samples at once would be gigabytes of many outputs. Empty where it
+/// was cancelled: half of the samples would be no estimate of what is asked.
 std::vector<Estimated> estimated(const SurrogateEvaluator& evaluator, std::size_t slice, std::size_t cells,
-                                 const std::vector<double>& a, const std::vector<double>& b, std::size_t n) {
+                                 const std::vector<double>& a, const std::vector<double>& b, std::size_t n,
+                                 const std::atomic<bool>* cancelled) {
+  const auto isCancelled = [&] { return cancelled != nullptr && *cancelled; };
   const std::size_t samples = a.size() / n;
   std::vector<double> ofA, ofB, ofMixed, mixed;
   const auto forBlocks = [&](const auto& use) {
-    for (std::size_t begin = 0; begin < samples; begin += SurrogateEvaluator::together) {
+    for (std::size_t begin = 0; begin < samples && !isCancelled(); begin += SurrogateEvaluator::together) {
       const std::size_t count = std::min(SurrogateEvaluator::together, samples - begin);
       const auto own = [&](const std::vector<double>& values) {
         return std::span(values).subspan(begin * n, count * n);
@@ -68,14 +71,14 @@ std::vector<Estimated> estimated(const SurrogateEvaluator& evaluator, std::size_
       }
     }
   });
-  return found;
+  return isCancelled() ? std::vector<Estimated>{} : found;
 }
 
 }  // namespace
 
 SobolEstimates estimateSobolIndices(const SurrogateEvaluator& evaluator, std::size_t times, std::size_t outputs,
                                     const std::vector<const Uncertain*>& uncertain, std::size_t samples,
-                                    std::uint64_t seed) {
+                                    std::uint64_t seed, const std::atomic<bool>* cancelled) {
   const std::size_t n = uncertain.size();
   std::mt19937_64 engine(seed);
   std::uniform_real_distribution<double> share(0, 1);
@@ -93,7 +96,7 @@ SobolEstimates estimateSobolIndices(const SurrogateEvaluator& evaluator, std::si
   const std::vector<SurrogateEvaluator::Slice> slices = evaluator.slices();
   for (std::size_t s = 0; s < slices.size() && n > 0; ++s) {
     const std::size_t from = slices[s].first * outputs * n;
-    const std::vector<Estimated> found = estimated(evaluator, s, slices[s].count * outputs, a, b, n);
+    const std::vector<Estimated> found = estimated(evaluator, s, slices[s].count * outputs, a, b, n, cancelled);
     for (std::size_t i = 0; i < found.size(); ++i) {
       const auto& [first, total] = found[i];
       if (!(first.v > 0) || !std::isfinite(first.v)) continue;

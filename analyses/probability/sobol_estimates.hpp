@@ -1,6 +1,7 @@
 // Sobol' indices as samples tell them, beside their proved bounds.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -18,9 +19,10 @@ struct SobolEstimates {
 
 /// From so many independent samples of each of two sets, and as many a quantity that have it of the second set and all
 /// else of the first (A. Saltelli et al., Computer Physics Communications 181, 2010, for the first index; M. Jansen,
-/// ibid. 117, 1999, for the total one). `times`, `outputs`: how many the evaluator has.
+/// ibid. 117, 1999, for the total one). `times`, `outputs`: how many the evaluator has. Once `cancelled` is set, no
+/// more are found: NaN, of all outputs at a time.
 SobolEstimates estimateSobolIndices(const SurrogateEvaluator& evaluator, std::size_t times, std::size_t outputs,
                                     const std::vector<const Uncertain*>& uncertain, std::size_t samples,
-                                    std::uint64_t seed);
+                                    std::uint64_t seed, const std::atomic<bool>* cancelled = nullptr);
 
 }  // namespace gamut

@@ -359,8 +359,9 @@ class Probabilities {
     for (const int output : outputs_) outputs.push_back(static_cast<std::size_t>(output));
     Work::count(Work::evaluatedTerm, terms * static_cast<double>(n + 2) * static_cast<double>(result.samples));
     const SurrogateEvaluator evaluator(pack(surrogate_, rows, outputs_, count_), rows, outputs);
-    const SobolEstimates estimates = estimateSobolIndices(evaluator, rows.size(), outputs.size(), uncertain_,
-                                                          static_cast<std::size_t>(result.samples), run_.results.seed);
+    const SobolEstimates estimates =
+        estimateSobolIndices(evaluator, rows.size(), outputs.size(), uncertain_,
+                             static_cast<std::size_t>(result.samples), run_.results.seed, run_.watch.stop());
     for (std::size_t cell = 0; cell < rows.size() * outputs.size(); ++cell)
       for (std::size_t q = 0; q < n; ++q) {
         const std::size_t from = cell * n + q;

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <numeric>
 #include <random>
@@ -74,6 +75,18 @@ TEST(SobolEstimates, AreOfNothingWithoutQuantities) {
   packed.coefficient = {2};
   const SurrogateEvaluator evaluator(packed, {0}, {0});
   EXPECT_TRUE(estimateSobolIndices(evaluator, 1, 1, {}, 300, 1).first.empty());
+}
+
+TEST(SobolEstimates, EndWhenTheyAreCancelled) {
+  const std::vector<Uncertain> quantities{uniform(-1, 1), uniform(-1, 1)};
+  const SurrogateEvaluator evaluator(sums(3, 5), numbered(3), numbered(5));
+  const std::atomic<bool> cancelled{true};
+  const SobolEstimates found =
+      estimateSobolIndices(evaluator, 3, 5, {&quantities[0], &quantities[1]}, 4000, 3, &cancelled);
+  for (const std::vector<double>* numbers : {&found.first, &found.firstError, &found.total, &found.totalError}) {
+    ASSERT_EQ(numbers->size(), 30U);
+    for (const double number : *numbers) EXPECT_TRUE(std::isnan(number));
+  }
 }
 
 /// Whatever is evaluated with it: the last bit decides nothing that is told, but replays of a run are compared by it.
