@@ -48,6 +48,15 @@ std::string FlowCause::sentence() const {
   return {};
 }
 
+namespace {
+
+/// None of one that may not be stated.
+std::string ofDegree(int number) {
+  return number > 0 && number <= FlowOptions::mostDegree ? "interval.degree = " + std::to_string(number) : "";
+}
+
+}  // namespace
+
 std::string FlowCause::advice() const {
   switch (kind) {
     case Kind::unsplit:
@@ -57,12 +66,12 @@ std::string FlowCause::advice() const {
     case Kind::inputs:
       return "a bound of its rate (varies)";
     case Kind::remainder:
-      return number == 0 ? "" : number < 0 ? "interval.split = true" : "interval.degree = " + std::to_string(number);
+      return number < 0 ? "interval.split = true" : ofDegree(number);
     case Kind::rounds:
       if (!what.empty()) return what;
       [[fallthrough]];
     case Kind::vain:
-      return number > 0 ? "interval.degree = " + std::to_string(number) : "";
+      return ofDegree(number);
     case Kind::many:
       return "fewer uncertain quantities";
     default:

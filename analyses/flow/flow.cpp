@@ -57,7 +57,7 @@ Flow::Flow(Program f, Program g, FlowOptions options) {
   requireThat(options.order == 0 || (options.order >= 4 && options.order <= 30),
               "the order of a flow must be 4 to 30 (0: automatic)");
   requireThat(options.longestStep > 0, "the longest step of a flow must be above 0 s");
-  requireThat(options.degree >= -1 && options.degree <= 40,
+  requireThat(options.degree >= -1 && options.degree <= FlowOptions::mostDegree,
               "the degree of a flow's polynomials must be 0 to 40 (-1: automatic)");
   requireThat(options.maxPieces >= 1, "a flow needs at least one piece");
   requireThat(options.tolerance >= 0 && options.splitDefect >= 0, "tolerances must not be negative");

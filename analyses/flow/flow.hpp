@@ -47,6 +47,8 @@ struct FlowAside {
 /// Options of a flow; the defaults choose for themselves. One says how tight the enclosure is to be, from which the
 /// others follow.
 struct FlowOptions {
+  static constexpr int mostDegree = 40;
+
   double tightness = 1.02;  ///< overestimation aimed at: what the remainder may add to the width of an output (without
                             ///< outputs: of a state) at the output times is the part above 1
   int order = 0;            ///< in time: Taylor coefficients kept a step (4 … 30); 0: by the tolerance

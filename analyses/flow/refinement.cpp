@@ -171,10 +171,15 @@ Tube refine(const FlowQuestion& question, const Box& box, const std::vector<Box>
     reached = tube.reached();
     looseBefore = looseness;
     limit = run.limit(tube);
-    // Where smaller thresholds do not help, terms of higher degree may.
-    if (limit.isNone() && factor > 1)
-      limit = {isInVain ? FlowCause::Kind::vain : FlowCause::Kind::rounds, "",
-               question.options.degree < 0 ? run.degree() + 2 : question.options.degree + 2};
+    // Where smaller thresholds do not help, terms of higher degree may. So it is where all that is left of the states
+    // is rounding, but not of outputs: a linear motion is never bisected for these.
+    const bool isOfOutputs = limit.kind == FlowCause::Kind::rounding && run.needsDegree();
+    if ((limit.isNone() && factor > 1) || isOfOutputs)
+      limit = {isInVain || isOfOutputs ? FlowCause::Kind::vain : FlowCause::Kind::rounds, "",
+               (question.options.degree >= 0 ? question.options.degree
+                : run.needsDegree()          ? run.outputDegree()
+                                             : run.degree()) +
+                   2};
     best = count == 1 ? std::move(tube) : FlowRun::meet(std::move(best), std::move(tube));
     if (round.isLast) break;
     isAlike = !isMisjudged;

@@ -76,6 +76,8 @@ void FlowRun::work(FlowCollected& collected) {
       lock.lock();
       counted_ += Work::counted() - counted;
       degree_ = std::max(degree_, task_.layouts[traveller.piece.layout].monomials->degree());
+      outputDegree_ =
+          std::max(outputDegree_, task_.layouts[task_.outputLayout(traveller.piece.layout)].monomials->degree());
       if (traveller.journey == FlowJourney::cancelled) {
         unfinished_ = std::min(unfinished_, traveller.piece.set.t);
         stop_ = true;

@@ -34,6 +34,7 @@ class FlowRun {
   FlowCause limit(const Tube& tube) const;
   /// The highest degree of the states' polynomials, of all pieces.
   int degree() const { return degree_; }
+  int outputDegree() const { return outputDegree_; }  // likewise, of the outputs'
   bool isAbandoned() const { return isAbandoned_; }
   /// Outputs are loose where states are not: what they add is truncation of their own.
   bool needsDegree() const { return needsDegree_; }
@@ -119,7 +120,7 @@ class FlowRun {
   int pieces_ = 1, mostPieces_, nextProbe_ = 16;
   FlowCause ended_;     // what a probe found
   double endedAt_ = 0;  // how far that start came
-  int degree_ = 0;
+  int degree_ = 0, outputDegree_ = 0;
   double looseness_ = 0, timeShare_ = 0;
   bool metThreshold_ = false;
   double timeError_ = 0, truncation_ = 0;  // of pieces that have ended

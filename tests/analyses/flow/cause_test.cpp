@@ -54,6 +54,40 @@ TEST(FlowCause, IsWhatKeepsTheBoxFromBisection) {
   EXPECT_EQ(none.limitCause().advice(), "interval.split = true");
 }
 
+/// Bisection, for the states' sake, does nothing for outputs of a linear motion: what helps is the degree, up to where
+/// nothing is loose, whether one was stated or not.
+TEST(FlowCause, IsTheDegreeWhereThatIsTooLowForOutputs) {
+  const Program f = record(1, 0, [](auto, const auto& x, const auto&, auto& dx) { dx[0] = -x[0]; });
+  const Program sine = record(1, 0, 1, [](auto, const auto& x, const auto&, auto& y) { y[0] = sin(8.0 * x[0]); });
+  const Program bell =
+      record(1, 0, 1, [](auto, const auto& x, const auto&, auto& y) { y[0] = exp(-16.0 * sqr(x[0])); });
+  const auto tubeOf = [&](const Program& g, int degree) {
+    FlowOptions options = named();
+    options.stateNames = {"x"};
+    options.degree = degree;
+    return Flow(f, g, options).enclose({Interval(0.5, 1.5)}, 1, {0.5, 1});
+  };
+  Tube tube = tubeOf(sine, 3);
+  for (int degree = 5; degree <= 11; degree += 2) {
+    EXPECT_EQ(tube.limitCause().kind, Kind::vain) << tube.limit();
+    ASSERT_EQ(tube.limitCause().advice(), "interval.degree = " + std::to_string(degree));
+    Tube better = tubeOf(sine, degree);
+    EXPECT_LT(better.tightness() - 1, 0.7 * (tube.tightness() - 1)) << degree;
+    tube = std::move(better);
+  }
+  EXPECT_LT(tube.tightness(), 1.02);
+  EXPECT_TRUE(tube.limitCause().isNone());
+  const Tube automatic = tubeOf(bell, -1);  // of outputs the highest that is chosen by itself
+  ASSERT_EQ(automatic.limitCause().advice(), "interval.degree = 18");
+  EXPECT_LT(tubeOf(bell, 18).tightness(), 0.5 * automatic.tightness());
+}
+
+TEST(FlowCause, AdvisesNoDegreeThatMayNotBeStated) {
+  EXPECT_EQ((FlowCause{Kind::vain, "", 40}).advice(), "interval.degree = 40");
+  EXPECT_EQ((FlowCause{Kind::vain, "", 42}).advice(), "");
+  EXPECT_EQ((FlowCause{Kind::remainder, "", 42}).advice(), "");
+}
+
 TEST(FlowCause, IsAnEdgeWhereTheMotionComesToIt) {
   const Program f = record(1, 0, [](auto t, const auto& x, const auto&, auto& dx) { dx[0] = -1.0 - 1e-9 * t / x[0]; });
   const Tube tube = Flow(f).enclose({Interval(0.99, 1.01)}, 3);
