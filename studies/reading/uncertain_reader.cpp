@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <map>
 #include <regex>
 #include <unordered_set>
@@ -152,10 +153,12 @@ class UncertainReader {
       source_.fail(section.table(), fmt::format("two uncertain quantities are named '{}'", result.uncertain.name),
                    "different names");
     const toml::node* stated = section.find("interval");
-    if (stated != nullptr)
+    if (stated != nullptr) {
       readRange(*stated, result);
-    else
+      noteRadians(*stated, result);
+    } else {
       takeSupports(section, result);
+    }
     const toml::node& interval = stated != nullptr ? *stated : supportOf(section);
     readShapes(source_, section, files_, result);
     readCourse(section, node, result);
@@ -243,6 +246,28 @@ class UncertainReader {
       }
     }
     checkRange(node, what, result);
+  }
+
+  /// Beside degrees, a bare number may be meant as such.
+  void noteRadians(const toml::node& interval, const UncertainQuantity& result) {
+    const auto place = places_.find(result.quantity);
+    if (result.unit != "rad" || place == places_.end() || !place->second->is_string()) return;
+    const auto isInDegrees = [](const std::string& text) {
+      return text.find("deg") != std::string::npos || text.find("°") != std::string::npos;
+    };
+    const auto isBare = [&](const toml::node& node) {  // an exponent is no unit
+      if (node.is_number()) return true;
+      if (!node.is_string()) return false;
+      const std::string& text = **node.as_string();
+      return text.find("°") == std::string::npos && std::ranges::none_of(text, [](char c) {
+               return c == '%' || (c != 'e' && c != 'E' && std::isalpha(static_cast<unsigned char>(c)) != 0);
+             });
+    };
+    const bool isOfBare = interval.is_array() ? std::ranges::any_of(*interval.as_array(), isBare) : isBare(interval);
+    if (!isOfBare || !isInDegrees(**place->second->as_string())) return;
+    study_.notes.push_back(source_.note(
+        interval, fmt::format("the interval of '{}' has no unit and is read in rad, its nominal value is in degrees",
+                              result.quantity)));
   }
 
   void checkRange(const toml::node& node, const std::string& what, const UncertainQuantity& result) const {

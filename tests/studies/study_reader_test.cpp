@@ -1402,6 +1402,27 @@ TEST(StudyReader, SaysHowPowerByRateIsAMoment) {
   EXPECT_THAT(with("motor.power*hinge.rate", unit), Not(HasSubstr("(1 rad)")));
 }
 
+/// Beside "30 deg", "± 0.5" is half a radian: it may be meant so, but hardly ever is.
+TEST(StudyReader, NotesIntervalsInRadiansBesideDegrees) {
+  const auto notes = [](const std::string& interval, const std::string& angle = "\"30 deg\"") {
+    std::string text = sampleStudyWith("angle = \"30 deg\"", "angle = " + angle);
+    const std::size_t begin = text.find("interval = ") + 11;
+    text.replace(begin, text.find('\n', begin) - begin, interval);
+    std::vector<std::string> found;
+    for (const std::string& note : readStudyText(text, "s.toml").notes)
+      if (note.find("read in rad") != std::string::npos) found.push_back(note);
+    return found;
+  };
+  for (const char* bare : {"\"± 0.5\"", "\"+- 1e-2\"", "\"+0.1 / -0.2\"", "[0.4, 0.6]", "[\"29 deg\", 0.6]"})
+    EXPECT_THAT(notes(bare), ElementsAre(::testing::HasSubstr("note: the interval of 'hinge.angle' has no unit and is "
+                                                              "read in rad, its nominal value is in degrees")))
+        << bare;
+  for (const char* said : {"\"± 0.5 deg\"", "\"± 0.05 rad\"", "\"± 1 %\"", "[\"29 deg\", \"31 deg\"]"})
+    EXPECT_THAT(notes(said), ::testing::IsEmpty()) << said;
+  EXPECT_THAT(notes("\"± 0.1\"", "0.5"), ::testing::IsEmpty());
+  EXPECT_THAT(notes("\"± 0.1\"", "\"0.5 rad\""), ::testing::IsEmpty());
+}
+
 TEST(StudyReader, NotesDegreesWithoutAUnitAndStepsBeyondTheHorizon) {
   const auto notes = [](const std::string& old, const std::string& replacement) {
     return readStudyText(sampleStudyWith(old, replacement), "s.toml").notes;
