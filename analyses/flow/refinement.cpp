@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "analyses/flow/plain_degrees.hpp"
 #include "analyses/flow/polynomial_series.hpp"
 #include "analyses/flow/run.hpp"
 #include "analyses/flow/scales.hpp"
@@ -209,6 +210,8 @@ Tube refine(const FlowQuestion& question, const Box& box, const std::vector<Box>
                   1 + 0.5 * (question.options.tightness - 1));
     limit = {FlowCause::Kind::rounds, smaller.data()};
   }
+  const double work = question.budget.spent - spentBefore;
+  best = withPlainDegrees(question, box, levels, weighing.scales(), std::move(best), limit, work, looseness);
   FlowRun::charge(best, weighing.cpuSeconds());
   FlowRun::explain(best, question.options, limit);
   return best;

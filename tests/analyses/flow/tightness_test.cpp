@@ -193,6 +193,66 @@ TEST(FlowTightness, EndsWithItsBudget) {
   EXPECT_THROW(Flow(c.f, c.options), std::invalid_argument);
 }
 
+/// x'' = -ω² x from x = 1 at rest, so many times by itself, ω from 10 on; places, then rates.
+struct Oscillators {
+  Program f;
+  Box box;
+};
+Oscillators oscillators(int count, double radius) {
+  Oscillators result;
+  result.f = record(2 * count, count, [&](auto, const auto& x, const auto& p, auto& dx) {
+    for (std::size_t i = 0, n = static_cast<std::size_t>(count); i < n; ++i) {
+      dx[i] = x[n + i];
+      dx[n + i] = -sqr(p[i]) * x[i];
+    }
+  });
+  for (int i = 0; i < 2 * count; ++i) result.box.push_back(i < count ? 1.0 : 0.0);
+  for (int i = 0; i < count; ++i) result.box.push_back((10.0 + i) * Interval(1 - radius, 1 + radius));
+  return result;
+}
+
+/// The solutions of the ends of all frequencies, and of the middle, are in the tube.
+void expectOscillations(const Tube& tube, const Oscillators& of) {
+  const std::size_t n = of.box.size() / 3;
+  for (std::size_t row = 0; row < tube.reachedTimes(); ++row)
+    for (std::size_t i = 0; i < n; ++i) {
+      const Interval& frequency = of.box[2 * n + i];
+      for (const double w : {frequency.lower(), midpoint(frequency), frequency.upper()}) {
+        const Interval phase = Interval(w) * tube.times()[row];
+        EXPECT_FALSE(isEmpty(intersection(tube.states(row)[i], cos(phase))));
+        EXPECT_FALSE(isEmpty(intersection(tube.states(row)[n + i], -(Interval(w) * sin(phase)))));
+      }
+    }
+}
+
+// Nine quantities are not bisected for tightness, and the degree on the way stays where no threshold asks for more.
+TEST(FlowTightness, NeverEndsEarlierThanAFixedDegreeWould) {
+  const Oscillators motion = oscillators(9, 0.2);
+  FlowOptions fixed;
+  fixed.degree = 5;
+  fixed.split = false;
+  EXPECT_EQ(Flow(motion.f, fixed).enclose(motion.box, 2.5).reached(), 2.5);
+  fixed.degree = 2;
+  EXPECT_LT(Flow(motion.f, fixed).enclose(motion.box, 2.5).reached(), 2.5);
+  FlowOptions options;
+  options.budget = 5;
+  const Tube tube = Flow(motion.f, options).enclose(motion.box, 2.5, {0.5, 2});
+  EXPECT_EQ(tube.reached(), 2.5) << tube.why();
+  EXPECT_EQ(tube.pieces(), 1);
+  expectOscillations(tube, motion);
+}
+
+TEST(FlowTightness, TriesDegreesOfMoreQuantitiesThanAreBisected) {
+  const Oscillators motion = oscillators(9, 0.03);
+  FlowOptions fixed;
+  fixed.degree = 2;
+  fixed.split = false;
+  EXPECT_GT(Flow(motion.f, fixed).enclose(motion.box, 2, {1}).tightness(), 2);
+  const Tube tube = Flow(motion.f).enclose(motion.box, 2, {1});
+  EXPECT_LT(tube.tightness(), 1.1);
+  expectOscillations(tube, motion);
+}
+
 TEST(FlowTightness, MustBeAboveOne) {
   Containment c = springPendulum(0, 0.01, 0);
   c.options.tightness = 1;
