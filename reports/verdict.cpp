@@ -188,8 +188,8 @@ class Wording {
   void noteHorizon() {
     constexpr double hardly = 1e-2;
     const IntervalResult& interval = results_.interval;
-    if (!interval.present || !interval.advice.starts_with("limits.") || !(interval.reached < hardly * results_.horizon))
-      return;
+    const bool isOfLimit = interval.why.find(" limit of ") != std::string::npos;  // of time or memory
+    if (!interval.present || !isOfLimit || !(interval.reached < hardly * results_.horizon)) return;
     note(fmt::format(
         "The enclosure came through {} % of the horizon: is that meant to be {}, and are the units meant as they are?",
         numberText(100 * interval.reached / results_.horizon, 2), timeText(results_.horizon)));

@@ -63,6 +63,7 @@ struct Shares {
   double cuts = 0.5;           ///< own flows of alpha-cuts
   double requirements = 0.8;   ///< but for single violations
   double probabilities = 0.7;  ///< bounds of distributions, Sobol' indices, polynomials of outputs
+  double advice = 1;           ///< trials of what would help, where the enclosure ended early; apart from the others
   double derivatives = 20;     ///< apart from the others; of the enclosure alone, or of a second
 };
 

@@ -68,10 +68,11 @@ struct FlowOptions {
   double levelShare = 0;                                         ///< is more, this part of the whole box's work
   double longestStep = std::numeric_limits<double>::infinity();  ///< s; between output times, outputs that depend on
                                                                  ///< time itself are followed as far as a step
-  int jobs = 1;                                                  ///< threads that follow pieces
-  std::vector<VaryingParameter> varying;                         ///< all other parameters are constant in time
-  std::vector<PreciseValue> precise;                             ///< each within its component of the box
-  FlowAside aside;                                               ///< for Tube::asides
+  double enough = 0;  ///< rounds end once one came to the horizon and is looser by no more than this part of a width
+  int jobs = 1;       ///< threads that follow pieces
+  std::vector<VaryingParameter> varying;  ///< all other parameters are constant in time
+  std::vector<PreciseValue> precise;      ///< each within its component of the box
+  FlowAside aside;                        ///< for Tube::asides
   std::vector<int> modelled;    ///< outputs of which models are kept, at output times and between, for Tube::models
   std::vector<int> modelledAt;  ///< behind these in the snapshots of output times: models at these times alone
   std::vector<std::size_t> firstAt;  ///< rows of Tube::times() at which the latter are kept first of all, rising
@@ -142,6 +143,10 @@ class Tube {
   /// bounded rate, without heed to that. Null if none are asked for, or kept.
   const std::shared_ptr<const FlowModels>& models() const { return models_; }
 
+  /// Of each component of the box, how much of what a state varies by is in terms of more than the first order that
+  /// hold it, at most: what asks for high degrees and for bisection. Empty where no piece was followed.
+  const std::vector<double>& nonlinear() const { return nonlinear_; }
+
   int pieces() const { return pieces_; }            ///< sub-boxes followed to the end
   long steps() const { return steps_; }             ///< steps of all pieces
   double cpuSeconds() const { return cpu_; }        ///< s, all threads, without the sub-boxes' ranges
@@ -155,6 +160,7 @@ class Tube {
   std::vector<std::vector<std::vector<Interval>>> cuts_;
   std::vector<std::vector<double>> excess_;  // tightness() - 1 of each, [time][output or state]
   std::shared_ptr<const FlowModels> models_;
+  std::vector<double> nonlinear_;
   double reached_ = 0;
   std::string why_, shortfall_;
   FlowCause cause_, limit_;

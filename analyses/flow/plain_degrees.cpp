@@ -48,7 +48,9 @@ Tube withPlainDegrees(const FlowQuestion& question, const Box& box, const std::v
   const int symbols = Embedding(box, question.motion.states(), question.options.varying).symbols;
   const bool isAutomatic = question.options.degree < 0 && question.options.split && symbols > 0;
   const bool isEarly = !best.why().empty();
-  if (!isAutomatic || !(isEarly ? isCurable(best.cause()) : limit.kind == FlowCause::Kind::many)) return best;
+  const double enough = std::max(0.9 * (question.options.tightness - 1), question.options.enough);
+  if (!isAutomatic || !(isEarly ? isCurable(best.cause()) : limit.kind == FlowCause::Kind::many && looseness > enough))
+    return best;
   FlowOptions options = question.options;
   options.split = false;
   FlowRound round;
@@ -78,7 +80,7 @@ Tube withPlainDegrees(const FlowQuestion& question, const Box& box, const std::v
       looseness = run.looseness();
     }
     best = FlowRun::meet(std::move(tube), std::move(best));
-    if (best.why().empty() && looseness <= task.aim()) break;
+    if (best.why().empty() && looseness <= enough) break;
   }
   return best;
 }

@@ -182,7 +182,7 @@ Tube refine(const FlowQuestion& question, const Box& box, const std::vector<Box>
                                              : run.degree()) +
                    2};
     best = count == 1 ? std::move(tube) : FlowRun::meet(std::move(best), std::move(tube));
-    if (round.isLast) break;
+    if (round.isLast || (reached == question.horizon && looseness <= question.options.enough)) break;
     isAlike = !isMisjudged;
     tightened = factor;
     if (isMisjudged) {

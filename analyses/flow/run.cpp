@@ -374,6 +374,8 @@ Tube FlowRun::gather() {
       influence_[l].any = std::max(influence_[l].any, part.influence[l].any);
       influence_[l].nonlinear = std::max(influence_[l].nonlinear, part.influence[l].nonlinear);
     }
+  for (const Embedded& e : task_.embedding.components)
+    tube.nonlinear_.push_back(e.symbol >= 0 ? influence_[at(e.symbol)].nonlinear : 0);
   tube.pieces_ = pieces_;
   for (const FlowCollected& part : collected_) {
     tube.steps_ += part.steps;

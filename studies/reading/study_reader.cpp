@@ -582,7 +582,7 @@ class StudyReader {
   void readLimits(const toml::table& table) {
     const TomlSection section(source_, table, "limits",
                               {"time", "memory", "enclosure_time", "enclosure_memory", "sample_time", "cuts",
-                               "requirements", "probabilities", "derivatives"});
+                               "requirements", "probabilities", "advice", "derivatives"});
     const auto limit = [&](std::string_view key, const Dimension& dimension, double scale) -> std::optional<double> {
       const toml::node* node = section.find(key);
       if (node == nullptr) return std::nullopt;
@@ -604,6 +604,7 @@ class StudyReader {
     share("cuts", study_.shares.cuts);
     share("requirements", study_.shares.requirements);
     share("probabilities", study_.shares.probabilities);
+    share("advice", study_.shares.advice);
     share("derivatives", study_.shares.derivatives);
     const StatedLimits& limits = study_.limits;
     if (limits.enclosureTime.value_or(0) > limits.resolved().time)

@@ -24,20 +24,9 @@ void setRow(Bounds& bounds, std::size_t row, const std::vector<Interval>& values
 }
 
 void encloseMotion(Run& run) {
-  FlowOptions flow = flowOptions(run.study, run.problem, run.options.jobs, run.watch.stop());
+  FlowOptions flow = enclosureOptions(run);
   flow.progress = run.progressOf("enclosure");
-  for (const OutputInfo& output : run.study.outputs) flow.outputNames.push_back(output.name);
   if (run.seen.isEnclosed) flow.aside = {run.seen.positions, run.seen.at};
-  flow.floors = floorsOf(run);
-  for (const OutputInfo& output : run.study.outputs)
-    flow.tightnessOf.push_back(std::isnan(output.tightness) ? flow.tightness : output.tightness);
-  constexpr double saysNothing = 1e6;
-  for (std::size_t o = 0; o < run.scales.size(); ++o) {
-    const OutputScale& scale = run.scales[o];
-    flow.mostWidth.push_back(scale.vanishes ? std::numeric_limits<double>::infinity()
-                                            : saysNothing * std::max({scale.size, scale.span, flow.floors[o]}));
-  }
-  flow.uncounted = marginOutputs(run.study);  // a flow of their own comes where these are too loose
   flow.modelled = flow.uncounted;
   if (asksForDistributions(run.study)) flow.modelledAt = plainOutputs(run.study);
   boundModels(run, flow);
@@ -64,6 +53,8 @@ void encloseMotion(Run& run) {
   enclosed.why = tube.wasStopped() ? run.watch.why() : tube.why();
   enclosed.tightness = tube.tightness();
   enclosed.advice = tube.wasStopped() ? adviceOf(run.watch) : tube.cause().advice();
+  enclosed.cause = tube.cause();
+  enclosed.nonlinear = tube.nonlinear();
   if (const FlowCause& limit = tube.limitCause(); !tube.shortfall().empty()) {
     const bool isWatch = limit.kind == FlowCause::Kind::interrupted || limit.kind == FlowCause::Kind::outOfMemory;
     const std::string why = isWatch ? run.watch.why() : limit.sentence();
@@ -115,6 +106,22 @@ void clear(Run& run) {
 }
 
 }  // namespace
+
+FlowOptions enclosureOptions(const Run& run) {
+  FlowOptions flow = flowOptions(run.study, run.problem, run.options.jobs, run.watch.stop());
+  for (const OutputInfo& output : run.study.outputs) flow.outputNames.push_back(output.name);
+  flow.floors = floorsOf(run);
+  for (const OutputInfo& output : run.study.outputs)
+    flow.tightnessOf.push_back(std::isnan(output.tightness) ? flow.tightness : output.tightness);
+  constexpr double saysNothing = 1e6;
+  for (std::size_t o = 0; o < run.scales.size(); ++o) {
+    const OutputScale& scale = run.scales[o];
+    flow.mostWidth.push_back(scale.vanishes ? std::numeric_limits<double>::infinity()
+                                            : saysNothing * std::max({scale.size, scale.span, flow.floors[o]}));
+  }
+  flow.uncounted = marginOutputs(run.study);  // a flow of their own comes where these are too loose
+  return flow;
+}
 
 void enclose(Run& run) {
   if (!run.study.asksFor<IntervalResult>() && !run.study.asksFor<FuzzyResult>()) return;

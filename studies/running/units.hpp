@@ -34,6 +34,8 @@ struct Enclosed {
   std::string why;     ///< why it ended before the horizon; empty if it did not
   double tightness = std::numeric_limits<double>::quiet_NaN();  ///< as in IntervalResult
   std::string shortfall, advice;
+  FlowCause cause;                ///< of an early end
+  std::vector<double> nonlinear;  ///< Tube::nonlinear
   std::int64_t pieces = 0, steps = 0;
   double cpu = 0, cutCpu = 0;  ///< s: of all, and of the alpha-cuts
   /// Of the requirements' margins, and, where distributions are asked for, of all other outputs behind them.
@@ -102,6 +104,8 @@ void compareAnswers(Run& run);
 /// What is asked of the motion; then, of each requirement, how many samples meet it, and what is proved.
 void stateRequirements(Run& run);
 void countRequirements(Run& run);
+/// Where the enclosure ended early: what would have let it come to the horizon, tried.
+void seekAdvice(Run& run);
 void checkRequirements(Run& run);
 /// Where nothing was proved, but a sample violates a requirement: proves that it does.
 void refuteRequirements(Run& run);
@@ -114,14 +118,17 @@ void encloseDerivatives(Run& run);
 void showSamples(Run& run);
 
 /// All units, in the order in which they run.
-inline constexpr void (*units[])(Run&) = {stateRequirements, lookAtMachine,      takeFirstSamples, enclose,
-                                          guarantee,         findPossibilities,  takeOtherSamples, countRequirements,
-                                          checkRequirements, boundProbabilities, compareShares,    encloseDerivatives,
-                                          noteStop,          compareAnswers,     showSamples};
+inline constexpr void (*units[])(Run&) = {stateRequirements,  lookAtMachine,     takeFirstSamples,   enclose,
+                                          guarantee,          findPossibilities, takeOtherSamples,   countRequirements,
+                                          seekAdvice,         checkRequirements, boundProbabilities, compareShares,
+                                          encloseDerivatives, noteStop,          compareAnswers,     showSamples};
 
 /// Those that samples ask for, where all else is there.
 inline constexpr void (*unitsOfSamples[])(Run&) = {
     takeFirstSamples, takeOtherSamples, countRequirements, refuteRequirements, compareShares, noteStop, compareAnswers};
+
+/// Of the study's enclosure, as far as it decides how far that comes: without progress, models and alpha-cuts.
+FlowOptions enclosureOptions(const Run& run);
 
 /// What the first samples show of the outputs: sizes that are to be compared with; up to the horizon or not at all.
 std::vector<OutputScale> scalesOf(const Run& run);

@@ -455,7 +455,7 @@ TEST(Verdict, AsksForUnitsWhereALimitLetHardlyAnyMotionThrough) {
   Results results = example::pendulum();
   results.interval.reached = 1e-5;
   results.interval.why = "the time limit of 10 s CPU for the enclosure was reached";
-  results.interval.advice = "limits.enclosure_time";
+  results.interval.advice = "a greater limits.enclosure_time";
   EXPECT_THAT(judge(results).notes, ::testing::Contains("The enclosure came through 0.00033 % of the horizon: is that "
                                                         "meant to be 3 s, and are the units meant as they are?"));
   results.interval.reached = 1.5;

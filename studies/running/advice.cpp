@@ -1,0 +1,158 @@
+// What would let an enclosure that ended early come to the horizon: tried, never guessed. The same flow over thinner
+// boxes, of all quantities, then of one; or with the setting that ended it.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numeric>
+#include <optional>
+#include <vector>
+
+#include "studies/running/flow_of_study.hpp"
+#include "studies/running/units.hpp"
+#include "studies/words.hpp"
+
+namespace gamut {
+namespace {
+
+/// So many times the stated deviations, the thinnest first: it takes least, and without it the others are in vain.
+constexpr double factors[] = {0.125, 0.25, 0.5, 0.75};
+constexpr const char* parts[] = {"an eighth", "a quarter", "half", "three quarters"};
+
+class Trials {
+ public:
+  Trials(Run& run, double work) : run_(run), options_(enclosureOptions(run)), left_(work) {
+    options_.enough = 1;  // twice as wide says something; a run that is asked for more comes as far
+  }
+
+  /// In words; empty where nothing that was tried came to the horizon. `isTried`: whether that which ended it was.
+  std::string find(bool& isTried) {
+    if (const std::string setting = ofSetting(isTried); !setting.empty()) return setting;
+    const std::vector<std::size_t> quantities = mattering();
+    const std::size_t all = widest(quantities, 0);
+    if (all == 0) return {};
+    if (quantities.size() == 1) return reaching(ofQuantity(quantities.front(), all));
+    // One of them may do, that which bends the motion most the sooner.
+    constexpr std::size_t most = 3;
+    for (std::size_t i = 0; i < std::min(most, quantities.size()); ++i)
+      if (arrives({quantities[i]}, factors[all - 1]))
+        return reaching(ofQuantity(quantities[i], widest({quantities[i]}, all)));
+    return reaching(fmt::format("{} of all deviations", parts[all - 1]));
+  }
+
+ private:
+  /// What the study states, if that is what ended it.
+  std::string ofSetting(bool& isTried) {
+    FlowOptions options = options_;
+    std::string keys;
+    const auto arrivesWith = [&](const char* key) {
+      keys += (keys.empty() ? "" : " and ") + std::string(key);
+      const std::optional<bool> arrived = tries(run_.problem.box, options);
+      isTried = isTried || arrived.has_value();
+      return arrived == true;
+    };
+    if (!options.split) {
+      options.split = true;
+      if (arrivesWith("interval.split = true")) return reaching(keys);
+    }
+    if (options.degree < 0) return {};
+    options.degree = -1;
+    return arrivesWith("interval.degree = \"auto\"") ? reaching(keys) : "";
+  }
+
+  /// How many of the factors, from the first on, these quantities may have, of which so many are known to do.
+  std::size_t widest(const std::vector<std::size_t>& quantities, std::size_t known) {
+    while (known < std::size(factors) && arrives(quantities, factors[known])) ++known;
+    return known;
+  }
+
+  std::string ofQuantity(std::size_t quantity, std::size_t known) const {
+    return fmt::format("{} instead of {} of {}", deviation(quantity, factors[known - 1]), deviation(quantity, 1),
+                       run_.study.uncertain[quantity].uncertain.name);
+  }
+
+  /// "± 4 %", "± 0.2 rad", "[1, 2.5] kg"; deviations rounded down, since more was not tried.
+  std::string deviation(std::size_t quantity, double factor) const {
+    const Uncertain& u = run_.study.uncertain[quantity].uncertain;
+    const std::string& unit = run_.results.uncertain[quantity].unit;
+    const double below = factor * (u.nominal - u.range.lower()), above = factor * (u.range.upper() - u.nominal);
+    constexpr double alike = 1e-6;
+    if (std::fabs(above - below) > alike * (above + below))
+      return inUnit(rangeText(u.nominal - below, u.nominal + above, 4), unit);
+    const double half = 0.5 * (below + above);
+    const double share = 100 * half / std::fabs(u.nominal);
+    constexpr double roundings = 1e-9;
+    const std::string percent = outwardText(share * (1 + roundings), share * (1 + roundings), 4).first;
+    return u.nominal == 0 ? "± " + inUnit(outwardText(half, half, 4).first, unit) : fmt::format("± {} %", percent);
+  }
+
+  std::string reaching(const std::string& what) const {
+    return fmt::format("{}, by which it reaches {} (tried)", what, timeText(run_.study.horizon));
+  }
+
+  /// Those that are wide, what bends the motion most first.
+  std::vector<std::size_t> mattering() const {
+    std::vector<std::size_t> quantities(run_.study.uncertain.size());
+    std::iota(quantities.begin(), quantities.end(), std::size_t{0});
+    std::erase_if(quantities, [&](std::size_t q) { return isThin(run_.study.uncertain[q].uncertain.range); });
+    std::ranges::stable_sort(quantities, std::ranges::greater{}, [&](std::size_t q) {
+      const auto slot = static_cast<std::size_t>(run_.problem.motion.slot[q]);
+      return slot < run_.enclosed.nonlinear.size() ? run_.enclosed.nonlinear[slot] : 0.0;
+    });
+    return quantities;
+  }
+
+  bool arrives(const std::vector<std::size_t>& quantities, double factor) {
+    Box box = run_.problem.box;
+    for (const std::size_t q : quantities) {
+      const Uncertain& u = run_.study.uncertain[q].uncertain;
+      box[static_cast<std::size_t>(run_.problem.motion.slot[q])] =
+          Interval(u.nominal) + Interval(factor) * (u.range - Interval(u.nominal));
+    }
+    return tries(box, options_) == true;
+  }
+
+  /// Whether it came to the horizon; nothing where the work that was left did not tell.
+  std::optional<bool> tries(const Box& box, FlowOptions options) {
+    const double work = 0.5 * left_;
+    if (!(left_ > least) || *run_.watch.stop()) return std::nullopt;
+    options.budget = work / Work::perSecond;
+    const Motion& motion = run_.study.motion;
+    const std::uint64_t began = Work::counted();
+    const Tube tube = Flow(motion.f, motion.g, std::move(options)).enclose(box, run_.study.horizon, motion.times);
+    left_ -= static_cast<double>(Work::counted() - began);
+    if (tube.wasStopped()) return std::nullopt;
+    return tube.reached() == run_.study.horizon && tube.tightness() <= 2;
+  }
+
+  Run& run_;
+  FlowOptions options_;
+  static constexpr double least = 0.05 * Work::perSecond;  // less is not begun with
+  double left_;                                            // work
+};
+
+}  // namespace
+
+void seekAdvice(Run& run) {
+  Enclosed& enclosed = run.enclosed;
+  const bool isEnclosed = run.study.asksFor<IntervalResult>() || run.study.asksFor<FuzzyResult>();
+  const bool moves = run.study.analysis != Study::Analysis::kinematics;
+  if (!isEnclosed || !moves || enclosed.why.empty() || !(enclosed.reached < run.study.horizon)) return;
+  const double start = processCpuSeconds();
+  run.watch.begin(Watch::Stage::rest);
+  if (*run.watch.stop()) return;
+  const double basis = std::max(run.spent.enclosure + run.spent.samples, Shares::least * Work::perSecond);
+  constexpr double part = 0.5;  // of a limit's rest, in which other answers are to come
+  const double rest = part * std::max(0.0, run.results.limits.time - run.watch.spent()) * Work::perSecond;
+  bool isTried = false;
+  const std::string found = Trials(run, std::min(run.study.shares.advice * basis, rest)).find(isTried);
+  // A limit that ended it is named anyhow, unless more of it did not do.
+  const bool isGuess = isTried || enclosed.cause.kind == FlowCause::Kind::remainder;
+  if (!found.empty() || isGuess) enclosed.advice = found;
+  run.results.interval.advice = run.study.asksFor<IntervalResult>() ? enclosed.advice : "";
+  (run.study.asksFor<IntervalResult>() ? run.results.interval.cpu : run.results.fuzzy.cpu) +=
+      processCpuSeconds() - start;
+}
+
+}  // namespace gamut
