@@ -20,6 +20,7 @@ void printRequirements(std::FILE* stream, const Results& results) {
     };
     print("guaranteed", words.guaranteed);
     print("probable", words.probable);
+    print("estimated", words.estimated);
     print("possible", words.possible);
   }
 }

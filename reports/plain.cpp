@@ -142,6 +142,10 @@ class Sentence {
     if (r_.metUntil > r_.from && r_.metUntil < r_.until)
       text += fmt::format(" It is until {} s.", numberText(r_.metUntil, 6));
     if (!r_.advice.empty()) text += fmt::format(" What may help: {}.", r_.advice);
+    if (const std::string probability = estimateOf(r_); !probability.empty())
+      text += fmt::format(
+          " By simulated cases alone, which prove nothing, it is met with a probability of {} (95 % confidence).",
+          probability);
     return text;
   }
 

@@ -7,10 +7,12 @@
 #include <cmath>
 #include <cstdlib>
 #include <numeric>
+#include <optional>
 #include <regex>
 
 #include "mechanics/description/units.hpp"
 #include "studies/results/extremes.hpp"
+#include "studies/results/instants.hpp"
 #include "studies/words.hpp"
 
 namespace gamut {
@@ -65,10 +67,11 @@ class Wording {
             : r_.word == "met"        ? "met"
             : r_.word == "violated"   ? "violated"
             : r_.word == "partly"     ? "violated for some values"
-                                      : "open",
+                                      : open(),
             guaranteed(),
             probable(),
-            results_.fuzzy.present ? possible() : ""};
+            results_.fuzzy.present ? possible() : "",
+            estimated()};
   }
 
  private:
@@ -76,6 +79,13 @@ class Wording {
     if (results_.horizon == 0 || (r_.from == 0 && r_.until == results_.horizon)) return {};
     return r_.from == r_.until ? fmt::format(", at {} s", numberText(r_.from, 6))
                                : fmt::format(", from {} s to {} s", numberText(r_.from, 6), numberText(r_.until, 6));
+  }
+
+  /// What is not proved for want of time that is.
+  std::string open() const {
+    const std::optional<double> end = endOfProof(results_);
+    if (!end || !(*end < r_.until)) return "open";
+    return r_.metUntil < r_.until ? fmt::format("not proved behind {} s", numberText(r_.metUntil, 6)) : "not proved";
   }
 
   std::string guaranteed() const {
@@ -149,6 +159,23 @@ class Wording {
     return fmt::format("{}", fmt::join(parts, "; "));
   }
 
+  std::string estimated() const {
+    const std::string probability = estimateOf(r_);
+    if (probability.empty()) return {};
+    const RequirementEstimate& of = r_.estimate;
+    const std::int64_t missing = of.samples - of.met - of.violated;
+    std::string text = fmt::format(
+        "of {} independent samples {} meet it at the output times{}: a probability of {} with 95 % confidence "
+        "(sampled, "
+        "not proved)",
+        of.samples, of.met, missing > 0 ? fmt::format(", {} did not arrive", missing) : "", probability);
+    constexpr double least = 1e-4;  // of that the share of a linear function is known to as much
+    if (std::isnan(of.firstOrder)) return text;
+    return text + (of.firstOrder > 1 - least ? "; to first order more than 0.9999"
+                   : of.firstOrder < least   ? "; to first order less than 0.0001"
+                                             : fmt::format("; to first order {}", numberText(of.firstOrder, 4)));
+  }
+
   std::string possible() const {
     if (r_.violationLeast == 0 && r_.violationMost == 1) return "nothing is proved of the possibility";
     return fmt::format("violated with a possibility of {}, met with a necessity of {}",
@@ -188,6 +215,17 @@ std::string missOf(const Results& results, const RequirementResult& requirement)
 
 std::string sampledMissOf(const Results& results, const RequirementResult& requirement) {
   return missText(results, requirement, -requirement.worstMargin);
+}
+
+std::string estimateOf(const RequirementResult& requirement) {
+  const RequirementEstimate& of = requirement.estimate;
+  const bool isOpen = requirement.word == "open" || requirement.word == "partly";
+  if (!isOpen || of.samples == 0 || std::isnan(of.lower)) return {};
+  constexpr int digits = 5;
+  const auto [lower, upper] = outwardText(of.lower, of.upper, digits);
+  return of.upper == 1   ? "at least " + lower
+         : of.lower == 0 ? "at most " + upper
+                         : fmt::format("{} to {}", lower, upper);
 }
 
 std::vector<RequirementWords> wordsOfRequirements(const Results& results) {

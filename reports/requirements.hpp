@@ -14,6 +14,7 @@ struct RequirementWords {
   std::string word;          ///< "met", "violated", "partly", "open", as RequirementResult; "simulated": violated so
   std::string verdict;       ///< in words: "met", "violated for some values", "violated in simulation, not proved"
   std::string guaranteed, probable, possible;  ///< a sentence each, without markup; empty where not asked for
+  std::string estimated;  ///< likewise, of what is open where the proof ends before the window; empty elsewhere
 };
 
 /// One a requirement.
@@ -31,6 +32,10 @@ std::string missOf(const Results& results, const RequirementResult& requirement)
 
 /// By how much the worst sample does.
 std::string sampledMissOf(const Results& results, const RequirementResult& requirement);
+
+/// "at least 0.9991", "0.974 to 0.984": the probability that it is met, as independent samples let it be estimated,
+/// with 95 % confidence; empty where they do not, or need not since it is decided.
+std::string estimateOf(const RequirementResult& requirement);
 
 /// What they are together: "met" if all are, "violated" if one is, for some values at least, otherwise "open".
 std::string wordOfRequirements(const Results& results);

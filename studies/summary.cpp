@@ -47,6 +47,16 @@ Json overestimationObject(const Results& results) {
 
 Json textOrNull(const std::string& text);
 
+/// Of what is only sampled; null where nothing needs it.
+Json estimateObject(const RequirementEstimate& estimate) {
+  if (estimate.samples == 0) return nullptr;
+  return {{"samples", estimate.samples},
+          {"met", estimate.met},
+          {"violated", estimate.violated},
+          {"confidence", Json::array({number(estimate.lower), number(estimate.upper)})},
+          {"first_order", number(estimate.firstOrder)}};
+}
+
 Json requirementsArray(const Results& results) {
   Json array = Json::array();
   for (const RequirementResult& r : results.requirements) {
@@ -73,6 +83,7 @@ Json requirementsArray(const Results& results) {
          {"samples", r.samples},
          {"violating", r.violating},
          {"confidence", std::isnan(r.shareLower) ? Json(nullptr) : Json::array({r.shareLower, r.shareUpper})},
+         {"estimate", estimateObject(r.estimate)},
          {"simulated_violation", simulated},
          {"worst_sample", r.worstSample < 0 ? Json(nullptr) : Json(r.worstSample)},
          {"violation_possibility", Json::array({r.violationLeast, r.violationMost})}});

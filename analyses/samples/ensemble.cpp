@@ -556,6 +556,28 @@ Statistics EnsembleRun::statistics(const std::vector<double>& probabilities) con
   return statistics_->statistics(reachedTimes_, dependence, probabilities);
 }
 
+void integrateIndependent(const UncertainMotion& system, const EnsembleOptions& options,
+                          const std::function<void(const SampleBlock&)>& take) {
+  system.check();
+  Sampling sampling(Plan::random, system.uncertain.size(), options.samples, options.seed);
+  sampling.correlate(system.dependence.copulas);
+  const std::size_t times = system.motion.times.size(), outputs = system.motion.outputs();
+  const std::size_t width = widthOf(system.motion, options.method), most = packsOfBlock(times * outputs) * packWidth;
+  for (std::size_t first = 0; first < sampling.samples(); first += most) {
+    SampleBlock block(first, std::min(most, sampling.samples() - first), true, sampling.quantities(), times, outputs);
+    for (std::size_t i = 0; i < block.size(); ++i)
+      std::ranges::copy(sampling.values(first + i, system.uncertain), block.values(i).begin());
+    const std::vector<Piece> pieces = piecesOf(block.size(), width);
+    forEachIndex(options.jobs, pieces.size(), options.cancelled, [&] {
+      return [&, integrator = PieceIntegrator(system, options, width)](std::size_t piece) mutable {
+        integrator.integrate(block, pieces[piece], [](std::size_t) {});
+      };
+    });
+    if (options.cancelled != nullptr && *options.cancelled) return;
+    take(block);
+  }
+}
+
 SampleBlock integrateValues(const UncertainMotion& system, const EnsembleOptions& options,
                             const std::vector<double>& values) {
   SampleBlock block(0, 1, false, system.uncertain.size(), system.motion.times.size(), system.motion.outputs());

@@ -182,6 +182,12 @@ struct EnsembleSize {
 /// About as many bytes as an EnsembleRun takes at most; beyond some thousands of samples their number hardly matters.
 double ensembleBytes(const EnsembleSize& size);
 
+/// As many samples as the options say of the quantities' joint distribution, independent of each other, without
+/// corners, centre and points: block by block, in order, as far as that comes before it is cancelled. Which values they
+/// have follows from the seed alone. Throws as EnsembleRun does.
+void integrateIndependent(const UncertainMotion& system, const EnsembleOptions& options,
+                          const std::function<void(const SampleBlock&)>& take);
+
 /// These values of the uncertain quantities, integrated alone: a block of one sample. Throws as EnsembleRun does.
 SampleBlock integrateValues(const UncertainMotion& system, const EnsembleOptions& options,
                             const std::vector<double>& values);

@@ -32,7 +32,8 @@ struct Colour {
 
 namespace colour {
 inline constexpr Colour blue{"#1f5f99", "#6fb1ec"}, violet{"#7a4fa3", "#c09be6"}, orange{"#c46a00", "#f0a03c"},
-    black{"#37424e", "#ccd5de"}, grey{"#8a97a5", "#7d8b99"}, red{"#b3261e", "#ff8a80"}, green{"#1a7f4b", "#5cc98f"};
+    black{"#37424e", "#ccd5de"}, grey{"#8a97a5", "#7d8b99"}, red{"#b3261e", "#ff8a80"}, green{"#1a7f4b", "#5cc98f"},
+    pink{"#ad1457", "#f48fb1"};
 }
 
 struct Style {

@@ -149,7 +149,7 @@ Plot essentials(Plot plot, const std::vector<std::size_t>& limits) {
     if (layer.name == "tube" || layer.name == "guaranteed") return !isProved;
     if (layer.name == "sampled" || layer.name == "probable") return isProved;
     if (layer.name == "possible") return isProved || isSampled;
-    return layer.name != "median" && layer.name != "limit";
+    return layer.name != "median" && layer.name != "limit" && layer.name != "estimated";
   });
   for (Layer& layer : plot.layers) {
     if (layer.name != "limit") continue;
@@ -173,6 +173,7 @@ std::string captionOf(const Plot& plot) {
     words += said;
   };
   add("guaranteed", "blue: where it lies in every case that the stated tolerances allow");
+  add("estimated", "pink: behind the end of the proof, where simulated cases lie, which is not proved of all");
   add("sampled", "dashed: the least and the greatest of all simulated cases");
   add("probable", "orange band: where most of them lie");
   add("possible", "violet: where it can lie, the darker the more possible");

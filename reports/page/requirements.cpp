@@ -23,10 +23,14 @@ std::string requirementsSection(const Report& report) {
     const RequirementWords& words = all[r];
     html += fmt::format(
         "<article class=\"requirement {}\">\n<h3><span>{}</span> <b>{}</b></h3>\n<p "
-        "class=\"demand\">{}</p>\n<dl>\n{}{}{}</dl>\n"
+        "class=\"demand\">{}</p>\n<dl>\n{}{}{}{}</dl>\n"
         "</article>\n",
         words.word, escapeHtml(words.name), escapeHtml(words.verdict), escapeHtml(words.demand),
-        answer("guaranteed", words.guaranteed), answer("probable", words.probable), answer("possible", words.possible));
+        answer("guaranteed", words.guaranteed), answer("probable", words.probable),
+        words.estimated.empty() ? ""
+                                : fmt::format("<dt class=\"estimated\">estimated</dt><dd class=\"estimated\">{}</dd>\n",
+                                              escapeHtml(words.estimated)),
+        answer("possible", words.possible));
   }
   if (const std::string more = unshownRequirements(results); !more.empty())
     html += fmt::format("<p class=\"hint\">{}</p>\n", more);

@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "reports/sections/contribution.hpp"
+#include "reports/words.hpp"
+#include "studies/results/instants.hpp"
 
 namespace gamut {
 namespace {
@@ -20,6 +23,15 @@ std::size_t nearest(const std::vector<double>& probabilities, double wanted) {
   return static_cast<std::size_t>(std::ranges::min_element(probabilities, closer) - probabilities.begin());
 }
 
+/// What samples span from the last time on at which something is proved: an estimate of what all cases span.
+Band behindProof(const Results& results, std::size_t output, double end) {
+  Band band = bandOf(results.stochastic.envelope, output);
+  const auto behind = std::ranges::upper_bound(results.time, end) - results.time.begin();
+  for (std::ptrdiff_t i = 0; i + 1 < behind; ++i)
+    band.lower[static_cast<std::size_t>(i)] = band.upper[static_cast<std::size_t>(i)] = std::nan("");
+  return band;
+}
+
 void draw(const Results& results, std::size_t output, Plot& plot) {
   const StochasticResult& stochastic = results.stochastic;
   if (!stochastic.present) return;
@@ -28,6 +40,13 @@ void draw(const Results& results, std::size_t output, Plot& plot) {
   const bool hasQuantiles = !probabilities.empty() && stochastic.quantiles.size() == probabilities.size();
   const std::size_t low = nearest(probabilities, 0.05), middle = nearest(probabilities, 0.5),
                     high = nearest(probabilities, 0.95);
+  if (const std::optional<double> end = endOfProof(results); end && !stochastic.envelope.empty())
+    plot.layers.push_back({.name = "estimated",
+                           .words = fmt::format("estimated behind the proof, which ends at {} s: where the samples are",
+                                                numberText(*end, 4)),
+                           .readout = "estimated, not proved",
+                           .style = {colour::pink, 0.16},
+                           .bands = {behindProof(results, output, *end)}});
   if (hasQuantiles && low < high)
     plot.layers.push_back({.name = "probable",
                            .words = fmt::format("probable: {:g} to {:g} % of the samples", 100 * probabilities[low],

@@ -35,6 +35,13 @@ double decisiveTime(const Results& results, const RequirementResult& requirement
   return decisive;
 }
 
+std::optional<double> endOfProof(const Results& results) {
+  const bool isEnclosed = results.interval.present;
+  if (results.horizon == 0 || (!isEnclosed && !results.fuzzy.present)) return {};
+  const double reached = isEnclosed ? results.interval.reached : results.fuzzy.reached;
+  return reached < results.horizon ? std::optional<double>(reached) : std::nullopt;
+}
+
 double widestTime(const Results& results, std::size_t output) {
   const Bounds* bounds = bestKnown(results);
   double time = std::nan(""), widest = -1;

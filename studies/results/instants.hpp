@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 
 #include "studies/results/results.hpp"
 
@@ -14,6 +15,10 @@ const Bounds* bestKnown(const Results& results);
 /// The instant of the violation that is told; else the output time of the window at which a margin is least (of what is
 /// to be once: at which the least margin is greatest), s. NaN where nothing is known.
 double decisiveTime(const Results& results, const RequirementResult& requirement);
+
+/// The time at which what is proved of all cases ends before the horizon, s: of the enclosure, or else of the
+/// alpha-cuts. Nothing where neither was asked for, it comes to the horizon, or nothing moves.
+std::optional<double> endOfProof(const Results& results);
 
 /// The output time at which an output's bounds are farthest apart, s; the first of several. NaN where nothing is known.
 double widestTime(const Results& results, std::size_t output);

@@ -101,6 +101,35 @@ std::vector<Field> fieldsOf(RequirementResult& r) {
        unit::none,
        "1: the word is \"open\", and it misses the requirement by more than the error of its integration",
        {}},
+      {"estimate_samples",
+       &r.estimate.samples,
+       unit::none,
+       "where the proof ends before the window does: independent samples besides, from which the probability that it "
+       "is "
+       "met is estimated",
+       {},
+       allowed::count},
+      {"estimate_met", &r.estimate.met, unit::none, "of these, meet it at the output times", {}, allowed::count},
+      {"estimate_violated",
+       &r.estimate.violated,
+       unit::none,
+       "violate it there; the others did not arrive",
+       {},
+       allowed::count},
+      {"estimate_lower",
+       &r.estimate.lower,
+       unit::one,
+       "95 % confidence interval (Clopper and Pearson) of that probability, whatever those that did not arrive would "
+       "have done: sampled, not proved; NaN without samples",
+       {}},
+      {"estimate_upper", &r.estimate.upper, unit::one, "its upper end", {}},
+      {"estimate_first_order",
+       &r.estimate.firstOrder,
+       unit::one,
+       "the probability that it would have if the worst margin were the linear function of the quantities that fits "
+       "the "
+       "first samples best; NaN where none does",
+       {}},
       {"violation_possibility_lower",
        &r.violationLeast,
        unit::one,
@@ -117,7 +146,8 @@ void describe(std::vector<RequirementResult>& requirements, std::vector<Group>& 
   groups.back().makesSense = [&requirements](std::size_t i) {
     const RequirementResult& r = requirements[i];
     return r.probabilityLower <= r.probabilityUpper && r.violationLeast <= r.violationMost &&
-           r.violating <= r.samples && isInterval(r.violationLower, r.violationUpper) && r.from <= r.until;
+           r.violating <= r.samples && r.estimate.met + r.estimate.violated <= r.estimate.samples &&
+           isInterval(r.violationLower, r.violationUpper) && r.from <= r.until;
   };
 }
 

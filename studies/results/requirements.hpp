@@ -10,6 +10,16 @@
 
 namespace gamut {
 
+/// What is only estimated of a requirement whose window lasts longer than anything is proved: nothing of it is proved.
+struct RequirementEstimate {
+  static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+  std::int64_t samples = 0;                 ///< independent ones that were followed
+  std::int64_t met = 0, violated = 0;       ///< of these, at the output times; the others did not arrive
+  double lower = unknown, upper = unknown;  ///< 95 % confidence of the probability that it is met at the output times
+  double firstOrder = unknown;  ///< that probability, if the worst margin were a linear function of the quantities
+};
+
 struct RequirementResult {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
@@ -42,6 +52,7 @@ struct RequirementResult {
   double worstTime = unknown, worstMargin = unknown;  ///< of it: s, and the margin there
   /// Nothing is proved, but it misses the requirement by more than the error of its integration.
   bool isViolatedInSimulation = false;
+  RequirementEstimate estimate;  ///< where the proof ends before the window does
   // What is possible.
   double violationLeast = 0, violationMost = 1;  ///< bounds of the possibility that it is violated; 1 - that: necessity
 };

@@ -99,6 +99,7 @@ void forgetSamples(Results& results, std::size_t samples) {
     result.shareLower = result.shareUpper = result.worstTime = result.worstMargin = unknown;
     result.worstSample = -1;
     result.isViolatedInSimulation = false;
+    result.estimate = {};
     if (result.violationSample >= before)  // a corner, the centre, or a point
       result.violationSample += static_cast<std::int64_t>(samples) - before;
   }
@@ -125,6 +126,7 @@ Extension extend(const Study& study, const Results& results, const RunOptions& o
   run.former.emplace(results, samples);
   run.enclosed.reachedTimes = enclosedTimes(results);
   run.suspects.resize(study.requirements.size());
+  run.worstMargins.assign(study.requirements.size(), FirstOrder(run.problem.motion.uncertain));
   forgetSamples(run.results, samples);
   for (const auto& unit : unitsOfSamples) unit(run);
   run.results.extensions.back().cpu = run.watch.spent();

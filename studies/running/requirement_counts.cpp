@@ -1,7 +1,11 @@
-// What the samples say of each requirement: how many violate it, and which comes closest to that.
+// What the samples say of each requirement: how many violate it, and which comes closest to that; and where the proof
+// ends before the window does, what independent ones say of the probability that it is met.
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <new>
+#include <vector>
 
 #include "analyses/samples/binomial.hpp"
 #include "studies/running/flow_of_study.hpp"
@@ -29,6 +33,18 @@ bool isMet(const SampleBlock& block, std::size_t i, std::size_t row, const Requi
   return true;
 }
 
+/// At the output times of its window.
+bool isMetThroughout(const SampleBlock& block, std::size_t i, std::size_t from, std::size_t until,
+                     const Requirement& requirement) {
+  bool always = true, once = false;
+  for (std::size_t row = from; row <= until; ++row) {
+    const bool isMetNow = isMet(block, i, row, requirement);
+    always = always && isMetNow;
+    once = once || isMetNow;
+  }
+  return requirement.isAlways ? always : once;
+}
+
 struct Margin {
   double value;
   std::size_t row;
@@ -45,6 +61,50 @@ Margin worstOf(const SampleBlock& block, std::size_t i, std::size_t from, std::s
   return worst;
 }
 
+constexpr std::size_t mostFitted = 4096, mostIndependent = 4096;
+
+/// Whether the quantities have one joint distribution: else a probability of what is met is none.
+bool haveOneDistribution(const Study& study) {
+  return study.dependence.unknown.empty() && std::ranges::all_of(study.uncertain, [](const UncertainQuantity& q) {
+           return !q.varies && q.uncertain.distribution.isPrecise();
+         });
+}
+
+/// Each bound holds whatever those that did not arrive would have done.
+void boundShare(RequirementEstimate& estimate) {
+  if (estimate.samples == 0) return;
+  estimate.lower = confidenceOfShare(estimate.met, estimate.samples).lower();
+  estimate.upper = confidenceOfShare(estimate.samples - estimate.violated, estimate.samples).upper();
+}
+
+/// Independent samples, besides those of another plan, of these requirements.
+void sampleIndependently(Run& run, const std::vector<std::size_t>& requirements) {
+  EnsembleOptions options = run.ensemble->options();
+  options.samples = std::min(run.ensemble->sampling().samples(), mostIndependent);
+  options.seed ^= 0x9e3779b97f4a7c15;  // others than those of the plan
+  options.progress = {};
+  options.cancelled = run.watch.stop();
+  integrateIndependent(run.problem.motion, options, [&](const SampleBlock& block) {
+    for (const std::size_t r : requirements) {
+      const Requirement& requirement = run.study.requirements[r];
+      RequirementEstimate& estimate = run.results.requirements[r].estimate;
+      const std::size_t from = rowOf(run.study.motion.times, requirement.from),
+                        until = rowOf(run.study.motion.times, requirement.until);
+      for (std::size_t i = 0; i < block.size(); ++i) {
+        ++estimate.samples;
+        if (std::isnan(block(i, until, requirement.margins.front()))) continue;  // it did not arrive
+        if (isMetThroughout(block, i, from, until, requirement)) {
+          ++estimate.met;
+          continue;
+        }
+        ++estimate.violated;
+        const Margin worst = worstOf(block, i, from, until, requirement);
+        run.suspects[r].add({{block.values(i).begin(), block.values(i).end()}, -1, worst.value, true});
+      }
+    }
+  });
+}
+
 }  // namespace
 
 void noteRequirements(Run& run, const SampleBlock& block) {
@@ -55,19 +115,15 @@ void noteRequirements(Run& run, const SampleBlock& block) {
                       until = rowOf(run.study.motion.times, requirement.until);
     for (std::size_t i = 0; i < block.size(); ++i) {
       if (std::isnan(block(i, until, requirement.margins.front()))) continue;  // it did not arrive
-      bool always = true, once = false;
-      for (std::size_t row = from; row <= until; ++row) {
-        const bool isMetNow = isMet(block, i, row, requirement);
-        always = always && isMetNow;
-        once = once || isMetNow;
-      }
-      const bool violates = !(requirement.isAlways ? always : once);
+      const bool violates = !isMetThroughout(block, i, from, until, requirement);
       if (block.hasWeight()) {
         ++result.samples;
         if (violates) ++result.violating;
       }
       const Margin worst = worstOf(block, i, from, until, requirement);
       if (std::isnan(worst.value)) continue;
+      if (block.hasWeight() && run.worstMargins[r].count() < mostFitted)
+        run.worstMargins[r].include(block.values(i), worst.value);
       const auto sample = static_cast<std::int64_t>(block.first() + i);
       const bool isWorst = result.worstSample < 0 || worst.value < result.worstMargin;
       if (isWorst || violates)
@@ -78,6 +134,40 @@ void noteRequirements(Run& run, const SampleBlock& block) {
       result.worstTime = run.study.motion.times[worst.row];
     }
   }
+}
+
+void estimateRequirements(Run& run) {
+  if (!run.ensemble || run.study.uncertain.empty() || !haveOneDistribution(run.study)) return;
+  if (!run.study.asksFor<IntervalResult>() && !run.study.asksFor<FuzzyResult>()) return;
+  std::vector<std::size_t> open;
+  for (std::size_t r = 0; r < run.study.requirements.size(); ++r)
+    if (rowOf(run.study.motion.times, run.study.requirements[r].until) >= run.enclosed.reachedTimes) open.push_back(r);
+  if (open.empty() || run.study.horizon == 0) return;
+  const double start = processCpuSeconds();
+  const Spending spending(run.spent.samples);
+  run.watch.begin(Watch::Stage::rest);
+  try {
+    if (run.study.ensemble.plan != Plan::random) sampleIndependently(run, open);
+  } catch (const std::bad_alloc&) {
+    run.watch.memoryFailed();
+  }
+  std::vector<std::vector<double>> coefficients;
+  std::vector<char> atZero;
+  for (const std::size_t r : open) {
+    RequirementResult& result = run.results.requirements[r];
+    const Requirement& requirement = run.study.requirements[r];
+    if (run.study.ensemble.plan == Plan::random) {
+      const std::int64_t followed = static_cast<std::int64_t>(run.ensemble->counted());
+      result.estimate = {followed, result.samples - result.violating, result.violating};
+    }
+    boundShare(result.estimate);
+    coefficients.push_back(run.worstMargins[r].coefficients());
+    atZero.push_back(std::ranges::find(requirement.isMetAtZero, 0) == requirement.isMetAtZero.end() ? 1 : 0);
+  }
+  const std::vector<double> shares =
+      sharesAboveZero(coefficients, atZero, run.problem.motion.uncertain, run.study.dependence, run.results.seed);
+  for (std::size_t i = 0; i < open.size(); ++i) run.results.requirements[open[i]].estimate.firstOrder = shares[i];
+  run.results.stochastic.cpu += processCpuSeconds() - start;
 }
 
 void countRequirements(Run& run) {

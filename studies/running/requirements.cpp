@@ -336,6 +336,7 @@ void stateRequirements(Run& run) {
     result.violation.assign(run.study.uncertain.size(), RequirementResult::unknown);
   }
   run.suspects.resize(run.study.requirements.size());
+  run.worstMargins.assign(run.study.requirements.size(), FirstOrder(run.problem.motion.uncertain));
 }
 
 void checkRequirements(Run& run) {

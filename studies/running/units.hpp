@@ -13,6 +13,7 @@
 #include "analyses/comparison/comparison.hpp"
 #include "analyses/probability/joint_masses.hpp"
 #include "analyses/samples/ensemble.hpp"
+#include "analyses/samples/first_order.hpp"
 #include "analyses/work.hpp"
 #include "studies/problem.hpp"
 #include "studies/results/results.hpp"
@@ -74,16 +75,17 @@ struct Run {
   Watch watch;
   Problem problem;
   Results results;
-  Spent spent;                          ///< by the units, as they end
-  Seen seen;                            ///< filled by `lookAtMachine`
-  Enclosed enclosed;                    ///< filled by `enclose`
-  std::vector<OutputScale> scales;      ///< filled by `takeFirstSamples`; empty where samples do not show them
-  std::vector<Suspects> suspects;       ///< of each requirement
-  std::optional<JointMasses> masses;    ///< of the quantities in the symbols of models; by `jointMasses`
-  std::vector<FlowSymbol> symbols;      ///< those symbols
-  std::string failure;                  ///< of the program itself, behind what was proved; empty if there was none
-  std::optional<FormerSamples> former;  ///< that are to come again; none unless the run goes on from others
-  std::optional<EnsembleRun> ensemble;  ///< there from `takeFirstSamples` on, unless it found no room
+  Spent spent;                           ///< by the units, as they end
+  Seen seen;                             ///< filled by `lookAtMachine`
+  Enclosed enclosed;                     ///< filled by `enclose`
+  std::vector<OutputScale> scales;       ///< filled by `takeFirstSamples`; empty where samples do not show them
+  std::vector<Suspects> suspects;        ///< of each requirement
+  std::vector<FirstOrder> worstMargins;  ///< of each requirement, by the first samples of the plan
+  std::optional<JointMasses> masses;     ///< of the quantities in the symbols of models; by `jointMasses`
+  std::vector<FlowSymbol> symbols;       ///< those symbols
+  std::string failure;                   ///< of the program itself, behind what was proved; empty if there was none
+  std::optional<FormerSamples> former;   ///< that are to come again; none unless the run goes on from others
+  std::optional<EnsembleRun> ensemble;   ///< there from `takeFirstSamples` on, unless it found no room
 };
 
 // An analysis has its unit, declared here and in the list below, behind what it needs.
@@ -104,6 +106,8 @@ void compareAnswers(Run& run);
 /// What is asked of the motion; then, of each requirement, how many samples meet it, and what is proved.
 void stateRequirements(Run& run);
 void countRequirements(Run& run);
+/// How probable it is that those are met whose windows last longer than anything is proved: by independent samples.
+void estimateRequirements(Run& run);
 /// Where the enclosure ended early: what would have let it come to the horizon, tried.
 void seekAdvice(Run& run);
 void checkRequirements(Run& run);
@@ -118,14 +122,17 @@ void encloseDerivatives(Run& run);
 void showSamples(Run& run);
 
 /// All units, in the order in which they run.
-inline constexpr void (*units[])(Run&) = {stateRequirements,  lookAtMachine,     takeFirstSamples,   enclose,
-                                          guarantee,          findPossibilities, takeOtherSamples,   countRequirements,
-                                          seekAdvice,         checkRequirements, boundProbabilities, compareShares,
-                                          encloseDerivatives, noteStop,          compareAnswers,     showSamples};
+inline constexpr void (*units[])(Run&) = {stateRequirements, lookAtMachine,      takeFirstSamples,
+                                          enclose,           guarantee,          findPossibilities,
+                                          takeOtherSamples,  countRequirements,  estimateRequirements,
+                                          seekAdvice,        checkRequirements,  boundProbabilities,
+                                          compareShares,     encloseDerivatives, noteStop,
+                                          compareAnswers,    showSamples};
 
 /// Those that samples ask for, where all else is there.
 inline constexpr void (*unitsOfSamples[])(Run&) = {
-    takeFirstSamples, takeOtherSamples, countRequirements, refuteRequirements, compareShares, noteStop, compareAnswers};
+    takeFirstSamples,   takeOtherSamples, countRequirements, estimateRequirements,
+    refuteRequirements, compareShares,    noteStop,          compareAnswers};
 
 /// Of the study's enclosure, as far as it decides how far that comes: without progress, models and alpha-cuts.
 FlowOptions enclosureOptions(const Run& run);

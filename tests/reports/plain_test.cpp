@@ -174,6 +174,33 @@ TEST(PlainRequirement, SaysHowFarItIsDecidedAndWhatMayHelp) {
   EXPECT_EQ(words.possible, "nothing is proved of the possibility");
 }
 
+TEST(PlainRequirement, IsEstimatedWhereTheProofEnds) {
+  Results results = withRequirement("always a > 1 m", "open");
+  results.interval.present = true;
+  results.interval.reached = 0.447;
+  RequirementResult& requirement = results.requirements.front();
+  requirement.metUntil = 0.44;
+  requirement.estimate = {4096, 4096, 0, 0.99909984, 1, 1};
+  const RequirementWords words = wordsOfRequirements(results).front();
+  EXPECT_EQ(words.verdict, "not proved behind 0.44 s");
+  EXPECT_EQ(words.estimated,
+            "of 4096 independent samples 4096 meet it at the output times: a probability of at least 0.99909 with 95 % "
+            "confidence (sampled, not proved); to first order more than 0.9999");
+  EXPECT_THAT(sentenceOf(results), HasSubstr("By simulated cases alone, which prove nothing, it is met with a "
+                                             "probability of at least 0.99909 (95 % confidence)."));
+  requirement.estimate = {1024, 640, 380, 0.59001, 0.66001, 0.625};
+  EXPECT_EQ(
+      wordsOfRequirements(results).front().estimated,
+      "of 1024 independent samples 640 meet it at the output times, 4 did not arrive: a probability of 0.59001 to "
+      "0.66001 with 95 % confidence (sampled, not proved); to first order 0.625");
+  requirement.metUntil = std::nan("");
+  EXPECT_EQ(wordsOfRequirements(results).front().verdict, "not proved");
+  requirement.until = 0.4;
+  EXPECT_EQ(wordsOfRequirements(results).front().verdict, "open");
+  requirement.word = "met";
+  EXPECT_EQ(wordsOfRequirements(results).front().estimated, "");
+}
+
 /// What ended the run says nothing against what is proved.
 TEST(PlainRequirement, GluesNoReasonToAViolationThatIsProved) {
   Results results = withRequirement("always a > 1 m", "partly");

@@ -75,6 +75,29 @@ TEST(Tube, CoversBothIntervalsThatMeetAtATime) {
   }
 }
 
+TEST(Plot, EstimatesBehindTheProofAlone) {
+  Results results = example::pendulum();
+  const auto hasEstimate = [&] {
+    const Plot plot = plotOf(results, 0);
+    return std::ranges::find(plot.layers, "estimated", &Layer::name) != plot.layers.end();
+  };
+  EXPECT_FALSE(hasEstimate());
+  results.interval.reached = 1.52;
+  ASSERT_TRUE(hasEstimate());
+  const Layer layer = layerNamed(plotOf(results, 0), "estimated");
+  EXPECT_EQ(layer.words, "estimated behind the proof, which ends at 1.52 s: where the samples are");
+  EXPECT_FALSE(layer.isProved);
+  for (std::size_t i = 0; i < results.time.size(); ++i) {
+    EXPECT_EQ(std::isnan(layer.bands[0].lower[i]), results.time[i] < 1.5) << results.time[i];
+    if (results.time[i] >= 1.5) {
+      EXPECT_EQ(layer.bands[0].upper[i], results.stochastic.envelope.upper(i, 0));
+    }
+  }
+  results.interval = {};
+  results.fuzzy = {};
+  EXPECT_FALSE(hasEstimate());
+}
+
 TEST(PlotAroundItsMiddle, KeepsWidthsAndLeavesTheTubeOut) {
   const Plot plot = plotOf(example::pendulum(), 0), around = aroundMiddle(plot);
   EXPECT_EQ(plot.middleName(), "the median");

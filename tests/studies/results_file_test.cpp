@@ -146,7 +146,7 @@ TEST_F(ResultsFile, OfAnOlderBuildIsRefusedWithItsFormat) {
     ADD_FAILURE() << "was read";
   } catch (const ResultsFileError& error) {
     EXPECT_EQ(error.what(), path_ +
-                                ": written in format 1 by an older build of gamut; expected format 9, so run the "
+                                ": written in format 1 by an older build of gamut; expected format 10, so run the "
                                 "study again");
   }
 }

@@ -144,6 +144,7 @@ inline Results sampleResults() {
   partly.worstMargin = -0.2;
   partly.advice = "interval.tightness = 1.005";
   partly.metUntil = 0.0075;
+  partly.estimate = {1024, 640, 380, 0.59, 0.66, 0.625};
   partly.violationLeast = 0.25;
   partly.violationMost = 0.5;
   DistributionResult& d = r.distribution;

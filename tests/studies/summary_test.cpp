@@ -66,6 +66,12 @@ TEST(JsonSummary, HasTheDocumentedKeys) {
   EXPECT_EQ(json["cost"]["total"], 2.25);
   EXPECT_EQ(json["cost"]["memory"], 1.5e9);
   EXPECT_EQ(json["limits"]["sample_time"], 18);
+  EXPECT_EQ(json["requirements"][0]["estimate"], nullptr);
+  EXPECT_EQ(json["requirements"][1]["estimate"], Json({{"samples", 1024},
+                                                       {"met", 640},
+                                                       {"violated", 380},
+                                                       {"confidence", Json::array({0.59, 0.66})},
+                                                       {"first_order", 0.625}}));
   EXPECT_EQ(json["alpha_cuts"]["method"], "extended");
   EXPECT_EQ(json["alpha_cuts"]["points"], 12);
   EXPECT_EQ(json["alpha_cuts"]["stepped"], Json::array());
