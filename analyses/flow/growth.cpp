@@ -78,14 +78,32 @@ double FlowGrowth::balance(double h) {
   return largest;
 }
 
+void FlowGrowth::setCentre(const std::vector<double>& centre, const std::vector<double>& spread) {
+  if (centre != centre_) centre_ = centre, followed_ = 0;
+  spread_ = spread;
+}
+
 bool FlowGrowth::compute(double h) {
   const bool isBalanced = balance(h) * bounds::up < 60;
   double fastest = 0;
   for (const double rate : diagonal_) fastest = std::max(fastest, -rate * h);
   isDamped_ = isBalanced && fastest > hardlyDamped;
-  const bool isComputed = isBalanced && (isDamped_ ? computeDamped(h) : sumSeries(h));
+  const bool isComputed = isBalanced && (isDamped_ ? computeDamped(h) : computePlain(h));
   std::fill(diagonal_.begin(), diagonal_.end(), undamped);
-  return isComputed;
+  isAbout_ = false;
+  if (centre_.empty() || isDamped_ || !(followed_ == h || follow(h))) return isComputed;
+  const double plain = growth_;
+  const std::vector<double> M0 = M0_, M1 = M1_, M2 = M2_;
+  isAbout_ = computeAbout(h);
+  if (!isComputed) return isAbout_;
+  const auto meet = [&](std::vector<double>& into, const std::vector<double>& other) {
+    for (std::size_t e = 0; e < into.size(); ++e) into[e] = isAbout_ ? std::min(into[e], other[e]) : other[e];
+  };
+  meet(M0_, M0);  // entry by entry: both bound one and the same linear system
+  meet(M1_, M1);
+  meet(M2_, M2);
+  growth_ = isAbout_ ? std::min(growth_, plain) : plain;
+  return true;
 }
 
 /// A few power iterations.
@@ -104,8 +122,29 @@ void FlowGrowth::estimateGrowth() {
   }
 }
 
-bool FlowGrowth::sumSeries(double h) {
+bool FlowGrowth::computePlain(double h) {
   estimateGrowth();
+  if (!sumSeries()) return false;
+  for (int i = 0; i < n_; ++i) M0_[at(i, i)] += 1;
+  toUnits(h);
+  return true;
+}
+
+/// From balanced units, in which h is 1.
+void FlowGrowth::toUnits(double h) {
+  for (int i = 0; i < n_; ++i)
+    for (int j = 0; j < n_; ++j) {
+      const std::size_t e = at(i, j);
+      const double back =
+          std::ldexp(bounds::up, unit_[static_cast<std::size_t>(i)] - unit_[static_cast<std::size_t>(j)]);
+      M2_[e] *= h * back;
+      M1_[e] *= h * back;
+      M0_[e] *= back;
+    }
+}
+
+/// e^X - I, and the two integrals, in M0, M1 and M2.
+bool FlowGrowth::sumSeries() {
   // P_k = X^k/(k+1)!; S0 = Σ_{k≥1} X^k/k!, S1 = Σ P_k, S2 = Σ c_k P_k with c_k = m!(k+1)!/(m+k+1)!, in M0, M1, M2.
   // Once P_k ≤ ε S1 and X S1 = S0 ≤ (k+1)/2 S1, entry by entry (S1 up to k-1, S0 up to k), P_{k+1} = X P_k/(k+2)
   // ≤ ε/2 S1 and so on: the terms beyond k add at most ε S1 to S1, 2ε S0 to S0, c_k ε S1 to S2.
@@ -135,18 +174,152 @@ bool FlowGrowth::sumSeries(double h) {
     }
     if (!small) continue;
     constexpr double rest = 1 + 4 * negligible;
-    for (int i = 0; i < n_; ++i)
-      for (int j = 0; j < n_; ++j) {
-        const std::size_t e = at(i, j);
-        const double back =
-            std::ldexp(bounds::up, unit_[static_cast<std::size_t>(i)] - unit_[static_cast<std::size_t>(j)]);
-        M2_[e] = (M2_[e] + c * 2 * negligible * M1_[e] + underflow) * h * back;
-        M1_[e] = (M1_[e] * rest + underflow) * h * back;
-        M0_[e] = (M0_[e] * rest + underflow) * back + (i == j ? bounds::up : 0.0);
-      }
+    for (std::size_t e = 0; e < power_.size(); ++e) {
+      M2_[e] = (M2_[e] + c * 2 * negligible * M1_[e] + underflow) * bounds::up;
+      M1_[e] = (M1_[e] * rest + underflow) * bounds::up;
+      M0_[e] = (M0_[e] * rest + underflow) * bounds::up;
+    }
     return true;
   }
   return false;
+}
+
+/// By powers of it.
+double FlowGrowth::exponentOf(const std::vector<double>& matrix) {
+  v_.assign(v_.size(), 1.0);
+  double exponent = 0;
+  for (int iteration = 0; iteration < 4; ++iteration) {
+    double most = 0;
+    for (int i = 0; i < n_; ++i) {
+      double row = 0;
+      for (int j = 0; j < n_; ++j) row += matrix[at(i, j)] * v_[static_cast<std::size_t>(j)];
+      w_[static_cast<std::size_t>(i)] = row;
+      most = std::max(most, row);
+    }
+    exponent = std::max(0.0, std::log(most));
+    for (std::size_t i = 0; i < v_.size(); ++i) v_[i] = w_[i] / most;
+  }
+  return exponent;
+}
+
+/// About Z = centre h: P ≥ |e^{Zt}| at every time t of [0, 1], Q1 ≥ ∫ |e^{Zt}|, Q2 ≥ ∫ |e^{Zt}| (1 - t)^m. F_j,
+/// computed powers of a series over 1/K, are off by no more than `off` in any row; between two of them an entry g of
+/// e^{Zt} leaves its chord by 1/(8K²) max|g''|, and g'' = Z² F_j e^{Zs} with |e^{Zs} - I| ≤ e^{‖Z‖/K} - 1 in any row.
+bool FlowGrowth::follow(double h) {
+  const double u = 3 * (n_ + 4) * bounds::unit;  // of a product, and sums of its size
+  std::vector<double> Z(centre_.size());
+  const auto norm = [&](const std::vector<double>& a) {
+    double most = 0;
+    for (int i = 0; i < n_; ++i) {
+      double row = 0;
+      for (int j = 0; j < n_; ++j) row += std::fabs(a[at(i, j)]);
+      most = std::isfinite(row) ? std::max(most, row) : row;
+    }
+    return most * bounds::up;
+  };
+  for (int i = 0; i < n_; ++i)
+    for (int j = 0; j < n_; ++j)
+      Z[at(i, j)] =
+          std::ldexp(centre_[at(i, j)] * h, unit_[static_cast<std::size_t>(j)] - unit_[static_cast<std::size_t>(i)]);
+  const double size = norm(Z);
+  constexpr double farthest = 16, piece = 0.25;
+  if (!(size < farthest)) return false;
+  const int K = 1 << std::max(3, std::ilogb(size / piece) + 1);
+  // The series to order 12: what is left is below piece^13/13!/(1 - piece), 3e-18.
+  std::vector<double> F(Z.size(), 0.0), E, square, turned;
+  for (int i = 0; i < n_; ++i) F[at(i, i)] = 1;
+  E = power_ = F;
+  constexpr int orders = 12;
+  for (int i = 1; i <= orders; ++i) {
+    multiply(Z, power_, next_);
+    for (std::size_t e = 0; e < E.size(); ++e) {
+      power_[e] = next_[e] / (i * static_cast<double>(K));
+      E[e] += power_[e];
+    }
+  }
+  // Term i has i products of n terms, with as many roundings more: (n + 2) u i ‖Z/K‖^i/i!, together below (n + 2) u;
+  // the rounding of Z itself u ‖Z/K‖ e^{‖Z/K‖}, those of the sum 12 u e^{‖Z/K‖}.
+  const double first = u + 16 * bounds::unit + 4e-18, step = norm(E);
+  const double turn = std::exp(size / K) * bounds::up - 1 + 0x1p-40;
+  multiply(Z, Z, square);
+  const double bend = 1.0 / (8.0 * K * K);
+  P_ = F;
+  Q1_.assign(F.size(), 0.0);
+  Q2_ = Q1_;
+  double off = 0, before = 1;  // (1 - t)^{m+1}
+  for (int k = 1; k <= K; ++k) {
+    multiply(square, F, turned);
+    const double after = k == K ? 0.0 : std::pow(1 - static_cast<double>(k) / K, m_ + 1);
+    const double weight = ((before - after) / (m_ + 1)) * bounds::up + 0x1p-50 * before;
+    before = after;
+    const double now = norm(F), behindOff = (step * (off + u * now) + first * (now + off)) * bounds::up;
+    multiply(E, F, next_);
+    for (int i = 0; i < n_; ++i) {
+      double row = 0;
+      for (int j = 0; j < n_; ++j) row += std::fabs(turned[at(i, j)]);
+      for (int j = 0; j < n_; ++j) {
+        const std::size_t e = at(i, j);
+        // Z² F_j: two products, and F_j's own error.
+        const double second = std::fabs(turned[e]) + turn * row + size * size * (2 * u * now + off) * (1 + turn);
+        const double leaves = bend * second + std::max(off, behindOff);
+        const double a = std::fabs(F[e]), b = std::fabs(next_[e]), most = (std::max(a, b) + leaves) * bounds::up;
+        P_[e] = std::max(P_[e], most);
+        Q1_[e] += (0.5 * (a + b) + leaves) / K * bounds::up;
+        Q2_[e] += most * weight;
+      }
+    }
+    off = behindOff;
+    F.swap(next_);
+  }
+  for (const double entry : P_)
+    if (!(entry < bounds::largest)) return false;
+  followed_ = h;
+  followedUnit_ = unit_;
+  return true;
+}
+
+/// y' = J y - δ about a centre Z, |J - Z| ≤ N: y = e^{Zt} y(0) + ∫ e^{Z(t-s)} ((J - Z) y - δ), so |y| stays below w
+/// with w = P |y(0)| + ∫ |e^{Z(t-s)}| |δ| + G ∫ w, G = P N. By Picard's iteration, ∫_0^t |e^{Zs}| ds ≤ P t and so on,
+///     M0 = e^G P,   M1 = Q1 + Σ_{k≥1} G^k/(k+1)! P,   M2 = Q2 + Σ_{k≥1} G^k m!/(m+k+1)! P .
+bool FlowGrowth::computeAbout(double h) {
+  const auto inUnits = [&](const std::vector<double>& a, std::vector<double>& to) {
+    to.resize(a.size());
+    for (int i = 0; i < n_; ++i)
+      for (int j = 0; j < n_; ++j) {
+        const auto row = static_cast<std::size_t>(i), column = static_cast<std::size_t>(j);
+        to[at(i, j)] = std::ldexp(a[at(i, j)], followedUnit_[row] - unit_[row] + unit_[column] - followedUnit_[column]);
+      }
+  };
+  std::vector<double> P, Q1, Q2, N(spread_.size());
+  inUnits(P_, P);
+  inUnits(Q1_, Q1);
+  inUnits(Q2_, Q2);
+  for (int i = 0; i < n_; ++i)
+    for (int j = 0; j < n_; ++j)
+      N[at(i, j)] =
+          std::ldexp(spread_[at(i, j)] * h, unit_[static_cast<std::size_t>(j)] - unit_[static_cast<std::size_t>(i)]);
+  multiply(P, N, X_);
+  for (int i = 0; i < n_; ++i) {
+    double row = 0;
+    for (int j = 0; j < n_; ++j) row += X_[at(i, j)] *= bounds::up;
+    if (!(row < 60)) return false;
+  }
+  if (!sumSeries()) return false;
+  std::vector<double> more;
+  for (int i = 0; i < n_; ++i) {
+    M0_[at(i, i)] += 1;
+    M1_[at(i, i)] = std::max(0.0, M1_[at(i, i)] - 1 + 0x1p-52);
+    M2_[at(i, i)] = std::max(0.0, M2_[at(i, i)] - 1.0 / (m_ + 1) + 0x1p-52);
+  }
+  multiply(M0_, P, more);
+  growth_ = exponentOf(more);
+  for (std::size_t e = 0; e < more.size(); ++e) M0_[e] = more[e] * bounds::up + underflow;
+  multiply(M1_, P, more);
+  for (std::size_t e = 0; e < more.size(); ++e) M1_[e] = (Q1[e] + more[e]) * bounds::up + underflow;
+  multiply(M2_, P, more);
+  for (std::size_t e = 0; e < more.size(); ++e) M2_[e] = (Q2[e] + more[e]) * bounds::up + underflow;
+  toUnits(h);
+  return true;
 }
 
 void FlowGrowth::multiply(const std::vector<double>& a, const std::vector<double>& b,
@@ -178,18 +351,7 @@ bool FlowGrowth::computeDamped(double h) {
     X_[at(i, i)] = std::max(0.0, b + rate) + (std::fabs(b) + rate) * 0x1p-50;
   }
   integrate(rate, M0_, M1_);
-  v_.assign(v_.size(), 1.0);
-  for (int iteration = 0; iteration < 4; ++iteration) {  // powers of e^B
-    double most = 0;
-    for (int i = 0; i < n_; ++i) {
-      double row = 0;
-      for (int j = 0; j < n_; ++j) row += M0_[at(i, j)] * v_[static_cast<std::size_t>(j)];
-      w_[static_cast<std::size_t>(i)] = row;
-      most = std::max(most, row);
-    }
-    growth_ = std::max(0.0, std::log(most));
-    for (std::size_t i = 0; i < v_.size(); ++i) v_[i] = w_[i] / most;
-  }
+  growth_ = exponentOf(M0_);
   integrate(rate + m_, power_, M2_);
   for (int i = 0; i < n_; ++i) X_[at(i, i)] = std::max(0.0, own[static_cast<std::size_t>(i)]) * bounds::up;
   multiply(X_, M1_, M0_);

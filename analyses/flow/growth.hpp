@@ -16,10 +16,14 @@ class FlowGrowth {
   double& A(int i, int j) { return A_[at(i, j)]; }
   /// ∂f_i/∂x_i at most, below zero where a state is damped; for the next `compute` alone, no more than A(i, i).
   double& diagonal(int i) { return diagonal_[static_cast<std::size_t>(i)]; }
+  /// A constant matrix with the sign of its entries, by row, and how far ∂f/∂x is from it, |∂f/∂x - centre| ≤ spread:
+  /// for the computes that follow; empty for none.
+  void setCentre(const std::vector<double>& centre, const std::vector<double>& spread);
   /// The matrices below for h seconds; false if the system grows by more than e^60. B is A, or, if damping decides
-  /// (isDamped), A with that diagonal.
+  /// (isDamped), A with that diagonal; about a centre they are those of its flow where that is less (isAbout).
   bool compute(double h);
   bool isDamped() const { return isDamped_; }
+  bool isAbout() const { return isAbout_; }
 
   double M0(int i, int j) const { return M0_[at(i, j)]; }  ///< ≥ e^{Bt} at every time t of the h seconds
   double M1(int i, int j) const { return M1_[at(i, j)]; }  ///< ≥ ∫ e^{Bt} over them, h Σ (Bh)^k/(k+1)!
@@ -35,16 +39,23 @@ class FlowGrowth {
   std::size_t at(int i, int j) const { return static_cast<std::size_t>(i * n_ + j); }
   double balance(double h);
   void estimateGrowth();
-  bool sumSeries(double h);
+  bool sumSeries();
+  void toUnits(double h);
+  bool computePlain(double h);
   bool computeDamped(double h);
+  bool computeAbout(double h);
+  bool follow(double h);
+  double exponentOf(const std::vector<double>& matrix);
   void integrate(double rate, std::vector<double>& exponential, std::vector<double>& integral);
   void multiply(const std::vector<double>& a, const std::vector<double>& b, std::vector<double>& product) const;
 
   int n_, m_;
   double growth_ = 0;
-  bool isDamped_ = false;
-  std::vector<int> unit_;
-  std::vector<double> A_, diagonal_, M0_, M1_, M2_, X_, power_, next_, v_, w_;
+  bool isDamped_ = false, isAbout_ = false;
+  std::vector<int> unit_, followedUnit_;
+  std::vector<double> A_, diagonal_, M0_, M1_, M2_, X_, power_, next_, v_, w_, centre_, spread_;
+  double followed_ = 0;              // seconds that the centre's flow is known for
+  std::vector<double> P_, Q1_, Q2_;  // |e^{centre t}| at most, its integral, and that against (1 - t/h)^m, h = 1
 };
 
 }  // namespace gamut

@@ -166,6 +166,8 @@ class PolynomialSeries {
   double jacobianBound(int i, int j) const;
   /// ∂f_i/∂x_i there at most.
   double dampingBound(int i) const;
+  /// A number about which ∂f_i/∂x_j is there, and by how much it may differ, over θ of the scale.
+  double jacobianCentre(int i, int j, double theta, double& spread) const;
   /// |Ψ̃' - (∂f/∂x)Ψ̃|_{ij} ≤ ν0 + ν1 (σ/θ)^m on the set that was bounded last.
   void frameDefect(int i, int j, double& nu0, double& nu1) const;
   /// ‖Ψ̃_ij‖, and of what depends on ξ: ‖ṽ‖ and ‖Ψ̃_ij‖ without the grade 0.

@@ -366,6 +366,16 @@ double PolynomialSeries::dampingBound(int i) const {
   return c < 0 ? bound * (1 + 0x1p-50) - 2 * std::fabs(c) * bounds::down : bound;
 }
 
+/// a + ½bθ of the coefficients a + bσ of 1; |a| + ½|b|θ of the norm is then no part of the spread, but for two
+/// roundings.
+double PolynomialSeries::jacobianCentre(int i, int j, double theta, double& spread) const {
+  const Plan& v = plan_[at(outputs_[at(n_ + i * n_ + j)])];
+  const double a = f_[v.f], b = v.constant || last() < 1 ? 0.0 : 0.5 * theta * f_[v.f + 1];
+  const double bound = jacobianBound(i, j), known = (std::fabs(a) + std::fabs(b)) * bounds::down;
+  spread = bound > 0 ? std::max(0.0, bound * (1 + 0x1p-50) - known) + bound * 0x1p-50 : 0.0;
+  return a + b;
+}
+
 void PolynomialSeries::frameDefect(int i, int j, double& nu0, double& nu1) const {
   double z0 = 0, z1 = 0, rounding = 0;
   int terms = 0;

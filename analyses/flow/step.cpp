@@ -17,8 +17,8 @@ using detail::at;
 namespace {
 
 /// ρ(A)h at most. What is cut off beyond the degree grows so in the comparison too: of many symbols, whose degrees are
-/// dear, in shorter steps.
-constexpr double mostGrowth = 4, mostGrowthOfMany = 2;
+/// dear, in shorter steps, and likewise where errors are compared about a centre (measured: 0.5 to 1.2 alike).
+constexpr double mostGrowth = 4, mostGrowthOfMany = 2, mostGrowthAbout = 0.8;
 constexpr int many = 4;
 /// Likewise where steps leave over more than their share of what inputs do.
 constexpr double mostGrowthOfInputs = 0.08;
@@ -113,14 +113,23 @@ bool FlowStepper::boundGrowth(double h) {
     for (int j = 0; j < n_; ++j) growth_.A(i, j) = series_.jacobianBound(i, j);
   if (mayDamp())
     for (int i = 0; i < n_; ++i) growth_.diagonal(i) = series_.dampingBound(i);
+  if (isSmooth() && monomials().symbols() >= many) {
+    std::vector<double> centre(at(n_ * n_)), spread(at(n_ * n_));
+    for (int i = 0; i < n_; ++i)
+      for (int j = 0; j < n_; ++j)
+        centre[at(i * n_ + j)] = series_.jacobianCentre(i, j, h / h0_, spread[at(i * n_ + j)]);
+    growth_.setCentre(centre, spread);
+  } else {
+    growth_.setCentre({}, {});
+  }
   return growth_.compute(h);
 }
 
 /// What kinks, jumps and inputs add is bounded beside a comparison that grows with time (crossing.cpp, inputs.cpp). Of
 /// many symbols short steps keep truncation low that is not of time (measured: half a car at rest before a bump).
-bool FlowStepper::mayDamp() const {
-  return !own_ && !holding_ && !kinks_ && !series_.hasKinks() && inputs_.empty() && monomials().symbols() < many;
-}
+bool FlowStepper::mayDamp() const { return isSmooth() && monomials().symbols() < many; }
+
+bool FlowStepper::isSmooth() const { return !own_ && !holding_ && !kinks_ && !series_.hasKinks() && inputs_.empty(); }
 
 bool FlowStepper::tryStep(const FlowSet& set, double theta) {
   const double h = theta * h0_;  // exact: h0 is a power of two
@@ -282,6 +291,9 @@ bool FlowStepper::isRemainderTooLarge(const FlowSet& set) const {
         width += unit * std::fabs(p[g]) * (1 / set.half[l] - 1);
     size += unit * std::fabs(p[0]);
   }
+  bool isHeard = !scales_;  // of a machine at rest, beside what it will be
+  for (int i = 0; i < n_; ++i) isHeard = isHeard || remainderOf(set, i, total) > heard * scales_->of(at(i), set.t);
+  if (!isHeard) return false;
   // What does not vary with ξ is no matter of truncation.
   return remainder > tooLarge * width && remainder > 1e-9 * size && width > 1e-6 * remainder;
 }
@@ -483,23 +495,25 @@ StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum,
       compute();
     }
     if (tryStep(set, h / h0_)) {
-      if (timeError_ > 5 * tolerance_ && attempt < 3) {
+      const int patience = growth_.isDamped() || monomials().symbols() >= many ? 12 : 3;  // growth says little of both
+      if (timeError_ > 5 * tolerance_ && attempt < patience) {
         const double factor = std::pow(tolerance_ / timeError_, 1.0 / (m_ + 1));
         caution_ *= factor;
         h *= factor;
         continue;
       }
       // Of a machine at rest it is errors that move, faster than it does itself; of a damped one as well.
-      const bool asksForFrame = growth_.isDamped() ? attempt < 12 : series_.count() > 1 && attempt < 3;
-      if (asksForFrame && frameError_ > mostOfFrame) {
+      const bool asksForFrame = growth_.isDamped() || series_.count() > 1;
+      if (asksForFrame && attempt < patience && frameError_ > mostOfFrame) {
         h *= std::max(0.25, 0.9 * std::pow(mostOfFrame / frameError_, 1.0 / (m_ + 1)));
         continue;
       }
       // Stiff, or so much is left over: the comparison with |Df| would lose a factor e^{growth} a step.
-      const double most = inputs_.empty() || !isLooserThanDriven()
-                              ? (monomials().symbols() < many ? mostGrowth : mostGrowthOfMany)
-                              : mostGrowthOfInputs;
-      if (growth_.growth() > most && attempt < 3) {
+      const double most = inputs_.empty() || !isLooserThanDriven() ? (monomials().symbols() < many ? mostGrowth
+                                                                      : growth_.isAbout()          ? mostGrowthAbout
+                                                                                                   : mostGrowthOfMany)
+                                                                   : mostGrowthOfInputs;
+      if (growth_.growth() > most && attempt < patience) {
         h *= 0.75 * most / growth_.growth();
         continue;
       }

@@ -88,6 +88,7 @@ class FlowStepper {
   bool drift(FlowSet& set, double end, std::vector<double>& turned);
   /// Whether the step's comparison knew the sign of what damps the motion (FlowGrowth).
   bool isDamped() const { return growth_.isDamped(); }
+  bool isAboutCentre() const { return growth_.isAbout(); }
   /// How many jumps and kinks all solutions pass in the step, or come to before the horizon.
   std::size_t crossings() const { return crossings_.size(); }
   /// After a failure: what could not be proved, of which state.
@@ -156,6 +157,7 @@ class FlowStepper {
   void evaluateInputs(const FlowSet& set, const std::vector<double>& columns, FlowPoint& point) const;
   bool boundGrowth(double h);
   bool mayDamp() const;
+  bool isSmooth() const;
   double dampedStep() const;
   double worstColumn(const FlowSet& set) const;
   bool tryStep(const FlowSet& set, double theta);

@@ -242,7 +242,8 @@ void FlowStepper::boundDerivatives() {
 void FlowStepper::sag(double from, double to, std::vector<Interval>& bound) const {
   bound.clear();
   for (int i = 0; i < n_; ++i) {  // in σ, exactly; what is damped is no convex function of time
-    double besides = growth_.isDamped() ? looseBound(i) : (driven_[at(i)] + inputs_.rest(i)) * bounds::up;
+    double besides =
+        growth_.isDamped() || growth_.isAbout() ? looseBound(i) : (driven_[at(i)] + inputs_.rest(i)) * bounds::up;
     if (!bent_.empty()) besides = (besides + bent_[at(i)]) * bounds::up;
     bound.push_back(
         inflated(series_.sag(i, from / h0_, to / h0_, second_[at(i)], third_[at(i)], turn_[at(i)]), besides));

@@ -758,6 +758,39 @@ TEST(FlowStep, HoldsEveryTrajectoryOfDampedMotionsAtEveryTime) {
   EXPECT_GT(longSteps, 5);
 }
 
+/// Of four symbols and more, errors are compared about the flow at the centre.
+TEST(FlowStep, HoldsEveryTrajectoryOfWhatTurnsAtEveryTime) {
+  const Program f = record(4, 3, [](auto t, const auto& x, const auto& p, auto& dx) {
+    dx[0] = x[2];
+    dx[1] = x[3];
+    dx[2] = -p[0] * sin(x[0]) + p[1] * (x[1] - x[0]) - 10.0 * x[2];
+    dx[3] = -p[2] * x[1] * (1.0 + 0.2 * sqr(x[1])) + p[1] * (x[0] - x[1]) + sin(3.0 * t);
+  });
+  Points points(31);
+  int steps = 0, about = 0;
+  for (int round = 0; round < 12; ++round) {
+    Scene scene(f, points.integer(4, 6), points.integer(1, 3), points.integer(0, 2), points.integer(8, 20),
+                std::pow(10.0, -points.integer(3, 12)), points);
+    const double R = std::pow(10.0, -points.integer(3, 14)) * points.integer(0, 1);
+    scene.fill({0.3, -0.2, 1, 2, 900, 100, 400}, std::pow(10.0, -points.integer(1, 5)), R, points.integer(0, 3),
+               std::pow(10.0, -points.integer(4, 14)), R * 0.1);
+    if (scene.stepper.certify(scene.set, horizon, quantum, 0, 0) != StepOutcome::stepped) continue;
+    ++steps;
+    about += scene.stepper.isAboutCentre() ? 1 : 0;
+    Reference reference(f);
+    scene.expectTrajectoriesInside(3, reference, {0.0, 1e-3, 0.02, 0.1, 0.3, 0.7, 1.0});
+    if (HasFatalFailure()) return;
+    std::vector<Interval> sag;
+    scene.stepper.sag(0, std::ldexp(scene.stepper.h(), -40), sag);  // so short that nothing curves
+    for (int i = 0; i < scene.n && scene.stepper.isAboutCentre(); ++i) {
+      const double loose = scene.stepper.looseBound(i);
+      ASSERT_TRUE(isSubset(Interval(-loose, loose), sag[at(i)])) << "state " << i;
+    }
+  }
+  EXPECT_GT(steps, 6);
+  EXPECT_GT(about, 5);
+}
+
 TEST(FlowStep, RefusesAStepWhoseTubeIsNotProved) {
   constexpr int links = 6;
   const Program f = record(links, 0, [](auto, const auto& x, const auto&, auto& dx) {

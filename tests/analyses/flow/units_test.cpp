@@ -158,6 +158,108 @@ TEST(FlowGrowth, KnowsWhatDecaysFromWhatGrows) {
   EXPECT_GT(growth.M0(0, 0), 1e17);
 }
 
+Matrix operator*(const Matrix& a, const Matrix& b) {
+  Matrix product(a.size(), Vector(a.size(), Precise(0.0)));
+  for (std::size_t i = 0; i < a.size(); ++i)
+    for (std::size_t j = 0; j < a.size(); ++j)
+      for (std::size_t l = 0; l < a.size(); ++l) product[i][j] += a[i][l] * b[l][j];
+  return product;
+}
+
+/// y' = J(t) y - δ with J(t) anything within `spread` of a centre, here another matrix in each part of the step, at its
+/// ends mostly; what δ of the worst signs does, constant in each part and no more than 1, or (t/h)^m.
+TEST(FlowGrowth, BoundsWhatIsAboutACentreForEveryJacobianInTheSpread) {
+  Points points(7);
+  constexpr int parts = 24;
+  int about = 0;
+  for (int round = 0; round < 120; ++round) {
+    SCOPED_TRACE("round " + std::to_string(round));
+    const int n = points.integer(1, 5), m = points.integer(4, 30);
+    const double h = std::pow(2.0, points.integer(-20, 20)), size = points.uniform(0.01, 4),
+                 density = points.uniform(0.2, 1), share = round % 4 == 0 ? 0 : points.uniform(0, 0.3);
+    std::vector<int> exponent;
+    for (int i = 0; i < n; ++i) exponent.push_back(points.integer(-20, 20));
+    FlowGrowth growth(n, m);
+    std::vector<double> centre(at(n * n)), spread(at(n * n));
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j) {
+        const double entry = points.uniform(0, 1) < density ? size * points.uniform(-1, 1) : 0.0;
+        centre[at(i * n + j)] = std::ldexp(entry / h, exponent[at(i)] - exponent[at(j)]);
+        spread[at(i * n + j)] = share * std::fabs(centre[at(i * n + j)]);
+        growth.A(i, j) = (std::fabs(centre[at(i * n + j)]) + spread[at(i * n + j)]) * (1 + 0x1p-50);
+      }
+    growth.setCentre(centre, spread);
+    ASSERT_TRUE(growth.compute(h));
+    about += growth.isAbout() ? 1 : 0;
+    // Backwards from the end: K(h, t_k) and the integrals over the parts before.
+    std::vector<Matrix> step, integral;
+    for (int k = 0; k < parts; ++k) {
+      Matrix J(at(n), Vector(at(n), Precise(0.0)));
+      for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j) {
+          const double side = points.integer(0, 3) == 0 ? points.uniform(-1, 1) : points.integer(0, 1) * 2 - 1;
+          J[at(i)][at(j)] =
+              (Precise(centre[at(i * n + j)]) + Precise(side) * Precise(spread[at(i * n + j)])) * Precise(h / parts);
+        }
+      step.push_back(series(J, -1, Precise(1.0)));
+      integral.push_back(series(J, 0, Precise(h / parts)));
+    }
+    Matrix now(at(n), Vector(at(n), Precise(0.0)));
+    for (int i = 0; i < n; ++i) now[at(i)][at(i)] = 1;
+    Matrix left = now, M1(at(n), Vector(at(n), Precise(0.0))), M2 = M1;
+    for (int k = 0; k < parts; ++k) {
+      now = step[at(k)] * now;
+      const Matrix behind = left * integral[at(parts - 1 - k)];
+      const Precise least(pow(Precise(static_cast<double>(parts - 1 - k) / parts), m));
+      for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j) {
+          ASSERT_GE(Precise(growth.M0(i, j)), abs(now[at(i)][at(j)])) << "at " << k;
+          M1[at(i)][at(j)] += abs(behind[at(i)][at(j)]);
+          M2[at(i)][at(j)] += abs(behind[at(i)][at(j)]) * least;
+        }
+      left = left * step[at(parts - 1 - k)];
+    }
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j) {
+        ASSERT_GE(Precise(growth.M1(i, j)), M1[at(i)][at(j)]);
+        ASSERT_GE(Precise(growth.M2(i, j)), M2[at(i)][at(j)]);
+        if (share == 0 && growth.isAbout() && n == 1) {
+          EXPECT_LE(Precise(growth.M1(i, j)), Precise(M1[at(i)][at(j)] * 1.02));
+        }
+      }
+  }
+  EXPECT_GT(about, 60);
+}
+
+/// Of an oscillator |e^{Zt}| stays below 1 where e^{|Z|t} grows by e^4; no bound of it, or of another length of time,
+/// is left over for the next.
+TEST(FlowGrowth, KnowsWhatTurnsFromWhatGrows) {
+  FlowGrowth growth(2, 20);
+  const auto compute = [&](double rate, double h) {
+    growth.A(0, 1) = growth.A(1, 0) = rate;
+    return growth.compute(h);
+  };
+  growth.setCentre({0, 4, -4, 0}, {0, 0, 0, 0});
+  ASSERT_TRUE(compute(4, 1));
+  EXPECT_TRUE(growth.isAbout());
+  EXPECT_LT(growth.M0(0, 0), 1.02);
+  EXPECT_LT(growth.M1(0, 1), 0.75);  // ∫ |sin 4t| over [0, 1] is 0.67
+  EXPECT_LT(growth.growth(), 1);
+  ASSERT_TRUE(compute(4, 0.25));
+  EXPECT_GT(growth.M0(0, 1), 0.84);  // sin 1
+  EXPECT_LT(growth.M0(0, 1), 0.87);
+  growth.setCentre({0, 8, -8, 0}, {0, 0, 0, 0});
+  ASSERT_TRUE(compute(8, 0.25));
+  EXPECT_GT(growth.M0(0, 1), 0.99);
+  growth.setCentre({0, 8, -8, 0}, {0, 1, 1, 0});
+  ASSERT_TRUE(compute(9, 0.25));
+  EXPECT_GT(growth.M0(0, 0), 1.1);
+  growth.setCentre({}, {});
+  ASSERT_TRUE(compute(4, 1));
+  EXPECT_FALSE(growth.isAbout());
+  EXPECT_GT(growth.M0(0, 0), 27);  // cosh 4
+}
+
 TEST(FlowGrowth, RefusesWhatGrowsTooMuch) {
   FlowGrowth growth(2, 20);
   growth.A(0, 0) = growth.A(0, 1) = growth.A(1, 0) = growth.A(1, 1) = 40;
