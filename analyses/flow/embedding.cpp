@@ -56,19 +56,35 @@ bool restrictTo(const Box& level, const Embedding& embedding, const std::vector<
   return true;
 }
 
-std::vector<int> degreeLadder(const std::vector<int>& weights) {
+namespace {
+
+/// How many monomials there are.
+double countOf(const std::vector<int>& weights, int degree) {
+  std::vector<double> count(at(degree + 1), 0.0);  // of each grade
+  count[0] = 1;
+  for (const int weight : weights)
+    for (int grade = std::min(weight, degree); grade <= degree; ++grade)
+      count[at(grade)] += count[at(grade - std::min(weight, degree))];
+  return std::accumulate(count.begin(), count.end(), 0.0);
+}
+
+}  // namespace
+
+double pairsOf(const std::vector<int>& weights, int degree) {
+  std::vector<int> both = weights;
+  both.insert(both.end(), weights.begin(), weights.end());
+  return countOf(both, degree);
+}
+
+std::vector<int> degreeLadder(const std::vector<int>& weights, int single) {
   if (weights.empty()) return {0};
   static constexpr int highest[] = {16, 16, 12, 10};
-  constexpr double mostMonomials = 2000;
+  constexpr double mostMonomials = 2000, mostOfSingle = 8100;
   const auto active = std::ranges::count(weights, 1);
   std::vector<int> ladder;
   for (int degree : {2, 3, 4, 5, 6, 7, 8, 9, 10, 12, 16}) {
-    std::vector<double> count(at(degree + 1), 0.0);  // of monomials of each grade
-    count[0] = 1;
-    for (const int weight : weights)
-      for (int grade = std::min(weight, degree); grade <= degree; ++grade)
-        count[at(grade)] += count[at(grade - std::min(weight, degree))];
-    if (std::accumulate(count.begin(), count.end(), 0.0) > mostMonomials) break;
+    if (single > 0 && degree > single) break;
+    if (countOf(weights, degree) > (single > 0 ? mostOfSingle : mostMonomials)) break;
     if (active > 3 || (degree % 2 == 0 && degree <= highest[active])) ladder.push_back(degree);
   }
   if (ladder.empty()) ladder.push_back(1);
@@ -122,6 +138,13 @@ Emphasis emphasisOf(const std::vector<Influence>& influence, double negligible, 
   }
   emphasis.effective = squares > 0 ? carried * carried / squares : static_cast<double>(influence.size());
   return emphasis;
+}
+
+int frameDegreeOfSingle(const std::vector<int>& weights, int degree) {
+  constexpr double most = 350;
+  int frame = std::min(4, degree);
+  while (frame > 1 && countOf(weights, frame) > most) --frame;
+  return frame;
 }
 
 int automaticFrameDegree(int symbols, int degree) {

@@ -192,7 +192,7 @@ void FlowFollower::changeLayout(FlowPiece& piece, std::size_t to) {
 /// halving all of the k' symbols that matter divides by 2^(d+1) and makes 2^k' pieces.
 bool FlowFollower::isDegreeWorthwhile(const FlowPiece& piece, StepOutcome outcome) const {
   const Monomials &now = *task_.layouts[piece.layout].monomials, &next = *task_.layouts[piece.layout + 1].monomials;
-  if (outcome == StepOutcome::failed || now.degree() < 3 || !task_.options.split) return true;
+  if (outcome == StepOutcome::failed || now.degree() < 3 || !task_.mayBisect) return true;
   const GradeDecay decay = tool_->stepper.decay();
   const double gain = (next.degree() - now.degree()) * -std::log(std::min(decay.ratio, 1.0));
   const double cost = std::log(static_cast<double>(next.pairs().size()) / static_cast<double>(now.pairs().size()));

@@ -208,7 +208,7 @@ void FlowRun::fail(const FlowPiece& piece, double t, FlowCause cause) {
   if (piece.refusedAt != t || !mayBeCured) return;  // by bisection
   if (!task_.options.split) cause_ = {unsplit, cause_.what};
   // What so many pieces do not keep away from an edge comes to it.
-  if (task_.options.split && cause_.kind != edge) cause_ = {pieces, cause_.what, task_.options.maxPieces};
+  if (task_.mayBisect && cause_.kind != edge) cause_ = {pieces, cause_.what, task_.options.maxPieces};
 }
 
 void FlowRun::abandon(const FlowPiece& piece) {

@@ -85,7 +85,7 @@ class FlowRun {
   /// What is left over of a piece is so much that this run cannot become tight: a tighter one comes.
   void abandon(const FlowPiece& piece);
   /// Whether more pieces were allowed when the turn began.
-  bool mayBisect() const { return task_.options.split && pieces_ < mostPieces_; }
+  bool mayBisect() const { return task_.mayBisect && pieces_ < mostPieces_; }
 
  private:
   /// A piece, and how it went in this turn.

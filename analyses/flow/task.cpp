@@ -58,6 +58,7 @@ FlowTask::FlowTask(const FlowQuestion& question, const Box& startBox, const std:
       horizon(question.horizon),
       effective(round.emphasis.weights.empty() ? embedding.symbols : round.emphasis.effective),
       isLast(round.isLast),
+      mayBisect(question.options.split && round.single == 0),
       richer(round.richer),
       scales(round.scales) {
   varying = parametersOf(options.varying);
@@ -84,16 +85,17 @@ FlowTask::FlowTask(const FlowQuestion& question, const Box& startBox, const std:
   std::vector<int> weights(at(embedding.symbols), 1);
   if (!round.emphasis.weights.empty()) std::ranges::remove_copy(round.emphasis.weights, weights.begin(), 0);
   active = static_cast<int>(std::ranges::count(weights, 1));
-  std::vector<int> ladder = degreeLadder(weights);
+  std::vector<int> ladder = degreeLadder(weights, round.single);
   if (options.degree >= 0 && embedding.symbols > 0) ladder = {options.degree};
   for (int degree : ladder) {
     requireThat(embedding.symbols == 0 || degree >= 1, "uncertain quantities need polynomials of degree one at least");
     std::vector<int> capped;  // every symbol keeps its first power
     for (const int weight : weights) capped.push_back(std::min(weight, degree));
+    const int rough = round.tighter == 1 && active > 4 ? 2 : degree, frame = automaticFrameDegree(active, degree);
     layouts.push_back({std::make_shared<const Monomials>(capped, degree),
-                       options.frameDegree >= 0
-                           ? std::min(options.frameDegree, degree)
-                           : std::min(round.tighter == 1 && active > 4 ? 2 : 9, automaticFrameDegree(active, degree))});
+                       options.frameDegree >= 0 ? std::min(options.frameDegree, degree)
+                       : round.isRich           ? frameDegreeOfSingle(weights, degree)
+                                                : std::min(rough, frame)});
   }
   degrees = layouts.size();
   if (auto expanded = options.degree < 0 ? expandedMonomials(embedding.symbols, motion.states()) : nullptr) {

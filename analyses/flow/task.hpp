@@ -46,6 +46,8 @@ struct FlowRound {
   double finer = 1;                               ///< so is the tolerance
   std::size_t richer = 0;                         ///< the outputs' layout is so many further on
   bool isLast = true;                             ///< no tighter run comes
+  bool isRich = false;                            ///< errors keep more powers of ξ
+  int single = 0;                                 ///< if not 0: one piece, of up to this degree
   Emphasis emphasis;                              ///< none: every symbol alike
   std::shared_ptr<const FlowScales> scales = {};  ///< null: they are not known
 };
@@ -83,7 +85,7 @@ struct FlowTask {
   int order = 0, active = 0;  // symbols of weight 1
   int fineOrders = 0;         // in double-double, without symbols: where rounding would limit the width
   double effective;           // Emphasis
-  bool isLast;
+  bool isLast, mayBisect;
   std::vector<int> varying;                  // parameters that are inputs
   std::vector<FlowLayout> layouts;           // degrees rising, then the expanded one
   std::size_t degrees = 0;                   // how many are not expanded
