@@ -247,6 +247,7 @@ bool FlowGrowth::follow(double h) {
   Q1_.assign(F.size(), 0.0);
   Q2_ = Q1_;
   double off = 0, before = 1;  // (1 - t)^{m+1}
+  followed_ = 0;
   for (int k = 1; k <= K; ++k) {
     multiply(square, F, turned);
     const double after = k == K ? 0.0 : std::pow(1 - static_cast<double>(k) / K, m_ + 1);

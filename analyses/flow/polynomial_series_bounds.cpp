@@ -372,7 +372,7 @@ double PolynomialSeries::jacobianCentre(int i, int j, double theta, double& spre
   const Plan& v = plan_[at(outputs_[at(n_ + i * n_ + j)])];
   const double a = f_[v.f], b = v.constant || last() < 1 ? 0.0 : 0.5 * theta * f_[v.f + 1];
   const double bound = jacobianBound(i, j), known = (std::fabs(a) + std::fabs(b)) * bounds::down;
-  spread = bound > 0 ? std::max(0.0, bound * (1 + 0x1p-50) - known) + bound * 0x1p-50 : 0.0;
+  spread = bound == 0 ? 0.0 : std::max(0.0, bound * (1 + 0x1p-50) - known) + bound * 0x1p-50;
   return a + b;
 }
 

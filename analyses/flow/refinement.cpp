@@ -159,7 +159,8 @@ void addTo(Tube& best, double& looseness, Tube tube, double ofTube) {
 /// the 2^k pieces that halving k of them takes (measured: machines with six tolerances of 5 to 15 %).
 class SinglePiece {
  public:
-  static constexpr std::size_t leastSymbols = 5;
+  /// More are not bisected for their width, so that no threshold raises degrees.
+  static bool suits(const Emphasis& emphasis) { return emphasis.weights.size() > 4 && emphasis.effective <= 8; }
 
   SinglePiece(const FlowQuestion& question, const Box& box, const std::vector<Box>& levels, Weighing& weighing)
       : question_(question), box_(box), levels_(levels), weighing_(weighing) {}
@@ -244,7 +245,7 @@ Tube refine(const FlowQuestion& question, const Box& box, const std::vector<Box>
   round.isLast = false;
   const double spentBefore = question.budget.spent;
   const bool mayBeSingle = question.options.split && question.options.degree < 0 && question.options.varying.empty();
-  if (mayBeSingle && weighing.emphasis().weights.size() >= SinglePiece::leastSymbols) {
+  if (mayBeSingle && SinglePiece::suits(weighing.emphasis())) {
     SinglePiece single(question, box, levels, weighing);
     if (single.follow(best, looseness)) {
       FlowRun::charge(best, weighing.cpuSeconds());
@@ -300,7 +301,8 @@ Tube refine(const FlowQuestion& question, const Box& box, const std::vector<Box>
         const double hidden = run.hiddenDefect(reached);
         round.tighter *= factor * (hidden > 0 ? std::clamp(task.splitDefect / hidden, 1.0, mostHidden) : 1.0);
       }
-      if (run.timeShare() > hardly) round.finer *= factor;
+      // The greatest share is of the whole motion; where less truncation helped nowhere, it was not to blame.
+      if (run.timeShare() > hardly || isNoBetter) round.finer *= factor;
     } else if (run.isAbandoned()) {
       round.isLast = true;  // the same once more, as far as it comes
     } else {

@@ -101,9 +101,9 @@ TEST_F(DamagedResults, SayWhatIsWrong) {
             path + ": damaged: its 5000 bytes are not as many as it says" + expected);
   EXPECT_EQ(complaint(sealed(whole_.substr(0, 600)), verdict), path + ": damaged: the file cannot be read" + expected);
   std::string newer = whole_;
-  newer.replace(newer.find("format 9"), 8, "format 10");
+  newer.replace(newer.find("format 10"), 9, "format 11");
   EXPECT_EQ(complaint(newer, verdict),
-            path + ": written in format 10 by a newer build of gamut; expected format 9, so use that build");
+            path + ": written in format 11 by a newer build of gamut; expected format 10, so use that build");
 }
 
 }  // namespace
