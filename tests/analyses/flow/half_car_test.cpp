@@ -63,5 +63,15 @@ TEST(HalfCar, ItDoesNotMatterWhenTheBumpComes) {
   }
 }
 
+// With bisection alone the first takes 8 pieces, and the second ends before its bump comes.
+TEST(HalfCar, TolerancesOfPracticeNeedOnePieceWithoutBeingTold) {
+  for (const double place : {0.5, 4.0}) {
+    const Tube tube = Flow(halfCar(place)).enclose(carWithin(1), 1.5, {0.5, 1});
+    EXPECT_EQ(tube.why(), "") << place;
+    EXPECT_LE(tube.tightness(), 1.02) << place;
+    EXPECT_EQ(tube.pieces(), 1) << place;
+  }
+}
+
 }  // namespace
 }  // namespace gamut::testing
