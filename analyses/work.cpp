@@ -7,6 +7,7 @@ namespace gamut {
 // right to some 30 %, of edges and of samples to a factor.
 const double Work::unitsOf[kinds] = {
     2.6,    // convolvedRow
+    3.0,    // seriesProduct
     1.0,    // multipliedPair
     1.6,    // coefficient
     25.0,   // boundedNode

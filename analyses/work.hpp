@@ -15,6 +15,7 @@ class Work {
   /// measured: on another one the same work takes another time.
   enum Kind : std::uint32_t {
     convolvedRow,      ///< of a product of two series: a pair of monomials, eight orders with eight
+    seriesProduct,     ///< of a product of two series: a pair of monomials, eight orders with eight, all at once
     multipliedPair,    ///< of a product of polynomials: a pair of monomials
     coefficient,       ///< of series: a coefficient that is computed, stored or bounded
     boundedNode,       ///< of a certificate: a node

@@ -3,15 +3,8 @@
 
 #include <algorithm>
 
+#include "analyses/flow/vector_clones.hpp"
 #include "analyses/work.hpp"
-
-// One clone for AVX-512, one for FMA3, one for the baseline, chosen when the program starts.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
-#define GAMUT_CLONES __attribute__((target_clones("avx512f", "fma", "default")))
-#else
-#define GAMUT_CLONES
-#endif
-#define GAMUT_INLINE inline __attribute__((always_inline))
 
 namespace gamut::kernels {
 namespace {
@@ -95,15 +88,14 @@ GAMUT_CLONES void convolve(const Monomials::Pair* pairs, const std::int32_t* fir
 }
 
 void multiply(const Monomials& monomials, int count, const double* c, const double* x, int stride, double* out) {
-  const Monomials::Pair* multiples = monomials.multiples().data();
-  const std::int32_t* first = monomials.firstMultiple().data();
   double pairs = 0;
   for (int a = 0; a < count; ++a) {
     const double factor = c[a * stride];
     if (factor == 0) continue;
-    pairs += first[a + 1] - first[a];
-    for (int q = first[a]; q < first[a + 1] && multiples[q].b < count; ++q)
-      out[multiples[q].b] += factor * x[multiples[q].a * stride];
+    const std::uint16_t* product = monomials.products(a);
+    const int others = monomials.productCount(a);
+    pairs += others;
+    for (int b = 0; b < others && product[b] < count; ++b) out[product[b]] += factor * x[b * stride];
   }
   Work::count(Work::multipliedPair, pairs + count);
 }
@@ -176,6 +168,8 @@ GAMUT_CLONES void thinRecursion(const std::vector<ThinNode>& nodes, const std::v
     if (i == 1)  // what does not change in time has order 0 only
       for (int x = 0; x < count; ++x)
         if (v[x].invariant) cur[x] = 0;
+    for (int x = 0; x < time; ++x)
+      if (v[x].known != nullptr) cur[x] = v[x].known[i];
     if (i > 0) {
       cur[time] = i == 1 ? h0 : 0.0;
       const bool isLeading = i < leading.orders;

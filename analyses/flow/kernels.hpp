@@ -39,10 +39,11 @@ struct ThinNode {
   bool scaled;  // a product whose factor a is invariant
   int a, b;     // of a solution, its number and the component
   double* forward;
-  double* reversed;     // at order 0, orders to the left; null if nobody convolves with it
-  double* derivative;   // i times order i; null if not needed
-  const double* slope;  // of abs
-  bool fine = false;    // its first orders are known
+  double* reversed;               // at order 0, orders to the left; null if nobody convolves with it
+  double* derivative;             // i times order i; null if not needed
+  const double* slope;            // of abs
+  bool fine = false;              // its first orders are known
+  const double* known = nullptr;  // a state of which all orders are
 };
 
 /// Of the fine nodes: values for orders 1 … orders - 1, [node][order], by whoever has them more precisely.

@@ -56,15 +56,16 @@ Monomials::Monomials(std::vector<int> weights, int degree) : weight_(std::move(w
     }
   }
   first_.push_back(static_cast<std::int32_t>(pairs_.size()));
-  firstMultiple_.assign(grade_.size() + 1, 0);
-  for (const Pair& pair : pairs_) ++firstMultiple_[static_cast<std::size_t>(pair.a) + 1];
-  for (std::size_t g = 0; g < grade_.size(); ++g) firstMultiple_[g + 1] += firstMultiple_[g];
-  multiples_.resize(pairs_.size());
-  std::vector<std::int32_t> next = firstMultiple_;
+  // Multiplying keeps the order of monomials, so products are met in the order of their other factor.
+  firstProduct_.push_back(0);
+  for (int g = 0; g < count(); ++g)
+    firstProduct_.push_back(firstProduct_.back() + static_cast<std::size_t>(productCount(g)));
+  products_.resize(pairs_.size());
   for (int g = 0; g < count(); ++g)
     for (auto q = static_cast<std::size_t>(first_[static_cast<std::size_t>(g)]);
          q < static_cast<std::size_t>(first_[static_cast<std::size_t>(g) + 1]); ++q)
-      multiples_[static_cast<std::size_t>(next[static_cast<std::size_t>(pairs_[q].a)]++)] = {pairs_[q].b, g};
+      products_[firstProduct_[static_cast<std::size_t>(pairs_[q].a)] + static_cast<std::size_t>(pairs_[q].b)] =
+          static_cast<std::uint16_t>(g);
   for (int l = 0; l < symbols(); ++l) linear_.push_back(shifted(0, l, 1));
 }
 

@@ -42,9 +42,9 @@ class Monomials {
   /// pairs()[first()[g]] … pairs()[first()[g+1]-1]: every (a, b) with a·b = g.
   const std::vector<Pair>& pairs() const { return pairs_; }
   const std::vector<std::int32_t>& first() const { return first_; }
-  /// multiples()[firstMultiple()[a]] …: every (b, g) with a·b = g, g rising: by its factor a what pairs() has by g.
-  const std::vector<Pair>& multiples() const { return multiples_; }
-  const std::vector<std::int32_t>& firstMultiple() const { return firstMultiple_; }
+  /// products(a)[b] is the number of a·b, for as many b as have such; it rises with b.
+  const std::uint16_t* products(int a) const { return &products_[firstProduct_[static_cast<std::size_t>(a)]]; }
+  int productCount(int a) const { return countUpTo(degree_ - grade(a)); }
 
  private:
   std::vector<int> weight_;
@@ -53,8 +53,8 @@ class Monomials {
   std::vector<std::uint8_t> exponent_;
   std::vector<Pair> pairs_;
   std::vector<std::int32_t> first_;
-  std::vector<Pair> multiples_;
-  std::vector<std::int32_t> firstMultiple_;
+  std::vector<std::uint16_t> products_;
+  std::vector<std::size_t> firstProduct_;
   std::vector<int> linear_;
   std::map<std::vector<std::uint8_t>, int> number_;
 };

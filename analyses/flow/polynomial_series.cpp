@@ -13,10 +13,11 @@ void PolynomialSeries::compute(double t0, double h0) {
   for (System& system : systems_) system.isFactorised = false;
   put(plan_[at(time_)], 0, 0, t0);
   if (m_ > 1) put(plan_[at(time_)], 0, 1, h0);
+  if (isByGrades_) return computeByGrades(h0);
   if (!thin_.empty()) {
     if (isFine()) computeLeading(t0, h0);
     for (int node = time_ + 1; node < nodes_; ++node)
-      if (!isFine(node)) computeOrder(node, 0);
+      if (!isFine(node)) computeLeadingValue(node);
     for (std::size_t x = 0; x < plan_.size(); ++x) current_[x] = f_[plan_[x].f];
     kernels::thinRecursion(thin_, thinSolutions_, thinStates_, thinFrame_, leading_, time_, m_, h0, current_);
     return;
@@ -46,6 +47,45 @@ void PolynomialSeries::computeLeading(double t0, double h0) {
     for (int i = 0; i < leading_.orders; ++i) leading_.values[at(node * leading_.orders + i)] = fine_.value(node, i).hi;
     put(plan_[at(node)], 0, 0, fine_.value(node, 0).hi);
     pointError_[at(node)] = fine_.pointError(node);
+  }
+}
+
+/// Order 0 of the coefficient of 1.
+void PolynomialSeries::computeLeadingValue(int node) {
+  const Plan& v = plan_[at(node)];
+  const auto value = [&](int of) { return f_[plan_[at(of)].f]; };
+  const auto set = [&](double number) { put(v, 0, 0, number); };
+  switch (v.op) {
+    case Op::add:
+      return set(value(v.a) + value(v.b));
+    case Op::sub:
+      return set(value(v.a) - value(v.b));
+    case Op::neg:
+      return set(-value(v.a));
+    case Op::abs:
+      chords_[at(node)] = chordOf(v.a);
+      return set(chords_[at(node)].slope * value(v.a) + chords_[at(node)].middle);
+    case Op::sign:
+      return set(signOf(node));
+    case Op::mul:
+      return set(value(v.a) * value(v.b));
+    case Op::sqr:
+      return set(value(v.a) * value(v.a));
+    case Op::recip:
+      return set(1.0 / value(v.a));
+    case Op::sqrt:
+      return set(std::sqrt(value(v.a)));
+    case Op::exp:
+    case Op::log:
+    case Op::atan:
+    case Op::sin:
+    case Op::tanh:
+      return pointFunctions(node);
+    case Op::solution:
+      if (v.b == 0) computeLeadingSolution(node);
+      return;
+    default:
+      return;
   }
 }
 

@@ -14,6 +14,7 @@
 
 #include "analyses/flow/error_bounds.hpp"
 #include "analyses/flow/fine_recursion.hpp"
+#include "analyses/flow/grade_kernels.hpp"
 #include "analyses/flow/kernels.hpp"
 #include "analyses/flow/linear_factors.hpp"
 #include "analyses/flow/monomials.hpp"
@@ -57,6 +58,9 @@ class PolynomialSeries {
   /// No fewer than leastOrder. Forgets all coefficients where that changes, so that none is left beyond the last.
   void setOrder(int order);
   static constexpr int leastOrder = 4;
+
+  /// For whoever asks for the series of nodes that are no outputs: of many monomials they are not kept else.
+  void keepEveryNode() { std::fill(isKept_.begin(), isKept_.end(), 1); }
 
   /// Without symbols: so many first orders (2 at least) of the primary nodes have a second double each. Only where
   /// FineRecursion::isPossible.
@@ -190,7 +194,7 @@ class PolynomialSeries {
     int a, b;
     int degree, count;
     bool primary, invariant, constant;
-    std::size_t f = 0, r = none, d = none, t = 0, s2 = none, beyond = none;
+    std::size_t f = 0, r = none, d = none, t = 0, s2 = none, beyond = none, z = none;
     bool needsTails = false;
   };
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
@@ -229,19 +233,36 @@ class PolynomialSeries {
   bool noteSide(std::vector<double>& sides, int kink, double side);
   Chord chordOf(int node) const;
   double signOf(int node) const;
-  /// Order i of monomial g, in the reversed copy too.
+  /// Order i of monomial g, in the copies for right factors too.
   void put(const Plan& v, int g, int i, double value) {
     f_[v.f + at(g * stride_ + i)] = value;
-    if (v.r != none) r_[v.r + at(g * kernels::reversedStride(stride_) + stride_ - 1 - i)] = value;
+    if (v.r == none) return;
+    r_[v.r + at(g * (stride_ + 8) + (isByGrades_ ? kernels::padding + i : stride_ - 1 - i))] = value;
+    if (g == 0 && v.z != none) z_[v.z + at(stride_ - 1 - i)] = value;
   }
   double mean(const std::vector<double>& along, const std::vector<double>& there, int node) const {
     return isConvex_ && !along.empty() ? 0.5 * (along[at(node)] + there[at(node)]) : there[at(node)];
   }
+  double orderNorm(const Plan& v, int i) const;
   double derivativeNorm(const Plan& v, int k, double theta) const;
   void computeOrder(int node, int i);
   void product(const Plan& a, const Plan& b, int count, int i, double* out);
   void computeFrameOrder(int i, double h0);
   void prepareThin();
+  void computeLeadingValue(int node);
+
+  // polynomial_series_grades.cpp
+  void planGrades();
+  void computeByGrades(double h0);
+  void computeLeadingGrade(double h0);
+  int ordersOf(int q) const;
+  void multiplyGrade(int q);
+  void computeLanes(int q, int first, int count, double h0);
+  void computeLane(int node, int i, int q);
+  void computeSolutionLanes(int first, int i);
+  void computeFrameLanes(int i, double h0);
+  double* lane(int node, int i) { return &lanes_[at((node * stride_ + i) * kernels::lanes)]; }
+
   void computeLeading(double t0, double h0);
   bool isFine(int node) const { return fine_.orders() > 0 && node < nodes_ && plan_[at(node)].primary; }
   /// What is between a node and its first doubles.
@@ -256,6 +277,8 @@ class PolynomialSeries {
   double tailRow(int a, int b, int degree) const;
   void ownErrors(int node);
   void differentialErrors(int u, int of, int degree, double& e0, double& e1) const;
+  template <class Term>
+  double sumOverProducts(int left, int right, bool isSlope, const Term& term);
   double productResidual(int left, int right, int target);
   double quotientResidual(int node);
   double dropped(int a, int degree) const;
@@ -276,6 +299,7 @@ class PolynomialSeries {
   int termsIn(const System& system, int row) const;
   void factorise(System& system);
   void computeSolution(int first, int i);
+  void computeLeadingSolution(int first);
   void invert(System& system);
   void tabulateSystem(System& system);
   void solutionOwnErrors(int first);
@@ -289,6 +313,7 @@ class PolynomialSeries {
   int n_, time_, m_, stride_, nodes_, frameCount_, frameDegree_;
   std::vector<int> grades_, counts_;  // of orders
   bool isCut_ = false;                // not all of them the same
+  bool isByGrades_ = false;           // the recursion goes by grades, not by orders
   int obstacle_ = 0;                  // the node that failed
   double haste_ = 0;
   bool withFrame_, isConvex_ = true;
@@ -319,6 +344,18 @@ class PolynomialSeries {
   std::vector<kernels::ThinSum> thinFrame_;
   std::vector<const kernels::ThinSolution*> thinSolutions_;
   std::vector<double> current_;
+  /// By grades: left·right is part of target; isSlope: of its derivative by time, j·left_j.
+  struct Product {
+    int left, right, target;
+    bool isSlope;
+  };
+  std::vector<Product> products_;
+  std::vector<int> targets_;
+  std::vector<char> isKept_;                 // of each node: whether its coefficients are
+  std::vector<double> sums_, weightedSums_;  // Σ|c_{iα}| by grade and order as t_; Σ ∏(α_l+1)|c_{iα}| by order
+  std::vector<double> lanes_, slopes_, frameLanes_;  // of the monomials that are carried on together, [node][order]
+  std::vector<std::size_t> slopeAt_;                 // of each node with such, j·its order j
+  std::vector<double> frameProducts_, known_, z_, residual_;  // z_: right factors' grade 0, reversed
   FineRecursion fine_;
   kernels::ThinLeading leading_;
   std::vector<System> systems_;

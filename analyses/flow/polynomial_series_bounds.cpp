@@ -318,13 +318,22 @@ std::string PolynomialSeries::edgeOf(int node) const {
   }
 }
 
+/// Σ_α |c_{iα}|.
+double PolynomialSeries::orderNorm(const Plan& v, int i) const {
+  double sum = 0;
+  if (isByGrades_)
+    for (int q = 0; q <= v.degree; ++q) sum += sums_[v.t + at(q * stride_ + i)];
+  else
+    for (int g = 0; g < v.count; ++g) sum += std::fabs(f_[v.f + at(g * stride_ + i)]);
+  return sum;
+}
+
 double PolynomialSeries::derivativeNorm(const Plan& v, int k, double theta) const {
   double sum = 0, power = 1;
   for (int i = k; i <= last(); ++i, power *= theta) {
-    double order = 0, factor = 1;
-    for (int g = 0; g < v.count; ++g) order += std::fabs(f_[v.f + at(g * stride_ + i)]);
+    double factor = 1;
     for (int j = 0; j < k; ++j) factor *= i - j;
-    sum += factor * order * power;
+    sum += factor * orderNorm(v, i) * power;
   }
   return sum * bounds::up + bounds::tiny;
 }
@@ -387,7 +396,8 @@ void PolynomialSeries::frameDefect(int i, int j, double& nu0, double& nu1) const
     z0 += norm_[at(b)] * ra0 + (ra0 + ra1) * top;
     z1 += norm_[at(b)] * ra1 + norm_[at(a)] * top + tailTime(a, b);
     if (monomials_->degree() > 0) z0 += tailDegree(a, b, frameDegree_, 0);
-    rounding += plan_[at(a)].constant ? norm_[at(a)] * norm_[at(b)] : weighted_[at(a)] * weighted_[at(b)];
+    rounding +=
+        plan_[at(a)].constant && !isByGrades_ ? norm_[at(a)] * norm_[at(b)] : weighted_[at(a)] * weighted_[at(b)];
   }
   // A sum of `terms` products has at most terms·N roundings a term, and one more in the division by i+1.
   nu0 = (z0 + (terms + 1) * bounds::unit * rounding) * bounds::up + bounds::tiny;

@@ -4,6 +4,7 @@
 // roundings of the bound itself.
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "analyses/flow/error_bounds.hpp"
 #include "analyses/flow/kernels.hpp"
@@ -17,13 +18,20 @@ bool PolynomialSeries::tabulate(double theta) {
   for (int i = 1; i < stride_; ++i) power_[at(i)] = i < m_ ? power_[at(i - 1)] * theta : 0.0;
   for (int i = 0; i < stride_; ++i) weights_[at(i)] = (i + 1) * power_[at(i)];
   const double last = power_[at(m_ - 1)] * theta;  // θ^m
-  Work::count(Work::coefficient, static_cast<double>(f_.size() + t_.size() + s2_.size()));
+  Work::count(Work::coefficient, static_cast<double>((isByGrades_ ? 0 : f_.size()) + t_.size() + s2_.size()));
   Work::count(Work::boundedNode, static_cast<double>(plan_.size()));
   for (std::size_t x = 0; x < plan_.size(); ++x) {
     const Plan& v = plan_[x];
     double* table = &t_[v.t];
-    kernels::tabulate(*monomials_, v.count, &f_[v.f], power_.data(), weights_.data(), stride_, table, norm_[x],
-                      weighted_[x]);
+    if (isByGrades_) {
+      for (int q = 0; q <= v.degree; ++q)
+        for (int i = 0; i < stride_; ++i) table[q * stride_ + i] = sums_[v.t + at(q * stride_ + i)] * power_[at(i)];
+      norm_[x] = std::accumulate(table, table + (v.degree + 1) * stride_, 0.0);
+      weighted_[x] = kernels::dot(&weightedSums_[x * at(stride_)], weights_.data(), stride_);
+    } else {
+      kernels::tabulate(*monomials_, v.count, &f_[v.f], power_.data(), weights_.data(), stride_, table, norm_[x],
+                        weighted_[x]);
+    }
     norm_[x] *= bounds::up;
     weighted_[x] *= bounds::up;
     if (!(norm_[x] < bounds::largest)) return refuse(static_cast<int>(x));  // for NaN too
@@ -36,8 +44,7 @@ bool PolynomialSeries::tabulate(double theta) {
       if (!(std::fabs(c.lo) <= bounds::unit * std::fabs(c.hi))) return refuse(static_cast<int>(x));
     }
     if (v.op == Op::state) {
-      double sum = 0;
-      for (int g = 0; g < v.count; ++g) sum += std::fabs(f_[v.f + at(g * stride_ + m_)]);
+      const double sum = orderNorm(v, m_);
       top_[x] = withFrame_ ? sum * last * bounds::up : 0.0;
       if (!(top_[x] < bounds::largest)) return refuse(static_cast<int>(x));
     }
@@ -235,6 +242,25 @@ void PolynomialSeries::differentialErrors(int u, int of, int degree, double& e0,
           bounds::unit * (weighted * weighted_[at(of)] + 2 * norm * norm_[at(of)]);
 }
 
+/// Σ term(coefficient, g, i) over the kept coefficients of left·right, or of j·left_j and right.
+template <class Term>
+double PolynomialSeries::sumOverProducts(int left, int right, bool isSlope, const Term& term) {
+  const Plan &l = plan_[at(left)], &r = plan_[at(right)];
+  double sum = 0;
+  std::vector<double>& out = residual_;
+  out.resize(at(count()) * at(stride_));
+  for (int q = 0; q <= l.degree; ++q) {
+    const int first = q == 0 ? 0 : monomials_->countUpTo(q - 1), last = monomials_->countUpTo(q);
+    const int orders = l.invariant ? 1 : ordersOf(q);
+    std::fill(out.begin() + first * stride_, out.begin() + last * stride_, 0.0);
+    kernels::multiplySeries(*monomials_, q, 0, isSlope ? &d_[l.d] : &f_[l.f], l.invariant ? 1 : m_, &r_[r.r], stride_,
+                            orders, out.data());
+    for (int g = first; g < last; ++g)
+      for (int i = 0; i < orders; ++i) sum += term(out[at(g * stride_ + i)], g, i);
+  }
+  return sum;
+}
+
 /// Σ |target - left·right| over the kept coefficients, with the rounding of this evaluation: γ_{N+1}(|target|+Σ|..|),
 /// N + 1 ≤ 2N ≤ 2 weights. target -1 is the constant 1.
 double PolynomialSeries::productResidual(int left, int right, int target) {
@@ -246,7 +272,7 @@ double PolynomialSeries::productResidual(int left, int right, int target) {
   double* out = scratch_.data();
   double sum = 0;
   const int orders = l.invariant ? 1 : m_;
-  for (int i = 0; i < orders; ++i) {
+  for (int i = 0; i < orders && !isByGrades_; ++i) {
     const int N = countOf(l, i);
     std::fill(out, out + N, 0.0);
     kernels::convolve(monomials_->pairs().data(), monomials_->first().data(), N, &f_[l.f], &r_[plan_[at(right)].r],
@@ -257,6 +283,11 @@ double PolynomialSeries::productResidual(int left, int right, int target) {
       sum += std::fabs(wanted - out[g]) * power_[at(i)];
     }
   }
+  if (isByGrades_)
+    sum = sumOverProducts(left, right, false, [&](double product, int g, int i) {
+      const double wanted = target >= 0 ? f_[plan_[at(target)].f + at(g * stride_ + i)] : g == 0 && i == 0 ? 1.0 : 0.0;
+      return std::fabs(wanted - product) * power_[at(i)];
+    });
   return sum +
          2 * bounds::unit * (weighted_[at(left)] * weighted_[at(right)] + (target >= 0 ? weighted_[at(target)] : 1.0));
 }
@@ -273,7 +304,11 @@ double PolynomialSeries::quotientResidual(int node) {
   const int N = l.count;
   double* out = scratch_.data();
   double sum = 0;
-  for (int i = 1; i < (l.invariant ? 1 : m_); ++i) {
+  if (isByGrades_)
+    sum = sumOverProducts(node, l.b, true, [&](double product, int g, int i) {
+      return i == 0 ? 0.0 : std::fabs(i * f_[u.f + at(g * stride_ + i)] - product) / i * power_[at(i)];
+    });
+  for (int i = 1; i < (l.invariant || isByGrades_ ? 1 : m_); ++i) {
     const int kept = countOf(l, i);
     std::fill(out, out + kept, 0.0);
     kernels::convolve(monomials_->pairs().data(), monomials_->first().data(), kept, &d_[l.d], &r_[w.r], stride_, i,

@@ -49,7 +49,7 @@ PolynomialSeries::PolynomialSeries(const Program& program, int primaryOutputs,
   radius_.assign(nodes.size(), 0.0);
   pointError_.assign(nodes.size(), 0.0);
   inverseAt_.assign(nodes.size(), none);
-  std::size_t sizeF = 0, sizeR = 0, sizeD = 0, sizeT = 0, sizeS2 = 0, sizeBeyond = 0, sizeInverse = 0;
+  std::size_t sizeF = 0, sizeR = 0, sizeD = 0, sizeT = 0, sizeS2 = 0, sizeBeyond = 0, sizeInverse = 0, sizeZ = 0;
   const auto place = [&](Plan& v) {
     v.count = monomials_->countUpTo(v.degree);
     v.f = sizeF;
@@ -80,6 +80,8 @@ PolynomialSeries::PolynomialSeries(const Program& program, int primaryOutputs,
     }
 
   planSystems(program);
+  constexpr std::size_t fewPairs = 500;  // of which the recursion by orders is faster
+  isByGrades_ = !hasKinks_ && monomials_->pairs().size() >= fewPairs;
 
   // Which nodes are the right factor of a convolution, and need a reversed copy and tables of tails?
   const auto rightFactor = [&](int node) {
@@ -88,6 +90,9 @@ PolynomialSeries::PolynomialSeries(const Program& program, int primaryOutputs,
     if (v.r == none) {
       v.r = sizeR;
       sizeR += at(v.count) * at(kernels::reversedStride(stride_));
+      if (!isByGrades_) return;
+      v.z = sizeZ;
+      sizeZ += at(kernels::reversedStride(stride_));
     }
   };
   const auto derivative = [&](int node) {
@@ -151,6 +156,7 @@ PolynomialSeries::PolynomialSeries(const Program& program, int primaryOutputs,
     }
   f_.assign(sizeF, 0.0);
   r_.assign(sizeR, 0.0);
+  z_.assign(sizeZ, 0.0);
   d_.assign(sizeD, 0.0);
   t_.assign(sizeT, 0.0);
   s2_.assign(sizeS2, 0.0);
@@ -168,7 +174,8 @@ PolynomialSeries::PolynomialSeries(const Program& program, int primaryOutputs,
   power_.assign(at(stride_), 0.0);
   weights_.assign(at(stride_), 0.0);
   clear();
-  if (count() == 1 && withFrame_) prepareThin();
+  if (isByGrades_ || (count() == 1 && withFrame_)) prepareThin();
+  if (isByGrades_) planGrades();
 }
 
 /// Where a step of order m is as long as its last order allows, order i is about ρ^i/i! of a series, and grade q s^q;
@@ -194,10 +201,17 @@ void PolynomialSeries::planOrders(int order) {
 void PolynomialSeries::prepareThin() {
   for (const Plan& v : plan_)
     thin_.push_back({v.op, v.invariant, v.op == Op::mul && plan_[at(v.a)].invariant, v.a, v.b, &f_[v.f],
-                     v.r == none ? nullptr : &r_[v.r + at(stride_ - 1)], v.d == none ? nullptr : &d_[v.d],
-                     v.op == Op::abs ? &chords_[thin_.size()].slope : nullptr});
-  for (int s = 0; s < n_; ++s) thinStates_.emplace_back(s, outputs_[at(s)]);
-  for (int i = 0; i < n_; ++i)
+                     v.r == none   ? nullptr
+                     : isByGrades_ ? &z_[v.z + at(stride_ - 1)]
+                                   : &r_[v.r + at(stride_ - 1)],
+                     v.d == none ? nullptr : &d_[v.d], v.op == Op::abs ? &chords_[thin_.size()].slope : nullptr});
+  current_.assign(plan_.size(), 0.0);
+  if (!withFrame_) {
+    known_.assign(at(n_ * stride_), 0.0);
+    for (int s = 0; s < n_; ++s) thin_[at(s)].known = &known_[at(s * stride_)];
+  }
+  for (int s = 0; s < n_ && withFrame_; ++s) thinStates_.emplace_back(s, outputs_[at(s)]);
+  for (int i = 0; i < n_ && withFrame_; ++i)
     for (int j = 0; j < n_; ++j) {
       kernels::ThinSum row{frameNode(i, j), {}};
       for (int k = 0; k < n_; ++k)
@@ -211,7 +225,6 @@ void PolynomialSeries::prepareThin() {
       if (plan_[at(entry)].invariant) entry = -1;
     thinSolutions_.push_back(&solution.thin);
   }
-  current_.assign(plan_.size(), 0.0);
 }
 
 void PolynomialSeries::setFineOrders(int orders) {
@@ -242,7 +255,7 @@ void PolynomialSeries::setFineOrders(int orders) {
 }
 
 void PolynomialSeries::clear() {
-  for (auto* v : {&f_, &r_, &d_}) std::fill(v->begin(), v->end(), 0.0);
+  for (auto* v : {&f_, &r_, &d_, &z_}) std::fill(v->begin(), v->end(), 0.0);
   for (int i = 0; i < nodes_; ++i)
     if (plan_[at(i)].constant) put(plan_[at(i)], 0, 0, constant_[at(i)]);
 }

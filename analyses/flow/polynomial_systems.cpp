@@ -61,6 +61,18 @@ void PolynomialSeries::factorise(System& system) {
   system.isFactorised = true;
 }
 
+/// Order 0 of the coefficients of 1.
+void PolynomialSeries::computeLeadingSolution(int first) {
+  Solution& solution = solutions_[at(plan_[at(first)].a)];
+  System& system = systems_[at(solution.system)];
+  if (!system.isFactorised) factorise(system);
+  std::vector<double>& x = scratch2_;
+  for (int k = 0; k < system.size; ++k) x[at(k)] = f_[plan_[at(solution.rightSide[at(k)])].f];
+  std::fill_n(solution.residual.begin(), system.size, 0.0);
+  system.factors.solve(x.data(), solution.residual.data());
+  for (int k = 0; k < system.size; ++k) put(plan_[at(first + k)], 0, 0, x[at(k)]);
+}
+
 void PolynomialSeries::computeSolution(int first, int i) {
   const Plan& v = plan_[at(first)];
   Solution& solution = solutions_[at(v.a)];
@@ -265,9 +277,10 @@ bool PolynomialSeries::boundSystem(System& system) {
 }
 
 /// |b̃ - Ãx̃| for each component. Kept coefficients: γ_{N+2T+1} of all terms, with T entries in the row, a convolution's
-/// N ≤ weights inside and at most 2T subtractions outside, and the measured residual of A₀ x = s, whose evaluation has
-/// T + 1 roundings of |s| + |A₀||x̃|, where |s| ≤ residual + |A₀||x̃|. Then what x̃ and b do not keep. In double-double
-/// the same of its roundings; of later orders all of that and the second doubles, 5T + 7 roundings of |A||x̃|.
+/// N ≤ weights inside and at most 2T subtractions outside (by grades TN in all, each product counted once), and the
+/// measured residual of A₀ x = s, whose evaluation has T + 1 roundings of |s| + |A₀||x̃|, where |s| ≤ residual +
+/// |A₀||x̃|. Then what x̃ and b do not keep. In double-double the same of its roundings; of later orders all of that and
+/// the second doubles, 5T + 7 roundings of |A||x̃|.
 void PolynomialSeries::solutionOwnErrors(int first) {
   const Plan& v = plan_[at(first)];
   const Solution& solution = solutions_[at(v.a)];
@@ -288,7 +301,8 @@ void PolynomialSeries::solutionOwnErrors(int first) {
     for (int j = 0; j < n; ++j) {
       const int a = system.entry(k, j), x = first + j;
       if (isKnownZero(a)) continue;
-      rounding += weighted_[at(a)] * weighted_[at(x)] + (2 * terms + 1) * norm_[at(a)] * norm_[at(x)];
+      rounding += (isByGrades_ ? terms : 1) * weighted_[at(a)] * weighted_[at(x)] +
+                  (2 * terms + 1) * norm_[at(a)] * norm_[at(x)];
       if (fine) coarse += (5 * terms + 7) * coarseProduct(a, x, 0);
       e1 += tailTime(a, x);
       if (graded) e0 += tailDegree(a, x, v.degree, 0);

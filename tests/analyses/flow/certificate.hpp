@@ -62,6 +62,7 @@ class Certificate {
         series_(program_, s.states, monomials_, s.frameDegree, s.order, true),
         evaluator_(everything_) {
     const int N = monomials_->count();
+    series_.keepEveryNode();
     if (s.fineOrders > 0 && FineRecursion::isPossible(program_.nodes())) series_.setFineOrders(s.fineOrders);
     for (int i = 0; i < s.states; ++i) {
       states_.push_back(randomPolynomial(nominal[static_cast<std::size_t>(i)], N));
@@ -241,6 +242,18 @@ inline Setting randomSetting(Points& points) {
   // From coefficients whose truncation swamps rounding to such where there is hardly anything but rounding.
   s.size = std::ldexp(0.2, -points.integer(0, 2) * 12);
   s.theta = std::ldexp(1.0, -points.integer(1, 2) * (1 + points.integer(0, 3)));
+  return s;
+}
+
+/// So many monomials that later orders keep fewer grades than the first ones.
+inline Setting settingOfMany(Points& points) {
+  Setting s;
+  s.weights = {1, 1, points.integer(1, 2), 1};
+  s.degree = 5;
+  s.frameDegree = points.integer(0, 2);
+  s.order = points.integer(7, 12);
+  s.size = std::ldexp(0.04, -points.integer(0, 2) * 6);
+  s.theta = std::ldexp(1.0, -points.integer(1, 2));
   return s;
 }
 

@@ -25,18 +25,6 @@ TEST_P(OfFunction, EveryNodeLiesWithinItsBounds) {
   }
 }
 
-/// So many monomials that later orders keep fewer grades than the first ones.
-Setting settingOfMany(Points& points) {
-  Setting s;
-  s.weights = {1, 1, points.integer(1, 2), 1};
-  s.degree = 5;
-  s.frameDegree = points.integer(0, 2);
-  s.order = points.integer(7, 12);
-  s.size = std::ldexp(0.04, -points.integer(0, 2) * 6);
-  s.theta = std::ldexp(1.0, -points.integer(1, 2));
-  return s;
-}
-
 TEST_P(OfFunction, ManySymbolsOfWhichLaterOrdersKeepFewerGradesAreBounded) {
   Points points(8);
   for (int round = 0; round < 2; ++round) {

@@ -92,22 +92,35 @@ TEST_P(OfSystem, EveryNodeLiesWithinItsBounds) {
     }
 }
 
+/// A motion along the solution of a random system.
+void expectJacobianCertified(Kind kind, Points& points, Setting s, int places) {
+  const std::vector<double> nominal{points.uniform(-1, 1), points.uniform(-1, 1), points.uniform(-1, 1)};
+  const RandomSystem system(points, kind);
+  const Program f = record(2, 1, [&](auto t, const auto& x, const auto& p, auto& dx) {
+    const auto solution = system(x[0], x[1] + t, p[0]);
+    dx[0] = solution[0];
+    dx[1] = solution[1] - x[0];
+  });
+  s.theta = std::min(s.theta, 0.125);
+  s.rounded = 1e4;
+  expectCertified(f.differentiated(), s, points, nominal, places);
+}
+
 TEST_P(OfSystem, ItsJacobianLiesWithinItsBounds) {
   Points points(22);
-  for (int round = 0; round < 12; ++round) {
-    const std::vector<double> nominal{points.uniform(-1, 1), points.uniform(-1, 1), points.uniform(-1, 1)};
-    const RandomSystem system(points, GetParam());
-    const Program f = record(2, 1, [&](auto t, const auto& x, const auto& p, auto& dx) {
-      const auto solution = system(x[0], x[1] + t, p[0]);
-      dx[0] = solution[0];
-      dx[1] = solution[1] - x[0];
-    });
+  for (int round = 0; round < 12 && !HasFatalFailure(); ++round) {
     Setting s = randomSetting(points);
     s.size = std::min(s.size, 0.05);
-    s.theta = std::min(s.theta, 0.125);
-    s.rounded = 1e4;
-    expectCertified(f.differentiated(), s, points, nominal, 4);
-    if (HasFatalFailure()) return;
+    expectJacobianCertified(GetParam(), points, s, 4);
+  }
+}
+
+TEST_P(OfSystem, ManySymbolsAreBounded) {
+  Points points(23);
+  for (int round = 0; round < 3 && !HasFatalFailure(); ++round) {
+    Setting s = settingOfMany(points);
+    s.size = std::min(s.size, 0.02);
+    expectJacobianCertified(GetParam(), points, s, 3);
   }
 }
 
