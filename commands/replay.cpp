@@ -21,6 +21,7 @@
 #include "commands/standard_streams.hpp"
 #include "commands/table.hpp"
 #include "studies/results/results_file.hpp"
+#include "studies/told.hpp"
 #include "studies/version.hpp"
 #include "studies/words.hpp"
 
@@ -61,14 +62,19 @@ std::size_t numberOf(const Arguments& arguments, const StochasticResult& samples
   throw UsageError(fmt::format("{}: no sample is '{}'; expected {}or centre", arguments.results, name, expected));
 }
 
-/// Decimals that give the same doubles back, at most 17 digits; times that were not reached are left out.
+/// Decimals that give the same doubles back, at most 17 digits, all in the units that the study states; times that were
+/// not reached are left out.
 std::string csv(const Study& study, const ReplayedSample& sample) {
   std::vector<std::string> headings;
   const bool moves = study.horizon > 0;
   if (moves) headings.push_back(csvHeading("time", "s"));
   for (const OutputInfo& output : study.outputs) headings.push_back(csvHeading(output.name, output.unit));
-  for (const UncertainQuantity& uncertain : study.uncertain)
-    headings.push_back(csvHeading("uncertain " + uncertain.uncertain.name, uncertain.unit));
+  std::vector<double> values;
+  for (std::size_t q = 0; q < study.uncertain.size(); ++q) {
+    const Told told(study.uncertain[q].unit, study.uncertain[q].told);
+    headings.push_back(csvHeading("uncertain " + study.uncertain[q].uncertain.name, told.unit()));
+    values.push_back(told.of(sample.values[q]));
+  }
   fmt::memory_buffer text;
   const auto end = std::back_inserter(text);
   fmt::format_to(end, "{}\n", fmt::join(headings, ","));
@@ -76,7 +82,7 @@ std::string csv(const Study& study, const ReplayedSample& sample) {
     std::vector<double> row;
     if (moves) row.push_back(study.motion.times[i]);
     for (std::size_t j = 0; j < study.outputs.size(); ++j) row.push_back(sample.trajectory(i, j));
-    row.insert(row.end(), sample.values.begin(), sample.values.end());
+    row.insert(row.end(), values.begin(), values.end());
     fmt::format_to(end, "{}\n", fmt::join(row, ","));
   }
   return fmt::to_string(text);

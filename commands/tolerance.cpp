@@ -19,6 +19,7 @@
 #include "studies/progress.hpp"
 #include "studies/running/tolerance.hpp"
 #include "studies/text_table.hpp"
+#include "studies/told.hpp"
 #include "studies/words.hpp"
 
 namespace gamut::commands {
@@ -54,11 +55,11 @@ std::string text(const Study& study, const AllowedDeviations& found, const Toler
   for (std::size_t q = 0; q < found.alone.size(); ++q) {
     const AllowedDeviation& alone = found.alone[q];
     const Uncertain& u = study.uncertain[q].uncertain;
-    const Interval allowed = alone.factor > 0 ? alone.interval : Interval(u.nominal);
+    const Told told(study.uncertain[q].unit, study.uncertain[q].told);
+    const Interval allowed = told.of(alone.factor > 0 ? alone.interval : Interval(u.nominal));
     rows.push_back({"of " + alone.name + " alone",
                     alone.factor > 0
-                        ? fmt::format("{} {}", inwardText(allowed, digitsFor(magnitude(allowed), width(allowed), 4)),
-                                      study.uncertain[q].unit)
+                        ? inUnit(inwardText(allowed, digitsFor(magnitude(allowed), width(allowed), 4)), told.unit())
                         : "-",
                     factorText(alone, options.most), limitText(alone)});
   }

@@ -13,6 +13,7 @@
 #include "mechanics/description/units.hpp"
 #include "studies/results/extremes.hpp"
 #include "studies/results/instants.hpp"
+#include "studies/told.hpp"
 #include "studies/words.hpp"
 
 namespace gamut {
@@ -53,6 +54,14 @@ bool variesInTime(const UncertainInfo& quantity) { return quantity.distribution.
 std::string percentText(double share) {
   const double percent = std::floor(1000 * share) / 10;
   return numberText(percent, 4) + " %";
+}
+
+/// "first angle 136.298 deg": the digits tell values within the interval apart.
+std::string valueText(const UncertainInfo& quantity, double value) {
+  const Told told(quantity);
+  const double size = std::max(std::fabs(quantity.lower), std::fabs(quantity.upper));
+  const int digits = std::max(6, digitsFor(size, quantity.upper - quantity.lower, 5));
+  return inUnit(fmt::format("{} {}", quantity.name, numberText(told.of(value), digits)), told.unit());
 }
 
 class Wording {
@@ -123,8 +132,7 @@ class Wording {
       else if (variesInTime(results_.uncertain[q]))
         values.push_back(fmt::format("{} as it varies there", results_.uncertain[q].name));
       else
-        values.push_back(inUnit(fmt::format("{} {}", results_.uncertain[q].name, numberText(r_.violation[q], 8)),
-                                results_.uncertain[q].unit));
+        values.push_back(valueText(results_.uncertain[q], r_.violation[q]));
     if (values.empty()) return {};
     constexpr std::size_t most = 6;
     const std::size_t others = values.size() > most ? values.size() - most : 0;

@@ -35,6 +35,7 @@ struct UncertainQuantity {
   Uncertain uncertain;
   bool varies = false;                                    ///< in time; else it is constant
   double rate = std::numeric_limits<double>::infinity();  ///< of what varies, at most, in its unit per s
+  std::string told = {};                                  ///< unit in which it is stated; empty: the SI unit
 };
 
 /// What the motion is to keep: all margins above zero, always or once at least in a window of time.

@@ -12,6 +12,7 @@
 #include "studies/results/extremes.hpp"
 #include "studies/results/verdict.hpp"
 #include "studies/text_table.hpp"
+#include "studies/told.hpp"
 #include "studies/words.hpp"
 
 namespace gamut {
@@ -390,24 +391,28 @@ std::string shapeText(const Results& results, const UncertainInfo& uncertain, co
   const std::string& name = shape == "distribution" ? uncertain.distribution : uncertain.membership;
   std::vector<std::string> numbers;
   double lower = uncertain.lower, upper = uncertain.upper;
+  const Told told(uncertain);
   for (const ShapeInfo& number : results.shapes) {
     if (number.quantity != uncertain.name || number.shape != shape) continue;
+    const bool isOfQuantity = number.unit == uncertain.unit && number.unit != unit::one;
+    const std::string value = numberText(isOfQuantity ? told.of(number.value) : number.value, 6);
     if (number.name == "lower") {
       lower = number.value;
     } else if (number.name == "upper") {
       upper = number.value;
     } else if (number.name.ends_with(", at most") && !numbers.empty()) {
-      numbers.back() += " to " + numberText(number.value, 6);
+      numbers.back() += " to " + value;
     } else if (name == "evidence") {
       if (number.name.starts_with("lower"))
-        numbers.push_back("[" + numberText(number.value, 6));
+        numbers.push_back("[" + value);
       else if (!numbers.empty())
-        numbers.back() += number.name.starts_with("upper") ? fmt::format(", {}]", numberText(number.value, 6))
-                                                           : " mass " + numberText(number.value, 6);
+        numbers.back() += number.name.starts_with("upper") ? fmt::format(", {}]", value) : " mass " + value;
     } else if (number.name == "cut_off") {
       numbers.push_back(numberText(100 * number.value, 3) + " % cut off");
     } else if (name != "table" && name != "histogram" && !number.name.starts_with("value ")) {
-      numbers.push_back(fmt::format("{} {}", number.name, numberText(number.value, 6)));
+      const bool isOfLogarithm = number.name.starts_with("log_mean") && told.unit() != uncertain.unit;
+      numbers.push_back(fmt::format("{}{} {}", number.name,
+                                    isOfLogarithm ? fmt::format(" (of the number in {})", uncertain.unit) : "", value));
     }
   }
   constexpr std::size_t most = 6;  // of evidence
@@ -416,8 +421,12 @@ std::string shapeText(const Results& results, const UncertainInfo& uncertain, co
     numbers.resize(most);
     numbers.push_back(others);
   }
-  if (lower != uncertain.lower || upper != uncertain.upper)
-    numbers.insert(numbers.begin(), "on " + rangeText(lower, upper, 6));
+  const auto text = [&](double from, double to) {
+    const auto [below, above] = told.of(from, to);
+    return rangeText(below, above, 6);
+  };
+  if (const std::string on = text(lower, upper); on != text(uncertain.lower, uncertain.upper))
+    numbers.insert(numbers.begin(), "on " + on);
   constexpr double least = 1.001 / 256;  // of what was looked at
   const std::string doubt =
       shape == "membership" && uncertain.inconsistency > least
@@ -523,9 +532,12 @@ std::string infoText(const Results& results) {
   if (results.horizon > 0)
     text += fmt::format("  {} output times from {} s to {} s\n", results.time.size(), results.time.front(),
                         results.time.back());
-  for (const UncertainInfo& u : results.uncertain)
-    text += fmt::format("  uncertain: {} ({}) in {} {}, nominal {:.12g}, {}\n", u.name, u.quantity,
-                        rangeText(u.lower, u.upper, 12), u.unit, u.nominal, shapesText(results, u));
+  for (const UncertainInfo& u : results.uncertain) {
+    const Told told(u);
+    const auto [lower, upper] = told.of(u.lower, u.upper);
+    text += fmt::format("  uncertain: {} ({}) in {}, nominal {:.12g}, {}\n", u.name, u.quantity,
+                        inUnit(rangeText(lower, upper, 12), told.unit()), told.of(u.nominal), shapesText(results, u));
+  }
   for (const OutputInfo& o : results.outputs)
     text += fmt::format("  output: {} ({}), {}\n", o.name, o.quantity, o.unit);
   for (const Answer* answer : results.answers()) {

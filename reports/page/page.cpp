@@ -11,6 +11,7 @@
 #include "reports/words.hpp"
 #include "studies/printable.hpp"
 #include "studies/summary.hpp"
+#include "studies/told.hpp"
 
 namespace gamut {
 namespace {
@@ -20,8 +21,10 @@ std::string uncertainTable(const Results& results, std::size_t rows) {
   for (const UncertainInfo& info : results.uncertain | std::views::take(rows)) {
     const int digits =
         std::max(6, digitsFor(std::max(std::abs(info.lower), std::abs(info.upper)), info.upper - info.lower, 4));
-    table.row(info.name, {headingOf(info.quantity, info.unit), rangeText(info.lower, info.upper, digits),
-                          numberText(info.nominal, digits), shapeText(results, info, "distribution"),
+    const Told told(info);
+    const auto [lower, upper] = told.of(info.lower, info.upper);
+    table.row(info.name, {headingOf(info.quantity, told.unit()), rangeText(lower, upper, digits),
+                          numberText(told.of(info.nominal), digits), shapeText(results, info, "distribution"),
                           shapeText(results, info, "membership")});
   }
   return table.html() + hintOfRows(results.uncertain.size(), rows);

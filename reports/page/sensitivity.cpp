@@ -8,6 +8,7 @@
 #include <cmath>
 #include <functional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -17,6 +18,7 @@
 #include "reports/page/table.hpp"
 #include "reports/sections/limits.hpp"
 #include "reports/words.hpp"
+#include "studies/told.hpp"
 
 namespace gamut {
 namespace {
@@ -151,10 +153,13 @@ Answered derivatives(const Results& results, std::size_t output) {
     const UncertainInfo& quantity = results.uncertain[q];
     Cause cause{.quantity = q};
     cause.proved = {lineOf(results, {d.time, d.lower}, output, q), lineOf(results, {d.time, d.upper}, output, q)};
-    for (std::size_t i = 0; i < d.time.size(); ++i)
-      if (!std::isfinite(cause.proved.upper[i] - cause.proved.lower[i]))
-        cause.proved.lower[i] = cause.proved.upper[i] = std::nan("");
-    cause.unit = 0.5 * (quantity.upper - quantity.lower);
+    const Told told(quantity);
+    for (std::size_t i = 0; i < d.time.size(); ++i) {
+      double &lower = cause.proved.lower[i], &upper = cause.proved.upper[i];
+      std::tie(lower, upper) =
+          std::isfinite(upper - lower) ? told.perOne(lower, upper) : Told::Bounds(std::nan(""), std::nan(""));
+    }
+    cause.unit = told.of(0.5 * (quantity.upper - quantity.lower));
     causes.push_back(std::move(cause));
   }
   answer.causes = ranked(std::move(causes), answer.time.size(), false);
@@ -192,7 +197,7 @@ Answered thinned(Answered answer, std::size_t most) {
 
 std::string derivativeUnit(const Results& results, std::size_t output, std::size_t quantity) {
   const auto named = [](const std::string& unit) { return unit.empty() ? "1" : unit; };
-  return named(results.outputs[output].unit) + " per " + named(results.uncertain[quantity].unit);
+  return named(results.outputs[output].unit) + " per " + named(Told(results.uncertain[quantity]).unit());
 }
 
 /// Colours say which quantity it is, the same in all figures.
@@ -238,7 +243,7 @@ Plot plotOf(const Results& results, std::size_t output, const Answered& answer) 
   return plot;
 }
 
-/// As the results hold them: derivatives in their own units.
+/// As the tables of shares and derivatives, but at all times.
 std::string numbersOf(const Results& results, std::size_t output, const Answered& answer) {
   NumbersText numbers;
   numbers.column("time", "s", answer.time);

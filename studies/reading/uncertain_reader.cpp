@@ -162,6 +162,7 @@ class UncertainReader {
     const toml::node& interval = stated != nullptr ? *stated : supportOf(section);
     readShapes(source_, section, files_, result);
     readCourse(section, node, result);
+    result.told = unitOfStatement(stated, result);
     try {
       result.uncertain.check();
     } catch (const std::invalid_argument& error) {
@@ -246,6 +247,43 @@ class UncertainReader {
       }
     }
     checkRange(node, what, result);
+  }
+
+  /// The unit of the nominal value, as it is written; where that has none the interval's, if its ends are stated, or
+  /// the nominal value is zero, or it is one of an angle. Empty: the SI unit.
+  std::string unitOfStatement(const toml::node* interval, const UncertainQuantity& result) const {
+    const auto unitOfNode = [&](const toml::node& node) {
+      return node.is_string() ? unitBehindNumber(**node.as_string(), dimensionOf(result.unit)) : std::string();
+    };
+    if (const auto place = places_.find(result.quantity); place != places_.end())
+      if (std::string unit = unitOfNode(*place->second); !unit.empty()) return unit;
+    if (interval == nullptr) return {};
+    if (const toml::array* ends = interval->as_array()) {
+      for (const toml::node& end : *ends)
+        if (std::string unit = unitOfNode(end); !unit.empty()) return unit;
+      return {};
+    }
+    const bool isOfInterval = result.uncertain.nominal == 0 || dimensionOf(result.unit) == Dimension{0, 0, 0, 1};
+    if (!isOfInterval || !interval->is_string()) return {};
+    const auto [below, above] = deviations(*interval, "uncertain.interval", **interval->as_string());
+    std::string unit = unitBehindNumber(above, dimensionOf(result.unit));
+    return unit.empty() ? unitBehindNumber(below, dimensionOf(result.unit)) : unit;
+  }
+
+  /// "deg" of "-135 deg"; empty of a formula, "3/4 pi rad", of what is in per cent and of a unit of another kind.
+  static std::string unitBehindNumber(const std::string& text, const Dimension& dimension) {
+    static const std::regex number(
+        R"(\s*(?:[-+]|−)?\s*[0-9.]{1,40}(?:[eE][-+]?[0-9]{1,3})?\s*([^-+*/(0-9\s].{0,40}?)\s*)");
+    std::smatch parts;
+    if (!std::regex_match(text, parts, number)) return {};
+    const std::string unit = parts[1];
+    try {
+      const Amount one = parseAmount("1 " + unit);
+      const bool isOnlyUnit = unit.find_first_of("+(") == unit.npos && unit.find("pi") == unit.npos;
+      return isOnlyUnit && one.hasUnit && !one.isRelative && isCompatible(one.dimension, dimension) ? unit : "";
+    } catch (const UnitError&) {  // a formula
+      return {};
+    }
   }
 
   /// Beside degrees, a bare number may be meant as such.

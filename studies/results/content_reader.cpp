@@ -1,6 +1,7 @@
 // Group by group, in the order of the file, so that a dimension's extent is known when it is needed.
 #include <algorithm>
 #include <utility>
+#include <variant>
 
 #include "studies/results/detail/content.hpp"
 
@@ -118,7 +119,8 @@ class ContentReader {
   // ---- Lists --------------------------------------------------------------------------------------------------------
 
   /// The values of one field of all records, to be put into them one by one.
-  using Column = std::variant<std::vector<double>, std::vector<std::int64_t>, std::vector<std::string>>;
+  using Absent = std::monostate;
+  using Column = std::variant<std::vector<double>, std::vector<std::int64_t>, std::vector<std::string>, Absent>;
 
   static Column columnOf(const Field& field, const Hdf5Reader& in, Hdf5Shape& shape) {
     const std::string name(field.name);
@@ -144,6 +146,10 @@ class ContentReader {
         columns.emplace_back(std::vector<double>());
         continue;
       }
+      if (field.isNew && !in.has(std::string(field.name))) {
+        columns.emplace_back(Absent());
+        continue;
+      }
       columns.push_back(columnOf(field, in, shape));
       if (columns.size() == 1 && shape.size() == 1) size = shape.front();
       expected.insert(expected.begin(), size);
@@ -153,7 +159,8 @@ class ContentReader {
     group.resize(size);
     for (std::size_t i = 0; i < size; ++i) {
       const std::vector<Field> fields = group.fields(i);
-      for (std::size_t f = 0; f < fields.size(); ++f) put(columns[f], i, size, fields[f]);
+      for (std::size_t f = 0; f < fields.size(); ++f)
+        if (!std::holds_alternative<Absent>(columns[f])) put(columns[f], i, size, fields[f]);
     }
   }
 

@@ -59,6 +59,7 @@ struct Field {
   Allowed allowed = allowed::anything;
   std::string_view indexOf = "";  ///< of an index: the dimension, whose extent it lies below
   bool isNoise = false;           ///< its digits follow no rule that compression could use
+  bool isNew = false;             ///< of a list: files of this format may be without it, and leave it as it is
 };
 
 /// A group of the file: one record, whose single values are attributes, or a list of records, one data set a field.

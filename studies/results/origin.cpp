@@ -90,7 +90,16 @@ std::vector<Field> fieldsOfUncertain(UncertainInfo& u) {
            "by how much the probability of an event exceeds its possibility at most; 1/256 or less: probability and "
            "possibility agree as far as was looked",
            {},
-           allowed::share}};
+           allowed::share},
+          {"told",
+           &u.told,
+           unit::none,
+           "unit in which summary and page tell it, as the study states it; empty: its SI unit",
+           {},
+           allowed::anything,
+           "",
+           false,
+           true}};
 }
 
 std::vector<Field> fieldsOfShape(ShapeInfo& s) {

@@ -19,6 +19,7 @@ struct UncertainInfo {
   /// By how much the probability of an event exceeds its possibility, at most, as a bound that is up to 1/256 too
   /// great; 0 of what varies in time, which has neither.
   double inconsistency = 0;
+  std::string told = {};  ///< unit in which people are told of it, as the study states it; empty: the SI unit
 };
 
 /// One of the numbers that a distribution or a membership function is made of.

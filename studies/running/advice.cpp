@@ -11,6 +11,7 @@
 
 #include "studies/running/flow_of_study.hpp"
 #include "studies/running/units.hpp"
+#include "studies/told.hpp"
 #include "studies/words.hpp"
 
 namespace gamut {
@@ -75,16 +76,19 @@ class Trials {
   /// "± 4 %", "± 0.2 rad", "[1, 2.5] kg"; deviations rounded down, since more was not tried.
   std::string deviation(std::size_t quantity, double factor) const {
     const Uncertain& u = run_.study.uncertain[quantity].uncertain;
-    const std::string& unit = run_.results.uncertain[quantity].unit;
+    const Told told(run_.results.uncertain[quantity]);
     const double below = factor * (u.nominal - u.range.lower()), above = factor * (u.range.upper() - u.nominal);
     constexpr double alike = 1e-6;
     if (std::fabs(above - below) > alike * (above + below))
-      return inUnit(rangeText(u.nominal - below, u.nominal + above, 4), unit);
+      return inUnit(rangeText(told.of(u.nominal - below), told.of(u.nominal + above), 4), told.unit());
     const double half = 0.5 * (below + above);
     const double share = 100 * half / std::fabs(u.nominal);
     constexpr double roundings = 1e-9;
     const std::string percent = outwardText(share * (1 + roundings), share * (1 + roundings), 4).first;
-    return u.nominal == 0 ? "± " + inUnit(outwardText(half, half, 4).first, unit) : fmt::format("± {} %", percent);
+    return u.nominal == 0
+               ? "± " + inUnit(outwardText(told.of(half) * (1 + roundings), told.of(half) * (1 + roundings), 4).first,
+                               told.unit())
+               : fmt::format("± {} %", percent);
   }
 
   std::string reaching(const std::string& what) const {

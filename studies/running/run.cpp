@@ -12,6 +12,7 @@
 #include "analyses/consistency.hpp"
 #include "studies/printable.hpp"
 #include "studies/running/units.hpp"
+#include "studies/told.hpp"
 #include "studies/version.hpp"
 
 namespace gamut {
@@ -69,11 +70,13 @@ void describeOrigin(Run& run) {
     const Uncertain& u = q.uncertain;
     origin.uncertain.push_back({u.name, q.quantity, q.unit, u.range.lower(), u.nominal, u.range.upper(),
                                 std::string(u.distribution.name()), std::string(u.membership.name())});
+    UncertainInfo& info = origin.uncertain.back();
+    info.told = q.told;
     if (q.varies) {
-      UncertainInfo& info = origin.uncertain.back();
-      info.distribution = info.membership = std::isfinite(q.rate)
-                                                ? fmt::format("varies by {:.6g} {} at most", q.rate, rateUnitOf(q.unit))
-                                                : "varies freely";
+      const Told told(info);
+      info.distribution = info.membership =
+          std::isfinite(q.rate) ? fmt::format("varies by {:.6g} {} at most", told.of(q.rate), told.rateUnit())
+                                : "varies freely";
       continue;
     }
     const auto add = [&](const char* shape, const std::vector<ShapeNumber>& numbers) {
@@ -82,7 +85,7 @@ void describeOrigin(Run& run) {
     };
     add("distribution", u.distribution.numbers());
     add("membership", u.membership.numbers());
-    if (u.distribution.isPrecise()) origin.uncertain.back().inconsistency = inconsistency(u.distribution, u.membership);
+    if (u.distribution.isPrecise()) info.inconsistency = inconsistency(u.distribution, u.membership);
   }
 }
 

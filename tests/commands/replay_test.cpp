@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <numbers>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -47,13 +48,13 @@ TEST_F(ReplayCommand, PrintsATableWithNamesUnitsAndTheSamplesOwnValues) {
   const Results results = run();
   const Outcome replay = gamut("replay s.h5 3");
   ASSERT_EQ(replay.exitCode, 0) << replay.error;
-  EXPECT_THAT(replay.out, StartsWith("time (s),angle (rad),tip.position.z (m),uncertain start (rad)\n0,"));
+  EXPECT_THAT(replay.out, StartsWith("time (s),angle (rad),tip.position.z (m),uncertain start (deg)\n0,"));
   const auto rows = numbersOf(replay.out);
   ASSERT_EQ(rows.size(), results.time.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
     ASSERT_EQ(rows[i].size(), 4U);
     EXPECT_EQ(rows[i][0], results.time[i]);
-    EXPECT_EQ(rows[i][3], rows[0][1]);  // the uncertain quantity is the angle at the start
+    EXPECT_NEAR(rows[i][3], rows[0][1] * 180 / std::numbers::pi, 1e-12);  // as the angle at the start is stated
     for (std::size_t j = 0; j < 2; ++j) {
       EXPECT_LE(results.stochastic.envelope.lower(i, j), rows[i][j + 1]);
       EXPECT_GE(results.stochastic.envelope.upper(i, j), rows[i][j + 1]);

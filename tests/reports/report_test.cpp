@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "mechanics/description/units.hpp"
 #include "reports/drawing/screen.hpp"
 #include "reports/report.hpp"
 #include "reports/sections/contribution.hpp"
@@ -171,6 +172,24 @@ TEST(Report, PrintsTheIntervalOfAQuantityOutwardOrAsAStudyStatesIt) {
   quantity.lower = 1.0 / 3;
   quantity.upper = 2.0 / 3;
   EXPECT_THAT(renderReport(results), HasSubstr("<td>[0.333333, 0.666667]</td>"));
+}
+
+TEST(Report, TellsQuantitiesInTheUnitsThatTheStudyStates) {
+  Results results = example::pendulum(2, 1);
+  UncertainInfo& quantity = results.uncertain[0];
+  const Interval range = enclose(parseAmount("135 deg")) * Interval("[0.99, 1.01]");
+  quantity.lower = range.lower();
+  quantity.nominal = nearest(parseAmount("135 deg"));
+  quantity.upper = range.upper();
+  quantity.told = "deg";
+  RequirementResult requirement;
+  requirement.name = requirement.statement = "limit";
+  requirement.word = "partly";
+  requirement.violation = {nearest(parseAmount("134.71312 deg"))};
+  results.requirements.push_back(requirement);
+  EXPECT_THAT(renderReport(results),
+              ::testing::AllOf(HasSubstr("<td>shoulder.angle (deg)</td><td>[133.65, 136.35]</td><td>135</td>"),
+                               HasSubstr("first angle 134.7131 deg"), Not(HasSubstr("2.35"))));
 }
 
 TEST(Report, SaysHowManySamplesTheResultsHoldOneByOne) {

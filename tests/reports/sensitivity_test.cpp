@@ -123,6 +123,23 @@ TEST(SensitivitySection, HasNoDigitsOfHardlyAnyShare) {
   EXPECT_THAT(text, AllOf(HasSubstr("<td>less than 1e-09 ("), Not(HasSubstr("to 6.6"))));
 }
 
+/// Per degree a derivative is less than per radian; what is drawn, times half the interval, is the same.
+TEST(SensitivitySection, TellsDerivativesPerUnitThatTheStudyStates) {
+  Results results = example::sensitive();
+  results.derivatives.lower.assign(results.derivatives.lower.size(), 180);
+  results.derivatives.upper.assign(results.derivatives.upper.size(), 270);
+  const std::string si = sensitivities(results);
+  EXPECT_THAT(si, HasSubstr("180 to 270 rad per rad"));
+  results.uncertain[0].told = "deg";
+  const std::string told = sensitivities(results);
+  EXPECT_THAT(told, HasSubstr("3.14 to 4.72 rad per deg"));
+  const auto paths = [](const std::string& text) {
+    const std::size_t at = text.find("<path class=\"cause0\"");
+    return text.substr(at, text.find('>', at) - at);
+  };
+  EXPECT_EQ(paths(si), paths(told));
+}
+
 /// Of one quantity there is nothing to rank, and of an output that varies by roundings nothing to say.
 TEST(SensitivitySection, LeavesOutWhatSaysNothing) {
   Results results = example::sensitive();

@@ -8,10 +8,12 @@
 
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <limits>
 
 #include "studies/atomic_file.hpp"
 #include "studies/results/detail/hdf5.hpp"
+#include "tests/studies/damage.hpp"
 #include "tests/studies/sample_results.hpp"
 #include "tests/studies/temporary_folder.hpp"
 
@@ -149,6 +151,22 @@ TEST_F(ResultsFile, OfAnOlderBuildIsRefusedWithItsFormat) {
                                 ": written in format 1 by an older build of gamut; expected format 10, so run the "
                                 "study again");
   }
+}
+
+/// Files of this format that were written before units were kept: quantities are told in SI units.
+TEST_F(ResultsFile, WithoutStatedUnitsIsReadAll) {
+  Results results = sampleResults();
+  results.uncertain[0].told = "deg";
+  writeResults(results, path_);
+  EXPECT_EQ(readResults(path_).uncertain[0].told, "deg");
+  {
+    const Hdf5Handle file(H5Fopen(path_.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), H5Fclose, path_);
+    ASSERT_GE(H5Ldelete(file, "/study/uncertain/told", H5P_DEFAULT), 0);
+  }
+  std::ifstream in(path_, std::ios::binary);
+  const std::string bytes = sealed({std::istreambuf_iterator<char>(in), {}});
+  std::ofstream(path_, std::ios::binary) << bytes;
+  EXPECT_THAT(differences(readResults(path_), sampleResults()), IsEmpty());
 }
 
 TEST_F(ResultsFile, IsRefusedIfItsNumbersMakeNoSense) {

@@ -1423,6 +1423,36 @@ TEST(StudyReader, NotesIntervalsInRadiansBesideDegrees) {
   EXPECT_THAT(notes("\"± 0.1\"", "\"0.5 rad\""), ::testing::IsEmpty());
 }
 
+/// "135 deg ± 1 deg" is no 2.3562 rad for who wrote it.
+TEST(StudyReader, KeepsTheUnitInWhichAQuantityIsStated) {
+  const auto told = [](const std::string& angle, const std::string& interval) {
+    std::string text = sampleStudyWith("angle = \"30 deg\"", "angle = " + angle);
+    const std::size_t begin = text.find("interval = ") + 11;
+    text.replace(begin, text.find('\n', begin) - begin, interval);
+    return readStudyText(text, "s.toml").uncertain.at(0).told;
+  };
+  for (const char* interval : {"\"± 1 deg\"", "\"± 0.01 rad\"", "\"± 1 %\"", "[\"29 deg\", \"31 deg\"]", "\"± 0.1\""})
+    EXPECT_EQ(told("\"30 deg\"", interval), "deg") << interval;
+  EXPECT_EQ(told("\"-500 mrad\"", "\"± 1 %\""), "mrad");
+  EXPECT_EQ(told("\"30°\"", "\"± 1 %\""), "°");
+  EXPECT_EQ(told("0.5", "\"± 1 deg\""), "deg");  // a number alone is none of degrees, its deviation is
+  EXPECT_EQ(told("0", "\"+ 1 / -2 deg\""), "deg");
+  EXPECT_EQ(told("0.5", "[\"28 deg\", 0.6]"), "deg");
+  for (const char* angle : {"0.5", "\"0.5\"", "\"3/20 pi rad\"", "\"1/2 rad\"", "\"0.25 + 0.25 rad\""})
+    EXPECT_EQ(told(angle, "\"± 1 %\""), "") << angle;
+  const auto ofLength = [](const std::string& length, const std::string& interval) {
+    std::string text = sampleStudyWith("length = 0.5", "length = " + length);
+    text.replace(text.find("\"hinge.angle\""), 13, "\"rod.length\"");
+    const std::size_t begin = text.find("interval = ") + 11;
+    text.replace(begin, text.find('\n', begin) - begin, interval);
+    return readStudyText(text, "s.toml").uncertain.at(0).told;
+  };
+  EXPECT_EQ(ofLength("\"500 mm\"", "\"± 1 mm\""), "mm");
+  EXPECT_EQ(ofLength("\"0.5 m\"", "\"± 1 mm\""), "m");
+  EXPECT_EQ(ofLength("0.5", "\"± 1 mm\""), "");
+  EXPECT_EQ(ofLength("\"1 in\"", "[\"0.9 in\", \"30 mm\"]"), "in");
+}
+
 TEST(StudyReader, NotesDegreesWithoutAUnitAndStepsBeyondTheHorizon) {
   const auto notes = [](const std::string& old, const std::string& replacement) {
     return readStudyText(sampleStudyWith(old, replacement), "s.toml").notes;

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "mechanics/description/units.hpp"
 #include "scalars/interval.hpp"
 #include "studies/progress.hpp"
 #include "tests/studies/sample_results.hpp"
@@ -233,6 +234,30 @@ TEST(InfoText, RoundsTheIntervalOfAQuantityOutwardOrSaysTheDecimalsOfTheStudy) {
   EXPECT_THAT(infoText(results), HasSubstr(" in [0.333333333333, 0.666666666667] rad,"));
   results.uncertain[0].upper = 4.0 / 3;
   EXPECT_THAT(infoText(results), HasSubstr(", 1.33333333334] rad,"));
+}
+
+TEST(InfoText, TellsQuantitiesInTheUnitsThatTheStudyStates) {
+  Results results = sampleResults();
+  UncertainInfo& quantity = results.uncertain[0];
+  const Interval range = enclose(parseAmount("135 deg")) * Interval("[0.99, 1.01]");
+  quantity.lower = range.lower();
+  quantity.nominal = nearest(parseAmount("135 deg"));
+  quantity.upper = range.upper();
+  quantity.told = "deg";
+  quantity.distribution = "normal";
+  results.shapes = {{"first angle", "distribution", "lower", quantity.lower, "rad"},
+                    {"first angle", "distribution", "upper", nearest(parseAmount("136 deg")), "rad"},
+                    {"first angle", "distribution", "mean", quantity.nominal, "rad"},
+                    {"first angle", "distribution", "deviation", nearest(parseAmount("0.5 deg")), "rad"}};
+  EXPECT_THAT(infoText(results), HasSubstr(" in [133.65, 136.35] deg, nominal 135, normal (on [133.65, 136], mean 135, "
+                                           "deviation 0.5), triangular\n"));
+  quantity.unit = "kg";
+  quantity.told = "g";
+  quantity.distribution = "lognormal";
+  results.shapes = {{"first angle", "distribution", "log_mean", -2, "1"},
+                    {"first angle", "distribution", "log_deviation", 0.1, "1"}};
+  EXPECT_EQ(shapeText(results, quantity, "distribution"),
+            "lognormal (log_mean (of the number in kg) -2, log_deviation 0.1)");
 }
 
 TEST(InfoText, TellsTheNumbersOfDistributionsAndMembershipFunctions) {
