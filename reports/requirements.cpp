@@ -22,9 +22,8 @@ namespace {
 constexpr std::size_t mostShown = 200;  // on a page; some 300 kB
 
 /// The unit of the first number with a unit, "deg" of "always -5 deg < angle < 5 deg", if its dimension is that of
-/// `unit`, one of SI; else `unit`.
+/// `unit`; else `unit`.
 std::string statedUnit(const std::string& statement, const std::string& unit) {
-  if (unitOf(dimensionOf(unit)) != unit) return unit;
   static const std::regex limit(R"((?:^always|^eventually|[<>]=?)\s*[-+]?[0-9.]{1,30}(?:[eE][-+]?[0-9]{1,3})?)"
                                 R"(\s*([^\s0-9<>+-](?:[^0-9<>+-]|\^[0-9]){0,30}?)\s*(?=[<>]|$))");
   for (std::sregex_iterator found(statement.begin(), statement.end(), limit), none; found != none; ++found) {
@@ -195,13 +194,15 @@ class Wording {
   const RequirementResult& r_;
 };
 
-/// Of the margin, in the unit in which the limit is stated.
+/// In the margin's unit, and in that in which the limit is stated, if that is another: "0.25 rad (14.3 deg)".
 std::string missText(const Results& results, const RequirementResult& requirement, double miss) {
   const std::string& unit = results.outputs[requirement.margin].unit;
   const std::string stated = statedUnit(requirement.statement, unit);
-  const double scale = stated == unit ? 1 : nearest(parseAmount("1 " + stated));
-  const double size = motionSize(results, requirement.margin) / scale;
-  return inUnit(tellingText(miss / scale, size, 3), stated);
+  const double size = motionSize(results, requirement.margin);
+  const std::string text = inUnit(tellingText(miss, size, 3), unit);
+  if (stated == unit || isLittle(miss, size)) return text;
+  const double scale = nearest(parseAmount("1 " + stated)) / nearest(parseAmount("1 " + unit));
+  return fmt::format("{} ({})", text, inUnit(numberText(miss / scale, 3), stated));
 }
 
 /// "All 3 requirements are", "The requirement is".

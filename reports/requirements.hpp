@@ -27,7 +27,8 @@ std::vector<std::size_t> shownRequirements(const Results& results);
 /// "and 35 more in the results file"; empty where all are shown.
 std::string unshownRequirements(const Results& results);
 
-/// By how much the violation that is known misses the limit, in the unit in which that is stated: "0.273 mm".
+/// By how much the violation that is known misses the limit, in the margin's unit and in that in which the limit is
+/// stated: "0.273 mm", "0.25 rad (14.3 deg)".
 std::string missOf(const Results& results, const RequirementResult& requirement);
 
 /// By how much the worst sample does.

@@ -62,8 +62,10 @@ std::vector<Match> sharedNumbers(const std::vector<double>& first, const std::ve
 Shared sharedOf(const Results& first, const Results& second) {
   Shared shared;
   shared.outputs = sharedNames(first.outputs, second.outputs, shared.otherOutputs);
-  std::erase_if(shared.outputs, [&](const Match& output) {  // margins of another demand are other outputs
-    return demandOf(first, output.first) != demandOf(second, output.second);
+  std::erase_if(shared.outputs, [&](const Match& output) {  // margins of another demand, or unit, are other outputs
+    const std::string demand = demandOf(first, output.first);
+    const bool isOtherUnit = first.outputs[output.first].unit != second.outputs[output.second].unit;
+    return demand != demandOf(second, output.second) || (!demand.empty() && isOtherUnit);
   });
   for (const auto& [one, other] : shared.outputs)
     if (const std::string& unit = first.outputs[one].unit, &otherUnit = second.outputs[other].unit; unit != otherUnit)

@@ -126,7 +126,7 @@ class RequirementReader {
       const std::string which = signs.size() == 1                ? ""
                                 : signs[i].isGreater == (i == 0) ? ", from above"
                                                                  : ", from below";
-      const std::string wanted = wantedUnit(sides);
+      const std::vector<std::string> wanted = wantedUnits(sides);
       const auto add = [&](const std::string& side, const Side& below) {
         addMargin(node, requirement.name + side, greater, below, wanted);
         requirement.margins.push_back(study_.outputs.size() - 1);
@@ -137,8 +137,8 @@ class RequirementReader {
       if (inside.empty()) {
         add(which, less);
       } else {
-        add(", from above", {inside, less.expression, false, ""});
-        add(", from below", {fmt::format("-({})", inside), less.expression, false, ""});
+        add(", from above", {inside, less.expression});
+        add(", from below", {fmt::format("-({})", inside), less.expression});
       }
     }
   }
@@ -148,7 +148,8 @@ class RequirementReader {
     std::string quantity;  ///< with outputs' names replaced by what they are
     Expression expression = 0.0;
     bool isZero = false;
-    std::string unit;  ///< of an output that it names, if one was stated; else of a number with one
+    std::string ofOutput = {};  ///< unit of the first output that it names, or is
+    std::string ofNumber = {};  ///< of a number with one
   };
 
   /// Blanks stand for the rest of the text, so that columns are the text's.
@@ -176,9 +177,9 @@ class RequirementReader {
     side.isZero = amount && amount->value == 0;
     side.quantity = withoutOutputs(trimmed, side.expression.names());
     for (const std::string& name : side.expression.names())
-      if (const OutputInfo* output = outputNamed(name); output != nullptr && side.unit.empty())
-        side.unit = output->unit;
-    if (amount && amount->hasUnit && !amount->isRelative) side.unit = unitOfNumber(trimmed);
+      if (const OutputInfo* output = outputThatIs(name); output != nullptr && side.ofOutput.empty())
+        side.ofOutput = output->unit;
+    if (amount && amount->hasUnit && !amount->isRelative) side.ofNumber = unitOfNumber(trimmed);
     return side;
   }
 
@@ -189,13 +190,16 @@ class RequirementReader {
     return unit.find_first_of("0123456789*/(+-") == std::string::npos && unitNamed(unit) != nullptr ? unit : "";
   }
 
-  /// A margin is told in the unit of the output that is compared, or in that of its limit; empty: neither says one.
-  static std::string wantedUnit(const std::vector<Side>& sides) {
-    for (const bool isNumber : {false, true})
+  /// In which a margin is told, where it is one of them: the unit of the output that is compared, one that is not of SI
+  /// first; else that of its limit.
+  static std::vector<std::string> wantedUnits(const std::vector<Side>& sides) {
+    std::vector<std::string> units;
+    for (const bool isSi : {false, true})
       for (const Side& side : sides)
-        if (!side.unit.empty() && side.expression.amount().has_value() == isNumber && !isOfSi(side.unit))
-          return side.unit;
-    return {};
+        if (!side.ofOutput.empty() && isOfSi(side.ofOutput) == isSi) units.push_back(side.ofOutput);
+    for (const Side& side : sides)
+      if (!side.ofNumber.empty()) units.push_back(side.ofNumber);
+    return units;
   }
 
   static bool isOfSi(const std::string& unit) { return unit == "1" || unitOf(gamut::dimensionOf(unit)) == unit; }
@@ -240,7 +244,7 @@ class RequirementReader {
   }
 
   void addMargin(const toml::node& node, const std::string& name, const Side& greater, const Side& less,
-                 const std::string& wanted) {
+                 const std::vector<std::string>& wanted) {
     std::string quantity, unit;
     try {
       quantity = less.isZero ? greater.quantity
@@ -248,9 +252,10 @@ class RequirementReader {
                      ? fmt::format("-({})", less.quantity)
                      : fmt::format("{} - {}", inParentheses(greater.quantity), inParentheses(less.quantity));
       const Dimension dimension = study_.mechanism.dimensionOf(study_.mechanism.parse(quantity));
-      const Dimension ofWanted = gamut::dimensionOf(wanted);
-      const bool isWanted = ofWanted == dimension || isAlikeButForRadians(ofWanted, dimension);
-      unit = !wanted.empty() && isWanted ? wanted : unitOf(dimension);
+      const auto found = std::ranges::find_if(wanted, [&](const std::string& of) {
+        return gamut::dimensionOf(of) == dimension || isAlikeButForRadians(gamut::dimensionOf(of), dimension);
+      });
+      unit = found != wanted.end() ? *found : unitOf(dimension);
     } catch (const UnitError& error) {
       source_.fail(node, error);
     }
@@ -280,6 +285,13 @@ class RequirementReader {
   const OutputInfo* outputNamed(const std::string& name) const {
     if (isQuantity(name)) return nullptr;
     const auto found = std::ranges::find(outputs_, name, &OutputInfo::name);
+    return found == outputs_.end() ? nullptr : &*found;
+  }
+
+  /// The same, or the first that is the quantity of this name.
+  const OutputInfo* outputThatIs(const std::string& name) const {
+    if (!isQuantity(name)) return outputNamed(name);
+    const auto found = std::ranges::find(outputs_, name, &OutputInfo::quantity);
     return found == outputs_.end() ? nullptr : &*found;
   }
 

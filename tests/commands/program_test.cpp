@@ -420,7 +420,7 @@ TEST_F(Program, ChecksRequirements) {
   EXPECT_THAT(none.error, HasSubstr("holds no requirements; expected results of a study with [[requirement]]"));
   const Outcome violation = gamut("replay partly.h5 violation limit");
   EXPECT_EQ(violation.exitCode, 0);
-  EXPECT_THAT(violation.out, StartsWith("time (s),angle (rad),tip.position.z (m),limit (deg)"));
+  EXPECT_THAT(violation.out, StartsWith("time (s),angle (rad),tip.position.z (m),limit (rad)"));
   EXPECT_THAT(gamut("replay partly.h5 violation limits").error,
               HasSubstr("holds no requirement 'limits'; expected violation and one of 'limit'"));
   EXPECT_EQ(gamut("replay met.h5 violation limit").exitCode, 2);

@@ -78,18 +78,22 @@ TEST(PlainRequirement, NamesTheCaseThatViolatesIt) {
                         "for an instant."));
 }
 
-TEST(PlainRequirement, TellsAMissInTheUnitOfTheLimit) {
-  const auto sentence = [](const std::string& statement) {
+TEST(PlainRequirement, TellsAMissInTheMarginsUnitAndInThatOfTheLimit) {
+  const auto sentence = [](const std::string& statement, const char* unit = "rad") {
     Results results = withRequirement(statement, "partly");
+    results.outputs[results.requirements.front().margin].unit = unit;
     RequirementResult& requirement = results.requirements.front();
     requirement.violation.front() = 2.3;
     requirement.violationTime = 0.5;
     requirement.violationLower = requirement.violationUpper = -0.25;
     return sentenceOf(results);
   };
-  EXPECT_THAT(sentence("always a < 45 deg"), EndsWith(" it misses the limit by 14.3 deg at 0.5 s."));
-  EXPECT_THAT(sentence("always 250mrad>=a"), EndsWith(" it misses the limit by 250 mrad at 0.5 s."));
-  EXPECT_THAT(sentence("always -1e1 deg <= 'a b' <= 1e1 deg"), EndsWith(" by 14.3 deg at 0.5 s."));
+  EXPECT_THAT(sentence("always a < 45 deg"), EndsWith(" it misses the limit by 0.25 rad (14.3 deg) at 0.5 s."));
+  EXPECT_THAT(sentence("always 250mrad>=a"), EndsWith(" it misses the limit by 0.25 rad (250 mrad) at 0.5 s."));
+  EXPECT_THAT(sentence("always -1e1 deg <= 'a b' <= 1e1 deg"), EndsWith(" by 0.25 rad (14.3 deg) at 0.5 s."));
+  EXPECT_THAT(sentence("always a < 45 deg", "deg"), EndsWith(" it misses the limit by 0.25 deg at 0.5 s."));
+  EXPECT_THAT(sentence("always a < 1 rad", "deg"), EndsWith(" by 0.25 deg (0.00436 rad) at 0.5 s."));
+  EXPECT_THAT(sentence("always a < 1.3 kN", "N"), EndsWith(" it misses the limit by 0.25 N (0.00025 kN) at 0.5 s."));
   for (const char* statement : {"always a < 2", "always a < 2 mm", "always a < 2 b", "always 2 deg*b < a"})
     EXPECT_THAT(sentence(statement), EndsWith(" it misses the limit by 0.25 rad at 0.5 s.")) << statement;
 }

@@ -259,8 +259,11 @@ TEST(Requirements, AreSampledWithoutAGuarantee) {
   EXPECT_EQ(named(results, "met").violating, 0);
 }
 
-TEST(Requirements, AreToldInTheUnitOfTheOutputOrOfTheLimit) {
-  const std::string outputs = "[[output]]\nname = \"height\"\nquantity = \"tip.position.z\"\nunit = \"mm\"\n";
+/// An output is one of this unit everywhere, that of its limit or not; only what is no output takes that of its limit.
+TEST(Requirements, AreToldInTheUnitOfTheOutputElseOfTheLimit) {
+  const std::string outputs =
+      "[[output]]\nname = \"height\"\nquantity = \"tip.position.z\"\nunit = \"mm\"\n"
+      "[[output]]\nname = \"pull\"\nquantity = \"hinge.reaction.force.z\"\n";
   const Study study = read(withRequirements(outputs + R"(
 [[requirement]]
 name = "a"
@@ -277,11 +280,23 @@ always = "hinge.rate > -400 rpm"
 [[requirement]]
 name = "e"
 always = "tip.position.z - 1 mm < tip.position.y + 2 m"
+[[requirement]]
+name = "f"
+always = "pull < 2 kN"
+[[requirement]]
+name = "g"
+always = "hinge.reaction.force.z < 2 kN"
+[[requirement]]
+name = "h"
+always = "hinge.reaction.force.y < 2 kN"
+[[requirement]]
+name = "i"
+always = "pull*height < 2 kJ"
 )"));
   std::vector<std::string> units;
   for (const Requirement& requirement : study.requirements)
     units.push_back(study.outputs[requirement.margins.front()].unit);
-  EXPECT_THAT(units, ::testing::ElementsAre("mm", "deg", "rad", "rpm", "m"));
+  EXPECT_THAT(units, ::testing::ElementsAre("mm", "rad", "rad", "rpm", "m", "N", "N", "kN", "kJ"));
   const Results results = run(study, {});
   const std::size_t height = 2, margin = study.requirements[0].margins.front();
   for (std::size_t i = 0; i < results.time.size(); ++i)

@@ -77,8 +77,8 @@ TEST(Run, TellsOutputsInTheUnitsThatAreWanted) {
   const double degree = 0.017453292519943295;
   EXPECT_NEAR(told.interval.at.upper(last, 0) * degree, si.interval.at.upper(last, 0), 1e-9);
   EXPECT_NEAR(told.interval.at.lower(last, 1) * 1e-3, si.interval.at.lower(last, 1), 1e-9);
-  EXPECT_EQ(si.outputs[2].unit, "deg");  // as its limit is
-  EXPECT_NEAR(told.interval.at.lower(last, 2), si.interval.at.lower(last, 2), 1e-9);
+  EXPECT_EQ(si.outputs[2].unit, "rad");  // its limit is in degrees
+  EXPECT_NEAR(told.interval.at.lower(last, 2) * degree, si.interval.at.lower(last, 2), 1e-9);
   EXPECT_EQ(told.requirements[0].word, si.requirements[0].word);
   EXPECT_THROW(sampleWith("quantity = \"tip.position.z\"", "quantity = \"tip.position.z\"\nunit = \"deg\""),
                StudyError);

@@ -284,7 +284,7 @@ TEST(StudyReader, TakesMassTimesRadiusTimesSquaredRateForAForce) {
   };
   const Study study = with("N", "5 kN");
   EXPECT_EQ(study.outputs[2].unit, "N");
-  EXPECT_EQ(study.outputs[3].unit, "kN");
+  EXPECT_EQ(study.outputs[3].unit, "N");  // as the output, not as its limit
   EXPECT_THROW(with("J", "5 kN"), StudyError);
   EXPECT_THROW(with("N", "5 m"), StudyError);
   EXPECT_THROW(readStudyText(sampleStudy + "[[output]]\nquantity = \"hinge.rate\"\nunit = \"Hz\"\n", "s.toml"),
