@@ -22,6 +22,7 @@
 #include "studies/problem.hpp"
 #include "studies/readable.hpp"
 #include "studies/reading/dependence_reader.hpp"
+#include "studies/reading/frequency_notes.hpp"
 #include "studies/reading/mechanism_reader.hpp"
 #include "studies/reading/requirement_reader.hpp"
 #include "studies/reading/toml_source.hpp"
@@ -53,6 +54,7 @@ class StudyReader {
     study_.robot = std::move(read.files.robot);
     study_.tables = std::move(read.files.tables);
     std::ranges::move(read.notes, std::back_inserter(study_.notes));
+    std::ranges::move(notesOnFrequencies(source_, study_.mechanism), std::back_inserter(study_.notes));
     places_ = std::move(read.places);
     checkMotion(*file.find("mechanism"));
     if (study_.analysis == Study::Analysis::inverseDynamics) checkDrives(*file.find("mechanism"));

@@ -1453,6 +1453,56 @@ TEST(StudyReader, KeepsTheUnitInWhichAQuantityIsStated) {
   EXPECT_EQ(ofLength("\"1 in\"", "[\"0.9 in\", \"30 mm\"]"), "in");
 }
 
+/// Radians count as 1 in formulas, so that 25 Hz times t is 25 rad in a second.
+TEST(StudyReader, NotesHertzInAngles) {
+  const auto notes = [](const std::string& speed, const std::string& force) {
+    std::string text = sampleStudyWith("[[mechanism.element]]",
+                                       "[mechanism.parameters]\nspeed = " + speed + "\n[[mechanism.element]]");
+    text.replace(text.find("[[uncertain]]"), 0,
+                 "[[mechanism.element]]\ntype = \"joint-force\"\nname = \"push\"\njoint = \"hinge\"\nforce = \"" +
+                     force + "\"\n");
+    std::vector<std::string> found;
+    for (const std::string& note : readStudyText(text, "s.toml").notes)
+      if (note.find("Hz") != std::string::npos) found.push_back(note);
+    return found;
+  };
+  EXPECT_THAT(
+      notes("\"25 Hz\"", "1 N m*sin(speed*t)"),
+      ElementsAre(::testing::HasSubstr("note: 'speed' in Hz stands beside t in an angle, \"speed*t\", where 1 Hz "
+                                       "is 1 rad/s; so many turns a second are 2*pi as much, or in rpm")));
+  EXPECT_EQ(notes("\"2 kHz\"", "1 N m*exp(-t/s)*cos(0.5 + (t - 1 s)*speed)*sin(speed*t)").size(), 1U);
+  EXPECT_THAT(notes("1", "0*speed*N*m + 1 N m*sin(25 Hz*t)"),
+              ElementsAre(::testing::HasSubstr("note: a number in Hz")));
+  for (const char* right : {"1 N m*sin(2*pi*speed*t)", "1 N m*sin(2*pi*25 Hz*t) + 0 N m*speed*s",
+                            "1 N m*exp(-speed*t)*sin(3 rad/s*t)", "1 N m*speed*t"})
+    EXPECT_THAT(notes("\"25 Hz\"", right), ::testing::IsEmpty()) << right;
+  EXPECT_THAT(notes("\"25 rad/s\"", "1 N m*sin(speed*t)"), ::testing::IsEmpty());
+  EXPECT_THAT(notes("\"1500 rpm\"", "1 N m*sin(speed*t)"), ::testing::IsEmpty());
+  const std::string driven = R"([study]
+analysis = "kinematics"
+[mechanism.parameters]
+speed = "25 Hz"
+[[mechanism.element]]
+type = "revolute"
+name = "hinge"
+from = "inertial"
+to = "arm"
+axis = "x"
+[[mechanism.element]]
+type = "drive"
+name = "motor"
+joint = "hinge"
+position = "speed*t"
+[[uncertain]]
+quantity = "speed"
+interval = "± 1 %"
+[[output]]
+quantity = "hinge.angle"
+)";
+  EXPECT_THAT(readStudyText(driven, "s.toml").notes,
+              ElementsAre(::testing::StartsWith("s.toml:4:9: note: 'speed' in Hz")));
+}
+
 TEST(StudyReader, NotesDegreesWithoutAUnitAndStepsBeyondTheHorizon) {
   const auto notes = [](const std::string& old, const std::string& replacement) {
     return readStudyText(sampleStudyWith(old, replacement), "s.toml").notes;
