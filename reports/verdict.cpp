@@ -209,11 +209,21 @@ class Wording {
     std::set<std::int64_t> named;  // a sample is disputed once for each bound that it leaves
     std::erase_if(settled, [&](const DisputedSample* sample) { return !named.insert(sample->number).second; });
     constexpr std::size_t most = 20;
+    std::vector<std::pair<std::string, std::vector<const DisputedSample*>>> alike;  // those of which the same is said
     for (const DisputedSample* sample : settled) {
-      if (verdict_.settled.size() == most) break;
-      verdict_.settled.push_back(
-          fmt::format("{}: inside by {}, decided by {}.", whoIs(*sample), depthText(*sample), judgeText(*sample)));
+      const std::string said =
+          fmt::format("({}{}): inside by {}, decided by {}.", results_.outputs[sample->output].name, when(sample->time),
+                      depthText(*sample), judgeText(*sample));
+      const auto found = std::ranges::find(alike, said, [](const auto& of) { return of.first; });
+      if (found != alike.end())
+        found->second.push_back(sample);
+      else if (alike.size() < most)
+        alike.push_back({said, {sample}});
     }
+    for (const auto& [said, of] : alike)
+      verdict_.settled.push_back(fmt::format("{}{} {}", sampleName(of.front()->number),
+                                             of.size() > 1 ? fmt::format(" and {} more", of.size() - 1) : std::string(),
+                                             said));
     if (verdict_.settled.size() < settled.size() || rounding > 0)
       verdict_.settled.emplace_back("The results name them all, in /comparison/disputed.");
   }
