@@ -172,11 +172,11 @@ class Sentence {
     constexpr double telling = 0.5;
     const double least = 1 - r_.probabilityUpper, most = 1 - r_.probabilityLower;
     if (!isProbabilityProved(results_) || !(most - least < telling)) return {};
-    const auto [from, to] = outwardText(least, most, std::max(3, digitsFor(1, most - least, 1)));
+    const auto [from, to] = boundsText(std::max(least, 0.0), most, 1, 2, 1e-3);
     return from == to   ? fmt::format(" The proved probability of that is {}.", from)
-           : least <= 0 ? fmt::format(" The proved probability of that is {} at most.", to)
+           : least <= 0 ? fmt::format(" The proved probability of that is {} at most.", atMostText(most, 4))
                         : fmt::format(" The proved probability of that is {} to {}.", from,
-                                      std::strtod(to.c_str(), nullptr) > 1 ? "1" : to);
+                                      std::strtod(to.c_str(), nullptr) >= 1 ? "1" : to);
   }
 
   std::string violation() const {
@@ -216,10 +216,10 @@ constexpr const char* everyCase = "in every case that the stated tolerances allo
 
 /// When an output comes to its least and greatest, unless it is about there all the time.
 std::string extremesText(const Results& results, const MotionRange& range) {
-  const std::string least = whenText(results, range.least), greatest = whenText(results, range.greatest);
+  const std::string least = whenLeast(results, range), greatest = whenGreatest(results, range);
   std::vector<std::string> parts;
-  if (least != "throughout") parts.push_back("least " + least);
-  if (greatest != "throughout") parts.push_back("greatest " + greatest);
+  if (!least.empty() && least != "throughout") parts.push_back("least " + least);
+  if (!greatest.empty() && greatest != "throughout") parts.push_back("greatest " + greatest);
   return parts.empty() ? "" : fmt::format(" It is {}.", fmt::join(parts, ", "));
 }
 
@@ -235,7 +235,7 @@ std::string whereIs(const Results& results, std::size_t output) {
                           : isSampled ? "; nothing is proved of other cases"
                                       : " in every case that is held possible";
   const OutputInfo& info = results.outputs[output];
-  const auto [from, to] = boundsText(range->least.value, range->greatest.value);
+  const auto [from, to] = peaksText(range->least.value, range->greatest.value);
   const std::string greatest = inUnit(to, info.unit);
   if (results.horizon == 0)
     return fmt::format("{}\u201c{}\u201d lies between {} and {}{}.", begin, info.name, from, greatest, end);

@@ -42,8 +42,8 @@ double numberIn(const std::string& text) { return std::strtod(text.c_str(), null
 /// "0.9684 to 0.9702", outward; "1" of a number that is exactly known.
 std::string rangeOfShare(double lower, double upper) {
   if (lower == upper) return numberText(lower, 6);
-  const auto [low, high] = outwardText(lower, upper, std::max(3, digitsFor(1, upper - lower, 2)));
-  return fmt::format("{} to {}", numberIn(low) < 0 ? "0" : low, numberIn(high) > 1 ? "1" : high);
+  const auto [low, high] = boundsText(lower, upper, 1, 3);
+  return fmt::format("{} to {}", numberIn(low) <= 0 ? "0" : low, numberIn(high) >= 1 ? "1" : high);
 }
 
 /// Of such a quantity a violation holds the number that chooses its course.

@@ -283,9 +283,9 @@ std::string rangesText(const Results& results) {
   for (std::size_t j = 0; j < results.outputs.size(); ++j) {
     const std::optional<MotionRange> range = bestMotionRange(results, j);
     if (isMargin(results, j) || !range) continue;
-    const auto [least, greatest] = boundsText(range->least.value, range->greatest.value);
-    rows.push_back({headingOf(results.outputs[j].name, results.outputs[j].unit), least, whenText(results, range->least),
-                    greatest, whenText(results, range->greatest)});
+    const auto [least, greatest] = peaksText(range->least.value, range->greatest.value);
+    rows.push_back({headingOf(results.outputs[j].name, results.outputs[j].unit), least, whenLeast(results, *range),
+                    greatest, whenGreatest(results, *range)});
   }
   return rows.size() > 1 ? textTable(rows) : "";
 }
@@ -378,10 +378,17 @@ std::string shapesText(const Results& results, const UncertainInfo& uncertain) {
   return distribution == membership ? distribution : distribution + ", " + membership;
 }
 
+constexpr double hardlyAny = 0.01;  ///< s of CPU
+
+/// "0.45 s"; of what took hardly any time no zeros.
+std::string cpuText(double seconds) {
+  return seconds < hardlyAny ? "less than 0.01 s" : fmt::format("{:.2f} s", seconds);
+}
+
 /// What was spent in all, and of how much.
 std::string spentText(const Results& results) {
   if (!std::isfinite(results.limits.time)) return {};
-  return fmt::format("; in all {:.2f} of {:.6g} s, {:.2f} of {:.3g} GB", results.cpu, results.limits.time,
+  return fmt::format("in all {:.2f} of {:.6g} s, {:.2f} of {:.3g} GB", results.cpu, results.limits.time,
                      results.memory / 1e9, results.limits.memory / 1e9);
 }
 
@@ -490,8 +497,13 @@ std::string textSummary(const Results& results) {
   }
   std::string text = rangesText(results) + textTable(rows);
   std::vector<std::string> costs;
+  bool isAnything = false;
+  const auto spend = [&](const std::string& what, double cpu) {
+    isAnything = true;
+    if (cpu >= hardlyAny) costs.push_back(fmt::format("{} {}", what, cpuText(cpu)));
+  };
   for (const Answer* answer : results.answers())
-    if (answer->present) costs.push_back(fmt::format("{} {:.2f} s", answer->title(), answer->cpu));
+    if (answer->present) spend(answer->title(), answer->cpu);
   if (!results.dependence.empty()) text += fmt::format("  quantities: {}\n", results.dependence);
   text += statisticsText(results);
   text += transformationText(results);
@@ -511,15 +523,17 @@ std::string textSummary(const Results& results) {
       text += fmt::format("  probabilities: bounds {} apart at most, at {}{}\n", atMostText(d.gap, 2),
                           countText(static_cast<long long>(d.time.size()), "time"),
                           d.why.empty() ? "" : fmt::format(" ({} is aimed at: {})", numberText(d.wanted, 3), d.why));
-    costs.push_back(fmt::format("probabilities {:.2f} s", d.cpu));
+    spend("probabilities", d.cpu);
   }
   if (const DerivativeResult& d = results.derivatives; d.present) {
     text += fmt::format("  derivatives: enclosed up to {} s{}\n", numberText(d.reached, 6),
                         d.why.empty() ? "" : ": " + d.why);
-    costs.push_back(fmt::format("derivatives {:.2f} s", d.cpu));
+    spend("derivatives", d.cpu);
   }
-  if (costs.empty()) return text;
-  return text + fmt::format("  CPU: {}{}\n", fmt::join(costs, ", "), spentText(results));
+  const std::string spent = spentText(results);
+  if (!isAnything || (costs.empty() && spent.empty())) return text;
+  return text +
+         fmt::format("  CPU: {}{}{}\n", fmt::join(costs, ", "), costs.empty() || spent.empty() ? "" : "; ", spent);
 }
 
 std::string infoText(const Results& results) {
@@ -545,7 +559,7 @@ std::string infoText(const Results& results) {
     text += fmt::format("  {}: ", answer->title());
     if (results.horizon > 0)
       text += fmt::format("up to {} s{}; ", answer->reached, answer->why.empty() ? "" : ": " + answer->why);
-    text += fmt::format("{:.2f} s CPU; {}\n", answer->cpu, answer->amount());
+    text += fmt::format("{} CPU; {}\n", cpuText(answer->cpu), answer->amount());
   }
   return text;
 }

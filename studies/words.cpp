@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 
 #include "scalars/interval.hpp"
@@ -70,7 +71,6 @@ std::string timesText(double ratio) {
   const double more = ratio - 1;
   constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();  // of two differences and their quotient
   if (more > 0 && more <= rounding) return "1";
-  if (more > 0 && more <= billionth) return "1.000000001";
   return atMostText(ratio, more > 0 && more < hardly ? 5 : 4);
 }
 
@@ -82,8 +82,8 @@ std::pair<std::string, std::string> outwardText(double lower, double upper, int 
   return {inFull(text.substr(1, comma - 1)), inFull(text.substr(comma + 2, text.size() - comma - 3))};
 }
 
-std::pair<std::string, std::string> boundsText(double lower, double upper, double size, int resolved) {
-  const double greatest = std::max(std::abs(lower), std::abs(upper)), width = upper - lower;
+std::pair<std::string, std::string> boundsText(double lower, double upper, double size, int resolved, double widest) {
+  const double greatest = std::max(std::abs(lower), std::abs(upper)), width = std::max(upper - lower, widest);
   if (!(lower <= upper) || std::isinf(greatest)) return outwardText(lower, upper, resolved);
   if (greatest == 0) return {"0", "0"};
   const double least = std::max(billionth * std::max(size, greatest), leastTold), shown = std::max(width, least);
@@ -102,6 +102,29 @@ std::pair<std::string, std::string> boundsText(double lower, double upper, doubl
     return isLittle ? (bound < 0 ? "-" : "") + powerAbove(least) : decimals;
   };
   return {end(lower, text.substr(1, comma - 1)), end(upper, text.substr(comma + 2, text.size() - comma - 3))};
+}
+
+std::pair<std::string, std::string> peaksText(double least, double greatest) {
+  const double size = std::max(std::abs(least), std::abs(greatest));
+  constexpr double legible = 1e7, small = 1e-4;
+  if (!(least <= greatest) || !(size >= small && size < legible)) return boundsText(least, greatest);
+  constexpr int digits = 4, most = 3;  // of its own; beyond those that the width has
+  const auto decimalsFor = [](double x) { return digits - 1 - static_cast<int>(std::floor(std::log10(x))); };
+  const int common = std::clamp(decimalsFor(std::max(greatest - least, billionth * size)), 0, 15 - most);
+  const auto outward = [](double peak, bool isLeast, int decimals) {
+    const std::string text = toFixedString(Interval(peak), decimals);  // "[down, up]"
+    const auto comma = text.find(',');
+    return isLeast ? text.substr(1, comma - 1) : text.substr(comma + 2, text.size() - comma - 3);
+  };
+  const auto end = [&](double peak, bool isLeast) -> std::string {
+    if (peak == 0 || (isLittle(peak, size) && (peak > 0) == isLeast)) return "0";
+    const std::string nearest = fmt::format("{:.{}f}", peak, common);
+    const double decimal = std::strtod(nearest.c_str(), nullptr), beyond = isLeast ? decimal - peak : peak - decimal;
+    if (beyond >= 0 && isLittle(beyond, size) && outward(peak, isLeast, common) != nearest)
+      return "about " + numberText(decimal + 0.0, 15);
+    return outward(peak, isLeast, std::clamp(decimalsFor(std::abs(peak)), common, common + most));
+  };
+  return {end(least, true), end(greatest, false)};
 }
 
 std::string intervalText(double lower, double upper, int digits) {

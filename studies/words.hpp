@@ -25,17 +25,23 @@ std::string atMostText(double x, int digits, double size);
 /// Whether x is hardly anything beside numbers of this size: no more than a billionth of it.
 bool isLittle(double x, double size);
 
-/// How many times as wide an enclosure is, rounded up: "1.013"; "1.0001" of what is hardly more than 1,
-/// "1.000000001" of what is more by no more than a billionth, and "1" where only rounding made it more.
+/// How many times as wide an enclosure is, rounded up: "1.013"; "1.0001" of what is hardly more than 1, and "1" where
+/// only rounding made it more.
 std::string timesText(double ratio);
 
 /// Decimals of lower rounded down and of upper rounded up: the printed pair holds the interval.
 /// Infinite ends give "-inf", "inf"; both are "none" where there is no interval (a NaN, or lower > upper).
 std::pair<std::string, std::string> outwardText(double lower, double upper, int digits);
 
-/// Bounds of one quantity, rounded outward, with the digits that their width justifies (`resolved` of it), and no more
-/// than show a billionth of `size`: "[-114.38, 51.46]".
-std::pair<std::string, std::string> boundsText(double lower, double upper, double size = 0, int resolved = 4);
+/// Bounds of one quantity, rounded outward, with the digits that their width justifies (`resolved` of it, or of the
+/// `widest` of those beside them), and no more than show a billionth of `size`: "[-114.38, 51.46]".
+std::pair<std::string, std::string> boundsText(double lower, double upper, double size = 0, int resolved = 4,
+                                               double widest = 0);
+
+/// The least and the greatest of a motion, rounded outward, with the digits that their distance justifies and up to
+/// four of each one's own: "-0.9587", "104.4". "about 0.2" of what is beyond a decimal by no more than a billionth of
+/// the greater of both, which roundings do.
+std::pair<std::string, std::string> peaksText(double least, double greatest);
 
 /// "[lower, upper]" rounded outward, or "none".
 std::string intervalText(double lower, double upper, int digits);

@@ -19,7 +19,7 @@ bool isThere(const Band& band) { return !band.lower.empty() && band.lower[0] <= 
 
 class BarChart {
  public:
-  BarChart(const Plot& plot, const std::string& label) : plot_(plot), digits_(plot.digits()) {
+  BarChart(const Plot& plot, const std::string& label) : plot_(plot) {
     Range values;
     double height = marginTop + marginBottom + 6;
     for (const Layer& layer : plot.layers) {
@@ -32,6 +32,7 @@ class BarChart {
       for (const Band& band : layer.bands) {
         if (!isThere(band)) continue;
         values.hold(band);
+        widest_ = std::max(widest_, band.upper[0] - band.lower[0]);
         height += layer.kind == Layer::Kind::stack ? stackHeight : rowHeight;
       }
     }
@@ -53,7 +54,8 @@ class BarChart {
 
  private:
   std::string numbersOf(const Band& band) const {
-    return intervalText(band.lower[0], band.upper[0], digits_) + (plot_.unit.empty() ? "" : " " + plot_.unit);
+    const auto [lower, upper] = boundsText(band.lower[0], band.upper[0], 0, 4, widest_);
+    return inUnit(fmt::format("[{}, {}]", lower, upper), plot_.unit);
   }
 
   /// Thin ones stay visible: at least one unit wide.
@@ -107,7 +109,7 @@ class BarChart {
   }
 
   const Plot& plot_;
-  int digits_;
+  double widest_ = 0;  // of all bars
   Frame frame_{};
   double y_ = marginTop + 6;
   std::size_t labelled_ = 0;

@@ -20,29 +20,22 @@ std::size_t lastCommonTime(const Results& results) {
   return end == results.time.begin() ? 0 : static_cast<std::size_t>(end - results.time.begin()) - 1;
 }
 
-/// Digits that show the widest of one row's intervals, so that a narrow one far from zero is not printed as a point.
-int rowDigits(const std::vector<Column>& columns, std::size_t time, std::size_t output) {
-  double magnitude = 0, width = 0;
-  for (const Column& column : columns) {
-    if (column.bounds == nullptr || column.bounds->empty()) continue;
-    const double lower = column.bounds->lower(time, output), upper = column.bounds->upper(time, output);
-    if (!(upper - lower >= width)) continue;
-    width = upper - lower;
-    magnitude = std::max(std::abs(lower), std::abs(upper));
-  }
-  return digitsFor(magnitude, width, 4);
+/// The widest of one row's intervals, so that a narrow one beside it has as many decimals.
+double widestOf(const std::vector<Column>& columns, std::size_t time, std::size_t output) {
+  double widest = 0;
+  for (const Column& column : columns)
+    if (column.bounds != nullptr && !column.bounds->empty())
+      widest = std::fmax(widest, column.bounds->upper(time, output) - column.bounds->lower(time, output));
+  return widest;
 }
 
 /// Of an output of this size over the whole motion, a billionth of which has no digits of its own.
-std::string cellOf(const Column& column, std::size_t time, std::size_t output, int digits, double size) {
+std::string cellOf(const Column& column, std::size_t time, std::size_t output, double widest, double size) {
   if (column.bounds == nullptr) return column.texts[output];
   if (column.bounds->empty()) return "none";
-  const double lower = column.bounds->lower(time, output), upper = column.bounds->upper(time, output);
-  if (const double most = std::max(std::abs(lower), std::abs(upper)); most != 0 && isLittle(most, size)) {
-    const auto [least, greatest] = boundsText(lower, upper, size);
-    return fmt::format("[{}, {}]", least, greatest);
-  }
-  return intervalText(lower, upper, digits);
+  const auto [least, greatest] =
+      boundsText(column.bounds->lower(time, output), column.bounds->upper(time, output), size, 4, widest);
+  return least == "none" ? least : fmt::format("[{}, {}]", least, greatest);
 }
 
 std::string figuresTable(const Results& results, const Verdict& verdict, std::size_t rows) {
@@ -56,17 +49,20 @@ std::string figuresTable(const Results& results, const Verdict& verdict, std::si
   TableText table(results.horizon > 0 ? fmt::format("Outputs at {} s", numberText(results.time[time], 6)) : "Outputs",
                   heads);
   for (std::size_t k = 0; k < std::min(rows, results.outputs.size()); ++k) {
-    const int digits = rowDigits(columns, time, k);
+    const double widest = widestOf(columns, time, k);
     const double size = motionSize(results, k);
     std::vector<std::string> cells;
-    for (const Column& column : columns) cells.push_back(cellOf(column, time, k, digits, size));
+    for (const Column& column : columns) cells.push_back(cellOf(column, time, k, widest, size));
     const std::string& name = results.outputs[k].name;
     table.row(headingOf(isMargin(results, k) ? "margin of " + name : name, results.outputs[k].unit), cells);
   }
   return table.html() + hintOfRows(results.outputs.size(), rows);
 }
 
-std::string secondsText(double seconds) { return numberText(seconds, seconds < 1000 ? 3 : 6) + " s"; }
+std::string secondsText(double seconds) {
+  constexpr double told = 0.01;
+  return seconds < told ? "less than 0.01 s" : numberText(seconds, seconds < 1000 ? 3 : 6) + " s";
+}
 
 std::string costTable(const Results& results) {
   TableText table("Cost", {"analysis", "CPU time", "amount"});

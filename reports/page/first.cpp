@@ -98,11 +98,11 @@ std::string rangesTable(const Results& results) {
     for (; output < results.outputs.size() && count > 0; ++output) {
       const std::optional<MotionRange> range = bestMotionRange(results, output);
       if (isMargin(results, output) || !range) continue;
-      const auto [least, greatest] = boundsText(range->least.value, range->greatest.value);
+      const auto [least, greatest] = peaksText(range->least.value, range->greatest.value);
       std::vector<std::string> cells{least, greatest};
       if (results.horizon > 0) {
-        cells.insert(cells.begin() + 1, whenText(results, range->least));
-        cells.push_back(whenText(results, range->greatest));
+        cells.insert(cells.begin() + 1, whenLeast(results, *range));
+        cells.push_back(whenGreatest(results, *range));
       }
       table.row(headingOf(results.outputs[output].name, results.outputs[output].unit), cells);
       ++shown;

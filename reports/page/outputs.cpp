@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "reports/drawing/paper.hpp"
 #include "reports/drawing/screen.hpp"
@@ -16,17 +17,20 @@
 namespace gamut {
 namespace {
 
-/// "angle, guaranteed within [-2.5, 2.4] rad, sampled within .." for those who cannot see the drawing.
+/// "angle, at the output times guaranteed within [-2.5, 2.4] rad, sampled within .." for those who cannot see the
+/// drawing.
 std::string description(const Plot& plot) {
   std::string words = plot.name;
+  const char* when = plot.isOverTime() ? "at the output times " : "";
   for (const Layer& layer : plot.layers) {
     if (layer.kind != Layer::Kind::band || layer.readout.empty()) continue;
     double low = INFINITY, high = -INFINITY;
     for (const double x : layer.bands.front().lower) low = std::fmin(low, x);
     for (const double x : layer.bands.front().upper) high = std::fmax(high, x);
-    if (low <= high)
-      words += fmt::format(", {} within {}{}{}", layer.readout, intervalText(low, high, 4),
-                           plot.unit.empty() ? "" : " ", plot.unit);
+    if (!(low <= high)) continue;
+    const auto [least, greatest] = boundsText(low, high);
+    words += fmt::format(", {}{} within [{}, {}]{}{}", std::exchange(when, ""), layer.readout, least, greatest,
+                         plot.unit.empty() ? "" : " ", plot.unit);
   }
   return words;
 }
@@ -131,7 +135,8 @@ std::string furtherOutputs(const Results& results, const Detail& detail, StyleSh
         low = std::fmin(low, bounds->lower(i, k));
         high = std::fmax(high, bounds->upper(i, k));
       }
-      cells.push_back(low <= high ? intervalText(low, high, 4) : "none");
+      const auto [least, greatest] = boundsText(low, high);
+      cells.push_back(low <= high ? fmt::format("[{}, {}]", least, greatest) : "none");
     }
     table.row(headingOf(results.outputs[k].name, results.outputs[k].unit), cells);
     if (++folded > detail.folded) continue;

@@ -137,8 +137,8 @@ std::string convergenceFigure(const Results& results, const Detail& detail, cons
     worstOutput = o;
   }
   if (worstOutput == outputs) return {};
-  const std::string drawing = drawConvergence(samples, lines, worst, shown.axis,
-                                              fmt::format("Plot of the {} by the number of samples", shown.what));
+  const std::string drawing =
+      drawConvergence(samples, lines, worst, shown.axis, fmt::format("Plot by the number of samples: {}", shown.what));
   if (drawing.empty()) return {};
   return fmt::format(
       "<div class=\"card\"><figure class=\"kept convergence\">{}<figcaption>{}{}: {} with {:.0f} samples for "
@@ -193,10 +193,9 @@ std::string statisticsTable(const Results& results, std::size_t rows) {
     for (std::size_t q = 0; q < s.quantiles.size(); ++q) {
       const double lower = hasIntervals(s) ? s.quantileLower[q](row, o) : std::nan(""),
                    upper = hasIntervals(s) ? s.quantileUpper[q](row, o) : std::nan("");
-      const double most = std::max(std::abs(lower), std::abs(upper));
-      cells.push_back(std::isnan(lower) || std::isnan(upper) || isOneValue
-                          ? with(s.quantiles[q](row, o), Table())
-                          : intervalText(lower, upper, digitsFor(most, upper - lower, 2)));
+      const auto [from, to] = boundsText(lower, upper, size, 2);
+      cells.push_back(std::isnan(lower) || std::isnan(upper) || isOneValue ? with(s.quantiles[q](row, o), Table())
+                                                                           : fmt::format("[{}, {}]", from, to));
     }
     table.row(headingOf(results.outputs[o].name, results.outputs[o].unit), cells);
   }

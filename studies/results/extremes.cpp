@@ -116,4 +116,14 @@ std::string whenText(const Results& results, const Extreme& extreme) {
              : fmt::format("between {} and {}", timeText(extreme.from), timeText(extreme.until));
 }
 
+std::string whenLeast(const Results& results, const MotionRange& range) {
+  const bool isOfRounding = range.least.value < 0 && isLittle(range.least.value, range.size());
+  return isOfRounding ? "" : whenText(results, range.least);
+}
+
+std::string whenGreatest(const Results& results, const MotionRange& range) {
+  const bool isOfRounding = range.greatest.value > 0 && isLittle(range.greatest.value, range.size());
+  return isOfRounding ? "" : whenText(results, range.greatest);
+}
+
 }  // namespace gamut

@@ -1,6 +1,8 @@
 // What an output does over the whole motion: its least and its greatest, and when.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string>
 
@@ -24,6 +26,9 @@ struct MotionRange {
   double until = 0;           ///< s: the last time
   Extreme least, greatest;
   double width = 0;  ///< of what is known at an output time, at most
+
+  /// The greatest number.
+  double size() const { return std::max(std::abs(least.value), std::abs(greatest.value)); }
 };
 
 /// What is guaranteed (at every instant), what samples did, or what is held possible; nothing where nothing finite is
@@ -41,5 +46,9 @@ std::string rangesCaption(const Results& results);
 
 /// "at 0.3 s", "between 0.3 s and 0.4 s", "throughout"; empty where no time passes.
 std::string whenText(const Results& results, const Extreme& extreme);
+
+/// The same of the least and the greatest; empty too of one that is beyond zero by roundings, which chose its time.
+std::string whenLeast(const Results& results, const MotionRange& range);
+std::string whenGreatest(const Results& results, const MotionRange& range);
 
 }  // namespace gamut

@@ -33,7 +33,9 @@ std::vector<Field> fieldsOf(IntervalResult& r) {
 
 std::string IntervalResult::title() const { return "enclosure"; }
 
-std::string IntervalResult::amount() const { return countText(pieces, "piece") + ", " + countText(steps, "step"); }
+std::string IntervalResult::amount() const {
+  return countText(pieces, "piece") + (steps > 0 ? ", " + countText(steps, "step") : "");
+}
 
 void IntervalResult::describe(std::vector<Group>& groups) {
   groups.push_back(groupOf("/interval", "what is guaranteed: enclosures of every output", *this, fieldsOf));

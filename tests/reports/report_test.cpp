@@ -206,6 +206,27 @@ TEST(Report, PrintsGuaranteedBoundsOutwardInItsTable) {
   EXPECT_THAT(renderReport(results), HasSubstr("<td>[-1.235, 7.655]</td>"));
 }
 
+/// All cells of a row have the decimals of the widest, zeros at their ends too.
+TEST(Report, PrintsBoundsOfOneOutputWithTheSameDecimals) {
+  Results results = example::pendulum(2, 1);
+  results.interval.at.lower(1, 0) = -1.3446;
+  results.interval.at.upper(1, 0) = -1.08207;
+  results.stochastic.envelope.lower(1, 0) = -1.30004;
+  results.stochastic.envelope.upper(1, 0) = -1.3;
+  EXPECT_THAT(renderReport(results),
+              ::testing::AllOf(HasSubstr("<td>[-1.3447, -1.0820]</td>"), HasSubstr("<td>[-1.3001, -1.3000]</td>")));
+}
+
+/// A drawing shows the bounds between output times too: what is said instead says which are meant.
+TEST(Report, SaysInDrawingsOfWhichTimesBoundsAre) {
+  Results results = example::pendulum(3, 1);
+  for (std::size_t i = 0; i < 3; ++i) results.interval.at.lower(i, 0) = 3.777e-87;
+  for (std::size_t i = 0; i < 3; ++i) results.interval.at.upper(i, 0) = 0.05001;
+  EXPECT_THAT(renderReport(results),
+              ::testing::AllOf(HasSubstr(", at the output times guaranteed within [0.00000, 0.05001] rad"),
+                               Not(HasSubstr("e-87"))));
+}
+
 json plotNumbers(const Results& results) { return json::parse(plotData(plotOf(results, 0))); }
 
 /// Whole numbers of a line, NaN where there is none.

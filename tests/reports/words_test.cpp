@@ -70,11 +70,39 @@ TEST(PrintedBounds, HaveTheDigitsThatTheirWidthJustifies) {
       }
 }
 
+/// Each of the two has four digits of its own, and what roundings put beyond a decimal is told as about that.
+TEST(Peaks, HaveDigitsOfTheirOwn) {
+  EXPECT_EQ(peaksText(-0.95861, 104.3712), Ends("-0.9587", "104.4"));
+  EXPECT_EQ(peaksText(-10.4341, 1.19172), Ends("-10.44", "1.192"));
+  EXPECT_EQ(peaksText(0.70340264, 0.70535391), Ends("0.703402", "0.705354"));
+  EXPECT_EQ(peaksText(-0.2 - 1e-12, 0.2 + 1e-11), Ends("about -0.2", "about 0.2"));
+  EXPECT_EQ(peaksText(-0.2 - 1e-9, 0.2), Ends("-0.2001", "about 0.2"));  // the double is above 0.2
+  EXPECT_EQ(peaksText(-2.5, 0.5), Ends("-2.500", "0.5000"));
+  EXPECT_EQ(peaksText(-1e-12, 0.05 + 1e-12), Ends("about 0", "about 0.05"));
+  EXPECT_EQ(peaksText(1e-12, 0.0512345), Ends("0", "0.05124"));
+  EXPECT_EQ(peaksText(0, 0), Ends("0", "0"));
+  EXPECT_EQ(peaksText(-1e-7, 20.125), Ends("-0.00001", "20.13"));
+  EXPECT_EQ(peaksText(2e8, 2.5e8), Ends("2e+08", "2.5e+08"));
+  EXPECT_EQ(peaksText(1, std::numeric_limits<double>::infinity()), Ends("1", "inf"));
+  EXPECT_EQ(peaksText(std::nan(""), 1), Ends("none", "none"));
+  for (const double size : {1e-30, 1e-6, 1.0, 3e5, 1e12})
+    for (double low = -2; low < 2; low += 0.37)
+      for (const double width : {0.0, 1e-15, 1e-9, 0.1, 5.0}) {
+        const double least = size * low, greatest = size * (low + width);
+        const auto [lower, upper] = peaksText(least, greatest);
+        const double billionth = 1e-9 * std::max(std::abs(least), std::abs(greatest));
+        const auto decimal = [](const std::string& text) {
+          return Interval::parse(text.starts_with("about ") ? text.substr(6) : text);
+        };
+        EXPECT_LE(decimal(lower).upper() - (lower.starts_with("about ") ? billionth : 0), least) << lower;
+        EXPECT_GE(decimal(upper).lower() + (upper.starts_with("about ") ? billionth : 0), greatest) << upper;
+      }
+}
+
 TEST(TimesAsWide, HaveNoDigitsOfRounding) {
   EXPECT_EQ(timesText(1), "1");
   EXPECT_EQ(timesText(1 + 4e-16), "1");
-  EXPECT_EQ(timesText(1 + 2e-15), "1.000000001");
-  EXPECT_EQ(timesText(1 + 9e-10), "1.000000001");
+  EXPECT_EQ(timesText(1 + 2e-15), "1.0001");
   EXPECT_EQ(timesText(1 + 2e-9), "1.0001");
   EXPECT_EQ(timesText(1.00012), "1.0002");
   EXPECT_EQ(timesText(1.0121), "1.013");

@@ -54,6 +54,18 @@ TEST(Extremes, ThatNoOutputTimeComesNearAreBetweenTwo) {
   EXPECT_EQ(whenOf(guaranteed({0, 1, 0.9, 0}, {0, 1, 0.9, 0}, 0.1)).greatest, "between 0 s and 1 s");
 }
 
+/// Roundings choose the instant of what is zero.
+TEST(Extremes, OfWhatIsZeroButForRoundingHaveNoTime) {
+  const Results results = guaranteed({0.5, 0.4, -1e-12, 0.3}, {1, 0.9, 0.5, 0.8}, 0);
+  const MotionRange range = motionRange(results, 0, MotionRange::Source::ofProof).value();
+  EXPECT_EQ(whenText(results, range.least), "at 2 s");
+  EXPECT_EQ(range.size(), 1);
+  const Results rises = guaranteed({1e-13, 0.5, 0.8, 1}, {0.1, 0.6, 0.9, 1.1}, 0);
+  EXPECT_EQ(whenLeast(rises, motionRange(rises, 0, MotionRange::Source::ofProof).value()), "at 0 s");
+  EXPECT_EQ(whenLeast(results, range), "");
+  EXPECT_EQ(whenGreatest(results, range), "at 0 s");
+}
+
 TEST(Extremes, OfWhatIsConservedAreThroughout) {
   EXPECT_EQ(whenOf(guaranteed({1, 1, 1, 1}, {2, 2, 2, 2}, 0)), (When{"throughout", "throughout"}));
 }

@@ -236,6 +236,29 @@ TEST(InfoText, RoundsTheIntervalOfAQuantityOutwardOrSaysTheDecimalsOfTheStudy) {
   EXPECT_THAT(infoText(results), HasSubstr(", 1.33333333334] rad,"));
 }
 
+TEST(InfoText, HasNoZerosOfWhatTookHardlyAnyTime) {
+  Results results = sampleResults();
+  results.interval.cpu = 0.0001;
+  results.interval.pieces = 1;
+  results.interval.steps = 0;  // where no time passes
+  EXPECT_THAT(infoText(results), HasSubstr("less than 0.01 s CPU; 1 piece\n"));
+  EXPECT_THAT(textSummary(results), Not(HasSubstr("CPU: enclosure")));
+}
+
+/// What is zero but for rounding has neither digits nor a time.
+TEST(TextSummary, TellsPeaksThatRoundingsMoveAsAbout) {
+  Results results = sampleResults();
+  results.requirements.clear();
+  for (Bounds* bounds : {&results.interval.at, &results.interval.over})
+    for (std::size_t i = 0; i < bounds->lower.times; ++i) {
+      bounds->lower(i, 0) = i == 1 ? -1e-13 : 0;
+      bounds->upper(i, 0) = i == 1 ? 0.05 + 1e-13 : 0.01;
+    }
+  const std::string text = textSummary(results);
+  EXPECT_THAT(text, HasSubstr("about 0 "));
+  EXPECT_THAT(text, HasSubstr("about 0.05 "));
+}
+
 TEST(InfoText, TellsQuantitiesInTheUnitsThatTheStudyStates) {
   Results results = sampleResults();
   UncertainInfo& quantity = results.uncertain[0];
