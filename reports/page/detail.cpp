@@ -2,6 +2,7 @@
 #include "reports/page/detail.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "reports/page/page.hpp"
 #include "reports/sections/limits.hpp"
@@ -30,6 +31,23 @@ std::vector<std::size_t> byInterest(const Results& results) {
   return order;
 }
 
+/// What is known to vary by more than roundings. Of anything else there is one value at a time, which neither
+/// membership nor distribution nor cause would say more of.
+bool spreads(const Results& results, std::size_t output) {
+  constexpr double rounding = 1e-10;  // of the greatest number
+  const Bounds* bounds = bestKnown(results);
+  double width = 0, size = 0;
+  bool isKnown = false;
+  for (std::size_t i = 0; bounds != nullptr && i < bounds->lower.times; ++i) {
+    const double lower = bounds->lower(i, output), upper = bounds->upper(i, output);
+    if (!std::isfinite(lower) || !std::isfinite(upper)) continue;
+    isKnown = true;
+    width = std::max(width, upper - lower);
+    size = std::max({size, std::abs(lower), std::abs(upper)});
+  }
+  return !isKnown || width > rounding * size;
+}
+
 }  // namespace
 
 Detail detailOf(const Results& results, int level) {
@@ -42,7 +60,7 @@ Detail detailOf(const Results& results, int level) {
   for (std::size_t i = 0; i < plotted; ++i) detail.isPlotted[order[i]] = 1;
   std::size_t cards = share(mostCarded, 1);
   for (const std::size_t output : order)
-    if (!isMargin(results, output) && cards > 0) detail.hasCards[output] = 1, --cards;
+    if (!isMargin(results, output) && spreads(results, output) && cards > 0) detail.hasCards[output] = 1, --cards;
   const std::size_t many = std::max(plotted, fullPlots);
   detail.times = share(mostTimes * fullPlots / many, 50);
   detail.paperTimes = share(mostPaperTimes * fullPlots / many, 25);

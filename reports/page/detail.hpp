@@ -14,10 +14,11 @@ inline constexpr std::size_t largestPage = 10'000'000;
 
 struct Detail {
   std::vector<char> isPlotted;  ///< of each output: its plots over time are there
-  std::vector<char> hasCards;   ///< likewise: what is possible, probable and whose doing it is, at some times
-  std::size_t times = 0;        ///< that an interactive plot has at most
-  std::size_t paperTimes = 0;   ///< likewise a drawing
-  std::size_t rows = 0;         ///< of a table
+  std::vector<char>
+      hasCards;  ///< likewise, of what something uncertain moves: what is possible, probable and whose doing it is
+  std::size_t times = 0;       ///< that an interactive plot has at most
+  std::size_t paperTimes = 0;  ///< likewise a drawing
+  std::size_t rows = 0;        ///< of a table
   std::size_t machineNumbers = 0;
   std::size_t textBytes = 0;  ///< of the study
   std::size_t leftOut = 0;    ///< outputs without plots

@@ -90,6 +90,7 @@ std::string membershipFigures(const Results& results, const Detail& detail) {
       "another.";
   html +=
       "</p>\n" + momentsControl("membership", "Time of the membership functions", times) + "<div class=\"cards\">\n";
+  std::string cards;
   for (std::size_t output = 0; output < results.outputs.size(); ++output) {
     if (!detail.cards(output)) continue;
     std::vector<std::string> drawings, numbers, captions;
@@ -101,11 +102,11 @@ std::string membershipFigures(const Results& results, const Detail& detail) {
       captions.push_back(drawings.back().empty() ? "nothing is known" + when : "membership" + when);
       numbers.push_back(numbersOf(results, row, output));
     }
-    html +=
+    cards +=
         fmt::format("<section class=\"card\">\n<h3>{}</h3>\n{}</section>\n", escapeHtml(results.outputs[output].name),
                     momentFigures("membership", drawings, captions, numbers));
   }
-  return html + "</div>\n";
+  return cards.empty() ? "" : html + cards + "</div>\n";
 }
 
 }  // namespace gamut

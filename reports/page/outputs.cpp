@@ -48,15 +48,30 @@ Plot spreadOf(const Plot& plot, std::size_t times) {
   return around;
 }
 
+/// Whether it is anywhere wider than roundings make it; around the middle of others only these would be seen.
+bool hasSpread(const Plot& plot) {
+  double size = 0, width = 0;
+  for (const Layer& layer : plot.layers) {
+    if (!layer.isInSpread || layer.kind == Layer::Kind::line || layer.bands.empty()) continue;
+    const Band& band = layer.bands.front();
+    for (std::size_t i = 0; i < std::min(band.lower.size(), band.upper.size()); ++i) {
+      size = std::fmax(size, std::fmax(std::abs(band.lower[i]), std::abs(band.upper[i])));
+      width = std::fmax(width, band.upper[i] - band.lower[i]);
+    }
+  }
+  return !isLittle(width, size);
+}
+
 std::string motionSection(const Plot& plot, std::size_t output, const Detail& detail) {
   const std::string words = description(plot);
   const Plot thin = thinned(plot, detail.paperTimes);
   const bool isSpread = plot.isThin();
   const std::string absolute = figure("absolute", "Absolute", drawPlot(thin, "Plot over time of " + words), !isSpread),
-                    spread = figure(
-                        "spread", "Spread around " + plot.middleName(),
-                        drawPlot(spreadOf(plot, detail.paperTimes), "Plot of the spread around the middle of " + words),
-                        isSpread),
+                    spread = !hasSpread(plot) ? std::string()
+                                              : figure("spread", "Spread around " + plot.middleName(),
+                                                       drawPlot(spreadOf(plot, detail.paperTimes),
+                                                                "Plot of the spread around the middle of " + words),
+                                                       isSpread),
                     ratios = drawRatios(thin, "Plot of the overestimation of " + plot.name);
   return fmt::format(
       "<section class=\"output\" data-output=\"{}\" data-view=\"{}\">\n<h3>{}</h3>\n"

@@ -368,25 +368,10 @@ std::string tableOf(const Results& results, std::size_t output, const std::vecto
   return table.html();
 }
 
-/// What is known to vary by more than roundings.
-bool spreads(const Results& results, std::size_t output) {
-  constexpr double rounding = 1e-10;  // of the greatest number
-  const Bounds* bounds = bestKnown(results);
-  double width = 0, size = 0;
-  for (std::size_t i = 0; bounds != nullptr && i < bounds->lower.times; ++i) {
-    const double lower = bounds->lower(i, output), upper = bounds->upper(i, output);
-    if (!std::isfinite(lower) || !std::isfinite(upper)) continue;
-    width = std::max(width, upper - lower);
-    size = std::max({size, std::abs(lower), std::abs(upper)});
-  }
-  return width > rounding * size;
-}
-
 /// Among several quantities; of a single one there are derivatives alone.
 std::vector<Answered> answersOf(const Results& results, std::size_t output) {
   const SensitivityResult& s = results.sensitivity;
   const InfluenceResult& influence = results.fuzzy.influence;
-  if (!spreads(results, output)) return {};
   if (results.uncertain.size() < 2) return {derivatives(results, output)};
   std::vector<Answered> answers{indices(results, output, true), indices(results, output, false),
                                 derivatives(results, output)};

@@ -227,6 +227,31 @@ TEST(Report, SaysInDrawingsOfWhichTimesBoundsAre) {
                                Not(HasSubstr("e-87"))));
 }
 
+/// Of what nothing uncertain moves a distribution, or a spread, would show roundings.
+TEST(Report, HasNoCardsOfWhatNothingUncertainMoves) {
+  Results results = example::pendulum();
+  const auto cardsOf = [&](std::size_t output) {
+    const std::string page = renderReport(results);
+    return count(page, "<section class=\"card\">\n<h3>" + results.outputs[output].name + "</h3>");
+  };
+  ASSERT_GT(cardsOf(0), 1U);
+  EXPECT_THAT(renderReport(results), HasSubstr("Plot of the spread around the middle of " + results.outputs[0].name));
+  std::vector<Bounds*> all{&results.interval.at, &results.interval.over, &results.stochastic.envelope};
+  for (std::vector<Bounds>* cuts : {&results.fuzzy.outer, &results.fuzzy.inner})
+    for (Bounds& cut : *cuts) all.push_back(&cut);
+  for (Bounds* bounds : all)
+    for (std::size_t i = 0; i < bounds->lower.times; ++i) {
+      bounds->lower(i, 0) = 0.1 * static_cast<double>(i);
+      bounds->upper(i, 0) = bounds->lower(i, 0) + 1e-15;
+    }
+  for (Table& quantile : results.stochastic.quantiles)
+    for (std::size_t i = 0; i < quantile.times; ++i) quantile(i, 0) = 0.1 * static_cast<double>(i);
+  EXPECT_THAT(renderReport(results),
+              Not(HasSubstr("Plot of the spread around the middle of " + results.outputs[0].name)));
+  EXPECT_EQ(cardsOf(0), 0U);
+  EXPECT_GT(cardsOf(1), 1U);
+}
+
 json plotNumbers(const Results& results) { return json::parse(plotData(plotOf(results, 0))); }
 
 /// Whole numbers of a line, NaN where there is none.
