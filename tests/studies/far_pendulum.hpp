@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include "tests/studies/pendulum_text.hpp"
+
 namespace gamut {
 
 /// A pendulum, let go far up, of one piece: known up to 2.6 s where its start is known to 15 %.
@@ -14,34 +16,8 @@ analysis = "dynamics"
 horizon = 3
 output_step = 0.1
 compare = ["interval", "stochastic"]
-[mechanism]
-gravity = [0, 0, -9.81]
-[[mechanism.element]]
-type = "revolute"
-name = "hinge"
-from = "inertial"
-to = "K1"
-axis = "x"
-initial = { angle = "120 deg", rate = 0 }
-[[mechanism.element]]
-type = "link"
-name = "rod"
-from = "K1"
-to = "tip"
-vector = [0, 0, "-rod.length"]
-parameters = { length = 0.8 }
-[[mechanism.element]]
-type = "mass"
-name = "bob"
-at = "tip"
-mass = 0.25
-[[uncertain]]
-name = "start"
-quantity = "hinge.angle"
-interval = ")" +
-         start + R"("
-distribution = { type = "uniform" }
-[[uncertain]]
+)" + pendulumMechanism("initial = { angle = \"120 deg\", rate = 0 }\n", hangingRod("0.8"), "0.25") +
+         uncertainStart(start) + R"([[uncertain]]
 name = "length"
 quantity = "rod.length"
 interval = "± 1 %"

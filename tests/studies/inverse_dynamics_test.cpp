@@ -9,6 +9,7 @@
 #include "mechanics/assembly.hpp"
 #include "studies/running/run.hpp"
 #include "studies/study.hpp"
+#include "tests/studies/pendulum_text.hpp"
 #include "tests/studies/sample_study.hpp"
 #include "tests/studies/temporary_folder.hpp"
 
@@ -23,26 +24,8 @@ std::string drivenPendulum(const std::string& drive) {
 analysis = "inverse-dynamics"
 horizon = 1
 output_step = 0.25
-[mechanism]
-gravity = [0, 0, -9.81]
-[[mechanism.element]]
-type = "revolute"
-name = "hinge"
-from = "inertial"
-to = "K1"
-axis = "x"
-[[mechanism.element]]
-type = "link"
-name = "rod"
-from = "K1"
-to = "tip"
-vector = [0, 0, -0.5]
-[[mechanism.element]]
-type = "mass"
-name = "bob"
-at = "tip"
-mass = "250 g"
-)" + drive +
+)" + pendulumMechanism("", "vector = [0, 0, -0.5]\n", "\"250 g\"") +
+         drive +
          R"(
 [[uncertain]]
 quantity = "bob.mass"

@@ -9,6 +9,7 @@
 #include "studies/running/run.hpp"
 #include "studies/running/tolerance.hpp"
 #include "studies/summary.hpp"
+#include "tests/studies/pendulum_text.hpp"
 #include "tests/studies/sample_study.hpp"
 #include "tests/studies/temporary_folder.hpp"
 
@@ -373,20 +374,8 @@ TEST(Requirements, HoldWithoutMotion) {
   const Results results = run(read(R"([study]
 analysis = "kinematics"
 [mechanism]
-[[mechanism.element]]
-type = "revolute"
-name = "hinge"
-from = "inertial"
-to = "K1"
-axis = "x"
-initial = { angle = 0.5 }
-[[mechanism.element]]
-type = "link"
-name = "rod"
-from = "K1"
-to = "tip"
-vector = [0, 0, "-1 m"]
-[[uncertain]]
+)" + hingeAndRod("initial = { angle = 0.5 }\n", "vector = [0, 0, \"-1 m\"]\n") +
+                                   R"([[uncertain]]
 quantity = "hinge.angle"
 interval = [0, 1]
 [[output]]

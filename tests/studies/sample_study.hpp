@@ -5,6 +5,7 @@
 #include <string>
 
 #include "studies/study.hpp"
+#include "tests/studies/pendulum_text.hpp"
 
 namespace gamut {
 
@@ -15,33 +16,8 @@ analysis = "dynamics"
 horizon = 0.5
 output_step = 0.1
 compare = ["interval", "stochastic", "fuzzy"]
-[mechanism]
-gravity = [0, 0, -9.81]
-[[mechanism.element]]
-type = "revolute"
-name = "hinge"
-from = "inertial"
-to = "K1"
-axis = "x"
-initial = { angle = "30 deg", rate = 0.5 }
-[[mechanism.element]]
-type = "link"
-name = "rod"
-from = "K1"
-to = "tip"
-vector = [0, 0, "-rod.length"]
-parameters = { length = 0.5 }
-[[mechanism.element]]
-type = "mass"
-name = "bob"
-at = "tip"
-mass = "250 g"
-[[uncertain]]
-name = "start"
-quantity = "hinge.angle"
-interval = "± 1 %"
-distribution = { type = "uniform" }
-membership = { type = "triangular" }
+)" + pendulumMechanism("initial = { angle = \"30 deg\", rate = 0.5 }\n", hangingRod("0.5"), "\"250 g\"") +
+                                       uncertainStart("± 1 %") + R"(membership = { type = "triangular" }
 [[output]]
 name = "angle"
 quantity = "hinge.angle"
