@@ -150,7 +150,7 @@ std::unique_ptr<FlowFollower::Tools> FlowFollower::toolsFor(const FlowPiece& pie
             FlowStepper(motion, layout.monomials, layout.frameDegree, task_.order, task_.tolerance,
                         FlowInputs(task_.motion.states(), task_.order, task_.varying, 0.4 * (options.tightness - 1)),
                         options.cancelled),
-            PolynomialRange(layout.monomials), nullptr, nullptr, nullptr, nullptr, std::move(besides)});
+            PolynomialRange(layout.monomials), nullptr, nullptr, nullptr, nullptr, std::move(besides), held});
   if (layout.monomials->symbols() == 0 && task_.fineOrders > 0) tools->stepper.setFineOrders(task_.fineOrders);
   tools->stepper.setStateNames(options.stateNames);
   tools->stepper.setScales(task_.scales);
@@ -278,7 +278,7 @@ void FlowFollower::findBoxes(double began, const Interval& t, const std::vector<
   if (signsWithin_)
     boxes_ = signsWithin_->boxes(began, t, states, parameterBox_, given_);
   else
-    boxes_ = {{t, states, {}}};
+    boxes_ = {{t, states, {}, {}}};
 }
 
 /// When, in seconds into the step, the first comes to a surface, and when the last one has.
@@ -297,9 +297,28 @@ Interval FlowFollower::overBoxes(int output) {
   for (const SignBox& box : boxes_) {
     Box all = parameterBox_;
     all.insert(all.end(), box.signs.begin(), box.signs.end());
-    result = hull(result, outputs_->overBox(output, box.time, box.states, all));
+    Interval own = outputs_->overBox(output, box.time, box.states, all);
+    if (MeanValueOutputs* held = outputsWhileHeld(box.held)) {
+      const Interval both = intersection(own, held->over(output, box.time, box.states, all));
+      if (!isEmpty(both)) own = both;  // else there are no solutions there
+    }
+    result = hull(result, own);
   }
   return result;
+}
+
+/// With what holds the solutions of a SignBox as formulas: of these, unlike of intervals, it is known what they have to
+/// do with quantities and states. Null where no sign is known as little as to be parted.
+MeanValueOutputs* FlowFollower::outputsWhileHeld(std::vector<char> held) {
+  if (held.empty() || !std::ranges::any_of(given_, &SignCases::isOpen)) return nullptr;
+  if (std::ranges::find(held, 1) == held.end()) held.clear();
+  const auto [place, isNew] = tool_->whileHeld.try_emplace(held);
+  if (!isNew) return place->second.get();
+  try {
+    place->second = std::make_unique<MeanValueOutputs>(task_.jumps.outputsGiven(task_.outputs, held));
+  } catch (const std::logic_error&) {
+  }
+  return place->second.get();
 }
 
 /// Over the part `xi` of the piece, where the states are in these boxes, at the time of `point_`.

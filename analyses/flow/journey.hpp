@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "analyses/flow/asides.hpp"
+#include "analyses/flow/mean_value_outputs.hpp"
 #include "analyses/flow/outputs.hpp"
 #include "analyses/flow/polynomial_range.hpp"
 #include "analyses/flow/step.hpp"
@@ -98,6 +99,9 @@ class FlowFollower {
     std::unique_ptr<FlowOutputChords> chords;
     std::unique_ptr<FlowAsides> asides;  // once needed
     Program besides;                     // the values that these are of
+    std::vector<char> held;
+    /// The outputs where these are held (a SignBox's); null where they cannot be held together.
+    std::map<std::vector<char>, std::unique_ptr<MeanValueOutputs>> whileHeld = {};
   };
 
   FlowJourney follow(FlowPiece& piece, double end, double allowed);
@@ -107,6 +111,7 @@ class FlowFollower {
   void findBoxes(double began, const Interval& t, const std::vector<Interval>& states);
   std::vector<double> turns(double h) const;
   Interval overBoxes(int output);
+  MeanValueOutputs* outputsWhileHeld(std::vector<char> held);
   std::unique_ptr<Tools> toolsFor(const FlowPiece& piece, const std::vector<char>& held) const;
   bool use(const FlowPiece& piece, const std::vector<char>& held);
   bool isDegreeWorthwhile(const FlowPiece& piece, StepOutcome outcome) const;

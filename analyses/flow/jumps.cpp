@@ -210,6 +210,7 @@ SignCases JumpBound::signAfter(double seconds) const {
   cases.below = then.lower() < 0 || (mayBeZero && ever.lower() < 0 && reach(-start.lower(), -down) >= 0);
   const bool slides = maySlide && (holds || seconds > 0);
   cases.between = !mayBeZero ? Interval::empty() : slides ? slid : Interval(-1.0, 1.0);
+  cases.isHeldBetween = maySlide && holds;
   return mayBeZero && !slides ? cases : within(cases);
 }
 
@@ -220,6 +221,7 @@ SignCases JumpBound::signOver() const {
   cases.below = over.lower() < 0;
   const bool passes = contains(over, 0.0) && !leaves();
   cases.between = maySlide ? slid : passes ? Interval(-1.0, 1.0) : Interval::empty();
+  cases.isHeldBetween = maySlide && holds;
   if (!(passes && !maySlide)) cases = within(cases);
   // None is on a side any longer once all have left it and none comes to it; nor at zero or beyond before one is there.
   constexpr double infinite = std::numeric_limits<double>::infinity();
@@ -277,23 +279,28 @@ bool narrowAll(const LinearForm& form, const Interval& argument, const Box& para
 
 std::vector<SignBox> SignsWithin::boxes(double began, const Interval& time, const Box& states, const Box& parameters,
                                         std::vector<SignCases> signs) {
-  constexpr int mostApart = 2;  // nine cases
+  constexpr std::size_t most = 9;  // of cases
   for (SignCases& sign : signs) sign = sign.during(time - Interval(began));
   narrow(time, states, parameters, signs);
-  std::vector<SignBox> result{{time, states, {}}};
-  int apart = 0;
+  std::vector<SignBox> result{{time, states, {}, {}}};
+  const auto giveAll = [](const Interval& sign, std::vector<SignBox>& boxes) {
+    for (SignBox& box : boxes) {
+      box.signs.push_back(sign);
+      box.held.push_back(0);
+    }
+  };
   for (std::size_t k = 0; k < signs.size(); ++k) {
-    const bool isApart = signs[k].isOpen() && apart < mostApart;
-    if (!isApart) {
-      for (SignBox& box : result) box.signs.push_back(signs[k].hull());
+    const std::size_t cases = signs[k].above + signs[k].below + (isEmpty(signs[k].between) ? 0U : 1U);
+    if (!signs[k].isOpen() || cases * result.size() > most) {
+      giveAll(signs[k].hull(), result);
       continue;
     }
-    ++apart;
     std::vector<SignBox> next;
-    const auto add = [&](const Interval& sign, const Interval& argument, const Interval& when) {
+    const auto add = [&](const Interval& sign, const Interval& argument, const Interval& when, bool isHeld) {
       for (const SignBox& box : result) {
         SignBox own = box;
         own.signs.push_back(sign);
+        own.held.push_back(static_cast<char>(isHeld));
         own.time = intersection(own.time, Interval(began) + when);
         if (isEmpty(own.time)) continue;
         const bool isLinear = k < jumps_.forms.size() && jumps_.forms[k];
@@ -301,11 +308,11 @@ std::vector<SignBox> SignsWithin::boxes(double began, const Interval& time, cons
       }
     };
     constexpr double infinite = std::numeric_limits<double>::infinity();
-    if (signs[k].above) add(Interval(1.0), Interval(0.0, infinite), signs[k].whileAbove);
-    if (signs[k].below) add(Interval(-1.0), Interval(-infinite, 0.0), signs[k].whileBelow);
-    if (!isEmpty(signs[k].between)) add(signs[k].between, Interval(0.0), signs[k].whileBetween);
+    if (signs[k].above) add(Interval(1.0), Interval(0.0, infinite), signs[k].whileAbove, false);
+    if (signs[k].below) add(Interval(-1.0), Interval(-infinite, 0.0), signs[k].whileBelow, false);
+    if (!isEmpty(signs[k].between)) add(signs[k].between, Interval(0.0), signs[k].whileBetween, signs[k].isHeldBetween);
     if (next.empty()) {
-      for (SignBox& box : result) box.signs.push_back(signs[k].hull());
+      giveAll(signs[k].hull(), result);
       continue;
     }
     result = std::move(next);

@@ -43,10 +43,11 @@ struct SignCases {
   Interval between{-1.0, 1.0};      ///< where it is zero; empty: nowhere
   /// When that may be so, in seconds from where a step begins.
   Interval whileAbove = Interval::entire(), whileBelow = Interval::entire(), whileBetween = Interval::entire();
+  bool isHeldBetween = false;  ///< and what is there stays there: its sign is the formula that holds it
 
   Interval hull() const;
   /// Of the negative argument.
-  SignCases mirrored() const { return {below, above, -between, whileBelow, whileAbove, whileBetween}; }
+  SignCases mirrored() const { return {below, above, -between, whileBelow, whileAbove, whileBetween, isHeldBetween}; }
   bool isOpen() const { return above + below + !isEmpty(between) > 1 || !(above || below || isThin(between)); }
   /// What of it may be so in this time; all of it if nothing may.
   SignCases during(const Interval& seconds) const;
@@ -92,6 +93,7 @@ struct SignBox {
   Interval time;
   Box states;
   std::vector<Interval> signs;
+  std::vector<char> held;  ///< of each sign, whether it holds its argument at zero here
 };
 
 /// The signs of a motion where its states are known better than over a step.

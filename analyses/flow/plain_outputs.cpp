@@ -12,10 +12,7 @@ namespace gamut {
 
 using detail::at;
 
-namespace {
-
-/// What these nodes take roots and logarithms of.
-std::vector<int> arguments(const Program& g, std::vector<int> open) {
+std::vector<int> argumentsOfRoots(const Program& g, std::vector<int> open) {
   std::vector<char> isUsed(g.nodes().size(), 0);
   std::vector<int> found;
   while (!open.empty()) {
@@ -30,9 +27,11 @@ std::vector<int> arguments(const Program& g, std::vector<int> open) {
   return found;
 }
 
+namespace {
+
 /// The values of these nodes, then what they take roots and logarithms of.
 Program withArguments(const Program& g, std::vector<int> nodes) {
-  const std::vector<int> besides = arguments(g, nodes);
+  const std::vector<int> besides = argumentsOfRoots(g, nodes);
   nodes.insert(nodes.end(), besides.begin(), besides.end());
   return Recorder(g).finish(nodes);
 }

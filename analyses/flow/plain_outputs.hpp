@@ -11,6 +11,9 @@
 
 namespace gamut {
 
+/// What these nodes of g, `open`, take roots and logarithms of, nodes too.
+std::vector<int> argumentsOfRoots(const Program& g, std::vector<int> open);
+
 class PlainOutputs {
  public:
   /// Of y = g(t, x, p).

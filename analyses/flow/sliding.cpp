@@ -441,6 +441,7 @@ std::vector<SignCases> FlowStepper::signs(std::size_t count, Of of) const {
   if (held_.empty() && jumps.size() == count)
     for (std::size_t j = 0; j < count; ++j) result[j] = own(j);
   for (std::size_t k = 0; k < held_.size(); ++k) {
+    if (held_[k] != 0) result[k] = {.above = false, .below = false, .isHeldBetween = true};
     if (left_[k] < 0 || at(left_[k]) >= jumps.size()) continue;
     result[k] = own(at(left_[k]));
     if (factor_[k] < 0) result[k] = result[k].mirrored();

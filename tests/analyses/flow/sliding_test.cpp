@@ -217,6 +217,32 @@ TEST(FlowSlidingExactly, OutputsHoldWhatHolds) {
   }
 }
 
+/// While some rest and others still come, p sign x of those that rest is 1/4 whatever p is: as a product of intervals
+/// it would be 0.2423 and more.
+TEST(FlowSlidingExactly, WhatHoldsDependsOnWhatItHolds) {
+  const auto rate = [](const auto& x, const auto& p) { return 0.25 + 0.25 * x[0] - p[0] * sign(x[0]); };
+  const Program f = record(1, 1, [&](auto, const auto& x, const auto& p, auto& dx) { dx[0] = rate(x, p); });
+  const Program g = record(1, 1, 2, [&](auto, const auto& x, const auto& p, auto& y) {
+    y[0] = p[0] * sign(x[0]);
+    y[1] = rate(x, p);
+  });
+  for (const double side : {1.0, -1.0}) {  // from below: the mirror image, p sign x = 1/4 still
+    const Interval start = Interval(side) * Interval(0.25, 0.5);
+    const Tube tube = Flow(f, g).enclose({start, Interval(0.95, 1.05)}, 2, {2});
+    ASSERT_EQ(tube.why(), "");
+    const Interval force = tube.outputsOver(1)[0], all = tube.outputsOver(1)[1];
+    EXPECT_TRUE(isSubset(hull(Interval(0.25), side * Interval(0.95, 1.05)), force)) << toString(force);
+    EXPECT_TRUE(contains(all, 0.0)) << toString(all);
+    if (side > 0) {
+      EXPECT_GT(force.lower(), 0.249);
+      EXPECT_LT(all.upper(), 0.001);
+    } else {
+      EXPECT_LT(force.upper(), 0.251);
+      EXPECT_GT(all.lower(), -0.001);
+    }
+  }
+}
+
 /// Where some rest already and others still come, by 1 - c or so a second: an acceleration is that of either, at output
 /// times and between, in alpha-cuts and in models; what rests has c for a sign, whatever it is written as.
 TEST(FlowSlidingExactly, OutputsHoldThoseThatRestAndThoseThatCome) {
