@@ -18,6 +18,10 @@ PolynomialRange::PolynomialRange(std::shared_ptr<const Monomials> monomials) : m
   for (int l = 0; l < m.symbols(); ++l) {
     down_.emplace_back(at(m.count()));
     for (int g = 0; g < m.count(); ++g) down_.back()[at(g)] = m.shifted(g, l, -1);
+    axis_.emplace_back();
+    for (int g = m.linear(l); g >= 0; g = m.shifted(g, l, 1)) axis_.back().push_back(g);
+    bend_.emplace_back();
+    for (int g = 0; g < m.count(); ++g) bend_.back().push_back(g == m.linear(l) ? 0.0 : m.exponent(g, l));
   }
   for (int g = 0; g < m.count(); ++g) {
     bool even = g > 0;
@@ -133,10 +137,7 @@ void PolynomialRange::reduceMonotone(std::vector<double>& c) const {
   for (int l = 0; l < m.symbols(); ++l) {
     const int linear = m.linear(l);
     if (linear < 0 || c[at(linear)] == 0) continue;
-    double others = 0;
-    for (int g = 0; g < m.count(); ++g)
-      if (g != linear && m.exponent(g, l) > 0) others += m.exponent(g, l) * std::fabs(c[at(g)]);
-    if (!(others * bounds::up < std::fabs(c[at(linear)]))) continue;
+    if (!(nonlinear(l, c) * bounds::up < std::fabs(c[at(linear)]))) continue;
     const double end = c[at(linear)] > 0 ? 1 : -1;
     for (int g = m.count() - 1; g > 0; --g)
       if (const int power = m.exponent(g, l); power > 0) {
@@ -157,30 +158,35 @@ double PolynomialRange::upperBound(const std::vector<double>& c) const {
 
 /// At the middle and, per symbol, at both ends of its axis.
 double PolynomialRange::greatestValue(const std::vector<double>& c) const {
-  const Monomials& m = *monomials_;
   double best = c[0];
-  for (int l = 0; l < m.symbols(); ++l)
-    for (int sign : {-1, 1}) {
-      double value = c[0];
-      for (int g = 1, power; g < m.count(); ++g)
-        if ((power = m.exponent(g, l)) > 0 && m.grade(g) == power * m.weight(l))
-          value += power % 2 == 1 && sign < 0 ? -c[at(g)] : c[at(g)];
-      best = std::max(best, value);
+  for (const std::vector<int>& axis : axis_) {
+    double low = c[0], high = c[0];
+    for (std::size_t i = 0; i < axis.size(); ++i) {
+      low += i % 2 == 0 ? -c[at(axis[i])] : c[at(axis[i])];
+      high += c[at(axis[i])];
     }
+    best = std::max({best, low, high});
+  }
   return best;
+}
+
+/// Σ of the exponent times |c_g| over the nonlinear terms: no less than how the slope in the symbol varies.
+double PolynomialRange::nonlinear(int symbol, const std::vector<double>& c) const {
+  const double* bend = bend_[at(symbol)].data();
+  double sums[4] = {};
+  std::size_t g = 0;
+  for (; g + 4 <= c.size(); g += 4)
+    for (std::size_t i = 0; i < 4; ++i) sums[i] += bend[g + i] * std::fabs(c[g + i]);
+  for (; g < c.size(); ++g) sums[0] += bend[g] * std::fabs(c[g]);
+  return (sums[0] + sums[1]) + (sums[2] + sums[3]);
 }
 
 /// The symbol with most in its nonlinear terms.
 int PolynomialRange::mostNonlinear(const std::vector<double>& c) const {
-  const Monomials& m = *monomials_;
   int symbol = 0;
   double most = -1;
-  for (int l = 0; l < m.symbols(); ++l) {
-    double nonlinear = 0;
-    for (int g = 1; g < m.count(); ++g)
-      if (g != m.linear(l) && m.exponent(g, l) > 0) nonlinear += m.exponent(g, l) * std::fabs(c[at(g)]);
-    if (nonlinear > most) most = nonlinear, symbol = l;
-  }
+  for (int l = 0; l < monomials_->symbols(); ++l)
+    if (const double found = nonlinear(l, c); found > most) most = found, symbol = l;
   return symbol;
 }
 

@@ -38,10 +38,13 @@ class PolynomialRange {
   double upperBound(const std::vector<double>& c) const;
   double greatestValue(const std::vector<double>& c) const;
   int mostNonlinear(const std::vector<double>& c) const;
+  double nonlinear(int symbol, const std::vector<double>& c) const;
   void reduceMonotone(std::vector<double>& c) const;
 
   std::shared_ptr<const Monomials> monomials_;
-  std::vector<std::vector<int>> down_;  // [symbol][g]: g / ξ_symbol, or -1
+  std::vector<std::vector<int>> down_;     // [symbol][g]: g / ξ_symbol, or -1
+  std::vector<std::vector<int>> axis_;     // [symbol][i]: ξ_symbol^(i+1)
+  std::vector<std::vector<double>> bend_;  // [symbol][g]: the exponent of ξ_symbol, and 0 of ξ_symbol itself
   std::vector<std::vector<double>> binomial_;
   std::vector<char> even_;
   double shiftError_, gap_ = 0;
