@@ -202,6 +202,7 @@ std::string missText(const Results& results, const RequirementResult& requiremen
   const std::string text = inUnit(tellingText(miss, size, 3), unit);
   if (stated == unit || isLittle(miss, size)) return text;
   const double scale = nearest(parseAmount("1 " + stated)) / nearest(parseAmount("1 " + unit));
+  if (scale == 1) return text;  // "°" and "deg"
   return fmt::format("{} ({})", text, inUnit(numberText(miss / scale, 3), stated));
 }
 

@@ -73,10 +73,9 @@ void describeOrigin(Run& run) {
     UncertainInfo& info = origin.uncertain.back();
     info.told = q.told;
     if (q.varies) {
-      const Told told(info);
+      const Told own(q.unit, "");  // a comparison looks at this text, in whatever units two studies are stated
       info.distribution = info.membership =
-          std::isfinite(q.rate) ? fmt::format("varies by {:.6g} {} at most", told.of(q.rate), told.rateUnit())
-                                : "varies freely";
+          std::isfinite(q.rate) ? fmt::format("varies by {:.6g} {} at most", q.rate, own.rateUnit()) : "varies freely";
       continue;
     }
     const auto add = [&](const char* shape, const std::vector<ShapeNumber>& numbers) {
