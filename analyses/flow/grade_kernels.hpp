@@ -11,8 +11,8 @@ constexpr int padding = 8;
 constexpr int paddedStride(int stride) { return stride + padding; }
 
 /// out[γ][i] += Σ_{αβ = γ} Σ_{j ≤ i} a[α][j] b[β][i-j] for all γ of grade q and i < orders, over α and β of grade
-/// `least` and more. `a` holds no more than `ordersOfA` orders. Orders of `out` up to the next multiple of eight are
-/// overwritten.
+/// `least` and more. `a` holds no more than `ordersOfA` orders. Orders of `out` up to the next multiple of eight
+/// are no longer what they were.
 void multiplySeries(const Monomials& monomials, int q, int least, const double* a, int ordersOfA, const double* bPadded,
                     int stride, int orders, double* out);
 

@@ -1,4 +1,5 @@
-// The recursion: coefficients of every node in plain floating point, order by order. No bound is computed here.
+// The recursion: coefficients of every node in plain floating point, order by order; of
+// many monomials by grades (polynomial_series_grades.cpp). No bound is computed here.
 #include "analyses/flow/polynomial_series.hpp"
 
 #include <algorithm>

@@ -142,7 +142,8 @@ class PolynomialSeries {
   /// The operation that comes soonest to the edge of its domain, before σ = `within`, in words; empty if none does.
   std::string nearestEdge(double within) const;
 
-  // Results. Node numbers are those of the program; frame entries are separate.
+  // Results. Node numbers are those of the program; frame entries are separate. Of many monomials only series of
+  // inputs, outputs and factors are kept.
   const double* series(int node) const { return &f_[plan_[at(node)].f]; }
   const double* frame(int i, int j) const { return &f_[plan_[at(frameNode(i, j))].f]; }
   int outputNode(int output) const { return outputs_[at(output)]; }
@@ -237,7 +238,7 @@ class PolynomialSeries {
   void put(const Plan& v, int g, int i, double value) {
     f_[v.f + at(g * stride_ + i)] = value;
     if (v.r == none) return;
-    r_[v.r + at(g * (stride_ + 8) + (isByGrades_ ? kernels::padding + i : stride_ - 1 - i))] = value;
+    r_[v.r + at(g * kernels::paddedStride(stride_) + (isByGrades_ ? kernels::padding + i : stride_ - 1 - i))] = value;
     if (g == 0 && v.z != none) z_[v.z + at(stride_ - 1 - i)] = value;
   }
   double mean(const std::vector<double>& along, const std::vector<double>& there, int node) const {
@@ -339,7 +340,7 @@ class PolynomialSeries {
   std::vector<std::size_t> inverseAt_;
   std::vector<double> norm_, weighted_, own0_, own1_, rho0_, rho1_, along0_, along1_, top_;
   std::vector<double> power_, weights_;
-  std::vector<kernels::ThinNode> thin_;  // without symbols: the recursion's own view of the plan
+  std::vector<kernels::ThinNode> thin_;  // of the coefficients of 1: the recursion's own view of the plan
   std::vector<std::pair<int, int>> thinStates_;
   std::vector<kernels::ThinSum> thinFrame_;
   std::vector<const kernels::ThinSolution*> thinSolutions_;

@@ -396,8 +396,7 @@ void PolynomialSeries::frameDefect(int i, int j, double& nu0, double& nu1) const
     z0 += norm_[at(b)] * ra0 + (ra0 + ra1) * top;
     z1 += norm_[at(b)] * ra1 + norm_[at(a)] * top + tailTime(a, b);
     if (monomials_->degree() > 0) z0 += tailDegree(a, b, frameDegree_, 0);
-    rounding +=
-        plan_[at(a)].constant && !isByGrades_ ? norm_[at(a)] * norm_[at(b)] : weighted_[at(a)] * weighted_[at(b)];
+    rounding += weighted_[at(a)] * weighted_[at(b)];
   }
   // A sum of `terms` products has at most terms·N roundings a term, and one more in the division by i+1.
   nu0 = (z0 + (terms + 1) * bounds::unit * rounding) * bounds::up + bounds::tiny;

@@ -8,6 +8,10 @@
 
 namespace gamut {
 
+namespace {
+constexpr std::size_t manyPairs = 500;  // with fewer, grades are not worth their while
+}
+
 PolynomialSeries::PolynomialSeries(const Program& program, int primaryOutputs,
                                    std::shared_ptr<const Monomials> monomials, int frameDegree, int order,
                                    bool withFrame, const std::atomic<bool>* cancelled)
@@ -80,10 +84,10 @@ PolynomialSeries::PolynomialSeries(const Program& program, int primaryOutputs,
     }
 
   planSystems(program);
-  constexpr std::size_t fewPairs = 500;  // of which the recursion by orders is faster
-  isByGrades_ = !hasKinks_ && monomials_->pairs().size() >= fewPairs;
+  isByGrades_ = !hasKinks_ && monomials_->pairs().size() >= manyPairs;
 
-  // Which nodes are the right factor of a convolution, and need a reversed copy and tables of tails?
+  // Which nodes are the right factor of a convolution, and need a copy (reversed, or by grades padded) and tables of
+  // tails?
   const auto rightFactor = [&](int node) {
     Plan& v = plan_[at(node)];
     v.needsTails = true;
@@ -184,8 +188,7 @@ void PolynomialSeries::planOrders(int order) {
   const int degree = monomials_->degree();
   grades_.assign(at(order + 1), degree);
   counts_.assign(at(order + 1), monomials_->count());
-  constexpr std::size_t leastPairs = 500;  // with fewer there is little to win
-  if (!withFrame_ || monomials_->pairs().size() < leastPairs) return;
+  if (!withFrame_ || monomials_->pairs().size() < manyPairs) return;
   constexpr double s = 0.05, share = 0.02;
   const double rho = std::pow(std::tgamma(order + 1.0) * std::pow(10, -0.5 * (order + 8)), 1.0 / order);
   double size = 1;  // of order i
@@ -228,7 +231,7 @@ void PolynomialSeries::prepareThin() {
 }
 
 void PolynomialSeries::setFineOrders(int orders) {
-  if (thin_.empty() || isFine() || orders < 2)
+  if (count() > 1 || !withFrame_ || isFine() || orders < 2)
     throw std::invalid_argument("double-double orders, two at least, are for series without symbols, said once");
   orders = std::min(orders, m_);
   std::vector<FineRecursion::Node> nodes;

@@ -203,6 +203,49 @@ TEST(PolynomialSeries, RandomProgramsInManySymbolsLieWithinTheirBounds) {
   expectRandomProgramsCertified(13, 12, settingOfMany);
 }
 
+TEST(PolynomialSeries, RandomProgramsInManySymbolsAndOrdersLieWithinTheirBounds) {
+  expectRandomProgramsCertified(15, 4, [](Points& points) {
+    Setting s = settingOfMany(points);
+    s.order = points.integer(17, 31);
+    s.theta = 0.25;
+    return s;
+  });
+}
+
+/// Of many monomials, in which no node is kept but those that others are computed from.
+TEST(PolynomialSeries, WhatIsKeptOfNodesIsAllThatBoundsAreMadeOf) {
+  Points points(16);
+  for (int round = 0; round < 6; ++round) {
+    const Setting s = settingOfMany(points);
+    const std::vector<double> nominal{points.uniform(-1, 1), points.uniform(-1, 1), points.uniform(-1, 1)};
+    RandomExpressions expression(points, nominal);
+    const Program f = record(2, 1, [&](auto t, const auto& x, const auto& p, auto& dx) { expression(t, x, p, dx, 6); });
+    const Program program = f.differentiated();
+    const auto monomials = std::make_shared<const Monomials>(s.weights, s.degree);
+    std::vector<double> polynomial(static_cast<std::size_t>(monomials->count()));
+    for (double& c : polynomial) c = s.size * points.uniform(-1, 1) / 100;
+    std::vector<double> bounds[2];
+    for (const int isAllKept : {0, 1}) {
+      PolynomialSeries series(program, s.states, monomials, s.frameDegree, s.order, true);
+      if (isAllKept != 0) series.keepEveryNode();
+      for (int i = 0; i < 3; ++i) {
+        polynomial[0] = nominal[static_cast<std::size_t>(i)];
+        i < 2 ? series.setState(i, polynomial.data()) : series.setParameter(0, polynomial.data(), 0);
+      }
+      for (int again = 0; again < 2; ++again) {  // over what the first computation left
+        series.compute(0.5, 0.5);
+        const bool isProved = series.tabulate(s.theta) && series.bound(nullptr, false);
+        bounds[isAllKept].push_back(isProved ? 1 : 0);
+        for (int node = 0; isProved && node < static_cast<int>(program.nodes().size()); ++node)
+          for (const double bound : {series.norm(node), series.rho0(node), series.rho1(node)})
+            bounds[isAllKept].push_back(bound);
+      }
+    }
+    EXPECT_GT(bounds[0].size(), 2U);
+    EXPECT_EQ(bounds[0], bounds[1]) << program;
+  }
+}
+
 /// What drives v in late orders and high grades reaches x by x' = v alone.
 TEST(PolynomialSeries, StatesThatAreSlopesOfStatesKeepAllThatTheseHave) {
   Points points(14);
