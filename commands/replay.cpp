@@ -71,9 +71,11 @@ std::string csv(const Study& study, const ReplayedSample& sample) {
   for (const OutputInfo& output : study.outputs) headings.push_back(csvHeading(output.name, output.unit));
   std::vector<double> values;
   for (std::size_t q = 0; q < study.uncertain.size(); ++q) {
-    const Told told(study.uncertain[q].unit, study.uncertain[q].told);
-    headings.push_back(csvHeading("uncertain " + study.uncertain[q].uncertain.name, told.unit()));
-    values.push_back(told.of(sample.values[q]));
+    const UncertainQuantity& quantity = study.uncertain[q];
+    const Told told(quantity.unit, quantity.told);
+    headings.push_back(quantity.varies ? csvHeading("number of the course of " + quantity.uncertain.name, "")
+                                       : csvHeading("uncertain " + quantity.uncertain.name, told.unit()));
+    values.push_back(quantity.varies ? sample.values[q] : told.of(sample.values[q]));
   }
   fmt::memory_buffer text;
   const auto end = std::back_inserter(text);

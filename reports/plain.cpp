@@ -183,6 +183,8 @@ class Sentence {
     const bool isKnown = std::ranges::any_of(r_.violation, [](double x) { return !std::isnan(x); });
     if (!isKnown) return {};
     const std::string name = r_.violationSample < 0 ? "" : results_.stochastic.nameOf(r_.violationSample);
+    const bool isMissKnown = r_.violationUpper <= 0;
+    if (name.empty() && !isMissKnown && !r_.isViolatedBetween) return {};  // it would say nothing
     std::string text = r_.word == "violated" ? " For example, in " : " In ";
     text += name.empty() ? "one case that was found"
             : name.find("corner") != std::string::npos
@@ -191,7 +193,7 @@ class Sentence {
                                                       : name;
     const std::string_view what = demand_.where.empty() ? "that" : "the limit";
     if (r_.isViolatedBetween) return text + fmt::format(" it misses {} for an instant.", what);
-    if (std::isnan(r_.violationUpper) || r_.violationUpper > 0) return text + fmt::format(" it misses {}.", what);
+    if (!isMissKnown) return text + fmt::format(" it misses {}.", what);
     return text + fmt::format(" it misses {} by {}{}.", what, missOf(results_, r_),
                               std::isnan(r_.violationTime) || results_.horizon == 0
                                   ? ""

@@ -46,9 +46,6 @@ std::string rangeOfShare(double lower, double upper) {
   return fmt::format("{} to {}", numberIn(low) <= 0 ? "0" : low, numberIn(high) >= 1 ? "1" : high);
 }
 
-/// Of such a quantity a violation holds the number that chooses its course.
-bool variesInTime(const UncertainInfo& quantity) { return quantity.distribution.starts_with("varies"); }
-
 /// Rounded down, in per cent.
 std::string percentText(double share) {
   const double percent = std::floor(1000 * share) / 10;
@@ -218,6 +215,8 @@ bool isViolated(const RequirementResult& requirement) {
 }
 
 }  // namespace
+
+bool variesInTime(const UncertainInfo& quantity) { return quantity.distribution.starts_with("varies"); }
 
 std::string missOf(const Results& results, const RequirementResult& requirement) {
   return missText(results, requirement, -0.5 * (requirement.violationLower + requirement.violationUpper));

@@ -44,4 +44,7 @@ std::string wordOfRequirements(const Results& results);
 /// One sentence about all of them; empty without requirements.
 std::string sentenceOfRequirements(const Results& results);
 
+/// Whether it is a course in time, not a number: of it a violation holds the number that chooses the course.
+bool variesInTime(const UncertainInfo& quantity);
+
 }  // namespace gamut

@@ -268,11 +268,17 @@ std::string ranking(const Results& results, std::size_t output) {
   std::erase_if(causes, [](const Cause& cause) { return cause.size < least; });
   if (causes.empty()) return {};
   if (causes.size() > most) causes.resize(most);
+  std::vector<std::string> courses;
+  for (const UncertainInfo& quantity : results.uncertain)
+    if (variesInTime(quantity)) courses.push_back(escapeHtml(quantity.name));
   std::string html = fmt::format(
       "<section class=\"ranking\">\n<h3>What to measure better first</h3>\n<p class=\"hint\">How much of the spread of "
-      "\u201c{}\u201d{} each quantity takes part in.</p>\n<ol>\n",
+      "\u201c{}\u201d{} each quantity takes part in{}.</p>\n<ol>\n",
       escapeHtml(results.outputs[output].name),
-      results.horizon > 0 ? fmt::format(" at {} s", numberText(s.time[at], 6)) : "");
+      results.horizon > 0 ? fmt::format(" at {} s", numberText(s.time[at], 6)) : "",
+      courses.empty()
+          ? ""
+          : fmt::format(", of those that do not vary in time; {} may matter more", fmt::join(courses, ", ")));
   for (const Cause& cause : causes)
     html += fmt::format("<li><span>{}</span><i style=\"--share:{:.3f}\"></i><b>{}</b></li>\n", escapeHtml(cause.name),
                         std::clamp(cause.size, 0.0, 1.0), cause.share);

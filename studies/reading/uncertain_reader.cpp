@@ -270,10 +270,11 @@ class UncertainReader {
     return unit.empty() ? unitBehindNumber(below, dimensionOf(result.unit)) : unit;
   }
 
-  /// "deg" of "-135 deg"; empty of a formula, "3/4 pi rad", of what is in per cent and of a unit of another kind.
+  /// "deg" of "-135 deg", "in" of "1/16 in"; empty of a formula, "3/4 pi rad", of what is in per cent and of a unit of
+  /// another kind.
   static std::string unitBehindNumber(const std::string& text, const Dimension& dimension) {
     static const std::regex number(
-        R"(\s*(?:[-+]|−)?\s*[0-9.]{1,40}(?:[eE][-+]?[0-9]{1,3})?\s*([^-+*/(0-9\s].{0,40}?)\s*)");
+        R"(\s*(?:[-+]|−)?\s*[0-9.]{1,40}(?:[eE][-+]?[0-9]{1,3})?(?:\s*/\s*[0-9.]{1,40})?\s*([^-+*/(0-9\s].{0,40}?)\s*)");
     std::smatch parts;
     if (!std::regex_match(text, parts, number)) return {};
     const std::string unit = parts[1];

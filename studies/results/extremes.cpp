@@ -51,8 +51,8 @@ std::optional<MotionRange> motionRange(const Results& results, std::size_t outpu
   if (known == 0) return {};
   const auto take = [&](Extreme& extreme, std::size_t i, double bound, double here, double before, bool isLower) {
     if (std::isnan(bound) || (isLower ? bound >= extreme.value : bound <= extreme.value)) return;
-    constexpr double alike = 1e-3;
-    const double near = alike * (high - low);
+    constexpr double alike = 1e-3, shown = 1e-4;  // of the range; of the number that is told, with four digits
+    const double near = std::min(alike * (high - low), shown * std::abs(bound));
     const double fromHere = std::abs(here - bound), fromBefore = i > 0 ? std::abs(before - bound) : INFINITY;
     const bool isBefore = fromBefore <= near && fromBefore <= fromHere, isHere = !isBefore && fromHere <= near;
     extreme.value = bound;

@@ -63,7 +63,7 @@ TEST(PlainRequirement, NamesTheCaseThatViolatesIt) {
   EXPECT_EQ(sentenceOf(results), "In some cases, \u201ca\u201d does not stay above 1 m.");
   RequirementResult& requirement = results.requirements.front();
   requirement.violation.front() = 2.3;
-  EXPECT_THAT(sentenceOf(results), EndsWith(" In one case that was found it misses the limit."));
+  EXPECT_EQ(sentenceOf(results), "In some cases, \u201ca\u201d does not stay above 1 m.");  // nothing to add
   requirement.violationSample = 17;
   requirement.violationTime = 0.5;
   requirement.violationLower = requirement.violationUpper = -0.25;

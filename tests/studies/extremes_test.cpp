@@ -54,6 +54,12 @@ TEST(Extremes, ThatNoOutputTimeComesNearAreBetweenTwo) {
   EXPECT_EQ(whenOf(guaranteed({0, 1, 0.9, 0}, {0, 1, 0.9, 0}, 0.1)).greatest, "between 0 s and 1 s");
 }
 
+/// A start that is exactly known is not where a bound comes from that lies beyond it in the digits that are told.
+TEST(Extremes, BeyondWhatIsToldOfAnOutputTimeAreBetweenTwo) {
+  EXPECT_EQ(whenOf(guaranteed({12.7, -5, -42, -30}, {12.7, -4, -35, -20}, 0.043)).greatest, "between 0 s and 1 s");
+  EXPECT_EQ(whenOf(guaranteed({12.7, -5, -42, -30}, {12.7, -4, -35, -20}, 0.0004)).greatest, "at 0 s");
+}
+
 /// Roundings choose the instant of what is zero.
 TEST(Extremes, OfWhatIsZeroButForRoundingHaveNoTime) {
   const Results results = guaranteed({0.5, 0.4, -1e-12, 0.3}, {1, 0.9, 0.5, 0.8}, 0);
