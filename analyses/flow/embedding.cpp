@@ -56,10 +56,9 @@ bool restrictTo(const Box& level, const Embedding& embedding, const std::vector<
   return true;
 }
 
-namespace {
+namespace {}  // namespace
 
-/// How many monomials there are.
-double countOf(const std::vector<int>& weights, int degree) {
+double countOfMonomials(const std::vector<int>& weights, int degree) {
   std::vector<double> count(at(degree + 1), 0.0);  // of each grade
   count[0] = 1;
   for (const int weight : weights)
@@ -68,23 +67,15 @@ double countOf(const std::vector<int>& weights, int degree) {
   return std::accumulate(count.begin(), count.end(), 0.0);
 }
 
-}  // namespace
-
-double pairsOf(const std::vector<int>& weights, int degree) {
-  std::vector<int> both = weights;
-  both.insert(both.end(), weights.begin(), weights.end());
-  return countOf(both, degree);
-}
-
-std::vector<int> degreeLadder(const std::vector<int>& weights, int single) {
+std::vector<int> degreeLadder(const std::vector<int>& weights, int fixedDegree) {
   if (weights.empty()) return {0};
   static constexpr int highest[] = {16, 16, 12, 10};
-  constexpr double mostMonomials = 2000, mostOfSingle = 8100;
+  constexpr double mostMonomials = 2000, mostOfFixed = 8100;
   const auto active = std::ranges::count(weights, 1);
   std::vector<int> ladder;
   for (int degree : {2, 3, 4, 5, 6, 7, 8, 9, 10, 12, 16}) {
-    if (single > 0 && degree > single) break;
-    if (countOf(weights, degree) > (single > 0 ? mostOfSingle : mostMonomials)) break;
+    if (fixedDegree > 0 && degree > fixedDegree) break;
+    if (countOfMonomials(weights, degree) > (fixedDegree > 0 ? mostOfFixed : mostMonomials)) break;
     if (active > 3 || (degree % 2 == 0 && degree <= highest[active])) ladder.push_back(degree);
   }
   if (ladder.empty()) ladder.push_back(1);
@@ -140,10 +131,10 @@ Emphasis emphasisOf(const std::vector<Influence>& influence, double negligible, 
   return emphasis;
 }
 
-int frameDegreeOfSingle(const std::vector<int>& weights, int degree) {
+int frameDegreeOfFixed(const std::vector<int>& weights, int degree) {
   constexpr double most = 350;
   int frame = std::min(4, degree);
-  while (frame > 1 && countOf(weights, frame) > most) --frame;
+  while (frame > 1 && countOfMonomials(weights, frame) > most) --frame;
   return frame;
 }
 

@@ -57,12 +57,12 @@ struct Emphasis {
 Emphasis emphasisOf(const std::vector<Influence>& influence, double negligible, double share);
 
 /// The degrees that a flow may use for symbols of these weights: higher ones only as needed, and no more monomials than
-/// pay; of one piece that is not bisected up to `single`, if that is not 0.
-std::vector<int> degreeLadder(const std::vector<int>& weights, int single = 0);
-/// How many pairs of monomials in symbols of these weights have a product of no more than that degree.
-double pairsOf(const std::vector<int>& weights, int degree);
+/// pay; of pieces that are not bisected on the way up to `fixedDegree`, if that is not 0.
+std::vector<int> degreeLadder(const std::vector<int>& weights, int fixedDegree = 0);
+/// How many monomials there are in symbols of these weights, up to that degree.
+double countOfMonomials(const std::vector<int>& weights, int degree);
 /// Of the frame of such a piece: what it cuts off is what errors grow by.
-int frameDegreeOfSingle(const std::vector<int>& weights, int degree);
+int frameDegreeOfFixed(const std::vector<int>& weights, int degree);
 /// Of the frame, for so many symbols of weight 1.
 int automaticFrameDegree(int symbols, int degree);
 

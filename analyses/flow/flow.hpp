@@ -64,6 +64,8 @@ struct FlowOptions {
   double maxWidth = std::numeric_limits<double>::infinity();  ///< end when an enclosure of a state becomes wider
   double budget = std::numeric_limits<double>::infinity();    ///< s of counted work (work.hpp); when it is spent, what
                                                               ///< was proved until then is the result, on any machine
+  double planned = std::numeric_limits<double>::infinity();   ///< likewise; no round of pieces that are not bisected
+                                                              ///< on the way is begun that is expected to need more
   double levelBudget = std::numeric_limits<double>::infinity();  ///< the same, of all sub-boxes' own flows; or, if that
   double levelShare = 0;                                         ///< is more, this part of the whole box's work
   double longestStep = std::numeric_limits<double>::infinity();  ///< s; between output times, outputs that depend on

@@ -50,6 +50,13 @@ FlowJourney FlowFollower::followWhilePossible(FlowPiece& piece, double end, doub
 
 FlowJourney FlowFollower::follow(FlowPiece& piece, double end, double allowed) {
   const std::uint64_t began = Work::counted();
+  if (piece.path.size() < task_.cuts.size()) {
+    use(piece, {});
+    halves_.first = piece.set;
+    halves_.second = tool_->stepper.bisect(halves_.first, task_.cuts[piece.path.size()], tool_->range);
+    halves_.areAlternatives = false;
+    return FlowJourney::bisected;
+  }
   while (piece.set.t < end && static_cast<double>(Work::counted() - began) <= allowed) {
     if (task_.options.cancelled != nullptr && task_.options.cancelled->load(std::memory_order_relaxed))
       return FlowJourney::cancelled;
@@ -89,6 +96,8 @@ FlowJourney FlowFollower::follow(FlowPiece& piece, double end, double allowed) {
     piece.truncation += tool_->stepper.truncation();
     for (std::size_t i = 0; symbols_ > 1 && i < piece.set.R.size(); ++i)
       measureInfluence(&piece.set.p[i * at(monomialCount_)], tool_->stepper.monomials(), collected_.influence);
+    if (!task_.mayBisect && symbols_ > 1 && piece.layout + 1 == task_.degrees)
+      piece.tops.add(piece.set.p, tool_->stepper.monomials());
     if (task_.mayTighten() && tool_->stepper.isRemainderTooLarge(piece.set)) {
       run_.abandon(piece);
       return FlowJourney::ended;

@@ -14,6 +14,7 @@
 #include "analyses/flow/polynomial_range.hpp"
 #include "analyses/flow/step.hpp"
 #include "analyses/flow/task.hpp"
+#include "analyses/flow/top_grades.hpp"
 #include "analyses/workers.hpp"
 #include "scalars/program/sides.hpp"
 
@@ -34,7 +35,8 @@ struct FlowPiece {
   std::vector<char> wasKnown;                      // and whether it was once known to within that
   std::string path;                                // which halves it is of: what pieces leave is in this order
   double timeError = 0, truncation = 0;            // of its steps
-  double refusedAt = -1;                           // when it was not bisected, last
+  TopGrades tops;         // likewise, in the highest layout; where it is not bisected for these
+  double refusedAt = -1;  // when it was not bisected, last
 };
 
 /// A piece that goes on as two, if it may.

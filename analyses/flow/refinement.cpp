@@ -155,24 +155,26 @@ void addTo(Tube& best, double& looseness, Tube tube, double ofTube) {
   best = FlowRun::meet(std::move(tube), std::move(best));
 }
 
-/// Rounds of one piece that is not bisected, of rising degrees: of five symbols and more another degree is cheaper than
-/// the 2^k pieces that halving k of them takes (measured: machines with six tolerances of 5 to 15 %).
-class SinglePiece {
+/// Rounds in which no piece is bisected on the way: first of one piece, then of higher degrees, or of pieces that are
+/// cut before the first step. Of five symbols and more another degree is cheaper than the 2^k pieces that halving k of
+/// them takes, but not than halving one that stands for most of the highest grades (measured: machines with six
+/// tolerances of 5 to 15 %).
+class FixedPieces {
  public:
   /// More are not bisected for their width, so that no threshold raises degrees.
   static bool suits(const Emphasis& emphasis) { return emphasis.weights.size() > 4 && emphasis.effective <= 8; }
 
-  SinglePiece(const FlowQuestion& question, const Box& box, const std::vector<Box>& levels, Weighing& weighing)
+  FixedPieces(const FlowQuestion& question, const Box& box, const std::vector<Box>& levels, Weighing& weighing)
       : question_(question), box_(box), levels_(levels), weighing_(weighing) {}
 
-  /// Whether it is done: as tight as was asked for, or stopped. Else another degree would cost more than is left, or
-  /// does not help.
+  /// Whether it is done: as tight as was asked for, or stopped. Else more degrees or pieces would cost more than is
+  /// left, or do not help.
   bool follow(Tube& best, double& looseness) {
     constexpr int firstDegree = 6, mostRepeated = 4;
     FlowRound round;
     round.isLast = false;
     round.scales = weighing_.scales();
-    round.single = firstDegree;
+    round.fixedDegree = firstDegree;
     double farthest = 0;
     for (int repeated = 0; repeated < mostRepeated;) {
       round.emphasis = weighing_.emphasis();
@@ -200,9 +202,8 @@ class SinglePiece {
         continue;
       }
       const double cost = question_.budget.spent - before;
-      if (top.degree() < round.single ||
-          !raise(round, top, isWhole || came == 0 ? cost : cost * question_.horizon / came,
-                 isWhole ? own / task.aim() : infinite))
+      if (!enrich(round, run.topGrades(), top, isWhole || came == 0 ? cost : cost * question_.horizon / came,
+                  isWhole ? own / task.aim() : infinite))
         return false;
       if (isWhole) round.tighter *= factor;
     }
@@ -214,18 +215,41 @@ class SinglePiece {
  private:
   static constexpr double infinite = std::numeric_limits<double>::infinity();
 
-  /// To a degree for what is too loose so many times, one or two higher, as far as the budget goes.
-  bool raise(FlowRound& round, const Monomials& top, double cost, double tooLoose) const {
-    constexpr double gain = 3;  // of a degree, at least about (measured)
+  /// One or two steps for what is too loose so many times, as far as the budget goes: each another degree or the
+  /// halving of a symbol, whichever takes more from the truncation for what it costs.
+  bool enrich(FlowRound& round, const TopGrades& tops, const Monomials& top, double cost, double tooLoose) const {
+    // Measured: a degree takes three to five, less where the frame's own degree limits what it gains; a halving, which
+    // helps errors too, 5 where 2.9 to 4.1 follow from the highest grades alone.
+    constexpr double gainOfDegree = 3, ofHalving = 1.5;
+    const double left =
+        std::min(question_.budget.left(), question_.options.planned * Work::perSecond - question_.budget.spent);
     std::vector<int> weights;
     for (int l = 0; l < top.symbols(); ++l) weights.push_back(top.weight(l));
-    const auto costOf = [&](int degree) {
-      return cost * pairsOf(weights, degree) / static_cast<double>(top.pairs().size());
-    };
-    int degree = round.single + (tooLoose < gain * gain ? 1 : 2);
-    while (degree > round.single && costOf(degree) > question_.budget.left()) --degree;
+    const double byDegree = std::min(gainOfDegree, tops.decay());
+    std::vector<double> byHalving;  // each symbol
+    for (int l = 0; l < top.symbols(); ++l) byHalving.push_back(std::pow(tops.gainOfHalving(l, 0), ofHalving));
+    bool isRicher = false;
     round.isRich = true;
-    return degree > std::exchange(round.single, degree);
+    for (int step = 0; step < 2 && tooLoose > 1; ++step) {
+      const int next = degreeLadder(weights, round.fixedDegree + 1).back();
+      const double dearer = countOfMonomials(weights, next) / countOfMonomials(weights, round.fixedDegree);
+      const auto widest = std::ranges::max_element(byHalving);
+      const bool mayRaise = next > round.fixedDegree;
+      const bool mayHalve = *widest > gainOfDegree && 2 << round.cuts.size() <= question_.options.maxPieces;
+      const bool halves = mayHalve && (!mayRaise || std::log2(*widest) > std::log(byDegree) / std::log(dearer));
+      cost *= halves ? 2 : dearer;
+      if (cost > left || !(halves || mayRaise)) break;
+      tooLoose /= halves ? *widest : byDegree;
+      if (halves) {
+        const int symbol = static_cast<int>(widest - byHalving.begin());
+        round.cuts.push_back(symbol);
+        *widest = std::pow(tops.gainOfHalving(symbol, 1), ofHalving);
+      } else {
+        round.fixedDegree = next;
+      }
+      isRicher = true;
+    }
+    return isRicher;
   }
 
   const FlowQuestion& question_;
@@ -244,12 +268,12 @@ Tube refine(const FlowQuestion& question, const Box& box, const std::vector<Box>
   FlowRound round;
   round.isLast = false;
   const double spentBefore = question.budget.spent;
-  const bool mayBeSingle = question.options.split && question.options.degree < 0 && question.options.varying.empty();
-  if (mayBeSingle && SinglePiece::suits(weighing.emphasis())) {
-    SinglePiece single(question, box, levels, weighing);
-    if (single.follow(best, looseness)) {
+  const bool mayBeFixed = question.options.split && question.options.degree < 0 && question.options.varying.empty();
+  if (mayBeFixed && FixedPieces::suits(weighing.emphasis())) {
+    FixedPieces fixed(question, box, levels, weighing);
+    if (fixed.follow(best, looseness)) {
       FlowRun::charge(best, weighing.cpuSeconds());
-      FlowRun::explain(best, question.options, single.limit());
+      FlowRun::explain(best, question.options, fixed.limit());
       return best;
     }
   }

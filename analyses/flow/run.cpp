@@ -132,8 +132,9 @@ void FlowRun::endTurn() {
     const bool isOver = traveller.journey == FlowJourney::ended || !(traveller.piece.set.t < task_.horizon) ||
                         !(traveller.piece.set.t < failedAt_);  // beyond what can be proved for the whole box
     if (isOver) {
-      timeError_ += traveller.piece.timeError, truncation_ += traveller.piece.truncation;
-    } else if (std::exchange(traveller.journey, FlowJourney::goesOn) == FlowJourney::bisected && mayBisect()) {
+      count(traveller.piece);
+    } else if (std::exchange(traveller.journey, FlowJourney::goesOn) == FlowJourney::bisected &&
+               (mayBisect() || traveller.piece.path.size() < task_.cuts.size())) {
       bisect(traveller, left);
     } else {
       left.push_back(std::move(traveller));
@@ -144,6 +145,12 @@ void FlowRun::endTurn() {
   if (all_.empty() || task_.budget.left() > 0) return;
   overBudget_ = stop_ = true;
   for (const Traveller& traveller : all_) unfinished_ = std::min(unfinished_, traveller.piece.set.t);
+}
+
+/// What its steps left out.
+void FlowRun::count(const FlowPiece& piece) {
+  timeError_ += piece.timeError, truncation_ += piece.truncation;
+  tops_.join(piece.tops);
 }
 
 /// What the outputs of output times alone take becomes less: those of fewer times, of the first alone, of none. Decided
@@ -187,6 +194,7 @@ void FlowRun::bisect(Traveller& traveller, std::vector<Traveller>& into) {
   traveller.piece.set = std::move(traveller.halves.first);
   other.set = std::move(traveller.halves.second);
   other.timeError = other.truncation = 0;
+  other.tops = {};
   traveller.piece.path += '0';
   other.path += '1';
   into.push_back({std::move(traveller.piece)});
@@ -365,8 +373,7 @@ Tube FlowRun::gather() {
   if (task_.embedding.symbols == 0 && std::ranges::none_of(task_.varying, isWide)) tube.excess_.clear();
   looseness_ = loosenessOf(tube, task_.options);
   needsDegree_ = looseness_ > aim && ofStates <= aim;
-  for (const Traveller& traveller : all_)
-    timeError_ += traveller.piece.timeError, truncation_ += traveller.piece.truncation;
+  for (const Traveller& traveller : all_) count(traveller.piece);
   for (const FlowCollected& part : collected_) metThreshold_ = metThreshold_ || part.metThreshold;
   timeShare_ = timeError_ > 0 ? timeError_ / (timeError_ + truncation_) : 0;
   for (const FlowCollected& part : collected_)

@@ -44,6 +44,8 @@ class FlowRun {
   double hiddenDefect(double reached) const { return metThreshold_ || !(reached > 0) ? 0 : truncation_ / reached; }
   /// Of every symbol on the states' polynomials, at all steps.
   const std::vector<Influence>& influence() const { return influence_; }
+  /// Of the states' polynomials, at all steps of pieces that are not bisected.
+  const TopGrades& topGrades() const { return tops_; }
 
   /// Both are proved, so their intersection is; the one that reaches further goes on alone. Costs add up.
   static Tube meet(Tube a, Tube b);
@@ -100,6 +102,7 @@ class FlowRun {
   void turnOver();
   void beginTurn();
   void endTurn();
+  void count(const FlowPiece& piece);
   void bisect(Traveller& traveller, std::vector<Traveller>& into);
   void thinModels();
   void dropModels();
@@ -125,6 +128,7 @@ class FlowRun {
   bool metThreshold_ = false;
   double timeError_ = 0, truncation_ = 0;  // of pieces that have ended
   std::vector<Influence> influence_;
+  TopGrades tops_;
   bool stop_ = false, needsDegree_ = false, overBudget_ = false, areAlternatives_ = false;
   std::atomic<bool> outOfMemory_{false}, isAbandoned_{false};
   std::vector<FlowCollected> collected_;  // one a thread

@@ -58,7 +58,8 @@ FlowTask::FlowTask(const FlowQuestion& question, const Box& startBox, const std:
       horizon(question.horizon),
       effective(round.emphasis.weights.empty() ? embedding.symbols : round.emphasis.effective),
       isLast(round.isLast),
-      mayBisect(question.options.split && round.single == 0),
+      mayBisect(question.options.split && round.fixedDegree == 0),
+      cuts(round.cuts),
       richer(round.richer),
       scales(round.scales) {
   varying = parametersOf(options.varying);
@@ -85,7 +86,7 @@ FlowTask::FlowTask(const FlowQuestion& question, const Box& startBox, const std:
   std::vector<int> weights(at(embedding.symbols), 1);
   if (!round.emphasis.weights.empty()) std::ranges::remove_copy(round.emphasis.weights, weights.begin(), 0);
   active = static_cast<int>(std::ranges::count(weights, 1));
-  std::vector<int> ladder = degreeLadder(weights, round.single);
+  std::vector<int> ladder = degreeLadder(weights, round.fixedDegree);
   if (options.degree >= 0 && embedding.symbols > 0) ladder = {options.degree};
   for (int degree : ladder) {
     requireThat(embedding.symbols == 0 || degree >= 1, "uncertain quantities need polynomials of degree one at least");
@@ -94,7 +95,7 @@ FlowTask::FlowTask(const FlowQuestion& question, const Box& startBox, const std:
     const int rough = round.tighter == 1 && active > 4 ? 2 : degree, frame = automaticFrameDegree(active, degree);
     layouts.push_back({std::make_shared<const Monomials>(capped, degree),
                        options.frameDegree >= 0 ? std::min(options.frameDegree, degree)
-                       : round.isRich           ? frameDegreeOfSingle(weights, degree)
+                       : round.isRich           ? frameDegreeOfFixed(weights, degree)
                                                 : std::min(rough, frame)});
   }
   degrees = layouts.size();
@@ -120,9 +121,12 @@ FlowTask::FlowTask(const FlowQuestion& question, const Box& startBox, const std:
                                                     : 3e-17;
   tolerance = options.tolerance > 0    ? options.tolerance
               : embedding.symbols == 0 ? ofThin
+              : round.fixedDegree > 0  ? std::clamp(enough, 1e-15, 1e-7)
                                        : std::clamp(enough, 1e-15, firstTolerance[count] / round.finer);
   constexpr int thinOrder = 30;  // its polynomials are single numbers
+  constexpr int fixedOrder = 7;  // series of long polynomials, eight numbers each (measured: 15 to 30 % less than 10)
   order = options.order > 0                           ? options.order
+          : round.fixedDegree > 0                     ? fixedOrder
           : embedding.symbols == 0 && varying.empty() ? thinOrder
                                                       : orderFor(tolerance);
   // Rounding of order i, some hundred units, weighs tolerance^(i/order).

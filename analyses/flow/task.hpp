@@ -47,7 +47,8 @@ struct FlowRound {
   std::size_t richer = 0;                         ///< the outputs' layout is so many further on
   bool isLast = true;                             ///< no tighter run comes
   bool isRich = false;                            ///< errors keep more powers of ξ
-  int single = 0;                                 ///< if not 0: one piece, of up to this degree
+  int fixedDegree = 0;                            ///< if not 0: no bisection on the way, and up to this degree
+  std::vector<int> cuts;                          ///< symbols, each halved on all pieces before the first step
   Emphasis emphasis;                              ///< none: every symbol alike
   std::shared_ptr<const FlowScales> scales = {};  ///< null: they are not known
 };
@@ -86,6 +87,7 @@ struct FlowTask {
   int fineOrders = 0;         // in double-double, without symbols: where rounding would limit the width
   double effective;           // Emphasis
   bool isLast, mayBisect;
+  std::vector<int> cuts;                     // FlowRound
   std::vector<int> varying;                  // parameters that are inputs
   std::vector<FlowLayout> layouts;           // degrees rising, then the expanded one
   std::size_t degrees = 0;                   // how many are not expanded

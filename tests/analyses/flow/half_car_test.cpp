@@ -7,11 +7,17 @@
 namespace gamut::testing {
 namespace {
 
-/// Axle heights front and rear, heave and pitch, and their rates; body mass, front spring, dampers, tyres.
-Program halfCar(double place) {
-  return record(8, 5, [&](auto t, const auto& x, const auto& p, auto& dx) {
-    constexpr double a = 1.1, b = -1.5, speed = 5.5, length = 0.4;
-    const auto road = [&](double from) { return 0.04 * exp(-sqr((speed * t - from) * (1 / length))); };
+constexpr double speed = 5.5;
+
+/// Axle heights front and rear, heave and pitch, and their rates; body mass, front spring, dampers, tyres, and the
+/// speed, if that is a parameter.
+Program halfCar(double place, bool hasSpeed = false) {
+  return record(8, hasSpeed ? 6 : 5, [&](auto t, const auto& x, const auto& p, auto& dx) {
+    constexpr double a = 1.1, b = -1.5, length = 0.4;
+    const auto road = [&](double from) {
+      const Recorded way = hasSpeed ? p[5] * t : speed * t;
+      return 0.04 * exp(-sqr((way - from) * (1 / length)));
+    };
     const Recorded s = sin(x[3]), c = cos(x[3]);
     const Recorded front = p[1] * (x[0] - x[2] - a * s) + p[2] * (x[4] - x[6] - a * c * x[7]);
     const Recorded rear = 25e3 * (x[1] - x[2] - b * s) + p[3] * (x[5] - x[6] - b * c * x[7]);
@@ -71,6 +77,32 @@ TEST(HalfCar, TolerancesOfPracticeNeedOnePieceWithoutBeingTold) {
     EXPECT_LE(tube.tightness(), 1.02) << place;
     EXPECT_EQ(tube.pieces(), 1) << place;
   }
+}
+
+// The speed decides when each bump comes, so that high powers of it alone are needed: its halves are followed rather
+// than all symbols to a higher degree.
+TEST(HalfCar, ASpeedThatIsNotKnownIsCutBeforehand) {
+  Box box = carWithin(0.3);
+  box.push_back(speed * Interval(0.93, 1.07));
+  FlowOptions options;
+  const Tube one = Flow(halfCar(1, true), options).enclose(box, 0.6, {0.25, 0.5});
+  EXPECT_EQ(one.why(), "");
+  EXPECT_LE(one.tightness(), 1.02);
+  EXPECT_GT(one.pieces(), 1);
+  EXPECT_LE(one.pieces(), 8);
+  options.jobs = 3;
+  const Tube three = Flow(halfCar(1, true), options).enclose(box, 0.6, {0.25, 0.5});
+  EXPECT_EQ(one.steps(), three.steps());
+  ASSERT_EQ(one.reachedTimes(), three.reachedTimes());
+  for (std::size_t row = 0; row < one.reachedTimes(); ++row)
+    for (std::size_t i = 0; i < one.states(row).size(); ++i)
+      EXPECT_TRUE(isEqual(one.states(row)[i], three.states(row)[i]));
+  Containment c;
+  c.f = halfCar(1, true);
+  c.box = box;
+  c.horizon = 0.6;
+  c.times = {0.25, 0.5};
+  expectContainment(c, 3);
 }
 
 }  // namespace
