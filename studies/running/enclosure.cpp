@@ -26,6 +26,8 @@ void setRow(Bounds& bounds, std::size_t row, const std::vector<Interval>& values
 void encloseMotion(Run& run) {
   FlowOptions flow = enclosureOptions(run);
   flow.progress = run.progressOf("enclosure");
+  constexpr double ofCounted = 0.75;  // of a second of CPU: what is counted takes longer on a busy machine
+  flow.planned = ofCounted * limitsOf(run.study, run.options).enclosureTime;
   if (run.seen.isEnclosed) flow.aside = {run.seen.positions, run.seen.at};
   flow.modelled = flow.uncounted;
   if (asksForDistributions(run.study)) flow.modelledAt = plainOutputs(run.study);
