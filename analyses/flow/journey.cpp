@@ -159,7 +159,8 @@ std::unique_ptr<FlowFollower::Tools> FlowFollower::toolsFor(const FlowPiece& pie
             FlowStepper(motion, layout.monomials, layout.frameDegree, task_.order, task_.tolerance,
                         FlowInputs(task_.motion.states(), task_.order, task_.varying, 0.4 * (options.tightness - 1)),
                         options.cancelled),
-            PolynomialRange(layout.monomials), nullptr, nullptr, nullptr, nullptr, std::move(besides), held});
+            PolynomialRange(layout.monomials), nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, std::move(besides),
+            held});
   if (layout.monomials->symbols() == 0 && task_.fineOrders > 0) tools->stepper.setFineOrders(task_.fineOrders);
   tools->stepper.setStateNames(options.stateNames);
   tools->stepper.setScales(task_.scales);
@@ -171,8 +172,13 @@ std::unique_ptr<FlowFollower::Tools> FlowFollower::toolsFor(const FlowPiece& pie
     tools->outputs =
         std::make_unique<FlowOutputs>(outputs, own, layout.monomials, task_.varying, options.cancelled, signs_);
     tools->outputRange = std::make_unique<PolynomialRange>(own);
-    tools->chords = std::make_unique<FlowOutputChords>(outputs, layout.monomials, task_.order, task_.horizon,
-                                                       task_.quantum, options.cancelled);
+    const auto chordsOf = [&](const std::shared_ptr<const Monomials>& monomials) {
+      return std::make_unique<FlowOutputChords>(outputs, monomials, layout.monomials, task_.order, task_.horizon,
+                                                task_.quantum, options.cancelled);
+    };
+    tools->plainChords = chordsOf(layout.monomials);
+    if (task_.standsStill && own->count() > layout.monomials->count()) tools->richChords = chordsOf(own);
+    tools->chords = tools->plainChords.get();
   }
   return tools;
 }
@@ -408,6 +414,22 @@ void FlowFollower::lookAside(const FlowPiece& piece, std::size_t row, const std:
   joinHulls(collected_.asides[row], tool_->asides->enclose(task_.times[row], point_, states, parameters_));
 }
 
+/// Of a part of a step, times in seconds from its start, where the outputs are as in `before`. What moves costs as many
+/// terms at each order in time; where nothing does, outputs alone bend, and what the degree of the states cuts off of
+/// them, which no shorter chord makes less, may be all that is loose: then the degree of the outputs is worth it.
+void FlowFollower::loadChords(const FlowPiece& piece, const std::vector<Interval>& before, double from, double to) {
+  constexpr double little = 0.01, hardly = 0.02;
+  tool_->chords = tool_->plainChords.get();
+  tool_->chords->load(tool_->stepper, piece.set.t, parameters_, from, to);
+  if (!tool_->richChords) return;
+  for (int o = 0; o < outputs_->count(); ++o) {
+    const double extent = std::max(width(before[at(o)]), hardly * magnitude(before[at(o)]));
+    if (tool_->chords->rest(o) <= little * extent) continue;
+    tool_->chords = tool_->richChords.get();
+    return tool_->chords->load(tool_->stepper, piece.set.t, parameters_, from, to);
+  }
+}
+
 /// Into how many chords a part of a step is cut, so that modelled outputs leave them by little of what is uncertain
 /// about them. What does not become less with the square of their length counts for nothing, but at kinks, where boxes
 /// become smaller with the length. Times in seconds from the step's start.
@@ -530,7 +552,7 @@ bool FlowFollower::record(FlowPiece& piece) {
   // so over a short time alone. What is not even then is left to plain intervals.
   double length = 0.5 * (t1 - t0);
   int inVain = 0;
-  const auto loadChords = [&] {
+  const auto loadNext = [&] {
     constexpr int enoughInVain = 12;
     const double least = (t1 - t0) / 64;
     std::vector<char> isKnown(at(outputs_->count()));
@@ -548,7 +570,7 @@ bool FlowFollower::record(FlowPiece& piece) {
       const double until = from + length;
       loadedTo = inVain < enoughInVain && from < until && until < t1 ? until : t1;
       giveSigns(piece, stepper.signsOver(signs_));
-      tool_->chords->load(stepper, t0, parameters_, from - t0, loadedTo - t0);
+      loadChords(piece, beforeLimits, from - t0, loadedTo - t0);
       if (inVain == enoughInVain || !isLacking()) return;
       if (!(length > least)) {
         ++inVain;
@@ -558,7 +580,7 @@ bool FlowFollower::record(FlowPiece& piece) {
   };
   const auto prepare = [&](double to) {
     while (outputs_) {
-      if (!(loadedTo > from)) loadChords();
+      if (!(loadedTo > from)) loadNext();
       if (to <= loadedTo) break;
       const double until = loadedTo;
       modelUntil(until);

@@ -98,9 +98,10 @@ class FlowFollower {
     PolynomialRange range;
     std::unique_ptr<FlowOutputs> outputs;
     std::unique_ptr<PolynomialRange> outputRange;
-    std::unique_ptr<FlowOutputChords> chords;
-    std::unique_ptr<FlowAsides> asides;  // once needed
-    Program besides;                     // the values that these are of
+    std::unique_ptr<FlowOutputChords> plainChords, richChords;  // the latter where they may pay
+    FlowOutputChords* chords = nullptr;                         // of which these are loaded
+    std::unique_ptr<FlowAsides> asides;                         // once needed
+    Program besides;                                            // the values that these are of
     std::vector<char> held;
     /// The outputs where these are held (a SignBox's); null where they cannot be held together.
     std::map<std::vector<char>, std::unique_ptr<MeanValueOutputs>> whileHeld = {};
@@ -129,6 +130,7 @@ class FlowFollower {
   std::shared_ptr<FlowSnapshot> modelOutputs(const FlowPiece& piece, const std::vector<Interval>& outputs,
                                              std::optional<std::size_t> row = {});
   void lookAside(const FlowPiece& piece, std::size_t row, const std::vector<Interval>& states);
+  void loadChords(const FlowPiece& piece, const std::vector<Interval>& before, double from, double to);
   int chordsFor(FlowPiece& piece, const std::vector<Interval>& before, double from, double to);
   bool record(FlowPiece& piece);
   int tooWide(FlowPiece& piece, const std::vector<Interval>& states, const std::vector<Interval>& outputs) const;

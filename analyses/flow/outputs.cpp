@@ -19,6 +19,12 @@ namespace {
 
 Program alone(const Program& g, int output) { return Recorder(g).finish({g.outputNodes()[at(output)]}); }
 
+std::vector<int> placesOf(const Monomials& monomials, const Monomials& among) {
+  std::vector<int> places;
+  for (int m = 0; m < monomials.count(); ++m) places.push_back(among.find(monomials, m));
+  return places;
+}
+
 bool dependsOnTime(const Program& g) {
   const std::vector<Node>& nodes = g.nodes();
   const auto isTime = [&](int node) { return node >= 0 && nodes[at(node)].op == Op::time; };
@@ -42,12 +48,12 @@ FlowOutputs::FlowOutputs(const Program& g, std::shared_ptr<const Monomials> mono
       cancelled_(cancelled),
       series_(differentiated_, outputs_, layout_, 0, 1, false, cancelled),
       varying_(varying),
+      place_(placesOf(*ofStates_, *layout_)),
       plain_(g) {
   series_.setVarying(varying_);
   polynomial_.assign(at(outputs_ * monomials_), 0.0);
   radius_.assign(at(outputs_), 0.0);
   driven_ = radius_;
-  for (int m = 0; m < ofStates_->count(); ++m) place_.push_back(layout_->find(*ofStates_, m));
 }
 
 void FlowOutputs::evaluate(double t, const FlowPoint& point, const std::vector<double>& R,
@@ -172,16 +178,19 @@ bool FlowOutputs::evaluateTogether(double t, const FlowPoint& point, const std::
   return true;
 }
 
-FlowOutputChords::FlowOutputChords(const Program& g, std::shared_ptr<const Monomials> monomials, int order,
-                                   double length, double resolution, const std::atomic<bool>* cancelled)
+FlowOutputChords::FlowOutputChords(const Program& g, std::shared_ptr<const Monomials> monomials,
+                                   std::shared_ptr<const Monomials> ofStates, int order, double length,
+                                   double resolution, const std::atomic<bool>* cancelled)
     : g_(g),
       differentiated_(g.differentiated()),
       n_(g.states()),
       outputs_(g.outputs()),
       order_(order + 1),
       layout_(std::move(monomials)),
+      ofStates_(std::move(ofStates)),
       cancelled_(cancelled),
       series_(differentiated_, outputs_, layout_, 0, order_, false, cancelled),
+      place_(placesOf(*ofStates_, *layout_)),
       length_(length),
       resolution_(resolution),
       timeKinks_(differentiated_, length, resolution),
@@ -190,6 +199,15 @@ FlowOutputChords::FlowOutputChords(const Program& g, std::shared_ptr<const Monom
       third_(at(outputs_)),
       turn_(at(outputs_)),
       rest_(at(outputs_)) {}
+
+/// Monomials that the outputs have besides are 0.
+void FlowOutputChords::setState(int i, const double* series, int stride) {
+  if (layout_->count() == ofStates_->count()) return series_.setStateSeries(i, series, stride);
+  stateRows_.assign(at(layout_->count() * stride), 0.0);
+  for (std::size_t m = 0; m < place_.size(); ++m)
+    std::copy_n(&series[m * at(stride)], stride, &stateRows_[at(place_[m] * stride)]);
+  series_.setStateSeries(i, stateRows_.data(), stride);
+}
 
 /// The states' polynomials from the step's start, or moved: p(a + σ) by synthetic division, m times. Its coefficient k
 /// is the sum of C(j, k) a^(j-k) p_j with 2m + 1 roundings a term at most, so all are off by no more than (2m + 2) u
@@ -266,7 +284,7 @@ void FlowOutputChords::loadPart(const FlowStepper& stepper, double t0, const std
   if (!isApart_) return;
   if (apart_.empty())
     for (int o = 0; o < outputs_; ++o)
-      apart_.emplace_back(alone(g_, o), layout_, order_ - 1, length_, resolution_, cancelled_);
+      apart_.emplace_back(alone(g_, o), layout_, ofStates_, order_ - 1, length_, resolution_, cancelled_);
   for (FlowOutputChords& own : apart_) own.loadPart(stepper, t0, parameters, part);
 }
 
@@ -279,7 +297,7 @@ bool FlowOutputChords::loadTogether(const FlowStepper& stepper, double t0, const
   std::fill(rest_.begin(), rest_.end(), infinite);
   std::vector<double> dropped;
   series_.setOrder(orderFor(stepper, part, dropped));
-  for (int i = 0; i < n_; ++i) series_.setStateSeries(i, part.states[at(i)], states.stride());
+  for (int i = 0; i < n_; ++i) setState(i, part.states[at(i)], states.stride());
   for (std::size_t i = 0; i < parameters.size(); ++i) series_.setParameter(static_cast<int>(i), parameters[i]);
   series_.forgetCrossings();
   timeKinks_.giveSides(parameters, t0 + part.from, t0 + part.to, series_);
@@ -321,10 +339,6 @@ bool FlowOutputChords::loadTogether(const FlowStepper& stepper, double t0, const
     turn_[at(o)] = turn * bounds::up;
   }
   return true;
-}
-
-bool FlowOutputChords::isBounded(int output) const {
-  return isApart_ ? apart_[at(output)].isBounded(0) : rest_[at(output)] < std::numeric_limits<double>::infinity();
 }
 
 void FlowOutputChords::sag(double from, double to, std::vector<Interval>& bound) const {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <atomic>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -63,9 +64,11 @@ class FlowOutputs {
 /// How far outputs leave the chord between two times of a step. Holds the workspace: one a thread.
 class FlowOutputChords {
  public:
-  /// `g`, the monomials and `cancelled` as above; `order` that of the steps; `length` and `resolution` of time, s.
-  FlowOutputChords(const Program& g, std::shared_ptr<const Monomials> monomials, int order, double length,
-                   double resolution, const std::atomic<bool>* cancelled = nullptr);
+  /// `g`, both sets of monomials and `cancelled` as above; `order` that of the steps; `length` and `resolution` of
+  /// time, s.
+  FlowOutputChords(const Program& g, std::shared_ptr<const Monomials> monomials,
+                   std::shared_ptr<const Monomials> ofStates, int order, double length, double resolution,
+                   const std::atomic<bool>* cancelled = nullptr);
 
   /// Composes g with a part, in seconds from its start, of the step that `stepper` certified last from t0: what cannot
   /// be proved of a polynomial over all of the step may be over a part.
@@ -73,7 +76,11 @@ class FlowOutputChords {
   /// How far every output leaves the hull of its enclosures at two moments of what was loaded, in seconds from the
   /// step's start, between them; the whole line where nothing could be proved.
   void sag(double from, double to, std::vector<Interval>& bound) const;
-  bool isBounded(int output) const;
+  bool isBounded(int output) const { return rest(output) < std::numeric_limits<double>::infinity(); }
+  /// What of the sag no shorter time makes less; infinite where nothing could be proved.
+  double rest(int output) const {
+    return isApart_ ? apart_[static_cast<std::size_t>(output)].rest(0) : rest_[static_cast<std::size_t>(output)];
+  }
 
  private:
   /// States as polynomials in time from `from` on, up to θ.
@@ -86,12 +93,15 @@ class FlowOutputChords {
   void loadPart(const FlowStepper& stepper, double t0, const std::vector<Embedded>& parameters, const Part& part);
   bool loadTogether(const FlowStepper& stepper, double t0, const std::vector<Embedded>& parameters, const Part& part);
   int orderFor(const FlowStepper& stepper, const Part& part, std::vector<double>& dropped) const;
+  void setState(int i, const double* series, int stride);
 
   Program g_, differentiated_;
   int n_, outputs_, order_;
-  std::shared_ptr<const Monomials> layout_;
+  std::shared_ptr<const Monomials> layout_, ofStates_;
   const std::atomic<bool>* cancelled_;
   PolynomialSeries series_;
+  std::vector<int> place_;         // of the states' monomials among the outputs'
+  std::vector<double> stateRows_;  // of one state, by them
   double length_, resolution_;
   TimeKinks timeKinks_;
   bool dependsOnTime_;

@@ -39,6 +39,14 @@ std::vector<int> parametersOf(const std::vector<VaryingParameter>& inputs) {
   return parameters;
 }
 
+/// Whether every output is the number 0.
+bool isZero(const Program& f) {
+  return std::ranges::all_of(f.outputNodes(), [&](int output) {
+    const Node& node = f.nodes()[at(output)];
+    return node.op == Op::constant && isEqual(f.constants()[at(node.a)], Interval(0.0));
+  });
+}
+
 /// Of steps that are about as long whatever the tolerance is (measured).
 int orderFor(double tolerance) { return static_cast<int>(std::clamp(-2 * std::log10(tolerance) - 8, 10.0, 20.0)); }
 
@@ -59,6 +67,7 @@ FlowTask::FlowTask(const FlowQuestion& question, const Box& startBox, const std:
       effective(round.emphasis.weights.empty() ? embedding.symbols : round.emphasis.effective),
       isLast(round.isLast),
       mayBisect(question.options.split && round.fixedDegree == 0),
+      standsStill(isZero(motion)),
       cuts(round.cuts),
       richer(round.richer),
       scales(round.scales) {

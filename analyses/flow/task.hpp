@@ -87,6 +87,7 @@ struct FlowTask {
   int fineOrders = 0;         // in double-double, without symbols: where rounding would limit the width
   double effective;           // Emphasis
   bool isLast, mayBisect;
+  bool standsStill;                          // no state moves: loads of a given motion, which are functions of time
   std::vector<int> cuts;                     // FlowRound
   std::vector<int> varying;                  // parameters that are inputs
   std::vector<FlowLayout> layouts;           // degrees rising, then the expanded one

@@ -357,6 +357,51 @@ TEST(FlowTightness, InvariantsStayAsNarrowAsTheyBegin) {
   EXPECT_EQ(turning.shortfall(), "") << "no width is asked of what does not vary";
 }
 
+/// The power that drives the piston of a slider-crank with an offset, of crank, rod, speed and mass at any moment.
+template <typename T>
+T pistonPower(const T& t, const T& r, const T& l, const T& n, const T& m) {
+  const T across = r * sin(n * t) - 0.05, along = sqrt(sqr(l) - sqr(across)), rate = r * n * cos(n * t);
+  const T v = -(r * n * sin(n * t)) - across / along * rate;
+  const T a =
+      -(r * sqr(n) * cos(n * t)) - sqr(l) / (along * sqr(along)) * sqr(rate) + across / along * r * sqr(n) * sin(n * t);
+  return m * a * v;
+}
+
+/// Loads of a given motion bend, where no state moves: what the states' degree would cut off of them is no part of the
+/// bounds between output times, however far these are apart.
+TEST(FlowTightness, IsThatOfLoadsBetweenOutputTimesToo) {
+  const Program still = record(1, 4, [](auto, const auto&, const auto&, auto& dx) { dx[0] = 0.0; });
+  const Program power = record(1, 4, 1, [](auto t, const auto&, const auto& p, auto& y) {
+    y[0] = pistonPower<Recorded>(t, p[0], p[1], p[2], p[3]);
+  });
+  const Box box{0.0, Interval(0.95, 1.05), Interval(3.6, 4.0), Interval(0.95, 1.05), Interval(0.9, 1.1)};
+  for (const int times : {8, 80}) {
+    std::vector<double> at;
+    for (int i = 1; i < times; ++i) at.push_back(6.0 * i / times);
+    FlowOptions options;
+    options.longestStep = 6.0 / 64;
+    const Tube tube = Flow(still, power, options).enclose(box, 6, at);
+    Interval proved = Interval::empty(), found = Interval::empty();
+    for (std::size_t row = 1; row < tube.reachedTimes(); ++row) {
+      const Interval over = tube.outputsOver(row)[0];
+      proved = hull(proved, over);
+      for (unsigned corner = 0; corner < 16; ++corner)
+        for (int i = 0; i <= 40; ++i) {
+          Box value;
+          for (std::size_t k = 0; k < 4; ++k)
+            value.push_back((corner >> k) & 1 ? box[k + 1].upper() : box[k + 1].lower());
+          const double from = tube.times()[row - 1], to = tube.times()[row],
+                       t = std::min(to, from + (to - from) * i / 40);
+          const Interval exact = pistonPower<Interval>(t, value[0], value[1], value[2], value[3]);
+          ASSERT_FALSE(isDisjoint(exact, over)) << row << ' ' << t;
+          found = hull(found, midpoint(exact));
+        }
+    }
+    EXPECT_EQ(tube.reached(), 6);
+    EXPECT_LT(width(proved), 1.03 * width(found)) << times;
+  }
+}
+
 /// An orbit shears: errors of a period grow with each that follows, along the orbit, and must not leave it. After
 /// thirty periods the phase is 0.03 wide, first order of the four starts.
 TEST(FlowTightness, OrbitsKeepTheirErrorsAlongThem) {
