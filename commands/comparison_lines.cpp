@@ -18,12 +18,6 @@ namespace {
 
 using Rows = std::vector<std::vector<std::string>>;
 
-/// No more than was reached, in few digits.
-std::string reachedText(double time) {
-  const std::string text = numberText(time, 6);
-  return (std::strtod(text.c_str(), nullptr) <= time ? text : outwardText(time, time, 6).first) + " s";
-}
-
 /// "violated for some" for "partly".
 std::string wordText(const std::string& word) { return word == "partly" ? "violated for some" : word; }
 
@@ -142,8 +136,8 @@ std::string ratioText(double ratio, bool isGreatest) {
   return isGreatest ? atMostText(ratio, 5) : numberText(ratio, 5);
 }
 
-std::string bothText(const Both<double>& both) {
-  const auto text = [](double x) { return std::isnan(x) ? std::string("-") : atMostText(x, 4); };
+std::string bothText(const Both<double>& both, std::string (*told)(double)) {
+  const auto text = [&](double x) { return std::isnan(x) ? std::string("-") : told(x); };
   if (std::isnan(both.first) && std::isnan(both.second)) return "-";
   return fmt::format("{} / {}", text(both.first), text(both.second));
 }
@@ -171,7 +165,8 @@ std::string outputsTable(const Changes& changes, bool moves) {
     };
     rows.push_back({headingOf(output.name, output.unit), least, at(least, ratio.leastTime), greatest,
                     at(greatest, ratio.greatestTime), ratioText(output.alphaCuts.greatest, true),
-                    bothText(output.overestimation), bothText(output.gap)});
+                    bothText(output.overestimation, timesText),
+                    bothText(output.gap, [](double gap) { return atMostText(gap, 4); })});
   }
   if (rows.size() == 1) return "";
   const Rows kept = withoutEmptyColumns(rows);

@@ -140,7 +140,7 @@ class Sentence {
   std::string reach() const {
     std::string text;
     if (r_.metUntil > r_.from && r_.metUntil < r_.until)
-      text += fmt::format(" It is until {} s.", numberText(r_.metUntil, 6));
+      text += fmt::format(" It is until {}.", reachedText(r_.metUntil));
     if (!r_.advice.empty()) text += fmt::format(" What may help: {}.", r_.advice);
     if (const std::string probability = estimateOf(r_); !probability.empty())
       text += fmt::format(
@@ -294,8 +294,8 @@ std::string ofEnd(const Results& results, const Verdict& verdict) {
   const double reached = reachedTime(results);
   const bool isShort = results.horizon > 0 && reached < results.horizon;
   return fmt::format(" The computation is incomplete: it ended early{}{}.",
-                     isShort ? fmt::format(", and what it says of all cases ends at {} s of {} s",
-                                           numberText(reached, 6), numberText(results.horizon, 6))
+                     isShort ? fmt::format(", and what it says of all cases ends at {} of {}", reachedText(reached),
+                                           timeText(results.horizon))
                              : "",
                      why.empty() ? "" : " (" + why + ")");
 }

@@ -90,7 +90,7 @@ class Wording {
   std::string open() const {
     const std::optional<double> end = endOfProof(results_);
     if (!end || !(*end < r_.until)) return "open";
-    return r_.metUntil < r_.until ? fmt::format("not proved behind {} s", numberText(r_.metUntil, 6)) : "not proved";
+    return r_.metUntil < r_.until ? fmt::format("not proved behind {}", reachedText(r_.metUntil)) : "not proved";
   }
 
   std::string guaranteed() const {
@@ -105,7 +105,7 @@ class Wording {
     if (r_.word == "open" && !r_.why.empty()) text += ": " + r_.why;
     if (r_.word == "open" && !r_.advice.empty()) text += fmt::format(" (what may help: {})", r_.advice);
     if (r_.word == "open" && r_.metUntil > r_.from && r_.metUntil < r_.until)
-      text += fmt::format("; met until {} s of {} s", numberText(r_.metUntil, 6), numberText(r_.until, 6));
+      text += fmt::format("; met until {} of {}", reachedText(r_.metUntil), timeText(r_.until));
     if (r_.factor > 0)
       text += fmt::format("; met where all deviate by up to {} of what is stated", percentText(r_.factor));
     if (r_.met > 0) text += fmt::format("; met for {} of the box", percentText(r_.met));

@@ -286,8 +286,8 @@ class Wording {
     const bool isNoSample = &answer == &results_.stochastic && results_.stochastic.integrated == 0;  // said already
     if (!endsEarly(results_, answer) || isNoSample) return;
     const std::string reason = answer.why.empty() ? "" : ": " + std::string(withoutTime(answer.why));
-    note(moves() ? fmt::format("The {} ended at {} s of the {} s asked for{}.", answer.title(),
-                               numberText(answer.reached, 6), numberText(results_.horizon, 6), reason)
+    note(moves() ? fmt::format("The {} ended at {} of the {} asked for{}.", answer.title(), reachedText(answer.reached),
+                               timeText(results_.horizon), reason)
                  : fmt::format("The {} ended early{}.", answer.title(), reason));
   }
 
@@ -372,16 +372,15 @@ class Wording {
   }
 
   std::string insideText() const {
-    const std::string span = moves() ? fmt::format(" from 0 s to {} s", numberText(verdict_.reached, 6)) : "";
+    const std::string span = moves() ? " from 0 s to " + reachedText(verdict_.reached) : "";
     std::string text =
         verdict_.comparesEnclosure
             ? fmt::format("All {} stay inside the guaranteed enclosure{}", samplesText(), span)
             : fmt::format("At every level of possibility the samples stay inside the proved alpha-cut{}", span);
     constexpr double saysLittle = 100;
     if (const std::string times = timesText(verdict_.overestimation); times == "1")
-      text += "; the guarantee is as wide as what was sampled";
-    else if (verdict_.overestimation > 1 && isLittle(verdict_.overestimation - 1, 1))
-      text += "; the guarantee is as wide as what was sampled, to a billionth";
+      text += verdict_.overestimation == 1 ? "; the guarantee is as wide as what was sampled"
+                                           : "; the guarantee is as wide as what was sampled, to a billionth";
     else if (!std::isnan(verdict_.overestimation))
       text +=
           fmt::format("{} at most {} times as wide as what was sampled",

@@ -526,8 +526,8 @@ std::string textSummary(const Results& results) {
     spend("probabilities", d.cpu);
   }
   if (const DerivativeResult& d = results.derivatives; d.present) {
-    text += fmt::format("  derivatives: enclosed up to {} s{}\n", numberText(d.reached, 6),
-                        d.why.empty() ? "" : ": " + d.why);
+    text +=
+        fmt::format("  derivatives: enclosed up to {}{}\n", reachedText(d.reached), d.why.empty() ? "" : ": " + d.why);
     spend("derivatives", d.cpu);
   }
   const std::string spent = spentText(results);

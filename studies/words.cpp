@@ -54,6 +54,11 @@ std::string tellingText(double x, double size, int digits) {
 
 std::string timeText(double time, int digits) { return numberText(time, digits) + " s"; }
 
+std::string reachedText(double time) {
+  const std::string text = numberText(time, 6);
+  return (std::strtod(text.c_str(), nullptr) <= time ? text : outwardText(time, time, 6).first) + " s";
+}
+
 std::string atMostText(double x, int digits) {
   if (std::isnan(x)) return "none";
   return std::isinf(x) ? numberText(x) : outwardText(x, x, digits).second;
@@ -69,8 +74,7 @@ bool isLittle(double x, double size) { return std::abs(x) <= billionth * size; }
 std::string timesText(double ratio) {
   constexpr double hardly = 1e-3;
   const double more = ratio - 1;
-  constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();  // of two differences and their quotient
-  if (more > 0 && more <= rounding) return "1";
+  if (isLittle(more, 1)) return "1";
   return atMostText(ratio, more > 0 && more < hardly ? 5 : 4);
 }
 
@@ -137,6 +141,13 @@ int digitsFor(double magnitude, double width, int resolved) {
     return std::clamp(resolved, 4, 17);
   const double leading = std::ceil(std::log10(magnitude / width));
   return std::clamp(resolved + static_cast<int>(std::clamp(leading, -20.0, 20.0)), 4, 17);
+}
+
+std::string withErrorText(double x, double error) {
+  const auto place = [](double y) { return static_cast<int>(std::floor(std::log10(std::abs(y)))); };
+  const bool isOrdered = x != 0 && error > 0;
+  return fmt::format("{} ± {}", numberText(x, isOrdered ? std::clamp(place(x) - place(error) + 2, 1, 17) : 4),
+                     numberText(error, 2));
 }
 
 std::string countText(long long count, std::string_view singular) {

@@ -17,6 +17,9 @@ std::string tellingText(double x, double size, int digits = 3);
 /// "0.29 s".
 std::string timeText(double time, int digits = 6);
 
+/// The same of a time up to which something was reached: no more than that, in six digits.
+std::string reachedText(double time);
+
 /// x rounded up, never below x: for figures that promise "at most". Beside numbers of a `size` no less than a billionth
 /// of that, nor than any unit's least prefix makes of it.
 std::string atMostText(double x, int digits = 4);
@@ -25,8 +28,8 @@ std::string atMostText(double x, int digits, double size);
 /// Whether x is hardly anything beside numbers of this size: no more than a billionth of it.
 bool isLittle(double x, double size);
 
-/// How many times as wide an enclosure is, rounded up: "1.013"; "1.0001" of what is hardly more than 1, and "1" where
-/// only rounding made it more.
+/// How many times as wide an enclosure is, rounded up: "1.013"; "1.0001" of what is hardly more than 1, and "1" of what
+/// is so to a billionth.
 std::string timesText(double ratio);
 
 /// Decimals of lower rounded down and of upper rounded up: the printed pair holds the interval.
@@ -48,6 +51,9 @@ std::string intervalText(double lower, double upper, int digits);
 
 /// The significant digits with which numbers of this magnitude show a width to `resolved` digits; from 4 to 17.
 int digitsFor(double magnitude, double width, int resolved);
+
+/// "-55.6164 ± 0.0017": both to the second digit of the error, where that is above 0.
+std::string withErrorText(double x, double error);
 
 /// "1 sample", "4096 samples".
 std::string countText(long long count, std::string_view singular);

@@ -25,8 +25,8 @@ std::string keysOf(const Results& results) {
   if (isEnclosed(machine)) {
     keys += key("now", moves ? "guaranteed place of each point now" : "guaranteed place of each point");
     if (moves)
-      keys += key("swept", fmt::format("guaranteed region from 0 s to {} s",
-                                       numberText(std::min(results.interval.reached, results.horizon), 6)));
+      keys += key("swept", fmt::format("guaranteed region from 0 s to {}",
+                                       reachedText(std::min(results.interval.reached, results.horizon))));
   }
   return keys + "</ul>\n";
 }

@@ -89,7 +89,7 @@ std::string failedText(const Results& results) {
   html += "<details><summary>Which, and why</summary><ul class=\"notes\">\n";
   for (std::size_t i = 0; i < std::min(most, s.failed.size()); ++i)
     html += fmt::format("<li>{}{}: {}</li>\n", escapeHtml(s.nameOf(s.failed[i].number)),
-                        results.horizon > 0 ? fmt::format(", up to {}", timeText(s.failed[i].reached)) : "",
+                        results.horizon > 0 ? fmt::format(", up to {}", reachedText(s.failed[i].reached)) : "",
                         escapeHtml(s.failed[i].why));
   if (const auto others = s.failures - static_cast<std::int64_t>(std::min(most, s.failed.size())); others > 0)
     html += fmt::format("<li>and {} more; the results name {}, in /stochastic/failed</li>\n", others,
@@ -186,8 +186,8 @@ std::string statisticsTable(const Results& results, std::size_t rows) {
     const auto with = [&](double value, const Table& errors) {
       const double error = errors.empty() ? std::nan("") : errors(row, o);
       if (isOneValue) return value != 0 && isLittle(value, size) ? tellingText(value, size) : numberText(value, 6);
-      const int digits = digitsFor(std::abs(value), std::isfinite(error) ? error : s.deviation(row, o), 2);
-      return numberText(value, digits) + (std::isfinite(error) ? " ± " + numberText(error, 2) : "");
+      return std::isfinite(error) ? withErrorText(value, error)
+                                  : numberText(value, digitsFor(std::abs(value), s.deviation(row, o), 2));
     };
     std::vector<std::string> cells{with(s.mean(row, o), s.meanError), with(s.deviation(row, o), s.deviationError)};
     for (std::size_t q = 0; q < s.quantiles.size(); ++q) {

@@ -420,7 +420,7 @@ std::string hintsOf(const std::vector<std::string>& kinds, const Results& result
       text += fmt::format(" Strokes: estimates with their intervals of 95 % confidence, from {} independent samples.",
                           s.samples);
     if (meaning.kind == "derivative" && !d.why.empty())
-      text += fmt::format(" They are known up to {}: {}.", timeText(d.reached), escapeHtml(d.why));
+      text += fmt::format(" They are known up to {}: {}.", reachedText(d.reached), escapeHtml(d.why));
     if (first.empty())
       first = fmt::format("<p class=\"hint\">{}</p>\n", text);
     else

@@ -102,12 +102,30 @@ TEST(Peaks, HaveDigitsOfTheirOwn) {
 TEST(TimesAsWide, HaveNoDigitsOfRounding) {
   EXPECT_EQ(timesText(1), "1");
   EXPECT_EQ(timesText(1 + 4e-16), "1");
-  EXPECT_EQ(timesText(1 + 2e-15), "1.0001");
+  EXPECT_EQ(timesText(1 + 2e-14), "1");
+  EXPECT_EQ(timesText(1 - 2e-14), "1");
   EXPECT_EQ(timesText(1 + 2e-9), "1.0001");
   EXPECT_EQ(timesText(1.00012), "1.0002");
   EXPECT_EQ(timesText(1.0121), "1.013");
   EXPECT_EQ(timesText(1234.1), "1235");
   EXPECT_EQ(timesText(std::numeric_limits<double>::infinity()), "inf");
+}
+
+TEST(WithError, HasTheDigitsThatTheErrorLeaves) {
+  EXPECT_EQ(withErrorText(-55.61637, 0.0017), "-55.6164 ± 0.0017");
+  EXPECT_EQ(withErrorText(0.000105669, 9e-8), "0.000105669 ± 9e-08");
+  EXPECT_EQ(withErrorText(9.9, 0.1), "9.9 ± 0.1");
+  EXPECT_EQ(withErrorText(0.0003123, 0.0017), "0.0003 ± 0.0017");
+  EXPECT_EQ(withErrorText(1e-9, 1), "1e-09 ± 1");
+  EXPECT_EQ(withErrorText(0, 0.5), "0 ± 0.5");
+  EXPECT_EQ(withErrorText(2.5, 0), "2.5 ± 0");
+}
+
+TEST(ReachedTime, IsNeverLaterThanTheNumber) {
+  EXPECT_EQ(reachedText(0.3), "0.3 s");
+  EXPECT_EQ(reachedText(2.2783999), "2.27839 s");
+  EXPECT_EQ(reachedText(2.2784001), "2.2784 s");
+  EXPECT_EQ(reachedText(0), "0 s");
 }
 
 TEST(AtMost, IsNeverLessThanTheNumber) {
