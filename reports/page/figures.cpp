@@ -68,6 +68,9 @@ std::string costTable(const Results& results) {
   TableText table("Cost", {"analysis", "CPU time", "amount"});
   for (const Answer* answer : results.answers())
     if (answer->present) table.row(answer->title(), {secondsText(answer->cpu), answer->amount()});
+  if (const DistributionResult& d = results.distribution; d.present)
+    table.row("probabilities", {secondsText(d.cpu), "at " + countText(static_cast<long long>(d.time.size()), "time")});
+  if (const DerivativeResult& d = results.derivatives; d.present) table.row("derivatives", {secondsText(d.cpu), ""});
   if (std::isfinite(results.limits.time)) {
     const Limits& limits = results.limits;
     const auto gigabytes = [](double bytes) { return numberText(bytes / 1e9, 3) + " GB"; };

@@ -212,6 +212,8 @@ TEST(ProbabilitySection, DrawsMeanAndQuantilesWithTheirConfidence) {
   d.value = {0, 1, 0, 1};
   d.lower = d.upper = d.sampled = {0, 1, 0, 1};
   d.gaps = d.excess = {0, 0};
+  d.cpu = 4.9312;
+  EXPECT_THAT(renderReport(results), AllOf(HasSubstr("4.93 s"), HasSubstr("at 1 time<"))) << "what they cost";
   const std::string folded = sectionOf(results, "probabilities");
   EXPECT_THAT(folded, Not(HasSubstr("order")));
   EXPECT_EQ(count(folded, "<details class=\"more\"><summary>Mean and quantiles over time"), 2u);
