@@ -2,6 +2,7 @@
 // requirements that hold signs of these surfaces, accelerations and friction forces among them; trajectories whose
 // events are located in 128 bits, corners first, must lie in all of them, at output times and between, compared
 // exactly, but for what these trajectories are off themselves; none may violate a requirement that is told to be met.
+// Flows that end early, for their work is limited, are judged up to where they came, and counted apart.
 // Usage:
 //     held_signs_campaign [systems = 10000] [first = 0]
 // Prints what was judged, how wide the outputs are where motions are held, and how many of the requirements that are
@@ -14,6 +15,7 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <optional>
 #include <random>
 #include <string>
 #include <utility>
@@ -175,14 +177,19 @@ Uncertain quantityOf(const Interval& range) {
   return u;
 }
 
-struct Count {
-  long systems = 0, ended = 0, trajectories = 0, outside = 0, asked = 0, truly = 0, told = 0, falselyMet = 0,
-       widths = 0, loose = 0;
+/// What was told of systems that came to their horizon, or of those that ended early.
+struct Answers {
+  long asked = 0, truly = 0, told = 0, widths = 0, loose = 0;
   double ratios = 0;
 };
 
-/// What trajectories were, output by output: at the horizon; at all moments, events and what is just before and behind
-/// them among these.
+struct Count {
+  long systems = 0, ended = 0, atTheStart = 0, trajectories = 0, outside = 0, falselyMet = 0;
+  Answers whole, early;
+};
+
+/// What trajectories were, output by output: at the last moment; at all moments, events and what is just before and
+/// behind them among these.
 class Seen {
  public:
   std::vector<Interval> at = std::vector<Interval>(outputCount, Interval::empty()), over = at;
@@ -219,15 +226,17 @@ std::string shareText(long part, long all) {
                      all > 0 ? 100.0 * static_cast<double>(part) / static_cast<double>(all) : 0.0);
 }
 
-/// One requirement on an output: its margin is another output, limit - y. Whether it is told to be met.
-bool isToldMet(const System& s, const Program& f, const Program& g, std::size_t output, double limit) {
+/// One requirement on an output up to the last of these times: its margin is another output, limit - y. Whether it is
+/// told to be met.
+bool isToldMet(const System& s, const std::vector<double>& times, const Program& f, const Program& g,
+               std::size_t output, double limit) {
   Recorder recorder(g);
   const Program only = recorder.finish({recorder.sub(recorder.constant(limit), g.outputNodes()[output])});
   FlowOptions options;
   options.modelled = {0};
   options.budget = 0.2;
-  const Tube tube = Flow(f, only, options).enclose(s.box, s.horizon, s.times);
-  if (!tube.why().empty() || !tube.models()) return false;
+  const Tube tube = Flow(f, only, options).enclose(s.box, s.horizon, times);
+  if (!tube.models() || tube.times().back() != times.back() || tube.reachedTimes() != tube.times().size()) return false;
   std::vector<Uncertain> uncertain;
   std::vector<CellQuantity> quantities;
   for (const Interval& value : s.box) uncertain.push_back(quantityOf(value));
@@ -237,6 +246,13 @@ bool isToldMet(const System& s, const Program& f, const Program& g, std::size_t 
   RequirementOptions cells;
   cells.mostCells = 300;
   return examine(*tube.models(), question, quantities, cells).isAlwaysMet;
+}
+
+/// Where a flow that ended early is asked for more: on the way to where it came.
+std::vector<double> timesUpTo(double reached) {
+  std::vector<double> times;
+  for (const double part : {0.25, 0.5, 0.75, 0.9375}) times.push_back(part * reached);
+  return times;
 }
 
 void judgeSystem(unsigned number, Count& count) {
@@ -266,31 +282,44 @@ void judgeSystem(unsigned number, Count& count) {
     ++count.trajectories;
     return motion;
   };
-  Judge judge(c, number + 1);
+  std::optional<Judge> judge(std::in_place, c, number + 1);
   ++count.systems;
-  const bool isTelling = std::getenv("HELD_SIGNS_MISSES") != nullptr;
-  if (!judge.tube().why().empty()) {
+  const bool isTelling = std::getenv("HELD_SIGNS_MISSES") != nullptr, isEarly = !judge->tube().why().empty();
+  if (isEarly) {
     ++count.ended;
-    if (isTelling) fmt::print("system {}: ended at {} s: {}\n", number, judge.tube().reached(), judge.tube().why());
-    return;
+    const double reached = judge->tube().reached();
+    if (isTelling) fmt::print("system {}: ended at {} s: {}\n", number, reached, judge->tube().why());
+    if (reached > 0) {
+      c.times = timesUpTo(reached);
+      judge.emplace(c, number + 1);
+    }
   }
+  Answers& answers = isEarly ? count.early : count.whole;
   SCOPED_TRACE(fmt::format("system {}", number));
   ::testing::TestPartResultArray failures;  // of this system alone
   {
     const ::testing::ScopedFakeTestPartResultReporter reporter(
         ::testing::ScopedFakeTestPartResultReporter::INTERCEPT_ONLY_CURRENT_THREAD, &failures);
-    judge.judge(6);
+    judge->judge(6);
   }
   if (failures.size() > 0) {
     ++count.outside;
     ADD_FAILURE() << failures.GetTestPartResult(0).message();
     return;
   }
+  const std::size_t last = judge->tube().reachedTimes() - 1;
+  if (last == 0) {
+    ++count.atTheStart;
+    return;
+  }
+  const std::vector<double> reachedTimes(judge->tube().times().begin() + 1,
+                                         judge->tube().times().begin() + static_cast<std::ptrdiff_t>(last) + 1);
+  const double end = reachedTimes.back();
   constexpr int most = 16, inside = 8, moments = 64, further = 600;
   const auto wide = std::ranges::count_if(s.box, [](const Interval& value) { return !isThin(value); });
   const int corners = static_cast<int>(std::min<long>(most, 1L << wide));
   std::vector<double> times;
-  for (int i = 0; i <= moments; ++i) times.push_back(s.horizon * i / moments);
+  for (int i = 0; i <= moments; ++i) times.push_back(end * i / moments);
   Seen seen;
   Points points(number);
   bool areHeld = true;
@@ -299,17 +328,16 @@ void judgeSystem(unsigned number, Count& count) {
     seen.add(reference.outputs, reference.limits);
     areHeld = areHeld && reference.isHeld();
   }
-  const std::size_t last = judge.tube().reachedTimes() - 1;
   const auto output = static_cast<std::size_t>(dice.roll(outputCount));
   const Interval range = seen.over[output];
   if (!(gamut::width(range) > 1e-9)) return;
   const double by = 0.01 * gamut::width(range);
   const bool isTruly = dice.happens(0.7);
   const double limit = range.upper() + (isTruly ? by : -by);
-  const bool isTold = isToldMet(s, f, g, output, limit);
-  ++count.asked;
-  count.truly += isTruly;
-  count.told += isTold && isTruly;
+  const bool isTold = isToldMet(s, reachedTimes, f, g, output, limit);
+  ++answers.asked;
+  answers.truly += isTruly;
+  answers.told += isTold && isTruly;
   if (isTruly && !isTold && isTelling)
     fmt::print("system {}: output {} is not told to be below {}\n", number, output, limit);
   if (isTold && !isTruly) {
@@ -318,21 +346,31 @@ void judgeSystem(unsigned number, Count& count) {
   }
   bool isLookedAt = false;
   for (std::size_t o = 0; areHeld && o < seen.at.size(); ++o) {
-    const auto ratio = [&] { return gamut::width(judge.tube().outputs(last)[o]) / gamut::width(seen.at[o]); };
+    const auto ratio = [&] { return gamut::width(judge->tube().outputs(last)[o]) / gamut::width(seen.at[o]); };
     const double width = gamut::width(seen.at[o]);
     if (!(width > 1e-3 * gamut::width(seen.over[o])) || !(width > 1e-9)) continue;
     constexpr double loose = 1.05;
     if (ratio() > loose && !std::exchange(isLookedAt, true))  // what is extreme need not be at a corner
       for (int i = 0; i < further; ++i) {
-        reference(points.inside(s.box), {s.horizon});
+        reference(points.inside(s.box), {end});
         seen.add(reference.outputs, reference.limits);
       }
-    ++count.widths;
-    count.loose += ratio() > loose;
-    count.ratios += std::log(ratio());
+    ++answers.widths;
+    answers.loose += ratio() > loose;
+    answers.ratios += std::log(ratio());
     if (ratio() > loose && isTelling)
       fmt::print("system {}: output {} is {:.4f} times as wide as {}\n", number, o, ratio(), toString(seen.at[o]));
   }
+}
+
+void tell(const char* which, const Answers& answers) {
+  fmt::print("{}: {} requirements, {} that are met by 1 % told to be\n", which, answers.asked,
+             shareText(answers.told, answers.truly));
+  fmt::print(
+      "{}: where all are held at the end, {} outputs at most 1.05 times as wide as trajectories tell, in the mean "
+      "{:.4f}\n",
+      which, shareText(answers.widths - answers.loose, answers.widths),
+      std::exp(answers.ratios / static_cast<double>(std::max(1L, answers.widths))));
 }
 
 }  // namespace
@@ -344,15 +382,12 @@ int main(int argc, char** argv) {
   const int first = argc > 2 ? std::atoi(argv[2]) : 0;
   Count count;
   for (int i = first; i < first + systems; ++i) judgeSystem(static_cast<unsigned>(i), count);
-  fmt::print("{} systems ({} ended early), {} trajectories; {} outside\n", count.systems, count.ended,
-             count.trajectories, count.outside);
-  fmt::print("{} requirements: {} that are met by 1 % told to be, {} falsely\n", count.asked,
-             shareText(count.told, count.truly), count.falselyMet);
   fmt::print(
-      "where all are held at the horizon, {} outputs at most 1.05 times as wide as trajectories tell, in the mean "
-      "{:.4f}\n",
-      shareText(count.widths - count.loose, count.widths),
-      std::exp(count.ratios / static_cast<double>(std::max(1L, count.widths))));
+      "{} systems ({} ended early, {} of them before any time asked for), {} trajectories; {} outside, {} falsely "
+      "met\n",
+      count.systems, count.ended, count.atTheStart, count.trajectories, count.outside, count.falselyMet);
+  tell("to the horizon", count.whole);
+  tell("ended early", count.early);
   const bool isBad = ::testing::Test::HasFailure() || count.ended == count.systems;
   return isBad ? 1 : 0;
 }
