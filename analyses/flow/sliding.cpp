@@ -97,7 +97,11 @@ double FlowStepper::longestWhileSliding(const JumpBound& bound, const JumpBound&
     const double latest = std::max(fromAbove, fromBelow);
     const double first = std::max(start.lower() / -bound.up.lower(), -start.upper() / bound.down.upper());
     const bool isFirst = last == 0 && start.lower() < 0 && start.upper() > 0;
-    const double one = std::max({last, latest > 0 ? latest / (isFirst ? partsAtFirst : parts) : h, ahead * first});
+    // While the first is farther away than they are from each other, rates may be others by the time it comes.
+    const double all = first > 0 && mignitude(start) > width(start) ? 0.5 * h
+                       : latest > 0                                 ? latest / (isFirst ? partsAtFirst : parts)
+                                                                    : h;
+    const double one = std::max({last, all, ahead * first});
     if (contains(start, 0.0)) {  // of one side: the sign is another then
       const double sooner = std::min(fromAbove, fromBelow);
       if (sooner > leastPart * one && sooner < mostPart * one) return beyondAll * sooner;

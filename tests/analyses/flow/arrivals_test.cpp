@@ -28,6 +28,27 @@ TEST(FlowArrivals, WhatFollowsIsAsWideAsTheyMakeIt) {
   }
 }
 
+/// From above x comes at the rate -t - 1/1024, slowly at first, so from c it is c - t²/2 - t/1024 until it is held, at
+/// 1/2 about: a step that is bounded by rates alone must not begin long before the first comes.
+TEST(FlowArrivals, WhatGathersSpeedIsFollowedUntilTheFirstComes) {
+  for (const double side : {1.0, -1.0})
+    for (const double unit : {1.0, 0x1p-20, 0x1p20}) {
+      SCOPED_TRACE(side * unit);
+      const Program f = record(1, 1, [side](auto t, const auto& x, const auto& p, auto& dx) {
+        dx[0] = p[0] * (side * (1.0 - t) - 1.0009765625 * sign(x[0]));
+      });
+      const Interval from(0.125, 0.12890625);
+      const Tube tube = Flow(f).enclose({side * unit * from, Interval(unit)}, 1, {0.375, 0.5, 1});
+      ASSERT_EQ(tube.why(), "");
+      const auto after = [](double t) { return 0.5 * t * t + t / 1024; };  // exact
+      const Interval first = side * unit * (from - Interval(after(0.375)));
+      EXPECT_TRUE(isSubset(first, tube.states(1)[0])) << tube.states(1)[0];
+      EXPECT_LT(width(tube.states(1)[0]), 1.01 * width(first));
+      EXPECT_TRUE(isSubset(side * unit * Interval(0.0, from.upper() - after(0.5)), tube.states(2)[0]));
+      EXPECT_LT(magnitude(tube.states(3)[0]), unit * 1e-9);
+    }
+}
+
 /// Of u = x - z, z moving at 1/4; m from 15/16 to 17/16, so the slowest come at m ∓ 1/4.
 TEST(FlowArrivals, AnArgumentMayBeADifferenceAndItsRateUncertain) {
   const Program f = record(3, 1, [](auto, const auto& x, const auto& p, auto& dx) {
