@@ -18,7 +18,7 @@
 namespace gamut::commands {
 namespace {
 
-struct Arguments {
+struct CompareArguments {
   std::string first, second, tolerances;
   bool json = false;
 };
@@ -34,7 +34,7 @@ std::vector<std::string> outputsOf(const Results& first, const Results& second) 
   return names;
 }
 
-ExitCode compare(const Arguments& arguments) {
+ExitCode compare(const CompareArguments& arguments) {
   const Results first = readResults(arguments.first), second = readResults(arguments.second);
   const Tolerances tolerances =
       arguments.tolerances.empty() ? Tolerances() : readTolerances(arguments.tolerances, outputsOf(first, second));
@@ -54,7 +54,7 @@ ExitCode compare(const Arguments& arguments) {
 }  // namespace
 
 Action compare(CLI::App& command) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<CompareArguments>();
   command.add_option("first", arguments->first, "Results file, A: what is compared with")
       ->required()
       ->type_name("A.h5");

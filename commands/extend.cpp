@@ -23,18 +23,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments : RunArguments {
+struct ExtendArguments : RunArguments {
   std::string input, results, report;
   std::size_t samples = 0;
 };
 
 /// Without names of their own, results and report take the place of those that there are.
-OutputFile reserveResults(const Arguments& arguments) {
+OutputFile reserveResults(const ExtendArguments& arguments) {
   if (arguments.results.empty()) return {arguments.input, OutputFile::Existing::isReplaced};
   return reserve(arguments.results, arguments.input, arguments.force);
 }
 
-OutputFile reserveReport(const Arguments& arguments) {
+OutputFile reserveReport(const ExtendArguments& arguments) {
   const std::string results = arguments.results.empty() ? arguments.input : arguments.results;
   const std::string report =
       arguments.report.empty() ? fs::path(results).replace_extension(".html").string() : arguments.report;
@@ -43,7 +43,7 @@ OutputFile reserveReport(const Arguments& arguments) {
   return reserve(report, arguments.input, arguments.force || (arguments.results.empty() && arguments.report.empty()));
 }
 
-void noteChanges(const Arguments& arguments, const Results& before, const Extension& extension) {
+void noteChanges(const ExtendArguments& arguments, const Results& before, const Extension& extension) {
   if (extension.changed > 0 && !arguments.quiet)
     fmt::print(stderr,
                "note: of {} samples whose motions are kept, {} are not the same bit for bit; they were taken by {}, "
@@ -51,7 +51,7 @@ void noteChanges(const Arguments& arguments, const Results& before, const Extens
                extension.met, extension.changed, takerOfSamples(before), version(), hostName());
 }
 
-ExitCode extend(const Arguments& arguments) {
+ExitCode extend(const ExtendArguments& arguments) {
   const Results before = readResults(arguments.input);
   const Study study = studyOf(before, arguments.input);
   RunOptions options = runOptions(arguments);
@@ -82,7 +82,7 @@ ExitCode extend(const Arguments& arguments) {
 }  // namespace
 
 Action extend(CLI::App& command) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<ExtendArguments>();
   addResults(command, arguments->input);
   command
       .add_option("--samples", arguments->samples,

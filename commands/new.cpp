@@ -22,7 +22,7 @@ extern const std::string_view studyToStartFrom;
 
 namespace {
 
-struct Arguments {
+struct NewArguments {
   std::string name, robot;
   bool force = false;
 };
@@ -50,7 +50,7 @@ void noteWhatIsAmiss(const std::string& study, const std::string& path, const st
   }
 }
 
-ExitCode write(const Arguments& arguments) {
+ExitCode write(const NewArguments& arguments) {
   const bool isOut = arguments.name == "-";
   const std::string path = isOut ? "standard input" : fileNamed(arguments.name);
   std::string study(studyToStartFrom), robotText;
@@ -78,7 +78,7 @@ ExitCode write(const Arguments& arguments) {
 }  // namespace
 
 Action newStudy(CLI::App& command) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<NewArguments>();
   command.add_option("name", arguments->name, "Name, or path, of the study; .toml is added. - for standard output")
       ->required()
       ->type_name("NAME");

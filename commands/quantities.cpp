@@ -24,7 +24,7 @@
 namespace gamut::commands {
 namespace {
 
-struct Arguments {
+struct QuantitiesArguments {
   std::string study;
   bool json = false;
 };
@@ -90,7 +90,7 @@ std::string json(const std::vector<Quantity>& numbers, const std::vector<Quantit
   return Json{{"uncertain", list(numbers)}, {"output", list(outputs)}}.dump() + "\n";
 }
 
-ExitCode list(const Arguments& arguments) {
+ExitCode list(const QuantitiesArguments& arguments) {
   const StudyText study = readStudyFile(arguments.study);
   const Mechanism mechanism = readMechanismText(study.text, study.name);
   const std::vector<Quantity> numbers = numbersOf(mechanism), outputs = outputsOf(mechanism, study.name);
@@ -103,7 +103,7 @@ ExitCode list(const Arguments& arguments) {
 }  // namespace
 
 Action quantities(CLI::App& command) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<QuantitiesArguments>();
   addStudy(command, arguments->study);
   command.add_flag("--json", arguments->json, "One JSON object, for programs");
   return [arguments] { return list(*arguments); };

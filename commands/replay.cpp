@@ -28,7 +28,7 @@
 namespace gamut::commands {
 namespace {
 
-struct Arguments {
+struct ReplayArguments {
   std::string results, output;
   std::vector<std::string> sample;  // words: "17", "corner 3", "centre"
   bool force = false;
@@ -41,7 +41,7 @@ std::int64_t wholeNumberIn(std::string_view text) {
   return error == std::errc() && last == text.data() + text.size() ? number : -1;
 }
 
-std::size_t numberOf(const Arguments& arguments, const StochasticResult& samples) {
+std::size_t numberOf(const ReplayArguments& arguments, const StochasticResult& samples) {
   const std::string name = fmt::format("{}", fmt::join(arguments.sample, " "));
   if (name == "centre") return static_cast<std::size_t>(samples.centre());
   struct Kind {
@@ -117,7 +117,7 @@ void say(std::size_t number, const ReplayedSample& sample, const Results& result
 }
 
 /// The requirement that "violation NAME" names; null for a sample.
-const RequirementResult* requirementOf(const Arguments& arguments, const Results& results) {
+const RequirementResult* requirementOf(const ReplayArguments& arguments, const Results& results) {
   if (arguments.sample.front() != "violation") return nullptr;
   std::vector<std::string> names;
   for (const RequirementResult& requirement : results.requirements) {
@@ -140,7 +140,7 @@ void sayOfViolation(const RequirementResult& requirement, const Results& results
                std::isnan(requirement.violationTime) ? "" : fmt::format(", at {} s", requirement.violationTime));
 }
 
-ExitCode replay(const Arguments& arguments) {
+ExitCode replay(const ReplayArguments& arguments) {
   const Results results = readResults(arguments.results);
   const RequirementResult* const requirement = requirementOf(arguments, results);
   if (requirement == nullptr && !results.stochastic.present)
@@ -172,7 +172,7 @@ ExitCode replay(const Arguments& arguments) {
 }  // namespace
 
 Action replay(CLI::App& command) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<ReplayArguments>();
   addResults(command, arguments->results);
   command
       .add_option("sample", arguments->sample,

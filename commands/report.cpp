@@ -15,12 +15,12 @@
 namespace gamut::commands {
 namespace {
 
-struct Arguments {
+struct ReportArguments {
   std::string results, page;
   bool force = false;
 };
 
-ExitCode report(const Arguments& arguments) {
+ExitCode report(const ReportArguments& arguments) {
   const std::string path = arguments.page.empty()
                                ? std::filesystem::path(arguments.results).filename().replace_extension(".html").string()
                                : arguments.page;
@@ -33,7 +33,7 @@ ExitCode report(const Arguments& arguments) {
 }  // namespace
 
 Action report(CLI::App& command) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<ReportArguments>();
   addResults(command, arguments->results);
   command
       .add_option("-o,--output", arguments->page,

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments : RunArguments {
+struct RunCommandArguments : RunArguments {
   std::string study, results, report;
   std::optional<std::uint64_t> seed;
   std::optional<std::size_t> samples;
@@ -35,14 +35,14 @@ std::string nameOfStudy(const std::string& path) {
              : file.stem().string();
 }
 
-void nameOutputs(Arguments& arguments) {
+void nameOutputs(RunCommandArguments& arguments) {
   if (arguments.results.empty()) arguments.results = nameOfStudy(arguments.study) + ".h5";
   if (arguments.report.empty()) arguments.report = fs::path(arguments.results).replace_extension(".html").string();
   if (fs::absolute(arguments.results).lexically_normal() == fs::absolute(arguments.report).lexically_normal())
     throw UsageError(arguments.report + ": is both results and report; expected two names");
 }
 
-ExitCode run(Arguments arguments) {
+ExitCode run(RunCommandArguments arguments) {
   const Study study = readStudyNoting(arguments.study, arguments.quiet);
   nameOutputs(arguments);
   RunOptions options = runOptions(arguments);
@@ -68,7 +68,7 @@ ExitCode run(Arguments arguments) {
 }  // namespace
 
 Action run(CLI::App& command) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<RunCommandArguments>();
   addStudy(command, arguments->study);
   command
       .add_option(

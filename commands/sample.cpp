@@ -27,7 +27,7 @@
 namespace gamut::commands {
 namespace {
 
-struct Arguments {
+struct SampleArguments {
   std::string results, output, plan = "random";
   std::uint64_t samples = 0, seed = 1;
   std::vector<double> times;
@@ -37,7 +37,7 @@ struct Arguments {
 };
 
 /// Numbers of the times that are wanted; of all that there are polynomials of, if none is named.
-std::vector<std::size_t> rowsOf(const Arguments& arguments, const Results& results) {
+std::vector<std::size_t> rowsOf(const SampleArguments& arguments, const Results& results) {
   std::vector<std::size_t> kept;
   for (const double row : results.surrogate.row)
     if (const auto number = static_cast<std::size_t>(row); kept.empty() || kept.back() != number)
@@ -60,7 +60,7 @@ std::vector<std::size_t> rowsOf(const Arguments& arguments, const Results& resul
   return rows;
 }
 
-std::vector<std::size_t> outputsOf(const Arguments& arguments, const Results& results) {
+std::vector<std::size_t> outputsOf(const SampleArguments& arguments, const Results& results) {
   std::vector<std::size_t> kept, outputs;
   std::vector<std::string> names;
   for (std::size_t o = 0; o < results.outputs.size(); ++o) {
@@ -82,7 +82,7 @@ std::vector<std::size_t> outputsOf(const Arguments& arguments, const Results& re
   return outputs;
 }
 
-SampleTable tableOf(const Arguments& arguments, const Results& results, const Study& study) {
+SampleTable tableOf(const SampleArguments& arguments, const Results& results, const Study& study) {
   if (results.surrogate.row.empty())
     throw UsageError(arguments.results +
                      ": holds no polynomials of outputs; expected results of a study that compares \"interval\" (or "
@@ -131,7 +131,7 @@ SampleTable tableOf(const Arguments& arguments, const Results& results, const St
   return table;
 }
 
-ExitCode sample(const Arguments& arguments) {
+ExitCode sample(const SampleArguments& arguments) {
   const Results results = readResults(arguments.results);
   const Study study = studyOf(results, arguments.results);
   const auto bytes = [&] {
@@ -152,7 +152,7 @@ ExitCode sample(const Arguments& arguments) {
 }  // namespace
 
 Action sample(CLI::App& command) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<SampleArguments>();
   addResults(command, arguments->results);
   command.add_option("--samples", arguments->samples, "How many")
       ->required()

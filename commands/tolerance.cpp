@@ -25,7 +25,7 @@
 namespace gamut::commands {
 namespace {
 
-struct Arguments {
+struct ToleranceArguments {
   std::string study;
   int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   std::optional<double> timeLimit;
@@ -97,7 +97,7 @@ std::string json(const Study& study, const AllowedDeviations& found) {
       .dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-ExitCode tolerance(const Arguments& arguments) {
+ExitCode tolerance(const ToleranceArguments& arguments) {
   const Study study = readStudyNoting(arguments.study, arguments.quiet);
   ToleranceOptions options;
   options.jobs = arguments.jobs;
@@ -121,7 +121,7 @@ ExitCode tolerance(const Arguments& arguments) {
 }  // namespace
 
 Action tolerance(CLI::App& command) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<ToleranceArguments>();
   addStudy(command, arguments->study);
   command.add_option("--jobs", arguments->jobs, "Threads, 1 to 1024; otherwise as many as the machine has")
       ->check(wholeNumber(1, 1024))

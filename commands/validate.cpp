@@ -13,12 +13,12 @@
 namespace gamut::commands {
 namespace {
 
-struct Arguments {
+struct ValidateArguments {
   std::string study;
   bool quiet = false;
 };
 
-ExitCode validate(const Arguments& arguments) {
+ExitCode validate(const ValidateArguments& arguments) {
   const Study study = readStudyNoting(arguments.study, arguments.quiet);
   if (!arguments.quiet)
     fmt::print("{}: valid; {} with {}, {} uncertain {}, {}{}\n", printable(study.file), study.analysisName(),
@@ -32,7 +32,7 @@ ExitCode validate(const Arguments& arguments) {
 }  // namespace
 
 Action validate(CLI::App& command) {
-  const auto arguments = std::make_shared<Arguments>();
+  const auto arguments = std::make_shared<ValidateArguments>();
   addStudy(command, arguments->study);
   command.add_flag("--quiet", arguments->quiet, "Say nothing if it is valid");
   return [arguments] { return validate(*arguments); };

@@ -28,7 +28,7 @@ struct Comparison {
   char sign = 0;
 };
 
-Comparison compared(const std::string& text) {
+Comparison comparisonIn(const std::string& text) {
   Comparison comparison{{""}, 0};
   int depth = 0;
   bool isQuoted = false;
@@ -75,7 +75,7 @@ struct Demand {
 Demand demandOf(const RequirementResult& requirement) {
   const std::size_t blank = requirement.statement.find(' ');
   const std::string text = blank == std::string::npos ? requirement.statement : requirement.statement.substr(blank + 1);
-  const Comparison c = compared(text);
+  const Comparison c = comparisonIn(text);
   const std::string whole = "\u201c" + requirement.name + "\u201d";
   if (c.sides.size() == 3 && isNumber(c.sides[0]) && !isNumber(c.sides[1]) && isNumber(c.sides[2])) {
     const bool rises = c.sign == '<';

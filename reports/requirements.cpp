@@ -60,9 +60,10 @@ std::string valueText(const UncertainInfo& quantity, double value) {
   return inUnit(fmt::format("{} {}", quantity.name, numberText(told.of(value), digits)), told.unit());
 }
 
-class Wording {
+class RequirementWording {
  public:
-  Wording(const Results& results, const RequirementResult& requirement) : results_(results), r_(requirement) {}
+  RequirementWording(const Results& results, const RequirementResult& requirement)
+      : results_(results), r_(requirement) {}
 
   RequirementWords words() const {
     return {r_.name,
@@ -240,7 +241,7 @@ std::string estimateOf(const RequirementResult& requirement) {
 std::vector<RequirementWords> wordsOfRequirements(const Results& results) {
   std::vector<RequirementWords> words;
   for (const RequirementResult& requirement : results.requirements)
-    words.push_back(Wording(results, requirement).words());
+    words.push_back(RequirementWording(results, requirement).words());
   return words;
 }
 

@@ -16,7 +16,7 @@ Place cross(const Place& a, const Place& b) {
 }
 Place minus(const Place& a, const Place& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 Place times(const Place& a, double factor) { return {a[0] * factor, a[1] * factor, a[2] * factor}; }
-constexpr double least = 1e-30;  // what is shorter is nothing
+constexpr double negligible = 1e-30;  // what is shorter is nothing
 
 double norm(const Place& a) { return std::hypot(a[0], a[1], a[2]); }
 Place normalised(const Place& a) { return times(a, 1 / norm(a)); }
@@ -42,7 +42,7 @@ Place commonAxis(const MachineResult& machine) {
   Place common{0, 0, 0};
   for (std::size_t a = 0; a < machine.axes.size(); ++a) {
     const Place one = placeOf(machine.places.axes, 0, machine.axes.size(), a);
-    if (!isKnown(one) || !(norm(one) > least) || machine.parts[machine.axes[a].part].turns == 0) continue;
+    if (!isKnown(one) || !(norm(one) > negligible) || machine.parts[machine.axes[a].part].turns == 0) continue;
     if (norm(common) == 0) common = one;
     if (norm(cross(common, one)) > 1e-6) return {0, 0, 0};
   }
@@ -95,7 +95,7 @@ Place againstGravity(const MachineResult& machine) {
   Place gravity{0, 0, 0};
   for (std::size_t i = 0; i < std::min<std::size_t>(3, machine.directions.size()); ++i)
     gravity[i] = machine.directions[i].gravity;
-  return isKnown(gravity) && norm(gravity) > least ? normalised(times(gravity, -1)) : axis(2);
+  return isKnown(gravity) && norm(gravity) > negligible ? normalised(times(gravity, -1)) : axis(2);
 }
 
 /// Enclosures may add a quarter of the motions' size on each side.
@@ -175,7 +175,7 @@ View aimedView(const MachineResult& machine) {
   double farthest = 0;
   for (const Place& place : motions) farthest = std::max(farthest, norm(place));
   constexpr double rounding = 1e-12;
-  if (std::max(wide, high) <= std::max(rounding * farthest, least)) wide = high = 0;
+  if (std::max(wide, high) <= std::max(rounding * farthest, negligible)) wide = high = 0;
   view.size = std::max(wide, high);
   const double room = view.width - 2 * margin;
   view.height = mostHeight;

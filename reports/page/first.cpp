@@ -221,21 +221,21 @@ std::string plotOfForemost(const Results& results, const Foremost& foremost) {
 
 // ---- Whose doing it is ----------------------------------------------------------------------------------------------
 
-struct Cause {
+struct LeadingCause {
   std::string name, share;
   double size = 0;
 };
 
 /// The greatest first; empty where too little is known.
-std::vector<Cause> causesOf(const Results& results, std::size_t output, std::size_t at) {
+std::vector<LeadingCause> causesOf(const Results& results, std::size_t output, std::size_t at) {
   const SensitivityResult& s = results.sensitivity;
   const std::size_t quantities = results.uncertain.size();
-  std::vector<Cause> causes;
+  std::vector<LeadingCause> causes;
   for (std::size_t q = 0; q < quantities; ++q) {
     const std::size_t i = (at * results.outputs.size() + output) * quantities + q;
     const double low = s.totalLower[i], high = s.totalUpper[i];
     constexpr double tight = 0.02, telling = 0.2;
-    Cause cause{results.uncertain[q].name, "", 0.5 * (low + high)};
+    LeadingCause cause{results.uncertain[q].name, "", 0.5 * (low + high)};
     const auto percent = [](double x) { return fmt::format("{:.0f}", 100 * std::clamp(x, 0.0, 1.0)); };
     if (high - low <= tight) {
       cause.share = percent(cause.size) + " %";
@@ -249,7 +249,7 @@ std::vector<Cause> causesOf(const Results& results, std::size_t output, std::siz
     }
     causes.push_back(std::move(cause));
   }
-  std::ranges::stable_sort(causes, std::greater<>(), &Cause::size);
+  std::ranges::stable_sort(causes, std::greater<>(), &LeadingCause::size);
   return causes;
 }
 
@@ -257,15 +257,16 @@ std::string ranking(const Results& results, std::size_t output) {
   const SensitivityResult& s = results.sensitivity;
   if (!s.present || results.uncertain.size() < 2 || s.totalLower.empty()) return {};
   const double instant = instantOf(results, output);
-  std::vector<Cause> causes;
+  std::vector<LeadingCause> causes;
   std::size_t at = 0;
   for (std::size_t i = 0; i < s.time.size(); ++i) {  // the nearest at which something is known
     if (!causes.empty() && !(std::abs(s.time[i] - instant) <= std::abs(s.time[at] - instant))) continue;
-    if (std::vector<Cause> found = causesOf(results, output, i); !found.empty()) causes = std::move(found), at = i;
+    if (std::vector<LeadingCause> found = causesOf(results, output, i); !found.empty())
+      causes = std::move(found), at = i;
   }
   constexpr std::size_t most = 5;
   constexpr double least = 0.005;
-  std::erase_if(causes, [](const Cause& cause) { return cause.size < least; });
+  std::erase_if(causes, [](const LeadingCause& cause) { return cause.size < least; });
   if (causes.empty()) return {};
   if (causes.size() > most) causes.resize(most);
   std::vector<std::string> courses;
@@ -279,7 +280,7 @@ std::string ranking(const Results& results, std::size_t output) {
       courses.empty()
           ? ""
           : fmt::format(", of those that do not vary in time; {} may matter more", fmt::join(courses, ", ")));
-  for (const Cause& cause : causes)
+  for (const LeadingCause& cause : causes)
     html += fmt::format("<li><span>{}</span><i style=\"--share:{:.3f}\"></i><b>{}</b></li>\n", escapeHtml(cause.name),
                         std::clamp(cause.size, 0.0, 1.0), cause.share);
   return html + "</ol>\n</section>\n";

@@ -17,7 +17,7 @@
 namespace gamut {
 namespace {
 
-std::string numbersOf(const Results& results, std::size_t at, std::size_t output) {
+std::string distributionNumbers(const Results& results, std::size_t at, std::size_t output) {
   const Stairs stairs = stairsOf(results, at, output);
   NumbersText numbers;
   numbers.column(results.outputs[output].name, results.outputs[output].unit, stairs.value);
@@ -48,7 +48,7 @@ std::string distributionsOf(const Results& results, std::size_t output) {
                            ? (isOneValue(results, times[at], output) ? "one value" : "nothing is known") + when
                        : gap == 0 ? "known to some roundings" + when
                                   : fmt::format("bounds {} apart at most{}", atMostText(gap, 2), when));
-    numbers.push_back(numbersOf(results, at, output));
+    numbers.push_back(distributionNumbers(results, at, output));
   }
   return momentFigures("distribution", drawings, captions, numbers);
 }

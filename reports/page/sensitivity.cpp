@@ -24,8 +24,8 @@ namespace gamut {
 namespace {
 
 constexpr std::size_t drawnQuantities = 6;
-constexpr double visible = 0.005;  // of what is 1 in all
-constexpr double telling = 0.5;    // wider bounds of a share would say nothing
+constexpr double visible = 0.005;     // of what is 1 in all
+constexpr double tellingShare = 0.5;  // wider bounds of a share would say nothing
 
 /// Numbers over time, one of each quantity, as the results hold them: [time][output][quantity].
 struct Course {
@@ -115,7 +115,7 @@ Answered indices(const Results& results, std::size_t output, bool isTotal) {
     Cause cause{.quantity = q};
     cause.proved = {lineOf(results, {s.time, lower}, output, q), lineOf(results, {s.time, upper}, output, q)};
     for (std::size_t i = 0; i < s.time.size(); ++i)
-      if (!(cause.proved.upper[i] - cause.proved.lower[i] < telling))
+      if (!(cause.proved.upper[i] - cause.proved.lower[i] < tellingShare))
         cause.proved.lower[i] = cause.proved.upper[i] = std::nan("");
     cause.estimate = lineOf(results, {s.time, sampled}, output, q);
     cause.error = lineOf(results, {s.time, error}, output, q);

@@ -17,7 +17,7 @@ double greatestOverestimation(const ComparisonResult& comparison, std::size_t ou
   return greatest;
 }
 
-std::vector<Column> columns(const Results& results, const Finding& finding) {
+std::vector<Column> comparedColumns(const Results& results, const Finding& finding) {
   if (std::isnan(finding.overestimation)) return {};
   Column column{"overestimation, at most", nullptr, {}};
   for (std::size_t k = 0; k < results.outputs.size(); ++k)
@@ -25,7 +25,7 @@ std::vector<Column> columns(const Results& results, const Finding& finding) {
   return {column};
 }
 
-void draw(const Results& results, std::size_t output, Plot& plot) {
+void drawCompared(const Results& results, std::size_t output, Plot& plot) {
   const Line ratio = lineOf(results.comparison.overestimation, output);
   if (std::ranges::none_of(ratio, [](double x) { return std::isfinite(x); })) return;
   plot.ratios.push_back({.name = "overestimation",
@@ -38,6 +38,6 @@ void draw(const Results& results, std::size_t output, Plot& plot) {
 
 }  // namespace
 
-const Contribution compared{columns, draw};
+const Contribution compared{comparedColumns, drawCompared};
 
 }  // namespace gamut

@@ -5,13 +5,13 @@ namespace gamut {
 namespace {
 
 /// The most possible: the cut of the highest level.
-std::vector<Column> columns(const Results& results, const Finding&) {
+std::vector<Column> possibleColumns(const Results& results, const Finding&) {
   const FuzzyResult& fuzzy = results.fuzzy;
   if (!fuzzy.present || fuzzy.outer.empty()) return {};
   return {{"most possible", &fuzzy.outer.back(), {}}};
 }
 
-void draw(const Results& results, std::size_t output, Plot& plot) {
+void drawPossible(const Results& results, std::size_t output, Plot& plot) {
   const FuzzyResult& fuzzy = results.fuzzy;
   if (!fuzzy.present || fuzzy.outer.empty()) return;
   Layer layer{.name = "possible",
@@ -27,6 +27,6 @@ void draw(const Results& results, std::size_t output, Plot& plot) {
 
 }  // namespace
 
-const Contribution possible{columns, draw};
+const Contribution possible{possibleColumns, drawPossible};
 
 }  // namespace gamut

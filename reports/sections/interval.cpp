@@ -18,12 +18,12 @@ Band tubeOf(const Bounds& over, std::size_t output) {
   return tube;
 }
 
-std::vector<Column> columns(const Results& results, const Finding&) {
+std::vector<Column> guaranteedColumns(const Results& results, const Finding&) {
   if (!results.interval.present) return {};
   return {{"guaranteed", &results.interval.at, {}}};
 }
 
-void draw(const Results& results, std::size_t output, Plot& plot) {
+void drawGuaranteed(const Results& results, std::size_t output, Plot& plot) {
   const IntervalResult& interval = results.interval;
   if (!interval.present) return;
   if (!interval.over.empty())
@@ -51,6 +51,6 @@ void draw(const Results& results, std::size_t output, Plot& plot) {
 
 }  // namespace
 
-const Contribution guaranteed{columns, draw};
+const Contribution guaranteed{guaranteedColumns, drawGuaranteed};
 
 }  // namespace gamut

@@ -115,7 +115,7 @@ std::string labelOf(const Results& results, const Limit& limit, const std::strin
                      number);
 }
 
-void draw(const Results& results, std::size_t output, Plot& plot) {
+void drawRequired(const Results& results, std::size_t output, Plot& plot) {
   Layer layer{.name = "limit",
               .words = "limit of a requirement",
               .style = {colour::red, 0, 1.8, true},
@@ -134,11 +134,11 @@ void draw(const Results& results, std::size_t output, Plot& plot) {
   if (!layer.bands.empty()) plot.layers.push_back(std::move(layer));
 }
 
-std::vector<Column> columns(const Results&, const Finding&) { return {}; }
+std::vector<Column> requiredColumns(const Results&, const Finding&) { return {}; }
 
 }  // namespace
 
-const Contribution required{columns, draw};
+const Contribution required{requiredColumns, drawRequired};
 
 std::vector<Limit> limitsOf(const Results& results) {
   std::vector<Limit> limits;

@@ -12,7 +12,7 @@
 namespace gamut {
 namespace {
 
-std::vector<Column> columns(const Results& results, const Finding&) {
+std::vector<Column> probableColumns(const Results& results, const Finding&) {
   if (!results.stochastic.present) return {};
   return {{"sampled", &results.stochastic.envelope, {}}};
 }
@@ -32,7 +32,7 @@ Band behindProof(const Results& results, std::size_t output, double end) {
   return band;
 }
 
-void draw(const Results& results, std::size_t output, Plot& plot) {
+void drawProbable(const Results& results, std::size_t output, Plot& plot) {
   const StochasticResult& stochastic = results.stochastic;
   if (!stochastic.present) return;
   const std::vector<double>& probabilities = stochastic.probabilities;
@@ -71,6 +71,6 @@ void draw(const Results& results, std::size_t output, Plot& plot) {
 
 }  // namespace
 
-const Contribution probable{columns, draw};
+const Contribution probable{probableColumns, drawProbable};
 
 }  // namespace gamut
