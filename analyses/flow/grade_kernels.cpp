@@ -72,9 +72,9 @@ GAMUT_CLONES void multiplySeries(const Monomials& monomials, int q, int least, c
   const int ofA = std::min(orders, ordersOfA);
   double rows = 0;
   for (int p = least; p <= q - least; ++p) {
-    const int firstB = p == q ? 0 : monomials.countUpTo(q - p - 1), count = monomials.countUpTo(q - p) - firstB;
+    const int firstB = monomials.firstOf(q - p), count = monomials.countUpTo(q - p) - firstB;
     const double* b = bPadded + firstB * paddedStride(stride) + padding;
-    for (int g = p == 0 ? 0 : monomials.countUpTo(p - 1); g < monomials.countUpTo(p); ++g) {
+    for (int g = monomials.firstOf(p); g < monomials.countUpTo(p); ++g) {
       const double* factor = a + g * stride;
       if (isZero(factor, ofA)) continue;
       const std::uint16_t* products = monomials.products(g) + firstB;
@@ -98,9 +98,9 @@ void multiplyGraded(const Monomials& monomials, int q, const double* a, const do
                     double* out) {
   double pairs = 0;
   for (int p = 1; p < q; ++p) {
-    const int firstB = monomials.countUpTo(q - p - 1), count = monomials.countUpTo(q - p) - firstB;
+    const int firstB = monomials.firstOf(q - p), count = monomials.countUpTo(q - p) - firstB;
     const double* b = bPadded + firstB * paddedStride(stride) + padding;
-    for (int g = monomials.countUpTo(p - 1); g < monomials.countUpTo(p); ++g) {
+    for (int g = monomials.firstOf(p); g < monomials.countUpTo(p); ++g) {
       const double factor = p * a[g * stride];
       if (factor == 0) continue;
       const std::uint16_t* products = monomials.products(g) + firstB;

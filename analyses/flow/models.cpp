@@ -49,8 +49,7 @@ OutputModel modelOf(const double* polynomial, double radius, const Monomials& mo
   }
   int grade = monomials.degree();
   for (double dropped = 0; grade > 0; --grade) {
-    for (int g = monomials.countUpTo(grade - 1); g < monomials.countUpTo(grade); ++g)
-      dropped += std::fabs(model.c[at(g)]);
+    for (int g = monomials.firstOf(grade); g < monomials.countUpTo(grade); ++g) dropped += std::fabs(model.c[at(g)]);
     if (!(dropped <= next * variation + ofRadius * radius)) break;
   }
   for (std::size_t g = at(monomials.countUpTo(grade)); g < model.c.size(); ++g) beside += std::fabs(model.c[g]);

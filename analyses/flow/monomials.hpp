@@ -23,6 +23,8 @@ class Monomials {
   int count() const { return static_cast<int>(grade_.size()); }
   /// Number of monomials of grade ≤ q.
   int countUpTo(int q) const { return countUpTo_[static_cast<std::size_t>(q < degree_ ? q : degree_)]; }
+  /// The first monomial of grade q.
+  int firstOf(int q) const { return q == 0 ? 0 : countUpTo(q - 1); }
   int weight(int symbol) const { return weight_[static_cast<std::size_t>(symbol)]; }
   int grade(int g) const { return grade_[static_cast<std::size_t>(g)]; }
   int exponent(int g, int symbol) const {

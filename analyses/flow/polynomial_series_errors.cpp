@@ -250,7 +250,7 @@ double PolynomialSeries::sumOverProducts(int left, int right, bool isSlope, cons
   std::vector<double>& out = residual_;
   out.resize(at(count()) * at(stride_));
   for (int q = 0; q <= l.degree; ++q) {
-    const int first = q == 0 ? 0 : monomials_->countUpTo(q - 1), last = monomials_->countUpTo(q);
+    const int first = monomials_->firstOf(q), last = monomials_->countUpTo(q);
     const int orders = l.invariant ? 1 : ordersOf(q);
     std::fill(out.begin() + first * stride_, out.begin() + last * stride_, 0.0);
     kernels::multiplySeries(*monomials_, q, 0, isSlope ? &d_[l.d] : &f_[l.f], l.invariant ? 1 : m_, &r_[r.r], stride_,

@@ -93,7 +93,7 @@ void PolynomialSeries::computeByGrades(double h0) {
   for (int q = 1; q <= monomials_->degree(); ++q) {
     multiplyGrade(q);
     const int last = monomials_->countUpTo(q);
-    for (int g = monomials_->countUpTo(q - 1); g < last; g += lanes) {
+    for (int g = monomials_->firstOf(q); g < last; g += lanes) {
       goOnUnlessCancelled();
       computeLanes(q, g, std::min(lanes, last - g), h0);
     }
@@ -127,7 +127,7 @@ int PolynomialSeries::ordersOf(int q) const {
 
 /// What products of lower grades, none of them 0, make of grade q: into the places of the nodes that they are part of.
 void PolynomialSeries::multiplyGrade(int q) {
-  const int first = monomials_->countUpTo(q - 1), last = monomials_->countUpTo(q), orders = ordersOf(q);
+  const int first = monomials_->firstOf(q), last = monomials_->countUpTo(q), orders = ordersOf(q);
   const auto clear = [&](double* series) {
     for (double* row = series + first * stride_; row < series + last * stride_; row += stride_)
       for (int i = 0; i < orders; i += 8)
