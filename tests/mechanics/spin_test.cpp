@@ -137,13 +137,13 @@ std::vector<double> randomState(const Mechanism& m, RandomStates& states) {
   return x;
 }
 
-struct Machine {
+struct SpinningMachine {
   std::string name;
   std::function<Mechanism()> make;
   bool isFree = true;  // of the angle
 };
 
-class Spin : public ::testing::TestWithParam<Machine> {};
+class Spin : public ::testing::TestWithParam<SpinningMachine> {};
 
 TEST_P(Spin, IsInNoEquationWhereItChangesNothing) {
   const Mechanism m = GetParam().make();
@@ -178,19 +178,19 @@ TEST_P(Spin, ChangesNothingThatCanBeLookedAt) {
 INSTANTIATE_TEST_SUITE_P(
     Of, Spin,
     ::testing::Values(
-        Machine{"aWheel",
-                [] {
-                  return wheel(axisZ, aboutZ(decimal("0.2"), decimal("0.3")), {0.0, 0.0, 0.1});
-                }},
-        Machine{"aWheelAboutTheNegativeAxis",
-                [] {
-                  return wheel(Axis(0, -1, 0), {0.25, 0.5, 0.25, 0.0, 0.0, 0.0}, {0.0, 0.125, 0.0});
-                }},
-        Machine{"aWheelInSmallUnits",
-                [] {
-                  return wheel(axisZ, aboutZ(decimal("200 g mm^2"), decimal("2e-7 kg m^2")), {0.0, 0.0, 0.0});
-                }},
-        Machine{
+        SpinningMachine{"aWheel",
+                        [] {
+                          return wheel(axisZ, aboutZ(decimal("0.2"), decimal("0.3")), {0.0, 0.0, 0.1});
+                        }},
+        SpinningMachine{"aWheelAboutTheNegativeAxis",
+                        [] {
+                          return wheel(Axis(0, -1, 0), {0.25, 0.5, 0.25, 0.0, 0.0, 0.0}, {0.0, 0.125, 0.0});
+                        }},
+        SpinningMachine{"aWheelInSmallUnits",
+                        [] {
+                          return wheel(axisZ, aboutZ(decimal("200 g mm^2"), decimal("2e-7 kg m^2")), {0.0, 0.0, 0.0});
+                        }},
+        SpinningMachine{
             "aWheelByAFormula",
             [] {
               Mechanism m = platform();
@@ -199,62 +199,63 @@ INSTANTIATE_TEST_SUITE_P(
               m.add(Mass{"disc", "rotor", 0.5, {0.0, 0.0, 0.0}, aboutZ(decimal("0.6*inertia"), decimal("inertia"))});
               return m;
             }},
-        Machine{"aPointOnTheAxisOfARotor",
-                [] {
-                  Mechanism m = wheel(axisX, {0.5, 0.25, 0.25, 0.0, 0.0, 0.0}, {0.0, 0.0, 0.0});
-                  m.add(Mass{"tip", "rotor", 0.5, {0.5, 0.0, 0.0}});
-                  return m;
-                }},
-        Machine{"aBallAboutAnyAxis",
-                [] {
-                  return wheel(Axis(1, 2, -2), {0.25, 0.25, 0.25, 0.0, 0.0, 0.0}, {0.0, 0.0, 0.0});
-                }},
-        Machine{"aWheelBehindLinks", wheelBehindLinks}, Machine{"aWheelOnAShaft", wheelOnShaft},
-        Machine{"threeWheels", [] { return wheels(3); }}, Machine{"tenWheels", [] { return wheels(10); }},
-        Machine{"aPuck",
-                [] {
-                  Mechanism m = platform();
-                  m.add(Planar{"wheel", "seat", "puck", axisY});
-                  m.add(Mass{"disc", "puck", 0.5, {0.0, 0.0, 0.0}, {0.25, 0.5, 0.25, 0.0, 0.0, 0.0}});
-                  return m;
-                }},
-        Machine{"aLoadedWheel", wheelWithLoads, false},
-        Machine{"anEllipticWheel",
-                [] {
-                  return wheel(axisZ, {0.2, 0.25, 0.3, 0.0, 0.0, 0.0}, {0.0, 0.0, 0.0});
-                },
-                false},
-        Machine{"aWheelWithADeviationMoment",
-                [] {
-                  return wheel(axisZ, {0.25, 0.25, 0.3, 0.0, 0.01, 0.0}, {0.0, 0.0, 0.0});
-                },
-                false},
-        Machine{"anEccentricWheel",
-                [] {
-                  return wheel(axisZ, aboutZ(0.25, 0.5), {0.0, 0.001, 0.0});
-                },
-                false},
-        Machine{"aBallOffTheAxis",
-                [] {
-                  return wheel(Axis(1, 2, -2), {0.25, 0.25, 0.25, 0.0, 0.0, 0.0}, {0.0, 0.0, 0.125});
-                },
-                false},
-        Machine{"aWheelOnAnotherAcross",
-                [] {
-                  Mechanism m = wheel(axisZ, aboutZ(0.25, 0.5), {0.0, 0.0, 0.0});
-                  m.add(Revolute{"second", "rotor", "upper", axisX});
-                  m.add(Mass{"top", "upper", 0.5, {0.0, 0.0, 0.0}, {0.5, 0.25, 0.25, 0.0, 0.0, 0.0}});
-                  return m;
-                },
-                false},
-        Machine{"aWheelWithABodyOnItsRim",
-                [] {
-                  Mechanism m = wheel(axisZ, aboutZ(0.25, 0.5), {0.0, 0.0, 0.0});
-                  m.add(Link{"spoke", "rotor", "rim", {0.25, 0.0, 0.0}});
-                  m.add(Mass{"weight", "rim", 0.125});
-                  return m;
-                },
-                false}),
+        SpinningMachine{"aPointOnTheAxisOfARotor",
+                        [] {
+                          Mechanism m = wheel(axisX, {0.5, 0.25, 0.25, 0.0, 0.0, 0.0}, {0.0, 0.0, 0.0});
+                          m.add(Mass{"tip", "rotor", 0.5, {0.5, 0.0, 0.0}});
+                          return m;
+                        }},
+        SpinningMachine{"aBallAboutAnyAxis",
+                        [] {
+                          return wheel(Axis(1, 2, -2), {0.25, 0.25, 0.25, 0.0, 0.0, 0.0}, {0.0, 0.0, 0.0});
+                        }},
+        SpinningMachine{"aWheelBehindLinks", wheelBehindLinks}, SpinningMachine{"aWheelOnAShaft", wheelOnShaft},
+        SpinningMachine{"threeWheels", [] { return wheels(3); }},
+        SpinningMachine{"tenWheels", [] { return wheels(10); }},
+        SpinningMachine{"aPuck",
+                        [] {
+                          Mechanism m = platform();
+                          m.add(Planar{"wheel", "seat", "puck", axisY});
+                          m.add(Mass{"disc", "puck", 0.5, {0.0, 0.0, 0.0}, {0.25, 0.5, 0.25, 0.0, 0.0, 0.0}});
+                          return m;
+                        }},
+        SpinningMachine{"aLoadedWheel", wheelWithLoads, false},
+        SpinningMachine{"anEllipticWheel",
+                        [] {
+                          return wheel(axisZ, {0.2, 0.25, 0.3, 0.0, 0.0, 0.0}, {0.0, 0.0, 0.0});
+                        },
+                        false},
+        SpinningMachine{"aWheelWithADeviationMoment",
+                        [] {
+                          return wheel(axisZ, {0.25, 0.25, 0.3, 0.0, 0.01, 0.0}, {0.0, 0.0, 0.0});
+                        },
+                        false},
+        SpinningMachine{"anEccentricWheel",
+                        [] {
+                          return wheel(axisZ, aboutZ(0.25, 0.5), {0.0, 0.001, 0.0});
+                        },
+                        false},
+        SpinningMachine{"aBallOffTheAxis",
+                        [] {
+                          return wheel(Axis(1, 2, -2), {0.25, 0.25, 0.25, 0.0, 0.0, 0.0}, {0.0, 0.0, 0.125});
+                        },
+                        false},
+        SpinningMachine{"aWheelOnAnotherAcross",
+                        [] {
+                          Mechanism m = wheel(axisZ, aboutZ(0.25, 0.5), {0.0, 0.0, 0.0});
+                          m.add(Revolute{"second", "rotor", "upper", axisX});
+                          m.add(Mass{"top", "upper", 0.5, {0.0, 0.0, 0.0}, {0.5, 0.25, 0.25, 0.0, 0.0, 0.0}});
+                          return m;
+                        },
+                        false},
+        SpinningMachine{"aWheelWithABodyOnItsRim",
+                        [] {
+                          Mechanism m = wheel(axisZ, aboutZ(0.25, 0.5), {0.0, 0.0, 0.0});
+                          m.add(Link{"spoke", "rotor", "rim", {0.25, 0.0, 0.0}});
+                          m.add(Mass{"weight", "rim", 0.125});
+                          return m;
+                        },
+                        false}),
     [](const auto& machine) { return machine.param.name; });
 
 /// The one state is the carrier's angle; no sine is left.
