@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "analyses/flow/error_bounds.hpp"
 #include "analyses/flow/formulation.hpp"
 #include "analyses/flow/run.hpp"
 #include "analyses/work.hpp"
@@ -159,8 +160,7 @@ std::unique_ptr<FlowFollower::Tools> FlowFollower::toolsFor(const FlowPiece& pie
             FlowStepper(motion, layout.monomials, layout.frameDegree, task_.order, task_.tolerance,
                         FlowInputs(task_.motion.states(), task_.order, task_.varying, 0.4 * (options.tightness - 1)),
                         options.cancelled),
-            PolynomialRange(layout.monomials), nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, std::move(besides),
-            held});
+            PolynomialRange(layout.monomials), std::move(outputs), std::move(besides), held});
   if (layout.monomials->symbols() == 0 && task_.fineOrders > 0) tools->stepper.setFineOrders(task_.fineOrders);
   tools->stepper.setStateNames(options.stateNames);
   tools->stepper.setScales(task_.scales);
@@ -168,19 +168,30 @@ std::unique_ptr<FlowFollower::Tools> FlowFollower::toolsFor(const FlowPiece& pie
   if (task_.jumps.count() > 0)
     tools->stepper.setJumps(tools->jumps ? *tools->jumps : task_.jumps, task_.jumps, held, left, factor);
   if (task_.outputs.outputs() > 0) {
-    const std::shared_ptr<const Monomials> own = task_.layouts[task_.outputLayout(piece.layout)].monomials;
-    tools->outputs =
-        std::make_unique<FlowOutputs>(outputs, own, layout.monomials, task_.varying, options.cancelled, signs_);
-    tools->outputRange = std::make_unique<PolynomialRange>(own);
-    const auto chordsOf = [&](const std::shared_ptr<const Monomials>& monomials) {
-      return std::make_unique<FlowOutputChords>(outputs, monomials, layout.monomials, task_.order, task_.horizon,
-                                                task_.quantum, options.cancelled);
-    };
-    tools->plainChords = chordsOf(layout.monomials);
-    if (task_.standsStill && own->count() > layout.monomials->count()) tools->richChords = chordsOf(own);
+    const std::size_t own = task_.outputLayout(piece.layout);
+    tools->outputs = std::make_unique<OutputTools>(outputToolsFor(tools->g, own, piece.layout));
+    tools->plainChords = chordsIn(tools->g, piece.layout, piece.layout);
+    if (task_.standsStill && own > piece.layout) tools->richChords = chordsIn(tools->g, own, piece.layout);
     tools->chords = tools->plainChords.get();
   }
   return tools;
+}
+
+/// Of outputs in the monomials of one layout, states in those of another.
+FlowFollower::OutputTools FlowFollower::outputToolsFor(const Program& g, std::size_t layout,
+                                                       std::size_t ofStates) const {
+  const std::shared_ptr<const Monomials>& monomials = task_.layouts[layout].monomials;
+  const Monomials& states = *task_.layouts[ofStates].monomials;
+  bool isPrefix = monomials->symbols() == states.symbols() && monomials->count() < states.count();
+  for (int l = 0; isPrefix && l < states.symbols(); ++l) isPrefix = monomials->weight(l) == states.weight(l);
+  return {FlowOutputs(g, monomials, task_.layouts[ofStates].monomials, task_.varying, task_.options.cancelled, signs_),
+          PolynomialRange(monomials), nullptr, isPrefix};
+}
+
+std::unique_ptr<FlowOutputChords> FlowFollower::chordsIn(const Program& g, std::size_t layout,
+                                                         std::size_t ofStates) const {
+  return std::make_unique<FlowOutputChords>(g, task_.layouts[layout].monomials, task_.layouts[ofStates].monomials,
+                                            task_.order, task_.horizon, task_.quantum, task_.options.cancelled);
 }
 
 /// The tools for the motion in which these jumps are held, if any; false if there are none.
@@ -189,7 +200,8 @@ bool FlowFollower::use(const FlowPiece& piece, const std::vector<char>& held) {
   if (isNew) place->second = toolsFor(piece, held);
   if (!place->second) return false;
   tool_ = place->second.get();
-  outputs_ = tool_->outputs.get();
+  outputs_ = tool_->outputs ? &tool_->outputs->outputs : nullptr;
+  outputRange_ = tool_->outputs ? &tool_->outputs->range : nullptr;
   monomialCount_ = task_.layouts[piece.layout].monomials->count();
   symbols_ = task_.layouts[piece.layout].monomials->symbols();
   whole_.assign(at(symbols_), Interval(-1.0, 1.0));
@@ -248,27 +260,47 @@ void FlowFollower::lowerDegree(FlowPiece& piece) {
   if (dropped < 1e-4 * task_.splitDefect) changeLayout(piece, piece.layout - 1);
 }
 
-/// Enclosures of states and outputs at one time of the step.
+/// Enclosures of states and outputs at one time of the step; of outputs in other monomials `with` these tools.
 void FlowFollower::enclose(const FlowPiece& piece, double tau, std::vector<Interval>& states,
-                           std::vector<Interval>& outputs, bool narrowed) {
+                           std::vector<Interval>& outputs, bool narrowed, OutputTools* with) {
   tool_->stepper.evaluate(piece.set, tau, point_, narrowed);
   giveSigns(piece, narrowed ? tool_->stepper.signsAfter(tau, signs_) : tool_->stepper.signsOver(signs_));
   const int N = monomialCount_;
+  // Of outputs in fewer monomials ranges of states need no more of these either; nor to be as close as at output times.
+  constexpr double toleranceBetween = 1e-3;
+  rangeTolerance_ = with == nullptr ? task_.rangeTolerance() : std::max(toleranceBetween, task_.rangeTolerance());
+  const bool isShort = with != nullptr && with->isPrefix;
+  PolynomialRange& range = isShort ? with->range : tool_->range;
   states.resize(at(task_.motion.states()));
   stateCore_.clear();
   for (int i = 0; i < task_.motion.states(); ++i) {
-    const Interval rest = inflated(Interval(point_.low[at(i)]), point_.radius[at(i)]);
-    states[at(i)] = tool_->range(&point_.p[at(i * N)], whole_, task_.rangeTolerance()) + rest;
+    const double* p = &point_.p[at(i * N)];
+    double dropped = 0;
+    for (int g = isShort ? with->outputs.monomials()->count() : N; g < N; ++g) dropped += std::fabs(p[g]);
+    const double radius = (point_.radius[at(i)] + dropped) * (dropped > 0 ? bounds::up : 1.0);
+    states[at(i)] = range(p, whole_, rangeTolerance_) + inflated(Interval(point_.low[at(i)]), radius);
     stateCore_.push_back(
-        without(states[at(i)], point_.radius[at(i)] - point_.driven[at(i)] - point_.known[at(i)] + tool_->range.gap()));
+        without(states[at(i)], point_.radius[at(i)] - point_.driven[at(i)] - point_.known[at(i)] + range.gap()));
   }
   outputs.clear();
   outputLimits_.clear();
   if (!outputs_) return;
+  if (with == nullptr) with = tool_->outputs.get();
+  outputs_ = &with->outputs;
+  outputRange_ = &with->range;
   at_ = piece.set.t + tau;
   outputs_->evaluate(at_, point_, piece.set.R, parameters_);
   outputCore_.clear();
   appendOutputs(piece, states, whole_, outputs);
+}
+
+/// The same between two output times, of outputs in as few monomials as chords are.
+void FlowFollower::encloseBetween(const FlowPiece& piece, double tau, std::vector<Interval>& states,
+                                  std::vector<Interval>& outputs) {
+  enclose(piece, tau, states, outputs, true, between_);
+  if (between_ == nullptr) return;
+  for (int o = 0; o < outputs_->count(); ++o)
+    if (!std::isfinite(outputs_->radius(o))) return enclose(piece, tau, states, outputs);
 }
 
 /// For outputs, until the next call.
@@ -343,14 +375,14 @@ void FlowFollower::appendOutputs(const FlowPiece& piece, const std::vector<Inter
   findBoxes(piece.set.t, Interval(at_), states);
   for (int o = 0; o < outputs_->count(); ++o) {
     const double radius = outputs_->radius(o);
-    PolynomialRange& range = *tool_->outputRange;
+    PolynomialRange& range = *outputRange_;
     if (!std::isfinite(radius)) {
       outputs.push_back(overBoxes(o));
       outputCore_.push_back(outputs.back());  // not known
       outputLimits_.push_back(outputs_->hasJumps() ? Interval::entire() : outputs.back());
       continue;
     }
-    const Interval bound = inflated(range(outputs_->polynomial(o), xi, task_.rangeTolerance()), radius);
+    const Interval bound = inflated(range(outputs_->polynomial(o), xi, rangeTolerance_), radius);
     outputs.push_back(bound);
     if (knowsMore)  // of |y| through 0 the one knows what the other does not
       outputs.back() = intersection(bound, overBoxes(o));
@@ -390,7 +422,7 @@ std::shared_ptr<FlowSnapshot> FlowFollower::modelOutputs(const FlowPiece& piece,
   snapshot->time = at_;
   snapshot->part = {piece.set.centre, piece.set.half};
   snapshot->path = piece.path;
-  snapshot->monomials = task_.layouts[task_.outputLayout(piece.layout)].monomials;
+  snapshot->monomials = outputs_->monomials();
   snapshot->outputs.reserve(task_.options.modelled.size() + (isOfAll ? task_.options.modelledAt.size() : 0));
   const auto include = [&](int o) {
     snapshot->outputs.push_back(modelOf(outputs_->polynomial(o), outputs_->radius(o), *snapshot->monomials,
@@ -414,20 +446,62 @@ void FlowFollower::lookAside(const FlowPiece& piece, std::size_t row, const std:
   joinHulls(collected_.asides[row], tool_->asides->enclose(task_.times[row], point_, states, parameters_));
 }
 
+/// What is uncertain about an output that lies here, or a little of its size where that is hardly anything.
+double FlowFollower::extentOf(const Interval& output) { return std::max(width(output), 0.02 * magnitude(output)); }
+
 /// Of a part of a step, times in seconds from its start, where the outputs are as in `before`. What moves costs as many
 /// terms at each order in time; where nothing does, outputs alone bend, and what the degree of the states cuts off of
 /// them, which no shorter chord makes less, may be all that is loose: then the degree of the outputs is worth it.
-void FlowFollower::loadChords(const FlowPiece& piece, const std::vector<Interval>& before, double from, double to) {
-  constexpr double little = 0.01, hardly = 0.02;
-  tool_->chords = tool_->plainChords.get();
-  tool_->chords->load(tool_->stepper, piece.set.t, parameters_, from, to);
+void FlowFollower::loadChords(FlowPiece& piece, const std::vector<Interval>& before, double from, double to) {
+  const auto load = [&](FlowOutputChords* chords) {
+    tool_->chords = chords;
+    chords->load(tool_->stepper, piece.set.t, parameters_, from, to);
+  };
+  // Polynomials of states are as long as what they leave over from step to step asks for, and that adds up. What is
+  // left over between two times does not, so there outputs may do with lower degrees: with all they cost as much as the
+  // motion itself. Tried again after some steps where they did not.
+  constexpr double little = 0.01, muchLess = 0.1;
+  constexpr std::size_t many = 100, retried = 16;
+  const bool maySave = piece.layout < task_.degrees && at(monomialCount_) > many && signs_ == 0 &&
+                       !outputs_->hasKinks() && !tool_->stepper.narrows();
+  if (maySave && piece.fewer == 0 && ++piece.inFull == retried) piece.fewer = 1;
+  for (; maySave && piece.fewer > 0; --piece.fewer) {
+    const std::size_t fewer = std::min(piece.fewer, piece.layout);
+    if (fewer == 0) break;
+    between_ = &toolsBetween(piece.layout - fewer, piece.layout);
+    load(between_->chords.get());
+    piece.inFull = 0;
+    if (!leavesOver(1, before)) {
+      if (!leavesOver(muchLess, before)) piece.fewer = fewer + 1;
+      return;
+    }
+  }
+  between_ = nullptr;
+  load(tool_->plainChords.get());
   if (!tool_->richChords) return;
   for (int o = 0; o < outputs_->count(); ++o) {
-    const double extent = std::max(width(before[at(o)]), hardly * magnitude(before[at(o)]));
-    if (tool_->chords->rest(o) <= little * extent) continue;
-    tool_->chords = tool_->richChords.get();
-    return tool_->chords->load(tool_->stepper, piece.set.t, parameters_, from, to);
+    if (tool_->chords->rest(o) <= little * extentOf(before[at(o)])) continue;
+    return load(tool_->richChords.get());
   }
+}
+
+/// Whether chords leave more of some output than so many times what counts for nothing beside its width, or beside what
+/// the states' own remainders make uncertain.
+bool FlowFollower::leavesOver(double times, const std::vector<Interval>& outputs) const {
+  const double ofWidth = task_.options.modelled.empty() ? 4e-3 : 1e-3, ofRadius = 0.1;
+  for (int o = 0; o < outputs_->count(); ++o)
+    if (!(tool_->chords->rest(o) <=
+          times * std::max(ofWidth * extentOf(outputs[at(o)]), ofRadius * outputs_->radius(o))))
+      return true;
+  return false;
+}
+
+FlowFollower::OutputTools& FlowFollower::toolsBetween(std::size_t layout, std::size_t ofStates) {
+  const auto found = tool_->between.find(layout);
+  if (found != tool_->between.end()) return found->second;
+  OutputTools& tools = tool_->between.emplace(layout, outputToolsFor(tool_->g, layout, ofStates)).first->second;
+  tools.chords = chordsIn(tool_->g, layout, ofStates);
+  return tools;
 }
 
 /// Into how many chords a part of a step is cut, so that modelled outputs leave them by little of what is uncertain
@@ -479,7 +553,8 @@ bool FlowFollower::record(FlowPiece& piece) {
   std::vector<Interval> end, endOutputs, endLimits, before = piece.last, beforeLimits = piece.lastOutputs, behind;
   std::vector<Interval> behindOutputs, behindLimits;
   std::shared_ptr<FlowSnapshot> endModel, beforeModel = piece.lastModel, behindModel;
-  double from = t0, loadedTo = t0;                    // chords are known from before `from` up to `loadedTo`
+  double from = t0, loadedTo = t0;  // chords are known from before `from` up to `loadedTo`
+  between_ = nullptr;
   if (outputs_ && signs_ > 0 && stepper.narrows()) {  // a sign may be another from here on than it was until now
     enclose(piece, 0.0, behind, behindOutputs, false);
     beforeLimits = outputLimits_;
@@ -534,7 +609,7 @@ bool FlowFollower::record(FlowPiece& piece) {
     from = to;
   };
   const auto endPart = [&](double until) {
-    enclose(piece, until - t0, end, endOutputs);
+    encloseBetween(piece, until - t0, end, endOutputs);
     endLimits = outputLimits_;
     endModel = modelOutputs(piece, endLimits);
     segment(until);
@@ -612,7 +687,7 @@ bool FlowFollower::record(FlowPiece& piece) {
     joinHulls(collected_.states[piece.next], end);
     for (int o = 0; symbols_ > 1 && outputs_ && o < outputs_->count(); ++o)
       if (std::isfinite(outputs_->radius(o)))
-        measureInfluence(outputs_->polynomial(o), outputs_->monomials(), collected_.influence);
+        measureInfluence(outputs_->polynomial(o), *outputs_->monomials(), collected_.influence);
     joinHulls(collected_.outputs[piece.next], endOutputs);
     segment(times[piece.next]);
     if (signs_ > 0) joinHulls(piece.overOutputs, endOutputs);  // what a sign is at one moment alone

@@ -35,8 +35,10 @@ struct FlowPiece {
   std::vector<char> wasKnown;                      // and whether it was once known to within that
   std::string path;                                // which halves it is of: what pieces leave is in this order
   double timeError = 0, truncation = 0;            // of its steps
-  TopGrades tops;         // likewise, in the highest layout; where it is not bisected for these
-  double refusedAt = -1;  // when it was not bisected, last
+  TopGrades tops;          // likewise, in the highest layout; where it is not bisected for these
+  double refusedAt = -1;   // when it was not bisected, last
+  std::size_t fewer = 2;   // layouts by which outputs have less than states between two output times
+  std::size_t inFull = 0;  // steps since that was 0
 };
 
 /// A piece that goes on as two, if it may.
@@ -91,18 +93,26 @@ class FlowFollower {
   FlowHalves& halves() { return halves_; }
 
  private:
+  /// The workspace for outputs in some monomials.
+  struct OutputTools {
+    FlowOutputs outputs;
+    PolynomialRange range;
+    std::unique_ptr<FlowOutputChords> chords;  // where there are fewer monomials than the states have
+    bool isPrefix = false;                     // of the states' monomials, these are the first
+  };
   /// The workspace of one layout, and of the motion or of that in which some of its jumps are held.
   struct Tools {
     std::unique_ptr<FlowJumps> jumps;  // where some of the motion's are held, those of what is left
     FlowStepper stepper;
     PolynomialRange range;
-    std::unique_ptr<FlowOutputs> outputs;
-    std::unique_ptr<PolynomialRange> outputRange;
-    std::unique_ptr<FlowOutputChords> plainChords, richChords;  // the latter where they may pay
-    FlowOutputChords* chords = nullptr;                         // of which these are loaded
-    std::unique_ptr<FlowAsides> asides;                         // once needed
-    Program besides;                                            // the values that these are of
+    Program g;        // the outputs, with the signs that are given behind the parameters
+    Program besides;  // the values looked at besides, likewise
     std::vector<char> held;
+    std::unique_ptr<OutputTools> outputs = nullptr;
+    std::unique_ptr<FlowOutputChords> plainChords = nullptr, richChords = nullptr;  // the latter where they may pay
+    FlowOutputChords* chords = nullptr;                                             // of which these are loaded
+    std::map<std::size_t, OutputTools> between = {};  // of layouts of fewer monomials, once needed
+    std::unique_ptr<FlowAsides> asides = nullptr;     // of `besides`, once needed
     /// The outputs where these are held (a SignBox's); null where they cannot be held together.
     std::map<std::vector<char>, std::unique_ptr<MeanValueOutputs>> whileHeld = {};
   };
@@ -116,6 +126,8 @@ class FlowFollower {
   Interval overBoxes(int output);
   MeanValueOutputs* outputsWhileHeld(std::vector<char> held);
   std::unique_ptr<Tools> toolsFor(const FlowPiece& piece, const std::vector<char>& held) const;
+  OutputTools outputToolsFor(const Program& g, std::size_t layout, std::size_t ofStates) const;
+  std::unique_ptr<FlowOutputChords> chordsIn(const Program& g, std::size_t layout, std::size_t ofStates) const;
   bool use(const FlowPiece& piece, const std::vector<char>& held);
   bool isDegreeWorthwhile(const FlowPiece& piece, StepOutcome outcome) const;
   bool isOfDroppedTerms() const;
@@ -123,14 +135,19 @@ class FlowFollower {
   bool expand(FlowPiece& piece);
   void lowerDegree(FlowPiece& piece);
   void enclose(const FlowPiece& piece, double tau, std::vector<Interval>& states, std::vector<Interval>& outputs,
-               bool narrowed = true);
+               bool narrowed = true, OutputTools* with = nullptr);
+  void encloseBetween(const FlowPiece& piece, double tau, std::vector<Interval>& states,
+                      std::vector<Interval>& outputs);
   void appendOutputs(const FlowPiece& piece, const std::vector<Interval>& states, const Box& xi,
                      std::vector<Interval>& outputs);
   void encloseLevels(const FlowPiece& piece, std::size_t row);
   std::shared_ptr<FlowSnapshot> modelOutputs(const FlowPiece& piece, const std::vector<Interval>& outputs,
                                              std::optional<std::size_t> row = {});
   void lookAside(const FlowPiece& piece, std::size_t row, const std::vector<Interval>& states);
-  void loadChords(const FlowPiece& piece, const std::vector<Interval>& before, double from, double to);
+  void loadChords(FlowPiece& piece, const std::vector<Interval>& before, double from, double to);
+  OutputTools& toolsBetween(std::size_t layout, std::size_t ofStates);
+  static double extentOf(const Interval& output);
+  bool leavesOver(double times, const std::vector<Interval>& outputs) const;
   int chordsFor(FlowPiece& piece, const std::vector<Interval>& before, double from, double to);
   bool record(FlowPiece& piece);
   int tooWide(FlowPiece& piece, const std::vector<Interval>& states, const std::vector<Interval>& outputs) const;
@@ -142,9 +159,12 @@ class FlowFollower {
   std::map<std::pair<std::size_t, std::vector<char>>, std::unique_ptr<Tools>> tools_;
   Tools* tool_ = nullptr;  // of the piece at hand, as are the next two
   FlowOutputs* outputs_ = nullptr;
+  PolynomialRange* outputRange_ = nullptr;  // of these
+  OutputTools* between_ = nullptr;          // which do for the part of the step that chords are loaded for
   int monomialCount_ = 0, symbols_ = 0;
   FlowPoint point_;
-  double at_ = 0;  // its time
+  double at_ = 0;              // its time
+  double rangeTolerance_ = 0;  // of it
   FlowHalves halves_;
   std::size_t signs_ = jumpsOf(task_.jumps.f).size();
   std::optional<SignsWithin> signsWithin_;

@@ -78,10 +78,18 @@ bool FlowOutputs::evaluateTogether(double t, const FlowPoint& point, const std::
     for (std::size_t i = 0; i < bound.size(); ++i) bound[i] += std::fabs(point.low[i]);
     return bound;
   };
-  const std::vector<double> radius = beside(point.radius), loose = beside(point.loose);
+  std::vector<double> radius = beside(point.radius), loose = beside(point.loose);
   for (int i = 0; i < n_; ++i) {
     state_.assign(at(monomials_), 0.0);
-    for (std::size_t m = 0; m < place_.size(); ++m) state_[at(place_[m])] = point.p[at(i) * place_.size() + m];
+    double dropped = 0;  // of p: the mean-value form below holds about what is kept, with so much more that is loose
+    for (std::size_t m = 0; m < place_.size(); ++m) {
+      const double coefficient = point.p[at(i) * place_.size() + m];
+      if (place_[m] < 0)
+        dropped += std::fabs(coefficient);
+      else
+        state_[at(place_[m])] = coefficient;
+    }
+    for (auto* bound : {&radius, &loose}) (*bound)[at(i)] = ((*bound)[at(i)] + dropped) * bounds::up;
     series_.setState(i, state_.data());
   }
   for (std::size_t i = 0; i < parameters.size(); ++i) series_.setParameter(static_cast<int>(i), parameters[i]);
@@ -200,12 +208,12 @@ FlowOutputChords::FlowOutputChords(const Program& g, std::shared_ptr<const Monom
       turn_(at(outputs_)),
       rest_(at(outputs_)) {}
 
-/// Monomials that the outputs have besides are 0.
+/// Monomials that the outputs have besides are 0, those that they do not have are left out.
 void FlowOutputChords::setState(int i, const double* series, int stride) {
   if (layout_->count() == ofStates_->count()) return series_.setStateSeries(i, series, stride);
   stateRows_.assign(at(layout_->count() * stride), 0.0);
   for (std::size_t m = 0; m < place_.size(); ++m)
-    std::copy_n(&series[m * at(stride)], stride, &stateRows_[at(place_[m] * stride)]);
+    if (place_[m] >= 0) std::copy_n(&series[m * at(stride)], stride, &stateRows_[at(place_[m] * stride)]);
   series_.setStateSeries(i, stateRows_.data(), stride);
 }
 
@@ -245,7 +253,8 @@ FlowOutputChords::Part FlowOutputChords::partOf(const FlowStepper& stepper, doub
   return part;
 }
 
-/// As few orders in time as do: what is dropped of every state is small against what is uncertain about it.
+/// As few orders in time as do: what is dropped of every state is small against what is uncertain about it. So are, in
+/// all orders, monomials that outputs do not have: `dropped` bounds what is left out, for every σ and ξ.
 int FlowOutputChords::orderFor(const FlowStepper& stepper, const Part& part, std::vector<double>& dropped) const {
   const int stride = stepper.series().stride(), count = stepper.series().count();
   const auto norm = [&](int i, int order, int from) {
@@ -264,8 +273,17 @@ int FlowOutputChords::orderFor(const FlowStepper& stepper, const Part& part, std
     order = std::max(order, needed);
   }
   dropped = part.rounding;
-  for (int i = 0; i < n_; ++i)
+  for (int i = 0; i < n_; ++i) {
     for (int k = order; k < order_; ++k) dropped[at(i)] += norm(i, k, 0) * bounds::up;
+    double sum = 0;
+    for (int g = 0; g < count; ++g) {
+      double ofOne = 0;
+      for (int k = place_[at(g)] < 0 ? order : 0; k-- > 0;)
+        ofOne = ofOne * part.theta + std::fabs(part.states[at(i)][g * stride + k]);
+      sum += ofOne;
+    }
+    dropped[at(i)] += sum * bounds::up;
+  }
   return order;
 }
 

@@ -16,8 +16,8 @@ namespace gamut {
 class FlowOutputs {
  public:
   /// `g`: the outputs; its states and parameters are those of the flow, and behind them signs that are given.
-  /// `monomials`: of the outputs, among them all of `ofStates`, the states' polynomials. `varying`: parameters that are
-  /// inputs.
+  /// `monomials`: of the outputs; what the states' polynomials, of `ofStates`, have besides counts in the radii.
+  /// `varying`: parameters that are inputs.
   FlowOutputs(const Program& g, std::shared_ptr<const Monomials> monomials, std::shared_ptr<const Monomials> ofStates,
               const std::vector<int>& varying, const std::atomic<bool>* cancelled = nullptr, std::size_t signs = 0);
 
@@ -30,7 +30,7 @@ class FlowOutputs {
   bool hasKinks() const { return series_.hasKinks() || plain_.hasAngles(); }
   /// Whether they may be other just before and after a moment than at it.
   bool hasJumps() const { return series_.hasJumps(); }
-  const Monomials& monomials() const { return *layout_; }
+  const std::shared_ptr<const Monomials>& monomials() const { return layout_; }
   const double* polynomial(int output) const { return &polynomial_[static_cast<std::size_t>(output * monomials_)]; }
   double radius(int output) const { return radius_[static_cast<std::size_t>(output)]; }
   /// What of the radius is not overestimation: what inputs did, before and at this moment; what is known of jumps, and
@@ -55,7 +55,7 @@ class FlowOutputs {
   const std::atomic<bool>* cancelled_;
   PolynomialSeries series_;
   std::vector<int> varying_;
-  std::vector<int> place_;  // of the states' monomials among the outputs'
+  std::vector<int> place_;  // of the states' monomials among the outputs'; -1: not there
   std::vector<double> polynomial_, radius_, driven_, state_;
   std::vector<FlowOutputs> apart_;  // one an output, once they could not be bounded together
   PlainOutputs plain_;
@@ -100,7 +100,7 @@ class FlowOutputChords {
   std::shared_ptr<const Monomials> layout_, ofStates_;
   const std::atomic<bool>* cancelled_;
   PolynomialSeries series_;
-  std::vector<int> place_;         // of the states' monomials among the outputs'
+  std::vector<int> place_;         // of the states' monomials among the outputs'; -1: not there
   std::vector<double> stateRows_;  // of one state, by them
   double length_, resolution_;
   TimeKinks timeKinks_;

@@ -188,7 +188,7 @@ void PolynomialSeries::planOrders(int order) {
   const int degree = monomials_->degree();
   grades_.assign(at(order + 1), degree);
   counts_.assign(at(order + 1), monomials_->count());
-  if (!withFrame_ || monomials_->pairs().size() < manyPairs) return;
+  if (order == 1 || monomials_->pairs().size() < manyPairs) return;
   constexpr double s = 0.05, share = 0.02;
   const double rho = std::pow(std::tgamma(order + 1.0) * std::pow(10, -0.5 * (order + 8)), 1.0 / order);
   double size = 1;  // of order i

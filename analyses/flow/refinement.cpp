@@ -202,8 +202,9 @@ class FixedPieces {
         continue;
       }
       const double cost = question_.budget.spent - before;
+      // How far an early end is from what was asked for is not known: too many steps would cost more than they need.
       if (!enrich(round, run.topGrades(), top, isWhole || came == 0 ? cost : cost * question_.horizon / came,
-                  isWhole ? own / task.aim() : infinite))
+                  isWhole ? own / task.aim() : infinite, isWhole ? 4 : 2))
         return false;
       if (isWhole) round.tighter *= factor;
     }
@@ -215,9 +216,10 @@ class FixedPieces {
  private:
   static constexpr double infinite = std::numeric_limits<double>::infinity();
 
-  /// One or two steps for what is too loose so many times, as far as the budget goes: each another degree or the
-  /// halving of a symbol, whichever takes more from the truncation for what it costs.
-  bool enrich(FlowRound& round, const TopGrades& tops, const Monomials& top, double cost, double tooLoose) const {
+  /// Some steps for what is too loose so many times, as far as the budget goes: each another degree or the halving of a
+  /// symbol, whichever takes more from the truncation for what it costs.
+  bool enrich(FlowRound& round, const TopGrades& tops, const Monomials& top, double cost, double tooLoose,
+              int steps) const {
     // Measured: a degree takes three to five, less where the frame's own degree limits what it gains; a halving, which
     // helps errors too, 5 where 2.9 to 4.1 follow from the highest grades alone.
     constexpr double gainOfDegree = 3, ofHalving = 1.5;
@@ -230,7 +232,7 @@ class FixedPieces {
     for (int l = 0; l < top.symbols(); ++l) byHalving.push_back(std::pow(tops.gainOfHalving(l, 0), ofHalving));
     bool isRicher = false;
     round.isRich = true;
-    for (int step = 0; step < 2 && tooLoose > 1; ++step) {
+    for (int step = 0; step < steps && tooLoose > 1; ++step) {
       const int next = degreeLadder(weights, round.fixedDegree + 1).back();
       const double dearer = countOfMonomials(weights, next) / countOfMonomials(weights, round.fixedDegree);
       const auto widest = std::ranges::max_element(byHalving);
@@ -243,8 +245,10 @@ class FixedPieces {
       if (halves) {
         const int symbol = static_cast<int>(widest - byHalving.begin());
         round.cuts.push_back(symbol);
-        *widest = std::pow(tops.gainOfHalving(symbol, 1), ofHalving);
+        *widest = std::pow(*widest, std::log(tops.gainOfHalving(symbol, 1)) / std::log(tops.gainOfHalving(symbol, 0)));
       } else {
+        // Highest grades hold powers that are so much higher then.
+        for (double& gain : byHalving) gain = std::pow(gain, static_cast<double>(next) / round.fixedDegree);
         round.fixedDegree = next;
       }
       isRicher = true;

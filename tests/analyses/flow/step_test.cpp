@@ -246,10 +246,12 @@ struct Scene {
 
   /// Outputs g of random members p + Ψ (r + Γs) + w of the set at a step's end lie within the radii of their
   /// polynomials.
-  void expectOutputsInside(const Program& g, int members) {
+  /// Of outputs in polynomials of another degree.
+  void expectOutputsInside(const Program& g, int members, int degree) {
     FlowPoint point;
     stepper.evaluate(set, stepper.h(), point);
-    FlowOutputs outputs(g, monomials, monomials, {});
+    const auto own = std::make_shared<const Monomials>(capped(degree), degree);
+    FlowOutputs outputs(g, own, monomials, {});
     const double t = set.t + stepper.h();
     outputs.evaluate(t, point, set.R, set.parameters);
     Evaluator<Precise> truth(g);
@@ -265,7 +267,7 @@ struct Scene {
       truth.setParameters(p);
       const Vector y = truth(Precise(t), x);
       for (int o = 0; o < outputs.count(); ++o) {
-        const Precise computed = polynomial(outputs.polynomial(o), monomials->count(), values);
+        const Precise computed = polynomial(outputs.polynomial(o), own->count(), valuesOf(*own, xi));
         ASSERT_LE(Precise(abs(y[at(o)] - computed)), Precise(outputs.radius(o))) << "output " << o;
       }
     }
@@ -920,10 +922,102 @@ TEST(FlowStep, OutputsHoldThoseOfEveryMemberOfTheSet) {
         y[1] = sqr(x[0]) * x.back();
         y[2] = sin(3.0 * x[0]) / (4.0 + sqr(x.back())) + t * p[0];
       });
-      scene.expectOutputsInside(g, 6);
+      scene.expectOutputsInside(g, 6, degree);
+      if (symbols > 0) scene.expectOutputsInside(g, 6, points.integer(1, degree));
       if (HasFatalFailure()) return;
     }
   EXPECT_GT(steps, 150);
+}
+
+TEST(FlowStep, OutputsLeaveTheirChordsByNoMoreThanTheirSag) {
+  Points points(21);
+  // x = p(ξ) + t p'(ξ), exactly.
+  const Program f = record(2, 1, 2, [](auto, const auto& x, const auto&, auto& dx) {
+    dx[0] = x[1];
+    dx[1] = 0.0 * x[1];
+  });
+  const Program g = record(2, 1, 3, [](auto t, const auto& x, const auto& p, auto& y) {
+    y[0] = sqr(x[0]);
+    y[1] = sin(3.0 * x[0]) / (4.0 + sqr(x[1])) + t * p[0];
+    y[2] = x[0] * exp(x[1]);
+  });
+  int widest = 0;
+  for (int round = 0; round < 60; ++round) {
+    const int symbols = points.integer(1, 4), degree = points.integer(1, 6);
+    Scene scene(f, symbols, degree, points.integer(0, 2), 8, 1e-10, points, true);
+    scene.fill({0.7, 0.9, 0.4}, 0.5, 0, 0, 0, 0);
+    ASSERT_EQ(scene.stepper.certify(scene.set, horizon, quantum, 0, 0), StepOutcome::stepped);
+    const int own = points.integer(1, degree);
+    FlowOutputChords chords(g, std::make_shared<const Monomials>(scene.capped(own), own), scene.monomials, 8, horizon,
+                            quantum);
+    const double h = scene.stepper.h(), from = points.integer(0, 1) * 0.3 * h, to = from + 0.6 * h;
+    chords.load(scene.stepper, 0, scene.set.parameters, from, to);
+    std::vector<Interval> sag;
+    chords.sag(from, to, sag);
+    Evaluator<Precise> truth(g);
+    for (int member = 0; member < 30; ++member) {
+      const Vector xi = scene.randomSymbols();
+      const std::vector<Precise> values = scene.monomialsAt(xi);
+      const int N = scene.monomials->count();
+      const Precise x0 = scene.polynomial(&scene.set.p[0], N, values),
+                    x1 = scene.polynomial(&scene.set.p[at(N)], N, values);
+      const Embedded& q = scene.set.parameters[0];
+      truth.setParameters(Vector{Precise(q.centre) + Precise(q.half) * xi[at(q.symbol)]});
+      const auto outputsAt = [&](const Precise& t) {
+        const Vector x{Precise(x0 + t * x1), x1};
+        return Vector(truth(t, x));
+      };
+      const Precise share(points.uniform(0, 1)), t = from + share * (Precise(to) - from);
+      const Vector begin = outputsAt(Precise(from)), end = outputsAt(Precise(to)), y = outputsAt(t);
+      for (std::size_t o = 0; o < 3; ++o) {
+        if (!isBounded(sag[o])) continue;
+        widest += own < degree ? 1 : 0;
+        const Precise lower = begin[o] < end[o] ? begin[o] : end[o], upper = begin[o] < end[o] ? end[o] : begin[o];
+        ASSERT_LE(lower + sag[o].lower(), y[o]) << round << ' ' << o;
+        ASSERT_GE(upper + sag[o].upper(), y[o]) << round << ' ' << o;
+      }
+    }
+  }
+  EXPECT_GT(widest, 500);
+}
+
+TEST(FlowStep, ChordsKnowWhatTheirPolynomialsLack) {
+  Points points(22);
+  const Program f = record(3, 1, 3, [](auto, const auto& x, const auto&, auto& dx) {
+    dx[0] = x[1];
+    dx[1] = x[2];
+    dx[2] = 0.0 * x[2];
+  });
+  const Program g = record(3, 1, 2, [](auto t, const auto& x, const auto&, auto& y) {
+    y[0] = 1.0 * x[0];
+    y[1] = t * x[0];
+  });
+  constexpr int degree = 3;
+  Scene scene(f, 2, degree, 1, 8, 1e-10, points, true);
+  const auto sagsIn = [&](int own) {
+    EXPECT_EQ(scene.stepper.certify(scene.set, horizon, quantum, 0, 0), StepOutcome::stepped);
+    FlowOutputChords chords(g, std::make_shared<const Monomials>(scene.capped(own), own), scene.monomials, 8, horizon,
+                            quantum);
+    std::vector<Interval> sag;
+    chords.load(scene.stepper, 0, scene.set.parameters, 0, scene.stepper.h());
+    chords.sag(0, scene.stepper.h(), sag);
+    return sag;
+  };
+  scene.fill({0, 0, 0, 1}, 0, 0, 0, 0, 0);
+  const int N = scene.monomials->count();
+  scene.set.p[at(3 * N - 1)] = 0.5;  // an acceleration that depends on the highest power of a symbol alone
+  {
+    const Interval sag = sagsIn(degree - 1)[0];
+    const double h = scene.stepper.h(), bow = 0.5 * h * h / 8;
+    EXPECT_GE(sag.upper(), bow);
+    EXPECT_LE(sag.lower(), -bow);
+  }
+  scene.set.p[at(3 * N - 1)] = 0;
+  scene.set.W = {0, 0.25, 0};  // what no polynomial tells: x = w t
+  const Interval sag = sagsIn(degree)[1];
+  const double h = scene.stepper.h(), bow = 0.25 * h * h / 4;
+  EXPECT_GE(sag.upper(), bow);
+  EXPECT_LE(sag.lower(), -bow);
 }
 
 TEST(FlowStep, SetsOfAnotherDegreeHoldWhatTheyWere) {
