@@ -56,6 +56,7 @@ FlowStepper::FlowStepper(const Program& motion, std::shared_ptr<const Monomials>
 void FlowStepper::load(const FlowSet& set) {
   totalRadius(set, total_);
   errorRadius(set, errors_);
+  looseAtStart_ = set.W;
   inputs_.load(set.parameters);
   const auto unit = [&](std::size_t i) { return set.units.empty() ? 0 : set.units[i]; };
   double greatest = 0;  // of all states, in balanced units

@@ -125,7 +125,7 @@ class FlowStepper {
   std::vector<SignCases> signsAfter(double seconds, std::size_t count) const;
   std::vector<SignCases> signsOver(std::size_t count) const;
   /// How far p + Ψ (r + Γs) leaves its chord between two moments of the step, in seconds from its start, for each
-  /// state.
+  /// state; at the start itself that is the chord from where solutions are, whatever is known of them there.
   void sag(double from, double to, std::vector<Interval>& bound) const;
   /// The step for others: x = p + Ψ (r + Γs) + loose, p and Ψ polynomials in σ ∈ [0, θ], σ = (t - set.t) / scale.
   const PolynomialSeries& series() const { return series_; }
@@ -260,6 +260,7 @@ class FlowStepper {
   std::vector<double> delta0_, delta1_, start_, E_, y_, e1_, epsilon_, inTime_, nu0_, nu1_, scale_, floor_;
   std::vector<double> least_;  // the floor, or what counts of the state's size over the motion, if that is more
   std::vector<double> total_, errors_;         // R + Σ_j |Γ_j| of the set being stepped; without inputs
+  std::vector<double> looseAtStart_;           // its W
   std::vector<double> driven_;                 // what inputs do to a state within the step, at most
   std::vector<double> second_, third_, turn_;  // bounds of derivatives by σ: p'' and the next, Ψ''(r + Γs)
   FlowPoint end_;

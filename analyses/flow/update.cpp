@@ -244,6 +244,9 @@ void FlowStepper::sag(double from, double to, std::vector<Interval>& bound) cons
   for (int i = 0; i < n_; ++i) {  // in σ, exactly; what is damped is no convex function of time
     double besides =
         growth_.isDamped() || growth_.isAbout() ? looseBound(i) : (driven_[at(i)] + inputs_.rest(i)) * bounds::up;
+    // Of l = x - p - Ψ (r + Γs), |l| ≤ looseBound, chords leave out λ l(0) at the part 1 - λ of the way: it may have
+    // turned about by then.
+    if (growth_.isAbout() && from == 0) besides = (besides + looseAtStart_[at(i)]) * bounds::up;
     if (!bent_.empty()) besides = (besides + bent_[at(i)]) * bounds::up;
     bound.push_back(
         inflated(series_.sag(i, from / h0_, to / h0_, second_[at(i)], third_[at(i)], turn_[at(i)]), besides));

@@ -793,6 +793,35 @@ TEST(FlowStep, HoldsEveryTrajectoryOfWhatTurnsAtEveryTime) {
   EXPECT_GT(about, 5);
 }
 
+// What is loose at the start turns about within a step; of where solutions start no more is known than that.
+TEST(FlowStep, WhatTurnsLeavesAChordFromItsStartByNoMoreThanTheSag) {
+  constexpr double w = 0x1p-10, length = 6.5;
+  const Program f = record(2, 0, [](auto t, const auto& x, const auto&, auto& dx) {
+    dx[0] = x[1];
+    dx[1] = 2 * w / length * t - x[0];
+  });
+  Points points(32);
+  Scene scene(f, 4, 1, 0, 30, 1e-6, points, true);
+  scene.fill({0, 2 * w / length}, 0, 0, 0, 0, 0);
+  scene.set.C = {1, 0, 0, 1};
+  scene.set.W = {w, 0};
+  ASSERT_EQ(scene.stepper.certify(scene.set, length, quantum, 0, 0), StepOutcome::stepped);
+  ASSERT_TRUE(scene.stepper.isAboutCentre());
+  ASSERT_EQ(scene.stepper.h(), length);
+  FlowPoint end;
+  scene.stepper.evaluate(scene.set, length, end);
+  std::vector<Interval> sag;
+  scene.stepper.sag(0, length, sag);
+  std::vector<double> times;
+  for (int i = 1; i < 64; ++i) times.push_back(length * i / 64);
+  Reference reference(f);
+  for (const double side : {-1.0, 1.0}) {
+    const Interval chord = hull(Interval(side * w), inflated(Interval(end.p[0]), end.radius[0])) + sag[0];
+    for (const Vector& x : reference({Precise(side * w), Precise(2 * w / length)}, times))
+      ASSERT_THAT(chord, Encloses(x[0])) << "from " << side * w;
+  }
+}
+
 TEST(FlowStep, RefusesAStepWhoseTubeIsNotProved) {
   constexpr int links = 6;
   const Program f = record(links, 0, [](auto, const auto& x, const auto&, auto& dx) {
