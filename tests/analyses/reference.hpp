@@ -58,8 +58,9 @@ class Reference {
  protected:
   Precise reach() {
     Precise largest(0.0), h(1e300);
-    for (int order = 0; order < 2 && largest == 0; ++order)  // relative to the state, or to its rate where it is zero
-      for (int s = 0; s < f_.states(); ++s) largest = std::max(largest, Precise(abs(series_.at(s, order))));
+    int first = -1;  // relative to the state, or to how it begins to move where it is at rest
+    while (largest == 0 && ++first < order_ / 2)
+      for (int s = 0; s < f_.states(); ++s) largest = std::max(largest, Precise(abs(series_.at(s, first))));
     const Precise share = exp(log(Precise(1e-34)) / order_);
     for (int s = 0; s < f_.states(); ++s) {
       // One that vanishes beside the others is followed relative to itself a while longer.
@@ -68,7 +69,7 @@ class Reference {
       const Precise size = vanishes ? std::max(own, Precise(largest * 1e-40)) : largest;
       for (int i = order_ / 2; i <= order_; ++i) {  // single orders may vanish
         const Precise c = abs(series_.at(s, i));
-        if (c > 0 && size > 0) h = std::min(h, Precise(share * exp(log(size / c) / i)));
+        if (c > 0 && size > 0) h = std::min(h, Precise(share * exp(log(size / c) / (i - std::max(first, 0)))));
       }
     }
     return h;

@@ -22,6 +22,7 @@
 #include <vector>
 
 #include "analyses/requirements/requirement.hpp"
+#include "tests/analyses/even_quantity.hpp"
 #include "tests/analyses/flow/containment.hpp"
 #include "tests/analyses/flow/jumping_machine.hpp"
 #include "tests/analyses/sliding_reference.hpp"
@@ -167,16 +168,6 @@ Program outputsOf(const System& s, Dice& dice) {
   });
 }
 
-Uncertain quantityOf(const Interval& range) {
-  Uncertain u;
-  u.name = "q";
-  u.range = range;
-  u.nominal = midpoint(range);
-  u.distribution = Distribution::uniform(range);
-  u.membership = Membership::triangular(range.lower(), u.nominal, range.upper());
-  return u;
-}
-
 /// What was told of systems that came to their horizon, or of those that ended early.
 struct Answers {
   long asked = 0, truly = 0, told = 0, widths = 0, loose = 0;
@@ -239,7 +230,7 @@ bool isToldMet(const System& s, const std::vector<double>& times, const Program&
   if (!tube.models() || tube.times().back() != times.back() || tube.reachedTimes() != tube.times().size()) return false;
   std::vector<Uncertain> uncertain;
   std::vector<CellQuantity> quantities;
-  for (const Interval& value : s.box) uncertain.push_back(quantityOf(value));
+  for (const Interval& value : s.box) uncertain.push_back(evenQuantity(value));
   for (std::size_t i = 0; i < s.box.size(); ++i)
     if (!isThin(s.box[i])) quantities.push_back({static_cast<int>(i), &uncertain[i]});
   const CellQuestion question{CellQuestion::When::always, {0}, {0}, 0, tube.reachedTimes() - 1};
