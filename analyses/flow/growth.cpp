@@ -37,6 +37,7 @@ FlowGrowth::FlowGrowth(int n, int m) : n_(n), m_(m), unit_(static_cast<std::size
 void FlowGrowth::setUnits(const std::vector<int>& units) {
   unit_ = units;
   unit_.resize(static_cast<std::size_t>(n_), 0);
+  followed_ = 0;  // that of another set, in other units perhaps: nothing may depend on which sets a thread has met
 }
 
 /// X = D⁻¹ (Ah) D with D = diag 2^unit, exact but for the rounding of A h, such that the row and the column of a state

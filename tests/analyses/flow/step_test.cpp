@@ -6,6 +6,7 @@
 
 #include "analyses/flow/formulation.hpp"
 #include "analyses/flow/outputs.hpp"
+#include "analyses/work.hpp"
 #include "tests/analyses/reference.hpp"
 #include "tests/analyses/sliding_reference.hpp"
 
@@ -820,6 +821,49 @@ TEST(FlowStep, WhatTurnsLeavesAChordFromItsStartByNoMoreThanTheSag) {
     for (const Vector& x : reference({Precise(side * w), Precise(2 * w / length)}, times))
       ASSERT_THAT(chord, Encloses(x[0])) << "from " << side * w;
   }
+}
+
+/// Whichever set was stepped before, so that threads decide nothing: not even how much work is counted.
+TEST(FlowStep, DependsOnItsSetAlone) {
+  const Program turns = record(2, 3, [](auto t, const auto& x, const auto& p, auto& dx) {
+    dx[0] = x[1];
+    dx[1] = -900.0 * x[0] + p[0] * sin(p[1] * t) + p[2];
+  });
+  const Program touches = record(2, 3, [](auto, const auto& x, const auto& p, auto& dx) {
+    dx[0] = x[1];
+    dx[1] = -9.0 * p[0] * x[0] - p[1] * abs(x[0] - 0.1) + p[2] / (0.05 + abs(x[1]));
+  });
+  Points points(33);
+  int steps = 0;
+  for (int round = 0; round < 40; ++round) {
+    const bool hasKinks = round % 2 == 1;
+    const int degree = points.integer(1, 3), frame = points.integer(0, 1), order = points.integer(6, 12);
+    const double tolerance = std::pow(10.0, -points.integer(3, 10));
+    const auto scene = [&] {
+      return Scene(hasKinks ? touches : turns, 4, degree, frame, order, tolerance, points, true);
+    };
+    Scene used = scene(), fresh = scene();
+    const double size = points.uniform(0.001, 0.3);
+    used.fill({0.1, -0.2, 1, 2, 3}, size, 1e-3, 1, 1e-6, 0);
+    fresh.fill({points.uniform(0.05, 0.15), 0.1, 1, 2, 3}, size / 4, 1e-6, 1, 1e-9, 0);
+    for (FlowSet* set : {&used.set, &fresh.set}) set->nextStep = 0x1p-8;
+    used.stepper.certify(used.set, horizon, quantum, 0, 0);
+    const auto certify = [&](FlowStepper& stepper, std::uint64_t& work) {
+      const std::uint64_t began = Work::counted();
+      const StepOutcome outcome = stepper.certify(fresh.set, horizon, quantum, 0, 0);
+      work = Work::counted() - began;
+      return outcome;
+    };
+    std::uint64_t workOfUsed = 0, workOfFresh = 0;
+    const StepOutcome outcome = certify(used.stepper, workOfUsed);
+    ASSERT_EQ(outcome, certify(fresh.stepper, workOfFresh)) << "round " << round;
+    EXPECT_EQ(workOfUsed, workOfFresh) << "round " << round;
+    if (outcome != StepOutcome::stepped) continue;
+    ++steps;
+    EXPECT_EQ(used.stepper.h(), fresh.stepper.h()) << "round " << round;
+    for (int i = 0; i < 2; ++i) EXPECT_EQ(used.stepper.looseBound(i), fresh.stepper.looseBound(i)) << "round " << round;
+  }
+  EXPECT_GT(steps, 20);
 }
 
 TEST(FlowStep, RefusesAStepWhoseTubeIsNotProved) {
