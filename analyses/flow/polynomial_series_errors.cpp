@@ -14,6 +14,7 @@
 namespace gamut {
 
 bool PolynomialSeries::tabulate(double theta) {
+  atStart_.clear();  // of a step that was tried before, perhaps of another set
   power_[0] = 1;
   for (int i = 1; i < stride_; ++i) power_[at(i)] = i < m_ ? power_[at(i - 1)] * theta : 0.0;
   for (int i = 0; i < stride_; ++i) weights_[at(i)] = (i + 1) * power_[at(i)];

@@ -343,6 +343,27 @@ TEST(PolynomialSeries, TanhIsBoundedForEveryArgument) {
     }
 }
 
+/// What is uncertain at the start, beside which a step across a kink may be so long, is that of the step at hand.
+TEST(PolynomialSeries, HasteIsThatOfTheStepAtHand) {
+  const Program f = record(1, 0, [](auto, const auto& x, const auto&, auto& dx) { dx[0] = abs(x[0] - 0.1); });
+  const auto monomials = std::make_shared<const Monomials>(std::vector<int>{1}, 2);
+  const auto hasteOf = [&](bool isUsed) {
+    PolynomialSeries series(f.differentiated(), 1, monomials, 1, 6, true);
+    const double x[] = {0.15, 0.01, 0}, frame[] = {1, 0}, wide = 0.02;
+    series.setState(0, x);
+    series.setFrame(0, 0, frame, 1);
+    series.compute(0, 1);
+    if (isUsed) {
+      EXPECT_TRUE(series.tabulate(1) && series.bound(&wide, false));
+      series.keepAtStart();
+    }
+    EXPECT_TRUE(series.tabulate(1) && series.bound(nullptr, false));
+    return series.haste();
+  };
+  EXPECT_GT(hasteOf(false), 1);
+  EXPECT_EQ(hasteOf(true), hasteOf(false));
+}
+
 TEST(PolynomialSeries, ADivisorThatMayVanishIsNotProved) {
   const Program f = record(1, 0, [](auto, const auto& x, const auto&, auto& dx) { dx[0] = 1.0 / x[0]; });
   const auto monomials = std::make_shared<const Monomials>(std::vector<int>{1}, 4);
