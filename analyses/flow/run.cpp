@@ -342,11 +342,13 @@ Tube FlowRun::gather() {
     for (std::size_t row = 0; row < rows; ++row) {
       for (const FlowCollected& part : collected_)
         if (!(part.*cores)[row].empty()) joinHulls(core[row], (part.*cores)[row]);
-      for (std::size_t i = 0; i < core[row].size(); ++i) {
+      for (std::size_t i = 0; i < bounds[row].size(); ++i) {
         const Interval& bound = bounds[row][i];
+        const bool isStart = core[row].empty();
+        if (isStart && !isBounded(bound)) continue;
         greatest[i] = std::max(greatest[i], width(bound));
         largest[i] = std::max(largest[i], magnitude(bound));
-        if (!(contains(bound, 0.0) && magnitude(core[row][i]) <= 1e-6 * width(bound))) isZero[i] = 0;
+        if (!isStart && !(contains(bound, 0.0) && magnitude(core[row][i]) <= 1e-6 * width(bound))) isZero[i] = 0;
       }
     }
     for (std::size_t row = 0; row < rows; ++row) {
