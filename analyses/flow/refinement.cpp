@@ -20,6 +20,7 @@
 #include "analyses/work.hpp"
 #include "analyses/workers.hpp"
 #include "scalars/index.hpp"
+#include "scalars/program/sides.hpp"
 
 namespace gamut {
 
@@ -36,7 +37,8 @@ constexpr double mostHidden = 1e9;  // times below the threshold: less is roundi
 /// The weights of the uncertain quantities' symbols, as far as they are known, and how large states become.
 class Weighing {
  public:
-  Weighing(const FlowQuestion& question, const Box& box) : share_(question.options.tightness - 1) {
+  Weighing(const FlowQuestion& question, const Box& box)
+      : share_(question.options.tightness - 1), hasJumps_(!jumpsOf(question.motion).empty()) {
     const int symbols = Embedding(box, question.motion.states(), question.options.varying).symbols;
     emphasis_ = {std::vector<int>(at(symbols), 1), static_cast<double>(symbols)};
     if (symbols == 0) return;
@@ -56,8 +58,8 @@ class Weighing {
   const std::shared_ptr<const FlowScales>& scales() const { return scales_; }
   double cpuSeconds() const { return cpu_; }
 
-  /// Fewer of them are taken for negligible.
-  void raise(const std::vector<Influence>& found) {
+  /// Fewer of them are taken for negligible; false if that changes nothing.
+  bool raise(const std::vector<Influence>& found) {
     std::size_t next = 0;  // `found` has those alone that had a symbol
     for (std::size_t l = 0; l < emphasis_.weights.size(); ++l) {
       if (emphasis_.weights[l] == 0 || next >= found.size()) continue;
@@ -70,6 +72,11 @@ class Weighing {
       negligible_ /= 30;
       emphasis_ = emphasisOf(influence_, negligible_, share_);
     }
+    if (emphasis_.weights != before) return true;
+    // What holds a motion at a jump is none of what was looked at: it may be all that a quantity decides about.
+    if (!hasJumps_ || emphasis_.isUniform()) return false;
+    emphasis_.weights.assign(before.size(), 1);
+    return true;
   }
 
  private:
@@ -135,6 +142,7 @@ class Weighing {
   }
 
   double share_, negligible_ = 0.01, cpu_ = 0;
+  bool hasJumps_;
   Emphasis emphasis_;
   std::vector<Influence> influence_;
   std::shared_ptr<const FlowScales> scales_;
@@ -191,10 +199,7 @@ class FixedPieces {
       if (isStopped || (isWhole && own <= enough)) return true;
       repeated = came > farthest ? 0 : repeated + 1;
       farthest = std::max(farthest, came);
-      if (!round.emphasis.isUniform()) {
-        weighing_.raise(run.influence());
-        continue;
-      }
+      if (!round.emphasis.isUniform() && weighing_.raise(run.influence())) continue;
       const Monomials& top = *task.layouts[task.degrees - 1].monomials;
       if (run.degree() < top.degree()) {  // it was the threshold that failed
         if (!(factor > 1)) return false;
@@ -299,7 +304,7 @@ Tube refine(const FlowQuestion& question, const Box& box, const std::vector<Box>
     const bool isInVain = isNoBetter && tightened >= decidedly;
     double factor = run.tighterBy(tube);
     if (isNoBetter && factor > 1) factor = std::max(factor, decidedly);  // what was allowed before was nowhere reached
-    const bool isMisjudged = factor > 1 && !round.emphasis.isUniform();
+    const bool isMisjudged = factor > 1 && !round.emphasis.isUniform() && weighing.raise(run.influence());
     const bool mayRaise = factor > 1 && run.needsDegree() && task.hasRicherOutputs();
     isFarther = tube.reached() > reached;
     reached = tube.reached();
@@ -318,9 +323,8 @@ Tube refine(const FlowQuestion& question, const Box& box, const std::vector<Box>
     if (round.isLast || (reached == question.horizon && own <= question.options.enough)) break;
     isAlike = !isMisjudged;
     tightened = factor;
-    if (isMisjudged) {
-      weighing.raise(run.influence());
-    } else if (mayRaise && !isInVain) {
+    if (isMisjudged) continue;  // with other weights
+    if (mayRaise && !isInVain) {
       ++round.richer;
     } else if (factor > 1 && !isInVain) {
       const double hardly = reached < question.horizon ? 0.001 : 0.2;  // an early end says less of what was to blame

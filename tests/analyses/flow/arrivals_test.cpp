@@ -84,6 +84,32 @@ TEST(FlowArrivals, WhatHoldsIsKnownOnceAllHaveCome) {
   EXPECT_LT(width(now), 1.01 * truth);
 }
 
+/// Where z is held, and with what strength x is, decides about nothing before they are: a first look sees no influence.
+TEST(FlowArrivals, WhatHoldsMayBeAllThatAQuantityDecidesAbout) {
+  const Program f = record(3, 2, [](auto, const auto& x, const auto& p, auto& dx) {
+    dx[0] = -0.0625 * x[2] - p[1] * sign(x[0]);
+    dx[1] = -0.375 * x[0];
+    dx[2] = -sign(2.0 * (x[2] - p[0]));
+  });
+  const Program g = record(3, 2, 2, [](auto, const auto& x, const auto&, auto& y) {
+    y[0] = sign(x[0]);
+    y[1] = 1.5 - 0.5 * sign(x[0]) + 1.5 * x[2];
+  });
+  const Interval at(-0.09375, -0.078125), strength(0.875, 0.9375);
+  const Tube tube =
+      Flow(f, g).enclose({Interval(-0.125, 0.0625), Interval(0.375, 0.5), 0.0, at, strength}, 1, {0.5, 1});
+  ASSERT_EQ(tube.why(), "");
+  const auto holds = [](double z, double by) -> Precise { return -0.0625 * Precise(z) / by; };
+  const Precise least = holds(at.upper(), strength.upper()), most = holds(at.lower(), strength.lower());
+  EXPECT_THAT(tube.outputs(2)[0], Encloses(least));
+  EXPECT_THAT(tube.outputs(2)[0], Encloses(most));
+  EXPECT_LT(width(tube.outputs(2)[0]), 1.02 * Precise(most - least).convert_to<double>());
+  const Precise lower = 1.5 - 0.5 * most + 1.5 * at.lower(), upper = 1.5 - 0.5 * least + 1.5 * at.upper();
+  EXPECT_THAT(tube.outputs(2)[1], Encloses(lower));
+  EXPECT_THAT(tube.outputs(2)[1], Encloses(upper));
+  EXPECT_LT(width(tube.outputs(2)[1]), 1.02 * Precise(upper - lower).convert_to<double>());
+}
+
 struct Arriving {
   Program f;
   Box box;
