@@ -93,6 +93,7 @@ FlowJourney FlowFollower::follow(FlowPiece& piece, double end, double allowed) {
     if (!record(piece)) return FlowJourney::ended;
     tool_->stepper.advance(piece.set);
     ++collected_.steps;
+    collected_.slidesWide = collected_.slidesWide || tool_->stepper.slideLoss() > task_.aim();
     piece.timeError += tool_->stepper.timeError();
     piece.truncation += tool_->stepper.truncation();
     for (std::size_t i = 0; symbols_ > 1 && i < piece.set.R.size(); ++i)
@@ -123,8 +124,9 @@ StepOutcome FlowFollower::certify(const FlowPiece& piece) {
     const auto next = std::ranges::upper_bound(task_.ends, piece.set.t);
     const double within = next == task_.ends.end() ? task_.horizon : *next;
     const double end = std::min(within, piece.set.t + longest);  // exact: both are multiples of the quantum
-    const StepOutcome outcome = tool_->stepper.certify(
-        piece.set, end, task_.quantum, uncertain ? task_.splitDefect : 0.0, uncertain ? task_.kinkShare : 0.0);
+    const StepOutcome outcome =
+        tool_->stepper.certify(piece.set, end, task_.quantum, uncertain ? task_.splitDefect : 0.0,
+                               uncertain ? task_.kinkShare : 0.0, uncertain ? task_.slideShare : 0.0);
     if (!holds || (outcome != StepOutcome::released && outcome != StepOutcome::failed)) return outcome;
     held = outcome == StepOutcome::released ? tool_->stepper.stillHeld() : std::vector<char>{};
   }

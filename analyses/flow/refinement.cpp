@@ -294,6 +294,7 @@ Tube refine(const FlowQuestion& question, const Box& box, const std::vector<Box>
     round.isLast = round.isLast || count == mostCheapRounds || (count >= mostRounds && !isCheap);
     round.emphasis = weighing.emphasis();
     round.scales = weighing.scales();
+    round.before = count - 1;
     const FlowTask task(question, box, levels, round);
     FlowRun run(task);
     Tube tube = run.run();
@@ -324,6 +325,12 @@ Tube refine(const FlowQuestion& question, const Box& box, const std::vector<Box>
     isAlike = !isMisjudged;
     tightened = factor;
     if (isMisjudged) continue;  // with other weights
+    // Of what has lost its ξ to jumps all that is left over counts, which smaller thresholds do not make less: first
+    // what slides is bisected.
+    if (factor > 1 && count == 1 && run.slidesWide() && reached == question.horizon && task.bisectsForWidth()) {
+      isAlike = false;
+      continue;
+    }
     if (mayRaise && !isInVain) {
       ++round.richer;
     } else if (factor > 1 && !isInVain) {

@@ -376,7 +376,10 @@ Tube FlowRun::gather() {
   looseness_ = loosenessOf(tube, task_.options);
   needsDegree_ = looseness_ > aim && ofStates <= aim;
   for (const Traveller& traveller : all_) count(traveller.piece);
-  for (const FlowCollected& part : collected_) metThreshold_ = metThreshold_ || part.metThreshold;
+  for (const FlowCollected& part : collected_) {
+    metThreshold_ = metThreshold_ || part.metThreshold;
+    slidesWide_ = slidesWide_ || part.slidesWide;
+  }
   timeShare_ = timeError_ > 0 ? timeError_ / (timeError_ + truncation_) : 0;
   for (const FlowCollected& part : collected_)
     for (std::size_t l = 0; l < part.influence.size(); ++l) {

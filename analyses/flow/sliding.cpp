@@ -113,17 +113,22 @@ double FlowStepper::longestWhileSliding(const JumpBound& bound, const JumpBound&
 }
 
 /// What comes to be held or leaves does so over a time Δ, in which the set loses its dependence on ξ in what moves
-/// then: of its width, about a quarter of what the motion turns in that time; and what the signs, unknown meanwhile, do
-/// to states besides. The symbol to bisect for less; -1 for none.
-int FlowStepper::symbolOfSliding(const FlowSet& set, double kinkShare) const {
+/// then: of its width, about a quarter of what the motion turns in that time; what the signs, unknown meanwhile, do to
+/// states besides; and a quarter of what both do to states that follow, or are pushed by the same sign. The symbol to
+/// bisect for less; -1 for none.
+int FlowStepper::symbolOfSliding(const FlowSet& set, double kinkShare, double slideShare) {
   if (!(kinkShare > 0) || set.slideStep > 0) return -1;
   const int N = series_.count();
   int symbol = -1;
   double longest = 0;
+  std::vector<char> isPivot(at(n_), 0);
+  std::vector<double> unknown(at(n_), 0.0);  // of a state, by those that come
   for (std::size_t k = 0; k < ownBounds_.size(); ++k) {
     const JumpBound& bound = ownBounds_[k];
-    if (!bound.isKnown() || !bound.maySlide) continue;
+    if (!bound.isKnown()) continue;
     const LinearForm& form = *own_->jumps().forms[k];
+    isPivot[at(form.pivot)] = 1;
+    if (!bound.maySlide) continue;
     std::vector<double> mass(at(monomials().symbols()), 0.0);
     double sum = 0, rate = 0;
     for (int g = 0; g < N; ++g) {
@@ -138,26 +143,34 @@ int FlowStepper::symbolOfSliding(const FlowSet& set, double kinkShare) const {
       if (g > 0) sum += std::fabs(value);
     }
     const auto worst = std::ranges::max_element(mass);
-    if (mass.empty() || !(*worst > 0) || rate == 0) continue;
-    if (const double time = 2 * sum / std::fabs(rate); time > longest) {
-      longest = time;
-      symbol = static_cast<int>(worst - mass.begin());
-    }
+    if (mass.empty() || !(*worst > 0)) continue;
+    // From both sides until the last has come; else while they do.
+    const bool isFromBoth = bound.holds && bound.start.lower() < 0 && bound.start.upper() > 0;
+    const double time =
+        isFromBoth  ? std::max(bound.start.upper() / -bound.up.upper(), -bound.start.lower() / bound.down.lower())
+        : rate != 0 ? 2 * sum / std::fabs(rate)
+                    : 0;
+    const double apart = bound.holds ? 0.5 * time * sum / std::fabs(form.states[at(form.pivot)]) : 0.0;
+    for (int i = 0; i < n_; ++i)
+      unknown[at(i)] += series_.jacobianBound(i, form.pivot) * apart + 0.5 * time * delta0_[at(i)];
+    if (!(time > longest)) continue;
+    longest = time;
+    symbol = static_cast<int>(worst - mass.begin());
   }
   constexpr double leastPart = 0x1p-6, lost = 0.25;
   if (symbol < 0 || at(symbol) >= set.half.size() || set.half[at(symbol)] <= leastPart) return -1;
-  const double allowed = kinkShare / set.half[at(symbol)], steps = longest / h_;
-  bool isTooWide = lost * longest * growth_.growth() / h_ > allowed;
+  const double part = set.half[at(symbol)], steps = longest / h_;
+  bool isTooWide = lost * longest * growth_.growth() / h_ > kinkShare / part;
   for (int i = 0; i < n_; ++i) {
-    bool isPivot = false;
-    for (std::size_t k = 0; k < ownBounds_.size(); ++k)
-      isPivot = isPivot || (ownBounds_[k].isKnown() && own_->jumps().forms[k]->pivot == i);
     double added = 0, width = 0;
-    for (int j = 0; j < n_; ++j) added += growth_.M1(i, j) * delta0_[at(j)];
+    for (int j = 0; j < n_; ++j) added += steps * growth_.M1(i, j) * delta0_[at(j)];
     for (int g = 1; g < N; ++g) width += std::fabs(set.p[at(i * N + g)]);
-    isTooWide = isTooWide || (!isPivot && steps * added > allowed * width && width > 1e-9 * scale_[at(i)]);
+    if (isPivot[at(i)] != 0) continue;
+    const double least = 1e-9 * scale_[at(i)], later = width + unknown[at(i)];
+    isTooWide = isTooWide || (added > kinkShare / part * width && width > least);
+    if (later > least) slideLoss_ = std::max(slideLoss_, lost * unknown[at(i)] / later * part);
   }
-  return isTooWide ? symbol : -1;
+  return isTooWide || slideLoss_ > slideShare ? symbol : -1;
 }
 
 /// The signs of the motion's own jumps that are not known to be on one side, and their arguments.

@@ -279,6 +279,7 @@ bool FlowStepper::isLooserThanDriven() const {
 
 bool FlowStepper::isRemainderTooLarge(const FlowSet& set) const {
   constexpr double tooLarge = 0.5;
+  if (set.hasSlid) return false;  // it has lost its ξ to what is known of jumps: that is no matter of truncation
   std::vector<double> total;
   errorRadius(set, total);
   const int N = series_.count();
@@ -373,8 +374,8 @@ FlowCause FlowStepper::reason(const FlowSet& set) const {
 
 /// Bisection shortens the time that a piece is on both sides as well as what a kink adds: to a quarter; a jump, to
 /// half.
-bool FlowStepper::isKinkTooWide(const FlowSet& set, double kinkShare) {
-  if (isSliding_) return (symbolAcross_ = symbolOfSliding(set, kinkShare)) >= 0;
+bool FlowStepper::isKinkTooWide(const FlowSet& set, double kinkShare, double slideShare) {
+  if (isSliding_) return (symbolAcross_ = symbolOfSliding(set, kinkShare, slideShare)) >= 0;
   symbolAcross_ = kinkShare > 0 ? series_.symbolAcross() : -1;
   if (symbolAcross_ < 0) return false;
   const int N = series_.count();
@@ -454,8 +455,10 @@ bool FlowStepper::drift(FlowSet& set, double end, std::vector<double>& turned) {
   return true;
 }
 
-StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum, double splitDefect, double kinkShare) {
+StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum, double splitDefect, double kinkShare,
+                                 double slideShare) {
   symbolAcross_ = -1;
+  slideLoss_ = 0;
   isSliding_ = isShortened_ = false;
   crossings_.clear();
   givenAt_ = signsAt_ = 0;
@@ -560,7 +563,8 @@ StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum,
       if (h < left)
         caution_ *= std::clamp(std::pow(tolerance_ / std::max(timeError_, 1e-40), 1.0 / (m_ + 1)), 0.7, 1.15);
       caution_ = std::clamp(caution_, 0x1p-6, 2.0);
-      return isTruncationTooLarge(splitDefect) || ((isAdapted || isSliding_) && isKinkTooWide(set, kinkShare))
+      return isTruncationTooLarge(splitDefect) ||
+                     ((isAdapted || isSliding_) && isKinkTooWide(set, kinkShare, slideShare))
                  ? StepOutcome::splitWanted
                  : StepOutcome::stepped;
     }

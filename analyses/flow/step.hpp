@@ -75,8 +75,9 @@ class FlowStepper {
   /// (relative to the state; 0: any) is answered by splitWanted. h(), evaluate() and advance() refer to the step until
   /// the next call.
   /// Where kinks or jumps are crossed, what they add to a state relative to its width in the whole box, above
-  /// `kinkShare` (0: any), is answered likewise.
-  StepOutcome certify(const FlowSet& set, double end, double quantum, double splitDefect, double kinkShare);
+  /// `kinkShare` (0: any), is answered likewise; so is what follows solutions that come to be held, above `slideShare`.
+  StepOutcome certify(const FlowSet& set, double end, double quantum, double splitDefect, double kinkShare,
+                      double slideShare);
   double h() const { return h_; }
   /// So many first orders in double-double, where there are no symbols (PolynomialSeries).
   void setFineOrders(int orders) { series_.setFineOrders(orders); }
@@ -142,6 +143,9 @@ class FlowStepper {
   int worstSymbol() const;
   /// Whether that is what is wanted of it: no higher degree helps.
   bool isAcrossKink() const { return symbolAcross_ >= 0; }
+  /// What solutions that come to be held make of what follows them, unknown of which it is: the share of a state's
+  /// width in the whole box.
+  double slideLoss() const { return slideLoss_; }
   GradeDecay decay() const;
   /// Bisects `set` in a symbol; `set` becomes one half, the other is returned.
   FlowSet bisect(FlowSet& set, int symbol, const PolynomialRange& shift) const;
@@ -169,7 +173,7 @@ class FlowStepper {
   double doubling(const FlowSet& set, int state) const;
   bool isTruncationTooLarge(double splitDefect);
   bool isLooserThanDriven() const;
-  bool isKinkTooWide(const FlowSet& set, double kinkShare);
+  bool isKinkTooWide(const FlowSet& set, double kinkShare, double slideShare);
   enum class Look { goOn, again, shorter, longer, released };
   Look lookAtJumps(const FlowSet& set, double& h, double smallest, double left);
   Look lookAtKinks(const FlowSet& set, double& h, double smallest, double left);
@@ -203,7 +207,7 @@ class FlowStepper {
   void boundCurvature(Crossing& crossing, double longest, std::vector<double>& rest) const;
   bool boundCurvatureOfKink(Crossing& crossing, double longest, std::vector<double>& rest);
   void addCrossings(const FlowSet& set, double tau, FlowPoint& point) const;
-  int symbolOfSliding(const FlowSet& set, double kinkShare) const;
+  int symbolOfSliding(const FlowSet& set, double kinkShare, double slideShare);
   double longestWhileSliding(const JumpBound& bound, const JumpBound& atStart, double h, double last) const;
   bool boundOwnJumps(const FlowSet& set, const Interval& time, const Box& box, double h,
                      std::vector<JumpBound>& bounds);
@@ -235,7 +239,8 @@ class FlowStepper {
   double caution_ = 1;
   std::vector<std::string> names_;
   std::shared_ptr<const FlowScales> scales_;
-  int symbolAcross_ = -1;                          // of kinks, for worstSymbol
+  int symbolAcross_ = -1;  // of kinks, for worstSymbol
+  double slideLoss_ = 0;
   const FlowJumps* of_ = nullptr;                  // without any held
   std::optional<JumpBounder> own_, holding_;       // of the stepper's own jumps; of those of which some are held
   std::vector<char> held_, stillHeld_;             // of each of these; none: none

@@ -47,6 +47,7 @@ struct FlowRound {
   std::size_t richer = 0;                         ///< the outputs' layout is so many further on
   bool isLast = true;                             ///< no tighter run comes
   bool isRich = false;                            ///< errors keep more powers of ξ
+  int before = 0;                                 ///< rounds
   int fixedDegree = 0;                            ///< if not 0: no bisection on the way, and up to this degree
   std::vector<int> cuts;                          ///< symbols, each halved on all pieces before the first step
   Emphasis emphasis;                              ///< none: every symbol alike
@@ -82,7 +83,7 @@ struct FlowTask {
   const std::vector<Box>& levels;
   Embedding embedding;
   FlowJumps jumps;
-  double horizon, quantum = 0, tolerance = 0, splitDefect = 0, kinkShare = 0;
+  double horizon, quantum = 0, tolerance = 0, splitDefect = 0, kinkShare = 0, slideShare = 0;
   int order = 0, active = 0;  // symbols of weight 1
   int fineOrders = 0;         // in double-double, without symbols: where rounding would limit the width
   double effective;           // Emphasis

@@ -425,6 +425,7 @@ void FlowStepper::advance(FlowSet& set) {
   set.t += h_;  // exact: both are multiples of the quantum
   set.arguments = argumentsBehind();
   set.slideStep = isSliding_ ? h_ : 0;
+  set.hasSlid = set.hasSlid || isSliding_;
   set.p = end_.p;
   if (series_.isFine()) set.low = end_.low;
   // A step that jumps made short says little of the next: that is as long as the one before was, once none does.

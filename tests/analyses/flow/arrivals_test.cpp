@@ -84,6 +84,57 @@ TEST(FlowArrivals, WhatHoldsIsKnownOnceAllHaveCome) {
   EXPECT_LT(width(now), 1.01 * truth);
 }
 
+/// x from c in ±1/4 comes at the rate 1 and leaves c |c|/4 in z, which is known of no single c: so z sin z would be as
+/// wide below zero as above. What comes is bisected, and what is left at rest is no looseness beside what it was.
+TEST(FlowArrivals, WhatFollowsIsBisectedWhereItDecides) {
+  for (const double unit : {1.0, 0x1p-20, 0x1p20}) {
+    SCOPED_TRACE(unit);
+    const Program f = record(2, 1, [](auto, const auto& x, const auto& p, auto& dx) {
+      dx[0] = -p[0] * sign(x[0]);
+      dx[1] = 0.5 * x[0];
+    });
+    const Program g = record(2, 1, 3, [](auto, const auto& x, const auto& p, auto& y) {
+      y[0] = x[1] / p[0] * sin(x[1] / p[0]);
+      y[1] = sign(3.0 * x[0]);
+      y[2] = sqr(sign(x[0])) * (x[1] + p[0]);
+    });
+    const Tube tube = Flow(f, g).enclose({unit * Interval(-0.25, 0.25), 0.0, Interval(unit)}, 1, {0.5, 1});
+    ASSERT_EQ(tube.why(), "");
+    constexpr double most = 0.015625;
+    EXPECT_THAT(tube.outputs(2)[0], Encloses(Precise(0.0)));
+    EXPECT_THAT(tube.outputs(2)[0], Encloses(Precise(most) * sin(Precise(most))));
+    EXPECT_LT(width(tube.outputs(2)[0]), 1.02 * most * std::sin(most));
+    EXPECT_LT(magnitude(tube.outputs(2)[1]), 1e-9);
+    EXPECT_LE(tube.tightness(), 1.02);
+  }
+}
+
+/// What follows is what others are held at, and drives it.
+TEST(FlowArrivals, WhatIsFollowedMayFollow) {
+  const Program f = record(2, 1, [](auto t, const auto& x, const auto& p, auto& dx) {
+    dx[0] = -0.375 - 0.375 * sin(2.75 * t) - p[0] * sign(0.5 * (x[0] - x[1]));
+    dx[1] = 0.375 * x[0];
+  });
+  const Program g = record(2, 1, 1, [](auto, const auto& x, const auto&, auto& y) { y[0] = sign(x[0] - x[1]); });
+  const Box box{Interval(-0.5, -0.0625), -0.125, 1.0};
+  const Tube tube = Flow(f, g).enclose(box, 1.75, {1.75});
+  ASSERT_EQ(tube.why(), "");
+  SlidingReference reference(f, g, [](const auto& sides, const Vector&, Vector& x) {
+    if (sides[0] == Side::held) x[0] = x[1];
+  });
+  Interval state = Interval::empty(), held = state;
+  for (int i = 0; i <= 64; ++i) {
+    const Precise start = box[0].lower() + (Precise(box[0].upper()) - box[0].lower()) * i / 64;
+    const Vector end = reference({start, Precise(-0.125), Precise(1.0)}, {1.75}).back();
+    ASSERT_THAT(tube.states(1)[1], Encloses(end[1]));
+    ASSERT_THAT(tube.outputs(1)[0], Encloses(reference.outputs.back()[0]));
+    state = hull(state, Interval(end[1].convert_to<double>()));
+    held = hull(held, Interval(reference.outputs.back()[0].convert_to<double>()));
+  }
+  EXPECT_LT(width(tube.states(1)[1]), 1.02 * width(state));
+  EXPECT_LT(width(tube.outputs(1)[0]), 1.02 * width(held));
+}
+
 /// Where z is held, and with what strength x is, decides about nothing before they are: a first look sees no influence.
 TEST(FlowArrivals, WhatHoldsMayBeAllThatAQuantityDecidesAbout) {
   const Program f = record(3, 2, [](auto, const auto& x, const auto& p, auto& dx) {

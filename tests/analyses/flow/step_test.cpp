@@ -452,7 +452,7 @@ TEST(FlowStep, HoldsEveryTrajectoryThatStartsInTheSet) {
       const double R = std::pow(10.0, -points.integer(1, 14)) * points.integer(0, 1);
       scene.fill(nominal, std::pow(10.0, -points.integer(1, 3)), R, points.integer(0, 3), R * points.integer(0, 1),
                  R * 0.1);
-      if (scene.stepper.certify(scene.set, horizon, quantum, 0, 0) != StepOutcome::stepped) continue;
+      if (scene.stepper.certify(scene.set, horizon, quantum, 0, 0, 0) != StepOutcome::stepped) continue;
       ++steps;
       scene.expectTrajectoriesInside(4);
       if (HasFatalFailure()) return;
@@ -493,8 +493,8 @@ TEST(FlowStep, RadiiOfParametersAreNoTruncation) {
     scene.set.parameters = {p};
     scene.set.centre = {0.0};
     scene.set.half = {1.0};
-    EXPECT_EQ(scene.stepper.certify(scene.set, 1, quantum, 1e-9, 0), StepOutcome::stepped) << radius;
-    EXPECT_EQ(scene.stepper.certify(scene.set, 1, quantum, 1e-16, 0), StepOutcome::splitWanted) << radius;
+    EXPECT_EQ(scene.stepper.certify(scene.set, 1, quantum, 1e-9, 0, 0), StepOutcome::stepped) << radius;
+    EXPECT_EQ(scene.stepper.certify(scene.set, 1, quantum, 1e-16, 0, 0), StepOutcome::splitWanted) << radius;
   }
 }
 
@@ -557,7 +557,7 @@ void expectPassingInside(unsigned seed, Make make) {
     const double first = near - 0.5 * third, second = (points.integer(0, 3) > 0 ? near : 0.5) + 0.125 + tilt * third;
     scene.fill({first, second, third, parameter}, size, R, points.integer(0, 3), R * points.integer(0, 1), R * 0.1);
     const auto isStepped = [&] {
-      return scene.stepper.certify(scene.set, horizon, quantum, 0, 0) == StepOutcome::stepped;
+      return scene.stepper.certify(scene.set, horizon, quantum, 0, 0, 0) == StepOutcome::stepped;
     };
     bool goesOn = isStepped();
     for (int before = 0; before < 8 && goesOn && scene.stepper.crossings() == 0; ++before) {
@@ -606,7 +606,7 @@ TEST(FlowStep, HoldsEveryTrajectoryOfWideRemaindersUnderSteepEquations) {
     const double size = points.uniform(0.05, 0.4);
     const int kind = round % 3;  // all in W, all in R, in both
     scene.fill({0, 0}, 0, kind == 0 ? 0 : size, 0, kind == 1 ? 0 : size, 0);
-    if (scene.stepper.certify(scene.set, horizon, quantum, 0, 0) != StepOutcome::stepped) continue;
+    if (scene.stepper.certify(scene.set, horizon, quantum, 0, 0, 0) != StepOutcome::stepped) continue;
     ++steps;
     scene.expectTrajectoriesInside(5);
     if (HasFatalFailure()) return;
@@ -624,7 +624,7 @@ TEST(FlowStep, UpdateHoldsTheSetAtItsEnd) {
                   std::pow(10.0, -points.integer(5, 14)), points);
       const double R = std::pow(10.0, -points.integer(2, 14)) * points.integer(0, 1);
       scene.fill(nominal, std::pow(10.0, -points.integer(1, 3)), R, points.integer(0, 3), R * points.integer(0, 1), 0);
-      if (scene.stepper.certify(scene.set, horizon, quantum, 0, 0) != StepOutcome::stepped) continue;
+      if (scene.stepper.certify(scene.set, horizon, quantum, 0, 0, 0) != StepOutcome::stepped) continue;
       ++steps;
       scene.expectUpdateInside(8);
       if (HasFatalFailure()) return;
@@ -640,7 +640,7 @@ TEST(FlowStep, UpdateHoldsASetOfGeneratorsAlone) {
       const int symbols = points.integer(0, 1), degree = symbols == 0 ? 0 : points.integer(1, 4);
       Scene scene(f, symbols, degree, points.integer(0, 1), 16, 1e-14, points);
       scene.fill(nominal, 1e-4, 0, points.integer(1, 6), 0, 0, std::pow(10.0, -points.integer(4, 8)));
-      if (scene.stepper.certify(scene.set, horizon, quantum, 0, 0) != StepOutcome::stepped) continue;
+      if (scene.stepper.certify(scene.set, horizon, quantum, 0, 0, 0) != StepOutcome::stepped) continue;
       scene.expectUpdateInside(8);
       if (HasFatalFailure()) return;
     }
@@ -658,7 +658,7 @@ TEST(FlowStep, NothingLeavesItsChordByMoreThanTheSag) {
     Scene scene(f, round % 2, round % 2, round % 2, 14, 1e-6, points);
     const bool moves = round % 4 > 1;
     scene.fill({moves ? 1.0 : 0.0, moves ? 1.0 : 0.0}, 1e-6, moves ? 0.0 : 0.1, moves ? 0 : 2, 0, 0);
-    ASSERT_EQ(scene.stepper.certify(scene.set, horizon, quantum, 0, 0), StepOutcome::stepped);
+    ASSERT_EQ(scene.stepper.certify(scene.set, horizon, quantum, 0, 0, 0), StepOutcome::stepped);
     const double h = scene.stepper.h(), length = h * std::ldexp(1.0, -points.integer(0, 5));
     std::vector<Interval> sag;
     scene.stepper.sag(h - length, h, sag);
@@ -742,7 +742,7 @@ TEST(FlowStep, HoldsEveryTrajectoryOfDampedMotionsAtEveryTime) {
       const double R = std::pow(10.0, -points.integer(3, 14)) * points.integer(0, 1);
       scene.fill(nominal, std::pow(10.0, -points.integer(3, 6)), R, points.integer(0, 3),
                  std::pow(10.0, -points.integer(4, 14)), R * 0.1);
-      if (scene.stepper.certify(scene.set, horizon, quantum, 0, 0) != StepOutcome::stepped) continue;
+      if (scene.stepper.certify(scene.set, horizon, quantum, 0, 0, 0) != StepOutcome::stepped) continue;
       ++steps;
       longSteps += scene.stepper.h() * 200 > 4.5 ? 1 : 0;  // of no comparison with |∂f/∂x|
       Reference reference(f);
@@ -777,7 +777,7 @@ TEST(FlowStep, HoldsEveryTrajectoryOfWhatTurnsAtEveryTime) {
     const double R = std::pow(10.0, -points.integer(3, 14)) * points.integer(0, 1);
     scene.fill({0.3, -0.2, 1, 2, 900, 100, 400}, std::pow(10.0, -points.integer(1, 5)), R, points.integer(0, 3),
                std::pow(10.0, -points.integer(4, 14)), R * 0.1);
-    if (scene.stepper.certify(scene.set, horizon, quantum, 0, 0) != StepOutcome::stepped) continue;
+    if (scene.stepper.certify(scene.set, horizon, quantum, 0, 0, 0) != StepOutcome::stepped) continue;
     ++steps;
     about += scene.stepper.isAboutCentre() ? 1 : 0;
     Reference reference(f);
@@ -879,7 +879,7 @@ TEST(FlowStep, RefusesAStepWhoseTubeIsNotProved) {
     for (int i = 0; i < links; ++i)
       for (int j = 0; j < links; ++j) scene.set.C[at(i * links + j)] = i == j ? 1.0 : 0.0;
     scene.set.R.back() = 1.5;
-    ASSERT_EQ(scene.stepper.certify(scene.set, 1, quantum, 0, 0), StepOutcome::stepped);
+    ASSERT_EQ(scene.stepper.certify(scene.set, 1, quantum, 0, 0, 0), StepOutcome::stepped);
     scene.expectTrajectoriesInside(8);
     if (HasFatalFailure()) return;
   }
@@ -896,7 +896,7 @@ TEST(FlowStep, UpdateHoldsGeneratorsThatTurnWithTheSymbols) {
     Scene scene(f, 2, 3, round % 4, 10, 1e-12, points, true);
     scene.fill({0.5, 0.5, 1.0}, 0.3, 1e-4, 4, 1e-6, 0);
     for (double& value : scene.set.generators) value = 1e-4 * points.uniform(-1, 1);
-    if (scene.stepper.certify(scene.set, 0x1p-2, quantum, 0, 0) != StepOutcome::stepped) continue;
+    if (scene.stepper.certify(scene.set, 0x1p-2, quantum, 0, 0, 0) != StepOutcome::stepped) continue;
     scene.expectUpdateInside(30);
     if (HasFatalFailure()) return;
   }
@@ -909,7 +909,7 @@ TEST(FlowStep, UpdateHoldsTheSetWhenOldGeneratorsMerge) {
     Scene scene(f, symbols, 3 * symbols, 2 * symbols, 10, 1e-11, points);
     scene.fill(nominal, 1e-3 * symbols, 1e-12, 0, 0, 0);
     for (int step = 0; step < 100; ++step) {
-      ASSERT_EQ(scene.stepper.certify(scene.set, 100, 0x1p-46, 0, 0), StepOutcome::stepped);
+      ASSERT_EQ(scene.stepper.certify(scene.set, 100, 0x1p-46, 0, 0, 0), StepOutcome::stepped);
       scene.expectUpdateInside(4);
       if (HasFatalFailure()) return;
     }
@@ -988,7 +988,7 @@ TEST(FlowStep, OutputsHoldThoseOfEveryMemberOfTheSet) {
       const double size = std::pow(10.0, -points.integer(1, 13));
       const int kind = round % 3;
       scene.fill(nominal, std::pow(10.0, -points.integer(2, 8)), kind == 0 ? 0 : size, kind == 1 ? 0 : 2, 0, 0, size);
-      if (scene.stepper.certify(scene.set, horizon, quantum, 0, 0) != StepOutcome::stepped) continue;
+      if (scene.stepper.certify(scene.set, horizon, quantum, 0, 0, 0) != StepOutcome::stepped) continue;
       ++steps;
       const Program g = record(f.states(), 1, 3, [](auto t, const auto& x, const auto& p, auto& y) {
         y[0] = 2.0 * x[0];
@@ -1126,7 +1126,7 @@ TEST(FlowStep, StaysWithinTheTimeLeftAndOnTheGrid) {
   Scene scene(f, 0, 0, 0, 12, 1e-15, points);
   scene.fill(nominal, 0, 0, 0, 0, 0);
   while (scene.set.t < horizon) {
-    ASSERT_EQ(scene.stepper.certify(scene.set, horizon, quantum, 0, 0), StepOutcome::stepped);
+    ASSERT_EQ(scene.stepper.certify(scene.set, horizon, quantum, 0, 0, 0), StepOutcome::stepped);
     const double before = scene.set.t;
     scene.stepper.advance(scene.set);
     EXPECT_EQ(scene.set.t - before, scene.stepper.h());
