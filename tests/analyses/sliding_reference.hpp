@@ -30,6 +30,7 @@ class SlidingReference {
   std::vector<Vector> operator()(const Vector& start, const std::vector<double>& times) {
     const auto n = static_cast<std::ptrdiff_t>(f_.states());
     p_.assign(start.begin() + n, start.end());
+    choices_ = 0;
     phases_.clear();
     Vector x(start.begin(), start.begin() + n);
     Precise t(0.0);
@@ -75,6 +76,12 @@ class SlidingReference {
 
   /// Of the first jump, at the end of the last motion.
   bool isHeld() const { return !sides_.empty() && sides_[0] == Side::held; }
+
+  /// Whether the last motion is the only one from its start: none drove away from a surface that it was at, which any
+  /// may leave to either side at any time.
+  bool isUnique() const { return choices_ == 0; }
+  /// To which side those leave that may leave to either; the one to which they are driven faster: between.
+  Side leaves = Side::between;
 
   /// How far arguments are beyond zero, or signs beyond 1, where that is an event: what makes the motion differ from
   /// the truth, besides steps, whose length is this part of what it may be.
@@ -122,7 +129,10 @@ class SlidingReference {
   }
   Side sideFrom(std::size_t k, const Precise& t, const Vector& x) {
     const Precise up = rates(t, x, k, 1)[at(k, 1)], down = rates(t, x, k, -1)[at(k, 1)];
-    return up < 0 && down > 0 ? Side::held : up + down > 0 ? Side::above : Side::below;
+    if (up < 0 && down > 0) return Side::held;
+    const bool isChoice = up > 0 && down < 0;
+    choices_ += isChoice;
+    return isChoice && leaves != Side::between ? leaves : up + down > 0 ? Side::above : Side::below;
   }
   /// Where the last orders are 1e-34 of the states.
   Precise reach(Phase& phase) const {
@@ -172,6 +182,7 @@ class SlidingReference {
   std::optional<Program> g_;
   Rest rest_;
   Vector p_;
+  int choices_ = 0;
   std::vector<Side> sides_;
   std::map<std::vector<Side>, std::unique_ptr<Phase>> phases_;
 };
