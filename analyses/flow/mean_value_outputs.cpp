@@ -1,6 +1,8 @@
 // One program an output, differentiated by all that it is of in one reverse sweep.
 #include "analyses/flow/mean_value_outputs.hpp"
 
+#include <algorithm>
+
 #include "analyses/flow/plain_outputs.hpp"
 #include "scalars/index.hpp"
 #include "scalars/program/angles.hpp"
@@ -30,31 +32,60 @@ MeanValueOutputs::MeanValueOutputs(const Program& g) {
   }
 }
 
-/// Along the straight way from the middle y has a derivative almost everywhere, the sum of those by t, x and p times
-/// how far each goes: |u| has sign u, in the interval of the signs of u, where u is not 0, and where u stays 0 none is
-/// needed. So y(q) - y(c) is in Σ ∂y/∂q_i (q_i - c_i), ∂y/∂q_i over the whole box.
 Interval MeanValueOutputs::over(int output, const Interval& t, const std::vector<Interval>& states,
                                 const std::vector<Interval>& parameters) {
   std::optional<Output>& of = outputs_[at(output)];
   if (!of) return Interval::entire();
-  std::vector<Interval> inputs{t}, middles;
+  std::vector<Interval> inputs{t};
   inputs.insert(inputs.end(), states.begin(), states.end());
   inputs.insert(inputs.end(), parameters.begin(), parameters.end());
+  std::size_t worst = 0, ofPart = 0;
+  const Interval result = over(*of, inputs, states.size(), worst);
+  if (!isCommon(result) || worst == inputs.size()) return result;
+  constexpr int parts = 8;  // what is overestimated falls with the square
+  const Interval all = inputs[worst];
+  Interval together = Interval::empty();
+  double from = all.lower();
+  for (int part = 1; part <= parts; ++part) {
+    const double to = part == parts ? all.upper() : std::clamp(from + width(all) / parts, from, all.upper());
+    inputs[worst] = Interval(from, to);
+    together = hull(together, over(*of, inputs, states.size(), ofPart));
+    from = to;
+  }
+  return intersection(result, together);
+}
+
+/// Along the straight way from the middle y has a derivative almost everywhere, the sum of those by t, x and p times
+/// how far each goes: |u| has sign u, in the interval of the signs of u, where u is not 0, and where u stays 0 none is
+/// needed. So y(q) - y(c) is in Σ ∂y/∂q_i (q_i - c_i), ∂y/∂q_i over the whole box.
+Interval MeanValueOutputs::over(Output& of, const std::vector<Interval>& inputs, std::size_t states,
+                                std::size_t& worst) {
+  const auto firstParameter = 1 + static_cast<std::ptrdiff_t>(states);
+  std::vector<Interval> middles;
+  worst = inputs.size();
   for (const Interval& input : inputs) {
     if (!isCommon(input)) return Interval::entire();
     middles.emplace_back(midpoint(input));
   }
-  of->all.setParameters(parameters);
-  const std::vector<Interval> found = of->all(t, states);
+  const auto part = [&](const std::vector<Interval>& from, std::ptrdiff_t begin, std::ptrdiff_t end) {
+    return std::vector<Interval>(from.begin() + begin, from.begin() + end);
+  };
+  of.all.setParameters(part(inputs, firstParameter, std::ssize(inputs)));
+  const std::vector<Interval> found = of.all(inputs[0], part(inputs, 1, firstParameter));
   for (std::size_t i = inputs.size(); i < found.size(); ++i)
     if (!(found[i].lower() >= 0)) return Interval::entire();
-  const auto firstParameter = middles.begin() + 1 + static_cast<std::ptrdiff_t>(states.size());
-  of->value.setParameters(std::vector<Interval>(firstParameter, middles.end()));
-  Interval result = of->value(middles[0], std::vector<Interval>(middles.begin() + 1, firstParameter))[0];
+  of.value.setParameters(part(middles, firstParameter, std::ssize(middles)));
+  Interval result = of.value(middles[0], part(middles, 1, firstParameter))[0];
+  double most = 0;
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     if (isThin(inputs[i]) || isEqual(found[i], Interval(0.0))) continue;
     if (!isCommon(found[i])) return Interval::entire();
-    result += found[i] * (inputs[i] - middles[i]);
+    const Interval by = found[i] * (inputs[i] - middles[i]);
+    result += by;
+    if (width(by) > most) {
+      most = width(by);
+      worst = i;
+    }
   }
   return isCommon(result) ? result : Interval::entire();
 }

@@ -22,6 +22,17 @@ TEST(MeanValueOutputs, KnowWhatStandsTwice) {
   EXPECT_LT(width(found), 0.5);  // 2.5 with intervals
 }
 
+/// p s, s = (a + b)/(a - b) what holds between rates a = 1/4 + p and b = 1/4 - p: 1/4.
+TEST(MeanValueOutputs, KnowWhatHoldsAsOftenAsItStands) {
+  const Program g = record(1, 1, 1, [](auto, const auto&, const auto& p, auto& y) {
+    const auto a = 0.25 + p[0], b = 0.25 - p[0];
+    y[0] = p[0] * ((a + b) / (a - b));
+  });
+  const Interval found = over(g, Interval(0), {Interval(0)}, {Interval(0.9375, 1.0625)});
+  EXPECT_TRUE(contains(found, 0.25)) << toString(found);
+  EXPECT_LT(width(found), 1e-3);  // 0.01 in one part
+}
+
 TEST(MeanValueOutputs, HoldValuesAcrossKinks) {
   const Program g = record(1, 1, 1, [](auto, const auto& x, const auto& p, auto& y) {
     y[0] = abs(x[0] - p[0]) + exp(-x[0]) * max(x[0], 0.25 * p[0]);
