@@ -93,7 +93,7 @@ FlowJourney FlowFollower::follow(FlowPiece& piece, double end, double allowed) {
     if (!record(piece)) return FlowJourney::ended;
     tool_->stepper.advance(piece.set);
     ++collected_.steps;
-    collected_.slidesWide = collected_.slidesWide || tool_->stepper.slideLoss() > task_.aim();
+    collected_.slideLoss = std::max(collected_.slideLoss, tool_->stepper.slideLoss());
     piece.timeError += tool_->stepper.timeError();
     piece.truncation += tool_->stepper.truncation();
     for (std::size_t i = 0; symbols_ > 1 && i < piece.set.R.size(); ++i)

@@ -58,7 +58,7 @@ struct FlowCollected {
   std::vector<std::vector<FlowChord>> chords;
   std::vector<Influence> influence;  // of every symbol
   bool metThreshold = false;         // a degree or bisection was wanted
-  bool slidesWide = false;           // what came to be held at jumps lost more than the aim of what follows it
+  double slideLoss = 0;              // FlowStepper's, the greatest
   long steps = 0;
   double cpu = 0, cutCpu = 0;
   FlowCollected(std::size_t times, std::size_t levels)

@@ -294,7 +294,6 @@ Tube refine(const FlowQuestion& question, const Box& box, const std::vector<Box>
     round.isLast = round.isLast || count == mostCheapRounds || (count >= mostRounds && !isCheap);
     round.emphasis = weighing.emphasis();
     round.scales = weighing.scales();
-    round.before = count - 1;
     const FlowTask task(question, box, levels, round);
     FlowRun run(task);
     Tube tube = run.run();
@@ -324,10 +323,13 @@ Tube refine(const FlowQuestion& question, const Box& box, const std::vector<Box>
     if (round.isLast || (reached == question.horizon && own <= question.options.enough)) break;
     isAlike = !isMisjudged;
     tightened = factor;
-    if (isMisjudged) continue;  // with other weights
     // Of what has lost its ξ to jumps all that is left over counts, which smaller thresholds do not make less: first
     // what slides is bisected.
-    if (factor > 1 && count == 1 && run.slidesWide() && reached == question.horizon && task.bisectsForWidth()) {
+    const double share = round.slideShare < FlowRound::infinite ? round.slideShare / 4 : task.aim();
+    const bool isOfSlides = factor > 1 && run.slideLoss() > share && task.bisectsForWidth();
+    if (isOfSlides) round.slideShare = share;
+    if (isMisjudged) continue;  // with other weights
+    if (isOfSlides && reached == question.horizon) {
       isAlike = false;
       continue;
     }

@@ -378,7 +378,7 @@ Tube FlowRun::gather() {
   for (const Traveller& traveller : all_) count(traveller.piece);
   for (const FlowCollected& part : collected_) {
     metThreshold_ = metThreshold_ || part.metThreshold;
-    slidesWide_ = slidesWide_ || part.slidesWide;
+    slideLoss_ = std::max(slideLoss_, part.slideLoss);
   }
   timeShare_ = timeError_ > 0 ? timeError_ / (timeError_ + truncation_) : 0;
   for (const FlowCollected& part : collected_)

@@ -36,8 +36,8 @@ class FlowRun {
   int degree() const { return degree_; }
   int outputDegree() const { return outputDegree_; }  // likewise, of the outputs'
   bool isAbandoned() const { return isAbandoned_; }
-  /// Whether bisection of what comes to be held at jumps would make what follows it tighter.
-  bool slidesWide() const { return slidesWide_; }
+  /// What bisection of what comes to be held at jumps may win, as a share of a width.
+  double slideLoss() const { return slideLoss_; }
   /// Outputs are loose where states are not: what they add is truncation of their own.
   bool needsDegree() const { return needsDegree_; }
   /// The share of time, not of ξ, in what all steps left out.
@@ -127,7 +127,8 @@ class FlowRun {
   double endedAt_ = 0;  // how far that start came
   int degree_ = 0, outputDegree_ = 0;
   double looseness_ = 0, timeShare_ = 0;
-  bool metThreshold_ = false, slidesWide_ = false;
+  bool metThreshold_ = false;
+  double slideLoss_ = 0;
   double timeError_ = 0, truncation_ = 0;  // of pieces that have ended
   std::vector<Influence> influence_;
   TopGrades tops_;

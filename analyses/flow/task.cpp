@@ -65,6 +65,7 @@ FlowTask::FlowTask(const FlowQuestion& question, const Box& startBox, const std:
       jumps(question.differentiated, parametersOf(question.options.varying)),
       horizon(question.horizon),
       effective(round.emphasis.weights.empty() ? embedding.symbols : round.emphasis.effective),
+      slideShare(round.slideShare),
       isLast(round.isLast),
       mayBisect(question.options.split && round.fixedDegree == 0),
       standsStill(isZero(motion)),
@@ -120,10 +121,6 @@ FlowTask::FlowTask(const FlowQuestion& question, const Box& startBox, const std:
   const double first = options.splitDefect > 0 ? options.splitDefect : firstDefect[count];
   splitDefect = bisectsForWidth() ? first * embedding.widest / round.tighter : std::numeric_limits<double>::infinity();
   if (bisectsForWidth()) kinkShare = 0.3 * aim() / std::sqrt(round.tighter);  // of a step; a crossing takes a few
-  // Of all of a slide. First a whole result is wanted, then the sixteenth part of the box that the aim takes, then
-  // less.
-  slideShare = round.before > 0 && bisectsForWidth() ? aim() / std::pow(4.0, round.before - 1)
-                                                     : std::numeric_limits<double>::infinity();
   constexpr double besideInputs = 1e-10;
   const double enough = 5e-5 * aim() * embedding.widest / round.finer;  // some hundred steps add as much of the width
   const bool isFine = embedding.symbols == 0 && varying.empty() && FineRecursion::isPossible(differentiated.nodes());
