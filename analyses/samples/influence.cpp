@@ -33,10 +33,12 @@ void InfluenceMeasures::include(const SampleBlock& block) {
   }
 }
 
-/// Half of a cut's corners have either end: η (b - a) = 2/corners Σ ± y.
+/// Half of a cut's corners have either end: η (b - a) = 2/corners Σ ± y. A quantity of a membership with a core has
+/// width at the highest level too, one with an apex has not: sums over the levels would favour the former, means do
+/// not.
 std::vector<double> InfluenceMeasures::shares(std::size_t at, std::size_t output) const {
   const std::size_t quantities = sampling_.quantities(), levels = sampling_.boxes().size();
-  std::vector<double> influence(quantities, 0.0);
+  std::vector<double> influence(quantities, 0.0), weights(quantities, 0.0);
   for (std::size_t level = 0; level < levels; ++level)
     for (std::size_t q = 0; q < quantities; ++q) {
       const Interval& cut = sampling_.boxes()[level][q];
@@ -44,7 +46,10 @@ std::vector<double> InfluenceMeasures::shares(std::size_t at, std::size_t output
       const double sum = sums_[((level * rows_.size() + at) * outputs_ + output) * quantities + q];
       const double mean = 2 * sum * static_cast<double>(levels) / static_cast<double>(sampling_.boxCorners());
       influence[q] += alpha_[level] * std::fabs(mean * (cut.lower() + cut.upper()) / width(cut));
+      weights[q] += alpha_[level];
     }
+  for (std::size_t q = 0; q < quantities; ++q)
+    if (weights[q] > 0) influence[q] /= weights[q];
   const double all = std::accumulate(influence.begin(), influence.end(), 0.0);
   for (double& each : influence) each = all > 0 ? each / all : std::numeric_limits<double>::quiet_NaN();
   return influence;

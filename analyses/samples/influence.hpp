@@ -21,8 +21,8 @@ class InfluenceMeasures {
 
   /// [quantity], of the output at row number `at`: its share of Σ κ, κ the mean over the levels, weighted by α, of
   /// |η (a + b)|, where the cut is [a, b] and η how much the output rises with the quantity on average over the cut's
-  /// corners. That is the effect of deviations by equal shares of the values, so it is 0 of what is 0. NaN where no
-  /// quantity has any.
+  /// corners; levels at which the cut is a point count in no mean. That is the effect of deviations by equal shares of
+  /// the values, so it is 0 of what is 0. NaN where no quantity has any.
   std::vector<double> shares(std::size_t at, std::size_t output) const;
 
  private:

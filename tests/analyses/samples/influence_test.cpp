@@ -8,14 +8,15 @@
 namespace gamut {
 namespace {
 
-/// Of y = f(values) at one time, from cuts [c - (1-α) r, c + (1-α) r] at two levels.
+/// Of y = f(values) at one time, from cuts [c - s, c + s], s falling from r at level 0 to r times the core at level 1.
 template <class F>
-std::vector<double> sharesOf(const std::vector<double>& centre, const std::vector<double>& radius, const F& f) {
-  const std::vector<double> alpha{0.25, 0.5};
-  std::vector<Box> boxes(2);
-  for (std::size_t level = 0; level < 2; ++level)
+std::vector<double> sharesOf(const std::vector<double>& centre, const std::vector<double>& radius, const F& f,
+                             const std::vector<double>& core = {}) {
+  const std::vector<double> alpha{0.25, 0.5, 1};
+  std::vector<Box> boxes(alpha.size());
+  for (std::size_t level = 0; level < alpha.size(); ++level)
     for (std::size_t q = 0; q < centre.size(); ++q) {
-      const double reach = (1 - alpha[level]) * radius[q];
+      const double least = core.empty() ? 0 : core[q], reach = (least + (1 - alpha[level]) * (1 - least)) * radius[q];
       boxes[level].push_back(Interval(centre[q] - reach, centre[q] + reach));
     }
   Sampling sampling(Plan::random, centre.size(), 4, 1, boxes);
@@ -45,6 +46,11 @@ TEST(Influence, OfASumIsItsGainTimesTheValue) {
 TEST(Influence, OfAProductIsTheGainAtTheMiddle) {
   const auto shares = sharesOf({2, 5}, {0.5, 2}, [](const auto& v) { return v[0] * v[1]; });
   EXPECT_NEAR(shares[0], 0.5, 1e-12);  // 5 * 2 against 2 * 5
+}
+
+TEST(Influence, OfAQuantityWithACoreIsThatOfOneWithAnApex) {  // which has no width at the highest level
+  const auto shares = sharesOf({2, 5}, {0.5, 2}, [](const auto& v) { return v[0] * v[1]; }, {0, 0.5});
+  EXPECT_NEAR(shares[0], 0.5, 1e-12);
 }
 
 TEST(Influence, OfWhatIsZeroIsNone) {
