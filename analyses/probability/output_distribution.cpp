@@ -73,7 +73,8 @@ class Distributor {
     // Of an even density at first, then of the one that was found: the bounds of the output may be so far apart.
     const std::size_t mostCells = masses_.isPlain() ? options_.mostCells : options_.mostCells / 4;
     double allowed = 2 * options_.gap * (upper_ - lower_), before = unlimited, stepBefore = 0, workBefore = 0;
-    for (int round = 0; round < 4; ++round) {
+    constexpr int mostRounds = 8;  // each of a quarter of the step before: of a density without limit gaps fall by half
+    for (int round = 0; round < mostRounds; ++round) {
       // Where terms in several symbols, or radii, are not less, small steps are of no use.
       const double apart = refine(0.5 * allowed, round == 0 ? mostCells / 4 : mostCells);
       allowed = std::max(allowed, 0.5 * apart);

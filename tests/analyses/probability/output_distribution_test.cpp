@@ -63,6 +63,18 @@ TEST(OutputDistribution, IsThatOfClosedForms) {
   });
 }
 
+/// Whatever gap is asked for: at the folds of what goes to and fro, as a swing does, the density is infinite.
+TEST(OutputDistribution, IsAsCloseAsAskedForWhereDensitiesAreInfinite) {
+  for (const double gap : {0.1, 0.05, 0.02, 0.01, 0.005})
+    for (const double shift : {0.0, 0.3, 0.9}) {
+      DistributionOptions options;
+      options.gap = gap;
+      const auto bounds =
+          boundsOf({{uniform(-1, 1)}, [&](const auto& x, auto& y) { y[0] = sqr(x[0] - shift); }}, 0, options);
+      EXPECT_LE(bounds.gap, gap) << shift;
+    }
+}
+
 TEST(OutputDistribution, IsOfManyQuantitiesAlike) {
   std::vector<Uncertain> ten(10, uniform(0, 1));
   const auto bounds = boundsOf({ten, [](const auto& x, auto& y) {
