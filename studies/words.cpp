@@ -145,6 +145,11 @@ int digitsFor(double magnitude, double width, int resolved) {
 
 std::string withErrorText(double x, double error) {
   const auto place = [](double y) { return static_cast<int>(std::floor(std::log10(std::abs(y)))); };
+  constexpr int legible = 7;  // decimals
+  constexpr double most = 1e7;
+  if (const int decimals = error > 0 && std::isfinite(error) ? 1 - place(error) : -1;
+      decimals >= 0 && decimals <= legible && std::abs(x) < most)
+    return fmt::format("{:.{}f} ± {:.{}f}", x, decimals, error, decimals);
   const bool isOrdered = x != 0 && error > 0;
   return fmt::format("{} ± {}", numberText(x, isOrdered ? std::clamp(place(x) - place(error) + 2, 1, 17) : 4),
                      numberText(error, 2));

@@ -52,7 +52,7 @@ std::string intervalText(double lower, double upper, int digits);
 /// The significant digits with which numbers of this magnitude show a width to `resolved` digits; from 4 to 17.
 int digitsFor(double magnitude, double width, int resolved);
 
-/// "-55.6164 ± 0.0017": both to the second digit of the error, where that is above 0.
+/// "-55.6164 ± 0.0017", "0.3130 ± 0.0042": both to the second digit of the error, where that is above 0.
 std::string withErrorText(double x, double error);
 
 /// "1 sample", "4096 samples".

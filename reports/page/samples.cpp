@@ -23,7 +23,7 @@ namespace {
 
 /// Rows of results up to which the samples came: about so many, equally far from each other, the last among them.
 std::vector<std::size_t> drawnRows(const StochasticResult& s, std::size_t output) {
-  constexpr std::size_t most = 41;
+  constexpr std::size_t most = 121;
   std::size_t known = 0;
   for (std::size_t i = 0; i < s.mean.times; ++i)
     if (std::isfinite(s.mean(i, output))) known = i + 1;
@@ -194,8 +194,10 @@ std::string statisticsTable(const Results& results, std::size_t rows) {
       const double lower = hasIntervals(s) ? s.quantileLower[q](row, o) : std::nan(""),
                    upper = hasIntervals(s) ? s.quantileUpper[q](row, o) : std::nan("");
       const auto [from, to] = boundsText(lower, upper, size, 2);
-      cells.push_back(std::isnan(lower) || std::isnan(upper) || isOneValue ? with(s.quantiles[q](row, o), Table())
-                                                                           : fmt::format("[{}, {}]", from, to));
+      const std::string value = with(s.quantiles[q](row, o), Table());
+      cells.push_back(isOneValue                               ? value
+                      : std::isnan(lower) || std::isnan(upper) ? "about " + value
+                                                               : fmt::format("[{}, {}]", from, to));
     }
     table.row(headingOf(results.outputs[o].name, results.outputs[o].unit), cells);
   }

@@ -106,9 +106,9 @@ Answered indices(const Results& results, std::size_t output, bool isTotal) {
   Answered answer{.kind = isTotal ? "total" : "first",
                   .head = isTotal ? "total Sobol\u2019 index" : "first-order Sobol\u2019 index",
                   .axis = "share of the variance",
-                  .what = isTotal ? "total Sobol' indices" : "first-order Sobol' indices",
+                  .what = isTotal ? "total Sobol\u2019 indices" : "first-order Sobol\u2019 indices",
                   .time = s.time,
-                  .bounds = isTotal ? "total Sobol' index" : "first-order Sobol' index",
+                  .bounds = isTotal ? "total Sobol\u2019 index" : "first-order Sobol\u2019 index",
                   .number = "estimate"};
   std::vector<Cause> causes;
   for (std::size_t q = 0; s.present && q < results.uncertain.size(); ++q) {
@@ -302,9 +302,10 @@ std::string figureOf(const Results& results, std::size_t output, const Answered&
   for (const Layer& layer : plot.layers)
     if (std::ranges::find(key, layer.name, &Layer::name) == key.end()) key.push_back(layer);
   const std::string label = fmt::format("Plot of {} of {} over time", answer.what, plot.name);
-  return fmt::format("<figure class=\"kept {}\">{}<figcaption>{} over time{}</figcaption>{}</figure>\n", answer.kind,
-                     answer.isShare ? drawShares(plot, label) : drawSmall(plot, label), answer.what,
-                     escapeHtml(leaders), numbersOf(results, output, answer));
+  return fmt::format(
+      "<figure class=\"kept {}\">{}<figcaption>{} at {} times, joined by lines{}</figcaption>{}</figure>\n",
+      answer.kind, answer.isShare ? drawShares(plot, label) : drawSmall(plot, label), answer.what, answer.time.size(),
+      escapeHtml(leaders), numbersOf(results, output, answer));
 }
 
 // ---- The table ------------------------------------------------------------------------------------------------------
@@ -320,18 +321,24 @@ std::size_t nearestRow(const Answered& answer, double instant) {
   return nearest;
 }
 
-/// "0.694 to 0.695 (0.70 ± 0.02)": what is proved, and what is estimated; no digits of hardly any share.
+/// "0.6942 to 0.6951 (0.701 ± 0.018)": what is proved, and what is estimated; no digits of hardly any share.
 std::string cellOf(const Cause& cause, std::size_t i, bool isShare) {
   constexpr int digits = 3;
   if (i < cause.number.size())
-    return isShare && isLittle(cause.number[i], 1) ? "0" : numberText(cause.number[i], digits);
+    return !isShare                       ? numberText(cause.number[i], digits)
+           : isLittle(cause.number[i], 1) ? "0"
+                                          : fmt::format("{:.{}f}", cause.number[i], digits);
   std::string text, estimate;
   if (i < cause.proved.lower.size() && std::isfinite(cause.proved.lower[i])) {
-    const auto [from, to] = outwardText(cause.proved.lower[i], cause.proved.upper[i], digits);
-    text = isShare && isLittle(cause.proved.upper[i], 1) ? "less than 1e-09" : from + " to " + to;
+    constexpr double finest = 1e-3;  // width of a share
+    const auto [from, to] = isShare ? boundsText(cause.proved.lower[i], cause.proved.upper[i], 1, 2, finest)
+                                    : outwardText(cause.proved.lower[i], cause.proved.upper[i], digits);
+    text = isShare && isLittle(cause.proved.upper[i], 1)    ? "less than 1e-09"
+           : cause.proved.lower[i] == cause.proved.upper[i] ? numberText(cause.proved.lower[i], digits)
+                                                            : from + " to " + to;
   }
   if (i < cause.estimate.size() && std::isfinite(cause.estimate[i]))
-    estimate = fmt::format("{} ± {}", numberText(cause.estimate[i], 2), numberText(cause.error[i], 1));
+    estimate = withErrorText(cause.estimate[i], cause.error[i]);
   return estimate.empty() ? text : text.empty() ? "about " + estimate : fmt::format("{} ({})", text, estimate);
 }
 
@@ -435,7 +442,7 @@ std::string hintsOf(const std::vector<std::string>& kinds, const Results& result
 
 PlotSection sensitivityPlots(const Results& results, const Detail& detail) {
   PlotSection section;
-  constexpr std::size_t shownTimes = 1001, foldedTimes = 25;
+  constexpr std::size_t shownTimes = 1001, foldedTimes = 65;
   StyleSheet style;
   std::vector<Layer> key;
   std::vector<std::string> kinds;

@@ -114,11 +114,15 @@ TEST(TimesAsWide, HaveNoDigitsOfRounding) {
 TEST(WithError, HasTheDigitsThatTheErrorLeaves) {
   EXPECT_EQ(withErrorText(-55.61637, 0.0017), "-55.6164 ± 0.0017");
   EXPECT_EQ(withErrorText(0.000105669, 9e-8), "0.000105669 ± 9e-08");
-  EXPECT_EQ(withErrorText(9.9, 0.1), "9.9 ± 0.1");
+  EXPECT_EQ(withErrorText(9.9, 0.1), "9.90 ± 0.10");
   EXPECT_EQ(withErrorText(0.0003123, 0.0017), "0.0003 ± 0.0017");
-  EXPECT_EQ(withErrorText(1e-9, 1), "1e-09 ± 1");
-  EXPECT_EQ(withErrorText(0, 0.5), "0 ± 0.5");
+  EXPECT_EQ(withErrorText(1e-9, 1), "0.0 ± 1.0");
+  EXPECT_EQ(withErrorText(0, 0.5), "0.00 ± 0.50");
   EXPECT_EQ(withErrorText(2.5, 0), "2.5 ± 0");
+  EXPECT_EQ(withErrorText(0.313, 0.0042), "0.3130 ± 0.0042");
+  EXPECT_EQ(withErrorText(0.7043363, 2.5e-6), "0.7043363 ± 0.0000025");
+  EXPECT_EQ(withErrorText(3206.552, 41), "3207 ± 41");
+  EXPECT_EQ(withErrorText(3206.552, 410), "3210 ± 410");
 }
 
 TEST(ReachedTime, IsNeverLaterThanTheNumber) {
