@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <string_view>
 
@@ -220,17 +221,35 @@ class Drawing {
           i, visibility(part), at.x, at.y, hasPin ? 2 : 6, titleOf(part));
   }
 
+  /// The heaviest first; a name that would lie over one before it is not seen, but said of its mass.
   void drawNames() {
     if (numberOf("mass") > mostNames) return;
+    std::vector<std::size_t> order;
+    for (std::size_t i = 0; i < m_.parts.size(); ++i)
+      if (m_.parts[i].kind == "mass") order.push_back(i);
+    std::ranges::stable_sort(order, std::greater<>(), [&](std::size_t i) { return m_.parts[i].mass; });
     std::vector<std::size_t> named;
-    for (std::size_t i = 0; i < m_.parts.size(); ++i) {
+    std::vector<Sight> shown;  // left ends of baselines
+    std::vector<double> widths;
+    for (const std::size_t i : order) {
       const PartInfo& part = m_.parts[i];
-      if (part.kind != "mass") continue;
-      const auto before = std::ranges::count(named, part.to);
+      const auto before = static_cast<double>(std::ranges::count(named, part.to));
       named.push_back(part.to);
-      const Sight at = seen(part.to);
+      constexpr double letter = 6.8, size = 12, lead = 1.1;
+      const Sight at = seen(part.to), text{at.x + 15, at.y - 9};
+      const Sight base{text.x, text.y - lead * before * size};
+      const double wide = letter * static_cast<double>(part.name.size());
+      bool isOver = false;
+      for (std::size_t k = 0; k < shown.size(); ++k)
+        isOver = isOver || (base.x < shown[k].x + widths[k] && shown[k].x < base.x + wide &&
+                            std::abs(base.y - shown[k].y) < size);
+      const std::string hidden = visibility(part);
+      if (!isOver && hidden.empty()) {
+        shown.push_back(base);
+        widths.push_back(wide);
+      }
       add(svg_, "<text class=\"name\" data-part=\"{}\"{} x=\"{:.1f}\" y=\"{:.1f}\" dy=\"{:.1f}em\">{}</text>\n", i,
-          visibility(part), at.x + 15, at.y - 9, 0 - 1.1 * static_cast<double>(before), escapeHtml(part.name));
+          isOver ? " visibility=\"hidden\"" : hidden, text.x, text.y, 0 - lead * before, escapeHtml(part.name));
     }
   }
 

@@ -52,9 +52,9 @@ std::string machineSection(const Report& report) {
         "results hold its places.</p>\n",
         countText(static_cast<long long>(machine.points.size()), "point"));
   const View view = viewOf(machine);
-  const std::string label = fmt::format("The machine at the start: {} and {} in between",
-                                        countText(static_cast<long long>(machine.points.size()), "point"),
-                                        countText(static_cast<long long>(machine.parts.size()), "part"));
+  const std::string label =
+      fmt::format("The machine at the start: {}, {}", countText(static_cast<long long>(machine.points.size()), "point"),
+                  countText(static_cast<long long>(machine.parts.size()), "part"));
   return "<div class=\"picture\">\n" + keysOf(report.results) + "<figure>" + drawMachine(machine, view, label) +
          "<figcaption>" + escapeHtml(caption(machine, view)) + "</figcaption></figure>\n</div>\n" +
          fmt::format("<script type=\"application/json\" id=\"machine\">{}</script>\n", machineData(machine, view));

@@ -84,6 +84,7 @@
   const drawMotion = () => {
     const nominal = m.fixed.map((_, k) => at(m.nominal, row, k)), sights = nominal.map(p => p && seen(p));
     const show = (element, isThere) => element.setAttribute("visibility", isThere ? "visible" : "hidden");
+    const names = [];  // where those are that are seen: others would lie over them
     each("[data-part]", element => {
       const [, from, to] = m.parts[Number(element.dataset.part)], a = sights[from], b = sights[to];
       show(element, a && b);
@@ -96,6 +97,10 @@
         element.style.textAnchor = isTight ? "end" : "start";
         element.setAttribute("x", text(b[0] + (isTight ? -15 : 15)));
         element.setAttribute("y", text(b[1] - 9));
+        const its = element.getBBox(), isApart = other => its.x + its.width <= other.x || other.x + other.width <= its.x ||
+          its.y + its.height <= other.y + 1 || other.y + other.height <= its.y + 1;
+        if (names.every(isApart)) names.push(its);
+        else show(element, false);
       } else {
         element.setAttribute("d", element.classList.contains("spring") ? zigzag(a, b) : line(a, b));
       }

@@ -231,6 +231,40 @@ TEST_F(Browser, MovesTheMachineThroughTime) {
         << element;
 }
 
+TEST_F(Browser, ShowsNoNameOverAnother) {
+  Results results = example::machine();
+  MachineResult& m = results.machine;
+  const auto mass = std::ranges::find(m.parts, "mass", &PartInfo::kind);
+  PartInfo other = *mass;
+  other.name = "beside it";
+  other.mass = mass->mass / 2;
+  const auto first = static_cast<std::size_t>(mass - m.parts.begin());
+  m.points.push_back(m.points[mass->to]);  // a hair's breadth away at all times
+  Places& p = m.places;
+  const std::size_t points = m.points.size();
+  for (std::vector<double>* all : {&p.nominal, &p.samples, &p.lower, &p.upper, &p.sag}) {
+    std::vector<double> wider;
+    for (std::size_t row = 0; row < all->size() / (3 * (points - 1)); ++row) {
+      const auto begin = all->begin() + static_cast<std::ptrdiff_t>(row * 3 * (points - 1));
+      wider.insert(wider.end(), begin, begin + static_cast<std::ptrdiff_t>(3 * (points - 1)));
+      wider.insert(wider.end(), begin + static_cast<std::ptrdiff_t>(3 * mass->to),
+                   begin + static_cast<std::ptrdiff_t>(3 * mass->to + 3));
+    }
+    *all = std::move(wider);
+  }
+  other.from = other.to = points - 1;
+  m.parts.push_back(other);
+  const std::string shown = opened(results);
+  EXPECT_THAT(rootOf(shown), Not(HasSubstr("data-error")));
+  const auto seen = [&](std::size_t part) {
+    const std::string element = fmt::format("class=\"name\" data-part=\"{}\"", part);
+    const auto at = shown.find(element);
+    return shown.substr(at, shown.find('>', at) - at).find("visibility=\"hidden\"") == std::string::npos;
+  };
+  EXPECT_TRUE(seen(first));
+  EXPECT_FALSE(seen(m.parts.size() - 1));
+}
+
 TEST_F(Browser, TurnsTheMachine) {
   const std::string turned = opened(example::machine(true), "document.querySelectorAll('.views button')[3].click();");
   EXPECT_THAT(rootOf(turned), Not(HasSubstr("data-error")));

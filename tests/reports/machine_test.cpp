@@ -16,6 +16,7 @@ namespace {
 
 using nlohmann::json;
 using ::testing::AllOf;
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -48,6 +49,19 @@ TEST(MachinePicture, HasAnElementForEachPart) {
   EXPECT_EQ(count(svg, "class=\"swept\""), 1u);
   EXPECT_EQ(count(svg, "class=\"now\""), 1u);
   EXPECT_THAT(svg, AllOf(HasSubstr(">heavy</text>"), HasSubstr("light (mass, 0.5 kg)"), HasSubstr("500 mm</text>")));
+}
+
+/// Many bodies in a wrist: the name of the heaviest is seen, and none lies over it.
+TEST(MachinePicture, ShowsNoNameOverAnother) {
+  MachineResult m = moving({{0, 0, 0}, {0, 1, 0}});
+  m.points.resize(3, m.points.front());
+  m.parts.push_back({"heavier", "mass", "mass", 1, 1, 0, 0, 5});
+  m.parts.push_back({"elsewhere", "mass", "mass", 2, 2, 0, 0, 2});
+  m.places.nominal = {0, 0, 0, 0, 0.001, 0, 0, 2, 2, 0, 1, 0, 0, 1.001, 0, 0, 3, 2};
+  const std::string svg = drawn(m);
+  EXPECT_THAT(svg, ContainsRegex("class=\"name\" data-part=\"1\" x"));
+  EXPECT_THAT(svg, ContainsRegex("class=\"name\" data-part=\"2\" x"));
+  EXPECT_THAT(svg, ContainsRegex("class=\"name\" data-part=\"0\" visibility=\"hidden\" x"));
 }
 
 TEST(MachinePicture, StandsOnThePageBeforeAnyScript) {
