@@ -10,6 +10,7 @@
 
 #include "scalars/interval.hpp"
 #include "studies/results/extremes.hpp"
+#include "studies/results/instants.hpp"
 #include "studies/results/verdict.hpp"
 #include "studies/text_table.hpp"
 #include "studies/told.hpp"
@@ -385,6 +386,27 @@ std::string cpuText(double seconds) {
   return seconds < hardlyAny ? "less than 0.01 s" : fmt::format("{:.2f} s", seconds);
 }
 
+/// " (tip y at 0.5 s; half of them within 0.009)": where bounds of probabilities are farthest apart, and how far
+/// others.
+std::string widestGapText(const Results& results) {
+  const DistributionResult& d = results.distribution;
+  const std::size_t outputs = results.outputs.size();
+  std::vector<double> gaps;
+  std::size_t widest = 0;
+  double greatest = 0;
+  for (std::size_t i = 0; i < d.gaps.size(); ++i) {
+    if (isMargin(results, i % outputs) || std::isnan(d.gaps[i])) continue;
+    gaps.push_back(d.gaps[i]);
+    if (d.gaps[i] > greatest) widest = i, greatest = d.gaps[i];
+  }
+  if (gaps.size() < 2) return {};
+  const auto middle = gaps.begin() + static_cast<std::ptrdiff_t>((gaps.size() - 1) / 2);
+  std::ranges::nth_element(gaps, middle);
+  return fmt::format(" ({}{}; half of them within {})", results.outputs[widest % outputs].name,
+                     results.horizon > 0 ? " at " + timeText(d.time[widest / outputs]) : std::string(),
+                     atMostText(*middle, 2));
+}
+
 /// What was spent in all, and of how much.
 std::string spentText(const Results& results) {
   if (!std::isfinite(results.limits.time)) return {};
@@ -489,9 +511,10 @@ std::string textSummary(const Results& results) {
        results.interval.at.empty() && !results.fuzzy.outer.empty() ? "widest alpha-cut" : "enclosure", "envelope",
        "overestimation (max)"}};
   for (std::size_t j = 0; j < results.outputs.size(); ++j) {
+    const std::string name = toldName(results, j, row);
+    if (name.empty()) continue;
     const bool known = j < results.comparison.maximumOf.size() && std::isfinite(results.comparison.maximumOf[j]);
-    rows.push_back({headingOf(results.outputs[j].name, results.outputs[j].unit),
-                    shortBounds(results, provedBounds(results), row, j),
+    rows.push_back({headingOf(name, results.outputs[j].unit), shortBounds(results, provedBounds(results), row, j),
                     shortBounds(results, results.stochastic.envelope, row, j),
                     known ? timesText(results.comparison.maximumOf[j]) : "-"});
   }
@@ -520,7 +543,8 @@ std::string textSummary(const Results& results) {
     else if (known < wanted && !d.stopped.empty())
       text += fmt::format("  probabilities: not all bounded: {}\n", why);
     else if (known > 0)
-      text += fmt::format("  probabilities: bounds {} apart at most, at {}{}\n", atMostText(d.gap, 2),
+      text += fmt::format("  probabilities: bounds {} apart at most{}, at {}{}\n", atMostText(d.gap, 2),
+                          d.why.empty() ? "" : widestGapText(results),
                           countText(static_cast<long long>(d.time.size()), "time"),
                           d.why.empty() ? "" : fmt::format(" ({} is aimed at: {})", numberText(d.wanted, 3), d.why));
     spend("probabilities", d.cpu);
@@ -552,8 +576,11 @@ std::string infoText(const Results& results) {
     text += fmt::format("  uncertain: {} ({}) in {}, nominal {:.12g}, {}\n", u.name, u.quantity,
                         inUnit(rangeText(lower, upper, 12), told.unit()), told.of(u.nominal), shapesText(results, u));
   }
-  for (const OutputInfo& o : results.outputs)
-    text += fmt::format("  output: {} ({}), {}\n", o.name, o.quantity, o.unit);
+  for (std::size_t j = 0; j < results.outputs.size(); ++j) {
+    const OutputInfo& o = results.outputs[j];
+    text += fmt::format("  {}: {} ({}){}\n", isMargin(results, j) ? "margin of a requirement" : "output", o.name,
+                        o.quantity, o.unit.empty() || o.unit == "1" ? "" : ", " + o.unit);
+  }
   for (const Answer* answer : results.answers()) {
     if (!answer->present) continue;
     text += fmt::format("  {}: ", answer->title());

@@ -10,6 +10,7 @@
 #include "reports/sections/limits.hpp"
 #include "reports/words.hpp"
 #include "studies/results/extremes.hpp"
+#include "studies/results/instants.hpp"
 
 namespace gamut {
 namespace {
@@ -49,12 +50,13 @@ std::string figuresTable(const Results& results, const Verdict& verdict, std::si
   TableText table(results.horizon > 0 ? fmt::format("Outputs at {} s", numberText(results.time[time], 6)) : "Outputs",
                   heads);
   for (std::size_t k = 0; k < std::min(rows, results.outputs.size()); ++k) {
+    const std::string name = toldName(results, k, time);
+    if (name.empty()) continue;
     const double widest = widestOf(columns, time, k);
     const double size = motionSize(results, k);
     std::vector<std::string> cells;
     for (const Column& column : columns) cells.push_back(cellOf(column, time, k, widest, size));
-    const std::string& name = results.outputs[k].name;
-    table.row(headingOf(isMargin(results, k) ? "margin of " + name : name, results.outputs[k].unit), cells);
+    table.row(headingOf(name, results.outputs[k].unit), cells);
   }
   return table.html() + hintOfRows(results.outputs.size(), rows);
 }

@@ -42,6 +42,16 @@ std::optional<double> endOfProof(const Results& results) {
   return reached < results.horizon ? std::optional<double>(reached) : std::nullopt;
 }
 
+std::string toldName(const Results& results, std::size_t output, std::size_t time) {
+  const std::string& name = results.outputs[output].name;
+  for (const RequirementResult& r : results.requirements) {
+    if (output < r.margin || output >= r.margin + static_cast<std::uint64_t>(r.margins)) continue;
+    const bool demands = results.horizon == 0 || (results.time[time] >= r.from && results.time[time] <= r.until);
+    return demands ? "margin of " + name : "";
+  }
+  return name;
+}
+
 double widestTime(const Results& results, std::size_t output) {
   const Bounds* bounds = bestKnown(results);
   double time = std::nan(""), widest = -1;

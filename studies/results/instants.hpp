@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 
 #include "studies/results/results.hpp"
 
@@ -19,6 +20,10 @@ double decisiveTime(const Results& results, const RequirementResult& requirement
 /// The time at which what is proved of all cases ends before the horizon, s: of the enclosure, or else of the
 /// alpha-cuts. Nothing where neither was asked for, it comes to the horizon, or nothing moves.
 std::optional<double> endOfProof(const Results& results);
+
+/// What an output's number at an output time is called: "margin of grip" of what is the margin of a requirement; empty
+/// at a time at which that demands nothing.
+std::string toldName(const Results& results, std::size_t output, std::size_t time);
 
 /// The output time at which an output's bounds are farthest apart, s; the first of several. NaN where nothing is known.
 double widestTime(const Results& results, std::size_t output);

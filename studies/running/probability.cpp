@@ -1,5 +1,7 @@
 // Distributions and sensitivities come from the outputs' polynomials in the uncertain quantities; where their errors
 // are too great, from those of a tighter flow.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -191,12 +193,11 @@ class Probabilities {
 
   /// To that gap, each with so much work at most.
   void boundThese(std::span<const std::size_t> these, const JointMasses& masses, double gap, double work) {
-    constexpr std::size_t cells = 10240, fewest = 64, most = 4096;  // of all together
     DistributionOptions options;
     options.gap = gap;
     options.cancelled = run_.watch.stop();
     options.mostWork = work;
-    options.mostCells = std::clamp(cells / found_.size(), fewest, most);
+    options.mostCells = mostCells();
     std::atomic<std::size_t> done{0};
     const auto progress = run_.progressOf("probabilities");
     forEachIndex(run_.options.jobs, these.size(), run_.watch.stop(), [&] {
@@ -221,6 +222,12 @@ class Probabilities {
         if (progress) progress(static_cast<double>(++done) / static_cast<double>(these.size()));
       };
     });
+  }
+
+  /// Into which the box is cut for one of them.
+  std::size_t mostCells() const {
+    constexpr std::size_t cells = 10240, fewest = 64;  // of all together; of one
+    return std::clamp(cells / found_.size(), fewest, mostCells_);
   }
 
   double workLeft() const {
@@ -411,11 +418,13 @@ class Probabilities {
     if (isVague()) return "the enclosure is not tight enough";
     if (!isOne) return "more than one joint distribution is possible";
     if (!isPlain(run_.study)) return "bounds of correlated quantities are coarser";
-    return "the parts of the box that are allowed are used";
+    return fmt::format("the box is cut into {} parts at most for each{}", mostCells(),
+                       mostCells() < mostCells_ ? ", of fewer distribution.times into more" : "");
   }
 
   Run& run_;
   const std::uint64_t began_ = Work::counted();
+  static constexpr std::size_t mostCells_ = 4096;  // of few outputs at few times
   const std::vector<std::size_t> rows_;
   const std::vector<int> outputs_;
   const std::size_t count_;              // of outputs, margins among them

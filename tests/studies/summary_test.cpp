@@ -147,6 +147,25 @@ TEST(TextSummary, SaysHowCloseBoundsOfProbabilitiesAre) {
   EXPECT_THAT(textSummary(results),
               HasSubstr(" at 1 time (0.005 is aimed at: the work that limits.probabilities allows "
                         "is done)\n"));
+  d.gaps = {0.001, 0.0389};
+  results.outputs.resize(2, results.outputs.front());
+  results.outputs[1].name = "tip at its peak";
+  EXPECT_THAT(
+      textSummary(results),
+      HasSubstr("bounds 0.039 apart at most (tip at its peak at 0.01 s; half of them within 0.001), at 1 time ("));
+}
+
+/// At a time of their window margins are told as such; at any other they say nothing.
+TEST(TextSummary, TellsMarginsWhereTheirRequirementAsksForThem) {
+  Results results = sampleResults();
+  ASSERT_FALSE(results.requirements.empty());
+  RequirementResult& r = results.requirements.front();
+  const std::string name = "margin of " + results.outputs[static_cast<std::size_t>(r.margin)].name;
+  r.from = 0;
+  r.until = results.horizon;
+  EXPECT_THAT(textSummary(results), HasSubstr(name));
+  r.until = 0;
+  EXPECT_THAT(textSummary(results), Not(HasSubstr(name)));
 }
 
 TEST(TextSummary, LeadsWithTheLeastAndTheGreatestOfTheWholeMotion) {
