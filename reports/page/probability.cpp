@@ -44,10 +44,13 @@ std::string distributionsOf(const Results& results, std::size_t output) {
         drawDistribution(results, at, output,
                          fmt::format("Plot of the distribution function of {}{}", results.outputs[output].name, when)));
     const double gap = results.distribution.gaps[at * results.outputs.size() + output];
-    captions.push_back(drawings.back().empty()
-                           ? (isOneValue(results, times[at], output) ? "one value" : "nothing is known") + when
-                       : gap == 0 ? "known to some roundings" + when
-                                  : fmt::format("bounds {} apart at most{}", atMostText(gap, 2), when));
+    const bool isKnownAlone = gap == 0 && !drawings.back().empty();  // its ends, between which nothing is told
+    if (isKnownAlone) drawings.back().clear();
+    captions.push_back(drawings.back().empty() ? (isKnownAlone || isOneValue(results, times[at], output)
+                                                      ? "one value, to a billionth of the greatest,"
+                                                      : "nothing is known") +
+                                                     when
+                                               : fmt::format("bounds {} apart at most{}", atMostText(gap, 2), when));
     numbers.push_back(distributionNumbers(results, at, output));
   }
   return momentFigures("distribution", drawings, captions, numbers);

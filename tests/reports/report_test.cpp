@@ -227,6 +227,24 @@ TEST(Report, SaysInDrawingsOfWhichTimesBoundsAre) {
                                Not(HasSubstr("e-87"))));
 }
 
+/// Its two ends, the bounds of which are 0 and 1, would be drawn as a square.
+TEST(Report, DrawsNoDistributionOfWhatIsOneValueButForRoundings) {
+  Results results = example::pendulum();
+  DistributionResult& d = results.distribution;
+  d.present = true;
+  d.time = {3};
+  d.point = {0, 1, 2};
+  const double none = std::nan("");
+  d.value = {1, 1 + 1e-15, none, 0, 1, 2};
+  d.lower = d.upper = d.sampled = {0, 1, none, 0, 0.5, 1};
+  d.gaps = {0, 0.5};
+  d.excess = {0, 0};
+  const std::string page = renderReport(results);
+  EXPECT_THAT(page, HasSubstr("one value, to a billionth of the greatest, at 3 s"));
+  EXPECT_THAT(page, Not(HasSubstr("Plot of the distribution function of " + results.outputs[0].name)));
+  EXPECT_THAT(page, HasSubstr("Plot of the distribution function of " + results.outputs[1].name));
+}
+
 /// Of what nothing uncertain moves a distribution, or a spread, would show roundings.
 TEST(Report, HasNoCardsOfWhatNothingUncertainMoves) {
   Results results = example::pendulum();
