@@ -179,6 +179,16 @@ class Sentence {
                                       std::strtod(to.c_str(), nullptr) >= 1 ? "1" : to);
   }
 
+  /// Whether each value of the violation is an end of its interval, but for roundings.
+  bool isAtEnds() const {
+    for (std::size_t q = 0; q < r_.violation.size(); ++q) {
+      const UncertainInfo& of = results_.uncertain[q];
+      const double value = r_.violation[q], nearest = std::min(std::abs(value - of.lower), std::abs(of.upper - value));
+      if (!std::isnan(value) && !isLittle(nearest, of.upper - of.lower)) return false;
+    }
+    return true;
+  }
+
   std::string violation() const {
     const bool isKnown = std::ranges::any_of(r_.violation, [](double x) { return !std::isnan(x); });
     if (!isKnown) return {};
@@ -187,7 +197,7 @@ class Sentence {
     if (name.empty() && !isMissKnown && !r_.isViolatedBetween) return {};  // it would say nothing
     std::string text = r_.word == "violated" ? " For example, in " : " In ";
     text += name.empty() ? "one case that was found"
-            : name.find("corner") != std::string::npos
+            : name.find("corner") != std::string::npos || isAtEnds()
                 ? fmt::format("an extreme combination of the tolerances ({})", name)
             : name.find("point") != std::string::npos ? fmt::format("a combination within the tolerances ({})", name)
                                                       : name;

@@ -76,6 +76,12 @@ TEST(PlainRequirement, NamesTheCaseThatViolatesIt) {
   EXPECT_THAT(sentenceOf(results),
               HasSubstr("In an extreme combination of the tolerances (corner 0) it misses the limit "
                         "for an instant."));
+  results.stochastic.alphaPoints = 3;
+  requirement.violationSample = results.stochastic.centre() + 2;
+  EXPECT_THAT(sentenceOf(results), HasSubstr("In a combination within the tolerances (alpha-point 1) it misses"));
+  for (std::size_t q = 0; q < requirement.violation.size(); ++q)
+    requirement.violation[q] = results.uncertain[q].upper;  // whatever it was sampled as
+  EXPECT_THAT(sentenceOf(results), HasSubstr("In an extreme combination of the tolerances (alpha-point 1) it misses"));
 }
 
 TEST(PlainRequirement, TellsAMissInTheMarginsUnitAndInThatOfTheLimit) {
