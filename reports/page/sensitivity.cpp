@@ -324,6 +324,7 @@ std::size_t nearestRow(const Answered& answer, double instant) {
 /// "0.6942 to 0.6951 (0.701 ± 0.018)": what is proved, and what is estimated; no digits of hardly any share.
 std::string cellOf(const Cause& cause, std::size_t i, bool isShare) {
   constexpr int digits = 3;
+  constexpr double least = 1e-4;  // that is told of a share
   if (i < cause.number.size())
     return !isShare                       ? numberText(cause.number[i], digits)
            : isLittle(cause.number[i], 1) ? "0"
@@ -333,12 +334,15 @@ std::string cellOf(const Cause& cause, std::size_t i, bool isShare) {
     constexpr double finest = 1e-3;  // width of a share
     const auto [from, to] = isShare ? boundsText(cause.proved.lower[i], cause.proved.upper[i], 1, 2, finest)
                                     : outwardText(cause.proved.lower[i], cause.proved.upper[i], digits);
-    text = isShare && isLittle(cause.proved.upper[i], 1)    ? "less than 1e-09"
+    text = isShare && cause.proved.upper[i] < least         ? "less than 0.0001"
            : cause.proved.lower[i] == cause.proved.upper[i] ? numberText(cause.proved.lower[i], digits)
                                                             : from + " to " + to;
   }
   if (i < cause.estimate.size() && std::isfinite(cause.estimate[i]))
-    estimate = withErrorText(cause.estimate[i], cause.error[i]);
+    estimate = isShare && cause.error[i] < 10 * least
+                   ? fmt::format("{:.4f} ± {:.4f}", std::round(cause.estimate[i] / least) * least + 0.0,
+                                 std::ceil(cause.error[i] / least) * least)
+                   : withErrorText(cause.estimate[i], cause.error[i]);
   return estimate.empty() ? text : text.empty() ? "about " + estimate : fmt::format("{} ({})", text, estimate);
 }
 

@@ -120,9 +120,11 @@ TEST(SensitivitySection, HasNoDigitsOfHardlyAnyShare) {
   for (std::size_t i = behindStart; i < s.totalLower.size(); i += quantities) {  // of the first quantity
     s.totalLower[i] = 0;
     s.totalUpper[i] = 6.6e-30;
+    s.totalSampled[i] = -0.000013;
+    s.totalError[i] = 0.000085;
   }
   const std::string text = sensitivities(results);
-  EXPECT_THAT(text, AllOf(HasSubstr("<td>less than 1e-09 ("), Not(HasSubstr("to 6.6"))));
+  EXPECT_THAT(text, AllOf(HasSubstr("<td>less than 0.0001 (0.0000 ± 0.0001)</td>"), Not(HasSubstr("to 6.6"))));
 }
 
 /// Per degree a derivative is less than per radian; what is drawn, times half the interval, is the same.
