@@ -144,11 +144,11 @@ class Drawing {
     return point;
   }
 
-  /// Where something hangs on the inertial frame.
+  /// Where something hangs on the inertial frame; what may move any way does not.
   void drawGround() {
     std::vector<char> isHeld(m_.points.size(), 0);
     for (const PartInfo& part : m_.parts)
-      if (part.kind == "joint" || part.kind == "spring")
+      if ((part.kind == "joint" && part.turns + part.slides < 6) || part.kind == "spring")
         for (const std::uint64_t point : {part.from, part.to})
           if (m_.points[point].isGround) isHeld[footOf(point)] = 1;
     for (std::size_t k = 0; k < m_.points.size(); ++k) {

@@ -98,7 +98,7 @@
         element.setAttribute("x", text(b[0] + (isTight ? -15 : 15)));
         element.setAttribute("y", text(b[1] - 9));
         const its = element.getBBox(), isApart = other => its.x + its.width <= other.x || other.x + other.width <= its.x ||
-          its.y + its.height <= other.y + 1 || other.y + other.height <= its.y + 1;
+          Math.abs(its.y - other.y) >= 0.8 * its.height;  // of lines of text: those of one place stand above each other
         if (names.every(isApart)) names.push(its);
         else show(element, false);
       } else {

@@ -252,7 +252,10 @@ TEST_F(Browser, ShowsNoNameOverAnother) {
     }
     *all = std::move(wider);
   }
+  other.from = other.to = mass->to;
+  m.parts.push_back(other);  // at the same place: one above the other
   other.from = other.to = points - 1;
+  other.mass /= 2;
   m.parts.push_back(other);
   const std::string shown = opened(results);
   EXPECT_THAT(rootOf(shown), Not(HasSubstr("data-error")));
@@ -262,6 +265,7 @@ TEST_F(Browser, ShowsNoNameOverAnother) {
     return shown.substr(at, shown.find('>', at) - at).find("visibility=\"hidden\"") == std::string::npos;
   };
   EXPECT_TRUE(seen(first));
+  EXPECT_TRUE(seen(m.parts.size() - 2));
   EXPECT_FALSE(seen(m.parts.size() - 1));
 }
 

@@ -51,6 +51,16 @@ TEST(MachinePicture, HasAnElementForEachPart) {
   EXPECT_THAT(svg, AllOf(HasSubstr(">heavy</text>"), HasSubstr("light (mass, 0.5 kg)"), HasSubstr("500 mm</text>")));
 }
 
+TEST(MachinePicture, HoldsNothingThatIsFree) {
+  MachineResult m = moving({{0, 0, 0}});
+  m.points.insert(m.points.begin(), {"inertial", true, true});
+  m.parts = {{"flight", "free", "joint", 0, 1, 3, 3, 0}, {"weight", "mass", "mass", 1, 1, 0, 0, 1}};
+  m.places.nominal.insert(m.places.nominal.begin(), 3, 0.0);
+  EXPECT_EQ(count(drawn(m), "class=\"ground\""), 0u);
+  m.parts.front().slides = 0;  // a ball joint
+  EXPECT_EQ(count(drawn(m), "class=\"ground\""), 1u);
+}
+
 /// Many bodies in a wrist: the name of the heaviest is seen, and none lies over it.
 TEST(MachinePicture, ShowsNoNameOverAnother) {
   MachineResult m = moving({{0, 0, 0}, {0, 1, 0}});
