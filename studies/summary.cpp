@@ -431,6 +431,10 @@ std::string shapeText(const Results& results, const UncertainInfo& uncertain, co
       upper = number.value;
     } else if (number.name.ends_with(", at most") && !numbers.empty()) {
       numbers.back() += " to " + value;
+    } else if (name == "trapezoidal" && number.name == "left") {
+      numbers.push_back("core " + value);  // as the study states it
+    } else if (name == "trapezoidal" && number.name == "right" && !numbers.empty()) {
+      numbers.back() += " to " + value;
     } else if (name == "evidence") {
       if (number.name.starts_with("lower"))
         numbers.push_back("[" + value);
