@@ -118,6 +118,7 @@ gamut.plots = (() => {
     ctx.save();
     ctx.font = 11 * px + "px system-ui, sans-serif";
     ctx.textAlign = "left";
+    ctx.textBaseline = "alphabetic";  // axes leave another behind
     ctx.lineWidth = 3 * px;
     ctx.lineJoin = "round";
     ctx.strokeStyle = color("paper");

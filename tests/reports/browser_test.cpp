@@ -76,6 +76,27 @@ TEST_F(Browser, DrawsTheForemostOutputAndEveryOutput) {
   EXPECT_EQ(count(page, "class=\"output foremost plotted\""), 1u);
 }
 
+/// Above their lines, which would go through them: what draws the axes leaves another baseline behind.
+TEST_F(Browser, WritesLimitsOnTheirBaselines) {
+  Results results = example::pendulum();
+  RequirementResult& requirement = results.requirements.emplace_back();
+  requirement.name = "clearance";
+  requirement.statement = "always a > 0";
+  requirement.word = "met";
+  requirement.isAlways = true;
+  requirement.margin = 1;
+  requirement.margins = 1;
+  requirement.until = results.horizon;
+  requirement.violation.assign(results.uncertain.size(), std::numeric_limits<double>::quiet_NaN());
+  const std::string page =
+      opened(results,
+             "const seen = new Set(), write = CanvasRenderingContext2D.prototype.fillText;"
+             "CanvasRenderingContext2D.prototype.fillText = function (text, ...where) {"
+             "  if (text.startsWith('limit')) seen.add(this.textBaseline); write.call(this, text, ...where); };"
+             "document.body.style.width = '700px'; await laidOut(); note([...seen].join(' '));");
+  EXPECT_THAT(page, HasSubstr("<pre id=\"noted\">alphabetic</pre>"));
+}
+
 TEST_F(Browser, MakesASwitchOfEveryKeyAndView) {
   const std::string page = opened(example::pendulum(61, 2));
   EXPECT_EQ(count(page, "<button type=\"button\" aria-pressed="), 6u + 2u * 3u);  // layers once, three views an output
