@@ -29,8 +29,8 @@ std::vector<Field> fieldsOf(StochasticResult& r) {
         allowed::count},
        {"failures", &r.failures, unit::none, "how many of these did not arrive at the horizon", {}, allowed::count},
        {"stopped", &r.stopped, unit::none, "why not all were followed; empty if they were", {}},
-       {"relative_tolerance", &r.relativeTolerance, unit::one, "of the integration", {}},
-       {"absolute_tolerance", &r.absoluteTolerance, unit::none, "of the integration, in the unit of each state", {}},
+       {"relative_tolerance", &r.relativeTolerance, unit::one, "of the integration; 0 where nothing is integrated", {}},
+       {"absolute_tolerance", &r.absoluteTolerance, unit::none, "likewise, in the unit of each state", {}},
        {"pack_width",
         &r.packWidth,
         unit::none,
@@ -163,11 +163,14 @@ std::string StochasticResult::title() const {
 }
 
 std::string StochasticResult::amount() const {
-  return fmt::format("plan {}, {}, tolerances {} relative, {} absolute{}{}", plan,
+  const std::string tolerances = relativeTolerance > 0
+                                     ? fmt::format(", tolerances {} relative, {} absolute",
+                                                   numberText(relativeTolerance), numberText(absoluteTolerance))
+                                     : "";
+  return fmt::format("plan {}, {}{}{}{}", plan,
                      countText(corners + alphaCorners, "corner") +
                          (alphaPoints > 0 ? ", " + countText(alphaPoints, "alpha-point") : ""),
-                     numberText(relativeTolerance), numberText(absoluteTolerance),
-                     stopped.empty() ? "" : "; not all were taken: " + stopped,
+                     tolerances, stopped.empty() ? "" : "; not all were taken: " + stopped,
                      kept.present ? "; in the results: " + kept.text() : "");
 }
 

@@ -172,8 +172,10 @@ void takeFirstSamples(Run& run) {
   stochastic.present = true;
   stochastic.plan = std::string(nameOf(options.plan));
   stochastic.samples = static_cast<std::int64_t>(options.samples);
-  stochastic.relativeTolerance = options.tolerance.relative;
-  stochastic.absoluteTolerance = options.tolerance.absolute;
+  if (run.study.analysis != Study::Analysis::kinematics && !run.study.isMotionGiven()) {
+    stochastic.relativeTolerance = options.tolerance.relative;
+    stochastic.absoluteTolerance = options.tolerance.absolute;
+  }
   const bool isAllThereIs = run.former || (!run.study.asksFor<IntervalResult>() && !run.study.asksFor<FuzzyResult>());
   sampleWhileThereIsRoom(run, isAllThereIs ? Watch::Stage::rest : Watch::Stage::firstSamples, [&] {
     EnsembleRun& ensemble = run.ensemble.emplace(run.problem.motion, options);

@@ -241,6 +241,9 @@ TEST(InfoText, SpeaksOfNoTimeInKinematicsAndOfOneAsOne) {
   EXPECT_THAT(text, Not(HasSubstr("output times")));
   EXPECT_THAT(text, HasSubstr(" 1 piece,"));
   EXPECT_THAT(text, HasSubstr("nominal 0.3,"));
+  EXPECT_THAT(text, HasSubstr(", tolerances 1e-10 relative"));
+  results.stochastic.relativeTolerance = 0;  // nothing is integrated
+  EXPECT_THAT(infoText(results), Not(HasSubstr("tolerances")));
 }
 
 TEST(ContentText, ListsEveryFieldThatIsThere) {
