@@ -2,6 +2,7 @@
 #include "mechanics/equations/sparse_equations.hpp"
 
 #include <cstddef>
+#include <new>
 #include <span>
 #include <utility>
 
@@ -69,6 +70,28 @@ LinearReduction::Rows matrixOf(const Cuts& cuts, std::size_t degrees) {
   return matrix;
 }
 
+/// Throws std::bad_alloc where all that so many equations take would find no room: before any of it is taken, which
+/// lasts its time where they are many.
+void requireRoom(std::size_t equations) {
+  constexpr std::size_t most = 46340;  // whose entries an int numbers
+  constexpr std::size_t matrices = 3;  // of nodes: in the recorder, as what is known, and in the program
+  if (equations > most) throw std::bad_alloc();
+  ::operator delete(::operator new(equations* equations*(sizeof(Recorded) + matrices * sizeof(int))));
+}
+
+/// All entries of what the reduction has left, row by row.
+std::vector<Recorded> restOf(const LinearReduction::Rows& matrix, const LinearReduction& reduction) {
+  const std::size_t size = reduction.rows().size();
+  requireRoom(size);
+  std::vector<std::size_t> place(matrix.size(), size);
+  for (std::size_t k = 0; k < size; ++k) place[at(reduction.columns()[k])] = k;
+  std::vector<Recorded> rest(size * size);
+  for (std::size_t k = 0; k < size; ++k)
+    for (const auto& [j, entry] : matrix[at(reduction.rows()[k])])
+      if (place[at(j)] < size) rest[k * size + place[at(j)]] = entry;
+  return rest;
+}
+
 }  // namespace
 
 std::vector<Recorded> sparseAccelerations(System<Recorded>& system) {
@@ -79,14 +102,9 @@ std::vector<Recorded> sparseAccelerations(System<Recorded>& system) {
 
   const LinearReduction reduction(matrix);
   reduction.reduce(right);
-  std::vector<Recorded> rest, restRight, x(cuts.unknowns.size());
-  for (int i : reduction.rows()) {
-    restRight.push_back(right[at(i)]);
-    for (int j : reduction.columns()) {
-      const auto entry = matrix[at(i)].find(j);
-      rest.push_back(entry == matrix[at(i)].end() ? Recorded(0.0) : entry->second);
-    }
-  }
+  std::vector<Recorded> restRight, x(cuts.unknowns.size());
+  for (int i : reduction.rows()) restRight.push_back(right[at(i)]);
+  std::vector<Recorded> rest = restOf(matrix, reduction);
   if (!restRight.empty())
     LinearSystem<Recorded>(MatrixKind::general, static_cast<int>(restRight.size()), std::move(rest)).solve(restRight);
   for (std::size_t i = 0; i < restRight.size(); ++i) x[at(reduction.columns()[i])] = restRight[i];

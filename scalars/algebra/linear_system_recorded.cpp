@@ -18,7 +18,7 @@ LinearSystem<Recorded>::LinearSystem(MatrixKind kind, int size, std::vector<Reco
   detail::requireSquare(size, entries_.size());
   if (kind == MatrixKind::positiveDefinite)
     for (int i = 0; i < size; ++i)
-      for (int j = 0; j < i; ++j) entries_[at(j * size + i)] = entry(i, j);
+      for (int j = 0; j < i; ++j) entries_[at(j) * at(size) + at(i)] = entry(i, j);
   // Rows that an entry connects, directly or through others, are one part.
   std::vector<char> taken(at(size), 0);
   for (int first = 0; first < size; ++first) {
@@ -47,8 +47,10 @@ LinearSystem<Recorded>::Part LinearSystem<Recorded>::part(std::vector<int> rows)
     result.inverse = 1.0 / (m(0, 0) * m(1, 1) - product);
   } else {
     LinearMatrix matrix{kind_, n, {}};
+    matrix.entries.assign(at(n) * at(n), Recorded(0.0).node());
     for (int i = 0; i < n; ++i)
-      for (int j = 0; j < n; ++j) matrix.entries.push_back(m(i, j).node());
+      for (int j = 0; j < n; ++j)
+        if (!isKnownZero(m(i, j))) matrix.entries[at(i) * at(n) + at(j)] = m(i, j).node();
     result.matrix = Recorder::current()->matrix(std::move(matrix));
   }
   result.rows = std::move(rows);
