@@ -17,35 +17,6 @@
 namespace gamut {
 namespace {
 
-std::string trimmed(const std::string& text) {
-  const auto first = text.find_first_not_of(" \t\n"), last = text.find_last_not_of(" \t\n");
-  return first == std::string::npos ? "" : text.substr(first, last - first + 1);
-}
-
-/// What is compared, in turn, and the first sign between: '<' or '>'.
-struct Comparison {
-  std::vector<std::string> sides;
-  char sign = 0;
-};
-
-Comparison comparisonIn(const std::string& text) {
-  Comparison comparison{{""}, 0};
-  int depth = 0;
-  bool isQuoted = false;
-  for (const char c : text) {
-    if (c == '\'') isQuoted = !isQuoted;
-    if (!isQuoted) depth += c == '(' ? 1 : c == ')' ? -1 : 0;
-    if (!isQuoted && depth == 0 && (c == '<' || c == '>')) {
-      if (comparison.sign == 0) comparison.sign = c;
-      comparison.sides.emplace_back();
-    } else if (isQuoted || c != '=') {
-      comparison.sides.back() += c;
-    }
-  }
-  for (std::string& side : comparison.sides) side = trimmed(side);
-  return comparison;
-}
-
 bool isNumber(const std::string& side) {
   const std::size_t first = side.find_first_not_of("+-");
   return first != std::string::npos &&
@@ -73,9 +44,7 @@ struct Demand {
 };
 
 Demand demandOf(const RequirementResult& requirement) {
-  const std::size_t blank = requirement.statement.find(' ');
-  const std::string text = blank == std::string::npos ? requirement.statement : requirement.statement.substr(blank + 1);
-  const Comparison c = comparisonIn(text);
+  const StatedComparison c = comparisonIn(requirement.statement);
   const std::string whole = "\u201c" + requirement.name + "\u201d";
   if (c.sides.size() == 3 && isNumber(c.sides[0]) && !isNumber(c.sides[1]) && isNumber(c.sides[2])) {
     const bool rises = c.sign == '<';

@@ -8,9 +8,9 @@
 #include <cstdlib>
 #include <numeric>
 #include <optional>
-#include <regex>
 
 #include "mechanics/description/units.hpp"
+#include "mechanics/description/written_units.hpp"
 #include "studies/results/extremes.hpp"
 #include "studies/results/instants.hpp"
 #include "studies/told.hpp"
@@ -21,18 +21,12 @@ namespace {
 
 constexpr std::size_t mostShown = 200;  // on a page; some 300 kB
 
-/// The unit of the first number with a unit, "deg" of "always -5 deg < angle < 5 deg", if its dimension is that of
+/// The unit of the first limit that has one, "deg" of "always -5 deg < angle < 5 deg", if its dimension is that of
 /// `unit`; else `unit`.
 std::string statedUnit(const std::string& statement, const std::string& unit) {
-  static const std::regex limit(R"((?:^always|^eventually|[<>]=?)\s*[-+]?[0-9.]{1,30}(?:[eE][-+]?[0-9]{1,3})?)"
-                                R"(\s*([^\s0-9<>+-](?:[^0-9<>+-]|\^[0-9]){0,30}?)\s*(?=[<>]|$))");
-  for (std::sregex_iterator found(statement.begin(), statement.end(), limit), none; found != none; ++found) {
-    try {
-      const Amount one = parseAmount("1 " + (*found)[1].str());
-      if (one.hasUnit && one.dimension == dimensionOf(unit)) return (*found)[1];
-    } catch (const UnitError&) {  // a formula
-    }
-  }
+  for (const std::string& side : comparisonIn(statement).sides)
+    if (const std::string stated = unitBehindNumber(side); !stated.empty() && dimensionOf(stated) == dimensionOf(unit))
+      return stated;
   return unit;
 }
 
@@ -216,6 +210,27 @@ bool isViolated(const RequirementResult& requirement) {
 }
 
 }  // namespace
+
+StatedComparison comparisonIn(const std::string& statement) {
+  StatedComparison comparison{{""}, 0};
+  int depth = 0;
+  bool isQuoted = false;
+  for (const char c : statement.substr(statement.find(' ') + 1)) {  // behind "always" or "eventually"
+    if (c == '\'') isQuoted = !isQuoted;
+    if (!isQuoted) depth += c == '(' ? 1 : c == ')' ? -1 : 0;
+    if (!isQuoted && depth == 0 && (c == '<' || c == '>')) {
+      if (comparison.sign == 0) comparison.sign = c;
+      comparison.sides.emplace_back();
+    } else if (isQuoted || c != '=') {
+      comparison.sides.back() += c;
+    }
+  }
+  for (std::string& side : comparison.sides) {
+    const auto first = side.find_first_not_of(" \t\n"), last = side.find_last_not_of(" \t\n");
+    side = first == std::string::npos ? "" : side.substr(first, last - first + 1);
+  }
+  return comparison;
+}
 
 bool variesInTime(const UncertainInfo& quantity) { return quantity.distribution.starts_with("varies"); }
 

@@ -9,6 +9,8 @@
 #include <set>
 #include <string_view>
 
+#include "mechanics/description/written_units.hpp"
+
 namespace gamut {
 namespace {
 
@@ -17,11 +19,13 @@ class Frequencies {
   Frequencies(const TomlSource& source, const Mechanism& mechanism) : source_(source), mechanism_(mechanism) {}
 
   std::vector<std::string> notes() {
-    static const std::regex number(R"(\s*[-+]?[0-9.]{1,40}([eE][-+]?[0-9]{1,3})?\s*[kMG]?Hz\s*)");
+    const auto isInHertz = [](const std::string& text) {
+      const std::string unit = unitBehindNumber(text);
+      return unit.ends_with("Hz") && unitNamed(unit) != nullptr;
+    };
     if (const toml::table* parameters = source_.root()["mechanism"]["parameters"].as_table())
       for (const auto& [key, value] : *parameters)
-        if (value.is_string() && std::regex_match(**value.as_string(), number))
-          stated_[std::string(key.str())] = &value;
+        if (value.is_string() && isInHertz(**value.as_string())) stated_[std::string(key.str())] = &value;
     for (const char* key : {"mechanism", "output", "requirement"})
       if (const toml::node* node = source_.root().get(key)) look(*node);
     return std::move(notes_);

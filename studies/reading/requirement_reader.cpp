@@ -8,6 +8,7 @@
 #include <optional>
 #include <string_view>
 
+#include "mechanics/description/written_units.hpp"
 #include "studies/reading/uncertain_reader.hpp"
 
 namespace gamut {
@@ -179,15 +180,8 @@ class RequirementReader {
     for (const std::string& name : side.expression.names())
       if (const OutputInfo* output = outputThatIs(name); output != nullptr && side.ofOutput.empty())
         side.ofOutput = output->unit;
-    if (amount && amount->hasUnit && !amount->isRelative) side.ofNumber = unitOfNumber(trimmed);
+    if (amount) side.ofNumber = unitBehindNumber(trimmed);
     return side;
-  }
-
-  /// "mm" of "-3.5 mm"; empty for what is no number with a unit behind it.
-  static std::string unitOfNumber(const std::string& text) {
-    const std::size_t end = text.find_first_not_of("+-0123456789. ");
-    const std::string unit = end == std::string::npos ? "" : text.substr(end);
-    return unit.find_first_of("0123456789*/(+-") == std::string::npos && unitNamed(unit) != nullptr ? unit : "";
   }
 
   /// In which a margin is told, where it is one of them: the unit of the output that is compared, one that is not of SI

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "mechanics/description/names.hpp"
+#include "mechanics/description/written_units.hpp"
 #include "studies/printable.hpp"
 #include "studies/reading/shape_reader.hpp"
 #include "studies/words.hpp"
@@ -253,7 +254,7 @@ class UncertainReader {
   /// the nominal value is zero, or it is one of an angle. Empty: the SI unit.
   std::string unitOfStatement(const toml::node* interval, const UncertainQuantity& result) const {
     const auto unitOfNode = [&](const toml::node& node) {
-      return node.is_string() ? unitBehindNumber(**node.as_string(), dimensionOf(result.unit)) : std::string();
+      return node.is_string() ? unitOfKind(**node.as_string(), result.unit) : std::string();
     };
     if (const auto place = places_.find(result.quantity); place != places_.end())
       if (std::string unit = unitOfNode(*place->second); !unit.empty()) return unit;
@@ -266,25 +267,14 @@ class UncertainReader {
     const bool isOfInterval = result.uncertain.nominal == 0 || dimensionOf(result.unit) == Dimension{0, 0, 0, 1};
     if (!isOfInterval || !interval->is_string()) return {};
     const auto [below, above] = deviations(*interval, "uncertain.interval", **interval->as_string());
-    std::string unit = unitBehindNumber(above, dimensionOf(result.unit));
-    return unit.empty() ? unitBehindNumber(below, dimensionOf(result.unit)) : unit;
+    std::string unit = unitOfKind(above, result.unit);
+    return unit.empty() ? unitOfKind(below, result.unit) : unit;
   }
 
-  /// "deg" of "-135 deg", "in" of "1/16 in"; empty of a formula, "3/4 pi rad", of what is in per cent and of a unit of
-  /// another kind.
-  static std::string unitBehindNumber(const std::string& text, const Dimension& dimension) {
-    static const std::regex number(
-        R"(\s*(?:[-+]|−)?\s*[0-9.]{1,40}(?:[eE][-+]?[0-9]{1,3})?(?:\s*/\s*[0-9.]{1,40})?\s*([^-+*/(0-9\s].{0,40}?)\s*)");
-    std::smatch parts;
-    if (!std::regex_match(text, parts, number)) return {};
-    const std::string unit = parts[1];
-    try {
-      const Amount one = parseAmount("1 " + unit);
-      const bool isOnlyUnit = unit.find_first_of("+(") == unit.npos && unit.find("pi") == unit.npos;
-      return isOnlyUnit && one.hasUnit && !one.isRelative && isCompatible(one.dimension, dimension) ? unit : "";
-    } catch (const UnitError&) {  // a formula
-      return {};
-    }
+  /// Empty too of a unit of another kind.
+  static std::string unitOfKind(const std::string& text, const std::string& kind) {
+    std::string unit = unitBehindNumber(text);
+    return unit.empty() || isCompatible(dimensionOf(unit), dimensionOf(kind)) ? unit : "";
   }
 
   /// Beside degrees, a bare number may be meant as such.

@@ -4,6 +4,9 @@
 #include <gmock/gmock.h>
 
 #include <numbers>
+#include <utility>
+
+#include "mechanics/description/written_units.hpp"
 
 namespace gamut {
 namespace {
@@ -203,6 +206,25 @@ TEST(Dimension, AnAngleIsNoPlainNumberButMayBeLeftOutOfStiffness) {
   EXPECT_FALSE(isCompatible(dimensionOf("rad"), dimensionOf("m")));
   EXPECT_TRUE(isCompatible(dimensionOf("N m"), dimensionOf("N m/rad")));
   EXPECT_FALSE(isCompatible(dimensionOf("N"), dimensionOf("N m/rad")));
+}
+
+TEST(UnitBehindNumber, IsThatOfOneNumberAsItIsWritten) {
+  for (const auto& [text, unit] : {std::pair("-135 deg", "deg"),
+                                   {" 50 km/h ", "km/h"},
+                                   {"1/16 in", "in"},
+                                   {"2e-3 kg m^2", "kg m^2"},
+                                   {"−3.5 N m s/rad", "N m s/rad"},
+                                   {"9.81 m/s^2", "m/s^2"},
+                                   {"4 kg m²", "kg m²"},
+                                   {"90°", "°"},
+                                   {"7 s^-1", "s^-1"}})
+    EXPECT_EQ(unitBehindNumber(text), unit) << text;
+}
+
+TEST(UnitBehindNumber, IsEmptyOfAnythingElse) {
+  for (const char* text : {"", "0.5", "2e-3", "5 %", "3/4 pi rad", "3 π rad", "5 m - 3 m", "5 m + 3 m", "2 rod.length",
+                           "angle", "(3 m)", "5 m*2", "5 m 2", "mm", "1e5 parsec"})
+    EXPECT_EQ(unitBehindNumber(text), "") << text;
 }
 
 }  // namespace
