@@ -69,12 +69,12 @@ std::vector<Quantity> outputsOf(const Mechanism& mechanism, const std::string& s
   }
 }
 
-std::string text(std::string_view title, const std::vector<Quantity>& quantities) {
+std::string text(std::string_view title, const std::vector<Quantity>& quantities, const char* instead) {
   std::vector<std::vector<std::string>> rows;
   for (const auto& [name, unit, nominal] : quantities)
     rows.push_back(
         {name, std::isfinite(nominal) ? inUnit(fmt::format("{:.12g}", nominal), unit) : "has no value at the start"});
-  return fmt::format("{}\n{}", title, rows.empty() ? "  none\n" : textTable(rows, 2));
+  return fmt::format("{}\n{}", title, rows.empty() ? instead : textTable(rows, 2));
 }
 
 std::string json(const std::vector<Quantity>& numbers, const std::vector<Quantity>& outputs) {
@@ -95,8 +95,9 @@ ExitCode list(const QuantitiesArguments& arguments) {
   const Mechanism mechanism = readMechanismText(study.text, study.name);
   const std::vector<Quantity> numbers = numbersOf(mechanism), outputs = outputsOf(mechanism, study.name);
   sayOut(arguments.json ? json(numbers, outputs)
-                        : text("What can be uncertain, with its nominal value:", numbers) + "\n" +
-                              text("What can be an output, with its value at the start:", outputs));
+                        : text("What can be uncertain, with its nominal value:", numbers, "  nothing\n") + "\n" +
+                              text("What can be an output, with its value at the start:", outputs,
+                                   "  nothing moves: any formula of the numbers above, such as \"a - 2*b\"\n"));
   return done;
 }
 

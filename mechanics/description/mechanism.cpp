@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -56,6 +57,13 @@ bool has(const std::vector<std::string>& names, const std::string& name) {
 std::vector<std::string> namesOf(const Named<Mechanism::NamedValue>& values) {
   std::vector<std::string> names;
   for (const auto& value : values) names.push_back(value.name);
+  return names;
+}
+
+/// Of numbers, then of what follows from others.
+std::vector<std::string> parameterNames(const Mechanism& mechanism) {
+  std::vector<std::string> names = namesOf(mechanism.parameters());
+  for (const Mechanism::Derived& derived : mechanism.derived()) names.push_back(derived.name);
   return names;
 }
 
@@ -174,9 +182,8 @@ void Mechanism::checkNames(const Expression& number, const std::string& name) co
     if (knows(used)) continue;
     if (used == "t" || unitOfMeasured(used) != nullptr)
       throw WrongNumber(name, inQuotes(used) + " changes in motion; expected a formula of parameters alone");
-    std::vector<std::string> known = namesOf(parameters_);
-    for (const Derived& derived : derived_) known.push_back(derived.name);
-    throw UnknownName("parameter", used, known, remarkOn(used, name));
+    const std::vector<std::string> known = parameterNames(*this);
+    throw UnknownName("parameter", used, known, remarkOn(used, name), name);
   }
 }
 
@@ -485,25 +492,31 @@ Dimension Mechanism::dimensionOf(const Expression& signal) const {
 }
 
 void Mechanism::checkSignal(const Signal& signal) const {
+  const auto isSolved = [this](const std::string& name) {
+    const Measured* measured = measured_.find(name);
+    const auto whole = std::ranges::find(wholeQuantities(), name, &WholeQuantity::name);
+    return (measured != nullptr && measured->isSolved) || (whole != wholeQuantities().end() && whole->isSolved);
+  };
   for (const std::string& used : signal.expression.names()) {
-    if (signal.reach == Reach::motion) {
-      const Measured* measured = measured_.find(used);
-      const auto whole = std::ranges::find(wholeQuantities(), used, &WholeQuantity::name);
-      if ((measured != nullptr && measured->isSolved) || (whole != wholeQuantities().end() && whole->isSolved))
-        throw WrongNumber(signal.name, inQuotes(used) +
-                                           " follows from all forces, this one among them; expected a formula "
-                                           "of time, positions, velocities and own states");
-    }
+    if (signal.reach == Reach::motion && isSolved(used))
+      throw WrongNumber(signal.name, inQuotes(used) +
+                                         " follows from all forces, this one among them; expected a formula "
+                                         "of time, positions, velocities and own states");
     if (used == "t" || knows(used) || (signal.reach != Reach::time && unitOfMeasured(used) != nullptr)) continue;
     if (unitOfMeasured(used) != nullptr)
       throw WrongNumber(signal.name,
                         inQuotes(used) + " changes in motion; expected a formula of time and parameters alone");
-    std::vector<std::string> known = namesOf(parameters_);
-    for (const Derived& derived : derived_) known.push_back(derived.name);
-    known.emplace_back("t");
+    std::vector<std::string> known;
     if (signal.reach != Reach::time)
-      for (const std::string& quantity : outputQuantities()) known.push_back(quantity);
-    throw UnknownName("quantity", used, known, remarkOn(used, signal.name));
+      std::ranges::copy_if(outputQuantities(), std::back_inserter(known), [&](const std::string& quantity) {
+        return signal.reach != Reach::motion || !isSolved(quantity);
+      });
+    // Where everything is one of many, what moves and what was declared is seen first.
+    std::vector<std::string> parameters = parameterNames(*this);
+    parameters.emplace_back("t");
+    const auto states = static_cast<std::ptrdiff_t>(std::min(known.size(), stateNames().size()));
+    known.insert(known.begin() + states, parameters.begin(), parameters.end());
+    throw UnknownName("quantity", used, known, remarkOn(used, signal.name), signal.name);
   }
   if (gamut::dimensionOf(signal.unit) == Dimension{.time = -1} && isWithoutUnits(signal.expression)) return;
   const State* state = signal.reach == Reach::solution ? own_.find(signal.element) : nullptr;
@@ -694,7 +707,9 @@ std::vector<std::string> Mechanism::outputQuantities() const {
   for (const JointCoordinate& coordinate : coordinates_)
     if (coordinate.isDriven) names.insert(names.end(), {coordinate.name, coordinate.rate});
   for (const Measured& measured : measured_) names.push_back(measured.name);
-  for (const WholeQuantity& whole : wholeQuantities()) names.push_back(whole.name);
+  const bool hasMass = !massFrames_.empty();
+  for (const WholeQuantity& whole : wholeQuantities())  // of what is no machine none, of one without mass its energy
+    if (hasMass || (!moved_.empty() && whole.name.starts_with("energy"))) names.push_back(whole.name);
   return names;
 }
 

@@ -58,9 +58,20 @@ bool shareAPart(std::string_view a, std::string_view b) {
   return false;
 }
 
+constexpr std::size_t mostNear = 3;
+
+/// "one of: a, b" of the first twelve.
+std::string listOf(const std::vector<std::string>& names) {
+  constexpr std::size_t most = 12;
+  std::string text = "one of: " + names[0];
+  for (std::size_t i = 1; i < std::min(names.size(), most); ++i) text += ", " + names[i];
+  if (names.size() > most) text += " and " + std::to_string(names.size() - most) + " more";
+  return text;
+}
+
 /// "'a', 'b' or 'c'" of the first three.
 std::string alternatives(const std::vector<std::string>& names) {
-  const std::size_t n = std::min<std::size_t>(names.size(), 3);
+  const std::size_t n = std::min(names.size(), mostNear);
   std::string text = inQuotes(names[0]);
   for (std::size_t i = 1; i < n; ++i) text += (i + 1 < n ? ", " : " or ") + inQuotes(names[i]);
   return text;
@@ -78,19 +89,20 @@ std::string nearestName(std::string_view word, const std::vector<std::string>& c
 std::string expectedName(std::string_view word, const std::vector<std::string>& candidates) {
   if (candidates.empty()) return "one that was defined before; there is none yet";
   std::vector<std::string> names = nearNames(word, candidates);
-  if (names.empty())
+  if (names.empty()) {
+    const std::string element = std::string(word.substr(0, word.find('.'))) + ".";
+    std::vector<std::string> own;
+    std::copy_if(candidates.begin(), candidates.end(), std::back_inserter(own),
+                 [&](const std::string& candidate) { return candidate.starts_with(element); });
+    if (own.size() > mostNear) return listOf(own);
     std::copy_if(candidates.begin(), candidates.end(), std::back_inserter(names),
                  [&](const std::string& candidate) { return shareAPart(word, candidate); });
+  }
   if (const std::size_t end = word.find('.'); end != std::string_view::npos)  // of what is named first, before others
     std::stable_partition(names.begin(), names.end(),
                           [&](const std::string& candidate) { return candidate.starts_with(word.substr(0, end + 1)); });
   if (candidates.size() == 1) names = candidates;
-  if (!names.empty()) return alternatives(names);
-  constexpr std::size_t most = 12;
-  std::string text = "one of: " + candidates[0];
-  for (std::size_t i = 1; i < std::min(candidates.size(), most); ++i) text += ", " + candidates[i];
-  if (candidates.size() > most) text += " and " + std::to_string(candidates.size() - most) + " more";
-  return text;
+  return names.empty() ? listOf(candidates) : alternatives(names);
 }
 
 std::string unknownName(std::string_view kind, std::string_view word, const std::vector<std::string>& candidates) {
@@ -101,10 +113,11 @@ std::string unknownName(std::string_view kind, std::string_view word, const std:
 }
 
 UnknownName::UnknownName(const std::string& kind, const std::string& word, const std::vector<std::string>& candidates,
-                         const std::string& remark)
+                         const std::string& remark, std::string number)
     : std::invalid_argument(unknownName(kind, word, candidates) + (remark.empty() ? "" : " (" + remark + ")")),
       problem_("unknown " + kind + " " + inQuotes(word)),
       word_(word),
+      number_(std::move(number)),
       expected_(expectedName(word, candidates) + (remark.empty() ? "" : " (" + remark + ")")) {}
 
 WrongUnit::WrongUnit(const std::string& kind, const std::string& parameter, const std::string& unit,

@@ -15,8 +15,9 @@ std::string inQuotes(const std::string& name);
 /// ignored; the first of equals. Empty if none is within two of them or, for a long word, a third of its length.
 std::string nearestName(std::string_view word, const std::vector<std::string>& candidates);
 
-/// What would do instead of `word`: up to three nearest names, or up to three that share a part between dots with it,
-/// as "'a', 'b' or 'c'"; else "one of: a, b, …", of many the first twelve.
+/// What would do instead of `word`: up to three nearest names, as "'a', 'b' or 'c'"; else those that begin with the
+/// same part before a dot, or up to three that share another one with it; else "one of: a, b, …", of many the first
+/// twelve.
 std::string expectedName(std::string_view word, const std::vector<std::string>& candidates);
 
 /// "unknown KIND 'WORD'; did you mean 'NEAREST'?", without the question where no candidate is near, or, without
@@ -27,16 +28,18 @@ std::string unknownName(std::string_view kind, std::string_view word, const std:
 class UnknownName : public std::invalid_argument {
  public:
   UnknownName(const std::string& kind, const std::string& word, const std::vector<std::string>& candidates,
-              const std::string& remark = "");
+              const std::string& remark = "", std::string number = "");
 
   /// "unknown KIND 'WORD'"
   const std::string& problem() const { return problem_; }
   const std::string& word() const { return word_; }
+  /// The number, "spring.stiffness", in whose formula it stands; empty if in none.
+  const std::string& number() const { return number_; }
   /// expectedName and the remark.
   const std::string& expected() const { return expected_; }
 
  private:
-  std::string problem_, word_, expected_;
+  std::string problem_, word_, number_, expected_;
 };
 
 /// A parameter, or another quantity, stands where a number of another unit than its own is needed; what() is one

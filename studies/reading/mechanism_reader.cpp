@@ -229,7 +229,8 @@ class MechanismReader {
     try {
       action();
     } catch (const UnknownName& unknown) {
-      const toml::node* place = textWith(at, unknown.word());
+      const auto stated = places_.find(unknown.number());
+      const toml::node* place = stated == places_.end() ? textWith(at, unknown.word()) : stated->second;
       source_.fail(place == nullptr ? at : *place, unknown.problem(), unknown.expected());
     } catch (const WrongUnit& error) {
       const auto stated = statedWithUnit_.find(error.parameter());

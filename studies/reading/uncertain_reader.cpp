@@ -400,6 +400,13 @@ void readUncertain(const TomlSource& source, const std::vector<const toml::table
   reader.noteFaults();
 }
 
+std::vector<std::string> namesInFormulas(const Mechanism& mechanism) {
+  std::vector<std::string> names = mechanism.outputQuantities();
+  for (const Mechanism::NamedValue& parameter : mechanism.parameters()) names.push_back(parameter.name);
+  for (const Mechanism::Derived& derived : mechanism.derived()) names.push_back(derived.name);
+  return names;
+}
+
 std::string quantityExpected(const std::string& word, const std::vector<std::string>& known) {
   const std::string names = expectedName(word, known);
   return fmt::format("a quantity of the mechanism, {}{}", names.starts_with('\'') ? "such as " : "", names);
@@ -411,7 +418,7 @@ std::string outputExpected(const std::string& word, const std::vector<std::strin
     if (!word.starts_with(prefix)) continue;
     std::vector<std::string> own;
     for (const std::string& name : known)
-      if (name.starts_with(prefix)) own.push_back(name);
+      if (name.starts_with(prefix) && mechanism.isOutputQuantity(name)) own.push_back(name);
     if (own.empty())
       return fmt::format("a quantity that another element gives, or a formula of such: the {} '{}' gives none",
                          element.type(), element.name());

@@ -47,6 +47,26 @@ TEST_F(QuantitiesCommand, TellsProgramsTheSame) {
   for (std::size_t i = 0; i < outputs.size(); ++i) EXPECT_EQ(json["output"][i]["quantity"], outputs[i]);
 }
 
+/// Of a chain of tolerances there is no energy, and no centre of mass.
+TEST_F(QuantitiesCommand, ListsNoMachineThatIsNotThere) {
+  folder_.write(
+      "chain.toml",
+      "[study]\ntitle = \"c\"\nanalysis = \"kinematics\"\n[mechanism.parameters]\nhousing = \"50 mm\"\nshaft = "
+      "\"30 mm\"\n");
+  EXPECT_EQ(
+      gamut("quantities chain.toml").out,
+      "What can be uncertain, with its nominal value:\n  housing  0.05 m\n  shaft    0.03 m\n\n"
+      "What can be an output, with its value at the start:\n  nothing moves: any formula of the numbers above, such "
+      "as \"a - 2*b\"\n");
+  EXPECT_EQ(Json::parse(gamut("quantities chain.toml --json").out)["output"], Json::array());
+  folder_.write("prey.toml",
+                "[study]\ntitle = \"p\"\nanalysis = \"dynamics\"\n[mechanism]\n[[mechanism.element]]\ntype = "
+                "\"state\"\nname = \"prey\"\ninitial = 2\nrate = \"-prey\"\n");
+  const Json prey = Json::parse(gamut("quantities prey.toml --json").out)["output"];
+  ASSERT_EQ(prey.size(), 1u);
+  EXPECT_EQ(prey[0]["quantity"], "prey");
+}
+
 /// Half a metre below the hinge, turned by 30 degrees, at 0.5 rad/s.
 TEST_F(QuantitiesCommand, GivesOutputsAtTheStart) {
   const Json json = Json::parse(gamut("quantities s.toml --json").out);

@@ -61,6 +61,10 @@ TEST(Names, WhatIsExpectedAreNearNamesOrSomeOfAll) {
             "one of: k, k, k, k, k, k, k, k, k, k, k, k and 2 more");
   EXPECT_EQ(expectedName("f1.moment", {"j1.reaction.moment.x", "f1.force", "f1.power"}),
             "'f1.force', 'f1.power' or 'j1.reaction.moment.x'");
+  EXPECT_EQ(expectedName("j.position", {"j.angle", "t", "j.rate", "j.power", "j.force", "K.position.x"}),
+            "one of: j.angle, j.rate, j.power, j.force");
+  EXPECT_EQ(expectedName("j", {"j.angle", "t", "j.rate", "j.power", "j.force"}),
+            "one of: j.angle, j.rate, j.power, j.force");
   EXPECT_EQ(expectedName("something", {"base"}), "'base'");
   EXPECT_EQ(expectedName("something", {}), "one that was defined before; there is none yet");
 }

@@ -1337,6 +1337,27 @@ constexpr BadStudy badStudies[] = {
      "s.toml:39:1: the requirement's time begins at 0.3 s, after its end at 0.2 s; expected from before until"},
 };
 
+/// What may stand there: nothing that follows from all forces; and the line is that of the formula.
+TEST(StudyReader, SuggestsNamesInFormulasOfForces) {
+  const auto wrong = [](const std::string& force) {
+    return messageOf(sampleStudyWith("[[uncertain]]",
+                                     "[mechanism.parameters]\nstiff = \"3 N m/rad\"\n[[mechanism.element]]\ntype = "
+                                     "\"joint-force\"\nname = \"motor\"\njoint = \"hinge\"\nforce = \"" +
+                                         force + "\"\n[[uncertain]]"));
+  };
+  EXPECT_EQ(wrong("-stiff*hinge"),
+            "s.toml:34:9: unknown quantity 'hinge'; expected 'hinge.angle' or 'hinge.rate' (for 'motor.force')");
+  EXPECT_EQ(wrong("-stif*hinge.angle"), "s.toml:34:9: unknown quantity 'stif'; expected 'stiff' (for 'motor.force')");
+  EXPECT_THAT(wrong("-stiff*theta"),
+              HasSubstr("unknown quantity 'theta'; expected one of: hinge.angle, hinge.rate, stiff, "));
+  EXPECT_THAT(wrong("-bob.weight*(1 m)"),
+              HasSubstr("unknown quantity 'bob.weight'; expected one of: bob.mass, bob.centre.x, "));
+  EXPECT_EQ(wrong("-stiff*hinge.angle"), "it was read");
+  const std::string output = "quantity = \"tip.position.z\"";  // a parameter may be meant there too
+  EXPECT_THAT(messageOf(sampleStudyWith(output, "quantity = \"1/rod.lenght\"")),
+              EndsWith("unknown quantity 'rod.lenght'; expected a quantity of the mechanism, such as 'rod.length'"));
+}
+
 /// Of an element whose name it has, what that gives.
 TEST(StudyReader, SuggestsOutputsOfTheElementThatIsNamed) {
   const std::string spring =
