@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <map>
 #include <optional>
 #include <set>
 #include <stdexcept>
@@ -83,6 +84,7 @@ struct Study {
   double recordingCpu = 0;  ///< s, of these programs
   std::set<std::string, std::less<>> compare{"fuzzy", "interval", "stochastic"};  ///< words of the answers asked for
   Mechanism mechanism;
+  std::map<std::string, std::string, std::less<>> unitsOfMasses;  ///< as they are stated, by element; where they are
   std::vector<UncertainQuantity> uncertain;
   QuantityDependence dependence;    ///< of these
   std::vector<OutputInfo> outputs;  ///< those of the requirements behind all others

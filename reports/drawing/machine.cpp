@@ -12,6 +12,7 @@
 
 #include "reports/drawing/axes.hpp"
 #include "reports/words.hpp"
+#include "studies/told.hpp"
 
 namespace gamut {
 namespace {
@@ -286,7 +287,8 @@ class Drawing {
 
   static std::string titleOf(const PartInfo& part) {
     std::string words = part.name + " (" + part.type;
-    if (part.kind == "mass") words += ", " + numberText(part.mass, 6) + " kg";
+    if (const Told told("kg", part.told); part.kind == "mass")
+      words += ", " + inUnit(numberText(told.of(part.mass), 6), told.unit());
     return escapeHtml(words + ")");
   }
 

@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "mechanics/assembly.hpp"
+#include "mechanics/description/written_units.hpp"
 #include "mechanics/model.hpp"
 #include "scalars/recorded.hpp"
 #include "studies/printable.hpp"
@@ -56,6 +57,7 @@ class StudyReader {
     std::ranges::move(read.notes, std::back_inserter(study_.notes));
     std::ranges::move(notesOnFrequencies(source_, study_.mechanism), std::back_inserter(study_.notes));
     places_ = std::move(read.places);
+    noteUnitsOfMasses();
     checkMotion(*file.find("mechanism"));
     if (study_.analysis == Study::Analysis::inverseDynamics) checkDrives(*file.find("mechanism"));
     readUncertain(source_, tables(file, "uncertain"), TableFiles(source_, study_.tables, files), places_, study_);
@@ -261,6 +263,20 @@ class StudyReader {
       } catch (const std::domain_error& error) {
         source_.failWith(*node, fmt::format("'{}' has no value: {}", name, error.what()), "a formula that has a value");
       }
+    }
+  }
+
+  /// That of the number, or of the parameter that stands for it.
+  void noteUnitsOfMasses() {
+    const auto textAt = [&](const std::string& name) -> std::string {
+      const auto place = places_.find(name);
+      return place != places_.end() && place->second->is_string() ? **place->second->as_string() : std::string();
+    };
+    for (const Described& element : study_.mechanism.elements()) {
+      const std::string mass = textAt(element.name() + ".mass");
+      std::string unit = unitBehindNumber(mass);
+      if (unit.empty()) unit = unitBehindNumber(textAt(mass));
+      if (!unit.empty()) study_.unitsOfMasses[element.name()] = unit;
     }
   }
 

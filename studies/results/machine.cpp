@@ -40,7 +40,16 @@ std::vector<Field> fieldsOfPart(PartInfo& p) {
       {"to", &p.to, unit::none, "index of the point where it ends", {}, allowed::count, scale::point},
       {"turns", &p.turns, unit::none, "of a joint: in how many ways it turns", {}, allowed::count},
       {"slides", &p.slides, unit::none, "of a joint: in how many ways it slides", {}, allowed::count},
-      {"mass", &p.mass, "kg", "nominal mass", {}, allowed::finite}};
+      {"mass", &p.mass, "kg", "nominal mass", {}, allowed::finite},
+      {"told",
+       &p.told,
+       unit::none,
+       "unit in which the page tells the mass, as the study states it; empty: kg",
+       {},
+       allowed::anything,
+       "",
+       false,
+       true}};
 }
 
 std::vector<Field> fieldsOfAxis(AxisInfo& a) {

@@ -28,6 +28,7 @@ struct PartInfo {
   std::uint64_t from = 0, to = 0;
   std::int64_t turns = 0, slides = 0;  ///< of a joint
   double mass = 0;                     ///< nominal, kg
+  std::string told = {};               ///< unit in which people are told of it, as the study states it; empty: kg
 };
 
 struct AxisInfo {

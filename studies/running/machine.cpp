@@ -26,9 +26,11 @@ void describeParts(Run& run) {
   for (const Skeleton::Point& point : skeleton.points)
     machine.points.push_back({printable(point.name), point.isFixed, point.isGround});
   for (const Skeleton::Part& part : skeleton.parts) {
+    const auto told = run.study.unitsOfMasses.find(part.name);
     constexpr const char* kinds[] = {"rigid", "joint", "mass", "spring"};
     machine.parts.push_back({printable(part.name), printable(part.type), kinds[static_cast<std::size_t>(part.kind)],
-                             part.from, part.to, part.turns, part.slides, nominal(part.mass)});
+                             part.from, part.to, part.turns, part.slides, nominal(part.mass),
+                             told == run.study.unitsOfMasses.end() ? std::string() : told->second});
   }
   for (const Skeleton::JointAxis& axis : skeleton.axes) machine.axes.push_back({printable(axis.name), axis.part});
 }

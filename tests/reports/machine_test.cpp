@@ -74,6 +74,15 @@ TEST(MachinePicture, ShowsNoNameOverAnother) {
   EXPECT_THAT(svg, ContainsRegex("class=\"name\" data-part=\"0\" visibility=\"hidden\" x"));
 }
 
+TEST(MachinePicture, TellsMassesInTheUnitsThatTheStudyStates) {
+  MachineResult machine = moving({{0, 0, 0}});
+  machine.parts[0].mass = 0.25;
+  machine.parts[0].told = "g";
+  EXPECT_THAT(drawn(machine), HasSubstr("weight (mass, 250 g)"));
+  machine.parts[0].told = "no unit";  // of a file that another build wrote
+  EXPECT_THAT(drawn(machine), HasSubstr("weight (mass, 0.25 kg)"));
+}
+
 TEST(MachinePicture, StandsOnThePageBeforeAnyScript) {
   const std::string page = renderReport(example::machine());
   EXPECT_EQ(count(page, "<svg class=\"drawing machine\""), 1u);

@@ -39,6 +39,7 @@ TEST(SeenMachine, NamesPointsAndParts) {
   EXPECT_EQ(machine.parts[1].kind, "rigid");
   EXPECT_EQ(machine.parts[2].kind, "mass");
   EXPECT_EQ(machine.parts[2].mass, 0.25);
+  EXPECT_EQ(machine.parts[2].told, "g");
   ASSERT_EQ(machine.axes.size(), 1u);
   EXPECT_EQ(machine.axes[0].part, 0u);
   ASSERT_EQ(machine.directions.size(), 3u);
