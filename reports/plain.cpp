@@ -141,7 +141,7 @@ class Sentence {
     constexpr double telling = 0.5;
     const double least = 1 - r_.probabilityUpper, most = 1 - r_.probabilityLower;
     if (!isProbabilityProved(results_) || !(most - least < telling)) return {};
-    const auto [from, to] = boundsText(std::max(least, 0.0), most, 1, 2, 1e-3);
+    const auto [from, to] = outwardBounds(std::max(least, 0.0), most, 1, 2, 1e-3);
     return from == to   ? fmt::format(" The proved probability of that is {}.", from)
            : least <= 0 ? fmt::format(" The proved probability of that is {} at most.", atMostText(most, 4))
                         : fmt::format(" The proved probability of that is {} to {}.", from,

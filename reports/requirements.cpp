@@ -33,10 +33,12 @@ std::string statedUnit(const std::string& statement, const std::string& unit) {
 /// Of a text without a number 0, of one too small for a double what is left of it.
 double numberIn(const std::string& text) { return std::strtod(text.c_str(), nullptr); }
 
-/// "0.9684 to 0.9702", outward; "1" of a number that is exactly known.
+constexpr const char* nothing = "0 to 1";
+
+/// "0.9684 to 0.9702", outward; "1" of a number that is exactly known; `nothing` where that is what is known.
 std::string rangeOfShare(double lower, double upper) {
   if (lower == upper) return numberText(lower, 6);
-  const auto [low, high] = boundsText(lower, upper, 1, 3);
+  const auto [low, high] = outwardBounds(lower, upper, 1, 3);
   return fmt::format("{} to {}", numberIn(low) <= 0 ? "0" : low, numberIn(high) >= 1 ? "1" : high);
 }
 

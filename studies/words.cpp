@@ -86,47 +86,104 @@ std::pair<std::string, std::string> outwardText(double lower, double upper, int 
   return {inFull(text.substr(1, comma - 1)), inFull(text.substr(comma + 2, text.size() - comma - 3))};
 }
 
-std::pair<std::string, std::string> boundsText(double lower, double upper, double size, int resolved, double widest) {
-  const double greatest = std::max(std::abs(lower), std::abs(upper)), width = std::max(upper - lower, widest);
-  if (!(lower <= upper) || std::isinf(greatest)) return outwardText(lower, upper, resolved);
-  if (greatest == 0) return {"0", "0"};
-  const double least = std::max(billionth * std::max(size, greatest), leastTold), shown = std::max(width, least);
-  if (greatest <= least) {
-    const std::string little = powerAbove(least);
-    return {lower < 0 ? "-" + little : "0", upper > 0 ? little : "0"};
-  }
-  constexpr double legible = 1e7, small = 1e-4;
-  const int leading = static_cast<int>(std::floor(std::log10(shown)));
-  if (greatest >= legible || greatest < small)
-    return outwardText(lower, upper, std::clamp(digitsFor(greatest, shown, resolved), 1, 17));
-  const std::string text = toFixedString(Interval(lower, upper), std::clamp(resolved - 1 - leading, 0, 15));
+namespace {
+
+/// Both ends outward, as they are.
+using BothEnds = std::pair<std::string, std::string>;
+
+/// With so many decimals.
+BothEnds fixedText(double lower, double upper, int decimals) {
+  const std::string text = toFixedString(Interval(lower, upper), decimals);  // "[lower, upper]"
   const auto comma = text.find(',');
-  const auto end = [&](double bound, std::string decimals) {  // -1e-19 is no -0.01, where the rest has two decimals
-    const bool isLittle = bound != 0 && std::abs(bound) <= least && (bound < 0) == (bound == lower);
-    return isLittle ? (bound < 0 ? "-" : "") + powerAbove(least) : decimals;
-  };
-  return {end(lower, text.substr(1, comma - 1)), end(upper, text.substr(comma + 2, text.size() - comma - 3))};
+  return {text.substr(1, comma - 1), text.substr(comma + 2, text.size() - comma - 3)};
 }
 
-std::pair<std::string, std::string> peaksText(double least, double greatest) {
+/// `outward`, or "about 0.2" where that is the decimal nearest to an end that lies beyond it by no more than is little.
+std::string aboutText(double end, bool isLower, const std::string& nearest, const std::string& outward, double little) {
+  const double decimal = std::strtod(nearest.c_str(), nullptr), beyond = isLower ? decimal - end : end - decimal;
+  return outward != nearest && beyond >= 0 && beyond <= little ? "about " + numberText(decimal + 0.0, 15) : outward;
+}
+
+/// Of bounds so far apart: what counts for nothing beside that, or is some roundings of them.
+double littleOf(double shown, double greatest) {
+  constexpr double roundings = 16 * std::numeric_limits<double>::epsilon();
+  return std::max(billionth * shown, roundings * greatest);
+}
+
+/// Numbers from here to there are told without powers of ten.
+bool isLegible(double size) {
+  constexpr double small = 1e-4, great = 1e7;
+  return size >= small && size < great;
+}
+
+/// How bounds of this width are told.
+struct Digits {
+  double little = 0;    ///< what is beyond a decimal by that is about it
+  int significant = 0;  ///< 0: as many decimals as follow
+  int decimals = 0;
+
+  Digits(double lower, double upper, double size, int resolved, double widest) {
+    const double greatest = std::max(std::abs(lower), std::abs(upper)), width = std::max(upper - lower, widest),
+                 shown = std::max(width, std::max(billionth * std::max(size, greatest), leastTold));
+    little = littleOf(shown, greatest);
+    if (isLegible(greatest))
+      decimals = std::clamp(resolved - 1 - static_cast<int>(std::floor(std::log10(shown))), 0, 15);
+    else
+      significant = std::clamp(digitsFor(greatest, shown, resolved), 1, 17);
+  }
+  BothEnds outward(double lower, double upper) const {
+    return significant > 0 ? outwardText(lower, upper, significant) : fixedText(lower, upper, decimals);
+  }
+  std::string nearest(double x) const {
+    return significant > 0 ? numberText(x, significant) : fmt::format("{:.{}f}", x, decimals);
+  }
+};
+
+/// Bounds of which nothing, or hardly anything, is to be told; empty of others.
+BothEnds trivialBounds(double lower, double upper, double size, int resolved) {
+  const double greatest = std::max(std::abs(lower), std::abs(upper));
+  if (!(lower <= upper) || std::isinf(greatest)) return outwardText(lower, upper, resolved);
+  if (greatest == 0) return {"0", "0"};
+  const double least = std::max(billionth * std::max(size, greatest), leastTold);
+  if (greatest > least) return {};
+  const std::string little = powerAbove(least);
+  return {lower < 0 ? "-" + little : "0", upper > 0 ? little : "0"};
+}
+
+}  // namespace
+
+BothEnds outwardBounds(double lower, double upper, double size, int resolved, double widest) {
+  BothEnds ends = trivialBounds(lower, upper, size, resolved);
+  return ends.first.empty() ? Digits(lower, upper, size, resolved, widest).outward(lower, upper) : ends;
+}
+
+BothEnds boundsText(double lower, double upper, double size, int resolved, double widest) {
+  BothEnds ends = trivialBounds(lower, upper, size, resolved);
+  if (!ends.first.empty()) return ends;
+  const Digits digits(lower, upper, size, resolved, widest);
+  const auto [below, above] = digits.outward(lower, upper);
+  return {aboutText(lower, true, digits.nearest(lower), below, digits.little),
+          aboutText(upper, false, digits.nearest(upper), above, digits.little)};
+}
+
+BothEnds peaksText(double least, double greatest) {
   const double size = std::max(std::abs(least), std::abs(greatest));
-  constexpr double legible = 1e7, small = 1e-4;
-  if (!(least <= greatest) || !(size >= small && size < legible)) return boundsText(least, greatest);
+  if (!(least <= greatest) || !isLegible(size)) return boundsText(least, greatest);
   constexpr int digits = 4, most = 3;  // of its own; beyond those that the width has
   const auto decimalsFor = [](double x) { return digits - 1 - static_cast<int>(std::floor(std::log10(x))); };
-  const int common = std::clamp(decimalsFor(std::max(greatest - least, billionth * size)), 0, 15 - most);
+  const double shown = std::max(greatest - least, billionth * size);
+  const int common = std::clamp(decimalsFor(shown), 0, 15 - most);
   const auto outward = [](double peak, bool isLeast, int decimals) {
-    const std::string text = toFixedString(Interval(peak), decimals);  // "[down, up]"
-    const auto comma = text.find(',');
-    return isLeast ? text.substr(1, comma - 1) : text.substr(comma + 2, text.size() - comma - 3);
+    const BothEnds both = fixedText(peak, peak, decimals);
+    return isLeast ? both.first : both.second;
   };
   const auto end = [&](double peak, bool isLeast) -> std::string {
     if (peak == 0 || (isLittle(peak, size) && (peak > 0) == isLeast)) return "0";
-    const std::string nearest = fmt::format("{:.{}f}", peak, common);
-    const double decimal = std::strtod(nearest.c_str(), nullptr), beyond = isLeast ? decimal - peak : peak - decimal;
-    if (beyond >= 0 && isLittle(beyond, size) && outward(peak, isLeast, common) != nearest)
-      return "about " + numberText(decimal + 0.0, 15);
-    return outward(peak, isLeast, std::clamp(decimalsFor(std::abs(peak)), common, common + most));
+    const std::string about = aboutText(peak, isLeast, fmt::format("{:.{}f}", peak, common),
+                                        outward(peak, isLeast, common), littleOf(shown, size));
+    return about.starts_with("about")
+               ? about
+               : outward(peak, isLeast, std::clamp(decimalsFor(std::abs(peak)), common, common + most));
   };
   return {end(least, true), end(greatest, false)};
 }

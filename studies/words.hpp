@@ -38,12 +38,15 @@ std::pair<std::string, std::string> outwardText(double lower, double upper, int 
 
 /// Bounds of one quantity, rounded outward, with the digits that their width justifies (`resolved` of it, or of the
 /// `widest` of those beside them), and no more than show a billionth of `size`: "[-114.38, 51.46]".
+std::pair<std::string, std::string> outwardBounds(double lower, double upper, double size = 0, int resolved = 4,
+                                                  double widest = 0);
+
+/// The same, and "about 0.2" of what is beyond a decimal by no more than a billionth of the width, or by roundings.
 std::pair<std::string, std::string> boundsText(double lower, double upper, double size = 0, int resolved = 4,
                                                double widest = 0);
 
-/// The least and the greatest of a motion, rounded outward, with the digits that their distance justifies and up to
-/// four of each one's own: "-0.9587", "104.4". "about 0.2" of what is beyond a decimal by no more than a billionth of
-/// the greater of both, which roundings do.
+/// The least and the greatest of a motion, as bounds are told, with up to four digits of each one's own: "-0.9587",
+/// "104.4".
 std::pair<std::string, std::string> peaksText(double least, double greatest);
 
 /// "[lower, upper]" rounded outward, or "none".

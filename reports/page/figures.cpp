@@ -89,7 +89,8 @@ std::string costTable(const Results& results) {
 }  // namespace
 
 std::string figuresSection(const Report& report) {
-  return "<p class=\"hint\">Guaranteed bounds are printed outward: lower bounds rounded down, upper bounds up.</p>\n" +
+  return "<p class=\"hint\">Guaranteed bounds are printed outward: lower bounds rounded down, upper bounds up; "
+         "\u201cabout\u201d 0.2 is one that roundings alone put beyond 0.2.</p>\n" +
          figuresTable(report.results, report.verdict, report.detail.rows) + costTable(report.results);
 }
 

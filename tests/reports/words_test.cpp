@@ -1,6 +1,8 @@
 // Printed bounds hold what they print, and no text is taken for markup.
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <string>
 
@@ -11,6 +13,16 @@ namespace gamut {
 namespace {
 
 using Ends = std::pair<std::string, std::string>;
+
+Interval decimal(const std::string& text) {
+  return Interval::parse(text.starts_with("about ") ? text.substr(6) : text);
+}
+
+/// By how much a bound may lie beyond the decimal that it is told to be about.
+double allowed(const std::string& text, double width, double size) {
+  if (!text.starts_with("about ")) return 0;
+  return std::max(1e-9 * std::max(width, 1e-9 * size), 4e-15 * size);
+}
 
 TEST(PrintedBounds, AreRoundedOutward) {
   EXPECT_EQ(outwardText(1.23456, 1.23451, 4), Ends("none", "none"));
@@ -57,17 +69,33 @@ TEST(PrintedBounds, HaveTheDigitsThatTheirWidthJustifies) {
   EXPECT_EQ(boundsText(-114.3812, 51.4621), Ends("-114.4", "51.5"));
   EXPECT_EQ(boundsText(19999.75, 20000.25), Ends("19999.7500", "20000.2500"));
   EXPECT_EQ(boundsText(0, 0), Ends("0", "0"));
-  EXPECT_EQ(boundsText(-1e-19, 20.125), Ends("-1e-07", "20.13"));
-  EXPECT_EQ(boundsText(-20.125, 1e-19), Ends("-20.13", "1e-07"));
+  EXPECT_EQ(boundsText(-1e-19, 20.125), Ends("about 0", "20.13"));
+  EXPECT_EQ(boundsText(-20.125, 1e-19), Ends("-20.13", "about 0"));
   EXPECT_EQ(boundsText(2e8, 2.5e8), Ends("2e+08", "2.5e+08"));
   EXPECT_EQ(boundsText(1, std::numeric_limits<double>::infinity()), Ends("1", "inf"));
   for (const double size : {1e-30, 1e-6, 1.0, 3e5, 1e12})
     for (double low = -2; low < 2; low += 0.37)
       for (const double width : {0.0, 1e-15, 1e-9, 0.1, 5.0}) {
-        const auto [lower, upper] = boundsText(size * low, size * (low + width), size);
-        EXPECT_LE(Interval::parse(lower).upper(), size * low) << lower;
-        EXPECT_GE(Interval::parse(upper).lower(), size * (low + width)) << upper;
+        const double least = size * low, greatest = size * (low + width),
+                     all = std::max({std::abs(least), std::abs(greatest), size});
+        for (const auto& [lower, upper] : {outwardBounds(least, greatest, size), boundsText(least, greatest, size)}) {
+          EXPECT_LE(decimal(lower).upper() - allowed(lower, greatest - least, all), least) << lower;
+          EXPECT_GE(decimal(upper).lower() + allowed(upper, greatest - least, all), greatest) << upper;
+        }
       }
+}
+
+/// An end that is a decimal but for roundings is told as about that, and not as one that is a digit farther out.
+TEST(PrintedBounds, AreNotPushedOutByRoundings) {
+  EXPECT_EQ(boundsText(0.8692, 1.5416), Ends("about 0.8692", "about 1.5416"));
+  EXPECT_EQ(boundsText(0.8692 - 3e-16, 1.5416 + 1e-11), Ends("about 0.8692", "about 1.5416"));
+  EXPECT_EQ(boundsText(0.8692 - 1e-8, 1.5416 + 1e-8), Ends("0.8691", "1.5417"));
+  EXPECT_EQ(boundsText(86.92 - 1e-14, 154.16), Ends("about 86.92", "154.16"));
+  EXPECT_EQ(boundsText(2e-5 - 1e-20, 5e-5 + 1e-20), Ends("about 2e-05", "about 5e-05"));
+  EXPECT_EQ(boundsText(0.3, 0.3), Ends("about 0.3", "0.3000000000000"));
+  EXPECT_EQ(outwardBounds(0.8692, 1.5416), Ends("0.8691", "1.5417"));
+  EXPECT_EQ(peaksText(1.0000000123456, 1.0000000234567), Ends("1.00000001234", "1.00000002346"))
+      << "no decimal is near";
 }
 
 /// Each of the two has four digits of its own, and what roundings put beyond a decimal is told as about that.
@@ -90,12 +118,9 @@ TEST(Peaks, HaveDigitsOfTheirOwn) {
       for (const double width : {0.0, 1e-15, 1e-9, 0.1, 5.0}) {
         const double least = size * low, greatest = size * (low + width);
         const auto [lower, upper] = peaksText(least, greatest);
-        const double billionth = 1e-9 * std::max(std::abs(least), std::abs(greatest));
-        const auto decimal = [](const std::string& text) {
-          return Interval::parse(text.starts_with("about ") ? text.substr(6) : text);
-        };
-        EXPECT_LE(decimal(lower).upper() - (lower.starts_with("about ") ? billionth : 0), least) << lower;
-        EXPECT_GE(decimal(upper).lower() + (upper.starts_with("about ") ? billionth : 0), greatest) << upper;
+        const double all = std::max(std::abs(least), std::abs(greatest));
+        EXPECT_LE(decimal(lower).upper() - allowed(lower, greatest - least, all), least) << lower;
+        EXPECT_GE(decimal(upper).lower() + allowed(upper, greatest - least, all), greatest) << upper;
       }
 }
 
