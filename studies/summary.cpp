@@ -494,6 +494,10 @@ std::string jsonSummary(const Results& results, const std::string& verdict, cons
   json["envelope"] = boundsObject(results.stochastic.envelope, results);
   Json& cost = json["cost"];
   for (const Answer* answer : results.answers()) cost[std::string(answer->word())] = number(answer->cpu);
+  for (const char* what : {"equations", "requirements", "advice"}) {
+    const auto found = std::ranges::find(results.costs, what, &CostInfo::what);
+    cost[what] = found == results.costs.end() ? 0.0 : found->cpu;
+  }
   cost["report"] = number(files.reportCpu);
   cost["total"] = number(results.cpu);
   cost["memory"] = number(results.memory);
@@ -531,6 +535,7 @@ std::string textSummary(const Results& results) {
   };
   for (const Answer* answer : results.answers())
     if (answer->present) spend(answer->title(), answer->cpu);
+  for (const CostInfo& cost : results.costs) spend(cost.what, cost.cpu);
   if (!results.dependence.empty()) text += fmt::format("  quantities: {}\n", results.dependence);
   text += statisticsText(results);
   text += transformationText(results);

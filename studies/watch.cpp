@@ -92,8 +92,8 @@ double peakMemory() {
   return 1024 * static_cast<double>(usage.ru_maxrss);
 }
 
-Watch::Watch(const Limits& limits, const std::atomic<bool>* interrupted, Overdue overdue)
-    : limits_(limits), interrupted_(interrupted), began_(processCpuSeconds()), overdue_(std::move(overdue)) {
+Watch::Watch(const Limits& limits, const std::atomic<bool>* interrupted, Overdue overdue, double before)
+    : limits_(limits), interrupted_(interrupted), began_(processCpuSeconds() - before), overdue_(std::move(overdue)) {
   rlimit data{};
   ::getrlimit(RLIMIT_DATA, &data);
   oldDataLimit_ = data.rlim_cur;

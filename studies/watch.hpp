@@ -46,8 +46,9 @@ class Watch {
   /// time that it has if nothing else is stated, and a twelfth for the comparison.
   enum class Stage { firstSamples, enclosure, rest };
 
-  /// Watches from now on. `interrupted`, if not null, ends everything when it is set.
-  Watch(const Limits& limits, const std::atomic<bool>* interrupted, Overdue overdue = {});
+  /// Watches from now on. `interrupted`, if not null, ends everything when it is set; `before`: s of CPU that were
+  /// spent already.
+  Watch(const Limits& limits, const std::atomic<bool>* interrupted, Overdue overdue = {}, double before = 0);
   ~Watch();
   Watch(const Watch&) = delete;
   Watch& operator=(const Watch&) = delete;
@@ -66,7 +67,7 @@ class Watch {
   std::string key() const;
   /// A request for memory failed: the stage ends for want of it.
   void memoryFailed();
-  /// CPU time since the watch began, s.
+  /// CPU time since the watch began and before it, s.
   double spent() const;
 
  private:

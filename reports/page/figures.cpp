@@ -70,6 +70,8 @@ std::string costTable(const Results& results) {
   TableText table("Cost", {"analysis", "CPU time", "amount"});
   for (const Answer* answer : results.answers())
     if (answer->present) table.row(answer->title(), {secondsText(answer->cpu), answer->amount()});
+  for (const CostInfo& cost : results.costs)
+    if (cost.cpu > 0) table.row(cost.what, {secondsText(cost.cpu), ""});
   if (const DistributionResult& d = results.distribution; d.present)
     table.row("probabilities", {secondsText(d.cpu), "at " + countText(static_cast<long long>(d.time.size()), "time")});
   if (const DerivativeResult& d = results.derivatives; d.present) table.row("derivatives", {secondsText(d.cpu), ""});

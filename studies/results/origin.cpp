@@ -1,6 +1,8 @@
 // Outputs and uncertain quantities are dimensions of what follows: their names are scales at the root of the file.
 #include "studies/results/origin.hpp"
 
+#include <algorithm>
+
 namespace gamut {
 namespace {
 
@@ -45,6 +47,11 @@ std::vector<Field> fieldsOfStudy(Origin& o) {
       {"enclosure_time_limit", &o.limits.enclosureTime, unit::second, "of it to the enclosure", {}},
       {"enclosure_memory_limit", &o.limits.enclosureMemory, unit::byte, "of it to the enclosure", {}},
       {"sample_time_limit", &o.limits.sampleTime, unit::second, "of it to each sample", {}}};
+}
+
+std::vector<Field> fieldsOfCost(CostInfo& c) {
+  return {{"what", &c.what, unit::none, "\"equations\" (their recording), \"requirements\" or \"advice\"", {}},
+          {"cpu", &c.cpu, unit::second, "CPU time", {}, allowed::finite}};
 }
 
 std::vector<Field> fieldsOfLibrary(LibraryInfo& l) {
@@ -113,6 +120,11 @@ std::vector<Field> fieldsOfShape(ShapeInfo& s) {
 
 }  // namespace
 
+void addCost(Origin& origin, std::string_view what, double cpu) {
+  const auto known = std::ranges::find(origin.costs, what, &CostInfo::what);
+  (known == origin.costs.end() ? origin.costs.emplace_back(CostInfo{std::string(what)}) : *known).cpu += cpu;
+}
+
 std::string takerOfSamples(const Origin& o) {
   return o.extensions.empty() ? "Gamut " + o.version + " on " + o.host
                               : "Gamut " + o.extensions.back().version + " on " + o.extensions.back().host;
@@ -123,6 +135,8 @@ void describe(Origin& o, std::vector<Group>& groups) {
   groups.push_back(groupOf("/study", "what was asked, and where the numbers come from", o, fieldsOfStudy));
   groups.push_back(
       listOf("/study/libraries", "with what it was computed", "/study/libraries/name", o.libraries, fieldsOfLibrary));
+  groups.push_back(listOf("/study/costs", "what was spent beside what the answers took", "/study/costs/what", o.costs,
+                          fieldsOfCost));
   groups.push_back(listOf("/study/extensions", "samples that `gamut extend` added", "/study/extensions/before",
                           o.extensions, fieldsOfExtension));
   groups.push_back(listOf("/study/outputs", "what was to be looked at", dimension::output, o.outputs, fieldsOfOutput));

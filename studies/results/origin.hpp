@@ -56,6 +56,12 @@ struct ExtensionInfo {
   double timeLimit = 0, memoryLimit = 0;  ///< of the extension: s of CPU, bytes
 };
 
+/// What was spent on something that is no answer of its own.
+struct CostInfo {
+  std::string what;  ///< "requirements"
+  double cpu = 0;    ///< s
+};
+
 /// How `stopped` begins where the program itself is to blame.
 inline constexpr std::string_view internalFailure = "an internal failure: ";
 
@@ -73,12 +79,16 @@ struct Origin {
   double horizon = 0;        ///< s
   std::vector<double> time;  ///< output times, s
   Limits limits;
-  double cpu = 0;     ///< s, of all analyses
-  double memory = 0;  ///< bytes: the most that the process had at a time
+  std::vector<CostInfo> costs;  ///< of `cpu`, beside what the answers took
+  double cpu = 0;               ///< s, of all analyses
+  double memory = 0;            ///< bytes: the most that the process had at a time
   /// What kept the run from doing all that it could: an interrupt, the first limit of time or memory that it reached,
   /// or an internal failure; empty if nothing did.
   std::string stopped;
 };
+
+/// Adds to the cost of this, or begins with it.
+void addCost(Origin& origin, std::string_view what, double cpu);
 
 /// By what the samples were taken: "Gamut 1.2.3 on hostname".
 std::string takerOfSamples(const Origin& origin);

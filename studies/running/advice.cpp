@@ -155,8 +155,7 @@ void seekAdvice(Run& run) {
   const bool isGuess = isTried || enclosed.cause.kind == FlowCause::Kind::remainder;
   if (!found.empty() || isGuess) enclosed.advice = found;
   run.results.interval.advice = run.study.asksFor<IntervalResult>() ? enclosed.advice : "";
-  (run.study.asksFor<IntervalResult>() ? run.results.interval.cpu : run.results.fuzzy.cpu) +=
-      processCpuSeconds() - start;
+  addCost(run.results, "advice", processCpuSeconds() - start);
 }
 
 }  // namespace gamut

@@ -138,7 +138,7 @@ void enclose(Run& run) {
     clear(run);
     run.enclosed.why = run.watch.why();
   }
-  run.enclosed.cpu = run.study.recordingCpu + processCpuSeconds() - start;
+  run.enclosed.cpu = processCpuSeconds() - start;
 }
 
 }  // namespace gamut

@@ -209,7 +209,7 @@ void proveWhileThereIsRoom(Run& run, const Prove& prove) {
     for (RequirementResult& result : run.results.requirements)
       if (result.word == "open") result.why = run.watch.why();
   }
-  run.results.interval.cpu += processCpuSeconds() - start;
+  addCost(run.results, "requirements", processCpuSeconds() - start);
 }
 
 /// Of each margin, whether zero is enough.

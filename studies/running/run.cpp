@@ -91,17 +91,22 @@ void describeOrigin(Run& run) {
 }  // namespace
 
 Run::Run(const Study& whatIsAsked, const RunOptions& howToRun)
-    : study(whatIsAsked), options(howToRun), watch(limitsOf(study, options), options.cancelled, {options.overdue}) {
+    : study(whatIsAsked),
+      options(howToRun),
+      watch(limitsOf(study, options), options.cancelled, {options.overdue}, study.recordingCpu) {
   describeOrigin(*this);
+  addCost(results, "equations", study.recordingCpu);
   problem = makeProblem(study);
 }
 
 Run::Run(const Study& whatIsAsked, const RunOptions& howToRun, Results found)
     : study(whatIsAsked),
       options(howToRun),
-      watch(limitsOf(study, options), options.cancelled, {options.overdue}),
+      watch(limitsOf(study, options), options.cancelled, {options.overdue}, study.recordingCpu),
       problem(makeProblem(study)),
-      results(std::move(found)) {}
+      results(std::move(found)) {
+  addCost(results, "equations", study.recordingCpu);
+}
 
 std::function<void(double)> Run::progressOf(const std::string& task) const {
   if (!options.progress) return {};
