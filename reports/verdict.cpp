@@ -65,6 +65,7 @@ class Wording {
     noteProbabilities();
     noteUnlikely();
     noteCoincidences();
+    noteBetween();
     verdict_.sentence = sentence();
     if (results_.comparison.present && results_.comparison.verdict != verdict_.word)
       verdict_.sentence += fmt::format(" (The results were stored as \"{}\"; their own numbers say \"{}\".)",
@@ -178,6 +179,27 @@ class Wording {
       }
     }
     if (!who.empty()) note("Where samples coincide, or their errors are not known, no ratio is told: of " + who + ".");
+  }
+
+  /// Of the output whose range over the whole motion is most times as wide as at the output times. Samples say nothing
+  /// of what is between these.
+  void noteBetween() {
+    constexpr double hardly = 1e-3;  // of an output's size: it is as good as constant
+    double most = 1.05;
+    std::size_t who = results_.outputs.size();
+    for (std::size_t o = 0; o < results_.outputs.size(); ++o) {
+      const std::optional<MotionRange> range = motionRange(results_, o, MotionRange::Source::ofProof);
+      if (!range || !range->isBetween || isMargin(results_, o)) continue;
+      const double all = range->greatest.value - range->least.value,
+                   least = std::max(hardly * range->size(), results_.outputs[o].resolution),
+                   times = all / std::max(range->widthAtTimes, least);
+      if (std::isfinite(times) && times > most) most = times, who = o;
+    }
+    if (who < results_.outputs.size())
+      note(
+          fmt::format("Between output times {} is guaranteed within a range {} times as wide as at them; no sample "
+                      "looks there, and more output times (study.output_step) tell it more closely.",
+                      results_.outputs[who].name, timesText(most)));
   }
 
   std::string whoIs(const DisputedSample& sample) const {
@@ -378,15 +400,15 @@ class Wording {
             ? fmt::format("All {} stay inside the guaranteed enclosure{}", samplesText(), span)
             : fmt::format("At every level of possibility the samples stay inside the proved alpha-cut{}", span);
     constexpr double saysLittle = 100;
+    const std::string then = moves() ? "at the output times the guarantee" : "the guarantee";
     if (const std::string times = timesText(verdict_.overestimation); times == "1")
-      text += verdict_.overestimation == 1 ? "; the guarantee is as wide as what was sampled"
-                                           : "; the guarantee is as wide as what was sampled, to a billionth";
+      text += fmt::format("; {} is as wide as what was sampled", then);
     else if (!std::isnan(verdict_.overestimation))
       text +=
-          fmt::format("{} at most {} times as wide as what was sampled",
-                      verdict_.overestimation < saysLittle ? "; the guarantee is"
-                                                           : ", but the guarantee says little: for some output it is",
-                      times);
+          verdict_.overestimation < saysLittle
+              ? fmt::format("; {} is at most {} times as wide as what was sampled", then, times)
+              : fmt::format(", but {} says little: for some output it is at most {} times as wide as what was sampled",
+                            then, times);
     text += ".";
     if (verdict_.endsEarly) return text + (moves() ? horizonText() : " An analysis ended early.");
     if (verdict_.unbounded > 0) text += " Not every output is bounded.";

@@ -49,6 +49,7 @@ std::optional<MotionRange> motionRange(const Results& results, std::size_t outpu
     }
   }
   if (known == 0) return {};
+  range.widthAtTimes = high - low;
   const auto take = [&](Extreme& extreme, std::size_t i, double bound, double here, double before, bool isLower) {
     if (std::isnan(bound) || (isLower ? bound >= extreme.value : bound <= extreme.value)) return;
     constexpr double alike = 1e-3, shown = 1e-4;  // of the range; of the number that is told, with four digits

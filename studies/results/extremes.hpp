@@ -25,7 +25,8 @@ struct MotionRange {
   bool isAtAllTimes = false;  ///< of all of the study's output times
   double until = 0;           ///< s: the last time
   Extreme least, greatest;
-  double width = 0;  ///< of what is known at an output time, at most
+  double width = 0;         ///< of what is known at an output time, at most
+  double widthAtTimes = 0;  ///< from the least to the greatest that is known at output times
 
   /// The greatest number.
   double size() const { return std::max(std::abs(least.value), std::abs(greatest.value)); }

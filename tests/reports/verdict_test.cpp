@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <ostream>
 #include <stdexcept>
 #include <string>
@@ -12,6 +13,7 @@
 
 #include "reports/report.hpp"
 #include "reports/verdict.hpp"
+#include "studies/results/extremes.hpp"
 #include "studies/summary.hpp"
 #include "studies/words.hpp"
 #include "tests/reports/example_results.hpp"
@@ -236,16 +238,32 @@ INSTANTIATE_TEST_SUITE_P(Verdict, VerdictOf, ::testing::ValuesIn(cases),
 TEST(Verdict, SaysHowManyMotionsStayedInsideHowLongAndHowTight) {
   const Verdict verdict = judge(example::pendulum());
   EXPECT_EQ(verdict.sentence,
-            "All 4099 sampled motions stay inside the guaranteed enclosure from 0 s to 3 s; the guarantee is at most "
-            "1.004 times as wide as what was sampled.");
+            "All 4099 sampled motions stay inside the guaranteed enclosure from 0 s to 3 s; at the output times the "
+            "guarantee is at most 1.004 times as wide as what was sampled.");
   EXPECT_THAT(verdict.notes, IsEmpty());
   EXPECT_EQ(verdict.reached, 3);
   Results tight = example::pendulum();
   for (double& ratio : tight.comparison.overestimation.data) ratio = 1 + 2e-12;
   EXPECT_THAT(judge(tight).sentence,
-              ::testing::EndsWith("; the guarantee is as wide as what was sampled, to a billionth."));
+              ::testing::EndsWith("; at the output times the guarantee is as wide as what was sampled."));
   for (double& ratio : tight.comparison.overestimation.data) ratio = 1;
-  EXPECT_THAT(judge(tight).sentence, ::testing::EndsWith("; the guarantee is as wide as what was sampled."));
+  EXPECT_THAT(judge(tight).sentence,
+              ::testing::EndsWith("; at the output times the guarantee is as wide as what was sampled."));
+}
+
+/// Of what no sample is compared with.
+TEST(Verdict, SaysHowMuchWiderTheGuaranteeIsBetweenOutputTimes) {
+  Results results = example::pendulum();
+  ASSERT_FALSE(results.interval.over.empty());
+  const std::optional<MotionRange> range = motionRange(results, 0, MotionRange::Source::ofProof);
+  ASSERT_TRUE(range);
+  results.interval.over.upper(2, 0) = range->least.value + 1.5 * range->widthAtTimes;
+  EXPECT_THAT(judge(results).notes,
+              ElementsAre("Between output times " + results.outputs[0].name +
+                          " is guaranteed within a range 1.5 times as wide as at them; no sample looks there, and "
+                          "more output times (study.output_step) tell it more closely."));
+  results.interval.over.upper(2, 0) = range->least.value + 1.04 * range->widthAtTimes;
+  EXPECT_THAT(judge(results).notes, IsEmpty());
 }
 
 /// Shares of 4096 independent samples beside proved bounds of their probability.
@@ -281,8 +299,10 @@ TEST(Verdict, CountsSharesOfSamplesWhereBadLuckCannotBe) {
 TEST(Verdict, SaysWhereAGuaranteeSaysLittle) {
   Results results = example::pendulum();
   results.comparison.overestimation.data.back() = 1234.5;
-  EXPECT_THAT(judge(results).sentence,
-              HasSubstr(", but the guarantee says little: for some output it is at most 1235 times as wide"));
+  EXPECT_THAT(
+      judge(results).sentence,
+      HasSubstr(
+          ", but at the output times the guarantee says little: for some output it is at most 1235 times as wide"));
 }
 
 TEST(Verdict, SpeaksOfPositionsWhereNothingMoves) {
