@@ -144,12 +144,12 @@ class RequirementWording {
   std::string probable() const {
     std::vector<std::string> parts;
     const bool isProved = results_.interval.present || results_.fuzzy.present;
-    if (isProved && r_.probabilityLower == 0 && r_.probabilityUpper == 1)
+    const std::string proved = rangeOfShare(r_.probabilityLower, r_.probabilityUpper);
+    if (isProved && proved == nothing)
       parts.push_back("nothing is proved of the probability" +
                       (r_.word == "partly" && !r_.why.empty() ? ": " + r_.why : ""));
     else if (isProved)
-      parts.push_back(
-          fmt::format("met with a probability of {}, proved", rangeOfShare(r_.probabilityLower, r_.probabilityUpper)));
+      parts.push_back(fmt::format("met with a probability of {}, proved", proved));
     if (r_.samples > 0) {
       std::string share = fmt::format("{} of {} samples meet it{}", r_.samples - r_.violating, r_.samples,
                                       results_.horizon > 0 ? " at the output times" : "");
@@ -178,9 +178,9 @@ class RequirementWording {
   }
 
   std::string possible() const {
-    if (r_.violationLeast == 0 && r_.violationMost == 1) return "nothing is proved of the possibility";
-    return fmt::format("violated with a possibility of {}, met with a necessity of {}",
-                       rangeOfShare(r_.violationLeast, r_.violationMost),
+    const std::string possibility = rangeOfShare(r_.violationLeast, r_.violationMost);
+    if (possibility == nothing) return "nothing is proved of the possibility";
+    return fmt::format("violated with a possibility of {}, met with a necessity of {}", possibility,
                        rangeOfShare(1 - r_.violationMost, 1 - r_.violationLeast));
   }
 

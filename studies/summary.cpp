@@ -379,13 +379,6 @@ std::string shapesText(const Results& results, const UncertainInfo& uncertain) {
   return distribution == membership ? distribution : distribution + ", " + membership;
 }
 
-constexpr double hardlyAny = 0.01;  ///< s of CPU
-
-/// "0.45 s"; of what took hardly any time no zeros.
-std::string cpuText(double seconds) {
-  return seconds < hardlyAny ? "less than 0.01 s" : fmt::format("{:.2f} s", seconds);
-}
-
 /// " (tip y at 0.5 s; half of them within 0.009)": where bounds of probabilities are farthest apart, and how far
 /// others.
 std::string widestGapText(const Results& results) {
@@ -395,7 +388,7 @@ std::string widestGapText(const Results& results) {
   std::size_t widest = 0;
   double greatest = 0;
   for (std::size_t i = 0; i < d.gaps.size(); ++i) {
-    if (isMargin(results, i % outputs) || std::isnan(d.gaps[i])) continue;
+    if (isMargin(results, i % outputs) || !(d.gaps[i] < 1)) continue;
     gaps.push_back(d.gaps[i]);
     if (d.gaps[i] > greatest) widest = i, greatest = d.gaps[i];
   }
@@ -405,6 +398,40 @@ std::string widestGapText(const Results& results) {
   return fmt::format(" ({}{}; half of them within {})", results.outputs[widest % outputs].name,
                      results.horizon > 0 ? " at " + timeText(d.time[widest / outputs]) : std::string(),
                      atMostText(*middle, 2));
+}
+
+/// How closely distribution functions are bounded, and of how many of them nothing is known.
+std::string probabilitiesText(const Results& results) {
+  const DistributionResult& d = results.distribution;
+  const std::size_t outputs = results.outputs.size();
+  long long known = 0, unknown = 0;
+  double gap = 0;
+  for (std::size_t i = 0; i < d.gaps.size(); ++i) {
+    if (isMargin(results, i % outputs)) continue;
+    if (d.gaps[i] < 1)
+      ++known, gap = std::max(gap, d.gaps[i]);
+    else if (!std::isnan(d.gaps[i]) || !isOneValue(results, d.time[i / outputs], i % outputs))
+      ++unknown;
+  }
+  const std::string& why = d.stopped.empty() ? d.why : d.stopped;
+  if (known == 0)
+    return unknown == 0 && d.stopped.empty()
+               ? ""
+               : fmt::format("  probabilities: nothing is known of them{}\n", why.empty() ? "" : ": " + why);
+  return fmt::format("  probabilities: {}bounds {} apart at most{}, at {}{}\n",
+                     unknown == 0 ? ""
+                                  : fmt::format("nothing is known of {} of {} distributions; of the others ", unknown,
+                                                known + unknown),
+                     atMostText(gap, 2), why.empty() ? "" : widestGapText(results),
+                     countText(static_cast<long long>(d.time.size()), "time"),
+                     why.empty() ? "" : fmt::format(" ({} is aimed at: {})", numberText(d.wanted, 3), why));
+}
+
+constexpr double hardlyAny = 0.01;  ///< s of CPU
+
+/// "0.45 s"; of what took hardly any time no zeros.
+std::string cpuText(double seconds) {
+  return seconds < hardlyAny ? "less than 0.01 s" : fmt::format("{:.2f} s", seconds);
 }
 
 /// What was spent in all, and of how much.
@@ -540,22 +567,7 @@ std::string textSummary(const Results& results) {
   text += statisticsText(results);
   text += transformationText(results);
   if (const DistributionResult& d = results.distribution; d.present) {
-    std::size_t known = 0, wanted = 0;
-    for (std::size_t i = 0; i < d.gaps.size(); ++i) {
-      if (isMargin(results, i % results.outputs.size())) continue;
-      ++wanted;
-      if (!std::isnan(d.gaps[i])) ++known;
-    }
-    const std::string& why = d.stopped.empty() ? d.why : d.stopped;
-    if (known == 0 && !why.empty())
-      text += fmt::format("  probabilities: not bounded: {}\n", why);
-    else if (known < wanted && !d.stopped.empty())
-      text += fmt::format("  probabilities: not all bounded: {}\n", why);
-    else if (known > 0)
-      text += fmt::format("  probabilities: bounds {} apart at most{}, at {}{}\n", atMostText(d.gap, 2),
-                          d.why.empty() ? "" : widestGapText(results),
-                          countText(static_cast<long long>(d.time.size()), "time"),
-                          d.why.empty() ? "" : fmt::format(" ({} is aimed at: {})", numberText(d.wanted, 3), d.why));
+    text += probabilitiesText(results);
     spend("probabilities", d.cpu);
   }
   if (const DerivativeResult& d = results.derivatives; d.present) {
@@ -594,7 +606,7 @@ std::string infoText(const Results& results) {
     if (!answer->present) continue;
     text += fmt::format("  {}: ", answer->title());
     if (results.horizon > 0)
-      text += fmt::format("up to {} s{}; ", answer->reached, answer->why.empty() ? "" : ": " + answer->why);
+      text += fmt::format("up to {}{}; ", reachedText(answer->reached), answer->why.empty() ? "" : ": " + answer->why);
     text += fmt::format("{} CPU; {}\n", cpuText(answer->cpu), answer->amount());
   }
   return text;

@@ -27,14 +27,6 @@ std::string distributionNumbers(const Results& results, std::size_t at, std::siz
   return numbers.html();
 }
 
-/// Whether the enclosure of an output is at this time as good as a number, which nothing uncertain moves.
-bool isOneValue(const Results& results, double time, std::size_t output) {
-  const Bounds& bounds = results.interval.at;
-  const auto row = static_cast<std::size_t>(std::ranges::lower_bound(results.time, time) - results.time.begin());
-  return results.interval.present && row < bounds.lower.times &&
-         isLittle(bounds.upper(row, output) - bounds.lower(row, output), motionSize(results, output));
-}
-
 std::string distributionsOf(const Results& results, std::size_t output) {
   const std::vector<double>& times = results.distribution.time;
   std::vector<std::string> drawings, captions, numbers;
@@ -50,7 +42,8 @@ std::string distributionsOf(const Results& results, std::size_t output) {
                                                       ? "one value, to a billionth of the greatest,"
                                                       : "nothing is known") +
                                                      when
-                                               : fmt::format("bounds {} apart at most{}", atMostText(gap, 2), when));
+                       : gap >= 1 ? "nothing is known but the range" + when
+                                  : fmt::format("bounds {} apart at most{}", atMostText(gap, 2), when));
     numbers.push_back(distributionNumbers(results, at, output));
   }
   return momentFigures("distribution", drawings, captions, numbers);

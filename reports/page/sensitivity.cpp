@@ -332,17 +332,19 @@ std::string cellOf(const Cause& cause, std::size_t i, bool isShare) {
   std::string text, estimate;
   if (i < cause.proved.lower.size() && std::isfinite(cause.proved.lower[i])) {
     constexpr double finest = 1e-3;  // width of a share
-    const auto [from, to] = isShare ? boundsText(cause.proved.lower[i], cause.proved.upper[i], 1, 2, finest)
-                                    : outwardText(cause.proved.lower[i], cause.proved.upper[i], digits);
-    text = isShare && cause.proved.upper[i] < least         ? "less than 0.0001"
-           : cause.proved.lower[i] == cause.proved.upper[i] ? numberText(cause.proved.lower[i], digits)
-                                                            : from + " to " + to;
+    const double lower = cause.proved.lower[i], upper = cause.proved.upper[i];
+    const auto [from, to] = isShare ? boundsText(lower, upper, 1, 2, finest) : outwardText(lower, upper, digits);
+    if (!isShare || lower > 0 || upper < 1)  // else nothing is known
+      text = isShare && upper < least ? "less than 0.0001"
+             : lower == upper         ? numberText(lower, digits)
+                                      : from + " to " + to;
   }
   if (i < cause.estimate.size() && std::isfinite(cause.estimate[i]))
     estimate = isShare && cause.error[i] < 10 * least
                    ? fmt::format("{:.4f} ± {:.4f}", std::round(cause.estimate[i] / least) * least + 0.0,
                                  std::ceil(cause.error[i] / least) * least)
                    : withErrorText(cause.estimate[i], cause.error[i]);
+  if (text.empty() && estimate.empty()) return isShare ? "not known" : "";
   return estimate.empty() ? text : text.empty() ? "about " + estimate : fmt::format("{} ({})", text, estimate);
 }
 

@@ -95,6 +95,13 @@ double motionSize(const Results& results, std::size_t output) {
   return 0;
 }
 
+bool isOneValue(const Results& results, double time, std::size_t output) {
+  const Bounds& bounds = results.interval.at;
+  const auto row = static_cast<std::size_t>(std::ranges::lower_bound(results.time, time) - results.time.begin());
+  return results.interval.present && row < bounds.lower.times &&
+         isLittle(bounds.upper(row, output) - bounds.lower(row, output), motionSize(results, output));
+}
+
 std::string rangesCaption(const Results& results) {
   std::optional<MotionRange> any;
   for (std::size_t o = 0; o < results.outputs.size() && !any; ++o) any = bestMotionRange(results, o);
@@ -104,7 +111,7 @@ std::string rangesCaption(const Results& results) {
                                                               : "possible";
   return results.horizon == 0 ? word
                               : fmt::format("{} from {} to {}{}", word, timeText(results.time.front()),
-                                            timeText(any->until), any->isBetween ? "" : ", at the output times");
+                                            reachedText(any->until), any->isBetween ? "" : ", at the output times");
 }
 
 std::string whenText(const Results& results, const Extreme& extreme) {

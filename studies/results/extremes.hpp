@@ -42,6 +42,9 @@ std::optional<MotionRange> bestMotionRange(const Results& results, std::size_t o
 /// The greatest number of an output over the whole motion, as far as it is known; else 0.
 double motionSize(const Results& results, std::size_t output);
 
+/// Whether the enclosure of an output is at this output time (s) as good as a number, which nothing uncertain moves.
+bool isOneValue(const Results& results, double time, std::size_t output);
+
 /// Of what a table of them all is: "guaranteed from 0 s to 3 s", "sampled at the output times".
 std::string rangesCaption(const Results& results);
 

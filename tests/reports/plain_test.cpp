@@ -182,6 +182,10 @@ TEST(PlainRequirement, SaysHowFarItIsDecidedAndWhatMayHelp) {
       "8000); met until 2.25 s of 3 s");
   EXPECT_EQ(words.probable, "nothing is proved of the probability");
   EXPECT_EQ(words.possible, "nothing is proved of the possibility");
+  results.requirements[0].probabilityUpper = 0.99997;  // would be told as 1
+  results.requirements[0].violationLeast = 1e-5;
+  EXPECT_EQ(wordsOfRequirements(results)[0].probable, "nothing is proved of the probability");
+  EXPECT_EQ(wordsOfRequirements(results)[0].possible, "nothing is proved of the possibility");
 }
 
 TEST(PlainRequirement, IsEstimatedWhereTheProofEnds) {

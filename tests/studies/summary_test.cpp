@@ -1,9 +1,11 @@
 // The JSON object holds what the results hold, and nothing that JSON cannot say.
 #include "studies/summary.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -60,7 +62,8 @@ TEST(JsonSummary, HasTheDocumentedKeys) {
                           "overestimation", "reached", "requirements", "samples", "sensitivity", "shortfall",
                           "statistics", "stopped", "tightness", "verdict", "version", "why"));
   EXPECT_THAT(keysOf(json["overestimation"]), ElementsAre("max", "median", "outputs"));
-  EXPECT_THAT(keysOf(json["cost"]), ElementsAre("fuzzy", "interval", "memory", "report", "stochastic", "total"));
+  EXPECT_THAT(keysOf(json["cost"]), ElementsAre("advice", "equations", "fuzzy", "interval", "memory", "report",
+                                                "requirements", "stochastic", "total"));
   EXPECT_THAT(keysOf(json["limits"]),
               ElementsAre("enclosure_memory", "enclosure_time", "memory", "sample_time", "time"));
   EXPECT_EQ(json["verdict"], "incomplete");
@@ -141,16 +144,23 @@ TEST(TextSummary, SaysHowFarSamplesFillTheCuts) {
   EXPECT_THAT(textSummary(results), HasSubstr("; they reach the ends of every proved cut\n"));
 }
 
-TEST(TextSummary, SaysHowCloseBoundsOfProbabilitiesAre) {
+/// Without requirements, whose margins the outputs are; every distribution is known to this gap at one time.
+Results boundedResults(double gap) {
   Results results = sampleResults();
-  results.requirements.clear();  // whose margins they are
+  results.requirements.clear();
   DistributionResult& d = results.distribution;
   d = {};
   d.present = true;
   d.wanted = 0.005;
-  d.gap = 0.0389;
+  d.gap = gap;
   d.time = {0.01};
-  d.gaps.assign(results.outputs.size(), d.gap);
+  d.gaps.assign(results.outputs.size(), gap);
+  return results;
+}
+
+TEST(TextSummary, SaysHowCloseBoundsOfProbabilitiesAre) {
+  Results results = boundedResults(0.0389);
+  DistributionResult& d = results.distribution;
   EXPECT_THAT(textSummary(results), HasSubstr("  probabilities: bounds 0.039 apart at most, at 1 time\n"));
   d.why = "the work that limits.probabilities allows is done";
   EXPECT_THAT(textSummary(results),
@@ -175,6 +185,36 @@ TEST(TextSummary, TellsMarginsWhereTheirRequirementAsksForThem) {
   EXPECT_THAT(textSummary(results), HasSubstr(name));
   r.until = 0;
   EXPECT_THAT(textSummary(results), Not(HasSubstr(name)));
+}
+
+/// Bounds from 0 to 1 are none.
+TEST(TextSummary, SaysOfHowManyDistributionsNothingIsKnown) {
+  Results results = boundedResults(0.0389);
+  DistributionResult& d = results.distribution;
+  d.gaps[0] = 1;
+  d.gap = 1;
+  d.why = "the enclosure is not tight enough";
+  EXPECT_THAT(
+      textSummary(results),
+      HasSubstr(fmt::format("  probabilities: nothing is known of 1 of {} distributions; of the others bounds 0.039 "
+                            "apart at most, at 1 time (0.005 is aimed at: the enclosure is not tight enough)\n",
+                            results.outputs.size())));
+  d.gaps.assign(results.outputs.size(), std::numeric_limits<double>::quiet_NaN());
+  EXPECT_THAT(textSummary(results),
+              HasSubstr("  probabilities: nothing is known of them: the enclosure is not tight enough\n"));
+}
+
+/// What belongs to no answer is told beside these, so that parts and limits add up.
+TEST(TextSummary, ListsWhatRequirementsAndAdviceCost) {
+  Results results = sampleResults();
+  addCost(results, "requirements", 1);
+  addCost(results, "advice", 6.25);
+  addCost(results, "requirements", 2.5);
+  EXPECT_THAT(textSummary(results), HasSubstr("requirements 3.50 s, advice 6.25 s"));
+  const Json cost = Json::parse(jsonSummary(results, "inside", {}))["cost"];
+  EXPECT_EQ(cost["requirements"], 3.5);
+  EXPECT_EQ(cost["advice"], 6.25);
+  EXPECT_EQ(cost["equations"], 0);
 }
 
 TEST(TextSummary, LeadsWithTheLeastAndTheGreatestOfTheWholeMotion) {
