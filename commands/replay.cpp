@@ -107,7 +107,7 @@ void say(std::size_t number, const ReplayedSample& sample, const Results& result
     fmt::print(stderr, "note: sample {} seemed to leave what is proved, and was integrated again ({})\n", number,
                sample.decided);
   if (!sample.why.empty())
-    fmt::print(stderr, "note: sample {} ended at {} s: {}\n", number, sample.reached, sample.why);
+    fmt::print(stderr, "note: sample {} ended at {}: {}\n", number, reachedText(sample.reached), sample.why);
   if (!liesInEnvelope(sample, results))
     fmt::print(
         stderr,

@@ -1,4 +1,4 @@
-// A requirement's statement is read again, far enough to say what stays above or below what.
+// What a requirement's statement compares says what stays above or below what.
 #include "reports/plain.hpp"
 
 #include <fmt/format.h>
@@ -222,7 +222,7 @@ std::string whereIs(const Results& results, std::size_t output) {
     return fmt::format("{}\u201c{}\u201d lies between {} and {}{}.", begin, info.name, from, greatest, end);
   const double size = motionSize(results, output);
   return fmt::format("{}\u201c{}\u201d stays between {} and {} from {} to {}{}{}.{} At {}, cases differ by {} at most.",
-                     begin, info.name, from, greatest, timeText(results.time.front()), timeText(range->until),
+                     begin, info.name, from, greatest, timeText(results.time.front()), reachedText(range->until),
                      range->isBetween ? "" : " (looked at the output times)", end, extremesText(results, *range),
                      range->isAtAllTimes ? "any output time" : "the times that are known",
                      inUnit(atMostText(range->width, 2, size), info.unit));

@@ -11,6 +11,7 @@
 
 #include "analyses/requirements/requirement.hpp"
 #include "analyses/requirements/start.hpp"
+#include "studies/results/extremes.hpp"
 #include "studies/running/flow_of_study.hpp"
 #include "studies/running/units.hpp"
 #include "studies/words.hpp"
@@ -95,6 +96,8 @@ struct Reason {
   std::string why, advice;
 };
 
+const Reason exactly{"its limit is met exactly, as far as can be told: rounded numbers prove neither", "another limit"};
+
 /// What the enclosure says of a margin that is left open: where it reaches how far below zero.
 Reason ofMargin(const Run& run, const Requirement& requirement) {
   const Reason loose{"the enclosure is not tight enough to tell",
@@ -117,7 +120,9 @@ Reason ofMargin(const Run& run, const Requirement& requirement) {
     }
   const Least& least = at.margin > 0 ? over : at;
   if (!std::isfinite(least.margin) || !(least.margin < 0)) return loose;
-  const std::string below = inUnit(atMostText(-least.margin, 3), run.study.outputs[least.output].unit);
+  const double size = motionSize(run.results, least.output);
+  if (isLittle(least.margin, size)) return exactly;
+  const std::string below = inUnit(atMostText(-least.margin, 3, size), run.study.outputs[least.output].unit);
   if (run.study.horizon == 0) return {fmt::format("its margin is proved to be above -{} only", below), ""};
   if (at.margin > 0)
     return {fmt::format("between output times, before {} s, its margin is proved to be above -{} only",
@@ -130,17 +135,19 @@ Reason ofMargin(const Run& run, const Requirement& requirement) {
 /// One cause, the first that holds.
 Reason whyOpen(const Run& run, std::size_t number, const std::string& unsettled) {
   const RequirementResult& result = run.results.requirements[number];
+  const bool isEnclosureShort =
+      !run.enclosed.why.empty() &&
+      (!run.enclosed.models || run.study.motion.times[run.enclosed.models->at.size() - 1] < result.until);
+  if (isEnclosureShort && result.word == "open" && !result.isViolatedInSimulation)  // whatever came to an end later
+    return {run.enclosed.why, run.enclosed.advice};
   if (*run.watch.stop()) return {run.watch.why(), adviceOf(run.watch)};
   if (result.isViolatedInSimulation && !unsettled.empty()) return {unsettled, ""};
   if (!run.study.asksFor<IntervalResult>() && !run.study.asksFor<FuzzyResult>())
     return {"no enclosure was asked for", "study.compare with \"interval\""};
-  if (!run.enclosed.why.empty() &&
-      (!run.enclosed.models || run.study.motion.times[run.enclosed.models->at.size() - 1] < result.until))
-    return {run.enclosed.why, run.enclosed.advice};
+  if (isEnclosureShort) return {run.enclosed.why, run.enclosed.advice};
   if (!run.enclosed.models) return {"models of its margins found no room", "a greater limits.enclosure_memory"};
   if (result.word != "open") return {};
-  if (isJustMet(run, number))
-    return {"its limit is met exactly, as far as samples can tell: rounded numbers prove neither", "another limit"};
+  if (isJustMet(run, number)) return exactly;
   if (run.spent.isAll)
     return {"the work that limits.requirements allows is done",
             fmt::format("limits.requirements = {:.6g}", 4 * std::max(run.study.shares.requirements, 0.25))};
