@@ -61,10 +61,10 @@ TEST(Names, WhatIsExpectedAreNearNamesOrSomeOfAll) {
             "one of: k, k, k, k, k, k, k, k, k, k, k, k and 2 more");
   EXPECT_EQ(expectedName("f1.moment", {"j1.reaction.moment.x", "f1.force", "f1.power"}),
             "'f1.force', 'f1.power' or 'j1.reaction.moment.x'");
-  EXPECT_EQ(expectedName("j.position", {"j.angle", "t", "j.rate", "j.power", "j.force", "K.position.x"}),
-            "one of: j.angle, j.rate, j.power, j.force");
-  EXPECT_EQ(expectedName("j", {"j.angle", "t", "j.rate", "j.power", "j.force"}),
-            "one of: j.angle, j.rate, j.power, j.force");
+  EXPECT_EQ(expectedName("hinge.position", {"hinge.angle", "t", "hinge.rate", "hinge.power", "hinge.force", "tip.x"}),
+            "one of: hinge.angle, hinge.rate, hinge.power, hinge.force");
+  EXPECT_EQ(expectedName("hinge", {"hinge.angle", "t", "hinge.rate", "hinge.power", "hinge.force"}),
+            "one of: hinge.angle, hinge.rate, hinge.power, hinge.force");
   EXPECT_EQ(expectedName("something", {"base"}), "'base'");
   EXPECT_EQ(expectedName("something", {}), "one that was defined before; there is none yet");
 }

@@ -35,6 +35,7 @@ inline Results sampleResults() {
   r.host = "somewhere";
   r.date = "2024-02-29T12:00:00Z";
   r.libraries = {{"HDF5", "1.10"}, {"SUNDIALS", "6.4"}};
+  r.costs = {{"requirements", 0.5}};
   r.extensions = {{256, "9.8.8", "elsewhere", "2024-03-01T12:00:00Z", 2.5, 60, 1e9}};
   r.uncertain = {{"first angle", "shoulder.angle", "rad", 0.9, 1.0, 1.1, "uniform", "triangular"}};
   r.uncertain[0].inconsistency = 0.001;

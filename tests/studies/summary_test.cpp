@@ -207,6 +207,7 @@ TEST(TextSummary, SaysOfHowManyDistributionsNothingIsKnown) {
 /// What belongs to no answer is told beside these, so that parts and limits add up.
 TEST(TextSummary, ListsWhatRequirementsAndAdviceCost) {
   Results results = sampleResults();
+  results.costs.clear();
   addCost(results, "requirements", 1);
   addCost(results, "advice", 6.25);
   addCost(results, "requirements", 2.5);
