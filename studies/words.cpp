@@ -159,6 +159,10 @@ BothEnds outwardBounds(double lower, double upper, double size, int resolved, do
 
 BothEnds boundsText(double lower, double upper, double size, int resolved, double widest) {
   BothEnds ends = trivialBounds(lower, upper, size, resolved);
+  if (lower <= upper && !ends.first.empty() && std::isfinite(upper - lower)) {  // nothing beside what it may be
+    if (lower < 0) ends.first = "about 0";
+    if (upper > 0) ends.second = "about 0";
+  }
   if (!ends.first.empty()) return ends;
   const Digits digits(lower, upper, size, resolved, widest);
   const auto [below, above] = digits.outward(lower, upper);

@@ -61,8 +61,10 @@ TEST(Numbers, OfHardlyAnythingHaveNoDigits) {
   EXPECT_EQ(tellingText(3.8e-87, 2), "less than 1e-08");
   EXPECT_EQ(tellingText(0.0123, 2), "0.0123");
   EXPECT_EQ(atMostText(3.8e-87, 2, 2.0), "1e-08");
-  EXPECT_EQ(boundsText(-3.8e-87, 1e-90), Ends("-1e-24", "1e-24"));
-  EXPECT_EQ(boundsText(-3.8e-12, 0, 0.9), Ends("-1e-09", "0"));
+  EXPECT_EQ(outwardBounds(-3.8e-87, 1e-90), Ends("-1e-24", "1e-24"));
+  EXPECT_EQ(outwardBounds(-3.8e-12, 0, 0.9), Ends("-1e-09", "0"));
+  EXPECT_EQ(boundsText(-3.8e-87, 1e-90), Ends("about 0", "about 0"));
+  EXPECT_EQ(boundsText(-3.8e-12, 0, 0.9), Ends("about 0", "0"));
 }
 
 TEST(PrintedBounds, HaveTheDigitsThatTheirWidthJustifies) {
