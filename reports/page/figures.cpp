@@ -61,8 +61,9 @@ std::string figuresTable(const Results& results, const Verdict& verdict, std::si
   return table.html() + hintOfRows(results.outputs.size(), rows);
 }
 
+constexpr double told = 0.01;  // s of CPU; of less there are no digits
+
 std::string secondsText(double seconds) {
-  constexpr double told = 0.01;
   return seconds < told ? "less than 0.01 s" : numberText(seconds, seconds < 1000 ? 3 : 6) + " s";
 }
 
@@ -71,7 +72,7 @@ std::string costTable(const Results& results) {
   for (const Answer* answer : results.answers())
     if (answer->present) table.row(answer->title(), {secondsText(answer->cpu), answer->amount()});
   for (const CostInfo& cost : results.costs)
-    if (cost.cpu > 0) table.row(cost.what, {secondsText(cost.cpu), ""});
+    if (cost.cpu >= told) table.row(cost.what, {secondsText(cost.cpu), ""});
   if (const DistributionResult& d = results.distribution; d.present)
     table.row("probabilities", {secondsText(d.cpu), "at " + countText(static_cast<long long>(d.time.size()), "time")});
   if (const DerivativeResult& d = results.derivatives; d.present) table.row("derivatives", {secondsText(d.cpu), ""});
