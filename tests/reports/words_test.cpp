@@ -21,6 +21,7 @@ Interval decimal(const std::string& text) {
 /// By how much a bound may lie beyond the decimal that it is told to be about.
 double allowed(const std::string& text, double width, double size) {
   if (!text.starts_with("about ")) return 0;
+  if (text == "about 0") return std::max(1e-9 * size, 1e-24);
   return std::max(1e-9 * std::max(width, 1e-9 * size), 4e-15 * size);
 }
 
