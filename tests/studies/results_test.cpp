@@ -120,6 +120,7 @@ TEST(Description, LeavesOutNoMember) {
   EXPECT_LE(longestGap(r.comparison.disputed[0], fields["/comparison/disputed"]), padding);
   EXPECT_LE(longestGap(r.requirements[0], fields["/requirements"]), padding);
   EXPECT_LE(longestGap(r.libraries[0], fields["/study/libraries"]), padding);
+  EXPECT_LE(longestGap(r.costs[0], fields["/study/costs"]), padding);
   EXPECT_LE(longestGap(r.extensions[0], fields["/study/extensions"]), padding);
   EXPECT_LE(longestGap(r.outputs[0], fields["/study/outputs"]), padding);
   EXPECT_LE(longestGap(r.uncertain[0], fields["/study/uncertain"]), padding);
@@ -133,7 +134,7 @@ TEST(Description, LeavesOutNoMember) {
   EXPECT_LE(longestGap(m.places, fields["/machine/places"], m.places.present), padding);
   std::vector<Field> origin = fields["/"];
   origin.insert(origin.end(), fields["/study"].begin(), fields["/study"].end());
-  EXPECT_LE(longestGap<Origin>(r, origin, r.libraries, r.extensions, r.outputs, r.uncertain, r.shapes), padding);
+  EXPECT_LE(longestGap<Origin>(r, origin, r.libraries, r.costs, r.extensions, r.outputs, r.uncertain, r.shapes), padding);
 }
 
 /// "time × output" for what lies at "/time" and "/output".
