@@ -213,8 +213,8 @@ TEST(Report, PrintsBoundsOfOneOutputWithTheSameDecimals) {
   results.interval.at.upper(1, 0) = -1.08207;
   results.stochastic.envelope.lower(1, 0) = -1.30004;
   results.stochastic.envelope.upper(1, 0) = -1.3;
-  EXPECT_THAT(renderReport(results),
-              ::testing::AllOf(HasSubstr("<td>[about -1.3446, -1.0820]</td>"), HasSubstr("<td>[-1.3001, -1.3000]</td>")));
+  EXPECT_THAT(renderReport(results), ::testing::AllOf(HasSubstr("<td>[about -1.3446, -1.0820]</td>"),
+                                                      HasSubstr("<td>[-1.3001, -1.3000]</td>")));
 }
 
 /// A drawing shows the bounds between output times too: what is said instead says which are meant.

@@ -134,7 +134,8 @@ TEST(Description, LeavesOutNoMember) {
   EXPECT_LE(longestGap(m.places, fields["/machine/places"], m.places.present), padding);
   std::vector<Field> origin = fields["/"];
   origin.insert(origin.end(), fields["/study"].begin(), fields["/study"].end());
-  EXPECT_LE(longestGap<Origin>(r, origin, r.libraries, r.costs, r.extensions, r.outputs, r.uncertain, r.shapes), padding);
+  EXPECT_LE(longestGap<Origin>(r, origin, r.libraries, r.costs, r.extensions, r.outputs, r.uncertain, r.shapes),
+            padding);
 }
 
 /// "time × output" for what lies at "/time" and "/output".
