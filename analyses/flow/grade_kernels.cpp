@@ -128,14 +128,13 @@ GAMUT_CLONES void loadLanes(const double* rows, int stride, int count, int from,
     for (int i = from; i < to; ++i) std::fill(out + i * lanes + count, out + (i + 1) * lanes, 0.0);
 }
 
-GAMUT_CLONES void storeLanes(const double* w, int orders, int count, double* rows, int stride) {
+GAMUT_CLONES void storeLanes(double* w, int orders, int count, double* rows, int stride) {
   const int end = (orders + 7) / 8 * 8;
+  std::fill(w + orders * lanes, w + end * lanes, 0.0);
   for (int l = 0; l < count; ++l, rows += stride) {
-    int i = 0;
-    for (const double* at = w + l; i + 4 <= orders; i += 4, at += 4 * lanes)
+    const double* at = w + l;
+    for (int i = 0; i < end; i += 4, at += 4 * lanes)
       four(rows + i) = Four{at[0], at[lanes], at[2 * lanes], at[3 * lanes]};
-    for (; i < orders; ++i) rows[i] = w[i * lanes + l];
-    for (; i < end; ++i) rows[i] = 0;
   }
 }
 

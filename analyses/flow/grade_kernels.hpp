@@ -28,8 +28,9 @@ void convolveLanes(const double* s, int from, int to, const double* w, int i, do
 /// out[i·lanes + l] = rows[l·stride + i] for l < count, from ≤ i < to; zeros for the other l.
 void loadLanes(const double* rows, int stride, int count, int from, int to, double* out);
 
-/// rows[l·stride + i] = w[i·lanes + l] for l < count, i < orders, and zeros up to the next multiple of eight orders.
-void storeLanes(const double* w, int orders, int count, double* rows, int stride);
+/// rows[l·stride + i] = w[i·lanes + l] for l < count, i < orders, and zeros up to the next multiple of eight orders; in
+/// w too.
+void storeLanes(double* w, int orders, int count, double* rows, int stride);
 
 /// sums[i] += Σ_l |w[i·lanes + l]|, weighted[i] += Σ_l weights[l] |w[i·lanes + l]| for i < orders.
 void sumLanes(const double* w, int orders, const double* weights, double* sums, double* weighted);

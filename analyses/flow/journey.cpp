@@ -169,13 +169,9 @@ std::unique_ptr<FlowFollower::Tools> FlowFollower::toolsFor(const FlowPiece& pie
   tools->stepper.setTimeKinks(held.empty() ? task_.timeKinks : TimeKinks(motion, task_.horizon, task_.quantum));
   if (task_.jumps.count() > 0)
     tools->stepper.setJumps(tools->jumps ? *tools->jumps : task_.jumps, task_.jumps, held, left, factor);
-  if (task_.outputs.outputs() > 0) {
-    const std::size_t own = task_.outputLayout(piece.layout);
-    tools->outputs = std::make_unique<OutputTools>(outputToolsFor(tools->g, own, piece.layout));
-    tools->plainChords = chordsIn(tools->g, piece.layout, piece.layout);
-    if (task_.standsStill && own > piece.layout) tools->richChords = chordsIn(tools->g, own, piece.layout);
-    tools->chords = tools->plainChords.get();
-  }
+  if (task_.outputs.outputs() > 0)
+    tools->outputs =
+        std::make_unique<OutputTools>(outputToolsFor(tools->g, task_.outputLayout(piece.layout), piece.layout));
   return tools;
 }
 
@@ -479,12 +475,15 @@ void FlowFollower::loadChords(FlowPiece& piece, const std::vector<Interval>& bef
     }
   }
   between_ = nullptr;
-  load(tool_->plainChords.get());
-  if (!tool_->richChords) return;
-  for (int o = 0; o < outputs_->count(); ++o) {
-    if (tool_->chords->rest(o) <= little * extentOf(before[at(o)])) continue;
-    return load(tool_->richChords.get());
-  }
+  const auto loadIn = [&](std::unique_ptr<FlowOutputChords>& chords, std::size_t layout) {  // made once needed
+    if (!chords) chords = chordsIn(tool_->g, layout, piece.layout);
+    load(chords.get());
+  };
+  loadIn(tool_->plainChords, piece.layout);
+  const std::size_t rich = task_.outputLayout(piece.layout);
+  if (!task_.standsStill || rich == piece.layout) return;
+  for (int o = 0; o < outputs_->count(); ++o)
+    if (!(tool_->chords->rest(o) <= little * extentOf(before[at(o)]))) return loadIn(tool_->richChords, rich);
 }
 
 /// Whether chords leave more of some output than so many times what counts for nothing beside its width, or beside what

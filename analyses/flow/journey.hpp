@@ -110,7 +110,7 @@ class FlowFollower {
     Program besides;  // the values looked at besides, likewise
     std::vector<char> held;
     std::unique_ptr<OutputTools> outputs = nullptr;
-    std::unique_ptr<FlowOutputChords> plainChords = nullptr, richChords = nullptr;  // the latter where they may pay
+    std::unique_ptr<FlowOutputChords> plainChords = nullptr, richChords = nullptr;  // once needed
     FlowOutputChords* chords = nullptr;                                             // of which these are loaded
     std::map<std::size_t, OutputTools> between = {};  // of layouts of fewer monomials, once needed
     std::unique_ptr<FlowAsides> asides = nullptr;     // of `besides`, once needed

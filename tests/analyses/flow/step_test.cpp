@@ -806,7 +806,7 @@ TEST(FlowStep, WhatTurnsLeavesAChordFromItsStartByNoMoreThanTheSag) {
   scene.fill({0, 2 * w / length}, 0, 0, 0, 0, 0);
   scene.set.C = {1, 0, 0, 1};
   scene.set.W = {w, 0};
-  ASSERT_EQ(scene.stepper.certify(scene.set, length, quantum, 0, 0), StepOutcome::stepped);
+  ASSERT_EQ(scene.stepper.certify(scene.set, length, quantum, 0, 0, 0), StepOutcome::stepped);
   ASSERT_TRUE(scene.stepper.isAboutCentre());
   ASSERT_EQ(scene.stepper.h(), length);
   FlowPoint end;
@@ -847,10 +847,10 @@ TEST(FlowStep, DependsOnItsSetAlone) {
     used.fill({0.1, -0.2, 1, 2, 3}, size, 1e-3, 1, 1e-6, 0);
     fresh.fill({points.uniform(0.05, 0.15), 0.1, 1, 2, 3}, size / 4, 1e-6, 1, 1e-9, 0);
     for (FlowSet* set : {&used.set, &fresh.set}) set->nextStep = 0x1p-8;
-    used.stepper.certify(used.set, horizon, quantum, 0, 0);
+    used.stepper.certify(used.set, horizon, quantum, 0, 0, 0);
     const auto certify = [&](FlowStepper& stepper, std::uint64_t& work) {
       const std::uint64_t began = Work::counted();
-      const StepOutcome outcome = stepper.certify(fresh.set, horizon, quantum, 0, 0);
+      const StepOutcome outcome = stepper.certify(fresh.set, horizon, quantum, 0, 0, 0);
       work = Work::counted() - began;
       return outcome;
     };
@@ -1019,7 +1019,7 @@ TEST(FlowStep, OutputsLeaveTheirChordsByNoMoreThanTheirSag) {
     const int symbols = points.integer(1, 4), degree = points.integer(1, 6);
     Scene scene(f, symbols, degree, points.integer(0, 2), 8, 1e-10, points, true);
     scene.fill({0.7, 0.9, 0.4}, 0.5, 0, 0, 0, 0);
-    ASSERT_EQ(scene.stepper.certify(scene.set, horizon, quantum, 0, 0), StepOutcome::stepped);
+    ASSERT_EQ(scene.stepper.certify(scene.set, horizon, quantum, 0, 0, 0), StepOutcome::stepped);
     const int own = points.integer(1, degree);
     FlowOutputChords chords(g, std::make_shared<const Monomials>(scene.capped(own), own), scene.monomials, 8, horizon,
                             quantum);
@@ -1068,7 +1068,7 @@ TEST(FlowStep, ChordsKnowWhatTheirPolynomialsLack) {
   constexpr int degree = 3;
   Scene scene(f, 2, degree, 1, 8, 1e-10, points, true);
   const auto sagsIn = [&](int own) {
-    EXPECT_EQ(scene.stepper.certify(scene.set, horizon, quantum, 0, 0), StepOutcome::stepped);
+    EXPECT_EQ(scene.stepper.certify(scene.set, horizon, quantum, 0, 0, 0), StepOutcome::stepped);
     FlowOutputChords chords(g, std::make_shared<const Monomials>(scene.capped(own), own), scene.monomials, 8, horizon,
                             quantum);
     std::vector<Interval> sag;
