@@ -469,8 +469,8 @@ void FlowFollower::loadChords(FlowPiece& piece, const std::vector<Interval>& bef
     between_ = &toolsBetween(piece.layout - fewer, piece.layout);
     load(between_->chords.get());
     piece.inFull = 0;
-    if (!leavesOver(1, before)) {
-      if (!leavesOver(muchLess, before)) piece.fewer = fewer + 1;
+    if (!leavesOver(1, piece, before)) {
+      if (!leavesOver(muchLess, piece, before)) piece.fewer = fewer + 1;
       return;
     }
   }
@@ -488,13 +488,20 @@ void FlowFollower::loadChords(FlowPiece& piece, const std::vector<Interval>& bef
 
 /// Whether chords leave more of some output than so many times what counts for nothing beside its width, or beside what
 /// the states' own remainders make uncertain.
-bool FlowFollower::leavesOver(double times, const std::vector<Interval>& outputs) const {
+bool FlowFollower::leavesOver(double times, const FlowPiece& piece, const std::vector<Interval>& outputs) const {
   const double ofWidth = task_.options.modelled.empty() ? 4e-3 : 1e-3, ofRadius = 0.1;
   for (int o = 0; o < outputs_->count(); ++o)
     if (!(tool_->chords->rest(o) <=
-          times * std::max(ofWidth * extentOf(outputs[at(o)]), ofRadius * outputs_->radius(o))))
+          times * std::max(ofWidth * extentOf(outputs[at(o)]), ofRadius * piece.lastRadii[at(o)])))
       return true;
   return false;
+}
+
+/// Of the outputs that were enclosed last.
+std::vector<double> FlowFollower::radii() const {
+  std::vector<double> result;
+  for (int o = 0; outputs_ != nullptr && o < outputs_->count(); ++o) result.push_back(outputs_->radius(o));
+  return result;
 }
 
 FlowFollower::OutputTools& FlowFollower::toolsBetween(std::size_t layout, std::size_t ofStates) {
@@ -536,6 +543,7 @@ bool FlowFollower::record(FlowPiece& piece) {
     std::vector<Interval> outputs;
     enclose(piece, 0.0, piece.last, outputs);
     piece.lastOutputs = outputLimits_;
+    piece.lastRadii = radii();
     piece.lastModel = modelOutputs(piece, outputLimits_, 0);
     if (piece.lastModel) collected_.models[0].push_back(piece.lastModel);
     for (std::size_t i = 0; i < piece.last.size(); ++i) piece.last[i] = intersection(piece.last[i], task_.box[i]);
@@ -560,6 +568,7 @@ bool FlowFollower::record(FlowPiece& piece) {
     enclose(piece, 0.0, behind, behindOutputs, false);
     beforeLimits = outputLimits_;
     beforeModel = modelOutputs(piece, beforeLimits);
+    piece.lastRadii = radii();
   }
   const auto segment = [&](double to) {  // from `from` to `to`: the chord's hull and how far a motion leaves a chord
     if (stepper.narrows()) {
@@ -606,6 +615,7 @@ bool FlowFollower::record(FlowPiece& piece) {
     beforeModel = behindModel;
     piece.last = end;
     piece.lastOutputs = endLimits;
+    piece.lastRadii = radii();
     piece.lastModel = endModel;
     from = to;
   };
@@ -632,7 +642,7 @@ bool FlowFollower::record(FlowPiece& piece) {
     constexpr int enoughInVain = 12;
     const double least = (t1 - t0) / 64;
     std::vector<char> isKnown(at(outputs_->count()));
-    for (int o = 0; o < outputs_->count(); ++o) isKnown[at(o)] = std::isfinite(outputs_->radius(o)) ? 1 : 0;
+    for (int o = 0; o < outputs_->count(); ++o) isKnown[at(o)] = std::isfinite(piece.lastRadii[at(o)]) ? 1 : 0;
     const auto isLacking = [&] {  // an output that is known at one end
       std::vector<int> open;
       for (int o = 0; o < outputs_->count(); ++o)

@@ -29,6 +29,7 @@ struct FlowPiece {
   std::size_t next = 0;                            // index of its next output time
   std::vector<Interval> last, over;                // states at set.t; states since the last output time
   std::vector<Interval> lastOutputs, overOutputs;  // likewise for the outputs; lastOutputs: outputLimits_
+  std::vector<double> lastRadii;                   // beside polynomials of these; infinite: not known
   std::shared_ptr<FlowSnapshot> lastModel;         // of these
   std::vector<Interval> modelled;                  // of modelled outputs: all that they were so far
   std::vector<double> size;                        // the greatest that each output (or state) was, as far as is known
@@ -38,7 +39,7 @@ struct FlowPiece {
   TopGrades tops;          // likewise, in the highest layout; where it is not bisected for these
   double refusedAt = -1;   // when it was not bisected, last
   std::size_t fewer = 2;   // layouts by which outputs have less than states between two output times
-  std::size_t inFull = 0;  // steps since that was 0
+  std::size_t inFull = 0;  // times that chords were loaded since that was 0
 };
 
 /// A piece that goes on as two, if it may.
@@ -148,7 +149,8 @@ class FlowFollower {
   void loadChords(FlowPiece& piece, const std::vector<Interval>& before, double from, double to);
   OutputTools& toolsBetween(std::size_t layout, std::size_t ofStates);
   static double extentOf(const Interval& output);
-  bool leavesOver(double times, const std::vector<Interval>& outputs) const;
+  bool leavesOver(double times, const FlowPiece& piece, const std::vector<Interval>& outputs) const;
+  std::vector<double> radii() const;
   int chordsFor(FlowPiece& piece, const std::vector<Interval>& before, double from, double to);
   bool record(FlowPiece& piece);
   int tooWide(FlowPiece& piece, const std::vector<Interval>& states, const std::vector<Interval>& outputs) const;

@@ -151,8 +151,7 @@ int FlowStepper::symbolOfSliding(const FlowSet& set, double kinkShare, double sl
         : rate != 0 ? 2 * sum / std::fabs(rate)
                     : 0;
     const double apart = bound.holds ? 0.5 * time * sum / std::fabs(form.states[at(form.pivot)]) : 0.0;
-    for (int i = 0; i < n_; ++i)
-      unknown[at(i)] += series_.jacobianBound(i, form.pivot) * apart + 0.5 * time * delta0_[at(i)];
+    for (int i = 0; i < n_; ++i) unknown[at(i)] += series_.jacobianBound(i, form.pivot) * apart;
     if (!(time > longest)) continue;
     longest = time;
     symbol = static_cast<int>(worst - mass.begin());
@@ -162,13 +161,14 @@ int FlowStepper::symbolOfSliding(const FlowSet& set, double kinkShare, double sl
   const double part = set.half[at(symbol)], steps = longest / h_;
   bool isTooWide = lost * longest * growth_.growth() / h_ > kinkShare / part;
   for (int i = 0; i < n_; ++i) {
+    if (isPivot[at(i)] != 0) continue;
     double added = 0, width = 0;
     for (int j = 0; j < n_; ++j) added += steps * growth_.M1(i, j) * delta0_[at(j)];
     for (int g = 1; g < N; ++g) width += std::fabs(set.p[at(i * N + g)]);
-    if (isPivot[at(i)] != 0) continue;
-    const double least = 1e-9 * scale_[at(i)], later = width + unknown[at(i)];
+    const double lacking = unknown[at(i)] + 0.5 * longest * delta0_[at(i)];  // the latter of all signs together
+    const double least = 1e-9 * scale_[at(i)], later = width + lacking;
     isTooWide = isTooWide || (added > kinkShare / part * width && width > least);
-    if (later > least) slideLoss_ = std::max(slideLoss_, lost * unknown[at(i)] / later * part);
+    if (later > least) slideLoss_ = std::max(slideLoss_, lost * lacking / later * part);
   }
   return isTooWide || slideLoss_ > slideShare ? symbol : -1;
 }

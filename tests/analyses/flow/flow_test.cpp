@@ -46,6 +46,11 @@ void expectEqual(const Tube& a, const Tube& b) {
           << "row " << i << ": " << a.states(i)[s] << ' ' << b.states(i)[s];
       EXPECT_TRUE(isEqual(a.statesOver(i)[s], b.statesOver(i)[s])) << "over row " << i;
     }
+  for (std::size_t i = 0; i < a.reachedTimes(); ++i)
+    for (std::size_t o = 0; o < a.outputs(i).size(); ++o) {
+      EXPECT_TRUE(isEqual(a.outputs(i)[o], b.outputs(i)[o])) << "row " << i;
+      EXPECT_TRUE(isEqual(a.outputsOver(i)[o], b.outputsOver(i)[o])) << "over row " << i;
+    }
 }
 
 // ---- Sub-boxes ------------------------------------------------------------------------------------------------------
@@ -121,6 +126,34 @@ TEST(Flow, GivesTheSameTubeWithOneAndWithTwoThreads) {
   const Tube two = Flow(pendulum(), options).enclose(box, 1.5, {0.3, 0.9});
   EXPECT_GT(one.pieces(), 4);
   expectEqual(one, two);
+}
+
+/// Which degree outputs have between output times, pieces decide for themselves: they are followed one behind the other
+/// by the same tools, in another order on another number of threads.
+TEST(Flow, BoundsOutputsBetweenTimesAlikeOnAnyNumberOfThreads) {
+  const Program f = record(2, 3, 2, [](auto, const auto& x, const auto& p, auto& dx) {
+    dx[0] = x[1];
+    dx[1] = -p[0] * x[0] - p[1] * x[1] - p[2] * x[0] * sqr(x[0]);
+  });
+  const Program y = record(2, 3, 2, [](auto, const auto& x, const auto& p, auto& out) {
+    out[0] = p[0] * x[0] + p[2] * x[0] * sqr(x[0]);
+    out[1] = sqr(x[1]);
+  });
+  const Box box{Interval(0.9, 1.1), Interval(-0.1, 0.1), Interval(8, 10), Interval(0.2, 0.3), Interval(1.5, 2.5)};
+  FlowOptions options;
+  std::vector<Tube> tubes;
+  std::vector<std::uint64_t> work;
+  for (const int jobs : {1, 1, 3}) {
+    options.jobs = jobs;
+    const std::uint64_t began = Work::counted();
+    tubes.push_back(Flow(f, y, options).enclose(box, 2.0, {0.5, 1.0, 1.5}));
+    work.push_back(Work::counted() - began);
+  }
+  EXPECT_GT(tubes.front().pieces(), 1);
+  for (std::size_t run = 1; run < tubes.size(); ++run) {
+    EXPECT_EQ(work.front(), work[run]);
+    expectEqual(tubes.front(), tubes[run]);
+  }
 }
 
 /// How far it comes, and what it keeps, is a matter of the work that is counted, and of how many pieces there may be.

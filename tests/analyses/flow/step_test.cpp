@@ -245,9 +245,8 @@ struct Scene {
     }
   }
 
-  /// Outputs g of random members p + Ψ (r + Γs) + w of the set at a step's end lie within the radii of their
-  /// polynomials.
-  /// Of outputs in polynomials of another degree.
+  /// Outputs g, in polynomials of this degree, of random members p + Ψ (r + Γs) + w of the set at a step's end lie
+  /// within the radii of these.
   void expectOutputsInside(const Program& g, int members, int degree) {
     FlowPoint point;
     stepper.evaluate(set, stepper.h(), point);
