@@ -193,7 +193,7 @@ std::string statisticsTable(const Results& results, std::size_t rows) {
     for (std::size_t q = 0; q < s.quantiles.size(); ++q) {
       const double lower = hasIntervals(s) ? s.quantileLower[q](row, o) : std::nan(""),
                    upper = hasIntervals(s) ? s.quantileUpper[q](row, o) : std::nan("");
-      const auto [from, to] = boundsText(lower, upper, size, 2);
+      const auto [from, to] = outwardBounds(lower, upper, size, 2);
       const std::string value = with(s.quantiles[q](row, o), Table());
       cells.push_back(isOneValue                               ? value
                       : std::isnan(lower) || std::isnan(upper) ? "about " + value

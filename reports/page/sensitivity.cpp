@@ -333,11 +333,9 @@ std::string cellOf(const Cause& cause, std::size_t i, bool isShare) {
   if (i < cause.proved.lower.size() && std::isfinite(cause.proved.lower[i])) {
     constexpr double finest = 1e-3;  // width of a share
     const double lower = cause.proved.lower[i], upper = cause.proved.upper[i];
-    const auto [from, to] = isShare ? boundsText(lower, upper, 1, 2, finest) : outwardText(lower, upper, digits);
+    const auto [from, to] = isShare ? outwardBounds(lower, upper, 1, 2, finest) : outwardText(lower, upper, digits);
     if (!isShare || lower > 0 || upper < 1)  // else nothing is known
-      text = isShare && upper < least ? "less than 0.0001"
-             : lower == upper         ? numberText(lower, digits)
-                                      : from + " to " + to;
+      text = isShare && upper < least ? "less than 0.0001" : from == to ? from : from + " to " + to;
   }
   if (i < cause.estimate.size() && std::isfinite(cause.estimate[i]))
     estimate = isShare && cause.error[i] < 10 * least

@@ -127,6 +127,21 @@ TEST(SensitivitySection, HasNoDigitsOfHardlyAnyShare) {
   EXPECT_THAT(text, AllOf(HasSubstr("<td>less than 0.0001 (0.0000 ± 0.0001)</td>"), Not(HasSubstr("to 6.6"))));
 }
 
+/// Proved bounds are told outward, with no "about", which is of what is estimated.
+TEST(SensitivitySection, RoundsProvedSharesOutward) {
+  Results results = example::kinematics();
+  SensitivityResult& s = results.sensitivity;
+  s.present = true;
+  s.time = {0};
+  results.uncertain.push_back(results.uncertain[0]);
+  s.totalLower = {1.0 / 3, 0.25 - 1e-13, 1.0 / 3, 0.25 - 1e-13};
+  s.totalUpper = {1.0 / 3, 0.35 + 1e-13, 1.0 / 3, 0.35 + 1e-13};
+  s.firstLower = s.totalLower;
+  s.firstUpper = s.totalUpper;
+  EXPECT_THAT(sensitivities(results), AllOf(HasSubstr("<td>0.3333 to 0.3334</td>"), HasSubstr("<td>0.24 to 0.36</td>"),
+                                            Not(HasSubstr("about 0.25"))));
+}
+
 /// Per degree a derivative is less than per radian; what is drawn, times half the interval, is the same.
 TEST(SensitivitySection, TellsDerivativesPerUnitThatTheStudyStates) {
   Results results = example::sensitive();
