@@ -38,12 +38,11 @@ std::string distributionsOf(const Results& results, std::size_t output) {
     const double gap = results.distribution.gaps[at * results.outputs.size() + output];
     const bool isKnownAlone = gap == 0 && !drawings.back().empty();  // its ends, between which nothing is told
     if (isKnownAlone) drawings.back().clear();
-    captions.push_back(drawings.back().empty() ? (isKnownAlone || isOneValue(results, times[at], output)
-                                                      ? "one value, to a billionth of the greatest,"
-                                                      : "nothing is known") +
-                                                     when
-                       : gap >= 1 ? "nothing is known but the range" + when
-                                  : fmt::format("bounds {} apart at most{}", atMostText(gap, 2), when));
+    const bool isOne = drawings.back().empty() && (isKnownAlone || isOneValue(results, times[at], output));
+    captions.push_back(isOne ? "one value, to a billionth of the greatest" + (when.empty() ? "" : "," + when)
+                       : drawings.back().empty() ? "nothing is known" + when
+                       : gap >= 1                ? "nothing is known but the range" + when
+                                                 : fmt::format("bounds {} apart at most{}", atMostText(gap, 2), when));
     numbers.push_back(distributionNumbers(results, at, output));
   }
   return momentFigures("distribution", drawings, captions, numbers);

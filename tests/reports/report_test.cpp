@@ -245,6 +245,22 @@ TEST(Report, DrawsNoDistributionOfWhatIsOneValueButForRoundings) {
   EXPECT_THAT(page, HasSubstr("Plot of the distribution function of " + results.outputs[1].name));
 }
 
+TEST(Report, CaptionsOfWhereNoTimePassesNameNone) {
+  Results results = example::kinematics();
+  DistributionResult& d = results.distribution;
+  d.present = true;
+  d.time = {0};
+  d.point = {0, 1, 2};
+  const double none = std::nan("");
+  d.value = {1, 1 + 1e-15, none, none, none, none};
+  d.lower = d.upper = d.sampled = {0, 1, none, none, none, none};
+  d.gaps = {0, none};
+  d.excess = {0, 0};
+  const std::string page = renderReport(results);
+  EXPECT_THAT(page, HasSubstr("one value, to a billionth of the greatest<"));
+  EXPECT_THAT(page, HasSubstr("nothing is known<"));
+}
+
 /// Of what nothing uncertain moves a distribution, or a spread, would show roundings.
 TEST(Report, HasNoCardsOfWhatNothingUncertainMoves) {
   Results results = example::pendulum();
