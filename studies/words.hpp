@@ -41,7 +41,8 @@ std::pair<std::string, std::string> outwardText(double lower, double upper, int 
 std::pair<std::string, std::string> outwardBounds(double lower, double upper, double size = 0, int resolved = 4,
                                                   double widest = 0);
 
-/// The same, and "about 0.2" of what is beyond a decimal by no more than a billionth of the width, or by roundings.
+/// The same, and "about 0.2" of what is beyond a decimal by no more than a billionth of the width, or by roundings;
+/// "about 0" of what is no more than a billionth of `size`.
 std::pair<std::string, std::string> boundsText(double lower, double upper, double size = 0, int resolved = 4,
                                                double widest = 0);
 

@@ -93,7 +93,7 @@ std::string costTable(const Results& results) {
 
 std::string figuresSection(const Report& report) {
   return "<p class=\"hint\">Guaranteed bounds are printed outward: lower bounds rounded down, upper bounds up; "
-         "\u201cabout\u201d 0.2 is one that roundings alone put beyond 0.2.</p>\n" +
+         "\u201cabout\u201d 0.2 is a bound that lies beyond 0.2 by no more than a billionth of what is shown.</p>\n" +
          figuresTable(report.results, report.verdict, report.detail.rows) + costTable(report.results);
 }
 
