@@ -418,8 +418,8 @@ class Probabilities {
     if (isVague()) return "the enclosure is not tight enough";
     if (!isOne) return "more than one joint distribution is possible";
     if (!isPlain(run_.study)) return "bounds of correlated quantities are coarser";
-    return fmt::format("the box is cut into {} parts at most for each{}", mostCells(),
-                       mostCells() < mostCells_ ? ", of fewer distribution.times into more" : "");
+    return fmt::format("each of them may cut the box into {} parts{}", mostCells(),
+                       mostCells() < mostCells_ ? "; fewer distribution.times allow more" : "");
   }
 
   Run& run_;
