@@ -182,7 +182,7 @@ class Wording {
   }
 
   /// Of the output whose range over the whole motion is most times as wide as at the output times. Samples say nothing
-  /// of what is between these. Where an enclosure ended since it grew, that is the reason.
+  /// of what is between these. Where an enclosure ended early, its growth is the reason, and told as such.
   void noteBetween() {
     if (verdict_.endsEarly) return;
     constexpr double hardly = 1e-3;  // of an output's size: it is as good as constant
