@@ -523,7 +523,10 @@ std::string jsonSummary(const Results& results, const std::string& verdict, cons
   for (const Answer* answer : results.answers()) cost[std::string(answer->word())] = number(answer->cpu);
   for (const char* what : {"equations", "requirements", "advice"}) {
     const auto found = std::ranges::find(results.costs, what, &CostInfo::what);
-    cost[what] = found == results.costs.end() ? 0.0 : found->cpu;
+    if (found != results.costs.end())
+      cost[what] = found->cpu;
+    else
+      cost[what] = results.costs.empty() ? Json(nullptr) : Json(0.0);
   }
   cost["report"] = number(files.reportCpu);
   cost["total"] = number(results.cpu);

@@ -218,6 +218,15 @@ TEST(TextSummary, ListsWhatRequirementsAndAdviceCost) {
   EXPECT_EQ(cost["equations"], 0);
 }
 
+/// Files that were written before these were kept hold none at all.
+TEST(JsonSummary, KnowsNoCostThatTheFileDoesNotHold) {
+  Results results = sampleResults();
+  results.costs.clear();
+  const Json cost = Json::parse(jsonSummary(results, "inside", {}))["cost"];
+  for (const char* what : {"equations", "requirements", "advice"}) EXPECT_TRUE(cost[what].is_null()) << what;
+  EXPECT_EQ(cost["interval"], 0.25);
+}
+
 TEST(TextSummary, LeadsWithTheLeastAndTheGreatestOfTheWholeMotion) {
   Results results = sampleResults();
   results.requirements.clear();  // whose margins they are
