@@ -6,7 +6,8 @@
 // compared exactly; none may contradict what is told of a requirement on an output; and any number of threads must give
 // the same. Usage:
 //     many_quantities_campaign [systems = 1000] [first = 0] [family, of all if it is left out]
-// Prints what was judged; the exit status is 1 if something does not hold.
+// Prints what was judged, and, where MANY_QUANTITIES_TELL is set, of each system how its flow went; the exit status is
+// 1 if something does not hold.
 #include <fmt/format.h>
 #include <gtest/gtest-spi.h>
 
@@ -398,7 +399,13 @@ bool areSame(const Tube& a, const Tube& b) {
     if (!same(a.states(row), b.states(row)) || !same(a.statesOver(row), b.statesOver(row)) ||
         !same(a.outputs(row), b.outputs(row)) || !same(a.outputsOver(row), b.outputsOver(row)))
       return false;
-  return true;
+  if ((a.models() == nullptr) != (b.models() == nullptr)) return false;
+  return a.models() == nullptr ||
+         std::ranges::equal(a.models()->over, b.models()->over, [&](const auto& chords, const auto& others) {
+           return std::ranges::equal(chords, others, [&](const FlowChord& v, const FlowChord& w) {
+             return same(v.sag, w.sag) && same(v.bound, w.bound);
+           });
+         });
 }
 
 /// What trajectories are, in 128 bits, by the motion in units of one.
@@ -493,7 +500,7 @@ void judgeRequirement(const Motion& m, const Box& box, const FlowOptions& option
   count.alwaysMet += found.isAlwaysMet;
   count.neverMet += found.isNeverMet;
   count.factors += found.factor > 0 && found.factor < 1;
-  long met = 0, sampled = 0;
+  int met = 0, sampled = 0;
   for (std::size_t i = 0; i < starts.size(); ++i) {
     // Of "always" what is seen violates it; of "eventually" what is seen meets it. The rest is all but known.
     const bool isSeen = isAlways ? extremes[i] >= Precise(limit) : extremes[i] < Precise(limit);
@@ -515,12 +522,16 @@ void judgeRequirement(const Motion& m, const Box& box, const FlowOptions& option
     }
     if (i % 8 >= 2 && isClear) met += isMet, ++sampled;
   }
-  // Thirty samples: shares that are off by more than six deviations are none of chance.
-  const double share = sampled > 0 ? static_cast<double>(met) / static_cast<double>(sampled) : 0.5;
-  const double slack = 3.0 / std::sqrt(std::max(1.0, static_cast<double>(sampled))) + 1 - sampled / 30.0;
-  if (m.varying.empty() && (found.probability.lower() > share + slack || found.probability.upper() < share - slack)) {
+  // Thirty samples, those that are not clear on either side: shares that are off by more than six deviations, and what
+  // one sample makes, are none of chance.
+  constexpr double n = 30;
+  const double fewest = met / n, greatest = (met + n - sampled) / n;
+  const auto chance = [](double p) { return 6 * std::sqrt(p * (1 - p) / n) + 1 / n; };
+  const double from = found.probability.lower(), to = found.probability.upper();
+  if (m.varying.empty() && (from - chance(from) > greatest || to + chance(to) < fewest)) {
     ++count.contradicted;
-    ADD_FAILURE() << "system " << number << ": probability " << toString(found.probability) << ", of samples " << share;
+    ADD_FAILURE() << "system " << number << ": probability " << toString(found.probability) << ", of samples " << fewest
+                  << " to " << greatest;
   }
 }
 
