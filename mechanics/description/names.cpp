@@ -60,15 +60,6 @@ bool shareAPart(std::string_view a, std::string_view b) {
 
 constexpr std::size_t mostNear = 3;
 
-/// "one of: a, b" of the first twelve.
-std::string listOf(const std::vector<std::string>& names) {
-  constexpr std::size_t most = 12;
-  std::string text = "one of: " + names[0];
-  for (std::size_t i = 1; i < std::min(names.size(), most); ++i) text += ", " + names[i];
-  if (names.size() > most) text += " and " + std::to_string(names.size() - most) + " more";
-  return text;
-}
-
 /// "'a', 'b' or 'c'" of the first three.
 std::string alternatives(const std::vector<std::string>& names) {
   const std::size_t n = std::min(names.size(), mostNear);
@@ -94,7 +85,7 @@ std::string expectedName(std::string_view word, const std::vector<std::string>& 
     std::vector<std::string> own;
     std::copy_if(candidates.begin(), candidates.end(), std::back_inserter(own),
                  [&](const std::string& candidate) { return candidate.starts_with(element); });
-    if (own.size() > mostNear) return listOf(own);
+    if (own.size() > mostNear) return oneOf(own);
     std::copy_if(candidates.begin(), candidates.end(), std::back_inserter(names),
                  [&](const std::string& candidate) { return shareAPart(word, candidate); });
   }
@@ -102,7 +93,16 @@ std::string expectedName(std::string_view word, const std::vector<std::string>& 
     std::stable_partition(names.begin(), names.end(),
                           [&](const std::string& candidate) { return candidate.starts_with(word.substr(0, end + 1)); });
   if (candidates.size() == 1) names = candidates;
-  return names.empty() ? listOf(candidates) : alternatives(names);
+  return names.empty() ? oneOf(candidates) : alternatives(names);
+}
+
+std::string oneOf(const std::vector<std::string>& names) {
+  constexpr std::size_t most = 12;
+  if (names.size() == 1) return names[0];
+  std::string text = "one of: ";
+  for (std::size_t i = 0; i < std::min(names.size(), most); ++i) text += (i > 0 ? ", " : "") + names[i];
+  if (names.size() > most) text += " and " + std::to_string(names.size() - most) + " more";
+  return text;
 }
 
 std::string unknownName(std::string_view kind, std::string_view word, const std::vector<std::string>& candidates) {

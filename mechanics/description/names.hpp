@@ -15,10 +15,12 @@ std::string inQuotes(const std::string& name);
 /// ignored; the first of equals. Empty if none is within two of them or, for a long word, a third of its length.
 std::string nearestName(std::string_view word, const std::vector<std::string>& candidates);
 
-/// What would do instead of `word`: up to three nearest names, as "'a', 'b' or 'c'"; else those that begin with the
-/// same part before a dot, or up to three that share another one with it; else "one of: a, b, …", of many the first
-/// twelve.
+/// What would do instead of `word`: up to three nearest names, as "'a', 'b' or 'c'"; else, if more than three begin
+/// with the same part before a dot, those; else up to three that share a part with it; else oneOf all.
 std::string expectedName(std::string_view word, const std::vector<std::string>& candidates);
+
+/// "one of: a, b", of many the first twelve; "a" of one.
+std::string oneOf(const std::vector<std::string>& names);
 
 /// "unknown KIND 'WORD'; did you mean 'NEAREST'?", without the question where no candidate is near, or, without
 /// candidates, "unknown KIND 'WORD': there is none yet".

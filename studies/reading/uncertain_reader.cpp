@@ -423,11 +423,7 @@ std::string outputExpected(const std::string& word, const std::vector<std::strin
       return fmt::format("a quantity that another element gives, or a formula of such: the {} '{}' gives none",
                          element.type(), element.name());
     if (!nearestName(word, known).empty()) break;  // a typo of that
-    constexpr std::size_t most = 12;
-    const std::size_t beyond = own.size() > most ? own.size() - most : 0;
-    own.resize(own.size() - beyond);
-    return fmt::format("what '{}' gives, {}{}{}", element.name(), own.size() > 1 ? "one of: " : "",
-                       fmt::join(own, ", "), beyond > 0 ? fmt::format(" and {} more", beyond) : "");
+    return fmt::format("what '{}' gives, {}", element.name(), oneOf(own));
   }
   return quantityExpected(word, known);
 }

@@ -65,6 +65,8 @@ TEST(Names, WhatIsExpectedAreNearNamesOrSomeOfAll) {
             "one of: hinge.angle, hinge.rate, hinge.power, hinge.force");
   EXPECT_EQ(expectedName("hinge", {"hinge.angle", "t", "hinge.rate", "hinge.power", "hinge.force"}),
             "one of: hinge.angle, hinge.rate, hinge.power, hinge.force");
+  EXPECT_EQ(oneOf({"base"}), "base");
+  EXPECT_EQ(oneOf({"base", "tip"}), "one of: base, tip");
   EXPECT_EQ(expectedName("something", {"base"}), "'base'");
   EXPECT_EQ(expectedName("something", {}), "one that was defined before; there is none yet");
 }
