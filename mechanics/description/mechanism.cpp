@@ -709,7 +709,13 @@ std::vector<std::string> Mechanism::outputQuantities() const {
   for (const Measured& measured : measured_) names.push_back(measured.name);
   const bool hasMass = !massFrames_.empty();
   for (const WholeQuantity& whole : wholeQuantities())  // of what is no machine none, of one without mass its energy
-    if (hasMass || (!moved_.empty() && whole.name.starts_with("energy"))) names.push_back(whole.name);
+    if (hasMass || (!whole.isOfMass && !moved_.empty())) names.push_back(whole.name);
+  return names;
+}
+
+std::vector<std::string> Mechanism::namesInFormulas() const {
+  std::vector<std::string> names = outputQuantities();
+  for (std::string& name : parameterNames()) names.push_back(std::move(name));
   return names;
 }
 

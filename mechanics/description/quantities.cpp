@@ -29,11 +29,11 @@ const std::vector<FrameQuantity>& frameQuantities() {
 
 const std::vector<WholeQuantity>& wholeQuantities() {
   static const std::vector<WholeQuantity> all = [] {
-    std::vector<WholeQuantity> list = {{"energy", "J"},
-                                       {"energy.kinetic", "J"},
-                                       {"energy.potential", "J"},
-                                       {"energy.gravity", "J"},
-                                       {"energy.springs", "J"}};
+    std::vector<WholeQuantity> list = {{"energy", "J", false, false},
+                                       {"energy.kinetic", "J", false, false},
+                                       {"energy.potential", "J", false, false},
+                                       {"energy.gravity", "J", false, false},
+                                       {"energy.springs", "J", false, false}};
     addVector(list, "momentum", "kg m/s");
     addVector(list, "angular_momentum", "kg m^2/s");
     addVector(list, "centre_of_mass.position", "m");

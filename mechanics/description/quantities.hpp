@@ -18,7 +18,7 @@ const std::vector<FrameQuantity>& frameQuantities();
 /// Of the whole machine. Its first word is no name of a part.
 struct WholeQuantity {
   std::string name, unit;
-  bool isSolved = false;
+  bool isSolved = false, isOfMass = true;  ///< isOfMass: there is none without a mass
 };
 /// energy, energy.kinetic, energy.potential, energy.gravity, energy.springs; then, each .x … .z, momentum,
 /// angular_momentum, centre_of_mass.position, centre_of_mass.velocity, centre_of_mass.acceleration.
