@@ -60,13 +60,6 @@ std::vector<std::string> namesOf(const Named<Mechanism::NamedValue>& values) {
   return names;
 }
 
-/// Of numbers, then of what follows from others.
-std::vector<std::string> parameterNames(const Mechanism& mechanism) {
-  std::vector<std::string> names = namesOf(mechanism.parameters());
-  for (const Mechanism::Derived& derived : mechanism.derived()) names.push_back(derived.name);
-  return names;
-}
-
 }  // namespace
 
 Mechanism::Mechanism() : isFrame_{inertialFrame}, frames_{inertialFrame} {}
@@ -182,7 +175,7 @@ void Mechanism::checkNames(const Expression& number, const std::string& name) co
     if (knows(used)) continue;
     if (used == "t" || unitOfMeasured(used) != nullptr)
       throw WrongNumber(name, inQuotes(used) + " changes in motion; expected a formula of parameters alone");
-    const std::vector<std::string> known = parameterNames(*this);
+    const std::vector<std::string> known = parameterNames();
     throw UnknownName("parameter", used, known, remarkOn(used, name), name);
   }
 }
@@ -512,7 +505,7 @@ void Mechanism::checkSignal(const Signal& signal) const {
         return signal.reach != Reach::motion || !isSolved(quantity);
       });
     // Where everything is one of many, what moves and what was declared is seen first.
-    std::vector<std::string> parameters = parameterNames(*this);
+    std::vector<std::string> parameters = parameterNames();
     parameters.emplace_back("t");
     const auto states = static_cast<std::ptrdiff_t>(std::min(known.size(), stateNames().size()));
     known.insert(known.begin() + states, parameters.begin(), parameters.end());
@@ -661,6 +654,12 @@ void Mechanism::checkMasses() const {
 std::vector<std::string> Mechanism::quantities() const {
   std::vector<std::string> names = namesOf(initials_);
   for (const NamedValue& parameter : parameters_) names.push_back(parameter.name);
+  return names;
+}
+
+std::vector<std::string> Mechanism::parameterNames() const {
+  std::vector<std::string> names = namesOf(parameters_);
+  for (const Derived& derived : derived_) names.push_back(derived.name);
   return names;
 }
 

@@ -115,6 +115,8 @@ class Mechanism {
   const Named<NamedValue>& initialValues() const { return initials_; }
   /// Names of all numbers that may be uncertain: initial values, then parameters.
   std::vector<std::string> quantities() const;
+  /// Of numbers, then of what follows from others.
+  std::vector<std::string> parameterNames() const;
   bool mayBeUncertain(const std::string& name) const { return initials_.find(name) != nullptr || isParameter(name); }
   /// The value of such a number, or of a derived parameter.
   Interval nominal(const std::string& quantity) const;
@@ -163,6 +165,8 @@ class Mechanism {
   /// Everything that can be looked at: states; motion of frames and quantities of the whole
   /// (description/quantities.hpp); accelerations of speeds; reactions; what elements measure.
   std::vector<std::string> outputQuantities() const;
+  /// Of all that formulas of outputs may name, outputs first.
+  std::vector<std::string> namesInFormulas() const;
   bool isOutputQuantity(const std::string& name) const { return unitOfMeasured(name) != nullptr; }
   /// The unit of any quantity, number or output.
   std::string unitOf(const std::string& quantity) const;

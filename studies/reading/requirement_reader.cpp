@@ -290,7 +290,7 @@ class RequirementReader {
   }
 
   std::vector<std::string> namesForMessages() const {
-    std::vector<std::string> names = namesInFormulas(study_.mechanism);
+    std::vector<std::string> names = study_.mechanism.namesInFormulas();
     for (const OutputInfo& output : outputs_) names.push_back(output.name);
     return names;
   }

@@ -377,7 +377,7 @@ class StudyReader {
     const Mechanism& mechanism = study_.mechanism;
     const auto refuse = [&](const std::string& name) {
       source_.fail(node, fmt::format("unknown quantity '{}'", name),
-                   outputExpected(name, namesInFormulas(mechanism), mechanism));
+                   outputExpected(name, mechanism.namesInFormulas(), mechanism));
     };
     if (mechanism.isOutputQuantity(quantity)) return mechanism.unitOf(quantity);
     const bool isNumber = quantity == "t" || mechanism.knows(quantity);

@@ -400,13 +400,6 @@ void readUncertain(const TomlSource& source, const std::vector<const toml::table
   reader.noteFaults();
 }
 
-std::vector<std::string> namesInFormulas(const Mechanism& mechanism) {
-  std::vector<std::string> names = mechanism.outputQuantities();
-  for (const Mechanism::NamedValue& parameter : mechanism.parameters()) names.push_back(parameter.name);
-  for (const Mechanism::Derived& derived : mechanism.derived()) names.push_back(derived.name);
-  return names;
-}
-
 std::string quantityExpected(const std::string& word, const std::vector<std::string>& known) {
   const std::string names = expectedName(word, known);
   return fmt::format("a quantity of the mechanism, {}{}", names.starts_with('\'') ? "such as " : "", names);

@@ -15,9 +15,6 @@ namespace gamut {
 void readUncertain(const TomlSource& source, const std::vector<const toml::table*>& tables, const TableFiles& files,
                    const std::map<std::string, const toml::node*>& places, Study& study);
 
-/// Of all that formulas of outputs and requirements may name, outputs first.
-std::vector<std::string> namesInFormulas(const Mechanism& mechanism);
-
 /// What would do instead of a quantity that the mechanism does not have.
 std::string quantityExpected(const std::string& word, const std::vector<std::string>& known);
 /// What would do instead of an output that it does not have; of "spring.force" what the element named spring gives.
