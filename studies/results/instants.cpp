@@ -44,12 +44,10 @@ std::optional<double> endOfProof(const Results& results) {
 
 std::string toldName(const Results& results, std::size_t output, std::size_t time) {
   const std::string& name = results.outputs[output].name;
-  for (const RequirementResult& r : results.requirements) {
-    if (output < r.margin || output >= r.margin + static_cast<std::uint64_t>(r.margins)) continue;
-    const bool demands = results.horizon == 0 || (results.time[time] >= r.from && results.time[time] <= r.until);
-    return demands ? "margin of " + name : "";
-  }
-  return name;
+  const RequirementResult* r = requirementOf(results, output);
+  if (r == nullptr) return name;
+  const bool demands = results.horizon == 0 || (results.time[time] >= r->from && results.time[time] <= r->until);
+  return demands ? "margin of " + name : "";
 }
 
 double widestTime(const Results& results, std::size_t output) {

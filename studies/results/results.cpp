@@ -46,11 +46,14 @@ std::vector<std::string> differences(const Results& one, const Results& other) {
   return paths;
 }
 
-bool isMargin(const Results& results, std::size_t output) {
-  return std::ranges::any_of(results.requirements, [&](const RequirementResult& r) {
+const RequirementResult* requirementOf(const Results& results, std::size_t output) {
+  const auto found = std::ranges::find_if(results.requirements, [&](const RequirementResult& r) {
     return output >= r.margin && output < r.margin + static_cast<std::uint64_t>(r.margins);
   });
+  return found == results.requirements.end() ? nullptr : &*found;
 }
+
+bool isMargin(const Results& results, std::size_t output) { return requirementOf(results, output) != nullptr; }
 
 double reachedTime(const Results& results) {
   double reached = results.horizon;

@@ -38,6 +38,8 @@ struct Results : Origin {
   std::array<const Answer*, 3> answers() const { return {&interval, &stochastic, &fuzzy}; }
 };
 
+/// The requirement whose margin an output is; null of others.
+const RequirementResult* requirementOf(const Results& results, std::size_t output);
 /// Whether an output is there as the margin of a requirement.
 bool isMargin(const Results& results, std::size_t output);
 
