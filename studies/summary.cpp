@@ -427,13 +427,6 @@ std::string probabilitiesText(const Results& results) {
                      why.empty() ? "" : fmt::format(" ({} is aimed at: {})", numberText(d.wanted, 3), why));
 }
 
-constexpr double hardlyAny = 0.01;  ///< s of CPU
-
-/// "0.45 s"; of what took hardly any time no zeros.
-std::string cpuText(double seconds) {
-  return seconds < hardlyAny ? "less than 0.01 s" : fmt::format("{:.2f} s", seconds);
-}
-
 /// What was spent in all, and of how much.
 std::string spentText(const Results& results) {
   if (!std::isfinite(results.limits.time)) return {};
@@ -561,7 +554,7 @@ std::string textSummary(const Results& results) {
   bool isAnything = false;
   const auto spend = [&](const std::string& what, double cpu) {
     isAnything = true;
-    if (cpu >= hardlyAny) costs.push_back(fmt::format("{} {}", what, cpuText(cpu)));
+    if (cpu >= leastCpuTold) costs.push_back(fmt::format("{} {}", what, cpuText(cpu)));
   };
   for (const Answer* answer : results.answers())
     if (answer->present) spend(answer->title(), answer->cpu);

@@ -59,6 +59,10 @@ std::string reachedText(double time) {
   return (std::strtod(text.c_str(), nullptr) <= time ? text : outwardText(time, time, 6).first) + " s";
 }
 
+std::string cpuText(double seconds) {
+  return seconds < leastCpuTold ? "less than 0.01 s" : fmt::format("{:.2f} s", seconds);
+}
+
 std::string atMostText(double x, int digits) {
   if (std::isnan(x)) return "none";
   return std::isinf(x) ? numberText(x) : outwardText(x, x, digits).second;

@@ -20,6 +20,10 @@ std::string timeText(double time, int digits = 6);
 /// The same of a time up to which something was reached: no more than that, in six digits.
 std::string reachedText(double time);
 
+/// "0.45 s" of CPU; of what took hardly any "less than 0.01 s".
+std::string cpuText(double seconds);
+constexpr double leastCpuTold = 0.01;  ///< s
+
 /// x rounded up, never below x: for figures that promise "at most". Beside numbers of a `size` no less than a billionth
 /// of that, nor than any unit's least prefix makes of it.
 std::string atMostText(double x, int digits = 4);

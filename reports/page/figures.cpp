@@ -61,30 +61,24 @@ std::string figuresTable(const Results& results, const Verdict& verdict, std::si
   return table.html() + hintOfRows(results.outputs.size(), rows);
 }
 
-constexpr double told = 0.01;  // s of CPU; of less there are no digits
-
-std::string secondsText(double seconds) {
-  return seconds < told ? "less than 0.01 s" : numberText(seconds, seconds < 1000 ? 3 : 6) + " s";
-}
-
 std::string costTable(const Results& results) {
   TableText table("Cost", {"analysis", "CPU time", "amount"});
   for (const Answer* answer : results.answers())
-    if (answer->present) table.row(answer->title(), {secondsText(answer->cpu), answer->amount()});
+    if (answer->present) table.row(answer->title(), {cpuText(answer->cpu), answer->amount()});
   for (const CostInfo& cost : results.costs)
-    if (cost.cpu >= told) table.row(cost.what, {secondsText(cost.cpu), ""});
+    if (cost.cpu >= leastCpuTold) table.row(cost.what, {cpuText(cost.cpu), ""});
   if (const DistributionResult& d = results.distribution; d.present)
-    table.row("probabilities", {secondsText(d.cpu), "at " + countText(static_cast<long long>(d.time.size()), "time")});
-  if (const DerivativeResult& d = results.derivatives; d.present) table.row("derivatives", {secondsText(d.cpu), ""});
+    table.row("probabilities", {cpuText(d.cpu), "at " + countText(static_cast<long long>(d.time.size()), "time")});
+  if (const DerivativeResult& d = results.derivatives; d.present) table.row("derivatives", {cpuText(d.cpu), ""});
   if (std::isfinite(results.limits.time)) {
     const Limits& limits = results.limits;
     const auto gigabytes = [](double bytes) { return numberText(bytes / 1e9, 3) + " GB"; };
-    table.row("all analyses",
-              {secondsText(results.cpu),
-               fmt::format("at most {} of memory; allowed: {} and {}, to the enclosure {} and {}, to a sample {}",
-                           gigabytes(results.memory), secondsText(limits.time), gigabytes(limits.memory),
-                           secondsText(limits.enclosureTime), gigabytes(limits.enclosureMemory),
-                           secondsText(limits.sampleTime))});
+    table.row(
+        "all analyses",
+        {cpuText(results.cpu),
+         fmt::format("at most {} of memory; allowed: {} and {}, to the enclosure {} and {}, to a sample {}",
+                     gigabytes(results.memory), timeText(limits.time), gigabytes(limits.memory),
+                     timeText(limits.enclosureTime), gigabytes(limits.enclosureMemory), timeText(limits.sampleTime))});
   }
   return table.html();
 }
