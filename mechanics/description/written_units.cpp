@@ -1,3 +1,4 @@
+// A number, then what units.hpp takes for a unit; formulas are none.
 #include "mechanics/description/written_units.hpp"
 
 #include <cctype>

@@ -76,7 +76,8 @@ void requireRoom(std::size_t equations) {
   constexpr std::size_t most = 46340;  // whose entries an int numbers
   constexpr std::size_t matrices = 3;  // of nodes: in the recorder, as what is known, and in the program
   if (equations > most) throw std::bad_alloc();
-  ::operator delete(::operator new(equations* equations*(sizeof(Recorded) + matrices * sizeof(int))));
+  const std::size_t bytes = equations * equations * (sizeof(Recorded) + matrices * sizeof(int));
+  ::operator delete(::operator new(bytes));
 }
 
 /// All entries of what the reduction has left, row by row.
