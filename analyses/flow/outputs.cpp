@@ -89,7 +89,8 @@ bool FlowOutputs::evaluateTogether(double t, const FlowPoint& point, const std::
       else
         state_[at(place_[m])] = coefficient;
     }
-    for (auto* bound : {&radius, &loose}) (*bound)[at(i)] = ((*bound)[at(i)] + dropped) * bounds::up;
+    for (auto* bound : {&radius, &loose})
+      if (dropped > 0) (*bound)[at(i)] = ((*bound)[at(i)] + dropped) * bounds::up;
     series_.setState(i, state_.data());
   }
   for (std::size_t i = 0; i < parameters.size(); ++i) series_.setParameter(static_cast<int>(i), parameters[i]);
