@@ -6,7 +6,7 @@
 // of what is held are wide, twenty times the work is tried. Where motions may leave a surface to either side at any
 // time, trajectories leave to both sides, though they do not tell then how wide anything has to be, nor what is met.
 // Usage:
-//     held_signs_campaign [systems = 10000] [first = 0]
+//     held_signs_campaign [systems = 10000] [first = 0] [seconds of work for a flow = 0.2]
 // Prints what was judged, how wide the outputs are where motions are held, and how many of the requirements that are
 // met by a hundredth of the output's range are told to be; where HELD_SIGNS_MISSES is set, those that are not, what is
 // wide, and what ended early. The exit status is 1 if something does not hold.
@@ -222,12 +222,12 @@ std::string shareText(long part, long all) {
 /// One requirement on an output up to the last of these times: its margin is another output, limit - y. Whether it is
 /// told to be met.
 bool isToldMet(const System& s, const std::vector<double>& times, const Program& f, const Program& g,
-               std::size_t output, double limit) {
+               std::size_t output, double limit, double work) {
   Recorder recorder(g);
   const Program only = recorder.finish({recorder.sub(recorder.constant(limit), g.outputNodes()[output])});
   FlowOptions options;
   options.modelled = {0};
-  options.budget = 0.2;
+  options.budget = work;
   const Tube tube = Flow(f, only, options).enclose(s.box, s.horizon, times);
   if (!tube.models() || tube.times().back() != times.back() || tube.reachedTimes() != tube.times().size()) return false;
   std::vector<Uncertain> uncertain;
@@ -248,7 +248,7 @@ std::vector<double> timesUpTo(double reached) {
   return times;
 }
 
-void judgeSystem(unsigned number, Count& count) {
+void judgeSystem(unsigned number, double work, Count& count) {
   Dice dice(number);
   const System s = systemOf(dice);
   const Program f = s.motion(), g = outputsOf(s, dice);
@@ -261,7 +261,7 @@ void judgeSystem(unsigned number, Count& count) {
   c.box = s.box;
   c.horizon = s.horizon;
   c.times = s.times;
-  c.options.budget = 0.2;
+  c.options.budget = work;
   Box level = s.box;
   for (Interval& value : level)
     if (!isThin(value) && dice.happens(0.7))
@@ -336,7 +336,7 @@ void judgeSystem(unsigned number, Count& count) {
   const double by = 0.01 * gamut::width(range);
   const bool isAbove = dice.happens(0.7), isTruly = isAbove && areUnique;
   const double limit = range.upper() + (isAbove ? by : -by);
-  const bool isTold = isToldMet(s, reachedTimes, f, g, output, limit);
+  const bool isTold = isToldMet(s, reachedTimes, f, g, output, limit, work);
   ++answers.asked;
   answers.truly += isTruly;
   answers.told += isTold && isTruly;
@@ -392,8 +392,9 @@ int main(int argc, char** argv) {
   using namespace gamut::testing;
   const int systems = argc > 1 ? std::atoi(argv[1]) : 10000;
   const int first = argc > 2 ? std::atoi(argv[2]) : 0;
+  const double work = argc > 3 ? std::atof(argv[3]) : 0.2;
   Count count;
-  for (int i = first; i < first + systems; ++i) judgeSystem(static_cast<unsigned>(i), count);
+  for (int i = first; i < first + systems; ++i) judgeSystem(static_cast<unsigned>(i), work, count);
   fmt::print(
       "{} systems ({} ended early, {} of them before any time asked for), {} trajectories; {} outside, {} falsely "
       "met\n",
