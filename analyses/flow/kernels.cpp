@@ -123,6 +123,27 @@ GAMUT_CLONES void tabulate(const Monomials& monomials, int count, const double* 
   weighted = sum(w);
 }
 
+GAMUT_CLONES void addRows(const double* from, int stride, int count, double c, int orders, const int* targets,
+                          double* to, int rowOfTo) {
+  for (int g = 0; g < count; ++g, from += stride) {
+    double* out = to + (targets == nullptr ? g : targets[g]) * rowOfTo;
+    int i = 0;
+    for (; i + 8 <= orders; i += 8) *reinterpret_cast<Vector*>(out + i) += c * load(from + i);
+    for (; i < orders; ++i) out[i] += c * from[i];
+  }
+}
+
+GAMUT_CLONES void addSizes(const double* rows, int stride, int count, int orders, double* sums) {
+  for (int g = 0; g < count; ++g, rows += stride) {
+    int i = 0;
+    for (; i + 8 <= orders; i += 8) {
+      const Vector v = load(rows + i);
+      *reinterpret_cast<Vector*>(sums + i) += v < 0 ? -v : v;
+    }
+    for (; i < orders; ++i) sums[i] += std::fabs(rows[i]);
+  }
+}
+
 GAMUT_CLONES double dot(const double* a, const double* b, int stride) {
   Vector s = {};
   for (int c = 0; c < stride; c += 8) s += load(a + c) * load(b + c);

@@ -29,6 +29,13 @@ void multiply(const Monomials& monomials, int count, const double* c, const doub
 void tabulate(const Monomials& monomials, int count, const double* f, const double* power, const double* weights,
               int stride, double* table, double& norm, double& weighted);
 
+/// Rows of a product: to[target][i] += c from[g][i] for i < orders, g < count; target = targets[g], or g where null.
+void addRows(const double* from, int stride, int count, double c, int orders, const int* targets, double* to,
+             int rowOfTo);
+
+/// sums[i] += Σ_{g < count} |rows[g][i]| for i < orders.
+void addSizes(const double* rows, int stride, int count, int orders, double* sums);
+
 /// Σ_i a[i] b[i] over `stride` entries.
 double dot(const double* a, const double* b, int stride);
 

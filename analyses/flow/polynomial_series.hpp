@@ -208,14 +208,15 @@ class PolynomialSeries {
   /// The systems of one matrix A.
   struct System {
     int size;
-    std::vector<int> entries;                  // nodes, row by row
-    LinearFactors factors;                     // of A's leading coefficients
-    std::vector<std::vector<double>> inverse;  // C, a matrix for each of inverseTerms_
-    std::vector<double> norms;                 // ‖C‖
-    std::vector<double> own;                   // ‖I - C Ã‖
-    std::vector<double> amplifier;             // ≥ (I - H)⁻¹ |C| on the set that was bounded last
-    bool isFactorised, isBounded;
-    bool isFine = false;  // factorised by the fine recursion
+    std::vector<int> entries;                    // nodes, row by row
+    LinearFactors factors;                       // of A's leading coefficients
+    std::vector<std::vector<double>> inverse;    // C, a matrix for each of inverseTerms_
+    std::vector<double> norms;                   // ‖C‖
+    std::vector<double> defects;                 // Σ_α |(I - C Ã)_{oα}| at least, entry by entry, [order]
+    std::vector<double> own;                     // ‖I - C Ã‖
+    std::vector<double> amplifier;               // ≥ (I - H)⁻¹ |C| on the set that was bounded last
+    bool isFactorised, isMultiplied, isBounded;  // defects are those of the last computation
+    bool isFine = false;                         // factorised by the fine recursion
 
     int entry(int i, int j) const { return entries[detail::at(i * size + j)]; }
   };
@@ -302,6 +303,11 @@ class PolynomialSeries {
   void computeSolution(int first, int i);
   void computeLeadingSolution(int first);
   void invert(System& system);
+  void multiplyByInverse(System& system);
+  std::vector<int> gradesToMultiply(const System& system);
+  double* massFrom(const System& system, int grade, int k, int j) {
+    return &mass_[at(((grade * system.size + k) * system.size + j) * stride_)];
+  }
   void tabulateSystem(System& system);
   void solutionOwnErrors(int first);
   bool boundSystem(System& system);
@@ -366,6 +372,7 @@ class PolynomialSeries {
   std::vector<std::pair<int, int>> inverseTerms_;  // order and symbol (-1: none): σ^order or ξ_symbol
   std::vector<int> shift_;                         // number of ξ_symbol·(monomial g), [symbol][g]
   int largestSystem_ = 0;
+  std::vector<double> mass_;  // Σ_{grade ≥ q} |Ã| of the system at hand, [grade][entry][order]
   std::vector<double> rightSides_, combination_, amplified_, amplified2_, vector_, vector2_, vector3_;
 };
 

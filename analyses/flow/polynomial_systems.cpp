@@ -23,11 +23,12 @@ void PolynomialSeries::planSystems(const Program& program) {
     if (number < 0) {
       number = static_cast<int>(systems_.size());
       const int n = matrix.size;
-      System system{n, {}, LinearFactors(n), {}, {}, {}, {}, false, false};
+      System system{n, {}, LinearFactors(n), {}, {}, {}, {}, {}, false, false, false};
       for (int i = 0; i < n; ++i)
         for (int j = 0; j < n; ++j)
           system.entries.push_back(solution.transposed ? matrix.entry(j, i) : matrix.entry(i, j));
       system.own.assign(at(n * n), 0.0);
+      system.defects.assign(at(n * n * kernels::reversedStride(stride_)), 0.0);
       system.norms.assign(at(n * n), 0.0);
       system.amplifier.assign(at(n * n), 0.0);
       systems_.push_back(std::move(system));
@@ -158,56 +159,112 @@ void PolynomialSeries::invert(System& system) {
   }
 }
 
+/// Σ_α |(I - C Ã)_{oα}| of each entry and order o, over the kept coefficients of Ã. What C cancels lies in the lowest
+/// grades: of the others, for each term of C by itself, |C||Ã| counts where that is negligible.
+void PolynomialSeries::multiplyByInverse(System& system) {
+  const int n = system.size, terms = static_cast<int>(inverseTerms_.size()), row = kernels::reversedStride(stride_);
+  const std::vector<int> kept = gradesToMultiply(system);
+  std::vector<int> counts;
+  int last = 0;
+  for (int t = 0; t < terms; ++t) {
+    const int symbol = inverseTerms_[at(t)].second;
+    counts.push_back(kept[at(t)] > 0 ? monomials_->countUpTo(kept[at(t)] - 1) : 0);
+    last = std::max(last, kept[at(t)] - 1 + (symbol < 0 ? 0 : monomials_->weight(symbol)));
+  }
+  const int targets = monomials_->countUpTo(last);
+  double multiplied = 0;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) {
+      double *product = combination_.data(), *defect = &system.defects[at((i * n + j) * row)];
+      std::fill_n(product, targets * row, 0.0);
+      std::fill_n(defect, row, 0.0);
+      for (int k = 0; k < n; ++k) {
+        const int entry = system.entry(k, j);
+        const Plan& a = plan_[at(entry)];
+        if (isKnownZero(entry)) continue;
+        const int orders = a.invariant ? 1 : m_;  // a state's last order belongs to its error
+        for (int t = 0; t < terms; ++t) {
+          const double c = system.inverse[at(t)][at(i * n + k)];
+          if (c == 0) continue;
+          const auto [order, symbol] = inverseTerms_[at(t)];
+          const int from = std::min(a.constant ? 1 : a.count, counts[at(t)]);
+          kernels::addRows(&f_[a.f], stride_, from, c, orders, symbol < 0 ? nullptr : &shift_[at(symbol * count())],
+                           product + order, row);
+          multiplied += static_cast<double>(orders) * from;
+          const double* rest = massFrom(system, kept[at(t)], k, j);
+          for (int o = 0; o < m_; ++o) defect[o + order] += std::fabs(c) * rest[o];
+        }
+      }
+      if (i == j) product[0] -= 1;
+      kernels::addSizes(product, row, targets, m_ + inverseOrder, defect);
+    }
+  Work::count(Work::matrixTerm, 0.4 * multiplied);
+}
+
+/// For each term of C, so many grades of Ã as are multiplied: what is left is no more than 1e-3 of what x is, row by
+/// row in the units of x, and what leaves the monomials.
+std::vector<int> PolynomialSeries::gradesToMultiply(const System& system) {
+  constexpr double negligible = 1e-3;
+  const int n = system.size, terms = static_cast<int>(inverseTerms_.size()), grades = monomials_->degree() + 1;
+  mass_.assign(at((grades + 1) * n * n * stride_), 0.0);
+  std::vector<double>& unit = vector_;
+  for (int i = 0; i < n; ++i) unit[at(i)] = *std::max_element(&system.norms[at(i * n)], &system.norms[at(i * n)] + n);
+  std::vector<double> rows(at((grades + 1) * n), 0.0);  // Σ_j |Ã_{kj}| from a grade on
+  for (int k = 0; k < n; ++k)
+    for (int j = 0; j < n; ++j) {
+      const int entry = system.entry(k, j);
+      const Plan& a = plan_[at(entry)];
+      if (isKnownZero(entry)) continue;
+      const int all = a.constant ? 1 : a.count, orders = a.invariant ? 1 : m_;
+      for (int q = std::min(grades - 1, monomials_->grade(all - 1)); q >= 0; --q) {
+        double *sizes = massFrom(system, q, k, j), *above = massFrom(system, q + 1, k, j), sum = 0;
+        const int first = monomials_->firstOf(q), end = std::min(all, monomials_->countUpTo(q));
+        std::copy_n(above, m_, sizes);
+        kernels::addSizes(&f_[a.f + at(first * stride_)], stride_, end - first, orders, sizes);
+        for (int o = 0; o < m_; ++o) sum += sizes[o] * power_[at(o)];
+        rows[at(q * n + k)] += sum * unit[at(j)];
+      }
+    }
+  std::vector<int> kept;
+  for (int t = 0; t < terms; ++t) {
+    const auto [order, symbol] = inverseTerms_[at(t)];
+    const auto isNegligible = [&](int q) {
+      for (int i = 0; i < n; ++i) {
+        double sum = 0;
+        for (int k = 0; k < n; ++k) sum += std::fabs(system.inverse[at(t)][at(i * n + k)]) * rows[at(q * n + k)];
+        if (!(sum * power_[at(order)] <= negligible / terms * unit[at(i)])) return false;
+      }
+      return true;
+    };
+    int grade = grades - (symbol < 0 ? 0 : monomials_->weight(symbol));
+    while (grade > 0 && isNegligible(grade - 1)) --grade;
+    kept.push_back(grade);
+  }
+  return kept;
+}
+
 /// ‖I - C Ã‖ entrywise over the kept coefficients of Ã, and ‖C‖. A coefficient of the product is a sum of at most
 /// n products a term of C, and 1: as many roundings and one more.
 void PolynomialSeries::tabulateSystem(System& system) {
-  invert(system);
+  const bool isNew = !system.isMultiplied;
+  if (isNew) invert(system);
   const int n = system.size, terms = static_cast<int>(inverseTerms_.size()), row = kernels::reversedStride(stride_);
   std::fill(system.norms.begin(), system.norms.end(), 0.0);
   for (int t = 0; t < terms; ++t)
     for (std::size_t i = 0; i < system.norms.size(); ++i)
       system.norms[i] += std::fabs(system.inverse[at(t)][i]) * power_[at(inverseTerms_[at(t)].first)];
   for (double& entry : system.norms) entry *= bounds::up;
-  std::vector<double>& product = combination_;
-  double multiplied = 0;
+  if (isNew) multiplyByInverse(system);
+  system.isMultiplied = true;
   const double theta = power_[1] > 0 ? power_[1] : 1.0;
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j) {
-      std::fill(product.begin(), product.end(), 0.0);
-      double size = 0, beyond = 0;
-      for (int k = 0; k < n; ++k) {
-        const int entry = system.entry(k, j);
-        const Plan& a = plan_[at(entry)];
-        if (isKnownZero(entry)) continue;
-        size += system.norms[at(i * n + k)] * norm_[at(entry)];
-        const int orders = a.invariant ? 1 : m_;  // a state's last order belongs to its error
-        for (int t = 0; t < terms; ++t) {
-          const double c = system.inverse[at(t)][at(i * n + k)];
-          if (c == 0) continue;
-          const auto [order, symbol] = inverseTerms_[at(t)];
-          multiplied += static_cast<double>(orders) * (a.constant ? 1 : a.count);
-          for (int g = 0; g < (a.constant ? 1 : a.count); ++g) {
-            const double* from = &f_[a.f + at(g * stride_)];
-            const int target = symbol < 0 ? g : shift_[at(symbol * count() + g)];
-            if (target >= 0) {
-              double* to = &product[at(target * row + order)];
-              for (int o = 0; o < orders; ++o) to[o] += c * from[o];
-            } else {
-              for (int o = 0; o < m_; ++o) beyond += std::fabs(c * from[o]) * power_[at(o)];
-            }
-          }
-        }
-      }
-      if (i == j) product[0] -= 1, size += 1;
-      double sum = beyond, power = 1;
-      for (int o = 0; o < m_ + inverseOrder; ++o, power *= theta) {
-        double order = 0;
-        for (int g = 0; g < count(); ++g) order += std::fabs(product[at(g * row + o)]);
-        sum += order * power;
-      }
+      double size = i == j ? 1 : 0, sum = 0, power = 1;
+      for (int k = 0; k < n; ++k) size += system.norms[at(i * n + k)] * norm_[at(system.entry(k, j))];
+      const double* defect = &system.defects[at((i * n + j) * row)];
+      for (int o = 0; o < m_ + inverseOrder; ++o, power *= theta) sum += defect[o] * power;
       system.own[at(i * n + j)] = (sum + (n * terms + 2) * bounds::unit * size) * bounds::up + bounds::tiny;
     }
-  Work::count(Work::matrixTerm, 0.4 * multiplied);
 }
 
 /// An upper bound of (I - H)⁻¹ ‖C‖, H = own + ‖C‖ ρ_A. False unless some v > 0 with H v < v proves that I - H is an

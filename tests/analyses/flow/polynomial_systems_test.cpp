@@ -162,5 +162,31 @@ TEST(PolynomialSystems, AreProvedRegularUpToWhereTheyMayBeSingular) {
   EXPECT_FALSE(singular.tabulate(0x1p-10) && singular.bound(nullptr, false));
 }
 
+// (1 + c ξ⁴) x = 1: the fourth grade is not multiplied by the inverse, and counts all the same. The series is 1 - c ξ⁴;
+// for c < 0 it is off by c²/(1 + c) at ξ = 1, more than the c² that its residual is.
+TEST(PolynomialSystems, GradesThatAreNotMultipliedCount) {
+  const double c = -0x1p-14;
+  const Program program = record(1, 1, 2, [](auto, const auto& x, const auto& p, auto& y) {
+    const Recorded entry = 1.0 + p[0], one = 1.0 + 0.0 * x[0];
+    Recorder& recorder = *Recorder::current();
+    const int matrix = recorder.matrix({MatrixKind::general, 1, {entry.node()}});
+    y[0] = Recorded::node(recorder.solve(matrix, false, {one.node()})[0]);
+    y[1] = 0.0;
+  });
+  PolynomialSeries series(program, 1, std::make_shared<const Monomials>(std::vector<int>{1}, 4), 1, 4, true);
+  const std::vector<double> state{1, 0, 0, 0, 0}, parameter{0, 0, 0, 0, c}, frame{1, 0};
+  series.setState(0, state.data());
+  series.setParameter(0, parameter.data(), 0.0);
+  series.setFrame(0, 0, frame.data(), 1);
+  series.compute(0, 0x1p-4);
+  for (const double theta : {0x1p-4, 1.0}) {  // what was multiplied for a short step serves a longer one
+    ASSERT_TRUE(series.tabulate(theta) && series.bound(nullptr, false));
+    const double* x = series.series(series.outputNode(0));
+    EXPECT_EQ(x[4 * series.stride()], -c);
+    const Interval truth = 1.0 / (1.0 + Interval(c)), bound(series.rho0(series.outputNode(0)));
+    EXPECT_GE(bound.upper(), (truth - (1.0 - Interval(c))).upper());
+  }
+}
+
 }  // namespace
 }  // namespace gamut::testing
