@@ -27,6 +27,7 @@ constexpr double mostGrowthOfInputs = 0.08;
 // symmetry keeps at zero: to what the others are in balanced units; and never below what bounds can tell from
 // underflow, bounds::tiny over a tolerance.
 constexpr double vanished = 0x1p-120, unheard = 0x1p-80, leastSize = 0x1p-530;
+constexpr double unpaced = 0x1p-40;       // likewise, rounding of a box's polynomials: it sets no pace
 constexpr double mostOfFrame = 1e-4;      // of the remainder, that a step's orders in time may add
 constexpr double mostOfColumn = 1e-3;     // of each of its columns, where that decays
 constexpr double heard = 1e-3;            // of FlowScales: a machine at rest, to which a push is yet to come
@@ -48,8 +49,8 @@ FlowStepper::FlowStepper(const Program& motion, std::shared_ptr<const Monomials>
   kinks_ = std::make_unique<FlowKinks>(motion, inputs_.parameters());
   if (kinks_->count() == 0) kinks_.reset();
   for (auto* v : {&epsilon_, &inTime_}) v->assign(at(n_ * n_), 0.0);
-  for (auto* v : {&delta0_, &delta1_, &start_, &E_, &y_, &e1_, &nu0_, &nu1_, &scale_, &floor_, &least_, &second_,
-                  &third_, &turn_, &driven_})
+  for (auto* v : {&delta0_, &delta1_, &start_, &E_, &y_, &e1_, &nu0_, &nu1_, &scale_, &floor_, &least_, &pace_,
+                  &second_, &third_, &turn_, &driven_})
     v->assign(at(n_), 0.0);
 }
 
@@ -66,6 +67,7 @@ void FlowStepper::load(const FlowSet& set) {
     greatest = std::max(greatest, std::fabs(set.p[i]));
   for (std::size_t i = 0; i < at(n_); ++i) {
     floor_[i] = std::max(leastSize, std::ldexp(unheard * greatest, unit(i)));
+    pace_[i] = monomials().symbols() > 0 ? std::ldexp(unpaced * greatest, unit(i)) : 0;
     if (!set.largest.empty()) floor_[i] = std::max(floor_[i], vanished * set.largest[i]);
     least_[i] = scales_ ? std::max(floor_[i], heard * scales_->of(i, set.t)) : floor_[i];
   }
@@ -99,7 +101,7 @@ double FlowStepper::suggestion(double theta, double share) const {
   const double least = share * *std::ranges::max_element(sizes);
   double best = 1e9;
   for (int i = 0; i < n_; ++i) {
-    const double size = std::max({sizes[at(i)], least_[at(i)], least});
+    const double size = std::max({sizes[at(i)], least_[at(i)], pace_[at(i)], least});
     for (int order : {m_ - 1, m_}) {
       const double last = norm(i, order);
       if (!std::isfinite(last)) return std::nan("");
@@ -188,8 +190,15 @@ bool FlowStepper::tryStep(const FlowSet& set, double theta) {
     for (int i = 0; i < n_; ++i) proved = proved && y_[at(i)] < E_[at(i)];
   }
   if (!proved) return false;
-  // One that is at rest, driven by what others leave over, is relative to that.
-  for (int i = 0; i < n_; ++i) scale_[at(i)] = std::max(scale_[at(i)], hardlyMoving * y_[at(i)]);
+  double greatest = 0;  // of all states, in balanced units
+  const std::vector<int>& units = growth_.units();
+  for (int i = 0; i < n_; ++i) greatest = std::max(greatest, std::ldexp(scale_[at(i)], -units[at(i)]));
+  // One that is at rest, driven by what others leave over, is relative to that; and where nothing is known of it but
+  // what is left over (a joint that symmetry keeps at zero), of a box, it is of no account but for the others.
+  for (int i = 0; i < n_; ++i) {
+    const bool isUnknown = y_[at(i)] > scale_[at(i)] && monomials().symbols() > 0;
+    scale_[at(i)] = std::max(scale_[at(i)], isUnknown ? std::ldexp(greatest, units[at(i)]) : hardlyMoving * y_[at(i)]);
+  }
   inputs_.resolve(series_, growth_, theta, h);
   timeError_ = truncation_ = 0;
   for (int i = 0; i < n_; ++i) {

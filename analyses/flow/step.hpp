@@ -263,6 +263,7 @@ class FlowStepper {
   FlowCause why_;
   std::string obstacle_;  // of the last attempt
   std::vector<double> delta0_, delta1_, start_, E_, y_, e1_, epsilon_, inTime_, nu0_, nu1_, scale_, floor_;
+  std::vector<double> pace_;   // of a state, what is less sets no pace
   std::vector<double> least_;  // the floor, or what counts of the state's size over the motion, if that is more
   std::vector<double> total_, errors_;         // R + Σ_j |Γ_j| of the set being stepped; without inputs
   std::vector<double> looseAtStart_;           // its W
