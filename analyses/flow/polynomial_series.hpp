@@ -18,6 +18,7 @@
 #include "analyses/flow/kernels.hpp"
 #include "analyses/flow/linear_factors.hpp"
 #include "analyses/flow/monomials.hpp"
+#include "analyses/flow/zeroed_numbers.hpp"
 #include "scalars/index.hpp"
 #include "scalars/interval.hpp"
 #include "scalars/program/program.hpp"
@@ -316,6 +317,7 @@ class PolynomialSeries {
   std::string edgeOf(int node) const;
 
   void planOrders(int order);
+  void putConstants();
 
   int n_, time_, m_, stride_, nodes_, frameCount_, frameDegree_;
   std::vector<int> grades_, counts_;  // of orders
@@ -341,7 +343,8 @@ class PolynomialSeries {
   std::vector<double> side_;                          // of each argument, if known for all solutions: 1, -1
   std::vector<double> atStart_, crossing_, reached_;  // of each argument: uncertain; what a chord spans; may have to
   bool hasKinks_ = false, hasJumped_ = false, isAlong_ = false, knowsParameters_ = false;
-  std::vector<double> f_, r_, d_, t_, total_, s1_, s2_, beyond_, from_, scratch_, scratch2_;
+  ZeroedNumbers f_, r_, d_;
+  std::vector<double> t_, total_, s1_, s2_, beyond_, from_, scratch_, scratch2_;
   std::vector<double> inverse_;  // per recip/sqrt/log/atan node: 1/leading polynomial
   std::vector<std::size_t> inverseAt_;
   std::vector<double> norm_, weighted_, own0_, own1_, rho0_, rho1_, along0_, along1_, top_;
@@ -362,7 +365,8 @@ class PolynomialSeries {
   std::vector<double> sums_, weightedSums_;  // Σ|c_{iα}| by grade and order as t_; Σ ∏(α_l+1)|c_{iα}| by order
   std::vector<double> lanes_, slopes_, frameLanes_;  // of the monomials that are carried on together, [node][order]
   std::vector<std::size_t> slopeAt_;                 // of each node with such, j·its order j
-  std::vector<double> frameProducts_, known_, z_, residual_;  // z_: right factors' grade 0, reversed
+  ZeroedNumbers frameProducts_;
+  std::vector<double> known_, z_, residual_;  // z_: right factors' grade 0, reversed
   FineRecursion fine_;
   kernels::ThinLeading leading_;
   std::vector<System> systems_;

@@ -83,7 +83,7 @@ void PolynomialSeries::planGrades() {
   slopes_.assign(size, 0.0);
   if (!withFrame_) return;
   const int last = monomials_->countUpTo(frameDegree_);
-  frameProducts_.assign(at(n_ * n_) * at(last) * at(stride_), 0.0);
+  frameProducts_ = ZeroedNumbers(at(n_ * n_) * at(last) * at(stride_));
   frameLanes_.assign(at(n_ * n_) * wide, 0.0);
 }
 

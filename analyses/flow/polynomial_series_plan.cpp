@@ -158,10 +158,10 @@ PolynomialSeries::PolynomialSeries(const Program& program, int primaryOutputs,
       v.beyond = sizeBeyond;
       sizeBeyond += at(monomials_->degree() + 1) * at(stride_);
     }
-  f_.assign(sizeF, 0.0);
-  r_.assign(sizeR, 0.0);
+  f_ = ZeroedNumbers(sizeF);
+  r_ = ZeroedNumbers(sizeR);
   z_.assign(sizeZ, 0.0);
-  d_.assign(sizeD, 0.0);
+  d_ = ZeroedNumbers(sizeD);
   t_.assign(sizeT, 0.0);
   s2_.assign(sizeS2, 0.0);
   beyond_.assign(sizeBeyond, 0.0);
@@ -177,7 +177,7 @@ PolynomialSeries::PolynomialSeries(const Program& program, int primaryOutputs,
   for (auto* v : {&norm_, &weighted_, &own0_, &own1_, &rho0_, &rho1_, &top_}) v->assign(plan_.size(), 0.0);
   power_.assign(at(stride_), 0.0);
   weights_.assign(at(stride_), 0.0);
-  clear();
+  putConstants();
   if (isByGrades_ || (count() == 1 && withFrame_)) prepareThin();
   if (isByGrades_) planGrades();
 }
@@ -258,7 +258,12 @@ void PolynomialSeries::setFineOrders(int orders) {
 }
 
 void PolynomialSeries::clear() {
-  for (auto* v : {&f_, &r_, &d_, &z_}) std::fill(v->begin(), v->end(), 0.0);
+  for (ZeroedNumbers* v : {&f_, &r_, &d_}) std::fill(v->begin(), v->end(), 0.0);
+  std::fill(z_.begin(), z_.end(), 0.0);
+  putConstants();
+}
+
+void PolynomialSeries::putConstants() {
   for (int i = 0; i < nodes_; ++i)
     if (plan_[at(i)].constant) put(plan_[at(i)], 0, 0, constant_[at(i)]);
 }
