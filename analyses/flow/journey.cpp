@@ -210,6 +210,9 @@ void FlowFollower::changeLayout(FlowPiece& piece, std::size_t to) {
   const FlowLayout& from = task_.layouts[piece.layout];
   changeDegree(piece.set, *from.monomials, *task_.layouts[to].monomials, task_.layouts[to].frameDegree);
   piece.layout = to;
+  // Pieces that are not bisected on the way raise their degrees about together: what a few still need is made anew.
+  if (task_.mayBisect) return;
+  std::erase_if(tools_, [&](const auto& entry) { return entry.first.first + 1 < to; });
 }
 
 /// Whether a higher degree cures truncation at less cost than bisection does. Per unit of the logarithm of cost: the
