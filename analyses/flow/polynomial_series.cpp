@@ -11,7 +11,10 @@
 namespace gamut {
 
 void PolynomialSeries::compute(double t0, double h0) {
-  for (System& system : systems_) system.isFactorised = system.isMultiplied = false;
+  for (System& system : systems_) {
+    system.isFactorised = false;
+    system.multipliedFor = 0;
+  }
   put(plan_[at(time_)], 0, 0, t0);
   if (m_ > 1) put(plan_[at(time_)], 0, 1, h0);
   if (isByGrades_) return computeByGrades(h0);

@@ -209,15 +209,16 @@ class PolynomialSeries {
   /// The systems of one matrix A.
   struct System {
     int size;
-    std::vector<int> entries;                    // nodes, row by row
-    LinearFactors factors;                       // of A's leading coefficients
-    std::vector<std::vector<double>> inverse;    // C, a matrix for each of inverseTerms_
-    std::vector<double> norms;                   // ‖C‖
-    std::vector<double> defects;                 // Σ_α |(I - C Ã)_{oα}| at least, entry by entry, [order]
-    std::vector<double> own;                     // ‖I - C Ã‖
-    std::vector<double> amplifier;               // ≥ (I - H)⁻¹ |C| on the set that was bounded last
-    bool isFactorised, isMultiplied, isBounded;  // defects are those of the last computation
-    bool isFine = false;                         // factorised by the fine recursion
+    std::vector<int> entries;                  // nodes, row by row
+    LinearFactors factors;                     // of A's leading coefficients
+    std::vector<std::vector<double>> inverse;  // C, a matrix for each of inverseTerms_
+    std::vector<double> norms;                 // ‖C‖
+    std::vector<double> defects;               // Σ_α |(I - C Ã)_{oα}| at least, entry by entry, [order]
+    std::vector<double> own;                   // ‖I - C Ã‖
+    std::vector<double> amplifier;             // ≥ (I - H)⁻¹ |C| on the set that was bounded last
+    double multipliedFor;  // the greatest θ at which defects were chosen since the last computation; 0: not yet
+    bool isFactorised, isBounded;
+    bool isFine = false;  // factorised by the fine recursion
 
     int entry(int i, int j) const { return entries[detail::at(i * size + j)]; }
   };

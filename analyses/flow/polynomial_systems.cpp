@@ -23,7 +23,7 @@ void PolynomialSeries::planSystems(const Program& program) {
     if (number < 0) {
       number = static_cast<int>(systems_.size());
       const int n = matrix.size;
-      System system{n, {}, LinearFactors(n), {}, {}, {}, {}, {}, false, false, false};
+      System system{n, {}, LinearFactors(n), {}, {}, {}, {}, {}, 0, false, false};
       for (int i = 0; i < n; ++i)
         for (int j = 0; j < n; ++j)
           system.entries.push_back(solution.transposed ? matrix.entry(j, i) : matrix.entry(i, j));
@@ -246,7 +246,8 @@ std::vector<int> PolynomialSeries::gradesToMultiply(const System& system) {
 /// ‖I - C Ã‖ entrywise over the kept coefficients of Ã, and ‖C‖. A coefficient of the product is a sum of at most
 /// n products a term of C, and 1: as many roundings and one more.
 void PolynomialSeries::tabulateSystem(System& system) {
-  const bool isNew = !system.isMultiplied;
+  const double theta = power_[1] > 0 ? power_[1] : 1.0;
+  const bool isNew = !(theta <= 2 * system.multipliedFor);  // what is negligible in a short step need not be in another
   if (isNew) invert(system);
   const int n = system.size, terms = static_cast<int>(inverseTerms_.size()), row = kernels::reversedStride(stride_);
   std::fill(system.norms.begin(), system.norms.end(), 0.0);
@@ -255,8 +256,7 @@ void PolynomialSeries::tabulateSystem(System& system) {
       system.norms[i] += std::fabs(system.inverse[at(t)][i]) * power_[at(inverseTerms_[at(t)].first)];
   for (double& entry : system.norms) entry *= bounds::up;
   if (isNew) multiplyByInverse(system);
-  system.isMultiplied = true;
-  const double theta = power_[1] > 0 ? power_[1] : 1.0;
+  if (isNew) system.multipliedFor = theta;
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j) {
       double size = i == j ? 1 : 0, sum = 0, power = 1;

@@ -31,7 +31,7 @@ struct ZeroedAllocator {
   friend bool operator==(const ZeroedAllocator&, const ZeroedAllocator&) { return true; }
 };
 
-/// `ZeroedNumbers(count)` is of zeros.
+/// `ZeroedNumbers(count)` is of zeros; not so what comes back within a capacity, by clear() and resize(), say.
 using ZeroedNumbers = std::vector<double, ZeroedAllocator<double>>;
 
 }  // namespace gamut

@@ -179,13 +179,35 @@ TEST(PolynomialSystems, GradesThatAreNotMultipliedCount) {
   series.setParameter(0, parameter.data(), 0.0);
   series.setFrame(0, 0, frame.data(), 1);
   series.compute(0, 0x1p-4);
-  for (const double theta : {0x1p-4, 1.0}) {  // what was multiplied for a short step serves a longer one
+  for (const double theta : {0x1p-4, 1.0}) {
     ASSERT_TRUE(series.tabulate(theta) && series.bound(nullptr, false));
     const double* x = series.series(series.outputNode(0));
     EXPECT_EQ(x[4 * series.stride()], -c);
     const Interval truth = 1.0 / (1.0 + Interval(c)), bound(series.rho0(series.outputNode(0)));
     EXPECT_GE(bound.upper(), (truth - (1.0 - Interval(c))).upper());
   }
+}
+
+// (1 + 0.9 sin 3t) x = 1: powers of time that are negligible in a short step are not in a longer one of the same
+// series.
+TEST(PolynomialSystems, AreProvedInALongStepAfterAShortOne) {
+  const Program program = record(1, 0, 2, [](auto t, const auto&, const auto&, auto& y) {
+    const Recorded entry = 1.0 + 0.9 * sin(3.0 * t), one = 1.0;
+    Recorder& recorder = *Recorder::current();
+    y[0] = Recorded::node(
+        recorder.solve(recorder.matrix({MatrixKind::general, 1, {entry.node()}}), false, {one.node()})[0]);
+    y[1] = 0.0;
+  });
+  const auto errorOf = [&](const std::vector<double>& lengths) {
+    PolynomialSeries series(program, 1, std::make_shared<const Monomials>(std::vector<int>{1}, 1), 1, 12, true);
+    const std::vector<double> state{0, 0}, frame{1, 0};
+    series.setState(0, state.data());
+    series.setFrame(0, 0, frame.data(), 1);
+    series.compute(0, 1);
+    for (const double theta : lengths) EXPECT_TRUE(series.tabulate(theta) && series.bound(nullptr, false)) << theta;
+    return series.rho0(series.outputNode(0)) + series.rho1(series.outputNode(0));
+  };
+  EXPECT_LE(errorOf({0x1p-20, 0.25}), 1.01 * errorOf({0.25}));
 }
 
 }  // namespace
