@@ -197,7 +197,8 @@ bool FlowStepper::tryStep(const FlowSet& set, double theta) {
   // what is left over (a joint that symmetry keeps at zero), of a box, it is of no account but for the others.
   for (int i = 0; i < n_; ++i) {
     const bool isUnknown = y_[at(i)] > scale_[at(i)] && monomials().symbols() > 0;
-    scale_[at(i)] = std::max(scale_[at(i)], isUnknown ? std::ldexp(greatest, units[at(i)]) : hardlyMoving * y_[at(i)]);
+    scale_[at(i)] = std::max(scale_[at(i)], hardlyMoving * y_[at(i)]);
+    if (isUnknown) scale_[at(i)] = std::max(scale_[at(i)], std::ldexp(greatest, units[at(i)]));
   }
   inputs_.resolve(series_, growth_, theta, h);
   timeError_ = truncation_ = 0;

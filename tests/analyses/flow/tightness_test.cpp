@@ -278,6 +278,23 @@ TEST(FlowTightness, StatesAtRestButForRoundingCostHardlyAnything) {
   EXPECT_EQ(tube.pieces(), other.pieces());
 }
 
+// All that moves a body at rest is the rounding of three forces that balance, for every value of what is uncertain.
+TEST(FlowTightness, AMotionOfNothingButRoundingIsFollowed) {
+  Containment c;
+  c.f = record(2, 1, [&](auto t, const auto& x, const auto& p, auto& dx) {
+    const Recorded push = cos(3.0 * t) * p[0];
+    dx[0] = x[1];
+    dx[1] = -9.81 * p[0] * x[0] - 0.1 * x[1] + ((0.25 * push + 0.5 * push) - 0.75 * push);
+  });
+  c.box = {0.0, 0.0, Interval(0.9, 1.1)};
+  c.horizon = 4;
+  c.times = {1, 2.5};
+  c.options.budget = 5;
+  const Tube tube = expectContainment(c, 4);
+  EXPECT_LT(tube.steps(), 1000);
+  EXPECT_LT(magnitude(tube.at(4)[0]), 1e-9);
+}
+
 TEST(FlowTightness, MustBeAboveOne) {
   Containment c = springPendulum(0, 0.01, 0);
   c.options.tightness = 1;
