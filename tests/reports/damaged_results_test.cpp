@@ -5,7 +5,6 @@
 #include "studies/results/results_file.hpp"
 #include "studies/running/run.hpp"
 #include "studies/study.hpp"
-#include "studies/watch.hpp"
 #include "tests/studies/damage.hpp"
 #include "tests/studies/sample_study.hpp"
 #include "tests/studies/temporary_folder.hpp"
@@ -64,12 +63,10 @@ TEST_F(DamagedResults, AreNoVerdictEvenIfTheirDigestIsRight) {
   std::mt19937_64 random(2);
   int refused = 0;
   for (int i = 0; i < 250; ++i) {
-    const double start = processCpuSeconds();
     std::string verdict = "inside";
     const std::string message = complaint(sealed(damaged(whole_, random)), verdict);
     EXPECT_EQ(verdict, "inside") << "damage number " << i;
     EXPECT_THAT(message, Not(HasSubstr("\n"))) << i;
-    EXPECT_LT(processCpuSeconds() - start, 5) << i;
     refused += message.empty() ? 0 : 1;
   }
   EXPECT_GT(refused, 150);
@@ -78,7 +75,6 @@ TEST_F(DamagedResults, AreNoVerdictEvenIfTheirDigestIsRight) {
 TEST_F(DamagedResults, DoNotCrashEvenIfHdf5sChecksumsAreRight) {
   std::mt19937_64 random(3);
   for (int i = 0; i < 250; ++i) {
-    const double start = processCpuSeconds();
     std::string bytes = whole_, verdict;
     // Headers are a small part of the file; damage meets them here.
     for (int flips = 0; flips < 3; ++flips) {
@@ -87,7 +83,6 @@ TEST_F(DamagedResults, DoNotCrashEvenIfHdf5sChecksumsAreRight) {
       bytes[header + 6 + random() % 250] = static_cast<char>(random());
     }
     EXPECT_THAT(complaint(sealed(withHdf5Checksums(bytes)), verdict), Not(HasSubstr("\n"))) << i;
-    EXPECT_LT(processCpuSeconds() - start, 5) << i;
   }
 }
 
