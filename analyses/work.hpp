@@ -20,6 +20,7 @@ class Work {
     coefficient,       ///< of series: a coefficient that is computed, stored or bounded
     boundedNode,       ///< of a certificate: a node
     matrixTerm,        ///< of matrices and linear systems: a multiplication
+    columnTerm,        ///< of matrices with many columns: a multiplication
     rangeTerm,         ///< of a polynomial's range: a coefficient and symbol, on each part
     cellTerm,          ///< of cells of the box: a coefficient of a polynomial there
     transformed,       ///< of distributions: a number in each level of a transform

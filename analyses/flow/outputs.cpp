@@ -7,6 +7,7 @@
 
 #include "analyses/flow/embedding.hpp"
 #include "analyses/flow/error_bounds.hpp"
+#include "analyses/flow/kernels.hpp"
 #include "analyses/work.hpp"
 #include "scalars/index.hpp"
 #include "scalars/program/recorder.hpp"
@@ -137,16 +138,17 @@ bool FlowOutputs::evaluateTogether(double t, const FlowPoint& point, const std::
   }
   // y - g(p) = G (x - p) with G in ∂g/∂x on the hull, |G - G₀| ≤ ρ:  |y - g(p)| ≤ Σ_j |(G₀Ψ₀)_j| R_j + what is left.
   if (!series_.bound(radius.data(), false)) return false;
+  std::vector<double> centre(at(outputs_ * n_)), sums(at(outputs_));  // G₀, all outputs' rows
   for (int o = 0; o < outputs_; ++o) {
     double sum = along[at(o)];
-    std::vector<double> centre(at(n_)), spread(at(n_));
+    double* G = centre.data() + at(o * n_);
+    std::vector<double> spread(at(n_));
     for (int k = 0; k < n_; ++k) {
       const int node = series_.outputNode(outputs_ + o * n_ + k);
-      centre[at(k)] = series_.series(node)[0];
+      G[k] = series_.series(node)[0];
       spread[at(k)] =
-          (series_.norm(node) - std::fabs(centre[at(k)]) * bounds::down + series_.rho0(node) + series_.rho1(node)) *
-          bounds::up;
-      const double slope = std::fabs(centre[at(k)]) + spread[at(k)];
+          (series_.norm(node) - std::fabs(G[k]) * bounds::down + series_.rho0(node) + series_.rho1(node)) * bounds::up;
+      const double slope = std::fabs(G[k]) + spread[at(k)];
       sum += slope * (loose[at(k)] + point.beyond[at(k)]);
       driven_[at(o)] += slope * point.known[at(k)];
     }
@@ -154,36 +156,36 @@ bool FlowOutputs::evaluateTogether(double t, const FlowPoint& point, const std::
       double along0 = 0, size = 0, wide = 0, rest = 0;
       for (int k = 0; k < n_; ++k) {
         const double psi0 = point.psi[at(k * n_ + j)];
-        along0 += centre[at(k)] * psi0;
-        size += std::fabs(centre[at(k)]) * point.psiSum[at(k * n_ + j)];
+        along0 += G[k] * psi0;
+        size += std::fabs(G[k]) * point.psiSum[at(k * n_ + j)];
         wide += spread[at(k)] * point.psiSum[at(k * n_ + j)];
-        rest += std::fabs(centre[at(k)]) * (point.psiSum[at(k * n_ + j)] - std::fabs(psi0) * bounds::down);
+        rest += std::fabs(G[k]) * (point.psiSum[at(k * n_ + j)] - std::fabs(psi0) * bounds::down);
       }
       sum += std::fabs(along0) * R[at(j)] + ((2 * n_ + 4) * bounds::unit * size + wide) * point.total[at(j)] +
              rest * point.ofR[at(j)];
     }
-    // Σ over generators |G₀ (Ψ₀Γ)_j|; its rounding is (n+1) u |G₀||Ψ₀||Γ|, of inputs (n+5) u with their five symbols at
-    // most (drivenRadius): both are counted with `size` above.
-    const auto alongColumns = [&](const std::vector<double>& columns, std::size_t from, std::size_t to) {
-      std::vector<double> result;
-      Work::count(Work::matrixTerm, static_cast<double>(to - from));
-      for (std::size_t column = from; column < to; column += at(n_)) {
-        double along0 = 0;
-        for (int k = 0; k < n_; ++k) along0 += centre[at(k)] * columns[column + at(k)];
-        result.push_back(along0);
-      }
+    sums[at(o)] = sum;
+  }
+  // Σ over generators |G₀ (Ψ₀Γ)_j|; its rounding is (n+1) u |G₀||Ψ₀||Γ|, of inputs (n+5) u with their five symbols at
+  // most (drivenRadius): both are counted with `size` above.
+  const auto count = [&](std::size_t numbers) { return n_ > 0 ? static_cast<int>(numbers / at(n_)) : 0; };  // columns
+  kernels::addColumnSizes(centre.data(), outputs_, n_, point.zonotope.data(), count(point.ofErrors), sums.data());
+  if (point.zonotope.size() > point.ofErrors) {
+    const auto along0 = [&](const double* columns, std::size_t numbers) {  // [column][output]
+      std::vector<double> result(at(count(numbers) * outputs_));
+      kernels::multiplyColumns({{0, 0, 0}}, centre.data(), outputs_, n_, columns, count(numbers), result.data());
       return result;
     };
-    for (const double along0 : alongColumns(point.zonotope, 0, point.ofErrors)) sum += std::fabs(along0);
     std::vector<std::vector<double>> ofXi;
-    for (const std::vector<double>& columns : point.drivenOfXi)
-      ofXi.push_back(alongColumns(columns, 0, columns.size()));
-    const double driven =
-        drivenRadius(alongColumns(point.zonotope, point.ofErrors, point.zonotope.size()), ofXi, 0, 1) * bounds::up;
-    driven_[at(o)] += driven;
-    sum += driven;
-    radius_[at(o)] = sum * bounds::up;
+    for (const std::vector<double>& columns : point.drivenOfXi) ofXi.push_back(along0(columns.data(), columns.size()));
+    const std::vector<double> own = along0(&point.zonotope[point.ofErrors], point.zonotope.size() - point.ofErrors);
+    for (int o = 0; o < outputs_; ++o) {
+      const double driven = drivenRadius(own, ofXi, at(o), at(outputs_)) * bounds::up;
+      driven_[at(o)] += driven;
+      sums[at(o)] += driven;
+    }
   }
+  for (int o = 0; o < outputs_; ++o) radius_[at(o)] = sums[at(o)] * bounds::up;
   return true;
 }
 

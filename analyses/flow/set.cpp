@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "analyses/flow/error_bounds.hpp"
+#include "analyses/flow/kernels.hpp"
 #include "analyses/work.hpp"
 #include "scalars/index.hpp"
 
@@ -37,26 +38,20 @@ FlowSet startOf(const Embedding& embedding, int n, const Monomials& monomials, i
 }
 
 void appendBox(FlowSet& set, const std::vector<double>& size) {
-  const std::size_t n = size.size(), before = set.generators.size() / set.powers;
-  std::vector<double> columns;
-  columns.reserve(set.powers * (before + n * n));
-  for (std::size_t g = 0; g < set.powers; ++g) {
-    const auto block = set.generators.begin() + static_cast<std::ptrdiff_t>(g * before);
-    columns.insert(columns.end(), block, block + static_cast<std::ptrdiff_t>(before));
-    const std::size_t begin = columns.size();
-    columns.resize(begin + n * n, 0.0);
-    for (std::size_t i = 0; i < n && g == 0; ++i) columns[begin + i * n + i] = size[i];
+  const std::size_t n = size.size(), before = set.generators.size() / set.powers, behind = before + n * n;
+  set.generators.resize(set.powers * behind);
+  for (std::size_t g = set.powers; g-- > 0;) {  // in place, the last first
+    const auto from = set.generators.begin() + static_cast<std::ptrdiff_t>(g * before),
+               to = set.generators.begin() + static_cast<std::ptrdiff_t>(g * behind);
+    std::copy_backward(from, from + static_cast<std::ptrdiff_t>(before), to + static_cast<std::ptrdiff_t>(before));
+    std::fill_n(to + static_cast<std::ptrdiff_t>(before), n * n, 0.0);
   }
-  set.generators = std::move(columns);
+  for (std::size_t i = 0; i < n; ++i) set.generators[before + i * n + i] = size[i];
 }
 
 void addColumns(const std::vector<double>& columns, std::vector<double>& total) {
-  const auto n = static_cast<Eigen::Index>(total.size());
-  const Eigen::Map<const Eigen::MatrixXd> matrix(columns.data(), n, static_cast<Eigen::Index>(columns.size()) / n);
-  Eigen::VectorXd sum = Eigen::VectorXd::Zero(n);
-  for (Eigen::Index j = 0; j < matrix.cols(); ++j) sum += matrix.col(j).cwiseAbs();
-  Eigen::Map<Eigen::VectorXd>(total.data(), n) += sum;
-  Work::count(Work::matrixTerm, static_cast<double>(columns.size()));
+  const auto n = static_cast<int>(total.size());
+  kernels::addColumns(columns.data(), n, static_cast<int>(columns.size()) / n, total.data());
 }
 
 void errorRadius(const FlowSet& set, std::vector<double>& total) {

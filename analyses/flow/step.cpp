@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "analyses/flow/error_bounds.hpp"
+#include "analyses/work.hpp"
 #include "scalars/index.hpp"
 
 namespace gamut {
@@ -467,6 +468,7 @@ bool FlowStepper::drift(FlowSet& set, double end, std::vector<double>& turned) {
 
 StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum, double splitDefect, double kinkShare,
                                  double slideShare) {
+  begun_ = Work::counted();
   symbolAcross_ = -1;
   slideLoss_ = 0;
   isSliding_ = isShortened_ = false;

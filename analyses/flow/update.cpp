@@ -11,6 +11,7 @@
 
 #include "analyses/flow/embedding.hpp"
 #include "analyses/flow/error_bounds.hpp"
+#include "analyses/flow/kernels.hpp"
 #include "analyses/flow/step.hpp"
 #include "analyses/work.hpp"
 #include "scalars/elementary/double_double.hpp"
@@ -22,8 +23,10 @@ using detail::at;
 
 namespace {
 
-/// Of generators with symbols so many a state are kept apart.
-constexpr std::size_t keptAState = 16, leastKept = 100;
+/// Of generators with symbols so many a state are kept apart, a hundred at least. Of many symbols, whose steps are dear
+/// and where what merges is missed most, more: as long as to carry them takes no more than this share of a step's work,
+/// and they no more than so many numbers.
+constexpr double keptAState = 16, leastKept = 100, carriedShare = 0.2, mostNumbers = 1e6;
 /// What of their products is so little beside what a step leaves over is not carried out. Of long motions that is too
 /// much: what is left out is missing where higher powers of ξ cancel, step after step.
 constexpr double littleOfMany = 0.1, littleOfFew = 1e-3;
@@ -146,18 +149,19 @@ void FlowStepper::evaluateRemainder(const FlowSet& set, double tau, FlowPoint& p
     }
   const std::vector<double>& fresh = inputs_.generators();
   const auto begun = static_cast<std::ptrdiff_t>(tau == 0 ? 0 : inputs_.begunBefore(tau / h_));
-  std::vector<double> columns = set.generators;
-  columns.insert(columns.end(), set.inputs.begin(), set.inputs.end());
-  columns.insert(columns.end(), fresh.begin(), fresh.begin() + begun);
-  point.zonotope.resize(columns.size());
+  std::vector<double> driven = set.inputs;
+  driven.insert(driven.end(), fresh.begin(), fresh.begin() + begun);
   point.ofErrors = set.generators.size();
   point.ofR = errors_;
-  Eigen::Map<Eigen::MatrixXd> zonotope = columnsOf(point.zonotope, n_);
-  Work::count(Work::matrixTerm, static_cast<double>(columns.size()) * (n_ + 4));  // and copied
-  zonotope.noalias() = frameOf(point, 0) * columnsOf(columns, n_);
-  Eigen::Map<Eigen::VectorXd>(point.radius.data(), n_) +=
-      zonotope.leftCols(static_cast<Eigen::Index>(point.ofErrors / n)).cwiseAbs().rowwise().sum();
-  evaluateInputs(set, columns, point);
+  point.zonotope.resize(point.ofErrors + driven.size());
+  const auto carry = [&](const std::vector<double>& columns, double* to) {
+    kernels::multiplyColumns({{0, 0, 0}}, point.psi.data(), n_, n_, columns.data(),
+                             static_cast<int>(columns.size() / n), to);
+  };
+  carry(set.generators, point.zonotope.data());
+  carry(driven, point.zonotope.data() + point.ofErrors);
+  kernels::addColumns(point.zonotope.data(), n_, static_cast<int>(point.ofErrors / n), point.radius.data());
+  evaluateInputs(set, driven, point);
   for (std::size_t i = 0; i < n; ++i)
     point.radius[i] =
         (point.radius[i] + point.driven[i] + point.beyond[i] + point.loose[i]) * bounds::up + bounds::tiny;
@@ -165,15 +169,14 @@ void FlowStepper::evaluateRemainder(const FlowSet& set, double tau, FlowPoint& p
 
 /// What inputs did: (Ψ_0 + Σ_l Ψ_l ξ_l) (Γ + Σ_l Γ_l ξ_l) to the first order in ξ; the rest goes `beyond`.
 void FlowStepper::evaluateInputs(const FlowSet& set, const std::vector<double>& columns, FlowPoint& point) const {
-  const std::size_t n = at(n_), first = point.ofErrors, symbols = set.inputsOfXi.size();
+  const std::size_t n = at(n_), symbols = set.inputsOfXi.size();
   point.driven.assign(n, 0.0);
   point.beyond.assign(n, 0.0);
-  point.drivenOfXi.assign(symbols, std::vector<double>(columns.size() - first, 0.0));
-  if (columns.size() == first) return;
-  const Eigen::Map<const Eigen::MatrixXd> own(columns.data() + first, n_,
-                                              static_cast<Eigen::Index>((columns.size() - first) / n));
+  point.drivenOfXi.assign(symbols, std::vector<double>(columns.size(), 0.0));
+  if (columns.empty()) return;
+  const auto own = columnsOf(columns, n_);
   std::vector<double> plain(n, 0.0), ofXi(n, 0.0);
-  addColumns({columns.begin() + static_cast<std::ptrdiff_t>(first), columns.end()}, plain);
+  addColumns(columns, plain);
   Eigen::MatrixXd all(n_, n_);  // Σ_{α≠0} |Ψ_α|
   for (int i = 0; i < n_; ++i)
     for (int j = 0; j < n_; ++j)
@@ -195,7 +198,7 @@ void FlowStepper::evaluateInputs(const FlowSet& set, const std::vector<double>& 
       point.beyond[i] += std::max(0.0, higher(row, column)) * plain[j] + all(row, column) * ofXi[j];
     }
     point.beyond[i] *= bounds::up;
-    point.driven[i] = drivenRadius(point.zonotope, point.drivenOfXi, first + i, n) * bounds::up;
+    point.driven[i] = drivenRadius(point.zonotope, point.drivenOfXi, point.ofErrors + i, n) * bounds::up;
   }
 }
 
@@ -332,6 +335,7 @@ void FlowStepper::turnFrame(FlowSet& set) {
 /// is the identity from then on. What is cut off and w enter as generators of their own.
 void FlowStepper::carryGenerators(FlowSet& set) {
   using Matrix = Eigen::MatrixXd;
+  const auto worked = static_cast<double>(Work::counted() - begun_);
   const Monomials& m = monomials();
   const int powers = series_.frameCount();
   if (std::ranges::any_of(set.R, [](double r) { return r > 0; })) appendBox(set, set.R);
@@ -353,10 +357,9 @@ void FlowStepper::carryGenerators(FlowSet& set) {
   Eigen::VectorXd rest = Eigen::Map<const Eigen::VectorXd>(end_.loose.data(), n_),
                   little = (m.symbols() > few ? littleOfMany : littleOfFew) * rest;
   for (int q = 1; q <= degree; ++q) rest += high[at(degree - q + 1)] * size[at(q)];
-  std::vector<double> moved(set.generators.size(), 0.0);
+  std::vector<kernels::ColumnTerm> terms;
   int most = 1;
   for (int g = powers; g-- > 0;) {
-    Eigen::Map<Matrix> sum(moved.data() + g * block, n_, count);
     const int begin = m.first()[at(g)], end = m.first()[at(g) + 1];
     for (int pair = begin; pair < end; ++pair) {
       const auto [a, b] = m.pairs()[at(pair)];
@@ -365,12 +368,14 @@ void FlowStepper::carryGenerators(FlowSet& set) {
         little -= product;
         rest += product;
       } else {
-        Work::count(Work::matrixTerm, static_cast<double>(block) * n_);
-        sum.noalias() += frameOf(end_, a) * before(b);
+        terms.push_back({g, a, b});
       }
     }
     most = std::max(most, end - begin);
   }
+  carried_.assign(set.generators.size(), 0.0);
+  kernels::multiplyColumns(terms, end_.psi.data(), n_, n_, set.generators.data(), static_cast<int>(count),
+                           carried_.data());
   // Entries are sums of n products for each pair, at most; those of inputs of n for their own and one symbol.
   rest += (n_ * most + 2) * bounds::unit * (high[0] * all);
   if (!inputs_.empty()) {
@@ -398,7 +403,7 @@ void FlowStepper::carryGenerators(FlowSet& set) {
     const Matrix driven = frameOf(end_, 0) * inputs;
     set.inputs.assign(driven.data(), driven.data() + driven.size());
   }
-  set.generators = std::move(moved);
+  set.generators.swap(carried_);
   std::vector<double> fresh(at(n_));
   for (int i = 0; i < n_; ++i) fresh[at(i)] = rest(i) * bounds::up + bounds::tiny;
   set.W.assign(at(n_), 0.0);
@@ -406,8 +411,13 @@ void FlowStepper::carryGenerators(FlowSet& set) {
     if (arrives_[i] != 0 && end_.known[i] > 0) std::swap(set.W[i], fresh[i]);
   appendBox(set, fresh);
   mergeInputs(set, at(inputs_.count()), mostInputNumbers);
-  const std::size_t kept = std::max(keptAState * at(n_), leastKept);
-  if (set.generators.size() / (set.powers * at(n_)) > kept) mergeGenerators(set, m, kept / 2);
+  double kept = std::max(leastKept, keptAState * n_);
+  if (m.symbols() > few) {
+    const double ofOne = Work::of(Work::columnTerm, kernels::columnTerms(terms.size(), at(powers), n_, n_));
+    kept = std::max(kept, std::min(carriedShare * worked / ofOne, mostNumbers / (static_cast<double>(powers) * n_)));
+  }
+  if (static_cast<double>(set.generators.size() / (set.powers * at(n_))) > kept)
+    mergeGenerators(set, m, static_cast<std::size_t>(kept / 2));
   set.C.assign(at(n_ * n_), 0.0);
   for (int i = 0; i < n_; ++i) set.C[at(i * n_ + i)] = 1;
 }
