@@ -12,7 +12,7 @@ const double Work::unitsOf[kinds] = {
     1.6,    // coefficient
     25.0,   // boundedNode
     1.0,    // matrixTerm
-    0.15,   // columnTerm
+    0.06,   // columnTerm
     2.2,    // rangeTerm
     3.0,    // cellTerm
     1.0,    // transformed

@@ -51,7 +51,7 @@ struct ColumnTerm {
 void multiplyColumns(const std::vector<ColumnTerm>& terms, const double* matrices, int rows, int k,
                      const double* columns, int count, double* out);
 constexpr double columnTerms(std::size_t terms, std::size_t powers, int rows, int k) {
-  constexpr double ofLoading = 6;  // a number, measured
+  constexpr double ofLoading = 10;  // a number, measured
   return k * (static_cast<double>(terms) * rows + ofLoading * static_cast<double>(powers));
 }
 

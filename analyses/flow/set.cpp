@@ -40,10 +40,12 @@ FlowSet startOf(const Embedding& embedding, int n, const Monomials& monomials, i
 void appendBox(FlowSet& set, const std::vector<double>& size) {
   const std::size_t n = size.size(), before = set.generators.size() / set.powers, behind = before + n * n;
   set.generators.resize(set.powers * behind);
+  Work::count(Work::columnTerm, static_cast<double>(3 * set.generators.size()));
   for (std::size_t g = set.powers; g-- > 0;) {  // in place, the last first
     const auto from = set.generators.begin() + static_cast<std::ptrdiff_t>(g * before),
                to = set.generators.begin() + static_cast<std::ptrdiff_t>(g * behind);
-    std::copy_backward(from, from + static_cast<std::ptrdiff_t>(before), to + static_cast<std::ptrdiff_t>(before));
+    if (g > 0)
+      std::copy_backward(from, from + static_cast<std::ptrdiff_t>(before), to + static_cast<std::ptrdiff_t>(before));
     std::fill_n(to + static_cast<std::ptrdiff_t>(before), n * n, 0.0);
   }
   for (std::size_t i = 0; i < n; ++i) set.generators[before + i * n + i] = size[i];

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <atomic>
-#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -271,7 +270,8 @@ class FlowStepper {
   std::vector<double> driven_;                 // what inputs do to a state within the step, at most
   std::vector<double> second_, third_, turn_;  // bounds of derivatives by σ: p'' and the next, Ψ''(r + Γs)
   FlowPoint end_;
-  std::uint64_t begun_ = 0;      // of Work, when the step was
+  double certified_ = 0;         // work of the step's certificate, without that for generators
+  double ofGenerators_ = 0;      // work for generators, since then
   std::vector<double> carried_;  // generators at the step's end
 };
 

@@ -24,9 +24,9 @@ using detail::at;
 namespace {
 
 /// Of generators with symbols so many a state are kept apart, a hundred at least. Of many symbols, whose steps are dear
-/// and where what merges is missed most, more: as long as to carry them takes no more than this share of a step's work,
-/// and they no more than so many numbers.
-constexpr double keptAState = 16, leastKept = 100, carriedShare = 0.2, mostNumbers = 1e6;
+/// and where what merges is missed most, more: as long as what they take is no more than this share of the work for a
+/// step's certificate, and they are no more than so many numbers.
+constexpr double keptAState = 16, leastKept = 100, carriedShare = 0.4, mostNumbers = 1e6;
 /// What of their products is so little beside what a step leaves over is not carried out. Of long motions that is too
 /// much: what is left out is missing where higher powers of ξ cancel, step after step.
 constexpr double littleOfMany = 0.1, littleOfFew = 1e-3;
@@ -61,7 +61,9 @@ auto frameOf(const FlowPoint& point, int g) {
 
 void FlowStepper::evaluate(const FlowSet& set, double tau, FlowPoint& point, bool narrowed) {
   evaluateMotion(set, tau, point, narrowed);
+  const auto counted = static_cast<double>(Work::counted());
   evaluateRemainder(set, tau, point);
+  ofGenerators_ += static_cast<double>(Work::counted()) - counted;
   if (tau != 0 && narrowed) narrowArguments(set, tau, point);
 }
 
@@ -335,13 +337,12 @@ void FlowStepper::turnFrame(FlowSet& set) {
 /// is the identity from then on. What is cut off and w enter as generators of their own.
 void FlowStepper::carryGenerators(FlowSet& set) {
   using Matrix = Eigen::MatrixXd;
-  const auto worked = static_cast<double>(Work::counted() - begun_);
+  const auto counted = static_cast<double>(Work::counted());
   const Monomials& m = monomials();
   const int powers = series_.frameCount();
   if (std::ranges::any_of(set.R, [](double r) { return r > 0; })) appendBox(set, set.R);
   set.R.assign(at(n_), 0.0);
   const auto block = static_cast<Eigen::Index>(set.generators.size() / set.powers), count = block / n_;
-  const auto before = [&](int g) { return Eigen::Map<const Matrix>(set.generators.data() + g * block, n_, count); };
   // What is beyond the degree, and products that are little beside what the step leaves over: |Ψ_α| Σ_j |Γ_j|_β.
   const int degree = m.grade(powers - 1);
   std::vector<Matrix> frames, high(at(degree) + 1, Matrix::Zero(n_, n_));            // Σ |Ψ_α| of grades ≥ q
@@ -350,7 +351,8 @@ void FlowStepper::carryGenerators(FlowSet& set) {
   for (int g = 0; g < powers; ++g) {
     frames.push_back(frameOf(end_, g).cwiseAbs());
     for (int q = 0; q <= m.grade(g); ++q) high[at(q)] += frames.back();
-    sizes.push_back(before(g).cwiseAbs().rowwise().sum());
+    sizes.emplace_back(Eigen::VectorXd::Zero(n_));
+    kernels::addColumns(set.generators.data() + g * block, n_, static_cast<int>(count), sizes.back().data());
     size[at(m.grade(g))] += sizes.back();
     all += sizes.back();
   }
@@ -376,6 +378,7 @@ void FlowStepper::carryGenerators(FlowSet& set) {
   carried_.assign(set.generators.size(), 0.0);
   kernels::multiplyColumns(terms, end_.psi.data(), n_, n_, set.generators.data(), static_cast<int>(count),
                            carried_.data());
+  ofGenerators_ += static_cast<double>(Work::counted()) - counted;
   // Entries are sums of n products for each pair, at most; those of inputs of n for their own and one symbol.
   rest += (n_ * most + 2) * bounds::unit * (high[0] * all);
   if (!inputs_.empty()) {
@@ -412,9 +415,9 @@ void FlowStepper::carryGenerators(FlowSet& set) {
   appendBox(set, fresh);
   mergeInputs(set, at(inputs_.count()), mostInputNumbers);
   double kept = std::max(leastKept, keptAState * n_);
-  if (m.symbols() > few) {
-    const double ofOne = Work::of(Work::columnTerm, kernels::columnTerms(terms.size(), at(powers), n_, n_));
-    kept = std::max(kept, std::min(carriedShare * worked / ofOne, mostNumbers / (static_cast<double>(powers) * n_)));
+  if (m.symbols() > few && ofGenerators_ > 0) {
+    const double affordable = carriedShare * certified_ * static_cast<double>(count) / ofGenerators_;
+    kept = std::max(kept, std::min(affordable, mostNumbers / (static_cast<double>(powers) * n_)));
   }
   if (static_cast<double>(set.generators.size() / (set.powers * at(n_))) > kept)
     mergeGenerators(set, m, static_cast<std::size_t>(kept / 2));

@@ -475,7 +475,7 @@ TEST(FlowTightness, UnusedQuantitiesEndNoRound) {
 }
 
 // Five damped masses in a row whose springs are all uncertain turn their errors about for 25 rad. Where those of
-// sixteen steps at most are kept apart it is 27.
+// sixteen steps at most are kept apart the tightness is 27.
 TEST(FlowTightness, ErrorsOfManySymbolsKeepTheirDirections) {
   constexpr std::size_t masses = 5;
   const Program chain = record(2 * masses, masses + 1, [](auto, const auto& x, const auto& p, auto& dx) {
