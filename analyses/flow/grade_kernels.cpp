@@ -59,6 +59,11 @@ GAMUT_INLINE void addFirst(int terms, const double* a, const double* b, int coun
   }
 }
 
+/// The same of one order alone.
+GAMUT_INLINE void addProducts(double factor, const double* b, int count, const std::uint16_t* products, double* out) {
+  for (int n = 0; n < count; ++n) out[products[n]] += factor * b[n];
+}
+
 bool isZero(const double* a, int orders) {
   for (int i = 0; i < orders; ++i)
     if (a[i] != 0) return false;
@@ -73,12 +78,16 @@ GAMUT_CLONES void multiplySeries(const Monomials& monomials, int q, int least, c
   double rows = 0;
   for (int p = least; p <= q - least; ++p) {
     const int firstB = monomials.firstOf(q - p), count = monomials.countUpTo(q - p) - firstB;
-    const double* b = bPadded + firstB * paddedStride(stride) + padding;
+    const double* b = bPadded + firstB * paddedStride(stride) + padding(stride);
     for (int g = monomials.firstOf(p); g < monomials.countUpTo(p); ++g) {
       const double* factor = a + g * stride;
       if (isZero(factor, ofA)) continue;
       const std::uint16_t* products = monomials.products(g) + firstB;
       rows += count;
+      if (stride == 1) {
+        addProducts(*factor, b, count, products, out);
+        continue;
+      }
       for (int c = 0; c < orders; c += 8) {
         if (ofA == 1) {
           addProducts<1, true, false>(factor, b + c, count, products, stride, out + c);
@@ -90,6 +99,7 @@ GAMUT_CLONES void multiplySeries(const Monomials& monomials, int q, int least, c
       }
     }
   }
+  if (stride == 1) return Work::count(Work::multipliedPair, rows);
   const double blocks = (orders + 7) / 8;
   Work::count(Work::seriesProduct, rows * (ofA == 1 ? blocks : 0.5 * blocks * (blocks + 1)));
 }
@@ -99,7 +109,7 @@ void multiplyGraded(const Monomials& monomials, int q, const double* a, const do
   double pairs = 0;
   for (int p = 1; p < q; ++p) {
     const int firstB = monomials.firstOf(q - p), count = monomials.countUpTo(q - p) - firstB;
-    const double* b = bPadded + firstB * paddedStride(stride) + padding;
+    const double* b = bPadded + firstB * paddedStride(stride) + padding(stride);
     for (int g = monomials.firstOf(p); g < monomials.countUpTo(p); ++g) {
       const double factor = p * a[g * stride];
       if (factor == 0) continue;
@@ -129,6 +139,10 @@ GAMUT_CLONES void loadLanes(const double* rows, int stride, int count, int from,
 }
 
 GAMUT_CLONES void storeLanes(double* w, int orders, int count, double* rows, int stride) {
+  if (stride == 1) {
+    std::copy_n(w, count, rows);
+    return;
+  }
   const int end = (orders + 7) / 8 * 8;
   std::fill(w + orders * lanes, w + end * lanes, 0.0);
   for (int l = 0; l < count; ++l, rows += stride) {

@@ -145,6 +145,7 @@ GAMUT_CLONES void addSizes(const double* rows, int stride, int count, int orders
 }
 
 GAMUT_CLONES double dot(const double* a, const double* b, int stride) {
+  if (stride == 1) return a[0] * b[0];
   Vector s = {};
   for (int c = 0; c < stride; c += 8) s += load(a + c) * load(b + c);
   return sum(s);

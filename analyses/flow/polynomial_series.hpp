@@ -241,7 +241,8 @@ class PolynomialSeries {
   void put(const Plan& v, int g, int i, double value) {
     f_[v.f + at(g * stride_ + i)] = value;
     if (v.r == none) return;
-    r_[v.r + at(g * kernels::paddedStride(stride_) + (isByGrades_ ? kernels::padding + i : stride_ - 1 - i))] = value;
+    r_[v.r + at(g * kernels::paddedStride(stride_) + (isByGrades_ ? kernels::padding(stride_) + i : stride_ - 1 - i))] =
+        value;
     if (g == 0 && v.z != none) z_[v.z + at(stride_ - 1 - i)] = value;
   }
   double mean(const std::vector<double>& along, const std::vector<double>& there, int node) const {

@@ -108,11 +108,11 @@ void PolynomialSeries::computeLeadingGrade(double h0) {
     }
   for (int node = time_ + 1; node < nodes_; ++node) computeLeadingValue(node);
   for (std::size_t x = 0; x < plan_.size(); ++x) current_[x] = f_[plan_[x].f];
-  kernels::thinRecursion(thin_, thinSolutions_, thinStates_, thinFrame_, leading_, time_, m_, h0, current_);
+  if (m_ > 1) kernels::thinRecursion(thin_, thinSolutions_, thinStates_, thinFrame_, leading_, time_, m_, h0, current_);
   std::fill(sums_.begin(), sums_.end(), 0.0);
   for (std::size_t x = 0; x < plan_.size(); ++x) {
     const Plan& v = plan_[x];
-    if (v.r != none) std::copy_n(&f_[v.f], stride_, &r_[v.r + at(kernels::padding)]);
+    if (v.r != none) std::copy_n(&f_[v.f], stride_, &r_[v.r + at(kernels::padding(stride_))]);
     for (int i = 0; i < stride_; ++i)
       weightedSums_[x * at(stride_) + at(i)] = sums_[v.t + at(i)] = std::fabs(f_[v.f + at(i)]);
   }
@@ -129,6 +129,10 @@ int PolynomialSeries::ordersOf(int q) const {
 void PolynomialSeries::multiplyGrade(int q) {
   const int first = monomials_->firstOf(q), last = monomials_->countUpTo(q), orders = ordersOf(q);
   const auto clear = [&](double* series) {
+    if (stride_ == 1) {
+      std::fill(series + first, series + last, 0.0);
+      return series;
+    }
     for (double* row = series + first * stride_; row < series + last * stride_; row += stride_)
       for (int i = 0; i < orders; i += 8)
         for (int j = 0; j < 8; ++j) row[i + j] = 0;
@@ -216,7 +220,7 @@ void PolynomialSeries::computeLanes(int q, int first, int count, double h0) {
     kernels::storeLanes(lane(x, 0), end, count, &f_[v.f + at(first * stride_)], stride_);
     if (v.r != none)
       kernels::storeLanes(lane(x, 0), end, count,
-                          &r_[v.r + at(first * kernels::paddedStride(stride_) + kernels::padding)],
+                          &r_[v.r + at(first * kernels::paddedStride(stride_) + kernels::padding(stride_))],
                           kernels::paddedStride(stride_));
     if (v.d != none)
       kernels::storeLanes(&slopes_[slopeAt_[at(x)]], computed, count, &d_[v.d + at(first * stride_)], stride_);

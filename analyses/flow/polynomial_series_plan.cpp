@@ -29,6 +29,9 @@ PolynomialSeries::PolynomialSeries(const Program& program, int primaryOutputs,
   frameCount_ = monomials_->countUpTo(frameDegree_);
   planOrders(order);
   const auto& nodes = program.nodes();
+  hasKinks_ = std::ranges::any_of(nodes, [](const Node& node) { return node.op == Op::abs || node.op == Op::sign; });
+  isByGrades_ = !hasKinks_ && monomials_->pairs().size() >= manyPairs;
+  if (isByGrades_ && order == 1 && !withFrame_) stride_ = 1;  // at one time
   std::vector<char> primary(nodes.size(), 0);
   for (int i = 0; i < primaryOutputs; ++i) primary[at(outputs_[at(i)])] = 1;
   for (std::size_t i = nodes.size(); i-- > 0;) {
@@ -65,7 +68,6 @@ PolynomialSeries::PolynomialSeries(const Program& program, int primaryOutputs,
     Plan v{nodes[i].op, nodes[i].a, nodes[i].b, 0, 0, primary[i] != 0, program.isInvariant(static_cast<int>(i)), false};
     v.degree = v.primary ? monomials_->degree() : frameDegree_;
     isConvex_ = isConvex_ && v.op != Op::tanh && v.op != Op::abs && v.op != Op::sign;
-    hasKinks_ = hasKinks_ || v.op == Op::abs || v.op == Op::sign;
     if (v.op == Op::sign && v.primary) jumps_.push_back(static_cast<int>(i));
     if (v.op == Op::constant) {
       v.constant = true;
@@ -84,7 +86,6 @@ PolynomialSeries::PolynomialSeries(const Program& program, int primaryOutputs,
     }
 
   planSystems(program);
-  isByGrades_ = !hasKinks_ && monomials_->pairs().size() >= manyPairs;
 
   // Which nodes are the right factor of a convolution, and need a copy (reversed, or by grades padded) and tables of
   // tails?
@@ -175,7 +176,7 @@ PolynomialSeries::PolynomialSeries(const Program& program, int primaryOutputs,
   for (auto* v : {&amplified_, &amplified2_}) v->assign(at(largestSystem_ * largestSystem_), 0.0);
   for (auto* v : {&vector_, &vector2_, &vector3_}) v->assign(at(largestSystem_), 0.0);
   for (auto* v : {&norm_, &weighted_, &own0_, &own1_, &rho0_, &rho1_, &top_}) v->assign(plan_.size(), 0.0);
-  power_.assign(at(stride_), 0.0);
+  power_.assign(at(std::max(stride_, 2)), 0.0);
   weights_.assign(at(stride_), 0.0);
   putConstants();
   if (isByGrades_ || (count() == 1 && withFrame_)) prepareThin();

@@ -124,6 +124,15 @@ TEST_P(OfSystem, ManySymbolsAreBounded) {
   }
 }
 
+TEST_P(OfSystem, ManySymbolsAtOneTimeAreBounded) {
+  Points points(25);
+  for (int round = 0; round < 6 && !HasFatalFailure(); ++round) {
+    Setting s = settingAtOneTime(points);
+    s.size = std::min(s.size, 0.02);
+    expectJacobianCertified(GetParam(), points, s, 3);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(PolynomialSeries, OfSystem,
                          ::testing::Values(Kind::general, Kind::transposed, Kind::positiveDefinite),
                          [](const auto& kind) {
