@@ -51,7 +51,8 @@ std::size_t numberOf(const ReplayArguments& arguments, const StochasticResult& s
   const Kind kinds[] = {{"", 0, samples.planned()},
                         {"corner ", samples.samples, samples.corners},
                         {"alpha-corner ", samples.samples + samples.corners, samples.alphaCorners},
-                        {"alpha-point ", samples.centre() + 1, samples.alphaPoints}};
+                        {"alpha-point ", samples.centre() + 1, samples.alphaPoints},
+                        {"extreme ", samples.firstExtreme(), samples.planned() - samples.firstExtreme()}};
   std::string expected;
   for (const auto& [kind, first, count] : kinds) {
     if (count == 0) continue;
@@ -177,8 +178,8 @@ Action replay(CLI::App& command) {
   command
       .add_option("sample", arguments->sample,
                   "Which: a number from 0 (the plan's samples, the corners, those of the alpha-cuts, the centre, "
-                  "points inside the cuts), or corner K, alpha-corner K, alpha-point K (from 0), centre; or violation "
-                  "NAME, of a requirement")
+                  "points inside the cuts, extremes), or corner K, alpha-corner K, alpha-point K, extreme K (from 0), "
+                  "centre; or violation NAME, of a requirement")
       ->required()
       ->expected(1, 2)
       ->type_name("SAMPLE");

@@ -56,6 +56,22 @@ bool restrictTo(const Box& level, const Embedding& embedding, const std::vector<
   return true;
 }
 
+OutputExtremes extremesOf(const PolynomialRange& range, const Box& box, const Embedding& embedding,
+                          const std::vector<double>& centre, const std::vector<double>& half) {
+  const auto valuesAt = [&](const std::vector<double>& xi) {
+    std::vector<double> values;
+    for (std::size_t i = 0; i < box.size(); ++i) {
+      const Embedded& e = embedding.components[i];
+      double value = midpoint(box[i]);
+      if (const auto l = static_cast<std::size_t>(e.symbol); e.symbol >= 0)
+        value = std::clamp(e.centre + e.half * (centre[l] + half[l] * xi[l]), box[i].lower(), box[i].upper());
+      values.push_back(value);
+    }
+    return values;
+  };
+  return {range.least().value, range.greatest().value, valuesAt(range.least().xi), valuesAt(range.greatest().xi)};
+}
+
 namespace {}  // namespace
 
 double countOfMonomials(const std::vector<int>& weights, int degree) {

@@ -6,6 +6,7 @@
 
 #include "analyses/flow/flow.hpp"
 #include "analyses/flow/monomials.hpp"
+#include "analyses/flow/polynomial_range.hpp"
 #include "analyses/flow/polynomial_series.hpp"
 #include "scalars/interval.hpp"
 
@@ -31,6 +32,10 @@ struct Embedding {
 /// The part of [-1,1] of each symbol that a sub-box covers on a piece ξ_study = centre + half·ξ; false if none.
 bool restrictTo(const Box& level, const Embedding& embedding, const std::vector<double>& centre,
                 const std::vector<double>& half, Box& xi);
+
+/// Where the polynomial whose range was found last, on such a piece, is extreme.
+OutputExtremes extremesOf(const PolynomialRange& range, const Box& box, const Embedding& embedding,
+                          const std::vector<double>& centre, const std::vector<double>& half);
 
 /// A symbol of this weight is kept to its first power, without products.
 inline constexpr int mostWeight = 16;

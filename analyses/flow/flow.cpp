@@ -114,6 +114,7 @@ Tube answer(const FlowFormulation& formulation, const FlowOptions& options, Flow
   ofLevels.aside = {};
   ofLevels.modelled.clear();
   ofLevels.modelledAt.clear();
+  ofLevels.extremesAt.clear();
   own.aside.values = formulation.asides;
   FlowBudget levelBudget{0};
   const auto questionWith = [&](const FlowOptions& with, FlowBudget& of) {
@@ -178,6 +179,7 @@ Tube Flow::enclose(const Box& box, double horizon, const std::vector<double>& ou
   if (early.empty()) return tube;
   options.modelled.clear();
   options.modelledAt.clear();
+  options.extremesAt.clear();
   Tube ofRates = answer(*parts_->ofRates, options, budget, box, early.back(), early, levels);
   FlowRun::dropStates(ofRates, motion.states());
   const FlowCause limit = ofRates.limitCause().isNone() ? tube.limitCause() : ofRates.limitCause();

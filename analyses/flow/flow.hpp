@@ -82,9 +82,10 @@ struct FlowOptions {
                                      ///< time alone, counted from the last, and at those
   double modelAtBytes = 1e9;         ///< that they may take at last; of more, none are kept
   double modelBytes = 1e9;           ///< that the former may take; of more, none are kept
-  std::vector<int> uncounted;        ///< outputs that need not be as tight as `tightness` says
-  std::vector<double> tightnessOf;   ///< one an output, in place of `tightness`; or none
-  std::vector<double> floors;        ///< one an output: what is left over of it up to this counts for nothing; or none
+  std::vector<std::size_t> extremesAt;  ///< rows of Tube::times() for Tube::extremes(), rising
+  std::vector<int> uncounted;           ///< outputs that need not be as tight as `tightness` says
+  std::vector<double> tightnessOf;      ///< one an output, in place of `tightness`; or none
+  std::vector<double> floors;  ///< one an output: what is left over of it up to this counts for nothing; or none
   /// One an output: wider than this its enclosure says nothing, and the flow ends; without, a million times the size
   /// that a state has had, of one that was once known to within that size.
   std::vector<double> mostWidth;
@@ -145,6 +146,9 @@ class Tube {
   /// bounded rate, without heed to that. Null if none are asked for, or kept.
   const std::shared_ptr<const FlowModels>& models() const { return models_; }
 
+  /// [time][output]; empty at times that FlowOptions::extremesAt does not name.
+  const std::vector<std::vector<OutputExtremes>>& extremes() const { return extremes_; }
+
   /// Of each component of the box, how much of what a state varies by is in terms of more than the first order that
   /// hold it, at most: what asks for high degrees and for bisection. Empty where no piece was followed.
   const std::vector<double>& nonlinear() const { return nonlinear_; }
@@ -162,6 +166,7 @@ class Tube {
   std::vector<std::vector<std::vector<Interval>>> cuts_;
   std::vector<std::vector<double>> excess_;  // tightness() - 1 of each, [time][output or state]
   std::shared_ptr<const FlowModels> models_;
+  std::vector<std::vector<OutputExtremes>> extremes_;
   std::vector<double> nonlinear_;
   double reached_ = 0;
   std::string why_, shortfall_;

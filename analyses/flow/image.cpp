@@ -36,6 +36,7 @@ struct ImagePart {
   std::vector<std::vector<double>> polynomial;  // [output]; empty where nothing is known but the range
   std::vector<double> radius;
   std::vector<Interval> range;
+  std::vector<OutputExtremes> extremes;  // not known where polynomials are not
   double volume = 1;
   bool isFinal = false;
 };
@@ -94,6 +95,14 @@ class ImageFinder {
     std::ranges::sort(parts_, {}, [](const ImagePart& part) { return part.part.centre; });
   }
 
+  /// Over the box.
+  std::vector<OutputExtremes> extremes() const {
+    std::vector<OutputExtremes> result(at(outputs_.count()));
+    for (const ImagePart& part : parts_)
+      for (std::size_t o = 0; o < result.size(); ++o) result[o].join(part.extremes[o]);
+    return result;
+  }
+
   /// Over the box, then over each level.
   std::vector<std::vector<Interval>> ranges(const std::vector<Box>& levels) {
     std::vector<std::vector<Interval>> result(1, std::vector<Interval>(at(outputs_.count()), Interval::empty()));
@@ -139,7 +148,7 @@ class ImageFinder {
   ImagePart on(FlowPart where) {
     if (cancelled_ != nullptr && *cancelled_) throw Cancelled();
     work_ += workOfPart_;
-    ImagePart found{std::move(where), box_, {}, {}, {}};
+    ImagePart found{std::move(where), box_, {}, {}, {}, {}};
     for (const double half : found.part.half) found.volume *= half;
     const int n = states_, N = monomials_->count();
     FlowPoint point;
@@ -170,19 +179,22 @@ class ImageFinder {
       if (std::isfinite(outputs_.radius(o)))
         found.polynomial.back().assign(outputs_.polynomial(o), outputs_.polynomial(o) + N);
     }
-    found.range = rangesOf(found, Box(at(embedding_.symbols), Interval(-1.0, 1.0)), found.box);
+    found.extremes.resize(at(outputs_.count()));
+    found.range = rangesOf(found, Box(at(embedding_.symbols), Interval(-1.0, 1.0)), found.box, &found.extremes);
     return found;
   }
 
   /// By polynomials over a part of η, and by plain intervals over a box that holds it: these know more of what has
   /// kinks, and of small parts.
-  std::vector<Interval> rangesOf(const ImagePart& part, const Box& eta, const Box& box) {
+  std::vector<Interval> rangesOf(const ImagePart& part, const Box& eta, const Box& box,
+                                 std::vector<OutputExtremes>* extremes = nullptr) {
     std::vector<Interval> found = plain_.over(t_, box);
     const bool isWhole = part.volume == 1;
     for (std::size_t o = 0; o < found.size(); ++o) {
       if (cancelled_ != nullptr && *cancelled_) throw Cancelled();
       if (part.polynomial[o].empty()) continue;
       const Interval byPolynomial = inflated(ranges_(part.polynomial[o].data(), eta), part.radius[o]);
+      if (extremes != nullptr) (*extremes)[o] = extremesOf(ranges_, box_, embedding_, part.part.centre, part.part.half);
       found[o] = outputs_.hasKinks() || !isWhole ? intersection(byPolynomial, found[o]) : byPolynomial;
     }
     return found;
@@ -353,7 +365,7 @@ Image findImage(const Program& g, double t, const Box& box, const std::vector<Bo
         found = std::move(other);
     ImageFinder& finder = *found;
     finder.bisect(counted, work);
-    Image image{finder.ranges(levels), nullptr, finder.parts().size()};
+    Image image{finder.ranges(levels), nullptr, finder.extremes(), finder.parts().size()};
     if (!modelled.empty()) image.models = modelsOf(finder, t, modelled);
     return image;
   } catch (const Cancelled&) {

@@ -17,6 +17,7 @@ struct Image {
   /// [0] over the box, [i] over levels[i-1]; empty if `cancelled` was set before all was found.
   std::vector<std::vector<Interval>> ranges;
   std::shared_ptr<const FlowModels> models;  ///< at the one time t; null if none are asked for
+  std::vector<OutputExtremes> extremes;      ///< over the box, one an output
   std::size_t parts = 0;                     ///< of the box
 };
 

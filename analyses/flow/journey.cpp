@@ -385,6 +385,8 @@ void FlowFollower::appendOutputs(const FlowPiece& piece, const std::vector<Inter
     }
     const Interval bound = inflated(range(outputs_->polynomial(o), xi, rangeTolerance_), radius);
     outputs.push_back(bound);
+    if (!extremes_.empty())
+      extremes_[at(o)] = extremesOf(range, task_.box, task_.embedding, piece.set.centre, piece.set.half);
     if (knowsMore)  // of |y| through 0 the one knows what the other does not
       outputs.back() = intersection(bound, overBoxes(o));
     outputLimits_.push_back(outputs_->hasJumps() ? bound : outputs.back());
@@ -411,6 +413,19 @@ void FlowFollower::encloseLevels(const FlowPiece& piece, std::size_t row) {
     joinHulls(collected_.cuts[level][row], cut);
   }
   collected_.cutCpu += threadCpuSeconds() - began;
+}
+
+/// Of how many outputs those are wanted at an output time.
+std::size_t FlowFollower::extremesAt(std::size_t row) const {
+  return std::ranges::binary_search(task_.options.extremesAt, row) ? at(task_.outputs.outputs()) : 0;
+}
+
+/// Those of this piece at an output time, from the outputs that were enclosed last.
+void FlowFollower::takeExtremes(std::size_t row) {
+  std::vector<OutputExtremes>& all = collected_.extremes[row];
+  all.resize(std::max(all.size(), extremes_.size()));
+  for (std::size_t o = 0; o < extremes_.size(); ++o) all[o].join(extremes_[o]);
+  extremes_.clear();
 }
 
 /// Of what was enclosed last, whose outputs lie in these bounds; null if none are to be kept. The row is that of an
@@ -544,7 +559,9 @@ bool FlowFollower::record(FlowPiece& piece) {
   const double t0 = piece.set.t, t1 = t0 + tool_->stepper.h();
   if (piece.last.empty()) {  // the start
     std::vector<Interval> outputs;
+    extremes_.resize(extremesAt(0));
     enclose(piece, 0.0, piece.last, outputs);
+    takeExtremes(0);
     piece.lastOutputs = outputLimits_;
     piece.lastRadii = radii();
     piece.lastModel = modelOutputs(piece, outputLimits_, 0);
@@ -690,12 +707,14 @@ bool FlowFollower::record(FlowPiece& piece) {
   };
   for (; piece.next < times.size() && times[piece.next] <= t1; ++piece.next) {
     partUntil(times[piece.next]);
+    extremes_.resize(extremesAt(piece.next));
     enclose(piece, times[piece.next] - t0, end, endOutputs);  // an exact difference: docs/flow.md, "Time"
     endLimits = outputLimits_;
     endModel = modelOutputs(piece, endLimits, piece.next);
     if (endModel) collected_.models[piece.next].push_back(endModel);
     joinHulls(collected_.stateCore[piece.next], stateCore_);
     joinHulls(collected_.outputCore[piece.next], outputCore_);
+    takeExtremes(piece.next);
     encloseLevels(piece, piece.next);
     lookAside(piece, piece.next, end);
     joinHulls(collected_.states[piece.next], end);

@@ -54,7 +54,8 @@ enum class FlowJourney { goesOn, bisected, ended, cancelled };
 struct FlowCollected {
   std::vector<std::vector<Interval>> states, statesOver, outputs, outputsOver, asides;
   std::vector<std::vector<std::vector<Interval>>> cuts;
-  std::vector<std::vector<Interval>> stateCore, outputCore;        // see FlowFollower; their hulls
+  std::vector<std::vector<Interval>> stateCore, outputCore;  // see FlowFollower; their hulls
+  std::vector<std::vector<OutputExtremes>> extremes;
   std::vector<std::vector<std::shared_ptr<FlowSnapshot>>> models;  // FlowModels
   std::vector<std::vector<FlowChord>> chords;
   std::vector<Influence> influence;  // of every symbol
@@ -71,6 +72,7 @@ struct FlowCollected {
         cuts(levels, std::vector<std::vector<Interval>>(times)),
         stateCore(times),
         outputCore(times),
+        extremes(times),
         models(times),
         chords(times) {}
 };
@@ -142,6 +144,8 @@ class FlowFollower {
                       std::vector<Interval>& outputs);
   void appendOutputs(const FlowPiece& piece, const std::vector<Interval>& states, const Box& xi,
                      std::vector<Interval>& outputs);
+  std::size_t extremesAt(std::size_t row) const;
+  void takeExtremes(std::size_t row);
   void encloseLevels(const FlowPiece& piece, std::size_t row);
   std::shared_ptr<FlowSnapshot> modelOutputs(const FlowPiece& piece, const std::vector<Interval>& outputs,
                                              std::optional<std::size_t> row = {});
@@ -178,6 +182,7 @@ class FlowFollower {
   Box whole_;
   std::vector<Interval> sag_;
   std::vector<Interval> outputLimits_;            // of `enclose` too: the outputs, and their limits where they jump
+  std::vector<OutputExtremes> extremes_;          // of outputs that are being enclosed; none unless they are wanted
   std::vector<Interval> stateCore_, outputCore_;  // bounds of `enclose` without what remainder and range add at most
 };
 

@@ -59,6 +59,13 @@ OutputModel modelOf(const double* polynomial, double radius, const Monomials& mo
   return model;
 }
 
+void OutputExtremes::join(const OutputExtremes& other) {
+  if (other.least < least || (other.least == least && other.leastAt < leastAt))
+    least = other.least, leastAt = other.leastAt;
+  if (other.greatest > greatest || (other.greatest == greatest && other.greatestAt < greatestAt))
+    greatest = other.greatest, greatestAt = other.greatestAt;
+}
+
 double bytesOf(const FlowSnapshot& snapshot) {
   double bytes = sizeof(FlowSnapshot) + 16.0 * static_cast<double>(snapshot.part.centre.size());
   for (const OutputModel& model : snapshot.outputs)

@@ -2,6 +2,7 @@
 // follow answers for parts of the box, for a probability, for a single sample, without another flow.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -64,6 +65,15 @@ struct FlowModels {
   bool areAlternatives = false;
   std::vector<std::vector<std::shared_ptr<const FlowSnapshot>>> at;  ///< [time]: at the time, all parts of the box
   std::vector<std::vector<FlowChord>> over;  ///< [time]: since the output time before, all parts of box and time
+};
+
+/// Where in the box an output is least and greatest at a time, as far as its polynomials tell: not proved.
+struct OutputExtremes {
+  double least = std::numeric_limits<double>::infinity(), greatest = -least;  ///< that it is there, about
+  std::vector<double> leastAt, greatestAt;  ///< values of the box's components; none: not known
+
+  /// Those of both; of equal ones whichever comes first in order.
+  void join(const OutputExtremes& other);
 };
 
 /// Polynomial ± radius in as few grades as cost next to nothing; what is left out counts in the radius, as do terms in

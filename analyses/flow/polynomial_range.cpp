@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "analyses/flow/error_bounds.hpp"
 #include "analyses/work.hpp"
@@ -60,6 +61,9 @@ void PolynomialRange::substitute(int symbol, double middle, double half, const d
 Interval PolynomialRange::operator()(const double* c, const Box& box, double tolerance) {
   const Monomials& m = *monomials_;
   gap_ = 0;
+  Place place{std::vector<double>(at(m.symbols()), 0.0), std::vector<double>(at(m.symbols()), 1.0)};
+  for (int l = 0; l < m.symbols(); ++l) place.middle[at(l)] = midpoint(box[at(l)]);
+  least_ = greatest_ = {c[0], place.middle};
   if (m.count() == 1) return std::isfinite(c[0]) ? Interval(c[0]) : Interval::entire();
   std::vector<double> q(c, c + m.count());
   double norm = 0;
@@ -73,6 +77,7 @@ Interval PolynomialRange::operator()(const double* c, const Box& box, double tol
     // [lower, upper] ⊂ middle ± half. Σ|c'| ≤ Σ|c| (|middle| + half)^d, and |middle| + half ≤ 1 + 2^-51.
     const double middle = 0.5 * (lower + upper);
     const double half = std::max(subUp(upper, middle), subUp(middle, lower));
+    place.half[at(l)] = half;
     substitute(l, middle, half, q.data(), moved.data());
     q.swap(moved);
     rounding += shiftError_ * norm * bounds::up;
@@ -82,15 +87,18 @@ Interval PolynomialRange::operator()(const double* c, const Box& box, double tol
   if (!std::isfinite(norm)) return Interval::entire();
   std::vector<double> minus(q.size());
   for (std::size_t g = 0; g < q.size(); ++g) minus[g] = -q[g];
-  const double upper = maximum(std::move(q), rounding, tolerance);
-  const double lower = -maximum(std::move(minus), rounding, tolerance);
+  const double upper = maximum(std::move(q), place, rounding, tolerance, greatest_);
+  const double lower = -maximum(std::move(minus), place, rounding, tolerance, least_);
+  least_.value = -least_.value;
   return Interval(lower, upper);
 }
 
-double PolynomialRange::maximum(std::vector<double> c, double rounding, double tolerance) {
+double PolynomialRange::maximum(std::vector<double> c, Place place, double rounding, double tolerance,
+                                Extreme& extreme) {
   constexpr int mostParts = 400, mostDepth = 40;
   const double constant = c[0];
-  reduceMonotone(c);
+  reduceMonotone(c, place);
+  extreme = {c[0], place.middle};
   double norm = 0;
   for (std::size_t g = 1; g < c.size(); ++g) norm += std::fabs(c[g]);
   if (norm == 0) return addUp(c[0], rounding);
@@ -98,47 +106,50 @@ double PolynomialRange::maximum(std::vector<double> c, double rounding, double t
                enough = std::max(tolerance * (norm + std::fabs(c[0] - constant)), rounding);
   // The part with the greatest bound is bisected until that bound is nearly taken: it is the bound of all then.
   parts_.clear();
-  double best = -std::numeric_limits<double>::infinity();
+  extreme.value = -std::numeric_limits<double>::infinity();
   int deepest = 0;
-  const auto add = [&](std::vector<double>&& part, int depth) {
-    Work::count(Work::rangeTerm, static_cast<double>(part.size()) * (monomials_->symbols() + 1));
-    best = std::max(best, greatestValue(part));
-    const double bound = upperBound(part);
-    deepest = std::max(deepest, depth);
-    if (!parts_.empty() && bound <= best) return;
-    parts_.push_back({bound, depth, std::move(part)});
+  const auto add = [&](Part&& part) {
+    Work::count(Work::rangeTerm, static_cast<double>(part.c.size()) * (monomials_->symbols() + 1));
+    findGreatest(part, extreme);
+    part.bound = upperBound(part.c);
+    deepest = std::max(deepest, part.depth);
+    if (!parts_.empty() && part.bound <= extreme.value) return;
+    parts_.push_back(std::move(part));
     std::ranges::push_heap(parts_, {}, &Part::bound);
   };
-  add(std::move(c), 0);
-  for (int parts = 1; parts < mostParts && parts_.front().bound > best + enough; ++parts) {
+  add({0, 0, std::move(c), std::move(place)});
+  for (int parts = 1; parts < mostParts && parts_.front().bound > extreme.value + enough; ++parts) {
     if (parts_.front().depth >= mostDepth) break;
     std::ranges::pop_heap(parts_, {}, &Part::bound);
     const Part part = std::move(parts_.back());
     parts_.pop_back();
     const int symbol = mostNonlinear(part.c);
     for (const double middle : {-0.5, 0.5}) {
-      std::vector<double> half(part.c.size());
-      substitute(symbol, middle, 0.5, part.c.data(), half.data());
-      reduceMonotone(half);
-      add(std::move(half), part.depth + 1);
+      Part half{0, part.depth + 1, std::vector<double>(part.c.size()), part.place};
+      substitute(symbol, middle, 0.5, part.c.data(), half.c.data());
+      half.place.middle[at(symbol)] += middle * half.place.half[at(symbol)];
+      half.place.half[at(symbol)] *= 0.5;
+      reduceMonotone(half.c, half.place);
+      add(std::move(half));
     }
   }
   // Every bisection above a part adds its rounding, shiftError·Σ|c| and N u Σ|c| for monotone symbols; Σ|c| never
   // grows.
   const double shifts = deepest * (shiftError_ + monomials_->count() * bounds::unit) * size * bounds::up;
-  const double proved = addUp(std::max(best, parts_.front().bound), addUp(rounding, shifts));
-  gap_ = std::max(gap_, proved - best);
+  const double proved = addUp(std::max(extreme.value, parts_.front().bound), addUp(rounding, shifts));
+  gap_ = std::max(gap_, proved - extreme.value);
   return proved;
 }
 
 /// Symbols in which the polynomial is proved monotone over [-1,1]^k are set to the end where it is greatest.
-void PolynomialRange::reduceMonotone(std::vector<double>& c) const {
+void PolynomialRange::reduceMonotone(std::vector<double>& c, Place& place) const {
   const Monomials& m = *monomials_;
   for (int l = 0; l < m.symbols(); ++l) {
     const int linear = m.linear(l);
     if (linear < 0 || c[at(linear)] == 0) continue;
     if (!(nonlinear(l, c) * bounds::up < std::fabs(c[at(linear)]))) continue;
     const double end = c[at(linear)] > 0 ? 1 : -1;
+    place.middle[at(l)] += end * std::exchange(place.half[at(l)], 0.0);
     for (int g = m.count() - 1; g > 0; --g)
       if (const int power = m.exponent(g, l); power > 0) {
         int target = g;
@@ -157,17 +168,22 @@ double PolynomialRange::upperBound(const std::vector<double>& c) const {
 }
 
 /// At the middle and, per symbol, at both ends of its axis.
-double PolynomialRange::greatestValue(const std::vector<double>& c) const {
-  double best = c[0];
-  for (const std::vector<int>& axis : axis_) {
+void PolynomialRange::findGreatest(const Part& part, Extreme& extreme) const {
+  const std::vector<double>& c = part.c;
+  double best = c[0], step = 0;
+  std::size_t along = 0;
+  for (std::size_t l = 0; l < axis_.size(); ++l) {
+    const std::vector<int>& axis = axis_[l];
     double low = c[0], high = c[0];
     for (std::size_t i = 0; i < axis.size(); ++i) {
       low += i % 2 == 0 ? -c[at(axis[i])] : c[at(axis[i])];
       high += c[at(axis[i])];
     }
-    best = std::max({best, low, high});
+    if (std::max(low, high) > best) best = std::max(low, high), along = l, step = high >= low ? 1 : -1;
   }
-  return best;
+  if (!(best > extreme.value)) return;
+  extreme = {best, part.place.middle};
+  if (step != 0) extreme.xi[along] += step * part.place.half[along];
 }
 
 /// Σ of the exponent times |c_g| over the nonlinear terms: no less than how the slope in the symbol varies.

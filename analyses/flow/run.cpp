@@ -293,6 +293,13 @@ Tube FlowRun::gather() {
   merge(&FlowCollected::outputs, tube.outputs_);
   merge(&FlowCollected::outputsOver, tube.outputsOver_);
   merge(&FlowCollected::asides, tube.asides_);
+  tube.extremes_.resize(rows);
+  for (FlowCollected& part : collected_)
+    for (std::size_t row = 0; row < rows; ++row) {
+      std::vector<OutputExtremes>& all = tube.extremes_[row];
+      all.resize(std::max(all.size(), part.extremes[row].size()));
+      for (std::size_t o = 0; o < part.extremes[row].size(); ++o) all[o].join(part.extremes[row][o]);
+    }
   if (rows == 0) {  // not even one step: the start itself is known
     tube.states_ =
         tube.statesOver_ = {std::vector<Interval>(task_.box.begin(), task_.box.begin() + task_.motion.states())};
@@ -457,6 +464,8 @@ Tube FlowRun::meet(Tube a, Tube b) {
   cross(b.outputsOver_, a.outputsOver_);
   cross(b.asides_, a.asides_);
   for (std::size_t level = 0; level < b.cuts_.size(); ++level) cross(b.cuts_[level], a.cuts_[level]);
+  for (std::size_t row = 0; row < std::min(b.extremes_.size(), a.extremes_.size()); ++row)
+    if (b.extremes_[row].empty()) b.extremes_[row] = std::move(a.extremes_[row]);
   for (std::size_t row = 0; row < std::min(a.excess_.size(), b.excess_.size()); ++row)
     for (std::size_t i = 0; i < a.excess_[row].size(); ++i)
       b.excess_[row][i] = std::min(b.excess_[row][i], a.excess_[row][i]);

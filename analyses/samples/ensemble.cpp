@@ -249,6 +249,16 @@ void addPoints(const UncertainMotion& system, Sampling& sampling, const Ensemble
   if (options.turning) sampling.add(insidePoints(sampling, cuts, scan, *options.turning));
 }
 
+TransformationPoints pointsAt(const std::vector<std::vector<double>>& extremes) {
+  TransformationPoints points;
+  for (const std::vector<double>& values : extremes) {
+    std::vector<std::vector<double>> point;
+    for (const double value : values) point.push_back({value});
+    points.add(std::move(point), {}, 0);
+  }
+  return points;
+}
+
 /// Of how many levels the cuts hold these values: they are nested.
 std::size_t levelsHolding(const std::vector<Box>& cuts, std::span<const double> values) {
   std::size_t levels = 0;
@@ -299,13 +309,21 @@ EnsembleRun::EnsembleRun(const UncertainMotion& system, EnsembleOptions options)
       nextPoint_(sampling_.centre() + 1),
       total_((sampling_.samples() + errorStride_ - 1) / errorStride_) {
   addPoints(system, sampling_, options_, cuts_, scan_);
+  endOfOthers_ = sampling_.size();
   total_ += mostSamples();
 }
 
 std::size_t EnsembleRun::mostSamples() const {
-  return scan_.points().size() > 0 && !turning_
-             ? std::max(sampling_.size(), sampling_.centre() + 1 + mostExtendedPoints + mostNamedCorners)
-             : sampling_.size();
+  return (scan_.points().size() > 0 && !turning_
+              ? std::max(endOfOthers_, sampling_.centre() + 1 + mostExtendedPoints + mostNamedCorners)
+              : endOfOthers_) +
+         options_.extremes.size();
+}
+
+void EnsembleRun::setExtremes(std::vector<std::vector<double>> extremes) {
+  total_ -= mostSamples();
+  options_.extremes = std::move(extremes);
+  total_ += mostSamples();
 }
 
 std::size_t EnsembleRun::packWidth() const { return widthOf(system_.motion, options_.method); }
@@ -430,6 +448,13 @@ Envelope EnsembleRun::firstEnvelope() const {
   return range;
 }
 
+Envelope EnsembleRun::cornerEnvelope() const {
+  Envelope range(system_.motion.times.size(), system_.motion.outputs());
+  for (const SampleBlock& block : first_)
+    if (!block.hasWeight()) includeIn(range, block);
+  return range;
+}
+
 /// Where the first samples lie and a quarter of that to both sides, cut off where nothing is expected.
 Envelope EnsembleRun::expectedRange(const Envelope& expected) const {
   constexpr double margin = 0.25;
@@ -470,6 +495,9 @@ void EnsembleRun::integrateOthers(const Envelope& expected, const Look& look) {
   integrateRest(nextBeside_, sampling_.centre() + 1, look);
   if (!isCancelled()) beginScan();
   integratePoints(look);
+  if (isCancelled()) return;
+  sampling_.add(pointsAt(options_.extremes));
+  integratePoints(look);
 }
 
 /// The samples `next` … end - 1, block by block, into the statistics.
@@ -509,6 +537,7 @@ void EnsembleRun::integratePoints(const Look& look) {
     total_ -= mostSamples();
     turning_ = scan_.turning(cuts_);
     sampling_.add(insidePoints(sampling_, cuts_, scan_, *turning_));
+    endOfOthers_ = sampling_.size();
     total_ += mostSamples();
     if (options_.progress && done_ == total_) options_.progress(1);
   }
@@ -591,6 +620,7 @@ SampleBlock replaySample(const UncertainMotion& system, const EnsembleOptions& o
   Sampling sampling = plannedSampling(system, options, levels);
   const std::vector<Box> cuts = cutsOf(system.uncertain, options.alpha);
   addPoints(system, sampling, options, cuts, scanOf(system, options, cuts));
+  sampling.add(pointsAt(options.extremes));
   if (number >= sampling.size()) throw std::invalid_argument("no sample has the number " + std::to_string(number));
   const bool hasWeight = number < sampling.samples();
   const Sampling::Zone zone = sampling.zoneOf(number);

@@ -50,6 +50,7 @@ struct EnsembleOptions {
   Transformation transformation = Transformation::reduced;  ///< where points are put for these
   /// By the extended method, in which quantities outputs turn, rising, where that is known already
   std::optional<std::vector<std::size_t>> turning;
+  std::vector<std::vector<double>> extremes;     ///< values of the quantities at further points, the last of all
   int jobs = 1;                                  ///< threads
   std::function<void(double)> progress;          ///< called with the fraction done (0 … 1), from any thread
   const std::atomic<bool>* cancelled = nullptr;  ///< set from outside to end early; what has ended is kept
@@ -64,13 +65,13 @@ struct FailedSample {
 };
 
 /// The samples of `system` on their way into the statistics: all samples of the plan, the corners, the corners of the
-/// alpha-cuts, the centre, and the points of the transformation. Every number depends on the options' plan, samples,
-/// seed, tolerance, method and alpha alone, but which samples took too long. By Adams's method the samples of one
-/// number / packWidth are integrated together (corners and centre, which follow the samples, counted from the first
-/// corner; points of the transformation from the first that looks for turns, and from the first behind these), in the
-/// steps of the one that needs the shortest: a sample's trajectory is what its pack gave. Packs of so few samples that
-/// they would cost more than the samples alone, packs of which a sample fails, all samples by Method::bdf and those of
-/// a motion whose equations jump are integrated one by one. Samples that fail are named.
+/// alpha-cuts, the centre, the points of the transformation, and the extremes. Every number depends on the options'
+/// plan, samples, seed, tolerance, method and alpha alone, but which samples took too long. By Adams's method the
+/// samples of one number / packWidth are integrated together (corners and centre, which follow the samples, counted
+/// from the first corner; points of the transformation from the first that looks for turns, and from the first behind
+/// these), in the steps of the one that needs the shortest: a sample's trajectory is what its pack gave. Packs of so
+/// few samples that they would cost more than the samples alone, packs of which a sample fails, all samples by
+/// Method::bdf and those of a motion whose equations jump are integrated one by one. Samples that fail are named.
 class EnsembleRun {
  public:
   /// Looks at samples before they count, and may put better trajectories in their place. Called from one thread, block
@@ -89,11 +90,15 @@ class EnsembleRun {
   void integrateFirst();
   /// What they span, corners and centre too, as far as they came; until they are taken into the statistics.
   Envelope firstEnvelope() const;
+  /// What the corners and the centre span, likewise.
+  Envelope cornerEnvelope() const;
   /// Takes the first samples into the statistics, with what was still missing of them, then integrates all others,
   /// corners and centre behind the plan's samples, the points of the transformation last, and takes them. `expected`:
   /// where outputs are expected besides what the first samples say, such as an enclosure; NaN where nothing is known,
   /// or empty.
   void integrateOthers(const Envelope& expected = {}, const Look& look = {});
+  /// EnsembleOptions::extremes, which are known only now: before integrateOthers.
+  void setExtremes(std::vector<std::vector<double>> extremes);
 
   const EnsembleOptions& options() const { return options_; }
   const Sampling& sampling() const { return sampling_; }
@@ -104,6 +109,8 @@ class EnsembleRun {
   /// The quantities that the extended method gives values between the ends of their cuts; nothing until its points have
   /// looked for turns, unless they were an option.
   const std::optional<std::vector<std::size_t>>& turning() const { return turning_; }
+  /// Points of the sampling that are extremes; none until all others are integrated.
+  std::size_t extremes() const { return sampling_.size() - endOfOthers_; }
   /// What these points found of each quantity (TurnScan::turns); empty by other methods.
   const std::vector<double>& turns() const { return scan_.turns(); }
   /// 64, or 1 where samples are integrated one by one.
@@ -113,7 +120,10 @@ class EnsembleRun {
   /// The same and corners, centre and points.
   std::size_t integrated() const { return counted_ + beside_; }
   /// All of them, and their error measured to the end.
-  bool isComplete() const { return integrated() == sampling_.size() && measured_ == sampling_.samples(); }
+  bool isComplete() const {
+    return integrated() == sampling_.size() && extremes() == options_.extremes.size() &&
+           measured_ == sampling_.samples();
+  }
   /// Output times at which all that were integrated have arrived; envelopes and statistics end there, since beyond they
   /// would be of the survivors alone.
   std::size_t reachedTimes() const { return reachedTimes_; }
@@ -167,8 +177,9 @@ class EnsembleRun {
   Table error_;
   std::size_t errorStride_;
   std::size_t nextSample_ = 0, nextBeside_,
-              nextPoint_;     // to be integrated: of the plan, of the corners with the centre, of the points
-  std::size_t measured_ = 0;  // so many of the plan's samples have had their share in the error
+              nextPoint_;        // to be integrated: of the plan, of the corners with the centre, of the points
+  std::size_t endOfOthers_ = 0;  // than extremes, as far as it is known
+  std::size_t measured_ = 0;     // so many of the plan's samples have had their share in the error
   std::size_t total_;
   std::atomic<std::size_t> done_{0};
 };

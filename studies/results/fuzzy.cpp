@@ -14,7 +14,7 @@ std::vector<Field> fieldsOf(FuzzyResult& r) {
        {"inner",
         &r.inner,
         unit::ofOutput,
-        "range of the samples, corners, centre and points whose quantities lie in the cuts of that level",
+        "range of the samples, corners, centre, points and extremes whose quantities lie in the cuts of that level",
         {alpha, time, output}}});
 }
 

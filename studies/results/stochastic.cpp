@@ -24,7 +24,7 @@ std::vector<Field> fieldsOf(StochasticResult& r) {
        {"integrated",
         &r.integrated,
         unit::none,
-        "how many of samples, corners, centre and points were followed",
+        "how many of samples, corners, centre, points and extremes were followed",
         {},
         allowed::count},
        {"failures", &r.failures, unit::none, "how many of these did not arrive at the horizon", {}, allowed::count},
@@ -36,14 +36,14 @@ std::vector<Field> fieldsOf(StochasticResult& r) {
         unit::none,
         "samples of one number / `pack_width`, rounded down, were integrated together, in common steps; corners and "
         "centre, counted from the first corner, likewise; points from the first that looks for turns, and from the "
-        "first behind these",
+        "first behind these; extremes from the first",
         {},
         {1, allowed::count.greatest}},
        {"envelope",
         &r.envelope,
         unit::ofOutput,
-        "least and greatest of all samples, corners, centre and points; like all that samples say, NaN beyond "
-        "`reached`",
+        "least and greatest of all samples, corners, centre, points and extremes; like all that samples say, NaN "
+        "beyond `reached`",
         {time, output}},
        {"mean", &r.mean, unit::ofOutput, "mean of the samples", {time, output}},
        {"mean_error",
@@ -104,6 +104,12 @@ std::vector<Field> fieldsOfConvergence(ConvergenceResult& c) {
            {samples, dimension::output}}};
 }
 
+std::vector<Field> fieldsOfExtremes(ExtremeSamples& e) {
+  constexpr std::string_view number = "/stochastic/extremes/number";
+  return {{"number", &e.number, unit::none, "number of the sample, as of disputed ones", {number}, allowed::count},
+          {"values", &e.values, unit::ofQuantity, "of the uncertain quantities", {number, dimension::quantity}}};
+}
+
 std::vector<Field> fieldsOfKept(KeptSamples& k) {
   using namespace dimension;
   return {
@@ -153,6 +159,7 @@ std::string StochasticResult::nameOf(std::int64_t number) const {
   const std::int64_t corner = number - samples;
   if (!present || corner < 0 || number >= planned()) return fmt::format("sample {}", number);
   if (number == centre()) return "the centre";
+  if (number >= firstExtreme()) return fmt::format("extreme {}", number - firstExtreme());
   if (number > centre()) return fmt::format("alpha-point {}", number - centre() - 1);
   return corner < corners ? fmt::format("corner {}", corner) : fmt::format("alpha-corner {}", corner - corners);
 }
@@ -169,7 +176,8 @@ std::string StochasticResult::amount() const {
                                      : "";
   return fmt::format("plan {}, {}{}{}{}", plan,
                      countText(corners + alphaCorners, "corner") +
-                         (alphaPoints > 0 ? ", " + countText(alphaPoints, "alpha-point") : ""),
+                         (alphaPoints > 0 ? ", " + countText(alphaPoints, "alpha-point") : "") +
+                         (extremes.number.empty() ? "" : ", " + countText(planned() - firstExtreme(), "extreme")),
                      tolerances, stopped.empty() ? "" : "; not all were taken: " + stopped,
                      kept.present ? "; in the results: " + kept.text() : "");
 }
@@ -180,6 +188,9 @@ void StochasticResult::describe(std::vector<Group>& groups) {
                           "/stochastic/failed/number", failed, fieldsOfFailed));
   groups.push_back(
       groupOf("/stochastic/convergence", "what fewer samples would have said", convergence, fieldsOfConvergence));
+  groups.push_back(groupOf("/stochastic/extremes",
+                           "points where the proved models of outputs tell that these are extreme, sampled besides",
+                           extremes, fieldsOfExtremes));
   groups.push_back(groupOf("/stochastic/kept", "samples one by one, as far as they are kept", kept, fieldsOfKept));
 }
 

@@ -25,6 +25,13 @@ struct KeptSamples {
   std::string text() const;
 };
 
+/// Where the enclosure's polynomials tell that outputs are extreme, as far as other samples do not come near.
+struct ExtremeSamples {
+  bool present = false;              ///< there are any
+  std::vector<std::int64_t> number;  ///< as in DisputedSample
+  std::vector<double> values;        ///< [number][quantity]
+};
+
 /// One that could not be followed to the horizon.
 struct FailedSampleResult {
   std::int64_t number = 0;  ///< as in DisputedSample
@@ -43,13 +50,14 @@ struct ConvergenceResult {
 /// Its `reached`: all samples that were followed arrived there; envelope and statistics end there.
 struct StochasticResult final : Answer {
   static constexpr std::string_view name = "stochastic";
-  /// The plan's samples, the corners, the centre and the points of the transformation.
-  std::int64_t planned() const { return centre() + 1 + alphaPoints; }
+  /// The plan's samples, the corners, the centre, the points of the transformation and the extremes.
+  std::int64_t planned() const { return firstExtreme() + static_cast<std::int64_t>(extremes.number.size()); }
+  std::int64_t firstExtreme() const { return centre() + 1 + alphaPoints; }
   std::int64_t centre() const { return samples + corners + alphaCorners; }
 
-  /// "sample 17", "corner 3", "alpha-corner 3", "the centre", "alpha-point 3", as `gamut replay` knows it: the plan's
-  /// samples come first, then the corners of the box, those of the alpha-cuts, the centre, and the points of the
-  /// transformation.
+  /// "sample 17", "corner 3", "alpha-corner 3", "the centre", "alpha-point 3", "extreme 3", as `gamut replay` knows it:
+  /// the plan's samples come first, then the corners of the box, those of the alpha-cuts, the centre, the points of the
+  /// transformation, and the extremes.
   std::string nameOf(std::int64_t number) const;
 
   std::string plan;
@@ -71,8 +79,9 @@ struct StochasticResult final : Answer {
   std::vector<Table> quantileLower, quantileUpper;   ///< likewise: between which the quantiles of all motions lie
   double covered = 0;  ///< share of all motions that lies in the envelope, with 95 % confidence; 0: none holds
   ConvergenceResult convergence;
-  Table resolution;  ///< no quantile is farther than this from that of the samples themselves
-  Table error;       ///< the witness's own error, measured at tighter tolerance
+  Table resolution;         ///< no quantile is farther than this from that of the samples themselves
+  Table error;              ///< the witness's own error, measured at tighter tolerance
+  ExtremeSamples extremes;  ///< likewise sampled besides
   KeptSamples kept;
 
   std::string_view word() const override { return name; }

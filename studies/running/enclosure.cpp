@@ -32,6 +32,7 @@ void encloseMotion(Run& run) {
   flow.modelled = flow.uncounted;
   if (asksForDistributions(run.study)) flow.modelledAt = plainOutputs(run.study);
   boundModels(run, flow);
+  flow.extremesAt = rowsOfExtremes(run.study);
   const Shares& shares = run.study.shares;
   const bool areAlone = run.study.requirements.empty() && !asksForDistributions(run.study);  // no other answers follow
   flow.levelShare = shares.cuts + (areAlone ? shares.requirements + shares.probabilities : 0);
@@ -51,6 +52,7 @@ void encloseMotion(Run& run) {
   }
   enclosed.reached = tube.reached();
   enclosed.models = tube.models();
+  enclosed.extremes = tube.extremes();
   if (tube.why() == Tube::outOfMemory) run.watch.memoryFailed();
   enclosed.why = tube.wasStopped() ? run.watch.why() : tube.why();
   enclosed.tightness = tube.tightness();
@@ -93,6 +95,7 @@ void encloseConfiguration(Run& run) {
   for (std::size_t level = 0; level < enclosed.cuts.size(); ++level) narrow(level + 1, enclosed.cuts[level]);
   if (images.empty()) enclosed.why = run.watch.why();
   if (!run.study.requirements.empty() || asksForDistributions(run.study)) enclosed.models = found.models;
+  enclosed.extremes = {found.extremes};
   enclosePlaces(run);
   enclosed.pieces = static_cast<std::int64_t>(std::max<std::size_t>(found.parts, 1));
   enclosed.reachedTimes = 1;

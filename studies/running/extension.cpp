@@ -88,6 +88,7 @@ void forgetSamples(Results& results, std::size_t samples) {
   const std::int64_t before = results.stochastic.samples;
   StochasticResult none;
   none.cpu = results.stochastic.cpu;
+  none.extremes = std::move(results.stochastic.extremes);  // where they are does not depend on samples that come
   results.stochastic = std::move(none);
   results.fuzzy.inner.clear();
   results.fuzzy.influence = {};

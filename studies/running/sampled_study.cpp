@@ -14,6 +14,11 @@ EnsembleOptions ensembleOptions(const Study& study, const Problem& problem, cons
   options.seed = results.seed;
   options.samples = samples;
   options.alpha = problem.alpha;
+  const ExtremeSamples& extremes = results.stochastic.extremes;
+  const std::size_t quantities = study.uncertain.size();
+  for (auto values = extremes.values.begin(); values != extremes.values.end();
+       values += static_cast<std::ptrdiff_t>(quantities))
+    options.extremes.emplace_back(values, values + static_cast<std::ptrdiff_t>(quantities));
   const std::vector<std::int64_t>& stepped = results.fuzzy.transformation.stepped;
   if (options.transformation != Transformation::extended || stepped.empty()) return options;
   options.turning.emplace();

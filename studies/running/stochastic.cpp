@@ -3,6 +3,7 @@
 #include <cmath>
 #include <iterator>
 #include <new>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -119,7 +120,12 @@ void describeTransformation(Run& run) {
   const Transformation method = ensemble.options().transformation;
   TransformationResult& result = run.results.fuzzy.transformation;
   const std::size_t quantities = run.study.uncertain.size();
-  run.results.stochastic.alphaPoints = static_cast<std::int64_t>(ensemble.sampling().points());
+  StochasticResult& stochastic = run.results.stochastic;
+  stochastic.alphaPoints = static_cast<std::int64_t>(ensemble.sampling().points() - ensemble.extremes());
+  std::vector<std::int64_t>& numbers = stochastic.extremes.number;
+  numbers.resize(ensemble.options().extremes.size());
+  stochastic.extremes.present = !numbers.empty();
+  std::iota(numbers.begin(), numbers.end(), stochastic.firstExtreme());
   if (!run.study.asksFor<FuzzyResult>()) return;
   result.present = true;
   result.method = std::string(nameOf(method));
@@ -199,6 +205,12 @@ void takeOtherSamples(Run& run) {
     SampleKeeper keeper(last + 1, run.study.uncertain.size(), run.study.motion.times.size() * run.study.outputs.size(),
                         run.study.storage);
     std::optional<InfluenceMeasures> influence = measureInfluence(run);
+    if (!run.former) {
+      std::vector<std::vector<double>> extremes = extremePoints(run);
+      for (const std::vector<double>& values : extremes)
+        std::ranges::copy(values, std::back_inserter(run.results.stochastic.extremes.values));
+      run.ensemble->setExtremes(std::move(extremes));
+    }
     run.ensemble->integrateOthers(settlement.bounds(), [&](SampleBlock& block) {
       if (run.study.analysis == Study::Analysis::kinematics) moveSamples(run.study, run.problem, block);
       settlement.settle(block, [&](const Comparison& found, int level) { takeDisputes(run, found, level); });

@@ -41,7 +41,8 @@ struct Enclosed {
   double cpu = 0, cutCpu = 0;  ///< s: of all, and of the alpha-cuts
   /// Of the requirements' margins, and, where distributions are asked for, of all other outputs behind them.
   std::shared_ptr<const FlowModels> models;
-  double modelTightness = 0;  ///< that the models' flow was to have; 0: that of the study
+  std::vector<std::vector<OutputExtremes>> extremes;  ///< [time][output], as in Tube; none of some times
+  double modelTightness = 0;                          ///< that the models' flow was to have; 0: that of the study
 };
 
 /// An output as the first samples show it.
@@ -139,6 +140,12 @@ FlowOptions enclosureOptions(const Run& run);
 
 /// What the first samples show of the outputs: sizes that are to be compared with; up to the horizon or not at all.
 std::vector<OutputScale> scalesOf(const Run& run);
+
+/// The output times at which it is asked where outputs are extreme, rising.
+std::vector<std::size_t> rowsOfExtremes(const Study& study);
+/// Values of the uncertain quantities where the enclosure's polynomials tell that outputs are extreme, at some times,
+/// and corners come least near; hardly two alike.
+std::vector<std::vector<double>> extremePoints(const Run& run);
 
 /// Differences of an output up to this count for nothing: what was stated, and a millionth of what samples span.
 std::vector<double> floorsOf(const Run& run);

@@ -115,6 +115,13 @@ TEST(Extension, HoldsForOtherMethodsAndAnswers) {
   }
 }
 
+TEST(Extension, KeepsExtremesWhereTheyAre) {
+  const std::string text =
+      with("[[uncertain]]", "[[uncertain]]\nquantity = \"rod.length\"\ninterval = \"± 5 %\"\n[[uncertain]]");
+  ASSERT_FALSE(runOf(text, samples(32)).stochastic.extremes.number.empty());
+  expectTheSameOf(text, 64, 320);
+}
+
 TEST(Extension, HoldsForKinematics) {
   std::string text = study.substr(0, study.find("[[requirement]]"));
   text = with("horizon = 0.5\noutput_step = 0.1\n", "", with("\"dynamics\"", "\"kinematics\"", text));

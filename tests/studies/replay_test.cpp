@@ -16,6 +16,7 @@
 namespace gamut {
 namespace {
 
+using ::testing::ElementsAre;
 using ::testing::ElementsAreArray;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -140,6 +141,30 @@ TEST(Replay, HoldsWithoutAnEnclosureAndWithoutAlphaCuts) {
   for (const char* compare : {R"(["stochastic"])", R"(["interval", "stochastic"])", R"(["stochastic", "fuzzy"])"}) {
     SCOPED_TRACE(compare);
     expectTheEnvelope(resultsOf(sampleStudyWith(R"(["interval", "stochastic", "fuzzy"])", compare)));
+  }
+}
+
+/// sampleStudy from where the height is lowest inside the box, by a rod of uncertain length.
+std::string studyWithExtremes() {
+  std::string text = sampleStudyWith("interval = \"± 1 %\"", "interval = [\"-20 deg\", \"30 deg\"]");
+  text.replace(text.find("\"30 deg\", rate"), 8, "\"2 deg\"");
+  return text.insert(text.find("[[uncertain]]"), "[[uncertain]]\nquantity = \"rod.length\"\ninterval = \"± 5 %\"\n");
+}
+
+TEST(Replay, HoldsForExtremesWhateverPointsThereAreBesides) {
+  for (const char* compare : {R"(["interval", "stochastic"])", R"(["interval", "stochastic", "fuzzy"])"}) {
+    SCOPED_TRACE(compare);
+    std::string text = studyWithExtremes();
+    const std::string all = R"(["interval", "stochastic", "fuzzy"])";
+    text.replace(text.find(all), all.size(), compare);
+    const Results results = resultsOf(text);
+    const ExtremeSamples& extremes = results.stochastic.extremes;
+    ASSERT_THAT(extremes.number, Not(IsEmpty()));
+    expectTheEnvelope(results);
+    const Study study = readStudyText(results.studyText, "s.toml");
+    for (std::size_t i = 0; i < extremes.number.size(); ++i)
+      EXPECT_THAT(replay(study, results, static_cast<std::size_t>(extremes.number[i])).values,
+                  ElementsAre(extremes.values[2 * i], extremes.values[2 * i + 1]));
   }
 }
 

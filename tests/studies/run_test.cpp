@@ -280,6 +280,30 @@ TEST(Run, ReachesExtremesInsideAlphaCutsByTheTransformationMethod) {
   EXPECT_EQ(found[0].stochastic.mean.data, found[2].stochastic.mean.data);
 }
 
+/// The same height, without alpha-cuts: samples are put where the enclosure tells that it is lowest.
+TEST(Run, SamplesWhereTheEnclosureTellsThatOutputsAreExtreme) {
+  std::string text = sampleStudyWith("interval = \"± 1 %\"", "interval = [\"-20 deg\", \"30 deg\"]");
+  text.replace(text.find("\"30 deg\", rate"), 8, "\"2 deg\"");
+  text.replace(text.find(", \"fuzzy\""), 9, "");
+  text.insert(text.find("[[uncertain]]"), "[[uncertain]]\nquantity = \"rod.length\"\ninterval = \"± 5 %\"\n");
+  const Results results = run(readStudyText(text, "s.toml"));
+  const StochasticResult& stochastic = results.stochastic;
+  EXPECT_EQ(results.comparison.verdict, "inside");
+  EXPECT_EQ(stochastic.samples + stochastic.corners, 16 + 4);
+  EXPECT_EQ(stochastic.alphaPoints, 0);
+  ASSERT_THAT(stochastic.extremes.number, Not(IsEmpty()));
+  EXPECT_LT(stochastic.extremes.number.size(), 12U);  // those of one time serve others
+  EXPECT_EQ(stochastic.extremes.number.front(), stochastic.centre() + 1);
+  EXPECT_EQ(stochastic.extremes.values.size(), 2 * stochastic.extremes.number.size());
+  EXPECT_EQ(stochastic.integrated, stochastic.planned());
+  EXPECT_EQ(stochastic.nameOf(stochastic.planned() - 1),
+            "extreme " + std::to_string(stochastic.extremes.number.size() - 1));
+  const double corners = -0.475, lowest = -0.525;  // m, at the start: those of rods of 0.5 m ± 5 %
+  EXPECT_LT(stochastic.envelope.lower(0, 1), lowest * 0.9999);
+  EXPECT_GT(corners, lowest);
+  EXPECT_LT(results.comparison.maximum, 1.001 * results.interval.tightness);
+}
+
 TEST(Run, KeepsSamplesInsideWithUncertainParametersAndInitialValues) {
   const Results results = run(sampleWith("[[uncertain]]", threeUncertain));
   EXPECT_EQ(results.comparison.verdict, "inside");

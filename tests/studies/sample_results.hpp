@@ -85,6 +85,7 @@ inline Results sampleResults() {
   r.stochastic.failed = {{17, 0.01, "its steps became too short"}, {4098, 0, "it took too long"}};
   r.stochastic.convergence = {true, {64, 128}, {0.5, 0.6, 0.75, 1}, {0.2, nan, 0.1, 0.05}};
   r.stochastic.cpu = 1.5;
+  r.stochastic.extremes = {true, {4130, 4131}, {0.91, 1.05}};
   r.stochastic.kept = {true, 4e6, 64, 2048, {0, 64, 4117}, {0.9, 0.95, 1.0}, {0, 4117}, {}};
   for (int i = 0; i < 12; ++i) r.stochastic.kept.motions.push_back(0.35 + i);
   r.stochastic.kept.motions.back() = nan;

@@ -126,7 +126,7 @@ TEST(TextSummary, ShowsTheLastRowReachedRoundedOutward) {
   EXPECT_THAT(text, HasSubstr("at 0.01 s"));
   EXPECT_THAT(text, HasSubstr("tip height (m)"));
   EXPECT_THAT(text, HasSubstr("[1.000, 3.000]"));
-  EXPECT_THAT(text, HasSubstr("1000 of 4130 samples 1.50 s"));
+  EXPECT_THAT(text, HasSubstr("1000 of 4132 samples 1.50 s"));
   EXPECT_THAT(text, HasSubstr("; in all 2.25 of 1800 s, 1.50 of 8 GB\n"));
   results.stochastic.integrated = results.stochastic.planned();
   EXPECT_THAT(textSummary(results), HasSubstr(" 4096 samples 1.50 s"));

@@ -49,6 +49,44 @@ TEST(FlowModels, HoldWithInputsAndWithRemaindersInSymbols) {
   EXPECT_GT(varying.modelled(), 0U);
 }
 
+/// Where an output is extreme it is about as far as its enclosure reaches, whatever parts the box is cut into.
+TEST(FlowModels, TellWhereOutputsAreExtreme) {
+  Containment c = pendulumOfStiffness();
+  c.g = record(2, 1, 3, [](auto, const auto& x, const auto& p, auto& y) {
+    y[0] = cos(x[0]);                            // greatest inside
+    y[1] = p[0] * x[1] - sqr(x[0]);              // of all quantities
+    y[2] = x[1] * x[1] - 0.5 * sqr(p[0] - 9.3);  // turns in two
+  });
+  for (const int pieces : {1, 64}) {
+    c.options.maxPieces = pieces;
+    c.options.extremesAt = {0, 3, 7, 10};
+    const Tube tube = c.tube();
+    ASSERT_EQ(tube.reachedTimes(), 11U);
+    for (std::size_t row = 0; row < tube.reachedTimes(); ++row) {
+      const std::vector<OutputExtremes>& extremes = tube.extremes()[row];
+      if (!std::ranges::binary_search(c.options.extremesAt, row)) {
+        EXPECT_TRUE(extremes.empty());
+        continue;
+      }
+      ASSERT_EQ(extremes.size(), 3U);
+      for (std::size_t o = 0; o < 3; ++o) {
+        const Interval enclosure = tube.outputs(row)[o];
+        const auto valueAt = [&](const std::vector<double>& place) {
+          Box start;
+          for (std::size_t i = 0; i < place.size(); ++i) {
+            EXPECT_TRUE(contains(c.box[i], place[i]));
+            start.push_back(Interval(place[i]));
+          }
+          return midpoint(Flow(c.f, *c.g).enclose(start, c.horizon, tube.times()).outputs(row)[o]);
+        };
+        const double hardly = 0.02 * width(enclosure);
+        EXPECT_NEAR(valueAt(extremes[o].leastAt), enclosure.lower(), hardly) << pieces << ' ' << row << ' ' << o;
+        EXPECT_NEAR(valueAt(extremes[o].greatestAt), enclosure.upper(), hardly) << pieces << ' ' << row << ' ' << o;
+      }
+    }
+  }
+}
+
 /// They are about as tight as the enclosures themselves: the hull over the parts of the box.
 TEST(FlowModels, AreAsTightAsEnclosures) {
   const Containment c = pendulumOfStiffness();

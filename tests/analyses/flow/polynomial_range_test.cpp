@@ -88,6 +88,27 @@ TEST(PolynomialRange, HoldsTheValuesWhereThePolynomialIsGreatest) {
   }
 }
 
+TEST(PolynomialRange, TellsWhereThePolynomialIsLeastAndGreatest) {
+  Points points(34);
+  for (int round = 0; round < 200; ++round) {
+    const int symbols = points.integer(1, 4);
+    const Polynomial p(std::vector<int>(at(symbols), 1), symbols < 3 ? 6 : 4, points.uniform(0.1, 1.0), points);
+    PolynomialRange range(p.monomials);
+    const Box box = round % 2 == 0 ? Box(at(symbols), Interval(-1, 1)) : randomBox(symbols, points);
+    const Interval enclosure = range(p.c.data(), box, 1e-6);
+    for (const PolynomialRange::Extreme* extreme : {&range.least(), &range.greatest()}) {
+      for (int l = 0; l < symbols; ++l) {
+        EXPECT_GE(extreme->xi[at(l)], box[at(l)].lower() - 1e-12);
+        EXPECT_LE(extreme->xi[at(l)], box[at(l)].upper() + 1e-12);
+      }
+      EXPECT_NEAR(p.value(extreme->xi), extreme->value, 1e-11);
+    }
+    EXPECT_LE(range.least().value - enclosure.lower(), range.gap() + 1e-12);
+    EXPECT_LE(enclosure.upper() - range.greatest().value, range.gap() + 1e-12);
+    EXPECT_LE(range.gap(), 1e-5 * width(enclosure) + 1e-9);
+  }
+}
+
 TEST(PolynomialRange, IsHardlyWiderThanSampling) {
   Points points(33);
   for (int symbols = 1; symbols <= 4; ++symbols)
