@@ -210,7 +210,8 @@ void FlowFollower::changeLayout(FlowPiece& piece, std::size_t to) {
   const FlowLayout& from = task_.layouts[piece.layout];
   changeDegree(piece.set, *from.monomials, *task_.layouts[to].monomials, task_.layouts[to].frameDegree);
   piece.layout = to;
-  // Pieces that are not bisected on the way raise their degrees about together: what a few still need is made anew.
+  // Tools take much memory. Pieces that are not bisected on the way raise their degrees about together: those of
+  // degrees further below are dropped, and what a few pieces still need is made anew.
   if (task_.mayBisect) return;
   std::erase_if(tools_, [&](const auto& entry) { return entry.first.first + 1 < to; });
 }
@@ -475,7 +476,7 @@ void FlowFollower::loadChords(FlowPiece& piece, const std::vector<Interval>& bef
   };
   // Polynomials of states are as long as what they leave over from step to step asks for, and that adds up. What is
   // left over between two times does not, so there outputs may do with lower degrees: with all they cost as much as the
-  // motion itself. Tried again after some steps where they did not.
+  // motion itself. Tried again where they did not, once chords were loaded some times.
   constexpr double little = 0.01, muchLess = 0.1;
   constexpr std::size_t many = 100, retried = 16;
   const bool maySave = piece.layout < task_.degrees && at(monomialCount_) > many && signs_ == 0 &&

@@ -201,8 +201,8 @@ void PolynomialSeries::multiplyByInverse(System& system) {
   Work::count(Work::matrixTerm, 0.4 * multiplied);
 }
 
-/// For each term of C, so many grades of Ã as are multiplied: what is left is no more than 1e-3 of what x is, row by
-/// row in the units of x, and what leaves the monomials.
+/// How many grades of Ã each term of C is multiplied with: as few as leave no more than 1e-3 of x, of all terms
+/// together and row by row in the units of x, and none whose products would be no monomials of the series.
 std::vector<int> PolynomialSeries::gradesToMultiply(const System& system) {
   constexpr double negligible = 1e-3;
   const int n = system.size, terms = static_cast<int>(inverseTerms_.size()), grades = monomials_->degree() + 1;

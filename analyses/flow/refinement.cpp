@@ -73,7 +73,8 @@ class Weighing {
       emphasis_ = emphasisOf(influence_, negligible_, share_);
     }
     if (emphasis_.weights != before) return true;
-    // What holds a motion at a jump is none of what was looked at: it may be all that a quantity decides about.
+    // What holds a motion at a jump is none of what was looked at: it may be all that a quantity decides about. How
+    // many quantities influence is shared among is what it was: that does not follow from weights.
     if (!hasJumps_ || emphasis_.isUniform()) return false;
     emphasis_.weights.assign(before.size(), 1);
     return true;

@@ -351,7 +351,7 @@ Tube FlowRun::gather() {
         if (!(part.*cores)[row].empty()) joinHulls(core[row], (part.*cores)[row]);
       for (std::size_t i = 0; i < bounds[row].size(); ++i) {
         const Interval& bound = bounds[row][i];
-        const bool isStart = core[row].empty();
+        const bool isStart = core[row].empty();  // nothing is left over there, but how large an output was counts
         if (isStart && !isBounded(bound)) continue;
         greatest[i] = std::max(greatest[i], width(bound));
         largest[i] = std::max(largest[i], magnitude(bound));

@@ -28,7 +28,8 @@ constexpr double mostGrowthOfInputs = 0.08;
 // symmetry keeps at zero: to what the others are in balanced units; and never below what bounds can tell from
 // underflow, bounds::tiny over a tolerance.
 constexpr double vanished = 0x1p-120, unheard = 0x1p-80, leastSize = 0x1p-530;
-constexpr double unpaced = 0x1p-40;       // likewise, rounding of a box's polynomials: it sets no pace
+// Of the greatest state in balanced units: below, with symbols, a state's orders are rounding and set no step length.
+constexpr double unpaced = 0x1p-40;
 constexpr double mostOfFrame = 1e-4;      // of the remainder, that a step's orders in time may add
 constexpr double mostOfColumn = 1e-3;     // of each of its columns, where that decays
 constexpr double heard = 1e-3;            // of FlowScales: a machine at rest, to which a push is yet to come
@@ -196,8 +197,8 @@ bool FlowStepper::tryStep(const FlowSet& set, double theta) {
   double greatest = 0;  // of all states, in balanced units
   const std::vector<int>& units = growth_.units();
   for (int i = 0; i < n_; ++i) greatest = std::max(greatest, std::ldexp(scale_[at(i)], -units[at(i)]));
-  // One that is at rest, driven by what others leave over, is relative to that; and where nothing is known of it but
-  // what is left over (a joint that symmetry keeps at zero), of a box, it is of no account but for the others.
+  // A state at rest that what others leave over drives is measured by that; with symbols, one that is smaller than what
+  // is left over of it (a joint that symmetry keeps at zero) by the greatest state.
   for (int i = 0; i < n_; ++i) {
     const bool isUnknown = y_[at(i)] > scale_[at(i)] && monomials().symbols() > 0;
     scale_[at(i)] = std::max(scale_[at(i)], hardlyMoving * y_[at(i)]);
@@ -292,7 +293,7 @@ bool FlowStepper::isLooserThanDriven() const {
 
 bool FlowStepper::isRemainderTooLarge(const FlowSet& set) const {
   constexpr double tooLarge = 0.5;
-  if (set.hasSlid) return false;  // it has lost its ξ to what is known of jumps: that is no matter of truncation
+  if (set.hasSlid) return false;  // what is left over where solutions come to be held or leave is not of truncation
   std::vector<double> total;
   errorRadius(set, total);
   const int N = series_.count();

@@ -73,7 +73,8 @@ class Distributor {
     // Of an even density at first, then of the one that was found: the bounds of the output may be so far apart.
     const std::size_t mostCells = masses_.isPlain() ? options_.mostCells : options_.mostCells / 4;
     double allowed = 2 * options_.gap * (upper_ - lower_), before = unlimited, stepBefore = 0, workBefore = 0;
-    constexpr int mostRounds = 8;  // each of a quarter of the step before: of a density without limit gaps fall by half
+    // From the third on of a quarter of the step before (plain quantities): where a density grows as 1/√x gaps halve.
+    constexpr int mostRounds = 8;
     for (int round = 0; round < mostRounds; ++round) {
       // Where terms in several symbols, or radii, are not less, small steps are of no use.
       const double apart = refine(0.5 * allowed, round == 0 ? mostCells / 4 : mostCells);
