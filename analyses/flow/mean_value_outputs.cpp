@@ -39,8 +39,8 @@ Interval MeanValueOutputs::over(int output, const Interval& t, const std::vector
   std::vector<Interval> inputs{t};
   inputs.insert(inputs.end(), states.begin(), states.end());
   inputs.insert(inputs.end(), parameters.begin(), parameters.end());
-  std::size_t worst = 0, ofPart = 0;
-  const Interval result = over(*of, inputs, states.size(), worst);
+  std::size_t worst = 0;
+  const Interval result = over(*of, inputs, states.size(), &worst);
   if (!isCommon(result) || worst == inputs.size()) return result;
   // What is too wide of this interval's square falls to a 64th, of its products with others to an eighth.
   constexpr int parts = 8;
@@ -50,7 +50,7 @@ Interval MeanValueOutputs::over(int output, const Interval& t, const std::vector
   for (int part = 1; part <= parts; ++part) {
     const double to = part == parts ? all.upper() : std::clamp(from + width(all) / parts, from, all.upper());
     inputs[worst] = Interval(from, to);
-    together = hull(together, over(*of, inputs, states.size(), ofPart));
+    together = hull(together, over(*of, inputs, states.size()));
     from = to;
   }
   return intersection(result, together);
@@ -60,10 +60,10 @@ Interval MeanValueOutputs::over(int output, const Interval& t, const std::vector
 /// how far each goes: |u| has sign u, in the interval of the signs of u, where u is not 0, and where u stays 0 none is
 /// needed. So y(q) - y(c) is in Σ ∂y/∂q_i (q_i - c_i), ∂y/∂q_i over the whole box.
 Interval MeanValueOutputs::over(Output& of, const std::vector<Interval>& inputs, std::size_t states,
-                                std::size_t& worst) {
+                                std::size_t* worst) {
   const auto firstParameter = 1 + static_cast<std::ptrdiff_t>(states);
   std::vector<Interval> middles;
-  worst = inputs.size();
+  if (worst != nullptr) *worst = inputs.size();
   for (const Interval& input : inputs) {
     if (!isCommon(input)) return Interval::entire();
     middles.emplace_back(midpoint(input));
@@ -85,7 +85,7 @@ Interval MeanValueOutputs::over(Output& of, const std::vector<Interval>& inputs,
     result += by;
     if (width(by) > most) {
       most = width(by);
-      worst = i;
+      if (worst != nullptr) *worst = i;
     }
   }
   return isCommon(result) ? result : Interval::entire();

@@ -28,7 +28,8 @@ class MeanValueOutputs {
     Evaluator<Interval> value, all;  // y; its derivatives by t, x, p, then all that it takes a root or logarithm of
   };
   /// `inputs`: time, states, parameters. `worst`: which of them y varies with most; none: as many as there are.
-  static Interval over(Output& of, const std::vector<Interval>& inputs, std::size_t states, std::size_t& worst);
+  static Interval over(Output& of, const std::vector<Interval>& inputs, std::size_t states,
+                       std::size_t* worst = nullptr);
 
   std::vector<std::optional<Output>> outputs_;  // none: it jumps, or is an angle
 };
