@@ -216,7 +216,7 @@ class PolynomialSeries {
     std::vector<double> defects;               // Σ_α |(I - C Ã)_{oα}| at least, entry by entry, [order]
     std::vector<double> own;                   // ‖I - C Ã‖
     std::vector<double> amplifier;             // ≥ (I - H)⁻¹ |C| on the set that was bounded last
-    double multipliedFor;  // the greatest θ at which defects were chosen since the last computation; 0: not yet
+    double multipliedFor;  // the greatest θ at which defects were chosen since the last computation; 0: no C so far
     bool isFactorised, isBounded;
     bool isFine = false;  // factorised by the fine recursion
 

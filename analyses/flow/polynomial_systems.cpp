@@ -247,16 +247,17 @@ std::vector<int> PolynomialSeries::gradesToMultiply(const System& system) {
 /// n products a term of C, and 1: as many roundings and one more.
 void PolynomialSeries::tabulateSystem(System& system) {
   const double theta = power_[1] > 0 ? power_[1] : 1.0;
-  const bool isNew = !(theta <= 2 * system.multipliedFor);  // what is negligible in a short step need not be in another
-  if (isNew) invert(system);
+  if (system.multipliedFor == 0) invert(system);  // C is the same for every θ
   const int n = system.size, terms = static_cast<int>(inverseTerms_.size()), row = kernels::reversedStride(stride_);
   std::fill(system.norms.begin(), system.norms.end(), 0.0);
   for (int t = 0; t < terms; ++t)
     for (std::size_t i = 0; i < system.norms.size(); ++i)
       system.norms[i] += std::fabs(system.inverse[at(t)][i]) * power_[at(inverseTerms_[at(t)].first)];
   for (double& entry : system.norms) entry *= bounds::up;
-  if (isNew) multiplyByInverse(system);
-  if (isNew) system.multipliedFor = theta;
+  if (!(theta <= 2 * system.multipliedFor)) {  // what is negligible in a short step need not be in a longer one
+    multiplyByInverse(system);
+    system.multipliedFor = theta;
+  }
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j) {
       double size = i == j ? 1 : 0, sum = 0, power = 1;
