@@ -105,11 +105,13 @@ TEST(FlowArrivals, WhatFollowsIsBisectedWhereItDecides) {
     EXPECT_THAT(tube.outputs(2)[0], Encloses(Precise(most) * sin(Precise(most))));
     EXPECT_LT(width(tube.outputs(2)[0]), 1.02 * most * std::sin(most));
     EXPECT_LT(magnitude(tube.outputs(2)[1]), 1e-9);
+    EXPECT_THAT(tube.outputs(2)[2], Encloses(Precise(0.0)));
+    EXPECT_LT(magnitude(tube.outputs(2)[2]), 1e-9 * unit);
     EXPECT_LE(tube.tightness(), 1.02);
   }
 }
 
-/// What follows is what others are held at, and drives it.
+/// x₀ comes to be held at x₁, which x₀ drives: each follows the other.
 TEST(FlowArrivals, WhatIsFollowedMayFollow) {
   const Program f = record(2, 1, [](auto t, const auto& x, const auto& p, auto& dx) {
     dx[0] = -0.375 - 0.375 * sin(2.75 * t) - p[0] * sign(0.5 * (x[0] - x[1]));
