@@ -57,10 +57,10 @@ FlowStepper::FlowStepper(const Program& motion, std::shared_ptr<const Monomials>
 }
 
 void FlowStepper::load(const FlowSet& set) {
-  const auto counted = static_cast<double>(Work::counted());
-  totalRadius(set, total_);
-  errorRadius(set, errors_);
-  ofGenerators_ += static_cast<double>(Work::counted()) - counted;
+  countAsGenerators([&] {
+    totalRadius(set, total_);
+    errorRadius(set, errors_);
+  });
   looseAtStart_ = set.W;
   inputs_.load(set.parameters);
   const auto unit = [&](std::size_t i) { return set.units.empty() ? 0 : set.units[i]; };
@@ -471,7 +471,7 @@ bool FlowStepper::drift(FlowSet& set, double end, std::vector<double>& turned) {
 
 StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum, double splitDefect, double kinkShare,
                                  double slideShare) {
-  const auto begun = static_cast<double>(Work::counted());
+  const std::uint64_t begun = Work::counted();
   ofGenerators_ = 0;
   symbolAcross_ = -1;
   slideLoss_ = 0;
@@ -579,7 +579,7 @@ StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum,
       if (h < left)
         caution_ *= std::clamp(std::pow(tolerance_ / std::max(timeError_, 1e-40), 1.0 / (m_ + 1)), 0.7, 1.15);
       caution_ = std::clamp(caution_, 0x1p-6, 2.0);
-      certified_ = static_cast<double>(Work::counted()) - begun - ofGenerators_;
+      certified_ = static_cast<double>(Work::counted() - begun) - ofGenerators_;
       return isTruncationTooLarge(splitDefect) ||
                      ((isAdapted || isSliding_) && isKinkTooWide(set, kinkShare, slideShare))
                  ? StepOutcome::splitWanted

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -19,6 +20,7 @@
 #include "analyses/flow/scales.hpp"
 #include "analyses/flow/set.hpp"
 #include "analyses/flow/time_kinks.hpp"
+#include "analyses/work.hpp"
 #include "scalars/interval.hpp"
 
 namespace gamut {
@@ -227,6 +229,12 @@ class FlowStepper {
   std::vector<SignCases> signs(std::size_t count, Of of) const;
   void narrowArguments(const FlowSet& set, double tau, FlowPoint& point) const;
   std::vector<double> symbolMass(std::vector<double>& byGrade) const;
+  template <class F>
+  void countAsGenerators(F f) {
+    const std::uint64_t from = Work::counted();
+    f();
+    ofGenerators_ += static_cast<double>(Work::counted() - from);
+  }
 
   int n_, m_;
   int pushes_;  // outputs of the motion that are ∂f/∂(a sign)
@@ -271,7 +279,7 @@ class FlowStepper {
   std::vector<double> second_, third_, turn_;  // bounds of derivatives by σ: p'' and the next, Ψ''(r + Γs)
   FlowPoint end_;
   double certified_ = 0;         // work of the step's certificate, without that for generators
-  double ofGenerators_ = 0;      // work for generators, since then
+  double ofGenerators_ = 0;      // work for generators, since the certificate was begun
   std::vector<double> carried_;  // generators at the step's end
 };
 

@@ -61,9 +61,7 @@ auto frameOf(const FlowPoint& point, int g) {
 
 void FlowStepper::evaluate(const FlowSet& set, double tau, FlowPoint& point, bool narrowed) {
   evaluateMotion(set, tau, point, narrowed);
-  const auto counted = static_cast<double>(Work::counted());
-  evaluateRemainder(set, tau, point);
-  ofGenerators_ += static_cast<double>(Work::counted()) - counted;
+  countAsGenerators([&] { evaluateRemainder(set, tau, point); });
   if (tau != 0 && narrowed) narrowArguments(set, tau, point);
 }
 
@@ -337,12 +335,14 @@ void FlowStepper::turnFrame(FlowSet& set) {
 /// is the identity from then on. What is cut off and w enter as generators of their own.
 void FlowStepper::carryGenerators(FlowSet& set) {
   using Matrix = Eigen::MatrixXd;
-  const auto counted = static_cast<double>(Work::counted());
   const Monomials& m = monomials();
   const int powers = series_.frameCount();
-  if (std::ranges::any_of(set.R, [](double r) { return r > 0; })) appendBox(set, set.R);
+  if (std::ranges::any_of(set.R, [](double r) { return r > 0; })) countAsGenerators([&] { appendBox(set, set.R); });
   set.R.assign(at(n_), 0.0);
   const auto block = static_cast<Eigen::Index>(set.generators.size() / set.powers), count = block / n_;
+  // All columns of which ofGenerators_ is the work.
+  const double columns =
+      static_cast<double>(count) + static_cast<double>((set.inputs.size() + inputs_.generators().size()) / at(n_));
   // What is beyond the degree, and products that are little beside what the step leaves over: |Ψ_α| Σ_j |Γ_j|_β.
   const int degree = m.grade(powers - 1);
   std::vector<Matrix> frames, high(at(degree) + 1, Matrix::Zero(n_, n_));            // Σ |Ψ_α| of grades ≥ q
@@ -352,7 +352,9 @@ void FlowStepper::carryGenerators(FlowSet& set) {
     frames.push_back(frameOf(end_, g).cwiseAbs());
     for (int q = 0; q <= m.grade(g); ++q) high[at(q)] += frames.back();
     sizes.emplace_back(Eigen::VectorXd::Zero(n_));
-    kernels::addColumns(set.generators.data() + g * block, n_, static_cast<int>(count), sizes.back().data());
+    countAsGenerators([&] {
+      kernels::addColumns(set.generators.data() + g * block, n_, static_cast<int>(count), sizes.back().data());
+    });
     size[at(m.grade(g))] += sizes.back();
     all += sizes.back();
   }
@@ -376,9 +378,10 @@ void FlowStepper::carryGenerators(FlowSet& set) {
     most = std::max(most, end - begin);
   }
   carried_.assign(set.generators.size(), 0.0);
-  kernels::multiplyColumns(terms, end_.psi.data(), n_, n_, set.generators.data(), static_cast<int>(count),
-                           carried_.data());
-  ofGenerators_ += static_cast<double>(Work::counted()) - counted;
+  countAsGenerators([&] {
+    kernels::multiplyColumns(terms, end_.psi.data(), n_, n_, set.generators.data(), static_cast<int>(count),
+                             carried_.data());
+  });
   // Entries are sums of n products for each pair, at most; those of inputs of n for their own and one symbol.
   rest += (n_ * most + 2) * bounds::unit * (high[0] * all);
   if (!inputs_.empty()) {
@@ -416,7 +419,7 @@ void FlowStepper::carryGenerators(FlowSet& set) {
   mergeInputs(set, at(inputs_.count()), mostInputNumbers);
   double kept = std::max(leastKept, keptAState * n_);
   if (m.symbols() > few && ofGenerators_ > 0) {
-    const double affordable = carriedShare * certified_ * static_cast<double>(count) / ofGenerators_;
+    const double affordable = carriedShare * certified_ * columns / ofGenerators_;
     kept = std::max(kept, std::min(affordable, mostNumbers / (static_cast<double>(powers) * n_)));
   }
   if (static_cast<double>(set.generators.size() / (set.powers * at(n_))) > kept)
