@@ -1,4 +1,5 @@
-// Products with many columns, against plain sums: of every remainder of a tile of eight columns and four rows.
+// Sums of rows and products with many columns, against plain sums: of every remainder of eight orders, of a tile of
+// eight columns and four rows.
 #include "analyses/flow/kernels.hpp"
 
 #include <gtest/gtest.h>
@@ -20,6 +21,37 @@ std::vector<double> integers(std::size_t count, unsigned seed) {
   std::vector<double> numbers(count);
   for (double& number : numbers) number = any(random);
   return numbers;
+}
+
+TEST(Kernels, AddRowsOfEveryLength) {
+  constexpr int stride = 24, rowOfTo = 32, offset = 3, c = -3;
+  for (int orders = 1; orders <= 17; ++orders)
+    for (const int count : {0, 1, 2, 5})
+      for (const bool isPermuted : {false, true}) {
+        const std::vector<double> from = integers(at(count * stride), 1);
+        std::vector<int> targets;
+        for (int g = 0; g < count; ++g) targets.push_back((3 * g + 2) % 7);
+        std::vector<double> to = integers(at(7 * rowOfTo), 2), expected = to;
+        for (int g = 0; g < count; ++g)
+          for (int i = 0; i < orders; ++i)
+            expected[at((isPermuted ? targets[at(g)] : g) * rowOfTo + offset + i)] += c * from[at(g * stride + i)];
+        kernels::addRows(from.data(), stride, count, c, orders, isPermuted ? targets.data() : nullptr,
+                         to.data() + offset, rowOfTo);
+        ASSERT_EQ(to, expected) << orders << " orders, " << count << " rows, permuted: " << isPermuted;
+      }
+}
+
+TEST(Kernels, AddSizesOfRowsOfEveryLength) {
+  constexpr int stride = 24;
+  for (int orders = 1; orders <= 17; ++orders)
+    for (const int count : {0, 1, 2, 5}) {
+      const std::vector<double> rows = integers(at(count * stride), 1);
+      std::vector<double> sums = integers(at(stride), 2), expected = sums;
+      for (int g = 0; g < count; ++g)
+        for (int i = 0; i < orders; ++i) expected[at(i)] += std::fabs(rows[at(g * stride + i)]);
+      kernels::addSizes(rows.data(), stride, count, orders, sums.data());
+      ASSERT_EQ(sums, expected) << orders << " orders, " << count << " rows";
+    }
 }
 
 TEST(Kernels, MultiplyColumnsOfEveryShape) {

@@ -171,10 +171,8 @@ TEST(PolynomialSystems, AreProvedRegularUpToWhereTheyMayBeSingular) {
   EXPECT_FALSE(singular.tabulate(0x1p-10) && singular.bound(nullptr, false));
 }
 
-// (1 + c ξ⁴) x = 1: the fourth grade is not multiplied by the inverse, and counts all the same. The series is 1 - c ξ⁴;
-// for c < 0 it is off by c²/(1 + c) at ξ = 1, more than the c² that its residual is.
-TEST(PolynomialSystems, GradesThatAreNotMultipliedCount) {
-  const double c = -0x1p-14;
+/// (1 + q(ξ)) x = 1 with a polynomial q of degree 4.
+PolynomialSeries reciprocalOf(const std::vector<double>& q) {
   const Program program = record(1, 1, 2, [](auto, const auto& x, const auto& p, auto& y) {
     const Recorded entry = 1.0 + p[0], one = 1.0 + 0.0 * x[0];
     Recorder& recorder = *Recorder::current();
@@ -183,11 +181,19 @@ TEST(PolynomialSystems, GradesThatAreNotMultipliedCount) {
     y[1] = 0.0;
   });
   PolynomialSeries series(program, 1, std::make_shared<const Monomials>(std::vector<int>{1}, 4), 1, 4, true);
-  const std::vector<double> state{1, 0, 0, 0, 0}, parameter{0, 0, 0, 0, c}, frame{1, 0};
+  const std::vector<double> state{1, 0, 0, 0, 0}, frame{1, 0};
   series.setState(0, state.data());
-  series.setParameter(0, parameter.data(), 0.0);
+  series.setParameter(0, q.data(), 0.0);
   series.setFrame(0, 0, frame.data(), 1);
   series.compute(0, 0x1p-4);
+  return series;
+}
+
+// (1 + c ξ⁴) x = 1: the fourth grade is not multiplied by the inverse, and counts all the same. The series is 1 - c ξ⁴;
+// for c < 0 it is off by c²/(1 + c) at ξ = 1, more than the c² that its residual is.
+TEST(PolynomialSystems, GradesThatAreNotMultipliedCount) {
+  const double c = -0x1p-14;
+  PolynomialSeries series = reciprocalOf({0, 0, 0, 0, c});
   for (const double theta : {0x1p-4, 1.0}) {
     ASSERT_TRUE(series.tabulate(theta) && series.bound(nullptr, false));
     const double* x = series.series(series.outputNode(0));
@@ -195,6 +201,26 @@ TEST(PolynomialSystems, GradesThatAreNotMultipliedCount) {
     const Interval truth = 1.0 / (1.0 + Interval(c)), bound(series.rho0(series.outputNode(0)));
     EXPECT_GE(bound.upper(), (truth - (1.0 - Interval(c))).upper());
   }
+}
+
+// (1 - a ξ - c ξᵏ) x = 1 with a, c > 0: what the term of the inverse that is linear in ξ makes of ξᵏ counts whether it
+// is multiplied, is negligible or leaves the monomials. All that bounds add up is positive at ξ = 1, so that they are
+// no more than the error there.
+TEST(PolynomialSystems, GradesThatALinearTermIsNotMultipliedWithCount) {
+  constexpr double a = 0.125;
+  for (const std::size_t k : {2, 3, 4})
+    for (const double c : {0x1p-4, 0x1p-9, 0x1p-14}) {
+      SCOPED_TRACE(::testing::Message() << c << " of power " << k);
+      std::vector<double> q{0, -a, 0, 0, 0};
+      q[k] = -c;
+      PolynomialSeries series = reciprocalOf(q);
+      ASSERT_TRUE(series.tabulate(0x1p-4) && series.bound(nullptr, false));
+      const int x = series.outputNode(0);
+      Interval error = 1.0 / (1.0 - Interval(a) - Interval(c));
+      for (int g = 0; g <= 4; ++g) error -= Interval(series.series(x)[g * series.stride()]);
+      EXPECT_GE(series.rho0(x), error.upper());
+      EXPECT_LE(series.rho0(x), (1 + 1e-7) * error.upper());
+    }
 }
 
 // (1 + 0.9 sin 3t) x = 1: powers of time that are negligible in a short step are not in a longer one of the same
