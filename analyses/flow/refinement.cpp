@@ -305,7 +305,7 @@ Tube refine(const FlowQuestion& question, const Box& box, const std::vector<Box>
     const bool isInVain = isNoBetter && tightened >= decidedly;
     double factor = run.tighterBy(tube);
     if (isNoBetter && factor > 1) factor = std::max(factor, decidedly);  // what was allowed before was nowhere reached
-    const bool isMisjudged = factor > 1 && !round.emphasis.isUniform() && weighing.raise(run.influence());
+    const bool weighsAnew = factor > 1 && !round.emphasis.isUniform() && weighing.raise(run.influence());
     const bool mayRaise = factor > 1 && run.needsDegree() && task.hasRicherOutputs();
     isFarther = tube.reached() > reached;
     reached = tube.reached();
@@ -322,16 +322,16 @@ Tube refine(const FlowQuestion& question, const Box& box, const std::vector<Box>
                    2};
     addTo(best, looseness, std::move(tube), own);
     if (round.isLast || (reached == question.horizon && own <= question.options.enough)) break;
-    isAlike = !isMisjudged;
-    tightened = factor;
     // Of what has lost its ξ to jumps all that is left over counts, which smaller thresholds do not make less: first
-    // what slides is bisected.
+    // what slides is bisected, of a whole result and with the same thresholds.
     const double share = round.slideShare < FlowRound::infinite ? round.slideShare / 4 : task.aim();
-    const bool isOfSlides = factor > 1 && run.slideLoss() > share && task.bisectsForWidth();
-    if (isOfSlides) round.slideShare = share;
-    if (isMisjudged) continue;  // with other weights
-    if (isOfSlides && reached == question.horizon) {
-      isAlike = false;
+    const bool isOfSlides =
+        !weighsAnew && reached == question.horizon && factor > 1 && run.slideLoss() > share && task.bisectsForWidth();
+    isAlike = !weighsAnew && !isOfSlides;
+    tightened = factor;
+    if (weighsAnew) continue;  // with other weights
+    if (isOfSlides) {
+      round.slideShare = share;
       continue;
     }
     if (mayRaise && !isInVain) {
