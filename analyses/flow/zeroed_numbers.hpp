@@ -1,37 +1,34 @@
-// Many numbers that are 0 until they are written: pages that nobody touches take neither memory nor time.
+// Many numbers that are 0 until they are written: pages of large blocks take memory only then.
 #pragma once
 
+#include <cstddef>
 #include <cstdlib>
+#include <memory>
 #include <new>
-#include <vector>
 
 namespace gamut {
 
-/// Of memory that comes zeroed; nothing is written when elements are value-initialised.
-template <class T>
-struct ZeroedAllocator {
-  using value_type = T;
-
-  ZeroedAllocator() = default;
-  template <class U>
-  ZeroedAllocator(const ZeroedAllocator<U>&) {}
-
-  T* allocate(std::size_t count) {
-    void* memory = std::calloc(count, sizeof(T));
-    if (memory == nullptr) throw std::bad_alloc();
-    return static_cast<T*>(memory);
-  }
-  void deallocate(T* memory, std::size_t) { std::free(memory); }
-  void construct(T*) {}
-  template <class Value>
-  void construct(T* place, Value&& value) {
-    ::new (static_cast<void*>(place)) T(value);
+class ZeroedNumbers {
+ public:
+  ZeroedNumbers() = default;
+  explicit ZeroedNumbers(std::size_t count)
+      : numbers_(static_cast<double*>(std::calloc(count, sizeof(double)))), size_(count) {
+    if (!numbers_ && count > 0) throw std::bad_alloc();
   }
 
-  friend bool operator==(const ZeroedAllocator&, const ZeroedAllocator&) { return true; }
+  double& operator[](std::size_t i) { return numbers_[i]; }
+  const double& operator[](std::size_t i) const { return numbers_[i]; }
+  double* begin() { return numbers_.get(); }
+  double* end() { return numbers_.get() + size_; }
+  std::size_t size() const { return size_; }
+
+ private:
+  struct Free {
+    void operator()(double* numbers) const { std::free(numbers); }
+  };
+
+  std::unique_ptr<double[], Free> numbers_;
+  std::size_t size_ = 0;
 };
-
-/// `ZeroedNumbers(count)` is of zeros; not so what comes back within a capacity, by clear() and resize(), say.
-using ZeroedNumbers = std::vector<double, ZeroedAllocator<double>>;
 
 }  // namespace gamut
