@@ -92,7 +92,7 @@ FlowSet FlowStepper::bisect(FlowSet& set, int symbol, const PolynomialRange& shi
     std::vector<double> rounding(at(n_), 0.0);
     shift.substitute(symbol, middle, 0.5, set.generators.data(), s.generators.data(), static_cast<int>(set.powers),
                      block);
-    addColumns(set.generators, rounding);
+    addColumnSizes(set.generators, rounding);
     for (double& size : rounding) size *= shift.shiftError();
     addFramed(s, rounding);
     if (at(symbol) < s.inputsOfXi.size()) {  // Γ + ξ Γ_l, one rounding an entry: |C| times that

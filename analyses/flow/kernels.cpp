@@ -4,19 +4,15 @@
 #include <algorithm>
 
 #include "analyses/flow/vector_clones.hpp"
+#include "analyses/flow/vectors.hpp"
 #include "analyses/work.hpp"
 
 namespace gamut::kernels {
 namespace {
 
-typedef double Vector __attribute__((vector_size(64), aligned(8), may_alias));
-
 typedef double Half __attribute__((vector_size(32), aligned(8), may_alias));
 
-GAMUT_INLINE const Vector& load(const double* p) { return *reinterpret_cast<const Vector*>(p); }
 GAMUT_INLINE const Half& loadHalf(const double* p) { return *reinterpret_cast<const Half*>(p); }
-
-GAMUT_INLINE double sum(const Vector& v) { return ((v[0] + v[4]) + (v[2] + v[6])) + ((v[1] + v[5]) + (v[3] + v[7])); }
 
 template <int chunks>
 GAMUT_INLINE void convolveChunks(const Monomials::Pair* pairs, const std::int32_t* first, int count, const double* a,
@@ -133,13 +129,10 @@ GAMUT_CLONES void addRows(const double* from, int stride, int count, double c, i
   }
 }
 
-GAMUT_CLONES void addSizes(const double* rows, int stride, int count, int orders, double* sums) {
+GAMUT_CLONES void addRowSizes(const double* rows, int stride, int count, int orders, double* sums) {
   for (int g = 0; g < count; ++g, rows += stride) {
     int i = 0;
-    for (; i + 8 <= orders; i += 8) {
-      const Vector v = load(rows + i);
-      *reinterpret_cast<Vector*>(sums + i) += v < 0 ? -v : v;
-    }
+    for (; i + 8 <= orders; i += 8) addSize(sums + i, load(rows + i));
     for (; i < orders; ++i) sums[i] += std::fabs(rows[i]);
   }
 }
@@ -149,111 +142,6 @@ GAMUT_CLONES double dot(const double* a, const double* b, int stride) {
   Vector s = {};
   for (int c = 0; c < stride; c += 8) s += load(a + c) * load(b + c);
   return sum(s);
-}
-
-namespace {
-
-/// Eight columns side by side, [power][k][column]; of fewer the others are 0.
-GAMUT_INLINE void loadTile(const double* columns, std::size_t powers, std::size_t k, std::size_t first, std::size_t all,
-                           double* tile) {
-  const std::size_t lanes = std::min<std::size_t>(8, all - first);
-  if (lanes < 8) std::fill(tile, tile + powers * k * 8, 0.0);
-  for (std::size_t b = 0; b < powers; ++b)
-    for (std::size_t l = 0; l < lanes; ++l)
-      for (std::size_t i = 0; i < k; ++i) tile[(b * k + i) * 8 + l] = columns[(b * all + first + l) * k + i];
-}
-
-/// `rows` of a tile's sums over terms [term, end).
-template <std::size_t rows>
-GAMUT_INLINE void sumTile(const ColumnTerm* term, const ColumnTerm* end, const double* matrices, std::size_t size,
-                          std::size_t k, const double* tile, Vector* sums) {
-  Vector sum[rows] = {};
-  for (; term != end; ++term) {
-    const double* matrix = matrices + static_cast<std::size_t>(term->a) * size;
-    const double* of = tile + static_cast<std::size_t>(term->b) * k * 8;
-    for (std::size_t i = 0; i < k; ++i)
-      for (std::size_t row = 0; row < rows; ++row) sum[row] += matrix[row * k + i] * load(of + 8 * i);
-  }
-  for (std::size_t row = 0; row < rows; ++row) sums[row] = sum[row];
-}
-
-/// Calls use(row, rows, sums) for rows four by four.
-template <class Use>
-GAMUT_INLINE void multiplyTile(const ColumnTerm* term, const ColumnTerm* end, const double* matrices, std::size_t m,
-                               std::size_t k, const double* tile, Use use) {
-  for (std::size_t row = 0; row < m; row += 4) {
-    Vector sums[4];
-    const double* matrix = matrices + row * k;
-    const std::size_t rows = std::min<std::size_t>(4, m - row);
-    if (rows == 4)
-      sumTile<4>(term, end, matrix, m * k, k, tile, sums);
-    else if (rows == 3)
-      sumTile<3>(term, end, matrix, m * k, k, tile, sums);
-    else if (rows == 2)
-      sumTile<2>(term, end, matrix, m * k, k, tile, sums);
-    else
-      sumTile<1>(term, end, matrix, m * k, k, tile, sums);
-    use(row, rows, sums);
-  }
-}
-
-}  // namespace
-
-GAMUT_CLONES void multiplyColumns(const std::vector<ColumnTerm>& terms, const double* matrices, int rows, int k,
-                                  const double* columns, int count, double* out) {
-  const auto n = static_cast<std::size_t>(k), m = static_cast<std::size_t>(rows), all = static_cast<std::size_t>(count);
-  std::size_t powers = 0;
-  for (const ColumnTerm& term : terms) powers = std::max(powers, static_cast<std::size_t>(term.b) + 1);
-  std::vector<double> tile(powers * n * 8);
-  Work::count(Work::columnTerm, columnTerms(terms.size(), powers, rows, k) * count);
-  for (std::size_t first = 0; first < all; first += 8) {
-    const std::size_t lanes = std::min<std::size_t>(8, all - first);
-    loadTile(columns, powers, n, first, all, tile.data());
-    const ColumnTerm *term = terms.data(), *last = term + terms.size();
-    while (term != last) {
-      const ColumnTerm* end = term;
-      while (end != last && end->power == term->power) ++end;
-      double* to = out + (static_cast<std::size_t>(term->power) * all + first) * m;
-      multiplyTile(term, end, matrices, m, n, tile.data(),
-                   [&](std::size_t row, std::size_t height, const Vector* sums) {
-                     for (std::size_t l = 0; l < lanes; ++l)
-                       for (std::size_t i = 0; i < height; ++i) to[l * m + row + i] = sums[i][l];
-                   });
-      term = end;
-    }
-  }
-}
-
-/// A vector of eight numbers holds the same rows in every eighth column.
-GAMUT_CLONES void addColumns(const double* columns, int rows, int count, double* sums) {
-  const auto n = static_cast<std::size_t>(rows), all = n * static_cast<std::size_t>(count);
-  std::vector<double> sizes(n * 8, 0.0);
-  std::size_t first = 0;
-  for (; first + 8 * n <= all; first += 8 * n)
-    for (std::size_t i = 0; i < 8 * n; i += 8) {
-      const Vector v = load(columns + first + i);
-      *reinterpret_cast<Vector*>(&sizes[i]) += v < 0 ? -v : v;
-    }
-  for (std::size_t i = 0; i < 8 * n; ++i) sums[i % n] += sizes[i];
-  for (std::size_t i = first; i < all; ++i) sums[i % n] += std::fabs(columns[i]);
-  Work::count(Work::columnTerm, static_cast<double>(3 * all));  // measured
-}
-
-GAMUT_CLONES void addColumnSizes(const double* matrix, int rows, int k, const double* columns, int count,
-                                 double* sums) {
-  const auto n = static_cast<std::size_t>(k), m = static_cast<std::size_t>(rows), all = static_cast<std::size_t>(count);
-  std::vector<double> tile(n * 8), sizes(m * 8, 0.0);
-  const ColumnTerm only{0, 0, 0};
-  Work::count(Work::columnTerm, columnTerms(1, 1, rows, k) * count);
-  for (std::size_t first = 0; first < all; first += 8) {
-    loadTile(columns, 1, n, first, all, tile.data());
-    multiplyTile(&only, &only + 1, matrix, m, n, tile.data(),
-                 [&](std::size_t row, std::size_t height, const Vector* v) {
-                   for (std::size_t i = 0; i < height; ++i)
-                     *reinterpret_cast<Vector*>(&sizes[(row + i) * 8]) += v[i] < 0 ? -v[i] : v[i];
-                 });
-  }
-  for (std::size_t row = 0; row < m; ++row) sums[row] += sum(load(&sizes[row * 8]));
 }
 
 namespace {

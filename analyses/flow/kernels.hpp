@@ -34,32 +34,10 @@ void addRows(const double* from, int stride, int count, double c, int orders, co
              int rowOfTo);
 
 /// sums[i] += Σ_{g < count} |rows[g][i]| for i < orders.
-void addSizes(const double* rows, int stride, int count, int orders, double* sums);
+void addRowSizes(const double* rows, int stride, int count, int orders, double* sums);
 
 /// Σ_i a[i] b[i] over `stride` entries.
 double dot(const double* a, const double* b, int stride);
-
-/// Of a product of matrices of polynomials with many columns: what matrix `a` makes of columns `b` belongs to power
-/// `power`.
-struct ColumnTerm {
-  int power, a, b;
-};
-
-/// out[power][column][row] = Σ matrices[a][row][k] columns[b][column][k] over the terms of each power, which stand
-/// together; powers without terms are left alone. `k` numbers a column and `rows` one of what comes out. The work is
-/// columnTerms(terms.size(), highest b + 1, rows, k) a column.
-void multiplyColumns(const std::vector<ColumnTerm>& terms, const double* matrices, int rows, int k,
-                     const double* columns, int count, double* out);
-constexpr double columnTerms(std::size_t terms, std::size_t powers, int rows, int k) {
-  constexpr double ofLoading = 10;  // a number, measured
-  return k * (static_cast<double>(terms) * rows + ofLoading * static_cast<double>(powers));
-}
-
-/// sums[row] += Σ_columns |columns[column][row]|.
-void addColumns(const double* columns, int rows, int count, double* sums);
-
-/// sums[row] += Σ_columns |Σ_k matrix[row][k] columns[column][k]|.
-void addColumnSizes(const double* matrix, int rows, int k, const double* columns, int count, double* sums);
 
 /// A node of a recursion without symbols: its series is one row. Operands are node numbers, `value` pairs as above.
 struct ThinNode {

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 
+#include "analyses/flow/column_kernels.hpp"
 #include "analyses/flow/embedding.hpp"
 #include "analyses/flow/error_bounds.hpp"
-#include "analyses/flow/kernels.hpp"
 #include "analyses/work.hpp"
 #include "scalars/index.hpp"
 #include "scalars/program/recorder.hpp"
@@ -169,7 +169,7 @@ bool FlowOutputs::evaluateTogether(double t, const FlowPoint& point, const std::
   // Σ over generators |G₀ (Ψ₀Γ)_j|; its rounding is (n+1) u |G₀||Ψ₀||Γ|, of inputs (n+5) u with their five symbols at
   // most (drivenRadius): both are counted with `size` above.
   const auto count = [&](std::size_t numbers) { return n_ > 0 ? static_cast<int>(numbers / at(n_)) : 0; };  // columns
-  kernels::addColumnSizes(centre.data(), outputs_, n_, point.zonotope.data(), count(point.ofErrors), sums.data());
+  kernels::addProductSizes(centre.data(), outputs_, n_, point.zonotope.data(), count(point.ofErrors), sums.data());
   if (point.zonotope.size() > point.ofErrors) {
     const auto along0 = [&](const double* columns, std::size_t numbers) {  // [column][output]
       std::vector<double> result(at(count(numbers) * outputs_));

@@ -196,7 +196,7 @@ void PolynomialSeries::multiplyByInverse(System& system) {
         }
       }
       if (i == j) product[0] -= 1;
-      kernels::addSizes(product, row, targets, m_ + inverseOrder, defect);
+      kernels::addRowSizes(product, row, targets, m_ + inverseOrder, defect);
     }
   Work::count(Work::matrixTerm, 0.4 * multiplied);
 }
@@ -220,7 +220,7 @@ std::vector<int> PolynomialSeries::gradesToMultiply(const System& system) {
         double *sizes = massFrom(system, q, k, j), *above = massFrom(system, q + 1, k, j), sum = 0;
         const int first = monomials_->firstOf(q), end = std::min(all, monomials_->countUpTo(q));
         std::copy_n(above, m_, sizes);
-        kernels::addSizes(&f_[a.f + at(first * stride_)], stride_, end - first, orders, sizes);
+        kernels::addRowSizes(&f_[a.f + at(first * stride_)], stride_, end - first, orders, sizes);
         for (int o = 0; o < m_; ++o) sum += sizes[o] * power_[at(o)];
         rows[at(q * n + k)] += sum * unit[at(j)];
       }

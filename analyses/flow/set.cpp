@@ -7,8 +7,8 @@
 #include <limits>
 #include <utility>
 
+#include "analyses/flow/column_kernels.hpp"
 #include "analyses/flow/error_bounds.hpp"
-#include "analyses/flow/kernels.hpp"
 #include "analyses/work.hpp"
 #include "scalars/index.hpp"
 
@@ -51,21 +51,21 @@ void appendBox(FlowSet& set, const std::vector<double>& size) {
   for (std::size_t i = 0; i < n; ++i) set.generators[before + i * n + i] = size[i];
 }
 
-void addColumns(const std::vector<double>& columns, std::vector<double>& total) {
+void addColumnSizes(const std::vector<double>& columns, std::vector<double>& total) {
   const auto n = static_cast<int>(total.size());
-  kernels::addColumns(columns.data(), n, static_cast<int>(columns.size()) / n, total.data());
+  kernels::addColumnSizes(columns.data(), n, static_cast<int>(columns.size()) / n, total.data());
 }
 
 void errorRadius(const FlowSet& set, std::vector<double>& total) {
   total = set.R;
-  addColumns(set.generators, total);
+  addColumnSizes(set.generators, total);
   for (double& value : total) value *= bounds::up;
 }
 
 void totalRadius(const FlowSet& set, std::vector<double>& total) {
   errorRadius(set, total);
-  addColumns(set.inputs, total);
-  for (const std::vector<double>& columns : set.inputsOfXi) addColumns(columns, total);
+  addColumnSizes(set.inputs, total);
+  for (const std::vector<double>& columns : set.inputsOfXi) addColumnSizes(columns, total);
   for (double& value : total) value *= bounds::up;
 }
 
@@ -140,7 +140,7 @@ void changeDegree(FlowSet& set, const Monomials& from, const Monomials& to, int 
     if (number >= 0 && at(number) < powers)
       std::copy_n(columns, block, generators.begin() + static_cast<std::ptrdiff_t>(at(number) * block));
     else
-      addColumns({columns, columns + static_cast<std::ptrdiff_t>(block)}, lost);
+      addColumnSizes({columns, columns + static_cast<std::ptrdiff_t>(block)}, lost);
   }
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = 0; j < n; ++j) dropped[i] += std::fabs(set.C[i * n + j]) * lost[j];

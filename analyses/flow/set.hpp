@@ -48,7 +48,7 @@ void mergeGenerators(FlowSet& set, const Monomials& monomials, std::size_t most)
 void totalRadius(const FlowSet& set, std::vector<double>& total);
 void errorRadius(const FlowSet& set, std::vector<double>& total);
 /// += Σ |columns|, in round-to-nearest.
-void addColumns(const std::vector<double>& columns, std::vector<double>& total);
+void addColumnSizes(const std::vector<double>& columns, std::vector<double>& total);
 /// Where there are more than `most` numbers, generators of two successive parts become their sum, in the older half:
 /// as + bs' = (a + b)u + (a - b)v with |u|, |v| ≤ 1. The differences join the errors' generators. `count`: inputs.
 void mergeInputs(FlowSet& set, std::size_t count, std::size_t most);

@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include "analyses/flow/column_kernels.hpp"
 #include "analyses/flow/embedding.hpp"
 #include "analyses/flow/error_bounds.hpp"
-#include "analyses/flow/kernels.hpp"
 #include "analyses/flow/step.hpp"
 #include "analyses/work.hpp"
 #include "scalars/elementary/double_double.hpp"
@@ -160,7 +160,7 @@ void FlowStepper::evaluateRemainder(const FlowSet& set, double tau, FlowPoint& p
   };
   carry(set.generators, point.zonotope.data());
   carry(driven, point.zonotope.data() + point.ofErrors);
-  kernels::addColumns(point.zonotope.data(), n_, static_cast<int>(point.ofErrors / n), point.radius.data());
+  kernels::addColumnSizes(point.zonotope.data(), n_, static_cast<int>(point.ofErrors / n), point.radius.data());
   evaluateInputs(set, driven, point);
   for (std::size_t i = 0; i < n; ++i)
     point.radius[i] =
@@ -176,7 +176,7 @@ void FlowStepper::evaluateInputs(const FlowSet& set, const std::vector<double>& 
   if (columns.empty()) return;
   const auto own = columnsOf(columns, n_);
   std::vector<double> plain(n, 0.0), ofXi(n, 0.0);
-  addColumns(columns, plain);
+  addColumnSizes(columns, plain);
   Eigen::MatrixXd all(n_, n_);  // Σ_{α≠0} |Ψ_α|
   for (int i = 0; i < n_; ++i)
     for (int j = 0; j < n_; ++j)
@@ -184,7 +184,7 @@ void FlowStepper::evaluateInputs(const FlowSet& set, const std::vector<double>& 
   Eigen::MatrixXd higher = all;  // without those taken below
   for (std::size_t l = 0; l < symbols; ++l) {
     const int g = monomials().linear(static_cast<int>(l));
-    addColumns(set.inputsOfXi[l], ofXi);
+    addColumnSizes(set.inputsOfXi[l], ofXi);
     Eigen::Map<Eigen::MatrixXd> linear = columnsOf(point.drivenOfXi[l], n_);
     const auto before = columnsOf(set.inputsOfXi[l], n_);
     linear.leftCols(before.cols()).noalias() = frameOf(point, 0) * before;
@@ -353,7 +353,7 @@ void FlowStepper::carryGenerators(FlowSet& set) {
     for (int q = 0; q <= m.grade(g); ++q) high[at(q)] += frames.back();
     sizes.emplace_back(Eigen::VectorXd::Zero(n_));
     countAsGenerators([&] {
-      kernels::addColumns(set.generators.data() + g * block, n_, static_cast<int>(count), sizes.back().data());
+      kernels::addColumnSizes(set.generators.data() + g * block, n_, static_cast<int>(count), sizes.back().data());
     });
     size[at(m.grade(g))] += sizes.back();
     all += sizes.back();
@@ -390,12 +390,12 @@ void FlowStepper::carryGenerators(FlowSet& set) {
     std::vector<double> own(at(n_), 0.0), ofXi(at(n_), 0.0);
     set.inputs.insert(set.inputs.end(), inputs_.generators().begin(), inputs_.generators().end());
     set.inputsOfXi.resize(set.half.size());
-    addColumns(set.inputs, own);
+    addColumnSizes(set.inputs, own);
     const auto inputs = columnsOf(std::as_const(set.inputs), n_);
     Matrix higher = high[0] * bounds::up - frameOf(end_, 0).cwiseAbs() * bounds::down, any = higher;
     for (std::size_t l = 0; l < set.inputsOfXi.size(); ++l) {
       set.inputsOfXi[l].resize(set.inputs.size(), 0.0);
-      addColumns(set.inputsOfXi[l], ofXi);
+      addColumnSizes(set.inputsOfXi[l], ofXi);
       Matrix driven = frameOf(end_, 0) * columnsOf(std::as_const(set.inputsOfXi[l]), n_);
       if (const int g = m.linear(static_cast<int>(l)); g >= 0 && g < powers) {
         driven += frameOf(end_, g) * inputs;

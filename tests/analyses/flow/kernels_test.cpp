@@ -7,6 +7,7 @@
 #include <cmath>
 #include <random>
 
+#include "analyses/flow/column_kernels.hpp"
 #include "scalars/index.hpp"
 
 namespace gamut::testing {
@@ -49,7 +50,7 @@ TEST(Kernels, AddSizesOfRowsOfEveryLength) {
       std::vector<double> sums = integers(at(stride), 2), expected = sums;
       for (int g = 0; g < count; ++g)
         for (int i = 0; i < orders; ++i) expected[at(i)] += std::fabs(rows[at(g * stride + i)]);
-      kernels::addSizes(rows.data(), stride, count, orders, sums.data());
+      kernels::addRowSizes(rows.data(), stride, count, orders, sums.data());
       ASSERT_EQ(sums, expected) << orders << " orders, " << count << " rows";
     }
 }
@@ -89,9 +90,9 @@ TEST(Kernels, AddSizesOfColumnsOfEveryShape) {
           }
           for (int i = 0; i < k; ++i) expectedPlain[at(i)] += std::fabs(columns[at(j * k + i)]);
         }
-        kernels::addColumnSizes(matrix.data(), rows, k, columns.data(), count, sums.data());
+        kernels::addProductSizes(matrix.data(), rows, k, columns.data(), count, sums.data());
         ASSERT_EQ(sums, expected) << rows << " rows, " << k << " inner, " << count << " columns";
-        kernels::addColumns(columns.data(), k, count, plain.data());
+        kernels::addColumnSizes(columns.data(), k, count, plain.data());
         ASSERT_EQ(plain, expectedPlain) << k << " rows, " << count << " columns";
       }
 }

@@ -936,8 +936,8 @@ TEST(FlowStep, MergedErrorsShearAsTheyDid) {
     }
     EXPECT_LE(merged.generators.size(), 80U);
     std::vector<double> before(2, 0.0), now(2, 0.0);
-    addColumns(kept.generators, before);
-    addColumns(merged.generators, now);
+    addColumnSizes(kept.generators, before);
+    addColumnSizes(merged.generators, now);
     for (std::size_t i = 0; i < 2; ++i) {
       EXPECT_GE(now[i], before[i] * (1 - 1e-12)) << i;
       EXPECT_LE(now[i], 1.5 * before[i]) << i << ", boxes alone: a thousandfold";
