@@ -125,8 +125,7 @@ StepOutcome FlowFollower::certify(const FlowPiece& piece) {
     const double within = next == task_.ends.end() ? task_.horizon : *next;
     const double end = std::min(within, piece.set.t + longest);  // exact: both are multiples of the quantum
     const StepOutcome outcome =
-        tool_->stepper.certify(piece.set, end, task_.quantum, uncertain ? task_.splitDefect : 0.0,
-                               uncertain ? task_.kinkShare : 0.0, uncertain ? task_.slideShare : 0.0);
+        tool_->stepper.certify(piece.set, end, task_.quantum, uncertain ? task_.shares : SplitShares{});
     if (!holds || (outcome != StepOutcome::released && outcome != StepOutcome::failed)) return outcome;
     held = outcome == StepOutcome::released ? tool_->stepper.stillHeld() : std::vector<char>{};
   }
@@ -259,7 +258,7 @@ void FlowFollower::lowerDegree(FlowPiece& piece) {
   const Monomials& now = *task_.layouts[piece.layout].monomials;
   const double dropped =
       relativeMass(piece.set, now, task_.layouts[piece.layout - 1].monomials->degree(), now.degree());
-  if (dropped < 1e-4 * task_.splitDefect) changeLayout(piece, piece.layout - 1);
+  if (dropped < 1e-4 * task_.shares.truncation) changeLayout(piece, piece.layout - 1);
 }
 
 /// Enclosures of states and outputs at one time of the step; of outputs in other monomials `with` these tools.

@@ -60,7 +60,7 @@ struct FlowCollected {
   std::vector<std::vector<FlowChord>> chords;
   std::vector<Influence> influence;  // of every symbol
   bool metThreshold = false;         // a degree or bisection was wanted
-  double slideLoss = 0;              // FlowStepper's, the greatest
+  double slideLoss = 0;              // FlowStepper's, the greatest of all steps
   long steps = 0;
   double cpu = 0, cutCpu = 0;
   FlowCollected(std::size_t times, std::size_t levels)

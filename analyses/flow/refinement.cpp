@@ -324,7 +324,7 @@ Tube refine(const FlowQuestion& question, const Box& box, const std::vector<Box>
     if (round.isLast || (reached == question.horizon && own <= question.options.enough)) break;
     // Of what has lost its ξ to jumps all that is left over counts, which smaller thresholds do not make less: first
     // what slides is bisected, of a whole result and with the same thresholds.
-    const double share = round.slideShare < FlowRound::infinite ? round.slideShare / 4 : task.aim();
+    const double share = round.slideShare > 0 ? round.slideShare / 4 : task.aim();
     const bool isOfSlides =
         !weighsAnew && reached == question.horizon && factor > 1 && run.slideLoss() > share && task.bisectsForWidth();
     isAlike = !weighsAnew && !isOfSlides;
@@ -341,7 +341,7 @@ Tube refine(const FlowQuestion& question, const Box& box, const std::vector<Box>
       if (run.timeShare() < 1 - hardly) {
         // Below a threshold that was nowhere met lies what there was.
         const double hidden = run.hiddenDefect(reached);
-        round.tighter *= factor * (hidden > 0 ? std::clamp(task.splitDefect / hidden, 1.0, mostHidden) : 1.0);
+        round.tighter *= factor * (hidden > 0 ? std::clamp(task.shares.truncation / hidden, 1.0, mostHidden) : 1.0);
       }
       // The greatest share is of the whole motion; where less truncation helped nowhere, it was not to blame.
       if (run.timeShare() > hardly || isNoBetter) round.finer *= factor;

@@ -437,7 +437,7 @@ FlowCause FlowRun::limit(const Tube& tube) const {
   constexpr double mostlyTime = 0.8;  // then smaller tolerances help
   if (!task_.bisectsForWidth() && timeShare_ < mostlyTime) return {many};
   if (pieces_ >= task_.options.maxPieces) return {pieces, "", task_.options.maxPieces};
-  if (task_.splitDefect < 1e-16 * task_.embedding.widest) return {rounding};
+  if (task_.shares.truncation < 1e-16 * task_.embedding.widest) return {rounding};
   return {};
 }
 

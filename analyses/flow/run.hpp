@@ -36,7 +36,8 @@ class FlowRun {
   int degree() const { return degree_; }
   int outputDegree() const { return outputDegree_; }  // likewise, of the outputs'
   bool isAbandoned() const { return isAbandoned_; }
-  /// What bisection of what comes to be held at jumps may win, as a share of a width.
+  /// What solutions that come to be held in a step add to a state that follows them, as a share of its width in the
+  /// whole box; the greatest of all steps.
   double slideLoss() const { return slideLoss_; }
   /// Outputs are loose where states are not: what they add is truncation of their own.
   bool needsDegree() const { return needsDegree_; }

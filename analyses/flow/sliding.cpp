@@ -115,9 +115,9 @@ double FlowStepper::longestWhileSliding(const JumpBound& bound, const JumpBound&
 /// What comes to be held or leaves does so over a time Δ, in which the set loses its dependence on ξ in what moves
 /// then: of its width, about a quarter of what the motion turns in that time; what the signs, unknown meanwhile, do to
 /// states besides; and a quarter of what both do to states that follow, or are pushed by the same sign. The symbol to
-/// bisect for less; -1 for none.
-int FlowStepper::symbolOfSliding(const FlowSet& set, double kinkShare, double slideShare) {
-  if (!(kinkShare > 0) || set.slideStep > 0) return -1;
+/// bisect for less; -1 for none. Sets slideLoss_.
+int FlowStepper::symbolOfSliding(const FlowSet& set, const SplitShares& shares) {
+  if (!(shares.kink > 0) || set.slideStep > 0) return -1;
   const int N = series_.count();
   int symbol = -1;
   double longest = 0;
@@ -159,7 +159,7 @@ int FlowStepper::symbolOfSliding(const FlowSet& set, double kinkShare, double sl
   constexpr double leastPart = 0x1p-6, lost = 0.25;
   if (symbol < 0 || at(symbol) >= set.half.size() || set.half[at(symbol)] <= leastPart) return -1;
   const double part = set.half[at(symbol)], steps = longest / h_;
-  bool isTooWide = lost * longest * growth_.growth() / h_ > kinkShare / part;
+  bool isTooWide = lost * longest * growth_.growth() / h_ > shares.kink / part;
   for (int i = 0; i < n_; ++i) {
     if (isPivot[at(i)] != 0) continue;
     double added = 0, width = 0;
@@ -167,10 +167,10 @@ int FlowStepper::symbolOfSliding(const FlowSet& set, double kinkShare, double sl
     for (int g = 1; g < N; ++g) width += std::fabs(set.p[at(i * N + g)]);
     const double lacking = unknown[at(i)] + 0.5 * longest * delta0_[at(i)];  // the latter of all signs together
     const double least = 1e-9 * scale_[at(i)], later = width + lacking;
-    isTooWide = isTooWide || (added > kinkShare / part * width && width > least);
+    isTooWide = isTooWide || (added > shares.kink / part * width && width > least);
     if (later > least) slideLoss_ = std::max(slideLoss_, lost * lacking / later * part);
   }
-  return isTooWide || slideLoss_ > slideShare ? symbol : -1;
+  return isTooWide || (shares.slide > 0 && slideLoss_ > shares.slide) ? symbol : -1;
 }
 
 /// The signs of the motion's own jumps that are not known to be on one side, and their arguments.

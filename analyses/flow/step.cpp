@@ -263,9 +263,9 @@ double FlowStepper::worstColumn(const FlowSet& set) const {
 /// The defect bound holds parameters' radii and rounding too, which splitting does not cure: without radii it is
 /// computed once more; and what counts is mass in the highest grades, of any node, since what cancels in the states was
 /// truncated before; and no small part of the bound, or rounding is most of it.
-bool FlowStepper::isTruncationTooLarge(double splitDefect) {
-  const double allowed = splitDefect * h_;
-  if (!(splitDefect > 0 && truncation_ > allowed)) return false;
+bool FlowStepper::isTruncationTooLarge(double share) {
+  const double allowed = share * h_;
+  if (!(share > 0 && truncation_ > allowed)) return false;
   double truncation = 0;
   bool isBounded = series_.boundWithoutRadii();
   for (int i = 0; i < n_ && isBounded; ++i) {
@@ -388,16 +388,16 @@ FlowCause FlowStepper::reason(const FlowSet& set) const {
 
 /// Bisection shortens the time that a piece is on both sides as well as what a kink adds: to a quarter; a jump, to
 /// half.
-bool FlowStepper::isKinkTooWide(const FlowSet& set, double kinkShare, double slideShare) {
-  if (isSliding_) return (symbolAcross_ = symbolOfSliding(set, kinkShare, slideShare)) >= 0;
-  symbolAcross_ = kinkShare > 0 ? series_.symbolAcross() : -1;
+bool FlowStepper::isKinkTooWide(const FlowSet& set, const SplitShares& shares) {
+  if (isSliding_) return (symbolAcross_ = symbolOfSliding(set, shares)) >= 0;
+  symbolAcross_ = shares.kink > 0 ? series_.symbolAcross() : -1;
   if (symbolAcross_ < 0) return false;
   const int N = series_.count();
   const std::size_t l = at(symbolAcross_);
   constexpr double leastPart = 0x1p-6;  // so little of the whole that even a jump adds less than is aimed at mostly
   const bool mayBisect = l < set.half.size() && set.half[l] > leastPart;
   for (int i = 0; mayBisect && i < n_; ++i) {
-    const double allowed = kinkShare / set.half[l];  // of the whole box, not of the piece
+    const double allowed = shares.kink / set.half[l];  // of the whole box, not of the piece
     double added = 0, width = 0;
     for (int j = 0; j < n_; ++j) added += growth_.M1(i, j) * delta0_[at(j)];
     if (!crossings_.empty()) added = crossed_[at(i)];
@@ -469,8 +469,7 @@ bool FlowStepper::drift(FlowSet& set, double end, std::vector<double>& turned) {
   return true;
 }
 
-StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum, double splitDefect, double kinkShare,
-                                 double slideShare) {
+StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum, const SplitShares& shares) {
   const std::uint64_t begun = Work::counted();
   ofGenerators_ = 0;
   symbolAcross_ = -1;
@@ -580,8 +579,7 @@ StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum,
         caution_ *= std::clamp(std::pow(tolerance_ / std::max(timeError_, 1e-40), 1.0 / (m_ + 1)), 0.7, 1.15);
       caution_ = std::clamp(caution_, 0x1p-6, 2.0);
       certified_ = static_cast<double>(Work::counted() - begun) - ofGenerators_;
-      return isTruncationTooLarge(splitDefect) ||
-                     ((isAdapted || isSliding_) && isKinkTooWide(set, kinkShare, slideShare))
+      return isTruncationTooLarge(shares.truncation) || ((isAdapted || isSliding_) && isKinkTooWide(set, shares))
                  ? StepOutcome::splitWanted
                  : StepOutcome::stepped;
     }

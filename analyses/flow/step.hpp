@@ -62,6 +62,15 @@ Interval argumentOf(const FlowSet& set, const LinearForm& form, const std::vecto
 /// say so.
 constexpr double beyondTheLast = 1.0625;
 
+/// What a step may add, beyond which the set is to be split. 0: none is asked for.
+struct SplitShares {
+  double truncation = 0;  ///< in ξ, per second, relative to the state
+  double kink = 0;        ///< what crossing kinks and jumps adds to a state, as a share of its width in the whole box
+  /// What solutions that come to be held in this step add to a state that follows them, as a share of its width in the
+  /// whole box.
+  double slide = 0;
+};
+
 /// `released`: solutions that were held may leave.
 enum class StepOutcome { stepped, splitWanted, failed, released };
 
@@ -73,13 +82,9 @@ class FlowStepper {
   FlowStepper(const Program& motion, std::shared_ptr<const Monomials> monomials, int frameDegree, int order,
               double tolerance, FlowInputs inputs, const std::atomic<bool>* cancelled = nullptr);
 
-  /// Certifies a step from `set` that ends no later than `end`. A truncation defect in ξ above `splitDefect` per second
-  /// (relative to the state; 0: any) is answered by splitWanted. h(), evaluate() and advance() refer to the step until
-  /// the next call.
-  /// Where kinks or jumps are crossed, what they add to a state relative to its width in the whole box, above
-  /// `kinkShare` (0: any), is answered likewise; so is what follows solutions that come to be held, above `slideShare`.
-  StepOutcome certify(const FlowSet& set, double end, double quantum, double splitDefect, double kinkShare,
-                      double slideShare);
+  /// Certifies a step from `set` that ends no later than `end`. What adds more than its share is answered by
+  /// splitWanted. h(), evaluate() and advance() refer to the step until the next call.
+  StepOutcome certify(const FlowSet& set, double end, double quantum, const SplitShares& shares = {});
   double h() const { return h_; }
   /// So many first orders in double-double, where there are no symbols (PolynomialSeries).
   void setFineOrders(int orders) { series_.setFineOrders(orders); }
@@ -145,8 +150,8 @@ class FlowStepper {
   int worstSymbol() const;
   /// Whether that is what is wanted of it: no higher degree helps.
   bool isAcrossKink() const { return symbolAcross_ >= 0; }
-  /// What solutions that come to be held make of what follows them, unknown of which it is: the share of a state's
-  /// width in the whole box.
+  /// What solutions that come to be held in this step add to a state that follows them, as a share of its width in the
+  /// whole box.
   double slideLoss() const { return slideLoss_; }
   GradeDecay decay() const;
   /// Bisects `set` in a symbol; `set` becomes one half, the other is returned.
@@ -173,9 +178,9 @@ class FlowStepper {
   double suggestion(double theta, double share) const;
   FlowCause reason(const FlowSet& set) const;
   double doubling(const FlowSet& set, int state) const;
-  bool isTruncationTooLarge(double splitDefect);
+  bool isTruncationTooLarge(double share);
   bool isLooserThanDriven() const;
-  bool isKinkTooWide(const FlowSet& set, double kinkShare, double slideShare);
+  bool isKinkTooWide(const FlowSet& set, const SplitShares& shares);
   enum class Look { goOn, again, shorter, longer, released };
   Look lookAtJumps(const FlowSet& set, double& h, double smallest, double left);
   Look lookAtKinks(const FlowSet& set, double& h, double smallest, double left);
@@ -209,7 +214,7 @@ class FlowStepper {
   void boundCurvature(Crossing& crossing, double longest, std::vector<double>& rest) const;
   bool boundCurvatureOfKink(Crossing& crossing, double longest, std::vector<double>& rest);
   void addCrossings(const FlowSet& set, double tau, FlowPoint& point) const;
-  int symbolOfSliding(const FlowSet& set, double kinkShare, double slideShare);
+  int symbolOfSliding(const FlowSet& set, const SplitShares& shares);
   double longestWhileSliding(const JumpBound& bound, const JumpBound& atStart, double h, double last) const;
   bool boundOwnJumps(const FlowSet& set, const Interval& time, const Box& box, double h,
                      std::vector<JumpBound>& bounds);

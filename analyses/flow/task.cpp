@@ -65,7 +65,7 @@ FlowTask::FlowTask(const FlowQuestion& question, const Box& startBox, const std:
       jumps(question.differentiated, parametersOf(question.options.varying)),
       horizon(question.horizon),
       effective(round.emphasis.weights.empty() ? embedding.symbols : round.emphasis.effective),
-      slideShare(round.slideShare),
+      shares{.slide = round.slideShare},
       isLast(round.isLast),
       mayBisect(question.options.split && round.fixedDegree == 0),
       standsStill(isZero(motion)),
@@ -119,8 +119,9 @@ FlowTask::FlowTask(const FlowQuestion& question, const Box& startBox, const std:
   static constexpr double firstDefect[] = {1e-8, 1e-8, 1e-5, 4e-4, 1e-2};
   static constexpr double firstTolerance[] = {0, 1e-12, 1e-10, 1e-10, 1e-8};
   const double first = options.splitDefect > 0 ? options.splitDefect : firstDefect[count];
-  splitDefect = bisectsForWidth() ? first * embedding.widest / round.tighter : std::numeric_limits<double>::infinity();
-  if (bisectsForWidth()) kinkShare = 0.3 * aim() / std::sqrt(round.tighter);  // of a step; a crossing takes a few
+  shares.truncation =
+      bisectsForWidth() ? first * embedding.widest / round.tighter : std::numeric_limits<double>::infinity();
+  if (bisectsForWidth()) shares.kink = 0.3 * aim() / std::sqrt(round.tighter);  // of a step; a crossing takes a few
   constexpr double besideInputs = 1e-10;
   const double enough = 5e-5 * aim() * embedding.widest / round.finer;  // some hundred steps add as much of the width
   const bool isFine = embedding.symbols == 0 && varying.empty() && FineRecursion::isPossible(differentiated.nodes());

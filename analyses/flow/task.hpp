@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <limits>
 #include <memory>
 #include <vector>
 
@@ -13,6 +12,7 @@
 #include "analyses/flow/jumps.hpp"
 #include "analyses/flow/monomials.hpp"
 #include "analyses/flow/scales.hpp"
+#include "analyses/flow/step.hpp"
 #include "analyses/flow/time_kinks.hpp"
 
 namespace gamut {
@@ -43,13 +43,12 @@ struct FlowLayout {
 
 /// What a repeated run does otherwise than the first.
 struct FlowRound {
-  static constexpr double infinite = std::numeric_limits<double>::infinity();
-  double tighter = 1;                             ///< splitDefect is so many times less than at first
+  double tighter = 1;                             ///< the share of truncation is so many times less than at first
   double finer = 1;                               ///< so is the tolerance
   std::size_t richer = 0;                         ///< the outputs' layout is so many further on
   bool isLast = true;                             ///< no tighter run comes
   bool isRich = false;                            ///< errors keep more powers of ξ
-  double slideShare = infinite;                   ///< of a width: what is left so of what slides (7)
+  double slideShare = 0;                          ///< SplitShares::slide
   int fixedDegree = 0;                            ///< if not 0: no bisection on the way, and up to this degree
   std::vector<int> cuts;                          ///< symbols, each halved on all pieces before the first step
   Emphasis emphasis;                              ///< none: every symbol alike
@@ -85,11 +84,11 @@ struct FlowTask {
   const std::vector<Box>& levels;
   Embedding embedding;
   FlowJumps jumps;
-  double horizon, quantum = 0, tolerance = 0, splitDefect = 0, kinkShare = 0;
+  double horizon, quantum = 0, tolerance = 0;
   int order = 0, active = 0;  // symbols of weight 1
   int fineOrders = 0;         // in double-double, without symbols: where rounding would limit the width
   double effective;           // Emphasis
-  double slideShare;          // FlowRound
+  SplitShares shares;
   bool isLast, mayBisect;
   bool standsStill;                          // no state moves: loads of a given motion, which are functions of time
   std::vector<int> cuts;                     // FlowRound

@@ -451,7 +451,7 @@ TEST(FlowStep, HoldsEveryTrajectoryThatStartsInTheSet) {
       const double R = std::pow(10.0, -points.integer(1, 14)) * points.integer(0, 1);
       scene.fill(nominal, std::pow(10.0, -points.integer(1, 3)), R, points.integer(0, 3), R * points.integer(0, 1),
                  R * 0.1);
-      if (scene.stepper.certify(scene.set, horizon, quantum, 0, 0, 0) != StepOutcome::stepped) continue;
+      if (scene.stepper.certify(scene.set, horizon, quantum) != StepOutcome::stepped) continue;
       ++steps;
       scene.expectTrajectoriesInside(4);
       if (HasFatalFailure()) return;
@@ -492,8 +492,8 @@ TEST(FlowStep, RadiiOfParametersAreNoTruncation) {
     scene.set.parameters = {p};
     scene.set.centre = {0.0};
     scene.set.half = {1.0};
-    EXPECT_EQ(scene.stepper.certify(scene.set, 1, quantum, 1e-9, 0, 0), StepOutcome::stepped) << radius;
-    EXPECT_EQ(scene.stepper.certify(scene.set, 1, quantum, 1e-16, 0, 0), StepOutcome::splitWanted) << radius;
+    EXPECT_EQ(scene.stepper.certify(scene.set, 1, quantum, {.truncation = 1e-9}), StepOutcome::stepped) << radius;
+    EXPECT_EQ(scene.stepper.certify(scene.set, 1, quantum, {.truncation = 1e-16}), StepOutcome::splitWanted) << radius;
   }
 }
 
@@ -555,9 +555,7 @@ void expectPassingInside(unsigned seed, Make make) {
     const double third = points.uniform(-0.5, 0.5), parameter = 0.5;
     const double first = near - 0.5 * third, second = (points.integer(0, 3) > 0 ? near : 0.5) + 0.125 + tilt * third;
     scene.fill({first, second, third, parameter}, size, R, points.integer(0, 3), R * points.integer(0, 1), R * 0.1);
-    const auto isStepped = [&] {
-      return scene.stepper.certify(scene.set, horizon, quantum, 0, 0, 0) == StepOutcome::stepped;
-    };
+    const auto isStepped = [&] { return scene.stepper.certify(scene.set, horizon, quantum) == StepOutcome::stepped; };
     bool goesOn = isStepped();
     for (int before = 0; before < 8 && goesOn && scene.stepper.crossings() == 0; ++before) {
       scene.stepper.advance(scene.set);
@@ -605,7 +603,7 @@ TEST(FlowStep, HoldsEveryTrajectoryOfWideRemaindersUnderSteepEquations) {
     const double size = points.uniform(0.05, 0.4);
     const int kind = round % 3;  // all in W, all in R, in both
     scene.fill({0, 0}, 0, kind == 0 ? 0 : size, 0, kind == 1 ? 0 : size, 0);
-    if (scene.stepper.certify(scene.set, horizon, quantum, 0, 0, 0) != StepOutcome::stepped) continue;
+    if (scene.stepper.certify(scene.set, horizon, quantum) != StepOutcome::stepped) continue;
     ++steps;
     scene.expectTrajectoriesInside(5);
     if (HasFatalFailure()) return;
@@ -623,7 +621,7 @@ TEST(FlowStep, UpdateHoldsTheSetAtItsEnd) {
                   std::pow(10.0, -points.integer(5, 14)), points);
       const double R = std::pow(10.0, -points.integer(2, 14)) * points.integer(0, 1);
       scene.fill(nominal, std::pow(10.0, -points.integer(1, 3)), R, points.integer(0, 3), R * points.integer(0, 1), 0);
-      if (scene.stepper.certify(scene.set, horizon, quantum, 0, 0, 0) != StepOutcome::stepped) continue;
+      if (scene.stepper.certify(scene.set, horizon, quantum) != StepOutcome::stepped) continue;
       ++steps;
       scene.expectUpdateInside(8);
       if (HasFatalFailure()) return;
@@ -639,7 +637,7 @@ TEST(FlowStep, UpdateHoldsASetOfGeneratorsAlone) {
       const int symbols = points.integer(0, 1), degree = symbols == 0 ? 0 : points.integer(1, 4);
       Scene scene(f, symbols, degree, points.integer(0, 1), 16, 1e-14, points);
       scene.fill(nominal, 1e-4, 0, points.integer(1, 6), 0, 0, std::pow(10.0, -points.integer(4, 8)));
-      if (scene.stepper.certify(scene.set, horizon, quantum, 0, 0, 0) != StepOutcome::stepped) continue;
+      if (scene.stepper.certify(scene.set, horizon, quantum) != StepOutcome::stepped) continue;
       scene.expectUpdateInside(8);
       if (HasFatalFailure()) return;
     }
@@ -657,7 +655,7 @@ TEST(FlowStep, NothingLeavesItsChordByMoreThanTheSag) {
     Scene scene(f, round % 2, round % 2, round % 2, 14, 1e-6, points);
     const bool moves = round % 4 > 1;
     scene.fill({moves ? 1.0 : 0.0, moves ? 1.0 : 0.0}, 1e-6, moves ? 0.0 : 0.1, moves ? 0 : 2, 0, 0);
-    ASSERT_EQ(scene.stepper.certify(scene.set, horizon, quantum, 0, 0, 0), StepOutcome::stepped);
+    ASSERT_EQ(scene.stepper.certify(scene.set, horizon, quantum), StepOutcome::stepped);
     const double h = scene.stepper.h(), length = h * std::ldexp(1.0, -points.integer(0, 5));
     std::vector<Interval> sag;
     scene.stepper.sag(h - length, h, sag);
@@ -741,7 +739,7 @@ TEST(FlowStep, HoldsEveryTrajectoryOfDampedMotionsAtEveryTime) {
       const double R = std::pow(10.0, -points.integer(3, 14)) * points.integer(0, 1);
       scene.fill(nominal, std::pow(10.0, -points.integer(3, 6)), R, points.integer(0, 3),
                  std::pow(10.0, -points.integer(4, 14)), R * 0.1);
-      if (scene.stepper.certify(scene.set, horizon, quantum, 0, 0, 0) != StepOutcome::stepped) continue;
+      if (scene.stepper.certify(scene.set, horizon, quantum) != StepOutcome::stepped) continue;
       ++steps;
       longSteps += scene.stepper.h() * 200 > 4.5 ? 1 : 0;  // of no comparison with |∂f/∂x|
       Reference reference(f);
@@ -776,7 +774,7 @@ TEST(FlowStep, HoldsEveryTrajectoryOfWhatTurnsAtEveryTime) {
     const double R = std::pow(10.0, -points.integer(3, 14)) * points.integer(0, 1);
     scene.fill({0.3, -0.2, 1, 2, 900, 100, 400}, std::pow(10.0, -points.integer(1, 5)), R, points.integer(0, 3),
                std::pow(10.0, -points.integer(4, 14)), R * 0.1);
-    if (scene.stepper.certify(scene.set, horizon, quantum, 0, 0, 0) != StepOutcome::stepped) continue;
+    if (scene.stepper.certify(scene.set, horizon, quantum) != StepOutcome::stepped) continue;
     ++steps;
     about += scene.stepper.isAboutCentre() ? 1 : 0;
     Reference reference(f);
@@ -805,7 +803,7 @@ TEST(FlowStep, WhatTurnsLeavesAChordFromItsStartByNoMoreThanTheSag) {
   scene.fill({0, 2 * w / length}, 0, 0, 0, 0, 0);
   scene.set.C = {1, 0, 0, 1};
   scene.set.W = {w, 0};
-  ASSERT_EQ(scene.stepper.certify(scene.set, length, quantum, 0, 0, 0), StepOutcome::stepped);
+  ASSERT_EQ(scene.stepper.certify(scene.set, length, quantum), StepOutcome::stepped);
   ASSERT_TRUE(scene.stepper.isAboutCentre());
   ASSERT_EQ(scene.stepper.h(), length);
   FlowPoint end;
@@ -846,10 +844,10 @@ TEST(FlowStep, DependsOnItsSetAlone) {
     used.fill({0.1, -0.2, 1, 2, 3}, size, 1e-3, 1, 1e-6, 0);
     fresh.fill({points.uniform(0.05, 0.15), 0.1, 1, 2, 3}, size / 4, 1e-6, 1, 1e-9, 0);
     for (FlowSet* set : {&used.set, &fresh.set}) set->nextStep = 0x1p-8;
-    used.stepper.certify(used.set, horizon, quantum, 0, 0, 0);
+    used.stepper.certify(used.set, horizon, quantum);
     const auto certify = [&](FlowStepper& stepper, std::uint64_t& work) {
       const std::uint64_t began = Work::counted();
-      const StepOutcome outcome = stepper.certify(fresh.set, horizon, quantum, 0, 0, 0);
+      const StepOutcome outcome = stepper.certify(fresh.set, horizon, quantum);
       work = Work::counted() - began;
       return outcome;
     };
@@ -878,7 +876,7 @@ TEST(FlowStep, RefusesAStepWhoseTubeIsNotProved) {
     for (int i = 0; i < links; ++i)
       for (int j = 0; j < links; ++j) scene.set.C[at(i * links + j)] = i == j ? 1.0 : 0.0;
     scene.set.R.back() = 1.5;
-    ASSERT_EQ(scene.stepper.certify(scene.set, 1, quantum, 0, 0, 0), StepOutcome::stepped);
+    ASSERT_EQ(scene.stepper.certify(scene.set, 1, quantum), StepOutcome::stepped);
     scene.expectTrajectoriesInside(8);
     if (HasFatalFailure()) return;
   }
@@ -895,7 +893,7 @@ TEST(FlowStep, UpdateHoldsGeneratorsThatTurnWithTheSymbols) {
     Scene scene(f, 2, 3, round % 4, 10, 1e-12, points, true);
     scene.fill({0.5, 0.5, 1.0}, 0.3, 1e-4, 4, 1e-6, 0);
     for (double& value : scene.set.generators) value = 1e-4 * points.uniform(-1, 1);
-    if (scene.stepper.certify(scene.set, 0x1p-2, quantum, 0, 0, 0) != StepOutcome::stepped) continue;
+    if (scene.stepper.certify(scene.set, 0x1p-2, quantum) != StepOutcome::stepped) continue;
     scene.expectUpdateInside(30);
     if (HasFatalFailure()) return;
   }
@@ -908,7 +906,7 @@ TEST(FlowStep, UpdateHoldsTheSetWhenOldGeneratorsMerge) {
     Scene scene(f, symbols, 3 * symbols, 2 * symbols, 10, 1e-11, points);
     scene.fill(nominal, 1e-3 * symbols, 1e-12, 0, 0, 0);
     for (int step = 0; step < 100; ++step) {
-      ASSERT_EQ(scene.stepper.certify(scene.set, 100, 0x1p-46, 0, 0, 0), StepOutcome::stepped);
+      ASSERT_EQ(scene.stepper.certify(scene.set, 100, 0x1p-46), StepOutcome::stepped);
       scene.expectUpdateInside(4);
       if (HasFatalFailure()) return;
     }
@@ -987,7 +985,7 @@ TEST(FlowStep, OutputsHoldThoseOfEveryMemberOfTheSet) {
       const double size = std::pow(10.0, -points.integer(1, 13));
       const int kind = round % 3;
       scene.fill(nominal, std::pow(10.0, -points.integer(2, 8)), kind == 0 ? 0 : size, kind == 1 ? 0 : 2, 0, 0, size);
-      if (scene.stepper.certify(scene.set, horizon, quantum, 0, 0, 0) != StepOutcome::stepped) continue;
+      if (scene.stepper.certify(scene.set, horizon, quantum) != StepOutcome::stepped) continue;
       ++steps;
       const Program g = record(f.states(), 1, 3, [](auto t, const auto& x, const auto& p, auto& y) {
         y[0] = 2.0 * x[0];
@@ -1018,7 +1016,7 @@ TEST(FlowStep, OutputsLeaveTheirChordsByNoMoreThanTheirSag) {
     const int symbols = points.integer(1, 4), degree = points.integer(1, 6);
     Scene scene(f, symbols, degree, points.integer(0, 2), 8, 1e-10, points, true);
     scene.fill({0.7, 0.9, 0.4}, 0.5, 0, 0, 0, 0);
-    ASSERT_EQ(scene.stepper.certify(scene.set, horizon, quantum, 0, 0, 0), StepOutcome::stepped);
+    ASSERT_EQ(scene.stepper.certify(scene.set, horizon, quantum), StepOutcome::stepped);
     const int own = points.integer(1, degree);
     FlowOutputChords chords(g, std::make_shared<const Monomials>(scene.capped(own), own), scene.monomials, 8, horizon,
                             quantum);
@@ -1067,7 +1065,7 @@ TEST(FlowStep, ChordsKnowWhatTheirPolynomialsLack) {
   constexpr int degree = 3;
   Scene scene(f, 2, degree, 1, 8, 1e-10, points, true);
   const auto sagsIn = [&](int own) {
-    EXPECT_EQ(scene.stepper.certify(scene.set, horizon, quantum, 0, 0, 0), StepOutcome::stepped);
+    EXPECT_EQ(scene.stepper.certify(scene.set, horizon, quantum), StepOutcome::stepped);
     FlowOutputChords chords(g, std::make_shared<const Monomials>(scene.capped(own), own), scene.monomials, 8, horizon,
                             quantum);
     std::vector<Interval> sag;
@@ -1125,7 +1123,7 @@ TEST(FlowStep, StaysWithinTheTimeLeftAndOnTheGrid) {
   Scene scene(f, 0, 0, 0, 12, 1e-15, points);
   scene.fill(nominal, 0, 0, 0, 0, 0);
   while (scene.set.t < horizon) {
-    ASSERT_EQ(scene.stepper.certify(scene.set, horizon, quantum, 0, 0, 0), StepOutcome::stepped);
+    ASSERT_EQ(scene.stepper.certify(scene.set, horizon, quantum), StepOutcome::stepped);
     const double before = scene.set.t;
     scene.stepper.advance(scene.set);
     EXPECT_EQ(scene.set.t - before, scene.stepper.h());
