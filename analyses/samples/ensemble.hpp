@@ -93,9 +93,9 @@ class EnsembleRun {
   /// What the corners and the centre span, likewise.
   Envelope cornerEnvelope() const;
   /// Takes the first samples into the statistics, with what was still missing of them, then integrates all others,
-  /// corners and centre behind the plan's samples, the points of the transformation last, and takes them. `expected`:
-  /// where outputs are expected besides what the first samples say, such as an enclosure; NaN where nothing is known,
-  /// or empty.
+  /// corners and centre behind the plan's samples, the points of the transformation, the extremes, and takes them.
+  /// `expected`: where outputs are expected besides what the first samples say, such as an enclosure; NaN where nothing
+  /// is known, or empty.
   void integrateOthers(const Envelope& expected = {}, const Look& look = {});
   /// EnsembleOptions::extremes, which are known only now: before integrateOthers.
   void setExtremes(std::vector<std::vector<double>> extremes);
@@ -104,7 +104,7 @@ class EnsembleRun {
   const Sampling& sampling() const { return sampling_; }
   /// At which levels the cuts are that the sampling has corners of.
   const std::vector<double>& cornerLevels() const { return cornerLevels_; }
-  /// So many samples, corners and points at most, known before all are.
+  /// So many samples, corners, points and extremes at most, known before all are.
   std::size_t mostSamples() const;
   /// The quantities that the extended method gives values between the ends of their cuts; nothing until its points have
   /// looked for turns, unless they were an option.

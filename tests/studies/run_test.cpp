@@ -298,9 +298,8 @@ TEST(Run, SamplesWhereTheEnclosureTellsThatOutputsAreExtreme) {
   EXPECT_EQ(stochastic.integrated, stochastic.planned());
   EXPECT_EQ(stochastic.nameOf(stochastic.planned() - 1),
             "extreme " + std::to_string(stochastic.extremes.number.size() - 1));
-  const double corners = -0.475, lowest = -0.525;  // m, at the start: those of rods of 0.5 m ± 5 %
+  const double lowest = -0.525;  // m, at the start: the longest rod hangs; of corners it is at -0.493
   EXPECT_LT(stochastic.envelope.lower(0, 1), lowest * 0.9999);
-  EXPECT_GT(corners, lowest);
   EXPECT_LT(results.comparison.maximum, 1.001 * results.interval.tightness);
 }
 

@@ -25,34 +25,27 @@ TEST_P(OfFunction, EveryNodeLiesWithinItsBounds) {
   }
 }
 
+/// A motion with the function, of many symbols.
+void expectManySymbolsCertified(const std::string& function, const Setting& s, Points& points, int places) {
+  const std::vector<double> nominal{points.uniform(-1, 1), points.uniform(-1, 1), points.uniform(-1, 1)};
+  const Program f = record(2, 1, [&](auto t, const auto& x, const auto& p, auto& dx) {
+    const Guarded first{x[0], nominal[0]}, second{x[1] + t, nominal[1]};
+    dx[0] = 0.5 * apply(function, first, second).value + p[0];
+    dx[1] = x[0] * x[1] + 0.25 * apply(function, second, {p[0], nominal[2]}).value - x[0];
+  });
+  expectCertified(f.differentiated(), s, points, nominal, places);
+}
+
 TEST_P(OfFunction, ManySymbolsOfWhichLaterOrdersKeepFewerGradesAreBounded) {
   Points points(8);
-  for (int round = 0; round < 2; ++round) {
-    const Setting s = settingOfMany(points);
-    const std::vector<double> nominal{points.uniform(-1, 1), points.uniform(-1, 1), points.uniform(-1, 1)};
-    const Program f = record(2, 1, [&](auto t, const auto& x, const auto& p, auto& dx) {
-      const Guarded first{x[0], nominal[0]}, second{x[1] + t, nominal[1]};
-      dx[0] = 0.5 * apply(GetParam(), first, second).value + p[0];
-      dx[1] = x[0] * x[1] + 0.25 * apply(GetParam(), second, {p[0], nominal[2]}).value - x[0];
-    });
-    expectCertified(f.differentiated(), s, points, nominal, 3);
-    if (HasFatalFailure()) return;
-  }
+  for (int round = 0; round < 2 && !HasFatalFailure(); ++round)
+    expectManySymbolsCertified(GetParam(), settingOfMany(points), points, 3);
 }
 
 TEST_P(OfFunction, ManySymbolsAtOneTimeAreBounded) {
   Points points(9);
-  for (int round = 0; round < 8; ++round) {
-    const Setting s = settingAtOneTime(points);
-    const std::vector<double> nominal{points.uniform(-1, 1), points.uniform(-1, 1), points.uniform(-1, 1)};
-    const Program f = record(2, 1, [&](auto t, const auto& x, const auto& p, auto& dx) {
-      const Guarded first{x[0], nominal[0]}, second{x[1] + t, nominal[1]};
-      dx[0] = 0.5 * apply(GetParam(), first, second).value + p[0];
-      dx[1] = x[0] * x[1] + 0.25 * apply(GetParam(), second, {p[0], nominal[2]}).value - x[0];
-    });
-    expectCertified(f.differentiated(), s, points, nominal, 4);
-    if (HasFatalFailure()) return;
-  }
+  for (int round = 0; round < 8 && !HasFatalFailure(); ++round)
+    expectManySymbolsCertified(GetParam(), settingAtOneTime(points), points, 4);
 }
 
 INSTANTIATE_TEST_SUITE_P(PolynomialSeries, OfFunction, ::testing::ValuesIn(elementaryNames()),
