@@ -337,7 +337,7 @@ void FlowStepper::addCrossings(const FlowSet& set, double tau, FlowPoint& point)
   for (const Crossing& crossing : crossings_) {
     const LinearForm& form = *crossing.form;
     const double first = crossing.moments.lower(), last = crossing.moments.upper();
-    const double slope = tau <= first ? 0 : tau >= last ? 1 : (tau - first) / (last - first);
+    const double slope = tau >= last ? 1 : tau <= first ? 0 : (tau - first) / (last - first);
     Interval rest(tau);
     if (tau >= last)
       rest = Interval(0.0);
