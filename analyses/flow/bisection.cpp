@@ -29,8 +29,14 @@ void addFramed(FlowSet& set, const std::vector<double>& size) {
 double FlowStepper::relativeRemainder(const FlowSet& set) const {
   std::vector<double> total;
   errorRadius(set, total);
-  double largest = 0;
-  for (int i = 0; i < n_; ++i) largest = std::max(largest, remainderOf(set, i, total) / scale_[at(i)]);
+  constexpr double little = 1e-3;  // of the greatest state in balanced units: one that has rested is no smaller than so
+  double greatest = 0, largest = 0;
+  const auto unit = [&](int i) { return set.units.empty() ? 0 : set.units[at(i)]; };
+  for (int i = 0; i < n_; ++i) greatest = std::max(greatest, std::ldexp(scale_[at(i)], -unit(i)));
+  for (int i = 0; i < n_; ++i) {
+    const double size = std::max(scale_[at(i)], std::ldexp(little * greatest, unit(i)));
+    largest = std::max(largest, remainderOf(set, i, total) / size);
+  }
   return largest;
 }
 

@@ -167,7 +167,8 @@ std::unique_ptr<FlowFollower::Tools> FlowFollower::toolsFor(const FlowPiece& pie
   tools->stepper.setScales(task_.scales);
   tools->stepper.setTimeKinks(held.empty() ? task_.timeKinks : TimeKinks(motion, task_.horizon, task_.quantum));
   if (task_.jumps.count() > 0)
-    tools->stepper.setJumps(tools->jumps ? *tools->jumps : task_.jumps, task_.jumps, held, left, factor);
+    tools->stepper.setJumps(tools->jumps ? *tools->jumps : task_.jumps, task_.jumps, held, left, factor, task_.horizon,
+                            task_.quantum);
   if (task_.outputs.outputs() > 0)
     tools->outputs =
         std::make_unique<OutputTools>(outputToolsFor(tools->g, task_.outputLayout(piece.layout), piece.layout));

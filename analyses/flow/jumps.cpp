@@ -100,7 +100,11 @@ Interval JumpBounder::rate(std::size_t jump, double sign, const Interval& time, 
   all[parameters_.size() + jump] = Interval(sign);
   given_.setParameters(all);
   given_(time, box, results_);
-  return results_[box.size() + bounds.size() + jump];
+  const Interval& byIntervals = results_[box.size() + bounds.size() + jump];
+  if (known_.empty()) return byIntervals;
+  const Interval& known = sign > 0 ? known_[jump].up : known_[jump].down;
+  const Interval both = intersection(byIntervals, known);
+  return isEmpty(both) ? known : both;
 }
 
 void JumpBounder::narrow(const LinearForm& form, const Interval& argument, Box& box) const {
@@ -115,7 +119,8 @@ void JumpBounder::narrow(const LinearForm& form, const Interval& argument, Box& 
 }
 
 void JumpBounder::bound(const Interval& time, const Box& box, const std::vector<Interval>& start, double h,
-                        std::vector<JumpBound>& bounds) {
+                        std::vector<JumpBound>& bounds, std::span<const SideRates> known) {
+  known_ = known;
   constexpr int rounds = 2;  // what is known of arguments narrows the states, and these the rates
   Box narrowed = box, all = parameters_;
   for (const JumpBound& bound : bounds) all.push_back(bound.sign);

@@ -88,6 +88,11 @@ struct JumpBound {
   SignCases within(SignCases cases) const;
 };
 
+/// The rates of a jump's argument over a step, 1/s, where its sign is 1, and -1.
+struct SideRates {
+  Interval up = Interval::entire(), down = Interval::entire();
+};
+
 /// What time, states and signs are together.
 struct SignBox {
   Interval time;
@@ -126,9 +131,10 @@ class JumpBounder {
   void setParameters(Box parameters) { parameters_ = std::move(parameters); }
 
   /// While time is within `time` and states within `box`, h seconds long, with arguments that start in `start` (whole
-  /// lines where nothing is known of them): narrows `bounds`, one a jump, of which the signs hold already.
+  /// lines where nothing is known of them): narrows `bounds`, one a jump, of which the signs hold already. `known`:
+  /// what is known of rates besides, one a jump, or nothing.
   void bound(const Interval& time, const Box& box, const std::vector<Interval>& start, double h,
-             std::vector<JumpBound>& bounds);
+             std::vector<JumpBound>& bounds, std::span<const SideRates> known = {});
   /// Narrows the pivot's state in `box` by what the form is.
   void narrow(const LinearForm& form, const Interval& argument, Box& box) const;
 
@@ -144,6 +150,7 @@ class JumpBounder {
   Evaluator<Interval> given_;
   Box parameters_;
   std::vector<Interval> results_;
+  std::span<const SideRates> known_;
 };
 
 }  // namespace gamut

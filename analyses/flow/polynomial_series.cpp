@@ -20,6 +20,7 @@ void PolynomialSeries::compute(double t0, double h0) {
   if (isByGrades_) return computeByGrades(h0);
   if (!thin_.empty()) {
     if (isFine()) computeLeading(t0, h0);
+    for (int x = 0; x < n_ && !withFrame_; ++x) std::copy_n(&f_[plan_[at(x)].f], stride_, &known_[at(x * stride_)]);
     for (int node = time_ + 1; node < nodes_; ++node)
       if (!isFine(node)) computeLeadingValue(node);
     for (std::size_t x = 0; x < plan_.size(); ++x) current_[x] = f_[plan_[x].f];

@@ -50,6 +50,8 @@ class PolynomialSeries {
   int states() const { return n_; }
   int stride() const { return stride_; }
   const Monomials& monomials() const { return *monomials_; }
+  const std::shared_ptr<const Monomials>& sharedMonomials() const { return monomials_; }
+  const std::atomic<bool>* cancelled() const { return cancelled_; }
   int count() const { return monomials_->count(); }
   /// So many monomials a node keeps, the first ones; of later orders fewer.
   int count(int node) const { return plan_[at(node)].count; }

@@ -179,7 +179,7 @@ PolynomialSeries::PolynomialSeries(const Program& program, int primaryOutputs,
   power_.assign(at(std::max(stride_, 2)), 0.0);
   weights_.assign(at(stride_), 0.0);
   putConstants();
-  if (isByGrades_ || (count() == 1 && withFrame_)) prepareThin();
+  if (isByGrades_ || count() == 1) prepareThin();
   if (isByGrades_) planGrades();
 }
 

@@ -2,6 +2,7 @@
 // section 7.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -22,7 +23,7 @@ constexpr double leastHold = 0x1p10;  // in shortest steps: shorter ones would w
 }  // namespace
 
 void FlowStepper::setJumps(const FlowJumps& own, const FlowJumps& of, std::vector<char> held, std::vector<int> left,
-                           std::vector<double> factor) {
+                           std::vector<double> factor, double length, double resolution) {
   held_ = std::move(held);
   left_ = std::move(left);
   factor_ = std::move(factor);
@@ -31,6 +32,11 @@ void FlowStepper::setJumps(const FlowJumps& own, const FlowJumps& of, std::vecto
   if (!own_) std::ranges::fill(left_, -1);
   of_ = &of;
   if (!held_.empty()) holding_.emplace(of);
+  const auto ratesOf = [&](const FlowJumps& jumps) {
+    return std::make_unique<JumpRates>(jumps, series_.sharedMonomials(), m_, length, resolution, series_.cancelled());
+  };
+  if (own_) ownRates_ = ratesOf(own);
+  if (holding_) heldRates_ = ratesOf(of);
 }
 
 std::vector<char> FlowStepper::resting(const FlowSet& set, const FlowJumps& jumps) {
@@ -98,7 +104,7 @@ double FlowStepper::longestWhileSliding(const JumpBound& bound, const JumpBound&
     const double first = std::max(start.lower() / -bound.up.lower(), -start.upper() / bound.down.upper());
     const bool isFirst = last == 0 && start.lower() < 0 && start.upper() > 0;
     // While the first is farther away than they are from each other, rates may be others by the time it comes.
-    const double all = first > 0 && mignitude(start) > width(start) ? 0.5 * h
+    const double all = first > 0 && mignitude(start) > width(start) ? std::min(0.5 * h, 2 * latest)
                        : latest > 0                                 ? latest / (isFirst ? partsAtFirst : parts)
                                                                     : h;
     const double one = std::max({last, all, ahead * first});
@@ -109,7 +115,10 @@ double FlowStepper::longestWhileSliding(const JumpBound& bound, const JumpBound&
     }
     return one;
   }
-  return bound.turned <= turnedMore * atStart.turned + turnedBesides ? h : 0.5 * h;
+  // Rates vary by about as much as the step is long.
+  constexpr double shortest = 0x1p-10;
+  const double allowed = turnedMore * atStart.turned + turnedBesides;
+  return bound.turned <= allowed ? h : std::clamp(0.9 * allowed / bound.turned, shortest, 0.5) * h;
 }
 
 /// What comes to be held or leaves does so over a time Δ, in which the set loses its dependence on ξ in what moves
@@ -173,9 +182,96 @@ int FlowStepper::symbolOfSliding(const FlowSet& set, const SplitShares& shares) 
   return isTooWide || (shares.slide > 0 && slideLoss_ > shares.slide) ? symbol : -1;
 }
 
+Interval FlowStepper::argumentAtStart(const FlowSet& set, std::size_t own) const {
+  Interval start = argumentOf(set, *own_->jumps().forms[own], total_);
+  const auto meet = [&](const Interval& known) {
+    if (const Interval both = intersection(start, known); !isEmpty(both)) start = both;
+  };
+  if (!set.arguments.empty() && held_.empty()) meet(set.arguments[own]);
+  for (std::size_t k = 0; k < left_.size() && !set.arguments.empty(); ++k)
+    if (left_[k] == static_cast<int>(own)) meet(Interval(factor_[k]) * set.arguments[k]);
+  return start;
+}
+
+/// Where all solutions are on one side of a jump at first, or at it and leave to that side whatever their sign, the
+/// step takes them to be there until its end, and finds how long they are (longestOnSides): until one comes to the jump
+/// they are solutions of the smooth f on that side.
+void FlowStepper::assumeSides(const FlowSet& set) {
+  sides_.clear();
+  if (!own_) return;
+  countAsGenerators([&] { totalRadius(set, total_); });
+  const FlowJumps& own = own_->jumps();
+  std::vector<Interval> start(own.count(), Interval::entire());
+  std::vector<JumpBound> bounds(own.count());
+  for (std::size_t j = 0; j < own.count(); ++j) {
+    if (!own.forms[j]) continue;
+    start[j] = argumentAtStart(set, j);
+    if (const double side = start[j].lower() > 0 ? 1 : start[j].upper() < 0 ? -1 : 0; side != 0)
+      bounds[j].sign = Interval(side);
+  }
+  own_->setParameters(set.parameters);
+  own_->bound(Interval(set.t), boxAtStart(set), start, 0, bounds);
+  sides_.assign(own.count(), 0.0);
+  for (std::size_t j = 0; j < own.count(); ++j) {
+    const JumpBound& bound = bounds[j];
+    if (!bound.isKnown()) continue;
+    if (start[j].lower() > 0 || (start[j].lower() == 0 && bound.up.lower() > 0 && bound.down.lower() > 0))
+      sides_[j] = 1;
+    if (start[j].upper() < 0 || (start[j].upper() == 0 && bound.up.upper() < 0 && bound.down.upper() < 0))
+      sides_[j] = -1;
+  }
+  if (std::ranges::all_of(sides_, [](double side) { return side == 0; })) sides_.clear();
+}
+
+/// Whether arguments are there wherever states are in this box.
+bool FlowStepper::staysOnSides(const FlowSet& set, const Box& box) const {
+  for (std::size_t j = 0; j < sides_.size(); ++j) {
+    if (sides_[j] == 0) continue;
+    const LinearForm& form = *own_->jumps().forms[j];
+    Interval argument = form.constant;
+    for (std::size_t i = 0; i < box.size(); ++i)
+      if (form.states[i] != 0) argument += Interval(form.states[i]) * box[i];
+    for (std::size_t k = 0; k < form.parameters.size(); ++k)
+      if (form.parameters[k] != 0) argument += Interval(form.parameters[k]) * rangeOf(set.parameters[k]);
+    if (!(sides_[j] > 0 ? argument.lower() > 0 : argument.upper() < 0)) return false;
+  }
+  return true;
+}
+
+/// Up to when all solutions are on the sides that were taken for them, s; at most h. The argument grows as long as its
+/// rate points away from zero, and later is what its polynomial says.
+double FlowStepper::longestOnSides(double h) const {
+  double longest = h;
+  for (std::size_t j = 0; j < sides_.size(); ++j) {
+    if (sides_[j] == 0) continue;
+    const auto longestWhile = [&](double from, auto holds) {  // from there on, up to `longest`
+      if (holds(longest)) return longest;
+      double least = from, most = longest;
+      for (int halving = 0; halving < 40; ++halving) {
+        const double middle = 0.5 * (least + most);
+        (holds(middle) ? least : most) = middle;
+      }
+      return least;
+    };
+    const auto isAway = [&](const Interval& number) { return sides_[j] > 0 ? number.lower() > 0 : number.upper() < 0; };
+    const double leaves =
+        longestWhile(0, [&](double to) { return isAway(ownRates_->over(j, sides_[j], 0, to / h0_)); });
+    longest = longestWhile(
+        leaves, [&](double to) { return to <= leaves || isAway(ownRates_->argumentOver(j, leaves / h0_, to / h0_)); });
+  }
+  return longest;
+}
+
+bool FlowStepper::loadRates(JumpRates& rates, const FlowSet& set, double h, const std::vector<JumpBound>& bounds,
+                            const std::vector<double>& tube) {
+  std::vector<Interval> signs;
+  for (const JumpBound& bound : bounds) signs.push_back(bound.sign);
+  return rates.load(series_, set.t, h0_, h / h0_, set.parameters, signs, tube);
+}
+
 /// The signs of the motion's own jumps that are not known to be on one side, and their arguments.
 bool FlowStepper::boundOwnJumps(const FlowSet& set, const Interval& time, const Box& box, double h,
-                                std::vector<JumpBound>& bounds) {
+                                std::vector<JumpBound>& bounds, std::span<const SideRates> known) {
   if (!own_) return false;
   const FlowJumps& own = own_->jumps();
   bool any = false;
@@ -184,27 +280,28 @@ bool FlowStepper::boundOwnJumps(const FlowSet& set, const Interval& time, const 
   for (std::size_t j = 0; j < own.count(); ++j) {
     const int sign = series_.jumps()[j];
     const double value = series_.series(sign)[0];
-    if (!series_.mayTurn(sign)) {
-      if (std::fabs(value) == 1) bounds[j].sign = Interval(value);
-      continue;
-    }
+    const bool isOnSide = !sides_.empty() && sides_[j] != 0;
+    if ((isOnSide || !series_.mayTurn(sign)) && std::fabs(value) == 1) bounds[j].sign = Interval(value);
+    if (isOnSide ? areSidesClear_ : !series_.mayTurn(sign)) continue;
     any = true;
     if (!own.forms[j]) continue;
-    start[j] = argumentOf(set, *own.forms[j], total_);
-    const auto meet = [&](const Interval& known) {
-      if (const Interval both = intersection(start[j], known); !isEmpty(both)) start[j] = both;
-    };
-    if (!set.arguments.empty() && held_.empty()) meet(set.arguments[j]);
-    for (std::size_t k = 0; k < left_.size() && !set.arguments.empty(); ++k)
-      if (left_[k] == static_cast<int>(j)) meet(Interval(factor_[k]) * set.arguments[k]);
+    start[j] = argumentAtStart(set, j);
   }
   own_->setParameters(set.parameters);
-  own_->bound(time, box, start, h, bounds);
+  own_->bound(time, box, start, h, bounds, known);
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  for (std::size_t j = 0; j < sides_.size(); ++j) {
+    if (sides_[j] == 0) continue;
+    bounds[j].holds = bounds[j].maySlide = false;
+    const Interval side = sides_[j] > 0 ? Interval(0.0, infinite) : Interval(-infinite, 0.0);
+    if (bounds[j].isKnown()) bounds[j].over = intersection(bounds[j].over, side);
+  }
   return any;
 }
 
 void FlowStepper::boundHeldJumps(const FlowSet& set, const Interval& time, const Box& box, double h,
-                                 const std::vector<JumpBound>& own, std::vector<JumpBound>& bounds) {
+                                 const std::vector<JumpBound>& own, std::vector<JumpBound>& bounds,
+                                 std::span<const SideRates> known) {
   std::vector<Interval> start(held_.size(), Interval::entire());
   bounds.assign(held_.size(), {});
   for (std::size_t k = 0; k < held_.size(); ++k) {
@@ -212,7 +309,31 @@ void FlowStepper::boundHeldJumps(const FlowSet& set, const Interval& time, const
     if (left_[k] >= 0) bounds[k].sign = Interval(factor_[k]) * own[at(left_[k])].sign;
   }
   holding_->setParameters(set.parameters);
-  holding_->bound(time, box, start, h, bounds);
+  holding_->bound(time, box, start, h, bounds, known);
+}
+
+bool FlowStepper::areHeld(const std::vector<JumpBound>& bounds) const {
+  bool holds = true;
+  for (std::size_t k = 0; k < held_.size(); ++k) holds = holds && (held_[k] == 0 || bounds[k].holds);
+  return holds;
+}
+
+/// Up to when the rates on both sides say that solutions stay held, s; at most h.
+double FlowStepper::longestHeld(const JumpRates& rates, double h) const {
+  const auto holdUntil = [&](double sigma) {
+    bool holds = true;
+    for (std::size_t k = 0; k < held_.size(); ++k)
+      holds = holds &&
+              (held_[k] == 0 || (rates.over(k, 1, 0, sigma).upper() < 0 && rates.over(k, -1, 0, sigma).lower() > 0));
+    return holds;
+  };
+  if (holdUntil(h / h0_)) return h;
+  double least = 0, most = h;
+  for (int halving = 0; halving < 40; ++halving) {
+    const double middle = 0.5 * (least + most);
+    (holdUntil(middle / h0_) ? least : most) = middle;
+  }
+  return least;
 }
 
 FlowStepper::Look FlowStepper::lookAtJumps(const FlowSet& set, double& h, double smallest, double left) {
@@ -224,23 +345,56 @@ FlowStepper::Look FlowStepper::lookAtJumps(const FlowSet& set, double& h, double
   const Box first = boxAtStart(set);
   const Interval began(set.t), time = began + Interval(0.0, h);
   std::vector<JumpBound> atStart, heldAtStart;
-  if (!boundOwnJumps(set, time, box, h, ownBounds_) && !holding_) {
+  areSidesClear_ = staysOnSides(set, box);
+  if (!areSidesClear_) {  // E, not y: solutions are inside y until they leave their side
+    std::vector<JumpBound> others(own_->jumps().count());
+    for (std::size_t j = 0; j < others.size(); ++j) {
+      const double value = series_.series(series_.jumps()[j])[0];
+      if ((sides_[j] != 0 || !series_.mayTurn(series_.jumps()[j])) && std::fabs(value) == 1)
+        others[j].sign = Interval(value);
+    }
+    const double longest = loadRates(*ownRates_, set, h, others, E_) ? longestOnSides(h) : 0;
+    if (longest < h) {
+      constexpr double atLeast = 0x1p-6;  // of a step that is taken so
+      if (longest < atLeast * h || longest < smallest) {
+        sides_.clear();
+        return Look::unsided;
+      }
+      h = std::min(longest, 0.999 * h);
+      return Look::shorter;
+    }
+  }
+  const bool mayTurn = boundOwnJumps(set, time, box, h, ownBounds_);
+  if (!mayTurn && !holding_) {
     ownBounds_.clear();
     return Look::goOn;
   }
   boundOwnJumps(set, began, first, 0.0, atStart);
+  // What intervals leave open: by polynomials.
+  const auto ratesUntil = [&](const JumpRates& rates, double until, std::size_t count) {
+    std::vector<SideRates> known;
+    for (std::size_t k = 0; k < count; ++k)
+      known.push_back({rates.over(k, 1, 0, until / h0_), rates.over(k, -1, 0, until / h0_)});
+    return known;
+  };
+  if (mayTurn && loadRates(*ownRates_, set, h, ownBounds_, y_)) {
+    boundOwnJumps(set, time, box, h, ownBounds_, ratesUntil(*ownRates_, h, ownBounds_.size()));
+    boundOwnJumps(set, began, first, 0.0, atStart, ratesUntil(*ownRates_, 0, ownBounds_.size()));
+  }
   if (holding_) {
     boundHeldJumps(set, time, box, h, ownBounds_, heldBounds_);
     boundHeldJumps(set, began, first, 0.0, atStart, heldAtStart);
-    const auto isHeld = [&](const std::vector<JumpBound>& bounds) {
-      bool holds = true;
-      for (std::size_t k = 0; k < held_.size(); ++k) holds = holds && (held_[k] == 0 || bounds[k].holds);
-      return holds;
-    };
-    const bool couldHold = isHeld(heldAtStart);
-    if (!isHeld(heldBounds_)) {
-      if (couldHold && h >= leastHold * smallest) {
-        h *= 0.5;
+    double held = 0.5 * h;
+    if (!areHeld(heldBounds_) && loadRates(*heldRates_, set, h, heldBounds_, y_)) {
+      held = longestHeld(*heldRates_, h);
+      boundHeldJumps(set, time, box, h, ownBounds_, heldBounds_, ratesUntil(*heldRates_, h, held_.size()));
+      boundHeldJumps(set, began, first, 0.0, atStart, heldAtStart, ratesUntil(*heldRates_, 0, held_.size()));
+    }
+    if (!areHeld(heldBounds_)) {
+      const bool couldHold = areHeld(heldAtStart);
+      held = std::min(held, 0.99 * h);
+      if (couldHold && held >= 0.5 * leastHold * smallest) {
+        h = held;
         return Look::shorter;
       }
       stillHeld_ = held_;
@@ -253,6 +407,7 @@ FlowStepper::Look FlowStepper::lookAtJumps(const FlowSet& set, double& h, double
   std::vector<std::size_t> narrower;
   for (std::size_t j = 0; j < ownBounds_.size(); ++j) {
     const JumpBound& bound = ownBounds_[j];
+    if (!sides_.empty() && sides_[j] != 0) continue;
     const bool isNarrower = width(bound.sign) < nearlyAny, slides = bound.maySlide && (bound.holds || isNarrower);
     const auto crossing = bound.crossing();
     const bool crosses = crossing && (crossing->moment.upper() <= h || h == left) && !isNarrower;

@@ -486,7 +486,10 @@ StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum,
   const auto forgetCrossings = [&] {
     series_.forgetCrossings();
     timeKinks_.giveSides(set.parameters, set.t, end, series_);
+    for (std::size_t j = 0; j < sides_.size(); ++j)
+      if (sides_[j] != 0) series_.giveSide(series_.jumps()[j], sides_[j]);
   };
+  assumeSides(set);
   forgetCrossings();
   const auto onGrid = [&](double h) { return std::floor(h / quantum) * quantum; };
   const double smallest = 1024 * quantum;  // below this, time itself is too coarse
@@ -542,6 +545,11 @@ StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum,
         Look look = own_ || holding_ ? lookAtJumps(set, h, least, left) : Look::goOn;
         if (look == Look::goOn && kinks_) look = lookAtKinks(set, h, least, left);
         if (look == Look::released) return StepOutcome::released;
+        if (look == Look::unsided) {
+          forgetCrossings();
+          compute();
+          continue;
+        }
         if (look == Look::shorter || look == Look::longer) {
           isShortened_ = true;
           if (h > h0_) {

@@ -13,6 +13,7 @@
 #include "analyses/flow/cause.hpp"
 #include "analyses/flow/growth.hpp"
 #include "analyses/flow/inputs.hpp"
+#include "analyses/flow/jump_rates.hpp"
 #include "analyses/flow/jumps.hpp"
 #include "analyses/flow/kinks.hpp"
 #include "analyses/flow/polynomial_range.hpp"
@@ -105,8 +106,9 @@ class FlowStepper {
   int escaping(const FlowSet& set) const;
   /// `own`: of the stepper's motion. That is the one of the jumps `of`, or, if `held` is not empty, the one in which
   /// those are held: of these, arguments have to be zero in every set. left, factor: as of FlowJumps::heldProgram.
+  /// `length`, `resolution`: of time, s.
   void setJumps(const FlowJumps& own, const FlowJumps& of, std::vector<char> held, std::vector<int> left,
-                std::vector<double> factor);
+                std::vector<double> factor, double length, double resolution);
   /// After `released`: of each jump, whether solutions at it stay held.
   const std::vector<char>& stillHeld() const { return stillHeld_; }
   /// Of each jump, whether its argument is zero for all solutions in the set; empty if none is.
@@ -181,7 +183,7 @@ class FlowStepper {
   bool isTruncationTooLarge(double share);
   bool isLooserThanDriven() const;
   bool isKinkTooWide(const FlowSet& set, const SplitShares& shares);
-  enum class Look { goOn, again, shorter, longer, released };
+  enum class Look { goOn, again, shorter, longer, unsided, released };
   Look lookAtJumps(const FlowSet& set, double& h, double smallest, double left);
   Look lookAtKinks(const FlowSet& set, double& h, double smallest, double left);
   static double longestToCross(const std::vector<JumpBound>& bounds, const std::vector<JumpBound>& atStart, double h,
@@ -216,10 +218,19 @@ class FlowStepper {
   void addCrossings(const FlowSet& set, double tau, FlowPoint& point) const;
   int symbolOfSliding(const FlowSet& set, const SplitShares& shares);
   double longestWhileSliding(const JumpBound& bound, const JumpBound& atStart, double h, double last) const;
-  bool boundOwnJumps(const FlowSet& set, const Interval& time, const Box& box, double h,
-                     std::vector<JumpBound>& bounds);
+  bool boundOwnJumps(const FlowSet& set, const Interval& time, const Box& box, double h, std::vector<JumpBound>& bounds,
+                     std::span<const SideRates> known = {});
   void boundHeldJumps(const FlowSet& set, const Interval& time, const Box& box, double h,
-                      const std::vector<JumpBound>& own, std::vector<JumpBound>& bounds);
+                      const std::vector<JumpBound>& own, std::vector<JumpBound>& bounds,
+                      std::span<const SideRates> known = {});
+  Interval argumentAtStart(const FlowSet& set, std::size_t own) const;
+  void assumeSides(const FlowSet& set);
+  bool staysOnSides(const FlowSet& set, const Box& box) const;
+  double longestOnSides(double h) const;
+  bool loadRates(JumpRates& rates, const FlowSet& set, double h, const std::vector<JumpBound>& bounds,
+                 const std::vector<double>& tube);
+  bool areHeld(const std::vector<JumpBound>& bounds) const;
+  double longestHeld(const JumpRates& rates, double h) const;
   /// What comes to be held, |u - ũ| ≤ g on a chord from its first to its last number, with the state that it decides.
   struct Arrival {
     const LinearForm* form;
@@ -254,13 +265,15 @@ class FlowStepper {
   std::shared_ptr<const FlowScales> scales_;
   int symbolAcross_ = -1;  // of kinks, for worstSymbol
   double slideLoss_ = 0;
-  const FlowJumps* of_ = nullptr;                  // without any held
-  std::optional<JumpBounder> own_, holding_;       // of the stepper's own jumps; of those of which some are held
-  std::vector<char> held_, stillHeld_;             // of each of these; none: none
-  std::vector<int> left_;                          // of each of these, which own jump it is; -1: none
-  std::vector<double> factor_;                     // its argument is that one's, times this
-  std::vector<JumpBound> ownBounds_, heldBounds_;  // over the step; none: nothing is known
-  std::unique_ptr<FlowKinks> kinks_;               // null: there are none
+  const FlowJumps* of_ = nullptr;                    // without any held
+  std::optional<JumpBounder> own_, holding_;         // of the stepper's own jumps; of those of which some are held
+  std::vector<char> held_, stillHeld_;               // of each of these; none: none
+  std::vector<int> left_;                            // of each of these, which own jump it is; -1: none
+  std::vector<double> factor_;                       // its argument is that one's, times this
+  std::vector<JumpBound> ownBounds_, heldBounds_;    // over the step; none: nothing is known
+  std::unique_ptr<JumpRates> ownRates_, heldRates_;  // likewise
+  std::vector<double> sides_;  // of each own jump, on which all solutions are taken to be: 1, -1; 0: not; none: nowhere
+  std::unique_ptr<FlowKinks> kinks_;  // null: there are none
   TimeKinks timeKinks_;
   std::vector<Interval> kinkRates_;  // over the step
   std::vector<Crossing> crossings_;
@@ -268,6 +281,7 @@ class FlowStepper {
   FlowGrowth following_;         // of the states but those that arrivals decide
   std::vector<char> arrives_;    // of each state, whether one decides it; none: there are none
   std::vector<double> bent_;     // of each state, how far what arrivals do rises above its chord
+  bool areSidesClear_ = true;    // by intervals
   bool isSliding_ = false, isShortened_ = false;
   bool isCut_ = false;  // by the end that was given
   int lengthened_ = 0;  // so often, for all solutions to pass a jump in one step

@@ -34,7 +34,7 @@ struct Scene {
         monomials(std::make_shared<const Monomials>(capped(degree), degree)),
         stepper(differentiated, monomials, frameDegree, order, tolerance, FlowInputs(n, order, {}, 0.1)),
         points(random) {
-    if (jumps != nullptr) stepper.setJumps(*jumps, *jumps, {}, {}, {});
+    if (jumps != nullptr) stepper.setJumps(*jumps, *jumps, {}, {}, {}, 100, 0x1p-46);
   }
 
   /// Most scenes weigh all alike, as most flows do.

@@ -1,0 +1,102 @@
+#include "analyses/flow/jump_rates.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "analyses/flow/embedding.hpp"
+#include "analyses/flow/error_bounds.hpp"
+#include "scalars/index.hpp"
+#include "scalars/program/recorder.hpp"
+
+namespace gamut {
+
+namespace {
+
+/// Of each jump the rate of its argument with the sign 1, and with -1; then all arguments. Signs, others in rates, are
+/// parameters behind f's.
+Program ratesOf(const FlowJumps& jumps) {
+  const Program& given = jumps.given;
+  const int n = given.states(), count = static_cast<int>(jumps.count()), k = given.parameters() - count;
+  Recorder recorder(n, k + count);
+  std::vector<int> parameters, outputs;
+  for (int i = 0; i < k + count; ++i) parameters.push_back(recorder.parameter(i));
+  for (int jump = 0; jump < count; ++jump)
+    for (const double sign : {1.0, -1.0}) {
+      std::vector<int> values = parameters;
+      values[detail::at(k + jump)] = recorder.constant(sign);
+      const std::vector<int> here = recorder.append(given, values);
+      outputs.push_back(here[detail::at(given.outputNodes()[detail::at(n + count + jump)])]);
+    }
+  const std::vector<int> here = recorder.append(given, parameters);
+  for (int jump = 0; jump < count; ++jump)
+    outputs.push_back(here[detail::at(given.outputNodes()[detail::at(n + jump)])]);
+  return recorder.finish(outputs);
+}
+
+}  // namespace
+
+JumpRates::JumpRates(const FlowJumps& jumps, std::shared_ptr<const Monomials> monomials, int order, double length,
+                     double resolution, const std::atomic<bool>* cancelled)
+    : jumps_(jumps.count()),
+      orders_(order + 1),
+      series_(ratesOf(jumps), static_cast<int>(3 * jumps.count()), std::move(monomials), 0, order + 1, false,
+              cancelled),
+      timeKinks_(ratesOf(jumps), length, resolution) {}
+
+bool JumpRates::load(const PolynomialSeries& states, double t0, double scale, double theta,
+                     const std::vector<Embedded>& parameters, const std::vector<Interval>& signs,
+                     const std::vector<double>& tube) {
+  theta_ = theta;
+  for (int i = 0; i < states.states(); ++i) series_.setStateSeries(i, states.series(i), states.stride());
+  std::vector<Embedded> all = parameters;
+  for (const Interval& sign : signs) all.push_back({midpoint(sign), 0, radius(sign)});
+  for (std::size_t i = 0; i < all.size(); ++i) series_.setParameter(static_cast<int>(i), all[i]);
+  series_.forgetCrossings();
+  timeKinks_.giveSides(all, t0, t0 + theta * scale, series_);
+  series_.compute(t0, scale);
+  series_.forgetJumps();
+  if (series_.tabulate(theta) && series_.bound(tube.data(), true)) return true;
+  series_.clear();
+  return false;
+}
+
+/// Horner's method: 2(m + 1) roundings of what all coefficients are together, and one a monomial.
+Interval JumpRates::at(int node, double sigma) const {
+  double leading = 0, others = 0;
+  for (int g = 0; g < series_.count(node); ++g) {
+    const double* c = series_.series(node) + g * series_.stride();
+    double sum = 0;
+    for (int order = orders_; order-- > 0;) sum = sum * sigma + c[order];
+    (g == 0 ? leading : others) += g == 0 ? sum : std::fabs(sum);
+  }
+  const double roundings = (2 * orders_ + series_.count(node) + 2) * bounds::unit * series_.norm(node);
+  return inflated(Interval(leading),
+                  (others + roundings + series_.rho0(node) + series_.rho1(node)) * bounds::up + bounds::tiny);
+}
+
+Interval JumpRates::over(std::size_t jump, double sign, double from, double to) const {
+  return nodeOver(series_.outputNode(static_cast<int>(2 * jump) + (sign > 0 ? 0 : 1)), from, to);
+}
+
+Interval JumpRates::argumentOver(std::size_t jump, double from, double to) const {
+  return nodeOver(series_.outputNode(static_cast<int>(2 * jumps_ + jump)), from, to);
+}
+
+/// Between two moments a polynomial is in the hull of what it is at both and its sag.
+Interval JumpRates::nodeOver(int node, double from, double to) const {
+  constexpr int parts = 8;
+  Interval before = at(node, from), result = before;
+  if (to <= from) return result;
+  const double second = series_.derivativeNorm(node, 2, theta_), third = series_.derivativeNorm(node, 3, theta_);
+  double begin = from;
+  for (int part = 1; part <= parts; ++part) {
+    const double end = part == parts ? to : from + (to - from) * part / parts;
+    const Interval then = at(node, end);
+    result = hull(result, hull(before, then) + series_.sag(node, begin, end, second, third, 0));
+    before = then;
+    begin = end;
+  }
+  return result;
+}
+
+}  // namespace gamut
