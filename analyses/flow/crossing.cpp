@@ -22,23 +22,38 @@ double besides(double bound, double value) {
 
 }  // namespace
 
-/// ∂f_state/∂(sign).
-int FlowStepper::pushNode(int state, int jump) const {
-  const auto jumps = static_cast<int>(series_.jumps().size());
-  return series_.outputNode(n_ + n_ * n_ + n_ * inputs_.count() + state * jumps + jump);
+/// ∂f_state/∂(sign), or what holds those that arrive.
+FlowStepper::Push FlowStepper::pushOf(const Crossing& crossing, std::size_t state) const {
+  const auto jumps = static_cast<int>(series_.jumps().size()), i = static_cast<int>(state);
+  if (crossing.arrives) return {&crossing.held->series(), crossing.held->series().outputNode(i)};
+  return {&series_, series_.outputNode(n_ + n_ * n_ + n_ * inputs_.count() + i * jumps + crossing.jump)};
+}
+
+bool FlowStepper::loadHeldPush(const FlowSet& set, Crossing& crossing) {
+  const auto jump = at(crossing.jump);
+  auto place = heldPushes_.find({crossing.jump, crossing.before > 0});
+  if (place == heldPushes_.end())
+    place = heldPushes_
+                .try_emplace({crossing.jump, crossing.before > 0}, heldPushOf(own_->jumps(), jump, crossing.before),
+                             series_.sharedMonomials(), m_, length_, resolution_, series_.cancelled())
+                .first;
+  std::vector<Interval> signs;
+  for (const JumpBound& bound : ownBounds_) signs.push_back(bound.sign);
+  crossing.held = &place->second;
+  return place->second.load(series_, set.t, h0_, theta_, set.parameters, signs, E_);
 }
 
 /// Where solutions come to surfaces to pass them, the step ends before the first does, or when all of them have: the
 /// second once the first is no farther away than they are from each other.
 double FlowStepper::longestToCross(const std::vector<JumpBound>& bounds, const std::vector<JumpBound>& atStart,
-                                   double h, double smallest) {
+                                   double h, double smallest, bool mayArrive) {
   struct Passage {
     JumpBound::Crossing first;
     const JumpBound* bound;
   };
   std::vector<Passage> passages;
   for (std::size_t j = 0; j < bounds.size(); ++j) {
-    const auto first = atStart[j].crossing();
+    const auto first = atStart[j].crossing(mayArrive);
     if (first && bounds[j].isKnown() && contains(bounds[j].over, 0.0)) passages.push_back({*first, &bounds[j]});
   }
   if (passages.empty()) return h;
@@ -49,7 +64,7 @@ double FlowStepper::longestToCross(const std::vector<JumpBound>& bounds, const s
   for (const Passage& p : passages) {
     if (latest > 0 && p.first.moment.lower() > beyondTheLast * latest) break;
     latest = std::max(latest, p.first.moment.upper());
-    const auto all = p.bound->crossing();
+    const auto all = p.bound->crossing(mayArrive);
     surely = std::max({surely, latest, all ? all->moment.upper() : 0.0});
   }
   const double guess = ahead * earliest.moment.lower();  // at the rate of the first moment; else at those of the step
@@ -212,12 +227,12 @@ bool FlowStepper::boundMoment(const FlowSet& set, Crossing& crossing) const {
       const double c = std::fabs(form.states[i]);
       bent += c * (0.5 * since * std::fabs(other.curvature[i]) + other.drift(i));
       if (other.jump < 0) continue;
-      const int push = pushNode(static_cast<int>(i), other.jump);
-      leads += form.states[i] * series_.series(push)[0];
-      most += c * std::fabs(series_.series(push)[0]);
-      bent += c * besides(series_.norm(push), series_.series(push)[0]);
+      const Push push = pushOf(other, i);
+      leads += form.states[i] * push.leading();
+      most += c * std::fabs(push.leading());
+      bent += c * besides(push.norm(), push.leading());
     }
-    others += 2 * since * (std::fabs(leads) + 2 * static_cast<double>(n) * bounds::unit * most + bent);
+    others += std::fabs(other.change()) * since * (std::fabs(leads) + 2 * static_cast<double>(n) * bounds::unit * most + bent);
   }
   crossing.remainder = 0;
   for (std::size_t j = 0; j < n; ++j) {
@@ -256,21 +271,24 @@ bool FlowStepper::boundMoment(const FlowSet& set, Crossing& crossing) const {
 
 /// K = J B - B' at the step's start and centre, and what ℓ(J̄B̃ - B̃' - K) and B̄ - B̃ are beside it.
 void FlowStepper::boundCurvature(Crossing& crossing, double longest, std::vector<double>& rest) const {
-  const auto leading = [&](int node) { return series_.series(node)[0]; };
   for (int i = 0; i < n_; ++i) {
-    const int push = pushNode(i, crossing.jump);
-    const double turn = series_.series(push)[1] / h0_;
-    double K = -turn, size = std::fabs(turn), spread = besides(series_.derivativeNorm(push, 1, theta_) / h0_, turn);
+    const Push push = pushOf(crossing, at(i));
+    const double turn = push.of->series(push.node)[1] / h0_;
+    double K = -turn, size = std::fabs(turn);
+    double spread = besides(push.of->derivativeNorm(push.node, 1, theta_) / h0_, turn);
     for (int j = 0; j < n_; ++j) {
-      const double J = leading(series_.outputNode(n_ + i * n_ + j)), B = leading(pushNode(j, crossing.jump));
+      const Push other = pushOf(crossing, at(j));
+      const double J = series_.series(series_.outputNode(n_ + i * n_ + j))[0], B = other.leading();
       const double most = series_.jacobianBound(i, j);
       K += J * B;
       size += std::fabs(J * B);
-      spread += most * besides(series_.norm(pushNode(j, crossing.jump)), B) + besides(most, J) * std::fabs(B);
+      spread += most * besides(other.norm(), B) + besides(most, J) * std::fabs(B);
     }
     spread += (2 * n_ + 2) * bounds::unit * size;
     crossing.curvature[at(i)] = K;
-    rest[at(i)] += 2 * (series_.meanRho0(push) + series_.meanRho1(push) + longest * spread);
+    const double off = crossing.arrives ? push.of->rho0(push.node) + push.of->rho1(push.node)
+                                        : series_.meanRho0(push.node) + series_.meanRho1(push.node);
+    rest[at(i)] += std::fabs(crossing.change()) * (off + longest * spread);
   }
 }
 
@@ -309,6 +327,8 @@ void FlowStepper::boundCrossings(const FlowSet& set) {
   isBounded = series_.bound(E_.data(), false) && isBounded;
   for (Crossing& crossing : crossings_) {
     isBounded = isBounded && series_.slopeOf(crossing.node) == crossing.before;
+    if (isBounded && crossing.arrives) isBounded = loadHeldPush(set, crossing);
+    if (!isBounded) break;
     const double longest = std::max(0.0, h_ - crossing.moments.lower()) * bounds::up;
     crossing.curvature.assign(at(n_), 0.0);
     if (crossing.jump >= 0)
@@ -317,8 +337,8 @@ void FlowStepper::boundCrossings(const FlowSet& set) {
       isBounded = isBounded && boundCurvatureOfKink(crossing, longest, rest);
     for (int i = 0; i < n_ && isBounded; ++i)
       for (int j = 0; j < n_; ++j)
-        rest[at(i)] += series_.jacobianBound(i, j) *
-                       (longest * longest * std::fabs(crossing.curvature[at(j)]) + 2 * longest * crossing.drift(at(j)));
+        rest[at(i)] += std::fabs(crossing.change()) * series_.jacobianBound(i, j) *
+                       (0.5 * longest * longest * std::fabs(crossing.curvature[at(j)]) + longest * crossing.drift(at(j)));
   }
   crossed_.clear();
   for (int i = 0; i < n_; ++i) {
@@ -372,25 +392,26 @@ void FlowStepper::addCrossings(const FlowSet& set, double tau, FlowPoint& point)
     for (std::size_t j = 0; j < n; ++j)
       for (std::size_t i = 0; i < n; ++i) ofFrame[j] += form.states[i] * set.C[i * n + j];
     for (std::size_t i = 0; i < n; ++i) {
-      const int push = crossing.jump >= 0 ? pushNode(static_cast<int>(i), crossing.jump) : -1;
+      const bool isJump = crossing.jump >= 0;
       std::vector<BoundedPolynomial> orders;
-      for (int order = 0; order < m_ && push >= 0; ++order) {
+      for (int order = 0; order < m_ && isJump; ++order) {
+        const Push push = pushOf(crossing, i);
         BoundedPolynomial& of = orders.emplace_back();
-        for (int g = 0; g < series_.count(push); ++g)
-          of.c.push_back(series_.series(push)[g * series_.stride() + order]);
+        for (int g = 0; g < push.of->count(push.node); ++g)
+          of.c.push_back(push.of->series(push.node)[g * push.of->stride() + order]);
       }
       BoundedPolynomial B{{0.0}};
       for (auto order = orders.rbegin(); order != orders.rend(); ++order) (B *= tau / h0_) += *order;
       const double K = crossing.kink >= 0 ? crossing.push[i] : crossing.curvature[i];
-      const double by = -2 * crossing.before * (crossing.kink >= 0 ? K * l.c[0] : linear * (B.c[0] + K * l.c[0]));
+      const double by = crossing.change() * (crossing.kink >= 0 ? K * l.c[0] : linear * (B.c[0] + K * l.c[0]));
       BoundedPolynomial added = second;  // ℓ²/2, or of a kink the integral
       added *= K;
-      if (push >= 0) added += product(monomials(), B, l);
-      added *= -2 * crossing.before;
+      if (isJump) added += product(monomials(), B, l);
+      added *= crossing.change();
       double loose = added.error;
       // (l + w)²/2 = l²/2 + l w + w²/2; of B and l the leading coefficients are in `by`. Of a kink, l w.
       const double most = crossing.kink >= 0 ? crossing.remainder : linearMost;
-      loose += 2 * most *
+      loose += std::fabs(crossing.change()) * most *
                (B.variation() + B.error + std::fabs(K) * (l.variation() + l.error + 0.5 * linearMost) +
                 roundings * (std::fabs(B.c[0]) + std::fabs(K * l.c[0])));
       for (std::size_t g = 0; g < added.c.size(); ++g) {

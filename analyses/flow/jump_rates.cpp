@@ -35,15 +35,39 @@ Program ratesOf(const FlowJumps& jumps) {
 
 }  // namespace
 
+/// u̇ is affine in the sign s: from u̇_b to u̇_-b, f as well, so that it is zero at f_b + u̇_b/(u̇_b - u̇_-b) (f_-b - f_b).
+Program heldPushOf(const FlowJumps& jumps, std::size_t jump, double before) {
+  const Program& given = jumps.given;
+  const int n = given.states(), count = static_cast<int>(jumps.count());
+  Recorder recorder(n, given.parameters());
+  const auto outputsWith = [&](double sign) {
+    std::vector<int> values, outputs;
+    for (int i = 0; i < given.parameters(); ++i) values.push_back(recorder.parameter(i));
+    values[detail::at(given.parameters() - count) + jump] = recorder.constant(sign);
+    const std::vector<int> here = recorder.append(given, values);
+    for (const int output : given.outputNodes()) outputs.push_back(here[detail::at(output)]);
+    return outputs;
+  };
+  const std::vector<int> own = outputsWith(before), other = outputsWith(-before);
+  const std::size_t rate = detail::at(n + count) + jump;
+  const int share = recorder.mul(own[rate], recorder.recip(recorder.sub(own[rate], other[rate])));
+  std::vector<int> outputs;
+  for (std::size_t i = 0; i < detail::at(n); ++i)
+    outputs.push_back(recorder.mul(share, recorder.sub(other[i], own[i])));
+  return recorder.finish(outputs);
+}
+
+AlongStep::AlongStep(const Program& g, std::shared_ptr<const Monomials> monomials, int order, double length,
+                     double resolution, const std::atomic<bool>* cancelled)
+    : orders_(order + 1),
+      series_(g, g.outputs(), std::move(monomials), 0, order + 1, false, cancelled),
+      timeKinks_(g, length, resolution) {}
+
 JumpRates::JumpRates(const FlowJumps& jumps, std::shared_ptr<const Monomials> monomials, int order, double length,
                      double resolution, const std::atomic<bool>* cancelled)
-    : jumps_(jumps.count()),
-      orders_(order + 1),
-      series_(ratesOf(jumps), static_cast<int>(3 * jumps.count()), std::move(monomials), 0, order + 1, false,
-              cancelled),
-      timeKinks_(ratesOf(jumps), length, resolution) {}
+    : AlongStep(ratesOf(jumps), std::move(monomials), order, length, resolution, cancelled), jumps_(jumps.count()) {}
 
-bool JumpRates::load(const PolynomialSeries& states, double t0, double scale, double theta,
+bool AlongStep::load(const PolynomialSeries& states, double t0, double scale, double theta,
                      const std::vector<Embedded>& parameters, const std::vector<Interval>& signs,
                      const std::vector<double>& tube) {
   theta_ = theta;
@@ -61,7 +85,7 @@ bool JumpRates::load(const PolynomialSeries& states, double t0, double scale, do
 }
 
 /// Horner's method: 2(m + 1) roundings of what all coefficients are together, and one a monomial.
-Interval JumpRates::at(int node, double sigma) const {
+Interval AlongStep::at(int node, double sigma) const {
   double leading = 0, others = 0;
   for (int g = 0; g < series_.count(node); ++g) {
     const double* c = series_.series(node) + g * series_.stride();
@@ -74,17 +98,10 @@ Interval JumpRates::at(int node, double sigma) const {
                   (others + roundings + series_.rho0(node) + series_.rho1(node)) * bounds::up + bounds::tiny);
 }
 
-Interval JumpRates::over(std::size_t jump, double sign, double from, double to) const {
-  return nodeOver(series_.outputNode(static_cast<int>(2 * jump) + (sign > 0 ? 0 : 1)), from, to);
-}
-
-Interval JumpRates::argumentOver(std::size_t jump, double from, double to) const {
-  return nodeOver(series_.outputNode(static_cast<int>(2 * jumps_ + jump)), from, to);
-}
-
 /// Between two moments a polynomial is in the hull of what it is at both and its sag.
-Interval JumpRates::nodeOver(int node, double from, double to) const {
+Interval AlongStep::over(int output, double from, double to) const {
   constexpr int parts = 8;
+  const int node = series_.outputNode(output);
   Interval before = at(node, from), result = before;
   if (to <= from) return result;
   const double second = series_.derivativeNorm(node, 2, theta_), third = series_.derivativeNorm(node, 3, theta_);

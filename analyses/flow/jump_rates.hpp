@@ -12,32 +12,53 @@
 
 namespace gamut {
 
-/// Holds the workspace: one a stepper.
-class JumpRates {
+/// A function of states, parameters and given signs along a step. Holds the workspace: one a stepper.
+class AlongStep {
  public:
-  /// `order`, monomials and `cancelled`: of the steps; `length` and `resolution` of time, s.
-  JumpRates(const FlowJumps& jumps, std::shared_ptr<const Monomials> monomials, int order, double length,
-            double resolution, const std::atomic<bool>* cancelled);
+  /// `g`: all its outputs; signs are parameters behind those of the flow. `order`, monomials and `cancelled`: of the
+  /// steps; `length` and `resolution` of time, s.
+  AlongStep(const Program& g, std::shared_ptr<const Monomials> monomials, int order, double length, double resolution,
+            const std::atomic<bool>* cancelled);
 
-  /// Composes the rates with the step's `states`, x̃(σ, ξ) for σ = (t - t0)/scale in [0, θ], |x - x̃| ≤ tube. Other signs
-  /// are anything in `signs`, one a jump. False if nothing could be proved.
+  /// Composes it with the step's `states`, x̃(σ, ξ) for σ = (t - t0)/scale in [0, θ], |x - x̃| ≤ tube. Signs are anything
+  /// in `signs`. False if nothing could be proved.
   bool load(const PolynomialSeries& states, double t0, double scale, double theta,
             const std::vector<Embedded>& parameters, const std::vector<Interval>& signs,
             const std::vector<double>& tube);
-  /// The rate of a jump's argument with this sign (1, -1), 1/s, from σ = `from` to `to`.
-  Interval over(std::size_t jump, double sign, double from, double to) const;
-  /// The argument.
-  Interval argumentOver(std::size_t jump, double from, double to) const;
+  const PolynomialSeries& series() const { return series_; }
+  /// An output from σ = `from` to `to`.
+  Interval over(int output, double from, double to) const;
 
  private:
   Interval at(int node, double sigma) const;
-  Interval nodeOver(int node, double from, double to) const;
 
-  std::size_t jumps_;
   int orders_;
   PolynomialSeries series_;
   TimeKinks timeKinks_;
   double theta_ = 0;
 };
+
+/// The rates of all jumps' arguments.
+class JumpRates : public AlongStep {
+ public:
+  /// As for AlongStep.
+  JumpRates(const FlowJumps& jumps, std::shared_ptr<const Monomials> monomials, int order, double length,
+            double resolution, const std::atomic<bool>* cancelled);
+
+  /// The rate of a jump's argument with this sign (1, -1), 1/s, from σ = `from` to `to`.
+  Interval over(std::size_t jump, double sign, double from, double to) const {
+    return AlongStep::over(static_cast<int>(2 * jump) + (sign > 0 ? 0 : 1), from, to);
+  }
+  /// The argument.
+  Interval argumentOver(std::size_t jump, double from, double to) const {
+    return AlongStep::over(static_cast<int>(2 * jumps_ + jump), from, to);
+  }
+
+ private:
+  std::size_t jumps_;
+};
+
+/// What is added to f where a jump holds its argument at zero, beside f with the sign `before` there: n outputs.
+Program heldPushOf(const FlowJumps& jumps, std::size_t jump, double before);
 
 }  // namespace gamut

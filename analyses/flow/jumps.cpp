@@ -327,13 +327,14 @@ std::vector<SignBox> SignsWithin::boxes(double began, const Interval& time, cons
 
 /// While u > 0 it moves by a mean of rates in `up`: it is zero after -u(0)/rate, and goes on where `down` points the
 /// same way.
-std::optional<JumpBound::Crossing> JumpBound::crossing() const {
-  const bool falls = start.lower() >= 0 && up.upper() < 0 && down.upper() < 0;
-  const bool rises = start.upper() <= 0 && down.lower() > 0 && up.lower() > 0;
+std::optional<JumpBound::Crossing> JumpBound::crossing(bool mayArrive) const {
+  const bool arrives = mayArrive && holds && magnitude(start) > 0;
+  const bool falls = start.lower() >= 0 && up.upper() < 0 && (down.upper() < 0 || arrives);
+  const bool rises = start.upper() <= 0 && down.lower() > 0 && (up.lower() > 0 || arrives);
   if (!isKnown() || !(falls || rises)) return std::nullopt;
   const Interval moment = -start / (falls ? up : down);
   if (!isCommon(moment)) return std::nullopt;
-  return Crossing{falls ? 1.0 : -1.0, Interval(std::max(0.0, moment.lower()), moment.upper())};
+  return Crossing{falls ? 1.0 : -1.0, Interval(std::max(0.0, moment.lower()), moment.upper()), arrives};
 }
 
 /// From above u comes down to zero by rates of `up`, and does not leave it any more; from below likewise. What has not

@@ -65,12 +65,14 @@ struct JumpBound {
   double turned = 0;                                            ///< how much the sign that would hold them varies
 
   bool isKnown() const { return isCommon(over); }
-  /// Where all solutions pass from one side to the other, how many seconds into the step each of them does.
+  /// Where all solutions pass from one side to the other, or come from one to be held, how many seconds into the step
+  /// each of them does.
   struct Crossing {
     double before;  ///< the sign until then
     Interval moment;
+    bool arrives = false;  ///< and is held
   };
-  std::optional<Crossing> crossing() const;
+  std::optional<Crossing> crossing(bool mayArrive = false) const;
   /// Where it holds: bounds, of the argument at any moment t of the step, that bend upwards and downwards with t.
   Interval whileArriving(double seconds) const;
   /// The argument until `seconds` into the step, and then.

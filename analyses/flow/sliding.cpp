@@ -31,6 +31,8 @@ void FlowStepper::setJumps(const FlowJumps& own, const FlowJumps& of, std::vecto
     own_.emplace(own);
   if (!own_) std::ranges::fill(left_, -1);
   of_ = &of;
+  length_ = length;
+  resolution_ = resolution;
   if (!held_.empty()) holding_.emplace(of);
   const auto ratesOf = [&](const FlowJumps& jumps) {
     return std::make_unique<JumpRates>(jumps, series_.sharedMonomials(), m_, length, resolution, series_.cancelled());
@@ -403,14 +405,19 @@ FlowStepper::Look FlowStepper::lookAtJumps(const FlowSet& set, double& h, double
       return Look::released;
     }
   }
-  double longest = longestToCross(ownBounds_, atStart, h, smallest), longer = h;
+  // One that comes alone, and all of it from one side, is known by when it does.
+  const bool mayArrive = inputs_.empty() && std::ranges::count_if(ownBounds_, [](const JumpBound& bound) {
+                                              return bound.isKnown() && contains(bound.over, 0.0);
+                                            }) == 1;
+  double longest = longestToCross(ownBounds_, atStart, h, smallest, mayArrive), longer = h;
   std::vector<std::size_t> narrower;
   for (std::size_t j = 0; j < ownBounds_.size(); ++j) {
     const JumpBound& bound = ownBounds_[j];
     if (!sides_.empty() && sides_[j] != 0) continue;
-    const bool isNarrower = width(bound.sign) < nearlyAny, slides = bound.maySlide && (bound.holds || isNarrower);
-    const auto crossing = bound.crossing();
-    const bool crosses = crossing && (crossing->moment.upper() <= h || h == left) && !isNarrower;
+    const auto crossing = bound.crossing(mayArrive);
+    const bool arrives = crossing && crossing->arrives, isNarrower = !arrives && width(bound.sign) < nearlyAny;
+    const bool crosses = crossing && (crossing->moment.upper() <= h || (h == left && !arrives)) && !isNarrower;
+    const bool slides = !crosses && bound.maySlide && (bound.holds || isNarrower);
     if (crossing && !crosses && !isNarrower) longer = std::max(longer, beyondTheLast * crossing->moment.upper());
     if (crosses)
       crossings_.push_back({.form = &*own_->jumps().forms[j],
@@ -418,6 +425,7 @@ FlowStepper::Look FlowStepper::lookAtJumps(const FlowSet& set, double& h, double
                             .jump = static_cast<int>(j),
                             .kink = -1,
                             .before = crossing->before,
+                            .arrives = arrives,
                             .moment = {},
                             .moments = crossing->moment,
                             .curvature = {}});

@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -187,7 +188,7 @@ class FlowStepper {
   Look lookAtJumps(const FlowSet& set, double& h, double smallest, double left);
   Look lookAtKinks(const FlowSet& set, double& h, double smallest, double left);
   static double longestToCross(const std::vector<JumpBound>& bounds, const std::vector<JumpBound>& atStart, double h,
-                               double smallest);
+                               double smallest, bool mayArrive = false);
   Box boxAtStart(const FlowSet& set) const;
   /// In this step all solutions go from one side of a jump or kink to the other: at moment(ξ) - c·C(r + Γs)/rate ±
   /// off.
@@ -196,6 +197,7 @@ class FlowStepper {
     int node;                  // the sign, or |u|
     int jump, kink;            // one of these; -1: not
     double before;             // the sign until then
+    bool arrives = false;      // at a jump, which holds them
     BoundedPolynomial moment;  // s
     double off = 0;
     Interval moments;               // of all solutions
@@ -208,11 +210,22 @@ class FlowStepper {
     std::vector<BoundedPolynomial> area = {};
     double fastest = 0, away = 0;
     double apart = 0;  // u from the ũ + c·Ψ̃(r + Γs) that D is made of, at most
+    const AlongStep* held = nullptr;  // what holds those that arrive
+    /// Of what is added to f from the moment on: times what; f's sign, or -2 before.
+    double change() const { return arrives ? 1 : -2 * before; }
     double drift(std::size_t i) const { return push.empty() ? 0.0 : std::fabs(push[i]) * apart; }
   };
   void boundCrossings(const FlowSet& set);
   bool boundMoment(const FlowSet& set, Crossing& crossing) const;
-  int pushNode(int state, int jump) const;
+  /// What is added to f from the moment on, over change().
+  struct Push {
+    const PolynomialSeries* of;
+    int node;
+    double norm() const { return of->norm(node); }
+    double leading() const { return of->series(node)[0]; }
+  };
+  Push pushOf(const Crossing& crossing, std::size_t state) const;
+  bool loadHeldPush(const FlowSet& set, Crossing& crossing);
   void boundCurvature(Crossing& crossing, double longest, std::vector<double>& rest) const;
   bool boundCurvatureOfKink(Crossing& crossing, double longest, std::vector<double>& rest);
   void addCrossings(const FlowSet& set, double tau, FlowPoint& point) const;
@@ -272,6 +285,8 @@ class FlowStepper {
   std::vector<double> factor_;                       // its argument is that one's, times this
   std::vector<JumpBound> ownBounds_, heldBounds_;    // over the step; none: nothing is known
   std::unique_ptr<JumpRates> ownRates_, heldRates_;  // likewise
+  std::map<std::pair<int, bool>, AlongStep> heldPushes_;  // of own jumps, from above or not; once needed
+  double length_ = 0, resolution_ = 0;                    // of time, s
   std::vector<double> sides_;  // of each own jump, on which all solutions are taken to be: 1, -1; 0: not; none: nowhere
   std::unique_ptr<FlowKinks> kinks_;  // null: there are none
   TimeKinks timeKinks_;
