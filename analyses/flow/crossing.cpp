@@ -232,7 +232,8 @@ bool FlowStepper::boundMoment(const FlowSet& set, Crossing& crossing) const {
       most += c * std::fabs(push.leading());
       bent += c * besides(push.norm(), push.leading());
     }
-    others += std::fabs(other.change()) * since * (std::fabs(leads) + 2 * static_cast<double>(n) * bounds::unit * most + bent);
+    others += std::fabs(other.change()) * since *
+              (std::fabs(leads) + 2 * static_cast<double>(n) * bounds::unit * most + bent);
   }
   crossing.remainder = 0;
   for (std::size_t j = 0; j < n; ++j) {
@@ -337,8 +338,9 @@ void FlowStepper::boundCrossings(const FlowSet& set) {
       isBounded = isBounded && boundCurvatureOfKink(crossing, longest, rest);
     for (int i = 0; i < n_ && isBounded; ++i)
       for (int j = 0; j < n_; ++j)
-        rest[at(i)] += std::fabs(crossing.change()) * series_.jacobianBound(i, j) *
-                       (0.5 * longest * longest * std::fabs(crossing.curvature[at(j)]) + longest * crossing.drift(at(j)));
+        rest[at(i)] +=
+            std::fabs(crossing.change()) * series_.jacobianBound(i, j) *
+            (0.5 * longest * longest * std::fabs(crossing.curvature[at(j)]) + longest * crossing.drift(at(j)));
   }
   crossed_.clear();
   for (int i = 0; i < n_; ++i) {

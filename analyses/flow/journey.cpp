@@ -145,7 +145,7 @@ std::unique_ptr<FlowFollower::Tools> FlowFollower::toolsFor(const FlowPiece& pie
       FlowJumps::Held found = task_.jumps.heldProgram(held);
       motion = differentiatedFor(found.f, options.varying);
       jumps = std::make_unique<FlowJumps>(motion, task_.varying);
-      if (jumps->count() != jumpsOf(found.f).size()) std::ranges::fill(found.left, -1);
+      found.matchTo(*jumps);
       left = std::move(found.left);
       factor = std::move(found.factor);
     }

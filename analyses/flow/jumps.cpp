@@ -84,6 +84,30 @@ FlowJumps::Held FlowJumps::heldProgram(const std::vector<char>& held) const {
   return result;
 }
 
+void FlowJumps::Held::matchTo(const FlowJumps& jumps) {
+  const std::vector<int> own = jumpsOf(f);
+  const auto ratio = [](const LinearForm& a, const LinearForm& b) {  // 1, -1; 0: another
+    for (const double sign : {1.0, -1.0}) {
+      const auto isSame = [&](double x, double y) { return x == sign * y; };
+      if (std::ranges::equal(a.states, b.states, isSame) && std::ranges::equal(a.parameters, b.parameters, isSame) &&
+          isEqual(a.constant, Interval(sign) * b.constant))
+        return sign;
+    }
+    return 0.0;
+  };
+  for (std::size_t k = 0; k < left.size(); ++k) {
+    if (left[k] < 0) continue;
+    const auto form = linearFormOf(f, f.nodes()[at(own[at(left[k])])].a);
+    left[k] = -1;
+    for (std::size_t j = 0; j < jumps.forms.size() && form && left[k] < 0 && jumps.count() == own.size(); ++j) {
+      const double sign = jumps.forms[j] ? ratio(*jumps.forms[j], *form) : 0;
+      if (sign == 0) continue;
+      left[k] = static_cast<int>(j);
+      factor[k] *= sign;
+    }
+  }
+}
+
 JumpBounder::JumpBounder(const FlowJumps& jumps)
     : jumps_(jumps), given_(jumps.given), results_(at(jumps.given.outputs())) {}
 

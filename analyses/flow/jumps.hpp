@@ -25,6 +25,9 @@ struct FlowJumps {
     Program f;
     std::vector<int> left;       ///< of each jump, which of that f's it is; -1: none
     std::vector<double> factor;  ///< its sign is that one's, or the negative
+    /// Changes them to `jumps`, those of f once it is differentiated, which may have them in another order, or take
+    /// factors off: those whose arguments are no longer the same, or the negative, are left as none.
+    void matchTo(const FlowJumps& jumps);
   };
   /// Throws std::logic_error where these do not decide about themselves, or others become one or zero where they are.
   Held heldProgram(const std::vector<char>& held) const;

@@ -209,7 +209,7 @@ class FlowStepper {
     std::vector<double> push = {};
     std::vector<BoundedPolynomial> area = {};
     double fastest = 0, away = 0;
-    double apart = 0;  // u from the ũ + c·Ψ̃(r + Γs) that D is made of, at most
+    double apart = 0;                 // u from the ũ + c·Ψ̃(r + Γs) that D is made of, at most
     const AlongStep* held = nullptr;  // what holds those that arrive
     /// Of what is added to f from the moment on: times what; f's sign, or -2 before.
     double change() const { return arrives ? 1 : -2 * before; }
@@ -278,13 +278,13 @@ class FlowStepper {
   std::shared_ptr<const FlowScales> scales_;
   int symbolAcross_ = -1;  // of kinks, for worstSymbol
   double slideLoss_ = 0;
-  const FlowJumps* of_ = nullptr;                    // without any held
-  std::optional<JumpBounder> own_, holding_;         // of the stepper's own jumps; of those of which some are held
-  std::vector<char> held_, stillHeld_;               // of each of these; none: none
-  std::vector<int> left_;                            // of each of these, which own jump it is; -1: none
-  std::vector<double> factor_;                       // its argument is that one's, times this
-  std::vector<JumpBound> ownBounds_, heldBounds_;    // over the step; none: nothing is known
-  std::unique_ptr<JumpRates> ownRates_, heldRates_;  // likewise
+  const FlowJumps* of_ = nullptr;                         // without any held
+  std::optional<JumpBounder> own_, holding_;              // of the stepper's own jumps; of those of which some are held
+  std::vector<char> held_, stillHeld_;                    // of each of these; none: none
+  std::vector<int> left_;                                 // of each of these, which own jump it is; -1: none
+  std::vector<double> factor_;                            // its argument is that one's, times this
+  std::vector<JumpBound> ownBounds_, heldBounds_;         // over the step; none: nothing is known
+  std::unique_ptr<JumpRates> ownRates_, heldRates_;       // likewise
   std::map<std::pair<int, bool>, AlongStep> heldPushes_;  // of own jumps, from above or not; once needed
   double length_ = 0, resolution_ = 0;                    // of time, s
   std::vector<double> sides_;  // of each own jump, on which all solutions are taken to be: 1, -1; 0: not; none: nowhere

@@ -549,5 +549,30 @@ TEST(FlowSlidingExactly, HeldTillATime) {
   }
 }
 
+/// While x₁ (y) is held, what is left of the other arguments is a multiple of one state: its factor, its sign and its
+/// place among the jumps may be others.
+TEST(Sliding, ArgumentsOfWhichAPartIsHeldAreStillThemselves) {
+  const Program sign2 = record(2, 0, [](auto, const auto& x, const auto&, auto& dx) {
+    const auto s = sign(-2.0 * x[0] + x[1]);
+    dx[0] = 0.125 * s;
+    dx[1] = 0.25 - 0.875 * s - sign(x[1]);
+  });
+  EXPECT_THAT(Flow(sign2).enclose({1.0, 0.0}, 0.5, {0.5}).at(0.5)[1], Encloses(Precise(0.0625)));
+  const Program order = record(3, 0, [](auto, const auto& x, const auto&, auto& dx) {
+    const auto s = sign(2.0 * x[0] - x[1]);
+    dx[0] = -0.125 * s;
+    dx[1] = 0.25 + 0.4375 * s - 0.4375 * sign(x[2]) - sign(x[1]);
+    dx[2] = -0.125 * sign(x[2]);
+  });
+  EXPECT_THAT(Flow(order).enclose({1.0, 0.0, -1.0}, 0.5, {0.5}).at(0.5)[1], Encloses(Precise(0.0625)));
+  const Program scale = record(3, 0, [](auto, const auto& x, const auto&, auto& dx) {
+    dx[0] = -0.25 * sign(0.25 * x[0] + x[1]) + 0.0625 * x[2];
+    dx[1] = -2.0 * sign(x[1]);
+    dx[2] = -x[2];
+  });
+  const Precise now = -1 + Precise(0.25) * Precise(0.5) + Precise(0.0625) * Precise(0.25) * (1 - exp(Precise(-0.5)));
+  EXPECT_THAT(Flow(scale).enclose({Interval(-1, 1), 0.0, 0.25}, 0.5, {0.5}).at(0.5)[0], Encloses(now));
+}
+
 }  // namespace
 }  // namespace gamut::testing
