@@ -396,7 +396,8 @@ void FlowStepper::addCrossings(const FlowSet& set, double tau, FlowPoint& point)
     for (std::size_t i = 0; i < n; ++i) {
       const bool isJump = crossing.jump >= 0;
       std::vector<BoundedPolynomial> orders;
-      for (int order = 0; order < m_ && isJump; ++order) {
+      const int kept = crossing.arrives ? m_ + 1 : m_;  // AlongStep has as many orders as states
+      for (int order = 0; order < kept && isJump; ++order) {
         const Push push = pushOf(crossing, i);
         BoundedPolynomial& of = orders.emplace_back();
         for (int g = 0; g < push.of->count(push.node); ++g)

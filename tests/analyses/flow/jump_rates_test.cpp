@@ -58,7 +58,7 @@ TEST(JumpRates, HoldTheRatesOnEitherSideAlongAStep) {
     for (int trial = 0; trial < 300; ++trial) {
       const double from = points.uniform(0, theta), to = trial % 3 == 0 ? from : points.uniform(from, theta);
       const double sigma = points.uniform(from, to);
-      std::vector<Precise> xi, x, values(3 * 2);
+      std::vector<Precise> xi, x;
       for (int l = 0; l < symbols; ++l) xi.emplace_back(points.signedUnit());
       for (int i = 0; i < 2; ++i)
         x.push_back(polynomialAt(stepper.series(), i, order, Precise(sigma), xi) +
