@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analyses/flow/embedding.hpp"
 #include "analyses/flow/error_bounds.hpp"
 #include "scalars/index.hpp"
 
@@ -75,6 +76,66 @@ BoundedPolynomial composed(const Monomials& monomials, const std::vector<Bounded
   for (auto term = a.rbegin(); term != a.rend(); ++term) {
     if (!result.c.empty()) result = product(monomials, result, x);
     result += *term;
+  }
+  return result;
+}
+
+/// By parts: between two moments a polynomial is no farther from the hull of what it is at both than an eighth of its
+/// second derivative times their distance squared. A sum of orders and monomials has two roundings a term.
+Interval rangeOver(const std::vector<BoundedPolynomial>& u, double from, double to) {
+  constexpr int parts = 8;
+  const double farthest = std::max(std::fabs(from), std::fabs(to));
+  double size = 0, second = 0, error = 0, power = 1;
+  std::size_t terms = 0;
+  for (std::size_t order = 0; order < u.size(); ++order, power *= farthest) {
+    BoundedPolynomial exact{u[order].c};
+    const double norm = exact.norm();
+    size += norm * power;
+    error += u[order].error * power;
+    terms = std::max(terms, u[order].c.size());
+    if (order >= 2)
+      second += static_cast<double>(order * (order - 1)) * norm * std::pow(farthest, static_cast<double>(order) - 2);
+  }
+  error += static_cast<double>(2 * u.size() + terms + 2) * bounds::unit * size;
+  const auto at = [&](double sigma) {
+    double leading = 0, others = 0;
+    for (std::size_t g = 0; g < terms; ++g) {
+      double sum = 0;
+      for (auto of = u.rbegin(); of != u.rend(); ++of) sum = sum * sigma + (g < of->c.size() ? of->c[g] : 0.0);
+      (g == 0 ? leading : others) += g == 0 ? sum : std::fabs(sum);
+    }
+    return inflated(Interval(leading), (others + error) * bounds::up + bounds::tiny);
+  };
+  Interval result = at(from);
+  for (int part = 1; part <= parts && to > from; ++part)
+    result = hull(result, at(part == parts ? to : from + (to - from) * part / parts));
+  const double step = (to - from) / parts * bounds::up;
+  return inflated(result, 0.125 * second * step * step * bounds::up);
+}
+
+PolynomialRoot rootOf(const Monomials& monomials, const std::vector<BoundedPolynomial>& u, double about) {
+  double middle = about, slope = 0;
+  for (int round = 0; round < 4; ++round) {
+    double value = 0;
+    slope = 0;
+    for (std::size_t order = u.size(); order-- > 0;) {
+      slope = slope * middle + value;
+      value = value * middle + u[order].c[0];
+    }
+    middle -= value / slope;
+  }
+  PolynomialRoot result{{std::vector<double>(at(monomials.count()), 0.0)}, 0, slope};
+  BoundedPolynomial next{result.x};
+  next.c[0] = middle;
+  constexpr int rounds = 12;
+  for (int round = 0; round < rounds; ++round) {
+    BoundedPolynomial left = composed(monomials, u, next);
+    if (round > 0 && !(left.norm() < 0.5 * result.rest)) break;  // as good as it comes
+    result.rest = left.norm();
+    result.x = next;
+    left.error = 0;
+    next += (left *= -1 / slope);
+    next.error = 0;
   }
   return result;
 }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "analyses/flow/monomials.hpp"
+#include "scalars/interval.hpp"
 
 namespace gamut {
 
@@ -26,5 +27,15 @@ BoundedPolynomial product(const Monomials& monomials, const BoundedPolynomial& a
 /// Σ_i a_i x^i.
 BoundedPolynomial composed(const Monomials& monomials, const std::vector<BoundedPolynomial>& a,
                            const BoundedPolynomial& x);
+
+/// Σ_i u_i σ^i for all σ from `from` to `to`, of one sign or zero.
+Interval rangeOver(const std::vector<BoundedPolynomial>& u, double from, double to);
+
+/// x such that |Σ_i u_i x^i| ≤ rest, by Newton's method from the number `about`; x has no error of its own.
+struct PolynomialRoot {
+  BoundedPolynomial x;
+  double rest = 0, slope = 0;  ///< slope: of what is constant in u, there
+};
+PolynomialRoot rootOf(const Monomials& monomials, const std::vector<BoundedPolynomial>& u, double about);
 
 }  // namespace gamut

@@ -130,7 +130,7 @@ FlowStepper::Look FlowStepper::lookAtKinks(const FlowSet& set, double& h, double
       continue;
     }
     const auto crossing = bounds[k].crossing();
-    if (!crossing || (crossing->moment.upper() > h && h < left)) continue;
+    if (!crossing || turn_ || (crossing->moment.upper() > h && h < left)) continue;
     isNew = series_.passKink(kinks_->node(k), crossing->before) || isNew;
     crossings_.push_back({.form = &kinks_->form(k),
                           .node = kinks_->node(k),
@@ -177,29 +177,8 @@ bool FlowStepper::boundMoment(const FlowSet& set, Crossing& crossing) const {
   }
   u[0].error = (u[0].error + roundings * (size + u[0].norm()) + unknown) * bounds::up;
 
-  // m(ξ), by Newton's method with the rate at the centre.
-  double middle = -u[0].c[0] / u[1].c[0], slope = u[1].c[0];
-  for (int round = 0; round < 4; ++round) {
-    double value = 0;
-    slope = 0;
-    for (std::size_t order = orders; order-- > 0;) {
-      slope = slope * middle + value;
-      value = value * middle + u[order].c[0];
-    }
-    middle -= value / slope;
-  }
-  BoundedPolynomial moment{std::vector<double>(N, 0.0)}, left;
-  moment.c[0] = middle;
-  constexpr int rounds = 12;
-  for (int round = 0; round < rounds; ++round) {
-    BoundedPolynomial found = composed(monomials(), u, moment);
-    if (round > 0 && !(found.norm() < 0.5 * left.norm())) break;  // as good as it comes
-    left = found;
-    crossing.moment = moment;
-    found.error = 0;
-    moment += (found *= -1 / slope);
-    moment.error = 0;
-  }
+  const auto [moment, left, slope] = rootOf(monomials(), u, -u[0].c[0] / u[1].c[0]);
+  crossing.moment = moment;
   // ũ' = Σ i u_i σ^{i-1}: everything but u_10 counts as what varies.
   const double farthest = std::fabs(crossing.moment.c[0]) + crossing.moment.variation();
   const double reach = std::max(last, passAll ? farthest : 1.25 * farthest);
@@ -210,7 +189,7 @@ bool FlowStepper::boundMoment(const FlowSet& set, Crossing& crossing) const {
   crossing.rate = slope / h0_;
   if (contains(rate, 0.0) || !isCommon(rate) || !std::isfinite(crossing.rate) || crossing.rate == 0) return false;
   const Interval perUnit = Interval(1.0) / rate;
-  double others = left.norm();
+  double others = left;
   for (std::size_t i = 0; i < n; ++i) {
     if (form.states[i] == 0) continue;
     double own = crossed_[i] + driven_[i];

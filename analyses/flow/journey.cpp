@@ -126,7 +126,10 @@ StepOutcome FlowFollower::certify(const FlowPiece& piece) {
     const double end = std::min(within, piece.set.t + longest);  // exact: both are multiples of the quantum
     const StepOutcome outcome =
         tool_->stepper.certify(piece.set, end, task_.quantum, uncertain ? task_.shares : SplitShares{});
-    if (!holds || (outcome != StepOutcome::released && outcome != StepOutcome::failed)) return outcome;
+    if (!holds || (outcome != StepOutcome::released && outcome != StepOutcome::failed)) {
+      useOutputsOfLeaving(piece);
+      return outcome;
+    }
     held = outcome == StepOutcome::released ? tool_->stepper.stillHeld() : std::vector<char>{};
   }
 }
@@ -198,12 +201,28 @@ bool FlowFollower::use(const FlowPiece& piece, const std::vector<char>& held) {
   if (isNew) place->second = toolsFor(piece, held);
   if (!place->second) return false;
   tool_ = place->second.get();
-  outputs_ = tool_->outputs ? &tool_->outputs->outputs : nullptr;
-  outputRange_ = tool_->outputs ? &tool_->outputs->range : nullptr;
+  useOutputsOf(*tool_);
   monomialCount_ = task_.layouts[piece.layout].monomials->count();
   symbols_ = task_.layouts[piece.layout].monomials->symbols();
   whole_.assign(at(symbols_), Interval(-1.0, 1.0));
   return true;
+}
+
+/// Of another motion with the same jumps, where the signs of the one at hand are given.
+void FlowFollower::useOutputsOf(Tools& tools) {
+  outputTool_ = &tools;
+  outputs_ = tools.outputs ? &tools.outputs->outputs : nullptr;
+  outputRange_ = tools.outputs ? &tools.outputs->range : nullptr;
+}
+
+/// Where solutions that were held are let go in the step at hand, their sign is given as of those that are free.
+void FlowFollower::useOutputsOfLeaving(const FlowPiece& piece) {
+  std::vector<char> held = tool_->stepper.heldBehind();
+  if (held.empty()) return;
+  if (std::ranges::find(held, 1) == held.end()) held.clear();
+  Tools* const motion = tool_;
+  if (!use(piece, held)) use(piece, {});
+  tool_ = motion;
 }
 
 void FlowFollower::changeLayout(FlowPiece& piece, std::size_t to) {
@@ -287,7 +306,7 @@ void FlowFollower::enclose(const FlowPiece& piece, double tau, std::vector<Inter
   outputs.clear();
   outputLimits_.clear();
   if (!outputs_) return;
-  if (with == nullptr) with = tool_->outputs.get();
+  if (with == nullptr) with = outputTool_->outputs.get();
   outputs_ = &with->outputs;
   outputRange_ = &with->range;
   at_ = piece.set.t + tau;
@@ -361,7 +380,7 @@ Interval FlowFollower::overBoxes(int output) {
 MeanValueOutputs* FlowFollower::outputsWhileHeld(std::vector<char> held) {
   if (held.empty() || !std::ranges::any_of(given_, &SignCases::isOpen)) return nullptr;
   if (std::ranges::find(held, 1) == held.end()) held.clear();
-  const auto [place, isNew] = tool_->whileHeld.try_emplace(held);
+  const auto [place, isNew] = outputTool_->whileHeld.try_emplace(held);
   if (!isNew) return place->second.get();
   try {
     place->second = std::make_unique<MeanValueOutputs>(task_.jumps.outputsGiven(task_.outputs, held));
@@ -456,11 +475,11 @@ std::shared_ptr<FlowSnapshot> FlowFollower::modelOutputs(const FlowPiece& piece,
 /// At the time of `point_`, where the states are in these boxes.
 void FlowFollower::lookAside(const FlowPiece& piece, std::size_t row, const std::vector<Interval>& states) {
   if (task_.looksAside[row] == 0) return;
-  if (!tool_->asides)
-    tool_->asides =
-        std::make_unique<FlowAsides>(tool_->besides, task_.layouts[task_.outputLayout(piece.layout)].monomials,
+  if (!outputTool_->asides)
+    outputTool_->asides =
+        std::make_unique<FlowAsides>(outputTool_->besides, task_.layouts[task_.outputLayout(piece.layout)].monomials,
                                      task_.layouts[piece.layout].monomials, task_.varying, task_.options.cancelled);
-  joinHulls(collected_.asides[row], tool_->asides->enclose(task_.times[row], point_, states, parameters_));
+  joinHulls(collected_.asides[row], outputTool_->asides->enclose(task_.times[row], point_, states, parameters_));
 }
 
 /// What is uncertain about an output that lies here, or a little of its size where that is hardly anything.
@@ -471,7 +490,7 @@ double FlowFollower::extentOf(const Interval& output) { return std::max(width(ou
 /// them, which no shorter chord makes less, may be all that is loose: then the degree of the outputs is worth it.
 void FlowFollower::loadChords(FlowPiece& piece, const std::vector<Interval>& before, double from, double to) {
   const auto load = [&](FlowOutputChords* chords) {
-    tool_->chords = chords;
+    outputTool_->chords = chords;
     chords->load(tool_->stepper, piece.set.t, parameters_, from, to);
   };
   // Polynomials of states are as long as what they leave over from step to step asks for, and that adds up. What is
@@ -495,14 +514,15 @@ void FlowFollower::loadChords(FlowPiece& piece, const std::vector<Interval>& bef
   }
   between_ = nullptr;
   const auto loadIn = [&](std::unique_ptr<FlowOutputChords>& chords, std::size_t layout) {  // made once needed
-    if (!chords) chords = chordsIn(tool_->g, layout, piece.layout);
+    if (!chords) chords = chordsIn(outputTool_->g, layout, piece.layout);
     load(chords.get());
   };
-  loadIn(tool_->plainChords, piece.layout);
+  loadIn(outputTool_->plainChords, piece.layout);
   const std::size_t rich = task_.outputLayout(piece.layout);
   if (!task_.standsStill || rich == piece.layout) return;
   for (int o = 0; o < outputs_->count(); ++o)
-    if (!(tool_->chords->rest(o) <= little * extentOf(before[at(o)]))) return loadIn(tool_->richChords, rich);
+    if (!(outputTool_->chords->rest(o) <= little * extentOf(before[at(o)])))
+      return loadIn(outputTool_->richChords, rich);
 }
 
 /// Whether chords leave more of some output than so many times what counts for nothing beside its width, or beside what
@@ -510,7 +530,7 @@ void FlowFollower::loadChords(FlowPiece& piece, const std::vector<Interval>& bef
 bool FlowFollower::leavesOver(double times, const FlowPiece& piece, const std::vector<Interval>& outputs) const {
   const double ofWidth = task_.options.modelled.empty() ? 4e-3 : 1e-3, ofRadius = 0.1;
   for (int o = 0; o < outputs_->count(); ++o)
-    if (!(tool_->chords->rest(o) <=
+    if (!(outputTool_->chords->rest(o) <=
           times * std::max(ofWidth * extentOf(outputs[at(o)]), ofRadius * piece.lastRadii[at(o)])))
       return true;
   return false;
@@ -524,10 +544,11 @@ std::vector<double> FlowFollower::radii() const {
 }
 
 FlowFollower::OutputTools& FlowFollower::toolsBetween(std::size_t layout, std::size_t ofStates) {
-  const auto found = tool_->between.find(layout);
-  if (found != tool_->between.end()) return found->second;
-  OutputTools& tools = tool_->between.emplace(layout, outputToolsFor(tool_->g, layout, ofStates)).first->second;
-  tools.chords = chordsIn(tool_->g, layout, ofStates);
+  const auto found = outputTool_->between.find(layout);
+  if (found != outputTool_->between.end()) return found->second;
+  OutputTools& tools =
+      outputTool_->between.emplace(layout, outputToolsFor(outputTool_->g, layout, ofStates)).first->second;
+  tools.chords = chordsIn(outputTool_->g, layout, ofStates);
   return tools;
 }
 
@@ -539,8 +560,8 @@ int FlowFollower::chordsFor(FlowPiece& piece, const std::vector<Interval>& befor
   const bool knowsMore = knowsMoreByBoxes();
   double parts = 1;
   std::vector<Interval> half;
-  tool_->chords->sag(from, from + 0.5 * (to - from), half);
-  tool_->chords->sag(from, to, sag_);
+  outputTool_->chords->sag(from, from + 0.5 * (to - from), half);
+  outputTool_->chords->sag(from, to, sag_);
   piece.modelled.resize(task_.options.modelled.size(), Interval::empty());
   for (std::size_t k = 0; k < piece.modelled.size(); ++k) {
     const std::size_t o = at(task_.options.modelled[k]);
@@ -593,7 +614,10 @@ bool FlowFollower::record(FlowPiece& piece) {
   }
   const auto segment = [&](double to) {  // from `from` to `to`: the chord's hull and how far a motion leaves a chord
     if (stepper.narrows()) {
+      const std::vector<Interval> core = stateCore_, outputCore = outputCore_;  // of the end
       enclose(piece, to - t0, behind, behindOutputs, false);
+      stateCore_ = core;
+      outputCore_ = outputCore;
       behindLimits = outputLimits_;
       behindModel = modelOutputs(piece, behindLimits);
     } else {
@@ -608,7 +632,7 @@ bool FlowFollower::record(FlowPiece& piece) {
     for (std::size_t i = 0; i < between.size(); ++i) piece.over[i] = hull(piece.over[i], between[i]);
     if (outputs_) {
       giveSigns(piece, stepper.signsOver(signs_));
-      tool_->chords->sag(from - t0, to - t0, sag_);
+      outputTool_->chords->sag(from - t0, to - t0, sag_);
       const bool knowsMore = knowsMoreByBoxes();
       findBoxes(t0, Interval(from, to), between);
       std::vector<Interval> overs;
@@ -667,7 +691,7 @@ bool FlowFollower::record(FlowPiece& piece) {
     const auto isLacking = [&] {  // an output that is known at one end
       std::vector<int> open;
       for (int o = 0; o < outputs_->count(); ++o)
-        if (!tool_->chords->isBounded(o)) open.push_back(o);
+        if (!outputTool_->chords->isBounded(o)) open.push_back(o);
       if (open.empty()) return false;
       enclose(piece, loadedTo - t0, end, endOutputs);
       return std::ranges::any_of(open,
@@ -766,7 +790,7 @@ int FlowFollower::tooWide(FlowPiece& piece, const std::vector<Interval>& states,
     if (!isBounded(bounds[i]) || (ofOutputs && !std::isfinite(outputs_->radius(static_cast<int>(i))))) continue;
     piece.size[i] = std::max(piece.size[i], magnitude(cores[i]));
     const double wide = width(bounds[i]);
-    if (wide <= piece.size[i]) piece.wasKnown[i] = 1;
+    if (wide <= piece.size[i] && piece.size[i] > 0) piece.wasKnown[i] = 1;  // of zero nothing is known
     if (most.empty() ? piece.wasKnown[i] != 0 && wide > times * piece.size[i] : wide > most[i])
       return static_cast<int>(i);
   }

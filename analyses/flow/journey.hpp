@@ -133,6 +133,8 @@ class FlowFollower {
   OutputTools outputToolsFor(const Program& g, std::size_t layout, std::size_t ofStates) const;
   std::unique_ptr<FlowOutputChords> chordsIn(const Program& g, std::size_t layout, std::size_t ofStates) const;
   bool use(const FlowPiece& piece, const std::vector<char>& held);
+  void useOutputsOf(Tools& tools);
+  void useOutputsOfLeaving(const FlowPiece& piece);
   bool isDegreeWorthwhile(const FlowPiece& piece, StepOutcome outcome) const;
   bool isOfDroppedTerms() const;
   void changeLayout(FlowPiece& piece, std::size_t to);
@@ -164,7 +166,8 @@ class FlowFollower {
   FlowCollected& collected_;
   /// One a layout and jumps held, made when first needed; null where these cannot be held together.
   std::map<std::pair<std::size_t, std::vector<char>>, std::unique_ptr<Tools>> tools_;
-  Tools* tool_ = nullptr;  // of the piece at hand, as are the next two
+  Tools* tool_ = nullptr;        // of the piece at hand, as are the next three
+  Tools* outputTool_ = nullptr;  // of its outputs: that one, or of those that are held behind the step
   FlowOutputs* outputs_ = nullptr;
   PolynomialRange* outputRange_ = nullptr;  // of these
   OutputTools* between_ = nullptr;          // which do for the part of the step that chords are loaded for

@@ -70,8 +70,22 @@ JumpRates::JumpRates(const FlowJumps& jumps, std::shared_ptr<const Monomials> mo
 bool AlongStep::load(const PolynomialSeries& states, double t0, double scale, double theta,
                      const std::vector<Embedded>& parameters, const std::vector<Interval>& signs,
                      const std::vector<double>& tube) {
-  theta_ = theta;
   for (int i = 0; i < states.states(); ++i) series_.setStateSeries(i, states.series(i), states.stride());
+  return compose(t0, scale, theta, parameters, signs, tube);
+}
+
+bool AlongStep::load(const std::vector<double>& states, double t0, double scale, double theta,
+                     const std::vector<Embedded>& parameters, const std::vector<Interval>& signs,
+                     const std::vector<double>& tube) {
+  const std::size_t each = states.size() / detail::at(series_.states());
+  for (int i = 0; i < series_.states(); ++i)
+    series_.setStateSeries(i, &states[detail::at(i) * each], static_cast<int>(each) / series_.count());
+  return compose(t0, scale, theta, parameters, signs, tube);
+}
+
+bool AlongStep::compose(double t0, double scale, double theta, const std::vector<Embedded>& parameters,
+                        const std::vector<Interval>& signs, const std::vector<double>& tube) {
+  theta_ = theta;
   std::vector<Embedded> all = parameters;
   for (const Interval& sign : signs) all.push_back({midpoint(sign), 0, radius(sign)});
   for (std::size_t i = 0; i < all.size(); ++i) series_.setParameter(static_cast<int>(i), all[i]);

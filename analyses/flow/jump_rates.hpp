@@ -25,11 +25,19 @@ class AlongStep {
   bool load(const PolynomialSeries& states, double t0, double scale, double theta,
             const std::vector<Embedded>& parameters, const std::vector<Interval>& signs,
             const std::vector<double>& tube);
+  /// Likewise, with all states' coefficients, one state after the other, in place of theirs.
+  bool load(const std::vector<double>& states, double t0, double scale, double theta,
+            const std::vector<Embedded>& parameters, const std::vector<Interval>& signs,
+            const std::vector<double>& tube);
+  /// Once more, for another tube; null: along the polynomials themselves.
+  bool rebound(const double* tube) { return series_.bound(tube, true); }
   const PolynomialSeries& series() const { return series_; }
   /// An output from σ = `from` to `to`.
   Interval over(int output, double from, double to) const;
 
  private:
+  bool compose(double t0, double scale, double theta, const std::vector<Embedded>& parameters,
+               const std::vector<Interval>& signs, const std::vector<double>& tube);
   Interval at(int node, double sigma) const;
 
   int orders_;

@@ -355,7 +355,17 @@ FlowStepper::Look FlowStepper::lookAtJumps(const FlowSet& set, double& h, double
       if ((sides_[j] != 0 || !series_.mayTurn(series_.jumps()[j])) && std::fabs(value) == 1)
         others[j].sign = Interval(value);
     }
-    const double longest = loadRates(*ownRates_, set, h, others, E_) ? longestOnSides(h) : 0;
+    const double longest =
+        loadRates(*ownRates_, set, h, others, lift_.empty() ? E_ : heldTube_) ? longestOnSides(h) : 0;
+    if (longest < h && longest > 0 && mayTurn_) {
+      const Look look = lookAtArrival(set, h, smallest, left);
+      if (look != Look::released) return look;
+      mayTurn_ = false;
+      if (!lift_.empty()) {
+        lift_.clear();
+        return Look::shorter;
+      }
+    }
     if (longest < h) {
       constexpr double atLeast = 0x1p-6;  // of a step that is taken so
       if (longest < atLeast * h || longest < smallest) {
@@ -365,6 +375,10 @@ FlowStepper::Look FlowStepper::lookAtJumps(const FlowSet& set, double& h, double
       h = std::min(longest, 0.999 * h);
       return Look::shorter;
     }
+  }
+  if (!lift_.empty() && isLiftOfArrival_) {  // known better without
+    lift_.clear();
+    return Look::shorter;
   }
   const bool mayTurn = boundOwnJumps(set, time, box, h, ownBounds_);
   if (!mayTurn && !holding_) {
@@ -391,6 +405,19 @@ FlowStepper::Look FlowStepper::lookAtJumps(const FlowSet& set, double& h, double
       held = longestHeld(*heldRates_, h);
       boundHeldJumps(set, time, box, h, ownBounds_, heldBounds_, ratesUntil(*heldRates_, h, held_.size()));
       boundHeldJumps(set, began, first, 0.0, atStart, heldAtStart, ratesUntil(*heldRates_, 0, held_.size()));
+    }
+    if (areHeld(heldBounds_) && !lift_.empty()) {  // known better without
+      lift_.clear();
+      return Look::shorter;
+    }
+    if (!areHeld(heldBounds_) && mayTurn_ && !mayTurn) {
+      const Look look = lookAtRelease(set, h, smallest, left);
+      if (look != Look::released) return look;
+      mayTurn_ = false;
+      if (!lift_.empty()) {
+        lift_.clear();
+        return Look::shorter;
+      }
     }
     if (!areHeld(heldBounds_)) {
       const bool couldHold = areHeld(heldAtStart);
@@ -526,6 +553,7 @@ std::optional<FlowStepper::Arrival> FlowStepper::arrivalOf(const FlowSet& set, c
 void FlowStepper::boundArrivals(const FlowSet& set) {
   arrives_.clear();
   bent_.clear();
+  if (turn_) bent_ = turn_->jolt;
   if (!isSliding_ || !own_ || !crossings_.empty() || !inputs_.empty() || monomials().symbols() == 0) return;
   std::vector<Arrival> arrivals;
   std::vector<char> decided(at(n_), 0);
@@ -583,12 +611,15 @@ std::vector<Interval> FlowStepper::argumentsBehind() const {
     return bound.isKnown() ? bound.after(h_).then : Interval::entire();
   };
   if (held_.empty()) {
-    for (const JumpBound& bound : ownBounds_) result.push_back(behind(bound));
+    if (turn_) result.assign(of_->count(), Interval::entire());
+    for (std::size_t j = 0; j < ownBounds_.size() && !turn_; ++j) result.push_back(behind(ownBounds_[j]));
+    if (turn_) result[turn_->jump] = turn_->argument;
     return result;
   }
   for (std::size_t k = 0; k < held_.size(); ++k) {
     result.push_back(held_[k] != 0 ? behind(heldBounds_[k]) : Interval::entire());
     if (left_[k] >= 0 && !ownBounds_.empty()) result.back() = Interval(factor_[k]) * behind(ownBounds_[at(left_[k])]);
+    if (turn_ && turn_->jump == k) result.back() = turn_->argument;
   }
   return result;
 }
@@ -629,19 +660,33 @@ std::vector<SignCases> FlowStepper::signs(std::size_t count, Of of) const {
   return result;
 }
 
+/// Held until it leaves; on its side from then on. Or the other way round.
+SignCases FlowStepper::Turn::during(const Interval& seconds) const {
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  const Interval since(moments.lower(), infinite), until(0.0, moments.upper());
+  SignCases cases{.above = side > 0, .below = side < 0, .isHeldBetween = true};
+  (side > 0 ? cases.whileAbove : cases.whileBelow) = arrives ? until : since;
+  cases.whileBetween = arrives ? since : until;
+  return cases.during(seconds);
+}
+
 std::vector<SignCases> FlowStepper::signsAfter(double seconds, std::size_t count) const {
-  return signs(count, [&](const JumpBound& bound) { return bound.signAfter(seconds); });
+  std::vector<SignCases> result = signs(count, [&](const JumpBound& bound) { return bound.signAfter(seconds); });
+  if (turn_) result[turn_->jump] = turn_->during(Interval(seconds));
+  return result;
 }
 
 std::vector<SignCases> FlowStepper::signsOver(std::size_t count) const {
-  return signs(count, [](const JumpBound& bound) { return bound.signOver(); });
+  std::vector<SignCases> result = signs(count, [](const JumpBound& bound) { return bound.signOver(); });
+  if (turn_) result[turn_->jump] = turn_->during(Interval(0.0, h_));
+  return result;
 }
 
 /// x_i = (u - Σ_{j≠i} c_j x_j - Σ_k d_k p_k - constant)/c_i, where u is known better so than by the set.
 void FlowStepper::narrowArguments(const FlowSet& set, double tau, FlowPoint& point) const {
   const int N = series_.count(), NJ = series_.frameCount();
   const std::size_t n = at(n_);
-  forEachKnown([&](const LinearForm& form, const JumpBound& bound) {
+  const auto narrow = [&](const LinearForm& form, const JumpBound& bound) {
     const Interval u = bound.after(tau).then;
     if (!isCommon(u)) return;
     const std::size_t i = at(form.pivot);
@@ -724,7 +769,15 @@ void FlowStepper::narrowArguments(const FlowSet& set, double tau, FlowPoint& poi
     point.loose[i] = own;
     point.known[i] = 0.5 * width(u) / std::fabs(by);
     point.radius[i] = (radiusOfOthers + own) * bounds::up;
-  });
+  };
+  forEachKnown(narrow);
+  if (!turn_) return;
+  const bool isHeld = turn_->arrives ? tau >= turn_->moments.upper() : tau <= turn_->moments.lower();
+  if (!isHeld && (turn_->arrives || tau >= turn_->moments.upper())) return;         // its polynomials say more
+  const Interval u = isHeld ? Interval(0.0) : turn_->gone(tau), towards(1.0, 2.0);  // whatever it is: at this moment
+  JumpBound known{.start = u, .up = -towards, .down = towards, .over = u};
+  if (!isHeld) known.up = known.down = Interval(0.0);
+  narrow(*turn_->form, known);
 }
 
 }  // namespace gamut

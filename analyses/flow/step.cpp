@@ -52,7 +52,7 @@ FlowStepper::FlowStepper(const Program& motion, std::shared_ptr<const Monomials>
   if (kinks_->count() == 0) kinks_.reset();
   for (auto* v : {&epsilon_, &inTime_}) v->assign(at(n_ * n_), 0.0);
   for (auto* v : {&delta0_, &delta1_, &start_, &E_, &y_, &e1_, &nu0_, &nu1_, &scale_, &floor_, &least_, &pace_,
-                  &second_, &third_, &turn_, &driven_})
+                  &second_, &third_, &turning_, &driven_, &heldTube_})
     v->assign(at(n_), 0.0);
 }
 
@@ -171,7 +171,8 @@ bool FlowStepper::tryStep(const FlowSet& set, double theta) {
       double y = 0;
       for (int j = 0; j < n_; ++j)
         y += growth_.M1(i, j) * pushed[at(j)] + growth_.M2(i, j) * delta1_[at(j)] + growth_.M0(i, j) * start_[at(j)];
-      y_[at(i)] = y * bounds::up + bounds::tiny;
+      y_[at(i)] = (lift_.empty() ? y : y + lift_[at(i)]) * bounds::up + bounds::tiny;
+      heldTube_[at(i)] = (y + series_.lowNorm(i)) * bounds::up + bounds::tiny;
     }
   };
   if (!boundGrowth(h)) return false;
@@ -400,7 +401,7 @@ bool FlowStepper::isKinkTooWide(const FlowSet& set, const SplitShares& shares) {
     const double allowed = shares.kink / set.half[l];  // of the whole box, not of the piece
     double added = 0, width = 0;
     for (int j = 0; j < n_; ++j) added += growth_.M1(i, j) * delta0_[at(j)];
-    if (!crossings_.empty()) added = crossed_[at(i)];
+    if (!crossings_.empty() || turn_) added = crossed_[at(i)];
     for (int g = 1; g < N; ++g) width += std::fabs(set.p[at(i * N + g)]);
     if (added > allowed * width && width > 1e-9 * scale_[at(i)]) return true;
   }
@@ -477,7 +478,11 @@ StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum,
   isSliding_ = isShortened_ = false;
   crossings_.clear();
   givenAt_ = signsAt_ = 0;
-  lengthened_ = 0;
+  lengthened_ = turnTries_ = 0;
+  turn_.reset();
+  lift_.clear();
+  beyondLast_ = 0;
+  mayTurn_ = true;
   ownBounds_.clear();
   heldBounds_.clear();
   const double left = end - set.t;
@@ -542,6 +547,7 @@ StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum,
       if (own_ || holding_ || kinks_) {
         const double least = 0x1p14 * quantum;
         crossings_.clear();
+        turn_.reset();
         Look look = own_ || holding_ ? lookAtJumps(set, h, least, left) : Look::goOn;
         if (look == Look::goOn && kinks_) look = lookAtKinks(set, h, least, left);
         if (look == Look::released) return StepOutcome::released;

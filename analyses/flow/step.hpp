@@ -2,12 +2,14 @@
 // states the theorem behind every function.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "analyses/flow/bounded_polynomial.hpp"
@@ -22,6 +24,7 @@
 #include "analyses/flow/scales.hpp"
 #include "analyses/flow/set.hpp"
 #include "analyses/flow/time_kinks.hpp"
+#include "analyses/flow/turn.hpp"
 #include "analyses/work.hpp"
 #include "scalars/interval.hpp"
 
@@ -99,8 +102,8 @@ class FlowStepper {
   /// Whether the step's comparison knew the sign of what damps the motion (FlowGrowth).
   bool isDamped() const { return growth_.isDamped(); }
   bool isAboutCentre() const { return growth_.isAbout(); }
-  /// How many jumps and kinks all solutions pass in the step, or come to before the horizon.
-  std::size_t crossings() const { return crossings_.size(); }
+  /// How many jumps and kinks all solutions pass, come to or leave in the step, or before the horizon.
+  std::size_t crossings() const { return crossings_.size() + (turn_ ? 1 : 0); }
   /// After a failure: what could not be proved, of which state.
   const FlowCause& why() const { return why_; }
   /// A state that has grown a thousandfold and would double long before the time it took; -1 if none has.
@@ -112,6 +115,8 @@ class FlowStepper {
                 std::vector<double> factor, double length, double resolution);
   /// After `released`: of each jump, whether solutions at it stay held.
   const std::vector<char>& stillHeld() const { return stillHeld_; }
+  /// Those held at the step's end, where all solutions leave one of those held in the step; else none.
+  const std::vector<char>& heldBehind() const { return turn_ && !turn_->arrives ? stillHeld_ : nothingHeld_; }
   /// Of each jump, whether its argument is zero for all solutions in the set; empty if none is.
   static std::vector<char> resting(const FlowSet& set, const FlowJumps& jumps);
   /// Of the stepper's motion.
@@ -128,7 +133,7 @@ class FlowStepper {
   /// The set τ seconds into the step, 0 ≤ τ ≤ h; what is known of jumps' arguments besides counts if `narrowed`.
   void evaluate(const FlowSet& set, double tau, FlowPoint& point, bool narrowed = true);
   /// Whether more is known of these in this step than the set says.
-  bool narrows() const { return !ownBounds_.empty() || !heldBounds_.empty() || !crossings_.empty(); }
+  bool narrows() const { return !ownBounds_.empty() || !heldBounds_.empty() || !crossings_.empty() || turn_; }
   /// Narrows what the states are during the whole step by what is known of these.
   void narrowOver(std::vector<Interval>& states) const;
   /// Of each sign of the motion in which none is held (`count` of them) what it may be: so many seconds into the step,
@@ -244,6 +249,38 @@ class FlowStepper {
                  const std::vector<double>& tube);
   bool areHeld(const std::vector<JumpBound>& bounds) const;
   double longestHeld(const JumpRates& rates, double h) const;
+  /// In this step a jump lets go all solutions that it held, to one side, or comes to hold them, from one side: D is
+  /// added to each of them from m(ξ) on.
+  struct Turn {
+    std::size_t jump;  // of f
+    double side;
+    bool arrives;
+    FlowTurn* of;
+    Interval moments;  // s, of m(ξ) and of solutions themselves
+    const LinearForm* form = nullptr;
+    double away = 0;                                     // how far these are from each other at most
+    double beyond = 0;                                   // the guard at the start, if above zero
+    std::vector<std::vector<BoundedPolynomial>> D{};     // of each state, by orders of σ
+    std::vector<double> most{}, gap{}, slope{}, bend{};  // |D| at most; |D| and |Ḋ| at m(ξ); |D̈| at most
+    std::vector<double> before{};                        // like e1_, until then
+    std::vector<double> push{};                          // |what is added to f| between these moments
+    std::vector<double> jolt{};                          // what chords from the step's start miss
+    Interval growth{0.0};                                // of the argument's rate, of those let go, towards that side
+    Interval argument{0.0};                              // at the step's end
+    SignCases during(const Interval& seconds) const;
+    Interval gone(double seconds) const;
+    /// |D| at most where it should be nothing yet, `late` seconds before.
+    double early(std::size_t state, double late) const;
+  };
+  FlowTurn* turnFor(std::size_t jump, double side, bool arrives);
+  Look lookAtRelease(const FlowSet& set, double& h, double smallest, double left);
+  Look lookAtArrival(const FlowSet& set, double& h, double smallest, double left);
+  Look lookAtTurn(const FlowSet& set, double& h, double smallest, double left, Turn turn,
+                  const std::vector<Interval>& signs);
+  std::vector<double> statesWith(const Turn& turn) const;
+  bool describeTurn(const FlowSet& set, const std::vector<Interval>& signs, Turn& turn) const;
+  bool proveTurn(const FlowSet& set, const std::vector<Interval>& signs, Turn& turn, double& relativeDefect);
+  void addTurn(double tau, FlowPoint& point) const;
   /// What comes to be held, |u - ũ| ≤ g on a chord from its first to its last number, with the state that it decides.
   struct Arrival {
     const LinearForm* form;
@@ -292,6 +329,17 @@ class FlowStepper {
   TimeKinks timeKinks_;
   std::vector<Interval> kinkRates_;  // over the step
   std::vector<Crossing> crossings_;
+  // Of jumps held, by the side to which they let go (above or not), and of own ones, by that from which they come to
+  // hold; once needed, null where there is none.
+  std::map<std::tuple<std::size_t, bool, bool>, std::unique_ptr<FlowTurn>> turns_;
+  std::optional<Turn> turn_;      // of this step
+  std::vector<double> heldTube_;  // before it
+  std::vector<double> lift_;      // how much wider the tube is for those that have turned; none: it is not
+  bool isLiftOfArrival_ = false;
+  double beyondLast_ = 0;  // how much longer the step is than until the last has turned, s; 0: not known yet
+  bool mayTurn_ = true;    // in this step
+  int turnTries_ = 0;
+  const std::vector<char> nothingHeld_ = {};
   std::vector<double> crossed_;  // like e1_, if what these do is known
   FlowGrowth following_;         // of the states but those that arrivals decide
   std::vector<char> arrives_;    // of each state, whether one decides it; none: there are none
@@ -307,10 +355,10 @@ class FlowStepper {
   std::vector<double> delta0_, delta1_, start_, E_, y_, e1_, epsilon_, inTime_, nu0_, nu1_, scale_, floor_;
   std::vector<double> pace_;   // of a state, what is less sets no pace
   std::vector<double> least_;  // the floor, or what counts of the state's size over the motion, if that is more
-  std::vector<double> total_, errors_;         // R + Σ_j |Γ_j| of the set being stepped; without inputs
-  std::vector<double> looseAtStart_;           // its W
-  std::vector<double> driven_;                 // what inputs do to a state within the step, at most
-  std::vector<double> second_, third_, turn_;  // bounds of derivatives by σ: p'' and the next, Ψ''(r + Γs)
+  std::vector<double> total_, errors_;            // R + Σ_j |Γ_j| of the set being stepped; without inputs
+  std::vector<double> looseAtStart_;              // its W
+  std::vector<double> driven_;                    // what inputs do to a state within the step, at most
+  std::vector<double> second_, third_, turning_;  // bounds of derivatives by σ: p'' and the next, Ψ''(r + Γs)
   FlowPoint end_;
   double certified_ = 0;         // work of the step's certificate, without that for generators
   double ofGenerators_ = 0;      // work for generators, since the certificate was begun

@@ -69,7 +69,9 @@ void FlowStepper::evaluate(const FlowSet& set, double tau, FlowPoint& point, boo
 void FlowStepper::evaluateMotion(const FlowSet& set, double tau, FlowPoint& point, bool narrowed) {
   const int N = series_.count(), NJ = series_.frameCount(), stride = series_.stride();
   const double sigma = tau / h0_;
-  const bool crosses = tau != 0 && narrowed && !crossings_.empty();
+  const bool isHeldStill = turn_ && tau <= turn_->moments.lower();
+  const bool crosses = tau != 0 && narrowed && (!crossings_.empty() || turn_);
+  const std::vector<double>& left = !crosses ? e1_ : isHeldStill ? turn_->before : crossed_;
   point.p.assign(at(n_ * N), 0.0);
   point.psi.assign(at(NJ * n_ * n_), 0.0);
   point.psiSum.assign(at(n_ * n_), 0.0);
@@ -109,7 +111,7 @@ void FlowStepper::evaluateMotion(const FlowSet& set, double tau, FlowPoint& poin
       point.p[at(i)] = fineHorner(i, point.low[at(i)], error);
     else
       for (int g = 0; g < N; ++g) point.p[at(i * N + g)] = horner(series_.series(i) + g * stride, error);
-    point.loose[at(i)] = tau == 0 ? set.W[at(i)] : error + (crosses ? crossed_ : e1_)[at(i)];  // the start is known
+    point.loose[at(i)] = tau == 0 ? set.W[at(i)] : error + left[at(i)];  // the start is known
   }
   point.total = total_;
   for (int j = 0; j < n_ && tau != 0; ++j) point.total[at(j)] = (total_[at(j)] + inputs_.total(j)) * bounds::up;
@@ -121,6 +123,7 @@ void FlowStepper::evaluateMotion(const FlowSet& set, double tau, FlowPoint& poin
       if (tau != 0) point.loose[at(i)] += (error + epsilon_[at(i * n_ + j)]) * point.total[at(j)];
     }
   if (crosses) addCrossings(set, tau, point);
+  if (crosses && turn_) addTurn(tau, point);
   // Ψ_0 Γ: n roundings an entry, together at most n u |Ψ_0| Σ|Γ_j|. Of inputs n + 1 in what is linear in ξ, and one
   // more for each symbol in drivenRadius, which sums with signs: n + 1 + mostCorners ≤ 2n + 8.
   for (int i = 0; i < n_; ++i) {
@@ -236,9 +239,9 @@ void FlowStepper::boundDerivatives() {
   for (int i = 0; i < n_; ++i) {
     second_[at(i)] = series_.derivativeNorm(i, 2, theta_);
     third_[at(i)] = series_.derivativeNorm(i, 3, theta_);
-    turn_[at(i)] = 0;
+    turning_[at(i)] = 0;
     for (int j = 0; j < n_; ++j)
-      if (total_[at(j)] > 0) turn_[at(i)] += series_.frameDerivativeNorm(i, j, 2, theta_) * total_[at(j)];
+      if (total_[at(j)] > 0) turning_[at(i)] += series_.frameDerivativeNorm(i, j, 2, theta_) * total_[at(j)];
   }
 }
 
@@ -252,7 +255,7 @@ void FlowStepper::sag(double from, double to, std::vector<Interval>& bound) cons
     if (growth_.isAbout() && from == 0) besides = (besides + looseAtStart_[at(i)]) * bounds::up;
     if (!bent_.empty()) besides = (besides + bent_[at(i)]) * bounds::up;
     bound.push_back(
-        inflated(series_.sag(i, from / h0_, to / h0_, second_[at(i)], third_[at(i)], turn_[at(i)]), besides));
+        inflated(series_.sag(i, from / h0_, to / h0_, second_[at(i)], third_[at(i)], turning_[at(i)]), besides));
   }
 }
 

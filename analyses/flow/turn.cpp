@@ -1,0 +1,126 @@
+#include "analyses/flow/turn.hpp"
+
+#include <stdexcept>
+#include <utility>
+
+#include "scalars/index.hpp"
+#include "scalars/program/differentiation.hpp"
+#include "scalars/program/recorder.hpp"
+#include "scalars/program/sides.hpp"
+
+namespace gamut {
+
+using detail::at;
+
+namespace {
+
+/// f with the signs that are not held as parameters behind its own, one a sign of f.
+Program withOpenSignsGiven(const Program& f, const std::vector<char>& held) {
+  const int k = f.parameters(), count = static_cast<int>(held.size());
+  Recorder recorder(f.states(), k + count);
+  const std::vector<int> jumps = jumpsOf(f);
+  std::vector<int> instead(f.nodes().size(), -1), outputs;
+  for (int j = 0; j < count; ++j)
+    if (held[at(j)] == 0) instead[at(jumps[at(j)])] = recorder.parameter(k + j);
+  const std::vector<int> here = recorder.append(f, {}, instead);
+  for (const int output : f.outputNodes()) outputs.push_back(here[at(output)]);
+  return recorder.finish(outputs);
+}
+
+/// What FlowTurn asks for, of the nodes of f_b, f_a, the guard and its rate, and two that have to be above zero.
+Program turnOf(Recorder& recorder, const std::vector<int>& before, const std::vector<int>& after, int guard, int growth,
+               int isAhead, int isAttracted) {
+  std::vector<int> outputs;
+  for (std::size_t i = 0; i < after.size(); ++i) outputs.push_back(recorder.sub(after[i], before[i]));
+  outputs.insert(outputs.end(), {guard, growth, isAhead, isAttracted});
+  outputs.insert(outputs.end(), after.begin(), after.end());
+  return recorder.finish(outputs);
+}
+
+/// Of its last outputs, as many as states, the derivatives by these.
+Program derivativesOf(const Program& along) {
+  const std::vector<int>& outputs = along.outputNodes();
+  return forwardDifferentiated(Recorder(along).finish({outputs.end() - along.states(), outputs.end()}));
+}
+
+}  // namespace
+
+Program releaseOf(const FlowJumps& jumps, const std::vector<char>& held, std::size_t jump, double side) {
+  const Program f = withOpenSignsGiven(jumps.f, held);
+  std::vector<Side> sides;
+  std::size_t which = 0;
+  for (std::size_t j = 0; j < held.size(); ++j) {
+    if (j == jump) which = sides.size();
+    if (held[j] != 0) sides.push_back(Side::held);
+  }
+  if (jumpsOf(f).size() != sides.size()) throw std::logic_error("signs become one or zero where others are given");
+  const std::size_t n = at(f.states());
+  Recorder recorder(f.states(), f.parameters());
+  const auto ratesOn = [&](Side of) {
+    sides[which] = of;
+    const Program program = onSides(f, sides);
+    const std::vector<int> here = recorder.append(program);
+    std::vector<int> rates;
+    for (std::size_t i = 0; i < n; ++i) rates.push_back(here[at(program.outputNodes()[i])]);
+    return rates;
+  };
+  const std::vector<int> whileHeld = ratesOn(Side::held), free = ratesOn(side > 0 ? Side::above : Side::below),
+                         other = ratesOn(side > 0 ? Side::below : Side::above);
+  const auto towardsSide = [&](const std::vector<int>& rates) {
+    const LinearForm& form = *jumps.forms[jump];
+    int sum = recorder.constant(0.0);
+    for (std::size_t i = 0; i < n; ++i)
+      if (form.states[i] != 0)
+        sum = recorder.add(sum, recorder.mul(recorder.constant(side * form.states[i]), rates[i]));
+    return sum;
+  };
+  const int guard = towardsSide(free);
+  const auto growthAlong = [&](const std::vector<int>& rates) {
+    std::vector<std::pair<int, int>> seeds{{recorder.time(), recorder.constant(1.0)}};
+    for (std::size_t i = 0; i < n; ++i) seeds.emplace_back(recorder.state(static_cast<int>(i)), rates[i]);
+    return tangents(recorder, {guard}, seeds).front();
+  };
+  return turnOf(recorder, whileHeld, free, guard, growthAlong(whileHeld), growthAlong(free), towardsSide(other));
+}
+
+/// u̇ is affine in the sign: from u̇_b to u̇_-b, f as well, so that it is zero at f_b + u̇_b/(u̇_b - u̇_-b) (f_-b - f_b).
+Program arrivalOf(const FlowJumps& jumps, std::size_t jump, double side) {
+  const Program& given = jumps.given;
+  const std::size_t n = at(given.states()), count = jumps.count();
+  Recorder recorder(given.states(), given.parameters());
+  const auto outputsWith = [&](double sign) {
+    std::vector<int> values, outputs;
+    for (int i = 0; i < given.parameters(); ++i) values.push_back(recorder.parameter(i));
+    values[at(given.parameters()) - count + jump] = recorder.constant(sign);
+    const std::vector<int> here = recorder.append(given, values);
+    for (const int output : given.outputNodes()) outputs.push_back(here[at(output)]);
+    return outputs;
+  };
+  const std::vector<int> own = outputsWith(side), other = outputsWith(-side);
+  const std::size_t rate = n + count + jump;
+  const int share = recorder.mul(own[rate], recorder.recip(recorder.sub(own[rate], other[rate])));
+  std::vector<int> after;
+  for (std::size_t i = 0; i < n; ++i)
+    after.push_back(recorder.add(own[i], recorder.mul(share, recorder.sub(other[i], own[i]))));
+  const auto towardsOther = [&](int node) { return side > 0 ? recorder.neg(node) : node; };
+  const auto towardsSide = [&](int node) { return side > 0 ? node : recorder.neg(node); };
+  const int growth = towardsOther(own[rate]);
+  return turnOf(recorder, {own.begin(), own.begin() + given.states()}, after, towardsOther(own[n + jump]), growth,
+                growth, towardsSide(other[rate]));
+}
+
+FlowTurn::FlowTurn(const Program& along, std::shared_ptr<const Monomials> monomials, int order, double length,
+                   double resolution, const std::atomic<bool>* cancelled)
+    : AlongStep(along, std::move(monomials), order, length, resolution, cancelled),
+      states_(along.states()),
+      derivatives_(derivativesOf(along)) {}
+
+std::vector<Interval> FlowTurn::derivatives(const Interval& time, const Box& states, const Box& parameters) {
+  const std::size_t n = detail::at(states_);
+  std::vector<Interval> all(n + n * n);
+  derivatives_.setParameters(parameters);
+  derivatives_(time, states, all);
+  return {all.begin() + static_cast<std::ptrdiff_t>(n), all.end()};
+}
+
+}  // namespace gamut

@@ -1,0 +1,43 @@
+// f turns into another one where solutions come to be held by a jump, or are let go by it: what that adds to f along a
+// step, and when it does. docs/flow.md, section 7, "Turns".
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "analyses/flow/jump_rates.hpp"
+#include "scalars/evaluation/evaluator.hpp"
+
+namespace gamut {
+
+/// ẋ = f_b until the guard, which rises, is zero, and ẋ = f_a from then on.
+class FlowTurn : public AlongStep {
+ public:
+  /// `along`: the outputs below. Others as for AlongStep.
+  FlowTurn(const Program& along, std::shared_ptr<const Monomials> monomials, int order, double length,
+           double resolution, const std::atomic<bool>* cancelled);
+
+  int added(int i) const { return i; }  ///< of f_a - f_b
+  int guard() const { return states_; }
+  int growth() const { return states_ + 1; }          ///< the guard's rate while ẋ = f_b
+  int isAhead() const { return states_ + 2; }         ///< above zero: solutions do not turn back
+  int isAttracted() const { return states_ + 3; }     ///< above zero: from the other side as well
+  int after(int i) const { return states_ + 4 + i; }  ///< of f_a
+
+  /// ∂f_a/∂x, by row, wherever time and states are within these.
+  std::vector<Interval> derivatives(const Interval& time, const Box& states, const Box& parameters);
+
+ private:
+  int states_;
+  Evaluator<Interval> derivatives_;  // f_a, then these
+};
+
+/// `jump`, one of those `held`, lets go to `side` (1, -1); the others hold on. The guard is how fast its argument moves
+/// to that side with the side's own sign; as fast as that rises of those let go, solutions are ahead. Throws
+/// std::logic_error where these do not decide about themselves. Signs are parameters behind f's.
+Program releaseOf(const FlowJumps& jumps, const std::vector<char>& held, std::size_t jump, double side);
+/// Solutions on this side of a jump come to be held by it: the guard is the argument, and solutions are ahead and
+/// attracted as fast as it comes to zero from either side.
+Program arrivalOf(const FlowJumps& jumps, std::size_t jump, double side);
+
+}  // namespace gamut

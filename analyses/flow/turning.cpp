@@ -1,0 +1,434 @@
+// Steps in which a jump lets go all solutions that it held: when it does so is a polynomial in ξ, and so is what
+// follows. Derivation: docs/flow.md, section 7, "Releasing".
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "analyses/flow/bounded_polynomial.hpp"
+#include "analyses/flow/embedding.hpp"
+#include "analyses/flow/error_bounds.hpp"
+#include "analyses/flow/step.hpp"
+#include "scalars/index.hpp"
+
+namespace gamut {
+
+using detail::at;
+
+namespace {
+
+/// Two neighbours of [from, to], about, of which `holds` only at the second, if so at `to` and not at `from`.
+template <class Holds>
+std::pair<double, double> changeOf(double from, double to, Holds holds) {
+  for (int halving = 0; halving < 48; ++halving) {
+    const double middle = 0.5 * (from + to);
+    (holds(middle) ? to : from) = middle;
+  }
+  return {from, to};
+}
+
+/// By orders of σ.
+std::vector<BoundedPolynomial> polynomialsOf(const AlongStep& along, int output, std::size_t orders) {
+  const PolynomialSeries& series = along.series();
+  const int node = series.outputNode(output);
+  std::vector<BoundedPolynomial> result(orders);
+  for (std::size_t order = 0; order < orders; ++order)
+    for (int g = 0; g < series.count(node); ++g)
+      result[order].c.push_back(series.series(node)[at(g * series.stride()) + order]);
+  return result;
+}
+
+double restOf(const AlongStep& along, int output) {
+  const int node = along.series().outputNode(output);
+  return (along.series().rho0(node) + along.series().rho1(node)) * bounds::up;
+}
+
+}  // namespace
+
+/// Null where there is no such turn.
+FlowTurn* FlowStepper::turnFor(std::size_t jump, double side, bool arrives) {
+  const auto [place, isNew] = turns_.try_emplace({jump, side > 0, arrives});
+  if (isNew) try {
+      place->second = std::make_unique<FlowTurn>(
+          arrives ? gamut::arrivalOf(own_->jumps(), jump, side) : gamut::releaseOf(*of_, held_, jump, side),
+          series_.sharedMonomials(), m_, length_, resolution_, series_.cancelled());
+    } catch (const std::logic_error&) {
+    }
+  return place->second.get();
+}
+
+/// Whether one of those held lets all solutions go to one side within the step, and what is known of that.
+/// Look::released: it cannot be proved.
+FlowStepper::Look FlowStepper::lookAtRelease(const FlowSet& set, double& h, double smallest, double left) {
+  std::optional<std::pair<std::size_t, double>> key;
+  std::vector<Interval> signs;
+  for (std::size_t k = 0; k < held_.size(); ++k) {
+    const JumpBound& bound = heldBounds_[k];
+    signs.push_back(bound.sign);
+    if (held_[k] == 0 && !isThin(bound.sign)) return Look::released;
+    if (held_[k] == 0 || bound.holds) continue;
+    const bool above = !(bound.up.upper() < 0), below = !(bound.down.lower() > 0);
+    if (key || above == below) return Look::released;
+    key.emplace(k, above ? 1.0 : -1.0);
+  }
+  if (!key) return Look::released;
+  const auto [jump, side] = *key;
+  FlowTurn* const of = turnFor(jump, side, false);
+  if (of == nullptr) return Look::released;
+  const Look look = lookAtTurn(set, h, smallest, left, {jump, side, false, of, {}}, signs);
+  if (look != Look::goOn) return look;
+  stillHeld_ = held_;
+  stillHeld_[jump] = 0;
+  heldBounds_[jump] = {};
+  turn_->form = &*of_->forms[jump];
+  return look;
+}
+
+/// Likewise, whether all solutions come from one side to be held.
+FlowStepper::Look FlowStepper::lookAtArrival(const FlowSet& set, double& h, double smallest, double left) {
+  const FlowJumps& own = own_->jumps();
+  std::optional<std::size_t> jump;
+  std::vector<Interval> signs;
+  std::vector<JumpBound> bounds(own.count());
+  for (std::size_t j = 0; j < own.count(); ++j) {
+    const double sign = series_.series(series_.jumps()[j])[0];
+    if (std::fabs(sign) != 1 || (sides_[j] == 0 && series_.mayTurn(series_.jumps()[j]))) return Look::released;
+    signs.emplace_back(sign);
+    const Interval argument = sides_[j] == 0 ? Interval(1.0) : ownRates_->argumentOver(j, 0, h / h0_);
+    if (sides_[j] != 0 && !(sides_[j] > 0 ? argument.lower() > 0 : argument.upper() < 0)) {
+      if (jump) return Look::released;
+      jump = j;
+    } else {
+      bounds[j].sign = Interval(sign);
+    }
+  }
+  FlowTurn* const of = jump ? turnFor(*jump, sides_[*jump], true) : nullptr;
+  if (of == nullptr) return Look::released;
+  if (holding_) {  // those held stay so, whatever the sign of the one that comes
+    Box box;
+    for (int i = 0; i < n_; ++i) box.push_back(series_.rangeOf(i, y_[at(i)]));
+    boundHeldJumps(set, Interval(set.t) + Interval(0.0, h), box, h, bounds, heldBounds_);
+    if (!areHeld(heldBounds_)) return Look::released;
+  }
+  std::size_t which = *jump;
+  double factor = 1;
+  for (std::size_t k = 0; k < left_.size() && !held_.empty(); ++k)
+    if (left_[k] == static_cast<int>(*jump)) which = k, factor = factor_[k];
+  const bool isKnown = held_.empty() || left_[which] == static_cast<int>(*jump);
+  if (!isKnown) return Look::released;
+  const Look look = lookAtTurn(set, h, smallest, left, {which, factor * sides_[*jump], true, of, {}}, signs);
+  if (look == Look::goOn) turn_->form = &*own.forms[*jump];
+  return look;
+}
+
+/// Whether the turn takes all solutions within the step, which is then somewhat longer than until the last has turned.
+FlowStepper::Look FlowStepper::lookAtTurn(const FlowSet& set, double& h, double smallest, double left, Turn turn,
+                                          const std::vector<Interval>& signs) {
+  constexpr int mostTries = 8;
+  constexpr double longer = 1.25, slack = 1.02;
+  if (!inputs_.empty() || ++turnTries_ > 3 * mostTries) return Look::released;
+  // Until it turns, a solution is one of those before: inside their tube.
+  FlowTurn& of = *turn.of;
+  if (!of.load(series_, set.t, h0_, h / h0_, set.parameters, signs, heldTube_)) return Look::released;
+  const auto over = [&](int output, double from, double to) { return of.over(output, from / h0_, to / h0_); };
+  const auto guardAt = [&](double seconds) { return over(of.guard(), seconds, seconds); };
+  if (!(guardAt(h).lower() > 0)) {  // not yet all of them
+    const Interval growth = over(of.growth(), h, h);
+    const double all = h - guardAt(h).lower() / growth.lower() * longer;
+    if (!(growth.lower() > 0) || !(all < 4 * h) || all > left || ++lengthened_ > mostTries) return Look::released;
+    h = all;
+    return Look::longer;
+  }
+  const auto mayTurnBy = [&](double until) { return !(over(of.guard(), 0, until).upper() < 0); };
+  const double first = mayTurnBy(0) ? 0 : changeOf(0, h, mayTurnBy).first;
+  const double last = changeOf(first, h, [&](double until) { return guardAt(until).lower() > 0; }).second;
+  constexpr double ahead = 1 - 0x1p-7, mostBefore = 0x1p-4;  // of the step; what comes later is left to the next
+  if (first > std::max(last - first, mostBefore * h) && lift_.empty() && !(beyondLast_ > 0)) {
+    h = ahead * first;
+    return Look::shorter;
+  }
+  constexpr double ofSpread = 0.25, ofStep = 0x1p-6;  // so much longer: all are known to have turned, then
+  if (!(beyondLast_ > 0)) beyondLast_ = std::max({ofSpread * (last - first), ofStep * h, smallest});
+  const double target = last + beyondLast_;
+  if (target > left) return Look::released;
+  if (h > slack * target) {
+    h = target;
+    return Look::shorter;
+  }
+  if (!(over(of.growth(), first, h).lower() > 0)) return Look::released;
+  if (!turn.arrives && !(over(of.isAttracted(), 0, h).lower() > 0)) return Look::released;  // as it is held from there
+  h_ = h;
+  theta_ = h / h0_;
+  turn.moments = Interval(first, last);
+  if (!describeTurn(set, signs, turn)) return Look::released;
+  if (lift_.empty()) {
+    for (const double most : turn.most) lift_.push_back(longer * most + bounds::tiny);
+    isLiftOfArrival_ = turn.arrives;
+    return Look::shorter;  // no shorter, but in this tube
+  }
+  const std::vector<double> lift = lift_;
+  double defect = 0;  // of D
+  if (!proveTurn(set, signs, turn, defect)) return lift_ == lift ? Look::released : Look::shorter;
+  if (constexpr double mostDefect = 1e-4;
+      defect > mostDefect && beyondLast_ > ofSpread * (last - first) && beyondLast_ > smallest) {
+    beyondLast_ = std::max({ofSpread * (last - first), 0.25 * beyondLast_, smallest});
+    h = last + beyondLast_;
+    lift_.clear();
+    return Look::shorter;
+  }
+  turn_ = std::move(turn);
+  return Look::goOn;
+}
+
+/// The argument of those let go.
+Interval FlowStepper::Turn::gone(double seconds) const {
+  const auto since = [&](double moment) {
+    return Interval(std::max(0.0, (Interval(seconds) - Interval(moment)).lower()),
+                    std::max(0.0, (Interval(seconds) - Interval(moment)).upper()));
+  };
+  const Interval longest = since(moments.lower()), shortest = since(moments.upper());
+  const Interval result(std::max(0.0, (Interval(0.5) * growth * shortest * shortest).lower()),
+                        (Interval(0.5) * growth * longest * longest + Interval(beyond) * longest).upper());
+  return side > 0 ? result : -result;
+}
+
+double FlowStepper::Turn::early(std::size_t state, double late) const {
+  return (gap[state] + late * (slope[state] + 0.5 * late * bend[state])) * bounds::up;
+}
+
+/// x̃ + D, as AlongStep takes it.
+std::vector<double> FlowStepper::statesWith(const Turn& turn) const {
+  const std::size_t N = at(series_.count()), orders = at(m_) + 1;
+  std::vector<double> result;
+  for (int i = 0; i < n_; ++i)
+    for (std::size_t g = 0; g < N; ++g)
+      for (std::size_t order = 0; order < orders; ++order)
+        result.push_back(series_.series(i)[g * at(series_.stride()) + order] + turn.D[at(i)][order].c[g]);
+  return result;
+}
+
+/// m(ξ), where the rate of the polynomials is zero, and D about ∫ f_a(x̃ + D) - x̃' from there on, by Picard's method:
+/// f_a of those let go.
+bool FlowStepper::describeTurn(const FlowSet& set, const std::vector<Interval>& signs, Turn& turn) const {
+  FlowTurn& of = *turn.of;
+  const std::size_t n = at(n_), orders = at(m_) + 1;
+  const std::vector<BoundedPolynomial> rate = polynomialsOf(of, of.guard(), orders);
+  const PolynomialRoot root = rootOf(monomials(), rate, midpoint(turn.moments) / h0_);
+  // The rate is zero, but for what bounds miss, at a solution's own moment and at m(ξ); the slope of its polynomial
+  // differs from that at their middle by no more than the second derivative makes of half their distance.
+  const Interval moments = hull(inflated(Interval(root.x.c[0]), root.x.variation()), turn.moments / Interval(h0_));
+  if (!isBounded(moments) || magnitude(moments) > theta_) return false;
+  const int node = of.series().outputNode(of.guard());
+  double slope = 0;
+  for (std::size_t g = 0; g < rate[0].c.size(); ++g) {
+    double sum = 0;
+    for (std::size_t order = orders; order-- > 1;)
+      sum = sum * midpoint(moments) + static_cast<double>(order) * rate[order].c[g];
+    slope = g == 0 ? sum : slope - std::fabs(sum);
+  }
+  slope -=
+      0.5 * width(moments) * of.series().derivativeNorm(node, 2, theta_) +
+      static_cast<double>(2 * orders + rate[0].c.size()) * bounds::unit * of.series().derivativeNorm(node, 1, theta_);
+  slope *= bounds::down / h0_;
+  if (!(slope > 0)) return false;
+  // Those that are beyond it at the start turn there.
+  turn.beyond = std::max(0.0, of.over(of.guard(), 0, 0).upper());
+  turn.away = (root.rest + restOf(of, of.guard()) + turn.beyond) * bounds::up / slope * bounds::up;
+  turn.moments = inflated(turn.moments, turn.away);
+  // What is added between a solution's own moment and m(ξ), where it is zero at the one: on a tube that holds what that
+  // does itself.
+  const std::vector<double> zero(n, 0.0);
+  std::vector<double> tube(n), added(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const int output = of.added(static_cast<int>(i));
+    const std::vector<BoundedPolynomial> V = polynomialsOf(of, output, orders);
+    const double moves = of.series().derivativeNorm(of.series().outputNode(output), 1, theta_) / h0_;
+    added[i] = (composed(monomials(), V, root.x).norm() + 2 * turn.away * moves) * bounds::up;
+    turn.push.push_back(added[i] + restOf(of, output));
+  }
+  constexpr int tries = 4;
+  for (int attempt = 0;; ++attempt) {
+    const auto reached = [&](std::size_t i, double times) {
+      double sum = heldTube_[i];
+      for (std::size_t j = 0; j < n; ++j)
+        sum += growth_.M0(static_cast<int>(i), static_cast<int>(j)) * times * turn.away * turn.push[j];
+      return sum * bounds::up;
+    };
+    for (std::size_t i = 0; i < n; ++i) tube[i] = reached(i, 4) + bounds::tiny;
+    if (attempt == tries || !of.rebound(tube.data())) return false;
+    bool isInside = true;
+    for (std::size_t i = 0; i < n; ++i) {
+      turn.push[i] = (added[i] + restOf(of, of.added(static_cast<int>(i)))) * bounds::up;
+    }
+    for (std::size_t i = 0; i < n; ++i) isInside = isInside && reached(i, 3) <= tube[i];
+    if (isInside) break;
+  }
+  const std::size_t N = at(series_.count());
+  turn.D.assign(n, std::vector<BoundedPolynomial>(orders, {std::vector<double>(N, 0.0)}));
+  constexpr int rounds = 4;
+  for (int round = 0; round < rounds; ++round) {
+    if (!of.load(statesWith(turn), set.t, h0_, theta_, set.parameters, signs, zero)) return false;
+    for (std::size_t i = 0; i < n; ++i) {
+      std::vector<BoundedPolynomial>& D = turn.D[i];
+      const std::vector<BoundedPolynomial> f = polynomialsOf(of, of.after(static_cast<int>(i)), orders);
+      D[0].c.assign(N, 0.0);
+      for (std::size_t order = 1; order < orders; ++order)
+        for (std::size_t g = 0; g < N; ++g) {
+          const double before = series_.series(static_cast<int>(i))[g * at(series_.stride()) + order];
+          const double after = g < f[order - 1].c.size() ? f[order - 1].c[g] * h0_ / static_cast<double>(order) : 0.0;
+          D[order].c[g] = after - before;
+        }
+      BoundedPolynomial atMoment = composed(monomials(), D, root.x);
+      for (std::size_t g = 0; g < N; ++g) D[0].c[g] = -atMoment.c[g];
+    }
+  }
+  const double from = std::max(0.0, turn.moments.lower()) / h0_;
+  for (std::size_t i = 0; i < n; ++i) {
+    std::vector<BoundedPolynomial> rates(turn.D[i].begin() + 1, turn.D[i].end());
+    double bend = 0;
+    for (std::size_t order = 0; order < rates.size(); ++order) {
+      rates[order] *= static_cast<double>(order + 1) / h0_;
+      if (order > 0)
+        bend += static_cast<double>(order) * rates[order].norm() * std::pow(theta_, static_cast<double>(order) - 1);
+    }
+    turn.most.push_back(magnitude(rangeOver(turn.D[i], from, theta_)));
+    turn.gap.push_back(composed(monomials(), turn.D[i], root.x).norm());
+    turn.slope.push_back(composed(monomials(), rates, root.x).norm());
+    turn.bend.push_back(bend / h0_ * bounds::up);
+  }
+  return true;
+}
+
+/// From then on z = x - x̃ - Ψ̃(r + Γs) - D obeys z' = J̄_a z + (f_a(x̃ + D) - x̃' - D') + (J̄_a Ψ̃ - Ψ̃')(r + Γs), J_a =
+/// ∂f_a/∂x on the way from x̃ + D to x. Whether it is so small that x is in the step's tube, and the rate of those let
+/// go grows.
+bool FlowStepper::proveTurn(const FlowSet& set, const std::vector<Interval>& signs, Turn& turn,
+                            double& relativeDefect) {
+  FlowTurn& of = *turn.of;
+  const std::size_t n = at(n_), N = at(series_.count()), orders = at(m_) + 1;
+  const double first = std::max(0.0, turn.moments.lower());
+  const double longest = std::min(h_, (Interval(h_) - turn.moments).upper());
+  // The defect.
+  const std::vector<double> states = statesWith(turn);
+  if (!of.load(states, set.t, h0_, theta_, set.parameters, signs, std::vector<double>(n, 0.0))) return false;
+  std::vector<double> defect(n), ofFrame(n, 0.0), ofFrameRate(n, 0.0), before(n), most(n), slack(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const int output = of.after(static_cast<int>(i));
+    std::vector<BoundedPolynomial> f = polynomialsOf(of, output, orders);
+    double power = 1;
+    slack[i] = series_.lowNorm(static_cast<int>(i));
+    for (std::size_t order = 0; order < orders; ++order, power *= theta_) {
+      f[order].c.resize(N, 0.0);
+      for (std::size_t g = 0; g < N && order + 1 < orders; ++g) {
+        const double own = states[(i * N + g) * orders + order + 1] * static_cast<double>(order + 1) / h0_;
+        f[order].error += 4 * bounds::unit * (std::fabs(own) + std::fabs(f[order].c[g]));
+        f[order].c[g] -= own;
+      }
+      // x̃ + D is rounded: each of the two stands for its exact sum in x.
+      for (std::size_t g = 0; g < N; ++g)
+        slack[i] += power * bounds::unit * std::fabs(states[(i * N + g) * orders + order]);
+    }
+    defect[i] = (magnitude(rangeOver(f, first / h0_, theta_)) + restOf(of, output)) * bounds::up;
+    if (turn.most[i] > 0) relativeDefect = std::max(relativeDefect, longest * defect[i] / turn.most[i]);
+    double sum = inputs_.rest(static_cast<int>(i)) + slack[i];
+    for (int j = 0; j < n_; ++j) {
+      const int row = static_cast<int>(i);
+      ofFrame[i] += series_.frameNorm(row, j) * total_[at(j)] * bounds::up;
+      ofFrameRate[i] += series_.frameDerivativeNorm(row, j, 1, theta_) / h0_ * total_[at(j)] * bounds::up;
+      sum += epsilon_[at(row * n_ + j)] * total_[at(j)];
+      sum += growth_.M1(row, j) * delta0_[at(j)] + growth_.M2(row, j) * delta1_[at(j)] +
+             growth_.M0(row, j) * (set.W[at(j)] + 3 * turn.away * turn.push[at(j)] + turn.early(at(j), turn.away));
+    }
+    before[i] = sum * bounds::up;
+    most[i] = 2 * before[i] + 0.015625 * turn.most[i] + 2 * longest * defect[i] + bounds::tiny;
+  }
+  Box parameters;
+  for (const Embedded& e : set.parameters) parameters.push_back(rangeOf(e));
+  parameters.insert(parameters.end(), signs.begin(), signs.end());
+  std::vector<Interval> J;
+  bool isProved = false;
+  constexpr int rounds = 6;
+  for (int round = 0; round < rounds && !isProved; ++round) {
+    Box box;
+    for (std::size_t i = 0; i < n; ++i)
+      box.push_back(series_.rangeOf(static_cast<int>(i), (turn.most[i] + ofFrame[i] + most[i]) * bounds::up));
+    J = of.derivatives(Interval(set.t) + Interval(0.0, h_), box, parameters);
+    following_.setUnits(growth_.units());
+    for (std::size_t i = 0; i < n * n; ++i) {
+      if (!isCommon(J[i])) return false;
+      following_.A(static_cast<int>(i / n), static_cast<int>(i % n)) = magnitude(J[i]);
+    }
+    if (!following_.compute(longest)) return false;
+    std::vector<double> rest(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      rest[i] = defect[i] + ofFrameRate[i];
+      for (std::size_t j = 0; j < n; ++j) rest[i] += magnitude(J[i * n + j]) * ofFrame[j];
+      rest[i] *= bounds::up;
+    }
+    crossed_.assign(n, 0.0);
+    isProved = true;
+    for (std::size_t i = 0; i < n; ++i) {
+      double sum = slack[i] + bounds::tiny;
+      for (std::size_t j = 0; j < n; ++j) {
+        const int row = static_cast<int>(i), column = static_cast<int>(j);
+        sum += following_.M0(row, column) * before[j] + following_.M1(row, column) * rest[j];
+      }
+      crossed_[i] = sum * bounds::up;
+      isProved = isProved && crossed_[i] < most[i];
+    }
+    for (std::size_t i = 0; i < n && !isProved; ++i) most[i] = std::max(most[i], 1.5 * crossed_[i]);
+  }
+  if (!isProved) return false;
+  turn.before = e1_;
+  // Where moments are known too badly to follow what depends on them, other steps say more.
+  constexpr double mostLost = 1e-2, little = 1e-9;
+  for (std::size_t i = 0; i < n; ++i)
+    if (crossed_[i] > mostLost * turn.most[i] + 4 * heldTube_[i] + little * scale_[i]) return false;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double reach = (turn.most[i] + crossed_[i]) * bounds::up;
+    if ((ofFrame[i] + reach) * bounds::up < y_[i]) continue;
+    isProved = false;
+    lift_[i] = std::max(1.25 * lift_[i], 1.5 * reach);
+  }
+  if (!isProved) return false;
+  // Of those let go: D may be taken to begin `away` too soon.
+  std::vector<double> tube;
+  for (std::size_t i = 0; i < n; ++i) {
+    tube.push_back((ofFrame[i] + crossed_[i] + turn.early(i, turn.away)) * bounds::up + bounds::tiny);
+    // Beside a chord from the step's start: D grows no slower than at its end, but for what moments miss.
+    const double longestSlope = turn.slope[i] + longest * turn.bend[i];
+    turn.jolt.push_back((turn.gap[i] + crossed_[i]) * bounds::up);
+    e1_[i] = (e1_[i] + crossed_[i] + std::max(turn.most[i], longest * longestSlope)) * bounds::up;
+  }
+  if (!of.rebound(tube.data())) return false;
+  const auto over = [&](int output) { return of.over(output, first / h0_, theta_); };
+  const Interval growth = over(of.isAhead());
+  if (!(growth.lower() > 0) || !(over(of.isAttracted()).lower() > 0)) return false;
+  if (turn.arrives) return true;
+  turn.growth = growth;
+  turn.argument = turn.gone(h_);
+  return true;
+}
+
+/// Before a solution's moment D is nothing; what its polynomial is there, `late` seconds before, counts as an error.
+void FlowStepper::addTurn(double tau, FlowPoint& point) const {
+  const Turn& turn = *turn_;
+  const std::size_t n = at(n_);
+  if (tau <= turn.moments.lower()) return;
+  const double late = std::max(0.0, turn.moments.upper() + turn.away - tau) * bounds::up;
+  for (std::size_t i = 0; i < n; ++i) {
+    BoundedPolynomial D{{0.0}};
+    for (auto order = turn.D[i].rbegin(); order != turn.D[i].rend(); ++order) (D *= tau / h0_) += *order;
+    double loose = D.error + turn.early(i, late);
+    for (std::size_t g = 0; g < D.c.size(); ++g) {
+      double& p = point.p[i * at(series_.count()) + g];
+      p += D.c[g];
+      loose += bounds::unit * std::fabs(p);
+    }
+    point.loose[i] += loose * bounds::up + bounds::tiny;
+  }
+}
+
+}  // namespace gamut
