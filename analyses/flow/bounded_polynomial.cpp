@@ -85,16 +85,16 @@ BoundedPolynomial composed(const Monomials& monomials, const std::vector<Bounded
 Interval rangeOver(const std::vector<BoundedPolynomial>& u, double from, double to) {
   constexpr int parts = 8;
   const double farthest = std::max(std::fabs(from), std::fabs(to));
-  double size = 0, second = 0, error = 0, power = 1;
+  double size = 0, second = 0, error = 0, power = 1, powerOfSecond = 1;
   std::size_t terms = 0;
   for (std::size_t order = 0; order < u.size(); ++order, power *= farthest) {
-    BoundedPolynomial exact{u[order].c};
-    const double norm = exact.norm();
+    const double norm = BoundedPolynomial{u[order].c}.norm();
     size += norm * power;
     error += u[order].error * power;
     terms = std::max(terms, u[order].c.size());
-    if (order >= 2)
-      second += static_cast<double>(order * (order - 1)) * norm * std::pow(farthest, static_cast<double>(order) - 2);
+    if (order < 2) continue;
+    second += static_cast<double>(order * (order - 1)) * norm * powerOfSecond;
+    powerOfSecond *= farthest;
   }
   error += static_cast<double>(2 * u.size() + terms + 2) * bounds::unit * size;
   const auto at = [&](double sigma) {
@@ -106,11 +106,16 @@ Interval rangeOver(const std::vector<BoundedPolynomial>& u, double from, double 
     }
     return inflated(Interval(leading), (others + error) * bounds::up + bounds::tiny);
   };
-  Interval result = at(from);
-  for (int part = 1; part <= parts && to > from; ++part)
-    result = hull(result, at(part == parts ? to : from + (to - from) * part / parts));
-  const double step = (to - from) / parts * bounds::up;
-  return inflated(result, 0.125 * second * step * step * bounds::up);
+  Interval before = at(from), result = before;
+  double begin = from;
+  for (int part = 1; part <= parts && to > from; ++part) {
+    const double end = part == parts ? to : from + (to - from) * part / parts, length = (end - begin) * bounds::up;
+    const Interval then = at(end);
+    result = hull(result, inflated(hull(before, then), 0.125 * second * length * length * bounds::up + bounds::tiny));
+    before = then;
+    begin = end;
+  }
+  return result;
 }
 
 PolynomialRoot rootOf(const Monomials& monomials, const std::vector<BoundedPolynomial>& u, double about) {

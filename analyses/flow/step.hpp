@@ -2,7 +2,6 @@
 // states the theorem behind every function.
 #pragma once
 
-#include <array>
 #include <atomic>
 #include <cstdint>
 #include <map>

@@ -287,11 +287,12 @@ bool FlowStepper::describeTurn(const FlowSet& set, const std::vector<Interval>& 
   const double from = std::max(0.0, turn.moments.lower()) / h0_;
   for (std::size_t i = 0; i < n; ++i) {
     std::vector<BoundedPolynomial> rates(turn.D[i].begin() + 1, turn.D[i].end());
-    double bend = 0;
+    double bend = 0, power = 1;
     for (std::size_t order = 0; order < rates.size(); ++order) {
       rates[order] *= static_cast<double>(order + 1) / h0_;
-      if (order > 0)
-        bend += static_cast<double>(order) * rates[order].norm() * std::pow(theta_, static_cast<double>(order) - 1);
+      if (order == 0) continue;
+      bend += static_cast<double>(order) * rates[order].norm() * power;
+      power *= theta_;
     }
     turn.most.push_back(magnitude(rangeOver(turn.D[i], from, theta_)));
     turn.gap.push_back(composed(monomials(), turn.D[i], root.x).norm());
@@ -417,7 +418,7 @@ void FlowStepper::addTurn(double tau, FlowPoint& point) const {
   const Turn& turn = *turn_;
   const std::size_t n = at(n_);
   if (tau <= turn.moments.lower()) return;
-  const double late = std::max(0.0, turn.moments.upper() + turn.away - tau) * bounds::up;
+  const double late = std::max(0.0, (Interval(turn.moments.upper()) + Interval(turn.away) - Interval(tau)).upper());
   for (std::size_t i = 0; i < n; ++i) {
     BoundedPolynomial D{{0.0}};
     for (auto order = turn.D[i].rbegin(); order != turn.D[i].rend(); ++order) (D *= tau / h0_) += *order;
