@@ -167,6 +167,78 @@ Program withSignsGiven(const Program& f) {
 
 namespace {
 
+/// The product of a parameter with what depends on none from `signs` on, where nothing else depends on that parameter.
+struct OnlyProduct {
+  int node;
+  std::vector<int> factors;
+  bool isNegative = false;
+};
+
+OnlyProduct onlyProductOf(const Program& given, int signs, int parameter) {
+  const std::size_t size = given.nodes().size();
+  std::vector<int> uses(size, 0), user(size, -1);
+  std::vector<char> ofSigns(size, 0);
+  int node = -1;
+  for (std::size_t i = 0; i < size; ++i) {
+    const Node& own = given.nodes()[i];
+    if (own.op == Op::parameter && own.a == parameter) node = static_cast<int>(i);
+    ofSigns[i] = static_cast<char>(own.op == Op::parameter && own.a >= signs);
+    detail::forEachOperand(given.table(), static_cast<int>(i), [&](int operand) {
+      ++uses[at(operand)];
+      user[at(operand)] = static_cast<int>(i);
+      ofSigns[i] |= ofSigns[at(operand)];
+    });
+  }
+  for (const int output : given.outputNodes()) ++uses[at(output)];
+  OnlyProduct result{node, {}};
+  while (result.node >= 0 && uses[at(result.node)] == 1 && user[at(result.node)] >= 0) {
+    const int next = user[at(result.node)];
+    const Node& product = given.nodes()[at(next)];
+    if (product.op == Op::neg) {
+      result.isNegative = !result.isNegative;
+    } else {
+      const int other = product.a == result.node ? product.b : product.a;
+      if (product.op != Op::mul || ofSigns[at(other)] != 0) break;
+      result.factors.push_back(other);
+    }
+    result.node = next;
+  }
+  return result;
+}
+
+}  // namespace
+
+Program withHeldGiven(const Program& f, std::span<const char> held) {
+  const Program given = withSignsGiven(f);
+  const int n = f.states(), k = f.parameters(), jumps = static_cast<int>(held.size());
+  Recorder recorder(n, given.parameters());
+  std::vector<int> instead(given.nodes().size(), -1);
+  std::vector<OnlyProduct> products;
+  for (int j = 0; j < jumps; ++j) {
+    if (held[at(j)] == 0) continue;
+    products.push_back(onlyProductOf(given, k, k + j));
+    if (products.back().node >= 0) instead[at(products.back().node)] = recorder.parameter(k + j);
+  }
+  const std::vector<int> here = recorder.append(given, {}, instead);
+  std::vector<int> outputs, moves;
+  for (const int output : given.outputNodes()) outputs.push_back(here[at(output)]);
+  for (int i = 0; i < n; ++i) moves.push_back(outputs[at(i)]);
+  for (int j = 0; j < jumps; ++j) moves.push_back(outputs[at(n + jumps + j)]);
+  auto product = products.begin();
+  for (int j = 0; j < jumps; ++j) {
+    if (held[at(j)] == 0) continue;
+    int factor = recorder.constant(product->isNegative ? -1.0 : 1.0);
+    for (const int other : product->factors) factor = recorder.mul(factor, here[at(other)]);
+    outputs.push_back(factor);
+    const std::vector<int> rise = tangents(recorder, moves, {{recorder.parameter(k + j), recorder.constant(1.0)}});
+    outputs.insert(outputs.end(), rise.begin(), rise.end());
+    ++product;
+  }
+  return recorder.finish(outputs);
+}
+
+namespace {
+
 /// Whether f depends on its signs by sums and by products, of which both factors may depend on signs if `anyPower`. One
 /// of what does not depend on states is as good as any number: no solution is held at it.
 bool isPolynomialInSigns(const Program& f, bool anyPower) {
@@ -339,16 +411,22 @@ Program withSignsGiven(const Program& f, const Program& g) {
 }
 
 Program onSides(const Program& f, std::span<const Side> sides) {
-  const Program given = withSignsGiven(f);
+  const bool isAffine = isAffineInSigns(f);
   const int n = f.states(), k = f.parameters(), jumps = static_cast<int>(sides.size());
-  if (given.parameters() != k + jumps) throw std::invalid_argument("sides need one for each jump");
+  std::vector<char> isHeld;
+  for (const Side side : sides) isHeld.push_back(static_cast<char>(side == Side::held));
+  if (static_cast<int>(jumpsOf(f).size()) != jumps) throw std::invalid_argument("sides need one for each jump");
+  const Program given = isAffine ? withHeldGiven(f, isHeld) : withSignsGiven(f);
   Recorder recorder(n, k);
   std::vector<int> parameters, held;
   for (int i = 0; i < k; ++i) parameters.push_back(recorder.parameter(i));
   for (int j = 0; j < jumps; ++j) {
-    const bool isFixed = sides[at(j)] != Side::held && sides[at(j)] != Side::open;
-    if (sides[at(j)] == Side::held) held.push_back(j);
-    parameters.push_back(recorder.constant(isFixed ? static_cast<double>(sides[at(j)]) : -1.0));
+    const Side side = sides[at(j)];
+    const bool isFixed = side != Side::held && side != Side::open;
+    if (side == Side::held) held.push_back(j);
+    parameters.push_back(recorder.constant(isFixed                          ? static_cast<double>(side)
+                                           : isAffine && side == Side::held ? 0.0
+                                                                            : -1.0));
   }
   std::vector<int> instead(given.nodes().size(), -1);  // what is held is zero, wherever it stands
   for (const int j : held) instead[at(given.outputNodes()[at(n + j)])] = recorder.constant(0.0);
@@ -367,37 +445,50 @@ Program onSides(const Program& f, std::span<const Side> sides) {
     if (!std::equal(arguments.begin(), arguments.end(), outputs.begin() + n))
       throw std::invalid_argument("a jump that depends on another one cannot be left open");
   }
-  const std::vector<int> signs = jumpsOf(f);
-  const std::vector<char> moves = ofStates(f);
-  std::vector<std::vector<int>>
-      steps;  // from below to above in one of those held: the same whatever those of states that are open are
-  std::vector<int> values = parameters;
-  for (int j = 0; j < jumps; ++j)
-    if (sides[at(j)] == Side::open && moves[at(signs[at(j)])] != 0) values[at(k + j)] = recorder.constant(0.0);
-  const std::vector<int> from = held.empty() ? outputs : outputsWith(values);
+  // What each of those held adds to f and all rates: a step from below to above; of affine f by its product.
+  std::vector<std::vector<int>> steps;
+  std::vector<int> factors;
+  const auto moved = [&](const std::vector<int>& of) {
+    std::vector<int> result(of.begin(), of.begin() + n);
+    result.insert(result.end(), of.begin() + n + jumps, of.begin() + n + 2 * jumps);
+    return result;
+  };
+  auto next = outputs.begin() + n + 2 * jumps;
   for (const int j : held) {
+    if (isAffine) {
+      factors.push_back(*next++);
+      steps.emplace_back(next, next + n + jumps);
+      next += n + jumps;
+      continue;
+    }
+    std::vector<int> values = parameters;
     values[at(k + j)] = recorder.constant(1.0);
-    steps.push_back(outputsWith(values));
-    values[at(k + j)] = recorder.constant(-1.0);
-    for (std::size_t o = 0; o < from.size(); ++o) steps.back()[o] = recorder.sub(steps.back()[o], from[o]);
+    const std::vector<int> above = moved(outputsWith(values)), below = moved(outputs);
+    for (std::size_t o = 0; o < above.size(); ++o) {
+      if (o == 0) steps.emplace_back();
+      steps.back().push_back(recorder.sub(above[o], below[o]));
+    }
   }
-  const auto rate = [&](int j) { return at(n + jumps + j); };  // its place among outputs
+  const std::vector<int> from = moved(outputs);
   std::vector<int> shares;
   if (held.size() == 1) {
-    shares.push_back(recorder.neg(recorder.mul(outputs[rate(held[0])], recorder.recip(steps[0][rate(held[0])]))));
+    shares.push_back(recorder.neg(recorder.mul(from[at(n + held[0])], recorder.recip(steps[0][at(n + held[0])]))));
   } else if (!held.empty()) {
     LinearMatrix matrix{MatrixKind::general, static_cast<int>(held.size()), {}};
     std::vector<int> rightSide;
     for (const int j : held) {
-      for (const std::vector<int>& step : steps) matrix.entries.push_back(step[rate(j)]);
-      rightSide.push_back(recorder.neg(outputs[rate(j)]));
+      for (const std::vector<int>& step : steps) matrix.entries.push_back(step[at(n + j)]);
+      rightSide.push_back(recorder.neg(from[at(n + j)]));
     }
     shares = recorder.solve(recorder.matrix(std::move(matrix)), false, rightSide);
   }
   for (std::size_t h = 0; h < held.size(); ++h) {
     for (int o = 0; o < n; ++o) outputs[at(o)] = recorder.add(outputs[at(o)], recorder.mul(shares[h], steps[h][at(o)]));
-    parameters[at(k + held[h])] = recorder.sub(recorder.mul(recorder.constant(2.0), shares[h]), recorder.constant(1.0));
+    parameters[at(k + held[h])] =
+        isAffine ? recorder.mul(shares[h], recorder.recip(factors[h]))
+                 : recorder.sub(recorder.mul(recorder.constant(2.0), shares[h]), recorder.constant(1.0));
   }
+  const std::vector<int> signs = jumpsOf(f);
   std::vector<LinearForm> forms;
   for (const int j : held)
     if (const auto form = linearFormOf(f, f.nodes()[at(signs[at(j)])].a)) forms.push_back(*form);

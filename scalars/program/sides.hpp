@@ -29,6 +29,11 @@ Program withOneSignASurface(const Program& f);
 /// rates ∂u/∂t + ∂u/∂x f. f has as many outputs as states.
 Program withSignsGiven(const Program& f);
 
+/// Likewise, of f that is affine in its signs, where of those held (one a sign) the parameter is v = φ s if s is in one
+/// product φ s only: what holds them does not depend on φ then, which is often a coefficient that is not known. Further
+/// outputs of each sign held: φ, and by v the derivatives of f's n and of all K rates.
+Program withHeldGiven(const Program& f, std::span<const char> held);
+
 /// Whether f depends on its signs by sums and by products with what does not: then a mean of f over values of signs is
 /// f at their mean. A sign of what does not depend on states (time, parameters) counts as a number.
 bool isAffineInSigns(const Program& f);
@@ -39,8 +44,8 @@ bool isAffineInSigns(const Program& f);
 Program affineInSign(const Program& f);
 
 /// f on these sides, one a jump. Outputs: f's n, the arguments u_1 … u_K, the signs s_1 … s_K. A held argument counts
-/// as zero. Of several that are held the rates are those of one side and what each other side alone adds, times (1 +
-/// s)/2; where one is open f has to be affine in its signs. Where no value holds, outputs are not finite. Throws
+/// as zero. Where f is not affine in its signs, the rates are those of one side and what each other side of one held
+/// adds alone, times (1 + s)/2; where one is open it has to be. Where no value holds, outputs are not finite. Throws
 /// std::domain_error if a held argument's rate is the same whatever its sign, std::invalid_argument if one is open
 /// where a sign decides about a sign.
 Program onSides(const Program& f, std::span<const Side> sides);

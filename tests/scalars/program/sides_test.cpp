@@ -112,6 +112,26 @@ TEST(Sides, SeveralAreHeldAtOnce) {
   EXPECT_NEAR(one[5], (-3.0 + 0.5) / 4, 1e-15);
 }
 
+/// What holds is a force: coefficients that scale it have no part in what follows, however little is known of them.
+TEST(Sides, WhatHoldsDoesNotDependOnItsCoefficient) {
+  const Program f = record(3, 2, [](auto t, const auto& v, const auto& p, auto& dv) {
+    const auto first = p[0] * (2.0 * -sign(v[0])), second = p[1] * sqr(p[0]) * sign(v[1]);
+    dv[0] = t + first - 0.5 * second;
+    dv[1] = 0.25 + 0.5 * first - second;
+    dv[2] = first + second;
+  });
+  const std::vector<Interval> v{Interval(0), Interval(0), Interval(0)}, p{Interval(1, 2), Interval(0.5, 3)};
+  for (const bool both : {false, true}) {
+    const Side other = both ? Side::held : Side::between;
+    const std::vector<Interval> y = evaluate<Interval>(onSides(f, std::vector{Side::held, other}), v, p, Interval(0.5));
+    const double truth = -0.5;  // of the first: 0.5 + first - second/2 = 0 = 0.25 + first/2 - second
+    EXPECT_TRUE(contains(y[2], truth)) << y[2];
+    EXPECT_LT(width(y[2]), 1e-14);
+    EXPECT_TRUE(contains(y[5], -truth / 2)) << y[5];  // -first/(2 p), of p in [1, 2]
+    EXPECT_TRUE(contains(y[5], -truth / 4)) << y[5];
+  }
+}
+
 TEST(Sides, ProductsOfSignsAreNotAffine) {
   const auto isAffine = [](const auto& formula) {
     return isAffineInSigns(record(2, 0, [&](auto, const auto& x, const auto&, auto& dx) {
