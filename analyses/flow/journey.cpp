@@ -63,6 +63,22 @@ FlowJourney FlowFollower::follow(FlowPiece& piece, double end, double allowed) {
       return FlowJourney::cancelled;
     StepOutcome outcome = certify(piece);
     const bool uncertain = symbols_ > 0;
+    if ((hasLostTurn_ || isTurnMixed_) && uncertain && !piece.isTurnLost) {
+      constexpr double leastHalf = 0x1p-3;  // it may be that only smaller parts turn as one, or none does
+      if (!isTurnMixed_ && piece.layout + 1 < task_.degrees) {
+        changeLayout(piece, piece.layout + 1);
+        continue;
+      }
+      if (turnSymbol_ >= 0 && at(turnSymbol_) < piece.set.half.size() && !tool_->stepper.hasTurned() &&
+          piece.set.half[at(turnSymbol_)] > leastHalf && run_.mayBisect()) {
+        halves_.first = piece.set;
+        halves_.second = tool_->stepper.bisect(halves_.first, turnSymbol_, tool_->range);
+        halves_.areAlternatives = false;
+        return FlowJourney::bisected;
+      }
+      piece.isTurnLost = true;
+    }
+    if (tool_->stepper.hasTurned()) piece.isTurnLost = false;
     if (outcome == StepOutcome::splitWanted && !tool_->stepper.isAcrossKink()) {
       collected_.metThreshold = true;
       if (isOfDroppedTerms()) outcome = StepOutcome::stepped;
@@ -112,6 +128,7 @@ FlowJourney FlowFollower::follow(FlowPiece& piece, double end, double allowed) {
 /// One step, with the jumps held at which all of the piece is; of those that may be left, without.
 StepOutcome FlowFollower::certify(const FlowPiece& piece) {
   std::vector<char> held = FlowStepper::resting(piece.set, task_.jumps);
+  hasLostTurn_ = isTurnMixed_ = false;
   for (;;) {
     const bool holds = std::ranges::find(held, 1) != held.end();
     if (!holds) held.clear();
@@ -126,6 +143,9 @@ StepOutcome FlowFollower::certify(const FlowPiece& piece) {
     const double end = std::min(within, piece.set.t + longest);  // exact: both are multiples of the quantum
     const StepOutcome outcome =
         tool_->stepper.certify(piece.set, end, task_.quantum, uncertain ? task_.shares : SplitShares{});
+    hasLostTurn_ = hasLostTurn_ || tool_->stepper.hasLostTurn();
+    isTurnMixed_ = isTurnMixed_ || (tool_->stepper.isTurnMixed() && !tool_->stepper.hasTurned());
+    if (tool_->stepper.hasLostTurn() || isTurnMixed_) turnSymbol_ = tool_->stepper.turnSymbol();
     if (!holds || (outcome != StepOutcome::released && outcome != StepOutcome::failed)) {
       useOutputsOfLeaving(piece);
       return outcome;
@@ -226,6 +246,12 @@ void FlowFollower::useOutputsOfLeaving(const FlowPiece& piece) {
 }
 
 void FlowFollower::changeLayout(FlowPiece& piece, std::size_t to) {
+  constexpr int most = 64;
+  piece.wasLowered = piece.wasLowered || to < piece.layout;
+  if (to > piece.layout) {  // at once after it was lowered: that was too soon
+    piece.patience = piece.wasLowered ? std::min(2 * piece.patience, most) : 1;
+    piece.sinceRaised = 0;
+  }
   const FlowLayout& from = task_.layouts[piece.layout];
   changeDegree(piece.set, *from.monomials, *task_.layouts[to].monomials, task_.layouts[to].frameDegree);
   piece.layout = to;
@@ -274,7 +300,8 @@ bool FlowFollower::expand(FlowPiece& piece) {
 
 /// Back to a lower degree where the highest grades have become too small to matter.
 void FlowFollower::lowerDegree(FlowPiece& piece) {
-  if (piece.layout == 0 || piece.layout >= task_.degrees) return;
+  piece.wasLowered = false;
+  if (piece.layout == 0 || piece.layout >= task_.degrees || ++piece.sinceRaised < piece.patience) return;
   const Monomials& now = *task_.layouts[piece.layout].monomials;
   const double dropped =
       relativeMass(piece.set, now, task_.layouts[piece.layout - 1].monomials->degree(), now.degree());

@@ -36,10 +36,13 @@ struct FlowPiece {
   std::vector<char> wasKnown;                      // and whether it was once known to within that
   std::string path;                                // which halves it is of: what pieces leave is in this order
   double timeError = 0, truncation = 0;            // of its steps
-  TopGrades tops;          // likewise, in the highest layout; where it is not bisected for these
-  double refusedAt = -1;   // when it was not bisected, last
-  std::size_t fewer = 2;   // layouts by which outputs have less than states between two output times
-  std::size_t inFull = 0;  // times that chords were loaded since that was 0
+  TopGrades tops;                     // likewise, in the highest layout; where it is not bisected for these
+  double refusedAt = -1;              // when it was not bisected, last
+  int sinceRaised = 0, patience = 1;  // steps since its degree was raised, and to wait before it is lowered
+  bool wasLowered = false;            // after the last step
+  bool isTurnLost = false;            // since it turned last, by the highest degree as well
+  std::size_t fewer = 2;              // layouts by which outputs have less than states between two output times
+  std::size_t inFull = 0;             // times that chords were loaded since that was 0
 };
 
 /// A piece that goes on as two, if it may.
@@ -166,7 +169,9 @@ class FlowFollower {
   FlowCollected& collected_;
   /// One a layout and jumps held, made when first needed; null where these cannot be held together.
   std::map<std::pair<std::size_t, std::vector<char>>, std::unique_ptr<Tools>> tools_;
-  Tools* tool_ = nullptr;        // of the piece at hand, as are the next three
+  Tools* tool_ = nullptr;                           // of the piece at hand, as are the next three
+  bool hasLostTurn_ = false, isTurnMixed_ = false;  // FlowStepper's, of the last step
+  int turnSymbol_ = -1;
   Tools* outputTool_ = nullptr;  // of its outputs: that one, or of those that are held behind the step
   FlowOutputs* outputs_ = nullptr;
   PolynomialRange* outputRange_ = nullptr;  // of these

@@ -99,7 +99,7 @@ bool AlongStep::compose(double t0, double scale, double theta, const std::vector
 }
 
 /// Horner's method: 2(m + 1) roundings of what all coefficients are together, and one a monomial.
-Interval AlongStep::at(int node, double sigma) const {
+Interval AlongStep::atMoment(int node, double sigma) const {
   double leading = 0, others = 0;
   for (int g = 0; g < series_.count(node); ++g) {
     const double* c = series_.series(node) + g * series_.stride();
@@ -116,13 +116,13 @@ Interval AlongStep::at(int node, double sigma) const {
 Interval AlongStep::over(int output, double from, double to) const {
   constexpr int parts = 8;
   const int node = series_.outputNode(output);
-  Interval before = at(node, from), result = before;
+  Interval before = atMoment(node, from), result = before;
   if (to <= from) return result;
   const double second = series_.derivativeNorm(node, 2, theta_), third = series_.derivativeNorm(node, 3, theta_);
   double begin = from;
   for (int part = 1; part <= parts; ++part) {
     const double end = part == parts ? to : from + (to - from) * part / parts;
-    const Interval then = at(node, end);
+    const Interval then = atMoment(node, end);
     result = hull(result, hull(before, then) + series_.sag(node, begin, end, second, third, 0));
     before = then;
     begin = end;

@@ -38,7 +38,7 @@ class AlongStep {
  private:
   bool compose(double t0, double scale, double theta, const std::vector<Embedded>& parameters,
                const std::vector<Interval>& signs, const std::vector<double>& tube);
-  Interval at(int node, double sigma) const;
+  Interval atMoment(int node, double sigma) const;
 
   int orders_;
   PolynomialSeries series_;
@@ -59,8 +59,9 @@ class JumpRates : public AlongStep {
   }
   /// The argument.
   Interval argumentOver(std::size_t jump, double from, double to) const {
-    return AlongStep::over(static_cast<int>(2 * jumps_ + jump), from, to);
+    return AlongStep::over(argument(jump), from, to);
   }
+  int argument(std::size_t jump) const { return static_cast<int>(2 * jumps_ + jump); }
 
  private:
   std::size_t jumps_;

@@ -131,6 +131,52 @@ Interval JumpBounder::rate(std::size_t jump, double sign, const Interval& time, 
   return isEmpty(both) ? known : both;
 }
 
+/// u̇ = r - G s for s in [-1, 1], u̇ >= 0 where s = 1, and <= 0 where -1: a linear complementarity problem, by projected
+/// Gauss-Seidel iteration (R. Cottle, J.-S. Pang, R. Stone, The Linear Complementarity Problem, 1992, chapter 5).
+std::vector<double> JumpBounder::signsFromRest(double time, const Box& states, std::vector<double> signs,
+                                               const std::vector<char>& isZero) {
+  const std::size_t count = signs.size();
+  const auto ratesAt = [&](const std::vector<double>& at) {
+    Box all;
+    for (const Interval& parameter : parameters_) all.emplace_back(midpoint(parameter));
+    for (const double sign : at) all.emplace_back(sign);
+    given_.setParameters(all);
+    given_(Interval(time), states, results_);
+    std::vector<double> rates;
+    for (std::size_t k = 0; k < count; ++k) rates.push_back(midpoint(results_[states.size() + count + k]));
+    return rates;
+  };
+  for (std::size_t k = 0; k < count; ++k)
+    if (isZero[k] != 0) signs[k] = 0;
+  const std::vector<double> r = ratesAt(signs);
+  std::vector<std::vector<double>> G(count);  // by columns
+  for (std::size_t j = 0; j < count; ++j) {
+    if (isZero[j] == 0) continue;
+    std::vector<double> one = signs;
+    one[j] = 1;
+    G[j] = ratesAt(one);
+    for (std::size_t k = 0; k < count; ++k) G[j][k] = r[k] - G[j][k];
+    if (!(G[j][j] > 0)) return {};
+  }
+  constexpr int rounds = 1000;
+  double change = 1;
+  for (int round = 0; round < rounds && change > 0; ++round) {
+    change = 0;
+    for (std::size_t k = 0; k < count; ++k) {
+      if (isZero[k] == 0) continue;
+      double rate = r[k];
+      for (std::size_t j = 0; j < count; ++j)
+        if (isZero[j] != 0) rate -= G[j][k] * signs[j];
+      const double next = std::clamp(signs[k] + rate / G[k][k], -1.0, 1.0);
+      if (!(std::fabs(next) <= 1)) return {};
+      change = std::max(change, std::fabs(next - signs[k]));
+      signs[k] = next;
+    }
+    if (change < 1e-15) break;
+  }
+  return signs;
+}
+
 void JumpBounder::narrow(const LinearForm& form, const Interval& argument, Box& box) const {
   Interval others = form.constant;
   for (std::size_t k = 0; k < parameters_.size(); ++k)
@@ -215,6 +261,17 @@ SignCases SignCases::during(const Interval& seconds) const {
 bool JumpBound::leaves() const {
   return (start.lower() >= 0 && up.lower() > 0 && down.lower() > 0) ||
          (start.upper() <= 0 && up.upper() < 0 && down.upper() < 0);
+}
+
+JumpBound JumpBound::held(const Interval& sign) {
+  const Interval towards(1.0, 2.0), between = intersection(sign, Interval(-1.0, 1.0));  // whatever the rates are
+  return {.start = Interval(0.0),
+          .up = -towards,
+          .down = towards,
+          .over = Interval(0.0),
+          .sign = between,
+          .slid = between,
+          .holds = true};
 }
 
 /// Only what `sign` allows, if anything.

@@ -67,6 +67,8 @@ struct JumpBound {
   bool holds = false;                                           ///< those there stay there, all of them
   double turned = 0;                                            ///< how much the sign that would hold them varies
 
+  /// Of one that is held all the time, by these signs.
+  static JumpBound held(const Interval& sign);
   bool isKnown() const { return isCommon(over); }
   /// Where all solutions pass from one side to the other, or come from one to be held, how many seconds into the step
   /// each of them does.
@@ -140,6 +142,10 @@ class JumpBounder {
   /// what is known of rates besides, one a jump, or nothing.
   void bound(const Interval& time, const Box& box, const std::vector<Interval>& start, double h,
              std::vector<JumpBound>& bounds, std::span<const SideRates> known = {});
+  /// About what signs are from then on where arguments that are zero may stay so or leave: 1 or -1 of those that leave
+  /// to that side. `signs`: of the others. None if that is not decided.
+  std::vector<double> signsFromRest(double time, const Box& states, std::vector<double> signs,
+                                    const std::vector<char>& isZero);
   /// Narrows the pivot's state in `box` by what the form is.
   void narrow(const LinearForm& form, const Interval& argument, Box& box) const;
 

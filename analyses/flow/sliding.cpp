@@ -200,6 +200,7 @@ Interval FlowStepper::argumentAtStart(const FlowSet& set, std::size_t own) const
 /// they are solutions of the smooth f on that side.
 void FlowStepper::assumeSides(const FlowSet& set) {
   sides_.clear();
+  leaving_.clear();
   if (!own_) return;
   countAsGenerators([&] { totalRadius(set, total_); });
   const FlowJumps& own = own_->jumps();
@@ -222,6 +223,7 @@ void FlowStepper::assumeSides(const FlowSet& set) {
     if (start[j].upper() < 0 || (start[j].upper() == 0 && bound.up.upper() < 0 && bound.down.upper() < 0))
       sides_[j] = -1;
   }
+  leaveTogether(set, start, bounds);
   if (std::ranges::all_of(sides_, [](double side) { return side == 0; })) sides_.clear();
 }
 
@@ -301,43 +303,6 @@ bool FlowStepper::boundOwnJumps(const FlowSet& set, const Interval& time, const 
   return any;
 }
 
-void FlowStepper::boundHeldJumps(const FlowSet& set, const Interval& time, const Box& box, double h,
-                                 const std::vector<JumpBound>& own, std::vector<JumpBound>& bounds,
-                                 std::span<const SideRates> known) {
-  std::vector<Interval> start(held_.size(), Interval::entire());
-  bounds.assign(held_.size(), {});
-  for (std::size_t k = 0; k < held_.size(); ++k) {
-    if (held_[k] != 0) start[k] = Interval(0.0);
-    if (left_[k] >= 0) bounds[k].sign = Interval(factor_[k]) * own[at(left_[k])].sign;
-  }
-  holding_->setParameters(set.parameters);
-  holding_->bound(time, box, start, h, bounds, known);
-}
-
-bool FlowStepper::areHeld(const std::vector<JumpBound>& bounds) const {
-  bool holds = true;
-  for (std::size_t k = 0; k < held_.size(); ++k) holds = holds && (held_[k] == 0 || bounds[k].holds);
-  return holds;
-}
-
-/// Up to when the rates on both sides say that solutions stay held, s; at most h.
-double FlowStepper::longestHeld(const JumpRates& rates, double h) const {
-  const auto holdUntil = [&](double sigma) {
-    bool holds = true;
-    for (std::size_t k = 0; k < held_.size(); ++k)
-      holds = holds &&
-              (held_[k] == 0 || (rates.over(k, 1, 0, sigma).upper() < 0 && rates.over(k, -1, 0, sigma).lower() > 0));
-    return holds;
-  };
-  if (holdUntil(h / h0_)) return h;
-  double least = 0, most = h;
-  for (int halving = 0; halving < 40; ++halving) {
-    const double middle = 0.5 * (least + most);
-    (holdUntil(middle / h0_) ? least : most) = middle;
-  }
-  return least;
-}
-
 FlowStepper::Look FlowStepper::lookAtJumps(const FlowSet& set, double& h, double smallest, double left) {
   ownBounds_.clear();
   heldBounds_.clear();
@@ -349,6 +314,10 @@ FlowStepper::Look FlowStepper::lookAtJumps(const FlowSet& set, double& h, double
   std::vector<JumpBound> atStart, heldAtStart;
   areSidesClear_ = staysOnSides(set, box);
   if (!areSidesClear_) {  // E, not y: solutions are inside y until they leave their side
+    if (!leaving_.empty() && !leavesTogether(set, h)) {
+      sides_.clear();
+      return Look::unsided;
+    }
     std::vector<JumpBound> others(own_->jumps().count());
     for (std::size_t j = 0; j < others.size(); ++j) {
       const double value = series_.series(series_.jumps()[j])[0];
@@ -401,7 +370,20 @@ FlowStepper::Look FlowStepper::lookAtJumps(const FlowSet& set, double& h, double
     boundHeldJumps(set, time, box, h, ownBounds_, heldBounds_);
     boundHeldJumps(set, began, first, 0.0, atStart, heldAtStart);
     double held = 0.5 * h;
-    if (!areHeld(heldBounds_) && loadRates(*heldRates_, set, h, heldBounds_, y_)) {
+    const bool isByIntervals = areHeld(heldBounds_);
+    if (HeldSigns* together = isByIntervals ? nullptr : heldTogether(set, h, y_)) {
+      held = longestTogether(*together, h);
+      giveTogether(*together, h, heldBounds_);
+      giveTogether(*together, 0, heldAtStart);
+      constexpr double muchShorter = 0.25, beginning = 0x1p-10;  // of the step, which may be too long to tell
+      if (!areHeld(heldAtStart) && (together = heldTogether(set, beginning * h, y_)) != nullptr) {
+        giveTogether(*together, 0, heldAtStart);
+        if (areHeld(heldAtStart) && muchShorter * h > smallest) {
+          h *= muchShorter;
+          return Look::shorter;
+        }
+      }
+    } else if (!isByIntervals && loadRates(*heldRates_, set, h, heldBounds_, y_)) {
       held = longestHeld(*heldRates_, h);
       boundHeldJumps(set, time, box, h, ownBounds_, heldBounds_, ratesUntil(*heldRates_, h, held_.size()));
       boundHeldJumps(set, began, first, 0.0, atStart, heldAtStart, ratesUntil(*heldRates_, 0, held_.size()));
@@ -410,7 +392,7 @@ FlowStepper::Look FlowStepper::lookAtJumps(const FlowSet& set, double& h, double
       lift_.clear();
       return Look::shorter;
     }
-    if (!areHeld(heldBounds_) && mayTurn_ && !mayTurn) {
+    if (!areHeld(heldBounds_) && mayTurn_) {
       const Look look = lookAtRelease(set, h, smallest, left);
       if (look != Look::released) return look;
       mayTurn_ = false;
@@ -426,9 +408,7 @@ FlowStepper::Look FlowStepper::lookAtJumps(const FlowSet& set, double& h, double
         h = held;
         return Look::shorter;
       }
-      stillHeld_ = held_;
-      for (std::size_t k = 0; k < held_.size(); ++k)
-        stillHeld_[k] &= static_cast<char>((couldHold ? heldBounds_ : heldAtStart)[k].holds);
+      letGo(set, couldHold ? heldBounds_ : heldAtStart);
       return Look::released;
     }
   }
@@ -436,7 +416,12 @@ FlowStepper::Look FlowStepper::lookAtJumps(const FlowSet& set, double& h, double
   const bool mayArrive = inputs_.empty() && std::ranges::count_if(ownBounds_, [](const JumpBound& bound) {
                                               return bound.isKnown() && contains(bound.over, 0.0);
                                             }) == 1;
-  double longest = longestToCross(ownBounds_, atStart, h, smallest, mayArrive), longer = h;
+  const auto withoutSides = [&](std::vector<JumpBound> bounds) {  // these cross nothing
+    for (std::size_t j = 0; j < sides_.size(); ++j)
+      if (sides_[j] != 0) bounds[j] = {};
+    return bounds;
+  };
+  double longest = longestToCross(withoutSides(ownBounds_), withoutSides(atStart), h, smallest, mayArrive), longer = h;
   std::vector<std::size_t> narrower;
   for (std::size_t j = 0; j < ownBounds_.size(); ++j) {
     const JumpBound& bound = ownBounds_[j];
@@ -611,7 +596,8 @@ std::vector<Interval> FlowStepper::argumentsBehind() const {
     return bound.isKnown() ? bound.after(h_).then : Interval::entire();
   };
   if (held_.empty()) {
-    if (turn_) result.assign(of_->count(), Interval::entire());
+    if (turn_) result = turn_->besides;
+    if (turn_) result.resize(of_->count(), Interval::entire());
     for (std::size_t j = 0; j < ownBounds_.size() && !turn_; ++j) result.push_back(behind(ownBounds_[j]));
     if (turn_) result[turn_->jump] = turn_->argument;
     return result;
@@ -619,6 +605,8 @@ std::vector<Interval> FlowStepper::argumentsBehind() const {
   for (std::size_t k = 0; k < held_.size(); ++k) {
     result.push_back(held_[k] != 0 ? behind(heldBounds_[k]) : Interval::entire());
     if (left_[k] >= 0 && !ownBounds_.empty()) result.back() = Interval(factor_[k]) * behind(ownBounds_[at(left_[k])]);
+    if (turn_ && left_[k] >= 0 && !turn_->besides.empty())
+      result.back() = Interval(factor_[k]) * turn_->besides[at(left_[k])];
     if (turn_ && turn_->jump == k) result.back() = turn_->argument;
   }
   return result;

@@ -115,10 +115,10 @@ double FlowStepper::suggestion(double theta, double share) const {
   return best;
 }
 
-bool FlowStepper::boundGrowth(double h) {
+bool FlowStepper::boundGrowth(const FlowSet& set, double h) {
   for (int i = 0; i < n_; ++i)
     for (int j = 0; j < n_; ++j) growth_.A(i, j) = series_.jacobianBound(i, j);
-  if (mayDamp())
+  if (mayDamp(set))
     for (int i = 0; i < n_; ++i) growth_.diagonal(i) = series_.dampingBound(i);
   if (isSmooth() && monomials().symbols() >= many) {
     std::vector<double> centre(at(n_ * n_)), spread(at(n_ * n_));
@@ -134,7 +134,20 @@ bool FlowStepper::boundGrowth(double h) {
 
 /// What kinks, jumps and inputs add is bounded beside a comparison that grows with time (crossing.cpp, inputs.cpp). Of
 /// many symbols short steps keep truncation low that is not of time (measured: half a car at rest before a bump).
-bool FlowStepper::mayDamp() const { return isSmooth() && monomials().symbols() < many; }
+bool FlowStepper::mayDamp(const FlowSet& set) const {
+  return monomials().symbols() < many && (isSmooth() || areJumpsClear(set));
+}
+
+/// No argument of a jump comes to zero in the tube that was bounded last.
+bool FlowStepper::areJumpsClear(const FlowSet& set) const {
+  if (!own_ || holding_ || kinks_ || !inputs_.empty()) return false;
+  const std::vector<int>& jumps = series_.jumps();
+  Box box;
+  for (int i = 0; i < n_; ++i) box.push_back(series_.rangeOf(i, E_[at(i)]));
+  for (std::size_t j = 0; j < jumps.size(); ++j)
+    if ((sides_.empty() || sides_[j] == 0) && series_.mayTurn(jumps[j])) return false;
+  return staysOnSides(set, box);
+}
 
 bool FlowStepper::isSmooth() const { return !own_ && !holding_ && !kinks_ && !series_.hasKinks() && inputs_.empty(); }
 
@@ -175,7 +188,7 @@ bool FlowStepper::tryStep(const FlowSet& set, double theta) {
       heldTube_[at(i)] = (y + series_.lowNorm(i)) * bounds::up + bounds::tiny;
     }
   };
-  if (!boundGrowth(h)) return false;
+  if (!boundGrowth(set, h)) return false;
   tube();
   if (series_.hasKinks()) {
     if (!series_.bound(start_.data(), false)) return refuse();
@@ -189,7 +202,7 @@ bool FlowStepper::tryStep(const FlowSet& set, double theta) {
     }
     if (!series_.bound(E_.data(), false)) return refuse();
     if (series_.hasJumped() && !(boundAlong() && series_.bound(E_.data(), false))) return refuse();
-    if (!boundGrowth(h)) return false;
+    if (!boundGrowth(set, h)) return false;
     tube();
     proved = true;
     for (int i = 0; i < n_; ++i) proved = proved && y_[at(i)] < E_[at(i)];
@@ -483,6 +496,7 @@ StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum,
   lift_.clear();
   beyondLast_ = 0;
   mayTurn_ = true;
+  hasLostTurn_ = isTurnMixed_ = false;
   ownBounds_.clear();
   heldBounds_.clear();
   const double left = end - set.t;

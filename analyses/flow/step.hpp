@@ -14,6 +14,7 @@
 #include "analyses/flow/bounded_polynomial.hpp"
 #include "analyses/flow/cause.hpp"
 #include "analyses/flow/growth.hpp"
+#include "analyses/flow/held_signs.hpp"
 #include "analyses/flow/inputs.hpp"
 #include "analyses/flow/jump_rates.hpp"
 #include "analyses/flow/jumps.hpp"
@@ -116,6 +117,13 @@ class FlowStepper {
   const std::vector<char>& stillHeld() const { return stillHeld_; }
   /// Those held at the step's end, where all solutions leave one of those held in the step; else none.
   const std::vector<char>& heldBehind() const { return turn_ && !turn_->arrives ? stillHeld_ : nothingHeld_; }
+  /// Whether a turn was looked at in the last step of which polynomials of a higher degree might tell more.
+  bool hasLostTurn() const { return hasLostTurn_; }
+  bool hasTurned() const { return turn_.has_value(); }
+  /// Or was refused since in a part of the set another jump holds or lets go before: smaller parts may tell.
+  bool isTurnMixed() const { return isTurnMixed_; }
+  /// The symbol that decides most about when; -1 if none does.
+  int turnSymbol() const { return turnSymbol_; }
   /// Of each jump, whether its argument is zero for all solutions in the set; empty if none is.
   static std::vector<char> resting(const FlowSet& set, const FlowJumps& jumps);
   /// Of the stepper's motion.
@@ -173,8 +181,9 @@ class FlowStepper {
   void turnFrame(FlowSet& set);
   void carryGenerators(FlowSet& set);
   void evaluateInputs(const FlowSet& set, const std::vector<double>& columns, FlowPoint& point) const;
-  bool boundGrowth(double h);
-  bool mayDamp() const;
+  bool boundGrowth(const FlowSet& set, double h);
+  bool mayDamp(const FlowSet& set) const;
+  bool areJumpsClear(const FlowSet& set) const;
   bool isSmooth() const;
   double dampedStep() const;
   double worstColumn(const FlowSet& set) const;
@@ -248,24 +257,43 @@ class FlowStepper {
                  const std::vector<double>& tube);
   bool areHeld(const std::vector<JumpBound>& bounds) const;
   double longestHeld(const JumpRates& rates, double h) const;
+  static constexpr std::size_t none = static_cast<std::size_t>(-1);
+  HeldSigns& heldSignsFor(const std::vector<char>& held);
+  std::optional<std::vector<Interval>> signsBeside(const std::vector<JumpBound>& bounds) const;
+  HeldSigns* heldTogether(const FlowSet& set, double h, const std::vector<double>& tube);
+  bool areTogether(const HeldSigns& together, const std::vector<char>& held, double from, double to,
+                   std::size_t but = none) const;
+  void noteOther(const HeldSigns& together, std::size_t jump, double at);
+  double longestTogether(const HeldSigns& together, double h) const;
+  void giveTogether(const HeldSigns& together, double until, std::vector<JumpBound>& bounds) const;
+  void leaveTogether(const FlowSet& set, const std::vector<Interval>& start, const std::vector<JumpBound>& bounds);
+  bool leavesTogether(const FlowSet& set, double h);
+  void letGo(const FlowSet& set, const std::vector<JumpBound>& bounds);
   /// In this step a jump lets go all solutions that it held, to one side, or comes to hold them, from one side: D is
   /// added to each of them from m(ξ) on.
   struct Turn {
     std::size_t jump;  // of f
     double side;
     bool arrives;
+    int own;  // jump, of the stepper's motion; -1: of those held
     FlowTurn* of;
-    Interval moments;  // s, of m(ξ) and of solutions themselves
+    Interval moments;                         // s, of m(ξ) and of solutions themselves
+    std::vector<char> heldBefore, heldAfter;  // of each jump of f
+    std::vector<Interval> signs;              // of f, before; 0 of those held
     const LinearForm* form = nullptr;
-    double away = 0;                                     // how far these are from each other at most
-    double beyond = 0;                                   // the guard at the start, if above zero
-    std::vector<std::vector<BoundedPolynomial>> D{};     // of each state, by orders of σ
-    std::vector<double> most{}, gap{}, slope{}, bend{};  // |D| at most; |D| and |Ḋ| at m(ξ); |D̈| at most
-    std::vector<double> before{};                        // like e1_, until then
-    std::vector<double> push{};                          // |what is added to f| between these moments
-    std::vector<double> jolt{};                          // what chords from the step's start miss
-    Interval growth{0.0};                                // of the argument's rate, of those let go, towards that side
-    Interval argument{0.0};                              // at the step's end
+    BoundedPolynomial when{};                         // m(ξ), in units of σ
+    double away = 0;                                  // how far these are from each other at most
+    double beyond = 0;                                // the guard at the start, if above zero
+    std::vector<std::vector<BoundedPolynomial>> D{};  // of each state, by orders of σ
+    std::vector<double> most{}, twist{};              // |D| and its third derivative at most
+    std::vector<double> gap{}, slope{}, bend{};       // |D|, |Ḋ| and |D̈| at m(ξ)
+    std::vector<double> before{};                     // like e1_, until then
+    std::vector<double> ofDegree{};                   // of what is missed, by truncation in ξ, about
+    std::vector<double> push{};                       // |what is added to f| between these moments
+    std::vector<double> jolt{};                       // what chords from the step's start miss
+    Interval growth{0.0};                             // of the argument's rate, of those let go, towards that side
+    Interval argument{0.0};                           // at the step's end
+    std::vector<Interval> besides{};                  // likewise of own jumps; none: nothing is known
     SignCases during(const Interval& seconds) const;
     Interval gone(double seconds) const;
     /// |D| at most where it should be nothing yet, `late` seconds before.
@@ -276,8 +304,15 @@ class FlowStepper {
   Look lookAtArrival(const FlowSet& set, double& h, double smallest, double left);
   Look lookAtTurn(const FlowSet& set, double& h, double smallest, double left, Turn turn,
                   const std::vector<Interval>& signs);
+  void holdBeside(const std::vector<char>& held);
+  bool holdUntilTurned(const FlowSet& set, const Turn& turn);
+  Interval onceTurned(const AlongStep& along, int output, const Turn& turn) const;
+  bool stayOnceTurned(const FlowSet& set, Turn& turn, const std::vector<double>& states,
+                      const std::vector<double>& tube);
+  bool holdOnceTurned(const FlowSet& set, const Turn& turn, const std::vector<double>& states,
+                      const std::vector<double>& tube);
   std::vector<double> statesWith(const Turn& turn) const;
-  bool describeTurn(const FlowSet& set, const std::vector<Interval>& signs, Turn& turn) const;
+  bool describeTurn(const FlowSet& set, const std::vector<Interval>& signs, Turn& turn);
   bool proveTurn(const FlowSet& set, const std::vector<Interval>& signs, Turn& turn, double& relativeDefect);
   void addTurn(double tau, FlowPoint& point) const;
   /// What comes to be held, |u - ũ| ≤ g on a chord from its first to its last number, with the state that it decides.
@@ -314,16 +349,19 @@ class FlowStepper {
   std::shared_ptr<const FlowScales> scales_;
   int symbolAcross_ = -1;  // of kinks, for worstSymbol
   double slideLoss_ = 0;
-  const FlowJumps* of_ = nullptr;                         // without any held
-  std::optional<JumpBounder> own_, holding_;              // of the stepper's own jumps; of those of which some are held
-  std::vector<char> held_, stillHeld_;                    // of each of these; none: none
-  std::vector<int> left_;                                 // of each of these, which own jump it is; -1: none
-  std::vector<double> factor_;                            // its argument is that one's, times this
-  std::vector<JumpBound> ownBounds_, heldBounds_;         // over the step; none: nothing is known
-  std::unique_ptr<JumpRates> ownRates_, heldRates_;       // likewise
-  std::map<std::pair<int, bool>, AlongStep> heldPushes_;  // of own jumps, from above or not; once needed
-  double length_ = 0, resolution_ = 0;                    // of time, s
+  const FlowJumps* of_ = nullptr;                    // without any held
+  std::optional<JumpBounder> own_, holding_;         // of the stepper's own jumps; of those of which some are held
+  std::vector<char> held_, stillHeld_;               // of each of these; none: none
+  std::vector<int> left_;                            // of each of these, which own jump it is; -1: none
+  std::vector<double> factor_;                       // its argument is that one's, times this
+  std::vector<JumpBound> ownBounds_, heldBounds_;    // over the step; none: nothing is known
+  std::unique_ptr<JumpRates> ownRates_, heldRates_;  // likewise
+  std::map<std::vector<char>, std::unique_ptr<HeldSigns>> heldSigns_;  // once needed
+  std::map<std::pair<int, bool>, AlongStep> heldPushes_;               // of own jumps, from above or not; once needed
+  double length_ = 0, resolution_ = 0;                                 // of time, s
   std::vector<double> sides_;  // of each own jump, on which all solutions are taken to be: 1, -1; 0: not; none: nowhere
+  std::vector<char>
+      leaving_;  // of each own jump, whether its side is taken so that others push it there; none: of none
   std::unique_ptr<FlowKinks> kinks_;  // null: there are none
   TimeKinks timeKinks_;
   std::vector<Interval> kinkRates_;  // over the step
@@ -337,6 +375,8 @@ class FlowStepper {
   bool isLiftOfArrival_ = false;
   double beyondLast_ = 0;  // how much longer the step is than until the last has turned, s; 0: not known yet
   bool mayTurn_ = true;    // in this step
+  bool hasLostTurn_ = false, isTurnMixed_ = false;
+  int turnSymbol_ = -1;
   int turnTries_ = 0;
   const std::vector<char> nothingHeld_ = {};
   std::vector<double> crossed_;  // like e1_, if what these do is known

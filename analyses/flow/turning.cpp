@@ -2,6 +2,7 @@
 // follows. Derivation: docs/flow.md, section 7, "Releasing".
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -45,7 +46,34 @@ double restOf(const AlongStep& along, int output) {
   return (along.series().rho0(node) + along.series().rho1(node)) * bounds::up;
 }
 
+/// Σ u_i σ^i for σ = m + λ (θ - m), by orders of λ.
+std::vector<BoundedPolynomial> sinceMoment(const Monomials& monomials, const std::vector<BoundedPolynomial>& u,
+                                           const BoundedPolynomial& moment, double theta) {
+  BoundedPolynomial left = moment;
+  left *= -1;
+  left += {{theta}};
+  std::vector<BoundedPolynomial> result;
+  for (auto term = u.rbegin(); term != u.rend(); ++term) {
+    std::vector<BoundedPolynomial> next(result.size() + 1);
+    for (std::size_t k = 0; k < result.size(); ++k) {
+      next[k] += product(monomials, result[k], moment);
+      next[k + 1] += product(monomials, result[k], left);
+    }
+    next[0] += *term;
+    result = std::move(next);
+  }
+  return result;
+}
+
 }  // namespace
+
+/// An output from a solution's own moment on.
+Interval FlowStepper::onceTurned(const AlongStep& along, int output, const Turn& turn) const {
+  const std::vector<BoundedPolynomial> u = polynomialsOf(along, output, at(m_) + 1);
+  const double moves = along.series().derivativeNorm(along.series().outputNode(output), 1, theta_) / h0_;
+  const Interval range = rangeOver(sinceMoment(monomials(), u, turn.when, theta_), 0, 1);
+  return inflated(range, (turn.away * moves + restOf(along, output)) * bounds::up);
+}
 
 /// Null where there is no such turn.
 FlowTurn* FlowStepper::turnFor(std::size_t jump, double side, bool arrives) {
@@ -59,29 +87,35 @@ FlowTurn* FlowStepper::turnFor(std::size_t jump, double side, bool arrives) {
   return place->second.get();
 }
 
-/// Whether one of those held lets all solutions go to one side within the step, and what is known of that.
-/// Look::released: it cannot be proved.
+/// Whether one of those held lets all solutions go to one side within the step, before any other, and what is known of
+/// that. Look::released: it cannot be proved.
 FlowStepper::Look FlowStepper::lookAtRelease(const FlowSet& set, double& h, double smallest, double left) {
-  std::optional<std::pair<std::size_t, double>> key;
-  std::vector<Interval> signs;
+  HeldSigns* const together = heldTogether(set, h, heldTube_);
+  if (together == nullptr) return Look::released;
+  double earliest = std::numeric_limits<double>::infinity(), side = 0;
+  std::size_t jump = 0;
   for (std::size_t k = 0; k < held_.size(); ++k) {
-    const JumpBound& bound = heldBounds_[k];
-    signs.push_back(bound.sign);
-    if (held_[k] == 0 && !isThin(bound.sign)) return Look::released;
-    if (held_[k] == 0 || bound.holds) continue;
-    const bool above = !(bound.up.upper() < 0), below = !(bound.down.lower() > 0);
-    if (key || above == below) return Look::released;
-    key.emplace(k, above ? 1.0 : -1.0);
+    if (held_[k] == 0) continue;
+    const auto until = [&](double seconds) { return together->sign(k, 0, seconds / h0_); };
+    const auto isLetGo = [&](double seconds) { return magnitude(until(seconds)) >= 1; };
+    if (!isLetGo(h)) continue;
+    const auto [held, gone] = isLetGo(0) ? std::pair(0.0, 0.0) : changeOf(0, h, isLetGo);
+    if (!(held < earliest)) continue;
+    const bool above = until(gone).upper() >= 1, below = until(gone).lower() <= -1;
+    earliest = held;
+    jump = k;
+    side = above == below ? 0 : above ? 1 : -1;
   }
-  if (!key) return Look::released;
-  const auto [jump, side] = *key;
-  FlowTurn* const of = turnFor(jump, side, false);
+  FlowTurn* const of = side != 0 ? turnFor(jump, side, false) : nullptr;
   if (of == nullptr) return Look::released;
-  const Look look = lookAtTurn(set, h, smallest, left, {jump, side, false, of, {}}, signs);
+  std::vector<char> after = held_;
+  after[jump] = 0;
+  const std::vector<Interval> signs = *signsBeside(heldBounds_);
+  const Look look = lookAtTurn(set, h, smallest, left, {jump, side, false, -1, of, {}, held_, after, signs}, signs);
   if (look != Look::goOn) return look;
-  stillHeld_ = held_;
-  stillHeld_[jump] = 0;
-  heldBounds_[jump] = {};
+  stillHeld_ = after;
+  holdBeside(after);
+  for (JumpBound& bound : ownBounds_) bound = {.sign = bound.sign};  // rates are others then
   turn_->form = &*of_->forms[jump];
   return look;
 }
@@ -91,36 +125,114 @@ FlowStepper::Look FlowStepper::lookAtArrival(const FlowSet& set, double& h, doub
   const FlowJumps& own = own_->jumps();
   std::optional<std::size_t> jump;
   std::vector<Interval> signs;
-  std::vector<JumpBound> bounds(own.count());
   for (std::size_t j = 0; j < own.count(); ++j) {
     const double sign = series_.series(series_.jumps()[j])[0];
     if (std::fabs(sign) != 1 || (sides_[j] == 0 && series_.mayTurn(series_.jumps()[j]))) return Look::released;
     signs.emplace_back(sign);
-    const Interval argument = sides_[j] == 0 ? Interval(1.0) : ownRates_->argumentOver(j, 0, h / h0_);
-    if (sides_[j] != 0 && !(sides_[j] > 0 ? argument.lower() > 0 : argument.upper() < 0)) {
-      if (jump) return Look::released;
-      jump = j;
-    } else {
-      bounds[j].sign = Interval(sign);
-    }
+    if (sides_[j] == 0) continue;
+    const Interval argument = ownRates_->argumentOver(j, 0, h / h0_);
+    if (sides_[j] > 0 ? argument.lower() > 0 : argument.upper() < 0) continue;
+    if (jump) return Look::released;
+    jump = j;
   }
   FlowTurn* const of = jump ? turnFor(*jump, sides_[*jump], true) : nullptr;
   if (of == nullptr) return Look::released;
-  if (holding_) {  // those held stay so, whatever the sign of the one that comes
-    Box box;
-    for (int i = 0; i < n_; ++i) box.push_back(series_.rangeOf(i, y_[at(i)]));
-    boundHeldJumps(set, Interval(set.t) + Interval(0.0, h), box, h, bounds, heldBounds_);
-    if (!areHeld(heldBounds_)) return Look::released;
-  }
   std::size_t which = *jump;
   double factor = 1;
-  for (std::size_t k = 0; k < left_.size() && !held_.empty(); ++k)
+  std::vector<Interval> all = signs;  // of the jumps of f
+  std::vector<char> after(of_->count(), 0);
+  for (std::size_t k = 0; k < held_.size(); ++k) {
+    if (k == 0) all.assign(held_.size(), Interval(0.0));
+    after[k] = held_[k];
+    if (held_[k] != 0) continue;
+    if (left_[k] < 0) return Look::released;
     if (left_[k] == static_cast<int>(*jump)) which = k, factor = factor_[k];
-  const bool isKnown = held_.empty() || left_[which] == static_cast<int>(*jump);
-  if (!isKnown) return Look::released;
-  const Look look = lookAtTurn(set, h, smallest, left, {which, factor * sides_[*jump], true, of, {}}, signs);
-  if (look == Look::goOn) turn_->form = &*own.forms[*jump];
+    all[k] = Interval(factor_[k]) * signs[at(left_[k])];
+  }
+  if (!held_.empty() && left_[which] != static_cast<int>(*jump)) return Look::released;
+  after[which] = 1;
+  const Look look = lookAtTurn(
+      set, h, smallest, left,
+      {which, factor * sides_[*jump], true, static_cast<int>(*jump), of, {}, held_, after, std::move(all)}, signs);
+  if (look != Look::goOn) return look;
+  holdBeside(held_);
+  turn_->form = &*own.forms[*jump];
   return look;
+}
+
+/// Whether arguments that are on a side stay there once others have turned, along these polynomials of states: the turn
+/// has been loaded with them. Sets what they are at the step's end. Before that: longestOnSides.
+bool FlowStepper::stayOnceTurned(const FlowSet& set, Turn& turn, const std::vector<double>& states,
+                                 const std::vector<double>& tube) {
+  turn.besides.clear();
+  if (!own_ || areSidesClear_) return true;
+  std::vector<Interval> signs;
+  for (const int jump : series_.jumps()) signs.emplace_back(series_.series(jump)[0]);
+  if (!ownRates_->load(states, set.t, h0_, theta_, set.parameters, signs, tube)) return false;
+  turn.besides.assign(signs.size(), Interval::entire());
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  for (std::size_t j = 0; j < sides_.size(); ++j) {
+    if (sides_[j] == 0 || static_cast<int>(j) == turn.own) continue;
+    const auto isAway = [&](const Interval& number) { return sides_[j] > 0 ? number.lower() > 0 : number.upper() < 0; };
+    const LinearForm& form = *own_->jumps().forms[j];
+    Interval rate(0.0);
+    for (std::size_t i = 0; i < form.states.size(); ++i)
+      if (form.states[i] != 0)
+        rate += Interval(form.states[i]) * onceTurned(*turn.of, turn.of->after(static_cast<int>(i)), turn);
+    if (!isAway(rate) && !isAway(onceTurned(*ownRates_, ownRates_->argument(j), turn))) return false;
+    const Interval end = ownRates_->argumentOver(j, theta_, theta_), start = argumentAtStart(set, j);
+    const Interval beyond = isAway(rate) ? sides_[j] > 0 ? Interval(std::max(0.0, start.lower()), infinite)
+                                                         : Interval(-infinite, std::min(0.0, start.upper()))
+                                         : Interval::entire();
+    turn.besides[j] = intersection(end, beyond);
+  }
+  return true;
+}
+
+/// All the step long.
+void FlowStepper::holdBeside(const std::vector<char>& held) {
+  heldBounds_.assign(held_.size(), {});
+  for (std::size_t k = 0; k < held.size(); ++k)
+    if (held[k] != 0) heldBounds_[k] = JumpBound::held(Interval(-1.0, 1.0));
+}
+
+/// Another one turns before all have: what decides most about when is what this piece is to be bisected in.
+void FlowStepper::noteOther(const HeldSigns& together, std::size_t jump, double at) {
+  turnSymbol_ = together.worstSymbol(jump, at / h0_);
+  isTurnMixed_ = true;
+}
+
+/// Whether those that are held besides the one that turns are so until all have turned.
+bool FlowStepper::holdUntilTurned(const FlowSet& set, const Turn& turn) {
+  const auto besides = std::ranges::count(turn.heldBefore, 1) - (turn.arrives ? 0 : 1);
+  if (besides == 0) return true;
+  HeldSigns& together = heldSignsFor(turn.heldBefore);
+  const double until = std::min(h_, turn.moments.upper());
+  if (!together.load(series_, set.t, h0_, theta_, set.parameters, turn.signs, heldTube_)) return false;
+  if (areTogether(together, turn.heldBefore, 0, until, turn.jump)) return true;
+  for (std::size_t k = 0; k < turn.heldBefore.size(); ++k)
+    if (turn.heldBefore[k] != 0 && k != turn.jump && magnitude(together.sign(k, 0, until / h0_)) >= 1 &&
+        mignitude(together.sign(k, until / h0_, until / h0_)) < 1)
+      noteOther(together, k, until);
+  return false;
+}
+
+/// Likewise from when the first has turned, along these polynomials of states.
+bool FlowStepper::holdOnceTurned(const FlowSet& set, const Turn& turn, const std::vector<double>& states,
+                                 const std::vector<double>& tube) {
+  const auto besides = std::ranges::count(turn.heldAfter, 1) - (turn.arrives ? 1 : 0);
+  if (besides == 0) return true;
+  HeldSigns& together = heldSignsFor(turn.heldAfter);
+  std::vector<Interval> signs = turn.signs;
+  signs[turn.jump] = Interval(turn.side);
+  if (!together.load(states, set.t, h0_, theta_, set.parameters, signs, tube)) return false;
+  for (std::size_t k = 0; k < turn.heldAfter.size(); ++k) {
+    const Interval sign = turn.heldAfter[k] != 0 ? onceTurned(together, together.output(k), turn) : Interval(0.0);
+    if (magnitude(sign) < 1) continue;
+    if (mignitude(sign) < 1) noteOther(together, k, h_);
+    return false;
+  }
+  return together.decides(std::max(0.0, turn.moments.lower()) / h0_, theta_);
 }
 
 /// Whether the turn takes all solutions within the step, which is then somewhat longer than until the last has turned.
@@ -162,7 +274,7 @@ FlowStepper::Look FlowStepper::lookAtTurn(const FlowSet& set, double& h, double 
   h_ = h;
   theta_ = h / h0_;
   turn.moments = Interval(first, last);
-  if (!describeTurn(set, signs, turn)) return Look::released;
+  if (!describeTurn(set, signs, turn) || !holdUntilTurned(set, turn)) return Look::released;
   if (lift_.empty()) {
     for (const double most : turn.most) lift_.push_back(longer * most + bounds::tiny);
     isLiftOfArrival_ = turn.arrives;
@@ -195,7 +307,7 @@ Interval FlowStepper::Turn::gone(double seconds) const {
 }
 
 double FlowStepper::Turn::early(std::size_t state, double late) const {
-  return (gap[state] + late * (slope[state] + 0.5 * late * bend[state])) * bounds::up;
+  return (gap[state] + late * (slope[state] + late * (0.5 * bend[state] + late * twist[state] / 6))) * bounds::up;
 }
 
 /// x̃ + D, as AlongStep takes it.
@@ -211,13 +323,25 @@ std::vector<double> FlowStepper::statesWith(const Turn& turn) const {
 
 /// m(ξ), where the rate of the polynomials is zero, and D about ∫ f_a(x̃ + D) - x̃' from there on, by Picard's method:
 /// f_a of those let go.
-bool FlowStepper::describeTurn(const FlowSet& set, const std::vector<Interval>& signs, Turn& turn) const {
+bool FlowStepper::describeTurn(const FlowSet& set, const std::vector<Interval>& signs, Turn& turn) {
   FlowTurn& of = *turn.of;
   const std::size_t n = at(n_), orders = at(m_) + 1;
   const std::vector<BoundedPolynomial> rate = polynomialsOf(of, of.guard(), orders);
   const PolynomialRoot root = rootOf(monomials(), rate, midpoint(turn.moments) / h0_);
   // The rate is zero, but for what bounds miss, at a solution's own moment and at m(ξ); the slope of its polynomial
   // differs from that at their middle by no more than the second derivative makes of half their distance.
+  turnSymbol_ = -1;
+  isTurnMixed_ = false;
+  double most = 0;
+  for (int l = 0; l < monomials().symbols(); ++l) {
+    double mass = 0;
+    for (std::size_t g = 1; g < root.x.c.size(); ++g)
+      if (monomials().exponent(static_cast<int>(g), l) > 0) mass += std::fabs(root.x.c[g]);
+    if (!(mass > most)) continue;
+    most = mass;
+    turnSymbol_ = l;
+  }
+  turn.when = root.x;
   const Interval moments = hull(inflated(Interval(root.x.c[0]), root.x.variation()), turn.moments / Interval(h0_));
   if (!isBounded(moments) || magnitude(moments) > theta_) return false;
   const int node = of.series().outputNode(of.guard());
@@ -257,7 +381,10 @@ bool FlowStepper::describeTurn(const FlowSet& set, const std::vector<Interval>& 
       return sum * bounds::up;
     };
     for (std::size_t i = 0; i < n; ++i) tube[i] = reached(i, 4) + bounds::tiny;
-    if (attempt == tries || !of.rebound(tube.data())) return false;
+    if (attempt == tries || !of.rebound(tube.data())) {
+      hasLostTurn_ = true;
+      return false;
+    }
     bool isInside = true;
     for (std::size_t i = 0; i < n; ++i) {
       turn.push[i] = (added[i] + restOf(of, of.added(static_cast<int>(i)))) * bounds::up;
@@ -267,19 +394,28 @@ bool FlowStepper::describeTurn(const FlowSet& set, const std::vector<Interval>& 
   }
   const std::size_t N = at(series_.count());
   turn.D.assign(n, std::vector<BoundedPolynomial>(orders, {std::vector<double>(N, 0.0)}));
-  constexpr int rounds = 4;
-  for (int round = 0; round < rounds; ++round) {
+  constexpr int rounds = 12;
+  constexpr double little = 1e-8;  // of D
+  bool isNear = false;
+  for (int round = 0; round < rounds && !isNear; ++round) {
+    isNear = true;
     if (!of.load(statesWith(turn), set.t, h0_, theta_, set.parameters, signs, zero)) return false;
     for (std::size_t i = 0; i < n; ++i) {
       std::vector<BoundedPolynomial>& D = turn.D[i];
       const std::vector<BoundedPolynomial> f = polynomialsOf(of, of.after(static_cast<int>(i)), orders);
       D[0].c.assign(N, 0.0);
-      for (std::size_t order = 1; order < orders; ++order)
+      double size = 0, change = 0, power = 1;
+      for (std::size_t order = 1; order < orders; ++order) {
+        power *= theta_;
         for (std::size_t g = 0; g < N; ++g) {
           const double before = series_.series(static_cast<int>(i))[g * at(series_.stride()) + order];
           const double after = g < f[order - 1].c.size() ? f[order - 1].c[g] * h0_ / static_cast<double>(order) : 0.0;
+          change += power * std::fabs(D[order].c[g] - (after - before));
+          size += power * std::fabs(after - before);
           D[order].c[g] = after - before;
         }
+      }
+      isNear = isNear && change <= little * size;
       BoundedPolynomial atMoment = composed(monomials(), D, root.x);
       for (std::size_t g = 0; g < N; ++g) D[0].c[g] = -atMoment.c[g];
     }
@@ -287,17 +423,21 @@ bool FlowStepper::describeTurn(const FlowSet& set, const std::vector<Interval>& 
   const double from = std::max(0.0, turn.moments.lower()) / h0_;
   for (std::size_t i = 0; i < n; ++i) {
     std::vector<BoundedPolynomial> rates(turn.D[i].begin() + 1, turn.D[i].end());
-    double bend = 0, power = 1;
-    for (std::size_t order = 0; order < rates.size(); ++order) {
-      rates[order] *= static_cast<double>(order + 1) / h0_;
+    for (std::size_t order = 0; order < rates.size(); ++order) rates[order] *= static_cast<double>(order + 1) / h0_;
+    std::vector<BoundedPolynomial> seconds(rates.begin() + 1, rates.end());
+    double twist = 0, power = 1;
+    for (std::size_t order = 0; order < seconds.size(); ++order) {
+      seconds[order] *= static_cast<double>(order + 1) / h0_;
       if (order == 0) continue;
-      bend += static_cast<double>(order) * rates[order].norm() * power;
+      twist += static_cast<double>(order) * seconds[order].norm() * power;
       power *= theta_;
     }
     turn.most.push_back(magnitude(rangeOver(turn.D[i], from, theta_)));
     turn.gap.push_back(composed(monomials(), turn.D[i], root.x).norm());
+    turn.ofDegree.push_back(turn.gap.back() + 3 * turn.away * turn.push[i]);
     turn.slope.push_back(composed(monomials(), rates, root.x).norm());
-    turn.bend.push_back(bend / h0_ * bounds::up);
+    turn.bend.push_back(composed(monomials(), seconds, root.x).norm());
+    turn.twist.push_back(twist / h0_ * bounds::up);
   }
   return true;
 }
@@ -314,7 +454,7 @@ bool FlowStepper::proveTurn(const FlowSet& set, const std::vector<Interval>& sig
   // The defect.
   const std::vector<double> states = statesWith(turn);
   if (!of.load(states, set.t, h0_, theta_, set.parameters, signs, std::vector<double>(n, 0.0))) return false;
-  std::vector<double> defect(n), ofFrame(n, 0.0), ofFrameRate(n, 0.0), before(n), most(n), slack(n);
+  std::vector<double> defect(n), truncated(n), ofFrame(n, 0.0), ofFrameRate(n, 0.0), before(n), most(n), slack(n);
   for (std::size_t i = 0; i < n; ++i) {
     const int output = of.after(static_cast<int>(i));
     std::vector<BoundedPolynomial> f = polynomialsOf(of, output, orders);
@@ -332,7 +472,9 @@ bool FlowStepper::proveTurn(const FlowSet& set, const std::vector<Interval>& sig
         slack[i] += power * bounds::unit * std::fabs(states[(i * N + g) * orders + order]);
     }
     defect[i] = (magnitude(rangeOver(f, first / h0_, theta_)) + restOf(of, output)) * bounds::up;
-    if (turn.most[i] > 0) relativeDefect = std::max(relativeDefect, longest * defect[i] / turn.most[i]);
+    truncated[i] = turn.ofDegree[i] + longest * restOf(of, output);
+    constexpr double heard = 1e-9;  // of the state: what moves by less decides nothing
+    relativeDefect = std::max(relativeDefect, longest * defect[i] / std::max(turn.most[i], heard * scale_[i]));
     double sum = inputs_.rest(static_cast<int>(i)) + slack[i];
     for (int j = 0; j < n_; ++j) {
       const int row = static_cast<int>(i);
@@ -384,9 +526,17 @@ bool FlowStepper::proveTurn(const FlowSet& set, const std::vector<Interval>& sig
   if (!isProved) return false;
   turn.before = e1_;
   // Where moments are known too badly to follow what depends on them, other steps say more.
-  constexpr double mostLost = 1e-2, little = 1e-9;
-  for (std::size_t i = 0; i < n; ++i)
-    if (crossed_[i] > mostLost * turn.most[i] + 4 * heldTube_[i] + little * scale_[i]) return false;
+  constexpr double mostLost = 1e-2, wanted = 1e-4, ofDegree = 0.1, little = 1e-9;
+  bool isLost = false;
+  hasLostTurn_ = false;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double beside = 4 * heldTube_[i] + little * scale_[i];
+    isLost = isLost || crossed_[i] > mostLost * turn.most[i] + beside;
+    hasLostTurn_ = hasLostTurn_ || (crossed_[i] > wanted * turn.most[i] + beside &&
+                                    truncated[i] > ofDegree * (before[i] + longest * (defect[i] + ofFrameRate[i])));
+  }
+  isTurnMixed_ = isLost && !hasLostTurn_;
+  if (isLost) return false;
   for (std::size_t i = 0; i < n; ++i) {
     const double reach = (turn.most[i] + crossed_[i]) * bounds::up;
     if ((ofFrame[i] + reach) * bounds::up < y_[i]) continue;
@@ -399,14 +549,14 @@ bool FlowStepper::proveTurn(const FlowSet& set, const std::vector<Interval>& sig
   for (std::size_t i = 0; i < n; ++i) {
     tube.push_back((ofFrame[i] + crossed_[i] + turn.early(i, turn.away)) * bounds::up + bounds::tiny);
     // Beside a chord from the step's start: D grows no slower than at its end, but for what moments miss.
-    const double longestSlope = turn.slope[i] + longest * turn.bend[i];
+    const double longestSlope = turn.slope[i] + longest * (turn.bend[i] + 0.5 * longest * turn.twist[i]);
     turn.jolt.push_back((turn.gap[i] + crossed_[i]) * bounds::up);
     e1_[i] = (e1_[i] + crossed_[i] + std::max(turn.most[i], longest * longestSlope)) * bounds::up;
   }
-  if (!of.rebound(tube.data())) return false;
-  const auto over = [&](int output) { return of.over(output, first / h0_, theta_); };
-  const Interval growth = over(of.isAhead());
-  if (!(growth.lower() > 0) || !(over(of.isAttracted()).lower() > 0)) return false;
+  if (!of.rebound(tube.data()) || !holdOnceTurned(set, turn, states, tube) || !stayOnceTurned(set, turn, states, tube))
+    return false;
+  const Interval growth = onceTurned(of, of.isAhead(), turn);
+  if (!(growth.lower() > 0) || !(onceTurned(of, of.isAttracted(), turn).lower() > 0)) return false;
   if (turn.arrives) return true;
   turn.growth = growth;
   turn.argument = turn.gone(h_);

@@ -1,0 +1,168 @@
+// Steps in which solutions are held by jumps, and by which of them from rest. Derivations: docs/flow.md, section 7.
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "analyses/flow/step.hpp"
+#include "scalars/index.hpp"
+
+namespace gamut {
+
+using detail::at;
+
+namespace {
+
+bool isBetween(const Interval& sign) { return sign.lower() > -1 && sign.upper() < 1; }
+
+}  // namespace
+
+void FlowStepper::boundHeldJumps(const FlowSet& set, const Interval& time, const Box& box, double h,
+                                 const std::vector<JumpBound>& own, std::vector<JumpBound>& bounds,
+                                 std::span<const SideRates> known) {
+  std::vector<Interval> start(held_.size(), Interval::entire());
+  bounds.assign(held_.size(), {});
+  for (std::size_t k = 0; k < held_.size(); ++k) {
+    if (held_[k] != 0) start[k] = Interval(0.0);
+    if (left_[k] >= 0) bounds[k].sign = Interval(factor_[k]) * own[at(left_[k])].sign;
+  }
+  holding_->setParameters(set.parameters);
+  holding_->bound(time, box, start, h, bounds, known);
+}
+
+bool FlowStepper::areHeld(const std::vector<JumpBound>& bounds) const {
+  bool holds = true;
+  for (std::size_t k = 0; k < held_.size(); ++k) holds = holds && (held_[k] == 0 || bounds[k].holds);
+  return holds;
+}
+
+/// Up to when the rates on both sides say that solutions stay held, s; at most h.
+double FlowStepper::longestHeld(const JumpRates& rates, double h) const {
+  const auto holdUntil = [&](double sigma) {
+    bool holds = true;
+    for (std::size_t k = 0; k < held_.size(); ++k)
+      holds = holds &&
+              (held_[k] == 0 || (rates.over(k, 1, 0, sigma).upper() < 0 && rates.over(k, -1, 0, sigma).lower() > 0));
+    return holds;
+  };
+  if (holdUntil(h / h0_)) return h;
+  double least = 0, most = h;
+  for (int halving = 0; halving < 40; ++halving) {
+    const double middle = 0.5 * (least + most);
+    (holdUntil(middle / h0_) ? least : most) = middle;
+  }
+  return least;
+}
+
+HeldSigns& FlowStepper::heldSignsFor(const std::vector<char>& held) {
+  std::unique_ptr<HeldSigns>& place = heldSigns_[held];
+  if (!place)
+    place = std::make_unique<HeldSigns>(*of_, held, series_.sharedMonomials(), m_, length_, resolution_,
+                                        series_.cancelled());
+  return *place;
+}
+
+/// The signs of all jumps of f, 0 of those held; none if one of the others is not known.
+std::optional<std::vector<Interval>> FlowStepper::signsBeside(const std::vector<JumpBound>& bounds) const {
+  std::vector<Interval> signs;
+  for (std::size_t k = 0; k < held_.size(); ++k) {
+    if (held_[k] == 0 && !isThin(bounds[k].sign)) return std::nullopt;
+    signs.push_back(held_[k] == 0 ? bounds[k].sign : Interval(0.0));
+  }
+  return signs;
+}
+
+/// Of those held, along the step's polynomials in this tube; null where the others' signs are not known.
+HeldSigns* FlowStepper::heldTogether(const FlowSet& set, double h, const std::vector<double>& tube) {
+  const auto signs = signsBeside(heldBounds_);
+  if (!signs) return nullptr;
+  HeldSigns& together = heldSignsFor(held_);
+  return together.load(series_, set.t, h0_, h / h0_, set.parameters, *signs, tube) ? &together : nullptr;
+}
+
+/// From one moment of the step to another.
+bool FlowStepper::areTogether(const HeldSigns& together, const std::vector<char>& held, double from, double to,
+                              std::size_t but) const {
+  for (std::size_t k = 0; k < held.size(); ++k)
+    if (held[k] != 0 && k != but && !isBetween(together.sign(k, from / h0_, to / h0_))) return false;
+  return together.decides(from / h0_, to / h0_);
+}
+
+double FlowStepper::longestTogether(const HeldSigns& together, double h) const {
+  if (areTogether(together, held_, 0, h)) return h;
+  double least = 0, most = h;
+  for (int halving = 0; halving < 40; ++halving) {
+    const double middle = 0.5 * (least + most);
+    (areTogether(together, held_, 0, middle) ? least : most) = middle;
+  }
+  return least;
+}
+
+void FlowStepper::giveTogether(const HeldSigns& together, double until, std::vector<JumpBound>& bounds) const {
+  const bool decides = together.decides(0, until / h0_);
+  for (std::size_t k = 0; k < held_.size(); ++k) {
+    if (held_[k] == 0) continue;
+    const Interval sign = together.sign(k, 0, until / h0_);
+    bounds[k].holds = decides && isBetween(sign);
+    if (bounds[k].holds) bounds[k] = JumpBound::held(sign);
+  }
+}
+
+/// Those of which solutions may be held on: as they would be in the middle of the set; at least one is let go.
+void FlowStepper::letGo(const FlowSet& set, const std::vector<JumpBound>& bounds) {
+  stillHeld_ = held_;
+  if (const auto signs = signsBeside(heldBounds_)) {
+    std::vector<double> about;
+    for (const Interval& sign : *signs) about.push_back(midpoint(sign));
+    Box middle;
+    for (const Interval& state : boxAtStart(set)) middle.emplace_back(midpoint(state));
+    about = holding_->signsFromRest(set.t, middle, about, held_);
+    for (std::size_t k = 0; k < about.size(); ++k) stillHeld_[k] &= static_cast<char>(std::fabs(about[k]) < 1);
+  }
+  if (stillHeld_ != held_) return;
+  for (std::size_t k = 0; k < held_.size(); ++k) stillHeld_[k] &= static_cast<char>(bounds[k].holds);
+}
+
+/// Those at zero leave to the sides that they would in the middle of the set, each pushed there by the others as well,
+/// if that is so in all of it (leavesTogether; rates over the step: longestOnSides).
+void FlowStepper::leaveTogether(const FlowSet& set, const std::vector<Interval>& start,
+                                const std::vector<JumpBound>& bounds) {
+  const std::size_t count = own_->jumps().count();
+  std::vector<char> isZero(count, 0);
+  std::vector<double> signs(count, 0.0);
+  for (std::size_t j = 0; j < count; ++j) {
+    isZero[j] = static_cast<char>(sides_[j] == 0 && isEqual(start[j], Interval(0.0)));
+    const bool isKnown = sides_[j] != 0 || isThin(bounds[j].sign);
+    if (isZero[j] == 0 && !isKnown) return;
+    signs[j] = sides_[j] != 0 ? sides_[j] : isKnown ? midpoint(bounds[j].sign) : 0;
+  }
+  if (std::ranges::find(isZero, 1) == isZero.end()) return;
+  for (std::size_t k = 0; k < left_.size() && !held_.empty(); ++k)
+    if (held_[k] == 0 && left_[k] < 0) return;
+  Box middle;
+  for (const Interval& state : boxAtStart(set)) middle.emplace_back(midpoint(state));
+  const std::vector<double> about = own_->signsFromRest(set.t, middle, signs, isZero);
+  for (std::size_t j = 0; j < about.size(); ++j)
+    if (isZero[j] != 0 && std::fabs(about[j]) != 1) return;
+  for (std::size_t j = 0; j < about.size(); ++j)
+    if (isZero[j] != 0) sides_[j] = about[j];
+  if (!about.empty()) leaving_ = isZero;
+}
+
+bool FlowStepper::leavesTogether(const FlowSet& set, double h) {
+  std::vector<char> all = held_.empty() ? leaving_ : held_;
+  std::vector<Interval> signs(all.size(), Interval(0.0));
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    if (!held_.empty() && held_[k] != 0) continue;
+    const std::size_t own = held_.empty() ? k : at(left_[k]);
+    const double sign = (held_.empty() ? 1 : factor_[k]) * series_.series(series_.jumps()[own])[0];
+    if (std::fabs(sign) != 1) return false;
+    all[k] = leaving_[own];
+    signs[k] = Interval(sign);
+  }
+  HeldSigns& together = heldSignsFor(all);
+  return together.load(series_, set.t, h0_, h / h0_, set.parameters, signs, start_) && together.decides(0, 0);
+}
+
+}  // namespace gamut
