@@ -563,22 +563,29 @@ bool FlowStepper::proveTurn(const FlowSet& set, const std::vector<Interval>& sig
   return true;
 }
 
-/// Before a solution's moment D is nothing; what its polynomial is there, `late` seconds before, counts as an error.
+/// Before a solution's moment D is nothing, while its polynomial is at most what it may be there, `late` seconds
+/// before; what has turned has D, at most what it may be `since` the first has. A share of D is off by no more than a
+/// part of both.
 void FlowStepper::addTurn(double tau, FlowPoint& point) const {
   const Turn& turn = *turn_;
   const std::size_t n = at(n_);
   if (tau <= turn.moments.lower()) return;
-  const double late = std::max(0.0, (Interval(turn.moments.upper()) + Interval(turn.away) - Interval(tau)).upper());
+  const Interval away = Interval(turn.away);
+  const double late = std::max(0.0, (Interval(turn.moments.upper()) + away - Interval(tau)).upper());
+  const double since = (Interval(tau) - Interval(turn.moments.lower()) + away).upper();
   for (std::size_t i = 0; i < n; ++i) {
+    const double before = turn.early(i, late), most = turn.early(i, since);
+    const double share = late > 0 && before > 0 ? most / (most + before) : 1;
     BoundedPolynomial D{{0.0}};
     for (auto order = turn.D[i].rbegin(); order != turn.D[i].rend(); ++order) (D *= tau / h0_) += *order;
-    double loose = D.error + turn.early(i, late);
+    double loose = share < 1 ? std::max(share * before, (1 - share) * most) : before;
+    D *= share;
     for (std::size_t g = 0; g < D.c.size(); ++g) {
       double& p = point.p[i * at(series_.count()) + g];
       p += D.c[g];
       loose += bounds::unit * std::fabs(p);
     }
-    point.loose[i] += loose * bounds::up + bounds::tiny;
+    point.loose[i] += (loose + D.error) * bounds::up + bounds::tiny;
   }
 }
 
