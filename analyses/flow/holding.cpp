@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "analyses/flow/error_bounds.hpp"
 #include "analyses/flow/step.hpp"
 #include "scalars/index.hpp"
 
@@ -53,6 +54,12 @@ double FlowStepper::longestHeld(const JumpRates& rates, double h) const {
     (holdUntil(middle / h0_) ? least : most) = middle;
   }
   return least;
+}
+
+/// A tube about x̃ as others know it, without second doubles.
+std::vector<double> FlowStepper::withLow(std::vector<double> tube) const {
+  for (int i = 0; i < n_; ++i) tube[at(i)] = (tube[at(i)] + series_.lowNorm(i)) * bounds::up;
+  return tube;
 }
 
 HeldSigns& FlowStepper::heldSignsFor(const std::vector<char>& held) {
@@ -162,7 +169,7 @@ bool FlowStepper::leavesTogether(const FlowSet& set, double h) {
     signs[k] = Interval(sign);
   }
   HeldSigns& together = heldSignsFor(all);
-  return together.load(series_, set.t, h0_, h / h0_, set.parameters, signs, start_) && together.decides(0, 0);
+  return together.load(series_, set.t, h0_, h / h0_, set.parameters, signs, withLow(start_)) && together.decides(0, 0);
 }
 
 }  // namespace gamut

@@ -362,7 +362,7 @@ FlowStepper::Look FlowStepper::lookAtJumps(const FlowSet& set, double& h, double
       known.push_back({rates.over(k, 1, 0, until / h0_), rates.over(k, -1, 0, until / h0_)});
     return known;
   };
-  if (mayTurn && loadRates(*ownRates_, set, h, ownBounds_, y_)) {
+  if (mayTurn && loadRates(*ownRates_, set, h, ownBounds_, withLow(y_))) {
     boundOwnJumps(set, time, box, h, ownBounds_, ratesUntil(*ownRates_, h, ownBounds_.size()));
     boundOwnJumps(set, began, first, 0.0, atStart, ratesUntil(*ownRates_, 0, ownBounds_.size()));
   }
@@ -371,19 +371,19 @@ FlowStepper::Look FlowStepper::lookAtJumps(const FlowSet& set, double& h, double
     boundHeldJumps(set, began, first, 0.0, atStart, heldAtStart);
     double held = 0.5 * h;
     const bool isByIntervals = areHeld(heldBounds_);
-    if (HeldSigns* together = isByIntervals ? nullptr : heldTogether(set, h, y_)) {
+    if (HeldSigns* together = isByIntervals ? nullptr : heldTogether(set, h, withLow(y_))) {
       held = longestTogether(*together, h);
       giveTogether(*together, h, heldBounds_);
       giveTogether(*together, 0, heldAtStart);
       constexpr double muchShorter = 0.25, beginning = 0x1p-10;  // of the step, which may be too long to tell
-      if (!areHeld(heldAtStart) && (together = heldTogether(set, beginning * h, y_)) != nullptr) {
+      if (!areHeld(heldAtStart) && (together = heldTogether(set, beginning * h, withLow(y_))) != nullptr) {
         giveTogether(*together, 0, heldAtStart);
         if (areHeld(heldAtStart) && muchShorter * h > smallest) {
           h *= muchShorter;
           return Look::shorter;
         }
       }
-    } else if (!isByIntervals && loadRates(*heldRates_, set, h, heldBounds_, y_)) {
+    } else if (!isByIntervals && loadRates(*heldRates_, set, h, heldBounds_, withLow(y_))) {
       held = longestHeld(*heldRates_, h);
       boundHeldJumps(set, time, box, h, ownBounds_, heldBounds_, ratesUntil(*heldRates_, h, held_.size()));
       boundHeldJumps(set, began, first, 0.0, atStart, heldAtStart, ratesUntil(*heldRates_, 0, held_.size()));

@@ -141,6 +141,8 @@ bool FlowStepper::mayDamp(const FlowSet& set) const {
 /// No argument of a jump comes to zero in the tube that was bounded last.
 bool FlowStepper::areJumpsClear(const FlowSet& set) const {
   if (!own_ || holding_ || kinks_ || !inputs_.empty()) return false;
+  const auto isKink = [](const Node& node) { return node.op == Op::abs; };
+  if (std::ranges::any_of(own_->jumps().f.nodes(), isKink)) return false;
   const std::vector<int>& jumps = series_.jumps();
   Box box;
   for (int i = 0; i < n_; ++i) box.push_back(series_.rangeOf(i, E_[at(i)]));

@@ -258,6 +258,7 @@ class FlowStepper {
   bool areHeld(const std::vector<JumpBound>& bounds) const;
   double longestHeld(const JumpRates& rates, double h) const;
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
+  std::vector<double> withLow(std::vector<double> tube) const;
   HeldSigns& heldSignsFor(const std::vector<char>& held);
   std::optional<std::vector<Interval>> signsBeside(const std::vector<JumpBound>& bounds) const;
   HeldSigns* heldTogether(const FlowSet& set, double h, const std::vector<double>& tube);

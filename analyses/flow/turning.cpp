@@ -180,10 +180,9 @@ bool FlowStepper::stayOnceTurned(const FlowSet& set, Turn& turn, const std::vect
       if (form.states[i] != 0)
         rate += Interval(form.states[i]) * onceTurned(*turn.of, turn.of->after(static_cast<int>(i)), turn);
     if (!isAway(rate) && !isAway(onceTurned(*ownRates_, ownRates_->argument(j), turn))) return false;
-    const Interval end = ownRates_->argumentOver(j, theta_, theta_), start = argumentAtStart(set, j);
-    const Interval beyond = isAway(rate) ? sides_[j] > 0 ? Interval(std::max(0.0, start.lower()), infinite)
-                                                         : Interval(-infinite, std::min(0.0, start.upper()))
-                                         : Interval::entire();
+    const Interval end = ownRates_->argumentOver(j, theta_, theta_);
+    const Interval beyond =
+        sides_[j] > 0 ? Interval(0.0, infinite) : Interval(-infinite, 0.0);  // it may have come nearer
     turn.besides[j] = intersection(end, beyond);
   }
   return true;

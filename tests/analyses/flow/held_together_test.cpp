@@ -123,6 +123,31 @@ TEST(HeldTogether, LeavesRestWhereOthersPushIt) {
   EXPECT_LT(width(tube.states(1)[1]), 1.0001 * 0.36);
 }
 
+/// What falls towards zero until another comes to be held, v(0)/1.5 from the start, and rises from then on, is nearer
+/// to zero at the step's end than at its start.
+TEST(HeldTogether, OthersMayComeNearerBeforeATurn) {
+  const Program f = record(2, 0, [](auto, const auto& u, const auto&, auto& du) {
+    du[0] = -0.5 - sign(u[0]);
+    du[1] = 1.0 - sign(u[0]) - 0.5 * sign(u[1]);
+  });
+  FlowOptions options;
+  options.budget = 2;
+  options.longestStep = 0.2;
+  std::vector<double> times;
+  for (int i = 0; i < 40; ++i) times.push_back(0.5 + i * 0x1p-6);
+  for (const Interval& fallen : {Interval(0.42, 0.44), Interval(0.4, 0.44), Interval(0.44, 0.47)}) {
+    const Tube tube = Flow(f, options).enclose({Interval(0.9, 1.1), fallen}, 1.3, times);
+    ASSERT_EQ(tube.why(), "");
+    for (std::size_t row = 0; row < times.size(); ++row)
+      for (int i = 0; i <= 8; ++i) {
+        const Precise u = Precise(0.9) + (Precise(1.1) - 0.9) * i / 8, t = times[row], held = u / 1.5;
+        const Precise least =
+            t < held ? Precise(fallen.lower() - 0.5 * t) : Precise(fallen.lower() - 0.5 * held + (t - held));
+        EXPECT_THAT(tube.states(static_cast<int>(row) + 1)[1], MayEnclose(least, Precise(1e-15))) << row;
+      }
+  }
+}
+
 /// With K = [1 3; 3 1] signs do not decide: u = 0 is a solution, by s = 0, and so are ±(2t, -2t).
 TEST(HeldTogether, AllSolutionsAreInsideWhereSignsDoNotDecide) {
   for (const double p : {1.0, 0x1p-20, 0x1p20}) {
