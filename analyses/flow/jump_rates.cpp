@@ -71,20 +71,27 @@ bool AlongStep::load(const PolynomialSeries& states, double t0, double scale, do
                      const std::vector<Embedded>& parameters, const std::vector<Interval>& signs,
                      const std::vector<double>& tube) {
   for (int i = 0; i < states.states(); ++i) series_.setStateSeries(i, states.series(i), states.stride());
-  return compose(t0, scale, theta, parameters, signs, tube);
+  compute(t0, scale, theta, parameters, signs);
+  return isBounded(tube);
 }
 
 bool AlongStep::load(const std::vector<double>& states, double t0, double scale, double theta,
                      const std::vector<Embedded>& parameters, const std::vector<Interval>& signs,
                      const std::vector<double>& tube) {
+  compute(states, t0, scale, theta, parameters, signs);
+  return isBounded(tube);
+}
+
+void AlongStep::compute(const std::vector<double>& states, double t0, double scale, double theta,
+                        const std::vector<Embedded>& parameters, const std::vector<Interval>& signs) {
   const std::size_t each = states.size() / detail::at(series_.states());
   for (int i = 0; i < series_.states(); ++i)
     series_.setStateSeries(i, &states[detail::at(i) * each], static_cast<int>(each) / series_.count());
-  return compose(t0, scale, theta, parameters, signs, tube);
+  compute(t0, scale, theta, parameters, signs);
 }
 
-bool AlongStep::compose(double t0, double scale, double theta, const std::vector<Embedded>& parameters,
-                        const std::vector<Interval>& signs, const std::vector<double>& tube) {
+void AlongStep::compute(double t0, double scale, double theta, const std::vector<Embedded>& parameters,
+                        const std::vector<Interval>& signs) {
   theta_ = theta;
   std::vector<Embedded> all = parameters;
   for (const Interval& sign : signs) all.push_back({midpoint(sign), 0, radius(sign)});
@@ -92,8 +99,11 @@ bool AlongStep::compose(double t0, double scale, double theta, const std::vector
   series_.forgetCrossings();
   timeKinks_.giveSides(all, t0, t0 + theta * scale, series_);
   series_.compute(t0, scale);
+}
+
+bool AlongStep::isBounded(const std::vector<double>& tube) {
   series_.forgetJumps();
-  if (series_.tabulate(theta) && series_.bound(tube.data(), true)) return true;
+  if (series_.tabulate(theta_) && series_.bound(tube.data(), true)) return true;
   series_.clear();
   return false;
 }

@@ -29,6 +29,9 @@ class AlongStep {
   bool load(const std::vector<double>& states, double t0, double scale, double theta,
             const std::vector<Embedded>& parameters, const std::vector<Interval>& signs,
             const std::vector<double>& tube);
+  /// The coefficients alone, of which nothing is proved.
+  void compute(const std::vector<double>& states, double t0, double scale, double theta,
+               const std::vector<Embedded>& parameters, const std::vector<Interval>& signs);
   /// Once more, for another tube; null: along the polynomials themselves.
   bool rebound(const double* tube) { return series_.bound(tube, true); }
   const PolynomialSeries& series() const { return series_; }
@@ -36,8 +39,9 @@ class AlongStep {
   Interval over(int output, double from, double to) const;
 
  private:
-  bool compose(double t0, double scale, double theta, const std::vector<Embedded>& parameters,
-               const std::vector<Interval>& signs, const std::vector<double>& tube);
+  void compute(double t0, double scale, double theta, const std::vector<Embedded>& parameters,
+               const std::vector<Interval>& signs);
+  bool isBounded(const std::vector<double>& tube);
   Interval atMoment(int node, double sigma) const;
 
   int orders_;

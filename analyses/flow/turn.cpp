@@ -37,10 +37,10 @@ Program turnOf(Recorder& recorder, const std::vector<int>& before, const std::ve
   return recorder.finish(outputs);
 }
 
-/// Of its last outputs, as many as states, the derivatives by these.
-Program derivativesOf(const Program& along) {
+/// Its last outputs, as many as states.
+Program followingOf(const Program& along) {
   const std::vector<int>& outputs = along.outputNodes();
-  return forwardDifferentiated(Recorder(along).finish({outputs.end() - along.states(), outputs.end()}));
+  return Recorder(along).finish({outputs.end() - along.states(), outputs.end()});
 }
 
 }  // namespace
@@ -111,9 +111,10 @@ Program arrivalOf(const FlowJumps& jumps, std::size_t jump, double side) {
 
 FlowTurn::FlowTurn(const Program& along, std::shared_ptr<const Monomials> monomials, int order, double length,
                    double resolution, const std::atomic<bool>* cancelled)
-    : AlongStep(along, std::move(monomials), order, length, resolution, cancelled),
+    : AlongStep(along, monomials, order, length, resolution, cancelled),
       states_(along.states()),
-      derivatives_(derivativesOf(along)) {}
+      following_(followingOf(along), std::move(monomials), order, length, resolution, cancelled),
+      derivatives_(forwardDifferentiated(followingOf(along))) {}
 
 std::vector<Interval> FlowTurn::derivatives(const Interval& time, const Box& states, const Box& parameters) {
   const std::size_t n = detail::at(states_);

@@ -24,11 +24,14 @@ class FlowTurn : public AlongStep {
   int isAttracted() const { return states_ + 3; }     ///< above zero: from the other side as well
   int after(int i) const { return states_ + 4 + i; }  ///< of f_a
 
+  /// f_a alone, with outputs of its own.
+  AlongStep& following() { return following_; }
   /// ∂f_a/∂x, by row, wherever time and states are within these.
   std::vector<Interval> derivatives(const Interval& time, const Box& states, const Box& parameters);
 
  private:
   int states_;
+  AlongStep following_;
   Evaluator<Interval> derivatives_;  // f_a, then these
 };
 

@@ -362,7 +362,6 @@ bool FlowStepper::describeTurn(const FlowSet& set, const std::vector<Interval>& 
   turn.moments = inflated(turn.moments, turn.away);
   // What is added between a solution's own moment and m(ξ), where it is zero at the one: on a tube that holds what that
   // does itself.
-  const std::vector<double> zero(n, 0.0);
   std::vector<double> tube(n), added(n);
   for (std::size_t i = 0; i < n; ++i) {
     const int output = of.added(static_cast<int>(i));
@@ -398,10 +397,11 @@ bool FlowStepper::describeTurn(const FlowSet& set, const std::vector<Interval>& 
   bool isNear = false;
   for (int round = 0; round < rounds && !isNear; ++round) {
     isNear = true;
-    if (!of.load(statesWith(turn), set.t, h0_, theta_, set.parameters, signs, zero)) return false;
+    AlongStep& following = of.following();
+    following.compute(statesWith(turn), set.t, h0_, theta_, set.parameters, signs);
     for (std::size_t i = 0; i < n; ++i) {
       std::vector<BoundedPolynomial>& D = turn.D[i];
-      const std::vector<BoundedPolynomial> f = polynomialsOf(of, of.after(static_cast<int>(i)), orders);
+      const std::vector<BoundedPolynomial> f = polynomialsOf(following, static_cast<int>(i), orders);
       D[0].c.assign(N, 0.0);
       double size = 0, change = 0, power = 1;
       for (std::size_t order = 1; order < orders; ++order) {
@@ -414,6 +414,7 @@ bool FlowStepper::describeTurn(const FlowSet& set, const std::vector<Interval>& 
           D[order].c[g] = after - before;
         }
       }
+      if (!std::isfinite(size)) return false;
       isNear = isNear && change <= little * size;
       BoundedPolynomial atMoment = composed(monomials(), D, root.x);
       for (std::size_t g = 0; g < N; ++g) D[0].c[g] = -atMoment.c[g];

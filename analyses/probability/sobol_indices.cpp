@@ -26,7 +26,7 @@ namespace {
 using Powers = std::vector<std::pair<int, int>>;
 
 /// A polynomial on a part, what matters of it; the first term is the constant.
-struct Piece {
+struct Slice {
   const FlowPart* part;
   std::vector<std::pair<Powers, double>> terms;
   double radius;
@@ -40,10 +40,10 @@ class Variances {
             const QuantityMasses& masses)
       : symbols_(surrogate.symbols), masses_(masses) {
     for (const SurrogatePart& part : parts) add(part, part.outputs[output]);
-    for (Piece& piece : pieces_) tabulate(piece);
+    for (Slice& piece : pieces_) tabulate(piece);
     const double middle = midpoint(mean());
     about_ = std::isfinite(middle) ? middle : 0;  // of numbers near the mean little cancels
-    for (Piece& piece : pieces_) {
+    for (Slice& piece : pieces_) {
       double& constant = piece.terms.front().second;
       const Interval moved = Interval(constant) - Interval(about_);
       constant = midpoint(moved);
@@ -58,7 +58,7 @@ class Variances {
 
   Interval mean() const {
     Interval sum(0.0);
-    for (const Piece& piece : pieces_) {
+    for (const Slice& piece : pieces_) {
       Interval own(0.0);
       for (const auto& [powers, c] : piece.terms) own = own + Interval(c) * meanOf(piece, powers);
       sum = sum + massOf(piece) * own;
@@ -69,7 +69,7 @@ class Variances {
   /// E[E[y|u]²] with u given by `isIn`.
   Interval meanSquare(const std::vector<char>& isIn) const {
     std::map<Box, Group> groups;  // by what a part covers in u
-    for (const Piece& piece : pieces_) {
+    for (const Slice& piece : pieces_) {
       Box box;
       Interval beside(1.0);  // probability of the part's values of all other symbols
       for (int l = 0; l < symbols_; ++l) {
@@ -104,14 +104,14 @@ class Variances {
 
   /// E[Var(y | all but symbol l)]. Where no part is cut in l, only terms that hold it matter.
   Interval left(int l, const Interval& second) const {
-    const auto isCut = [&](const Piece& piece) { return piece.part->half[at(l)] < 1; };
+    const auto isCut = [&](const Slice& piece) { return piece.part->half[at(l)] < 1; };
     if (std::ranges::any_of(pieces_, isCut)) {
       std::vector<char> others(at(symbols_), 1);
       others[at(l)] = 0;
       return second - meanSquare(others);
     }
     Interval sum(0.0);
-    for (const Piece& piece : pieces_) {
+    for (const Slice& piece : pieces_) {
       // Σ c_g c_h E[Π others] (E[η^(n+m)] - E[η^n] E[η^m])
       std::vector<std::tuple<Powers, int, double>> own;
       for (const auto& [powers, c] : piece.terms)
@@ -139,19 +139,19 @@ class Variances {
   /// The root of the mean square of what the polynomials are off by, at most.
   double radius() const {
     Interval sum(0.0);
-    for (const Piece& piece : pieces_) sum = sum + massOf(piece) * sqr(Interval(piece.radius));
+    for (const Slice& piece : pieces_) sum = sum + massOf(piece) * sqr(Interval(piece.radius));
     return sqrt(max(sum, Interval(0.0))).upper();
   }
 
  private:
   using Box = std::vector<std::pair<double, double>>;
   struct Group {
-    const Piece* piece = nullptr;  // one that covers it
+    const Slice* piece = nullptr;  // one that covers it
     std::map<Powers, Interval> terms;
   };
 
   void add(const SurrogatePart& part, const OutputModel& model) {
-    Piece piece{&part.part, {{{}, 0.0}}, model.radius, {}, {}};
+    Slice piece{&part.part, {{{}, 0.0}}, model.radius, {}, {}};
     if (model.c.empty() || !std::isfinite(model.radius)) {
       piece.terms.front().second = midpoint(model.bound);
       piece.radius = subUp(model.bound.upper(), model.bound.lower());
@@ -186,7 +186,7 @@ class Variances {
   }
 
   /// As far as products of terms of any pieces ask for.
-  void tabulate(Piece& piece) const {
+  void tabulate(Slice& piece) const {
     for (int l = 0; l < symbols_; ++l) {
       piece.masses.push_back(masses_.moment(l, *piece.part, 0, *piece.part, 0));
       Work::count(Work::momentTerm, 150.0 * (2 * degree_ + 1));
@@ -197,17 +197,17 @@ class Variances {
     }
   }
 
-  static Interval moment(const Piece& piece, int l, int n) {
+  static Interval moment(const Slice& piece, int l, int n) {
     return n == 0 ? Interval(1.0) : piece.moments[at(l)][at(n - 1)];
   }
 
-  static Interval massOf(const Piece& piece) {
+  static Interval massOf(const Slice& piece) {
     Interval mass(1.0);
     for (const Interval& of : piece.masses) mass = mass * of;
     return mass;
   }
 
-  static Interval meanOf(const Piece& piece, const Powers& powers) {
+  static Interval meanOf(const Slice& piece, const Powers& powers) {
     Interval mean(1.0);
     for (const auto& [l, n] : powers) mean = mean * moment(piece, l, n);
     return mean;
@@ -278,7 +278,7 @@ class Variances {
 
   int symbols_;
   const QuantityMasses& masses_;
-  std::vector<Piece> pieces_;
+  std::vector<Slice> pieces_;
   int degree_ = 0;  // the greatest power of a symbol
   double about_ = 0;
 };
