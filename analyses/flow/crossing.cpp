@@ -40,7 +40,7 @@ bool FlowStepper::loadHeldPush(const FlowSet& set, Crossing& crossing) {
   std::vector<Interval> signs;
   for (const JumpBound& bound : ownBounds_) signs.push_back(bound.sign);
   crossing.held = &place->second;
-  return place->second.load(series_, set.t, h0_, theta_, set.parameters, signs, E_);
+  return place->second.load(series_, set.t, h0_, theta_, set.parameters, signs, withLow(E_));
 }
 
 /// Where solutions come to surfaces to pass them, the step ends before the first does, or when all of them have: the

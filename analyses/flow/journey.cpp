@@ -144,8 +144,9 @@ StepOutcome FlowFollower::certify(const FlowPiece& piece) {
     const StepOutcome outcome =
         tool_->stepper.certify(piece.set, end, task_.quantum, uncertain ? task_.shares : SplitShares{});
     hasLostTurn_ = hasLostTurn_ || tool_->stepper.hasLostTurn();
-    isTurnMixed_ = isTurnMixed_ || (tool_->stepper.isTurnMixed() && !tool_->stepper.hasTurned());
-    if (tool_->stepper.hasLostTurn() || isTurnMixed_) turnSymbol_ = tool_->stepper.turnSymbol();
+    const bool isMixed = tool_->stepper.isTurnMixed() && !tool_->stepper.hasTurned();
+    isTurnMixed_ = isTurnMixed_ || isMixed;
+    if (tool_->stepper.hasLostTurn() || isMixed) turnSymbol_ = tool_->stepper.turnSymbol();
     if (!holds || (outcome != StepOutcome::released && outcome != StepOutcome::failed)) {
       useOutputsOfLeaving(piece);
       return outcome;

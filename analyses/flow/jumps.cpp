@@ -264,13 +264,13 @@ bool JumpBound::leaves() const {
 }
 
 JumpBound JumpBound::held(const Interval& sign) {
-  const Interval towards(1.0, 2.0), between = intersection(sign, Interval(-1.0, 1.0));  // whatever the rates are
+  const Interval towards(1.0, 2.0);  // whatever the rates are
   return {.start = Interval(0.0),
           .up = -towards,
           .down = towards,
           .over = Interval(0.0),
-          .sign = between,
-          .slid = between,
+          .sign = sign,
+          .slid = sign,
           .holds = true};
 }
 

@@ -325,7 +325,7 @@ FlowStepper::Look FlowStepper::lookAtJumps(const FlowSet& set, double& h, double
         others[j].sign = Interval(value);
     }
     const double longest =
-        loadRates(*ownRates_, set, h, others, lift_.empty() ? E_ : heldTube_) ? longestOnSides(h) : 0;
+        loadRates(*ownRates_, set, h, others, lift_.empty() ? withLow(E_) : heldTube_) ? longestOnSides(h) : 0;
     if (longest < h && longest > 0 && mayTurn_) {
       const Look look = lookAtArrival(set, h, smallest, left);
       if (look != Look::released) return look;

@@ -140,7 +140,7 @@ bool FlowStepper::mayDamp(const FlowSet& set) const {
 
 /// No argument of a jump comes to zero in the tube that was bounded last.
 bool FlowStepper::areJumpsClear(const FlowSet& set) const {
-  if (!own_ || holding_ || kinks_ || !inputs_.empty()) return false;
+  if (!own_ || holding_ || !inputs_.empty()) return false;
   const auto isKink = [](const Node& node) { return node.op == Op::abs; };
   if (std::ranges::any_of(own_->jumps().f.nodes(), isKink)) return false;
   const std::vector<int>& jumps = series_.jumps();
@@ -499,6 +499,7 @@ StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum,
   beyondLast_ = 0;
   mayTurn_ = true;
   hasLostTurn_ = isTurnMixed_ = false;
+  turnSymbol_ = -1;
   ownBounds_.clear();
   heldBounds_.clear();
   const double left = end - set.t;

@@ -120,7 +120,8 @@ class FlowStepper {
   /// Whether a turn was looked at in the last step of which polynomials of a higher degree might tell more.
   bool hasLostTurn() const { return hasLostTurn_; }
   bool hasTurned() const { return turn_.has_value(); }
-  /// Or was refused since in a part of the set another jump holds or lets go before: smaller parts may tell.
+  /// Or was refused, and smaller parts may tell: in some of them another jump holds or lets go before, or no degree
+  /// helps.
   bool isTurnMixed() const { return isTurnMixed_; }
   /// The symbol that decides most about when; -1 if none does.
   int turnSymbol() const { return turnSymbol_; }
@@ -264,7 +265,7 @@ class FlowStepper {
   HeldSigns* heldTogether(const FlowSet& set, double h, const std::vector<double>& tube);
   bool areTogether(const HeldSigns& together, const std::vector<char>& held, double from, double to,
                    std::size_t but = none) const;
-  void noteOther(const HeldSigns& together, std::size_t jump, double at);
+  void noteOther(const HeldSigns& together, std::size_t jump, double seconds);
   double longestTogether(const HeldSigns& together, double h) const;
   void giveTogether(const HeldSigns& together, double until, std::vector<JumpBound>& bounds) const;
   void leaveTogether(const FlowSet& set, const std::vector<Interval>& start, const std::vector<JumpBound>& bounds);
@@ -297,8 +298,8 @@ class FlowStepper {
     std::vector<Interval> besides{};                  // likewise of own jumps; none: nothing is known
     SignCases during(const Interval& seconds) const;
     Interval gone(double seconds) const;
-    /// |D| at most where it should be nothing yet, `late` seconds before.
-    double early(std::size_t state, double late) const;
+    /// |D| at most, up to so many seconds from m(ξ), before or after.
+    double within(std::size_t state, double seconds) const;
   };
   FlowTurn* turnFor(std::size_t jump, double side, bool arrives);
   Look lookAtRelease(const FlowSet& set, double& h, double smallest, double left);

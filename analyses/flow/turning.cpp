@@ -1,5 +1,5 @@
-// Steps in which a jump lets go all solutions that it held: when it does so is a polynomial in ξ, and so is what
-// follows. Derivation: docs/flow.md, section 7, "Releasing".
+// Steps in which a jump lets go all solutions that it held, or comes to hold them: when it does so is a polynomial in
+// ξ, and so is what follows. Derivation: docs/flow.md, section 7, "Turns".
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -161,7 +161,8 @@ FlowStepper::Look FlowStepper::lookAtArrival(const FlowSet& set, double& h, doub
 }
 
 /// Whether arguments that are on a side stay there once others have turned, along these polynomials of states: the turn
-/// has been loaded with them. Sets what they are at the step's end. Before that: longestOnSides.
+/// has been loaded with them. Sets what they are at the step's end. Before that: longestOnSides, of
+/// arrivals lookAtArrival.
 bool FlowStepper::stayOnceTurned(const FlowSet& set, Turn& turn, const std::vector<double>& states,
                                  const std::vector<double>& tube) {
   turn.besides.clear();
@@ -196,8 +197,8 @@ void FlowStepper::holdBeside(const std::vector<char>& held) {
 }
 
 /// Another one turns before all have: what decides most about when is what this piece is to be bisected in.
-void FlowStepper::noteOther(const HeldSigns& together, std::size_t jump, double at) {
-  turnSymbol_ = together.worstSymbol(jump, at / h0_);
+void FlowStepper::noteOther(const HeldSigns& together, std::size_t jump, double seconds) {
+  turnSymbol_ = together.worstSymbol(jump, seconds / h0_);
   isTurnMixed_ = true;
 }
 
@@ -305,8 +306,9 @@ Interval FlowStepper::Turn::gone(double seconds) const {
   return side > 0 ? result : -result;
 }
 
-double FlowStepper::Turn::early(std::size_t state, double late) const {
-  return (gap[state] + late * (slope[state] + late * (0.5 * bend[state] + late * twist[state] / 6))) * bounds::up;
+double FlowStepper::Turn::within(std::size_t state, double seconds) const {
+  const double curved = 0.5 * bend[state] + seconds * twist[state] / 6;
+  return (gap[state] + seconds * (slope[state] + seconds * curved)) * bounds::up;
 }
 
 /// x̃ + D, as AlongStep takes it.
@@ -482,7 +484,7 @@ bool FlowStepper::proveTurn(const FlowSet& set, const std::vector<Interval>& sig
       ofFrameRate[i] += series_.frameDerivativeNorm(row, j, 1, theta_) / h0_ * total_[at(j)] * bounds::up;
       sum += epsilon_[at(row * n_ + j)] * total_[at(j)];
       sum += growth_.M1(row, j) * delta0_[at(j)] + growth_.M2(row, j) * delta1_[at(j)] +
-             growth_.M0(row, j) * (set.W[at(j)] + 3 * turn.away * turn.push[at(j)] + turn.early(at(j), turn.away));
+             growth_.M0(row, j) * (set.W[at(j)] + 3 * turn.away * turn.push[at(j)] + turn.within(at(j), turn.away));
     }
     before[i] = sum * bounds::up;
     most[i] = 2 * before[i] + 0.015625 * turn.most[i] + 2 * longest * defect[i] + bounds::tiny;
@@ -547,7 +549,7 @@ bool FlowStepper::proveTurn(const FlowSet& set, const std::vector<Interval>& sig
   // Of those let go: D may be taken to begin `away` too soon.
   std::vector<double> tube;
   for (std::size_t i = 0; i < n; ++i) {
-    tube.push_back((ofFrame[i] + crossed_[i] + turn.early(i, turn.away)) * bounds::up + bounds::tiny);
+    tube.push_back((ofFrame[i] + crossed_[i] + turn.within(i, turn.away)) * bounds::up + bounds::tiny);
     // Beside a chord from the step's start: D grows no slower than at its end, but for what moments miss.
     const double longestSlope = turn.slope[i] + longest * (turn.bend[i] + 0.5 * longest * turn.twist[i]);
     turn.jolt.push_back((turn.gap[i] + crossed_[i]) * bounds::up);
@@ -574,11 +576,11 @@ void FlowStepper::addTurn(double tau, FlowPoint& point) const {
   const double late = std::max(0.0, (Interval(turn.moments.upper()) + away - Interval(tau)).upper());
   const double since = (Interval(tau) - Interval(turn.moments.lower()) + away).upper();
   for (std::size_t i = 0; i < n; ++i) {
-    const double before = turn.early(i, late), most = turn.early(i, since);
+    const double before = turn.within(i, late), most = turn.within(i, since);
     const double share = late > 0 && before > 0 ? most / (most + before) : 1;
     BoundedPolynomial D{{0.0}};
     for (auto order = turn.D[i].rbegin(); order != turn.D[i].rend(); ++order) (D *= tau / h0_) += *order;
-    double loose = share < 1 ? std::max(share * before, (1 - share) * most) : before;
+    double loose = std::max(share * before, (1 - share) * most);
     D *= share;
     for (std::size_t g = 0; g < D.c.size(); ++g) {
       double& p = point.p[i * at(series_.count()) + g];

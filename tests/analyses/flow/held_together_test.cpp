@@ -157,6 +157,7 @@ TEST(HeldTogether, AllSolutionsAreInsideWhereSignsDoNotDecide) {
       du[1] = -3.0 * first - second;
     });
     const Tube tube = Flow(f).enclose({0.0, 0.0, p}, 1, {0.25, 1.0});
+    ASSERT_EQ(tube.times().size(), 3U);
     for (int row = 1; row < static_cast<int>(tube.times().size()); ++row)
       for (std::size_t state = 0; state < 2; ++state) {
         const double gone = 2 * p * tube.times()[static_cast<std::size_t>(row)];
