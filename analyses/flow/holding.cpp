@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -62,12 +63,15 @@ std::vector<double> FlowStepper::withLow(std::vector<double> tube) const {
   return tube;
 }
 
-HeldSigns& FlowStepper::heldSignsFor(const std::vector<char>& held) {
-  std::unique_ptr<HeldSigns>& place = heldSigns_[held];
-  if (!place)
-    place = std::make_unique<HeldSigns>(*of_, held, series_.sharedMonomials(), m_, length_, resolution_,
-                                        series_.cancelled());
-  return *place;
+/// Null where one of these does not decide about itself.
+HeldSigns* FlowStepper::heldSignsFor(const std::vector<char>& held) {
+  const auto [place, isNew] = heldSigns_.try_emplace(held);
+  if (isNew) try {
+      place->second = std::make_unique<HeldSigns>(*of_, held, series_.sharedMonomials(), m_, length_, resolution_,
+                                                  series_.cancelled());
+    } catch (const std::logic_error&) {
+    }
+  return place->second.get();
 }
 
 /// The signs of all jumps of f, 0 of those held; none if one of the others is not known.
@@ -84,8 +88,10 @@ std::optional<std::vector<Interval>> FlowStepper::signsBeside(const std::vector<
 HeldSigns* FlowStepper::heldTogether(const FlowSet& set, double h, const std::vector<double>& tube) {
   const auto signs = signsBeside(heldBounds_);
   if (!signs) return nullptr;
-  HeldSigns& together = heldSignsFor(held_);
-  return together.load(series_, set.t, h0_, h / h0_, set.parameters, *signs, tube) ? &together : nullptr;
+  HeldSigns* const together = heldSignsFor(held_);
+  const bool isLoaded =
+      together != nullptr && together->load(series_, set.t, h0_, h / h0_, set.parameters, *signs, tube);
+  return isLoaded ? together : nullptr;
 }
 
 /// From one moment of the step to another.
@@ -168,8 +174,9 @@ bool FlowStepper::leavesTogether(const FlowSet& set, double h) {
     all[k] = leaving_[own];
     signs[k] = Interval(sign);
   }
-  HeldSigns& together = heldSignsFor(all);
-  return together.load(series_, set.t, h0_, h / h0_, set.parameters, signs, withLow(start_)) && together.decides(0, 0);
+  HeldSigns* const together = heldSignsFor(all);
+  return together != nullptr && together->load(series_, set.t, h0_, h / h0_, set.parameters, signs, withLow(start_)) &&
+         together->decides(0, 0);
 }
 
 }  // namespace gamut

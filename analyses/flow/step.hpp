@@ -260,7 +260,7 @@ class FlowStepper {
   double longestHeld(const JumpRates& rates, double h) const;
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
   std::vector<double> withLow(std::vector<double> tube) const;
-  HeldSigns& heldSignsFor(const std::vector<char>& held);
+  HeldSigns* heldSignsFor(const std::vector<char>& held);
   std::optional<std::vector<Interval>> signsBeside(const std::vector<JumpBound>& bounds) const;
   HeldSigns* heldTogether(const FlowSet& set, double h, const std::vector<double>& tube);
   bool areTogether(const HeldSigns& together, const std::vector<char>& held, double from, double to,
@@ -358,7 +358,7 @@ class FlowStepper {
   std::vector<double> factor_;                       // its argument is that one's, times this
   std::vector<JumpBound> ownBounds_, heldBounds_;    // over the step; none: nothing is known
   std::unique_ptr<JumpRates> ownRates_, heldRates_;  // likewise
-  std::map<std::vector<char>, std::unique_ptr<HeldSigns>> heldSigns_;  // once needed
+  std::map<std::vector<char>, std::unique_ptr<HeldSigns>> heldSigns_;  // once needed; null where there are none
   std::map<std::pair<int, bool>, AlongStep> heldPushes_;               // of own jumps, from above or not; once needed
   double length_ = 0, resolution_ = 0;                                 // of time, s
   std::vector<double> sides_;  // of each own jump, on which all solutions are taken to be: 1, -1; 0: not; none: nowhere

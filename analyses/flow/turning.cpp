@@ -206,14 +206,15 @@ void FlowStepper::noteOther(const HeldSigns& together, std::size_t jump, double 
 bool FlowStepper::holdUntilTurned(const FlowSet& set, const Turn& turn) {
   const auto besides = std::ranges::count(turn.heldBefore, 1) - (turn.arrives ? 0 : 1);
   if (besides == 0) return true;
-  HeldSigns& together = heldSignsFor(turn.heldBefore);
+  HeldSigns* const together = heldSignsFor(turn.heldBefore);
   const double until = std::min(h_, turn.moments.upper());
-  if (!together.load(series_, set.t, h0_, theta_, set.parameters, turn.signs, heldTube_)) return false;
-  if (areTogether(together, turn.heldBefore, 0, until, turn.jump)) return true;
+  if (together == nullptr || !together->load(series_, set.t, h0_, theta_, set.parameters, turn.signs, heldTube_))
+    return false;
+  if (areTogether(*together, turn.heldBefore, 0, until, turn.jump)) return true;
   for (std::size_t k = 0; k < turn.heldBefore.size(); ++k)
-    if (turn.heldBefore[k] != 0 && k != turn.jump && magnitude(together.sign(k, 0, until / h0_)) >= 1 &&
-        mignitude(together.sign(k, until / h0_, until / h0_)) < 1)
-      noteOther(together, k, until);
+    if (turn.heldBefore[k] != 0 && k != turn.jump && magnitude(together->sign(k, 0, until / h0_)) >= 1 &&
+        mignitude(together->sign(k, until / h0_, until / h0_)) < 1)
+      noteOther(*together, k, until);
   return false;
 }
 
@@ -222,17 +223,17 @@ bool FlowStepper::holdOnceTurned(const FlowSet& set, const Turn& turn, const std
                                  const std::vector<double>& tube) {
   const auto besides = std::ranges::count(turn.heldAfter, 1) - (turn.arrives ? 1 : 0);
   if (besides == 0) return true;
-  HeldSigns& together = heldSignsFor(turn.heldAfter);
+  HeldSigns* const together = heldSignsFor(turn.heldAfter);
   std::vector<Interval> signs = turn.signs;
   signs[turn.jump] = Interval(turn.side);
-  if (!together.load(states, set.t, h0_, theta_, set.parameters, signs, tube)) return false;
+  if (together == nullptr || !together->load(states, set.t, h0_, theta_, set.parameters, signs, tube)) return false;
   for (std::size_t k = 0; k < turn.heldAfter.size(); ++k) {
-    const Interval sign = turn.heldAfter[k] != 0 ? onceTurned(together, together.output(k), turn) : Interval(0.0);
+    const Interval sign = turn.heldAfter[k] != 0 ? onceTurned(*together, together->output(k), turn) : Interval(0.0);
     if (magnitude(sign) < 1) continue;
-    if (mignitude(sign) < 1) noteOther(together, k, h_);
+    if (mignitude(sign) < 1) noteOther(*together, k, h_);
     return false;
   }
-  return together.decides(std::max(0.0, turn.moments.lower()) / h0_, theta_);
+  return together->decides(std::max(0.0, turn.moments.lower()) / h0_, theta_);
 }
 
 /// Whether the turn takes all solutions within the step, which is then somewhat longer than until the last has turned.
@@ -440,6 +441,7 @@ bool FlowStepper::describeTurn(const FlowSet& set, const std::vector<Interval>& 
     turn.slope.push_back(composed(monomials(), rates, root.x).norm());
     turn.bend.push_back(composed(monomials(), seconds, root.x).norm());
     turn.twist.push_back(twist / h0_ * bounds::up);
+    if (!std::isfinite(turn.gap[i] + turn.slope[i] + turn.bend[i] + turn.twist[i])) return false;
   }
   return true;
 }

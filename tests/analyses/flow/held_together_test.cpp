@@ -166,6 +166,26 @@ TEST(HeldTogether, AllSolutionsAreInsideWhereSignsDoNotDecide) {
   }
 }
 
+/// Each sign drives the other's argument alone: with K = [0 1; 1 0] u = 0 and ±p (t, -t) are solutions, with [0 1; -1
+/// 0], along which |u_0| + |u_1| stays, u = 0 is.
+TEST(HeldTogether, NoneNeedDecideAboutItself) {
+  for (const double turned : {1.0, -1.0}) {
+    const Program f = record(2, 1, [=](auto, const auto& u, const auto& p, auto& du) {
+      du[0] = -p[0] * sign(u[1]);
+      du[1] = -turned * (p[0] * sign(u[0]));
+    });
+    const Tube tube = Flow(f).enclose({0.0, 0.0, Interval(0.875, 1.125)}, 1, {0.25, 1.0});
+    for (int row = 1; row < static_cast<int>(tube.times().size()); ++row)
+      for (std::size_t state = 0; state < 2; ++state) {
+        const double gone = turned > 0 ? 1.125 * tube.times()[static_cast<std::size_t>(row)] : 0;
+        EXPECT_TRUE(isSubset(Interval(-gone, gone), tube.states(row)[state])) << turned << ' ' << row;
+      }
+    if (turned > 0) {
+      EXPECT_EQ(tube.times().size(), 3U) << tube.why();
+    }
+  }
+}
+
 /// K = [1 0.9; -0.9 1] turns what it drives: held, though each lets go by what the other might do.
 TEST(HeldTogether, SignsMayDecideThatAreNotSymmetric) {
   const Program f = record(3, 2, [](auto t, const auto& u, const auto& p, auto& du) {
