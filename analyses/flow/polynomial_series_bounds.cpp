@@ -36,6 +36,7 @@ bool PolynomialSeries::boundNode(int node) {
       return v.b > 0 || boundSolution(node);
     case Op::add:
     case Op::sub:
+      if (norm_[at(node)] == 0 && isNothing(v)) break;
       z0 = r0(v.a) + r0(v.b) + own0;
       z1 = r1(v.a) + r1(v.b);
       break;
@@ -140,6 +141,16 @@ void PolynomialSeries::boundTanh(int node) {
       pointError_[at(slope)] + rest(slope) + steepest);
 }
 
+/// Whether a sum is |u| + u, or |u| - u, where that is zero: exactly, whatever is known of u.
+bool PolynomialSeries::isNothing(const Plan& sum) const {
+  const auto is = [&](int kink, int u, double sign) {
+    return plan_[at(kink)].op == Op::abs && plan_[at(kink)].a == u && isSided_[at(kink)] != 0 &&
+           chords_[at(kink)].slope == sign;
+  };
+  const double cancelling = sum.op == Op::add ? -1 : 1;
+  return is(sum.a, sum.b, cancelling) || is(sum.b, sum.a, cancelling);
+}
+
 /// Whether u may change its sign, or be zero, in the step. Then the step should end before, or be so short that u moves
 /// by less than what is uncertain about it.
 bool PolynomialSeries::mayCross(int u) {
@@ -161,7 +172,9 @@ void PolynomialSeries::boundAbs(int node) {
   const auto [slope, middle] = chords_[at(node)];
   double off = 0;
   const bool isReckonedApart = isAlong_ && isApart_[at(node)] != 0;
+  isSided_[at(node)] = static_cast<char>(chords_[at(node)].isExact());
   if (!isReckonedApart && side_[at(u)] == 0 && (mayCross(u) || !chords_[at(node)].isExact())) {
+    isSided_[at(node)] = 0;
     const double centre = f_[plan_[at(u)].f], size = (rest(u) + rho0_[at(u)] + rho1_[at(u)]) * bounds::up;
     off = middle;
     for (const double end : {centre - size, centre + size})
@@ -266,17 +279,20 @@ bool PolynomialSeries::bound(const double* E, bool primaryOnly) {
     rho1_[at(i)] = state ? top_[at(i)] : 0.0;  // the order that x keeps and nodes do not
   }
   for (int node = time_ + 1; node < nodes_; ++node) {
-    if (plan_[at(node)].constant) rho0_[at(node)] = radius_[at(node)];
+    if (plan_[at(node)].constant) rho0_[at(node)] = knowsParameters_ ? 0.0 : radius_[at(node)];
     if (primaryOnly && !plan_[at(node)].primary) continue;
     if (!boundNode(node)) return refuse(node);
   }
   return true;
 }
 
-bool PolynomialSeries::boundWithoutRadii() {
+bool PolynomialSeries::boundTruncation() {
+  const std::vector<double> own = own0_;
+  for (std::size_t x = 0; x < own.size(); ++x) own0_[x] = std::max(0.0, own[x] - rounded_[x]);
   knowsParameters_ = true;
   const bool isBounded = bound(nullptr, true);
   knowsParameters_ = false;
+  own0_ = own;
   return isBounded;
 }
 

@@ -276,20 +276,19 @@ double FlowStepper::worstColumn(const FlowSet& set) const {
   return worst;
 }
 
-/// The defect bound holds parameters' radii and rounding too, which splitting does not cure: without radii it is
+/// The defect bound holds parameters' radii and rounding too, which splitting does not cure: without these it is
 /// computed once more; and what counts is mass in the highest grades, of any node, since what cancels in the states was
 /// truncated before; and no small part of the bound, or rounding is most of it.
 bool FlowStepper::isTruncationTooLarge(double share) {
-  const double allowed = share * h_;
+  const double allowed = std::max(share * h_, 0.25 * bounds::unit);  // less than rounding is no matter of ξ
   if (!(share > 0 && truncation_ > allowed)) return false;
   double truncation = 0;
-  bool isBounded = series_.boundWithoutRadii();
+  for (const Crossing& crossing : crossings_) series_.setApart(crossing.node, true);  // crossed_ tells what these do
+  bool isBounded = series_.boundTruncation();
+  for (const Crossing& crossing : crossings_) series_.setApart(crossing.node, false);
   for (int i = 0; i < n_ && isBounded; ++i) {
     double sum = 0;
-    for (int j = 0; j < n_; ++j) {
-      const int f = series_.outputNode(j);
-      sum += growth_.M1(i, j) * (series_.rho0(f) + series_.slopeRounding(j));
-    }
+    for (int j = 0; j < n_; ++j) sum += growth_.M1(i, j) * series_.rho0(series_.outputNode(j));
     truncation = std::max(truncation, sum / scale_[at(i)]);
   }
   isBounded = series_.bound(E_.data(), false) && isBounded;  // as it was
