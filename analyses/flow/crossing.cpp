@@ -86,6 +86,16 @@ Box FlowStepper::boxAtStart(const FlowSet& set) const {
 }
 
 FlowStepper::Look FlowStepper::lookAtKinks(const FlowSet& set, double& h, double smallest, double left) {
+  if (passing_ != none) {
+    const Look look = turn_ ? Look::released : lookAtPassage(set, h, smallest, left);
+    if (look == Look::released) {  // known better otherwise
+      passing_ = none;
+      mayPass_ = isTurnMixed_ = false;
+      lift_.clear();
+      return Look::unsided;
+    }
+    if (look != Look::goOn) return look;
+  }
   Box box;
   for (int i = 0; i < n_; ++i) box.push_back(series_.rangeOf(i, y_[at(i)]));
   std::vector<Interval> u, uAtStart, rates;
@@ -106,6 +116,7 @@ FlowStepper::Look FlowStepper::lookAtKinks(const FlowSet& set, double& h, double
     bound.over = u[k];
     bound.up = bound.down = kinkRates_[k];
   }
+  if (passing_ != none) bounds[passing_] = atStart[passing_] = {};
   const double longest = longestToCross(bounds, atStart, h, smallest);
   if (longest < 0.99 * h && h > smallest) {
     h = std::max(longest, smallest);
@@ -120,6 +131,7 @@ FlowStepper::Look FlowStepper::lookAtKinks(const FlowSet& set, double& h, double
     return Look::longer;
   }
   for (std::size_t k = 0; k < kinks_->count(); ++k) {
+    if (k == passing_) continue;
     // Those that move away stay on their side, or do not come so far.
     const Interval over = bounds[k].start + Interval(0.0, h) * kinkRates_[k];
     if (!contains(u[k], 0.0) || contains(bounds[k].start, 0.0) || !isCommon(over)) continue;
@@ -130,6 +142,11 @@ FlowStepper::Look FlowStepper::lookAtKinks(const FlowSet& set, double& h, double
       continue;
     }
     const auto crossing = bounds[k].crossing();
+    if (!crossing && passing_ == none && !turn_ && mayPassAsTurn()) {  // where intervals do not tell
+      passing_ = k;
+      passingFrom_ = bounds[k].start.lower() > 0 ? 1 : -1;
+      return Look::unsided;
+    }
     if (!crossing || turn_ || (crossing->moment.upper() > h && h < left)) continue;
     isNew = series_.passKink(kinks_->node(k), crossing->before) || isNew;
     crossings_.push_back({.form = &kinks_->form(k),

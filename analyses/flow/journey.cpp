@@ -189,10 +189,10 @@ std::unique_ptr<FlowFollower::Tools> FlowFollower::toolsFor(const FlowPiece& pie
   if (layout.monomials->symbols() == 0 && task_.fineOrders > 0) tools->stepper.setFineOrders(task_.fineOrders);
   tools->stepper.setStateNames(options.stateNames);
   tools->stepper.setScales(task_.scales);
-  tools->stepper.setTimeKinks(held.empty() ? task_.timeKinks : TimeKinks(motion, task_.horizon, task_.quantum));
+  tools->stepper.setTime(task_.horizon, task_.quantum,
+                         held.empty() ? task_.timeKinks : TimeKinks(motion, task_.horizon, task_.quantum));
   if (task_.jumps.count() > 0)
-    tools->stepper.setJumps(tools->jumps ? *tools->jumps : task_.jumps, task_.jumps, held, left, factor, task_.horizon,
-                            task_.quantum);
+    tools->stepper.setJumps(tools->jumps ? *tools->jumps : task_.jumps, task_.jumps, held, left, factor);
   if (task_.outputs.outputs() > 0)
     tools->outputs =
         std::make_unique<OutputTools>(outputToolsFor(tools->g, task_.outputLayout(piece.layout), piece.layout));

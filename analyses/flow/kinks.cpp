@@ -58,6 +58,7 @@ Program byKinks(const Program& given, std::size_t count) {
 
 FlowKinks::FlowKinks(const Program& differentiated, const std::vector<int>& varying)
     : nodes_(linearKinks(differentiated, varying, forms_)),
+      motion_(withKinksGiven(differentiated, {})),
       given_(withKinksGiven(differentiated, nodes_)),
       pushes_(byKinks(given_, nodes_.size())),
       f_(given_),

@@ -19,6 +19,7 @@ class FlowKinks {
   FlowKinks(const FlowKinks&) = delete;  // it points into itself
 
   std::size_t count() const { return nodes_.size(); }
+  const Program& f() const { return motion_; }
   /// The node |u| in `differentiated`, and u.
   int node(std::size_t kink) const { return nodes_[kink]; }
   const LinearForm& form(std::size_t kink) const { return forms_[kink]; }
@@ -32,7 +33,7 @@ class FlowKinks {
  private:
   std::vector<LinearForm> forms_;
   std::vector<int> nodes_;
-  Program given_, pushes_;  // f, with all |u| as parameters; its derivatives by these, [i][k]
+  Program motion_, given_, pushes_;  // f; f, with all |u| as parameters; its derivatives by these, [i][k]
   Evaluator<Interval> f_, columns_;
   Interval time_;
   Box box_, all_;  // parameters, then |u|

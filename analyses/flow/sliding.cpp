@@ -23,7 +23,7 @@ constexpr double leastHold = 0x1p10;  // in shortest steps: shorter ones would w
 }  // namespace
 
 void FlowStepper::setJumps(const FlowJumps& own, const FlowJumps& of, std::vector<char> held, std::vector<int> left,
-                           std::vector<double> factor, double length, double resolution) {
+                           std::vector<double> factor) {
   held_ = std::move(held);
   left_ = std::move(left);
   factor_ = std::move(factor);
@@ -31,11 +31,9 @@ void FlowStepper::setJumps(const FlowJumps& own, const FlowJumps& of, std::vecto
     own_.emplace(own);
   if (!own_) std::ranges::fill(left_, -1);
   of_ = &of;
-  length_ = length;
-  resolution_ = resolution;
   if (!held_.empty()) holding_.emplace(of);
   const auto ratesOf = [&](const FlowJumps& jumps) {
-    return std::make_unique<JumpRates>(jumps, series_.sharedMonomials(), m_, length, resolution, series_.cancelled());
+    return std::make_unique<JumpRates>(jumps, series_.sharedMonomials(), m_, length_, resolution_, series_.cancelled());
   };
   if (own_) ownRates_ = ratesOf(own);
   if (holding_) heldRates_ = ratesOf(of);
@@ -597,9 +595,9 @@ std::vector<Interval> FlowStepper::argumentsBehind() const {
   };
   if (held_.empty()) {
     if (turn_) result = turn_->besides;
-    if (turn_) result.resize(of_->count(), Interval::entire());
+    if (turn_) result.resize(of_ == nullptr ? 0 : of_->count(), Interval::entire());
     for (std::size_t j = 0; j < ownBounds_.size() && !turn_; ++j) result.push_back(behind(ownBounds_[j]));
-    if (turn_) result[turn_->jump] = turn_->argument;
+    if (turn_ && turn_->jump != none) result[turn_->jump] = turn_->argument;
     return result;
   }
   for (std::size_t k = 0; k < held_.size(); ++k) {
@@ -660,13 +658,13 @@ SignCases FlowStepper::Turn::during(const Interval& seconds) const {
 
 std::vector<SignCases> FlowStepper::signsAfter(double seconds, std::size_t count) const {
   std::vector<SignCases> result = signs(count, [&](const JumpBound& bound) { return bound.signAfter(seconds); });
-  if (turn_) result[turn_->jump] = turn_->during(Interval(seconds));
+  if (turn_ && turn_->jump != none) result[turn_->jump] = turn_->during(Interval(seconds));
   return result;
 }
 
 std::vector<SignCases> FlowStepper::signsOver(std::size_t count) const {
   std::vector<SignCases> result = signs(count, [](const JumpBound& bound) { return bound.signOver(); });
-  if (turn_) result[turn_->jump] = turn_->during(Interval(0.0, h_));
+  if (turn_ && turn_->jump != none) result[turn_->jump] = turn_->during(Interval(0.0, h_));
   return result;
 }
 
@@ -759,7 +757,7 @@ void FlowStepper::narrowArguments(const FlowSet& set, double tau, FlowPoint& poi
     point.radius[i] = (radiusOfOthers + own) * bounds::up;
   };
   forEachKnown(narrow);
-  if (!turn_) return;
+  if (!turn_ || turn_->jump == none) return;  // of a kink the polynomials say more
   const bool isHeld = turn_->arrives ? tau >= turn_->moments.upper() : tau <= turn_->moments.lower();
   if (!isHeld && (turn_->arrives || tau >= turn_->moments.upper())) return;         // its polynomials say more
   const Interval u = isHeld ? Interval(0.0) : turn_->gone(tau), towards(1.0, 2.0);  // whatever it is: at this moment

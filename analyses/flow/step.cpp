@@ -87,6 +87,12 @@ void FlowStepper::load(const FlowSet& set) {
     }
 }
 
+void FlowStepper::setTime(double length, double resolution, TimeKinks kinks) {
+  length_ = length;
+  resolution_ = resolution;
+  timeKinks_ = std::move(kinks);
+}
+
 /// The step, in units of h0, at which the last two orders reach the tolerance. A state is no less than `share` of the
 /// greatest.
 double FlowStepper::suggestion(double theta, double share) const {
@@ -496,7 +502,8 @@ StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum,
   turn_.reset();
   lift_.clear();
   beyondLast_ = 0;
-  mayTurn_ = true;
+  mayTurn_ = mayPass_ = true;
+  passing_ = none;
   hasLostTurn_ = isTurnMixed_ = false;
   turnSymbol_ = -1;
   ownBounds_.clear();
@@ -509,6 +516,7 @@ StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum,
     timeKinks_.giveSides(set.parameters, set.t, end, series_);
     for (std::size_t j = 0; j < sides_.size(); ++j)
       if (sides_[j] != 0) series_.giveSide(series_.jumps()[j], sides_[j]);
+    if (passing_ != none) series_.giveSide(kinks_->node(passing_), passingFrom_);
   };
   assumeSides(set);
   forgetCrossings();
@@ -569,6 +577,7 @@ StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum,
         if (look == Look::released) return StepOutcome::released;
         if (look == Look::unsided) {
           forgetCrossings();
+          isAdapted = false;
           compute();
           continue;
         }
@@ -609,9 +618,18 @@ StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum,
         caution_ *= std::clamp(std::pow(tolerance_ / std::max(timeError_, 1e-40), 1.0 / (m_ + 1)), 0.7, 1.15);
       caution_ = std::clamp(caution_, 0x1p-6, 2.0);
       certified_ = static_cast<double>(Work::counted() - begun) - ofGenerators_;
-      return isTruncationTooLarge(shares.truncation) || ((isAdapted || isSliding_) && isKinkTooWide(set, shares))
-                 ? StepOutcome::splitWanted
-                 : StepOutcome::stepped;
+      if (isTruncationTooLarge(shares.truncation)) return StepOutcome::splitWanted;
+      if (!((isAdapted || isSliding_) && isKinkTooWide(set, shares))) return StepOutcome::stepped;
+      if (crossings_.size() == 1 && crossings_.front().kink >= 0 && mayPassAsTurn()) {
+        passing_ = at(crossings_.front().kink);
+        passingFrom_ = crossings_.front().before;
+        symbolAcross_ = -1;
+        forgetCrossings();
+        isAdapted = false;
+        compute();
+        continue;
+      }
+      return StepOutcome::splitWanted;
     }
     // What jumps there may be possible only at its middle: 1/(2 + sign u) where u may be zero.
     const bool isLate = attempt >= 3 || h < 0x1p25 * quantum;

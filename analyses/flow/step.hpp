@@ -110,13 +110,12 @@ class FlowStepper {
   int escaping(const FlowSet& set) const;
   /// `own`: of the stepper's motion. That is the one of the jumps `of`, or, if `held` is not empty, the one in which
   /// those are held: of these, arguments have to be zero in every set. left, factor: as of FlowJumps::heldProgram.
-  /// `length`, `resolution`: of time, s.
   void setJumps(const FlowJumps& own, const FlowJumps& of, std::vector<char> held, std::vector<int> left,
-                std::vector<double> factor, double length, double resolution);
+                std::vector<double> factor);
   /// After `released`: of each jump, whether solutions at it stay held.
   const std::vector<char>& stillHeld() const { return stillHeld_; }
   /// Those held at the step's end, where all solutions leave one of those held in the step; else none.
-  const std::vector<char>& heldBehind() const { return turn_ && !turn_->arrives ? stillHeld_ : nothingHeld_; }
+  const std::vector<char>& heldBehind() const { return turn_ && turn_->releases() ? stillHeld_ : nothingHeld_; }
   /// Whether a turn was looked at in the last step of which polynomials of a higher degree might tell more.
   bool hasLostTurn() const { return hasLostTurn_; }
   bool hasTurned() const { return turn_.has_value(); }
@@ -127,8 +126,8 @@ class FlowStepper {
   int turnSymbol() const { return turnSymbol_; }
   /// Of each jump, whether its argument is zero for all solutions in the set; empty if none is.
   static std::vector<char> resting(const FlowSet& set, const FlowJumps& jumps);
-  /// Of the stepper's motion.
-  void setTimeKinks(TimeKinks kinks) { timeKinks_ = std::move(kinks); }
+  /// Before setJumps. `length`, `resolution`: of time, s; `kinks`: of the stepper's motion.
+  void setTime(double length, double resolution, TimeKinks kinks);
   void setStateNames(const std::vector<std::string>& names) { names_ = names; }
   /// Steps are relative to no less than a share of these. Null: they are not known.
   void setScales(std::shared_ptr<const FlowScales> scales) { scales_ = std::move(scales); }
@@ -198,6 +197,7 @@ class FlowStepper {
   bool isTruncationTooLarge(double share);
   bool isLooserThanDriven() const;
   bool isKinkTooWide(const FlowSet& set, const SplitShares& shares);
+  static constexpr std::size_t none = static_cast<std::size_t>(-1);
   enum class Look { goOn, again, shorter, longer, unsided, released };
   Look lookAtJumps(const FlowSet& set, double& h, double smallest, double left);
   Look lookAtKinks(const FlowSet& set, double& h, double smallest, double left);
@@ -258,7 +258,6 @@ class FlowStepper {
                  const std::vector<double>& tube);
   bool areHeld(const std::vector<JumpBound>& bounds) const;
   double longestHeld(const JumpRates& rates, double h) const;
-  static constexpr std::size_t none = static_cast<std::size_t>(-1);
   std::vector<double> withLow(std::vector<double> tube) const;
   HeldSigns* heldSignsFor(const std::vector<char>& held);
   std::optional<std::vector<Interval>> signsBeside(const std::vector<JumpBound>& bounds) const;
@@ -271,10 +270,10 @@ class FlowStepper {
   void leaveTogether(const FlowSet& set, const std::vector<Interval>& start, const std::vector<JumpBound>& bounds);
   bool leavesTogether(const FlowSet& set, double h);
   void letGo(const FlowSet& set, const std::vector<JumpBound>& bounds);
-  /// In this step a jump lets go all solutions that it held, to one side, or comes to hold them, from one side: D is
-  /// added to each of them from m(ξ) on.
+  /// In this step a jump lets go all solutions that it held, to one side, or comes to hold them, from one side, or they
+  /// pass a kink: D is added to each of them from m(ξ) on.
   struct Turn {
-    std::size_t jump;  // of f
+    std::size_t jump;  // of f; none: a kink
     double side;
     bool arrives;
     int own;  // jump, of the stepper's motion; -1: of those held
@@ -290,20 +289,24 @@ class FlowStepper {
     std::vector<double> most{}, twist{};              // |D| and its third derivative at most
     std::vector<double> gap{}, slope{}, bend{};       // |D|, |Ḋ| and |D̈| at m(ξ)
     std::vector<double> before{};                     // like e1_, until then
-    std::vector<double> ofDegree{};                   // of what is missed, by truncation in ξ, about
-    std::vector<double> push{};                       // |what is added to f| between these moments
-    std::vector<double> jolt{};                       // what chords from the step's start miss
-    Interval growth{0.0};                             // of the argument's rate, of those let go, towards that side
-    Interval argument{0.0};                           // at the step's end
-    std::vector<Interval> besides{};                  // likewise of own jumps; none: nothing is known
+    // What turns of the frame from m(ξ) on, 1/s, and of each state, of what the set's remainder is; ∂f_a/∂x, about.
+    std::vector<double> K{}, turned{}, J{};
+    std::vector<double> jolt{};       // what chords from the step's start miss
+    Interval growth{0.0};             // of the argument's rate, of those let go, towards that side
+    Interval argument{0.0};           // at the step's end
+    std::vector<Interval> besides{};  // likewise of own jumps; none: nothing is known
     SignCases during(const Interval& seconds) const;
     Interval gone(double seconds) const;
+    bool releases() const { return jump != none && !arrives; }
     /// |D| at most, up to so many seconds from m(ξ), before or after.
     double within(std::size_t state, double seconds) const;
   };
   FlowTurn* turnFor(std::size_t jump, double side, bool arrives);
+  FlowTurn* passageFor(std::size_t kink, double side);
   Look lookAtRelease(const FlowSet& set, double& h, double smallest, double left);
   Look lookAtArrival(const FlowSet& set, double& h, double smallest, double left);
+  bool mayPassAsTurn() const { return mayPass_ && inputs_.empty() && monomials().symbols() > 0 && length_ > 0; }
+  Look lookAtPassage(const FlowSet& set, double& h, double smallest, double left);
   Look lookAtTurn(const FlowSet& set, double& h, double smallest, double left, Turn turn,
                   const std::vector<Interval>& signs);
   void holdBeside(const std::vector<char>& held);
@@ -315,6 +318,8 @@ class FlowStepper {
                       const std::vector<double>& tube);
   std::vector<double> statesWith(const Turn& turn) const;
   bool describeTurn(const FlowSet& set, const std::vector<Interval>& signs, Turn& turn);
+  bool turnFrameWith(const FlowSet& set, const std::vector<Interval>& signs, Turn& turn);
+  std::vector<double> restOfFrame(const Turn& turn, const std::vector<Interval>& J, double longest) const;
   bool proveTurn(const FlowSet& set, const std::vector<Interval>& signs, Turn& turn, double& relativeDefect);
   void addTurn(double tau, FlowPoint& point) const;
   /// What comes to be held, |u - ũ| ≤ g on a chord from its first to its last number, with the state that it decides.
@@ -371,7 +376,11 @@ class FlowStepper {
   // Of jumps held, by the side to which they let go (above or not), and of own ones, by that from which they come to
   // hold; once needed, null where there is none.
   std::map<std::tuple<std::size_t, bool, bool>, std::unique_ptr<FlowTurn>> turns_;
-  std::optional<Turn> turn_;      // of this step
+  std::map<std::pair<std::size_t, bool>, std::unique_ptr<FlowTurn>> passages_;  // of kinks, from above or not
+  std::optional<Turn> turn_;                                                    // of this step
+  std::size_t passing_ = none;  // the kink that all solutions pass as a turn, from the side passingFrom_
+  double passingFrom_ = 0;
+  bool mayPass_ = true;           // so, in this step
   std::vector<double> heldTube_;  // before it
   std::vector<double> lift_;      // how much wider the tube is for those that have turned; none: it is not
   bool isLiftOfArrival_ = false;

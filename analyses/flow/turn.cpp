@@ -1,5 +1,6 @@
 #include "analyses/flow/turn.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
@@ -27,14 +28,22 @@ Program withOpenSignsGiven(const Program& f, const std::vector<char>& held) {
   return recorder.finish(outputs);
 }
 
-/// What FlowTurn asks for, of the nodes of f_b, f_a, the guard and its rate, and two that have to be above zero.
-Program turnOf(Recorder& recorder, const std::vector<int>& before, const std::vector<int>& after, int guard, int growth,
-               int isAhead, int isAttracted) {
-  std::vector<int> outputs;
-  for (std::size_t i = 0; i < after.size(); ++i) outputs.push_back(recorder.sub(after[i], before[i]));
-  outputs.insert(outputs.end(), {guard, growth, isAhead, isAttracted});
+/// What FlowTurn asks for, of the nodes of f_a, the guard and its rate, and two that have to be above zero.
+Program turnOf(Recorder& recorder, const std::vector<int>& after, int guard, int growth, int isAhead, int isAttracted) {
+  std::vector<int> outputs{guard, growth, isAhead, isAttracted};
   outputs.insert(outputs.end(), after.begin(), after.end());
   return recorder.finish(outputs);
+}
+
+/// Parameters that only one of them knows have no part in it.
+bool isSameForm(const LinearForm& a, const LinearForm& b) {
+  const std::size_t common = std::min(a.parameters.size(), b.parameters.size());
+  const auto isZero = [](double coefficient) { return coefficient == 0; };
+  return a.states == b.states && isEqual(a.constant, b.constant) &&
+         std::equal(a.parameters.begin(), a.parameters.begin() + static_cast<std::ptrdiff_t>(common),
+                    b.parameters.begin()) &&
+         std::all_of(a.parameters.begin() + static_cast<std::ptrdiff_t>(common), a.parameters.end(), isZero) &&
+         std::all_of(b.parameters.begin() + static_cast<std::ptrdiff_t>(common), b.parameters.end(), isZero);
 }
 
 /// Its last outputs, as many as states.
@@ -80,7 +89,7 @@ Program releaseOf(const FlowJumps& jumps, const std::vector<char>& held, std::si
     for (std::size_t i = 0; i < n; ++i) seeds.emplace_back(recorder.state(static_cast<int>(i)), rates[i]);
     return tangents(recorder, {guard}, seeds).front();
   };
-  return turnOf(recorder, whileHeld, free, guard, growthAlong(whileHeld), growthAlong(free), towardsSide(other));
+  return turnOf(recorder, free, guard, growthAlong(whileHeld), growthAlong(free), towardsSide(other));
 }
 
 /// u̇ is affine in the sign: from u̇_b to u̇_-b, f as well, so that it is zero at f_b + u̇_b/(u̇_b - u̇_-b) (f_-b - f_b).
@@ -105,8 +114,41 @@ Program arrivalOf(const FlowJumps& jumps, std::size_t jump, double side) {
   const auto towardsOther = [&](int node) { return side > 0 ? recorder.neg(node) : node; };
   const auto towardsSide = [&](int node) { return side > 0 ? node : recorder.neg(node); };
   const int growth = towardsOther(own[rate]);
-  return turnOf(recorder, {own.begin(), own.begin() + given.states()}, after, towardsOther(own[n + jump]), growth,
-                growth, towardsSide(other[rate]));
+  return turnOf(recorder, after, towardsOther(own[n + jump]), growth, growth, towardsSide(other[rate]));
+}
+
+Program passageOf(const Program& f, const LinearForm& u, double side) {
+  const std::size_t n = at(f.states());
+  Recorder recorder(f.states(), f.parameters());
+  const std::vector<int> itself = recorder.append(f);
+  const auto ratesWith = [&](double sign) {  // sign u in place of |u|
+    std::vector<int> instead(f.nodes().size(), -1), rates;
+    for (std::size_t i = 0; i < f.nodes().size(); ++i) {
+      const Node& node = f.nodes()[i];
+      const auto form = node.op == Op::abs ? linearFormOf(f, node.a) : std::nullopt;
+      if (!form || !isSameForm(*form, u)) continue;
+      instead[i] = sign > 0 ? itself[at(node.a)] : recorder.neg(itself[at(node.a)]);
+    }
+    const std::vector<int> here = recorder.append(f, {}, instead);
+    for (std::size_t i = 0; i < n; ++i) rates.push_back(here[at(f.outputNodes()[i])]);
+    return rates;
+  };
+  const std::vector<int> before = ratesWith(side), after = ratesWith(-side);
+  const auto ahead = [&](const std::vector<int>& of, int rest) {  // -side (Σ c_i of_i + rest)
+    int sum = rest;
+    for (std::size_t i = 0; i < n; ++i)
+      if (u.states[i] != 0) sum = recorder.add(sum, recorder.mul(recorder.constant(u.states[i]), of[i]));
+    return side > 0 ? recorder.neg(sum) : sum;
+  };
+  std::vector<int> states;
+  int rest = recorder.constant(u.constant);
+  for (std::size_t i = 0; i < n; ++i) states.push_back(recorder.state(static_cast<int>(i)));
+  for (std::size_t k = 0; k < u.parameters.size(); ++k)
+    if (u.parameters[k] != 0)
+      rest =
+          recorder.add(rest, recorder.mul(recorder.constant(u.parameters[k]), recorder.parameter(static_cast<int>(k))));
+  const int still = recorder.constant(0.0), always = recorder.constant(1.0);
+  return turnOf(recorder, after, ahead(states, rest), ahead(before, still), ahead(after, still), always);
 }
 
 FlowTurn::FlowTurn(const Program& along, std::shared_ptr<const Monomials> monomials, int order, double length,

@@ -17,12 +17,11 @@ class FlowTurn : public AlongStep {
   FlowTurn(const Program& along, std::shared_ptr<const Monomials> monomials, int order, double length,
            double resolution, const std::atomic<bool>* cancelled);
 
-  int added(int i) const { return i; }  ///< of f_a - f_b
-  int guard() const { return states_; }
-  int growth() const { return states_ + 1; }          ///< the guard's rate while ẋ = f_b
-  int isAhead() const { return states_ + 2; }         ///< above zero: solutions do not turn back
-  int isAttracted() const { return states_ + 3; }     ///< above zero: from the other side as well
-  int after(int i) const { return states_ + 4 + i; }  ///< of f_a
+  int guard() const { return 0; }
+  int growth() const { return 1; }          ///< the guard's rate while ẋ = f_b
+  int isAhead() const { return 2; }         ///< above zero: solutions do not turn back
+  int isAttracted() const { return 3; }     ///< above zero: from the other side as well
+  int after(int i) const { return 4 + i; }  ///< of f_a
 
   /// f_a alone, with outputs of its own.
   AlongStep& following() { return following_; }
@@ -42,5 +41,8 @@ Program releaseOf(const FlowJumps& jumps, const std::vector<char>& held, std::si
 /// Solutions on this side of a jump come to be held by it: the guard is the argument, and solutions are ahead and
 /// attracted as fast as it comes to zero from either side.
 Program arrivalOf(const FlowJumps& jumps, std::size_t jump, double side);
+/// f (the first outputs, one a state) has a kink in u, which solutions pass: |u| = side u until then, and -side u from
+/// then on. The guard is -side u, and solutions are ahead as fast as that rises.
+Program passageOf(const Program& f, const LinearForm& u, double side);
 
 }  // namespace gamut

@@ -1,6 +1,7 @@
 // Steps in which a jump lets go all solutions that it held, or comes to hold them: when it does so is a polynomial in
 // ξ, and so is what follows. Derivation: docs/flow.md, section 7, "Turns".
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -87,6 +88,15 @@ FlowTurn* FlowStepper::turnFor(std::size_t jump, double side, bool arrives) {
   return place->second.get();
 }
 
+FlowTurn* FlowStepper::passageFor(std::size_t kink, double side) {
+  const auto [place, isNew] = passages_.try_emplace({kink, side > 0});
+  if (isNew)
+    place->second =
+        std::make_unique<FlowTurn>(passageOf(own_ ? own_->jumps().given : kinks_->f(), kinks_->form(kink), side),
+                                   series_.sharedMonomials(), m_, length_, resolution_, series_.cancelled());
+  return place->second.get();
+}
+
 /// Whether one of those held lets all solutions go to one side within the step, before any other, and what is known of
 /// that. Look::released: it cannot be proved.
 FlowStepper::Look FlowStepper::lookAtRelease(const FlowSet& set, double& h, double smallest, double left) {
@@ -160,6 +170,37 @@ FlowStepper::Look FlowStepper::lookAtArrival(const FlowSet& set, double& h, doub
   return look;
 }
 
+/// Likewise, whether they pass the kink.
+FlowStepper::Look FlowStepper::lookAtPassage(const FlowSet& set, double& h, double smallest, double left) {
+  if (!own_ && !series_.jumps().empty()) return Look::released;
+  std::vector<Interval> signs;
+  for (std::size_t j = 0; own_ && j < own_->jumps().count(); ++j) {
+    const double sign = series_.series(series_.jumps()[j])[0];
+    if (std::fabs(sign) != 1 || ((sides_.empty() || sides_[j] == 0) && series_.mayTurn(series_.jumps()[j])))
+      return Look::released;
+    signs.emplace_back(sign);
+  }
+  std::vector<Interval> all = signs;  // of the jumps of f
+  if (!held_.empty()) {
+    all.assign(held_.size(), Interval(0.0));
+    for (std::size_t k = 0; k < held_.size(); ++k)
+      if (held_[k] == 0 && left_[k] < 0)
+        return Look::released;
+      else if (held_[k] == 0)
+        all[k] = Interval(factor_[k]) * signs[at(left_[k])];
+  }
+  FlowTurn* const of = passageFor(passing_, passingFrom_);
+  if (!of->load(series_, set.t, h0_, h / h0_, set.parameters, signs, heldTube_)) return Look::released;
+  if (of->over(of->guard(), 0, h / h0_).upper() < 0) return Look::goOn;  // none of them comes so far
+  const Look look =
+      lookAtTurn(set, h, smallest, left, {none, -passingFrom_, false, -1, of, {}, held_, held_, all}, signs);
+  if (look != Look::goOn) return look;
+  holdBeside(held_);
+  for (JumpBound& bound : ownBounds_) bound = {.sign = bound.sign};  // rates are others then
+  turn_->form = &kinks_->form(passing_);
+  return look;
+}
+
 /// Whether arguments that are on a side stay there once others have turned, along these polynomials of states: the turn
 /// has been loaded with them. Sets what they are at the step's end. Before that: longestOnSides, of
 /// arrivals lookAtArrival.
@@ -204,7 +245,7 @@ void FlowStepper::noteOther(const HeldSigns& together, std::size_t jump, double 
 
 /// Whether those that are held besides the one that turns are so until all have turned.
 bool FlowStepper::holdUntilTurned(const FlowSet& set, const Turn& turn) {
-  const auto besides = std::ranges::count(turn.heldBefore, 1) - (turn.arrives ? 0 : 1);
+  const auto besides = std::ranges::count(turn.heldBefore, 1) - (turn.releases() ? 1 : 0);
   if (besides == 0) return true;
   HeldSigns* const together = heldSignsFor(turn.heldBefore);
   const double until = std::min(h_, turn.moments.upper());
@@ -225,7 +266,7 @@ bool FlowStepper::holdOnceTurned(const FlowSet& set, const Turn& turn, const std
   if (besides == 0) return true;
   HeldSigns* const together = heldSignsFor(turn.heldAfter);
   std::vector<Interval> signs = turn.signs;
-  signs[turn.jump] = Interval(turn.side);
+  if (turn.jump != none) signs[turn.jump] = Interval(turn.side);
   if (together == nullptr || !together->load(states, set.t, h0_, theta_, set.parameters, signs, tube)) return false;
   for (std::size_t k = 0; k < turn.heldAfter.size(); ++k) {
     const Interval sign = turn.heldAfter[k] != 0 ? onceTurned(*together, together->output(k), turn) : Interval(0.0);
@@ -271,7 +312,8 @@ FlowStepper::Look FlowStepper::lookAtTurn(const FlowSet& set, double& h, double 
     return Look::shorter;
   }
   if (!(over(of.growth(), first, h).lower() > 0)) return Look::released;
-  if (!turn.arrives && !(over(of.isAttracted(), 0, h).lower() > 0)) return Look::released;  // as it is held from there
+  if (turn.releases() && !(over(of.isAttracted(), 0, h).lower() > 0))
+    return Look::released;  // as it is held from there
   h_ = h;
   theta_ = h / h0_;
   turn.moments = Interval(first, last);
@@ -363,36 +405,6 @@ bool FlowStepper::describeTurn(const FlowSet& set, const std::vector<Interval>& 
   turn.beyond = std::max(0.0, of.over(of.guard(), 0, 0).upper());
   turn.away = (root.rest + restOf(of, of.guard()) + turn.beyond) * bounds::up / slope * bounds::up;
   turn.moments = inflated(turn.moments, turn.away);
-  // What is added between a solution's own moment and m(ξ), where it is zero at the one: on a tube that holds what that
-  // does itself.
-  std::vector<double> tube(n), added(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    const int output = of.added(static_cast<int>(i));
-    const std::vector<BoundedPolynomial> V = polynomialsOf(of, output, orders);
-    const double moves = of.series().derivativeNorm(of.series().outputNode(output), 1, theta_) / h0_;
-    added[i] = (composed(monomials(), V, root.x).norm() + 2 * turn.away * moves) * bounds::up;
-    turn.push.push_back(added[i] + restOf(of, output));
-  }
-  constexpr int tries = 4;
-  for (int attempt = 0;; ++attempt) {
-    const auto reached = [&](std::size_t i, double times) {
-      double sum = heldTube_[i];
-      for (std::size_t j = 0; j < n; ++j)
-        sum += growth_.M0(static_cast<int>(i), static_cast<int>(j)) * times * turn.away * turn.push[j];
-      return sum * bounds::up;
-    };
-    for (std::size_t i = 0; i < n; ++i) tube[i] = reached(i, 4) + bounds::tiny;
-    if (attempt == tries || !of.rebound(tube.data())) {
-      hasLostTurn_ = true;
-      return false;
-    }
-    bool isInside = true;
-    for (std::size_t i = 0; i < n; ++i) {
-      turn.push[i] = (added[i] + restOf(of, of.added(static_cast<int>(i)))) * bounds::up;
-    }
-    for (std::size_t i = 0; i < n; ++i) isInside = isInside && reached(i, 3) <= tube[i];
-    if (isInside) break;
-  }
   const std::size_t N = at(series_.count());
   turn.D.assign(n, std::vector<BoundedPolynomial>(orders, {std::vector<double>(N, 0.0)}));
   constexpr int rounds = 12;
@@ -437,7 +449,6 @@ bool FlowStepper::describeTurn(const FlowSet& set, const std::vector<Interval>& 
     }
     turn.most.push_back(magnitude(rangeOver(turn.D[i], from, theta_)));
     turn.gap.push_back(composed(monomials(), turn.D[i], root.x).norm());
-    turn.ofDegree.push_back(turn.gap.back() + 3 * turn.away * turn.push[i]);
     turn.slope.push_back(composed(monomials(), rates, root.x).norm());
     turn.bend.push_back(composed(monomials(), seconds, root.x).norm());
     turn.twist.push_back(twist / h0_ * bounds::up);
@@ -446,9 +457,88 @@ bool FlowStepper::describeTurn(const FlowSet& set, const std::vector<Interval>& 
   return true;
 }
 
-/// From then on z = x - x̃ - Ψ̃(r + Γs) - D obeys z' = J̄_a z + (f_a(x̃ + D) - x̃' - D') + (J̄_a Ψ̃ - Ψ̃')(r + Γs), J_a =
-/// ∂f_a/∂x on the way from x̃ + D to x. Whether it is so small that x is in the step's tube, and the rate of those let
-/// go grows.
+/// What becomes of the frame with D: it turns by K = J_a Ψ̃ - Ψ̃', per second, as that is in the middle.
+bool FlowStepper::turnFrameWith(const FlowSet& set, const std::vector<Interval>& signs, Turn& turn) {
+  const std::size_t n = at(n_), orders = at(m_) + 1;
+  const double middle = turn.when.c[0];
+  const auto valueOf = [&](const double* c) {  // and of its rate, 1/s
+    double value = 0, rate = 0;
+    for (std::size_t order = orders; order-- > 0;) {
+      rate = rate * middle + value;
+      value = value * middle + c[order];
+    }
+    return std::pair(value, rate / h0_);
+  };
+  Box states, parameters;
+  for (std::size_t i = 0; i < n; ++i) {
+    double value = 0;
+    for (std::size_t order = orders; order-- > 0;)
+      value = value * middle + series_.series(static_cast<int>(i))[order] + turn.D[i][order].c[0];
+    states.emplace_back(value);
+  }
+  for (const Embedded& e : set.parameters) parameters.emplace_back(e.centre);
+  parameters.insert(parameters.end(), signs.begin(), signs.end());
+  turn.J.clear();
+  for (const Interval& J : turn.of->derivatives(Interval(set.t + middle * h0_), states, parameters))
+    turn.J.push_back(midpoint(J));
+  turn.K.assign(n * n, 0.0);
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < n; ++j) {
+      double sum = 0;
+      for (std::size_t l = 0; l < n; ++l)
+        sum += turn.J[i * n + l] * valueOf(series_.frame(static_cast<int>(l), static_cast<int>(j))).first;
+      turn.K[i * n + j] = sum - valueOf(series_.frame(static_cast<int>(i), static_cast<int>(j))).second;
+      if (!std::isfinite(turn.K[i * n + j])) return false;
+    }
+  return true;
+}
+
+/// |J_a (Ψ̃ + K (t - m(ξ))) - Ψ̃' - K|, J_a anything in J, for `longest` seconds after the first has turned: of each row,
+/// times what the set's remainder is. What Ψ̃ and its rate are elsewhere than in the middle counts as an error.
+std::vector<double> FlowStepper::restOfFrame(const Turn& turn, const std::vector<Interval>& J, double longest) const {
+  const std::size_t n = at(n_), orders = at(m_) + 1;
+  const double middle = turn.when.c[0], span = std::max(std::fabs(middle), theta_ - middle);
+  const auto norms = [&](std::size_t i, std::size_t j) {  // what varies of Ψ̃, and of its rate; both at most
+    const double* c = series_.frame(static_cast<int>(i), static_cast<int>(j));
+    double own = 0, rate = 0;
+    for (int g = 1; g < series_.frameCount(); ++g) {
+      double power = 1;
+      for (std::size_t order = 0; order < orders; ++order) {
+        own += std::fabs(c[at(g * series_.stride()) + order]) * power;
+        if (order + 1 < orders)
+          rate += static_cast<double>(order + 1) * std::fabs(c[at(g * series_.stride()) + order + 1]) * power;
+        power *= std::max(theta_, std::fabs(middle));
+      }
+    }
+    const auto slope = [&](int k) {
+      return series_.frameDerivativeNorm(static_cast<int>(i), static_cast<int>(j), k, theta_);
+    };
+    return std::array<double, 4>{(own + span * slope(1)) * bounds::up, (rate + span * slope(2)) / h0_ * bounds::up,
+                                 series_.frameNorm(static_cast<int>(i), static_cast<int>(j)), slope(1) / h0_};
+  };
+  std::vector<std::array<double, 4>> frame;
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < n; ++j) frame.push_back(norms(i, j));
+  std::vector<double> rest(n, 0.0);
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < n; ++j) {
+      const auto& [ofFrame, ofRate, most, mostRate] = frame[i * n + j];
+      // K is a sum of n products and a difference, of numbers by Horner's method.
+      double sum = ofRate, size = mostRate + std::fabs(turn.K[i * n + j]);
+      for (std::size_t l = 0; l < n; ++l) {
+        const double about = std::fabs(turn.J[i * n + l]), by = std::fabs(turn.K[l * n + j]) * longest;
+        const double off = magnitude(J[i * n + l] - Interval(turn.J[i * n + l]));
+        sum += off * (frame[l * n + j][2] + by) + about * (frame[l * n + j][0] + by);
+        size += about * frame[l * n + j][2];
+      }
+      rest[i] += (sum + static_cast<double>(4 * orders + 2 * n + 8) * bounds::unit * size) * total_[j] * bounds::up;
+    }
+  return rest;
+}
+
+/// From then on z = x - x̃ - (Ψ̃ + K (t - m(ξ)))(r + Γs) - D obeys z' = J̄_a z + (f_a(x̃ + D) - x̃' - D') + (J̄_a (Ψ̃ + K (t -
+/// m)) - Ψ̃' - K)(r + Γs), J_a = ∂f_a/∂x on the way from x̃ + D to x. Whether it is so small that x is in the step's
+/// tube, and the rate of those let go grows.
 bool FlowStepper::proveTurn(const FlowSet& set, const std::vector<Interval>& signs, Turn& turn,
                             double& relativeDefect) {
   FlowTurn& of = *turn.of;
@@ -458,7 +548,9 @@ bool FlowStepper::proveTurn(const FlowSet& set, const std::vector<Interval>& sig
   // The defect.
   const std::vector<double> states = statesWith(turn);
   if (!of.load(states, set.t, h0_, theta_, set.parameters, signs, std::vector<double>(n, 0.0))) return false;
-  std::vector<double> defect(n), truncated(n), ofFrame(n, 0.0), ofFrameRate(n, 0.0), before(n), most(n), slack(n);
+  if (!turnFrameWith(set, signs, turn)) return false;
+  const double since = (longest + turn.away) * bounds::up;  // m(ξ)
+  std::vector<double> defect(n), truncated(n), ofFrame(n, 0.0), before(n), most(n), slack(n);
   for (std::size_t i = 0; i < n; ++i) {
     const int output = of.after(static_cast<int>(i));
     std::vector<BoundedPolynomial> f = polynomialsOf(of, output, orders);
@@ -476,17 +568,19 @@ bool FlowStepper::proveTurn(const FlowSet& set, const std::vector<Interval>& sig
         slack[i] += power * bounds::unit * std::fabs(states[(i * N + g) * orders + order]);
     }
     defect[i] = (magnitude(rangeOver(f, first / h0_, theta_)) + restOf(of, output)) * bounds::up;
-    truncated[i] = turn.ofDegree[i] + longest * restOf(of, output);
+    truncated[i] = turn.within(i, turn.away) + longest * restOf(of, output);
     constexpr double heard = 1e-9;  // of the state: what moves by less decides nothing
     relativeDefect = std::max(relativeDefect, longest * defect[i] / std::max(turn.most[i], heard * scale_[i]));
-    double sum = inputs_.rest(static_cast<int>(i)) + slack[i];
+    double sum = inputs_.rest(static_cast<int>(i)) + slack[i] + turn.within(i, turn.away);
+    turn.turned.push_back(0);
     for (int j = 0; j < n_; ++j) {
       const int row = static_cast<int>(i);
-      ofFrame[i] += series_.frameNorm(row, j) * total_[at(j)] * bounds::up;
-      ofFrameRate[i] += series_.frameDerivativeNorm(row, j, 1, theta_) / h0_ * total_[at(j)] * bounds::up;
-      sum += epsilon_[at(row * n_ + j)] * total_[at(j)];
-      sum += growth_.M1(row, j) * delta0_[at(j)] + growth_.M2(row, j) * delta1_[at(j)] +
-             growth_.M0(row, j) * (set.W[at(j)] + 3 * turn.away * turn.push[at(j)] + turn.within(at(j), turn.away));
+      const double K = std::fabs(turn.K[at(row * n_ + j)]) * total_[at(j)] * bounds::up;
+      turn.turned[i] += K;
+      ofFrame[i] += (series_.frameNorm(row, j) * total_[at(j)] + since * K) * bounds::up;
+      sum += epsilon_[at(row * n_ + j)] * total_[at(j)] + turn.away * K;
+      sum +=
+          growth_.M1(row, j) * delta0_[at(j)] + growth_.M2(row, j) * delta1_[at(j)] + growth_.M0(row, j) * set.W[at(j)];
     }
     before[i] = sum * bounds::up;
     most[i] = 2 * before[i] + 0.015625 * turn.most[i] + 2 * longest * defect[i] + bounds::tiny;
@@ -508,12 +602,8 @@ bool FlowStepper::proveTurn(const FlowSet& set, const std::vector<Interval>& sig
       following_.A(static_cast<int>(i / n), static_cast<int>(i % n)) = magnitude(J[i]);
     }
     if (!following_.compute(longest)) return false;
-    std::vector<double> rest(n);
-    for (std::size_t i = 0; i < n; ++i) {
-      rest[i] = defect[i] + ofFrameRate[i];
-      for (std::size_t j = 0; j < n; ++j) rest[i] += magnitude(J[i * n + j]) * ofFrame[j];
-      rest[i] *= bounds::up;
-    }
+    std::vector<double> rest = restOfFrame(turn, J, since);
+    for (std::size_t i = 0; i < n; ++i) rest[i] = (rest[i] + defect[i]) * bounds::up;
     crossed_.assign(n, 0.0);
     isProved = true;
     for (std::size_t i = 0; i < n; ++i) {
@@ -536,8 +626,8 @@ bool FlowStepper::proveTurn(const FlowSet& set, const std::vector<Interval>& sig
   for (std::size_t i = 0; i < n; ++i) {
     const double beside = 4 * heldTube_[i] + little * scale_[i];
     isLost = isLost || crossed_[i] > mostLost * turn.most[i] + beside;
-    hasLostTurn_ = hasLostTurn_ || (crossed_[i] > wanted * turn.most[i] + beside &&
-                                    truncated[i] > ofDegree * (before[i] + longest * (defect[i] + ofFrameRate[i])));
+    hasLostTurn_ =
+        hasLostTurn_ || (crossed_[i] > wanted * turn.most[i] + beside && truncated[i] > ofDegree * crossed_[i]);
   }
   isTurnMixed_ = isLost && !hasLostTurn_;
   if (isLost) return false;
@@ -554,14 +644,15 @@ bool FlowStepper::proveTurn(const FlowSet& set, const std::vector<Interval>& sig
     tube.push_back((ofFrame[i] + crossed_[i] + turn.within(i, turn.away)) * bounds::up + bounds::tiny);
     // Beside a chord from the step's start: D grows no slower than at its end, but for what moments miss.
     const double longestSlope = turn.slope[i] + longest * (turn.bend[i] + 0.5 * longest * turn.twist[i]);
-    turn.jolt.push_back((turn.gap[i] + crossed_[i]) * bounds::up);
-    e1_[i] = (e1_[i] + crossed_[i] + std::max(turn.most[i], longest * longestSlope)) * bounds::up;
+    turn.jolt.push_back((turn.gap[i] + turn.away * turn.turned[i] + crossed_[i]) * bounds::up);
+    e1_[i] =
+        (e1_[i] + crossed_[i] + std::max(turn.most[i], longest * longestSlope) + since * turn.turned[i]) * bounds::up;
   }
   if (!of.rebound(tube.data()) || !holdOnceTurned(set, turn, states, tube) || !stayOnceTurned(set, turn, states, tube))
     return false;
   const Interval growth = onceTurned(of, of.isAhead(), turn);
   if (!(growth.lower() > 0) || !(onceTurned(of, of.isAttracted(), turn).lower() > 0)) return false;
-  if (turn.arrives) return true;
+  if (!turn.releases()) return true;
   turn.growth = growth;
   turn.argument = turn.gone(h_);
   return true;
@@ -577,7 +668,22 @@ void FlowStepper::addTurn(double tau, FlowPoint& point) const {
   const Interval away = Interval(turn.away);
   const double late = std::max(0.0, (Interval(turn.moments.upper()) + away - Interval(tau)).upper());
   const double since = (Interval(tau) - Interval(turn.moments.lower()) + away).upper();
+  BoundedPolynomial sinceMoment = turn.when;
+  sinceMoment *= -h0_;
+  sinceMoment += {{tau}};
+  double beyondFrame = sinceMoment.error;
+  for (std::size_t g = at(series_.frameCount()); g < sinceMoment.c.size(); ++g)
+    beyondFrame += std::fabs(sinceMoment.c[g]);
   for (std::size_t i = 0; i < n; ++i) {
+    // The frame's share likewise, but none of it before all have turned.
+    point.loose[i] += (late > 0 ? since : beyondFrame) * turn.turned[i] * bounds::up;
+    for (std::size_t j = 0; j < n && !(late > 0); ++j)
+      for (std::size_t g = 0; g < std::min(at(series_.frameCount()), sinceMoment.c.size()); ++g) {
+        double& psi = point.psi[(g * n + i) * n + j];
+        psi += turn.K[i * n + j] * sinceMoment.c[g];
+        point.loose[i] +=
+            2 * bounds::unit * (std::fabs(psi) + std::fabs(turn.K[i * n + j] * sinceMoment.c[g])) * total_[j];
+      }
     const double before = turn.within(i, late), most = turn.within(i, since);
     const double share = late > 0 && before > 0 ? most / (most + before) : 1;
     BoundedPolynomial D{{0.0}};

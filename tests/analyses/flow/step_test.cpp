@@ -34,7 +34,8 @@ struct Scene {
         monomials(std::make_shared<const Monomials>(capped(degree), degree)),
         stepper(differentiated, monomials, frameDegree, order, tolerance, FlowInputs(n, order, {}, 0.1)),
         points(random) {
-    if (jumps != nullptr) stepper.setJumps(*jumps, *jumps, {}, {}, {}, 100, 0x1p-46);
+    stepper.setTime(100, 0x1p-46, {});
+    if (jumps != nullptr) stepper.setJumps(*jumps, *jumps, {}, {}, {});
   }
 
   /// Most scenes weigh all alike, as most flows do.
