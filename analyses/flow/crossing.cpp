@@ -142,12 +142,13 @@ FlowStepper::Look FlowStepper::lookAtKinks(const FlowSet& set, double& h, double
       continue;
     }
     const auto crossing = bounds[k].crossing();
-    if (!crossing && passing_ == none && !turn_ && mayPassAsTurn()) {  // where intervals do not tell
+    const bool passes = crossing && (crossing->moment.upper() <= h || h >= left);
+    if (!passes && passing_ == none && !turn_ && mayPassAsTurn(k)) {  // in a longer step, or intervals do not tell
       passing_ = k;
       passingFrom_ = bounds[k].start.lower() > 0 ? 1 : -1;
       return Look::unsided;
     }
-    if (!crossing || turn_ || (crossing->moment.upper() > h && h < left)) continue;
+    if (!passes || turn_) continue;
     isNew = series_.passKink(kinks_->node(k), crossing->before) || isNew;
     crossings_.push_back({.form = &kinks_->form(k),
                           .node = kinks_->node(k),

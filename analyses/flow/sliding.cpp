@@ -301,6 +301,20 @@ bool FlowStepper::boundOwnJumps(const FlowSet& set, const Interval& time, const 
   return any;
 }
 
+/// In the tube that was bounded last.
+bool FlowStepper::mayPassKink(const FlowSet& set) const {
+  for (std::size_t k = 0; k < kinks_->count(); ++k) {
+    const LinearForm& form = kinks_->form(k);
+    Interval u = form.constant;
+    for (int i = 0; i < n_; ++i)
+      if (form.states[at(i)] != 0) u += Interval(form.states[at(i)]) * series_.rangeOf(i, y_[at(i)]);
+    for (std::size_t q = 0; q < form.parameters.size(); ++q)
+      if (form.parameters[q] != 0) u += Interval(form.parameters[q]) * rangeOf(set.parameters[q]);
+    if (contains(u, 0.0)) return true;
+  }
+  return false;
+}
+
 FlowStepper::Look FlowStepper::lookAtJumps(const FlowSet& set, double& h, double smallest, double left) {
   ownBounds_.clear();
   heldBounds_.clear();
@@ -386,7 +400,7 @@ FlowStepper::Look FlowStepper::lookAtJumps(const FlowSet& set, double& h, double
       boundHeldJumps(set, time, box, h, ownBounds_, heldBounds_, ratesUntil(*heldRates_, h, held_.size()));
       boundHeldJumps(set, began, first, 0.0, atStart, heldAtStart, ratesUntil(*heldRates_, 0, held_.size()));
     }
-    if (areHeld(heldBounds_) && !lift_.empty()) {  // known better without
+    if (areHeld(heldBounds_) && !lift_.empty() && passing_ == none) {  // known better without
       lift_.clear();
       return Look::shorter;
     }
@@ -404,6 +418,10 @@ FlowStepper::Look FlowStepper::lookAtJumps(const FlowSet& set, double& h, double
       held = std::min(held, 0.99 * h);
       if (couldHold && held >= 0.5 * leastHold * smallest) {
         h = held;
+        return Look::shorter;
+      }
+      if (kinks_ && h > leastHold * smallest && mayPassKink(set)) {  // in a shorter step less depends on its side
+        h *= 0.25;
         return Look::shorter;
       }
       letGo(set, couldHold ? heldBounds_ : heldAtStart);
@@ -587,6 +605,18 @@ void FlowStepper::boundArrivals(const FlowSet& set) {
   }
 }
 
+/// Whether the states in it are zero at the step's end, exactly, and nothing else is in it.
+bool FlowStepper::isZeroBehind(const LinearForm& form) const {
+  bool isZero = narrows() && isEqual(form.constant, Interval(0.0)) &&
+                std::ranges::all_of(form.parameters, [](double coefficient) { return coefficient == 0; });
+  for (std::size_t i = 0; i < at(n_); ++i) {
+    if (form.states[i] == 0) continue;
+    isZero = isZero && end_.radius[i] == 0 && end_.low[i] == 0;
+    for (std::size_t g = 0; g < at(series_.count()); ++g) isZero = isZero && end_.p[i * at(series_.count()) + g] == 0;
+  }
+  return isZero;
+}
+
 /// For the next step, of all jumps of the motion in which none is held.
 std::vector<Interval> FlowStepper::argumentsBehind() const {
   std::vector<Interval> result;
@@ -606,6 +636,8 @@ std::vector<Interval> FlowStepper::argumentsBehind() const {
     if (turn_ && left_[k] >= 0 && !turn_->besides.empty())
       result.back() = Interval(factor_[k]) * turn_->besides[at(left_[k])];
     if (turn_ && turn_->jump == k) result.back() = turn_->argument;
+    // What others' states have become of which the motion with those held says no more.
+    if (held_[k] == 0 && left_[k] < 0 && of_->forms[k] && isZeroBehind(*of_->forms[k])) result.back() = Interval(0.0);
   }
   return result;
 }

@@ -614,13 +614,14 @@ StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum,
       boundDerivatives();
       boundCrossings(set);
       boundArrivals(set);
+      if (turn_ || !crossings_.empty()) caution_ = set.caution;  // what failed here says nothing of the next step
       if (h < left)
         caution_ *= std::clamp(std::pow(tolerance_ / std::max(timeError_, 1e-40), 1.0 / (m_ + 1)), 0.7, 1.15);
       caution_ = std::clamp(caution_, 0x1p-6, 2.0);
       certified_ = static_cast<double>(Work::counted() - begun) - ofGenerators_;
       if (isTruncationTooLarge(shares.truncation)) return StepOutcome::splitWanted;
       if (!((isAdapted || isSliding_) && isKinkTooWide(set, shares))) return StepOutcome::stepped;
-      if (crossings_.size() == 1 && crossings_.front().kink >= 0 && mayPassAsTurn()) {
+      if (crossings_.size() == 1 && crossings_.front().kink >= 0 && mayPassAsTurn(at(crossings_.front().kink))) {
         passing_ = at(crossings_.front().kink);
         passingFrom_ = crossings_.front().before;
         symbolAcross_ = -1;

@@ -199,6 +199,7 @@ class FlowStepper {
   bool isKinkTooWide(const FlowSet& set, const SplitShares& shares);
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
   enum class Look { goOn, again, shorter, longer, unsided, released };
+  bool mayPassKink(const FlowSet& set) const;
   Look lookAtJumps(const FlowSet& set, double& h, double smallest, double left);
   Look lookAtKinks(const FlowSet& set, double& h, double smallest, double left);
   static double longestToCross(const std::vector<JumpBound>& bounds, const std::vector<JumpBound>& atStart, double h,
@@ -305,7 +306,7 @@ class FlowStepper {
   FlowTurn* passageFor(std::size_t kink, double side);
   Look lookAtRelease(const FlowSet& set, double& h, double smallest, double left);
   Look lookAtArrival(const FlowSet& set, double& h, double smallest, double left);
-  bool mayPassAsTurn() const { return mayPass_ && inputs_.empty() && monomials().symbols() > 0 && length_ > 0; }
+  bool mayPassAsTurn(std::size_t kink) const;
   Look lookAtPassage(const FlowSet& set, double& h, double smallest, double left);
   Look lookAtTurn(const FlowSet& set, double& h, double smallest, double left, Turn turn,
                   const std::vector<Interval>& signs);
@@ -329,6 +330,7 @@ class FlowStepper {
   };
   std::optional<Arrival> arrivalOf(const FlowSet& set, const LinearForm& form, const JumpBound& bound) const;
   void boundArrivals(const FlowSet& set);
+  bool isZeroBehind(const LinearForm& form) const;
   std::vector<Interval> argumentsBehind() const;
   template <class Visit>
   void forEachKnown(Visit visit) const;

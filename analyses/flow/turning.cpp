@@ -170,9 +170,21 @@ FlowStepper::Look FlowStepper::lookAtArrival(const FlowSet& set, double& h, doub
   return look;
 }
 
+/// Not where a sign has the same surface, or one may change at all: then f jumps besides.
+bool FlowStepper::mayPassAsTurn(std::size_t kink) const {
+  if (!mayPass_ || !inputs_.empty() || monomials().symbols() == 0 || !(length_ > 0)) return false;
+  if (!own_) return series_.jumps().empty();
+  for (std::size_t j = 0; j < own_->jumps().count(); ++j) {
+    const std::optional<LinearForm>& form = own_->jumps().forms[j];
+    const bool isOnSide = !sides_.empty() && sides_[j] != 0;
+    if ((!isOnSide && series_.mayTurn(series_.jumps()[j])) || (form && signOfRatio(*form, kinks_->form(kink)) != 0))
+      return false;
+  }
+  return true;
+}
+
 /// Likewise, whether they pass the kink.
 FlowStepper::Look FlowStepper::lookAtPassage(const FlowSet& set, double& h, double smallest, double left) {
-  if (!own_ && !series_.jumps().empty()) return Look::released;
   std::vector<Interval> signs;
   for (std::size_t j = 0; own_ && j < own_->jumps().count(); ++j) {
     const double sign = series_.series(series_.jumps()[j])[0];
@@ -291,8 +303,8 @@ FlowStepper::Look FlowStepper::lookAtTurn(const FlowSet& set, double& h, double 
   if (!(guardAt(h).lower() > 0)) {  // not yet all of them
     const Interval growth = over(of.growth(), h, h);
     const double all = h - guardAt(h).lower() / growth.lower() * longer;
-    if (!(growth.lower() > 0) || !(all < 4 * h) || all > left || ++lengthened_ > mostTries) return Look::released;
-    h = all;
+    if (!(growth.lower() > 0) || !std::isfinite(all) || all > left || ++lengthened_ > mostTries) return Look::released;
+    h = std::min(all, 4 * h);
     return Look::longer;
   }
   const auto mayTurnBy = [&](double until) { return !(over(of.guard(), 0, until).upper() < 0); };
