@@ -758,10 +758,22 @@ bool FlowFollower::record(FlowPiece& piece) {
     }
     prepare(to);
   };
+  std::vector<Interval> ofParts, outputsOfParts;
   for (; piece.next < times.size() && times[piece.next] <= t1; ++piece.next) {
     partUntil(times[piece.next]);
+    const double tau = times[piece.next] - t0;  // exact: docs/flow.md, "Time"
+    encloseWhileTurning(piece, tau, ofParts, outputsOfParts);
     extremes_.resize(extremesAt(piece.next));
-    enclose(piece, times[piece.next] - t0, end, endOutputs);  // an exact difference: docs/flow.md, "Time"
+    enclose(piece, tau, end, endOutputs);
+    const auto meet = [](std::vector<Interval>& bounds, std::vector<Interval>& core,
+                         const std::vector<Interval>& known) {
+      for (std::size_t i = 0; i < known.size(); ++i) {
+        bounds[i] = intersection(bounds[i], known[i]);
+        if (const Interval both = intersection(core[i], bounds[i]); !isEmpty(both)) core[i] = both;
+      }
+    };
+    meet(end, stateCore_, ofParts);
+    meet(endOutputs, outputCore_, outputsOfParts);
     endLimits = outputLimits_;
     endModel = modelOutputs(piece, endLimits, piece.next);
     if (endModel) collected_.models[piece.next].push_back(endModel);

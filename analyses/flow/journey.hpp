@@ -147,6 +147,8 @@ class FlowFollower {
                bool narrowed = true, OutputTools* with = nullptr);
   void encloseBetween(const FlowPiece& piece, double tau, std::vector<Interval>& states,
                       std::vector<Interval>& outputs);
+  void encloseWhileTurning(const FlowPiece& piece, double tau, std::vector<Interval>& states,
+                           std::vector<Interval>& outputs);
   void appendOutputs(const FlowPiece& piece, const std::vector<Interval>& states, const Box& xi,
                      std::vector<Interval>& outputs);
   std::size_t extremesAt(std::size_t row) const;

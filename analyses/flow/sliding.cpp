@@ -688,9 +688,13 @@ SignCases FlowStepper::Turn::during(const Interval& seconds) const {
   return cases.during(seconds);
 }
 
-std::vector<SignCases> FlowStepper::signsAfter(double seconds, std::size_t count) const {
+std::vector<SignCases> FlowStepper::signsAfter(double seconds, std::size_t count,
+                                               std::optional<Interval> moments) const {
   std::vector<SignCases> result = signs(count, [&](const JumpBound& bound) { return bound.signAfter(seconds); });
-  if (turn_ && turn_->jump != none) result[turn_->jump] = turn_->during(Interval(seconds));
+  if (turn_ && turn_->jump != none) {
+    const bool hasNone = moments && seconds <= moments->lower(), haveAll = moments && seconds >= moments->upper();
+    result[turn_->jump] = turn_->during(Interval(hasNone ? 0.0 : haveAll ? h_ : seconds));
+  }
   return result;
 }
 
@@ -701,7 +705,8 @@ std::vector<SignCases> FlowStepper::signsOver(std::size_t count) const {
 }
 
 /// x_i = (u - Σ_{j≠i} c_j x_j - Σ_k d_k p_k - constant)/c_i, where u is known better so than by the set.
-void FlowStepper::narrowArguments(const FlowSet& set, double tau, FlowPoint& point) const {
+void FlowStepper::narrowArguments(const FlowSet& set, double tau, FlowPoint& point,
+                                  std::optional<Interval> moments) const {
   const int N = series_.count(), NJ = series_.frameCount();
   const std::size_t n = at(n_);
   const auto narrow = [&](const LinearForm& form, const JumpBound& bound) {
@@ -790,8 +795,10 @@ void FlowStepper::narrowArguments(const FlowSet& set, double tau, FlowPoint& poi
   };
   forEachKnown(narrow);
   if (!turn_ || turn_->jump == none) return;  // of a kink the polynomials say more
-  const bool isHeld = turn_->arrives ? tau >= turn_->moments.upper() : tau <= turn_->moments.lower();
-  if (!isHeld && (turn_->arrives || tau >= turn_->moments.upper())) return;         // its polynomials say more
+  if (!moments) moments = turn_->moments;
+  const bool haveAll = tau >= moments->upper(), hasNone = tau <= moments->lower();
+  const bool isHeld = turn_->arrives ? haveAll : hasNone;
+  if (!isHeld && (turn_->arrives || haveAll)) return;                               // its polynomials say more
   const Interval u = isHeld ? Interval(0.0) : turn_->gone(tau), towards(1.0, 2.0);  // whatever it is: at this moment
   JumpBound known{.start = u, .up = -towards, .down = towards, .over = u};
   if (!isHeld) known.up = known.down = Interval(0.0);

@@ -137,15 +137,25 @@ class FlowStepper {
   /// The remainder is about as large as the set, in balanced units: what grows from there is never tight again.
   bool isRemainderTooLarge(const FlowSet& set) const;
 
-  /// The set τ seconds into the step, 0 ≤ τ ≤ h; what is known of jumps' arguments besides counts if `narrowed`.
-  void evaluate(const FlowSet& set, double tau, FlowPoint& point, bool narrowed = true);
+  /// The set τ seconds into the step, 0 ≤ τ ≤ h; what is known of jumps' arguments besides counts if `narrowed`. Of
+  /// those alone that turn in `moments`, if there are any, s.
+  void evaluate(const FlowSet& set, double tau, FlowPoint& point, bool narrowed = true,
+                std::optional<Interval> moments = {});
+  /// Whether some may have turned by then, and others not yet.
+  bool isTurning(double tau) const { return turn_ && turn_->moments.lower() < tau && tau < turn_->moments.upper(); }
+  /// When they do so, in units of `scale`, as a polynomial in ξ; and in seconds, what solutions do so where that is
+  /// within `moment`.
+  const std::vector<double>& turnMoment() const { return turn_->when.c; }
+  Interval momentsOf(const Interval& moment) const {
+    return Interval(h0_) * moment + Interval(-turn_->away, turn_->away);
+  }
   /// Whether more is known of these in this step than the set says.
   bool narrows() const { return !ownBounds_.empty() || !heldBounds_.empty() || !crossings_.empty() || turn_; }
   /// Narrows what the states are during the whole step by what is known of these.
   void narrowOver(std::vector<Interval>& states) const;
   /// Of each sign of the motion in which none is held (`count` of them) what it may be: so many seconds into the step,
   /// and over all of it (JumpBound). Nothing is told of those held.
-  std::vector<SignCases> signsAfter(double seconds, std::size_t count) const;
+  std::vector<SignCases> signsAfter(double seconds, std::size_t count, std::optional<Interval> moments = {}) const;
   std::vector<SignCases> signsOver(std::size_t count) const;
   /// How far p + Ψ (r + Γs) leaves its chord between two moments of the step, in seconds from its start, for each
   /// state; at the start itself that is the chord from where solutions are, whatever is known of them there.
@@ -176,7 +186,8 @@ class FlowStepper {
   int frameCount() const { return series_.frameCount(); }
 
  private:
-  void evaluateMotion(const FlowSet& set, double tau, FlowPoint& point, bool narrowed);
+  void evaluateMotion(const FlowSet& set, double tau, FlowPoint& point, bool narrowed,
+                      std::optional<Interval> moments = {});
   void evaluateRemainder(const FlowSet& set, double tau, FlowPoint& point) const;
   void turnFrame(FlowSet& set);
   void carryGenerators(FlowSet& set);
@@ -322,7 +333,7 @@ class FlowStepper {
   bool turnFrameWith(const FlowSet& set, const std::vector<Interval>& signs, Turn& turn);
   std::vector<double> restOfFrame(const Turn& turn, const std::vector<Interval>& J, double longest) const;
   bool proveTurn(const FlowSet& set, const std::vector<Interval>& signs, Turn& turn, double& relativeDefect);
-  void addTurn(double tau, FlowPoint& point) const;
+  void addTurn(double tau, FlowPoint& point, const Interval& moments) const;
   /// What comes to be held, |u - ũ| ≤ g on a chord from its first to its last number, with the state that it decides.
   struct Arrival {
     const LinearForm* form;
@@ -336,7 +347,7 @@ class FlowStepper {
   void forEachKnown(Visit visit) const;
   template <class Of>
   std::vector<SignCases> signs(std::size_t count, Of of) const;
-  void narrowArguments(const FlowSet& set, double tau, FlowPoint& point) const;
+  void narrowArguments(const FlowSet& set, double tau, FlowPoint& point, std::optional<Interval> moments) const;
   std::vector<double> symbolMass(std::vector<double>& byGrade) const;
   template <class F>
   void countAsGenerators(F f) {

@@ -673,13 +673,13 @@ bool FlowStepper::proveTurn(const FlowSet& set, const std::vector<Interval>& sig
 /// Before a solution's moment D is nothing, while its polynomial is at most what it may be there, `late` seconds
 /// before; what has turned has D, at most what it may be `since` the first has. A share of D is off by no more than a
 /// part of both.
-void FlowStepper::addTurn(double tau, FlowPoint& point) const {
+void FlowStepper::addTurn(double tau, FlowPoint& point, const Interval& moments) const {
   const Turn& turn = *turn_;
   const std::size_t n = at(n_);
-  if (tau <= turn.moments.lower()) return;
   const Interval away = Interval(turn.away);
-  const double late = std::max(0.0, (Interval(turn.moments.upper()) + away - Interval(tau)).upper());
-  const double since = (Interval(tau) - Interval(turn.moments.lower()) + away).upper();
+  const double late =
+      tau >= moments.upper() ? 0.0 : std::max(0.0, (Interval(moments.upper()) + away - Interval(tau)).upper());
+  const double since = (Interval(tau) - Interval(moments.lower()) + away).upper();
   BoundedPolynomial sinceMoment = turn.when;
   sinceMoment *= -h0_;
   sinceMoment += {{tau}};

@@ -59,17 +59,20 @@ auto frameOf(const FlowPoint& point, int g) {
 
 }  // namespace
 
-void FlowStepper::evaluate(const FlowSet& set, double tau, FlowPoint& point, bool narrowed) {
-  evaluateMotion(set, tau, point, narrowed);
+void FlowStepper::evaluate(const FlowSet& set, double tau, FlowPoint& point, bool narrowed,
+                           std::optional<Interval> moments) {
+  evaluateMotion(set, tau, point, narrowed, moments);
   countAsGenerators([&] { evaluateRemainder(set, tau, point); });
-  if (tau != 0 && narrowed) narrowArguments(set, tau, point);
+  if (tau != 0 && narrowed) narrowArguments(set, tau, point, moments);
 }
 
 /// p, Ψ and what is loose.
-void FlowStepper::evaluateMotion(const FlowSet& set, double tau, FlowPoint& point, bool narrowed) {
+void FlowStepper::evaluateMotion(const FlowSet& set, double tau, FlowPoint& point, bool narrowed,
+                                 std::optional<Interval> moments) {
   const int N = series_.count(), NJ = series_.frameCount(), stride = series_.stride();
   const double sigma = tau / h0_;
-  const bool isHeldStill = turn_ && tau <= turn_->moments.lower();
+  if (turn_ && !moments) moments = turn_->moments;
+  const bool isHeldStill = turn_ && tau <= moments->lower();
   const bool crosses = tau != 0 && narrowed && (!crossings_.empty() || turn_);
   const std::vector<double>& left = !crosses ? e1_ : isHeldStill ? turn_->before : crossed_;
   point.p.assign(at(n_ * N), 0.0);
@@ -123,7 +126,7 @@ void FlowStepper::evaluateMotion(const FlowSet& set, double tau, FlowPoint& poin
       if (tau != 0) point.loose[at(i)] += (error + epsilon_[at(i * n_ + j)]) * point.total[at(j)];
     }
   if (crosses) addCrossings(set, tau, point);
-  if (crosses && turn_) addTurn(tau, point);
+  if (crosses && turn_ && !isHeldStill) addTurn(tau, point, *moments);
   // Ψ_0 Γ: n roundings an entry, together at most n u |Ψ_0| Σ|Γ_j|. Of inputs n + 1 in what is linear in ξ, and one
   // more for each symbol in drivenRadius, which sums with signs: n + 1 + mostCorners ≤ 2n + 8.
   for (int i = 0; i < n_; ++i) {
@@ -435,7 +438,7 @@ void FlowStepper::advance(FlowSet& set) {
   evaluateMotion(set, h_, end_, true);
   if (narrows()) {
     evaluateRemainder(set, h_, end_);
-    narrowArguments(set, h_, end_);
+    narrowArguments(set, h_, end_, {});
   }
   if (monomials().symbols() > 0)
     carryGenerators(set);

@@ -103,6 +103,29 @@ TEST(FlowKinkTurn, WhatIsHeldBesidesStaysHeld) {
   }
 }
 
+/// While some have passed and others not, bounds are as close as before and after.
+TEST(FlowKinkTurn, WhatPassesIsNoWiderMeanwhile) {
+  const Program f = record(2, 1, [](auto, const auto& x, const auto& p, auto& dx) {
+    dx[0] = x[1];
+    dx[1] = -500.0 * max(x[0] - 1.0, Recorded(0.0)) / p[0];
+  });
+  const Interval mass(0.9, 1.1);
+  const std::vector<double> times{0.25, 0.259765625, 0.265625, 0.271484375};  // it is left at 0.125 s + π √(m/500)
+  const Tube tube = Flow(f).enclose({0.0, 8.0, mass}, 0.3, times);
+  ASSERT_EQ(tube.why(), "");
+  EventReference reference(f);
+  for (std::size_t row = 1; row <= times.size(); ++row) {
+    Interval seen = Interval::empty();
+    for (int i = 0; i <= 64; ++i) {
+      const Precise p = mass.lower() + Precise(width(mass)) * i / 64;
+      const Vector end = reference({Precise(0), Precise(8), p}, {times[row - 1]}).back();
+      ASSERT_THAT(tube.states(row)[1], Encloses(end[1]));
+      seen = hull(seen, Interval(static_cast<double>(end[1])));
+    }
+    EXPECT_LT(width(tube.states(row)[1]), 1.05 * width(seen)) << times[row - 1];
+  }
+}
+
 /// Some touch the stop, some only almost, and one grazes it.
 TEST(FlowKinkTurn, WhatGrazesIsInside) {
   Containment c;
