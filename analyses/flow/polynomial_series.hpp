@@ -89,9 +89,9 @@ class PolynomialSeries {
   bool tabulate(double theta);
   /// ρ0, ρ1 of all nodes when |x - x̃| ≤ E (null: along the polynomial). False: not proved (a division by zero, say).
   bool bound(const double* E, bool primaryOnly);
-  /// Likewise along the polynomial, as if parameters and constants were what their polynomials are, and sums and
-  /// products exact: no bound of anything, but what is due to truncation.
-  bool boundTruncation();
+  /// Likewise along the polynomial, as if parameters and constants were what their polynomials are: no bound of
+  /// anything, but what is due to truncation and rounding.
+  bool boundWithoutRadii();
   /// Whether outputs themselves hold a sign, and, since forgetJumps, the bounds of a set found one that may be either
   /// way there. From then on it counts so along the polynomial too: not as something that follows the states, but as an
   /// input.
@@ -353,7 +353,7 @@ class PolynomialSeries {
   std::vector<double> t_, total_, s1_, s2_, beyond_, from_, scratch_, scratch2_;
   std::vector<double> inverse_;  // per recip/sqrt/log/atan node: 1/leading polynomial
   std::vector<std::size_t> inverseAt_;
-  std::vector<double> norm_, weighted_, own0_, own1_, rounded_, rho0_, rho1_, along0_, along1_, top_;
+  std::vector<double> norm_, weighted_, own0_, own1_, rho0_, rho1_, along0_, along1_, top_;
   std::vector<double> power_, weights_;
   std::vector<kernels::ThinNode> thin_;  // of the coefficients of 1: the recursion's own view of the plan
   std::vector<std::pair<int, int>> thinStates_;

@@ -286,13 +286,10 @@ bool PolynomialSeries::bound(const double* E, bool primaryOnly) {
   return true;
 }
 
-bool PolynomialSeries::boundTruncation() {
-  const std::vector<double> own = own0_;
-  for (std::size_t x = 0; x < own.size(); ++x) own0_[x] = std::max(0.0, own[x] - rounded_[x]);
+bool PolynomialSeries::boundWithoutRadii() {
   knowsParameters_ = true;
   const bool isBounded = bound(nullptr, true);
   knowsParameters_ = false;
-  own0_ = own;
   return isBounded;
 }
 

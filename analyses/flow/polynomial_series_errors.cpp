@@ -330,7 +330,7 @@ double PolynomialSeries::quotientResidual(int node) {
 /// What a node adds to the errors of its operands.
 void PolynomialSeries::ownErrors(int node) {
   const Plan& v = plan_[at(node)];
-  double e0 = 0, e1 = 0, rounded = 0;
+  double e0 = 0, e1 = 0;
   const bool graded = monomials_->degree() > 0;
   switch (v.op) {
     case Op::state:
@@ -346,15 +346,15 @@ void PolynomialSeries::ownErrors(int node) {
       return;
     case Op::add:
     case Op::sub:  // one rounding a coefficient; lower degree: what is dropped
-      rounded = isFine(node)
-                    ? bounds::fine * (norm_[at(v.a)] + norm_[at(v.b)]) + bounds::unit * coarseNorm(node, fine_.orders())
-                    : bounds::unit * norm_[at(node)];
-      e0 = rounded + (graded ? dropped(v.a, v.degree) + dropped(v.b, v.degree) : 0.0);
+      e0 = (isFine(node)
+                ? bounds::fine * (norm_[at(v.a)] + norm_[at(v.b)]) + bounds::unit * coarseNorm(node, fine_.orders())
+                : bounds::unit * norm_[at(node)]) +
+           (graded ? dropped(v.a, v.degree) + dropped(v.b, v.degree) : 0.0);
       break;
     case Op::abs:
       // A product and, of the constant, a sum.
-      rounded = chords_[at(node)].isExact() ? 0.0 : 2 * bounds::unit * (norm_[at(node)] + norm_[at(v.a)]);
-      e0 = rounded + (graded ? dropped(v.a, v.degree) : 0.0);
+      e0 = (chords_[at(node)].isExact() ? 0.0 : 2 * bounds::unit * (norm_[at(node)] + norm_[at(v.a)])) +
+           (graded ? dropped(v.a, v.degree) : 0.0);
       break;
     case Op::neg:
       e0 = graded ? dropped(v.a, v.degree) : 0.0;
@@ -363,9 +363,9 @@ void PolynomialSeries::ownErrors(int node) {
     case Op::sqr: {
       const int b = v.op == Op::sqr ? v.a : v.b;
       // A coefficient is a sum of N ≤ (i+1)∏(α_l+1) products in any order, fused or not: γ_N. A constant factor: one.
-      rounded = plan_[at(v.a)].constant && !isFine(node) ? bounds::unit * norm_[at(node)]
-                                                         : productRounding(node, v.a, b, 0, 3);
-      e0 = rounded + (graded ? tailDegree(v.a, b, v.degree, 0) : 0.0);
+      e0 = plan_[at(v.a)].constant && !isFine(node) ? bounds::unit * norm_[at(node)]
+                                                    : productRounding(node, v.a, b, 0, 3);
+      if (graded) e0 += tailDegree(v.a, b, v.degree, 0);
       e1 = tailTime(v.a, b);
       break;
     }
@@ -421,7 +421,6 @@ void PolynomialSeries::ownErrors(int node) {
   }
   own0_[at(node)] = e0 * bounds::up + bounds::tiny;
   own1_[at(node)] = e1 * bounds::up;
-  rounded_[at(node)] = rounded;
 }
 
 }  // namespace gamut

@@ -176,7 +176,7 @@ PolynomialSeries::PolynomialSeries(const Program& program, int primaryOutputs,
   combination_.assign(systems_.empty() ? 0 : at(count() * kernels::reversedStride(stride_)), 0.0);
   for (auto* v : {&amplified_, &amplified2_}) v->assign(at(largestSystem_ * largestSystem_), 0.0);
   for (auto* v : {&vector_, &vector2_, &vector3_}) v->assign(at(largestSystem_), 0.0);
-  for (auto* v : {&norm_, &weighted_, &own0_, &own1_, &rounded_, &rho0_, &rho1_, &top_}) v->assign(plan_.size(), 0.0);
+  for (auto* v : {&norm_, &weighted_, &own0_, &own1_, &rho0_, &rho1_, &top_}) v->assign(plan_.size(), 0.0);
   power_.assign(at(std::max(stride_, 2)), 0.0);
   weights_.assign(at(stride_), 0.0);
   putConstants();

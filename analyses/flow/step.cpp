@@ -282,7 +282,7 @@ double FlowStepper::worstColumn(const FlowSet& set) const {
   return worst;
 }
 
-/// The defect bound holds parameters' radii and rounding too, which splitting does not cure: without these it is
+/// The defect bound holds parameters' radii and rounding too, which splitting does not cure: without radii it is
 /// computed once more; and what counts is mass in the highest grades, of any node, since what cancels in the states was
 /// truncated before; and no small part of the bound, or rounding is most of it.
 bool FlowStepper::isTruncationTooLarge(double share) {
@@ -290,7 +290,7 @@ bool FlowStepper::isTruncationTooLarge(double share) {
   if (!(share > 0 && truncation_ > allowed)) return false;
   double truncation = 0;
   for (const Crossing& crossing : crossings_) series_.setApart(crossing.node, true);  // crossed_ tells what these do
-  bool isBounded = series_.boundTruncation();
+  bool isBounded = series_.boundWithoutRadii();
   for (const Crossing& crossing : crossings_) series_.setApart(crossing.node, false);
   for (int i = 0; i < n_ && isBounded; ++i) {
     double sum = 0;

@@ -599,7 +599,7 @@ TEST(Flow, StartsFromRestWhateverTheHorizon) {
       dx[1] = -9.81 - p[0] * x[0] - 1000.0 * x[1];
     });
     std::atomic<bool> enough = false;
-    options.progress = [&](double fraction) { enough = fraction * horizon > 1e-3; };
+    options.progress = [&](double fraction) { enough = fraction * horizon > 6e-4; };
     options.cancelled = &enough;
     const Tube tube = Flow(f, options).enclose({0.0, 0.0, Interval(0.99e9, 1.01e9)}, horizon);
     EXPECT_GT(tube.reached(), 5e-4) << horizon << ": " << tube.why();
