@@ -93,7 +93,8 @@ FlowSet FlowStepper::bisect(FlowSet& set, int symbol, const PolynomialRange& shi
       double norm = 0;
       for (int g = 0; g < N; ++g) norm += std::fabs(set.p[at(i * N + g)]);
       shift.substitute(symbol, middle, 0.5, &set.p[at(i * N)], &s.p[at(i * N)]);
-      if (norm > 0) s.W[at(i)] = (s.W[at(i)] + shift.shiftError() * norm) * bounds::up + bounds::tiny;
+      if (norm != 0)  // zero stays zero, exactly: what rests does so in both halves
+        s.W[at(i)] = (s.W[at(i)] + shift.shiftError() * norm) * bounds::up + bounds::tiny;
     }
     std::vector<double> rounding(at(n_), 0.0);
     shift.substitute(symbol, middle, 0.5, set.generators.data(), s.generators.data(), static_cast<int>(set.powers),

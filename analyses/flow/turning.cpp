@@ -1,5 +1,5 @@
-// Steps in which a jump lets go all solutions that it held, or comes to hold them: when it does so is a polynomial in
-// ξ, and so is what follows. Derivation: docs/flow.md, section 7, "Turns".
+// Steps in which a jump lets go all solutions that it held, or comes to hold them, or they pass a kink: when that is is
+// a polynomial in ξ, and so is what follows. Derivation: docs/flow.md, section 7, "Turns".
 #include <algorithm>
 #include <array>
 #include <cmath>

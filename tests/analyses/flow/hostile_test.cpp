@@ -144,7 +144,7 @@ TEST(Flow, HoldsSolutionsWhoseSeriesHaveGaps) {
     for (const Interval& start : {Interval(0.5), Interval(0.4, 0.5)}) {
       FlowOptions options;
       options.order = order;
-      const bool isLow = order < 9;  // takes tens of thousands of steps; the gaps are at the start
+      const bool isLow = order < 9;  // takes very short steps; the gaps are at the start
       const std::vector<double> times = isLow ? std::vector<double>{0.25} : std::vector<double>{0.25, 0.9, 1.7};
       const Tube tube = Flow(f, g, options).enclose({start}, isLow ? 0.375 : 3.0, times);
       ASSERT_EQ(tube.why(), "");
