@@ -104,7 +104,7 @@ FlowStepper::Look FlowStepper::lookAtKinks(const FlowSet& set, double& h, double
   std::vector<JumpBound> bounds, atStart;
   for (std::size_t k = 0; k < kinks_->count(); ++k) {
     JumpBound& bound = atStart.emplace_back();
-    bound.start = bound.over = argumentOf(set, kinks_->form(k), total_);
+    bound.start = bound.over = argumentOf(set, kinks_->form(k), total_, &monomials());
     bound.up = bound.down = rates[k];
   }
   kinks_->bound(began + Interval(0.0, h), box, set.parameters, u, kinkRates_);

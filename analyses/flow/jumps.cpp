@@ -23,7 +23,8 @@ FlowJumps::FlowJumps(const Program& differentiated, const std::vector<int>& vary
                      differentiated.outputNodes().begin() + differentiated.states()})),
       given(f) {
   const std::vector<int> jumps = jumpsOf(f);
-  if (jumps.empty() || !isAffineInSigns(f)) return;
+  if (jumps.empty()) return;
+  isAffine = isAffineInSigns(f);
   given = withSignsGiven(f);
   for (const int jump : jumps) {
     forms.push_back(linearFormOf(f, f.nodes()[at(jump)].a));

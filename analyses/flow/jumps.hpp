@@ -36,8 +36,9 @@ struct FlowJumps {
   Program outputsGiven(const Program& g, const std::vector<char>& held) const;
 
   Program f;                                     ///< without derivatives
-  Program given;                                 ///< withSignsGiven(f), where f is affine in its signs
-  std::vector<std::optional<LinearForm>> forms;  ///< of each argument that is one; none if f is not affine
+  Program given;                                 ///< withSignsGiven(f)
+  bool isAffine = true;                          ///< f, in its signs: else nothing is held
+  std::vector<std::optional<LinearForm>> forms;  ///< of each argument that is one
 };
 
 /// What a sign may be, by where its argument is.

@@ -27,8 +27,8 @@ void FlowStepper::setJumps(const FlowJumps& own, const FlowJumps& of, std::vecto
   held_ = std::move(held);
   left_ = std::move(left);
   factor_ = std::move(factor);
-  if (own.count() > 0 && series_.jumps().size() == own.count() && at(pushes_) == at(n_) * own.count())
-    own_.emplace(own);
+  const std::size_t pushes = own.isAffine ? at(n_) * own.count() : 0;
+  if (own.count() > 0 && series_.jumps().size() == own.count() && at(pushes_) == pushes) own_.emplace(own);
   if (!own_) std::ranges::fill(left_, -1);
   of_ = &of;
   if (!held_.empty()) holding_.emplace(of);
@@ -40,7 +40,7 @@ void FlowStepper::setJumps(const FlowJumps& own, const FlowJumps& of, std::vecto
 }
 
 std::vector<char> FlowStepper::resting(const FlowSet& set, const FlowJumps& jumps) {
-  if (jumps.count() == 0) return {};
+  if (jumps.count() == 0 || !jumps.isAffine) return {};
   std::vector<double> total;
   totalRadius(set, total);
   std::vector<char> result;
@@ -57,11 +57,17 @@ std::vector<char> FlowStepper::resting(const FlowSet& set, const FlowJumps& jump
   return any ? result : std::vector<char>{};
 }
 
-Interval argumentOf(const FlowSet& set, const LinearForm& form, const std::vector<double>& total) {
+Interval argumentOf(const FlowSet& set, const LinearForm& form, const std::vector<double>& total,
+                    const Monomials* monomials) {
   const std::size_t n = form.states.size(), N = set.p.size() / n;
-  double centre = 0, half = 0, rest = 0, size = 0, roundings = 0;
+  double rest = 0, size = 0;
   std::size_t terms = 0;
   bool isExact = true, isZero = true;
+  std::vector<double> c(N, 0.0);
+  const auto add = [&](std::size_t g, double part) {
+    c[g] += part;
+    size += std::fabs(part);
+  };
   for (std::size_t i = 0; i < n; ++i) {
     const double by = std::fabs(form.states[i]);
     if (by == 0) continue;
@@ -71,23 +77,32 @@ Interval argumentOf(const FlowSet& set, const LinearForm& form, const std::vecto
     for (std::size_t j = 0; j < n; ++j) own += std::fabs(set.C[i * n + j]) * total[j];
     rest += by * own;
     isZero = isZero && own == 0;
-    for (std::size_t g = 0; g < N; ++g) isZero = isZero && set.p[i * N + g] == 0;
-  }
-  for (std::size_t g = 0; g < N; ++g) {
-    double sum = 0;
-    for (std::size_t i = 0; i < n; ++i) {
-      sum += form.states[i] * set.p[i * N + g];
-      size += std::fabs(form.states[i] * set.p[i * N + g]);
+    for (std::size_t g = 0; g < N; ++g) {
+      isZero = isZero && set.p[i * N + g] == 0;
+      add(g, form.states[i] * set.p[i * N + g]);
     }
-    (g == 0 ? centre : half) += g == 0 ? sum : std::fabs(sum);
   }
   Interval result = form.constant;
-  for (std::size_t k = 0; k < form.parameters.size(); ++k)
-    if (const double by = form.parameters[k]; by != 0) result += Interval(by) * rangeOf(set.parameters[k]);
+  for (std::size_t k = 0; k < form.parameters.size(); ++k) {
+    const double by = form.parameters[k];
+    if (by == 0) continue;
+    const Embedded& e = set.parameters[k];
+    if (isZero || monomials == nullptr || e.symbol < 0) {
+      result += Interval(by) * rangeOf(e);
+      continue;
+    }
+    ++terms;
+    isExact = false;
+    add(0, by * e.centre);
+    add(at(monomials->linear(e.symbol)), by * e.half);
+    rest += std::fabs(by) * e.coarseRadius();
+  }
   if (isZero) return result;
+  double half = 0, roundings = 0;
+  for (std::size_t g = 1; g < N; ++g) half += std::fabs(c[g]);
   // As many products and sums a monomial; none where there is one term, times 1.
   if (!isExact || terms > 1) roundings = static_cast<double>(2 * terms + 2) * bounds::unit * size + bounds::tiny;
-  return result + inflated(Interval(centre), (half + rest + roundings) * bounds::up);
+  return result + inflated(Interval(c[0]), (half + rest + roundings) * bounds::up);
 }
 
 /// How long the step should be at most where solutions are about to be held or to leave. `atStart`: bounds of the first
@@ -183,7 +198,7 @@ int FlowStepper::symbolOfSliding(const FlowSet& set, const SplitShares& shares) 
 }
 
 Interval FlowStepper::argumentAtStart(const FlowSet& set, std::size_t own) const {
-  Interval start = argumentOf(set, *own_->jumps().forms[own], total_);
+  Interval start = argumentOf(set, *own_->jumps().forms[own], total_, &monomials());
   const auto meet = [&](const Interval& known) {
     if (const Interval both = intersection(start, known); !isEmpty(both)) start = both;
   };
@@ -221,7 +236,7 @@ void FlowStepper::assumeSides(const FlowSet& set) {
     if (start[j].upper() < 0 || (start[j].upper() == 0 && bound.up.upper() < 0 && bound.down.upper() < 0))
       sides_[j] = -1;
   }
-  leaveTogether(set, start, bounds);
+  if (own.isAffine) leaveTogether(set, start, bounds);
   if (std::ranges::all_of(sides_, [](double side) { return side == 0; })) sides_.clear();
 }
 
@@ -339,7 +354,7 @@ FlowStepper::Look FlowStepper::lookAtJumps(const FlowSet& set, double& h, double
     const double longest =
         loadRates(*ownRates_, set, h, others, lift_.empty() ? withLow(E_) : heldTube_) ? longestOnSides(h) : 0;
     if (longest < h && longest > 0 && mayTurn_) {
-      const Look look = lookAtArrival(set, h, smallest, left);
+      const Look look = lookAtSurface(set, h, smallest, left);
       if (look != Look::released) return look;
       mayTurn_ = false;
       if (!lift_.empty()) {
@@ -357,10 +372,11 @@ FlowStepper::Look FlowStepper::lookAtJumps(const FlowSet& set, double& h, double
       return Look::shorter;
     }
   }
-  if (!lift_.empty() && isLiftOfArrival_) {  // known better without
+  if (!lift_.empty() && isLiftOfSurface_) {  // known better without
     lift_.clear();
     return Look::shorter;
   }
+  if (own_ && !own_->jumps().isAffine) return Look::goOn;
   const bool mayTurn = boundOwnJumps(set, time, box, h, ownBounds_);
   if (!mayTurn && !holding_) {
     ownBounds_.clear();
@@ -627,7 +643,7 @@ std::vector<Interval> FlowStepper::argumentsBehind() const {
     if (turn_) result = turn_->besides;
     if (turn_) result.resize(of_ == nullptr ? 0 : of_->count(), Interval::entire());
     for (std::size_t j = 0; j < ownBounds_.size() && !turn_; ++j) result.push_back(behind(ownBounds_[j]));
-    if (turn_ && turn_->jump != none) result[turn_->jump] = turn_->argument;
+    if (turn_ && turn_->jump != none && !turn_->passesJump()) result[turn_->jump] = turn_->argument;
     return result;
   }
   for (std::size_t k = 0; k < held_.size(); ++k) {
@@ -635,7 +651,7 @@ std::vector<Interval> FlowStepper::argumentsBehind() const {
     if (left_[k] >= 0 && !ownBounds_.empty()) result.back() = Interval(factor_[k]) * behind(ownBounds_[at(left_[k])]);
     if (turn_ && left_[k] >= 0 && !turn_->besides.empty())
       result.back() = Interval(factor_[k]) * turn_->besides[at(left_[k])];
-    if (turn_ && turn_->jump == k) result.back() = turn_->argument;
+    if (turn_ && turn_->jump == k && !turn_->passesJump()) result.back() = turn_->argument;
     // What others' states have become of which the motion with those held says no more.
     if (held_[k] == 0 && left_[k] < 0 && of_->forms[k] && isZeroBehind(*of_->forms[k])) result.back() = Interval(0.0);
   }
@@ -678,13 +694,17 @@ std::vector<SignCases> FlowStepper::signs(std::size_t count, Of of) const {
   return result;
 }
 
-/// Held until it leaves; on its side from then on. Or the other way round.
+/// Held until it leaves; on its side from then on. Or the other way round; or on one side, and then on the other.
 SignCases FlowStepper::Turn::during(const Interval& seconds) const {
   constexpr double infinite = std::numeric_limits<double>::infinity();
   const Interval since(moments.lower(), infinite), until(0.0, moments.upper());
   SignCases cases{.above = side > 0, .below = side < 0, .isHeldBetween = true};
-  (side > 0 ? cases.whileAbove : cases.whileBelow) = arrives ? until : since;
-  cases.whileBetween = arrives ? since : until;
+  if (passesJump()) {
+    cases = {.whileBetween = moments};
+    (side > 0 ? cases.whileBelow : cases.whileAbove) = until;
+  }
+  (side > 0 ? cases.whileAbove : cases.whileBelow) = arrives() ? until : since;
+  if (!passesJump()) cases.whileBetween = arrives() ? since : until;
   return cases.during(seconds);
 }
 
@@ -794,11 +814,11 @@ void FlowStepper::narrowArguments(const FlowSet& set, double tau, FlowPoint& poi
     point.radius[i] = (radiusOfOthers + own) * bounds::up;
   };
   forEachKnown(narrow);
-  if (!turn_ || turn_->jump == none) return;  // of a kink the polynomials say more
+  if (!turn_ || turn_->kind == TurnKind::passage) return;  // of these the polynomials say more
   if (!moments) moments = turn_->moments;
   const bool haveAll = tau >= moments->upper(), hasNone = tau <= moments->lower();
-  const bool isHeld = turn_->arrives ? haveAll : hasNone;
-  if (!isHeld && (turn_->arrives || haveAll)) return;                               // its polynomials say more
+  const bool isHeld = turn_->arrives() ? haveAll : hasNone;
+  if (!isHeld && (turn_->arrives() || haveAll)) return;                             // its polynomials say more
   const Interval u = isHeld ? Interval(0.0) : turn_->gone(tau), towards(1.0, 2.0);  // whatever it is: at this moment
   JumpBound known{.start = u, .up = -towards, .down = towards, .over = u};
   if (!isHeld) known.up = known.down = Interval(0.0);

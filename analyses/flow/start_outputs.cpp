@@ -45,7 +45,7 @@ std::vector<char> StartOutputs::held(const Box& states, const Box& parameters) {
   signsWithin_->narrow(Interval(0.0), states, parameters, signs);
   const std::vector<Interval>& start = signsWithin_->arguments();
   std::vector<JumpBound> bounds(task_.jumps.count());
-  if (bounds.empty()) return {};
+  if (!task_.jumps.isAffine) return {};
   JumpBounder bounder(task_.jumps);
   bounder.setParameters(parameters);
   bounder.bound(Interval(0.0), states, start, 0.0, bounds);

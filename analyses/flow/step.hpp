@@ -60,8 +60,10 @@ struct GradeDecay {
 double drivenRadius(const std::vector<double>& a, const std::vector<std::vector<double>>& b, std::size_t first,
                     std::size_t stride);
 
-/// What the argument of a jump is on the set, `total` being its totalRadius.
-Interval argumentOf(const FlowSet& set, const LinearForm& form, const std::vector<double>& total);
+/// What the argument of a jump is on the set, `total` being its totalRadius; by its dependence on ξ where monomials are
+/// given.
+Interval argumentOf(const FlowSet& set, const LinearForm& form, const std::vector<double>& total,
+                    const Monomials* monomials = nullptr);
 
 /// How much longer than until the last solution has passed a jump or kink a step is, so that rates over all of it still
 /// say so.
@@ -282,12 +284,13 @@ class FlowStepper {
   void leaveTogether(const FlowSet& set, const std::vector<Interval>& start, const std::vector<JumpBound>& bounds);
   bool leavesTogether(const FlowSet& set, double h);
   void letGo(const FlowSet& set, const std::vector<JumpBound>& bounds);
-  /// In this step a jump lets go all solutions that it held, to one side, or comes to hold them, from one side, or they
-  /// pass a kink: D is added to each of them from m(ξ) on.
+  /// release: a jump lets go solutions that it held; arrival: it comes to hold them; passage: they pass it, or a kink.
+  enum class TurnKind : char { release, arrival, passage };
+  /// In this step all solutions turn, to one side or from one: D is added to each of them from m(ξ) on.
   struct Turn {
     std::size_t jump;  // of f; none: a kink
-    double side;
-    bool arrives;
+    double side;       // from which they arrive; else to which they go
+    TurnKind kind;
     int own;  // jump, of the stepper's motion; -1: of those held
     FlowTurn* of;
     Interval moments;                         // s, of m(ξ) and of solutions themselves
@@ -300,23 +303,29 @@ class FlowStepper {
     std::vector<std::vector<BoundedPolynomial>> D{};  // of each state, by orders of σ
     std::vector<double> most{}, twist{};              // |D| and its third derivative at most
     std::vector<double> gap{}, slope{}, bend{};       // |D|, |Ḋ| and |D̈| at m(ξ)
-    std::vector<double> before{};                     // like e1_, until then
+    double rest = 0, steepness = 0;                   // of the guard there, along x̃ alone; its slope, at least
+    // The guard by states, where Ḋ is not zero at m(ξ); Ḋ over the guard's slope there, about, and at most beside that.
+    std::vector<double> ofGuard{}, leap{}, besideLeap{};
+    std::vector<double> before{};  // like e1_, until then
     // What turns of the frame from m(ξ) on, 1/s, and of each state, of what the set's remainder is; ∂f_a/∂x, about.
     std::vector<double> K{}, turned{}, J{};
-    std::vector<double> jolt{};       // what chords from the step's start miss
-    Interval growth{0.0};             // of the argument's rate, of those let go, towards that side
-    Interval argument{0.0};           // at the step's end
-    std::vector<Interval> besides{};  // likewise of own jumps; none: nothing is known
+    std::vector<double> saltation{}, leapt{};  // likewise at once
+    std::vector<double> jolt{};                // what chords from the step's start miss
+    Interval growth{0.0};                      // of the argument's rate, of those let go, towards that side
+    Interval argument{0.0};                    // at the step's end
+    std::vector<Interval> besides{};           // likewise of own jumps; none: nothing is known
     SignCases during(const Interval& seconds) const;
     Interval gone(double seconds) const;
-    bool releases() const { return jump != none && !arrives; }
+    bool releases() const { return kind == TurnKind::release; }
+    bool arrives() const { return kind == TurnKind::arrival; }
+    bool passesJump() const { return kind == TurnKind::passage && jump != none; }
     /// |D| at most, up to so many seconds from m(ξ), before or after.
     double within(std::size_t state, double seconds) const;
   };
-  FlowTurn* turnFor(std::size_t jump, double side, bool arrives);
+  FlowTurn* turnFor(std::size_t jump, double side, TurnKind kind);
   FlowTurn* passageFor(std::size_t kink, double side);
   Look lookAtRelease(const FlowSet& set, double& h, double smallest, double left);
-  Look lookAtArrival(const FlowSet& set, double& h, double smallest, double left);
+  Look lookAtSurface(const FlowSet& set, double& h, double smallest, double left);
   bool mayPassAsTurn(std::size_t kink) const;
   Look lookAtPassage(const FlowSet& set, double& h, double smallest, double left);
   Look lookAtTurn(const FlowSet& set, double& h, double smallest, double left, Turn turn,
@@ -329,8 +338,13 @@ class FlowStepper {
   bool holdOnceTurned(const FlowSet& set, const Turn& turn, const std::vector<double>& states,
                       const std::vector<double>& tube);
   std::vector<double> statesWith(const Turn& turn) const;
+  void describeLeap(Turn& turn, const std::vector<BoundedPolynomial>& guard,
+                    const std::vector<BoundedPolynomial>& slopes) const;
   bool describeTurn(const FlowSet& set, const std::vector<Interval>& signs, Turn& turn);
   bool turnFrameWith(const FlowSet& set, const std::vector<Interval>& signs, Turn& turn);
+  std::pair<double, double> valueOfFrame(std::size_t i, std::size_t j, double sigma) const;
+  double variationOfFrame(std::size_t i, std::size_t j, double middle, double span) const;
+  std::vector<double> jumpAtMoment(const Turn& turn, const std::vector<double>& before) const;
   std::vector<double> restOfFrame(const Turn& turn, const std::vector<Interval>& J, double longest) const;
   bool proveTurn(const FlowSet& set, const std::vector<Interval>& signs, Turn& turn, double& relativeDefect);
   void addTurn(double tau, FlowPoint& point, const Interval& moments) const;
@@ -386,9 +400,9 @@ class FlowStepper {
   TimeKinks timeKinks_;
   std::vector<Interval> kinkRates_;  // over the step
   std::vector<Crossing> crossings_;
-  // Of jumps held, by the side to which they let go (above or not), and of own ones, by that from which they come to
-  // hold; once needed, null where there is none.
-  std::map<std::tuple<std::size_t, bool, bool>, std::unique_ptr<FlowTurn>> turns_;
+  // Of jumps held, by the side to which they let go (above or not), and of own ones, by that from which solutions come;
+  // once needed, null where there is none.
+  std::map<std::tuple<std::size_t, bool, TurnKind>, std::unique_ptr<FlowTurn>> turns_;
   std::map<std::pair<std::size_t, bool>, std::unique_ptr<FlowTurn>> passages_;  // of kinks, from above or not
   std::optional<Turn> turn_;                                                    // of this step
   std::size_t passing_ = none;  // the kink that all solutions pass as a turn, from the side passingFrom_
@@ -396,7 +410,7 @@ class FlowStepper {
   bool mayPass_ = true;           // so, in this step
   std::vector<double> heldTube_;  // before it
   std::vector<double> lift_;      // how much wider the tube is for those that have turned; none: it is not
-  bool isLiftOfArrival_ = false;
+  bool isLiftOfSurface_ = false;
   double beyondLast_ = 0;  // how much longer the step is than until the last has turned, s; 0: not known yet
   bool mayTurn_ = true;    // in this step
   bool hasLostTurn_ = false, isTurnMixed_ = false;

@@ -46,6 +46,17 @@ bool isSameForm(const LinearForm& a, const LinearForm& b) {
          std::all_of(b.parameters.begin() + static_cast<std::ptrdiff_t>(common), b.parameters.end(), isZero);
 }
 
+/// Outputs of jumps.given, where this sign is one or the other.
+std::vector<int> outputsOn(Recorder& recorder, const FlowJumps& jumps, std::size_t jump, double sign) {
+  const Program& given = jumps.given;
+  std::vector<int> values, outputs;
+  for (int i = 0; i < given.parameters(); ++i) values.push_back(recorder.parameter(i));
+  values[at(given.parameters()) - jumps.count() + jump] = recorder.constant(sign);
+  const std::vector<int> here = recorder.append(given, values);
+  for (const int output : given.outputNodes()) outputs.push_back(here[at(output)]);
+  return outputs;
+}
+
 /// Its last outputs, as many as states.
 Program followingOf(const Program& along) {
   const std::vector<int>& outputs = along.outputNodes();
@@ -97,15 +108,7 @@ Program arrivalOf(const FlowJumps& jumps, std::size_t jump, double side) {
   const Program& given = jumps.given;
   const std::size_t n = at(given.states()), count = jumps.count();
   Recorder recorder(given.states(), given.parameters());
-  const auto outputsWith = [&](double sign) {
-    std::vector<int> values, outputs;
-    for (int i = 0; i < given.parameters(); ++i) values.push_back(recorder.parameter(i));
-    values[at(given.parameters()) - count + jump] = recorder.constant(sign);
-    const std::vector<int> here = recorder.append(given, values);
-    for (const int output : given.outputNodes()) outputs.push_back(here[at(output)]);
-    return outputs;
-  };
-  const std::vector<int> own = outputsWith(side), other = outputsWith(-side);
+  const std::vector<int> own = outputsOn(recorder, jumps, jump, side), other = outputsOn(recorder, jumps, jump, -side);
   const std::size_t rate = n + count + jump;
   const int share = recorder.mul(own[rate], recorder.recip(recorder.sub(own[rate], other[rate])));
   std::vector<int> after;
@@ -115,6 +118,17 @@ Program arrivalOf(const FlowJumps& jumps, std::size_t jump, double side) {
   const auto towardsSide = [&](int node) { return side > 0 ? node : recorder.neg(node); };
   const int growth = towardsOther(own[rate]);
   return turnOf(recorder, after, towardsOther(own[n + jump]), growth, growth, towardsSide(other[rate]));
+}
+
+Program passageOf(const FlowJumps& jumps, std::size_t jump, double side) {
+  const std::size_t n = at(jumps.given.states()), rate = n + jumps.count() + jump;
+  Recorder recorder(jumps.given.states(), jumps.given.parameters());
+  const std::vector<int> before = outputsOn(recorder, jumps, jump, side),
+                         after = outputsOn(recorder, jumps, jump, -side);
+  const auto ahead = [&](int node) { return side > 0 ? recorder.neg(node) : node; };
+  const std::vector<int> rates(after.begin(), after.begin() + static_cast<std::ptrdiff_t>(n));
+  return turnOf(recorder, rates, ahead(before[n + jump]), ahead(before[rate]), ahead(after[rate]),
+                recorder.constant(1.0));
 }
 
 Program passageOf(const Program& f, const LinearForm& u, double side) {

@@ -41,6 +41,9 @@ Program releaseOf(const FlowJumps& jumps, const std::vector<char>& held, std::si
 /// Solutions on this side of a jump come to be held by it: the guard is the argument, and solutions are ahead and
 /// attracted as fast as it comes to zero from either side.
 Program arrivalOf(const FlowJumps& jumps, std::size_t jump, double side);
+/// Solutions on this side of a jump pass it: its sign is `side` until then, and -side from then on. The guard is -side
+/// u, and solutions are ahead as fast as that rises.
+Program passageOf(const FlowJumps& jumps, std::size_t jump, double side);
 /// f (the first outputs, one a state) has a kink in u, which solutions pass: |u| = side u until then, and -side u from
 /// then on. The guard is -side u, and solutions are ahead as fast as that rises.
 Program passageOf(const Program& f, const LinearForm& u, double side);

@@ -42,6 +42,13 @@ std::vector<BoundedPolynomial> polynomialsOf(const AlongStep& along, int output,
   return result;
 }
 
+/// Per second, of what is given by orders of σ.
+std::vector<BoundedPolynomial> rateOf(const std::vector<BoundedPolynomial>& u, double h0) {
+  std::vector<BoundedPolynomial> rates(u.begin() + 1, u.end());
+  for (std::size_t order = 0; order < rates.size(); ++order) rates[order] *= static_cast<double>(order + 1) / h0;
+  return rates;
+}
+
 double restOf(const AlongStep& along, int output) {
   const int node = along.series().outputNode(output);
   return (along.series().rho0(node) + along.series().rho1(node)) * bounds::up;
@@ -77,12 +84,14 @@ Interval FlowStepper::onceTurned(const AlongStep& along, int output, const Turn&
 }
 
 /// Null where there is no such turn.
-FlowTurn* FlowStepper::turnFor(std::size_t jump, double side, bool arrives) {
-  const auto [place, isNew] = turns_.try_emplace({jump, side > 0, arrives});
+FlowTurn* FlowStepper::turnFor(std::size_t jump, double side, TurnKind kind) {
+  const auto [place, isNew] = turns_.try_emplace({jump, side > 0, kind});
   if (isNew) try {
-      place->second = std::make_unique<FlowTurn>(
-          arrives ? gamut::arrivalOf(own_->jumps(), jump, side) : gamut::releaseOf(*of_, held_, jump, side),
-          series_.sharedMonomials(), m_, length_, resolution_, series_.cancelled());
+      place->second =
+          std::make_unique<FlowTurn>(kind == TurnKind::release   ? releaseOf(*of_, held_, jump, side)
+                                     : kind == TurnKind::arrival ? gamut::arrivalOf(own_->jumps(), jump, side)
+                                                                 : passageOf(own_->jumps(), jump, side),
+                                     series_.sharedMonomials(), m_, length_, resolution_, series_.cancelled());
     } catch (const std::logic_error&) {
     }
   return place->second.get();
@@ -116,12 +125,13 @@ FlowStepper::Look FlowStepper::lookAtRelease(const FlowSet& set, double& h, doub
     jump = k;
     side = above == below ? 0 : above ? 1 : -1;
   }
-  FlowTurn* const of = side != 0 ? turnFor(jump, side, false) : nullptr;
+  FlowTurn* const of = side != 0 ? turnFor(jump, side, TurnKind::release) : nullptr;
   if (of == nullptr) return Look::released;
   std::vector<char> after = held_;
   after[jump] = 0;
   const std::vector<Interval> signs = *signsBeside(heldBounds_);
-  const Look look = lookAtTurn(set, h, smallest, left, {jump, side, false, -1, of, {}, held_, after, signs}, signs);
+  const Look look =
+      lookAtTurn(set, h, smallest, left, {jump, side, TurnKind::release, -1, of, {}, held_, after, signs}, signs);
   if (look != Look::goOn) return look;
   stillHeld_ = after;
   holdBeside(after);
@@ -130,22 +140,39 @@ FlowStepper::Look FlowStepper::lookAtRelease(const FlowSet& set, double& h, doub
   return look;
 }
 
-/// Likewise, whether all solutions come from one side to be held.
-FlowStepper::Look FlowStepper::lookAtArrival(const FlowSet& set, double& h, double smallest, double left) {
+/// Likewise, whether all solutions come from one side to a surface, to be held there or to pass.
+FlowStepper::Look FlowStepper::lookAtSurface(const FlowSet& set, double& h, double smallest, double left) {
   const FlowJumps& own = own_->jumps();
   std::optional<std::size_t> jump;
   std::vector<Interval> signs;
+  double soonest = h, next = h;  // when the argument may be zero; another one
   for (std::size_t j = 0; j < own.count(); ++j) {
     const double sign = series_.series(series_.jumps()[j])[0];
     if (std::fabs(sign) != 1 || (sides_[j] == 0 && series_.mayTurn(series_.jumps()[j]))) return Look::released;
     signs.emplace_back(sign);
     if (sides_[j] == 0) continue;
-    const Interval argument = ownRates_->argumentOver(j, 0, h / h0_);
-    if (sides_[j] > 0 ? argument.lower() > 0 : argument.upper() < 0) continue;
-    if (jump) return Look::released;
+    const auto mayBeZeroBy = [&](double until) {
+      const Interval argument = ownRates_->argumentOver(j, 0, until / h0_);
+      return !(sides_[j] > 0 ? argument.lower() > 0 : argument.upper() < 0);
+    };
+    if (!mayBeZeroBy(h)) continue;
+    const double moment = mayBeZeroBy(0) ? 0 : changeOf(0, h, mayBeZeroBy).first;
+    next = std::min(next, jump ? std::max(moment, soonest) : h);
+    if (jump && moment >= soonest) continue;
+    soonest = moment;
     jump = j;
   }
-  FlowTurn* const of = jump ? turnFor(*jump, sides_[*jump], true) : nullptr;
+  if (!jump) return Look::released;
+  if (next < h) {
+    constexpr double ahead = 1 - 0x1p-7;
+    if (!(ahead * next > soonest) || ahead * next < smallest) return Look::released;
+    h = ahead * next;
+    return Look::shorter;
+  }
+  const double side = sides_[*jump], sigma = soonest / h0_;
+  const bool arrives = own.isAffine && side * midpoint(ownRates_->over(*jump, -side, sigma, sigma)) > 0;
+  const TurnKind kind = arrives ? TurnKind::arrival : TurnKind::passage;
+  FlowTurn* const of = turnFor(*jump, side, kind);
   if (of == nullptr) return Look::released;
   std::size_t which = *jump;
   double factor = 1;
@@ -160,10 +187,18 @@ FlowStepper::Look FlowStepper::lookAtArrival(const FlowSet& set, double& h, doub
     all[k] = Interval(factor_[k]) * signs[at(left_[k])];
   }
   if (!held_.empty() && left_[which] != static_cast<int>(*jump)) return Look::released;
-  after[which] = 1;
-  const Look look = lookAtTurn(
-      set, h, smallest, left,
-      {which, factor * sides_[*jump], true, static_cast<int>(*jump), of, {}, held_, after, std::move(all)}, signs);
+  after[which] = static_cast<char>(arrives);
+  const Look look = lookAtTurn(set, h, smallest, left,
+                               {which,
+                                arrives ? factor * side : -factor * side,
+                                kind,
+                                static_cast<int>(*jump),
+                                of,
+                                {},
+                                held_,
+                                after,
+                                std::move(all)},
+                               signs);
   if (look != Look::goOn) return look;
   holdBeside(held_);
   turn_->form = &*own.forms[*jump];
@@ -204,8 +239,8 @@ FlowStepper::Look FlowStepper::lookAtPassage(const FlowSet& set, double& h, doub
   FlowTurn* const of = passageFor(passing_, passingFrom_);
   if (!of->load(series_, set.t, h0_, h / h0_, set.parameters, signs, heldTube_)) return Look::released;
   if (of->over(of->guard(), 0, h / h0_).upper() < 0) return Look::goOn;  // none of them comes so far
-  const Look look =
-      lookAtTurn(set, h, smallest, left, {none, -passingFrom_, false, -1, of, {}, held_, held_, all}, signs);
+  const Look look = lookAtTurn(set, h, smallest, left,
+                               {none, -passingFrom_, TurnKind::passage, -1, of, {}, held_, held_, all}, signs);
   if (look != Look::goOn) return look;
   holdBeside(held_);
   for (JumpBound& bound : ownBounds_) bound = {.sign = bound.sign};  // rates are others then
@@ -226,18 +261,20 @@ bool FlowStepper::stayOnceTurned(const FlowSet& set, Turn& turn, const std::vect
   turn.besides.assign(signs.size(), Interval::entire());
   constexpr double infinite = std::numeric_limits<double>::infinity();
   for (std::size_t j = 0; j < sides_.size(); ++j) {
-    if (sides_[j] == 0 || static_cast<int>(j) == turn.own) continue;
+    const bool isPassed = turn.passesJump() && static_cast<int>(j) == turn.own;
+    if (sides_[j] == 0 || (static_cast<int>(j) == turn.own && !isPassed)) continue;
     const auto isAway = [&](const Interval& number) { return sides_[j] > 0 ? number.lower() > 0 : number.upper() < 0; };
     const LinearForm& form = *own_->jumps().forms[j];
     Interval rate(0.0);
     for (std::size_t i = 0; i < form.states.size(); ++i)
       if (form.states[i] != 0)
         rate += Interval(form.states[i]) * onceTurned(*turn.of, turn.of->after(static_cast<int>(i)), turn);
-    if (!isAway(rate) && !isAway(onceTurned(*ownRates_, ownRates_->argument(j), turn))) return false;
+    if (!isPassed && !isAway(rate) && !isAway(onceTurned(*ownRates_, ownRates_->argument(j), turn))) return false;
     const Interval end = ownRates_->argumentOver(j, theta_, theta_);
     const Interval beyond =
-        sides_[j] > 0 ? Interval(0.0, infinite) : Interval(-infinite, 0.0);  // it may have come nearer
+        (sides_[j] > 0) != isPassed ? Interval(0.0, infinite) : Interval(-infinite, 0.0);  // it may have come nearer
     turn.besides[j] = intersection(end, beyond);
+    if (isEmpty(turn.besides[j])) return false;
   }
   return true;
 }
@@ -274,7 +311,7 @@ bool FlowStepper::holdUntilTurned(const FlowSet& set, const Turn& turn) {
 /// Likewise from when the first has turned, along these polynomials of states.
 bool FlowStepper::holdOnceTurned(const FlowSet& set, const Turn& turn, const std::vector<double>& states,
                                  const std::vector<double>& tube) {
-  const auto besides = std::ranges::count(turn.heldAfter, 1) - (turn.arrives ? 1 : 0);
+  const auto besides = std::ranges::count(turn.heldAfter, 1) - (turn.arrives() ? 1 : 0);
   if (besides == 0) return true;
   HeldSigns* const together = heldSignsFor(turn.heldAfter);
   std::vector<Interval> signs = turn.signs;
@@ -332,14 +369,14 @@ FlowStepper::Look FlowStepper::lookAtTurn(const FlowSet& set, double& h, double 
   if (!describeTurn(set, signs, turn) || !holdUntilTurned(set, turn)) return Look::released;
   if (lift_.empty()) {
     for (const double most : turn.most) lift_.push_back(longer * most + bounds::tiny);
-    isLiftOfArrival_ = turn.arrives;
+    isLiftOfSurface_ = turn.arrives() || turn.passesJump();
     return Look::shorter;  // no shorter, but in this tube
   }
   const std::vector<double> lift = lift_;
   double defect = 0;  // of D
   if (!proveTurn(set, signs, turn, defect)) return lift_ == lift ? Look::released : Look::shorter;
   if (constexpr double mostDefect = 1e-4;
-      defect > mostDefect && beyondLast_ > ofSpread * (last - first) && beyondLast_ > smallest) {
+      defect > mostDefect && beyondLast_ > slack * ofSpread * (last - first) && beyondLast_ > smallest) {
     beyondLast_ = std::max({ofSpread * (last - first), 0.25 * beyondLast_, smallest});
     h = last + beyondLast_;
     lift_.clear();
@@ -417,6 +454,9 @@ bool FlowStepper::describeTurn(const FlowSet& set, const std::vector<Interval>& 
   turn.beyond = std::max(0.0, of.over(of.guard(), 0, 0).upper());
   turn.away = (root.rest + restOf(of, of.guard()) + turn.beyond) * bounds::up / slope * bounds::up;
   turn.moments = inflated(turn.moments, turn.away);
+  if (!of.rebound(nullptr)) return false;
+  turn.rest = (root.rest + restOf(of, of.guard())) * bounds::up;
+  turn.steepness = slope;
   const std::size_t N = at(series_.count());
   turn.D.assign(n, std::vector<BoundedPolynomial>(orders, {std::vector<double>(N, 0.0)}));
   constexpr int rounds = 12;
@@ -448,9 +488,9 @@ bool FlowStepper::describeTurn(const FlowSet& set, const std::vector<Interval>& 
     }
   }
   const double from = std::max(0.0, turn.moments.lower()) / h0_;
+  std::vector<BoundedPolynomial> slopes;
   for (std::size_t i = 0; i < n; ++i) {
-    std::vector<BoundedPolynomial> rates(turn.D[i].begin() + 1, turn.D[i].end());
-    for (std::size_t order = 0; order < rates.size(); ++order) rates[order] *= static_cast<double>(order + 1) / h0_;
+    const std::vector<BoundedPolynomial> rates = rateOf(turn.D[i], h0_);
     std::vector<BoundedPolynomial> seconds(rates.begin() + 1, rates.end());
     double twist = 0, power = 1;
     for (std::size_t order = 0; order < seconds.size(); ++order) {
@@ -461,26 +501,100 @@ bool FlowStepper::describeTurn(const FlowSet& set, const std::vector<Interval>& 
     }
     turn.most.push_back(magnitude(rangeOver(turn.D[i], from, theta_)));
     turn.gap.push_back(composed(monomials(), turn.D[i], root.x).norm());
-    turn.slope.push_back(composed(monomials(), rates, root.x).norm());
+    slopes.push_back(composed(monomials(), rates, root.x));
+    turn.slope.push_back(slopes[i].norm());
     turn.bend.push_back(composed(monomials(), seconds, root.x).norm());
     turn.twist.push_back(twist / h0_ * bounds::up);
     if (!std::isfinite(turn.gap[i] + turn.slope[i] + turn.bend[i] + turn.twist[i])) return false;
   }
+  if (turn.passesJump()) describeLeap(turn, rate, slopes);
   return true;
 }
 
-/// What becomes of the frame with D: it turns by K = J_a Ψ̃ - Ψ̃', per second, as that is in the middle.
+/// Where Ḋ is not zero at m(ξ), a solution beside x̃ that turns sooner leaves by as much more: `slopes` are Ḋ there.
+void FlowStepper::describeLeap(Turn& turn, const std::vector<BoundedPolynomial>& guard,
+                               const std::vector<BoundedPolynomial>& slopes) const {
+  const AlongStep& of = *turn.of;
+  const BoundedPolynomial steepness = composed(monomials(), rateOf(guard, h0_), turn.when);
+  const double bend = of.series().derivativeNorm(of.series().outputNode(turn.of->guard()), 2, theta_) / (h0_ * h0_);
+  for (const double c : own_->jumps().forms[at(turn.own)]->states) turn.ofGuard.push_back(-sides_[at(turn.own)] * c);
+  for (const BoundedPolynomial& slope : slopes) {
+    const double leap = slope.c[0] / steepness.c[0];
+    BoundedPolynomial beside = steepness;
+    beside *= -leap;
+    beside += slope;
+    turn.leap.push_back(leap);
+    // The guard's slope between m(ξ) and a solution's own moment is that at m(ξ), but for what it bends.
+    turn.besideLeap.push_back((beside.norm() + std::fabs(leap) * turn.away * bend) * bounds::up / turn.steepness *
+                              bounds::up);
+  }
+}
+
+/// |z| at a solution's own moment τ at most, with x - x̃ - Ψ̃(r + Γs) at most `before` there: D is D(m) + Ḋ(m) (τ - m) +
+/// D̈ (τ - m)²/2, and the guard, zero at τ but for what is beyond it, tells τ - m.
+std::vector<double> FlowStepper::jumpAtMoment(const Turn& turn, const std::vector<double>& before) const {
+  const std::size_t n = at(n_);
+  std::vector<double> result;
+  if (turn.ofGuard.empty()) {
+    for (std::size_t i = 0; i < n; ++i) result.push_back(turn.within(i, turn.away));
+    return result;
+  }
+  const double middle = turn.when.c[0];
+  const Interval moments = intersection(turn.moments / Interval(h0_), Interval(0.0, theta_));
+  const double span = magnitude(moments - Interval(middle));
+  double guard = turn.rest + turn.beyond, frame = 0, inFrame = 0;  // what it is off by; of the frame, about and beside
+  for (std::size_t l = 0; l < n; ++l) guard += std::fabs(turn.ofGuard[l]) * before[l];
+  for (std::size_t j = 0; j < n; ++j) {
+    double about = 0, size = 0, off = 0;
+    for (std::size_t l = 0; l < n; ++l) {
+      if (turn.ofGuard[l] == 0) continue;
+      about += turn.ofGuard[l] * valueOfFrame(l, j, middle).first;
+      size += std::fabs(turn.ofGuard[l]) * series_.frameNorm(static_cast<int>(l), static_cast<int>(j));
+      off += std::fabs(turn.ofGuard[l]) * variationOfFrame(l, j, middle, span);
+    }
+    size *= static_cast<double>(4 * at(m_) + 2 * n + 12) * bounds::unit;
+    frame += (std::fabs(about) + size) * total_[j];
+    inFrame += (off + size) * total_[j];
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    const double perGuard = std::max(turn.slope[i] / turn.steepness, std::fabs(turn.leap[i])) * bounds::up;
+    const double curved = 0.5 * turn.bend[i] + turn.away * turn.twist[i] / 6;
+    result.push_back(
+        (turn.gap[i] + turn.away * turn.away * curved + perGuard * (guard + inFrame) + turn.besideLeap[i] * frame) *
+        bounds::up);
+  }
+  return result;
+}
+
+/// Ψ̃ at σ, about, and its rate, 1/s; in the middle of ξ.
+std::pair<double, double> FlowStepper::valueOfFrame(std::size_t i, std::size_t j, double sigma) const {
+  const double* c = series_.frame(static_cast<int>(i), static_cast<int>(j));
+  double value = 0, rate = 0;
+  for (std::size_t order = at(m_) + 1; order-- > 0;) {
+    rate = rate * sigma + value;
+    value = value * sigma + c[order];
+  }
+  return {value, rate / h0_};
+}
+
+/// How far it is from that elsewhere in ξ, and as far as `span` from there.
+double FlowStepper::variationOfFrame(std::size_t i, std::size_t j, double middle, double span) const {
+  const int row = static_cast<int>(i), column = static_cast<int>(j);
+  const double* c = series_.frame(row, column);
+  double sum = 0;
+  for (int g = 1; g < series_.frameCount(); ++g) {
+    double power = 1;
+    for (std::size_t order = 0; order <= at(m_); ++order, power *= std::max(theta_, std::fabs(middle)))
+      sum += std::fabs(c[at(g * series_.stride()) + order]) * power;
+  }
+  return (sum + span * series_.frameDerivativeNorm(row, column, 1, theta_)) * bounds::up;
+}
+
+/// What becomes of the frame with D: it leaps by S = d GΨ̃, G the guard by states and d = Ḋ/ġ (the saltation matrix is 1
+/// + d G: Aizerman, Gantmakher, 1958), and turns by K = J_a (Ψ̃ + S) - Ψ̃', per second, as these are in the middle.
 bool FlowStepper::turnFrameWith(const FlowSet& set, const std::vector<Interval>& signs, Turn& turn) {
   const std::size_t n = at(n_), orders = at(m_) + 1;
   const double middle = turn.when.c[0];
-  const auto valueOf = [&](const double* c) {  // and of its rate, 1/s
-    double value = 0, rate = 0;
-    for (std::size_t order = orders; order-- > 0;) {
-      rate = rate * middle + value;
-      value = value * middle + c[order];
-    }
-    return std::pair(value, rate / h0_);
-  };
   Box states, parameters;
   for (std::size_t i = 0; i < n; ++i) {
     double value = 0;
@@ -493,39 +607,45 @@ bool FlowStepper::turnFrameWith(const FlowSet& set, const std::vector<Interval>&
   turn.J.clear();
   for (const Interval& J : turn.of->derivatives(Interval(set.t + middle * h0_), states, parameters))
     turn.J.push_back(midpoint(J));
+  turn.saltation.assign(n * n, 0.0);
+  turn.leapt.assign(n, 0.0);
+  for (std::size_t j = 0; j < n && !turn.ofGuard.empty(); ++j) {
+    double sum = 0;
+    for (std::size_t l = 0; l < n; ++l) sum += turn.ofGuard[l] * valueOfFrame(l, j, middle).first;
+    for (std::size_t i = 0; i < n; ++i) {
+      turn.saltation[i * n + j] = turn.leap[i] * sum;
+      turn.leapt[i] += std::fabs(turn.saltation[i * n + j]) * total_[j] * bounds::up;
+    }
+  }
   turn.K.assign(n * n, 0.0);
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = 0; j < n; ++j) {
       double sum = 0;
       for (std::size_t l = 0; l < n; ++l)
-        sum += turn.J[i * n + l] * valueOf(series_.frame(static_cast<int>(l), static_cast<int>(j))).first;
-      turn.K[i * n + j] = sum - valueOf(series_.frame(static_cast<int>(i), static_cast<int>(j))).second;
+        sum += turn.J[i * n + l] * (valueOfFrame(l, j, middle).first + turn.saltation[l * n + j]);
+      turn.K[i * n + j] = sum - valueOfFrame(i, j, middle).second;
       if (!std::isfinite(turn.K[i * n + j])) return false;
     }
   return true;
 }
 
-/// |J_a (Ψ̃ + K (t - m(ξ))) - Ψ̃' - K|, J_a anything in J, for `longest` seconds after the first has turned: of each row,
-/// times what the set's remainder is. What Ψ̃ and its rate are elsewhere than in the middle counts as an error.
+/// |J_a (Ψ̃ + S + K (t - m(ξ))) - Ψ̃' - K|, J_a anything in J, for `longest` seconds after the first has turned: of each
+/// row, times what the set's remainder is. What Ψ̃ and its rate are elsewhere than in the middle counts as an error.
 std::vector<double> FlowStepper::restOfFrame(const Turn& turn, const std::vector<Interval>& J, double longest) const {
   const std::size_t n = at(n_), orders = at(m_) + 1;
   const double middle = turn.when.c[0], span = std::max(std::fabs(middle), theta_ - middle);
   const auto norms = [&](std::size_t i, std::size_t j) {  // what varies of Ψ̃, and of its rate; both at most
     const double* c = series_.frame(static_cast<int>(i), static_cast<int>(j));
-    double own = 0, rate = 0;
+    double rate = 0;
     for (int g = 1; g < series_.frameCount(); ++g) {
       double power = 1;
-      for (std::size_t order = 0; order < orders; ++order) {
-        own += std::fabs(c[at(g * series_.stride()) + order]) * power;
-        if (order + 1 < orders)
-          rate += static_cast<double>(order + 1) * std::fabs(c[at(g * series_.stride()) + order + 1]) * power;
-        power *= std::max(theta_, std::fabs(middle));
-      }
+      for (std::size_t order = 1; order < orders; ++order, power *= std::max(theta_, std::fabs(middle)))
+        rate += static_cast<double>(order) * std::fabs(c[at(g * series_.stride()) + order]) * power;
     }
     const auto slope = [&](int k) {
       return series_.frameDerivativeNorm(static_cast<int>(i), static_cast<int>(j), k, theta_);
     };
-    return std::array<double, 4>{(own + span * slope(1)) * bounds::up, (rate + span * slope(2)) / h0_ * bounds::up,
+    return std::array<double, 4>{variationOfFrame(i, j, middle, span), (rate + span * slope(2)) / h0_ * bounds::up,
                                  series_.frameNorm(static_cast<int>(i), static_cast<int>(j)), slope(1) / h0_};
   };
   std::vector<std::array<double, 4>> frame;
@@ -540,17 +660,18 @@ std::vector<double> FlowStepper::restOfFrame(const Turn& turn, const std::vector
       for (std::size_t l = 0; l < n; ++l) {
         const double about = std::fabs(turn.J[i * n + l]), by = std::fabs(turn.K[l * n + j]) * longest;
         const double off = magnitude(J[i * n + l] - Interval(turn.J[i * n + l]));
-        sum += off * (frame[l * n + j][2] + by) + about * (frame[l * n + j][0] + by);
-        size += about * frame[l * n + j][2];
+        const double at = frame[l * n + j][2] + std::fabs(turn.saltation[l * n + j]);
+        sum += off * (at + by) + about * (frame[l * n + j][0] + by);
+        size += about * at;
       }
       rest[i] += (sum + static_cast<double>(4 * orders + 2 * n + 8) * bounds::unit * size) * total_[j] * bounds::up;
     }
   return rest;
 }
 
-/// From then on z = x - x̃ - (Ψ̃ + K (t - m(ξ)))(r + Γs) - D obeys z' = J̄_a z + (f_a(x̃ + D) - x̃' - D') + (J̄_a (Ψ̃ + K (t -
-/// m)) - Ψ̃' - K)(r + Γs), J_a = ∂f_a/∂x on the way from x̃ + D to x. Whether it is so small that x is in the step's
-/// tube, and the rate of those let go grows.
+/// From then on z = x - x̃ - (Ψ̃ + S + K (t - m(ξ)))(r + Γs) - D obeys z' = J̄_a z + (f_a(x̃ + D) - x̃' - D') + (J̄_a (Ψ̃ + S
+/// + K (t - m)) - Ψ̃' - K)(r + Γs), J_a = ∂f_a/∂x on the way from x̃ + D to x. Whether it is so small that x is in the
+/// step's tube, and the rate of those let go grows.
 bool FlowStepper::proveTurn(const FlowSet& set, const std::vector<Interval>& signs, Turn& turn,
                             double& relativeDefect) {
   FlowTurn& of = *turn.of;
@@ -580,21 +701,27 @@ bool FlowStepper::proveTurn(const FlowSet& set, const std::vector<Interval>& sig
         slack[i] += power * bounds::unit * std::fabs(states[(i * N + g) * orders + order]);
     }
     defect[i] = (magnitude(rangeOver(f, first / h0_, theta_)) + restOf(of, output)) * bounds::up;
-    truncated[i] = turn.within(i, turn.away) + longest * restOf(of, output);
+    truncated[i] = turn.within(i, turn.rest / turn.steepness) + longest * restOf(of, output);
     constexpr double heard = 1e-9;  // of the state: what moves by less decides nothing
-    relativeDefect = std::max(relativeDefect, longest * defect[i] / std::max(turn.most[i], heard * scale_[i]));
-    double sum = inputs_.rest(static_cast<int>(i)) + slack[i] + turn.within(i, turn.away);
+    if (longest * defect[i] > heldTube_[i])
+      relativeDefect = std::max(relativeDefect, longest * defect[i] / std::max(turn.most[i], heard * scale_[i]));
+    double sum = inputs_.rest(static_cast<int>(i)) + slack[i];
+    ofFrame[i] = turn.leapt[i];
     turn.turned.push_back(0);
     for (int j = 0; j < n_; ++j) {
       const int row = static_cast<int>(i);
       const double K = std::fabs(turn.K[at(row * n_ + j)]) * total_[at(j)] * bounds::up;
       turn.turned[i] += K;
       ofFrame[i] += (series_.frameNorm(row, j) * total_[at(j)] + since * K) * bounds::up;
-      sum += epsilon_[at(row * n_ + j)] * total_[at(j)] + turn.away * K;
+      sum += epsilon_[at(row * n_ + j)] * total_[at(j)];
       sum +=
           growth_.M1(row, j) * delta0_[at(j)] + growth_.M2(row, j) * delta1_[at(j)] + growth_.M0(row, j) * set.W[at(j)];
     }
     before[i] = sum * bounds::up;
+  }
+  const std::vector<double> jump = jumpAtMoment(turn, before);
+  for (std::size_t i = 0; i < n; ++i) {
+    before[i] = (before[i] + jump[i] + turn.away * turn.turned[i]) * bounds::up;
     most[i] = 2 * before[i] + 0.015625 * turn.most[i] + 2 * longest * defect[i] + bounds::tiny;
   }
   Box parameters;
@@ -647,7 +774,8 @@ bool FlowStepper::proveTurn(const FlowSet& set, const std::vector<Interval>& sig
     const double reach = (turn.most[i] + crossed_[i]) * bounds::up;
     if ((ofFrame[i] + reach) * bounds::up < y_[i]) continue;
     isProved = false;
-    lift_[i] = std::max(1.25 * lift_[i], 1.5 * reach);
+    const double lacking = ofFrame[i] + 1.25 * reach - (y_[i] - lift_[i]);
+    lift_[i] = std::max({1.25 * lift_[i], 1.5 * reach, lacking});
   }
   if (!isProved) return false;
   // Of those let go: D may be taken to begin `away` too soon.
@@ -656,9 +784,10 @@ bool FlowStepper::proveTurn(const FlowSet& set, const std::vector<Interval>& sig
     tube.push_back((ofFrame[i] + crossed_[i] + turn.within(i, turn.away)) * bounds::up + bounds::tiny);
     // Beside a chord from the step's start: D grows no slower than at its end, but for what moments miss.
     const double longestSlope = turn.slope[i] + longest * (turn.bend[i] + 0.5 * longest * turn.twist[i]);
-    turn.jolt.push_back((turn.gap[i] + turn.away * turn.turned[i] + crossed_[i]) * bounds::up);
-    e1_[i] =
-        (e1_[i] + crossed_[i] + std::max(turn.most[i], longest * longestSlope) + since * turn.turned[i]) * bounds::up;
+    turn.jolt.push_back((turn.gap[i] + turn.leapt[i] + turn.away * turn.turned[i] + crossed_[i]) * bounds::up);
+    e1_[i] = (e1_[i] + crossed_[i] + std::max(turn.most[i], longest * longestSlope) + turn.leapt[i] +
+              since * turn.turned[i]) *
+             bounds::up;
   }
   if (!of.rebound(tube.data()) || !holdOnceTurned(set, turn, states, tube) || !stayOnceTurned(set, turn, states, tube))
     return false;
@@ -688,13 +817,13 @@ void FlowStepper::addTurn(double tau, FlowPoint& point, const Interval& moments)
     beyondFrame += std::fabs(sinceMoment.c[g]);
   for (std::size_t i = 0; i < n; ++i) {
     // The frame's share likewise, but none of it before all have turned.
-    point.loose[i] += (late > 0 ? since : beyondFrame) * turn.turned[i] * bounds::up;
+    point.loose[i] += (late > 0 ? turn.leapt[i] + since * turn.turned[i] : beyondFrame * turn.turned[i]) * bounds::up;
     for (std::size_t j = 0; j < n && !(late > 0); ++j)
       for (std::size_t g = 0; g < std::min(at(series_.frameCount()), sinceMoment.c.size()); ++g) {
         double& psi = point.psi[(g * n + i) * n + j];
-        psi += turn.K[i * n + j] * sinceMoment.c[g];
-        point.loose[i] +=
-            2 * bounds::unit * (std::fabs(psi) + std::fabs(turn.K[i * n + j] * sinceMoment.c[g])) * total_[j];
+        const double atOnce = g == 0 ? turn.saltation[i * n + j] : 0.0, more = turn.K[i * n + j] * sinceMoment.c[g];
+        psi += atOnce + more;
+        point.loose[i] += 3 * bounds::unit * (std::fabs(psi) + std::fabs(atOnce) + std::fabs(more)) * total_[j];
       }
     const double before = turn.within(i, late), most = turn.within(i, since);
     const double share = late > 0 && before > 0 ? most / (most + before) : 1;
