@@ -414,14 +414,13 @@ std::vector<double> FlowStepper::statesWith(const Turn& turn) const {
   return result;
 }
 
-/// m(ξ), where the rate of the polynomials is zero, and D about ∫ f_a(x̃ + D) - x̃' from there on, by Picard's method:
-/// f_a of those let go.
+/// m(ξ), where the guard along x̃ is zero, and D about ∫ f_a(x̃ + D) - x̃' from there on, by Picard's method.
 bool FlowStepper::describeTurn(const FlowSet& set, const std::vector<Interval>& signs, Turn& turn) {
   FlowTurn& of = *turn.of;
   const std::size_t n = at(n_), orders = at(m_) + 1;
   const std::vector<BoundedPolynomial> rate = polynomialsOf(of, of.guard(), orders);
   const PolynomialRoot root = rootOf(monomials(), rate, midpoint(turn.moments) / h0_);
-  // The rate is zero, but for what bounds miss, at a solution's own moment and at m(ξ); the slope of its polynomial
+  // The guard is zero, but for what bounds miss, at a solution's own moment and at m(ξ); the slope of its polynomial
   // differs from that at their middle by no more than the second derivative makes of half their distance.
   turnSymbol_ = -1;
   isTurnMixed_ = false;
@@ -782,12 +781,14 @@ bool FlowStepper::proveTurn(const FlowSet& set, const std::vector<Interval>& sig
   std::vector<double> tube;
   for (std::size_t i = 0; i < n; ++i) {
     tube.push_back((ofFrame[i] + crossed_[i] + turn.within(i, turn.away)) * bounds::up + bounds::tiny);
-    // Beside a chord from the step's start: D grows no slower than at its end, but for what moments miss.
-    const double longestSlope = turn.slope[i] + longest * (turn.bend[i] + 0.5 * longest * turn.twist[i]);
-    turn.jolt.push_back((turn.gap[i] + turn.leapt[i] + turn.away * turn.turned[i] + crossed_[i]) * bounds::up);
-    e1_[i] = (e1_[i] + crossed_[i] + std::max(turn.most[i], longest * longestSlope) + turn.leapt[i] +
-              since * turn.turned[i]) *
-             bounds::up;
+    // Beside a chord from the step's start: D grows no slower than at its end, but for what moments miss, by which it
+    // may be there before m(ξ).
+    const double steepest = turn.slope[i] + since * (turn.bend[i] + 0.5 * since * turn.twist[i]);
+    turn.jolt.push_back((turn.within(i, turn.away) + turn.leapt[i] + turn.away * turn.turned[i] + crossed_[i]) *
+                        bounds::up);
+    e1_[i] =
+        (e1_[i] + crossed_[i] + std::max(turn.most[i], since * steepest) + turn.leapt[i] + since * turn.turned[i]) *
+        bounds::up;
   }
   if (!of.rebound(tube.data()) || !holdOnceTurned(set, turn, states, tube) || !stayOnceTurned(set, turn, states, tube))
     return false;

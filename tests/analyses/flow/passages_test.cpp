@@ -86,6 +86,43 @@ TEST_P(FlowPassages, HoldTrajectories) {
 INSTANTIATE_TEST_SUITE_P(Flow, FlowPassages, ::testing::ValuesIn(passing()),
                          [](const auto& machine) { return machine.param.name; });
 
+/// Where what a set leaves over is most of it, as with a constant that may change as it likes, it leaps with the frame:
+/// of motions with constant forces, dense in time, none is outside.
+TEST(FlowPassage, WhatIsLeftOverLeaps) {
+  const Interval forces(0.99, 1.01);
+  const Program f = record(2, 0, [&](auto, const auto& x, const auto&, auto& dx) {
+    dx[0] = x[1];
+    dx[1] = -constant<Recorded>(forces) * sign(x[0]) - 4.0 * (1.0 + sign(x[0]));
+  });
+  const Program truth = record(2, 1, [](auto, const auto& x, const auto& p, auto& dx) {
+    dx[0] = x[1];
+    dx[1] = -p[0] * sign(x[0]) - 4.0 * (1.0 + sign(x[0]));
+  });
+  const Box box{Interval(1, 1 + 0x1p-40), -1.0};
+  std::vector<double> times;
+  for (int i = 1; i <= 1024; ++i) times.push_back(0x1p-10 * i);
+  std::vector<double> rows;
+  for (int i = 1; i <= 8; ++i) rows.push_back(0.125 * i);
+  const Tube tube = Flow(f).enclose(box, 1, rows);
+  ASSERT_EQ(tube.why(), "");
+  EXPECT_LE(tube.pieces(), 2);
+  EventReference reference(truth);
+  for (const double force : {0.99, 1.0, 1.01}) {
+    const std::vector<Vector> motion = reference(Vector{1, -1, Precise(force)}, times);
+    for (std::size_t i = 0; i < times.size(); ++i)
+      for (std::size_t row = 1; row < tube.times().size(); ++row) {
+        if (!(tube.times()[row - 1] < times[i] && times[i] <= tube.times()[row])) continue;
+        for (std::size_t s = 0; s < 2; ++s) {
+          EXPECT_THAT(tube.statesOver(row)[s], Encloses(motion[i][s])) << times[i];
+          if (times[i] == tube.times()[row]) {
+            EXPECT_THAT(tube.states(row)[s], Encloses(motion[i][s])) << times[i];
+          }
+        }
+      }
+  }
+  EXPECT_EQ(reference.events, 3);
+}
+
 /// What a set leaves over passes as the saltation matrix says, which keeps areas here: a hundred of them cost no more
 /// than the shear between them does.
 TEST(FlowPassage, ErrorsDoNotGrowByPassing) {
