@@ -87,7 +87,7 @@ Box FlowStepper::boxAtStart(const FlowSet& set) const {
 
 FlowStepper::Look FlowStepper::lookAtKinks(const FlowSet& set, double& h, double smallest, double left) {
   if (passing_ != none) {
-    const Look look = turn_ ? Look::released : lookAtPassage(set, h, smallest, left);
+    const Look look = turn_ ? Look::released : lookAtPassage(set, h, smallest);
     if (look == Look::released) {  // known better otherwise
       passing_ = none;
       mayPass_ = isTurnMixed_ = false;

@@ -606,7 +606,7 @@ int FlowFollower::chordsFor(FlowPiece& piece, const std::vector<Interval>& befor
 /// Adds what the step that was just certified contributes to the tube; false if the piece has grown too wide.
 bool FlowFollower::record(FlowPiece& piece) {
   const std::vector<double>& times = task_.times;
-  const double t0 = piece.set.t, t1 = t0 + tool_->stepper.h();
+  const double t0 = piece.set.t, t1 = std::min(t0 + tool_->stepper.h(), task_.horizon);
   if (piece.last.empty()) {  // the start
     std::vector<Interval> outputs;
     extremes_.resize(extremesAt(0));

@@ -354,7 +354,7 @@ FlowStepper::Look FlowStepper::lookAtJumps(const FlowSet& set, double& h, double
     const double longest =
         loadRates(*ownRates_, set, h, others, lift_.empty() ? withLow(E_) : heldTube_) ? longestOnSides(h) : 0;
     if (longest < h && longest > 0 && mayTurn_) {
-      const Look look = lookAtSurface(set, h, smallest, left);
+      const Look look = lookAtSurface(set, h, smallest);
       if (look != Look::released) return look;
       mayTurn_ = false;
       if (!lift_.empty()) {
@@ -421,7 +421,7 @@ FlowStepper::Look FlowStepper::lookAtJumps(const FlowSet& set, double& h, double
       return Look::shorter;
     }
     if (!areHeld(heldBounds_) && mayTurn_) {
-      const Look look = lookAtRelease(set, h, smallest, left);
+      const Look look = lookAtRelease(set, h, smallest);
       if (look != Look::released) return look;
       mayTurn_ = false;
       if (!lift_.empty()) {

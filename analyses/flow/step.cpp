@@ -509,6 +509,8 @@ StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum,
   ownBounds_.clear();
   heldBounds_.clear();
   const double left = end - set.t;
+  // Signs of time that are known until the horizon are taken to stay beyond it: until then nothing else is said of f.
+  reach_ = end < length_ ? left : timeKinks_.nextLinear(set.parameters, end) - set.t;
   caution_ = set.caution;
   growth_.setUnits(set.units);
   const auto forgetCrossings = [&] {
@@ -592,6 +594,10 @@ StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum,
         }
         if (look == Look::again) {
           compute();
+          continue;
+        }
+        if (h > left && !turn_) {
+          h = left;
           continue;
         }
       }

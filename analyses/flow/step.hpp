@@ -89,7 +89,8 @@ class FlowStepper {
   FlowStepper(const Program& motion, std::shared_ptr<const Monomials> monomials, int frameDegree, int order,
               double tolerance, FlowInputs inputs, const std::atomic<bool>* cancelled = nullptr);
 
-  /// Certifies a step from `set` that ends no later than `end`. What adds more than its share is answered by
+  /// Certifies a step from `set` that ends no later than `end`; beyond it if that is the horizon and not all that turn
+  /// have turned. What adds more than its share is answered by
   /// splitWanted. h(), evaluate() and advance() refer to the step until the next call.
   StepOutcome certify(const FlowSet& set, double end, double quantum, const SplitShares& shares = {});
   double h() const { return h_; }
@@ -324,12 +325,11 @@ class FlowStepper {
   };
   FlowTurn* turnFor(std::size_t jump, double side, TurnKind kind);
   FlowTurn* passageFor(std::size_t kink, double side);
-  Look lookAtRelease(const FlowSet& set, double& h, double smallest, double left);
-  Look lookAtSurface(const FlowSet& set, double& h, double smallest, double left);
+  Look lookAtRelease(const FlowSet& set, double& h, double smallest);
+  Look lookAtSurface(const FlowSet& set, double& h, double smallest);
   bool mayPassAsTurn(std::size_t kink) const;
-  Look lookAtPassage(const FlowSet& set, double& h, double smallest, double left);
-  Look lookAtTurn(const FlowSet& set, double& h, double smallest, double left, Turn turn,
-                  const std::vector<Interval>& signs);
+  Look lookAtPassage(const FlowSet& set, double& h, double smallest);
+  Look lookAtTurn(const FlowSet& set, double& h, double smallest, Turn turn, const std::vector<Interval>& signs);
   void holdBeside(const std::vector<char>& held);
   bool holdUntilTurned(const FlowSet& set, const Turn& turn);
   Interval onceTurned(const AlongStep& along, int output, const Turn& turn) const;
@@ -393,6 +393,7 @@ class FlowStepper {
   std::map<std::vector<char>, std::unique_ptr<HeldSigns>> heldSigns_;  // once needed; null where there are none
   std::map<std::pair<int, bool>, AlongStep> heldPushes_;               // of own jumps, from above or not; once needed
   double length_ = 0, resolution_ = 0;                                 // of time, s
+  double reach_ = 0;           // how long a step may be in which solutions turn, s
   std::vector<double> sides_;  // of each own jump, on which all solutions are taken to be: 1, -1; 0: not; none: nowhere
   std::vector<char>
       leaving_;  // of each own jump, whether its side is taken so that others push it there; none: of none

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 #include <utility>
@@ -190,6 +191,14 @@ std::vector<Interval> TimeKinks::moments(const std::vector<Embedded>& parameters
   for (const Linear& kink : linear_) result.push_back(momentOf(kink.time, kink.constant, kink.parameters, parameters));
   for (const Switching& kink : switching_) result.insert(result.end(), kink.zeros.begin(), kink.zeros.end());
   return result;
+}
+
+double TimeKinks::nextLinear(const std::vector<Embedded>& parameters, double from) const {
+  double next = std::numeric_limits<double>::infinity();
+  for (const Linear& kink : linear_)
+    if (const Interval moment = momentOf(kink.time, kink.constant, kink.parameters, parameters); moment.lower() >= from)
+      next = std::min(next, moment.lower());
+  return next;
 }
 
 void TimeKinks::giveSides(const std::vector<Embedded>& parameters, double from, double to,

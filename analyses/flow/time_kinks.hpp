@@ -18,6 +18,8 @@ class TimeKinks {
   TimeKinks(const Program& f, double horizon, double resolution);
   /// When each u may be zero, s.
   std::vector<Interval> moments(const std::vector<Embedded>& parameters) const;
+  /// When the first u that is linear may be zero from `from` on, s; infinity: none is.
+  double nextLinear(const std::vector<Embedded>& parameters, double from) const;
   /// Tells `series`, which is of f, those that are on one side from one time to another, s.
   void giveSides(const std::vector<Embedded>& parameters, double from, double to, PolynomialSeries& series) const;
 

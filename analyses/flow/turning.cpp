@@ -108,7 +108,7 @@ FlowTurn* FlowStepper::passageFor(std::size_t kink, double side) {
 
 /// Whether one of those held lets all solutions go to one side within the step, before any other, and what is known of
 /// that. Look::released: it cannot be proved.
-FlowStepper::Look FlowStepper::lookAtRelease(const FlowSet& set, double& h, double smallest, double left) {
+FlowStepper::Look FlowStepper::lookAtRelease(const FlowSet& set, double& h, double smallest) {
   HeldSigns* const together = heldTogether(set, h, heldTube_);
   if (together == nullptr) return Look::released;
   double earliest = std::numeric_limits<double>::infinity(), side = 0;
@@ -131,7 +131,7 @@ FlowStepper::Look FlowStepper::lookAtRelease(const FlowSet& set, double& h, doub
   after[jump] = 0;
   const std::vector<Interval> signs = *signsBeside(heldBounds_);
   const Look look =
-      lookAtTurn(set, h, smallest, left, {jump, side, TurnKind::release, -1, of, {}, held_, after, signs}, signs);
+      lookAtTurn(set, h, smallest, {jump, side, TurnKind::release, -1, of, {}, held_, after, signs}, signs);
   if (look != Look::goOn) return look;
   stillHeld_ = after;
   holdBeside(after);
@@ -141,7 +141,7 @@ FlowStepper::Look FlowStepper::lookAtRelease(const FlowSet& set, double& h, doub
 }
 
 /// Likewise, whether all solutions come from one side to a surface, to be held there or to pass.
-FlowStepper::Look FlowStepper::lookAtSurface(const FlowSet& set, double& h, double smallest, double left) {
+FlowStepper::Look FlowStepper::lookAtSurface(const FlowSet& set, double& h, double smallest) {
   const FlowJumps& own = own_->jumps();
   std::optional<std::size_t> jump;
   std::vector<Interval> signs;
@@ -188,7 +188,7 @@ FlowStepper::Look FlowStepper::lookAtSurface(const FlowSet& set, double& h, doub
   }
   if (!held_.empty() && left_[which] != static_cast<int>(*jump)) return Look::released;
   after[which] = static_cast<char>(arrives);
-  const Look look = lookAtTurn(set, h, smallest, left,
+  const Look look = lookAtTurn(set, h, smallest,
                                {which,
                                 arrives ? factor * side : -factor * side,
                                 kind,
@@ -219,7 +219,7 @@ bool FlowStepper::mayPassAsTurn(std::size_t kink) const {
 }
 
 /// Likewise, whether they pass the kink.
-FlowStepper::Look FlowStepper::lookAtPassage(const FlowSet& set, double& h, double smallest, double left) {
+FlowStepper::Look FlowStepper::lookAtPassage(const FlowSet& set, double& h, double smallest) {
   std::vector<Interval> signs;
   for (std::size_t j = 0; own_ && j < own_->jumps().count(); ++j) {
     const double sign = series_.series(series_.jumps()[j])[0];
@@ -239,8 +239,8 @@ FlowStepper::Look FlowStepper::lookAtPassage(const FlowSet& set, double& h, doub
   FlowTurn* const of = passageFor(passing_, passingFrom_);
   if (!of->load(series_, set.t, h0_, h / h0_, set.parameters, signs, heldTube_)) return Look::released;
   if (of->over(of->guard(), 0, h / h0_).upper() < 0) return Look::goOn;  // none of them comes so far
-  const Look look = lookAtTurn(set, h, smallest, left,
-                               {none, -passingFrom_, TurnKind::passage, -1, of, {}, held_, held_, all}, signs);
+  const Look look =
+      lookAtTurn(set, h, smallest, {none, -passingFrom_, TurnKind::passage, -1, of, {}, held_, held_, all}, signs);
   if (look != Look::goOn) return look;
   holdBeside(held_);
   for (JumpBound& bound : ownBounds_) bound = {.sign = bound.sign};  // rates are others then
@@ -326,8 +326,9 @@ bool FlowStepper::holdOnceTurned(const FlowSet& set, const Turn& turn, const std
   return together->decides(std::max(0.0, turn.moments.lower()) / h0_, theta_);
 }
 
-/// Whether the turn takes all solutions within the step, which is then somewhat longer than until the last has turned.
-FlowStepper::Look FlowStepper::lookAtTurn(const FlowSet& set, double& h, double smallest, double left, Turn turn,
+/// Whether the turn takes all solutions within the step, which is then somewhat longer than until the last has turned,
+/// also beyond the horizon.
+FlowStepper::Look FlowStepper::lookAtTurn(const FlowSet& set, double& h, double smallest, Turn turn,
                                           const std::vector<Interval>& signs) {
   constexpr int mostTries = 8;
   constexpr double longer = 1.25, slack = 1.02;
@@ -340,7 +341,8 @@ FlowStepper::Look FlowStepper::lookAtTurn(const FlowSet& set, double& h, double 
   if (!(guardAt(h).lower() > 0)) {  // not yet all of them
     const Interval growth = over(of.growth(), h, h);
     const double all = h - guardAt(h).lower() / growth.lower() * longer;
-    if (!(growth.lower() > 0) || !std::isfinite(all) || all > left || ++lengthened_ > mostTries) return Look::released;
+    if (!(growth.lower() > 0) || !std::isfinite(all) || all > reach_ || ++lengthened_ > mostTries)
+      return Look::released;
     h = std::min(all, 4 * h);
     return Look::longer;
   }
@@ -355,7 +357,7 @@ FlowStepper::Look FlowStepper::lookAtTurn(const FlowSet& set, double& h, double 
   constexpr double ofSpread = 0.25, ofStep = 0x1p-6;  // so much longer: all are known to have turned, then
   if (!(beyondLast_ > 0)) beyondLast_ = std::max({ofSpread * (last - first), ofStep * h, smallest});
   const double target = last + beyondLast_;
-  if (target > left) return Look::released;
+  if (target > reach_) return Look::released;
   if (h > slack * target) {
     h = target;
     return Look::shorter;

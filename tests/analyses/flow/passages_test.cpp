@@ -83,6 +83,23 @@ TEST_P(FlowPassages, HoldTrajectories) {
   EXPECT_LE(Flow(machine.f).enclose(machine.box, machine.horizon, {}).tightness(), 1.05);
 }
 
+/// Wherever the horizon is, among the moments at which they pass or after them; also where a load that a time
+/// switches comes behind it.
+TEST(FlowPassage, AHorizonMayBeBetweenTheMoments) {
+  const Program f = record(1, 1, [](auto t, const auto& x, const auto& p, auto& dx) {
+    dx[0] = p[0] * (1.5 + sign(t - 1.75)) / (2.0 + sign(x[0]));
+  });
+  for (int i = 2; i <= 16; ++i) {
+    SCOPED_TRACE(i);
+    Containment c;
+    c.f = f;
+    c.box = {-0.75, Interval(0.9375, 1.0625)};
+    c.horizon = 1.375 + 0.03125 * i;  // they pass from 1.41 s to 1.6 s
+    c.times = {0.5 * c.horizon, 0.984375 * c.horizon};
+    EXPECT_LE(expectEvents(c, 8).pieces(), 2);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Flow, FlowPassages, ::testing::ValuesIn(passing()),
                          [](const auto& machine) { return machine.param.name; });
 
