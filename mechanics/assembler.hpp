@@ -18,6 +18,7 @@
 
 #include "mechanics/description/mechanism.hpp"
 #include "mechanics/element.hpp"
+#include "mechanics/rigid_end.hpp"
 #include "mechanics/rotation.hpp"
 
 namespace gamut {
@@ -55,6 +56,8 @@ class Assembler {
   Orientation<S> orientation(const std::string& rateKey);
   /// The element's own state, with its rate.
   S& state(Signal<S> rate) { return giveRate(element_, std::move(rate)); }
+
+  void endTravel(RigidEnd<S> end) { ends_.push_back(std::move(end)); }
 
   const S& time() const { return time_; }
   /// The present value of an expression of time, states and whatever can be measured, after positions and velocities
@@ -125,6 +128,7 @@ class Assembler {
   std::map<std::string, S> values_;                // of positions that are no coordinates, and of own states
   std::map<std::string, Signal<S>> rates_;         // of these
   std::map<std::string, Signal<S>> measured_;      // whatever can be looked at
+  std::vector<RigidEnd<S>> ends_;
   std::vector<std::unique_ptr<Element<S>>> given_, first_, parts_;
 };
 

@@ -56,6 +56,7 @@ Assembly<S>::Assembly(const Mechanism& mechanism, const std::vector<std::string>
   if (const auto& shaking = mechanism.baseAcceleration())
     system_->shake([of = std::array{parts_.signal((*shaking)[0]), parts_.signal((*shaking)[1]),
                                     parts_.signal((*shaking)[2])}] { return Vector3<S>(of[0](), of[1](), of[2]()); });
+  unfoldEnds(mechanism);
   parts_.solve_ = [this] { solve(); };
   measureFrames();
   measureReactions(mechanism);
@@ -67,6 +68,18 @@ Assembly<S>::Assembly(const Mechanism& mechanism, const std::vector<std::string>
   }
   // What is recorded is the motion from any state; at the initial one it may be singular.
   if constexpr (!std::is_same_v<S, Recorded>) setState(initialState_);
+}
+
+template <class S>
+void Assembly<S>::unfoldEnds(const Mechanism& mechanism) {
+  const std::vector<std::string> names = mechanism.stateNames();
+  const auto placeOf = [&](const std::string& state) {
+    return static_cast<std::size_t>(std::ranges::find(names, state) - names.begin());
+  };
+  std::vector<typename Unfolding<S>::Struck> struck;
+  for (const RigidEnd<S>& end : parts_.ends_)
+    struck.push_back({end, placeOf(end.coordinate), placeOf(mechanism.coordinateWith(end.coordinate)->rate)});
+  unfolding_ = std::make_unique<Unfolding<S>>(std::move(struck), mechanism.positions(), *system_);
 }
 
 template <class S>
@@ -211,10 +224,65 @@ void Assembly<S>::setState(std::span<const S> x, const S& time) {
 
 template <class S>
 void Assembly<S>::setMotion(std::span<const S> x, const S& time) {
+  const std::vector<S> states = withOrigin(x);
+  setUnfolded(states, unfolding_->sidesAt(states), time);
+}
+
+template <class S>
+std::vector<S> Assembly<S>::withOrigin(std::span<const S> x) const {
   std::vector<S> states(x.begin(), x.end());
   for (std::size_t i = 0; i < states.size() && i < origin_.size(); ++i)
     if (!isKnownZero(origin_[i])) states[i] = states[i] + origin_[i];
+  return states;
+}
+
+template <class S>
+void Assembly<S>::setUnfolded(std::vector<S> states, const std::vector<S>& sides, const S& time, bool isSmooth) {
+  unfolding_->fold(states, sides, isSmooth, [&](const std::vector<S>& folded) { setState(folded, time); });
   setState(states, time);
+}
+
+template <class S>
+std::vector<S> Assembly<S>::onSides(std::span<const S> x, const S& time, bool isSmooth,
+                                    const std::function<std::vector<S>()>& what) requires std::same_as<S, Recorded> {
+  const std::vector<S> states = withOrigin(x), sides = unfolding_->sidesAt(states);
+  std::vector<S> shares;
+  std::vector<std::vector<S>> found;
+  for (unsigned branch = 0; branch < 1U << sides.size(); ++branch) {
+    std::vector<S> taken;
+    S share(1.0);
+    for (std::size_t k = 0; k < sides.size(); ++k) {
+      taken.emplace_back((branch >> k & 1U) == 0 ? 1.0 : -1.0);
+      share = share * (S(0.5) + S(0.5) * (taken.back() * sides[k]));
+    }
+    setUnfolded(states, taken, time, isSmooth);
+    shares.push_back(share);
+    found.push_back(what());
+  }
+  std::vector<S> result = found.front();
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    if (std::ranges::all_of(found, [&](const auto& onSide) { return isKnownSame(onSide[i], result[i]); })) continue;
+    result[i] = S(0.0);
+    for (std::size_t branch = 0; branch < found.size(); ++branch)
+      result[i] = result[i] + shares[branch] * found[branch][i];
+  }
+  return result;
+}
+
+template <class S>
+std::vector<S> Assembly<S>::motionRates(std::span<const S> x, const S& time,
+                                        Formulation formulation) requires std::same_as<S, Recorded> {
+  return onSides(x, time, true, [&] {
+    std::vector<S> found = rates(formulation);
+    unfolding_->unfold(found, x, time);
+    return found;
+  });
+}
+
+template <class S>
+std::vector<S> Assembly<S>::ofMotion(std::span<const S> x, const S& time,
+                                     const std::function<std::vector<S>()>& what) requires std::same_as<S, Recorded> {
+  return onSides(x, time, false, what);
 }
 
 template <class S>

@@ -6,6 +6,8 @@
 //   Interval height = arm.output("tip.position.z");
 #pragma once
 
+#include <concepts>
+#include <functional>
 #include <span>
 #include <string>
 #include <unordered_map>
@@ -13,6 +15,7 @@
 
 #include "mechanics/assembler.hpp"
 #include "mechanics/equations/system.hpp"
+#include "mechanics/equations/unfolding.hpp"
 #include "mechanics/measurements.hpp"
 #include "mechanics/spin.hpp"
 
@@ -35,12 +38,19 @@ class Assembly {
   void setState(std::span<const S> x, const S& time = S(0.0));
   /// The same by the states of a recorded motion: one whose initial value follows from a free parameter
   /// (Mechanism::startsWith) is given as its difference from that, which is zero at the start, so that each parameter
-  /// stands in one place.
+  /// stands in one place; motions that strike rigid ends are unfolded (equations/unfolding.hpp).
   void setMotion(std::span<const S> x, const S& time = S(0.0));
   /// u̇ for the present state.
   std::vector<S> accelerations(Formulation formulation = Formulation::sparse);
   /// ẋ for the present state: rates of positions, accelerations, rates of own states.
   std::vector<S> rates(Formulation formulation = Formulation::sparse);
+  /// The rates of the states x of a recorded motion, and what `what` tells of the machine that setMotion(x, time) has
+  /// moved. Of a machine with rigid ends these are what they are on each side, as smooth there as without ends, times
+  /// (1 ± σ)/2: affine in σ.
+  std::vector<S> motionRates(std::span<const S> x, const S& time,
+                             Formulation formulation) requires std::same_as<S, Recorded>;
+  std::vector<S> ofMotion(std::span<const S> x, const S& time,
+                          const std::function<std::vector<S>()>& what) requires std::same_as<S, Recorded>;
   /// The present value of one of Mechanism::outputQuantities(), or of an expression of these, of parameters and of time
   /// t. Throws std::invalid_argument for any other name, naming the nearest, and for what is no expression.
   S output(const std::string& quantity) const;
@@ -59,6 +69,11 @@ class Assembly {
   void takeNumbers(const Mechanism& mechanism, const std::vector<std::string>& freeParameters,
                    std::span<const S> values);
   void makeStates(const Mechanism& mechanism);
+  std::vector<S> withOrigin(std::span<const S> x) const;
+  void setUnfolded(std::vector<S> states, const std::vector<S>& sides, const S& time, bool isSmooth = false);
+  std::vector<S> onSides(std::span<const S> x, const S& time, bool isSmooth,
+                         const std::function<std::vector<S>()>& what) requires std::same_as<S, Recorded>;
+  void unfoldEnds(const Mechanism& mechanism);
   void measureFrames();
   void measureReactions(const Mechanism& mechanism);
   void measureWhole();
@@ -76,6 +91,7 @@ class Assembly {
   std::unordered_map<const Frame<S>*, Unturned<S>> unturned_;  // of frames whose bodies are stated ahead of their spin
   Chain<S> chain_;
   std::unique_ptr<System<S>> system_;
+  std::unique_ptr<Unfolding<S>> unfolding_;
   std::vector<S*> states_;  // in the order of Mechanism::stateNames()
   std::vector<Signal<S>> positionRates_, ownRates_;
   std::vector<S> initialState_, origin_;  // the second: what differences of states are from; else zero

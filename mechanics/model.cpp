@@ -15,8 +15,7 @@ Program recordMotion(const Mechanism& mechanism, const std::vector<std::string>&
   try {
     return record(states, static_cast<int>(freeParameters.size()), [&](auto t, const auto& x, const auto& p, auto& dx) {
       Assembly<Recorded> assembly(mechanism, freeParameters, p);
-      assembly.setMotion(x, t);
-      const std::vector<Recorded> rates = assembly.rates(formulation);
+      const std::vector<Recorded> rates = assembly.motionRates(x, t, formulation);
       for (std::size_t i = 0; i < rates.size(); ++i) dx[i] = rates[i];
     });
   } catch (const std::domain_error& error) {
@@ -41,8 +40,8 @@ Program recordOutputs(const Mechanism& mechanism, const std::vector<std::string>
   return record(static_cast<int>(mechanism.stateNames().size()), static_cast<int>(freeParameters.size()),
                 static_cast<int>(outputs.size()), [&](auto t, const auto& x, const auto& p, auto& y) {
                   Assembly<Recorded> assembly(mechanism, freeParameters, p);
-                  assembly.setMotion(x, t);
-                  const std::vector<Recorded> values = recordOutputs(assembly, outputs);
+                  const std::vector<Recorded> values =
+                      assembly.ofMotion(x, t, [&] { return recordOutputs(assembly, outputs); });
                   for (std::size_t i = 0; i < values.size(); ++i) y[i] = values[i];
                 });
 }

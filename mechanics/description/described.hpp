@@ -34,6 +34,7 @@ struct Fault {
   std::string key;       ///< of the number
   std::string sentence;  ///< "the mass of 'bob' is negative"
   std::string expected;  ///< "a mass of at least 0 kg"
+  bool isFatal = false;  ///< what would be computed for such values is not what they say
 };
 
 class Described {

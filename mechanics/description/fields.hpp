@@ -53,6 +53,12 @@ constexpr const char* unitOf(Coordinate kind) { return kind == Coordinate::angle
 /// Of the generalised force: "N m", "N".
 constexpr const char* forceUnitOf(Coordinate kind) { return kind == Coordinate::angle ? "N m" : "N"; }
 
+/// How a coordinate's motion starts.
+struct Start {
+  Expression position = 0.0, rate = 0.0;
+  bool isRising = false;  ///< its rate is above 0, where everything is nominal
+};
+
 class Fields {
  public:
   Fields() = default;
@@ -107,6 +113,10 @@ class Fields {
   virtual Coordinate drivenCoordinate(const Word& word, std::string& name) { return coordinateOf(word, name); }
   /// The same; what it follows is another coordinate, `leader`, and no other coordinate follows it yet.
   virtual Coordinate followingCoordinate(const Word& word, std::string& name, const std::string& /*leader*/) {
+    return coordinateOf(word, name);
+  }
+  /// The same, of one that is a state, with how it starts.
+  virtual Coordinate struckCoordinate(const Word& word, std::string& name, Start& /*start*/) {
     return coordinateOf(word, name);
   }
   /// An expression of time alone and parameters.

@@ -261,6 +261,9 @@ void Mechanism::drive(const std::string& coordinate, const std::string& by) {
   if (driven->isDriven)
     refuse("the joint " + inQuotes(coordinate) + " is driven twice, the second time by " + inQuotes(by) +
            "; expected one drive, coupling or motion a joint");
+  if (const auto end = struck_.find(coordinate); end != struck_.end())
+    refuse("the joint " + inQuotes(coordinate) + " is driven by " + inQuotes(by) + ", so that it cannot strike " +
+           inQuotes(end->second) + "; expected a joint that moves freely");
   for (const std::string& name : {driven->name, driven->rate}) {
     const NamedValue* initial = initials_.find(name);
     if (initial == nullptr || !isEqual(initial->nominal, Interval(0.0)))
@@ -370,6 +373,19 @@ class Mechanism::Checker final : public Fields {
                inQuotes(following.follower) + " follows it; expected its drive ahead of what follows it");
     m_.followings_.push_back({name, leader});
     return drivenCoordinate(word, name);
+  }
+  Coordinate struckCoordinate(const Word& /*word*/, std::string& name, Start& start) override {
+    const JointCoordinate& struck = found(name);
+    if (struck.isDriven)
+      refuse("the joint " + inQuotes(name) + " is driven, so that it cannot strike " + inQuotes(element_) +
+             "; expected a joint that moves freely");
+    if (!m_.struck_.emplace(name, element_).second)
+      refuse("the joint " + inQuotes(name) + " has two rigid ends, " + inQuotes(m_.struck_.at(name)) + " and " +
+             inQuotes(element_) + "; expected an elastic one, `joint-stop`, in place of one of them");
+    start.position = m_.positions_.find(struck.name)->initial;
+    start.rate = m_.speeds_.find(struck.rate)->initial;
+    start.isRising = m_.rangeOf(start.rate).upper() > 0;
+    return struck.kind;
   }
   void timeFunction(const Word& word, Expression& number) override {
     if (!number.isSmooth())

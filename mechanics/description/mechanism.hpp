@@ -231,6 +231,7 @@ class Mechanism {
   std::unordered_map<std::string, std::string> coordinateOfRate_;
   std::unordered_map<std::string, std::vector<std::string>> coordinatesOf_;  // elements
   std::vector<Following> followings_;
+  std::unordered_map<std::string, std::string> struck_;  // coordinates that strike a rigid end: its element
   Named<Measured> measured_;
   std::unordered_map<std::string, std::vector<Signal>> signals_;  // of elements
 };

@@ -20,6 +20,7 @@
 #include "mechanics/elements/prismatic.hpp"
 #include "mechanics/elements/relative_motion.hpp"
 #include "mechanics/elements/revolute.hpp"
+#include "mechanics/elements/rigid_stop.hpp"
 #include "mechanics/elements/screw.hpp"
 #include "mechanics/elements/spherical.hpp"
 #include "mechanics/elements/spring.hpp"

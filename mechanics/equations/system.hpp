@@ -41,6 +41,7 @@ class System {
   }
 
   int degreesOfFreedom() const { return static_cast<int>(speeds_.size()); }
+  bool isConstrained() const { return !chain_.constraints().empty(); }
 
   /// Moves every frame by the variables' present positions, rates and accelerations.
   void doMotion(MotionLevel level = MotionLevel::all);

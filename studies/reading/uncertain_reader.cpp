@@ -77,7 +77,8 @@ class UncertainReader {
   }
 
   /// Says so if within the intervals there are values that make no sense, such as an inertia that no body has. They may
-  /// still be meant: of a body that only turns about one axis, the other moments do not matter.
+  /// still be meant: of a body that only turns about one axis, the other moments do not matter. Fails for those of
+  /// which what would be computed is not what they say.
   void noteFaults() {
     const Mechanism& mechanism = study_.mechanism;
     std::map<std::string, Interval> ranges;
@@ -92,8 +93,8 @@ class UncertainReader {
       std::vector<std::string> sentences;
       for (const Fault& doubt : element.doubts([&](const Expression& n) { return mechanism.rangeOf(n); }, range))
         sentences.push_back(doubt.sentence);
-      for (const Fault& fault : mechanism.faults(element, ranges))
-        sentences.push_back("for some values in the intervals " + fault.sentence);
+      const std::vector<Fault> faults = mechanism.faults(element, ranges);
+      for (const Fault& fault : faults) sentences.push_back("for some values in the intervals " + fault.sentence);
       if (sentences.empty()) continue;
       const auto varies = [&](const UncertainQuantity& uncertain) {
         return std::ranges::any_of(asked, [&](const auto& n) { return mechanism.dependsOn(n, uncertain.quantity); });
@@ -102,8 +103,11 @@ class UncertainReader {
       if (first == study_.uncertain.end()) continue;
       const toml::table& table = *tables_[static_cast<std::size_t>(first - study_.uncertain.begin())];
       const toml::node* interval = table.get("interval");
-      for (const std::string& sentence : sentences)
-        study_.notes.push_back(source_.note(interval != nullptr ? *interval : *table.get("quantity"), sentence));
+      const toml::node& place = interval != nullptr ? *interval : *table.get("quantity");
+      for (const Fault& fault : faults)
+        if (fault.isFatal)
+          source_.failWith(place, "for some values in the intervals " + fault.sentence, fault.expected);
+      for (const std::string& sentence : sentences) study_.notes.push_back(source_.note(place, sentence));
     }
   }
 

@@ -43,12 +43,12 @@ std::array<T, 2> publishedDoublePendulum(const std::array<T, 4>& x, const T& g, 
 
 /// A spatial arm with everything on it: aligned, reversed and oblique axes, a slider, fixed rotations, bodies with full
 /// inertia tensors off their frames, a spring from the ground and springs on joints; `damping` for all of them.
-inline Mechanism spatialArm(const Interval& damping = 0.0) {
+inline Mechanism spatialArm(const Interval& damping = 0.0, double hipRate = 1.1) {
   Mechanism m;
   m.add(Revolute{"base", "inertial", "A", axisZ, 0.3, 0.5});
   m.add(Mass{"column", "A", 2.0, {0.1, -0.2, 0.3}, {0.4, 0.5, 0.3, 0.02, -0.03, 0.05}});
   m.add(Link{"offset", "A", "B", {0.2, -0.1, 0.5}, {{axisX, 1, 0.0}, {Axis(1, 2, -2), 0, 0.4}}});
-  m.add(Revolute{"hip", "B", "C", Axis(0, -1, 0), -0.7, 1.1});
+  m.add(Revolute{"hip", "B", "C", Axis(0, -1, 0), -0.7, hipRate});
   m.add(Link{"boom", "C", "D", {0.0, 0.3, -0.8}});
   m.add(Mass{"boomBody", "D", 1.5, {0.0, 0.05, 0.4}, {0.2, 0.25, 0.1, 0.0, 0.01, 0.0}});
   m.add(Prismatic{"slide", "D", "E", Axis(1, 0, -3), 0.4, -0.6});

@@ -1,0 +1,27 @@
+// A rigid end of a joint's travel.
+#pragma once
+
+#include "mechanics/description/described.hpp"
+
+namespace gamut {
+
+/// q̇⁺ = −e q̇⁻ where q = at (Newton's law of impact), by an impulse that works on q alone; equations/unfolding.hpp.
+struct RigidStop {
+  static constexpr const char* type = "rigid-stop";
+  static constexpr const char* summary =
+      "a rigid end of a joint's travel, which the joint strikes and leaves at `restitution` times its speed (Newton's "
+      "law of impact); all other joints get what the impulse at the joint gives them. What comes to rest on it by ever "
+      "smaller impacts is followed until then";
+
+  std::string name, joint;
+  Expression at = 0.0, restitution = 1.0;  ///< rad or m, 1
+  std::string end = "lower";
+  Start start = {};
+
+  void describe(Fields& f);
+  template <class S>
+  void assemble(Assembler<S>& a) const;
+  std::vector<Fault> faults(const RangeOf& rangeOf) const;
+};
+
+}  // namespace gamut

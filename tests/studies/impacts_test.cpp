@@ -1,0 +1,250 @@
+// Enclosures of machines that strike rigid stops, against motions of the same machines without stops in 128 bits, in
+// which each impact is located and its impulse M⁻¹eᵢ Λ added: nothing of how motions are unfolded is in them.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <random>
+
+#include "analyses/samples/arbiter.hpp"
+#include "mechanics/assembly.hpp"
+#include "mechanics/model.hpp"
+#include "scalars/algebra/linear_system.hpp"
+#include "scalars/evaluation/evaluator.hpp"
+#include "scalars/evaluation/series.hpp"
+#include "studies/problem.hpp"
+#include "studies/running/run.hpp"
+#include "tests/studies/sample_study.hpp"
+
+namespace gamut {
+namespace {
+
+using ::testing::HasSubstr;
+using Vector = std::vector<Precise>;
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+struct Stop {
+  std::size_t coordinate;
+  double at, restitution;
+  bool isUpper = false;
+};
+
+/// Follows the free machine from impact to impact, by Taylor series of order 30 in steps of 1/128 s: in machines whose
+/// quickest turn is some 20 rad/s these are exact to (20/128)^30, some 1e-24.
+class ImpactReference {
+ public:
+  ImpactReference(const Study& free, Stop stop)
+      : f_(recordMotion(free.mechanism, makeProblem(free).freeParameters, Formulation::articulated)),
+        series_(f_, 30),
+        stop_(stop),
+        inertia_(inertiaOf(free)) {}
+
+  std::vector<Vector> operator()(const Vector& start, const std::vector<double>& times) {
+    const std::size_t n = at(f_.states()), i = stop_.coordinate;
+    Vector x(start.begin(), start.begin() + static_cast<std::ptrdiff_t>(n));
+    const Vector p(start.begin() + static_cast<std::ptrdiff_t>(n), start.end());
+    series_.setParameters(p);
+    inertia_.setParameters(p);
+    std::vector<Vector> result;
+    Precise t(0.0);
+    for (;;) {
+      series_.solve(t, x);
+      Precise h(1.0 / 128);
+      const auto isBeyond = [&](const Precise& tau) {
+        const Precise q = after(tau)[i];
+        return stop_.isUpper ? q > stop_.at : q < stop_.at;
+      };
+      const bool strikes = isBeyond(h);
+      if (strikes) {
+        Precise low(0.0), high = h;
+        for (int k = 0; k < 130; ++k) {
+          const Precise middle = (low + high) / 2;
+          (isBeyond(middle) ? high : low) = middle;
+        }
+        h = low;
+      }
+      while (result.size() < times.size() && Precise(times[result.size()]) <= t + h)
+        result.push_back(after(Precise(times[result.size()]) - t));
+      if (result.size() == times.size()) return result;
+      x = after(h);
+      t += h;
+      if (strikes) strike(t, x);
+    }
+  }
+
+  int impacts = 0;
+
+ private:
+  static Program inertiaOf(const Study& study) {
+    const auto parameters = makeProblem(study).freeParameters;
+    const int f = study.mechanism.degreesOfFreedom(), states = static_cast<int>(study.mechanism.stateNames().size());
+    return record(states, static_cast<int>(parameters.size()), f * f,
+                  [&](auto t, const auto& x, const auto& p, auto& y) {
+                    Assembly<Recorded> assembly(study.mechanism, parameters, p);
+                    assembly.setMotion(x, t);
+                    const auto m = assembly.system().inertiaMatrix();
+                    for (int row = 0; row < f; ++row)
+                      for (int column = 0; column < f; ++column) y[at(row * f + column)] = m(row, column);
+                  });
+  }
+  Vector after(const Precise& tau) {
+    Vector x(at(f_.states()));
+    for (std::size_t s = 0; s < x.size(); ++s)
+      for (int i = 30; i >= 0; --i) x[s] = x[s] * tau + series_.at(static_cast<int>(s), i);
+    return x;
+  }
+  void strike(const Precise& t, Vector& x) {
+    const std::size_t f = x.size() / 2, i = stop_.coordinate;
+    Vector impulse(f, Precise(0.0));
+    impulse[i] = 1;
+    LinearSystem<Precise>(MatrixKind::positiveDefinite, static_cast<int>(f), inertia_(t, x)).solve(impulse);
+    const Precise change = -(1 + Precise(stop_.restitution)) * x[f + i];
+    for (std::size_t j = 0; j < f; ++j) x[f + j] += change * impulse[j] / impulse[i];
+    ++impacts;
+  }
+
+  Program f_;
+  Series<Precise> series_;
+  Stop stop_;
+  Evaluator<Precise> inertia_;
+};
+
+/// The study with the stop, its outputs the states, holds what the free machine does between impacts.
+Results expectHeld(const std::string& text, const Stop& stop, const std::string& joint, int trajectories, int impacts) {
+  const std::string end = stop.isUpper ? "upper" : "lower";
+  const std::string element = fmt::format(
+      "[[mechanism.element]]\ntype = \"rigid-stop\"\nname = \"stop\"\njoint = \"{}\"\nat = {}\nrestitution = {}\n"
+      "end = \"{}\"\n",
+      joint, stop.at, stop.restitution, end);
+  const Study free = readStudyText(text + "[[output]]\nquantity = \"energy\"\n", "free.toml");
+  std::string outputs;
+  for (const std::string& state : free.mechanism.stateNames())
+    outputs += fmt::format("[[output]]\nname = \"out_{}\"\nquantity = \"{}\"\n", state, state);
+  const Study study = readStudyText(std::string(text).insert(text.find("[[uncertain]]"), element) + outputs, "s.toml");
+  const Results results = run(study);
+  EXPECT_EQ(results.interval.why, "");
+  EXPECT_EQ(results.comparison.verdict, "inside");
+  const Problem problem = makeProblem(study);
+  ImpactReference reference(free, stop);
+  std::mt19937_64 random(29);
+  const auto inside = [&](const Interval& side, bool isCorner) {
+    const double part = isCorner ? static_cast<double>(random() % 2) : std::uniform_real_distribution<>(0, 1)(random);
+    return std::clamp(side.lower() * (1 - part) + side.upper() * part, side.lower(), side.upper());
+  };
+  for (int trial = 0; trial < trajectories && !::testing::Test::HasFailure(); ++trial) {
+    Vector start;
+    for (const Interval& side : problem.box) start.emplace_back(inside(side, trial % 2 == 0));
+    const std::vector<Vector> motion = reference(start, study.motion.times);
+    for (std::size_t row = 0; row < motion.size(); ++row)
+      for (std::size_t s = 0; s < motion[row].size(); ++s) {
+        const std::size_t o = study.outputs.size() - motion[row].size() + s;
+        EXPECT_TRUE(Precise(results.interval.at.lower(row, o)) <= motion[row][s] &&
+                    motion[row][s] <= Precise(results.interval.at.upper(row, o)))
+            << study.motion.times[row] << ' ' << study.outputs[o].name;
+      }
+  }
+  EXPECT_GE(reference.impacts, impacts);
+  return results;
+}
+
+std::string head(double horizon, const char* compare = "[\"interval\", \"stochastic\"]") {
+  return fmt::format(
+      "[study]\ntitle = \"Impacts\"\nanalysis = \"dynamics\"\nhorizon = {}\noutput_step = {}\ncompare = {}\n"
+      "[stochastic]\nsamples = 64\n[mechanism]\ngravity = [0, 0, -9.8125]\n",
+      horizon, horizon / 32, compare);
+}
+
+std::string mass(const std::string& at, double kilograms) {
+  return fmt::format("[[mechanism.element]]\ntype = \"mass\"\nname = \"{0}Mass\"\nat = \"{0}\"\nmass = {1}\n", at,
+                     kilograms);
+}
+
+std::string joint(const std::string& type, const std::string& name, const std::string& from, const std::string& to,
+                  const std::string& axis, const std::string& initial) {
+  return fmt::format(
+      "[[mechanism.element]]\ntype = \"{}\"\nname = \"{}\"\nfrom = \"{}\"\nto = \"{}\"\naxis = \"{}\"\n"
+      "initial = {{ {} }}\n",
+      type, name, from, to, axis, initial);
+}
+
+std::string rod(const std::string& from, const std::string& to, double length) {
+  return fmt::format(
+             "[[mechanism.element]]\ntype = \"link\"\nname = \"{}Rod\"\nfrom = \"{}\"\nto = \"{}\"\n"
+             "vector = [0, 0, {}]\n",
+             to, from, to, -length) +
+         mass(to, length);
+}
+
+std::string uncertain(const std::string& quantity, const std::string& interval) {
+  return fmt::format("[[uncertain]]\nquantity = \"{}\"\ninterval = \"{}\"\n", quantity, interval);
+}
+
+std::string ball(double horizon, const std::string& initial) {
+  return head(horizon) + joint("prismatic", "fall", "inertial", "ball", "z", initial) + mass("ball", 0.25);
+}
+
+/// Hinges a, b, … one below the other.
+std::string chain(double horizon, const std::vector<std::string>& angles) {
+  std::string text = head(horizon), from = "inertial";
+  for (std::size_t i = 0; i < angles.size(); ++i) {
+    const std::string name(1, static_cast<char>('a' + i));
+    text += joint("revolute", name, from, name + "1", "x", "angle = " + angles[i]);
+    text += rod(name + "1", name + "2", 0.5 / static_cast<double>(i + 1));
+    from = name + "2";
+  }
+  return text;
+}
+
+TEST(Impacts, OfABallAreHeld) {
+  const std::string height = uncertain("fall.displacement", "± 1 %");
+  const Results low = expectHeld(ball(2.0, "displacement = 1.0") + height, {0, 0.0, 0.75}, "fall", 12, 12 * 3);
+  EXPECT_LT(low.comparison.maximum, 1.15);
+  expectHeld(ball(2.0, "displacement = -0.5, rate = 4.5") + uncertain("fall.rate", "± 10 %"), {0, 0.125, 0.5, true},
+             "fall", 12, 12);
+  expectHeld(ball(1.5, "displacement = 0.5, rate = 2.0") + uncertain("fall.rate", "± 5 %"), {0, -0.25, 0.875}, "fall",
+             12, 12);
+}
+
+TEST(Impacts, AtOneHingeOfTwoMoveTheOther) {
+  const std::string text =
+      chain(0.875, {"0.75", "0.125"}) + uncertain("a.angle", "± 1 %") + uncertain("b2Mass.mass", "± 5 %");
+  const Results results = expectHeld(text, {0, -0.125, 0.625}, "a", 8, 8);
+  EXPECT_LT(results.comparison.maximum, 1.15);
+  expectHeld(text, {1, 0.1875, 0.5, true}, "b", 8, 8);
+}
+
+TEST(Impacts, AtOneHingeOfThreeMoveTheOthers) {
+  const std::string text = chain(0.75, {"0.5", "0.25", "-0.25"}) + uncertain("a.angle", "± 1 %");
+  expectHeld(text, {1, 0.125, 0.75}, "b", 4, 4);
+}
+
+TEST(Impacts, OfACartSwingItsPendulum) {
+  const std::string text = head(1.125) +
+                           joint("prismatic", "cart", "inertial", "C", "y", "displacement = 0.0, rate = -1.0") +
+                           mass("C", 2.0) + joint("revolute", "swing", "C", "S", "x", "angle = 0.5") +
+                           rod("S", "tip", 0.5) + uncertain("cart.rate", "± 5 %") + uncertain("CMass.mass", "± 10 %");
+  const Results results = expectHeld(text, {0, -0.5, 0.5}, "cart", 8, 8);
+  EXPECT_LT(results.comparison.maximum, 1.15);
+}
+
+TEST(Impacts, NeedAStartThatIsKnown) {
+  const auto saidOf = [](const std::string& initial, const std::string& quantity, const std::string& interval) {
+    const std::string stop =
+        "[[mechanism.element]]\ntype = \"rigid-stop\"\nname = \"floor\"\njoint = \"fall\"\nat = 0\nrestitution = 0.9\n";
+    return messageOf(ball(1.0, initial) + stop + uncertain(quantity, interval) +
+                     "[[output]]\nquantity = \"fall.rate\"\n");
+  };
+  EXPECT_EQ(saidOf("displacement = 0.5", "fall.displacement", "± 10 %"), "it was read");
+  EXPECT_EQ(saidOf("displacement = 0.5, rate = -0.5", "fall.rate", "± 0.5 m/s"), "it was read");
+  EXPECT_THAT(saidOf("displacement = 0.5", "fall.displacement", "± 100 %"),
+              HasSubstr("for some values in the intervals 'fall.displacement' starts at 'floor', or beyond it"));
+  EXPECT_THAT(saidOf("displacement = 0.5", "floor.at", "± 0.5 m"), HasSubstr("starts at 'floor', or beyond it"));
+  EXPECT_THAT(saidOf("displacement = 0.5", "floor.restitution", "± 20 %"), HasSubstr("not above 0 and at most 1"));
+  EXPECT_THAT(saidOf("displacement = 0.5", "fall.rate", "± 0.1 m/s"),
+              HasSubstr("may start towards 'floor' as well as away from it"));
+  EXPECT_THAT(saidOf("displacement = 0.5, rate = 0.5", "fall.rate", "± 0.6 m/s"), HasSubstr("as well as away from it"));
+}
+
+}  // namespace
+}  // namespace gamut
