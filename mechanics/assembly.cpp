@@ -225,7 +225,7 @@ void Assembly<S>::setState(std::span<const S> x, const S& time) {
 template <class S>
 void Assembly<S>::setMotion(std::span<const S> x, const S& time) {
   const std::vector<S> states = withOrigin(x);
-  setUnfolded(states, unfolding_->sidesAt(states), time);
+  setUnfolded(states, unfolding_->signsAt(states), time);
 }
 
 template <class S>
@@ -237,42 +237,17 @@ std::vector<S> Assembly<S>::withOrigin(std::span<const S> x) const {
 }
 
 template <class S>
-void Assembly<S>::setUnfolded(std::vector<S> states, const std::vector<S>& sides, const S& time, bool isSmooth) {
-  unfolding_->fold(states, sides, isSmooth, [&](const std::vector<S>& folded) { setState(folded, time); });
+void Assembly<S>::setUnfolded(std::vector<S> states, const std::vector<S>& signs, const S& time, bool isSmooth) {
+  unfolding_->fold(states, signs, isSmooth, [&](const std::vector<S>& folded) { setState(folded, time); });
   setState(states, time);
-}
-
-template <class S>
-std::vector<S> Assembly<S>::onSides(std::span<const S> x, const S& time, bool isSmooth,
-                                    const std::function<std::vector<S>()>& what) requires std::same_as<S, Recorded> {
-  const std::vector<S> states = withOrigin(x), sides = unfolding_->sidesAt(states);
-  std::vector<S> shares;
-  std::vector<std::vector<S>> found;
-  for (unsigned branch = 0; branch < 1U << sides.size(); ++branch) {
-    std::vector<S> taken;
-    S share(1.0);
-    for (std::size_t k = 0; k < sides.size(); ++k) {
-      taken.emplace_back((branch >> k & 1U) == 0 ? 1.0 : -1.0);
-      share = share * (S(0.5) + S(0.5) * (taken.back() * sides[k]));
-    }
-    setUnfolded(states, taken, time, isSmooth);
-    shares.push_back(share);
-    found.push_back(what());
-  }
-  std::vector<S> result = found.front();
-  for (std::size_t i = 0; i < result.size(); ++i) {
-    if (std::ranges::all_of(found, [&](const auto& onSide) { return isKnownSame(onSide[i], result[i]); })) continue;
-    result[i] = S(0.0);
-    for (std::size_t branch = 0; branch < found.size(); ++branch)
-      result[i] = result[i] + shares[branch] * found[branch][i];
-  }
-  return result;
 }
 
 template <class S>
 std::vector<S> Assembly<S>::motionRates(std::span<const S> x, const S& time,
                                         Formulation formulation) requires std::same_as<S, Recorded> {
-  return onSides(x, time, true, [&] {
+  const std::vector<S> states = withOrigin(x);
+  return onSides(unfolding_->signsAt(states), [&](const std::vector<S>& signs) {
+    setUnfolded(states, signs, time, true);
     std::vector<S> found = rates(formulation);
     unfolding_->unfold(found, x, time);
     return found;
@@ -282,7 +257,11 @@ std::vector<S> Assembly<S>::motionRates(std::span<const S> x, const S& time,
 template <class S>
 std::vector<S> Assembly<S>::ofMotion(std::span<const S> x, const S& time,
                                      const std::function<std::vector<S>()>& what) requires std::same_as<S, Recorded> {
-  return onSides(x, time, false, what);
+  const std::vector<S> states = withOrigin(x);
+  return onSides(unfolding_->signsAt(states), [&](const std::vector<S>& signs) {
+    setUnfolded(states, signs, time);
+    return what();
+  });
 }
 
 template <class S>

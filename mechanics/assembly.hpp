@@ -70,9 +70,7 @@ class Assembly {
                    std::span<const S> values);
   void makeStates(const Mechanism& mechanism);
   std::vector<S> withOrigin(std::span<const S> x) const;
-  void setUnfolded(std::vector<S> states, const std::vector<S>& sides, const S& time, bool isSmooth = false);
-  std::vector<S> onSides(std::span<const S> x, const S& time, bool isSmooth,
-                         const std::function<std::vector<S>()>& what) requires std::same_as<S, Recorded>;
+  void setUnfolded(std::vector<S> states, const std::vector<S>& signs, const S& time, bool isSmooth = false);
   void unfoldEnds(const Mechanism& mechanism);
   void measureFrames();
   void measureReactions(const Mechanism& mechanism);

@@ -1,5 +1,7 @@
 #include "mechanics/equations/unfolding.hpp"
 
+#include <algorithm>
+#include <ranges>
 #include <stdexcept>
 #include <utility>
 
@@ -34,24 +36,23 @@ Unfolding<S>::Unfolding(std::vector<Struck> struck, std::size_t firstSpeed, Syst
 }
 
 template <class S>
-std::vector<S> Unfolding<S>::sidesAt(const std::vector<S>& x) const {
-  std::vector<S> sides;
-  for (const Fold& fold : folds_) {
-    const S beyond = x[fold.of.position] - fold.of.end.at;
-    sides.push_back(signOf(fold.of.end.isUpper ? S(-beyond) : beyond));
-  }
-  return sides;
+std::vector<S> Unfolding<S>::signsAt(const std::vector<S>& x) const {
+  std::vector<S> signs;
+  for (const auto& [end, position, speed] : std::views::transform(folds_, &Fold::of))
+    for (const S& rising : {S(x[position] - end.at), x[speed]})
+      signs.push_back(signOf(end.isUpper ? S(-rising) : rising));
+  return signs;
 }
 
 template <class S>
-void Unfolding<S>::fold(std::vector<S>& x, const std::vector<S>& sides, bool isSmooth,
+void Unfolding<S>::fold(std::vector<S>& x, const std::vector<S>& signs, bool isSmooth,
                         const std::function<void(const std::vector<S>&)>& move) {
   using std::abs;
   for (std::size_t k = 0; k < folds_.size(); ++k) {
     Fold& fold = folds_[k];
-    const S &side = sides[k], one(1.0), half(0.5);
+    const S &side = signs[2 * k], &way = signs[2 * k + 1], one(1.0), half(0.5);
     const auto& [end, position, speed] = fold.of;
-    const S v = x[speed], way = signOf(end.isUpper ? S(-v) : v);
+    const S v = x[speed];
     // |g| and 1/|g| before and behind the end
     const S before = end.startsAway ? S(one / end.restitution) : one, behind = end.startsAway ? one : end.restitution;
     const S most = half * (before + behind), least = half * (before - behind);
@@ -117,5 +118,19 @@ void Unfolding<S>::unfold(std::vector<S>& rates, std::span<const S> x,
 }
 
 GAMUT_COMPILED_HERE(Unfolding)
+
+std::vector<Recorded> onSides(std::vector<Recorded> signs,
+                              const std::function<std::vector<Recorded>(const std::vector<Recorded>&)>& what,
+                              std::size_t first) {
+  if (first == std::min<std::size_t>(signs.size(), 4)) return what(signs);
+  const Recorded sign = std::exchange(signs[first], 1.0);
+  std::vector<Recorded> found = onSides(signs, what, first + 1);
+  signs[first] = -1.0;
+  const std::vector<Recorded> other = onSides(signs, what, first + 1);
+  const Recorded share = 0.5 + 0.5 * sign, otherShare = 0.5 - 0.5 * sign;
+  for (std::size_t i = 0; i < found.size(); ++i)
+    if (!isKnownSame(found[i], other[i])) found[i] = share * found[i] + otherShare * other[i];
+  return found;
+}
 
 }  // namespace gamut

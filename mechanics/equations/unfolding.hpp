@@ -37,13 +37,12 @@ class Unfolding {
   Unfolding(std::vector<Struck> struck, std::size_t firstSpeed, System<S>& system);
 
   bool isEmpty() const { return folds_.empty(); }
-  std::size_t size() const { return folds_.size(); }
-  /// σ of each end.
-  std::vector<S> sidesAt(const std::vector<S>& x) const;
-  /// From unfolded states x to the machine's, on these sides; `isSmooth`: beyond an end σ goes on as it is. `move`
-  /// moves it by states. Throws std::invalid_argument where Recorded is not known to keep the impulse at one end from
+  /// σ and the sign of v of each end.
+  std::vector<S> signsAt(const std::vector<S>& x) const;
+  /// From unfolded states x to the machine's, of these signs; `isSmooth`: σ goes on beyond an end. `move` moves it by
+  /// states. Throws std::invalid_argument where Recorded is not known to keep the impulse at one end from
   /// what strikes another.
-  void fold(std::vector<S>& x, const std::vector<S>& sides, bool isSmooth,
+  void fold(std::vector<S>& x, const std::vector<S>& signs, bool isSmooth,
             const std::function<void(const std::vector<S>&)>& move);
   /// After fold(): from the machine's ẋ to the rates of the unfolded states, which are recorded as `x` and `time`.
   void unfold(std::vector<S>& rates, std::span<const S> x, const S& time) const requires std::same_as<S, Recorded>;
@@ -62,5 +61,11 @@ class Unfolding {
 };
 
 GAMUT_COMPILED_ELSEWHERE(Unfolding)
+
+/// `what` of signs, as what it is of each sign ±1 times (1 ± s)/2: affine in each. Of two ends these are sixteen copies
+/// of it; further signs stay what they are.
+std::vector<Recorded> onSides(std::vector<Recorded> signs,
+                              const std::function<std::vector<Recorded>(const std::vector<Recorded>&)>& what,
+                              std::size_t first = 0);
 
 }  // namespace gamut
