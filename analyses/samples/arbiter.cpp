@@ -100,11 +100,15 @@ class TaylorRun {
     const double horizon = motion_.horizon();
     Real t(0.0);
     if (sides_.count() > 0) take(sides_.begin(t, x_), t);
+    const auto isDue = [&](const Real& until) {
+      return result_.why.empty() && result_.times < times.size() && Real(times[result_.times]) <= until;
+    };
     while (result_.times < times.size() && result_.why.empty()) {
+      while (isDue(t)) watch(times[result_.times], x_);  // a series may begin a tick behind
+      if (result_.times == times.size()) break;
       const Real h = n_ == 0 ? Real(horizon) : nextStep(t, Real(horizon) - t, horizon);
       // Every output time within the step is evaluated from the step's own series.
-      while (result_.why.empty() && result_.times < times.size() && Real(times[result_.times]) <= t + h)
-        watch(times[result_.times], Real(times[result_.times]) - t);
+      while (isDue(t + h)) watch(times[result_.times], stateAfter(Real(times[result_.times]) - t));
       if (result_.times < times.size() && result_.why.empty()) {
         x_ = stateAfter(h);
         t += h;
@@ -339,8 +343,7 @@ class TaylorRun {
     return result;
   }
 
-  void watch(double time, const Real& tau) {
-    const std::vector<Real> x = n_ == 0 ? std::vector<Real>{} : stateAfter(tau);
+  void watch(double time, const std::vector<Real>& x) {
     const std::vector<Real> y = (sides_.count() > 0 ? sides_.piece().outputs : g_)(Real(time), x);
     if (!std::all_of(y.begin(), y.end(), [](const Real& value) { return isFinite(value); })) {
       std::vector<double> doubles;

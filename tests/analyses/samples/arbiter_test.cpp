@@ -203,6 +203,18 @@ TEST(Arbiter, LocatesKinksInTime) {
   }
 }
 
+/// ẋ = 1 - |x|/2 starts where its kink is: what is seen at the start is the start, not what comes a tick behind it.
+TEST(Arbiter, SeesTheStartWhereAKinkIs) {
+  Motion motion;
+  motion.f = record(1, 0, [](auto, const auto& x, const auto&, auto& dx) { dx[0] = 1.0 - abs(x[0]) / 2.0; });
+  motion.g = record(1, 0, 1, [](auto, const auto& x, const auto&, auto& y) { y[0] = x[0]; });
+  motion.times = {0, 0.5};
+  const PreciseTrajectory y = arbitrate(motion, std::array{0.0});
+  ASSERT_EQ(y.times, 2u) << y.why;
+  EXPECT_EQ(y.values[0], 0);
+  EXPECT_LT(relativeError(y.values[1], 2 - 2 * exp(Wide(-0.25))), 1e-28);
+}
+
 /// ẍ = 1 - cos t from rest at zero: the series at the start begins with t⁴/24.
 TEST(Arbiter, AndSeriesInDoublesBeginAtRestWithAForceThatBeginsAtZero) {
   Motion motion;
