@@ -13,6 +13,7 @@
 #include "analyses/flow/run.hpp"
 #include "analyses/work.hpp"
 #include "scalars/index.hpp"
+#include "scalars/program/sides.hpp"
 
 namespace gamut {
 
@@ -101,6 +102,23 @@ Flow& Flow::operator=(Flow&&) noexcept = default;
 
 namespace {
 
+/// Whether something that is looked at is half as wide again, at a time, as that share of what it is for the whole box,
+/// and not by so little that nobody sees it: where solutions pass a jump at that time, polynomials of the whole box do
+/// not know which of a level have passed.
+bool isWiderThan(double share, const Tube& tube, std::size_t level) {
+  const std::size_t rows = tube.reachedTimes(), seen = rows == 0 ? 0 : tube.cut(level, 0).size();
+  const auto whole = [&](std::size_t row) -> const std::vector<Interval>& {
+    return tube.outputs(row).empty() ? tube.states(row) : tube.outputs(row);
+  };
+  for (std::size_t i = 0; i < seen; ++i) {
+    double widest = 0;
+    for (std::size_t row = 0; row < rows; ++row) widest = std::max(widest, width(whole(row)[i]));
+    for (std::size_t row = 0; row < rows; ++row)
+      if (width(tube.cut(level, row)[i]) > std::max(1.5 * share * width(whole(row)[i]), 0.01 * widest)) return true;
+  }
+  return false;
+}
+
 Tube answer(const FlowFormulation& formulation, const FlowOptions& options, FlowBudget& budget, const Box& wholeBox,
             double horizon, const std::vector<double>& outputTimes, const std::vector<Box>& wholeLevels) {
   const Box box = formulation.boxOf(wholeBox);
@@ -127,6 +145,7 @@ Tube answer(const FlowFormulation& formulation, const FlowOptions& options, Flow
       return width(level[at(n + input.parameter)]) < width(box[at(n + input.parameter)]);
     });
   };
+  const bool jumps = !jumpsOf(formulation.motion).empty() || !jumpsOf(formulation.outputs).empty();
   double looseness = 0, unused = 0;
   Tube tube = refine(question, box, levels, looseness);
   levelBudget.limit =
@@ -137,7 +156,7 @@ Tube answer(const FlowFormulation& formulation, const FlowOptions& options, Flow
     double share = 0;
     for (std::size_t i = 0; i < box.size(); ++i)
       if (uncertain.components[i].symbol >= 0) share = std::max(share, width(levels[level][i]) / width(box[i]));
-    if (looseness > 0.01 * share || narrowsInput(levels[level]))
+    if (looseness > 0.01 * share || narrowsInput(levels[level]) || (jumps && isWiderThan(share, tube, level)))
       FlowRun::tighten(tube, level, refine(levelQuestion, levels[level], {}, unused));
   }
   budget.spent += levelBudget.spent;

@@ -50,7 +50,7 @@ std::vector<char> dependents(const Program& program, int first) {
 
 /// Signs in f are inputs to it: nodes of their own, which the derivative of |u| has no part in.
 Program differentiatedFor(const Program& motion, const std::vector<VaryingParameter>& inputs) {
-  const Program f = affineInSign(withOneSignASurface(withBareSigns(withBareKinks(motion))));
+  const Program f = affineInSign(withOneSignASurface(withJumpingKinks(withBareSigns(withBareKinks(motion)))));
   const int n = f.states(), k = f.parameters(), jumps = static_cast<int>(jumpsOf(f).size());
   if (jumps == 0 || !isAffineInSigns(f))
     return inputs.empty() ? f.differentiated() : selected(f.differentiated(true), n, f, inputs, k);

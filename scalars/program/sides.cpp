@@ -64,6 +64,19 @@ Argument bareArgumentOf(const Program& f, int jump) {
   }
 }
 
+/// Where a node is zero.
+struct Surface {
+  int node;
+  std::optional<LinearForm> form;
+};
+
+Surface surfaceOf(const Program& f, int node) { return {node, linearFormOf(f, node)}; }
+
+/// ±1 if the node of one is that of the other times a number of this sign; 0 if that is not known.
+double signOfRatio(const Surface& a, const Surface& b) {
+  return a.node == b.node ? 1 : a.form && b.form ? signOfRatio(*a.form, *b.form) : 0;
+}
+
 /// f with factors in which no state is taken off the arguments of all its nodes of this kind that move: |k u| = |k||u|,
 /// or sign(k u) = sign k sign u.
 Program withBareArguments(const Program& f, Op kind) {
@@ -107,24 +120,44 @@ Program withBareKinks(const Program& f) { return withBareArguments(f, Op::abs); 
 
 Program withBareSigns(const Program& f) { return withBareArguments(f, Op::sign); }
 
+Program withJumpingKinks(const Program& f) {
+  const std::vector<int> jumps = jumpsOf(f);
+  std::vector<Surface> surfaces;
+  for (const int jump : jumps) surfaces.push_back(surfaceOf(f, bareArgumentOf(f, jump).node));
+  const std::vector<char> moves = ofStates(f);
+  Recorder result(f.states(), f.parameters());
+  std::vector<int> instead(f.nodes().size(), -1), outputs;
+  const std::vector<int> plain = result.append(f);
+  bool isNew = false;
+  for (std::size_t i = 0; i < instead.size(); ++i) {
+    if (f.nodes()[i].op != Op::abs || moves[i] == 0) continue;
+    const Surface kink = surfaceOf(f, bareArgumentOf(f, static_cast<int>(i)).node);
+    if (std::ranges::none_of(surfaces, [&](const Surface& surface) { return signOfRatio(kink, surface) != 0; }))
+      continue;
+    const int u = plain[at(f.nodes()[i].a)];
+    instead[i] = result.mul(u, result.sign(u));
+    isNew = true;
+  }
+  if (!isNew) return f;
+  const std::vector<int> here = result.append(f, {}, instead);
+  for (const int output : f.outputNodes()) outputs.push_back(here[at(output)]);
+  Program jumping = result.finish(outputs);
+  return isAffineInSigns(f) && !isAffineInSigns(jumping) ? f : jumping;
+}
+
 Program withOneSignASurface(const Program& f) {
-  struct Surface {
-    int node;
-    std::optional<LinearForm> form;
-  };
   const std::vector<int> jumps = jumpsOf(f);
   std::vector<Surface> surfaces;
   std::vector<std::pair<std::size_t, double>> of;  // of each sign, which surface, and the sign's sign
   bool isNew = false;
   for (const int jump : jumps) {
     const auto [node, by] = bareArgumentOf(f, jump);
-    const auto form = linearFormOf(f, node);
+    const Surface surface = surfaceOf(f, node);
     double ratio = 0;
     std::size_t k = 0;
-    for (; k < surfaces.size() && ratio == 0; ++k)
-      ratio = surfaces[k].node == node ? 1 : form && surfaces[k].form ? signOfRatio(*form, *surfaces[k].form) : 0;
+    for (; k < surfaces.size() && ratio == 0; ++k) ratio = signOfRatio(surface, surfaces[k]);
     isNew = isNew || ratio != 0 || node != f.nodes()[at(jump)].a;
-    if (ratio == 0) surfaces.push_back({node, form});
+    if (ratio == 0) surfaces.push_back(surface);
     of.emplace_back(ratio == 0 ? k : k - 1, by * (ratio == 0 ? 1 : ratio));
   }
   if (!isNew) return f;
@@ -303,31 +336,24 @@ struct SharedSign {
 
 /// The signs of states in g that are signs of f's surfaces.
 std::vector<SharedSign> sharedSigns(const Program& f, const Program& g) {
-  struct Surface {
-    int node;
-    double by;
-    std::optional<LinearForm> form;
-  };
   Recorder both(f.states(), f.parameters());
   const std::vector<int> ofF = both.append(f), ofG = both.append(g);
-  std::vector<Surface> surfaces;
+  std::vector<std::pair<Surface, double>> surfaces;
   for (const int jump : jumpsOf(f)) {
     const auto [node, by] = bareArgumentOf(f, jump);
-    surfaces.push_back({ofF[at(node)], by, linearFormOf(f, node)});
+    surfaces.push_back({{ofF[at(node)], linearFormOf(f, node)}, by});
   }
   std::vector<SharedSign> shared;
   const std::vector<char> moves = ofStates(g);
   for (const int jump : jumpsOf(g)) {
     if (moves[at(jump)] == 0) continue;
     const auto [node, by] = bareArgumentOf(g, jump);
-    const auto form = linearFormOf(g, node);
+    const Surface own{ofG[at(node)], linearFormOf(g, node)};
     for (std::size_t k = 0; k < surfaces.size(); ++k) {
-      const Surface& surface = surfaces[k];
-      const double ratio = surface.node == ofG[at(node)] ? 1
-                           : form && surface.form        ? signOfRatio(*form, *surface.form)
-                                                         : 0;
+      const auto& [surface, bySurface] = surfaces[k];
+      const double ratio = signOfRatio(own, surface);
       if (ratio == 0) continue;
-      shared.push_back({jump, k, by * surface.by * ratio});
+      shared.push_back({jump, k, by * bySurface * ratio});
       break;
     }
   }

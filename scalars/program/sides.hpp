@@ -21,6 +21,10 @@ Program withBareKinks(const Program& f);
 /// f with sign a sign u for sign (a u) where no state is in a: a surface is known, and held, whatever scales it.
 Program withBareSigns(const Program& f);
 
+/// f with u sign u for |u| where a sign of f jumps at u = 0 as well: what happens at a surface is one jump. f itself if
+/// that alone would make it depend on signs by more than sums and products with what does not.
+Program withJumpingKinks(const Program& f);
+
 /// f with one sign for all arguments that are multiples of each other: at a surface they are one. Constant factors are
 /// taken off arguments: 0.1 v is as positive as v.
 Program withOneSignASurface(const Program& f);

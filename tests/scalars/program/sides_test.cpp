@@ -260,6 +260,23 @@ TEST(Sides, ConstantFactorsAreTakenOffArguments) {
       EXPECT_EQ(evaluate<double>(plain, {a, b}, {0.5}), evaluate<double>(f, {a, b}, {0.5}));
 }
 
+TEST(Sides, KinksWhereASignJumpsJumpWithIt) {
+  const Program f = record(2, 0, [](auto, const auto& x, const auto&, auto& dx) {
+    dx[0] = sign(2.0 * x[0] - 1.0) * x[1] - abs(0.5 - x[0]) + abs(x[1]);
+    dx[1] = x[0];
+  });
+  const Program jumping = withJumpingKinks(f);
+  EXPECT_EQ(std::ranges::count(f.nodes(), Op::abs, &Node::op), 2);
+  EXPECT_EQ(std::ranges::count(jumping.nodes(), Op::abs, &Node::op), 1);
+  EXPECT_EQ(jumpsOf(withOneSignASurface(jumping)).size(), 1u);
+  for (const double a : {0.25, 0.5, 1.5})
+    for (const double b : {-0.5, 1.25}) EXPECT_EQ(evaluate<double>(jumping, {a, b}), evaluate<double>(f, {a, b}));
+  const Program ofKinks = record(1, 0, [](auto, const auto& x, const auto&, auto& dx) {
+    dx[0] = -sign(x[0]) / (1.0 + abs(x[0]));  // affine in its sign, which |x| as x sign x would end
+  });
+  EXPECT_EQ(withJumpingKinks(ofKinks).nodes().size(), ofKinks.nodes().size());
+}
+
 TEST(Sides, FactorsWithoutStatesAreTakenOffKinks) {
   const Program f = record(2, 2, [](auto t, const auto& x, const auto& p, auto& dx) {
     dx[0] = max(Recorded(0.0), -p[0] * x[0]) + abs(-(x[0] - p[1]) / p[0]);
