@@ -10,8 +10,10 @@ struct RigidStop {
   static constexpr const char* type = "rigid-stop";
   static constexpr const char* summary =
       "a rigid end of a joint's travel, which the joint strikes and leaves at `restitution` times its speed (Newton's "
-      "law of impact); all other joints get what the impulse at the joint gives them. What comes to rest on it by ever "
-      "smaller impacts is followed until then";
+      "law of impact); all other joints get what the impulse at the joint gives them. Forces and accelerations that "
+      "are "
+      "measured hold no impulses. What comes to rest on it by ever smaller impacts is followed until then: a "
+      "`joint-stop` is what something may rest on";
 
   std::string name, joint;
   Expression at = 0.0, restitution = 1.0;  ///< rad or m, 1
