@@ -1,18 +1,51 @@
 // Programs of a mechanism: its assembly is moved once by Recorded.
 #include "mechanics/model.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "mechanics/assembly.hpp"
+#include "scalars/program/linear_form.hpp"
+#include "scalars/program/sides.hpp"
 #include "scalars/recorded.hpp"
 
 namespace gamut {
+namespace {
+
+/// Throws where a force or a rate jumps as the speed of a joint turns that strikes a rigid end. The scale of its
+/// unfolded speed changes there, so that Filippov's means of unfolded rates are not those of the machine's.
+void checkTurns(const Mechanism& mechanism, const std::vector<std::string>& freeParameters) {
+  if (!mechanism.isStruck()) return;
+  const std::vector<std::string> names = mechanism.stateNames();
+  const int states = static_cast<int>(names.size());
+  const Program f = withBareSigns(
+      record(states, static_cast<int>(freeParameters.size()), [&](auto t, const auto& x, const auto& p, auto& dx) {
+        Assembly<Recorded> assembly(mechanism, freeParameters, p);
+        assembly.setState(x, t);
+        const std::vector<Recorded> rates = assembly.rates();
+        for (std::size_t i = 0; i < rates.size(); ++i) dx[i] = rates[i];
+      }));
+  for (const int jump : jumpsOf(f)) {
+    const auto form = linearFormOf(f, f.nodes()[static_cast<std::size_t>(jump)].a);
+    if (!form || std::ranges::count_if(form->states, [](double c) { return c != 0; }) != 1) continue;
+    const Mechanism::JointCoordinate* joint = mechanism.coordinateWith(names[static_cast<std::size_t>(form->pivot)]);
+    if (joint != nullptr && joint->rate == names[static_cast<std::size_t>(form->pivot)] &&
+        mechanism.isStruck(joint->name))
+      throw std::invalid_argument(
+          "the joint '" + joint->name + "' strikes a rigid end, and something jumps with the sign of '" + joint->rate +
+          "', as dry friction does: how they go together is not known yet; "
+          "expected friction that is smooth (smoothed-joint-friction), or an elastic end (joint-stop)");
+  }
+}
+
+}  // namespace
 
 Program recordMotion(const Mechanism& mechanism, const std::vector<std::string>& freeParameters,
                      Formulation formulation) {
   const int states = static_cast<int>(mechanism.stateNames().size());
   mechanism.checkMasses();
   try {
+    checkTurns(mechanism, freeParameters);
     return record(states, static_cast<int>(freeParameters.size()), [&](auto t, const auto& x, const auto& p, auto& dx) {
       Assembly<Recorded> assembly(mechanism, freeParameters, p);
       const std::vector<Recorded> rates = assembly.motionRates(x, t, formulation);

@@ -135,6 +135,10 @@ class Mechanism {
   /// By the joint's name if it has just one, or by the coordinate's own. Throws UnknownName, saying that `of` asks.
   const JointCoordinate& coordinate(const std::string& name, const std::string& of) const;
 
+  /// Whether it strikes a rigid end of its travel, by its full name; and whether any does.
+  bool isStruck(const std::string& coordinate) const { return struck_.contains(coordinate); }
+  bool isStruck() const { return !struck_.empty(); }
+
   /// The name of a speed's acceleration: hinge.rate, hinge.acceleration; sleeve.angle_rate, sleeve.angle_acceleration;
   /// ball.rate.x, ball.acceleration.x; any other NAME, NAME_acceleration.
   static std::string accelerationOf(const std::string& speed);

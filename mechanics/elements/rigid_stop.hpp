@@ -10,9 +10,8 @@ struct RigidStop {
   static constexpr const char* type = "rigid-stop";
   static constexpr const char* summary =
       "a rigid end of a joint's travel, which the joint strikes and leaves at `restitution` times its speed (Newton's "
-      "law of impact); all other joints get what the impulse at the joint gives them. Forces and accelerations that "
-      "are "
-      "measured hold no impulses. What comes to rest on it by ever smaller impacts is followed until then: a "
+      "law of impact); all other joints get what the impulse at the joint gives them. Measured forces and "
+      "accelerations hold no impulses. What comes to rest on it by ever smaller impacts is followed until then: a "
       "`joint-stop` is what something may rest on";
 
   std::string name, joint;

@@ -17,6 +17,7 @@
 
 #include "mechanics/assembly.hpp"
 #include "mechanics/description/written_units.hpp"
+#include "mechanics/elements/rigid_stop.hpp"
 #include "mechanics/model.hpp"
 #include "scalars/recorded.hpp"
 #include "studies/printable.hpp"
@@ -68,6 +69,7 @@ class StudyReader {
     if (const toml::node* node = file.find("distribution")) readDistribution(source_.asTable(*node, "distribution"));
     if (const toml::node* node = file.find("sensitivity")) readSensitivity(source_.asTable(*node, "sensitivity"));
     checkInitialValues();
+    checkEnds();
     recordMotion(*file.find("mechanism"));
     if (const toml::node* node = file.find("interval")) readInterval(source_.asTable(*node, "interval"));
     if (const toml::node* node = file.find("stochastic")) readStochastic(source_.asTable(*node, "stochastic"));
@@ -217,6 +219,21 @@ class StudyReader {
                        fmt::format("the initial value '{}' follows from '{}', which varies in time", names[i],
                                    uncertain.quantity),
                        "an initial value that follows from what does not");
+  }
+
+  /// What varies in time moves no rigid end, changes no restitution, and nothing that impulses are shared out by.
+  void checkEnds() const {
+    const Mechanism& m = study_.mechanism;
+    for (const UncertainQuantity& uncertain : study_.uncertain)
+      for (const Described& element : m.elements())
+        if (const auto* stop = element.as<RigidStop>(); stop != nullptr && uncertain.varies)
+          if (m.degreesOfFreedom() > 1 || m.dependsOn(stop->at, uncertain.quantity) ||
+              m.dependsOn(stop->restitution, uncertain.quantity))
+            source_.fail(placeOf(stop->name),
+                         fmt::format("'{}' varies in time, in a machine with the rigid end '{}'", uncertain.quantity,
+                                     stop->name),
+                         m.degreesOfFreedom() > 1 ? "a quantity that does not, or an elastic end, `joint-stop`"
+                                                  : "a quantity that does not");
   }
 
   /// Points between which a length is measured lie apart at the start, or its direction is not determined.

@@ -89,13 +89,14 @@ class UncertainReader {
         asked.push_back(number);
         return mechanism.rangeOf(number, ranges);
       };
-      element.faults(range);
+      const std::vector<Fault> anywhere = element.faults(range);
       std::vector<std::string> sentences;
       for (const Fault& doubt : element.doubts([&](const Expression& n) { return mechanism.rangeOf(n); }, range))
         sentences.push_back(doubt.sentence);
-      const std::vector<Fault> faults = mechanism.faults(element, ranges);
-      for (const Fault& fault : faults) sentences.push_back("for some values in the intervals " + fault.sentence);
-      if (sentences.empty()) continue;
+      for (const Fault& fault : mechanism.faults(element, ranges))
+        sentences.push_back("for some values in the intervals " + fault.sentence);
+      const auto fatal = std::ranges::find_if(anywhere, &Fault::isFatal);
+      if (sentences.empty() && fatal == anywhere.end()) continue;
       const auto varies = [&](const UncertainQuantity& uncertain) {
         return std::ranges::any_of(asked, [&](const auto& n) { return mechanism.dependsOn(n, uncertain.quantity); });
       };
@@ -104,9 +105,8 @@ class UncertainReader {
       const toml::table& table = *tables_[static_cast<std::size_t>(first - study_.uncertain.begin())];
       const toml::node* interval = table.get("interval");
       const toml::node& place = interval != nullptr ? *interval : *table.get("quantity");
-      for (const Fault& fault : faults)
-        if (fault.isFatal)
-          source_.failWith(place, "for some values in the intervals " + fault.sentence, fault.expected);
+      if (fatal != anywhere.end())
+        source_.failWith(place, "for some values in the intervals " + fatal->sentence, fatal->expected);
       for (const std::string& sentence : sentences) study_.notes.push_back(source_.note(place, sentence));
     }
   }

@@ -114,7 +114,7 @@ TEST(RigidStop, DoesNothingWhereTheJointTurnsRound) {
   });
 }
 
-std::string complaint(const std::function<void()>& action) {
+std::string refusalOf(const std::function<void()>& action) {
   try {
     action();
   } catch (const std::invalid_argument& error) {
@@ -127,19 +127,19 @@ TEST(RigidStop, SaysWhatItCannotBe) {
   const auto with = [](const RigidStop& stop) {
     Mechanism m = testing::spatialArm();
     m.add(stop);
-    return complaint([&] { m.check(); });
+    return refusalOf([&] { m.check(); });
   };
   EXPECT_EQ(with({"wall", "hip", -1.0, 1.0}), "none");
   EXPECT_THAT(with({"wall", "hip", -1.0, 0.0}), HasSubstr("the restitution of 'wall' is not above 0 and at most 1"));
   EXPECT_THAT(with({"wall", "hip", -1.0, 1.01}), HasSubstr("the restitution"));
-  EXPECT_THAT(complaint([&] { with({"wall", "hip", -1.0, 0.5, "middle"}); }), HasSubstr("is 'middle', not"));
+  EXPECT_THAT(refusalOf([&] { with({"wall", "hip", -1.0, 0.5, "middle"}); }), HasSubstr("is 'middle', not"));
   EXPECT_THAT(with({"wall", "hip", -0.7, 0.5}), HasSubstr("starts at 'wall', or beyond it"));
   EXPECT_THAT(with({"wall", "hip", -1.0, 0.5, "upper"}), HasSubstr("starts at 'wall', or beyond it"));
   Mechanism m = testing::spatialArm();
   m.add(RigidStop{"wall", "hip", -1.0, 0.5});
-  EXPECT_THAT(complaint([&] { m.add(RigidStop{"other", "hip", 1.0, 0.5, "upper"}); }), HasSubstr("two rigid ends"));
+  EXPECT_THAT(refusalOf([&] { m.add(RigidStop{"other", "hip", 1.0, 0.5, "upper"}); }), HasSubstr("two rigid ends"));
   m.add(RigidStop{"other", "slide", 1.0, 0.5, "upper"});
-  EXPECT_THAT(complaint([&] { recordMotion(m); }), HasSubstr("which has a rigid end too"));
+  EXPECT_THAT(refusalOf([&] { recordMotion(m); }), HasSubstr("which has a rigid end too"));
 }
 
 TEST(RigidStop, CannotBeStruckByWhatIsDriven) {
@@ -147,14 +147,30 @@ TEST(RigidStop, CannotBeStruckByWhatIsDriven) {
   m.add(Prismatic{"slide", "inertial", "A", axisX});
   m.add(Mass{"body", "A", 1.0});
   m.add(RigidStop{"wall", "slide", -1.0, 0.5});
-  EXPECT_THAT(complaint([&] {
+  EXPECT_THAT(refusalOf([&] {
                 m.add(Drive{"cam", "slide", Expression::parse("1 m * sin(t/(1 s))")});
               }),
               HasSubstr("cannot strike 'wall'"));
   Mechanism driven;
   driven.add(Prismatic{"slide", "inertial", "A", axisX});
   driven.add(Drive{"cam", "slide", Expression::parse("1 m * sin(t/(1 s))")});
-  EXPECT_THAT(complaint([&] { driven.add(RigidStop{"wall", "slide", -1.0, 0.5}); }), HasSubstr("cannot strike 'wall'"));
+  EXPECT_THAT(refusalOf([&] { driven.add(RigidStop{"wall", "slide", -1.0, 0.5}); }), HasSubstr("cannot strike 'wall'"));
+}
+
+/// Of what holds the joint there, unfolded rates tell otherwise than the machine's.
+TEST(RigidStop, IsNotStruckByWhatDryFrictionHolds) {
+  const auto with = [](const Described& load) {
+    Mechanism m = testing::spatialArm();
+    m.add(RigidStop{"wall", "hip", -1.0, 0.5});
+    m.add(load);
+    return refusalOf([&] { recordMotion(m); });
+  };
+  EXPECT_THAT(with(JointFriction{"dry", "hip", 0.3}), HasSubstr("something jumps with the sign of 'hip.rate'"));
+  EXPECT_THAT(with(JointForce{"relay", "slide", Expression::parse("-2 N*sign(0.3*hip.rate)")}),
+              HasSubstr("something jumps with the sign of 'hip.rate'"));
+  EXPECT_EQ(with(JointFriction{"dry", "slide", 0.3}), "none");
+  EXPECT_EQ(with(SmoothedJointFriction{"dry", "hip", 0.3, 0.0, 0.1}), "none");
+  EXPECT_EQ(with(JointForce{"drag", "hip", Expression::parse("-2 N m s^2*hip.rate*abs(hip.rate)")}), "none");
 }
 
 /// Two balls side by side have nothing to do with each other.
