@@ -12,6 +12,19 @@
 namespace gamut {
 namespace {
 
+/// Of each node, whether it depends on this state.
+std::vector<char> dependents(const Program& f, std::size_t state) {
+  std::vector<char> result;
+  for (std::size_t i = 0; i < f.nodes().size(); ++i) {
+    const Node& node = f.nodes()[i];
+    bool does = node.op == Op::state && static_cast<std::size_t>(node.a) == state;
+    detail::forEachOperand(f.table(), static_cast<int>(i),
+                           [&](int operand) { does = does || result[static_cast<std::size_t>(operand)] != 0; });
+    result.push_back(static_cast<char>(does));
+  }
+  return result;
+}
+
 /// Throws where a force or a rate jumps as the speed of a joint turns that strikes a rigid end. The scale of its
 /// unfolded speed changes there, so that Filippov's means of unfolded rates are not those of the machine's.
 void checkTurns(const Mechanism& mechanism, const std::vector<std::string>& freeParameters) {
@@ -25,16 +38,22 @@ void checkTurns(const Mechanism& mechanism, const std::vector<std::string>& free
         const std::vector<Recorded> rates = assembly.rates();
         for (std::size_t i = 0; i < rates.size(); ++i) dx[i] = rates[i];
       }));
-  for (const int jump : jumpsOf(f)) {
-    const auto form = linearFormOf(f, f.nodes()[static_cast<std::size_t>(jump)].a);
-    if (!form || std::ranges::count_if(form->states, [](double c) { return c != 0; }) != 1) continue;
-    const Mechanism::JointCoordinate* joint = mechanism.coordinateWith(names[static_cast<std::size_t>(form->pivot)]);
-    if (joint != nullptr && joint->rate == names[static_cast<std::size_t>(form->pivot)] &&
-        mechanism.isStruck(joint->name))
+  for (const Mechanism::JointCoordinate& joint : mechanism.coordinates()) {
+    if (!mechanism.isStruck(joint.name)) continue;
+    const auto speed = static_cast<std::size_t>(std::ranges::find(names, joint.rate) - names.begin());
+    const std::vector<char> depends = dependents(f, speed);
+    for (const int jump : jumpsOf(f)) {
+      const int u = f.nodes()[static_cast<std::size_t>(jump)].a;
+      const auto form = linearFormOf(f, u);
+      // Where another state is in it, linearly, the surface is another one.
+      if (depends[static_cast<std::size_t>(u)] == 0 ||
+          (form && std::ranges::count_if(form->states, [](double c) { return c != 0; }) > 1))
+        continue;
       throw std::invalid_argument(
-          "the joint '" + joint->name + "' strikes a rigid end, and something jumps with the sign of '" + joint->rate +
+          "the joint '" + joint.name + "' strikes a rigid end, and something jumps with the sign of '" + joint.rate +
           "', as dry friction does: how they go together is not known yet; "
           "expected friction that is smooth (smoothed-joint-friction), or an elastic end (joint-stop)");
+    }
   }
 }
 

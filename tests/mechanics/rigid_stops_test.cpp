@@ -168,6 +168,8 @@ TEST(RigidStop, IsNotStruckByWhatDryFrictionHolds) {
   EXPECT_THAT(with(JointFriction{"dry", "hip", 0.3}), HasSubstr("something jumps with the sign of 'hip.rate'"));
   EXPECT_THAT(with(JointForce{"relay", "slide", Expression::parse("-2 N*sign(0.3*hip.rate)")}),
               HasSubstr("something jumps with the sign of 'hip.rate'"));
+  EXPECT_THAT(with(JointForce{"relay", "slide", Expression::parse("-2 N*sign(hip.rate^3)")}), HasSubstr("hip.rate"));
+  EXPECT_EQ(with(JointForce{"slip", "slide", Expression::parse("-2 N*sign(hip.rate - 2*base.rate)")}), "none");
   EXPECT_EQ(with(JointFriction{"dry", "slide", 0.3}), "none");
   EXPECT_EQ(with(SmoothedJointFriction{"dry", "hip", 0.3, 0.0, 0.1}), "none");
   EXPECT_EQ(with(JointForce{"drag", "hip", Expression::parse("-2 N m s^2*hip.rate*abs(hip.rate)")}), "none");
