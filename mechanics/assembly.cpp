@@ -246,7 +246,7 @@ template <class S>
 std::vector<S> Assembly<S>::motionRates(std::span<const S> x, const S& time,
                                         Formulation formulation) requires std::same_as<S, Recorded> {
   const std::vector<S> states = withOrigin(x);
-  return onSides(unfolding_->signsAt(states), [&](const std::vector<S>& signs) {
+  return ofBothSides(unfolding_->signsAt(states), [&](const std::vector<S>& signs) {
     setUnfolded(states, signs, time, true);
     std::vector<S> found = rates(formulation);
     unfolding_->unfold(found, x, time);
@@ -258,7 +258,7 @@ template <class S>
 std::vector<S> Assembly<S>::ofMotion(std::span<const S> x, const S& time,
                                      const std::function<std::vector<S>()>& what) requires std::same_as<S, Recorded> {
   const std::vector<S> states = withOrigin(x);
-  return onSides(unfolding_->signsAt(states), [&](const std::vector<S>& signs) {
+  return ofBothSides(unfolding_->signsAt(states), [&](const std::vector<S>& signs) {
     setUnfolded(states, signs, time);
     return what();
   });

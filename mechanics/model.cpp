@@ -49,10 +49,10 @@ void checkTurns(const Mechanism& mechanism, const std::vector<std::string>& free
       if (depends[static_cast<std::size_t>(u)] == 0 ||
           (form && std::ranges::count_if(form->states, [](double c) { return c != 0; }) > 1))
         continue;
-      throw std::invalid_argument(
-          "the joint '" + joint.name + "' strikes a rigid end, and something jumps with the sign of '" + joint.rate +
-          "', as dry friction does: how they go together is not known yet; "
-          "expected friction that is smooth (smoothed-joint-friction), or an elastic end (joint-stop)");
+      throw UnfitRigidEnd(joint.name,
+                          "the joint '" + joint.name + "' strikes a rigid end, and something jumps with the sign of '" +
+                              joint.rate + "', as dry friction does: how they go together is not known yet",
+                          "smooth friction (smoothed-joint-friction), or an elastic end (joint-stop)");
     }
   }
 }

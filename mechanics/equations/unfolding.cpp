@@ -31,8 +31,10 @@ Unfolding<S>::Unfolding(std::vector<Struck> struck, std::size_t firstSpeed, Syst
     : firstSpeed_(firstSpeed), system_(system) {
   for (Struck& of : struck) folds_.push_back({std::move(of)});
   if (!isEmpty() && system.isConstrained())
-    throw std::invalid_argument("the rigid end of " + folds_.front().of.end.coordinate +
-                                " is struck in a machine with constraints; expected an elastic one, or none of these");
+    throw UnfitRigidEnd(
+        folds_.front().of.end.coordinate,
+        "the joint '" + folds_.front().of.end.coordinate + "' strikes a rigid end in a machine with constraints",
+        "an elastic end (joint-stop), or a machine without constraints");
 }
 
 template <class S>
@@ -92,9 +94,10 @@ void Unfolding<S>::findShares(Fold& fold, const Eigen::Matrix<S, Eigen::Dynamic,
   if constexpr (std::is_same_v<S, Recorded>)
     for (const Fold& other : folds_)
       if (&other != &fold && !isKnownZero(shares[other.of.speed - firstSpeed_]))
-        throw std::invalid_argument("what strikes the end of " + fold.of.end.coordinate + " moves " +
-                                    other.of.end.coordinate +
-                                    ", which has a rigid end too; expected an elastic end for one of them");
+        throw UnfitRigidEnd(other.of.end.coordinate,
+                            "an impulse at the rigid end of '" + fold.of.end.coordinate + "' moves the joint '" +
+                                other.of.end.coordinate + "', which has a rigid end too",
+                            "an elastic end (joint-stop) for one of them");
   fold.shares = std::move(shares);
 }
 
@@ -119,14 +122,14 @@ void Unfolding<S>::unfold(std::vector<S>& rates, std::span<const S> x,
 
 GAMUT_COMPILED_HERE(Unfolding)
 
-std::vector<Recorded> onSides(std::vector<Recorded> signs,
-                              const std::function<std::vector<Recorded>(const std::vector<Recorded>&)>& what,
-                              std::size_t first) {
+std::vector<Recorded> ofBothSides(std::vector<Recorded> signs,
+                                  const std::function<std::vector<Recorded>(const std::vector<Recorded>&)>& what,
+                                  std::size_t first) {
   if (first == std::min<std::size_t>(signs.size(), 4)) return what(signs);
   const Recorded sign = std::exchange(signs[first], 1.0);
-  std::vector<Recorded> found = onSides(signs, what, first + 1);
+  std::vector<Recorded> found = ofBothSides(signs, what, first + 1);
   signs[first] = -1.0;
-  const std::vector<Recorded> other = onSides(signs, what, first + 1);
+  const std::vector<Recorded> other = ofBothSides(signs, what, first + 1);
   const Recorded share = 0.5 + 0.5 * sign, otherShare = 0.5 - 0.5 * sign;
   for (std::size_t i = 0; i < found.size(); ++i)
     if (!isKnownSame(found[i], other[i])) found[i] = share * found[i] + otherShare * other[i];

@@ -379,6 +379,8 @@ class StudyReader {
       source_.failWith(
           mechanism, error.what(),
           "fewer joints one behind the other: what they do to each other grows with the square of their number");
+    } catch (const UnfitRigidEnd& error) {
+      source_.failWith(placeOf(error.coordinate()), error.problem(), error.expected());
     } catch (const std::invalid_argument& error) {
       refuseNumberWithoutValue();
       refuseJointsAlike();

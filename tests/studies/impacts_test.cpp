@@ -262,6 +262,17 @@ TEST(Impacts, AreKnownToEachAlphaCut) {
     EXPECT_GT(fuzzy.outer[level].lower(28, 0), 2) << level;
 }
 
+TEST(Impacts, AreRefusedWhereDryFrictionHoldsTheJoint) {
+  const std::string text = ballOf(1.0, "displacement = 0.5") +
+                           "[[mechanism.element]]\ntype = \"rigid-stop\"\nname = \"floor\"\njoint = \"fall\"\nat = 0\n"
+                           "restitution = 0.9\n[[mechanism.element]]\ntype = \"joint-friction\"\nname = \"dry\"\n"
+                           "joint = \"fall\"\ncoulomb = 0.1\n[[output]]\nquantity = \"fall.rate\"\n";
+  EXPECT_EQ(messageOf(text),
+            "s.toml:17:28: the joint 'fall.displacement' strikes a rigid end, and something jumps with the sign of "
+            "'fall.rate', as dry friction does: how they go together is not known yet; expected smooth friction "
+            "(smoothed-joint-friction), or an elastic end (joint-stop)");
+}
+
 TEST(Impacts, NeedAStartThatIsKnown) {
   const auto saidOf = [](const std::string& initial, const std::string& quantity, const std::string& interval) {
     const std::string stop =
