@@ -31,6 +31,7 @@ class SlidingReference {
     const auto n = static_cast<std::ptrdiff_t>(f_.states());
     p_.assign(start.begin() + n, start.end());
     choices_ = 0;
+    moments.clear();
     phases_.clear();
     Vector x(start.begin(), start.begin() + n);
     Precise t(0.0);
@@ -46,7 +47,7 @@ class SlidingReference {
     std::vector<Vector> result;
     outputs.clear();
     limits.clear();
-    while (result.size() < times.size()) {
+    while (result.size() < times.size() && moments.size() <= most) {
       Phase& phase = phaseOf(sides_);
       phase.series.solve(t, x);
       Precise h = reach(phase);
@@ -62,6 +63,7 @@ class SlidingReference {
       if (event >= h || result.size() == times.size())
         continue;  // what comes after the last time is not of this motion
       ++events;
+      moments.push_back(t.convert_to<double>());
       if (g_) limits.push_back((*phase.outputs)(t, x));
       for (std::size_t k = 0; k < sides_.size(); ++k)
         if (watched(phase, k, t, x) < -tiny) {
@@ -87,7 +89,11 @@ class SlidingReference {
   /// the truth, besides steps, whose length is this part of what it may be.
   Precise tiny = Precise(1e-30), share = Precise(1.0);
 
+  /// So many events of one motion are followed; it ends with the next one.
+  std::size_t most = static_cast<std::size_t>(-1);
+
   int events = 0;
+  std::vector<double> moments;          ///< of the last motion's events, s
   std::vector<Vector> outputs, limits;  ///< of the last motion, at its times; just before and behind its events
 
  private:
