@@ -75,6 +75,17 @@ Program recordMotion(const Mechanism& mechanism, const std::vector<std::string>&
   }
 }
 
+std::vector<RestingPair> restsOf(const Mechanism& mechanism) {
+  const std::vector<std::string> names = mechanism.stateNames();
+  const auto placeOf = [&](const std::string& state) {
+    return static_cast<int>(std::ranges::find(names, state) - names.begin());
+  };
+  std::vector<RestingPair> rests;
+  for (const Mechanism::JointCoordinate& joint : mechanism.coordinates())
+    if (mechanism.isStruck(joint.name)) rests.push_back({placeOf(joint.name), placeOf(joint.rate)});
+  return rests;
+}
+
 std::vector<Recorded> recordOutputs(const Assembly<Recorded>& assembly, const std::vector<std::string>& outputs) {
   std::vector<Recorded> values;
   for (const std::string& output : outputs) {

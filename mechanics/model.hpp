@@ -9,6 +9,7 @@
 #include "mechanics/description/mechanism.hpp"
 #include "mechanics/equations/formulation.hpp"
 #include "scalars/program/program.hpp"
+#include "scalars/program/resting.hpp"
 
 namespace gamut {
 
@@ -23,6 +24,9 @@ class Assembly;
 /// and if a joint moves no inertia.
 Program recordMotion(const Mechanism& mechanism, const std::vector<std::string>& freeParameters = {},
                      Formulation formulation = Formulation::sparse);
+
+/// The coordinates and speeds of this motion that come to rest on rigid ends.
+std::vector<RestingPair> restsOf(const Mechanism& mechanism);
 
 /// An output has no value, whatever the motion; what() is one sentence.
 class UndefinedOutput : public std::invalid_argument {

@@ -115,6 +115,7 @@ void recordAnalysis(Study& study, const std::vector<std::string>& parameters) {
     motion.f = recordMotion(study.mechanism, parameters, Formulation::sparse);
     motion.sampled = recordMotion(study.mechanism, parameters, Formulation::articulated);
     motion.g = recordOutputs(study.mechanism, parameters, outputQuantities(study));
+    motion.rests = restsOf(study.mechanism);
   } else {
     const std::size_t states = study.mechanism.stateNames().size();
     const int numbers = static_cast<int>(states + parameters.size());

@@ -19,6 +19,7 @@
 #include "analyses/flow/models.hpp"
 #include "scalars/interval.hpp"
 #include "scalars/program/program.hpp"
+#include "scalars/program/resting.hpp"
 #include "scalars/recorded.hpp"
 
 namespace gamut {
@@ -74,6 +75,7 @@ struct FlowOptions {
   int jobs = 1;       ///< threads that follow pieces
   std::vector<VaryingParameter> varying;  ///< all other parameters are constant in time
   std::vector<PreciseValue> precise;      ///< each within its component of the box
+  std::vector<RestingPair> rests;         ///< where solutions may come to rest by ever shorter turns
   FlowAside aside;                        ///< for Tube::asides
   std::vector<int> modelled;    ///< outputs of which models are kept, at output times and between, for Tube::models
   std::vector<int> modelledAt;  ///< behind these in the snapshots of output times: models at these times alone

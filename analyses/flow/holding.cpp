@@ -26,11 +26,56 @@ void FlowStepper::boundHeldJumps(const FlowSet& set, const Interval& time, const
   std::vector<Interval> start(held_.size(), Interval::entire());
   bounds.assign(held_.size(), {});
   for (std::size_t k = 0; k < held_.size(); ++k) {
-    if (held_[k] != 0) start[k] = Interval(0.0);
+    if (held_[k] == byItsSign) start[k] = Interval(0.0);
+    if (held_[k] == atRest) bounds[k].sign = Interval(0.0);
     if (left_[k] >= 0) bounds[k].sign = Interval(factor_[k]) * own[at(left_[k])].sign;
   }
   holding_->setParameters(set.parameters);
   holding_->bound(time, box, start, h, bounds, known);
+  for (const RestingJumps& rest : of_->rests) {
+    if (held_[rest.speed] != atRest) continue;
+    if (holding_->pressure(rest, time, box, bounds).lower() > 0)
+      bounds[rest.position] = bounds[rest.speed] = JumpBound::held(Interval(0.0));
+  }
+}
+
+/// Of each pair that may rest, along the step; null where the other signs are not known.
+AlongStep* FlowStepper::pressures(const FlowSet& set, double h, const std::vector<double>& tube) {
+  const auto signs = signsBeside(heldBounds_);
+  if (!signs) return nullptr;
+  if (!pressures_)
+    pressures_ = std::make_unique<AlongStep>(pressuresOf(*of_), series_.sharedMonomials(), m_, length_, resolution_,
+                                             series_.cancelled());
+  return pressures_->load(series_, set.t, h0_, h / h0_, set.parameters, *signs, tube) ? pressures_.get() : nullptr;
+}
+
+/// Where intervals do not tell: up to when pairs that rest are pressed to their places, s, at most h.
+double FlowStepper::longestPressed(const FlowSet& set, double h, const std::vector<double>& tube) {
+  const auto needs = [&](const RestingJumps& rest) {
+    return held_[rest.speed] == atRest && !heldBounds_[rest.speed].holds;
+  };
+  if (std::ranges::none_of(of_->rests, needs)) return h;
+  AlongStep* const along = pressures(set, h, tube);
+  if (along == nullptr) return 0;
+  double longest = h;
+  for (std::size_t pair = 0; pair < of_->rests.size(); ++pair) {
+    const RestingJumps& rest = of_->rests[pair];
+    if (!needs(rest)) continue;
+    const auto isPressed = [&](double until) {
+      return along->over(static_cast<int>(pair), 0, until / h0_).lower() > 0;
+    };
+    if (isPressed(h)) {
+      heldBounds_[rest.position] = heldBounds_[rest.speed] = JumpBound::held(Interval(0.0));
+      continue;
+    }
+    double least = 0, most = longest;
+    for (int halving = 0; halving < 40; ++halving) {
+      const double middle = 0.5 * (least + most);
+      (isPressed(middle) ? least : most) = middle;
+    }
+    longest = least;
+  }
+  return longest;
 }
 
 bool FlowStepper::areHeld(const std::vector<JumpBound>& bounds) const {
@@ -44,8 +89,8 @@ double FlowStepper::longestHeld(const JumpRates& rates, double h) const {
   const auto holdUntil = [&](double sigma) {
     bool holds = true;
     for (std::size_t k = 0; k < held_.size(); ++k)
-      holds = holds &&
-              (held_[k] == 0 || (rates.over(k, 1, 0, sigma).upper() < 0 && rates.over(k, -1, 0, sigma).lower() > 0));
+      holds = holds && (held_[k] != byItsSign ||
+                        (rates.over(k, 1, 0, sigma).upper() < 0 && rates.over(k, -1, 0, sigma).lower() > 0));
     return holds;
   };
   if (holdUntil(h / h0_)) return h;
@@ -63,12 +108,13 @@ std::vector<double> FlowStepper::withLow(std::vector<double> tube) const {
   return tube;
 }
 
-/// Null where one of these does not decide about itself.
+/// Null where one of these does not decide about itself, or none is held by its sign.
 HeldSigns* FlowStepper::heldSignsFor(const std::vector<char>& held) {
+  if (std::ranges::find(held, byItsSign) == held.end()) return nullptr;
   const auto [place, isNew] = heldSigns_.try_emplace(held);
   if (isNew) try {
-      place->second = std::make_unique<HeldSigns>(*of_, held, series_.sharedMonomials(), m_, length_, resolution_,
-                                                  series_.cancelled());
+      place->second = std::make_unique<HeldSigns>(*of_, FlowJumps::bySigns(held), series_.sharedMonomials(), m_,
+                                                  length_, resolution_, series_.cancelled());
     } catch (const std::logic_error&) {
     }
   return place->second.get();
@@ -98,7 +144,7 @@ HeldSigns* FlowStepper::heldTogether(const FlowSet& set, double h, const std::ve
 bool FlowStepper::areTogether(const HeldSigns& together, const std::vector<char>& held, double from, double to,
                               std::size_t but) const {
   for (std::size_t k = 0; k < held.size(); ++k)
-    if (held[k] != 0 && k != but && !isBetween(together.sign(k, from / h0_, to / h0_))) return false;
+    if (held[k] == byItsSign && k != but && !isBetween(together.sign(k, from / h0_, to / h0_))) return false;
   return together.decides(from / h0_, to / h0_);
 }
 
@@ -115,7 +161,7 @@ double FlowStepper::longestTogether(const HeldSigns& together, double h) const {
 void FlowStepper::giveTogether(const HeldSigns& together, double until, std::vector<JumpBound>& bounds) const {
   const bool decides = together.decides(0, until / h0_);
   for (std::size_t k = 0; k < held_.size(); ++k) {
-    if (held_[k] == 0) continue;
+    if (held_[k] != byItsSign) continue;
     const Interval sign = together.sign(k, 0, until / h0_);
     bounds[k].holds = decides && isBetween(sign);
     if (bounds[k].holds) bounds[k] = JumpBound::held(sign);
@@ -130,11 +176,13 @@ void FlowStepper::letGo(const FlowSet& set, const std::vector<JumpBound>& bounds
     for (const Interval& sign : *signs) about.push_back(midpoint(sign));
     Box middle;
     for (const Interval& state : boxAtStart(set)) middle.emplace_back(midpoint(state));
-    about = holding_->signsFromRest(set.t, middle, about, held_);
-    for (std::size_t k = 0; k < about.size(); ++k) stillHeld_[k] &= static_cast<char>(std::fabs(about[k]) < 1);
+    about = holding_->signsFromRest(set.t, middle, about, FlowJumps::bySigns(held_));
+    for (std::size_t k = 0; k < about.size(); ++k)
+      if (held_[k] == byItsSign && !(std::fabs(about[k]) < 1)) stillHeld_[k] = 0;
   }
   if (stillHeld_ != held_) return;
-  for (std::size_t k = 0; k < held_.size(); ++k) stillHeld_[k] &= static_cast<char>(bounds[k].holds);
+  for (std::size_t k = 0; k < held_.size(); ++k)
+    if (!bounds[k].holds) stillHeld_[k] = 0;
 }
 
 /// Those at zero leave to the sides that they would in the middle of the set, each pushed there by the others as well,

@@ -61,7 +61,9 @@ FlowJourney FlowFollower::follow(FlowPiece& piece, double end, double allowed) {
   while (piece.set.t < end && static_cast<double>(Work::counted() - began) <= allowed) {
     if (task_.options.cancelled != nullptr && task_.options.cancelled->load(std::memory_order_relaxed))
       return FlowJourney::cancelled;
+    if (settle(piece, Settle::unnoticed)) continue;
     StepOutcome outcome = certify(piece);
+    if (outcome != StepOutcome::stepped && settle(piece, Settle::ratherThanBisect)) continue;
     const bool uncertain = symbols_ > 0;
     if ((hasLostTurn_ || isTurnMixed_) && uncertain && !piece.isTurnLost) {
       constexpr double leastHalf = 0x1p-3;  // it may be that only smaller parts turn as one, or none does
@@ -103,6 +105,7 @@ FlowJourney FlowFollower::follow(FlowPiece& piece, double end, double allowed) {
       if (outcome == StepOutcome::splitWanted) outcome = StepOutcome::stepped;  // certified all the same
     }
     if (outcome == StepOutcome::failed) {
+      if (settle(piece, Settle::surely)) continue;
       run_.fail(piece, piece.set.t, tool_->stepper.why());
       return FlowJourney::ended;
     }
@@ -125,12 +128,29 @@ FlowJourney FlowFollower::follow(FlowPiece& piece, double end, double allowed) {
   return FlowJourney::goesOn;
 }
 
+/// From here on solutions rest where they are about to: before steps become so short that they tell no more, or in
+/// place of a step that cannot be proved.
+bool FlowFollower::settle(FlowPiece& piece, Settle how) {
+  if (task_.jumps.rests.empty()) return false;
+  if (!settling_) settling_.emplace(task_.jumps);
+  const Monomials& monomials = *task_.layouts[piece.layout].monomials;
+  const std::vector<char> held = FlowStepper::resting(piece.set, task_.jumps);
+  const auto found = settling_->find(piece.set, monomials, held, task_.horizon);
+  if (!found) return false;
+  // Of the greatest that a state was.
+  const double little = how == Settle::ratherThanBisect ? 0x1p-5 : monomials.symbols() > 0 ? 0x1p-20 : 0x1p-40;
+  for (std::size_t i = 0; !found->isMixed && how != Settle::surely && i < found->apart.size(); ++i)
+    if (piece.set.largest.empty() || !(found->apart[i] <= little * piece.set.largest[i])) return false;
+  settling_->rest(piece.set, monomials, held, *found, task_.quantum);
+  return true;
+}
+
 /// One step, with the jumps held at which all of the piece is; of those that may be left, without.
 StepOutcome FlowFollower::certify(const FlowPiece& piece) {
   std::vector<char> held = FlowStepper::resting(piece.set, task_.jumps);
   hasLostTurn_ = isTurnMixed_ = false;
   for (;;) {
-    const bool holds = std::ranges::find(held, 1) != held.end();
+    const bool holds = std::ranges::any_of(held, [](char how) { return how != 0; });
     if (!holds) held.clear();
     if (!use(piece, held)) {
       held.clear();
@@ -140,7 +160,8 @@ StepOutcome FlowFollower::certify(const FlowPiece& piece) {
     const double longest = std::max(std::floor(task_.options.longestStep / task_.quantum), 0x1p20) * task_.quantum;
     const auto next = std::ranges::upper_bound(task_.ends, piece.set.t);
     const double within = next == task_.ends.end() ? task_.horizon : *next;
-    const double end = std::min(within, piece.set.t + longest);  // exact: both are multiples of the quantum
+    double end = std::min(within, piece.set.t + longest);  // exact: both are multiples of the quantum
+    if (piece.set.unsettledUntil > piece.set.t) end = std::min(end, piece.set.unsettledUntil);
     const StepOutcome outcome =
         tool_->stepper.certify(piece.set, end, task_.quantum, uncertain ? task_.shares : SplitShares{});
     hasLostTurn_ = hasLostTurn_ || tool_->stepper.hasLostTurn();
@@ -239,8 +260,8 @@ void FlowFollower::useOutputsOf(Tools& tools) {
 /// Where solutions that were held are let go in the step at hand, their sign is given as of those that are free.
 void FlowFollower::useOutputsOfLeaving(const FlowPiece& piece) {
   std::vector<char> held = tool_->stepper.heldBehind();
-  if (held.empty()) return;
-  if (std::ranges::find(held, 1) == held.end()) held.clear();
+  if (held.empty() && !tool_->stepper.isUnsettled()) return;
+  if (std::ranges::none_of(held, [](char how) { return how != 0; })) held.clear();
   Tools* const motion = tool_;
   if (!use(piece, held)) use(piece, {});
   tool_ = motion;
@@ -665,7 +686,7 @@ bool FlowFollower::record(FlowPiece& piece) {
       findBoxes(t0, Interval(from, to), between);
       std::vector<Interval> overs;
       for (std::size_t i = 0; i < behindLimits.size(); ++i) {
-        Interval over = hull(beforeLimits[i], behindLimits[i]) + sag_[i];
+        Interval over = stepper.isUnsettled() ? Interval::entire() : hull(beforeLimits[i], behindLimits[i]) + sag_[i];
         if (knowsMore || !isBounded(over)) {
           const Interval wherever = overBoxes(static_cast<int>(i));
           over = isBounded(over) ? intersection(over, wherever) : wherever;
@@ -676,7 +697,7 @@ bool FlowFollower::record(FlowPiece& piece) {
       if (beforeModel && behindModel && piece.next < times.size() && !task_.options.modelled.empty()) {
         FlowChord chord{{piece.set.centre, piece.set.half}, beforeModel, behindModel, {}, {}};
         for (const int o : task_.options.modelled) {
-          chord.sag.push_back(sag_[at(o)]);
+          chord.sag.push_back(stepper.isUnsettled() ? Interval::entire() : sag_[at(o)]);
           chord.bound.push_back(overs[at(o)]);
         }
         run_.countChord();

@@ -12,6 +12,7 @@
 #include "analyses/flow/mean_value_outputs.hpp"
 #include "analyses/flow/outputs.hpp"
 #include "analyses/flow/polynomial_range.hpp"
+#include "analyses/flow/settling.hpp"
 #include "analyses/flow/step.hpp"
 #include "analyses/flow/task.hpp"
 #include "analyses/flow/top_grades.hpp"
@@ -135,6 +136,8 @@ class FlowFollower {
   std::unique_ptr<Tools> toolsFor(const FlowPiece& piece, const std::vector<char>& held) const;
   OutputTools outputToolsFor(const Program& g, std::size_t layout, std::size_t ofStates) const;
   std::unique_ptr<FlowOutputChords> chordsIn(const Program& g, std::size_t layout, std::size_t ofStates) const;
+  enum class Settle : char { unnoticed, ratherThanBisect, surely };
+  bool settle(FlowPiece& piece, Settle how);
   bool use(const FlowPiece& piece, const std::vector<char>& held);
   void useOutputsOf(Tools& tools);
   void useOutputsOfLeaving(const FlowPiece& piece);
@@ -174,7 +177,8 @@ class FlowFollower {
   Tools* tool_ = nullptr;                           // of the piece at hand, as are the next three
   bool hasLostTurn_ = false, isTurnMixed_ = false;  // FlowStepper's, of the last step
   int turnSymbol_ = -1;
-  Tools* outputTool_ = nullptr;  // of its outputs: that one, or of those that are held behind the step
+  std::optional<Settling> settling_;  // once needed
+  Tools* outputTool_ = nullptr;       // of its outputs: that one, or of those that are held behind the step
   FlowOutputs* outputs_ = nullptr;
   PolynomialRange* outputRange_ = nullptr;  // of these
   OutputTools* between_ = nullptr;          // which do for the part of the step that chords are loaded for

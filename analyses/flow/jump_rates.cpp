@@ -57,6 +57,22 @@ Program heldPushOf(const FlowJumps& jumps, std::size_t jump, double before) {
   return recorder.finish(outputs);
 }
 
+Program pressuresOf(const FlowJumps& jumps) {
+  const Program& given = jumps.given;
+  const int signs = given.parameters() - static_cast<int>(jumps.count());
+  Recorder recorder(given.states(), given.parameters());
+  std::vector<int> outputs;
+  for (const RestingJumps& rest : jumps.rests) {
+    std::vector<int> values;
+    for (int i = 0; i < given.parameters(); ++i) values.push_back(recorder.parameter(i));
+    values[detail::at(signs) + rest.position] = recorder.constant(rest.ofPosition(1));
+    values[detail::at(signs) + rest.speed] = recorder.constant(rest.ofSpeed(-1));
+    const std::vector<int> here = recorder.append(given, values);
+    outputs.push_back(recorder.neg(here[detail::at(given.outputNodes()[detail::at(rest.states.speed)])]));
+  }
+  return recorder.finish(outputs);
+}
+
 AlongStep::AlongStep(const Program& g, std::shared_ptr<const Monomials> monomials, int order, double length,
                      double resolution, const std::atomic<bool>* cancelled)
     : orders_(order + 1),

@@ -74,4 +74,7 @@ class JumpRates : public AlongStep {
 /// What is added to f where a jump holds its argument at zero, beside f with the sign `before` there: n outputs.
 Program heldPushOf(const FlowJumps& jumps, std::size_t jump, double before);
 
+/// Q of each pair that may rest (RestingPair). Signs, but for its own, are parameters behind f's.
+Program pressuresOf(const FlowJumps& jumps);
+
 }  // namespace gamut

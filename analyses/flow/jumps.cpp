@@ -17,7 +17,7 @@ namespace gamut {
 using detail::at;
 
 /// An argument with an input in it moves at rates that nobody knows.
-FlowJumps::FlowJumps(const Program& differentiated, const std::vector<int>& varying)
+FlowJumps::FlowJumps(const Program& differentiated, const std::vector<int>& varying, std::span<const RestingPair> pairs)
     : f(Recorder(differentiated)
             .finish({differentiated.outputNodes().begin(),
                      differentiated.outputNodes().begin() + differentiated.states()})),
@@ -31,13 +31,20 @@ FlowJumps::FlowJumps(const Program& differentiated, const std::vector<int>& vary
     for (const int parameter : varying)
       if (forms.back() && forms.back()->parameters[at(parameter)] != 0) forms.back().reset();
   }
+  rests = restingJumps(pairs, forms);
+}
+
+std::vector<char> FlowJumps::bySigns(std::vector<char> held) {
+  std::ranges::replace(held, atRest, char{0});
+  return held;
 }
 
 namespace {
 
 std::vector<Side> sidesOf(const std::vector<char>& held) {
   std::vector<Side> sides;
-  for (const char isHeld : held) sides.push_back(isHeld != 0 ? Side::held : Side::open);
+  for (const char how : held)
+    sides.push_back(how == byItsSign ? Side::held : how == atRest ? Side::between : Side::open);
   return sides;
 }
 
@@ -52,8 +59,16 @@ FlowJumps::Held FlowJumps::heldProgram(const std::vector<char>& held) const {
   const Program all = onSides(f, sidesOf(held));
   const std::vector<int>& outputs = all.outputNodes();
   const std::size_t n = at(f.states()), count = held.size();
-  Held result{Recorder(all).finish({outputs.begin(), outputs.begin() + f.states()}), std::vector<int>(count, -1),
-              std::vector<double>(count, 1.0)};
+  Recorder recorder(all);
+  std::vector<int> rates(outputs.begin(), outputs.begin() + f.states());
+  std::vector<char> stands(n, 0);
+  for (const RestingJumps& rest : rests)
+    if (held[rest.speed] == atRest)
+      for (const int state : {rest.states.position, rest.states.speed}) {
+        stands[at(state)] = 1;
+        rates[at(state)] = recorder.constant(0.0);  // exactly
+      }
+  Held result{recorder.finish(rates), std::vector<int>(count, -1), std::vector<double>(count, 1.0)};
   std::vector<int> nodes(count, -1);  // of the signs left; where surfaces meet, two that agree elsewhere are still two
   for (std::size_t k = 0; k < count; ++k) {
     if (held[k] != 0) continue;
@@ -71,7 +86,8 @@ FlowJumps::Held FlowJumps::heldProgram(const std::vector<char>& held) const {
     nodes[k] = node;
   }
   std::vector<char> isUsed(all.nodes().size(), 0);
-  for (std::size_t i = 0; i < n; ++i) isUsed[at(outputs[i])] = 1;
+  for (std::size_t i = 0; i < n; ++i)
+    if (stands[i] == 0) isUsed[at(outputs[i])] = 1;
   for (std::size_t i = isUsed.size(); i-- > 0;)
     if (isUsed[i] != 0)
       detail::forEachOperand(all.table(), static_cast<int>(i), [&](int operand) { isUsed[at(operand)] = 1; });
@@ -176,6 +192,17 @@ std::vector<double> JumpBounder::signsFromRest(double time, const Box& states, s
     if (change < 1e-15) break;
   }
   return signs;
+}
+
+Interval JumpBounder::pressure(const RestingJumps& rest, const Interval& time, const Box& box,
+                               const std::vector<JumpBound>& bounds) {
+  Box all = parameters_;
+  for (const JumpBound& bound : bounds) all.push_back(bound.sign);
+  all[parameters_.size() + rest.position] = Interval(rest.ofPosition(1));
+  all[parameters_.size() + rest.speed] = Interval(rest.ofSpeed(-1));
+  given_.setParameters(all);
+  given_(time, box, results_);
+  return -results_[at(rest.states.speed)];
 }
 
 void JumpBounder::narrow(const LinearForm& form, const Interval& argument, Box& box) const {

@@ -12,13 +12,14 @@
 #include "scalars/interval.hpp"
 #include "scalars/program/linear_form.hpp"
 #include "scalars/program/program.hpp"
+#include "scalars/program/resting.hpp"
 
 namespace gamut {
 
 /// The jumps of a motion, the same for all steps.
 struct FlowJumps {
   /// `differentiated` as for FlowStepper; `varying`: parameters that are inputs.
-  FlowJumps(const Program& differentiated, const std::vector<int>& varying);
+  FlowJumps(const Program& differentiated, const std::vector<int>& varying, std::span<const RestingPair> pairs = {});
   std::size_t count() const { return forms.size(); }
   /// f with some jumps held and the others as they are.
   struct Held {
@@ -35,11 +36,19 @@ struct FlowJumps {
   /// those held (none: empty) what holds them. Throws as heldProgram.
   Program outputsGiven(const Program& g, const std::vector<char>& held) const;
 
-  Program f;                                     ///< without derivatives
-  Program given;                                 ///< withSignsGiven(f)
+  Program f;      ///< without derivatives
+  Program given;  ///< withSignsGiven(f)
+  /// Of those held, without those that are at rest.
+  static std::vector<char> bySigns(std::vector<char> held);
+
   bool isAffine = true;                          ///< f, in its signs: else nothing is held
   std::vector<std::optional<LinearForm>> forms;  ///< of each argument that is one
+  std::vector<RestingJumps> rests;               ///< where solutions come to rest
 };
+
+/// What is said of each jump where some are held: 0, it is not; its argument is zero, by a sign that is found; it is
+/// one of two at which the motion rests, and its sign is zero.
+inline constexpr char byItsSign = 1, atRest = 2;
 
 /// What a sign may be, by where its argument is.
 struct SignCases {
@@ -147,6 +156,9 @@ class JumpBounder {
   /// to that side. `signs`: of the others. None if that is not decided.
   std::vector<double> signsFromRest(double time, const Box& states, std::vector<double> signs,
                                     const std::vector<char>& isZero);
+  /// Q of a pair that rests (RestingPair), where others have the signs of `bounds`.
+  Interval pressure(const RestingJumps& rest, const Interval& time, const Box& box,
+                    const std::vector<JumpBound>& bounds);
   /// Narrows the pivot's state in `box` by what the form is.
   void narrow(const LinearForm& form, const Interval& argument, Box& box) const;
 

@@ -29,11 +29,13 @@ struct FlowSet {
   std::vector<int> units;              // FlowGrowth's, of the last step
   std::vector<double> first, largest;  // size of each state over the first step, and the greatest so far
   std::vector<Interval> arguments;     // of jumps, what is known of them besides (FlowJumps); none: nothing is
-  double slideStep = 0;                // s, of the last step, if solutions came to be held or left in it
-  bool hasSlid = false;                // in any step so far: then a round is not given up
-  double nextStep = 0, freeStep = 0;   // s, a guess; what it was before jumps made steps shorter
-  double dampedStep = 0;               // s, where damping limits steps: how long the next may be, about
-  double caution = 1;                  // factor on the step that the last coefficients suggest
+  double unsettledUntil = 0;           // s: until then solutions may be `unsettled` from the set (Settling)
+  std::vector<double> unsettled;
+  double slideStep = 0;               // s, of the last step, if solutions came to be held or left in it
+  bool hasSlid = false;               // in any step so far: then a round is not given up
+  double nextStep = 0, freeStep = 0;  // s, a guess; what it was before jumps made steps shorter
+  double dampedStep = 0;              // s, where damping limits steps: how long the next may be, about
+  double caution = 1;                 // factor on the step that the last coefficients suggest
 };
 
 /// The set of n states at the start, without second doubles.

@@ -16,8 +16,14 @@ using detail::at;
 
 namespace {
 
-constexpr double nearlyAny = 1.9;     // the width of a sign of which hardly anything is known
-constexpr double clearlyLess = 1.8;   // of a half width: a row that loses its ξ should win at least a tenth
+constexpr double nearlyAny = 1.9;    // the width of a sign of which hardly anything is known
+constexpr double clearlyLess = 1.8;  // of a half width: a row that loses its ξ should win at least a tenth
+/// Of an argument that is above zero, or below, or still zero.
+Interval sideOf(bool isAbove) {
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  return isAbove ? Interval(0.0, infinite) : Interval(-infinite, 0.0);
+}
+
 constexpr double leastHold = 0x1p10;  // in shortest steps: shorter ones would win less than leaving costs
 
 }  // namespace
@@ -40,11 +46,10 @@ void FlowStepper::setJumps(const FlowJumps& own, const FlowJumps& of, std::vecto
 }
 
 std::vector<char> FlowStepper::resting(const FlowSet& set, const FlowJumps& jumps) {
-  if (jumps.count() == 0 || !jumps.isAffine) return {};
+  if (jumps.count() == 0 || (!jumps.isAffine && jumps.rests.empty())) return {};
   std::vector<double> total;
   totalRadius(set, total);
   std::vector<char> result;
-  bool any = false;
   for (std::size_t k = 0; k < jumps.count(); ++k) {
     bool rests = false;
     if (jumps.forms[k]) {
@@ -52,8 +57,18 @@ std::vector<char> FlowStepper::resting(const FlowSet& set, const FlowJumps& jump
       rests = isKnown || isEqual(argumentOf(set, *jumps.forms[k], total), Interval(0.0));
     }
     result.push_back(static_cast<char>(rests));
-    any = any || rests;
   }
+  if (!jumps.isAffine) {  // nothing else is held then
+    std::vector<char> ofPairs(jumps.count(), 0);
+    for (const RestingJumps& rest : jumps.rests)
+      for (const std::size_t k : {rest.position, rest.speed}) ofPairs[k] = result[k];
+    result = ofPairs;
+  }
+  // A pair rests where both arguments are zero; its speed alone is where it turns.
+  for (const RestingJumps& rest : jumps.rests)
+    result[rest.position] = result[rest.speed] =
+        result[rest.position] != 0 && result[rest.speed] != 0 ? atRest : char{0};
+  const bool any = std::ranges::any_of(result, [](char how) { return how != 0; });
   return any ? result : std::vector<char>{};
 }
 
@@ -330,6 +345,17 @@ bool FlowStepper::mayPassKink(const FlowSet& set) const {
   return false;
 }
 
+/// Of the motion's own jumps the signs that are given, or do not change.
+std::vector<JumpBound> FlowStepper::sidedBounds() const {
+  std::vector<JumpBound> bounds(own_->jumps().count());
+  for (std::size_t j = 0; j < bounds.size(); ++j) {
+    const double value = series_.series(series_.jumps()[j])[0];
+    const bool isOnSide = !sides_.empty() && sides_[j] != 0;
+    if ((isOnSide || !series_.mayTurn(series_.jumps()[j])) && std::fabs(value) == 1) bounds[j].sign = Interval(value);
+  }
+  return bounds;
+}
+
 FlowStepper::Look FlowStepper::lookAtJumps(const FlowSet& set, double& h, double smallest, double left) {
   ownBounds_.clear();
   heldBounds_.clear();
@@ -345,14 +371,8 @@ FlowStepper::Look FlowStepper::lookAtJumps(const FlowSet& set, double& h, double
       sides_.clear();
       return Look::unsided;
     }
-    std::vector<JumpBound> others(own_->jumps().count());
-    for (std::size_t j = 0; j < others.size(); ++j) {
-      const double value = series_.series(series_.jumps()[j])[0];
-      if ((sides_[j] != 0 || !series_.mayTurn(series_.jumps()[j])) && std::fabs(value) == 1)
-        others[j].sign = Interval(value);
-    }
     const double longest =
-        loadRates(*ownRates_, set, h, others, lift_.empty() ? withLow(E_) : heldTube_) ? longestOnSides(h) : 0;
+        loadRates(*ownRates_, set, h, sidedBounds(), lift_.empty() ? withLow(E_) : heldTube_) ? longestOnSides(h) : 0;
     if (longest < h && longest > 0 && mayTurn_) {
       const Look look = lookAtSurface(set, h, smallest);
       if (look != Look::released) return look;
@@ -376,13 +396,17 @@ FlowStepper::Look FlowStepper::lookAtJumps(const FlowSet& set, double& h, double
     lift_.clear();
     return Look::shorter;
   }
-  if (own_ && !own_->jumps().isAffine) return Look::goOn;
-  const bool mayTurn = boundOwnJumps(set, time, box, h, ownBounds_);
+  const bool isAffine = !own_ || own_->jumps().isAffine;
+  if (!isAffine && !holding_) return Look::goOn;
+  const bool mayTurn = isAffine && boundOwnJumps(set, time, box, h, ownBounds_);
   if (!mayTurn && !holding_) {
     ownBounds_.clear();
     return Look::goOn;
   }
-  boundOwnJumps(set, began, first, 0.0, atStart);
+  if (isAffine)
+    boundOwnJumps(set, began, first, 0.0, atStart);
+  else
+    ownBounds_ = atStart = sidedBounds();
   // What intervals leave open: by polynomials.
   const auto ratesUntil = [&](const JumpRates& rates, double until, std::size_t count) {
     std::vector<SideRates> known;
@@ -397,7 +421,14 @@ FlowStepper::Look FlowStepper::lookAtJumps(const FlowSet& set, double& h, double
   if (holding_) {
     boundHeldJumps(set, time, box, h, ownBounds_, heldBounds_);
     boundHeldJumps(set, began, first, 0.0, atStart, heldAtStart);
-    double held = 0.5 * h;
+    double held = 0.5 * h, pressed = h;
+    const auto press = [&] {
+      pressed = longestPressed(set, h, withLow(y_));
+      for (const RestingJumps& rest : of_->rests)
+        if (held_[rest.speed] == atRest && pressed > 0)
+          heldAtStart[rest.position] = heldAtStart[rest.speed] = JumpBound::held(Interval(0.0));
+    };
+    press();
     const bool isByIntervals = areHeld(heldBounds_);
     if (HeldSigns* together = isByIntervals ? nullptr : heldTogether(set, h, withLow(y_))) {
       held = longestTogether(*together, h);
@@ -415,6 +446,7 @@ FlowStepper::Look FlowStepper::lookAtJumps(const FlowSet& set, double& h, double
       held = longestHeld(*heldRates_, h);
       boundHeldJumps(set, time, box, h, ownBounds_, heldBounds_, ratesUntil(*heldRates_, h, held_.size()));
       boundHeldJumps(set, began, first, 0.0, atStart, heldAtStart, ratesUntil(*heldRates_, 0, held_.size()));
+      press();
     }
     if (areHeld(heldBounds_) && !lift_.empty() && passing_ == none) {  // known better without
       lift_.clear();
@@ -431,7 +463,7 @@ FlowStepper::Look FlowStepper::lookAtJumps(const FlowSet& set, double& h, double
     }
     if (!areHeld(heldBounds_)) {
       const bool couldHold = areHeld(heldAtStart);
-      held = std::min(held, 0.99 * h);
+      held = std::min({held, pressed, 0.99 * h});
       if (couldHold && held >= 0.5 * leastHold * smallest) {
         h = held;
         return Look::shorter;
@@ -443,6 +475,10 @@ FlowStepper::Look FlowStepper::lookAtJumps(const FlowSet& set, double& h, double
       letGo(set, couldHold ? heldBounds_ : heldAtStart);
       return Look::released;
     }
+  }
+  if (!isAffine) {
+    ownBounds_.clear();
+    return Look::goOn;
   }
   // One that comes alone, and all of it from one side, is known by when it does.
   const bool mayArrive = inputs_.empty() && std::ranges::count_if(ownBounds_, [](const JumpBound& bound) {
@@ -652,6 +688,8 @@ std::vector<Interval> FlowStepper::argumentsBehind() const {
     if (turn_ && left_[k] >= 0 && !turn_->besides.empty())
       result.back() = Interval(factor_[k]) * turn_->besides[at(left_[k])];
     if (turn_ && turn_->jump == k && !turn_->passesJump()) result.back() = turn_->argument;
+    if (turn_ && turn_->lifts != nullptr && turn_->lifts->position == k)
+      result.back() = sideOf(turn_->lifts->positionRises);
     // What others' states have become of which the motion with those held says no more.
     if (held_[k] == 0 && left_[k] < 0 && of_->forms[k] && isZeroBehind(*of_->forms[k])) result.back() = Interval(0.0);
   }
@@ -668,6 +706,7 @@ void FlowStepper::forEachKnown(Visit visit) const {
 }
 
 void FlowStepper::narrowOver(std::vector<Interval>& states) const {
+  if (isUnsettled()) return;
   forEachKnown([&](const LinearForm& form, const JumpBound& bound) {
     (own_ ? *own_ : *holding_).narrow(form, bound.over, states);
   });
@@ -683,6 +722,7 @@ std::vector<SignCases> FlowStepper::signs(std::size_t count, Of of) const {
     return {.above = value > 0, .below = value < 0, .between = Interval::empty()};
   };
   std::vector<SignCases> result(count);
+  if (isUnsettled()) return result;
   if (held_.empty() && jumps.size() == count)
     for (std::size_t j = 0; j < count; ++j) result[j] = own(j);
   for (std::size_t k = 0; k < held_.size(); ++k) {
@@ -708,19 +748,26 @@ SignCases FlowStepper::Turn::during(const Interval& seconds) const {
   return cases.during(seconds);
 }
 
+void FlowStepper::giveTurning(const Interval& seconds, std::vector<SignCases>& signs) const {
+  const SignCases cases = turn_->during(seconds);
+  signs[turn_->jump] = cases;
+  if (const RestingJumps* rest = turn_->lifts)  // both leave to the same side of their states
+    signs[rest->position] = rest->positionRises == rest->speedRises ? cases : cases.mirrored();
+}
+
 std::vector<SignCases> FlowStepper::signsAfter(double seconds, std::size_t count,
                                                std::optional<Interval> moments) const {
   std::vector<SignCases> result = signs(count, [&](const JumpBound& bound) { return bound.signAfter(seconds); });
   if (turn_ && turn_->jump != none) {
     const bool hasNone = moments && seconds <= moments->lower(), haveAll = moments && seconds >= moments->upper();
-    result[turn_->jump] = turn_->during(Interval(hasNone ? 0.0 : haveAll ? h_ : seconds));
+    giveTurning(Interval(hasNone ? 0.0 : haveAll ? h_ : seconds), result);
   }
   return result;
 }
 
 std::vector<SignCases> FlowStepper::signsOver(std::size_t count) const {
   std::vector<SignCases> result = signs(count, [](const JumpBound& bound) { return bound.signOver(); });
-  if (turn_ && turn_->jump != none) result[turn_->jump] = turn_->during(Interval(0.0, h_));
+  if (turn_ && turn_->jump != none) giveTurning(Interval(0.0, h_), result);
   return result;
 }
 

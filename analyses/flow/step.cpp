@@ -502,7 +502,8 @@ StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum,
   turn_.reset();
   lift_.clear();
   beyondLast_ = 0;
-  mayTurn_ = mayPass_ = true;
+  unsettled_ = set.unsettledUntil > set.t ? set.unsettled : std::vector<double>{};
+  mayTurn_ = mayPass_ = unsettled_.empty();
   passing_ = none;
   hasLostTurn_ = isTurnMixed_ = false;
   turnSymbol_ = -1;

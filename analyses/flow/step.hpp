@@ -144,6 +144,8 @@ class FlowStepper {
   /// those alone that turn in `moments`, if there are any, s.
   void evaluate(const FlowSet& set, double tau, FlowPoint& point, bool narrowed = true,
                 std::optional<Interval> moments = {});
+  /// Whether solutions in the step are beside what the set says (FlowSet::unsettled).
+  bool isUnsettled() const { return !unsettled_.empty(); }
   /// Whether some may have turned by then, and others not yet.
   bool isTurning(double tau) const { return turn_ && turn_->moments.lower() < tau && tau < turn_->moments.upper(); }
   /// When they do so, in units of `scale`, as a polynomial in ξ; and in seconds, what solutions do so where that is
@@ -168,7 +170,7 @@ class FlowStepper {
   double scale() const { return h0_; }
   double theta() const { return theta_; }
   double totalBound(int j) const { return total_[static_cast<std::size_t>(j)]; }  ///< R + Σ_j |Γ_j|, at the start
-  double tubeBound(int i) const { return E_[static_cast<std::size_t>(i)] + series_.lowNorm(i); }  ///< |x - p| always
+  double tubeBound(int i) const;                                                  ///< |x - p|, always
   double looseBound(int i) const;  ///< |loose| and what inputs do in the step, at every time
   /// The set at the end of the step.
   void advance(FlowSet& set);
@@ -214,6 +216,7 @@ class FlowStepper {
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
   enum class Look { goOn, again, shorter, longer, unsided, released };
   bool mayPassKink(const FlowSet& set) const;
+  std::vector<JumpBound> sidedBounds() const;
   Look lookAtJumps(const FlowSet& set, double& h, double smallest, double left);
   Look lookAtKinks(const FlowSet& set, double& h, double smallest, double left);
   static double longestToCross(const std::vector<JumpBound>& bounds, const std::vector<JumpBound>& atStart, double h,
@@ -271,6 +274,8 @@ class FlowStepper {
   double longestOnSides(double h) const;
   bool loadRates(JumpRates& rates, const FlowSet& set, double h, const std::vector<JumpBound>& bounds,
                  const std::vector<double>& tube);
+  AlongStep* pressures(const FlowSet& set, double h, const std::vector<double>& tube);
+  double longestPressed(const FlowSet& set, double h, const std::vector<double>& tube);
   bool areHeld(const std::vector<JumpBound>& bounds) const;
   double longestHeld(const JumpRates& rates, double h) const;
   std::vector<double> withLow(std::vector<double> tube) const;
@@ -297,6 +302,7 @@ class FlowStepper {
     Interval moments;                         // s, of m(ξ) and of solutions themselves
     std::vector<char> heldBefore, heldAfter;  // of each jump of f
     std::vector<Interval> signs;              // of f, before; 0 of those held
+    const RestingJumps* lifts = nullptr;      // the pair that is released, of which `jump` is the speed's
     const LinearForm* form = nullptr;
     BoundedPolynomial when{};                         // m(ξ), in units of σ
     double away = 0;                                  // how far these are from each other at most
@@ -331,6 +337,7 @@ class FlowStepper {
   Look lookAtPassage(const FlowSet& set, double& h, double smallest);
   Look lookAtTurn(const FlowSet& set, double& h, double smallest, Turn turn, const std::vector<Interval>& signs);
   void holdBeside(const std::vector<char>& held);
+  bool pressBeside(const FlowSet& set, const Turn& turn);
   bool holdUntilTurned(const FlowSet& set, const Turn& turn);
   Interval onceTurned(const AlongStep& along, int output, const Turn& turn) const;
   bool stayOnceTurned(const FlowSet& set, Turn& turn, const std::vector<double>& states,
@@ -361,6 +368,7 @@ class FlowStepper {
   void forEachKnown(Visit visit) const;
   template <class Of>
   std::vector<SignCases> signs(std::size_t count, Of of) const;
+  void giveTurning(const Interval& seconds, std::vector<SignCases>& signs) const;
   void narrowArguments(const FlowSet& set, double tau, FlowPoint& point, std::optional<Interval> moments) const;
   std::vector<double> symbolMass(std::vector<double>& byGrade) const;
   template <class F>
@@ -391,6 +399,7 @@ class FlowStepper {
   std::vector<JumpBound> ownBounds_, heldBounds_;    // over the step; none: nothing is known
   std::unique_ptr<JumpRates> ownRates_, heldRates_;  // likewise
   std::map<std::vector<char>, std::unique_ptr<HeldSigns>> heldSigns_;  // once needed; null where there are none
+  std::unique_ptr<AlongStep> pressures_;                               // of pairs that may rest; once needed
   std::map<std::pair<int, bool>, AlongStep> heldPushes_;               // of own jumps, from above or not; once needed
   double length_ = 0, resolution_ = 0;                                 // of time, s
   double reach_ = 0;           // how long a step may be in which solutions turn, s
@@ -408,13 +417,15 @@ class FlowStepper {
   std::optional<Turn> turn_;                                                    // of this step
   std::size_t passing_ = none;  // the kink that all solutions pass as a turn, from the side passingFrom_
   double passingFrom_ = 0;
-  bool mayPass_ = true;           // so, in this step
-  std::vector<double> heldTube_;  // before it
-  std::vector<double> lift_;      // how much wider the tube is for those that have turned; none: it is not
+  bool mayPass_ = true;            // so, in this step
+  std::vector<double> heldTube_;   // before it
+  std::vector<double> unsettled_;  // how far solutions may be beside the set in this step; none: they are not
+  std::vector<double> lift_;       // how much wider the tube is for those that have turned; none: it is not
   bool isLiftOfSurface_ = false;
   double beyondLast_ = 0;  // how much longer the step is than until the last has turned, s; 0: not known yet
   bool mayTurn_ = true;    // in this step
   bool hasLostTurn_ = false, isTurnMixed_ = false;
+  bool leavesOnceTurned_ = false;  // another side, before the step's end
   int turnSymbol_ = -1;
   int turnTries_ = 0;
   const std::vector<char> nothingHeld_ = {};

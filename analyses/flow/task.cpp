@@ -62,7 +62,7 @@ FlowTask::FlowTask(const FlowQuestion& question, const Box& startBox, const std:
       box(startBox),
       levels(levelBoxes),
       embedding(startBox, question.motion.states(), question.options.varying, round.emphasis.weights),
-      jumps(question.differentiated, parametersOf(question.options.varying)),
+      jumps(question.differentiated, parametersOf(question.options.varying), question.options.rests),
       horizon(question.horizon),
       effective(round.emphasis.weights.empty() ? embedding.symbols : round.emphasis.effective),
       shares{.slide = round.slideShare},

@@ -1,6 +1,7 @@
 #include "analyses/flow/turn.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -101,6 +102,43 @@ Program releaseOf(const FlowJumps& jumps, const std::vector<char>& held, std::si
     return tangents(recorder, {guard}, seeds).front();
   };
   return turnOf(recorder, free, guard, growthAlong(whileHeld), growthAlong(free), towardsSide(other));
+}
+
+Program liftOf(const FlowJumps& jumps, const std::vector<char>& held, std::size_t speed) {
+  const auto isOf = [&](const RestingJumps& rest) { return rest.speed == speed; };
+  const RestingJumps& rest = *std::ranges::find_if(jumps.rests, isOf);
+  std::vector<char> open = FlowJumps::bySigns(held);
+  open[rest.position] = open[rest.speed] = atRest;
+  const Program f = withOpenSignsGiven(jumps.f, open);
+  if (jumpsOf(f).size() != at(static_cast<int>(open.size() - static_cast<std::size_t>(std::ranges::count(open, 0)))))
+    throw std::logic_error("signs become one or zero where others are given");
+  const std::size_t n = at(f.states());
+  Recorder recorder(f.states(), f.parameters());
+  const auto ratesOn = [&](bool isLifted) {
+    const auto leaving = [](bool rises) { return rises ? Side::above : Side::below; };
+    std::vector<Side> sides;
+    for (std::size_t j = 0; j < open.size(); ++j) {
+      if (open[j] == byItsSign) sides.push_back(Side::held);
+      if (open[j] != atRest) continue;
+      sides.push_back(!isLifted ? Side::between : leaving(j == rest.position ? rest.positionRises : rest.speedRises));
+    }
+    const Program program = onSides(f, sides);
+    const std::vector<int> here = recorder.append(program);
+    std::vector<int> rates;
+    for (std::size_t i = 0; i < n; ++i) rates.push_back(here[at(program.outputNodes()[i])]);
+    return rates;
+  };
+  std::vector<int> atPlace = ratesOn(false);
+  atPlace[at(rest.states.position)] = atPlace[at(rest.states.speed)] = recorder.constant(0.0);
+  const std::vector<int> lifted = ratesOn(true);
+  const double scale = std::fabs(jumps.forms[speed]->states[at(rest.states.speed)]);
+  const int guard = recorder.mul(recorder.constant(scale), lifted[at(rest.states.speed)]);
+  const auto growthAlong = [&](const std::vector<int>& rates) {
+    std::vector<std::pair<int, int>> seeds{{recorder.time(), recorder.constant(1.0)}};
+    for (std::size_t i = 0; i < n; ++i) seeds.emplace_back(recorder.state(static_cast<int>(i)), rates[i]);
+    return tangents(recorder, {guard}, seeds).front();
+  };
+  return turnOf(recorder, lifted, guard, growthAlong(atPlace), growthAlong(lifted), recorder.constant(1.0));
 }
 
 /// u̇ is affine in the sign: from u̇_b to u̇_-b, f as well, so that it is zero at f_b + u̇_b/(u̇_b - u̇_-b) (f_-b - f_b).

@@ -38,6 +38,9 @@ class FlowTurn : public AlongStep {
 /// to that side with the side's own sign; as fast as that rises of those let go, solutions are ahead. Throws
 /// std::logic_error where these do not decide about themselves. Signs are parameters behind f's.
 Program releaseOf(const FlowJumps& jumps, const std::vector<char>& held, std::size_t jump, double side);
+/// A pair that rests, of which `speed` is the second jump, lifts off as Q comes to zero (RestingPair): the guard is -Q.
+/// Throws as releaseOf.
+Program liftOf(const FlowJumps& jumps, const std::vector<char>& held, std::size_t speed);
 /// Solutions on this side of a jump come to be held by it: the guard is the argument, and solutions are ahead and
 /// attracted as fast as it comes to zero from either side.
 Program arrivalOf(const FlowJumps& jumps, std::size_t jump, double side);

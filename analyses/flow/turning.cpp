@@ -87,11 +87,12 @@ Interval FlowStepper::onceTurned(const AlongStep& along, int output, const Turn&
 FlowTurn* FlowStepper::turnFor(std::size_t jump, double side, TurnKind kind) {
   const auto [place, isNew] = turns_.try_emplace({jump, side > 0, kind});
   if (isNew) try {
-      place->second =
-          std::make_unique<FlowTurn>(kind == TurnKind::release   ? releaseOf(*of_, held_, jump, side)
-                                     : kind == TurnKind::arrival ? gamut::arrivalOf(own_->jumps(), jump, side)
-                                                                 : passageOf(own_->jumps(), jump, side),
-                                     series_.sharedMonomials(), m_, length_, resolution_, series_.cancelled());
+      place->second = std::make_unique<FlowTurn>(
+          kind == TurnKind::release && held_[jump] == atRest ? liftOf(*of_, held_, jump)
+          : kind == TurnKind::release                        ? releaseOf(*of_, FlowJumps::bySigns(held_), jump, side)
+          : kind == TurnKind::arrival                        ? gamut::arrivalOf(own_->jumps(), jump, side)
+                                                             : passageOf(own_->jumps(), jump, side),
+          series_.sharedMonomials(), m_, length_, resolution_, series_.cancelled());
     } catch (const std::logic_error&) {
     }
   return place->second.get();
@@ -109,17 +110,37 @@ FlowTurn* FlowStepper::passageFor(std::size_t kink, double side) {
 /// Whether one of those held lets all solutions go to one side within the step, before any other, and what is known of
 /// that. Look::released: it cannot be proved.
 FlowStepper::Look FlowStepper::lookAtRelease(const FlowSet& set, double& h, double smallest) {
+  const bool mayLift = std::ranges::any_of(of_->rests, [&](const RestingJumps& rest) {
+    return held_[rest.speed] == atRest && !heldBounds_[rest.speed].holds;
+  });
   HeldSigns* const together = heldTogether(set, h, heldTube_);
-  if (together == nullptr) return Look::released;
+  AlongStep* const along = mayLift ? pressures(set, h, heldTube_) : nullptr;
+  if (mayLift ? along == nullptr : together == nullptr) return Look::released;
   double earliest = std::numeric_limits<double>::infinity(), side = 0;
   std::size_t jump = 0;
+  const RestingJumps* lifts = nullptr;
+  for (std::size_t pair = 0; pair < of_->rests.size() && mayLift; ++pair) {
+    const RestingJumps& rest = of_->rests[pair];
+    if (held_[rest.speed] != atRest) continue;
+    const auto isLifted = [&](double seconds) {
+      return !(along->over(static_cast<int>(pair), 0, seconds / h0_).lower() > 0);
+    };
+    if (!isLifted(h)) continue;
+    const double moment = isLifted(0) ? 0 : changeOf(0, h, isLifted).first;
+    if (!(moment < earliest)) continue;
+    earliest = moment;
+    jump = rest.speed;
+    side = rest.ofSpeed(1);
+    lifts = &rest;
+  }
   for (std::size_t k = 0; k < held_.size(); ++k) {
-    if (held_[k] == 0) continue;
+    if (held_[k] != byItsSign || together == nullptr) continue;
     const auto until = [&](double seconds) { return together->sign(k, 0, seconds / h0_); };
     const auto isLetGo = [&](double seconds) { return magnitude(until(seconds)) >= 1; };
     if (!isLetGo(h)) continue;
     const auto [held, gone] = isLetGo(0) ? std::pair(0.0, 0.0) : changeOf(0, h, isLetGo);
     if (!(held < earliest)) continue;
+    lifts = nullptr;
     const bool above = until(gone).upper() >= 1, below = until(gone).lower() <= -1;
     earliest = held;
     jump = k;
@@ -129,9 +150,20 @@ FlowStepper::Look FlowStepper::lookAtRelease(const FlowSet& set, double& h, doub
   if (of == nullptr) return Look::released;
   std::vector<char> after = held_;
   after[jump] = 0;
+  if (lifts != nullptr) after[lifts->position] = 0;
   const std::vector<Interval> signs = *signsBeside(heldBounds_);
-  const Look look =
-      lookAtTurn(set, h, smallest, {jump, side, TurnKind::release, -1, of, {}, held_, after, signs}, signs);
+  const Look look = lookAtTurn(set, h, smallest,
+                               {.jump = jump,
+                                .side = side,
+                                .kind = TurnKind::release,
+                                .own = -1,
+                                .of = of,
+                                .moments = {},
+                                .heldBefore = held_,
+                                .heldAfter = after,
+                                .signs = signs,
+                                .lifts = lifts},
+                               signs);
   if (look != Look::goOn) return look;
   stillHeld_ = after;
   holdBeside(after);
@@ -283,7 +315,7 @@ bool FlowStepper::stayOnceTurned(const FlowSet& set, Turn& turn, const std::vect
 void FlowStepper::holdBeside(const std::vector<char>& held) {
   heldBounds_.assign(held_.size(), {});
   for (std::size_t k = 0; k < held.size(); ++k)
-    if (held[k] != 0) heldBounds_[k] = JumpBound::held(Interval(-1.0, 1.0));
+    if (held[k] != 0) heldBounds_[k] = JumpBound::held(held[k] == atRest ? Interval(0.0) : Interval(-1.0, 1.0));
 }
 
 /// Another one turns before all have: what decides most about when is what this piece is to be bisected in.
@@ -294,7 +326,8 @@ void FlowStepper::noteOther(const HeldSigns& together, std::size_t jump, double 
 
 /// Whether those that are held besides the one that turns are so until all have turned.
 bool FlowStepper::holdUntilTurned(const FlowSet& set, const Turn& turn) {
-  const auto besides = std::ranges::count(turn.heldBefore, 1) - (turn.releases() ? 1 : 0);
+  const auto besides =
+      std::ranges::count(turn.heldBefore, byItsSign) - (turn.releases() && turn.lifts == nullptr ? 1 : 0);
   if (besides == 0) return true;
   HeldSigns* const together = heldSignsFor(turn.heldBefore);
   const double until = std::min(h_, turn.moments.upper());
@@ -302,7 +335,7 @@ bool FlowStepper::holdUntilTurned(const FlowSet& set, const Turn& turn) {
     return false;
   if (areTogether(*together, turn.heldBefore, 0, until, turn.jump)) return true;
   for (std::size_t k = 0; k < turn.heldBefore.size(); ++k)
-    if (turn.heldBefore[k] != 0 && k != turn.jump && magnitude(together->sign(k, 0, until / h0_)) >= 1 &&
+    if (turn.heldBefore[k] == byItsSign && k != turn.jump && magnitude(together->sign(k, 0, until / h0_)) >= 1 &&
         mignitude(together->sign(k, until / h0_, until / h0_)) < 1)
       noteOther(*together, k, until);
   return false;
@@ -311,19 +344,37 @@ bool FlowStepper::holdUntilTurned(const FlowSet& set, const Turn& turn) {
 /// Likewise from when the first has turned, along these polynomials of states.
 bool FlowStepper::holdOnceTurned(const FlowSet& set, const Turn& turn, const std::vector<double>& states,
                                  const std::vector<double>& tube) {
-  const auto besides = std::ranges::count(turn.heldAfter, 1) - (turn.arrives() ? 1 : 0);
+  const auto besides = std::ranges::count(turn.heldAfter, byItsSign) - (turn.arrives() ? 1 : 0);
   if (besides == 0) return true;
   HeldSigns* const together = heldSignsFor(turn.heldAfter);
   std::vector<Interval> signs = turn.signs;
   if (turn.jump != none) signs[turn.jump] = Interval(turn.side);
+  if (turn.lifts != nullptr) signs[turn.lifts->position] = Interval(turn.lifts->ofPosition(1));
   if (together == nullptr || !together->load(states, set.t, h0_, theta_, set.parameters, signs, tube)) return false;
   for (std::size_t k = 0; k < turn.heldAfter.size(); ++k) {
-    const Interval sign = turn.heldAfter[k] != 0 ? onceTurned(*together, together->output(k), turn) : Interval(0.0);
+    const Interval sign =
+        turn.heldAfter[k] == byItsSign ? onceTurned(*together, together->output(k), turn) : Interval(0.0);
     if (magnitude(sign) < 1) continue;
     if (mignitude(sign) < 1) noteOther(*together, k, h_);
     return false;
   }
   return together->decides(std::max(0.0, turn.moments.lower()) / h0_, theta_);
+}
+
+/// Whether other pairs that rest are pressed to their places all the step long, whoever has turned: in the tube of
+/// both.
+bool FlowStepper::pressBeside(const FlowSet& set, const Turn& turn) {
+  const auto rests = [&](const RestingJumps& rest) { return turn.heldAfter[rest.speed] == atRest; };
+  if (turn.heldAfter.empty() || std::ranges::none_of(of_->rests, rests)) return true;
+  std::vector<Interval> signs = turn.signs;
+  const Interval any(-1.0, 1.0);
+  if (turn.jump != none) signs[turn.jump] = any;
+  if (turn.lifts != nullptr) signs[turn.lifts->position] = any;
+  if (!pressures_) return false;
+  if (!pressures_->load(series_, set.t, h0_, theta_, set.parameters, signs, withLow(E_))) return false;
+  for (std::size_t pair = 0; pair < of_->rests.size(); ++pair)
+    if (rests(of_->rests[pair]) && !(pressures_->over(static_cast<int>(pair), 0, theta_).lower() > 0)) return false;
+  return true;
 }
 
 /// Whether the turn takes all solutions within the step, which is then somewhat longer than until the last has turned,
@@ -376,14 +427,18 @@ FlowStepper::Look FlowStepper::lookAtTurn(const FlowSet& set, double& h, double 
   }
   const std::vector<double> lift = lift_;
   double defect = 0;  // of D
-  if (!proveTurn(set, signs, turn, defect)) return lift_ == lift ? Look::released : Look::shorter;
-  if (constexpr double mostDefect = 1e-4;
-      defect > mostDefect && beyondLast_ > slack * ofSpread * (last - first) && beyondLast_ > smallest) {
+  leavesOnceTurned_ = false;
+  const bool isProved = proveTurn(set, signs, turn, defect);
+  if (!isProved && !leavesOnceTurned_) return lift_ == lift ? Look::released : Look::shorter;
+  const bool mayBeShorter = beyondLast_ > slack * ofSpread * (last - first) && beyondLast_ > smallest;
+  if (!isProved && !mayBeShorter) return Look::released;
+  if (constexpr double mostDefect = 1e-4; !isProved || (defect > mostDefect && mayBeShorter)) {
     beyondLast_ = std::max({ofSpread * (last - first), 0.25 * beyondLast_, smallest});
     h = last + beyondLast_;
     lift_.clear();
     return Look::shorter;
   }
+  if (!pressBeside(set, turn)) return Look::released;
   turn_ = std::move(turn);
   return Look::goOn;
 }
@@ -792,8 +847,8 @@ bool FlowStepper::proveTurn(const FlowSet& set, const std::vector<Interval>& sig
         (e1_[i] + crossed_[i] + std::max(turn.most[i], since * steepest) + turn.leapt[i] + since * turn.turned[i]) *
         bounds::up;
   }
-  if (!of.rebound(tube.data()) || !holdOnceTurned(set, turn, states, tube) || !stayOnceTurned(set, turn, states, tube))
-    return false;
+  if (!of.rebound(tube.data()) || !holdOnceTurned(set, turn, states, tube)) return false;
+  if (leavesOnceTurned_ = !stayOnceTurned(set, turn, states, tube); leavesOnceTurned_) return false;
   const Interval growth = onceTurned(of, of.isAhead(), turn);
   if (!(growth.lower() > 0) || !(onceTurned(of, of.isAttracted(), turn).lower() > 0)) return false;
   if (!turn.releases()) return true;

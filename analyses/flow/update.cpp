@@ -64,6 +64,10 @@ void FlowStepper::evaluate(const FlowSet& set, double tau, FlowPoint& point, boo
   evaluateMotion(set, tau, point, narrowed, moments);
   countAsGenerators([&] { evaluateRemainder(set, tau, point); });
   if (tau != 0 && narrowed) narrowArguments(set, tau, point, moments);
+  if (unsettled_.empty() || set.t + tau >= set.unsettledUntil) return;
+  for (std::size_t i = 0; i < at(n_); ++i)
+    for (std::vector<double>* of : {&point.loose, &point.known, &point.radius})
+      (*of)[i] = ((*of)[i] + unsettled_[i]) * bounds::up;
 }
 
 /// p, Ψ and what is loose.
@@ -235,7 +239,12 @@ double FlowStepper::looseBound(int i) const {
   double loose = e1_[at(i)] + driven_[at(i)];
   for (int j = 0; j < n_; ++j) loose += epsilon_[at(i * n_ + j)] * (total_[at(j)] + inputs_.total(j));
   loose += series_.lowNorm(i);
+  if (isUnsettled()) loose += unsettled_[at(i)];
   return loose * bounds::up;
+}
+
+double FlowStepper::tubeBound(int i) const {
+  return (E_[at(i)] + series_.lowNorm(i) + (isUnsettled() ? unsettled_[at(i)] : 0.0)) * bounds::up;
 }
 
 void FlowStepper::boundDerivatives() {
@@ -257,6 +266,7 @@ void FlowStepper::sag(double from, double to, std::vector<Interval>& bound) cons
     // turned about by then.
     if (growth_.isAbout() && from == 0) besides = (besides + looseAtStart_[at(i)]) * bounds::up;
     if (!bent_.empty()) besides = (besides + bent_[at(i)]) * bounds::up;
+    if (isUnsettled()) besides = (besides + unsettled_[at(i)]) * bounds::up;
     bound.push_back(
         inflated(series_.sag(i, from / h0_, to / h0_, second_[at(i)], third_[at(i)], turning_[at(i)]), besides));
   }

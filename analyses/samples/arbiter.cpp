@@ -84,7 +84,7 @@ class TaylorRun {
         options_(options),
         cancelled_(cancelled),
         seen_(motion.outputsForSamples()),
-        sides_(motion.forSamples(), motion.g, motion.horizon()),
+        sides_(motion.forSamples(), motion.g, motion.horizon(), motion.rests),
         g_(seen_),
         n_(static_cast<std::size_t>(motion.f.states())),
         ranges_(start.begin() + motion.f.states(), start.end()),

@@ -22,10 +22,13 @@ int watchedOf(Recorder& recorder, Side side, int u, int s) {
   return recorder.neg(recorder.abs(u));
 }
 
-SidedPrograms programsOf(const Program& sided, Program outputs, std::span<const Side> sides) {
+SidedPrograms programsOf(const Program& f, const Program& sided, Program outputs, std::span<const Side> sides,
+                         std::span<const RestingJumps> resting) {
   Recorder recorder(sided);
   const auto n = sided.outputNodes().begin() + sided.states();
-  const std::vector<int> rates(sided.outputNodes().begin(), n);
+  std::vector<int> rates(sided.outputNodes().begin(), n);
+  for (const RestingJumps& pair : resting)  // exactly
+    rates[at(pair.states.position)] = rates[at(pair.states.speed)] = recorder.constant(0.0);
   const auto count = static_cast<std::ptrdiff_t>(sides.size());
   const std::vector<int> arguments(n, n + count), signs(n + count, n + 2 * count);
   std::vector<std::pair<int, int>> seeds{{recorder.time(), recorder.constant(1.0)}};
@@ -33,6 +36,16 @@ SidedPrograms programsOf(const Program& sided, Program outputs, std::span<const 
   std::vector<int> watched, judged = arguments;
   for (std::size_t k = 0; k < sides.size(); ++k)
     watched.push_back(watchedOf(recorder, sides[k], arguments[k], signs[k]));
+  for (const RestingJumps& pair : resting) {
+    const auto sideOf = [](double sign) { return sign > 0 ? Side::above : Side::below; };
+    std::vector<Side> pressing(sides.begin(), sides.end());
+    pressing[pair.position] = sideOf(pair.ofPosition(1));
+    pressing[pair.speed] = sideOf(pair.ofSpeed(-1));
+    const Program there = onSides(f, pressing);
+    const std::vector<int> here = recorder.append(there);
+    watched[pair.position] = recorder.constant(1.0);
+    watched[pair.speed] = recorder.neg(here[at(there.outputNodes()[at(pair.states.speed)])]);
+  }
   const std::vector<int> changes = tangents(recorder, arguments, seeds);
   judged.insert(judged.end(), signs.begin(), signs.end());
   judged.insert(judged.end(), changes.begin(), changes.end());
@@ -41,9 +54,10 @@ SidedPrograms programsOf(const Program& sided, Program outputs, std::span<const 
 
 }  // namespace
 
-std::optional<SidedPrograms> sidedPrograms(const Program& f, const Program& g, std::span<const Side> sides) {
+std::optional<SidedPrograms> sidedPrograms(const Program& f, const Program& g, std::span<const Side> sides,
+                                           std::span<const RestingJumps> resting) {
   try {
-    return programsOf(onSides(f, sides), withHalfTurns(outputsOnSides(f, g, sides)), sides);
+    return programsOf(f, onSides(f, sides), withHalfTurns(outputsOnSides(f, g, sides)), sides, resting);
   } catch (const std::domain_error&) {
     return std::nullopt;
   }

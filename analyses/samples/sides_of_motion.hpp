@@ -4,7 +4,8 @@
 // A jump is held where both sides drive the motion to its surface, and released where the sign that holds it leaves
 // [-1, 1]. Of several that depend on each other, one that does not agree with the motion is changed at a time, the
 // first first, until all agree: that ends where solutions are unique (K. G. Murty, Opsearch 11 (1974), on linear
-// complementarity), which is the case of dry friction.
+// complementarity), which is the case of dry friction. What turns around a place ever faster (RestingPair) rests there
+// once it would after next to no time, and lifts off as what presses it there comes to zero.
 #pragma once
 
 #include <algorithm>
@@ -20,6 +21,7 @@
 #include "analyses/samples/influence_of_signs.hpp"
 #include "scalars/evaluation/evaluator.hpp"
 #include "scalars/program/linear_form.hpp"
+#include "scalars/program/resting.hpp"
 #include "scalars/program/sides.hpp"
 
 namespace gamut {
@@ -38,8 +40,10 @@ struct SidedPrograms {
   Program judged;   ///< of the jumps the arguments u, then the signs s, then the rates of u
 };
 
-/// Nothing where no sign can hold a jump.
-std::optional<SidedPrograms> sidedPrograms(const Program& f, const Program& g, std::span<const Side> sides);
+/// Nothing where no sign can hold a jump. `resting`: pairs that rest, `between` both their sides: watched of the speed
+/// is what presses them to their place.
+std::optional<SidedPrograms> sidedPrograms(const Program& f, const Program& g, std::span<const Side> sides,
+                                           std::span<const RestingJumps> resting = {});
 
 /// The sides of one motion after another. One a thread.
 template <class Real>
@@ -56,11 +60,18 @@ class SidesOfMotion {
     Evaluator<Real> rates, outputs, watched, judged;
   };
 
-  /// `g` must outlive it.
-  SidesOfMotion(const Program& f, const Program& g, double horizon)
-      : f_(withOneSignASurface(withBareSigns(f))), g_(g), horizon_(horizon), count_(jumpsOf(f_).size()) {
+  /// `g` must outlive it. A motion rests once it would `soon`, in parts of the horizon: turns become too short for what
+  /// integrates them.
+  SidesOfMotion(const Program& f, const Program& g, double horizon, std::span<const RestingPair> rests = {},
+                double soon = 1e-11)
+      : f_(withOneSignASurface(withBareSigns(f))),
+        g_(g),
+        horizon_(horizon),
+        soon_(soon * horizon),
+        count_(jumpsOf(f_).size()) {
     if (count_ > 0) influence_.emplace(f_);
     for (const int jump : jumpsOf(f_)) forms_.push_back(linearFormOf(f_, f_.nodes()[detail::at(jump)].a));
+    pairs_ = restingJumps(rests, forms_);
   }
 
   /// The number of jumps; without any there are no pieces, and nothing to begin or to turn.
@@ -68,7 +79,7 @@ class SidesOfMotion {
   /// On these sides.
   Piece& piece() { return *piece_; }
   /// Whether jump k, at its surface, leaves it at once if its argument moves at all.
-  bool isFree(std::size_t k) const { return sides_[k] == Side::between && lift_[k] == 0; }
+  bool isFree(std::size_t k) const { return sides_[k] == Side::between && lift_[k] == 0 && !isIn(resting_, k); }
 
   /// values: one a jump, below zero where it is not on its side. What is left to others is given some room.
   void watch(const Real& t, std::span<const Real> x, std::span<Real> values) {
@@ -76,11 +87,16 @@ class SidesOfMotion {
     for (std::size_t k = 0; k < count_; ++k) values[k] = values[k] + lift_[k];
   }
 
-  /// Sets exactly the states that follow from held jumps' arguments being zero.
-  void rest(std::span<Real> x) const {
+  /// Sets exactly the states that follow from arguments being zero: of held jumps, of pairs that rest, and of those
+  /// that turn now.
+  void rest(std::span<Real> x) {
+    for (std::size_t i = 0; i < shift_.size(); ++i) x[i] = x[i] + shift_[i];
+    shift_.clear();
     std::vector<const LinearForm*> forms;
     for (std::size_t k = 0; k < count_; ++k)
-      if (sides_[k] == Side::held && forms_[k]) forms.push_back(&*forms_[k]);
+      if ((sides_[k] == Side::held || isIn(resting_, k) || isTurning_[k] != 0) && forms_[k])
+        forms.push_back(&*forms_[k]);
+    std::ranges::fill(isTurning_, char{0});
     for (const auto& [which, state] : statesThatFollow(forms)) {
       const LinearForm& form = *forms[which];
       const double own = form.states[detail::at(state)];
@@ -105,6 +121,12 @@ class SidesOfMotion {
     sides_.assign(count_, Side::between);
     isOnSurface_.assign(count_, 1);
     isReleased_.assign(count_, 0);
+    resting_.assign(pairs_.size(), 0);
+    lifted_.assign(pairs_.size(), 0);
+    liftedAt_.assign(pairs_.size(), Real(-2 * soon_));
+    room_.assign(pairs_.size(), Real(0.0));
+    shift_.clear();
+    isTurning_.assign(count_, 0);
     lastTurn_ = t;
     Judgement now;
     // A jump's argument may jump with another, hence more than once.
@@ -129,7 +151,13 @@ class SidesOfMotion {
     Judgement now, then;
     if (!judge(sides_, t, x, now) || !judge(sides_, later, xLater, then)) return false;
     std::vector<Side> chosen = sides_;
+    turnPairs(t, x, fallen, chosen);
     for (std::size_t k = 0; k < count_; ++k) {
+      if (isIn(resting_, k) || isIn(lifted_, k)) {
+        isReleased_[k] = 0;
+        isOnSurface_[k] = 1;
+        continue;
+      }
       const bool isReleased = (fallen[k] != 0 && sides_[k] == Side::held) || (isReleased_[k] != 0 && t == lastTurn_);
       isReleased_[k] = isReleased ? 1 : 0;
       isOnSurface_[k] = fallen[k] != 0 || !isSide(sides_[k]) ? 1 : 0;
@@ -151,6 +179,85 @@ class SidesOfMotion {
     std::vector<Real> u, s, rate;
   };
 
+  /// Whether jump k is one of such a pair.
+  bool isIn(const std::vector<char>& ofPairs, std::size_t k) const {
+    for (std::size_t p = 0; p < pairs_.size(); ++p)
+      if (ofPairs[p] != 0 && (pairs_[p].position == k || pairs_[p].speed == k)) return true;
+    return false;
+  }
+
+  void give(const RestingJumps& pair, double side, double way, std::vector<Side>& sides) const {
+    sides[pair.position] = sideOf(Real(pair.ofPosition(side)));
+    sides[pair.speed] = sideOf(Real(pair.ofSpeed(way)));
+  }
+
+  /// Those that come to rest where they would turn, and those that lift off.
+  void turnPairs(const Real& t, std::span<const Real> x, std::span<const char> fallen, std::vector<Side>& chosen) {
+    for (std::size_t p = 0; p < pairs_.size(); ++p) {
+      const RestingJumps& pair = pairs_[p];
+      const bool rested = resting_[p] != 0;
+      for (const std::size_t k : {pair.position, pair.speed}) isTurning_[k] = !rested && fallen[k] != 0 ? 1 : 0;
+      const bool turns = !rested && (fallen[pair.position] != 0 || fallen[pair.speed] != 0);
+      const bool fallsBack = turns && t - liftedAt_[p] <= Real(soon_);  // what lifted it was rounding
+      lifted_[p] = rested && fallen[pair.speed] != 0 ? 1 : 0;
+      if (lifted_[p] != 0) {
+        resting_[p] = 0;
+        liftedAt_[p] = t;
+        give(pair, 1, 1, chosen);
+      } else if (fallsBack || (turns && isSoonAtRest(pair, t, x))) {
+        constexpr double more = 16;
+        room_[p] = fallsBack ? room_[p] * Real(more) : Real(0.0);
+        resting_[p] = 1;
+        chosen[pair.position] = chosen[pair.speed] = Side::between;
+      }
+    }
+  }
+
+  /// Whether a motion that turns at (t, x) comes to rest in next to no time. Then x is shifted to where it would rest:
+  /// all that the signs do to other states is what the speed does (RestingPair).
+  bool isSoonAtRest(const RestingJumps& pair, const Real& t, std::span<const Real> x) {
+    using std::abs, std::sqrt;
+    const std::size_t s = detail::at(pair.states.position), v = detail::at(pair.states.speed);
+    std::vector<Real> there(x.begin(), x.end()), P, Q;
+    const auto placeOf = [&](std::size_t jump, std::size_t state) {
+      const LinearForm& form = *forms_[jump];
+      Real sum = constant<Real>(form.constant);
+      for (std::size_t i = 0; i < parameters_.size(); ++i) sum = sum + parameters_[i] * Real(form.parameters[i]);
+      return Real(-sum / Real(form.states[state]));
+    };
+    const Real place = placeOf(pair.position, s), still = placeOf(pair.speed, v), speed = x[v] - still;
+    there[s] = place;
+    std::vector<std::vector<Real>> rates;
+    for (const auto& [side, way] : {std::pair(1.0, 1.0), std::pair(1.0, -1.0), std::pair(-1.0, -1.0),
+                                    std::pair(-1.0, 1.0)}) {  // away from the place and back, on both sides
+      std::vector<Side> sides = sides_;
+      give(pair, side, way, sides);
+      Piece* const piece = pieceOn(sides);
+      if (piece == nullptr) return false;
+      std::vector<Real>& here = rates.emplace_back(x.size(), Real(0.0));
+      there[v] = still + Real(1.0);
+      piece->rates(t, there, here);
+      P.push_back(here[s]);
+      there[v] = still;
+      piece->rates(t, there, here);
+      Q.push_back(-Real(side) * here[v]);
+      if (!(P.back() > 0) || !(Q.back() > 0)) return false;
+    }
+    Real share(0.0), duration(0.0);  // as analyses/flow/settling.cpp has them
+    for (const std::size_t away : {0U, 2U}) {
+      const Real own = sqrt(Q[away + 1] * P[away] / (Q[away] * P[away + 1]));
+      share = std::max(share, own);
+      duration = std::max(duration, Real(Real(1.0) / Q[away] + own / Q[away + 1]));
+    }
+    const Real first = sqrt(speed * speed + 2 * abs(x[s] - place) * std::max(Real(Q[1] / P[1]), Real(Q[3] / P[3])));
+    const Real turn = first * duration;
+    if (!(share < 1) || !(turn < Real(soon_) * (Real(1.0) - share))) return false;
+    shift_.assign(x.size(), Real(0.0));
+    for (std::size_t i = 0; i < x.size(); ++i)
+      if (i != s && i != v) shift_[i] = -speed * (rates[0][i] - rates[2][i]) / (rates[0][v] - rates[2][v]);
+    return true;
+  }
+
   static bool isSide(Side side) { return side == Side::above || side == Side::below; }
   static Side sideOf(const Real& u) { return u > 0 ? Side::above : u < 0 ? Side::below : Side::between; }
   static Side opposite(Side side) { return side == Side::above ? Side::below : Side::above; }
@@ -170,9 +277,16 @@ class SidesOfMotion {
   }
 
   Piece* pieceOn(const std::vector<Side>& sides) {
-    const auto [place, isNew] = pieces_.try_emplace(sides);
+    std::vector<RestingJumps> resting;
+    std::vector<char> which(pairs_.size(), 0);
+    for (std::size_t p = 0; p < pairs_.size(); ++p) {
+      which[p] =
+          resting_[p] != 0 && sides[pairs_[p].position] == Side::between && sides[pairs_[p].speed] == Side::between;
+      if (which[p] != 0) resting.push_back(pairs_[p]);
+    }
+    const auto [place, isNew] = pieces_.try_emplace({sides, which});
     if (isNew) {
-      if (auto programs = sidedPrograms(f_, g_, sides)) {
+      if (auto programs = sidedPrograms(f_, g_, sides, resting)) {
         place->second = std::make_unique<Piece>(std::move(*programs));
         setParametersOf(*place->second);
       }
@@ -261,14 +375,23 @@ class SidesOfMotion {
     lift_.assign(count_, Real(0.0));
     std::vector<Real> values(count_, Real(0.0));
     piece_->watched(t, x, values);
+    for (std::size_t p = 0; p < pairs_.size(); ++p) {  // it lifts off later by next to nothing, so as not to fall back
+      using std::abs;
+      if (resting_[p] == 0) continue;
+      if (room_[p] == 0)
+        room_[p] = Real(4096.0) * Real(std::numeric_limits<Real>::epsilon()) * abs(values[pairs_[p].speed]);
+      lift_[pairs_[p].speed] = room_[p];
+    }
     for (std::size_t k = 0; k < count_; ++k)
-      if (isLeftToOthers(k, now)) lift_[k] = influence_->small() * influence_->own(k) * Real(horizon_) - values[k];
+      if (!isIn(resting_, k) && isLeftToOthers(k, now))
+        lift_[k] = influence_->small() * influence_->own(k) * Real(horizon_) - values[k];
   }
 
   Side betterSide(std::size_t k, const Judgement& now, const Real& t, std::span<const Real> x,
                   std::span<const Real> uBefore) {
     using std::abs;
     const Side side = sides_[k];
+    if (isIn(resting_, k) || isIn(lifted_, k)) return side;
     if (side == Side::held) {
       if (isRounding(Real(std::max(Real(abs(now.s[k])), Real(1.0)) - 1), Real(1.0))) return side;
       isReleased_[k] = 1;
@@ -288,18 +411,23 @@ class SidesOfMotion {
 
   const Program f_;
   const Program& g_;
-  double horizon_;
+  double horizon_, soon_;
   std::size_t count_;
   std::optional<InfluenceOfSigns<Real>> influence_;
   std::vector<std::optional<LinearForm>> forms_;  // of each argument that is one
   std::vector<Real> parameters_;
-  std::map<std::vector<Side>, std::unique_ptr<Piece>> pieces_;
+  std::map<std::pair<std::vector<Side>, std::vector<char>>, std::unique_ptr<Piece>> pieces_;  // and pairs that rest
   Piece* piece_ = nullptr;
   std::vector<Side> sides_;
   std::vector<char> isOnSurface_, isReleased_;
   Real lastTurn_{0.0};
   std::vector<std::size_t> held_;
-  std::vector<Real> lift_;  // of the watched functions: zero but for what is left to others
+  std::vector<RestingJumps> pairs_;
+  std::vector<char> resting_, lifted_;  // of each pair: whether it rests; whether it lifted off at the last turn
+  std::vector<Real> liftedAt_, room_;   // when it last did; by how much less than nothing presses it then
+  std::vector<char> isTurning_;         // of each jump, of a pair: it does at this very time
+  std::vector<Real> shift_;             // of states, where a pair came to rest
+  std::vector<Real> lift_;              // of the watched functions: zero but for what is left to others
 };
 
 }  // namespace gamut

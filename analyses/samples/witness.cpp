@@ -35,13 +35,21 @@ std::string Motion::whatIsNotFinite(std::span<const double> values) const {
   return (place < outputNames.size() ? "'" + outputNames[place] + "'" : std::string("an output")) + " is not finite";
 }
 
+namespace {
+
+/// In parts of the horizon. Heights of turns are then about what CVODE's absolute tolerance allows a position to be
+/// off.
+constexpr double soonAtRest = 1e-6;
+
+}  // namespace
+
 struct Witness::Solver : CvodeProblem {
   Solver(const Motion& m, Method method, const std::atomic<bool>* cancelled)
       : motion(m),
         seen(m.outputsForSamples()),
         f(m.forSamples()),
         g(seen),
-        sides(m.forSamples(), m.g, m.horizon()),
+        sides(m.forSamples(), m.g, m.horizon(), m.rests, soonAtRest),
         cells(m.forSamples(), m.horizon()),
         cvode(detail::at(m.f.states()), m.times, method, cancelled) {}
 

@@ -13,6 +13,7 @@
 
 #include "analyses/samples/cvode.hpp"
 #include "scalars/program/program.hpp"
+#include "scalars/program/resting.hpp"
 
 namespace gamut {
 
@@ -23,6 +24,7 @@ struct Motion {
   Program sampled;            ///< f once more, recorded as suits samples; without outputs: f itself
   std::vector<double> times;  ///< output times, rising, s; the motion starts at 0
   std::vector<std::string> outputNames = {};  ///< for messages; one an output, or none
+  std::vector<RestingPair> rests = {};        ///< of the states of f
 
   /// What samples, and their arbiter, integrate, and see: g, which has a value at angles of ±π too.
   const Program& forSamples() const { return sampled.outputs() > 0 ? sampled : f; }

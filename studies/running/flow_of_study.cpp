@@ -42,6 +42,7 @@ FlowOptions flowOptions(const Study& study, const Problem& problem, int jobs, co
     flow.longestStep = longestStepOf(study);
   }
   flow.varying = problem.varying;
+  flow.rests = study.motion.rests;
   return flow;
 }
 
