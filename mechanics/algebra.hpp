@@ -30,6 +30,13 @@ Matrix3<S> zeroMatrix() {
   return zero;
 }
 
+template <class S>
+Matrix3<S> unitMatrix() {
+  Matrix3<S> unit = zeroMatrix<S>();
+  for (int i = 0; i < 3; ++i) unit(i, i) = S(1.0);
+  return unit;
+}
+
 /// W with  ω̇ × d + ω × (ω × d) = W d  for every offset d that is fixed in the moving frame. Written as
 /// [ω̇]× + ω ωᵀ − |ω|² I, whose squares are shared by all offsets of one body.
 template <class S>

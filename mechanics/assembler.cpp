@@ -98,6 +98,13 @@ S Assembler<S>::number(const Expression& number) const {
 }
 
 template <class S>
+std::optional<Interval> Assembler<S>::known(const Expression& number) const {
+  for (const std::string& name : number.names())
+    if (!known_.contains(name)) return std::nullopt;
+  return number.evaluate<Interval>([this](const std::string& name) { return known_.at(name); });
+}
+
+template <class S>
 S Assembler<S>::constantOf(const Interval& enclosure, const std::optional<Amount>& exact) const {
   if (!exact) return constant<S>(enclosure);
   const auto known = exact_.find({exact->value, exact->piPower});

@@ -42,6 +42,8 @@ class Assembler {
   Frame<S>& hiddenFrame() { return hidden_.emplace_back(element_); }
 
   S number(const Expression& number) const;
+  /// The same where no free parameter is in it; else nothing.
+  std::optional<Interval> known(const Expression& number) const;
   Vector3<S> vector(const ExpressionVector& numbers) const;
   Matrix3<S> symmetric(const std::array<Expression, 6>& entries) const;
   Rotation<S> rotation(const std::vector<FixedRotation>& rotations) const;
@@ -118,6 +120,7 @@ class Assembler {
   std::string element_;          // that is being assembled
   S time_ = S(0.0);
   std::map<std::string, S> parameters_, initials_;
+  std::map<std::string, Interval> known_;                 // parameters that are not free
   mutable std::map<std::pair<mpq_class, int>, S> exact_;  // numbers met: rationals times powers of pi
   std::map<std::string, std::unique_ptr<Frame<S>>> frames_;
   std::deque<Frame<S>> hidden_;

@@ -92,6 +92,7 @@ void Assembly<S>::takeNumbers(const Mechanism& mechanism, const std::vector<std:
   for (const Mechanism::NamedValue& parameter : mechanism.parameters()) {
     parameters.push_back(parameter.name);
     parts_.parameters_.emplace(parameter.name, parts_.constantOf(parameter.nominal, parameter.exact));
+    parts_.known_.emplace(parameter.name, parameter.nominal);
   }
   for (const Mechanism::NamedValue& initial : mechanism.initialValues())
     parts_.initials_.emplace(initial.name, constant<S>(initial.nominal));
@@ -102,9 +103,12 @@ void Assembly<S>::takeNumbers(const Mechanism& mechanism, const std::vector<std:
     if (!named.insert(freeParameters[i]).second)
       throw std::invalid_argument("the free parameter '" + freeParameters[i] + "' is named twice");
     parts_.parameters_.at(freeParameters[i]) = values[i];
+    parts_.known_.erase(freeParameters[i]);
   }
-  for (const Mechanism::Derived& derived : mechanism.derived())
+  for (const Mechanism::Derived& derived : mechanism.derived()) {
     parts_.parameters_.emplace(derived.name, parts_.number(derived.formula));
+    if (const auto value = parts_.known(derived.formula)) parts_.known_.emplace(derived.name, *value);
+  }
 }
 
 /// Places for positions and speeds, by name, and for what is looked at under the same names.

@@ -32,15 +32,24 @@ bool Axis::isParallelTo(const Axis& other) const {
   return isZero(x, v, y, u) && isZero(y, w, z, v) && isZero(z, u, x, w);
 }
 
-std::array<Interval, 3> Axis::enclosure() const {
-  std::array<Interval, 3> u = {0.0, 0.0, 0.0};
-  if (isAligned()) {
-    u[static_cast<std::size_t>(index_)] = sign_;
-    return u;
-  }
+std::array<double, 3> Axis::direction() const {
+  if (!isAligned()) return direction_;
+  std::array<double, 3> u = {0.0, 0.0, 0.0};
+  u[static_cast<std::size_t>(index_)] = sign_;
+  return u;
+}
+
+Interval Axis::length() const {
+  if (isAligned()) return 1.0;
   Interval squares(0.0);
   for (const double component : direction_) squares += sqr(Interval(component));
-  for (std::size_t i = 0; i < 3; ++i) u[i] = direction_[i] / sqrt(squares);
+  return sqrt(squares);
+}
+
+std::array<Interval, 3> Axis::enclosure() const {
+  std::array<Interval, 3> u = {0.0, 0.0, 0.0};
+  const std::array<double, 3> along = direction();
+  for (std::size_t i = 0; i < 3; ++i) u[i] = along[i] / length();
   return u;
 }
 

@@ -24,6 +24,10 @@ class Axis {
   /// Whether both are on one line: exactly, but for products that leave the range of doubles.
   bool isParallelTo(const Axis& other) const;
 
+  /// As it was given, a direction of any length; of an aligned axis the unit vector.
+  std::array<double, 3> direction() const;
+  /// Of `direction()`.
+  Interval length() const;
   /// The unit vector, its components exact if aligned, enclosed otherwise.
   std::array<Interval, 3> enclosure() const;
   /// The same as a Vector3<S>. Defined in rotation.hpp.

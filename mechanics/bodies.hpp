@@ -24,6 +24,7 @@ class RigidLink final : public Transmission<S> {
   void doForce(ForceKind = ForceKind::all) override;
 
   MovingPoint<S> inFrom(const MovingPoint<S>& point) const override;
+  TurningAxes<S> axesInFrom(const TurningAxes<S>& turning) const override;
   SpatialInertia<S> inFrom(const SpatialInertia<S>& inertia) override;
 
   const Vector3<S>& offset() const { return offset_; }

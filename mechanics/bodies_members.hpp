@@ -37,6 +37,11 @@ MovingPoint<S> RigidLink<S>::inFrom(const MovingPoint<S>& point) const {
 }
 
 template <class S>
+TurningAxes<S> RigidLink<S>::axesInFrom(const TurningAxes<S>& turning) const {
+  return rotation_.toParent(turning);
+}
+
+template <class S>
 SpatialInertia<S> RigidLink<S>::inFrom(const SpatialInertia<S>& inertia) {
   return rotation_.toParent(inertia).shifted(offset_);
 }

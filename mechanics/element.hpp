@@ -75,6 +75,8 @@ class Transmission : public Element<S> {
 
   /// A point given in `to()`, seen from `from()`.
   virtual MovingPoint<S> inFrom(const MovingPoint<S>& point) const = 0;
+  /// Axes given in `to()`, seen from `from()`.
+  virtual TurningAxes<S> axesInFrom(const TurningAxes<S>& turning) const;
 
   /// What moves like `to()` with this inertia, as `from()` feels it while the own speeds are held: Xᵀ M X, where X maps
   /// accelerations of `from()` to those of `to()`. Got from doMotion, which changes the accelerations of both frames;

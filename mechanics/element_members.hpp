@@ -12,6 +12,12 @@ MovingPoint<S> Frame<S>::inInertial(MovingPoint<S> point) const {
 }
 
 template <class S>
+TurningAxes<S> Transmission<S>::axesInFrom(const TurningAxes<S>& turning) const {
+  const Matrix3<S> a = from_.R.transpose() * to_.R;
+  return {a * turning.axes, a * Vector3<S>(to_.omega + turning.omega) - from_.omega};
+}
+
+template <class S>
 SpatialInertia<S> Transmission<S>::inFrom(const SpatialInertia<S>& inertia) {
   // Column j of X from the j-th unit acceleration of `from`: angular 0 … 2, linear 3 … 5.
   std::array<Vector3<S>, 6> angular, linear;

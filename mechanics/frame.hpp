@@ -19,6 +19,13 @@ struct MovingPoint {
   Vector3<S> velocity = zeroVector<S>();
 };
 
+/// The axes of a frame, as columns with components in another one, and its angular velocity against that [rad/s].
+template <class S>
+struct TurningAxes {
+  Matrix3<S> axes = unitMatrix<S>();
+  Vector3<S> omega = zeroVector<S>();
+};
+
 template <class S>
 struct Frame {
   Frame() { R << S(1.0), S(0.0), S(0.0), S(0.0), S(1.0), S(0.0), S(0.0), S(0.0), S(1.0); }

@@ -33,6 +33,7 @@ class RevoluteJoint final : public Transmission<S> {
   std::vector<Speed<S>*> speeds() const override;
 
   MovingPoint<S> inFrom(const MovingPoint<S>& point) const override;
+  TurningAxes<S> axesInFrom(const TurningAxes<S>& turning) const override;
   SpatialInertia<S> inFrom(const SpatialInertia<S>& inertia) override;
 
   Variable<S>& angle() const { return angle_; }
@@ -61,6 +62,7 @@ class PrismaticJoint final : public Transmission<S> {
   std::vector<Speed<S>*> speeds() const override;
 
   MovingPoint<S> inFrom(const MovingPoint<S>& point) const override;
+  TurningAxes<S> axesInFrom(const TurningAxes<S>& turning) const override;
   SpatialInertia<S> inFrom(const SpatialInertia<S>& inertia) override;
 
  private:
@@ -83,6 +85,7 @@ class ScrewJoint final : public Transmission<S> {
   std::vector<Speed<S>*> speeds() const override;
 
   MovingPoint<S> inFrom(const MovingPoint<S>& point) const override;
+  TurningAxes<S> axesInFrom(const TurningAxes<S>& turning) const override;
   SpatialInertia<S> inFrom(const SpatialInertia<S>& inertia) override;
 
  private:
@@ -108,6 +111,7 @@ class SphericalJoint final : public Transmission<S> {
   std::vector<Speed<S>*> speeds() const override;
 
   MovingPoint<S> inFrom(const MovingPoint<S>& point) const override;
+  TurningAxes<S> axesInFrom(const TurningAxes<S>& turning) const override;
   SpatialInertia<S> inFrom(const SpatialInertia<S>& inertia) override;
 
  private:

@@ -45,6 +45,11 @@ MovingPoint<S> RevoluteJoint<S>::inFrom(const MovingPoint<S>& point) const {
 }
 
 template <class S>
+TurningAxes<S> RevoluteJoint<S>::axesInFrom(const TurningAxes<S>& turning) const {
+  return rotation_.toParent(TurningAxes<S>{turning.axes, turning.omega + axis_.template unit<S>() * angle_.rate});
+}
+
+template <class S>
 SpatialInertia<S> RevoluteJoint<S>::inFrom(const SpatialInertia<S>& inertia) {
   return rotation_.toParent(inertia);
 }
@@ -87,6 +92,11 @@ template <class S>
 MovingPoint<S> PrismaticJoint<S>::inFrom(const MovingPoint<S>& point) const {
   const Vector3<S> u = axis_.template unit<S>();
   return {point.position + u * path_.position, point.velocity + u * path_.rate};
+}
+
+template <class S>
+TurningAxes<S> PrismaticJoint<S>::axesInFrom(const TurningAxes<S>& turning) const {
+  return turning;
 }
 
 template <class S>
@@ -140,6 +150,11 @@ MovingPoint<S> ScrewJoint<S>::inFrom(const MovingPoint<S>& point) const {
 }
 
 template <class S>
+TurningAxes<S> ScrewJoint<S>::axesInFrom(const TurningAxes<S>& turning) const {
+  return rotation_.toParent(TurningAxes<S>{turning.axes, turning.omega + axis_.template unit<S>() * angle_.rate});
+}
+
+template <class S>
 SpatialInertia<S> ScrewJoint<S>::inFrom(const SpatialInertia<S>& inertia) {
   return rotation_.toParent(inertia).shifted(path());
 }
@@ -183,6 +198,11 @@ std::vector<Speed<S>*> SphericalJoint<S>::speeds() const {
 template <class S>
 MovingPoint<S> SphericalJoint<S>::inFrom(const MovingPoint<S>& point) const {
   return {rotation_.toParent(point.position), rotation_.toParent(point.velocity + own_.rate().cross(point.position))};
+}
+
+template <class S>
+TurningAxes<S> SphericalJoint<S>::axesInFrom(const TurningAxes<S>& turning) const {
+  return rotation_.toParent(TurningAxes<S>{turning.axes, turning.omega + own_.rate()});
 }
 
 template <class S>

@@ -8,6 +8,7 @@
 
 #include "mechanics/algebra.hpp"
 #include "mechanics/axis.hpp"
+#include "mechanics/frame.hpp"
 #include "mechanics/quaternion.hpp"
 #include "mechanics/spatial_inertia.hpp"
 #include "scalars/traits.hpp"
@@ -46,6 +47,9 @@ class Rotation {
 
   /// The same for a symmetric M, which it stays; about a coordinate axis the trace of the turned part is kept.
   Matrix3<S> symmetricToParent(const Matrix3<S>& m) const;
+
+  /// Column by column.
+  TurningAxes<S> toParent(const TurningAxes<S>& turning) const;
 
   /// What an inertia behind this rotation is in front of it: turn by turn, if it is made of turns about coordinate
   /// axes, which together take fewer operations than the whole.

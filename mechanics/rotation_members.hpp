@@ -96,6 +96,14 @@ Matrix3<S> Rotation<S>::symmetricToParent(const Matrix3<S>& m) const {
 }
 
 template <class S>
+TurningAxes<S> Rotation<S>::toParent(const TurningAxes<S>& turning) const {
+  TurningAxes<S> turned;
+  for (int j = 0; j < 3; ++j) turned.axes.col(j) = toParent(Vector3<S>(turning.axes.col(j)));
+  turned.omega = toParent(turning.omega);
+  return turned;
+}
+
+template <class S>
 SpatialInertia<S> Rotation<S>::toParent(SpatialInertia<S> inertia) const {
   if (dense_ && turns_.empty())
     return {symmetricToParent(inertia.angular), matrixToParent(inertia.coupling), symmetricToParent(inertia.linear)};

@@ -96,7 +96,7 @@ class Finder {
         ground_.push_back(words.frames[1].frame);
       part.from = pointOf(words.frames[0].frame);
       part.to = pointOf(words.frames[1].frame);
-    } else if (words.isElastic) {
+    } else if (words.isElastic && words.axes.empty()) {  // no contact, which has a normal
       part.kind = spring;
       const auto end = [&](const Words::NamedFrame& of) {
         return pointOf(of.frame, name + "." + of.key, words.vector(of.key + "_point"));

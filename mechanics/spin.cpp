@@ -8,6 +8,7 @@
 #include <unordered_set>
 
 #include "mechanics/bodies.hpp"
+#include "mechanics/load_on_axis.hpp"
 
 namespace gamut {
 namespace {
@@ -131,6 +132,9 @@ class Spinning {
     }
     for (Inertia<Recorded>* inertia : inertiasAt(element.to()))
       static_cast<MassElement<Recorded>*>(inertia)->moveTo(*here.frame);
+    for (const auto& each : parts_)
+      if (auto* load = dynamic_cast<LoadOnAxis<Recorded>*>(each.get()))
+        load->moveAhead(element.to(), here.axis, *here.frame);
     unturned_.emplace(&element.to(), here);
     for (const Behind& each : behind(element.to())) restate(each.part, *each.transmission, here);
   }

@@ -9,8 +9,8 @@
 // In K' it is there twice, as A and Aᵀ, which only cos² + sin² = 1 takes out again: bounds do not see that.
 //
 // So it is done wherever every body behind a joint is such a body, through links along the axis and further joints
-// about it, as rotors, shafts, wheels and planets of gears are. What else is behind, loads and frames that are looked
-// at, keeps its frames, which move as before.
+// about it, as rotors, shafts, wheels and planets of gears are. A load on that axis may come along (load_on_axis.hpp);
+// what else is behind, loads and frames that are looked at, keeps its frames, which move as before.
 #pragma once
 
 #include <deque>
@@ -61,6 +61,9 @@ class SpinningJoint final : public Transmission<S> {
   MovingPoint<S> inFrom(const MovingPoint<S>& point) const override {
     const Vector3<S> turning = axis_.template unit<S>() * angle_.rate;
     return {point.position, point.velocity + turning.cross(point.position)};
+  }
+  TurningAxes<S> axesInFrom(const TurningAxes<S>& turning) const override {
+    return {turning.axes, turning.omega + axis_.template unit<S>() * angle_.rate};
   }
   SpatialInertia<S> inFrom(const SpatialInertia<S>& inertia) override { return inertia; }
 

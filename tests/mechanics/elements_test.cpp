@@ -78,6 +78,7 @@ Mechanism withOneOfEach() {
   m.add(JointFriction{"dry", "slide", 0.5, 0.1});
   m.add(SmoothedJointFriction{"smooth", "hinge", 0.5, 0.1, 0.2});
   m.add(JointStop{"stop", "slide", -0.2, 0.3, 40.0, 1.0});
+  m.add(PlaneContact{"touch", "A", "E", {0.0, 0.0, 0.0}, {0.0, 0.1, 0.0}, Axis(1, 0, 2), 3.0, 20.0, 0.5, 0.25, 0.125});
   m.add(Motor{"geared", "hinge", Expression::parse("0.2 N m - 0.1 N m s * hinge.rate"), 5.0, 0.01, 0.02});
   m.add(Distance{"gap", "inertial", "E"});
   m.add(RelativeMotion{"seen", "A", "E", axisZ});

@@ -973,13 +973,13 @@ constexpr BadStudy badStudies[] = {
      "s.toml:10:8: mechanism.element.type is \"revolut\"; expected 'revolute'? (one of: revolute, prismatic, screw, "
      "cylindrical, universal, planar, spherical, free, weld, "
      "link, mass, spring-damper, joint-spring, bushing, joint-friction, smoothed-joint-friction, joint-stop, "
-     "rigid-stop, "
+     "rigid-stop, plane-contact, "
      "motor, force, joint-force, drive, table-drive, coupling, state, distance, relative-motion)"},
     {"type = \"revolute\"", "",
      "s.toml:9:1: 'mechanism.element.type' is missing; expected type = one of: revolute, prismatic, screw, "
      "cylindrical, universal, planar, spherical, free, weld, "
      "link, mass, spring-damper, joint-spring, bushing, joint-friction, smoothed-joint-friction, joint-stop, "
-     "rigid-stop, "
+     "rigid-stop, plane-contact, "
      "motor, force, joint-force, drive, table-drive, coupling, state, distance, relative-motion"},
     {"axis = \"x\"", "axis = \"w\"",
      "s.toml:14:8: mechanism.element.axis is \"w\"; expected 'x'? (one of: x, y, z, -x, -y, -z)"},
