@@ -52,32 +52,25 @@ const Frame<S>* commonBase(const Frame<S>* a, const Frame<S>* b) {
   return nullptr;  // not of one mechanism
 }
 
-/// What is known of a damping, whatever is uncertain: that it is 0, that it is above 0, or neither.
-enum class Damping { none, known, any };
-
-Damping dampingBy(const std::optional<Interval>& value) {
-  if (!value || (value->lower() <= 0 && !isEqual(*value, Interval(0.0)))) return Damping::any;
-  return value->lower() > 0 ? Damping::known : Damping::none;
-}
-
 template <class S>
 class PlaneContactLoad final : public Load<S>, public LoadOnAxis<S> {
  public:
   struct Numbers {
     S radius, stiffness, damping, friction, slipRate;
+    S reach;                                  ///< the radius times the length of the normal as it was given
+    std::optional<S> fastest = std::nullopt;  ///< that length by the damping, where this is known to be above 0
+    bool isDamped = true, slips = true;       ///< false: known not to be
   };
 
   PlaneContactLoad(Frame<S>& from, Vector3<S> fromPoint, const Axis& normal, Frame<S>& to, Vector3<S> toPoint,
-                   Numbers numbers, Damping damping, bool slips)
+                   Numbers numbers)
       : from_(from),
         to_(&to),
         fromPoint_(std::move(fromPoint)),
         toPoint_(std::move(toPoint)),
         length_(constant<S>(normal.length())),
         normal_(normal.unit<S>()),
-        is_(std::move(numbers)),
-        damping_(damping),
-        slips_(slips) {
+        is_(std::move(numbers)) {
     const std::array<double, 3> along = normal.direction();
     direction_ = {S(along[0]), S(along[1]), S(along[2])};
     using VectorOfIntervals = Vector3<Interval>;
@@ -105,7 +98,7 @@ class PlaneContactLoad final : public Load<S>, public LoadOnAxis<S> {
     return sqrt(S(square(along[0]) + square(along[1])));
   }
   S frictionForce() const {
-    if (!slips_) return S(0.0);
+    if (!is_.slips) return S(0.0);
     const Motion now = motion();
     using std::sqrt;
     const S squares = square(slipOf(now)[0]) + square(slipOf(now)[1]);
@@ -143,8 +136,8 @@ class PlaneContactLoad final : public Load<S>, public LoadOnAxis<S> {
             a.transpose() * Vector3<S>(sphere.turning.omega - plane.turning.omega), a, sphere.turning.axes};
   }
 
-  /// The gap times the length of the normal as it was given: linear in what the place is linear in, without rounding.
-  S scaledGap(const Motion& now) const { return direction_.dot(now.place) - is_.radius * length_; }
+  /// The gap times the length of the normal as it was given: linear in states without rounding where the place is.
+  S scaledGap(const Motion& now) const { return direction_.dot(now.place) - is_.reach; }
   S depthOf(const Motion& now) const {
     using std::max;
     return S(max(S(-scaledGap(now)), S(0.0))) / length_;
@@ -153,22 +146,17 @@ class PlaneContactLoad final : public Load<S>, public LoadOnAxis<S> {
   S pushing(const Motion& now) const {
     using std::max;
     const S press = is_.stiffness * depthOf(now);
-    switch (damping_) {
-      case Damping::none:
-        return press;
-      case Damping::known:  // what comes to zero at the kink is linear without rounding, as the gap is
-        return press *
-               (is_.damping / length_ * S(max(S(length_ / is_.damping - direction_.dot(now.velocity)), S(0.0))));
-      default:
-        return press * S(max(S(S(1.0) - is_.damping * rateOf(now)), S(0.0)));
-    }
+    if (!is_.isDamped) return press;
+    if (is_.fastest)
+      return press * (is_.damping / length_ * S(max(S(*is_.fastest - direction_.dot(now.velocity)), S(0.0))));
+    return press * S(max(S(S(1.0) - is_.damping * rateOf(now)), S(0.0)));
   }
   std::array<S, 2> slipOf(const Motion& now) const {
     return {tangents_[0].dot(now.velocity) - is_.radius * tangents_[1].dot(now.omega),
             tangents_[1].dot(now.velocity) + is_.radius * tangents_[0].dot(now.omega)};
   }
   std::array<S, 2> frictionOf(const Motion& now, const S& normal) const {
-    if (!slips_) return {S(0.0), S(0.0)};
+    if (!is_.slips) return {S(0.0), S(0.0)};
     using std::sqrt;
     const std::array<S, 2> along = slipOf(now);
     const S factor = is_.friction * normal / S(sqrt(S(square(along[0]) + square(along[1]) + square(is_.slipRate))));
@@ -203,8 +191,6 @@ class PlaneContactLoad final : public Load<S>, public LoadOnAxis<S> {
   Vector3<S> direction_, normal_;
   std::array<Vector3<S>, 2> tangents_;
   Numbers is_;
-  Damping damping_;
-  bool slips_;
 };
 
 }  // namespace
@@ -236,12 +222,19 @@ void PlaneContact::describe(Fields& f) {
 
 template <class S>
 void PlaneContact::assemble(Assembler<S>& a) const {
-  const std::optional<Interval> slow = a.known(slipRate);
-  const auto& load = a.template add<PlaneContactLoad<S>>(
-      a.frame(from), a.vector(fromPoint), normal, a.frame(to), a.vector(toPoint),
-      typename PlaneContactLoad<S>::Numbers{a.number(radius), a.number(stiffness), a.number(damping),
-                                            a.number(friction), a.number(slipRate)},
-      dampingBy(a.known(damping)), !slow || !isEqual(*slow, Interval(0.0)));
+  using Contact = PlaneContactLoad<S>;
+  typename Contact::Numbers numbers{a.number(radius),   a.number(stiffness), a.number(damping),
+                                    a.number(friction), a.number(slipRate),  a.number(radius)};
+  // Numbers, where they are some: what a kink is linear in.
+  const std::optional<Interval> size = a.known(radius), held = a.known(damping), slow = a.known(slipRate);
+  const Interval length = normal.length();
+  if (!normal.isAligned()) numbers.reach = size ? constant<S>(*size * length) : numbers.radius * constant<S>(length);
+  if (held && held->lower() > 0) numbers.fastest = constant<S>(length / *held);
+  const auto isNothing = [](const std::optional<Interval>& value) { return value && isEqual(*value, Interval(0.0)); };
+  numbers.isDamped = !isNothing(held);
+  numbers.slips = !isNothing(slow);
+  const auto& load =
+      a.template add<Contact>(a.frame(from), a.vector(fromPoint), normal, a.frame(to), a.vector(toPoint), numbers);
   a.measure("gap", [&load] { return load.gap(); });
   a.measure("normal_force", [&load] { return load.normalForce(); });
   a.measure("friction_force", [&load] { return load.frictionForce(); });

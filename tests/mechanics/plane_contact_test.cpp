@@ -5,6 +5,7 @@
 #include "mechanics/assembly.hpp"
 #include "mechanics/model.hpp"
 #include "scalars/evaluation/evaluator.hpp"
+#include "scalars/program/linear_form.hpp"
 
 namespace gamut {
 namespace {
@@ -64,6 +65,23 @@ TEST(PlaneContact, TakesANormalOfAnyLength) {
       EXPECT_NEAR(outputOf(drop(contact), "ground.force.z", x), 0.8 * force, 1e-12);
     }
   }
+}
+
+/// Where a radius, a damping and a normal are numbers, kinks are at zeros of what is linear in states without rounding:
+/// those are passed as if they were smooth.
+TEST(PlaneContact, HasKinksWhereSomethingLinearIsZero) {
+  PlaneContact skew = ground();
+  skew.radius = Interval("0.3");
+  skew.damping = Interval("0.7");
+  skew.normal = Axis(1, 0, 2);
+  const Program motion = recordMotion(drop(skew));
+  int kinks = 0;
+  for (const Node& node : motion.nodes())
+    if (node.op == Op::abs) {
+      ++kinks;
+      EXPECT_TRUE(linearFormOf(motion, node.a));
+    }
+  EXPECT_EQ(kinks, 2);
 }
 
 /// A wheel of radius 0.3 m about y, which rolls along x.
