@@ -83,6 +83,8 @@ std::vector<RestingPair> restsOf(const Mechanism& mechanism) {
   std::vector<RestingPair> rests;
   for (const Mechanism::JointCoordinate& joint : mechanism.coordinates())
     if (mechanism.isStruck(joint.name)) rests.push_back({placeOf(joint.name), placeOf(joint.rate)});
+  constexpr std::size_t most = 2;  // ends of which both sides are written out (ofBothSides): the mean of others is none
+  if (rests.size() > most) rests.clear();
   return rests;
 }
 

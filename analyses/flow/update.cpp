@@ -266,7 +266,7 @@ void FlowStepper::sag(double from, double to, std::vector<Interval>& bound) cons
     // turned about by then.
     if (growth_.isAbout() && from == 0) besides = (besides + looseAtStart_[at(i)]) * bounds::up;
     if (!bent_.empty()) besides = (besides + bent_[at(i)]) * bounds::up;
-    if (isUnsettled()) besides = (besides + unsettled_[at(i)]) * bounds::up;
+    if (isUnsettled()) besides = (besides + 2 * unsettled_[at(i)]) * bounds::up;  // chords begin where solutions were
     bound.push_back(
         inflated(series_.sag(i, from / h0_, to / h0_, second_[at(i)], third_[at(i)], turning_[at(i)]), besides));
   }
