@@ -83,7 +83,7 @@ std::vector<RestingPair> restsOf(const Mechanism& mechanism) {
   std::vector<RestingPair> rests;
   for (const Mechanism::JointCoordinate& joint : mechanism.coordinates())
     if (mechanism.isStruck(joint.name)) rests.push_back({placeOf(joint.name), placeOf(joint.rate)});
-  constexpr std::size_t most = 2;  // ends of which both sides are written out (ofBothSides): the mean of others is none
+  constexpr std::size_t most = 2;  // ends: of others f with both signs zero is not the motion at rest (ofBothSides)
   if (rests.size() > most) rests.clear();
   return rests;
 }

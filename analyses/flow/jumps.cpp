@@ -48,11 +48,39 @@ std::vector<Side> sidesOf(const std::vector<char>& held) {
   return sides;
 }
 
+/// 1, or -1 where one is the negative of the other, as far as numbers are known; 0: another.
+double ratioAsWritten(const LinearForm& a, const LinearForm& b) {
+  for (const double sign : {1.0, -1.0}) {
+    const auto isSame = [&](double x, double y) { return x == sign * y; };
+    if (std::ranges::equal(a.states, b.states, isSame) && std::ranges::equal(a.parameters, b.parameters, isSame) &&
+        isEqual(a.constant, Interval(sign) * b.constant))
+      return sign;
+  }
+  return 0.0;
+}
+
 }  // namespace
+
+/// At rest the outputs of an unfolded motion are the same whatever these signs: of a place that is known by an
+/// enclosure alone it cannot be told that two are one.
+Program FlowJumps::withoutSignsAtRest(const Program& g, const std::vector<char>& held) const {
+  if (std::ranges::find(held, atRest) == held.end()) return g;
+  Recorder recorder(g.states(), g.parameters());
+  std::vector<int> instead(g.nodes().size(), -1), outputs;
+  for (const int jump : jumpsOf(g)) {
+    const std::optional<LinearForm> own = linearFormOf(g, g.nodes()[at(jump)].a);
+    for (std::size_t k = 0; k < held.size() && own; ++k)
+      if (held[k] == atRest && ratioAsWritten(*own, *forms[k]) != 0) instead[at(jump)] = recorder.constant(0.0);
+  }
+  const std::vector<int> here = recorder.append(g, {}, instead);
+  for (const int output : g.outputNodes()) outputs.push_back(here[at(output)]);
+  return recorder.finish(outputs);
+}
 
 Program FlowJumps::outputsGiven(const Program& g, const std::vector<char>& held) const {
   const Program bare = withBareKinks(g);  // as f is, so that its surfaces are found again
-  return held.empty() ? withSignsGiven(f, bare) : outputsWithOpenSignsGiven(f, bare, sidesOf(held));
+  return held.empty() ? withSignsGiven(f, bare)
+                      : outputsWithOpenSignsGiven(f, withoutSignsAtRest(bare, held), sidesOf(held));
 }
 
 FlowJumps::Held FlowJumps::heldProgram(const std::vector<char>& held) const {
@@ -103,21 +131,12 @@ FlowJumps::Held FlowJumps::heldProgram(const std::vector<char>& held) const {
 
 void FlowJumps::Held::matchTo(const FlowJumps& jumps) {
   const std::vector<int> own = jumpsOf(f);
-  const auto ratio = [](const LinearForm& a, const LinearForm& b) {  // 1, -1; 0: another
-    for (const double sign : {1.0, -1.0}) {
-      const auto isSame = [&](double x, double y) { return x == sign * y; };
-      if (std::ranges::equal(a.states, b.states, isSame) && std::ranges::equal(a.parameters, b.parameters, isSame) &&
-          isEqual(a.constant, Interval(sign) * b.constant))
-        return sign;
-    }
-    return 0.0;
-  };
   for (std::size_t k = 0; k < left.size(); ++k) {
     if (left[k] < 0) continue;
     const auto form = linearFormOf(f, f.nodes()[at(own[at(left[k])])].a);
     left[k] = -1;
     for (std::size_t j = 0; j < jumps.forms.size() && form && left[k] < 0 && jumps.count() == own.size(); ++j) {
-      const double sign = jumps.forms[j] ? ratio(*jumps.forms[j], *form) : 0;
+      const double sign = jumps.forms[j] ? ratioAsWritten(*jumps.forms[j], *form) : 0;
       if (sign == 0) continue;
       left[k] = static_cast<int>(j);
       factor[k] *= sign;

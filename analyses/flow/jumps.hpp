@@ -38,6 +38,7 @@ struct FlowJumps {
 
   Program f;      ///< without derivatives
   Program given;  ///< withSignsGiven(f)
+  Program withoutSignsAtRest(const Program& g, const std::vector<char>& held) const;
   /// Of those held, without those that are at rest.
   static std::vector<char> bySigns(std::vector<char> held);
 

@@ -173,7 +173,7 @@ std::optional<Settling::Found> Settling::find(std::size_t pair, const FlowSet& s
       const double off = (besides[i] + std::fabs(share[i]) * fastest) * bounds::up;
       const Interval reach = start[i] + Interval(0.0, seconds) * hull(moves[i], resting[i]) + Interval(-off, off);
       isProved = isProved && isSubset(reach, box[i]);
-      apart[i] = (besides[i] + off) * bounds::up + bounds::tiny;
+      apart[i] = off + bounds::tiny;
       const Interval wider = start[i] + Interval(more) * (reach - start[i]);
       if (!isProved) box[i] = hull(box[i], wider);
     }
@@ -259,7 +259,6 @@ void Settling::rest(FlowSet& set, const Monomials& monomials, const std::vector<
     const double by = form.states[state];
     double* const p = &set.p[state * N];
     std::fill_n(p, N, 0.0);
-    if (!set.low.empty()) set.low[state] = 0;
     const Interval constant = -form.constant / Interval(by);
     p[0] = midpoint(constant);
     double loose = radius(constant), size = std::fabs(p[0]), terms = 2;

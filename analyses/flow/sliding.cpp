@@ -16,15 +16,15 @@ using detail::at;
 
 namespace {
 
-constexpr double nearlyAny = 1.9;    // the width of a sign of which hardly anything is known
-constexpr double clearlyLess = 1.8;  // of a half width: a row that loses its ξ should win at least a tenth
+constexpr double nearlyAny = 1.9;     // the width of a sign of which hardly anything is known
+constexpr double clearlyLess = 1.8;   // of a half width: a row that loses its ξ should win at least a tenth
+constexpr double leastHold = 0x1p10;  // in shortest steps: shorter ones would win less than leaving costs
+
 /// Of an argument that is above zero, or below, or still zero.
 Interval sideOf(bool isAbove) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
   return isAbove ? Interval(0.0, infinite) : Interval(-infinite, 0.0);
 }
-
-constexpr double leastHold = 0x1p10;  // in shortest steps: shorter ones would win less than leaving costs
 
 }  // namespace
 
@@ -727,6 +727,7 @@ std::vector<SignCases> FlowStepper::signs(std::size_t count, Of of) const {
     for (std::size_t j = 0; j < count; ++j) result[j] = own(j);
   for (std::size_t k = 0; k < held_.size(); ++k) {
     if (held_[k] != 0) result[k] = {.above = false, .below = false, .isHeldBetween = true};
+    if (held_[k] == atRest) result[k].between = Interval(0.0);
     if (left_[k] < 0 || at(left_[k]) >= jumps.size()) continue;
     result[k] = own(at(left_[k]));
     if (factor_[k] < 0) result[k] = result[k].mirrored();

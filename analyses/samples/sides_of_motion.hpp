@@ -61,13 +61,14 @@ class SidesOfMotion {
   };
 
   /// `g` must outlive it. A motion rests once it would `soon`, in parts of the horizon: turns become too short for what
-  /// integrates them.
+  /// integrates them, which may be `off` by so much where nothing has moved yet.
   SidesOfMotion(const Program& f, const Program& g, double horizon, std::span<const RestingPair> rests = {},
-                double soon = 1e-11)
+                double soon = 1e-11, double off = 0)
       : f_(withOneSignASurface(withBareSigns(f))),
         g_(g),
         horizon_(horizon),
         soon_(soon * horizon),
+        off_(off),
         count_(jumpsOf(f_).size()) {
     if (count_ > 0) influence_.emplace(f_);
     for (const int jump : jumpsOf(f_)) forms_.push_back(linearFormOf(f_, f_.nodes()[detail::at(jump)].a));
@@ -213,19 +214,20 @@ class SidesOfMotion {
     }
   }
 
+  /// Where the argument of jump k, in which there is one state, is zero.
+  Real zeroOf(std::size_t k, std::size_t state) const {
+    Real sum = constant<Real>(forms_[k]->constant);
+    for (std::size_t i = 0; i < parameters_.size(); ++i) sum = sum + parameters_[i] * Real(forms_[k]->parameters[i]);
+    return Real(-sum / Real(forms_[k]->states[state]));
+  }
+
   /// Whether a motion that turns at (t, x) comes to rest in next to no time. Then x is shifted to where it would rest:
   /// all that the signs do to other states is what the speed does (RestingPair).
   bool isSoonAtRest(const RestingJumps& pair, const Real& t, std::span<const Real> x) {
     using std::abs, std::sqrt;
     const std::size_t s = detail::at(pair.states.position), v = detail::at(pair.states.speed);
     std::vector<Real> there(x.begin(), x.end()), P, Q;
-    const auto placeOf = [&](std::size_t jump, std::size_t state) {
-      const LinearForm& form = *forms_[jump];
-      Real sum = constant<Real>(form.constant);
-      for (std::size_t i = 0; i < parameters_.size(); ++i) sum = sum + parameters_[i] * Real(form.parameters[i]);
-      return Real(-sum / Real(form.states[state]));
-    };
-    const Real place = placeOf(pair.position, s), still = placeOf(pair.speed, v), speed = x[v] - still;
+    const Real place = zeroOf(pair.position, s), still = zeroOf(pair.speed, v), speed = x[v] - still;
     there[s] = place;
     std::vector<std::vector<Real>> rates;
     for (const auto& [side, way] : {std::pair(1.0, 1.0), std::pair(1.0, -1.0), std::pair(-1.0, -1.0),
@@ -375,12 +377,20 @@ class SidesOfMotion {
     lift_.assign(count_, Real(0.0));
     std::vector<Real> values(count_, Real(0.0));
     piece_->watched(t, x, values);
-    for (std::size_t p = 0; p < pairs_.size(); ++p) {  // it lifts off later by next to nothing, so as not to fall back
-      using std::abs;
-      if (resting_[p] == 0) continue;
-      if (room_[p] == 0)
-        room_[p] = Real(4096.0) * Real(std::numeric_limits<Real>::epsilon()) * abs(values[pairs_[p].speed]);
-      lift_[pairs_[p].speed] = room_[p];
+    using std::abs;
+    const Real tiny(std::numeric_limits<Real>::epsilon());
+    for (std::size_t p = 0; p < pairs_.size(); ++p) {
+      const RestingJumps& pair = pairs_[p];
+      if (resting_[p] != 0) {  // it lifts off later by next to nothing, so as not to fall back
+        if (room_[p] == 0) room_[p] = Real(4096.0) * tiny * abs(values[pair.speed]);
+        lift_[pair.speed] = room_[p];
+        continue;
+      }
+      constexpr double roundings = 8;  // of a place: what has just turned there does not fall by these
+      for (const auto& [k, state] :
+           {std::pair(pair.position, pair.states.position), std::pair(pair.speed, pair.states.speed)})
+        if (isSide(sides_[k]))
+          lift_[k] = std::max(Real(off_), Real(Real(roundings) * tiny * abs(zeroOf(k, detail::at(state)))));
     }
     for (std::size_t k = 0; k < count_; ++k)
       if (!isIn(resting_, k) && isLeftToOthers(k, now))
@@ -411,7 +421,7 @@ class SidesOfMotion {
 
   const Program f_;
   const Program& g_;
-  double horizon_, soon_;
+  double horizon_, soon_, off_;
   std::size_t count_;
   std::optional<InfluenceOfSigns<Real>> influence_;
   std::vector<std::optional<LinearForm>> forms_;  // of each argument that is one

@@ -37,9 +37,9 @@ std::string Motion::whatIsNotFinite(std::span<const double> values) const {
 
 namespace {
 
-/// In parts of the horizon. Heights of turns are then about what CVODE's absolute tolerance allows a position to be
-/// off.
-constexpr double soonAtRest = 1e-6;
+/// In parts of the horizon: turns are then some ten thousand times as high as CVODE's absolute tolerance allows a
+/// position to be off (tolerances of a study unless given); and a part of that, for where it begins anew.
+constexpr double soonAtRest = 1e-5, offAtBegin = 1e-14;
 
 }  // namespace
 
@@ -49,7 +49,7 @@ struct Witness::Solver : CvodeProblem {
         seen(m.outputsForSamples()),
         f(m.forSamples()),
         g(seen),
-        sides(m.forSamples(), m.g, m.horizon(), m.rests, soonAtRest),
+        sides(m.forSamples(), m.g, m.horizon(), m.rests, soonAtRest, offAtBegin),
         cells(m.forSamples(), m.horizon()),
         cvode(detail::at(m.f.states()), m.times, method, cancelled) {}
 

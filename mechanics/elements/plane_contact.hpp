@@ -18,9 +18,8 @@ struct PlaneContact {
       "a point, or a sphere, of `to` that touches a plane fixed in `from`. It is pushed out by `stiffness` times depth "
       "times (1 + `damping` times the speed of entering), and never pulled in. Friction is against the slip u of the "
       "sphere's point that touches, `friction` times that force times u/√(u² + `slip_rate`²): under load it creeps "
-      "where "
-      "it would stick, by `slip_rate` times the share of friction that the load takes, nearly. Of a wheel that rolls "
-      "in a plane and never slips, a `coupling` of its slide and its turn has no creep, and costs less";
+      "where it would stick, by `slip_rate` times the share of friction that the load takes, nearly. Of a wheel that "
+      "rolls in a plane and never slips, a `coupling` of its slide and its turn has no creep, and costs less";
 
   std::string name, from, to;
   ExpressionVector fromPoint = {0.0, 0.0, 0.0}, toPoint = {0.0, 0.0, 0.0};                  ///< m

@@ -10,10 +10,9 @@ struct RigidStop {
   static constexpr const char* type = "rigid-stop";
   static constexpr const char* summary =
       "a rigid end of a joint's travel, which the joint strikes and leaves at `restitution` times its speed (Newton's "
-      "law "
-      "of impact); all other joints get what the impulse at the joint gives them. By ever smaller impacts it comes to "
-      "rest there, until it is drawn off. Measured forces and accelerations hold neither impulses nor what presses the "
-      "joint to the end at rest";
+      "law of impact); all other joints get what the impulse at the joint gives them. By ever smaller impacts it comes "
+      "to rest there, until it is drawn off, in machines with one such end or two. Measured forces and accelerations "
+      "hold neither impulses nor what presses the joint to the end at rest";
 
   std::string name, joint;
   Expression at = 0.0, restitution = 1.0;  ///< rad or m, 1

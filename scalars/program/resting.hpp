@@ -14,7 +14,7 @@ namespace gamut {
 ///     ṡ = P (v - b),   v̇ = -sign(s - a) Q.
 /// a and b are numbers or sums of parameters; P > 0 is a function of parameters and these two signs, Q of time and
 /// states besides. Where s = a and v = b, f is affine in v̇ and has no other part of the two signs; with both zero, v̇ is
-/// zero, and f is the motion at rest, which lasts while Q > 0.
+/// zero, and f is the motion at rest, which lasts while Q > 0. Outputs are the same there whatever the two signs are.
 struct RestingPair {
   int position, speed;  ///< states
 };

@@ -276,6 +276,66 @@ TEST(Impacts, AccumulateAndACartWithAPendulumRestsAndLiftsOff) {
   expectHeld(cart + mass, {0, 0.3125, 0.3125, true}, "way", 2, 20, 1, 1);
 }
 
+/// A state that starts by a parameter is a difference, and so is its place: nothing of the pair is zero where it rests.
+TEST(Impacts, AccumulateWherePlaceSpeedAndRestitutionAreUncertain) {
+  const std::string text =
+      headOf(1.6) + "[mechanism.parameters]\nfloor = 0.123\nthrown = 0.25\nlost = 0.4\n" +
+      jointOf("prismatic", "fall", "inertial", "ball", "z", "displacement = \"1 m\", rate = \"thrown\"") +
+      massAt("ball", 0.25) +
+      "[[mechanism.element]]\ntype = \"rigid-stop\"\nname = \"stop\"\njoint = \"fall\"\nat = \"floor\"\n"
+      "restitution = \"lost\"\n" +
+      uncertainBy("floor", "± 1 %") + uncertainBy("thrown", "± 1 %") + uncertainBy("lost", "± 1 %") +
+      "[[output]]\nquantity = \"fall.displacement\"\n[[output]]\nquantity = \"fall.rate\"\n";
+  const Results results = run(readStudyText(text, "s.toml"));
+  EXPECT_EQ(results.interval.why, "");
+  EXPECT_EQ(results.stochastic.why, "");
+  EXPECT_EQ(results.comparison.verdict, "inside");
+  const std::size_t last = results.time.size() - 1;
+  EXPECT_NEAR(results.interval.at.lower(last, 0), 0.123 * 0.99, 1e-14);
+  EXPECT_NEAR(results.interval.at.upper(last, 0), 0.123 * 1.01, 1e-14);
+  EXPECT_GT(results.interval.at.lower(last, 1), -1e-15);
+  EXPECT_LT(results.interval.at.upper(last, 1), 1e-15);
+}
+
+/// Only of two ends all sides are written out.
+TEST(Impacts, AccumulateToARestAtNoMoreThanTwoEnds) {
+  std::string text = headOf(1.0);
+  std::vector<std::size_t> rests;
+  for (const std::string name : {"a", "b", "c"}) {
+    text += jointOf("prismatic", name, "inertial", name + "1", "z", "displacement = 1") + massAt(name + "1", 0.25) +
+            "[[mechanism.element]]\ntype = \"rigid-stop\"\nname = \"" + name + "Stop\"\njoint = \"" + name +
+            "\"\nat = 0\nrestitution = 0.5\n";
+    const std::string whole = text + uncertainBy("a.displacement", "± 1 %") + "[[output]]\nquantity = \"energy\"\n";
+    rests.push_back(readStudyText(whole, "s.toml").motion.rests.size());
+  }
+  EXPECT_THAT(rests, ::testing::ElementsAre(1, 2, 0));
+}
+
+/// At rest the cart's pendulum is one on a fixed hinge: it keeps its energy. The place is a decimal number, which is
+/// known by an enclosure alone.
+TEST(Impacts, LeaveAPendulumOnACartAtRestItsEnergy) {
+  const std::string text =
+      headOf(1.5, "[\"interval\"]") + jointOf("prismatic", "way", "inertial", "cart", "x", "displacement = 0") +
+      massAt("cart", 5) + jointOf("revolute", "swing", "cart", "rope", "-y", "angle = 0.5") +
+      rodTo("rope", "load", 0.5) +
+      "[[mechanism.element]]\ntype = \"joint-force\"\nname = \"drive\"\njoint = \"way\"\nforce = \"60 N\"\n"
+      "[[mechanism.element]]\ntype = \"rigid-stop\"\nname = \"stop\"\njoint = \"way\"\nend = \"upper\"\n"
+      "at = \"0.05 m\"\nrestitution = 0.2\n"
+      "[[output]]\nquantity = \"swing.angle\"\n[[output]]\nquantity = \"swing.rate\"\n";
+  const Results results = run(readStudyText(text, "s.toml"));
+  EXPECT_EQ(results.interval.why, "");
+  const auto energyAt = [&](std::size_t row) {
+    const Bounds& at = results.interval.at;
+    return Interval(0.5) * sqr(Interval(at.lower(row, 1), at.upper(row, 1))) -
+           Interval(9.8125 / 0.5) * cos(Interval(at.lower(row, 0), at.upper(row, 0)));
+  };
+  const std::size_t last = results.time.size() - 1;
+  for (const std::size_t row : {last / 2, last}) {
+    EXPECT_LT(width(energyAt(row)), 1e-7);
+    EXPECT_FALSE(isEmpty(intersection(energyAt(last / 4), energyAt(row)))) << row;
+  }
+}
+
 TEST(Impacts, OfABallAreHeld) {
   const std::string height = uncertainBy("fall.displacement", "± 1 %");
   const Results low = expectHeld(ballOf(2.0, "displacement = 1.0") + height, {0, 0.0, 0.75}, "fall", 12, 12 * 3);
