@@ -96,6 +96,10 @@ FlowSet FlowStepper::bisect(FlowSet& set, int symbol, const PolynomialRange& shi
       if (norm != 0)  // zero stays zero, exactly: what rests does so in both halves
         s.W[at(i)] = (s.W[at(i)] + shift.shiftError() * norm) * bounds::up + bounds::tiny;
     }
+    if (!set.ahead.c.empty()) {
+      shift.substitute(symbol, middle, 0.5, set.ahead.c.data(), s.ahead.c.data());
+      s.ahead.error = (s.ahead.error + shift.shiftError() * set.ahead.norm()) * bounds::up + bounds::tiny;
+    }
     std::vector<double> rounding(at(n_), 0.0);
     shift.substitute(symbol, middle, 0.5, set.generators.data(), s.generators.data(), static_cast<int>(set.powers),
                      block);

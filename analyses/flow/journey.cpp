@@ -23,13 +23,12 @@ namespace {
 
 constexpr double expandedAt = 1e-6;  // a remainder, relative to its state, that a linear term cannot carry much further
 
-/// Without `excess` at both ends; a point where that is more than all of it.
+}  // namespace
+
 Interval without(const Interval& bound, double excess) {
   const double lower = bound.lower() + excess, upper = bound.upper() - excess;
   return lower <= upper ? Interval(lower, upper) : Interval(midpoint(bound));
 }
-
-}  // namespace
 
 void joinHulls(std::vector<Interval>& into, const std::vector<Interval>& from) {
   if (into.empty()) {
@@ -109,8 +108,24 @@ FlowJourney FlowFollower::follow(FlowPiece& piece, double end, double allowed) {
       run_.fail(piece, piece.set.t, tool_->stepper.why());
       return FlowJourney::ended;
     }
-    if (!record(piece)) return FlowJourney::ended;
-    tool_->stepper.advance(piece.set);
+    const bool stopsOnceTurned = goesOwnWays(piece);
+    if (stopsOnceTurned && piece.set.ahead.c.empty()) endRows(piece);
+    if (stopsOnceTurned || !piece.set.ahead.c.empty())
+      recordOwnTimes(piece);
+    else if (!record(piece))
+      return FlowJourney::ended;
+    if (tool_->stepper.hasTurned()) {
+      const double moment = midpoint(tool_->stepper.turnMoments());
+      piece.sinceTurned = tool_->stepper.h() - moment;
+      piece.hasTurned = true;
+    } else {
+      piece.sinceTurned += tool_->stepper.h();
+    }
+    piece.hasJustTurned = stopsOnceTurned;
+    if (stopsOnceTurned)
+      tool_->stepper.advanceOnceTurned(piece.set);
+    else
+      tool_->stepper.advance(piece.set);
     ++collected_.steps;
     collected_.slideLoss = std::max(collected_.slideLoss, tool_->stepper.slideLoss());
     piece.timeError += tool_->stepper.timeError();
@@ -126,6 +141,24 @@ FlowJourney FlowFollower::follow(FlowPiece& piece, double end, double allowed) {
     if (!expand(piece)) lowerDegree(piece);
   }
   return FlowJourney::goesOn;
+}
+
+/// Whether solutions that turn in this step go on from where each has just turned, at times of their own: those of
+/// which the moments spread, beside the time since they turned before.
+bool FlowFollower::goesOwnWays(const FlowPiece& piece) const {
+  constexpr double wide = 0x1p-3;
+  const FlowStepper& stepper = tool_->stepper;
+  if (!task_.mayGoOwnWays || piece.last.empty() || !stepper.mayStopOnceTurned(piece.set)) return false;
+  if (!piece.set.ahead.c.empty()) return true;
+  const Interval moments = stepper.turnMoments();
+  return piece.hasTurned && width(moments) > wide * (piece.sinceTurned + midpoint(moments));
+}
+
+/// What is known between the last output time and the step at hand.
+void FlowFollower::endRows(FlowPiece& piece) {
+  if (piece.last.empty() || piece.next >= task_.times.size()) return;
+  joinHulls(collected_.statesOver[piece.next], piece.over);
+  joinHulls(collected_.outputsOver[piece.next], piece.overOutputs);
 }
 
 /// From here on solutions rest where they are about to: before steps become so short that they tell no more, or in

@@ -42,6 +42,9 @@ struct FlowPiece {
   int sinceRaised = 0, patience = 1;  // steps since its degree was raised, and to wait before it is lowered
   bool wasLowered = false;            // after the last step
   bool isTurnLost = false;            // since it turned last, by the highest degree as well
+  bool hasTurned = false;             // in some step
+  double sinceTurned = 0;             // s, about; or since the start
+  bool hasJustTurned = false;         // its solutions each at a time of its own (FlowSet::ahead)
   std::size_t fewer = 2;              // layouts by which outputs have less than states between two output times
   std::size_t inFull = 0;             // times that chords were loaded since that was 0
 };
@@ -84,6 +87,9 @@ struct FlowCollected {
 /// `into` becomes the hull of both, component by component; empty, it becomes `from`.
 void joinHulls(std::vector<Interval>& into, const std::vector<Interval>& from);
 
+/// Without `excess` at both ends; a point where that is more than all of it.
+Interval without(const Interval& bound, double excess);
+
 /// Follows one piece after the other. Holds the workspace: one a thread.
 class FlowFollower {
  public:
@@ -121,6 +127,8 @@ class FlowFollower {
     FlowOutputChords* chords = nullptr;                                             // of which these are loaded
     std::map<std::size_t, OutputTools> between = {};  // of layouts of fewer monomials, once needed
     std::unique_ptr<FlowAsides> asides = nullptr;     // of `besides`, once needed
+    std::unique_ptr<OutputTools> onSides = nullptr;   // null: as `outputs`
+    bool areSidesKnown = false;
     /// The outputs where these are held (a SignBox's); null where they cannot be held together.
     std::map<std::vector<char>, std::unique_ptr<MeanValueOutputs>> whileHeld = {};
   };
@@ -167,6 +175,17 @@ class FlowFollower {
   std::vector<double> radii() const;
   int chordsFor(FlowPiece& piece, const std::vector<Interval>& before, double from, double to);
   bool record(FlowPiece& piece);
+  bool goesOwnWays(const FlowPiece& piece) const;
+  struct OwnCell;
+  void recordOwnTimes(FlowPiece& piece);
+  void recordOver(FlowPiece& piece, const std::vector<std::size_t>& rows);
+  void recordAt(FlowPiece& piece, const std::vector<std::size_t>& rows);
+  OwnCell wholeCell(const FlowPiece& piece) const;
+  OutputTools* outputsOnSides(const FlowPiece& piece);
+  OwnCell half(const OwnCell& cell, int symbol, double middle) const;
+  void collect(const FlowPiece& piece, const OwnCell& cell, const BoundedPolynomial& moment,
+               const std::vector<BoundedPolynomial>& limits, bool hasTurned, std::size_t row);
+  void endRows(FlowPiece& piece);
   int tooWide(FlowPiece& piece, const std::vector<Interval>& states, const std::vector<Interval>& outputs) const;
 
   FlowRun& run_;

@@ -85,6 +85,8 @@ class FlowRun {
   void countModel(double bytes, double bytesAt) {
     modelBytes_ += static_cast<std::uint64_t>(bytes), modelAtBytes_ += static_cast<std::uint64_t>(bytesAt);
   }
+  /// Of what models say of one time and part, one is so, nobody knows which.
+  void knowsAlternatives() { areAlternatives_ = true; }
   void countChord() { modelBytes_ += 400; }  // about
   void ranOutOfMemory() { outOfMemory_ = true; }
   /// What is left over of a piece is so much that this run cannot become tight: a tighter one comes.
@@ -133,8 +135,8 @@ class FlowRun {
   double timeError_ = 0, truncation_ = 0;  // of pieces that have ended
   std::vector<Influence> influence_;
   TopGrades tops_;
-  bool stop_ = false, needsDegree_ = false, overBudget_ = false, areAlternatives_ = false;
-  std::atomic<bool> outOfMemory_{false}, isAbandoned_{false};
+  bool stop_ = false, needsDegree_ = false, overBudget_ = false;
+  std::atomic<bool> outOfMemory_{false}, isAbandoned_{false}, areAlternatives_{false};
   std::vector<FlowCollected> collected_;  // one a thread
   std::size_t everyModelAt_ = 1;          // output times, counted from the last
   bool keepsModelsAt_ = true;

@@ -122,6 +122,23 @@ double relativeMass(const FlowSet& set, const Monomials& monomials, int above, i
   return largest;
 }
 
+namespace {
+
+/// In other monomials; what does not fit is an error.
+void changeMonomials(BoundedPolynomial& polynomial, const Monomials& from, const Monomials& to) {
+  if (polynomial.c.empty()) return;
+  BoundedPolynomial result{std::vector<double>(at(to.count()), 0.0), polynomial.error};
+  for (std::size_t g = 0; g < polynomial.c.size(); ++g)
+    if (const int number = to.find(from, static_cast<int>(g)); number >= 0)
+      result.c[at(number)] = polynomial.c[g];
+    else
+      result.error += std::fabs(polynomial.c[g]);
+  result.error *= bounds::up;
+  polynomial = std::move(result);
+}
+
+}  // namespace
+
 void changeDegree(FlowSet& set, const Monomials& from, const Monomials& to, int frameDegree) {
   const std::size_t n = set.R.size(), N = at(from.count()), newN = at(to.count());
   const std::size_t powers = at(to.countUpTo(frameDegree)), block = set.generators.size() / set.powers;
@@ -149,6 +166,7 @@ void changeDegree(FlowSet& set, const Monomials& from, const Monomials& to, int 
   set.low.clear();
   for (std::size_t i = 0; i < n; ++i)
     if (!(dropped[i] == 0)) set.W[i] = (set.W[i] + dropped[i]) * bounds::up + bounds::tiny;
+  changeMonomials(set.ahead, from, to);
   set.p = std::move(p);
   set.powers = powers;
   set.generators = std::move(generators);
@@ -202,6 +220,7 @@ bool expandRemainder(FlowSet& set, const Monomials& from, const Monomials& to, i
     }
     set.W[at(i)] = (set.W[at(i)] + rounded) * bounds::up + bounds::tiny;
   }
+  changeMonomials(set.ahead, from, to);
   set.p = std::move(p);
   const Matrix oldFrame = C;
   set.C.assign(at(n * n), 0.0);

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "analyses/flow/bounded_polynomial.hpp"
 #include "analyses/flow/embedding.hpp"
 #include "analyses/flow/monomials.hpp"
 #include "analyses/flow/polynomial_series.hpp"
@@ -29,7 +30,9 @@ struct FlowSet {
   std::vector<int> units;              // FlowGrowth's, of the last step
   std::vector<double> first, largest;  // size of each state over the first step, and the greatest so far
   std::vector<Interval> arguments;     // of jumps, what is known of them besides (FlowJumps); none: nothing is
-  double unsettledUntil = 0;           // s: until then solutions may be `unsettled` from the set (Settling)
+  // Solutions are in the set at times of their own, each at t + ahead(ξ), s, no sooner than t; none: at t.
+  BoundedPolynomial ahead = {};
+  double unsettledUntil = 0;  // s: until then solutions may be `unsettled` from the set (Settling)
   std::vector<double> unsettled;
   double slideStep = 0;               // s, of the last step, if solutions came to be held or left in it
   bool hasSlid = false;               // in any step so far: then a round is not given up

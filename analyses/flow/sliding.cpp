@@ -669,25 +669,33 @@ bool FlowStepper::isZeroBehind(const LinearForm& form) const {
   return isZero;
 }
 
-/// For the next step, of all jumps of the motion in which none is held.
-std::vector<Interval> FlowStepper::argumentsBehind() const {
+/// For the next step, of all jumps of the motion in which none is held. Of solutions that are stopped once they have
+/// turned, at moments of their own, no more is known than the side.
+std::vector<Interval> FlowStepper::argumentsBehind(bool onceTurned) const {
   std::vector<Interval> result;
   const auto behind = [&](const JumpBound& bound) {
     return bound.isKnown() ? bound.after(h_).then : Interval::entire();
   };
+  std::vector<Interval> besides = turn_ ? turn_->besides : result;
+  for (std::size_t j = 0; onceTurned && j < besides.size(); ++j)
+    if (sides_[j] != 0) {
+      const bool isPassed = turn_->passesJump() && static_cast<int>(j) == turn_->own;
+      besides[j] = sideOf((sides_[j] > 0) != isPassed);
+    }
+  const Interval argument = !turn_ ? Interval::entire() : onceTurned ? turn_->soonArgument : turn_->argument;
   if (held_.empty()) {
-    if (turn_) result = turn_->besides;
+    if (turn_) result = besides;
     if (turn_) result.resize(of_ == nullptr ? 0 : of_->count(), Interval::entire());
     for (std::size_t j = 0; j < ownBounds_.size() && !turn_; ++j) result.push_back(behind(ownBounds_[j]));
-    if (turn_ && turn_->jump != none && !turn_->passesJump()) result[turn_->jump] = turn_->argument;
+    if (turn_ && turn_->jump != none && !turn_->passesJump()) result[turn_->jump] = argument;
     return result;
   }
   for (std::size_t k = 0; k < held_.size(); ++k) {
     result.push_back(held_[k] != 0 ? behind(heldBounds_[k]) : Interval::entire());
-    if (left_[k] >= 0 && !ownBounds_.empty()) result.back() = Interval(factor_[k]) * behind(ownBounds_[at(left_[k])]);
-    if (turn_ && left_[k] >= 0 && !turn_->besides.empty())
-      result.back() = Interval(factor_[k]) * turn_->besides[at(left_[k])];
-    if (turn_ && turn_->jump == k && !turn_->passesJump()) result.back() = turn_->argument;
+    if (left_[k] >= 0 && !ownBounds_.empty() && !onceTurned)
+      result.back() = Interval(factor_[k]) * behind(ownBounds_[at(left_[k])]);
+    if (left_[k] >= 0 && !besides.empty()) result.back() = Interval(factor_[k]) * besides[at(left_[k])];
+    if (turn_ && turn_->jump == k && !turn_->passesJump()) result.back() = argument;
     if (turn_ && turn_->lifts != nullptr && turn_->lifts->position == k)
       result.back() = sideOf(turn_->lifts->positionRises);
     // What others' states have become of which the motion with those held says no more.
@@ -766,15 +774,22 @@ std::vector<SignCases> FlowStepper::signsAfter(double seconds, std::size_t count
   return result;
 }
 
+std::vector<SignCases> FlowStepper::signsOver(std::size_t count, bool hasTurned) const {
+  std::vector<SignCases> result = signs(count, [](const JumpBound& bound) { return bound.signOver(); });
+  if (turn_ && turn_->jump != none) giveTurning(Interval(hasTurned ? h_ : 0.0), result);
+  return result;
+}
+
 std::vector<SignCases> FlowStepper::signsOver(std::size_t count) const {
   std::vector<SignCases> result = signs(count, [](const JumpBound& bound) { return bound.signOver(); });
   if (turn_ && turn_->jump != none) giveTurning(Interval(0.0, h_), result);
   return result;
 }
 
-/// x_i = (u - Σ_{j≠i} c_j x_j - Σ_k d_k p_k - constant)/c_i, where u is known better so than by the set.
-void FlowStepper::narrowArguments(const FlowSet& set, double tau, FlowPoint& point,
-                                  std::optional<Interval> moments) const {
+/// x_i = (u - Σ_{j≠i} c_j x_j - Σ_k d_k p_k - constant)/c_i, where u is known better so than by the set. At moments of
+/// solutions' own, of what is held alone.
+void FlowStepper::narrowArguments(const FlowSet& set, double tau, FlowPoint& point, std::optional<Interval> moments,
+                                  bool onceTurned) const {
   const int N = series_.count(), NJ = series_.frameCount();
   const std::size_t n = at(n_);
   const auto narrow = [&](const LinearForm& form, const JumpBound& bound) {
@@ -861,7 +876,9 @@ void FlowStepper::narrowArguments(const FlowSet& set, double tau, FlowPoint& poi
     point.known[i] = 0.5 * width(u) / std::fabs(by);
     point.radius[i] = (radiusOfOthers + own) * bounds::up;
   };
-  forEachKnown(narrow);
+  if (!onceTurned) forEachKnown(narrow);
+  for (std::size_t k = 0; onceTurned && k < heldBounds_.size(); ++k)
+    if (heldBounds_[k].isKnown() && isEqual(heldBounds_[k].over, Interval(0.0))) narrow(*of_->forms[k], heldBounds_[k]);
   if (!turn_ || turn_->kind == TurnKind::passage) return;  // of these the polynomials say more
   if (!moments) moments = turn_->moments;
   const bool haveAll = tau >= moments->upper(), hasNone = tau <= moments->lower();

@@ -174,6 +174,22 @@ class FlowStepper {
   double looseBound(int i) const;  ///< |loose| and what inputs do in the step, at every time
   /// The set at the end of the step.
   void advance(FlowSet& set);
+  /// Whether all solutions turn so soon that each may be stopped where it just has, at a time of its own; and when they
+  /// do, s.
+  bool mayStopOnceTurned(const FlowSet& set) const;
+  Interval turnMoments() const { return turn_->moments; }
+  double turnAway() const { return turn_->away; }  ///< s, of solutions' own moments from turnMoment, at most
+  double turnLag() const { return turn_->lag; }    ///< s, by which they are stopped later than that
+  /// The set of what they are there (FlowSet::ahead), in place of that at the step's end.
+  void advanceOnceTurned(FlowSet& set);
+  /// |x - x̃ - D| of any solution that has turned, or that has not, at any time of the step; D: turnedBy.
+  double radiusOver(int state, bool hasTurned) const;
+  /// What turning adds to the polynomials of a state, by orders of σ.
+  const std::vector<BoundedPolynomial>& turnedBy(int state) const { return turn_->D[static_cast<std::size_t>(state)]; }
+  /// Whether the set at one time tells nothing but what the step as a whole does.
+  bool isOpaque() const { return !crossings_.empty() || isUnsettled(); }
+  /// As signsOver, of those that have turned, or that have not.
+  std::vector<SignCases> signsOver(std::size_t count, bool hasTurned) const;
   /// The greatest remainder of all states, relative to the state's size over the step.
   double relativeRemainder(const FlowSet& set) const;
   /// The symbol whose high powers weigh most in the step.
@@ -196,6 +212,10 @@ class FlowStepper {
   void evaluateRemainder(const FlowSet& set, double tau, FlowPoint& point) const;
   void turnFrame(FlowSet& set);
   void carryGenerators(FlowSet& set);
+  void evaluateOnceTurned(const BoundedPolynomial& moment, FlowPoint& point) const;
+  BoundedPolynomial momentOnceTurned() const;
+  BoundedPolynomial frameAt(std::size_t i, std::size_t j, const BoundedPolynomial& moment) const;
+  void endStep(FlowSet& set);
   void evaluateInputs(const FlowSet& set, const std::vector<double>& columns, FlowPoint& point) const;
   bool boundGrowth(const FlowSet& set, double h);
   bool mayDamp(const FlowSet& set) const;
@@ -318,11 +338,16 @@ class FlowStepper {
     std::vector<double> K{}, turned{}, J{};
     std::vector<double> saltation{}, leapt{};  // likewise at once
     std::vector<double> jolt{};                // what chords from the step's start miss
-    Interval growth{0.0};                      // of the argument's rate, of those let go, towards that side
-    Interval argument{0.0};                    // at the step's end
-    std::vector<Interval> besides{};           // likewise of own jumps; none: nothing is known
+    double lag = 0;                            // s from m(ξ) on, by when all have turned
+    // |z| by then, with S as polynomials: d of every state, and at most beside that; S, none: constant.
+    std::vector<double> soon{}, besideLeapOf{};
+    std::vector<BoundedPolynomial> leapOf{}, saltationOf{};
+    Interval growth{0.0};                       // of the argument's rate, of those let go, towards that side
+    Interval argument{0.0}, soonArgument{0.0};  // at the step's end, and as long after m(ξ) as `lag`
+    std::vector<Interval> besides{};            // likewise of own jumps; none: nothing is known
     SignCases during(const Interval& seconds) const;
     Interval gone(double seconds) const;
+    Interval gone(const Interval& shortest, const Interval& longest) const;
     bool releases() const { return kind == TurnKind::release; }
     bool arrives() const { return kind == TurnKind::arrival; }
     bool passesJump() const { return kind == TurnKind::passage && jump != none; }
@@ -348,6 +373,8 @@ class FlowStepper {
   void describeLeap(Turn& turn, const std::vector<BoundedPolynomial>& guard,
                     const std::vector<BoundedPolynomial>& slopes) const;
   bool describeTurn(const FlowSet& set, const std::vector<Interval>& signs, Turn& turn);
+  void boundSoon(Turn& turn, const std::vector<Interval>& J, const std::vector<double>& before,
+                 const std::vector<double>& rest, const std::vector<double>& slack);
   bool turnFrameWith(const FlowSet& set, const std::vector<Interval>& signs, Turn& turn);
   std::pair<double, double> valueOfFrame(std::size_t i, std::size_t j, double sigma) const;
   double variationOfFrame(std::size_t i, std::size_t j, double middle, double span) const;
@@ -363,13 +390,14 @@ class FlowStepper {
   std::optional<Arrival> arrivalOf(const FlowSet& set, const LinearForm& form, const JumpBound& bound) const;
   void boundArrivals(const FlowSet& set);
   bool isZeroBehind(const LinearForm& form) const;
-  std::vector<Interval> argumentsBehind() const;
+  std::vector<Interval> argumentsBehind(bool onceTurned = false) const;
   template <class Visit>
   void forEachKnown(Visit visit) const;
   template <class Of>
   std::vector<SignCases> signs(std::size_t count, Of of) const;
   void giveTurning(const Interval& seconds, std::vector<SignCases>& signs) const;
-  void narrowArguments(const FlowSet& set, double tau, FlowPoint& point, std::optional<Interval> moments) const;
+  void narrowArguments(const FlowSet& set, double tau, FlowPoint& point, std::optional<Interval> moments,
+                       bool onceTurned = false) const;
   std::vector<double> symbolMass(std::vector<double>& byGrade) const;
   template <class F>
   void countAsGenerators(F f) {

@@ -47,6 +47,17 @@ bool isZero(const Program& f) {
   });
 }
 
+bool dependsOnTime(const Program& program) {
+  const std::vector<Node>& nodes = program.nodes();
+  const auto isTime = [&](int node) { return nodes[at(node)].op == Op::time; };
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    bool does = false;
+    detail::forEachOperand(program.table(), static_cast<int>(i), [&](int operand) { does = does || isTime(operand); });
+    if (does) return true;
+  }
+  return std::ranges::any_of(program.outputNodes(), isTime);
+}
+
 /// Of steps that are about as long whatever the tolerance is (measured).
 int orderFor(double tolerance) { return static_cast<int>(std::clamp(-2 * std::log10(tolerance) - 8, 10.0, 20.0)); }
 
@@ -73,6 +84,8 @@ FlowTask::FlowTask(const FlowQuestion& question, const Box& startBox, const std:
       richer(round.richer),
       scales(round.scales) {
   varying = parametersOf(options.varying);
+  mayGoOwnWays =
+      varying.empty() && !dependsOnTime(motion) && !dependsOnTime(outputs) && !dependsOnTime(options.aside.values);
   times.push_back(0.0);
   for (double time : question.outputTimes)
     if (time > times.back()) times.push_back(time);

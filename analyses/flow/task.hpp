@@ -90,6 +90,7 @@ struct FlowTask {
   double effective;           // Emphasis
   SplitShares shares;
   bool isLast, mayBisect;
+  bool mayGoOwnWays = false;                 // nothing but the states depends on time, nothing varies in it
   bool standsStill;                          // no state moves: loads of a given motion, which are functions of time
   std::vector<int> cuts;                     // FlowRound
   std::vector<int> varying;                  // parameters that are inputs

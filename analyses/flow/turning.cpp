@@ -449,7 +449,11 @@ Interval FlowStepper::Turn::gone(double seconds) const {
     return Interval(std::max(0.0, (Interval(seconds) - Interval(moment)).lower()),
                     std::max(0.0, (Interval(seconds) - Interval(moment)).upper()));
   };
-  const Interval longest = since(moments.lower()), shortest = since(moments.upper());
+  return gone(since(moments.upper()), since(moments.lower()));
+}
+
+/// As long after their own moments, at least and at most.
+Interval FlowStepper::Turn::gone(const Interval& shortest, const Interval& longest) const {
   const Interval result(std::max(0.0, (Interval(0.5) * growth * shortest * shortest).lower()),
                         (Interval(0.5) * growth * longest * longest + Interval(beyond) * longest).upper());
   return side > 0 ? result : -result;
@@ -574,8 +578,22 @@ void FlowStepper::describeLeap(Turn& turn, const std::vector<BoundedPolynomial>&
   const BoundedPolynomial steepness = composed(monomials(), rateOf(guard, h0_), turn.when);
   const double bend = of.series().derivativeNorm(of.series().outputNode(turn.of->guard()), 2, theta_) / (h0_ * h0_);
   for (const double c : own_->jumps().forms[at(turn.own)]->states) turn.ofGuard.push_back(-sides_[at(turn.own)] * c);
+  BoundedPolynomial inverse{{1 / steepness.c[0]}};
+  for (int degree = 1; degree <= monomials().degree(); degree *= 2) {  // Newton's method
+    BoundedPolynomial off = product(monomials(), inverse, steepness);
+    off *= -1;
+    off += {{2.0}};
+    inverse = {product(monomials(), inverse, off).c};
+  }
   for (const BoundedPolynomial& slope : slopes) {
     const double leap = slope.c[0] / steepness.c[0];
+    const BoundedPolynomial leapOf{product(monomials(), {slope.c}, inverse).c};
+    BoundedPolynomial besideOf = product(monomials(), leapOf, steepness);
+    besideOf *= -1;
+    besideOf += slope;
+    turn.besideLeapOf.push_back((besideOf.norm() + leapOf.norm() * turn.away * bend) * bounds::up / turn.steepness *
+                                bounds::up);
+    turn.leapOf.push_back(leapOf);
     BoundedPolynomial beside = steepness;
     beside *= -leap;
     beside += slope;
@@ -775,7 +793,7 @@ bool FlowStepper::proveTurn(const FlowSet& set, const std::vector<Interval>& sig
     }
     before[i] = sum * bounds::up;
   }
-  const std::vector<double> jump = jumpAtMoment(turn, before);
+  const std::vector<double> jump = jumpAtMoment(turn, before), untilMoment = before;
   for (std::size_t i = 0; i < n; ++i) {
     before[i] = (before[i] + jump[i] + turn.away * turn.turned[i]) * bounds::up;
     most[i] = 2 * before[i] + 0.015625 * turn.most[i] + 2 * longest * defect[i] + bounds::tiny;
@@ -813,6 +831,9 @@ bool FlowStepper::proveTurn(const FlowSet& set, const std::vector<Interval>& sig
     for (std::size_t i = 0; i < n && !isProved; ++i) most[i] = std::max(most[i], 1.5 * crossed_[i]);
   }
   if (!isProved) return false;
+  std::vector<double> left = restOfFrame(turn, J, since);
+  for (std::size_t i = 0; i < n; ++i) left[i] = (left[i] + defect[i]) * bounds::up;
+  boundSoon(turn, J, untilMoment, left, slack);
   turn.before = e1_;
   // Where moments are known too badly to follow what depends on them, other steps say more.
   constexpr double mostLost = 1e-2, wanted = 1e-4, ofDegree = 0.1, little = 1e-9;
@@ -854,6 +875,8 @@ bool FlowStepper::proveTurn(const FlowSet& set, const std::vector<Interval>& sig
   if (!turn.releases()) return true;
   turn.growth = growth;
   turn.argument = turn.gone(h_);
+  const Interval soon = Interval(turn.lag) + Interval(-turn.away, turn.away);
+  turn.soonArgument = turn.gone(soon, soon);
   return true;
 }
 

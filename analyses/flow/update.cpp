@@ -456,6 +456,11 @@ void FlowStepper::advance(FlowSet& set) {
     turnFrame(set);
   set.t += h_;  // exact: both are multiples of the quantum
   set.arguments = argumentsBehind();
+  endStep(set);
+}
+
+/// What the next step starts from besides.
+void FlowStepper::endStep(FlowSet& set) {
   set.slideStep = isSliding_ ? h_ : 0;
   set.hasSlid = set.hasSlid || isSliding_;
   set.p = end_.p;

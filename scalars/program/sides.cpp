@@ -120,29 +120,42 @@ Program withBareKinks(const Program& f) { return withBareArguments(f, Op::abs); 
 
 Program withBareSigns(const Program& f) { return withBareArguments(f, Op::sign); }
 
-Program withJumpingKinks(const Program& f) {
-  const std::vector<int> jumps = jumpsOf(f);
+namespace {
+
+/// g with u sign u for |u| where f jumps at u = 0.
+std::optional<Program> withKinksThatJump(const Program& f, const Program& g) {
   std::vector<Surface> surfaces;
-  for (const int jump : jumps) surfaces.push_back(surfaceOf(f, bareArgumentOf(f, jump).node));
-  const std::vector<char> moves = ofStates(f);
-  Recorder result(f.states(), f.parameters());
-  std::vector<int> instead(f.nodes().size(), -1), outputs;
-  const std::vector<int> plain = result.append(f);
+  for (const int jump : jumpsOf(f)) surfaces.push_back(surfaceOf(f, bareArgumentOf(f, jump).node));
+  const std::vector<char> moves = ofStates(g);
+  Recorder result(g.states(), g.parameters());
+  std::vector<int> instead(g.nodes().size(), -1), outputs;
+  const std::vector<int> plain = result.append(g);
   bool isNew = false;
   for (std::size_t i = 0; i < instead.size(); ++i) {
-    if (f.nodes()[i].op != Op::abs || moves[i] == 0) continue;
-    const Surface kink = surfaceOf(f, bareArgumentOf(f, static_cast<int>(i)).node);
+    if (g.nodes()[i].op != Op::abs || moves[i] == 0) continue;
+    const Surface kink = surfaceOf(g, bareArgumentOf(g, static_cast<int>(i)).node);
     if (std::ranges::none_of(surfaces, [&](const Surface& surface) { return signOfRatio(kink, surface) != 0; }))
       continue;
-    const int u = plain[at(f.nodes()[i].a)];
+    const int u = plain[at(g.nodes()[i].a)];
     instead[i] = result.mul(u, result.sign(u));
     isNew = true;
   }
-  if (!isNew) return f;
-  const std::vector<int> here = result.append(f, {}, instead);
-  for (const int output : f.outputNodes()) outputs.push_back(here[at(output)]);
-  Program jumping = result.finish(outputs);
-  return isAffineInSigns(f) && !isAffineInSigns(jumping) ? f : jumping;
+  if (!isNew) return {};
+  const std::vector<int> here = result.append(g, {}, instead);
+  for (const int output : g.outputNodes()) outputs.push_back(here[at(output)]);
+  return result.finish(outputs);
+}
+
+}  // namespace
+
+Program withJumpingKinks(const Program& f) {
+  std::optional<Program> jumping = withKinksThatJump(f, f);
+  if (!jumping) return f;
+  return isAffineInSigns(f) && !isAffineInSigns(*jumping) ? f : *std::move(jumping);
+}
+
+std::optional<Program> withJumpingKinks(const Program& f, const Program& g) {
+  return withKinksThatJump(f, withBareKinks(g));
 }
 
 Program withOneSignASurface(const Program& f) {

@@ -3,6 +3,7 @@
 // of which u stays zero (Filippov, Differential Equations with Discontinuous Righthand Sides, 1988, §4).
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -24,6 +25,8 @@ Program withBareSigns(const Program& f);
 /// f with u sign u for |u| where a sign of f jumps at u = 0 as well: what happens at a surface is one jump. f itself if
 /// that alone would make it depend on signs by more than sums and products with what does not.
 Program withJumpingKinks(const Program& f);
+/// Likewise functions g of the states and parameters of f; none if they have no such kinks.
+std::optional<Program> withJumpingKinks(const Program& f, const Program& g);
 
 /// f with one sign for all arguments that are multiples of each other: at a surface they are one. Constant factors are
 /// taken off arguments: 0.1 v is as positive as v.

@@ -1,0 +1,138 @@
+// Wide sets whose solutions turn again and again, until some are a cycle or more ahead of others: trajectories whose
+// events are located in 128 bits must lie inside, exactly, at output times, between them, in levels and models, and one
+// piece or a few are enough.
+#include "tests/analyses/event_reference.hpp"
+#include "tests/analyses/flow/containment.hpp"
+#include "tests/analyses/sliding_reference.hpp"
+
+namespace gamut::testing {
+namespace {
+
+struct Repeating {
+  std::string name;
+  Program f, g;
+  Box box;
+  double horizon;
+  int pieces;
+  bool sticks = false;  // where x[1] is 1
+};
+
+/// A ball above ground, unfolded (Zhuravlev): x = |S| in units of 1/unit m, k = p[0] = (1 - e)/(1 + e), its rate
+/// (1 - k sign S sign V) V sign S; p[1]: gravity.
+Program bouncing(double unit) {
+  return record(2, 2, [=](auto, const auto& x, const auto& p, auto& dx) {
+    const auto lost = 1.0 - p[0] * (sign(x[0]) * sign(x[1]));
+    dx[0] = x[1] * lost;
+    dx[1] = -unit * p[1] * sign(x[0]) / lost;
+  });
+}
+
+/// Its height and energy, in J/kg of 1/unit² each.
+Program heightAndEnergy(double unit) {
+  return record(2, 2, 2, [=](auto, const auto& x, const auto& p, auto& y) {
+    const auto rate = (1.0 - p[0] * (sign(x[0]) * sign(x[1]))) * x[1];
+    y[0] = abs(x[0]);
+    y[1] = 0.5 * rate * rate + unit * p[1] * abs(x[0]);
+  });
+}
+
+Program noOutputs(int states, int parameters) {
+  return record(states, parameters, 0, [](auto, const auto&, const auto&, auto&) {});
+}
+
+const std::vector<Repeating>& repeating() {
+  static const std::vector<Repeating> all{
+      {"aBall",
+       bouncing(1),
+       heightAndEnergy(1),
+       {Interval(0.99, 1.01), -0.001, Interval(0.047, 0.058), 9.8125},
+       4.5,
+       1},
+      {"aBallInMillimetresElsewhere",
+       bouncing(1024),
+       heightAndEnergy(1024),
+       {Interval(0.95, 1.05) * Interval(1024), -1.0, Interval(0.05, 0.055), Interval(9.75, 9.875)},
+       2.75,
+       1},
+      {"aForceToTheMiddleForLong",
+       record(2, 1,
+              [](auto, const auto& x, const auto& p, auto& dx) {
+                dx[0] = x[1];
+                dx[1] = -sign(x[0]) / p[0];
+              }),
+       noOutputs(2, 1),
+       {Interval(0.875, 1.125), 0.0, Interval(0.9, 1.1)},
+       40.0,
+       2},
+      {"aRelayWithDamping",
+       record(2, 2,
+              [](auto, const auto& x, const auto& p, auto& dx) {
+                dx[0] = x[1];
+                dx[1] = -p[0] * x[0] - p[1] * sign(x[0]) - 0.0625 * x[1];
+              }),
+       record(2, 2, 1, [](auto, const auto& x, const auto& p, auto& y) { y[0] = x[1] * x[1] + p[0] * x[0] * x[0]; }),
+       {Interval(0.9375, 1.0625), 0.0, Interval(0.9, 1.1), Interval(0.9, 1.1)},
+       9.0,
+       8},
+      {"aBlockThatSticksAndSlips",
+       record(2, 2,
+              [](auto, const auto& x, const auto& p, auto& dx) {
+                dx[0] = x[1];
+                dx[1] = p[1] * sign(1.0 - x[1]) - p[0] * x[0] - 0.25 * (1.0 - x[1]);
+              }),
+       noOutputs(2, 2),
+       {0.0, 0.0, Interval(0.98, 1.02), Interval(1.96, 2.04)},
+       20.0,
+       2,
+       true},
+      {"aKinkForLong",
+       record(2, 2,
+              [](auto, const auto& x, const auto& p, auto& dx) {
+                dx[0] = x[1];
+                dx[1] = -p[0] * x[0] - p[1] * abs(x[0]);
+              }),
+       noOutputs(2, 2),
+       {Interval(0.9375, 1.0625), 0.0, Interval(0.9, 1.1), Interval(0.25, 0.3125)},
+       40.0,
+       4}};
+  return all;
+}
+
+class FlowOwnTimes : public ::testing::TestWithParam<Repeating> {};
+
+TEST_P(FlowOwnTimes, HoldTrajectories) {
+  const Repeating& machine = GetParam();
+  Containment c;
+  c.f = machine.f;
+  if (machine.g.outputs() > 0) c.g = machine.g;
+  c.box = machine.box;
+  Box level;
+  for (const Interval& x : machine.box)
+    level.push_back(Interval(midpoint(x)) + Interval(0.25) * (x - Interval(midpoint(x))));
+  c.levels = {level};
+  c.horizon = machine.horizon;
+  for (int i = 1; i < 32; ++i) c.times.push_back(machine.horizon * i / 32);
+  EventReference passing(machine.f);
+  SlidingReference sliding(machine.f, machine.f, [](const auto& sides, const Vector&, Vector& x) {
+    if (sides[0] == Side::held) x[1] = 1.0;
+  });
+  c.motion = [&](const Vector& start, const std::vector<double>& times) {
+    Containment::Motion motion{machine.sticks ? sliding(start, times) : passing(start, times), {}};
+    Evaluator<Precise> outputs(machine.g);
+    outputs.setParameters(Vector(start.begin() + machine.f.states(), start.end()));
+    for (std::size_t i = 0; i < times.size(); ++i)
+      motion.outputs.push_back(outputs(Precise(times[i]), motion.states[i]));
+    return motion;
+  };
+  Judge judge(c, 5);
+  EXPECT_LE(judge.tube().pieces(), machine.pieces);
+  ASSERT_EQ(judge.tube().why(), "");
+  judge.judge(8);
+  EXPECT_GT(machine.sticks ? sliding.events : passing.events, 20);
+}
+
+INSTANTIATE_TEST_SUITE_P(Flow, FlowOwnTimes, ::testing::ValuesIn(repeating()),
+                         [](const auto& machine) { return machine.param.name; });
+
+}  // namespace
+}  // namespace gamut::testing
