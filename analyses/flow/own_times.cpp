@@ -145,8 +145,10 @@ FlowFollower::OwnCell FlowFollower::half(const OwnCell& cell, int symbol, double
     if (norm[number] > 0)
       result.error[number] =
           (result.error[number] + tool_->range.shiftError() * norm[number] * bounds::up) * bounds::up + bounds::tiny;
-  result.part.centre[at(symbol)] += result.part.half[at(symbol)] * middle;
-  result.part.half[at(symbol)] *= 0.5;
+  if (at(symbol) < result.part.half.size()) {  // not of a remainder's own
+    result.part.centre[at(symbol)] += result.part.half[at(symbol)] * middle;
+    result.part.half[at(symbol)] *= 0.5;
+  }
   for (Embedded& p : result.parameters)
     if (p.symbol == symbol) {
       const double centre = p.centre + p.half * middle;  // the product is exact
@@ -333,6 +335,8 @@ void FlowFollower::recordAt(FlowPiece& piece, const std::vector<std::size_t>& ro
   open.push_back({wholeCell(piece), rows});
   const double wide = std::max(fine * theta, ofAll * 2 * piece.set.ahead.variation() / scale);
   for (int parts = 1; !open.empty();) {
+    if (task_.options.cancelled != nullptr && task_.options.cancelled->load(std::memory_order_relaxed))
+      throw Cancelled{};
     const Open part = std::move(open.back());
     const OwnCell& cell = part.cell;
     open.pop_back();
