@@ -444,6 +444,15 @@ void FlowFollower::collect(const FlowPiece& piece, const OwnCell& cell, const Bo
     states.push_back(inflated(range, point_.radius[i]));
     stateCore_.push_back(without(states.back(), point_.radius[i] + gap));
   }
+  if (stepper.narrows()) {  // what rests does so exactly
+    std::vector<Interval> narrowed = states;
+    stepper.narrowOver(narrowed);
+    for (std::size_t i = 0; i < n; ++i)
+      if (const Interval both = intersection(states[i], narrowed[i]); !isEmpty(both)) {
+        states[i] = both;
+        if (const Interval core = intersection(stateCore_[i], both); !isEmpty(core)) stateCore_[i] = core;
+      }
+  }
   outputLimits_.clear();
   outputCore_.clear();
   extremes_.resize(extremesAt(row));
@@ -452,7 +461,7 @@ void FlowFollower::collect(const FlowPiece& piece, const OwnCell& cell, const Bo
     outputRange_ = &tools->range;
     outputs_->evaluate(at_, point_, own.set.R, parameters_);
     appendOutputs(own, states, whole_, outputs);
-    if (tools != outputTool_->outputs.get()) {  // |u| is not below zero, whatever is known of u
+    if (tools != outputTool_->outputs.get() || stepper.narrows()) {  // |u| is not below zero, whatever is known of u
       FlowOutputs* const smooth = std::exchange(outputs_, &outputTool_->outputs->outputs);
       for (std::size_t o = 0; o < outputs.size(); ++o) {
         const Interval wherever = overBoxes(static_cast<int>(o));
