@@ -110,10 +110,8 @@ FlowJourney FlowFollower::follow(FlowPiece& piece, double end, double allowed) {
     }
     const bool stopsOnceTurned = goesOwnWays(piece);
     if (stopsOnceTurned && piece.set.ahead.c.empty()) endRows(piece);
-    if (stopsOnceTurned || !piece.set.ahead.c.empty())
-      recordOwnTimes(piece);
-    else if (!record(piece))
-      return FlowJourney::ended;
+    const bool isOwn = stopsOnceTurned || !piece.set.ahead.c.empty();
+    if (!(isOwn ? recordOwnTimes(piece) : record(piece))) return FlowJourney::ended;
     if (tool_->stepper.hasTurned()) {
       const double moment = midpoint(tool_->stepper.turnMoments());
       piece.sinceTurned = tool_->stepper.h() - moment;
@@ -243,6 +241,7 @@ std::unique_ptr<FlowFollower::Tools> FlowFollower::toolsFor(const FlowPiece& pie
   if (layout.monomials->symbols() == 0 && task_.fineOrders > 0) tools->stepper.setFineOrders(task_.fineOrders);
   tools->stepper.setStateNames(options.stateNames);
   tools->stepper.setScales(task_.scales);
+  tools->stepper.setMayStop(task_.mayGoOwnWays);
   tools->stepper.setTime(task_.horizon, task_.quantum,
                          held.empty() ? task_.timeKinks : TimeKinks(motion, task_.horizon, task_.quantum));
   if (task_.jumps.count() > 0)
@@ -852,19 +851,25 @@ bool FlowFollower::record(FlowPiece& piece) {
     partUntil(t1);
     endPart(t1);
   }
-  for (std::size_t i = 0; i < piece.last.size(); ++i)
-    if (!(width(piece.last[i]) <= task_.options.maxWidth)) {
-      run_.fail(piece, t1,
+  return isNarrowEnough(piece, t1, end, endOutputs);
+}
+
+/// Whether these, that were enclosed last, say anything; else the piece has ended then.
+bool FlowFollower::isNarrowEnough(FlowPiece& piece, double t, const std::vector<Interval>& states,
+                                  const std::vector<Interval>& outputs) {
+  for (std::size_t i = 0; i < states.size(); ++i)
+    if (!(width(states[i]) <= task_.options.maxWidth)) {
+      run_.fail(piece, t,
                 tool_->stepper.nameOf(static_cast<int>(i)) + " has become wider than the limit of " +
                     toString(task_.options.maxWidth));
       return false;
     }
-  if (const int i = tooWide(piece, end, endOutputs); i >= 0) {
+  if (const int i = tooWide(piece, states, outputs); i >= 0) {
     const std::vector<std::string>& names = task_.options.outputNames;
     const std::string name = task_.options.mostWidth.empty() ? tool_->stepper.nameOf(i)
                              : at(i) < names.size()          ? names[at(i)]
                                                              : "output " + std::to_string(i);
-    run_.fail(piece, t1, name + " is too wide: its enclosure is more than a million times its size");
+    run_.fail(piece, t, name + " is too wide: its enclosure is more than a million times its size");
     return false;
   }
   return true;

@@ -177,7 +177,7 @@ class FlowFollower {
   bool record(FlowPiece& piece);
   bool goesOwnWays(const FlowPiece& piece) const;
   struct OwnCell;
-  void recordOwnTimes(FlowPiece& piece);
+  bool recordOwnTimes(FlowPiece& piece);
   void recordOver(FlowPiece& piece, const std::vector<std::size_t>& rows);
   void recordAt(FlowPiece& piece, const std::vector<std::size_t>& rows);
   OwnCell wholeCell(const FlowPiece& piece) const;
@@ -186,6 +186,8 @@ class FlowFollower {
   void collect(const FlowPiece& piece, const OwnCell& cell, const BoundedPolynomial& moment,
                const std::vector<BoundedPolynomial>& limits, bool hasTurned, std::size_t row);
   void endRows(FlowPiece& piece);
+  bool isNarrowEnough(FlowPiece& piece, double t, const std::vector<Interval>& states,
+                      const std::vector<Interval>& outputs);
   int tooWide(FlowPiece& piece, const std::vector<Interval>& states, const std::vector<Interval>& outputs) const;
 
   FlowRun& run_;

@@ -2,7 +2,6 @@
 // what they were apart in time is a polynomial beside the set. docs/flow.md, section 7, "Times of their own".
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -23,8 +22,9 @@ BoundedPolynomial FlowStepper::momentOnceTurned() const {
 
 bool FlowStepper::mayStopOnceTurned(const FlowSet& set) const {
   if (!turn_ || isOpaque() || set.unsettledUntil > set.t || monomials().symbols() == 0) return false;
+  if (turn_->soon.empty()) return false;
   const BoundedPolynomial moment = momentOnceTurned();
-  return moment.c[0] + moment.variation() <= theta_ && moment.c[0] - moment.variation() >= 0;
+  return moment.c[0] >= moment.variation() && (moment.c[0] + moment.variation()) * bounds::up <= theta_;
 }
 
 BoundedPolynomial FlowStepper::frameAt(std::size_t i, std::size_t j, const BoundedPolynomial& moment) const {
@@ -83,10 +83,7 @@ void FlowStepper::boundSoon(Turn& turn, const std::vector<Interval>& J, const st
       for (std::size_t l = 0; l < n; ++l) drive[i] += magnitude(J[i * n + l]) * varies[l] * bounds::up;
   }
   constexpr double nearly = 0x1p-20;
-  if (!following_.compute((1 + nearly) * (turn.lag + turn.away))) {
-    turn.lag = std::numeric_limits<double>::infinity();
-    return;
-  }
+  if (!following_.compute((1 + nearly) * (turn.lag + turn.away))) return;
   for (std::size_t i = 0; i < n; ++i) {
     double sum = slack[i] + bounds::tiny;
     for (std::size_t j = 0; j < n; ++j)
@@ -152,7 +149,7 @@ void FlowStepper::advanceOnceTurned(FlowSet& set) {
   set.ahead.c.resize(at(series_.count()), 0.0);
   set.ahead += elapsed;
   // t moves on to about when the first of them are there: by whole units of time.
-  const double first = (set.ahead.c[0] - set.ahead.variation() - set.ahead.error) * bounds::down;
+  const double first = (Interval(set.ahead.c[0]) - Interval(set.ahead.variation()) - Interval(set.ahead.error)).lower();
   const double passed = std::max(0.0, std::floor(first / resolution_)) * resolution_;
   set.t += passed;
   set.ahead += {{-passed}};

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -79,9 +80,10 @@ Interval rangeWithin(const std::vector<BoundedPolynomial>& limits, const Monomia
         sum[g] = sign * P[g] - lambda * q[g];
         rounding += 2 * bounds::unit * (std::fabs(P[g]) + std::fabs(lambda * q[g]));
       }
-      const double most = (Interval(range(sum.data(), whole, 1e-4).upper()) + Interval(rounding * bounds::up) +
-                           Interval(lambda) * Interval(dropped * bounds::up))
-                              .upper();
+      const double most =
+          (Interval(range(sum.data(), whole, 1e-4).upper()) + Interval(rounding * bounds::up + bounds::tiny) +
+           Interval(lambda) * Interval(dropped * bounds::up))
+              .upper();
       if (!std::isfinite(most)) continue;
       constexpr double infinite = std::numeric_limits<double>::infinity();
       result = intersection(result, sign > 0 ? Interval(-infinite, most) : Interval(-most, infinite));
@@ -160,18 +162,24 @@ FlowFollower::OwnCell FlowFollower::half(const OwnCell& cell, int symbol, double
   return result;
 }
 
-/// From the first of all times of its solutions to the last. Nothing but the states depends on time.
-void FlowFollower::recordOwnTimes(FlowPiece& piece) {
+/// From the first of all times of its solutions to the last; false if the piece has grown too wide. Nothing but the
+/// states depends on time.
+bool FlowFollower::recordOwnTimes(FlowPiece& piece) {
   const double h = tool_->stepper.h(), began = piece.set.t;
   if (piece.set.ahead.c.empty()) piece.set.ahead.c.assign(at(monomialCount_), 0.0);
   const Interval times = Interval(began) + rangeOf(piece.set.ahead) + Interval(0.0, h);
   std::vector<std::size_t> rows;
   for (std::size_t row = 1; row < task_.times.size(); ++row)
     if (task_.times[row] >= times.lower() && task_.times[row - 1] <= times.upper()) rows.push_back(row);
-  if (rows.empty()) return;
+  if (rows.empty()) return true;
   run_.knowsAlternatives();  // a part is in this step at a time, or in another one
   recordOver(piece, rows);
+  std::vector<Interval> outputs = piece.lastOutputs;
+  stateCore_ = piece.last;
+  outputCore_ = outputs;
+  if (!isNarrowEnough(piece, began, piece.last, outputs)) return false;
   if (!tool_->stepper.isOpaque()) recordAt(piece, rows);
+  return true;
 }
 
 /// Between the output times: chords of parts of the step, over parts of the piece whose solutions are at about one
@@ -254,7 +262,7 @@ void FlowFollower::recordOver(FlowPiece& piece, const std::vector<std::size_t>& 
         if (stepper.narrows()) stepper.narrowOver(between);
         if (outputs_) {
           const bool knowsMore = knowsMoreByBoxes();
-          findBoxes(began, Interval(began + from, began + to), between);
+          findBoxes(began, Interval(began) + Interval(from, to), between);
           for (std::size_t o = 0; o < limits.size(); ++o) {
             Interval over = stepper.isUnsettled() ? Interval::entire() : hull(beforeLimits[k][o], limits[o]) + sag_[o];
             if (knowsMore || !isBounded(over)) {
@@ -274,9 +282,10 @@ void FlowFollower::recordOver(FlowPiece& piece, const std::vector<std::size_t>& 
           auto snapshot = std::make_shared<FlowSnapshot>(
               FlowSnapshot{at_, inBox, outputs_->monomials(), {}, piece.path + cell.path});
           for (const int o : task_.options.modelled) snapshot->outputs.push_back({{}, 0, overs[at(o)]});
+          const double bytes = bytesOf(*snapshot);
           for (std::size_t more = 0; isOfAll && more < task_.options.modelledAt.size(); ++more)
             snapshot->outputs.push_back({{}, 0, overs[at(task_.options.modelledAt[more])]});
-          run_.countModel(bytesOf(*snapshot), 0);
+          run_.countModel(bytes, bytesOf(*snapshot) - bytes);
           return snapshot;
         };
         for (const std::size_t row : rows) {
@@ -309,6 +318,12 @@ void FlowFollower::recordOver(FlowPiece& piece, const std::vector<std::size_t>& 
       before[k] = std::move(then);
       beforeLimits[k] = limits;
     }
+  }
+  piece.last.clear();
+  piece.lastOutputs.clear();
+  for (std::size_t k = 0; k < cells.size(); ++k) {
+    joinHulls(piece.last, before[k]);
+    joinHulls(piece.lastOutputs, beforeLimits[k]);
   }
   extremes_ = extremes;
 }
@@ -392,7 +407,7 @@ FlowFollower::OutputTools* FlowFollower::outputsOnSides(const FlowPiece& piece) 
   if (!tools.outputs) return nullptr;
   if (!tools.areSidesKnown) {
     tools.areSidesKnown = true;
-    if (const auto smooth = withJumpingKinks(task_.jumps.f, task_.outputs))
+    if (const auto smooth = signs_ > 0 ? withJumpingKinks(task_.jumps.f, task_.outputs) : std::nullopt)
       tools.onSides = std::make_unique<OutputTools>(outputToolsFor(task_.jumps.outputsGiven(*smooth, tools.held),
                                                                    task_.outputLayout(piece.layout), piece.layout));
   }

@@ -131,6 +131,8 @@ class FlowStepper {
   static std::vector<char> resting(const FlowSet& set, const FlowJumps& jumps);
   /// Before setJumps. `length`, `resolution`: of time, s; `kinks`: of the stepper's motion.
   void setTime(double length, double resolution, TimeKinks kinks);
+  /// Whether solutions may be stopped once they have turned.
+  void setMayStop(bool mayStop) { mayStop_ = mayStop; }
   void setStateNames(const std::vector<std::string>& names) { names_ = names; }
   /// Steps are relative to no less than a share of these. Null: they are not known.
   void setScales(std::shared_ptr<const FlowScales> scales) { scales_ = std::move(scales); }
@@ -452,6 +454,7 @@ class FlowStepper {
   bool isLiftOfSurface_ = false;
   double beyondLast_ = 0;  // how much longer the step is than until the last has turned, s; 0: not known yet
   bool mayTurn_ = true;    // in this step
+  bool mayStop_ = false;
   bool hasLostTurn_ = false, isTurnMixed_ = false;
   bool leavesOnceTurned_ = false;  // another side, before the step's end
   int turnSymbol_ = -1;

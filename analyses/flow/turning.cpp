@@ -831,9 +831,11 @@ bool FlowStepper::proveTurn(const FlowSet& set, const std::vector<Interval>& sig
     for (std::size_t i = 0; i < n && !isProved; ++i) most[i] = std::max(most[i], 1.5 * crossed_[i]);
   }
   if (!isProved) return false;
-  std::vector<double> left = restOfFrame(turn, J, since);
-  for (std::size_t i = 0; i < n; ++i) left[i] = (left[i] + defect[i]) * bounds::up;
-  boundSoon(turn, J, untilMoment, left, slack);
+  if (mayStop_) {
+    std::vector<double> left = restOfFrame(turn, J, since);
+    for (std::size_t i = 0; i < n; ++i) left[i] = (left[i] + defect[i]) * bounds::up;
+    boundSoon(turn, J, untilMoment, left, slack);
+  }
   turn.before = e1_;
   // Where moments are known too badly to follow what depends on them, other steps say more.
   constexpr double mostLost = 1e-2, wanted = 1e-4, ofDegree = 0.1, little = 1e-9;
