@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "analyses/flow/formulation.hpp"
+#include "analyses/flow/polygon_tube.hpp"
 #include "analyses/flow/refinement.hpp"
 #include "analyses/flow/run.hpp"
 #include "analyses/work.hpp"
@@ -119,6 +120,14 @@ bool isWiderThan(double share, const Tube& tube, std::size_t level) {
   return false;
 }
 
+/// The polynomials' rounds, and where these end early or are too loose, what else there is.
+Tube enclosed(const FlowQuestion& question, const Box& box, const std::vector<Box>& levels, double& looseness) {
+  Tube tube = refine(question, box, levels, looseness);
+  const bool isWanting = tube.reached() < question.horizon || looseness > question.options.tightness - 1;
+  if (!isWanting || tube.wasStopped() || !PolygonTube::suits(question, box)) return tube;
+  return PolygonTube::tighten(question, box, std::move(tube));
+}
+
 Tube answer(const FlowFormulation& formulation, const FlowOptions& options, FlowBudget& budget, const Box& wholeBox,
             double horizon, const std::vector<double>& outputTimes, const std::vector<Box>& wholeLevels) {
   const Box box = formulation.boxOf(wholeBox);
@@ -147,7 +156,7 @@ Tube answer(const FlowFormulation& formulation, const FlowOptions& options, Flow
   };
   const bool jumps = !jumpsOf(formulation.motion).empty() || !jumpsOf(formulation.outputs).empty();
   double looseness = 0, unused = 0;
-  Tube tube = refine(question, box, levels, looseness);
+  Tube tube = enclosed(question, box, levels, looseness);
   levelBudget.limit =
       std::min(budget.left(), std::max(options.levelBudget * Work::perSecond, options.levelShare * budget.spent));
   // A remainder that is small for the whole box is not for a much smaller level: that one gets a flow of its own, the
@@ -157,7 +166,7 @@ Tube answer(const FlowFormulation& formulation, const FlowOptions& options, Flow
     for (std::size_t i = 0; i < box.size(); ++i)
       if (uncertain.components[i].symbol >= 0) share = std::max(share, width(levels[level][i]) / width(box[i]));
     if (looseness > 0.01 * share || narrowsInput(levels[level]) || (jumps && isWiderThan(share, tube, level)))
-      FlowRun::tighten(tube, level, refine(levelQuestion, levels[level], {}, unused));
+      FlowRun::tighten(tube, level, enclosed(levelQuestion, levels[level], {}, unused));
   }
   budget.spent += levelBudget.spent;
   FlowRun::setLevelWork(tube, levelBudget.spent);

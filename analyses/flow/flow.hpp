@@ -163,6 +163,7 @@ class Tube {
 
  private:
   friend class FlowRun;
+  friend class PolygonTube;
   std::vector<double> times_;
   std::vector<std::vector<Interval>> states_, statesOver_, outputs_, outputsOver_, asides_;
   std::vector<std::vector<std::vector<Interval>>> cuts_;

@@ -2,46 +2,10 @@
 // inside, exactly; and enclosures must be about as wide as what the optimal ones span.
 #include <cmath>
 
-#include "tests/analyses/flow/containment.hpp"
-#include "tests/analyses/switching_courses.hpp"
+#include "tests/analyses/flow/expect_courses.hpp"
 
 namespace gamut::testing {
 namespace {
-
-/// The tube holds random courses, at output times and between them.
-Tube expectCourses(const Containment& c, int courses, unsigned seed = 9) {
-  Tube tube = c.tube();
-  EXPECT_EQ(tube.why(), "");
-  if (tube.reachedTimes() < tube.times().size()) return tube;
-  Points points(seed);
-  const int n = c.f.states();
-  std::optional<Evaluator<Precise>> outputs;
-  if (c.g) outputs.emplace(*c.g);
-  std::vector<double> times;
-  for (int i = 1; i <= 64; ++i) times.push_back(c.horizon * i / 64);
-  for (int trial = 0; trial < courses; ++trial) {
-    const Vector start = trial % 2 == 0 ? points.corner(c.box) : points.inside(c.box);
-    const Course course = switching(c.box, n, c.options.varying, c.horizon, points.integer(0, 30), points);
-    const std::vector<Vector> motion = follow(c.f, Vector(start.begin(), start.begin() + n), course, times);
-    for (std::size_t i = 0; i < times.size(); ++i) {
-      Vector y = motion[i];
-      if (outputs) {
-        outputs->setParameters(course.at(times[i]));
-        y = (*outputs)(Precise(times[i]), motion[i]);
-      }
-      for (std::size_t row = 1; row < tube.times().size(); ++row) {
-        const bool isAt = tube.times()[row] == times[i];
-        if (!isAt && !(tube.times()[row - 1] < times[i] && times[i] < tube.times()[row])) continue;
-        for (std::size_t s = 0; s < motion[i].size(); ++s)
-          EXPECT_THAT(isAt ? tube.states(row)[s] : tube.statesOver(row)[s], Encloses(motion[i][s])) << trial;
-        for (std::size_t o = 0; outputs && o < y.size(); ++o)
-          EXPECT_THAT(isAt ? tube.outputs(row)[o] : tube.outputsOver(row)[o], Encloses(y[o])) << trial;
-        if (::testing::Test::HasFailure()) return tube;
-      }
-    }
-  }
-  return tube;
-}
 
 /// ẍ = w - ω²x - 2ζωẋ from rest, |w| ≤ 1.
 Containment oscillator(double frequency, double damping) {
