@@ -394,6 +394,12 @@ class Wording {
                : fmt::format("{} sampled {}", stochastic.integrated, what);
   }
 
+  /// Of what varies in time, among the samples that were followed.
+  bool hasWorstCourses() const {
+    const StochasticResult& samples = results_.stochastic;
+    return samples.switching.present && samples.integrated >= samples.planned();
+  }
+
   std::string insideText() const {
     const std::string span = moves() ? " from 0 s to " + reachedText(verdict_.reached) : "";
     std::string text =
@@ -407,7 +413,8 @@ class Wording {
     else if (!std::isnan(verdict_.overestimation))
       text +=
           verdict_.overestimation < saysLittle
-              ? fmt::format("; {} is at most {} times as wide as what was sampled", then, times)
+              ? fmt::format("; {} is at most {} times as wide as what was sampled{}", then, times,
+                            hasWorstCourses() ? ", worst courses included" : "")
               : fmt::format(", but {} says little: for some output it is at most {} times as wide as what was sampled",
                             then, times);
     text += ".";

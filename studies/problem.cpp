@@ -49,17 +49,21 @@ std::vector<std::string> outputQuantities(const Study& study) {
 /// What varies in time follows a course: swinging once in the study's time at least, and twice as fast as the motion
 /// itself, or sixteen times in all, at most.
 void takeCourses(const Study& study, Problem& problem) {
+  SwitchingCourses& switching = problem.motion.switching;
   for (std::size_t i = 0; i < study.uncertain.size(); ++i) {
     const UncertainQuantity& of = study.uncertain[i];
     if (!of.varies) continue;
     const int parameter = problem.motion.slot[i] - static_cast<int>(problem.states);
     problem.varying.push_back({parameter, of.rate});
     problem.courses.push_back({parameter, of.uncertain.range, of.uncertain.nominal, of.rate});
+    switching.quantities.push_back(i);
+    switching.rates.push_back(of.rate);
   }
   if (problem.courses.empty()) return;
   problem.slowest = 2 * std::numbers::pi / study.horizon;
   problem.fastest = std::max(16 * problem.slowest, 2 * fastestTurn(study.motion.f, problem.motion.nominal));
   Motion& motion = problem.motion.motion;
+  switching.motion = motion;
   for (Program* program : {&motion.f, &motion.g, &motion.sampled})
     if (program->outputs() > 0) *program = alongCourses(problem, *program);
 }

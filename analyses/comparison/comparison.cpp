@@ -176,7 +176,7 @@ class Comparer {
   }
 
   Motion disputedPart(const Case& c) const {
-    Motion part = system_.motion;
+    Motion part = system_.motionAt(samples_.valuesOf(c.dispute.number));
     part.times.resize(c.times);
     return part;
   }

@@ -62,6 +62,40 @@ Program withCourses(const Program& program, const std::vector<VaryingQuantity>& 
   return recorder.finish(outputs);
 }
 
+double SwitchingCourse::at(double t) const {
+  return values[static_cast<std::size_t>(std::ranges::upper_bound(from.begin() + 1, from.end(), t) - from.begin()) - 1];
+}
+
+Program withSwitching(const Program& program, const std::vector<std::pair<int, SwitchingCourse>>& courses) {
+  Recorder recorder(program.states(), program.parameters());
+  const RecordingGuard guard(recorder);
+  std::vector<int> parameters;
+  for (int i = 0; i < program.parameters(); ++i) parameters.push_back(recorder.parameter(i));
+  const Recorded t = Recorded::node(recorder.time());
+  for (const auto& [parameter, course] : courses) {
+    Recorded value(course.values.front());
+    for (std::size_t i = 1; i < course.from.size(); ++i) {
+      // The step's value behind it, not that before and a difference, which would be rounded.
+      const Recorded behind = 0.5 + 0.5 * sign(t - course.from[i]);
+      value = (1.0 - behind) * value + behind * course.values[i];
+    }
+    parameters[at(parameter)] = value.node();
+  }
+  const std::vector<int> here = recorder.append(program, parameters);
+  std::vector<int> outputs;
+  for (const int output : program.outputNodes()) outputs.push_back(here[at(output)]);
+  return recorder.finish(outputs);
+}
+
+double numberOfSwitching(const Interval& range, std::size_t which) {
+  return range.upper() + static_cast<double>(which + 1) * (range.upper() - range.lower());
+}
+
+bool canSwitch(const Interval& range) {
+  constexpr double narrow = 1e-9;  // of its numbers
+  return width(range) > narrow * magnitude(range);
+}
+
 double fastestTurn(const Program& f, const std::vector<double>& start) {
   const int n = f.states();
   if (n == 0) return 0;

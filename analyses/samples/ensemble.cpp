@@ -100,8 +100,7 @@ class PieceIntegrator {
   void integrate(SampleBlock& block, const Piece& piece, const Take& take) {
     if (piece.count > 1 && integrateTogether(block, piece)) return take(piece.count);
     for (std::size_t i = piece.first; i < piece.first + piece.count && !isCancelled(); ++i) {
-      block.runs[i] =
-          alone_.integrate(system_.start(block.values(i)), options_.tolerance, trajectory_, options_.secondsPerSample);
+      block.runs[i] = integrateAlone(block.values(i));
       block.setTrajectory(i, trajectory_);
       if (block.runs[i].times < system_.motion.times.size() && isCancelled()) return;
       take(1);
@@ -111,9 +110,20 @@ class PieceIntegrator {
  private:
   bool isCancelled() const { return options_.cancelled != nullptr && *options_.cancelled; }
 
-  /// False if not all samples arrive: nothing is left written then.
+  Integration integrateAlone(std::span<const double> values) {
+    const std::vector<double> start = system_.start(values);
+    const std::vector<SwitchingCourse>* courses = system_.switchingAt(values);
+    if (courses == nullptr) return alone_.integrate(start, options_.tolerance, trajectory_, options_.secondsPerSample);
+    if (!switching_) switching_.emplace(system_.switching.motion, options_.method, options_.cancelled);
+    return integrateAlong(*switching_, system_, *courses, start, options_.tolerance, trajectory_,
+                          options_.secondsPerSample);
+  }
+
+  /// False if not all samples arrive, or one has equations of its own: nothing is left written then.
   bool integrateTogether(SampleBlock& block, const Piece& piece) {
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    for (std::size_t i = piece.first; i < piece.first + piece.count; ++i)
+      if (system_.switchingAt(block.values(i)) != nullptr) return false;
     starts_.resize(system_.motion.startValues() * packWidth);
     for (std::size_t lane = 0; lane < packWidth; ++lane) {  // filled up with the last sample
       const std::vector<double> values = system_.start(block.values(piece.first + std::min(lane, piece.count - 1)));
@@ -135,6 +145,7 @@ class PieceIntegrator {
   const UncertainMotion& system_;
   const EnsembleOptions& options_;
   Witness alone_;
+  std::optional<Witness> switching_;
   std::optional<PackWitness> together_;
   std::vector<double> starts_, trajectory_;
 };
@@ -249,7 +260,7 @@ void addPoints(const UncertainMotion& system, Sampling& sampling, const Ensemble
   if (options.turning) sampling.add(insidePoints(sampling, cuts, scan, *options.turning));
 }
 
-TransformationPoints pointsAt(const std::vector<std::vector<double>>& extremes) {
+TransformationPoints pointsAt(std::span<const std::vector<double>> extremes) {
   TransformationPoints points;
   for (const std::vector<double>& values : extremes) {
     std::vector<std::vector<double>> point;
@@ -259,12 +270,25 @@ TransformationPoints pointsAt(const std::vector<std::vector<double>>& extremes) 
   return points;
 }
 
-/// Of how many levels the cuts hold these values: they are nested.
-std::size_t levelsHolding(const std::vector<Box>& cuts, std::span<const double> values) {
+/// Those on switching courses, which share no steps, are a zone of their own.
+void addExtremes(const UncertainMotion& system, const std::vector<std::vector<double>>& extremes, Sampling& sampling) {
+  const auto switching = std::ranges::find_if(
+      extremes, [&](const std::vector<double>& values) { return system.switchingAt(values) != nullptr; });
+  const auto before = static_cast<std::size_t>(switching - extremes.begin());
+  sampling.add(pointsAt(std::span(extremes).first(before)));
+  sampling.add(pointsAt(std::span(extremes).subspan(before)));
+}
+
+/// Of how many levels the cuts hold these values: they are nested. Of what varies every cut is its interval, and holds
+/// all courses.
+std::size_t levelsHolding(const UncertainMotion& system, const std::vector<Box>& cuts, std::span<const double> values) {
+  const bool isSwitching = system.switchingAt(values) != nullptr;
+  const std::vector<std::size_t>& varying = system.switching.quantities;
   std::size_t levels = 0;
   for (const Box& box : cuts) {
     for (std::size_t j = 0; j < box.size(); ++j)
-      if (!contains(box[j], values[j])) return levels;
+      if (!contains(box[j], values[j]) && !(isSwitching && std::ranges::find(varying, j) != varying.end()))
+        return levels;
     ++levels;
   }
   return levels;
@@ -276,6 +300,54 @@ std::vector<double> UncertainMotion::start(std::span<const double> values) const
   std::vector<double> result = nominal;
   for (std::size_t j = 0; j < values.size(); ++j) result[static_cast<std::size_t>(slot[j])] = values[j];
   return result;
+}
+
+const std::vector<SwitchingCourse>* UncertainMotion::switchingAt(std::span<const double> values) const {
+  for (const std::size_t q : switching.quantities) {
+    const Interval& range = uncertain[q].range;
+    if (!canSwitch(range)) continue;
+    const double which = (values[q] - range.upper()) / (range.upper() - range.lower());
+    if (!(which > 0.5 && which < static_cast<double>(switching.courses.size()) + 0.5)) continue;
+    const auto place = static_cast<std::size_t>(std::lround(which) - 1);
+    if (values[q] == numberOfSwitching(range, place)) return &switching.courses[place];
+  }
+  return nullptr;
+}
+
+Motion UncertainMotion::motionAt(std::span<const double> values) const {
+  const std::vector<SwitchingCourse>* courses = switchingAt(values);
+  if (courses == nullptr) return motion;
+  std::vector<std::pair<int, SwitchingCourse>> ofParameters;
+  for (std::size_t i = 0; i < switching.quantities.size(); ++i)
+    ofParameters.emplace_back(slot[switching.quantities[i]] - motion.f.states(), (*courses)[i]);
+  Motion result = switching.motion;
+  for (Program* program : {&result.f, &result.g, &result.sampled})
+    if (program->outputs() > 0) *program = withSwitching(*program, ofParameters);
+  return result;
+}
+
+Integration integrateAlong(Witness& witness, const UncertainMotion& system, const std::vector<SwitchingCourse>& courses,
+                           std::vector<double> start, const Tolerance& tolerance, std::span<double> trajectory,
+                           double seconds) {
+  const auto states = static_cast<std::size_t>(system.motion.f.states());
+  std::vector<double> times;
+  for (const SwitchingCourse& course : courses) times.insert(times.end(), course.from.begin() + 1, course.from.end());
+  std::ranges::sort(times);
+  const auto repeated = std::ranges::unique(times);
+  times.erase(repeated.begin(), repeated.end());
+  const auto set = [&](std::span<double> parameters, double t) {
+    for (std::size_t i = 0; i < courses.size(); ++i)
+      parameters[static_cast<std::size_t>(system.slot[system.switching.quantities[i]]) - states] = courses[i].at(t);
+  };
+  set(std::span(start).subspan(states), 0);
+  std::vector<ParameterChange> changes;
+  for (const double time : times) {
+    ParameterChange& change = changes.emplace_back();
+    change.time = time;
+    change.parameters.assign(start.begin() + static_cast<std::ptrdiff_t>(states), start.end());
+    set(change.parameters, time);
+  }
+  return witness.integrate(start, changes, tolerance, trajectory, seconds);
 }
 
 void UncertainMotion::check() const {
@@ -341,6 +413,14 @@ std::size_t EnsembleRun::placeInPack(std::size_t number) const {
   return (number - sampling_.zoneOf(number).begin) % gamut::packWidth;
 }
 
+/// Whether the sample has equations of its own, like all of its zone.
+bool EnsembleRun::isSwitching(std::size_t number) const {
+  if (number <= sampling_.centre() || system_.switching.courses.empty()) return false;
+  std::vector<double> values(sampling_.quantities());
+  sampling_.toValues(number, system_.uncertain, values);
+  return system_.switchingAt(values) != nullptr;
+}
+
 /// The samples from `next` on, before `end`, that make a block. A pack that was cut off inside was being integrated one
 /// by one: the rest of it makes a block of its own, and goes on so.
 SampleBlock EnsembleRun::nextBlock(std::size_t next, std::size_t end) const {
@@ -358,14 +438,15 @@ SampleBlock EnsembleRun::nextBlock(std::size_t next, std::size_t end) const {
 void EnsembleRun::integrate(SampleBlock& block) {
   for (std::size_t i = 0; i < block.size(); ++i)
     if (block.first() + i < sampling_.centre()) sampling_.unitPoint(block.first() + i, block.values(i));
-  const std::vector<Piece> pieces = piecesOf(block.size(), placeInPack(block.first()) == 0 ? packWidth() : 1);
+  const bool isTogether = placeInPack(block.first()) == 0 && !isSwitching(block.first());
+  const std::vector<Piece> pieces = piecesOf(block.size(), isTogether ? packWidth() : 1);
   std::vector<std::size_t> ended(pieces.size(), 0);
   forEachIndex(options_.jobs, pieces.size(), options_.cancelled, [&] {
     return [&, integrator = PieceIntegrator(system_, options_, packWidth())](std::size_t piece) mutable {
       const auto [first, count] = pieces[piece];
       for (std::size_t i = first; i < first + count; ++i) {
         sampling_.toValues(block.first() + i, system_.uncertain, block.values(i));
-        block.levels[i] = levelsHolding(cuts_, block.values(i));
+        block.levels[i] = levelsHolding(system_, cuts_, block.values(i));
       }
       integrator.integrate(block, pieces[piece], [&](std::size_t more) {
         ended[piece] += more;
@@ -379,6 +460,25 @@ void EnsembleRun::integrate(SampleBlock& block) {
   kept += ended[piece++];
   for (; piece < pieces.size(); ++piece) done_ -= ended[piece];
   block.keepFirst(kept);
+}
+
+/// Of a few samples on switching courses, which begin anew at every switch, besides.
+void EnsembleRun::measureSwitchingError(const SampleBlock& block) {
+  const Sampling::Zone zone = sampling_.zoneOf(block.first());
+  const std::size_t stride = (zone.end - zone.begin + leastErrorSamples - 1) / leastErrorSamples;
+  const Tolerance tight = options_.tolerance.tightened(errorTightening);
+  std::mutex mutex;
+  forEachIndex(options_.jobs, block.size(), options_.cancelled, [&] {
+    return [&, witness = Witness(system_.switching.motion, options_.method, options_.cancelled),
+            again = std::vector<double>(error_.data.size())](std::size_t i) mutable {
+      const std::vector<SwitchingCourse>* courses = system_.switchingAt(block.values(i));
+      if ((block.first() + i - zone.begin) % stride != 0 || courses == nullptr) return;
+      integrateAlong(witness, system_, *courses, system_.start(block.values(i)), tight, again,
+                     options_.secondsPerSample);
+      const std::lock_guard lock(mutex);
+      includeDifference(error_, block.trajectory(i), again);
+    };
+  });
 }
 
 /// Unless that is known already.
@@ -496,7 +596,7 @@ void EnsembleRun::integrateOthers(const Envelope& expected, const Look& look) {
   if (!isCancelled()) beginScan();
   integratePoints(look);
   if (isCancelled()) return;
-  sampling_.add(pointsAt(options_.extremes));
+  addExtremes(system_, options_.extremes, sampling_);
   integratePoints(look);
 }
 
@@ -530,6 +630,7 @@ void EnsembleRun::integratePoints(const Look& look) {
     integrate(block);
     if (block.size() == 0) return;
     nextPoint_ += block.size();
+    if (isSwitching(block.first())) measureSwitchingError(block);
     take(block, look);
     if (!isScan) continue;
     scan_.include(block);
@@ -620,7 +721,7 @@ SampleBlock replaySample(const UncertainMotion& system, const EnsembleOptions& o
   Sampling sampling = plannedSampling(system, options, levels);
   const std::vector<Box> cuts = cutsOf(system.uncertain, options.alpha);
   addPoints(system, sampling, options, cuts, scanOf(system, options, cuts));
-  sampling.add(pointsAt(options.extremes));
+  addExtremes(system, options.extremes, sampling);
   if (number >= sampling.size()) throw std::invalid_argument("no sample has the number " + std::to_string(number));
   const bool hasWeight = number < sampling.samples();
   const Sampling::Zone zone = sampling.zoneOf(number);
@@ -638,7 +739,7 @@ SampleBlock replaySample(const UncertainMotion& system, const EnsembleOptions& o
   std::ranges::copy(block.values(number - first), replayed.values(0).begin());
   replayed.setTrajectory(0, block.trajectory(number - first));
   replayed.runs[0] = block.runs[number - first];
-  replayed.levels[0] = levelsHolding(cuts, replayed.values(0));
+  replayed.levels[0] = levelsHolding(system, cuts, replayed.values(0));
   return replayed;
 }
 

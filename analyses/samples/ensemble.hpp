@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "analyses/dependence.hpp"
+#include "analyses/samples/courses.hpp"
 #include "analyses/samples/ensemble_statistics.hpp"
 #include "analyses/samples/sample_block.hpp"
 #include "analyses/samples/sampling.hpp"
@@ -23,6 +24,15 @@
 
 namespace gamut {
 
+/// Courses of what varies in time that switch from end to end, each a sample of its own: chosen by the number
+/// numberOfSwitching of each quantity that varies.
+struct SwitchingCourses {
+  Motion motion;                                      ///< of what varies itself, instead of the number drawn
+  std::vector<std::size_t> quantities;                ///< that vary
+  std::vector<double> rates;                          ///< of each, as of VaryingQuantity
+  std::vector<std::vector<SwitchingCourse>> courses;  ///< [which][quantity that varies]
+};
+
 /// A motion whose start values are partly uncertain.
 struct UncertainMotion {
   Motion motion;
@@ -30,12 +40,22 @@ struct UncertainMotion {
   std::vector<Uncertain> uncertain;  ///< the uncertain quantities
   std::vector<int> slot;             ///< of each uncertain quantity: its place in `nominal`
   QuantityDependence dependence;     ///< of them; those of which it is unknown are sampled as if independent
+  SwitchingCourses switching;        ///< in motions without equations that jump
 
   /// The start values for these values of the uncertain quantities.
   std::vector<double> start(std::span<const double> values) const;
+  /// Which switching courses these values choose; null if what varies follows the motion's own.
+  const std::vector<SwitchingCourse>* switchingAt(std::span<const double> values) const;
+  /// Motion and start of these values, whose equations jump where their courses do.
+  Motion motionAt(std::span<const double> values) const;
   /// Throws std::invalid_argument, saying what does not fit together.
   void check() const;
 };
+
+/// Along switching courses, by a witness of system.switching.motion. `start`: what varies may have any number.
+Integration integrateAlong(Witness& witness, const UncertainMotion& system, const std::vector<SwitchingCourse>& courses,
+                           std::vector<double> start, const Tolerance& tolerance, std::span<double> trajectory,
+                           double seconds = std::numeric_limits<double>::infinity());
 
 struct EnsembleOptions {
   Plan plan = Plan::sobol;
@@ -50,7 +70,8 @@ struct EnsembleOptions {
   Transformation transformation = Transformation::reduced;  ///< where points are put for these
   /// By the extended method, in which quantities outputs turn, rising, where that is known already
   std::optional<std::vector<std::size_t>> turning;
-  std::vector<std::vector<double>> extremes;     ///< values of the quantities at further points, the last of all
+  /// Values of the quantities at further points, the last of all; those on switching courses behind all others
+  std::vector<std::vector<double>> extremes;
   int jobs = 1;                                  ///< threads
   std::function<void(double)> progress;          ///< called with the fraction done (0 … 1), from any thread
   const std::atomic<bool>* cancelled = nullptr;  ///< set from outside to end early; what has ended is kept
@@ -135,7 +156,7 @@ class EnsembleRun {
   std::size_t failures() const { return failures_; }
   /// Witness error: greatest change of a re-integrated sample at a hundred times tighter tolerance. Measured on every
   /// fiftieth sample, integrated once more alone (on at least eight, or all if there are fewer; on 1024 at most;
-  /// without states, where nothing is integrated, against 128-bit arithmetic).
+  /// without states, where nothing is integrated, against 128-bit arithmetic), and on eight on switching courses.
   const Table& error() const { return error_; }
 
   Envelope envelope() const;
@@ -149,6 +170,7 @@ class EnsembleRun {
 
  private:
   std::size_t placeInPack(std::size_t number) const;
+  bool isSwitching(std::size_t number) const;
   SampleBlock nextBlock(std::size_t next, std::size_t end) const;
   void integrate(SampleBlock& block);
   void integrateFirst(std::size_t& next, std::size_t end);
@@ -156,6 +178,7 @@ class EnsembleRun {
   void beginScan();
   void integratePoints(const Look& look);
   void measureError(const SampleBlock& block);
+  void measureSwitchingError(const SampleBlock& block);
   void noteFailures(const SampleBlock& block);
   void take(SampleBlock& block, const Look& look);
   Envelope expectedRange(const Envelope& expected) const;

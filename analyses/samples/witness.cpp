@@ -62,10 +62,21 @@ struct Witness::Solver : CvodeProblem {
     Work::count(Work::aloneState, motion.f.states());
   }
 
-  std::size_t watched() const override { return sides.count(); }
-  void watch(double t, std::span<const double> x, std::span<double> values) override { sides.watch(t, x, values); }
+  std::size_t watched() const override { return isChanging ? 1 : sides.count(); }
+  void watch(double t, std::span<const double> x, std::span<double> values) override {
+    if (isChanging)
+      values[0] = changes.empty() ? 1.0 : changes.front().time - t;
+    else
+      sides.watch(t, x, values);
+  }
   std::string turn(double t, std::span<double> x, double later, std::span<const double> xLater,
                    std::span<const char> fallen) override {
+    if (isChanging) {
+      f.setParameters(changes.front().parameters);
+      g.setParameters(changes.front().parameters);
+      changes = changes.subspan(1);
+      return "";
+    }
     if (!sides.turn(t, x, later, xLater, fallen)) return noSidesAgree;
     sides.rest(x);
     return "";
@@ -91,7 +102,9 @@ struct Witness::Solver : CvodeProblem {
   Evaluator<double> f, g;
   SidesOfMotion<double> sides;
   TimeCells cells;
-  std::span<double> trajectory;  // while a motion is integrated
+  bool isChanging = false;                   // its parameters
+  std::span<const ParameterChange> changes;  // that are still to come
+  std::span<double> trajectory;              // while a motion is integrated
   Cvode cvode;
 };
 
@@ -115,6 +128,27 @@ Integration Witness::integrate(std::span<const double> start, const Tolerance& t
   s.sides.setParameters(start.subspan(states));
   if (s.sides.count() > 0 && !s.sides.begin(0, start.first(states))) return {0, 0, noSidesAgree};
   const std::vector<Interval> parameters(start.begin() + static_cast<std::ptrdiff_t>(states), start.end());
+  return s.cvode.integrate(s, start.first(states), tolerance, s.cells.ends(parameters), seconds);
+}
+
+Integration Witness::integrate(std::span<const double> start, std::span<const ParameterChange> changes,
+                               const Tolerance& tolerance, std::span<double> trajectory, double seconds) {
+  Solver& s = *solver_;
+  const Motion& motion = s.motion;
+  if (start.size() != motion.startValues() || trajectory.size() != motion.times.size() * motion.outputs())
+    throw std::invalid_argument("start values or trajectory do not have the motion's size");
+  if (s.sides.count() > 0) throw std::invalid_argument("equations that jump have no parameters that change");
+  std::ranges::fill(trajectory, std::numeric_limits<double>::quiet_NaN());
+  const std::size_t states = detail::at(motion.f.states());
+  std::vector<Interval> parameters(start.begin() + static_cast<std::ptrdiff_t>(states), start.end());
+  for (const ParameterChange& change : changes)
+    for (std::size_t i = 0; i < parameters.size(); ++i)
+      parameters[i] = hull(parameters[i], Interval(change.parameters.at(i)));
+  s.f.setParameters(start.subspan(states));
+  s.g.setParameters(start.subspan(states));
+  s.trajectory = trajectory;
+  s.isChanging = true;
+  s.changes = changes;
   return s.cvode.integrate(s, start.first(states), tolerance, s.cells.ends(parameters), seconds);
 }
 

@@ -40,6 +40,12 @@ struct Motion {
   void check() const;
 };
 
+/// From this time [s] on a motion has these parameters.
+struct ParameterChange {
+  double time = 0;
+  std::vector<double> parameters;
+};
+
 /// Integrates one motion after another. One a thread; it must not outlive the motion's programs.
 class Witness {
  public:
@@ -52,6 +58,11 @@ class Witness {
   /// NaN beyond what was reached. The values depend on start and tolerance alone, not on what was integrated before;
   /// how far they come, on `seconds` and `cancelled` too.
   Integration integrate(std::span<const double> start, const Tolerance& tolerance, std::span<double> trajectory,
+                        double seconds = std::numeric_limits<double>::infinity());
+  /// The same where parameters change at times that rise from above 0; one that does so once does nothing else. Not of
+  /// equations that jump.
+  Integration integrate(std::span<const double> start, std::span<const ParameterChange> changes,
+                        const Tolerance& tolerance, std::span<double> trajectory,
                         double seconds = std::numeric_limits<double>::infinity());
 
  private:

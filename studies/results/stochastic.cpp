@@ -110,6 +110,20 @@ std::vector<Field> fieldsOfExtremes(ExtremeSamples& e) {
           {"values", &e.values, unit::ofQuantity, "of the uncertain quantities", {number, dimension::quantity}}};
 }
 
+std::vector<Field> fieldsOfSwitching(SwitchingResult& s) {
+  constexpr std::string_view entry = "/stochastic/switching/entry";
+  return {{"entry", &s.entry, unit::none, "its number", {entry}, allowed::count},
+          {"number", &s.number, unit::none, "number of the sample, as of disputed ones", {entry}, allowed::count},
+          {"quantity", &s.quantity, unit::none, "number of the uncertain quantity", {entry}, allowed::count},
+          {"from",
+           &s.from,
+           unit::second,
+           "from when on it has the value; the first of each is 0",
+           {entry},
+           {0, allowed::finite.greatest}},
+          {"value", &s.value, unit::none, "in the unit of the quantity", {entry}, allowed::finite}};
+}
+
 std::vector<Field> fieldsOfKept(KeptSamples& k) {
   using namespace dimension;
   return {
@@ -188,9 +202,13 @@ void StochasticResult::describe(std::vector<Group>& groups) {
                           "/stochastic/failed/number", failed, fieldsOfFailed));
   groups.push_back(
       groupOf("/stochastic/convergence", "what fewer samples would have said", convergence, fieldsOfConvergence));
-  groups.push_back(groupOf("/stochastic/extremes",
-                           "points where the proved models of outputs tell that these are extreme, sampled besides",
-                           extremes, fieldsOfExtremes));
+  groups.push_back(
+      groupOf("/stochastic/extremes",
+              "points where the proved models of outputs tell that these are extreme, and worst courses of "
+              "what varies in time, sampled besides",
+              extremes, fieldsOfExtremes));
+  groups.push_back(groupOf("/stochastic/switching", "the worst courses, which switch from value to value", switching,
+                           fieldsOfSwitching));
   groups.push_back(groupOf("/stochastic/kept", "samples one by one, as far as they are kept", kept, fieldsOfKept));
 }
 

@@ -32,6 +32,16 @@ struct ExtremeSamples {
   std::vector<double> values;        ///< [number][quantity]
 };
 
+/// Courses that switch from value to value, of the samples among the extremes that have such: one entry a value of one
+/// quantity, by sample, then quantity, then time.
+struct SwitchingResult {
+  bool present = false;  ///< there are any
+  std::vector<std::int64_t> entry;
+  std::vector<std::int64_t> number;    ///< of the sample, as in DisputedSample
+  std::vector<std::int64_t> quantity;  ///< that varies in time
+  std::vector<double> from, value;     ///< s, and in SI units of the quantity
+};
+
 /// One that could not be followed to the horizon.
 struct FailedSampleResult {
   std::int64_t number = 0;  ///< as in DisputedSample
@@ -81,7 +91,8 @@ struct StochasticResult final : Answer {
   ConvergenceResult convergence;
   Table resolution;         ///< no quantile is farther than this from that of the samples themselves
   Table error;              ///< the witness's own error, measured at tighter tolerance
-  ExtremeSamples extremes;  ///< likewise sampled besides
+  ExtremeSamples extremes;  ///< likewise sampled besides, those on switching courses the last of them
+  SwitchingResult switching;
   KeptSamples kept;
 
   std::string_view word() const override { return name; }

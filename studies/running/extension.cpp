@@ -89,6 +89,7 @@ void forgetSamples(Results& results, std::size_t samples) {
   StochasticResult none;
   none.cpu = results.stochastic.cpu;
   none.extremes = std::move(results.stochastic.extremes);  // where they are does not depend on samples that come
+  none.switching = std::move(results.stochastic.switching);
   results.stochastic = std::move(none);
   results.fuzzy.inner.clear();
   results.fuzzy.influence = {};
@@ -125,6 +126,7 @@ Extension extend(const Study& study, const Results& results, const RunOptions& o
   Run run(study, options, results);
   noteExtension(run, results.stochastic.samples);
   run.former.emplace(results, samples);
+  takeSwitching(run.problem, results);
   run.enclosed.reachedTimes = enclosedTimes(results);
   run.suspects.resize(study.requirements.size());
   run.worstMargins.assign(study.requirements.size(), FirstOrder(run.problem.motion.uncertain));

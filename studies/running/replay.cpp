@@ -25,7 +25,8 @@ void take(const SampleBlock& block, const Study& study, ReplayedSample& sample) 
 
 ReplayedSample replay(const Study& study, const Results& results, std::size_t number) {
   if (!results.stochastic.present) throw std::invalid_argument("the results hold no samples");
-  const Problem problem = makeProblem(study);
+  Problem problem = makeProblem(study);
+  takeSwitching(problem, results);
   const auto samples = static_cast<std::size_t>(results.stochastic.samples);
   SampleBlock block = replaySample(problem.motion, ensembleOptions(study, problem, results, samples), number);
   if (study.analysis == Study::Analysis::kinematics) moveSamples(study, problem, block);
@@ -47,7 +48,8 @@ ReplayedSample replayViolation(const Study& study, const Results& results, const
   const bool isForAll = requirement.word == "violated";
   if (!isForAll && requirement.word != "partly")
     throw std::invalid_argument("no motion is known that violates '" + requirement.name + "'");
-  const Problem problem = makeProblem(study);
+  Problem problem = makeProblem(study);
+  takeSwitching(problem, results);
   std::vector<double> values;
   for (std::size_t q = 0; q < study.uncertain.size(); ++q) {
     const bool isAny = std::isnan(requirement.violation[q]);

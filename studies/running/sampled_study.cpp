@@ -1,7 +1,9 @@
 // A number that is not uncertain is a constant of all samples.
 #include "studies/running/sampled_study.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 #include "scalars/samples.hpp"
@@ -25,6 +27,29 @@ EnsembleOptions ensembleOptions(const Study& study, const Problem& problem, cons
   for (std::size_t q = 0; q < stepped.size(); ++q)
     if (stepped[q] != 0) options.turning->push_back(q);
   return options;
+}
+
+void takeSwitching(Problem& problem, const Results& results) {
+  const SwitchingResult& entries = results.stochastic.switching;
+  SwitchingCourses& switching = problem.motion.switching;
+  switching.courses.clear();
+  std::int64_t sample = -1;
+  const auto check = [](bool makesSense) {
+    if (!makesSense) throw std::invalid_argument("the results hold courses of samples that make no sense");
+  };
+  for (std::size_t i = 0; i < entries.entry.size(); ++i) {
+    if (entries.number[i] != sample) switching.courses.emplace_back(switching.quantities.size());
+    sample = entries.number[i];
+    const auto of = std::ranges::find(switching.quantities, static_cast<std::size_t>(entries.quantity[i]));
+    check(of != switching.quantities.end());
+    SwitchingCourse& course = switching.courses.back()[static_cast<std::size_t>(of - switching.quantities.begin())];
+    check(course.from.empty() ? entries.from[i] == 0 : entries.from[i] > course.from.back());
+    check(contains(problem.motion.uncertain[*of].range, entries.value[i]));
+    course.from.push_back(entries.from[i]);
+    course.values.push_back(entries.value[i]);
+  }
+  for (const std::vector<SwitchingCourse>& courses : switching.courses)
+    for (const SwitchingCourse& course : courses) check(!course.from.empty());
 }
 
 std::size_t enclosedTimes(const Results& results) {

@@ -16,6 +16,10 @@ namespace gamut {
 EnsembleOptions ensembleOptions(const Study& study, const Problem& problem, const Results& results,
                                 std::size_t samples);
 
+/// Lets samples follow the courses that results hold, by the number that chooses each. Throws std::invalid_argument
+/// where these make no sense.
+void takeSwitching(Problem& problem, const Results& results);
+
 /// Kinematics: the study's outputs by the assembly itself instead of its recording. `numbers` as Problem::box.
 template <class S>
 std::vector<S> assembledOutputs(const Study& study, const Problem& problem, const std::vector<S>& numbers) {

@@ -114,6 +114,22 @@ void describeSamples(Run& run) {
   }
 }
 
+/// Switching courses are of the last of all samples, in their order.
+void numberSwitching(StochasticResult& stochastic) {
+  SwitchingResult& switching = stochastic.switching;
+  std::int64_t courses = 0, last = -1;
+  for (const std::int64_t number : switching.number) {
+    courses += number != last ? 1 : 0;
+    last = number;
+  }
+  std::int64_t next = stochastic.planned() - courses - 1;
+  last = -1;
+  for (std::int64_t& number : switching.number) {
+    next += number != last ? 1 : 0;
+    last = std::exchange(number, next);
+  }
+}
+
 /// Where the transformation put its points.
 void describeTransformation(Run& run) {
   const EnsembleRun& ensemble = *run.ensemble;
@@ -126,6 +142,7 @@ void describeTransformation(Run& run) {
   numbers.resize(ensemble.options().extremes.size());
   stochastic.extremes.present = !numbers.empty();
   std::iota(numbers.begin(), numbers.end(), stochastic.firstExtreme());
+  numberSwitching(stochastic);
   if (!run.study.asksFor<FuzzyResult>()) return;
   result.present = true;
   result.method = std::string(nameOf(method));
@@ -207,6 +224,7 @@ void takeOtherSamples(Run& run) {
     std::optional<InfluenceMeasures> influence = measureInfluence(run);
     if (!run.former) {
       std::vector<std::vector<double>> extremes = extremePoints(run);
+      std::ranges::move(takeWorstCourses(run), std::back_inserter(extremes));
       for (const std::vector<double>& values : extremes)
         std::ranges::copy(values, std::back_inserter(run.results.stochastic.extremes.values));
       run.ensemble->setExtremes(std::move(extremes));

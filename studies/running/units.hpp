@@ -138,6 +138,10 @@ inline constexpr void (*unitsOfSamples[])(Run&) = {
 /// Of the study's enclosure, as far as it decides how far that comes: without progress, models and alpha-cuts.
 FlowOptions enclosureOptions(const Run& run);
 
+/// Seeks worst courses of what varies in time, and lets samples follow them; into the results too, by their order. The
+/// values of these samples.
+std::vector<std::vector<double>> takeWorstCourses(Run& run);
+
 /// What the first samples show of the outputs: sizes that are to be compared with; up to the horizon or not at all.
 std::vector<OutputScale> scalesOf(const Run& run);
 

@@ -85,11 +85,22 @@ class ThinFlows {
     problem.motion.motion.f = run_.study.motion.f;
     problem.motion.motion.g = run_.study.motion.g;
     std::vector<VaryingQuantity> courses;
+    std::vector<std::pair<int, SwitchingCourse>> switching;
+    const std::vector<SwitchingCourse>* const switchingAt = run_.problem.motion.switchingAt(values);
     std::size_t next = 0;
     for (std::size_t q = 0; q < values.size(); ++q) {
       const UncertainQuantity& quantity = run_.study.uncertain[q];
       const std::size_t course = quantity.varies ? next++ : 0;
       if (std::isnan(values[q])) continue;
+      if (quantity.varies && switchingAt != nullptr) {
+        const Interval inside = quantity.uncertain.inside();
+        if (isEmpty(inside)) return std::nullopt;
+        const int parameter = run_.problem.courses[course].parameter;
+        auto& [of, switches] = switching.emplace_back(parameter, (*switchingAt)[course]);
+        for (double& value : switches.values) value = std::clamp(value, inside.lower(), inside.upper());
+        std::erase_if(problem.varying, [&](const VaryingParameter& input) { return input.parameter == parameter; });
+        continue;
+      }
       // Where an interval is no wider than roundings, nobody knows which numbers are meant: all that may be.
       const bool isNarrow = !quantity.varies && isEmpty(quantity.uncertain.inside());
       problem.box[static_cast<std::size_t>(problem.motion.slot[q])] =
@@ -102,6 +113,9 @@ class ThinFlows {
       of.nominal = std::clamp(of.nominal, of.range.lower(), of.range.upper());
       std::erase_if(problem.varying, [&](const VaryingParameter& input) { return input.parameter == of.parameter; });
     }
+    if (!switching.empty())
+      for (Program* program : {&problem.motion.motion.f, &problem.motion.motion.g})
+        *program = withSwitching(*program, switching);
     if (!courses.empty())
       for (Program* program : {&problem.motion.motion.f, &problem.motion.motion.g})
         *program = withCourses(*program, courses, problem.slowest, problem.fastest);
@@ -196,10 +210,12 @@ class ThinFlows {
   std::string ended_;
 };
 
-/// A corner's values are those of the rounded intervals: what is meant lies some roundings inside.
+/// A corner's values are those of the rounded intervals: what is meant lies some roundings inside. Numbers beyond
+/// choose courses.
 std::vector<double> insideValues(const Study& study, std::vector<double> values) {
   for (std::size_t q = 0; q < values.size(); ++q)
-    if (const Interval inside = study.uncertain[q].uncertain.inside(); !std::isnan(values[q]) && !isEmpty(inside))
+    if (const Interval inside = study.uncertain[q].uncertain.inside();
+        contains(study.uncertain[q].uncertain.range, values[q]) && !isEmpty(inside))
       values[q] = std::clamp(values[q], inside.lower(), inside.upper());
   return values;
 }

@@ -242,6 +242,10 @@ TEST(Verdict, SaysHowManyMotionsStayedInsideHowLongAndHowTight) {
             "guarantee is at most 1.004 times as wide as what was sampled.");
   EXPECT_THAT(verdict.notes, IsEmpty());
   EXPECT_EQ(verdict.reached, 3);
+  Results worst = example::pendulum();
+  worst.stochastic.switching.present = true;
+  EXPECT_THAT(judge(worst).sentence,
+              ::testing::EndsWith(" at most 1.004 times as wide as what was sampled, worst courses included."));
   Results tight = example::pendulum();
   for (double& ratio : tight.comparison.overestimation.data) ratio = 1 + 2e-12;
   EXPECT_THAT(judge(tight).sentence,

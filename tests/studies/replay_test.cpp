@@ -168,6 +168,15 @@ TEST(Replay, HoldsForExtremesWhateverPointsThereAreBesides) {
   }
 }
 
+TEST(Replay, HoldsForWorstCourses) {
+  std::string text = sampleStudy;
+  text.insert(text.find("[[uncertain]]"),
+              "[[uncertain]]\nquantity = \"gravity.z\"\ninterval = [-10, -9.6]\nvaries = \"freely\"\n");
+  const Results results = resultsOf(text);
+  ASSERT_TRUE(results.stochastic.switching.present);
+  expectTheEnvelope(results);
+}
+
 TEST(Replay, OfADisputedSampleGivesWhatSettledIt) {
   const Results results = resultsOf(sampleStudy);
   const Study study = readStudyText(results.studyText, "s.toml");

@@ -106,9 +106,11 @@ TEST(Description, LeavesOutNoMember) {
   for (const Group& group : describe(r)) fields[group.path] = group.fields(0);
   EXPECT_LE(longestGap(r.interval, fields["/interval"], r.interval.present), padding);
   EXPECT_LE(longestGap(r.stochastic, fields["/stochastic"], r.stochastic.present, r.stochastic.kept,
-                       r.stochastic.failed, r.stochastic.convergence, r.stochastic.extremes),
+                       r.stochastic.failed, r.stochastic.convergence, r.stochastic.extremes, r.stochastic.switching),
             padding);
   EXPECT_LE(longestGap(r.stochastic.extremes, fields["/stochastic/extremes"], r.stochastic.extremes.present), padding);
+  EXPECT_LE(longestGap(r.stochastic.switching, fields["/stochastic/switching"], r.stochastic.switching.present),
+            padding);
   EXPECT_LE(longestGap(r.stochastic.failed[0], fields["/stochastic/failed"]), padding);
   EXPECT_LE(longestGap(r.stochastic.convergence, fields["/stochastic/convergence"], r.stochastic.convergence.present),
             padding);

@@ -12,6 +12,7 @@
 #include <stdexcept>
 
 #include "studies/problem.hpp"
+#include "studies/running/replay.hpp"
 #include "studies/watch.hpp"
 #include "tests/studies/sample_study.hpp"
 
@@ -337,6 +338,7 @@ TEST(Run, HoldsWhatVariesInTime) {
     const Results results = run(study, {});
     EXPECT_EQ(results.comparison.verdict, "inside");
     EXPECT_LT(results.comparison.maximum, 1.5);
+    EXPECT_EQ(results.stochastic.switching.present, !std::isfinite(study.uncertain[0].rate));
     EXPECT_EQ(results.uncertain[0].distribution,
               std::isfinite(study.uncertain[0].rate) ? "varies by 0.05 m/s^3 at most" : "varies freely");
     const std::size_t last = results.time.size() - 1;
@@ -346,6 +348,67 @@ TEST(Run, HoldsWhatVariesInTime) {
     // Samples between the ends differ from those that stand still: the two ends do not span them.
     EXPECT_GT(results.stochastic.deviation(last, 0), 0);
   }
+}
+
+/// What drives an oscillator is unknown: all is linear, so worst courses fill the enclosure.
+TEST(Run, SamplesWorstCoursesBesides) {
+  const std::string text = R"([study]
+analysis = "dynamics"
+horizon = 4
+output_step = 0.2
+compare = ["interval", "stochastic", "fuzzy"]
+[mechanism.parameters]
+drive = "0 kN"
+[[mechanism.element]]
+type = "state"
+name = "x"
+initial = 0.1
+rate = "v"
+[[mechanism.element]]
+type = "state"
+name = "v"
+initial = 0
+rate = "drive/(1 N) - 9*x - 0.4*v"
+[[uncertain]]
+quantity = "drive"
+interval = ["-1 N", "0.003 kN"]
+varies = "freely"
+[[output]]
+quantity = "x"
+[[requirement]]
+name = "small"
+always = "x < 0.9"
+[stochastic]
+samples = 64
+[distribution]
+times = 0
+)";
+  const Study study = readStudyText(text, "s.toml");
+  const Results results = run(study);
+  const StochasticResult& stochastic = results.stochastic;
+  EXPECT_EQ(results.comparison.verdict, "inside");
+  EXPECT_LT(results.comparison.maximum, 1.04);
+  EXPECT_EQ(stochastic.integrated, stochastic.planned());
+  // The margin has the worst courses of its output; those of the first five times, half a turn, stand at an end.
+  EXPECT_EQ(stochastic.extremes.number.size(), 2 * (results.time.size() - 1 - 5));
+  ASSERT_TRUE(stochastic.switching.present);
+  EXPECT_EQ(stochastic.switching.number.front(), stochastic.firstExtreme());
+  EXPECT_EQ(stochastic.switching.number.back(), stochastic.planned() - 1);
+  // They are no draws, but courses at every level.
+  EXPECT_LT(stochastic.quantiles.back()(20, 0), 0.9 * stochastic.envelope.upper(20, 0));
+  for (const Envelope& cut : results.fuzzy.inner) EXPECT_EQ(cut.upper(20, 0), stochastic.envelope.upper(20, 0));
+  // Of samples only these come so far.
+  const RequirementResult& small = results.requirements[0];
+  EXPECT_EQ(small.word, "partly");
+  EXPECT_GE(small.violationSample, stochastic.firstExtreme());
+  EXPECT_GT(small.violation[0], 3);
+  const ReplayedSample violating = replayViolation(study, results, small),
+                       same = replay(study, results, static_cast<std::size_t>(small.violationSample));
+  EXPECT_EQ(violating.trajectory.data, same.trajectory.data);
+  EXPECT_GT(*std::ranges::max_element(same.trajectory.data), 0.9);
+  Results broken = results;
+  broken.stochastic.switching.value[0] = 4;
+  EXPECT_THROW(replay(study, broken, 0), std::invalid_argument);
 }
 
 TEST(Run, SeedAndNumberOfSamplesMayBeReplaced) {

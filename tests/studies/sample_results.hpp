@@ -86,6 +86,7 @@ inline Results sampleResults() {
   r.stochastic.convergence = {true, {64, 128}, {0.5, 0.6, 0.75, 1}, {0.2, nan, 0.1, 0.05}};
   r.stochastic.cpu = 1.5;
   r.stochastic.extremes = {true, {4130, 4131}, {0.91, 1.05}};
+  r.stochastic.switching = {true, {0, 1, 2}, {4131, 4131, 4131}, {0, 0, 0}, {0, 0.003, 0.008}, {1.05, 0.91, 1.05}};
   r.stochastic.kept = {true, 4e6, 64, 2048, {0, 64, 4117}, {0.9, 0.95, 1.0}, {0, 4117}, {}};
   for (int i = 0; i < 12; ++i) r.stochastic.kept.motions.push_back(0.35 + i);
   r.stochastic.kept.motions.back() = nan;
