@@ -143,7 +143,8 @@ FlowStepper::Look FlowStepper::lookAtKinks(const FlowSet& set, double& h, double
     }
     const auto crossing = bounds[k].crossing();
     const bool passes = crossing && (crossing->moment.upper() <= h || h >= left);
-    if (!passes && passing_ == none && !turn_ && mayPassAsTurn(k)) {  // in a longer step, or intervals do not tell
+    // In a longer step, or intervals do not tell.
+    if ((!passes || stops_) && passing_ == none && !turn_ && mayPassAsTurn(k)) {
       passing_ = k;
       passingFrom_ = bounds[k].start.lower() > 0 ? 1 : -1;
       return Look::unsided;

@@ -2,6 +2,7 @@
 #include "analyses/flow/flow.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <set>
@@ -12,6 +13,7 @@
 #include "analyses/flow/polygon_tube.hpp"
 #include "analyses/flow/refinement.hpp"
 #include "analyses/flow/run.hpp"
+#include "analyses/flow/time_kinks.hpp"
 #include "analyses/work.hpp"
 #include "scalars/index.hpp"
 #include "scalars/program/sides.hpp"
@@ -22,7 +24,9 @@ using detail::at;
 
 struct Flow::Parts {
   FlowFormulation anyCourse;
-  std::optional<FlowFormulation> ofRates;  // if some input has a bounded rate
+  std::optional<FlowFormulation> ofRates;    // if some input has a bounded rate
+  bool isTimed;                              // something depends on time
+  std::optional<FlowFormulation> withClock;  // if so, and solutions may turn
   FlowOptions options;
 };
 
@@ -42,6 +46,15 @@ double Tube::tightness() const {
     for (double of : row) excess = std::max(excess, of);
   return 1 + excess;
 }
+
+namespace {
+
+/// Whether solutions may turn: at a jump or a kink.
+bool mayTurn(const Program& f) {
+  return std::ranges::any_of(f.nodes(), [](const Node& node) { return node.op == Op::sign || node.op == Op::abs; });
+}
+
+}  // namespace
 
 Flow::Flow(Program f, FlowOptions options) {
   Program none = record(f.states(), f.parameters(), 0, [](const auto&, const auto&, const auto&, auto&) {});
@@ -94,7 +107,12 @@ Flow::Flow(Program f, Program g, FlowOptions options) {
   FlowFormulation anyCourse(std::move(f), std::move(g), options.varying, options.aside.values);
   std::optional<FlowFormulation> ofRates;
   if (hasRates) ofRates = anyCourse.ofRates();
-  parts_ = std::make_unique<const Parts>(Parts{std::move(anyCourse), std::move(ofRates), std::move(options)});
+  std::optional<FlowFormulation> withClock;
+  const bool isTimed =
+      dependsOnTime(anyCourse.motion) || dependsOnTime(anyCourse.outputs) || dependsOnTime(anyCourse.asides);
+  if (isTimed && inputs.empty() && mayTurn(anyCourse.motion)) withClock = anyCourse.withClock();
+  parts_ = std::make_unique<const Parts>(
+      Parts{std::move(anyCourse), std::move(ofRates), isTimed, std::move(withClock), std::move(options)});
 }
 
 Flow::~Flow() = default;
@@ -129,7 +147,8 @@ Tube enclosed(const FlowQuestion& question, const Box& box, const std::vector<Bo
 }
 
 Tube answer(const FlowFormulation& formulation, const FlowOptions& options, FlowBudget& budget, const Box& wholeBox,
-            double horizon, const std::vector<double>& outputTimes, const std::vector<Box>& wholeLevels) {
+            double horizon, const std::vector<double>& outputTimes, const std::vector<Box>& wholeLevels,
+            bool stopsEarly = false) {
   const Box box = formulation.boxOf(wholeBox);
   std::vector<Box> levels;
   for (const Box& level : wholeLevels) levels.push_back(formulation.boxOf(level));
@@ -145,8 +164,15 @@ Tube answer(const FlowFormulation& formulation, const FlowOptions& options, Flow
   own.aside.values = formulation.asides;
   FlowBudget levelBudget{0};
   const auto questionWith = [&](const FlowOptions& with, FlowBudget& of) {
-    return FlowQuestion{
-        formulation.motion, formulation.differentiated, formulation.outputs, with, horizon, outputTimes, of};
+    return FlowQuestion{formulation.motion,
+                        formulation.differentiated,
+                        formulation.outputs,
+                        with,
+                        horizon,
+                        outputTimes,
+                        of,
+                        formulation.hasClock ? n - 1 : -1,
+                        stopsEarly};
   };
   const FlowQuestion question = questionWith(own, budget), levelQuestion = questionWith(ofLevels, levelBudget);
   const auto narrowsInput = [&](const Box& level) {
@@ -173,6 +199,39 @@ Tube answer(const FlowFormulation& formulation, const FlowOptions& options, Flow
   return tube;
 }
 
+/// Whether moments of time are known at which f or an output has a kink: steps that end there say more than time as a
+/// state.
+bool hasTimeKinks(const FlowFormulation& formulation, double horizon) {
+  const double resolution = std::ldexp(horizon, -53);
+  return !std::ranges::all_of(std::array{&formulation.motion, &formulation.outputs, &formulation.asides},
+                              [&](const Program* f) { return TimeKinks(*f, horizon, resolution).isNone(); });
+}
+
+/// `plain` for a part of what may be spent; where that does not come to the horizon, `own`, with solutions at times of
+/// their own from the first turn on that no step holds; and `plain` again, if that ended for want of work alone.
+Tube inStages(const FlowFormulation& plain, const FlowFormulation& own, const FlowOptions& options, FlowBudget& budget,
+              const Box& box, double horizon, const std::vector<double>& outputTimes, const std::vector<Box>& levels) {
+  constexpr double firstShare = 0.125, mostAtFirst = Work::perSecond;
+  const auto within = [&](double work, const FlowFormulation& formulation, bool stopsEarly) {
+    FlowBudget part{work};
+    Tube tube = answer(formulation, options, part, box, horizon, outputTimes, levels, stopsEarly);
+    if (formulation.hasClock) FlowRun::dropStates(tube, plain.states);
+    budget.spent += part.spent;
+    return std::pair(std::move(tube), part.left() > 0);
+  };
+  const auto isCancelled = [&] { return options.cancelled != nullptr && options.cancelled->load(); };
+  auto [tube, isDone] = within(std::min(firstShare * budget.limit, mostAtFirst), plain, false);
+  if (isCancelled() || (isDone && tube.reached() == horizon)) return std::move(tube);
+  bool isWhole = false;
+  if (tube.reached() < horizon) {
+    auto [other, isOther] = within(isDone ? budget.left() : 0.5 * budget.left(), own, true);
+    isWhole = isOther && other.reached() == horizon;
+    tube = FlowRun::meet(std::move(tube), std::move(other));
+  }
+  if (isDone || isWhole || isCancelled()) return std::move(tube);
+  return FlowRun::meet(std::move(tube), within(budget.left(), plain, false).first);
+}
+
 }  // namespace
 
 Tube Flow::enclose(const Box& box, double horizon, const std::vector<double>& outputTimes,
@@ -197,6 +256,11 @@ Tube Flow::enclose(const Box& box, double horizon, const std::vector<double>& ou
   if (parts_->options.progress)
     options.progress = [&](double fraction) { parts_->options.progress(furthest = std::max(furthest, fraction)); };
   FlowBudget budget{options.budget * Work::perSecond};
+  const bool isTimed = parts_->isTimed, hasClock = isTimed && parts_->withClock && !hasTimeKinks(formulation, horizon);
+  if (options.varying.empty() && mayTurn(motion) && (!isTimed || hasClock) &&
+      Embedding(box, motion.states(), {}).symbols > 0)
+    return inStages(formulation, hasClock ? *parts_->withClock : formulation, options, budget, box, horizon,
+                    outputTimes, levels);
   Tube tube = answer(formulation, options, budget, box, horizon, outputTimes, levels);
   if (!parts_->ofRates || tube.wasStopped()) return tube;
   // Up to an output time, so that both have the same rows.

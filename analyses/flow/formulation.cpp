@@ -48,6 +48,41 @@ std::vector<char> dependents(const Program& program, int first) {
 
 }  // namespace
 
+bool dependsOnTime(const Program& program) {
+  const std::vector<Node>& nodes = program.nodes();
+  const auto isTime = [&](int node) { return nodes[at(node)].op == Op::time; };
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    bool does = false;
+    detail::forEachOperand(program.table(), static_cast<int>(i), [&](int operand) { does = does || isTime(operand); });
+    if (does) return true;
+  }
+  return std::ranges::any_of(program.outputNodes(), isTime);
+}
+
+std::vector<char> bentStates(const Program& f) {
+  std::vector<char> bent(at(f.states()), 0);
+  std::vector<std::vector<char>> on;  // of each node, which states it depends on
+  const auto bend = [&](int node) {
+    for (std::size_t i = 0; i < bent.size(); ++i) bent[i] = static_cast<char>(bent[i] != 0 || on[at(node)][i] != 0);
+  };
+  const auto depends = [&](int node) { return std::ranges::count(on[at(node)], 0) < f.states(); };
+  for (std::size_t i = 0; i < f.nodes().size(); ++i) {
+    const Node& node = f.nodes()[i];
+    std::vector<char> own(bent.size(), 0);
+    if (node.op == Op::state) own[at(node.a)] = 1;
+    bool isLinear = node.op == Op::add || node.op == Op::sub || node.op == Op::neg || node.op == Op::abs;
+    if (node.op == Op::mul) isLinear = !depends(node.a) || !depends(node.b);
+    if (node.op == Op::sign) isLinear = true;
+    detail::forEachOperand(f.table(), static_cast<int>(i), [&](int operand) {
+      if (!isLinear) bend(operand);
+      for (std::size_t k = 0; k < own.size() && node.op != Op::sign; ++k)
+        own[k] = static_cast<char>(own[k] != 0 || on[at(operand)][k] != 0);
+    });
+    on.push_back(std::move(own));
+  }
+  return bent;
+}
+
 /// Signs in f are inputs to it: nodes of their own, which the derivative of |u| has no part in.
 Program differentiatedFor(const Program& motion, const std::vector<VaryingParameter>& inputs) {
   const Program f = affineInSign(withOneSignASurface(withJumpingKinks(withBareSigns(withBareKinks(motion)))));
@@ -106,9 +141,32 @@ FlowFormulation FlowFormulation::ofRates() const {
   return result;
 }
 
+FlowFormulation FlowFormulation::withClock() const {
+  const auto written = [&](const Program& program, bool isMotion) {
+    Recorder recorder(states + 1, motion.parameters());
+    const int clock = recorder.state(states);
+    std::vector<int> instead(program.nodes().size(), -1);
+    for (std::size_t i = 0; i < instead.size(); ++i)
+      if (program.nodes()[i].op == Op::time) instead[i] = clock;
+    const std::vector<int> here = recorder.append(program, {}, instead);
+    std::vector<int> results;
+    for (const int output : program.outputNodes()) results.push_back(here[at(output)]);
+    if (isMotion) results.push_back(recorder.constant(1.0));
+    return recorder.finish(results);
+  };
+  FlowFormulation result(written(motion, true), written(outputs, false), {}, written(asides, false));
+  result.states = states;
+  result.hasClock = true;
+  return result;
+}
+
 Box FlowFormulation::boxOf(const Box& box) const {
   if (motion.states() == states) return box;
   Box result = box;
+  if (hasClock) {
+    result.insert(result.begin() + states, Interval(0.0));
+    return result;
+  }
   auto place = result.begin() + states;
   for (const VaryingParameter& input : inputs)
     if (std::isfinite(input.rate)) place = result.insert(place, box[at(states + input.parameter)]) + 1;

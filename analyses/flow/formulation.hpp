@@ -1,6 +1,7 @@
 // What a flow integrates: f, its derivatives and outputs, and which parameters are inputs. An input of bounded rate is
 // a further state in one formulation, ẇ = v with v an input of any course, and an input of any course itself in
-// another: both hold, the former is the tighter one as long as rate·t is less than what w may be.
+// another: both hold, the former is the tighter one as long as rate·t is less than what w may be. Time itself is a
+// state where solutions are to be at times of their own.
 #pragma once
 
 #include <vector>
@@ -13,6 +14,10 @@ namespace gamut {
 /// f, ∂f/∂x row by row, ∂f/∂w of the inputs row by row.
 Program differentiatedFor(const Program& f, const std::vector<VaryingParameter>& inputs);
 
+bool dependsOnTime(const Program& program);
+/// Of each state, whether f is not linear in it, signs and parameters given.
+std::vector<char> bentStates(const Program& f);
+
 struct FlowFormulation {
   Program motion;          // f
   Program differentiated;  // differentiatedFor
@@ -20,13 +25,17 @@ struct FlowFormulation {
   Program asides;          // FlowOptions::aside
   int states;              // of f as it was asked for: those behind them are inputs
   std::vector<VaryingParameter> inputs;
+  bool hasClock = false;
 
   FlowFormulation(Program f, Program g, std::vector<VaryingParameter> varying, Program besides);
   /// With a state for each input of bounded rate.
   FlowFormulation ofRates() const;
 
+  /// With a state for time, θ̇ = 1, in its place.
+  FlowFormulation withClock() const;
+
   /// The box in this formulation: each further state starts anywhere in its interval, and its parameter's place is that
-  /// of its rate. Unchanged without further states.
+  /// of its rate; time starts at zero. Unchanged without further states.
   Box boxOf(const Box& box) const;
   /// No longer than the rates tell more than the intervals.
   double horizonOf(const Box& box, double horizon) const;

@@ -64,6 +64,8 @@ FlowJourney FlowFollower::follow(FlowPiece& piece, double end, double allowed) {
     StepOutcome outcome = certify(piece);
     if (outcome != StepOutcome::stepped && settle(piece, Settle::ratherThanBisect)) continue;
     const bool uncertain = symbols_ > 0;
+    const bool meets = meetsBeside(piece, outcome);
+    if (meets) outcome = StepOutcome::stepped;
     if ((hasLostTurn_ || isTurnMixed_) && uncertain && !piece.isTurnLost) {
       constexpr double leastHalf = 0x1p-3;  // it may be that only smaller parts turn as one, or none does
       if (!isTurnMixed_ && piece.layout + 1 < task_.degrees) {
@@ -110,7 +112,8 @@ FlowJourney FlowFollower::follow(FlowPiece& piece, double end, double allowed) {
     }
     const bool stopsOnceTurned = goesOwnWays(piece);
     if (stopsOnceTurned && piece.set.ahead.c.empty()) endRows(piece);
-    const bool isOwn = stopsOnceTurned || !piece.set.ahead.c.empty();
+    if (meets && piece.set.ahead.c.empty()) endRows(piece);
+    const bool isOwn = stopsOnceTurned || meets || !piece.set.ahead.c.empty();
     if (!(isOwn ? recordOwnTimes(piece) : record(piece))) return FlowJourney::ended;
     if (tool_->stepper.hasTurned()) {
       const double moment = midpoint(tool_->stepper.turnMoments());
@@ -122,6 +125,8 @@ FlowJourney FlowFollower::follow(FlowPiece& piece, double end, double allowed) {
     piece.hasJustTurned = stopsOnceTurned;
     if (stopsOnceTurned)
       tool_->stepper.advanceOnceTurned(piece.set);
+    else if (meets)
+      tool_->stepper.advanceToMeeting(piece.set);
     else
       tool_->stepper.advance(piece.set);
     ++collected_.steps;
@@ -147,9 +152,21 @@ bool FlowFollower::goesOwnWays(const FlowPiece& piece) const {
   constexpr double wide = 0x1p-3;
   const FlowStepper& stepper = tool_->stepper;
   if (!task_.mayGoOwnWays || piece.last.empty() || !stepper.mayStopOnceTurned(piece.set)) return false;
-  if (!piece.set.ahead.c.empty()) return true;
+  if (!piece.set.ahead.c.empty() || stepper.hasToStop()) return true;
   const Interval moments = stepper.turnMoments();
   return piece.hasTurned && width(moments) > wide * (piece.sinceTurned + midpoint(moments));
+}
+
+/// Whether solutions go on from where they are nearest to each other, at times of their own: in place of bisection, and
+/// where they are at such times already.
+bool FlowFollower::meetsBeside(const FlowPiece& piece, StepOutcome outcome) {
+  if (!task_.mayGoOwnWays || !task_.stopsEarly || symbols_ == 0 || piece.last.empty() ||
+      piece.set.unsettledUntil > piece.set.t)
+    return false;
+  if (outcome != StepOutcome::stepped && outcome != StepOutcome::splitWanted) return false;
+  const bool isLastResort = outcome == StepOutcome::splitWanted && piece.layout + 1 >= task_.degrees;
+  if (piece.set.ahead.c.empty() && !isLastResort) return false;
+  return tool_->stepper.findMeeting(task_.bends);
 }
 
 /// What is known between the last output time and the step at hand.
@@ -176,10 +193,27 @@ bool FlowFollower::settle(FlowPiece& piece, Settle how) {
   return true;
 }
 
-/// One step, with the jumps held at which all of the piece is; of those that may be left, without.
+/// One step. Where solutions are at times of their own, those that turn are stopped; else where a step in which they
+/// turn is none for all of them.
 StepOutcome FlowFollower::certify(const FlowPiece& piece) {
+  const bool mayStop = task_.mayGoOwnWays && task_.stopsEarly && symbols_ > 0 && !piece.last.empty() &&
+                       !(piece.set.unsettledUntil > piece.set.t);
+  const auto isStopped = [&](StepOutcome outcome) {
+    return outcome == StepOutcome::stepped && tool_->stepper.mayStopOnceTurned(piece.set);
+  };
+  const bool first = mayStop && !piece.set.ahead.c.empty();
+  StepOutcome outcome = certify(piece, first);
+  if (!mayStop || !hasTriedTurn_) return outcome;
+  if (first ? isStopped(outcome) : outcome == StepOutcome::stepped && !hasLostTurn_ && !isTurnMixed_) return outcome;
+  outcome = certify(piece, !first);
+  if (first || isStopped(outcome)) return outcome;
+  return certify(piece, false);
+}
+
+/// With the jumps held at which all of the piece is; of those that may be left, without.
+StepOutcome FlowFollower::certify(const FlowPiece& piece, bool stops) {
   std::vector<char> held = FlowStepper::resting(piece.set, task_.jumps);
-  hasLostTurn_ = isTurnMixed_ = false;
+  hasTriedTurn_ = hasLostTurn_ = isTurnMixed_ = false;
   for (;;) {
     const bool holds = std::ranges::any_of(held, [](char how) { return how != 0; });
     if (!holds) held.clear();
@@ -193,8 +227,10 @@ StepOutcome FlowFollower::certify(const FlowPiece& piece) {
     const double within = next == task_.ends.end() ? task_.horizon : *next;
     double end = std::min(within, piece.set.t + longest);  // exact: both are multiples of the quantum
     if (piece.set.unsettledUntil > piece.set.t) end = std::min(end, piece.set.unsettledUntil);
+    tool_->stepper.setStops(stops);
     const StepOutcome outcome =
         tool_->stepper.certify(piece.set, end, task_.quantum, uncertain ? task_.shares : SplitShares{});
+    hasTriedTurn_ = hasTriedTurn_ || tool_->stepper.hasTriedTurn();
     hasLostTurn_ = hasLostTurn_ || tool_->stepper.hasLostTurn();
     const bool isMixed = tool_->stepper.isTurnMixed() && !tool_->stepper.hasTurned();
     isTurnMixed_ = isTurnMixed_ || isMixed;

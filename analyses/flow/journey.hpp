@@ -135,6 +135,7 @@ class FlowFollower {
 
   FlowJourney follow(FlowPiece& piece, double end, double allowed);
   StepOutcome certify(const FlowPiece& piece);
+  StepOutcome certify(const FlowPiece& piece, bool stops);
   void giveSigns(const FlowPiece& piece, std::vector<SignCases> signs);
   bool knowsMoreByBoxes() const;
   void findBoxes(double began, const Interval& t, const std::vector<Interval>& states);
@@ -176,14 +177,16 @@ class FlowFollower {
   int chordsFor(FlowPiece& piece, const std::vector<Interval>& before, double from, double to);
   bool record(FlowPiece& piece);
   bool goesOwnWays(const FlowPiece& piece) const;
+  bool meetsBeside(const FlowPiece& piece, StepOutcome outcome);
   struct OwnCell;
+  struct OwnMoment;
   bool recordOwnTimes(FlowPiece& piece);
   void recordOver(FlowPiece& piece, const std::vector<std::size_t>& rows);
   void recordAt(FlowPiece& piece, const std::vector<std::size_t>& rows);
   OwnCell wholeCell(const FlowPiece& piece) const;
   OutputTools* outputsOnSides(const FlowPiece& piece);
   OwnCell half(const OwnCell& cell, int symbol, double middle) const;
-  void collect(const FlowPiece& piece, const OwnCell& cell, const BoundedPolynomial& moment,
+  void collect(const FlowPiece& piece, const OwnCell& cell, const OwnMoment& when,
                const std::vector<BoundedPolynomial>& limits, bool hasTurned, std::size_t row);
   void endRows(FlowPiece& piece);
   bool isNarrowEnough(FlowPiece& piece, double t, const std::vector<Interval>& states,
@@ -195,8 +198,8 @@ class FlowFollower {
   FlowCollected& collected_;
   /// One a layout and jumps held, made when first needed; null where these cannot be held together.
   std::map<std::pair<std::size_t, std::vector<char>>, std::unique_ptr<Tools>> tools_;
-  Tools* tool_ = nullptr;                           // of the piece at hand, as are the next three
-  bool hasLostTurn_ = false, isTurnMixed_ = false;  // FlowStepper's, of the last step
+  Tools* tool_ = nullptr;  // of the piece at hand, as are the next three
+  bool hasTriedTurn_ = false, hasLostTurn_ = false, isTurnMixed_ = false;  // FlowStepper's, of the last step
   int turnSymbol_ = -1;
   std::optional<Settling> settling_;  // once needed
   Tools* outputTool_ = nullptr;       // of its outputs: that one, or of those that are held behind the step

@@ -8,6 +8,7 @@
 #include "analyses/flow/column_kernels.hpp"
 #include "analyses/flow/embedding.hpp"
 #include "analyses/flow/error_bounds.hpp"
+#include "analyses/flow/formulation.hpp"
 #include "analyses/work.hpp"
 #include "scalars/index.hpp"
 #include "scalars/program/recorder.hpp"
@@ -24,13 +25,6 @@ std::vector<int> placesOf(const Monomials& monomials, const Monomials& among) {
   std::vector<int> places;
   for (int m = 0; m < monomials.count(); ++m) places.push_back(among.find(monomials, m));
   return places;
-}
-
-bool dependsOnTime(const Program& g) {
-  const std::vector<Node>& nodes = g.nodes();
-  const auto isTime = [&](int node) { return node >= 0 && nodes[at(node)].op == Op::time; };
-  return std::ranges::any_of(
-      nodes, [&](const Node& node) { return isOperation(node.op) && (isTime(node.a) || isTime(node.b)); });
 }
 
 }  // namespace

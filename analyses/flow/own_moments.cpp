@@ -23,8 +23,7 @@ BoundedPolynomial FlowStepper::momentOnceTurned() const {
 bool FlowStepper::mayStopOnceTurned(const FlowSet& set) const {
   if (!turn_ || isOpaque() || set.unsettledUntil > set.t || monomials().symbols() == 0) return false;
   if (turn_->soon.empty()) return false;
-  const BoundedPolynomial moment = momentOnceTurned();
-  return moment.c[0] >= moment.variation() && (moment.c[0] + moment.variation()) * bounds::up <= theta_;
+  return (Interval(turn_->moments.upper()) + Interval(turn_->lag)).upper() <= h_;
 }
 
 BoundedPolynomial FlowStepper::frameAt(std::size_t i, std::size_t j, const BoundedPolynomial& moment) const {
@@ -35,14 +34,114 @@ BoundedPolynomial FlowStepper::frameAt(std::size_t i, std::size_t j, const Bound
   return composed(monomials(), u, moment);
 }
 
+/// What solutions are from m(ξ) on, for so long as until they are stopped: X_0 = x̃(m), X_{k+1} = f_a's order k along
+/// X/(k
+/// + 1), by orders of σ - m(ξ). D is X - x̃.
+bool FlowStepper::describeSince(const FlowSet& set, const std::vector<Interval>& signs, Turn& turn) {
+  constexpr std::size_t few = 4;
+  const std::size_t n = at(n_), N = at(series_.count()), orders = at(m_) + 1;
+  turn.lag = lagOf(turn.away, h_);
+  turn.span = (turn.lag + 2 * turn.away) / h0_ * (bounds::up * bounds::up);
+  if (!((Interval(turn.moments.upper()) + Interval(h0_) * Interval(turn.span)).upper() <= h_)) return false;
+  std::vector<std::vector<BoundedPolynomial>> own(n);  // x̃
+  turn.fromMoment.assign(n, std::vector<BoundedPolynomial>(few, {std::vector<double>(N, 0.0)}));
+  for (std::size_t i = 0; i < n; ++i) {
+    const double* series = series_.series(static_cast<int>(i));
+    own[i].resize(orders);
+    for (std::size_t order = 0; order < orders; ++order)
+      for (std::size_t g = 0; g < N; ++g) own[i][order].c.push_back(series[g * at(series_.stride()) + order]);
+    const BoundedPolynomial start = composed(monomials(), own[i], turn.when);
+    turn.fromMoment[i][0].c = start.c;
+    turn.gap.push_back(start.error);
+  }
+  AlongStep& following = turn.of->following();
+  for (std::size_t order = 0; order + 1 < few; ++order) {
+    std::vector<double> states(n * N * orders, 0.0);
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t g = 0; g < N; ++g)
+        for (std::size_t k = 0; k <= order; ++k) states[(i * N + g) * orders + k] = turn.fromMoment[i][k].c[g];
+    following.compute(states, set.t, h0_, turn.span, set.parameters, signs);
+    for (std::size_t i = 0; i < n; ++i) {
+      const PolynomialSeries& f = following.series();
+      const int node = f.outputNode(static_cast<int>(i));
+      for (std::size_t g = 0; g < std::min(N, at(f.count(node))); ++g)
+        turn.fromMoment[i][order + 1].c[g] =
+            f.series(node)[g * at(f.stride()) + order] * h0_ / static_cast<double>(order + 1);
+    }
+  }
+  const double longest = turn.span * h0_ * bounds::up;
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto differenceOf = [&](const std::vector<BoundedPolynomial>& rates, std::size_t k, double factor) {
+      BoundedPolynomial difference = composed(monomials(), rates, turn.when), since = turn.fromMoment[i][k];
+      difference *= -1;
+      difference += (since *= factor);
+      return difference;
+    };
+    const auto rateOf = [&](const std::vector<BoundedPolynomial>& u) {
+      std::vector<BoundedPolynomial> rates(u.begin() + 1, u.end());
+      for (std::size_t order = 0; order < rates.size(); ++order) rates[order] *= static_cast<double>(order + 1) / h0_;
+      return rates;
+    };
+    const std::vector<BoundedPolynomial> rates = rateOf(own[i]), seconds = rateOf(rates), thirds = rateOf(seconds);
+    turn.slopeOf.push_back(differenceOf(rates, 1, 1 / h0_));
+    turn.slope.push_back(turn.slopeOf[i].norm());
+    turn.bend.push_back(differenceOf(seconds, 2, 2 / (h0_ * h0_)).norm() * (1 + 0x1p-50));
+    double twist = 6 * turn.fromMoment[i][3].norm() / (h0_ * h0_ * h0_), power = 1;
+    for (std::size_t order = 0; order < thirds.size(); ++order, power *= theta_) twist += thirds[order].norm() * power;
+    turn.twist.push_back(twist * (1 + 0x1p-48));
+    turn.most.push_back(turn.within(i, longest));
+    turn.extent.push_back(turn.within(i, longest + width(turn.moments)));
+    if (!std::isfinite(turn.extent[i])) return false;
+  }
+  // X - x̃ by orders of σ, for those who look at the step at other times.
+  for (std::size_t i = 0; i < n; ++i) {
+    std::vector<BoundedPolynomial> X;
+    BoundedPolynomial back = turn.when;
+    back *= -1;
+    for (auto term = turn.fromMoment[i].rbegin(); term != turn.fromMoment[i].rend(); ++term) {
+      std::vector<BoundedPolynomial> next(X.size() + 1);
+      for (std::size_t k = 0; k < X.size(); ++k) {
+        next[k] += product(monomials(), X[k], back);
+        next[k + 1] += X[k];
+      }
+      next[0] += *term;
+      X = std::move(next);
+    }
+    X.resize(orders);
+    for (std::size_t order = 0; order < orders; ++order) {
+      BoundedPolynomial off = own[i][order];
+      off *= -1;
+      X[order] += off;
+      X[order].c.resize(N, 0.0);
+    }
+    turn.D.push_back(std::move(X));
+  }
+  return true;
+}
+
+/// By orders of the time from `away` before m(ξ) on, as AlongStep takes it. Each is off by less than 16 roundings.
+std::vector<double> FlowStepper::statesSince(const Turn& turn) const {
+  const std::size_t N = at(series_.count()), orders = at(m_) + 1;
+  const double before = turn.away / h0_;
+  std::vector<double> result(at(n_) * N * orders, 0.0);
+  for (std::size_t i = 0; i < at(n_); ++i)
+    for (std::size_t g = 0; g < N; ++g) {
+      double* c = &result[(i * N + g) * orders];
+      const std::size_t few = turn.fromMoment[i].size();
+      for (std::size_t k = 0; k < few; ++k) c[k] = turn.fromMoment[i][k].c[g];
+      for (std::size_t from = 0; from + 1 < few; ++from)
+        for (std::size_t k = few - 1; k-- > from;) c[k] -= before * c[k + 1];
+    }
+  return result;
+}
+
 /// Of the turn that has been proved: |z| so soon after m(ξ), and so after a solution's own moment, at most. As in
 /// jumpAtMoment, but S is d(ξ) GΨ̃ at m(ξ), polynomials in ξ. `before`: |z| until the moment; `rest`: what z is driven
 /// by from then on, with S constant.
 void FlowStepper::boundSoon(Turn& turn, const std::vector<Interval>& J, const std::vector<double>& before,
                             const std::vector<double>& rest, const std::vector<double>& slack) {
-  constexpr double ofStep = 0x1p-8;
   const std::size_t n = at(n_);
-  turn.lag = std::max(2 * turn.away, ofStep * h_);
+  turn.lag = lagOf(turn.away, h_);
   turn.soon.clear();
   turn.saltationOf.clear();
   std::vector<double> z(n), drive = rest;
@@ -94,10 +193,10 @@ void FlowStepper::boundSoon(Turn& turn, const std::vector<Interval>& J, const st
   }
 }
 
-/// p, Ψ and what is loose at that moment of each: with D and S + K (t - m(ξ)).
-void FlowStepper::evaluateOnceTurned(const BoundedPolynomial& moment, FlowPoint& point) const {
+/// p, Ψ and what is loose at that moment of each: of those that have just turned with D and S + K (t - m(ξ)).
+void FlowStepper::evaluateAt(const BoundedPolynomial& moment, FlowPoint& point) const {
   const std::size_t n = at(n_), N = at(series_.count()), NJ = at(series_.frameCount()), orders = at(m_) + 1;
-  const Turn& turn = *turn_;
+  const Turn* const turn = turn_ ? &*turn_ : nullptr;
   point.p.assign(n * N, 0.0);
   point.low.assign(n, 0.0);
   point.known.assign(n, 0.0);
@@ -107,25 +206,35 @@ void FlowStepper::evaluateOnceTurned(const BoundedPolynomial& moment, FlowPoint&
   point.total = total_;
   for (std::size_t i = 0; i < n; ++i) {
     const double* series = series_.series(static_cast<int>(i));
-    std::vector<BoundedPolynomial> u(orders);
-    for (std::size_t order = 0; order < orders; ++order) {
-      for (std::size_t g = 0; g < N; ++g) u[order].c.push_back(series[g * at(series_.stride()) + order]);
-      u[order] += turn.D[i][order];
+    BoundedPolynomial x;
+    if (turn == nullptr || turn->fromMoment.empty()) {
+      std::vector<BoundedPolynomial> u(orders);
+      for (std::size_t order = 0; order < orders; ++order) {
+        for (std::size_t g = 0; g < N; ++g) u[order].c.push_back(series[g * at(series_.stride()) + order]);
+        if (turn != nullptr) u[order] += turn->D[i][order];
+      }
+      x = composed(monomials(), u, moment);
+    } else {
+      const std::vector<BoundedPolynomial>& u = turn->fromMoment[i];
+      for (auto term = u.rbegin(); term != u.rend(); ++term) (x *= turn->lag / h0_) += *term;
     }
-    const BoundedPolynomial x = composed(monomials(), u, moment);
+    x.c.resize(N, 0.0);
     std::ranges::copy(x.c, point.p.begin() + static_cast<std::ptrdiff_t>(i * N));
-    point.loose[i] = x.error + turn.soon[i] + series_.lowNorm(static_cast<int>(i));
+    point.loose[i] = x.error + (turn != nullptr ? turn->soon[i] : e1_[i]) + series_.lowNorm(static_cast<int>(i));
   }
   for (std::size_t i = 0; i < n; ++i) {
     double size = 0;
     for (std::size_t j = 0; j < n; ++j) {
       if (total_[j] == 0) continue;
       BoundedPolynomial psi = frameAt(i, j, moment);
-      const double more = turn.K[i * n + j] * turn.lag;
-      psi += turn.saltationOf.empty() ? BoundedPolynomial{{turn.saltation[i * n + j]}} : turn.saltationOf[i * n + j];
-      psi += {{more}};
-      double rest = psi.error + 4 * bounds::unit * (std::fabs(more) + std::fabs(turn.K[i * n + j]) * theta_ * h0_),
-             sum = 0;
+      if (turn != nullptr) {
+        const double more = turn->K[i * n + j] * turn->lag;
+        psi +=
+            turn->saltationOf.empty() ? BoundedPolynomial{{turn->saltation[i * n + j]}} : turn->saltationOf[i * n + j];
+        psi += {{more}};
+        psi.error += 4 * bounds::unit * (std::fabs(more) + std::fabs(turn->K[i * n + j]) * theta_ * h0_);
+      }
+      double rest = psi.error, sum = 0;
       for (std::size_t g = 0; g < psi.c.size(); ++g)
         if (g < NJ)
           point.psi[(g * n + i) * n + j] = psi.c[g], sum += std::fabs(psi.c[g]);
@@ -139,12 +248,16 @@ void FlowStepper::evaluateOnceTurned(const BoundedPolynomial& moment, FlowPoint&
   }
 }
 
-void FlowStepper::advanceOnceTurned(FlowSet& set) {
-  BoundedPolynomial elapsed = momentOnceTurned();
-  evaluateOnceTurned(elapsed, end_);
+void FlowStepper::advanceOnceTurned(FlowSet& set) { advanceTo(momentOnceTurned(), set); }
+
+void FlowStepper::advanceToMeeting(FlowSet& set) { advanceTo(meeting_, set); }
+
+void FlowStepper::advanceTo(const BoundedPolynomial& moment, FlowSet& set) {
+  evaluateAt(moment, end_);
   evaluateRemainder(set, h_, end_);
   narrowArguments(set, h_, end_, {}, true);
   carryGenerators(set);
+  BoundedPolynomial elapsed = moment;
   elapsed *= h0_;
   set.ahead.c.resize(at(series_.count()), 0.0);
   set.ahead += elapsed;
@@ -155,6 +268,59 @@ void FlowStepper::advanceOnceTurned(FlowSet& set) {
   set.ahead += {{-passed}};
   set.arguments = argumentsBehind(true);
   endStep(set);
+}
+
+/// Linear in ξ, by least squares: of each state as a share of what it is at most.
+bool FlowStepper::findMeeting(const std::vector<double>& weights) {
+  constexpr double ofStep = 0.9, least = 0x1p-3, gain = 0.75;
+  if (turn_ || isOpaque() || isSliding_ || !inputs_.empty()) return false;
+  const int symbols = monomials().symbols();
+  std::vector<double> rates, beside;  // of each state; [state][symbol]
+  double square = 0, before = 0, after = 0, spread = 0;
+  for (int i = 0; i < n_; ++i) {
+    if (weights[at(i)] == 0) continue;
+    const double size = std::max(scale_[at(i)], bounds::tiny) / weights[at(i)];
+    const auto at = [&](const double* c, bool rate) {
+      double value = 0, slope = 0;
+      for (int order = m_; order >= 0; --order) {
+        slope = slope * theta_ + value;
+        value = value * theta_ + c[order];
+      }
+      return (rate ? slope : value) / size;
+    };
+    rates.push_back(at(series_.series(i), true));
+    square += rates.back() * rates.back();
+    for (int l = 0; l < symbols; ++l) {
+      const int g = monomials().linear(l);
+      beside.push_back(g < 0 ? 0.0 : at(series_.series(i) + g * series_.stride(), false));
+    }
+  }
+  if (!(square > 0) || !std::isfinite(square)) return false;
+  meeting_ = {std::vector<double>(detail::at(monomials().count()), 0.0)};
+  std::vector<double> moments;
+  for (int l = 0; l < symbols; ++l) {
+    double sum = 0;
+    for (std::size_t i = 0; i < rates.size(); ++i) sum += rates[i] * beside[i * detail::at(symbols) + detail::at(l)];
+    moments.push_back(monomials().linear(l) < 0 ? 0.0 : -sum / square);
+    spread += std::fabs(moments.back());
+  }
+  const double share = std::min(1.0, 0.5 * ofStep * theta_ / spread);
+  if (!(2 * share * spread > least * theta_)) return false;
+  for (std::size_t i = 0; i < rates.size(); ++i) {
+    double own = 0, left = 0;
+    for (int l = 0; l < symbols; ++l) {
+      const double of = beside[i * detail::at(symbols) + detail::at(l)];
+      own += std::fabs(of);
+      left += std::fabs(of + share * moments[detail::at(l)] * rates[i]);
+    }
+    before += own * own;
+    after += left * left;
+  }
+  if (!(after < gain * gain * before)) return false;
+  meeting_.c[0] = theta_ * (1 - 0x1p-6) - share * spread;
+  for (int l = 0; l < symbols; ++l)
+    if (const int g = monomials().linear(l); g >= 0) meeting_.c[detail::at(g)] = share * moments[detail::at(l)];
+  return true;
 }
 
 double FlowStepper::radiusOver(int state, bool hasTurned) const {

@@ -39,6 +39,12 @@ struct FlowFollower::OwnCell {
   }
 };
 
+/// When solutions of a part are looked at, in units of σ: up to `around` from a polynomial in ξ.
+struct FlowFollower::OwnMoment {
+  BoundedPolynomial moment;
+  double around = 0;
+};
+
 namespace {
 
 Interval rangeOf(const BoundedPolynomial& polynomial) {
@@ -371,6 +377,16 @@ void FlowFollower::recordAt(FlowPiece& piece, const std::vector<std::size_t>& ro
       if (range.upper() > theta) limits.push_back(atMost(moment, theta));
       bool mayHaveTurned = false, mayNotHave = true;
       std::vector<BoundedPolynomial> unturned = limits, turned = limits;
+      OwnMoment whenUnturned{moment}, whenTurned{moment};
+      const auto near = [](OwnMoment& when, const BoundedPolynomial& about, const Interval& of,
+                           const Interval& inside) {
+        constexpr double share = 0x1p-5;  // of less of a part other numbers say more than when it is there
+        if (isEmpty(inside) || !(width(inside) < share * width(of))) return;
+        when = {about, radius(inside) * bounds::up + bounds::tiny};
+        when.moment += {{midpoint(inside)}};
+      };
+      for (OwnMoment* when : {&whenUnturned, &whenTurned})
+        near(*when, {{0.0}}, range, intersection(range, Interval(0.0, theta)));
       if (cell.turns) {
         BoundedPolynomial since = moment;
         since += unturnedFor;
@@ -380,6 +396,10 @@ void FlowFollower::recordAt(FlowPiece& piece, const std::vector<std::size_t>& ro
         if (seconds.upper() > away) unturned.push_back(atMost(since, away));
         if (seconds.lower() < -away) turned.push_back(atMost(minus(since), away));
         if (seconds.upper() > lag) turned.push_back(atMost(since, lag));
+        const BoundedPolynomial turning = cell.polynomial(cell.ahead() + 1);
+        constexpr double infinite = std::numeric_limits<double>::infinity();
+        near(whenUnturned, turning, seconds, intersection(seconds, Interval(-infinite, away)));
+        near(whenTurned, turning, seconds, intersection(seconds, Interval(-away, lag)));
       }
       if (!mayNotHave && !mayHaveTurned) continue;
       // Where another motion goes on, polynomials of this one are no good.
@@ -391,8 +411,8 @@ void FlowFollower::recordAt(FlowPiece& piece, const std::vector<std::size_t>& ro
         left.push_back(row);
         continue;
       }
-      if (mayNotHave) collect(piece, cell, moment, unturned, false, row);
-      if (mayHaveTurned) collect(piece, cell, moment, turned, true, row);
+      if (mayNotHave) collect(piece, cell, whenUnturned, unturned, false, row);
+      if (mayHaveTurned) collect(piece, cell, whenTurned, turned, true, row);
     }
     if (left.empty()) continue;
     const int symbol = symbolOf(behind, stepper.monomials());
@@ -415,7 +435,7 @@ FlowFollower::OutputTools* FlowFollower::outputsOnSides(const FlowPiece& piece) 
 }
 
 /// The part at these moments of the step, in units of σ, where no limit is above zero.
-void FlowFollower::collect(const FlowPiece& piece, const OwnCell& cell, const BoundedPolynomial& moment,
+void FlowFollower::collect(const FlowPiece& piece, const OwnCell& cell, const OwnMoment& when,
                            const std::vector<BoundedPolynomial>& limits, bool hasTurned, std::size_t row) {
   const FlowStepper& stepper = tool_->stepper;
   const Monomials& monomials = stepper.monomials();
@@ -440,7 +460,13 @@ void FlowFollower::collect(const FlowPiece& piece, const OwnCell& cell, const Bo
       u.push_back(cell.polynomial(i * cell.orders + order));
       if (hasTurned) u.back() += cell.polynomial((n + i) * cell.orders + order);
     }
-    const BoundedPolynomial x = composed(monomials, u, moment);
+    BoundedPolynomial x = composed(monomials, u, when.moment);
+    x.c.resize(at(monomialCount_), 0.0);
+    double rate = 0, power = 1;  // |dx/dσ|
+    const double farthest = (when.moment.norm() + when.around) * bounds::up;
+    for (std::size_t order = 1; order < u.size() && when.around > 0; ++order, power *= farthest)
+      rate += static_cast<double>(order) * u[order].norm() * power;
+    x.error += when.around * rate * (1 + 0x1p-40);
     point_.p.insert(point_.p.end(), x.c.begin(), x.c.end());
     point_.radius.push_back((x.error + stepper.radiusOver(static_cast<int>(i), hasTurned)) * bounds::up);
   }
@@ -450,11 +476,19 @@ void FlowFollower::collect(const FlowPiece& piece, const OwnCell& cell, const Bo
   rangeTolerance_ = task_.rangeTolerance();
   std::vector<Interval> states, outputs;
   stateCore_.clear();
+  // What is inside anyway need not be known closely.
+  const auto isInside = [](const std::vector<Interval>& known, std::size_t i, const Interval& range) {
+    return i < known.size() && isSubset(range, known[i]);
+  };
   for (std::size_t i = 0; i < n; ++i) {
     const double* p = &point_.p[i * at(monomialCount_)];
-    Interval range = tool_->range(p, whole_, rangeTolerance_);
-    const double gap = tool_->range.gap();
-    range = intersection(range, rangeWithin(limits, monomials, p, monomials, tool_->range));
+    Interval range = rangeOf({{p, p + monomialCount_}});
+    double gap = 0;
+    if (!isInside(collected_.stateCore[row], i, inflated(range, point_.radius[i]))) {
+      range = tool_->range(p, whole_, rangeTolerance_);
+      gap = tool_->range.gap();
+      range = intersection(range, rangeWithin(limits, monomials, p, monomials, tool_->range));
+    }
     if (isEmpty(range)) return;  // nowhere in the part
     states.push_back(inflated(range, point_.radius[i]));
     stateCore_.push_back(without(states.back(), point_.radius[i] + gap));
@@ -487,7 +521,7 @@ void FlowFollower::collect(const FlowPiece& piece, const OwnCell& cell, const Bo
     }
     for (int o = 0; o < outputs_->count() && !limits.empty(); ++o) {
       const double radius = outputs_->radius(o);
-      if (!std::isfinite(radius)) continue;
+      if (!std::isfinite(radius) || isInside(collected_.outputCore[row], at(o), outputs[at(o)])) continue;
       const Interval within = inflated(
           rangeWithin(limits, monomials, outputs_->polynomial(o), *outputs_->monomials(), *outputRange_), radius);
       for (std::vector<Interval>* of : {&outputs, &outputLimits_, &outputCore_})

@@ -482,6 +482,18 @@ void FlowRun::dropStates(Tube& tube, int n) {
   const auto cut = [&](std::vector<std::vector<Interval>>& rows) {
     for (std::vector<Interval>& row : rows) row.resize(at(n));
   };
+  const auto dropped = tube.states_.empty() ? 0 : static_cast<std::ptrdiff_t>(tube.states_[0].size()) - n;
+  for (std::vector<OutputExtremes>& row : tube.extremes_)
+    for (OutputExtremes& extremes : row)
+      for (std::vector<double>* at : {&extremes.leastAt, &extremes.greatestAt})
+        if (!at->empty()) at->erase(at->begin() + n, at->begin() + n + dropped);
+  if (!tube.nonlinear_.empty())
+    tube.nonlinear_.erase(tube.nonlinear_.begin() + n, tube.nonlinear_.begin() + n + dropped);
+  if (tube.models_ && dropped > 0) {
+    FlowModels models = *tube.models_;
+    models.components.erase(models.components.begin() + n, models.components.begin() + n + dropped);
+    tube.models_ = std::make_shared<const FlowModels>(std::move(models));
+  }
   cut(tube.states_);
   cut(tube.statesOver_);
   if (hasOutputs) return;

@@ -676,6 +676,16 @@ std::vector<Interval> FlowStepper::argumentsBehind(bool onceTurned) const {
   const auto behind = [&](const JumpBound& bound) {
     return bound.isKnown() ? bound.after(h_).then : Interval::entire();
   };
+  if (onceTurned && !turn_) {
+    for (const SignCases& cases : signsOver(of_ == nullptr ? 0 : of_->count())) {
+      const std::size_t k = result.size();
+      const bool isHeld = k < held_.size() && held_[k] != 0, isAside = isEmpty(cases.between);
+      result.push_back(isHeld                                  ? behind(heldBounds_[k])
+                       : isAside && cases.above != cases.below ? sideOf(cases.above)
+                                                               : Interval::entire());
+    }
+    return result;
+  }
   std::vector<Interval> besides = turn_ ? turn_->besides : result;
   for (std::size_t j = 0; onceTurned && j < besides.size(); ++j)
     if (sides_[j] != 0) {

@@ -122,6 +122,7 @@ class FlowStepper {
   /// Whether a turn was looked at in the last step of which polynomials of a higher degree might tell more.
   bool hasLostTurn() const { return hasLostTurn_; }
   bool hasTurned() const { return turn_.has_value(); }
+  bool hasToStop() const { return turn_ && !turn_->fromMoment.empty(); }
   /// Or was refused, and smaller parts may tell: in some of them another jump holds or lets go before, or no degree
   /// helps.
   bool isTurnMixed() const { return isTurnMixed_; }
@@ -133,6 +134,10 @@ class FlowStepper {
   void setTime(double length, double resolution, TimeKinks kinks);
   /// Whether solutions may be stopped once they have turned.
   void setMayStop(bool mayStop) { mayStop_ = mayStop; }
+  /// Whether they have to be: then nothing is proved of what follows, and moments may be far apart.
+  void setStops(bool stops) { stops_ = stops; }
+  /// Whether a turn was looked at in the last step, or some pass a kink.
+  bool hasTriedTurn() const { return turnTries_ > 0 || !crossings_.empty(); }
   void setStateNames(const std::vector<std::string>& names) { names_ = names; }
   /// Steps are relative to no less than a share of these. Null: they are not known.
   void setScales(std::shared_ptr<const FlowScales> scales) { scales_ = std::move(scales); }
@@ -184,6 +189,11 @@ class FlowStepper {
   double turnLag() const { return turn_->lag; }    ///< s, by which they are stopped later than that
   /// The set of what they are there (FlowSet::ahead), in place of that at the step's end.
   void advanceOnceTurned(FlowSet& set);
+  /// Whether there are moments of the step at which solutions are much nearer to each other than at any one time: each
+  /// is to go on from there. `weights`: how much each state counts.
+  bool findMeeting(const std::vector<double>& weights);
+  /// The set of what they are there.
+  void advanceToMeeting(FlowSet& set);
   /// |x - x̃ - D| of any solution that has turned, or that has not, at any time of the step; D: turnedBy.
   double radiusOver(int state, bool hasTurned) const;
   /// What turning adds to the polynomials of a state, by orders of σ.
@@ -214,7 +224,8 @@ class FlowStepper {
   void evaluateRemainder(const FlowSet& set, double tau, FlowPoint& point) const;
   void turnFrame(FlowSet& set);
   void carryGenerators(FlowSet& set);
-  void evaluateOnceTurned(const BoundedPolynomial& moment, FlowPoint& point) const;
+  void evaluateAt(const BoundedPolynomial& moment, FlowPoint& point) const;
+  void advanceTo(const BoundedPolynomial& moment, FlowSet& set);
   BoundedPolynomial momentOnceTurned() const;
   BoundedPolynomial frameAt(std::size_t i, std::size_t j, const BoundedPolynomial& moment) const;
   void endStep(FlowSet& set);
@@ -330,9 +341,15 @@ class FlowStepper {
     double away = 0;                                  // how far these are from each other at most
     double beyond = 0;                                // the guard at the start, if above zero
     std::vector<std::vector<BoundedPolynomial>> D{};  // of each state, by orders of σ
-    std::vector<double> most{}, twist{};              // |D| and its third derivative at most
-    std::vector<double> gap{}, slope{}, bend{};       // |D|, |Ḋ| and |D̈| at m(ξ)
-    double rest = 0, steepness = 0;                   // of the guard there, along x̃ alone; its slope, at least
+    // Where solutions are to be stopped: x̃ + D, by orders of σ - m(ξ), and up to where, in units of σ, from `away`
+    // before m(ξ) on.
+    std::vector<std::vector<BoundedPolynomial>> fromMoment{};
+    double span = 0;
+    std::vector<double> most{}, twist{};         // |D| and its third derivative at most
+    std::vector<double> gap{}, slope{}, bend{};  // |D|, |Ḋ| and |D̈| at m(ξ)
+    std::vector<BoundedPolynomial> slopeOf{};    // Ḋ there
+    std::vector<double> extent{};                // |D| when the last turns, about: what errors are compared with
+    double rest = 0, steepness = 0;              // of the guard there, along x̃ alone; its slope, at least
     // The guard by states, where Ḋ is not zero at m(ξ); Ḋ over the guard's slope there, about, and at most beside that.
     std::vector<double> ofGuard{}, leap{}, besideLeap{};
     std::vector<double> before{};  // like e1_, until then
@@ -372,8 +389,11 @@ class FlowStepper {
   bool holdOnceTurned(const FlowSet& set, const Turn& turn, const std::vector<double>& states,
                       const std::vector<double>& tube);
   std::vector<double> statesWith(const Turn& turn) const;
-  void describeLeap(Turn& turn, const std::vector<BoundedPolynomial>& guard,
-                    const std::vector<BoundedPolynomial>& slopes) const;
+  std::vector<double> statesSince(const Turn& turn) const;
+  bool describeSince(const FlowSet& set, const std::vector<Interval>& signs, Turn& turn);
+  bool describeInStep(const FlowSet& set, const std::vector<Interval>& signs, Turn& turn);
+  static double lagOf(double away, double h) { return std::max(2 * away, 0x1p-8 * h); }
+  void describeLeap(Turn& turn, const std::vector<BoundedPolynomial>& guard) const;
   bool describeTurn(const FlowSet& set, const std::vector<Interval>& signs, Turn& turn);
   void boundSoon(Turn& turn, const std::vector<Interval>& J, const std::vector<double>& before,
                  const std::vector<double>& rest, const std::vector<double>& slack);
@@ -454,7 +474,8 @@ class FlowStepper {
   bool isLiftOfSurface_ = false;
   double beyondLast_ = 0;  // how much longer the step is than until the last has turned, s; 0: not known yet
   bool mayTurn_ = true;    // in this step
-  bool mayStop_ = false;
+  bool mayStop_ = false, stops_ = false;
+  BoundedPolynomial meeting_;  // when solutions are nearest to each other, in units of σ
   bool hasLostTurn_ = false, isTurnMixed_ = false;
   bool leavesOnceTurned_ = false;  // another side, before the step's end
   int turnSymbol_ = -1;

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "analyses/flow/formulation.hpp"
 #include "scalars/index.hpp"
 
 namespace gamut {
@@ -47,17 +48,6 @@ bool isZero(const Program& f) {
   });
 }
 
-bool dependsOnTime(const Program& program) {
-  const std::vector<Node>& nodes = program.nodes();
-  const auto isTime = [&](int node) { return nodes[at(node)].op == Op::time; };
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    bool does = false;
-    detail::forEachOperand(program.table(), static_cast<int>(i), [&](int operand) { does = does || isTime(operand); });
-    if (does) return true;
-  }
-  return std::ranges::any_of(program.outputNodes(), isTime);
-}
-
 /// Of steps that are about as long whatever the tolerance is (measured).
 int orderFor(double tolerance) { return static_cast<int>(std::clamp(-2 * std::log10(tolerance) - 8, 10.0, 20.0)); }
 
@@ -79,10 +69,13 @@ FlowTask::FlowTask(const FlowQuestion& question, const Box& startBox, const std:
       shares{.slide = round.slideShare},
       isLast(round.isLast),
       mayBisect(question.options.split && round.fixedDegree == 0),
+      stopsEarly(question.stopsEarly),
       standsStill(isZero(motion)),
       cuts(round.cuts),
       richer(round.richer),
       scales(round.scales) {
+  for (const char isBent : bentStates(motion)) bends.push_back(isBent);
+  if (question.clock >= 0) bends[at(question.clock)] = 0;
   varying = parametersOf(options.varying);
   mayGoOwnWays =
       varying.empty() && !dependsOnTime(motion) && !dependsOnTime(outputs) && !dependsOnTime(options.aside.values);

@@ -32,6 +32,8 @@ struct FlowQuestion {
   double horizon;
   const std::vector<double>& outputTimes;
   FlowBudget& budget;
+  int clock = -1;           ///< the state that is time; -1: none
+  bool stopsEarly = false;  ///< solutions may be at times of their own from a first turn on, or without one
 };
 
 /// A set of monomials and the degree of the frame over it.
@@ -91,6 +93,8 @@ struct FlowTask {
   SplitShares shares;
   bool isLast, mayBisect;
   bool mayGoOwnWays = false;                 // nothing but the states depends on time, nothing varies in it
+  bool stopsEarly;                           // FlowQuestion
+  std::vector<double> bends;                 // of each state, how much f bends in it, about; the clock does not count
   bool standsStill;                          // no state moves: loads of a given motion, which are functions of time
   std::vector<int> cuts;                     // FlowRound
   std::vector<int> varying;                  // parameters that are inputs

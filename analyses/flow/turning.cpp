@@ -77,6 +77,7 @@ std::vector<BoundedPolynomial> sinceMoment(const Monomials& monomials, const std
 
 /// An output from a solution's own moment on.
 Interval FlowStepper::onceTurned(const AlongStep& along, int output, const Turn& turn) const {
+  if (!turn.fromMoment.empty()) return along.over(output, 0, turn.span);
   const std::vector<BoundedPolynomial> u = polynomialsOf(along, output, at(m_) + 1);
   const double moves = along.series().derivativeNorm(along.series().outputNode(output), 1, theta_) / h0_;
   const Interval range = rangeOver(sinceMoment(monomials(), u, turn.when, theta_), 0, 1);
@@ -289,7 +290,8 @@ bool FlowStepper::stayOnceTurned(const FlowSet& set, Turn& turn, const std::vect
   if (!own_ || areSidesClear_) return true;
   std::vector<Interval> signs;
   for (const int jump : series_.jumps()) signs.emplace_back(series_.series(jump)[0]);
-  if (!ownRates_->load(states, set.t, h0_, theta_, set.parameters, signs, tube)) return false;
+  if (!ownRates_->load(states, set.t, h0_, turn.fromMoment.empty() ? theta_ : turn.span, set.parameters, signs, tube))
+    return false;
   turn.besides.assign(signs.size(), Interval::entire());
   constexpr double infinite = std::numeric_limits<double>::infinity();
   for (std::size_t j = 0; j < sides_.size(); ++j) {
@@ -302,7 +304,8 @@ bool FlowStepper::stayOnceTurned(const FlowSet& set, Turn& turn, const std::vect
       if (form.states[i] != 0)
         rate += Interval(form.states[i]) * onceTurned(*turn.of, turn.of->after(static_cast<int>(i)), turn);
     if (!isPassed && !isAway(rate) && !isAway(onceTurned(*ownRates_, ownRates_->argument(j), turn))) return false;
-    const Interval end = ownRates_->argumentOver(j, theta_, theta_);
+    const Interval end =
+        turn.fromMoment.empty() ? ownRates_->argumentOver(j, theta_, theta_) : ownRates_->argumentOver(j, 0, turn.span);
     const Interval beyond =
         (sides_[j] > 0) != isPassed ? Interval(0.0, infinite) : Interval(-infinite, 0.0);  // it may have come nearer
     turn.besides[j] = intersection(end, beyond);
@@ -350,7 +353,9 @@ bool FlowStepper::holdOnceTurned(const FlowSet& set, const Turn& turn, const std
   std::vector<Interval> signs = turn.signs;
   if (turn.jump != none) signs[turn.jump] = Interval(turn.side);
   if (turn.lifts != nullptr) signs[turn.lifts->position] = Interval(turn.lifts->ofPosition(1));
-  if (together == nullptr || !together->load(states, set.t, h0_, theta_, set.parameters, signs, tube)) return false;
+  const bool isInStep = turn.fromMoment.empty();
+  const double theta = isInStep ? theta_ : turn.span;
+  if (together == nullptr || !together->load(states, set.t, h0_, theta, set.parameters, signs, tube)) return false;
   for (std::size_t k = 0; k < turn.heldAfter.size(); ++k) {
     const Interval sign =
         turn.heldAfter[k] == byItsSign ? onceTurned(*together, together->output(k), turn) : Interval(0.0);
@@ -358,7 +363,7 @@ bool FlowStepper::holdOnceTurned(const FlowSet& set, const Turn& turn, const std
     if (mignitude(sign) < 1) noteOther(*together, k, h_);
     return false;
   }
-  return together->decides(std::max(0.0, turn.moments.lower()) / h0_, theta_);
+  return together->decides(isInStep ? std::max(0.0, turn.moments.lower()) / h0_ : 0.0, theta);
 }
 
 /// Whether other pairs that rest are pressed to their places all the step long, whoever has turned: in the tube of
@@ -405,7 +410,8 @@ FlowStepper::Look FlowStepper::lookAtTurn(const FlowSet& set, double& h, double 
     h = ahead * first;
     return Look::shorter;
   }
-  constexpr double ofSpread = 0.25, ofStep = 0x1p-6;  // so much longer: all are known to have turned, then
+  constexpr double ofStep = 0x1p-6;
+  const double ofSpread = stops_ ? 0.125 : 0.25;  // so much longer: all are known to have turned, then
   if (!(beyondLast_ > 0)) beyondLast_ = std::max({ofSpread * (last - first), ofStep * h, smallest});
   const double target = last + beyondLast_;
   if (target > reach_) return Look::released;
@@ -478,7 +484,7 @@ std::vector<double> FlowStepper::statesWith(const Turn& turn) const {
 /// m(ξ), where the guard along x̃ is zero, and D about ∫ f_a(x̃ + D) - x̃' from there on, by Picard's method.
 bool FlowStepper::describeTurn(const FlowSet& set, const std::vector<Interval>& signs, Turn& turn) {
   FlowTurn& of = *turn.of;
-  const std::size_t n = at(n_), orders = at(m_) + 1;
+  const std::size_t orders = at(m_) + 1;
   const std::vector<BoundedPolynomial> rate = polynomialsOf(of, of.guard(), orders);
   const PolynomialRoot root = rootOf(monomials(), rate, midpoint(turn.moments) / h0_);
   // The guard is zero, but for what bounds miss, at a solution's own moment and at m(ξ); the slope of its polynomial
@@ -517,6 +523,18 @@ bool FlowStepper::describeTurn(const FlowSet& set, const std::vector<Interval>& 
   if (!of.rebound(nullptr)) return false;
   turn.rest = (root.rest + restOf(of, of.guard())) * bounds::up;
   turn.steepness = slope;
+  if (stops_) {
+    if (!describeSince(set, signs, turn)) return false;
+  } else if (!describeInStep(set, signs, turn)) {
+    return false;
+  }
+  if (turn.passesJump()) describeLeap(turn, rate);
+  return true;
+}
+
+/// D about ∫ f_a(x̃ + D) - x̃' from m(ξ) on, by Picard's method.
+bool FlowStepper::describeInStep(const FlowSet& set, const std::vector<Interval>& signs, Turn& turn) {
+  const std::size_t n = at(n_), orders = at(m_) + 1;
   const std::size_t N = at(series_.count());
   turn.D.assign(n, std::vector<BoundedPolynomial>(orders, {std::vector<double>(N, 0.0)}));
   constexpr int rounds = 12;
@@ -524,7 +542,7 @@ bool FlowStepper::describeTurn(const FlowSet& set, const std::vector<Interval>& 
   bool isNear = false;
   for (int round = 0; round < rounds && !isNear; ++round) {
     isNear = true;
-    AlongStep& following = of.following();
+    AlongStep& following = turn.of->following();
     following.compute(statesWith(turn), set.t, h0_, theta_, set.parameters, signs);
     for (std::size_t i = 0; i < n; ++i) {
       std::vector<BoundedPolynomial>& D = turn.D[i];
@@ -543,12 +561,11 @@ bool FlowStepper::describeTurn(const FlowSet& set, const std::vector<Interval>& 
       }
       if (!std::isfinite(size)) return false;
       isNear = isNear && change <= little * size;
-      BoundedPolynomial atMoment = composed(monomials(), D, root.x);
+      BoundedPolynomial atMoment = composed(monomials(), D, turn.when);
       for (std::size_t g = 0; g < N; ++g) D[0].c[g] = -atMoment.c[g];
     }
   }
   const double from = std::max(0.0, turn.moments.lower()) / h0_;
-  std::vector<BoundedPolynomial> slopes;
   for (std::size_t i = 0; i < n; ++i) {
     const std::vector<BoundedPolynomial> rates = rateOf(turn.D[i], h0_);
     std::vector<BoundedPolynomial> seconds(rates.begin() + 1, rates.end());
@@ -560,20 +577,19 @@ bool FlowStepper::describeTurn(const FlowSet& set, const std::vector<Interval>& 
       power *= theta_;
     }
     turn.most.push_back(magnitude(rangeOver(turn.D[i], from, theta_)));
-    turn.gap.push_back(composed(monomials(), turn.D[i], root.x).norm());
-    slopes.push_back(composed(monomials(), rates, root.x));
-    turn.slope.push_back(slopes[i].norm());
-    turn.bend.push_back(composed(monomials(), seconds, root.x).norm());
+    turn.gap.push_back(composed(monomials(), turn.D[i], turn.when).norm());
+    turn.slopeOf.push_back(composed(monomials(), rates, turn.when));
+    turn.slope.push_back(turn.slopeOf[i].norm());
+    turn.bend.push_back(composed(monomials(), seconds, turn.when).norm());
     turn.twist.push_back(twist / h0_ * bounds::up);
+    turn.extent.push_back(turn.most[i]);
     if (!std::isfinite(turn.gap[i] + turn.slope[i] + turn.bend[i] + turn.twist[i])) return false;
   }
-  if (turn.passesJump()) describeLeap(turn, rate, slopes);
   return true;
 }
 
-/// Where Ḋ is not zero at m(ξ), a solution beside x̃ that turns sooner leaves by as much more: `slopes` are Ḋ there.
-void FlowStepper::describeLeap(Turn& turn, const std::vector<BoundedPolynomial>& guard,
-                               const std::vector<BoundedPolynomial>& slopes) const {
+/// Where Ḋ is not zero at m(ξ), a solution beside x̃ that turns sooner leaves by as much more.
+void FlowStepper::describeLeap(Turn& turn, const std::vector<BoundedPolynomial>& guard) const {
   const AlongStep& of = *turn.of;
   const BoundedPolynomial steepness = composed(monomials(), rateOf(guard, h0_), turn.when);
   const double bend = of.series().derivativeNorm(of.series().outputNode(turn.of->guard()), 2, theta_) / (h0_ * h0_);
@@ -585,7 +601,7 @@ void FlowStepper::describeLeap(Turn& turn, const std::vector<BoundedPolynomial>&
     off += {{2.0}};
     inverse = {product(monomials(), inverse, off).c};
   }
-  for (const BoundedPolynomial& slope : slopes) {
+  for (const BoundedPolynomial& slope : turn.slopeOf) {
     const double leap = slope.c[0] / steepness.c[0];
     const BoundedPolynomial leapOf{product(monomials(), {slope.c}, inverse).c};
     BoundedPolynomial besideOf = product(monomials(), leapOf, steepness);
@@ -674,7 +690,7 @@ bool FlowStepper::turnFrameWith(const FlowSet& set, const std::vector<Interval>&
     double value = 0;
     for (std::size_t order = orders; order-- > 0;)
       value = value * middle + series_.series(static_cast<int>(i))[order] + turn.D[i][order].c[0];
-    states.emplace_back(value);
+    states.emplace_back(turn.fromMoment.empty() ? value : turn.fromMoment[i][0].c[0]);
   }
   for (const Embedded& e : set.parameters) parameters.emplace_back(e.centre);
   parameters.insert(parameters.end(), signs.begin(), signs.end());
@@ -751,10 +767,13 @@ bool FlowStepper::proveTurn(const FlowSet& set, const std::vector<Interval>& sig
   FlowTurn& of = *turn.of;
   const std::size_t n = at(n_), N = at(series_.count()), orders = at(m_) + 1;
   const double first = std::max(0.0, turn.moments.lower());
-  const double longest = std::min(h_, (Interval(h_) - turn.moments).upper());
+  const bool stops = !turn.fromMoment.empty();
+  const double longest =
+      stops ? (turn.lag + turn.away) * bounds::up : std::min(h_, (Interval(h_) - turn.moments).upper());
   // The defect.
-  const std::vector<double> states = statesWith(turn);
-  if (!of.load(states, set.t, h0_, theta_, set.parameters, signs, std::vector<double>(n, 0.0))) return false;
+  const std::vector<double> states = stops ? statesSince(turn) : statesWith(turn);
+  const double from = stops ? 0.0 : first / h0_, theta = stops ? turn.span : theta_;
+  if (!of.load(states, set.t, h0_, theta, set.parameters, signs, std::vector<double>(n, 0.0))) return false;
   if (!turnFrameWith(set, signs, turn)) return false;
   const double since = (longest + turn.away) * bounds::up;  // m(ξ)
   std::vector<double> defect(n), truncated(n), ofFrame(n, 0.0), before(n), most(n), slack(n);
@@ -763,7 +782,7 @@ bool FlowStepper::proveTurn(const FlowSet& set, const std::vector<Interval>& sig
     std::vector<BoundedPolynomial> f = polynomialsOf(of, output, orders);
     double power = 1;
     slack[i] = series_.lowNorm(static_cast<int>(i));
-    for (std::size_t order = 0; order < orders; ++order, power *= theta_) {
+    for (std::size_t order = 0; order < orders; ++order, power *= theta) {
       f[order].c.resize(N, 0.0);
       for (std::size_t g = 0; g < N && order + 1 < orders; ++g) {
         const double own = states[(i * N + g) * orders + order + 1] * static_cast<double>(order + 1) / h0_;
@@ -772,13 +791,13 @@ bool FlowStepper::proveTurn(const FlowSet& set, const std::vector<Interval>& sig
       }
       // x̃ + D is rounded: each of the two stands for its exact sum in x.
       for (std::size_t g = 0; g < N; ++g)
-        slack[i] += power * bounds::unit * std::fabs(states[(i * N + g) * orders + order]);
+        slack[i] += power * (stops ? 16 : 1) * bounds::unit * std::fabs(states[(i * N + g) * orders + order]);
     }
-    defect[i] = (magnitude(rangeOver(f, first / h0_, theta_)) + restOf(of, output)) * bounds::up;
+    defect[i] = (magnitude(rangeOver(f, from, theta)) + restOf(of, output)) * bounds::up;
     truncated[i] = turn.within(i, turn.rest / turn.steepness) + longest * restOf(of, output);
     constexpr double heard = 1e-9;  // of the state: what moves by less decides nothing
     if (longest * defect[i] > heldTube_[i])
-      relativeDefect = std::max(relativeDefect, longest * defect[i] / std::max(turn.most[i], heard * scale_[i]));
+      relativeDefect = std::max(relativeDefect, longest * defect[i] / std::max(turn.extent[i], heard * scale_[i]));
     double sum = inputs_.rest(static_cast<int>(i)) + slack[i];
     ofFrame[i] = turn.leapt[i];
     turn.turned.push_back(0);
@@ -814,12 +833,18 @@ bool FlowStepper::proveTurn(const FlowSet& set, const std::vector<Interval>& sig
       if (!isCommon(J[i])) return false;
       following_.A(static_cast<int>(i / n), static_cast<int>(i % n)) = magnitude(J[i]);
     }
-    if (!following_.compute(longest)) return false;
     std::vector<double> rest = restOfFrame(turn, J, since);
     for (std::size_t i = 0; i < n; ++i) rest[i] = (rest[i] + defect[i]) * bounds::up;
     crossed_.assign(n, 0.0);
     isProved = true;
+    if (stops) boundSoon(turn, J, untilMoment, rest, slack);
+    if (stops ? turn.soon.empty() : !following_.compute(longest)) return false;
     for (std::size_t i = 0; i < n; ++i) {
+      if (stops) {
+        crossed_[i] = turn.soon[i];
+        isProved = isProved && crossed_[i] < most[i];
+        continue;
+      }
       double sum = slack[i] + bounds::tiny;
       for (std::size_t j = 0; j < n; ++j) {
         const int row = static_cast<int>(i), column = static_cast<int>(j);
@@ -831,7 +856,7 @@ bool FlowStepper::proveTurn(const FlowSet& set, const std::vector<Interval>& sig
     for (std::size_t i = 0; i < n && !isProved; ++i) most[i] = std::max(most[i], 1.5 * crossed_[i]);
   }
   if (!isProved) return false;
-  if (mayStop_) {
+  if (mayStop_ && !stops) {
     std::vector<double> left = restOfFrame(turn, J, since);
     for (std::size_t i = 0; i < n; ++i) left[i] = (left[i] + defect[i]) * bounds::up;
     boundSoon(turn, J, untilMoment, left, slack);
@@ -843,9 +868,9 @@ bool FlowStepper::proveTurn(const FlowSet& set, const std::vector<Interval>& sig
   hasLostTurn_ = false;
   for (std::size_t i = 0; i < n; ++i) {
     const double beside = 4 * heldTube_[i] + little * scale_[i];
-    isLost = isLost || crossed_[i] > mostLost * turn.most[i] + beside;
+    isLost = isLost || crossed_[i] > mostLost * turn.extent[i] + beside;
     hasLostTurn_ =
-        hasLostTurn_ || (crossed_[i] > wanted * turn.most[i] + beside && truncated[i] > ofDegree * crossed_[i]);
+        hasLostTurn_ || (crossed_[i] > wanted * turn.extent[i] + beside && truncated[i] > ofDegree * crossed_[i]);
   }
   isTurnMixed_ = isLost && !hasLostTurn_;
   if (isLost) return false;

@@ -14,8 +14,38 @@ struct Repeating {
   Box box;
   double horizon;
   int pieces;
-  bool sticks = false;  // where x[1] is 1
+  bool sticks = false;  // where x[1] is `belt`
+  double belt = 1;
+  int events = 20;     // more than so many, of all trajectories
+  Program timed = {};  // f with time as its last state, where it depends on time; else none
 };
+
+/// f(t, x, p) of two states and two parameters; and with t as a third state.
+template <class Of>
+std::pair<Program, Program> withAndWithoutClock(Of f) {
+  return {record(2, 2, [=](const auto& t, const auto& x, const auto& p, auto& dx) { f(t, x, p, dx); }),
+          record(3, 2, [=](auto, const auto& x, const auto& p, auto& dx) {
+            f(x[2], x, p, dx);
+            dx[2] = x[2] * 0.0 + 1.0;
+          })};
+}
+
+/// Friction at rest is a quarter more than that of sliding (Stribeck); the spring's other end moves on evenly.
+const std::pair<Program, Program>& drawn() {
+  static const auto programs = withAndWithoutClock([](const auto& t, const auto& x, const auto& p, auto& dx) {
+    dx[0] = x[1];
+    dx[1] = p[0] * (t - x[0]) - 0.25 * x[1] - p[1] * (1.0 + 0.25 * exp(-400.0 * (x[1] * x[1]))) * sign(x[1]);
+  });
+  return programs;
+}
+
+const std::pair<Program, Program>& shaken() {
+  static const auto programs = withAndWithoutClock([](const auto& t, const auto& x, const auto& p, auto& dx) {
+    dx[0] = x[1];
+    dx[1] = 0.25 * sin(2.0 * t) - p[0] * x[0] - p[1] * sign(x[0]);
+  });
+  return programs;
+}
 
 /// A ball above ground, unfolded (Zhuravlev): x = |S| in units of 1/unit m, k = p[0] = (1 - e)/(1 + e), its rate
 /// (1 - k sign S sign V) V sign S; p[1]: gravity.
@@ -94,6 +124,50 @@ const std::vector<Repeating>& repeating() {
        noOutputs(2, 2),
        {Interval(0.9375, 1.0625), 0.0, Interval(0.9, 1.1), Interval(0.25, 0.3125)},
        40.0,
+       4},
+      {"aBlockOnABeltWhoseFrictionFalls",
+       record(2, 2,
+              [](auto, const auto& x, const auto& p, auto& dx) {
+                const auto slip = 1.0 - x[1];
+                dx[0] = x[1];
+                dx[1] = p[1] * (1.0 + 0.25 * exp(-400.0 * (slip * slip))) * sign(slip) - p[0] * x[0] + 0.25 * slip;
+              }),
+       record(2, 2, 1, [](auto, const auto& x, const auto& p, auto& y) { y[0] = 0.5 * p[0] * x[0] * x[0]; }),
+       {0.0, 0.0, Interval(0.98, 1.02), Interval(1.96, 2.04)},
+       20.0,
+       8,
+       true,
+       1,
+       8},
+      {"aBlockDrawnByASpring",
+       drawn().first,
+       record(2, 2, 1, [](auto t, const auto& x, const auto& p, auto& y) { y[0] = p[0] * (t - x[0]); }),
+       {0.0, 0.0, Interval(0.98, 1.02), Interval(1.96, 2.04)},
+       40.0,
+       2,
+       true,
+       0,
+       4,
+       drawn().second},
+      {"aRelayThatIsShaken",
+       shaken().first,
+       noOutputs(2, 2),
+       {Interval(0.9375, 1.0625), 0.0, Interval(0.95, 1.05), Interval(0.9, 1.1)},
+       7.0,
+       4,
+       false,
+       1,
+       20,
+       shaken().second},
+      {"aPendulumWithARelay",
+       record(2, 2,
+              [](auto, const auto& x, const auto& p, auto& dx) {
+                dx[0] = x[1];
+                dx[1] = -p[0] * sin(x[0]) - p[1] * sign(x[0]);
+              }),
+       record(2, 2, 1, [](auto, const auto& x, const auto& p, auto& y) { y[0] = p[0] * cos(x[0]); }),
+       {Interval(1.4375, 1.5625), 0.0, Interval(0.9, 1.1), Interval(0.1875, 0.25)},
+       9.0,
        4}};
   return all;
 }
@@ -112,12 +186,17 @@ TEST_P(FlowOwnTimes, HoldTrajectories) {
   c.levels = {level};
   c.horizon = machine.horizon;
   for (int i = 1; i < 32; ++i) c.times.push_back(machine.horizon * i / 32);
-  EventReference passing(machine.f);
-  SlidingReference sliding(machine.f, machine.f, [](const auto& sides, const Vector&, Vector& x) {
-    if (sides[0] == Side::held) x[1] = 1.0;
+  const bool isTimed = machine.timed.states() > 0;
+  const Program& reference = isTimed ? machine.timed : machine.f;
+  EventReference passing(reference);
+  SlidingReference sliding(reference, reference, [&](const auto& sides, const Vector&, Vector& x) {
+    if (sides[0] == Side::held) x[1] = machine.belt;
   });
   c.motion = [&](const Vector& start, const std::vector<double>& times) {
-    Containment::Motion motion{machine.sticks ? sliding(start, times) : passing(start, times), {}};
+    Vector from = start;
+    if (isTimed) from.insert(from.begin() + machine.f.states(), Precise(0.0));
+    Containment::Motion motion{machine.sticks ? sliding(from, times) : passing(from, times), {}};
+    for (Vector& states : motion.states) states.resize(static_cast<std::size_t>(machine.f.states()));
     Evaluator<Precise> outputs(machine.g);
     outputs.setParameters(Vector(start.begin() + machine.f.states(), start.end()));
     for (std::size_t i = 0; i < times.size(); ++i)
@@ -128,7 +207,30 @@ TEST_P(FlowOwnTimes, HoldTrajectories) {
   EXPECT_LE(judge.tube().pieces(), machine.pieces);
   ASSERT_EQ(judge.tube().why(), "");
   judge.judge(8);
-  EXPECT_GT(machine.sticks ? sliding.events : passing.events, 20);
+  EXPECT_GT(machine.sticks ? sliding.events : passing.events, machine.events);
+}
+
+/// Time is a state on the way, but none of those that were asked for.
+TEST(FlowClock, IsNotTold) {
+  FlowOptions options;
+  options.extremesAt = {1};
+  options.modelled = {0};
+  const Program g = record(2, 2, 1, [](auto t, const auto& x, const auto& p, auto& y) { y[0] = p[0] * (t - x[0]); });
+  const Tube tube =
+      Flow(drawn().first, g, options).enclose({0.0, 0.0, Interval(0.98, 1.02), Interval(1.96, 2.04)}, 3, {1.0, 3.0});
+  ASSERT_EQ(tube.why(), "");
+  EXPECT_EQ(tube.states(1).size(), 2U);
+  EXPECT_EQ(tube.statesOver(1).size(), 2U);
+  EXPECT_EQ(tube.nonlinear().size(), 4U);
+  ASSERT_NE(tube.models(), nullptr);
+  ASSERT_EQ(tube.models()->components.size(), 4U);
+  EXPECT_EQ(tube.models()->components[1].symbol, -1);
+  EXPECT_EQ(tube.models()->components[2].symbol, 0);
+  EXPECT_EQ(tube.models()->components[3].symbol, 1);
+  ASSERT_EQ(tube.extremes()[1].size(), 1U);
+  const OutputExtremes& force = tube.extremes()[1][0];
+  EXPECT_EQ(force.leastAt, (std::vector<double>{0, 0, 0.98, force.leastAt.at(3)}));
+  EXPECT_EQ(force.greatestAt, (std::vector<double>{0, 0, 1.02, force.greatestAt.at(3)}));
 }
 
 INSTANTIATE_TEST_SUITE_P(Flow, FlowOwnTimes, ::testing::ValuesIn(repeating()),
