@@ -23,15 +23,15 @@ constexpr std::size_t mostCells = 4096;  // an integrator takes at least a step 
 constexpr double beyond = 1e150;         // nothing is integrated with such numbers
 constexpr double unbounded = std::numeric_limits<double>::infinity();
 
-struct Dependence {
+struct NodeInputs {
   bool time = false, state = false;
 };
 
 /// A component of a linear system's solution counts as one that depends on states.
-std::vector<Dependence> dependences(const Program& program) {
-  std::vector<Dependence> result;
+std::vector<NodeInputs> dependences(const Program& program) {
+  std::vector<NodeInputs> result;
   for (const Node& n : program.nodes()) {
-    Dependence own{n.op == Op::time, n.op == Op::state || n.op == Op::solution};
+    NodeInputs own{n.op == Op::time, n.op == Op::state || n.op == Op::solution};
     const auto take = [&](int operand) {
       own.time = own.time || result[at(operand)].time;
       own.state = own.state || result[at(operand)].state;
@@ -45,7 +45,7 @@ std::vector<Dependence> dependences(const Program& program) {
 
 /// Products of functions of time, and elementary functions of them.
 std::vector<int> functionsOfTime(const Program& program) {
-  const std::vector<Dependence> of = dependences(program);
+  const std::vector<NodeInputs> of = dependences(program);
   std::vector<int> functions;
   for (std::size_t i = 0; i < of.size(); ++i) {
     const Node& n = program.nodes()[i];
