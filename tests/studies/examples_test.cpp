@@ -68,7 +68,7 @@ TEST_P(Examples, ArriveTightlyWithAllSamplesInside) {
   EXPECT_FALSE(results.uncertain.empty());
   expectNestedCuts(results.fuzzy);
   // Corners and samples span hardly less than all motions do, but for those of what varies in time, of which the worst
-  // courses are hardly ever sampled: such a study is held against these, in shipped_studies_test.cpp.
+  // courses are sampled for some output times alone: such a study is held against all, in shipped_studies_test.cpp.
   if (std::ranges::none_of(study.uncertain, &UncertainQuantity::varies)) {
     constexpr double unspanned = 0.03;
     EXPECT_LE(results.comparison.maximum, study.flow.tightness + unspanned);
