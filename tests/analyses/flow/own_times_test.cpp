@@ -135,7 +135,7 @@ const std::vector<Repeating>& repeating() {
        record(2, 2, 1, [](auto, const auto& x, const auto& p, auto& y) { y[0] = 0.5 * p[0] * x[0] * x[0]; }),
        {0.0, 0.0, Interval(0.98, 1.02), Interval(1.96, 2.04)},
        20.0,
-       8,
+       128,
        true,
        1,
        8},
@@ -144,7 +144,7 @@ const std::vector<Repeating>& repeating() {
        record(2, 2, 1, [](auto t, const auto& x, const auto& p, auto& y) { y[0] = p[0] * (t - x[0]); }),
        {0.0, 0.0, Interval(0.98, 1.02), Interval(1.96, 2.04)},
        40.0,
-       2,
+       128,
        true,
        0,
        4,
@@ -168,7 +168,7 @@ const std::vector<Repeating>& repeating() {
        record(2, 2, 1, [](auto, const auto& x, const auto& p, auto& y) { y[0] = p[0] * cos(x[0]); }),
        {Interval(1.4375, 1.5625), 0.0, Interval(0.9, 1.1), Interval(0.1875, 0.25)},
        9.0,
-       4}};
+       64}};
   return all;
 }
 
