@@ -16,7 +16,7 @@ using detail::at;
 /// In units of σ.
 BoundedPolynomial FlowStepper::momentOnceTurned() const {
   BoundedPolynomial moment{turn_->when.c};
-  moment.c[0] += turn_->lag / h0_;
+  moment += {{turn_->lag / h0_}};
   return moment;
 }
 
@@ -34,9 +34,8 @@ BoundedPolynomial FlowStepper::frameAt(std::size_t i, std::size_t j, const Bound
   return composed(monomials(), u, moment);
 }
 
-/// What solutions are from m(ξ) on, for so long as until they are stopped: X_0 = x̃(m), X_{k+1} = f_a's order k along
-/// X/(k
-/// + 1), by orders of σ - m(ξ). D is X - x̃.
+/// What solutions are from m(ξ) on until they are stopped, by orders of s = σ - m(ξ), s no less than -a: X_0 = x̃(m),
+/// and X_{k+1} (k + 1) the k-th order of f_a along X. D is X - x̃, so that |D(m)| is what x̃(m) is truncated by.
 bool FlowStepper::describeSince(const FlowSet& set, const std::vector<Interval>& signs, Turn& turn) {
   constexpr std::size_t few = 4;
   const std::size_t n = at(n_), N = at(series_.count()), orders = at(m_) + 1;
@@ -85,10 +84,10 @@ bool FlowStepper::describeSince(const FlowSet& set, const std::vector<Interval>&
     const std::vector<BoundedPolynomial> rates = rateOf(own[i]), seconds = rateOf(rates), thirds = rateOf(seconds);
     turn.slopeOf.push_back(differenceOf(rates, 1, 1 / h0_));
     turn.slope.push_back(turn.slopeOf[i].norm());
-    turn.bend.push_back(differenceOf(seconds, 2, 2 / (h0_ * h0_)).norm() * (1 + 0x1p-50));
+    turn.bend.push_back(differenceOf(seconds, 2, 2 / (h0_ * h0_)).norm());  // h0 is a power of two
     double twist = 6 * turn.fromMoment[i][3].norm() / (h0_ * h0_ * h0_), power = 1;
     for (std::size_t order = 0; order < thirds.size(); ++order, power *= theta_) twist += thirds[order].norm() * power;
-    turn.twist.push_back(twist * (1 + 0x1p-48));
+    turn.twist.push_back(twist * bounds::up);
     turn.most.push_back(turn.within(i, longest));
     turn.extent.push_back(turn.within(i, longest + width(turn.moments)));
     if (!std::isfinite(turn.extent[i])) return false;
@@ -119,7 +118,9 @@ bool FlowStepper::describeSince(const FlowSet& set, const std::vector<Interval>&
   return true;
 }
 
-/// By orders of the time from `away` before m(ξ) on, as AlongStep takes it. Each is off by less than 16 roundings.
+/// By orders of the time from a before m(ξ) on, as AlongStep takes it: X(s' - a), by synthetic division. That is six
+/// steps of two roundings each; a product a c_{k+1} that cancels in order k is less than span c_{k+1}, so all that is
+/// off is less than 16 roundings of Σ |c_k| span^k.
 std::vector<double> FlowStepper::statesSince(const Turn& turn) const {
   const std::size_t N = at(series_.count()), orders = at(m_) + 1;
   const double before = turn.away / h0_;
@@ -193,7 +194,8 @@ void FlowStepper::boundSoon(Turn& turn, const std::vector<Interval>& J, const st
   }
 }
 
-/// p, Ψ and what is loose at that moment of each: of those that have just turned with D and S + K (t - m(ξ)).
+/// p, Ψ and what is loose at that moment of each: of those that have just turned with D and S + K (t - m(ξ)). Where
+/// none turn, e1 holds at every time of the step.
 void FlowStepper::evaluateAt(const BoundedPolynomial& moment, FlowPoint& point) const {
   const std::size_t n = at(n_), N = at(series_.count()), NJ = at(series_.frameCount()), orders = at(m_) + 1;
   const Turn* const turn = turn_ ? &*turn_ : nullptr;
@@ -317,6 +319,7 @@ bool FlowStepper::findMeeting(const std::vector<double>& weights) {
     after += left * left;
   }
   if (!(after < gain * gain * before)) return false;
+  // Within the step: from (1 - 1/64 - 0.9) θ to (1 - 1/64) θ.
   meeting_.c[0] = theta_ * (1 - 0x1p-6) - share * spread;
   for (int l = 0; l < symbols; ++l)
     if (const int g = monomials().linear(l); g >= 0) meeting_.c[detail::at(g)] = share * moments[detail::at(l)];

@@ -462,11 +462,11 @@ void FlowFollower::collect(const FlowPiece& piece, const OwnCell& cell, const Ow
     }
     BoundedPolynomial x = composed(monomials, u, when.moment);
     x.c.resize(at(monomialCount_), 0.0);
-    double rate = 0, power = 1;  // |dx/dσ|
+    double rate = 0, power = 1;  // |dx/dσ|, so that x is no farther than around max|dx/dσ| from what it is at `moment`
     const double farthest = (when.moment.norm() + when.around) * bounds::up;
     for (std::size_t order = 1; order < u.size() && when.around > 0; ++order, power *= farthest)
       rate += static_cast<double>(order) * u[order].norm() * power;
-    x.error += when.around * rate * (1 + 0x1p-40);
+    x.error += when.around * rate * bounds::up;
     point_.p.insert(point_.p.end(), x.c.begin(), x.c.end());
     point_.radius.push_back((x.error + stepper.radiusOver(static_cast<int>(i), hasTurned)) * bounds::up);
   }

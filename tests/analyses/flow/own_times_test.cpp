@@ -18,6 +18,7 @@ struct Repeating {
   double belt = 1;
   int events = 20;     // more than so many, of all trajectories
   Program timed = {};  // f with time as its last state, where it depends on time; else none
+  double budget = 0;   // if not 0: of the flow, so small that it is in time for its pieces at times of their own alone
 };
 
 /// f(t, x, p) of two states and two parameters; and with t as a third state.
@@ -135,20 +136,23 @@ const std::vector<Repeating>& repeating() {
        record(2, 2, 1, [](auto, const auto& x, const auto& p, auto& y) { y[0] = 0.5 * p[0] * x[0] * x[0]; }),
        {0.0, 0.0, Interval(0.98, 1.02), Interval(1.96, 2.04)},
        20.0,
-       128,
+       6,
        true,
        1,
-       8},
+       8,
+       {},
+       4},
       {"aBlockDrawnByASpring",
        drawn().first,
        record(2, 2, 1, [](auto t, const auto& x, const auto& p, auto& y) { y[0] = p[0] * (t - x[0]); }),
        {0.0, 0.0, Interval(0.98, 1.02), Interval(1.96, 2.04)},
        40.0,
-       128,
+       2,
        true,
        0,
        4,
-       drawn().second},
+       drawn().second,
+       8},
       {"aRelayThatIsShaken",
        shaken().first,
        noOutputs(2, 2),
@@ -168,7 +172,12 @@ const std::vector<Repeating>& repeating() {
        record(2, 2, 1, [](auto, const auto& x, const auto& p, auto& y) { y[0] = p[0] * cos(x[0]); }),
        {Interval(1.4375, 1.5625), 0.0, Interval(0.9, 1.1), Interval(0.1875, 0.25)},
        9.0,
-       64}};
+       4,
+       false,
+       1,
+       20,
+       {},
+       4}};
   return all;
 }
 
@@ -185,6 +194,7 @@ TEST_P(FlowOwnTimes, HoldTrajectories) {
     level.push_back(Interval(midpoint(x)) + Interval(0.25) * (x - Interval(midpoint(x))));
   c.levels = {level};
   c.horizon = machine.horizon;
+  if (machine.budget > 0) c.options.budget = machine.budget;
   for (int i = 1; i < 32; ++i) c.times.push_back(machine.horizon * i / 32);
   const bool isTimed = machine.timed.states() > 0;
   const Program& reference = isTimed ? machine.timed : machine.f;
