@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <map>
 #include <optional>
 #include <utility>
@@ -23,9 +24,8 @@ FlowPart halfOf(FlowPart part, std::size_t symbol, double side) {
   return part;
 }
 
-SurrogatePart halfOf(const SurrogatePart& part, int symbol, double side) {
+SurrogatePart halfOf(const SurrogatePart& part, int symbol, double side, const PolynomialRange& tables) {
   SurrogatePart half{halfOf(part.part, at(symbol), side), part.monomials, {}};
-  const PolynomialRange tables(part.monomials);
   for (const OutputModel& model : part.outputs) {
     OutputModel& own = half.outputs.emplace_back(OutputModel{std::vector<double>(model.c.size()), 0, model.bound});
     double norm = 0;
@@ -114,7 +114,9 @@ class Projection {
   std::map<const Monomials*, Layout> layouts_;
 };
 
-/// Cells that tile the box, each with what is known of it.
+/// Cells that tile the box, each with what is known of it. Alternatives that are cut in different symbols would make
+/// about as many cells as the product of their parts' numbers: of those that come too late to be divided further, each
+/// in one part at least, hulls tell.
 class Tiling {
  public:
   Tiling(std::vector<SurrogatePart> parts, bool areAlternatives)
@@ -122,46 +124,56 @@ class Tiling {
 
   std::vector<SurrogatePart> tiles(int symbols) {
     if (parts_.empty()) return {};
-    std::vector<std::size_t> all;
-    for (std::size_t i = 0; i < parts_.size(); ++i) all.push_back(i);
-    divide({std::vector<double>(at(symbols), 0.0), std::vector<double>(at(symbols), 1.0)}, all);
+    const std::size_t most = 1024 + 16 * parts_.size();
+    Cell whole{{std::vector<double>(at(symbols), 0.0), std::vector<double>(at(symbols), 1.0)}, {}};
+    for (std::size_t i = 0; i < parts_.size(); ++i) whole.near.push_back(i);
+    for (std::deque<Cell> cells{std::move(whole)}; !cells.empty(); cells.pop_front())
+      divide(cells.front(), tiles_.size() + cells.size() > most, cells);
     return std::move(tiles_);
   }
 
  private:
-  void divide(const FlowPart& cell, const std::vector<std::size_t>& among) {
+  struct Cell {
+    FlowPart part;
+    std::vector<std::size_t> near;  // the numbers of parts that may meet it
+  };
+
+  void divide(const Cell& cell, bool isLate, std::deque<Cell>& halves) {
     std::vector<std::size_t> near;
-    for (const std::size_t i : among)
-      if (meet(parts_[i].part, cell)) near.push_back(i);
+    for (const std::size_t i : cell.near)
+      if (meet(parts_[i].part, cell.part)) near.push_back(i);
     if (near.empty()) {  // nothing is known of it
-      tiles_.push_back({cell, parts_.front().monomials, {}});
+      tiles_.push_back({cell.part, parts_.front().monomials, {}});
       tiles_.back().outputs.assign(parts_.front().outputs.size(), {{}, 0, Interval::entire()});
       return;
     }
-    const auto holds = [&](std::size_t i) { return isInside(cell, parts_[i].part); };
-    if (areAlternatives_ ? std::ranges::all_of(near, holds) : std::ranges::any_of(near, holds)) {
-      if (!areAlternatives_) near = {*std::ranges::find_if(near, holds)};
-      tiles_.push_back(all(cell, near));
+    const auto holds = [&](std::size_t i) { return isInside(cell.part, parts_[i].part); };
+    const auto holding = std::ranges::find_if(near, holds);
+    if (areAlternatives_ && !isLate ? std::ranges::all_of(near, holds) : holding != near.end()) {
+      if (!areAlternatives_) near = {*holding};
+      if (isLate) std::iter_swap(near.begin(), holding);  // it covers all of the cell, and others a part
+      tiles_.push_back(all(cell.part, near));
       return;
     }
-    for (std::size_t l = 0; l < cell.half.size(); ++l)
+    for (std::size_t l = 0; l < cell.part.half.size(); ++l)
       for (const std::size_t i : near)
-        if (parts_[i].part.half[l] < cell.half[l]) {
-          for (const double side : {-0.5, 0.5}) divide(halfOf(cell, l, side), near);
+        if (parts_[i].part.half[l] < cell.part.half[l]) {
+          for (const double side : {-0.5, 0.5}) halves.push_back({halfOf(cell.part, l, side), near});
           return;
         }
   }
 
-  /// What holds whichever of them is so.
-  SurrogatePart all(const FlowPart& cell, const std::vector<std::size_t>& numbers) const {
+  /// What holds whichever of them is so. The first one holds the cell.
+  SurrogatePart all(const FlowPart& cell, const std::vector<std::size_t>& numbers) {
     SurrogatePart tile = onCell(parts_[numbers.front()], cell);
     for (std::size_t i = 1; i < numbers.size(); ++i) {
-      const SurrogatePart other = onCell(parts_[numbers[i]], cell);
+      const bool isSmaller = !isInside(cell, parts_[numbers[i]].part);
+      const SurrogatePart other = isSmaller ? parts_[numbers[i]] : onCell(parts_[numbers[i]], cell);
       for (std::size_t o = 0; o < tile.outputs.size(); ++o) {
         OutputModel& model = tile.outputs[o];
         const OutputModel& more = other.outputs[o];
         model.bound = hull(model.bound, more.bound);
-        if (other.monomials != tile.monomials || more.c.empty() || model.c.empty()) {
+        if (isSmaller || other.monomials != tile.monomials || more.c.empty() || model.c.empty()) {
           model.c.clear();
           continue;
         }
@@ -175,25 +187,28 @@ class Tiling {
     return tile;
   }
 
-  static SurrogatePart onCell(SurrogatePart part, const FlowPart& cell) {
+  SurrogatePart onCell(SurrogatePart part, const FlowPart& cell) {
+    const PolynomialRange& tables = tables_.try_emplace(part.monomials.get(), part.monomials).first->second;
     for (std::size_t l = 0; l < cell.half.size(); ++l)
       while (part.part.half[l] > cell.half[l])
-        part = halfOf(part, static_cast<int>(l), cell.centre[l] > part.part.centre[l] ? 0.5 : -0.5);
+        part = halfOf(part, static_cast<int>(l), cell.centre[l] > part.part.centre[l] ? 0.5 : -0.5, tables);
     return part;
   }
 
   std::vector<SurrogatePart> parts_;
   bool areAlternatives_;
   std::vector<SurrogatePart> tiles_;
+  std::map<const Monomials*, PolynomialRange> tables_;
 };
 
 }  // namespace
 
-Surrogate surrogateOf(const FlowModels& models, const std::vector<int>& components, std::size_t from,
-                      std::size_t until) {
+Surrogate surrogateOf(const FlowModels& models, const std::vector<int>& components, std::size_t from, std::size_t until,
+                      const std::atomic<bool>* cancelled) {
   Projection projection(models, components);
   Surrogate surrogate{projection.quantities(), projection.symbols(), {}, {}};
   for (std::size_t row = 0; row < models.at.size() && until <= models.modelled; ++row) {
+    if (cancelled != nullptr && *cancelled) break;
     bool areAlternatives = models.areAlternatives;
     std::vector<SurrogatePart> parts;
     for (const auto& snapshot : models.at[row]) {

@@ -2,6 +2,7 @@
 // sensitivities and samples are computed from, instead of integrating again.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <memory>
 #include <vector>
@@ -26,8 +27,8 @@ struct Surrogate {
 };
 
 /// Of the outputs numbered `from` … until-1 in the models; `components`: of the box, one a quantity. What depends on
-/// other symbols counts as error. Empty at the rows of which there are no models.
-Surrogate surrogateOf(const FlowModels& models, const std::vector<int>& components, std::size_t from,
-                      std::size_t until);
+/// other symbols counts as error. Of the rows of which there are models, until `cancelled`, if not null, is set.
+Surrogate surrogateOf(const FlowModels& models, const std::vector<int>& components, std::size_t from, std::size_t until,
+                      const std::atomic<bool>* cancelled = nullptr);
 
 }  // namespace gamut

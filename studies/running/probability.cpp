@@ -145,7 +145,7 @@ class Probabilities {
 
   void take(const FlowModels& models) {
     const std::size_t margins = marginOutputs(run_.study).size();
-    surrogate_ = surrogateOf(models, components_, margins, margins + outputs_.size());
+    surrogate_ = surrogateOf(models, components_, margins, margins + outputs_.size(), run_.watch.stop());
     meetEnclosure();
     measureNegligible(surrogate_);
   }

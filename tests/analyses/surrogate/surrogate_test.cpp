@@ -100,6 +100,56 @@ TEST(Surrogate, IsOfAllPartsInAnyOrderOfQuantities) {
   expectHolds(decay, tube.times(), surrogateOf(doubtful, {3, 0, 2, 1}, 0, 3), {3, 0, 2, 1}, {2, 0, 1});
 }
 
+/// Strips across one symbol, across another, across a third: cells that lie in one of each would be 2 million.
+TEST(Surrogate, IsOfFewCellsWhereAlternativesAreCutInDifferentSymbols) {
+  constexpr int strips = 128, symbols = 3;
+  FlowModels models;
+  const auto monomials = std::make_shared<const Monomials>(std::vector<int>(symbols, 1), 1);
+  for (int q = 0; q < symbols; ++q) models.components.push_back({0, 1, q});
+  models.symbols = symbols;
+  models.modelled = 1;
+  models.areAlternatives = true;
+  models.at.resize(1);
+  // The first symbol's strips say ξ_0 + ξ_1 + ξ_2, others as much and 1, or 2.
+  for (int across = 0; across < symbols; ++across)
+    for (int i = 0; i < strips; ++i) {
+      FlowSnapshot snapshot{0, {{0, 0, 0}, {1, 1, 1}}, monomials, {}, ""};
+      const auto l = static_cast<std::size_t>(across);
+      snapshot.part.half[l] = 1.0 / strips;
+      snapshot.part.centre[l] = (2 * i + 1.0) / strips - 1;
+      OutputModel model{{snapshot.part.centre[l] + across, 0, 0, 0}, 0, {}};
+      for (int g = 1; g < monomials->count(); ++g)
+        for (int m = 0; m < symbols; ++m)
+          if (monomials->exponent(g, m) == 1)
+            model.c[static_cast<std::size_t>(g)] = snapshot.part.half[static_cast<std::size_t>(m)];
+      const double reach = 2 + 1.0 / strips;
+      model.bound = Interval(model.c[0] - reach, model.c[0] + reach);
+      snapshot.outputs = {model};
+      models.at[0].push_back(std::make_shared<const FlowSnapshot>(snapshot));
+    }
+  const Surrogate surrogate = surrogateOf(models, {0, 1, 2}, 0, 1);
+  ASSERT_EQ(surrogate.at.size(), 1U);
+  EXPECT_LT(surrogate.at[0].size(), 20000U);
+  std::mt19937_64 engine(5);
+  std::uniform_real_distribution<double> anywhere(-1, 1);
+  for (int trial = 0; trial < 300; ++trial) {
+    const std::vector<double> xi{anywhere(engine), anywhere(engine), anywhere(engine)};
+    int found = 0;
+    for (const SurrogatePart& tile : surrogate.at[0]) {
+      bool isHere = true;
+      for (std::size_t l = 0; l < xi.size(); ++l)
+        isHere = isHere && std::fabs(xi[l] - tile.part.centre[l]) <= tile.part.half[l];
+      if (!isHere) continue;
+      ++found;
+      const OutputModel& model = tile.outputs[0];
+      const double sum = xi[0] + xi[1] + xi[2];
+      EXPECT_TRUE(contains(model.bound, sum) && contains(model.bound, sum + 2));
+      EXPECT_LT(width(model.bound), 9);
+    }
+    EXPECT_GE(found, 1);
+  }
+}
+
 /// Parts that meet where the value is 0: |x|, of x that is 0 too.
 TEST(SurrogateEvaluator, SettlesValuesWherePartsMeet) {
   PackedSurrogate packed;
