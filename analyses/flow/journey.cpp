@@ -27,7 +27,8 @@ constexpr double expandedAt = 1e-6;  // a remainder, relative to its state, that
 
 Interval without(const Interval& bound, double excess) {
   const double lower = bound.lower() + excess, upper = bound.upper() - excess;
-  return lower <= upper ? Interval(lower, upper) : Interval(midpoint(bound));
+  if (lower <= upper) return {lower, upper};
+  return Interval(isCommon(bound) ? midpoint(bound) : std::clamp(0.0, bound.lower(), bound.upper()));
 }
 
 void joinHulls(std::vector<Interval>& into, const std::vector<Interval>& from) {

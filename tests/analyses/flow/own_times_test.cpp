@@ -1,6 +1,9 @@
 // Wide sets whose solutions turn again and again, until some are a cycle or more ahead of others: trajectories whose
 // events are located in 128 bits must lie inside, exactly, at output times, between them, in levels and models, and one
 // piece or a few are enough.
+#include <limits>
+
+#include "analyses/flow/journey.hpp"
 #include "tests/analyses/event_reference.hpp"
 #include "tests/analyses/flow/containment.hpp"
 #include "tests/analyses/sliding_reference.hpp"
@@ -218,6 +221,18 @@ TEST_P(FlowOwnTimes, HoldTrajectories) {
   ASSERT_EQ(judge.tube().why(), "");
   judge.judge(8);
   EXPECT_GT(machine.sticks ? sliding.events : passing.events, machine.events);
+}
+
+TEST(FlowCore, IsAPointOfWhatIsLostInExcess) {
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  EXPECT_TRUE(isEqual(without(Interval(1, 4), 1), Interval(2, 3)));
+  EXPECT_TRUE(isEqual(without(Interval(1, 4), 2), Interval(2.5)));
+  for (const Interval& unbounded : {Interval::entire(), Interval(2, infinite), Interval(-infinite, -2)})
+    for (const double excess : {1.0, infinite}) {
+      const Interval core = without(unbounded, excess);
+      EXPECT_TRUE(isSubset(core, unbounded));
+      EXPECT_TRUE(excess == 1 || isThin(core));
+    }
 }
 
 /// Time is a state on the way, but none of those that were asked for.
