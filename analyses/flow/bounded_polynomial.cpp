@@ -45,6 +45,17 @@ BoundedPolynomial& BoundedPolynomial::operator*=(double factor) {
 
 /// A coefficient of N products has 2N roundings at most. Dropped are the products whose grades add up to more than the
 /// degree.
+Interval rangeOf(const Monomials& monomials, const BoundedPolynomial& a) {
+  Interval sum = Interval(a.c.empty() ? 0.0 : a.c[0]) + Interval(-a.error, a.error);
+  for (std::size_t g = 1; g < a.c.size(); ++g) {
+    bool isSquare = true;
+    for (int l = 0; l < monomials.symbols(); ++l)
+      isSquare = isSquare && monomials.exponent(static_cast<int>(g), l) % 2 == 0;
+    sum += Interval(a.c[g]) * Interval(isSquare ? 0.0 : -1.0, 1.0);
+  }
+  return sum;
+}
+
 BoundedPolynomial product(const Monomials& monomials, const BoundedPolynomial& a, const BoundedPolynomial& b) {
   BoundedPolynomial result{std::vector<double>(at(monomials.count()), 0.0)};
   const auto of = [](const BoundedPolynomial& x, int g) { return at(g) < x.c.size() ? x.c[at(g)] : 0.0; };

@@ -21,6 +21,9 @@ struct BoundedPolynomial {
   BoundedPolynomial& operator*=(double factor);
 };
 
+/// For ξ in [-1,1]^k: squares are none below zero.
+Interval rangeOf(const Monomials& monomials, const BoundedPolynomial& a);
+
 /// a b, of all monomials; of what these do not hold, the bound.
 BoundedPolynomial product(const Monomials& monomials, const BoundedPolynomial& a, const BoundedPolynomial& b);
 

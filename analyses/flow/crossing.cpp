@@ -2,6 +2,7 @@
 // and so is what the other side makes of it from then on. Derivations: docs/flow.md, section 7.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "analyses/flow/bounded_polynomial.hpp"
@@ -86,20 +87,22 @@ Box FlowStepper::boxAtStart(const FlowSet& set) const {
 }
 
 FlowStepper::Look FlowStepper::lookAtKinks(const FlowSet& set, double& h, double smallest, double left) {
-  if (passing_ != none) {
+  Box box;
+  for (int i = 0; i < n_; ++i) box.push_back(series_.rangeOf(i, y_[at(i)]));
+  std::vector<Interval> u, uAtStart, rates;
+  const Interval began(set.t);
+  kinks_->bound(began + Interval(0.0, h), box, set.parameters, u, kinkRates_);
+  if (passing_ != none && contains(u[passing_], 0.0)) {
     const Look look = turn_ ? Look::released : lookAtPassage(set, h, smallest);
     if (look == Look::released) {  // known better otherwise
       passing_ = none;
-      mayPass_ = isTurnMixed_ = false;
+      mayPass_ = std::exchange(isPassingAssumed_, false);
+      isTurnMixed_ = false;
       lift_.clear();
       return Look::unsided;
     }
     if (look != Look::goOn) return look;
   }
-  Box box;
-  for (int i = 0; i < n_; ++i) box.push_back(series_.rangeOf(i, y_[at(i)]));
-  std::vector<Interval> u, uAtStart, rates;
-  const Interval began(set.t);
   kinks_->bound(began, boxAtStart(set), set.parameters, uAtStart, rates);
   std::vector<JumpBound> bounds, atStart;
   for (std::size_t k = 0; k < kinks_->count(); ++k) {
@@ -108,6 +111,16 @@ FlowStepper::Look FlowStepper::lookAtKinks(const FlowSet& set, double& h, double
     bound.up = bound.down = rates[k];
   }
   kinks_->bound(began + Interval(0.0, h), box, set.parameters, u, kinkRates_);
+  // On their side before any has left it, solutions are those of the step, which do not.
+  bool isLeft = false;
+  for (std::size_t k = 0; k < kinkSides_.size(); ++k) {
+    if (kinkSides_[k] == 0 || k == passing_ || !contains(u[k], 0.0)) continue;
+    const Interval over = atStart[k].start + Interval(0.0, h) * kinkRates_[k];
+    if (isCommon(over) && !contains(over, 0.0)) continue;
+    kinkSides_[k] = 0;
+    isLeft = true;
+  }
+  if (isLeft) return Look::unsided;
   double longer = h;
   bool isNew = false;
   for (std::size_t k = 0; k < kinks_->count(); ++k) {
@@ -116,7 +129,8 @@ FlowStepper::Look FlowStepper::lookAtKinks(const FlowSet& set, double& h, double
     bound.over = u[k];
     bound.up = bound.down = kinkRates_[k];
   }
-  if (passing_ != none) bounds[passing_] = atStart[passing_] = {};
+  for (std::size_t k = 0; k < kinkSides_.size(); ++k)
+    if (k == passing_ || kinkSides_[k] != 0) bounds[k] = atStart[k] = {};
   const double longest = longestToCross(bounds, atStart, h, smallest);
   if (longest < 0.99 * h && h > smallest) {
     h = std::max(longest, smallest);
@@ -131,7 +145,7 @@ FlowStepper::Look FlowStepper::lookAtKinks(const FlowSet& set, double& h, double
     return Look::longer;
   }
   for (std::size_t k = 0; k < kinks_->count(); ++k) {
-    if (k == passing_) continue;
+    if (k == passing_ || (!kinkSides_.empty() && kinkSides_[k] != 0)) continue;
     // Those that move away stay on their side, or do not come so far.
     const Interval over = bounds[k].start + Interval(0.0, h) * kinkRates_[k];
     if (!contains(u[k], 0.0) || contains(bounds[k].start, 0.0) || !isCommon(over)) continue;

@@ -231,7 +231,7 @@ StepOutcome FlowFollower::certify(const FlowPiece& piece, bool stops) {
     tool_->stepper.setStops(stops);
     const StepOutcome outcome =
         tool_->stepper.certify(piece.set, end, task_.quantum, uncertain ? task_.shares : SplitShares{});
-    hasTriedTurn_ = hasTriedTurn_ || tool_->stepper.hasTriedTurn();
+    hasTriedTurn_ = hasTriedTurn_ || tool_->stepper.hasTriedTurn() || tool_->stepper.meetsKinks();
     hasLostTurn_ = hasLostTurn_ || tool_->stepper.hasLostTurn();
     const bool isMixed = tool_->stepper.isTurnMixed() && !tool_->stepper.hasTurned();
     isTurnMixed_ = isTurnMixed_ || isMixed;
@@ -279,6 +279,7 @@ std::unique_ptr<FlowFollower::Tools> FlowFollower::toolsFor(const FlowPiece& pie
   tools->stepper.setStateNames(options.stateNames);
   tools->stepper.setScales(task_.scales);
   tools->stepper.setMayStop(task_.mayGoOwnWays);
+  tools->stepper.setMayStopEarly(task_.stopsEarly);
   tools->stepper.setTime(task_.horizon, task_.quantum,
                          held.empty() ? task_.timeKinks : TimeKinks(motion, task_.horizon, task_.quantum));
   if (task_.jumps.count() > 0)

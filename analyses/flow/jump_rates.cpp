@@ -77,7 +77,11 @@ AlongStep::AlongStep(const Program& g, std::shared_ptr<const Monomials> monomial
                      double resolution, const std::atomic<bool>* cancelled)
     : orders_(order + 1),
       series_(g, g.outputs(), std::move(monomials), 0, order + 1, false, cancelled),
-      timeKinks_(g, length, resolution) {}
+      timeKinks_(g, length, resolution) {
+  for (std::size_t i = 0; i < g.nodes().size(); ++i)
+    if (g.nodes()[i].op == Op::abs)
+      if (auto form = linearFormOf(g, g.nodes()[i].a)) kinks_.emplace_back(static_cast<int>(i), std::move(*form));
+}
 
 JumpRates::JumpRates(const FlowJumps& jumps, std::shared_ptr<const Monomials> monomials, int order, double length,
                      double resolution, const std::atomic<bool>* cancelled)
@@ -114,6 +118,9 @@ void AlongStep::compute(double t0, double scale, double theta, const std::vector
   for (std::size_t i = 0; i < all.size(); ++i) series_.setParameter(static_cast<int>(i), all[i]);
   series_.forgetCrossings();
   timeKinks_.giveSides(all, t0, t0 + theta * scale, series_);
+  for (const auto& [node, form] : kinks_)
+    for (const auto& [u, side] : sides_)
+      if (isSameForm(form, *u)) series_.giveSide(node, side);
   series_.compute(t0, scale);
 }
 

@@ -4,11 +4,13 @@
 
 #include <atomic>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "analyses/flow/jumps.hpp"
 #include "analyses/flow/polynomial_series.hpp"
 #include "analyses/flow/time_kinks.hpp"
+#include "scalars/program/linear_form.hpp"
 
 namespace gamut {
 
@@ -20,6 +22,8 @@ class AlongStep {
   AlongStep(const Program& g, std::shared_ptr<const Monomials> monomials, int order, double length, double resolution,
             const std::atomic<bool>* cancelled);
 
+  /// From now on these are taken to be on these sides (1, -1) of zero: |u| is ±u wherever they are. They must live on.
+  void takeSides(std::vector<std::pair<const LinearForm*, double>> sides) { sides_ = std::move(sides); }
   /// Composes it with the step's `states`, x̃(σ, ξ) for σ = (t - t0)/scale in [0, θ], |x - x̃| ≤ tube. Signs are anything
   /// in `signs`. False if nothing could be proved.
   bool load(const PolynomialSeries& states, double t0, double scale, double theta,
@@ -47,6 +51,8 @@ class AlongStep {
   int orders_;
   PolynomialSeries series_;
   TimeKinks timeKinks_;
+  std::vector<std::pair<int, LinearForm>> kinks_;  // |u|, u
+  std::vector<std::pair<const LinearForm*, double>> sides_;
   double theta_ = 0;
 };
 

@@ -298,6 +298,7 @@ bool FlowStepper::loadRates(JumpRates& rates, const FlowSet& set, double h, cons
                             const std::vector<double>& tube) {
   std::vector<Interval> signs;
   for (const JumpBound& bound : bounds) signs.push_back(bound.sign);
+  takeKinkSides(rates, passingFrom_);
   return rates.load(series_, set.t, h0_, h / h0_, set.parameters, signs, tube);
 }
 

@@ -505,6 +505,7 @@ StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum,
   unsettled_ = set.unsettledUntil > set.t ? set.unsettled : std::vector<double>{};
   mayTurn_ = mayPass_ = unsettled_.empty();
   passing_ = none;
+  isPassingAssumed_ = false;
   hasLostTurn_ = isTurnMixed_ = false;
   turnSymbol_ = -1;
   ownBounds_.clear();
@@ -520,8 +521,12 @@ StepOutcome FlowStepper::certify(const FlowSet& set, double end, double quantum,
     for (std::size_t j = 0; j < sides_.size(); ++j)
       if (sides_[j] != 0) series_.giveSide(series_.jumps()[j], sides_[j]);
     if (passing_ != none) series_.giveSide(kinks_->node(passing_), passingFrom_);
+    for (std::size_t k = 0; k < kinkSides_.size(); ++k)
+      if (kinkSides_[k] != 0) series_.giveSide(kinks_->node(k), kinkSides_[k]);
   };
   assumeSides(set);
+  kinkSides_.clear();
+  if (kinks_) assumeKinks(set);
   forgetCrossings();
   const auto onGrid = [&](double h) { return std::floor(h / quantum) * quantum; };
   const double smallest = 1024 * quantum;  // below this, time itself is too coarse

@@ -134,10 +134,14 @@ class FlowStepper {
   void setTime(double length, double resolution, TimeKinks kinks);
   /// Whether solutions may be stopped once they have turned.
   void setMayStop(bool mayStop) { mayStop_ = mayStop; }
+  /// Whether they may from a first turn on: what kinks do is assumed then.
+  void setMayStopEarly(bool may) { mayStopEarly_ = may; }
   /// Whether they have to be: then nothing is proved of what follows, and moments may be far apart.
   void setStops(bool stops) { stops_ = stops; }
   /// Whether a turn was looked at in the last step, or some pass a kink.
   bool hasTriedTurn() const { return turnTries_ > 0 || !crossings_.empty(); }
+  /// Whether a kink may have come to zero, and f has one of a surface at which it does not jump.
+  bool meetsKinks() const;
   void setStateNames(const std::vector<std::string>& names) { names_ = names; }
   /// Steps are relative to no less than a share of these. Null: they are not known.
   void setScales(std::shared_ptr<const FlowScales> scales) { scales_ = std::move(scales); }
@@ -303,6 +307,8 @@ class FlowStepper {
                       std::span<const SideRates> known = {});
   Interval argumentAtStart(const FlowSet& set, std::size_t own) const;
   void assumeSides(const FlowSet& set);
+  void assumeKinks(const FlowSet& set);
+  void takeKinkSides(AlongStep& along, double ofPassing) const;
   bool staysOnSides(const FlowSet& set, const Box& box) const;
   double longestOnSides(double h) const;
   bool loadRates(JumpRates& rates, const FlowSet& set, double h, const std::vector<JumpBound>& bounds,
@@ -338,6 +344,7 @@ class FlowStepper {
     const RestingJumps* lifts = nullptr;      // the pair that is released, of which `jump` is the speed's
     const LinearForm* form = nullptr;
     BoundedPolynomial when{};                         // m(ξ), in units of σ
+    double needed = 0;                                // s, so long a step holds all m(ξ)
     double away = 0;                                  // how far these are from each other at most
     double beyond = 0;                                // the guard at the start, if above zero
     std::vector<std::vector<BoundedPolynomial>> D{};  // of each state, by orders of σ
@@ -465,7 +472,9 @@ class FlowStepper {
   std::map<std::tuple<std::size_t, bool, TurnKind>, std::unique_ptr<FlowTurn>> turns_;
   std::map<std::pair<std::size_t, bool>, std::unique_ptr<FlowTurn>> passages_;  // of kinks, from above or not
   std::optional<Turn> turn_;                                                    // of this step
-  std::size_t passing_ = none;  // the kink that all solutions pass as a turn, from the side passingFrom_
+  bool isPassingAssumed_ = false;  // from the step's start on, whether any comes so far or not
+  std::vector<double> kinkSides_;  // 1 or -1: taken to stay there
+  std::size_t passing_ = none;     // the kink that all solutions pass as a turn, from the side passingFrom_
   double passingFrom_ = 0;
   bool mayPass_ = true;            // so, in this step
   std::vector<double> heldTube_;   // before it
@@ -474,7 +483,7 @@ class FlowStepper {
   bool isLiftOfSurface_ = false;
   double beyondLast_ = 0;  // how much longer the step is than until the last has turned, s; 0: not known yet
   bool mayTurn_ = true;    // in this step
-  bool mayStop_ = false, stops_ = false;
+  bool mayStop_ = false, mayStopEarly_ = false, stops_ = false;
   BoundedPolynomial meeting_;  // when solutions are nearest to each other, in units of σ
   bool hasLostTurn_ = false, isTurnMixed_ = false;
   bool leavesOnceTurned_ = false;  // another side, before the step's end

@@ -36,17 +36,6 @@ Program turnOf(Recorder& recorder, const std::vector<int>& after, int guard, int
   return recorder.finish(outputs);
 }
 
-/// Parameters that only one of them knows have no part in it.
-bool isSameForm(const LinearForm& a, const LinearForm& b) {
-  const std::size_t common = std::min(a.parameters.size(), b.parameters.size());
-  const auto isZero = [](double coefficient) { return coefficient == 0; };
-  return a.states == b.states && isEqual(a.constant, b.constant) &&
-         std::equal(a.parameters.begin(), a.parameters.begin() + static_cast<std::ptrdiff_t>(common),
-                    b.parameters.begin()) &&
-         std::all_of(a.parameters.begin() + static_cast<std::ptrdiff_t>(common), a.parameters.end(), isZero) &&
-         std::all_of(b.parameters.begin() + static_cast<std::ptrdiff_t>(common), b.parameters.end(), isZero);
-}
-
 /// Outputs of jumps.given, where this sign is one or the other.
 std::vector<int> outputsOn(Recorder& recorder, const FlowJumps& jumps, std::size_t jump, double sign) {
   const Program& given = jumps.given;

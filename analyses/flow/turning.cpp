@@ -251,6 +251,55 @@ bool FlowStepper::mayPassAsTurn(std::size_t kink) const {
   return true;
 }
 
+bool FlowStepper::meetsKinks() const {
+  if (!kinks_ || !series_.hasKinks()) return false;
+  const auto jumpsWith = [&](const LinearForm& kink) {
+    return own_ && std::ranges::any_of(own_->jumps().forms, [&](const std::optional<LinearForm>& form) {
+             return form && signOfRatio(*form, kink) != 0;
+           });
+  };
+  for (std::size_t k = 0; k < kinks_->count(); ++k)
+    if (!jumpsWith(kinks_->form(k))) return true;
+  return false;
+}
+
+/// Where solutions may be at times of their own from a first turn on, the step takes what moves away from zero at first
+/// to be on its side until its end, and finds whether it is: |u| is ±u, which is smooth. If they are stopped in this
+/// step, also the one that comes to zero first, if any: until it is there, and as a turn from then on, however far the
+/// step goes.
+void FlowStepper::assumeKinks(const FlowSet& set) {
+  kinkSides_.assign(kinks_->count(), 0.0);
+  if (!mayStopEarly_) return;
+  countAsGenerators([&] { totalRadius(set, total_); });
+  std::vector<Interval> u, rates;
+  kinks_->bound(Interval(set.t), boxAtStart(set), set.parameters, u, rates);
+  double first = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < kinks_->count(); ++k) {
+    const Interval start = argumentOf(set, kinks_->form(k), total_, &monomials());
+    const int from = start.lower() > 0 ? 1 : start.upper() < 0 ? -1 : 0;
+    if (from == 0 || !isCommon(rates[k])) continue;
+    const double nearest = from > 0 ? start.lower() : -start.upper();
+    const double fastest = from > 0 ? -rates[k].lower() : rates[k].upper();
+    if (!(fastest > 0)) kinkSides_[k] = from;
+    if (!stops_ || !(fastest > 0) || !(nearest / fastest < first) || !mayPassAsTurn(k)) continue;
+    first = nearest / fastest;
+    passing_ = k;
+    passingFrom_ = from;
+    isPassingAssumed_ = true;
+  }
+}
+
+/// What the step takes of kinks, for what is composed with its polynomials; of the one that is passed `ofPassing`, 0:
+/// nothing.
+void FlowStepper::takeKinkSides(AlongStep& along, double ofPassing) const {
+  std::vector<std::pair<const LinearForm*, double>> sides;
+  for (std::size_t k = 0; k < kinkSides_.size(); ++k) {
+    const double side = k == passing_ ? ofPassing : kinkSides_[k];
+    if (side != 0) sides.emplace_back(&kinks_->form(k), side);
+  }
+  along.takeSides(std::move(sides));
+}
+
 /// Likewise, whether they pass the kink.
 FlowStepper::Look FlowStepper::lookAtPassage(const FlowSet& set, double& h, double smallest) {
   std::vector<Interval> signs;
@@ -270,6 +319,7 @@ FlowStepper::Look FlowStepper::lookAtPassage(const FlowSet& set, double& h, doub
         all[k] = Interval(factor_[k]) * signs[at(left_[k])];
   }
   FlowTurn* const of = passageFor(passing_, passingFrom_);
+  takeKinkSides(*of, 0);
   if (!of->load(series_, set.t, h0_, h / h0_, set.parameters, signs, heldTube_)) return Look::released;
   if (of->over(of->guard(), 0, h / h0_).upper() < 0) return Look::goOn;  // none of them comes so far
   const Look look =
@@ -290,6 +340,7 @@ bool FlowStepper::stayOnceTurned(const FlowSet& set, Turn& turn, const std::vect
   if (!own_ || areSidesClear_) return true;
   std::vector<Interval> signs;
   for (const int jump : series_.jumps()) signs.emplace_back(series_.series(jump)[0]);
+  takeKinkSides(*ownRates_, turn.jump == none ? -passingFrom_ : 0);  // from their moments on
   if (!ownRates_->load(states, set.t, h0_, turn.fromMoment.empty() ? theta_ : turn.span, set.parameters, signs, tube))
     return false;
   turn.besides.assign(signs.size(), Interval::entire());
@@ -391,6 +442,7 @@ FlowStepper::Look FlowStepper::lookAtTurn(const FlowSet& set, double& h, double 
   if (!inputs_.empty() || ++turnTries_ > 3 * mostTries) return Look::released;
   // Until it turns, a solution is one of those before: inside their tube.
   FlowTurn& of = *turn.of;
+  takeKinkSides(of, 0);
   if (!of.load(series_, set.t, h0_, h / h0_, set.parameters, signs, heldTube_)) return Look::released;
   const auto over = [&](int output, double from, double to) { return of.over(output, from / h0_, to / h0_); };
   const auto guardAt = [&](double seconds) { return over(of.guard(), seconds, seconds); };
@@ -425,7 +477,15 @@ FlowStepper::Look FlowStepper::lookAtTurn(const FlowSet& set, double& h, double 
   h_ = h;
   theta_ = h / h0_;
   turn.moments = Interval(first, last);
-  if (!describeTurn(set, signs, turn) || !holdUntilTurned(set, turn)) return Look::released;
+  turn.needed = 0;
+  if (!describeTurn(set, signs, turn)) {
+    if (!(turn.needed > slack * h) || !(turn.needed < 2 * h) || turn.needed > reach_ || ++lengthened_ > mostTries)
+      return Look::released;
+    beyondLast_ = turn.needed - last;
+    h = turn.needed;
+    return Look::longer;
+  }
+  if (!holdUntilTurned(set, turn)) return Look::released;
   if (lift_.empty()) {
     for (const double most : turn.most) lift_.push_back(longer * most + bounds::tiny);
     isLiftOfSurface_ = turn.arrives() || turn.passesJump();
@@ -501,24 +561,35 @@ bool FlowStepper::describeTurn(const FlowSet& set, const std::vector<Interval>& 
     turnSymbol_ = l;
   }
   turn.when = root.x;
-  const Interval moments = hull(inflated(Interval(root.x.c[0]), root.x.variation()), turn.moments / Interval(h0_));
+  const Interval range = rangeOf(monomials(), root.x), moments = hull(range, turn.moments / Interval(h0_));
+  turn.needed = range.upper() * h0_;
   if (!isBounded(moments) || magnitude(moments) > theta_) return false;
   const int node = of.series().outputNode(of.guard());
-  double slope = 0;
+  const double first = of.series().derivativeNorm(node, 1, theta_),
+               second = of.series().derivativeNorm(node, 2, theta_);
+  const double roundings = static_cast<double>(2 * orders + rate[0].c.size()) * bounds::unit * first;
+  double slope = 0;  // over all moments
   for (std::size_t g = 0; g < rate[0].c.size(); ++g) {
     double sum = 0;
     for (std::size_t order = orders; order-- > 1;)
       sum = sum * midpoint(moments) + static_cast<double>(order) * rate[order].c[g];
     slope = g == 0 ? sum : slope - std::fabs(sum);
   }
-  slope -=
-      0.5 * width(moments) * of.series().derivativeNorm(node, 2, theta_) +
-      static_cast<double>(2 * orders + rate[0].c.size()) * bounds::unit * of.series().derivativeNorm(node, 1, theta_);
+  slope -= 0.5 * width(moments) * second + roundings;
   slope *= bounds::down / h0_;
-  if (!(slope > 0)) return false;
-  // Those that are beyond it at the start turn there.
-  turn.beyond = std::max(0.0, of.over(of.guard(), 0, 0).upper());
-  turn.away = (root.rest + restOf(of, of.guard()) + turn.beyond) * bounds::up / slope * bounds::up;
+  turn.beyond = std::max(0.0, of.over(of.guard(), 0, 0).upper());  // those turn at the start
+  const double off = (root.rest + restOf(of, of.guard()) + turn.beyond) * bounds::up;
+  if (!(slope > 0)) {
+    // Within `away` of each m(ξ) alone: g is above zero after that and below before, so that a solution's own moment,
+    // which is in the step, and after which g rises, is no farther.
+    const BoundedPolynomial there = composed(monomials(), rateOf(rate, h0_), turn.when);
+    const double least =
+        there.c[0] * bounds::down - (there.variation() + there.error + roundings / h0_) * (bounds::up * bounds::up);
+    slope = least - 2 * off / least * second / (h0_ * h0_) * (bounds::up * bounds::up);
+    constexpr double near = 0.25;  // of the step, so that derivatives are bounded wherever they are asked for
+    if (!(least > 0 && slope > 0.5 * least && off < slope * near * h_)) return false;
+  }
+  turn.away = off / slope * bounds::up;
   turn.moments = inflated(turn.moments, turn.away);
   if (!of.rebound(nullptr)) return false;
   turn.rest = (root.rest + restOf(of, of.guard())) * bounds::up;
@@ -773,6 +844,7 @@ bool FlowStepper::proveTurn(const FlowSet& set, const std::vector<Interval>& sig
   // The defect.
   const std::vector<double> states = stops ? statesSince(turn) : statesWith(turn);
   const double from = stops ? 0.0 : first / h0_, theta = stops ? turn.span : theta_;
+  takeKinkSides(of, 0);
   if (!of.load(states, set.t, h0_, theta, set.parameters, signs, std::vector<double>(n, 0.0))) return false;
   if (!turnFrameWith(set, signs, turn)) return false;
   const double since = (longest + turn.away) * bounds::up;  // m(ξ)

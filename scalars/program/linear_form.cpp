@@ -100,6 +100,16 @@ std::vector<std::pair<std::size_t, int>> statesThatFollow(const std::vector<cons
   return result;
 }
 
+bool isSameForm(const LinearForm& a, const LinearForm& b) {
+  const std::size_t common = std::min(a.parameters.size(), b.parameters.size());
+  const auto isZero = [](double coefficient) { return coefficient == 0; };
+  return a.states == b.states && isEqual(a.constant, b.constant) &&
+         std::equal(a.parameters.begin(), a.parameters.begin() + static_cast<std::ptrdiff_t>(common),
+                    b.parameters.begin()) &&
+         std::all_of(a.parameters.begin() + static_cast<std::ptrdiff_t>(common), a.parameters.end(), isZero) &&
+         std::all_of(b.parameters.begin() + static_cast<std::ptrdiff_t>(common), b.parameters.end(), isZero);
+}
+
 double signOfRatio(const LinearForm& a, const LinearForm& b) {
   const double ofA = a.states[at(b.pivot)], ofB = b.states[at(b.pivot)];
   const auto isSame = [&](const Interval& x, const Interval& y) {  // x/ofA = y/ofB

@@ -25,6 +25,9 @@ std::optional<LinearForm> linearFormOf(const Program& f, int node);
 /// of them, {form, i} one after the other, those of few states first; ratios c_j/c_i are exact. Some may have none.
 std::vector<std::pair<std::size_t, int>> statesThatFollow(const std::vector<const LinearForm*>& forms);
 
+/// Parameters that only one of them knows must have no part in it.
+bool isSameForm(const LinearForm& a, const LinearForm& b);
+
 /// Whether a = c·b with c ≠ 0, seen without rounding: its sign, 1 or -1; 0 if not.
 double signOfRatio(const LinearForm& a, const LinearForm& b);
 

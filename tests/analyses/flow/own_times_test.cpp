@@ -70,6 +70,22 @@ Program heightAndEnergy(double unit) {
   });
 }
 
+/// What teeth with the play p[0] on either side press with.
+const auto tooth = [](const auto& x, const auto& p) {
+  const auto ahead = x[0] - x[1] - p[0], behind = x[1] - x[0] - p[0];
+  return 100.0 * (ahead + abs(ahead)) - 100.0 * (behind + abs(behind)) + 0.5 * (x[2] - x[3]);
+};
+
+/// Two masses with play between them, one drawn to 1, the other with friction p[1].
+Program playBetweenTwo() {
+  return record(4, 2, [](auto, const auto& x, const auto& p, auto& dx) {
+    dx[0] = x[2];
+    dx[1] = x[3];
+    dx[2] = 2.0 * (4.0 * (1.0 - x[0]) - 0.5 * x[2] - tooth(x, p));
+    dx[3] = tooth(x, p) - p[1] * sign(x[3]);
+  });
+}
+
 Program noOutputs(int states, int parameters) {
   return record(states, parameters, 0, [](auto, const auto&, const auto&, auto&) {});
 }
@@ -180,7 +196,18 @@ const std::vector<Repeating>& repeating() {
        1,
        20,
        {},
-       4}};
+       4},
+      {"aPlayThatIsTakenUp",
+       playBetweenTwo(),
+       record(4, 2, 1, [](auto, const auto& x, const auto& p, auto& y) { y[0] = tooth(x, p); }),
+       {0.0, 0.0, 0.5, 0.25, Interval(0.0625, 0.1875), Interval(0.1875, 0.3125)},
+       0.5,
+       5,
+       false,
+       1,
+       4,
+       {},
+       2}};
   return all;
 }
 
