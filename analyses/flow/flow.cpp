@@ -211,7 +211,7 @@ bool hasTimeKinks(const FlowFormulation& formulation, double horizon) {
 /// their own from the first turn on that no step holds; and `plain` again, if that ended for want of work alone.
 Tube inStages(const FlowFormulation& plain, const FlowFormulation& own, const FlowOptions& options, FlowBudget& budget,
               const Box& box, double horizon, const std::vector<double>& outputTimes, const std::vector<Box>& levels) {
-  constexpr double firstShare = 0.125, mostAtFirst = 2.5 * Work::perSecond;
+  constexpr double firstShare = 0.125, mostAtFirst = 4 * Work::perSecond;
   const auto within = [&](double work, const FlowFormulation& formulation, bool stopsEarly) {
     FlowBudget part{work};
     Tube tube = answer(formulation, options, part, box, horizon, outputTimes, levels, stopsEarly);
