@@ -43,8 +43,6 @@ BoundedPolynomial& BoundedPolynomial::operator*=(double factor) {
   return *this;
 }
 
-/// A coefficient of N products has 2N roundings at most. Dropped are the products whose grades add up to more than the
-/// degree.
 Interval rangeOf(const Monomials& monomials, const BoundedPolynomial& a) {
   Interval sum = Interval(a.c.empty() ? 0.0 : a.c[0]) + Interval(-a.error, a.error);
   for (std::size_t g = 1; g < a.c.size(); ++g) {
@@ -56,6 +54,8 @@ Interval rangeOf(const Monomials& monomials, const BoundedPolynomial& a) {
   return sum;
 }
 
+/// A coefficient of N products has 2N roundings at most. Dropped are the products whose grades add up to more than the
+/// degree.
 BoundedPolynomial product(const Monomials& monomials, const BoundedPolynomial& a, const BoundedPolynomial& b) {
   BoundedPolynomial result{std::vector<double>(at(monomials.count()), 0.0)};
   const auto of = [](const BoundedPolynomial& x, int g) { return at(g) < x.c.size() ? x.c[at(g)] : 0.0; };

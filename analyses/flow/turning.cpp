@@ -585,7 +585,7 @@ bool FlowStepper::describeTurn(const FlowSet& set, const std::vector<Interval>& 
     const BoundedPolynomial there = composed(monomials(), rateOf(rate, h0_), turn.when);
     const double least =
         there.c[0] * bounds::down - (there.variation() + there.error + roundings / h0_) * (bounds::up * bounds::up);
-    slope = least - 2 * off / least * second / (h0_ * h0_) * (bounds::up * bounds::up);
+    slope = (least - 2 * off / least * second / (h0_ * h0_) * (bounds::up * bounds::up)) * bounds::down;
     constexpr double near = 0.25;  // of the step, so that derivatives are bounded wherever they are asked for
     if (!(least > 0 && slope > 0.5 * least && off < slope * near * h_)) return false;
   }
