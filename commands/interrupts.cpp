@@ -63,9 +63,11 @@ void endOnInterrupt() {
 }
 
 void noteInterrupts() {
-  ::signal(SIGPIPE, SIG_IGN);  // what nobody reads any more must not cost what was computed
   sayOnInterrupt("interrupted again; nothing was written");
   handleAll(false);
+  // What nobody reads any more must not cost what was computed. Last: whoever sees it ignored knows that interrupts are
+  // noted.
+  ::signal(SIGPIPE, SIG_IGN);
 }
 
 void sayOnInterrupt(const std::string& line) {
