@@ -69,7 +69,10 @@ FlowJourney FlowFollower::follow(FlowPiece& piece, double end, double allowed) {
     if (meets) outcome = StepOutcome::stepped;
     if ((hasLostTurn_ || isTurnMixed_) && uncertain && !piece.isTurnLost) {
       constexpr double leastHalf = 0x1p-3;  // it may be that only smaller parts turn as one, or none does
-      if (!isTurnMixed_ && piece.layout + 1 < task_.degrees) {
+      constexpr int many = 128;  // with moments of its own, a turn that few terms do not tell is rather told in parts
+      const bool mayRise = piece.layout + 1 < task_.degrees &&
+                           (!task_.stopsEarly || task_.layouts[piece.layout + 1].monomials->count() <= many);
+      if (!isTurnMixed_ && mayRise) {
         changeLayout(piece, piece.layout + 1);
         continue;
       }
