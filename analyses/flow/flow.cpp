@@ -207,29 +207,31 @@ bool hasTimeKinks(const FlowFormulation& formulation, double horizon) {
                               [&](const Program* f) { return TimeKinks(*f, horizon, resolution).isNone(); });
 }
 
-/// `plain` for a part of what may be spent; where that does not come to the horizon, `own`, with solutions at times of
-/// their own from the first turn on that no step holds; and `plain` again, if that ended for want of work alone.
+/// `plain` for a part of what may be spent, or until it falls into many pieces; where that does not come to the
+/// horizon, `own`, with solutions at times of their own from the first turn on that no step holds; and `plain` again,
+/// if that ended for want of work alone.
 Tube inStages(const FlowFormulation& plain, const FlowFormulation& own, const FlowOptions& options, FlowBudget& budget,
               const Box& box, double horizon, const std::vector<double>& outputTimes, const std::vector<Box>& levels) {
   constexpr double firstShare = 0.125, mostAtFirst = 4 * Work::perSecond;
-  const auto within = [&](double work, const FlowFormulation& formulation, bool stopsEarly) {
-    FlowBudget part{work};
+  constexpr std::size_t mostPiecesAtFirst = 32;
+  const auto within = [&](FlowBudget part, const FlowFormulation& formulation, bool stopsEarly) {
     Tube tube = answer(formulation, options, part, box, horizon, outputTimes, levels, stopsEarly);
     if (formulation.hasClock) FlowRun::dropStates(tube, plain.states);
     budget.spent += part.spent;
     return std::pair(std::move(tube), part.left() > 0);
   };
   const auto isCancelled = [&] { return options.cancelled != nullptr && options.cancelled->load(); };
-  auto [tube, isDone] = within(std::min(firstShare * budget.limit, mostAtFirst), plain, false);
+  auto [tube, isDone] = within(
+      {.limit = std::min(firstShare * budget.limit, mostAtFirst), .mostPieces = mostPiecesAtFirst}, plain, false);
   if (isCancelled() || (isDone && tube.reached() == horizon)) return std::move(tube);
   bool isWhole = false;
   if (tube.reached() < horizon) {
-    auto [other, isOther] = within(isDone ? budget.left() : 0.5 * budget.left(), own, true);
+    auto [other, isOther] = within({.limit = isDone ? budget.left() : 0.5 * budget.left()}, own, true);
     isWhole = isOther && other.reached() == horizon;
     tube = FlowRun::meet(std::move(tube), std::move(other));
   }
   if (isDone || isWhole || isCancelled()) return std::move(tube);
-  return FlowRun::meet(std::move(tube), within(budget.left(), plain, false).first);
+  return FlowRun::meet(std::move(tube), within({.limit = budget.left()}, plain, false).first);
 }
 
 }  // namespace

@@ -141,6 +141,7 @@ void FlowRun::endTurn() {
     }
   }
   all_ = std::move(left);
+  task_.budget.heed(all_.size());
   thinModels();
   if (all_.empty() || task_.budget.left() > 0) return;
   overBudget_ = stop_ = true;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -21,8 +22,12 @@ namespace gamut {
 struct FlowBudget {
   double limit;
   double spent = 0;
+  std::size_t mostPieces = std::numeric_limits<std::size_t>::max();  ///< at a time; with more of them all is spent
 
   double left() const { return limit - spent; }
+  void heed(std::size_t pieces) {
+    if (pieces > mostPieces) limit = spent;
+  }
 };
 
 /// What every run is of; all is referred to.
