@@ -263,7 +263,7 @@ Tube FlowRun::gather() {
   Tube tube;
   tube.times_ = task_.times;
   tube.reached_ = std::min(task_.horizon, failedAt_);
-  if (!cause_.isNone()) {
+  if (!cause_.isNone() && failedAt_ < task_.horizon) {  // at its end nothing fails: a stricter run is worth trying
     // Where not even one start comes much farther, it is no matter of what the set has become.
     constexpr double nearly = 0.9;
     const bool isOfMotion = cause_.kind == FlowCause::Kind::escape || cause_.kind == FlowCause::Kind::edge;
