@@ -681,17 +681,18 @@ int FlowFollower::chordsFor(FlowPiece& piece, const std::vector<Interval>& befor
   constexpr double little = 2e-3, hardly = 0.02, most = 32, square = 0.3, acrossKinks = 16;
   const bool knowsMore = knowsMoreByBoxes();
   double parts = 1;
-  std::vector<Interval> half;
+  std::vector<FlowSag> half;
   outputTool_->chords->sag(from, from + 0.5 * (to - from), half);
   outputTool_->chords->sag(from, to, sag_);
   piece.modelled.resize(task_.options.modelled.size(), Interval::empty());
   for (std::size_t k = 0; k < piece.modelled.size(); ++k) {
     const std::size_t o = at(task_.options.modelled[k]);
     piece.modelled[k] = hull(piece.modelled[k], before[o]);
-    const double extent = std::max(width(before[o]), hardly * width(piece.modelled[k] + sag_[o]));
-    if (isBounded(sag_[o]) && extent > 0 && width(half[o]) < square * width(sag_[o]))
-      parts = std::max(parts, std::sqrt(width(sag_[o]) / (little * extent)));
-    else if (knowsMore && width(sag_[o]) > little * extent)
+    const Interval sag = sag_[o].whole();
+    const double extent = std::max(width(before[o]), hardly * width(piece.modelled[k] + sag));
+    if (isBounded(sag) && extent > 0 && width(half[o].whole()) < square * width(sag))
+      parts = std::max(parts, std::sqrt(width(sag) / (little * extent)));
+    else if (knowsMore && width(sag) > little * extent)
       parts = std::max(parts, acrossKinks);
   }
   return static_cast<int>(std::ceil(std::min(parts, most)));
@@ -749,7 +750,7 @@ bool FlowFollower::record(FlowPiece& piece) {
     }
     stepper.sag(from - t0, to - t0, sag_);
     std::vector<Interval> between;
-    for (std::size_t i = 0; i < behind.size(); ++i) between.push_back(hull(before[i], behind[i]) + sag_[i]);
+    for (std::size_t i = 0; i < behind.size(); ++i) between.push_back(overChord(before[i], behind[i], sag_[i]));
     if (stepper.narrows()) stepper.narrowOver(between);
     for (std::size_t i = 0; i < between.size(); ++i) piece.over[i] = hull(piece.over[i], between[i]);
     if (outputs_) {
@@ -759,7 +760,8 @@ bool FlowFollower::record(FlowPiece& piece) {
       findBoxes(t0, Interval(from, to), between);
       std::vector<Interval> overs;
       for (std::size_t i = 0; i < behindLimits.size(); ++i) {
-        Interval over = stepper.isUnsettled() ? Interval::entire() : hull(beforeLimits[i], behindLimits[i]) + sag_[i];
+        Interval over =
+            stepper.isUnsettled() ? Interval::entire() : overChord(beforeLimits[i], behindLimits[i], sag_[i]);
         if (knowsMore || !isBounded(over)) {
           const Interval wherever = overBoxes(static_cast<int>(i));
           over = isBounded(over) ? intersection(over, wherever) : wherever;
@@ -770,7 +772,7 @@ bool FlowFollower::record(FlowPiece& piece) {
       if (beforeModel && behindModel && piece.next < times.size() && !task_.options.modelled.empty()) {
         FlowChord chord{{piece.set.centre, piece.set.half}, beforeModel, behindModel, {}, {}};
         for (const int o : task_.options.modelled) {
-          chord.sag.push_back(stepper.isUnsettled() ? Interval::entire() : sag_[at(o)]);
+          chord.sag.push_back(stepper.isUnsettled() ? Interval::entire() : sag_[at(o)].whole());
           chord.bound.push_back(overs[at(o)]);
         }
         run_.countChord();

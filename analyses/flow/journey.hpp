@@ -218,7 +218,7 @@ class FlowFollower {
   Box parameterBox_;                  // ranges of those of the piece
   std::vector<SignBox> boxes_;
   Box whole_;
-  std::vector<Interval> sag_;
+  std::vector<FlowSag> sag_;
   std::vector<Interval> outputLimits_;            // of `enclose` too: the outputs, and their limits where they jump
   std::vector<OutputExtremes> extremes_;          // of outputs that are being enclosed; none unless they are wanted
   std::vector<Interval> stateCore_, outputCore_;  // bounds of `enclose` without what remainder and range add at most

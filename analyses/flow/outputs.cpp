@@ -356,22 +356,22 @@ bool FlowOutputChords::loadTogether(const FlowStepper& stepper, double t0, const
   return true;
 }
 
-void FlowOutputChords::sag(double from, double to, std::vector<Interval>& bound) const {
-  bound.clear();
+void FlowOutputChords::sag(double from, double to, std::vector<FlowSag>& sags) const {
+  sags.clear();
   if (isApart_) {
     for (const FlowOutputChords& one : apart_) {
-      std::vector<Interval> own;
+      std::vector<FlowSag> own;
       one.sag(from, to, own);
-      bound.push_back(own.front());
+      sags.push_back(own.front());
     }
     return;
   }
   const double begin = (from - from_) / scale_, end = (to - from_) / scale_;
   for (int o = 0; o < outputs_; ++o)
-    bound.push_back(isBounded(o) ? inflated(series_.sag(series_.outputNode(o), begin, end, second_[at(o)],
-                                                        third_[at(o)], turn_[at(o)]),
-                                            rest_[at(o)])
-                                 : Interval::entire());
+    sags.push_back(isBounded(o) ? FlowSag{series_.sag(series_.outputNode(o), begin, end, second_[at(o)], third_[at(o)],
+                                                      turn_[at(o)]),
+                                          rest_[at(o)]}
+                                : FlowSag{Interval::entire(), 0});
 }
 
 }  // namespace gamut

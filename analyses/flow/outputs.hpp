@@ -73,9 +73,9 @@ class FlowOutputChords {
   /// Composes g with a part, in seconds from its start, of the step that `stepper` certified last from t0: what cannot
   /// be proved of a polynomial over all of the step may be over a part.
   void load(const FlowStepper& stepper, double t0, const std::vector<Embedded>& parameters, double from, double to);
-  /// How far every output leaves the hull of its enclosures at two moments of what was loaded, in seconds from the
-  /// step's start, between them; the whole line where nothing could be proved.
-  void sag(double from, double to, std::vector<Interval>& bound) const;
+  /// How far every output leaves its chord between two moments of what was loaded, in seconds from the step's start; it
+  /// bends the whole line where nothing could be proved.
+  void sag(double from, double to, std::vector<FlowSag>& sags) const;
   bool isBounded(int output) const { return rest(output) < std::numeric_limits<double>::infinity(); }
   /// What of the sag no shorter time makes less; infinite where nothing could be proved.
   double rest(int output) const {

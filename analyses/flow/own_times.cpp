@@ -245,7 +245,7 @@ void FlowFollower::recordOver(FlowPiece& piece, const std::vector<std::size_t>& 
       outputs_->evaluate(at_, point_, piece.set.R, parameters_);
       piece.lastRadii = radii();
     }
-    std::vector<Interval> sag;
+    std::vector<FlowSag> sag;
     if (part > 0) {
       stepper.sag(from, to, sag);
       if (outputs_) {
@@ -264,13 +264,14 @@ void FlowFollower::recordOver(FlowPiece& piece, const std::vector<std::size_t>& 
       const std::vector<Interval> limits = outputLimits_;
       if (part > 0) {
         std::vector<Interval> between, overs;
-        for (std::size_t i = 0; i < then.size(); ++i) between.push_back(hull(before[k][i], then[i]) + sag[i]);
+        for (std::size_t i = 0; i < then.size(); ++i) between.push_back(overChord(before[k][i], then[i], sag[i]));
         if (stepper.narrows()) stepper.narrowOver(between);
         if (outputs_) {
           const bool knowsMore = knowsMoreByBoxes();
           findBoxes(began, Interval(began) + Interval(from, to), between);
           for (std::size_t o = 0; o < limits.size(); ++o) {
-            Interval over = stepper.isUnsettled() ? Interval::entire() : hull(beforeLimits[k][o], limits[o]) + sag_[o];
+            Interval over =
+                stepper.isUnsettled() ? Interval::entire() : overChord(beforeLimits[k][o], limits[o], sag_[o]);
             if (knowsMore || !isBounded(over)) {
               const Interval wherever = overBoxes(static_cast<int>(o));
               over = isBounded(over) ? intersection(over, wherever) : wherever;

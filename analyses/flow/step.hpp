@@ -13,6 +13,7 @@
 
 #include "analyses/flow/bounded_polynomial.hpp"
 #include "analyses/flow/cause.hpp"
+#include "analyses/flow/chord.hpp"
 #include "analyses/flow/growth.hpp"
 #include "analyses/flow/held_signs.hpp"
 #include "analyses/flow/inputs.hpp"
@@ -173,9 +174,10 @@ class FlowStepper {
   /// and over all of it (JumpBound). Nothing is told of those held.
   std::vector<SignCases> signsAfter(double seconds, std::size_t count, std::optional<Interval> moments = {}) const;
   std::vector<SignCases> signsOver(std::size_t count) const;
-  /// How far p + Ψ (r + Γs) leaves its chord between two moments of the step, in seconds from its start, for each
-  /// state; at the start itself that is the chord from where solutions are, whatever is known of them there.
-  void sag(double from, double to, std::vector<Interval>& bound) const;
+  /// How far solutions leave their chords between two moments of the step, in seconds from its start, for each state:
+  /// p + Ψ (r + Γs) bends, the rest is what is left over; at the start itself that is the chord from where solutions
+  /// are, whatever is known of them there.
+  void sag(double from, double to, std::vector<FlowSag>& sags) const;
   /// The step for others: x = p + Ψ (r + Γs) + loose, p and Ψ polynomials in σ ∈ [0, θ], σ = (t - set.t) / scale.
   const PolynomialSeries& series() const { return series_; }
   double scale() const { return h0_; }

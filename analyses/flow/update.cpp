@@ -257,8 +257,8 @@ void FlowStepper::boundDerivatives() {
   }
 }
 
-void FlowStepper::sag(double from, double to, std::vector<Interval>& bound) const {
-  bound.clear();
+void FlowStepper::sag(double from, double to, std::vector<FlowSag>& sags) const {
+  sags.clear();
   for (int i = 0; i < n_; ++i) {  // in σ, exactly; what is damped is no convex function of time
     double besides =
         growth_.isDamped() || growth_.isAbout() ? looseBound(i) : (driven_[at(i)] + inputs_.rest(i)) * bounds::up;
@@ -267,8 +267,7 @@ void FlowStepper::sag(double from, double to, std::vector<Interval>& bound) cons
     if (growth_.isAbout() && from == 0) besides = (besides + looseAtStart_[at(i)]) * bounds::up;
     if (!bent_.empty()) besides = (besides + bent_[at(i)]) * bounds::up;
     if (isUnsettled()) besides = (besides + 2 * unsettled_[at(i)]) * bounds::up;  // chords begin where solutions were
-    bound.push_back(
-        inflated(series_.sag(i, from / h0_, to / h0_, second_[at(i)], third_[at(i)], turning_[at(i)]), besides));
+    sags.push_back({series_.sag(i, from / h0_, to / h0_, second_[at(i)], third_[at(i)], turning_[at(i)]), besides});
   }
 }
 
