@@ -118,7 +118,7 @@ FlowJourney FlowFollower::follow(FlowPiece& piece, double end, double allowed) {
     if (stopsOnceTurned && piece.set.ahead.c.empty()) endRows(piece);
     if (meets && piece.set.ahead.c.empty()) endRows(piece);
     const bool isOwn = stopsOnceTurned || meets || !piece.set.ahead.c.empty();
-    if (!(isOwn ? recordOwnTimes(piece) : record(piece))) return FlowJourney::ended;
+    if (!(isOwn ? recordOwnTimes(piece, stopsOnceTurned) : record(piece))) return FlowJourney::ended;
     if (tool_->stepper.hasTurned()) {
       const double moment = midpoint(tool_->stepper.turnMoments());
       piece.sinceTurned = tool_->stepper.h() - moment;

@@ -180,9 +180,9 @@ class FlowFollower {
   bool meetsBeside(const FlowPiece& piece, StepOutcome outcome);
   struct OwnCell;
   struct OwnMoment;
-  bool recordOwnTimes(FlowPiece& piece);
+  bool recordOwnTimes(FlowPiece& piece, bool stopsOnceTurned);
   void recordOver(FlowPiece& piece, const std::vector<std::size_t>& rows);
-  void recordAt(FlowPiece& piece, const std::vector<std::size_t>& rows);
+  void recordAt(FlowPiece& piece, const std::vector<std::size_t>& rows, bool stopsOnceTurned);
   OwnCell wholeCell(const FlowPiece& piece) const;
   OutputTools* outputsOnSides(const FlowPiece& piece);
   OwnCell half(const OwnCell& cell, int symbol, double middle) const;

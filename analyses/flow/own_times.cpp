@@ -168,9 +168,9 @@ FlowFollower::OwnCell FlowFollower::half(const OwnCell& cell, int symbol, double
   return result;
 }
 
-/// From the first of all times of its solutions to the last; false if the piece has grown too wide. Nothing but the
-/// states depends on time.
-bool FlowFollower::recordOwnTimes(FlowPiece& piece) {
+/// From the first of all times of its solutions to the last, those that turn until they are stopped, if they are; false
+/// if the piece has grown too wide. Nothing but the states depends on time.
+bool FlowFollower::recordOwnTimes(FlowPiece& piece, bool stopsOnceTurned) {
   const double h = tool_->stepper.h(), began = piece.set.t;
   if (piece.set.ahead.c.empty()) piece.set.ahead.c.assign(at(monomialCount_), 0.0);
   const Interval times = Interval(began) + rangeOf(piece.set.ahead) + Interval(0.0, h);
@@ -184,7 +184,7 @@ bool FlowFollower::recordOwnTimes(FlowPiece& piece) {
   stateCore_ = piece.last;
   outputCore_ = outputs;
   if (!isNarrowEnough(piece, began, piece.last, outputs)) return false;
-  if (!tool_->stepper.isOpaque()) recordAt(piece, rows);
+  if (!tool_->stepper.isOpaque()) recordAt(piece, rows, stopsOnceTurned);
   return true;
 }
 
@@ -336,11 +336,12 @@ void FlowFollower::recordOver(FlowPiece& piece, const std::vector<std::size_t>& 
 }
 
 /// At the output times.
-void FlowFollower::recordAt(FlowPiece& piece, const std::vector<std::size_t>& rows) {
+void FlowFollower::recordAt(FlowPiece& piece, const std::vector<std::size_t>& rows, bool stopsOnceTurned) {
   const FlowStepper& stepper = tool_->stepper;
   const double scale = stepper.scale(), theta = stepper.h() / scale;
   const double away = stepper.hasTurned() ? stepper.turnAway() / scale * bounds::up : 0;
-  const double lag = stepper.hasTurned() ? stepper.turnLag() / scale * bounds::up : 0;
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  const double lag = stopsOnceTurned ? stepper.turnLag() / scale * bounds::up : infinite;  // else until the step's end
   constexpr double beyond = 0.5;                                     // of the step: so far its polynomials go on
   constexpr int most = 4096;                                         // parts of a piece and a time
   const double fine = symbols_ <= 2 ? 0.125 : 0.25, ofAll = 0x1p-5;  // of the step, and of all times, at turns
@@ -398,7 +399,6 @@ void FlowFollower::recordAt(FlowPiece& piece, const std::vector<std::size_t>& ro
         if (seconds.lower() < -away) turned.push_back(atMost(minus(since), away));
         if (seconds.upper() > lag) turned.push_back(atMost(since, lag));
         const BoundedPolynomial turning = cell.polynomial(cell.ahead() + 1);
-        constexpr double infinite = std::numeric_limits<double>::infinity();
         near(whenUnturned, turning, seconds, intersection(seconds, Interval(-infinite, away)));
         near(whenTurned, turning, seconds, intersection(seconds, Interval(-away, lag)));
       }

@@ -3,7 +3,10 @@
 // piece or a few are enough.
 #include <limits>
 
+#include "analyses/flow/formulation.hpp"
 #include "analyses/flow/journey.hpp"
+#include "analyses/flow/refinement.hpp"
+#include "analyses/work.hpp"
 #include "tests/analyses/event_reference.hpp"
 #include "tests/analyses/flow/containment.hpp"
 #include "tests/analyses/sliding_reference.hpp"
@@ -248,6 +251,56 @@ TEST_P(FlowOwnTimes, HoldTrajectories) {
   ASSERT_EQ(judge.tube().why(), "");
   judge.judge(8);
   EXPECT_GT(machine.sticks ? sliding.events : passing.events, machine.events);
+}
+
+/// Three masses and three plays, in moments of their own alone: in some steps solutions turn without being stopped just
+/// behind their turn, and an output time is later than that.
+TEST(FlowOwnMoments, WhatTurnsAndIsNotStoppedIsThereUntilTheStepEnds) {
+  const Program f = record(6, 4, [](auto, const auto& x, const auto& p, auto& dx) {
+    const auto play = [](const auto& u, const auto& gap) { return u + 0.5 * (abs(u - gap) - abs(u + gap)); };
+    const auto first = 6.7054115447523124 * play(x[0] - x[1], p[0]), second = p[1] * play(x[1] - x[2], p[2]),
+               third = 12.985197969018961 * play(0.5 * x[0] + 3.0 * x[1], p[0]);
+    for (std::size_t i = 0; i < 3; ++i) dx[i] = x[i + 3];
+    dx[3] = p[3] - first - 0.5 * third;
+    dx[4] = first - second - 3.0 * third;
+    dx[5] = 0.25 * second;
+  });
+  const double horizon = 2 * 0.39858068708245292;
+  const std::vector<double> times{0.0, 0.4, 0.77, 0.775, 0.78, 0.785, 0.79, 0.7925, 0.795, horizon};
+  const auto about = [](double value, double part) {
+    return Interval(value - 1.3 * part * value, value + 1.3 * part * value);
+  };
+  const Box box{-0.4197265625,
+                1.0740234375,
+                -1.1365234375,
+                -1.8725048653226257,
+                0.0,
+                0.0,
+                about(0.38837890625, 0.05),
+                about(6.7054115447523124, 0.05),
+                about(0.38837890625, 0.05),
+                about(1.5691911935195635, 0.05)};
+  const Program none = record(6, 4, 0, [](auto, const auto&, const auto&, auto&) {});
+  FlowOptions options;
+  options.order = 8;
+  FlowBudget budget{0.8 * Work::perSecond};
+  const Program differentiated = differentiatedFor(f, {});
+  double looseness = 0;
+  const Tube tube = refine({f, differentiated, none, options, horizon, times, budget, -1, true}, box, {}, looseness);
+  ASSERT_EQ(tube.reached(), horizon);
+  const Program g = record(6, 4, 6, [](auto, const auto& x, const auto&, auto& y) {
+    for (std::size_t i = 0; i < 6; ++i) y[i] = x[i];
+  });
+  for (int corner = 0; corner < 16; ++corner) {
+    std::vector<double> start;
+    for (std::size_t i = 0; i < box.size(); ++i)
+      start.push_back(i >= 6 && (corner >> (i - 6)) % 2 == 1 ? box[i].upper() : box[i].lower());
+    const PreciseTrajectory found = arbitrate({f, g, {}, times}, start);
+    ASSERT_EQ(found.times, times.size());
+    for (std::size_t row = 0; row < times.size(); ++row)
+      for (std::size_t i = 0; i < 6; ++i)
+        ASSERT_THAT(tube.states(row)[i], Encloses(found.values[row * 6 + i])) << corner << ' ' << row << ' ' << i;
+  }
 }
 
 TEST(FlowCore, IsAPointOfWhatIsLostInExcess) {
