@@ -19,8 +19,10 @@ double leastBetween(double a, double b, double bend) {
 
 }  // namespace
 
+/// A solution is above its chord less 4 s (1 - s) of what that bends downwards and the rest, and its chord is above the
+/// one between the lower ends; likewise from above.
 Interval overChord(const Interval& before, const Interval& after, const FlowSag& sag) {
-  if (!isBounded(before) || !isBounded(after) || !isBounded(sag.bend)) return hull(before, after) + sag.whole();
+  if (!isCommon(before) || !isCommon(after) || !isBounded(sag.bend)) return hull(before, after) + sag.whole();
   const double least = leastBetween(before.lower(), after.lower(), -sag.bend.lower());
   const double greatest = -leastBetween(-before.upper(), -after.upper(), sag.bend.upper());
   return inflated(Interval(least, greatest), sag.rest);

@@ -62,5 +62,20 @@ TEST(FlowChord, KnowsNothingWhereNothingIsKnown) {
   EXPECT_TRUE(isEqual(overChord(Interval(0.0), Interval(1.0), {}), Interval(0.0, 1.0)));
 }
 
+TEST(FlowChord, IsNearTheOtherMomentWhereThereAreNoSolutionsAtOne) {
+  const FlowSag sag{Interval(-0.25, 0.5), 0.25};
+  const Interval alone(1.0, 2.0), near(0.5, 2.75);
+  EXPECT_TRUE(isSubset(near, overChord(Interval::empty(), alone, sag)));
+  EXPECT_TRUE(isSubset(near, overChord(alone, Interval::empty(), sag)));
+  EXPECT_TRUE(isEmpty(overChord(Interval::empty(), Interval::empty(), sag)));
+}
+
+TEST(FlowChord, IsBoundedWhereNumbersOverflow) {
+  constexpr double most = std::numeric_limits<double>::max(), least = std::numeric_limits<double>::denorm_min();
+  EXPECT_EQ(overChord(Interval(-most), Interval(most), {Interval(-most, most), 0}).lower(),
+            -std::numeric_limits<double>::infinity());
+  EXPECT_LE(overChord(Interval(0.0), Interval(0.0), {Interval(-least, 0.0), 0}).lower(), -least);
+}
+
 }  // namespace
 }  // namespace gamut
