@@ -6,5 +6,6 @@
 #include "mechanics/element_members.hpp"
 #include "mechanics/equations/system_members.hpp"
 #include "mechanics/joints_members.hpp"
+#include "mechanics/rolling_members.hpp"
 #include "mechanics/rotation_members.hpp"
 #include "mechanics/springs_members.hpp"

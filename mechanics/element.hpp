@@ -2,11 +2,11 @@
 //
 //   position q' = φ(q),  velocity q̇' = J q̇,  acceleration q̈' = J q̈ + J̇ q̇,  force Q = Jᵀ Q'
 //
-// Every part is an Element. Of its kinds, a Transmission moves a frame, ideally: what power goes in comes out. A Gear
-// moves one joint's coordinate by another's, ideally too. A Load acts on what is moved. An Inertia (bodies.hpp) is
-// moved: nothing else states mass. A Constraint holds rows closed. A new part needs doMotion and doForce, a Constraint
-// its rows besides; derivatives for analyses come from the recorded program. A Chain is an ordered list of parts, force
-// runs through it in reverse.
+// Every part is an Element. Of its kinds, a Transmission moves a frame, ideally: what power goes in comes out. A
+// Gearing moves speeds of joints by those of others, ideally too. A Load acts on what is moved. An Inertia (bodies.hpp)
+// is moved: nothing else states mass. A Constraint holds rows closed. A new part needs doMotion and doForce, a
+// Constraint its rows besides; derivatives for analyses come from the recorded program. A Chain is an ordered list of
+// parts, force runs through it in reverse.
 #pragma once
 
 #include <array>
@@ -88,10 +88,14 @@ class Transmission : public Element<S> {
   Frame<S>& to_;
 };
 
-/// An element that moves one coordinate by another, in proportion: q' = i q + c, Q += i Q'. It stands ahead of both
-/// joints, so that motion passes on through them, and the forces of both have come in when it hands on its own.
+/// An element that moves speeds by others, ideally: u' = J u, Q += Jᵀ Q'. It stands ahead of the joints of both, so
+/// that motion passes on through them, and the forces of both have come in when it hands on its own.
 template <class S>
-class Gear final : public Element<S> {
+class Gearing : public Element<S> {};
+
+/// One coordinate by another, in proportion: q' = i q + c, Q += i Q'.
+template <class S>
+class Gear final : public Gearing<S> {
  public:
   Gear(Variable<S>& from, Variable<S>& to, S ratio, S offset)
       : from_(from), to_(to), ratio_(std::move(ratio)), offset_(std::move(offset)) {}

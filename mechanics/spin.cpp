@@ -58,6 +58,8 @@ class Spinning {
       if (auto* joint = dynamic_cast<RevoluteJoint<Recorded>*>(parts_[i].get()))
         if (!unturned_.contains(&joint->to()) && carriesInertia(joint->to()) && isSymmetric(joint->to(), joint->axis()))
           restate(i, *joint, {&joint->from(), joint->axis(), {}});
+    for (const auto& part : parts_)
+      if (const auto* axes = dynamic_cast<const BallAxes<Recorded>*>(part.get())) restate(*axes);
     Parts all;
     for (std::size_t i = 0; i < parts_.size(); ++i) {
       if (const auto ahead = ahead_.find(i); ahead != ahead_.end()) all.push_back(std::move(ahead->second));
@@ -137,6 +139,14 @@ class Spinning {
         load->moveAhead(element.to(), here.axis, *here.frame);
     unturned_.emplace(&element.to(), here);
     for (const Behind& each : behind(element.to())) restate(each.part, *each.transmission, here);
+  }
+
+  /// Bodies that are the same in all axes are fixed ahead of those of the ball, if that is all it carries.
+  void restate(const BallAxes<Recorded>& axes) {
+    const std::vector<Inertia<Recorded>*> inertias = inertiasAt(axes.to());
+    if (carriers_.contains(&axes.to()) || inertias.empty() || !isSymmetric(axes.to(), Axis(1, 1, 1))) return;
+    for (Inertia<Recorded>* inertia : inertias) static_cast<MassElement<Recorded>*>(inertia)->moveTo(axes.from());
+    unturned_.emplace(&axes.to(), Unturned<Recorded>{&axes.from(), axisZ, {}, &axes});
   }
 
   Parts& parts_;

@@ -9,8 +9,9 @@
 // In K' it is there twice, as A and Aᵀ, which only cos² + sin² = 1 takes out again: bounds do not see that.
 //
 // So it is done wherever every body behind a joint is such a body, through links along the axis and further joints
-// about it, as rotors, shafts, wheels and planets of gears are. A load on that axis may come along (load_on_axis.hpp);
-// what else is behind, loads and frames that are looked at, keeps its frames, which move as before.
+// about it, as rotors, shafts, wheels and planets of gears are; and of balls that roll (rolling.hpp), in all axes. A
+// load on that axis may come along (load_on_axis.hpp); what else is behind, loads and frames that are looked at, keeps
+// its frames, which move as before.
 #pragma once
 
 #include <deque>
@@ -21,6 +22,7 @@
 
 #include "mechanics/element.hpp"
 #include "mechanics/joints.hpp"
+#include "mechanics/rolling.hpp"
 #include "mechanics/rotation.hpp"
 
 namespace gamut {
@@ -72,15 +74,18 @@ class SpinningJoint final : public Transmission<S> {
   Axis axis_;
 };
 
-/// K° of a frame K' that spins: its axes become those of K' by turns about `axis`, by these variables and signs.
+/// K° of a frame K' that spins: its axes become those of K' by turns about `axis`, by these variables and signs; or of
+/// a ball that rolls.
 template <class S>
 struct Unturned {
   Frame<S>* frame;
   Axis axis;
   std::vector<std::pair<const Variable<S>*, double>> turns;
+  const BallAxes<S>* ball = nullptr;
 
   /// A vector of K° in the axes of K'.
   Vector3<S> turned(const Vector3<S>& x) const {
+    if (ball != nullptr) return ball->rotation().toChild(x);
     S angle(0.0);
     for (const auto& [variable, sign] : turns) angle = angle + S(sign) * variable->position;
     return Rotation<S>(axis, angle).toChild(x);

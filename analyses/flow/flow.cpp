@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "analyses/flow/formulation.hpp"
+#include "analyses/flow/needed_states.hpp"
 #include "analyses/flow/polygon_tube.hpp"
 #include "analyses/flow/refinement.hpp"
 #include "analyses/flow/run.hpp"
@@ -104,6 +105,13 @@ Flow::Flow(Program f, Program g, FlowOptions options) {
                     std::fabs(value.low) <= 0x1p-52 * std::fabs(value.high) && value.radius >= 0,
                 "a precise value needs a component of the box of its own, a low part below the high one's digits, and "
                 "a radius");
+  if (options.isOfOutputs) {
+    const std::vector<char> isNeeded = neededStates(f, std::array{g, options.aside.values});
+    f = withOthersAtRest(f, isNeeded);
+    std::erase_if(options.rests, [&](const RestingPair& pair) {
+      return isNeeded[at(pair.position)] == 0 || isNeeded[at(pair.speed)] == 0;
+    });
+  }
   FlowFormulation anyCourse(std::move(f), std::move(g), options.varying, options.aside.values);
   std::optional<FlowFormulation> ofRates;
   if (hasRates) ofRates = anyCourse.ofRates();

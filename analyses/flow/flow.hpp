@@ -77,6 +77,8 @@ struct FlowOptions {
   std::vector<PreciseValue> precise;      ///< each within its component of the box
   std::vector<RestingPair> rests;         ///< where solutions may come to rest by ever shorter turns
   FlowAside aside;                        ///< for Tube::asides
+  bool isOfOutputs = false;     ///< states that neither an output nor what is looked at besides needs stand still, so
+                                ///< that what is said of them counts for nothing
   std::vector<int> modelled;    ///< outputs of which models are kept, at output times and between, for Tube::models
   std::vector<int> modelledAt;  ///< behind these in the snapshots of output times: models at these times alone
   std::vector<std::size_t> firstAt;  ///< rows of Tube::times() at which the latter are kept first of all, rising
