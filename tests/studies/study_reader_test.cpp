@@ -971,13 +971,13 @@ constexpr BadStudy badStudies[] = {
      "that kind"},
     {"type = \"revolute\"", "type = \"revolut\"",
      "s.toml:10:8: mechanism.element.type is \"revolut\"; expected 'revolute'? (one of: revolute, prismatic, screw, "
-     "cylindrical, universal, planar, spherical, free, weld, "
+     "cylindrical, universal, planar, spherical, skate, rolling-wheel, rolling-ball, free, weld, "
      "link, mass, spring-damper, joint-spring, bushing, joint-friction, smoothed-joint-friction, joint-stop, "
      "rigid-stop, plane-contact, "
      "motor, force, joint-force, drive, table-drive, coupling, state, distance, relative-motion)"},
     {"type = \"revolute\"", "",
      "s.toml:9:1: 'mechanism.element.type' is missing; expected type = one of: revolute, prismatic, screw, "
-     "cylindrical, universal, planar, spherical, free, weld, "
+     "cylindrical, universal, planar, spherical, skate, rolling-wheel, rolling-ball, free, weld, "
      "link, mass, spring-damper, joint-spring, bushing, joint-friction, smoothed-joint-friction, joint-stop, "
      "rigid-stop, plane-contact, "
      "motor, force, joint-force, drive, table-drive, coupling, state, distance, relative-motion"},
