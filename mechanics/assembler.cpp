@@ -143,8 +143,9 @@ Rotation<S> Assembler<S>::rotation(const std::vector<FixedRotation>& rotations) 
 }
 
 template <class S>
-Orientation<S> Assembler<S>::orientation(const std::string& rateKey) {
+Orientation<S> Assembler<S>::orientation(const std::string& rateKey, RatesIn in) {
   Orientation<S> own;
+  own.in = in;
   for (std::size_t i = 0; i < 3; ++i) own.speeds[i] = &speed(rateKey + "." + components[i]);
   const auto key = [](std::size_t i) { return std::string("quaternion.") + quaternionComponents[i]; };
   for (std::size_t i = 0; i < 4; ++i) own.quaternion[i] = &values_.at(element_ + "." + key(i));

@@ -55,7 +55,7 @@ class Assembler {
   /// The element's own position that is no coordinate, with its rate as a function of the present motion.
   S& position(const std::string& key, Signal<S> rate) { return giveRate(element_ + "." + key, std::move(rate)); }
   /// The element's own orientation, with speeds of this key.
-  Orientation<S> orientation(const std::string& rateKey);
+  Orientation<S> orientation(const std::string& rateKey, RatesIn in = RatesIn::to);
   /// The element's own state, with its rate.
   S& state(Signal<S> rate) { return giveRate(element_, std::move(rate)); }
 

@@ -70,10 +70,14 @@ class MassElement final : public Inertia<S> {
   /// Whether it is known to be the same body however it is turned about this axis of `frame()`, through the origin:
   /// as formulas, whatever the values of uncertain quantities are.
   bool isKnownSymmetric(const Axis& axis) const;
+  /// The same of all axes: its centre is the origin, and its moments of inertia are one.
+  bool isKnownBall() const;
   /// Fixes it to another frame instead, with the same numbers.
   void moveTo(Frame<S>& frame) { at_ = &frame; }
 
  private:
+  bool isKnownDiagonal() const;
+
   Frame<S>* at_;
   S mass_;
   Vector3<S> centre_;

@@ -110,16 +110,21 @@ Frame<S>& MassElement<S>::frame() const {
 
 template <class S>
 bool MassElement<S>::isKnownSymmetric(const Axis& axis) const {
-  const auto areZero = [](const S& x, const S& y, const S& z) {
-    return isKnownZero(x) && isKnownZero(y) && isKnownZero(z);
-  };
-  const bool isDiagonal = areZero(inertia_(0, 1), inertia_(1, 2), inertia_(0, 2));
-  if (!axis.isAligned())  // of any axis: a ball at the origin
-    return isDiagonal && areZero(centre_[0], centre_[1], centre_[2]) && isKnownSame(inertia_(0, 0), inertia_(1, 1)) &&
-           isKnownSame(inertia_(1, 1), inertia_(2, 2));
+  if (!axis.isAligned()) return isKnownBall();
   const int i = (axis.index() + 1) % 3, j = (axis.index() + 2) % 3;
-  return isDiagonal && isKnownZero(centre_[i]) && isKnownZero(centre_[j]) &&
+  return isKnownDiagonal() && isKnownZero(centre_[i]) && isKnownZero(centre_[j]) &&
          isKnownSame(inertia_(i, i), inertia_(j, j));
+}
+
+template <class S>
+bool MassElement<S>::isKnownBall() const {
+  return isKnownDiagonal() && isKnownZero(centre_[0]) && isKnownZero(centre_[1]) && isKnownZero(centre_[2]) &&
+         isKnownSame(inertia_(0, 0), inertia_(1, 1)) && isKnownSame(inertia_(1, 1), inertia_(2, 2));
+}
+
+template <class S>
+bool MassElement<S>::isKnownDiagonal() const {
+  return isKnownZero(inertia_(0, 1)) && isKnownZero(inertia_(1, 2)) && isKnownZero(inertia_(0, 2));
 }
 
 template <class S>

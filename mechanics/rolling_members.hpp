@@ -66,22 +66,22 @@ template <class S>
 void WheelRolling<S>::doMotion(MotionLevel level) {
   using std::cos, std::sin;
   if (level != MotionLevel::acceleration) {
-    reach_ = radius_ + tread_ * S(cos(lean_.position));
-    slope_ = tread_ * S(sin(lean_.position));
+    reach_ = circle_ + crown_ * S(cos(lean_.position));
+    slope_ = crown_ * S(sin(lean_.position));
   }
   if (level == MotionLevel::position) return;
   along_.acceleration = reach_ * angle_.acceleration;
-  across_.acceleration = -(tread_ * lean_.acceleration);
+  across_.acceleration = -(crown_ * lean_.acceleration);
   if (level == MotionLevel::acceleration) return;
   along_.rate = reach_ * angle_.rate;
-  across_.rate = -(tread_ * lean_.rate);
+  across_.rate = -(crown_ * lean_.rate);
   along_.acceleration = along_.acceleration - slope_ * lean_.rate * angle_.rate;
 }
 
 template <class S>
 void WheelRolling<S>::doForce(ForceKind) {
   angle_.force += reach_ * along_.force;
-  lean_.force -= tread_ * across_.force;
+  lean_.force -= crown_ * across_.force;
 }
 
 template <class S>
@@ -94,13 +94,13 @@ void RollingBallJoint<S>::doMotion(MotionLevel level) {
     moved.r = k.r + d;
   }
   if (level == MotionLevel::position) return;
-  const Vector3<S> change(rates_[0]->acceleration, rates_[1]->acceleration, rates_[2]->acceleration);
+  const Vector3<S> change = own_.acceleration();
   moved.omegaDot = k.omegaDot + change;
   if (level == MotionLevel::acceleration) {
     moved.a = k.a + k.omegaDot.cross(d) + gliding(change);
     return;
   }
-  const Vector3<S> w = turning(), g = gliding(w);
+  const Vector3<S> w = own_.rate(), g = gliding(w);
   moved.omega = k.omega + w;
   moved.omegaDot += k.omega.cross(w);
   moved.v = k.v + k.omega.cross(d) + g;
@@ -112,20 +112,20 @@ void RollingBallJoint<S>::doForce(ForceKind) {
   const Vector3<S>&f = this->to_.f, &tau = this->to_.tau;
   this->from_.f += f;
   this->from_.tau += tau + offset().cross(f);
-  rates_[0]->force += tau[0] - radius_ * f[1];
-  rates_[1]->force += tau[1] + radius_ * f[0];
-  rates_[2]->force += tau[2];
+  own_.speeds[0]->force += tau[0] - radius_ * f[1];
+  own_.speeds[1]->force += tau[1] + radius_ * f[0];
+  own_.speeds[2]->force += tau[2];
 }
 
 template <class S>
 MovingPoint<S> RollingBallJoint<S>::inFrom(const MovingPoint<S>& point) const {
-  const Vector3<S> w = turning();
+  const Vector3<S> w = own_.rate();
   return {point.position + offset(), point.velocity + gliding(w) + w.cross(point.position)};
 }
 
 template <class S>
 TurningAxes<S> RollingBallJoint<S>::axesInFrom(const TurningAxes<S>& turning) const {
-  return {turning.axes, turning.omega + this->turning()};
+  return {turning.axes, turning.omega + own_.rate()};
 }
 
 template <class S>
@@ -138,7 +138,7 @@ void BallAxes<S>::doMotion(MotionLevel level) {
   const Frame<S>& k = this->from_;
   Frame<S>& moved = this->to_;
   if (level != MotionLevel::acceleration) {
-    rotation_ = Rotation<S>(Quaternion<S>{*quaternion_[0], *quaternion_[1], *quaternion_[2], *quaternion_[3]});
+    rotation_ = Rotation<S>(own_.value());
     moved.R = rotation_.after(k.R);
     moved.r = rotation_.toChild(k.r);
   }

@@ -58,8 +58,8 @@ class Spinning {
       if (auto* joint = dynamic_cast<RevoluteJoint<Recorded>*>(parts_[i].get()))
         if (!unturned_.contains(&joint->to()) && carriesInertia(joint->to()) && isSymmetric(joint->to(), joint->axis()))
           restate(i, *joint, {&joint->from(), joint->axis(), {}});
-    for (const auto& part : parts_)
-      if (const auto* axes = dynamic_cast<const BallAxes<Recorded>*>(part.get())) restate(*axes);
+    for (std::size_t i = 0; i < parts_.size(); ++i)
+      if (const auto* axes = dynamic_cast<const BallAxes<Recorded>*>(parts_[i].get())) restate(i, *axes);
     Parts all;
     for (std::size_t i = 0; i < parts_.size(); ++i) {
       if (const auto ahead = ahead_.find(i); ahead != ahead_.end()) all.push_back(std::move(ahead->second));
@@ -141,12 +141,19 @@ class Spinning {
     for (const Behind& each : behind(element.to())) restate(each.part, *each.transmission, here);
   }
 
-  /// Bodies that are the same in all axes are fixed ahead of those of the ball, if that is all it carries.
-  void restate(const BallAxes<Recorded>& axes) {
+  /// Bodies that are the same about all axes move in a frame of their own ahead of those of the ball, if they are all
+  /// that it carries.
+  void restate(std::size_t part, const BallAxes<Recorded>& axes) {
     const std::vector<Inertia<Recorded>*> inertias = inertiasAt(axes.to());
-    if (carriers_.contains(&axes.to()) || inertias.empty() || !isSymmetric(axes.to(), Axis(1, 1, 1))) return;
-    for (Inertia<Recorded>* inertia : inertias) static_cast<MassElement<Recorded>*>(inertia)->moveTo(axes.from());
-    unturned_.emplace(&axes.to(), Unturned<Recorded>{&axes.from(), axisZ, {}, &axes});
+    const auto isBall = [](const Inertia<Recorded>* inertia) {
+      const auto* body = dynamic_cast<const MassElement<Recorded>*>(inertia);
+      return body != nullptr && body->isKnownBall();
+    };
+    if (carriers_.contains(&axes.to()) || inertias.empty() || !std::ranges::all_of(inertias, isBall)) return;
+    Frame<Recorded>& here = frames_.emplace_back(axes.to().name);
+    ahead_[part] = std::make_unique<RigidLink<Recorded>>(axes.from(), here, zeroVector<Recorded>());
+    for (Inertia<Recorded>* inertia : inertias) static_cast<MassElement<Recorded>*>(inertia)->moveTo(here);
+    unturned_.emplace(&axes.to(), Unturned<Recorded>{&here, axisZ, {}, &axes});
   }
 
   Parts& parts_;

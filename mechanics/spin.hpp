@@ -74,8 +74,8 @@ class SpinningJoint final : public Transmission<S> {
   Axis axis_;
 };
 
-/// K° of a frame K' that spins: its axes become those of K' by turns about `axis`, by these variables and signs; or of
-/// a ball that rolls.
+/// K° of a frame K' that spins: its axes become those of K' by turns about `axis`, by these variables and signs; or, of
+/// a ball that rolls, by those of the ball.
 template <class S>
 struct Unturned {
   Frame<S>* frame;

@@ -35,12 +35,17 @@ struct Variable : Speed<S> {
   S position = S(0.0);
 };
 
-/// An orientation by a unit quaternion e with ė = ½ e ∘ (0, u): of three speeds u, the angular velocity in the axes of
-/// the frame that turns. No position of it is singular; |e| does not change, whatever u is.
+/// In whose axes an angular velocity has its components: of the frame that turns, or of that which it turns against.
+enum class RatesIn { to, from };
+
+/// An orientation by a unit quaternion e with three speeds u, the angular velocity: ė = ½ e ∘ (0, u) of those in the
+/// axes of the frame that turns, ½ (0, u) ∘ e of those in the other's. No position of it is singular; |e| does not
+/// change, whatever u is.
 template <class S>
 struct Orientation {
   Quaternion<S*> quaternion;
   std::array<Speed<S>*, 3> speeds;
+  RatesIn in = RatesIn::to;
 
   Vector3<S> rate() const { return {speeds[0]->rate, speeds[1]->rate, speeds[2]->rate}; }
   Vector3<S> acceleration() const {
@@ -49,7 +54,8 @@ struct Orientation {
   Quaternion<S> value() const { return {*quaternion[0], *quaternion[1], *quaternion[2], *quaternion[3]}; }
   S quaternionRate(std::size_t i) const {
     const Vector3<S> u = rate();
-    return S(0.5) * product(value(), Quaternion<S>{S(0.0), u[0], u[1], u[2]})[i];
+    const Quaternion<S> turning{S(0.0), u[0], u[1], u[2]};
+    return S(0.5) * (in == RatesIn::to ? product(value(), turning) : product(turning, value()))[i];
   }
 };
 

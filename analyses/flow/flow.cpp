@@ -105,7 +105,7 @@ Flow::Flow(Program f, Program g, FlowOptions options) {
                     std::fabs(value.low) <= 0x1p-52 * std::fabs(value.high) && value.radius >= 0,
                 "a precise value needs a component of the box of its own, a low part below the high one's digits, and "
                 "a radius");
-  if (options.isOfOutputs) {
+  if (options.dropsUnneeded) {
     const std::vector<char> isNeeded = neededStates(f, std::array{g, options.aside.values});
     f = withOthersAtRest(f, isNeeded);
     std::erase_if(options.rests, [&](const RestingPair& pair) {

@@ -77,8 +77,8 @@ struct FlowOptions {
   std::vector<PreciseValue> precise;      ///< each within its component of the box
   std::vector<RestingPair> rests;         ///< where solutions may come to rest by ever shorter turns
   FlowAside aside;                        ///< for Tube::asides
-  bool isOfOutputs = false;     ///< states that neither an output nor what is looked at besides needs stand still, so
-                                ///< that what is said of them counts for nothing
+  bool dropsUnneeded = false;   ///< states that neither outputs nor what is looked at besides depend on stay at their
+                                ///< initial values: Tube::states encloses nothing of them
   std::vector<int> modelled;    ///< outputs of which models are kept, at output times and between, for Tube::models
   std::vector<int> modelledAt;  ///< behind these in the snapshots of output times: models at these times alone
   std::vector<std::size_t> firstAt;  ///< rows of Tube::times() at which the latter are kept first of all, rising
@@ -133,7 +133,7 @@ class Tube {
   const std::vector<double>& times() const { return times_; }
   /// Number of output times that were reached: rows 0 … reachedTimes()-1 below exist.
   std::size_t reachedTimes() const { return states_.size(); }
-  /// States at times()[i].
+  /// States at times()[i], but for those that FlowOptions::dropsUnneeded drops.
   const std::vector<Interval>& states(std::size_t i) const { return states_[i]; }
   /// States over the whole interval [times()[i-1], times()[i]]; for i = 0 those at the start.
   const std::vector<Interval>& statesOver(std::size_t i) const { return statesOver_[i]; }

@@ -11,9 +11,10 @@ using detail::at;
 
 namespace {
 
-/// The states that this node of f depends on, but for those that are needed already, are needed now, and appended.
-void need(const Program& f, int node, std::vector<char>& isNeeded, std::vector<int>& appended) {
-  std::vector<char> isSeen(f.nodes().size(), 0);
+/// States that this node of f depends on are needed; those that were not yet are appended. `isSeen`: nodes that were
+/// looked at before.
+void need(const Program& f, int node, std::vector<char>& isSeen, std::vector<char>& isNeeded,
+          std::vector<int>& appended) {
   std::vector<int> open{node};
   while (!open.empty()) {
     const int i = open.back();
@@ -25,17 +26,21 @@ void need(const Program& f, int node, std::vector<char>& isNeeded, std::vector<i
   }
 }
 
+std::vector<char> noneSeen(const Program& program) { return std::vector<char>(program.nodes().size(), 0); }
+
 }  // namespace
 
 std::vector<char> neededStates(const Program& f, std::span<const Program> readers) {
-  std::vector<char> isNeeded(at(f.states()), 0);
+  std::vector<char> isNeeded(at(f.states()), 0), isSeen = noneSeen(f);
   std::vector<int> open;
-  for (const Program& reader : readers)
-    for (const int node : reader.outputNodes()) need(reader, node, isNeeded, open);
+  for (const Program& reader : readers) {
+    std::vector<char> isSeenThere = noneSeen(reader);
+    for (const int node : reader.outputNodes()) need(reader, node, isSeenThere, isNeeded, open);
+  }
   while (!open.empty()) {
     const int state = open.back();
     open.pop_back();
-    need(f, f.outputNodes()[at(state)], isNeeded, open);
+    need(f, f.outputNodes()[at(state)], isSeen, isNeeded, open);
   }
   return isNeeded;
 }

@@ -18,8 +18,8 @@ struct RollingBall {
       "`squared_grip` below the square of the coefficient of friction";
 
   std::string name, from, to;
-  Expression radius = 0.0;
-  // Initial values: where it touches the plane, the orientation, and the angular velocity in the axes of `from`
+  Expression radius = 0.0;  ///< m
+  // Initial values: where it touches the plane [m], the orientation, and the angular velocity in the axes of `from`
   // [rad/s].
   Expression x = 0.0, y = 0.0;
   std::vector<FixedRotation> orientation = rollPitchYaw();

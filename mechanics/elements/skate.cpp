@@ -1,7 +1,7 @@
 #include "mechanics/elements/skate.hpp"
 
 #include "mechanics/assembler.hpp"
-#include "mechanics/rolling.hpp"
+#include "mechanics/elements/touching.hpp"
 
 namespace gamut {
 
@@ -12,19 +12,16 @@ void Skate::describe(Fields& f) {
                {"speed", "m/s", "at the start: along x of `to`"}, pathRate);
   f.coordinate({"angle", "rad", "at the start: from x of `from` to that of `to`"}, angle, Coordinate::angle,
                {"angle_rate", "rad/s", "at the start"}, angleRate);
-  f.position({"x", "m", "at the start: where `to` is in `from`"}, x);
-  f.position({"y", "m", "likewise"}, y);
-  f.measureSolved({"side_force", "N", "that keeps it from slipping sideways, along y of `to`"});
+  describePlace(f, "where `to` is", x, y);
+  f.measureSolved({"lateral_force", "N", "that keeps it from slipping sideways, along y of `to`"});
 }
 
 template <class S>
 void Skate::assemble(Assembler<S>& a) const {
   Frame<S>& moved = a.frame(to);
-  Gliding<S> gliding{&a.variable("angle"), &a.variable("path")};
-  gliding.place = {&a.position("x", [gliding] { return gliding.placeRate(0); }),
-                   &a.position("y", [gliding] { return gliding.placeRate(1); })};
-  a.template add<GlidingJoint<S>>(a.frame(from), moved, gliding);
-  a.measureSolved("side_force", [&moved] { return S(-moved.f[1]); });
+  const Gliding<S> gliding{&a.variable("angle"), &a.variable("path")};
+  a.template add<GlidingJoint<S>>(a.frame(from), moved, gliding, placeOf(a, gliding));
+  a.measureSolved("lateral_force", [&moved] { return S(-moved.f[1]); });
 }
 
 GAMUT_ASSEMBLE(Skate)

@@ -14,7 +14,7 @@ struct Skate {
       "slips sideways: a skate, or a cart on an axle with two wheels, which turns about the middle of that axle";
 
   std::string name, from, to;
-  /// Initial values: the place, the direction, the path since the start, and their rates.
+  /// Initial values: place [m], direction [rad], path [m], and the rates of the last two [rad/s, m/s].
   Expression x = 0.0, y = 0.0, angle = 0.0, angleRate = 0.0, path = 0.0, pathRate = 0.0;
 
   void describe(Fields& f);

@@ -43,7 +43,7 @@ FlowOptions flowOptions(const Study& study, const Problem& problem, int jobs, co
   }
   flow.varying = problem.varying;
   flow.rests = study.motion.rests;
-  flow.isOfOutputs = true;
+  flow.dropsUnneeded = true;
   return flow;
 }
 

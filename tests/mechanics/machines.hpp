@@ -1,8 +1,11 @@
 // The machines that the mechanics tests move, and a published right-hand side to judge them by.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <random>
+#include <string>
 #include <vector>
 
 #include "mechanics/description/mechanism.hpp"
@@ -62,6 +65,12 @@ inline Mechanism spatialArm(const Interval& damping = 0.0, double hipRate = 1.1)
   return m;
 }
 
+/// Where a state stands among all; behind the last if there is none of this name.
+inline std::size_t placeOf(const Mechanism& m, const std::string& state) {
+  const std::vector<std::string> names = m.stateNames();
+  return static_cast<std::size_t>(std::ranges::find(names, state) - names.begin());
+}
+
 /// Random states of n values in [-bound, bound].
 class RandomStates {
  public:
@@ -74,5 +83,18 @@ class RandomStates {
  private:
   std::mt19937_64 engine_{2004};
 };
+
+/// Random states of a machine, with unit quaternions.
+inline std::vector<double> statesOf(const Mechanism& m, RandomStates& random, double bound = 1.5) {
+  const std::vector<std::string> names = m.stateNames();
+  std::vector<double> x = random(names.size(), bound);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (!names[i].ends_with(".quaternion.w")) continue;
+    x[i] += 2;
+    const double length = std::hypot(std::hypot(x[i], x[i + 1]), std::hypot(x[i + 2], x[i + 3]));
+    for (std::size_t k = i; k < i + 4; ++k) x[k] /= length;
+  }
+  return x;
+}
 
 }  // namespace gamut::testing

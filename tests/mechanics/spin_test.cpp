@@ -13,7 +13,9 @@
 namespace gamut {
 namespace {
 
+using testing::placeOf;
 using testing::RandomStates;
+using testing::statesOf;
 
 Expression decimal(const std::string& text) { return Expression::parse(text); }
 
@@ -97,17 +99,31 @@ Mechanism wheels(int count) {
   return m;
 }
 
+/// A ball that rolls on a plate which turns, with a body of these moments of inertia.
+Mechanism rollingBall(const std::array<Expression, 6>& inertia) {
+  Mechanism m;
+  m.add(Revolute{"hinge", "inertial", "plate", Axis(1, 2, 3)});
+  m.add(Mass{"plateBody", "plate", 2.0, {0.1, -0.2, 0.3}, {0.4, 0.5, 0.3, 0.02, -0.03, 0.05}});
+  m.add(RollingBall{"roll", "plate", "globe", 0.25});
+  m.add(Mass{"body", "globe", 0.5, {0.0, 0.0, 0.0}, inertia});
+  m.add(Mass{"core", "globe", 0.25});
+  m.setGravity({0.5, -1.0, -9.0});
+  return m;
+}
+
+Mechanism rollingBallWithLoads() {
+  Mechanism m = rollingBall({0.125, 0.125, 0.125, 0.0, 0.0, 0.0});
+  m.add(Force{"push", "globe", {1.0, 2.0, -7.0}, {0.5, 0.25, -0.5}});
+  m.add(Spring{"spring", "inertial", "globe", 20.0, 0.5, 0.25, {3.0, 2.0, 1.0}, {0.25, 0.5, 0.0}});
+  return m;
+}
+
 /// Loads on what spins: at its rim, and by how it moves.
 Mechanism wheelWithLoads() {
   Mechanism m = wheel(axisZ, aboutZ(0.25, 0.5), {0.0, 0.0, 0.125});
   m.add(Spring{"spring", "inertial", "rotor", 20.0, 0.5, 0.25, {3.0, 2.0, 1.0}, {0.25, 0.5, 0.0}});
   m.add(JointSpring{"torsion", "wheel", 4.0, 0.2, 0.1});
   return m;
-}
-
-std::size_t placeOf(const Mechanism& m, const std::string& state) {
-  const std::vector<std::string> names = m.stateNames();
-  return static_cast<std::size_t>(std::ranges::find(names, state) - names.begin());
 }
 
 /// Which states the rates of speeds are computed from.
@@ -122,25 +138,17 @@ std::vector<char> usedByAccelerations(const Mechanism& m, const Program& f) {
   return used;
 }
 
-bool holdsAngle(const Mechanism& m, Formulation formulation, const std::vector<std::string>& parameters = {}) {
+bool holdsAngle(const Mechanism& m, Formulation formulation, const std::vector<std::string>& parameters = {},
+                const std::string& angle = "wheel.angle") {
   const Program f = recordMotion(m, parameters, formulation);
-  return usedByAccelerations(m, f)[placeOf(m, "wheel.angle")] != 0;
-}
-
-std::vector<double> randomState(const Mechanism& m, RandomStates& states) {
-  std::vector<double> x = states(m.stateNames().size(), 1.5);
-  if (m.stateNames()[0] == "ball.quaternion.w") {
-    x[0] += 2;
-    const double length = std::hypot(std::hypot(x[0], x[1]), std::hypot(x[2], x[3]));
-    for (double& component : std::span(x).first(4)) component /= length;
-  }
-  return x;
+  return usedByAccelerations(m, f)[placeOf(m, angle)] != 0;
 }
 
 struct SpinningMachine {
   std::string name;
   std::function<Mechanism()> make;
   bool isFree = true;  // of the angle
+  std::string angle = "wheel.angle";
 };
 
 class Spin : public ::testing::TestWithParam<SpinningMachine> {};
@@ -148,7 +156,7 @@ class Spin : public ::testing::TestWithParam<SpinningMachine> {};
 TEST_P(Spin, IsInNoEquationWhereItChangesNothing) {
   const Mechanism m = GetParam().make();
   for (const Formulation formulation : {Formulation::sparse, Formulation::articulated})
-    EXPECT_EQ(holdsAngle(m, formulation), !GetParam().isFree);
+    EXPECT_EQ(holdsAngle(m, formulation, {}, GetParam().angle), !GetParam().isFree);
 }
 
 /// Scalars that do not record know nothing of symmetry, and turn every body.
@@ -161,7 +169,7 @@ TEST_P(Spin, ChangesNothingThatCanBeLookedAt) {
   Assembly<double> machine(m);
   RandomStates states;
   for (int round = 0; round < 4; ++round) {
-    const std::vector<double> x = randomState(m, states);
+    const std::vector<double> x = statesOf(m, states);
     machine.setState(x);
     const std::vector<double> rates = machine.rates(), a = first(0.0, x), b = second(0.0, x), values = seen(0.0, x);
     double largest = 1;
@@ -178,6 +186,17 @@ TEST_P(Spin, ChangesNothingThatCanBeLookedAt) {
 INSTANTIATE_TEST_SUITE_P(
     Of, Spin,
     ::testing::Values(
+        SpinningMachine{"aBallThatRolls",
+                        [] {
+                          return rollingBall({decimal("0.2"), decimal("0.2"), decimal("0.2"), 0.0, 0.0, 0.0});
+                        },
+                        true, "roll.quaternion.x"},
+        SpinningMachine{"aBallWithLoads", rollingBallWithLoads, false, "roll.quaternion.x"},
+        SpinningMachine{"aLopsidedBall",
+                        [] {
+                          return rollingBall({0.25, 0.125, 0.25, 0.0, 0.0, 0.0});
+                        },
+                        false, "roll.quaternion.x"},
         SpinningMachine{"aWheel",
                         [] {
                           return wheel(axisZ, aboutZ(decimal("0.2"), decimal("0.3")), {0.0, 0.0, 0.1});

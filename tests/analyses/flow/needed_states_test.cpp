@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 #include "analyses/flow/flow.hpp"
 #include "scalars/recorded.hpp"
 
@@ -42,7 +44,7 @@ TEST(NeededStates, AloneAreFollowedWhereThatIsAskedFor) {
   const std::vector<double> times = {0.5, 1.0, 1.5, 2.0};
   FlowOptions options;
   EXPECT_LT(Flow(pendulumWithOthers(), outputOf(0), options).enclose(box, 2.0, times).reached(), 1.0);
-  options.isOfOutputs = true;
+  options.dropsUnneeded = true;
   const Tube tube = Flow(pendulumWithOthers(), outputOf(0), options).enclose(box, 2.0, times);
   ASSERT_EQ(tube.reached(), 2.0) << tube.why();
   const Program alone = record(2, 1, [](auto, const auto& x, const auto& p, auto& dx) {
@@ -59,7 +61,7 @@ TEST(NeededStates, AloneAreFollowedWhereThatIsAskedFor) {
 /// What is looked at besides counts as an output, and rests of states that stand still are none.
 TEST(NeededStates, AreThoseOfAsidesToo) {
   FlowOptions options;
-  options.isOfOutputs = true;
+  options.dropsUnneeded = true;
   options.aside = {outputOf(3), {1.0}};
   options.rests = {{4, 2}};
   const Box box = {1.0, 0.0, 1.0, Interval(1.0, 2.0), 1.0, 1.0};
