@@ -16,11 +16,11 @@ using testing::placeOf;
 using testing::RandomStates;
 using testing::statesOf;
 
-constexpr double radius = 0.3, crown = 0.05, gravity = 9.0;
+constexpr double wheelRadius = 0.3, crownRadius = 0.05, fall = 9.0;
 
-class Outputs {
+class MovingOutputs {
  public:
-  Outputs(const Mechanism& mechanism, const std::vector<std::string>& names)
+  MovingOutputs(const Mechanism& mechanism, const std::vector<std::string>& names)
       : motion_(recordMotion(mechanism)),
         outputs_(recordOutputs(mechanism, {}, names)),
         rates_(recordOutputs(mechanism, {}, names).differentiated()) {}
@@ -40,46 +40,46 @@ class Outputs {
   Evaluator<double> motion_, outputs_, rates_;
 };
 
-std::vector<std::string> vector(const std::string& name) { return {name + ".x", name + ".y", name + ".z"}; }
+std::vector<std::string> componentsOf(const std::string& name) { return {name + ".x", name + ".y", name + ".z"}; }
 
-std::vector<std::string> joined(const std::vector<std::vector<std::string>>& lists) {
+std::vector<std::string> allOf(const std::vector<std::vector<std::string>>& lists) {
   std::vector<std::string> all;
   for (const auto& list : lists) all.insert(all.end(), list.begin(), list.end());
   return all;
 }
 
-using Vector = std::array<double, 3>;
-Vector cross(const Vector& a, const Vector& b) {
+using Triple = std::array<double, 3>;
+Triple crossed(const Triple& a, const Triple& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
-Vector three(const std::vector<double>& y, std::size_t from) { return {y[from], y[from + 1], y[from + 2]}; }
+Triple tripleAt(const std::vector<double>& y, std::size_t from) { return {y[from], y[from + 1], y[from + 2]}; }
 
-const std::array<Expression, 6> lopsided{0.1, 0.2, 0.25, 0.01, -0.02, 0.03};
+const std::array<Expression, 6> lopsidedInertia{0.1, 0.2, 0.25, 0.01, -0.02, 0.03};
 
 /// A wheel with a body that is not symmetric and a rider on its axle.
-Mechanism unicycle(double rounding) {
+Mechanism unicycleWith(double rounding) {
   Mechanism m;
-  m.add(RollingWheel{"wheel", "inertial", "W", radius, rounding});
-  m.add(Mass{"body", "W", 2.0, {0.02, -0.01, 0.03}, lopsided});
+  m.add(RollingWheel{"wheel", "inertial", "W", wheelRadius, rounding});
+  m.add(Mass{"body", "W", 2.0, {0.02, -0.01, 0.03}, lopsidedInertia});
   m.add(Revolute{"axle", "W", "A", axisY});
-  m.add(Mass{"rider", "A", 1.5, {0.0, 0.05, 0.4}, lopsided});
-  m.setGravity({0.0, 0.0, -gravity});
+  m.add(Mass{"rider", "A", 1.5, {0.0, 0.05, 0.4}, lopsidedInertia});
+  m.setGravity({0.0, 0.0, -fall});
   return m;
 }
 
-Mechanism ball(const std::array<Expression, 6>& inertia, bool withPendulum) {
+Mechanism ballMachine(const std::array<Expression, 6>& inertia, bool withPendulum) {
   Mechanism m;
-  m.add(RollingBall{"ball", "inertial", "B", radius});
+  m.add(RollingBall{"ball", "inertial", "B", wheelRadius});
   m.add(Mass{"body", "B", 2.0, {0.0, 0.0, 0.0}, inertia});
   if (withPendulum) {
     m.add(Revolute{"axle", "B", "A", Axis(1, 2, -2)});
-    m.add(Mass{"weight", "A", 1.5, {0.0, 0.05, -0.1}, lopsided});
+    m.add(Mass{"weight", "A", 1.5, {0.0, 0.05, -0.1}, lopsidedInertia});
   }
-  m.setGravity({0.0, 0.0, -gravity});
+  m.setGravity({0.0, 0.0, -fall});
   return m;
 }
 
-const std::array<Expression, 6> round{0.1, 0.1, 0.1, 0.0, 0.0, 0.0};
+const std::array<Expression, 6> roundInertia{0.1, 0.1, 0.1, 0.0, 0.0, 0.0};
 
 // ---- No slip --------------------------------------------------------------------------------------------------------
 
@@ -87,38 +87,38 @@ class RollingWheels : public ::testing::TestWithParam<double> {};
 
 TEST_P(RollingWheels, DoNotSlipWhereTheyTouch) {
   const double rounding = GetParam();
-  const Mechanism m = unicycle(rounding);
-  Outputs outputs(m, joined({vector("W.position"),
-                             vector("W.velocity"),
-                             vector("W.angular_velocity"),
-                             {"wheel.x", "wheel.y", "wheel.heading", "wheel.lean"}}));
-  Outputs place(m, {"wheel.x", "wheel.y", "W.position.x", "W.position.y", "W.position.z"});
+  const Mechanism m = unicycleWith(rounding);
+  MovingOutputs outputs(m, allOf({componentsOf("W.position"),
+                                  componentsOf("W.velocity"),
+                                  componentsOf("W.angular_velocity"),
+                                  {"wheel.x", "wheel.y", "wheel.heading", "wheel.lean"}}));
+  MovingOutputs place(m, {"wheel.x", "wheel.y", "W.position.x", "W.position.y", "W.position.z"});
   RandomStates random;
   for (int trial = 0; trial < 20; ++trial) {
     const std::vector<double> x = statesOf(m, random, 1.4), y = outputs.at(x), rates = place.ratesAt(x);
-    const Vector centre = three(y, 0), velocity = three(y, 3), omega = three(y, 6), touching{y[9], y[10], 0.0};
-    const Vector arm{touching[0] - centre[0], touching[1] - centre[1], touching[2] - centre[2]};
-    const Vector turned = cross(omega, arm);
+    const Triple centre = tripleAt(y, 0), velocity = tripleAt(y, 3), omega = tripleAt(y, 6), touching{y[9], y[10], 0.0};
+    const Triple arm{touching[0] - centre[0], touching[1] - centre[1], touching[2] - centre[2]};
+    const Triple turned = crossed(omega, arm);
     for (std::size_t i = 0; i < 3; ++i) {
       EXPECT_NEAR(velocity[i] + turned[i], 0.0, 1e-13);
       EXPECT_NEAR(rates[2 + i], velocity[i], 1e-13) << "positions and velocities of the centre";
     }
-    EXPECT_NEAR(centre[2], rounding + (radius - rounding) * std::cos(y[12]), 1e-15);
+    EXPECT_NEAR(centre[2], rounding + (wheelRadius - rounding) * std::cos(y[12]), 1e-15);
   }
 }
 
 TEST_P(RollingWheels, ObeyNewtonAndEuler) {
-  const Mechanism m = unicycle(GetParam());
-  Outputs motion(m, joined({vector("momentum"), vector("angular_momentum"), {"energy"}}));
-  Outputs now(m,
-              {"wheel.x", "wheel.y", "wheel.heading", "wheel.normal_force", "wheel.longitudinal_force",
-               "wheel.lateral_force", "centre_of_mass.position.x", "centre_of_mass.position.y", "wheel.squared_grip"});
+  const Mechanism m = unicycleWith(GetParam());
+  MovingOutputs motion(m, allOf({componentsOf("momentum"), componentsOf("angular_momentum"), {"energy"}}));
+  MovingOutputs now(
+      m, {"wheel.x", "wheel.y", "wheel.heading", "wheel.normal_force", "wheel.longitudinal_force",
+          "wheel.lateral_force", "centre_of_mass.position.x", "centre_of_mass.position.y", "wheel.squared_grip"});
   RandomStates random;
   for (int trial = 0; trial < 20; ++trial) {
     const std::vector<double> x = statesOf(m, random, 1.2), y = now.at(x), change = motion.ratesAt(x);
-    const double c = std::cos(y[2]), s = std::sin(y[2]), weight = 3.5 * gravity;
-    const Vector force{y[4] * c - y[5] * s, y[4] * s + y[5] * c, y[3]};
-    const Vector moment = cross({y[0], y[1], 0.0}, force), ofWeight = cross({y[6], y[7], 0.0}, {0.0, 0.0, -weight});
+    const double c = std::cos(y[2]), s = std::sin(y[2]), weight = 3.5 * fall;
+    const Triple force{y[4] * c - y[5] * s, y[4] * s + y[5] * c, y[3]};
+    const Triple moment = crossed({y[0], y[1], 0.0}, force), ofWeight = crossed({y[6], y[7], 0.0}, {0.0, 0.0, -weight});
     for (std::size_t i = 0; i < 3; ++i) {
       EXPECT_NEAR(change[i], force[i] - (i == 2 ? weight : 0.0), 1e-10);
       EXPECT_NEAR(change[3 + i], moment[i] + ofWeight[i], 1e-10);
@@ -128,7 +128,7 @@ TEST_P(RollingWheels, ObeyNewtonAndEuler) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(CrownRadii, RollingWheels, ::testing::Values(0.0, crown, 0.99 * radius));
+INSTANTIATE_TEST_SUITE_P(CrownRadii, RollingWheels, ::testing::Values(0.0, crownRadius, 0.99 * wheelRadius));
 
 /// A disc of moments A about a diameter and C about its axle, on an edge, that goes round at Ω to where it leans by θ
 /// and turns by ω against the frame that leans: what Euler's equation about the point that touches leaves of lean,
@@ -136,12 +136,13 @@ INSTANTIATE_TEST_SUITE_P(CrownRadii, RollingWheels, ::testing::Values(0.0, crown
 TEST(RollingWheelMotion, IsSteadyOnACircle) {
   constexpr double mass = 2.0, a = 0.045, c = 0.09, lean = 0.4, precession = 1.5;
   Mechanism m;
-  m.add(RollingWheel{"wheel", "inertial", "W", radius});
+  m.add(RollingWheel{"wheel", "inertial", "W", wheelRadius});
   m.add(Mass{"body", "W", mass, {0.0, 0.0, 0.0}, {a, c, a, 0.0, 0.0, 0.0}});
-  m.setGravity({0.0, 0.0, -gravity});
-  const double turn = (mass * gravity * radius * std::sin(lean) +
-                       (c + mass * radius * radius - a) * precession * precession * std::sin(lean) * std::cos(lean)) /
-                      ((c + mass * radius * radius) * precession * std::cos(lean));
+  m.setGravity({0.0, 0.0, -fall});
+  const double turn =
+      (mass * fall * wheelRadius * std::sin(lean) +
+       (c + mass * wheelRadius * wheelRadius - a) * precession * precession * std::sin(lean) * std::cos(lean)) /
+      ((c + mass * wheelRadius * wheelRadius) * precession * std::cos(lean));
   std::vector<double> x(m.stateNames().size(), 0.0);
   x[placeOf(m, "wheel.lean")] = lean;
   x[placeOf(m, "wheel.heading")] = 0.7;
@@ -153,36 +154,37 @@ TEST(RollingWheelMotion, IsSteadyOnACircle) {
 }
 
 TEST(RollingBalls, DoNotSlipWhereTheyTouch) {
-  const Mechanism m = ball(lopsided, true);
-  Outputs outputs(m, joined({vector("B.position"), vector("B.velocity"), vector("B.angular_velocity")}));
-  Outputs place(m, {"ball.x", "ball.y", "B.position.x", "B.position.y", "B.position.z"});
+  const Mechanism m = ballMachine(lopsidedInertia, true);
+  MovingOutputs outputs(
+      m, allOf({componentsOf("B.position"), componentsOf("B.velocity"), componentsOf("B.angular_velocity")}));
+  MovingOutputs place(m, {"ball.x", "ball.y", "B.position.x", "B.position.y", "B.position.z"});
   RandomStates random;
   for (int trial = 0; trial < 20; ++trial) {
     const std::vector<double> x = statesOf(m, random), y = outputs.at(x);
-    const Vector velocity = three(y, 3), turned = cross(three(y, 6), {0.0, 0.0, -radius});
+    const Triple velocity = tripleAt(y, 3), turned = crossed(tripleAt(y, 6), {0.0, 0.0, -wheelRadius});
     const std::vector<double> rates = place.ratesAt(x);
     for (std::size_t i = 0; i < 3; ++i) {
       EXPECT_NEAR(velocity[i] + turned[i], 0.0, 1e-14);
       EXPECT_NEAR(rates[2 + i], velocity[i], 1e-14);
     }
-    EXPECT_EQ(y[2], radius);
+    EXPECT_EQ(y[2], wheelRadius);
   }
 }
 
 TEST(RollingBalls, ObeyNewtonAndEuler) {
   for (const auto& [inertia, withPendulum] :
-       {std::pair{round, false}, {round, true}, {lopsided, false}, {lopsided, true}}) {
-    const Mechanism m = ball(inertia, withPendulum);
-    Outputs motion(m, joined({vector("momentum"), vector("angular_momentum"), {"energy"}}));
-    Outputs now(m, {"ball.x", "ball.y", "ball.friction.x", "ball.friction.y", "ball.normal_force",
-                    "centre_of_mass.position.x", "centre_of_mass.position.y"});
+       {std::pair{roundInertia, false}, {roundInertia, true}, {lopsidedInertia, false}, {lopsidedInertia, true}}) {
+    const Mechanism m = ballMachine(inertia, withPendulum);
+    MovingOutputs motion(m, allOf({componentsOf("momentum"), componentsOf("angular_momentum"), {"energy"}}));
+    MovingOutputs now(m, {"ball.x", "ball.y", "ball.friction.x", "ball.friction.y", "ball.normal_force",
+                          "centre_of_mass.position.x", "centre_of_mass.position.y"});
     RandomStates random;
     for (int trial = 0; trial < 10; ++trial) {
       const std::vector<double> x = statesOf(m, random);
       const std::vector<double> y = now.at(x), change = motion.ratesAt(x);
-      const double weight = (withPendulum ? 3.5 : 2.0) * gravity;
-      const Vector force = three(y, 2), moment = cross({y[0], y[1], 0.0}, force);
-      const Vector ofWeight = cross({y[5], y[6], 0.0}, {0.0, 0.0, -weight});
+      const double weight = (withPendulum ? 3.5 : 2.0) * fall;
+      const Triple force = tripleAt(y, 2), moment = crossed({y[0], y[1], 0.0}, force);
+      const Triple ofWeight = crossed({y[5], y[6], 0.0}, {0.0, 0.0, -weight});
       for (std::size_t i = 0; i < 3; ++i) {
         EXPECT_NEAR(change[i], force[i] - (i == 2 ? weight : 0.0), 1e-11);
         EXPECT_NEAR(change[3 + i], moment[i] + ofWeight[i], 1e-11);
@@ -199,11 +201,11 @@ TEST(RollingBalls, GoRoundOnATurntable) {
   Mechanism m;
   m.add(Revolute{"hinge", "inertial", "table", axisZ});
   m.add(Drive{"motor", "hinge", Expression::parse("3 rad * t/(1 s)")});
-  m.add(RollingBall{"ball", "table", "B", radius});
-  const double inertia = 0.4 * 2.0 * radius * radius;
+  m.add(RollingBall{"ball", "table", "B", wheelRadius});
+  const double inertia = 0.4 * 2.0 * wheelRadius * wheelRadius;
   m.add(Mass{"body", "B", 2.0, {0.0, 0.0, 0.0}, {inertia, inertia, inertia, 0.0, 0.0, 0.0}});
-  m.setGravity({0.0, 0.0, -gravity});
-  Outputs outputs(m, joined({vector("B.velocity"), vector("B.acceleration")}));
+  m.setGravity({0.0, 0.0, -fall});
+  MovingOutputs outputs(m, allOf({componentsOf("B.velocity"), componentsOf("B.acceleration")}));
   RandomStates random;
   for (int trial = 0; trial < 10; ++trial) {
     const std::vector<double> y = outputs.at(statesOf(m, random));
@@ -222,9 +224,9 @@ TEST(Skate, IsChaplyginsSleigh) {
   Mechanism m;
   m.add(Skate{"edge", "inertial", "S"});
   m.add(Mass{"body", "S", mass, {b, 0.0, 0.0}, {1.0, 1.0, inertia, 0.0, 0.0, 0.0}});
-  m.setGravity({0.0, 0.0, -gravity});
+  m.setGravity({0.0, 0.0, -fall});
   const Program f = recordMotion(m);
-  Outputs outputs(m, {"edge.lateral_force", "body.acceleration.x", "body.acceleration.y"});
+  MovingOutputs outputs(m, {"edge.lateral_force", "body.acceleration.x", "body.acceleration.y"});
   RandomStates random;
   for (int trial = 0; trial < 10; ++trial) {
     const std::vector<double> x = statesOf(m, random), dx = Evaluator<double>(f)(0.0, x);
@@ -250,18 +252,18 @@ TEST(Rolling, IsTheSameInBothFormulationsOnAPlaneThatMoves) {
     m.add(Prismatic{"slide", "inertial", "C", Axis(1, 2, 0)});
     m.add(Mass{"carriage", "C", 3.0});
     m.add(Revolute{"tilt", "C", "P", Axis(0, 1, 2)});
-    m.add(Mass{"plate", "P", 2.0, {0.1, 0.0, 0.2}, lopsided});
+    m.add(Mass{"plate", "P", 2.0, {0.1, 0.0, 0.2}, lopsidedInertia});
     m.add(joint);
-    m.add(Mass{"body", "B", 1.5, {0.02, 0.05, -0.04}, lopsided});
+    m.add(Mass{"body", "B", 1.5, {0.02, 0.05, -0.04}, lopsidedInertia});
     m.setGravity({0.5, -1.0, -9.0});
     return m;
   };
-  const std::vector<Described> joints = {RollingWheel{"roll", "P", "B", radius, crown},
-                                         RollingBall{"roll", "P", "B", radius}, Skate{"roll", "P", "B"}};
+  const std::vector<Described> joints = {RollingWheel{"roll", "P", "B", wheelRadius, crownRadius},
+                                         RollingBall{"roll", "P", "B", wheelRadius}, Skate{"roll", "P", "B"}};
   for (const Described& joint : joints) {
     const Mechanism m = machine(joint);
     Evaluator<double> sparse(recordMotion(m)), articulated(recordMotion(m, {}, Formulation::articulated));
-    Outputs energy(m, {"energy"});
+    MovingOutputs energy(m, {"energy"});
     RandomStates random;
     for (int trial = 0; trial < 10; ++trial) {
       const std::vector<double> x = statesOf(m, random, 1.2);
