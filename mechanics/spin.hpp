@@ -9,9 +9,9 @@
 // In K' it is there twice, as A and Aᵀ, which only cos² + sin² = 1 takes out again: bounds do not see that.
 //
 // So it is done wherever every body behind a joint is such a body, through links along the axis and further joints
-// about it, as rotors, shafts, wheels and planets of gears are; and of balls that roll (rolling.hpp), in all axes. A
-// load on that axis may come along (load_on_axis.hpp); what else is behind, loads and frames that are looked at, keeps
-// its frames, which move as before.
+// about it, as rotors, shafts, wheels and planets of gears are; and of balls that roll (rolling.hpp), about all axes.
+// A load on that axis may come along (load_on_axis.hpp); what else is behind, loads and frames that are looked at,
+// keeps its frames, which move as before.
 #pragma once
 
 #include <deque>

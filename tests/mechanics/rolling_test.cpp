@@ -275,7 +275,6 @@ TEST(Rolling, IsTheSameInBothFormulationsOnAPlaneThatMoves) {
 }
 
 TEST(Rolling, FaultsAreNamed) {
-  Mechanism m;
   const auto range = [](const Expression& number) {
     return number.evaluate<Interval>([](const std::string& name) -> Interval { throw std::logic_error(name); });
   };

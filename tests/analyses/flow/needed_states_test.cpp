@@ -58,12 +58,11 @@ TEST(NeededStates, AloneAreFollowedWhereThatIsAskedFor) {
   }
 }
 
-/// What is looked at besides counts as an output, and rests of states that stand still are none.
+/// What is looked at besides counts as an output.
 TEST(NeededStates, AreThoseOfAsidesToo) {
   FlowOptions options;
   options.dropsUnneeded = true;
   options.aside = {outputOf(3), {1.0}};
-  options.rests = {{4, 2}};
   const Box box = {1.0, 0.0, 1.0, Interval(1.0, 2.0), 1.0, 1.0};
   const Tube tube = Flow(pendulumWithOthers(), outputOf(0), options).enclose(box, 1.0, {0.5, 1.0});
   ASSERT_EQ(tube.reached(), 1.0) << tube.why();
