@@ -2,7 +2,10 @@
 #include "analyses/flow/bounded_polynomial.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <utility>
 
 #include "analyses/flow/embedding.hpp"
 #include "analyses/flow/error_bounds.hpp"
@@ -54,22 +57,33 @@ Interval rangeOf(const Monomials& monomials, const BoundedPolynomial& a) {
   return sum;
 }
 
-/// A coefficient of N products has 2N roundings at most. Dropped are the products whose grades add up to more than the
-/// degree.
+/// A coefficient of N products has 2N roundings at most, in whatever order they are added. Dropped are the products
+/// whose grades add up to more than the degree.
 BoundedPolynomial product(const Monomials& monomials, const BoundedPolynomial& a, const BoundedPolynomial& b) {
   BoundedPolynomial result{std::vector<double>(at(monomials.count()), 0.0)};
-  const auto of = [](const BoundedPolynomial& x, int g) { return at(g) < x.c.size() ? x.c[at(g)] : 0.0; };
+  const auto padded = [&](const BoundedPolynomial& x) {
+    std::vector<double> c = x.c;
+    c.resize(result.c.size(), 0.0);
+    return c;
+  };
+  const std::vector<double> ofA = padded(a), ofB = padded(b);
+  const Monomials::Pair* const pairs = monomials.pairs().data();
   double rounding = 0, dropped = 0;
+  constexpr std::size_t together = 4;  // sums, since each waits for itself
   for (int g = 0; g < monomials.count(); ++g) {
-    double sum = 0, size = 0;
-    for (auto q = monomials.first()[at(g)]; q < monomials.first()[at(g) + 1]; ++q) {
-      const auto [left, right] = monomials.pairs()[at(q)];
-      const double term = of(a, left) * of(b, right);
-      sum += term;
-      size += std::fabs(term);
-    }
-    result.c[at(g)] = sum;
-    rounding += 2 * monomials.multiplicity(g) * bounds::unit * size;
+    std::array<double, together> sums{}, sizes{};
+    const auto add = [&](std::size_t to, std::int32_t q) {
+      const double term = ofA[at(pairs[q].a)] * ofB[at(pairs[q].b)];
+      sums[to] += term;
+      sizes[to] += std::fabs(term);
+    };
+    auto q = monomials.first()[at(g)];
+    const auto end = monomials.first()[at(g) + 1];
+    for (; q + static_cast<std::int32_t>(together) <= end; q += static_cast<std::int32_t>(together))
+      for (std::size_t k = 0; k < together; ++k) add(k, q + static_cast<std::int32_t>(k));
+    for (; q < end; ++q) add(0, q);
+    result.c[at(g)] = (sums[0] + sums[1]) + (sums[2] + sums[3]);
+    rounding += 2 * monomials.multiplicity(g) * bounds::unit * ((sizes[0] + sizes[1]) + (sizes[2] + sizes[3]));
   }
   std::vector<double> gradesOfA(at(monomials.degree()) + 1, 0.0), gradesOfB = gradesOfA;
   for (std::size_t g = 0; g < a.c.size(); ++g) gradesOfA[at(monomials.grade(static_cast<int>(g)))] += std::fabs(a.c[g]);

@@ -1,10 +1,12 @@
 #include "analyses/flow/jump_rates.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "analyses/flow/embedding.hpp"
 #include "analyses/flow/error_bounds.hpp"
+#include "analyses/flow/horner.hpp"
 #include "scalars/index.hpp"
 #include "scalars/program/recorder.hpp"
 
@@ -134,12 +136,10 @@ bool AlongStep::isBounded(const std::vector<double>& tube) {
 /// Horner's method: 2(m + 1) roundings of what all coefficients are together, and one a monomial.
 Interval AlongStep::atMoment(int node, double sigma) const {
   double leading = 0, others = 0;
-  for (int g = 0; g < series_.count(node); ++g) {
-    const double* c = series_.series(node) + g * series_.stride();
-    double sum = 0;
-    for (int order = orders_; order-- > 0;) sum = sum * sigma + c[order];
-    (g == 0 ? leading : others) += g == 0 ? sum : std::fabs(sum);
-  }
+  hornerRows(
+      series_.series(node), series_.count(node), series_.stride(), 0, orders_ - 1, sigma,
+      [](int, double c) { return c; },
+      [&](int g, double sum) { (g == 0 ? leading : others) += g == 0 ? sum : std::fabs(sum); });
   const double roundings = (2 * orders_ + series_.count(node) + 2) * bounds::unit * series_.norm(node);
   return inflated(Interval(leading),
                   (others + roundings + series_.rho0(node) + series_.rho1(node)) * bounds::up + bounds::tiny);
@@ -161,6 +161,30 @@ Interval AlongStep::over(int output, double from, double to) const {
     begin = end;
   }
   return result;
+}
+
+/// Part by part, each as long as it can be proved, or half as long; as close as a 4096th of the way.
+double AlongStep::awayUntil(int output, double side, double from, double to) const {
+  const int node = series_.outputNode(output);
+  const auto isAway = [&](const Interval& number) { return side > 0 ? number.lower() > 0 : number.upper() < 0; };
+  Interval before = atMoment(node, from);
+  if (!isAway(before)) return from;
+  const double second = series_.derivativeNorm(node, 2, theta_), third = series_.derivativeNorm(node, 3, theta_);
+  const double least = 0x1p-12 * (to - from);
+  double reached = from;
+  for (double length = to - from; reached < to && length >= least;) {
+    const double end = std::min(reached + length, to);
+    if (!(end > reached)) break;
+    const Interval then = atMoment(node, end);
+    if (isAway(then) && isAway(hull(before, then) + series_.sag(node, reached, end, second, third, 0))) {
+      before = then;
+      reached = end;
+      length *= 2;
+    } else {
+      length *= 0.5;
+    }
+  }
+  return reached;
 }
 
 }  // namespace gamut

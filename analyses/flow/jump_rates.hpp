@@ -41,6 +41,9 @@ class AlongStep {
   const PolynomialSeries& series() const { return series_; }
   /// An output from σ = `from` to `to`.
   Interval over(int output, double from, double to) const;
+  /// Up to which σ, from `from` on and at most `to`, the output is proved to be above zero, or, of side -1, below;
+  /// `from` if it may be zero there.
+  double awayUntil(int output, double side, double from, double to) const;
 
  private:
   void compute(double t0, double scale, double theta, const std::vector<Embedded>& parameters,
@@ -66,6 +69,12 @@ class JumpRates : public AlongStep {
   /// The rate of a jump's argument with this sign (1, -1), 1/s, from σ = `from` to `to`.
   Interval over(std::size_t jump, double sign, double from, double to) const {
     return AlongStep::over(static_cast<int>(2 * jump) + (sign > 0 ? 0 : 1), from, to);
+  }
+  double awayUntil(std::size_t jump, double sign, double side, double from, double to) const {
+    return AlongStep::awayUntil(static_cast<int>(2 * jump) + (sign > 0 ? 0 : 1), side, from, to);
+  }
+  double argumentAwayUntil(std::size_t jump, double side, double from, double to) const {
+    return AlongStep::awayUntil(argument(jump), side, from, to);
   }
   /// The argument.
   Interval argumentOver(std::size_t jump, double from, double to) const {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "analyses/flow/error_bounds.hpp"
+#include "analyses/flow/horner.hpp"
 #include "analyses/flow/polynomial_series.hpp"
 #include "analyses/work.hpp"
 
@@ -358,15 +359,9 @@ Interval PolynomialSeries::sag(int node, double from, double to, double second, 
   const Plan& v = plan_[at(node)];
   const double middle = 0.5 * (from + to), half = std::max(to - middle, middle - from) * bounds::up;
   double leading = 0, others = 0;
-  for (int g = 0; g < v.count; ++g) {
-    const double* c = &f_[v.f + at(g * stride_)];
-    double sum = 0;
-    for (int i = last(); i >= 2; --i) sum = sum * middle + i * (i - 1) * c[i];
-    if (g == 0)
-      leading = sum;
-    else
-      others += std::fabs(sum);
-  }
+  hornerRows(
+      &f_[v.f], v.count, stride_, 2, last(), middle, [](int i, double c) { return i * (i - 1) * c; },
+      [&](int g, double sum) { (g == 0 ? leading : others) += g == 0 ? sum : std::fabs(sum); });
   others = (others + half * third + (2 * m_ + 3) * bounds::unit * second + more) * bounds::up;
   const double share = to - from, eighth = share * share / 8, most = (second + more) * bounds::up;
   const auto bound = [&](double slope) {

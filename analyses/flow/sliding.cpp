@@ -276,20 +276,9 @@ double FlowStepper::longestOnSides(double h) const {
   double longest = h;
   for (std::size_t j = 0; j < sides_.size(); ++j) {
     if (sides_[j] == 0) continue;
-    const auto longestWhile = [&](double from, auto holds) {  // from there on, up to `longest`
-      if (holds(longest)) return longest;
-      double least = from, most = longest;
-      for (int halving = 0; halving < 40; ++halving) {
-        const double middle = 0.5 * (least + most);
-        (holds(middle) ? least : most) = middle;
-      }
-      return least;
-    };
-    const auto isAway = [&](const Interval& number) { return sides_[j] > 0 ? number.lower() > 0 : number.upper() < 0; };
-    const double leaves =
-        longestWhile(0, [&](double to) { return isAway(ownRates_->over(j, sides_[j], 0, to / h0_)); });
-    longest = longestWhile(
-        leaves, [&](double to) { return to <= leaves || isAway(ownRates_->argumentOver(j, leaves / h0_, to / h0_)); });
+    const double leaves = h0_ * ownRates_->awayUntil(j, sides_[j], sides_[j], 0, longest / h0_);
+    if (leaves < longest)
+      longest = std::max(leaves, h0_ * ownRates_->argumentAwayUntil(j, sides_[j], leaves / h0_, longest / h0_));
   }
   return longest;
 }

@@ -123,12 +123,8 @@ FlowStepper::Look FlowStepper::lookAtRelease(const FlowSet& set, double& h, doub
   for (std::size_t pair = 0; pair < of_->rests.size() && mayLift; ++pair) {
     const RestingJumps& rest = of_->rests[pair];
     if (held_[rest.speed] != atRest) continue;
-    const auto isLifted = [&](double seconds) {
-      return !(along->over(static_cast<int>(pair), 0, seconds / h0_).lower() > 0);
-    };
-    if (!isLifted(h)) continue;
-    const double moment = isLifted(0) ? 0 : changeOf(0, h, isLifted).first;
-    if (!(moment < earliest)) continue;
+    const double moment = h0_ * along->awayUntil(static_cast<int>(pair), 1, 0, h / h0_);
+    if (!(moment < std::min(h, earliest))) continue;
     earliest = moment;
     jump = rest.speed;
     side = rest.ofSpeed(1);
@@ -184,12 +180,8 @@ FlowStepper::Look FlowStepper::lookAtSurface(const FlowSet& set, double& h, doub
     if (std::fabs(sign) != 1 || (sides_[j] == 0 && series_.mayTurn(series_.jumps()[j]))) return Look::released;
     signs.emplace_back(sign);
     if (sides_[j] == 0) continue;
-    const auto mayBeZeroBy = [&](double until) {
-      const Interval argument = ownRates_->argumentOver(j, 0, until / h0_);
-      return !(sides_[j] > 0 ? argument.lower() > 0 : argument.upper() < 0);
-    };
-    if (!mayBeZeroBy(h)) continue;
-    const double moment = mayBeZeroBy(0) ? 0 : changeOf(0, h, mayBeZeroBy).first;
+    const double moment = h0_ * ownRates_->argumentAwayUntil(j, sides_[j], 0, h / h0_);
+    if (!(moment < h)) continue;
     next = std::min(next, jump ? std::max(moment, soonest) : h);
     if (jump && moment >= soonest) continue;
     soonest = moment;
@@ -454,8 +446,7 @@ FlowStepper::Look FlowStepper::lookAtTurn(const FlowSet& set, double& h, double 
     h = std::min(all, 4 * h);
     return Look::longer;
   }
-  const auto mayTurnBy = [&](double until) { return !(over(of.guard(), 0, until).upper() < 0); };
-  const double first = mayTurnBy(0) ? 0 : changeOf(0, h, mayTurnBy).first;
+  const double first = h0_ * of.awayUntil(of.guard(), -1, 0, h / h0_);
   const double last = changeOf(first, h, [&](double until) { return guardAt(until).lower() > 0; }).second;
   constexpr double ahead = 1 - 0x1p-7, mostBefore = 0x1p-4;  // of the step; what comes later is left to the next
   if (first > std::max(last - first, mostBefore * h) && lift_.empty() && !(beyondLast_ > 0)) {

@@ -40,6 +40,7 @@ TEST(JumpRates, HoldTheRatesOnEitherSideAlongAStep) {
   ASSERT_EQ(jumps.count(), 2U);
   Evaluator<Precise> exact(jumps.given);
   Points points;
+  int changes = 0;  // of sides, within what was asked for
   for (const int symbols : {0, 2}) {
     SCOPED_TRACE(symbols);
     const auto monomials =
@@ -73,9 +74,23 @@ TEST(JumpRates, HoldTheRatesOnEitherSideAlongAStep) {
           const Vector y = exact(Precise(sigma) * stepper.scale(), x);
           EXPECT_THAT(rates.over(jump, side, from, to), Encloses(y[4 + jump])) << jump << " " << side;
           EXPECT_THAT(rates.argumentOver(jump, from, to), Encloses(y[2 + jump])) << jump;
+          for (const double of : {1.0, -1.0}) {
+            const double away = rates.awayUntil(jump, side, of, from, to);
+            const double argumentAway = rates.argumentAwayUntil(jump, of, from, to);
+            EXPECT_TRUE(sigma >= away || of * y[4 + jump] > 0);
+            EXPECT_TRUE(sigma >= argumentAway || of * y[2 + jump] > 0);
+            EXPECT_TRUE(from <= away && away <= to && from <= argumentAway && argumentAway <= to);
+            const auto isAway = [&](const Interval& number) {
+              return of > 0 ? number.lower() > 0 : number.upper() < 0;
+            };
+            EXPECT_TRUE(away == to || !isAway(rates.over(jump, side, from, to)));
+            EXPECT_TRUE(argumentAway == to || !isAway(rates.argumentOver(jump, from, to)));
+            changes += (away > from && away < to) || (argumentAway > from && argumentAway < to);
+          }
         }
     }
   }
+  EXPECT_GT(changes, 0);
 }
 
 }  // namespace
