@@ -105,6 +105,56 @@ BoundedPolynomial composed(const Monomials& monomials, const std::vector<Bounded
   return result;
 }
 
+/// With x = c + δ, |δ| ≤ d: Σ_k v_k δ^k, v_k = Σ_{i≥k} C(i, k) c^(i-k) a_i, of norm n_k at most. What is cut off is
+/// less than Σ_{k≥K} n_k d^k, and s as far from x as `around` makes of it `around` Σ_k k n_k (d + around)^(k-1) more. A
+/// weight has 3(i - k) roundings, its product with a coefficient one, a sum as many as it has terms.
+BoundedPolynomial composedNear(const Monomials& monomials, const std::vector<BoundedPolynomial>& a,
+                               const BoundedPolynomial& x, double around, double little) {
+  const std::size_t orders = a.size();
+  BoundedPolynomial beside = x;
+  const double c = std::exchange(beside.c[0], 0.0), d = (x.variation() + x.error) * bounds::up;
+  const auto weights = [&](std::size_t k, double by) {  // of a_k, a_{k+1}, …
+    std::vector<double> result{1.0};
+    for (std::size_t i = k + 1; i < orders; ++i)
+      result.push_back(result.back() * by * (static_cast<double>(i) / static_cast<double>(i - k)));
+    return result;
+  };
+  std::vector<double> norms, most(orders, 0.0);  // of a; of v, but for roundings
+  for (const BoundedPolynomial& term : a) norms.push_back(term.norm());
+  double varies = 0, power = 1;
+  for (std::size_t i = 0; i < orders; ++i, power *= std::fabs(c)) varies += a[i].variation() * power;
+  const double roundings = 1 + static_cast<double>(4 * orders + 4) * bounds::unit;
+  for (std::size_t k = 0; k < orders; ++k) {
+    const std::vector<double> weight = weights(k, std::fabs(c));
+    for (std::size_t i = k; i < orders; ++i) most[k] += weight[i - k] * norms[i];
+    most[k] *= roundings * bounds::up;
+  }
+  const double farthest = (d + around) * bounds::up;
+  std::vector<double> cutOff(orders + 1, 0.0);  // of all from v_k on, over d^k
+  for (std::size_t k = orders; k-- > 0;) cutOff[k] = (most[k] + d * cutOff[k + 1]) * bounds::up;
+  std::size_t K = 0;
+  double toK = 1;
+  while (K < orders && (K == 0 || toK * cutOff[K] > little * varies)) ++K, toK = toK * d * bounds::up;
+  double moved = 0;  // by `around`
+  if (around > 0)
+    for (std::size_t k = orders; k-- > 1;) moved = (moved * farthest + static_cast<double>(k) * most[k]) * bounds::up;
+  BoundedPolynomial result;
+  for (std::size_t k = K; k-- > 0;) {
+    BoundedPolynomial v;
+    const std::vector<double> weight = weights(k, c);
+    for (std::size_t i = k; i < orders; ++i) {
+      if (v.c.size() < a[i].c.size()) v.c.resize(a[i].c.size(), 0.0);
+      for (std::size_t g = 0; g < a[i].c.size(); ++g) v.c[g] += weight[i - k] * a[i].c[g];
+      v.error += std::fabs(weight[i - k]) * a[i].error;
+    }
+    v.error = (v.error * roundings + static_cast<double>(4 * orders + 4) * bounds::unit * most[k]) * bounds::up;
+    if (!result.c.empty()) result = product(monomials, result, beside);
+    result += v;
+  }
+  result.error = (result.error + (K < orders ? toK * cutOff[K] : 0.0) + around * moved) * bounds::up + bounds::tiny;
+  return result;
+}
+
 /// By parts: between two moments a polynomial is no farther from the hull of what it is at both than an eighth of its
 /// second derivative times their distance squared. A sum of orders and monomials has two roundings a term.
 Interval rangeOver(const std::vector<BoundedPolynomial>& u, double from, double to) {

@@ -31,6 +31,11 @@ BoundedPolynomial product(const Monomials& monomials, const BoundedPolynomial& a
 BoundedPolynomial composed(const Monomials& monomials, const std::vector<BoundedPolynomial>& a,
                            const BoundedPolynomial& x);
 
+/// Σ_i a_i s^i of whichever s is within `around` of x: by as many powers of what x varies by as leave over no more than
+/// `little` of what the sum varies by.
+BoundedPolynomial composedNear(const Monomials& monomials, const std::vector<BoundedPolynomial>& a,
+                               const BoundedPolynomial& x, double around, double little);
+
 /// Σ_i u_i σ^i for all σ from `from` to `to`, of one sign or zero.
 Interval rangeOver(const std::vector<BoundedPolynomial>& u, double from, double to);
 

@@ -186,7 +186,9 @@ class FlowFollower {
   OwnCell wholeCell(const FlowPiece& piece) const;
   OutputTools* outputsOnSides(const FlowPiece& piece);
   OwnCell half(const OwnCell& cell, int symbol, double middle) const;
-  void collect(const FlowPiece& piece, const OwnCell& cell, const OwnMoment& when,
+  double locate(const FlowPiece& piece, const OwnCell& cell, const OwnMoment& when, bool hasTurned,
+                FlowPoint& point) const;
+  void collect(const FlowPiece& piece, const OwnCell& cell, FlowPoint point,
                const std::vector<BoundedPolynomial>& limits, bool hasTurned, std::size_t row);
   void endRows(FlowPiece& piece);
   bool isNarrowEnough(FlowPiece& piece, double t, const std::vector<Interval>& states,

@@ -328,10 +328,11 @@ bool FlowStepper::findMeeting(const std::vector<double>& weights) {
 
 double FlowStepper::radiusOver(int state, bool hasTurned) const {
   const std::size_t i = at(state);
-  double radius = series_.lowNorm(state) +
-                  (hasTurned ? crossed_[i] + turn_->leapt[i] + (h_ + turn_->away) * bounds::up * turn_->turned[i]
-                   : turn_   ? turn_->before[i]
-                             : e1_[i]);
+  const double longest = turn_ && isSinceMoment() ? turn_->lag + 2 * turn_->away : h_ + (turn_ ? turn_->away : 0);
+  double radius =
+      series_.lowNorm(state) + (hasTurned ? crossed_[i] + turn_->leapt[i] + longest * bounds::up * turn_->turned[i]
+                                : turn_   ? turn_->before[i]
+                                          : e1_[i]);
   for (int j = 0; j < n_; ++j) radius += (series_.frameNorm(state, j) + epsilon_[at(state * n_ + j)]) * total_[at(j)];
   return radius * bounds::up + bounds::tiny;
 }

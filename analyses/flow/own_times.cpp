@@ -21,16 +21,20 @@ using detail::at;
 
 /// A part of the piece: the polynomials of the step in symbols of its own.
 struct FlowFollower::OwnCell {
-  std::vector<double> c;  // [monomial][polynomial]: of each state by orders of σ, likewise what turning adds, ahead, m
+  /// [monomial][polynomial]: of each state by orders of σ; what turning adds likewise, or what it is then by orders of
+  /// the time since its moment m; ahead; m.
+  std::vector<double> c;
   std::vector<double> error;  // of each polynomial
   FlowPart part;
   std::vector<Embedded> parameters;
   std::string path;
-  std::size_t orders, states;
-  bool turns;
+  std::size_t orders, turnedOrders, states;  // turnedOrders 0: none turn
+  bool isSinceMoment;
 
   std::size_t width() const { return error.size(); }
-  std::size_t ahead() const { return (turns ? 2 : 1) * states * orders; }
+  std::size_t turned(std::size_t state) const { return states * orders + state * turnedOrders; }
+  std::size_t ahead() const { return turned(states); }
+  bool turns() const { return turnedOrders > 0; }
   BoundedPolynomial polynomial(std::size_t number) const {
     BoundedPolynomial result;
     result.error = error[number];
@@ -119,27 +123,28 @@ FlowFollower::OwnCell FlowFollower::wholeCell(const FlowPiece& piece) const {
   OwnCell cell;
   cell.states = at(task_.motion.states());
   cell.orders = at(task_.order) + 1;
-  cell.turns = stepper.hasTurned();
+  cell.turnedOrders = stepper.hasTurned() ? stepper.turnedTo(0).size() : 0;
+  cell.isSinceMoment = stepper.hasTurned() && stepper.isSinceMoment();
   cell.part = {piece.set.centre, piece.set.half};
   cell.parameters = piece.set.parameters;
-  const std::size_t width = cell.ahead() + (cell.turns ? 2 : 1);
+  const std::size_t width = cell.ahead() + (cell.turns() ? 2 : 1);
   cell.error.assign(width, 0.0);
   cell.c.assign(width * at(monomialCount_), 0.0);
   const auto put = [&](std::size_t number, std::size_t g, double value) { cell.c[g * width + number] = value; };
-  for (std::size_t i = 0; i < cell.states; ++i)
-    for (std::size_t order = 0; order < cell.orders; ++order) {
-      const std::size_t own = i * cell.orders + order;
+  for (std::size_t i = 0; i < cell.states; ++i) {
+    for (std::size_t order = 0; order < cell.orders; ++order)
       for (std::size_t g = 0; g < at(monomialCount_); ++g)
-        put(own, g, series.series(static_cast<int>(i))[g * at(series.stride()) + order]);
-      if (!cell.turns) continue;
-      const BoundedPolynomial& D = stepper.turnedBy(static_cast<int>(i))[order];
-      cell.error[cell.states * cell.orders + own] = D.error;
-      for (std::size_t g = 0; g < D.c.size(); ++g) put(cell.states * cell.orders + own, g, D.c[g]);
+        put(i * cell.orders + order, g, series.series(static_cast<int>(i))[g * at(series.stride()) + order]);
+    for (std::size_t order = 0; order < cell.turnedOrders; ++order) {
+      const BoundedPolynomial& of = stepper.turnedTo(static_cast<int>(i))[order];
+      cell.error[cell.turned(i) + order] = of.error;
+      for (std::size_t g = 0; g < of.c.size(); ++g) put(cell.turned(i) + order, g, of.c[g]);
     }
+  }
   const BoundedPolynomial& ahead = piece.set.ahead;
   cell.error[cell.ahead()] = ahead.error;
   for (std::size_t g = 0; g < ahead.c.size(); ++g) put(cell.ahead(), g, ahead.c[g]);
-  for (std::size_t g = 0; cell.turns && g < stepper.turnMoment().size(); ++g)
+  for (std::size_t g = 0; cell.turns() && g < stepper.turnMoment().size(); ++g)
     put(cell.ahead() + 1, g, stepper.turnMoment()[g]);
   return cell;
 }
@@ -353,9 +358,11 @@ void FlowFollower::recordAt(FlowPiece& piece, const std::vector<std::size_t>& ro
   struct Open {
     OwnCell cell;
     std::vector<std::size_t> rows;
+    double missed;  // by the polynomials of what this is a half of, of a state's width
   };
+  constexpr double little = 0x1p-7, gain = 0.75;  // what half a part has to gain where polynomials miss more
   std::vector<Open> open;
-  open.push_back({wholeCell(piece), rows});
+  open.push_back({wholeCell(piece), rows, infinite});
   const double wide = std::max(fine * theta, ofAll * 2 * piece.set.ahead.variation() / scale);
   for (int parts = 1; !open.empty();) {
     if (task_.options.cancelled != nullptr && task_.options.cancelled->load(std::memory_order_relaxed))
@@ -364,9 +371,10 @@ void FlowFollower::recordAt(FlowPiece& piece, const std::vector<std::size_t>& ro
     const OwnCell& cell = part.cell;
     open.pop_back();
     std::vector<std::size_t> left;
+    double missed = 0;
     const BoundedPolynomial behind = minus(cell.polynomial(cell.ahead()));
     BoundedPolynomial unturnedFor;  // since when, at moment 0
-    if (cell.turns) unturnedFor = minus(cell.polynomial(cell.ahead() + 1));
+    if (cell.turns()) unturnedFor = minus(cell.polynomial(cell.ahead() + 1));
     for (const std::size_t row : part.rows) {
       // Where solutions are at that time, in units of σ.
       BoundedPolynomial moment = behind;
@@ -389,7 +397,7 @@ void FlowFollower::recordAt(FlowPiece& piece, const std::vector<std::size_t>& ro
       };
       for (OwnMoment* when : {&whenUnturned, &whenTurned})
         near(*when, {{0.0}}, range, intersection(range, Interval(0.0, theta)));
-      if (cell.turns) {
+      if (cell.turns()) {
         BoundedPolynomial since = moment;
         since += unturnedFor;
         const Interval seconds = rangeOf(since);
@@ -412,12 +420,22 @@ void FlowFollower::recordAt(FlowPiece& piece, const std::vector<std::size_t>& ro
         left.push_back(row);
         continue;
       }
-      if (mayNotHave) collect(piece, cell, whenUnturned, unturned, false, row);
-      if (mayHaveTurned) collect(piece, cell, whenTurned, turned, true, row);
+      FlowPoint ofUnturned, ofTurned;
+      double share = 0;
+      if (mayNotHave) share = locate(piece, cell, whenUnturned, false, ofUnturned);
+      if (mayHaveTurned) share = std::max(share, locate(piece, cell, whenTurned, true, ofTurned));
+      if (share > little && share < gain * part.missed && parts < most) {
+        missed = std::max(missed, share);
+        left.push_back(row);
+        continue;
+      }
+      if (mayNotHave) collect(piece, cell, std::move(ofUnturned), unturned, false, row);
+      if (mayHaveTurned) collect(piece, cell, std::move(ofTurned), turned, true, row);
     }
     if (left.empty()) continue;
     const int symbol = symbolOf(behind, stepper.monomials());
-    for (const double middle : {-0.5, 0.5}) open.push_back({half(cell, symbol, middle), left});
+    for (const double middle : {-0.5, 0.5})
+      open.push_back({half(cell, symbol, middle), left, missed > 0 ? missed : infinite});
     ++parts;
   }
 }
@@ -435,12 +453,44 @@ FlowFollower::OutputTools* FlowFollower::outputsOnSides(const FlowPiece& piece) 
   return tools.onSides ? tools.onSides.get() : tools.outputs.get();
 }
 
-/// The part at these moments of the step, in units of σ, where no limit is above zero.
-void FlowFollower::collect(const FlowPiece& piece, const OwnCell& cell, const OwnMoment& when,
+/// What states are in the part then; and the greatest part of one's width that polynomials miss of it.
+double FlowFollower::locate(const FlowPiece& piece, const OwnCell& cell, const OwnMoment& when, bool hasTurned,
+                            FlowPoint& point) const {
+  constexpr double little = 1e-7;
+  const FlowStepper& stepper = tool_->stepper;
+  const std::size_t n = cell.states, NJ = at(stepper.frameCount());
+  const bool isSince = hasTurned && cell.isSinceMoment;
+  BoundedPolynomial moment = when.moment;
+  if (isSince) (moment *= -1) += cell.polynomial(cell.ahead() + 1), moment *= -1;
+  point = {};
+  point.low.assign(n, 0.0);
+  for (std::vector<double>* none : {&point.total, &point.ofR, &point.beyond, &point.driven, &point.known})
+    none->assign(n, 0.0);
+  point.psi.assign(NJ * n * n, 0.0);
+  point.psiSum.assign(n * n, 0.0);
+  double share = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    std::vector<BoundedPolynomial> u;
+    for (std::size_t order = 0; order < (isSince ? cell.turnedOrders : cell.orders); ++order) {
+      u.push_back(cell.polynomial((isSince ? cell.turned(i) : i * cell.orders) + order));
+      if (hasTurned && !isSince) u.back() += cell.polynomial(cell.turned(i) + order);
+    }
+    BoundedPolynomial x = composedNear(stepper.monomials(), u, moment, when.around, little);
+    x.c.resize(at(monomialCount_), 0.0);
+    point.p.insert(point.p.end(), x.c.begin(), x.c.end());
+    point.radius.push_back((x.error + stepper.radiusOver(static_cast<int>(i), hasTurned)) * bounds::up);
+    if (x.error > 0) share = std::max(share, x.error / width(piece.last[i]));
+  }
+  point.loose = point.radius;
+  return share;
+}
+
+/// The part at such a point of the step, where no limit is above zero.
+void FlowFollower::collect(const FlowPiece& piece, const OwnCell& cell, FlowPoint point,
                            const std::vector<BoundedPolynomial>& limits, bool hasTurned, std::size_t row) {
   const FlowStepper& stepper = tool_->stepper;
   const Monomials& monomials = stepper.monomials();
-  const std::size_t n = cell.states, NJ = at(stepper.frameCount());
+  const std::size_t n = cell.states;
   FlowPiece own;
   own.layout = piece.layout;
   own.path = piece.path + cell.path;
@@ -449,29 +499,7 @@ void FlowFollower::collect(const FlowPiece& piece, const OwnCell& cell, const Ow
   own.set.half = cell.part.half;
   own.set.parameters = cell.parameters;
   own.set.R.assign(n, 0.0);
-  point_ = {};
-  point_.low.assign(n, 0.0);
-  for (std::vector<double>* none : {&point_.total, &point_.ofR, &point_.beyond, &point_.driven, &point_.known})
-    none->assign(n, 0.0);
-  point_.psi.assign(NJ * n * n, 0.0);
-  point_.psiSum.assign(n * n, 0.0);
-  for (std::size_t i = 0; i < n; ++i) {
-    std::vector<BoundedPolynomial> u;
-    for (std::size_t order = 0; order < cell.orders; ++order) {
-      u.push_back(cell.polynomial(i * cell.orders + order));
-      if (hasTurned) u.back() += cell.polynomial((n + i) * cell.orders + order);
-    }
-    BoundedPolynomial x = composed(monomials, u, when.moment);
-    x.c.resize(at(monomialCount_), 0.0);
-    double rate = 0, power = 1;  // |dx/dσ|, so that x is no farther than around max|dx/dσ| from what it is at `moment`
-    const double farthest = (when.moment.norm() + when.around) * bounds::up;
-    for (std::size_t order = 1; order < u.size() && when.around > 0; ++order, power *= farthest)
-      rate += static_cast<double>(order) * u[order].norm() * power;
-    x.error += when.around * rate * bounds::up;
-    point_.p.insert(point_.p.end(), x.c.begin(), x.c.end());
-    point_.radius.push_back((x.error + stepper.radiusOver(static_cast<int>(i), hasTurned)) * bounds::up);
-  }
-  point_.loose = point_.radius;
+  point_ = std::move(point);
   at_ = task_.times[row];
   giveSigns(own, stepper.signsOver(signs_, hasTurned));
   rangeTolerance_ = task_.rangeTolerance();

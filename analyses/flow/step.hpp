@@ -200,10 +200,14 @@ class FlowStepper {
   bool findMeeting(const std::vector<double>& weights);
   /// The set of what they are there.
   void advanceToMeeting(FlowSet& set);
-  /// |x - x̃ - D| of any solution that has turned, or that has not, at any time of the step; D: turnedBy.
+  /// |x - x̃ - D| of any solution that has turned, or that has not, at any time of the step.
   double radiusOver(int state, bool hasTurned) const;
-  /// What turning adds to the polynomials of a state, by orders of σ.
-  const std::vector<BoundedPolynomial>& turnedBy(int state) const { return turn_->D[static_cast<std::size_t>(state)]; }
+  /// Whether solutions that turn are known since their moments until they are stopped.
+  bool isSinceMoment() const { return !turn_->fromMoment.empty(); }
+  /// If so, a state by orders of that time, in units of σ; else what turning adds to its polynomials, by orders of σ.
+  const std::vector<BoundedPolynomial>& turnedTo(int state) const {
+    return (isSinceMoment() ? turn_->fromMoment : turn_->D)[static_cast<std::size_t>(state)];
+  }
   /// Whether the set at one time tells nothing but what the step as a whole does.
   bool isOpaque() const { return !crossings_.empty() || isUnsettled(); }
   /// As signsOver, of those that have turned, or that have not.

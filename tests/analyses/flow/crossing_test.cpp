@@ -245,6 +245,18 @@ TEST(FlowCrossingExactly, SignsAreThoseOfTheStep) {
       }
 }
 
+/// At ξ.
+Precise valueOf(const BoundedPolynomial& p, const Monomials& monomials, const Vector& xi) {
+  Precise sum(0);
+  for (std::size_t g = 0; g < p.c.size(); ++g) {
+    Precise term(p.c[g]);
+    for (int l = 0; l < monomials.symbols(); ++l)
+      for (int k = 0; k < monomials.exponent(static_cast<int>(g), l); ++k) term *= xi[static_cast<std::size_t>(l)];
+    sum += term;
+  }
+  return sum;
+}
+
 TEST(BoundedPolynomial, ProductsHoldWhatTheyDrop) {
   const Monomials monomials({1, 2}, 3);
   Points points(5);
@@ -258,17 +270,7 @@ TEST(BoundedPolynomial, ProductsHoldWhatTheyDrop) {
     const BoundedPolynomial inside = composed(monomials, {a, b, b}, a);
     for (int point = 0; point < 20; ++point) {
       const Vector xi = points.inside({all, all});
-      const auto at = [&](const BoundedPolynomial& p) {
-        Precise sum(0);
-        for (std::size_t g = 0; g < p.c.size(); ++g) {
-          Precise term(p.c[g]);
-          for (int l = 0; l < 2; ++l)
-            for (int k = 0; k < monomials.exponent(static_cast<int>(g), l); ++k)
-              term *= xi[static_cast<std::size_t>(l)];
-          sum += term;
-        }
-        return sum;
-      };
+      const auto at = [&](const BoundedPolynomial& p) { return valueOf(p, monomials, xi); };
       EXPECT_LE(abs(at(ab) - at(a) * at(b)), ab.error);
       EXPECT_LE(abs(at(inside) - at(a) - at(b) * at(a) - at(b) * at(a) * at(a)), inside.error);
       EXPECT_LE(abs(at(ab)), ab.norm());
@@ -277,6 +279,44 @@ TEST(BoundedPolynomial, ProductsHoldWhatTheyDrop) {
     const BoundedPolynomial low{{a.c[0], a.c[1]}, 0}, other{{b.c[0], b.c[1]}, 0};
     EXPECT_LT(product(monomials, low, other).error, 1e-14);
     EXPECT_LT(composed(monomials, {low, other}, low).error, 1e-14);
+  }
+}
+
+TEST(BoundedPolynomial, OneNearANumberIsPutIntoAnotherByFewPowers) {
+  const Monomials monomials({1, 1, 1}, 4);
+  Points points(7);
+  constexpr std::size_t orders = 14;
+  for (int trial = 0; trial < 60; ++trial) {
+    const auto any = [&](double size) {
+      BoundedPolynomial result{{}, trial % 2 == 0 ? 0.0 : 1e-9 * size};
+      for (int g = 0; g < monomials.count(); ++g) result.c.push_back(size * points.signedUnit());
+      return result;
+    };
+    std::vector<BoundedPolynomial> u;
+    double size = 1;
+    for (std::size_t order = 0; order < orders; ++order, size *= 0.5) u.push_back(any(size));
+    BoundedPolynomial x = any(trial % 3 == 0 ? 0.0 : 0.0625 / monomials.count());
+    x.c[0] = points.uniform(-0.25, 1.25);
+    const double around = trial % 4 == 3 ? 0x1p-10 : 0.0;
+    const BoundedPolynomial closely = composedNear(monomials, u, x, around, 0),
+                            about = composedNear(monomials, u, x, around, 1e-3);
+    for (int point = 0; point < 20; ++point) {
+      const Vector xi = points.inside({all, all, all});
+      const Precise moment =
+          valueOf(x, monomials, xi) + Precise(x.error) * points.signedUnit() + Precise(around) * points.signedUnit();
+      Precise sum(0);
+      for (std::size_t order = orders; order-- > 0;)
+        sum = sum * moment + valueOf(u[order], monomials, xi) + Precise(u[order].error) * points.signedUnit();
+      EXPECT_LE(abs(valueOf(closely, monomials, xi) - sum), closely.error);
+      EXPECT_LE(abs(valueOf(about, monomials, xi) - sum), about.error);
+    }
+    if (around == 0 && trial % 6 == 0) {  // of a number nothing is cut off
+      EXPECT_LT(closely.error, 1e-12);
+    }
+    double varies = 0, power = 1;
+    for (std::size_t order = 0; order < orders; ++order, power *= std::fabs(x.c[0]))
+      varies += u[order].variation() * power;
+    EXPECT_LT(about.error, closely.error + 1.001e-3 * varies);
   }
 }
 
