@@ -207,12 +207,12 @@ Tube answer(const FlowFormulation& formulation, const FlowOptions& options, Flow
   return tube;
 }
 
-/// Whether moments of time are known at which f or an output has a kink: steps that end there say more than time as a
-/// state.
-bool hasTimeKinks(const FlowFormulation& formulation, double horizon) {
+/// Whether f or an output has a kink or a jump where a function of time alone that is not linear is zero: steps that
+/// end there say more than time as a state.
+bool isSwitched(const FlowFormulation& formulation, double horizon) {
   const double resolution = std::ldexp(horizon, -53);
-  return !std::ranges::all_of(std::array{&formulation.motion, &formulation.outputs, &formulation.asides},
-                              [&](const Program* f) { return TimeKinks(*f, horizon, resolution).isNone(); });
+  return std::ranges::any_of(std::array{&formulation.motion, &formulation.outputs, &formulation.asides},
+                             [&](const Program* f) { return TimeKinks(*f, horizon, resolution).hasSwitches(); });
 }
 
 /// `plain` for a part of what may be spent, or until it falls into many pieces; where that does not come to the
@@ -266,7 +266,7 @@ Tube Flow::enclose(const Box& box, double horizon, const std::vector<double>& ou
   if (parts_->options.progress)
     options.progress = [&](double fraction) { parts_->options.progress(furthest = std::max(furthest, fraction)); };
   FlowBudget budget{options.budget * Work::perSecond};
-  const bool isTimed = parts_->isTimed, hasClock = isTimed && parts_->withClock && !hasTimeKinks(formulation, horizon);
+  const bool isTimed = parts_->isTimed, hasClock = isTimed && parts_->withClock && !isSwitched(formulation, horizon);
   if (options.varying.empty() && mayTurn(motion) && (!isTimed || hasClock) &&
       Embedding(box, motion.states(), {}).symbols > 0)
     return inStages(formulation, hasClock ? *parts_->withClock : formulation, options, budget, box, horizon,

@@ -34,12 +34,31 @@ constexpr int mostRounds = 6, mostCheapRounds = 14;
 constexpr double cheap = 5 * Work::perSecond;
 constexpr double mostHidden = 1e9;  // times below the threshold: less is rounding
 
+/// Of each parameter, whether the argument of a jump depends on it: it may decide when solutions turn alone, of which a
+/// rough look tells nothing.
+std::vector<char> parametersOfJumps(const Program& f) {
+  std::vector<char> isPart(f.nodes().size(), 0), result(at(f.parameters()), 0);
+  for (const int jump : jumpsOf(f)) isPart[at(jump)] = 1;
+  for (std::size_t i = isPart.size(); i-- > 0;) {
+    if (isPart[i] == 0) continue;
+    if (f.nodes()[i].op == Op::parameter) result[at(f.nodes()[i].a)] = 1;
+    detail::forEachOperand(f.table(), static_cast<int>(i), [&](int operand) { isPart[at(operand)] = 1; });
+  }
+  return result;
+}
+
 /// The weights of the uncertain quantities' symbols, as far as they are known, and how large states become.
 class Weighing {
  public:
   Weighing(const FlowQuestion& question, const Box& box)
       : share_(question.options.tightness - 1), hasJumps_(!jumpsOf(question.motion).empty()) {
-    const int symbols = Embedding(box, question.motion.states(), question.options.varying).symbols;
+    const Embedding embedding(box, question.motion.states(), question.options.varying);
+    const int symbols = embedding.symbols;
+    const std::vector<char> ofJumps = parametersOfJumps(question.motion);
+    for (std::size_t k = 0; k < ofJumps.size(); ++k)
+      if (const int symbol = embedding.components[at(question.motion.states()) + k].symbol;
+          ofJumps[k] != 0 && symbol >= 0)
+        decisive_.push_back(symbol);
     emphasis_ = {std::vector<int>(at(symbols), 1), static_cast<double>(symbols)};
     if (symbols == 0) return;
     const bool weighs = symbols >= leastLookedAt && question.options.degree < 0;
@@ -70,7 +89,7 @@ class Weighing {
     constexpr double nothing = 1e-300;  // what has no influence at all stays negligible
     while (emphasis_.weights == before && !emphasis_.isUniform() && negligible_ > nothing) {
       negligible_ /= 30;
-      emphasis_ = emphasisOf(influence_, negligible_, share_);
+      emphasis_ = weighed();
     }
     if (emphasis_.weights != before) return true;
     // What holds a motion at a jump is none of what was looked at: it may be all that a quantity decides about. How
@@ -139,11 +158,18 @@ class Weighing {
     if (!weighs) return;
     if (degree == 1)  // what is nonlinear is not known: at most as much, in proportion
       for (Influence& of : influence_) of.nonlinear = of.any;
-    emphasis_ = emphasisOf(influence_, negligible_, share_);
+    emphasis_ = weighed();
+  }
+
+  Emphasis weighed() const {
+    Emphasis emphasis = emphasisOf(influence_, negligible_, share_);
+    for (const int l : decisive_) emphasis.weights[at(l)] = std::max(emphasis.weights[at(l)], 1);
+    return emphasis;
   }
 
   double share_, negligible_ = 0.01, cpu_ = 0;
   bool hasJumps_;
+  std::vector<int> decisive_;  // symbols of parameters that jumps depend on
   Emphasis emphasis_;
   std::vector<Influence> influence_;
   std::shared_ptr<const FlowScales> scales_;
@@ -278,7 +304,8 @@ Tube refine(const FlowQuestion& question, const Box& box, const std::vector<Box>
   FlowRound round;
   round.isLast = false;
   const double spentBefore = question.budget.spent;
-  const bool mayBeFixed = question.options.split && question.options.degree < 0 && question.options.varying.empty();
+  const bool mayBeFixed = question.options.split && question.options.degree < 0 && question.options.varying.empty() &&
+                          !question.stopsEarly;  // a turn may ask for bisection
   if (mayBeFixed && FixedPieces::suits(weighing.emphasis())) {
     FixedPieces fixed(question, box, levels, weighing);
     if (fixed.follow(best, looseness)) {

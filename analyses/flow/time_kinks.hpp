@@ -16,7 +16,8 @@ class TimeKinks {
   TimeKinks() = default;
   /// Looks for zeros from 0 to `horizon` up to `resolution`, s; one that has too many counts as none of these.
   TimeKinks(const Program& f, double horizon, double resolution);
-  bool isNone() const { return linear_.empty() && switching_.empty(); }
+  /// Whether some u is not linear.
+  bool hasSwitches() const { return !switching_.empty(); }
   /// When each u may be zero, s.
   std::vector<Interval> moments(const std::vector<Embedded>& parameters) const;
   /// When the first u that is linear may be zero from `from` on, s; infinity: none is.

@@ -54,6 +54,26 @@ const std::pair<Program, Program>& shaken() {
   return programs;
 }
 
+/// A carriage that is pushed against a stiff buffer, which throws it back, and from p[0] on half as much: the push, and
+/// the buffer with it.
+const std::pair<Program, Program>& pushed() {
+  static const auto programs = withAndWithoutClock([](const auto& t, const auto& x, const auto& p, auto& dx) {
+    const auto beyond = x[0] - p[1], share = 0.75 - 0.25 * sign(t - p[0]);
+    dx[0] = x[1];
+    dx[1] = share * (1.0 - sign(beyond) - 50.0 * (beyond + abs(beyond))) - 0.5 * x[1];
+  });
+  return programs;
+}
+
+/// A relay that falls to a half at 1.7 s.
+const std::pair<Program, Program>& weakened() {
+  static const auto programs = withAndWithoutClock([](const auto& t, const auto& x, const auto& p, auto& dx) {
+    dx[0] = x[1];
+    dx[1] = -p[0] * x[0] - p[1] * (0.75 - 0.25 * sign(t - 1.7)) * sign(x[0]);
+  });
+  return programs;
+}
+
 /// A ball above ground, unfolded (Zhuravlev): x = |S| in units of 1/unit m, k = p[0] = (1 - e)/(1 + e), its rate
 /// (1 - k sign S sign V) V sign S; p[1]: gravity.
 Program bouncing(double unit) {
@@ -199,6 +219,28 @@ const std::vector<Repeating>& repeating() {
        1,
        20,
        {},
+       4},
+      {"aBufferAndASwitchAtAnUnknownTime",
+       pushed().first,
+       record(2, 2, 1, [](auto, const auto& x, const auto&, auto& y) { y[0] = 0.5 * x[1] * x[1]; }),
+       {0.0, Interval(-0.0625, 0.0625), Interval(1.17, 1.23), Interval(0.285, 0.315)},
+       3.0,
+       4,
+       false,
+       1,
+       20,
+       pushed().second,
+       8},
+      {"aRelayThatFallsAtAKnownTime",
+       weakened().first,
+       noOutputs(2, 2),
+       {Interval(0.9375, 1.0625), 0.0, Interval(0.95, 1.05), Interval(0.9, 1.1)},
+       9.0,
+       4,
+       false,
+       1,
+       20,
+       weakened().second,
        4},
       {"aPlayThatIsTakenUp",
        playBetweenTwo(),
