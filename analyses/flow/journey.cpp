@@ -431,7 +431,7 @@ void FlowFollower::enclose(const FlowPiece& piece, double tau, std::vector<Inter
   if (with == nullptr) with = outputTool_->outputs.get();
   outputs_ = &with->outputs;
   outputRange_ = &with->range;
-  at_ = piece.set.t + tau;
+  lookAt(piece.set.t + tau);
   outputs_->evaluate(at_, point_, piece.set.R, parameters_);
   outputCore_.clear();
   appendOutputs(piece, states, whole_, outputs);
@@ -461,6 +461,12 @@ void FlowFollower::giveSigns(const FlowPiece& piece, std::vector<SignCases> sign
 /// Than polynomials do: at kinks, and where a sign may be this or that.
 bool FlowFollower::knowsMoreByBoxes() const {
   return outputs_->hasKinks() || std::ranges::any_of(given_, &SignCases::isOpen);
+}
+
+/// All solutions at one time.
+void FlowFollower::lookAt(double time) {
+  at_ = time;
+  signTimes_ = Interval(time);
 }
 
 /// What of states and signs there is together while states are in these intervals.
@@ -515,7 +521,7 @@ MeanValueOutputs* FlowFollower::outputsWhileHeld(std::vector<char> held) {
 void FlowFollower::appendOutputs(const FlowPiece& piece, const std::vector<Interval>& states, const Box& xi,
                                  std::vector<Interval>& outputs) {
   const bool knowsMore = knowsMoreByBoxes();
-  findBoxes(piece.set.t, Interval(at_), states);
+  findBoxes(piece.set.t, signTimes_, states);
   for (int o = 0; o < outputs_->count(); ++o) {
     const double radius = outputs_->radius(o);
     PolynomialRange& range = *outputRange_;

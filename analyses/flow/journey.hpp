@@ -138,6 +138,7 @@ class FlowFollower {
   StepOutcome certify(const FlowPiece& piece, bool stops);
   void giveSigns(const FlowPiece& piece, std::vector<SignCases> signs);
   bool knowsMoreByBoxes() const;
+  void lookAt(double time);
   void findBoxes(double began, const Interval& t, const std::vector<Interval>& states);
   std::vector<double> turns(double h) const;
   Interval overBoxes(int output);
@@ -188,7 +189,7 @@ class FlowFollower {
   OwnCell half(const OwnCell& cell, int symbol, double middle) const;
   double locate(const FlowPiece& piece, const OwnCell& cell, const OwnMoment& when, bool hasTurned,
                 FlowPoint& point) const;
-  void collect(const FlowPiece& piece, const OwnCell& cell, FlowPoint point,
+  void collect(const FlowPiece& piece, const OwnCell& cell, FlowPoint point, const Interval& when,
                const std::vector<BoundedPolynomial>& limits, bool hasTurned, std::size_t row);
   void endRows(FlowPiece& piece);
   bool isNarrowEnough(FlowPiece& piece, double t, const std::vector<Interval>& states,
@@ -211,6 +212,7 @@ class FlowFollower {
   int monomialCount_ = 0, symbols_ = 0;
   FlowPoint point_;
   double at_ = 0;              // its time
+  Interval signTimes_;         // when signs are looked up: then, or where each solution is in the step
   double rangeTolerance_ = 0;  // of it
   FlowHalves halves_;
   std::size_t signs_ = jumpsOf(task_.jumps.f).size();

@@ -242,7 +242,7 @@ void FlowFollower::recordOver(FlowPiece& piece, const std::vector<std::size_t>& 
     const double from = h * (part - 1) / parts, to = part == parts ? h : h * part / parts;
     stepper.evaluate(piece.set, to, point_, false);
     giveSigns(piece, stepper.signsOver(signs_));
-    at_ = began + to;
+    lookAt(began + to);
     rangeTolerance_ = tolerance;
     if (outputTool_->outputs) {
       outputs_ = &outputTool_->outputs->outputs;
@@ -355,6 +355,10 @@ void FlowFollower::recordAt(FlowPiece& piece, const std::vector<std::size_t>& ro
     return polynomial;
   };
   const auto minus = [](BoundedPolynomial polynomial) { return polynomial *= -1; };
+  const auto secondsAt = [&](const OwnMoment& when) {  // those that are in the step then
+    const Interval step(0.0, theta), both = intersection(inflated(rangeOf(when.moment), when.around), step);
+    return (isEmpty(both) ? step : both) * Interval(scale);
+  };
   struct Open {
     OwnCell cell;
     std::vector<std::size_t> rows;
@@ -429,8 +433,8 @@ void FlowFollower::recordAt(FlowPiece& piece, const std::vector<std::size_t>& ro
         left.push_back(row);
         continue;
       }
-      if (mayNotHave) collect(piece, cell, std::move(ofUnturned), unturned, false, row);
-      if (mayHaveTurned) collect(piece, cell, std::move(ofTurned), turned, true, row);
+      if (mayNotHave) collect(piece, cell, std::move(ofUnturned), secondsAt(whenUnturned), unturned, false, row);
+      if (mayHaveTurned) collect(piece, cell, std::move(ofTurned), secondsAt(whenTurned), turned, true, row);
     }
     if (left.empty()) continue;
     const int symbol = symbolOf(behind, stepper.monomials());
@@ -485,8 +489,8 @@ double FlowFollower::locate(const FlowPiece& piece, const OwnCell& cell, const O
   return share;
 }
 
-/// The part at such a point of the step, where no limit is above zero.
-void FlowFollower::collect(const FlowPiece& piece, const OwnCell& cell, FlowPoint point,
+/// The part at such a point of the step, `when` seconds into it, where no limit is above zero.
+void FlowFollower::collect(const FlowPiece& piece, const OwnCell& cell, FlowPoint point, const Interval& when,
                            const std::vector<BoundedPolynomial>& limits, bool hasTurned, std::size_t row) {
   const FlowStepper& stepper = tool_->stepper;
   const Monomials& monomials = stepper.monomials();
@@ -500,7 +504,8 @@ void FlowFollower::collect(const FlowPiece& piece, const OwnCell& cell, FlowPoin
   own.set.parameters = cell.parameters;
   own.set.R.assign(n, 0.0);
   point_ = std::move(point);
-  at_ = task_.times[row];
+  lookAt(task_.times[row]);
+  signTimes_ = Interval(piece.set.t) + when;
   giveSigns(own, stepper.signsOver(signs_, hasTurned));
   rangeTolerance_ = task_.rangeTolerance();
   std::vector<Interval> states, outputs;

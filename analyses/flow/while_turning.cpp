@@ -70,7 +70,7 @@ void FlowFollower::encloseWhileTurning(const FlowPiece& piece, double tau, std::
       partsOf(stepper.turnMoment(), stepper.monomials(), tool_->range, tau, mostParts,
               [&](const Interval& moment) { return stepper.momentsOf(moment); });
   const std::vector<OutputExtremes> extremes = std::exchange(extremes_, {});
-  at_ = piece.set.t + tau;
+  lookAt(piece.set.t + tau);
   const auto hasTurned = [&](const TurningPart& part) {
     return part.moments.upper() <= tau ? 1 : part.moments.lower() >= tau ? -1 : 0;
   };

@@ -65,6 +65,15 @@ const std::pair<Program, Program>& pushed() {
   return programs;
 }
 
+/// A tank is filled until p[1], and drained while what follows its level is above p[0].
+const std::pair<Program, Program>& filled() {
+  static const auto programs = withAndWithoutClock([](const auto& t, const auto& x, const auto& p, auto& dx) {
+    dx[0] = 0.72 - 0.48 * sign(t - p[1]) - 0.4 * x[0] - 0.375 - 0.375 * sign(x[1] - p[0]);
+    dx[1] = x[0] - x[1];
+  });
+  return programs;
+}
+
 /// A relay that falls to a half at 1.7 s.
 const std::pair<Program, Program>& weakened() {
   static const auto programs = withAndWithoutClock([](const auto& t, const auto& x, const auto& p, auto& dx) {
@@ -231,6 +240,21 @@ const std::vector<Repeating>& repeating() {
        20,
        pushed().second,
        8},
+      {"aTankThatIsFilledUntilAnUnknownTime",
+       filled().first,
+       record(2, 2, 2,
+              [](auto, const auto& x, const auto& p, auto& y) {
+                y[0] = x[1];
+                y[1] = x[0] - p[0];
+              }),
+       {0.2, 0.1, Interval(0.376, 0.424), Interval(1.84, 2.16)},
+       8.25,
+       4,
+       false,
+       1,
+       12,
+       filled().second,
+       4},
       {"aRelayThatFallsAtAKnownTime",
        weakened().first,
        noOutputs(2, 2),
