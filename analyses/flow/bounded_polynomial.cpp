@@ -9,6 +9,7 @@
 
 #include "analyses/flow/embedding.hpp"
 #include "analyses/flow/error_bounds.hpp"
+#include "analyses/flow/polynomial_series.hpp"
 #include "scalars/index.hpp"
 
 namespace gamut {
@@ -191,6 +192,20 @@ Interval rangeOver(const std::vector<BoundedPolynomial>& u, double from, double 
     begin = end;
   }
   return result;
+}
+
+std::vector<BoundedPolynomial> ordersOf(const PolynomialSeries& series, int node, std::size_t orders) {
+  std::vector<BoundedPolynomial> result(orders);
+  for (std::size_t order = 0; order < orders; ++order)
+    for (int g = 0; g < series.count(node); ++g)
+      result[order].c.push_back(series.series(node)[at(g * series.stride()) + order]);
+  return result;
+}
+
+std::vector<BoundedPolynomial> rateOf(const std::vector<BoundedPolynomial>& u, double h0) {
+  std::vector<BoundedPolynomial> rates(u.begin() + 1, u.end());
+  for (std::size_t order = 0; order < rates.size(); ++order) rates[order] *= static_cast<double>(order + 1) / h0;
+  return rates;
 }
 
 PolynomialRoot rootOf(const Monomials& monomials, const std::vector<BoundedPolynomial>& u, double about) {

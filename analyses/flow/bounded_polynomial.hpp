@@ -8,6 +8,8 @@
 
 namespace gamut {
 
+class PolynomialSeries;
+
 /// Σ_g c_g ξ^g ± error for ξ in [-1,1]^k; of all monomials, or of the first ones.
 struct BoundedPolynomial {
   std::vector<double> c;
@@ -38,6 +40,11 @@ BoundedPolynomial composedNear(const Monomials& monomials, const std::vector<Bou
 
 /// Σ_i u_i σ^i for all σ from `from` to `to`, of one sign or zero.
 Interval rangeOver(const std::vector<BoundedPolynomial>& u, double from, double to);
+
+/// The first orders of σ of a node of the series: without what they leave out.
+std::vector<BoundedPolynomial> ordersOf(const PolynomialSeries& series, int node, std::size_t orders);
+/// Per second, of what is given by orders of σ, whose unit is h0 seconds.
+std::vector<BoundedPolynomial> rateOf(const std::vector<BoundedPolynomial>& u, double h0);
 
 /// x such that |Σ_i u_i x^i| ≤ rest, by Newton's method from the number `about`; x has no error of its own.
 struct PolynomialRoot {

@@ -45,10 +45,7 @@ bool FlowStepper::describeSince(const FlowSet& set, const std::vector<Interval>&
   std::vector<std::vector<BoundedPolynomial>> own(n);  // x̃
   turn.fromMoment.assign(n, std::vector<BoundedPolynomial>(few, {std::vector<double>(N, 0.0)}));
   for (std::size_t i = 0; i < n; ++i) {
-    const double* series = series_.series(static_cast<int>(i));
-    own[i].resize(orders);
-    for (std::size_t order = 0; order < orders; ++order)
-      for (std::size_t g = 0; g < N; ++g) own[i][order].c.push_back(series[g * at(series_.stride()) + order]);
+    own[i] = ordersOf(series_, static_cast<int>(i), orders);
     const BoundedPolynomial start = composed(monomials(), own[i], turn.when);
     turn.fromMoment[i][0].c = start.c;
     turn.gap.push_back(start.error);
@@ -76,12 +73,8 @@ bool FlowStepper::describeSince(const FlowSet& set, const std::vector<Interval>&
       difference += (since *= factor);
       return difference;
     };
-    const auto rateOf = [&](const std::vector<BoundedPolynomial>& u) {
-      std::vector<BoundedPolynomial> rates(u.begin() + 1, u.end());
-      for (std::size_t order = 0; order < rates.size(); ++order) rates[order] *= static_cast<double>(order + 1) / h0_;
-      return rates;
-    };
-    const std::vector<BoundedPolynomial> rates = rateOf(own[i]), seconds = rateOf(rates), thirds = rateOf(seconds);
+    const std::vector<BoundedPolynomial> rates = rateOf(own[i], h0_), seconds = rateOf(rates, h0_),
+                                         thirds = rateOf(seconds, h0_);
     turn.slopeOf.push_back(differenceOf(rates, 1, 1 / h0_));
     turn.slope.push_back(turn.slopeOf[i].norm());
     turn.bend.push_back(differenceOf(seconds, 2, 2 / (h0_ * h0_)).norm());  // h0 is a power of two
@@ -207,14 +200,10 @@ void FlowStepper::evaluateAt(const BoundedPolynomial& moment, FlowPoint& point) 
   point.loose.assign(n, 0.0);
   point.total = total_;
   for (std::size_t i = 0; i < n; ++i) {
-    const double* series = series_.series(static_cast<int>(i));
     BoundedPolynomial x;
     if (turn == nullptr || turn->fromMoment.empty()) {
-      std::vector<BoundedPolynomial> u(orders);
-      for (std::size_t order = 0; order < orders; ++order) {
-        for (std::size_t g = 0; g < N; ++g) u[order].c.push_back(series[g * at(series_.stride()) + order]);
-        if (turn != nullptr) u[order] += turn->D[i][order];
-      }
+      std::vector<BoundedPolynomial> u = ordersOf(series_, static_cast<int>(i), orders);
+      for (std::size_t order = 0; turn != nullptr && order < orders; ++order) u[order] += turn->D[i][order];
       x = composed(monomials(), u, moment);
     } else {
       const std::vector<BoundedPolynomial>& u = turn->fromMoment[i];

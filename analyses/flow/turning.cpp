@@ -31,22 +31,8 @@ std::pair<double, double> changeOf(double from, double to, Holds holds) {
   return {from, to};
 }
 
-/// By orders of σ.
 std::vector<BoundedPolynomial> polynomialsOf(const AlongStep& along, int output, std::size_t orders) {
-  const PolynomialSeries& series = along.series();
-  const int node = series.outputNode(output);
-  std::vector<BoundedPolynomial> result(orders);
-  for (std::size_t order = 0; order < orders; ++order)
-    for (int g = 0; g < series.count(node); ++g)
-      result[order].c.push_back(series.series(node)[at(g * series.stride()) + order]);
-  return result;
-}
-
-/// Per second, of what is given by orders of σ.
-std::vector<BoundedPolynomial> rateOf(const std::vector<BoundedPolynomial>& u, double h0) {
-  std::vector<BoundedPolynomial> rates(u.begin() + 1, u.end());
-  for (std::size_t order = 0; order < rates.size(); ++order) rates[order] *= static_cast<double>(order + 1) / h0;
-  return rates;
+  return ordersOf(along.series(), along.series().outputNode(output), orders);
 }
 
 double restOf(const AlongStep& along, int output) {
@@ -629,15 +615,10 @@ bool FlowStepper::describeInStep(const FlowSet& set, const std::vector<Interval>
   }
   const double from = std::max(0.0, turn.moments.lower()) / h0_;
   for (std::size_t i = 0; i < n; ++i) {
-    const std::vector<BoundedPolynomial> rates = rateOf(turn.D[i], h0_);
-    std::vector<BoundedPolynomial> seconds(rates.begin() + 1, rates.end());
+    const std::vector<BoundedPolynomial> rates = rateOf(turn.D[i], h0_), seconds = rateOf(rates, h0_);
     double twist = 0, power = 1;
-    for (std::size_t order = 0; order < seconds.size(); ++order) {
-      seconds[order] *= static_cast<double>(order + 1) / h0_;
-      if (order == 0) continue;
+    for (std::size_t order = 1; order < seconds.size(); ++order, power *= theta_)
       twist += static_cast<double>(order) * seconds[order].norm() * power;
-      power *= theta_;
-    }
     turn.most.push_back(magnitude(rangeOver(turn.D[i], from, theta_)));
     turn.gap.push_back(composed(monomials(), turn.D[i], turn.when).norm());
     turn.slopeOf.push_back(composed(monomials(), rates, turn.when));
