@@ -122,13 +122,15 @@ class Tiling {
   Tiling(std::vector<SurrogatePart> parts, bool areAlternatives)
       : parts_(std::move(parts)), areAlternatives_(areAlternatives) {}
 
-  std::vector<SurrogatePart> tiles(int symbols) {
-    if (parts_.empty()) return {};
+  /// None if it is cancelled on the way.
+  std::optional<std::vector<SurrogatePart>> tiles(int symbols, const std::atomic<bool>* cancelled) {
     const std::size_t most = 1024 + 16 * parts_.size();
     Cell whole{{std::vector<double>(at(symbols), 0.0), std::vector<double>(at(symbols), 1.0)}, {}};
     for (std::size_t i = 0; i < parts_.size(); ++i) whole.near.push_back(i);
-    for (std::deque<Cell> cells{std::move(whole)}; !cells.empty(); cells.pop_front())
+    for (std::deque<Cell> cells{std::move(whole)}; !cells.empty(); cells.pop_front()) {
+      if (cancelled != nullptr && *cancelled) return std::nullopt;
       divide(cells.front(), tiles_.size() + cells.size() > most, cells);
+    }
     return std::move(tiles_);
   }
 
@@ -208,7 +210,6 @@ Surrogate surrogateOf(const FlowModels& models, const std::vector<int>& componen
   Projection projection(models, components);
   Surrogate surrogate{projection.quantities(), projection.symbols(), {}, {}};
   for (std::size_t row = 0; row < models.at.size() && until <= models.modelled; ++row) {
-    if (cancelled != nullptr && *cancelled) break;
     bool areAlternatives = models.areAlternatives;
     std::vector<SurrogatePart> parts;
     for (const auto& snapshot : models.at[row]) {
@@ -217,8 +218,10 @@ Surrogate surrogateOf(const FlowModels& models, const std::vector<int>& componen
       parts.push_back(projection.of(*snapshot, from, until));
     }
     if (parts.empty() || parts.size() < models.at[row].size()) continue;
+    auto tiles = Tiling(std::move(parts), areAlternatives).tiles(surrogate.symbols, cancelled);
+    if (!tiles) break;
     surrogate.rows.push_back(row);
-    surrogate.at.push_back(Tiling(std::move(parts), areAlternatives).tiles(surrogate.symbols));
+    surrogate.at.push_back(std::move(*tiles));
   }
   return surrogate;
 }
