@@ -236,10 +236,11 @@ Tube inStages(const FlowFormulation& plain, const FlowFormulation& own, const Fl
   if (tube.reached() < horizon) {
     auto [other, isOther] = within({.limit = isDone ? budget.left() : 0.5 * budget.left()}, own, true);
     isWhole = isOther && other.reached() == horizon;
-    tube = FlowRun::meet(std::move(tube), std::move(other));
+    tube = FlowRun::meetStages(std::move(tube), std::move(other), budget);
   }
   if (isDone || isWhole || isCancelled()) return std::move(tube);
-  return FlowRun::meet(std::move(tube), within({.limit = budget.left()}, plain, false).first);
+  Tube last = within({.limit = budget.left()}, plain, false).first;
+  return FlowRun::meetStages(std::move(tube), std::move(last), budget);
 }
 
 }  // namespace

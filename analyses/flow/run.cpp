@@ -478,6 +478,17 @@ Tube FlowRun::meet(Tube a, Tube b) {
   return b;
 }
 
+Tube FlowRun::meetStages(Tube a, Tube b, const FlowBudget& all) {
+  std::pair<FlowCause, std::string> ofFarther{a.cause_, a.why_}, ofOther{b.cause_, b.why_};
+  if (a.reached_ < b.reached_) std::swap(ofFarther, ofOther);
+  Tube both = meet(std::move(a), std::move(b));
+  if (both.cause_.kind != FlowCause::Kind::overBudget || !(all.left() > 0)) return both;
+  const auto& own = ofFarther.first.kind == FlowCause::Kind::overBudget ? ofOther : ofFarther;
+  both.cause_ = own.first;
+  both.why_ = own.second;
+  return both;
+}
+
 void FlowRun::dropStates(Tube& tube, int n) {
   const bool hasOutputs = !tube.outputs_[0].empty();
   const auto cut = [&](std::vector<std::vector<Interval>>& rows) {
