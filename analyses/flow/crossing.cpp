@@ -111,12 +111,14 @@ FlowStepper::Look FlowStepper::lookAtKinks(const FlowSet& set, double& h, double
     bound.up = bound.down = rates[k];
   }
   kinks_->bound(began + Interval(0.0, h), box, set.parameters, u, kinkRates_);
-  // On their side before any has left it, solutions are those of the step, which do not.
+  // On their side before any has left it, solutions are those of the step, which do not: rates hold of who has been let
+  // go as little as what held them does.
+  const bool areRatesOfAll = !turn_ || !turn_->releases();
   bool isLeft = false;
   for (std::size_t k = 0; k < kinkSides_.size(); ++k) {
     if (kinkSides_[k] == 0 || k == passing_ || !contains(u[k], 0.0)) continue;
     const Interval over = atStart[k].start + Interval(0.0, h) * kinkRates_[k];
-    if (isCommon(over) && !contains(over, 0.0)) continue;
+    if (areRatesOfAll && isCommon(over) && !contains(over, 0.0)) continue;
     kinkSides_[k] = 0;
     isLeft = true;
   }

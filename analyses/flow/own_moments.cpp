@@ -129,6 +129,19 @@ std::vector<double> FlowStepper::statesSince(const Turn& turn) const {
   return result;
 }
 
+/// GΨ̃ at m(ξ), of the columns that there is something of.
+std::vector<BoundedPolynomial> FlowStepper::guardOfFrame(const Turn& turn) const {
+  const std::size_t n = at(n_);
+  std::vector<BoundedPolynomial> result(n, {std::vector<double>(at(series_.count()), 0.0)});
+  for (std::size_t j = 0; j < n; ++j)
+    for (std::size_t l = 0; l < n && total_[j] > 0; ++l) {
+      if (turn.ofGuard[l] == 0) continue;
+      BoundedPolynomial psi = frameAt(l, j, turn.when);
+      result[j] += (psi *= turn.ofGuard[l]);
+    }
+  return result;
+}
+
 /// Of the turn that has been proved: |z| so soon after m(ξ), and so after a solution's own moment, at most. As in
 /// jumpAtMoment, but S is d(ξ) GΨ̃ at m(ξ), polynomials in ξ. `before`: |z| until the moment; `rest`: what z is driven
 /// by from then on, with S constant.
@@ -144,14 +157,11 @@ void FlowStepper::boundSoon(Turn& turn, const std::vector<Interval>& J, const st
     for (std::size_t i = 0; i < n; ++i) z[i] += turn.within(i, turn.away);
   } else {
     double guard = turn.rest + turn.beyond, frame = 0;
-    std::vector<BoundedPolynomial> ofGuard(n);  // GΨ̃ at m(ξ)
+    const std::vector<BoundedPolynomial> ofGuard = guardOfFrame(turn);
     for (std::size_t l = 0; l < n; ++l) guard += std::fabs(turn.ofGuard[l]) * before[l];
     for (std::size_t j = 0; j < n; ++j) {
-      ofGuard[j].c.assign(at(series_.count()), 0.0);
       for (std::size_t l = 0; l < n && total_[j] > 0; ++l) {
         if (turn.ofGuard[l] == 0) continue;
-        BoundedPolynomial psi = frameAt(l, j, turn.when);
-        ofGuard[j] += (psi *= turn.ofGuard[l]);
         const double moves = series_.frameDerivativeNorm(static_cast<int>(l), static_cast<int>(j), 1, theta_) / h0_;
         guard += std::fabs(turn.ofGuard[l]) * turn.away * moves * total_[j];
       }

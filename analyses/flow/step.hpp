@@ -368,9 +368,10 @@ class FlowStepper {
     std::vector<double> before{};  // like e1_, until then
     // What turns of the frame from m(ξ) on, 1/s, and of each state, of what the set's remainder is; ∂f_a/∂x, about.
     std::vector<double> K{}, turned{}, J{};
-    std::vector<double> saltation{}, leapt{};  // likewise at once
-    std::vector<double> jolt{};                // what chords from the step's start miss
-    double lag = 0;                            // s from m(ξ) on, by when all have turned
+    std::vector<double> saltation{};  // likewise at once, in the middle of ξ
+    std::vector<double> leapt{};      // |S (r + Γs)|; of all ξ where solutions are stopped
+    std::vector<double> jolt{};       // what chords from the step's start miss
+    double lag = 0;                   // s from m(ξ) on, by when all have turned
     // |z| by then, with S as polynomials: d of every state, and at most beside that; S, none: constant.
     std::vector<double> soon{}, besideLeapOf{};
     std::vector<BoundedPolynomial> leapOf{}, saltationOf{};
@@ -408,6 +409,7 @@ class FlowStepper {
   static double lagOf(double away, double h) { return std::max(2 * away, 0x1p-8 * h); }
   void describeLeap(Turn& turn, const std::vector<BoundedPolynomial>& guard) const;
   bool describeTurn(const FlowSet& set, const std::vector<Interval>& signs, Turn& turn);
+  std::vector<BoundedPolynomial> guardOfFrame(const Turn& turn) const;
   void boundSoon(Turn& turn, const std::vector<Interval>& J, const std::vector<double>& before,
                  const std::vector<double>& rest, const std::vector<double>& slack);
   bool turnFrameWith(const FlowSet& set, const std::vector<Interval>& signs, Turn& turn);

@@ -750,6 +750,16 @@ bool FlowStepper::turnFrameWith(const FlowSet& set, const std::vector<Interval>&
       turn.leapt[i] += std::fabs(turn.saltation[i * n + j]) * total_[j] * bounds::up;
     }
   }
+  // Of those that are stopped S is a polynomial in ξ.
+  if (!turn.fromMoment.empty() && !turn.ofGuard.empty()) {
+    const std::vector<BoundedPolynomial> ofGuard = guardOfFrame(turn);
+    for (std::size_t i = 0; i < n; ++i) {
+      double sum = 0;
+      for (std::size_t j = 0; j < n && std::isfinite(sum); ++j)
+        if (total_[j] > 0) sum += product(monomials(), turn.leapOf[i], ofGuard[j]).norm() * total_[j] * bounds::up;
+      turn.leapt[i] = std::max(turn.leapt[i], sum);
+    }
+  }
   turn.K.assign(n * n, 0.0);
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = 0; j < n; ++j) {
@@ -933,7 +943,9 @@ bool FlowStepper::proveTurn(const FlowSet& set, const std::vector<Interval>& sig
     // Beside a chord from the step's start: D grows no slower than at its end, but for what moments miss, by which it
     // may be there before m(ξ).
     const double steepest = turn.slope[i] + since * (turn.bend[i] + 0.5 * since * turn.twist[i]);
-    turn.jolt.push_back((turn.within(i, turn.away) + turn.leapt[i] + turn.away * turn.turned[i] + crossed_[i]) *
+    // Of those that are stopped D is no longer than `since`, which may be all that a chord is of.
+    const double atOnce = stops ? std::max(turn.most[i], since * steepest) : turn.within(i, turn.away);
+    turn.jolt.push_back((atOnce + turn.leapt[i] + (stops ? since : turn.away) * turn.turned[i] + crossed_[i]) *
                         bounds::up);
     e1_[i] =
         (e1_[i] + crossed_[i] + std::max(turn.most[i], since * steepest) + turn.leapt[i] + since * turn.turned[i]) *
