@@ -40,25 +40,36 @@ double FlowStepper::relativeRemainder(const FlowSet& set) const {
   return largest;
 }
 
-/// Of each symbol, its part in the highest grades; at a fresh start, in all. `byGrade`: what each grade holds.
+/// Of each symbol, its part in the highest grades; of operations on the way where states hold none (what they lose may
+/// cancel in f); at a fresh start, in all of states. `byGrade`: what each grade holds.
 std::vector<double> FlowStepper::symbolMass(std::vector<double>& byGrade) const {
   const Monomials& m = monomials();
-  std::vector<double> mass(at(m.symbols()), 0.0);
-  byGrade.assign(at(m.degree() + 1), 0.0);
-  for (int from : {m.degree() - 1, 1}) {
-    for (int i = 0; i < n_; ++i)
-      for (int g = 1; g < m.count(); ++g) {
-        if (from > 1 && m.grade(g) < from - 2 && m.grade(g) > 1) continue;
-        double size = 0, power = 1;
-        for (int order = 0; order <= m_; ++order, power *= theta_)
-          size += std::fabs(series_.series(i)[g * series_.stride() + order]) * power;
-        size /= scale_[at(i)];
-        byGrade[at(m.grade(g))] += size;
-        if (m.grade(g) >= from)
-          for (int l = 0; l < m.symbols(); ++l) mass[at(l)] += m.exponent(g, l) * size;
-      }
-    if (*std::max_element(mass.begin(), mass.end()) > 0) break;
-  }
+  const int highest = m.degree() - 1;
+  std::vector<double> mass;
+  const auto add = [&](int node, int from, double unit) {
+    for (int g = 1; g < series_.count(node); ++g) {
+      if (from > 1 && m.grade(g) < from - 2 && m.grade(g) > 1) continue;
+      double size = 0, power = 1;
+      for (int order = 0; order <= m_; ++order, power *= theta_)
+        size += std::fabs(series_.series(node)[g * series_.stride() + order]) * power;
+      size /= unit;
+      byGrade[at(m.grade(g))] += size;
+      if (m.grade(g) >= from)
+        for (int l = 0; l < m.symbols(); ++l) mass[at(l)] += m.exponent(g, l) * size;
+    }
+  };
+  const auto isFound = [&](int from, int nodes, bool areStates) {
+    mass.assign(at(m.symbols()), 0.0);
+    byGrade.assign(at(m.degree() + 1), 0.0);
+    for (int node = 0; node < nodes; ++node) {
+      const double unit = areStates ? scale_[at(node)] : series_.norm(node);
+      if (areStates || (unit > 0 && std::isfinite(unit))) add(node, from, unit);
+    }
+    return *std::max_element(mass.begin(), mass.end()) > 0;
+  };
+  int last = 0;
+  for (int i = 0; i < n_; ++i) last = std::max(last, series_.outputNode(i));
+  if (!isFound(highest, n_, true) && !isFound(highest, last + 1, false)) isFound(1, n_, true);
   return mass;
 }
 

@@ -297,6 +297,20 @@ TEST(Impacts, AccumulateWherePlaceSpeedAndRestitutionAreUncertain) {
   EXPECT_LT(results.interval.at.upper(last, 1), 1e-15);
 }
 
+/// What the restitution adds on the way of a fall it takes off again: no piece need be bisected for what that leaves.
+TEST(Impacts, OfAnUncertainRestitutionAskForNoBisectionBeforeThem) {
+  const std::string text =
+      ballOf(0.5, "displacement = 0.5") +
+      "[[mechanism.element]]\ntype = \"rigid-stop\"\nname = \"stop\"\njoint = \"fall\"\nat = 0\nrestitution = 0.5\n" +
+      uncertainBy("fall.displacement", "± 5 %") + uncertainBy("stop.restitution", "± 5 %") +
+      "[[output]]\nquantity = \"fall.displacement\"\n";
+  const Results results = run(readStudyText(text, "s.toml"));
+  EXPECT_EQ(results.interval.why, "");
+  EXPECT_LE(results.interval.pieces, 4);
+  EXPECT_EQ(results.comparison.verdict, "inside");
+  EXPECT_LT(results.comparison.maximum, 1.01);
+}
+
 /// Only of two ends all sides are written out.
 TEST(Impacts, AccumulateToARestAtNoMoreThanTwoEnds) {
   std::string text = headOf(1.0);
