@@ -111,8 +111,8 @@ FlowStepper::Look FlowStepper::lookAtKinks(const FlowSet& set, double& h, double
     bound.up = bound.down = rates[k];
   }
   kinks_->bound(began + Interval(0.0, h), box, set.parameters, u, kinkRates_);
-  // On their side before any has left it, solutions are those of the step, which do not: rates hold of who has been let
-  // go as little as what held them does.
+  // On their side before any has left it, solutions are those of the step, which do not. Rates are those of the step's
+  // own motion: of solutions that a release lets go they say nothing.
   const bool areRatesOfAll = !turn_ || !turn_->releases();
   bool isLeft = false;
   for (std::size_t k = 0; k < kinkSides_.size(); ++k) {

@@ -750,7 +750,7 @@ bool FlowStepper::turnFrameWith(const FlowSet& set, const std::vector<Interval>&
       turn.leapt[i] += std::fabs(turn.saltation[i * n + j]) * total_[j] * bounds::up;
     }
   }
-  // Of those that are stopped S is a polynomial in ξ.
+  // Of those that are stopped S is a polynomial in ξ: |S_ij(ξ)| is no more than its coefficients and error together.
   if (!turn.fromMoment.empty() && !turn.ofGuard.empty()) {
     const std::vector<BoundedPolynomial> ofGuard = guardOfFrame(turn);
     for (std::size_t i = 0; i < n; ++i) {
@@ -943,7 +943,7 @@ bool FlowStepper::proveTurn(const FlowSet& set, const std::vector<Interval>& sig
     // Beside a chord from the step's start: D grows no slower than at its end, but for what moments miss, by which it
     // may be there before m(ξ).
     const double steepest = turn.slope[i] + since * (turn.bend[i] + 0.5 * since * turn.twist[i]);
-    // Of those that are stopped D is no longer than `since`, which may be all that a chord is of.
+    // Of those that are stopped D lasts for `since` at most, and a chord may be longer: all that D becomes counts.
     const double atOnce = stops ? std::max(turn.most[i], since * steepest) : turn.within(i, turn.away);
     turn.jolt.push_back((atOnce + turn.leapt[i] + (stops ? since : turn.away) * turn.turned[i] + crossed_[i]) *
                         bounds::up);

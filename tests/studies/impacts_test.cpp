@@ -303,7 +303,7 @@ TEST(Impacts, OfAnUncertainRestitutionAskForNoBisectionBeforeThem) {
       ballOf(0.5, "displacement = 0.5") +
       "[[mechanism.element]]\ntype = \"rigid-stop\"\nname = \"stop\"\njoint = \"fall\"\nat = 0\nrestitution = 0.5\n" +
       uncertainBy("fall.displacement", "± 5 %") + uncertainBy("stop.restitution", "± 5 %") +
-      "[[output]]\nquantity = \"fall.displacement\"\n";
+      "[[output]]\nquantity = \"fall.displacement\"\n[interval]\nmax_pieces = 8\n";
   const Results results = run(readStudyText(text, "s.toml"));
   EXPECT_EQ(results.interval.why, "");
   EXPECT_LE(results.interval.pieces, 4);
