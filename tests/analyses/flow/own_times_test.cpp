@@ -369,6 +369,40 @@ TEST(FlowOwnMoments, WhatTurnsAndIsNotStoppedIsThereUntilTheStepEnds) {
   }
 }
 
+/// A block that sticks to a belt and slips, with a force that has a kink beside the belt's speed: what is let go comes
+/// to the kink, which what is held keeps away from.
+TEST(FlowOwnMoments, WhatIsLetGoPassesAKinkBesideWhatWasHeld) {
+  const Program states = record(2, 2, 2, [](auto, const auto& x, const auto&, auto& y) {
+    for (std::size_t i = 0; i < 2; ++i) y[i] = x[i];
+  });
+  const Program none = record(2, 2, 0, [](auto, const auto&, const auto&, auto&) {});
+  const Box box{0.0, 0.0, Interval(0.9, 1.1), Interval(1.8, 2.2)};
+  const double horizon = 10;
+  std::vector<double> times;
+  for (int i = 0; i <= 100; ++i) times.push_back(horizon * i / 100);
+  for (const double kink : {0.99, 0.9}) {
+    const Program f = record(2, 2, [=](auto, const auto& x, const auto& p, auto& dx) {
+      dx[0] = x[1];
+      dx[1] = p[1] * sign(1.0 - x[1]) - p[0] * x[0] - 0.25 * (1.0 - x[1]) - 4.0 * abs(x[1] - kink);
+    });
+    FlowBudget budget{8 * Work::perSecond};
+    const Program differentiated = differentiatedFor(f, {});
+    double looseness = 0;
+    const Tube tube =
+        refine({f, differentiated, none, FlowOptions(), horizon, times, budget, -1, true}, box, {}, looseness);
+    ASSERT_EQ(tube.reached(), horizon);
+    for (int corner = 0; corner < 4; ++corner) {
+      const std::vector<double> start{0.0, 0.0, corner % 2 == 0 ? box[2].lower() : box[2].upper(),
+                                      corner / 2 == 0 ? box[3].lower() : box[3].upper()};
+      const PreciseTrajectory found = arbitrate({f, states, {}, times}, start);
+      ASSERT_EQ(found.times, times.size());
+      for (std::size_t row = 0; row < times.size(); ++row)
+        for (std::size_t i = 0; i < 2; ++i)
+          ASSERT_THAT(tube.states(row)[i], Encloses(found.values[row * 2 + i])) << corner << ' ' << times[row];
+    }
+  }
+}
+
 TEST(FlowCore, IsAPointOfWhatIsLostInExcess) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
   EXPECT_TRUE(isEqual(without(Interval(1, 4), 1), Interval(2, 3)));
