@@ -16,16 +16,18 @@ namespace gamut {
 using detail::at;
 
 Embedding::Embedding(const Box& box, int states, const std::vector<VaryingParameter>& inputs,
-                     const std::vector<int>& weights) {
+                     const std::vector<int>& weights, int dependent) {
   std::size_t wide = 0;
   for (const Interval& value : box) {
     const int parameter = static_cast<int>(components.size()) - states;
+    const bool isDependent = parameter < 0 && parameter >= -dependent;
     const bool isInput = std::ranges::find(inputs, parameter, &VaryingParameter::parameter) != inputs.end();
     Embedded e;
     e.centre = midpoint(value);
     e.radius = isThin(value) ? 0.0 : radius(value);
     // Widths of the order of rounding are carried by the remainder; wider ones get a symbol.
-    if (!isInput && e.radius > 1e-13 * std::fabs(e.centre) && (weights.empty() || weights[wide++] > 0)) {
+    if (!isInput && !isDependent && e.radius > 1e-13 * std::fabs(e.centre) &&
+        (weights.empty() || weights[wide++] > 0)) {
       e.half = e.radius;
       e.radius = 0;
       e.symbol = symbols++;

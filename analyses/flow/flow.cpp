@@ -14,6 +14,7 @@
 #include "analyses/flow/polygon_tube.hpp"
 #include "analyses/flow/refinement.hpp"
 #include "analyses/flow/run.hpp"
+#include "analyses/flow/surfaces.hpp"
 #include "analyses/flow/time_kinks.hpp"
 #include "analyses/work.hpp"
 #include "scalars/index.hpp"
@@ -25,9 +26,10 @@ using detail::at;
 
 struct Flow::Parts {
   FlowFormulation anyCourse;
-  std::optional<FlowFormulation> ofRates;    // if some input has a bounded rate
-  bool isTimed;                              // something depends on time
-  std::optional<FlowFormulation> withClock;  // if so, and solutions may turn
+  std::optional<FlowFormulation> ofRates;                         // if some input has a bounded rate
+  bool isTimed;                                                   // something depends on time
+  std::optional<FlowFormulation> withClock;                       // if so, and solutions may turn
+  std::optional<FlowFormulation> bySurfaces, byClockAndSurfaces;  // of these two, if surfaces ask for it
   FlowOptions options;
 };
 
@@ -119,8 +121,12 @@ Flow::Flow(Program f, Program g, FlowOptions options) {
   const bool isTimed =
       dependsOnTime(anyCourse.motion) || dependsOnTime(anyCourse.outputs) || dependsOnTime(anyCourse.asides);
   if (isTimed && inputs.empty() && mayTurn(anyCourse.motion)) withClock = anyCourse.withClock();
-  parts_ = std::make_unique<const Parts>(
-      Parts{std::move(anyCourse), std::move(ofRates), isTimed, std::move(withClock), std::move(options)});
+  std::optional<FlowFormulation> bySurfaces, byClockAndSurfaces;
+  if (inputs.empty()) bySurfaces = withSurfaces(anyCourse);
+  if (withClock) byClockAndSurfaces = withSurfaces(*withClock);
+  parts_ =
+      std::make_unique<const Parts>(Parts{std::move(anyCourse), std::move(ofRates), isTimed, std::move(withClock),
+                                          std::move(bySurfaces), std::move(byClockAndSurfaces), std::move(options)});
 }
 
 Flow::~Flow() = default;
@@ -161,9 +167,11 @@ Tube answer(const FlowFormulation& formulation, const FlowOptions& options, Flow
   std::vector<Box> levels;
   for (const Box& level : wholeLevels) levels.push_back(formulation.boxOf(level));
   const int n = formulation.motion.states();
-  const Embedding uncertain(box, n, options.varying);
+  const Program* starts = formulation.starts.outputs() > 0 ? &formulation.starts : nullptr;
+  const Embedding uncertain(box, n, options.varying, {}, formulation.starts.outputs());
   FlowOptions own = options;
-  if (uncertain.symbols > 0) own.precise.clear();  // they are of thin boxes, not of a thin level of a wide one
+  // They are of thin boxes, not of a thin level of a wide one; and of components in the order of the box itself.
+  if (uncertain.symbols > 0 || starts != nullptr) own.precise.clear();
   FlowOptions ofLevels = own;
   ofLevels.aside = {};
   ofLevels.modelled.clear();
@@ -179,8 +187,9 @@ Tube answer(const FlowFormulation& formulation, const FlowOptions& options, Flow
                         horizon,
                         outputTimes,
                         of,
-                        formulation.hasClock ? n - 1 : -1,
-                        stopsEarly};
+                        formulation.clock(),
+                        stopsEarly,
+                        starts};
   };
   const FlowQuestion question = questionWith(own, budget), levelQuestion = questionWith(ofLevels, levelBudget);
   const auto narrowsInput = [&](const Box& level) {
@@ -216,24 +225,25 @@ bool isSwitched(const FlowFormulation& formulation, double horizon) {
 }
 
 /// `plain` for a part of what may be spent, or until it falls into many pieces; where that does not come to the
-/// horizon, `own`, with solutions at times of their own from the first turn on that no step holds; and `plain` again,
-/// if that ended for want of work alone.
+/// horizon, or is looser than was asked for and `own` has states more for surfaces, `own`, with solutions at times of
+/// their own from the first turn on that no step holds; and `plain` again, if that ended for want of work alone.
 Tube inStages(const FlowFormulation& plain, const FlowFormulation& own, const FlowOptions& options, FlowBudget& budget,
               const Box& box, double horizon, const std::vector<double>& outputTimes, const std::vector<Box>& levels) {
   constexpr double firstShare = 0.125, mostAtFirst = 4 * Work::perSecond;
   constexpr std::size_t mostPiecesAtFirst = 32;
   const auto within = [&](FlowBudget part, const FlowFormulation& formulation, bool stopsEarly) {
     Tube tube = answer(formulation, options, part, box, horizon, outputTimes, levels, stopsEarly);
-    if (formulation.hasClock) FlowRun::dropStates(tube, plain.states);
+    if (formulation.motion.states() > plain.states) FlowRun::dropStates(tube, plain.states);
     budget.spent += part.spent;
     return std::pair(std::move(tube), part.left() > 0);
   };
   const auto isCancelled = [&] { return options.cancelled != nullptr && options.cancelled->load(); };
   auto [tube, isDone] = within(
       {.limit = std::min(firstShare * budget.limit, mostAtFirst), .mostPieces = mostPiecesAtFirst}, plain, false);
-  if (isCancelled() || (isDone && tube.reached() == horizon)) return std::move(tube);
+  const bool isLoose = own.starts.outputs() > plain.starts.outputs() && !tube.shortfall().empty();
+  if (isCancelled() || (isDone && tube.reached() == horizon && !isLoose)) return std::move(tube);
   bool isWhole = false;
-  if (tube.reached() < horizon) {
+  if (tube.reached() < horizon || isLoose) {
     auto [other, isOther] = within({.limit = isDone ? budget.left() : 0.5 * budget.left()}, own, true);
     isWhole = isOther && other.reached() == horizon;
     tube = FlowRun::meetStages(std::move(tube), std::move(other), budget);
@@ -268,10 +278,29 @@ Tube Flow::enclose(const Box& box, double horizon, const std::vector<double>& ou
     options.progress = [&](double fraction) { parts_->options.progress(furthest = std::max(furthest, fraction)); };
   FlowBudget budget{options.budget * Work::perSecond};
   const bool isTimed = parts_->isTimed, hasClock = isTimed && parts_->withClock && !isSwitched(formulation, horizon);
-  if (options.varying.empty() && mayTurn(motion) && (!isTimed || hasClock) &&
-      Embedding(box, motion.states(), {}).symbols > 0)
-    return inStages(formulation, hasClock ? *parts_->withClock : formulation, options, budget, box, horizon,
-                    outputTimes, levels);
+  const auto isDefined = [&](const std::optional<FlowFormulation>& surfaces) {
+    return surfaces &&
+           std::ranges::all_of(surfaces->boxOf(box), [](const Interval& range) { return isBounded(range); });
+  };
+  const auto& surfaces = hasClock ? parts_->byClockAndSurfaces : parts_->bySurfaces;
+  const bool bySurfaces = isDefined(surfaces), hasSymbols = Embedding(box, motion.states(), {}).symbols > 0;
+  const auto staged = [&](const FlowFormulation& plain, const FlowFormulation& own) {
+    return inStages(plain, own, options, budget, box, horizon, outputTimes, levels);
+  };
+  const bool mayPass = options.varying.empty() && mayTurn(motion), mayHaveOwnTimes = !isTimed || hasClock;
+  if (mayPass && bySurfaces && !surfaces->jumps) return staged(formulation, *surfaces);
+  const FlowFormulation& own = hasClock ? *parts_->withClock : formulation;
+  if (mayPass && bySurfaces) {  // jumps of what is not linear cost all: with states for them from the start
+    Tube tube = staged(*parts_->bySurfaces, *surfaces);
+    // Without symbols it costs little to know as well what is known as finely as numbers are.
+    const bool isDone = hasSymbols && tube.reached() == horizon;
+    if (isDone || !(budget.left() > 0) || tube.cause().kind == FlowCause::Kind::interrupted) return tube;
+    Tube other = mayHaveOwnTimes && hasSymbols
+                     ? staged(formulation, own)
+                     : answer(formulation, options, budget, box, horizon, outputTimes, levels);
+    return FlowRun::meetStages(std::move(tube), std::move(other), budget);
+  }
+  if (mayPass && mayHaveOwnTimes && hasSymbols) return staged(formulation, own);
   Tube tube = answer(formulation, options, budget, box, horizon, outputTimes, levels);
   if (!parts_->ofRates || tube.wasStopped()) return tube;
   // Up to an output time, so that both have the same rows.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "analyses/flow/plain_outputs.hpp"
 #include "scalars/index.hpp"
 #include "scalars/program/recorder.hpp"
 #include "scalars/program/sides.hpp"
@@ -163,10 +164,14 @@ FlowFormulation FlowFormulation::withClock() const {
 Box FlowFormulation::boxOf(const Box& box) const {
   if (motion.states() == states) return box;
   Box result = box;
-  if (hasClock) {
-    result.insert(result.begin() + states, Interval(0.0));
-    return result;
+  if (hasClock) result.insert(result.begin() + states, Interval(0.0));
+  if (starts.outputs() > 0) {
+    const auto behind = result.begin() + motion.states() - starts.outputs();
+    result.insert(behind, at(starts.outputs()), Interval(0.0));
+    const std::vector<Interval> ranges = PlainOutputs(starts).over(0.0, result);
+    std::ranges::copy(ranges, result.begin() + motion.states() - starts.outputs());
   }
+  if (hasClock || starts.outputs() > 0) return result;
   auto place = result.begin() + states;
   for (const VaryingParameter& input : inputs)
     if (std::isfinite(input.rate)) place = result.insert(place, box[at(states + input.parameter)]) + 1;

@@ -1,7 +1,7 @@
 // What a flow integrates: f, its derivatives and outputs, and which parameters are inputs. An input of bounded rate is
 // a further state in one formulation, ẇ = v with v an input of any course, and an input of any course itself in
 // another: both hold, the former is the tighter one as long as rate·t is less than what w may be. Time itself is a
-// state where solutions are to be at times of their own.
+// state where solutions are to be at times of their own, and so are arguments of jumps that are not linear (surfaces).
 #pragma once
 
 #include <vector>
@@ -25,7 +25,9 @@ struct FlowFormulation {
   Program asides;          // FlowOptions::aside
   int states;              // of f as it was asked for: those behind them are inputs
   std::vector<VaryingParameter> inputs;
-  bool hasClock = false;
+  bool hasClock = false;  // the state behind them
+  Program starts{};       // of further states, the last: where each starts, as a function of all others and parameters
+  bool jumps = false;     // at the zero of one of these
 
   FlowFormulation(Program f, Program g, std::vector<VaryingParameter> varying, Program besides);
   /// With a state for each input of bounded rate.
@@ -34,9 +36,12 @@ struct FlowFormulation {
   /// With a state for time, θ̇ = 1, in its place.
   FlowFormulation withClock() const;
 
-  /// The box in this formulation: each further state starts anywhere in its interval, and its parameter's place is that
-  /// of its rate; time starts at zero. Unchanged without further states.
+  /// The box in this formulation: each input that is a state starts anywhere in its interval, and its parameter's place
+  /// is that of its rate; time starts at zero; the last states start within what intervals tell of `starts`. Unchanged
+  /// without further states.
   Box boxOf(const Box& box) const;
+  /// The number of the state that is time; -1: none.
+  int clock() const { return hasClock ? states : -1; }
   /// No longer than the rates tell more than the intervals.
   double horizonOf(const Box& box, double horizon) const;
 };

@@ -10,6 +10,7 @@
 #include "analyses/flow/error_bounds.hpp"
 #include "analyses/flow/formulation.hpp"
 #include "analyses/flow/run.hpp"
+#include "analyses/flow/surfaces.hpp"
 #include "analyses/work.hpp"
 #include "analyses/workers.hpp"
 #include "scalars/index.hpp"
@@ -59,6 +60,10 @@ FlowJourney FlowFollower::follow(FlowPiece& piece, double end, double allowed) {
     return FlowJourney::bisected;
   }
   while (piece.set.t < end && static_cast<double>(Work::counted() - began) <= allowed) {
+    if (task_.starts != nullptr && piece.set.t == 0 && !piece.isPlaced) {
+      placeSurfaces(piece.set, *task_.starts, task_.layouts[piece.layout].monomials);
+      piece.isPlaced = true;
+    }
     if (task_.options.cancelled != nullptr && task_.options.cancelled->load(std::memory_order_relaxed))
       return FlowJourney::cancelled;
     if (settle(piece, Settle::unnoticed)) continue;
@@ -350,6 +355,7 @@ void FlowFollower::changeLayout(FlowPiece& piece, std::size_t to) {
   const FlowLayout& from = task_.layouts[piece.layout];
   changeDegree(piece.set, *from.monomials, *task_.layouts[to].monomials, task_.layouts[to].frameDegree);
   piece.layout = to;
+  piece.isPlaced = false;
   // Tools take much memory. Pieces that are not bisected on the way raise their degrees about together: those of
   // degrees further below are dropped, and what a few pieces still need is made anew.
   if (task_.mayBisect) return;

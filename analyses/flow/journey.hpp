@@ -28,6 +28,7 @@ struct FlowPiece {
   FlowSet set;
   std::size_t layout = 0;                          // which monomials it uses
   std::size_t next = 0;                            // index of its next output time
+  bool isPlaced = false;                           // at its start, in this layout (placeSurfaces)
   std::vector<Interval> last, over;                // states at set.t; states since the last output time
   std::vector<Interval> lastOutputs, overOutputs;  // likewise for the outputs; lastOutputs: outputLimits_
   std::vector<double> lastRadii;                   // beside polynomials of these; infinite: not known

@@ -45,7 +45,7 @@ bool isCurable(const FlowCause& cause) {
 Tube withPlainDegrees(const FlowQuestion& question, const Box& box, const std::vector<Box>& levels,
                       std::shared_ptr<const FlowScales> scales, Tube best, const FlowCause& limit, double work,
                       double& looseness) {
-  const int symbols = Embedding(box, question.motion.states(), question.options.varying).symbols;
+  const int symbols = question.embed(box).symbols;
   const bool isAutomatic = question.options.degree < 0 && question.options.split && symbols > 0;
   const bool isEarly = !best.why().empty();
   const double enough = std::max(0.9 * (question.options.tightness - 1), question.options.enough);

@@ -17,6 +17,7 @@
 #include "analyses/flow/scales.hpp"
 #include "analyses/flow/set.hpp"
 #include "analyses/flow/step.hpp"
+#include "analyses/flow/surfaces.hpp"
 #include "analyses/work.hpp"
 #include "analyses/workers.hpp"
 #include "scalars/index.hpp"
@@ -52,9 +53,13 @@ class Weighing {
  public:
   Weighing(const FlowQuestion& question, const Box& box)
       : share_(question.options.tightness - 1), hasJumps_(!jumpsOf(question.motion).empty()) {
-    const Embedding embedding(box, question.motion.states(), question.options.varying);
+    const Embedding embedding = question.embed(box);
     const int symbols = embedding.symbols;
-    const std::vector<char> ofJumps = parametersOfJumps(question.motion);
+    std::vector<char> ofJumps = parametersOfJumps(question.motion);
+    if (question.starts != nullptr) {  // these are of jumps, or bend at least
+      for (const Node& node : question.starts->nodes())
+        if (node.op == Op::parameter) ofJumps[at(node.a)] = 1;
+    }
     for (std::size_t k = 0; k < ofJumps.size(); ++k)
       if (const int symbol = embedding.components[at(question.motion.states()) + k].symbol;
           ofJumps[k] != 0 && symbol >= 0)
@@ -105,7 +110,7 @@ class Weighing {
 
   /// One piece of low degree and order, of which nothing is proved.
   void look(const FlowQuestion& question, const Box& box, bool weighs) {
-    const Embedding embedding(box, question.motion.states(), question.options.varying);
+    const Embedding embedding = question.embed(box);
     const int n = question.motion.states(), degree = weighs && embedding.symbols <= mostOfSecondDegree ? 2 : 1;
     const auto monomials = std::make_shared<const Monomials>(std::vector<int>(at(embedding.symbols), 1), degree);
     std::vector<int> inputs;
@@ -115,6 +120,7 @@ class Weighing {
     PolynomialSeries outputs(question.outputs, question.outputs.outputs(), monomials, 0, 1, false);
     influence_.assign(at(embedding.symbols), {});
     FlowSet set = startOf(embedding, n, *monomials, 0);
+    if (question.starts != nullptr) placeSurfaces(set, *question.starts, monomials);
     FlowScales scales;
     bool isWhole = true;  // else they may be those of a state that grows without bound
     std::vector<double> turned(at(n * n), 0.0), sizes(at(n));
@@ -378,7 +384,7 @@ Tube refine(const FlowQuestion& question, const Box& box, const std::vector<Box>
       break;
     }
   }
-  const bool isSingle = Embedding(box, question.motion.states(), question.options.varying).symbols == 0;
+  const bool isSingle = question.embed(box).symbols == 0;
   if (limit.isNone() && isSingle) {  // of what varies in time alone one run is made, by the tightness that is asked for
     std::array<char, 48> smaller{};
     std::snprintf(smaller.data(), smaller.size(), "interval.tightness = %.6g",

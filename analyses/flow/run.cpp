@@ -7,6 +7,7 @@
 #include <thread>
 #include <utility>
 
+#include "analyses/flow/plain_outputs.hpp"
 #include "analyses/flow/start_outputs.hpp"
 #include "analyses/work.hpp"
 #include "analyses/workers.hpp"
@@ -191,6 +192,7 @@ void FlowRun::bisect(Traveller& traveller, std::vector<Traveller>& into) {
     nextProbe_ = 2 * pieces_;
     probe(traveller.piece);
   }
+  traveller.piece.isPlaced = false;
   FlowPiece other = traveller.piece;
   traveller.piece.set = std::move(traveller.halves.first);
   other.set = std::move(traveller.halves.second);
@@ -248,7 +250,12 @@ void FlowRun::probe(const FlowPiece& piece) {
   const std::vector<Box> noLevels;
   const std::vector<double> noTimes;
   FlowBudget rest{task_.budget.left()};
-  const FlowQuestion question{task_.motion, task_.differentiated, none, options, horizon, noTimes, rest};
+  FlowQuestion question{task_.motion, task_.differentiated, none, options, horizon, noTimes, rest};
+  if (task_.starts != nullptr) {
+    question.starts = task_.starts;
+    const std::vector<Interval> at0 = PlainOutputs(*task_.starts).over(0.0, start);
+    std::ranges::copy(at0, start.begin() + (task_.motion.states() - task_.starts->outputs()));
+  }
   const FlowTask task(question, start, noLevels, {});
   const Tube alone = FlowRun(task).run();
   task_.budget.spent += rest.spent;

@@ -62,7 +62,7 @@ FlowTask::FlowTask(const FlowQuestion& question, const Box& startBox, const std:
       budget(question.budget),
       box(startBox),
       levels(levelBoxes),
-      embedding(startBox, question.motion.states(), question.options.varying, round.emphasis.weights),
+      embedding(question.embed(startBox, round.emphasis.weights)),
       jumps(question.differentiated, parametersOf(question.options.varying), question.options.rests),
       horizon(question.horizon),
       effective(round.emphasis.weights.empty() ? embedding.symbols : round.emphasis.effective),
@@ -71,6 +71,7 @@ FlowTask::FlowTask(const FlowQuestion& question, const Box& startBox, const std:
       mayBisect(question.options.split && round.fixedDegree == 0),
       stopsEarly(question.stopsEarly),
       standsStill(isZero(motion)),
+      starts(question.starts),
       cuts(round.cuts),
       richer(round.richer),
       scales(round.scales) {

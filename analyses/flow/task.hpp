@@ -37,8 +37,13 @@ struct FlowQuestion {
   double horizon;
   const std::vector<double>& outputTimes;
   FlowBudget& budget;
-  int clock = -1;           ///< the state that is time; -1: none
-  bool stopsEarly = false;  ///< solutions may be at times of their own from a first turn on, or without one
+  int clock = -1;                   ///< the state that is time; -1: none
+  bool stopsEarly = false;          ///< solutions may be at times of their own from a first turn on, or without one
+  const Program* starts = nullptr;  ///< FlowFormulation's, if it has any
+
+  Embedding embed(const Box& box, const std::vector<int>& weights = {}) const {
+    return {box, motion.states(), options.varying, weights, starts == nullptr ? 0 : starts->outputs()};
+  }
 };
 
 /// A set of monomials and the degree of the frame over it.
@@ -101,6 +106,7 @@ struct FlowTask {
   bool stopsEarly;                           // FlowQuestion
   std::vector<double> bends;                 // of each state, how much f bends in it, about; the clock does not count
   bool standsStill;                          // no state moves: loads of a given motion, which are functions of time
+  const Program* starts;                     // FlowQuestion
   std::vector<int> cuts;                     // FlowRound
   std::vector<int> varying;                  // parameters that are inputs
   std::vector<FlowLayout> layouts;           // degrees rising, then the expanded one

@@ -1,9 +1,9 @@
 // Random machines of one to three degrees of freedom that are smooth piece by piece: dry friction that sticks and
 // breaks away, stick and slip on a belt, friction in two joints, elastic stops, play, load steps, preloaded springs,
-// what switches at a position, quadratic drag, relays, and jumps that multiply. Two or three of their quantities are
-// uncertain by 0.1, 1, 5 or 10 %, units are of 1e-3 to 1e3, natural frequencies of 0.7 to 30 rad/s, and two to six
-// events happen to the nominal machine before the horizon; of one in ten, any number. They are enclosed by the flow as
-// it chooses for itself, and judged:
+// what switches at a position, quadratic drag, relays, jumps that multiply, and surfaces that are bent. Two or three of
+// their quantities are uncertain by 0.1, 1, 5 or 10 %, units are of 1e-3 to 1e3, natural frequencies of 0.7 to 30
+// rad/s, and two to six events happen to the nominal machine before the horizon; of one in ten, any number. They are
+// enclosed by the flow as it chooses for itself, and judged:
 // - Solutions in 128 bits whose events are located to the last digits (arbiter.hpp), from all corners and from inside,
 //   must lie in states, outputs and models at output times and between them, compared exactly but for what the solution
 //   itself is off by its own measurement. Of flows that end early, what was proved until then. Two solutions of each
@@ -16,7 +16,8 @@
 // that drive). Drawn anew are machines that have less than two events within three periods, where these are asked for.
 // Some that are drawn neither method follows: what a preload holds in the middle. These are counted, and tell how far
 // flows come. Usage:
-//     piecewise_campaign [systems = 300] [first = 0] [seconds of work for a flow = 5]
+//     piecewise_campaign [systems = 300] [first = 0] [seconds of work for a flow = 5] [surfaces]
+// of all kinds but the last, in turn, or of that one alone: surfaces that are not linear in states.
 // Prints the figures, of each kind and of all; where PIECEWISE_MISSES is set, what ended early, and why, and what is
 // loose, with its nominal start and quantities; where it is "all", all. The exit status is 1 if a solution is outside,
 // or if two methods do not find the same.
@@ -32,6 +33,7 @@
 #include <numbers>
 #include <optional>
 #include <random>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -406,6 +408,84 @@ void productMachine(Draw& draw, Machine& m) {
   };
 }
 
+/// Surfaces that are no planes, or of which the quantities decide how they lie: what slips on a wheel, a place within a
+/// radius, what hangs by a wall, a course that is followed, play behind a gear, what is pushed away from a point.
+void surfaceMachine(Draw& draw, Machine& m) {
+  const int kind = draw.roll(6);
+  if (kind == 0) {
+    m.masses = 0;
+    const std::size_t grip = m.add(draw.between(0.2, 1) * m.force()), radius = m.add(draw.between(0.5, 2)),
+                      stiffness = m.add(m.turn * m.turn);
+    const double inertia = draw.between(0.5, 2), drag = draw.between(0, 0.3) * m.turn;
+    m.start = {0, draw.happens(0.5) ? 0 : draw.between(0.2, 1) * m.speed(), draw.between(0.5, 2) * m.speed()};
+    m.rates = [=](const Bends&, const Recorded&, const Values& x, const Values& q, Values& dx) {
+      const Recorded slip = sign(x[1] - q[radius] * x[2]);
+      dx[0] = x[1];
+      dx[1] = -q[stiffness] * x[0] - q[grip] * slip;
+      dx[2] = q[radius] * q[grip] * slip * (1 / inertia) - drag * x[2];
+    };
+    return;
+  }
+  const double damping = dampingOf(draw, m), across = 1 / m.length;
+  if (kind == 1 || kind == 5) {
+    const std::size_t radius = m.add(draw.between(0.4, 0.8) * m.length),
+                      inside = m.add(kind == 1 ? draw.eitherSign(draw.between(0.3, 1)) * m.force()
+                                               : draw.between(5, 40) * m.turn * m.turn);
+    const double stiffness = draw.between(0.2, 1) * m.turn * m.turn;
+    startOf(draw, m, 2, false);
+    m.rates = [=](const Bends& bends, const Recorded&, const Values& x, const Values& q, Values& dx) {
+      const Recorded square = x[0] * x[0] + x[1] * x[1];
+      dx[0] = x[2];
+      dx[1] = x[3];
+      dx[2] = -stiffness * x[0] - damping * x[2];
+      dx[3] = -stiffness * x[1] - damping * x[3];
+      if (kind == 1) {
+        dx[2] += where(q[radius] * q[radius] - square, q[inside], Recorded(0.0));
+      } else {
+        const Recorded distance = sqrt(square + sqr(Recorded(0.125 * m.length)));
+        const Recorded push = q[inside] * bends.beyond(q[radius] - distance) / distance;
+        dx[2] += push * x[0];
+        dx[3] += push * x[1];
+      }
+    };
+    return;
+  }
+  if (kind == 2) {
+    const std::size_t wall = m.add(draw.between(-0.2, 0.6) * m.length),
+                      stiffness = m.add(draw.between(5, 60) * m.turn * m.turn);
+    const double weight = m.turn * m.turn;
+    startOf(draw, m, 1, false);
+    m.rates = [=](const Bends& bends, const Recorded&, const Values& x, const Values& q, Values& dx) {
+      const Recorded angle = x[0] * across, beyond = bends.beyond(m.length * sin(angle) - q[wall]);
+      dx[0] = x[1];
+      dx[1] = -weight * m.length * sin(angle) - damping * x[1] - q[stiffness] * cos(angle) * beyond;
+    };
+    return;
+  }
+  if (kind == 3) {
+    const std::size_t far = m.add(draw.between(0.2, 1) * m.length), power = m.add(draw.between(0.5, 3) * m.force()),
+                      lead = m.add(draw.between(0.05, 0.5) / m.turn);
+    const double frequency = draw.between(0.3, 1.2) * m.turn;
+    startOf(draw, m, 1, draw.happens(0.5));
+    m.rates = [=](const Bends&, const Recorded& t, const Values& x, const Values& q, Values& dx) {
+      dx[0] = x[1];
+      dx[1] = -damping * x[1] - q[power] * sign(x[0] - q[far] * sin(frequency * t) + q[lead] * x[1]);
+    };
+    return;
+  }
+  const std::size_t ratio = m.add(draw.between(0.5, 3)), gap = m.add(draw.between(0.02, 0.2) * m.length),
+                    stiffness = m.add(draw.between(2, 30) * m.turn * m.turn);
+  startOf(draw, m, 2, false);
+  m.rates = [=](const Bends& bends, const Recorded&, const Values& x, const Values& q, Values& dx) {
+    const Recorded apart = q[ratio] * x[0] - x[1];
+    const Recorded force = q[stiffness] * (bends.beyond(apart - q[gap]) - bends.beyond(-apart - q[gap]));
+    dx[0] = x[2];
+    dx[1] = x[3];
+    dx[2] = -q[ratio] * force - m.turn * m.turn * x[0];
+    dx[3] = force - damping * x[3];
+  };
+}
+
 struct Kind {
   const char* name;
   void (*make)(Draw&, Machine&);
@@ -415,6 +495,8 @@ constexpr std::array kinds{
     Kind{"stops", stopMachine},        Kind{"play", playMachine},       Kind{"load steps", stepMachine},
     Kind{"preload", preloadMachine},   Kind{"places", placeMachine},    Kind{"drag", dragMachine},
     Kind{"relays", relayMachine},      Kind{"products", productMachine}};
+constexpr std::array bent{Kind{"surfaces", surfaceMachine}};
+std::span<const Kind> drawn = kinds;
 
 /// What of a machine is uncertain makes it a system.
 struct System {
@@ -505,7 +587,7 @@ constexpr double far = 1e3, tight = 1.02;
 
 /// Draws until two to six events happen before the horizon, or as many as there are.
 System systemOf(unsigned number, Count& count) {
-  const Kind& kind = kinds[number % kinds.size()];
+  const Kind& kind = drawn[number % drawn.size()];
   for (unsigned attempt = 0;; ++attempt) {
     Draw draw(number + 1'000'003U * attempt);
     System s;
@@ -866,7 +948,7 @@ void judgeSystem(unsigned number, double work, Count& count) {
     fmt::print(
         "system {} ({}): {:.4g} of {:.4g} s, {:.1f} s CPU; ratio {:.4f}, {:.4g} of output {} at {:.4g} s{} {}\n    "
         "{}\n",
-        number, kinds[number % kinds.size()].name, reached, s.horizon, cpu, middle, greatest, widths.output,
+        number, drawn[number % drawn.size()].name, reached, s.horizon, cpu, middle, greatest, widths.output,
         widths.time, why.empty() ? "" : ":", why, describe(s));
   count.unmeasured += !isEarly && widths.ratios.empty();
   if (isEarly || widths.ratios.empty()) return;
@@ -901,17 +983,18 @@ int main(int argc, char** argv) {
   const int systems = argc > 1 ? std::atoi(argv[1]) : 300;
   const int first = argc > 2 ? std::atoi(argv[2]) : 0;
   const double work = argc > 3 ? std::atof(argv[3]) : 5;
-  std::array<Count, kinds.size()> counts;
+  if (argc > 4 && std::string(argv[4]) == "surfaces") drawn = bent;
+  std::vector<Count> counts(drawn.size());
   Count all;
   for (int i = first; i < first + systems; ++i) {
-    judgeSystem(static_cast<unsigned>(i), work, counts[static_cast<std::size_t>(i) % kinds.size()]);
+    judgeSystem(static_cast<unsigned>(i), work, counts[static_cast<std::size_t>(i) % drawn.size()]);
     std::fflush(stdout);
   }
   // Ratios of systems that came to their horizon: of each its middle one and its greatest, and the medians of these.
   fmt::print("{:<12} {:>7} {:>7} {:>6} {:>9} {:>7} {:>9} {:>9} {:>10} {:>7} {:>7}\n", "kind", "systems", "reached", "%",
              "solutions", "outside", "middle", "greatest", "of all", "> 1e3", "cpu/s");
-  for (std::size_t k = 0; k < kinds.size(); ++k) {
-    tell(kinds[k].name, counts[k]);
+  for (std::size_t k = 0; k < drawn.size(); ++k) {
+    tell(drawn[k].name, counts[k]);
     add(all, counts[k]);
   }
   tell("all", all);

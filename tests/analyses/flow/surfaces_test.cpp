@@ -1,0 +1,183 @@
+// Jumps and kinks where something is zero that is not linear in the states: trajectories whose events are located in
+// 128 bits must lie inside, exactly, and bounds are hardly wider than they.
+#include "analyses/flow/surfaces.hpp"
+
+#include <gmock/gmock.h>
+
+#include <map>
+
+#include "scalars/evaluation/evaluator.hpp"
+#include "tests/analyses/flow/jumping_machine.hpp"
+
+namespace gamut::testing {
+namespace {
+
+const auto keep = [](const std::vector<Side>&, const Vector&, Vector&) {};
+const auto all = Interval(-1.0, 1.0);
+
+/// ẋ of two or three states and so many parameters, once more with signs in place of absolute values.
+template <class Of>
+std::pair<Program, Program> withKinksAndSigns(int n, int k, Of f) {
+  const auto size = [](const Recorded& u) { return abs(u); };
+  const auto bySign = [](const Recorded& u) { return u * sign(u); };
+  return {record(n, k, [=](auto t, const auto& x, const auto& p, auto& dx) { f(size, t, x, p, dx); }),
+          record(n, k, [=](auto t, const auto& x, const auto& p, auto& dx) { f(bySign, t, x, p, dx); })};
+}
+
+const std::vector<JumpingMachine>& machines() {
+  const auto wall = withKinksAndSigns(2, 2, [](auto size, auto, const auto& x, const auto& p, auto& dx) {
+    const Recorded beyond = sin(x[0]) - p[0];
+    dx[0] = x[1];
+    dx[1] = -p[1] * 0.5 * (beyond + size(beyond)) * cos(x[0]);
+  });
+  const auto gear = withKinksAndSigns(3, 2, [](auto size, auto, const auto& x, const auto& p, auto& dx) {
+    const Recorded apart = p[0] * x[0] - x[2];
+    dx[0] = x[1];
+    dx[1] = -x[0] - 0.25 * size(apart);
+    dx[2] = 0.5 * p[1];
+  });
+  static const std::vector<JumpingMachine> machines{
+      // What a wheel of uncertain radius carries along: slips, then rolls, and keeps rolling.
+      {"Wheel",
+       record(2, 2,
+              [](auto, const auto& x, const auto& p, auto& dx) {
+                const Recorded slip = sign(x[0] - p[0] * x[1]);
+                dx[0] = -p[1] * slip - 0.25 * x[0];
+                dx[1] = p[0] * p[1] * slip;
+              }),
+       {0.0, 2.0, 1.0, 1.0},
+       {0.0, all, all, all},
+       3,
+       [](const auto& sides, const Vector& p, Vector& x) {
+         if (sides[0] == Side::held) x[0] = p[0] * x[1];
+       },
+       1.02},
+      // A relay that brings a mass to its place by place and speed: passed once, then held.
+      {"Relay",
+       record(2, 2,
+              [](auto, const auto& x, const auto& p, auto& dx) {
+                dx[0] = x[1];
+                dx[1] = -p[1] * sign(x[0] + p[0] * x[1]);
+              }),
+       {1.0, 0.0, 0.375, 2.0},
+       {all, 0.0, all, all},
+       2,
+       [](const auto& sides, const Vector& p, Vector& x) {
+         if (sides[0] == Side::held) x[0] = -p[0] * x[1];
+       },
+       1.5},
+      // Across a disc in which something pulls.
+      {"Disc",
+       record(3, 2,
+              [](auto, const auto& x, const auto& p, auto& dx) {
+                dx[0] = 1.0 + 0.0 * x[0];
+                dx[1] = x[2];
+                dx[2] = where(p[0] * p[0] - x[0] * x[0] - x[1] * x[1], p[1], Recorded(0.0));
+              }),
+       {-2.0, 0.125, 0.25, 1.0, -1.0},
+       {0.0, all, all, all, all},
+       4,
+       keep,
+       1.02},
+      // A course that time and a quantity tell.
+      {"Course",
+       record(2, 2,
+              [](auto t, const auto& x, const auto& p, auto& dx) {
+                dx[0] = x[1];
+                dx[1] = -p[1] * sign(x[0] + 0.5 - p[0] * sin(3.0 * t));
+              }),
+       {0.0, 1.0, 0.5, 2.0},
+       {0.0, all, all, all},
+       2,
+       keep,
+       1.02},
+      {"Wall", wall.first, {0.0, 1.0, 0.5, 64.0}, {0.0, all, all, all}, 1, keep, 1.02, wall.second},
+      {"Gear", gear.first, {1.0, 0.0, 0.0, 2.0, 1.0}, {all, 0.0, 0.0, all, all}, 3, keep, 1.02, gear.second}};
+  return machines;
+}
+
+class FlowSurfaces : public ::testing::TestWithParam<JumpingMachine> {};
+
+TEST_P(FlowSurfaces, HoldTrajectories) { holdsTrajectories(GetParam(), {0.0, 1e-6, 0.02}, 6); }
+
+INSTANTIATE_TEST_SUITE_P(Of, FlowSurfaces, ::testing::ValuesIn(machines()),
+                         [](const auto& machine) { return machine.param.name; });
+
+FlowFormulation formulationOf(const Program& f) {
+  const Program none = record(f.states(), f.parameters(), 0, [](const auto&, const auto&, const auto&, auto&) {});
+  return {f, none, {}, none};
+}
+
+TEST(WithSurfaces, AddsAStateForEach) {
+  const auto of = withSurfaces(formulationOf(record(2, 1, [](auto t, const auto& x, const auto& p, auto& dx) {
+    dx[0] = sign(x[0] * x[1]) + sign(x[0]) + abs(p[0] * x[0] - sin(t)) + sign(p[0] * p[0] - 1.0);
+    dx[1] = sign(x[0] * x[1]) * x[0];
+  })));
+  ASSERT_TRUE(of);
+  EXPECT_TRUE(of->jumps);
+  EXPECT_EQ(of->motion.states(), 4);
+  EXPECT_EQ(of->states, 2);
+  // In which order is nobody's concern.
+  Evaluator<Precise> starts(of->starts), rates(of->motion);
+  const Vector p{Precise(7.0)};
+  starts.setParameters(p);
+  rates.setParameters(p);
+  Vector x{Precise(0.5), Precise(-2.0), Precise(0.0), Precise(0.0)};
+  const Vector at0 = starts(Precise(0.0), x);
+  const std::size_t product = at0[0] == -1 ? 0 : 1, other = 1 - product;
+  EXPECT_EQ(at0[product], -1);
+  EXPECT_EQ(at0[other], 3.5);
+  x[2 + product] = 2;  // the motion looks at these alone
+  x[2 + other] = -3;
+  const Vector dx = rates(Precise(0.0), x);
+  EXPECT_EQ(dx[0], 1 + 1 + 3 + 1);
+  EXPECT_EQ(dx[1], 0.5);
+  EXPECT_EQ(dx[2 + product], dx[0] * x[1] + x[0] * dx[1]);
+  EXPECT_EQ(dx[2 + other], 7 * dx[0] - 1);
+}
+
+TEST(WithSurfaces, AddsNoneForWhatIsLinearOrBendsItself) {
+  EXPECT_FALSE(withSurfaces(formulationOf(record(2, 1, [](auto, const auto& x, const auto& p, auto& dx) {
+    dx[0] = sign(0.5 * x[0] - x[1] + p[0]);
+    dx[1] = sign(x[0] * abs(x[1])) * sign(sin(p[0]));
+  }))));
+}
+
+TEST(WithSurfaces, AddsNoMoreThanAreWorthIt) {
+  EXPECT_FALSE(withSurfaces(formulationOf(record(1, 5, [](auto, const auto& x, const auto& p, auto& dx) {
+    Recorded sum(0.0);
+    for (const Recorded& each : p) sum += sign(each * x[0] - 1.0);
+    dx[0] = sum;
+  }))));
+}
+
+TEST(PlaceSurfaces, KeepsTheirDependenceOnWhatIsUncertain) {
+  const auto of = withSurfaces(formulationOf(
+      record(1, 1, [](auto, const auto& x, const auto& p, auto& dx) { dx[0] = -sign(x[0] * p[0] - 1.0); })));
+  ASSERT_TRUE(of);
+  const Box box = of->boxOf({Interval(1, 3), Interval(3, 5)});
+  EXPECT_THAT(box[1], Encloses(Precise(2.0)));
+  EXPECT_THAT(box[1], Encloses(Precise(14.0)));
+  const auto monomials = std::make_shared<const Monomials>(std::vector<int>{1, 1}, 2);
+  FlowSet set = startOf(Embedding(box, 2, {}, {}, 1), 2, *monomials, 1);
+  ASSERT_TRUE(placeSurfaces(set, of->starts, monomials));
+  std::map<std::vector<int>, double> known;
+  for (int m = 0; m < monomials->count(); ++m)
+    known[{monomials->exponent(m, 0), monomials->exponent(m, 1)}] =
+        set.p[static_cast<std::size_t>(monomials->count() + m)];
+  const std::map<std::vector<int>, double> wanted{{{0, 0}, 7.0}, {{1, 0}, 4.0}, {{0, 1}, 2.0},
+                                                  {{1, 1}, 1.0}, {{2, 0}, 0.0}, {{0, 2}, 0.0}};
+  EXPECT_EQ(known, wanted);  // (2 + ξ)(4 + η) - 1
+  EXPECT_LE(set.R[1], 1e-12);
+}
+
+TEST(PlaceSurfaces, SaysWhereTheyAreNotDefined) {
+  const auto of = withSurfaces(formulationOf(
+      record(1, 1, [](auto, const auto& x, const auto& p, auto& dx) { dx[0] = -sign(sqrt(x[0]) * p[0] - 1.0); })));
+  ASSERT_TRUE(of);
+  const Box box = of->boxOf({Interval(-1, 3), Interval(3, 5)});
+  EXPECT_FALSE(isBounded(box[1]));
+}
+
+}  // namespace
+}  // namespace gamut::testing
