@@ -10,6 +10,7 @@
 #include "mechanics/joints.hpp"
 #include "mechanics/model.hpp"
 #include "scalars/evaluation/evaluator.hpp"
+#include "scalars/program/sides.hpp"
 
 namespace gamut {
 namespace {
@@ -483,6 +484,14 @@ TEST(CouplingElement, IsRefusedWhereItCannotBe) {
 }
 
 // ---- States ---------------------------------------------------------------------------------------------------------
+
+TEST(StateElement, KnowsThatANumberWrittenTwiceIsOne) {
+  Mechanism m;
+  m.add(State{"x", 1.0, Expression::parse("-sign(x + y - 0.3)")});
+  m.add(State{"y", 1.0, Expression::parse("-2*sign(x + y - 0.30)")});
+  m.add(State{"z", 1.0, Expression::parse("sign(x + y - 0.31)")});
+  EXPECT_EQ(jumpsOf(recordMotion(m)).size(), 2);  // one surface, and another one
+}
 
 TEST(StateElement, IsADifferentialEquationWithoutAnyMechanism) {
   Mechanism m;
