@@ -60,7 +60,8 @@ FlowJourney FlowFollower::follow(FlowPiece& piece, double end, double allowed) {
     return FlowJourney::bisected;
   }
   while (piece.set.t < end && static_cast<double>(Work::counted() - began) <= allowed) {
-    if (task_.starts != nullptr && piece.set.t == 0 && !piece.isPlaced) {
+    // As they start: not once solutions are apart from the set (Settling).
+    if (task_.starts != nullptr && piece.set.t == 0 && piece.set.unsettled.empty() && !piece.isPlaced) {
       placeSurfaces(piece.set, *task_.starts, task_.layouts[piece.layout].monomials);
       piece.isPlaced = true;
     }

@@ -97,9 +97,13 @@ std::optional<FlowFormulation> withSurfaces(const FlowFormulation& of) {
   for (std::size_t i = 0; i < insteadOfTime.size(); ++i)
     if (derivatives.nodes()[i].op == Op::state && derivatives.nodes()[i].a == n) insteadOfTime[i] = recorder.time();
   const std::vector<int> slopes = recorder.append(derivatives, {}, insteadOfTime);
+  // Outputs that neither jump nor bend are what they are: samples know no u that is zero exactly, as a held one is.
+  const std::vector<int> plain = recorder.append(all);
+  const std::vector<char> isBent = dependenceOf(all).bends;
   const auto programOf = [&](const std::vector<int>& nodes, const std::vector<int>& more) {
     std::vector<int> selected;
-    for (const int node : nodes) selected.push_back(here[at(node)]);
+    for (const int node : nodes)
+      selected.push_back(isBent[at(node)] != 0 || !more.empty() ? here[at(node)] : plain[at(node)]);
     selected.insert(selected.end(), more.begin(), more.end());
     return recorder.finish(selected);
   };

@@ -151,6 +151,23 @@ TEST(WithSurfaces, AddsNoMoreThanAreWorthIt) {
   }))));
 }
 
+TEST(WithSurfaces, LeavesOutputsAloneThatDoNotJump) {
+  const Program f =
+      record(1, 1, [](auto, const auto& x, const auto& p, auto& dx) { dx[0] = -sign(x[0] * p[0] - 1.0); });
+  const Program g = record(1, 1, 2, [](auto, const auto& x, const auto& p, auto& y) {
+    y[0] = x[0] * p[0] - 1.0;
+    y[1] = sign(x[0] * p[0] - 1.0);
+  });
+  const Program none = record(1, 1, 0, [](const auto&, const auto&, const auto&, auto&) {});
+  const auto of = withSurfaces({f, g, {}, none});
+  ASSERT_TRUE(of);
+  Evaluator<Precise> outputs(of->outputs);
+  outputs.setParameters(Vector{Precise(2.0)});
+  const Vector y = outputs(Precise(0.0), Vector{Precise(3.0), Precise(-1.0)});
+  EXPECT_EQ(y[0], 5);
+  EXPECT_EQ(y[1], -1);
+}
+
 TEST(PlaceSurfaces, KeepsTheirDependenceOnWhatIsUncertain) {
   const auto of = withSurfaces(formulationOf(
       record(1, 1, [](auto, const auto& x, const auto& p, auto& dx) { dx[0] = -sign(x[0] * p[0] - 1.0); })));
