@@ -662,8 +662,7 @@ void Mechanism::checkMasses() const {
                             return coordinates_.find(name)->isDriven;
                           });
     if (moved.isByJoint && !isDriven && !carries[moved.frame])
-      refuse("the joint " + inQuotes(moved.element) + " moves no mass; add a mass at the frame " +
-             inQuotes(moved.frame) + " or at one that it carries");
+      throw MasslessJoint(moved.element, "a mass at the frame " + inQuotes(moved.frame) + " or at one that it carries");
   }
 }
 

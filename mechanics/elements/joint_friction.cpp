@@ -14,6 +14,12 @@ Coordinate describeFriction(Fields& f, std::string& joint, Expression& coulomb, 
   return kind;
 }
 
+/// What drives a joint away from standstill to either side is no friction, and its motion not unique.
+std::vector<Fault> faultsOfFriction(const std::string& name, const Expression& coulomb, const RangeOf& rangeOf) {
+  if (rangeOf(coulomb).lower() >= 0) return {};
+  return {{"coulomb", "the Coulomb friction of '" + name + "' is negative", "at least 0"}};
+}
+
 }  // namespace
 
 void JointFriction::describe(Fields& f) { describeCoordinateLoad(f, describeFriction(f, joint, coulomb, viscous)); }
@@ -22,6 +28,10 @@ template <class S>
 void JointFriction::assemble(Assembler<S>& a) const {
   const S dry = a.number(coulomb), wet = a.number(viscous);
   addCoordinateLoad(a, joint, [dry, wet](const Variable<S>& q) { return S(-(dry * signOf(q.rate)) - wet * q.rate); });
+}
+
+std::vector<Fault> JointFriction::faults(const RangeOf& rangeOf) const {
+  return faultsOfFriction(name, coulomb, rangeOf);
 }
 
 void SmoothedJointFriction::describe(Fields& f) {
@@ -42,8 +52,10 @@ void SmoothedJointFriction::assemble(Assembler<S>& a) const {
 }
 
 std::vector<Fault> SmoothedJointFriction::faults(const RangeOf& rangeOf) const {
-  if (rangeOf(slipRate).lower() > 0) return {};
-  return {{"slip_rate", "the slip rate of '" + name + "' is not positive", "a slow rate above 0"}};
+  std::vector<Fault> found = faultsOfFriction(name, coulomb, rangeOf);
+  if (!(rangeOf(slipRate).lower() > 0))
+    found.push_back({"slip_rate", "the slip rate of '" + name + "' is not positive", "a slow rate above 0"});
+  return found;
 }
 
 GAMUT_ASSEMBLE(JointFriction)

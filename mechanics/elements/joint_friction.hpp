@@ -17,6 +17,7 @@ struct JointFriction {
   void describe(Fields& f);
   template <class S>
   void assemble(Assembler<S>& a) const;
+  std::vector<Fault> faults(const RangeOf& rangeOf) const;
 };
 
 /// Q = −F tanh(q̇/v) − d q̇.

@@ -172,6 +172,9 @@ class RequirementReader {
           source_.fail(node, fmt::format("unknown quantity '{}'", name), quantityExpected(name, namesForMessages()));
       dimensionOf(side.expression);
     } catch (const UnitError& error) {
+      if (outputNamed(trimmed) != nullptr)  // of a name that is a unit
+        source_.fail(node, fmt::format("'{}' is a unit as well as an output", trimmed),
+                     fmt::format("the output in single quotes, '{}'", trimmed));
       source_.fail(node, error);
     }
     const std::optional<Amount> amount = side.expression.amount();

@@ -381,6 +381,8 @@ class StudyReader {
           "fewer joints one behind the other: what they do to each other grows with the square of their number");
     } catch (const UnfitRigidEnd& error) {
       source_.failWith(placeOf(error.coordinate()), error.problem(), error.expected());
+    } catch (const MasslessJoint& error) {
+      source_.failWith(placeOf(error.joint()), "the joint '" + error.joint() + "' moves no mass", error.expected());
     } catch (const std::invalid_argument& error) {
       refuseNumberWithoutValue();
       refuseJointsAlike();

@@ -37,6 +37,17 @@ TEST(JointFriction, IsCoulombsAndViscous) {
   EXPECT_NEAR(assembly.output("dry.power"), -16, 1e-13);
 }
 
+TEST(JointFriction, DrivesNothing) {
+  for (const bool isSmooth : {false, true}) {
+    Mechanism m = disc();
+    if (isSmooth)
+      m.add(SmoothedJointFriction{"dry", "hinge", -3.0, 0.0, 0.1});
+    else
+      m.add(JointFriction{"dry", "hinge", -3.0, 0.25});
+    EXPECT_THROW(m.check(), std::invalid_argument);
+  }
+}
+
 TEST(SmoothedJointFriction, ComesToCoulombsBeyondItsSlipRate) {
   Mechanism m = disc();
   m.add(SmoothedJointFriction{"dry", "hinge", 3.0, 0.0, 0.1});

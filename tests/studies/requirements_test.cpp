@@ -75,6 +75,8 @@ TEST(Requirements, ThatMakeNoSenseAreRefusedInOneLine) {
   const auto says = [](const char* what) { return ThrowsMessage<StudyError>(HasSubstr(what)); };
   EXPECT_THAT(refusal("name = \"x\""), says("'requirement.always' is missing; expected always or eventually"));
   EXPECT_THAT(refusal("always = \"angle > 0\"\neventually = \"angle > 0\""), says("are both given; expected one of"));
+  EXPECT_THAT(refusal("always = \"h < 1 m\"\n\n[[output]]\nname = \"h\"\nquantity = \"tip.position.z\""),
+              says("'h' is a unit as well as an output; expected the output in single quotes, 'h'"));
   EXPECT_THAT(refusal("always = \"angle\""), says("'angle' compares nothing; expected a comparison with <"));
   EXPECT_THAT(refusal("always = \"angle == 0\""), says("no comparison that a margin could be found of"));
   EXPECT_THAT(refusal("always = \"angle > \""), says("nothing on one side"));
