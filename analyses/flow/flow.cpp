@@ -226,9 +226,11 @@ bool isSwitched(const FlowFormulation& formulation, double horizon) {
 
 /// `plain` for a part of what may be spent, or until it falls into many pieces; where that does not come to the
 /// horizon, or is looser than was asked for and `own` has states more for surfaces, `own`, with solutions at times of
-/// their own from the first turn on that no step holds; and `plain` again, if that ended for want of work alone.
-Tube inStages(const FlowFormulation& plain, const FlowFormulation& own, const FlowOptions& options, FlowBudget& budget,
-              const Box& box, double horizon, const std::vector<double>& outputTimes, const std::vector<Box>& levels) {
+/// their own, if they may be, from the first turn on that no step holds; and `plain` again, if that ended for want of
+/// work alone.
+Tube inStages(const FlowFormulation& plain, const FlowFormulation& own, bool mayHaveOwnTimes,
+              const FlowOptions& options, FlowBudget& budget, const Box& box, double horizon,
+              const std::vector<double>& outputTimes, const std::vector<Box>& levels) {
   constexpr double firstShare = 0.125, mostAtFirst = 4 * Work::perSecond;
   constexpr std::size_t mostPiecesAtFirst = 32;
   const auto within = [&](FlowBudget part, const FlowFormulation& formulation, bool stopsEarly) {
@@ -244,7 +246,7 @@ Tube inStages(const FlowFormulation& plain, const FlowFormulation& own, const Fl
   if (isCancelled() || (isDone && tube.reached() == horizon && !isLoose)) return std::move(tube);
   bool isWhole = false;
   if (tube.reached() < horizon || isLoose) {
-    auto [other, isOther] = within({.limit = isDone ? budget.left() : 0.5 * budget.left()}, own, true);
+    auto [other, isOther] = within({.limit = isDone ? budget.left() : 0.5 * budget.left()}, own, mayHaveOwnTimes);
     isWhole = isOther && other.reached() == horizon;
     tube = FlowRun::meetStages(std::move(tube), std::move(other), budget);
   }
@@ -284,17 +286,20 @@ Tube Flow::enclose(const Box& box, double horizon, const std::vector<double>& ou
   };
   const auto& surfaces = hasClock ? parts_->byClockAndSurfaces : parts_->bySurfaces;
   const bool bySurfaces = isDefined(surfaces), hasSymbols = Embedding(box, motion.states(), {}).symbols > 0;
-  const auto staged = [&](const FlowFormulation& plain, const FlowFormulation& own) {
-    return inStages(plain, own, options, budget, box, horizon, outputTimes, levels);
-  };
   const bool mayPass = options.varying.empty() && mayTurn(motion), mayHaveOwnTimes = !isTimed || hasClock;
-  if (mayPass && bySurfaces && !surfaces->jumps) return staged(formulation, *surfaces);
+  const auto staged = [&](const FlowFormulation& plain, const FlowFormulation& own) {
+    return inStages(plain, own, mayHaveOwnTimes, options, budget, box, horizon, outputTimes, levels);
+  };
+  if (mayPass && bySurfaces && !surfaces->jumps && hasSymbols) return staged(formulation, *surfaces);
   const FlowFormulation& own = hasClock ? *parts_->withClock : formulation;
-  if (mayPass && bySurfaces) {  // jumps of what is not linear cost all: with states for them from the start
-    Tube tube = staged(*parts_->bySurfaces, *surfaces);
+  if (mayPass && bySurfaces && surfaces->jumps) {  // what is not linear costs all there: with states from the start on
+    const bool isFirst = isDefined(parts_->bySurfaces);  // not if arguments are of time alone, which only a clock moves
+    Tube tube = staged(isFirst ? *parts_->bySurfaces : formulation, *surfaces);
     // Without symbols it costs little to know as well what is known as finely as numbers are.
-    const bool isDone = hasSymbols && tube.reached() == horizon;
-    if (isDone || !(budget.left() > 0) || tube.cause().kind == FlowCause::Kind::interrupted) return tube;
+    const bool isDone = tube.reached() == horizon && (hasSymbols || !isFirst);
+    using enum FlowCause::Kind;
+    const FlowCause::Kind why = tube.cause().kind;
+    if (isDone || !(budget.left() > 0) || why == interrupted || why == outOfMemory) return tube;
     Tube other = mayHaveOwnTimes && hasSymbols
                      ? staged(formulation, own)
                      : answer(formulation, options, budget, box, horizon, outputTimes, levels);

@@ -23,7 +23,7 @@ struct FlowFormulation {
   Program differentiated;  // differentiatedFor
   Program outputs;         // g
   Program asides;          // FlowOptions::aside
-  int states;              // of f as it was asked for: those behind them are inputs
+  int states;              // of f as it was asked for: those behind them are inputs, time, surfaces
   std::vector<VaryingParameter> inputs;
   bool hasClock = false;  // the state behind them
   Program starts{};       // of further states, the last: where each starts, as a function of all others and parameters

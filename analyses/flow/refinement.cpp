@@ -35,16 +35,25 @@ constexpr int mostRounds = 6, mostCheapRounds = 14;
 constexpr double cheap = 5 * Work::perSecond;
 constexpr double mostHidden = 1e9;  // times below the threshold: less is rounding
 
-/// Of each parameter, whether the argument of a jump depends on it: it may decide when solutions turn alone, of which a
-/// rough look tells nothing.
-std::vector<char> parametersOfJumps(const Program& f) {
+/// Of each parameter, whether one of these nodes depends on it.
+std::vector<char> parametersOf(const Program& f, const std::vector<int>& nodes) {
   std::vector<char> isPart(f.nodes().size(), 0), result(at(f.parameters()), 0);
-  for (const int jump : jumpsOf(f)) isPart[at(jump)] = 1;
+  for (const int node : nodes) isPart[at(node)] = 1;
   for (std::size_t i = isPart.size(); i-- > 0;) {
     if (isPart[i] == 0) continue;
     if (f.nodes()[i].op == Op::parameter) result[at(f.nodes()[i].a)] = 1;
     detail::forEachOperand(f.table(), static_cast<int>(i), [&](int operand) { isPart[at(operand)] = 1; });
   }
+  return result;
+}
+
+/// Of each parameter, whether the argument of a jump depends on it, one that is a state too: it may decide when
+/// solutions turn alone, of which a rough look tells nothing.
+std::vector<char> decisiveParameters(const FlowQuestion& question) {
+  std::vector<char> result = parametersOf(question.motion, jumpsOf(question.motion));
+  if (question.starts == nullptr) return result;
+  const std::vector<char> ofStarts = parametersOf(*question.starts, question.starts->outputNodes());
+  for (std::size_t k = 0; k < result.size(); ++k) result[k] = static_cast<char>(result[k] != 0 || ofStarts[k] != 0);
   return result;
 }
 
@@ -55,11 +64,7 @@ class Weighing {
       : share_(question.options.tightness - 1), hasJumps_(!jumpsOf(question.motion).empty()) {
     const Embedding embedding = question.embed(box);
     const int symbols = embedding.symbols;
-    std::vector<char> ofJumps = parametersOfJumps(question.motion);
-    if (question.starts != nullptr) {  // these are of jumps, or bend at least
-      for (const Node& node : question.starts->nodes())
-        if (node.op == Op::parameter) ofJumps[at(node.a)] = 1;
-    }
+    const std::vector<char> ofJumps = decisiveParameters(question);
     for (std::size_t k = 0; k < ofJumps.size(); ++k)
       if (const int symbol = embedding.components[at(question.motion.states()) + k].symbol;
           ofJumps[k] != 0 && symbol >= 0)

@@ -140,7 +140,7 @@ bool placeSurfaces(FlowSet& set, const Program& starts, const std::shared_ptr<co
   point.psiSum = point.psi;
   point.total = point.ofR = point.beyond = point.known = point.low;
   for (std::size_t i = 0; i < n; ++i) {
-    double loose = i < first ? set.W[i] : 0;  // C is diagonal until the first step
+    double loose = i < first ? set.W[i] : 0;  // until the first step C is 1, and no generators are there
     if (i < first) loose = (loose + std::fabs(set.C[i * n + i]) * set.R[i]) * bounds::up;
     if (i < first && !set.low.empty()) loose = (loose + std::fabs(set.low[i])) * bounds::up;
     point.loose.push_back(loose);

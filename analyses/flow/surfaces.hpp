@@ -14,12 +14,12 @@ namespace gamut {
 
 /// With a state in place of each argument u of a sign or an absolute value in f that depends on states, not linearly
 /// with exact coefficients, and holds neither signs nor absolute values itself; none if there are no such arguments, or
-/// more of them than states and `most`.
+/// more of them than states and four. Of formulations without inputs.
 std::optional<FlowFormulation> withSurfaces(const FlowFormulation& of);
 
 /// A set at time 0, its states' polynomials in ξ as they are known: those of the last states, which `starts` (a program
 /// of all states and the parameters) gives as functions of the others. False, and nothing changed, where these are not
-/// defined for every ξ.
+/// defined for every ξ, or could not be bounded.
 bool placeSurfaces(FlowSet& set, const Program& starts, const std::shared_ptr<const Monomials>& monomials);
 
 }  // namespace gamut

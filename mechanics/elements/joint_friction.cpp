@@ -14,7 +14,7 @@ Coordinate describeFriction(Fields& f, std::string& joint, Expression& coulomb, 
   return kind;
 }
 
-/// What drives a joint away from standstill to either side is no friction, and its motion not unique.
+/// What drives a joint away from standstill is no friction; without smoothing its motion is not unique either.
 std::vector<Fault> faultsOfFriction(const std::string& name, const Expression& coulomb, const RangeOf& rangeOf) {
   if (rangeOf(coulomb).lower() >= 0) return {};
   return {{"coulomb", "the Coulomb friction of '" + name + "' is negative", "at least 0"}};

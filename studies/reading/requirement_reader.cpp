@@ -172,7 +172,7 @@ class RequirementReader {
           source_.fail(node, fmt::format("unknown quantity '{}'", name), quantityExpected(name, namesForMessages()));
       dimensionOf(side.expression);
     } catch (const UnitError& error) {
-      if (outputNamed(trimmed) != nullptr)  // of a name that is a unit
+      if (outputNamed(trimmed) != nullptr && unitNamed(trimmed) != nullptr)
         source_.fail(node, fmt::format("'{}' is a unit as well as an output", trimmed),
                      fmt::format("the output in single quotes, '{}'", trimmed));
       source_.fail(node, error);

@@ -103,6 +103,26 @@ TEST_P(FlowSurfaces, HoldTrajectories) { holdsTrajectories(GetParam(), {0.0, 1e-
 INSTANTIATE_TEST_SUITE_P(Of, FlowSurfaces, ::testing::ValuesIn(machines()),
                          [](const auto& machine) { return machine.param.name; });
 
+/// Arguments of time and a quantity alone: a state moves them only where time is one.
+TEST(FlowSurfacesOfTime, AreHeldAsOthersAre) {
+  const Program f =
+      record(1, 1, [](auto t, const auto& x, const auto& p, auto& dx) { dx[0] = sign(sin(p[0] * t)) - 0.25 * x[0]; });
+  const Program late = record(1, 1, [](auto t, const auto& x, const auto& p, auto& dx) {
+    dx[0] = where(t - constant<Recorded>(Interval("0.3")) * p[0], Recorded(1.0), Recorded(-1.0)) - 0.25 * x[0];
+  });
+  for (const Program& each : {f, late}) {
+    const Tube tube = Flow(each).enclose({0.5, Interval(1.5, 1.75)}, 3, {1.0, 2.5});
+    ASSERT_EQ(tube.why(), "");
+    SlidingReference reference(each, keep);
+    for (const double p : {1.5, 1.625, 1.75}) {
+      const std::vector<Vector> motion = reference({Precise(0.5), Precise(p)}, {1.0, 2.5, 3.0});
+      for (std::size_t row = 0; row < motion.size(); ++row)
+        EXPECT_THAT(tube.states(row + 1)[0], Encloses(motion[row][0]));
+    }
+    EXPECT_GT(reference.events, 0);
+  }
+}
+
 FlowFormulation formulationOf(const Program& f) {
   const Program none = record(f.states(), f.parameters(), 0, [](const auto&, const auto&, const auto&, auto&) {});
   return {f, none, {}, none};
