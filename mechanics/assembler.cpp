@@ -166,15 +166,10 @@ S Assembler<S>::valueOf(const std::string& name) const {
 
 template <class S>
 Signal<S> Assembler<S>::signal(const Expression& expression) const {
-  const auto numberOf = [this](const Interval& enclosure, const std::optional<Amount>& exact) {
-    if (!exact || isThin(enclosure)) return constant<S>(enclosure);
-    const std::string key =
-        exact->value.get_str() + (exact->isRelative ? "% pi^" : " pi^") + std::to_string(exact->piPower);
-    const auto known = numbers_.find(key);
-    return known != numbers_.end() ? known->second : numbers_.emplace(key, constant<S>(enclosure)).first->second;
-  };
-  return [this, expression, numberOf] {
-    return expression.evaluate<S>([this](const std::string& name) { return valueOf(name); }, numberOf);
+  return [this, expression] {
+    return expression.evaluate<S>(
+        [this](const std::string& name) { return valueOf(name); },
+        [this](const auto& enclosure, const auto& exact) { return constantOf(enclosure, exact); });
   };
 }
 

@@ -120,8 +120,7 @@ class Assembler {
   std::string element_;          // that is being assembled
   S time_ = S(0.0);
   std::map<std::string, S> parameters_, initials_;
-  mutable std::map<std::string, S> numbers_;  // in formulas, by what they are: written twice it is the same number
-  std::map<std::string, Interval> known_;     // parameters that are not free
+  std::map<std::string, Interval> known_;                 // parameters that are not free
   mutable std::map<std::pair<mpq_class, int>, S> exact_;  // numbers met: rationals times powers of pi
   std::map<std::string, std::unique_ptr<Frame<S>>> frames_;
   std::deque<Frame<S>> hidden_;

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "mechanics/assembly.hpp"
+#include "mechanics/description/unfit_part.hpp"
 #include "scalars/program/linear_form.hpp"
 #include "scalars/program/sides.hpp"
 #include "scalars/recorded.hpp"
@@ -49,10 +50,10 @@ void checkTurns(const Mechanism& mechanism, const std::vector<std::string>& free
       if (depends[static_cast<std::size_t>(u)] == 0 ||
           (form && std::ranges::count_if(form->states, [](double c) { return c != 0; }) > 1))
         continue;
-      throw UnfitRigidEnd(joint.name,
-                          "the joint '" + joint.name + "' strikes a rigid end, and something jumps with the sign of '" +
-                              joint.rate + "', as dry friction does: how they go together is not known yet",
-                          "smooth friction (smoothed-joint-friction), or an elastic end (joint-stop)");
+      throw UnfitPart(joint.name,
+                      "the joint '" + joint.name + "' strikes a rigid end, and something jumps with the sign of '" +
+                          joint.rate + "', as dry friction does: how they go together is not known yet",
+                      "smooth friction (smoothed-joint-friction), or an elastic end (joint-stop)");
     }
   }
 }

@@ -235,24 +235,28 @@ Tube inStages(const FlowFormulation& plain, const FlowFormulation& own, bool may
   constexpr std::size_t mostPiecesAtFirst = 32;
   const auto within = [&](FlowBudget part, const FlowFormulation& formulation, bool stopsEarly) {
     Tube tube = answer(formulation, options, part, box, horizon, outputTimes, levels, stopsEarly);
-    if (formulation.motion.states() > plain.states) FlowRun::dropStates(tube, plain.states);
+    if (formulation.motion.states() > formulation.states) {
+      FlowRun::dropStates(tube, formulation.states);
+      FlowRun::explain(tube, options, FlowCause(tube.limitCause()));
+    }
     budget.spent += part.spent;
     return std::pair(std::move(tube), part.left() > 0);
   };
   const auto isCancelled = [&] { return options.cancelled != nullptr && options.cancelled->load(); };
   auto [tube, isDone] = within(
       {.limit = std::min(firstShare * budget.limit, mostAtFirst), .mostPieces = mostPiecesAtFirst}, plain, false);
-  const bool isLoose = own.starts.outputs() > plain.starts.outputs() && !tube.shortfall().empty();
+  // What jumps at surfaces is loose whatever is told: of what comes to a jump nothing is measured.
+  const bool isLoose = own.starts.outputs() > plain.starts.outputs() && (own.jumps || !tube.shortfall().empty());
   if (isCancelled() || (isDone && tube.reached() == horizon && !isLoose)) return std::move(tube);
   bool isWhole = false;
   if (tube.reached() < horizon || isLoose) {
     auto [other, isOther] = within({.limit = isDone ? budget.left() : 0.5 * budget.left()}, own, mayHaveOwnTimes);
     isWhole = isOther && other.reached() == horizon;
-    tube = FlowRun::meetStages(std::move(tube), std::move(other), budget);
+    tube = FlowRun::meetStages(std::move(tube), std::move(other), options, budget);
   }
   if (isDone || isWhole || isCancelled()) return std::move(tube);
   Tube last = within({.limit = budget.left()}, plain, false).first;
-  return FlowRun::meetStages(std::move(tube), std::move(last), budget);
+  return FlowRun::meetStages(std::move(tube), std::move(last), options, budget);
 }
 
 }  // namespace
@@ -285,27 +289,35 @@ Tube Flow::enclose(const Box& box, double horizon, const std::vector<double>& ou
            std::ranges::all_of(surfaces->boxOf(box), [](const Interval& range) { return isBounded(range); });
   };
   const auto& surfaces = hasClock ? parts_->byClockAndSurfaces : parts_->bySurfaces;
-  const bool bySurfaces = isDefined(surfaces), hasSymbols = Embedding(box, motion.states(), {}).symbols > 0;
+  const int symbols = Embedding(box, motion.states(), {}).symbols;
+  const bool bySurfaces = isDefined(surfaces), hasSymbols = symbols > 0;
   const bool mayPass = options.varying.empty() && mayTurn(motion), mayHaveOwnTimes = !isTimed || hasClock;
-  const auto staged = [&](const FlowFormulation& plain, const FlowFormulation& own) {
-    return inStages(plain, own, mayHaveOwnTimes, options, budget, box, horizon, outputTimes, levels);
+  const auto staged = [&](const FlowFormulation& plain, const FlowFormulation& own, FlowBudget part) {
+    Tube tube = inStages(plain, own, mayHaveOwnTimes, options, part, box, horizon, outputTimes, levels);
+    budget.spent += part.spent;
+    return tube;
   };
-  if (mayPass && bySurfaces && !surfaces->jumps && hasSymbols) return staged(formulation, *surfaces);
+  const auto rest = [&](double share) { return FlowBudget{share * budget.left()}; };
+  // Of more quantities than are bisected for tightness a run without surfaces costs little, and may come farther.
+  constexpr int many = 8;
+  if (mayPass && bySurfaces && hasSymbols && (!surfaces->jumps || symbols > many))
+    return staged(formulation, *surfaces, rest(1));
   const FlowFormulation& own = hasClock ? *parts_->withClock : formulation;
   if (mayPass && bySurfaces && surfaces->jumps) {  // what is not linear costs all there: with states from the start on
     const bool isFirst = isDefined(parts_->bySurfaces);  // not if arguments are of time alone, which only a clock moves
-    Tube tube = staged(isFirst ? *parts_->bySurfaces : formulation, *surfaces);
+    constexpr double most = 0.75;  // with many of them, one without may be all that comes to the horizon
+    Tube tube = staged(isFirst ? *parts_->bySurfaces : formulation, *surfaces, rest(most));
     // Without symbols it costs little to know as well what is known as finely as numbers are.
     const bool isDone = tube.reached() == horizon && (hasSymbols || !isFirst);
     using enum FlowCause::Kind;
     const FlowCause::Kind why = tube.cause().kind;
     if (isDone || !(budget.left() > 0) || why == interrupted || why == outOfMemory) return tube;
     Tube other = mayHaveOwnTimes && hasSymbols
-                     ? staged(formulation, own)
+                     ? staged(formulation, own, rest(1))
                      : answer(formulation, options, budget, box, horizon, outputTimes, levels);
-    return FlowRun::meetStages(std::move(tube), std::move(other), budget);
+    return FlowRun::meetStages(std::move(tube), std::move(other), options, budget);
   }
-  if (mayPass && mayHaveOwnTimes && hasSymbols) return staged(formulation, own);
+  if (mayPass && mayHaveOwnTimes && hasSymbols) return staged(formulation, own, rest(1));
   Tube tube = answer(formulation, options, budget, box, horizon, outputTimes, levels);
   if (!parts_->ofRates || tube.wasStopped()) return tube;
   // Up to an output time, so that both have the same rows.

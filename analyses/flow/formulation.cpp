@@ -161,6 +161,11 @@ FlowFormulation FlowFormulation::withClock() const {
   return result;
 }
 
+void boundStarts(Box& box, const Program& starts) {
+  const std::vector<Interval> ranges = PlainOutputs(starts).over(0.0, box);
+  std::ranges::copy(ranges, box.begin() + (starts.states() - starts.outputs()));
+}
+
 Box FlowFormulation::boxOf(const Box& box) const {
   if (motion.states() == states) return box;
   Box result = box;
@@ -168,8 +173,7 @@ Box FlowFormulation::boxOf(const Box& box) const {
   if (starts.outputs() > 0) {
     const auto behind = result.begin() + motion.states() - starts.outputs();
     result.insert(behind, at(starts.outputs()), Interval(0.0));
-    const std::vector<Interval> ranges = PlainOutputs(starts).over(0.0, result);
-    std::ranges::copy(ranges, result.begin() + motion.states() - starts.outputs());
+    boundStarts(result, starts);
   }
   if (hasClock || starts.outputs() > 0) return result;
   auto place = result.begin() + states;

@@ -18,6 +18,9 @@ bool dependsOnTime(const Program& program);
 /// Of each state, whether f is not linear in it, signs and parameters given.
 std::vector<char> bentStates(const Program& f);
 
+/// The last of a box's states within what intervals tell of `starts`, functions of the others.
+void boundStarts(Box& box, const Program& starts);
+
 struct FlowFormulation {
   Program motion;          // f
   Program differentiated;  // differentiatedFor

@@ -7,7 +7,7 @@
 #include <thread>
 #include <utility>
 
-#include "analyses/flow/plain_outputs.hpp"
+#include "analyses/flow/formulation.hpp"
 #include "analyses/flow/start_outputs.hpp"
 #include "analyses/work.hpp"
 #include "analyses/workers.hpp"
@@ -253,8 +253,7 @@ void FlowRun::probe(const FlowPiece& piece) {
   FlowQuestion question{task_.motion, task_.differentiated, none, options, horizon, noTimes, rest};
   if (task_.starts != nullptr) {
     question.starts = task_.starts;
-    const std::vector<Interval> at0 = PlainOutputs(*task_.starts).over(0.0, start);
-    std::ranges::copy(at0, start.begin() + (task_.motion.states() - task_.starts->outputs()));
+    boundStarts(start, *task_.starts);
   }
   const FlowTask task(question, start, noLevels, {});
   const Tube alone = FlowRun(task).run();
@@ -485,10 +484,11 @@ Tube FlowRun::meet(Tube a, Tube b) {
   return b;
 }
 
-Tube FlowRun::meetStages(Tube a, Tube b, const FlowBudget& all) {
+Tube FlowRun::meetStages(Tube a, Tube b, const FlowOptions& options, const FlowBudget& all) {
   std::pair<FlowCause, std::string> ofFarther{a.cause_, a.why_}, ofOther{b.cause_, b.why_};
   if (a.reached_ < b.reached_) std::swap(ofFarther, ofOther);
   Tube both = meet(std::move(a), std::move(b));
+  explain(both, options, FlowCause(both.limit_));  // what the tighter of them leaves over counts
   if (both.cause_.kind != FlowCause::Kind::overBudget || !(all.left() > 0)) return both;
   const auto& own = ofFarther.first.kind == FlowCause::Kind::overBudget ? ofOther : ofFarther;
   both.cause_ = own.first;

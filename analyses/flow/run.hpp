@@ -53,7 +53,7 @@ class FlowRun {
   /// Both are proved, so their intersection is; the one that reaches further goes on alone. Costs add up.
   static Tube meet(Tube a, Tube b);
   /// The same of two of which each may have ended for want of a share of the work: that is no reason, if it is not all.
-  static Tube meetStages(Tube a, Tube b, const FlowBudget& all);
+  static Tube meetStages(Tube a, Tube b, const FlowOptions& options, const FlowBudget& all);
   /// Adds CPU time that no run has counted.
   static void charge(Tube& tube, double cpuSeconds) { tube.cpu_ += cpuSeconds; }
   static void setLevelWork(Tube& tube, double work) { tube.levelWork_ = work; }

@@ -9,6 +9,7 @@
 #include "analyses/flow/error_bounds.hpp"
 #include "analyses/flow/outputs.hpp"
 #include "scalars/index.hpp"
+#include "scalars/program/differentiation.hpp"
 #include "scalars/program/linear_form.hpp"
 #include "scalars/program/recorder.hpp"
 #include "scalars/program/sides.hpp"
@@ -55,17 +56,6 @@ std::vector<int> argumentsAmong(const Program& all, const std::vector<int>& node
   return arguments;
 }
 
-/// u and its derivatives by states and by time, row by row: a program of one state more, which is time.
-Program derivativesOf(const Program& u) {
-  Recorder recorder(u.states() + 1, u.parameters());
-  std::vector<int> instead(u.nodes().size(), -1), outputs;
-  for (std::size_t i = 0; i < instead.size(); ++i)
-    if (u.nodes()[i].op == Op::time) instead[i] = recorder.state(u.states());
-  const std::vector<int> here = recorder.append(u, {}, instead);
-  for (const int output : u.outputNodes()) outputs.push_back(here[at(output)]);
-  return recorder.finish(outputs).differentiated();
-}
-
 }  // namespace
 
 std::optional<FlowFormulation> withSurfaces(const FlowFormulation& of) {
@@ -92,36 +82,28 @@ std::optional<FlowFormulation> withSurfaces(const FlowFormulation& of) {
   std::vector<int> instead(all.nodes().size(), -1);
   for (int j = 0; j < count; ++j) instead[at(arguments[at(j)])] = recorder.state(n + j);
   const std::vector<int> here = recorder.append(all, {}, instead);
-  const Program u = Recorder(all).finish(arguments), derivatives = derivativesOf(u);
-  std::vector<int> insteadOfTime(derivatives.nodes().size(), -1);
-  for (std::size_t i = 0; i < insteadOfTime.size(); ++i)
-    if (derivatives.nodes()[i].op == Op::state && derivatives.nodes()[i].a == n) insteadOfTime[i] = recorder.time();
-  const std::vector<int> slopes = recorder.append(derivatives, {}, insteadOfTime);
-  // Outputs that neither jump nor bend are what they are: samples know no u that is zero exactly, as a held one is.
   const std::vector<int> plain = recorder.append(all);
-  const std::vector<char> isBent = dependenceOf(all).bends;
-  const auto programOf = [&](const std::vector<int>& nodes, const std::vector<int>& more) {
-    std::vector<int> selected;
-    for (const int node : nodes)
-      selected.push_back(isBent[at(node)] != 0 || !more.empty() ? here[at(node)] : plain[at(node)]);
-    selected.insert(selected.end(), more.begin(), more.end());
-    return recorder.finish(selected);
+  const auto chosen = [](const std::vector<int>& from, const std::vector<int>& nodes) {
+    std::vector<int> result;
+    for (const int node : nodes) result.push_back(from[at(node)]);
+    return result;
   };
-  std::vector<int> rates;
-  for (int j = 0; j < count; ++j) {
-    const auto slope = [&](int by) { return slopes[at(derivatives.outputNodes()[at(count + j * (n + 1) + by)])]; };
-    int rate = slope(n);
-    for (int i = 0; i < n; ++i) rate = recorder.add(rate, recorder.mul(slope(i), here[at(results[0][at(i)])]));
-    rates.push_back(rate);
-  }
-  FlowFormulation result(programOf(results[0], rates), programOf(results[1], {}), of.inputs, programOf(results[2], {}));
+  std::vector<int> motion = chosen(here, results[0]);
+  std::vector<std::pair<int, int>> seeds{{recorder.time(), recorder.constant(1.0)}};
+  for (int i = 0; i < n; ++i) seeds.emplace_back(recorder.state(i), motion[at(i)]);
+  const std::vector<int> rates = tangents(recorder, chosen(plain, arguments), seeds);
+  motion.insert(motion.end(), rates.begin(), rates.end());
+  // Outputs that neither jump nor bend are what they are: samples know no u that is zero exactly, as a held one is.
+  const std::vector<char> isBent = dependenceOf(all).bends;
+  const auto seen = [&](const std::vector<int>& nodes) {
+    std::vector<int> result;
+    for (const int node : nodes) result.push_back((isBent[at(node)] != 0 ? here : plain)[at(node)]);
+    return recorder.finish(result);
+  };
+  FlowFormulation result(recorder.finish(motion), seen(results[1]), of.inputs, seen(results[2]));
   result.states = of.states;
   result.hasClock = of.hasClock;
-  Recorder ofAll(n + count, k);
-  const std::vector<int> start = ofAll.append(u);
-  std::vector<int> starts;
-  for (const int output : u.outputNodes()) starts.push_back(start[at(output)]);
-  result.starts = ofAll.finish(starts);
+  result.starts = recorder.finish(chosen(plain, arguments));
   result.jumps = std::ranges::any_of(ofMotion, [&](int node) {
     const Node& jump = all.nodes()[at(node)];
     return jump.op == Op::sign && std::ranges::find(arguments, jump.a) != arguments.end();
@@ -140,10 +122,9 @@ bool placeSurfaces(FlowSet& set, const Program& starts, const std::shared_ptr<co
   point.psiSum = point.psi;
   point.total = point.ofR = point.beyond = point.known = point.low;
   for (std::size_t i = 0; i < n; ++i) {
-    double loose = i < first ? set.W[i] : 0;  // until the first step C is 1, and no generators are there
-    if (i < first) loose = (loose + std::fabs(set.C[i * n + i]) * set.R[i]) * bounds::up;
-    if (i < first && !set.low.empty()) loose = (loose + std::fabs(set.low[i])) * bounds::up;
-    point.loose.push_back(loose);
+    // Until the first step C is the identity, and there are no generators: |x - p| ≤ W + R + |low|, rounded twice.
+    const double low = set.low.empty() ? 0 : std::fabs(set.low[i]);
+    point.loose.push_back(i < first ? (set.W[i] + set.R[i] + low) * bounds::up : 0);
   }
   point.radius = point.loose;
   outputs.evaluate(0.0, point, std::vector<double>(n, 0.0), set.parameters);

@@ -12,6 +12,7 @@
 
 #include "mechanics/description/names.hpp"
 #include "mechanics/description/quantities.hpp"
+#include "mechanics/description/unfit_part.hpp"
 
 namespace gamut {
 namespace {
@@ -662,7 +663,8 @@ void Mechanism::checkMasses() const {
                             return coordinates_.find(name)->isDriven;
                           });
     if (moved.isByJoint && !isDriven && !carries[moved.frame])
-      throw MasslessJoint(moved.element, "a mass at the frame " + inQuotes(moved.frame) + " or at one that it carries");
+      throw UnfitPart(moved.element, "the joint " + inQuotes(moved.element) + " moves no mass",
+                      "a mass at the frame " + inQuotes(moved.frame) + " or at one that it carries");
   }
 }
 

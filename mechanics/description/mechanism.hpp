@@ -40,20 +40,6 @@ class WrongNumber : public UnitError {
   std::string number_;
 };
 
-/// A joint whose motion no mass resists.
-class MasslessJoint : public std::invalid_argument {
- public:
-  MasslessJoint(std::string joint, std::string expected)
-      : std::invalid_argument("the joint '" + joint + "' moves no mass; expected " + expected),
-        joint_(std::move(joint)),
-        expected_(std::move(expected)) {}
-  const std::string& joint() const { return joint_; }
-  const std::string& expected() const { return expected_; }
-
- private:
-  std::string joint_, expected_;
-};
-
 class Mechanism {
  public:
   /// The frame in which everything stands.

@@ -13,8 +13,7 @@ struct RigidStop {
       "law of impact); all other joints get what the impulse at the joint gives them. By ever smaller impacts it comes "
       "to rest there, until it is drawn off, in machines with one such end or two. Measured forces and accelerations "
       "hold neither impulses nor what presses the joint to the end at rest. Not for a joint with dry friction of its "
-      "own: "
-      "smooth it, or take an elastic end";
+      "own: smooth it, or take an elastic end";
 
   std::string name, joint;
   Expression at = 0.0, restitution = 1.0;  ///< rad or m, 1

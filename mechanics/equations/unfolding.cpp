@@ -31,7 +31,7 @@ Unfolding<S>::Unfolding(std::vector<Struck> struck, std::size_t firstSpeed, Syst
     : firstSpeed_(firstSpeed), system_(system) {
   for (Struck& of : struck) folds_.push_back({std::move(of)});
   if (!isEmpty() && system.isConstrained())
-    throw UnfitRigidEnd(
+    throw UnfitPart(
         folds_.front().of.end.coordinate,
         "the joint '" + folds_.front().of.end.coordinate + "' strikes a rigid end in a machine with constraints",
         "an elastic end (joint-stop), or a machine without constraints");
@@ -94,10 +94,10 @@ void Unfolding<S>::findShares(Fold& fold, const Eigen::Matrix<S, Eigen::Dynamic,
   if constexpr (std::is_same_v<S, Recorded>)
     for (const Fold& other : folds_)
       if (&other != &fold && !isKnownZero(shares[other.of.speed - firstSpeed_]))
-        throw UnfitRigidEnd(other.of.end.coordinate,
-                            "an impulse at the rigid end of '" + fold.of.end.coordinate + "' moves the joint '" +
-                                other.of.end.coordinate + "', which has a rigid end too",
-                            "an elastic end (joint-stop) for one of them");
+        throw UnfitPart(other.of.end.coordinate,
+                        "an impulse at the rigid end of '" + fold.of.end.coordinate + "' moves the joint '" +
+                            other.of.end.coordinate + "', which has a rigid end too",
+                        "an elastic end (joint-stop) for one of them");
   fold.shares = std::move(shares);
 }
 

@@ -23,26 +23,11 @@
 #include <utility>
 #include <vector>
 
+#include "mechanics/description/unfit_part.hpp"
 #include "mechanics/equations/system.hpp"
 #include "mechanics/rigid_end.hpp"
 
 namespace gamut {
-
-/// A rigid end that does not go together with the machine.
-class UnfitRigidEnd : public std::invalid_argument {
- public:
-  UnfitRigidEnd(std::string coordinate, std::string problem, std::string expected)
-      : std::invalid_argument(problem + "; expected " + expected),
-        coordinate_(std::move(coordinate)),
-        problem_(std::move(problem)),
-        expected_(std::move(expected)) {}
-  const std::string& coordinate() const { return coordinate_; }
-  const std::string& problem() const { return problem_; }
-  const std::string& expected() const { return expected_; }
-
- private:
-  std::string coordinate_, problem_, expected_;
-};
 
 template <class S>
 class Unfolding {
@@ -52,14 +37,14 @@ class Unfolding {
     RigidEnd<S> end;
     std::size_t position, speed;
   };
-  /// Throws UnfitRigidEnd for a system with constraints.
+  /// Throws UnfitPart for a system with constraints.
   Unfolding(std::vector<Struck> struck, std::size_t firstSpeed, System<S>& system);
 
   bool isEmpty() const { return folds_.empty(); }
   /// σ and the sign of v of each end.
   std::vector<S> signsAt(const std::vector<S>& x) const;
   /// From unfolded states x to the machine's, of these signs; `isSmooth`: σ goes on beyond an end. `move` moves it by
-  /// states. Throws UnfitRigidEnd where Recorded is not known to keep the impulse at one end from what strikes another.
+  /// states. Throws UnfitPart where Recorded is not known to keep the impulse at one end from what strikes another.
   void fold(std::vector<S>& x, const std::vector<S>& signs, bool isSmooth,
             const std::function<void(const std::vector<S>&)>& move);
   /// After fold(): from the machine's ẋ to the rates of the unfolded states, which are recorded as `x` and `time`.

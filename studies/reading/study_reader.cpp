@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "mechanics/assembly.hpp"
+#include "mechanics/description/unfit_part.hpp"
 #include "mechanics/description/written_units.hpp"
 #include "mechanics/elements/rigid_stop.hpp"
 #include "mechanics/model.hpp"
@@ -379,10 +380,8 @@ class StudyReader {
       source_.failWith(
           mechanism, error.what(),
           "fewer joints one behind the other: what they do to each other grows with the square of their number");
-    } catch (const UnfitRigidEnd& error) {
-      source_.failWith(placeOf(error.coordinate()), error.problem(), error.expected());
-    } catch (const MasslessJoint& error) {
-      source_.failWith(placeOf(error.joint()), "the joint '" + error.joint() + "' moves no mass", error.expected());
+    } catch (const UnfitPart& error) {
+      source_.failWith(placeOf(error.part()), error.problem(), error.expected());
     } catch (const std::invalid_argument& error) {
       refuseNumberWithoutValue();
       refuseJointsAlike();

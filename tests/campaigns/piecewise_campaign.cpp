@@ -983,7 +983,11 @@ int main(int argc, char** argv) {
   const int systems = argc > 1 ? std::atoi(argv[1]) : 300;
   const int first = argc > 2 ? std::atoi(argv[2]) : 0;
   const double work = argc > 3 ? std::atof(argv[3]) : 5;
-  if (argc > 4 && std::string(argv[4]) == "surfaces") drawn = bent;
+  if (argc > 4 && std::string(argv[4]) != "surfaces") {
+    fmt::print(stderr, "unknown kind '{}'; expected surfaces, or none\n", argv[4]);
+    return 2;
+  }
+  if (argc > 4) drawn = bent;
   std::vector<Count> counts(drawn.size());
   Count all;
   for (int i = first; i < first + systems; ++i) {

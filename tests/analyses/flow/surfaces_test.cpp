@@ -51,7 +51,7 @@ const std::vector<JumpingMachine>& machines() {
        [](const auto& sides, const Vector& p, Vector& x) {
          if (sides[0] == Side::held) x[0] = p[0] * x[1];
        },
-       1.02},
+       1.005},
       // A relay that brings a mass to its place by place and speed: passed once, then held.
       {"Relay",
        record(2, 2,
@@ -65,7 +65,7 @@ const std::vector<JumpingMachine>& machines() {
        [](const auto& sides, const Vector& p, Vector& x) {
          if (sides[0] == Side::held) x[0] = -p[0] * x[1];
        },
-       1.5},
+       1.005},
       // Across a disc in which something pulls.
       {"Disc",
        record(3, 2,
@@ -78,7 +78,7 @@ const std::vector<JumpingMachine>& machines() {
        {0.0, all, all, all, all},
        4,
        keep,
-       1.02},
+       1.005},
       // A course that time and a quantity tell.
       {"Course",
        record(2, 2,
@@ -90,9 +90,9 @@ const std::vector<JumpingMachine>& machines() {
        {0.0, all, all, all},
        2,
        keep,
-       1.02},
-      {"Wall", wall.first, {0.0, 1.0, 0.5, 64.0}, {0.0, all, all, all}, 1, keep, 1.02, wall.second},
-      {"Gear", gear.first, {1.0, 0.0, 0.0, 2.0, 1.0}, {all, 0.0, 0.0, all, all}, 3, keep, 1.02, gear.second}};
+       1.005},
+      {"Wall", wall.first, {0.0, 1.0, 0.5, 64.0}, {0.0, all, all, all}, 1, keep, 1.005, wall.second},
+      {"Gear", gear.first, {1.0, 0.0, 0.0, 2.0, 1.0}, {all, 0.0, 0.0, all, all}, 3, keep, 1.005, gear.second}};
   return machines;
 }
 
