@@ -1,11 +1,16 @@
 # Turns text files into a C++ source of string literals, so that the program carries them with it.
 #   cmake -DOUTPUT=parts.cpp -DNAMESPACE=gamut::page -DNAMES="a;b" -DFILES="a.css;b.js" -P embed.cmake
-# Each file becomes `extern const std::string_view NAME` in the namespace; whoever uses it declares it so.
+# Each file becomes `extern const std::string_view NAME` in the namespace; whoever uses it declares it so. Of modules of
+# JavaScript, lines that import and words that export are left out: scripts of one page share what they define.
 set(delimiter "gamut_file")
 set(source "// Made when Gamut was built, from the files of which it holds the text.\n#include <string_view>\n\n")
 string(APPEND source "namespace ${NAMESPACE} {\n\n")
 foreach(name file IN ZIP_LISTS NAMES FILES)
   file(READ "${file}" content)
+  if(file MATCHES "[.]js$")
+    string(REGEX REPLACE "\nimport [^\n]*" "" content "${content}")
+    string(REPLACE "\nexport " "\n" content "${content}")
+  endif()
   string(FIND "${content}" ")${delimiter}\"" clash)
   if(NOT clash EQUAL -1)
     message(FATAL_ERROR "${file} holds the text that ends an embedded file: )${delimiter}\"")

@@ -58,20 +58,17 @@ std::string sectionsOf(const Report& report) {
   return text;
 }
 
-/// What only pages with plots over time need: the numbers and what draws them.
-std::string plottingPart(const std::string& data) {
-  if (data.empty()) return {};
-  return fmt::format(
-      "<script type=\"application/json\" id=\"times\">{}</script>\n<!--\n{}\n-->\n<script>{}</script>\n"
-      "<script>{}</script>\n",
-      data, page::plottingLicence, page::plottingScript, page::script);
-}
-
-/// What moves the picture of the machine, chooses times and copies figures.
-std::string movingPart(const Results& results) {
-  std::string scripts;
-  if (results.machine.present) scripts += fmt::format("<script>{}</script>\n", page::machineScript);
-  return scripts + fmt::format("<script>{}</script>\n<script>{}</script>\n", page::momentsScript, page::keepScript);
+/// What chooses times and copies figures; on pages with plots over time the numbers and what draws them; what moves the
+/// picture of the machine.
+std::string scriptsOf(const Report& report) {
+  const auto script = [](std::string_view text) { return fmt::format("<script>{}</script>\n", text); };
+  std::string scripts =
+      script(page::domScript) + script(page::outputsScript) + script(page::keepScript) + script(page::momentsScript);
+  if (const std::string& data = report.outputs.data; !data.empty())
+    scripts += fmt::format("<script type=\"application/json\" id=\"times\">{}</script>\n<!--\n{}\n-->\n", data,
+                           page::plottingLicence) +
+               script(page::plottingScript) + script(page::axesScript) + script(page::pageScript);
+  return report.results.machine.present ? scripts + script(page::machineScript) : scripts;
 }
 
 /// With so much detail.
@@ -92,8 +89,7 @@ std::string rendered(const Results& results, const Verdict& verdict, const Detai
                  {"plottingStyle", report.outputs.data.empty() ? "" : std::string(page::plottingStyle)},
                  {"first", firstSection(report)},
                  {"sections", sectionsOf(report)},
-                 {"scripts", fmt::format("<script>{}</script>\n", page::axesScript) +
-                                 plottingPart(report.outputs.data) + movingPart(results)}});
+                 {"scripts", scriptsOf(report)}});
 }
 
 }  // namespace

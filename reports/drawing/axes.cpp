@@ -56,11 +56,6 @@ std::string offsetText(double from, double size, double power) {
                      powerOfTen(order));
 }
 
-/// "rad", "rad, × 10⁻⁹".
-std::string axisName(const std::string& name, const Ticks& ticks) {
-  return ticks.aside.empty() ? name : name.empty() ? ticks.aside : name + ", " + ticks.aside;
-}
-
 }  // namespace
 
 void Range::hold(double x) {
@@ -87,7 +82,6 @@ Range Range::padded(double share) const {
   return {low - pad, high + pad};
 }
 
-/// The same as ticksOf in reports/page/axes.js.
 Ticks ticksOf(const Range& range, int wanted) {
   Ticks ticks;
   const double step = roundStep(range.high - range.low, wanted),
@@ -97,7 +91,7 @@ Ticks ticksOf(const Range& range, int wanted) {
   double from = 0;
   if (orderOf(size) - orderOf(step) >= mostDigits) {  // counted from a number with as few digits as the range allows
     const double power = std::pow(10.0, orderOf(range.high - range.low) + 1);
-    from = std::round(0.5 * (range.low + range.high) / power) * power;
+    from = std::floor(0.5 * (range.low + range.high) / power + 0.5) * power;
     ticks.aside = offsetText(from, size, power) + " + \u2026";
   }
   const double first = std::ceil((range.low - from) / step), last = std::floor((range.high - from) / step);
@@ -112,6 +106,10 @@ Ticks ticksOf(const Range& range, int wanted) {
     ticks.text.push_back(k == 0 ? "0" : fmt::format("{:.{}f}", k * step / std::pow(10.0, exponent), decimals));
   }
   return ticks;
+}
+
+std::string axisName(const std::string& name, const Ticks& ticks) {
+  return ticks.aside.empty() ? name : name.empty() ? ticks.aside : name + ", " + ticks.aside;
 }
 
 /// Far outside no paper is so large that anybody could tell.

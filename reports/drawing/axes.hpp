@@ -33,8 +33,11 @@ struct Ticks {
   std::string aside;  ///< "× 10⁻⁹", "1.234567 + …"; empty where the texts are the numbers
 };
 
-/// About `wanted` of them.
+/// About `wanted` of them. The screen finds ticks, names and rooms of what is zoomed to alike (reports/page/axes.js):
+/// tests/reports/page/vectors.json holds both to it.
 Ticks ticksOf(const Range& range, int wanted);
+/// "rad", "rad, × 10⁻⁹".
+std::string axisName(const std::string& name, const Ticks& ticks);
 
 /// Where numbers lie on paper of this size.
 struct Frame {

@@ -1,17 +1,18 @@
 // A slider for all figures of a section that are there at some times: which of the times is shown.
 "use strict";
 
-for (const place of document.querySelectorAll(".controls.moments")) {
-  const times = JSON.parse(place.dataset.times), figures = document.querySelectorAll("figure." + place.dataset.of);
-  const slider = document.createElement("input"), said = document.createElement("output");
-  Object.assign(slider, { type: "range", min: 0, max: times.length - 1, value: times.length - 1 });
-  slider.setAttribute("aria-label", place.dataset.label);
+import { all, made } from "./dom.js";
+
+for (const place of all(".controls.moments")) {
+  /** @type {string[]} */
+  const moments = JSON.parse(place.dataset.times ?? ""), figures = all("figure." + place.dataset.of), last = String(moments.length - 1);
+  const slider = made("input", { type: "range", min: "0", max: last, value: last }, place), said = made("output", {}, place);
+  slider.setAttribute("aria-label", place.dataset.label ?? "");
   const show = () => {
-    said.textContent = times[slider.value];
-    slider.setAttribute("aria-valuetext", times[slider.value]);
+    said.textContent = moments[Number(slider.value)];
+    slider.setAttribute("aria-valuetext", said.textContent);
     for (const figure of figures) figure.hidden = figure.dataset.at !== slider.value;
   };
   slider.addEventListener("input", show);
-  place.append(slider, said);
   show();
 }

@@ -6,13 +6,15 @@
 
 namespace gamut::page {
 
-extern const std::string_view skeleton;         ///< page.html, with {{places}} to fill
-extern const std::string_view style;            ///< page.css
-extern const std::string_view axesScript;       ///< axes.js
-extern const std::string_view script;           ///< page.js
-extern const std::string_view machineScript;    ///< machine.js
-extern const std::string_view momentsScript;    ///< moments.js
-extern const std::string_view keepScript;       ///< keep.js
+extern const std::string_view skeleton;   ///< page.html, with {{places}} to fill
+extern const std::string_view style;      ///< page.css
+extern const std::string_view domScript;  ///< dom.js, and so on: each follows those that it imports from
+extern const std::string_view outputsScript;
+extern const std::string_view keepScript;
+extern const std::string_view momentsScript;
+extern const std::string_view axesScript;
+extern const std::string_view pageScript;
+extern const std::string_view machineScript;
 extern const std::string_view plottingStyle;    ///< uPlot's style sheet
 extern const std::string_view plottingScript;   ///< uPlot, as one script that defines `uPlot`
 extern const std::string_view plottingLicence;  ///< its licence, which has to travel with it

@@ -1,6 +1,5 @@
 // The page in a real browser: every plot is drawn, nothing goes wrong, and without a script the drawings are there.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <gmock/gmock.h>
 
 #include <cctype>
@@ -13,7 +12,6 @@
 #include <utility>
 #include <vector>
 
-#include "reports/drawing/axes.hpp"
 #include "reports/report.hpp"
 #include "tests/reports/chromium.hpp"
 #include "tests/reports/example_results.hpp"
@@ -125,26 +123,6 @@ TEST_F(Browser, ShowsTheSpreadFirstWhereTheBandIsThin) {
   EXPECT_THAT(page, HasSubstr("<section class=\"output plotted\" data-output=\"1\" data-view=\"absolute\""));
   const std::string other = opened(results, "document.querySelectorAll('.views')[0].children[1].click();");
   EXPECT_THAT(other, HasSubstr("data-output=\"0\" data-view=\"absolute\""));
-}
-
-TEST_F(Browser, HasTheTicksOfPaper) {
-  std::string ranges, wanted;
-  for (const auto& [low, high] : std::vector<std::pair<double, double>>{{0, 1},
-                                                                        {-0.43, 0.43},
-                                                                        {1e-9, 3.7e-9},
-                                                                        {-2e9, 5e9},
-                                                                        {1234.56781, 1234.56788},
-                                                                        {-1e9, -1e9 + 2},
-                                                                        {0.0009999, 0.0010001}}) {
-    ranges += fmt::format("{}[{}, {}]", ranges.empty() ? "" : ", ", low, high);
-    const Ticks ticks = ticksOf({low, high}, 4);
-    wanted += fmt::format("{} | {}\n", fmt::join(ticks.text, " "), ticks.aside);
-  }
-  const std::string page =
-      opened(example::pendulum(5, 1), "note([" + ranges +
-                                          "].map(([low, high]) => { const t = gamut.ticks(low, high, 4); return "
-                                          "t.text.join(' ') + ' | ' + t.aside + '\\n'; }).join(''));");
-  EXPECT_EQ(noted(page), wanted);
 }
 
 /// Numbers of any size, some of them constant: nothing goes wrong, and every output is drawn.

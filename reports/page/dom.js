@@ -1,0 +1,48 @@
+// Elements of the page, found and made.
+"use strict";
+
+/** @param {string} selector @param {ParentNode} [within] @returns {HTMLElement} */
+export const one = (selector, within = document) => /** @type {HTMLElement} */ (within.querySelector(selector));
+
+/** @param {string} selector @param {ParentNode} [within] @returns {HTMLElement[]} */
+export const all = (selector, within = document) => Array.from(within.querySelectorAll(selector));
+
+/**
+ * @template {keyof HTMLElementTagNameMap} Tag
+ * @param {Tag} tag @param {Partial<HTMLElementTagNameMap[Tag]>} properties @param {ParentNode} [parent]
+ * @returns {HTMLElementTagNameMap[Tag]}
+ */
+export const made = (tag, properties, parent) => {
+  const element = Object.assign(document.createElement(tag), properties);
+  parent?.append(element);
+  return element;
+};
+
+/** @param {Element} element @param {unknown} isPressed */
+export const press = (element, isPressed) => element.setAttribute("aria-pressed", String(Boolean(isPressed)));
+
+/**
+ * A button that shows what it is for, and whether it is pressed.
+ * @param {(Node | string)[]} words @param {boolean} isPressed @param {(button: HTMLButtonElement) => void} onPress
+ */
+export const pressable = (words, isPressed, onPress) => {
+  const button = made("button", { type: "button" });
+  press(button, isPressed);
+  button.append(...words);
+  button.addEventListener("click", () => onPress(button));
+  return button;
+};
+
+/**
+ * Makes a switch of each entry of a key: what happens as its layer is shown or hidden.
+ * @param {string} entries @param {(layer: string, isShown: boolean) => void} onSwitch
+ */
+export const makeSwitches = (entries, onSwitch) => {
+  for (const item of all(entries)) {
+    item.append(pressable([...item.childNodes], true, button => {
+      const isShown = button.getAttribute("aria-pressed") !== "true";
+      press(button, isShown);
+      onSwitch(item.dataset.layer ?? "", isShown);
+    }));
+  }
+};
