@@ -12,19 +12,6 @@
 namespace gamut {
 namespace {
 
-std::string join(const std::vector<std::string>& texts) {
-  std::string joined;
-  for (const std::string& text : texts) joined += (joined.empty() ? "" : ",") + text;
-  return "[" + joined + "]";
-}
-
-/// JSON knows no infinity, so what is not finite is null.
-std::string plainLine(const Line& line, int digits) {
-  std::vector<std::string> texts;
-  for (const double x : line) texts.push_back(std::isfinite(x) ? numberText(x, digits) : "null");
-  return join(texts);
-}
-
 class Writer {
  public:
   explicit Writer(const Plot& plot) : scale_(scaleOf(plot)), decimals_(scale_) {}
@@ -48,16 +35,16 @@ class Writer {
                                : "[" + from(band.lower, middle, &Decimals::below) + "," +
                                      from(band.upper, middle, &Decimals::above) + "]");
       }
-      texts.push_back("\n" + layerText(layer, join(bands)));
+      texts.push_back("\n" + layerText(layer, jsonList(bands)));
     }
-    return join(texts);
+    return jsonList(texts);
   }
 
   static std::string ratios(const std::vector<Layer>& layers) {
     std::vector<std::string> texts;
     for (const Layer& layer : layers)
-      texts.push_back("\n" + layerText(layer, "[[" + plainLine(layer.bands.front().lower, 6) + "]]"));
-    return join(texts);
+      texts.push_back("\n" + layerText(layer, "[[" + numberList(layer.bands.front().lower, 6) + "]]"));
+    return jsonList(texts);
   }
 
  private:
@@ -97,7 +84,7 @@ class Writer {
         : layer.kind == line ? "line"
                              : "stack",
         jsonText(layer.readout), layer.style.fill > 0, layer.style.width, layer.style.isDashed, layer.isInSpread,
-        join(labels), join(levels), bands);
+        jsonList(labels), jsonList(levels), bands);
   }
 
   int scale_;
@@ -125,6 +112,18 @@ double Decimals::above(double x) const {
   return whole;
 }
 
+std::string jsonList(const std::vector<std::string>& texts) {
+  std::string list;
+  for (const std::string& text : texts) list += (list.empty() ? "" : ",") + text;
+  return "[" + list + "]";
+}
+
+std::string numberList(const std::vector<double>& numbers, int digits) {
+  std::vector<std::string> texts;
+  for (const double x : numbers) texts.push_back(std::isfinite(x) ? numberText(x, digits) : "null");
+  return jsonList(texts);
+}
+
 std::string secondDifferences(const std::vector<double>& wholes) {
   std::string text;
   bool isFirst = true;
@@ -145,7 +144,7 @@ std::string secondDifferences(const std::vector<double>& wholes) {
 }
 
 std::string timeData(const Plot& plot, std::size_t times) {
-  return "{\"time\":" + plainLine(thinned(plot, times).time, 17) + "}";
+  return "{\"time\":" + numberList(thinned(plot, times).time, 17) + "}";
 }
 
 std::string plotData(const Plot& whole, std::size_t times) {

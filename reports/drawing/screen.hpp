@@ -27,6 +27,10 @@ class Decimals {
   double power_;  ///< 10^|scale|
 };
 
+/// As JSON, which knows no infinity: what is not finite is null.
+std::string numberList(const std::vector<double>& numbers, int digits);
+std::string jsonList(const std::vector<std::string>& texts);
+
 /// A list of whole numbers by second differences, null where there is none: with value a and slope d, both 0 at first,
 /// the first number c that is not null gives a = c, each later one d += c, a += d.
 std::string secondDifferences(const std::vector<double>& wholes);

@@ -10,7 +10,6 @@
 namespace gamut {
 namespace {
 
-double dot(const Place& a, const Place& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 Place cross(const Place& a, const Place& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
@@ -127,13 +126,6 @@ bool isKnown(const Place& place) {
   return std::ranges::all_of(place, [](double x) { return std::fabs(x) <= farthest; });
 }
 
-Sight View::operator()(const Place& place) const {
-  const Sight from = direction(minus(place, centre));
-  return {width / 2 + scale * from.x, height / 2 + scale * from.y};
-}
-
-Sight View::direction(const Place& vector) const { return {dot(vector, right), -dot(vector, up)}; }
-
 namespace {
 
 View aimedView(const MachineResult& machine) {
@@ -201,37 +193,6 @@ View viewOf(const MachineResult& machine) {
   any.width = view.width;
   any.height = view.height;
   return any;
-}
-
-/// By rising x, then the lower and the upper chain (A. M. Andrew, Inf. Process. Lett. 9, 1979).
-std::vector<Sight> hullOf(std::vector<Sight> sights) {
-  std::erase_if(sights, [](const Sight& p) { return !std::isfinite(p.x) || !std::isfinite(p.y); });
-  std::ranges::sort(sights, [](const Sight& a, const Sight& b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
-  std::vector<Sight> hull;
-  const auto chain = [&](auto begin, auto end) {
-    const std::size_t first = hull.size();
-    for (auto at = begin; at != end; ++at) {
-      const auto turnsRight = [&] {
-        const Sight &a = hull[hull.size() - 2], &b = hull.back();
-        return (b.x - a.x) * (at->y - a.y) - (b.y - a.y) * (at->x - a.x) <= 0;
-      };
-      while (hull.size() >= first + 2 && turnsRight()) hull.pop_back();
-      hull.push_back(*at);
-    }
-    hull.pop_back();  // it begins the other chain
-  };
-  if (sights.size() < 2) return sights;
-  chain(sights.begin(), sights.end());
-  chain(sights.rbegin(), sights.rend());
-  return hull;
-}
-
-std::vector<Sight> cornersOf(const View& view, const Place& lower, const Place& upper) {
-  std::vector<Sight> corners;
-  for (unsigned corner = 0; corner < 8; ++corner)
-    corners.push_back(view({(corner & 1U) != 0 ? upper[0] : lower[0], (corner & 2U) != 0 ? upper[1] : lower[1],
-                            (corner & 4U) != 0 ? upper[2] : lower[2]}));
-  return corners;
 }
 
 }  // namespace gamut

@@ -12,6 +12,8 @@ namespace gamut {
 
 using Place = std::array<double, 3>;
 
+inline double dot(const Place& a, const Place& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
 /// The place of point k in row i of [time][point][direction]; NaN where it is unknown.
 Place placeOf(const std::vector<double>& places, std::size_t row, std::size_t points, std::size_t k);
 /// Whether it is there, and as near as a machine can be.
@@ -30,21 +32,11 @@ struct View {
   double width = 0, height = 0;
   bool isSideView = false;  ///< the machine moves in the plane that is seen
   double size = 0;          ///< of the machine: the greatest extent on paper, m
-
-  Sight operator()(const Place& place) const;
-  /// Where a unit vector points to.
-  Sight direction(const Place& vector) const;
 };
 
 /// Onto the plane in which all points move, if there is one, with up against gravity where that lies in it; otherwise
 /// from above and aside. All that is shown of the nominal motion and the samples fits in; enclosures as far as they are
 /// not much wider.
 View viewOf(const MachineResult& machine);
-
-/// The corners of the least convex polygon that holds all of these, one way round.
-std::vector<Sight> hullOf(std::vector<Sight> sights);
-
-/// The corners of a box of places, as they are seen.
-std::vector<Sight> cornersOf(const View& view, const Place& lower, const Place& upper);
 
 }  // namespace gamut

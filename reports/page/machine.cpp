@@ -32,8 +32,8 @@ std::string keysOf(const Results& results) {
 }
 
 /// What is shown, and what is not.
-std::string caption(const MachineResult& machine, const View& view) {
-  std::string words = view.isSideView ? "Side view" : "View from above and aside";
+std::string caption(const MachineResult& machine, const Scene& scene) {
+  std::string words = scene.view.isSideView ? "Side view" : "View from above and aside";
   words += ", at the start";
   if (!machine.why.empty()) words += "; " + machine.why;
   return words + ".";
@@ -51,13 +51,13 @@ std::string machineSection(const Report& report) {
         "<p class=\"hint\">The machine of {} is not drawn here, so that the page stays small; the "
         "results hold its places.</p>\n",
         countText(static_cast<long long>(machine.points.size()), "point"));
-  const View view = viewOf(machine);
+  const Scene scene = sceneOf(machine);
   const std::string label =
       fmt::format("The machine at the start: {}, {}", countText(static_cast<long long>(machine.points.size()), "point"),
                   countText(static_cast<long long>(machine.parts.size()), "part"));
-  return "<div class=\"picture\">\n" + keysOf(report.results) + "<figure>" + drawMachine(machine, view, label) +
-         "<figcaption>" + escapeHtml(caption(machine, view)) + "</figcaption></figure>\n</div>\n" +
-         fmt::format("<script type=\"application/json\" id=\"machine\">{}</script>\n", machineData(machine, view));
+  return "<div class=\"picture\">\n" + keysOf(report.results) + "<figure>" + drawScene(scene, label) + "<figcaption>" +
+         escapeHtml(caption(machine, scene)) + "</figcaption></figure>\n</div>\n" +
+         fmt::format("<script type=\"application/json\" id=\"machine\">{}</script>\n", sceneData(scene));
 }
 
 }  // namespace gamut

@@ -14,6 +14,7 @@ extern const std::string_view keepScript;
 extern const std::string_view momentsScript;
 extern const std::string_view axesScript;
 extern const std::string_view pageScript;
+extern const std::string_view sceneScript;
 extern const std::string_view machineScript;
 extern const std::string_view plottingStyle;    ///< uPlot's style sheet
 extern const std::string_view plottingScript;   ///< uPlot, as one script that defines `uPlot`

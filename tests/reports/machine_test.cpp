@@ -3,9 +3,11 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "reports/report.hpp"
 #include "tests/reports/example_results.hpp"
@@ -22,7 +24,7 @@ using ::testing::Not;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-std::string drawn(const MachineResult& machine) { return drawMachine(machine, viewOf(machine), "machine"); }
+std::string drawn(const MachineResult& machine) { return drawScene(sceneOf(machine), "machine"); }
 
 /// A machine of one point that is at these places in turn.
 MachineResult moving(const std::vector<Place>& places) {
@@ -69,9 +71,9 @@ TEST(MachinePicture, ShowsNoNameOverAnother) {
   m.parts.push_back({"elsewhere", "mass", "mass", 2, 2, 0, 0, 2});
   m.places.nominal = {0, 0, 0, 0, 0.001, 0, 0, 2, 2, 0, 1, 0, 0, 1.001, 0, 0, 3, 2};
   const std::string svg = drawn(m);
-  EXPECT_THAT(svg, ContainsRegex("class=\"name\" data-part=\"1\" x"));
-  EXPECT_THAT(svg, ContainsRegex("class=\"name\" data-part=\"2\" x"));
-  EXPECT_THAT(svg, ContainsRegex("class=\"name\" data-part=\"0\" visibility=\"hidden\" x"));
+  EXPECT_THAT(svg, ContainsRegex("class=\"name\" dy=\"0.0em\" data-shape[^>]*>heavier<"));
+  EXPECT_THAT(svg, ContainsRegex("class=\"name\" dy=\"0.0em\" data-shape[^>]*>elsewhere<"));
+  EXPECT_THAT(svg, ContainsRegex("class=\"name\" dy=\"0.0em\" visibility=\"hidden\" data-shape[^>]*>weight<"));
 }
 
 TEST(MachinePicture, TellsMassesInTheUnitsThatTheStudyStates) {
@@ -167,10 +169,10 @@ TEST(MachinePicture, FitsOnThePaperWhateverTheSize) {
       MachineResult machine = example::machine(isSpatial).machine;
       for (auto* of : {&machine.places.nominal, &machine.places.samples, &machine.places.lower, &machine.places.upper})
         for (double& x : *of) x *= size;
-      const View view = viewOf(machine);
-      for (std::size_t i = 0; i < machine.places.nominal.size(); i += 3) {
-        const Sight at =
-            view({machine.places.nominal[i], machine.places.nominal[i + 1], machine.places.nominal[i + 2]});
+      const Scene scene = sceneOf(machine);
+      const View& view = scene.view;
+      for (std::size_t k = 0; k < scene.points * scene.time.size(); ++k) {
+        const Sight at = sightOf(scene, scene.at(scene.nominal, 0, k), {0, view.right, view.up});
         EXPECT_GT(at.x, 0) << size;
         EXPECT_LT(at.x, view.width) << size;
         EXPECT_GT(at.y, 0) << size;
@@ -191,15 +193,15 @@ TEST(MachinePicture, SurvivesNumbersThatAreNone) {
                      &machine.places.sag, &machine.places.axes})
       for (std::size_t i = 7; i < of->size(); i += 7) (*of)[i] = odd;
     EXPECT_THAT(drawn(machine), HasSubstr("</svg>"));
-    EXPECT_TRUE(json::accept(machineData(machine, viewOf(machine)))) << odd;
+    EXPECT_TRUE(json::accept(sceneData(sceneOf(machine)))) << odd;
   }
 }
 
 TEST(MachinePicture, HandsOnEnclosuresOutward) {
   const MachineResult machine = example::machine().machine;
   const View view = viewOf(machine);
-  const json data = json::parse(machineData(machine, view));
-  const double unit = data["unit"];
+  const json data = json::parse(sceneData(sceneOf(machine)));
+  const double unit = data["unit"].get<double>() / view.scale;
   for (std::size_t i = 0; i < machine.places.lower.size(); ++i) {
     EXPECT_LE(view.centre[i % 3] + data["lower"][i].get<double>() * unit, machine.places.lower[i] + 1e-12);
     EXPECT_GE(view.centre[i % 3] + data["upper"][i].get<double>() * unit, machine.places.upper[i] - 1e-12);
@@ -208,16 +210,20 @@ TEST(MachinePicture, HandsOnEnclosuresOutward) {
 }
 
 TEST(Hull, HoldsAllAndIsConvex) {
-  std::vector<Sight> sights;
+  std::vector<Sight> sights, hull;
   for (int i = 0; i < 60; ++i) sights.push_back({std::sin(7.3 * i) + 0.3 * std::cos(i), std::cos(3.1 * i * i)});
-  const std::vector<Sight> hull = hullOf(sights);
+  for (Sight& p : sights) p = {std::round(1000 * p.x), std::round(1000 * p.y)};
+  std::string path = hullPath(sights);
+  std::ranges::replace_if(
+      path, [](char c) { return c == 'M' || c == 'L' || c == 'Z'; }, ' ');
+  std::istringstream numbers(path);
+  for (Sight p; numbers >> p.x >> p.y;) hull.push_back(p);
   ASSERT_GE(hull.size(), 3u);
   for (std::size_t k = 0; k < hull.size(); ++k) {
     const Sight &a = hull[k], &b = hull[(k + 1) % hull.size()];
-    for (const Sight& p : sights) EXPECT_GE((b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x), -1e-12);
+    for (const Sight& p : sights) EXPECT_GE((b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x), 0);
   }
-  EXPECT_TRUE(hullOf({}).empty());
-  EXPECT_EQ(hullOf({{1, 2}}).size(), 1u);
+  EXPECT_EQ(hullPath({}), "");
 }
 
 }  // namespace

@@ -2,11 +2,14 @@
 // too.
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "reports/drawing/axes.hpp"
+#include "reports/drawing/machine.hpp"
 #include "reports/drawing/screen.hpp"
+#include "tests/reports/example_results.hpp"
 
 namespace gamut {
 namespace {
@@ -40,6 +43,34 @@ TEST(Vectors, NumbersAreWrittenAsTheScreenReadsThem) {
     EXPECT_EQ(json::parse(secondDifferences(numbers)), v["differences"]);
   }
   for (const json& v : vectors("decimals")) EXPECT_EQ(Decimals(v["scale"]).value(v["whole"]), v["value"].get<double>());
+}
+
+/// A machine in space whose tip is unknown at the second time, as is a sample at the third, and a pin's axis.
+Scene scene() {
+  MachineResult machine = example::machine(true, 3).machine;
+  Places& p = machine.places;
+  const std::size_t row = 3 * machine.points.size();
+  p.nominal[row + 6] = p.lower[row + 7] = p.samples[2 * row + 4] = p.axes[6] = NAN;
+  return sceneOf(machine);
+}
+
+TEST(Vectors, ASceneIsHandedOnAsTheScreenReadsIt) {
+  EXPECT_EQ(json::parse(sceneData(scene())), vectors("picture")["scene"]);
+}
+
+TEST(Vectors, ShapesOfPaperAreThoseOfTheScreen) {
+  const json picture = vectors("picture");
+  const Scene shown = scene();
+  for (const json& v : picture["stances"]) {
+    const Stance stance{v["row"], v["right"], v["up"]};
+    ASSERT_EQ(v["shapes"].size(), shown.shapes.size());
+    for (std::size_t i = 0; i < shown.shapes.size(); ++i) {
+      json attributes;  // null where it is not seen
+      for (const auto& [name, text] : attributesOf(shown, shown.shapes[i], stance))
+        attributes[std::string(name)] = text;
+      EXPECT_EQ(attributes, v["shapes"][i]) << "shape " << i << " at row " << stance.row;
+    }
+  }
 }
 
 }  // namespace

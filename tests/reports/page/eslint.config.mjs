@@ -15,7 +15,6 @@ const refused = [
 ];
 
 export default [{
-  ignores: ["reports/page/machine.js"],
   files: ["reports/page/*.js", "tests/reports/page/*.mjs"],
   linterOptions: { reportUnusedDisableDirectives: "error" },
   rules: { ...limits, ...Object.fromEntries(refused.map(rule => [rule, "error"])), "eqeqeq": ["error", "always", { null: "ignore" }] },

@@ -1,0 +1,174 @@
+// The same numbers on paper as on the screen: whole ones, and sums in the same order.
+#include "reports/drawing/scene.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "reports/drawing/screen.hpp"
+
+namespace gamut {
+namespace {
+
+constexpr double pinLength = 9;  // half, in units of the paper
+
+bool isThere(const Sight& sight) { return std::isfinite(sight.x) && std::isfinite(sight.y); }
+std::string text(double x) { return fmt::format("{:.1f}", x + 0.0); }
+std::string pair(const Sight& at) { return text(at.x) + " " + text(at.y); }
+std::string straight(const Sight& from, const Sight& to) { return "M" + pair(from) + "L" + pair(to); }
+
+/// Nine turns between two straight ends.
+std::string spring(const Sight& from, const Sight& to) {
+  const double dx = to.x - from.x, dy = to.y - from.y, length = std::hypot(dx, dy), end = 0.14;
+  std::string path = "M" + pair(from);
+  for (int i = 0; length > 1 && i <= 18; ++i) {
+    const double along = end + (1 - 2 * end) * i / 18, aside = (i % 2 == 0 ? 0 : i % 4 == 1 ? 6 : -6) / length;
+    path += "L" + pair({from.x + along * dx - aside * dy, from.y + along * dy + aside * dx});
+  }
+  return path + "L" + pair(to);
+}
+
+class Picture {
+ public:
+  Picture(const Scene& scene, const Stance& stance) : s_(scene), stance_(stance) {}
+
+  /// Corners of the box of point k, wider by what the point may sag until another row; none if not known.
+  std::vector<Sight> box(std::size_t row, std::size_t k, const Place& room) const {
+    const Place lower = s_.at(s_.lower, row, k), upper = s_.at(s_.upper, row, k);
+    std::vector<Sight> corners;
+    if (!isKnown(lower) || !isKnown(upper) || !isKnown(room)) return corners;
+    for (unsigned corner = 0; corner < 8; ++corner) {
+      Place place;
+      for (std::size_t d = 0; d < 3; ++d) place[d] = (corner >> d & 1U) != 0 ? upper[d] + room[d] : lower[d] - room[d];
+      corners.push_back(sightOf(s_, place, stance_));
+    }
+    return corners;
+  }
+
+  std::string now() const {
+    std::string path;
+    for (const std::size_t k : s_.moving) path += hullPath(box(stance_.row, k, {0, 0, 0}));
+    return path;
+  }
+
+  /// Between two times a point is within the hull of its boxes at both, each wider by what it may leave the straight
+  /// line between them.
+  std::string swept() const {
+    std::string path;
+    for (const std::size_t k : s_.moving)
+      for (std::size_t row = 1; row < s_.time.size(); ++row) {
+        std::vector<Sight> both = box(row - 1, k, s_.at(s_.sag, row, k)), end = box(row, k, s_.at(s_.sag, row, k));
+        if (both.empty() || end.empty()) continue;
+        both.insert(both.end(), end.begin(), end.end());
+        path += hullPath(std::move(both));
+      }
+    return path;
+  }
+
+  std::string sample(std::size_t number) const {
+    std::string path;
+    for (const auto& [from, to] : s_.links) {
+      const Sight a = point(s_.samples, number * s_.time.size() + stance_.row, from),
+                  b = point(s_.samples, number * s_.time.size() + stance_.row, to);
+      if (isThere(a) && isThere(b)) path += straight(a, b);
+    }
+    return path;
+  }
+
+  Sight point(const std::vector<double>& places, std::size_t row, std::size_t k) const {
+    return sightOf(s_, s_.at(places, row, k), stance_);
+  }
+
+  /// Where a vector points to; NaN where unknown.
+  Sight direction(const Place& v) const { return {dot(v, stance_.right), 0 - dot(v, stance_.up)}; }
+
+  /// A circle where it points at the beholder, or nowhere.
+  std::string pin(const Sight& at, std::size_t axis) const {
+    Sight to = direction(placeOf(s_.axes, stance_.row, s_.axes.size() / (3 * s_.time.size()), axis));
+    if (!isThere(to)) to = {};
+    const double x = pinLength * to.x, y = pinLength * to.y;
+    return straight({at.x - x, at.y - y}, {at.x + x, at.y + y});
+  }
+
+ private:
+  const Scene& s_;
+  const Stance& stance_;
+};
+
+}  // namespace
+
+Sight sightOf(const Scene& scene, const Place& place, const Stance& stance) {
+  const View& view = scene.view;
+  return {view.width / 2 + Scene::unit * dot(place, stance.right),
+          view.height / 2 - Scene::unit * dot(place, stance.up)};
+}
+
+/// By rising x, then the lower and the upper chain (A. M. Andrew, Inf. Process. Lett. 9, 1979).
+std::string hullPath(std::vector<Sight> sights) {
+  std::ranges::sort(sights, [](const Sight& a, const Sight& b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
+  std::string path;
+  const auto chain = [&] {
+    std::vector<Sight> found;
+    for (const Sight& p : sights) {
+      const auto turnsRight = [&] {
+        const Sight &a = found[found.size() - 2], &b = found.back();
+        return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x) <= 0;
+      };
+      while (found.size() >= 2 && turnsRight()) found.pop_back();
+      found.push_back(p);
+    }
+    for (std::size_t i = 0; i + 1 < found.size(); ++i) path += (path.empty() ? "M" : "L") + pair(found[i]);
+  };
+  chain();
+  std::ranges::reverse(sights);
+  chain();
+  return path.empty() ? path : path + "Z";
+}
+
+std::vector<std::pair<std::string_view, std::string>> attributesOf(const Scene& scene, const Shape& shape,
+                                                                   const Stance& stance) {
+  using enum Shape::Form;
+  const Picture picture(scene, stance);
+  if (shape.form == sample) return {{"d", picture.sample(shape.from)}};
+  if (shape.form == now) return {{"d", picture.now()}};
+  if (shape.form == swept) return {{"d", picture.swept()}};
+  if (shape.form == arrow || shape.form == letter) {
+    Place e{};
+    e[shape.from] = 1;
+    const Sight to = picture.direction(e), at{30, scene.view.height - 30};
+    if (std::hypot(to.x, to.y) <= 0.2) return {};
+    if (shape.form == arrow) return {{"d", straight(at, {at.x + 20 * to.x, at.y + 20 * to.y})}};
+    return {{"x", text(at.x + 28 * to.x)}, {"y", text(at.y + 28 * to.y + 4)}};
+  }
+  const Sight to = picture.point(scene.nominal, stance.row, shape.to),
+              from = shape.form == pin ? to : picture.point(scene.nominal, stance.row, shape.from);
+  if (!isThere(from) || !isThere(to)) return {};
+  if (shape.form == circle) return {{"cx", text(to.x)}, {"cy", text(to.y)}};
+  if (shape.form == name) return {{"x", text(to.x + 15)}, {"y", text(to.y - 9)}};
+  if (shape.form == ground) return {{"transform", "translate(" + pair(to) + ")"}};
+  return {{"d", shape.form == pin      ? picture.pin(to, shape.from)
+                : shape.form == zigzag ? spring(from, to)
+                                       : straight(from, to)}};
+}
+
+std::string sceneData(const Scene& scene) {
+  constexpr const char* forms[] = {"line",   "zigzag", "circle", "name",  "ground", "pin",
+                                   "sample", "now",    "swept",  "arrow", "letter"};
+  const View& view = scene.view;
+  std::vector<std::string> shapes, links;
+  for (const Shape& shape : scene.shapes)
+    shapes.push_back(fmt::format("[\"{}\",{},{}]", forms[static_cast<int>(shape.form)], shape.from, shape.to));
+  for (const auto& [from, to] : scene.links) links.push_back(fmt::format("[{},{}]", from, to));
+  const auto vector = [](const Place& v) { return numberList({v[0], v[1], v[2]}, 9); };
+  const auto wholes = [](const std::vector<double>& list) { return numberList(list, 10); };
+  return fmt::format(
+      R"({{"unit":{},"width":{:g},"height":{:g},"pin":{},"right":{},"up":{},"vertical":{},"isSide":{},"time":{},)"
+      R"("points":{},"shapes":{},"links":{},"moving":{},"nominal":{},"axes":{},"samples":{},"lower":{},"upper":{},"sag":{}}})",
+      Scene::unit, view.width, view.height, pinLength, vector(view.right), vector(view.up), vector(view.vertical),
+      view.isSideView, numberList(scene.time, 9), scene.points, jsonList(shapes), jsonList(links),
+      wholes({scene.moving.begin(), scene.moving.end()}), wholes(scene.nominal), numberList(scene.axes, 4),
+      wholes(scene.samples), wholes(scene.lower), wholes(scene.upper), wholes(scene.sag));
+}
+
+}  // namespace gamut

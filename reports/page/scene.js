@@ -1,0 +1,164 @@
+// What is seen of the machine at a time and from a side, as attributes of the elements of its drawing: as
+// reports/drawing/scene.cpp finds them for paper; tests/reports/page/vectors.json holds both to the same texts.
+"use strict";
+
+/** @typedef {[number, number, number]} Place */
+/** @typedef {[number, number]} Sight */
+/** @typedef {{row: number, right: Place, up: Place}} Stance */
+/**
+ * As sceneData (reports/drawing/scene.hpp) writes it. Places are [row][point][direction] in whole units, null where unknown.
+ * @typedef {{unit: number, width: number, height: number, pin: number, right: Place, up: Place, vertical: Place, isSide: boolean,
+ *   time: number[], points: number, shapes: [string, number, number][], links: [number, number][], moving: number[],
+ *   nominal: (number | null)[], axes: (number | null)[], samples: (number | null)[], lower: (number | null)[],
+ *   upper: (number | null)[], sag: (number | null)[]}} Scene
+ */
+
+/** @param {Place} a @param {Place} b */
+const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+
+/** @param {number[]} sight */
+const pair = ([x, y]) => x.toFixed(1) + " " + y.toFixed(1);
+/** @param {Sight} a @param {Sight} b */
+const line = (a, b) => "M" + pair(a) + "L" + pair(b);
+
+/** Nine turns between two straight ends. @param {Sight} a @param {Sight} b */
+const zigzag = (a, b) => {
+  const dx = b[0] - a[0], dy = b[1] - a[1], length = Math.hypot(dx, dy), end = 0.14;
+  let path = "M" + pair(a);
+  for (let i = 0; length > 1 && i <= 18; ++i) {
+    const along = end + (1 - 2 * end) * i / 18, aside = (i % 2 === 0 ? 0 : i % 4 === 1 ? 6 : -6) / length;
+    path += "L" + pair([a[0] + along * dx - aside * dy, a[1] + along * dy + aside * dx]);
+  }
+  return path + "L" + pair(b);
+};
+
+/** The least convex polygon that holds all of these. @param {Sight[]} sights */
+const hull = sights => {
+  /** @param {Sight[]} list */
+  const chain = list => {
+    /** @type {Sight[]} */
+    const found = [];
+    for (const p of list) {
+      for (let n = found.length; n >= 2; --n) {
+        const a = found[n - 2], b = found[n - 1];
+        if ((b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]) > 0) break;
+        found.pop();
+      }
+      found.push(p);
+    }
+    return found.slice(0, -1);  // the last begins the other chain
+  };
+  const sorted = [...sights].sort((a, b) => a[0] - b[0] || a[1] - b[1]);
+  const corners = [...chain(sorted), ...chain(sorted.reverse())];
+  return corners.length === 0 ? "" : "M" + corners.map(pair).join("L") + "Z";
+};
+
+/** Of the axes there are as many a row as pins name. @param {Scene} scene */
+const axesOf = ({ axes, time }) => axes.length / (3 * time.length);
+
+/** The scene as it is seen at a time from a side. */
+export class Picture {
+  /** @param {Scene} scene @param {Stance} stance */
+  constructor(scene, stance) {
+    this.scene = scene;
+    this.stance = stance;
+  }
+
+  /** @param {(number | null)[]} list @param {number} row @param {number} k @param {number} [count] @returns {Place | null} */
+  at(list, row, k, count = this.scene.points) {
+    const from = 3 * (row * count + k), found = list.slice(from, from + 3);
+    return found.length < 3 || found.includes(null) ? null : /** @type {Place} */ (found);
+  }
+
+  /** @param {Place} place @returns {Sight} */
+  seen(place) {
+    const { scene: { unit, width, height }, stance: { right, up } } = this;
+    return [width / 2 + unit * dot(place, right), height / 2 - unit * dot(place, up)];
+  }
+
+  /** @param {(number | null)[]} list @param {number} row @param {number} k */
+  point(list, row, k) {
+    const place = this.at(list, row, k);
+    return place && this.seen(place);
+  }
+
+  /** @param {Place | null} vector @returns {Sight} */
+  direction(vector) {
+    return vector ? [dot(vector, this.stance.right), 0 - dot(vector, this.stance.up)] : [0, 0];
+  }
+
+  /** Corners of the box of a point, wider by this room; none if not known. @param {number} row @param {number} k @param {Place | null} room */
+  box(row, k, room) {
+    const lower = this.at(this.scene.lower, row, k), upper = this.at(this.scene.upper, row, k);
+    if (!lower || !upper || !room) return [];
+    /** @param {number} corner @param {0 | 1 | 2} d */
+    const side = (corner, d) => corner >> d & 1 ? upper[d] + room[d] : lower[d] - room[d];
+    return [0, 1, 2, 3, 4, 5, 6, 7].map(corner => this.seen([side(corner, 0), side(corner, 1), side(corner, 2)]));
+  }
+
+  now() {
+    return this.scene.moving.map(k => hull(this.box(this.stance.row, k, [0, 0, 0]))).join("");
+  }
+
+  swept() {
+    const { moving, time, sag } = this.scene;
+    return moving.map(k => time.map((_, row) => {
+      const room = row > 0 ? this.at(sag, row, k) : null, before = this.box(row - 1, k, room), after = this.box(row, k, room);
+      return before.length > 0 && after.length > 0 ? hull([...before, ...after]) : "";
+    }).join("")).join("");
+  }
+
+  /** @param {number} number */
+  sample(number) {
+    const { links, samples, time } = this.scene, row = number * time.length + this.stance.row;
+    return links.map(([from, to]) => {
+      const a = this.point(samples, row, from), b = this.point(samples, row, to);
+      return a && b ? line(a, b) : "";
+    }).join("");
+  }
+
+  /** @param {string} form @param {number} number @returns {Record<string, string> | null} */
+  directionShape(form, number) {
+    const [dx, dy] = this.direction([number === 0 ? 1 : 0, number === 1 ? 1 : 0, number === 2 ? 1 : 0]);
+    const x = 30, y = this.scene.height - 30;
+    if (Math.hypot(dx, dy) <= 0.2) return null;
+    if (form === "arrow") return { d: line([x, y], [x + 20 * dx, y + 20 * dy]) };
+    return { x: (x + 28 * dx).toFixed(1), y: (y + 28 * dy + 4).toFixed(1) };
+  }
+
+  /** What moves of an element; null where it is not seen. @param {[string, number, number]} shape @returns {Record<string, string> | null} */
+  attributesOf([form, from, to]) {
+    if (form === "sample") return { d: this.sample(from) };
+    if (form === "now" || form === "swept") return { d: this[form]() };
+    if (form === "arrow" || form === "letter") return this.directionShape(form, from);
+    const { nominal, axes, pin } = this.scene, { row } = this.stance;
+    const b = this.point(nominal, row, to), a = form === "pin" ? b : this.point(nominal, row, from);
+    if (!a || !b) return null;
+    const [x, y] = b;
+    if (form === "circle") return { cx: x.toFixed(1), cy: y.toFixed(1) };
+    if (form === "name") return { x: (x + 15).toFixed(1), y: (y - 9).toFixed(1) };
+    if (form === "ground") return { transform: "translate(" + pair(b) + ")" };
+    if (form !== "pin") return { d: form === "zigzag" ? zigzag(a, b) : line(a, b) };
+    const [dx, dy] = this.direction(this.at(axes, row, from, axesOf(this.scene))).map(part => pin * part);
+    return { d: line([x - dx, y - dy], [x + dx, y + dy]) };
+  }
+}
+
+/** Turned about an axis. @param {Place} v @param {Place} about @param {number} angle @returns {Place} */
+const turned = (v, about, angle) => {
+  const c = Math.cos(angle), s = Math.sin(angle), d = dot(about, v) * (1 - c);
+  /** @param {0 | 1 | 2} i @param {0 | 1 | 2} j @param {0 | 1 | 2} k */
+  const part = (i, j, k) => v[i] * c + (about[j] * v[k] - about[k] * v[j]) * s + about[i] * d;
+  const [x, y, z] = [part(0, 1, 2), part(1, 2, 0), part(2, 0, 1)], length = Math.hypot(x, y, z);
+  return [x / length, y / length, z / length];
+};
+
+/**
+ * As it is dragged, in radians: about the upward direction, then about the paper's horizontal, no further than straight down.
+ * @template {{right: Place, up: Place}} Side
+ * @param {Side} side @param {Place} vertical @param {number} across @param {number} down @returns {Side}
+ */
+export const dragged = (side, vertical, across, down) => {
+  const right = turned(side.right, vertical, -across), level = turned(side.up, vertical, -across), up = turned(level, right, down);
+  return { ...side, right, up: dot(up, vertical) > -1e-9 ? up : level };
+};
