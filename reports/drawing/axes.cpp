@@ -126,6 +126,13 @@ void Pen::go(double x, double y) {
   y_ = toY;
 }
 
+void Pen::stroke(double fromX, double fromY, double toX, double toY) {
+  lift();
+  go(fromX, fromY);
+  go(toX, toY);
+  lift();
+}
+
 void Pen::close() {
   if (!isDown_) return;
   path_ += 'Z';
@@ -152,14 +159,12 @@ void drawHorizontalAxis(const Frame& frame, const std::string& name, int wanted,
   Pen grid;
   for (std::size_t i = 0; i < ticks.at.size(); ++i) {
     const double x = frame.across(ticks.at[i]);
-    grid.lift();
-    grid.go(x, marginTop);
-    grid.go(x, end);
+    grid.stroke(x, marginTop, x, end);
     // Whole, at the drawing's end too.
     const double half = 3.2 * static_cast<double>(ticks.text[i].size());
     drawText("tick middle", std::min(x, frame.width - half), end + 14, ticks.text[i], svg);
   }
-  fmt::format_to(std::back_inserter(svg), "<path class=\"grid\" d=\"{}\"/>", grid.take());
+  drawPath("grid", grid, svg);
   drawText("axis end", frame.width - marginRight, frame.height - 5, axisName(name, ticks), svg);
 }
 
@@ -168,13 +173,15 @@ void drawVerticalAxis(const Frame& frame, const std::string& name, int wanted, s
   Pen grid;
   for (std::size_t i = 0; i < ticks.at.size(); ++i) {
     const double y = frame.down(ticks.at[i]);
-    grid.lift();
-    grid.go(marginLeft, y);
-    grid.go(frame.width - marginRight, y);
+    grid.stroke(marginLeft, y, frame.width - marginRight, y);
     drawText("tick end", marginLeft - 6, y + 3.5, ticks.text[i], svg);
   }
-  fmt::format_to(std::back_inserter(svg), "<path class=\"grid\" d=\"{}\"/>", grid.take());
+  drawPath("grid", grid, svg);
   drawText("axis", 4, 12, axisName(name, ticks), svg);
+}
+
+void drawPath(std::string_view kind, Pen& pen, std::string& svg) {
+  if (!pen.isEmpty()) fmt::format_to(std::back_inserter(svg), "<path class=\"{}\" d=\"{}\"/>\n", kind, pen.take());
 }
 
 void drawText(std::string_view kind, double x, double y, const std::string& text, std::string& svg) {

@@ -71,6 +71,8 @@ class Pen {
   void go(double x, double y);
   /// The next point begins a line of its own.
   void lift() { isDown_ = false; }
+  /// A line of its own.
+  void stroke(double fromX, double fromY, double toX, double toY);
   /// Closes what was begun, if anything was.
   void close();
   bool isEmpty() const { return path_.empty(); }
@@ -81,6 +83,9 @@ class Pen {
   bool isDown_ = false;
   long long x_ = 0, y_ = 0;
 };
+
+/// What the pen holds, if anything, as a path whose class is `kind`.
+void drawPath(std::string_view kind, Pen& pen, std::string& svg);
 
 /// A text whose class is `kind`.
 void drawText(std::string_view kind, double x, double y, const std::string& text, std::string& svg);

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 #include "reports/drawing/axes.hpp"
 
@@ -21,12 +20,10 @@ void drawCounts(const Frame& frame, const std::vector<double>& counts, std::stri
     const double x = frame.across(std::log2(counts[i]));
     if (last - x < room) continue;
     last = x;
-    grid.lift();
-    grid.go(x, marginTop);
-    grid.go(x, end);
+    grid.stroke(x, marginTop, x, end);
     drawText("tick middle", x, end + 14, fmt::format("{:.0f}", counts[i]), svg);
   }
-  fmt::format_to(std::back_inserter(svg), "<path class=\"grid\" d=\"{}\"/>", grid.take());
+  drawPath("grid", grid, svg);
   drawText("axis end", frame.width - marginRight, frame.height - 5, "samples", svg);
 }
 
@@ -49,14 +46,9 @@ std::string drawConvergence(const std::vector<double>& counts, const std::vector
   drawVerticalAxis(frame, axisName, 5, svg);
   Pen pen;
   const auto draw = [&](const Line& line, const char* kind) {
-    pen.lift();
-    for (std::size_t i = 0; i < line.size(); ++i) {
-      if (isDrawn(line[i]))
-        pen.go(frame.across(std::log2(counts[i])), frame.down(line[i]));
-      else
-        pen.lift();
-    }
-    if (!pen.isEmpty()) fmt::format_to(std::back_inserter(svg), "<path class=\"{}\" d=\"{}\"/>\n", kind, pen.take());
+    for (std::size_t i = 0; i < line.size(); ++i)
+      pen.go(frame.across(std::log2(counts[i])), isDrawn(line[i]) ? frame.down(line[i]) : NAN);
+    drawPath(kind, pen, svg);
   };
   for (std::size_t o = 0; o < lines.size(); ++o)
     if (o != main) draw(lines[o], "others");

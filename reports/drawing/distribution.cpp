@@ -2,11 +2,8 @@
 // values make stairs that lie outside.
 #include "reports/drawing/distribution.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <vector>
 
 #include "reports/drawing/axes.hpp"
@@ -49,9 +46,6 @@ std::string drawDistribution(const Results& results, std::size_t at, std::size_t
   const auto go = [&](double value, double probability) {
     pen.go(frame.across(clipped(value, frame.x)), frame.down(std::clamp(probability, 0.0, 1.0)));
   };
-  const auto finish = [&](const char* kind) {
-    fmt::format_to(std::back_inserter(svg), "<path class=\"{}\" d=\"{}\"/>\n", kind, pen.take());
-  };
   for (std::size_t i = 0; i + 1 < count; ++i) {
     go(stairs.value[i], stairs.upper[i + 1]);
     go(stairs.value[i + 1], stairs.upper[i + 1]);
@@ -61,18 +55,18 @@ std::string drawDistribution(const Results& results, std::size_t at, std::size_t
     go(stairs.value[i], stairs.lower[i]);
   }
   pen.close();
-  finish("bounds");
+  drawPath("bounds", pen, svg);
   if (!std::isnan(stairs.sampled.front())) {
     const auto line = [&](double beside) {
       pen.lift();
       for (std::size_t i = 0; i < count; ++i) go(stairs.value[i], stairs.sampled[i] + beside);
     };
     line(0);
-    finish("share");
+    drawPath("share", pen, svg);
     if (const double band = results.distribution.band; band > 0) {
       line(-band);
       line(band);
-      finish("band");
+      drawPath("band", pen, svg);
     }
   }
   return svg + "</svg>\n";

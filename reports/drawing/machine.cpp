@@ -175,11 +175,7 @@ class Builder {
     for (const PartInfo& part : m_.parts)
       if (part.kind == "mass") order.push_back(&part);
     std::ranges::stable_sort(order, std::greater<>(), [](const PartInfo* part) { return part->mass; });
-    struct Shown {
-      Sight at;  // its baseline begins
-      double width;
-    };
-    std::vector<Shown> shown;
+    std::vector<std::pair<Sight, double>> shown;  // beginnings of baselines, and their lengths
     for (auto at = order.begin(); at != order.end(); ++at) {
       const PartInfo& part = **at;
       constexpr double letter = 6.8, size = 12, lead = 1.1;
@@ -188,10 +184,11 @@ class Builder {
       const double width = letter * static_cast<double>(part.name.size());
       Sight base = sightOf(s_, s_.at(s_.nominal, 0, part.to), {0, s_.view.right, s_.view.up});
       base.y -= above * size;
-      const bool isOver = std::ranges::any_of(shown, [&](const Shown& other) {
-        return base.x < other.at.x + other.width && other.at.x < base.x + width && std::abs(base.y - other.at.y) < size;
+      const bool isOver = std::ranges::any_of(shown, [&](const auto& other) {
+        const auto& [begin, length] = other;
+        return base.x < begin.x + length && begin.x < base.x + width && std::abs(base.y - begin.y) < size;
       });
-      if (!isOver && isKnown(s_.at(s_.nominal, 0, part.to))) shown.push_back({base, width});
+      if (!isOver && isKnown(s_.at(s_.nominal, 0, part.to))) shown.emplace_back(base, width);
       add(Form::name, part.from, part.to, "nominal",
           fmt::format("class=\"name\" dy=\"{:.1f}em\"{}", 0 - above, isOver ? " visibility=\"hidden\"" : ""),
           escapeHtml(part.name));

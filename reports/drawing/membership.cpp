@@ -2,10 +2,7 @@
 // cut has a lower membership.
 #include "reports/drawing/membership.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
-#include <iterator>
 #include <vector>
 
 #include "reports/drawing/axes.hpp"
@@ -37,19 +34,13 @@ std::string drawMembership(const Results& results, std::size_t time, std::size_t
                          inner = cutsOf(fuzzy.alpha, fuzzy.inner, time, output);
   if (outer.empty()) return {};
   Range values;
-  for (const Cut& cut : outer) {
-    values.hold(cut.lower);
-    values.hold(cut.upper);
-  }
+  for (const Cut& cut : outer) values.hold(Line{cut.lower, cut.upper});
   const Frame frame{values.padded(0.04), {0, 1.04}, smallHeight, smallWidth};
   std::string svg = openedDrawing(frame.height, label, frame.width);
   drawHorizontalAxis(frame, headingOf(results.outputs[output].name, results.outputs[output].unit), 4, svg);
   drawVerticalAxis(frame, "membership", 5, svg);
   Pen pen;
   const auto go = [&](double value, double alpha) { pen.go(frame.across(clipped(value, frame.x)), frame.down(alpha)); };
-  const auto finish = [&](const char* kind) {
-    fmt::format_to(std::back_inserter(svg), "<path class=\"{}\" d=\"{}\"/>\n", kind, pen.take());
-  };
   const auto levelAfter = [&](std::size_t i) { return i + 1 < outer.size() ? outer[i + 1].alpha : 1; };
   go(outer.front().lower, 0);
   for (std::size_t i = 0; i < outer.size(); ++i) {
@@ -62,11 +53,11 @@ std::string drawMembership(const Results& results, std::size_t time, std::size_t
   }
   go(outer.front().upper, 0);
   pen.close();
-  finish("above");
+  drawPath("above", pen, svg);
   for (const auto* cuts : {&outer, &inner}) {
     for (const Cut& cut : *cuts) go(cut.lower, cut.alpha);
     for (std::size_t i = cuts->size(); i-- > 0;) go((*cuts)[i].upper, (*cuts)[i].alpha);
-    if (!pen.isEmpty()) finish(cuts == &outer ? "outer" : "inner");
+    drawPath(cuts == &outer ? "outer" : "inner", pen, svg);
   }
   return svg + "</svg>\n";
 }

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <iterator>
 #include <limits>
 
 #include "reports/drawing/axes.hpp"
@@ -15,139 +14,6 @@
 namespace gamut {
 namespace {
 
-/// `kind`: a second class, after a blank.
-void drawPath(Pen& pen, const Layer& layer, std::string& svg, const char* kind = "") {
-  if (!pen.isEmpty())
-    fmt::format_to(std::back_inserter(svg), "<path class=\"{}{}\" d=\"{}\"/>\n", layer.name, kind, pen.take());
-}
-
-void drawLine(const std::vector<double>& time, const Line& line, const Frame& frame, const Layer& layer,
-              std::string& svg) {
-  Pen pen;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    if (isDrawn(line[i])) {
-      pen.go(frame.across(time[i]), frame.down(line[i]));
-    } else {
-      pen.lift();
-    }
-  }
-  drawPath(pen, layer, svg, layer.style.fill > 0 ? " alone" : "");
-}
-
-/// One closed outline for each stretch without gaps.
-void drawBand(const std::vector<double>& time, const Band& band, const Frame& frame, const Layer& layer,
-              std::string& svg) {
-  const auto missing = [&](std::size_t i) { return std::isnan(band.lower[i]) || std::isnan(band.upper[i]); };
-  const std::size_t count = band.lower.size();
-  Pen pen;
-  const auto add = [&](std::size_t i, double value) {
-    pen.go(frame.across(time[i]), frame.down(clipped(value, frame.y)));
-  };
-  for (std::size_t from = 0; from < count; ++from) {
-    if (missing(from)) continue;
-    std::size_t to = from;
-    while (to + 1 < count && !missing(to + 1)) ++to;
-    for (std::size_t i = from; i <= to; ++i) add(i, band.upper[i]);
-    for (std::size_t i = to + 1; i-- > from;) add(i, band.lower[i]);
-    pen.close();
-    from = to;
-  }
-  drawPath(pen, layer, svg);
-}
-
-/// Where the interval is too short to be seen, its middle is.
-void drawWhiskers(const std::vector<double>& time, const Band& band, const Frame& frame, const Layer& layer,
-                  std::string& svg) {
-  constexpr double half = 3;
-  Pen pen;
-  for (std::size_t i = 0; i < band.lower.size(); ++i) {
-    if (!std::isfinite(band.lower[i]) || !std::isfinite(band.upper[i])) continue;
-    const double x = frame.across(time[i]), y = frame.down(clipped(0.5 * band.lower[i] + 0.5 * band.upper[i], frame.y));
-    pen.go(x, frame.down(clipped(band.lower[i], frame.y)));
-    pen.go(x, frame.down(clipped(band.upper[i], frame.y)));
-    pen.lift();
-    pen.go(x - half, y);
-    pen.go(x + half, y);
-    pen.lift();
-  }
-  drawPath(pen, layer, svg, " estimate");
-}
-
-/// How many pieces of lines go through a rectangle of the paper; limits themselves do not count.
-std::size_t crossings(const std::vector<double>& time, const std::vector<Layer>& layers, const Layer& own,
-                      const Frame& frame, double left, double right, double top, double bottom) {
-  std::size_t found = 0;
-  for (const Layer& layer : layers) {
-    if (layer.name == own.name) continue;
-    for (const std::size_t i : layer.shown())
-      for (const Line* line : {&layer.bands[i].lower, &layer.bands[i].upper})
-        for (std::size_t t = 1; t < line->size(); ++t) {
-          const double from = (*line)[t - 1], to = (*line)[t];
-          if (!isDrawn(from) || !isDrawn(to)) continue;
-          if (frame.across(time[t]) < left || frame.across(time[t - 1]) > right) continue;
-          const double above = frame.down(std::max(from, to)), below = frame.down(std::min(from, to));
-          if (below >= top && above <= bottom) ++found;
-        }
-  }
-  return found;
-}
-
-/// At the last or at the first number of the band, above or below it, where the fewest lines are: the first of these
-/// places if all are alike; of several the others begin below.
-void drawLabel(const std::vector<double>& time, const std::vector<Layer>& layers, const Layer& layer, std::size_t i,
-               const Frame& frame, std::string& svg) {
-  const Line& line = layer.bands[i].lower;
-  const auto isThere = [](double x) { return isDrawn(x); };
-  const auto first = std::ranges::find_if(line, isThere);
-  if (first == line.end()) return;
-  std::size_t last = line.size();
-  while (!isThere(line[last - 1])) --last;
-  constexpr double letter = 6.2, size = 11, beside = 4;
-  const double wide = letter * static_cast<double>(layer.labels[i].size());
-  std::size_t least = std::numeric_limits<std::size_t>::max();
-  bool isEnd = true;
-  double x = 0, y = 0;
-  for (const bool atEnd : {true, false}) {
-    const std::size_t at = atEnd ? last - 1 : static_cast<std::size_t>(first - line.begin());
-    const double on = frame.down(line[at]), edge = frame.across(time[at]) + (atEnd ? -beside : beside);
-    const bool isBelowFirst = i % 2 != 0 || on < marginTop + 16;
-    for (const bool isBelow : {isBelowFirst, !isBelowFirst}) {
-      const double base = on + (isBelow ? 13 : -4), left = atEnd ? edge - wide : edge;
-      if (base - size < 0 || base > frame.height - marginBottom) continue;
-      const std::size_t lines = crossings(time, layers, layer, frame, left, left + wide, base - size, base + 2);
-      if (lines >= least) continue;
-      least = lines;
-      isEnd = atEnd;
-      x = edge;
-      y = base;
-    }
-  }
-  if (least < std::numeric_limits<std::size_t>::max())
-    drawText(isEnd ? "end label" : "label", x, y, layer.labels[i], svg);
-}
-
-void drawLayer(const std::vector<double>& time, const std::vector<Layer>& layers, const Layer& layer,
-               const Frame& frame, std::string& svg) {
-  for (const std::size_t i : layer.shown()) {
-    const Band& band = layer.bands[i];
-    if (layer.kind == Layer::Kind::whisker) {
-      drawWhiskers(time, band, frame, layer, svg);
-    } else if (layer.style.fill > 0 && layer.kind != Layer::Kind::line) {
-      drawBand(time, band, frame, layer, svg);
-    } else {
-      drawLine(time, band.lower, frame, layer, svg);
-      drawLine(time, band.upper, frame, layer, svg);
-    }
-    if (i < layer.labels.size()) drawLabel(time, layers, layer, i, frame, svg);
-  }
-}
-
-Range timesOf(const Plot& plot) {
-  Range times;
-  times.hold(plot.time);
-  return times;
-}
-
 Range valuesOf(const std::vector<Layer>& layers) {
   Range values;
   for (const Layer& layer : layers)
@@ -155,38 +21,140 @@ Range valuesOf(const std::vector<Layer>& layers) {
   return values;
 }
 
-std::string drawLayers(const Plot& plot, const std::vector<Layer>& layers, const Frame& frame,
-                       const std::string& axisName, int ticks, const std::string& label) {
-  std::string svg = openedDrawing(frame.height, label, frame.width);
-  drawHorizontalAxis(frame, "time (s)", frame.width < paperWidth ? 5 : 8, svg);
-  drawVerticalAxis(frame, axisName, ticks, svg);
-  for (const Layer& layer : layers) drawLayer(plot.time, layers, layer, frame, svg);
-  return svg + "</svg>\n";
-}
+class TimeChart {
+ public:
+  TimeChart(const Plot& plot, const std::vector<Layer>& layers, const Range& y, double height, double width)
+      : time_(plot.time), layers_(layers), frame_{{}, y, height, width} {
+    frame_.x.hold(plot.time);
+  }
+
+  std::string svg(const std::string& axisName, const std::string& label) {
+    svg_ = openedDrawing(frame_.height, label, frame_.width);
+    drawHorizontalAxis(frame_, "time (s)", frame_.width < paperWidth ? 5 : 8, svg_);
+    drawVerticalAxis(frame_, axisName, 5, svg_);
+    for (const Layer& layer : layers_)
+      for (const std::size_t i : layer.shown()) {
+        const Band& band = layer.bands[i];
+        if (layer.kind == Layer::Kind::whisker) {
+          drawWhiskers(band, layer);
+        } else if (layer.style.fill > 0 && layer.kind != Layer::Kind::line) {
+          drawBand(band, layer);
+        } else {
+          drawLine(band.lower, layer);
+          drawLine(band.upper, layer);
+        }
+        if (i < layer.labels.size()) drawLabel(layer, i);
+      }
+    return svg_ + "</svg>\n";
+  }
+
+ private:
+  double across(std::size_t i) const { return frame_.across(time_[i]); }
+  double down(double value) const { return frame_.down(clipped(value, frame_.y)); }
+
+  void drawLine(const Line& line, const Layer& layer) {
+    Pen pen;
+    for (std::size_t i = 0; i < line.size(); ++i) pen.go(across(i), isDrawn(line[i]) ? frame_.down(line[i]) : NAN);
+    drawPath(layer.name + (layer.style.fill > 0 ? " alone" : ""), pen, svg_);
+  }
+
+  /// One closed outline for each stretch without gaps.
+  void drawBand(const Band& band, const Layer& layer) {
+    const auto missing = [&](std::size_t i) { return std::isnan(band.lower[i]) || std::isnan(band.upper[i]); };
+    const std::size_t count = band.lower.size();
+    Pen pen;
+    for (std::size_t from = 0; from < count; ++from) {
+      if (missing(from)) continue;
+      std::size_t to = from;
+      while (to + 1 < count && !missing(to + 1)) ++to;
+      for (std::size_t i = from; i <= to; ++i) pen.go(across(i), down(band.upper[i]));
+      for (std::size_t i = to + 1; i-- > from;) pen.go(across(i), down(band.lower[i]));
+      pen.close();
+      from = to;
+    }
+    drawPath(layer.name, pen, svg_);
+  }
+
+  /// Where the interval is too short to be seen, its middle is.
+  void drawWhiskers(const Band& band, const Layer& layer) {
+    constexpr double half = 3;
+    Pen pen;
+    for (std::size_t i = 0; i < band.lower.size(); ++i) {
+      if (!std::isfinite(band.lower[i]) || !std::isfinite(band.upper[i])) continue;
+      const double x = across(i), y = down(0.5 * band.lower[i] + 0.5 * band.upper[i]);
+      pen.stroke(x, down(band.lower[i]), x, down(band.upper[i]));
+      pen.stroke(x - half, y, x + half, y);
+    }
+    drawPath(layer.name + " estimate", pen, svg_);
+  }
+
+  /// How many pieces of lines go through a rectangle of the paper; limits themselves do not count.
+  std::size_t crossings(const Layer& own, double left, double right, double top, double bottom) const {
+    std::size_t found = 0;
+    for (const Layer& layer : layers_) {
+      if (layer.name == own.name) continue;
+      for (const std::size_t i : layer.shown())
+        for (const Line* line : {&layer.bands[i].lower, &layer.bands[i].upper})
+          for (std::size_t t = 1; t < line->size(); ++t) {
+            const double from = (*line)[t - 1], to = (*line)[t];
+            if (!isDrawn(from) || !isDrawn(to) || across(t) < left || across(t - 1) > right) continue;
+            if (frame_.down(std::min(from, to)) >= top && frame_.down(std::max(from, to)) <= bottom) ++found;
+          }
+    }
+    return found;
+  }
+
+  /// At the last or at the first number of the band, above or below it, where the fewest lines are: the first of these
+  /// places if all are alike; of several the others begin below.
+  void drawLabel(const Layer& layer, std::size_t i) {
+    const Line& line = layer.bands[i].lower;
+    const auto first = std::ranges::find_if(line, isDrawn);
+    if (first == line.end()) return;
+    const auto last = std::find_if(line.rbegin(), line.rend(), isDrawn).base() - 1;
+    constexpr double letter = 6.2, size = 11, beside = 4;
+    const double wide = letter * static_cast<double>(layer.labels[i].size());
+    std::size_t least = std::numeric_limits<std::size_t>::max();
+    std::string text;
+    for (const bool atEnd : {true, false}) {
+      const auto at = atEnd ? last : first;
+      const double on = frame_.down(*at),
+                   edge = across(static_cast<std::size_t>(at - line.begin())) + (atEnd ? -beside : beside);
+      const bool isBelowFirst = i % 2 != 0 || on < marginTop + 16;
+      for (const bool isBelow : {isBelowFirst, !isBelowFirst}) {
+        const double base = on + (isBelow ? 13 : -4), left = atEnd ? edge - wide : edge;
+        if (base - size < 0 || base > frame_.height - marginBottom) continue;
+        const std::size_t lines = crossings(layer, left, left + wide, base - size, base + 2);
+        if (lines >= least) continue;
+        least = lines;
+        text.clear();
+        drawText(atEnd ? "end label" : "label", edge, base, layer.labels[i], text);
+      }
+    }
+    svg_ += text;
+  }
+
+  const std::vector<double>& time_;
+  const std::vector<Layer>& layers_;
+  Frame frame_;
+  std::string svg_;
+};
 
 }  // namespace
 
 std::string drawPlot(const Plot& plot, const std::string& label) {
-  const Frame frame{timesOf(plot), valuesOf(plot.layers).padded(0.04), 280};
-  return drawLayers(plot, plot.layers, frame, plot.unit, 5, label);
+  return TimeChart(plot, plot.layers, valuesOf(plot.layers).padded(0.04), 280, paperWidth).svg(plot.unit, label);
 }
 
-std::string drawShares(const Plot& plot, const std::string& label) {
-  const Frame frame{timesOf(plot), {0, 1}, smallHeight, smallWidth};
-  return drawLayers(plot, plot.layers, frame, plot.unit, 5, label);
-}
-
-std::string drawSmall(const Plot& plot, const std::string& label) {
-  const Frame frame{timesOf(plot), valuesOf(plot.layers).padded(0.04), smallHeight, smallWidth};
-  return drawLayers(plot, plot.layers, frame, plot.unit, 5, label);
+std::string drawSmall(const Plot& plot, const std::string& label, bool isShare) {
+  const Range y = isShare ? Range{0, 1} : valuesOf(plot.layers).padded(0.04);
+  return TimeChart(plot, plot.layers, y, smallHeight, smallWidth).svg(plot.unit, label);
 }
 
 std::string drawRatios(const Plot& plot, const std::string& label) {
   if (plot.ratios.empty()) return {};
   Range values = valuesOf(plot.ratios);
   values.hold(1.0);
-  const Frame frame{timesOf(plot), values.padded(0.08), 280};
-  return drawLayers(plot, plot.ratios, frame, plot.ratios.front().words, 5, label);
+  return TimeChart(plot, plot.ratios, values.padded(0.08), 280, paperWidth).svg(plot.ratios.front().words, label);
 }
 
 std::string drawKey(const std::vector<Layer>& layers, const std::string& label) {

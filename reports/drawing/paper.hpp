@@ -11,11 +11,8 @@ namespace gamut {
 /// The layers over time, 720 x 280 units. `label` says for those who cannot see it what is drawn.
 std::string drawPlot(const Plot& plot, const std::string& label);
 
-/// The same of shares, from 0 to 1.
-std::string drawShares(const Plot& plot, const std::string& label);
-
-/// The same of any numbers.
-std::string drawSmall(const Plot& plot, const std::string& label);
+/// The same on smaller paper; shares are drawn from 0 to 1.
+std::string drawSmall(const Plot& plot, const std::string& label, bool isShare = false);
 
 /// The ratios over time, 720 x 280 units; empty where there are none.
 std::string drawRatios(const Plot& plot, const std::string& label);

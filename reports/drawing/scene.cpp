@@ -13,7 +13,7 @@ namespace {
 
 constexpr double pinLength = 9;  // half, in units of the paper
 
-bool isThere(const Sight& sight) { return std::isfinite(sight.x) && std::isfinite(sight.y); }
+bool isOnPaper(const Sight& sight) { return std::isfinite(sight.x) && std::isfinite(sight.y); }
 std::string text(double x) { return fmt::format("{:.1f}", x + 0.0); }
 std::string pair(const Sight& at) { return text(at.x) + " " + text(at.y); }
 std::string straight(const Sight& from, const Sight& to) { return "M" + pair(from) + "L" + pair(to); }
@@ -71,7 +71,7 @@ class Picture {
     for (const auto& [from, to] : s_.links) {
       const Sight a = point(s_.samples, number * s_.time.size() + stance_.row, from),
                   b = point(s_.samples, number * s_.time.size() + stance_.row, to);
-      if (isThere(a) && isThere(b)) path += straight(a, b);
+      if (isOnPaper(a) && isOnPaper(b)) path += straight(a, b);
     }
     return path;
   }
@@ -85,8 +85,9 @@ class Picture {
 
   /// A circle where it points at the beholder, or nowhere.
   std::string pin(const Sight& at, std::size_t axis) const {
-    Sight to = direction(placeOf(s_.axes, stance_.row, s_.axes.size() / (3 * s_.time.size()), axis));
-    if (!isThere(to)) to = {};
+    Sight to =
+        direction(placeOf(s_.axes, stance_.row, s_.axes.size() / std::max<std::size_t>(1, 3 * s_.time.size()), axis));
+    if (!isOnPaper(to)) to = {};
     const double x = pinLength * to.x, y = pinLength * to.y;
     return straight({at.x - x, at.y - y}, {at.x + x, at.y + y});
   }
@@ -143,7 +144,7 @@ std::vector<std::pair<std::string_view, std::string>> attributesOf(const Scene& 
   }
   const Sight to = picture.point(scene.nominal, stance.row, shape.to),
               from = shape.form == pin ? to : picture.point(scene.nominal, stance.row, shape.from);
-  if (!isThere(from) || !isThere(to)) return {};
+  if (!isOnPaper(from) || !isOnPaper(to)) return {};
   if (shape.form == circle) return {{"cx", text(to.x)}, {"cy", text(to.y)}};
   if (shape.form == name) return {{"x", text(to.x + 15)}, {"y", text(to.y - 9)}};
   if (shape.form == ground) return {{"transform", "translate(" + pair(to) + ")"}};

@@ -26,13 +26,12 @@ Place axis(std::size_t i) {
   return e;
 }
 
-/// All that is known of the motions themselves.
-std::vector<Place> motionsOf(const MachineResult& machine) {
+/// All that is known of two lists.
+std::vector<Place> knownOf(const std::vector<double>& one, const std::vector<double>& other) {
   std::vector<Place> found;
-  const Places& places = machine.places;
-  for (const auto* of : {&places.nominal, &places.samples})
-    for (std::size_t i = 0; i + 3 <= of->size(); i += 3)
-      if (const Place place{(*of)[i], (*of)[i + 1], (*of)[i + 2]}; isKnown(place)) found.push_back(place);
+  for (const auto* of : {&one, &other})
+    for (std::size_t k = 0; 3 * k < of->size(); ++k)
+      if (const Place place = placeOf(*of, 0, 0, k); isKnown(place)) found.push_back(place);
   return found;
 }
 
@@ -101,9 +100,7 @@ Place againstGravity(const MachineResult& machine) {
 Range extent(const MachineResult& machine, const std::vector<Place>& motions, const Place& along) {
   Range range, wide;
   for (const Place& place : motions) range.hold(dot(place, along));
-  for (const auto* of : {&machine.places.lower, &machine.places.upper})
-    for (std::size_t i = 0; i + 3 <= of->size(); i += 3)
-      if (const Place place{(*of)[i], (*of)[i + 1], (*of)[i + 2]}; isKnown(place)) wide.hold(dot(place, along));
+  for (const Place& place : knownOf(machine.places.lower, machine.places.upper)) wide.hold(dot(place, along));
   if (!(range.high >= range.low)) return {0, 0};
   const double room = range.high > range.low ? 0.25 * (range.high - range.low) : 1e300;
   if (wide.high >= wide.low) {
@@ -132,7 +129,7 @@ View aimedView(const MachineResult& machine) {
   constexpr double margin = 64, marginUp = 36, leastHeight = 240, mostHeight = 460;
   View view;
   view.width = paperWidth;
-  const std::vector<Place> motions = motionsOf(machine);
+  const std::vector<Place> motions = knownOf(machine.places.nominal, machine.places.samples);
   if (motions.empty()) return view;
   const Place normal = normalOf(machine, motions);
   view.isSideView = norm(normal) > 0;

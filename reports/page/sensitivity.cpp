@@ -304,8 +304,8 @@ std::string figureOf(const Results& results, std::size_t output, const Answered&
   const std::string label = fmt::format("Plot of {} of {} over time", answer.what, plot.name);
   return fmt::format(
       "<figure class=\"kept {}\">{}<figcaption>{} at {} times, joined by lines{}</figcaption>{}</figure>\n",
-      answer.kind, answer.isShare ? drawShares(plot, label) : drawSmall(plot, label), answer.what, answer.time.size(),
-      escapeHtml(leaders), numbersOf(results, output, answer));
+      answer.kind, drawSmall(plot, label, answer.isShare), answer.what, answer.time.size(), escapeHtml(leaders),
+      numbersOf(results, output, answer));
 }
 
 // ---- The table ------------------------------------------------------------------------------------------------------
