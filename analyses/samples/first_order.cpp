@@ -9,7 +9,7 @@
 namespace gamut {
 namespace {
 
-constexpr std::size_t points = 16384, mostOfSobol = 40;
+constexpr std::size_t points = 16384;
 
 double scaled(const Uncertain& quantity, double value) {
   const double half = 0.5 * width(quantity.range);
@@ -69,7 +69,8 @@ std::vector<double> sharesAboveZero(const std::vector<std::vector<double>>& coef
   for (const std::vector<double>& each : coefficients)
     shares.push_back(each.empty() ? std::numeric_limits<double>::quiet_NaN() : 0.0);
   if (std::ranges::all_of(coefficients, [](const auto& each) { return each.empty(); })) return shares;
-  Sampling sampling(uncertain.size() <= mostOfSobol ? Plan::sobol : Plan::random, uncertain.size(), points, seed);
+  Sampling sampling(uncertain.size() <= mostQuantities(Plan::sobol) ? Plan::sobol : Plan::random, uncertain.size(),
+                    points, seed);
   sampling.correlate(dependence.copulas);
   for (std::size_t point = 0; point < sampling.samples(); ++point) {
     const std::vector<double> values = sampling.values(point, uncertain);

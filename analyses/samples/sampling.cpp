@@ -1,4 +1,4 @@
-// Plans by GSL's generators and by hashes. Points are made when they are asked for.
+// Plans by GSL's and Boost's generators and by hashes. Points are made when they are asked for.
 #include "analyses/samples/sampling.hpp"
 
 #include <gsl/gsl_qrng.h>
@@ -6,8 +6,11 @@
 
 #include <algorithm>
 #include <array>
+#include <boost/random/sobol.hpp>
 #include <iterator>
+#include <limits>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -83,7 +86,8 @@ class Permutation {
 /// In [0, 1).
 double uniform(std::uint64_t hash) { return static_cast<double>(hash >> 11) * 0x1p-53; }
 
-void checkQuantities(Plan plan, std::size_t k, std::size_t most) {
+void checkQuantities(Plan plan, std::size_t k) {
+  const std::size_t most = mostQuantities(plan);
   if (k > most)
     throw std::invalid_argument("the plan '" + std::string(nameOf(plan)) + "' serves at most " + std::to_string(most) +
                                 " uncertain quantities, not " + std::to_string(k));
@@ -91,21 +95,33 @@ void checkQuantities(Plan plan, std::size_t k, std::size_t most) {
 
 /// Every digit is permuted at random, each as those before it say: points stay as evenly spread as they were, and each
 /// is uniformly distributed (A. B. Owen, "Scrambling Sobol' and Niederreiter-Xing points", J. Complexity 14, 1998).
+/// Up to 40 axes are GSL's, which leaves out the sequence's first point, zero. More are Boost's, with the directions of
+/// S. Joe & F. Y. Kuo (SIAM J. Sci. Comput. 30, 2008), and begin with zero, so that the first 2^m points of every axis
+/// lie in 2^m strata (A. B. Owen, "On dropping the first Sobol' point", MCQMC 2020).
 class SobolPoints : public PointSequence {
  public:
-  SobolPoints(std::size_t k, std::uint64_t seed) : keys_(k) {
-    checkQuantities(Plan::sobol, k, gsl_qrng_sobol->max_dimension);
-    sequence_.reset(gsl_qrng_alloc(gsl_qrng_sobol, static_cast<unsigned>(k)));
+  SobolPoints(std::size_t k, std::uint64_t seed) : keys_(k), digits_(k) {
+    checkQuantities(Plan::sobol, k);
+    if (k <= gsl_qrng_sobol->max_dimension)
+      few_.reset(gsl_qrng_alloc(gsl_qrng_sobol, static_cast<unsigned>(k)));
+    else
+      many_.emplace(k);
     for (std::uint64_t j = 0; j < k; ++j) keys_[j] = hashed(hashed(seed) + j);
   }
 
   void next(std::span<double> point) override {
-    gsl_qrng_get(sequence_.get(), point.data());
+    if (many_) {
+      if (number_ > 0)  // Boost's first is the one after zero
+        for (std::uint64_t& digits : digits_) digits = (*many_)();
+    } else {
+      gsl_qrng_get(few_.get(), point.data());
+      for (std::size_t j = 0; j < digits_.size(); ++j)
+        digits_[j] = static_cast<std::uint64_t>(point[j] * 0x1p32);  // exact: there are 30
+    }
     for (std::size_t j = 0; j < keys_.size(); ++j) {
-      const auto digits = static_cast<std::uint64_t>(point[j] * 0x1p32);  // exact: there are 30
       std::uint64_t scrambled = 0;
       for (std::uint64_t k = 0; k < 32; ++k) {
-        const std::uint64_t before = digits >> (32 - k), digit = digits >> (31 - k) & 1;
+        const std::uint64_t before = digits_[j] >> (32 - k), digit = digits_[j] >> (31 - k) & 1;
         scrambled = 2 * scrambled + (digit ^ (hashed(keys_[j] + (k << 32) + before) & 1));
       }
       point[j] = (static_cast<double>(scrambled) + uniform(hashed(~keys_[j] + number_))) * 0x1p-32;
@@ -113,9 +129,13 @@ class SobolPoints : public PointSequence {
     ++number_;
   }
 
+  using Many = boost::random::sobol_engine<std::uint32_t, 32>;
+  static constexpr std::size_t mostAxes = boost::random::default_sobol_table::max_dimension;
+
  private:
-  std::unique_ptr<gsl_qrng, decltype(&gsl_qrng_free)> sequence_{nullptr, &gsl_qrng_free};
-  std::vector<std::uint64_t> keys_;
+  std::unique_ptr<gsl_qrng, decltype(&gsl_qrng_free)> few_{nullptr, &gsl_qrng_free};
+  std::optional<Many> many_;
+  std::vector<std::uint64_t> keys_, digits_;  // digits: the next point times 2^32
   std::uint64_t number_ = 0;
 };
 
@@ -123,7 +143,7 @@ class SobolPoints : public PointSequence {
 class HaltonPoints : public PointSequence {
  public:
   HaltonPoints(std::size_t k, std::uint64_t seed) {
-    checkQuantities(Plan::halton, k, mostAxes);
+    checkQuantities(Plan::halton, k);
     const auto isPrime = [&](std::uint64_t x) {
       return std::ranges::none_of(primes_, [&](std::uint64_t prime) { return x % prime == 0; });
     };
@@ -255,6 +275,12 @@ Plan planNamed(std::string_view name) {
     choices += (i == 0 ? "" : ", ") + std::string(planNames[i]);
   }
   throw std::invalid_argument("no sampling plan is called '" + std::string(name) + "'; there are " + choices);
+}
+
+std::size_t mostQuantities(Plan plan) {
+  return plan == Plan::sobol    ? SobolPoints::mostAxes
+         : plan == Plan::halton ? HaltonPoints::mostAxes
+                                : std::numeric_limits<std::size_t>::max();
 }
 
 bool keepsFirstPoints(Plan plan) { return plan != Plan::latinHypercube && plan != Plan::grid; }

@@ -107,6 +107,15 @@ TEST(Extension, SaysWhatARunOfAsManySamplesSays) {
   expectTheSameOf(with("plan = \"sobol\"", "plan = \"halton\""), 100, 320);
 }
 
+TEST(Extension, HoldsForManyQuantities) {
+  std::string names;
+  for (int i = 0; i < 60; ++i) names += "gain" + std::to_string(i) + " = 1, ";
+  std::string text = with(R"(["interval", "stochastic", "fuzzy"])", R"(["stochastic"])");
+  text = with("[[mechanism.element]]", "parameters = { " + names + "none = 0 }\n[[mechanism.element]]", text);
+  text = with("[[uncertain]]", "[[uncertain]]\nquantity = \"gain*\"\ninterval = \"± 1 %\"\n[[uncertain]]", text);
+  expectTheSameOf(text, 64, 256);
+}
+
 TEST(Extension, HoldsForOtherMethodsAndAnswers) {
   expectTheSameOf(study.substr(0, study.find("[[requirement]]")) + "method = \"bdf\"\n", 64, 96);
   for (const char* compare : {R"(["stochastic"])", R"(["interval", "stochastic"])", R"(["stochastic", "fuzzy"])"}) {

@@ -79,6 +79,69 @@ TEST(Sampling, MoreSamplesKeepTheFirstOnesOfASequence) {
   }
 }
 
+/// The points that an axis's 2^m strata hold, each of 2^m points.
+std::vector<int> pointsOfStrata(const std::vector<double>& coordinates) {
+  std::vector<int> count(coordinates.size(), 0);
+  for (double u : coordinates) ++count[static_cast<std::size_t>(u * static_cast<double>(count.size()))];
+  return count;
+}
+
+TEST(Sampling, SobolsPlanOfManyQuantitiesHasOnePointOfABatchInEveryStratumOfEveryAxis) {
+  constexpr std::size_t inBatch = 64;
+  for (const std::size_t k : {41U, 60U, 1000U}) {
+    Sampling s(Plan::sobol, k, inBatch * batchCount, 5);
+    std::vector<std::vector<double>> points;
+    for (std::size_t i = 0; i < s.samples(); ++i) points.push_back(s.unitPoint(i));
+    for (std::size_t batch = 0; batch < batchCount; ++batch)
+      for (std::size_t j = 0; j < k; ++j)
+        for (const std::size_t first : {inBatch, inBatch / 2, inBatch / 4}) {  // so have the first of them
+          std::vector<double> axis;
+          for (std::size_t i = 0; i < first; ++i) axis.push_back(points[batch + i * batchCount][j]);
+          ASSERT_THAT(pointsOfStrata(axis), Each(1)) << k << ' ' << batch << ' ' << j << ' ' << first;
+        }
+  }
+}
+
+TEST(Sampling, AnyTwoOfSixtyQuantitiesMeetInEveryQuarterAsOften) {
+  constexpr std::size_t k = 60, n = 1024;
+  Sampling s(Plan::sobol, k, n * batchCount, 11);
+  std::vector<std::vector<double>> points;
+  for (std::size_t i = 0; i < n; ++i) points.push_back(s.unitPoint(i * batchCount));  // of the first batch
+  for (std::size_t a = 0; a < k; ++a)
+    for (std::size_t b = 0; b < a; ++b) {
+      std::vector<std::size_t> count(4, 0);
+      for (const std::vector<double>& u : points) ++count[static_cast<std::size_t>((u[a] >= 0.5) + 2 * (u[b] >= 0.5))];
+      EXPECT_THAT(count, Each(n / 4)) << a << ' ' << b;
+    }
+}
+
+TEST(Sampling, PointsOfManyQuantitiesFollowFromTheirNumbersAlone) {
+  for (const std::size_t k : {41U, 60U, 1000U}) {
+    Sampling few(Plan::sobol, k, 40, 5), many(Plan::sobol, k, 1000, 5), other(Plan::sobol, k, 1000, 6);
+    std::set<double> first;
+    for (std::size_t i = 0; i < few.samples(); ++i) {
+      const std::vector<double> point = few.unitPoint(i);
+      EXPECT_EQ(many.unitPoint(i), point) << k << ' ' << i;
+      EXPECT_EQ(Sampling(Plan::sobol, k, 1000, 5).unitPoint(i), point) << k << ' ' << i;  // alone
+      EXPECT_NE(other.unitPoint(i), point) << k << ' ' << i;
+      first.insert(point.front());
+    }
+    EXPECT_EQ(first.size(), few.samples());
+  }
+}
+
+/// Results that were stored are extended, and their samples replayed, from such points.
+TEST(Sampling, SobolsPointsOfUpToFortyQuantitiesStayWhereTheyAre) {
+  Sampling one(Plan::sobol, 1, 4096, 7);
+  Sampling forty(Plan::sobol, 40, 4096, 7);
+  EXPECT_EQ(one.unitPoint(0).front(), 0x1.b70d8769c6c92p-1);
+  EXPECT_EQ(one.unitPoint(1000).front(), 0x1.6b9edb256d4f2p-1);
+  EXPECT_EQ(forty.unitPoint(0).front(), 0x1.b70d8769c6c92p-1);
+  EXPECT_EQ(forty.unitPoint(0).back(), 0x1.2064d839256bdp-2);
+  EXPECT_EQ(forty.unitPoint(1000).front(), 0x1.6b9edb256d4f2p-1);
+  EXPECT_EQ(forty.unitPoint(1000).back(), 0x1.b7fa721a0ff6bp-1);
+}
+
 TEST(Sampling, EveryBatchOfALatinHypercubeHasOnePointInEveryStratumOfEveryAxis) {
   for (const std::size_t n : {25u, 1600u}) {  // fewer than 32 are one batch
     const std::size_t batches = n < 32 ? 1 : batchCount, size = n / batches;
@@ -226,10 +289,10 @@ TEST(Sampling, WithoutUncertainQuantitiesThereIsOneSample) {
 }
 
 TEST(Sampling, SaysWhichPlanCannotServeSoManyQuantities) {
-  EXPECT_NO_THROW(Sampling(Plan::sobol, 40, 4, 1));
+  EXPECT_NO_THROW(Sampling(Plan::sobol, mostQuantities(Plan::sobol), 4, 1));
   EXPECT_THAT(
-      [] { Sampling(Plan::sobol, 41, 4, 1); },
-      ThrowsMessage<std::invalid_argument>(HasSubstr("'sobol' serves at most 40 uncertain quantities, not 41")));
+      [] { Sampling(Plan::sobol, 3668, 4, 1); },
+      ThrowsMessage<std::invalid_argument>(HasSubstr("'sobol' serves at most 3667 uncertain quantities, not 3668")));
   EXPECT_NO_THROW(Sampling(Plan::halton, 1229, 4, 1));
   EXPECT_THAT([] { Sampling(Plan::halton, 1230, 4, 1); },
               ThrowsMessage<std::invalid_argument>(HasSubstr("at most 1229")));
