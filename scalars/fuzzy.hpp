@@ -25,8 +25,8 @@ class Fuzzy {
   Fuzzy() : Fuzzy(Interval()) {}
 
   /// Crisp: every alpha-cut is that value or interval; combines with any number of levels.
-  Fuzzy(double value) : Fuzzy(Interval(value)) {}  // NOLINT: implicit on purpose
-  Fuzzy(const Interval& cut) : cuts_(1, cut) {}    // NOLINT: implicit on purpose
+  Fuzzy(double value) : Fuzzy(Interval(value)) {}  // NOLINT(google-explicit-*): implicit on purpose
+  Fuzzy(const Interval& cut) : cuts_(1, cut) {}    // NOLINT(google-explicit-*): implicit on purpose
 
   /// Alpha-cuts from support to core. Throws std::invalid_argument for none, or where one leaves the cut before it.
   explicit Fuzzy(std::vector<Interval> cuts);

@@ -71,11 +71,11 @@ class Interval {
   Interval() = default;
 
   /// The thin interval [value, value]. Throws std::invalid_argument unless value is finite.
-  Interval(double value) : Interval(value, value) {}  // NOLINT: implicit on purpose, so that 2 * x is an interval
+  Interval(double value) : Interval(value, value) {}  // NOLINT(google-explicit-*): so that 2 * x is an interval
 
   /// A whole number of 64 bits, enclosed where it lies between two doubles.
   template <std::integral N>
-  requires(std::numeric_limits<N>::digits > 53) Interval(N n)  // NOLINT: implicit, as other numbers are
+  requires(std::numeric_limits<N>::digits > 53) Interval(N n)  // NOLINT(google-explicit-*): as other numbers are
       : Interval(Interval(static_cast<double>(n >> 32) * 0x1p32) + Interval(static_cast<double>(n & 0xffffffff))) {}
 
   /// [lower, upper]; lower may be -inf and upper +inf.

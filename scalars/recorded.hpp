@@ -38,7 +38,7 @@ struct NoComparison_a_recorded_function_cannot_branch_on_values;
 class Recorded {
  public:
   Recorded() : Recorded(0.0) {}
-  Recorded(double value) : constant_(value) {}  // NOLINT: implicit, as numbers are
+  Recorded(double value) : constant_(value) {}  // NOLINT(google-explicit-*): implicit, as numbers are
   /// A number that is not a double gets its node at once, so that copies of it stay one number.
   explicit Recorded(const Interval& value) : constant_(value) {
     if (Recorder* current = Recorder::current(); current != nullptr && !isThin(value))
@@ -267,7 +267,7 @@ struct Variables {
                                                                                                 const Recorded& r) {
     v[0] = r;
   }
-  operator Vector() const {  // NOLINT: implicit, so that it can be an argument
+  operator Vector() const {  // NOLINT(google-explicit-*): implicit, so that it can be an argument
     Vector result;
     if constexpr (requires { result.resize(N); }) result.resize(N);
     for (std::size_t i = 0; i < N; ++i) result[static_cast<decltype(result.size())>(i)] = values[i];

@@ -16,7 +16,7 @@ class Samples {
   Samples() = default;
 
   /// A constant, which combines with packs of any size.
-  Samples(double value) : constant_(value) {}  // NOLINT: implicit on purpose
+  Samples(double value) : constant_(value) {}  // NOLINT(google-explicit-*): implicit on purpose
 
   /// One value a sample; a single value is a constant. Throws std::invalid_argument for none.
   explicit Samples(std::vector<double> values);

@@ -98,7 +98,8 @@ Program differentiatedFor(const Program& motion, const std::vector<VaryingParame
   std::vector<int> parameters;
   for (int i = 0; i < k; ++i) parameters.push_back(recorder.parameter(i));
   parameters.resize(at(k + jumps), recorder.constant(0.0));
-  const std::vector<int> without = recorder.append(signless, parameters), all = signless.outputNodes();
+  const std::vector<int> without = recorder.append(signless, parameters);
+  const std::vector<int>& all = signless.outputNodes();
   for (int j = 0; j < jumps; ++j)
     parameters[at(k + j)] = recorder.sign(without[at(all[all.size() - at(jumps) + at(j)])]);
   std::vector<int> instead = without, outputs;

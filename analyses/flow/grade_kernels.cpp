@@ -100,7 +100,8 @@ GAMUT_CLONES void multiplySeries(const Monomials& monomials, int q, int least, c
     }
   }
   if (stride == 1) return Work::count(Work::multipliedPair, rows);
-  const double blocks = (orders + 7) / 8;
+  const int whole = (orders + 7) / 8;
+  const double blocks = whole;
   Work::count(Work::seriesProduct, rows * (ofA == 1 ? blocks : 0.5 * blocks * (blocks + 1)));
 }
 

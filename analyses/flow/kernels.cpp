@@ -65,7 +65,8 @@ GAMUT_INLINE void convolveHalf(const Monomials::Pair* pairs, const std::int32_t*
 GAMUT_CLONES void convolve(const Monomials::Pair* pairs, const std::int32_t* first, int count, const double* a,
                            const double* bReversed, int stride, int i, double* out) {
   const double* b = bReversed + stride - 1 - i;
-  Work::count(Work::convolvedRow, static_cast<double>(first[count]) * (i / 8 + 1));
+  const int eights = i / 8 + 1;
+  Work::count(Work::convolvedRow, static_cast<double>(first[count]) * eights);
   if (i < 4) return convolveHalf(pairs, first, count, a, b, stride, out);
   switch (i / 8) {
     case 0:
@@ -178,7 +179,8 @@ GAMUT_CLONES void thinRecursion(const std::vector<ThinNode>& nodes, const std::v
   const int count = static_cast<int>(nodes.size());
   const ThinNode* v = nodes.data();
   double* cur = current.data();
-  Work::count(Work::coefficient, 2.0 * count * order * (order / 16 + 1));
+  const int blocks = order / 16 + 1;
+  Work::count(Work::coefficient, 2.0 * count * order * blocks);
   for (int i = 0; i < order; ++i) {
     if (i == 1)  // what does not change in time has order 0 only
       for (int x = 0; x < count; ++x)

@@ -228,7 +228,8 @@ void FlowFollower::recordOver(FlowPiece& piece, const std::vector<std::size_t>& 
         if (stepper.monomials().exponent(static_cast<int>(g), l) > 0) sum += std::fabs(piece.set.ahead.c[g]);
       if (sum * width(cells[k].xi[at(l)]) > most) most = sum * width(cells[k].xi[at(l)]), symbol = l;
     }
-    Box lower = cells[k].xi, upper = lower;
+    Box lower = cells[k].xi;
+    Box upper = lower;
     const double middle = midpoint(lower[at(symbol)]);  // exact: a dyadic number, few halvings deep
     lower[at(symbol)] = Interval(lower[at(symbol)].lower(), middle);
     upper[at(symbol)] = Interval(middle, upper[at(symbol)].upper());

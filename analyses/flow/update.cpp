@@ -217,7 +217,8 @@ double drivenRadius(const std::vector<double>& a, const std::vector<std::vector<
   const bool byCorners = b.size() <= mostCorners;
   double most = 0;
   const double sums = static_cast<double>(byCorners ? std::size_t{1} << b.size() : 1);
-  Work::count(Work::matrixTerm, sums * static_cast<double>((a.size() - first) / stride * (1 + b.size())));
+  const std::size_t terms = (a.size() - first) / stride * (1 + b.size());
+  Work::count(Work::matrixTerm, sums * static_cast<double>(terms));
   for (std::size_t corner = 0; corner < (byCorners ? std::size_t{1} << b.size() : 1); ++corner) {
     double sum = 0;
     for (std::size_t c = first, k = first % stride; c < a.size(); c += stride, k += stride) {
@@ -356,15 +357,15 @@ void FlowStepper::carryGenerators(FlowSet& set) {
   set.R.assign(at(n_), 0.0);
   const auto block = static_cast<Eigen::Index>(set.generators.size() / set.powers), count = block / n_;
   // All columns of which ofGenerators_ is the work.
-  const double columns =
-      static_cast<double>(count) + static_cast<double>((set.inputs.size() + inputs_.generators().size()) / at(n_));
+  const std::size_t ofInputs = (set.inputs.size() + inputs_.generators().size()) / at(n_);
+  const double columns = static_cast<double>(count) + static_cast<double>(ofInputs);
   // What is beyond the degree, and products that are little beside what the step leaves over: |Ψ_α| Σ_j |Γ_j|_β.
   const int degree = m.grade(powers - 1);
   std::vector<Matrix> frames, high(at(degree) + 1, Matrix::Zero(n_, n_));            // Σ |Ψ_α| of grades ≥ q
   std::vector<Eigen::VectorXd> sizes, size(high.size(), Eigen::VectorXd::Zero(n_));  // of a monomial, of a grade
   Eigen::VectorXd all = Eigen::VectorXd::Zero(n_);
   for (int g = 0; g < powers; ++g) {
-    frames.push_back(frameOf(end_, g).cwiseAbs());
+    frames.emplace_back(frameOf(end_, g).cwiseAbs());
     for (int q = 0; q <= m.grade(g); ++q) high[at(q)] += frames.back();
     sizes.emplace_back(Eigen::VectorXd::Zero(n_));
     countAsGenerators([&] {
@@ -437,8 +438,8 @@ void FlowStepper::carryGenerators(FlowSet& set) {
     const double affordable = carriedShare * certified_ * columns / ofGenerators_;
     kept = std::max(kept, std::min(affordable, mostNumbers / (static_cast<double>(powers) * n_)));
   }
-  if (static_cast<double>(set.generators.size() / (set.powers * at(n_))) > kept)
-    mergeGenerators(set, m, static_cast<std::size_t>(kept / 2));
+  const std::size_t there = set.generators.size() / (set.powers * at(n_));
+  if (static_cast<double>(there) > kept) mergeGenerators(set, m, static_cast<std::size_t>(kept / 2));
   set.C.assign(at(n_ * n_), 0.0);
   for (int i = 0; i < n_; ++i) set.C[at(i * n_ + i)] = 1;
 }

@@ -46,7 +46,8 @@ std::vector<TurningPart> partsOf(const std::vector<double>& c, const Monomials& 
     int symbol = 0;
     for (int l = 1; l < monomials.symbols(); ++l)
       if (decides(l) > decides(symbol)) symbol = l;
-    Box lower = widest->xi, upper = lower;
+    Box lower = widest->xi;
+    Box upper = lower;
     const double middle = midpoint(lower[at(symbol)]);  // exact: of dyadic numbers, few halvings deep
     lower[at(symbol)] = Interval(lower[at(symbol)].lower(), middle);
     upper[at(symbol)] = Interval(middle, upper[at(symbol)].upper());

@@ -262,7 +262,7 @@ std::vector<JointMasses::Part> JointMasses::halves(const Part& part, int symbol)
   if (!isAlone(symbol) || count < 2) return {part};
   if (isOfBins(groupOf(symbol))) return cut(part, symbol, first + count / 2);
   const double least = massOf(part, at(groupOf_[at(symbol)])) * 0x1p-14;
-  const std::vector<Part> halves = apart(part, symbol, least, [&](long from, long until, bool isSmall) {
+  std::vector<Part> halves = apart(part, symbol, least, [&](long from, long until, bool isSmall) {
     if (!isSmall && 4 * (until - from) > count) return -1;
     return 2 * (until - from) > count ? 2 : from + until > 2 * first + count ? 1 : 0;
   });

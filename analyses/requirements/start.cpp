@@ -55,7 +55,8 @@ class Start {
       for (int i = 0; i < n_; ++i) {
         const Interval all = hull(box[at(i)], image[at(i)]);
         constexpr double tiny = std::numeric_limits<double>::min();
-        box[at(i)] = all + 0.1 * (all - all) + Interval(-tiny, tiny);
+        const Interval more = all - all;  // NOLINT(misc-redundant-expression): both ends of its width
+        box[at(i)] = all + 0.1 * more + Interval(-tiny, tiny);
       }
     }
     return std::nullopt;

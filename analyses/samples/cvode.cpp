@@ -159,7 +159,8 @@ GAMUT_INLINE double greatestNorm(N_Vector x, N_Vector weights) {
   double greatest = 0;
   for (const double sum : sums)
     if (!(sum <= greatest)) greatest = std::isnan(sum) ? std::numeric_limits<double>::infinity() : sum;
-  return std::sqrt(greatest / static_cast<double>(n / packWidth));
+  const auto states = n / packWidth;
+  return std::sqrt(greatest / static_cast<double>(states));
 }
 
 /// All of them, for one sample or for the packs of one vector unit.

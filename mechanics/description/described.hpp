@@ -41,7 +41,7 @@ class Described {
  public:
   template <class T>
   requires requires(T element, Fields& fields) { element.describe(fields), element.name, T::type; }
-  Described(T element) : model_(std::make_unique<Model<T>>(std::move(element))) {}  // NOLINT: implicit, as it is one
+  Described(T element) : model_(std::make_unique<Model<T>>(std::move(element))) {}  // NOLINT(google-explicit-*): is one
   Described(const Described& other) : model_(other.model_->clone()) {}
   Described(Described&&) noexcept = default;
   Described& operator=(Described other) noexcept {

@@ -32,8 +32,8 @@ namespace gamut {
 class Expression {
  public:
   /// A number in the SI unit that is expected where it stands.
-  Expression(double value) : Expression(Interval(value)) {}  // NOLINT: implicit, as numbers are
-  Expression(const Interval& value);                         // NOLINT: implicit, as numbers are
+  Expression(double value) : Expression(Interval(value)) {}  // NOLINT(google-explicit-*): implicit, as numbers are
+  Expression(const Interval& value);                         // NOLINT(google-explicit-*): implicit, as numbers are
   explicit Expression(const Amount& value);
   /// `factor` times what has this name.
   static Expression named(const std::string& name, const Interval& factor = 1.0);

@@ -37,7 +37,7 @@ class Markowitz {
 
   struct Pivot {
     int cost, row, column;
-    auto operator<=>(const Pivot&) const = default;
+    auto operator<=>(const Pivot&) const = default;  // NOLINT(modernize-use-nullptr): compares with a literal 0
   };
   /// That may fill in the fewest entries, by row and column where several do; null if no entry is fit for one.
   const Pivot* cheapest() const { return pivots_.empty() ? nullptr : &*pivots_.begin(); }

@@ -9,8 +9,6 @@
 namespace gamut {
 namespace {
 
-using detail::at;
-
 /// Each cut inside the one below it.
 void append(std::vector<Interval>& cuts, const Interval& cut) {
   cuts.push_back(cuts.empty() ? cut : intersection(cut, cuts.back()));

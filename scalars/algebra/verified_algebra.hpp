@@ -36,7 +36,7 @@ namespace gamut {
 template <class T>
 class Verified {
  public:
-  Verified(T value) : value_(std::move(value)) {}  // NOLINT: implicit on purpose
+  Verified(T value) : value_(std::move(value)) {}  // NOLINT(google-explicit-*): implicit on purpose
 
   static Verified failure(std::string reason) {
     Verified result;

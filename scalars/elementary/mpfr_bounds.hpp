@@ -20,7 +20,7 @@ class Number {
   }
   Number(const Number&) = delete;
   Number& operator=(const Number&) = delete;
-  operator mpfr_ptr() { return value_; }
+  operator mpfr_ptr() { return value_; }  // NOLINT(google-explicit-*): handed to C functions
 
  private:
   mp_limb_t limbs_[(bits + GMP_NUMB_BITS - 1) / GMP_NUMB_BITS];

@@ -75,7 +75,7 @@ struct __attribute__((may_alias)) Group {
 
   // As a whole it would be copied in pieces of 16 bytes: see load().
   GAMUT_INLINE Group(const Group& other) { *this = other; }
-  GAMUT_INLINE Group& operator=(const Group& other) {
+  GAMUT_INLINE Group& operator=(const Group& other) {  // NOLINT(bugprone-unhandled-self-assignment): numbers alone
     GAMUT_FOR_GROUP part[j] = other.part[j];
     return *this;
   }

@@ -30,7 +30,7 @@ enum class RuleGroup : std::uint8_t {
 /// A set of rule groups: RuleGroup::simplify | RuleGroup::mergeEqual.
 class RuleSet {
  public:
-  constexpr RuleSet(RuleGroup group) : groups_(static_cast<unsigned>(group)) {}  // NOLINT: a set of one
+  constexpr RuleSet(RuleGroup group) : groups_(static_cast<unsigned>(group)) {}  // NOLINT(google-explicit-*): a set
   static constexpr RuleSet none() { return RuleSet(0u); }
   static constexpr RuleSet all() { return RuleSet(127u); }
   constexpr bool has(RuleGroup group) const { return (groups_ & static_cast<unsigned>(group)) != 0; }

@@ -99,7 +99,7 @@ class TableReader {
              "times that rise");
       if (table.times.size() == maxTableRows) failForRows(maxTableRows);
       table.times.push_back(at);
-      table.values.push_back(number(cells_[wanted]) * scale.value);
+      table.values.emplace_back(number(cells_[wanted]) * scale.value);
     }
     if (table.times.size() < 2) refuse("it has fewer than two rows of numbers");
     return table;

@@ -21,7 +21,7 @@ void describe(const Study& study, const DerivativeFlow& flow, const std::vector<
     const std::size_t row = i * last / count;
     if (row >= tube.reachedTimes()) break;
     result.time.push_back(study.motion.times[row]);
-    const std::vector<Interval> values = tube.outputs(row);
+    const std::vector<Interval>& values = tube.outputs(row);
     for (std::size_t output = 0; output < study.outputs.size(); ++output)
       for (std::size_t q = 0; q < study.uncertain.size(); ++q) {
         const auto which = std::ranges::find(quantities, q) - quantities.begin();

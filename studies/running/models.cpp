@@ -53,7 +53,7 @@ bool tightenModels(Run& run, double tightness, double work, double longestStep, 
   const bool all = asksForDistributions(run.study);
   const Tube tube = (all ? modelAll : modelMargins)(run.study, std::move(options), run.problem.box);
   run.spent.isAll = tube.why() == Tube::overBudget;
-  const std::shared_ptr<const FlowModels> models = tube.models();
+  const std::shared_ptr<const FlowModels>& models = tube.models();
   if (!models || models->at.size() < run.enclosed.models->at.size() || models->modelled < run.enclosed.models->modelled)
     return false;
   run.enclosed.models = models;

@@ -20,7 +20,7 @@ namespace gamut::testing {
 /// a * b + c of any doubles fits: its bits weigh between 2^-2148 and 2^2049.
 class Exact {
  public:
-  Exact(double value, mpfr_prec_t precision = 4200) {  // NOLINT: implicit, so that Exact + double is exact
+  Exact(double value, mpfr_prec_t precision = 4200) {  // NOLINT(google-explicit-*): so that Exact + double is exact
     mpfr_init2(value_, precision);
     check(mpfr_set_d(value_, value, MPFR_RNDN));
   }

@@ -34,7 +34,7 @@ class Hdf5Handle {
   ~Hdf5Handle();
   Hdf5Handle(Hdf5Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
   Hdf5Handle& operator=(Hdf5Handle&&) = delete;
-  operator hid_t() const { return id_; }  // NOLINT: implicit on purpose, handles are passed to C functions
+  operator hid_t() const { return id_; }  // NOLINT(google-explicit-*): implicit, handles are passed to C functions
 
  private:
   hid_t id_;

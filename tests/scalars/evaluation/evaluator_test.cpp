@@ -35,7 +35,7 @@ struct Counted {
     static int count = 0;
     return count;
   }
-  Counted(double v) : value(v) {}  // NOLINT: implicit, as scalars are
+  Counted(double v) : value(v) {}  // NOLINT(google-explicit-*): implicit, as scalars are
   friend Counted operator+(Counted a, Counted b) { return ++operations(), a.value + b.value; }
   friend Counted operator-(Counted a, Counted b) { return ++operations(), a.value - b.value; }
   friend Counted operator*(Counted a, Counted b) { return ++operations(), a.value * b.value; }
